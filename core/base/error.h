@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The errors the library throws; the program turns each kind into one line and one exit code.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace meniscus {
+
+/// Base of every error a user can meet. Broken invariants of our own are asserts instead.
+class Error : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Input that cannot be read or makes no sense: "file:line: what, value, what to do". Line 0: the file as a whole.
+class InputError : public Error {
+ public:
+  InputError(const std::string& file, std::size_t line, const std::string& what)
+      : Error(file + (line ? ":" + std::to_string(line) : "") + ": " + what) {}
+};
+
+/// No usable GPU or GL, or the driver refused something.
+class GpuError : public Error {
+ public:
+  using Error::Error;
+};
+
+/// A limit of the machine or the format was reached.
+class CapacityError : public Error {
+ public:
+  using Error::Error;
+};
+
+/// An output cannot be written, or exists and may not be replaced.
+class OutputError : public Error {
+ public:
+  OutputError(const std::string& path, const std::string& what) : Error(path + ": " + what) {}
+};
+
+/// The surface is not closed, so there is no surface; the message names the atoms.
+class OpenSurfaceError : public Error {
+ public:
+  using Error::Error;
+};
+
+}  // namespace meniscus

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The finished solvent-excluded surface: analytic patches, and the borders, faces and components that tie them together.
+//
+// Two views of one surface, both plain data without GL:
+//  * the patch tables (convex, toroidal, concave) say which quadric or quartic is clipped by which planes;
+//    ray casters and constructive exporters need only these;
+//  * the boundary representation (vertices, borders, loops, faces) says where patches meet; every border is an arc of
+//    a circle, shared by exactly two faces. Meshes, areas, volumes and the certificate rest on it.
+//
+// Lengths are in Å, angles in radian, normals point out of the solid (towards the solvent).
+// Terms: Connolly 1983; Sanner, Olson & Spehner 1996; Krone, Dachsbacher & Ertl 2010.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+namespace meniscus {
+
+inline constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+
+/// A van der Waals ball: centre and radius r_i.
+struct Ball {
+  glm::dvec3 center{0.0};
+  double radius = 0.0;
+};
+
+/// A half-space: a point x is inside where dot(normal, x) <= offset. The normal has unit length.
+struct Plane {
+  glm::dvec3 normal{0.0};
+  double offset = 0.0;
+};
+
+enum class PatchKind : std::uint8_t { convex = 0, toroidal = 1, concave = 2 };
+
+/// Contact patch: the vdW sphere of one atom inside all its planes (theorem 1.1).
+/// `planes` is a subset of the atom's contact circles that bounds exactly the patch and nothing else.
+struct ConvexPatch {
+  std::uint32_t atom = 0;         ///< index into Surface::atoms
+  std::uint32_t first_plane = 0;  ///< into Surface::planes
+  std::uint32_t plane_count = 0;
+  std::uint32_t first_face = 0;  ///< into Surface::faces: the patch's connected pieces
+  std::uint32_t face_count = 0;
+};
+
+/// Saddle patch: the probe rolling in contact with two atoms (an RS edge).
+/// The SAS circle has `center`, unit `axis` (from atom[0] to atom[1]) and `radius`; the probe rolls counter-clockwise
+/// about the axis from center + radius*start over the angle `sweep`. The torus has major radius `radius`, minor radius
+/// probe_radius. When radius < probe_radius (spindle) the part past the axis is cut off and two pieces remain.
+struct ToroidalPatch {
+  std::array<std::uint32_t, 2> atom{};            ///< atom[0] < atom[1]
+  std::array<std::uint32_t, 2> probe{kNone, kNone};  ///< fixed probes at start and end; kNone for a free edge
+  glm::dvec3 center{0.0};
+  glm::dvec3 axis{0.0};
+  double radius = 0.0;
+  glm::dvec3 start{0.0};  ///< unit vector, perpendicular to axis
+  double sweep = 0.0;     ///< in (0, 2 pi]; exactly 2 pi for a free edge
+  std::uint32_t first_face = 0;
+  std::uint32_t face_count = 0;  ///< 1, or 2 for a spindle (the piece of atom[0], then that of atom[1])
+  bool free() const { return probe[0] == kNone; }
+};
+
+/// Re-entrant patch: the sphere of one fixed probe (an RS face) inside all its planes: first `side_count` planes
+/// through the probe and two neighbouring contacts, then `cut_count` bisectors towards the probes in `cuts`.
+struct ConcavePatch {
+  glm::dvec3 center{0.0};
+  std::uint32_t first_contact = 0;  ///< into Surface::contacts: touched atoms, counter-clockwise seen from the probe
+  std::uint32_t contact_count = 0;  ///< 3, or more for a degenerate probe
+  std::uint32_t first_plane = 0;    ///< into Surface::planes: side planes (contact n and n+1), then bisectors
+  std::uint32_t side_count = 0;     ///< equals contact_count
+  std::uint32_t cut_count = 0;
+  std::uint32_t first_cut = 0;  ///< into Surface::cuts: indices of the fixed probes behind the bisectors
+  std::uint32_t first_face = 0;
+  std::uint32_t face_count = 0;  ///< 0 when other probes cut everything away
+};
+
+/// What a border lies on.
+enum class BorderKind : std::uint8_t {
+  contact,  ///< contact circle: convex | toroidal
+  edge,     ///< side of a concave patch: toroidal | concave
+  cusp      ///< where two fixed probes intersect: concave | concave
+};
+
+/// An arc of a circle where exactly two faces meet.
+/// Points: center + radius*(cos t * start + sin t * cross(axis, start)), t in [0, sweep].
+struct Border {
+  BorderKind kind = BorderKind::contact;
+  glm::dvec3 center{0.0};
+  glm::dvec3 axis{0.0};
+  double radius = 0.0;
+  glm::dvec3 start{0.0};
+  double sweep = 0.0;
+  std::array<std::uint32_t, 2> vertex{kNone, kNone};  ///< start and end; kNone twice for a whole circle
+  std::array<std::uint32_t, 2> face{kNone, kNone};  ///< left and right of the forward direction, seen from the solvent
+};
+
+/// A border walked in one direction: border index * 2 + (1 if backwards).
+using HalfBorder = std::uint32_t;
+
+/// A closed chain of half-borders with the face on its left, seen from the solvent.
+struct Loop {
+  std::uint32_t first_half_border = 0;  ///< into Surface::half_borders
+  std::uint32_t half_border_count = 0;
+};
+
+/// A connected piece of one patch: a sphere with `loop_count` holes (0: a whole sphere), or a piece of torus.
+/// The piece of a free spindle torus is a disc around `tip`, the cusp point on the axis.
+struct Face {
+  PatchKind kind = PatchKind::convex;
+  std::uint32_t patch = 0;  ///< index into the patch table of its kind
+  std::uint32_t first_loop = 0;
+  std::uint32_t loop_count = 0;
+  std::uint32_t component = 0;
+  std::uint32_t tip = kNone;  ///< vertex inside the face, only for free spindle tori
+  double area = 0.0;
+};
+
+enum class ComponentKind : std::uint8_t { outer, cavity };
+
+/// One closed, connected part of the surface.
+struct Component {
+  ComponentKind kind = ComponentKind::outer;
+  double area = 0.0;    ///< Å², positive
+  double volume = 0.0;  ///< Å³, by the divergence theorem: positive for outer components, negative for cavities
+  int euler = 2;        ///< Euler characteristic V - E + F
+};
+
+/// What theorem 3 lets us check, and what was found.
+struct Certificate {
+  bool closed = false;
+  std::vector<std::uint32_t> open_atoms;  ///< atoms at which the surface is not closed; empty when closed
+};
+
+/// Numbers that users and papers quote.
+struct SurfaceCounts {
+  std::size_t convex = 0;        ///< atoms with a convex patch
+  std::size_t toroidal = 0;      ///< saddle patches: arcs + free edges
+  std::size_t concave = 0;       ///< fixed probes of which something is left to see
+  std::size_t free_edges = 0;    ///< full circles
+  std::size_t spindle = 0;       ///< toroidal patches that cross their axis
+  std::size_t fixed_probes = 0;  ///< distinct positions: closer than 1e-6 Å is one probe with n contacts
+  std::size_t arcs = 0;          ///< RS edges with two ends; 2*arcs = sum of contacts over fixed probes
+};
+
+/// The complete solvent-excluded surface of one set of balls. Patches are sorted by their atom indices.
+struct Surface {
+  double probe_radius = 0.0;
+  std::vector<Ball> atoms;  ///< every atom given, in input order, exposed or not
+
+  std::vector<ConvexPatch> convex;
+  std::vector<ToroidalPatch> toroidal;
+  std::vector<ConcavePatch> concave;
+  std::vector<Plane> planes;
+  std::vector<std::uint32_t> contacts;
+  std::vector<std::uint32_t> cuts;
+
+  std::vector<glm::dvec3> vertices;
+  std::vector<Border> borders;
+  std::vector<HalfBorder> half_borders;
+  std::vector<Loop> loops;
+  std::vector<Face> faces;  ///< grouped by patch: all convex, then toroidal, then concave
+
+  std::vector<Component> components;
+  Certificate certificate;
+  double area = 0.0;    ///< Å²
+  double volume = 0.0;  ///< Å³ of the solid: outer components minus cavities
+
+  SurfaceCounts counts() const;
+  bool spindle(const ToroidalPatch& t) const { return t.radius < probe_radius; }
+};
+
+}  // namespace meniscus

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// From a reduced surface, however it was found, to the finished solvent-excluded surface with its certificate.
+#pragma once
+
+#include <span>
+
+#include "core/surface/primitives.h"
+
+namespace meniscus {
+
+struct ReducedSurface;
+
+/// Builds all patches, their borders, faces and components, their areas and volumes (closed form) and the certificate.
+/// `rs` must have been computed for the same `atoms` and `probe_radius`.
+/// Throws OpenSurfaceError when the result is not closed.
+Surface assemble_surface(std::span<const Ball> atoms, double probe_radius, const ReducedSurface& rs);
+
+/// The complete surface in double precision on the CPU, on all cores TBB may use.
+/// atoms: vdW balls in Å; probe_radius >= 0 in Å. Throws OpenSurfaceError, CapacityError.
+Surface compute_surface_cpu(std::span<const Ball> atoms, double probe_radius);
+
+}  // namespace meniscus
