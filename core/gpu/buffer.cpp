@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Storage buffers by direct state access (GL 4.5).
+#include "core/gpu/buffer.h"
+
+#include <cassert>
+#include <utility>
+
+#include <epoxy/gl.h>
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+#include "core/gpu/limits.h"
+
+namespace meniscus {
+
+Buffer::~Buffer() {
+  if (name_) glDeleteBuffers(1, &name_);
+}
+
+Buffer::Buffer(Buffer&& other) noexcept { *this = std::move(other); }
+
+Buffer& Buffer::operator=(Buffer&& other) noexcept {
+  std::swap(name_, other.name_);
+  std::swap(byte_count_, other.byte_count_);
+  std::swap(capacity_, other.capacity_);
+  return *this;
+}
+
+void Buffer::resize(std::size_t byte_count) {
+  // An empty buffer still gets memory, so that it can be bound; whole 16-byte rows suit fill() and vec4 arrays.
+  const std::size_t needed = byte_count < 16 ? 16 : (byte_count + 15) / 16 * 16;
+  if (needed > capacity_) {
+    GLint64 limit = 0;
+    glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &limit);
+    if (needed > static_cast<std::size_t>(limit))
+      throw CapacityError(fmt::format("a GPU buffer of {} MiB is needed; this driver's limit is {} MiB",
+                                      (needed + (1 << 20) - 1) >> 20, limit >> 20));
+    if (name_) glDeleteBuffers(1, &name_);
+    name_ = 0;
+    capacity_ = byte_count_ = 0;
+    glCreateBuffers(1, &name_);
+    glNamedBufferStorage(name_, static_cast<GLsizeiptr>(needed), nullptr, GL_DYNAMIC_STORAGE_BIT);
+    check_gl("allocating a buffer");
+    capacity_ = needed;
+  }
+  byte_count_ = byte_count;
+}
+
+void Buffer::write(std::size_t byte_offset, const void* bytes, std::size_t byte_count) {
+  assert(byte_offset + byte_count <= byte_count_);
+  if (byte_count == 0) return;
+  glNamedBufferSubData(name_, static_cast<GLintptr>(byte_offset), static_cast<GLsizeiptr>(byte_count), bytes);
+  check_gl("uploading a buffer");
+}
+
+void Buffer::read(std::size_t byte_offset, void* bytes, std::size_t byte_count) const {
+  assert(byte_offset + byte_count <= byte_count_);
+  if (byte_count == 0) return;
+  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+  glGetNamedBufferSubData(name_, static_cast<GLintptr>(byte_offset), static_cast<GLsizeiptr>(byte_count), bytes);
+  check_gl("downloading a buffer");
+}
+
+void Buffer::fill(std::uint32_t word) {
+  if (!name_) return;
+  glClearNamedBufferData(name_, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &word);
+  check_gl("filling a buffer");
+}
+
+void Buffer::bind(std::uint32_t binding) const { glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, name_); }
+
+}  // namespace meniscus

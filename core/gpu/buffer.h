@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// GPU memory that kernels read and write.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <type_traits>
+#include <vector>
+
+namespace meniscus {
+
+/// A storage buffer. Its memory is undefined until uploaded, filled or written by a kernel. Needs a current context.
+class Buffer {
+ public:
+  Buffer() = default;
+  /// Throws CapacityError when the driver has no room, or a kernel could not see so large a block.
+  explicit Buffer(std::size_t byte_count) { resize(byte_count); }
+  template <typename T>
+  explicit Buffer(std::span<const T> values) {
+    upload(values);
+  }
+  ~Buffer();
+  Buffer(Buffer&& other) noexcept;
+  Buffer& operator=(Buffer&& other) noexcept;
+
+  /// Makes room for `byte_count` bytes; keeps the memory it has if that is enough, and loses the content if not.
+  void resize(std::size_t byte_count);
+  std::size_t byte_count() const { return byte_count_; }
+
+  /// Resizes to the values and copies them.
+  template <typename T>
+  void upload(std::span<const T> values) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    resize(values.size_bytes());
+    write(0, values.data(), values.size_bytes());
+  }
+  template <typename T>
+  void upload(const std::vector<T>& values) {
+    upload(std::span<const T>(values));
+  }
+  /// Copies `count` values of type T out, from `byte_offset` on; waits for kernels to end.
+  template <typename T>
+  std::vector<T> download(std::size_t count, std::size_t byte_offset = 0) const {
+    static_assert(std::is_trivially_copyable_v<T>);
+    std::vector<T> values(count);
+    read(byte_offset, values.data(), count * sizeof(T));
+    return values;
+  }
+  /// Copies into existing memory; waits for kernels to end.
+  template <typename T>
+  void download(std::span<T> values, std::size_t byte_offset = 0) const {
+    read(byte_offset, values.data(), values.size_bytes());
+  }
+  /// Sets every 4-byte word.
+  void fill(std::uint32_t word);
+
+  /// `layout(std430, binding = N)` of the kernels.
+  void bind(std::uint32_t binding) const;
+  /// For dispatch_indirect.
+  std::uint32_t gl_name() const { return name_; }
+
+  void write(std::size_t byte_offset, const void* bytes, std::size_t byte_count);
+  void read(std::size_t byte_offset, void* bytes, std::size_t byte_count) const;
+
+ private:
+  std::uint32_t name_ = 0;
+  std::size_t byte_count_ = 0;  ///< what was asked for
+  std::size_t capacity_ = 0;
+};
+
+}  // namespace meniscus

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Limits and pending errors of the current GL context.
+#include "core/gpu/limits.h"
+
+#include <algorithm>
+
+#include <epoxy/gl.h>
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+
+namespace meniscus {
+namespace {
+
+std::uint32_t integer_limit(GLenum name) {
+  GLint value = 0;
+  glGetIntegerv(name, &value);
+  return static_cast<std::uint32_t>(std::max(value, 0));
+}
+
+}  // namespace
+
+GpuLimits query_gpu_limits() {
+  GpuLimits limits;
+  GLint64 block_bytes = 0;
+  glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &block_bytes);
+  limits.storage_block_bytes = static_cast<std::size_t>(block_bytes);
+  GLint x = 0, y = 0;
+  glGetIntegeri_v(GL_MAX_COMPUTE_WORK_GROUP_COUNT, 0, &x);
+  glGetIntegeri_v(GL_MAX_COMPUTE_WORK_GROUP_COUNT, 1, &y);
+  limits.group_count = static_cast<std::uint32_t>(std::min(x, y));
+  limits.storage_blocks = integer_limit(GL_MAX_COMPUTE_SHADER_STORAGE_BLOCKS);
+  limits.shared_bytes = integer_limit(GL_MAX_COMPUTE_SHARED_MEMORY_SIZE);
+  limits.group_size = integer_limit(GL_MAX_COMPUTE_WORK_GROUP_INVOCATIONS);
+  check_gl("asking for limits");
+  return limits;
+}
+
+void check_gl(const char* what) {
+  const GLenum error = glGetError();
+  if (error == GL_NO_ERROR) return;
+  if (error == GL_OUT_OF_MEMORY) throw CapacityError(fmt::format("the GPU ran out of memory while {}", what));
+  throw GpuError(fmt::format("GL error 0x{:04x} while {}", error, what));
+}
+
+}  // namespace meniscus

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Compiling, linking and dispatching compute kernels.
+#include "core/gpu/program.h"
+
+#include <algorithm>
+
+#include <epoxy/gl.h>
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+#include "core/gpu/limits.h"
+
+namespace meniscus {
+namespace {
+
+std::string shader_log(GLuint shader) {
+  GLint length = 0;
+  glGetShaderiv(shader, GL_INFO_LOG_LENGTH, &length);
+  std::string log(static_cast<std::size_t>(std::max(length, 1)), '\0');
+  glGetShaderInfoLog(shader, length, nullptr, log.data());
+  return log.substr(0, log.find('\0'));
+}
+
+std::string program_log(GLuint program) {
+  GLint length = 0;
+  glGetProgramiv(program, GL_INFO_LOG_LENGTH, &length);
+  std::string log(static_cast<std::size_t>(std::max(length, 1)), '\0');
+  glGetProgramInfoLog(program, length, nullptr, log.data());
+  return log.substr(0, log.find('\0'));
+}
+
+}  // namespace
+
+Program::Program(std::string_view path, const ShaderDefines& defines)
+    : Program(path, expand_embedded_shader(path, defines)) {}
+
+Program::Program(std::string_view path, const ShaderSource& source) : path_(path) {
+  const GLuint shader = glCreateShader(GL_COMPUTE_SHADER);
+  const char* text = source.text.c_str();
+  glShaderSource(shader, 1, &text, nullptr);
+  glCompileShader(shader);
+  GLint ok = GL_FALSE;
+  glGetShaderiv(shader, GL_COMPILE_STATUS, &ok);
+  if (!ok) {
+    const std::string log = translate_shader_log(shader_log(shader), source.files);
+    glDeleteShader(shader);
+    throw GpuError(fmt::format("{} does not compile:\n{}", path_, log));
+  }
+  name_ = glCreateProgram();
+  glAttachShader(name_, shader);
+  glLinkProgram(name_);
+  glDeleteShader(shader);
+  glGetProgramiv(name_, GL_LINK_STATUS, &ok);
+  if (!ok) {
+    const std::string log = translate_shader_log(program_log(name_), source.files);
+    glDeleteProgram(name_);
+    throw GpuError(fmt::format("{} does not link:\n{}", path_, log));
+  }
+}
+
+Program::~Program() { glDeleteProgram(name_); }
+
+int Program::location(const char* uniform) const { return glGetUniformLocation(name_, uniform); }
+
+void Program::set(const char* uniform, std::int32_t value) const { glProgramUniform1i(name_, location(uniform), value); }
+void Program::set(const char* uniform, std::uint32_t value) const {
+  glProgramUniform1ui(name_, location(uniform), value);
+}
+void Program::set(const char* uniform, float value) const { glProgramUniform1f(name_, location(uniform), value); }
+void Program::set(const char* uniform, const glm::vec2& v) const {
+  glProgramUniform2f(name_, location(uniform), v.x, v.y);
+}
+void Program::set(const char* uniform, const glm::vec3& v) const {
+  glProgramUniform3f(name_, location(uniform), v.x, v.y, v.z);
+}
+void Program::set(const char* uniform, const glm::vec4& v) const {
+  glProgramUniform4f(name_, location(uniform), v.x, v.y, v.z, v.w);
+}
+void Program::set(const char* uniform, const glm::ivec2& v) const {
+  glProgramUniform2i(name_, location(uniform), v.x, v.y);
+}
+void Program::set(const char* uniform, const glm::uvec2& v) const {
+  glProgramUniform2ui(name_, location(uniform), v.x, v.y);
+}
+
+void Program::dispatch(std::size_t group_count, std::uint32_t longest_row) const {
+  if (group_count == 0) return;
+  GLint limit = 0;
+  glGetIntegeri_v(GL_MAX_COMPUTE_WORK_GROUP_COUNT, 0, &limit);
+  const std::size_t row = longest_row ? longest_row : static_cast<std::size_t>(limit);
+  // The rectangle closest to the count: as many rows as needed, all of one width.
+  const std::size_t height = (group_count + row - 1) / row;
+  const std::size_t width = (group_count + height - 1) / height;
+  glGetIntegeri_v(GL_MAX_COMPUTE_WORK_GROUP_COUNT, 1, &limit);
+  if (height > static_cast<std::size_t>(limit))
+    throw CapacityError(fmt::format("{}: {} groups are more than this GPU can start", path_, group_count));
+  dispatch_2d(static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height));
+}
+
+void Program::dispatch_2d(std::uint32_t x, std::uint32_t y) const {
+  glUseProgram(name_);
+  glDispatchCompute(x, y, 1);
+  finish("starting");
+}
+
+void Program::dispatch_indirect(const Buffer& counts, std::size_t byte_offset) const {
+  glUseProgram(name_);
+  glMemoryBarrier(GL_COMMAND_BARRIER_BIT);
+  glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, counts.gl_name());
+  glDispatchComputeIndirect(static_cast<GLintptr>(byte_offset));
+  finish("starting");
+}
+
+void Program::finish(const char* what) const {
+  check_gl(fmt::format("{} {}", what, path_).c_str());
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
+}
+
+const Program& ProgramCache::get(const std::string& path, const ShaderDefines& defines) {
+  auto& program = programs_[{path, defines}];
+  if (!program) program = std::make_unique<Program>(path, defines);
+  return *program;
+}
+
+}  // namespace meniscus

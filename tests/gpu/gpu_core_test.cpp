@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Context, buffers, programs, folded dispatch and timers on whatever GL this machine has.
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <numeric>
+#include <thread>
+
+#include <unistd.h>
+
+#include <gtest/gtest.h>
+
+#include "core/base/error.h"
+#include "core/gpu/buffer.h"
+#include "core/gpu/egl_context.h"
+#include "core/gpu/embedded_shaders.h"
+#include "core/gpu/gpu_timer.h"
+#include "core/gpu/limits.h"
+#include "core/gpu/program.h"
+
+namespace meniscus {
+namespace {
+
+const ShaderDefines kFactor3{{"FACTOR", "3"}};
+
+class GpuCore : public ::testing::Test {
+ protected:
+  EglContext context_;
+};
+
+TEST_F(GpuCore, ReportsItsDevice) {
+  EXPECT_FALSE(context_.renderer().empty());
+  EXPECT_FALSE(context_.vendor().empty());
+  EXPECT_GE(context_.version(), "4.5");
+  const auto devices = list_gl_devices();
+  ASSERT_FALSE(devices.empty());
+  bool hardware = false;
+  for (const GlDevice& device : devices) hardware |= !device.software;
+  EXPECT_EQ(context_.is_software(), !hardware) << context_.renderer();
+}
+
+TEST_F(GpuCore, HonoursTheChoiceOrSaysWhyNot) {
+  EXPECT_THROW(EglContext({DeviceChoice::Kind::gpu, 99}), GpuError);
+  for (const GlDevice& device : list_gl_devices())
+    if (device.software) {
+      EXPECT_TRUE(EglContext({DeviceChoice::Kind::software, 0}).is_software());
+    }
+}
+
+TEST_F(GpuCore, MovesToAnotherThread) {
+  Buffer buffer(64);
+  buffer.fill(7);
+  check_gl("filling");
+  { EglContext other; }  // leaves this thread without a current context
+  std::thread([&] {
+    context_.make_current();
+    EXPECT_EQ(buffer.download<std::uint32_t>(16), std::vector<std::uint32_t>(16, 7));
+    buffer = Buffer();
+  }).join();
+}
+
+TEST_F(GpuCore, BuffersReturnWhatTheyWereGiven) {
+  for (const std::size_t count : {0u, 1u, 3u, 1000u, 100000u}) {
+    std::vector<std::uint32_t> words(count);
+    std::iota(words.begin(), words.end(), 5u);
+    Buffer buffer{std::span<const std::uint32_t>(words)};
+    EXPECT_EQ(buffer.byte_count(), count * 4);
+    EXPECT_EQ(buffer.download<std::uint32_t>(count), words);
+    buffer.fill(9);
+    EXPECT_EQ(buffer.download<std::uint32_t>(count), std::vector<std::uint32_t>(count, 9));
+  }
+  Buffer buffer{std::span<const std::uint32_t>(std::vector<std::uint32_t>{1, 2, 3, 4})};
+  EXPECT_EQ(buffer.download<std::uint32_t>(2, 8), (std::vector<std::uint32_t>{3, 4}));
+  EXPECT_THROW(buffer.resize(query_gpu_limits().storage_block_bytes + 1), CapacityError);
+}
+
+TEST_F(GpuCore, DispatchFoldsManyGroups) {
+  const Program program("gpu_shaders/test_support/scale.comp", kFactor3);
+  for (const auto& [count, longest_row] : {std::pair{1u, 0u}, {1000u, 0u}, {1000u, 1u}, {100000u, 100u}, {5000000u, 0u}}) {
+    Buffer words(count * 4), surplus(4);
+    words.fill(0);
+    surplus.fill(0);
+    words.bind(0);
+    surplus.bind(1);
+    program.set("count", count);
+    program.set("offset", 11u);
+    program.dispatch((count + 63) / 64, longest_row);
+    std::vector<std::uint32_t> expected(count);
+    for (std::uint32_t i = 0; i < count; ++i) expected[i] = i * 3 + 11;
+    EXPECT_EQ(words.download<std::uint32_t>(count), expected) << count;
+    EXPECT_LT(surplus.download<std::uint32_t>(1)[0], 64u * 256u) << "a rectangle much larger than the work";
+  }
+}
+
+TEST_F(GpuCore, DispatchBeyondTheLimitIsAnErrorNotSilence) {
+  const Program program("gpu_shaders/test_support/scale.comp", kFactor3);
+  const std::uint32_t limit = query_gpu_limits().group_count;
+  if (limit == 0x7fffffffu) GTEST_SKIP() << "this driver takes any group count";
+  EXPECT_THROW(program.dispatch_2d(limit + 1, 1), GpuError);
+}
+
+TEST_F(GpuCore, IndirectDispatchReadsItsCounts) {
+  const Program program("gpu_shaders/test_support/scale.comp");
+  Buffer words(128 * 4), surplus(4), counts{std::span<const std::uint32_t>(std::vector<std::uint32_t>{9, 2, 1, 1})};
+  words.fill(0);
+  words.bind(0);
+  surplus.bind(1);
+  program.set("count", 128u);
+  program.set("offset", 1u);
+  program.dispatch_indirect(counts, 4);
+  EXPECT_EQ(words.download<std::uint32_t>(128).back(), 128u);
+}
+
+TEST_F(GpuCore, CompilerErrorsNameOurFiles) {
+  const auto find = [](std::string_view path) -> std::optional<std::string_view> {
+    if (path == "t.comp")
+      return "#version 450 core\nlayout(local_size_x = 1) in;\n#include \"gpu_shaders/test_support/broken.glsl\"\n"
+             "layout(std430, binding = 0) buffer B { float b; };\nvoid main() { b = broken(); }\n";
+    for (const EmbeddedShader& shader : embedded_shaders())
+      if (shader.path == path) return shader.text;
+    return std::nullopt;
+  };
+  try {
+    Program program("t.comp", expand_shader("t.comp", find));
+    FAIL() << "a broken shader compiled";
+  } catch (const GpuError& error) {
+    EXPECT_NE(std::string(error.what()).find("gpu_shaders/test_support/broken.glsl:4: "), std::string::npos)
+        << error.what();
+  }
+}
+
+TEST_F(GpuCore, CacheCompilesOnce) {
+  ProgramCache cache;
+  const Program& first = cache.get("gpu_shaders/test_support/scale.comp", kFactor3);
+  EXPECT_EQ(&first, &cache.get("gpu_shaders/test_support/scale.comp", kFactor3));
+  EXPECT_NE(&first, &cache.get("gpu_shaders/test_support/scale.comp"));
+}
+
+TEST_F(GpuCore, TimerAddsUpStagesOfOneName) {
+  const Program program("gpu_shaders/test_support/scale.comp", kFactor3);
+  Buffer words(4000000), surplus(4);
+  words.bind(0);
+  surplus.bind(1);
+  program.set("count", 1000000u);
+  GpuTimer timer;
+  for (const char* name : {"scale", "idle", "scale"}) {
+    const auto stage = timer.stage(name);
+    if (std::string(name) == "scale") program.dispatch(15625);
+  }
+  const auto times = timer.times();
+  ASSERT_EQ(times.size(), 2u);
+  EXPECT_EQ(times[0].name, "scale");
+  EXPECT_GT(times[0].milliseconds, 0.0);
+  EXPECT_LT(times[0].milliseconds, 10000.0);
+}
+
+TEST(Shaders, PassTheReferenceCompiler) {
+  const auto folder = std::filesystem::temp_directory_path() / ("meniscus_shaders_" + std::to_string(::getpid()));
+  std::filesystem::create_directories(folder);
+  int entry_count = 0;
+  for (const EmbeddedShader& shader : embedded_shaders()) {
+    if (!shader.path.ends_with(".comp")) continue;
+    ++entry_count;
+    const ShaderSource source = expand_embedded_shader(shader.path);  // every entry has defaults for its defines
+    const auto file = folder / "shader.comp", log = folder / "log";
+    std::ofstream(file) << source.text;
+    const std::string command = std::string(GLSLANG_VALIDATOR) + " " + file.string() + " > " + log.string() + " 2>&1";
+    const int status = std::system(command.c_str());
+    std::ifstream log_stream(log);
+    const std::string text{std::istreambuf_iterator<char>(log_stream), {}};
+    EXPECT_EQ(status, 0) << shader.path << "\n" << translate_shader_log(text, source.files);
+  }
+  EXPECT_GT(entry_count, 0);
+  std::filesystem::remove_all(folder);
+}
+
+}  // namespace
+}  // namespace meniscus
