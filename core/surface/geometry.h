@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The shared geometry functions, compiled for C++ in double precision.
+#pragma once
+
+#include <cmath>
+
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#define GEOMETRY inline
+#define GEOMETRY_OUT(type) type&
+
+namespace meniscus::geometry {
+
+using real = double;
+using real2 = glm::dvec2;
+using real3 = glm::dvec3;
+using glm::cross;
+using glm::dot;
+using std::abs;
+using std::min;
+using std::sqrt;
+
+inline constexpr double kUnitRoundoff = 0x1p-53;
+
+#include "gpu_shaders/geometry/circle.glsl"
+
+}  // namespace meniscus::geometry

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The shared geometry functions once more, compiled in quadruple precision for decisions that double leaves in doubt.
+#pragma once
+
+#include <cmath>
+
+#define GEOMETRY inline
+#define GEOMETRY_OUT(type) type&
+
+namespace meniscus::quad_geometry {
+
+__extension__ typedef __float128 real;
+
+struct real2 {
+  real x, y;
+  real2() = default;
+  real2(real x_, real y_) : x(x_), y(y_) {}
+};
+struct real3 {
+  real x, y, z;
+  real3() = default;
+  real3(real x_, real y_, real z_) : x(x_), y(y_), z(z_) {}
+};
+
+inline real2 operator+(real2 a, real2 b) { return {a.x + b.x, a.y + b.y}; }
+inline real2 operator-(real2 a, real2 b) { return {a.x - b.x, a.y - b.y}; }
+inline real2 operator*(real2 a, real s) { return {a.x * s, a.y * s}; }
+inline real3 operator+(real3 a, real3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+inline real3 operator*(real3 a, real s) { return {a.x * s, a.y * s, a.z * s}; }
+inline real3 operator/(real3 a, real s) { return {a.x / s, a.y / s, a.z / s}; }
+inline real dot(real2 a, real2 b) { return a.x * b.x + a.y * b.y; }
+inline real dot(real3 a, real3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+inline real3 cross(real3 a, real3 b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+inline real abs(real a) { return a < 0 ? -a : a; }
+inline real min(real a, real b) { return b < a ? b : a; }
+
+// Two Newton steps from the double root: 53 bits become more than the 113 there are.
+inline real sqrt(real a) {
+  if (!(a > 0)) return 0;
+  real x = std::sqrt(static_cast<double>(a));
+  if (!(x > 0)) return 0;
+  x = (x + a / x) / 2;
+  return (x + a / x) / 2;
+}
+
+#undef MENISCUS_GEOMETRY_CIRCLE_GLSL
+#include "gpu_shaders/geometry/circle.glsl"
+
+}  // namespace meniscus::quad_geometry

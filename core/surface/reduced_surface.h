@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The reduced surface as pure combinatorics: which circles have exposed arcs, and which atoms end them.
+#pragma once
+
+#include <compare>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/surface/primitives.h"
+
+namespace meniscus {
+
+/// An exposed arc of the SAS circle of atoms i < j (an RS edge), counter-clockwise about the axis from i to j.
+/// It begins where it leaves the SAS ball of atom `begin_by` and ends where it enters that of `end_by`;
+/// both are kNone for a free edge (a whole circle).
+struct RsArc {
+  std::uint32_t i = 0;
+  std::uint32_t j = 0;
+  std::uint32_t begin_by = kNone;
+  std::uint32_t end_by = kNone;
+  auto operator<=>(const RsArc&) const = default;
+};
+
+/// All exposed arcs, sorted, and the atoms that have none but are wholly exposed. Whatever computes it (exhaustive
+/// enumeration, rolling probe, GPU) must give the same lists.
+struct ReducedSurface {
+  std::vector<RsArc> arcs;
+  std::vector<std::uint32_t> lone_atoms;  ///< SAS spheres that meet no other and lie in none, sorted
+  bool operator==(const ReducedSurface&) const = default;
+};
+
+/// The squared SAS radii in which every sign decision is taken: (r_i + p + g_i)^2, with g_i between 1e-9 and 1.5e-9 Å,
+/// different for each index. Touching thereby counts as overlapping, in any orientation; and n-fold contacts fall
+/// apart into consistent threefold ones (a perturbation that is the same for all predicates, so no two circles can
+/// disagree). Positions, areas and volumes are computed from the unchanged radii.
+std::vector<double> decision_weights(std::span<const Ball> atoms, double probe_radius);
+
+/// The decision weight of one ball of (extended) radius R with the given index.
+double decision_weight(double radius, std::size_t index);
+
+/// Atoms whose SAS ball lies in another's (ties: the lower index wins). They have no patch and block nothing more.
+std::vector<bool> swallowed_atoms(std::span<const Ball> atoms, double probe_radius);
+
+}  // namespace meniscus
