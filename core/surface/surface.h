@@ -12,8 +12,11 @@ struct ReducedSurface;
 
 /// Builds all patches, their borders, faces and components, their areas and volumes (closed form) and the certificate.
 /// `rs` must have been computed for the same `atoms` and `probe_radius`.
-/// Throws OpenSurfaceError when the result is not closed.
+/// Look at the result's certificate, or call require_closed(), before using it.
 Surface assemble_surface(std::span<const Ball> atoms, double probe_radius, const ReducedSurface& rs);
+
+/// Throws OpenSurfaceError, naming atoms by their index, unless the certificate says the surface is closed.
+void require_closed(const Surface& surface);
 
 /// The complete surface in double precision on the CPU, on all cores TBB may use.
 /// atoms: vdW balls in Å; probe_radius >= 0 in Å. Throws OpenSurfaceError, CapacityError.

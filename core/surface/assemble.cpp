@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The second half of the pipeline as a list of its stages: place, cut, bound, trim, measure, certify.
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include <glm/geometric.hpp>
+
+#include "core/base/error.h"
+#include "core/surface/boundary.h"
+#include "core/surface/cusps.h"
+#include "core/surface/fixed_probes.h"
+#include "core/surface/measure.h"
+#include "core/surface/reduced_surface.h"
+#include "core/surface/surface.h"
+#include "core/surface/trim.h"
+
+namespace meniscus {
+namespace {
+
+// Theorem 3: every triple three times, every border two faces, every Euler characteristic even and at most 2.
+void certify(Surface& surface) {
+  auto& open = surface.certificate.open_atoms;
+  for (std::uint32_t f = 0; f < surface.faces.size(); ++f) {
+    const Component& component = surface.components[surface.faces[f].component];
+    if ((component.euler % 2 != 0 || component.euler > 2) && surface.faces[f].kind == PatchKind::convex)
+      open.push_back(surface.convex[surface.faces[f].patch].atom);
+  }
+  std::sort(open.begin(), open.end());
+  open.erase(std::unique(open.begin(), open.end()), open.end());
+  surface.certificate.closed = open.empty();
+}
+
+}  // namespace
+
+Surface assemble_surface(std::span<const Ball> atoms, double probe_radius, const ReducedSurface& rs) {
+  Surface surface;
+  surface.probe_radius = probe_radius;
+  surface.atoms.assign(atoms.begin(), atoms.end());
+
+  RollingParts rolling = place_rolling_parts(atoms, probe_radius, rs);
+  surface.toroidal = std::move(rolling.toroidal);
+  surface.certificate.open_atoms = std::move(rolling.open_atoms);
+  if (!surface.certificate.open_atoms.empty()) return surface;
+
+  const CuspParts cusps = find_cusps(atoms, probe_radius, rolling.probes, surface.toroidal);
+  list_concave_patches(surface, rolling.probes, cusps);
+  build_boundary(surface, rolling.probes, cusps, rs);
+  trim_convex_patches(surface);
+  measure_surface(surface);
+  certify(surface);
+  return surface;
+}
+
+void require_closed(const Surface& surface) {
+  if (surface.certificate.closed) return;
+  const auto& open = surface.certificate.open_atoms;
+  std::string atoms;
+  for (std::size_t n = 0; n < open.size() && n < 8; ++n) atoms += (n ? ", " : "") + std::to_string(open[n] + 1);
+  if (open.size() > 8) atoms += ", ...";
+  throw OpenSurfaceError("the surface is not closed at " + std::to_string(open.size()) + " atoms (used atom number " +
+                         atoms + "); nothing was written; please report this structure");
+}
+
+SurfaceCounts Surface::counts() const {
+  SurfaceCounts n;
+  n.convex = convex.size();
+  n.toroidal = toroidal.size();
+  n.fixed_probes = concave.size();
+  for (const ConcavePatch& patch : concave) n.concave += patch.face_count > 0;
+  for (const ToroidalPatch& patch : toroidal) {
+    n.free_edges += patch.free();
+    n.spindle += spindle(patch);
+  }
+  n.arcs = n.toroidal - n.free_edges;
+  return n;
+}
+
+}  // namespace meniscus

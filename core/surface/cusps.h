@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Singularities: which fixed probes cut which concave patches, and the cusp curves where they do.
+//
+// Only fixed probes cut concave patches, and only where a patch leaves its simplex through the base (theorem 1.3), so
+// both partners of a cusp curve stand lower over their atoms than their radius. All probes on one spindle circle pass
+// through the same two points of its axis; there the order around the axis decides, not arithmetic.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/surface/fixed_probes.h"
+#include "core/surface/primitives.h"
+
+namespace meniscus {
+
+/// An exposed arc of the circle in which two fixed probes intersect, counter-clockwise about the axis probe[0] ->
+/// probe[1]; vertex kNone twice: a whole circle.
+struct CuspArc {
+  std::array<std::uint32_t, 2> probe{};                ///< probe[0] < probe[1]
+  std::array<std::uint32_t, 2> vertex{kNone, kNone};  ///< begin and end: axis cusp or index into CuspParts::triple
+  std::array<bool, 2> on_axis{};                       ///< vertex is an axis cusp: toroidal patch * 2 + side
+  glm::dvec3 center{0.0};
+  glm::dvec3 axis{0.0};
+  double radius = 0.0;
+  glm::dvec3 start{0.0};
+  double sweep = 0.0;
+};
+
+struct CuspParts {
+  std::vector<CuspArc> arcs;
+  std::vector<glm::dvec3> triple;        ///< points where three probes meet on the surface
+  std::vector<std::uint32_t> first_cut;  ///< per probe, into cuts; one past the last closes the list
+  std::vector<std::uint32_t> cuts;       ///< probes whose ball reaches into the probe's spherical polygon, ascending
+  std::vector<std::uint32_t> open_probes;  ///< probes at triples that not exactly three arcs agree on; empty if closed
+};
+
+/// The axis cusp of the spindle circle of toroidal patch t near atom[side]: at most p from the circle's centre.
+glm::dvec3 axis_cusp(const ToroidalPatch& patch, double probe_radius, int side);
+
+/// Axis cusps are named after the first toroidal patch on their circle: patch -> that patch.
+std::vector<std::uint32_t> first_on_circle(std::span<const ToroidalPatch> toroidal);
+
+CuspParts find_cusps(std::span<const Ball> atoms, double probe_radius, const FixedProbes& probes,
+                     std::span<const ToroidalPatch> toroidal);
+
+}  // namespace meniscus

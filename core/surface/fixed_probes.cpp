@@ -1,0 +1,305 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Places fixed probes and toroidal patches: sorts arc ends by atom triple, solves for positions, merges n-fold contacts.
+#include "core/surface/fixed_probes.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include <glm/geometric.hpp>
+#include <tbb/parallel_for.h>
+
+#include "core/surface/geometry.h"
+#include "core/surface/quad_geometry.h"
+#include "core/surface/union_find.h"
+
+namespace meniscus {
+namespace {
+
+constexpr double kMergeDistance = 1e-6;
+
+// One end of an exposed arc as the fixed probe that stands there: its atoms a < b < c and the side of their plane.
+struct ArcEnd {
+  std::uint32_t b;
+  std::uint32_t c;
+  std::uint32_t arc_and_end;  // arc * 2 + (0 begin, 1 end)
+  std::uint32_t side;         // 1: the probe stands on the side of cross(b - a, c - a)
+};
+
+struct Triple {
+  std::array<std::uint32_t, 3> atom;
+  std::uint32_t side;
+  std::array<std::uint32_t, 3> arc_and_end;
+};
+
+class Placement {
+ public:
+  Placement(std::span<const Ball> atoms, double probe_radius, const ReducedSurface& rs)
+      : atoms_(atoms), probe_radius_(probe_radius), arcs_(rs.arcs) {}
+
+  RollingParts run() {
+    collect_triples();
+    if (!parts_.open_atoms.empty()) return std::move(parts_);
+    place_triples();
+    merge_coincident();
+    place_toroidal();
+    list_sides();
+    return std::move(parts_);
+  }
+
+ private:
+  double extended(std::uint32_t atom) const { return atoms_[atom].radius + probe_radius_; }
+
+  // Buckets arc ends by their smallest atom, then sorts the small buckets: cheaper than one large sort.
+  void collect_triples() {
+    std::vector<std::uint32_t> first(atoms_.size() + 1, 0);
+    for (const RsArc& arc : arcs_) {
+      if (arc.begin_by == kNone) continue;
+      ++first[std::min(arc.i, arc.begin_by) + 1];
+      ++first[std::min(arc.i, arc.end_by) + 1];
+    }
+    for (std::size_t a = 1; a < first.size(); ++a) first[a] += first[a - 1];
+    std::vector<ArcEnd> ends(first.back());
+    std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
+    for (std::uint32_t n = 0; n < arcs_.size(); ++n) {
+      const RsArc& arc = arcs_[n];
+      if (arc.begin_by == kNone) continue;
+      // Where the covered part of a circle ends the probe stands on the side of cross(j - i, k - i), see
+      // covered_arc(); where it begins, on the other.
+      for (std::uint32_t end = 0; end < 2; ++end) {
+        std::uint32_t a = arc.i, b = arc.j, c = end ? arc.end_by : arc.begin_by, side = end ? 0 : 1;
+        if (c < a) {
+          std::swap(b, c);
+          std::swap(a, b);
+        } else if (c < b) {
+          std::swap(b, c);
+          side ^= 1;
+        }
+        ends[next[a]++] = {b, c, n * 2 + end, side};
+      }
+    }
+    triples_.reserve(ends.size() / 3);
+    for (std::uint32_t a = 0; a + 1 < first.size(); ++a) {
+      const auto begin = ends.begin() + first[a], end = ends.begin() + first[a + 1];
+      std::sort(begin, end, [](const ArcEnd& x, const ArcEnd& y) {
+        return std::tie(x.b, x.c, x.side, x.arc_and_end) < std::tie(y.b, y.c, y.side, y.arc_and_end);
+      });
+      for (auto e = begin; e != end;) {
+        auto past = e;
+        while (past != end && past->b == e->b && past->c == e->c && past->side == e->side) ++past;
+        if (past - e == 3)
+          triples_.push_back({{a, e->b, e->c}, e->side, {e->arc_and_end, e[1].arc_and_end, e[2].arc_and_end}});
+        else
+          parts_.open_atoms.insert(parts_.open_atoms.end(), {a, e->b, e->c});
+        e = past;
+      }
+    }
+    std::sort(parts_.open_atoms.begin(), parts_.open_atoms.end());
+    parts_.open_atoms.erase(std::unique(parts_.open_atoms.begin(), parts_.open_atoms.end()), parts_.open_atoms.end());
+  }
+
+  void place_triples() {
+    position_.resize(triples_.size());
+    height_.resize(triples_.size());
+    triple_at_.assign(arcs_.size() * 2, kNone);
+    tbb::parallel_for(std::size_t{0}, triples_.size(), [&](std::size_t t) {
+      place_triple(t);
+      for (std::uint32_t end : triples_[t].arc_and_end) triple_at_[end] = static_cast<std::uint32_t>(t);
+    });
+  }
+
+  void place_triple(std::size_t t) {
+    const auto& [a, b, c] = triples_[t].atom;
+    const glm::dvec3 origin = atoms_[a].center;
+    const glm::dvec3 db = atoms_[b].center - origin, dc = atoms_[c].center - origin;
+    const std::array<double, 3> radius = {extended(a), extended(b), extended(c)};
+    const double side = triples_[t].side ? 1.0 : -1.0;
+    double h2 = 0;
+    glm::dvec3 x = geometry::probe_of_three(db, dc, radius[0] * radius[0], radius[1] * radius[1],
+                                            radius[2] * radius[2], side, h2);
+    if (h2 < 1e-7) {
+      // Probe (almost) in the plane of its atoms: the position that belongs to the decision that found it.
+      x = geometry::probe_of_three(db, dc, decision_weight(radius[0], a), decision_weight(radius[1], b),
+                                   decision_weight(radius[2], c), side, h2);
+    } else {
+      x = polished(x, db, dc, radius);
+    }
+    position_[t] = origin + x;
+    height_[t] = std::sqrt(std::max(h2, 0.0));
+  }
+
+  // One Newton step on the three distances removes what a slim triangle lost.
+  static glm::dvec3 polished(const glm::dvec3& x, const glm::dvec3& db, const glm::dvec3& dc,
+                             const std::array<double, 3>& radius) {
+    const glm::dvec3 ea = x, eb = x - db, ec = x - dc;
+    const glm::dvec3 residual = 0.5 * glm::dvec3(glm::dot(ea, ea) - radius[0] * radius[0],
+                                                 glm::dot(eb, eb) - radius[1] * radius[1],
+                                                 glm::dot(ec, ec) - radius[2] * radius[2]);
+    const glm::dvec3 bc = glm::cross(eb, ec), ca = glm::cross(ec, ea), ab = glm::cross(ea, eb);
+    return x - (bc * residual.x + ca * residual.y + ab * residual.z) / glm::dot(ea, bc);
+  }
+
+  // True if the arc is the vanishing one of the two between its (coincident) ends, as the decisions saw it.
+  bool vanishes(const RsArc& arc) const {
+    namespace q = quad_geometry;
+    const auto local = [&](std::uint32_t atom) {
+      const glm::dvec3 d = atoms_[atom].center - atoms_[arc.i].center;
+      return q::real3(d.x, d.y, d.z);
+    };
+    const q::real w = decision_weight(extended(arc.i), arc.i);
+    const q::Circle circle = q::circle_of_two_spheres(local(arc.j), w, decision_weight(extended(arc.j), arc.j));
+    const auto covered = [&](std::uint32_t k) {
+      return q::covered_arc(q::covered_half_plane(circle, w, local(k), decision_weight(extended(k), k), 0));
+    };
+    const q::real2 begin = covered(arc.begin_by).end, end = covered(arc.end_by).begin;
+    return begin.x * end.y - begin.y * end.x > 0 && q::dot(begin, end) > 0;
+  }
+
+  void merge_coincident() {
+    vanished_.assign(arcs_.size(), false);
+    UnionFind clusters(triples_.size());
+    bool any = false;
+    for (std::uint32_t n = 0; n < arcs_.size(); ++n) {
+      if (arcs_[n].begin_by == kNone) continue;
+      const std::uint32_t begin = triple_at_[n * 2], end = triple_at_[n * 2 + 1];
+      const glm::dvec3 d = position_[begin] - position_[end];
+      if (glm::dot(d, d) >= kMergeDistance * kMergeDistance || !vanishes(arcs_[n])) continue;
+      vanished_[n] = true;
+      clusters.unite(begin, end);
+      any = true;
+    }
+    probe_of_triple_.resize(triples_.size());
+    members_.clear();
+    for (std::uint32_t t = 0; t < triples_.size(); ++t) {
+      const std::uint32_t root = any ? clusters.find(t) : t;
+      if (root == t) {
+        probe_of_triple_[t] = static_cast<std::uint32_t>(members_.size());
+        members_.push_back({t});
+      } else {
+        probe_of_triple_[t] = probe_of_triple_[root];
+        members_[probe_of_triple_[t]].more.push_back(t);
+      }
+    }
+  }
+
+  void place_toroidal() {
+    toroidal_of_arc_.assign(arcs_.size(), kNone);
+    std::uint32_t count = 0;
+    for (std::uint32_t n = 0; n < arcs_.size(); ++n)
+      if (!vanished_[n]) toroidal_of_arc_[n] = count++;
+    parts_.toroidal.resize(count);
+    tbb::parallel_for(std::size_t{0}, arcs_.size(), [&](std::size_t n) {
+      if (!vanished_[n]) parts_.toroidal[toroidal_of_arc_[n]] = toroidal_patch(n);
+    });
+  }
+
+  ToroidalPatch toroidal_patch(std::size_t n) const {
+    const RsArc& arc = arcs_[n];
+    const glm::dvec3 origin = atoms_[arc.i].center;
+    const double ri = extended(arc.i), rj = extended(arc.j);
+    geometry::Circle circle = geometry::circle_of_two_spheres(atoms_[arc.j].center - origin, ri * ri, rj * rj);
+    if (circle.radius_squared < 1e-12)  // touching spheres: the circle that the decisions saw
+      circle = geometry::circle_of_two_spheres(atoms_[arc.j].center - origin, decision_weight(ri, arc.i),
+                                               decision_weight(rj, arc.j));
+    ToroidalPatch patch;
+    patch.atom = {arc.i, arc.j};
+    patch.center = origin + circle.axis * circle.height;
+    patch.axis = circle.axis;
+    patch.radius = circle.radius;
+    if (arc.begin_by == kNone) {
+      patch.start = circle.u;
+      patch.sweep = 2 * std::numbers::pi;
+      return patch;
+    }
+    const std::uint32_t begin = triple_at_[n * 2], end = triple_at_[n * 2 + 1];
+    patch.probe = {probe_of_triple_[begin], probe_of_triple_[end]};
+    const auto direction = [&](std::uint32_t probe) {
+      const glm::dvec3 d = position_[members_[probe].first] - patch.center;
+      return glm::normalize(d - patch.axis * glm::dot(d, patch.axis));
+    };
+    patch.start = direction(patch.probe[0]);
+    const glm::dvec3 stop = direction(patch.probe[1]);
+    const double sine = glm::dot(patch.axis, glm::cross(patch.start, stop)), cosine = glm::dot(patch.start, stop);
+    patch.sweep = std::atan2(sine, cosine);
+    if (patch.sweep <= 0) patch.sweep += 2 * std::numbers::pi;
+    const glm::dvec3 gap = position_[begin] - position_[end];
+    const bool nearly_whole = glm::dot(gap, gap) < kMergeDistance * kMergeDistance;  // else it had vanished
+    if (nearly_whole && patch.sweep < std::numbers::pi) patch.sweep = 2 * std::numbers::pi;
+    return patch;
+  }
+
+  void list_sides() {
+    FixedProbes& probes = parts_.probes;
+    probes.position.resize(members_.size());
+    probes.height.resize(members_.size());
+    probes.first_side.assign(members_.size() + 1, 0);
+    probes.sides.reserve(triples_.size() * 3);
+    std::vector<ProbeSide> loose;
+    for (std::uint32_t s = 0; s < members_.size(); ++s) {
+      probes.position[s] = position_[members_[s].first];
+      loose.clear();
+      append_sides(members_[s].first, loose);
+      probes.height[s] = height_[members_[s].first];
+      for (std::uint32_t t : members_[s].more) {
+        append_sides(t, loose);
+        probes.height[s] = std::min(probes.height[s], height_[t]);
+      }
+      if (!chain(loose, probes.sides))
+        for (std::uint32_t a : triples_[members_[s].first].atom) parts_.open_atoms.push_back(a);
+      probes.first_side[s + 1] = static_cast<std::uint32_t>(probes.sides.size());
+    }
+  }
+
+  void append_sides(std::uint32_t triple, std::vector<ProbeSide>& sides) const {
+    for (std::uint32_t end : triples_[triple].arc_and_end) {
+      if (vanished_[end / 2]) continue;
+      const RsArc& arc = arcs_[end / 2];
+      const bool at_end = end & 1;
+      sides.push_back({at_end ? arc.j : arc.i, at_end ? arc.i : arc.j, toroidal_of_arc_[end / 2], at_end});
+    }
+  }
+
+  // Orders sides head to tail, starting at the smallest atom, and appends them. False if they are not one ring.
+  static bool chain(std::vector<ProbeSide>& loose, std::vector<ProbeSide>& ring) {
+    if (loose.size() < 3) return false;
+    auto first = std::min_element(loose.begin(), loose.end(), [](auto& x, auto& y) { return x.from < y.from; });
+    std::iter_swap(loose.begin(), first);
+    for (std::size_t n = 1; n < loose.size(); ++n) {
+      auto next = std::find_if(loose.begin() + n, loose.end(), [&](auto& x) { return x.from == loose[n - 1].to; });
+      if (next == loose.end()) return false;
+      std::iter_swap(loose.begin() + n, next);
+    }
+    if (loose.back().to != loose.front().from) return false;
+    ring.insert(ring.end(), loose.begin(), loose.end());
+    return true;
+  }
+
+  // The triples that make up one probe: nearly always a single one.
+  struct Members {
+    std::uint32_t first;
+    std::vector<std::uint32_t> more = {};
+  };
+
+  std::span<const Ball> atoms_;
+  double probe_radius_;
+  const std::vector<RsArc>& arcs_;
+  std::vector<Triple> triples_;
+  std::vector<glm::dvec3> position_;            // per triple
+  std::vector<double> height_;                  // per triple
+  std::vector<std::uint32_t> triple_at_;        // arc * 2 + end -> triple
+  std::vector<char> vanished_;                  // per arc
+  std::vector<std::uint32_t> probe_of_triple_;
+  std::vector<Members> members_;                // per probe
+  std::vector<std::uint32_t> toroidal_of_arc_;
+  RollingParts parts_;
+};
+
+}  // namespace
+
+RollingParts place_rolling_parts(std::span<const Ball> atoms, double probe_radius, const ReducedSurface& rs) {
+  return Placement(atoms, probe_radius, rs).run();
+}
+
+}  // namespace meniscus

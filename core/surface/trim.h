@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The clip planes of spherical patches: as few as bound exactly the patch and nothing else.
+#pragma once
+
+#include "core/surface/cusps.h"
+#include "core/surface/fixed_probes.h"
+#include "core/surface/primitives.h"
+
+namespace meniscus {
+
+/// Fills in surface.concave, contacts, cuts and their planes: the sides of the spherical polygon, then the bisectors
+/// towards every probe that reaches into it.
+void list_concave_patches(Surface& surface, const FixedProbes& probes, const CuspParts& cusps);
+
+/// Fills in the planes of the convex patches: the contact circles that border the patch, and further ones until the
+/// bordering circles bound no spurious piece of sphere any more.
+void trim_convex_patches(Surface& surface);
+
+}  // namespace meniscus
