@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Atomic output: exclusive temporary file, fsync of file and folder, rename that refuses to replace unless asked.
+#include "core/base/output_file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+
+namespace meniscus {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string reason(int error) { return std::strerror(error); }
+
+fs::path folder_of(const fs::path& file) { return file.has_parent_path() ? file.parent_path() : fs::path("."); }
+
+/// Makes a rename durable; file systems that cannot sync folders (EINVAL) are left to their own order.
+void sync_folder(const fs::path& folder) {
+  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return;
+  ::fsync(descriptor);
+  ::close(descriptor);
+}
+
+void refuse_unsuitable_target(const fs::path& target, Existing existing) {
+  if (target.filename().empty()) throw OutputError(target.string(), "names no file");
+  struct stat status {};
+  if (::lstat(target.c_str(), &status) != 0) return;
+  if (S_ISDIR(status.st_mode)) throw OutputError(target.string(), "is a folder; give the name of a file");
+  if (!S_ISREG(status.st_mode) && !S_ISLNK(status.st_mode)) throw OutputError(target.string(), "is no regular file");
+  if (existing == Existing::refuse) throw OutputError(target.string(), "exists already; use --force to replace it");
+}
+
+}  // namespace
+
+OutputFile::OutputFile(fs::path target, Existing existing) : target_(std::move(target)), existing_(existing) {
+  refuse_unsuitable_target(target_, existing_);
+  static std::atomic<unsigned> serial{0};
+  // Our own exclusive name instead of mkstemp: mkstemp's mode 0600 would outlive the rename.
+  for (int attempt = 0; descriptor_ < 0 && attempt < 1000; ++attempt) {
+    temporary_ = folder_of(target_) / fmt::format(".{}.{}-{}.part{}", target_.stem().string(), ::getpid(), serial++,
+                                                  target_.extension().string());
+    descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0666);
+    if (descriptor_ < 0 && errno != EEXIST) break;
+  }
+  if (descriptor_ < 0) {
+    const int error = errno;
+    temporary_.clear();
+    fail(fmt::format("cannot be written in {}: {}", folder_of(target_).string(), reason(error)));
+  }
+}
+
+OutputFile::~OutputFile() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+  if (!temporary_.empty()) ::unlink(temporary_.c_str());
+}
+
+void OutputFile::write(std::string_view text) { write(std::as_bytes(std::span(text))); }
+
+void OutputFile::write(std::span<const std::byte> bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) fail("cannot be written: " + reason(errno));
+    bytes = bytes.subspan(static_cast<std::size_t>(written));
+  }
+}
+
+void OutputFile::sync() {
+  // A library may have replaced the temporary file by name, so the name is synced, not our descriptor.
+  if (descriptor_ >= 0 && ::close(std::exchange(descriptor_, -1)) != 0) fail("cannot be written: " + reason(errno));
+  const int descriptor = ::open(temporary_.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) fail("vanished while it was written: " + reason(errno));
+  const int error = ::fsync(descriptor) != 0 ? errno : 0;
+  ::close(descriptor);
+  if (error != 0 && error != EINVAL) fail("cannot be written: " + reason(error));
+}
+
+void OutputFile::rename_to_target() {
+  struct stat status {};
+  replaced_ = ::lstat(target_.c_str(), &status) == 0;
+  if (existing_ == Existing::refuse) {
+    // RENAME_NOREPLACE closes the gap between the check and the rename; file systems without it say EINVAL.
+    if (::renameat2(AT_FDCWD, temporary_.c_str(), AT_FDCWD, target_.c_str(), RENAME_NOREPLACE) == 0) {
+      temporary_.clear();
+      return;
+    }
+    if (errno != EINVAL && errno != ENOSYS) refuse_unsuitable_target(target_, existing_);
+    refuse_unsuitable_target(target_, existing_);
+  }
+  if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail("cannot get its final name: " + reason(errno));
+  temporary_.clear();
+}
+
+void OutputFile::commit() {
+  sync();
+  rename_to_target();
+  sync_folder(folder_of(target_));
+}
+
+void OutputFile::fail(const std::string& what) const { throw OutputError(target_.string(), what); }
+
+OutputFolder::OutputFolder(fs::path folder, Existing existing) : folder_(std::move(folder)), existing_(existing) {
+  if (folder_.empty()) throw OutputError("output folder", "the name is empty");
+  std::vector<fs::path> missing;
+  for (fs::path path = folder_; !path.empty() && !fs::exists(fs::symlink_status(path)); path = path.parent_path()) {
+    if (path.has_filename()) missing.push_back(path);
+  }
+  std::reverse(missing.begin(), missing.end());
+  for (const fs::path& path : missing) {
+    std::error_code error;
+    if (fs::create_directory(path, error)) created_folders_.push_back(path);
+    if (error) break;
+  }
+  if (!fs::is_directory(folder_)) {
+    for (auto made = created_folders_.rbegin(); made != created_folders_.rend(); ++made) ::rmdir(made->c_str());
+    throw OutputError(folder_.string(), "is no folder and cannot be made one");
+  }
+}
+
+OutputFolder::~OutputFolder() {
+  files_.clear();
+  if (committed_) return;
+  for (auto made = created_folders_.rbegin(); made != created_folders_.rend(); ++made) ::rmdir(made->c_str());
+}
+
+OutputFile& OutputFolder::file(const std::string& name) {
+  if (name.empty() || name == "." || name == ".." || name.find('/') != std::string::npos) {
+    throw OutputError((folder_ / name).string(), "is no plain file name");
+  }
+  return *files_.emplace_back(std::make_unique<OutputFile>(folder_ / name, existing_));
+}
+
+void OutputFolder::commit() {
+  for (const auto& file : files_) file->sync();
+  std::size_t renamed = 0;
+  try {
+    for (; renamed < files_.size(); ++renamed) files_[renamed]->rename_to_target();
+  } catch (...) {
+    for (std::size_t n = 0; n < renamed; ++n) {
+      if (!files_[n]->replaced_) ::unlink(files_[n]->target_.c_str());
+    }
+    throw;
+  }
+  sync_folder(folder_);
+  committed_ = true;
+}
+
+}  // namespace meniscus

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Progress of long tasks: the library reports to a callback, and ProgressText turns reports into a bar or plain lines.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <mutex>
+#include <string>
+#include <string_view>
+
+namespace meniscus {
+
+/// `done` of `total` units of a task; total > 0, done <= total. The last report of a task has done == total.
+struct ProgressReport {
+  std::string_view task;
+  std::uint64_t done = 0;
+  std::uint64_t total = 1;
+};
+
+/// Receives reports. An empty sink is fine: nothing is reported.
+using ProgressSink = std::function<void(const ProgressReport&)>;
+
+/// One task's counter. advance() may be called from any thread; the sink is called by one thread at a time, at most
+/// some 20 times a second, and always at the end.
+class Progress {
+ public:
+  Progress(ProgressSink sink, std::string task, std::uint64_t total);
+  void advance(std::uint64_t units = 1);
+
+ private:
+  ProgressSink sink_;
+  std::string task_;
+  std::uint64_t total_;
+  std::atomic<std::uint64_t> done_{0};
+  std::mutex mutex_;
+  std::chrono::steady_clock::time_point last_report_;
+};
+
+/// Writes reports as text: on a terminal one bar that is redrawn, elsewhere a line at the start of each task and at
+/// every further tenth of it, so that logs stay short. `write` gets finished text with its line ends.
+class ProgressText {
+ public:
+  ProgressText(bool terminal, std::function<void(std::string_view)> write);
+  void report(const ProgressReport& report);
+
+ private:
+  bool terminal_;
+  std::function<void(std::string_view)> write_;
+  std::string task_;
+  int last_tenth_ = -1;
+};
+
+}  // namespace meniscus

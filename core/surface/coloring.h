@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The colours of a surface, as picture, POV-Ray scene and Blender file share them.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+namespace meniscus {
+
+/// Colours in sRGB, each channel in [0, 1].
+/// A point on a toroidal or concave patch takes the colour of the touched atom a whose contact direction
+/// (c_a - s)/|c_a - s|, seen from the probe centre s, is nearest to (x - s)/p: borders of colour are planes through s.
+struct Coloring {
+  std::vector<glm::vec3> atom;                   ///< one per Surface::atoms
+  std::optional<std::array<glm::vec3, 3>> kind;  ///< if set, this by PatchKind (convex, toroidal, concave) instead
+};
+
+}  // namespace meniscus
