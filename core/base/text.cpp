@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Escaping, quoting and grouping of digits.
+#include "core/base/text.h"
+
+#include <fmt/format.h>
+
+namespace meniscus {
+
+std::string escaped(std::string_view text) {
+  std::string result;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x20 || byte == 0x7f) {
+      result += fmt::format("\\x{:02x}", byte);
+    } else {
+      result += c;
+    }
+  }
+  return result;
+}
+
+std::string quoted(std::string_view text) {
+  constexpr std::size_t kLongest = 40;
+  if (text.size() <= kLongest) return "'" + escaped(text) + "'";
+  return "'" + escaped(text.substr(0, kLongest)) + "...'";
+}
+
+std::string with_thousands(std::uint64_t count) {
+  std::string digits = std::to_string(count);
+  for (std::size_t place = digits.size(); place > 3;) {
+    place -= 3;
+    digits.insert(place, ",");
+  }
+  return digits;
+}
+
+}  // namespace meniscus

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Van der Waals radii by element, each with its source.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "core/molecule/structure.h"
+
+namespace meniscus {
+
+/// Where a radius comes from.
+enum class RadiusSource : std::uint8_t {
+  bondi,    ///< A. Bondi, J. Phys. Chem. 68, 441 (1964), and 70, 3006 (1966)
+  mantina,  ///< M. Mantina et al., J. Phys. Chem. A 113, 5806 (2009): main-group elements Bondi does not give
+  none      ///< neither gives one: kRadiusWithoutSource is used
+};
+
+struct ElementRadius {
+  double radius;  ///< Å
+  RadiusSource source;
+};
+
+/// For elements without a published value in the two papers above, in Å.
+inline constexpr double kRadiusWithoutSource = 2.0;
+
+/// The radius of the element with this atomic number, in Å; 0 or above 118: no source.
+ElementRadius bondi_radius(std::uint8_t element);
+
+/// "C", "Zn", ...; "X" for 0 or above 118.
+const char* element_symbol(std::uint8_t element);
+
+/// Gives every atom its Bondi radius, names the set in the structure, and adds a warning that lists the elements for
+/// which kRadiusWithoutSource stands in.
+void assign_bondi_radii(Structure& structure);
+
+}  // namespace meniscus

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A molecule as read from a file: its atoms, and the account of what was read, left out and used.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "core/surface/primitives.h"
+
+namespace meniscus {
+
+/// What an atom belongs to. `unclassified`: the format does not say (XYZR).
+enum class AtomClass : std::uint8_t { polymer, ligand, water, ion, unclassified };
+
+/// "polymer", "ligand", "water", "ion" or "unclassified".
+const char* class_name(AtomClass kind);
+
+/// One atom. Text fields come from the file as they are: never paste them into the source code of another program.
+struct Atom {
+  glm::dvec3 position{0.0};  ///< Å
+  double radius = 0.0;       ///< van der Waals radius in Å: from the file (XYZR), or 0 until a radii set fills it in
+  std::uint8_t element = 0;  ///< atomic number; 0: unknown, or the format does not say
+  AtomClass kind = AtomClass::unclassified;
+  char insertion_code = ' ';
+  std::int32_t residue_number = 0;
+  float occupancy = std::numeric_limits<float>::quiet_NaN();  ///< NaN: missing
+  float b_factor = std::numeric_limits<float>::quiet_NaN();   ///< Å²; NaN: missing
+  std::string name;
+  std::string residue_name;
+  std::string chain;
+};
+
+/// How many atoms a file holds and where they went: read == sum of excluded + used.
+struct ReadReport {
+  std::size_t read = 0;                         ///< every atom record of the file, all models and alternate locations
+  std::map<std::string, std::size_t> excluded;  ///< reason -> atoms; an atom counts for the first reason it meets
+  std::size_t used = 0;
+  std::size_t models = 1;  ///< models in the file; the first is used
+  std::vector<std::string> warnings;  ///< one summarised sentence each
+
+  /// "5,684 atoms read; 215 water left out; 5,469 used".
+  std::string sentence() const;
+};
+
+/// The reasons of ReadReport::excluded in the order they are tried.
+inline constexpr const char* kExcludedModel = "other_model";
+inline constexpr const char* kExcludedAltloc = "altloc";
+inline constexpr const char* kExcludedVirtual = "virtual_site";
+inline constexpr const char* kExcludedElement = "unknown_element";
+inline constexpr const char* kExcludedRadius = "zero_radius";
+inline constexpr const char* kExcludedWater = "water";
+inline constexpr const char* kExcludedIon = "ion";
+
+/// The atoms a surface is made of, in file order.
+struct Structure {
+  std::string file;       ///< the path as given
+  std::string format;     ///< "PDB", "mmCIF", "XYZR"
+  std::string radii_set;  ///< "bondi" or "file"
+  std::vector<Atom> atoms;
+  ReadReport report;
+};
+
+/// The atoms' van der Waals balls, one each, in order.
+std::vector<Ball> balls_of(const Structure& structure);
+
+}  // namespace meniscus
