@@ -18,7 +18,7 @@ class Error : public std::runtime_error {
 class InputError : public Error {
  public:
   InputError(const std::string& file, std::size_t line, const std::string& what)
-      : Error(file + (line ? ":" + std::to_string(line) : "") + ": " + what) {}
+      : Error((line ? file + ':' + std::to_string(line) : file) + ": " + what) {}
 };
 
 /// No usable GPU or GL, or the driver refused something.

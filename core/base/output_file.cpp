@@ -11,6 +11,8 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <mutex>
+#include <set>
 #include <utility>
 
 #include <fmt/format.h>
@@ -43,7 +45,35 @@ void refuse_unsuitable_target(const fs::path& target, Existing existing) {
   if (existing == Existing::refuse) throw OutputError(target.string(), "exists already; use --force to replace it");
 }
 
+/// Temporary files of this process that have not got their final name.
+class Unfinished {
+ public:
+  void add(const fs::path& path) {
+    const std::lock_guard lock(mutex_);
+    paths_.insert(path);
+  }
+  void remove(const fs::path& path) {
+    const std::lock_guard lock(mutex_);
+    paths_.erase(path);
+  }
+  void unlink_all() {
+    const std::lock_guard lock(mutex_);
+    for (const fs::path& path : paths_) ::unlink(path.c_str());
+  }
+
+ private:
+  std::mutex mutex_;
+  std::set<fs::path> paths_;
+};
+
+Unfinished& unfinished() {
+  static Unfinished instance;
+  return instance;
+}
+
 }  // namespace
+
+void remove_unfinished_outputs() { unfinished().unlink_all(); }
 
 OutputFile::OutputFile(fs::path target, Existing existing) : target_(std::move(target)), existing_(existing) {
   refuse_unsuitable_target(target_, existing_);
@@ -60,11 +90,14 @@ OutputFile::OutputFile(fs::path target, Existing existing) : target_(std::move(t
     temporary_.clear();
     fail(fmt::format("cannot be written in {}: {}", folder_of(target_).string(), reason(error)));
   }
+  unfinished().add(temporary_);
 }
 
 OutputFile::~OutputFile() {
   if (descriptor_ >= 0) ::close(descriptor_);
-  if (!temporary_.empty()) ::unlink(temporary_.c_str());
+  if (temporary_.empty()) return;
+  ::unlink(temporary_.c_str());
+  unfinished().remove(temporary_);
 }
 
 void OutputFile::write(std::string_view text) { write(std::as_bytes(std::span(text))); }
@@ -91,16 +124,15 @@ void OutputFile::sync() {
 void OutputFile::rename_to_target() {
   struct stat status {};
   replaced_ = ::lstat(target_.c_str(), &status) == 0;
+  bool done = false;
   if (existing_ == Existing::refuse) {
-    // RENAME_NOREPLACE closes the gap between the check and the rename; file systems without it say EINVAL.
-    if (::renameat2(AT_FDCWD, temporary_.c_str(), AT_FDCWD, target_.c_str(), RENAME_NOREPLACE) == 0) {
-      temporary_.clear();
-      return;
-    }
-    if (errno != EINVAL && errno != ENOSYS) refuse_unsuitable_target(target_, existing_);
+    // RENAME_NOREPLACE closes the gap between this check and the rename, on file systems that have it.
     refuse_unsuitable_target(target_, existing_);
+    done = ::renameat2(AT_FDCWD, temporary_.c_str(), AT_FDCWD, target_.c_str(), RENAME_NOREPLACE) == 0;
+    if (!done && errno == EEXIST) refuse_unsuitable_target(target_, existing_);
   }
-  if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail("cannot get its final name: " + reason(errno));
+  if (!done && ::rename(temporary_.c_str(), target_.c_str()) != 0) fail("cannot get its final name: " + reason(errno));
+  unfinished().remove(temporary_);
   temporary_.clear();
 }
 

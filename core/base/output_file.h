@@ -72,4 +72,7 @@ class OutputFolder {
   bool committed_ = false;
 };
 
+/// Deletes the temporary files of all outputs that are not committed yet: for a program that is told to stop.
+void remove_unfinished_outputs();
+
 }  // namespace meniscus

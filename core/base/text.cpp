@@ -19,7 +19,7 @@ std::string escaped(std::string_view text) {
   return result;
 }
 
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
   constexpr std::size_t kLongest = 40;
   if (text.size() <= kLongest) return "'" + escaped(text) + "'";
   return "'" + escaped(text.substr(0, kLongest)) + "...'";

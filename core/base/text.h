@@ -12,7 +12,7 @@ namespace meniscus {
 std::string escaped(std::string_view text);
 
 /// 'text' in quotes, escaped, at most 40 bytes of it.
-std::string quoted(std::string_view text);
+std::string in_quotes(std::string_view text);
 
 /// 5469 -> "5,469".
 std::string with_thousands(std::uint64_t count);

@@ -96,7 +96,7 @@ class Checker {
     }
     if (line.size() < kCoordinatesEnd) {
       throw InputError(file_.path, number, fmt::format("atom record {} is cut short at column {}; coordinates need 54 columns",
-                                                       quoted(line), line.size()));
+                                                       in_quotes(line), line.size()));
     }
     ++atoms_;
     for (int axis = 0; axis < 3; ++axis) {

@@ -89,11 +89,10 @@ char best_altloc(std::span<const FileAtom> residue) {
   return std::min_element(sums.begin(), sums.end(), [&](const auto& a, const auto& b) { return rank(a) < rank(b); })->first;
 }
 
-/// Atoms in order of residues; files may interleave them.
+/// The altloc to keep, by residue.
 std::vector<char> chosen_altlocs(const std::vector<FileAtom>& atoms) {
   std::uint32_t residue_count = 0;
   for (const FileAtom& atom : atoms) residue_count = std::max(residue_count, atom.residue + 1);
-  std::vector<std::vector<FileAtom>> alternatives(0);
   std::vector<char> chosen(residue_count, ' ');
   std::map<std::uint32_t, std::vector<FileAtom>> with_alternatives;
   for (const FileAtom& atom : atoms) {
@@ -130,7 +129,7 @@ void halt_on_unknown_elements(const Structure& structure) {
   for (const Atom& atom : structure.atoms) {
     if (atom.element != 0) continue;
     ++count;
-    ++names[fmt::format("{} in {} {}{}", quoted(atom.name), atom.residue_name, atom.chain, atom.residue_number)];
+    ++names[fmt::format("{} in {} {}{}", in_quotes(atom.name), atom.residue_name, atom.chain, atom.residue_number)];
   }
   if (count == 0) return;
   std::string examples;

@@ -41,7 +41,7 @@ double parse_radius(const TextFile& file, std::size_t line, std::string_view fie
   double radius = 0.0;
   if (!parse_number(field, radius)) {
     throw InputError(file.path, line, fmt::format("radius is {}, not a finite number; a line is: x y z radius [name]",
-                                                  quoted(field)));
+                                                  in_quotes(field)));
   }
   if (radius < 0.0) throw InputError(file.path, line, fmt::format("radius is {} Å; it must not be negative", radius));
   if (radius > kLargestRadius) {
@@ -75,7 +75,7 @@ FileContents read(const TextFile& file) {
     if (field[0].empty()) return true;
     if (field[3].empty()) {
       throw InputError(file.path, number, fmt::format("{} has fewer than four columns; a line is: x y z radius [name]",
-                                                      quoted(line)));
+                                                      in_quotes(line)));
     }
     FileAtom atom;
     atom.residue = static_cast<std::uint32_t>(contents.atoms.size());

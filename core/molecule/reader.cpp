@@ -25,7 +25,7 @@ double parse_coordinate(const TextFile& file, std::size_t line, char axis, std::
   double number = 0.0;
   if (!parse_number(field, number)) {
     throw InputError(file.path, line, fmt::format("coordinate {} is {}, not a finite number; correct or remove the atom",
-                                                  axis, quoted(field)));
+                                                  axis, in_quotes(field)));
   }
   if (std::abs(number) > kLargestCoordinate) {
     throw InputError(file.path, line, fmt::format("coordinate {} is {} Å, beyond the extent of ±{} Å; is the unit right?",

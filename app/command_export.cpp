@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// `meniscus export`: a table of formats, each of which is a command of its own.
+#include <span>
+
+#include "app/commands.h"
+
+namespace meniscus {
+namespace {
+
+/// One row a format: {"povray", add_export_povray}, ... Its file is app/export_<name>.cpp.
+constexpr std::span<const Command> kFormats{};
+
+}  // namespace
+
+void add_export(CLI::App& command) {
+  describe(command, "Write the surface for another program", "  meniscus export FORMAT --help");
+  command.require_subcommand(1);
+  for (const Command& format : kFormats) format.add(*command.add_subcommand(format.name));
+}
+
+}  // namespace meniscus

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The commands of the program, one function and one file (command_<name>.cpp, export_<name>.cpp) each.
+#pragma once
+
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+namespace meniscus {
+
+/// One row of a command table. `add` gives the empty command its description, options and callback; the callback does
+/// the work and throws the errors of core/base/error.h.
+struct Command {
+  const char* name;
+  void (*add)(CLI::App& command);
+};
+
+void add_bench(CLI::App& command);
+void add_export(CLI::App& command);
+void add_info(CLI::App& command);
+void add_surface(CLI::App& command);
+
+/// Sets a command's one-line summary and its examples, which the help shows first.
+void describe(CLI::App& command, const std::string& summary, const std::string& examples);
+
+}  // namespace meniscus

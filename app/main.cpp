@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The program `meniscus`: a table of commands, and the one place where errors become a line and an exit code.
+#include <csignal>
+#include <iostream>
+#include <new>
+#include <thread>
+
+#include <pthread.h>
+#include <unistd.h>
+
+#include <fmt/format.h>
+
+#include "app/commands.h"
+#include "app/program_error.h"
+#include "core/base/output_file.h"
+#include "core/base/text.h"
+
+namespace meniscus {
+namespace {
+
+constexpr Command kCommands[] = {
+    {"surface", add_surface},
+    {"info", add_info},
+    {"export", add_export},
+    {"bench", add_bench},
+};
+
+constexpr const char* kExamples = R"(  meniscus info 1tii.pdb                        what the file holds
+  meniscus surface 1tii.pdb                     compute the surface; area, volume, cavities
+  meniscus surface 1tii.cif.gz --probe 1.5 --json
+  meniscus COMMAND --help                       everything about one command)";
+
+constexpr const char* kExitCodes = R"(Exit codes:
+  0 done  1 internal error  2 wrong usage  3 bad input  4 no usable GPU  5 too large
+  6 output not written  7 surface not closed
+)";
+
+/// Help in the order people read: what it is, examples, usage, options.
+class ManualFormatter : public CLI::Formatter {
+ public:
+  std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override {
+    if (mode == CLI::AppFormatMode::Sub) return make_expanded(app);
+    std::string help = make_description(app);
+    if (!app->get_footer().empty()) help += "\nExamples:\n" + app->get_footer() + "\n";
+    help += "\n" + make_usage(app, std::move(name)) + make_positionals(app) + make_groups(app, mode) + make_subcommands(app, mode);
+    return help + (app->get_parent() ? "" : std::string("\n") + kExitCodes);
+  }
+};
+
+/// Ctrl-C or a queue's SIGTERM removes unfinished files before the program ends, as the signal would have ended it.
+void clean_up_on_signals() {
+  sigset_t signals;
+  sigemptyset(&signals);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&signals, signal);
+  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+  std::thread([signals] {
+    int signal = 0;
+    while (sigwait(&signals, &signal) != 0) {
+    }
+    remove_unfinished_outputs();
+    ::_exit(128 + signal);
+  }).detach();
+}
+
+int report(ExitCode code, const std::string& message) {
+  std::cerr << "meniscus: error: " << escaped(message) << std::endl;
+  return code;
+}
+
+int run(int argc, char** argv) {
+  CLI::App program("Meniscus computes the exact, complete solvent-excluded surface of a molecule.", "meniscus");
+  program.formatter(std::make_shared<ManualFormatter>());
+  program.get_formatter()->column_width(30);
+  program.set_version_flag("--version", "meniscus " MENISCUS_VERSION);
+  program.set_help_flag("-h,--help", "Show this help");
+  program.require_subcommand(1);
+  program.footer(kExamples);
+  for (const Command& command : kCommands) command.add(*program.add_subcommand(command.name));
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::Success& success) {
+    return program.exit(success);
+  } catch (const CLI::ParseError& error) {
+    throw UsageError(std::string(error.what()) + "; see meniscus --help");
+  }
+  std::cout.flush();
+  if (!std::cout) throw OutputError("standard output", "cannot be written");
+  return kExitOk;
+}
+
+}  // namespace
+
+void describe(CLI::App& command, const std::string& summary, const std::string& examples) {
+  command.description(summary);
+  command.footer(examples);
+}
+
+}  // namespace meniscus
+
+int main(int argc, char** argv) {
+  using namespace meniscus;
+  clean_up_on_signals();
+  try {
+    return run(argc, argv);
+  } catch (const UsageError& error) {
+    return report(kExitUsage, error.what());
+  } catch (const InputError& error) {
+    return report(kExitInput, error.what());
+  } catch (const GpuError& error) {
+    return report(kExitGpu, error.what());
+  } catch (const CapacityError& error) {
+    return report(kExitCapacity, error.what());
+  } catch (const OutputError& error) {
+    return report(kExitOutput, error.what());
+  } catch (const OpenSurfaceError& error) {
+    return report(kExitNotClosed, error.what());
+  } catch (const std::bad_alloc&) {
+    return report(kExitCapacity, "not enough memory");
+  } catch (const std::exception& error) {
+    return report(kExitInternal, fmt::format("internal: {}; please report this", error.what()));
+  }
+}

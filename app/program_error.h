@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The program's exit codes, and the error for options that make no sense together.
+#pragma once
+
+#include "core/base/error.h"
+
+namespace meniscus {
+
+/// What the shell sees; documented in the help of `meniscus` and stable.
+enum ExitCode : int {
+  kExitOk = 0,
+  kExitInternal = 1,
+  kExitUsage = 2,
+  kExitInput = 3,
+  kExitGpu = 4,
+  kExitCapacity = 5,
+  kExitOutput = 6,
+  kExitNotClosed = 7,
+};
+
+/// Options that are wrong, alone or together.
+class UsageError : public Error {
+ public:
+  using Error::Error;
+};
+
+}  // namespace meniscus
