@@ -36,7 +36,8 @@ Row measure(const Structure& structure, const BenchCommand& command) {
   std::vector<std::vector<StageTime>> times;
   for (int n = 0; n < command.runs; ++n) times.push_back(compute_surface(balls, command.molecule.computing).stages);
   const auto middle = times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2);
-  std::nth_element(times.begin(), middle, times.end(), [](const auto& a, const auto& b) { return total_ms(a) < total_ms(b); });
+  std::nth_element(times.begin(), middle, times.end(),
+                   [](const auto& a, const auto& b) { return total_ms(a) < total_ms(b); });
   row.stages = *middle;
   return row;
 }
@@ -45,7 +46,8 @@ void print_table(const std::vector<Row>& rows) {
   std::size_t width = 8;
   for (const Row& row : rows) width = std::max(width, escaped(row.file).size());
   fmt::print(std::cout, "{:<{}} {:>9}", "molecule", width, "atoms");
-  for (const StageTime& stage : rows.front().stages) fmt::print(std::cout, " {:>{}}", stage.name, std::max<std::size_t>(stage.name.size(), 9));
+  for (const StageTime& stage : rows.front().stages)
+    fmt::print(std::cout, " {:>{}}", stage.name, std::max<std::size_t>(stage.name.size(), 9));
   fmt::print(std::cout, " {:>9} {:>9}  device\n", "total ms", "per s");
   for (const Row& row : rows) {
     fmt::print(std::cout, "{:<{}} {:>9}", escaped(row.file), width, with_thousands(row.atoms));

@@ -28,9 +28,12 @@ struct Tally {
 
 const char* source_name(RadiusSource source) {
   switch (source) {
-    case RadiusSource::bondi: return "Bondi 1964";
-    case RadiusSource::mantina: return "Mantina et al. 2009";
-    case RadiusSource::none: break;
+    case RadiusSource::bondi:
+      return "Bondi 1964";
+    case RadiusSource::mantina:
+      return "Mantina et al. 2009";
+    case RadiusSource::none:
+      break;
   }
   return "no published value";
 }
@@ -41,7 +44,9 @@ void print_classes_and_chains(const Structure& structure) {
   std::map<std::string, std::size_t> place;
   const Atom* previous = nullptr;
   for (const Atom& atom : structure.atoms) {
-    const auto identity = [](const Atom& a) { return std::tie(a.chain, a.residue_number, a.insertion_code, a.residue_name); };
+    const auto identity = [](const Atom& a) {
+      return std::tie(a.chain, a.residue_number, a.insertion_code, a.residue_name);
+    };
     const bool new_residue = !previous || identity(*previous) != identity(atom);
     previous = &atom;
     const auto [found, added] = place.try_emplace(atom.chain, chains.size());
@@ -53,13 +58,14 @@ void print_classes_and_chains(const Structure& structure) {
   }
   fmt::print(std::cout, "\n{:<14} {:>10} {:>10}\n", "class", "atoms", "residues");
   for (const auto& [kind, tally] : classes) {
-    fmt::print(std::cout, "{:<14} {:>10} {:>10}\n", class_name(kind), with_thousands(tally.atoms), with_thousands(tally.residues));
+    fmt::print(std::cout, "{:<14} {:>10} {:>10}\n", class_name(kind), with_thousands(tally.atoms),
+               with_thousands(tally.residues));
   }
   if (structure.radii_set == "file") return;  // XYZR knows no chains
   fmt::print(std::cout, "\n{:<14} {:>10} {:>10}\n", "chain", "atoms", "residues");
   for (const auto& [chain, tally] : chains) {
-    fmt::print(std::cout, "{:<14} {:>10} {:>10}\n", chain.empty() ? "(none)" : escaped(chain), with_thousands(tally.atoms),
-               with_thousands(tally.residues));
+    fmt::print(std::cout, "{:<14} {:>10} {:>10}\n", chain.empty() ? "(none)" : escaped(chain),
+               with_thousands(tally.atoms), with_thousands(tally.residues));
   }
 }
 
@@ -85,13 +91,15 @@ void print_ranges(const Structure& structure) {
       high[axis] = std::max(high[axis], atom.position[axis]);
     }
     radius = {std::min(radius[0], atom.radius), std::max(radius[1], atom.radius)};
-    if (!std::isnan(atom.b_factor)) b_factor = {std::min<double>(b_factor[0], atom.b_factor), std::max<double>(b_factor[1], atom.b_factor)};
+    if (!std::isnan(atom.b_factor))
+      b_factor = {std::min<double>(b_factor[0], atom.b_factor), std::max<double>(b_factor[1], atom.b_factor)};
   }
   for (int axis = 0; axis < 3; ++axis) {
     fmt::print(std::cout, "{}             {:.3f} to {:.3f} Å (centres)\n", "xyz"[axis], low[axis], high[axis]);
   }
   fmt::print(std::cout, "radii         {:.2f} to {:.2f} Å\n", radius[0], radius[1]);
-  if (b_factor[0] <= b_factor[1]) fmt::print(std::cout, "B-factors     {:.2f} to {:.2f} Å²\n", b_factor[0], b_factor[1]);
+  if (b_factor[0] <= b_factor[1])
+    fmt::print(std::cout, "B-factors     {:.2f} to {:.2f} Å²\n", b_factor[0], b_factor[1]);
 }
 
 void run(const MoleculeOptions& options) {
@@ -99,13 +107,14 @@ void run(const MoleculeOptions& options) {
   everything.keep_water = everything.keep_ions = true;
   everything.unknown_element = UnknownElement::guess;
   const Structure structure = read_structure(options.file, everything);
-  fmt::print(std::cout, "molecule      {} ({}, {} {})\n", escaped(structure.file), structure.format, structure.report.models,
-             structure.report.models == 1 ? "model" : "models");
+  fmt::print(std::cout, "molecule      {} ({}, {} {})\n", escaped(structure.file), structure.format,
+             structure.report.models, structure.report.models == 1 ? "model" : "models");
   fmt::print(std::cout, "atoms         {}\n", structure.report.sentence());
   const auto by_default = std::count_if(structure.atoms.begin(), structure.atoms.end(), [](const Atom& atom) {
     return atom.kind != AtomClass::water && atom.kind != AtomClass::ion;
   });
-  fmt::print(std::cout, "for a surface {} unless --keep-water or --keep-ions\n", with_thousands(static_cast<std::size_t>(by_default)));
+  fmt::print(std::cout, "for a surface {} unless --keep-water or --keep-ions\n",
+             with_thousands(static_cast<std::size_t>(by_default)));
   print_ranges(structure);
   print_classes_and_chains(structure);
   print_elements(structure);
@@ -119,7 +128,8 @@ void add_info(CLI::App& command) {
            "  meniscus info 1tii.pdb\n"
            "  meniscus info 6zu5.cif.gz");
   auto options = std::make_shared<MoleculeOptions>();
-  command.add_option("FILE", options->file, "Molecule: PDB, mmCIF (.gz too) or XYZR; told apart by content")->required();
+  command.add_option("FILE", options->file, "Molecule: PDB, mmCIF (.gz too) or XYZR; told apart by content")
+      ->required();
   command.add_flag("-q,--quiet", options->quiet, "No warnings on stderr; errors only");
   command.callback([options] { run(*options); });
 }

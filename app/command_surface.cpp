@@ -32,7 +32,10 @@ nlohmann::ordered_json to_json(const Structure& structure, const ComputedSurface
   for (const auto& [reason, count] : structure.report.excluded) excluded[reason] = count;
   Json components = Json::array();
   for (const Component& component : surface.components) {
-    components.push_back({{"kind", kind_name(component.kind)}, {"area", component.area}, {"volume", component.volume}, {"euler", component.euler}});
+    components.push_back({{"kind", kind_name(component.kind)},
+                          {"area", component.area},
+                          {"volume", component.volume},
+                          {"euler", component.euler}});
   }
   Json stages = Json::array();
   for (const StageTime& stage : computed.stages) stages.push_back({{"name", stage.name}, {"ms", stage.ms}});
@@ -40,9 +43,14 @@ nlohmann::ordered_json to_json(const Structure& structure, const ComputedSurface
           {"atoms", {{"read", structure.report.read}, {"excluded", excluded}, {"used", structure.report.used}}},
           {"probe_radius", surface.probe_radius},
           {"radii_set", structure.radii_set},
-          {"counts", {{"convex", counts.convex}, {"toroidal", counts.toroidal}, {"concave", counts.concave},
-                      {"free_edges", counts.free_edges}, {"spindle", counts.spindle},
-                      {"fixed_probes", counts.fixed_probes}, {"arcs", counts.arcs}}},
+          {"counts",
+           {{"convex", counts.convex},
+            {"toroidal", counts.toroidal},
+            {"concave", counts.concave},
+            {"free_edges", counts.free_edges},
+            {"spindle", counts.spindle},
+            {"fixed_probes", counts.fixed_probes},
+            {"arcs", counts.arcs}}},
           {"area", surface.area},
           {"volume", surface.volume},
           {"components", components},
@@ -65,7 +73,8 @@ void print_table(const Structure& structure, const ComputedSurface& computed) {
   fmt::print(std::cout, "area          {:.3f} Å²\nvolume        {:.3f} Å³\n", surface.area, surface.volume);
   fmt::print(std::cout, "closed        {}\n", surface.certificate.closed ? "yes" : "no");
   fmt::print(std::cout, "device        {}\n", computed.device);
-  for (const StageTime& stage : computed.stages) fmt::print(std::cout, "time          {:>9.2f} ms  {}\n", stage.ms, stage.name);
+  for (const StageTime& stage : computed.stages)
+    fmt::print(std::cout, "time          {:>9.2f} ms  {}\n", stage.ms, stage.name);
   fmt::print(std::cout, "\n{:>9}  {:<7} {:>14} {:>16} {:>6}\n", "component", "kind", "area Å²", "volume Å³", "Euler");
   for (std::size_t c = 0; c < surface.components.size(); ++c) {
     const Component& component = surface.components[c];
@@ -77,7 +86,9 @@ void print_table(const Structure& structure, const ComputedSurface& computed) {
 void run(const SurfaceCommand& command) {
   const Molecule molecule = load_molecule(command.molecule);
   if (command.json) {
-    std::cout << to_json(molecule.structure, molecule.computed).dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << "\n";
+    std::cout
+        << to_json(molecule.structure, molecule.computed).dump(2, ' ', false, nlohmann::json::error_handler_t::replace)
+        << "\n";
   } else {
     print_table(molecule.structure, molecule.computed);
   }

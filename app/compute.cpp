@@ -28,10 +28,11 @@ auto timed(std::vector<StageTime>& stages, const char* name, Stage stage) {
 
 ComputedSurface compute_on_cpu(std::span<const Ball> balls, const ComputeOptions& options) {
   ComputedSurface result;
-  const ReducedSurface reduced = timed(result.stages, "reduced surface", [&] {
-    return enumerate_reduced_surface(balls, options.probe_radius);
-  });
-  result.surface = timed(result.stages, "primitives", [&] { return assemble_surface(balls, options.probe_radius, reduced); });
+  const ReducedSurface reduced =
+      timed(result.stages, "reduced surface", [&] { return enumerate_reduced_surface(balls, options.probe_radius); });
+  result.surface =
+      timed(result.stages, "primitives", [&] { return assemble_surface(balls, options.probe_radius, reduced); });
+  require_closed(result.surface);
   const auto threads = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
   result.device = fmt::format("cpu ({} {})", threads, threads == 1 ? "thread" : "threads");
   return result;
@@ -45,7 +46,8 @@ ComputedSurface compute_surface(std::span<const Ball> balls, const ComputeOption
     limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(options.threads));
   }
   if (!options.cpu && options.gl.kind != DeviceChoice::Kind::automatic) {
-    throw GpuError(fmt::format("--device {}: surfaces are not computed through GL yet; use --device cpu", to_string(options.gl)));
+    throw GpuError(
+        fmt::format("--device {}: surfaces are not computed through GL yet; use --device cpu", to_string(options.gl)));
   }
   return compute_on_cpu(balls, options);
 }

@@ -42,7 +42,8 @@ class ManualFormatter : public CLI::Formatter {
     if (mode == CLI::AppFormatMode::Sub) return make_expanded(app);
     std::string help = make_description(app);
     if (!app->get_footer().empty()) help += "\nExamples:\n" + app->get_footer() + "\n";
-    help += "\n" + make_usage(app, std::move(name)) + make_positionals(app) + make_groups(app, mode) + make_subcommands(app, mode);
+    help += "\n" + make_usage(app, std::move(name)) + make_positionals(app) + make_groups(app, mode) +
+            make_subcommands(app, mode);
     return help + (app->get_parent() ? "" : std::string("\n") + kExitCodes);
   }
 };

@@ -23,14 +23,19 @@ constexpr double kLargestProbe = 100.0;
 
 double parse_probe(const std::string& text) {
   double radius = 0.0;
-  if (!parse_number(text, radius)) throw CLI::ValidationError("--probe", in_quotes(text) + " is not a finite number of Å, such as 1.4");
-  if (radius < 0.0) throw CLI::ValidationError("--probe", fmt::format("{} Å is negative; 0 gives the van der Waals surface", radius));
+  if (!parse_number(text, radius))
+    throw CLI::ValidationError("--probe", in_quotes(text) + " is not a finite number of Å, such as 1.4");
+  if (radius < 0.0)
+    throw CLI::ValidationError("--probe", fmt::format("{} Å is negative; 0 gives the van der Waals surface", radius));
   if (radius > 0.0 && radius < kSmallestProbe) {
-    throw CLI::ValidationError("--probe", fmt::format("{} Å is finer than any file's coordinates; use 0 (van der Waals surface) or at least {} Å",
-                                                      radius, kSmallestProbe));
+    throw CLI::ValidationError(
+        "--probe",
+        fmt::format("{} Å is finer than any file's coordinates; use 0 (van der Waals surface) or at least {} Å", radius,
+                    kSmallestProbe));
   }
   if (radius > kLargestProbe) {
-    throw CLI::ValidationError("--probe", fmt::format("{} Å is larger than molecules are; use at most {} Å", radius, kLargestProbe));
+    throw CLI::ValidationError(
+        "--probe", fmt::format("{} Å is larger than molecules are; use at most {} Å", radius, kLargestProbe));
   }
   return radius;
 }
@@ -46,7 +51,8 @@ void parse_device(const std::string& text, ComputeOptions& options) {
 void parse_color(const std::string& text, ColorScheme& color) {
   const std::optional<ColorScheme> scheme = parse_color_scheme(text);
   if (!scheme) {
-    throw CLI::ValidationError("--color", in_quotes(text) + " is none of element, chain, residue, bfactor, kind, atom, #rrggbb");
+    throw CLI::ValidationError("--color",
+                               in_quotes(text) + " is none of element, chain, residue, bfactor, kind, atom, #rrggbb");
   }
   color.by = scheme->by;
   color.fixed = scheme->fixed;
@@ -60,8 +66,9 @@ void add_file_options(CLI::App& command, MoleculeOptions& options) {
   command.add_flag("--keep-ions", options.reading.keep_ions, "Use free ions (lone metal and halogen atoms) too");
   const std::map<std::string, UnknownElement> words{
       {"halt", UnknownElement::halt}, {"guess", UnknownElement::guess}, {"skip", UnknownElement::skip}};
-  command.add_option("--unknown-element", options.reading.unknown_element,
-                     "Atoms of unknown element: halt (default), guess (radius 2.0 Å), skip")
+  command
+      .add_option("--unknown-element", options.reading.unknown_element,
+                  "Atoms of unknown element: halt (default), guess (radius 2.0 Å), skip")
       ->transform(CLI::CheckedTransformer(words).description(""))
       ->type_name("WORD");
   command.add_flag("-q,--quiet", options.quiet, "No notes on stderr; errors only");
@@ -69,31 +76,39 @@ void add_file_options(CLI::App& command, MoleculeOptions& options) {
 
 void add_surface_options(CLI::App& command, MoleculeOptions& options) {
   ComputeOptions& computing = options.computing;
-  command.add_option_function<std::string>(
-             "--probe", [&computing](const std::string& text) { computing.probe_radius = parse_probe(text); },
-             "Probe radius in Å [1.4]; 0 gives the van der Waals surface")
+  command
+      .add_option_function<std::string>(
+          "--probe", [&computing](const std::string& text) { computing.probe_radius = parse_probe(text); },
+          "Probe radius in Å [1.4]; 0 gives the van der Waals surface")
       ->type_name("Å");
-  command.add_option_function<std::string>(
-             "--device", [&computing](const std::string& text) { parse_device(text, computing); },
-             "auto (default: a GPU if there is one, else cpu), gpu, gpu:N, software (GL without a GPU), cpu")
+  command
+      .add_option_function<std::string>(
+          "--device", [&computing](const std::string& text) { parse_device(text, computing); },
+          "auto (default: a GPU if there is one, else cpu), gpu, gpu:N, software (GL without a GPU), cpu")
       ->type_name("DEVICE");
   command.add_flag("--verify", computing.verify, "Compute on GPU and CPU and name every difference");
-  command.add_option("--threads", computing.threads, "CPU threads [all]")->check(CLI::Range(1, 4096).description(""))->type_name("N");
+  command.add_option("--threads", computing.threads, "CPU threads [all]")
+      ->check(CLI::Range(1, 4096).description(""))
+      ->type_name("N");
 }
 
 void add_color_options(CLI::App& command, MoleculeOptions& options) {
   ColorScheme& color = options.color;
-  command.add_option_function<std::string>(
-             "--color", [&color](const std::string& text) { parse_color(text, color); },
-             "Colour by element (default), chain, residue, bfactor, kind (of patch), atom, or one #rrggbb")
+  command
+      .add_option_function<std::string>(
+          "--color", [&color](const std::string& text) { parse_color(text, color); },
+          "Colour by element (default), chain, residue, bfactor, kind (of patch), atom, or one #rrggbb")
       ->type_name("SCHEME");
-  command.add_option_function<std::string>(
-             "--color-range",
-             [&color](const std::string& text) {
-               color.range = parse_color_range(text);
-               if (!color.range) throw CLI::ValidationError("--color-range", in_quotes(text) + " is not lo:hi with lo < hi, such as 10:60");
-             },
-             "B-factors at the two ends of the colour map [smallest:largest]")
+  command
+      .add_option_function<std::string>(
+          "--color-range",
+          [&color](const std::string& text) {
+            color.range = parse_color_range(text);
+            if (!color.range)
+              throw CLI::ValidationError("--color-range",
+                                         in_quotes(text) + " is not lo:hi with lo < hi, such as 10:60");
+          },
+          "B-factors at the two ends of the colour map [smallest:largest]")
       ->type_name("LO:HI");
 }
 

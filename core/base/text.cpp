@@ -21,17 +21,17 @@ std::string escaped(std::string_view text) {
 
 std::string in_quotes(std::string_view text) {
   constexpr std::size_t kLongest = 40;
-  if (text.size() <= kLongest) return "'" + escaped(text) + "'";
-  return "'" + escaped(text.substr(0, kLongest)) + "...'";
+  return fmt::format("'{}{}'", escaped(text.substr(0, kLongest)), text.size() > kLongest ? "..." : "");
 }
 
 std::string with_thousands(std::uint64_t count) {
-  std::string digits = std::to_string(count);
-  for (std::size_t place = digits.size(); place > 3;) {
-    place -= 3;
-    digits.insert(place, ",");
+  const std::string digits = std::to_string(count);
+  std::string grouped;
+  for (std::size_t n = 0; n < digits.size(); ++n) {
+    if (n > 0 && (digits.size() - n) % 3 == 0) grouped += ',';
+    grouped += digits[n];
   }
-  return digits;
+  return grouped;
 }
 
 }  // namespace meniscus

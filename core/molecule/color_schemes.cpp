@@ -23,12 +23,11 @@ constexpr glm::vec3 rgb(std::uint32_t hex) {
 // Every fifth of the 256 colours of viridis by N. J. Smith, S. van der Walt and E. Firing (matplotlib 1.5, released by
 // them under CC0 1.0); linear in between it stays within 1/255 of the full table.
 constexpr std::uint32_t kViridis[] = {
-    0x440154, 0x46085c, 0x471063, 0x481769, 0x481d6f, 0x482475, 0x472a7a, 0x46307e, 0x453781,
-    0x433d84, 0x414287, 0x3f4889, 0x3d4e8a, 0x3a538b, 0x38598c, 0x355e8d, 0x33638d, 0x31688e,
-    0x2e6d8e, 0x2c718e, 0x2a768e, 0x297b8e, 0x27808e, 0x25848e, 0x23898e, 0x218e8d, 0x20928c,
-    0x1f978b, 0x1e9c89, 0x1fa188, 0x21a585, 0x24aa83, 0x28ae80, 0x2eb37c, 0x35b779, 0x3dbc74,
-    0x46c06f, 0x50c46a, 0x5ac864, 0x65cb5e, 0x70cf57, 0x7cd250, 0x89d548, 0x95d840, 0xa2da37,
-    0xb0dd2f, 0xbddf26, 0xcae11f, 0xd8e219, 0xe5e419, 0xf1e51d, 0xfde725};
+    0x440154, 0x46085c, 0x471063, 0x481769, 0x481d6f, 0x482475, 0x472a7a, 0x46307e, 0x453781, 0x433d84, 0x414287,
+    0x3f4889, 0x3d4e8a, 0x3a538b, 0x38598c, 0x355e8d, 0x33638d, 0x31688e, 0x2e6d8e, 0x2c718e, 0x2a768e, 0x297b8e,
+    0x27808e, 0x25848e, 0x23898e, 0x218e8d, 0x20928c, 0x1f978b, 0x1e9c89, 0x1fa188, 0x21a585, 0x24aa83, 0x28ae80,
+    0x2eb37c, 0x35b779, 0x3dbc74, 0x46c06f, 0x50c46a, 0x5ac864, 0x65cb5e, 0x70cf57, 0x7cd250, 0x89d548, 0x95d840,
+    0xa2da37, 0xb0dd2f, 0xbddf26, 0xcae11f, 0xd8e219, 0xe5e419, 0xf1e51d, 0xfde725};
 static_assert(std::size(kViridis) == 52);
 
 // M. Okabe and K. Ito, "Color Universal Design" (2008): told apart with any colour vision. Black is left out, it hides
@@ -47,16 +46,11 @@ constexpr std::uint32_t kOtherElement = 0xd070b0;
 // Residue types by chemistry, in Okabe and Ito's colours: acidic, basic, polar, aliphatic, aromatic, sulphur, the two
 // that shape the backbone; nucleotides by base. Force-field names of the charge states go with their parent.
 const std::pair<std::uint32_t, const char*> kResidueGroups[] = {
-    {0xd55e00, " ASP GLU ASH GLH "},
-    {0x0072b2, " ARG LYS HIS HID HIE HIP HSD HSE HSP LYN "},
-    {0x56b4e9, " ASN GLN SER THR "},
-    {0xcccccc, " ALA VAL LEU ILE "},
-    {0x009e73, " PHE TYR TRP "},
-    {0xf0e442, " CYS CYX CYM MET MSE "},
-    {0xcc79a7, " GLY PRO "},
-    {0xd55e00, " A DA ADE RA "},
-    {0x0072b2, " C DC CYT RC "},
-    {0x009e73, " G DG GUA RG "},
+    {0xd55e00, " ASP GLU ASH GLH "},  {0x0072b2, " ARG LYS HIS HID HIE HIP HSD HSE HSP LYN "},
+    {0x56b4e9, " ASN GLN SER THR "},  {0xcccccc, " ALA VAL LEU ILE "},
+    {0x009e73, " PHE TYR TRP "},      {0xf0e442, " CYS CYX CYM MET MSE "},
+    {0xcc79a7, " GLY PRO "},          {0xd55e00, " A DA ADE RA "},
+    {0x0072b2, " C DC CYT RC "},      {0x009e73, " G DG GUA RG "},
     {0xe69f00, " U DT T THY URA RU "}};
 constexpr std::uint32_t kOtherResidue = 0xa0734a;
 
@@ -73,9 +67,12 @@ glm::vec3 residue_color(const std::string& name) {
 glm::vec3 chain_color(std::size_t index) {
   const glm::vec3 hue = rgb(kCategorical[index % std::size(kCategorical)]);
   switch (index / std::size(kCategorical) % 3) {
-    case 1: return 0.5f * hue + glm::vec3(0.5f);
-    case 2: return 0.6f * hue;
-    default: return hue;
+    case 1:
+      return 0.5f * hue + glm::vec3(0.5f);
+    case 2:
+      return 0.6f * hue;
+    default:
+      return hue;
   }
 }
 
@@ -150,10 +147,18 @@ Coloring color_atoms(const Structure& structure, const ColorScheme& scheme) {
     case By::residue:
       for (const Atom& atom : structure.atoms) coloring.atom.push_back(residue_color(atom.residue_name));
       break;
-    case By::chain: coloring.atom = by_chain(structure); break;
-    case By::bfactor: coloring.atom = by_b_factor(structure, scheme.range); break;
-    case By::atom: coloring.atom = by_order(structure.atoms.size()); break;
-    case By::fixed: coloring.atom.assign(structure.atoms.size(), scheme.fixed); break;
+    case By::chain:
+      coloring.atom = by_chain(structure);
+      break;
+    case By::bfactor:
+      coloring.atom = by_b_factor(structure, scheme.range);
+      break;
+    case By::atom:
+      coloring.atom = by_order(structure.atoms.size());
+      break;
+    case By::fixed:
+      coloring.atom.assign(structure.atoms.size(), scheme.fixed);
+      break;
     case By::kind:
       coloring.atom.assign(structure.atoms.size(), kMissingValueColor);
       coloring.kind = kPatchKinds;

@@ -18,7 +18,8 @@ namespace {
 constexpr std::size_t kCoordinatesEnd = 54;
 
 bool is_record(std::string_view line, std::string_view record) {
-  if (line.size() < record.size() || (line.size() > record.size() && record.size() < 6 && line[record.size()] != ' ')) return false;
+  if (line.size() < record.size() || (line.size() > record.size() && record.size() < 6 && line[record.size()] != ' '))
+    return false;
   return std::equal(record.begin(), record.end(), line.begin(),
                     [](char r, char c) { return r == std::toupper(static_cast<unsigned char>(c)); });
 }
@@ -95,8 +96,9 @@ class Checker {
       return;
     }
     if (line.size() < kCoordinatesEnd) {
-      throw InputError(file_.path, number, fmt::format("atom record {} is cut short at column {}; coordinates need 54 columns",
-                                                       in_quotes(line), line.size()));
+      throw InputError(file_.path, number,
+                       fmt::format("atom record {} is cut short at column {}; coordinates need 54 columns",
+                                   in_quotes(line), line.size()));
     }
     ++atoms_;
     for (int axis = 0; axis < 3; ++axis) {
@@ -110,7 +112,8 @@ class Checker {
     std::fill_n(columns.begin() + 6, 5, ' ');  // serial numbers: hybrid-36, hexadecimal or stars, never identity
     clean_number(columns.data() + 54, "  1.00", occupancy_, number);
     clean_number(columns.data() + 60, "   nan", b_factor_, number);
-    if (!std::isalpha(static_cast<unsigned char>(columns[76])) && !std::isalpha(static_cast<unsigned char>(columns[77]))) {
+    if (!std::isalpha(static_cast<unsigned char>(columns[76])) &&
+        !std::isalpha(static_cast<unsigned char>(columns[77]))) {
       element_.add(number);
       columns[76] = columns[77] = ' ';
     }
@@ -126,7 +129,8 @@ class Checker {
 
   void warn(const Oddity& oddity, const char* words) {
     if (oddity.count == 0) return;
-    result_.warnings.push_back(fmt::format("{} {} (first at line {})", with_thousands(oddity.count), words, oddity.first_line));
+    result_.warnings.push_back(
+        fmt::format("{} {} (first at line {})", with_thousands(oddity.count), words, oddity.first_line));
   }
 
   const TextFile& file_;
@@ -148,7 +152,8 @@ bool looks_like_pdb(std::string_view text) {
   while (!text.empty()) {
     const std::size_t end = text.find('\n');
     const std::string_view line = text.substr(0, end);
-    if (std::any_of(kRecords.begin(), kRecords.end(), [&](std::string_view record) { return is_record(line, record); })) return true;
+    if (std::any_of(kRecords.begin(), kRecords.end(), [&](std::string_view record) { return is_record(line, record); }))
+      return true;
     text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
   }
   return false;

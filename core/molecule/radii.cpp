@@ -64,11 +64,11 @@ void assign_bondi_radii(Structure& structure) {
   if (without_source.empty()) return;
   std::string elements;
   for (const auto& [element, count] : without_source) {
-    elements += fmt::format("{}{} ({} {})", elements.empty() ? "" : ", ", element_symbol(element), with_thousands(count),
-                            count == 1 ? "atom" : "atoms");
+    elements += fmt::format("{}{} ({} {})", elements.empty() ? "" : ", ", element_symbol(element),
+                            with_thousands(count), count == 1 ? "atom" : "atoms");
   }
-  structure.report.warnings.push_back(fmt::format("no published van der Waals radius for {}; {:.1f} Å is used", elements,
-                                                  kRadiusWithoutSource));
+  structure.report.warnings.push_back(
+      fmt::format("no published van der Waals radius for {}; {:.1f} Å is used", elements, kRadiusWithoutSource));
 }
 
 }  // namespace meniscus

@@ -23,8 +23,9 @@ namespace {
 
 /// Water by the names of the wwPDB and of molecular dynamics programs.
 bool is_water_name(const std::string& name) {
-  static const std::set<std::string> kWaters{"HOH", "DOD", "WAT", "H2O", "OH2", "SOL", "TIP", "TP3", "TIP2", "TIP3", "TIP4", "TIP5",
-                                             "T3P", "T4P", "T5P", "SPC", "SPCE", "HHO", "OHH", "TIP3P", "TIP4P"};
+  static const std::set<std::string> kWaters{"HOH", "DOD",  "WAT",  "H2O",  "OH2",  "SOL",   "TIP",
+                                             "TP3", "TIP2", "TIP3", "TIP4", "TIP5", "T3P",   "T4P",
+                                             "T5P", "SPC",  "SPCE", "HHO",  "OHH",  "TIP3P", "TIP4P"};
   return kWaters.contains(name);
 }
 
@@ -40,8 +41,10 @@ bool is_ion_element(gemmi::Element element) {
     case gemmi::El::F:
     case gemmi::El::Cl:
     case gemmi::El::Br:
-    case gemmi::El::I: return true;
-    default: return element.elem != gemmi::El::X && gemmi::is_metal(element.elem);
+    case gemmi::El::I:
+      return true;
+    default:
+      return element.elem != gemmi::El::X && gemmi::is_metal(element.elem);
   }
 }
 
@@ -49,7 +52,8 @@ bool is_ion_element(gemmi::Element element) {
 enum class Entity { unknown, polymer, other };
 
 /// The class of one residue from its name, its file's statement, and its atoms (`names`: distinct atom names).
-AtomClass classify(const std::string& residue_name, Entity entity, gemmi::Element first_element, const std::set<std::string>& names) {
+AtomClass classify(const std::string& residue_name, Entity entity, gemmi::Element first_element,
+                   const std::set<std::string>& names) {
   if (is_water_name(residue_name)) return AtomClass::water;
   const bool polymer_name = is_polymer_name(residue_name);
   if (names.size() == 1 && !polymer_name && is_ion_element(first_element)) return AtomClass::ion;
@@ -68,8 +72,8 @@ gemmi::Element element_of(gemmi::Element given, const std::string& atom_name, co
   const gemmi::Element guess(atom_name.substr(letter, 1));
   const gemmi::ResidueInfo residue = gemmi::find_tabulated_residue(residue_name);
   if (residue.found() && residue.is_standard() && (residue.is_amino_acid() || residue.is_nucleic_acid())) {
-    const bool possible = given == gemmi::El::C || given == gemmi::El::N || given == gemmi::El::O || given == gemmi::El::S ||
-                          given == gemmi::El::P || given.is_hydrogen();
+    const bool possible = given == gemmi::El::C || given == gemmi::El::N || given == gemmi::El::O ||
+                          given == gemmi::El::S || given == gemmi::El::P || given.is_hydrogen();
     return possible ? given : guess;
   }
   return given == gemmi::El::X && guess != gemmi::El::D ? guess : given;
@@ -98,7 +102,9 @@ FileContents read_pdb(const TextFile& file) {
       for (const gemmi::Atom& atom : residue.atoms) names.insert(atom.name);
       // TER marks what precedes it as polymer, yet some programs write one TER at the very end; so only HETATM behind
       // a TER is a statement.
-      const Entity entity = residue.entity_type == gemmi::EntityType::NonPolymer && residue.het_flag == 'H' ? Entity::other : Entity::unknown;
+      const Entity entity = residue.entity_type == gemmi::EntityType::NonPolymer && residue.het_flag == 'H'
+                                ? Entity::other
+                                : Entity::unknown;
       const AtomClass kind = classify(residue.name, entity, residue.atoms.front().element, names);
       for (const gemmi::Atom& atom : residue.atoms) {
         FileAtom& out = contents.atoms.emplace_back();
@@ -121,16 +127,47 @@ FileContents read_pdb(const TextFile& file) {
   return contents;
 }
 
-
 namespace cif = gemmi::cif;
 
 /// Columns of _atom_site, in the order AtomTable asks for them; '?' marks what may be missing.
-enum Column { kX, kY, kZ, kSymbol, kAuthAtom, kLabelAtom, kAuthComp, kLabelComp, kAuthAsym, kLabelAsym, kAuthSeq, kLabelSeq,
-              kInsertion, kAlt, kOccupancy, kB, kModel, kEntityId };
-const std::vector<std::string> kColumns{"Cartn_x", "Cartn_y", "Cartn_z", "?type_symbol", "?auth_atom_id", "?label_atom_id",
-                                        "?auth_comp_id", "?label_comp_id", "?auth_asym_id", "?label_asym_id",
-                                        "?auth_seq_id", "?label_seq_id", "?pdbx_PDB_ins_code", "?label_alt_id",
-                                        "?occupancy", "?B_iso_or_equiv", "?pdbx_PDB_model_num", "?label_entity_id"};
+enum Column {
+  kX,
+  kY,
+  kZ,
+  kSymbol,
+  kAuthAtom,
+  kLabelAtom,
+  kAuthComp,
+  kLabelComp,
+  kAuthAsym,
+  kLabelAsym,
+  kAuthSeq,
+  kLabelSeq,
+  kInsertion,
+  kAlt,
+  kOccupancy,
+  kB,
+  kModel,
+  kEntityId
+};
+const std::vector<std::string> kColumns{"Cartn_x",
+                                        "Cartn_y",
+                                        "Cartn_z",
+                                        "?type_symbol",
+                                        "?auth_atom_id",
+                                        "?label_atom_id",
+                                        "?auth_comp_id",
+                                        "?label_comp_id",
+                                        "?auth_asym_id",
+                                        "?label_asym_id",
+                                        "?auth_seq_id",
+                                        "?label_seq_id",
+                                        "?pdbx_PDB_ins_code",
+                                        "?label_alt_id",
+                                        "?occupancy",
+                                        "?B_iso_or_equiv",
+                                        "?pdbx_PDB_model_num",
+                                        "?label_entity_id"};
 
 /// gemmi's parser says "name:line:column(byte): what"; we pass "cif" as the name.
 [[noreturn]] void rethrow_parse_error(const TextFile& file, const std::string& message) {
@@ -153,7 +190,8 @@ std::size_t line_of_row(const TextFile& file, const cif::Table& table, int row, 
   while (begin < file.text.size()) {
     const std::size_t end = std::min(file.text.find('\n', begin), file.text.size());
     const std::string_view text(file.text.data() + begin, end - begin);
-    const bool value_line = line > loop_line && !text.empty() && text[0] != '_' && text[0] != '#' && !text.starts_with("loop_");
+    const bool value_line =
+        line > loop_line && !text.empty() && text[0] != '_' && text[0] != '#' && !text.starts_with("loop_");
     if (value_line && ++rows_seen == row) return text.find(value) != std::string_view::npos ? line : loop_line;
     begin = end + 1;
     ++line;
@@ -162,7 +200,9 @@ std::size_t line_of_row(const TextFile& file, const cif::Table& table, int row, 
 }
 
 /// Strips the standard uncertainty of "1.234(5)".
-std::string_view without_uncertainty(const std::string& value) { return std::string_view(value).substr(0, value.find('(')); }
+std::string_view without_uncertainty(const std::string& value) {
+  return std::string_view(value).substr(0, value.find('('));
+}
 
 cif::Table atom_table(const TextFile& file, cif::Document& document, std::vector<std::string>& warnings) {
   std::vector<cif::Table> tables;
@@ -175,7 +215,9 @@ cif::Table atom_table(const TextFile& file, cif::Document& document, std::vector
   for (cif::Block& block : document.blocks) {
     for (const char* tag : {"_atom_site_fract_x", "_atom_site.fract_x"}) {
       if (block.has_tag(tag)) {
-        throw InputError(file.path, 0, "is a small-molecule CIF with fractional coordinates; convert it to Cartesian coordinates first");
+        throw InputError(
+            file.path, 0,
+            "is a small-molecule CIF with fractional coordinates; convert it to Cartesian coordinates first");
       }
     }
   }
@@ -186,8 +228,9 @@ cif::Table atom_table(const TextFile& file, cif::Document& document, std::vector
 class ResidueNumbers {
  public:
   std::uint32_t of(const Atom& atom) {
-    auto [found, added] = numbers_.try_emplace(fmt::format("{}\n{}\n{}", atom.chain, atom.residue_number, atom.insertion_code),
-                                               static_cast<std::uint32_t>(numbers_.size()));
+    auto [found, added] =
+        numbers_.try_emplace(fmt::format("{}\n{}\n{}", atom.chain, atom.residue_number, atom.insertion_code),
+                             static_cast<std::uint32_t>(numbers_.size()));
     return found->second;
   }
 
@@ -242,7 +285,8 @@ void classify_residues(FileContents& contents, const std::vector<Entity>& entity
            contents.atoms[last].atom.residue_name == head.atom.residue_name) {
       names.insert(contents.atoms[last++].atom.name);
     }
-    const AtomClass kind = classify(head.atom.residue_name, entity[first], gemmi::Element(int{head.atom.element}), names);
+    const AtomClass kind =
+        classify(head.atom.residue_name, entity[first], gemmi::Element(int{head.atom.element}), names);
     for (; first < last; ++first) contents.atoms[first].atom.kind = kind;
   }
 }
@@ -293,11 +337,13 @@ bool is_mmcif(std::string_view text) {
 const Reader kPdbReader{{"PDB", ".pdb .ent .pdb.gz", "Protein Data Bank format, fixed columns",
                          "wwPDB file format 3.3; hybrid-36 by R. W. Grosse-Kunstleve",
                          "ATOM, HETATM, TER, MODEL, ENDMDL, END; serial numbers are ignored"},
-                        looks_like_pdb, read_pdb};
+                        looks_like_pdb,
+                        read_pdb};
 
-const Reader kMmcifReader{{"mmCIF", ".cif .mmcif .cif.gz", "macromolecular CIF of the wwPDB",
-                           "PDBx/mmCIF dictionary; Hall, Allen & Brown 1991",
-                           "_atom_site (author names where given) and _entity"},
-                          is_mmcif, read_mmcif};
+const Reader kMmcifReader{
+    {"mmCIF", ".cif .mmcif .cif.gz", "macromolecular CIF of the wwPDB",
+     "PDBx/mmCIF dictionary; Hall, Allen & Brown 1991", "_atom_site (author names where given) and _entity"},
+    is_mmcif,
+    read_mmcif};
 
 }  // namespace meniscus

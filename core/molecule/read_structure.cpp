@@ -23,7 +23,8 @@ constexpr std::array<const Reader*, 3> kReaders{&kMmcifReader, &kPdbReader, &kXy
 
 std::string lower_case_name(const std::string& path) {
   std::string name = path;
-  std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::transform(name.begin(), name.end(), name.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   if (name.ends_with(".gz")) name.resize(name.size() - 3);
   return name;
 }
@@ -43,7 +44,8 @@ const Reader* reader_by_name(const std::string& name) {
 /// Formats we can name but not read; better refused by name than misread as PDB.
 void refuse_known_foreign(const TextFile& file, const std::string& name) {
   const std::size_t first = file.text.find_first_not_of(" \t\n");
-  if (file.text[first] == '<') throw InputError(file.path, 0, "looks like HTML or XML, not like a molecule; was the download refused?");
+  if (file.text[first] == '<')
+    throw InputError(file.path, 0, "looks like HTML or XML, not like a molecule; was the download refused?");
   if (file.text[first] == '{') throw InputError(file.path, 0, "looks like JSON; PDB, mmCIF and XYZR are read");
   for (const char* extension : {".pqr", ".gro", ".xyz", ".pdbqt", ".mol2", ".sdf"}) {
     if (name.ends_with(extension)) {
@@ -84,9 +86,11 @@ char best_altloc(std::span<const FileAtom> residue) {
   }
   if (sums.empty()) return ' ';
   const auto rank = [](const std::pair<const char, Sum>& entry) {
-    return std::make_tuple(-entry.second.occupancy / entry.second.count, entry.second.b_factor / entry.second.count, entry.first);
+    return std::make_tuple(-entry.second.occupancy / entry.second.count, entry.second.b_factor / entry.second.count,
+                           entry.first);
   };
-  return std::min_element(sums.begin(), sums.end(), [&](const auto& a, const auto& b) { return rank(a) < rank(b); })->first;
+  return std::min_element(sums.begin(), sums.end(), [&](const auto& a, const auto& b) { return rank(a) < rank(b); })
+      ->first;
 }
 
 /// The altloc to keep, by residue.
@@ -112,7 +116,8 @@ bool is_virtual_site(const Atom& atom) {
   return false;
 }
 
-const char* reason_to_exclude(const FileAtom& file_atom, char altloc, bool radii_from_file, const ReadOptions& options) {
+const char* reason_to_exclude(const FileAtom& file_atom, char altloc, bool radii_from_file,
+                              const ReadOptions& options) {
   const Atom& atom = file_atom.atom;
   if (file_atom.altloc != ' ' && file_atom.altloc != altloc) return kExcludedAltloc;
   if (radii_from_file) return atom.radius == 0.0 ? kExcludedRadius : nullptr;
@@ -140,8 +145,10 @@ void halt_on_unknown_elements(const Structure& structure) {
     }
     examples += (examples.empty() ? "" : ", ") + escaped(name);
   }
-  throw InputError(structure.file, 0, fmt::format("the element of {} {} is unknown: {}; correct the element column, or choose "
-                                                  "--unknown-element guess or skip", with_thousands(count), count == 1 ? "atom" : "atoms", examples));
+  throw InputError(structure.file, 0,
+                   fmt::format("the element of {} {} is unknown: {}; correct the element column, or choose "
+                               "--unknown-element guess or skip",
+                               with_thousands(count), count == 1 ? "atom" : "atoms", examples));
 }
 
 void warn_of_coincident_atoms(Structure& structure) {
@@ -153,8 +160,9 @@ void warn_of_coincident_atoms(Structure& structure) {
     if (!places.insert(std::move(key)).second) ++coincident;
   }
   if (coincident == 0) return;
-  structure.report.warnings.push_back(fmt::format("{} {} at exactly the place of another; the surface is as if they were one",
-                                                  with_thousands(coincident), coincident == 1 ? "atom lies" : "atoms lie"));
+  structure.report.warnings.push_back(
+      fmt::format("{} {} at exactly the place of another; the surface is as if they were one",
+                  with_thousands(coincident), coincident == 1 ? "atom lies" : "atoms lie"));
 }
 
 }  // namespace

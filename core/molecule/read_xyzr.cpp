@@ -40,13 +40,15 @@ void for_each_line(std::string_view text, Visit visit) {
 double parse_radius(const TextFile& file, std::size_t line, std::string_view field) {
   double radius = 0.0;
   if (!parse_number(field, radius)) {
-    throw InputError(file.path, line, fmt::format("radius is {}, not a finite number; a line is: x y z radius [name]",
-                                                  in_quotes(field)));
+    throw InputError(
+        file.path, line,
+        fmt::format("radius is {}, not a finite number; a line is: x y z radius [name]", in_quotes(field)));
   }
   if (radius < 0.0) throw InputError(file.path, line, fmt::format("radius is {} Å; it must not be negative", radius));
   if (radius > kLargestRadius) {
-    throw InputError(file.path, line, fmt::format("radius is {} Å, above the limit of {} Å; is the unit right?", radius,
-                                                  kLargestRadius));
+    throw InputError(
+        file.path, line,
+        fmt::format("radius is {} Å, above the limit of {} Å; is the unit right?", radius, kLargestRadius));
   }
   return radius;
 }
@@ -74,8 +76,8 @@ FileContents read(const TextFile& file) {
     for (auto& f : field) f = next_field(rest);
     if (field[0].empty()) return true;
     if (field[3].empty()) {
-      throw InputError(file.path, number, fmt::format("{} has fewer than four columns; a line is: x y z radius [name]",
-                                                      in_quotes(line)));
+      throw InputError(file.path, number,
+                       fmt::format("{} has fewer than four columns; a line is: x y z radius [name]", in_quotes(line)));
     }
     FileAtom atom;
     atom.residue = static_cast<std::uint32_t>(contents.atoms.size());
@@ -93,8 +95,9 @@ FileContents read(const TextFile& file) {
 }  // namespace
 
 const Reader kXyzrReader{
-    {"XYZR", ".xyzr", "balls: centre and radius in Å, one a line",
-     "Sanner, Olson & Spehner 1996 (input of MSMS)", "x y z radius [name]; # begins a comment; radii as they are"},
-    recognizes, read};
+    {"XYZR", ".xyzr", "balls: centre and radius in Å, one a line", "Sanner, Olson & Spehner 1996 (input of MSMS)",
+     "x y z radius [name]; # begins a comment; radii as they are"},
+    recognizes,
+    read};
 
 }  // namespace meniscus

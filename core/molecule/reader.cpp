@@ -24,12 +24,14 @@ bool parse_number(std::string_view field, double& number) {
 double parse_coordinate(const TextFile& file, std::size_t line, char axis, std::string_view field) {
   double number = 0.0;
   if (!parse_number(field, number)) {
-    throw InputError(file.path, line, fmt::format("coordinate {} is {}, not a finite number; correct or remove the atom",
-                                                  axis, in_quotes(field)));
+    throw InputError(
+        file.path, line,
+        fmt::format("coordinate {} is {}, not a finite number; correct or remove the atom", axis, in_quotes(field)));
   }
   if (std::abs(number) > kLargestCoordinate) {
-    throw InputError(file.path, line, fmt::format("coordinate {} is {} Å, beyond the extent of ±{} Å; is the unit right?",
-                                                  axis, number, kLargestCoordinate));
+    throw InputError(file.path, line,
+                     fmt::format("coordinate {} is {} Å, beyond the extent of ±{} Å; is the unit right?", axis, number,
+                                 kLargestCoordinate));
   }
   return number;
 }

@@ -26,11 +26,16 @@ constexpr std::array<std::pair<const char*, const char*>, 7> kReasonWords{{
 
 const char* class_name(AtomClass kind) {
   switch (kind) {
-    case AtomClass::polymer: return "polymer";
-    case AtomClass::ligand: return "ligand";
-    case AtomClass::water: return "water";
-    case AtomClass::ion: return "ion";
-    case AtomClass::unclassified: break;
+    case AtomClass::polymer:
+      return "polymer";
+    case AtomClass::ligand:
+      return "ligand";
+    case AtomClass::water:
+      return "water";
+    case AtomClass::ion:
+      return "ion";
+    case AtomClass::unclassified:
+      break;
   }
   return "unclassified";
 }

@@ -41,7 +41,7 @@ struct ReadReport {
   std::size_t read = 0;                         ///< every atom record of the file, all models and alternate locations
   std::map<std::string, std::size_t> excluded;  ///< reason -> atoms; an atom counts for the first reason it meets
   std::size_t used = 0;
-  std::size_t models = 1;  ///< models in the file; the first is used
+  std::size_t models = 1;             ///< models in the file; the first is used
   std::vector<std::string> warnings;  ///< one summarised sentence each
 
   /// "5,684 atoms read; 215 water left out; 5,469 used".

@@ -27,13 +27,14 @@ struct CloseFile {
 };
 
 [[noreturn]] void too_large(const std::string& path, std::size_t largest) {
-  throw CapacityError(fmt::format("{}: holds more than {} bytes, more than this program reads", path,
-                                  with_thousands(largest)));
+  throw CapacityError(
+      fmt::format("{}: holds more than {} bytes, more than this program reads", path, with_thousands(largest)));
 }
 
 std::string read_bytes(const std::string& path, std::size_t largest) {
   struct stat status {};
-  if (::stat(path.c_str(), &status) != 0) throw InputError(path, 0, std::string("cannot be read: ") + std::strerror(errno));
+  if (::stat(path.c_str(), &status) != 0)
+    throw InputError(path, 0, std::string("cannot be read: ") + std::strerror(errno));
   if (S_ISDIR(status.st_mode)) throw InputError(path, 0, "is a folder; give the name of a molecule file");
   if (!S_ISREG(status.st_mode)) throw InputError(path, 0, "is a pipe or device; save it as a file first");
   if (static_cast<std::size_t>(status.st_size) > largest) too_large(path, largest);
@@ -69,22 +70,28 @@ std::string unpack_gzip(const std::string& path, const std::string& packed, std:
     if (state == Z_STREAM_END) {
       next = std::min(packed.find_first_not_of('\0', next), packed.size());
       if (next == packed.size()) return text;
-      if (packed.compare(next, 2, "\x1f\x8b") != 0) throw InputError(path, 0, "has foreign bytes after its gzip data; unpack it by hand");
+      if (packed.compare(next, 2, "\x1f\x8b") != 0)
+        throw InputError(path, 0, "has foreign bytes after its gzip data; unpack it by hand");
       inflateReset(&stream);
     } else if (state == Z_BUF_ERROR || (state == Z_OK && next == packed.size() && stream.avail_out > 0)) {
       throw InputError(path, 0, "is cut short: its gzip data ends too early; fetch it again");
     } else if (state != Z_OK) {
-      throw InputError(path, 0, fmt::format("is damaged: gzip says '{}'; fetch it again",
-                                            stream.msg ? stream.msg : "wrong data"));
+      throw InputError(
+          path, 0, fmt::format("is damaged: gzip says '{}'; fetch it again", stream.msg ? stream.msg : "wrong data"));
     }
   }
 }
 
 void refuse_other_containers(const std::string& path, std::string_view bytes) {
-  constexpr std::pair<std::string_view, const char*> kContainers[] = {
-      {"BZh", "bzip2"}, {"\xfd" "7zXZ", "xz"}, {"\x28\xb5\x2f\xfd", "zstd"}, {"PK\x03\x04", "zip"}};
+  constexpr std::pair<std::string_view, const char*> kContainers[] = {{"BZh", "bzip2"},
+                                                                      {"\xfd"
+                                                                       "7zXZ",
+                                                                       "xz"},
+                                                                      {"\x28\xb5\x2f\xfd", "zstd"},
+                                                                      {"PK\x03\x04", "zip"}};
   for (const auto& [magic, name] : kContainers) {
-    if (bytes.starts_with(magic)) throw InputError(path, 0, fmt::format("is packed with {}; only gzip is read, unpack it first", name));
+    if (bytes.starts_with(magic))
+      throw InputError(path, 0, fmt::format("is packed with {}; only gzip is read, unpack it first", name));
   }
   if (bytes.starts_with("\xff\xfe") || bytes.starts_with("\xfe\xff")) {
     throw InputError(path, 0, "is UTF-16 text; save it as UTF-8 or ASCII");
@@ -110,8 +117,8 @@ void refuse_long_lines(const std::string& path, std::string_view text) {
   for (std::size_t begin = 0; begin < text.size(); ++line) {
     const std::size_t end = std::min(text.find('\n', begin), text.size());
     if (end - begin > kLongestLine) {
-      throw CapacityError(fmt::format("{}:{}: the line has {} bytes, more than {}; is this a molecule file?", path, line,
-                                      with_thousands(end - begin), with_thousands(kLongestLine)));
+      throw CapacityError(fmt::format("{}:{}: the line has {} bytes, more than {}; is this a molecule file?", path,
+                                      line, with_thousands(end - begin), with_thousands(kLongestLine)));
     }
     begin = end + 1;
   }
