@@ -59,11 +59,10 @@ void Contour::expose(const glm::dvec3& d, double w0, double w1, std::span<const 
   circle_ = geometry::circle_of_two_spheres(d, w0, w1);
   whole_ = false;
   arcs_.clear();
-  if (circle_.radius_squared <= 1e-13 * w0) {
-    // The spheres barely meet, if they do: the sign itself needs the better arithmetic.
-    ++doubtful_count_;
-    expose_in_quad(d, w0, w1, blockers, skip, halves);
-  } else if (!expose_in_double(w0, blockers, skip, halves)) {
+  const double barely = 1024 * geometry::kUnitRoundoff * w0;
+  if (circle_.radius_squared < -barely) return;
+  // Where the spheres barely meet, if they do, the sign itself needs the better arithmetic.
+  if (circle_.radius_squared <= barely || !expose_in_double(w0, blockers, skip, halves)) {
     ++doubtful_count_;
     expose_in_quad(d, w0, w1, blockers, skip, halves);
   }

@@ -30,6 +30,7 @@ struct Circle {
   real height;
   real radius_squared;  // not positive: the spheres do not meet
   real radius;
+  real slackness;  // how much near coincident centres magnify rounding, at least 1
 };
 
 // d: second centre; w0, w1: weights (Sanner, Olson & Spehner 1996; power of a point).
@@ -42,6 +43,7 @@ GEOMETRY Circle circle_of_two_spheres(real3 d, real w0, real w1) {
   c.radius = c.radius_squared > real(0) ? sqrt(c.radius_squared) : real(0);
   c.u = perpendicular(c.axis);
   c.v = cross(c.axis, c.u);
+  c.slackness = real(1) + sqrt(w0) / distance;
   return c;
 }
 
@@ -61,7 +63,7 @@ GEOMETRY HalfPlane covered_half_plane(Circle c, real w0, real3 q, real wq, real 
   h.normal = real2(dot(c.u, q), dot(c.v, q));
   h.offset = ((w0 + qq - wq) * real(0.5) - c.height * dot(c.axis, q)) / c.radius;
   h.length_squared = dot(h.normal, h.normal);
-  h.error = real(16) * epsilon * (qq + w0) * (c.radius + sqrt(qq)) / (c.radius * c.radius);
+  h.error = real(8) * c.slackness * epsilon * (qq + w0) * (c.radius + sqrt(qq)) / (c.radius * c.radius);
   return h;
 }
 

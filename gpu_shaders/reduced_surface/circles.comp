@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Stage "circles": the exposed arcs of the circle of each overlapping pair (RS edges), or the word that it is doubtful.
+// Reads: circles (pairs, or in double the doubtful ones), neighbour lists, atoms. Writes: arcs, doubtful, counters.
+// One invocation per circle. Overflow: appends stop at the capacity but go on counting; the host grows and runs again.
+// Based on: Krone, Dachsbacher & Ertl 2010, section 3.3 (potential RS faces), by circles instead of triples.
+#version 450 core
+layout(local_size_x = 64) in;
+#include "gpu_shaders/shared/linear_index.glsl"
+#include "gpu_shaders/reduced_surface/precision.glsl"
+#include "gpu_shaders/reduced_surface/contour.glsl"
+
+layout(std430, binding = 0) readonly buffer Circles { uvec2 circles[]; };  // atom i, place of j in the neighbour list
+layout(std430, binding = 1) readonly buffer NeighborFirst { uint neighbor_first[]; };
+layout(std430, binding = 2) readonly buffer NeighborLabels { uint neighbor_labels[]; };
+#ifdef DOUBLE_PRECISION
+layout(std430, binding = 3) readonly buffer Atoms { dvec4 atoms[]; };  // centre, decision weight
+#else
+layout(std430, binding = 3) readonly buffer NeighborBalls { vec4 neighbor_balls[]; };
+layout(std430, binding = 7) readonly buffer AtomsLow { vec4 atoms[]; };  // w: SAS radius
+#endif
+layout(std430, binding = 4) writeonly buffer Arcs { uvec4 arcs[]; };  // i, j, begin_by, end_by
+layout(std430, binding = 5) writeonly buffer Doubtful { uvec2 doubtful[]; };
+layout(std430, binding = 6) buffer Counters { uint arc_count; uint doubtful_count; };
+uniform uint circle_count;
+uniform uint arc_capacity;
+uniform uint doubtful_capacity;
+
+const uint kNone = 0xffffffffu;
+
+void append(uvec4 arc) {
+  uint slot = atomicAdd(arc_count, 1u);
+  if (slot < arc_capacity) arcs[slot] = arc;
+}
+
+// Centre relative to atom i and weight of the neighbour at place n.
+void neighbor(uint i, uint n, out real3 center, out real weight) {
+#ifdef DOUBLE_PRECISION
+  dvec4 other = atoms[neighbor_labels[n]];
+  center = other.xyz - atoms[i].xyz;
+  weight = other.w;
+#else
+  vec4 ball = neighbor_balls[n];
+  center = ball.xyz;
+  weight = ball.w;
+#endif
+}
+
+void main() {
+  uint index = linear_invocation_index();
+  if (index >= circle_count) return;
+  uint i = circles[index].x;
+  uint place = circles[index].y;
+#ifdef DOUBLE_PRECISION
+  real w0 = atoms[i].w;
+#else
+  real w0 = atoms[i].w * atoms[i].w;
+#endif
+  real3 d;
+  real w1;
+  neighbor(i, place, d, w1);
+  Circle c = circle_of_two_spheres(d, w0, w1);
+  begin_contour();
+  real barely = real(1024) * kUnitRoundoff * w0;
+  if (c.radius_squared < -barely) return;  // the balls do not overlap after all
+  if (c.radius_squared <= barely) {
+    exposed_doubtful = true;
+  } else {
+    uint last = neighbor_first[i + 1u];
+    for (uint n = neighbor_first[i]; n < last; ++n) {
+      if (n == place) continue;
+      real3 q;
+      real wq;
+      neighbor(i, n, q, wq);
+      block(c, w0, q, wq, neighbor_labels[n]);
+      if (contour_ended()) break;
+    }
+  }
+  if (exposed_doubtful) {
+    uint slot = atomicAdd(doubtful_count, 1u);
+    if (slot < doubtful_capacity) doubtful[slot] = circles[index];
+    return;
+  }
+  uint j = neighbor_labels[place];
+  if (exposed_whole) append(uvec4(i, j, kNone, kNone));
+  for (uint n = 0u; n < exposed_count; ++n) append(uvec4(i, j, exposed_arcs[n].begin_by, exposed_arcs[n].end_by));
+}

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The arithmetic a kernel variant decides in: single precision first, double where that leaves doubt.
+#ifdef DOUBLE_PRECISION
+#define real double
+#define real2 dvec2
+#define real3 dvec3
+const double kUnitRoundoff = 1.1102230246251565e-16LF;
+#else
+#define real float
+#define real2 vec2
+#define real3 vec3
+const float kUnitRoundoff = 5.9604645e-8;
+#endif
+#define GEOMETRY
+#define GEOMETRY_OUT(type) out type
