@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The clips that cut each patch out of its sphere or torus.
+#include "exporters/povray/patch_objects.h"
+
+#include <cmath>
+#include <numbers>
+
+#include <glm/geometric.hpp>
+
+#include "exporters/povray/patch_extent.h"
+
+namespace meniscus::povray {
+namespace {
+
+// Boxes are this much wider than exact, more than the rounding of any number written.
+constexpr double kBoxMargin = 1e-5;
+
+// The half-space of points whose direction from `probe` is nearer to the contact direction `near` than to `far`.
+Plane nearer_to(const glm::dvec3& near, const glm::dvec3& far, const glm::dvec3& probe) {
+  const glm::dvec3 normal = glm::normalize(far - near);
+  return {normal, glm::dot(normal, probe)};
+}
+
+}  // namespace
+
+void PatchObjects::append(SceneText& out, const ColoredPiece& piece) const {
+  switch (piece.kind) {
+    case PatchKind::convex:
+      convex(out, surface_.convex[piece.patch]);
+      break;
+    case PatchKind::toroidal:
+      toroidal(out, surface_.toroidal[piece.patch], piece.color);
+      break;
+    case PatchKind::concave:
+      concave(out, surface_.concave[piece.patch], piece.color);
+      break;
+  }
+  out.literal("\n");
+}
+
+void PatchObjects::plane(SceneText& out, const Plane& p, const glm::dvec3& anchor) const {
+  out.plane({p.normal, p.offset - glm::dot(p.normal, origin_)}, anchor - origin_);
+}
+
+void PatchObjects::box(SceneText& out, const glm::dvec3& low, const glm::dvec3& high) const {
+  out.literal("box{").point(low - origin_ - kBoxMargin).literal(",").point(high - origin_ + kBoxMargin).literal("}");
+}
+
+void PatchObjects::convex(SceneText& out, const ConvexPatch& patch) const {
+  const Ball& atom = surface_.atoms[patch.atom];
+  out.literal("sphere{").point(atom.center - origin_).literal(",").length(atom.radius);
+  if (patch.plane_count > 0) {
+    out.literal(" clipped_by{");
+    for (std::uint32_t n = 0; n < patch.plane_count; ++n)
+      plane(out, surface_.planes[patch.first_plane + n], atom.center);
+    out.literal("}");
+  }
+  out.literal("}");
+}
+
+void PatchObjects::toroidal(SceneText& out, const ToroidalPatch& patch, std::uint32_t color) const {
+  const double p = surface_.probe_radius;
+  out.literal("torus{").length(patch.radius).literal(",").length(p).literal(" matrix<");
+  // Local y is the axis; the matrix stands before clipped_by, so the clips stay in world space.
+  for (const glm::dvec3& row : {patch.start, patch.axis, glm::cross(patch.start, patch.axis)})
+    out.ratio(row.x).literal(",").ratio(row.y).literal(",").ratio(row.z).literal(",");
+  const glm::dvec3 center = patch.center - origin_;
+  out.length(center.x).literal(",").length(center.y).literal(",").length(center.z).literal("> clipped_by{");
+  visibility_sphere(out, patch);
+  wedge(out, patch);
+  if (surface_.spindle(patch)) {
+    const double lemon = std::sqrt((p - patch.radius) * (p + patch.radius));
+    out.literal("sphere{").point(center).literal(",").length(lemon).literal(" inverse}");
+  }
+  color_half(out, patch, color);
+  const Box extent = toroidal_extent(surface_, patch);
+  box(out, extent.low, extent.high);
+  out.literal("}}");
+}
+
+// The centre is where the bisector of the angle at the probe meets the line of the atoms, so both contact points are
+// equally far from it; the sphere meets the torus in the two contact circles and nowhere else.
+void PatchObjects::visibility_sphere(SceneText& out, const ToroidalPatch& patch) const {
+  const double p = surface_.probe_radius;
+  const Ball &a = surface_.atoms[patch.atom[0]], &b = surface_.atoms[patch.atom[1]];
+  const double share = (a.radius + p) / (a.radius + b.radius + 2.0 * p);
+  const glm::dvec3 center = a.center + share * (b.center - a.center);
+  const glm::dvec3 probe = patch.center + patch.radius * patch.start;
+  const glm::dvec3 contact = probe + (a.center - probe) * (p / (a.radius + p));
+  out.literal("sphere{").point(center - origin_).literal(",").length(glm::distance(center, contact)).literal("}");
+}
+
+void PatchObjects::wedge(SceneText& out, const ToroidalPatch& patch) const {
+  if (patch.free()) return;
+  const glm::dvec3 side = glm::cross(patch.axis, patch.start);
+  const glm::dvec3 end_side = std::cos(patch.sweep) * side - std::sin(patch.sweep) * patch.start;
+  const bool reflex = patch.sweep > std::numbers::pi;
+  if (reflex) out.literal("union{");
+  plane(out, {-side, glm::dot(-side, patch.center)}, patch.center);
+  plane(out, {end_side, glm::dot(end_side, patch.center)}, patch.center);
+  if (reflex) out.literal("}");
+}
+
+// On a saddle the points as near to one contact direction as to the other form a circle about the axis.
+void PatchObjects::color_half(SceneText& out, const ToroidalPatch& patch, std::uint32_t color) const {
+  if (palette_.atom_color.empty()) return;
+  const bool of_first = palette_.atom_color[patch.atom[0]] == color;
+  if (of_first == (palette_.atom_color[patch.atom[1]] == color)) return;
+  const glm::dvec3 probe = patch.center + patch.radius * patch.start;
+  const glm::dvec3 middle = glm::normalize(glm::normalize(surface_.atoms[patch.atom[0]].center - probe) +
+                                           glm::normalize(surface_.atoms[patch.atom[1]].center - probe));
+  const glm::dvec3 border = probe + surface_.probe_radius * middle;
+  const glm::dvec3 normal = of_first ? patch.axis : -patch.axis;
+  plane(out, {normal, glm::dot(normal, border)}, patch.center);
+}
+
+void PatchObjects::concave(SceneText& out, const ConcavePatch& patch, std::uint32_t color) const {
+  out.literal("sphere{").point(patch.center - origin_).literal(",").length(surface_.probe_radius);
+  out.literal(" clipped_by{");
+  for (std::uint32_t n = 0; n < patch.side_count + patch.cut_count; ++n)
+    plane(out, surface_.planes[patch.first_plane + n], patch.center);
+  color_cells(out, patch, color);
+  const Box extent = concave_extent(surface_, patch);
+  box(out, extent.low, extent.high);
+  out.literal("}}");
+}
+
+// A point belongs to the colour when one contact of that colour is nearer than every contact of other colours.
+void PatchObjects::color_cells(SceneText& out, const ConcavePatch& patch, std::uint32_t color) const {
+  if (palette_.atom_color.empty()) return;
+  std::vector<glm::dvec3> own, other;
+  for (std::uint32_t n = 0; n < patch.contact_count; ++n) {
+    const std::uint32_t atom = surface_.contacts[patch.first_contact + n];
+    const glm::dvec3 direction = glm::normalize(surface_.atoms[atom].center - patch.center);
+    (palette_.atom_color[atom] == color ? own : other).push_back(direction);
+  }
+  if (other.empty()) return;
+  if (own.size() > 1) out.literal("union{");
+  for (const glm::dvec3& near : own) {
+    if (own.size() > 1 && other.size() > 1) out.literal("intersection{");
+    for (const glm::dvec3& far : other) plane(out, nearer_to(near, far, patch.center), patch.center);
+    if (own.size() > 1 && other.size() > 1) out.literal("}");
+  }
+  if (own.size() > 1) out.literal("}");
+}
+
+}  // namespace meniscus::povray

@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Puts a scene together: settings and camera, style, buffers, geometry.
+#include "exporters/povray/scene.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "core/base/error.h"
+#include "exporters/povray/palette.h"
+#include "exporters/povray/patch_objects.h"
+#include "exporters/povray/scene_templates.h"
+#include "exporters/povray/scene_text.h"
+
+namespace meniscus::povray {
+namespace {
+
+constexpr std::size_t kFlushBytes = std::size_t{1} << 20;
+constexpr std::size_t kMemoryWarningObjects = 2'000'000;  // about 3.5 GB in POV-Ray 3.7
+
+struct Extent {
+  glm::dvec3 low{1e300}, high{-1e300};
+};
+
+Extent atom_extent(const Surface& surface) {
+  Extent e;
+  for (const Ball& b : surface.atoms) {
+    e.low = glm::min(e.low, b.center - b.radius);
+    e.high = glm::max(e.high, b.center + b.radius);
+  }
+  return e;
+}
+
+void check(const Surface& surface, const SceneOptions& options) {
+  const auto allowed = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
+  };
+  bool name_is_plain = !options.name.empty();
+  for (const char c : options.name) name_is_plain = name_is_plain && allowed(c);
+  if (!name_is_plain) throw Error("POV-Ray export: a scene's name has only letters, digits, '-' and '_'");
+  if (options.width < 1 || options.height < 1) throw Error("POV-Ray export: a picture has at least one pixel");
+  if (surface.atoms.empty()) throw Error("POV-Ray export: there is no atom");
+}
+
+std::string filled(std::string_view text, const std::string& name, std::string_view group) {
+  std::string result(text);
+  const auto replace_all = [&](std::string_view mark, std::string_view by) {
+    for (std::size_t at = result.find(mark); at != std::string::npos; at = result.find(mark, at + by.size()))
+      result.replace(at, mark.size(), by);
+  };
+  replace_all("@NAME@", name);
+  replace_all("@GROUP@", group);
+  return result;
+}
+
+// POV-Ray takes explicit vectors literally, so the right-handed basis goes in as it is, without a minus sign.
+void append_camera(SceneText& out, const Camera& camera, const SceneOptions& options, const glm::dvec3& origin) {
+  const ViewBasis basis = view_basis(camera);
+  const double aspect = static_cast<double>(options.width) / options.height;
+  const glm::dvec2 half = half_extent(camera, aspect);
+  const auto declare = [&](std::string_view name, const glm::dvec3& v) {
+    out.literal("#declare ").literal(name).literal(" = ").full_vector(v).literal(";\n");
+  };
+  out.literal("\n// The camera: axes of the picture and its size 1 Å in front of the eye (orthographic: in Å).\n");
+  declare("Meniscus_Right", basis.right);
+  declare("Meniscus_Up", basis.up);
+  declare("Meniscus_Forward", basis.forward);
+  declare("Meniscus_Eye", camera.position - origin);
+  out.literal("#declare Meniscus_Picture_Width = ").full(2.0 * half.x).literal(";\n");
+  out.literal("#declare Meniscus_Picture_Height = ").full(2.0 * half.y).literal(";\n");
+  out.literal("// Declare Meniscus_Fit_Aspect = 1 to render at another ratio of width to height without stretching.\n");
+  out.literal("#ifndef (Meniscus_Fit_Aspect) #declare Meniscus_Fit_Aspect = 0; #end\n");
+  out.literal("#if (Meniscus_Fit_Aspect = 1)\n  #declare Meniscus_Picture_Width = ");
+  out.literal("Meniscus_Picture_Height*image_width/image_height;\n#end\n");
+  out.literal("#ifndef (Meniscus_Custom_Camera)\n  camera {\n    ");
+  out.literal(camera.projection == Projection::perspective ? "perspective" : "orthographic");
+  out.literal("\n    location Meniscus_Eye\n    direction Meniscus_Forward\n");
+  out.literal(
+      "    right Meniscus_Right*Meniscus_Picture_Width\n    up Meniscus_Up*Meniscus_Picture_Height\n  }\n#end\n");
+}
+
+std::string main_text(const Camera& camera, const SceneOptions& options, const glm::dvec3& origin, bool single) {
+  SceneText out;
+  out.literal("// A solvent-excluded surface, written by Meniscus " MENISCUS_VERSION
+              " for POV-Ray 3.7. One unit is 1 Å.\n");
+  out.literal("// Render with: povray ").literal(options.name).literal(".ini (in this folder).\n");
+  out.literal("// To change something, declare it in a scene of your own and then include this file, for example\n");
+  out.literal("//   #version 3.7; #declare Meniscus_Material = 2; #include \"").literal(options.name);
+  out.literal(".pov\"\n#version 3.7;\n");
+  out.literal("#ifndef (Meniscus_Material) #declare Meniscus_Material = ");
+  out.count(static_cast<std::size_t>(options.material)).literal("; #end  // 0 opaque, 1 ghost, 2 glass, 3 wax\n");
+  out.literal("#ifndef (Meniscus_Buffer) #declare Meniscus_Buffer = 0; #end  // 0 picture; others: see ");
+  out.literal(options.name).literal("_aov.inc\n");
+  out.literal("global_settings {\n  assumed_gamma 1.0\n");
+  out.literal("  #if (Meniscus_Buffer = 4) max_trace_level 200 adc_bailout 0 #else max_trace_level 12 #end\n");
+  out.literal(
+      "  #if (Meniscus_Material = 3 & Meniscus_Buffer = 0) mm_per_unit 1 subsurface { samples 50, 20 } #end\n}\n");
+  append_camera(out, camera, options, origin);
+  out.literal(filled(kMainTemplate, options.name, single ? "object" : "union"));
+  return out.text();
+}
+
+void append_color(SceneText& out, const glm::vec3& c) { out.literal("srgb ").direction(glm::dvec3(c)); }
+
+std::string style_text(const Palette& palette, const SceneOptions& options) {
+  SceneText out;
+  out.literal(
+      "// Colours, lights and materials of the scene. Everything may be declared before this file is included.\n");
+  out.literal("#declare Meniscus_Default_Background = ");
+  append_color(out, options.background);
+  out.literal(";\n#ifndef (Meniscus_Color)\n  #declare Meniscus_Color = array[").count(palette.colors.size());
+  out.literal("] {\n");
+  for (std::size_t n = 0; n < palette.colors.size(); ++n) {
+    out.literal("    ");
+    append_color(out, palette.colors[n]);
+    out.literal(n + 1 < palette.colors.size() ? ",\n" : "\n");
+  }
+  out.literal("  }\n#end\n").literal(kStyleTemplate);
+  return out.text();
+}
+
+std::string buffer_text(const Palette& palette, const Surface& surface, const glm::dvec3& origin) {
+  const Extent e = atom_extent(surface);
+  const glm::dvec3 size = e.high - e.low;
+  // One cube for all axes, wide enough that no gradient reaches its own end.
+  const double extent = std::ceil(std::max({size.x, size.y, size.z}) + 1.0);
+  SceneText out;
+  out.literal("// The surface as numbers instead of colours.\n#declare Meniscus_Low = ");
+  out.full_vector(glm::floor((e.low - origin - 0.5) * 1e3) / 1e3).literal(";\n#declare Meniscus_Extent = ");
+  out.full(extent).literal(";\n#declare Meniscus_Color_Count = ").count(palette.colors.size()).literal(";\n");
+  out.literal(kBufferTemplate);
+  return out.text();
+}
+
+std::size_t group_end(const Palette& palette, std::size_t begin) {
+  std::size_t end = begin;
+  while (end < palette.pieces.size() && palette.pieces[end].kind == palette.pieces[begin].kind &&
+         palette.pieces[end].color == palette.pieces[begin].color)
+    ++end;
+  return end;
+}
+
+void write_geometry(OutputFile& file, const Surface& surface, const Palette& palette, const glm::dvec3& origin) {
+  SceneText out;
+  out.literal("// The patches of a solvent-excluded surface, one primitive each; nothing here but geometry.\n");
+  out.literal("// Position in the molecule's file = position here + ").full_vector(origin).literal(" (Å).\n");
+  out.literal("// Probe radius ").length(surface.probe_radius).literal(" Å, ");
+  out.count(palette.pieces.size()).literal(" objects.\n");
+  const PatchObjects objects(surface, palette, origin);
+  for (std::size_t begin = 0; begin < palette.pieces.size();) {
+    const std::size_t end = group_end(palette, begin);
+    out.literal(end - begin > 1 ? "union{\n" : "object{\n");
+    for (std::size_t n = begin; n < end; ++n) {
+      objects.append(out, palette.pieces[n]);
+      if (out.text().size() < kFlushBytes) continue;
+      file.write(out.text());
+      out.clear();
+    }
+    // The outside of a convex patch's sphere is the solvent; that of a torus or a probe is the solid.
+    const bool convex = palette.pieces[begin].kind == PatchKind::convex;
+    const auto side = [&](std::string_view property, std::string_view name) {
+      out.literal(property).literal("{Meniscus_").literal(name).literal("_Side[");
+      out.count(static_cast<std::size_t>(palette.pieces[begin].kind)).literal("][");
+      out.count(palette.pieces[begin].color).literal("]}");
+    };
+    side("texture", convex ? "Solvent" : "Solid");
+    side(" interior_texture", convex ? "Solid" : "Solvent");
+    out.literal("\n}\n");
+    begin = end;
+  }
+  file.write(out.text());
+}
+
+std::string ini_text(const SceneOptions& options) {
+  SceneText out;
+  out.literal("; A solvent-excluded surface. In this folder: povray ").literal(options.name).literal(".ini\n");
+  out.literal("; From elsewhere: povray FOLDER/").literal(options.name).literal(".ini +LFOLDER +IFOLDER/");
+  out.literal(options.name).literal(".pov +OFOLDER/\n");
+  out.literal("; The camera is made for this size; another ratio stretches (see Meniscus_Fit_Aspect in the .pov).\n");
+  out.literal("Width=").count(static_cast<std::size_t>(options.width)).literal("\nHeight=");
+  out.count(static_cast<std::size_t>(options.height)).literal("\n");
+  out.literal(filled(kIniTemplate, options.name, ""));
+  return out.text();
+}
+
+std::vector<std::string> left_out(const Surface& surface, const Palette& palette) {
+  std::vector<std::string> sentences;
+  std::size_t cut_away = 0;
+  for (const ConcavePatch& c : surface.concave) cut_away += c.face_count == 0;
+  if (cut_away > 0)
+    sentences.push_back(
+        fmt::format("{} fixed probes have no object: other probes cut all of their patch away", cut_away));
+  if (palette.pieces.size() > kMemoryWarningObjects)
+    sentences.push_back(fmt::format("{} objects need about {} GB of memory in POV-Ray", palette.pieces.size(),
+                                    palette.pieces.size() * 18 / 10'000'000));
+  return sentences;
+}
+
+}  // namespace
+
+SceneReport write_scene(const Surface& surface, const Coloring& coloring, const Camera& camera,
+                        const SceneOptions& options, const std::filesystem::path& folder) {
+  check(surface, options);
+  const Extent extent = atom_extent(surface);
+  const glm::dvec3 origin = glm::round((extent.low + extent.high) * 0.5e3) / 1e3;
+  const Palette palette = make_palette(surface, coloring);
+
+  OutputFolder output(folder, options.existing);
+  SceneReport report;
+  const auto begin_file = [&](const std::string& ending) -> OutputFile& {
+    report.files.push_back(folder / (options.name + ending));
+    return output.file(options.name + ending);
+  };
+  write_geometry(begin_file("_geometry.inc"), surface, palette, origin);
+  begin_file("_aov.inc").write(buffer_text(palette, surface, origin));
+  begin_file("_style.inc").write(style_text(palette, options));
+  begin_file(".pov").write(main_text(camera, options, origin, palette.pieces.size() == 1));
+  begin_file(".ini").write(ini_text(options));
+  output.commit();
+
+  report.object_count = palette.pieces.size();
+  report.left_out = left_out(surface, palette);
+  const std::string path = folder.string();
+  report.command = fmt::format("povray {0}/{1}.ini +L{0} +I{0}/{1}.pov +O{0}/", path, options.name);
+  return report;
+}
+
+}  // namespace meniscus::povray

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A folder with a POV-Ray 3.7 scene of a surface: the analytic patches themselves, never triangles.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "core/base/output_file.h"
+#include "core/render/camera.h"
+#include "core/surface/coloring.h"
+#include "core/surface/primitives.h"
+
+namespace meniscus::povray {
+
+enum class Material {
+  opaque,
+  ghost,  ///< see-through; only the sides that face the viewer are drawn
+  glass,  ///< refracts as one solid
+  wax     ///< light scatters below the surface
+};
+
+struct SceneOptions {
+  std::string name = "surface";    ///< of all files; letters, digits, '-' and '_' only, since it stands in the scene
+  int width = 1280, height = 960;  ///< pixels
+  Material material = Material::opaque;  ///< the scene's default; every scene holds all four
+  glm::vec3 background{1.0f};            ///< sRGB
+  Existing existing = Existing::refuse;
+};
+
+/// What was written and what was not.
+struct SceneReport {
+  std::vector<std::filesystem::path> files;
+  std::size_t object_count = 0;       ///< primitives; more than patches where atoms of several colours share a patch
+  std::vector<std::string> left_out;  ///< sentences, empty when the scene shows all there is
+  std::string command;                ///< renders the picture from any folder
+};
+
+/// Writes <name>.ini, <name>.pov, <name>_style.inc, <name>_aov.inc and <name>_geometry.inc into `folder`, all or none.
+/// One unit is 1 Å; coordinates are relative to the middle of the atoms. The camera shows the same pixels as the ray
+/// caster's. coloring.atom has one colour for each atom. The surface needs an atom.
+/// Throws OutputError (exists, not writable), Error (bad name or size, a number that is not finite).
+SceneReport write_scene(const Surface& surface, const Coloring& coloring, const Camera& camera,
+                        const SceneOptions& options, const std::filesystem::path& folder);
+
+}  // namespace meniscus::povray

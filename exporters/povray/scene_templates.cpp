@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Scene-language and .ini text without numbers of a molecule.
+#include "exporters/povray/scene_templates.h"
+
+namespace meniscus::povray {
+
+const std::string_view kMainTemplate = R"pov(
+#if (Meniscus_Buffer = 0)
+  #include "@NAME@_style.inc"
+#else
+  #include "@NAME@_aov.inc"
+#end
+
+@GROUP@ {
+  #include "@NAME@_geometry.inc"
+  // One interior for all patches: POV-Ray then takes the open pieces for one solid.
+  interior { Meniscus_Interior }
+}
+)pov";
+
+const std::string_view kStyleTemplate = R"pov(
+// Lights: parallel, from over the viewer's left shoulder, and a weak one from the viewer.
+#ifndef (Meniscus_Shadows) #declare Meniscus_Shadows = 0; #end
+#ifndef (Meniscus_Key_Light) #declare Meniscus_Key_Light = 0.75; #end
+#ifndef (Meniscus_Head_Light) #declare Meniscus_Head_Light = 0.3; #end
+#ifndef (Meniscus_Custom_Lights)
+  light_source {
+    vnormalize(-0.5*Meniscus_Right + 0.7*Meniscus_Up - Meniscus_Forward)*1e4 rgb Meniscus_Key_Light
+    parallel point_at 0
+    #if (Meniscus_Shadows = 0) shadowless #end
+  }
+  light_source { -Meniscus_Forward*1e4 rgb Meniscus_Head_Light parallel point_at 0 shadowless }
+#end
+#ifndef (Meniscus_Background) #declare Meniscus_Background = Meniscus_Default_Background; #end
+background { Meniscus_Background }
+
+// Materials: 0 opaque, 1 ghost, 2 glass, 3 wax. Declare any of the names below before including to change it.
+#switch (Meniscus_Material)
+  #case (1)
+    #ifndef (Meniscus_Finish)
+      #declare Meniscus_Finish = finish { ambient 0.2 diffuse 0.8 specular 0.3 roughness 0.02 }
+    #end
+    #ifndef (Meniscus_Transmit) #declare Meniscus_Transmit = 0.6; #end
+    #ifndef (Meniscus_Back_Transmit) #declare Meniscus_Back_Transmit = 1; #end
+  #break
+  #case (2)
+    #ifndef (Meniscus_Finish)
+      #declare Meniscus_Finish = finish { ambient 0.05 diffuse 0.15 specular 0.6 roughness 0.005 }
+    #end
+    #ifndef (Meniscus_Filter) #declare Meniscus_Filter = 0.85; #end
+    #ifndef (Meniscus_Interior) #declare Meniscus_Interior = interior { ior 1.1 } #end
+  #break
+  #case (3)
+    #ifndef (Meniscus_Finish)
+      #declare Meniscus_Finish = finish {
+        ambient 0.02 diffuse 0.8 specular 0.25 roughness 0.06 subsurface { translucency 0.4 }
+      }
+    #end
+    #ifndef (Meniscus_Interior) #declare Meniscus_Interior = interior { ior 1.4 } #end
+  #break
+#end
+#ifndef (Meniscus_Finish)
+  #declare Meniscus_Finish = finish { ambient 0.2 diffuse 0.8 specular 0.2 roughness 0.03 }
+#end
+#ifndef (Meniscus_Filter) #declare Meniscus_Filter = 0; #end
+#ifndef (Meniscus_Transmit) #declare Meniscus_Transmit = 0; #end
+#ifndef (Meniscus_Back_Transmit) #declare Meniscus_Back_Transmit = Meniscus_Transmit; #end
+#ifndef (Meniscus_Interior) #declare Meniscus_Interior = interior { ior 1 } #end
+
+// Textures by patch kind (0 convex, 1 toroidal, 2 concave) and colour, as seen from the solvent and from the solid.
+#declare Meniscus_Color_Count = dimension_size(Meniscus_Color, 1);
+#declare Meniscus_Solvent_Side = array[3][Meniscus_Color_Count];
+#declare Meniscus_Solid_Side = array[3][Meniscus_Color_Count];
+#for (Kind, 0, 2)
+  #for (I, 0, Meniscus_Color_Count - 1)
+    #declare Meniscus_Solvent_Side[Kind][I] = texture {
+      pigment { color Meniscus_Color[I] filter Meniscus_Filter transmit Meniscus_Transmit }
+      finish { Meniscus_Finish }
+    }
+    #if (Meniscus_Back_Transmit = 1)
+      #declare Meniscus_Solid_Side[Kind][I] = texture { pigment { rgbt 1 } finish { ambient 0 diffuse 0 } }
+    #else
+      #declare Meniscus_Solid_Side[Kind][I] = texture {
+        pigment { color Meniscus_Color[I] filter Meniscus_Filter transmit Meniscus_Back_Transmit }
+        finish { Meniscus_Finish }
+      }
+    #end
+  #end
+#end
+)pov";
+
+const std::string_view kBufferTemplate = R"pov(
+// Buffers of the same geometry, to check the surface or to draw outlines; render without antialiasing, with 16 bits
+// and File_Gamma=1 (sections of the .ini). The alpha channel is 0 where nothing is hit.
+//  1 position  rgb = (position - Meniscus_Low)/Meniscus_Extent
+//  2 normal    rgb = asin(normal)/pi + 1/2, the normal on the viewer's side
+//  3 group     r = (kind + 1)/4, g = (colour mod 256)/255, b = floor(colour/256)/255
+//  4 layers    grey = 1/2 to the power of the number of surface layers along the ray
+#declare Meniscus_Interior = interior { ior 1 }
+#declare Meniscus_Flat = finish { emission 1 ambient 0 diffuse 0 }
+#declare Meniscus_Solvent_Side = array[3][Meniscus_Color_Count];
+#declare Meniscus_Solid_Side = array[3][Meniscus_Color_Count];
+#switch (Meniscus_Buffer)
+  #case (1)
+    // The average of three maps divides by three.
+    #declare Meniscus_Texture = texture {
+      pigment {
+        average
+        pigment_map {
+          [1 gradient x color_map { [0 rgb 0] [1 rgb <3,0,0>] }]
+          [1 gradient y color_map { [0 rgb 0] [1 rgb <0,3,0>] }]
+          [1 gradient z color_map { [0 rgb 0] [1 rgb <0,0,3>] }]
+        }
+        scale Meniscus_Extent
+        translate Meniscus_Low
+      }
+      finish { Meniscus_Flat }
+    }
+  #break
+  #case (2)
+    #declare Meniscus_Texture = texture {
+      pigment {
+        average
+        pigment_map {
+          [1 slope x color_map { [0 rgb 0] [1 rgb <3,0,0>] }]
+          [1 slope y color_map { [0 rgb 0] [1 rgb <0,3,0>] }]
+          [1 slope z color_map { [0 rgb 0] [1 rgb <0,0,3>] }]
+        }
+      }
+      finish { Meniscus_Flat }
+    }
+  #break
+  #case (4)
+    background { rgb 1 }
+    #declare Meniscus_Texture = texture { pigment { rgbt <0,0,0,0.5> } finish { ambient 0 diffuse 0 } }
+  #break
+#end
+#for (Kind, 0, 2)
+  #for (I, 0, Meniscus_Color_Count - 1)
+    #if (Meniscus_Buffer = 3)
+      #declare Meniscus_Texture = texture {
+        pigment { rgb <(Kind + 1)/4, mod(I, 256)/255, floor(I/256)/255> }
+        finish { Meniscus_Flat }
+      }
+    #end
+    #declare Meniscus_Solvent_Side[Kind][I] = texture { Meniscus_Texture }
+    #declare Meniscus_Solid_Side[Kind][I] = texture { Meniscus_Texture }
+  #end
+#end
+)pov";
+
+const std::string_view kIniTemplate = R"ini(Input_File_Name=@NAME@.pov
+Output_File_Name=@NAME@.png
+Output_File_Type=N
+Antialias=On
+Antialias_Threshold=0.05
+Antialias_Depth=3
+Sampling_Method=2
+Display=Off
+
+; Other pictures of the same scene: povray @NAME@.ini[ghost] and so on. Add Output_Alpha=On for a clear background.
+[opaque]
+Declare=Meniscus_Material=0
+Output_File_Name=@NAME@_opaque.png
+
+[ghost]
+Declare=Meniscus_Material=1
+Output_File_Name=@NAME@_ghost.png
+
+[glass]
+Declare=Meniscus_Material=2
+Output_File_Name=@NAME@_glass.png
+
+[wax]
+Declare=Meniscus_Material=3
+Output_File_Name=@NAME@_wax.png
+
+; Buffers of the same geometry, described in @NAME@_aov.inc.
+[position]
+Declare=Meniscus_Buffer=1
+Output_File_Name=@NAME@_position.png
+Antialias=Off
+Bits_Per_Color=16
+File_Gamma=1.0
+Output_Alpha=On
+
+[normal]
+Declare=Meniscus_Buffer=2
+Output_File_Name=@NAME@_normal.png
+Antialias=Off
+Bits_Per_Color=16
+File_Gamma=1.0
+Output_Alpha=On
+
+[group]
+Declare=Meniscus_Buffer=3
+Output_File_Name=@NAME@_group.png
+Antialias=Off
+Bits_Per_Color=16
+File_Gamma=1.0
+Output_Alpha=On
+
+[layers]
+Declare=Meniscus_Buffer=4
+Output_File_Name=@NAME@_layers.png
+Antialias=Off
+Bits_Per_Color=16
+File_Gamma=1.0
+)ini";
+
+}  // namespace meniscus::povray

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The constant parts of every scene: materials, and the buffers that let users check the geometry.
+#pragma once
+
+#include <string_view>
+
+namespace meniscus::povray {
+
+/// The .pov after the camera: settings, lights and the surface; "@NAME@" stands for the scene's name and "@GROUP@" for
+/// union or object.
+extern const std::string_view kMainTemplate;
+/// The style include after the colours.
+extern const std::string_view kStyleTemplate;
+/// The buffer include; complete but for the extent of the molecule, which comes before.
+extern const std::string_view kBufferTemplate;
+/// The .ini after the sizes; "@NAME@" as above.
+extern const std::string_view kIniTemplate;
+
+}  // namespace meniscus::povray
