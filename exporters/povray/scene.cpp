@@ -2,6 +2,7 @@
 // Puts a scene together: settings and camera, style, buffers, geometry.
 #include "exporters/povray/scene.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -93,10 +94,10 @@ std::string main_text(const Camera& camera, const SceneOptions& options, const g
   out.count(static_cast<std::size_t>(options.material)).literal("; #end  // 0 opaque, 1 ghost, 2 glass, 3 wax\n");
   out.literal("#ifndef (Meniscus_Buffer) #declare Meniscus_Buffer = 0; #end  // 0 picture; others: see ");
   out.literal(options.name).literal("_aov.inc\n");
+  out.literal("#ifndef (Meniscus_Subsurface) #declare Meniscus_Subsurface = 0; #end\n");
   out.literal("global_settings {\n  assumed_gamma 1.0\n");
   out.literal("  #if (Meniscus_Buffer = 4) max_trace_level 200 adc_bailout 0 #else max_trace_level 12 #end\n");
-  out.literal(
-      "  #if (Meniscus_Material = 3 & Meniscus_Buffer = 0) mm_per_unit 1 subsurface { samples 50, 20 } #end\n}\n");
+  out.literal("  #if (Meniscus_Subsurface = 1) mm_per_unit 1 subsurface { samples 50, 20 } #end\n}\n");
   append_camera(out, camera, options, origin);
   out.literal(filled(kMainTemplate, options.name, single ? "object" : "union"));
   return out.text();
@@ -185,7 +186,7 @@ std::string ini_text(const SceneOptions& options) {
   return out.text();
 }
 
-std::vector<std::string> left_out(const Surface& surface, const Palette& palette) {
+std::vector<std::string> notes(const Surface& surface, const Palette& palette) {
   std::vector<std::string> sentences;
   std::size_t cut_away = 0;
   for (const ConcavePatch& c : surface.concave) cut_away += c.face_count == 0;
@@ -221,7 +222,8 @@ SceneReport write_scene(const Surface& surface, const Coloring& coloring, const 
   output.commit();
 
   report.object_count = palette.pieces.size();
-  report.left_out = left_out(surface, palette);
+  report.origin = origin;
+  report.notes = notes(surface, palette);
   const std::string path = folder.string();
   report.command = fmt::format("povray {0}/{1}.ini +L{0} +I{0}/{1}.pov +O{0}/", path, options.name);
   return report;

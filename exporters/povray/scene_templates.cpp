@@ -45,23 +45,32 @@ background { Meniscus_Background }
   #break
   #case (2)
     #ifndef (Meniscus_Finish)
-      #declare Meniscus_Finish = finish { ambient 0.05 diffuse 0.15 specular 0.6 roughness 0.005 }
+      #declare Meniscus_Finish = finish { ambient 0.1 diffuse 0.2 specular 0.8 roughness 0.003 }
     #end
     #ifndef (Meniscus_Filter) #declare Meniscus_Filter = 0.85; #end
+    #ifndef (Meniscus_Tint) #declare Meniscus_Tint = 0.35; #end
     #ifndef (Meniscus_Interior) #declare Meniscus_Interior = interior { ior 1.1 } #end
   #break
   #case (3)
+    // Meniscus_Subsurface = 1 scatters light inside for real; it takes minutes.
     #ifndef (Meniscus_Finish)
-      #declare Meniscus_Finish = finish {
-        ambient 0.02 diffuse 0.8 specular 0.25 roughness 0.06 subsurface { translucency 0.4 }
-      }
+      #if (Meniscus_Subsurface = 1)
+        #declare Meniscus_Finish = finish {
+          ambient 0.05 diffuse 0.8 specular 0.15 roughness 0.08 subsurface { translucency 0.4 }
+        }
+      #else
+        #declare Meniscus_Finish = finish { ambient 0.3 diffuse 0.7 brilliance 0.7 specular 0.15 roughness 0.12 }
+      #end
     #end
+    #ifndef (Meniscus_Tint) #declare Meniscus_Tint = 0.75; #end
     #ifndef (Meniscus_Interior) #declare Meniscus_Interior = interior { ior 1.4 } #end
   #break
 #end
 #ifndef (Meniscus_Finish)
   #declare Meniscus_Finish = finish { ambient 0.2 diffuse 0.8 specular 0.2 roughness 0.03 }
 #end
+// How much of the colours is left, the rest being white; how much light passes, coloured and uncoloured.
+#ifndef (Meniscus_Tint) #declare Meniscus_Tint = 1; #end
 #ifndef (Meniscus_Filter) #declare Meniscus_Filter = 0; #end
 #ifndef (Meniscus_Transmit) #declare Meniscus_Transmit = 0; #end
 #ifndef (Meniscus_Back_Transmit) #declare Meniscus_Back_Transmit = Meniscus_Transmit; #end
@@ -73,15 +82,16 @@ background { Meniscus_Background }
 #declare Meniscus_Solid_Side = array[3][Meniscus_Color_Count];
 #for (Kind, 0, 2)
   #for (I, 0, Meniscus_Color_Count - 1)
+    #declare Tinted = Meniscus_Tint*Meniscus_Color[I] + (1 - Meniscus_Tint)*rgb 1;
     #declare Meniscus_Solvent_Side[Kind][I] = texture {
-      pigment { color Meniscus_Color[I] filter Meniscus_Filter transmit Meniscus_Transmit }
+      pigment { color Tinted filter Meniscus_Filter transmit Meniscus_Transmit }
       finish { Meniscus_Finish }
     }
     #if (Meniscus_Back_Transmit = 1)
       #declare Meniscus_Solid_Side[Kind][I] = texture { pigment { rgbt 1 } finish { ambient 0 diffuse 0 } }
     #else
       #declare Meniscus_Solid_Side[Kind][I] = texture {
-        pigment { color Meniscus_Color[I] filter Meniscus_Filter transmit Meniscus_Back_Transmit }
+        pigment { color Tinted filter Meniscus_Filter transmit Meniscus_Back_Transmit }
         finish { Meniscus_Finish }
       }
     #end
