@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `meniscus export`: a table of formats, each of which is a command of its own.
-#include <span>
-
 #include "app/commands.h"
 
 namespace meniscus {
 namespace {
 
-/// One row a format: {"povray", add_export_povray}, ... Its file is app/export_<name>.cpp.
-constexpr std::span<const Command> kFormats{};
+/// One row a format; its file is app/export_<name>.cpp.
+constexpr Command kFormats[] = {
+    {"povray", add_export_povray},
+};
 
 }  // namespace
 

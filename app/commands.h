@@ -17,6 +17,7 @@ struct Command {
 
 void add_bench(CLI::App& command);
 void add_export(CLI::App& command);
+void add_export_povray(CLI::App& command);
 void add_info(CLI::App& command);
 void add_surface(CLI::App& command);
 

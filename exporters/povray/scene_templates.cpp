@@ -82,7 +82,7 @@ background { Meniscus_Background }
 #declare Meniscus_Solid_Side = array[3][Meniscus_Color_Count];
 #for (Kind, 0, 2)
   #for (I, 0, Meniscus_Color_Count - 1)
-    #declare Tinted = Meniscus_Tint*Meniscus_Color[I] + (1 - Meniscus_Tint)*rgb 1;
+    #declare Tinted = Meniscus_Color[I]*Meniscus_Tint + <1,1,1,0,0>*(1 - Meniscus_Tint);
     #declare Meniscus_Solvent_Side[Kind][I] = texture {
       pigment { color Tinted filter Meniscus_Filter transmit Meniscus_Transmit }
       finish { Meniscus_Finish }

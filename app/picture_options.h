@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The options that say how a picture is taken: its size and its camera.
+#pragma once
+
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "core/render/camera.h"
+
+namespace meniscus {
+
+/// What the picture options say. Commands keep one of these alive as long as their CLI::App.
+struct PictureOptions {
+  int width = 1280, height = 960;                   ///< pixels
+  std::string camera_file;                          ///< empty: a camera that shows all of the surface
+  Projection projection = Projection::perspective;  ///< of that default camera
+};
+
+/// --size, --camera, --projection.
+void add_picture_options(CLI::App& command, PictureOptions& options);
+
+/// The camera of the file, or the default one. Throws InputError.
+Camera picture_camera(const PictureOptions& options, const Surface& surface);
+
+}  // namespace meniscus
