@@ -109,12 +109,12 @@ void run(const MoleculeOptions& options) {
   const Structure structure = read_structure(options.file, everything);
   fmt::print(std::cout, "molecule      {} ({}, {} {})\n", escaped(structure.file), structure.format,
              structure.report.models, structure.report.models == 1 ? "model" : "models");
-  fmt::print(std::cout, "atoms         {}\n", structure.report.sentence());
   const auto by_default = std::count_if(structure.atoms.begin(), structure.atoms.end(), [](const Atom& atom) {
     return atom.kind != AtomClass::water && atom.kind != AtomClass::ion;
   });
-  fmt::print(std::cout, "for a surface {} unless --keep-water or --keep-ions\n",
-             with_thousands(static_cast<std::size_t>(by_default)));
+  fmt::print(std::cout, "atoms         {} in the file; a surface takes {} of them by default\n",
+             with_thousands(structure.report.read), with_thousands(static_cast<std::size_t>(by_default)));
+  if (!structure.report.excluded.empty()) fmt::print(std::cout, "below         {}\n", structure.report.sentence());
   print_ranges(structure);
   print_classes_and_chains(structure);
   print_elements(structure);

@@ -64,18 +64,40 @@ AtomClass classify(const std::string& residue_name, Entity entity, gemmi::Elemen
   return polymer_name || peptide || nucleotide ? AtomClass::polymer : AtomClass::ligand;
 }
 
-/// The standard residues hold only H C N O S P: where the element column is missing or shifted, CA in them is carbon
-/// and HG hydrogen. Elsewhere an unknown element is guessed from the first letter of the name.
-gemmi::Element element_of(gemmi::Element given, const std::string& atom_name, const std::string& residue_name) {
+bool is_of_organic_residues(gemmi::Element element) {
+  switch (element.elem) {
+    case gemmi::El::C:
+    case gemmi::El::N:
+    case gemmi::El::O:
+    case gemmi::El::S:
+    case gemmi::El::P:
+    case gemmi::El::Se:
+      return true;
+    default:
+      return element.is_hydrogen();
+  }
+}
+
+/// CA, CB, CG, CD, CE, CZ, NE1, OG, SG, HG21, ...: an element and a Greek letter, as in amino acids only.
+bool is_amino_acid_atom_name(std::string_view name) {
+  return name.size() >= 2 && std::string_view("CNOSH").find(name[0]) != std::string_view::npos &&
+         std::string_view("ABGDEZH").find(name[1]) != std::string_view::npos &&
+         name.find_first_not_of("0123456789", 2) == std::string_view::npos;
+}
+
+/// Where the element column is missing or shifted, names are ambiguous: CA is carbon and HG hydrogen in residues that
+/// hold only H C N O S P (Se), force-field variants of amino acids (HIE, CYX) included. Elsewhere an unknown element is
+/// guessed from the first letter of the name, except D, which is more often a dummy than deuterium.
+gemmi::Element element_of(gemmi::Element given, const std::string& atom_name, const std::string& residue_name,
+                          AtomClass kind) {
   const std::size_t letter = atom_name.find_first_not_of("0123456789");
-  if (letter == std::string::npos) return given;
+  if (letter == std::string::npos || is_of_organic_residues(given)) return given;
   const gemmi::Element guess(atom_name.substr(letter, 1));
   const gemmi::ResidueInfo residue = gemmi::find_tabulated_residue(residue_name);
-  if (residue.found() && residue.is_standard() && (residue.is_amino_acid() || residue.is_nucleic_acid())) {
-    const bool possible = given == gemmi::El::C || given == gemmi::El::N || given == gemmi::El::O ||
-                          given == gemmi::El::S || given == gemmi::El::P || given.is_hydrogen();
-    return possible ? given : guess;
-  }
+  const bool standard =
+      residue.found() && residue.is_standard() && (residue.is_amino_acid() || residue.is_nucleic_acid());
+  const bool variant = !residue.found() && kind == AtomClass::polymer && is_amino_acid_atom_name(atom_name);
+  if (standard || variant) return guess;
   return given == gemmi::El::X && guess != gemmi::El::D ? guess : given;
 }
 
@@ -111,7 +133,8 @@ FileContents read_pdb(const TextFile& file) {
         out.residue = residue_index;
         out.altloc = atom.altloc == '\0' ? ' ' : atom.altloc;
         out.atom.position = {atom.pos.x, atom.pos.y, atom.pos.z};
-        out.atom.element = static_cast<std::uint8_t>(element_of(atom.element, atom.name, residue.name).atomic_number());
+        out.atom.element =
+            static_cast<std::uint8_t>(element_of(atom.element, atom.name, residue.name, kind).atomic_number());
         out.atom.kind = kind;
         out.atom.residue_number = residue.seqid.num.value;
         out.atom.insertion_code = residue.seqid.icode;
@@ -260,7 +283,7 @@ FileAtom read_row(const TextFile& file, const cif::Table& table, const cif::Tabl
   if (row.has2(kOccupancy)) atom.occupancy = static_cast<float>(cif::as_number(row[kOccupancy]));
   if (row.has2(kB)) atom.b_factor = static_cast<float>(cif::as_number(row[kB]));
   const gemmi::Element symbol(row.has2(kSymbol) ? cif::as_string(row[kSymbol]) : std::string());
-  atom.element = static_cast<std::uint8_t>(element_of(symbol, atom.name, atom.residue_name).atomic_number());
+  atom.element = static_cast<std::uint8_t>(element_of(symbol, atom.name, atom.residue_name, atom.kind).atomic_number());
   return out;
 }
 

@@ -106,8 +106,10 @@ std::vector<char> chosen_altlocs(const std::vector<FileAtom>& atoms) {
   return chosen;
 }
 
-/// Lone pairs and the mass-less sites of water models: LP, EP, M, MW, with digits.
+/// Lone pairs and the mass-less sites of water models (LP, EP, M, MW, with digits), and the dummy atoms with which the
+/// OPM database draws membranes.
 bool is_virtual_site(const Atom& atom) {
+  if (atom.residue_name == "DUM") return true;
   if (atom.element != 0) return false;
   const std::string letters = atom.name.substr(0, atom.name.find_first_of("0123456789"));
   for (const char* name : {"LP", "EP", "M", "MW", "EPW", "VS"}) {
