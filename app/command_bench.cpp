@@ -52,7 +52,7 @@ void print_table(const std::vector<Row>& rows) {
   for (const Row& row : rows) {
     fmt::print(std::cout, "{:<{}} {:>9}", escaped(row.file), width, with_thousands(row.atoms));
     for (const StageTime& stage : row.stages) {
-      fmt::print(std::cout, " {:>{}.2f}", stage.ms, std::max<std::size_t>(stage.name.size(), 9));
+      fmt::print(std::cout, " {:>{}.2f}", stage.milliseconds, std::max<std::size_t>(stage.name.size(), 9));
     }
     const double total = total_ms(row.stages);
     fmt::print(std::cout, " {:>9.2f} {:>9.1f}  {}\n", total, 1000.0 / total, row.device);

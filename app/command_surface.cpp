@@ -38,7 +38,7 @@ nlohmann::ordered_json to_json(const Structure& structure, const ComputedSurface
                           {"euler", component.euler}});
   }
   Json stages = Json::array();
-  for (const StageTime& stage : computed.stages) stages.push_back({{"name", stage.name}, {"ms", stage.ms}});
+  for (const StageTime& stage : computed.stages) stages.push_back({{"name", stage.name}, {"ms", stage.milliseconds}});
   return {{"schema_version", kSchemaVersion},
           {"atoms", {{"read", structure.report.read}, {"excluded", excluded}, {"used", structure.report.used}}},
           {"probe_radius", surface.probe_radius},
@@ -74,7 +74,7 @@ void print_table(const Structure& structure, const ComputedSurface& computed) {
   fmt::print(std::cout, "closed        {}\n", surface.certificate.closed ? "yes" : "no");
   fmt::print(std::cout, "device        {}\n", computed.device);
   for (const StageTime& stage : computed.stages)
-    fmt::print(std::cout, "time          {:>9.2f} ms  {}\n", stage.ms, stage.name);
+    fmt::print(std::cout, "time          {:>9.2f} ms  {}\n", stage.milliseconds, stage.name);
   fmt::print(std::cout, "\n{:>9}  {:<7} {:>14} {:>16} {:>6}\n", "component", "kind", "area Å²", "volume Å³", "Euler");
   for (std::size_t c = 0; c < surface.components.size(); ++c) {
     const Component& component = surface.components[c];

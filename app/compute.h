@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/stage_clock.h"
 #include "core/gpu/device_choice.h"
 #include "core/surface/primitives.h"
 
@@ -20,12 +21,6 @@ struct ComputeOptions {
   int threads = 0;            ///< CPU threads; 0: all
 };
 
-/// One stage of the pipeline and its wall time.
-struct StageTime {
-  std::string name;
-  double ms = 0.0;
-};
-
 /// A surface and how it came to be.
 struct ComputedSurface {
   Surface surface;
@@ -33,7 +28,9 @@ struct ComputedSurface {
   std::vector<StageTime> stages;
 };
 
-/// Throws OpenSurfaceError, CapacityError, GpuError.
+/// Automatic takes a hardware GPU if there is one, else the CPU, which is faster than software GL.
+/// With `verify` the surface is computed on the other device as well (software GL if need be) and every difference
+/// is an error. Throws OpenSurfaceError, CapacityError, GpuError.
 ComputedSurface compute_surface(std::span<const Ball> balls, const ComputeOptions& options);
 
 /// The sum of all stages.

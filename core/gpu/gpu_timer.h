@@ -6,13 +6,9 @@
 #include <string>
 #include <vector>
 
-namespace meniscus {
+#include "core/base/stage_clock.h"
 
-/// Time of one named stage.
-struct StageTime {
-  std::string name;
-  double milliseconds = 0.0;
-};
+namespace meniscus {
 
 /// Measures stages that follow one another (GL_TIME_ELAPSED cannot nest). Needs a current context.
 class GpuTimer {

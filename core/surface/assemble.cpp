@@ -33,20 +33,34 @@ void certify(Surface& surface) {
 
 }  // namespace
 
-Surface assemble_surface(std::span<const Ball> atoms, double probe_radius, const ReducedSurface& rs) {
+Surface assemble_surface(std::span<const Ball> atoms, double probe_radius, const ReducedSurface& rs,
+                         StageClock* clock) {
+  StageClock unused;
+  StageClock& stages = clock ? *clock : unused;
   Surface surface;
   surface.probe_radius = probe_radius;
   surface.atoms.assign(atoms.begin(), atoms.end());
 
-  RollingParts rolling = place_rolling_parts(atoms, probe_radius, rs);
-  surface.toroidal = std::move(rolling.toroidal);
-  surface.certificate.open_atoms = std::move(rolling.open_atoms);
-  if (!surface.certificate.open_atoms.empty()) return surface;
-
-  const CuspParts cusps = find_cusps(atoms, probe_radius, rolling.probes, surface.toroidal);
-  list_concave_patches(surface, rolling.probes, cusps);
-  build_boundary(surface, rolling.probes, cusps, rs);
-  trim_convex_patches(surface);
+  RollingParts rolling;
+  {
+    const auto stage = stages.stage("probes and tori");
+    rolling = place_rolling_parts(atoms, probe_radius, rs);
+    surface.toroidal = std::move(rolling.toroidal);
+    surface.certificate.open_atoms = std::move(rolling.open_atoms);
+    if (!surface.certificate.open_atoms.empty()) return surface;
+  }
+  CuspParts cusps;
+  {
+    const auto stage = stages.stage("singularities");
+    cusps = find_cusps(atoms, probe_radius, rolling.probes, surface.toroidal);
+  }
+  {
+    const auto stage = stages.stage("primitives");
+    list_concave_patches(surface, rolling.probes, cusps);
+    build_boundary(surface, rolling.probes, cusps, rs);
+    trim_convex_patches(surface);
+  }
+  const auto stage = stages.stage("area and volume");
   measure_surface(surface);
   certify(surface);
   return surface;

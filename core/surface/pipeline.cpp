@@ -9,9 +9,10 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec4.hpp>
+#include <epoxy/gl.h>
 #include <tbb/parallel_sort.h>
 
-#include "core/base/error.h"
+#include "core/gpu/limits.h"
 #include "core/surface/contour.h"
 
 namespace meniscus {
@@ -19,6 +20,10 @@ namespace {
 
 constexpr std::uint32_t kGroupSize = 64;     // local_size_x of every kernel
 constexpr std::uint32_t kScanChunk = 512;    // words per invocation of the scan
+constexpr std::uint32_t kLargestBatch = 1 << 16;  // atoms; their lists then stay near 50 MB and in reach of caches
+
+// So that a stage's wall-clock time is its own.
+void wait_for_gpu() { glFinish(); }
 
 std::size_t groups(std::size_t invocations) { return (invocations + kGroupSize - 1) / kGroupSize; }
 
@@ -37,20 +42,30 @@ struct SurfacePipeline::Buffers {
 SurfacePipeline::SurfacePipeline() : buffers_(std::make_unique<Buffers>()) {}
 SurfacePipeline::~SurfacePipeline() = default;
 
-std::vector<StageTime> SurfacePipeline::stage_times() const {
-  return timer_ ? timer_->times() : std::vector<StageTime>();
-}
-
 ReducedSurface SurfacePipeline::reduce(std::span<const Ball> atoms, double probe_radius) {
-  timer_ = std::make_unique<GpuTimer>();
+  clock_.restart();
   stats_ = {};
   ReducedSurface rs;
   if (atoms.empty()) return rs;
   upload_atoms(atoms, probe_radius);
   build_grid();
-  find_neighbors();
-  expose_circles(rs);
-  collect_lone_atoms(rs);
+  Batch batch;
+  batch.atom_count = std::min<std::uint32_t>(kLargestBatch, static_cast<std::uint32_t>(atoms.size()));
+  while (batch.first_atom < atoms.size()) {
+    count_neighbors(batch);
+    if (batch.neighbor_count * sizeof(glm::vec4) > block_bytes_ && batch.atom_count > 1) {
+      batch.atom_count = (batch.atom_count + 1) / 2;
+      continue;
+    }
+    list_neighbors(batch);
+    list_pairs(batch);
+    expose_circles(batch, rs);
+    collect_lone_atoms(batch, rs);
+    batch.first_atom += batch.atom_count;
+    batch.atom_count = std::min<std::uint32_t>(batch.atom_count, static_cast<std::uint32_t>(atoms.size()) - batch.first_atom);
+  }
+  const auto stage = clock_.stage("sort arcs");
+  tbb::parallel_sort(rs.arcs.begin(), rs.arcs.end());
   return rs;
 }
 
@@ -65,6 +80,7 @@ const Program& SurfacePipeline::kernel(const char* name, int pass, bool in_doubl
 // is exact to single precision anywhere.
 void SurfacePipeline::upload_atoms(std::span<const Ball> atoms, double probe_radius) {
   atoms_ = atoms;
+  block_bytes_ = query_gpu_limits().storage_block_bytes;
   weights_ = decision_weights(atoms, probe_radius);
   swallowed_ = swallowed_atoms(atoms, probe_radius);
   glm::dvec3 low = atoms[0].center, high = low;
@@ -101,7 +117,7 @@ void SurfacePipeline::upload_atoms(std::span<const Ball> atoms, double probe_rad
 }
 
 void SurfacePipeline::build_grid() {
-  const auto stage = timer_->stage("grid");
+  const auto stage = clock_.stage("grid");
   Buffers& b = *buffers_;
   const auto count = static_cast<std::uint32_t>(atoms_.size());
   b.cell_first.resize((cell_count_ + 1) * sizeof(std::uint32_t));
@@ -122,49 +138,65 @@ void SurfacePipeline::build_grid() {
   }
 }
 
-void SurfacePipeline::find_neighbors() {
-  const auto stage = timer_->stage("neighbors");
+void SurfacePipeline::run_neighbors(const Batch& batch, int pass) {
   Buffers& b = *buffers_;
-  const auto count = static_cast<std::uint32_t>(atoms_.size());
-  b.neighbor_first.resize((count + 1) * sizeof(std::uint32_t));
-  b.pair_first.resize((count + 1) * sizeof(std::uint32_t));
+  b.atoms.bind(0);
+  b.atoms_low.bind(1);
+  b.cell_first.bind(2);
+  b.cell_atoms.bind(3);
+  b.neighbor_first.bind(4);
+  b.pair_first.bind(5);
+  b.neighbor_balls.bind(6);
+  b.neighbor_labels.bind(7);
+  const Program& program = kernel("reduced_surface/neighbors", pass);
+  program.set("first_atom", batch.first_atom);
+  program.set("atom_count", batch.atom_count);
+  program.set("largest_radius", largest_radius_);
+  program.set("grid_low", grid_low_);
+  program.set("grid_size", grid_size_);
+  program.dispatch(groups(batch.atom_count));
+}
+
+void SurfacePipeline::count_neighbors(Batch& batch) {
+  const auto stage = clock_.stage("neighbors");
+  Buffers& b = *buffers_;
+  b.neighbor_first.resize((batch.atom_count + 1) * sizeof(std::uint32_t));
+  b.pair_first.resize((batch.atom_count + 1) * sizeof(std::uint32_t));
   b.neighbor_balls.resize(sizeof(glm::vec4));
   b.neighbor_labels.resize(sizeof(std::uint32_t));
-  for (int pass = 0; pass < 2; ++pass) {
-    b.atoms.bind(0);
-    b.atoms_low.bind(1);
-    b.cell_first.bind(2);
-    b.cell_atoms.bind(3);
-    b.neighbor_first.bind(4);
-    b.pair_first.bind(5);
-    b.neighbor_balls.bind(6);
-    b.neighbor_labels.bind(7);
-    const Program& program = kernel("reduced_surface/neighbors", pass);
-    program.set("atom_count", count);
-    program.set("largest_radius", largest_radius_);
-    program.set("grid_low", grid_low_);
-    program.set("grid_size", grid_size_);
-    program.dispatch(groups(count));
-    if (pass == 1) break;
-    scan(b.neighbor_first, count);
-    scan(b.pair_first, count);
-    b.neighbor_first.read(count * sizeof(std::uint32_t), &neighbor_count_, sizeof neighbor_count_);
-    b.pair_first.read(count * sizeof(std::uint32_t), &pair_count_, sizeof pair_count_);
-    b.neighbor_balls.resize(std::max(1u, neighbor_count_) * sizeof(glm::vec4));
-    b.neighbor_labels.resize(std::max(1u, neighbor_count_) * sizeof(std::uint32_t));
-  }
-  stats_.pairs = pair_count_;
-  b.pairs.resize(std::max(1u, pair_count_) * sizeof(glm::uvec2));
+  run_neighbors(batch, 0);
+  scan(b.neighbor_first, batch.atom_count);
+  scan(b.pair_first, batch.atom_count);
+  const std::size_t total = batch.atom_count * sizeof(std::uint32_t);
+  b.neighbor_first.read(total, &batch.neighbor_count, sizeof batch.neighbor_count);
+  b.pair_first.read(total, &batch.pair_count, sizeof batch.pair_count);
+}
+
+void SurfacePipeline::list_neighbors(const Batch& batch) {
+  const auto stage = clock_.stage("neighbors");
+  buffers_->neighbor_balls.resize(std::max(1u, batch.neighbor_count) * sizeof(glm::vec4));
+  buffers_->neighbor_labels.resize(std::max(1u, batch.neighbor_count) * sizeof(std::uint32_t));
+  run_neighbors(batch, 1);
+  wait_for_gpu();
+}
+
+void SurfacePipeline::list_pairs(const Batch& batch) {
+  const auto stage = clock_.stage("pairs");
+  Buffers& b = *buffers_;
+  stats_.pairs += batch.pair_count;
+  b.pairs.resize(std::max(1u, batch.pair_count) * sizeof(glm::uvec2));
   b.neighbor_first.bind(0);
   b.neighbor_labels.bind(1);
   b.pair_first.bind(2);
   b.pairs.bind(3);
   const Program& program = kernel("reduced_surface/pairs");
-  program.set("atom_count", count);
-  program.dispatch(groups(count));
+  program.set("first_atom", batch.first_atom);
+  program.set("atom_count", batch.atom_count);
+  program.dispatch(groups(batch.atom_count));
+  wait_for_gpu();
 }
 
-void SurfacePipeline::expose_circles(ReducedSurface& rs) {
+void SurfacePipeline::expose_circles(const Batch& batch, ReducedSurface& rs) {
   Buffers& b = *buffers_;
   std::uint32_t counts[2] = {0, 0};  // arcs, doubtful circles
   // In single precision over all pairs, then in double over those left in doubt; what still is goes to the host.
@@ -183,6 +215,7 @@ void SurfacePipeline::expose_circles(ReducedSurface& rs) {
       b.counters.bind(6);
       b.atoms.bind(7);
       const Program& program = kernel("reduced_surface/circles", -1, in_double);
+      program.set("first_atom", batch.first_atom);
       program.set("circle_count", circle_count);
       program.set("arc_capacity", b.arc_capacity);
       program.set("doubtful_capacity", b.doubtful_capacity);
@@ -198,36 +231,35 @@ void SurfacePipeline::expose_circles(ReducedSurface& rs) {
     b.arcs.download(std::span<RsArc>(rs.arcs.data() + first, counts[0]));
   };
   {
-    const auto stage = timer_->stage("circles");
-    if (pair_count_) run(false, b.pairs, pair_count_, b.doubtful);
+    const auto stage = clock_.stage("circles");
+    if (batch.pair_count) run(false, b.pairs, batch.pair_count, b.doubtful);
   }
   const std::uint32_t in_doubt = counts[1];
-  stats_.decided_in_double = in_doubt;
+  stats_.decided_in_double += in_doubt;
   if (in_doubt) {
     std::uint32_t on_host = 0;
     {
-      const auto stage = timer_->stage("doubtful circles");
+      const auto stage = clock_.stage("doubtful circles");
       run(true, b.doubtful, in_doubt, b.still_doubtful);
       on_host = counts[1];
     }
-    stats_.decided_on_host = on_host;
-    if (on_host) decide_on_host(b.still_doubtful.download<glm::uvec2>(on_host), rs);
+    stats_.decided_on_host += on_host;
+    if (on_host) decide_on_host(batch, b.still_doubtful.download<glm::uvec2>(on_host), rs);
   }
-  tbb::parallel_sort(rs.arcs.begin(), rs.arcs.end());
 }
 
 // Double left these in doubt (ties): Contour decides them in quadruple precision.
-void SurfacePipeline::decide_on_host(std::span<const glm::uvec2> circles, ReducedSurface& rs) {
+void SurfacePipeline::decide_on_host(const Batch& batch, std::span<const glm::uvec2> circles, ReducedSurface& rs) {
   Buffers& b = *buffers_;
-  const auto count = static_cast<std::uint32_t>(atoms_.size());
-  const auto first = b.neighbor_first.download<std::uint32_t>(count + 1);
-  const auto labels = b.neighbor_labels.download<std::uint32_t>(neighbor_count_);
+  const auto first = b.neighbor_first.download<std::uint32_t>(batch.atom_count + 1);
+  const auto labels = b.neighbor_labels.download<std::uint32_t>(batch.neighbor_count);
   Contour contour;
   std::vector<Blocker> blockers;
   for (const glm::uvec2& circle : circles) {
     const std::uint32_t i = circle.x, j = labels[circle.y];
     blockers.clear();
-    for (std::uint32_t n = first[i]; n < first[i + 1]; ++n)
+    const std::uint32_t entry = i - batch.first_atom;
+    for (std::uint32_t n = first[entry]; n < first[entry + 1]; ++n)
       if (labels[n] != j)
         blockers.push_back({atoms_[labels[n]].center - atoms_[i].center, weights_[labels[n]], labels[n]});
     contour.expose(atoms_[j].center - atoms_[i].center, weights_[i], weights_[j], blockers, blockers.size());
@@ -236,14 +268,14 @@ void SurfacePipeline::decide_on_host(std::span<const glm::uvec2> circles, Reduce
   }
 }
 
-void SurfacePipeline::collect_lone_atoms(ReducedSurface& rs) {
-  const auto count = static_cast<std::uint32_t>(atoms_.size());
-  const auto first = buffers_->neighbor_first.download<std::uint32_t>(count + 1);
-  const auto labels = buffers_->neighbor_labels.download<std::uint32_t>(neighbor_count_);
-  for (std::uint32_t a = 0; a < count; ++a) {
+void SurfacePipeline::collect_lone_atoms(const Batch& batch, ReducedSurface& rs) {
+  const auto first = buffers_->neighbor_first.download<std::uint32_t>(batch.atom_count + 1);
+  const auto labels = buffers_->neighbor_labels.download<std::uint32_t>(batch.neighbor_count);
+  for (std::uint32_t entry = 0; entry < batch.atom_count; ++entry) {
+    const std::uint32_t a = batch.first_atom + entry;
     if (swallowed_[a]) continue;
     // The kernel lists generously; only balls that really overlap count.
-    const bool lone = std::none_of(labels.begin() + first[a], labels.begin() + first[a + 1], [&](std::uint32_t n) {
+    const bool lone = std::none_of(labels.begin() + first[entry], labels.begin() + first[entry + 1], [&](std::uint32_t n) {
       const double sum = std::sqrt(weights_[a]) + std::sqrt(weights_[n]);
       const glm::dvec3 d = atoms_[n].center - atoms_[a].center;
       return glm::dot(d, d) < sum * sum;

@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "core/base/stage_clock.h"
 #include "core/gpu/buffer.h"
-#include "core/gpu/gpu_timer.h"
 #include "core/gpu/program.h"
 #include "core/surface/primitives.h"
 #include "core/surface/reduced_surface.h"
@@ -33,25 +33,36 @@ class SurfacePipeline {
   /// atoms in Å, probe_radius >= 0 in Å. Throws GpuError, CapacityError.
   ReducedSurface reduce(std::span<const Ball> atoms, double probe_radius);
 
-  /// Times of the stages of the last run.
-  std::vector<StageTime> stage_times() const;
+  /// Wall-clock times of the stages of the last run, batches added up. (Software GL reports no GPU times.)
+  const std::vector<StageTime>& stage_times() const { return clock_.times(); }
   const PipelineStats& stats() const { return stats_; }
 
  private:
   struct Buffers;
 
+  /// Consecutive atoms whose neighbour lists are on the GPU at one time.
+  struct Batch {
+    std::uint32_t first_atom = 0;
+    std::uint32_t atom_count = 0;
+    std::uint32_t neighbor_count = 0;
+    std::uint32_t pair_count = 0;
+  };
+
   void upload_atoms(std::span<const Ball> atoms, double probe_radius);
   void build_grid();
-  void find_neighbors();
-  void expose_circles(ReducedSurface& rs);
-  void decide_on_host(std::span<const glm::uvec2> circles, ReducedSurface& rs);
-  void collect_lone_atoms(ReducedSurface& rs);
+  void count_neighbors(Batch& batch);
+  void list_neighbors(const Batch& batch);
+  void list_pairs(const Batch& batch);
+  void expose_circles(const Batch& batch, ReducedSurface& rs);
+  void decide_on_host(const Batch& batch, std::span<const glm::uvec2> circles, ReducedSurface& rs);
+  void collect_lone_atoms(const Batch& batch, ReducedSurface& rs);
+  void run_neighbors(const Batch& batch, int pass);
   void scan(Buffer& words, std::uint32_t count);
   const Program& kernel(const char* name, int pass = -1, bool in_double = false);
 
   ProgramCache programs_;
   std::unique_ptr<Buffers> buffers_;
-  std::unique_ptr<GpuTimer> timer_;
+  StageClock clock_;
   PipelineStats stats_;
 
   // The frame at work.
@@ -62,8 +73,7 @@ class SurfacePipeline {
   glm::vec4 grid_low_{0.0f};
   glm::vec4 grid_size_{1.0f};
   std::uint32_t cell_count_ = 0;
-  std::uint32_t neighbor_count_ = 0;
-  std::uint32_t pair_count_ = 0;
+  std::size_t block_bytes_ = 0;  // largest buffer a kernel sees
 };
 
 }  // namespace meniscus

@@ -4,6 +4,7 @@
 
 #include <span>
 
+#include "core/base/stage_clock.h"
 #include "core/surface/primitives.h"
 
 namespace meniscus {
@@ -13,7 +14,9 @@ struct ReducedSurface;
 /// Builds all patches, their borders, faces and components, their areas and volumes (closed form) and the certificate.
 /// `rs` must have been computed for the same `atoms` and `probe_radius`.
 /// Look at the result's certificate, or call require_closed(), before using it.
-Surface assemble_surface(std::span<const Ball> atoms, double probe_radius, const ReducedSurface& rs);
+/// Adds the time of each stage to `clock` if there is one.
+Surface assemble_surface(std::span<const Ball> atoms, double probe_radius, const ReducedSurface& rs,
+                         StageClock* clock = nullptr);
 
 /// Throws OpenSurfaceError, naming atoms by their index, unless the certificate says the surface is closed.
 void require_closed(const Surface& surface);

@@ -21,6 +21,7 @@ layout(std430, binding = 7) readonly buffer AtomsLow { vec4 atoms[]; };  // w: S
 layout(std430, binding = 4) writeonly buffer Arcs { uvec4 arcs[]; };  // i, j, begin_by, end_by
 layout(std430, binding = 5) writeonly buffer Doubtful { uvec2 doubtful[]; };
 layout(std430, binding = 6) buffer Counters { uint arc_count; uint doubtful_count; };
+uniform uint first_atom;  // of the batch, which the neighbour lists count from
 uniform uint circle_count;
 uniform uint arc_capacity;
 uniform uint doubtful_capacity;
@@ -65,8 +66,8 @@ void main() {
   if (c.radius_squared <= barely) {
     exposed_doubtful = true;
   } else {
-    uint last = neighbor_first[i + 1u];
-    for (uint n = neighbor_first[i]; n < last; ++n) {
+    uint last = neighbor_first[i - first_atom + 1u];
+    for (uint n = neighbor_first[i - first_atom]; n < last; ++n) {
       if (n == place) continue;
       real3 q;
       real wq;

@@ -2,7 +2,8 @@
 // Stage "neighbors": lists the atoms whose SAS balls overlap, roughly nearest first, as seen from each atom.
 // Pass 0 counts neighbours and pairs (i < j); pass 1 (after scans) writes them.
 // Reads: atoms, atoms_low, cells, swallowed. Writes: neighbor_first, pair_first (counts, then scanned), neighbor_balls,
-// neighbor_labels, pairs. One invocation per atom. Overflow: none, pass 0 counts exactly what pass 1 writes.
+// neighbor_labels, pairs. One invocation per atom of the batch. Overflow: none, pass 0 counts
+// exactly what pass 1 writes.
 // Based on: Krone, Dachsbacher & Ertl 2010, section 3.3 (neighbourhood grid).
 #version 450 core
 layout(local_size_x = 64) in;
@@ -17,15 +18,17 @@ layout(std430, binding = 4) buffer NeighborFirst { uint neighbor_first[]; };
 layout(std430, binding = 5) buffer PairFirst { uint pair_first[]; };
 layout(std430, binding = 6) writeonly buffer NeighborBalls { vec4 neighbor_balls[]; };  // relative centre, SAS radius²
 layout(std430, binding = 7) writeonly buffer NeighborLabels { uint neighbor_labels[]; };
-uniform uint atom_count;
+uniform uint first_atom;  // of the batch
+uniform uint atom_count;  // in the batch
 uniform float largest_radius;
 
 // Near balls cover most of a circle, so they should come first; a few distance classes do nearly as well as sorting.
 const uint kClasses = 6u;
 
 void main() {
-  uint i = linear_invocation_index();
-  if (i >= atom_count) return;
+  uint entry = linear_invocation_index();
+  if (entry >= atom_count) return;
+  uint i = first_atom + entry;
   vec4 self = atoms[i];
   vec4 self_low = atoms_low[i];
   bool swallowed = self_low.w > 0.5;
@@ -40,7 +43,7 @@ void main() {
 #if PASS == 1
   for (int sweep = 0; sweep < 2; ++sweep) {
     if (sweep == 1) {
-      uint next = neighbor_first[i];
+      uint next = neighbor_first[entry];
       for (uint c = 0u; c < kClasses; ++c) {
         uint in_class = class_next[c];
         class_next[c] = next;
@@ -84,7 +87,7 @@ void main() {
 #else
   uint neighbor_count = 0u;
   for (uint c = 0u; c < kClasses; ++c) neighbor_count += class_next[c];
-  neighbor_first[i] = neighbor_count;
-  pair_first[i] = pair_count;
+  neighbor_first[entry] = neighbor_count;
+  pair_first[entry] = pair_count;
 #endif
 }
