@@ -86,7 +86,7 @@ class CuspSearch {
   }
 
  private:
-  bool spindle(const ProbeSide& side) const { return toroidal_[side.toroidal].radius < p_; }
+  bool spindle(const ProbeSide& side) const { return crosses_axis(toroidal_[side.toroidal], atoms_, p_); }
   bool low(std::uint32_t s) const { return probes_.height[s] < p_; }
   std::uint32_t circle_of(const ProbeSide& side) const { return first_on_circle_[side.toroidal]; }
 
@@ -109,7 +109,7 @@ class CuspSearch {
       for (past = first + 1; past < toroidal_.size() && first_on_circle_[past] == first; ++past) {
       }
       const ToroidalPatch& lead = toroidal_[first];
-      if (lead.radius >= p_ || lead.free()) continue;
+      if (lead.free() || !crosses_axis(lead, atoms_, p_)) continue;
       around.clear();
       for (std::uint32_t t = first; t < past; ++t)
         around.emplace_back(t == first ? 0.0 : angle_between(lead.axis, lead.start, toroidal_[t].start), t);

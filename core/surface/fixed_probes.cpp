@@ -19,6 +19,7 @@ namespace meniscus {
 namespace {
 
 constexpr double kMergeDistance = 1e-6;
+constexpr double kTouchDistance = 1e-9;
 
 // One end of an exposed arc as the fixed probe that stands there: its atoms a < b < c and the side of their plane.
 struct ArcEnd {
@@ -208,6 +209,8 @@ class Placement {
     patch.center = origin + circle.axis * circle.height;
     patch.axis = circle.axis;
     patch.radius = circle.radius;
+    // A circle as large as the probe touches its axis in one point; rounding must not open a spindle there.
+    if (std::abs(patch.radius - probe_radius_) < kTouchDistance) patch.radius = probe_radius_;
     if (arc.begin_by == kNone) {
       patch.start = circle.u;
       patch.sweep = 2 * std::numbers::pi;

@@ -17,6 +17,7 @@
 #include <span>
 #include <vector>
 
+#include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
 namespace meniscus {
@@ -50,7 +51,7 @@ struct ConvexPatch {
 /// Saddle patch: the probe rolling in contact with two atoms (an RS edge).
 /// The SAS circle has `center`, unit `axis` (from atom[0] to atom[1]) and `radius`; the probe rolls counter-clockwise
 /// about the axis from center + radius*start over the angle `sweep`. The torus has major radius `radius`, minor radius
-/// probe_radius. When radius < probe_radius (spindle) the part past the axis is cut off and two pieces remain.
+/// probe_radius. On a spindle (see crosses_axis) the part past the axis is cut off and two pieces remain.
 struct ToroidalPatch {
   std::array<std::uint32_t, 2> atom{};            ///< atom[0] < atom[1]
   std::array<std::uint32_t, 2> probe{kNone, kNone};  ///< fixed probes at start and end; kNone for a free edge
@@ -63,6 +64,13 @@ struct ToroidalPatch {
   std::uint32_t face_count = 0;  ///< 1, or 2 for a spindle (the piece of atom[0], then that of atom[1])
   bool free() const { return probe[0] == kNone; }
 };
+
+/// True where the patch crosses its axis: the circle is smaller than the probe and its centre lies between the atoms
+/// (beyond a nearly swallowed atom both contacts are on one side, and the patch never comes to the axis).
+inline bool crosses_axis(const ToroidalPatch& t, std::span<const Ball> atoms, double probe_radius) {
+  return t.radius < probe_radius && glm::dot(t.axis, atoms[t.atom[0]].center - t.center) < 0 &&
+         glm::dot(t.axis, atoms[t.atom[1]].center - t.center) > 0;
+}
 
 /// Re-entrant patch: the sphere of one fixed probe (an RS face) inside all its planes: first `side_count` planes
 /// through the probe and two neighbouring contacts, then `cut_count` bisectors towards the probes in `cuts`.
@@ -170,7 +178,7 @@ struct Surface {
   double volume = 0.0;  ///< Å³ of the solid: outer components minus cavities
 
   SurfaceCounts counts() const;
-  bool spindle(const ToroidalPatch& t) const { return t.radius < probe_radius; }
+  bool spindle(const ToroidalPatch& t) const { return crosses_axis(t, atoms, probe_radius); }
 };
 
 }  // namespace meniscus

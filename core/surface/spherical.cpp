@@ -27,6 +27,22 @@ glm::dvec3 tangent(const SphereArc& arc, const glm::dvec3& point) {
   return length > 0 ? t * ((arc.sweep < 0 ? -1.0 : 1.0) / length) : t;
 }
 
+// The point of the arc's whole circle that is nearest to a point of the sphere.
+glm::dvec3 nearest_of_circle(const SphereArc& arc, const glm::dvec3& point) {
+  const glm::dvec3 flat = point - arc.axis * glm::dot(arc.axis, point);
+  const double length = glm::length(flat);
+  if (!(length > 0)) return arc.from;
+  return arc.axis * arc.height + flat * (std::sqrt(std::max(0.0, 1 - arc.height * arc.height)) / length);
+}
+
+bool on_sweep(const SphereArc& arc, const glm::dvec3& point) {
+  const glm::dvec3 e = arc.from - arc.axis * arc.height, f = point - arc.axis * arc.height;
+  double angle = std::atan2(glm::dot(arc.axis, glm::cross(e, f)), glm::dot(e, f));
+  if (arc.sweep < 0) angle = -angle;
+  if (angle < 0) angle += 2 * kPi;
+  return angle < std::abs(arc.sweep);
+}
+
 }  // namespace
 
 SphereArc sphere_arc(const Border& border, bool backwards, const glm::dvec3& center, double radius) {
@@ -48,11 +64,12 @@ SphereArc sphere_arc(const Border& border, bool backwards, const glm::dvec3& cen
 double area_left_of(std::span<const SphereArc> loop) {
   // Gauss-Bonnet on the unit sphere: area = 2 pi - integral of geodesic curvature - exterior angles. The curvature of
   // a circle at height h, walked counter-clockwise, integrates to h times the angle.
+  if (loop.size() == 1 && loop[0].whole)
+    return 2 * kPi * (1 - std::clamp(loop[0].height, -1.0, 1.0) * (loop[0].sweep < 0 ? -1 : 1));
   double turning = 0;
   for (std::size_t n = 0; n < loop.size(); ++n) {
     const SphereArc& arc = loop[n];
     turning += arc.height * arc.sweep;
-    if (arc.whole) continue;
     const SphereArc& next = loop[n + 1 == loop.size() ? 0 : n + 1];
     const glm::dvec3 in = tangent(arc, arc.to), out = tangent(next, next.from);
     double exterior = std::atan2(glm::dot(arc.to, glm::cross(in, out)), glm::dot(in, out));
@@ -61,7 +78,12 @@ double area_left_of(std::span<const SphereArc> loop) {
   }
   double area = 2 * kPi - turning;
   area -= 4 * kPi * std::floor(area / (4 * kPi));
-  return area;
+  if (area > 1e-6 && area < 4 * kPi - 1e-6) return area;
+  // Next to nothing or next to everything: rounding must not choose. Walked counter-clockwise, the moment of a small
+  // region points towards it.
+  const bool small = glm::dot(moment_left_of(loop), loop.front().from) > 0;
+  const double excess = area > 2 * kPi ? area - 4 * kPi : area;
+  return small ? std::max(0.0, excess) : 4 * kPi + std::min(0.0, excess);
 }
 
 glm::dvec3 moment_left_of(std::span<const SphereArc> loop) {
@@ -75,47 +97,26 @@ glm::dvec3 moment_left_of(std::span<const SphereArc> loop) {
 glm::dvec3 middle_of(const SphereArc& arc) { return rotated(arc, 0.5 * arc.sweep); }
 
 bool lies_left_of(const glm::dvec3& point, std::span<const SphereArc> loop) {
-  // Walk along a great circle from a point of the loop to the given point and count crossings. Of a few starts take
-  // the one where the path leaves the loop most steeply: point and loop often share a circle.
-  const SphereArc* leaving = nullptr;
-  glm::dvec3 start(0.0), normal(0.0);
-  double steepest = 0;
-  for (const SphereArc& arc : loop)
-    for (const double part : {0.5, 0.2, 0.8}) {
-      const glm::dvec3 candidate = rotated(arc, part * arc.sweep);
-      const glm::dvec3 across = glm::cross(candidate, point);
-      const double length = glm::length(across);
-      if (length < 1e-12) continue;
-      const double steepness = std::abs(glm::dot(across / length, tangent(arc, candidate))) * std::min(1.0, 1e3 * length);
-      if (steepness <= steepest) continue;
-      steepest = steepness;
-      leaving = &arc;
-      start = candidate;
-      normal = across / length;
+  // The great circle from the point to the loop's nearest point meets the loop nowhere before, so it arrives on the
+  // side the point is on. No path has to dodge corners, so symmetry cannot spoil it.
+  double nearest = -2;  // cosine of the distance
+  bool left = false;
+  for (std::size_t n = 0; n < loop.size(); ++n) {
+    const SphereArc& arc = loop[n];
+    const glm::dvec3 on_arc = nearest_of_circle(arc, point);
+    if (arc.whole || on_sweep(arc, on_arc)) {
+      if (const double cosine = glm::dot(on_arc, point); cosine > nearest) {
+        nearest = cosine;
+        left = (glm::dot(arc.axis, point) > arc.height) == (arc.sweep > 0);
+      }
     }
-  if (!leaving) return false;
-  const glm::dvec3 side = glm::cross(normal, start);  // direction of departure
-  const double total = std::atan2(glm::dot(side, point), glm::dot(start, point));
-  bool left = glm::dot(side, glm::cross(start, tangent(*leaving, start))) > 0;
-  for (const SphereArc& arc : loop) {
-    // Points of both circles: on the path's plane and at the arc's height.
-    const glm::dvec3 flat = arc.axis - normal * glm::dot(arc.axis, normal);
-    const double flat2 = glm::dot(flat, flat);
-    const double reach = arc.height * arc.height / flat2;
-    if (!(reach < 1)) continue;
-    const glm::dvec3 middle = flat * (arc.height / flat2);
-    const glm::dvec3 offset = glm::cross(normal, flat) * std::sqrt((1 - reach) / flat2);
-    for (const double sign : {-1.0, 1.0}) {
-      const glm::dvec3 u = middle + sign * offset;
-      double along = std::atan2(glm::dot(side, u), glm::dot(start, u));
-      if (along < 0) along += 2 * kPi;
-      if (&arc == leaving && (along < 1e-9 || along > 2 * kPi - 1e-9)) continue;  // the start itself
-      if (along >= total) continue;
-      const glm::dvec3 e = arc.from - arc.axis * arc.height, f = u - arc.axis * arc.height;
-      double angle = std::atan2(glm::dot(arc.axis, glm::cross(e, f)), glm::dot(e, f));
-      if (arc.sweep < 0) angle = -angle;
-      if (angle < 0) angle += 2 * kPi;
-      if (arc.whole || angle < std::abs(arc.sweep)) left = !left;
+    if (arc.whole) continue;
+    if (const double cosine = glm::dot(arc.to, point); cosine > nearest) {
+      nearest = cosine;
+      const glm::dvec3 in = tangent(arc, arc.to), out = tangent(loop[n + 1 == loop.size() ? 0 : n + 1], arc.to);
+      // Half-way into the corner, for any interior angle from 0 to pi.
+      const glm::dvec3 inwards = out - in + glm::cross(arc.to, out + in);
+      left = glm::dot(inwards, point - arc.to) > 0;
     }
   }
   return left;

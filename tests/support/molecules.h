@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Molecules with known surfaces, degenerate on purpose or random by seed, and the motions that must not change a surface.
+#pragma once
+
+#include <cstdint>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+
+#include "core/surface/primitives.h"
+
+namespace meniscus::testing {
+
+using Balls = std::vector<Ball>;
+
+inline constexpr double kCarbon = 1.7;
+inline constexpr double kWater = 1.4;
+
+/// Two atoms on the x axis, `distance` apart.
+Balls two_atoms(double distance, double radius_a = kCarbon, double radius_b = kCarbon);
+/// `count` atoms on the x axis.
+Balls collinear(int count, double spacing, double radius = kCarbon);
+/// A planar regular polygon of given edge around the origin; square(edge) is ring(4, edge).
+Balls ring(int count, double edge, double radius = kCarbon);
+/// Four alternate corners of a cube, edge = sqrt(2) * the cube's.
+Balls tetrahedron(double edge, double radius = kCarbon);
+/// A block of a cubic lattice.
+Balls lattice(int nx, int ny, int nz, double spacing, double radius = kCarbon);
+/// The vertices of a regular octahedron / icosahedron / dodecahedron of given edge.
+Balls octahedron(double edge, double radius = kCarbon);
+Balls icosahedron(double edge, double radius = kCarbon);
+/// Truncated icosahedron: all 90 edges equal.
+Balls c60(double edge = 1.45, double radius = kCarbon);
+/// Ideal (n, m) carbon nanotube: graphene of bond length 1.42 Å rolled up, `cells` translational cells long.
+Balls nanotube(int n, int m, int cells, double radius = kCarbon);
+/// Ideal graphene flake of bond length 1.42 Å: flat hexagons, n x n cells.
+Balls graphene(int n, double radius = kCarbon);
+
+/// Uniformly random balls in a cube of side `box`; coordinates are multiples of `step` if step > 0 (to provoke ties).
+Balls gas(std::uint32_t seed, int count, double box, double smallest_radius, double largest_radius, double step = 0);
+
+/// A molecule by name, for tests that go through all of them.
+struct NamedBalls {
+  std::string name;
+  Balls balls;
+  double probe_radius = kWater;
+};
+/// Every degenerate molecule worth trying, small enough for hundreds of surfaces.
+std::vector<NamedBalls> degenerate_molecules();
+
+/// ATOM and HETATM of the first model of a PDB file without water, first alternate location, Bondi radii
+/// (C 1.7, N 1.55, O 1.52, H 1.2, S 1.8, P 1.8, everything else 2.0 Å). Throws std::runtime_error if it cannot be read.
+Balls read_pdb(const std::string& path);
+/// 1UBQ of Debian's freesasa (602 atoms) and 1TII of its pymol-data (5,469).
+std::string ubiquitin_path();
+std::string enterotoxin_path();
+
+glm::dmat3 random_rotation(std::mt19937& random);
+Balls rotated(const Balls& balls, const glm::dmat3& rotation);
+Balls translated(const Balls& balls, const glm::dvec3& by);
+Balls scaled(const Balls& balls, double factor);
+Balls mirrored(const Balls& balls);
+/// order[n] = index in `balls` of the n-th result.
+Balls permuted(const Balls& balls, const std::vector<std::uint32_t>& order);
+std::vector<std::uint32_t> random_order(std::size_t count, std::mt19937& random);
+
+}  // namespace meniscus::testing
