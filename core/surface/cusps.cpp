@@ -86,7 +86,8 @@ class CuspSearch {
   }
 
  private:
-  bool spindle(const ProbeSide& side) const { return crosses_axis(toroidal_[side.toroidal], atoms_, p_); }
+  // All probes on such a circle pass through the same two points of its axis, or one when it is as large as the probe.
+  bool pencil(const ToroidalPatch& t) const { return touches_axis(t, atoms_, p_); }
   bool low(std::uint32_t s) const { return probes_.height[s] < p_; }
   std::uint32_t circle_of(const ProbeSide& side) const { return first_on_circle_[side.toroidal]; }
 
@@ -109,7 +110,7 @@ class CuspSearch {
       for (past = first + 1; past < toroidal_.size() && first_on_circle_[past] == first; ++past) {
       }
       const ToroidalPatch& lead = toroidal_[first];
-      if (lead.free() || !crosses_axis(lead, atoms_, p_)) continue;
+      if (lead.free() || !pencil(lead)) continue;
       around.clear();
       for (std::uint32_t t = first; t < past; ++t)
         around.emplace_back(t == first ? 0.0 : angle_between(lead.axis, lead.start, toroidal_[t].start), t);
@@ -243,7 +244,7 @@ class CuspSearch {
   bool find_pencils(std::uint32_t s, std::uint32_t t, Worker& w) const {
     w.pencils.clear();
     for (std::uint32_t n = probes_.first_side[s]; n < probes_.first_side[s + 1]; ++n) {
-      if (!spindle(probes_.sides[n])) continue;
+      if (!pencil(toroidal_[probes_.sides[n].toroidal])) continue;
       const std::uint32_t circle = circle_of(probes_.sides[n]);
       for (const ProbeSide& other : probes_.sides_of(t)) {
         if (circle_of(other) != circle) continue;
@@ -276,8 +277,10 @@ class CuspSearch {
           glm::dot(pencil.direction, center - toroidal_[pencil.first_patch].center) / circle.radius;
       half.half_plane.length_squared = glm::dot(half.half_plane.normal, half.half_plane.normal);
       half.half_plane.error = 1e-14;
+      // As large as the probe: the pair's circle touches the axis, so it lies before it or past it as a whole.
+      const bool touching = toroidal_[pencil.first_patch].radius == p_;
       const double gap = half.half_plane.length_squared - half.half_plane.offset * half.half_plane.offset;
-      if (gap > 0)
+      if (gap > 0 && !touching)
         w.halves.push_back(half);
       else if (half.half_plane.offset < 0)
         return false;
@@ -293,14 +296,18 @@ class CuspSearch {
     found.arc.vertex[end] = first * 2 + (upper ? 1 : 0);
   }
 
-  // A piece of the circle lies on both patches or on neither, so one point of it decides; near a border the patch with
-  // the larger margin has the say.
+  // A piece of the circle lies on both patches or on neither, so one point of it decides; near a border the point and
+  // the patch with the larger margin have the say.
   bool on_both_patches(const CuspArc& arc) const {
-    const double middle = 0.5 * arc.sweep;
-    const glm::dvec3 e = std::cos(middle) * arc.start + std::sin(middle) * glm::cross(arc.axis, arc.start);
-    const glm::dvec3 point = arc.center + arc.radius * e;
-    const double s = depth_in_cone(arc.probe[0], point), t = depth_in_cone(arc.probe[1], point);
-    return std::abs(s) > std::abs(t) ? s > 0 : t > 0;
+    double clearest = 0;
+    for (const double part : {0.5, 0.3, 0.7}) {
+      const double angle = part * arc.sweep;
+      const glm::dvec3 e = std::cos(angle) * arc.start + std::sin(angle) * glm::cross(arc.axis, arc.start);
+      for (const std::uint32_t s : arc.probe)
+        if (const double depth = depth_in_cone(s, arc.center + arc.radius * e); std::abs(depth) > std::abs(clearest))
+          clearest = depth;
+    }
+    return clearest > 0;
   }
 
   double depth_in_cone(std::uint32_t s, const glm::dvec3& point) const {

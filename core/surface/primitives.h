@@ -65,11 +65,16 @@ struct ToroidalPatch {
   bool free() const { return probe[0] == kNone; }
 };
 
+/// True where the patch crosses its axis or, with a circle as large as the probe, touches it in one point.
+inline bool touches_axis(const ToroidalPatch& t, std::span<const Ball> atoms, double probe_radius) {
+  return t.radius <= probe_radius && glm::dot(t.axis, atoms[t.atom[0]].center - t.center) < 0 &&
+         glm::dot(t.axis, atoms[t.atom[1]].center - t.center) > 0;
+}
+
 /// True where the patch crosses its axis: the circle is smaller than the probe and its centre lies between the atoms
 /// (beyond a nearly swallowed atom both contacts are on one side, and the patch never comes to the axis).
 inline bool crosses_axis(const ToroidalPatch& t, std::span<const Ball> atoms, double probe_radius) {
-  return t.radius < probe_radius && glm::dot(t.axis, atoms[t.atom[0]].center - t.center) < 0 &&
-         glm::dot(t.axis, atoms[t.atom[1]].center - t.center) > 0;
+  return t.radius < probe_radius && touches_axis(t, atoms, probe_radius);
 }
 
 /// Re-entrant patch: the sphere of one fixed probe (an RS face) inside all its planes: first `side_count` planes
