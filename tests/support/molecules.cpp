@@ -4,14 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <map>
 #include <numbers>
 #include <numeric>
-#include <set>
-#include <stdexcept>
 
 #include <glm/geometric.hpp>
+
+#include "core/molecule/read_structure.h"
 
 namespace meniscus::testing {
 namespace {
@@ -198,37 +196,14 @@ std::vector<NamedBalls> degenerate_molecules() {
   const Balls once = doubled;
   doubled.insert(doubled.end(), once.begin(), once.end());
   all.push_back({"c60 twice", doubled});
+  Balls thrice = lattice(2, 2, 2, 3.0);
+  for (int copy = 0; copy < 16; ++copy) thrice.push_back(thrice[copy]);
+  all.push_back({"cube three times", thrice});
   return all;
 }
 
-Balls read_pdb(const std::string& path) {
-  static const std::map<std::string, double> kBondi = {{"C", 1.7}, {"N", 1.55}, {"O", 1.52},
-                                                       {"H", 1.2}, {"S", 1.8},  {"P", 1.8}};
-  static const std::set<std::string> kWaterNames = {"HOH", "DOD", "WAT", "H2O"};
-  std::ifstream file(path);
-  if (!file) throw std::runtime_error("cannot read " + path);
-  const auto trimmed = [](std::string text) {
-    std::erase(text, ' ');
-    return text;
-  };
-  Balls balls;
-  std::set<std::string> seen;
-  for (std::string line; std::getline(file, line);) {
-    if (line.rfind("ENDMDL", 0) == 0) break;
-    if (line.rfind("ATOM", 0) != 0 && line.rfind("HETATM", 0) != 0) continue;
-    if (line.size() < 54 || kWaterNames.contains(trimmed(line.substr(17, 3)))) continue;
-    if (!seen.insert(line.substr(12, 4) + line.substr(17, 10)).second) continue;  // another alternate location
-    std::string element = line.size() >= 78 ? trimmed(line.substr(76, 2)) : "";
-    if (element.empty()) element = trimmed(line.substr(12, 2));
-    const auto radius = kBondi.find(element);
-    balls.push_back({{std::stod(line.substr(30, 8)), std::stod(line.substr(38, 8)), std::stod(line.substr(46, 8))},
-                     radius == kBondi.end() ? 2.0 : radius->second});
-  }
-  return balls;
-}
-
-std::string ubiquitin_path() { return "/usr/share/freesasa/test-data/1ubq.pdb"; }
-std::string enterotoxin_path() { return "/usr/share/pymol/data/demo/1tii.pdb"; }
+Balls ubiquitin() { return balls_of(read_structure("/usr/share/freesasa/test-data/1ubq.pdb")); }
+Balls enterotoxin() { return balls_of(read_structure("/usr/share/pymol/data/demo/1tii.pdb")); }
 
 glm::dmat3 random_rotation(std::mt19937& random) {
   // A uniform unit quaternion (Shoemake 1992) as a matrix.

@@ -23,13 +23,12 @@ inline constexpr double kWater = 1.4;
 Balls two_atoms(double distance, double radius_a = kCarbon, double radius_b = kCarbon);
 /// `count` atoms on the x axis.
 Balls collinear(int count, double spacing, double radius = kCarbon);
-/// A planar regular polygon of given edge around the origin; square(edge) is ring(4, edge).
+/// A planar regular polygon of given edge around the origin.
 Balls ring(int count, double edge, double radius = kCarbon);
 /// Four alternate corners of a cube, edge = sqrt(2) * the cube's.
 Balls tetrahedron(double edge, double radius = kCarbon);
 /// A block of a cubic lattice.
 Balls lattice(int nx, int ny, int nz, double spacing, double radius = kCarbon);
-/// The vertices of a regular octahedron / icosahedron / dodecahedron of given edge.
 Balls octahedron(double edge, double radius = kCarbon);
 Balls icosahedron(double edge, double radius = kCarbon);
 /// Truncated icosahedron: all 90 edges equal.
@@ -51,12 +50,9 @@ struct NamedBalls {
 /// Every degenerate molecule worth trying, small enough for hundreds of surfaces.
 std::vector<NamedBalls> degenerate_molecules();
 
-/// ATOM and HETATM of the first model of a PDB file without water, first alternate location, Bondi radii
-/// (C 1.7, N 1.55, O 1.52, H 1.2, S 1.8, P 1.8, everything else 2.0 Å). Throws std::runtime_error if it cannot be read.
-Balls read_pdb(const std::string& path);
-/// 1UBQ of Debian's freesasa (602 atoms) and 1TII of its pymol-data (5,469).
-std::string ubiquitin_path();
-std::string enterotoxin_path();
+/// 1UBQ of Debian's freesasa (602 atoms) and 1TII of its pymol-data (5,469), without water, Bondi radii.
+Balls ubiquitin();
+Balls enterotoxin();
 
 glm::dmat3 random_rotation(std::mt19937& random);
 Balls rotated(const Balls& balls, const glm::dmat3& rotation);

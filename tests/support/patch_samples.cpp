@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Uniform points on spheres and tori, and the clips of primitives.h.
+#include "tests/support/patch_samples.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <span>
+
+#include <glm/geometric.hpp>
+
+namespace meniscus::testing {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+glm::dvec3 random_direction(std::mt19937& random) {
+  std::normal_distribution<double> normal;
+  return glm::normalize(glm::dvec3(normal(random), normal(random), normal(random)));
+}
+
+struct Sphere {
+  glm::dvec3 center;
+  double radius;
+  std::span<const Plane> planes;
+};
+
+Sphere sphere_of(const Surface& s, PatchKind kind, std::uint32_t patch) {
+  if (kind == PatchKind::convex) {
+    const ConvexPatch& c = s.convex[patch];
+    return {s.atoms[c.atom].center, s.atoms[c.atom].radius, {s.planes.data() + c.first_plane, c.plane_count}};
+  }
+  const ConcavePatch& c = s.concave[patch];
+  return {c.center, s.probe_radius, {s.planes.data() + c.first_plane, c.side_count + c.cut_count}};
+}
+
+// The least of plane.offset - dot(normal, x): positive inside.
+double depth(std::span<const Plane> planes, const glm::dvec3& x) {
+  double least = 1e300;
+  for (const Plane& plane : planes) least = std::min(least, plane.offset - glm::dot(plane.normal, x));
+  return least;
+}
+
+PatchSample sample_torus(const Surface& s, const ToroidalPatch& t, std::mt19937& random) {
+  const double p = s.probe_radius;
+  std::uniform_real_distribution<double> angle(-kPi, kPi), unit(0, 1);
+  // By area: the ring at tube angle psi (0 towards the axis) has radius |T - p cos psi|.
+  double psi = 0;
+  do psi = angle(random);
+  while (unit(random) * (t.radius + p) > std::abs(t.radius - p * std::cos(psi)));
+  const double theta = angle(random);
+  const glm::dvec3 e = std::cos(theta) * t.start + std::sin(theta) * glm::cross(t.axis, t.start);
+  const double from_axis = t.radius - p * std::cos(psi), height = p * std::sin(psi);
+  PatchSample sample;
+  sample.point = t.center + from_axis * e + height * t.axis;
+
+  const auto contact_height = [&](std::uint32_t atom) {
+    return glm::dot(t.axis, s.atoms[atom].center - t.center) * p / (s.atoms[atom].radius + p);
+  };
+  const double turn = theta < 0 ? theta + 2 * kPi : theta;
+  double least = std::min({p * std::cos(psi), from_axis, height - contact_height(t.atom[0]),
+                           contact_height(t.atom[1]) - height});
+  if (!t.free()) {
+    const double beyond = turn < 0.5 * (t.sweep + 2 * kPi) ? t.sweep - turn : turn - 2 * kPi;
+    const double lacking = beyond < 0 ? beyond : std::min(turn, t.sweep - turn);
+    least = std::min(least, lacking * std::abs(from_axis));
+  }
+  sample.inside = least > 0;
+  sample.clearance = std::abs(least);
+  return sample;
+}
+
+}  // namespace
+
+std::size_t patch_count(const Surface& surface, PatchKind kind) {
+  if (kind == PatchKind::convex) return surface.convex.size();
+  return kind == PatchKind::toroidal ? surface.toroidal.size() : surface.concave.size();
+}
+
+double whole_area(const Surface& surface, PatchKind kind, std::uint32_t patch) {
+  const double p = surface.probe_radius;
+  if (kind != PatchKind::toroidal) {
+    const double r = sphere_of(surface, kind, patch).radius;
+    return 4 * kPi * r * r;
+  }
+  const double t = surface.toroidal[patch].radius;
+  if (t >= p) return 4 * kPi * kPi * p * t;
+  // 2 pi p times the integral of |t - p cos psi| over psi: both sides of the axis.
+  const double tip = std::acos(t / p);
+  return 4 * kPi * p * (t * (kPi - 2 * tip) + 2 * p * std::sin(tip));
+}
+
+double face_area(const Surface& surface, PatchKind kind, std::uint32_t patch) {
+  const auto sum = [&](const auto& p) {
+    double area = 0;
+    for (std::uint32_t f = p.first_face; f < p.first_face + p.face_count; ++f) area += surface.faces[f].area;
+    return area;
+  };
+  if (kind == PatchKind::convex) return sum(surface.convex[patch]);
+  return kind == PatchKind::toroidal ? sum(surface.toroidal[patch]) : sum(surface.concave[patch]);
+}
+
+bool inside_planes(const Surface& surface, PatchKind kind, std::uint32_t patch, const glm::dvec3& point) {
+  return depth(sphere_of(surface, kind, patch).planes, point) > 0;
+}
+
+PatchSample sample_patch(const Surface& surface, PatchKind kind, std::uint32_t patch, std::mt19937& random) {
+  if (kind == PatchKind::toroidal) return sample_torus(surface, surface.toroidal[patch], random);
+  const Sphere sphere = sphere_of(surface, kind, patch);
+  PatchSample sample;
+  sample.point = sphere.center + sphere.radius * random_direction(random);
+  const double least = depth(sphere.planes, sample.point);
+  sample.inside = least > 0;
+  sample.clearance = std::abs(least);
+  return sample;
+}
+
+}  // namespace meniscus::testing
