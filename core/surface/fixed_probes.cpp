@@ -20,6 +20,7 @@ namespace {
 
 constexpr double kMergeDistance = 1e-6;
 constexpr double kTouchDistance = 1e-9;
+constexpr double kLargestGrowth = 1.5e-9;  // of decision weights
 
 // One end of an exposed arc as the fixed probe that stands there: its atoms a < b < c and the side of their plane.
 struct ArcEnd {
@@ -121,9 +122,10 @@ class Placement {
     glm::dvec3 x = geometry::probe_of_three(db, dc, radius[0] * radius[0], radius[1] * radius[1],
                                             radius[2] * radius[2], side, h2);
     if (h2 < 1e-7) {
-      // Probe (almost) in the plane of its atoms: the position that belongs to the decision that found it.
-      x = geometry::probe_of_three(db, dc, decision_weight(radius[0], a), decision_weight(radius[1], b),
-                                   decision_weight(radius[2], c), side, h2);
+      // Probe (almost) in the plane of its atoms: grown as the decision that found it was, but all alike, so that
+      // n-fold contacts stay in one place.
+      const auto grown = [](double r) { return (r + kLargestGrowth) * (r + kLargestGrowth); };
+      x = geometry::probe_of_three(db, dc, grown(radius[0]), grown(radius[1]), grown(radius[2]), side, h2);
     } else {
       x = polished(x, db, dc, radius);
     }
