@@ -173,10 +173,12 @@ class Placement {
       clusters.unite(begin, end);
       any = true;
     }
+    toroidal_of_arc_.assign(arcs_.size(), kNone);
     probe_of_triple_.resize(triples_.size());
     members_.clear();
+    const std::vector<char> apart = any ? clusters_to_keep_apart(clusters) : std::vector<char>(triples_.size(), 0);
     for (std::uint32_t t = 0; t < triples_.size(); ++t) {
-      const std::uint32_t root = any ? clusters.find(t) : t;
+      const std::uint32_t root = any && !apart[clusters.find(t)] ? clusters.find(t) : t;
       if (root == t) {
         probe_of_triple_[t] = static_cast<std::uint32_t>(members_.size());
         members_.push_back({t});
@@ -187,8 +189,20 @@ class Placement {
     }
   }
 
+  // A cluster whose remaining sides are not one ring is a cavity too small for the probe to move in: all its arcs are
+  // tiny, and none vanishes. [root]: true.
+  std::vector<char> clusters_to_keep_apart(UnionFind& clusters) {
+    std::vector<char> apart(triples_.size(), 0);
+    std::vector<std::vector<ProbeSide>> sides(triples_.size());
+    for (std::uint32_t t = 0; t < triples_.size(); ++t) append_sides(t, sides[clusters.find(t)]);
+    std::vector<ProbeSide> ring;
+    for (std::uint32_t t = 0; t < triples_.size(); ++t) apart[t] = clusters.find(t) == t && !chain(sides[t], ring);
+    for (std::uint32_t n = 0; n < arcs_.size(); ++n)
+      if (vanished_[n] && apart[clusters.find(triple_at_[n * 2])]) vanished_[n] = false;
+    return apart;
+  }
+
   void place_toroidal() {
-    toroidal_of_arc_.assign(arcs_.size(), kNone);
     std::uint32_t count = 0;
     for (std::uint32_t n = 0; n < arcs_.size(); ++n)
       if (!vanished_[n]) toroidal_of_arc_[n] = count++;
