@@ -68,11 +68,21 @@ int report(ExitCode code, const std::string& message) {
   return code;
 }
 
+void refuse_unknown_command(std::string_view word) {
+  std::string names;
+  for (const Command& command : kCommands) {
+    if (word == command.name) return;
+    names += fmt::format("{}{}", names.empty() ? "" : ", ", command.name);
+  }
+  throw UsageError(fmt::format("{} is no command; there are {}; see meniscus --help", in_quotes(word), names));
+}
+
 int run(int argc, char** argv) {
+  if (argc > 1 && argv[1][0] != '-') refuse_unknown_command(argv[1]);
   CLI::App program("Meniscus computes the exact, complete solvent-excluded surface of a molecule.", "meniscus");
   program.formatter(std::make_shared<ManualFormatter>());
   program.get_formatter()->column_width(30);
-  program.set_version_flag("--version", "meniscus " MENISCUS_VERSION);
+  program.set_version_flag("--version", "meniscus " MENISCUS_VERSION, "Show the version");
   program.set_help_flag("-h,--help", "Show this help");
   program.require_subcommand(1);
   program.footer(kExamples);

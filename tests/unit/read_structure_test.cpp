@@ -66,6 +66,17 @@ TEST(Gzip, IsReadByContentAndInSeveralMembers) {
   EXPECT_EQ(read_text("1ubq", test::gzipped(half) + test::gzipped(text.substr(half.size()))).atoms.size(), 602u);
 }
 
+TEST(Gzip, BombsStopAtTheLimit) {
+  const TemporaryFolder folder;
+  const std::string member = test::gzipped(std::string(100000, '\n'));
+  std::string bomb;
+  for (int n = 0; n < 20; ++n) bomb += member;
+  const std::string path = folder.file("a.pdb.gz", bomb);
+  EXPECT_THROW(read_text_file(path, 1000000), CapacityError);
+  EXPECT_THROW(read_text_file(path, 2000000), InputError);  // below the limit it is merely empty
+  EXPECT_THROW(read_text_file(kUbiquitin, 1000), CapacityError);
+}
+
 TEST(Text, LineEndsAndByteOrderMarksDoNotMatter) {
   std::string text = PdbLine{}.text() + PdbLine{.x = "   3.000"}.text();
   for (const char* line_end : {"\r\n", "\r"}) {

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Bad molecule files: each gives exit code 3 (or 5), one line that names the file and says what to do, and no output.
+#include <sys/stat.h>
+
+#include <filesystem>
+#include <algorithm>
+#include <cctype>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/run_program.h"
+#include "tests/unit/pdb_line.h"
+
+namespace meniscus {
+namespace {
+
+using test::gzipped;
+using test::PdbLine;
+using test::TemporaryFolder;
+
+constexpr int kInput = 3;
+constexpr int kCapacity = 5;
+
+/// One bad file: its name, content, and a part of the message that must be there.
+struct BadFile {
+  const char* what;
+  const char* name;
+  std::string content;
+  const char* message;
+  int exit_code = kInput;
+};
+
+void PrintTo(const BadFile& bad, std::ostream* out) { *out << bad.what; }
+
+std::string pdb(const PdbLine& line) { return line.text(); }
+std::string pdb_x(const std::string& x) { return pdb({}) + pdb({.x = x}); }
+
+std::string with(std::string text, std::string_view from, std::string_view to) {
+  const std::size_t place = text.find(from);
+  EXPECT_NE(place, std::string::npos) << from;
+  return text.replace(place, from.size(), to);
+}
+
+const std::string kMmcif =
+    "data_x\nloop_\n_atom_site.type_symbol\n_atom_site.label_atom_id\n_atom_site.label_comp_id\n"
+    "_atom_site.label_asym_id\n_atom_site.label_seq_id\n_atom_site.Cartn_x\n_atom_site.Cartn_y\n_atom_site.Cartn_z\n"
+    "C CA GLY A 1 1.0 2.0 3.0\nC C GLY A 1 4.0 5.0 6.0\n";
+
+std::vector<BadFile> bad_files() {
+  const std::string water = pdb({.record = "HETATM", .name = " O  ", .residue = "HOH", .element = " O"});
+  const std::string good_gz = gzipped(pdb({}));
+  std::string wrong_crc = good_gz;
+  wrong_crc[wrong_crc.size() - 6] ^= 0x55;
+  const std::string huge_line(std::size_t{10} << 20, 'x');
+  return {
+      // Files in general (catalogue 2-6)
+      {"empty file", "a.pdb", "", "is empty"},
+      {"blank file", "a.pdb", "\n \t\n\n", "is empty"},
+      {"empty gzip", "a.pdb.gz", gzipped(""), "is empty"},
+      {"utf-16", "a.pdb",
+       std::string("\xff\xfe"
+                   "A\0T\0",
+                   6),
+       "UTF-16"},
+      {"nul bytes", "a.pdb", pdb({}) + std::string("\0\0", 2), "binary"},
+      {"binary garbage", "a.pdb",
+       std::string("\x7f"
+                   "ELF\x02\x01\x01\0\0\xb7",
+                   10),
+       "binary"},
+      {"high bytes without nul", "a.pdb", "\xb1\xfe\x9a\x80\xc3\x28", "no ATOM or HETATM"},
+      {"10 MB line", "a.pdb", huge_line, "the line has 10,485,760 bytes", kCapacity},
+      {"gzip cut short", "a.pdb.gz", good_gz.substr(0, good_gz.size() / 2), "cut short"},
+      {"gzip cut in its trailer", "a.pdb.gz", good_gz.substr(0, good_gz.size() - 3), "cut short"},
+      {"gzip with wrong crc", "a.pdb.gz", wrong_crc, "damaged"},
+      {"gzip with trailing garbage", "a.pdb.gz", good_gz + "garbage", "foreign bytes"},
+      {"gzip header only", "a.pdb.gz", std::string("\x1f\x8b", 2), "cut short"},
+      {"bzip2", "a.pdb.bz2", "BZh91AY&SY", "bzip2"},
+      {"xz", "a.pdb.xz",
+       "\xfd"
+       "7zXZ",
+       "xz"},
+      {"zip", "a.zip", "PK\x03\x04", "zip"},
+      {"html as pdb", "a.pdb", "<!DOCTYPE html>\n<html><body>404</body></html>\n", "looks like HTML"},
+      {"json", "a.pdb", "{\"data_1abc\": {}}", "looks like JSON"},
+      {"prose", "a.txt", "This is no molecule.\n", "no format that is read"},
+      {"prose named pdb", "a.pdb", "This is no molecule.\n", "no ATOM or HETATM"},
+      {"pqr", "a.pqr", pdb({}), ".pqr files are not read"},
+      {"gro", "a.gro", "title\n 1\n    1ALA     CA    1   0.000   0.000   0.000\n 1 1 1\n", ".gro files are not read"},
+      // PDB (10-14, 19)
+      {"header only", "a.pdb", "HEADER    X\nEND\n", "no ATOM or HETATM"},
+      {"only water", "a.pdb", water, "leaves no atoms"},
+      {"atom cut at x", "a.pdb", pdb({}) + pdb({}).substr(0, 36) + "\n", ":2: atom record"},
+      {"atom cut at z", "a.pdb", pdb({}).substr(0, 50), ":1: atom record"},
+      {"nan", "a.pdb", pdb_x("     nan"), ":2: coordinate x is '     nan'"},
+      {"inf", "a.pdb", pdb_x("    -inf"), ":2: coordinate x"},
+      {"stars", "a.pdb", pdb_x("********"), ":2: coordinate x is '********'"},
+      {"overflow", "a.pdb", pdb_x("   1e400"), ":2: coordinate x"},
+      {"blank", "a.pdb", pdb_x("        "), ":2: coordinate x"},
+      {"two points", "a.pdb", pdb_x("   1.2.3"), ":2: coordinate x"},
+      {"comma", "a.pdb", pdb_x("   1,200"), ":2: coordinate x"},
+      {"letters", "a.pdb", pdb_x("   12x.0"), ":2: coordinate x"},
+      {"y", "a.pdb", pdb({.y = "     nan"}), ":1: coordinate y"},
+      {"z", "a.pdb", pdb({.z = "     nan"}), ":1: coordinate z"},
+      {"shifted columns", "a.pdb", pdb_x("-1000.12") + pdb({.x = "3-1000.4"}), ":3: coordinate x"},
+      {"far away", "a.pdb", pdb_x("10000000"), "beyond the extent"},
+      {"unknown element", "a.pdb", pdb({}) + pdb({.name = " X1 ", .residue = "UNL", .number = 2, .element = " X"}),
+       "element of 1 atom is unknown: 'X1' in UNL A2"},
+      {"terminal escapes", "a.pdb", pdb({.x = "\x1b[2J\x1b[1;"}), "\\x1b[2J"},
+      // XYZR
+      {"xyzr of three columns", "a.xyzr", "0 0 0 1.7\n1 2 3\n", ":2: '1 2 3' has fewer than four columns"},
+      {"xyzr nan", "a.xyzr", "0 0 0 1.7\n1 nan 3 1.7\n", ":2: coordinate y is 'nan'"},
+      {"xyzr text first", "a.xyzr", "x y z r\n0 0 0 1.7\n", ":1: coordinate x is 'x'"},
+      {"xyzr negative radius", "a.xyzr", "0 0 0 -1.0\n", ":1: radius is -1 Å"},
+      {"xyzr nan radius", "a.xyzr", "0 0 0 nan\n", ":1: radius is 'nan'"},
+      {"xyzr inf radius", "a.xyzr", "0 0 0 inf\n", ":1: radius is 'inf'"},
+      {"xyzr huge radius", "a.xyzr", "0 0 0 1e6\n", ":1: radius is 1000000 Å, above"},
+      {"xyzr far", "a.xyzr", "0 0 0 1.7\n1e7 0 0 1.7\n", ":2: coordinate x is 10000000 Å, beyond"},
+      {"xyzr of zero radii", "a.xyzr", "0 0 0 0\n", "leaves no atoms"},
+      {"xyzr of comments", "a.xyzr", "# nothing\n", "leaves no atoms"},
+      // mmCIF (26-28)
+      {"no data block", "a.cif", "loop_\n_atom_site.id\n1\n", "no readable mmCIF"},
+      {"no atoms", "a.cif", "data_x\n_entry.id x\n", "no table _atom_site"},
+      {"wrong column count", "a.cif", kMmcif + "C\n", "no readable mmCIF"},
+      {"unclosed quote", "a.cif", with(kMmcif, "C CA", "C 'CA"), "no readable mmCIF"},
+      {"unclosed text", "a.cif", with(kMmcif, "C CA", "C\n;CA"), "no readable mmCIF"},
+      {"duplicated tag", "a.cif", with(kMmcif, "label_comp_id", "label_atom_id"), "no readable mmCIF"},
+      {"question mark", "a.cif", with(kMmcif, " 4.0", " ?"), ":12: coordinate x is '?'"},
+      {"cif nan", "a.cif", with(kMmcif, "6.0", "nan"), ":12: coordinate z is 'nan'"},
+      {"fractional", "a.cif", "data_x\nloop_\n_atom_site_label\n_atom_site_fract_x\nC1 0.5\n",
+       "fractional coordinates"},
+      {"cif cut short", "a.cif", kMmcif.substr(0, kMmcif.size() - 8), "no readable mmCIF"},
+  };
+}
+
+class BadInput : public testing::TestWithParam<BadFile> {};
+
+TEST_P(BadInput, IsOneLineAndTheExitCode) {
+  const BadFile& bad = GetParam();
+  const TemporaryFolder folder;
+  const std::string path = folder.file(bad.name, bad.content);
+  const test::ProgramResult result = test::run_program(MENISCUS_PROGRAM, {"surface", path, "--json"});
+  EXPECT_EQ(result.exit_code, bad.exit_code) << result.err;
+  EXPECT_EQ(result.out, "");
+  EXPECT_TRUE(result.err.starts_with("meniscus: error: " + path)) << result.err;
+  EXPECT_NE(result.err.find(bad.message), std::string::npos) << result.err;
+  EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+  EXPECT_EQ(result.err.find('\x1b'), std::string::npos);
+  EXPECT_EQ(folder.entries().size(), 1u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Catalogue, BadInput, testing::ValuesIn(bad_files()), [](const auto& bad) {
+  std::string name = bad.param.what;
+  for (char& c : name) c = std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
+  return name;
+});
+
+void expect_refused(const std::string& path, const char* message) {
+  const test::ProgramResult result = test::run_program(MENISCUS_PROGRAM, {"surface", path}, 20);
+  EXPECT_EQ(result.exit_code, kInput) << path << result.err;
+  EXPECT_NE(result.err.find(message), std::string::npos) << result.err;
+}
+
+TEST(BadPath, FilesThatAreNoFiles) {
+  const TemporaryFolder folder;
+  expect_refused((folder.path() / "missing.pdb").string(), "No such file");
+  expect_refused(folder.path().string(), "is a folder");
+  expect_refused("/dev/zero", "pipe or device");
+  const std::string fifo = folder.path() / "fifo";
+  ASSERT_EQ(::mkfifo(fifo.c_str(), 0600), 0);
+  expect_refused(fifo, "pipe or device");
+  std::filesystem::create_symlink("loop", folder.path() / "loop");
+  expect_refused((folder.path() / "loop").string(), "symbolic links");
+  expect_refused(std::string(5000, 'x'), "name too long");
+  expect_refused("", "No such file");
+}
+
+TEST(BadPath, OddNamesWork) {
+  const TemporaryFolder folder;
+  for (const char* name : {"with space.pdb", "quo'te\".pdb", "new\nline.pdb", "%04d.pdb", "-dash.pdb", "ümlaut.pdb"}) {
+    const std::string path = folder.file(name, PdbLine{}.text());
+    const test::ProgramResult result = test::run_program(MENISCUS_PROGRAM, {"surface", path});
+    EXPECT_EQ(result.exit_code, 0) << name << result.err;
+  }
+}
+
+}  // namespace
+}  // namespace meniscus
