@@ -273,7 +273,7 @@ class BoundaryBuilder {
     std::vector<std::vector<char>> left(count, std::vector<char>(count, 1));  // [m][k]: loop m lies left of loop k
     for (std::size_t m = 0; m < count; ++m)
       for (std::size_t k = 0; k < count; ++k)
-        if (m != k) left[m][k] = lies_left_of(middle_of(longest_of(loops[m])), loops[k]);
+        if (m != k) left[m][k] = lies_left_of(loops[m], loops[k]);
     UnionFind same(count);
     for (std::size_t m = 0; m < count; ++m)
       for (std::size_t n = m + 1; n < count; ++n) {
@@ -289,12 +289,6 @@ class BoundaryBuilder {
       if (number[root] == kNone) number[root] = faces.face_count++;
       faces.loop_face[l] = number[root];
     }
-  }
-
-  static const SphereArc& longest_of(const std::vector<SphereArc>& loop) {
-    return *std::max_element(loop.begin(), loop.end(), [](const SphereArc& a, const SphereArc& b) {
-      return std::abs(a.sweep) * (1 - a.height * a.height) < std::abs(b.sweep) * (1 - b.height * b.height);
-    });
   }
 
   void number_faces() {

@@ -94,9 +94,16 @@ glm::dvec3 moment_left_of(std::span<const SphereArc> loop) {
   return 0.5 * sum;
 }
 
-glm::dvec3 middle_of(const SphereArc& arc) { return rotated(arc, 0.5 * arc.sweep); }
+bool lies_left_of(std::span<const SphereArc> inner, std::span<const SphereArc> loop) {
+  double clearest = 0;
+  for (const SphereArc& arc : inner)
+    for (const double part : {0.5, 0.2, 0.8})
+      if (const double d = distance_left_of(rotated(arc, part * arc.sweep), loop); std::abs(d) > std::abs(clearest))
+        clearest = d;
+  return clearest > 0;
+}
 
-bool lies_left_of(const glm::dvec3& point, std::span<const SphereArc> loop) {
+double distance_left_of(const glm::dvec3& point, std::span<const SphereArc> loop) {
   // The great circle from the point to the loop's nearest point meets the loop nowhere before, so it arrives on the
   // side the point is on. No path has to dodge corners, so symmetry cannot spoil it.
   double nearest = -2;  // cosine of the distance
@@ -119,7 +126,8 @@ bool lies_left_of(const glm::dvec3& point, std::span<const SphereArc> loop) {
       left = glm::dot(inwards, point - arc.to) > 0;
     }
   }
-  return left;
+  const double distance = std::sqrt(std::max(0.0, 2 - 2 * nearest));
+  return left ? distance : -distance;
 }
 
 }  // namespace meniscus

@@ -29,10 +29,10 @@ double area_left_of(std::span<const SphereArc> loop);
 /// Integral of the unit vector u over the region on the left of the loops: 1/2 of the sum of integrals of u x du.
 glm::dvec3 moment_left_of(std::span<const SphereArc> loop);
 
-/// True if the point (on the unit sphere, not on the loop) lies on the left of the loop.
-bool lies_left_of(const glm::dvec3& point, std::span<const SphereArc> loop);
+/// The straight distance from a point of the unit sphere to the loop; positive if the point lies on the left of it.
+double distance_left_of(const glm::dvec3& point, std::span<const SphereArc> loop);
 
-/// Middle of an arc.
-glm::dvec3 middle_of(const SphereArc& arc);
+/// True if `inner`, which may touch the loop but not cross it, lies on the left of it.
+bool lies_left_of(std::span<const SphereArc> inner, std::span<const SphereArc> loop);
 
 }  // namespace meniscus

@@ -144,6 +144,18 @@ Balls gas(std::uint32_t seed, int count, double box, double smallest_radius, dou
   return balls;
 }
 
+GasCase gas_case(std::uint32_t n) {
+  std::mt19937 random(n + 1);
+  std::uniform_real_distribution<double> unit(0, 1);
+  const int count = 5 + static_cast<int>(195 * unit(random) * unit(random));
+  const double density = 0.005 * std::pow(40.0, unit(random));  // balls per Å³
+  const double spread = unit(random) * unit(random);
+  const double probe_radius = n % 7 == 0 ? 0.0 : 0.2 * std::pow(20.0, unit(random));
+  const double step = n % 3 == 0 ? 1.0 : n % 3 == 1 ? 0.5 : 0.0;
+  return {gas(n + 1, count, std::cbrt(count / density), 1.0, 1.0 + 4 * spread, step),
+          step > 0 ? std::round(2 * probe_radius) / 2 : probe_radius, step > 0};
+}
+
 std::vector<NamedBalls> degenerate_molecules() {
   const double p = kWater, r = kCarbon, extended = r + p;
   std::vector<NamedBalls> all = {

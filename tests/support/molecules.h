@@ -41,6 +41,15 @@ Balls graphene(int n, double radius = kCarbon);
 /// Uniformly random balls in a cube of side `box`; coordinates are multiples of `step` if step > 0 (to provoke ties).
 Balls gas(std::uint32_t seed, int count, double box, double smallest_radius, double largest_radius, double step = 0);
 
+/// The n-th of an endless list of gases: 5 to 200 balls, sparse to crowded, equal radii to five-fold ones, any probe
+/// radius from 0 to 4 Å; two of three on a grid of 1 or 0.5 Å with probe and radii to match, so that ties abound.
+struct GasCase {
+  Balls balls;
+  double probe_radius;
+  bool on_grid;
+};
+GasCase gas_case(std::uint32_t n);
+
 /// A molecule by name, for tests that go through all of them.
 struct NamedBalls {
   std::string name;

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Random gases of balls, ties and all: always closed, with the volume, the points and the areas an oracle finds.
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include <glm/common.hpp>
+#include <gtest/gtest.h>
+
+#include "core/surface/surface.h"
+#include "tests/support/molecules.h"
+#include "tests/support/patch_samples.h"
+#include "tests/support/sphere_tracer.h"
+
+namespace meniscus::testing {
+namespace {
+
+struct Estimate {
+  double value = 0.0;
+  double error = 0.0;  ///< one standard deviation
+};
+
+// Two random points in each cell of a grid over the molecule: is the probe kept from them?
+Estimate sampled_volume(const Balls& balls, double p, const SphereTracer& oracle, int cells, std::mt19937& random) {
+  glm::dvec3 low(1e300), high(-1e300);
+  for (const Ball& b : balls) {
+    low = glm::min(low, b.center - b.radius);
+    high = glm::max(high, b.center + b.radius);
+  }
+  std::uniform_real_distribution<double> unit(0, 1);
+  const glm::dvec3 step = (high - low) / double(cells);
+  const auto solid = [&](const glm::ivec3& cell) {
+    const glm::dvec3 x = low + step * (glm::dvec3(cell) + glm::dvec3(unit(random), unit(random), unit(random)));
+    return p > 0 ? oracle.nearest(x).distance >= p : oracle.outside(x) <= 0;
+  };
+  double sum = 0, variance = 0;
+  for (int z = 0; z < cells; ++z)
+    for (int y = 0; y < cells; ++y)
+      for (int x = 0; x < cells; ++x) {
+        const bool a = solid({x, y, z}), b = solid({x, y, z});
+        sum += 0.5 * (a + b);
+        variance += a != b ? 0.25 : 0.0;
+      }
+  const double cell = step.x * step.y * step.z;
+  return {sum * cell, std::sqrt(variance) * cell};
+}
+
+// Points that the tables call part of a patch lie on the surface; points well off it, on the same sphere or torus, do
+// not. Returns how many were looked at.
+int check_points(const Surface& s, const SphereTracer& oracle, int per_kind, double tolerance, std::mt19937& random) {
+  int looked_at = 0;
+  for (const PatchKind kind : {PatchKind::convex, PatchKind::toroidal, PatchKind::concave}) {
+    const std::size_t count = patch_count(s, kind);
+    if (count == 0 || (kind != PatchKind::convex && s.probe_radius == 0)) continue;
+    for (int n = 0; n < per_kind; ++n) {
+      const auto patch = static_cast<std::uint32_t>(random() % count);
+      const PatchSample sample = sample_patch(s, kind, patch, random);
+      const double off = s.probe_radius > 0 ? oracle.nearest(sample.point).distance - s.probe_radius
+                                            : oracle.outside(sample.point);
+      ++looked_at;
+      if (sample.inside)
+        EXPECT_NEAR(off, 0.0, tolerance) << "kind " << int(kind) << ", patch " << patch;
+      else if (sample.clearance > 0.05)
+        EXPECT_GT(std::abs(off), tolerance) << "kind " << int(kind) << ", patch " << patch;
+    }
+  }
+  return looked_at;
+}
+
+class Gas : public ::testing::TestWithParam<std::uint32_t> {};
+
+constexpr std::uint32_t kCasesPerTest = 50;
+
+TEST_P(Gas, IsClosedAndAsTheOracleSays) {
+  std::mt19937 random(GetParam());
+  for (std::uint32_t n = GetParam(); n < GetParam() + kCasesPerTest; ++n) {
+    SCOPED_TRACE("gas " + std::to_string(n));
+    const GasCase gas = gas_case(n);
+    const Surface s = compute_surface_cpu(gas.balls, gas.probe_radius);
+    const SphereTracer oracle(gas.balls, gas.probe_radius, 0.01);
+    const Estimate volume = sampled_volume(gas.balls, gas.probe_radius, oracle, 12, random);
+    EXPECT_NEAR(s.volume, volume.value, 5 * volume.error + 1e-9) << "off by so much of " << volume.error;
+    // Where four spheres meet the oracle itself is good to 1e-5 Å only.
+    EXPECT_GT(check_points(s, oracle, 60, gas.on_grid ? 2e-5 : 1e-6, random), 0);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, Gas, ::testing::Range(0u, 500u, kCasesPerTest));
+
+TEST(Ubiquitin, TenThousandPointsOfThePatchTablesAreOnTheSurface) {
+  const Balls balls = ubiquitin();
+  const Surface s = compute_surface_cpu(balls, kWater);
+  const SphereTracer oracle(balls, kWater, 0.01);
+  std::mt19937 random(3);
+  int on = 0, off = 0;
+  while (on < 10000 || off < 10000) {
+    const auto kind = static_cast<PatchKind>(random() % 3);
+    const PatchSample sample =
+        sample_patch(s, kind, static_cast<std::uint32_t>(random() % patch_count(s, kind)), random);
+    const double distance = oracle.nearest(sample.point).distance - kWater;
+    if (sample.inside && on < 10000) {
+      ++on;
+      ASSERT_NEAR(distance, 0.0, 1e-6) << "kind " << int(kind);
+    } else if (!sample.inside && sample.clearance > 0.01 && off < 10000) {
+      ++off;
+      ASSERT_GT(std::abs(distance), 1e-6) << "kind " << int(kind);
+    }
+  }
+}
+
+TEST(Ubiquitin, VolumeBySamplingTheOracle) {
+  const Balls balls = ubiquitin();
+  std::mt19937 random(4);
+  for (const double p : {0.0, 0.6, 1.4, 3.0}) {
+    const SphereTracer oracle(balls, p, 0.01);
+    const Estimate volume = sampled_volume(balls, p, oracle, 50, random);
+    EXPECT_NEAR(compute_surface_cpu(balls, p).volume, volume.value, 5 * volume.error) << p;
+    EXPECT_LT(volume.error, 2e-3 * volume.value);
+  }
+}
+
+}  // namespace
+}  // namespace meniscus::testing
