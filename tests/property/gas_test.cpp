@@ -45,6 +45,10 @@ Estimate sampled_volume(const Balls& balls, double p, const SphereTracer& oracle
   return {sum * cell, std::sqrt(variance) * cell};
 }
 
+PatchSample sample_surface(const Surface& s, PatchKind kind, std::uint32_t patch, std::mt19937& random) {
+  return kind == PatchKind::toroidal ? sample_circle(s, patch, random) : sample_patch(s, kind, patch, random);
+}
+
 // Points that the tables call part of a patch lie on the surface; points well off it, on the same sphere or torus, do
 // not. Returns how many were looked at.
 int check_points(const Surface& s, const SphereTracer& oracle, int per_kind, double tolerance, std::mt19937& random) {
@@ -54,14 +58,15 @@ int check_points(const Surface& s, const SphereTracer& oracle, int per_kind, dou
     if (count == 0 || (kind != PatchKind::convex && s.probe_radius == 0)) continue;
     for (int n = 0; n < per_kind; ++n) {
       const auto patch = static_cast<std::uint32_t>(random() % count);
-      const PatchSample sample = sample_patch(s, kind, patch, random);
+      const PatchSample sample = sample_surface(s, kind, patch, random);
       const double off = s.probe_radius > 0 ? oracle.nearest(sample.point).distance - s.probe_radius
                                             : oracle.outside(sample.point);
       ++looked_at;
-      if (sample.inside)
+      if (sample.inside) {
         EXPECT_NEAR(off, 0.0, tolerance) << "kind " << int(kind) << ", patch " << patch;
-      else if (sample.clearance > 0.05)
-        EXPECT_GT(std::abs(off), tolerance) << "kind " << int(kind) << ", patch " << patch;
+      } else if (sample.clearance > 0.05) {
+        EXPECT_GT(std::abs(off), 1e-6) << "kind " << int(kind) << ", patch " << patch;
+      }
     }
   }
   return looked_at;
@@ -77,11 +82,15 @@ TEST_P(Gas, IsClosedAndAsTheOracleSays) {
     SCOPED_TRACE("gas " + std::to_string(n));
     const GasCase gas = gas_case(n);
     const Surface s = compute_surface_cpu(gas.balls, gas.probe_radius);
-    const SphereTracer oracle(gas.balls, gas.probe_radius, 0.01);
+    // Touching counts as overlapping: on a grid there are lone points where a probe would just fit.
+    Balls grown = gas.balls;
+    if (gas.on_grid)
+      for (Ball& b : grown) b.radius += 1e-8;
+    const SphereTracer oracle(grown, gas.probe_radius, 0.01);
     const Estimate volume = sampled_volume(gas.balls, gas.probe_radius, oracle, 12, random);
     EXPECT_NEAR(s.volume, volume.value, 5 * volume.error + 1e-9) << "off by so much of " << volume.error;
-    // Where four spheres meet the oracle itself is good to 1e-5 Å only.
-    EXPECT_GT(check_points(s, oracle, 60, gas.on_grid ? 2e-5 : 1e-6, random), 0);
+    // Where spheres touch, 1e-8 Å move a probe by its square root.
+    EXPECT_GT(check_points(s, oracle, 60, gas.on_grid ? 1e-3 : 1e-6, random), 0);
   }
 }
 
@@ -96,7 +105,7 @@ TEST(Ubiquitin, TenThousandPointsOfThePatchTablesAreOnTheSurface) {
   while (on < 10000 || off < 10000) {
     const auto kind = static_cast<PatchKind>(random() % 3);
     const PatchSample sample =
-        sample_patch(s, kind, static_cast<std::uint32_t>(random() % patch_count(s, kind)), random);
+        sample_surface(s, kind, static_cast<std::uint32_t>(random() % patch_count(s, kind)), random);
     const double distance = oracle.nearest(sample.point).distance - kWater;
     if (sample.inside && on < 10000) {
       ++on;

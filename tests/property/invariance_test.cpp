@@ -62,8 +62,9 @@ TEST_P(Degenerate, Scaled) {
 }
 
 std::string case_name(const ::testing::TestParamInfo<std::size_t>& parameter) {
-  std::string name;
-  for (const char c : degenerate_molecules()[parameter.param].name) name += std::isalnum(c) ? c : '_';
+  std::string name = degenerate_molecules()[parameter.param].name;
+  for (char& c : name)
+    if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
   return name;
 }
 

@@ -41,7 +41,24 @@ double depth(std::span<const Plane> planes, const glm::dvec3& x) {
   return least;
 }
 
-PatchSample sample_torus(const Surface& s, const ToroidalPatch& t, std::mt19937& random) {
+// Signed distance of a point of the torus at direction e, from the axis and height to the nearest clip of a patch.
+double torus_depth(const Surface& s, const ToroidalPatch& t, const glm::dvec3& e, double psi) {
+  const double p = s.probe_radius, from_axis = t.radius - p * std::cos(psi), height = p * std::sin(psi);
+  const auto contact_height = [&](std::uint32_t atom) {
+    return glm::dot(t.axis, s.atoms[atom].center - t.center) * p / (s.atoms[atom].radius + p);
+  };
+  const double least = std::min({p * std::cos(psi), from_axis, height - contact_height(t.atom[0]),
+                                 contact_height(t.atom[1]) - height});
+  if (t.free()) return least;
+  double turn = std::atan2(glm::dot(t.axis, glm::cross(t.start, e)), glm::dot(t.start, e));
+  if (turn < 0) turn += 2 * kPi;
+  const double past_end = t.sweep - turn, past_start = turn - 2 * kPi;
+  const double along = past_end > 0 ? std::min(turn, past_end) : std::max(past_end, past_start);
+  return std::min(least, along * std::abs(from_axis));
+}
+
+PatchSample sample_torus(const Surface& s, std::uint32_t patch, bool siblings, std::mt19937& random) {
+  const ToroidalPatch& t = s.toroidal[patch];
   const double p = s.probe_radius;
   std::uniform_real_distribution<double> angle(-kPi, kPi), unit(0, 1);
   // By area: the ring at tube angle psi (0 towards the axis) has radius |T - p cos psi|.
@@ -50,24 +67,15 @@ PatchSample sample_torus(const Surface& s, const ToroidalPatch& t, std::mt19937&
   while (unit(random) * (t.radius + p) > std::abs(t.radius - p * std::cos(psi)));
   const double theta = angle(random);
   const glm::dvec3 e = std::cos(theta) * t.start + std::sin(theta) * glm::cross(t.axis, t.start);
-  const double from_axis = t.radius - p * std::cos(psi), height = p * std::sin(psi);
-  PatchSample sample;
-  sample.point = t.center + from_axis * e + height * t.axis;
-
-  const auto contact_height = [&](std::uint32_t atom) {
-    return glm::dot(t.axis, s.atoms[atom].center - t.center) * p / (s.atoms[atom].radius + p);
-  };
-  const double turn = theta < 0 ? theta + 2 * kPi : theta;
-  double least = std::min({p * std::cos(psi), from_axis, height - contact_height(t.atom[0]),
-                           contact_height(t.atom[1]) - height});
-  if (!t.free()) {
-    const double beyond = turn < 0.5 * (t.sweep + 2 * kPi) ? t.sweep - turn : turn - 2 * kPi;
-    const double lacking = beyond < 0 ? beyond : std::min(turn, t.sweep - turn);
-    least = std::min(least, lacking * std::abs(from_axis));
+  double depth = torus_depth(s, t, e, psi);
+  // Patches are sorted by their atoms: those on the same circle stand together.
+  if (siblings) {
+    std::uint32_t other = patch;
+    while (other > 0 && s.toroidal[other - 1].atom == t.atom) --other;
+    for (; other < s.toroidal.size() && s.toroidal[other].atom == t.atom; ++other)
+      depth = std::max(depth, torus_depth(s, s.toroidal[other], e, psi));
   }
-  sample.inside = least > 0;
-  sample.clearance = std::abs(least);
-  return sample;
+  return {t.center + (t.radius - p * std::cos(psi)) * e + p * std::sin(psi) * t.axis, depth > 0, std::abs(depth)};
 }
 
 }  // namespace
@@ -104,8 +112,12 @@ bool inside_planes(const Surface& surface, PatchKind kind, std::uint32_t patch, 
   return depth(sphere_of(surface, kind, patch).planes, point) > 0;
 }
 
+PatchSample sample_circle(const Surface& surface, std::uint32_t patch, std::mt19937& random) {
+  return sample_torus(surface, patch, true, random);
+}
+
 PatchSample sample_patch(const Surface& surface, PatchKind kind, std::uint32_t patch, std::mt19937& random) {
-  if (kind == PatchKind::toroidal) return sample_torus(surface, surface.toroidal[patch], random);
+  if (kind == PatchKind::toroidal) return sample_torus(surface, patch, false, random);
   const Sphere sphere = sphere_of(surface, kind, patch);
   PatchSample sample;
   sample.point = sphere.center + sphere.radius * random_direction(random);

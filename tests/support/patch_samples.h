@@ -28,6 +28,8 @@ double whole_area(const Surface& surface, PatchKind kind, std::uint32_t patch);
 /// Area of the patch's faces, Å².
 double face_area(const Surface& surface, PatchKind kind, std::uint32_t patch);
 PatchSample sample_patch(const Surface& surface, PatchKind kind, std::uint32_t patch, std::mt19937& random);
+/// The same for a toroidal patch together with all others on its circle.
+PatchSample sample_circle(const Surface& surface, std::uint32_t patch, std::mt19937& random);
 /// The same test for a given point of a spherical patch's sphere.
 bool inside_planes(const Surface& surface, PatchKind kind, std::uint32_t patch, const glm::dvec3& point);
 

@@ -102,6 +102,11 @@ void SphereTracer::find_circle(std::uint32_t i, std::uint32_t j) {
     const glm::dvec3 to_k = spheres_[k].center - c.center;
     const glm::dvec3 w = to_k - glm::dot(to_k, c.axis) * c.axis;
     const double q = 0.5 * (glm::dot(to_k, to_k) + squared - spheres_[k].radius * spheres_[k].radius);
+    // A ball on the circle's own axis covers all of it or nothing; all three spheres may share the circle.
+    if (glm::length(w) < kTie) {
+      if (q < -kTie) return;
+      continue;
+    }
     const double reach = c.radius * glm::length(w);
     if (q >= reach) continue;
     if (q < -reach) return;
