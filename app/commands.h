@@ -19,6 +19,7 @@ void add_bench(CLI::App& command);
 void add_export(CLI::App& command);
 void add_export_povray(CLI::App& command);
 void add_info(CLI::App& command);
+void add_render(CLI::App& command);
 void add_surface(CLI::App& command);
 
 /// Sets a command's one-line summary and its examples, which the help shows first.

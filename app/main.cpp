@@ -20,6 +20,7 @@ namespace {
 
 constexpr Command kCommands[] = {
     {"surface", add_surface},
+    {"render", add_render},
     {"info", add_info},
     {"export", add_export},
     {"bench", add_bench},

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// `meniscus render`: a picture of the surface by ray casting its analytic patches.
+#include <memory>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "app/commands.h"
+#include "app/molecule_options.h"
+#include "app/picture_options.h"
+#include "app/program_error.h"
+#include "core/base/text.h"
+#include "core/gpu/egl_context.h"
+#include "core/render/image_output.h"
+#include "core/render/ray_caster.h"
+
+namespace meniscus {
+namespace {
+
+struct RenderCommand {
+  MoleculeOptions molecule;
+  PictureOptions picture;
+  OutputOptions output;
+  std::string save_camera;
+  int samples = 4;
+  bool aovs = false;
+  std::optional<glm::vec3> background;
+};
+
+void parse_background(const std::string& text, std::optional<glm::vec3>& background) {
+  background.reset();
+  if (text == "transparent") return;
+  if (text == "white") background = glm::vec3(1.0f);
+  if (text == "black") background = glm::vec3(0.0f);
+  if (background) return;
+  const std::optional<ColorScheme> color = parse_color_scheme(text);
+  if (!color || color->by != ColorScheme::By::fixed)
+    throw CLI::ValidationError("--background", in_quotes(text) + " is none of transparent, white, black, #rrggbb");
+  background = color->fixed;
+}
+
+void save_camera(const RenderCommand& command, const Camera& camera) {
+  OutputFile file(command.save_camera, command.output.existing());
+  file.write(camera_json(camera));
+  file.commit();
+}
+
+void run(const RenderCommand& command) {
+  check_image_path(command.output.path);
+  if (command.aovs && !holds_aovs(command.output.path))
+    throw UsageError("--aovs needs an .exr output; other formats hold colour only");
+  const Molecule molecule = load_molecule(command.molecule);
+  const Camera camera = picture_camera(command.picture, molecule.surface());
+
+  EglContext context(command.molecule.computing.cpu ? DeviceChoice{} : command.molecule.computing.gl);
+  RayCaster caster;
+  RenderSettings settings;
+  settings.size = {command.picture.width, command.picture.height};
+  settings.samples = command.samples;
+  settings.aovs = command.aovs;
+  const Framebuffer picture = caster.render(molecule.surface(), molecule.coloring, camera, settings);
+
+  write_image(command.output.path, picture, {command.background, command.output.existing()});
+  if (!command.save_camera.empty()) save_camera(command, camera);
+  std::string times;
+  for (const StageTime& stage : caster.times())
+    times += fmt::format("{}{} {:.1f} ms", times.empty() ? "" : ", ", stage.name, stage.milliseconds);
+  say(command.molecule, fmt::format("picture on {}, GL {}{}: {}", context.renderer(), context.version(),
+                                    context.is_software() ? " (software)" : "", times));
+}
+
+}  // namespace
+
+void add_render(CLI::App& command) {
+  describe(command, "Ray cast a picture of the analytic surface",
+           "  meniscus render 1tii.pdb -o 1tii.png\n"
+           "  meniscus render 1tii.pdb -o 1tii.png --size 3840x2160 --samples 16 --color chain --background white\n"
+           "  meniscus render 1tii.pdb -o 1tii.exr --aovs --camera camera.json   depth, normals, atoms for compositing");
+  auto state = std::make_shared<RenderCommand>();
+  add_molecule_options(command, state->molecule);
+  add_picture_options(command, state->picture);
+  add_output_options(command, state->output, "Picture to write: .png, .tif, .tiff or .exr");
+  command.add_option("--samples", state->samples, "Rays per pixel, the first through its centre [4]")
+      ->check(CLI::Range(1, 1024).description(""))
+      ->type_name("N");
+  command
+      .add_option_function<std::string>(
+          "--background", [state](const std::string& text) { parse_background(text, state->background); },
+          "transparent (default), white, black or #rrggbb")
+      ->type_name("COLOR");
+  command.add_flag("--aovs", state->aovs,
+                   "Add Z, N.xyz, P.xyz, atom, kind and component of each pixel's centre to an .exr");
+  command.add_option("--save-camera", state->save_camera, "Write the camera used, as JSON for --camera")
+      ->type_name("FILE");
+  command.callback([state] { run(*state); });
+}
+
+}  // namespace meniscus

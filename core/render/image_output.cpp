@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Writing pictures through OpenImageIO.
+#include "core/render/image_output.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <OpenImageIO/imageio.h>
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+#include "core/render/color_space.h"
+
+namespace meniscus {
+namespace {
+
+std::string extension_of(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
+  return extension;
+}
+
+/// A picture as rows of floats, ready for OpenImageIO.
+struct Channels {
+  std::vector<std::string> names;
+  std::vector<float> values;  ///< pixel after pixel
+  int alpha = -1;
+};
+
+glm::vec4 over(const glm::vec4& front, const std::optional<glm::vec3>& background) {
+  if (!background) return front;
+  return {glm::vec3(front) + (1.0f - front.w) * linear_from_srgb(*background), 1.0f};
+}
+
+/// sRGB, alpha not multiplied in, as PNG wants it.
+Channels display_channels(const Framebuffer& picture, const ImageSettings& settings) {
+  Channels channels;
+  channels.names = {"R", "G", "B"};
+  if (!settings.background) {
+    channels.names.push_back("A");
+    channels.alpha = 3;
+  }
+  channels.values.reserve(picture.color.size() * channels.names.size());
+  for (const glm::vec4& pixel : picture.color) {
+    const glm::vec4 c = over(pixel, settings.background);
+    const glm::vec3 srgb = srgb_from_linear(c.w > 0.0f ? glm::vec3(c) / c.w : glm::vec3(0.0f));
+    channels.values.insert(channels.values.end(), {srgb.x, srgb.y, srgb.z});
+    if (!settings.background) channels.values.push_back(c.w);
+  }
+  return channels;
+}
+
+float index_value(std::uint32_t index) { return index == kNone ? -1.0f : static_cast<float>(index); }
+
+/// Linear light and everything else there is.
+Channels scene_channels(const Framebuffer& picture, const ImageSettings& settings) {
+  Channels channels;
+  channels.names = {"R", "G", "B", "A"};
+  channels.alpha = 3;
+  const bool aovs = !picture.z.empty();
+  if (aovs)
+    for (const char* name : {"Z", "N.x", "N.y", "N.z", "P.x", "P.y", "P.z", "atom", "kind", "component"})
+      channels.names.emplace_back(name);
+  auto& values = channels.values;
+  values.reserve(picture.color.size() * channels.names.size());
+  for (std::size_t i = 0; i < picture.color.size(); ++i) {
+    const glm::vec4 c = over(picture.color[i], settings.background);
+    values.insert(values.end(), {c.x, c.y, c.z, c.w});
+    if (!aovs) continue;
+    const glm::vec3& n = picture.normal[i];
+    const glm::vec3& p = picture.position[i];
+    values.insert(values.end(), {picture.z[i], n.x, n.y, n.z, p.x, p.y, p.z, index_value(picture.atom[i]),
+                                 index_value(picture.kind[i]), index_value(picture.component[i])});
+  }
+  return channels;
+}
+
+OIIO::ImageSpec make_spec(const Framebuffer& picture, const Channels& channels, const std::string& extension) {
+  const bool exr = extension == ".exr";
+  const auto type = exr ? OIIO::TypeDesc::FLOAT : extension == ".png" ? OIIO::TypeDesc::UINT8 : OIIO::TypeDesc::UINT16;
+  OIIO::ImageSpec spec(picture.size.x, picture.size.y, static_cast<int>(channels.names.size()), type);
+  spec.channelnames = channels.names;
+  spec.alpha_channel = channels.alpha;
+  const auto z = std::ranges::find(channels.names, "Z");
+  if (z != channels.names.end()) spec.z_channel = static_cast<int>(z - channels.names.begin());
+  spec.attribute("oiio:ColorSpace", exr ? "Linear" : "sRGB");
+  if (!exr) spec.attribute("oiio:UnassociatedAlpha", 1);
+  spec.attribute("compression", "zip");
+  spec.attribute("Software", "Meniscus " MENISCUS_VERSION);
+  return spec;
+}
+
+}  // namespace
+
+bool holds_aovs(const std::filesystem::path& path) { return extension_of(path) == ".exr"; }
+
+void check_image_path(const std::filesystem::path& path) {
+  constexpr std::array<std::string_view, 4> kExtensions{".png", ".tif", ".tiff", ".exr"};
+  if (std::ranges::find(kExtensions, extension_of(path)) == kExtensions.end())
+    throw OutputError(path.string(), "a picture's name must end in .png, .tif, .tiff or .exr");
+}
+
+void write_image(const std::filesystem::path& path, const Framebuffer& picture, const ImageSettings& settings) {
+  check_image_path(path);
+  const std::string extension = extension_of(path);
+  const bool exr = extension == ".exr";
+  OutputFile file(path, settings.existing);
+  const Channels channels = exr ? scene_channels(picture, settings) : display_channels(picture, settings);
+  const OIIO::ImageSpec spec = make_spec(picture, channels, extension);
+  const auto output = OIIO::ImageOutput::create(file.temporary_path().string());
+  const auto fail = [&](const std::string& why) { throw OutputError(path.string(), "cannot be written: " + why); };
+  if (!output) fail(OIIO::geterror());
+  if (!output->open(file.temporary_path().string(), spec)) fail(output->geterror());
+  if (!output->write_image(OIIO::TypeDesc::FLOAT, channels.values.data())) fail(output->geterror());
+  if (!output->close()) fail(output->geterror());
+  file.commit();
+}
+
+}  // namespace meniscus

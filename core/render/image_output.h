@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Pictures as files: PNG and TIFF for eyes, EXR for compositing, whole or not at all.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "core/base/output_file.h"
+#include "core/render/framebuffer.h"
+
+namespace meniscus {
+
+struct ImageSettings {
+  std::optional<glm::vec3> background;  ///< sRGB in [0, 1] behind the surface; nothing: transparent
+  Existing existing = Existing::refuse;
+};
+
+/// True if the extension names a format that can hold AOVs (.exr).
+bool holds_aovs(const std::filesystem::path& path);
+
+/// Throws OutputError unless the extension is .png, .tif, .tiff or .exr.
+void check_image_path(const std::filesystem::path& path);
+
+/// By extension: .png 8 bit, .tif and .tiff 16 bit, both sRGB with unassociated alpha; .exr float, linear, associated
+/// alpha, plus the channels Z, N.x N.y N.z, P.x P.y P.z, atom, kind, component when the picture has them (atom, kind and
+/// component are -1 where nothing is hit; Z is +inf). An opaque background leaves no alpha in PNG and TIFF, and alpha 1
+/// in EXR. Throws OutputError.
+void write_image(const std::filesystem::path& path, const Framebuffer& picture, const ImageSettings& settings);
+
+}  // namespace meniscus

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A surface packed for the ray caster: each patch as one primitive with a tight bound, in single precision around a pivot.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include "core/render/camera.h"
+#include "core/surface/primitives.h"
+
+namespace meniscus {
+
+/// Records shared with the shaders.
+namespace ray_cast {
+using glm::vec3;
+using glm::vec4;
+using uint = std::uint32_t;
+#include "gpu_shaders/ray_cast/records.glsl"
+static_assert(sizeof(Primitive) == 48 && sizeof(Hit) == 32, "std430 has these sizes");
+}  // namespace ray_cast
+
+/// The picture's geometry, in double. The pivot lies on the view axis, close to what the middle of the picture shows.
+struct PictureFrame {
+  Camera camera;
+  ViewBasis basis;
+  glm::ivec2 size{0};         ///< pixels
+  glm::dvec3 pivot{0.0};      ///< Å
+  double eye_distance = 0.0;  ///< from the camera's position to the pivot, Å
+  double pixel_size = 0.0;    ///< on the plane through the pivot, Å
+};
+
+/// Throws nothing; the camera must be valid.
+PictureFrame make_picture_frame(const Surface& surface, const Camera& camera, glm::ivec2 size);
+
+/// What the kernel reads. Primitives are sorted by `nearest`, then by kind and index; those behind the camera are left out.
+struct RayCastScene {
+  std::vector<ray_cast::Primitive> primitives;
+  std::vector<glm::vec4> rows;
+  float slack = 0.0f;  ///< Å by which patches overlap: a few roundings of the largest coordinate
+};
+
+RayCastScene pack_scene(const Surface& surface, const PictureFrame& frame);
+
+/// For each tile of 16 x 16 pixels of one block of the picture: which primitives may show in it, nearest first.
+struct TileLists {
+  glm::ivec2 tiles{0};                       ///< columns, rows
+  std::vector<std::uint32_t> first_entry;  ///< one more than tiles
+  std::vector<std::uint32_t> entries;      ///< indices of primitives, ascending within a tile
+};
+
+inline constexpr int kTileEdge = 16;
+
+/// block_origin, block_size: pixels of the block. A tile's list covers all rays through any place of its pixels.
+TileLists bin_primitives(const RayCastScene& scene, const PictureFrame& frame, glm::ivec2 block_origin,
+                         glm::ivec2 block_size);
+
+}  // namespace meniscus

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What crosses the bus of the ray caster, for GLSL and C++: a bound for each primitive, rows of four floats, hits.
+//
+// Common subset of GLSL and C++; in C++ the includer provides vec3, vec4 and uint.
+// All positions are relative to the pivot, a point in the middle of the picture close to what it shows, so that single
+// precision keeps its digits where the picture looks. Offsets of planes are relative to the primitive's own centre.
+//
+// Rows of a convex patch:    centre, radius | plane_count x (normal, offset)
+// Rows of a toroidal patch:  centre, R | start, cos sweep | axis, sin sweep | z_low, z_high, clip z, clip radius |
+//                            z of atom 0, its extended radius, z of atom 1, its extended radius
+// Rows of a concave patch:   centre, p | plane_count x (normal, offset) | contact_count x (direction, atom as bits)
+
+struct Primitive {
+  vec4 bound;         // sphere around the patch: centre, radius
+  float nearest;      // no point of the bound is closer to the camera (orthographic: to its plane), in Å
+  uint first_row;
+  uint plane_count;   // toroidal: range of patch_membership.glsl
+  uint kind;          // PatchKind
+  uint patch_index;   // into the table of its kind
+  uint atom;          // convex: the atom; toroidal: the first; concave: contact_count
+  uint second_atom;   // toroidal
+  uint unused;        // fills the record up to a multiple of 16 bytes
+};
+
+// Where the ray through a pixel's centre ends.
+struct Hit {
+  vec3 normal;     // towards the solvent
+  float t;         // from the ray's point on the plane through the pivot, in Å
+  uint primitive;  // kNoPrimitive: nothing is hit
+  uint atom;
+  uint unused;     // these two fill the record
+  uint unused_too;
+};
+
+const uint kConvex = 0u;
+const uint kToroidal = 1u;
+const uint kConcave = 2u;
+const uint kNoPrimitive = 0xffffffffu;
