@@ -261,6 +261,12 @@ class ResidueNumbers {
   std::unordered_map<std::string, std::uint32_t> numbers_;
 };
 
+/// gemmi's as_char() throws a bare runtime_error for longer texts, which the dictionary allows.
+char first_letter(const std::string& value) {
+  const std::string text = cif::as_string(value);
+  return text.empty() ? ' ' : text.front();
+}
+
 FileAtom read_row(const TextFile& file, const cif::Table& table, const cif::Table::Row& row) {
   FileAtom out;
   Atom& atom = out.atom;
@@ -278,8 +284,8 @@ FileAtom read_row(const TextFile& file, const cif::Table& table, const cif::Tabl
   atom.residue_name = text(kAuthComp, kLabelComp);
   atom.chain = text(kAuthAsym, kLabelAsym);
   atom.residue_number = gemmi::string_to_int(row.one_of(kAuthSeq, kLabelSeq), false);
-  if (row.has2(kInsertion)) atom.insertion_code = cif::as_char(row[kInsertion], ' ');
-  if (row.has2(kAlt)) out.altloc = cif::as_char(row[kAlt], ' ');
+  if (row.has2(kInsertion)) atom.insertion_code = first_letter(row[kInsertion]);
+  if (row.has2(kAlt)) out.altloc = first_letter(row[kAlt]);
   if (row.has2(kOccupancy)) atom.occupancy = static_cast<float>(cif::as_number(row[kOccupancy]));
   if (row.has2(kB)) atom.b_factor = static_cast<float>(cif::as_number(row[kB]));
   const gemmi::Element symbol(row.has2(kSymbol) ? cif::as_string(row[kSymbol]) : std::string());

