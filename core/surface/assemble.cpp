@@ -34,7 +34,7 @@ void certify(Surface& surface) {
 }  // namespace
 
 Surface assemble_surface(std::span<const Ball> atoms, double probe_radius, const ReducedSurface& rs,
-                         StageClock* clock) {
+                         StageClock* clock, CuspTracer* tracer) {
   StageClock unused;
   StageClock& stages = clock ? *clock : unused;
   Surface surface;
@@ -52,7 +52,8 @@ Surface assemble_surface(std::span<const Ball> atoms, double probe_radius, const
   CuspParts cusps;
   {
     const auto stage = stages.stage("singularities");
-    cusps = find_cusps(atoms, probe_radius, rolling.probes, surface.toroidal);
+    const auto cpu_tracer = tracer ? nullptr : make_cpu_cusp_tracer();
+    cusps = find_cusps(atoms, probe_radius, rolling.probes, surface.toroidal, tracer ? *tracer : *cpu_tracer);
   }
   {
     const auto stage = stages.stage("primitives");

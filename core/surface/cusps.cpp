@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Cusp curves by contour build-up among fixed probes, with the pencils of spindle circles decided by their order.
+// Poses the search for cusp curves to a tracer, keeps the arcs that lie on patches, and joins them at their ends.
 #include "core/surface/cusps.h"
 
 #include <algorithm>
@@ -8,33 +8,15 @@
 #include <tuple>
 
 #include <glm/geometric.hpp>
-#include <tbb/blocked_range.h>
-#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
-#include "core/surface/ball_grid.h"
-#include "core/surface/contour.h"
+#include "core/surface/geometry.h"
 #include "core/surface/reduced_surface.h"
 
 namespace meniscus {
 namespace {
 
 constexpr double kTwoPi = 2 * std::numbers::pi;
-
-// Labels of contour arcs are probes, or (with the top bit) the axis of a spindle circle that both probes stand on.
-constexpr std::uint32_t kAxisLabel = 0x80000000u;
-
-// Across the covered gap beside a side of a spindle circle: the next fixed probe, and the direction half-way.
-struct Gap {
-  std::uint32_t partner = kNone;
-  glm::dvec3 direction{0.0};
-};
-
-// A spindle circle that two probes stand on, as neighbours across a covered gap.
-struct Pencil {
-  std::uint32_t first_patch;  // names the circle
-  glm::dvec3 direction;       // the half-plane of the bisector that is not past the axis
-};
 
 struct FoundArc {
   CuspArc arc;
@@ -46,15 +28,6 @@ struct TripleEnd {
   std::array<std::uint32_t, 3> probe;
   std::uint32_t side;
   std::uint32_t arc_and_end;
-};
-
-struct Worker {
-  std::vector<Blocker> blockers;
-  std::vector<Blocker> others;
-  std::vector<BlockedHalf> halves;
-  std::vector<Pencil> pencils;
-  Contour contour;
-  std::vector<FoundArc> found;
 };
 
 double angle_between(const glm::dvec3& axis, const glm::dvec3& a, const glm::dvec3& b) {
@@ -70,32 +43,42 @@ class CuspSearch {
         p_(probe_radius),
         probes_(probes),
         toroidal_(toroidal),
-        first_on_circle_(first_on_circle(toroidal)),
-        grid_(std::span<const glm::dvec3>(probes.position), 2 * probe_radius),
-        weights_(probes.count()) {
-    for (std::size_t s = 0; s < weights_.size(); ++s) weights_[s] = decision_weight(p_, s);
+        first_on_circle_(first_on_circle(toroidal)) {
+    pose();
   }
 
-  CuspParts run() {
-    find_contact_directions();
+  CuspParts run(CuspTracer& tracer) {
     find_gaps();
-    list_cuts();
-    trace_pairs();
+    CutLists cuts = tracer.list_cuts(problem_);
+    for (const TracedArc& arc : tracer.trace(problem_, cuts)) adopt(arc);
+    std::sort(found_.begin(), found_.end(), [](const FoundArc& a, const FoundArc& b) {
+      return std::tie(a.arc.probe, a.by) < std::tie(b.arc.probe, b.by);
+    });
     join_triples();
+    parts_.first_cut = std::move(cuts.first);
+    parts_.cuts = std::move(cuts.probe);
     return std::move(parts_);
   }
 
  private:
-  // All probes on such a circle pass through the same two points of its axis, or one when it is as large as the probe.
-  bool pencil(const ToroidalPatch& t) const { return touches_axis(t, atoms_, p_); }
-  bool low(std::uint32_t s) const { return probes_.height[s] < p_; }
-  std::uint32_t circle_of(const ProbeSide& side) const { return first_on_circle_[side.toroidal]; }
-
-  void find_contact_directions() {
-    directions_.resize(probes_.sides.size());
+  void pose() {
+    problem_.probe_radius = p_;
+    problem_.positions = probes_.position;
+    problem_.heights = probes_.height;
+    problem_.first_side = probes_.first_side;
+    problem_.weights.resize(probes_.count());
+    problem_.sides.resize(probes_.sides.size());
     tbb::parallel_for(std::size_t{0}, probes_.count(), [&](std::size_t s) {
-      for (std::uint32_t n = probes_.first_side[s]; n < probes_.first_side[s + 1]; ++n)
-        directions_[n] = glm::normalize(atoms_[probes_.sides[n].from].center - probes_.position[s]);
+      problem_.weights[s] = decision_weight(p_, s);
+      for (std::uint32_t n = probes_.first_side[s]; n < probes_.first_side[s + 1]; ++n) {
+        const ToroidalPatch& patch = toroidal_[probes_.sides[n].toroidal];
+        CuspSide& side = problem_.sides[n];
+        side.contact = glm::normalize(atoms_[probes_.sides[n].from].center - probes_.position[s]);
+        side.circle_center = patch.center;
+        if (!touches_axis(patch, atoms_, p_)) continue;
+        side.circle = first_on_circle_[probes_.sides[n].toroidal];
+        side.touching = patch.radius == p_;
+      }
     });
   }
 
@@ -104,13 +87,12 @@ class CuspSearch {
     std::vector<std::array<std::uint32_t, 2>> side_at(toroidal_.size());  // patch, end -> side
     for (std::uint32_t n = 0; n < probes_.sides.size(); ++n)
       side_at[probes_.sides[n].toroidal][probes_.sides[n].at_end] = n;
-    gaps_.assign(probes_.sides.size(), {});
     std::vector<std::pair<double, std::uint32_t>> around;
     for (std::uint32_t first = 0, past = 0; first < toroidal_.size(); first = past) {
       for (past = first + 1; past < toroidal_.size() && first_on_circle_[past] == first; ++past) {
       }
       const ToroidalPatch& lead = toroidal_[first];
-      if (lead.free() || !pencil(lead)) continue;
+      if (lead.free() || !touches_axis(lead, atoms_, p_)) continue;
       around.clear();
       for (std::uint32_t t = first; t < past; ++t)
         around.emplace_back(t == first ? 0.0 : angle_between(lead.axis, lead.start, toroidal_[t].start), t);
@@ -122,174 +104,36 @@ class CuspSearch {
         const double middle = 0.5 * (begin + end);
         const glm::dvec3 direction =
             std::cos(middle) * lead.start + std::sin(middle) * glm::cross(lead.axis, lead.start);
-        gaps_[side_at[t][1]] = {toroidal_[u].probe[0], direction};
-        gaps_[side_at[u][0]] = {toroidal_[t].probe[1], direction};
+        CuspSide &last = problem_.sides[side_at[t][1]], &next = problem_.sides[side_at[u][0]];
+        last.partner = toroidal_[u].probe[0];
+        next.partner = toroidal_[t].probe[1];
+        last.gap_direction = next.gap_direction = direction;
       }
     }
   }
 
-  // Largest dot product of the unit vector d with the points of the probe's spherical polygon.
-  double reach(std::uint32_t s, const glm::dvec3& d) const {
-    const std::uint32_t first = probes_.first_side[s], past = probes_.first_side[s + 1];
-    double best = -1;
-    bool inside = true;
-    for (std::uint32_t n = first; n < past; ++n) {
-      const glm::dvec3 &a = directions_[n], &b = directions_[n + 1 == past ? first : n + 1];
-      const glm::dvec3 normal = glm::cross(a, b);
-      const double outside = glm::dot(normal, d);
-      best = std::max(best, glm::dot(d, a));
-      if (outside <= 0) continue;
-      inside = false;
-      if (glm::dot(glm::cross(normal, a), d) > 0 && glm::dot(glm::cross(b, normal), d) > 0)
-        best = std::max(best, std::sqrt(std::max(0.0, 1 - outside * outside / glm::dot(normal, normal))));
-    }
-    return inside ? 1.0 : best;
-  }
-
-  // Every probe whose bisector reaches into the polygon of s; high probes are never cut (theorem 1.3).
-  void list_cuts() {
-    std::vector<std::vector<std::uint32_t>> cuts(probes_.count());
-    tbb::parallel_for(std::size_t{0}, probes_.count(), [&](std::size_t n) {
-      const auto s = static_cast<std::uint32_t>(n);
-      if (!low(s)) return;
-      grid_.for_each_near(probes_.position[s], 2 * p_, [&](std::uint32_t t) {
-        if (t == s) return;
-        const glm::dvec3 d = probes_.position[t] - probes_.position[s];
-        const double distance = glm::length(d);
-        if (distance > 0 && reach(s, d / distance) * 2 * p_ >= distance * (1 - 1e-12)) cuts[s].push_back(t);
-      });
-      std::sort(cuts[s].begin(), cuts[s].end());
-    });
-    parts_.first_cut.assign(probes_.count() + 1, 0);
-    for (std::size_t s = 0; s < probes_.count(); ++s) {
-      parts_.cuts.insert(parts_.cuts.end(), cuts[s].begin(), cuts[s].end());
-      parts_.first_cut[s + 1] = static_cast<std::uint32_t>(parts_.cuts.size());
-    }
-  }
-
-  std::span<const std::uint32_t> cuts_of(std::uint32_t s) const {
-    return {parts_.cuts.data() + parts_.first_cut[s], parts_.cuts.data() + parts_.first_cut[s + 1]};
-  }
-
-  void trace_pairs() {
-    tbb::enumerable_thread_specific<Worker> workers;
-    tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, static_cast<std::uint32_t>(probes_.count()), 32),
-                      [&](const auto& range) {
-                        Worker& w = workers.local();
-                        for (std::uint32_t s = range.begin(); s != range.end(); ++s) trace_probe(s, w);
-                      });
-    for (const Worker& w : workers) found_.insert(found_.end(), w.found.begin(), w.found.end());
-    std::sort(found_.begin(), found_.end(), [](const FoundArc& a, const FoundArc& b) {
-      return std::tie(a.arc.probe, a.by) < std::tie(b.arc.probe, b.by);
-    });
-  }
-
-  void trace_probe(std::uint32_t s, Worker& w) const {
-    w.blockers.clear();
-    for (std::uint32_t t : cuts_of(s)) {
-      if (t < s) continue;
-      const auto back = cuts_of(t);
-      if (!std::binary_search(back.begin(), back.end(), s)) continue;
-      if (w.blockers.empty()) list_blockers(s, w);
-      trace_pair(s, t, w);
-    }
-  }
-
-  void list_blockers(std::uint32_t s, Worker& w) const {
-    grid_.for_each_near(probes_.position[s], 2 * p_ + 4e-9, [&](std::uint32_t u) {
-      if (u != s) w.blockers.push_back({probes_.position[u] - probes_.position[s], weights_[u], u});
-    });
-    std::sort(w.blockers.begin(), w.blockers.end(), [](const Blocker& a, const Blocker& b) {
-      const double aa = glm::dot(a.center, a.center), bb = glm::dot(b.center, b.center);
-      return aa < bb || (aa == bb && a.label < b.label);
-    });
-  }
-
-  void trace_pair(std::uint32_t s, std::uint32_t t, Worker& w) const {
-    if (!find_pencils(s, t, w)) return;
-    w.others.clear();
-    for (const Blocker& b : w.blockers)
-      if (b.label != t && !on_pencil(b.label, w)) w.others.push_back(b);
+  // Takes a traced arc over if it lies on the patches, and places it.
+  void adopt(const TracedArc& traced) {
+    const auto [s, t] = traced.probe;
     const glm::dvec3 d = probes_.position[t] - probes_.position[s];
-    if (!set_halves(s, d, w)) return;
-    w.contour.expose(d, weights_[s], weights_[t], w.others, w.others.size(), w.halves);
-
-    const geometry::Circle& circle = w.contour.circle();
     FoundArc found;
-    found.arc.probe = {s, t};
+    found.arc.probe = traced.probe;
     found.arc.axis = glm::normalize(d);
     found.arc.center = probes_.position[s] + 0.5 * d;
     found.arc.radius = std::sqrt(std::max(0.0, p_ * p_ - 0.25 * glm::dot(d, d)));
-    const auto direction = [&](const glm::dvec2& e) { return e.x * circle.u + e.y * circle.v; };
-    if (w.contour.whole()) {
-      found.arc.start = circle.u;
-      found.arc.sweep = kTwoPi;
-      if (on_both_patches(found.arc)) w.found.push_back(found);
-      return;
-    }
-    for (const ExposedArc& arc : w.contour.arcs()) {
-      found.arc.start = direction(arc.begin);
-      found.arc.sweep = angle_between(circle.axis, found.arc.start, direction(arc.end));
-      found.by = {arc.begin_by, arc.end_by};
-      if (!on_both_patches(found.arc)) continue;
-      FoundArc named = found;
-      for (int end = 0; end < 2; ++end)
-        if (named.by[end] & kAxisLabel) name_axis_cusp(named, end, end ? direction(arc.end) : direction(arc.begin), w);
-      w.found.push_back(named);
-    }
+    found.arc.start = glm::normalize(traced.begin - found.arc.axis * glm::dot(found.arc.axis, traced.begin));
+    found.arc.sweep =
+        traced.by[0] == kNone ? kTwoPi : angle_between(found.arc.axis, found.arc.start, traced.end);
+    found.by = traced.by;
+    if (!on_both_patches(found.arc)) return;
+    for (int end = 0; end < 2; ++end)
+      if (traced.by[end] != kNone && (traced.by[end] & kAxisLabel))
+        name_axis_cusp(found, end, end ? traced.end : traced.begin);
+    found_.push_back(found);
   }
 
-  // The spindle circles that s and t share. False if on one of them they are not neighbours across a covered gap:
-  // then other probes of the circle are nearer everywhere on the bisector.
-  bool find_pencils(std::uint32_t s, std::uint32_t t, Worker& w) const {
-    w.pencils.clear();
-    for (std::uint32_t n = probes_.first_side[s]; n < probes_.first_side[s + 1]; ++n) {
-      if (!pencil(toroidal_[probes_.sides[n].toroidal])) continue;
-      const std::uint32_t circle = circle_of(probes_.sides[n]);
-      for (const ProbeSide& other : probes_.sides_of(t)) {
-        if (circle_of(other) != circle) continue;
-        if (gaps_[n].partner != t) return false;
-        w.pencils.push_back({circle, gaps_[n].direction});
-      }
-    }
-    return true;
-  }
-
-  bool on_pencil(std::uint32_t u, const Worker& w) const {
-    for (const Pencil& pencil : w.pencils)
-      for (const ProbeSide& side : probes_.sides_of(u))
-        if (circle_of(side) == pencil.first_patch) return true;
-    return false;
-  }
-
-  // Past the axis of a shared spindle circle nothing of the pair's circle is left. False if that is all of it.
-  bool set_halves(std::uint32_t s, const glm::dvec3& d, Worker& w) const {
-    w.halves.clear();
-    if (w.pencils.empty()) return true;
-    const geometry::Circle circle = geometry::circle_of_two_spheres(d, weights_[s], weights_[s]);
-    const glm::dvec3 center = probes_.position[s] + 0.5 * d;
-    for (std::uint32_t n = 0; n < w.pencils.size(); ++n) {
-      const Pencil& pencil = w.pencils[n];
-      BlockedHalf half;
-      half.label = kAxisLabel | n;
-      half.half_plane.normal = {-glm::dot(circle.u, pencil.direction), -glm::dot(circle.v, pencil.direction)};
-      half.half_plane.offset =
-          glm::dot(pencil.direction, center - toroidal_[pencil.first_patch].center) / circle.radius;
-      half.half_plane.length_squared = glm::dot(half.half_plane.normal, half.half_plane.normal);
-      half.half_plane.error = 1e-14;
-      // As large as the probe: the pair's circle touches the axis, so it lies before it or past it as a whole.
-      const bool touching = toroidal_[pencil.first_patch].radius == p_;
-      const double gap = half.half_plane.length_squared - half.half_plane.offset * half.half_plane.offset;
-      if (gap > 0 && !touching)
-        w.halves.push_back(half);
-      else if (half.half_plane.offset < 0)
-        return false;
-    }
-    return true;
-  }
-
-  void name_axis_cusp(FoundArc& found, int end, const glm::dvec3& direction, const Worker& w) const {
-    const std::uint32_t first = w.pencils[found.by[end] & ~kAxisLabel].first_patch;
+  void name_axis_cusp(FoundArc& found, int end, const glm::dvec3& direction) const {
+    const std::uint32_t first = problem_.sides[found.by[end] & ~kAxisLabel].circle;
     const glm::dvec3 point = found.arc.center + found.arc.radius * direction;
     const bool upper = glm::dot(toroidal_[first].axis, point - toroidal_[first].center) > 0;
     found.arc.on_axis[end] = true;
@@ -311,10 +155,10 @@ class CuspSearch {
   }
 
   double depth_in_cone(std::uint32_t s, const glm::dvec3& point) const {
-    const std::uint32_t first = probes_.first_side[s], past = probes_.first_side[s + 1];
+    const auto sides = problem_.sides_of(s);
     double depth = 1e300;
-    for (std::uint32_t n = first; n < past; ++n) {
-      const glm::dvec3 normal = glm::cross(directions_[n], directions_[n + 1 == past ? first : n + 1]);
+    for (std::size_t n = 0; n < sides.size(); ++n) {
+      const glm::dvec3 normal = glm::cross(sides[n].contact, sides[n + 1 == sides.size() ? 0 : n + 1].contact);
       depth = std::min(depth, -glm::dot(normal, point - probes_.position[s]) / glm::length(normal));
     }
     return depth;
@@ -388,10 +232,7 @@ class CuspSearch {
   const FixedProbes& probes_;
   std::span<const ToroidalPatch> toroidal_;
   std::vector<std::uint32_t> first_on_circle_;
-  BallGrid grid_;
-  std::vector<double> weights_;
-  std::vector<glm::dvec3> directions_;  // per side: from the probe to the side's first contact
-  std::vector<Gap> gaps_;               // per side
+  CuspProblem problem_;
   std::vector<FoundArc> found_;
   CuspParts parts_;
 };
@@ -411,8 +252,8 @@ std::vector<std::uint32_t> first_on_circle(std::span<const ToroidalPatch> toroid
 }
 
 CuspParts find_cusps(std::span<const Ball> atoms, double probe_radius, const FixedProbes& probes,
-                     std::span<const ToroidalPatch> toroidal) {
-  if (probe_radius > 0) return CuspSearch(atoms, probe_radius, probes, toroidal).run();
+                     std::span<const ToroidalPatch> toroidal, CuspTracer& tracer) {
+  if (probe_radius > 0) return CuspSearch(atoms, probe_radius, probes, toroidal).run(tracer);
   CuspParts none;
   none.first_cut.assign(probes.count() + 1, 0);
   return none;

@@ -11,6 +11,7 @@
 #include <span>
 #include <vector>
 
+#include "core/surface/cusp_tracer.h"
 #include "core/surface/fixed_probes.h"
 #include "core/surface/primitives.h"
 
@@ -44,6 +45,6 @@ glm::dvec3 axis_cusp(const ToroidalPatch& patch, double probe_radius, int side);
 std::vector<std::uint32_t> first_on_circle(std::span<const ToroidalPatch> toroidal);
 
 CuspParts find_cusps(std::span<const Ball> atoms, double probe_radius, const FixedProbes& probes,
-                     std::span<const ToroidalPatch> toroidal);
+                     std::span<const ToroidalPatch> toroidal, CuspTracer& tracer);
 
 }  // namespace meniscus

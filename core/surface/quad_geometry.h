@@ -26,6 +26,7 @@ inline real2 operator+(real2 a, real2 b) { return {a.x + b.x, a.y + b.y}; }
 inline real2 operator-(real2 a, real2 b) { return {a.x - b.x, a.y - b.y}; }
 inline real2 operator*(real2 a, real s) { return {a.x * s, a.y * s}; }
 inline real3 operator+(real3 a, real3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+inline real3 operator-(real3 a, real3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
 inline real3 operator*(real3 a, real s) { return {a.x * s, a.y * s, a.z * s}; }
 inline real3 operator/(real3 a, real s) { return {a.x / s, a.y / s, a.z / s}; }
 inline real dot(real2 a, real2 b) { return a.x * b.x + a.y * b.y; }

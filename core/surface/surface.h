@@ -9,14 +9,15 @@
 
 namespace meniscus {
 
+class CuspTracer;
 struct ReducedSurface;
 
 /// Builds all patches, their borders, faces and components, their areas and volumes (closed form) and the certificate.
 /// `rs` must have been computed for the same `atoms` and `probe_radius`.
 /// Look at the result's certificate, or call require_closed(), before using it.
-/// Adds the time of each stage to `clock` if there is one.
+/// Adds the time of each stage to `clock` if there is one. Singularities are traced by `tracer`, by default on the CPU.
 Surface assemble_surface(std::span<const Ball> atoms, double probe_radius, const ReducedSurface& rs,
-                         StageClock* clock = nullptr);
+                         StageClock* clock = nullptr, CuspTracer* tracer = nullptr);
 
 /// Throws OpenSurfaceError, naming atoms by their index, unless the certificate says the surface is closed.
 void require_closed(const Surface& surface);

@@ -67,6 +67,17 @@ GEOMETRY HalfPlane covered_half_plane(Circle c, real w0, real3 q, real wq, real 
   return h;
 }
 
+// What lies past the axis of a spindle circle through both probes of a pair: not in the half-plane that `direction`
+// (unit, perpendicular to that axis) points into from the spindle circle's centre `axis_point`.
+GEOMETRY HalfPlane half_plane_past_axis(Circle c, real3 direction, real3 axis_point) {
+  HalfPlane h;
+  h.normal = real2(-dot(c.u, direction), -dot(c.v, direction));
+  h.offset = dot(direction, c.axis * c.height - axis_point) / c.radius;
+  h.length_squared = dot(h.normal, h.normal);
+  h.error = real(0);  // ends at named points: the order around the axis decides, not this arithmetic
+  return h;
+}
+
 // How a ball meets the whole circle.
 const int kMisses = 0;
 const int kCuts = 1;

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Cut lists and cusp arcs on the CPU; the pencils of probes on one spindle circle are decided by their order.
+#include "core/surface/cusp_tracer.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+#include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include "core/surface/ball_grid.h"
+#include "core/surface/contour.h"
+
+namespace meniscus {
+
+bool reaches(const CuspProblem& problem, std::uint32_t s, const glm::dvec3& other) {
+  const glm::dvec3 toward = other - problem.positions[s];
+  const double distance = glm::length(toward);
+  if (!(distance > 0)) return false;
+  const glm::dvec3 d = toward / distance;
+  const auto sides = problem.sides_of(s);
+  // Largest dot product of d with the points of the polygon: at d itself, on a side, or at a corner.
+  double best = -1;
+  bool inside = true;
+  for (std::size_t n = 0; n < sides.size(); ++n) {
+    const glm::dvec3 &a = sides[n].contact, &b = sides[n + 1 == sides.size() ? 0 : n + 1].contact;
+    const glm::dvec3 normal = glm::cross(a, b);
+    const double outside = glm::dot(normal, d);
+    best = std::max(best, glm::dot(d, a));
+    if (outside <= 0) continue;
+    inside = false;
+    if (glm::dot(glm::cross(normal, a), d) > 0 && glm::dot(glm::cross(b, normal), d) > 0)
+      best = std::max(best, std::sqrt(std::max(0.0, 1 - outside * outside / glm::dot(normal, normal))));
+  }
+  return (inside ? 1.0 : best) * 2 * problem.probe_radius >= distance * (1 - 1e-12);
+}
+
+std::vector<std::array<std::uint32_t, 2>> mutual_pairs(const CutLists& cuts) {
+  std::vector<std::array<std::uint32_t, 2>> pairs;
+  for (std::uint32_t s = 0; s + 1 < cuts.first.size(); ++s)
+    for (std::uint32_t t : cuts.of(s)) {
+      const auto back = cuts.of(t);
+      if (t > s && std::binary_search(back.begin(), back.end(), s)) pairs.push_back({s, t});
+    }
+  return pairs;
+}
+
+// A spindle circle that both probes stand on, as neighbours across a covered gap.
+struct Pencil {
+  std::uint32_t side;  // of the lower probe
+  std::uint32_t circle;
+};
+
+struct PairTracer::Scratch {
+  std::vector<Pencil> pencils;
+  std::vector<Blocker> others;
+  std::vector<BlockedHalf> halves;
+  Contour contour;
+};
+
+PairTracer::PairTracer(const CuspProblem& problem) : problem_(&problem), scratch_(std::make_unique<Scratch>()) {}
+PairTracer::~PairTracer() = default;
+PairTracer::PairTracer(PairTracer&&) noexcept = default;
+
+// False if s and t stand on one spindle circle but are no neighbours there: then other probes of the circle are nearer
+// everywhere on their bisector.
+bool PairTracer::find_pencils(std::uint32_t s, std::uint32_t t) {
+  scratch_->pencils.clear();
+  for (std::uint32_t n = problem_->first_side[s]; n < problem_->first_side[s + 1]; ++n) {
+    const CuspSide& side = problem_->sides[n];
+    if (side.circle == kNone) continue;
+    for (const CuspSide& other : problem_->sides_of(t)) {
+      if (other.circle != side.circle) continue;
+      if (side.partner != t) return false;
+      scratch_->pencils.push_back({n, side.circle});
+    }
+  }
+  return true;
+}
+
+bool PairTracer::on_pencil(std::uint32_t u) const {
+  for (const Pencil& pencil : scratch_->pencils)
+    for (const CuspSide& side : problem_->sides_of(u))
+      if (side.circle == pencil.circle) return true;
+  return false;
+}
+
+// Past the axis of a shared spindle circle nothing of the pair's circle is left. False if that is all of it.
+bool PairTracer::set_halves(std::uint32_t s, std::uint32_t t) {
+  scratch_->halves.clear();
+  if (scratch_->pencils.empty()) return true;
+  const glm::dvec3 d = problem_->positions[t] - problem_->positions[s];
+  const geometry::Circle circle = geometry::circle_of_two_spheres(d, problem_->weights[s], problem_->weights[t]);
+  for (const Pencil& pencil : scratch_->pencils) {
+    const CuspSide& side = problem_->sides[pencil.side];
+    BlockedHalf half;
+    half.label = kAxisLabel | pencil.side;
+    half.half_plane = geometry::half_plane_past_axis(circle, side.gap_direction,
+                                                     side.circle_center - problem_->positions[s]);
+    const double gap = half.half_plane.length_squared - half.half_plane.offset * half.half_plane.offset;
+    // As large as the probe: the pair's circle touches the axis, so it lies before it or past it as a whole.
+    if (gap > 0 && !side.touching)
+      scratch_->halves.push_back(half);
+    else if (half.half_plane.offset < 0)
+      return false;
+  }
+  return true;
+}
+
+void PairTracer::trace(std::uint32_t s, std::uint32_t t, std::span<const Blocker> near,
+                       std::vector<TracedArc>& found) {
+  if (!find_pencils(s, t) || !set_halves(s, t)) return;
+  Scratch& scratch = *scratch_;
+  scratch.others.clear();
+  for (const Blocker& b : near)
+    if (b.label != t && !on_pencil(b.label)) scratch.others.push_back(b);
+  scratch.contour.expose(problem_->positions[t] - problem_->positions[s], problem_->weights[s], problem_->weights[t],
+                         scratch.others, scratch.others.size(), scratch.halves);
+  const geometry::Circle& circle = scratch.contour.circle();
+  const auto direction = [&](const glm::dvec2& e) { return e.x * circle.u + e.y * circle.v; };
+  if (scratch.contour.whole()) found.push_back({{s, t}, {kNone, kNone}, circle.u, circle.u});
+  for (const ExposedArc& arc : scratch.contour.arcs())
+    found.push_back({{s, t}, {arc.begin_by, arc.end_by}, direction(arc.begin), direction(arc.end)});
+}
+
+namespace {
+
+class CpuCuspTracer final : public CuspTracer {
+ public:
+  CutLists list_cuts(const CuspProblem& problem) override {
+    grid_ = std::make_unique<BallGrid>(problem.positions, problem.probe_radius);
+    std::vector<std::vector<std::uint32_t>> cuts(problem.count());
+    tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, problem.count(), 64), [&](const auto& range) {
+      for (std::uint32_t s = range.begin(); s != range.end(); ++s) {
+        if (!problem.low(s)) continue;
+        grid_->for_each_near(problem.positions[s], 2 * problem.probe_radius, [&](std::uint32_t t) {
+          if (t != s && reaches(problem, s, problem.positions[t])) cuts[s].push_back(t);
+        });
+        std::sort(cuts[s].begin(), cuts[s].end());
+      }
+    });
+    CutLists lists;
+    lists.first.assign(problem.count() + 1, 0);
+    for (std::uint32_t s = 0; s < problem.count(); ++s) {
+      lists.probe.insert(lists.probe.end(), cuts[s].begin(), cuts[s].end());
+      lists.first[s + 1] = static_cast<std::uint32_t>(lists.probe.size());
+    }
+    return lists;
+  }
+
+  std::vector<TracedArc> trace(const CuspProblem& problem, const CutLists& cuts) override {
+    struct Worker {
+      explicit Worker(const CuspProblem& p) : tracer(p) {}
+      PairTracer tracer;
+      std::vector<Blocker> near;
+      std::uint32_t near_whom = kNone;
+      std::vector<TracedArc> found;
+    };
+    const auto pairs = mutual_pairs(cuts);
+    tbb::enumerable_thread_specific<Worker> workers([&] { return Worker(problem); });
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, pairs.size(), 32), [&](const auto& range) {
+      Worker& w = workers.local();
+      for (std::size_t n = range.begin(); n != range.end(); ++n) {
+        const auto [s, t] = pairs[n];
+        if (w.near_whom != s) list_near(problem, s, w.near);
+        w.near_whom = s;
+        w.tracer.trace(s, t, w.near, w.found);
+      }
+    });
+    std::vector<TracedArc> found;
+    for (const Worker& w : workers) found.insert(found.end(), w.found.begin(), w.found.end());
+    return found;
+  }
+
+ private:
+  void list_near(const CuspProblem& problem, std::uint32_t s, std::vector<Blocker>& near) const {
+    near.clear();
+    grid_->for_each_near(problem.positions[s], 2 * problem.probe_radius + 4e-9, [&](std::uint32_t u) {
+      if (u != s) near.push_back({problem.positions[u] - problem.positions[s], problem.weights[u], u});
+    });
+    std::sort(near.begin(), near.end(), [](const Blocker& a, const Blocker& b) {
+      const double aa = glm::dot(a.center, a.center), bb = glm::dot(b.center, b.center);
+      return aa < bb || (aa == bb && a.label < b.label);
+    });
+  }
+
+  std::unique_ptr<BallGrid> grid_;
+};
+
+}  // namespace
+
+std::unique_ptr<CuspTracer> make_cpu_cusp_tracer() { return std::make_unique<CpuCuspTracer>(); }
+
+}  // namespace meniscus

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Runs the grid and neighbour kernels and sizes their lists.
+#include "core/surface/gpu_neighbors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include <glm/common.hpp>
+
+#include "core/base/error.h"
+#include "core/gpu/limits.h"
+
+namespace meniscus {
+namespace {
+
+constexpr std::uint32_t kScanChunk = 512;  // words per invocation of the scan
+constexpr std::size_t kWord = sizeof(std::uint32_t);
+
+}  // namespace
+
+std::size_t group_count(std::size_t invocations) { return (invocations + 63) / 64; }
+
+const Program& GpuNeighbors::kernel(const char* name, int pass) {
+  ShaderDefines defines;
+  if (pass >= 0) defines.emplace_back("PASS", std::to_string(pass));
+  return programs_.get(std::string("gpu_shaders/") + name + ".comp", defines);
+}
+
+// A centre goes up as two floats each from the middle of all; their difference is good to single precision anywhere.
+void GpuNeighbors::upload(std::span<const glm::dvec3> centers, std::span<const double> radii,
+                          const std::vector<bool>& left_out) {
+  count_ = static_cast<std::uint32_t>(centers.size());
+  if (count_ == 0) return;
+  glm::dvec3 low = centers[0], high = low;
+  double largest = 0;
+  for (std::size_t n = 0; n < count_; ++n) {
+    low = glm::min(low, centers[n]);
+    high = glm::max(high, centers[n]);
+    largest = std::max(largest, radii[n]);
+  }
+  const glm::dvec3 middle = 0.5 * (low + high), extent = high - low;
+  std::vector<glm::vec4> coarse(count_), fine(count_);
+  for (std::size_t n = 0; n < count_; ++n) {
+    const glm::dvec3 d = centers[n] - middle;
+    coarse[n] = glm::vec4(glm::vec3(d), static_cast<float>(radii[n]));
+    fine[n] = glm::vec4(glm::vec3(d - glm::dvec3(glm::vec3(coarse[n]))), !left_out.empty() && left_out[n] ? 1.0f : 0.0f);
+  }
+  balls.upload(coarse);
+  balls_low_.upload(fine);
+
+  largest_radius_ = static_cast<float>(largest) * 1.00001f;
+  double spacing = std::max(1e-3, static_cast<double>(largest_radius_));
+  const auto cells = [&] {
+    return (std::floor(extent.x / spacing) + 1) * (std::floor(extent.y / spacing) + 1) *
+           (std::floor(extent.z / spacing) + 1);
+  };
+  while (cells() > 4.0 * count_ + 64) spacing *= 1.25;
+  grid_low_ = glm::vec4(glm::vec3(low - middle), static_cast<float>(1 / spacing));
+  grid_size_ = glm::vec4(glm::vec3(glm::floor(extent / spacing) + 1.0), 0.0f);
+  cell_count_ = static_cast<std::uint32_t>(grid_size_.x * grid_size_.y * grid_size_.z);
+  build_grid();
+}
+
+void GpuNeighbors::build_grid() {
+  cell_first_.resize((cell_count_ + 1) * kWord);
+  cell_first_.fill(0);
+  rank_.resize(count_ * kWord);
+  cell_atoms_.resize(count_ * kWord);
+  for (int pass = 0; pass < 2; ++pass) {
+    balls.bind(0);
+    cell_first_.bind(1);
+    rank_.bind(2);
+    cell_atoms_.bind(3);
+    const Program& program = kernel("reduced_surface/grid", pass);
+    program.set("atom_count", count_);
+    program.set("grid_low", grid_low_);
+    program.set("grid_size", grid_size_);
+    program.dispatch(group_count(count_));
+    if (pass == 0) scan(cell_first_, cell_count_);
+  }
+}
+
+void GpuNeighbors::run_neighbors(const BallBatch& batch, int pass) {
+  balls.bind(0);
+  balls_low_.bind(1);
+  cell_first_.bind(2);
+  cell_atoms_.bind(3);
+  first.bind(4);
+  pair_first_.bind(5);
+  relative.bind(6);
+  labels.bind(7);
+  const Program& program = kernel("reduced_surface/neighbors", pass);
+  program.set("first_atom", batch.first);
+  program.set("atom_count", batch.count);
+  program.set("largest_radius", largest_radius_);
+  program.set("grid_low", grid_low_);
+  program.set("grid_size", grid_size_);
+  program.dispatch(group_count(batch.count));
+}
+
+bool GpuNeighbors::count_neighbors(BallBatch& batch) {
+  first.resize((batch.count + 1) * kWord);
+  pair_first_.resize((batch.count + 1) * kWord);
+  relative.resize(sizeof(glm::vec4));
+  labels.resize(kWord);
+  run_neighbors(batch, 0);
+  scan(first, batch.count);
+  scan(pair_first_, batch.count);
+  first.read(batch.count * kWord, &batch.neighbor_count, kWord);
+  pair_first_.read(batch.count * kWord, &batch.pair_count, kWord);
+  const std::size_t limit = query_gpu_limits().storage_block_bytes;
+  if (batch.neighbor_count * sizeof(glm::vec4) <= limit) return true;
+  if (batch.count == 1)
+    throw CapacityError("ball " + std::to_string(batch.first + 1) + " overlaps " + std::to_string(batch.neighbor_count) +
+                        " others, more than this driver's storage blocks of " + std::to_string(limit >> 20) +
+                        " MiB hold; use --device cpu");
+  return false;
+}
+
+void GpuNeighbors::list_neighbors(const BallBatch& batch) {
+  relative.resize(std::max(1u, batch.neighbor_count) * sizeof(glm::vec4));
+  labels.resize(std::max(1u, batch.neighbor_count) * kWord);
+  run_neighbors(batch, 1);
+}
+
+void GpuNeighbors::list_pairs(const BallBatch& batch) {
+  pairs.resize(std::max(1u, batch.pair_count) * sizeof(glm::uvec2));
+  first.bind(0);
+  labels.bind(1);
+  pair_first_.bind(2);
+  pairs.bind(3);
+  const Program& program = kernel("reduced_surface/pairs");
+  program.set("first_atom", batch.first);
+  program.set("atom_count", batch.count);
+  program.dispatch(group_count(batch.count));
+}
+
+void GpuNeighbors::scan(Buffer& words, std::uint32_t count) {
+  const std::uint32_t chunks = (count + kScanChunk - 1) / kScanChunk;
+  totals_.resize(std::max(1u, chunks) * kWord);
+  for (int pass = 0; pass < 3; ++pass) {
+    words.bind(0);
+    totals_.bind(1);
+    const Program& program = kernel("parallel/scan", pass);
+    program.set("count", count);
+    program.set("chunk_length", kScanChunk);
+    program.dispatch(pass == 1 ? 1 : group_count(chunks));
+  }
+}
+
+}  // namespace meniscus

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Stage "cusps": the exposed arcs of the circle of each pair of probes that cut each other.
+// Reads: circles, neighbour lists of probes, heads, sides. Writes: arcs (behind their counters), doubtful.
+// One invocation per circle. Overflow: appends stop at the capacity but go on counting; the host grows and runs again.
+// Based on: Totrov & Abagyan 1996 among fixed probes; order around the axis for the pencils of spindle circles.
+#version 450 core
+layout(local_size_x = 64) in;
+#include "gpu_shaders/shared/linear_index.glsl"
+#include "gpu_shaders/shared/cusp_side.glsl"
+#include "gpu_shaders/reduced_surface/precision.glsl"
+#include "gpu_shaders/reduced_surface/contour.glsl"
+
+struct CuspArc {
+  uvec4 names;  // lower probe, higher probe, who begins, who ends
+  vec4 begin;   // xyz: unit vector from the circle's centre
+  vec4 end;
+};
+
+layout(std430, binding = 0) readonly buffer Circles { uvec2 circles[]; };  // probe s, place of t in its list
+layout(std430, binding = 1) readonly buffer NeighborFirst { uint neighbor_first[]; };
+layout(std430, binding = 2) readonly buffer NeighborLabels { uint neighbor_labels[]; };
+layout(std430, binding = 3) readonly buffer NeighborBalls { vec4 neighbor_balls[]; };
+layout(std430, binding = 4) readonly buffer Heads { uvec2 heads[]; };  // per probe: first side, 1 if low
+layout(std430, binding = 5) readonly buffer Sides { CuspSide sides[]; };
+layout(std430, binding = 6) buffer Arcs {
+  uint arc_count;
+  uint doubtful_count;
+  uint spare0;
+  uint spare1;
+  CuspArc arcs[];
+};
+layout(std430, binding = 7) writeonly buffer Doubtful { uvec2 doubtful[]; };
+uniform uint first_probe;  // of the batch, which the neighbour lists count from
+uniform uint circle_count;
+uniform uint arc_capacity;
+uniform uint doubtful_capacity;
+
+const uint kNone = 0xffffffffu;
+const uint kAxisLabel = 0x80000000u;
+const uint kPencilCapacity = 6u;  // spindle circles that one pair of probes shares; more: doubtful
+
+uint pencil_sides[kPencilCapacity];
+uint pencil_count;
+
+// False if s and t share a spindle circle without being neighbours on it: nothing of their circle is left.
+bool find_pencils(uint s, uint t) {
+  pencil_count = 0u;
+  for (uint n = heads[s].x; n < heads[s + 1u].x; ++n) {
+    if (sides[n].circle == kNone) continue;
+    for (uint m = heads[t].x; m < heads[t + 1u].x; ++m) {
+      if (sides[m].circle != sides[n].circle) continue;
+      if (sides[n].partner != t) return false;
+      if (pencil_count == kPencilCapacity) exposed_doubtful = true;
+      else pencil_sides[pencil_count++] = n;
+    }
+  }
+  return true;
+}
+
+bool on_pencil(uint u) {
+  for (uint k = 0u; k < pencil_count; ++k)
+    for (uint n = heads[u].x; n < heads[u + 1u].x; ++n)
+      if (sides[n].circle == sides[pencil_sides[k]].circle) return true;
+  return false;
+}
+
+// Past the axes of shared spindle circles nothing of the pair's circle c is left.
+void cover_past_axes(Circle c) {
+  for (uint k = 0u; k < pencil_count; ++k) {
+    CuspSide side = sides[pencil_sides[k]];
+    HalfPlane h = half_plane_past_axis(c, side.gap_direction.xyz, side.circle_center.xyz);
+    float gap = h.length_squared - h.offset * h.offset;
+    // The end points are named, but their place in single precision is not exact: other decisions must know.
+    h.error = 1e-6 * (1.0 + abs(h.offset));
+    if (side.touching == 1u || abs(gap) < 1e-4) exposed_doubtful = true;
+    else if (gap > 0.0) cover(h, kAxisLabel | pencil_sides[k]);
+    else if (h.offset < 0.0) cover_everything();
+  }
+}
+
+void append(uint s, uint t, uint by_begin, uint by_end, vec3 begin, vec3 end) {
+  uint slot = atomicAdd(arc_count, 1u);
+  if (slot >= arc_capacity) return;
+  arcs[slot].names = uvec4(s, t, by_begin, by_end);
+  arcs[slot].begin = vec4(begin, 0.0);
+  arcs[slot].end = vec4(end, 0.0);
+}
+
+void main() {
+  uint index = linear_invocation_index();
+  if (index >= circle_count) return;
+  uint s = circles[index].x;
+  uint place = circles[index].y;
+  uint t = neighbor_labels[place];
+  vec4 other = neighbor_balls[place];
+  begin_contour();
+  if (!find_pencils(s, t)) return;
+  float w0 = other.w;  // all probes have one radius
+  Circle c = circle_of_two_spheres(other.xyz, w0, w0);
+  if (c.radius_squared < 1e-4 * w0 || dot(other.xyz, other.xyz) < 1e-4 * w0) exposed_doubtful = true;
+  if (!exposed_doubtful) cover_past_axes(c);
+  uint last = neighbor_first[s - first_probe + 1u];
+  for (uint n = neighbor_first[s - first_probe]; n < last; ++n) {
+    if (contour_ended()) break;
+    uint u = neighbor_labels[n];
+    if (n == place || on_pencil(u)) continue;
+    vec4 ball = neighbor_balls[n];
+    block(c, w0, ball.xyz, ball.w, u);
+  }
+  if (exposed_doubtful) {
+    uint slot = atomicAdd(doubtful_count, 1u);
+    if (slot < doubtful_capacity) doubtful[slot] = circles[index];
+    return;
+  }
+  if (exposed_whole) append(s, t, kNone, kNone, c.u, c.u);
+  for (uint n = 0u; n < exposed_count; ++n) {
+    ExposedArc arc = exposed_arcs[n];
+    append(s, t, arc.begin_by, arc.end_by, arc.begin.x * c.u + arc.begin.y * c.v, arc.end.x * c.u + arc.end.y * c.v);
+  }
+}

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Stage "cuts": which probes reach into the spherical polygon of each low probe (flag 1), do not (0), or may (2).
+// Reads: neighbour lists of probes, heads, sides. Writes: flags, one per list entry.
+// One invocation per probe of the batch. Overflow: none.
+// Based on: Krone, Dachsbacher & Ertl 2010, section 3.4 (singularity handling), with every probe within two radii.
+#version 450 core
+layout(local_size_x = 64) in;
+#include "gpu_shaders/shared/linear_index.glsl"
+#include "gpu_shaders/shared/cusp_side.glsl"
+
+layout(std430, binding = 0) readonly buffer NeighborFirst { uint neighbor_first[]; };
+layout(std430, binding = 1) readonly buffer NeighborBalls { vec4 neighbor_balls[]; };
+layout(std430, binding = 2) readonly buffer Heads { uvec2 heads[]; };  // per probe: first side, 1 if low
+layout(std430, binding = 3) readonly buffer Sides { CuspSide sides[]; };
+layout(std430, binding = 4) writeonly buffer Flags { uint flags[]; };
+uniform uint first_probe;
+uniform uint probe_count;
+uniform float probe_radius;
+
+// The same largest dot product as reaches() in core/surface/cusp_tracer.cpp; single precision leaves a margin in doubt.
+const float kDoubt = 1e-5;
+
+uint flag_of(uint first, uint past, vec3 toward) {
+  float distance = length(toward);
+  // Close probes are decided by a root near zero, where single precision has nothing left.
+  if (distance < 0.1 * probe_radius) return 2u;
+  vec3 d = toward / distance;
+  float best = -1.0;
+  float most_outside = -1.0;
+  for (uint n = first; n < past; ++n) {
+    vec3 a = sides[n].contact.xyz;
+    vec3 b = sides[n + 1u == past ? first : n + 1u].contact.xyz;
+    vec3 normal = cross(a, b);
+    float outside = dot(normal, d);
+    best = max(best, dot(d, a));
+    most_outside = max(most_outside, outside);
+    if (outside <= 0.0) continue;
+    if (dot(cross(normal, a), d) > 0.0 && dot(cross(b, normal), d) > 0.0)
+      best = max(best, sqrt(max(0.0, 1.0 - outside * outside / dot(normal, normal))));
+  }
+  if (most_outside <= 0.0) best = 1.0;
+  float margin = best * 2.0 * probe_radius - distance;
+  if (abs(margin) < kDoubt * probe_radius || abs(most_outside) < kDoubt) return 2u;
+  return margin > 0.0 ? 1u : 0u;
+}
+
+void main() {
+  uint entry = linear_invocation_index();
+  if (entry >= probe_count) return;
+  uvec2 head = heads[first_probe + entry];
+  uint past = heads[first_probe + entry + 1u].x;
+  for (uint n = neighbor_first[entry]; n < neighbor_first[entry + 1u]; ++n)
+    flags[n] = head.y == 0u ? 0u : flag_of(head.x, past, neighbor_balls[n].xyz);
+}
