@@ -88,16 +88,20 @@ std::string main_text(const Camera& camera, const SceneOptions& options, const g
               " for POV-Ray 3.7. One unit is 1 Å.\n");
   out.literal("// Render with: povray ").literal(options.name).literal(".ini (in this folder).\n");
   out.literal("// To change something, declare it in a scene of your own and then include this file, for example\n");
-  out.literal("//   #version 3.7; #declare Meniscus_Material = 2; #include \"").literal(options.name);
-  out.literal(".pov\"\n#version 3.7;\n");
+  out.literal("//   #version 3.7; #declare Meniscus_Material = 2; #include \"")
+      .literal(options.name)
+      .literal(".pov\"\n");
+  out.literal("// Colours as srgb need assumed_gamma first: write global_settings of your own and declare\n");
+  out.literal(
+      "// Meniscus_Custom_Settings; likewise Meniscus_Custom_Camera and Meniscus_Custom_Lights.\n#version 3.7;\n");
   out.literal("#ifndef (Meniscus_Material) #declare Meniscus_Material = ");
   out.count(static_cast<std::size_t>(options.material)).literal("; #end  // 0 opaque, 1 ghost, 2 glass, 3 wax\n");
   out.literal("#ifndef (Meniscus_Buffer) #declare Meniscus_Buffer = 0; #end  // 0 picture; others: see ");
   out.literal(options.name).literal("_aov.inc\n");
   out.literal("#ifndef (Meniscus_Subsurface) #declare Meniscus_Subsurface = 0; #end\n");
-  out.literal("global_settings {\n  assumed_gamma 1.0\n");
+  out.literal("#ifndef (Meniscus_Custom_Settings)\nglobal_settings {\n  assumed_gamma 1.0\n");
   out.literal("  #if (Meniscus_Buffer = 4) max_trace_level 200 adc_bailout 0 #else max_trace_level 12 #end\n");
-  out.literal("  #if (Meniscus_Subsurface = 1) mm_per_unit 1 subsurface { samples 50, 20 } #end\n}\n");
+  out.literal("  #if (Meniscus_Subsurface = 1) mm_per_unit 1 subsurface { samples 50, 20 } #end\n}\n#end\n");
   append_camera(out, camera, options, origin);
   out.literal(filled(kMainTemplate, options.name, single ? "object" : "union"));
   return out.text();

@@ -83,7 +83,7 @@ BufferDifference compare_buffers(const Buffers& b, const SphereTracer& tracer, s
     d.normal += !a.normal;
     d.kind += !a.kind;
     d.color += !a.color;
-    d.odd_layers += std::lround(b.layers[n]) % 2 != 0;
+    d.odd_layers += b.layers[n] < kMostLayers && b.layers[n] % 2 != 0;
     if (a.position) d.largest_position_error = std::max(d.largest_position_error, a.error);
   }
   return d;

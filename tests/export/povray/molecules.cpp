@@ -16,9 +16,12 @@ namespace {
 
 constexpr double kCarbon = 1.7;
 
-Molecule triangle(const std::string& name, double side) {
-  const double height = side * std::sqrt(3.0) / 2.0;
-  return {name, {{{0, 0, 0.1}, kCarbon}, {{side, 0, 0.1}, kCarbon}, {{side / 2, height, 0.1}, kCarbon}}};
+// No edge of any patch stays parallel to an axis.
+Molecule tilted(Molecule m) {
+  const glm::dvec3 x = glm::normalize(glm::dvec3(0.8, 0.5, -0.33)), y = glm::normalize(glm::cross(x, {0.1, 0.3, 1.0}));
+  for (Ball& b : m.balls)
+    b.center = glm::dvec3(0.3, -0.2, 0.1) + b.center.x * x + b.center.y * y + b.center.z * glm::cross(x, y);
+  return m;
 }
 
 }  // namespace
@@ -32,11 +35,15 @@ Molecule free_spindle() {
   return {"free_spindle", {{{-half, 0, 0}, kCarbon}, {{half, 0, 0}, kCarbon}}};
 }
 
-Molecule three_atoms() { return triangle("three_atoms", 3.5); }
+Molecule three_atoms() {
+  return tilted({"three_atoms", {{{0, 0, 0}, kCarbon}, {{3.5, 0, 0}, kCarbon}, {{1.6, 3.1, 0}, 1.55}}});
+}
 
 Molecule wide_arc() { return {"wide_arc", {{{-2, 0, 0}, kCarbon}, {{2, 0, 0}, kCarbon}, {{0.1, 4.2, 0.2}, 1.55}}}; }
 
-Molecule cut_probes() { return triangle("cut_probes", 5.11); }
+Molecule cut_probes() {
+  return tilted({"cut_probes", {{{-2.8, 0, 0}, kCarbon}, {{2.8, 0, 0}, kCarbon}, {{0, 2, 0}, kCarbon}}});
+}
 
 Molecule square() {
   Molecule m{"square", {}};
@@ -96,10 +103,10 @@ Molecule ubiquitin() { return pdb_molecule("1ubq", "/usr/share/freesasa/test-dat
 
 Molecule enterotoxin() { return pdb_molecule("1tii", "/usr/share/pymol/data/demo/1tii.pdb"); }
 
-Coloring three_colors(std::size_t atom_count) {
+Coloring turning_colors(std::size_t atom_count, int color_count) {
   const std::array<glm::vec3, 3> palette{{{0.9f, 0.3f, 0.2f}, {0.2f, 0.5f, 0.9f}, {0.9f, 0.8f, 0.3f}}};
   Coloring c;
-  for (std::size_t a = 0; a < atom_count; ++a) c.atom.push_back(palette[a % 3]);
+  for (std::size_t a = 0; a < atom_count; ++a) c.atom.push_back(palette[static_cast<int>(a) % color_count]);
   return c;
 }
 

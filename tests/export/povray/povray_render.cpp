@@ -110,8 +110,8 @@ Buffers render_buffers(const std::filesystem::path& folder, const std::string& n
     b.kind.push_back(static_cast<int>(std::lround(v.x * 4.0)) - 1);
     b.color.push_back(static_cast<int>(std::lround(v.y * 255.0) + 256 * std::lround(v.z * 255.0)));
   }
-  read_rgb(folder / "check4.png", &alpha);
-  for (const double a : alpha) b.layers.push_back(a < 1.0 ? -std::log2(1.0 - a) : 16.0);
+  for (const glm::dvec3& v : read_rgb(folder / "check4.png"))
+    b.layers.push_back(v.x > 0.0 ? static_cast<int>(std::lround(-std::log2(v.x))) : kMostLayers);
   return b;
 }
 

@@ -34,6 +34,9 @@ struct PovrayRun {
 /// `povray ARGUMENTS` in `folder`, without a window.
 PovrayRun run_povray(const std::filesystem::path& folder, const std::string& arguments);
 
+/// 16 bits can tell fewer layers than this apart.
+inline constexpr int kMostLayers = 15;
+
 /// What the buffer include gives, one entry a pixel, rows from the top. Where nothing was hit only `hit` counts.
 struct Buffers {
   int width = 0, height = 0;
@@ -41,7 +44,7 @@ struct Buffers {
   std::vector<glm::dvec3> position;  ///< Å, in the scene's coordinates
   std::vector<glm::dvec3> normal;    ///< on the viewer's side
   std::vector<int> kind, color;
-  std::vector<double> layers;  ///< surface layers along the whole ray
+  std::vector<int> layers;  ///< surface layers along the whole ray; kMostLayers: at least so many
 };
 
 /// Renders the four buffers of the scene `name` of width x height pixels in one run of POV-Ray.

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A molecule with its surface, its oracle, and the way from a camera to the pixels that differ.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "core/render/camera.h"
+#include "core/surface/surface.h"
+#include "exporters/povray/scene.h"
+#include "tests/export/povray/buffer_comparison.h"
+#include "tests/export/povray/molecules.h"
+
+namespace meniscus::testing {
+
+/// Changes the geometry's text before POV-Ray sees it.
+using Mutation = std::function<std::string(const std::string&)>;
+
+class ExportedScene {
+ public:
+  /// Atoms get `color_count` colours in turn.
+  explicit ExportedScene(const Molecule& molecule, int color_count = 3);
+
+  const Surface& surface() const { return surface_; }
+
+  /// Writes the scene, renders its buffers and compares every pixel with the oracle. Expects a clean parse: no warning,
+  /// no infinite object, as many objects as the exporter says. Prints the difference.
+  BufferDifference difference(const Camera& camera, int width, int height, const Mutation& mutation = {}) const;
+
+  povray::SceneReport write(const Camera& camera, int width, int height, const std::filesystem::path& folder) const;
+
+ private:
+  Molecule molecule_;
+  Coloring coloring_;
+  std::vector<int> colors_;
+  Surface surface_;
+  SphereTracer tracer_;
+};
+
+/// The surface from a direction (of the molecule's axes) that is no symmetry of anything; turn picks one of several.
+Camera oblique_camera(const Surface& surface, Projection projection, double aspect, int turn = 0);
+
+}  // namespace meniscus::testing
