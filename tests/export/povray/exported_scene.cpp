@@ -8,13 +8,15 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "tests/support/run_program.h"
+
 namespace meniscus::testing {
 
-ExportedScene::ExportedScene(const Molecule& molecule, int color_count)
+ExportedScene::ExportedScene(const NamedBalls& molecule, int color_count)
     : molecule_(molecule),
       coloring_(turning_colors(molecule.balls.size(), color_count)),
-      surface_(compute_surface_cpu(molecule.balls, kWaterProbe)),
-      tracer_(molecule.balls, kWaterProbe) {
+      surface_(compute_surface_cpu(molecule.balls, kWater)),
+      tracer_(molecule.balls, kWater) {
   for (std::size_t a = 0; a < molecule.balls.size(); ++a) colors_.push_back(static_cast<int>(a) % color_count);
 }
 
@@ -28,12 +30,12 @@ povray::SceneReport ExportedScene::write(const Camera& camera, int width, int he
 
 BufferDifference ExportedScene::difference(const Camera& camera, int width, int height,
                                            const Mutation& mutation) const {
-  const ScratchFolder scratch;
+  const test::TemporaryFolder scratch;
   const std::filesystem::path folder = scratch.path() / "scene";
   const povray::SceneReport report = write(camera, width, height, folder);
   if (mutation) {
     const std::filesystem::path geometry = folder / "surface_geometry.inc";
-    const std::string text = read_text(geometry), changed = mutation(text);
+    const std::string text = test::read_bytes(geometry), changed = mutation(text);
     EXPECT_TRUE(text != changed) << "the fault did not meet anything";
     write_text(geometry, changed);
   }
@@ -44,8 +46,7 @@ BufferDifference ExportedScene::difference(const Camera& camera, int width, int 
     EXPECT_EQ(run.infinite_objects, 0u);
     EXPECT_TRUE(run.warnings.empty()) << run.warnings.front();
   }
-  const BufferDifference d =
-      compare_buffers(buffers, tracer_, molecule_.balls, kWaterProbe, colors_, camera, report.origin);
+  const BufferDifference d = compare_buffers(buffers, tracer_, molecule_.balls, kWater, colors_, camera, report.origin);
   std::cout << molecule_.name << ": " << d.text() << '\n';
   return d;
 }

@@ -10,7 +10,7 @@
 #include "core/surface/surface.h"
 #include "exporters/povray/scene.h"
 #include "tests/export/povray/buffer_comparison.h"
-#include "tests/export/povray/molecules.h"
+#include "tests/export/povray/patch_molecules.h"
 
 namespace meniscus::testing {
 
@@ -20,7 +20,7 @@ using Mutation = std::function<std::string(const std::string&)>;
 class ExportedScene {
  public:
   /// Atoms get `color_count` colours in turn.
-  explicit ExportedScene(const Molecule& molecule, int color_count = 3);
+  explicit ExportedScene(const NamedBalls& molecule, int color_count = 3);
 
   const Surface& surface() const { return surface_; }
 
@@ -31,7 +31,7 @@ class ExportedScene {
   povray::SceneReport write(const Camera& camera, int width, int height, const std::filesystem::path& folder) const;
 
  private:
-  Molecule molecule_;
+  NamedBalls molecule_;
   Coloring coloring_;
   std::vector<int> colors_;
   Surface surface_;

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `meniscus export povray` as users meet it, with files that try to write scene code.
-#include <fstream>
+#include <filesystem>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "tests/export/povray/povray_render.h"
+#include "tests/support/run_program.h"
 
 namespace meniscus::testing {
 namespace {
@@ -24,60 +27,50 @@ std::string mmcif(const std::string& atom_name, const std::string& residue, cons
   return text;
 }
 
-int meniscus_program(const std::string& arguments, std::string* output = nullptr) {
-  const ScratchFolder scratch;
-  const std::filesystem::path log = scratch.path() / "log";
-  const int status = std::system((MENISCUS_PROGRAM " " + arguments + " > '" + log.string() + "' 2>&1").c_str());
-  if (output) *output = read_text(log);
-  return WEXITSTATUS(status);
-}
-
 TEST(PovrayCommand, TextOfAMoleculeNeverReachesTheScene) {
-  const ScratchFolder scratch;
-  const std::filesystem::path plain = scratch.path() / "plain.cif", hostile = scratch.path() / "#fopen.cif";
-  write_text(plain, mmcif("CA", "ALA", "A"));
-  write_text(hostile, mmcif("'\"} #fopen F \"x\" write //'", "'*/ #include \"/etc/passwd\"'", "'} #error \"y\" {'"));
+  const test::TemporaryFolder folder;
+  const std::string plain = folder.file("plain.cif", mmcif("CA", "ALA", "A"));
+  const std::string hostile = folder.file(
+      "#fopen.cif", mmcif("'\"} #fopen F \"x\" write //'", "'*/ #include \"/etc/passwd\"'", "'} #error \"y\" {'"));
   for (const std::string color : {"element", "chain", "residue", "atom"}) {
-    std::string log;
-    ASSERT_EQ(meniscus_program(fmt::format("export povray '{}' --device cpu --color {} --force -o '{}'", plain.string(),
-                                           color, (scratch.path() / "a").string()),
-                               &log),
-              0)
-        << log;
-    ASSERT_EQ(meniscus_program(fmt::format("export povray '{}' --device cpu --color {} --force -o '{}'",
-                                           hostile.string(), color, (scratch.path() / "b").string()),
-                               &log),
-              0)
-        << log;
+    for (const auto& [file, scene] : {std::pair(plain, "a"), std::pair(hostile, "b")}) {
+      const test::ProgramResult run =
+          test::run_program(MENISCUS_PROGRAM, {"export", "povray", file, "--device", "cpu", "--color", color, "--force",
+                                               "-o", (folder.path() / scene).string()});
+      ASSERT_EQ(run.exit_code, 0) << run.err;
+    }
     for (const char* const file :
          {"surface.ini", "surface.pov", "surface_style.inc", "surface_aov.inc", "surface_geometry.inc"}) {
-      const std::string text = read_text(scratch.path() / "b" / file);
+      const std::string text = test::read_bytes(folder.path() / "b" / file);
       for (const char* const word : {"#fopen", "passwd", "#error", "write //"})
         EXPECT_EQ(text.find(word), std::string::npos) << word << " in " << file;
       // Residue names choose colours; otherwise not a byte may differ.
-      if (color != "residue") EXPECT_TRUE(read_text(scratch.path() / "a" / file) == text) << file << " by " << color;
+      if (color != "residue")
+        EXPECT_TRUE(test::read_bytes(folder.path() / "a" / file) == text) << file << " by " << color;
     }
   }
 }
 
 TEST(PovrayCommand, KeepsWhatExistsAndRefusesNonsense) {
-  const ScratchFolder scratch;
-  const std::filesystem::path molecule = scratch.path() / "m.cif", folder = scratch.path() / "scene";
-  write_text(molecule, mmcif("CA", "ALA", "A"));
-  const std::string command =
-      fmt::format("export povray '{}' --device cpu -o '{}'", molecule.string(), folder.string());
-  std::string log;
-  ASSERT_EQ(meniscus_program(command, &log), 0) << log;
-  EXPECT_NE(log.find("5 files"), std::string::npos) << log;
-  write_text(folder / "surface.pov", "mine");
-  EXPECT_EQ(meniscus_program(command, &log), 6);
-  EXPECT_EQ(read_text(folder / "surface.pov"), "mine");
-  EXPECT_EQ(meniscus_program(command + " --force --size 0x10", &log), 2) << log;
-  EXPECT_EQ(meniscus_program(command + " --force --material gold", &log), 2) << log;
-  EXPECT_EQ(meniscus_program(command + " --force --camera /nowhere.json", &log), 3) << log;
-  EXPECT_EQ(read_text(folder / "surface.pov"), "mine");
-  EXPECT_EQ(meniscus_program(command + " --force --projection orthographic --material glass", &log), 0) << log;
-  EXPECT_NE(read_text(folder / "surface.pov").find("orthographic"), std::string::npos);
+  const test::TemporaryFolder folder;
+  const std::string molecule = folder.file("m.cif", mmcif("CA", "ALA", "A"));
+  const std::filesystem::path scene = folder.path() / "scene";
+  const auto run = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{"export", "povray", molecule, "--device", "cpu", "-o", scene.string()};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return test::run_program(MENISCUS_PROGRAM, arguments);
+  };
+  const test::ProgramResult first = run({});
+  ASSERT_EQ(first.exit_code, 0) << first.err;
+  EXPECT_NE(first.err.find("5 files"), std::string::npos) << first.err;
+  write_text(scene / "surface.pov", "mine");
+  EXPECT_EQ(run({}).exit_code, 6);
+  EXPECT_EQ(run({"--force", "--size", "0x10"}).exit_code, 2);
+  EXPECT_EQ(run({"--force", "--material", "gold"}).exit_code, 2);
+  EXPECT_EQ(run({"--force", "--camera", "/nowhere.json"}).exit_code, 3);
+  EXPECT_EQ(test::read_bytes(scene / "surface.pov"), "mine");
+  EXPECT_EQ(run({"--force", "--projection", "orthographic", "--material", "glass"}).exit_code, 0);
+  EXPECT_NE(test::read_bytes(scene / "surface.pov").find("orthographic"), std::string::npos);
 }
 
 }  // namespace

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Exported scenes rendered by POV-Ray, pixel by pixel against the sphere-tracing oracle; every picture they offer.
 #include <cmath>
+#include <iterator>
+#include <sstream>
 
 #include <gtest/gtest.h>
 
 #include "tests/export/povray/exported_scene.h"
+#include "tests/support/run_program.h"
 
 namespace meniscus::testing {
 namespace {
@@ -21,7 +24,7 @@ void expect_identical(const BufferDifference& d) {
   EXPECT_LT(d.largest_position_error, 1e-3);
 }
 
-class SmallMolecule : public ::testing::TestWithParam<Molecule> {};
+class SmallMolecule : public ::testing::TestWithParam<NamedBalls> {};
 
 TEST_P(SmallMolecule, EveryPixelAgreesInPerspectiveAndOrthographic) {
   const ExportedScene scene(GetParam());
@@ -30,11 +33,11 @@ TEST_P(SmallMolecule, EveryPixelAgreesInPerspectiveAndOrthographic) {
     expect_identical(scene.difference(oblique_camera(scene.surface(), projection, kAspect), 240, 180));
 }
 
-INSTANTIATE_TEST_SUITE_P(PovrayExport, SmallMolecule, ::testing::ValuesIn(small_molecules()),
+INSTANTIATE_TEST_SUITE_P(PovrayExport, SmallMolecule, ::testing::ValuesIn(patch_molecules()),
                          [](const auto& instance) { return instance.param.name; });
 
 TEST(PovrayExport, CavityFromInsideAndTallPicture) {
-  const ExportedScene scene(fullerene());
+  const ExportedScene scene({"c60", c60()});
   Camera camera;
   camera.position = {0.05, -0.03, 0.02};
   camera.target = {1.0, 0.4, -0.3};
@@ -53,29 +56,29 @@ void expect_as_good_as_identical(const BufferDifference& d) {
   EXPECT_LE(d.odd_layers, tolerated);
 }
 
-class Protein : public ::testing::TestWithParam<Molecule (*)()> {};
+class Protein : public ::testing::TestWithParam<NamedBalls> {};
 
 TEST_P(Protein, PixelsAgreeFromThreeSides) {
-  const Molecule molecule = GetParam()();
-  ASSERT_FALSE(molecule.balls.empty()) << "the file of " << molecule.name << " is not installed";
-  const ExportedScene scene(molecule);
+  const ExportedScene scene(GetParam());
   for (const int turn : {0, 1, 2}) {
     const Projection projection = turn == 2 ? Projection::orthographic : Projection::perspective;
     expect_as_good_as_identical(scene.difference(oblique_camera(scene.surface(), projection, kAspect, turn), 320, 240));
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(PovrayExport, Protein, ::testing::Values(&ubiquitin, &enterotoxin),
-                         [](const auto& instance) { return instance.index == 0 ? "ubiquitin" : "enterotoxin"; });
+INSTANTIATE_TEST_SUITE_P(PovrayExport, Protein,
+                         ::testing::Values(NamedBalls{"ubiquitin", ubiquitin()},
+                                           NamedBalls{"enterotoxin", enterotoxin()}),
+                         [](const auto& instance) { return instance.param.name; });
 
 TEST(PovrayExport, EverySectionOfTheIniRendersWithoutWarning) {
   const ExportedScene scene(cut_probes());
-  const ScratchFolder scratch;
+  const test::TemporaryFolder scratch;
   const std::filesystem::path folder = scratch.path() / "scene";
   const povray::SceneReport report =
       scene.write(oblique_camera(scene.surface(), Projection::perspective, kAspect), 64, 48, folder);
   for (const std::string section : {"", "opaque", "ghost", "glass", "wax", "position", "normal", "group", "layers"}) {
-    const PovrayRun run = run_povray(folder, section.empty() ? "surface.ini" : "'surface.ini[" + section + "]'");
+    const PovrayRun run = run_povray(folder, {section.empty() ? "surface.ini" : "surface.ini[" + section + "]"});
     EXPECT_EQ(run.exit_code, 0) << section << run.log;
     EXPECT_TRUE(run.warnings.empty()) << section << ": " << run.warnings.front();
     EXPECT_EQ(run.finite_objects, report.object_count) << section;
@@ -86,11 +89,13 @@ TEST(PovrayExport, EverySectionOfTheIniRendersWithoutWarning) {
 // The command the exporter prints works from a folder elsewhere, and the picture is not blank.
 TEST(PovrayExport, PrintedCommandRendersFromAnywhere) {
   const ExportedScene scene(three_atoms());
-  const ScratchFolder scratch, elsewhere;
+  const test::TemporaryFolder scratch, elsewhere;
   const povray::SceneReport report =
       scene.write(oblique_camera(scene.surface(), Projection::perspective, kAspect), 64, 48, scratch.path() / "scene");
-  ASSERT_EQ(report.command.rfind("povray ", 0), 0u);
-  const PovrayRun run = run_povray(elsewhere.path(), report.command.substr(7));
+  std::istringstream words(report.command);
+  std::vector<std::string> command{std::istream_iterator<std::string>(words), {}};
+  ASSERT_EQ(command.front(), "povray");
+  const PovrayRun run = run_povray(elsewhere.path(), {command.begin() + 1, command.end()});
   ASSERT_EQ(run.exit_code, 0) << run.log;
   std::size_t colored = 0;
   for (const glm::dvec3& c : read_rgb(scratch.path() / "scene" / "surface.png")) colored += c.x - c.z > 0.1;
@@ -100,7 +105,7 @@ TEST(PovrayExport, PrintedCommandRendersFromAnywhere) {
 // sRGB colours come out as they went in: a flat material shows exactly the palette on a background of its own.
 TEST(PovrayExport, UsersOverrideMaterialsAndColoursAreExact) {
   const ExportedScene scene(one_atom());
-  const ScratchFolder scratch;
+  const test::TemporaryFolder scratch;
   const std::filesystem::path folder = scratch.path() / "scene";
   scene.write(oblique_camera(scene.surface(), Projection::perspective, kAspect), 64, 48, folder);
   write_text(folder / "mine.pov",
@@ -108,7 +113,7 @@ TEST(PovrayExport, UsersOverrideMaterialsAndColoursAreExact) {
              "#declare Meniscus_Finish = finish { emission 1 "
              "ambient 0 diffuse 0 }\n"
              "#declare Meniscus_Background = srgb <0, 1, 0>;\n#include \"surface.pov\"\n");
-  const PovrayRun run = run_povray(folder, "+Imine.pov +Omine.png +W64 +H48 -A");
+  const PovrayRun run = run_povray(folder, {"+Imine.pov", "+Omine.png", "+W64", "+H48", "-A"});
   ASSERT_EQ(run.exit_code, 0) << run.log;
   EXPECT_TRUE(run.warnings.empty()) << run.warnings.front();
   const std::vector<glm::dvec3> picture = read_rgb(folder / "mine.png");

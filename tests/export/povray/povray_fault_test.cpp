@@ -26,7 +26,7 @@ Mutation on_lines(const std::string& primitive, const std::string& pattern, cons
   };
 }
 
-BufferDifference with_fault(const Molecule& molecule, const Mutation& fault) {
+BufferDifference with_fault(const NamedBalls& molecule, const Mutation& fault) {
   // One colour, so that no plane but those of the geometry stands in the text.
   const ExportedScene scene(molecule, 1);
   const Camera camera = oblique_camera(scene.surface(), Projection::perspective, static_cast<double>(kWidth) / kHeight);
@@ -84,8 +84,7 @@ TEST(PovrayFault, BoxTooSmall) {
 
 // The thresholds for proteins are tight enough: one pixel in ten thousand.
 TEST(PovrayFault, ThresholdsForProteinsAreTight) {
-  const Molecule molecule = ubiquitin();
-  ASSERT_FALSE(molecule.balls.empty()) << "the file of " << molecule.name << " is not installed";
+  const NamedBalls molecule{"ubiquitin", ubiquitin()};
   const std::size_t tolerated = static_cast<std::size_t>(kWidth) * kHeight / 10000;
   EXPECT_GT(with_fault(molecule, on_lines("torus", kLemon, "")).position, tolerated);
   EXPECT_GT(with_fault(molecule, on_lines("sphere", kBisectors, "$1$2")).position, tolerated);

@@ -2,13 +2,7 @@
 // POV-Ray as a child process, its statistics, and its 16-bit images.
 #include "tests/export/povray/povray_render.h"
 
-#include <sys/wait.h>
-#include <unistd.h>
-
-#include <array>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <fstream>
 #include <numbers>
 #include <regex>
@@ -16,6 +10,8 @@
 #include <stdexcept>
 
 #include <OpenImageIO/imageio.h>
+
+#include "tests/support/run_program.h"
 
 namespace meniscus::testing {
 namespace {
@@ -37,26 +33,14 @@ glm::dvec3 declared(const std::string& text, const std::string& name) {
 
 }  // namespace
 
-ScratchFolder::ScratchFolder() {
-  std::string name = (std::filesystem::temp_directory_path() / "meniscus-povray-XXXXXX").string();
-  if (!mkdtemp(name.data())) throw std::runtime_error("no scratch folder");
-  path_ = name;
-}
-
-ScratchFolder::~ScratchFolder() {
-  std::error_code ignored;
-  std::filesystem::remove_all(path_, ignored);
-}
-
-PovrayRun run_povray(const std::filesystem::path& folder, const std::string& arguments) {
-  const std::string command = "cd '" + folder.string() + "' && " POVRAY_PROGRAM " " + arguments + " -D -V 2>&1";
+PovrayRun run_povray(const std::filesystem::path& folder, const std::vector<std::string>& arguments) {
+  std::vector<std::string> all{"-C", folder.string(), POVRAY_PROGRAM};
+  all.insert(all.end(), arguments.begin(), arguments.end());
+  all.insert(all.end(), {"-D", "-V"});
+  const test::ProgramResult result = test::run_program("/usr/bin/env", all, 300);
   PovrayRun run;
-  FILE* const pipe = popen(command.c_str(), "r");
-  if (!pipe) throw std::runtime_error("cannot run POV-Ray");
-  std::array<char, 4096> buffer;
-  while (const std::size_t got = std::fread(buffer.data(), 1, buffer.size(), pipe)) run.log.append(buffer.data(), got);
-  const int status = pclose(pipe);
-  run.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  run.exit_code = result.exit_code;
+  run.log = result.out + result.err;
   run.finite_objects = statistic(run.log, "Finite Objects");
   run.infinite_objects = statistic(run.log, "Infinite Objects");
   std::istringstream lines(run.log);
@@ -89,12 +73,11 @@ Buffers render_buffers(const std::filesystem::path& folder, const std::string& n
   // The frame number chooses the buffer, so that one process (its start takes longest) renders all four.
   write_text(folder / "check.pov",
              "#version 3.7;\n#declare Meniscus_Buffer = frame_number;\n#include \"" + name + ".pov\"\n");
-  const std::string arguments = "+Icheck.pov +Ocheck.png +KFI1 +KFF4 +FN16 File_Gamma=1.0 +UA -A +W" +
-                                std::to_string(width) + " +H" + std::to_string(height);
-  const PovrayRun done = run_povray(folder, arguments);
+  const PovrayRun done = run_povray(folder, {"+Icheck.pov", "+Ocheck.png", "+KFI1", "+KFF4", "+FN16", "File_Gamma=1.0",
+                                             "+UA", "-A", "+W" + std::to_string(width), "+H" + std::to_string(height)});
   if (run) *run = done;
   if (done.exit_code != 0) throw std::runtime_error("POV-Ray failed:\n" + done.log);
-  const std::string text = read_text(folder / (name + "_aov.inc"));
+  const std::string text = test::read_bytes(folder / (name + "_aov.inc"));
   const glm::dvec3 low = declared(text, "Meniscus_Low"), extent = declared(text, "Meniscus_Extent");
 
   Buffers b;
@@ -113,13 +96,6 @@ Buffers render_buffers(const std::filesystem::path& folder, const std::string& n
   for (const glm::dvec3& v : read_rgb(folder / "check4.png"))
     b.layers.push_back(v.x > 0.0 ? static_cast<int>(std::lround(-std::log2(v.x))) : kMostLayers);
   return b;
-}
-
-std::string read_text(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
 }
 
 void write_text(const std::filesystem::path& file, const std::string& text) {

@@ -10,19 +10,6 @@
 
 namespace meniscus::testing {
 
-/// An empty folder that vanishes with its owner.
-class ScratchFolder {
- public:
-  ScratchFolder();
-  ~ScratchFolder();
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
-
 struct PovrayRun {
   int exit_code = -1;
   std::string log;
@@ -32,7 +19,7 @@ struct PovrayRun {
 };
 
 /// `povray ARGUMENTS` in `folder`, without a window.
-PovrayRun run_povray(const std::filesystem::path& folder, const std::string& arguments);
+PovrayRun run_povray(const std::filesystem::path& folder, const std::vector<std::string>& arguments);
 
 /// 16 bits can tell fewer layers than this apart.
 inline constexpr int kMostLayers = 15;
@@ -54,7 +41,6 @@ Buffers render_buffers(const std::filesystem::path& folder, const std::string& n
 /// Pixels of an image as RGBA in [0, 1], no colour conversion.
 std::vector<glm::dvec3> read_rgb(const std::filesystem::path& file, std::vector<double>* alpha = nullptr);
 
-std::string read_text(const std::filesystem::path& file);
 void write_text(const std::filesystem::path& file, const std::string& text);
 
 }  // namespace meniscus::testing

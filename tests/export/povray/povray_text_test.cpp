@@ -15,13 +15,13 @@
 #include "exporters/povray/patch_extent.h"
 #include "exporters/povray/scene.h"
 #include "exporters/povray/scene_text.h"
-#include "tests/export/povray/molecules.h"
-#include "tests/export/povray/povray_render.h"
+#include "tests/export/povray/patch_molecules.h"
+#include "tests/support/run_program.h"
 
 namespace meniscus::povray {
 namespace {
 
-using testing::kWaterProbe;
+using testing::kWater;
 
 TEST(SceneText, NumbersAreShortFixedAndWithoutLocale) {
   std::setlocale(LC_ALL, "de_DE.UTF-8");  // has a decimal comma where it is installed
@@ -102,9 +102,10 @@ Box sampled_saddle(const Surface& s, const ToroidalPatch& t) {
 }
 
 TEST(PatchExtent, SaddlesFitTheirSamples) {
-  for (const testing::Molecule& m : {testing::free_torus(), testing::free_spindle(), testing::cut_probes(),
-                                     testing::wide_arc(), testing::blob(12, 3)}) {
-    const Surface s = compute_surface_cpu(m.balls, kWaterProbe);
+  for (const testing::NamedBalls& m :
+       {testing::free_torus(), testing::free_spindle(), testing::cut_probes(), testing::wide_arc(),
+        testing::NamedBalls{"gas", testing::gas(3, 12, 8.0, 1.2, 1.8)}}) {
+    const Surface s = compute_surface_cpu(m.balls, kWater);
     for (const ToroidalPatch& t : s.toroidal)
       if (t.face_count > 0) expect_tight(toroidal_extent(s, t), sampled_saddle(s, t), 0.02);
   }
@@ -112,8 +113,8 @@ TEST(PatchExtent, SaddlesFitTheirSamples) {
 
 TEST(PatchExtent, ConcavePatchesFitTheirSamples) {
   std::mt19937 random(11);
-  for (const testing::Molecule& m : {testing::three_atoms(), testing::cut_probes(), testing::square()}) {
-    const Surface s = compute_surface_cpu(m.balls, kWaterProbe);
+  for (const testing::NamedBalls& m : {testing::three_atoms(), testing::cut_probes(), testing::square()}) {
+    const Surface s = compute_surface_cpu(m.balls, kWater);
     for (const ConcavePatch& c : s.concave) {
       if (c.face_count == 0) continue;
       Box sampled;
@@ -130,7 +131,7 @@ TEST(PatchExtent, ConcavePatchesFitTheirSamples) {
 }
 
 TEST(Palette, PatchesSplitOnlyBetweenColours) {
-  const Surface s = compute_surface_cpu(testing::three_atoms().balls, kWaterProbe);
+  const Surface s = compute_surface_cpu(testing::three_atoms().balls, kWater);
   const std::size_t patches = s.convex.size() + s.toroidal.size() + s.concave.size();
   EXPECT_EQ(make_palette(s, testing::turning_colors(3, 1)).pieces.size(), patches);
   EXPECT_EQ(make_palette(s, testing::turning_colors(3, 3)).pieces.size(), 3u + 2u * 3u + 3u * 2u);
@@ -142,9 +143,9 @@ TEST(Palette, PatchesSplitOnlyBetweenColours) {
 }
 
 TEST(WriteScene, RefusesWhatItCannotWriteAndLeavesNothing) {
-  const Surface s = compute_surface_cpu(testing::one_atom().balls, kWaterProbe);
+  const Surface s = compute_surface_cpu(testing::one_atom().balls, kWater);
   const Camera camera = frame_camera(s, 1.0);
-  const testing::ScratchFolder scratch;
+  const test::TemporaryFolder scratch;
   const auto write = [&](const SceneOptions& options, const Surface& surface) {
     return write_scene(surface, testing::turning_colors(1, 1), camera, options, scratch.path() / "scene");
   };

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Small molecules that between them have every kind of patch.
+#pragma once
+
+#include <ostream>
+#include <vector>
+
+#include "core/surface/coloring.h"
+#include "tests/support/molecules.h"
+
+namespace meniscus::testing {
+
+NamedBalls one_atom();
+NamedBalls free_torus();    ///< two atoms, a whole saddle ring
+NamedBalls free_spindle();  ///< two atoms so far apart that the ring crosses its axis
+NamedBalls three_atoms();   ///< two fixed probes that do not touch
+NamedBalls wide_arc();      ///< an arc of more than 180°
+NamedBalls cut_probes();    ///< a spindle arc, and two fixed probes that cut each other
+NamedBalls square();        ///< four atoms on one probe
+/// All of them, a random gas and C60 (faces of five and six atoms, a cavity); for the probe kWater.
+std::vector<NamedBalls> patch_molecules();
+
+/// One to three colours in turn: with three, neighbours mostly differ, and some patches have two atoms of one colour.
+Coloring turning_colors(std::size_t atom_count, int color_count);
+
+/// For GoogleTest's messages.
+inline void PrintTo(const NamedBalls& m, std::ostream* out) { *out << m.name; }
+
+}  // namespace meniscus::testing
