@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The GPU finds the very primitives the CPU finds: degenerate molecules as they are and turned, gases with ties, proteins.
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "core/gpu/egl_context.h"
+#include "core/reference/exhaustive.h"
+#include "core/surface/compare.h"
+#include "core/surface/pipeline.h"
+#include "core/surface/surface.h"
+#include "tests/support/molecules.h"
+
+namespace meniscus::testing {
+namespace {
+
+class GpuSurface : public ::testing::Test {
+ protected:
+  void expect_equal(const Balls& balls, double probe_radius) {
+    const Surface surface = pipeline_.run(balls, probe_radius);
+    EXPECT_TRUE(surface.certificate.closed);
+    const std::vector<std::string> different = differences(compute_surface_cpu(balls, probe_radius), surface);
+    EXPECT_TRUE(different.empty()) << different.size() << " differences, first: " << different.front();
+  }
+
+  EglContext context_;
+  SurfacePipeline pipeline_;
+};
+
+TEST_F(GpuSurface, DegenerateMolecules) {
+  std::mt19937 random(5);
+  for (const NamedBalls& molecule : degenerate_molecules()) {
+    SCOPED_TRACE(molecule.name);
+    expect_equal(molecule.balls, molecule.probe_radius);
+    for (int n = 0; n < 4; ++n)
+      expect_equal(translated(rotated(molecule.balls, random_rotation(random)), {1000.0 * n, 0, -1000}),
+                   molecule.probe_radius);
+  }
+}
+
+TEST_F(GpuSurface, Gases) {
+  for (std::uint32_t n = 0; n < 200; ++n) {
+    SCOPED_TRACE("gas " + std::to_string(n));
+    const GasCase gas = gas_case(n);
+    expect_equal(gas.balls, gas.probe_radius);
+  }
+}
+
+TEST_F(GpuSurface, Proteins) {
+  for (const double p : {0.0, 0.5, 1.4, 3.0}) expect_equal(ubiquitin(), p);
+  const Balls balls = enterotoxin();
+  expect_equal(balls, kWater);
+  expect_equal(translated(balls, {1000, -1000, 1000}), kWater);
+}
+
+TEST_F(GpuSurface, NoAtoms) { EXPECT_TRUE(pipeline_.run({}, kWater).components.empty()); }
+
+}  // namespace
+}  // namespace meniscus::testing
