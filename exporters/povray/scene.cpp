@@ -190,8 +190,14 @@ std::string ini_text(const SceneOptions& options) {
   return out.text();
 }
 
-std::vector<std::string> notes(const Surface& surface, const Palette& palette) {
+std::vector<std::string> notes(const Surface& surface, const Palette& palette, const Camera& camera) {
   std::vector<std::string> sentences;
+  // Rays begin on the plane through an orthographic camera, here as in the ray caster.
+  const glm::dvec3 forward = view_basis(camera).forward;
+  const auto reaches_behind = [&](const Ball& b) { return glm::dot(b.center - camera.position, forward) < b.radius; };
+  const auto behind = std::ranges::count_if(surface.atoms, reaches_behind);
+  if (camera.projection == Projection::orthographic && behind > 0)
+    sentences.push_back(fmt::format("{} atoms reach behind the orthographic camera and are cut off there", behind));
   std::size_t cut_away = 0;
   for (const ConcavePatch& c : surface.concave) cut_away += c.face_count == 0;
   if (cut_away > 0)
@@ -227,7 +233,7 @@ SceneReport write_scene(const Surface& surface, const Coloring& coloring, const 
 
   report.object_count = palette.pieces.size();
   report.origin = origin;
-  report.notes = notes(surface, palette);
+  report.notes = notes(surface, palette, camera);
   const std::string path = folder.string();
   report.command = fmt::format("povray {0}/{1}.ini +L{0} +I{0}/{1}.pov +O{0}/", path, options.name);
   return report;

@@ -19,17 +19,25 @@ const std::string_view kMainTemplate = R"pov(
 )pov";
 
 const std::string_view kStyleTemplate = R"pov(
-// Lights: parallel, from over the viewer's left shoulder, and a weak one from the viewer.
+// Lights: a key light from the upper left behind the camera, a dim fill from the right, a weak sky, and one from the
+// viewer; all parallel, so that the place of the molecule does not matter.
 #ifndef (Meniscus_Shadows) #declare Meniscus_Shadows = 0; #end
-#ifndef (Meniscus_Key_Light) #declare Meniscus_Key_Light = 0.75; #end
-#ifndef (Meniscus_Head_Light) #declare Meniscus_Head_Light = 0.3; #end
+#ifndef (Meniscus_Key_Light) #declare Meniscus_Key_Light = rgb <0.74, 0.72, 0.68>; #end
+#ifndef (Meniscus_Fill_Light) #declare Meniscus_Fill_Light = rgb <0.15, 0.17, 0.2>; #end
+#ifndef (Meniscus_Sky_Light) #declare Meniscus_Sky_Light = rgb <0.05, 0.06, 0.07>; #end
+#ifndef (Meniscus_Head_Light) #declare Meniscus_Head_Light = rgb <0.13, 0.13, 0.14>; #end
 #ifndef (Meniscus_Custom_Lights)
   light_source {
-    vnormalize(-0.5*Meniscus_Right + 0.7*Meniscus_Up - Meniscus_Forward)*1e4 rgb Meniscus_Key_Light
+    (-0.45*Meniscus_Right + 0.65*Meniscus_Up - 0.75*Meniscus_Forward)*1e4 color Meniscus_Key_Light
     parallel point_at 0
     #if (Meniscus_Shadows = 0) shadowless #end
   }
-  light_source { -Meniscus_Forward*1e4 rgb Meniscus_Head_Light parallel point_at 0 shadowless }
+  light_source {
+    (0.85*Meniscus_Right - 0.05*Meniscus_Up - 0.45*Meniscus_Forward)*1e4 color Meniscus_Fill_Light
+    parallel point_at 0 shadowless
+  }
+  light_source { Meniscus_Up*1e4 color Meniscus_Sky_Light parallel point_at 0 shadowless }
+  light_source { -Meniscus_Forward*1e4 color Meniscus_Head_Light parallel point_at 0 shadowless }
 #end
 #ifndef (Meniscus_Background) #declare Meniscus_Background = Meniscus_Default_Background; #end
 background { Meniscus_Background }
@@ -38,14 +46,14 @@ background { Meniscus_Background }
 #switch (Meniscus_Material)
   #case (1)
     #ifndef (Meniscus_Finish)
-      #declare Meniscus_Finish = finish { ambient 0.2 diffuse 0.8 specular 0.3 roughness 0.02 }
+      #declare Meniscus_Finish = finish { ambient 0.1 diffuse 1 specular 0.3 roughness 0.02 }
     #end
     #ifndef (Meniscus_Transmit) #declare Meniscus_Transmit = 0.6; #end
     #ifndef (Meniscus_Back_Transmit) #declare Meniscus_Back_Transmit = 1; #end
   #break
   #case (2)
     #ifndef (Meniscus_Finish)
-      #declare Meniscus_Finish = finish { ambient 0.1 diffuse 0.2 specular 0.8 roughness 0.003 }
+      #declare Meniscus_Finish = finish { ambient 0.05 diffuse 0.25 specular 0.8 roughness 0.003 }
     #end
     #ifndef (Meniscus_Filter) #declare Meniscus_Filter = 0.85; #end
     #ifndef (Meniscus_Tint) #declare Meniscus_Tint = 0.35; #end
@@ -59,7 +67,7 @@ background { Meniscus_Background }
           ambient 0.05 diffuse 0.8 specular 0.15 roughness 0.08 subsurface { translucency 0.4 }
         }
       #else
-        #declare Meniscus_Finish = finish { ambient 0.3 diffuse 0.7 brilliance 0.7 specular 0.15 roughness 0.12 }
+        #declare Meniscus_Finish = finish { ambient 0.2 diffuse 0.95 brilliance 0.7 specular 0.15 roughness 0.12 }
       #end
     #end
     #ifndef (Meniscus_Tint) #declare Meniscus_Tint = 0.75; #end
@@ -67,7 +75,7 @@ background { Meniscus_Background }
   #break
 #end
 #ifndef (Meniscus_Finish)
-  #declare Meniscus_Finish = finish { ambient 0.2 diffuse 0.8 specular 0.2 roughness 0.03 }
+  #declare Meniscus_Finish = finish { ambient 0.1 diffuse 1 brilliance 1.2 specular 0.13 roughness 0.025 }
 #end
 // How much of the colours is left, the rest being white; how much light passes, coloured and uncoloured.
 #ifndef (Meniscus_Tint) #declare Meniscus_Tint = 1; #end
