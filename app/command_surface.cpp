@@ -97,10 +97,15 @@ void run(const SurfaceCommand& command) {
 }  // namespace
 
 void add_surface(CLI::App& command) {
-  describe(command, "Compute the surface; print area, volume, components and counts",
-           "  meniscus surface 1tii.pdb                     a table\n"
-           "  meniscus surface 1tii.pdb --json > 1tii.json  one JSON object\n"
-           "  meniscus surface balls.xyzr --probe 0         van der Waals surface, radii of the file");
+  describe(
+      command, "Compute the surface; print area, volume, components and counts",
+      "  meniscus surface 1tii.pdb                     a table\n"
+      "  meniscus surface 1tii.pdb --json > 1tii.json  one JSON object\n"
+      "  meniscus surface balls.xyzr --probe 0         van der Waals surface, radii of the file",
+      "Used are the polymers and ligands of the first model, of each residue the most occupied conformer; water and\n"
+      "free ions are left out. What was read, left out and used is always said. Radii are Bondi's (`meniscus info`\n"
+      "lists them), or the file's own (XYZR). The surface is complete, cavities too, and closed; areas and volumes\n"
+      "are exact, in closed form. A cavity's volume is negative: it is missing from the solid.");
   auto state = std::make_shared<SurfaceCommand>();
   add_file_options(command, state->molecule);
   add_surface_options(command, state->molecule);

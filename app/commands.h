@@ -22,7 +22,8 @@ void add_info(CLI::App& command);
 void add_render(CLI::App& command);
 void add_surface(CLI::App& command);
 
-/// Sets a command's one-line summary and its examples, which the help shows first.
-void describe(CLI::App& command, const std::string& summary, const std::string& examples);
+/// Sets a command's one-line summary, its examples, which the help shows first, and what else a reader should know.
+void describe(CLI::App& command, const std::string& summary, const std::string& examples,
+              const std::string& details = "");
 
 }  // namespace meniscus

@@ -19,11 +19,7 @@ namespace meniscus {
 namespace {
 
 constexpr Command kCommands[] = {
-    {"surface", add_surface},
-    {"render", add_render},
-    {"info", add_info},
-    {"export", add_export},
-    {"bench", add_bench},
+    {"surface", add_surface}, {"render", add_render}, {"info", add_info}, {"export", add_export}, {"bench", add_bench},
 };
 
 constexpr const char* kExamples = R"(  meniscus info 1tii.pdb                        what the file holds
@@ -83,6 +79,10 @@ int run(int argc, char** argv) {
   CLI::App program("Meniscus computes the exact, complete solvent-excluded surface of a molecule.", "meniscus");
   program.formatter(std::make_shared<ManualFormatter>());
   program.get_formatter()->column_width(30);
+  program.get_formatter()->label("REQUIRED", "(required)");
+  program.get_formatter()->label("Positionals", "Arguments");
+  program.get_formatter()->label("SUBCOMMAND", "COMMAND");
+  program.get_formatter()->label("Subcommands", "Commands");
   program.set_version_flag("--version", "meniscus " MENISCUS_VERSION, "Show the version");
   program.set_help_flag("-h,--help", "Show this help");
   program.require_subcommand(1);
@@ -102,9 +102,9 @@ int run(int argc, char** argv) {
 
 }  // namespace
 
-void describe(CLI::App& command, const std::string& summary, const std::string& examples) {
+void describe(CLI::App& command, const std::string& summary, const std::string& examples, const std::string& details) {
   command.description(summary);
-  command.footer(examples);
+  command.footer(details.empty() ? examples : examples + "\n\n" + details);
 }
 
 }  // namespace meniscus

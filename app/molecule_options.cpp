@@ -16,6 +16,18 @@
 namespace meniscus {
 namespace {
 
+/// Options added while this lives stand under a heading of their own in the help.
+class Heading {
+ public:
+  Heading(CLI::App& command, const char* text) : command_(command) { command.option_defaults()->group(text); }
+  ~Heading() { command_.option_defaults()->group("Options"); }
+  Heading(const Heading&) = delete;
+  Heading& operator=(const Heading&) = delete;
+
+ private:
+  CLI::App& command_;
+};
+
 // Below 0.001 Å the patches between atoms are thinner than any file's coordinates are precise; above 100 Å the probe is
 // larger than most molecules and every atom neighbours every other.
 constexpr double kSmallestProbe = 1e-3;
@@ -61,7 +73,10 @@ void parse_color(const std::string& text, ColorScheme& color) {
 }  // namespace
 
 void add_file_options(CLI::App& command, MoleculeOptions& options) {
-  command.add_option("FILE", options.file, "Molecule: PDB, mmCIF (.gz too) or XYZR; told apart by content")->required();
+  const Heading heading(command, "Input");
+  command.add_option("FILE", options.file, "Molecule: PDB, mmCIF (.gz too) or XYZR; told apart by content")
+      ->required()
+      ->type_name("");
   command.add_flag("--keep-water", options.reading.keep_water, "Use water molecules too");
   command.add_flag("--keep-ions", options.reading.keep_ions, "Use free ions (lone metal and halogen atoms) too");
   const std::map<std::string, UnknownElement> words{
@@ -75,12 +90,13 @@ void add_file_options(CLI::App& command, MoleculeOptions& options) {
 }
 
 void add_surface_options(CLI::App& command, MoleculeOptions& options) {
+  const Heading heading(command, "Surface");
   ComputeOptions& computing = options.computing;
   command
       .add_option_function<std::string>(
           "--probe", [&computing](const std::string& text) { computing.probe_radius = parse_probe(text); },
           "Probe radius in Å [1.4]; 0 gives the van der Waals surface")
-      ->type_name("Å");
+      ->type_name("RADIUS");
   command
       .add_option_function<std::string>(
           "--device", [&computing](const std::string& text) { parse_device(text, computing); },
@@ -93,6 +109,7 @@ void add_surface_options(CLI::App& command, MoleculeOptions& options) {
 }
 
 void add_color_options(CLI::App& command, MoleculeOptions& options) {
+  const Heading heading(command, "Colour");
   ColorScheme& color = options.color;
   command
       .add_option_function<std::string>(
@@ -119,6 +136,7 @@ void add_molecule_options(CLI::App& command, MoleculeOptions& options) {
 }
 
 void add_output_options(CLI::App& command, OutputOptions& options, const std::string& what) {
+  const Heading heading(command, "Output");
   command.add_option("-o,--output", options.path, what)->required()->type_name("PATH");
   command.add_flag("--force", options.force, "Replace what exists at the output path");
 }

@@ -200,6 +200,42 @@ TEST(Bench, PrintsARowForEachFile) {
   EXPECT_NE(result.out.find("total ms"), std::string::npos);
 }
 
+TEST(Output, ExistingFilesStayUnlessForced) {
+  const TemporaryFolder folder;
+  const std::string balls = folder.file("a.xyzr", "0 0 0 1.7\n3 0 0 1.7\n");
+  const std::string scene = folder.path() / "scene";
+  const std::vector<std::string> arguments{"export", "povray", balls, "-o", scene, "--device", "cpu", "--quiet"};
+  EXPECT_EQ(meniscus_says(arguments).exit_code, 0);
+  const ProgramResult again = meniscus_says(arguments);
+  EXPECT_EQ(again.exit_code, 6);
+  EXPECT_NE(again.err.find("--force"), std::string::npos) << again.err;
+  std::vector<std::string> forced = arguments;
+  forced.push_back("--force");
+  EXPECT_EQ(meniscus_says(forced).exit_code, 0);
+}
+
+TEST(Output, BadInputLeavesNothingBehind) {
+  const TemporaryFolder folder;
+  const std::string bad = folder.file("a.xyzr", "0 0 0 nan\n");
+  for (const std::vector<std::string>& command :
+       {std::vector<std::string>{"export", "povray", bad, "-o", folder.path() / "scene"},
+        {"render", bad, "-o", folder.path() / "a.png"}}) {
+    EXPECT_EQ(meniscus_says(command).exit_code, 3);
+    EXPECT_EQ(folder.entries().size(), 1u);
+  }
+}
+
+TEST(Device, AMissingGpuIsExitFour) {
+  const ProgramResult result = meniscus_says({"surface", kUbiquitin, "--device", "gpu:99"});
+  EXPECT_EQ(result.exit_code, 4) << result.err;
+}
+
+TEST(Signals, TerminateEndsTheProgramAsUsual) {
+  const std::string command = std::string(MENISCUS_PROGRAM) + " bench -q --runs 1000000 " + kUbiquitin +
+                              " & pid=$!; sleep 0.3; kill -TERM $pid; wait $pid";
+  EXPECT_EQ(test::run_program("/bin/sh", {"-c", command}).exit_code, 128 + 15);
+}
+
 TEST(Output, AFullStandardOutputIsAnError) {
   const std::string command = std::string(MENISCUS_PROGRAM) + " surface -q " + kUbiquitin + " > /dev/full";
   const ProgramResult result = test::run_program("/bin/sh", {"-c", command});

@@ -170,6 +170,26 @@ TEST(Elements, VirtualSitesAreLeftOut) {
   EXPECT_EQ(read_text("a.pdb", text).report.sentence(), "2 atoms read; 1 virtual sites left out; 1 used");
 }
 
+TEST(Elements, MembraneDummiesAreLeftOut) {
+  const std::string text =
+      PdbLine{}.text() +
+      PdbLine{.record = "HETATM", .name = " N  ", .residue = "DUM", .number = 2, .element = "  "}.text();
+  EXPECT_EQ(read_text("a.pdb", text).report.sentence(), "2 atoms read; 1 virtual sites left out; 1 used");
+}
+
+TEST(Elements, ForceFieldResiduesWithoutColumnHoldNoExoticElements) {
+  for (const Atom& atom : read_structure("/usr/share/pymol/test/dat/helix_amber.pdb").atoms) {
+    EXPECT_TRUE(atom.element == 1 || (atom.element >= 6 && atom.element <= 8) || atom.element == 16) << atom.name;
+  }
+}
+
+TEST(Residues, StarsAndHexadecimalSerialsAreNoIdentity) {
+  std::string text = PdbLine{}.text() + PdbLine{.x = "   3.000"}.text();
+  text.replace(6, 5, "*****");
+  text.replace(text.find('\n') + 7, 5, "186a0");
+  EXPECT_EQ(read_text("a.pdb", text).atoms.size(), 2u);
+}
+
 TEST(Residues, OddNumbersStayDistinct) {
   const std::string text =
       PdbLine{.number = -5, .x = "   1.000"}.text() + PdbLine{.number = 7, .insertion = 'A', .x = "   2.000"}.text() +
