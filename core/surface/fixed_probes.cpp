@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <utility>
 
@@ -21,6 +22,7 @@ namespace {
 constexpr double kMergeDistance = 1e-6;
 constexpr double kTouchDistance = 1e-9;
 constexpr double kLargestGrowth = 1.5e-9;  // of decision weights
+constexpr double kFlat = 1e-7;             // squared height of a probe that growth may have moved by its square root
 
 // One end of an exposed arc as the fixed probe that stands there: its atoms a < b < c and the side of their plane.
 struct ArcEnd {
@@ -52,6 +54,12 @@ class Placement {
   }
 
  private:
+  // The triples that make up one probe: nearly always a single one.
+  struct Members {
+    std::uint32_t first;
+    std::vector<std::uint32_t> more = {};
+  };
+
   double extended(std::uint32_t atom) const { return atoms_[atom].radius + probe_radius_; }
 
   // Buckets arc ends by their smallest atom, then sorts the small buckets: cheaper than one large sort.
@@ -121,7 +129,7 @@ class Placement {
     double h2 = 0;
     glm::dvec3 x = geometry::probe_of_three(db, dc, radius[0] * radius[0], radius[1] * radius[1],
                                             radius[2] * radius[2], side, h2);
-    if (h2 < 1e-7) {
+    if (h2 < kFlat) {
       // Probe (almost) in the plane of its atoms: grown as the decision that found it was, but all alike, so that
       // n-fold contacts stay in one place.
       const auto grown = [](double r) { return (r + kLargestGrowth) * (r + kLargestGrowth); };
@@ -160,6 +168,20 @@ class Placement {
     return begin.x * end.y - begin.y * end.x > 0 && q::dot(begin, end) > 0;
   }
 
+  bool flat(std::uint32_t triple) const { return height_[triple] * height_[triple] < 2 * kFlat; }
+
+  // One position? A flat triple's own position is blurred: then the other's must touch the flat one's atoms.
+  bool coincide(std::uint32_t s, std::uint32_t t) const {
+    const glm::dvec3 d = position_[s] - position_[t];
+    if (glm::dot(d, d) < kMergeDistance * kMergeDistance) return true;
+    if (glm::dot(d, d) > 4 * kFlat || flat(s) == flat(t)) return false;
+    const glm::dvec3& sharp = position_[flat(s) ? t : s];
+    const auto& atoms = triples_[flat(s) ? s : t].atom;
+    return std::all_of(atoms.begin(), atoms.end(), [&](std::uint32_t a) {
+      return std::abs(glm::distance(sharp, atoms_[a].center) - extended(a)) < kMergeDistance;
+    });
+  }
+
   void merge_coincident() {
     vanished_.assign(arcs_.size(), false);
     UnionFind clusters(triples_.size());
@@ -167,18 +189,17 @@ class Placement {
     for (std::uint32_t n = 0; n < arcs_.size(); ++n) {
       if (arcs_[n].begin_by == kNone) continue;
       const std::uint32_t begin = triple_at_[n * 2], end = triple_at_[n * 2 + 1];
-      const glm::dvec3 d = position_[begin] - position_[end];
-      if (glm::dot(d, d) >= kMergeDistance * kMergeDistance || !vanishes(arcs_[n])) continue;
+      if (!coincide(begin, end) || !vanishes(arcs_[n])) continue;
       vanished_[n] = true;
       clusters.unite(begin, end);
       any = true;
     }
     toroidal_of_arc_.assign(arcs_.size(), kNone);
+    if (any) split_cavities(clusters);
     probe_of_triple_.resize(triples_.size());
     members_.clear();
-    const std::vector<char> apart = any ? clusters_to_keep_apart(clusters) : std::vector<char>(triples_.size(), 0);
     for (std::uint32_t t = 0; t < triples_.size(); ++t) {
-      const std::uint32_t root = any && !apart[clusters.find(t)] ? clusters.find(t) : t;
+      const std::uint32_t root = any ? clusters.find(t) : t;
       if (root == t) {
         probe_of_triple_[t] = static_cast<std::uint32_t>(members_.size());
         members_.push_back({t});
@@ -187,19 +208,37 @@ class Placement {
         members_[probe_of_triple_[t]].more.push_back(t);
       }
     }
+    for (const Members& cluster : members_) settle(cluster);
   }
 
   // A cluster whose remaining sides are not one ring is a cavity too small for the probe to move in: all its arcs are
-  // tiny, and none vanishes. [root]: true.
-  std::vector<char> clusters_to_keep_apart(UnionFind& clusters) {
-    std::vector<char> apart(triples_.size(), 0);
-    std::vector<std::vector<ProbeSide>> sides(triples_.size());
-    for (std::uint32_t t = 0; t < triples_.size(); ++t) append_sides(t, sides[clusters.find(t)]);
+  // tiny, and none vanishes.
+  void split_cavities(UnionFind& clusters) {
+    std::map<std::uint32_t, std::vector<ProbeSide>> sides;
+    for (std::uint32_t t = 0; t < triples_.size(); ++t)
+      if (clusters.find(t) != t) sides[clusters.find(t)];
+    for (std::uint32_t t = 0; t < triples_.size(); ++t)
+      if (const auto cluster = sides.find(clusters.find(t)); cluster != sides.end()) append_sides(t, cluster->second);
     std::vector<ProbeSide> ring;
-    for (std::uint32_t t = 0; t < triples_.size(); ++t) apart[t] = clusters.find(t) == t && !chain(sides[t], ring);
-    for (std::uint32_t n = 0; n < arcs_.size(); ++n)
-      if (vanished_[n] && apart[clusters.find(triple_at_[n * 2])]) vanished_[n] = false;
-    return apart;
+    for (auto cluster = sides.begin(); cluster != sides.end();)
+      cluster = chain(cluster->second, ring) ? sides.erase(cluster) : std::next(cluster);
+    if (sides.empty()) return;
+    UnionFind kept(triples_.size());
+    for (std::uint32_t n = 0; n < arcs_.size(); ++n) {
+      if (!vanished_[n]) continue;
+      vanished_[n] = !sides.contains(clusters.find(triple_at_[n * 2]));
+      if (vanished_[n]) kept.unite(triple_at_[n * 2], triple_at_[n * 2 + 1]);
+    }
+    clusters = std::move(kept);
+  }
+
+  // The members of a merged probe all stand where the one highest over its atoms does: it is placed most sharply.
+  void settle(const Members& cluster) {
+    std::uint32_t sharpest = cluster.first;
+    for (const std::uint32_t t : cluster.more)
+      if (height_[t] > height_[sharpest]) sharpest = t;
+    position_[cluster.first] = position_[sharpest];
+    for (const std::uint32_t t : cluster.more) position_[t] = position_[sharpest];
   }
 
   void place_toroidal() {
@@ -294,12 +333,6 @@ class Placement {
     ring.insert(ring.end(), loose.begin(), loose.end());
     return true;
   }
-
-  // The triples that make up one probe: nearly always a single one.
-  struct Members {
-    std::uint32_t first;
-    std::vector<std::uint32_t> more = {};
-  };
 
   std::span<const Ball> atoms_;
   double probe_radius_;
