@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How finely borders are sampled, and where colours change along them.
+#include "exporters/mesh/border_samples.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include <glm/geometric.hpp>
+
+#include "exporters/mesh/contact_colors.h"
+
+namespace meniscus {
+namespace {
+
+/// Borders shorter than this (Å) are rounding noise of a degenerate position: their two ends are one vertex.
+constexpr double kTinyBorder = 1e-9;
+constexpr double kLargestAngle = 0.8;
+
+bool whole_circle(const Border& border) { return border.vertex[0] == kNone; }
+
+}  // namespace
+
+double edge_length(double radius, double tolerance) {
+  return std::min(std::sqrt(5.0 * radius * tolerance), kLargestAngle * radius);
+}
+
+double tube_radius(const Surface& surface, const Face& face) {
+  return face.kind == PatchKind::convex ? surface.atoms[surface.convex[face.patch].atom].radius
+                                        : surface.probe_radius;
+}
+
+glm::dvec3 border_point(const Border& border, double t) {
+  return border.center +
+         border.radius * (std::cos(t) * border.start + std::sin(t) * glm::cross(border.axis, border.start));
+}
+
+BorderSamples::BorderSamples(const Surface& surface, double tolerance, bool split_colors)
+    : surface_(surface), parameters_(surface.borders.size()) {
+  join_ends_of_tiny_borders();
+  for (std::uint32_t b = 0; b < surface.borders.size(); ++b) sample(b, tolerance, split_colors);
+  // Two borders between the same two vertices would become the same edge if each were one segment.
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> single;
+  for (std::uint32_t b = 0; b < surface.borders.size(); ++b) {
+    if (segment_count(b) != 1) continue;
+    const auto ends = std::minmax(point(b, 0).index, point(b, 1).index);
+    if (!single.try_emplace({ends.first, ends.second}, b).second) split(b, 0);
+  }
+}
+
+void BorderSamples::join_ends_of_tiny_borders() {
+  representative_.resize(surface_.vertices.size());
+  for (std::uint32_t v = 0; v < representative_.size(); ++v) representative_[v] = v;
+  for (const Border& border : surface_.borders) {
+    if (whole_circle(border) || border.radius * border.sweep > kTinyBorder) continue;
+    std::uint32_t a = representative(border.vertex[0]), b = representative(border.vertex[1]);
+    if (a > b) std::swap(a, b);
+    representative_[b] = a;
+  }
+}
+
+std::uint32_t BorderSamples::representative(std::uint32_t vertex) const {
+  while (representative_[vertex] != vertex) vertex = representative_[vertex];
+  return vertex;
+}
+
+void BorderSamples::sample(std::uint32_t index, double tolerance, bool split_colors) {
+  const Border& border = surface_.borders[index];
+  std::vector<double>& t = parameters_[index];
+  if (!whole_circle(border) && representative(border.vertex[0]) == representative(border.vertex[1]) &&
+      border.radius * border.sweep <= kTinyBorder) {
+    return;
+  }
+  double step = 0.9 * std::sqrt(8.0 * border.radius * tolerance);
+  std::vector<double> stops{0.0};
+  for (std::uint32_t f : border.face) {
+    const Face& face = surface_.faces[f];
+    step = std::min(step, edge_length(tube_radius(surface_, face), tolerance));
+    if (split_colors && face.kind == PatchKind::concave) {
+      const auto changes = color_changes(surface_, surface_.concave[face.patch], border);
+      stops.insert(stops.end(), changes.begin(), changes.end());
+    }
+  }
+  const double angle = std::min(step / border.radius, kLargestAngle);
+  std::sort(stops.begin(), stops.end());
+  stops.push_back(border.sweep);
+  const double apart = std::min(1e-3 * angle, 0.25 * border.sweep);  // closer stops are one
+  for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
+    const bool last = i + 2 == stops.size();
+    if (!last && (stops[i + 1] - stops[i] < apart || border.sweep - stops[i + 1] < apart)) {
+      stops[i + 1] = stops[i];
+      continue;
+    }
+    const double span = stops[i + 1] - stops[i];
+    const int parts = std::max(1, static_cast<int>(std::ceil(span / angle)));
+    for (int k = 0; k < parts; ++k) t.push_back(stops[i] + span * k / parts);
+  }
+  if (!whole_circle(border)) t.push_back(border.sweep);
+}
+
+std::uint32_t BorderSamples::segment_count(std::uint32_t border) const {
+  const std::size_t n = parameters_[border].size();
+  return static_cast<std::uint32_t>(n == 0 || whole_circle(surface_.borders[border]) ? n : n - 1);
+}
+
+BorderPoint BorderSamples::point(std::uint32_t border, std::uint32_t k) const {
+  const Border& b = surface_.borders[border];
+  const std::uint32_t n = segment_count(border);
+  if (whole_circle(b)) return {border, k % n};
+  if (k == 0) return {kNone, representative(b.vertex[0])};
+  if (k == n) return {kNone, representative(b.vertex[1])};
+  return {border, k};
+}
+
+double BorderSamples::parameter(std::uint32_t border, std::uint32_t k) const {
+  const auto& t = parameters_[border];
+  return k < t.size() ? t[k] : surface_.borders[border].sweep;
+}
+
+glm::dvec3 BorderSamples::position(std::uint32_t border, std::uint32_t k) const {
+  return position(point(border, k));
+}
+
+glm::dvec3 BorderSamples::position(BorderPoint p) const {
+  if (p.border == kNone) return surface_.vertices[p.index];
+  return border_point(surface_.borders[p.border], parameters_[p.border][p.index]);
+}
+
+void BorderSamples::split(std::uint32_t border, std::uint32_t segment) {
+  const double middle = 0.5 * (parameter(border, segment) + parameter(border, segment + 1));
+  auto& t = parameters_[border];
+  t.insert(t.begin() + segment + 1, middle);
+}
+
+}  // namespace meniscus

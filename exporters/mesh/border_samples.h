@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The points on the borders of a surface: taken once, shared by the two faces of each border.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "core/surface/primitives.h"
+
+namespace meniscus {
+
+/// The longest edge (Å) of a mesh on a sphere of this radius that stays within `tolerance` of it.
+/// An equilateral triangle of edge h lies h^2/(6 r) below the sphere at most; a little is kept in hand.
+double edge_length(double radius, double tolerance);
+
+/// The radius of the sphere or of the torus tube that a face lies on.
+double tube_radius(const Surface& surface, const Face& face);
+
+/// Names a mesh vertex before vertices are numbered: a vertex of the surface, or a sample inside a border.
+struct BorderPoint {
+  std::uint32_t border = kNone;  ///< kNone: `index` is a vertex of the surface
+  std::uint32_t index = 0;
+  auto operator<=>(const BorderPoint&) const = default;
+};
+
+class BorderSamples {
+ public:
+  /// With `split_colors`, points where the nearest contact of a concave face changes are samples too.
+  BorderSamples(const Surface& surface, double tolerance, bool split_colors);
+
+  /// 0 for a border so short that its two ends have become one vertex.
+  std::uint32_t segment_count(std::uint32_t border) const;
+  /// The point at the start of segment k; k = segment_count gives the end (for a whole circle: the start again).
+  BorderPoint point(std::uint32_t border, std::uint32_t k) const;
+  /// The curve parameter t of that point, in [0, sweep].
+  double parameter(std::uint32_t border, std::uint32_t k) const;
+  glm::dvec3 position(std::uint32_t border, std::uint32_t k) const;
+  glm::dvec3 position(BorderPoint point) const;
+  /// The vertex that stands for this one after ends of zero-length borders have been joined.
+  std::uint32_t representative(std::uint32_t vertex) const;
+  /// Halves a segment.
+  void split(std::uint32_t border, std::uint32_t segment);
+
+ private:
+  void join_ends_of_tiny_borders();
+  void sample(std::uint32_t border, double tolerance, bool split_colors);
+
+  const Surface& surface_;
+  std::vector<std::uint32_t> representative_;
+  std::vector<std::vector<double>> parameters_;  ///< per border, ascending from 0; arcs end with their sweep
+};
+
+/// The point of a border at parameter t.
+glm::dvec3 border_point(const Border& border, double t);
+
+}  // namespace meniscus

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Gives triangles their atom and cuts them where the nearest contact changes, so that colours end along edges.
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <glm/geometric.hpp>
+
+#include "exporters/mesh/contact_colors.h"
+#include "exporters/mesh/face_mesh.h"
+
+namespace meniscus {
+namespace {
+
+/// Scores closer than this are a tie: border samples lie on colour lines up to rounding.
+constexpr double kTie = 1e-9;
+
+using Scores = std::vector<double>;  // one per contact; the largest wins
+
+/// Cuts the triangles of one face along its colour lines.
+class ColorCutter {
+ public:
+  ColorCutter(FaceMesh& mesh, std::vector<Scores> scores) : mesh_(mesh), scores_(std::move(scores)) {}
+
+  void run() {
+    const auto old = std::move(mesh_.triangles);
+    mesh_.triangles.clear();
+    for (const auto& t : old) cut(t);
+  }
+
+ private:
+  bool wins(std::uint32_t vertex, std::size_t contact) const {
+    const Scores& s = scores_[vertex];
+    return s[contact] >= *std::max_element(s.begin(), s.end()) - kTie;
+  }
+  bool share_winner(std::initializer_list<std::uint32_t> vertices) const {
+    for (std::size_t c = 0; c < scores_.front().size(); ++c) {
+      if (std::all_of(vertices.begin(), vertices.end(), [&](std::uint32_t v) { return wins(v, c); })) return true;
+    }
+    return false;
+  }
+  std::size_t winner(std::uint32_t vertex) const {
+    const Scores& s = scores_[vertex];
+    return static_cast<std::size_t>(std::max_element(s.begin(), s.end()) - s.begin());
+  }
+  std::uint32_t add(const std::array<std::uint32_t, 3>& v, const std::array<double, 3>& weight) {
+    const auto index = static_cast<std::uint32_t>(mesh_.points.size());
+    Scores sum(scores_.front().size(), 0.0);
+    for (int k = 0; k < 3; ++k) {
+      for (std::size_t c = 0; c < sum.size(); ++c) sum[c] += weight[k] * scores_[v[k]][c];
+    }
+    mesh_.points.push_back(
+        mesh_.domain->between({&mesh_.points[v[0]], &mesh_.points[v[1]], &mesh_.points[v[2]]}, weight));
+    scores_.push_back(std::move(sum));
+    return index;
+  }
+  /// The point of an edge where its ends' winners are equally near; the two triangles of the edge share it.
+  std::uint32_t crossing(std::uint32_t a, std::uint32_t b) {
+    if (a > b) std::swap(a, b);
+    const auto [at, fresh] = crossings_.try_emplace({a, b}, 0);
+    if (fresh) {
+      const std::size_t i = winner(a), j = winner(b);
+      const double lead_a = scores_[a][i] - scores_[a][j], lead_b = scores_[b][j] - scores_[b][i];
+      const double share = lead_a / (lead_a + lead_b);
+      const std::uint32_t point = add({a, b, b}, {1.0 - share, share, 0.0});
+      scores_[point][i] = scores_[point][j] = std::max(scores_[point][i], scores_[point][j]);
+      at->second = point;
+    }
+    return at->second;
+  }
+
+  void cut(const std::array<std::uint32_t, 3>& t) {
+    std::array<bool, 3> crossed{};  // edge k from t[k] to t[k+1]
+    int count = 0;
+    for (int k = 0; k < 3; ++k) count += crossed[k] = !share_winner({t[k], t[(k + 1) % 3]});
+    auto& out = mesh_.triangles;
+    if (count == 0) {
+      out.push_back(t);
+    } else if (count == 1) {
+      const int k = crossed[0] ? 0 : crossed[1] ? 1 : 2;
+      const std::uint32_t a = t[k], b = t[(k + 1) % 3], c = t[(k + 2) % 3], m = crossing(a, b);
+      out.push_back({a, m, c});
+      out.push_back({m, b, c});
+    } else if (count == 2) {
+      const int k = !crossed[0] ? 2 : !crossed[1] ? 0 : 1;  // the corner between the two crossed edges
+      const std::uint32_t a = t[k], b = t[(k + 1) % 3], c = t[(k + 2) % 3];
+      const std::uint32_t m = crossing(a, b), n = crossing(c, a);
+      out.push_back({a, m, n});
+      out.push_back({m, b, n});
+      out.push_back({n, b, c});
+    } else {
+      const std::uint32_t m0 = crossing(t[0], t[1]), m1 = crossing(t[1], t[2]), m2 = crossing(t[2], t[0]);
+      const std::uint32_t middle = add({m0, m1, m2}, {1.0 / 3, 1.0 / 3, 1.0 / 3});
+      const std::array<std::uint32_t, 6> ring{t[0], m0, t[1], m1, t[2], m2};
+      for (int k = 0; k < 6; ++k) out.push_back({ring[k], ring[(k + 1) % 6], middle});
+    }
+  }
+
+  FaceMesh& mesh_;
+  std::vector<Scores> scores_;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> crossings_;
+};
+
+void color_concave(const Surface& surface, const ConcavePatch& patch, FaceMesh& mesh, bool split) {
+  const auto contacts = contact_directions(surface, patch);
+  auto score = [&](const glm::dvec3& x, std::size_t c) {
+    return glm::dot(contacts[c].direction, x - patch.center) / surface.probe_radius;
+  };
+  if (split) {
+    std::vector<Scores> scores(mesh.points.size(), Scores(contacts.size()));
+    for (std::size_t i = 0; i < mesh.points.size(); ++i) {
+      for (std::size_t c = 0; c < contacts.size(); ++c) scores[i][c] = score(mesh.points[i].position, c);
+    }
+    ColorCutter(mesh, std::move(scores)).run();
+  }
+  for (const auto& t : mesh.triangles) {
+    const glm::dvec3 middle =
+        (mesh.points[t[0]].position + mesh.points[t[1]].position + mesh.points[t[2]].position) / 3.0;
+    std::size_t best = 0;
+    for (std::size_t c = 1; c < contacts.size(); ++c) {
+      if (score(middle, c) > score(middle, best)) best = c;
+    }
+    mesh.atom.push_back(contacts[best].atom);
+  }
+}
+
+void color_torus(const Surface& surface, const ToroidalPatch& patch, FaceMesh& mesh, bool split) {
+  const auto angles = contact_angles(surface, patch);
+  const double middle = 0.5 * (angles[0] + angles[1]);
+  if (split) {
+    std::vector<Scores> scores;
+    for (const FacePoint& p : mesh.points) scores.push_back({middle - p.angles.y, p.angles.y - middle});
+    ColorCutter(mesh, std::move(scores)).run();
+  }
+  for (const auto& t : mesh.triangles) {
+    const double tube = (mesh.points[t[0]].angles.y + mesh.points[t[1]].angles.y + mesh.points[t[2]].angles.y) / 3.0;
+    mesh.atom.push_back(patch.atom[tube < middle ? 0 : 1]);
+  }
+}
+
+}  // namespace
+
+void color_face(const Surface& surface, const Face& face, FaceMesh& mesh, bool split) {
+  if (face.kind == PatchKind::convex) {
+    mesh.atom.assign(mesh.triangles.size(), surface.convex[face.patch].atom);
+  } else if (face.kind == PatchKind::toroidal) {
+    color_torus(surface, surface.toroidal[face.patch], mesh, split);
+  } else {
+    color_concave(surface, surface.concave[face.patch], mesh, split);
+  }
+}
+
+}  // namespace meniscus

@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Meshing in five steps: sample borders, fill faces, part doubled edges, colour, number the vertices.
+#include "exporters/mesh/tessellate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <tuple>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <tbb/parallel_for.h>
+
+#include "core/base/error.h"
+#include "exporters/mesh/border_samples.h"
+#include "exporters/mesh/face_mesh.h"
+#include "exporters/mesh/sphere_lattice.h"
+
+namespace meniscus {
+namespace {
+
+/// Rims that cross themselves are sampled finer this often before a face is given up.
+constexpr int kUntanglingRounds = 24;
+/// Normals of neighbouring faces that differ by more than this (radian) make a sharp vertex.
+constexpr double kSharpAngle = 1e-4;
+
+class Tessellation {
+ public:
+  Tessellation(const Surface& surface, const MeshOptions& options)
+      : surface_(surface),
+        options_(options),
+        samples_(surface, options.tolerance, options.split_colors),
+        faces_(surface.faces.size()) {}
+
+  TriangleMesh run() {
+    make_lattices();
+    fill_faces();
+    part_doubled_edges();
+    tbb::parallel_for(std::size_t{0}, faces_.size(), [&](std::size_t f) {
+      color_face(surface_, surface_.faces[f], faces_[f], options_.split_colors);
+    });
+    number_vertices();
+    for (std::uint32_t f = 0; f < faces_.size(); ++f) append_face(f);
+    add_sharp_edges();
+    finish_normals();
+    mesh_.tolerance = options_.tolerance;
+    return std::move(mesh_);
+  }
+
+ private:
+  double face_edge(const Face& face) const {
+    return edge_length(tube_radius(surface_, face), options_.tolerance);
+  }
+  int face_frequency(const Face& face) const {
+    return lattice_frequency(face_edge(face) / tube_radius(surface_, face));
+  }
+  void make_lattices() {
+    for (const Face& face : surface_.faces) {
+      if (face.kind == PatchKind::toroidal) continue;
+      const int frequency = face_frequency(face);
+      if (!lattices_.contains(frequency)) lattices_[frequency] = sphere_lattice(frequency);
+    }
+  }
+
+  FaceOutline outline(std::uint32_t f) const {
+    const Face& face = surface_.faces[f];
+    if (face.kind == PatchKind::toroidal) return torus_outline(surface_, face, samples_, options_.tolerance);
+    return sphere_outline(surface_, face, samples_, lattices_.at(face_frequency(face)), face_edge(face));
+  }
+  FaceMesh fill(std::uint32_t f) const {
+    const Face& face = surface_.faces[f];
+    if (face.loop_count == 0) return whole_sphere(surface_, face, lattices_.at(face_frequency(face)));
+    FaceOutline rim = outline(f);
+    if (rim.edges.size() < 3) return {};  // shrunk to a point or to one line
+    return fill_outline(std::move(rim), options_.tolerance);
+  }
+
+  void fill_faces() {
+    std::vector<std::uint32_t> todo(faces_.size());
+    for (std::uint32_t f = 0; f < todo.size(); ++f) todo[f] = f;
+    for (int round = 0; round < kUntanglingRounds && !todo.empty(); ++round) {
+      tbb::parallel_for(std::size_t{0}, todo.size(), [&](std::size_t i) { faces_[todo[i]] = fill(todo[i]); });
+      std::set<std::pair<std::uint32_t, std::uint32_t>> segments;
+      for (std::uint32_t f : todo) {
+        for (const Segment& s : faces_[f].too_coarse) segments.insert({s.border, s.index});
+      }
+      std::set<std::uint32_t> dirty;
+      for (auto s = segments.rbegin(); s != segments.rend(); ++s) {  // from the back, so that indices stay true
+        samples_.split(s->first, s->second);
+        for (std::uint32_t f : surface_.borders[s->first].face) dirty.insert(f);
+      }
+      todo.assign(dirty.begin(), dirty.end());
+    }
+    tbb::parallel_for(std::size_t{0}, faces_.size(), [&](std::size_t f) {
+      if (!faces_[f].triangles.empty()) return;
+      FaceOutline rim = outline(static_cast<std::uint32_t>(f));
+      if (rim.edges.size() < 3) return;
+      if (rim.loop_count > 1) {
+        throw Error(fmt::format("the mesh cannot be closed: the borders of face {} cross; give a smaller tolerance", f));
+      }
+      faces_[f] = fan_outline(std::move(rim));
+    });
+  }
+
+  /// Two faces may each draw an inner edge between the same two rim points; all such edges get a vertex of their own.
+  void part_doubled_edges() {
+    struct Bridge {
+      BorderPoint a, b;
+      std::uint32_t face;
+      std::uint32_t index;
+      auto key() const { return std::tie(a, b); }
+    };
+    std::vector<Bridge> bridges;
+    for (std::uint32_t f = 0; f < faces_.size(); ++f) {
+      for (std::uint32_t i = 0; i < faces_[f].bridges.size(); ++i) {
+        const auto [u, w] = faces_[f].bridges[i];
+        const auto ends = std::minmax(faces_[f].rim[u], faces_[f].rim[w]);
+        if (ends.first.border != kSeam && ends.second.border != kSeam) bridges.push_back({ends.first, ends.second, f, i});
+      }
+    }
+    for (std::uint32_t b = 0; b < surface_.borders.size(); ++b) {
+      for (std::uint32_t k = 0; k < samples_.segment_count(b); ++k) {
+        const auto p = samples_.point(b, k), q = samples_.point(b, k + 1);
+        bridges.push_back({std::min(p, q), std::max(p, q), kNone, 0});
+      }
+    }
+    std::sort(bridges.begin(), bridges.end(), [](const Bridge& x, const Bridge& y) {
+      return std::tie(x.a, x.b, x.face, x.index) < std::tie(y.a, y.b, y.face, y.index);
+    });
+    for (std::size_t i = 0; i < bridges.size(); ++i) {
+      const bool doubled = (i > 0 && bridges[i - 1].key() == bridges[i].key()) ||
+                           (i + 1 < bridges.size() && bridges[i + 1].key() == bridges[i].key());
+      if (!doubled || bridges[i].face == kNone) continue;
+      FaceMesh& mesh = faces_[bridges[i].face];
+      const auto [u, w] = mesh.bridges[bridges[i].index];
+      split_edge(mesh, u, w);
+    }
+  }
+
+  /// Vertices: those of the surface that are used, border samples, then each face's own.
+  void number_vertices() {
+    std::uint32_t next = 0;
+    vertex_number_.assign(surface_.vertices.size(), kNone);
+    for (const FaceMesh& mesh : faces_) {
+      for (const BorderPoint& name : mesh.rim) {
+        if (name.border == kNone && vertex_number_[name.index] == kNone) {
+          vertex_number_[name.index] = next++;
+          mesh_.positions.push_back(surface_.vertices[name.index]);
+        }
+      }
+    }
+    border_number_.resize(surface_.borders.size());
+    for (std::uint32_t b = 0; b < surface_.borders.size(); ++b) {
+      const std::uint32_t n = samples_.segment_count(b);
+      const bool ring = surface_.borders[b].vertex[0] == kNone;
+      border_number_[b] = ring ? next : next - 1;  // sample 1 of an arc is its first inner point
+      for (std::uint32_t k = ring ? 0 : 1; k < n; ++k, ++next) mesh_.positions.push_back(samples_.position(b, k));
+    }
+    normal_.resize(mesh_.positions.size(), glm::dvec3(0.0));
+    first_normal_ = normal_;
+    sharp_.resize(mesh_.positions.size(), false);
+  }
+  std::uint32_t number(const BorderPoint& name) const {
+    return name.border == kNone ? vertex_number_[name.index] : border_number_[name.border] + name.index;
+  }
+
+  void append_face(std::uint32_t f) {
+    const FaceMesh& part = faces_[f];
+    const Face& face = surface_.faces[f];
+    std::vector<std::uint32_t> index(part.points.size());
+    std::map<std::uint32_t, std::uint32_t> seam;
+    auto own = [&](std::size_t i) {
+      mesh_.positions.push_back(part.points[i].position);
+      normal_.push_back(part.domain->normal(part.points[i]));
+      first_normal_.push_back(normal_.back());
+      sharp_.push_back(false);
+      return static_cast<std::uint32_t>(mesh_.positions.size() - 1);
+    };
+    for (std::size_t i = 0; i < index.size(); ++i) {
+      if (i >= part.rim.size()) {
+        index[i] = own(i);
+      } else if (part.rim[i].border == kSeam) {
+        const auto [at, fresh] = seam.try_emplace(part.rim[i].index, 0);
+        if (fresh) at->second = own(i);
+        index[i] = at->second;
+      } else {
+        index[i] = number(part.rim[i]);
+      }
+    }
+    for (std::size_t t = 0; t < part.triangles.size(); ++t) {
+      const auto& v = part.triangles[t];
+      for (int k = 0; k < 3; ++k) {
+        if (v[k] >= part.rim.size() || part.rim[v[k]].border == kSeam) continue;
+        note_normal(index[v[k]], part.domain->corner_normal(part.points[v[k]], part.points[v[(k + 1) % 3]],
+                                                            part.points[v[(k + 2) % 3]]));
+      }
+      mesh_.triangles.push_back({index[v[0]], index[v[1]], index[v[2]]});
+      mesh_.face.push_back(f);
+      mesh_.kind.push_back(face.kind);
+      mesh_.patch.push_back(face.patch);
+      mesh_.component.push_back(face.component);
+      mesh_.atom.push_back(part.atom[t]);
+      local_.push_back(static_cast<std::uint32_t>(t));
+    }
+  }
+  void note_normal(std::uint32_t vertex, const glm::dvec3& n) {
+    if (first_normal_[vertex] == glm::dvec3(0.0)) first_normal_[vertex] = n;
+    if (glm::distance(first_normal_[vertex], n) > kSharpAngle) sharp_[vertex] = true;
+    normal_[vertex] += n;
+  }
+
+  void add_sharp_edges() {
+    for (std::uint32_t b = 0; b < surface_.borders.size(); ++b) {
+      if (surface_.borders[b].kind != BorderKind::cusp) continue;
+      for (std::uint32_t k = 0; k < samples_.segment_count(b); ++k) {
+        mesh_.sharp_edges.push_back({number(samples_.point(b, k)), number(samples_.point(b, k + 1))});
+      }
+    }
+  }
+  void finish_normals() {
+    mesh_.normals.resize(mesh_.positions.size());
+    for (std::size_t i = 0; i < normal_.size(); ++i) {
+      const double size = glm::length(normal_[i]);
+      mesh_.normals[i] = sharp_[i] && size > 1e-6 ? normal_[i] / size : first_normal_[i];
+    }
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+      const FaceMesh& part = faces_[mesh_.face[t]];
+      const auto& v = part.triangles[local_[t]];
+      for (int k = 0; k < 3; ++k) {
+        if (!sharp_[mesh_.triangles[t][k]]) continue;
+        mesh_.sharp_corners.push_back(static_cast<std::uint32_t>(3 * t + k));
+        mesh_.sharp_corner_normals.push_back(part.domain->corner_normal(
+            part.points[v[k]], part.points[v[(k + 1) % 3]], part.points[v[(k + 2) % 3]]));
+      }
+    }
+  }
+
+  const Surface& surface_;
+  const MeshOptions& options_;
+  BorderSamples samples_;
+  std::map<int, SphereLattice> lattices_;
+  std::vector<FaceMesh> faces_;
+  TriangleMesh mesh_;
+  std::vector<std::uint32_t> vertex_number_, border_number_, local_;
+  std::vector<glm::dvec3> normal_, first_normal_;
+  std::vector<bool> sharp_;
+};
+
+}  // namespace
+
+TriangleMesh tessellate(const Surface& surface, const MeshOptions& options) {
+  if (!(options.tolerance > 0.0) || !std::isfinite(options.tolerance)) {
+    throw Error(fmt::format("mesh tolerance: {} Å, give a number above 0", options.tolerance));
+  }
+  TriangleMesh mesh = Tessellation(surface, options).run();
+  if (!mesh.triangles.empty() && !measure(mesh).closed) {
+    throw Error(fmt::format("the mesh at {} Å is not closed; give another tolerance", options.tolerance));
+  }
+  return mesh;
+}
+
+}  // namespace meniscus

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A closed triangle mesh of the solvent-excluded surface, and what each of its triangles belongs to.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "core/surface/primitives.h"
+
+namespace meniscus {
+
+struct MeshOptions {
+  double tolerance = 0.01;    ///< Å: no point of the mesh is farther from the exact surface
+  bool split_colors = true;   ///< cut triangles where the nearest contact changes, so colours change along edges
+};
+
+/// Plain arrays. Every edge has exactly two triangles, which walk it in opposite directions; seen from the solvent
+/// triangles are counter-clockwise. All vertices lie on the exact surface.
+struct TriangleMesh {
+  std::vector<glm::dvec3> positions;  ///< Å
+  std::vector<glm::dvec3> normals;    ///< unit, exact; at sharp vertices the mean of the normals around them
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+
+  std::vector<std::uint32_t> face;       ///< per triangle: into Surface::faces
+  std::vector<PatchKind> kind;           ///< per triangle
+  std::vector<std::uint32_t> patch;      ///< per triangle: into the patch table of its kind
+  std::vector<std::uint32_t> component;  ///< per triangle: into Surface::components
+  std::vector<std::uint32_t> atom;       ///< per triangle: the touched atom whose contact is nearest
+
+  /// Corners (3*triangle + 0..2) at cusps, where the vertex has no single normal, ascending; and their exact normals.
+  std::vector<std::uint32_t> sharp_corners;
+  std::vector<glm::dvec3> sharp_corner_normals;
+  std::vector<std::array<std::uint32_t, 2>> sharp_edges;  ///< vertex pairs along cusps
+
+  double tolerance = 0.0;  ///< Å, as asked
+};
+
+/// Measures of a triangle mesh, or of one component of it.
+struct MeshMeasure {
+  std::size_t vertex_count = 0;
+  std::size_t edge_count = 0;
+  std::size_t triangle_count = 0;
+  double area = 0.0;    ///< Å²
+  double volume = 0.0;  ///< Å³, signed: negative for a cavity, whose triangles face inwards
+  bool closed = false;  ///< every edge has two triangles that walk it in opposite directions
+  int euler() const { return int(vertex_count) - int(edge_count) + int(triangle_count); }
+};
+
+/// Measures the triangles of one component, or of all when `component` is kNone.
+MeshMeasure measure(const TriangleMesh& mesh, std::uint32_t component = kNone);
+
+}  // namespace meniscus
