@@ -44,8 +44,8 @@ BorderSamples::BorderSamples(const Surface& surface, double tolerance, bool spli
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> single;
   for (std::uint32_t b = 0; b < surface.borders.size(); ++b) {
     if (segment_count(b) != 1) continue;
-    const auto ends = std::minmax(point(b, 0).index, point(b, 1).index);
-    if (!single.try_emplace({ends.first, ends.second}, b).second) split(b, 0);
+    const std::uint32_t from = point(b, 0).index, to = point(b, 1).index;
+    if (!single.try_emplace({std::min(from, to), std::max(from, to)}, b).second) split(b, 0);
   }
 }
 
@@ -77,10 +77,13 @@ void BorderSamples::sample(std::uint32_t index, double tolerance, bool split_col
   for (std::uint32_t f : border.face) {
     const Face& face = surface_.faces[f];
     step = std::min(step, edge_length(tube_radius(surface_, face), tolerance));
-    if (split_colors && face.kind == PatchKind::concave) {
-      const auto changes = color_changes(surface_, surface_.concave[face.patch], border);
-      stops.insert(stops.end(), changes.begin(), changes.end());
-    }
+    if (!split_colors || face.kind == PatchKind::convex || border.kind == BorderKind::contact) continue;
+    const bool concave = face.kind == PatchKind::concave;
+    const glm::dvec3 probe = concave ? surface_.concave[face.patch].center : border.center;
+    const auto contacts = concave ? contact_directions(surface_, surface_.concave[face.patch])
+                                  : contact_directions(surface_, surface_.toroidal[face.patch], probe);
+    const auto changes = color_changes(contacts, probe, border);
+    stops.insert(stops.end(), changes.begin(), changes.end());
   }
   const double angle = std::min(step / border.radius, kLargestAngle);
   std::sort(stops.begin(), stops.end());

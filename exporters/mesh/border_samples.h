@@ -27,7 +27,7 @@ struct BorderPoint {
 
 class BorderSamples {
  public:
-  /// With `split_colors`, points where the nearest contact of a concave face changes are samples too.
+  /// With `split_colors`, points where the nearest contact of a face changes are samples too.
   BorderSamples(const Surface& surface, double tolerance, bool split_colors);
 
   /// 0 for a border so short that its two ends have become one vertex.

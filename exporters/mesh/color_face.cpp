@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include <glm/geometric.hpp>
 
@@ -20,7 +21,11 @@ using Scores = std::vector<double>;  // one per contact; the largest wins
 /// Cuts the triangles of one face along its colour lines.
 class ColorCutter {
  public:
-  ColorCutter(FaceMesh& mesh, std::vector<Scores> scores) : mesh_(mesh), scores_(std::move(scores)) {}
+  ColorCutter(FaceMesh& mesh, std::vector<Scores> scores) : mesh_(mesh), scores_(std::move(scores)) {
+    for (const auto& edge : mesh.rim_edges) {
+      rim_edges_.insert({std::min(edge[0], edge[1]), std::max(edge[0], edge[1])});
+    }
+  }
 
   void run() {
     const auto old = std::move(mesh_.triangles);
@@ -72,7 +77,11 @@ class ColorCutter {
   void cut(const std::array<std::uint32_t, 3>& t) {
     std::array<bool, 3> crossed{};  // edge k from t[k] to t[k+1]
     int count = 0;
-    for (int k = 0; k < 3; ++k) count += crossed[k] = !share_winner({t[k], t[(k + 1) % 3]});
+    for (int k = 0; k < 3; ++k) {
+      const std::uint32_t a = t[k], b = t[(k + 1) % 3];
+      crossed[k] = !share_winner({a, b}) && !rim_edges_.contains({std::min(a, b), std::max(a, b)});
+      count += crossed[k];
+    }
     auto& out = mesh_.triangles;
     if (count == 0) {
       out.push_back(t);
@@ -98,6 +107,7 @@ class ColorCutter {
 
   FaceMesh& mesh_;
   std::vector<Scores> scores_;
+  std::set<std::pair<std::uint32_t, std::uint32_t>> rim_edges_;  ///< shared with other faces: never cut
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> crossings_;
 };
 

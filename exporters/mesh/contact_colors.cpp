@@ -21,6 +21,15 @@ std::vector<ContactDirection> contact_directions(const Surface& surface, const C
   return contacts;
 }
 
+std::vector<ContactDirection> contact_directions(const Surface& surface, const ToroidalPatch& patch,
+                                                 const glm::dvec3& probe) {
+  std::vector<ContactDirection> contacts;
+  for (std::uint32_t atom : patch.atom) {
+    contacts.push_back({atom, glm::normalize(surface.atoms[atom].center - probe)});
+  }
+  return contacts;
+}
+
 double tube_angle(const ToroidalPatch& patch, const glm::dvec3& position) {
   const glm::dvec3 from_center = position - patch.center;
   const double height = glm::dot(from_center, patch.axis);
@@ -37,11 +46,11 @@ std::array<double, 2> contact_angles(const Surface& surface, const ToroidalPatch
   return angles;
 }
 
-std::vector<double> color_changes(const Surface& surface, const ConcavePatch& patch, const Border& border) {
-  const auto contacts = contact_directions(surface, patch);
+std::vector<double> color_changes(const std::vector<ContactDirection>& contacts, const glm::dvec3& probe,
+                                  const Border& border) {
   const glm::dvec3 third = glm::cross(border.axis, border.start);
   auto nearest = [&](double t) {
-    const glm::dvec3 x = border_point(border, t) - patch.center;
+    const glm::dvec3 x = border_point(border, t) - probe;
     std::size_t best = 0;
     for (std::size_t i = 1; i < contacts.size(); ++i) {
       if (glm::dot(contacts[i].direction, x) > glm::dot(contacts[best].direction, x)) best = i;
@@ -53,7 +62,7 @@ std::vector<double> color_changes(const Surface& surface, const ConcavePatch& pa
     for (std::size_t j = i + 1; j < contacts.size(); ++j) {
       // a + b cos t + c sin t = 0 where i and j are equally near.
       const glm::dvec3 difference = contacts[i].direction - contacts[j].direction;
-      const double a = glm::dot(difference, border.center - patch.center);
+      const double a = glm::dot(difference, border.center - probe);
       const double b = border.radius * glm::dot(difference, border.start);
       const double c = border.radius * glm::dot(difference, third);
       const double size = std::hypot(b, c);

@@ -26,7 +26,12 @@ double tube_angle(const ToroidalPatch& patch, const glm::dvec3& position);
 /// The tube angles of the contact circles of atom[0] and atom[1].
 std::array<double, 2> contact_angles(const Surface& surface, const ToroidalPatch& patch);
 
-/// The parameters in (0, sweep) of a border of a concave patch where its nearest contact changes, ascending.
-std::vector<double> color_changes(const Surface& surface, const ConcavePatch& patch, const Border& border);
+/// The two contacts of a probe that rolls along a torus, at the place of this side of it.
+std::vector<ContactDirection> contact_directions(const Surface& surface, const ToroidalPatch& patch,
+                                                 const glm::dvec3& probe);
+
+/// The parameters in (0, sweep) of a border of the probe's sphere where the nearest contact changes, ascending.
+std::vector<double> color_changes(const std::vector<ContactDirection>& contacts, const glm::dvec3& probe,
+                                  const Border& border);
 
 }  // namespace meniscus

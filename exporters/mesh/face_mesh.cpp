@@ -145,6 +145,7 @@ class FaceFiller {
   FaceMesh extract() {
     FaceMesh mesh;
     mesh.rim = std::move(outline_.names);
+    mesh.rim_edges = std::move(outline_.edges);
     std::vector<std::uint32_t> index(outline_.points.size() + inner_.size(), kNone);
     mesh.points = outline_.points;
     for (int i = 0; i < rim_count(); ++i) index[i] = i;
@@ -187,6 +188,7 @@ FaceMesh fill_outline(FaceOutline outline, double tolerance) {
 FaceMesh fan_outline(FaceOutline outline) {
   FaceMesh mesh;
   mesh.rim = std::move(outline.names);
+  mesh.rim_edges = outline.edges;
   mesh.points = std::move(outline.points);
   const auto middle = static_cast<std::uint32_t>(mesh.points.size());
   const FacePoint* a = &mesh.points[0];

@@ -36,6 +36,7 @@ inline constexpr std::uint32_t kSeam = kNone - 1;
 struct FaceMesh {
   std::unique_ptr<FaceDomain> domain;
   std::vector<BorderPoint> rim;
+  std::vector<std::array<int, 2>> rim_edges;
   std::vector<FacePoint> points;
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<std::uint32_t> atom;           ///< per triangle

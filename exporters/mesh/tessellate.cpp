@@ -7,6 +7,8 @@
 #include <map>
 #include <set>
 #include <tuple>
+#include <cstdio>
+#include <cstdlib>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -22,6 +24,8 @@ namespace {
 
 /// Rims that cross themselves are sampled finer this often before a face is given up.
 constexpr int kUntanglingRounds = 24;
+/// More points than any seam has.
+constexpr std::uint32_t kSeamNames = 1024;
 /// Normals of neighbouring faces that differ by more than this (radian) make a sharp vertex.
 constexpr double kSharpAngle = 1e-4;
 
@@ -99,7 +103,8 @@ class Tessellation {
       if (rim.loop_count > 1) {
         throw Error(fmt::format("the mesh cannot be closed: the borders of face {} cross; give a smaller tolerance", f));
       }
-      faces_[f] = fan_outline(std::move(rim));
+      if (getenv("DBG")) fprintf(stderr, "fan face %zu kind %d patch %u loops %zu edges %zu area %g\n", f, int(surface_.faces[f].kind), surface_.faces[f].patch, rim.loop_count, rim.edges.size(), surface_.faces[f].area);
+    faces_[f] = fan_outline(std::move(rim));
     });
   }
 
@@ -112,11 +117,20 @@ class Tessellation {
       auto key() const { return std::tie(a, b); }
     };
     std::vector<Bridge> bridges;
+    auto add = [&](std::uint32_t f, int u, int w, std::uint32_t face, std::uint32_t index) {
+      BorderPoint a = faces_[f].rim[u], b = faces_[f].rim[w];
+      for (BorderPoint* p : {&a, &b}) {
+        if (p->border == kSeam) p->index += kSeamNames * f;  // names on seams are the face's own
+      }
+      bridges.push_back({std::min(a, b), std::max(a, b), face, index});
+    };
     for (std::uint32_t f = 0; f < faces_.size(); ++f) {
       for (std::uint32_t i = 0; i < faces_[f].bridges.size(); ++i) {
         const auto [u, w] = faces_[f].bridges[i];
-        const auto ends = std::minmax(faces_[f].rim[u], faces_[f].rim[w]);
-        if (ends.first.border != kSeam && ends.second.border != kSeam) bridges.push_back({ends.first, ends.second, f, i});
+        add(f, u, w, f, i);
+      }
+      for (const auto& [u, w] : faces_[f].rim_edges) {
+        if (faces_[f].rim[u].border == kSeam || faces_[f].rim[w].border == kSeam) add(f, u, w, kNone, 0);
       }
     }
     for (std::uint32_t b = 0; b < surface_.borders.size(); ++b) {

@@ -115,7 +115,7 @@ class TorusRim {
     }
     close();
     for (const FacePoint& p : outline_.points) widen(p.angles.y);
-    seam_ = {{0.0, low_}, {0.0, high_}};
+    seam_ = {glm::dvec2(0.0, low_), glm::dvec2(0.0, high_)};
   }
   void widen(double tube) {
     low_ = std::min(low_, tube);
@@ -158,16 +158,34 @@ class TorusRim {
     }
     return samples;
   }
-  /// Inner points of the seam from a to b; index 1.. names them from the seam's low end.
-  void add_seam(glm::dvec2 a, glm::dvec2 b, bool towards_low, std::uint32_t parts) {
-    for (std::uint32_t i = 1; i < parts; ++i) {
-      const glm::dvec2 angles = a + (b - a) * (double(i) / parts);
-      add({kSeam, towards_low ? parts - i : i}, domain_->at(angles.x, angles.y), {});
+  /// Inner points of the seam from a to b at the given shares of the way; both sides of a seam bear the same names.
+  void add_seam(glm::dvec2 a, glm::dvec2 b, const std::vector<double>& shares) {
+    for (std::uint32_t i = 0; i < shares.size(); ++i) {
+      const glm::dvec2 angles = a + (b - a) * shares[i];
+      add({kSeam, i}, domain_->at(angles.x, angles.y), {});
     }
   }
-  std::uint32_t seam_parts(double from, double to) const {
+  /// The same on the way back.
+  void add_seam_back(glm::dvec2 a, glm::dvec2 b, const std::vector<double>& shares) {
+    for (auto i = static_cast<std::uint32_t>(shares.size()); i-- > 0;) {
+      const glm::dvec2 angles = a + (b - a) * shares[i];
+      add({kSeam, i}, domain_->at(angles.x, angles.y), {});
+    }
+  }
+  /// At most an edge length apart, and one where the nearest contact changes.
+  std::vector<double> seam_shares(double from, double to) const {
     const double step = edge_length(surface_.probe_radius, tolerance_);
-    return std::max(2u, static_cast<std::uint32_t>(std::ceil(surface_.probe_radius * std::abs(to - from) / step)));
+    const double change = (0.5 * (angles_[0] + angles_[1]) - from) / (to - from);
+    std::vector<double> stops{0.0};
+    if (change > 0.01 && change < 0.99) stops.push_back(change);
+    stops.push_back(1.0);
+    std::vector<double> shares;
+    for (std::size_t s = 0; s + 1 < stops.size(); ++s) {
+      const double span = stops[s + 1] - stops[s];
+      const int parts = std::max(2, static_cast<int>(std::ceil(surface_.probe_radius * std::abs(to - from) * span / step)));
+      for (int k = s == 0 ? 1 : 0; k < parts; ++k) shares.push_back(stops[s] + span * k / parts);
+    }
+    return shares;
   }
 
   void walk_ring() {
@@ -176,15 +194,15 @@ class TorusRim {
     const auto below = circle(bottom, 0.0);
     const auto above = circle(top, below.front().point.angles.x);
     const glm::dvec2 low = below.front().point.angles, high = above.back().point.angles, turn(kTurn, 0.0);
-    const std::uint32_t parts = seam_parts(low.y, high.y);
+    const auto shares = seam_shares(low.y, high.y);
     for (std::size_t i = 0; i < below.size(); ++i) {
       add(below[i].name, below[i].point, i + 1 < below.size() ? below[i].segment : Segment{});
     }
-    add_seam(low + turn, high + turn, false, parts);
+    add_seam(low + turn, high + turn, shares);
     for (std::size_t i = 0; i < above.size(); ++i) {
       add(above[i].name, above[i].point, i + 1 < above.size() ? above[i].segment : Segment{});
     }
-    add_seam(high, low, true, parts);
+    add_seam_back(low, high, shares);
     close();
     low_ = low.y;
     high_ = high.y;
@@ -195,18 +213,18 @@ class TorusRim {
     const auto rim = circle(loop(0).front(), 0.0);
     const double tip = domain_->tip_angle();
     const glm::dvec2 first = rim.front().point.angles, last = rim.back().point.angles;
-    const std::uint32_t parts = seam_parts(first.y, tip);
+    const auto shares = seam_shares(first.y, tip);
     for (std::size_t i = 0; i < rim.size(); ++i) {
       add(rim[i].name, rim[i].point, i + 1 < rim.size() ? rim[i].segment : Segment{});
     }
-    add_seam(last, {last.x, tip}, false, parts);
+    add_seam(last, {last.x, tip}, shares);
     add({kNone, samples_.representative(face_.tip)}, {surface_.vertices[face_.tip], {0.5 * (first.x + last.x), tip}}, {});
-    add_seam({first.x, tip}, first, true, parts);
+    add_seam_back(first, {first.x, tip}, shares);
     close();
     low_ = std::min(first.y, tip);
     high_ = std::max(first.y, tip);
     const double theta = std::min(first.x, last.x);
-    seam_ = {{theta, low_}, {theta, high_}};
+    seam_ = {glm::dvec2(theta, low_), glm::dvec2(theta, high_)};
   }
 
   void add_interior() {
