@@ -10,6 +10,9 @@
 namespace meniscus {
 namespace {
 
+/// Share of a full turn that a spindle's half may take up in the plane.
+constexpr double kWidestOpening = 0.9;
+
 /// Any unit vector perpendicular to a unit vector.
 glm::dvec3 perpendicular(const glm::dvec3& v) {
   const glm::dvec3 other = std::abs(v.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
@@ -62,8 +65,8 @@ TorusDomain::TorusDomain(const ToroidalPatch& patch, double tube_radius, int pie
       side_(glm::cross(patch.axis, patch.start)),
       tube_radius_(tube_radius),
       piece_(piece),
-      spindle_(patch.radius < tube_radius) {
-  if (spindle_) {
+      spindle_(patch.face_count == 2) {
+  if (patch.radius < tube_radius) {
     tip_ = std::acos(patch.radius / tube_radius);
     tan_tip_ = std::sqrt((tube_radius - patch.radius) / (tube_radius + patch.radius));
   }
@@ -79,6 +82,10 @@ FacePoint TorusDomain::at(double theta, double tube) const {
 glm::dvec2 TorusDomain::flat(const FacePoint& point) const {
   const double theta = point.angles.x, half_tan = std::tan(0.5 * point.angles.y);
   // d(height) = p d(tube) / (distance from the axis), integrated in closed form.
+  if (!spindle_ && tip_ > 0.0) {
+    const double t = std::abs(half_tan), height = std::log((t - tan_tip_) / (t + tan_tip_)) / std::sin(tip_);
+    return {theta, half_tan < 0.0 ? -height : height};
+  }
   if (!spindle_) {
     const double ratio = std::max(patch_.radius / tube_radius_, 1.0 + 1e-9);
     const double root = std::sqrt((ratio - 1.0) * (ratio + 1.0));
@@ -86,7 +93,8 @@ glm::dvec2 TorusDomain::flat(const FacePoint& point) const {
   }
   const double t = std::max(std::abs(half_tan), tan_tip_);
   const double r = (t - tan_tip_) / (t + tan_tip_);
-  const double opening = std::sin(tip_);  // of the unrolled cone at the tip
+  // The unrolled cone at the tip; a cone that is nearly flat would bring the sides of a full turn together.
+  const double opening = std::min(std::sin(tip_), kWidestOpening);
   const double angle = (piece_ == 0 ? opening : -opening) * (theta - 0.5 * patch_.sweep);
   return {r * std::cos(angle), r * std::sin(angle)};
 }

@@ -54,10 +54,10 @@ class SphereDomain final : public FaceDomain {
   bool inwards_;
 };
 
-/// A torus that does not cross its axis: (theta, conformal height). One that does: a sector of a disc around its tip.
+/// A patch that does not reach its axis: (theta, conformal height). One that does: a sector of a disc around its tip.
 class TorusDomain final : public FaceDomain {
  public:
-  /// piece: 0 or 1, which half of a spindle torus; ignored for others.
+  /// piece: which part of a patch that the axis cuts in two; ignored for others.
   TorusDomain(const ToroidalPatch& patch, double tube_radius, int piece);
   glm::dvec2 flat(const FacePoint& point) const override;
   FacePoint between(const std::array<const FacePoint*, 3>& points,
@@ -78,7 +78,7 @@ class TorusDomain final : public FaceDomain {
   double tube_radius_;
   int piece_;
   bool spindle_;
-  double tip_ = 0.0;      ///< where the tube meets the axis, > 0
+  double tip_ = 0.0;      ///< tube angle where the torus meets its axis, > 0; 0 if it does not
   double tan_tip_ = 0.0;  ///< tan(tip/2)
 };
 

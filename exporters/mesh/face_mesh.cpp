@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <set>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -16,6 +18,7 @@ namespace {
 /// Segments shorter than this (Å) are not halved further to untangle a rim.
 constexpr double kShortestSegment = 1e-6;
 constexpr int kRefinementRounds = 12;
+constexpr int kManyRimPoints = 200;
 constexpr int kBoxCorners = 4;
 
 /// The flat plane of a face, laid on the integer grid.
@@ -60,6 +63,8 @@ class FaceFiller {
         refine(grid);
         return extract();
       }
+      // The chords of a rim with few points may enclose the wrong side.
+      for (int e = 0; e < rim_count() && rim_count() < kManyRimPoints; ++e) ask_for_split(e);
     }
     FaceMesh failed;
     failed.too_coarse = std::move(too_coarse_);
@@ -200,7 +205,38 @@ FaceMesh fan_outline(FaceOutline outline) {
   return mesh;
 }
 
+void part_doubled_edges(FaceMesh& mesh) {
+  std::map<BorderPoint, std::uint32_t> first;
+  std::vector<std::uint32_t> same(mesh.rim.size());
+  for (std::uint32_t i = 0; i < same.size(); ++i) same[i] = first.try_emplace(mesh.rim[i], i).first->second;
+  if (first.size() == mesh.rim.size()) return;
+  using Edge = std::pair<std::uint32_t, std::uint32_t>;
+  auto ordered = [](std::uint32_t a, std::uint32_t b) { return Edge(std::min(a, b), std::max(a, b)); };
+  auto named = [&](std::uint32_t v) { return v < same.size() ? same[v] : v; };
+  std::set<Edge> rim;
+  for (const auto& [a, b] : mesh.rim_edges) rim.insert(ordered(a, b));
+  for (bool again = true; again;) {
+    std::map<Edge, Edge> seen;  // by name: the first edge found
+    for (const auto& [a, b] : rim) seen.try_emplace(ordered(named(a), named(b)), Edge(a, b));
+    std::set<Edge> doubled;
+    for (const auto& t : mesh.triangles) {
+      for (int k = 0; k < 3; ++k) {
+        const Edge edge = ordered(t[k], t[(k + 1) % 3]);
+        if (rim.contains(edge)) continue;
+        const auto [at, fresh] = seen.try_emplace(ordered(named(edge.first), named(edge.second)), edge);
+        if (at->first.first == at->first.second || (!fresh && at->second != edge)) doubled.insert(edge);
+      }
+    }
+    for (const auto& [a, b] : doubled) split_edge(mesh, a, b);
+    again = !doubled.empty();
+  }
+}
+
 void split_edge(FaceMesh& mesh, std::uint32_t a, std::uint32_t b) {
+  const bool present = std::any_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const auto& t) {
+    return std::count(t.begin(), t.end(), a) == 1 && std::count(t.begin(), t.end(), b) == 1;
+  });
+  if (!present) return;
   const auto middle = static_cast<std::uint32_t>(mesh.points.size());
   mesh.points.push_back(
       mesh.domain->between({&mesh.points[a], &mesh.points[b], &mesh.points[b]}, {0.5, 0.5, 0.0}));

@@ -60,7 +60,11 @@ FaceMesh fan_outline(FaceOutline outline);
 /// A whole sphere.
 FaceMesh whole_sphere(const Surface& surface, const Face& face, const SphereLattice& lattice);
 
-/// Splits an inner edge in two; the new vertex lies on the exact surface.
+/// Splits inner edges until no two of them, nor one and the rim, join the same two named points: the two sides of a
+/// seam are one line of vertices in the end.
+void part_doubled_edges(FaceMesh& mesh);
+
+/// Splits an inner edge in two, if the mesh still has it; the new vertex lies on the exact surface.
 void split_edge(FaceMesh& mesh, std::uint32_t a, std::uint32_t b);
 
 /// Gives each triangle its atom; with `split`, first cuts triangles along the lines where the nearest contact changes.

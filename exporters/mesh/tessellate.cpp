@@ -7,8 +7,6 @@
 #include <map>
 #include <set>
 #include <tuple>
-#include <cstdio>
-#include <cstdlib>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -40,7 +38,8 @@ class Tessellation {
   TriangleMesh run() {
     make_lattices();
     fill_faces();
-    part_doubled_edges();
+    tbb::parallel_for(std::size_t{0}, faces_.size(), [&](std::size_t f) { part_doubled_edges(faces_[f]); });
+    part_shared_edges();
     tbb::parallel_for(std::size_t{0}, faces_.size(), [&](std::size_t f) {
       color_face(surface_, surface_.faces[f], faces_[f], options_.split_colors);
     });
@@ -103,13 +102,12 @@ class Tessellation {
       if (rim.loop_count > 1) {
         throw Error(fmt::format("the mesh cannot be closed: the borders of face {} cross; give a smaller tolerance", f));
       }
-      if (getenv("DBG")) fprintf(stderr, "fan face %zu kind %d patch %u loops %zu edges %zu area %g\n", f, int(surface_.faces[f].kind), surface_.faces[f].patch, rim.loop_count, rim.edges.size(), surface_.faces[f].area);
-    faces_[f] = fan_outline(std::move(rim));
+      faces_[f] = fan_outline(std::move(rim));
     });
   }
 
   /// Two faces may each draw an inner edge between the same two rim points; all such edges get a vertex of their own.
-  void part_doubled_edges() {
+  void part_shared_edges() {
     struct Bridge {
       BorderPoint a, b;
       std::uint32_t face;

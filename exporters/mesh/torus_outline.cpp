@@ -206,6 +206,7 @@ class TorusRim {
     close();
     low_ = low.y;
     high_ = high.y;
+    rows_ = shares;
     seam_ = {low, high};
   }
 
@@ -224,14 +225,18 @@ class TorusRim {
     low_ = std::min(first.y, tip);
     high_ = std::max(first.y, tip);
     const double theta = std::min(first.x, last.x);
+    for (const double share : shares) rows_.push_back(first.y < tip ? share : 1.0 - share);
     seam_ = {glm::dvec2(theta, low_), glm::dvec2(theta, high_)};
   }
 
   void add_interior() {
     const double p = surface_.probe_radius, edge = edge_length(p, tolerance_);
-    const int rows = static_cast<int>(std::ceil(p * (high_ - low_) / edge));
-    for (int i = 1; i < rows; ++i) {
-      const double share = double(i) / rows, tube = low_ + (high_ - low_) * share;
+    if (!patch_.free()) {
+      const int rows = static_cast<int>(std::ceil(p * (high_ - low_) / edge));
+      for (int i = 1; i < rows; ++i) rows_.push_back(double(i) / rows);
+    }
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      const double share = rows_[i], tube = low_ + (high_ - low_) * share;
       const double distance = domain_->axis_distance(tube);
       const double across = std::min(edge, edge_length(distance / std::max(std::cos(tube), 1e-3), tolerance_));
       const double start = seam_[0].x + (seam_[1].x - seam_[0].x) * share;
@@ -255,6 +260,9 @@ class TorusRim {
   std::unique_ptr<TorusDomain> domain_;
   FaceOutline outline_;
   double low_ = 10.0, high_ = -10.0;       ///< range of the tube angle
+  /// Where rows of inner points lie, as shares of that range. Those of a face with a seam go through the seam's points,
+  /// so that no edge can join the two sides of the seam.
+  std::vector<double> rows_;
   std::array<glm::dvec2, 2> seam_{};       ///< the left side, from low to high tube angle
 };
 
