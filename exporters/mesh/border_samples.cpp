@@ -27,8 +27,7 @@ double edge_length(double radius, double tolerance) {
 }
 
 double tube_radius(const Surface& surface, const Face& face) {
-  return face.kind == PatchKind::convex ? surface.atoms[surface.convex[face.patch].atom].radius
-                                        : surface.probe_radius;
+  return face.kind == PatchKind::convex ? surface.atoms[surface.convex[face.patch].atom].radius : surface.probe_radius;
 }
 
 glm::dvec3 border_point(const Border& border, double t) {
@@ -121,9 +120,7 @@ double BorderSamples::parameter(std::uint32_t border, std::uint32_t k) const {
   return k < t.size() ? t[k] : surface_.borders[border].sweep;
 }
 
-glm::dvec3 BorderSamples::position(std::uint32_t border, std::uint32_t k) const {
-  return position(point(border, k));
-}
+glm::dvec3 BorderSamples::position(std::uint32_t border, std::uint32_t k) const { return position(point(border, k)); }
 
 glm::dvec3 BorderSamples::position(BorderPoint p) const {
   if (p.border == kNone) return surface_.vertices[p.index];

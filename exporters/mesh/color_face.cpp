@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 
 #include <glm/geometric.hpp>
@@ -15,6 +16,7 @@ namespace {
 
 /// Scores closer than this are a tie: border samples lie on colour lines up to rounding.
 constexpr double kTie = 1e-9;
+constexpr int kMostPasses = 8;
 
 using Scores = std::vector<double>;  // one per contact; the largest wins
 
@@ -27,10 +29,15 @@ class ColorCutter {
     }
   }
 
+  /// Cutting an edge may show a third contact on the rest of it, so go on until every triangle has one winner.
   void run() {
-    const auto old = std::move(mesh_.triangles);
-    mesh_.triangles.clear();
-    for (const auto& t : old) cut(t);
+    for (int pass = 0; pass < kMostPasses; ++pass) {
+      const auto old = std::move(mesh_.triangles);
+      mesh_.triangles.clear();
+      crossings_.clear();
+      for (const auto& t : old) cut(t);
+      if (mesh_.triangles.size() == old.size()) return;
+    }
   }
 
  private:
@@ -38,53 +45,88 @@ class ColorCutter {
     const Scores& s = scores_[vertex];
     return s[contact] >= *std::max_element(s.begin(), s.end()) - kTie;
   }
-  bool share_winner(std::initializer_list<std::uint32_t> vertices) const {
+  /// A contact that wins at all of these vertices, and so between them: scores are linear on a flat triangle.
+  std::optional<std::size_t> shared_winner(std::initializer_list<std::uint32_t> vertices) const {
     for (std::size_t c = 0; c < scores_.front().size(); ++c) {
-      if (std::all_of(vertices.begin(), vertices.end(), [&](std::uint32_t v) { return wins(v, c); })) return true;
+      if (std::all_of(vertices.begin(), vertices.end(), [&](std::uint32_t v) { return wins(v, c); })) return c;
     }
-    return false;
+    return std::nullopt;
   }
-  std::size_t winner(std::uint32_t vertex) const {
-    const Scores& s = scores_[vertex];
-    return static_cast<std::size_t>(std::max_element(s.begin(), s.end()) - s.begin());
-  }
-  std::uint32_t add(const std::array<std::uint32_t, 3>& v, const std::array<double, 3>& weight) {
+  std::uint32_t add(const std::array<std::uint32_t, 3>& v, const std::array<double, 3>& weight,
+                    std::initializer_list<std::size_t> tied) {
     const auto index = static_cast<std::uint32_t>(mesh_.points.size());
     Scores sum(scores_.front().size(), 0.0);
     for (int k = 0; k < 3; ++k) {
       for (std::size_t c = 0; c < sum.size(); ++c) sum[c] += weight[k] * scores_[v[k]][c];
     }
+    double best = sum[*tied.begin()];
+    for (std::size_t c : tied) best = std::max(best, sum[c]);
+    for (std::size_t c : tied) sum[c] = best;  // equal but for rounding
     mesh_.points.push_back(
         mesh_.domain->between({&mesh_.points[v[0]], &mesh_.points[v[1]], &mesh_.points[v[2]]}, weight));
     scores_.push_back(std::move(sum));
     return index;
   }
-  /// The point of an edge where its ends' winners are equally near; the two triangles of the edge share it.
+  /// The first point of an edge where another contact overtakes; the two triangles of the edge share it.
   std::uint32_t crossing(std::uint32_t a, std::uint32_t b) {
     if (a > b) std::swap(a, b);
     const auto [at, fresh] = crossings_.try_emplace({a, b}, 0);
     if (fresh) {
-      const std::size_t i = winner(a), j = winner(b);
-      const double lead_a = scores_[a][i] - scores_[a][j], lead_b = scores_[b][j] - scores_[b][i];
-      const double share = lead_a / (lead_a + lead_b);
-      const std::uint32_t point = add({a, b, b}, {1.0 - share, share, 0.0});
-      scores_[point][i] = scores_[point][j] = std::max(scores_[point][i], scores_[point][j]);
-      at->second = point;
+      const Scores &from = scores_[a], &to = scores_[b];
+      std::size_t first = 0;  // of those that win at a, the one that wins just after it
+      for (std::size_t c = 1; c < from.size(); ++c) {
+        if (wins(a, c) && (!wins(a, first) || to[c] > to[first])) first = c;
+      }
+      double share = 2.0;
+      std::size_t next = first;
+      for (std::size_t c = 0; c < from.size(); ++c) {
+        const double lead = std::max(from[first] - from[c], 0.0), gain = (to[c] - to[first]) + lead;
+        if (to[c] <= to[first] || lead / gain >= share) continue;
+        share = lead / gain;
+        next = c;
+      }
+      at->second = add({a, b, b}, {1.0 - share, share, 0.0}, {first, next});
     }
     return at->second;
+  }
+  /// The weights of the point of a triangle where three contacts are equally near.
+  std::array<double, 3> junction(const std::array<std::uint32_t, 3>& t, std::size_t a, std::size_t b,
+                                 std::size_t c) const {
+    std::array<glm::dvec2, 3> lead;
+    for (int k = 0; k < 3; ++k) {
+      const Scores& s = scores_[t[k]];
+      lead[k] = {s[a] - s[b], s[a] - s[c]};
+    }
+    auto cross = [](const glm::dvec2& u, const glm::dvec2& v) { return u.x * v.y - u.y * v.x; };
+    const std::array<double, 3> weight{cross(lead[1], lead[2]), cross(lead[2], lead[0]), cross(lead[0], lead[1])};
+    const double sum = weight[0] + weight[1] + weight[2];
+    if (sum == 0.0 || *std::min_element(weight.begin(), weight.end()) * sum < 0.0) return {1.0 / 3, 1.0 / 3, 1.0 / 3};
+    return {weight[0] / sum, weight[1] / sum, weight[2] / sum};
+  }
+
+  /// No edge is crossed but no contact wins everywhere: three of them meet inside.
+  void cut_at_junction(const std::array<std::uint32_t, 3>& t) {
+    const auto a = shared_winner({t[0], t[1]}), b = shared_winner({t[1], t[2]}), c = shared_winner({t[2], t[0]});
+    auto& out = mesh_.triangles;
+    if (!a || !b || !c || *a == *b || *b == *c || *c == *a || shared_winner({t[0], t[1], t[2]})) {
+      out.push_back(t);
+      return;
+    }
+    const std::uint32_t middle = add(t, junction(t, *a, *b, *c), {*a, *b, *c});
+    for (int k = 0; k < 3; ++k) out.push_back({t[k], t[(k + 1) % 3], middle});
   }
 
   void cut(const std::array<std::uint32_t, 3>& t) {
     std::array<bool, 3> crossed{};  // edge k from t[k] to t[k+1]
     int count = 0;
     for (int k = 0; k < 3; ++k) {
-      const std::uint32_t a = t[k], b = t[(k + 1) % 3];
-      crossed[k] = !share_winner({a, b}) && !rim_edges_.contains({std::min(a, b), std::max(a, b)});
+      const int a = static_cast<int>(t[k]), b = static_cast<int>(t[(k + 1) % 3]);
+      crossed[k] = !shared_winner({t[k], t[(k + 1) % 3]}) && !rim_edges_.contains({std::min(a, b), std::max(a, b)});
       count += crossed[k];
     }
     auto& out = mesh_.triangles;
     if (count == 0) {
-      out.push_back(t);
+      cut_at_junction(t);
     } else if (count == 1) {
       const int k = crossed[0] ? 0 : crossed[1] ? 1 : 2;
       const std::uint32_t a = t[k], b = t[(k + 1) % 3], c = t[(k + 2) % 3], m = crossing(a, b);
@@ -99,15 +141,16 @@ class ColorCutter {
       out.push_back({n, b, c});
     } else {
       const std::uint32_t m0 = crossing(t[0], t[1]), m1 = crossing(t[1], t[2]), m2 = crossing(t[2], t[0]);
-      const std::uint32_t middle = add({m0, m1, m2}, {1.0 / 3, 1.0 / 3, 1.0 / 3});
-      const std::array<std::uint32_t, 6> ring{t[0], m0, t[1], m1, t[2], m2};
-      for (int k = 0; k < 6; ++k) out.push_back({ring[k], ring[(k + 1) % 6], middle});
+      out.push_back({t[0], m0, m2});
+      out.push_back({m0, t[1], m1});
+      out.push_back({m2, m1, t[2]});
+      out.push_back({m0, m1, m2});
     }
   }
 
   FaceMesh& mesh_;
   std::vector<Scores> scores_;
-  std::set<std::pair<std::uint32_t, std::uint32_t>> rim_edges_;  ///< shared with other faces: never cut
+  std::set<std::pair<int, int>> rim_edges_;  ///< shared with other faces: never cut
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> crossings_;
 };
 

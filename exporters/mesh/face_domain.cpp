@@ -10,8 +10,12 @@
 namespace meniscus {
 namespace {
 
-/// Share of a full turn that a spindle's half may take up in the plane.
+/// Share of a full turn that a spindle's half takes up in the plane: that of the unrolled cone at its tip, but neither
+/// so much that the sides of a full turn meet nor, where the tube just touches the axis, nothing.
+constexpr double kNarrowestOpening = 0.1;
 constexpr double kWidestOpening = 0.9;
+/// Keeps the radial coordinate of tubes that just touch their axis from becoming constant.
+constexpr double kSmallestTip = 0.05;
 
 /// Any unit vector perpendicular to a unit vector.
 glm::dvec3 perpendicular(const glm::dvec3& v) {
@@ -21,8 +25,9 @@ glm::dvec3 perpendicular(const glm::dvec3& v) {
 
 }  // namespace
 
-SphereDomain::SphereDomain(const glm::dvec3& center, double radius, const glm::dvec3& pole, bool inwards)
-    : center_(center), pole_(pole), right_(perpendicular(pole)), radius_(radius), inwards_(inwards) {
+SphereDomain::SphereDomain(const glm::dvec3& center, double radius, std::span<const Plane> planes,
+                           const glm::dvec3& pole, bool inwards)
+    : center_(center), pole_(pole), right_(perpendicular(pole)), planes_(planes), radius_(radius), inwards_(inwards) {
   // Opposite the pole the outward normal is -pole; (right, up, normal) must be right-handed.
   up_ = inwards ? glm::cross(pole, right_) : glm::cross(right_, pole);
 }
@@ -31,6 +36,11 @@ glm::dvec2 SphereDomain::flat(const FacePoint& point) const {
   const glm::dvec3 u = (point.position - center_) / radius_;
   const double below = 1.0 - glm::dot(u, pole_);
   return {glm::dot(u, right_) / below, glm::dot(u, up_) / below};
+}
+
+bool SphereDomain::contains(const FacePoint& point) const {
+  return std::all_of(planes_.begin(), planes_.end(),
+                     [&](const Plane& plane) { return glm::dot(plane.normal, point.position) <= plane.offset; });
 }
 
 FacePoint SphereDomain::between(const std::array<const FacePoint*, 3>& points,
@@ -66,7 +76,7 @@ TorusDomain::TorusDomain(const ToroidalPatch& patch, double tube_radius, int pie
       tube_radius_(tube_radius),
       piece_(piece),
       spindle_(patch.face_count == 2) {
-  if (patch.radius < tube_radius) {
+  if (patch.radius <= tube_radius) {
     tip_ = std::acos(patch.radius / tube_radius);
     tan_tip_ = std::sqrt((tube_radius - patch.radius) / (tube_radius + patch.radius));
   }
@@ -92,9 +102,8 @@ glm::dvec2 TorusDomain::flat(const FacePoint& point) const {
     return {theta, 2.0 / root * std::atan(std::sqrt((ratio + 1.0) / (ratio - 1.0)) * half_tan)};
   }
   const double t = std::max(std::abs(half_tan), tan_tip_);
-  const double r = (t - tan_tip_) / (t + tan_tip_);
-  // The unrolled cone at the tip; a cone that is nearly flat would bring the sides of a full turn together.
-  const double opening = std::min(std::sin(tip_), kWidestOpening);
+  const double r = (t - tan_tip_) / (t + std::max(tan_tip_, kSmallestTip));
+  const double opening = std::clamp(std::sin(tip_), kNarrowestOpening, kWidestOpening);
   const double angle = (piece_ == 0 ? opening : -opening) * (theta - 0.5 * patch_.sweep);
   return {r * std::cos(angle), r * std::sin(angle)};
 }

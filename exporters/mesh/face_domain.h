@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include <glm/vec2.hpp>
@@ -18,11 +19,14 @@ struct FacePoint {
   glm::dvec2 angles{0.0};
 };
 
-/// A map of the face's sphere or torus to the plane; counter-clockwise there is counter-clockwise seen from the solvent.
+/// A map of the face's sphere or torus to the plane; counter-clockwise there is counter-clockwise seen from the
+/// solvent.
 class FaceDomain {
  public:
   virtual ~FaceDomain() = default;
   virtual glm::dvec2 flat(const FacePoint& point) const = 0;
+  /// Whether a point of the sphere or torus is on the patch, not merely between the chords of its rim.
+  virtual bool contains(const FacePoint& /*point*/) const { return true; }
   /// The point of the exact surface "between" given ones with weights that sum to 1.
   virtual FacePoint between(const std::array<const FacePoint*, 3>& points,
                             const std::array<double, 3>& weights) const = 0;
@@ -40,16 +44,18 @@ class FaceDomain {
 class SphereDomain final : public FaceDomain {
  public:
   /// inwards: the solvent is inside (concave patches).
-  SphereDomain(const glm::dvec3& center, double radius, const glm::dvec3& pole, bool inwards);
+  SphereDomain(const glm::dvec3& center, double radius, std::span<const Plane> planes, const glm::dvec3& pole,
+               bool inwards);
   glm::dvec2 flat(const FacePoint& point) const override;
-  FacePoint between(const std::array<const FacePoint*, 3>& points,
-                    const std::array<double, 3>& weights) const override;
+  bool contains(const FacePoint& point) const override;
+  FacePoint between(const std::array<const FacePoint*, 3>& points, const std::array<double, 3>& weights) const override;
   double deviation(const FacePoint& a, const FacePoint& b, const FacePoint& c) const override;
   glm::dvec3 normal(const FacePoint& point) const override;
   FacePoint at(const glm::dvec3& direction) const { return {center_ + radius_ * direction, {}}; }
 
  private:
   glm::dvec3 center_, pole_, right_, up_;
+  std::span<const Plane> planes_;
   double radius_;
   bool inwards_;
 };
@@ -60,8 +66,7 @@ class TorusDomain final : public FaceDomain {
   /// piece: which part of a patch that the axis cuts in two; ignored for others.
   TorusDomain(const ToroidalPatch& patch, double tube_radius, int piece);
   glm::dvec2 flat(const FacePoint& point) const override;
-  FacePoint between(const std::array<const FacePoint*, 3>& points,
-                    const std::array<double, 3>& weights) const override;
+  FacePoint between(const std::array<const FacePoint*, 3>& points, const std::array<double, 3>& weights) const override;
   double deviation(const FacePoint& a, const FacePoint& b, const FacePoint& c) const override;
   glm::dvec3 normal(const FacePoint& point) const override;
   glm::dvec3 corner_normal(const FacePoint& point, const FacePoint& next, const FacePoint& last) const override;

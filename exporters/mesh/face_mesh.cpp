@@ -33,9 +33,7 @@ class Grid {
     const glm::dvec2 extent = high_ - low_;
     scale_ = (double(kGridLimit) - 16.0) / std::max(0.5 * std::max(extent.x, extent.y), 1e-300);
   }
-  bool covers(const glm::dvec2& p) const {
-    return p.x > low_.x && p.y > low_.y && p.x < high_.x && p.y < high_.y;
-  }
+  bool covers(const glm::dvec2& p) const { return p.x > low_.x && p.y > low_.y && p.x < high_.x && p.y < high_.y; }
   GridPoint at(const glm::dvec2& p) const {
     const glm::dvec2 q = (p - 0.5 * (low_ + high_)) * scale_;
     return {std::llround(q.x), std::llround(q.y)};
@@ -140,7 +138,8 @@ class FaceFiller {
           weight = {0.5, 0.5, 0.5};
           weight[longest] = 0.0;
         }
-        wanted.push_back(outline_.domain->between(corner, weight));
+        const FacePoint middle = outline_.domain->between(corner, weight);
+        if (outline_.domain->contains(middle)) wanted.push_back(middle);
       }
       if (wanted.empty()) return;
       for (const FacePoint& p : wanted) insert(grid.at(outline_.domain->flat(p)), p);
@@ -186,9 +185,7 @@ class FaceFiller {
 
 }  // namespace
 
-FaceMesh fill_outline(FaceOutline outline, double tolerance) {
-  return FaceFiller(std::move(outline), tolerance).run();
-}
+FaceMesh fill_outline(FaceOutline outline, double tolerance) { return FaceFiller(std::move(outline), tolerance).run(); }
 
 FaceMesh fan_outline(FaceOutline outline) {
   FaceMesh mesh;
@@ -200,7 +197,8 @@ FaceMesh fan_outline(FaceOutline outline) {
   const FacePoint* b = &mesh.points[mesh.points.size() / 3];
   const FacePoint* c = &mesh.points[2 * mesh.points.size() / 3];
   mesh.points.push_back(outline.domain->between({a, b, c}, {1.0 / 3, 1.0 / 3, 1.0 / 3}));
-  for (const auto& [from, to] : outline.edges) mesh.triangles.push_back({std::uint32_t(from), std::uint32_t(to), middle});
+  for (const auto& [from, to] : outline.edges)
+    mesh.triangles.push_back({std::uint32_t(from), std::uint32_t(to), middle});
   mesh.domain = std::move(outline.domain);
   return mesh;
 }
@@ -238,8 +236,7 @@ void split_edge(FaceMesh& mesh, std::uint32_t a, std::uint32_t b) {
   });
   if (!present) return;
   const auto middle = static_cast<std::uint32_t>(mesh.points.size());
-  mesh.points.push_back(
-      mesh.domain->between({&mesh.points[a], &mesh.points[b], &mesh.points[b]}, {0.5, 0.5, 0.0}));
+  mesh.points.push_back(mesh.domain->between({&mesh.points[a], &mesh.points[b], &mesh.points[b]}, {0.5, 0.5, 0.0}));
   const std::size_t count = mesh.triangles.size();
   for (std::size_t i = 0; i < count; ++i) {
     for (int k = 0; k < 3; ++k) {

@@ -23,8 +23,8 @@ struct Segment {
 /// What has to be triangulated: the rim and points that may be used inside it.
 struct FaceOutline {
   std::unique_ptr<FaceDomain> domain;
-  std::vector<FacePoint> points;      ///< of the rim
-  std::vector<BorderPoint> names;     ///< of the rim points; on a seam border kSeam, both sides alike
+  std::vector<FacePoint> points;          ///< of the rim
+  std::vector<BorderPoint> names;         ///< of the rim points; on a seam border kSeam, both sides alike
   std::vector<std::array<int, 2>> edges;  ///< directed, the face on their left
   std::vector<Segment> segments;          ///< what each edge is part of
   std::vector<FacePoint> interior;
@@ -39,9 +39,9 @@ struct FaceMesh {
   std::vector<std::array<int, 2>> rim_edges;
   std::vector<FacePoint> points;
   std::vector<std::array<std::uint32_t, 3>> triangles;
-  std::vector<std::uint32_t> atom;           ///< per triangle
+  std::vector<std::uint32_t> atom;                    ///< per triangle
   std::vector<std::array<std::uint32_t, 2>> bridges;  ///< inner edges between two rim points
-  std::vector<Segment> too_coarse;           ///< not empty: no triangles; split these segments and try again
+  std::vector<Segment> too_coarse;                    ///< not empty: no triangles; split these segments and try again
 };
 
 /// The outline of a sphere face with at least one loop. The lattice gives the inner points, `edge` Å apart.

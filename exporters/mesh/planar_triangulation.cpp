@@ -52,7 +52,8 @@ int PlanarTriangulation::locate(GridPoint point) const {
   }
   for (std::size_t i = 0; i < triangles_.size(); ++i) {
     const auto& v = triangles_[i].vertex;
-    if (orientation(points_[v[0]], points_[v[1]], point) >= 0 && orientation(points_[v[1]], points_[v[2]], point) >= 0 &&
+    if (orientation(points_[v[0]], points_[v[1]], point) >= 0 &&
+        orientation(points_[v[1]], points_[v[2]], point) >= 0 &&
         orientation(points_[v[2]], points_[v[0]], point) >= 0) {
       return last_ = int(i);
     }

@@ -25,7 +25,8 @@ Sphere sphere_of(const Surface& surface, const Face& face) {
     return {ball.center, ball.radius, {surface.planes.data() + patch.first_plane, patch.plane_count}};
   }
   const ConcavePatch& patch = surface.concave[face.patch];
-  return {patch.center, surface.probe_radius,
+  return {patch.center,
+          surface.probe_radius,
           {surface.planes.data() + patch.first_plane, patch.side_count + patch.cut_count}};
 }
 
@@ -41,9 +42,8 @@ glm::dvec3 projection_pole(const Sphere& sphere, const std::vector<FacePoint>& r
   double best_cosine = 2.0;
   for (const glm::dvec3& u : candidates) {
     const glm::dvec3 x = sphere.center + sphere.radius * u;
-    const bool outside = std::any_of(sphere.planes.begin(), sphere.planes.end(), [&](const Plane& plane) {
-      return glm::dot(plane.normal, x) > plane.offset;
-    });
+    const bool outside = std::any_of(sphere.planes.begin(), sphere.planes.end(),
+                                     [&](const Plane& plane) { return glm::dot(plane.normal, x) > plane.offset; });
     if (!outside) continue;
     double cosine = -1.0;
     for (const FacePoint& p : rim) cosine = std::max(cosine, glm::dot(u, p.position - sphere.center) / sphere.radius);
@@ -102,9 +102,9 @@ FaceOutline sphere_outline(const Surface& surface, const Face& face, const Borde
     outline.loop_count += outline.edges.size() > before;
   }
   const Sphere sphere = sphere_of(surface, face);
-  auto domain = std::make_unique<SphereDomain>(sphere.center, sphere.radius,
-                                               projection_pole(sphere, outline.points),
-                                               face.kind == PatchKind::concave);
+  auto domain =
+      std::make_unique<SphereDomain>(sphere.center, sphere.radius, sphere.planes,
+                                     projection_pole(sphere, outline.points), face.kind == PatchKind::concave);
   for (const glm::dvec3& u : directions_inside(sphere, lattice, 0.55 * edge / sphere.radius)) {
     outline.interior.push_back(domain->at(u));
   }
@@ -115,7 +115,8 @@ FaceOutline sphere_outline(const Surface& surface, const Face& face, const Borde
 FaceMesh whole_sphere(const Surface& surface, const Face& face, const SphereLattice& lattice) {
   const Sphere sphere = sphere_of(surface, face);
   const bool inwards = face.kind == PatchKind::concave;
-  auto domain = std::make_unique<SphereDomain>(sphere.center, sphere.radius, glm::dvec3(0, 0, 1), inwards);
+  auto domain =
+      std::make_unique<SphereDomain>(sphere.center, sphere.radius, sphere.planes, glm::dvec3(0, 0, 1), inwards);
   FaceMesh mesh;
   for (const glm::dvec3& u : lattice.directions) mesh.points.push_back(domain->at(u));
   mesh.triangles = lattice.triangles;

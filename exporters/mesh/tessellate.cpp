@@ -52,9 +52,7 @@ class Tessellation {
   }
 
  private:
-  double face_edge(const Face& face) const {
-    return edge_length(tube_radius(surface_, face), options_.tolerance);
-  }
+  double face_edge(const Face& face) const { return edge_length(tube_radius(surface_, face), options_.tolerance); }
   int face_frequency(const Face& face) const {
     return lattice_frequency(face_edge(face) / tube_radius(surface_, face));
   }
@@ -100,7 +98,8 @@ class Tessellation {
       FaceOutline rim = outline(static_cast<std::uint32_t>(f));
       if (rim.edges.size() < 3) return;
       if (rim.loop_count > 1) {
-        throw Error(fmt::format("the mesh cannot be closed: the borders of face {} cross; give a smaller tolerance", f));
+        throw Error(
+            fmt::format("the mesh cannot be closed: the borders of face {} cross; give a smaller tolerance", f));
       }
       faces_[f] = fan_outline(std::move(rim));
     });
@@ -242,8 +241,8 @@ class Tessellation {
       for (int k = 0; k < 3; ++k) {
         if (!sharp_[mesh_.triangles[t][k]]) continue;
         mesh_.sharp_corners.push_back(static_cast<std::uint32_t>(3 * t + k));
-        mesh_.sharp_corner_normals.push_back(part.domain->corner_normal(
-            part.points[v[k]], part.points[v[(k + 1) % 3]], part.points[v[(k + 2) % 3]]));
+        mesh_.sharp_corner_normals.push_back(
+            part.domain->corner_normal(part.points[v[k]], part.points[v[(k + 1) % 3]], part.points[v[(k + 2) % 3]]));
       }
     }
   }

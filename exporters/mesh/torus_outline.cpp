@@ -153,8 +153,8 @@ class TorusRim {
       if (i == 0) angle = rising ? low : low + kTurn;
       if (i == n) angle = rising ? low + kTurn : low;
       const BorderPoint name = samples_.point(half.border, k);
-      samples.push_back({name, {samples_.position(name), {angle, tube}},
-                         {half.border, half.backwards ? (k + n - 1) % n : k}});
+      samples.push_back(
+          {name, {samples_.position(name), {angle, tube}}, {half.border, half.backwards ? (k + n - 1) % n : k}});
     }
     return samples;
   }
@@ -182,7 +182,8 @@ class TorusRim {
     std::vector<double> shares;
     for (std::size_t s = 0; s + 1 < stops.size(); ++s) {
       const double span = stops[s + 1] - stops[s];
-      const int parts = std::max(2, static_cast<int>(std::ceil(surface_.probe_radius * std::abs(to - from) * span / step)));
+      const int parts =
+          std::max(2, static_cast<int>(std::ceil(surface_.probe_radius * std::abs(to - from) * span / step)));
       for (int k = s == 0 ? 1 : 0; k < parts; ++k) shares.push_back(stops[s] + span * k / parts);
     }
     return shares;
@@ -219,7 +220,8 @@ class TorusRim {
       add(rim[i].name, rim[i].point, i + 1 < rim.size() ? rim[i].segment : Segment{});
     }
     add_seam(last, {last.x, tip}, shares);
-    add({kNone, samples_.representative(face_.tip)}, {surface_.vertices[face_.tip], {0.5 * (first.x + last.x), tip}}, {});
+    add({kNone, samples_.representative(face_.tip)}, {surface_.vertices[face_.tip], {0.5 * (first.x + last.x), tip}},
+        {});
     add_seam_back(first, {first.x, tip}, shares);
     close();
     low_ = std::min(first.y, tip);
@@ -259,11 +261,11 @@ class TorusRim {
   int piece_;
   std::unique_ptr<TorusDomain> domain_;
   FaceOutline outline_;
-  double low_ = 10.0, high_ = -10.0;       ///< range of the tube angle
+  double low_ = 10.0, high_ = -10.0;  ///< range of the tube angle
   /// Where rows of inner points lie, as shares of that range. Those of a face with a seam go through the seam's points,
   /// so that no edge can join the two sides of the seam.
   std::vector<double> rows_;
-  std::array<glm::dvec2, 2> seam_{};       ///< the left side, from low to high tube angle
+  std::array<glm::dvec2, 2> seam_{};  ///< the left side, from low to high tube angle
 };
 
 }  // namespace

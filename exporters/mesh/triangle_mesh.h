@@ -13,8 +13,8 @@
 namespace meniscus {
 
 struct MeshOptions {
-  double tolerance = 0.01;    ///< Å: no point of the mesh is farther from the exact surface
-  bool split_colors = true;   ///< cut triangles where the nearest contact changes, so colours change along edges
+  double tolerance = 0.01;   ///< Å: no point of the mesh is farther from the exact surface
+  bool split_colors = true;  ///< cut triangles where the nearest contact changes, so colours change along edges
 };
 
 /// Plain arrays. Every edge has exactly two triangles, which walk it in opposite directions; seen from the solvent
