@@ -30,11 +30,14 @@ struct Row {
 };
 
 /// Runs once to warm the caches, then `runs` times.
-Row measure(const Structure& structure, const BenchCommand& command) {
+Row measure(const Structure& structure, const BenchCommand& command, Progress& progress) {
   const std::vector<Ball> balls = balls_of(structure);
   Row row{structure.file, balls.size(), compute_surface(balls, command.molecule.computing).device, {}};
   std::vector<std::vector<StageTime>> times;
-  for (int n = 0; n < command.runs; ++n) times.push_back(compute_surface(balls, command.molecule.computing).stages);
+  for (int n = 0; n < command.runs; ++n) {
+    times.push_back(compute_surface(balls, command.molecule.computing).stages);
+    progress.advance();
+  }
   const auto middle = times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2);
   std::nth_element(times.begin(), middle, times.end(),
                    [](const auto& a, const auto& b) { return total_ms(a) < total_ms(b); });
@@ -42,28 +45,46 @@ Row measure(const Structure& structure, const BenchCommand& command) {
   return row;
 }
 
+/// The stages of all rows in order of appearance: not every molecule needs every stage.
+std::vector<std::string> stage_names(const std::vector<Row>& rows) {
+  std::vector<std::string> names;
+  for (const Row& row : rows) {
+    for (const StageTime& stage : row.stages) {
+      if (std::find(names.begin(), names.end(), stage.name) == names.end()) names.push_back(stage.name);
+    }
+  }
+  return names;
+}
+
+std::string stage_cell(const Row& row, const std::string& name) {
+  const auto found =
+      std::find_if(row.stages.begin(), row.stages.end(), [&](const StageTime& s) { return s.name == name; });
+  return found == row.stages.end() ? "-" : fmt::format("{:.2f}", found->milliseconds);
+}
+
 void print_table(const std::vector<Row>& rows) {
   std::size_t width = 8;
   for (const Row& row : rows) width = std::max(width, escaped(row.file).size());
+  const std::vector<std::string> names = stage_names(rows);
+  const auto column = [](const std::string& name) { return std::max<std::size_t>(name.size(), 8) + 1; };
   fmt::print(std::cout, "{:<{}} {:>9}", "molecule", width, "atoms");
-  for (const StageTime& stage : rows.front().stages)
-    fmt::print(std::cout, " {:>{}}", stage.name, std::max<std::size_t>(stage.name.size(), 9));
+  for (const std::string& name : names) fmt::print(std::cout, " {:>{}}", name, column(name));
   fmt::print(std::cout, " {:>9} {:>9}  device\n", "total ms", "per s");
   for (const Row& row : rows) {
     fmt::print(std::cout, "{:<{}} {:>9}", escaped(row.file), width, with_thousands(row.atoms));
-    for (const StageTime& stage : row.stages) {
-      fmt::print(std::cout, " {:>{}.2f}", stage.milliseconds, std::max<std::size_t>(stage.name.size(), 9));
-    }
+    for (const std::string& name : names) fmt::print(std::cout, " {:>{}}", stage_cell(row, name), column(name));
     const double total = total_ms(row.stages);
     fmt::print(std::cout, " {:>9.2f} {:>9.1f}  {}\n", total, 1000.0 / total, row.device);
   }
 }
 
 void run(BenchCommand& command) {
+  Progress progress(progress_on_stderr(command.molecule), "bench",
+                    command.files.size() * static_cast<std::size_t>(command.runs));
   std::vector<Row> rows;
   for (const std::string& file : command.files) {
     command.molecule.file = file;
-    rows.push_back(measure(read_molecule(command.molecule), command));
+    rows.push_back(measure(read_molecule(command.molecule), command, progress));
   }
   print_table(rows);
 }
