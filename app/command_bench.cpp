@@ -2,6 +2,7 @@
 // `meniscus bench`: times the stages of the surface for several molecules, one row each, like table 1 of the paper
 // (Krone, Dachsbacher & Ertl 2010).
 #include <algorithm>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 
@@ -11,6 +12,7 @@
 #include "app/commands.h"
 #include "app/molecule_options.h"
 #include "core/base/text.h"
+#include "core/reference/rolling_probe.h"
 
 namespace meniscus {
 namespace {
@@ -19,6 +21,7 @@ struct BenchCommand {
   MoleculeOptions molecule;
   std::vector<std::string> files;
   int runs = 5;
+  bool baseline = false;
 };
 
 /// One measured molecule: the run with the median total.
@@ -27,21 +30,44 @@ struct Row {
   std::size_t atoms = 0;
   std::string device;
   std::vector<StageTime> stages;
+  std::vector<StageTime> baseline;  ///< of the sequential algorithm, reduced surface alone; empty unless asked for
 };
+
+/// Sanner's sequential rolling probe: what the classical programs find, and everything.
+std::vector<StageTime> roll(const std::vector<Ball>& balls, double probe_radius) {
+  StageClock clock;
+  for (const auto& [scope, name] :
+       {std::pair{RollingScope::outer_component, "rolled, outer"}, {RollingScope::complete, "rolled, all"}}) {
+    const auto stage = clock.stage(name);
+    roll_probe(balls, probe_radius, scope);
+  }
+  return clock.times();
+}
+
+/// The run whose total is the median.
+std::vector<StageTime> median(std::vector<std::vector<StageTime>> runs) {
+  const auto middle = runs.begin() + static_cast<std::ptrdiff_t>(runs.size() / 2);
+  std::nth_element(runs.begin(), middle, runs.end(),
+                   [](const auto& a, const auto& b) { return total_ms(a) < total_ms(b); });
+  return *middle;
+}
 
 /// Runs once to warm the caches, then `runs` times.
 Row measure(const Structure& structure, const BenchCommand& command, Progress& progress) {
   const std::vector<Ball> balls = balls_of(structure);
-  Row row{structure.file, balls.size(), compute_surface(balls, command.molecule.computing).device, {}};
-  std::vector<std::vector<StageTime>> times;
+  Row row{std::filesystem::path(structure.file).filename().string(),
+          balls.size(),
+          compute_surface(balls, command.molecule.computing).device,
+          {},
+          {}};
+  std::vector<std::vector<StageTime>> times, baselines;
   for (int n = 0; n < command.runs; ++n) {
     times.push_back(compute_surface(balls, command.molecule.computing).stages);
+    if (command.baseline) baselines.push_back(roll(balls, command.molecule.computing.probe_radius));
     progress.advance();
   }
-  const auto middle = times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2);
-  std::nth_element(times.begin(), middle, times.end(),
-                   [](const auto& a, const auto& b) { return total_ms(a) < total_ms(b); });
-  row.stages = *middle;
+  row.stages = median(std::move(times));
+  if (command.baseline) row.baseline = median(std::move(baselines));
   return row;
 }
 
@@ -69,12 +95,16 @@ void print_table(const std::vector<Row>& rows) {
   const auto column = [](const std::string& name) { return std::max<std::size_t>(name.size(), 8) + 1; };
   fmt::print(std::cout, "{:<{}} {:>9}", "molecule", width, "atoms");
   for (const std::string& name : names) fmt::print(std::cout, " {:>{}}", name, column(name));
-  fmt::print(std::cout, " {:>9} {:>9}  device\n", "total ms", "per s");
+  fmt::print(std::cout, " {:>9} {:>9}", "total ms", "per s");
+  for (const StageTime& time : rows.front().baseline) fmt::print(std::cout, " {:>14}", time.name);
+  fmt::print(std::cout, "  device\n");
   for (const Row& row : rows) {
     fmt::print(std::cout, "{:<{}} {:>9}", escaped(row.file), width, with_thousands(row.atoms));
     for (const std::string& name : names) fmt::print(std::cout, " {:>{}}", stage_cell(row, name), column(name));
     const double total = total_ms(row.stages);
-    fmt::print(std::cout, " {:>9.2f} {:>9.1f}  {}\n", total, 1000.0 / total, row.device);
+    fmt::print(std::cout, " {:>9.2f} {:>9.1f}", total, 1000.0 / total);
+    for (const StageTime& time : row.baseline) fmt::print(std::cout, " {:>14.2f}", time.milliseconds);
+    fmt::print(std::cout, "  {}\n", row.device);
   }
 }
 
@@ -92,15 +122,20 @@ void run(BenchCommand& command) {
 }  // namespace
 
 void add_bench(CLI::App& command) {
-  describe(command, "Time the stages of the surface computation for several files",
-           "  meniscus bench 1ubq.pdb 1tii.pdb            a row each: stages, total, surfaces per second\n"
-           "  meniscus bench 6zu5.cif --device cpu --threads 1 --runs 20");
+  describe(
+      command, "Time the stages of the surface computation for several files",
+      "  meniscus bench 1ubq.pdb 1tii.pdb            a row each: stages, total, surfaces per second\n"
+      "  meniscus bench 6zu5.cif --device cpu --threads 1 --runs 20",
+      "All times are wall-clock milliseconds, the medians of the runs, after one run that is not counted. Reading\n"
+      "the file is not part of them.");
   auto state = std::make_shared<BenchCommand>();
   command.add_option("FILES", state->files, "Molecules: PDB, mmCIF (.gz too) or XYZR")->required();
   add_surface_options(command, state->molecule);
   command.add_option("--runs", state->runs, "Timed runs of each; the median is shown [5]")
       ->check(CLI::Range(1, 1000000).description(""))
       ->type_name("N");
+  command.add_flag("--baseline", state->baseline,
+                   "Also time Sanner's sequential rolling probe (reduced surface alone, one thread)");
   command.add_flag("-q,--quiet", state->molecule.quiet, "No notes on stderr; errors only");
   command.callback([state] { run(*state); });
 }

@@ -194,10 +194,12 @@ TEST(Info, ReadsWhatHasNothingForASurface) {
 }
 
 TEST(Bench, PrintsARowForEachFile) {
-  const ProgramResult result = meniscus_says({"bench", kUbiquitin, kUbiquitin, "--runs", "1", "-q", "--device", "cpu"});
+  const ProgramResult result =
+      meniscus_says({"bench", kUbiquitin, kUbiquitin, "--runs", "1", "-q", "--device", "cpu", "--baseline"});
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_EQ(std::count(result.out.begin(), result.out.end(), '\n'), 3) << result.out;
   EXPECT_NE(result.out.find("total ms"), std::string::npos);
+  EXPECT_NE(result.out.find("rolled, outer"), std::string::npos);
 }
 
 TEST(Output, ExistingFilesStayUnlessForced) {
