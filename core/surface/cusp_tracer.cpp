@@ -14,6 +14,12 @@
 #include "core/surface/contour.h"
 
 namespace meniscus {
+namespace {
+
+constexpr double kThroughCusp = 1e-7;  // Å²: decision weights move a sphere by less
+constexpr double kHair = 1e-6;         // of the circle's radius
+
+}  // namespace
 
 bool reaches(const CuspProblem& problem, std::uint32_t s, const glm::dvec3& other) {
   const glm::dvec3 toward = other - problem.positions[s];
@@ -53,8 +59,16 @@ struct Pencil {
   std::uint32_t circle;
 };
 
+// Where the pair's circle comes to the axis of a pencil, relative to the lower probe, and the direction in which it goes
+// on before the axis.
+struct AxisPoint {
+  glm::dvec3 point;
+  glm::dvec3 onwards;
+};
+
 struct PairTracer::Scratch {
   std::vector<Pencil> pencils;
+  std::vector<AxisPoint> axis_points;
   std::vector<Blocker> others;
   std::vector<BlockedHalf> halves;
   Contour contour;
@@ -90,6 +104,7 @@ bool PairTracer::on_pencil(std::uint32_t u) const {
 // Past the axis of a shared spindle circle nothing of the pair's circle is left. False if that is all of it.
 bool PairTracer::set_halves(std::uint32_t s, std::uint32_t t) {
   scratch_->halves.clear();
+  scratch_->axis_points.clear();
   if (scratch_->pencils.empty()) return true;
   const glm::dvec3 d = problem_->positions[t] - problem_->positions[s];
   const geometry::Circle circle = geometry::circle_of_two_spheres(d, problem_->weights[s], problem_->weights[t]);
@@ -101,21 +116,47 @@ bool PairTracer::set_halves(std::uint32_t s, std::uint32_t t) {
                                                      side.circle_center - problem_->positions[s]);
     const double gap = half.half_plane.length_squared - half.half_plane.offset * half.half_plane.offset;
     // As large as the probe: the pair's circle touches the axis, so it lies before it or past it as a whole.
-    if (gap > 0 && !side.touching)
+    if (gap > 0 && !side.touching) {
       scratch_->halves.push_back(half);
-    else if (half.half_plane.offset < 0)
+      const geometry::CoveredArc past = geometry::covered_arc(half.half_plane);
+      for (const double sign : {1.0, -1.0}) {
+        const glm::dvec2 e = sign > 0 ? past.end : past.begin;
+        scratch_->axis_points.push_back({circle.axis * circle.height + circle.radius * (e.x * circle.u + e.y * circle.v),
+                                         sign * (e.x * circle.v - e.y * circle.u)});
+      }
+    } else if (half.half_plane.offset < 0)
       return false;
   }
   return true;
 }
 
+// Another probe may pass through an axis cusp but cannot hold it (theorem 1.2): whatever rounding says, the pair's circle
+// begins there. Lists the others that may cover some of it; one that takes over right at the cusp finds the circle
+// beginning a hair before.
+void PairTracer::list_others(std::uint32_t t, std::span<const Blocker> near) {
+  Scratch& scratch = *scratch_;
+  scratch.others.clear();
+  const double squared = problem_->probe_radius * problem_->probe_radius;
+  bool taken_over = false;
+  for (const Blocker& b : near) {
+    if (b.label == t || on_pencil(b.label)) continue;
+    bool beyond_axis = false;
+    for (const AxisPoint& axis : scratch.axis_points) {
+      const glm::dvec3 d = axis.point - b.center;
+      if (std::abs(glm::dot(d, d) - squared) > kThroughCusp * std::max(1.0, problem_->probe_radius)) continue;
+      (glm::dot(d, axis.onwards) < 0 ? taken_over : beyond_axis) = true;
+    }
+    if (!beyond_axis) scratch.others.push_back(b);
+  }
+  if (taken_over)
+    for (BlockedHalf& half : scratch.halves) half.half_plane.offset += kHair;
+}
+
 void PairTracer::trace(std::uint32_t s, std::uint32_t t, std::span<const Blocker> near,
                        std::vector<TracedArc>& found) {
   if (!find_pencils(s, t) || !set_halves(s, t)) return;
+  list_others(t, near);
   Scratch& scratch = *scratch_;
-  scratch.others.clear();
-  for (const Blocker& b : near)
-    if (b.label != t && !on_pencil(b.label)) scratch.others.push_back(b);
   scratch.contour.expose(problem_->positions[t] - problem_->positions[s], problem_->weights[s], problem_->weights[t],
                          scratch.others, scratch.others.size(), scratch.halves);
   const geometry::Circle& circle = scratch.contour.circle();

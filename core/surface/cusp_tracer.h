@@ -101,6 +101,7 @@ class PairTracer {
   bool find_pencils(std::uint32_t s, std::uint32_t t);
   bool on_pencil(std::uint32_t u) const;
   bool set_halves(std::uint32_t s, std::uint32_t t);
+  void list_others(std::uint32_t t, std::span<const Blocker> near);
 
   const CuspProblem* problem_;
   std::unique_ptr<Scratch> scratch_;

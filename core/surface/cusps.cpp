@@ -125,10 +125,13 @@ class CuspSearch {
     found.arc.sweep =
         traced.by[0] == kNone ? kTwoPi : angle_between(found.arc.axis, found.arc.start, traced.end);
     found.by = traced.by;
-    if (!on_both_patches(found.arc)) return;
-    for (int end = 0; end < 2; ++end)
-      if (traced.by[end] != kNone && (traced.by[end] & kAxisLabel))
-        name_axis_cusp(found, end, end ? traced.end : traced.begin);
+    bool from_axis = false;  // there both patches have a corner, so the arc lies on them however short it is
+    for (int end = 0; end < 2; ++end) {
+      if (traced.by[end] == kNone || !(traced.by[end] & kAxisLabel)) continue;
+      name_axis_cusp(found, end, end ? traced.end : traced.begin);
+      from_axis = true;
+    }
+    if (!from_axis && !on_both_patches(found.arc)) return;
     found_.push_back(found);
   }
 
