@@ -181,8 +181,8 @@ void write_geometry(OutputFile& file, const Surface& surface, const Palette& pal
 std::string ini_text(const SceneOptions& options) {
   SceneText out;
   out.literal("; A solvent-excluded surface. In this folder: povray ").literal(options.name).literal(".ini\n");
-  out.literal("; From elsewhere: povray FOLDER/").literal(options.name).literal(".ini +LFOLDER +IFOLDER/");
-  out.literal(options.name).literal(".pov +OFOLDER/\n");
+  out.literal("; From elsewhere, where no path holds a space: povray FOLDER/").literal(options.name);
+  out.literal(".ini +LFOLDER +IFOLDER/").literal(options.name).literal(".pov +OFOLDER/\n");
   out.literal("; The camera is made for this size; another ratio stretches (see Meniscus_Fit_Aspect in the .pov).\n");
   out.literal("Width=").count(static_cast<std::size_t>(options.width)).literal("\nHeight=");
   out.count(static_cast<std::size_t>(options.height)).literal("\n");
@@ -207,6 +207,13 @@ std::vector<std::string> notes(const Surface& surface, const Palette& palette, c
     sentences.push_back(fmt::format("{} objects need about {} GB of memory in POV-Ray", palette.pieces.size(),
                                     palette.pieces.size() * 18 / 10'000'000));
   return sentences;
+}
+
+// One word of a POSIX shell, whatever the text holds.
+std::string shell_quoted(const std::string& text) {
+  std::string quoted = "'";
+  for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
 }
 
 }  // namespace
@@ -234,8 +241,7 @@ SceneReport write_scene(const Surface& surface, const Coloring& coloring, const 
   report.object_count = palette.pieces.size();
   report.origin = origin;
   report.notes = notes(surface, palette, camera);
-  const std::string path = folder.string();
-  report.command = fmt::format("povray {0}/{1}.ini +L{0} +I{0}/{1}.pov +O{0}/", path, options.name);
+  report.command = fmt::format("cd {} && povray {}.ini", shell_quoted(folder.string()), options.name);
   return report;
 }
 

@@ -36,7 +36,7 @@ struct SceneReport {
   std::size_t object_count = 0;    ///< primitives; more than patches where atoms of several colours share a patch
   std::vector<std::string> notes;  ///< sentences: what was left out, what will be slow; empty when all is shown
   glm::dvec3 origin{0.0};          ///< scene coordinates + origin = molecule coordinates
-  std::string command;             ///< renders the picture from any folder
+  std::string command;             ///< for a POSIX shell: renders the picture from any folder
 };
 
 /// Writes <name>.ini, <name>.pov, <name>_style.inc, <name>_aov.inc and <name>_geometry.inc into `folder`, all or none.

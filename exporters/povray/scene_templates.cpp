@@ -53,11 +53,11 @@ background { Meniscus_Background }
   #break
   #case (2)
     #ifndef (Meniscus_Finish)
-      #declare Meniscus_Finish = finish { ambient 0.05 diffuse 0.25 specular 0.8 roughness 0.003 }
+      #declare Meniscus_Finish = finish { ambient 0.02 diffuse 0.12 specular 0.7 roughness 0.002 }
     #end
-    #ifndef (Meniscus_Filter) #declare Meniscus_Filter = 0.85; #end
-    #ifndef (Meniscus_Tint) #declare Meniscus_Tint = 0.35; #end
-    #ifndef (Meniscus_Interior) #declare Meniscus_Interior = interior { ior 1.1 } #end
+    #ifndef (Meniscus_Filter) #declare Meniscus_Filter = 0.93; #end
+    #ifndef (Meniscus_Tint) #declare Meniscus_Tint = 0.3; #end
+    #ifndef (Meniscus_Interior) #declare Meniscus_Interior = interior { ior 1.06 } #end
   #break
   #case (3)
     // Meniscus_Subsurface = 1 scatters light inside for real; it takes minutes.
@@ -188,6 +188,8 @@ Output_File_Name=@NAME@_ghost.png
 [glass]
 Declare=Meniscus_Material=2
 Output_File_Name=@NAME@_glass.png
+Antialias_Depth=2
+Antialias_Threshold=0.1
 
 [wax]
 Declare=Meniscus_Material=3
