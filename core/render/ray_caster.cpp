@@ -13,6 +13,7 @@
 
 #include "core/gpu/gpu_stage.h"
 #include "core/gpu/limits.h"
+#include "core/gpu/texel_buffer.h"
 #include "core/render/color_space.h"
 #include "core/render/component_lookup.h"
 #include "core/render/ray_cast_scene.h"
@@ -93,12 +94,14 @@ void copy_hits(const Block& block, const std::vector<ray_cast::Hit>& hits, const
 }  // namespace
 
 struct RayCaster::Buffers {
-  Buffer primitives, rows, first_entry, entries, colors, picture, hits;
+  TexelBuffer primitives{TexelFormat::uint4}, rows{TexelFormat::uint4};
+  TexelBuffer first_entry{TexelFormat::uint1}, entries{TexelFormat::uint1};
+  Buffer colors, picture, hits;
 
   void bind() const {
-    std::uint32_t binding = 0;
-    for (const Buffer* buffer : {&primitives, &rows, &first_entry, &entries, &colors, &picture, &hits})
-      buffer->bind(binding++);
+    std::uint32_t unit = 0, binding = 0;
+    for (const TexelBuffer* buffer : {&primitives, &rows, &first_entry, &entries}) buffer->bind(unit++);
+    for (const Buffer* buffer : {&colors, &picture, &hits}) buffer->bind(binding++);
   }
 };
 

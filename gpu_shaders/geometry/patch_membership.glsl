@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Which part of a sphere or torus belongs to the surface, and whose atom's colour a point takes.
 //
-// Common subset of GLSL and C++ with GLM; the includer defines real, real2, real3, GEOMETRY and GEOMETRY_OUT.
+// Common subset of GLSL and C++ with GLM; the includer defines real, real2, real3, GEOMETRY, GEOMETRY_OUT and GEOMETRY_INOUT.
 // `slack` (Å, >= 0) widens a patch past its borders: neighbours then overlap by that much and no ray slips between them.
 // Across contact circles and edges the surface is smooth, so the overlap is slack^2 / radius high: nothing.
 #ifndef MENISCUS_GEOMETRY_PATCH_MEMBERSHIP_GLSL
@@ -12,6 +12,13 @@ GEOMETRY bool in_half_space(real3 x, real3 normal, real offset, real slack) {
   return dot(normal, x) <= offset + slack;
 }
 
+// Shortens [low, high] to the t where offset + slope*t <= 0.
+GEOMETRY void clip_to_half_space(real offset, real slope, GEOMETRY_INOUT(real) low, GEOMETRY_INOUT(real) high) {
+  if (slope > real(0)) high = min(high, -offset / slope);
+  else if (slope < real(0)) low = max(low, -offset / slope);
+  else if (offset > real(0)) high = low;
+}
+
 // The angular range of a toroidal patch.
 const int kWholeTurn = 0;
 const int kUpToHalfTurn = 1;
@@ -20,15 +27,13 @@ const int kOverHalfTurn = 2;
 // Part 2 of theorem 1 (design notes), in the torus's own frame: origin = centre of the SAS circle, x = direction in
 // which the arc starts, z = axis. x: a point of the torus; major, minor: R and p; z_low, z_high: the planes of the two
 // contact circles; cos_sweep, sin_sweep: of the arc, which runs counter-clockwise.
-GEOMETRY bool in_toroidal_patch(real3 x, real major, real minor, real z_low, real z_high, real cos_sweep,
+GEOMETRY bool in_toroidal_patch(real3 x, real major, real z_low, real z_high, real cos_sweep,
                                 real sin_sweep, int range, real slack) {
   if (x.z < z_low - slack || x.z > z_high + slack) return false;
   real rho_squared = x.x * x.x + x.y * x.y;
   // The side that faces the axis.
   real limit = major + slack;
   if (rho_squared > limit * limit) return false;
-  // Past the axis (spindle): inside the sphere through both tips.
-  if (rho_squared + x.z * x.z < (minor - major) * (minor + major) - slack * minor && major < minor) return false;
   if (range == kWholeTurn) return true;
   bool after_start = x.y >= -slack;
   bool before_end = x.x * sin_sweep - x.y * cos_sweep >= -slack;

@@ -1,70 +1,110 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Nearest point of one primitive on a ray.
+// Nearest points of one primitive on the four rays of an invocation.
 //
-// The ray arrives as a point `o` relative to the primitive's centre and close to it. Both sides of a patch count: a
-// camera may stand inside the solid.
+// Four rays share each fetch of a primitive's rows: on software GL fetching costs more than all arithmetic. Both sides of
+// a patch count, because a camera may stand inside the solid. Each ray is moved to its closest approach first: there
+// the numbers are as small as the primitive, and single precision is good to about 1e-6 Å.
 
-bool inside_planes(vec3 x, uint first_row, uint count) {
-  for (uint i = 0u; i < count; ++i) {
-    vec4 plane = rows[first_row + i];
-    if (!in_half_space(x, plane.xyz, plane.w, slack)) return false;
+struct Rays {
+  vec3 p[4];  // on the plane through the pivot
+  vec3 d[4];  // unit length
+};
+
+// Nearest hits so far.
+struct Nearest {
+  vec4 t;
+  uvec4 primitive;
+};
+
+// True if no point p + t*d with t < high of any ray within `spread` (Å, at the pivot, growing as the rays spread) of this
+// one is in the sphere. This is where most candidates end.
+bool misses_bound(vec4 bound, vec3 p, vec3 d, float eye_t, float spread, float high) {
+  vec3 to_bound = p - bound.xyz;
+  float bound_t = -dot(to_bound, d);
+  vec3 closest = to_bound + d * bound_t;
+  // At the far end of the sphere neighbouring rays are farthest from this one.
+  float widest = orthographic != 0u ? spread : spread * max((bound_t + bound.w - eye_t) / -eye_t, 0.0);
+  float reach = bound.w + widest;
+  float room = reach * reach - dot(closest, closest);
+  return room < 0.0 || bound_t - sqrt(room) > high;
+}
+
+void hit_clipped_sphere(uint index, Primitive primitive, Rays rays, inout Nearest nearest) {
+  vec4 place = row(primitive.first_row);
+  vec3 near_x[4];
+  vec3 far_x[4];
+  vec4 near_t;
+  vec4 far_t;
+  bvec4 near_in;
+  bvec4 far_in;
+  for (int k = 0; k < 4; ++k) {
+    vec3 o = rays.p[k] - place.xyz;
+    float shift = -dot(o, rays.d[k]);
+    o += rays.d[k] * shift;
+    SphereHits hits = ray_sphere(o, rays.d[k], place.w);
+    near_x[k] = o + rays.d[k] * hits.near_t;
+    far_x[k] = o + rays.d[k] * hits.far_t;
+    near_t[k] = hits.near_t + shift;
+    far_t[k] = hits.far_t + shift;
+    float low = eye_parameter(rays.d[k]);
+    near_in[k] = hits.found && near_t[k] > low && near_t[k] < nearest.t[k];
+    far_in[k] = hits.found && far_t[k] > low && far_t[k] < nearest.t[k];
   }
-  return true;
+  uint end = primitive.first_row + 1u + primitive.plane_count;
+  for (uint i = primitive.first_row + 1u; i < end && (any(near_in) || any(far_in)); ++i) {
+    vec4 plane = row(i);
+    for (int k = 0; k < 4; ++k) {
+      near_in[k] = near_in[k] && in_half_space(near_x[k], plane.xyz, plane.w, slack);
+      far_in[k] = far_in[k] && in_half_space(far_x[k], plane.xyz, plane.w, slack);
+    }
+  }
+  for (int k = 0; k < 4; ++k) {
+    if (!near_in[k] && !far_in[k]) continue;
+    nearest.t[k] = near_in[k] ? near_t[k] : far_t[k];
+    nearest.primitive[k] = index;
+  }
 }
 
-// Parameter of the nearest hit in (low, high); `high` if there is none.
-float hit_clipped_sphere(Primitive primitive, vec3 o, vec3 d, float radius, float low, float high) {
-  SphereHits hits = ray_sphere(o, d, radius);
-  if (!hits.found) return high;
-  if (hits.near_t > low && hits.near_t < high &&
-      inside_planes(o + d * hits.near_t, primitive.first_row + 1u, primitive.plane_count))
-    return hits.near_t;
-  if (hits.far_t > low && hits.far_t < high &&
-      inside_planes(o + d * hits.far_t, primitive.first_row + 1u, primitive.plane_count))
-    return hits.far_t;
-  return high;
-}
-
-float hit_toroidal(Primitive primitive, vec3 o, vec3 d, float major, float low, float high) {
-  vec4 shape = rows[primitive.first_row + 3u];
-  vec4 x_axis = rows[primitive.first_row + 1u];
-  vec4 z_axis = rows[primitive.first_row + 2u];
-  vec3 y_axis = cross(z_axis.xyz, x_axis.xyz);
-  vec3 local_o = vec3(dot(o, x_axis.xyz), dot(o, y_axis), dot(o, z_axis.xyz));
-  vec3 local_d = vec3(dot(d, x_axis.xyz), dot(d, y_axis), dot(d, z_axis.xyz));
+// One ray in the torus's own frame; `high` if it misses.
+float hit_torus_patch(vec3 o, vec3 d, float major, vec4 shape, float cos_sweep, float sin_sweep, int range, float low,
+                      float high) {
   // The sphere through both contact circles holds the whole patch and nothing of the outer half of the torus.
-  SphereHits chord = ray_sphere(local_o - vec3(0.0, 0.0, shape.z), local_d, shape.w + slack);
+  SphereHits chord = ray_sphere(o - vec3(0.0, 0.0, shape.z), d, shape.w + slack);
   if (!chord.found) return high;
   low = max(low, chord.near_t - slack);
   float end = min(high, chord.far_t + slack);
+  if (range == kUpToHalfTurn) {
+    clip_to_half_space(-o.y - slack, -d.y, low, end);
+    clip_to_half_space(o.y * cos_sweep - o.x * sin_sweep - slack, d.y * cos_sweep - d.x * sin_sweep, low, end);
+  }
   if (!(low < end)) return high;
-  TorusHits hits = ray_torus(local_o, local_d, major, probe_radius, low, end, 2e-7);
+  TorusHits hits = ray_torus(o, d, major, probe_radius, low, end, 2e-7);
   for (int i = 0; i < hits.count; ++i)
-    if (in_toroidal_patch(local_o + local_d * hits.t[i], major, probe_radius, shape.x, shape.y, x_axis.w, z_axis.w,
-                          int(primitive.plane_count), slack))
+    if (in_toroidal_patch(o + d * hits.t[i], major, shape.x, shape.y, cos_sweep, sin_sweep, range, slack))
       return hits.t[i];
   return high;
 }
 
-// Parameter along p + t*d of the nearest hit in (low, high); `high` if there is none.
-float hit_primitive(Primitive primitive, vec3 p, vec3 d, float low, float high) {
-  // Outside of the bound there is nothing to do, and this is where most candidates end.
-  vec3 to_bound = p - primitive.bound.xyz;
-  float bound_t = -dot(to_bound, d);
-  vec3 closest = to_bound + d * bound_t;
-  float room = primitive.bound.w * primitive.bound.w - dot(closest, closest);
-  if (room < 0.0) return high;
-  if (bound_t - sqrt(room) > high) return high;
-
-  // Start at the closest approach: there the numbers are as small as the primitive.
-  vec4 place = rows[primitive.first_row];
-  vec3 o = p - place.xyz;
-  float shift = -dot(o, d);
-  o += d * shift;
-  float local_low = low - shift;
-  float local_high = high - shift;
-  float t = local_high;
-  if (primitive.kind == kToroidal) t = hit_toroidal(primitive, o, d, place.w, local_low, local_high);
-  else t = hit_clipped_sphere(primitive, o, d, place.w, local_low, local_high);
-  return t < local_high ? t + shift : high;
+void hit_toroidal(uint index, Primitive primitive, inout Nearest nearest) {
+  vec4 place = row(primitive.first_row);
+  vec4 x_axis = row(primitive.first_row + 1u);
+  vec4 z_axis = row(primitive.first_row + 2u);
+  vec4 shape = row(primitive.first_row + 3u);
+  vec3 y_axis = cross(z_axis.xyz, x_axis.xyz);
+  for (int k = 0; k < 4; ++k) {
+    vec3 p = ray_point(k);
+    vec3 d = ray_direction(p);
+    vec3 o = p - place.xyz;
+    float shift = -dot(o, d);
+    o += d * shift;
+    vec3 local_o = vec3(dot(o, x_axis.xyz), dot(o, y_axis), dot(o, z_axis.xyz));
+    vec3 local_d = vec3(dot(d, x_axis.xyz), dot(d, y_axis), dot(d, z_axis.xyz));
+    float high = nearest.t[k] - shift;
+    float t = hit_torus_patch(local_o, local_d, place.w, shape, x_axis.w, z_axis.w, int(primitive.plane_count),
+                              eye_parameter(d) - shift, high);
+    if (t < high) {
+      nearest.t[k] = t + shift;
+      nearest.primitive[k] = index;
+    }
+  }
 }

@@ -1,28 +1,29 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Ray casts one block of the picture: a group is a tile of 16 x 16 pixels, an invocation one ray of one sample.
+// Ray casts one sample of each pixel of a block: a group is a tile of 16 x 16 pixels, an invocation 2 x 2 of them.
 //
 // The host gives each tile the primitives that may show in it, sorted by their nearest distance; a ray stops at the first
 // one that begins behind its hit. The first sample goes through the pixel's centre and writes the exact point too.
 #version 450 core
-layout(local_size_x = 16, local_size_y = 16) in;
+layout(local_size_x = 8, local_size_y = 8) in;
 
 #define real float
 #define real2 vec2
 #define real3 vec3
 #define GEOMETRY
 #define GEOMETRY_OUT(type) out type
+#define GEOMETRY_INOUT(type) inout type
 #include "gpu_shaders/geometry/ray_sphere.glsl"
 #include "gpu_shaders/geometry/ray_torus.glsl"
 #include "gpu_shaders/geometry/patch_membership.glsl"
 #include "gpu_shaders/ray_cast/records.glsl"
 
-layout(std430, binding = 0) readonly buffer Primitives { Primitive primitives[]; };
-layout(std430, binding = 1) readonly buffer Rows { vec4 rows[]; };
-layout(std430, binding = 2) readonly buffer Tiles { uint first_entry[]; };  // one more than there are tiles
-layout(std430, binding = 3) readonly buffer Entries { uint entries[]; };
-layout(std430, binding = 4) readonly buffer Colors { vec4 atom_color[]; };  // linear; three more for the kinds
-layout(std430, binding = 5) buffer Picture { vec4 picture[]; };             // sums of linear, premultiplied samples
-layout(std430, binding = 6) writeonly buffer Hits { Hit hits[]; };
+layout(binding = 0) uniform usamplerBuffer primitive_texels;  // three texels each: struct Primitive
+layout(binding = 1) uniform usamplerBuffer row_texels;
+layout(binding = 2) uniform usamplerBuffer first_entry;  // one more than there are tiles
+layout(binding = 3) uniform usamplerBuffer entries;
+layout(std430, binding = 0) readonly buffer Colors { vec4 atom_color[]; };  // linear; three more for the kinds
+layout(std430, binding = 1) buffer Picture { vec4 picture[]; };             // sums of linear, premultiplied samples
+layout(std430, binding = 2) writeonly buffer Hits { Hit hits[]; };
 
 uniform float probe_radius;
 uniform float slack;
@@ -39,42 +40,70 @@ uniform vec3 forward;
 uniform uint color_by_kind;
 uniform uint atom_count;
 
+vec4 row(uint index) { return uintBitsToFloat(texelFetch(row_texels, int(index))); }
+
+vec4 bound_of(uint primitive) { return uintBitsToFloat(texelFetch(primitive_texels, int(3u * primitive))); }
+
+Primitive load_primitive(uint index) {
+  uvec4 a = texelFetch(primitive_texels, int(3u * index + 1u));
+  uvec4 b = texelFetch(primitive_texels, int(3u * index + 2u));
+  return Primitive(bound_of(index), uintBitsToFloat(a.x), a.y, a.z, a.w, b.x, b.y, b.z, b.w);
+}
+
+// Rays are cheaper to make again than to keep where an index can reach them.
+vec3 ray_point(int k) {
+  ivec2 pixel = 2 * ivec2(gl_GlobalInvocationID.xy) + ivec2(k & 1, k >> 1);
+  vec2 offset = (first_offset + vec2(pixel) + sample_offset) * pixel_size;
+  return right * offset.x - up * offset.y;
+}
+
+vec3 ray_direction(vec3 p) { return orthographic != 0u ? forward : normalize(forward + p / eye_distance); }
+
+// Parameter of the camera's position (orthographic: of the plane through it).
+float eye_parameter(vec3 d) { return orthographic != 0u ? -eye_distance : -eye_distance / dot(d, forward); }
+
 #include "gpu_shaders/ray_cast/intersect.glsl"
 #include "gpu_shaders/ray_cast/shade.glsl"
 
-void main() {
-  ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-  if (pixel.x >= size.x || pixel.y >= size.y) return;
-  vec2 offset = first_offset + vec2(pixel) + sample_offset;
-  vec3 lateral = right * (offset.x * pixel_size) - up * (offset.y * pixel_size);
-  vec3 p = lateral;
-  vec3 d = forward;
-  float eye_t = -eye_distance;
-  if (orthographic == 0u) {
-    d = normalize(forward + lateral / eye_distance);
-    eye_t = -eye_distance / dot(d, forward);
+Nearest trace(uint tile) {
+  Nearest nearest;
+  nearest.t = vec4(3.0e38);
+  nearest.primitive = uvec4(kNoPrimitive);
+  Rays rays;
+  for (int k = 0; k < 4; ++k) {
+    rays.p[k] = ray_point(k);
+    rays.d[k] = ray_direction(rays.p[k]);
   }
-
-  uint tile = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
-  const float kFar = 3.0e38;
-  float best = kFar;
-  uint best_primitive = kNoPrimitive;
-  for (uint i = first_entry[tile]; i < first_entry[tile + 1u]; ++i) {
-    uint index = entries[i];
-    if (primitives[index].nearest + eye_t > best) break;
-    float t = hit_primitive(primitives[index], p, d, eye_t, best);
-    if (t < best) {
-      best = t;
-      best_primitive = index;
-    }
+  vec3 middle_p = 0.5 * (rays.p[0] + rays.p[3]);
+  vec3 middle_d = ray_direction(middle_p);
+  float eye_t = eye_parameter(middle_d);
+  // The four rays lie half a pixel's diagonal from the middle; a little more covers their rounding.
+  float spread = 0.75 * pixel_size;
+  int first = int(texelFetch(first_entry, int(tile)).x);
+  int end = int(texelFetch(first_entry, int(tile) + 1).x);
+  for (int i = first; i < end; ++i) {
+    uint index = texelFetch(entries, i).x;
+    float farthest = max(max(nearest.t.x, nearest.t.y), max(nearest.t.z, nearest.t.w));
+    // All that follow begin later than this one; to ask each would cost more than it saves.
+    if (((i - first) & 7) == 0 &&
+        uintBitsToFloat(texelFetch(primitive_texels, int(3u * index + 1u)).x) + eye_t - spread > farthest)
+      break;
+    if (misses_bound(bound_of(index), middle_p, middle_d, eye_t, spread, farthest)) continue;
+    Primitive primitive = load_primitive(index);
+    if (primitive.kind == kToroidal) hit_toroidal(index, primitive, nearest);
+    else hit_clipped_sphere(index, primitive, rays, nearest);
   }
+  return nearest;
+}
 
+void write_pixel(ivec2 pixel, vec3 p, float t, uint index) {
   vec4 color = vec4(0.0);
-  Hit hit = Hit(vec3(0.0), 0.0, best_primitive, kNoPrimitive, 0u, 0u);
-  if (best_primitive != kNoPrimitive) {
-    Primitive primitive = primitives[best_primitive];
-    SurfacePoint point = surface_point(primitive, p + d * best);
-    hit = Hit(point.normal, best, best_primitive, point.atom, 0u, 0u);
+  Hit hit = Hit(vec3(0.0), 0.0, index, kNoPrimitive, 0u, 0u);
+  if (index != kNoPrimitive) {
+    vec3 d = ray_direction(p);
+    Primitive primitive = load_primitive(index);
+    SurfacePoint point = surface_point(primitive, p + d * t);
+    hit = Hit(point.normal, t, index, point.atom, 0u, 0u);
     vec3 n = vec3(dot(point.normal, right), dot(point.normal, up), -dot(point.normal, forward));
     vec3 to_camera = -vec3(dot(d, right), dot(d, up), -dot(d, forward));
     if (dot(n, to_camera) < 0.0) n = -n;  // seen from inside the solid
@@ -87,5 +116,13 @@ void main() {
     hits[at] = hit;
   } else {
     picture[at] += color;
+  }
+}
+
+void main() {
+  Nearest nearest = trace(gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x);
+  for (int k = 0; k < 4; ++k) {
+    ivec2 pixel = 2 * ivec2(gl_GlobalInvocationID.xy) + ivec2(k & 1, k >> 1);
+    if (pixel.x < size.x && pixel.y < size.y) write_pixel(pixel, ray_point(k), nearest.t[k], nearest.primitive[k]);
   }
 }

@@ -8,7 +8,7 @@ struct SurfacePoint {
 
 SurfacePoint surface_point(Primitive primitive, vec3 p) {
   SurfacePoint point;
-  vec4 place = rows[primitive.first_row];
+  vec4 place = row(primitive.first_row);
   vec3 x = p - place.xyz;
   point.atom = primitive.atom;
   if (primitive.kind == kConvex) {
@@ -18,7 +18,7 @@ SurfacePoint surface_point(Primitive primitive, vec3 p) {
     uint first_contact = primitive.first_row + 1u + primitive.plane_count;
     float best = -2.0 * place.w;
     for (uint i = 0u; i < primitive.atom; ++i) {
-      vec4 contact = rows[first_contact + i];
+      vec4 contact = row(first_contact + i);
       float nearness = dot(contact.xyz, x);
       if (nearness > best) {
         best = nearness;
@@ -26,13 +26,13 @@ SurfacePoint surface_point(Primitive primitive, vec3 p) {
       }
     }
   } else {
-    vec3 x_axis = rows[primitive.first_row + 1u].xyz;
-    vec3 z_axis = rows[primitive.first_row + 2u].xyz;
+    vec3 x_axis = row(primitive.first_row + 1u).xyz;
+    vec3 z_axis = row(primitive.first_row + 2u).xyz;
     vec3 y_axis = cross(z_axis, x_axis);
     vec3 local = vec3(dot(x, x_axis), dot(x, y_axis), dot(x, z_axis));
     vec3 normal = torus_normal(local, place.w, probe_radius);
     point.normal = x_axis * normal.x + y_axis * normal.y + z_axis * normal.z;
-    vec4 atoms = rows[primitive.first_row + 4u];
+    vec4 atoms = row(primitive.first_row + 4u);
     if (toroidal_second_atom(local, place.w, atoms.x, atoms.y, atoms.z, atoms.w)) point.atom = primitive.second_atom;
   }
   point.normal = normalize(point.normal);

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Buffer textures (GL 3.1) over storage buffers.
+#include "core/gpu/texel_buffer.h"
+
+#include <epoxy/gl.h>
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+#include "core/gpu/limits.h"
+
+namespace meniscus {
+
+TexelBuffer::~TexelBuffer() {
+  if (texture_) glDeleteTextures(1, &texture_);
+}
+
+void TexelBuffer::upload_bytes(std::span<const std::byte> bytes) {
+  GLint limit = 0;
+  glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &limit);
+  const std::size_t texel_bytes = format_ == TexelFormat::uint1 ? 4 : 16;
+  if (bytes.size() / texel_bytes > static_cast<std::size_t>(limit))
+    throw CapacityError(fmt::format("{} texels are needed; this driver's limit is {}", bytes.size() / texel_bytes, limit));
+  buffer_.upload(bytes);
+  // Made anew each time: the buffer may have moved, and its end has.
+  if (texture_) glDeleteTextures(1, &texture_);
+  glCreateTextures(GL_TEXTURE_BUFFER, 1, &texture_);
+  glTextureBuffer(texture_, format_ == TexelFormat::uint1 ? GL_R32UI : GL_RGBA32UI, buffer_.gl_name());
+  check_gl("making a buffer texture");
+}
+
+void TexelBuffer::bind(std::uint32_t unit) const { glBindTextureUnit(unit, texture_); }
+
+}  // namespace meniscus

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The ray caster once more: on the CPU, in double, by brute force over the surface's tables, without tiles or packing.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/render/camera.h"
+#include "core/surface/primitives.h"
+
+namespace meniscus::testing {
+
+struct TwinHit {
+  double t = 0.0;  ///< Å along the ray
+  glm::dvec3 normal{0.0};
+  PatchKind kind = PatchKind::convex;
+  std::uint32_t patch = 0;
+  std::uint32_t atom = 0;  ///< whose colour the point takes
+};
+
+/// Looks at a surface that must outlive it.
+class RayCasterTwin {
+ public:
+  explicit RayCasterTwin(const Surface& surface);
+
+  /// Nearest point of any patch on the ray.
+  std::optional<TwinHit> trace(const Ray& ray) const;
+
+ private:
+  struct Candidate {
+    glm::dvec3 center;
+    double radius;
+    PatchKind kind;
+    std::uint32_t patch;
+  };
+
+  double hit(const Candidate& candidate, const Ray& ray, double nearest) const;
+  double hit_toroidal(const ToroidalPatch& patch, const Ray& ray, double nearest) const;
+  double hit_sphere(const glm::dvec3& center, double radius, std::uint32_t first_plane, std::uint32_t plane_count,
+                    const Ray& ray, double nearest) const;
+  TwinHit describe(const Candidate& candidate, const Ray& ray, double t) const;
+
+  const Surface& surface_;
+  std::vector<Candidate> candidates_;
+};
+
+}  // namespace meniscus::testing
