@@ -195,7 +195,9 @@ Structure read_structure(const std::string& path, const ReadOptions& options) {
   }
   report.used = structure.atoms.size();
   if (structure.atoms.empty()) {
-    throw InputError(path, 0, fmt::format("leaves no atoms to make a surface of: {}", report.sentence()));
+    throw InputError(path, 0,
+                     fmt::format("leaves no atoms to make a surface of: {}; --keep-water and --keep-ions use more",
+                                 report.sentence()));
   }
   if (contents.radii_from_file) {
     structure.radii_set = "file";
