@@ -282,9 +282,13 @@ class Placement {
     const double sine = glm::dot(patch.axis, glm::cross(patch.start, stop)), cosine = glm::dot(patch.start, stop);
     patch.sweep = std::atan2(sine, cosine);
     if (patch.sweep <= 0) patch.sweep += 2 * std::numbers::pi;
+    // Nothing or a whole turn? Positions cannot tell when the ends (nearly) coincide.
     const glm::dvec3 gap = position_[begin] - position_[end];
-    const bool nearly_whole = glm::dot(gap, gap) < kMergeDistance * kMergeDistance;  // else it had vanished
-    if (nearly_whole && patch.sweep < std::numbers::pi) patch.sweep = 2 * std::numbers::pi;
+    if (glm::dot(gap, gap) < kMergeDistance * kMergeDistance) {
+      const bool tiny = vanishes(arc);
+      if (!tiny && patch.sweep < std::numbers::pi) patch.sweep = 2 * std::numbers::pi;
+      if (tiny && patch.sweep > std::numbers::pi) patch.sweep = 0;
+    }
     return patch;
   }
 

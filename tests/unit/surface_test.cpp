@@ -215,6 +215,20 @@ TEST(ReferenceTable, Enterotoxin) {
   expect_protein(enterotoxin(), counts, {7789.693, 10387.919, 10098.0}, 28275.6, 0.5, 85925.0, 1.0);
 }
 
+// Six atoms around a hole that a probe just fits in: the cavity is the probe's own sphere, with convex and toroidal
+// patches as thin as the slack.
+TEST(Cavity, ThatAProbeBarelyFits) {
+  const double fits = (kCarbon + kWater) * std::sqrt(2.0);
+  for (double slack = 1e-2; slack > 5e-9; slack /= 10) {
+    SCOPED_TRACE(slack);
+    const Surface s = compute_surface_cpu(octahedron(fits * (1 + slack)), kWater);
+    EXPECT_EQ(euler_numbers(s), (std::vector<int>{2, 2}));
+    EXPECT_NEAR(s.components[1].area, sphere_area(kWater), 170 * slack);
+    EXPECT_NEAR(s.components[1].volume, -sphere_volume(kWater), 120 * slack);
+  }
+  EXPECT_EQ(compute_surface_cpu(octahedron(fits * (1 - 1e-8)), kWater).components.size(), 1u);
+}
+
 // A surface that is not closed must never come out: a missing arc is reported, with the atoms it belongs to.
 TEST(Certificate, AMissingArcIsNoticed) {
   const Balls balls = c60();
