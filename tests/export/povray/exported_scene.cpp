@@ -15,8 +15,8 @@ namespace meniscus::testing {
 ExportedScene::ExportedScene(const NamedBalls& molecule, int color_count)
     : molecule_(molecule),
       coloring_(turning_colors(molecule.balls.size(), color_count)),
-      surface_(compute_surface_cpu(molecule.balls, kWater)),
-      tracer_(molecule.balls, kWater) {
+      surface_(compute_surface_cpu(molecule.balls, molecule.probe_radius)),
+      tracer_(molecule.balls, molecule.probe_radius) {
   for (std::size_t a = 0; a < molecule.balls.size(); ++a) colors_.push_back(static_cast<int>(a) % color_count);
 }
 
@@ -46,7 +46,8 @@ BufferDifference ExportedScene::difference(const Camera& camera, int width, int 
     EXPECT_EQ(run.infinite_objects, 0u);
     EXPECT_TRUE(run.warnings.empty()) << run.warnings.front();
   }
-  const BufferDifference d = compare_buffers(buffers, tracer_, molecule_.balls, kWater, colors_, camera, report.origin);
+  const BufferDifference d =
+      compare_buffers(buffers, tracer_, molecule_.balls, molecule_.probe_radius, colors_, camera, report.origin);
   std::cout << molecule_.name << ": " << d.text() << '\n';
   return d;
 }

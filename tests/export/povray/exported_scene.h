@@ -19,7 +19,7 @@ using Mutation = std::function<std::string(const std::string&)>;
 
 class ExportedScene {
  public:
-  /// Atoms get `color_count` colours in turn.
+  /// The surface for the molecule's own probe. Atoms get `color_count` colours in turn.
   explicit ExportedScene(const NamedBalls& molecule, int color_count = 3);
 
   const Surface& surface() const { return surface_; }

@@ -17,7 +17,7 @@ NamedBalls three_atoms();   ///< two fixed probes that do not touch
 NamedBalls wide_arc();      ///< an arc of more than 180°
 NamedBalls cut_probes();    ///< a spindle arc, and two fixed probes that cut each other
 NamedBalls square();        ///< four atoms on one probe
-/// All of them, a random gas and C60 (faces of five and six atoms, a cavity); for the probe kWater.
+/// All of them for the probe kWater, a random gas and C60 (faces of five and six atoms, a cavity).
 std::vector<NamedBalls> patch_molecules();
 
 /// One to three colours in turn: with three, neighbours mostly differ, and some patches have two atoms of one colour.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Exported scenes rendered by POV-Ray, pixel by pixel against the sphere-tracing oracle; every picture they offer.
 #include <cmath>
+#include <set>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -12,13 +14,13 @@ namespace {
 
 constexpr double kAspect = 4.0 / 3.0;
 
-void expect_identical(const BufferDifference& d) {
+void expect_identical(const BufferDifference& d, std::size_t odd_layers = 0) {
   EXPECT_GT(d.surface, d.pixels / 20);
   EXPECT_EQ(d.position, 0u);
   EXPECT_EQ(d.normal, 0u);
   EXPECT_EQ(d.kind, 0u);
   EXPECT_EQ(d.color, 0u);
-  EXPECT_EQ(d.odd_layers, 0u);
+  EXPECT_LE(d.odd_layers, odd_layers);
   EXPECT_LT(d.largest_position_error, 1e-3);
 }
 
@@ -33,6 +35,32 @@ TEST_P(SmallMolecule, EveryPixelAgreesInPerspectiveAndOrthographic) {
 
 INSTANTIATE_TEST_SUITE_P(PovrayExport, SmallMolecule, ::testing::ValuesIn(patch_molecules()),
                          [](const auto& instance) { return instance.param.name; });
+
+// Where something is as large as something else, or another probe rolls. All of degenerate_molecules() agree; these
+// few stand for them, since every start of POV-Ray takes a second.
+TEST(PovrayExport, DegenerateMoleculesAndOtherProbes) {
+  const std::set<std::string> chosen{"two, circle radius equal to the probe's",
+                                     "two, SAS spheres overlap by 1e-7",
+                                     "coincident",
+                                     "triangle, probe just fits",
+                                     "octahedron, centre just touched",
+                                     "lattice 3x3x3 with cavities",
+                                     "square, large probe",
+                                     "cube, small probe",
+                                     "lattice 3x3x3, vdW"};
+  std::size_t tried = 0;
+  for (const NamedBalls& m : degenerate_molecules()) {
+    if (!chosen.contains(m.name)) continue;
+    SCOPED_TRACE(m.name);
+    ++tried;
+    const ExportedScene scene(m);
+    // Between vdW spheres a ray may leave one and enter the next within POV-Ray's smallest step (1e-4): the second
+    // crossing is lost to it, however exact the text.
+    const Camera camera = oblique_camera(scene.surface(), Projection::perspective, kAspect);
+    expect_identical(scene.difference(camera, 160, 120), m.probe_radius == 0.0 ? 4 : 0);
+  }
+  EXPECT_EQ(tried, chosen.size());
+}
 
 TEST(PovrayExport, CavityFromInsideAndTallPicture) {
   const ExportedScene scene({"c60", c60()});
