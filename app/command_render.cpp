@@ -49,6 +49,9 @@ void run(const RenderCommand& command) {
   check_image_path(command.output.path);
   if (command.aovs && !holds_aovs(command.output.path))
     throw UsageError("--aovs needs an .exr output; other formats hold colour only");
+  // Whether the outputs can be written is known before the work begins; these vanish again.
+  OutputFile(command.output.path, command.output.existing());
+  if (!command.save_camera.empty()) OutputFile(command.save_camera, command.output.existing());
   const Molecule molecule = load_molecule(command.molecule);
   const Camera camera = picture_camera(command.picture, molecule.surface());
 

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// `meniscus render` as a user runs it: files, cameras, and what is refused.
+#include <gtest/gtest.h>
+
+#include "tests/support/run_program.h"
+
+namespace meniscus {
+namespace {
+
+using test::ProgramResult;
+using test::TemporaryFolder;
+
+constexpr const char* kTwoAtoms = "0 0 0 1.7\n2.5 0.3 0.1 1.5\n";
+
+class RenderCommand : public ::testing::Test {
+ protected:
+  ProgramResult render(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {"render", molecule_, "--size", "40x30"});
+    return test::run_program(MENISCUS_PROGRAM, arguments);
+  }
+  std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
+
+  TemporaryFolder folder_;
+  std::string molecule_ = folder_.file("two.xyzr", kTwoAtoms);
+};
+
+TEST_F(RenderCommand, WritesEveryFormatAndNamesTheDevice) {
+  for (const char* name : {"a.png", "a.tif", "a.exr"}) {
+    const ProgramResult result = render({"-o", path(name)});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(result.out, "");
+    EXPECT_NE(result.err.find("picture on "), std::string::npos) << result.err;
+    EXPECT_GT(test::read_bytes(path(name)).size(), 500u);
+  }
+  EXPECT_EQ(render({"-o", path("b.exr"), "--aovs", "-q"}).err, "");
+  EXPECT_GT(test::read_bytes(path("b.exr")).size(), test::read_bytes(path("a.exr")).size());
+}
+
+TEST_F(RenderCommand, ASavedCameraTakesTheSamePicture) {
+  for (const char* projection : {"perspective", "orthographic"}) {
+    const std::string camera = path(std::string(projection) + ".json");
+    EXPECT_EQ(render({"-o", path("a.png"), "--force", "--projection", projection, "--save-camera", camera}).exit_code, 0);
+    EXPECT_EQ(render({"-o", path("b.png"), "--force", "--camera", camera}).exit_code, 0);
+    EXPECT_EQ(test::read_bytes(path("a.png")), test::read_bytes(path("b.png")));
+  }
+}
+
+TEST_F(RenderCommand, OptionsChangeThePicture) {
+  EXPECT_EQ(render({"-o", path("a.png")}).exit_code, 0);
+  const std::vector<std::vector<std::string>> changes{
+      {"--color", "kind"}, {"--background", "#204060"}, {"--samples", "1"}, {"--probe", "0.5"}};
+  for (const auto& change : changes) {
+    std::vector<std::string> arguments{"-o", path("b.png"), "--force"};
+    arguments.insert(arguments.end(), change.begin(), change.end());
+    EXPECT_EQ(render(arguments).exit_code, 0);
+    EXPECT_NE(test::read_bytes(path("a.png")), test::read_bytes(path("b.png"))) << change[0];
+  }
+}
+
+TEST_F(RenderCommand, KeepsWhatExists) {
+  const std::string existing = folder_.file("a.png", "precious");
+  EXPECT_EQ(render({"-o", existing}).exit_code, 6);
+  EXPECT_EQ(test::read_bytes(existing), "precious");
+  const std::string camera = folder_.file("c.json", "precious");
+  EXPECT_EQ(render({"-o", path("b.png"), "--save-camera", camera}).exit_code, 6);
+  EXPECT_EQ(test::read_bytes(camera), "precious");
+  EXPECT_EQ(folder_.entries(), (std::vector<std::string>{"a.png", "c.json", "two.xyzr"}));
+  EXPECT_EQ(render({"-o", existing, "--force"}).exit_code, 0);
+  EXPECT_NE(test::read_bytes(existing), "precious");
+}
+
+TEST_F(RenderCommand, RefusesWithTheRightExitCode) {
+  const std::string camera = folder_.file("bad.json", "{\"position\":[0,0,0]");
+  const std::vector<std::pair<int, std::vector<std::string>>> cases{
+      {2, {}},
+      {2, {"-o", path("a.png"), "--aovs"}},
+      {2, {"-o", path("a.png"), "--background", "plaid"}},
+      {2, {"-o", path("a.png"), "--samples", "0"}},
+      {2, {"-o", path("a.png"), "--size", "0x5"}},
+      {3, {"-o", path("a.png"), "--camera", camera}},
+      {3, {"-o", path("a.png"), "--camera", path("missing.json")}},
+      {4, {"-o", path("a.png"), "--device", "gpu:77"}},
+      {6, {"-o", path("a.jpg")}},
+      {6, {"-o", path("none/a.png")}}};
+  for (const auto& [code, arguments] : cases) {
+    const ProgramResult result = render(arguments);
+    EXPECT_EQ(result.exit_code, code) << result.err;
+    EXPECT_NE(result.err.find("meniscus: error: "), std::string::npos);
+  }
+  EXPECT_EQ(folder_.entries(), (std::vector<std::string>{"bad.json", "two.xyzr"}));
+}
+
+}  // namespace
+}  // namespace meniscus

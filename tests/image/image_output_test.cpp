@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Picture files read back: channels, alpha, colour space; and what is refused.
+#include "core/render/image_output.h"
+
+#include <cmath>
+#include <filesystem>
+#include <limits>
+
+#include <OpenImageIO/imageio.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "core/base/error.h"
+#include "core/render/color_space.h"
+
+namespace meniscus {
+namespace {
+
+class ImageFile : public ::testing::Test {
+ protected:
+  void SetUp() override { std::filesystem::create_directories(folder_); }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  /// Four pixels: nothing, half covered, full, and brighter than white.
+  static Framebuffer picture() {
+    Framebuffer p;
+    p.size = {2, 2};
+    p.color = {{0, 0, 0, 0}, {0.25f, 0.1f, 0.05f, 0.5f}, {0.5f, 0.2f, 0.1f, 1.0f}, {2.0f, 1.0f, 0.0f, 1.0f}};
+    const float inf = std::numeric_limits<float>::infinity();
+    p.z = {inf, 10.5f, 11.0f, 12.0f};
+    p.normal = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    p.position = {{0, 0, 0}, {1, 2, 3}, {4, 5, 6}, {7, 8, 9}};
+    p.atom = {kNone, 165174, 0, 5};
+    p.kind = {kNone, 0, 1, 2};
+    p.component = {kNone, 0, 0, 3};
+    return p;
+  }
+
+  struct File {
+    OIIO::ImageSpec spec;
+    std::vector<float> values;
+    float at(int pixel, const std::string& channel) const {
+      return values[pixel * spec.nchannels + spec.channelindex(channel)];
+    }
+  };
+  static File read(const std::filesystem::path& path) {
+    OIIO::ImageSpec config;
+    config.attribute("oiio:UnassociatedAlpha", 1);  // as stored
+    auto input = OIIO::ImageInput::open(path.string(), &config);
+    EXPECT_TRUE(input) << OIIO::geterror();
+    File file{input->spec(), std::vector<float>(input->spec().image_pixels() * input->spec().nchannels)};
+    EXPECT_TRUE(input->read_image(0, 0, 0, -1, OIIO::TypeDesc::FLOAT, file.values.data()));
+    return file;
+  }
+
+  std::filesystem::path folder_ =
+      std::filesystem::temp_directory_path() / ("meniscus_images_" + std::to_string(::getpid()));
+};
+
+TEST_F(ImageFile, ExrHoldsEverythingInFloat) {
+  write_image(folder_ / "a.exr", picture(), {});
+  const File file = read(folder_ / "a.exr");
+  ASSERT_EQ(file.spec.nchannels, 14);
+  EXPECT_EQ(file.spec.format, OIIO::TypeDesc::FLOAT);
+  EXPECT_EQ(file.at(1, "R"), 0.25f);
+  EXPECT_EQ(file.at(1, "A"), 0.5f);
+  EXPECT_EQ(file.at(3, "R"), 2.0f);
+  EXPECT_TRUE(std::isinf(file.at(0, "Z")));
+  EXPECT_EQ(file.at(1, "Z"), 10.5f);
+  EXPECT_EQ(file.at(2, "N.y"), 1.0f);
+  EXPECT_EQ(file.at(3, "P.z"), 9.0f);
+  EXPECT_EQ(file.at(0, "atom"), -1.0f);
+  EXPECT_EQ(file.at(1, "atom"), 165174.0f);
+  EXPECT_EQ(file.at(2, "kind"), 1.0f);
+  EXPECT_EQ(file.at(3, "component"), 3.0f);
+}
+
+TEST_F(ImageFile, PngAndTiffAreSrgbWithUnassociatedAlpha) {
+  for (const char* name : {"a.png", "a.tif", "a.TIFF"}) {
+    write_image(folder_ / name, picture(), {});
+    const File file = read(folder_ / name);
+    ASSERT_EQ(file.spec.nchannels, 4) << name;
+    EXPECT_NEAR(file.at(1, "R"), srgb_from_linear(0.5f), 0.003) << name;
+    EXPECT_NEAR(file.at(1, "G"), srgb_from_linear(0.2f), 0.003) << name;
+    EXPECT_NEAR(file.at(1, "A"), 0.5, 0.003) << name;
+    EXPECT_EQ(file.at(0, "A"), 0.0f) << name;
+    EXPECT_EQ(file.at(3, "R"), 1.0f) << name;
+  }
+}
+
+TEST_F(ImageFile, BackgroundIsMixedInLinearLight) {
+  write_image(folder_ / "a.png", picture(), {glm::vec3(1.0f), Existing::refuse});
+  const File file = read(folder_ / "a.png");
+  ASSERT_EQ(file.spec.nchannels, 3);
+  EXPECT_EQ(file.at(0, "R"), 1.0f);
+  EXPECT_NEAR(file.at(1, "R"), srgb_from_linear(0.25f + 0.5f), 0.003);
+}
+
+TEST_F(ImageFile, RefusesWhatItCannotDo) {
+  EXPECT_THROW(write_image(folder_ / "a.jpg", picture(), {}), OutputError);
+  EXPECT_THROW(write_image(folder_ / "png", picture(), {}), OutputError);
+  EXPECT_THROW(write_image(folder_ / "none" / "a.png", picture(), {}), OutputError);
+  write_image(folder_ / "a.png", picture(), {});
+  EXPECT_THROW(write_image(folder_ / "a.png", picture(), {}), OutputError);
+  EXPECT_NO_THROW(write_image(folder_ / "a.png", picture(), {std::nullopt, Existing::replace}));
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_), {}), 1) << "a temporary file was left";
+}
+
+TEST(ColorSpace, RoundTrips) {
+  for (int i = 0; i <= 255; ++i) EXPECT_NEAR(srgb_from_linear(linear_from_srgb(i / 255.0f)), i / 255.0f, 1e-6);
+  EXPECT_NEAR(linear_from_srgb(0.5f), 0.21404f, 1e-5);
+}
+
+}  // namespace
+}  // namespace meniscus
