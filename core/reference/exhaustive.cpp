@@ -16,17 +16,11 @@
 namespace meniscus {
 namespace {
 
-struct Neighbor {
-  double distance_squared;
-  std::uint32_t atom;
-};
-
 // One worker's findings and its reusable lists.
 struct Worker {
   std::vector<RsArc> arcs;
   std::vector<std::uint32_t> lone_atoms;
-  std::vector<Neighbor> neighbors;
-  std::vector<Blocker> blockers;
+  Blockers blockers;
   Contour contour;
   std::size_t pairs = 0;
 };
@@ -35,6 +29,7 @@ class Enumeration {
  public:
   Enumeration(std::span<const Ball> atoms, double probe_radius)
       : atoms_(atoms),
+        probe_radius_(probe_radius),
         weights_(decision_weights(atoms, probe_radius)),
         swallowed_(swallowed_atoms(atoms, probe_radius)),
         largest_radius_(largest_radius(probe_radius)),
@@ -70,8 +65,8 @@ class Enumeration {
   }
 
   void visit_atom(std::uint32_t i, Worker& w) const {
-    list_blockers(i, w);
-    if (w.blockers.empty()) {
+    list_blockers(i, w.blockers);
+    if (w.blockers.size() == 0) {
       w.lone_atoms.push_back(i);
       return;
     }
@@ -79,32 +74,27 @@ class Enumeration {
       const std::uint32_t j = w.blockers[n].label;
       if (j < i) continue;
       ++w.pairs;
-      w.contour.expose(w.blockers[n].center, weights_[i], weights_[j], w.blockers, n);
+      w.contour.expose(w.blockers[n].center, weights_[j], w.blockers, n);
       if (w.contour.whole()) w.arcs.push_back({i, j, kNone, kNone});
       for (const ExposedArc& arc : w.contour.arcs()) w.arcs.push_back({i, j, arc.begin_by, arc.end_by});
     }
   }
 
-  // The balls that overlap ball i, nearest first: near ones cover most, and a covered circle is done with.
-  void list_blockers(std::uint32_t i, Worker& w) const {
-    w.neighbors.clear();
-    w.blockers.clear();
+  // The balls that overlap ball i.
+  void list_blockers(std::uint32_t i, Blockers& blockers) const {
+    blockers.restart(weights_[i]);
     const double radius = std::sqrt(weights_[i]);
     grid_.for_each_near(atoms_[i].center, radius + largest_radius_, [&](std::uint32_t j) {
       if (j == i || swallowed_[j]) return;
       const glm::dvec3 d = atoms_[j].center - atoms_[i].center;
-      const double dd = glm::dot(d, d);
-      const double reach = radius + std::sqrt(weights_[j]) + 1e-12;
-      if (dd < reach * reach) w.neighbors.push_back({dd, j});
+      const double reach = radius + atoms_[j].radius + probe_radius_ + 2e-9;  // not below the sum of the grown radii
+      if (glm::dot(d, d) < reach * reach) blockers.add(d, weights_[j], j);
     });
-    std::sort(w.neighbors.begin(), w.neighbors.end(), [](const Neighbor& a, const Neighbor& b) {
-      return a.distance_squared < b.distance_squared || (a.distance_squared == b.distance_squared && a.atom < b.atom);
-    });
-    for (const Neighbor& n : w.neighbors)
-      w.blockers.push_back({atoms_[n.atom].center - atoms_[i].center, weights_[n.atom], n.atom});
+    blockers.sort();
   }
 
   std::span<const Ball> atoms_;
+  double probe_radius_;
   std::vector<double> weights_;
   std::vector<bool> swallowed_;
   double largest_radius_;

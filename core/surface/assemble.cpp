@@ -59,7 +59,7 @@ Surface assemble_surface(std::span<const Ball> atoms, double probe_radius, const
     const auto stage = stages.stage("primitives");
     list_concave_patches(surface, rolling.probes, cusps);
     build_boundary(surface, rolling.probes, cusps, rs);
-    trim_convex_patches(surface);
+    trim_convex_patches(surface, rs);
   }
   const auto stage = stages.stage("area and volume");
   measure_surface(surface);

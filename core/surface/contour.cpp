@@ -2,143 +2,177 @@
 // Contour build-up of one circle: double with an error bound first, quadruple precision where that leaves doubt.
 #include "core/surface/contour.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "core/surface/quad_geometry.h"
 
 namespace meniscus {
 namespace {
 
-// Cuts what is left of a circle by one covering half-plane that is known to cut or cover it. Returns false when the
-// rounding error bounds cannot exclude another outcome. Works for both precisions: the functions are found by the
-// namespace of their arguments.
-template <typename HalfPlane, typename Arc>
-bool cover(bool& whole, std::vector<Arc>& arcs, std::vector<Arc>& next, const HalfPlane& h, std::uint32_t label) {
-  const auto covered = covered_arc(h);
-  if (whole) {
-    whole = false;
-    arcs.push_back({covered.end, covered.begin, label, label, covered.error, covered.error});
-    return true;
-  }
-  next.clear();
-  bool sure = true;
-  for (Arc arc : arcs) {
-    auto margin = covered.error;
-    const int change = clip_arc(arc.begin, arc.begin_error, arc.end, arc.end_error, h, covered, margin);
-    sure = sure && margin > 0;
-    const Arc before{arc.begin, covered.begin, arc.begin_by, label, arc.begin_error, covered.error};
-    const Arc after{covered.end, arc.end, label, arc.end_by, covered.error, arc.end_error};
-    switch (change) {
-      case geometry::kKeep: next.push_back(arc); break;
-      case geometry::kCutBegin: next.push_back(after); break;
-      case geometry::kCutEnd: next.push_back(before); break;
-      case geometry::kSplit: next.push_back(before); next.push_back(after); break;
-      case geometry::kComplement:
-        next.push_back({covered.end, covered.begin, label, label, covered.error, covered.error});
-        break;
-      default: break;  // kRemove
-    }
-  }
-  arcs.swap(next);
-  return sure;
-}
-
 struct QuadArc {
-  quad_geometry::real2 begin;
-  quad_geometry::real2 end;
+  quad_geometry::real begin;
+  quad_geometry::real end;
   std::uint32_t begin_by;
   std::uint32_t end_by;
-  quad_geometry::real begin_error;
-  quad_geometry::real end_error;
+};
+
+// What is left of a circle while balls cover it, in either precision: the geometry functions are found by the
+// namespace of their arguments.
+template <typename Arc, typename Real>
+struct Remainder {
+  bool whole = true;
+  std::vector<Arc>& arcs;
+  Real error = 0;  // of any end point so far
+  Real roundoff;
+
+  bool gone() const { return !whole && arcs.empty(); }
+
+  // Takes away what a half-plane covers that is known to cut the circle. False when the bounds on the rounding errors
+  // cannot exclude another outcome.
+  template <typename HalfPlane>
+  bool cover(const HalfPlane& h, std::uint32_t label) {
+    const auto covered = covered_arc(h);
+    error = std::max<Real>(error, covered.error);
+    const Arc rest{covered.end, covered.begin, label, label};
+    if (whole) {
+      whole = false;
+      arcs.push_back(rest);
+      return true;
+    }
+    const Real enough = 2 * error + 16 * roundoff;
+    bool sure = true;
+    std::size_t kept = 0;
+    for (std::size_t n = 0, count = arcs.size(); n < count; ++n) {
+      Arc arc = arcs[n];
+      Real margin = 0;
+      const int change = clip_arc(arc.begin, arc.end, covered, margin);
+      sure = sure && margin > enough;
+      if (change == geometry::kRemove) continue;
+      if (change == geometry::kComplement) {
+        arc = rest;
+      } else if (change == geometry::kSplit) {
+        arcs.push_back({covered.end, arc.end, label, arc.end_by});  // at most one arc is split
+        arc.end = covered.begin;
+        arc.end_by = label;
+      } else if (change == geometry::kCutBegin) {
+        arc.begin = covered.end;
+        arc.begin_by = label;
+      } else if (change == geometry::kCutEnd) {
+        arc.end = covered.begin;
+        arc.end_by = label;
+      }
+      arcs[kept++] = arc;
+      if (n + 1 == count && arcs.size() > count) arcs[kept++] = arcs[count];
+    }
+    arcs.resize(kept);
+    return sure;
+  }
 };
 
 quad_geometry::real3 quad(const glm::dvec3& a) { return {a.x, a.y, a.z}; }
 
 }  // namespace
 
-void Contour::expose(const glm::dvec3& d, double w0, double w1, std::span<const Blocker> blockers, std::size_t skip,
+void Blockers::restart(double first_weight) {
+  first_weight_ = first_weight;
+  balls_.clear();
+}
+
+void Blockers::add(const glm::dvec3& center, double weight, std::uint32_t label) {
+  const double square = glm::dot(center, center);
+  balls_.push_back({center, square, (first_weight_ + square - weight) * 0.5, std::sqrt(square), weight, label});
+}
+
+void Blockers::sort() {
+  std::sort(balls_.begin(), balls_.end(), [](const Ball& a, const Ball& b) { return a.square < b.square; });
+}
+
+void Contour::expose(const glm::dvec3& d, double w1, const Blockers& blockers, std::size_t skip,
                      std::span<const BlockedHalf> halves) {
+  const double w0 = blockers.first_weight();
   circle_ = geometry::circle_of_two_spheres(d, w0, w1);
   whole_ = false;
   arcs_.clear();
   const double barely = 1024 * geometry::kUnitRoundoff * w0;
   if (circle_.radius_squared < -barely) return;
   // Where the spheres barely meet, if they do, the sign itself needs the better arithmetic.
-  if (circle_.radius_squared <= barely || !expose_in_double(w0, blockers, skip, halves)) {
+  if (circle_.radius_squared <= barely || !expose_in_double(blockers, skip, halves)) {
     ++doubtful_count_;
-    expose_in_quad(d, w0, w1, blockers, skip, halves);
+    arcs_.clear();
+    expose_in_quad(d, w1, blockers, skip, halves);
   }
 }
 
-bool Contour::expose_in_double(double w0, std::span<const Blocker> blockers, std::size_t skip,
-                               std::span<const BlockedHalf> halves) {
-  whole_ = true;
+bool Contour::expose_in_double(const Blockers& blockers, std::size_t skip, std::span<const BlockedHalf> halves) {
+  Remainder<ExposedArc, double> left{true, arcs_, 0.0, geometry::kUnitRoundoff};
   for (const BlockedHalf& half : halves) {
-    cover(whole_, arcs_, next_, half.half_plane, half.label);
-    if (!whole_ && arcs_.empty()) return true;
+    if (!left.cover(half.half_plane, half.label)) return false;
+    if (left.gone()) break;
   }
   const double inverse_radius = 1.0 / circle_.radius;
-  for (std::size_t n = 0; n < blockers.size(); ++n) {
+  const double w0 = blockers.first_weight();
+  const double noise = 8 * circle_.slackness * geometry::kUnitRoundoff * inverse_radius;
+  for (std::size_t n = 0; n < blockers.size() && !left.gone(); ++n) {
     if (n == skip) continue;
-    const Blocker& b = blockers[n];
-    // Most balls miss the circle or cover all of it; one product decides that without the half-plane.
-    const double qq = glm::dot(b.center, b.center);
+    const Blockers::Ball& b = blockers[n];
+    // Most balls miss the circle or cover all of it; that needs no half-plane.
     const double along = glm::dot(circle_.axis, b.center);
-    const double offset = ((w0 + qq - b.weight) * 0.5 - circle_.height * along) * inverse_radius;
-    const double clear = (qq - along * along) * (1.0 + 1e-9) + 1e-9;
-    if (offset * offset > clear) {
+    const double offset = (b.half_power - circle_.height * along) * inverse_radius;
+    const double beyond = std::abs(offset) - noise * (b.square + w0) * (1 + b.distance * inverse_radius);
+    if (beyond > 0 && beyond * beyond > b.square * (1 + 1e-14) - along * along) {
       if (offset > 0) continue;
-      whole_ = false;
+      left.whole = false;
       arcs_.clear();
-      return true;
+      break;
     }
-    const geometry::HalfPlane h =
-        geometry::covered_half_plane(circle_, w0, b.center, b.weight, geometry::kUnitRoundoff);
+    const geometry::HalfPlane h = geometry::covered_half_plane(circle_, w0, b.center, b.distance, b.weight,
+                                                               geometry::kUnitRoundoff);
     double margin = 0;
     const int meeting = geometry::meet_circle(h, margin);
-    if (margin <= 0) return false;
+    if (!(margin > 0)) return false;
     if (meeting == geometry::kMisses) continue;
     if (meeting == geometry::kCovers) {
-      whole_ = false;
+      left.whole = false;
       arcs_.clear();
-      return true;
+    } else if (!left.cover(h, b.label)) {
+      return false;
     }
-    if (!cover(whole_, arcs_, next_, h, b.label)) return false;
-    if (arcs_.empty()) return true;
   }
+  whole_ = left.whole;
   return true;
 }
 
-void Contour::expose_in_quad(const glm::dvec3& d, double w0, double w1, std::span<const Blocker> blockers,
-                             std::size_t skip, std::span<const BlockedHalf> halves) {
+void Contour::expose_in_quad(const glm::dvec3& d, double w1, const Blockers& blockers, std::size_t skip,
+                             std::span<const BlockedHalf> halves) {
   namespace q = quad_geometry;
   const q::real epsilon = 0x1p-113;
-  whole_ = false;
-  arcs_.clear();
-  // The same frame as in double, so that the half-planes given by the caller mean the same.
+  const double w0 = blockers.first_weight();
   q::Circle circle = q::circle_of_two_spheres(quad(d), w0, w1);
   if (!(circle.radius_squared > 0)) return;
-  std::vector<QuadArc> arcs, next;
-  bool whole = true;
+  std::vector<QuadArc> arcs;
+  Remainder<QuadArc, q::real> left{true, arcs, 0, epsilon};
+  // The frame is the one in double but for rounding, so that the half-planes given by the caller mean the same.
   for (const BlockedHalf& half : halves) {
     const geometry::HalfPlane& h = half.half_plane;
-    const q::HalfPlane exact{{h.normal.x, h.normal.y}, h.offset, h.length_squared, 0};
-    cover(whole, arcs, next, exact, half.label);
+    left.cover(q::HalfPlane{{h.normal.x, h.normal.y}, h.offset, h.length_squared, h.length_bound, 0}, half.label);
+    if (left.gone()) break;
   }
-  for (std::size_t n = 0; n < blockers.size() && (whole || !arcs.empty()); ++n) {
+  for (std::size_t n = 0; n < blockers.size() && !left.gone(); ++n) {
     if (n == skip) continue;
-    const q::HalfPlane h = q::covered_half_plane(circle, w0, quad(blockers[n].center), blockers[n].weight, epsilon);
+    const Blockers::Ball& b = blockers[n];
+    const q::HalfPlane h = q::covered_half_plane(circle, w0, quad(b.center), b.distance, b.weight, epsilon);
     q::real margin = 0;
     const int meeting = q::meet_circle(h, margin);
     if (meeting == q::kMisses) continue;
     if (meeting == q::kCovers) return;
-    cover(whole, arcs, next, h, blockers[n].label);
+    left.cover(h, b.label);
   }
-  whole_ = whole;
-  const double radius = static_cast<double>(circle.radius);
-  circle_.radius = radius;
-  circle_.radius_squared = radius * radius;
+  whole_ = left.whole;
+  circle_.radius = static_cast<double>(circle.radius);
+  circle_.radius_squared = circle_.radius * circle_.radius;
   for (const QuadArc& a : arcs)
-    arcs_.push_back({{static_cast<double>(a.begin.x), static_cast<double>(a.begin.y)},
-                     {static_cast<double>(a.end.x), static_cast<double>(a.end.y)}, a.begin_by, a.end_by, 0.0, 0.0});
+    arcs_.push_back({static_cast<double>(a.begin), static_cast<double>(a.end), a.begin_by, a.end_by});
 }
 
 }  // namespace meniscus

@@ -69,7 +69,7 @@ struct AxisPoint {
 struct PairTracer::Scratch {
   std::vector<Pencil> pencils;
   std::vector<AxisPoint> axis_points;
-  std::vector<Blocker> others;
+  Blockers others;
   std::vector<BlockedHalf> halves;
   Contour contour;
 };
@@ -120,7 +120,7 @@ bool PairTracer::set_halves(std::uint32_t s, std::uint32_t t) {
       scratch_->halves.push_back(half);
       const geometry::CoveredArc past = geometry::covered_arc(half.half_plane);
       for (const double sign : {1.0, -1.0}) {
-        const glm::dvec2 e = sign > 0 ? past.end : past.begin;
+        const glm::dvec2 e = geometry::direction_at(sign > 0 ? past.end : past.begin);
         scratch_->axis_points.push_back({circle.axis * circle.height + circle.radius * (e.x * circle.u + e.y * circle.v),
                                          sign * (e.x * circle.v - e.y * circle.u)});
       }
@@ -133,12 +133,13 @@ bool PairTracer::set_halves(std::uint32_t s, std::uint32_t t) {
 // Another probe may pass through an axis cusp but cannot hold it (theorem 1.2): whatever rounding says, the pair's circle
 // begins there. Lists the others that may cover some of it; one that takes over right at the cusp finds the circle
 // beginning a hair before.
-void PairTracer::list_others(std::uint32_t t, std::span<const Blocker> near) {
+void PairTracer::list_others(std::uint32_t s, std::uint32_t t, const Blockers& near) {
   Scratch& scratch = *scratch_;
-  scratch.others.clear();
+  scratch.others.restart(problem_->weights[s]);
   const double squared = problem_->probe_radius * problem_->probe_radius;
   bool taken_over = false;
-  for (const Blocker& b : near) {
+  for (std::size_t n = 0; n < near.size(); ++n) {
+    const Blockers::Ball& b = near[n];
     if (b.label == t || on_pencil(b.label)) continue;
     bool beyond_axis = false;
     for (const AxisPoint& axis : scratch.axis_points) {
@@ -146,24 +147,22 @@ void PairTracer::list_others(std::uint32_t t, std::span<const Blocker> near) {
       if (std::abs(glm::dot(d, d) - squared) > kThroughCusp * std::max(1.0, problem_->probe_radius)) continue;
       (glm::dot(d, axis.onwards) < 0 ? taken_over : beyond_axis) = true;
     }
-    if (!beyond_axis) scratch.others.push_back(b);
+    if (!beyond_axis) scratch.others.add(b.center, b.weight, b.label);
   }
   if (taken_over)
     for (BlockedHalf& half : scratch.halves) half.half_plane.offset += kHair;
 }
 
-void PairTracer::trace(std::uint32_t s, std::uint32_t t, std::span<const Blocker> near,
-                       std::vector<TracedArc>& found) {
+void PairTracer::trace(std::uint32_t s, std::uint32_t t, const Blockers& near, std::vector<TracedArc>& found) {
   if (!find_pencils(s, t) || !set_halves(s, t)) return;
-  list_others(t, near);
+  list_others(s, t, near);
   Scratch& scratch = *scratch_;
-  scratch.contour.expose(problem_->positions[t] - problem_->positions[s], problem_->weights[s], problem_->weights[t],
-                         scratch.others, scratch.others.size(), scratch.halves);
-  const geometry::Circle& circle = scratch.contour.circle();
-  const auto direction = [&](const glm::dvec2& e) { return e.x * circle.u + e.y * circle.v; };
-  if (scratch.contour.whole()) found.push_back({{s, t}, {kNone, kNone}, circle.u, circle.u});
-  for (const ExposedArc& arc : scratch.contour.arcs())
-    found.push_back({{s, t}, {arc.begin_by, arc.end_by}, direction(arc.begin), direction(arc.end)});
+  scratch.contour.expose(problem_->positions[t] - problem_->positions[s], problem_->weights[t], scratch.others,
+                         scratch.others.size(), scratch.halves);
+  const Contour& contour = scratch.contour;
+  if (contour.whole()) found.push_back({{s, t}, {kNone, kNone}, contour.circle().u, contour.circle().u});
+  for (const ExposedArc& arc : contour.arcs())
+    found.push_back({{s, t}, {arc.begin_by, arc.end_by}, contour.direction(arc.begin), contour.direction(arc.end)});
 }
 
 namespace {
@@ -195,7 +194,7 @@ class CpuCuspTracer final : public CuspTracer {
     struct Worker {
       explicit Worker(const CuspProblem& p) : tracer(p) {}
       PairTracer tracer;
-      std::vector<Blocker> near;
+      Blockers near;
       std::uint32_t near_whom = kNone;
       std::vector<TracedArc> found;
     };
@@ -216,15 +215,12 @@ class CpuCuspTracer final : public CuspTracer {
   }
 
  private:
-  void list_near(const CuspProblem& problem, std::uint32_t s, std::vector<Blocker>& near) const {
-    near.clear();
+  void list_near(const CuspProblem& problem, std::uint32_t s, Blockers& near) const {
+    near.restart(problem.weights[s]);
     grid_->for_each_near(problem.positions[s], 2 * problem.probe_radius + 4e-9, [&](std::uint32_t u) {
-      if (u != s) near.push_back({problem.positions[u] - problem.positions[s], problem.weights[u], u});
+      if (u != s) near.add(problem.positions[u] - problem.positions[s], problem.weights[u], u);
     });
-    std::sort(near.begin(), near.end(), [](const Blocker& a, const Blocker& b) {
-      const double aa = glm::dot(a.center, a.center), bb = glm::dot(b.center, b.center);
-      return aa < bb || (aa == bb && a.label < b.label);
-    });
+    near.sort();
   }
 
   std::unique_ptr<BallGrid> grid_;

@@ -84,24 +84,23 @@ bool reaches(const CuspProblem& problem, std::uint32_t s, const glm::dvec3& othe
 /// Pairs s < t that are in each other's lists.
 std::vector<std::array<std::uint32_t, 2>> mutual_pairs(const CutLists& cuts);
 
-class Contour;
-struct Blocker;
+class Blockers;
 
-/// Traces one pair on the host: `near` holds all probes closer than 2p to s, relative to it. Appends to `found`.
+/// Traces pairs on the host: `near` holds all probes closer than 2p to s, relative to it. Appends to `found`.
 class PairTracer {
  public:
   explicit PairTracer(const CuspProblem& problem);
   ~PairTracer();
   PairTracer(PairTracer&&) noexcept;
 
-  void trace(std::uint32_t s, std::uint32_t t, std::span<const Blocker> near, std::vector<TracedArc>& found);
+  void trace(std::uint32_t s, std::uint32_t t, const Blockers& near, std::vector<TracedArc>& found);
 
  private:
   struct Scratch;
   bool find_pencils(std::uint32_t s, std::uint32_t t);
   bool on_pencil(std::uint32_t u) const;
   bool set_halves(std::uint32_t s, std::uint32_t t);
-  void list_others(std::uint32_t t, std::span<const Blocker> near);
+  void list_others(std::uint32_t s, std::uint32_t t, const Blockers& near);
 
   const CuspProblem* problem_;
   std::unique_ptr<Scratch> scratch_;

@@ -162,10 +162,9 @@ class Placement {
     const q::real w = decision_weight(extended(arc.i), arc.i);
     const q::Circle circle = q::circle_of_two_spheres(local(arc.j), w, decision_weight(extended(arc.j), arc.j));
     const auto covered = [&](std::uint32_t k) {
-      return q::covered_arc(q::covered_half_plane(circle, w, local(k), decision_weight(extended(k), k), 0));
+      return q::covered_arc(q::covered_half_plane(circle, w, local(k), 0, decision_weight(extended(k), k), 0));
     };
-    const q::real2 begin = covered(arc.begin_by).end, end = covered(arc.end_by).begin;
-    return begin.x * end.y - begin.y * end.x > 0 && q::dot(begin, end) > 0;
+    return q::pseudo_sweep(covered(arc.begin_by).end, covered(arc.end_by).begin) < 1;
   }
 
   bool flat(std::uint32_t triple) const { return height_[triple] * height_[triple] < 2 * kFlat; }

@@ -145,9 +145,10 @@ class GpuCuspTracer final : public CuspTracer {
                             const std::vector<std::uint32_t>& first, const std::vector<std::uint32_t>& labels,
                             PairTracer& tracer, std::vector<TracedArc>& found) {
     const std::uint32_t s = circle.x, entry = s - batch.first;
-    std::vector<Blocker> near;
+    Blockers near;
+    near.restart(problem.weights[s]);
     for (std::uint32_t n = first[entry]; n < first[entry + 1]; ++n)
-      near.push_back({problem.positions[labels[n]] - problem.positions[s], problem.weights[labels[n]], labels[n]});
+      near.add(problem.positions[labels[n]] - problem.positions[s], problem.weights[labels[n]], labels[n]);
     tracer.trace(s, labels[circle.y], near, found);
   }
 

@@ -120,14 +120,13 @@ void SurfacePipeline::decide_on_host(const BallBatch& batch, std::span<const glm
   const auto first = neighbors_.first.download<std::uint32_t>(batch.count + 1);
   const auto labels = neighbors_.labels.download<std::uint32_t>(batch.neighbor_count);
   Contour contour;
-  std::vector<Blocker> blockers;
+  Blockers blockers;
   for (const glm::uvec2& circle : circles) {
     const std::uint32_t i = circle.x, j = labels[circle.y], entry = i - batch.first;
-    blockers.clear();
+    blockers.restart(weights_[i]);
     for (std::uint32_t n = first[entry]; n < first[entry + 1]; ++n)
-      if (n != circle.y)
-        blockers.push_back({atoms_[labels[n]].center - atoms_[i].center, weights_[labels[n]], labels[n]});
-    contour.expose(atoms_[j].center - atoms_[i].center, weights_[i], weights_[j], blockers, blockers.size());
+      blockers.add(atoms_[labels[n]].center - atoms_[i].center, weights_[labels[n]], labels[n]);
+    contour.expose(atoms_[j].center - atoms_[i].center, weights_[j], blockers, circle.y - first[entry]);
     if (contour.whole()) rs.arcs.push_back({i, j, kNone, kNone});
     for (const ExposedArc& arc : contour.arcs()) rs.arcs.push_back({i, j, arc.begin_by, arc.end_by});
   }

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <compare>
+#include <span>
 
 #include <glm/geometric.hpp>
 #include <tbb/blocked_range.h>
@@ -26,24 +28,31 @@ Plane contact_plane(const Ball& a, const Ball& b, double probe_radius) {
   return {normal, glm::dot(normal, a.center) + height};
 }
 
+// An exposed arc of a contact circle, seen from one of its atoms.
+struct BorderArc {
+  std::uint32_t partner;
+  std::uint32_t begin_by;
+  std::uint32_t end_by;
+  auto operator<=>(const BorderArc&) const = default;
+};
+
 struct Worker {
   std::vector<std::uint32_t> kept;
-  std::vector<Blocker> blockers;
-  std::vector<Blocker> neighbors;
+  Blockers blockers;
+  std::vector<std::uint32_t> neighbors;
   Contour contour;
 };
 
 class ConvexTrimmer {
  public:
-  explicit ConvexTrimmer(Surface& surface)
+  ConvexTrimmer(Surface& surface, const ReducedSurface& rs)
       : s_(surface), largest_(0), weights_(decision_weights(surface.atoms, surface.probe_radius)) {
     for (const Ball& b : s_.atoms) largest_ = std::max(largest_, b.radius + s_.probe_radius + 2e-9);
+    list_arcs(rs);
   }
 
   void run() {
     const BallGrid grid(s_.atoms, largest_);
-    swallowed_ = swallowed_atoms(s_.atoms, s_.probe_radius);
-    index_patches();
     std::vector<std::vector<std::uint32_t>> kept(s_.convex.size());
     tbb::enumerable_thread_specific<Worker> workers;
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, s_.convex.size(), 32), [&](const auto& range) {
@@ -63,73 +72,79 @@ class ConvexTrimmer {
   }
 
  private:
-  // The other atom of every toroidal patch, by atom: the circles that border a convex patch.
-  void index_patches() {
+  // The true borders of every atom's patch, sorted by partner. From the far atom an arc runs the other way.
+  void list_arcs(const ReducedSurface& rs) {
     first_.assign(s_.atoms.size() + 1, 0);
-    for (const ToroidalPatch& t : s_.toroidal)
-      for (std::uint32_t a : t.atom) ++first_[a + 1];
+    for (const RsArc& arc : rs.arcs) {
+      ++first_[arc.i + 1];
+      ++first_[arc.j + 1];
+    }
     for (std::size_t a = 1; a < first_.size(); ++a) first_[a] += first_[a - 1];
-    partner_.resize(first_.back());
+    arcs_.resize(first_.back());
     std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
-    for (const ToroidalPatch& t : s_.toroidal) {
-      partner_[next[t.atom[0]]++] = t.atom[1];
-      partner_[next[t.atom[1]]++] = t.atom[0];
+    for (const RsArc& arc : rs.arcs) {
+      arcs_[next[arc.i]++] = {arc.j, arc.begin_by, arc.end_by};
+      arcs_[next[arc.j]++] = {arc.i, arc.end_by, arc.begin_by};
     }
   }
 
-  Blocker blocker(std::uint32_t a, std::uint32_t b) const {
-    return {s_.atoms[b].center - s_.atoms[a].center, weights_[b], b};
+  std::span<const BorderArc> arcs_of(std::uint32_t a) const {
+    return {arcs_.data() + first_[a], arcs_.data() + first_[a + 1]};
+  }
+
+  void keep(std::uint32_t a, std::uint32_t b, Worker& w) const {
+    w.kept.push_back(b);
+    w.blockers.add(s_.atoms[b].center - s_.atoms[a].center, weights_[b], b);
   }
 
   // While some kept circle shows an arc that another atom covers, that atom's circle is needed as well. When none
   // does, the kept circles bound the patch: a spurious piece would have a spurious border on one of them.
   void choose(std::uint32_t a, const BallGrid& grid, Worker& w) const {
-    w.kept.assign(partner_.begin() + first_[a], partner_.begin() + first_[a + 1]);
-    std::sort(w.kept.begin(), w.kept.end());
-    w.kept.erase(std::unique(w.kept.begin(), w.kept.end()), w.kept.end());
-    w.blockers.clear();
+    w.kept.clear();
+    w.blockers.restart(weights_[a]);
     w.neighbors.clear();
-    for (std::uint32_t b : w.kept) w.blockers.push_back(blocker(a, b));
+    for (const BorderArc& arc : arcs_of(a))
+      if (std::find(w.kept.begin(), w.kept.end(), arc.partner) == w.kept.end()) keep(a, arc.partner, w);
     for (std::size_t n = 0; n < w.blockers.size();) {
-      w.contour.expose(w.blockers[n].center, weights_[a], w.blockers[n].weight, w.blockers, n);
-      std::uint32_t missing = kNone;
-      if (w.contour.whole()) missing = covering(a, {1.0, 0.0}, {0.0, 1.0}, grid, w);
-      for (const ExposedArc& arc : w.contour.arcs()) {
-        if (missing != kNone) break;
-        missing = covering(a, arc.begin, arc.end, grid, w);
-      }
-      if (missing == kNone) {
+      w.contour.expose(w.blockers[n].center, w.blockers[n].weight, w.blockers, n);
+      const std::uint32_t missing = missing_on_circle(a, w.blockers[n].label, grid, w);
+      if (missing == kNone)
         ++n;
-        continue;
-      }
-      w.kept.push_back(missing);
-      w.blockers.push_back(blocker(a, missing));
-      n = 0;
+      else
+        keep(a, missing, w);
     }
   }
 
-  // The atom that covers the middle of the arc from begin to end of the contour's circle deepest, or kNone.
-  std::uint32_t covering(std::uint32_t a, const glm::dvec2& begin, const glm::dvec2& end, const BallGrid& grid,
-                         Worker& w) const {
-    if (w.neighbors.empty()) {
-      grid.for_each_near(s_.atoms[a].center, s_.atoms[a].radius + s_.probe_radius + largest_, [&](std::uint32_t b) {
-        if (b != a && !swallowed_[b]) w.neighbors.push_back(blocker(a, b));
-      });
+  // An atom that covers part of what the contour shows of the circle (a, b), or kNone if the contour is right.
+  std::uint32_t missing_on_circle(std::uint32_t a, std::uint32_t b, const BallGrid& grid, Worker& w) const {
+    const auto arcs = arcs_of(a);
+    const auto known = [&](const BorderArc& arc) { return std::find(arcs.begin(), arcs.end(), arc) != arcs.end(); };
+    if (w.contour.whole()) return known({b, kNone, kNone}) ? kNone : covering(a, 0.0, grid, w);
+    for (const ExposedArc& arc : w.contour.arcs()) {
+      if (known({b, arc.begin_by, arc.end_by})) continue;
+      const double middle = arc.begin + 0.5 * geometry::pseudo_sweep(arc.begin, arc.end);
+      const std::uint32_t missing = covering(a, middle < 4 ? middle : middle - 4, grid, w);
+      if (missing != kNone) return missing;
     }
-    glm::dvec2 middle = begin + end;
-    if (begin.x * end.y - begin.y * end.x < 0) middle = -middle;
-    const double length = glm::length(middle);
-    middle = length > 1e-6 ? middle / length : glm::dvec2(-begin.y, begin.x);
+    return kNone;
+  }
+
+  // The atom that covers the point of the contour's circle at this pseudo-angle deepest, or kNone.
+  std::uint32_t covering(std::uint32_t a, double pseudo, const BallGrid& grid, Worker& w) const {
+    if (w.neighbors.empty())
+      grid.for_each_near(s_.atoms[a].center, s_.atoms[a].radius + s_.probe_radius + largest_, [&](std::uint32_t b) {
+        if (b != a) w.neighbors.push_back(b);
+      });
     const geometry::Circle& c = w.contour.circle();
-    const glm::dvec3 point = c.axis * c.height + c.radius * (middle.x * c.u + middle.y * c.v);
+    const glm::dvec3 point = s_.atoms[a].center + c.axis * c.height + c.radius * w.contour.direction(pseudo);
     std::uint32_t deepest = kNone;
     double depth = 1e-8;  // decision weights blur the surface of a ball by 1e-8 Å² at most
-    for (const Blocker& b : w.neighbors) {
-      const glm::dvec3 d = point - b.center;
-      const double inside = b.weight - glm::dot(d, d);
-      if (inside > depth && std::find(w.kept.begin(), w.kept.end(), b.label) == w.kept.end()) {
+    for (const std::uint32_t b : w.neighbors) {
+      const glm::dvec3 d = point - s_.atoms[b].center;
+      const double inside = weights_[b] - glm::dot(d, d);
+      if (inside > depth && std::find(w.kept.begin(), w.kept.end(), b) == w.kept.end()) {
         depth = inside;
-        deepest = b.label;
+        deepest = b;
       }
     }
     return deepest;
@@ -138,9 +153,8 @@ class ConvexTrimmer {
   Surface& s_;
   double largest_;
   std::vector<double> weights_;
-  std::vector<bool> swallowed_;
   std::vector<std::uint32_t> first_;
-  std::vector<std::uint32_t> partner_;
+  std::vector<BorderArc> arcs_;
 };
 
 }  // namespace
@@ -176,6 +190,6 @@ void list_concave_patches(Surface& surface, const FixedProbes& probes, const Cus
   });
 }
 
-void trim_convex_patches(Surface& surface) { ConvexTrimmer(surface).run(); }
+void trim_convex_patches(Surface& surface, const ReducedSurface& rs) { ConvexTrimmer(surface, rs).run(); }
 
 }  // namespace meniscus

@@ -5,6 +5,7 @@
 #include "core/surface/cusps.h"
 #include "core/surface/fixed_probes.h"
 #include "core/surface/primitives.h"
+#include "core/surface/reduced_surface.h"
 
 namespace meniscus {
 
@@ -14,6 +15,6 @@ void list_concave_patches(Surface& surface, const FixedProbes& probes, const Cus
 
 /// Fills in the planes of the convex patches: the contact circles that border the patch, and further ones until the
 /// bordering circles bound no spurious piece of sphere any more.
-void trim_convex_patches(Surface& surface);
+void trim_convex_patches(Surface& surface, const ReducedSurface& rs);
 
 }  // namespace meniscus

@@ -52,18 +52,22 @@ struct HalfPlane {
   real2 normal;
   real offset;
   real length_squared;  // of normal
+  real length_bound;    // not below the length of normal
   real error;           // bound on |error of dot(normal, (x, y)) - offset| by rounding
 };
 
-// q: centre of the covering ball relative to the circle's first ball; w0: weight of that first ball; wq: of this one;
-// epsilon: unit roundoff of `real`. A point x of the circle has |x|^2 = w0, so |x - q|^2 < wq is linear in x.
-GEOMETRY HalfPlane covered_half_plane(Circle c, real w0, real3 q, real wq, real epsilon) {
+// q: centre of the covering ball relative to the circle's first ball, q_length its length; w0: weight of that first
+// ball; wq: of this one; epsilon: unit roundoff of `real`. A point x of the circle has |x|^2 = w0, so |x - q|^2 < wq
+// is linear in x.
+GEOMETRY HalfPlane covered_half_plane(Circle c, real w0, real3 q, real q_length, real wq, real epsilon) {
   HalfPlane h;
   real qq = dot(q, q);
+  real inverse_radius = real(1) / c.radius;
   h.normal = real2(dot(c.u, q), dot(c.v, q));
-  h.offset = ((w0 + qq - wq) * real(0.5) - c.height * dot(c.axis, q)) / c.radius;
+  h.offset = ((w0 + qq - wq) * real(0.5) - c.height * dot(c.axis, q)) * inverse_radius;
   h.length_squared = dot(h.normal, h.normal);
-  h.error = real(8) * c.slackness * epsilon * (qq + w0) * (c.radius + sqrt(qq)) / (c.radius * c.radius);
+  h.length_bound = q_length;
+  h.error = real(8) * c.slackness * epsilon * (qq + w0) * (real(1) + q_length * inverse_radius) * inverse_radius;
   return h;
 }
 
@@ -74,6 +78,7 @@ GEOMETRY HalfPlane half_plane_past_axis(Circle c, real3 direction, real3 axis_po
   h.normal = real2(-dot(c.u, direction), -dot(c.v, direction));
   h.offset = dot(direction, c.axis * c.height - axis_point) / c.radius;
   h.length_squared = dot(h.normal, h.normal);
+  h.length_bound = real(1);
   h.error = real(0);  // ends at named points: the order around the axis decides, not this arithmetic
   return h;
 }
@@ -86,60 +91,72 @@ const int kCovers = 2;
 // margin: below zero when rounding could change the answer.
 GEOMETRY int meet_circle(HalfPlane h, GEOMETRY_OUT(real) margin) {
   real gap = h.offset * h.offset - h.length_squared;
-  margin = abs(gap) - real(2) * h.error * (abs(h.offset) + sqrt(h.length_squared));
+  margin = abs(gap) - real(2) * h.error * (abs(h.offset) + h.length_bound);
   if (gap < real(0)) return kCuts;
   return h.offset > real(0) ? kMisses : kCovers;
 }
 
-// End points of the covered arc of a cutting half-plane: it runs counter-clockwise from `begin` to `end`.
+// Monotone stand-in for the angle of a vector of any length, counter-clockwise from (1, 0), in [0, 4): one quotient,
+// no trigonometry. Its slope over the angle is at most 1.
+GEOMETRY real pseudo_angle(real2 a) {
+  real r = a.y / (abs(a.x) + abs(a.y));
+  if (a.x < real(0)) return real(2) - r;
+  return r < real(0) ? real(4) + r : r;
+}
+
+// The unit vector with that pseudo-angle.
+GEOMETRY real2 direction_at(real pseudo) {
+  real x = pseudo < real(2) ? real(1) - pseudo : pseudo - real(3);
+  real y = real(1) - abs(x);
+  if (pseudo > real(2)) y = -y;
+  return real2(x, y) * (real(1) / sqrt(x * x + y * y));
+}
+
+// The covered arc of a cutting half-plane in pseudo-angles: it runs counter-clockwise from `begin` to `end`.
 struct CoveredArc {
-  real2 begin;
-  real2 end;
-  real error;  // bound on the error of the end points
+  real begin;
+  real end;
+  real error;  // bound on the error of both
 };
 
 GEOMETRY CoveredArc covered_arc(HalfPlane h) {
   CoveredArc a;
   real s = sqrt(h.length_squared - h.offset * h.offset);
-  real inverse = real(1) / h.length_squared;
-  real2 middle = h.normal * (h.offset * inverse);
-  real2 half_chord = real2(-h.normal.y, h.normal.x) * (s * inverse);
-  a.begin = middle - half_chord;
-  a.end = middle + half_chord;
-  a.error = real(4) * h.error * (real(1) / s + sqrt(inverse));
+  real2 middle = h.normal * h.offset;
+  real2 half_chord = real2(-h.normal.y, h.normal.x) * s;
+  a.begin = pseudo_angle(middle - half_chord);
+  a.end = pseudo_angle(middle + half_chord);
+  a.error = real(8) * h.error / s;  // s is not above the normal's length
   return a;
 }
 
-// Monotone stand-in for the angle from unit vector a to unit vector b, counter-clockwise, in [0, 4).
-GEOMETRY real pseudo_angle(real2 a, real2 b) {
-  real c = dot(a, b);
-  real s = a.x * b.y - a.y * b.x;
-  if (s >= real(0)) return c >= real(0) ? s / (c + s) : real(1) - c / (s - c);
-  return c < real(0) ? real(2) + s / (c + s) : real(3) + c / (c - s);
+// Distance from pseudo-angle a counter-clockwise to b, in [0, 4].
+GEOMETRY real pseudo_sweep(real a, real b) {
+  real d = b - a;
+  return d < real(0) ? d + real(4) : d;
 }
 
-// What remains of an exposed arc (counter-clockwise from a to b) once a cutting ball has covered its share.
+// What remains of an exposed arc (counter-clockwise from begin to end) once a ball has covered its share.
 const int kKeep = 0;
-const int kCutBegin = 1;    // new begin: end of the covered arc
-const int kCutEnd = 2;      // new end: begin of the covered arc
-const int kRemove = 3;
+const int kRemove = 1;
+const int kCutBegin = 2;    // new begin: end of the covered arc
+const int kCutEnd = 3;      // new end: begin of the covered arc
 const int kComplement = 4;  // both ends covered, the middle is not: from the covered arc's end to its begin
 const int kSplit = 5;       // the middle is covered: two arcs
 
-GEOMETRY int clip_arc(real2 a, real a_error, real2 b, real b_error, HalfPlane h, CoveredArc covered,
-                      GEOMETRY_OUT(real) margin) {
-  real length = sqrt(h.length_squared);
-  real fa = dot(h.normal, a) - h.offset;
-  real fb = dot(h.normal, b) - h.offset;
-  margin = min(abs(fa) - (h.error + length * a_error), abs(fb) - (h.error + length * b_error));
-  bool a_in = fa > real(0);
-  bool b_in = fb > real(0);
-  if (a_in && !b_in) return kCutBegin;
-  if (b_in && !a_in) return kCutEnd;
-  real2 p = a_in ? covered.end : covered.begin;
-  bool inside = pseudo_angle(a, p) < pseudo_angle(a, b);
-  if (a_in) return inside ? kComplement : kRemove;
-  return inside ? kSplit : kKeep;
+// margin: how far the decisive end points are apart, less than the errors of both when rounding could change it.
+GEOMETRY int clip_arc(real begin, real end, CoveredArc covered, GEOMETRY_OUT(real) margin) {
+  real arc_end = pseudo_sweep(begin, end);
+  real covered_begin = pseudo_sweep(begin, covered.begin);
+  real covered_end = pseudo_sweep(begin, covered.end);
+  margin = min(min(abs(covered_begin - arc_end), abs(covered_end - arc_end)),
+               min(min(covered_begin, real(4) - covered_begin), min(covered_end, real(4) - covered_end)));
+  if (covered_end < covered_begin) {  // the arc's begin is covered
+    if (covered_end >= arc_end) return kRemove;
+    return covered_begin < arc_end ? kComplement : kCutBegin;
+  }
+  if (covered_begin >= arc_end) return kKeep;
+  return covered_end < arc_end ? kSplit : kCutEnd;
 }
 
 // Point at distance sqrt(w) from three centres a, b, c (given relative to a: 0, b, c), on the side of cross(b, c) if

@@ -4,10 +4,8 @@
 #include "gpu_shaders/geometry/circle.glsl"
 
 struct ExposedArc {
-  real2 begin;
-  real2 end;
-  real begin_error;
-  real end_error;
+  real begin;  // pseudo-angles
+  real end;
   uint begin_by;
   uint end_by;
 };
@@ -19,11 +17,13 @@ ExposedArc exposed_arcs[kArcCapacity];
 uint exposed_count;
 bool exposed_whole;
 bool exposed_doubtful;
+real exposed_error;  // of any end point so far
 
 void begin_contour() {
   exposed_count = 0u;
   exposed_whole = true;
   exposed_doubtful = false;
+  exposed_error = real(0);
 }
 
 void cover_everything() {
@@ -36,7 +36,8 @@ bool contour_ended() { return exposed_doubtful || (!exposed_whole && exposed_cou
 // Takes away what a cutting half-plane covers.
 void cover(HalfPlane h, uint label) {
   CoveredArc covered = covered_arc(h);
-  ExposedArc rest = ExposedArc(covered.end, covered.begin, covered.error, covered.error, label, label);
+  exposed_error = max(exposed_error, covered.error);
+  ExposedArc rest = ExposedArc(covered.end, covered.begin, label, label);
   if (exposed_whole) {
     exposed_whole = false;
     exposed_arcs[0] = rest;
@@ -50,25 +51,22 @@ void cover(HalfPlane h, uint label) {
   for (uint n = 0u; n < exposed_count; ++n) {
     ExposedArc arc = exposed_arcs[n];
     real margin;
-    int change = clip_arc(arc.begin, arc.begin_error, arc.end, arc.end_error, h, covered, margin);
-    if (!(margin > real(0))) exposed_doubtful = true;
+    int change = clip_arc(arc.begin, arc.end, covered, margin);
+    if (!(margin > real(2) * exposed_error + real(16) * kUnitRoundoff)) exposed_doubtful = true;
     if (change == kRemove) continue;
     if (change == kComplement) arc = rest;
     if (change == kSplit) {
       split = true;
       second = arc;
       second.begin = covered.end;
-      second.begin_error = covered.error;
       second.begin_by = label;
     }
     if (change == kCutBegin) {
       arc.begin = covered.end;
-      arc.begin_error = covered.error;
       arc.begin_by = label;
     }
     if (change == kCutEnd || change == kSplit) {
       arc.end = covered.begin;
-      arc.end_error = covered.error;
       arc.end_by = label;
     }
     exposed_arcs[kept++] = arc;
@@ -91,7 +89,7 @@ void block(Circle c, real w0, real3 q, real wq, uint label) {
     if (offset < real(0)) cover_everything();
     return;
   }
-  HalfPlane h = covered_half_plane(c, w0, q, wq, kUnitRoundoff);
+  HalfPlane h = covered_half_plane(c, w0, q, sqrt(qq), wq, kUnitRoundoff);
   real margin;
   int meeting = meet_circle(h, margin);
   if (!(margin > real(0))) exposed_doubtful = true;

@@ -115,6 +115,8 @@ void main() {
   if (exposed_whole) append(s, t, kNone, kNone, c.u, c.u);
   for (uint n = 0u; n < exposed_count; ++n) {
     ExposedArc arc = exposed_arcs[n];
-    append(s, t, arc.begin_by, arc.end_by, arc.begin.x * c.u + arc.begin.y * c.v, arc.end.x * c.u + arc.end.y * c.v);
+    vec2 begin = direction_at(arc.begin);
+    vec2 end = direction_at(arc.end);
+    append(s, t, arc.begin_by, arc.end_by, begin.x * c.u + begin.y * c.v, end.x * c.u + end.y * c.v);
   }
 }
