@@ -6,6 +6,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -33,7 +34,10 @@ struct DoublePrecision {
   static constexpr real kRoundoff = geometry::kUnitRoundoff;
   static geometry::real3 vector(const glm::dvec3& a) { return a; }
   static Circle circle(const glm::dvec3& d, double w0, double w1) { return geometry::circle_of_two_spheres(d, w0, w1); }
-  static real angle(real2 a, real2 b) { return geometry::pseudo_angle(a, b); }
+  static real sweep(real a, real b) { return geometry::pseudo_sweep(a, b); }
+  static real pseudo(real2 a) { return geometry::pseudo_angle(a); }
+  static real2 direction(real a) { return geometry::direction_at(a); }
+  static real root(real a) { return std::sqrt(a); }
 };
 
 struct QuadPrecision {
@@ -48,7 +52,10 @@ struct QuadPrecision {
   static Circle circle(const glm::dvec3& d, double w0, double w1) {
     return quad_geometry::circle_of_two_spheres(vector(d), w0, w1);
   }
-  static real angle(real2 a, real2 b) { return quad_geometry::pseudo_angle(a, b); }
+  static real sweep(real a, real b) { return quad_geometry::pseudo_sweep(a, b); }
+  static real pseudo(real2 a) { return quad_geometry::pseudo_angle(a); }
+  static real2 direction(real a) { return quad_geometry::direction_at(a); }
+  static real root(real a) { return quad_geometry::sqrt(a); }
 };
 
 /// In quadruple precision every answer counts; in double, only while certain() says so. Reused from circle to circle.
@@ -91,19 +98,19 @@ class RollingCircle {
   std::uint32_t first_from(const glm::dvec3& point) {
     const auto x = Precision::vector(point);
     const real u = dot(circle_.u, x), v = dot(circle_.v, x);
-    return first_from(typename Precision::real2{u, v} * (real(1) / circle_.radius), real(0), true);
+    return first_from(Precision::pseudo(typename Precision::real2{u, v}), real(0), true);
   }
 
   /// Can the probe stand where it meets the n-th met ball: where that ball's covered part begins, or ends?
   bool accessible(std::size_t n, bool at_end) {
     const auto& at = met_[n].covered;
-    const auto x = at_end ? at.end : at.begin;
+    const auto x = Precision::direction(at_end ? at.end : at.begin);
     for (std::size_t m = 0; m < met_.size(); ++m) {
       if (m == n) continue;
       const auto& h = met_[m].half_plane;
       const real depth = dot(h.normal, x) - h.offset;
       const real length = h.length_squared + real(1);  // at least the length of the normal
-      if (!Precision::kCertain && (depth < 0 ? -depth : depth) <= h.error + length * at.error) {
+      if (!Precision::kCertain && (depth < 0 ? -depth : depth) <= h.error + 2 * length * at.error) {
         certain_ = false;
         return false;
       }
@@ -128,7 +135,7 @@ class RollingCircle {
       covered_ = covered_ || offset < 0;
       return;
     }
-    const auto h = covered_half_plane(circle_, real(w0), q, real(neighbor.weight), Precision::kRoundoff);
+    const auto h = covered_half_plane(circle_, real(w0), q, Precision::root(qq), real(neighbor.weight), Precision::kRoundoff);
     real margin = 0;
     const int meeting = meet_circle(h, margin);
     if (!Precision::kCertain && margin <= 0) certain_ = false;
@@ -136,12 +143,12 @@ class RollingCircle {
     if (meeting == geometry::kCuts) met_.push_back({h, covered_arc(h), neighbor.atom});
   }
 
-  std::uint32_t first_from(typename Precision::real2 start, real start_error, bool counter_clockwise) {
+  std::uint32_t first_from(real start, real start_error, bool counter_clockwise) {
     std::uint32_t first = kNone;
     real least = 5, second = 5, error = 0;
     for (const Met& m : met_) {
-      const real angle = counter_clockwise ? Precision::angle(start, m.covered.begin)
-                                           : Precision::angle(m.covered.end, start);
+      const real angle = counter_clockwise ? Precision::sweep(start, m.covered.begin)
+                                           : Precision::sweep(m.covered.end, start);
       // Nearly at the start: just before it or just after?
       const real blur = m.covered.error + start_error + 8 * Precision::kRoundoff;
       if (!Precision::kCertain && (angle <= blur || angle >= 4 - blur)) certain_ = false;
