@@ -45,7 +45,7 @@ void refuse_unsuitable_target(const fs::path& target, Existing existing) {
   if (existing == Existing::refuse) throw OutputError(target.string(), "exists already; use --force to replace it");
 }
 
-/// Temporary files of this process that have not got their final name.
+/// Temporary files of this process that have not got their final name, and folders made for them.
 class Unfinished {
  public:
   void add(const fs::path& path) {
@@ -58,7 +58,8 @@ class Unfinished {
   }
   void unlink_all() {
     const std::lock_guard lock(mutex_);
-    for (const fs::path& path : paths_) ::unlink(path.c_str());
+    // Backwards, so that files go before the folder they are in; a folder that others use meanwhile stays.
+    for (auto path = paths_.rbegin(); path != paths_.rend(); ++path) std::remove(path->c_str());
   }
 
  private:
@@ -147,25 +148,39 @@ void OutputFile::fail(const std::string& what) const { throw OutputError(target_
 OutputFolder::OutputFolder(fs::path folder, Existing existing) : folder_(std::move(folder)), existing_(existing) {
   if (folder_.empty()) throw OutputError("output folder", "the name is empty");
   std::vector<fs::path> missing;
-  for (fs::path path = folder_; !path.empty() && !fs::exists(fs::symlink_status(path)); path = path.parent_path()) {
+  std::error_code error;
+  for (fs::path path = folder_; !path.empty() && fs::symlink_status(path, error).type() == fs::file_type::not_found;
+       path = path.parent_path()) {
     if (path.has_filename()) missing.push_back(path);
   }
   std::reverse(missing.begin(), missing.end());
   for (const fs::path& path : missing) {
-    std::error_code error;
-    if (fs::create_directory(path, error)) created_folders_.push_back(path);
+    if (fs::create_directory(path, error)) {
+      created_folders_.push_back(path);
+      unfinished().add(path);
+    }
     if (error) break;
   }
-  if (!fs::is_directory(folder_)) {
-    for (auto made = created_folders_.rbegin(); made != created_folders_.rend(); ++made) ::rmdir(made->c_str());
-    throw OutputError(folder_.string(), "is no folder and cannot be made one");
+  if (std::error_code ignored; !fs::is_directory(folder_, ignored)) {
+    remove_created_folders();
+    throw OutputError(folder_.string(), "is no folder and cannot be made one" + (error ? ": " + error.message() : ""));
   }
 }
 
 OutputFolder::~OutputFolder() {
   files_.clear();
-  if (committed_) return;
-  for (auto made = created_folders_.rbegin(); made != created_folders_.rend(); ++made) ::rmdir(made->c_str());
+  if (committed_) {
+    for (const fs::path& path : created_folders_) unfinished().remove(path);
+  } else {
+    remove_created_folders();
+  }
+}
+
+void OutputFolder::remove_created_folders() {
+  for (auto made = created_folders_.rbegin(); made != created_folders_.rend(); ++made) {
+    ::rmdir(made->c_str());
+    unfinished().remove(*made);
+  }
 }
 
 OutputFile& OutputFolder::file(const std::string& name) {

@@ -65,6 +65,8 @@ class OutputFolder {
   void commit();
 
  private:
+  void remove_created_folders();
+
   std::filesystem::path folder_;
   Existing existing_;
   std::vector<std::filesystem::path> created_folders_;
@@ -72,7 +74,8 @@ class OutputFolder {
   bool committed_ = false;
 };
 
-/// Deletes the temporary files of all outputs that are not committed yet: for a program that is told to stop.
+/// Deletes the temporary files of all outputs that are not committed yet, and the empty folders made for them: for a
+/// program that is told to stop.
 void remove_unfinished_outputs();
 
 }  // namespace meniscus

@@ -144,6 +144,14 @@ TEST(OutputFolder, AllFilesOrNone) {
   EXPECT_EQ(read_bytes(target / "scene.inc") + read_bytes(target / "scene.pov"), "12");
 }
 
+TEST(OutputFolder, StoppingRemovesItToo) {
+  const TemporaryFolder folder;
+  OutputFolder scene(folder.path() / "a" / "b", Existing::refuse);
+  scene.file("scene.pov").write("2");
+  remove_unfinished_outputs();
+  EXPECT_EQ(folder.entries(), Names{});
+}
+
 TEST(OutputFolder, TakesNewFilesBackWhenALaterOneFails) {
   const TemporaryFolder folder;
   {
@@ -164,6 +172,10 @@ TEST(OutputFolder, TakesPlainNamesOnly) {
   EXPECT_THROW(scene.file(".."), OutputError);
   EXPECT_THROW(scene.file(""), OutputError);
   EXPECT_THROW(OutputFolder(folder.file("plain", ""), Existing::replace), OutputError);
+  EXPECT_THROW(OutputFolder(folder.path() / "plain" / "below", Existing::replace), OutputError);
+  EXPECT_THROW(OutputFolder(folder.path() / std::string(300, 'x'), Existing::replace), OutputError);
+  EXPECT_THROW(OutputFolder("", Existing::replace), OutputError);
+  EXPECT_THROW(OutputFile(folder.path() / std::string(300, 'x'), Existing::replace), OutputError);
 }
 
 }  // namespace
