@@ -75,10 +75,11 @@ void run(const RenderCommand& command) {
 }  // namespace
 
 void add_render(CLI::App& command) {
-  describe(command, "Ray cast a picture of the analytic surface",
-           "  meniscus render 1tii.pdb -o 1tii.png\n"
-           "  meniscus render 1tii.pdb -o 1tii.png --size 3840x2160 --samples 16 --color chain --background white\n"
-           "  meniscus render 1tii.pdb -o 1tii.exr --aovs --camera camera.json   depth, normals, atoms for compositing");
+  describe(
+      command, "Ray cast a picture of the analytic surface",
+      "  meniscus render 1tii.pdb -o 1tii.png\n"
+      "  meniscus render 1tii.pdb -o 1tii.png --size 3840x2160 --samples 16 --color chain --background white\n"
+      "  meniscus render 1tii.pdb -o 1tii.exr --aovs --camera camera.json   depth, normals, atoms for compositing");
   auto state = std::make_shared<RenderCommand>();
   add_molecule_options(command, state->molecule);
   add_picture_options(command, state->picture);

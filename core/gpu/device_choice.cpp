@@ -21,9 +21,12 @@ std::optional<DeviceChoice> parse_device_choice(std::string_view text) {
 
 std::string to_string(const DeviceChoice& choice) {
   switch (choice.kind) {
-    case DeviceChoice::Kind::automatic: return "auto";
-    case DeviceChoice::Kind::gpu: return "gpu:" + std::to_string(choice.index);
-    case DeviceChoice::Kind::software: return "software";
+    case DeviceChoice::Kind::automatic:
+      return "auto";
+    case DeviceChoice::Kind::gpu:
+      return "gpu:" + std::to_string(choice.index);
+    case DeviceChoice::Kind::software:
+      return "software";
   }
   return {};
 }

@@ -104,10 +104,12 @@ bool EglContext::try_device(const GlDevice& device, std::string& why_not) {
   EGLint config_count = 0;
   // Surfaceless: any config with OpenGL does, and none is needed where EGL_KHR_no_config_context is offered.
   if (!eglChooseConfig(display, config_wish.data(), &config, 1, &config_count) || config_count == 0) config = nullptr;
-  const std::array<EGLint, 7> wish{EGL_CONTEXT_MAJOR_VERSION, 4, EGL_CONTEXT_MINOR_VERSION, 5,
-                                   EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
+  const std::array<EGLint, 7> wish{
+      EGL_CONTEXT_MAJOR_VERSION,           4,       EGL_CONTEXT_MINOR_VERSION, 5, EGL_CONTEXT_OPENGL_PROFILE_MASK,
+      EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
   context = eglCreateContext(display, config, EGL_NO_CONTEXT, wish.data());
-  if (context == EGL_NO_CONTEXT) return why_not = fmt::format("no GL 4.5 core (EGL error 0x{:x})", eglGetError()), false;
+  if (context == EGL_NO_CONTEXT)
+    return why_not = fmt::format("no GL 4.5 core (EGL error 0x{:x})", eglGetError()), false;
   if (!adopt_context(display, context, why_not)) {
     eglDestroyContext(display, context);
     return false;

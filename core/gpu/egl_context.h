@@ -14,7 +14,7 @@ struct GlDevice {
   int egl_index = 0;  ///< place in EGL's own list
   bool software = false;
   int gpu_index = -1;  ///< the N of "gpu:N"; -1 for software devices
-  std::string name;  ///< driver file, or EGL's extension words; only for people to read
+  std::string name;    ///< driver file, or EGL's extension words; only for people to read
 };
 
 /// All devices that EGL_EXT_device_enumeration offers. Throws GpuError when EGL cannot enumerate devices.

@@ -9,8 +9,8 @@
 
 namespace meniscus {
 
-/// Lasts as long as the stage. The GPU is idle at both ends, so the host's clock is right: GL's own timer queries stay at
-/// zero for compute work on llvmpipe (Mesa 22.3). Costs one round trip a stage. Needs a current context.
+/// Lasts as long as the stage. The GPU is idle at both ends, so the host's clock is right: GL's own timer queries stay
+/// at zero for compute work on llvmpipe (Mesa 22.3). Costs one round trip a stage. Needs a current context.
 class GpuStage {
  public:
   GpuStage(StageClock& clock, const std::string& name);

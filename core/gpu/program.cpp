@@ -62,7 +62,9 @@ Program::~Program() { glDeleteProgram(name_); }
 
 int Program::location(const char* uniform) const { return glGetUniformLocation(name_, uniform); }
 
-void Program::set(const char* uniform, std::int32_t value) const { glProgramUniform1i(name_, location(uniform), value); }
+void Program::set(const char* uniform, std::int32_t value) const {
+  glProgramUniform1i(name_, location(uniform), value);
+}
 void Program::set(const char* uniform, std::uint32_t value) const {
   glProgramUniform1ui(name_, location(uniform), value);
 }

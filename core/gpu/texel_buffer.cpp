@@ -19,7 +19,8 @@ void TexelBuffer::upload_bytes(std::span<const std::byte> bytes) {
   glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &limit);
   const std::size_t texel_bytes = format_ == TexelFormat::uint1 ? 4 : 16;
   if (bytes.size() / texel_bytes > static_cast<std::size_t>(limit))
-    throw CapacityError(fmt::format("{} texels are needed; this driver's limit is {}", bytes.size() / texel_bytes, limit));
+    throw CapacityError(
+        fmt::format("{} texels are needed; this driver's limit is {}", bytes.size() / texel_bytes, limit));
   buffer_.upload(bytes);
   // Made anew each time: the buffer may have moved, and its end has.
   if (texture_) glDeleteTextures(1, &texture_);

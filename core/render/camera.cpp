@@ -160,8 +160,8 @@ glm::dvec2 half_extent(const Camera& camera, double aspect) {
 Ray pixel_ray(const Camera& camera, glm::dvec2 size, glm::dvec2 pixel) {
   const ViewBasis basis = view_basis(camera);
   const glm::dvec2 half = half_extent(camera, size.x / size.y);
-  const glm::dvec3 offset = basis.right * (half.x * (2.0 * pixel.x / size.x - 1.0)) +
-                            basis.up * (half.y * (1.0 - 2.0 * pixel.y / size.y));
+  const glm::dvec3 offset =
+      basis.right * (half.x * (2.0 * pixel.x / size.x - 1.0)) + basis.up * (half.y * (1.0 - 2.0 * pixel.y / size.y));
   if (camera.projection == Projection::orthographic) return {camera.position + offset, basis.forward};
   return {camera.position, glm::normalize(basis.forward + offset)};
 }

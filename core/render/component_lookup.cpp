@@ -18,9 +18,12 @@ double squared_length(const glm::dvec3& v) { return glm::dot(v, v); }
 /// First face and face count of a patch.
 std::pair<std::uint32_t, std::uint32_t> faces_of(const Surface& surface, PatchKind kind, std::uint32_t patch) {
   switch (kind) {
-    case PatchKind::convex: return {surface.convex[patch].first_face, surface.convex[patch].face_count};
-    case PatchKind::toroidal: return {surface.toroidal[patch].first_face, surface.toroidal[patch].face_count};
-    case PatchKind::concave: return {surface.concave[patch].first_face, surface.concave[patch].face_count};
+    case PatchKind::convex:
+      return {surface.convex[patch].first_face, surface.convex[patch].face_count};
+    case PatchKind::toroidal:
+      return {surface.toroidal[patch].first_face, surface.toroidal[patch].face_count};
+    case PatchKind::concave:
+      return {surface.concave[patch].first_face, surface.concave[patch].face_count};
   }
   return {0, 0};
 }

@@ -23,9 +23,9 @@ bool holds_aovs(const std::filesystem::path& path);
 void check_image_path(const std::filesystem::path& path);
 
 /// By extension: .png 8 bit, .tif and .tiff 16 bit, both sRGB with unassociated alpha; .exr float, linear, associated
-/// alpha, plus the channels Z, N.x N.y N.z, P.x P.y P.z, atom, kind, component when the picture has them (atom, kind and
-/// component are -1 where nothing is hit; Z is +inf). An opaque background leaves no alpha in PNG and TIFF, and alpha 1
-/// in EXR. Throws OutputError.
+/// alpha, plus the channels Z, N.x N.y N.z, P.x P.y P.z, atom, kind, component when the picture has them (atom, kind
+/// and component are -1 where nothing is hit; Z is +inf). An opaque background leaves no alpha in PNG and TIFF, and
+/// alpha 1 in EXR. Throws OutputError.
 void write_image(const std::filesystem::path& path, const Framebuffer& picture, const ImageSettings& settings);
 
 }  // namespace meniscus

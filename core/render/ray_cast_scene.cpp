@@ -104,16 +104,17 @@ class Packer {
       contact_z[i] = height[i] * (p / extended[i]);
       contact_rho[i] = patch.radius * (ball.radius / extended[i]);
     }
-    const double clip_z = 0.5 * (contact_z[0] + contact_z[1]) +
-                          0.5 * (contact_rho[1] - contact_rho[0]) * (contact_rho[1] + contact_rho[0]) /
-                              (contact_z[1] - contact_z[0]);
+    const double clip_z = 0.5 * (contact_z[0] + contact_z[1]) + 0.5 * (contact_rho[1] - contact_rho[0]) *
+                                                                    (contact_rho[1] + contact_rho[0]) /
+                                                                    (contact_z[1] - contact_z[0]);
     const double clip_radius = std::hypot(contact_rho[0], contact_z[0] - clip_z);
     const glm::dvec3 y_axis = glm::cross(patch.axis, patch.start);
 
     // In cylinder coordinates the patch lies in a box; the farthest point from the centre is one of its corners.
     const double rho_low = std::max(patch.radius - p, 0.0), rho_high = std::max(contact_rho[0], contact_rho[1]);
     const double half_sweep = std::min(0.5 * patch.sweep, std::numbers::pi);
-    const double rho_mid = half_sweep < 0.5 * std::numbers::pi ? 0.5 * (rho_low + rho_high) * std::cos(half_sweep) : 0.0;
+    const double rho_mid =
+        half_sweep < 0.5 * std::numbers::pi ? 0.5 * (rho_low + rho_high) * std::cos(half_sweep) : 0.0;
     const double z_mid = 0.5 * (contact_z[0] + contact_z[1]);
     double radius_squared = 0.0;
     for (const double rho : {rho_low, rho_high})

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A surface packed for the ray caster: each patch as one primitive with a tight bound, in single precision around a pivot.
+// A surface packed for the ray caster: each patch as one primitive with a tight bound, in single precision around a
+// pivot.
 #pragma once
 
 #include <cstdint>
@@ -36,7 +37,8 @@ struct PictureFrame {
 /// Throws nothing; the camera must be valid.
 PictureFrame make_picture_frame(const Surface& surface, const Camera& camera, glm::ivec2 size);
 
-/// What the kernel reads. Primitives are sorted by `nearest`, then by kind and index; those behind the camera are left out.
+/// What the kernel reads. Primitives are sorted by `nearest`, then by kind and index; those behind the camera are left
+/// out.
 struct RayCastScene {
   std::vector<ray_cast::Primitive> primitives;
   std::vector<glm::vec4> rows;
@@ -47,7 +49,7 @@ RayCastScene pack_scene(const Surface& surface, const PictureFrame& frame);
 
 /// For each tile of 16 x 16 pixels of one block of the picture: which primitives may show in it, nearest first.
 struct TileLists {
-  glm::ivec2 tiles{0};                       ///< columns, rows
+  glm::ivec2 tiles{0};                     ///< columns, rows
   std::vector<std::uint32_t> first_entry;  ///< one more than tiles
   std::vector<std::uint32_t> entries;      ///< indices of primitives, ascending within a tile
 };

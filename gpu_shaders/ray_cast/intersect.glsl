@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Nearest points of one primitive on the four rays of an invocation.
 //
-// Four rays share each fetch of a primitive's rows: on software GL fetching costs more than all arithmetic. Both sides of
-// a patch count, because a camera may stand inside the solid. Each ray is moved to its closest approach first: there
-// the numbers are as small as the primitive, and single precision is good to about 1e-6 Å.
+// Four rays share each fetch of a primitive's rows: on software GL fetching costs more than all arithmetic. Both sides
+// of a patch count, because a camera may stand inside the solid. Each ray is moved to its closest approach first:
+// there the numbers are as small as the primitive, and single precision is good to about 1e-6 Å.
 
 struct Rays {
   vec3 p[4];  // on the plane through the pivot
@@ -16,8 +16,8 @@ struct Nearest {
   uvec4 primitive;
 };
 
-// True if no point p + t*d with t < high of any ray within `spread` (Å, at the pivot, growing as the rays spread) of this
-// one is in the sphere. This is where most candidates end.
+// True if no point p + t*d with t < high of any ray within `spread` (Å, at the pivot, growing as the rays spread) of
+// this one is in the sphere. This is where most candidates end.
 bool misses_bound(vec4 bound, vec3 p, vec3 d, float eye_t, float spread, float high) {
   vec3 to_bound = p - bound.xyz;
   float bound_t = -dot(to_bound, d);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Ray casts one sample of each pixel of a block: a group is a tile of 16 x 16 pixels, an invocation 2 x 2 of them.
 //
-// The host gives each tile the primitives that may show in it, sorted by their nearest distance; a ray stops at the first
-// one that begins behind its hit. The first sample goes through the pixel's centre and writes the exact point too.
+// The host gives each tile the primitives that may show in it, sorted by their nearest distance; rays stop at the
+// first one that begins behind their hits. The first sample goes through the pixel's centre and writes the exact point.
 #version 450 core
 layout(local_size_x = 8, local_size_y = 8) in;
 

@@ -39,8 +39,8 @@ SurfacePoint surface_point(Primitive primitive, vec3 p) {
   return point;
 }
 
-// Key light from the upper left behind the camera, a dim fill from the right, a sky that is brighter above, and a little
-// sheen. All directions are in the camera's axes (x right, y up, z towards the camera); colours are linear.
+// Key light from the upper left behind the camera, a dim fill from the right, a sky that is brighter above, and a
+// little sheen. All directions are in the camera's axes (x right, y up, z towards the camera); colours are linear.
 vec3 studio_light(vec3 albedo, vec3 n, vec3 to_camera) {
   const vec3 key = normalize(vec3(-0.45, 0.65, 0.75));
   const vec3 fill = normalize(vec3(0.85, -0.05, 0.45));

@@ -39,7 +39,8 @@ TEST_F(RenderCommand, WritesEveryFormatAndNamesTheDevice) {
 TEST_F(RenderCommand, ASavedCameraTakesTheSamePicture) {
   for (const char* projection : {"perspective", "orthographic"}) {
     const std::string camera = path(std::string(projection) + ".json");
-    EXPECT_EQ(render({"-o", path("a.png"), "--force", "--projection", projection, "--save-camera", camera}).exit_code, 0);
+    EXPECT_EQ(render({"-o", path("a.png"), "--force", "--projection", projection, "--save-camera", camera}).exit_code,
+              0);
     EXPECT_EQ(render({"-o", path("b.png"), "--force", "--camera", camera}).exit_code, 0);
     EXPECT_EQ(test::read_bytes(path("a.png")), test::read_bytes(path("b.png")));
   }

@@ -76,7 +76,8 @@ TEST_F(GpuCore, BuffersReturnWhatTheyWereGiven) {
 
 TEST_F(GpuCore, DispatchFoldsManyGroups) {
   const Program program("gpu_shaders/test_support/scale.comp", kFactor3);
-  for (const auto& [count, longest_row] : {std::pair{1u, 0u}, {1000u, 0u}, {1000u, 1u}, {100000u, 100u}, {5000000u, 0u}}) {
+  for (const auto& [count, longest_row] :
+       {std::pair{1u, 0u}, {1000u, 0u}, {1000u, 1u}, {100000u, 100u}, {5000000u, 0u}}) {
     Buffer words(count * 4), surplus(4);
     words.fill(0);
     surplus.fill(0);

@@ -60,7 +60,9 @@ TEST(Golden, TwoAtomsSpindle) {
   expect_golden("two_atoms_spindle", render(testing::two_atoms(5.2, 1.7, 1.3), true, Projection::orthographic));
 }
 
-TEST(Golden, Lattice) { expect_golden("lattice", render(testing::lattice(3, 2, 2, 4.0), false, Projection::perspective)); }
+TEST(Golden, Lattice) {
+  expect_golden("lattice", render(testing::lattice(3, 2, 2, 4.0), false, Projection::perspective));
+}
 
 TEST(Golden, Ubiquitin) { expect_golden("ubiquitin", render(testing::ubiquitin(), true, Projection::perspective)); }
 

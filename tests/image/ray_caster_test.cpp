@@ -26,7 +26,7 @@ using testing::Balls;
 using Depth = std::function<std::optional<double>(const Ray&)>;
 
 constexpr double kDepthTolerance = 1e-3;  // Å
-constexpr double kDisplacement = 2e-5;  // Å: at a silhouette the depth may be that of a ray this far aside
+constexpr double kDisplacement = 2e-5;    // Å: at a silhouette the depth may be that of a ray this far aside
 
 struct Agreement {
   int hit = 0;        ///< pixels that show the surface
@@ -94,15 +94,21 @@ class RayCasting : public ::testing::Test {
     for (const Projection projection : {Projection::perspective, Projection::orthographic}) {
       const Camera camera = frame_camera(surface, static_cast<double>(size.x) / size.y, projection);
       const Framebuffer picture = cast(surface, camera, size);
-      expect_agreement(picture, camera, [&](const Ray& ray) -> std::optional<double> {
-        const auto hit = tracer.trace(ray.origin, ray.direction);
-        return hit ? std::optional(hit->t) : std::nullopt;
-      }, name + " against the oracle");
+      expect_agreement(
+          picture, camera,
+          [&](const Ray& ray) -> std::optional<double> {
+            const auto hit = tracer.trace(ray.origin, ray.direction);
+            return hit ? std::optional(hit->t) : std::nullopt;
+          },
+          name + " against the oracle");
       if (!twin) continue;
-      expect_agreement(picture, camera, [&](const Ray& ray) -> std::optional<double> {
-        const auto hit = cpu_twin.trace(ray);
-        return hit ? std::optional(hit->t) : std::nullopt;
-      }, name + " against the twin");
+      expect_agreement(
+          picture, camera,
+          [&](const Ray& ray) -> std::optional<double> {
+            const auto hit = cpu_twin.trace(ray);
+            return hit ? std::optional(hit->t) : std::nullopt;
+          },
+          name + " against the twin");
     }
   }
 
@@ -115,13 +121,16 @@ TEST_F(RayCasting, OneSphereHasItsClosedForm) {
   for (const Projection projection : {Projection::perspective, Projection::orthographic}) {
     const Camera camera = frame_camera(surface, 1.25, projection);
     const Framebuffer picture = cast(surface, camera, {200, 160});
-    expect_agreement(picture, camera, [&](const Ray& ray) -> std::optional<double> {
-      const glm::dvec3 v = surface.atoms[0].center - ray.origin;
-      const double along = glm::dot(v, ray.direction);
-      const glm::dvec3 across = v - ray.direction * along;
-      const double room = 1.7 * 1.7 - glm::dot(across, across);
-      return room < 0.0 ? std::nullopt : std::optional(along - std::sqrt(room));
-    }, "sphere");
+    expect_agreement(
+        picture, camera,
+        [&](const Ray& ray) -> std::optional<double> {
+          const glm::dvec3 v = surface.atoms[0].center - ray.origin;
+          const double along = glm::dot(v, ray.direction);
+          const glm::dvec3 across = v - ray.direction * along;
+          const double room = 1.7 * 1.7 - glm::dot(across, across);
+          return room < 0.0 ? std::nullopt : std::optional(along - std::sqrt(room));
+        },
+        "sphere");
   }
 }
 
@@ -150,10 +159,13 @@ TEST_F(RayCasting, RaysThatRunAlongSeamsFindNoHole) {
     const double pixel = 3.0 / 129;
     const glm::dvec3 target = seam + plane.normal * (7.0 * pixel);
     const Camera camera{target - view * 20.0, target, up, Projection::orthographic, 30.0, 3.0};
-    expect_agreement(cast(surface, camera, {33, 129}), camera, [&](const Ray& ray) -> std::optional<double> {
-      const auto hit = twin.trace(ray);
-      return hit ? std::optional(hit->t) : std::nullopt;
-    }, "seam");
+    expect_agreement(
+        cast(surface, camera, {33, 129}), camera,
+        [&](const Ray& ray) -> std::optional<double> {
+          const auto hit = twin.trace(ray);
+          return hit ? std::optional(hit->t) : std::nullopt;
+        },
+        "seam");
   }
 }
 
@@ -162,13 +174,21 @@ TEST_F(RayCasting, DegenerateMolecules) {
     expect_exact(molecule.balls, molecule.probe_radius, molecule.name, {48, 48}, false);
 }
 
+TEST_F(RayCasting, RandomGases) {
+  for (std::uint32_t n = 0; n < 24; ++n) {
+    const testing::GasCase gas = testing::gas_case(n);
+    expect_exact(gas.balls, gas.probe_radius, "gas " + std::to_string(n), {40, 40}, false);
+  }
+}
+
 TEST_F(RayCasting, Proteins) {
   expect_exact(testing::ubiquitin(), 1.4, "1UBQ", {160, 120}, true);
   expect_exact(testing::enterotoxin(), 1.4, "1TII", {160, 120}, false);
 }
 
 TEST_F(RayCasting, FarFromTheOrigin) {
-  expect_exact(testing::translated(testing::ubiquitin(), {1000.0, -1000.0, 500.0}), 1.4, "1UBQ far away", {96, 72}, false);
+  expect_exact(testing::translated(testing::ubiquitin(), {1000.0, -1000.0, 500.0}), 1.4, "1UBQ far away", {96, 72},
+               false);
 }
 
 TEST_F(RayCasting, AnyZoom) {
@@ -217,8 +237,10 @@ TEST_F(RayCasting, AovsDescribeThePointOfThePixelCentre) {
     EXPECT_LT(glm::length(glm::dvec3(picture.position[at]) - (ray.origin + ray.direction * hit->t)), 2e-3);
     EXPECT_EQ(picture.component[at], 0u);  // nothing else is visible from outside
     // Within slack of a border either patch may win; their normals agree there.
-    if (static_cast<std::uint32_t>(hit->kind) != picture.kind[at]) ++other_patch;
-    else if (hit->atom != picture.atom[at]) ++other_atom;
+    if (static_cast<std::uint32_t>(hit->kind) != picture.kind[at])
+      ++other_patch;
+    else if (hit->atom != picture.atom[at])
+      ++other_atom;
     EXPECT_LT(glm::length(glm::dvec3(picture.normal[at]) - hit->normal), 5e-3) << at;
   }
   EXPECT_GT(hit_count, 4000);
@@ -254,8 +276,7 @@ TEST_F(RayCasting, ACavityIsAComponentOfItsOwn) {
   Camera camera{middle, middle + glm::dvec3(0.3, 0.2, 1.0), {0, 1, 0}, Projection::perspective, 60.0, 1.0};
   for (const std::uint32_t component : {1u, 0u}) {
     const Framebuffer picture = cast(surface, camera, {32, 32});
-    for (const std::uint32_t c : picture.component)
-      EXPECT_TRUE(c == component || (component == 0 && c == kNone));
+    for (const std::uint32_t c : picture.component) EXPECT_TRUE(c == component || (component == 0 && c == kNone));
     EXPECT_EQ(picture.component[16 * 32 + 16], component);
     camera = frame_camera(surface, 1.0);
   }

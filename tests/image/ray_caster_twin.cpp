@@ -42,8 +42,7 @@ RayCasterTwin::RayCasterTwin(const Surface& surface) : surface_(surface) {
   for (std::uint32_t i = 0; i < surface.toroidal.size(); ++i)
     candidates_.push_back({surface.toroidal[i].center, surface.toroidal[i].radius + p, PatchKind::toroidal, i});
   for (std::uint32_t i = 0; i < surface.concave.size(); ++i)
-    if (surface.concave[i].face_count > 0)
-      candidates_.push_back({surface.concave[i].center, p, PatchKind::concave, i});
+    if (surface.concave[i].face_count > 0) candidates_.push_back({surface.concave[i].center, p, PatchKind::concave, i});
 }
 
 std::optional<TwinHit> RayCasterTwin::trace(const Ray& ray) const {
@@ -98,7 +97,7 @@ double RayCasterTwin::hit_toroidal(const ToroidalPatch& patch, const Ray& ray, d
   const glm::dvec3 d = frame.to_local(ray.direction);
   const double reach = patch.radius + p;
   const geometry::TorusHits hits = geometry::ray_torus(o, d, patch.radius, p, -reach, reach, 1e-14);
-  const int range = patch.free() ? geometry::kWholeTurn
+  const int range = patch.free()                      ? geometry::kWholeTurn
                     : patch.sweep <= std::numbers::pi ? geometry::kUpToHalfTurn
                                                       : geometry::kOverHalfTurn;
   for (int i = 0; i < hits.count; ++i) {

@@ -70,7 +70,8 @@ TEST(CameraFile, SaysWhatIsWrong) {
   EXPECT_EQ(error_of(replaced(kPerspective, "vertical_fov", "fov")), "c.json: camera: \"vertical_fov\" is missing");
   EXPECT_EQ(error_of(replaced(kOrthographic, "8}", "8,\"vertical_fov\":3}")),
             "c.json: camera: unknown key \"vertical_fov\"");
-  EXPECT_EQ(error_of(replaced(kOrthographic, ":8}", ":-8}")), "c.json: camera: \"height\" is -8 Å; it must be positive");
+  EXPECT_EQ(error_of(replaced(kOrthographic, ":8}", ":-8}")),
+            "c.json: camera: \"height\" is -8 Å; it must be positive");
   EXPECT_EQ(error_of(replaced(kOrthographic, ":8}", ":1e999}")), "c.json: camera: a number is too large");
   EXPECT_THROW(read_camera("/nonexistent/camera.json"), InputError);
 }

@@ -34,13 +34,17 @@ TEST(RayTorus, FindsExactlyTheSignChangesOfADenseScan) {
     double before = value(-12.0);
     for (int i = 1; i <= kSteps; ++i) {
       const double after = value(-12.0 + 24.0 * i / kSteps);
-      if ((before > 0.0) != (after > 0.0)) ++crossings;
-      else closest_to_touching = std::min(closest_to_touching, std::abs(after));
+      if ((before > 0.0) != (after > 0.0))
+        ++crossings;
+      else
+        closest_to_touching = std::min(closest_to_touching, std::abs(after));
       before = after;
     }
     // Where the ray almost touches, a scan of this step may overlook two crossings.
-    if (closest_to_touching > 4e-3 || crossings == hits.count) EXPECT_EQ(hits.count, crossings) << n;
-    else EXPECT_EQ(hits.count % 2, crossings % 2) << n;
+    if (closest_to_touching > 4e-3 || crossings == hits.count)
+      EXPECT_EQ(hits.count, crossings) << n;
+    else
+      EXPECT_EQ(hits.count % 2, crossings % 2) << n;
     root_count += hits.count;
     if (q.major < q.minor) spindle_root_count += hits.count;
   }
@@ -63,11 +67,11 @@ TEST(RayTorus, RespectsItsInterval) {
 
 TEST(ToroidalPatch, KeepsInnerSideSlabAndArc) {
   const auto inside = [](double rho, double angle, double z, double sweep) {
-    const int range = sweep > 6.28 ? geometry::kWholeTurn
+    const int range = sweep > 6.28                ? geometry::kWholeTurn
                       : sweep <= std::numbers::pi ? geometry::kUpToHalfTurn
                                                   : geometry::kOverHalfTurn;
-    return geometry::in_toroidal_patch({rho * std::cos(angle), rho * std::sin(angle), z}, 3.0, -0.5, 0.7, std::cos(sweep),
-                                       std::sin(sweep), range, 1e-9);
+    return geometry::in_toroidal_patch({rho * std::cos(angle), rho * std::sin(angle), z}, 3.0, -0.5, 0.7,
+                                       std::cos(sweep), std::sin(sweep), range, 1e-9);
   };
   const double whole = 2.0 * std::numbers::pi;
   EXPECT_TRUE(inside(2.1, 1.0, 0.0, whole));

@@ -33,7 +33,8 @@ std::string error_of(const Files& files) {
 }
 
 TEST(ShaderSource, PutsDefinesAfterTheVersionAndKeepsLineNumbers) {
-  const auto source = expand({{"main.comp", "// a\n#version 450 core\nvoid main() {}\n"}}, {{"SIZE", "64"}, {"FAST", ""}});
+  const auto source =
+      expand({{"main.comp", "// a\n#version 450 core\nvoid main() {}\n"}}, {{"SIZE", "64"}, {"FAST", ""}});
   EXPECT_EQ(source.text, "// a\n#version 450 core\n#define SIZE 64\n#define FAST \n#line 3 0\nvoid main() {}\n");
   EXPECT_EQ(source.files, std::vector<std::string>{"main.comp"});
 }
@@ -42,8 +43,7 @@ TEST(ShaderSource, IncludesEachFileOnceHoweverItIsReached) {
   const auto source = expand({{"main.comp", "#version 450\n#include \"a.glsl\"\n  # include  \"b.glsl\" // why\nend\n"},
                               {"a.glsl", "#include \"b.glsl\"\na"},
                               {"b.glsl", "b\n"}});
-  EXPECT_EQ(source.text,
-            "#version 450\n#line 2 0\n#line 1 1\n#line 1 2\nb\n#line 2 1\na\n#line 3 0\n#line 4 0\nend\n");
+  EXPECT_EQ(source.text, "#version 450\n#line 2 0\n#line 1 1\n#line 1 2\nb\n#line 2 1\na\n#line 3 0\n#line 4 0\nend\n");
   EXPECT_EQ(source.files, (std::vector<std::string>{"main.comp", "a.glsl", "b.glsl"}));
 }
 
