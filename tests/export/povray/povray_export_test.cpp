@@ -126,6 +126,30 @@ TEST(PovrayExport, PrintedCommandRendersFromAnywhere) {
   EXPECT_GT(colored, 200u);
 }
 
+TEST(PovrayExport, SwitchesOfTheCommandLineAreUnderstood) {
+  const ExportedScene scene(cut_probes());
+  const test::TemporaryFolder folder;
+  const std::filesystem::path path = folder.path() / "scene";
+  scene.write(oblique_camera(scene.surface(), Projection::perspective, kAspect), 32, 24, path);
+  const auto render = [&](const std::vector<std::string>& switches) {
+    std::vector<std::string> arguments{"surface.ini", "-A"};
+    arguments.insert(arguments.end(), switches.begin(), switches.end());
+    const PovrayRun run = run_povray(path, arguments);
+    EXPECT_EQ(run.exit_code, 0) << run.log;
+    // POV-Ray calls its subsurface light experimental.
+    if (switches.size() < 2) EXPECT_TRUE(run.warnings.empty()) << run.warnings.front();
+    return read_rgb(path / "surface.png");
+  };
+  const std::vector<glm::dvec3> plain = render({}), shadows = render({"Declare=Meniscus_Shadows=1"});
+  EXPECT_NE(plain, shadows);
+  EXPECT_NE(plain, render({"Declare=Meniscus_Material=3", "Declare=Meniscus_Subsurface=1"}));
+  // A narrower picture of the same height keeps its middle columns.
+  const std::vector<glm::dvec3> narrow = render({"Declare=Meniscus_Fit_Aspect=1", "+W16"});
+  ASSERT_EQ(narrow.size(), 16u * 24u);
+  for (std::size_t n = 0; n < narrow.size(); ++n)
+    for (int k = 0; k < 3; ++k) EXPECT_NEAR(narrow[n][k], plain[n / 16 * 32 + 8 + n % 16][k], 2.0 / 255.0);
+}
+
 // sRGB colours come out as they went in: a flat material shows exactly the palette on a background of its own.
 TEST(PovrayExport, UsersOverrideMaterialsAndColoursAreExact) {
   const ExportedScene scene(one_atom());
