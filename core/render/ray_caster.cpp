@@ -10,6 +10,7 @@
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <tbb/parallel_for.h>
 
 #include "core/gpu/gpu_stage.h"
 #include "core/gpu/limits.h"
@@ -69,7 +70,7 @@ void copy_colors(const Block& block, const std::vector<glm::vec4>& sums, float s
 
 void copy_hits(const Block& block, const std::vector<ray_cast::Hit>& hits, const RayCastScene& scene,
                const PictureFrame& frame, const ComponentLookup& components, Framebuffer& picture) {
-  for (int y = 0; y < block.size.y; ++y) {
+  tbb::parallel_for(0, block.size.y, [&](int y) {
     for (int x = 0; x < block.size.x; ++x) {
       const ray_cast::Hit& hit = hits[static_cast<std::size_t>(y) * block.size.x + x];
       if (hit.primitive == ray_cast::kNoPrimitive) continue;
@@ -88,7 +89,7 @@ void copy_hits(const Block& block, const std::vector<ray_cast::Hit>& hits, const
       picture.kind[at] = primitive.kind;
       picture.component[at] = components.at(kind, primitive.patch_index, point);
     }
-  }
+  });
 }
 
 }  // namespace
