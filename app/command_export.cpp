@@ -8,6 +8,8 @@ namespace {
 /// One row a format; its file is app/export_<name>.cpp.
 constexpr Command kFormats[] = {
     {"povray", add_export_povray},
+    {"blender", add_export_blender},
+    {"ply", add_export_ply},
 };
 
 }  // namespace

@@ -17,6 +17,8 @@ struct Command {
 
 void add_bench(CLI::App& command);
 void add_export(CLI::App& command);
+void add_export_blender(CLI::App& command);
+void add_export_ply(CLI::App& command);
 void add_export_povray(CLI::App& command);
 void add_info(CLI::App& command);
 void add_render(CLI::App& command);

@@ -98,7 +98,7 @@ class Tessellation {
       FaceOutline rim = outline(static_cast<std::uint32_t>(f));
       if (rim.edges.size() < 3) return;
       if (rim.loop_count > 1) {
-        throw Error(
+        throw OpenSurfaceError(
             fmt::format("the mesh cannot be closed: the borders of face {} cross; give a smaller tolerance", f));
       }
       faces_[f] = fan_outline(std::move(rim));
@@ -266,7 +266,7 @@ TriangleMesh tessellate(const Surface& surface, const MeshOptions& options) {
   }
   TriangleMesh mesh = Tessellation(surface, options).run();
   if (!mesh.triangles.empty() && !measure(mesh).closed) {
-    throw Error(fmt::format("the mesh at {} Å is not closed; give another tolerance", options.tolerance));
+    throw OpenSurfaceError(fmt::format("the mesh at {} Å is not closed; give another tolerance", options.tolerance));
   }
   return mesh;
 }

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// `meniscus export blender`: mesh, analytic patches, atoms and camera as one .mns file.
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+#include <map>
+#include <memory>
+
+#include "app/commands.h"
+#include "app/mesh_options.h"
+#include "core/base/text.h"
+#include "exporters/blender/surface_file.h"
+
+namespace meniscus {
+namespace {
+
+struct BlenderCommand {
+  MoleculeOptions molecule;
+  MeshCommandOptions mesh;
+  PictureOptions picture;
+  OutputOptions output;
+};
+
+blender::AtomAttributes attributes_of(const Structure& structure) {
+  blender::AtomAttributes attributes;
+  std::map<std::string, std::int32_t> chains;
+  for (const Atom& atom : structure.atoms) {
+    attributes.b_factor.push_back(std::isfinite(atom.b_factor) ? atom.b_factor : 0.0f);
+    attributes.atomic_number.push_back(atom.element);
+    attributes.residue_number.push_back(atom.residue_number);
+    const auto [at, fresh] = chains.try_emplace(atom.chain, static_cast<std::int32_t>(chains.size()));
+    if (fresh) attributes.chain_names.push_back(atom.chain);
+    attributes.chain.push_back(at->second);
+  }
+  return attributes;
+}
+
+void run(const BlenderCommand& command) {
+  const Molecule molecule = load_molecule(command.molecule);
+  const Camera camera = picture_camera(command.picture, molecule.surface());
+  const double tolerance = tolerance_of(command.mesh, command.picture, camera, molecule.surface());
+  const TriangleMesh mesh = mesh_of(command.molecule, molecule, tolerance);
+  const blender::Provenance provenance{std::filesystem::path(molecule.structure.file).filename().string(),
+                                       molecule.structure.radii_set, molecule.computed.device};
+  write_surface(command.output.path, command.output.existing(), molecule.surface(), mesh, molecule.coloring,
+                attributes_of(molecule.structure), blender::Shot{camera, command.picture.width, command.picture.height},
+                provenance);
+  std::cout << escaped(command.output.path) << "\n";
+}
+
+}  // namespace
+
+void add_export_blender(CLI::App& command) {
+  describe(command, "Write a file for Blender: closed mesh, analytic patches, atoms, camera (add-on: meniscus_import)",
+           "  meniscus export blender 1tii.pdb -o 1tii.mns\n"
+           "  meniscus export blender 1tii.pdb -o 1tii.mns --camera camera.json --tolerance-pixels 0.25 "
+           "--size 1920x1080");
+  auto state = std::make_shared<BlenderCommand>();
+  add_molecule_options(command, state->molecule);
+  add_mesh_options(command, state->mesh);
+  add_picture_options(command, state->picture);
+  add_output_options(command, state->output, ".mns file to write");
+  command.callback([state] { run(*state); });
+}
+
+}  // namespace meniscus

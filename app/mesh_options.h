@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The options of exports that write a mesh, and the one way from them to the mesh.
+#pragma once
+
+#include "app/molecule_options.h"
+#include "app/picture_options.h"
+#include "exporters/mesh/triangle_mesh.h"
+
+namespace meniscus {
+
+/// What the mesh options say.
+struct MeshCommandOptions {
+  double tolerance = 0.01;        ///< Å
+  double tolerance_pixels = 0.0;  ///< > 0: of a picture, instead of Å
+};
+
+/// --tolerance and --tolerance-pixels.
+void add_mesh_options(CLI::App& command, MeshCommandOptions& options);
+
+/// The tolerance in Å: as given, or what --tolerance-pixels means at the surface's nearest point in this picture.
+double tolerance_of(const MeshCommandOptions& options, const PictureOptions& picture, const Camera& camera,
+                    const Surface& surface);
+
+/// Meshes the molecule's surface and says on stderr how many triangles came out.
+TriangleMesh mesh_of(const MoleculeOptions& options, const Molecule& molecule, double tolerance);
+
+}  // namespace meniscus

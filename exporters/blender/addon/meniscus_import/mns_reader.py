@@ -1,0 +1,168 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Reads and checks .mns files with numpy alone; knows nothing of Blender (the format: FORMAT.md of Meniscus)."""
+
+import json
+import mmap
+import struct
+import zlib
+
+import numpy as np
+
+MAGIC = b"\x89MNS\r\n\x1a\n"
+VERSION = 1
+PROLOGUE = 64
+TYPES = ("<f4", "<f8", "<u4", "<i4", "|u1")
+#: Arrays a mesh cannot do without, and their columns.
+NEEDED = {
+    "mesh.position": 3, "mesh.normal": 3, "mesh.triangle": 3, "mesh.kind": 1, "mesh.patch": 1, "mesh.component": 1,
+    "mesh.atom": 1, "mesh.sharp_corner": 1, "mesh.sharp_corner_normal": 3, "mesh.sharp_edge": 2,
+    "atom.center": 3, "atom.radius": 1, "atom.color": 3,
+}
+
+
+class MnsError(Exception):
+    """The file is not a whole, sound .mns file of a version this reader knows."""
+
+
+class Surface:
+    """header: dict. arrays: name -> numpy array, (rows,) or (rows, columns), read-only."""
+
+    def __init__(self, path, header, arrays):
+        self.path = path
+        self.header = header
+        self.arrays = arrays
+
+    def __getitem__(self, name):
+        return self.arrays[name]
+
+    def get(self, name):
+        return self.arrays.get(name)
+
+    @property
+    def triangle_count(self):
+        return len(self.arrays["mesh.triangle"])
+
+
+def read(path):
+    """The surface of a file. Raises MnsError with one sentence, or OSError."""
+    with open(path, "rb") as file:
+        try:
+            data = mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ)
+        except ValueError:
+            raise MnsError(f"{path}: the file is empty") from None
+    header, start = _read_header(path, data)
+    arrays = {}
+    entries = header.get("arrays")
+    if not isinstance(entries, list):
+        raise MnsError(f"{path}: the header lists no arrays")
+    for entry in entries:
+        name, array = _read_array(path, data, start, entry)
+        if name in arrays:
+            raise MnsError(f"{path}: array {name} comes twice")
+        arrays[name] = array
+    surface = Surface(path, header, arrays)
+    _check(surface)
+    return surface
+
+
+def _read_header(path, data):
+    if len(data) < PROLOGUE:
+        raise MnsError(f"{path}: {len(data)} bytes are too few for a .mns file")
+    if data[:8] != MAGIC:
+        raise MnsError(f"{path}: not a .mns file (it begins with other bytes)")
+    version, crc, header_size, file_size = struct.unpack_from("<IIQQ", data, 8)
+    if version > VERSION:
+        raise MnsError(f"{path}: version {version} is newer than this add-on knows ({VERSION}); update the add-on")
+    if version < 1:
+        raise MnsError(f"{path}: version {version} does not exist")
+    if file_size != len(data):
+        raise MnsError(f"{path}: {len(data)} bytes of {file_size}; the file is incomplete or has been changed")
+    if header_size > len(data) - PROLOGUE:
+        raise MnsError(f"{path}: the header is longer than the file")
+    with memoryview(data) as view, view[PROLOGUE:] as rest:
+        found = zlib.crc32(rest)
+    if found != crc:
+        raise MnsError(f"{path}: checksum {found:08x} instead of {crc:08x}; the file is damaged, export it again")
+    start = PROLOGUE + header_size
+    try:
+        header = json.loads(data[PROLOGUE:start].decode("utf-8"))
+    except ValueError as error:
+        raise MnsError(f"{path}: the header is no JSON ({error})") from None
+    if not isinstance(header, dict):
+        raise MnsError(f"{path}: the header is no JSON object")
+    return header, start
+
+
+def _read_array(path, data, start, entry):
+    try:
+        name, kind = str(entry["name"]), entry["type"]
+        rows, columns, offset = (int(entry[key]) for key in ("rows", "columns", "offset"))
+    except (TypeError, KeyError, ValueError):
+        raise MnsError(f"{path}: an entry of the array list is malformed") from None
+    if kind not in TYPES:
+        raise MnsError(f"{path}: array {name} has the unknown type {kind}")
+    dtype = np.dtype(kind)
+    size = rows * columns * dtype.itemsize
+    if rows < 0 or columns < 1 or offset < 0 or start + offset + size > len(data):
+        raise MnsError(f"{path}: array {name} lies outside the file")
+    if rows == 0:
+        array = np.empty(0, dtype)
+    else:
+        array = np.frombuffer(data, dtype, rows * columns, start + offset)
+    return name, array if columns == 1 else array.reshape(rows, columns)
+
+
+def _check(surface):
+    path, arrays = surface.path, surface.arrays
+    for name, columns in NEEDED.items():
+        if name not in arrays:
+            raise MnsError(f"{path}: array {name} is missing")
+        found = 1 if arrays[name].ndim == 1 else arrays[name].shape[1]
+        if found != columns:
+            raise MnsError(f"{path}: array {name} has {found} columns instead of {columns}")
+    for name, array in arrays.items():
+        if array.dtype.kind == "f" and not np.isfinite(array).all():
+            raise MnsError(f"{path}: array {name} holds a number that is not finite")
+    vertices, triangles, atoms = (len(arrays[n]) for n in ("mesh.position", "mesh.triangle", "atom.center"))
+    if vertices == 0 or triangles == 0:
+        raise MnsError(f"{path}: the mesh is empty")
+    mesh = surface.header.get("mesh")
+    if not isinstance(mesh, dict) or mesh.get("vertices") != vertices or mesh.get("triangles") != triangles:
+        raise MnsError(f"{path}: header and arrays disagree on the number of vertices or triangles")
+    origin = mesh.get("origin")
+    if not isinstance(origin, list) or len(origin) != 3 or not np.isfinite(np.array(origin, dtype=float)).all():
+        raise MnsError(f"{path}: mesh.origin is not three numbers")
+    components = len(surface.header.get("components") or [])
+    lengths = {
+        "mesh.normal": vertices, "mesh.kind": triangles, "mesh.patch": triangles, "mesh.component": triangles,
+        "mesh.atom": triangles, "atom.radius": atoms, "atom.color": atoms, "atom.b_factor": atoms,
+        "atom.atomic_number": atoms, "atom.res_id": atoms, "atom.chain_id": atoms,
+        "mesh.sharp_corner_normal": len(arrays["mesh.sharp_corner"]),
+    }
+    for name, rows in lengths.items():
+        if name in arrays and len(arrays[name]) != rows:
+            raise MnsError(f"{path}: array {name} has {len(arrays[name])} rows instead of {rows}")
+    limits = {
+        "mesh.triangle": vertices, "mesh.sharp_edge": vertices, "mesh.sharp_corner": 3 * triangles, "mesh.kind": 3,
+        "mesh.component": components, "mesh.atom": atoms,
+    }
+    for name, limit in limits.items():
+        if arrays[name].size and int(arrays[name].max()) >= limit:
+            raise MnsError(f"{path}: array {name} holds the index {int(arrays[name].max())}, the limit is {limit - 1}")
+
+
+def is_closed(triangles):
+    """True when every edge has exactly two triangles, which walk it in opposite directions."""
+    t = triangles.astype(np.uint64)
+    a, b = t.ravel(), np.roll(t, -1, axis=1).ravel()
+    forward = np.sort(a << np.uint64(32) | b)
+    if (forward[1:] == forward[:-1]).any() or (a == b).any():
+        return False
+    return np.array_equal(forward, np.sort(b << np.uint64(32) | a))
+
+
+def signed_volume(positions, triangles):
+    """Å³; positive when the triangles face outwards."""
+    p = positions.astype(np.float64)
+    a, b, c = (p[triangles[:, k]] for k in range(3))
+    return float(np.einsum("ij,ij->i", a, np.cross(b, c)).sum() / 6.0)

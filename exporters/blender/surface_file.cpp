@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Turns the tables of a surface and its mesh into the arrays of a .mns file.
+#include "exporters/blender/surface_file.h"
+
+#include <nlohmann/json.hpp>
+
+#include "exporters/blender/mns_file.h"
+#include "exporters/mesh/mesh_colors.h"
+
+namespace meniscus::blender {
+namespace {
+
+using nlohmann::json;
+
+json numbers(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
+
+/// Collects one column per field while walking a table.
+template <class T>
+class Column {
+ public:
+  void push(T value) { values_.push_back(value); }
+  void push(const glm::dvec3& v) { values_.insert(values_.end(), {T(v.x), T(v.y), T(v.z)}); }
+  std::span<const T> values() const { return values_; }
+
+ private:
+  std::vector<T> values_;
+};
+using Doubles = Column<double>;
+using Floats = Column<float>;
+using Indices = Column<std::uint32_t>;
+
+void add_mesh(MnsWriter& file, const TriangleMesh& mesh, const glm::dvec3& origin) {
+  Floats position, normal, corner_normal;
+  Indices triangle, sharp_edge;
+  std::vector<std::uint8_t> kinds;
+  for (const auto& x : mesh.positions) position.push(x - origin);
+  for (const auto& n : mesh.normals) normal.push(n);
+  for (const auto& n : mesh.sharp_corner_normals) corner_normal.push(n);
+  for (const auto& t : mesh.triangles) {
+    for (const std::uint32_t v : t) triangle.push(v);
+  }
+  for (const auto& e : mesh.sharp_edges) {
+    for (const std::uint32_t v : e) sharp_edge.push(v);
+  }
+  for (const PatchKind k : mesh.kind) kinds.push_back(static_cast<std::uint8_t>(k));
+  file.add("mesh.position", position.values(), 3);
+  file.add("mesh.normal", normal.values(), 3);
+  file.add("mesh.triangle", triangle.values(), 3);
+  file.add("mesh.kind", std::span<const std::uint8_t>(kinds));
+  file.add("mesh.patch", std::span(mesh.patch));
+  file.add("mesh.component", std::span(mesh.component));
+  file.add("mesh.atom", std::span(mesh.atom));
+  file.add("mesh.sharp_corner", std::span(mesh.sharp_corners));
+  file.add("mesh.sharp_corner_normal", corner_normal.values(), 3);
+  file.add("mesh.sharp_edge", sharp_edge.values(), 2);
+}
+
+void add_atoms(MnsWriter& file, const Surface& surface, const Coloring& coloring, const AtomAttributes& atoms) {
+  Doubles center, radius;
+  Floats color;
+  for (const Ball& ball : surface.atoms) {
+    center.push(ball.center);
+    radius.push(ball.radius);
+  }
+  for (const glm::vec3& c : coloring.atom) color.push(glm::dvec3(c));
+  file.add("atom.center", center.values(), 3);
+  file.add("atom.radius", radius.values());
+  file.add("atom.color", color.values(), 3);
+  if (!atoms.b_factor.empty()) file.add("atom.b_factor", std::span(atoms.b_factor));
+  if (!atoms.atomic_number.empty()) file.add("atom.atomic_number", std::span(atoms.atomic_number));
+  if (!atoms.residue_number.empty()) file.add("atom.res_id", std::span(atoms.residue_number));
+  if (!atoms.chain.empty()) file.add("atom.chain_id", std::span(atoms.chain));
+}
+
+void add_convex(MnsWriter& file, const Surface& surface) {
+  Indices atom, plane_range;
+  for (const ConvexPatch& patch : surface.convex) {
+    atom.push(patch.atom);
+    plane_range.push(patch.first_plane);
+    plane_range.push(patch.plane_count);
+  }
+  file.add("convex.atom", atom.values());
+  file.add("convex.planes", plane_range.values(), 2);
+}
+
+void add_toroidal(MnsWriter& file, const Surface& surface) {
+  Indices atom, probe;
+  Doubles center, axis, start, circle;
+  for (const ToroidalPatch& patch : surface.toroidal) {
+    for (const std::uint32_t a : patch.atom) atom.push(a);
+    for (const std::uint32_t p : patch.probe) probe.push(p);
+    center.push(patch.center);
+    axis.push(patch.axis);
+    start.push(patch.start);
+    circle.push(patch.radius);
+    circle.push(patch.sweep);
+  }
+  file.add("toroidal.atoms", atom.values(), 2);
+  file.add("toroidal.probes", probe.values(), 2);
+  file.add("toroidal.center", center.values(), 3);
+  file.add("toroidal.axis", axis.values(), 3);
+  file.add("toroidal.start", start.values(), 3);
+  file.add("toroidal.radius_sweep", circle.values(), 2);
+}
+
+void add_concave(MnsWriter& file, const Surface& surface) {
+  Doubles center;
+  Indices contacts, planes, cuts;
+  for (const ConcavePatch& patch : surface.concave) {
+    center.push(patch.center);
+    contacts.push(patch.first_contact);
+    contacts.push(patch.contact_count);
+    planes.push(patch.first_plane);
+    planes.push(patch.side_count);
+    planes.push(patch.cut_count);
+    cuts.push(patch.first_cut);
+    cuts.push(patch.cut_count);
+  }
+  file.add("concave.center", center.values(), 3);
+  file.add("concave.contacts", contacts.values(), 2);
+  file.add("concave.planes", planes.values(), 3);
+  file.add("concave.cuts", cuts.values(), 2);
+  file.add("contact.atom", std::span(surface.contacts));
+  file.add("cut.probe", std::span(surface.cuts));
+  Doubles plane;
+  for (const Plane& p : surface.planes) {
+    plane.push(p.normal);
+    plane.push(p.offset);
+  }
+  file.add("plane", plane.values(), 4);
+}
+
+json component_list(const Surface& surface, const TriangleMesh& mesh) {
+  json list = json::array();
+  for (std::uint32_t c = 0; c < surface.components.size(); ++c) {
+    const Component& component = surface.components[c];
+    const MeshMeasure m = measure(mesh, c);
+    list.push_back({{"kind", component.kind == ComponentKind::outer ? "outer" : "cavity"},
+                    {"area", component.area},
+                    {"volume", component.volume},
+                    {"euler", component.euler},
+                    {"mesh_area", m.area},
+                    {"mesh_volume", m.volume},
+                    {"triangles", m.triangle_count}});
+  }
+  return list;
+}
+
+json camera_object(const Shot& shot) {
+  json camera = json::parse(camera_json(shot.camera));
+  camera["size"] = {shot.width, shot.height};
+  return camera;
+}
+
+}  // namespace
+
+void write_surface(const std::string& path, Existing existing, const Surface& surface, const TriangleMesh& mesh,
+                   const Coloring& coloring, const AtomAttributes& atoms, const std::optional<Shot>& shot,
+                   const Provenance& provenance) {
+  MnsWriter file;
+  const glm::dvec3 origin = mesh_origin(mesh);
+  add_mesh(file, mesh, origin);
+  add_atoms(file, surface, coloring, atoms);
+  add_convex(file, surface);
+  add_toroidal(file, surface);
+  add_concave(file, surface);
+
+  const MeshMeasure m = measure(mesh);
+  json header{{"format", "meniscus surface"},
+              {"generator", "meniscus " MENISCUS_VERSION},
+              {"source", {{"file", provenance.source}, {"radii_set", provenance.radii_set}}},
+              {"device", provenance.device},
+              {"unit", "angstrom"},
+              {"probe_radius", surface.probe_radius},
+              {"area", surface.area},
+              {"volume", surface.volume},
+              {"mesh",
+               {{"origin", numbers(origin)},
+                {"tolerance", mesh.tolerance},
+                {"vertices", mesh.positions.size()},
+                {"triangles", mesh.triangles.size()},
+                {"area", m.area},
+                {"volume", m.volume}}},
+              {"components", component_list(surface, mesh)},
+              {"chain_names", atoms.chain_names}};
+  if (coloring.kind) {
+    json colors = json::array();
+    for (const glm::vec3& c : *coloring.kind) colors.push_back(numbers(glm::dvec3(c)));
+    header["kind_colors"] = colors;
+  }
+  if (shot) header["camera"] = camera_object(*shot);
+  file.write(path, existing, std::move(header));
+}
+
+}  // namespace meniscus::blender

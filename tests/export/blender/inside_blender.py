@@ -1,0 +1,165 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The import as Blender sees it: counts, closedness, measures, attributes, normals, faults, undo of failures, pictures."""
+
+import os
+import subprocess
+import sys
+import unittest
+
+import addon_utils
+import bpy
+import numpy as np
+
+FOLDER, ADDON, HERE, BLENDER = sys.argv[sys.argv.index("--") + 1:]
+sys.path.insert(0, HERE)
+import samples  # noqa: E402
+
+from meniscus_import import compat, mns_reader  # noqa: E402
+
+STORES = ("objects", "meshes", "cameras", "collections", "materials", "lights", "images", "node_groups")
+
+
+def path_of(name):
+    return os.path.join(FOLDER, name + ".mns")
+
+
+def everything():
+    return {store: sorted(item.name for item in getattr(bpy.data, store)) for store in STORES}
+
+
+def imported(name, **options):
+    before = set(bpy.data.objects)
+    assert bpy.ops.import_scene.meniscus(filepath=path_of(name), **options) == {"FINISHED"}
+    return next(item for item in set(bpy.data.objects) - before if item.type == "MESH")
+
+
+def positions(mesh):
+    co = np.empty(3 * len(mesh.vertices), dtype=np.float32)
+    mesh.vertices.foreach_get("co", co)
+    return co.reshape(-1, 3)
+
+
+def triangles(mesh):
+    corner = np.empty(len(mesh.loops), dtype=np.int32)
+    mesh.loops.foreach_get("vertex_index", corner)
+    return corner.reshape(-1, 3)
+
+
+class Import(unittest.TestCase):
+    def setUp(self):
+        bpy.ops.wm.read_factory_settings(use_empty=True)
+        addon_utils.enable("meniscus_import")
+
+    def test_geometry_is_that_of_the_header(self):
+        for name in samples.MOLECULES:
+            surface = mns_reader.read(path_of(name))
+            mesh = imported(name, scale=1.0).data
+            self.assertEqual(len(mesh.polygons), surface.header["mesh"]["triangles"])
+            self.assertEqual(len(mesh.vertices), surface.header["mesh"]["vertices"])
+            self.assertEqual(len(mesh.edges), len(mesh.polygons) * 3 // 2)
+            self.assertTrue(mns_reader.is_closed(triangles(mesh)))
+            volume = mns_reader.signed_volume(positions(mesh), triangles(mesh))
+            self.assertAlmostEqual(volume / surface.header["mesh"]["volume"], 1.0, places=5)
+            self.assertAlmostEqual(volume / surface.header["volume"], 1.0, delta=0.01)
+            self.assertAlmostEqual(sum(p.area for p in mesh.polygons) / surface.header["area"], 1.0, delta=0.01)
+
+    def test_scale_multiplies_coordinates_and_nothing_else(self):
+        large, small = imported("triple", scale=1.0), imported("triple")
+        np.testing.assert_allclose(positions(small.data), 0.1 * positions(large.data), atol=1e-6)
+        self.assertEqual(tuple(small.scale), (1.0, 1.0, 1.0))
+
+    def test_coordinates_are_those_of_the_atoms_unmirrored(self):
+        surface = mns_reader.read(path_of("triple"))
+        mesh = imported("triple", scale=1.0).data
+        kind, atom = surface["mesh.kind"], surface["mesh.atom"]
+        for polygon in list(mesh.polygons)[::37]:
+            if kind[polygon.index] == 0:
+                center = surface["atom.center"][atom[polygon.index]]
+                offset = np.array(polygon.center) - center
+                self.assertAlmostEqual(np.linalg.norm(offset), surface["atom.radius"][atom[polygon.index]], delta=0.01)
+                self.assertGreater(np.dot(offset, polygon.normal), 0.0)
+
+    def test_attributes(self):
+        surface = mns_reader.read(path_of("cage"))
+        mesh = imported("cage").data
+        found = {a.name: (a.data_type, a.domain) for a in mesh.attributes}
+        for name in ("ses_kind", "ses_patch", "ses_component", "atom_index", "atomic_number", "res_id", "chain_id"):
+            self.assertEqual(found[name], ("INT", "FACE"), name)
+        for name in ("b_factor", "vdw_radii"):
+            self.assertEqual(found[name], ("FLOAT", "POINT"), name)
+        self.assertEqual(found["Color"], ("BYTE_COLOR", "CORNER"))
+        for name, array in (("ses_kind", "mesh.kind"), ("ses_component", "mesh.component"), ("atom_index", "mesh.atom")):
+            values = np.empty(len(mesh.polygons), dtype=np.int32)
+            mesh.attributes[name].data.foreach_get("value", values)
+            np.testing.assert_array_equal(values, surface[array])
+        color = np.empty(4 * len(mesh.loops), dtype=np.float32)
+        mesh.attributes["Color"].data.foreach_get("color_srgb", color)
+        wanted = np.repeat(surface["atom.color"][surface["mesh.atom"]], 3, axis=0)
+        np.testing.assert_allclose(color.reshape(-1, 4)[:, :3], wanted, atol=1.01 / 255)
+        slots = np.empty(len(mesh.polygons), dtype=np.int32)
+        mesh.polygons.foreach_get("material_index", slots)
+        np.testing.assert_array_equal(slots, surface["mesh.component"])
+        self.assertEqual(set(slots), {0, 1})
+        smooth = imported("cage", crisp_colors=False).data
+        self.assertEqual((smooth.attributes["Color"].data_type, smooth.attributes["Color"].domain),
+                         ("FLOAT_COLOR", "POINT"))
+
+    def test_normals_are_exact_where_smooth_and_at_cusps(self):
+        for name in ("triple", "drops", "cage"):
+            surface = mns_reader.read(path_of(name))
+            mesh = imported(name).data
+            wanted = surface["mesh.normal"][surface["mesh.triangle"].ravel()].copy()
+            wanted[surface["mesh.sharp_corner"]] = surface["mesh.sharp_corner_normal"]
+            cosine = np.clip((compat.corner_normals(mesh) * wanted).sum(axis=1), -1, 1)
+            angle = np.degrees(np.arccos(cosine))
+            self.assertLess(np.mean(angle), 0.05)
+            self.assertLess(np.percentile(angle, 99), 0.25)
+            flat = np.repeat(np.array([p.normal for p in mesh.polygons]), 3, axis=0)
+            self.assertGreater(np.degrees(np.arccos(np.clip((flat * wanted).sum(axis=1), -1, 1))).mean(), 0.3)
+
+    def test_a_bad_file_says_why_and_leaves_nothing(self):
+        with open(path_of("triple"), "rb") as file:
+            good = file.read()
+        before = everything()
+        for name, (data, word) in samples.damaged_files(good).items():
+            with open(path_of("bad"), "wb") as file:
+                file.write(data)
+            with self.assertRaises(RuntimeError, msg=name) as caught:
+                bpy.ops.import_scene.meniscus(filepath=path_of("bad"))
+            self.assertIn(word, str(caught.exception), name)
+            self.assertEqual(everything(), before, name)
+        with self.assertRaises(RuntimeError):
+            bpy.ops.import_scene.meniscus(filepath=path_of("no_such_file"))
+        self.assertEqual(everything(), before)
+
+    def test_a_second_import_reuses_materials_and_gets_its_own_collection(self):
+        imported("pair")
+        bpy.data.materials["Meniscus outer"].diffuse_color = (1, 0, 0, 1)
+        imported("pair")
+        self.assertEqual(len([m for m in bpy.data.materials if m.name.startswith("Meniscus outer")]), 1)
+        self.assertEqual(tuple(bpy.data.materials["Meniscus outer"].diffuse_color), (1, 0, 0, 1))
+        self.assertEqual(len([c for c in bpy.data.collections if c.name.startswith("pair")]), 2)
+
+    def test_register_twice(self):
+        for _ in range(2):
+            addon_utils.disable("meniscus_import")
+            self.assertFalse(hasattr(bpy.types, "IMPORT_SCENE_OT_meniscus"))
+            addon_utils.enable("meniscus_import")
+            self.assertTrue(hasattr(bpy.types, "IMPORT_SCENE_OT_meniscus"))
+
+    def test_the_driver_renders_and_has_true_exit_codes(self):
+        def drive(*arguments):
+            command = [BLENDER, "-b", "--factory-startup", "--python-exit-code", "3", "--python",
+                       os.path.join(ADDON, "render_mns.py"), "--", *arguments]
+            return subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False).returncode
+
+        picture, passes = os.path.join(FOLDER, "triple.png"), os.path.join(FOLDER, "triple.exr")
+        self.assertEqual(drive(path_of("triple"), "--output", picture, "--passes", passes, "--samples", "4"), 0)
+        self.assertGreater(os.path.getsize(picture), 1000)
+        self.assertGreater(os.path.getsize(passes), 1000)
+        self.assertEqual(drive(path_of("triple")), 2)
+        self.assertEqual(drive(path_of("no_such_file"), "--output", picture), 3)
+
+
+if not unittest.main(argv=["inside_blender"], exit=False).result.wasSuccessful():
+    sys.exit(1)

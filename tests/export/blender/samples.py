@@ -1,0 +1,92 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Small surfaces for the tests of the Blender add-on, and ways to damage their files."""
+
+import json
+import os
+import re
+import struct
+import subprocess
+import zlib
+
+#: A ring, two drops with tips, every kind of patch, and a shell around a cavity (an icosahedron of carbon).
+MOLECULES = {
+    "pair": [(0, 0, 0, 1.7), (4.0, 0, 0, 1.7)],
+    "drops": [(0, 0, 0, 1.7), (5.8, 0, 0, 1.7)],
+    "triple": [(0, 0, 0, 1.7), (3.9, 0, 0, 1.55), (1.7, 3.6, 0.4, 1.52)],
+}
+
+
+def icosahedron(edge):
+    g = (1 + 5 ** 0.5) / 2
+    points = []
+    for a in (-1, 1):
+        for b in (-g, g):
+            points += [(0, a, b), (a, b, 0), (b, 0, a)]
+    return [(x * edge / 2, y * edge / 2, z * edge / 2, 1.7) for x, y, z in points]
+
+
+MOLECULES["cage"] = icosahedron(4.2)
+
+
+def export(program, folder, name, *options):
+    """The path of a fresh .mns file of one of the molecules."""
+    source = os.path.join(folder, name + ".xyzr")
+    with open(source, "w", encoding="ascii") as file:
+        for atom in MOLECULES[name]:
+            file.write("%.12f %.12f %.12f %.4f\n" % atom)
+    target = os.path.join(folder, name + ".mns")
+    subprocess.run([program, "export", "blender", source, "-o", target, "--device", "cpu", "--force", *options],
+                   check=True, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+    return target
+
+
+def with_right_checksum(data):
+    data = bytearray(data)
+    struct.pack_into("<Q", data, 24, len(data))
+    struct.pack_into("<I", data, 12, zlib.crc32(bytes(data[64:])))
+    return bytes(data)
+
+
+def array_place(data, name):
+    header_size = struct.unpack_from("<Q", data, 16)[0]
+    header = json.loads(bytes(data[64:64 + header_size]))
+    entry = next(e for e in header["arrays"] if e["name"] == name)
+    return 64 + header_size + entry["offset"], entry
+
+
+def patched(data, name, kind, value, row=0):
+    """The file with one number changed and its checksum made right."""
+    data = bytearray(data)
+    place, _ = array_place(data, name)
+    struct.pack_into("<" + kind, data, place + row * struct.calcsize(kind), value)
+    return with_right_checksum(data)
+
+
+def damaged_files(data):
+    """name -> (bytes, a word the error must contain)."""
+    newer = bytearray(data)
+    struct.pack_into("<I", newer, 8, 99)
+    flipped = bytearray(data)
+    flipped[len(data) // 2] ^= 1
+    no_json = bytearray(data)
+    no_json[64:66] = b"??"
+    place, _ = array_place(data, "mesh.triangle")
+    first = struct.unpack_from("<3I", data, place)
+    return {
+        "empty": (b"", "empty"),
+        "short": (data[:40], "few"),
+        "truncated": (data[:-64], "incomplete"),
+        "grown": (data + b"\0" * 64, "incomplete"),
+        "wrong_magic": (b"PNG" + data[3:], "not a .mns"),
+        "text_mode": (data.replace(b"\r\n", b"\n"), "not a .mns"),
+        "newer": (bytes(newer), "newer"),
+        "wrong_crc": (bytes(flipped), "checksum"),
+        "no_json": (with_right_checksum(no_json), "JSON"),
+        "bad_index": (patched(data, "mesh.triangle", "I", 4000000000), "index"),
+        "bad_atom": (patched(data, "mesh.atom", "I", 77), "index"),
+        "bad_component": (patched(data, "mesh.component", "I", 9), "index"),
+        "nan_position": (patched(data, "mesh.position", "f", float("nan"), 4), "finite"),
+        "infinite_normal": (patched(data, "mesh.normal", "f", float("inf"), 2), "finite"),
+        "not_closed": (patched(data, "mesh.triangle", "I", first[1]), "closed"),
+        "wrong_count": (with_right_checksum(re.sub(rb'("vertices": )\d', rb"\g<1>9", data)), "disagree"),
+    }
