@@ -5,6 +5,7 @@ import os
 import subprocess
 import sys
 import unittest
+from unittest import mock
 
 import addon_utils
 import bpy
@@ -14,7 +15,7 @@ FOLDER, ADDON, HERE, BLENDER = sys.argv[sys.argv.index("--") + 1:]
 sys.path.insert(0, HERE)
 import samples  # noqa: E402
 
-from meniscus_import import compat, mns_reader  # noqa: E402
+from meniscus_import import build, compat, mns_reader  # noqa: E402
 
 STORES = ("objects", "meshes", "cameras", "collections", "materials", "lights", "images", "node_groups")
 
@@ -92,6 +93,7 @@ class Import(unittest.TestCase):
             values = np.empty(len(mesh.polygons), dtype=np.int32)
             mesh.attributes[name].data.foreach_get("value", values)
             np.testing.assert_array_equal(values, surface[array])
+        self.assertGreater(len(np.unique(surface["atom.color"], axis=0)), 3)
         color = np.empty(4 * len(mesh.loops), dtype=np.float32)
         mesh.attributes["Color"].data.foreach_get("color_srgb", color)
         wanted = np.repeat(surface["atom.color"][surface["mesh.atom"]], 3, axis=0)
@@ -131,6 +133,14 @@ class Import(unittest.TestCase):
         with self.assertRaises(RuntimeError):
             bpy.ops.import_scene.meniscus(filepath=path_of("no_such_file"))
         self.assertEqual(everything(), before)
+
+    def test_a_failure_half_way_leaves_nothing(self):
+        before = everything()
+        for step in ("add_attributes", "add_normals", "build_camera"):
+            with mock.patch.object(build, step, side_effect=MemoryError(step)):
+                with self.assertRaises(MemoryError):
+                    build.import_file(path_of("triple"))
+            self.assertEqual(everything(), before, step)
 
     def test_a_second_import_reuses_materials_and_gets_its_own_collection(self):
         imported("pair")

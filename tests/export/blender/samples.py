@@ -35,7 +35,7 @@ def export(program, folder, name, *options):
         for atom in MOLECULES[name]:
             file.write("%.12f %.12f %.12f %.4f\n" % atom)
     target = os.path.join(folder, name + ".mns")
-    subprocess.run([program, "export", "blender", source, "-o", target, "--device", "cpu", "--force", *options],
+    subprocess.run([program, "export", "blender", source, "-o", target, "--device", "cpu", "--color", "atom", "--force", *options],
                    check=True, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
     return target
 
