@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
@@ -96,7 +97,7 @@ Difference compare(const Balls& balls, const Camera& camera, std::map<std::strin
         if (std::abs(depth - z[i]) > 2.0 * kTolerance / cosine + 0.002) continue;
         same_depth = true;
         const double agreement = glm::dot(truth->normal, glm::normalize(glm::dvec3(nx[i], ny[i], nz[i])));
-        angle = std::min(angle, glm::degrees(std::acos(std::clamp(agreement, -1.0, 1.0))));
+        angle = std::min(angle, std::acos(std::clamp(agreement, -1.0, 1.0)) * 180.0 / std::numbers::pi);
       }
       difference.depth += !same_depth;
       difference.normal += same_depth && angle > 3.0;
@@ -117,16 +118,18 @@ void expect_agreement(const Balls& balls, Projection projection) {
   std::printf("%zu pixels hit; depth differs in %zu, normal in %zu; mean angle %.4f degrees\n", d.surface, d.depth,
               d.normal, d.mean_angle);
   EXPECT_GT(d.surface, 5000u);
-  EXPECT_LT(double(d.depth), 0.005 * double(d.surface));
-  EXPECT_LT(double(d.normal), 0.005 * double(d.surface));
-  EXPECT_LT(d.mean_angle, 0.15);
+  EXPECT_LT(double(d.depth), 0.001 * double(d.surface));
+  EXPECT_LT(double(d.normal), 0.001 * double(d.surface));
+  EXPECT_LT(d.mean_angle, 0.1);
 
   // The comparison must be able to fail: one pixel to the side.
   for (auto& [name, plane] : planes) std::rotate(plane.begin(), plane.begin() + 1, plane.end());
   EXPECT_GT(double(compare(balls, camera, planes).depth), 0.05 * double(d.surface));
 }
 
-TEST(BlenderPicture, DepthAndNormalsInPerspective) { expect_agreement(gas(3, 25, 9.0, 1.2, 2.0), Projection::perspective); }
+TEST(BlenderPicture, DepthAndNormalsInPerspective) {
+  expect_agreement(gas(3, 25, 9.0, 1.2, 2.0), Projection::perspective);
+}
 TEST(BlenderPicture, DepthAndNormalsInParallel) { expect_agreement(c60(1.45), Projection::orthographic); }
 TEST(BlenderPicture, DepthAndNormalsOfAProtein) { expect_agreement(ubiquitin(), Projection::perspective); }
 
