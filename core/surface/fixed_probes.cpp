@@ -20,6 +20,7 @@ namespace meniscus {
 namespace {
 
 constexpr double kMergeDistance = 1e-6;
+constexpr double kSteep = 0.01;  // a lower probe moves so much more than its atoms that it must come nearer to be merged
 constexpr double kTouchDistance = 1e-9;
 constexpr double kLargestGrowth = 1.5e-9;  // of decision weights
 constexpr double kFlat = 1e-7;             // squared height of a probe that growth may have moved by its square root
@@ -172,7 +173,8 @@ class Placement {
   // One position? A flat triple's own position is blurred: then the other's must touch the flat one's atoms.
   bool coincide(std::uint32_t s, std::uint32_t t) const {
     const glm::dvec3 d = position_[s] - position_[t];
-    if (glm::dot(d, d) < kMergeDistance * kMergeDistance) return true;
+    const double near = kMergeDistance * std::min(1.0, std::min(height_[s], height_[t]) / kSteep);
+    if (glm::dot(d, d) < near * near) return true;
     if (glm::dot(d, d) > 4 * kFlat || flat(s) == flat(t)) return false;
     const glm::dvec3& sharp = position_[flat(s) ? t : s];
     const auto& atoms = triples_[flat(s) ? s : t].atom;

@@ -79,9 +79,14 @@ double area_left_of(std::span<const SphereArc> loop) {
   double area = 2 * kPi - turning;
   area -= 4 * kPi * std::floor(area / (4 * kPi));
   if (area > 1e-6 && area < 4 * kPi - 1e-6) return area;
-  // Next to nothing or next to everything: rounding must not choose. Walked counter-clockwise, the moment of a small
-  // region points towards it.
-  const bool small = glm::dot(moment_left_of(loop), loop.front().from) > 0;
+  // Next to nothing or next to everything: rounding must not choose. What looks positive in the tangent plane (polygon
+  // of the corners plus the segments under the arcs) is walked counter-clockwise, so the small part is the left one.
+  const glm::dvec3 corner = loop.front().from;
+  double flat = 0;
+  for (const SphereArc& arc : loop)
+    flat += glm::dot(corner, glm::cross(arc.from - corner, arc.to - corner)) +
+            glm::dot(corner, arc.axis) * (1 - arc.height * arc.height) * (arc.sweep - std::sin(arc.sweep));
+  const bool small = flat > 0;
   const double excess = area > 2 * kPi ? area - 4 * kPi : area;
   return small ? std::max(0.0, excess) : 4 * kPi + std::min(0.0, excess);
 }

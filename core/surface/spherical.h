@@ -30,6 +30,7 @@ double area_left_of(std::span<const SphereArc> loop);
 glm::dvec3 moment_left_of(std::span<const SphereArc> loop);
 
 /// The straight distance from a point of the unit sphere to the loop; positive if the point lies on the left of it.
+/// All interior angles at most pi, as in area_left_of().
 double distance_left_of(const glm::dvec3& point, std::span<const SphereArc> loop);
 
 /// True if `inner`, which may touch the loop but not cross it, lies on the left of it.
