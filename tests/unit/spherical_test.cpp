@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Regions on the unit sphere: areas from next to nothing to next to everything, moments, and sides of loops.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include "core/surface/spherical.h"
+#include "tests/support/molecules.h"
+
+namespace meniscus::testing {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+SphereArc great_arc(const glm::dvec3& a, const glm::dvec3& b) {
+  const glm::dvec3 normal = glm::cross(a, b);
+  return {glm::normalize(normal), 0.0, a, b, std::atan2(glm::length(normal), glm::dot(a, b)), false};
+}
+
+// A regular polygon of great-circle arcs around the z axis, turned at random.
+std::vector<SphereArc> polygon(int corners, double polar_angle, const glm::dmat3& turn) {
+  std::vector<glm::dvec3> points;
+  for (int n = 0; n < corners; ++n) {
+    const double angle = 2 * kPi * n / corners;
+    points.push_back(turn * glm::dvec3(std::sin(polar_angle) * std::cos(angle), std::sin(polar_angle) * std::sin(angle),
+                                       std::cos(polar_angle)));
+  }
+  std::vector<SphereArc> loop;
+  for (int n = 0; n < corners; ++n) loop.push_back(great_arc(points[n], points[(n + 1) % corners]));
+  return loop;
+}
+
+std::vector<SphereArc> backwards(std::vector<SphereArc> loop) {
+  std::reverse(loop.begin(), loop.end());
+  for (SphereArc& arc : loop) {
+    std::swap(arc.from, arc.to);
+    arc.sweep = -arc.sweep;
+  }
+  return loop;
+}
+
+// Girard: the sum of the interior angles, each 2 asin(cos(pi/n) / cos(half the side)).
+double polygon_area(int corners, double polar_angle) {
+  const double half_side = std::asin(std::sin(polar_angle) * std::sin(kPi / corners));
+  return corners * 2 * std::asin(std::cos(kPi / corners) / std::cos(half_side)) - (corners - 2) * kPi;
+}
+
+TEST(Area, OfPolygonsFromDotsToHemispheres) {
+  std::mt19937 random(1);
+  for (const int corners : {3, 4, 7})
+    for (double size = 1.5; size > 1e-10; size /= 3)
+      for (int n = 0; n < 20; ++n) {
+        const std::vector<SphereArc> loop = polygon(corners, size, random_rotation(random));
+        const double area = polygon_area(corners, size);
+        EXPECT_NEAR(area_left_of(loop), area, 1e-13) << corners << " corners, size " << size;
+      }
+}
+
+// Left of a clockwise walk round two overlapping small caps lies all the rest of the sphere.
+TEST(Area, OfAllTheRestOfTheSphere) {
+  std::mt19937 random(2);
+  for (double size = 1e-2; size > 1e-6; size /= 3)
+    for (int n = 0; n < 20; ++n) {
+      const glm::dmat3 turn = random_rotation(random);
+      const double height = std::cos(size), tilt = 0.6 * size;
+      // Where the caps' circles meet, without cancellation.
+      const double z = height / std::cos(tilt);
+      const double y = std::sqrt(std::pow(std::sin(size), 2) - std::pow(std::sin(tilt), 2)) / std::cos(tilt);
+      std::vector<SphereArc> loop;
+      for (const double side : {1.0, -1.0}) {
+        const glm::dvec3 axis = turn * glm::dvec3(side * std::sin(tilt), 0, std::cos(tilt));
+        const glm::dvec3 from = turn * glm::dvec3(0, side * y, z), to = turn * glm::dvec3(0, -side * y, z);
+        const double half = std::atan2(y, z * std::sin(tilt));
+        loop.push_back({axis, height, from, to, -(2 * kPi - 2 * half), false});
+      }
+      EXPECT_NEAR(area_left_of(loop), 4 * kPi, 10 * size * size + 1e-7) << size;
+    }
+}
+
+TEST(Area, OfCaps) {
+  for (const double height : {-1.0, -0.999999999, -0.3, 0.0, 0.7, 1.0})
+    for (const double sweep : {2 * kPi, -2 * kPi}) {
+      const double s = std::sqrt(1 - height * height);
+      const glm::dvec3 start(s, 0, height);
+      const std::vector<SphereArc> loop{{{0, 0, 1}, height, start, start, sweep, true}};
+      const double cap = 2 * kPi * (1 - height);
+      EXPECT_NEAR(area_left_of(loop), sweep > 0 ? cap : 4 * kPi - cap, 1e-12);
+      EXPECT_NEAR(moment_left_of(loop).z, (sweep > 0 ? kPi : -kPi) * s * s, 1e-12);
+    }
+}
+
+TEST(Moment, IsTheIntegralOfDirections) {
+  // Octant: the integral of u over it is pi/4 (1, 1, 1).
+  const glm::dvec3 x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
+  const std::vector<SphereArc> octant{great_arc(x, y), great_arc(y, z), great_arc(z, x)};
+  EXPECT_NEAR(area_left_of(octant), kPi / 2, 1e-14);
+  EXPECT_NEAR(glm::distance(moment_left_of(octant), glm::dvec3(kPi / 4)), 0, 1e-14);
+}
+
+TEST(Sides, OfPolygons) {
+  std::mt19937 random(3);
+  std::normal_distribution<double> normal;
+  for (int n = 0; n < 2000; ++n) {
+    const double size = 0.1 + 1.3 * (n % 100) / 100.0;
+    const int corners = 3 + n % 5;
+    const std::vector<SphereArc> loop = polygon(corners, size, random_rotation(random));
+    const glm::dvec3 point = glm::normalize(glm::dvec3(normal(random), normal(random), normal(random)));
+    // A convex polygon of great circles: inside means left of every one.
+    double depth = 2;
+    for (const SphereArc& arc : loop) depth = std::min(depth, glm::dot(arc.axis, point));
+    if (std::abs(depth) < 1e-9) continue;
+    EXPECT_EQ(distance_left_of(point, loop) > 0, depth > 0);
+  }
+}
+
+TEST(Sides, PointsThatLookAtACornerOrThroughIt) {
+  // All symmetric positions: the way from the point to the middle of an arc leads through corners.
+  const std::vector<SphereArc> loop = polygon(4, 0.5, glm::dmat3(1.0));
+  for (int n = 0; n < 8; ++n)
+    for (const double polar : {0.0, 0.2, 0.45, 0.55, 1.0, 2.0, 3.0}) {
+      const double angle = kPi * n / 4;
+      const glm::dvec3 point(std::sin(polar) * std::cos(angle), std::sin(polar) * std::sin(angle), std::cos(polar));
+      const double reach = n % 2 ? std::atan(std::tan(0.5) * std::cos(kPi / 4)) : 0.5;
+      EXPECT_EQ(distance_left_of(point, loop) > 0, polar < reach) << n << ' ' << polar;
+    }
+}
+
+TEST(Sides, LoopsThatTouch) {
+  // A circle that touches one side of an octant from inside: it lies left of it, wherever its points are asked.
+  const glm::dvec3 x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
+  const std::vector<SphereArc> octant{great_arc(x, y), great_arc(y, z), great_arc(z, x)};
+  const glm::dvec3 center = glm::normalize(glm::dvec3(1, 1, 0.4));
+  const double height = std::sqrt(1 - center.z * center.z);  // as far from the centre as the side in the plane z = 0
+  const glm::dvec3 touching = glm::normalize(glm::dvec3(1, 1, 0));
+  const glm::dvec3 opposite = 2 * height * center - touching;
+  for (const glm::dvec3& start : {touching, opposite}) {
+    const std::vector<SphereArc> circle{{center, height, start, start, 2 * kPi, true}};
+    EXPECT_TRUE(lies_left_of(circle, octant));
+    EXPECT_FALSE(lies_left_of(octant, circle));
+    EXPECT_TRUE(lies_left_of(octant, backwards(circle)));
+  }
+}
+
+}  // namespace
+}  // namespace meniscus::testing
