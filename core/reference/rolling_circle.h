@@ -78,7 +78,7 @@ class RollingCircle {
   }
 
   bool certain() const { return certain_; }
-  bool covered() const { return covered_; }            ///< by a single ball, or there is no circle
+  bool covered() const { return covered_; }                ///< by a single ball, or there is no circle
   bool free() const { return !covered_ && met_.empty(); }  ///< no ball meets it
   std::size_t met_count() const { return met_.size(); }
   std::uint32_t met_atom(std::size_t n) const { return met_[n].atom; }
@@ -135,7 +135,8 @@ class RollingCircle {
       covered_ = covered_ || offset < 0;
       return;
     }
-    const auto h = covered_half_plane(circle_, real(w0), q, Precision::root(qq), real(neighbor.weight), Precision::kRoundoff);
+    const auto h =
+        covered_half_plane(circle_, real(w0), q, Precision::root(qq), real(neighbor.weight), Precision::kRoundoff);
     real margin = 0;
     const int meeting = meet_circle(h, margin);
     if (!Precision::kCertain && margin <= 0) certain_ = false;
@@ -147,8 +148,8 @@ class RollingCircle {
     std::uint32_t first = kNone;
     real least = 5, second = 5, error = 0;
     for (const Met& m : met_) {
-      const real angle = counter_clockwise ? Precision::sweep(start, m.covered.begin)
-                                           : Precision::sweep(m.covered.end, start);
+      const real angle =
+          counter_clockwise ? Precision::sweep(start, m.covered.begin) : Precision::sweep(m.covered.end, start);
       // Nearly at the start: just before it or just after?
       const real blur = m.covered.error + start_error + 8 * Precision::kRoundoff;
       if (!Precision::kCertain && (angle <= blur || angle >= 4 - blur)) certain_ = false;

@@ -153,8 +153,8 @@ class RollingProbe {
     RollingFace& face = faces_[name.a][name.index];
     face.rolled[edge] = true;
     const ArcEnd from = arc_end(name.a, face, edge);
-    const std::uint32_t met = ask(from.i, neighbor_index(from.i, from.j),
-                                  [&](auto& circle) { return circle.roll(from.k, from.begins); });
+    const std::uint32_t met =
+        ask(from.i, neighbor_index(from.i, from.j), [&](auto& circle) { return circle.roll(from.k, from.begins); });
     if (met == kNone) return;
     if (from.begins)
       rs_.arcs.push_back({from.i, from.j, from.k, met});

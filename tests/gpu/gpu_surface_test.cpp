@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The GPU finds the very primitives the CPU finds: degenerate molecules as they are and turned, gases with ties, proteins.
+// The GPU finds the very primitives the CPU finds: degenerate molecules as they are and turned, gases with ties,
+// proteins.
 #include <random>
 
 #include <gtest/gtest.h>

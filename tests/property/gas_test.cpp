@@ -59,8 +59,8 @@ int check_points(const Surface& s, const SphereTracer& oracle, int per_kind, dou
     for (int n = 0; n < per_kind; ++n) {
       const auto patch = static_cast<std::uint32_t>(random() % count);
       const PatchSample sample = sample_surface(s, kind, patch, random);
-      const double off = s.probe_radius > 0 ? oracle.nearest(sample.point).distance - s.probe_radius
-                                            : oracle.outside(sample.point);
+      const double off =
+          s.probe_radius > 0 ? oracle.nearest(sample.point).distance - s.probe_radius : oracle.outside(sample.point);
       ++looked_at;
       if (sample.inside) {
         EXPECT_NEAR(off, 0.0, tolerance) << "kind " << int(kind) << ", patch " << patch;

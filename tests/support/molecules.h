@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Molecules with known surfaces, degenerate on purpose or random by seed, and the motions that must not change a surface.
+// Molecules with known surfaces, degenerate on purpose or random by seed, and the motions that must not change a
+// surface.
 #pragma once
 
 #include <cstdint>

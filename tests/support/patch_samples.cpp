@@ -47,8 +47,8 @@ double torus_depth(const Surface& s, const ToroidalPatch& t, const glm::dvec3& e
   const auto contact_height = [&](std::uint32_t atom) {
     return glm::dot(t.axis, s.atoms[atom].center - t.center) * p / (s.atoms[atom].radius + p);
   };
-  const double least = std::min({p * std::cos(psi), from_axis, height - contact_height(t.atom[0]),
-                                 contact_height(t.atom[1]) - height});
+  const double least =
+      std::min({p * std::cos(psi), from_axis, height - contact_height(t.atom[0]), contact_height(t.atom[1]) - height});
   if (t.free()) return least;
   double turn = std::atan2(glm::dot(t.axis, glm::cross(t.start, e)), glm::dot(t.start, e));
   if (turn < 0) turn += 2 * kPi;

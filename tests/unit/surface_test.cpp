@@ -204,14 +204,12 @@ void expect_protein(const Balls& balls, const SurfaceCounts& counts, std::array<
 }
 
 TEST(ReferenceTable, Ubiquitin) {
-  const SurfaceCounts counts{
-      .convex = 391, .free_edges = 0, .spindle = 60, .fixed_probes = 860, .arcs = 1290};
+  const SurfaceCounts counts{.convex = 391, .free_edges = 0, .spindle = 60, .fixed_probes = 860, .arcs = 1290};
   expect_protein(ubiquitin(), counts, {1387.574, 1524.024, 1116.17}, 4027.77, 0.05, 9185.4, 0.06);
 }
 
 TEST(ReferenceTable, Enterotoxin) {
-  const SurfaceCounts counts{
-      .convex = 3019, .free_edges = 3, .spindle = 634, .fixed_probes = 6460, .arcs = 9690};
+  const SurfaceCounts counts{.convex = 3019, .free_edges = 3, .spindle = 634, .fixed_probes = 6460, .arcs = 9690};
   expect_protein(enterotoxin(), counts, {7789.693, 10387.919, 10098.0}, 28275.6, 0.5, 85925.0, 1.0);
 }
 
