@@ -41,7 +41,7 @@ step "4/6 POV-Ray"
 step "5/6 Blender"
 "$meniscus" export blender "$molecule" -o "$out/1tii.mns" --size "$size" --camera "$out/camera.json" --force
 blender -b --factory-startup --python-exit-code 3 --python "$here/exporters/blender/addon/render_mns.py" -- \
-  "$out/1tii.mns" --output "$out/1tii_blender.png" --passes "$out/1tii_blender.exr" --size "$size" --samples 16 \
+  "$out/1tii.mns" --output "$out/1tii_blender.png" --passes "$out/1tii_blender.exr" --size "$size" --samples 16 --transparent \
   >"$out/blender.log" 2>&1 || {
   tail -n 20 "$out/blender.log" >&2
   echo "Blender failed; its whole log: $out/blender.log" >&2
