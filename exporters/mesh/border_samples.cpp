@@ -75,7 +75,13 @@ void BorderSamples::sample(std::uint32_t index, double tolerance, bool split_col
   std::vector<double> stops{0.0};
   for (std::uint32_t f : border.face) {
     const Face& face = surface_.faces[f];
-    step = std::min(step, edge_length(tube_radius(surface_, face), tolerance));
+    if (tube_radius(surface_, face) > 0.0) step = std::min(step, edge_length(tube_radius(surface_, face), tolerance));
+    if (face.kind == PatchKind::toroidal) {
+      // Both contact circles of a saddle get equal steps: without a probe they are one circle, and must stay one.
+      for (const std::uint32_t atom : surface_.toroidal[face.patch].atom) {
+        step = std::min(step, edge_length(surface_.atoms[atom].radius, tolerance));
+      }
+    }
     if (!split_colors || face.kind == PatchKind::convex || border.kind == BorderKind::contact) continue;
     const bool concave = face.kind == PatchKind::concave;
     const glm::dvec3 probe = concave ? surface_.concave[face.patch].center : border.center;

@@ -91,6 +91,7 @@ FacePoint TorusDomain::at(double theta, double tube) const {
 
 glm::dvec2 TorusDomain::flat(const FacePoint& point) const {
   const double theta = point.angles.x, half_tan = std::tan(0.5 * point.angles.y);
+  if (tube_radius_ == 0.0) return point.angles;  // a saddle without width: any map will do
   // d(height) = p d(tube) / (distance from the axis), integrated in closed form.
   if (!spindle_ && tip_ > 0.0) {
     const double t = std::abs(half_tan), height = std::log((t - tan_tip_) / (t + tan_tip_)) / std::sin(tip_);

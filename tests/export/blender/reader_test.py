@@ -129,5 +129,73 @@ class Reader(unittest.TestCase):
         self.assertIn("b_factor", vertices.dtype.names)
 
 
+class FakeItems(list):
+    def foreach_set(self, name, values):
+        self.set = {**getattr(self, "set", {}), name: values}
+
+
+class NewMesh:
+    """What compat touches of a mesh of Blender 4.1 and later: no auto smooth."""
+
+    def __init__(self):
+        self.polygons, self.calls = FakeItems([0, 0]), []
+
+    def shade_smooth(self):
+        self.calls.append("smooth")
+
+    def normals_split_custom_set(self, normals):
+        self.calls.append(("corners", len(normals)))
+
+    def normals_split_custom_set_from_vertices(self, normals):
+        self.calls.append(("vertices", len(normals)))
+
+
+class OldMesh(NewMesh):
+    use_auto_smooth, auto_smooth_angle = False, 0.5
+
+
+class Compat(unittest.TestCase):
+    """The branches for other versions than the installed one, on stand-ins."""
+
+    def test_normals_come_last_and_smoothing_before_them(self):
+        import compat
+        mesh = NewMesh()
+        compat.set_smooth_with_normals(mesh, np.zeros((6, 3)))
+        compat.set_smooth_with_vertex_normals(mesh, np.zeros((4, 3)))
+        self.assertEqual(mesh.calls, ["smooth", ("corners", 6), "smooth", ("vertices", 4)])
+        mesh = OldMesh()
+        compat.set_smooth_with_normals(mesh, np.zeros((6, 3)))
+        self.assertEqual(mesh.calls, [("corners", 6)])
+        self.assertTrue(mesh.use_auto_smooth)
+        self.assertGreater(mesh.auto_smooth_angle, 3.14)
+
+    def test_renamed_sockets_are_found(self):
+        import compat
+
+        class Node:
+            inputs = {"Specular IOR Level": 1}
+
+        self.assertEqual(compat.principled_input(Node, "Specular", "Specular IOR Level"), 1)
+        self.assertIsNone(compat.principled_input(Node, "Sheen Tint"))
+
+    def test_triangles_when_loop_total_is_read_only(self):
+        import compat
+
+        class ReadOnly(FakeItems):
+            def add(self, count):
+                self.count = count
+
+            def foreach_set(self, name, values):
+                if name == "loop_total":
+                    raise AttributeError(name)
+                super().foreach_set(name, values)
+
+        mesh = NewMesh()
+        mesh.loops, mesh.polygons = ReadOnly(), ReadOnly()
+        compat.set_triangles(mesh, np.array([[0, 1, 2], [2, 1, 3]], dtype=np.uint32))
+        self.assertEqual((mesh.loops.count, mesh.polygons.count), (6, 2))
+        self.assertEqual(list(mesh.polygons.set["loop_start"]), [0, 3])
+
+
 if __name__ == "__main__":
     unittest.main(argv=sys.argv[:1])

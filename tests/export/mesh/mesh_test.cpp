@@ -204,6 +204,19 @@ TEST(Mesh, EnterotoxinIsClosedWithTheRightTopology) {
   expect_closed_with_topology(surface, tessellate(surface, {0.1, true}));
 }
 
+TEST(Mesh, WithoutAProbeItIsTheVanDerWaalsSurface) {
+  for (const Balls& balls : {two_atoms(2.4, 1.7, 1.2), c60(), lattice(3, 3, 3, 2.5)}) {
+    const Surface surface = compute_surface_cpu(balls, 0.0);
+    for (const double tolerance : {0.02, 0.005}) {
+      const TriangleMesh mesh = tessellate(surface, {tolerance, true});
+      expect_closed_with_topology(surface, mesh);
+      const MeshMeasure m = measure(mesh);
+      EXPECT_NEAR(m.volume, surface.volume, tolerance * surface.area);
+      EXPECT_NEAR(m.area, surface.area, tolerance * surface.area);
+    }
+  }
+}
+
 TEST(Mesh, IsTheSameForAnyNumberOfThreads) {
   const Surface surface = compute_surface_cpu(gas(9, 40, 11.0, 1.2, 2.0), kWater);
   const TriangleMesh many = tessellate(surface);
