@@ -164,11 +164,11 @@ TEST(Mesh, DegenerateMoleculesAreClosedAtAnyTolerance) {
 }
 
 TEST(Mesh, RandomMoleculesAreClosed) {
-  for (std::uint32_t seed = 0; seed < 60; ++seed) {
+  for (std::uint32_t seed = 0; seed < 200; ++seed) {
     const Balls balls = gas(seed, 2 + seed % 20, 8.0, 0.9, 2.0);
-    const Surface surface = compute_surface_cpu(balls, 0.5 + 0.04 * seed);
+    const Surface surface = compute_surface_cpu(balls, 0.5 + 0.012 * seed);
     SCOPED_TRACE(seed);
-    expect_closed_with_topology(surface, tessellate(surface, {seed % 2 ? 0.2 : 0.02, true}));
+    expect_closed_with_topology(surface, tessellate(surface, {seed % 2 ? 1.0 : 0.02, true}));
   }
 }
 
