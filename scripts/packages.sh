@@ -4,7 +4,7 @@
 build_packages=(
   g++ cmake ninja-build pkg-config ccache
   libepoxy-dev libegl-dev libglm-dev libopenimageio-dev gemmi-dev tao-pegtl-dev libcli11-dev libfmt-dev
-  nlohmann-json3-dev libtbb-dev zlib1g-dev libcgal-dev
+  nlohmann-json3-dev libtbb-dev zlib1g-dev
 )
 run_packages=(libegl1 libegl-mesa0 libgl1-mesa-dri)  # EGL and software GL
 film_packages=(blender povray povray-includes openimageio-tools)

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
@@ -12,6 +13,7 @@
 
 #include "core/surface/ball_grid.h"
 #include "core/surface/contour.h"
+#include "core/surface/sphere_cover.h"
 
 namespace meniscus {
 namespace {
@@ -20,6 +22,7 @@ namespace {
 struct Worker {
   std::vector<RsArc> arcs;
   std::vector<std::uint32_t> lone_atoms;
+  std::vector<std::pair<double, std::uint32_t>> near;  // squared distance, atom
   Blockers blockers;
   Contour contour;
   std::size_t pairs = 0;
@@ -33,16 +36,28 @@ class Enumeration {
         weights_(decision_weights(atoms, probe_radius)),
         swallowed_(swallowed_atoms(atoms, probe_radius)),
         largest_radius_(largest_radius(probe_radius)),
-        grid_(atoms, largest_radius_) {}
+        grid_(atoms, largest_radius_),
+        neighbors_(atoms.size()),
+        uncovered_(atoms.size()) {}
 
   ReducedSurface run(EnumerationStats* stats) {
     tbb::enumerable_thread_specific<Worker> workers;
-    const auto& order = grid_.order();
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, order.size(), 64), [&](const auto& range) {
-      Worker& worker = workers.local();
-      for (std::size_t n = range.begin(); n != range.end(); ++n)
-        if (!swallowed_[order[n]]) visit_atom(order[n], worker);
+    const auto for_each_atom = [&](auto&& visit) {
+      const auto& order = grid_.order();
+      tbb::parallel_for(tbb::blocked_range<std::size_t>(0, order.size(), 64), [&](const auto& range) {
+        Worker& worker = workers.local();
+        for (std::size_t n = range.begin(); n != range.end(); ++n)
+          if (!swallowed_[order[n]]) visit(order[n], worker);
+      });
+    };
+    // Nearly half of all atoms are buried, which is quickly told; their circles need no look.
+    for_each_atom([&](std::uint32_t i, Worker& worker) {
+      find_neighbors(i, worker);
+      list_blockers(i, worker.blockers);
+      uncovered_[i] = uncovered_directions(worker.blockers);
+      if (uncovered_[i].none()) neighbors_[i] = {};
     });
+    for_each_atom([&](std::uint32_t i, Worker& worker) { visit_atom(i, worker); });
     ReducedSurface rs;
     for (const Worker& w : workers) {
       rs.arcs.insert(rs.arcs.end(), w.arcs.begin(), w.arcs.end());
@@ -65,6 +80,7 @@ class Enumeration {
   }
 
   void visit_atom(std::uint32_t i, Worker& w) const {
+    if (uncovered_[i].none()) return;
     list_blockers(i, w.blockers);
     if (w.blockers.size() == 0) {
       w.lone_atoms.push_back(i);
@@ -73,24 +89,45 @@ class Enumeration {
     for (std::size_t n = 0; n < w.blockers.size(); ++n) {
       const std::uint32_t j = w.blockers[n].label;
       if (j < i) continue;
-      ++w.pairs;
+      if (surely_covered(i, w.blockers[n])) continue;
       w.contour.expose(w.blockers[n].center, weights_[j], w.blockers, n);
       if (w.contour.whole()) w.arcs.push_back({i, j, kNone, kNone});
       for (const ExposedArc& arc : w.contour.arcs()) w.arcs.push_back({i, j, arc.begin_by, arc.end_by});
     }
   }
 
-  // The balls that overlap ball i.
-  void list_blockers(std::uint32_t i, Blockers& blockers) const {
-    blockers.restart(weights_[i]);
+  // Seen from either atom, the circle must pass near a direction that is not surely covered.
+  bool surely_covered(std::uint32_t i, const Blockers::Ball& b) const {
+    if (uncovered_[b.label].none()) return true;
+    if (!(b.distance > 1e-6)) return false;
+    const double height = b.half_power / b.distance, ri = std::sqrt(weights_[i]), rj = std::sqrt(b.weight);
+    const glm::dvec3 axis = b.center / b.distance;
+    return !may_be_exposed(uncovered_[i], axis, height / ri) ||
+           !may_be_exposed(uncovered_[b.label], -axis, (b.distance - height) / rj);
+  }
+
+  // The balls that overlap ball i, nearest first: near balls cover most, and a covered circle is done with.
+  void find_neighbors(std::uint32_t i, Worker& w) {
+    w.near.clear();
     const double radius = std::sqrt(weights_[i]);
     grid_.for_each_near(atoms_[i].center, radius + largest_radius_, [&](std::uint32_t j) {
       if (j == i || swallowed_[j]) return;
       const glm::dvec3 d = atoms_[j].center - atoms_[i].center;
+      const double square = glm::dot(d, d);
       const double reach = radius + atoms_[j].radius + probe_radius_ + 2e-9;  // not below the sum of the grown radii
-      if (glm::dot(d, d) < reach * reach) blockers.add(d, weights_[j], j);
+      if (square < reach * reach) w.near.emplace_back(square, j);
     });
-    blockers.sort();
+    std::sort(w.near.begin(), w.near.end());
+    neighbors_[i].reserve(w.near.size());
+    for (const auto& [square, j] : w.near) {
+      neighbors_[i].push_back(j);
+      w.pairs += j > i;
+    }
+  }
+
+  void list_blockers(std::uint32_t i, Blockers& blockers) const {
+    blockers.restart(weights_[i]);
+    for (const std::uint32_t j : neighbors_[i]) blockers.add(atoms_[j].center - atoms_[i].center, weights_[j], j);
   }
 
   std::span<const Ball> atoms_;
@@ -99,6 +136,8 @@ class Enumeration {
   std::vector<bool> swallowed_;
   double largest_radius_;
   BallGrid grid_;
+  std::vector<std::vector<std::uint32_t>> neighbors_;  // empty for buried atoms once that is known
+  std::vector<UncoveredDirections> uncovered_;
 };
 
 }  // namespace
