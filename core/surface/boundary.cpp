@@ -9,20 +9,11 @@
 #include <glm/geometric.hpp>
 #include <tbb/parallel_for.h>
 
-#include "core/surface/spherical.h"
+#include "core/surface/loops.h"
 #include "core/surface/union_find.h"
 
 namespace meniscus {
 namespace {
-
-// The loops and faces of one convex or concave patch before they get their global numbers.
-struct PatchFaces {
-  std::vector<HalfBorder> half_borders;
-  std::vector<std::uint32_t> loop_sizes;
-  std::vector<std::uint32_t> loop_face;  // per loop: face within the patch
-  std::uint32_t face_count = 0;
-  bool closed = true;
-};
 
 // Where the borders of one toroidal patch start, and what they are: contact circles first, then the ends.
 struct PatchBorders {
@@ -195,7 +186,7 @@ class BoundaryBuilder {
     tbb::parallel_for(std::size_t{0}, s_.convex.size(), [&](std::size_t c) {
       const std::uint32_t a = s_.convex[c].atom;
       const Ball& atom = s_.atoms[a];
-      convex_faces_[c] = faces_from({of_atom.data() + first[a], of_atom.data() + first[a + 1]}, atom.center,
+      convex_faces_[c] = chain_faces(s_.borders, {of_atom.data() + first[a], of_atom.data() + first[a + 1]}, atom.center,
                                     atom.radius, false);
     });
 
@@ -225,73 +216,26 @@ class BoundaryBuilder {
           walk.push_back(b.half_edge(side.at_end, 1) * 2 + backwards);
         }
       }
-      concave_faces_[s] = faces_from(walk, s_.concave[s].center, p(), true);
+      concave_faces_[s] = chain_faces(s_.borders, walk, s_.concave[s].center, p(), true);
     });
   }
 
-  std::uint32_t vertex_at(HalfBorder h, int end) const { return s_.borders[h / 2].vertex[(h & 1) ? 1 - end : end]; }
-
-  PatchFaces faces_from(std::span<const HalfBorder> walk, const glm::dvec3& center, double radius,
-                        bool seen_from_inside) const {
-    PatchFaces faces;
-    std::vector<HalfBorder> open(walk.begin(), walk.end());
-    while (!open.empty()) {
-      const std::size_t first = faces.half_borders.size();
-      faces.half_borders.push_back(open.back());
-      open.pop_back();
-      const std::uint32_t home = vertex_at(faces.half_borders[first], 0);
-      for (std::uint32_t at = vertex_at(faces.half_borders[first], 1); at != home;) {
-        const auto next = std::find_if(open.begin(), open.end(), [&](HalfBorder h) { return vertex_at(h, 0) == at; });
-        if (next == open.end()) {
-          faces.closed = false;
-          break;
-        }
-        faces.half_borders.push_back(*next);
-        at = vertex_at(*next, 1);
-        open.erase(next);
+  // Large surfaces have millions of half-borders: growing the lists step by step would copy them several times.
+  void reserve_faces() {
+    std::size_t faces = 2 * s_.toroidal.size(), loops = faces, half_borders = 6 * s_.toroidal.size();
+    for (const auto* patches : {&convex_faces_, &concave_faces_})
+      for (const PatchFaces& patch : *patches) {
+        faces += patch.face_count;
+        loops += patch.loop_sizes.size();
+        half_borders += patch.half_borders.size();
       }
-      faces.loop_sizes.push_back(static_cast<std::uint32_t>(faces.half_borders.size() - first));
-    }
-    group_loops(faces, center, radius, seen_from_inside);
-    return faces;
-  }
-
-  // Which loops bound the same connected piece? Two do if each lies on the other's left and no third separates them.
-  void group_loops(PatchFaces& faces, const glm::dvec3& center, double radius, bool seen_from_inside) const {
-    const std::size_t count = faces.loop_sizes.size();
-    faces.loop_face.assign(count, 0);
-    faces.face_count = count ? 1 : (seen_from_inside ? 0 : 1);
-    if (count < 2 || !faces.closed) return;
-    std::vector<std::vector<SphereArc>> loops(count);
-    for (std::size_t l = 0, h = 0; l < count; ++l) {
-      for (std::uint32_t n = 0; n < faces.loop_sizes[l]; ++n, ++h) {
-        const HalfBorder half = faces.half_borders[h];
-        loops[l].push_back(sphere_arc(s_.borders[half / 2], (half & 1) != (seen_from_inside ? 1u : 0u), center, radius));
-      }
-      if (seen_from_inside) std::reverse(loops[l].begin(), loops[l].end());
-    }
-    std::vector<std::vector<char>> left(count, std::vector<char>(count, 1));  // [m][k]: loop m lies left of loop k
-    for (std::size_t m = 0; m < count; ++m)
-      for (std::size_t k = 0; k < count; ++k)
-        if (m != k) left[m][k] = lies_left_of(loops[m], loops[k]);
-    UnionFind same(count);
-    for (std::size_t m = 0; m < count; ++m)
-      for (std::size_t n = m + 1; n < count; ++n) {
-        bool together = left[m][n] && left[n][m];
-        for (std::size_t k = 0; k < count && together; ++k)
-          together = k == m || k == n || left[m][k] == left[n][k];
-        if (together) same.unite(static_cast<std::uint32_t>(m), static_cast<std::uint32_t>(n));
-      }
-    faces.face_count = 0;
-    std::vector<std::uint32_t> number(count, kNone);
-    for (std::uint32_t l = 0; l < count; ++l) {
-      const std::uint32_t root = same.find(l);
-      if (number[root] == kNone) number[root] = faces.face_count++;
-      faces.loop_face[l] = number[root];
-    }
+    s_.faces.reserve(faces);
+    s_.loops.reserve(loops);
+    s_.half_borders.reserve(half_borders);
   }
 
   void number_faces() {
+    reserve_faces();
     for (std::uint32_t c = 0; c < s_.convex.size(); ++c) {
       s_.convex[c].first_face = static_cast<std::uint32_t>(s_.faces.size());
       s_.convex[c].face_count = convex_faces_[c].face_count;
