@@ -15,17 +15,26 @@ TexelBuffer::~TexelBuffer() {
 }
 
 void TexelBuffer::upload_bytes(std::span<const std::byte> bytes) {
+  buffer_.upload(bytes);
+  attach(buffer_);
+}
+
+void TexelBuffer::view(const Buffer& storage) {
+  attach(storage);
+  // Kernels wrote it as storage and now fetch it as texels.
+  glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
+}
+
+void TexelBuffer::attach(const Buffer& storage) {
   GLint limit = 0;
   glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &limit);
-  const std::size_t texel_bytes = format_ == TexelFormat::uint1 ? 4 : 16;
-  if (bytes.size() / texel_bytes > static_cast<std::size_t>(limit))
-    throw CapacityError(
-        fmt::format("{} texels are needed; this driver's limit is {}", bytes.size() / texel_bytes, limit));
-  buffer_.upload(bytes);
+  const std::size_t texels = storage.byte_count() / (format_ == TexelFormat::uint1 ? 4 : 16);
+  if (texels > static_cast<std::size_t>(limit))
+    throw CapacityError(fmt::format("{} texels are needed; this driver's limit is {}", texels, limit));
   // Made anew each time: the buffer may have moved, and its end has.
   if (texture_) glDeleteTextures(1, &texture_);
   glCreateTextures(GL_TEXTURE_BUFFER, 1, &texture_);
-  glTextureBuffer(texture_, format_ == TexelFormat::uint1 ? GL_R32UI : GL_RGBA32UI, buffer_.gl_name());
+  glTextureBuffer(texture_, format_ == TexelFormat::uint1 ? GL_R32UI : GL_RGBA32UI, storage.gl_name());
   check_gl("making a buffer texture");
 }
 

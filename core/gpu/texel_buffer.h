@@ -29,11 +29,16 @@ class TexelBuffer {
     upload_bytes(std::as_bytes(std::span<const T>(values)));
   }
 
+  /// Shows what kernels wrote to a storage buffer; to be called again whenever that buffer was resized. The buffer must
+  /// outlive this view's use. Throws CapacityError as above.
+  void view(const Buffer& storage);
+
   /// `layout(binding = N) uniform usamplerBuffer` of the kernels.
   void bind(std::uint32_t unit) const;
 
  private:
   void upload_bytes(std::span<const std::byte> bytes);
+  void attach(const Buffer& storage);
 
   TexelFormat format_;
   Buffer buffer_;

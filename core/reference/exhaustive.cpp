@@ -34,7 +34,7 @@ class Enumeration {
       : atoms_(atoms),
         probe_radius_(probe_radius),
         weights_(decision_weights(atoms, probe_radius)),
-        swallowed_(swallowed_atoms(atoms, probe_radius)),
+        swallowed_(swallowed_atoms(atoms)),
         largest_radius_(largest_radius(probe_radius)),
         grid_(atoms, largest_radius_),
         neighbors_(atoms.size()),

@@ -43,7 +43,7 @@ class RollingProbe {
   RollingProbe(std::span<const Ball> atoms, double probe_radius)
       : atoms_(atoms),
         weights_(decision_weights(atoms, probe_radius)),
-        swallowed_(swallowed_atoms(atoms, probe_radius)),
+        swallowed_(swallowed_atoms(atoms)),
         largest_radius_(largest_radius()),
         grid_(atoms, largest_radius_),
         neighbors_(atoms.size()),

@@ -110,7 +110,7 @@ bool Contour::expose_in_double(const Blockers& blockers, std::size_t skip, std::
     if (!left.cover(half.half_plane, half.label)) return false;
     if (left.gone()) break;
   }
-  const double inverse_radius = 1.0 / circle_.radius;
+  const double inverse_radius = circle_.inverse_radius;
   const double w0 = blockers.first_weight();
   const double noise = 8 * circle_.slackness * geometry::kUnitRoundoff * inverse_radius;
   for (std::size_t n = 0; n < blockers.size() && !left.gone(); ++n) {

@@ -31,6 +31,7 @@ const Program& GpuNeighbors::kernel(const char* name, int pass) {
 void GpuNeighbors::upload(std::span<const glm::dvec3> centers, std::span<const double> radii,
                           const std::vector<bool>& left_out) {
   count_ = static_cast<std::uint32_t>(centers.size());
+  resident_ = {};
   if (count_ == 0) return;
   glm::dvec3 low = centers[0], high = low;
   double largest = 0;
@@ -79,13 +80,16 @@ void GpuNeighbors::build_grid() {
     program.dispatch(group_count(count_));
     if (pass == 0) scan(cell_first_, cell_count_);
   }
+  ball_texels_.view(balls);
+  cell_texels_.view(cell_atoms_);
 }
 
 void GpuNeighbors::run_neighbors(const BallBatch& batch, int pass) {
-  balls.bind(0);
+  ball_texels_.bind(0);
+  cell_texels_.bind(1);
+  class_counts_.bind(0);
   balls_low_.bind(1);
   cell_first_.bind(2);
-  cell_atoms_.bind(3);
   first.bind(4);
   pair_first_.bind(5);
   relative.bind(6);
@@ -100,8 +104,10 @@ void GpuNeighbors::run_neighbors(const BallBatch& batch, int pass) {
 }
 
 bool GpuNeighbors::count_neighbors(BallBatch& batch) {
+  resident_ = {};
   first.resize((batch.count + 1) * kWord);
   pair_first_.resize((batch.count + 1) * kWord);
+  class_counts_.resize(batch.count * kClasses * kWord);
   relative.resize(sizeof(glm::vec4));
   labels.resize(kWord);
   run_neighbors(batch, 0);

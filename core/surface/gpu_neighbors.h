@@ -12,6 +12,7 @@
 
 #include "core/gpu/buffer.h"
 #include "core/gpu/program.h"
+#include "core/gpu/texel_buffer.h"
 
 namespace meniscus {
 
@@ -31,15 +32,18 @@ class GpuNeighbors {
   /// Puts balls into a grid: centres and radii in Å; `left_out` may be empty or say who neither has nor is a neighbour.
   void upload(std::span<const glm::dvec3> centers, std::span<const double> radii, const std::vector<bool>& left_out);
 
-  /// Calls work(batch) for consecutive batches with their lists in the buffers below. Batches are as large as the
-  /// driver's storage blocks allow. Throws CapacityError if a single ball has too many neighbours.
+  /// Calls work(batch) for consecutive batches with their lists in the buffers below; lists that are still there from
+  /// the last time are not made again. Batches are as large as the driver's storage blocks allow. Throws CapacityError if a single ball has too many neighbours.
   template <typename Work>
   void for_each_batch(Work&& work) {
     BallBatch batch;
     batch.count = std::min(kLargestBatch, count_);
     while (batch.first < count_) {
-      if (count_neighbors(batch)) {
-        list_neighbors(batch);
+      const bool listed = resident_.count > 0 && resident_.first == batch.first && resident_.count == batch.count;
+      if (listed) batch = resident_;
+      if (listed || count_neighbors(batch)) {
+        if (!listed) list_neighbors(batch);
+        resident_ = batch;
         work(batch);
         batch.first += batch.count;
       } else {
@@ -59,6 +63,7 @@ class GpuNeighbors {
   Buffer pairs;      ///< uvec2 per pair: ball, place of the other in the lists
 
  private:
+  static constexpr std::size_t kClasses = 6;  // distance classes of the kernel
   static constexpr std::uint32_t kLargestBatch = 1 << 16;  // lists of some 50 MB: within limits and not far from caches
 
   bool count_neighbors(BallBatch& batch);
@@ -69,7 +74,9 @@ class GpuNeighbors {
   const Program& kernel(const char* name, int pass = -1);
 
   ProgramCache& programs_;
-  Buffer balls_low_, cell_first_, rank_, cell_atoms_, totals_, pair_first_;
+  TexelBuffer ball_texels_{TexelFormat::uint4}, cell_texels_{TexelFormat::uint1};  // of balls and cell_atoms_
+  Buffer balls_low_, cell_first_, rank_, cell_atoms_, totals_, pair_first_, class_counts_;
+  BallBatch resident_;  // whose lists the buffers hold; count 0: nobody's
   std::uint32_t count_ = 0;
   std::uint32_t cell_count_ = 0;
   float largest_radius_ = 0;

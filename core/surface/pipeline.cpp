@@ -33,7 +33,7 @@ ReducedSurface SurfacePipeline::reduce(std::span<const Ball> atoms, double probe
   {
     const auto stage = clock_.stage("grid");
     weights_ = decision_weights(atoms, probe_radius);
-    swallowed_ = swallowed_atoms(atoms, probe_radius);
+    swallowed_ = swallowed_atoms(atoms);
     std::vector<glm::dvec3> centers(atoms.size());
     std::vector<double> radii(atoms.size());
     std::vector<glm::dvec4> exact(atoms.size());
@@ -67,6 +67,7 @@ void SurfacePipeline::expose_circles(const BallBatch& batch, ReducedSurface& rs)
   if (batch.pair_count == 0) return;
   {
     const auto stage = clock_.stage("circles");
+    relative_texels_.view(neighbors_.relative);
     run_circles(batch, false, neighbors_.pairs, batch.pair_count, doubtful_, rs);
   }
   if (doubtful_count_ == 0) return;
@@ -92,7 +93,10 @@ void SurfacePipeline::run_circles(const BallBatch& batch, bool in_double, const 
     circles.bind(0);
     neighbors_.first.bind(1);
     neighbors_.labels.bind(2);
-    (in_double ? atoms_double_ : neighbors_.relative).bind(3);
+    if (in_double)
+      atoms_double_.bind(3);
+    else
+      relative_texels_.bind(0);
     arcs_.bind(4);
     doubtful.bind(5);
     counters_.bind(6);

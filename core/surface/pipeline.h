@@ -10,6 +10,7 @@
 #include "core/base/stage_clock.h"
 #include "core/gpu/buffer.h"
 #include "core/gpu/program.h"
+#include "core/gpu/texel_buffer.h"
 #include "core/surface/cusp_tracer.h"
 #include "core/surface/gpu_neighbors.h"
 #include "core/surface/primitives.h"
@@ -51,6 +52,7 @@ class SurfacePipeline {
 
   ProgramCache programs_;
   GpuNeighbors neighbors_;
+  TexelBuffer relative_texels_{TexelFormat::uint4};  // of the neighbours, which circles fetch most
   Buffer atoms_double_, arcs_, doubtful_, still_doubtful_, counters_;
   std::uint32_t arc_capacity_ = 1 << 14;
   std::uint32_t doubtful_capacity_ = 1 << 12;

@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include <glm/geometric.hpp>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 
 #include "core/surface/ball_grid.h"
 
@@ -37,24 +39,24 @@ std::vector<double> decision_weights(std::span<const Ball> atoms, double probe_r
   return weights;
 }
 
-std::vector<bool> swallowed_atoms(std::span<const Ball> atoms, double probe_radius) {
-  // An atom that holds another has a centre closer than the largest radius difference; vdW radii suffice.
-  std::vector<bool> swallowed(atoms.size(), false);
-  if (atoms.empty()) return swallowed;
-  (void)probe_radius;
+std::vector<bool> swallowed_atoms(std::span<const Ball> atoms) {
+  // An atom that holds another has a centre closer than the largest radius difference.
+  if (atoms.empty()) return {};
   const auto [smallest, largest] =
       std::minmax_element(atoms.begin(), atoms.end(), [](auto& a, auto& b) { return a.radius < b.radius; });
   const double reach = largest->radius - smallest->radius + kSwallowTolerance;
-  const BallGrid grid(atoms, std::max(reach, 1.0));
-  for (std::size_t a = 0; a < atoms.size(); ++a) {
-    grid.for_each_near(atoms[a].center, reach, [&](std::uint32_t b) {
-      if (b == a) return;
-      const double slack = atoms[b].radius - atoms[a].radius - glm::distance(atoms[a].center, atoms[b].center);
-      const bool wins = atoms[b].radius > atoms[a].radius || (atoms[b].radius == atoms[a].radius && b < a);
-      if (wins && slack + kSwallowTolerance >= 0) swallowed[a] = true;
-    });
-  }
-  return swallowed;
+  const BallGrid grid(atoms, std::max(reach, 2.0));
+  std::vector<char> swallowed(atoms.size(), 0);
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, atoms.size(), 256), [&](const auto& range) {
+    for (std::size_t a = range.begin(); a != range.end(); ++a)
+      grid.for_each_near(atoms[a].center, reach, [&](std::uint32_t b) {
+        if (b == a) return;
+        const double slack = atoms[b].radius - atoms[a].radius - glm::distance(atoms[a].center, atoms[b].center);
+        const bool wins = atoms[b].radius > atoms[a].radius || (atoms[b].radius == atoms[a].radius && b < a);
+        if (wins && slack + kSwallowTolerance >= 0) swallowed[a] = 1;
+      });
+  });
+  return {swallowed.begin(), swallowed.end()};
 }
 
 }  // namespace meniscus

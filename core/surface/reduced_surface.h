@@ -41,6 +41,6 @@ std::vector<double> decision_weights(std::span<const Ball> atoms, double probe_r
 double decision_weight(double radius, std::size_t index);
 
 /// Atoms whose SAS ball lies in another's (ties: the lower index wins). They have no patch and block nothing more.
-std::vector<bool> swallowed_atoms(std::span<const Ball> atoms, double probe_radius);
+std::vector<bool> swallowed_atoms(std::span<const Ball> atoms);
 
 }  // namespace meniscus

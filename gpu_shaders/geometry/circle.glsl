@@ -30,6 +30,7 @@ struct Circle {
   real height;
   real radius_squared;  // not positive: the spheres do not meet
   real radius;
+  real inverse_radius;  // 0 where there is no circle
   real slackness;  // how much near coincident centres magnify rounding, at least 1
 };
 
@@ -41,6 +42,7 @@ GEOMETRY Circle circle_of_two_spheres(real3 d, real w0, real w1) {
   c.height = (distance * distance + w0 - w1) / (real(2) * distance);
   c.radius_squared = w0 - c.height * c.height;
   c.radius = c.radius_squared > real(0) ? sqrt(c.radius_squared) : real(0);
+  c.inverse_radius = c.radius > real(0) ? real(1) / c.radius : real(0);
   c.u = perpendicular(c.axis);
   c.v = cross(c.axis, c.u);
   c.slackness = real(1) + sqrt(w0) / distance;
@@ -62,12 +64,11 @@ struct HalfPlane {
 GEOMETRY HalfPlane covered_half_plane(Circle c, real w0, real3 q, real q_length, real wq, real epsilon) {
   HalfPlane h;
   real qq = dot(q, q);
-  real inverse_radius = real(1) / c.radius;
   h.normal = real2(dot(c.u, q), dot(c.v, q));
-  h.offset = ((w0 + qq - wq) * real(0.5) - c.height * dot(c.axis, q)) * inverse_radius;
+  h.offset = ((w0 + qq - wq) * real(0.5) - c.height * dot(c.axis, q)) * c.inverse_radius;
   h.length_squared = dot(h.normal, h.normal);
   h.length_bound = q_length;
-  h.error = real(8) * c.slackness * epsilon * (qq + w0) * (real(1) + q_length * inverse_radius) * inverse_radius;
+  h.error = real(8) * c.slackness * epsilon * (qq + w0) * (real(1) + q_length * c.inverse_radius) * c.inverse_radius;
   return h;
 }
 

@@ -15,7 +15,7 @@ layout(std430, binding = 2) readonly buffer NeighborLabels { uint neighbor_label
 #ifdef DOUBLE_PRECISION
 layout(std430, binding = 3) readonly buffer Atoms { dvec4 atoms[]; };  // centre, decision weight
 #else
-layout(std430, binding = 3) readonly buffer NeighborBalls { vec4 neighbor_balls[]; };
+layout(binding = 0) uniform usamplerBuffer neighbor_balls;  // floats: relative centre, SAS radius²
 layout(std430, binding = 7) readonly buffer AtomsLow { vec4 atoms[]; };  // w: SAS radius
 #endif
 layout(std430, binding = 4) writeonly buffer Arcs { uvec4 arcs[]; };  // i, j, begin_by, end_by
@@ -40,7 +40,7 @@ void neighbor(uint i, uint n, out real3 center, out real weight) {
   center = other.xyz - atoms[i].xyz;
   weight = other.w;
 #else
-  vec4 ball = neighbor_balls[n];
+  vec4 ball = uintBitsToFloat(texelFetch(neighbor_balls, int(n)));
   center = ball.xyz;
   weight = ball.w;
 #endif
@@ -72,7 +72,7 @@ void main() {
       real3 q;
       real wq;
       neighbor(i, n, q, wq);
-      block(c, w0, q, wq, neighbor_labels[n]);
+      block(c, w0, q, wq, n);  // named by its place in the list until an arc needs the atom
       if (contour_ended()) break;
     }
   }
@@ -83,5 +83,6 @@ void main() {
   }
   uint j = neighbor_labels[place];
   if (exposed_whole) append(uvec4(i, j, kNone, kNone));
-  for (uint n = 0u; n < exposed_count; ++n) append(uvec4(i, j, exposed_arcs[n].begin_by, exposed_arcs[n].end_by));
+  for (uint n = 0u; n < exposed_count; ++n)
+    append(uvec4(i, j, neighbor_labels[exposed_arcs[n].begin_by], neighbor_labels[exposed_arcs[n].end_by]));
 }

@@ -83,7 +83,7 @@ void block(Circle c, real w0, real3 q, real wq, uint label) {
   // Most balls miss the circle or cover all of it; that needs no half-plane.
   real qq = dot(q, q);
   real along = dot(c.axis, q);
-  real offset = ((w0 + qq - wq) * real(0.5) - c.height * along) / c.radius;
+  real offset = ((w0 + qq - wq) * real(0.5) - c.height * along) * c.inverse_radius;
   real clear = (qq - along * along) * real(1.001) + real(0.001);
   if (offset * offset > clear) {
     if (offset < real(0)) cover_everything();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Stage "neighbors": lists the atoms whose SAS balls overlap, roughly nearest first, as seen from each atom.
 // Pass 0 counts neighbours and pairs (i < j); pass 1 (after scans) writes them.
-// Reads: atoms, atoms_low, cells, swallowed. Writes: neighbor_first, pair_first (counts, then scanned), neighbor_balls,
+// Reads: atoms, atoms_low, cells. Writes: class_counts, neighbor_first, pair_first (counts, then scanned), neighbor_balls,
 // neighbor_labels, pairs. One invocation per atom of the batch. Overflow: none, pass 0 counts
 // exactly what pass 1 writes.
 // Based on: Krone, Dachsbacher & Ertl 2010, section 3.3 (neighbourhood grid).
@@ -10,10 +10,11 @@ layout(local_size_x = 64) in;
 #include "gpu_shaders/shared/linear_index.glsl"
 #include "gpu_shaders/reduced_surface/cell_grid.glsl"
 
-layout(std430, binding = 0) readonly buffer Atoms { vec4 atoms[]; };         // hi part, w: SAS radius
+layout(binding = 0) uniform usamplerBuffer atom_texels;                       // floats: hi part, SAS radius
+layout(std430, binding = 0) buffer ClassCounts { uint class_counts[]; };  // per atom of the batch and class
 layout(std430, binding = 1) readonly buffer AtomsLow { vec4 atoms_low[]; };  // lo part, w: 1 if swallowed
 layout(std430, binding = 2) readonly buffer CellFirst { uint cell_first[]; };
-layout(std430, binding = 3) readonly buffer CellAtoms { uint cell_atoms[]; };
+layout(binding = 1) uniform usamplerBuffer cell_atoms;
 layout(std430, binding = 4) buffer NeighborFirst { uint neighbor_first[]; };
 layout(std430, binding = 5) buffer PairFirst { uint pair_first[]; };
 layout(std430, binding = 6) writeonly buffer NeighborBalls { vec4 neighbor_balls[]; };  // relative centre, SAS radius²
@@ -22,6 +23,8 @@ uniform uint first_atom;  // of the batch
 uniform uint atom_count;  // in the batch
 uniform float largest_radius;
 
+vec4 atom(uint index) { return uintBitsToFloat(texelFetch(atom_texels, int(index))); }
+
 // Near balls cover most of a circle, so they should come first; a few distance classes do nearly as well as sorting.
 const uint kClasses = 6u;
 
@@ -29,7 +32,7 @@ void main() {
   uint entry = linear_invocation_index();
   if (entry >= atom_count) return;
   uint i = first_atom + entry;
-  vec4 self = atoms[i];
+  vec4 self = atom(i);
   vec4 self_low = atoms_low[i];
   bool swallowed = self_low.w > 0.5;
   float reach = self.w + largest_radius;
@@ -37,56 +40,53 @@ void main() {
   ivec3 high = cell_of(self.xyz + reach);
   ivec3 size = ivec3(grid_size.xyz);
 
+  // Pass 0 counts each class; pass 1 turns the counts into places.
   uint class_next[kClasses];
+#if PASS == 0
   for (uint c = 0u; c < kClasses; ++c) class_next[c] = 0u;
   uint pair_count = 0u;
-#if PASS == 1
-  for (int sweep = 0; sweep < 2; ++sweep) {
-    if (sweep == 1) {
-      uint next = neighbor_first[entry];
-      for (uint c = 0u; c < kClasses; ++c) {
-        uint in_class = class_next[c];
-        class_next[c] = next;
-        next += in_class;
-      }
-    }
-#endif
-    if (!swallowed) {
-      for (int z = low.z; z <= high.z; ++z) {
-        for (int y = low.y; y <= high.y; ++y) {
-          uint row = uint((z * size.y + y) * size.x);
-          uint last = cell_first[row + uint(high.x) + 1u];
-          for (uint n = cell_first[row + uint(low.x)]; n < last; ++n) {
-            uint j = cell_atoms[n];
-            vec4 other = atoms[j];
-            vec3 coarse = other.xyz - self.xyz;
-            float sum = other.w + self.w;
-            float square = dot(coarse, coarse);
-            // Generous by more than the rounding: a ball that only seems to overlap covers nothing and costs little.
-            if (square > sum * sum * 1.00001 || j == i) continue;
-            vec4 other_low = atoms_low[j];
-            if (other_low.w > 0.5) continue;
-            uint c = min(uint(float(kClasses) * square / (sum * sum)), kClasses - 1u);
-#if PASS == 0
-            ++class_next[c];
-            if (j > i) ++pair_count;
 #else
-            if (sweep == 1) {
-              vec3 d = coarse + (other_low.xyz - self_low.xyz);
-              neighbor_balls[class_next[c]] = vec4(d, other.w * other.w);
-              neighbor_labels[class_next[c]] = j;
-            }
-            ++class_next[c];
+  uint next = neighbor_first[entry];
+  for (uint c = 0u; c < kClasses; ++c) {
+    class_next[c] = next;
+    next += class_counts[entry * kClasses + c];
+  }
 #endif
-          }
+  if (!swallowed) {
+    for (int z = low.z; z <= high.z; ++z) {
+      for (int y = low.y; y <= high.y; ++y) {
+        uint row = uint((z * size.y + y) * size.x);
+        uint last = cell_first[row + uint(high.x) + 1u];
+        for (uint n = cell_first[row + uint(low.x)]; n < last; ++n) {
+          uint j = texelFetch(cell_atoms, int(n)).x;
+          vec4 other = atom(j);
+          vec3 coarse = other.xyz - self.xyz;
+          float sum = other.w + self.w;
+          float square = dot(coarse, coarse);
+          // Generous by more than the rounding: a ball that only seems to overlap covers nothing and costs little.
+          if (square > sum * sum * 1.00001 || j == i) continue;
+          vec4 other_low = atoms_low[j];
+          if (other_low.w > 0.5) continue;
+          uint c = min(uint(float(kClasses) * square / (sum * sum)), kClasses - 1u);
+#if PASS == 0
+          ++class_next[c];
+          if (j > i) ++pair_count;
+#else
+          vec3 d = coarse + (other_low.xyz - self_low.xyz);
+          neighbor_balls[class_next[c]] = vec4(d, other.w * other.w);
+          neighbor_labels[class_next[c]] = j;
+          ++class_next[c];
+#endif
         }
       }
     }
-#if PASS == 1
   }
-#else
+#if PASS == 0
   uint neighbor_count = 0u;
-  for (uint c = 0u; c < kClasses; ++c) neighbor_count += class_next[c];
+  for (uint c = 0u; c < kClasses; ++c) {
+    class_counts[entry * kClasses + c] = class_next[c];
+    neighbor_count += class_next[c];
+  }
   neighbor_first[entry] = neighbor_count;
   pair_first[entry] = pair_count;
 #endif
