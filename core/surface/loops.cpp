@@ -62,9 +62,14 @@ std::vector<std::vector<SphereArc>> arcs_of_loops(std::span<const Border> border
 void group_loops(const std::vector<std::vector<SphereArc>>& loops, PatchFaces& faces) {
   const std::size_t count = loops.size();
   std::vector<std::vector<char>> left(count, std::vector<char>(count, 1));  // [m][k]: loop m lies left of loop k
+  bool one_piece = true;
   for (std::size_t m = 0; m < count; ++m)
-    for (std::size_t k = 0; k < count; ++k)
-      if (m != k) left[m][k] = lies_left_of(loops[m], loops[k]);
+    for (std::size_t k = 0; k < count; ++k) {
+      if (m == k) continue;
+      left[m][k] = lies_left_of(loops[m], loops[k]);
+      one_piece = one_piece && left[m][k];
+    }
+  if (one_piece) return;  // as a rule; the question below takes the cube of the number of loops
   UnionFind same(count);
   for (std::size_t m = 0; m < count; ++m)
     for (std::size_t n = m + 1; n < count; ++n) {
