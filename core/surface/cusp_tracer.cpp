@@ -31,14 +31,10 @@ bool reaches(const CuspProblem& problem, std::uint32_t s, const glm::dvec3& othe
   double best = -1;
   bool inside = true;
   for (std::size_t n = 0; n < sides.size(); ++n) {
-    const glm::dvec3 &a = sides[n].contact, &b = sides[n + 1 == sides.size() ? 0 : n + 1].contact;
-    const glm::dvec3 normal = glm::cross(a, b);
-    const double outside = glm::dot(normal, d);
-    best = std::max(best, glm::dot(d, a));
-    if (outside <= 0) continue;
-    inside = false;
-    if (glm::dot(glm::cross(normal, a), d) > 0 && glm::dot(glm::cross(b, normal), d) > 0)
-      best = std::max(best, std::sqrt(std::max(0.0, 1 - outside * outside / glm::dot(normal, normal))));
+    double outside = 0;
+    const glm::dvec3& next = sides[n + 1 == sides.size() ? 0 : n + 1].contact;
+    best = std::max(best, geometry::reach_of_side(sides[n].contact, next, d, outside));
+    inside = inside && outside <= 0;
   }
   return (inside ? 1.0 : best) * 2 * problem.probe_radius >= distance * (1 - 1e-12);
 }

@@ -25,5 +25,6 @@ using std::sqrt;
 inline constexpr double kUnitRoundoff = 0x1p-53;
 
 #include "gpu_shaders/geometry/circle.glsl"
+#include "gpu_shaders/geometry/polygon_reach.glsl"
 
 }  // namespace meniscus::geometry

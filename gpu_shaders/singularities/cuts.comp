@@ -7,6 +7,8 @@
 layout(local_size_x = 64) in;
 #include "gpu_shaders/shared/linear_index.glsl"
 #include "gpu_shaders/shared/cusp_side.glsl"
+#include "gpu_shaders/reduced_surface/precision.glsl"
+#include "gpu_shaders/geometry/polygon_reach.glsl"
 
 layout(std430, binding = 0) readonly buffer NeighborFirst { uint neighbor_first[]; };
 layout(std430, binding = 1) readonly buffer NeighborBalls { vec4 neighbor_balls[]; };
@@ -17,7 +19,7 @@ uniform uint first_probe;
 uniform uint probe_count;
 uniform float probe_radius;
 
-// The same largest dot product as reaches() in core/surface/cusp_tracer.cpp; single precision leaves a margin in doubt.
+// What reaches() in core/surface/cusp_tracer.cpp decides; single precision leaves a margin in doubt.
 const float kDoubt = 1e-5;
 
 uint flag_of(uint first, uint past, vec3 toward) {
@@ -28,15 +30,9 @@ uint flag_of(uint first, uint past, vec3 toward) {
   float best = -1.0;
   float most_outside = -1.0;
   for (uint n = first; n < past; ++n) {
-    vec3 a = sides[n].contact.xyz;
-    vec3 b = sides[n + 1u == past ? first : n + 1u].contact.xyz;
-    vec3 normal = cross(a, b);
-    float outside = dot(normal, d);
-    best = max(best, dot(d, a));
+    float outside;
+    best = max(best, reach_of_side(sides[n].contact.xyz, sides[n + 1u == past ? first : n + 1u].contact.xyz, d, outside));
     most_outside = max(most_outside, outside);
-    if (outside <= 0.0) continue;
-    if (dot(cross(normal, a), d) > 0.0 && dot(cross(b, normal), d) > 0.0)
-      best = max(best, sqrt(max(0.0, 1.0 - outside * outside / dot(normal, normal))));
   }
   if (most_outside <= 0.0) best = 1.0;
   float margin = best * 2.0 * probe_radius - distance;
