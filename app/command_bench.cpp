@@ -10,7 +10,7 @@
 #include <fmt/ostream.h>
 
 #include "app/commands.h"
-#include "app/molecule_options.h"
+#include "app/molecule.h"
 #include "core/base/text.h"
 #include "core/reference/rolling_probe.h"
 

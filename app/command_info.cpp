@@ -13,7 +13,7 @@
 #include <fmt/ostream.h>
 
 #include "app/commands.h"
-#include "app/molecule_options.h"
+#include "app/molecule.h"
 #include "core/base/text.h"
 #include "core/molecule/radii.h"
 

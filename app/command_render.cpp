@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "app/commands.h"
-#include "app/molecule_options.h"
+#include "app/molecule.h"
 #include "app/picture_options.h"
 #include "app/program_error.h"
 #include "core/base/text.h"
@@ -61,7 +61,7 @@ void run(const RenderCommand& command) {
   settings.size = {command.picture.width, command.picture.height};
   settings.samples = command.samples;
   settings.aovs = command.aovs;
-  const Framebuffer picture = caster.render(molecule.surface(), molecule.coloring, camera, settings);
+  const Framebuffer picture = caster.render(molecule.surface(), molecule.coloring(), camera, settings);
 
   write_image(command.output.path, picture, {command.background, command.output.existing()});
   if (!command.save_camera.empty()) save_camera(command, camera);

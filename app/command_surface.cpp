@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands.h"
-#include "app/molecule_options.h"
+#include "app/molecule.h"
 #include "core/base/text.h"
 
 namespace meniscus {
@@ -24,9 +24,10 @@ struct SurfaceCommand {
 
 const char* kind_name(ComponentKind kind) { return kind == ComponentKind::outer ? "outer" : "cavity"; }
 
-nlohmann::ordered_json to_json(const Structure& structure, const ComputedSurface& computed) {
+nlohmann::ordered_json to_json(const Molecule& molecule) {
   using Json = nlohmann::ordered_json;
-  const Surface& surface = computed.surface;
+  const Structure& structure = molecule.structure;
+  const Surface& surface = molecule.surface();
   const SurfaceCounts counts = surface.counts();
   Json excluded = Json::object();
   for (const auto& [reason, count] : structure.report.excluded) excluded[reason] = count;
@@ -38,7 +39,7 @@ nlohmann::ordered_json to_json(const Structure& structure, const ComputedSurface
                           {"euler", component.euler}});
   }
   Json stages = Json::array();
-  for (const StageTime& stage : computed.stages) stages.push_back({{"name", stage.name}, {"ms", stage.milliseconds}});
+  for (const StageTime& stage : molecule.stages) stages.push_back({{"name", stage.name}, {"ms", stage.milliseconds}});
   return {{"schema_version", kSchemaVersion},
           {"atoms", {{"read", structure.report.read}, {"excluded", excluded}, {"used", structure.report.used}}},
           {"probe_radius", surface.probe_radius},
@@ -55,12 +56,13 @@ nlohmann::ordered_json to_json(const Structure& structure, const ComputedSurface
           {"volume", surface.volume},
           {"components", components},
           {"certificate", {{"closed", surface.certificate.closed}, {"open_atoms", surface.certificate.open_atoms}}},
-          {"device", computed.device},
+          {"device", molecule.device},
           {"stages", stages}};
 }
 
-void print_table(const Structure& structure, const ComputedSurface& computed) {
-  const Surface& surface = computed.surface;
+void print_table(const Molecule& molecule) {
+  const Structure& structure = molecule.structure;
+  const Surface& surface = molecule.surface();
   const SurfaceCounts counts = surface.counts();
   const auto n = [](std::size_t count) { return with_thousands(count); };
   fmt::print(std::cout, "molecule      {} ({})\n", escaped(structure.file), structure.format);
@@ -72,8 +74,8 @@ void print_table(const Structure& structure, const ComputedSurface& computed) {
   fmt::print(std::cout, "reduced       {} fixed probes, {} arcs\n", n(counts.fixed_probes), n(counts.arcs));
   fmt::print(std::cout, "area          {:.3f} Å²\nvolume        {:.3f} Å³\n", surface.area, surface.volume);
   fmt::print(std::cout, "closed        {}\n", surface.certificate.closed ? "yes" : "no");
-  fmt::print(std::cout, "device        {}\n", computed.device);
-  for (const StageTime& stage : computed.stages)
+  fmt::print(std::cout, "device        {}\n", molecule.device);
+  for (const StageTime& stage : molecule.stages)
     fmt::print(std::cout, "time          {:>9.2f} ms  {}\n", stage.milliseconds, stage.name);
   fmt::print(std::cout, "\n{:>9}  {:<7} {:>14} {:>16} {:>6}\n", "component", "kind", "area Å²", "volume Å³", "Euler");
   for (std::size_t c = 0; c < surface.components.size(); ++c) {
@@ -86,11 +88,9 @@ void print_table(const Structure& structure, const ComputedSurface& computed) {
 void run(const SurfaceCommand& command) {
   const Molecule molecule = load_molecule(command.molecule);
   if (command.json) {
-    std::cout
-        << to_json(molecule.structure, molecule.computed).dump(2, ' ', false, nlohmann::json::error_handler_t::replace)
-        << "\n";
+    std::cout << to_json(molecule).dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << "\n";
   } else {
-    print_table(molecule.structure, molecule.computed);
+    print_table(molecule);
   }
 }
 
@@ -107,7 +107,7 @@ void add_surface(CLI::App& command) {
       "lists them), or the file's own (XYZR). The surface is complete, cavities too, and closed; areas and volumes\n"
       "are exact, in closed form. A cavity's volume is negative: it is missing from the solid.");
   auto state = std::make_shared<SurfaceCommand>();
-  add_file_options(command, state->molecule);
+  add_atom_options(command, state->molecule);
   add_surface_options(command, state->molecule);
   command.add_flag("--json", state->json, "Print one JSON object instead of a table");
   command.callback([state] { run(*state); });

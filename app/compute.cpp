@@ -57,8 +57,8 @@ bool has_hardware_gpu() {
 void require_equal(const ComputedSurface& a, const ComputedSurface& b) {
   const std::vector<std::string> found = differences(a.surface, b.surface);
   if (found.empty()) return;
-  throw OpenSurfaceError(fmt::format("--verify: {} differences between {} and {}: {}", found.size(), a.device,
-                                     b.device, fmt::join(found, "; ")));
+  throw OpenSurfaceError(fmt::format("--verify: {} differences between {} and {}: {}", found.size(), a.device, b.device,
+                                     fmt::join(found, "; ")));
 }
 
 }  // namespace
@@ -69,8 +69,8 @@ ComputedSurface compute_surface(std::span<const Ball> balls, const ComputeOption
     limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(options.threads));
   }
   const bool on_cpu = options.cpu || (options.gl.kind == DeviceChoice::Kind::automatic && !has_hardware_gpu());
-  ComputedSurface result = on_cpu ? compute_on_cpu(balls, options.probe_radius)
-                                  : compute_on_gl(balls, options.probe_radius, options.gl);
+  ComputedSurface result =
+      on_cpu ? compute_on_cpu(balls, options.probe_radius) : compute_on_gl(balls, options.probe_radius, options.gl);
   require_closed(result.surface);
   if (options.verify) {
     const ComputedSurface other =

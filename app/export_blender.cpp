@@ -41,8 +41,8 @@ void run(const BlenderCommand& command) {
   const double tolerance = tolerance_of(command.mesh, command.picture, camera, molecule.surface());
   const TriangleMesh mesh = mesh_of(command.molecule, molecule, tolerance);
   const blender::Provenance provenance{std::filesystem::path(molecule.structure.file).filename().string(),
-                                       molecule.structure.radii_set, molecule.computed.device};
-  write_surface(command.output.path, command.output.existing(), molecule.surface(), mesh, molecule.coloring,
+                                       molecule.structure.radii_set, molecule.device};
+  write_surface(command.output.path, command.output.existing(), molecule.surface(), mesh, molecule.coloring(),
                 attributes_of(molecule.structure), blender::Shot{camera, command.picture.width, command.picture.height},
                 provenance);
   std::cout << escaped(command.output.path) << "\n";

@@ -35,7 +35,7 @@ void run(const PlyCommand& command) {
   const Camera camera = picture_camera(command.picture, molecule.surface());
   const double tolerance = tolerance_of(command.mesh, command.picture, camera, molecule.surface());
   const TriangleMesh mesh = mesh_of(command.molecule, molecule, tolerance);
-  write_ply(command.output.path, command.output.existing(), mesh, molecule.coloring, scalars_of(molecule.structure));
+  write_ply(command.output.path, command.output.existing(), mesh, molecule.coloring(), scalars_of(molecule.structure));
   std::cout << escaped(command.output.path) << "\n";
 }
 

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "app/commands.h"
-#include "app/molecule_options.h"
+#include "app/molecule.h"
 #include "app/picture_options.h"
 #include "core/base/text.h"
 #include "exporters/povray/scene.h"
@@ -31,7 +31,7 @@ void run(const PovrayCommand& command) {
   options.existing = command.output.existing();
   const Camera camera = picture_camera(command.picture, molecule.surface());
   const povray::SceneReport report =
-      write_scene(molecule.surface(), molecule.coloring, camera, options, command.output.path);
+      write_scene(molecule.surface(), molecule.coloring(), camera, options, command.output.path);
   say(command.molecule,
       fmt::format("{} primitives in {} files", with_thousands(report.object_count), report.files.size()));
   for (const std::string& note : report.notes) say(command.molecule, "note: " + note);

@@ -2,7 +2,7 @@
 // The options of exports that write a mesh, and the one way from them to the mesh.
 #pragma once
 
-#include "app/molecule_options.h"
+#include "app/molecule.h"
 #include "app/picture_options.h"
 #include "exporters/mesh/triangle_mesh.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The options that commands share, and the one way from them to a molecule with its surface and colours.
+// The options that commands share: which atoms, which surface, which colours, where it goes.
 #pragma once
 
 #include <string>
@@ -30,30 +30,28 @@ struct OutputOptions {
   Existing existing() const { return force ? Existing::replace : Existing::refuse; }
 };
 
-/// A molecule, ready to be drawn or exported; surface.atoms, structure.atoms and coloring.atom have equal order.
-struct Molecule {
-  Structure structure;
-  ComputedSurface computed;
-  Coloring coloring;
-  const Surface& surface() const { return computed.surface; }
-};
-
-/// FILE, --keep-water, --keep-ions, --unknown-element, --quiet.
-void add_file_options(CLI::App& command, MoleculeOptions& options);
-/// --probe, --device, --verify, --threads.
+/// FILE and what is taken from it (atom_options.cpp): --keep-water, --keep-ions, --unknown-element, --quiet.
+void add_atom_options(CLI::App& command, MoleculeOptions& options);
+/// How the surface is made of them (surface_options.cpp): --probe, --device, --verify, --threads.
 void add_surface_options(CLI::App& command, MoleculeOptions& options);
-/// --color, --color-range.
+/// How it is coloured (color_options.cpp): --color, --color-range.
 void add_color_options(CLI::App& command, MoleculeOptions& options);
 /// All of the above.
 void add_molecule_options(CLI::App& command, MoleculeOptions& options);
 /// -o/--output (required, described by `what`) and --force.
 void add_output_options(CLI::App& command, OutputOptions& options, const std::string& what);
 
-/// Reads the file and says on stderr, unless quiet, what was read and left out, and each warning.
-Structure read_molecule(const MoleculeOptions& options);
+/// Options added while this lives stand under a heading of their own in the help.
+class Heading {
+ public:
+  Heading(CLI::App& command, const char* text);
+  ~Heading();
+  Heading(const Heading&) = delete;
+  Heading& operator=(const Heading&) = delete;
 
-/// Reads, computes and colours, in that order; says on stderr what was read and on which device it ran.
-Molecule load_molecule(const MoleculeOptions& options);
+ private:
+  CLI::App& command_;
+};
 
 /// A line on stderr, unless quiet. Control characters are escaped.
 void say(const MoleculeOptions& options, const std::string& line);

@@ -129,20 +129,21 @@ FileContents read_pdb(const TextFile& file) {
                                 : Entity::unknown;
       const AtomClass kind = classify(residue.name, entity, residue.atoms.front().element, names);
       for (const gemmi::Atom& atom : residue.atoms) {
-        FileAtom& out = contents.atoms.emplace_back();
+        Atom& out = contents.atoms.emplace_back();
+        out.index = static_cast<std::uint32_t>(contents.atoms.size() - 1);
         out.residue = residue_index;
         out.altloc = atom.altloc == '\0' ? ' ' : atom.altloc;
-        out.atom.position = {atom.pos.x, atom.pos.y, atom.pos.z};
-        out.atom.element =
+        out.position = {atom.pos.x, atom.pos.y, atom.pos.z};
+        out.element =
             static_cast<std::uint8_t>(element_of(atom.element, atom.name, residue.name, kind).atomic_number());
-        out.atom.kind = kind;
-        out.atom.residue_number = residue.seqid.num.value;
-        out.atom.insertion_code = residue.seqid.icode;
-        out.atom.occupancy = atom.occ;
-        out.atom.b_factor = atom.b_iso;
-        out.atom.name = atom.name;
-        out.atom.residue_name = residue.name;
-        out.atom.chain = chain.name.empty() ? residue.segment : chain.name;
+        out.kind = kind;
+        out.residue_number = residue.seqid.num.value;
+        out.insertion_code = residue.seqid.icode;
+        out.occupancy = atom.occ;
+        out.b_factor = atom.b_iso;
+        out.name = atom.name;
+        out.residue_name = residue.name;
+        out.chain = chain.name.empty() ? residue.segment : chain.name;
       }
     }
     ++residue_index;
@@ -267,9 +268,8 @@ char first_letter(const std::string& value) {
   return text.empty() ? ' ' : text.front();
 }
 
-FileAtom read_row(const TextFile& file, const cif::Table& table, const cif::Table::Row& row) {
-  FileAtom out;
-  Atom& atom = out.atom;
+Atom read_row(const TextFile& file, const cif::Table& table, const cif::Table::Row& row) {
+  Atom atom;
   for (int axis = 0; axis < 3; ++axis) {
     const std::string& value = row[static_cast<std::size_t>(axis)];
     double number = 0.0;
@@ -285,12 +285,12 @@ FileAtom read_row(const TextFile& file, const cif::Table& table, const cif::Tabl
   atom.chain = text(kAuthAsym, kLabelAsym);
   atom.residue_number = gemmi::string_to_int(row.one_of(kAuthSeq, kLabelSeq), false);
   if (row.has2(kInsertion)) atom.insertion_code = first_letter(row[kInsertion]);
-  if (row.has2(kAlt)) out.altloc = first_letter(row[kAlt]);
+  if (row.has2(kAlt)) atom.altloc = first_letter(row[kAlt]);
   if (row.has2(kOccupancy)) atom.occupancy = static_cast<float>(cif::as_number(row[kOccupancy]));
   if (row.has2(kB)) atom.b_factor = static_cast<float>(cif::as_number(row[kB]));
   const gemmi::Element symbol(row.has2(kSymbol) ? cif::as_string(row[kSymbol]) : std::string());
   atom.element = static_cast<std::uint8_t>(element_of(symbol, atom.name, atom.residue_name, atom.kind).atomic_number());
-  return out;
+  return atom;
 }
 
 std::map<std::string, Entity> entities_of(cif::Document& document) {
@@ -309,14 +309,13 @@ void classify_residues(FileContents& contents, const std::vector<Entity>& entity
   while (first < contents.atoms.size()) {
     std::size_t last = first;
     std::set<std::string> names;
-    const FileAtom& head = contents.atoms[first];
+    const Atom& head = contents.atoms[first];
     while (last < contents.atoms.size() && contents.atoms[last].residue == head.residue &&
-           contents.atoms[last].atom.residue_name == head.atom.residue_name) {
-      names.insert(contents.atoms[last++].atom.name);
+           contents.atoms[last].residue_name == head.residue_name) {
+      names.insert(contents.atoms[last++].name);
     }
-    const AtomClass kind =
-        classify(head.atom.residue_name, entity[first], gemmi::Element(int{head.atom.element}), names);
-    for (; first < last; ++first) contents.atoms[first].atom.kind = kind;
+    const AtomClass kind = classify(head.residue_name, entity[first], gemmi::Element(int{head.element}), names);
+    for (; first < last; ++first) contents.atoms[first].kind = kind;
   }
 }
 
@@ -340,8 +339,9 @@ FileContents read_mmcif(const TextFile& file) {
       ++contents.other_model_atoms;
       continue;
     }
-    FileAtom atom = read_row(file, table, row);
-    atom.residue = residues.of(atom.atom);
+    Atom atom = read_row(file, table, row);
+    atom.index = static_cast<std::uint32_t>(contents.atoms.size());
+    atom.residue = residues.of(atom);
     const auto statement = entities.find(row.has2(kEntityId) ? cif::as_string(row[kEntityId]) : std::string());
     entity.push_back(statement == entities.end() ? Entity::unknown : statement->second);
     contents.atoms.push_back(std::move(atom));

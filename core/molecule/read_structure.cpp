@@ -71,17 +71,17 @@ const Reader& choose_reader(const TextFile& file, std::vector<std::string>& warn
 }
 
 /// The alternate location to keep in one residue: highest mean occupancy, then lowest mean B-factor, then letter.
-char best_altloc(std::span<const FileAtom> residue) {
+char best_altloc(std::span<const Atom> residue) {
   struct Sum {
     double occupancy = 0.0, b_factor = 0.0;
     int count = 0;
   };
   std::map<char, Sum> sums;
-  for (const FileAtom& atom : residue) {
+  for (const Atom& atom : residue) {
     if (atom.altloc == ' ') continue;
     Sum& sum = sums[atom.altloc];
-    sum.occupancy += std::isnan(atom.atom.occupancy) ? 1.0 : atom.atom.occupancy;
-    sum.b_factor += std::isnan(atom.atom.b_factor) ? 0.0 : atom.atom.b_factor;
+    sum.occupancy += std::isnan(atom.occupancy) ? 1.0 : atom.occupancy;
+    sum.b_factor += std::isnan(atom.b_factor) ? 0.0 : atom.b_factor;
     ++sum.count;
   }
   if (sums.empty()) return ' ';
@@ -94,12 +94,12 @@ char best_altloc(std::span<const FileAtom> residue) {
 }
 
 /// The altloc to keep, by residue.
-std::vector<char> chosen_altlocs(const std::vector<FileAtom>& atoms) {
+std::vector<char> chosen_altlocs(const std::vector<Atom>& atoms) {
   std::uint32_t residue_count = 0;
-  for (const FileAtom& atom : atoms) residue_count = std::max(residue_count, atom.residue + 1);
+  for (const Atom& atom : atoms) residue_count = std::max(residue_count, atom.residue + 1);
   std::vector<char> chosen(residue_count, ' ');
-  std::map<std::uint32_t, std::vector<FileAtom>> with_alternatives;
-  for (const FileAtom& atom : atoms) {
+  std::map<std::uint32_t, std::vector<Atom>> with_alternatives;
+  for (const Atom& atom : atoms) {
     if (atom.altloc != ' ') with_alternatives[atom.residue].push_back(atom);
   }
   for (const auto& [residue, members] : with_alternatives) chosen[residue] = best_altloc(members);
@@ -118,10 +118,8 @@ bool is_virtual_site(const Atom& atom) {
   return false;
 }
 
-const char* reason_to_exclude(const FileAtom& file_atom, char altloc, bool radii_from_file,
-                              const ReadOptions& options) {
-  const Atom& atom = file_atom.atom;
-  if (file_atom.altloc != ' ' && file_atom.altloc != altloc) return kExcludedAltloc;
+const char* reason_to_exclude(const Atom& atom, char altloc, bool radii_from_file, const ReadOptions& options) {
+  if (atom.altloc != ' ' && atom.altloc != altloc) return kExcludedAltloc;
   if (radii_from_file) return atom.radius == 0.0 ? kExcludedRadius : nullptr;
   if (atom.kind == AtomClass::water && !options.keep_water) return kExcludedWater;
   if (atom.kind == AtomClass::ion && !options.keep_ions) return kExcludedIon;
@@ -186,11 +184,11 @@ Structure read_structure(const std::string& path, const ReadOptions& options) {
   if (contents.other_model_atoms > 0) report.excluded[kExcludedModel] = contents.other_model_atoms;
 
   const std::vector<char> altlocs = chosen_altlocs(contents.atoms);
-  for (FileAtom& atom : contents.atoms) {
+  for (Atom& atom : contents.atoms) {
     if (const char* reason = reason_to_exclude(atom, altlocs[atom.residue], contents.radii_from_file, options)) {
       ++report.excluded[reason];
     } else {
-      structure.atoms.push_back(std::move(atom.atom));
+      structure.atoms.push_back(std::move(atom));
     }
   }
   report.used = structure.atoms.size();

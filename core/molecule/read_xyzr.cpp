@@ -79,13 +79,13 @@ FileContents read(const TextFile& file) {
       throw InputError(file.path, number,
                        fmt::format("{} has fewer than four columns; a line is: x y z radius [name]", in_quotes(line)));
     }
-    FileAtom atom;
-    atom.residue = static_cast<std::uint32_t>(contents.atoms.size());
+    Atom atom;
+    atom.index = atom.residue = static_cast<std::uint32_t>(contents.atoms.size());
     for (int axis = 0; axis < 3; ++axis) {
-      atom.atom.position[axis] = parse_coordinate(file, number, "xyz"[axis], field[static_cast<std::size_t>(axis)]);
+      atom.position[axis] = parse_coordinate(file, number, "xyz"[axis], field[static_cast<std::size_t>(axis)]);
     }
-    atom.atom.radius = parse_radius(file, number, field[3]);
-    atom.atom.name = next_field(rest);
+    atom.radius = parse_radius(file, number, field[3]);
+    atom.name = next_field(rest);
     contents.atoms.push_back(std::move(atom));
     return true;
   });

@@ -21,16 +21,9 @@ struct FormatMetadata {
   std::string_view reads;  ///< which records or columns are used
 };
 
-/// One atom as it stands in the file, before anything is left out.
-struct FileAtom {
-  Atom atom;
-  std::uint32_t residue = 0;  ///< running number of the residue (same chain, number, insertion code), from 0
-  char altloc = ' ';          ///< letter of the alternate location, blank for none
-};
-
 /// The atoms of a file's first model in file order, residues in one piece. Positions are finite.
 struct FileContents {
-  std::vector<FileAtom> atoms;
+  std::vector<Atom> atoms;  ///< as they stand in the file, nothing left out
   std::size_t models = 1;
   std::size_t other_model_atoms = 0;
   bool radii_from_file = false;

@@ -28,9 +28,14 @@ struct Atom {
   std::uint8_t element = 0;  ///< atomic number; 0: unknown, or the format does not say
   AtomClass kind = AtomClass::unclassified;
   char insertion_code = ' ';
+  char altloc = ' ';          ///< letter of the alternate location, blank for none
+  std::uint32_t index = 0;    ///< place in the file, from 0, counting every atom of every model that was read
+  std::uint32_t residue = 0;  ///< running number of the residue (same model, chain, number, insertion code), from 0
+  std::int32_t model = 1;     ///< which model of the file, from 1
   std::int32_t residue_number = 0;
   float occupancy = std::numeric_limits<float>::quiet_NaN();  ///< NaN: missing
   float b_factor = std::numeric_limits<float>::quiet_NaN();   ///< Å²; NaN: missing
+  float charge = std::numeric_limits<float>::quiet_NaN();     ///< partial charge in e; NaN: the format gives none
   std::string name;
   std::string residue_name;
   std::string chain;

@@ -33,8 +33,8 @@ void certify(Surface& surface) {
 
 }  // namespace
 
-Surface assemble_surface(std::span<const Ball> atoms, double probe_radius, const ReducedSurface& rs,
-                         StageClock* clock, CuspTracer* tracer) {
+Surface assemble_surface(std::span<const Ball> atoms, double probe_radius, const ReducedSurface& rs, StageClock* clock,
+                         CuspTracer* tracer) {
   StageClock unused;
   StageClock& stages = clock ? *clock : unused;
   Surface surface;

@@ -92,9 +92,9 @@ class BallGrid {
   glm::dvec3 low_{0.0};
   double inverse_spacing_ = 1.0;
   glm::ivec3 size_{1};
-  std::vector<std::uint32_t> first_;       // cell -> first slot; one past the last cell closes the list
-  std::vector<std::uint32_t> order_;       // slot -> ball
-  std::vector<glm::dvec3> centers_;        // slot -> centre
+  std::vector<std::uint32_t> first_;  // cell -> first slot; one past the last cell closes the list
+  std::vector<std::uint32_t> order_;  // slot -> ball
+  std::vector<glm::dvec3> centers_;   // slot -> centre
 };
 
 }  // namespace meniscus

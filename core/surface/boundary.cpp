@@ -21,7 +21,7 @@ struct PatchBorders {
   bool free = false;
   bool spindle = false;
   std::uint32_t contact(int side) const { return first + side; }
-  std::uint32_t edge(int end) const { return first + 2 + end; }                       // not a spindle
+  std::uint32_t edge(int end) const { return first + 2 + end; }                            // not a spindle
   std::uint32_t half_edge(int end, int side) const { return first + 2 + 2 * end + side; }  // spindle
 };
 
@@ -186,8 +186,8 @@ class BoundaryBuilder {
     tbb::parallel_for(std::size_t{0}, s_.convex.size(), [&](std::size_t c) {
       const std::uint32_t a = s_.convex[c].atom;
       const Ball& atom = s_.atoms[a];
-      convex_faces_[c] = chain_faces(s_.borders, {of_atom.data() + first[a], of_atom.data() + first[a + 1]}, atom.center,
-                                    atom.radius, false);
+      convex_faces_[c] = chain_faces(s_.borders, {of_atom.data() + first[a], of_atom.data() + first[a + 1]},
+                                     atom.center, atom.radius, false);
     });
 
     if (flat_) return;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -16,6 +17,11 @@ namespace meniscus {
 struct Coloring {
   std::vector<glm::vec3> atom;                   ///< one per Surface::atoms
   std::optional<std::array<glm::vec3, 3>> kind;  ///< if set, this by PatchKind (convex, toroidal, concave) instead
+  /// Empty: everything is drawn. Else one per Surface::atoms: points that take the colour of an atom marked here are
+  /// not drawn, in pictures and in exports, whatever colours are by.
+  std::vector<bool> hidden;
+
+  bool shows(std::uint32_t a) const { return hidden.empty() || !hidden[a]; }
 };
 
 }  // namespace meniscus

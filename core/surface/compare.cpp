@@ -32,7 +32,8 @@ class Comparison {
     rows("concave patch", a_.concave, b_.concave, [&](const ConcavePatch& x, const ConcavePatch& y) {
       return near(x.center, y.center) && x.face_count == y.face_count &&
              std::equal(a_.contacts.begin() + x.first_contact, a_.contacts.begin() + x.first_contact + x.contact_count,
-                        b_.contacts.begin() + y.first_contact, b_.contacts.begin() + y.first_contact + y.contact_count) &&
+                        b_.contacts.begin() + y.first_contact,
+                        b_.contacts.begin() + y.first_contact + y.contact_count) &&
              std::equal(a_.cuts.begin() + x.first_cut, a_.cuts.begin() + x.first_cut + x.cut_count,
                         b_.cuts.begin() + y.first_cut, b_.cuts.begin() + y.first_cut + y.cut_count);
     });

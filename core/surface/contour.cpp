@@ -126,8 +126,8 @@ bool Contour::expose_in_double(const Blockers& blockers, std::size_t skip, std::
       arcs_.clear();
       break;
     }
-    const geometry::HalfPlane h = geometry::covered_half_plane(circle_, w0, b.center, b.distance, b.weight,
-                                                               geometry::kUnitRoundoff);
+    const geometry::HalfPlane h =
+        geometry::covered_half_plane(circle_, w0, b.center, b.distance, b.weight, geometry::kUnitRoundoff);
     double margin = 0;
     const int meeting = geometry::meet_circle(h, margin);
     if (!(margin > 0)) return false;

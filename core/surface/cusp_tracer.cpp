@@ -55,8 +55,8 @@ struct Pencil {
   std::uint32_t circle;
 };
 
-// Where the pair's circle comes to the axis of a pencil, relative to the lower probe, and the direction in which it goes
-// on before the axis.
+// Where the pair's circle comes to the axis of a pencil, relative to the lower probe, and the direction in which it
+// goes on before the axis.
 struct AxisPoint {
   glm::dvec3 point;
   glm::dvec3 onwards;
@@ -108,8 +108,8 @@ bool PairTracer::set_halves(std::uint32_t s, std::uint32_t t) {
     const CuspSide& side = problem_->sides[pencil.side];
     BlockedHalf half;
     half.label = kAxisLabel | pencil.side;
-    half.half_plane = geometry::half_plane_past_axis(circle, side.gap_direction,
-                                                     side.circle_center - problem_->positions[s]);
+    half.half_plane =
+        geometry::half_plane_past_axis(circle, side.gap_direction, side.circle_center - problem_->positions[s]);
     const double gap = half.half_plane.length_squared - half.half_plane.offset * half.half_plane.offset;
     // As large as the probe: the pair's circle touches the axis, so it lies before it or past it as a whole.
     if (gap > 0 && !side.touching) {
@@ -117,8 +117,9 @@ bool PairTracer::set_halves(std::uint32_t s, std::uint32_t t) {
       const geometry::CoveredArc past = geometry::covered_arc(half.half_plane);
       for (const double sign : {1.0, -1.0}) {
         const glm::dvec2 e = geometry::direction_at(sign > 0 ? past.end : past.begin);
-        scratch_->axis_points.push_back({circle.axis * circle.height + circle.radius * (e.x * circle.u + e.y * circle.v),
-                                         sign * (e.x * circle.v - e.y * circle.u)});
+        scratch_->axis_points.push_back(
+            {circle.axis * circle.height + circle.radius * (e.x * circle.u + e.y * circle.v),
+             sign * (e.x * circle.v - e.y * circle.u)});
       }
     } else if (half.half_plane.offset < 0)
       return false;
@@ -126,9 +127,9 @@ bool PairTracer::set_halves(std::uint32_t s, std::uint32_t t) {
   return true;
 }
 
-// Another probe may pass through an axis cusp but cannot hold it (theorem 1.2): whatever rounding says, the pair's circle
-// begins there. Lists the others that may cover some of it; one that takes over right at the cusp finds the circle
-// beginning a hair before.
+// Another probe may pass through an axis cusp but cannot hold it (theorem 1.2): whatever rounding says, the pair's
+// circle begins there. Lists the others that may cover some of it; one that takes over right at the cusp finds the
+// circle beginning a hair before.
 void PairTracer::list_others(std::uint32_t s, std::uint32_t t, const Blockers& near) {
   Scratch& scratch = *scratch_;
   scratch.others.restart(problem_->weights[s]);

@@ -17,11 +17,11 @@ namespace meniscus {
 
 /// One side of a concave patch as the search for cusps sees it.
 struct CuspSide {
-  glm::dvec3 contact{0.0};          ///< unit vector from the probe to the side's first contact
-  std::uint32_t circle = kNone;     ///< names the spindle circle the side belongs to; kNone if it is no spindle
-  bool touching = false;            ///< the circle is exactly as large as the probe: its two cusps are one point
-  std::uint32_t partner = kNone;    ///< the probe across the covered gap of that circle
-  glm::dvec3 gap_direction{0.0};    ///< from the circle's centre to the middle of that gap, unit length
+  glm::dvec3 contact{0.0};        ///< unit vector from the probe to the side's first contact
+  std::uint32_t circle = kNone;   ///< names the spindle circle the side belongs to; kNone if it is no spindle
+  bool touching = false;          ///< the circle is exactly as large as the probe: its two cusps are one point
+  std::uint32_t partner = kNone;  ///< the probe across the covered gap of that circle
+  glm::dvec3 gap_direction{0.0};  ///< from the circle's centre to the middle of that gap, unit length
   glm::dvec3 circle_center{0.0};
 };
 

@@ -122,8 +122,7 @@ class CuspSearch {
     found.arc.center = probes_.position[s] + 0.5 * d;
     found.arc.radius = std::sqrt(std::max(0.0, p_ * p_ - 0.25 * glm::dot(d, d)));
     found.arc.start = glm::normalize(traced.begin - found.arc.axis * glm::dot(found.arc.axis, traced.begin));
-    found.arc.sweep =
-        traced.by[0] == kNone ? kTwoPi : angle_between(found.arc.axis, found.arc.start, traced.end);
+    found.arc.sweep = traced.by[0] == kNone ? kTwoPi : angle_between(found.arc.axis, found.arc.start, traced.end);
     found.by = traced.by;
     bool from_axis = false;  // there both patches have a corner, so the arc lies on them however short it is
     for (int end = 0; end < 2; ++end) {
@@ -190,7 +189,8 @@ class CuspSearch {
     for (std::size_t n = 0; n < ends.size();) {
       std::size_t past = n;
       while (past < ends.size() && ends[past].probe == ends[n].probe && ends[past].side == ends[n].side) ++past;
-      if (past - n != 3) parts_.open_probes.insert(parts_.open_probes.end(), ends[n].probe.begin(), ends[n].probe.end());
+      if (past - n != 3)
+        parts_.open_probes.insert(parts_.open_probes.end(), ends[n].probe.begin(), ends[n].probe.end());
       for (std::size_t e = n; e < past; ++e)
         found_[ends[e].arc_and_end / 2].arc.vertex[ends[e].arc_and_end & 1] =
             static_cast<std::uint32_t>(parts_.triple.size());
@@ -215,9 +215,8 @@ class CuspSearch {
   void refine(CuspArc& arc) const {
     if (arc.vertex[0] == kNone) return;
     const auto direction = [&](int end) {
-      const glm::dvec3 point = arc.on_axis[end]
-                                   ? axis_cusp(toroidal_[arc.vertex[end] / 2], p_, arc.vertex[end] & 1)
-                                   : parts_.triple[arc.vertex[end]];
+      const glm::dvec3 point = arc.on_axis[end] ? axis_cusp(toroidal_[arc.vertex[end] / 2], p_, arc.vertex[end] & 1)
+                                                : parts_.triple[arc.vertex[end]];
       const glm::dvec3 d = point - arc.center;
       const glm::dvec3 flat = d - arc.axis * glm::dot(d, arc.axis);
       const double length = glm::length(flat);

@@ -20,9 +20,9 @@ namespace meniscus {
 /// An exposed arc of the circle in which two fixed probes intersect, counter-clockwise about the axis probe[0] ->
 /// probe[1]; vertex kNone twice: a whole circle.
 struct CuspArc {
-  std::array<std::uint32_t, 2> probe{};                ///< probe[0] < probe[1]
+  std::array<std::uint32_t, 2> probe{};               ///< probe[0] < probe[1]
   std::array<std::uint32_t, 2> vertex{kNone, kNone};  ///< begin and end: axis cusp or index into CuspParts::triple
-  std::array<bool, 2> on_axis{};                       ///< vertex is an axis cusp: toroidal patch * 2 + side
+  std::array<bool, 2> on_axis{};                      ///< vertex is an axis cusp: toroidal patch * 2 + side
   glm::dvec3 center{0.0};
   glm::dvec3 axis{0.0};
   double radius = 0.0;
@@ -32,9 +32,9 @@ struct CuspArc {
 
 struct CuspParts {
   std::vector<CuspArc> arcs;
-  std::vector<glm::dvec3> triple;        ///< points where three probes meet on the surface
-  std::vector<std::uint32_t> first_cut;  ///< per probe, into cuts; one past the last closes the list
-  std::vector<std::uint32_t> cuts;       ///< probes whose ball reaches into the probe's spherical polygon, ascending
+  std::vector<glm::dvec3> triple;          ///< points where three probes meet on the surface
+  std::vector<std::uint32_t> first_cut;    ///< per probe, into cuts; one past the last closes the list
+  std::vector<std::uint32_t> cuts;         ///< probes whose ball reaches into the probe's spherical polygon, ascending
   std::vector<std::uint32_t> open_probes;  ///< probes at triples that not exactly three arcs agree on; empty if closed
 };
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Places fixed probes and toroidal patches: sorts arc ends by atom triple, solves for positions, merges n-fold contacts.
+// Places fixed probes and toroidal patches: sorts arc ends by atom triple, solves for positions, merges n-fold
+// contacts.
 #include "core/surface/fixed_probes.h"
 
 #include <algorithm>
@@ -20,7 +21,8 @@ namespace meniscus {
 namespace {
 
 constexpr double kMergeDistance = 1e-6;
-constexpr double kSteep = 0.01;  // a lower probe moves so much more than its atoms that it must come nearer to be merged
+constexpr double kSteep =
+    0.01;  // a lower probe moves so much more than its atoms that it must come nearer to be merged
 constexpr double kTouchDistance = 1e-9;
 constexpr double kLargestGrowth = 1.5e-9;  // of decision weights
 constexpr double kFlat = 1e-7;             // squared height of a probe that growth may have moved by its square root
@@ -128,8 +130,8 @@ class Placement {
     const std::array<double, 3> radius = {extended(a), extended(b), extended(c)};
     const double side = triples_[t].side ? 1.0 : -1.0;
     double h2 = 0;
-    glm::dvec3 x = geometry::probe_of_three(db, dc, radius[0] * radius[0], radius[1] * radius[1],
-                                            radius[2] * radius[2], side, h2);
+    glm::dvec3 x =
+        geometry::probe_of_three(db, dc, radius[0] * radius[0], radius[1] * radius[1], radius[2] * radius[2], side, h2);
     if (h2 < kFlat) {
       // Probe (almost) in the plane of its atoms: grown as the decision that found it was, but all alike, so that
       // n-fold contacts stay in one place.
@@ -146,9 +148,9 @@ class Placement {
   static glm::dvec3 polished(const glm::dvec3& x, const glm::dvec3& db, const glm::dvec3& dc,
                              const std::array<double, 3>& radius) {
     const glm::dvec3 ea = x, eb = x - db, ec = x - dc;
-    const glm::dvec3 residual = 0.5 * glm::dvec3(glm::dot(ea, ea) - radius[0] * radius[0],
-                                                 glm::dot(eb, eb) - radius[1] * radius[1],
-                                                 glm::dot(ec, ec) - radius[2] * radius[2]);
+    const glm::dvec3 residual =
+        0.5 * glm::dvec3(glm::dot(ea, ea) - radius[0] * radius[0], glm::dot(eb, eb) - radius[1] * radius[1],
+                         glm::dot(ec, ec) - radius[2] * radius[2]);
     const glm::dvec3 bc = glm::cross(eb, ec), ca = glm::cross(ec, ea), ab = glm::cross(ea, eb);
     return x - (bc * residual.x + ca * residual.y + ab * residual.z) / glm::dot(ea, bc);
   }
@@ -343,12 +345,12 @@ class Placement {
   double probe_radius_;
   const std::vector<RsArc>& arcs_;
   std::vector<Triple> triples_;
-  std::vector<glm::dvec3> position_;            // per triple
-  std::vector<double> height_;                  // per triple
-  std::vector<std::uint32_t> triple_at_;        // arc * 2 + end -> triple
-  std::vector<char> vanished_;                  // per arc
+  std::vector<glm::dvec3> position_;      // per triple
+  std::vector<double> height_;            // per triple
+  std::vector<std::uint32_t> triple_at_;  // arc * 2 + end -> triple
+  std::vector<char> vanished_;            // per arc
   std::vector<std::uint32_t> probe_of_triple_;
-  std::vector<Members> members_;                // per probe
+  std::vector<Members> members_;  // per probe
   std::vector<std::uint32_t> toroidal_of_arc_;
   RollingParts parts_;
 };

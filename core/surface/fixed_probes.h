@@ -35,8 +35,9 @@ struct FixedProbes {
 
 struct RollingParts {
   FixedProbes probes;
-  std::vector<ToroidalPatch> toroidal;    ///< sorted by atoms; faces not filled in yet
-  std::vector<std::uint32_t> open_atoms;  ///< atoms of triples that not exactly three arc ends agree on; empty if closed
+  std::vector<ToroidalPatch> toroidal;  ///< sorted by atoms; faces not filled in yet
+  std::vector<std::uint32_t>
+      open_atoms;  ///< atoms of triples that not exactly three arc ends agree on; empty if closed
 };
 
 /// Places probes and toroidal patches. Probes closer than 1e-6 Å that a vanishing arc connects become one probe with n

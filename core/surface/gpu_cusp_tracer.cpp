@@ -84,9 +84,13 @@ class GpuCuspTracer final : public CuspTracer {
       heads[s] = {problem.first_side[s], problem.low(s) ? 1u : 0u};
       for (std::uint32_t n = problem.first_side[s]; n < problem.first_side[s + 1]; ++n) {
         const CuspSide& side = problem.sides[n];
-        sides[n] = {glm::vec4(glm::vec3(side.contact), 0), glm::vec4(glm::vec3(side.gap_direction), 0),
-                    glm::vec4(glm::vec3(side.circle_center - problem.positions[s]), 0), side.circle, side.partner,
-                    side.touching ? 1u : 0u, 0u};
+        sides[n] = {glm::vec4(glm::vec3(side.contact), 0),
+                    glm::vec4(glm::vec3(side.gap_direction), 0),
+                    glm::vec4(glm::vec3(side.circle_center - problem.positions[s]), 0),
+                    side.circle,
+                    side.partner,
+                    side.touching ? 1u : 0u,
+                    0u};
       }
     }
     heads.back() = {static_cast<std::uint32_t>(sides.size()), 0u};
@@ -137,7 +141,8 @@ class GpuCuspTracer final : public CuspTracer {
       doubtful_capacity_ = std::max(doubtful_capacity_, counts[1] + counts[1] / 4);
     }
     for (const ArcRecord& arc : arcs_.download<ArcRecord>(counts[0], kArcHeader))
-      found.push_back({{arc.names.x, arc.names.y}, {arc.names.z, arc.names.w}, glm::dvec3(arc.begin), glm::dvec3(arc.end)});
+      found.push_back(
+          {{arc.names.x, arc.names.y}, {arc.names.z, arc.names.w}, glm::dvec3(arc.begin), glm::dvec3(arc.end)});
     return counts[1];
   }
 

@@ -45,7 +45,8 @@ void GpuNeighbors::upload(std::span<const glm::dvec3> centers, std::span<const d
   for (std::size_t n = 0; n < count_; ++n) {
     const glm::dvec3 d = centers[n] - middle;
     coarse[n] = glm::vec4(glm::vec3(d), static_cast<float>(radii[n]));
-    fine[n] = glm::vec4(glm::vec3(d - glm::dvec3(glm::vec3(coarse[n]))), !left_out.empty() && left_out[n] ? 1.0f : 0.0f);
+    fine[n] =
+        glm::vec4(glm::vec3(d - glm::dvec3(glm::vec3(coarse[n]))), !left_out.empty() && left_out[n] ? 1.0f : 0.0f);
   }
   balls.upload(coarse);
   balls_low_.upload(fine);
@@ -118,9 +119,9 @@ bool GpuNeighbors::count_neighbors(BallBatch& batch) {
   const std::size_t limit = query_gpu_limits().storage_block_bytes;
   if (batch.neighbor_count * sizeof(glm::vec4) <= limit) return true;
   if (batch.count == 1)
-    throw CapacityError("ball " + std::to_string(batch.first + 1) + " overlaps " + std::to_string(batch.neighbor_count) +
-                        " others, more than this driver's storage blocks of " + std::to_string(limit >> 20) +
-                        " MiB hold; use --device cpu");
+    throw CapacityError("ball " + std::to_string(batch.first + 1) + " overlaps " +
+                        std::to_string(batch.neighbor_count) + " others, more than this driver's storage blocks of " +
+                        std::to_string(limit >> 20) + " MiB hold; use --device cpu");
   return false;
 }
 

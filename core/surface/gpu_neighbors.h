@@ -33,7 +33,8 @@ class GpuNeighbors {
   void upload(std::span<const glm::dvec3> centers, std::span<const double> radii, const std::vector<bool>& left_out);
 
   /// Calls work(batch) for consecutive batches with their lists in the buffers below; lists that are still there from
-  /// the last time are not made again. Batches are as large as the driver's storage blocks allow. Throws CapacityError if a single ball has too many neighbours.
+  /// the last time are not made again. Batches are as large as the driver's storage blocks allow. Throws CapacityError
+  /// if a single ball has too many neighbours.
   template <typename Work>
   void for_each_batch(Work&& work) {
     BallBatch batch;
@@ -56,14 +57,14 @@ class GpuNeighbors {
   /// Lists each overlapping pair i < j of the batch once, in `pairs`.
   void list_pairs(const BallBatch& batch);
 
-  Buffer balls;      ///< vec4 per ball: centre from the middle (high part), radius
-  Buffer first;      ///< uint per ball of the batch + 1: into the two lists
-  Buffer relative;   ///< vec4 per neighbour: centre from the ball's, radius²; roughly nearest first
-  Buffer labels;     ///< uint per neighbour: its index
-  Buffer pairs;      ///< uvec2 per pair: ball, place of the other in the lists
+  Buffer balls;     ///< vec4 per ball: centre from the middle (high part), radius
+  Buffer first;     ///< uint per ball of the batch + 1: into the two lists
+  Buffer relative;  ///< vec4 per neighbour: centre from the ball's, radius²; roughly nearest first
+  Buffer labels;    ///< uint per neighbour: its index
+  Buffer pairs;     ///< uvec2 per pair: ball, place of the other in the lists
 
  private:
-  static constexpr std::size_t kClasses = 6;  // distance classes of the kernel
+  static constexpr std::size_t kClasses = 6;               // distance classes of the kernel
   static constexpr std::uint32_t kLargestBatch = 1 << 16;  // lists of some 50 MB: within limits and not far from caches
 
   bool count_neighbors(BallBatch& batch);

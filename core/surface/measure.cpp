@@ -108,9 +108,9 @@ class Measurement {
     }
     const auto primitive = [&](double psi) {
       const double s = std::sin(psi), c = std::cos(psi);
-      return glm::dvec3(p * (t.radius * psi - p * s),                           // of p (T - p cos psi)
-                        p * (t.radius * s - p * 0.5 * (psi + s * c)),          // ... times cos psi
-                        p * (-t.radius * c + 0.5 * p * c * c));                // ... times sin psi
+      return glm::dvec3(p * (t.radius * psi - p * s),                  // of p (T - p cos psi)
+                        p * (t.radius * s - p * 0.5 * (psi + s * c)),  // ... times cos psi
+                        p * (-t.radius * c + 0.5 * p * c * c));        // ... times sin psi
     };
     const glm::dvec3 i = primitive(end) - primitive(begin);
     const glm::dvec3 side = glm::cross(t.axis, t.start);
@@ -119,8 +119,8 @@ class Measurement {
     FaceIntegrals integrals;
     integrals.area = t.sweep * i.x;
     // n = cos psi e - sin psi axis, x·n = c·n + T cos psi - p.
-    integrals.flux = glm::dot(c, around) * i.y - glm::dot(c, t.axis) * t.sweep * i.z +
-                     t.sweep * (t.radius * i.y - p * i.x);
+    integrals.flux =
+        glm::dot(c, around) * i.y - glm::dot(c, t.axis) * t.sweep * i.z + t.sweep * (t.radius * i.y - p * i.x);
     return integrals;
   }
 

@@ -119,8 +119,7 @@ void SurfacePipeline::run_circles(const BallBatch& batch, bool in_double, const 
 }
 
 // Double left these in doubt (ties): Contour decides them in quadruple precision.
-void SurfacePipeline::decide_on_host(const BallBatch& batch, std::span<const glm::uvec2> circles,
-                                     ReducedSurface& rs) {
+void SurfacePipeline::decide_on_host(const BallBatch& batch, std::span<const glm::uvec2> circles, ReducedSurface& rs) {
   const auto first = neighbors_.first.download<std::uint32_t>(batch.count + 1);
   const auto labels = neighbors_.labels.download<std::uint32_t>(batch.neighbor_count);
   Contour contour;

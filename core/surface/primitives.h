@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The finished solvent-excluded surface: analytic patches, and the borders, faces and components that tie them together.
+// The finished solvent-excluded surface: analytic patches, and the borders, faces and components that tie them
+// together.
 //
 // Two views of one surface, both plain data without GL:
 //  * the patch tables (convex, toroidal, concave) say which quadric or quartic is clipped by which planes;
@@ -53,7 +54,7 @@ struct ConvexPatch {
 /// about the axis from center + radius*start over the angle `sweep`. The torus has major radius `radius`, minor radius
 /// probe_radius. On a spindle (see crosses_axis) the part past the axis is cut off and two pieces remain.
 struct ToroidalPatch {
-  std::array<std::uint32_t, 2> atom{};            ///< atom[0] < atom[1]
+  std::array<std::uint32_t, 2> atom{};               ///< atom[0] < atom[1]
   std::array<std::uint32_t, 2> probe{kNone, kNone};  ///< fixed probes at start and end; kNone for a free edge
   glm::dvec3 center{0.0};
   glm::dvec3 axis{0.0};

@@ -31,9 +31,7 @@ inline real3 operator*(real3 a, real s) { return {a.x * s, a.y * s, a.z * s}; }
 inline real3 operator/(real3 a, real s) { return {a.x / s, a.y / s, a.z / s}; }
 inline real dot(real2 a, real2 b) { return a.x * b.x + a.y * b.y; }
 inline real dot(real3 a, real3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-inline real3 cross(real3 a, real3 b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
+inline real3 cross(real3 a, real3 b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
 inline real abs(real a) { return a < 0 ? -a : a; }
 inline real min(real a, real b) { return b < a ? b : a; }
 

@@ -15,8 +15,8 @@ namespace meniscus {
 namespace {
 
 constexpr std::size_t kDirections = 162;
-constexpr std::size_t kPadded = 176;        // whole vectors of 16
-constexpr double kRoom = 1e-4;              // radian, for single precision
+constexpr std::size_t kPadded = 176;  // whole vectors of 16
+constexpr double kRoom = 1e-4;        // radian, for single precision
 
 // Directions, and the largest angle from any point of the sphere to the nearest of them: the largest circumradius of a
 // triangle of the subdivision.
@@ -85,8 +85,7 @@ __attribute__((target_clones("avx512f", "avx2", "default")))
 #endif
 void mark_cap(const float* x, const float* y, const float* z, float ax, float ay, float az, float cosine,
               std::uint32_t* marks) {
-  for (std::size_t n = 0; n < kPadded; ++n)
-    marks[n] |= ax * x[n] + ay * y[n] + az * z[n] >= cosine ? 1u : 0u;
+  for (std::size_t n = 0; n < kPadded; ++n) marks[n] |= ax * x[n] + ay * y[n] + az * z[n] >= cosine ? 1u : 0u;
 }
 
 bool all_marked(const std::uint32_t* marks) {

@@ -2,8 +2,8 @@
 // A quick, safe answer to "is this part of a SAS sphere covered?": most atoms and circles are, and need no more work.
 //
 // A sphere is watched in 162 directions so dense that every point lies within a known angle of one. A direction counts
-// as covered when one ball covers everything within that angle of it, with room for rounding; so "covered" is certain and
-// "not covered" only means that somebody has to look closer.
+// as covered when one ball covers everything within that angle of it, with room for rounding; so "covered" is certain
+// and "not covered" only means that somebody has to look closer.
 #pragma once
 
 #include <array>

@@ -94,8 +94,8 @@ double area_left_of(std::span<const SphereArc> loop) {
 glm::dvec3 moment_left_of(std::span<const SphereArc> loop) {
   glm::dvec3 sum(0.0);
   for (const SphereArc& arc : loop)
-    sum += arc.height * glm::cross(arc.axis, arc.to - arc.from) +
-           arc.axis * ((1 - arc.height * arc.height) * arc.sweep);
+    sum +=
+        arc.height * glm::cross(arc.axis, arc.to - arc.from) + arc.axis * ((1 - arc.height * arc.height) * arc.sweep);
   return 0.5 * sum;
 }
 

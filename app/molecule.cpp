@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Carries out what the common options say.
+#include "app/molecule.h"
+
+#include <numeric>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace meniscus {
+
+Structure read_molecule(const MoleculeOptions& options) {
+  Structure structure = read_structure(options.file, options.reading);
+  say(options, fmt::format("{}: {}", structure.file, structure.report.sentence()));
+  for (const std::string& warning : structure.report.warnings) {
+    say(options, fmt::format("warning: {}: {}", structure.file, warning));
+  }
+  return structure;
+}
+
+Molecule load_molecule(const MoleculeOptions& options) {
+  Molecule molecule;
+  molecule.structure = read_molecule(options);
+  ComputedSurface computed = compute_surface(balls_of(molecule.structure), options.computing);
+  SurfaceObject object;
+  object.name = "surface";
+  object.surface = std::move(computed.surface);
+  object.coloring = color_atoms(molecule.structure, options.color);
+  object.atom.resize(molecule.structure.atoms.size());
+  std::iota(object.atom.begin(), object.atom.end(), 0u);
+  molecule.objects.push_back(std::move(object));
+  molecule.device = std::move(computed.device);
+  molecule.stages = std::move(computed.stages);
+  say(options, fmt::format("surface on {} in {:.1f} ms", molecule.device, total_ms(molecule.stages)));
+  return molecule;
+}
+
+}  // namespace meniscus

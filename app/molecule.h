@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The one way from a command's options to a molecule with its surfaces and colours.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/molecule_options.h"
+#include "core/base/stage_clock.h"
+#include "core/molecule/structure.h"
+#include "core/surface/surface_object.h"
+
+namespace meniscus {
+
+/// A molecule, ready to be drawn or exported.
+struct Molecule {
+  Structure structure;
+  std::vector<SurfaceObject> objects;  ///< at least one
+  std::string device;                  ///< what computed them
+  std::vector<StageTime> stages;       ///< of all of them
+
+  const Surface& surface() const { return objects.front().surface; }
+  const Coloring& coloring() const { return objects.front().coloring; }
+};
+
+/// Reads the file and says on stderr, unless quiet, what was read and left out, and each warning.
+Structure read_molecule(const MoleculeOptions& options);
+
+/// Reads, computes and colours, in that order; says on stderr what was read and on which device it ran.
+Molecule load_molecule(const MoleculeOptions& options);
+
+}  // namespace meniscus

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Declares the options that say which surface is computed, and where.
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "app/molecule_options.h"
+#include "core/base/text.h"
+#include "core/molecule/reader.h"
+
+namespace meniscus {
+namespace {
+
+// Below 0.001 Å the patches between atoms are thinner than any file's coordinates are precise; above 100 Å the probe is
+// larger than most molecules and every atom neighbours every other.
+constexpr double kSmallestProbe = 1e-3;
+constexpr double kLargestProbe = 100.0;
+
+double parse_probe(const std::string& text) {
+  double radius = 0.0;
+  if (!parse_number(text, radius))
+    throw CLI::ValidationError("--probe", in_quotes(text) + " is not a finite number of Å, such as 1.4");
+  if (radius < 0.0)
+    throw CLI::ValidationError("--probe", fmt::format("{} Å is negative; 0 gives the van der Waals surface", radius));
+  if (radius > 0.0 && radius < kSmallestProbe) {
+    throw CLI::ValidationError(
+        "--probe",
+        fmt::format("{} Å is finer than any file's coordinates; use 0 (van der Waals surface) or at least {} Å", radius,
+                    kSmallestProbe));
+  }
+  if (radius > kLargestProbe) {
+    throw CLI::ValidationError(
+        "--probe", fmt::format("{} Å is larger than molecules are; use at most {} Å", radius, kLargestProbe));
+  }
+  return radius;
+}
+
+void parse_device(const std::string& text, ComputeOptions& options) {
+  options.cpu = text == "cpu";
+  if (options.cpu) return;
+  const std::optional<DeviceChoice> choice = parse_device_choice(text);
+  if (!choice) throw CLI::ValidationError("--device", in_quotes(text) + " is none of auto, gpu, gpu:N, software, cpu");
+  options.gl = *choice;
+}
+
+}  // namespace
+
+void add_surface_options(CLI::App& command, MoleculeOptions& options) {
+  const Heading heading(command, "Surface");
+  ComputeOptions& computing = options.computing;
+  command
+      .add_option_function<std::string>(
+          "--probe", [&computing](const std::string& text) { computing.probe_radius = parse_probe(text); },
+          "Probe radius in Å [1.4]; 0 gives the van der Waals surface")
+      ->type_name("RADIUS");
+  command
+      .add_option_function<std::string>(
+          "--device", [&computing](const std::string& text) { parse_device(text, computing); },
+          "auto (default: a GPU if there is one, else cpu), gpu, gpu:N, software (GL without a GPU), cpu")
+      ->type_name("DEVICE");
+  command.add_flag("--verify", computing.verify, "Compute on GPU and CPU and name every difference");
+  command.add_option("--threads", computing.threads, "CPU threads [all]")
+      ->check(CLI::Range(1, 4096).description(""))
+      ->type_name("N");
+}
+
+}  // namespace meniscus

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A rotation and a translation: where a copy of a molecule stands.
+#pragma once
+
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+
+namespace meniscus {
+
+/// x -> rotation * x + translation. The rotation is orthonormal with determinant +1: mirrors are none.
+struct RigidMotion {
+  glm::dmat3 rotation{1.0};
+  glm::dvec3 translation{0.0};  ///< Å
+
+  glm::dvec3 operator()(const glm::dvec3& x) const { return rotation * x + translation; }
+};
+
+}  // namespace meniscus
