@@ -2,6 +2,7 @@
 // `meniscus render`: a picture of the surface by ray casting its analytic patches.
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -13,6 +14,7 @@
 #include "core/gpu/egl_context.h"
 #include "core/render/image_output.h"
 #include "core/render/ray_caster.h"
+#include "core/surface/combine.h"
 
 namespace meniscus {
 namespace {
@@ -52,8 +54,9 @@ void run(const RenderCommand& command) {
   // Whether the outputs can be written is known before the work begins; these vanish again.
   OutputFile(command.output.path, command.output.existing());
   if (!command.save_camera.empty()) OutputFile(command.save_camera, command.output.existing());
-  const Molecule molecule = load_molecule(command.molecule);
-  const Camera camera = picture_camera(command.picture, molecule.surface());
+  Molecule molecule = load_molecule(command.molecule);
+  const SurfaceObject whole = merged(std::move(molecule.objects));
+  const Camera camera = picture_camera(command.picture, whole.surface.atoms);
 
   EglContext context(command.molecule.computing.cpu ? DeviceChoice{} : command.molecule.computing.gl);
   RayCaster caster;
@@ -61,7 +64,9 @@ void run(const RenderCommand& command) {
   settings.size = {command.picture.width, command.picture.height};
   settings.samples = command.samples;
   settings.aovs = command.aovs;
-  const Framebuffer picture = caster.render(molecule.surface(), molecule.coloring(), camera, settings);
+  Framebuffer picture = caster.render(whole.surface, whole.coloring, camera, settings);
+  for (std::uint32_t& atom : picture.atom)
+    if (atom != kNone) atom = whole.atom[atom];
 
   write_image(command.output.path, picture, {command.background, command.output.existing()});
   if (!command.save_camera.empty()) save_camera(command, camera);

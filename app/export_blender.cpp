@@ -37,9 +37,9 @@ blender::AtomAttributes attributes_of(const Structure& structure) {
 
 void run(const BlenderCommand& command) {
   const Molecule molecule = load_molecule(command.molecule);
-  const Camera camera = picture_camera(command.picture, molecule.surface());
-  const double tolerance = tolerance_of(command.mesh, command.picture, camera, molecule.surface());
-  const TriangleMesh mesh = mesh_of(command.molecule, molecule, tolerance);
+  const Camera camera = picture_camera(command.picture, molecule.surface().atoms);
+  const double tolerance = tolerance_of(command.mesh, command.picture, camera, molecule.surface().atoms);
+  const TriangleMesh mesh = mesh_of(command.molecule, molecule.surface(), tolerance);
   const blender::Provenance provenance{std::filesystem::path(molecule.structure.file).filename().string(),
                                        molecule.structure.radii_set, molecule.device};
   write_surface(command.output.path, command.output.existing(), molecule.surface(), mesh, molecule.coloring(),

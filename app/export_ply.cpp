@@ -3,10 +3,12 @@
 #include <cmath>
 #include <iostream>
 #include <memory>
+#include <utility>
 
 #include "app/commands.h"
 #include "app/mesh_options.h"
 #include "core/base/text.h"
+#include "core/surface/combine.h"
 #include "exporters/mesh/ply.h"
 
 namespace meniscus {
@@ -19,9 +21,11 @@ struct PlyCommand {
   OutputOptions output;
 };
 
-std::vector<AtomScalar> scalars_of(const Structure& structure) {
+// One row for each atom of the surface.
+std::vector<AtomScalar> scalars_of(const Structure& structure, const std::vector<std::uint32_t>& atoms) {
   AtomScalar b_factor{"b_factor", {}}, number{"atomic_number", {}}, residue{"res_id", {}}, radius{"vdw_radii", {}};
-  for (const Atom& atom : structure.atoms) {
+  for (const std::uint32_t index : atoms) {
+    const Atom& atom = structure.atoms[index];
     b_factor.values.push_back(std::isfinite(atom.b_factor) ? atom.b_factor : 0.0f);
     number.values.push_back(atom.element);
     residue.values.push_back(static_cast<float>(atom.residue_number));
@@ -31,11 +35,13 @@ std::vector<AtomScalar> scalars_of(const Structure& structure) {
 }
 
 void run(const PlyCommand& command) {
-  const Molecule molecule = load_molecule(command.molecule);
-  const Camera camera = picture_camera(command.picture, molecule.surface());
-  const double tolerance = tolerance_of(command.mesh, command.picture, camera, molecule.surface());
-  const TriangleMesh mesh = mesh_of(command.molecule, molecule, tolerance);
-  write_ply(command.output.path, command.output.existing(), mesh, molecule.coloring(), scalars_of(molecule.structure));
+  Molecule molecule = load_molecule(command.molecule);
+  const SurfaceObject whole = merged(std::move(molecule.objects));
+  const Camera camera = picture_camera(command.picture, whole.surface.atoms);
+  const double tolerance = tolerance_of(command.mesh, command.picture, camera, whole.surface.atoms);
+  const TriangleMesh mesh = mesh_of(command.molecule, whole.surface, tolerance);
+  write_ply(command.output.path, command.output.existing(), mesh, whole.coloring,
+            scalars_of(molecule.structure, whole.atom));
   std::cout << escaped(command.output.path) << "\n";
 }
 

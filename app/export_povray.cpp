@@ -10,6 +10,7 @@
 #include "app/molecule.h"
 #include "app/picture_options.h"
 #include "core/base/text.h"
+#include "core/surface/combine.h"
 #include "exporters/povray/scene.h"
 
 namespace meniscus {
@@ -29,7 +30,7 @@ void run(const PovrayCommand& command) {
   options.height = command.picture.height;
   options.material = command.material;
   options.existing = command.output.existing();
-  const Camera camera = picture_camera(command.picture, molecule.surface());
+  const Camera camera = picture_camera(command.picture, placed_balls(molecule.objects));
   const povray::SceneReport report =
       write_scene(molecule.surface(), molecule.coloring(), camera, options, command.output.path);
   say(command.molecule,

@@ -31,14 +31,14 @@ void add_mesh_options(CLI::App& command, MeshCommandOptions& options) {
 }
 
 double tolerance_of(const MeshCommandOptions& options, const PictureOptions& picture, const Camera& camera,
-                    const Surface& surface) {
+                    std::span<const Ball> balls) {
   if (options.tolerance_pixels == 0.0) return options.tolerance;
   // A pixel spans 2 * half height / rows of the plane at distance 1 (perspective), or in Å anywhere (orthographic).
   double pixel = 2.0 * half_extent(camera, double(picture.width) / picture.height).y / picture.height;
   if (camera.projection == Projection::perspective) {
     double nearest = std::numeric_limits<double>::infinity();
     const glm::dvec3 forward = view_basis(camera).forward;
-    for (const Ball& ball : surface.atoms) {
+    for (const Ball& ball : balls) {
       nearest = std::min(nearest, glm::dot(ball.center - camera.position, forward) - ball.radius);
     }
     pixel *= std::max(nearest, 0.1);
@@ -46,8 +46,8 @@ double tolerance_of(const MeshCommandOptions& options, const PictureOptions& pic
   return std::clamp(options.tolerance_pixels * pixel, kSmallestTolerance, kLargestTolerance);
 }
 
-TriangleMesh mesh_of(const MoleculeOptions& options, const Molecule& molecule, double tolerance) {
-  TriangleMesh mesh = tessellate(molecule.surface(), {tolerance, true});
+TriangleMesh mesh_of(const MoleculeOptions& options, const Surface& surface, double tolerance) {
+  TriangleMesh mesh = tessellate(surface, {tolerance, true});
   say(options,
       fmt::format("{} triangles within {:.4g} Å of the surface", with_thousands(mesh.triangles.size()), tolerance));
   return mesh;

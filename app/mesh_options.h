@@ -2,6 +2,8 @@
 // The options of exports that write a mesh, and the one way from them to the mesh.
 #pragma once
 
+#include <span>
+
 #include "app/molecule.h"
 #include "app/picture_options.h"
 #include "exporters/mesh/triangle_mesh.h"
@@ -17,11 +19,11 @@ struct MeshCommandOptions {
 /// --tolerance and --tolerance-pixels.
 void add_mesh_options(CLI::App& command, MeshCommandOptions& options);
 
-/// The tolerance in Å: as given, or what --tolerance-pixels means at the surface's nearest point in this picture.
+/// The tolerance in Å: as given, or what --tolerance-pixels means at the nearest ball in this picture.
 double tolerance_of(const MeshCommandOptions& options, const PictureOptions& picture, const Camera& camera,
-                    const Surface& surface);
+                    std::span<const Ball> balls);
 
-/// Meshes the molecule's surface and says on stderr how many triangles came out.
-TriangleMesh mesh_of(const MoleculeOptions& options, const Molecule& molecule, double tolerance);
+/// Meshes a surface and says on stderr how many triangles came out.
+TriangleMesh mesh_of(const MoleculeOptions& options, const Surface& surface, double tolerance);
 
 }  // namespace meniscus

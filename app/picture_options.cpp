@@ -48,9 +48,9 @@ void add_picture_options(CLI::App& command, PictureOptions& options) {
       ->excludes(camera);
 }
 
-Camera picture_camera(const PictureOptions& options, const Surface& surface) {
+Camera picture_camera(const PictureOptions& options, std::span<const Ball> balls) {
   if (!options.camera_file.empty()) return read_camera(options.camera_file);
-  return frame_camera(surface, static_cast<double>(options.width) / options.height, options.projection);
+  return frame_camera(balls, static_cast<double>(options.width) / options.height, options.projection);
 }
 
 }  // namespace meniscus

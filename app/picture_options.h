@@ -2,6 +2,7 @@
 // The options that say how a picture is taken: its size and its camera.
 #pragma once
 
+#include <span>
 #include <string>
 
 #include <CLI/CLI.hpp>
@@ -20,7 +21,7 @@ struct PictureOptions {
 /// --size, --camera, --projection.
 void add_picture_options(CLI::App& command, PictureOptions& options);
 
-/// The camera of the file, or the default one. Throws InputError.
-Camera picture_camera(const PictureOptions& options, const Surface& surface);
+/// The camera of the file, or the default one, which shows all of the balls. Throws InputError.
+Camera picture_camera(const PictureOptions& options, std::span<const Ball> balls);
 
 }  // namespace meniscus

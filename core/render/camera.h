@@ -2,6 +2,7 @@
 // The camera that ray caster and exporters share: its file, its rays, and a default one for a surface.
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -58,8 +59,10 @@ glm::dvec2 half_extent(const Camera& camera, double aspect);
 /// `size` pixels. A perspective ray starts at the position, an orthographic one on the plane through it.
 Ray pixel_ray(const Camera& camera, glm::dvec2 size, glm::dvec2 pixel);
 
-/// A camera that shows all of the surface with a small margin, its widest side across the picture (principal axes of
-/// the atoms), from the side nearest to +z. aspect: width / height of the picture. A surface must have an atom.
+/// A camera that shows all of the balls with a small margin, their widest side across the picture (principal axes of
+/// the centres), from the side nearest to +z. aspect: width / height of the picture. There must be a ball.
+Camera frame_camera(std::span<const Ball> balls, double aspect, Projection projection = Projection::perspective);
+/// The same for the atoms of a surface, which hold all of it.
 Camera frame_camera(const Surface& surface, double aspect, Projection projection = Projection::perspective);
 
 }  // namespace meniscus

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <span>
 #include <utility>
 
 #include <glm/geometric.hpp>
@@ -41,12 +42,12 @@ glm::dmat3 principal_axes(glm::dmat3 a) {
   return {axes[order[0]], axes[order[1]], axes[order[2]]};
 }
 
-ViewBasis broad_side(const Surface& surface) {
+ViewBasis broad_side(std::span<const Ball> balls) {
   glm::dvec3 mean(0.0);
-  for (const Ball& ball : surface.atoms) mean += ball.center;
-  mean /= static_cast<double>(surface.atoms.size());
+  for (const Ball& ball : balls) mean += ball.center;
+  mean /= static_cast<double>(balls.size());
   glm::dmat3 covariance(0.0);
-  for (const Ball& ball : surface.atoms) covariance += glm::outerProduct(ball.center - mean, ball.center - mean);
+  for (const Ball& ball : balls) covariance += glm::outerProduct(ball.center - mean, ball.center - mean);
   const glm::dmat3 axes = principal_axes(covariance);
   // Of the four turns that show the same side, the one nearest to the usual view along -z with y up.
   const glm::dvec3 forward = axes[2].z > 0.0 ? -axes[2] : axes[2];
@@ -55,10 +56,10 @@ ViewBasis broad_side(const Surface& surface) {
 }
 
 /// Where two planes that open at `half_angle` about +z touch all balls from outside: (sideways, depth) of their edge.
-glm::dvec2 touch(const Surface& surface, const glm::dvec3& sideways, const glm::dvec3& forward, double tangent) {
+glm::dvec2 touch(std::span<const Ball> balls, const glm::dvec3& sideways, const glm::dvec3& forward, double tangent) {
   const double cosine = 1.0 / std::sqrt(1.0 + tangent * tangent), sine = tangent * cosine;
   double left = std::numeric_limits<double>::max(), right = left;
-  for (const Ball& ball : surface.atoms) {
+  for (const Ball& ball : balls) {
     const double x = glm::dot(ball.center, sideways) * cosine, z = glm::dot(ball.center, forward) * sine;
     left = std::min(left, z + x - ball.radius);
     right = std::min(right, z - x - ball.radius);
@@ -67,9 +68,9 @@ glm::dvec2 touch(const Surface& surface, const glm::dvec3& sideways, const glm::
 }
 
 /// Lowest and highest coordinate of the balls along a direction.
-glm::dvec2 range_along(const Surface& surface, const glm::dvec3& direction) {
+glm::dvec2 range_along(std::span<const Ball> balls, const glm::dvec3& direction) {
   glm::dvec2 range(std::numeric_limits<double>::max(), std::numeric_limits<double>::lowest());
-  for (const Ball& ball : surface.atoms) {
+  for (const Ball& ball : balls) {
     const double x = glm::dot(ball.center, direction);
     range = {std::min(range.x, x - ball.radius), std::max(range.y, x + ball.radius)};
   }
@@ -79,9 +80,13 @@ glm::dvec2 range_along(const Surface& surface, const glm::dvec3& direction) {
 }  // namespace
 
 Camera frame_camera(const Surface& surface, double aspect, Projection projection) {
-  assert(!surface.atoms.empty() && aspect > 0.0);
-  const ViewBasis basis = broad_side(surface);
-  const glm::dvec2 depth = range_along(surface, basis.forward);
+  return frame_camera(std::span(surface.atoms), aspect, projection);
+}
+
+Camera frame_camera(std::span<const Ball> balls, double aspect, Projection projection) {
+  assert(!balls.empty() && aspect > 0.0);
+  const ViewBasis basis = broad_side(balls);
+  const glm::dvec2 depth = range_along(balls, basis.forward);
   Camera camera;
   camera.projection = projection;
   camera.up = basis.up;
@@ -89,12 +94,12 @@ Camera frame_camera(const Surface& surface, double aspect, Projection projection
   double eye_depth = 0.0;
   if (projection == Projection::perspective) {
     const double tangent = std::tan(camera.vertical_fov * (std::numbers::pi / 360.0)) / kMargin;
-    const glm::dvec2 x = touch(surface, basis.right, basis.forward, tangent * aspect);
-    const glm::dvec2 y = touch(surface, basis.up, basis.forward, tangent);
+    const glm::dvec2 x = touch(balls, basis.right, basis.forward, tangent * aspect);
+    const glm::dvec2 y = touch(balls, basis.up, basis.forward, tangent);
     side = {x.x, y.x};
     eye_depth = std::min(x.y, y.y);
   } else {
-    const glm::dvec2 x = range_along(surface, basis.right), y = range_along(surface, basis.up);
+    const glm::dvec2 x = range_along(balls, basis.right), y = range_along(balls, basis.up);
     side = {0.5 * (x.x + x.y), 0.5 * (y.x + y.y)};
     camera.height = kMargin * std::max(y.y - y.x, (x.y - x.x) / aspect);
     eye_depth = depth.x - 0.1 * (depth.y - depth.x);

@@ -176,7 +176,7 @@ struct Surface {
   std::vector<Border> borders;
   std::vector<HalfBorder> half_borders;
   std::vector<Loop> loops;
-  std::vector<Face> faces;  ///< grouped by patch: all convex, then toroidal, then concave
+  std::vector<Face> faces;  ///< those of one patch stand together
 
   std::vector<Component> components;
   Certificate certificate;
