@@ -34,11 +34,9 @@ void parse_background(const std::string& text, std::optional<glm::vec3>& backgro
   if (text == "transparent") return;
   if (text == "white") background = glm::vec3(1.0f);
   if (text == "black") background = glm::vec3(0.0f);
-  if (background) return;
-  const std::optional<ColorScheme> color = parse_color_scheme(text);
-  if (!color || color->by != ColorScheme::By::fixed)
+  if (!background) background = parse_hex_color(text);
+  if (!background)
     throw CLI::ValidationError("--background", in_quotes(text) + " is none of transparent, white, black, #rrggbb");
-  background = color->fixed;
 }
 
 void save_camera(const RenderCommand& command, const Camera& camera) {

@@ -18,16 +18,28 @@ Structure read_molecule(const MoleculeOptions& options) {
   return structure;
 }
 
+namespace {
+
+/// The colour scheme with the numbers of its file, if it has one.
+ColorScheme color_of(const MoleculeOptions& options) {
+  ColorScheme color = options.color;
+  if (color.by == ColorScheme::By::file) color.file = read_number_file(options.color_file);
+  return color;
+}
+
+}  // namespace
+
 Molecule load_molecule(const MoleculeOptions& options) {
   Molecule molecule;
   molecule.structure = read_molecule(options);
+  molecule.color = color_of(options);
   ComputedSurface computed = compute_surface(balls_of(molecule.structure), options.computing);
   SurfaceObject object;
   object.name = "surface";
   object.surface = std::move(computed.surface);
-  object.coloring = color_atoms(molecule.structure, options.color);
   object.atom.resize(molecule.structure.atoms.size());
   std::iota(object.atom.begin(), object.atom.end(), 0u);
+  object.coloring = color_object(molecule.structure, object.atom, molecule.color, 0);
   molecule.objects.push_back(std::move(object));
   molecule.device = std::move(computed.device);
   molecule.stages = std::move(computed.stages);

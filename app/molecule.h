@@ -15,6 +15,7 @@ namespace meniscus {
 /// A molecule, ready to be drawn or exported.
 struct Molecule {
   Structure structure;
+  ColorScheme color;                   ///< as asked for, with the numbers of --color-by-file
   std::vector<SurfaceObject> objects;  ///< at least one
   std::string device;                  ///< what computed them
   std::vector<StageTime> stages;       ///< of all of them

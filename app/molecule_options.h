@@ -20,6 +20,7 @@ struct MoleculeOptions {
   ReadOptions reading;
   ComputeOptions computing;
   ColorScheme color;
+  std::string color_file;  ///< --color-by-file, read by load_molecule
   bool quiet = false;
 };
 
@@ -34,7 +35,7 @@ struct OutputOptions {
 void add_atom_options(CLI::App& command, MoleculeOptions& options);
 /// How the surface is made of them (surface_options.cpp): --probe, --device, --verify, --threads.
 void add_surface_options(CLI::App& command, MoleculeOptions& options);
-/// How it is coloured (color_options.cpp): --color, --color-range.
+/// How it is coloured (color_options.cpp): --color, --color-by-file, --map, --color-range, --missing-color.
 void add_color_options(CLI::App& command, MoleculeOptions& options);
 /// All of the above.
 void add_molecule_options(CLI::App& command, MoleculeOptions& options);

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Colour maps: from numbers to colours that people with any colour vision can put in order.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include <glm/vec3.hpp>
+
+namespace meniscus {
+
+enum class ColorMap : std::uint8_t { viridis, cividis, magma, blue_white_red, red_white_blue, categorical };
+
+/// What a map is, in words users can look up.
+struct ColorMapMetadata {
+  ColorMap map;
+  std::string_view name;
+  std::string_view source;  ///< authors, year, licence
+};
+
+/// All maps, in the order the help names them.
+std::span<const ColorMapMetadata> color_maps();
+
+/// "viridis", ..., "blue-white-red", "categorical".
+std::string_view map_name(ColorMap map);
+
+/// The inverse; nothing for any other text.
+std::optional<ColorMap> parse_color_map(std::string_view text);
+
+/// The colour at t in [0, 1] (clamped), sRGB. Not for the categorical map, which has no order.
+glm::vec3 mapped_color(ColorMap map, double t);
+
+/// What atoms without a number get unless told otherwise: a grey #808080, which no map comes near, but #cc79a7 with
+/// cividis, which goes through grey.
+glm::vec3 default_missing_color(ColorMap map);
+
+}  // namespace meniscus

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Colours of things that have names: elements, residue types, patch kinds, and any list of classes.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include <glm/vec3.hpp>
+
+namespace meniscus {
+
+/// 0xrrggbb as sRGB in [0, 1].
+constexpr glm::vec3 color_from_hex(std::uint32_t hex) {
+  return {static_cast<float>(hex >> 16 & 0xff) / 255.0f, static_cast<float>(hex >> 8 & 0xff) / 255.0f,
+          static_cast<float>(hex & 0xff) / 255.0f};
+}
+
+/// So many colours differ; categorical_color() begins again after them.
+inline constexpr std::size_t kCategoricalCount = 21;
+
+/// The n-th class: M. Okabe and K. Ito, "Color Universal Design" (2008), told apart with any colour vision. Black is
+/// left out, it hides the shape. Beyond seven come the same hues paler, then darker.
+glm::vec3 categorical_color(std::size_t n);
+
+/// After the space-filling models of R. B. Corey, L. Pauling and W. L. Koltun, by atomic number; 0: unknown.
+glm::vec3 element_color(std::uint8_t element);
+
+/// One group of residue types: "acidic", ..., "adenine", ..., "other".
+struct ResidueGroup {
+  std::uint32_t color;
+  std::string_view name;
+  std::string_view members;  ///< " ASP GLU ASH GLH ", each between blanks
+};
+
+/// The group of a residue name; force-field names of charge states go with their parent.
+const ResidueGroup& residue_group(const std::string& residue_name);
+
+/// Convex, toroidal, concave.
+inline constexpr std::array<glm::vec3, 3> kPatchKindColors{color_from_hex(0x009e73), color_from_hex(0x56b4e9),
+                                                           color_from_hex(0xd55e00)};
+
+}  // namespace meniscus

@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Colour schemes on a small molecule, colour maps against the published tables, and files of numbers with their faults.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include "core/base/error.h"
+#include "core/molecule/color_scale.h"
+#include "core/molecule/color_schemes.h"
+#include "core/molecule/named_colors.h"
+#include "tests/support/run_program.h"
+
+namespace meniscus {
+namespace {
+
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+
+Structure four_atoms() {
+  Structure structure;
+  structure.file = "four";
+  const char* chains[] = {"A", "A", "B", "A"};
+  const char* residues[] = {"ASP", "LYS", "GLY", "XXX"};
+  const float b_factors[] = {10.0f, 20.0f, 30.0f, kNan};
+  const float charges[] = {-0.25f, 0.5f, kNan, 0.0f};
+  for (std::uint32_t n = 0; n < 4; ++n) {
+    Atom& atom = structure.atoms.emplace_back();
+    atom.index = n;
+    atom.chain = chains[n];
+    atom.residue_name = residues[n];
+    atom.b_factor = b_factors[n];
+    atom.charge = charges[n];
+    atom.occupancy = 1.0f;
+    atom.element = static_cast<std::uint8_t>(6 + n % 3);
+  }
+  structure.report.read = 4;
+  structure.report.used = 4;
+  return structure;
+}
+
+ColorScheme scheme(const char* word) { return parse_color_scheme(word).value(); }
+
+Coloring colored(const char* word, const Structure& structure = four_atoms()) {
+  return color_atoms(structure, scheme(word));
+}
+
+/// What `run` complains about.
+template <class Run>
+std::string complaint(const Run& run) {
+  try {
+    run();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Colors, WordsAreReadStrictly) {
+  for (const char* good : {"element", "chain", "residue", "bfactor", "occupancy", "charge", "hydrophobicity", "kind",
+                           "component", "index", "atom", "file", "#00ff7F"}) {
+    EXPECT_TRUE(parse_color_scheme(good)) << good;
+  }
+  for (const char* bad : {"", "Element", "#fff", "#00ff7g", "#-0ff7f", "#00ff7f0", "red"}) {
+    EXPECT_FALSE(parse_color_scheme(bad)) << bad;
+  }
+  EXPECT_EQ((parse_color_range("-1:2.5")), (std::array<double, 2>{-1.0, 2.5}));
+  for (const char* bad : {"", ":", "1", "1:1", "2:1", "1:nan", "1:2:3", "a:b"})
+    EXPECT_FALSE(parse_color_range(bad)) << bad;
+  for (const ColorMapMetadata& map : color_maps()) EXPECT_EQ(parse_color_map(map.name), map.map);
+  for (const char* bad : {"", "Viridis", "jet", "viridis "}) EXPECT_FALSE(parse_color_map(bad)) << bad;
+}
+
+TEST(Colors, FixedAndElement) {
+  EXPECT_EQ(colored("#ff0080").atom[2], glm::vec3(1.0f, 0.0f, 128.0f / 255.0f));
+  const Coloring element = colored("element");
+  EXPECT_EQ(element.atom[0], element.atom[3]);
+  EXPECT_EQ(element.atom[2], element_color(8));
+  EXPECT_FALSE(element.kind);
+}
+
+TEST(Colors, ChainsInOrderOfAppearanceDiffer) {
+  const Coloring chain = colored("chain");
+  EXPECT_EQ(chain.atom[0], chain.atom[1]);
+  EXPECT_EQ(chain.atom[0], chain.atom[3]);
+  EXPECT_NE(chain.atom[0], chain.atom[2]);
+  Structure many;
+  for (int n = 0; n < 21; ++n) many.atoms.emplace_back().chain = std::to_string(n);
+  const Coloring colors = colored("chain", many);
+  for (std::size_t i = 0; i < 21; ++i) {
+    for (std::size_t j = 0; j < i; ++j) EXPECT_NE(colors.atom[i], colors.atom[j]) << i << " " << j;
+  }
+}
+
+TEST(Colors, ResiduesByChemistry) {
+  const Coloring residue = colored("residue");
+  for (std::size_t i = 0; i < 4; ++i) {
+    for (std::size_t j = 0; j < i; ++j) EXPECT_NE(residue.atom[i], residue.atom[j]);
+  }
+}
+
+TEST(Colors, BFactorsSpanTheMapAndMissingOnesAreGrey) {
+  const Coloring automatic = colored("bfactor");
+  EXPECT_EQ(automatic.atom[0], mapped_color(ColorMap::viridis, 0.0));
+  EXPECT_EQ(automatic.atom[1], mapped_color(ColorMap::viridis, 0.5));
+  EXPECT_EQ(automatic.atom[2], mapped_color(ColorMap::viridis, 1.0));
+  EXPECT_EQ(automatic.atom[3], color_from_hex(0x808080));
+  ColorScheme wish = scheme("bfactor");
+  wish.range = {{20.0, 40.0}};
+  wish.missing = glm::vec3(0.0f, 1.0f, 0.0f);
+  wish.map = ColorMap::magma;
+  const Coloring ranged = color_atoms(four_atoms(), wish);
+  EXPECT_EQ(ranged.atom[0], mapped_color(ColorMap::magma, 0.0));  // below the range: its end
+  EXPECT_EQ(ranged.atom[2], mapped_color(ColorMap::magma, 0.5));
+  EXPECT_EQ(ranged.atom[3], glm::vec3(0.0f, 1.0f, 0.0f));
+}
+
+TEST(Colors, WithoutAnyNumberTheReasonIsNamed) {
+  Structure none = four_atoms();
+  for (Atom& atom : none.atoms) {
+    atom.b_factor = atom.occupancy = atom.charge = kNan;
+    atom.residue_name = "HOH";
+  }
+  const std::pair<const char*, const char*> reasons[] = {{"bfactor", "no B-factors"},
+                                                         {"occupancy", "no occupancies"},
+                                                         {"charge", "no partial charges to colour by; PQR"},
+                                                         {"hydrophobicity", "no amino acids"}};
+  for (const auto& [word, reason] : reasons) {
+    const std::string said = complaint([&] { colored(word, none); });
+    EXPECT_NE(said.find(reason), std::string::npos) << word << ": " << said;
+  }
+  ColorScheme wish = scheme("file");
+  wish.file = {"numbers", {NAN, NAN, NAN, NAN}};
+  EXPECT_EQ(complaint([&] { color_atoms(none, wish); }),
+            "numbers: all numbers are missing; there is nothing to colour by");
+}
+
+TEST(Colors, OneNumberForAllIsTheMiddleOfTheMap) {
+  EXPECT_EQ(colored("occupancy").atom[2], mapped_color(ColorMap::viridis, 0.5));
+  Structure uncharged = four_atoms();
+  for (Atom& atom : uncharged.atoms) atom.charge = 0.0f;
+  EXPECT_EQ(colored("charge", uncharged).atom[0], glm::vec3(1.0f));  // white, not an end of the map
+}
+
+TEST(Colors, ChargesAreSymmetricAndNegativeIsRed) {
+  const ColorScale scale = color_scale(four_atoms(), scheme("charge"));
+  EXPECT_EQ(scale.range, (std::array<double, 2>{-0.5, 0.5}));
+  EXPECT_EQ(scale.unit, "e");
+  EXPECT_EQ(scale.missing, 1u);
+  const Coloring charge = colored("charge");
+  EXPECT_EQ(charge.atom[0], glm::vec3(1.0f, 0.5f, 0.5f));
+  EXPECT_EQ(charge.atom[1], glm::vec3(0.0f, 0.0f, 1.0f));
+  EXPECT_EQ(charge.atom[2], color_from_hex(0x808080));
+  EXPECT_EQ(charge.atom[3], glm::vec3(1.0f));
+}
+
+TEST(Colors, HydrophobicityIsThatOfKyteAndDoolittle) {
+  const std::pair<const char*, double> table[] = {
+      {"ILE", 4.5},  {"VAL", 4.2},  {"LEU", 3.8},  {"PHE", 2.8},  {"CYS", 2.5},  {"MET", 1.9},
+      {"ALA", 1.8},  {"GLY", -0.4}, {"THR", -0.7}, {"SER", -0.8}, {"TRP", -0.9}, {"TYR", -1.3},
+      {"PRO", -1.6}, {"HIS", -3.2}, {"GLU", -3.5}, {"GLN", -3.5}, {"ASP", -3.5}, {"ASN", -3.5},
+      {"LYS", -3.9}, {"ARG", -4.5}, {"MSE", 1.9},  {"HID", -3.2}, {"CYX", 2.5}};
+  for (const auto& [name, value] : table) EXPECT_EQ(hydropathy(name), value) << name;
+  for (const char* name : {"", "XXX", "HOH", "A", "I", "ILE VAL"}) EXPECT_TRUE(std::isnan(hydropathy(name))) << name;
+  const ColorScale scale = color_scale(four_atoms(), scheme("hydrophobicity"));
+  EXPECT_EQ(scale.range, (std::array<double, 2>{-4.5, 4.5}));
+  EXPECT_NE(scale.title.find("Kyte & Doolittle"), std::string::npos);
+  EXPECT_EQ(scale.color(-4.5), glm::vec3(0.0f, 0.0f, 1.0f));
+  EXPECT_EQ(scale.missing, 1u);
+}
+
+TEST(Colors, MapsAreThePublishedOnes) {
+  // Rows 0, 128 and 255 of the tables in matplotlib 3.6.
+  const std::pair<ColorMap, std::array<glm::dvec3, 3>> published[] = {
+      {ColorMap::viridis,
+       {{{0.267004, 0.004874, 0.329415}, {0.127568, 0.566949, 0.550556}, {0.993248, 0.906157, 0.143936}}}},
+      {ColorMap::cividis,
+       {{{0.0, 0.135112, 0.304751}, {0.488697, 0.485318, 0.471008}, {0.995737, 0.909344, 0.217772}}}},
+      {ColorMap::magma,
+       {{{0.001462, 0.000466, 0.013866}, {0.716387, 0.214982, 0.47529}, {0.987053, 0.991438, 0.749504}}}},
+      {ColorMap::blue_white_red, {{{0.0, 0.0, 1.0}, {1.0, 0.996078, 0.996078}, {1.0, 0.0, 0.0}}}},
+  };
+  for (const auto& [map, rows] : published) {
+    for (int k = 0; k < 3; ++k) {
+      const glm::dvec3 color(mapped_color(map, std::array<double, 3>{0.0, 128.0 / 255.0, 1.0}[k]));
+      for (int c = 0; c < 3; ++c) EXPECT_NEAR(color[c], rows[k][c], 0.004) << map_name(map) << " " << k << " " << c;
+    }
+    EXPECT_EQ(mapped_color(map, -3.0), mapped_color(map, 0.0));
+    EXPECT_EQ(mapped_color(map, 7.0), mapped_color(map, 1.0));
+    for (int n = 0; n <= 64; ++n)
+      EXPECT_GT(glm::distance(mapped_color(map, n / 64.0), default_missing_color(map)), 0.2f) << map_name(map) << n;
+  }
+  EXPECT_EQ(mapped_color(ColorMap::red_white_blue, 0.25), mapped_color(ColorMap::blue_white_red, 0.75));
+}
+
+TEST(Colors, TheCategoricalMapGivesEachNumberAColorOfItsOwn) {
+  ColorScheme wish = scheme("file");
+  wish.map = ColorMap::categorical;
+  wish.file = {"clusters", {3.0, -1.0, 3.0, NAN}};
+  const Coloring coloring = color_atoms(four_atoms(), wish);
+  EXPECT_EQ(coloring.atom[1], categorical_color(0));
+  EXPECT_EQ(coloring.atom[0], categorical_color(1));
+  EXPECT_EQ(coloring.atom[2], categorical_color(1));
+  EXPECT_EQ(coloring.atom[3], color_from_hex(0x808080));
+  Structure many = four_atoms();
+  many.atoms.resize(22);
+  wish.file.numbers.clear();
+  for (int n = 0; n < 22; ++n) wish.file.numbers.push_back(n);
+  EXPECT_EQ(complaint([&] { color_atoms(many, wish); }),
+            "four: has 22 different numbers to colour by, the categorical map 21 colours; choose another --map");
+}
+
+TEST(Colors, NumbersAreGivenForAllAtomsOrForThoseInUse) {
+  Structure structure = four_atoms();
+  structure.atoms.erase(structure.atoms.begin() + 1);
+  structure.report.used = 3;
+  structure.report.excluded[kExcludedWater] = 1;
+  ColorScheme wish = scheme("file");
+  wish.file = {"all", {0.0, 100.0, 1.0, 2.0}};
+  EXPECT_EQ(color_scale(structure, wish).value, (std::vector<double>{0.0, 1.0, 2.0}));
+  wish.file.numbers = {5.0, 6.0, 7.0};
+  EXPECT_EQ(color_scale(structure, wish).value, (std::vector<double>{5.0, 6.0, 7.0}));
+  structure.report.read = 9;  // with five atoms of a model that was not read
+  structure.report.excluded[kExcludedModel] = 5;
+  wish.file.numbers = {0.0, 100.0, 1.0, 2.0};
+  EXPECT_EQ(color_scale(structure, wish).value, (std::vector<double>{0.0, 1.0, 2.0}));
+  wish.file.numbers = {1.0, 2.0};
+  EXPECT_EQ(complaint([&] { color_atoms(structure, wish); }),
+            "all: holds 2 numbers; four holds 4 atoms, of which 3 are used; give as many as either");
+}
+
+TEST(Colors, NumberFilesAreReadWithTheirGapsAndFaults) {
+  const test::TemporaryFolder folder;
+  const NumberFile good = read_number_file(folder.file("good", "# charge\n1 -2.5e-1,nan\n\n ? -\t+7 # end\n;8"));
+  ASSERT_EQ(good.numbers.size(), 7u);
+  EXPECT_EQ(good.numbers[1], -0.25);
+  for (const int n : {2, 3, 4}) EXPECT_TRUE(std::isnan(good.numbers[n])) << n;
+  EXPECT_EQ(good.numbers[5], 7.0);
+  EXPECT_EQ(good.numbers[6], 8.0);
+  const std::pair<const char*, const char*> bad[] = {{"1\n2\nabc\n", "bad:3: 'abc' is not a finite number"},
+                                                     {"1\n inf\n", "bad:2: 'inf' is not"},
+                                                     {"1e999\n", "bad:1: '1e999' is not"},
+                                                     {"1 2x\n", "bad:1: '2x' is not"},
+                                                     {"# nothing\n", "bad: holds no numbers"}};
+  for (const auto& [text, reason] : bad) {
+    const std::string path = folder.file("bad", text);
+    const std::string said = complaint([&] { read_number_file(path); });
+    EXPECT_NE(said.find(reason), std::string::npos) << said;
+  }
+}
+
+TEST(Colors, KindAndOrder) {
+  const Coloring kind = colored("kind");
+  ASSERT_TRUE(kind.kind);
+  EXPECT_NE((*kind.kind)[0], (*kind.kind)[1]);
+  EXPECT_EQ(kind.atom.size(), 4u);
+  const Coloring order = colored("atom");
+  EXPECT_EQ(order.atom.front(), mapped_color(ColorMap::viridis, 0.0));
+  EXPECT_EQ(order.atom.back(), mapped_color(ColorMap::viridis, 1.0));
+}
+
+TEST(Colors, AnObjectHasTheColorsOfTheWholeMolecule) {
+  const Structure structure = four_atoms();
+  const std::vector<std::uint32_t> last{2, 3};
+  for (const char* word : {"element", "chain", "residue", "bfactor", "charge", "index", "#102030"}) {
+    const Coloring whole = colored(word), part = color_object(structure, last, scheme(word), 1);
+    ASSERT_EQ(part.atom.size(), 2u);
+    EXPECT_EQ(part.atom[0], whole.atom[2]) << word;
+    EXPECT_EQ(part.atom[1], whole.atom[3]) << word;
+  }
+  EXPECT_TRUE(color_object(structure, last, scheme("kind"), 1).kind);
+  EXPECT_EQ(color_object(structure, last, scheme("component"), 3).atom[1], categorical_color(3));
+}
+
+TEST(Colors, TheKeyNamesWhatOccurs) {
+  const Structure structure = four_atoms();
+  const ColorKey chain = color_key(structure, scheme("chain"), {});
+  ASSERT_EQ(chain.classes.size(), 2u);
+  EXPECT_EQ(chain.classes[1].name, "B");
+  EXPECT_EQ(chain.classes[1].color, colored("chain").atom[2]);
+  for (const char* word : {"element", "residue"}) {
+    const ColorKey key = color_key(structure, scheme(word), {});
+    const Coloring coloring = colored(word);
+    for (const glm::vec3& color : coloring.atom)
+      EXPECT_TRUE(std::ranges::any_of(key.classes, [&](const ColorClass& c) { return c.color == color; })) << word;
+  }
+  EXPECT_EQ(color_key(structure, scheme("element"), {}).classes[0].name, "C");
+  EXPECT_EQ(color_key(structure, scheme("kind"), {}).classes.size(), 3u);
+  const std::vector<std::string> names{"one", "two"};
+  EXPECT_EQ(color_key(structure, scheme("component"), names).classes[1].color, categorical_color(1));
+  EXPECT_EQ(color_key(structure, scheme("bfactor"), {}).scale->unit, "Å²");
+  EXPECT_TRUE(color_key(structure, scheme("#000000"), {}).classes.empty());
+}
+
+}  // namespace
+}  // namespace meniscus
