@@ -39,6 +39,7 @@ struct Atom {
   std::string name;
   std::string residue_name;
   std::string chain;
+  std::string subchain;  ///< label_asym_id of mmCIF, which assemblies name; else the chain
 };
 
 /// How many atoms a file holds and where they went: read == sum of excluded + used.

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Tells polymer, ligand, water and ion apart, and the elements that a file does not state, alike for every format.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/molecule/structure.h"
+
+namespace meniscus {
+
+/// What a file itself says about the residue of an atom.
+enum class ResidueStatement : std::uint8_t { none, polymer, other };
+
+/// What a file says about an atom besides its names.
+struct AtomHints {
+  ResidueStatement residue = ResidueStatement::none;
+  std::uint8_t element =
+      0;  ///< what the columns of the name suggest (PDB: " CA " is carbon, "CA  " calcium); 0: nothing
+};
+
+/// Sets `kind` of all atoms, residue by residue, and `element` where it is 0 or cannot be right: names are ambiguous
+/// (CA is carbon or calcium, HG hydrogen or mercury), but amino acids and nucleotides hold H, C, N, O, S, P and Se
+/// only. `hints` has one entry an atom, or none.
+void classify_atoms(std::vector<Atom>& atoms, const std::vector<AtomHints>& hints = {});
+
+}  // namespace meniscus

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Reads the atom table of mmCIF.
+#include <cmath>
+#include <map>
+#include <set>
+#include <unordered_map>
+#include <utility>
+
+#include <fmt/format.h>
+#include <gemmi/elem.hpp>
+#include <gemmi/numb.hpp>
+
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/molecule/atom_classes.h"
+#include "core/molecule/cif_document.h"
+#include "core/molecule/reader.h"
+
+namespace meniscus {
+namespace {
+
+namespace cif = gemmi::cif;
+
+/// Columns of _atom_site, in the order AtomTable asks for them; '?' marks what may be missing.
+enum Column {
+  kX,
+  kY,
+  kZ,
+  kSymbol,
+  kAuthAtom,
+  kLabelAtom,
+  kAuthComp,
+  kLabelComp,
+  kAuthAsym,
+  kLabelAsym,
+  kAuthSeq,
+  kLabelSeq,
+  kInsertion,
+  kAlt,
+  kOccupancy,
+  kB,
+  kModel,
+  kEntityId
+};
+const std::vector<std::string> kColumns{"Cartn_x",
+                                        "Cartn_y",
+                                        "Cartn_z",
+                                        "?type_symbol",
+                                        "?auth_atom_id",
+                                        "?label_atom_id",
+                                        "?auth_comp_id",
+                                        "?label_comp_id",
+                                        "?auth_asym_id",
+                                        "?label_asym_id",
+                                        "?auth_seq_id",
+                                        "?label_seq_id",
+                                        "?pdbx_PDB_ins_code",
+                                        "?label_alt_id",
+                                        "?occupancy",
+                                        "?B_iso_or_equiv",
+                                        "?pdbx_PDB_model_num",
+                                        "?label_entity_id"};
+
+/// The line of a row of _atom_site; rows are one line each in all but hand-made files, otherwise the loop's first line.
+std::size_t line_of_row(const TextFile& file, const cif::Table& table, int row, const std::string& value) {
+  if (!table.loop_item) return 0;
+  const auto loop_line = static_cast<std::size_t>(table.loop_item->line_number);
+  std::size_t begin = 0;
+  std::size_t line = 1;
+  int rows_seen = -1;
+  while (begin < file.text.size()) {
+    const std::size_t end = std::min(file.text.find('\n', begin), file.text.size());
+    const std::string_view text(file.text.data() + begin, end - begin);
+    const bool value_line =
+        line > loop_line && !text.empty() && text[0] != '_' && text[0] != '#' && !text.starts_with("loop_");
+    if (value_line && ++rows_seen == row) return text.find(value) != std::string_view::npos ? line : loop_line;
+    begin = end + 1;
+    ++line;
+  }
+  return loop_line;
+}
+
+/// Strips the standard uncertainty of "1.234(5)".
+std::string_view without_uncertainty(const std::string& value) {
+  return std::string_view(value).substr(0, value.find('('));
+}
+
+cif::Table atom_table(const TextFile& file, cif::Document& document, std::vector<std::string>& warnings) {
+  std::vector<cif::Table> tables;
+  for (cif::Block& block : document.blocks) {
+    cif::Table table = block.find("_atom_site.", kColumns);
+    if (table.ok() && table.length() > 0) tables.push_back(table);
+  }
+  if (tables.size() > 1) warnings.push_back(fmt::format("{} data blocks hold atoms; the first is used", tables.size()));
+  if (!tables.empty()) return tables.front();
+  for (cif::Block& block : document.blocks) {
+    for (const char* tag : {"_atom_site_fract_x", "_atom_site.fract_x"}) {
+      if (block.has_tag(tag)) {
+        throw InputError(
+            file.path, 0,
+            "is a small-molecule CIF with fractional coordinates; convert it to Cartesian coordinates first");
+      }
+    }
+  }
+  throw InputError(file.path, 0, "has no table _atom_site with Cartn_x, Cartn_y, Cartn_z: no atoms");
+}
+
+/// Gives residues of (chain, number, insertion code) running numbers and brings their atoms together.
+class ResidueNumbers {
+ public:
+  std::uint32_t of(const Atom& atom) {
+    auto [found, added] =
+        numbers_.try_emplace(fmt::format("{}\n{}\n{}", atom.chain, atom.residue_number, atom.insertion_code),
+                             static_cast<std::uint32_t>(numbers_.size()));
+    return found->second;
+  }
+
+ private:
+  std::unordered_map<std::string, std::uint32_t> numbers_;
+};
+
+/// gemmi's as_char() throws a bare runtime_error for longer texts, which the dictionary allows.
+char first_letter(const std::string& value) {
+  const std::string text = cif::as_string(value);
+  return text.empty() ? ' ' : text.front();
+}
+
+Atom read_row(const TextFile& file, const cif::Table& table, const cif::Table::Row& row) {
+  Atom atom;
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::string& value = row[static_cast<std::size_t>(axis)];
+    double number = 0.0;
+    if (parse_number(without_uncertainty(value), number) && std::abs(number) <= kLargestCoordinate) {
+      atom.position[axis] = number;
+    } else {
+      parse_coordinate(file, line_of_row(file, table, row.row_index, value), "xyz"[axis], value);
+    }
+  }
+  const auto text = [&](Column first, Column second) { return cif::as_string(row.one_of(first, second)); };
+  atom.name = text(kAuthAtom, kLabelAtom);
+  atom.residue_name = text(kAuthComp, kLabelComp);
+  atom.chain = text(kAuthAsym, kLabelAsym);
+  atom.subchain = text(kLabelAsym, kAuthAsym);
+  atom.residue_number = gemmi::string_to_int(row.one_of(kAuthSeq, kLabelSeq), false);
+  if (row.has2(kInsertion)) atom.insertion_code = first_letter(row[kInsertion]);
+  if (row.has2(kAlt)) atom.altloc = first_letter(row[kAlt]);
+  if (row.has2(kOccupancy)) atom.occupancy = static_cast<float>(cif::as_number(row[kOccupancy]));
+  if (row.has2(kB)) atom.b_factor = static_cast<float>(cif::as_number(row[kB]));
+  const gemmi::Element symbol(row.has2(kSymbol) ? cif::as_string(row[kSymbol]) : std::string());
+  atom.element = static_cast<std::uint8_t>(symbol.atomic_number());
+  return atom;
+}
+
+std::map<std::string, ResidueStatement> entities_of(cif::Document& document) {
+  std::map<std::string, ResidueStatement> entities;
+  for (cif::Block& block : document.blocks) {
+    for (const auto row : block.find("_entity.", {"id", "type"})) {
+      entities[row.str(0)] = row.str(1) == "polymer" ? ResidueStatement::polymer : ResidueStatement::other;
+    }
+  }
+  return entities;
+}
+
+FileContents read_mmcif(const TextFile& file) {
+  cif::Document document = parse_cif(file);
+  FileContents contents;
+  cif::Table table = atom_table(file, document, contents.warnings);
+  const std::map<std::string, ResidueStatement> entities = entities_of(document);
+  ResidueNumbers residues;
+  std::set<std::string> models;
+  std::vector<AtomHints> hints;
+  for (const cif::Table::Row row : table) {
+    const std::string model = row.has(kModel) ? row[kModel] : "1";
+    if (models.insert(model).second && models.size() > 1) ++contents.models;
+    if (contents.models > 1 && model != table[0][kModel]) {
+      ++contents.other_model_atoms;
+      continue;
+    }
+    Atom atom = read_row(file, table, row);
+    atom.index = static_cast<std::uint32_t>(contents.atoms.size());
+    atom.residue = residues.of(atom);
+    const auto statement = entities.find(row.has2(kEntityId) ? cif::as_string(row[kEntityId]) : std::string());
+    hints.push_back({statement == entities.end() ? ResidueStatement::none : statement->second});
+    contents.atoms.push_back(std::move(atom));
+  }
+  classify_atoms(contents.atoms, hints);
+  return contents;
+}
+
+bool is_mmcif(std::string_view text) {
+  std::size_t first = text.find_first_not_of(" \t\n");
+  while (first != std::string_view::npos && text[first] == '#') {
+    first = text.find('\n', first);
+    if (first != std::string_view::npos) first = text.find_first_not_of(" \t\n", first);
+  }
+  if (first == std::string_view::npos || text.size() < first + 5) return false;
+  const std::string_view head = text.substr(first, 5);
+  return head == "data_" || head == "DATA_" || head == "Data_";
+}
+
+}  // namespace
+
+const Reader kMmcifReader{
+    {"mmCIF", ".cif .mmcif .cif.gz", "macromolecular CIF of the wwPDB",
+     "PDBx/mmCIF dictionary; Hall, Allen & Brown 1991", "_atom_site (author names where given) and _entity"},
+    is_mmcif,
+    read_mmcif};
+
+}  // namespace meniscus
