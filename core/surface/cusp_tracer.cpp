@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <glm/geometric.hpp>
 #include <tbb/blocked_range.h>
@@ -39,6 +40,26 @@ bool reaches(const CuspProblem& problem, std::uint32_t s, const glm::dvec3& othe
   return (inside ? 1.0 : best) * 2 * problem.probe_radius >= distance * (1 - 1e-12);
 }
 
+void settle_neighbors(const CuspProblem& problem, CutLists& cuts) {
+  CutLists settled;
+  settled.first.assign(1, 0);
+  settled.probe.reserve(cuts.probe.size());
+  std::vector<std::uint32_t> list;
+  for (std::uint32_t s = 0; s < problem.count(); ++s) {
+    const auto known = cuts.of(s);
+    list.assign(known.begin(), known.end());
+    for (const CuspSide& side : problem.sides_of(s)) {
+      if (side.partner != kNone && side.partner != s && !side.touching) list.push_back(side.partner);
+      if (side.apart != kNone) std::erase(list, side.apart);
+    }
+    std::sort(list.begin(), list.end());
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+    settled.probe.insert(settled.probe.end(), list.begin(), list.end());
+    settled.first.push_back(static_cast<std::uint32_t>(settled.probe.size()));
+  }
+  cuts = std::move(settled);
+}
+
 std::vector<std::array<std::uint32_t, 2>> mutual_pairs(const CutLists& cuts) {
   std::vector<std::array<std::uint32_t, 2>> pairs;
   for (std::uint32_t s = 0; s + 1 < cuts.first.size(); ++s)
@@ -70,7 +91,8 @@ struct PairTracer::Scratch {
   Contour contour;
 };
 
-PairTracer::PairTracer(const CuspProblem& problem) : problem_(&problem), scratch_(std::make_unique<Scratch>()) {}
+PairTracer::PairTracer(const CuspProblem& problem, const CutLists& cuts)
+    : problem_(&problem), cuts_(&cuts), scratch_(std::make_unique<Scratch>()) {}
 PairTracer::~PairTracer() = default;
 PairTracer::PairTracer(PairTracer&&) noexcept = default;
 
@@ -134,10 +156,14 @@ void PairTracer::list_others(std::uint32_t s, std::uint32_t t, const Blockers& n
   Scratch& scratch = *scratch_;
   scratch.others.restart(problem_->weights[s]);
   const double squared = problem_->probe_radius * problem_->probe_radius;
+  const auto of_s = cuts_->of(s), of_t = cuts_->of(t);
+  const auto cuts_both = [&](std::uint32_t u) {
+    return std::binary_search(of_s.begin(), of_s.end(), u) && std::binary_search(of_t.begin(), of_t.end(), u);
+  };
   bool taken_over = false;
   for (std::size_t n = 0; n < near.size(); ++n) {
     const Blockers::Ball& b = near[n];
-    if (b.label == t || on_pencil(b.label)) continue;
+    if (b.label == t || !cuts_both(b.label) || on_pencil(b.label)) continue;
     bool beyond_axis = false;
     for (const AxisPoint& axis : scratch.axis_points) {
       const glm::dvec3 d = axis.point - b.center;
@@ -189,14 +215,14 @@ class CpuCuspTracer final : public CuspTracer {
 
   std::vector<TracedArc> trace(const CuspProblem& problem, const CutLists& cuts) override {
     struct Worker {
-      explicit Worker(const CuspProblem& p) : tracer(p) {}
+      Worker(const CuspProblem& problem, const CutLists& cuts) : tracer(problem, cuts) {}
       PairTracer tracer;
       Blockers near;
       std::uint32_t near_whom = kNone;
       std::vector<TracedArc> found;
     };
     const auto pairs = mutual_pairs(cuts);
-    tbb::enumerable_thread_specific<Worker> workers([&] { return Worker(problem); });
+    tbb::enumerable_thread_specific<Worker> workers([&] { return Worker(problem, cuts); });
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, pairs.size(), 32), [&](const auto& range) {
       Worker& w = workers.local();
       for (std::size_t n = range.begin(); n != range.end(); ++n) {

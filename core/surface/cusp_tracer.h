@@ -21,6 +21,7 @@ struct CuspSide {
   std::uint32_t circle = kNone;   ///< names the spindle circle the side belongs to; kNone if it is no spindle
   bool touching = false;          ///< the circle is exactly as large as the probe: its two cusps are one point
   std::uint32_t partner = kNone;  ///< the probe across the covered gap of that circle
+  std::uint32_t apart = kNone;    ///< the probe at the other end of the side's arc, if neither can cut the other
   glm::dvec3 gap_direction{0.0};  ///< from the circle's centre to the middle of that gap, unit length
   glm::dvec3 circle_center{0.0};
 };
@@ -81,15 +82,21 @@ std::unique_ptr<CuspTracer> make_cpu_cusp_tracer();
 /// Whether the ball of a probe at `other` reaches into the spherical polygon of probe s.
 bool reaches(const CuspProblem& problem, std::uint32_t s, const glm::dvec3& other);
 
+/// What is known without arithmetic, and what arithmetic cannot tell when two probes nearly coincide: partners on a
+/// spindle circle always cut each other, for both patches end in its axis cusps; and the ends of an arc of at most half
+/// a turn on a circle as large as the probe never do, for what is nearer to the other lies past the axis.
+void settle_neighbors(const CuspProblem& problem, CutLists& cuts);
+
 /// Pairs s < t that are in each other's lists.
 std::vector<std::array<std::uint32_t, 2>> mutual_pairs(const CutLists& cuts);
 
 class Blockers;
 
-/// Traces pairs on the host: `near` holds all probes closer than 2p to s, relative to it. Appends to `found`.
+/// Traces pairs on the host: `near` holds all probes closer than 2p to s, relative to it. Appends to `found`. Only
+/// probes that cut both patches can cover the circle where it lies on both; whatever others do is beside them.
 class PairTracer {
  public:
-  explicit PairTracer(const CuspProblem& problem);
+  PairTracer(const CuspProblem& problem, const CutLists& cuts);
   ~PairTracer();
   PairTracer(PairTracer&&) noexcept;
 
@@ -103,6 +110,7 @@ class PairTracer {
   void list_others(std::uint32_t s, std::uint32_t t, const Blockers& near);
 
   const CuspProblem* problem_;
+  const CutLists* cuts_;
   std::unique_ptr<Scratch> scratch_;
 };
 

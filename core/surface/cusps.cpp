@@ -50,6 +50,7 @@ class CuspSearch {
   CuspParts run(CuspTracer& tracer) {
     find_gaps();
     CutLists cuts = tracer.list_cuts(problem_);
+    settle_neighbors(problem_, cuts);
     for (const TracedArc& arc : tracer.trace(problem_, cuts)) adopt(arc);
     std::sort(found_.begin(), found_.end(), [](const FoundArc& a, const FoundArc& b) {
       return std::tie(a.arc.probe, a.by) < std::tie(b.arc.probe, b.by);
@@ -69,12 +70,14 @@ class CuspSearch {
     problem_.weights.resize(probes_.count());
     problem_.sides.resize(probes_.sides.size());
     tbb::parallel_for(std::size_t{0}, probes_.count(), [&](std::size_t s) {
-      problem_.weights[s] = decision_weight(p_, s);
+      problem_.weights[s] = probe_decision_weight(p_, s);
       for (std::uint32_t n = probes_.first_side[s]; n < probes_.first_side[s + 1]; ++n) {
         const ToroidalPatch& patch = toroidal_[probes_.sides[n].toroidal];
         CuspSide& side = problem_.sides[n];
         side.contact = glm::normalize(atoms_[probes_.sides[n].from].center - probes_.position[s]);
         side.circle_center = patch.center;
+        if (patch.radius >= p_ && patch.sweep <= std::numbers::pi)
+          side.apart = patch.probe[probes_.sides[n].at_end ? 0 : 1];
         if (!touches_axis(patch, atoms_, p_)) continue;
         side.circle = first_on_circle_[probes_.sides[n].toroidal];
         side.touching = patch.radius == p_;

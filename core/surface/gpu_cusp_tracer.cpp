@@ -68,7 +68,7 @@ class GpuCuspTracer final : public CuspTracer {
       if (circles.empty()) return;
       const std::uint32_t doubtful_count = run_circles(batch, circles, found);
       if (doubtful_count == 0) return;
-      PairTracer tracer(problem);
+      PairTracer tracer(problem, cuts);
       for (const glm::uvec2& circle : doubtful_.download<glm::uvec2>(doubtful_count))
         trace_on_host(problem, batch, circle, first, labels, tracer, found);
     });

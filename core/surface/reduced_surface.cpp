@@ -33,6 +33,11 @@ double decision_weight(double radius, std::size_t index) {
   return grown * grown;
 }
 
+double probe_decision_weight(double probe_radius, std::size_t index) {
+  const double grown = probe_radius + 1e-12 * (1.0 + 0.5 * scattered(index));
+  return grown * grown;
+}
+
 std::vector<double> decision_weights(std::span<const Ball> atoms, double probe_radius) {
   std::vector<double> weights(atoms.size());
   for (std::size_t a = 0; a < atoms.size(); ++a) weights[a] = decision_weight(atoms[a].radius + probe_radius, a);

@@ -40,6 +40,12 @@ std::vector<double> decision_weights(std::span<const Ball> atoms, double probe_r
 /// The decision weight of one ball of (extended) radius R with the given index.
 double decision_weight(double radius, std::size_t index);
 
+/// The decision weight of a fixed probe where probes cut each other: grown by 1e-12 to 1.5e-12 Å only. Two probes may
+/// be as near as 1e-6 Å, and growth moves the plane between them by its ratio to their distance; through it run the
+/// axes of spindle circles, which do not move. Copies about a symmetry axis have such probes, and their exact ties
+/// remain broken: quadruple precision tells weights apart that differ by far less.
+double probe_decision_weight(double probe_radius, std::size_t index);
+
 /// Atoms whose SAS ball lies in another's (ties: the lower index wins). They have no patch and block nothing more.
 std::vector<bool> swallowed_atoms(std::span<const Ball> atoms);
 
