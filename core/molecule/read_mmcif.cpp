@@ -12,6 +12,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/molecule/assembly.h"
 #include "core/molecule/atom_classes.h"
 #include "core/molecule/cif_document.h"
 #include "core/molecule/reader.h"
@@ -204,6 +205,7 @@ const Reader kMmcifReader{
     {"mmCIF", ".cif .mmcif .cif.gz", "macromolecular CIF of the wwPDB",
      "PDBx/mmCIF dictionary; Hall, Allen & Brown 1991", "_atom_site (author names where given) and _entity"},
     is_mmcif,
-    read_mmcif};
+    read_mmcif,
+    read_mmcif_assemblies};
 
 }  // namespace meniscus

@@ -6,6 +6,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/molecule/assembly.h"
 #include "core/molecule/atom_classes.h"
 #include "core/molecule/pdb_text.h"
 #include "core/molecule/reader.h"
@@ -66,6 +67,7 @@ const Reader kPdbReader{{"PDB", ".pdb .ent .pdb.gz", "Protein Data Bank format, 
                          "wwPDB file format 3.3; hybrid-36 by R. W. Grosse-Kunstleve",
                          "ATOM, HETATM, TER, MODEL, ENDMDL, END; serial numbers are ignored"},
                         looks_like_pdb,
-                        read_pdb};
+                        read_pdb,
+                        read_pdb_assemblies};
 
 }  // namespace meniscus

@@ -165,6 +165,24 @@ void warn_of_coincident_atoms(Structure& structure) {
                   with_thousands(coincident), coincident == 1 ? "atom lies" : "atoms lie"));
 }
 
+/// Builds the assembly that is asked for; lists all when asked to, and then takes broken records as a warning.
+void use_assemblies(Structure& structure, const TextFile& file, const Reader& reader, const ReadOptions& options) {
+  if (options.list_assemblies && reader.assemblies) {
+    try {
+      structure.assemblies = reader.assemblies(file);
+    } catch (const InputError& error) {
+      structure.report.warnings.push_back(std::string("its assemblies cannot be read: ") + error.what());
+    }
+  }
+  if (options.assembly.empty()) return;
+  if (!reader.assemblies) {
+    throw InputError(structure.file, 0,
+                     fmt::format("is {}, which describes no assemblies; leave --assembly away", reader.metadata.name));
+  }
+  const std::vector<Assembly> assemblies = reader.assemblies(file);
+  assemble(structure, find_assembly(assemblies, options.assembly, structure.file), options.copy_mode);
+}
+
 }  // namespace
 
 std::span<const Reader* const> readers() { return kReaders; }
@@ -204,6 +222,7 @@ Structure read_structure(const std::string& path, const ReadOptions& options) {
     assign_bondi_radii(structure);
   }
   warn_of_coincident_atoms(structure);
+  use_assemblies(structure, file, reader, options);
   return structure;
 }
 

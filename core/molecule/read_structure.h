@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 
+#include "core/molecule/assembly.h"
 #include "core/molecule/reader.h"
 #include "core/molecule/structure.h"
 
@@ -17,6 +18,9 @@ struct ReadOptions {
   bool keep_water = false;
   bool keep_ions = false;
   UnknownElement unknown_element = UnknownElement::halt;  ///< guess: radius kRadiusWithoutSource; skip: leave out
+  std::string assembly{};                                 ///< id of the assembly to build; empty: as deposited
+  CopyMode copy_mode = CopyMode::atoms;                   ///< what becomes of its copies
+  bool list_assemblies = false;                           ///< fill in Structure::assemblies
 };
 
 /// All formats, in the order their content is tried.

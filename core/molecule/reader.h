@@ -30,11 +30,13 @@ struct FileContents {
   std::vector<std::string> warnings;
 };
 
-/// One format. `recognizes` looks at content only; `read` throws InputError with file and line.
+/// One format. `recognizes` looks at content only; `read` throws InputError with file and line. `assemblies` is null
+/// for formats that describe none.
 struct Reader {
   FormatMetadata metadata;
   bool (*recognizes)(std::string_view text);
   FileContents (*read)(const TextFile& file);
+  std::vector<Assembly> (*assemblies)(const TextFile& file) = nullptr;
 };
 
 extern const Reader kPdbReader;

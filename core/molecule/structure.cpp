@@ -12,7 +12,7 @@
 namespace meniscus {
 namespace {
 
-constexpr std::array<std::pair<const char*, const char*>, 7> kReasonWords{{
+constexpr std::array<std::pair<const char*, const char*>, 8> kReasonWords{{
     {kExcludedModel, "of other models"},
     {kExcludedAltloc, "of other alternate locations"},
     {kExcludedVirtual, "virtual sites"},
@@ -20,6 +20,7 @@ constexpr std::array<std::pair<const char*, const char*>, 7> kReasonWords{{
     {kExcludedRadius, "of radius zero"},
     {kExcludedWater, "water"},
     {kExcludedIon, "free ion"},
+    {kExcludedAssembly, "outside the assembly"},
 }};
 
 }  // namespace
@@ -47,8 +48,9 @@ std::string ReadReport::sentence() const {
     if (found == excluded.end()) continue;
     left_out += fmt::format("{}{} {}", left_out.empty() ? "" : ", ", with_thousands(found->second), words);
   }
-  return fmt::format("{} {} read; {} left out; {} used", with_thousands(read), read == 1 ? "atom" : "atoms",
-                     left_out.empty() ? "none" : left_out, with_thousands(used));
+  return fmt::format("{} {} read; {} left out; {} used{}{}", with_thousands(read), read == 1 ? "atom" : "atoms",
+                     left_out.empty() ? "none" : left_out, with_thousands(used), assembled.empty() ? "" : "; ",
+                     assembled);
 }
 
 std::vector<Ball> balls_of(const Structure& structure) {

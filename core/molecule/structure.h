@@ -12,6 +12,7 @@
 #include <glm/vec3.hpp>
 
 #include "core/surface/primitives.h"
+#include "core/surface/rigid_motion.h"
 
 namespace meniscus {
 
@@ -39,7 +40,8 @@ struct Atom {
   std::string name;
   std::string residue_name;
   std::string chain;
-  std::string subchain;  ///< label_asym_id of mmCIF, which assemblies name; else the chain
+  std::string subchain;    ///< label_asym_id of mmCIF, which assemblies name; else the chain
+  std::uint32_t copy = 0;  ///< in an assembly: which copy, from 0
 };
 
 /// How many atoms a file holds and where they went: read == sum of excluded + used.
@@ -48,6 +50,7 @@ struct ReadReport {
   std::map<std::string, std::size_t> excluded;  ///< reason -> atoms; an atom counts for the first reason it meets
   std::size_t used = 0;
   std::size_t models = 1;             ///< models in the file; the first is used
+  std::string assembled;              ///< what an assembly made of the used atoms; empty: they are as deposited
   std::vector<std::string> warnings;  ///< one summarised sentence each
 
   /// "5,684 atoms read; 215 water left out; 5,469 used".
@@ -62,6 +65,26 @@ inline constexpr const char* kExcludedElement = "unknown_element";
 inline constexpr const char* kExcludedRadius = "zero_radius";
 inline constexpr const char* kExcludedWater = "water";
 inline constexpr const char* kExcludedIon = "ion";
+inline constexpr const char* kExcludedAssembly = "not_in_assembly";
+
+/// Atoms that stand at several places at once (--instances).
+struct Instances {
+  std::vector<std::uint32_t> atoms;  ///< into Structure::atoms, ascending
+  std::vector<RigidMotion> motions;  ///< at least one
+};
+
+/// Chains that stand together at these places.
+struct AssemblyPart {
+  std::vector<std::string> chains;  ///< Atom::subchain; empty: all
+  std::vector<RigidMotion> motions;
+};
+
+/// A biological assembly as a file describes it.
+struct Assembly {
+  std::string id;           ///< as the file says, "1"
+  std::string description;  ///< "tetrameric"; may be empty
+  std::vector<AssemblyPart> parts;
+};
 
 /// The atoms a surface is made of, in file order.
 struct Structure {
@@ -69,6 +92,8 @@ struct Structure {
   std::string format;     ///< "PDB", "mmCIF", "XYZR"
   std::string radii_set;  ///< "bondi" or "file"
   std::vector<Atom> atoms;
+  std::vector<Instances> instances;  ///< each atom belongs to one; empty: all stand where their positions say
+  std::vector<Assembly> assemblies;  ///< those the file describes, if they were asked for
   ReadReport report;
 };
 
