@@ -30,11 +30,6 @@ void Buffer::resize(std::size_t byte_count) {
   // An empty buffer still gets memory, so that it can be bound; whole 16-byte rows suit fill() and vec4 arrays.
   const std::size_t needed = byte_count < 16 ? 16 : (byte_count + 15) / 16 * 16;
   if (needed > capacity_) {
-    GLint64 limit = 0;
-    glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &limit);
-    if (needed > static_cast<std::size_t>(limit))
-      throw CapacityError(fmt::format("a GPU buffer of {} MiB is needed; this driver's limit is {} MiB",
-                                      (needed + (1 << 20) - 1) >> 20, limit >> 20));
     if (name_) glDeleteBuffers(1, &name_);
     name_ = 0;
     capacity_ = byte_count_ = 0;
@@ -67,6 +62,14 @@ void Buffer::fill(std::uint32_t word) {
   check_gl("filling a buffer");
 }
 
-void Buffer::bind(std::uint32_t binding) const { glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, name_); }
+void Buffer::bind(std::uint32_t binding) const {
+  // The limit is that of kernels; a buffer that is fetched as texels may be larger.
+  GLint64 limit = 0;
+  glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &limit);
+  if (byte_count_ > static_cast<std::size_t>(limit))
+    throw CapacityError(fmt::format("a GPU buffer of {} MiB is needed; this driver's limit is {} MiB",
+                                    (byte_count_ + (1 << 20) - 1) >> 20, limit >> 20));
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, name_);
+}
 
 }  // namespace meniscus

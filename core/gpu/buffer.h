@@ -14,7 +14,7 @@ namespace meniscus {
 class Buffer {
  public:
   Buffer() = default;
-  /// Throws CapacityError when the driver has no room, or a kernel could not see so large a block.
+  /// Throws CapacityError when the driver has no room.
   explicit Buffer(std::size_t byte_count) { resize(byte_count); }
   template <typename T>
   explicit Buffer(std::span<const T> values) {
@@ -55,7 +55,7 @@ class Buffer {
   /// Sets every 4-byte word.
   void fill(std::uint32_t word);
 
-  /// `layout(std430, binding = N)` of the kernels.
+  /// `layout(std430, binding = N)` of the kernels. Throws CapacityError for more bytes than a kernel can see.
   void bind(std::uint32_t binding) const;
   /// For dispatch_indirect.
   std::uint32_t gl_name() const { return name_; }
