@@ -9,6 +9,7 @@
 #include "app/commands.h"
 #include "app/mesh_options.h"
 #include "core/base/text.h"
+#include "core/surface/combine.h"
 #include "exporters/blender/surface_file.h"
 
 namespace meniscus {
@@ -21,10 +22,11 @@ struct BlenderCommand {
   OutputOptions output;
 };
 
-blender::AtomAttributes attributes_of(const Structure& structure) {
+blender::AtomAttributes attributes_of(const Structure& structure, const std::vector<std::uint32_t>& atoms) {
   blender::AtomAttributes attributes;
   std::map<std::string, std::int32_t> chains;
-  for (const Atom& atom : structure.atoms) {
+  for (const std::uint32_t index : atoms) {
+    const Atom& atom = structure.atoms[index];
     attributes.b_factor.push_back(std::isfinite(atom.b_factor) ? atom.b_factor : 0.0f);
     attributes.atomic_number.push_back(atom.element);
     attributes.residue_number.push_back(atom.residue_number);
@@ -37,14 +39,19 @@ blender::AtomAttributes attributes_of(const Structure& structure) {
 
 void run(const BlenderCommand& command) {
   const Molecule molecule = load_molecule(command.molecule);
-  const Camera camera = picture_camera(command.picture, molecule.surface().atoms);
-  const double tolerance = tolerance_of(command.mesh, command.picture, camera, molecule.surface().atoms);
-  const TriangleMesh mesh = mesh_of(command.molecule, molecule.surface(), tolerance);
+  const std::vector<Ball> balls = placed_balls(molecule.objects);
+  const Camera camera = picture_camera(command.picture, balls);
+  const double tolerance = tolerance_of(command.mesh, command.picture, camera, balls);
+  std::vector<TriangleMesh> meshes = meshes_of(command.molecule, molecule.objects, tolerance);
+  std::vector<blender::MeshedObject> objects;
+  for (std::size_t n = 0; n < meshes.size(); ++n) {
+    const SurfaceObject& object = molecule.objects[n];
+    objects.push_back({object, std::move(meshes[n]), attributes_of(molecule.structure, object.atom)});
+  }
   const blender::Provenance provenance{std::filesystem::path(molecule.structure.file).filename().string(),
-                                       molecule.structure.radii_set, molecule.device};
-  write_surface(command.output.path, command.output.existing(), molecule.surface(), mesh, molecule.coloring(),
-                attributes_of(molecule.structure), blender::Shot{camera, command.picture.width, command.picture.height},
-                provenance);
+                                       molecule.structure.radii_set, molecule.device, colors_json(molecule)};
+  write_objects(command.output.path, command.output.existing(), objects,
+                blender::Shot{camera, command.picture.width, command.picture.height}, provenance);
   std::cout << escaped(command.output.path) << "\n";
 }
 

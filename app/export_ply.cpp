@@ -23,15 +23,17 @@ struct PlyCommand {
 
 // One row for each atom of the surface.
 std::vector<AtomScalar> scalars_of(const Structure& structure, const std::vector<std::uint32_t>& atoms) {
-  AtomScalar b_factor{"b_factor", {}}, number{"atomic_number", {}}, residue{"res_id", {}}, radius{"vdw_radii", {}};
+  AtomScalar b_factor{"b_factor", {}}, number{"atomic_number", {}}, residue{"res_id", {}}, radius{"vdw_radii", {}},
+      place{"atom_index", {}};
   for (const std::uint32_t index : atoms) {
     const Atom& atom = structure.atoms[index];
     b_factor.values.push_back(std::isfinite(atom.b_factor) ? atom.b_factor : 0.0f);
     number.values.push_back(atom.element);
     residue.values.push_back(static_cast<float>(atom.residue_number));
     radius.values.push_back(static_cast<float>(atom.radius));
+    place.values.push_back(static_cast<float>(index));
   }
-  return {b_factor, number, residue, radius};
+  return {b_factor, number, residue, radius, place};
 }
 
 void run(const PlyCommand& command) {
@@ -39,7 +41,7 @@ void run(const PlyCommand& command) {
   const SurfaceObject whole = merged(std::move(molecule.objects));
   const Camera camera = picture_camera(command.picture, whole.surface.atoms);
   const double tolerance = tolerance_of(command.mesh, command.picture, camera, whole.surface.atoms);
-  const TriangleMesh mesh = mesh_of(command.molecule, whole.surface, tolerance);
+  const TriangleMesh mesh = std::move(meshes_of(command.molecule, {&whole, 1}, tolerance).front());
   write_ply(command.output.path, command.output.existing(), mesh, whole.coloring,
             scalars_of(molecule.structure, whole.atom));
   std::cout << escaped(command.output.path) << "\n";

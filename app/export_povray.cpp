@@ -30,9 +30,9 @@ void run(const PovrayCommand& command) {
   options.height = command.picture.height;
   options.material = command.material;
   options.existing = command.output.existing();
+  options.colors = colors_json(molecule);
   const Camera camera = picture_camera(command.picture, placed_balls(molecule.objects));
-  const povray::SceneReport report =
-      write_scene(molecule.surface(), molecule.coloring(), camera, options, command.output.path);
+  const povray::SceneReport report = write_scene(molecule.objects, camera, options, command.output.path);
   say(command.molecule,
       fmt::format("{} primitives in {} files", with_thousands(report.object_count), report.files.size()));
   for (const std::string& note : report.notes) say(command.molecule, "note: " + note);

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include "core/base/error.h"
 #include "core/base/text.h"
 #include "exporters/mesh/tessellate.h"
 
@@ -46,11 +47,17 @@ double tolerance_of(const MeshCommandOptions& options, const PictureOptions& pic
   return std::clamp(options.tolerance_pixels * pixel, kSmallestTolerance, kLargestTolerance);
 }
 
-TriangleMesh mesh_of(const MoleculeOptions& options, const Surface& surface, double tolerance) {
-  TriangleMesh mesh = tessellate(surface, {tolerance, true});
-  say(options,
-      fmt::format("{} triangles within {:.4g} Å of the surface", with_thousands(mesh.triangles.size()), tolerance));
-  return mesh;
+std::vector<TriangleMesh> meshes_of(const MoleculeOptions& options, std::span<const SurfaceObject> objects,
+                                    double tolerance) {
+  std::vector<TriangleMesh> meshes;
+  std::size_t triangles = 0;
+  for (const SurfaceObject& object : objects) {
+    meshes.push_back(shown_part(tessellate(object.surface, {tolerance, true}), object.coloring));
+    triangles += meshes.back().triangles.size();
+  }
+  if (triangles == 0) throw Error("nothing of the surface is shown, so there is no mesh to write");
+  say(options, fmt::format("{} triangles within {:.4g} Å of the surface", with_thousands(triangles), tolerance));
+  return meshes;
 }
 
 }  // namespace meniscus

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "app/molecule.h"
 #include "app/picture_options.h"
@@ -23,7 +24,8 @@ void add_mesh_options(CLI::App& command, MeshCommandOptions& options);
 double tolerance_of(const MeshCommandOptions& options, const PictureOptions& picture, const Camera& camera,
                     std::span<const Ball> balls);
 
-/// Meshes a surface and says on stderr how many triangles came out.
-TriangleMesh mesh_of(const MoleculeOptions& options, const Surface& surface, double tolerance);
+/// Meshes what is shown of each object and says on stderr how many triangles came out. Throws Error if none did.
+std::vector<TriangleMesh> meshes_of(const MoleculeOptions& options, std::span<const SurfaceObject> objects,
+                                    double tolerance);
 
 }  // namespace meniscus

@@ -6,6 +6,9 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "core/base/text.h"
 
 namespace meniscus {
 
@@ -28,6 +31,28 @@ ColorScheme color_of(const MoleculeOptions& options) {
 }
 
 }  // namespace
+
+ColorKey key_of(const Molecule& molecule) {
+  std::vector<std::string> names;
+  for (const SurfaceObject& object : molecule.objects) names.push_back(object.name);
+  return color_key(molecule.structure, molecule.color, names);
+}
+
+std::string colors_json(const Molecule& molecule) {
+  using Json = nlohmann::ordered_json;
+  const ColorKey key = key_of(molecule);
+  const auto triple = [](const glm::vec3& c) { return Json{c.x, c.y, c.z}; };
+  Json json{{"title", key.title}};
+  if (key.scale) {
+    const ColorScale& scale = *key.scale;
+    json = {{"title", scale.title}, {"unit", scale.unit},       {"map", map_name(scale.map)},
+            {"range", scale.range}, {"missing", scale.missing}, {"missing_color", triple(scale.missing_color)}};
+  }
+  if (!key.classes.empty()) json["classes"] = Json::array();
+  for (const ColorClass& entry : key.classes)
+    json["classes"].push_back({{"name", escaped(entry.name)}, {"color", triple(entry.color)}});
+  return json.dump(-1, ' ', true, Json::error_handler_t::replace);
+}
 
 Molecule load_molecule(const MoleculeOptions& options) {
   Molecule molecule;

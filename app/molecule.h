@@ -7,6 +7,7 @@
 
 #include "app/molecule_options.h"
 #include "core/base/stage_clock.h"
+#include "core/molecule/color_scale.h"
 #include "core/molecule/structure.h"
 #include "core/surface/surface_object.h"
 
@@ -26,6 +27,12 @@ struct Molecule {
 
 /// Reads the file and says on stderr, unless quiet, what was read and left out, and each warning.
 Structure read_molecule(const MoleculeOptions& options);
+
+/// What the colours of its objects mean.
+ColorKey key_of(const Molecule& molecule);
+
+/// The same as a JSON object: title, and unit, map, range, missing, missing_color or classes.
+std::string colors_json(const Molecule& molecule);
 
 /// Reads, computes and colours, in that order; says on stderr what was read and on which device it ran.
 Molecule load_molecule(const MoleculeOptions& options);

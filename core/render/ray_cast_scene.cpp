@@ -8,6 +8,7 @@
 #include <limits>
 #include <numbers>
 #include <numeric>
+#include <span>
 
 #include <glm/geometric.hpp>
 
@@ -30,8 +31,8 @@ Bound cap_bound(const glm::dvec3& center, double radius, const glm::dvec3& axis,
 
 class Packer {
  public:
-  Packer(const Surface& surface, const PictureFrame& frame, RayCastScene& scene)
-      : surface_(surface), frame_(frame), scene_(scene) {}
+  Packer(const Surface& surface, const Coloring& coloring, const PictureFrame& frame, RayCastScene& scene)
+      : surface_(surface), coloring_(coloring), frame_(frame), scene_(scene) {}
 
   void pack() {
     const auto& s = surface_;
@@ -76,7 +77,12 @@ class Packer {
     return true;
   }
 
+  bool shows_none(std::span<const std::uint32_t> atoms) const {
+    return std::ranges::none_of(atoms, [&](std::uint32_t a) { return coloring_.shows(a); });
+  }
+
   void pack(const ConvexPatch& patch, std::uint32_t index) {
+    if (!coloring_.shows(patch.atom)) return;
     const Ball& ball = surface_.atoms[patch.atom];
     Bound bound{ball.center, ball.radius};
     for (std::uint32_t i = patch.first_plane; i < patch.first_plane + patch.plane_count; ++i) {
@@ -95,6 +101,7 @@ class Packer {
   }
 
   void pack(const ToroidalPatch& patch, std::uint32_t index) {
+    if (shows_none(patch.atom)) return;
     const double p = surface_.probe_radius;
     double height[2], extended[2], contact_z[2], contact_rho[2];
     for (int i = 0; i < 2; ++i) {
@@ -140,7 +147,7 @@ class Packer {
   }
 
   void pack(const ConcavePatch& patch, std::uint32_t index) {
-    if (patch.face_count == 0) return;
+    if (patch.face_count == 0 || shows_none({&surface_.contacts[patch.first_contact], patch.contact_count})) return;
     const double p = surface_.probe_radius;
     std::vector<glm::dvec3> directions(patch.contact_count);
     glm::dvec3 sum(0.0);
@@ -169,6 +176,7 @@ class Packer {
   }
 
   const Surface& surface_;
+  const Coloring& coloring_;
   const PictureFrame& frame_;
   RayCastScene& scene_;
 };
@@ -199,9 +207,9 @@ PictureFrame make_picture_frame(const Surface& surface, const Camera& camera, gl
   return frame;
 }
 
-RayCastScene pack_scene(const Surface& surface, const PictureFrame& frame) {
+RayCastScene pack_scene(const Surface& surface, const Coloring& coloring, const PictureFrame& frame) {
   RayCastScene scene;
-  Packer(surface, frame, scene).pack();
+  Packer(surface, coloring, frame, scene).pack();
   return scene;
 }
 

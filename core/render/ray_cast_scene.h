@@ -11,6 +11,7 @@
 #include <glm/vec4.hpp>
 
 #include "core/render/camera.h"
+#include "core/surface/coloring.h"
 #include "core/surface/primitives.h"
 
 namespace meniscus {
@@ -45,7 +46,8 @@ struct RayCastScene {
   float slack = 0.0f;  ///< Å by which patches overlap: a few roundings of the largest coordinate
 };
 
-RayCastScene pack_scene(const Surface& surface, const PictureFrame& frame);
+/// Patches that touch hidden atoms only are left out.
+RayCastScene pack_scene(const Surface& surface, const Coloring& coloring, const PictureFrame& frame);
 
 /// For each tile of 16 x 16 pixels of one block of the picture: which primitives may show in it, nearest first.
 struct TileLists {

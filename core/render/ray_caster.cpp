@@ -32,8 +32,8 @@ std::vector<glm::vec4> linear_colors(const Surface& surface, const Coloring& col
   assert(coloring.atom.size() == surface.atoms.size());
   std::vector<glm::vec4> colors;
   colors.reserve(surface.atoms.size() + 3);
-  for (const glm::vec3& color : coloring.atom) colors.emplace_back(linear_from_srgb(color), 1.0f);
-  colors.resize(surface.atoms.size(), glm::vec4(1.0f));
+  for (std::uint32_t a = 0; a < surface.atoms.size(); ++a)
+    colors.emplace_back(linear_from_srgb(coloring.atom[a]), coloring.shows(a) ? 1.0f : 0.0f);
   if (coloring.kind)
     for (const glm::vec3& color : *coloring.kind) colors.emplace_back(linear_from_srgb(color), 1.0f);
   return colors;
@@ -140,7 +140,7 @@ Framebuffer RayCaster::render(const Surface& surface, const Coloring& coloring, 
 
 RayCastScene RayCaster::upload_scene(const Surface& surface, const Coloring& coloring, const PictureFrame& frame) {
   const GpuStage stage(clock_, "pack");
-  RayCastScene scene = pack_scene(surface, frame);
+  RayCastScene scene = pack_scene(surface, coloring, frame);
   buffers_->primitives.upload(scene.primitives);
   buffers_->rows.upload(scene.rows);
   buffers_->colors.upload(linear_colors(surface, coloring));
@@ -159,6 +159,7 @@ void RayCaster::set_uniforms(const Surface& surface, const Coloring& coloring, c
   program_.set("forward", glm::vec3(frame.basis.forward));
   program_.set("color_by_kind", coloring.kind ? 1u : 0u);
   program_.set("atom_count", static_cast<std::uint32_t>(surface.atoms.size()));
+  program_.set("some_hidden", std::ranges::find(coloring.hidden, true) != coloring.hidden.end() ? 1u : 0u);
 }
 
 void RayCaster::cast_block(const RayCastScene& scene, const PictureFrame& frame, const Block& block, int sample_count) {

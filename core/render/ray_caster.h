@@ -27,7 +27,9 @@ class RayCaster {
   RayCaster();
   ~RayCaster();
 
-  /// coloring.atom has one colour per surface.atoms. Throws GpuError, CapacityError, InputError for a bad camera.
+  /// coloring.atom has one colour per surface.atoms. Rays go on through points of hidden atoms; what they meet from
+  /// behind is shaded like its front, and its normal still points towards the solvent. Throws GpuError, CapacityError,
+  /// InputError for a bad camera.
   Framebuffer render(const Surface& surface, const Coloring& coloring, const Camera& camera,
                      const RenderSettings& settings);
 

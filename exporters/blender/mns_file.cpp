@@ -36,7 +36,7 @@ void put(std::vector<std::byte>& bytes, std::size_t at, T value) {
 
 void MnsWriter::add_bytes(const std::string& name, const char* type, std::span<const std::byte> bytes, std::size_t rows,
                           int columns) {
-  arrays_.push_back({name, type, rows, columns, {bytes.begin(), bytes.end()}});
+  arrays_.push_back({prefix_ + name, type, rows, columns, {bytes.begin(), bytes.end()}});
 }
 void MnsWriter::add(const std::string& name, std::span<const float> values, int columns) {
   add_bytes(name, "<f4", std::as_bytes(values), values.size() / columns, columns);

@@ -14,11 +14,13 @@
 
 namespace meniscus::blender {
 
-inline constexpr std::uint32_t kMnsVersion = 1;
+inline constexpr std::uint32_t kMnsVersion = 2;
 
 /// Collects named arrays, then writes them behind their header.
 class MnsWriter {
  public:
+  /// Names of arrays that are added from now on begin with this.
+  void set_prefix(const std::string& prefix) { prefix_ = prefix; }
   /// `columns` numbers a row. Names must differ; the values are copied.
   void add(const std::string& name, std::span<const float> values, int columns = 1);
   void add(const std::string& name, std::span<const double> values, int columns = 1);
@@ -40,6 +42,7 @@ class MnsWriter {
   };
   void add_bytes(const std::string& name, const char* type, std::span<const std::byte> bytes, std::size_t rows,
                  int columns);
+  std::string prefix_;
   std::vector<Array> arrays_;
 };
 

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Turns the tables of a surface and its mesh into the arrays of a .mns file.
+// Turns the tables of surfaces and their meshes into the arrays of a .mns file.
 #include "exporters/blender/surface_file.h"
+
+#include <cassert>
 
 #include <nlohmann/json.hpp>
 
+#include "core/base/text.h"
 #include "exporters/blender/mns_file.h"
 #include "exporters/mesh/mesh_colors.h"
 
@@ -55,17 +58,18 @@ void add_mesh(MnsWriter& file, const TriangleMesh& mesh, const glm::dvec3& origi
   file.add("mesh.sharp_edge", sharp_edge.values(), 2);
 }
 
-void add_atoms(MnsWriter& file, const Surface& surface, const Coloring& coloring, const AtomAttributes& atoms) {
+void add_atoms(MnsWriter& file, const SurfaceObject& object, const AtomAttributes& atoms) {
   Doubles center, radius;
   Floats color;
-  for (const Ball& ball : surface.atoms) {
+  for (const Ball& ball : object.surface.atoms) {
     center.push(ball.center);
     radius.push(ball.radius);
   }
-  for (const glm::vec3& c : coloring.atom) color.push(glm::dvec3(c));
+  for (const glm::vec3& c : object.coloring.atom) color.push(glm::dvec3(c));
   file.add("atom.center", center.values(), 3);
   file.add("atom.radius", radius.values());
   file.add("atom.color", color.values(), 3);
+  file.add("atom.index", std::span(object.atom));
   if (!atoms.b_factor.empty()) file.add("atom.b_factor", std::span(atoms.b_factor));
   if (!atoms.atomic_number.empty()) file.add("atom.atomic_number", std::span(atoms.atomic_number));
   if (!atoms.residue_number.empty()) file.add("atom.res_id", std::span(atoms.residue_number));
@@ -152,25 +156,23 @@ json camera_object(const Shot& shot) {
   return camera;
 }
 
-}  // namespace
+/// The matrix [rotation | translation], row after row.
+json matrix(const RigidMotion& motion) {
+  json rows = json::array();
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) rows.push_back(motion.rotation[column][row]);
+    rows.push_back(motion.translation[row]);
+  }
+  return rows;
+}
 
-void write_surface(const std::string& path, Existing existing, const Surface& surface, const TriangleMesh& mesh,
-                   const Coloring& coloring, const AtomAttributes& atoms, const std::optional<Shot>& shot,
-                   const Provenance& provenance) {
-  MnsWriter file;
-  const glm::dvec3 origin = mesh_origin(mesh);
-  add_mesh(file, mesh, origin);
-  add_atoms(file, surface, coloring, atoms);
-  add_convex(file, surface);
-  add_toroidal(file, surface);
-  add_concave(file, surface);
-
+json object_header(const MeshedObject& meshed, const std::string& prefix, const glm::dvec3& origin) {
+  const Surface& surface = meshed.object.surface;
+  const TriangleMesh& mesh = meshed.mesh;
   const MeshMeasure m = measure(mesh);
-  json header{{"format", "meniscus surface"},
-              {"generator", "meniscus " MENISCUS_VERSION},
-              {"source", {{"file", provenance.source}, {"radii_set", provenance.radii_set}}},
-              {"device", provenance.device},
-              {"unit", "angstrom"},
+  json header{{"name", escaped(meshed.object.name)},
+              {"prefix", prefix},
+              {"copies", json::array()},
               {"probe_radius", surface.probe_radius},
               {"area", surface.area},
               {"volume", surface.volume},
@@ -179,15 +181,46 @@ void write_surface(const std::string& path, Existing existing, const Surface& su
                 {"tolerance", mesh.tolerance},
                 {"vertices", mesh.positions.size()},
                 {"triangles", mesh.triangles.size()},
+                {"closed", !mesh.partly_hidden},
                 {"area", m.area},
                 {"volume", m.volume}}},
               {"components", component_list(surface, mesh)},
-              {"chain_names", atoms.chain_names}};
-  if (coloring.kind) {
+              {"chain_names", meshed.atoms.chain_names}};
+  for (const RigidMotion& copy : meshed.object.copies) header["copies"].push_back(matrix(copy));
+  if (const auto& kinds = meshed.object.coloring.kind) {
     json colors = json::array();
-    for (const glm::vec3& c : *coloring.kind) colors.push_back(numbers(glm::dvec3(c)));
+    for (const glm::vec3& c : *kinds) colors.push_back(numbers(glm::dvec3(c)));
     header["kind_colors"] = colors;
   }
+  return header;
+}
+
+}  // namespace
+
+void write_objects(const std::string& path, Existing existing, std::span<const MeshedObject> objects,
+                   const std::optional<Shot>& shot, const Provenance& provenance) {
+  MnsWriter file;
+  json list = json::array();
+  for (const MeshedObject& meshed : objects) {
+    if (meshed.mesh.triangles.empty()) continue;
+    const std::string prefix = std::to_string(list.size()) + "/";
+    const glm::dvec3 origin = mesh_origin(meshed.mesh);
+    file.set_prefix(prefix);
+    add_mesh(file, meshed.mesh, origin);
+    add_atoms(file, meshed.object, meshed.atoms);
+    add_convex(file, meshed.object.surface);
+    add_toroidal(file, meshed.object.surface);
+    add_concave(file, meshed.object.surface);
+    list.push_back(object_header(meshed, prefix, origin));
+  }
+  assert(!list.empty());
+  json header{{"format", "meniscus surface"},
+              {"generator", "meniscus " MENISCUS_VERSION},
+              {"source", {{"file", provenance.source}, {"radii_set", provenance.radii_set}}},
+              {"device", provenance.device},
+              {"unit", "angstrom"},
+              {"objects", std::move(list)}};
+  if (!provenance.colors.empty()) header["colors"] = json::parse(provenance.colors);
   if (shot) header["camera"] = camera_object(*shot);
   file.write(path, existing, std::move(header));
 }

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A surface, its mesh, its atoms and a camera as one .mns file, which the Blender add-on beside this file reads.
+// Surfaces, their meshes, their atoms and a camera as one .mns file, which the Blender add-on beside this file reads.
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "core/base/output_file.h"
 #include "core/render/camera.h"
-#include "core/surface/coloring.h"
-#include "core/surface/primitives.h"
+#include "core/surface/surface_object.h"
 #include "exporters/mesh/triangle_mesh.h"
 
 namespace meniscus::blender {
@@ -35,11 +35,18 @@ struct Provenance {
   std::string source;     ///< the input file's name, without its folder
   std::string radii_set;  ///< "bondi" or "file"
   std::string device;     ///< what computed the surface
+  std::string colors;     ///< what the colours mean, as JSON; may be empty
 };
 
-/// Writes the file as FORMAT.md describes. Throws OutputError.
-void write_surface(const std::string& path, Existing existing, const Surface& surface, const TriangleMesh& mesh,
-                   const Coloring& coloring, const AtomAttributes& atoms, const std::optional<Shot>& shot,
-                   const Provenance& provenance);
+/// One object and its mesh.
+struct MeshedObject {
+  const SurfaceObject& object;
+  TriangleMesh mesh;  ///< without triangles: the object is left out
+  AtomAttributes atoms;
+};
+
+/// Writes the file as FORMAT.md describes. At least one mesh has triangles. Throws OutputError.
+void write_objects(const std::string& path, Existing existing, std::span<const MeshedObject> objects,
+                   const std::optional<Shot>& shot, const Provenance& provenance);
 
 }  // namespace meniscus::blender

@@ -41,7 +41,7 @@ void write_ply(const std::string& path, Existing existing, const TriangleMesh& m
   for (const char* name : {"x", "y", "z", "nx", "ny", "nz"}) header += fmt::format("property float {}\n", name);
   for (const char* name : {"red", "green", "blue"}) header += fmt::format("property uchar {}\n", name);
   for (const AtomScalar& scalar : scalars) header += fmt::format("property float {}\n", scalar.name);
-  for (const char* name : {"ses_kind", "ses_component", "atom_index"}) {
+  for (const char* name : {"ses_kind", "ses_component"}) {
     header += fmt::format("property float {}\n", name);
   }
   header += fmt::format("element face {}\nproperty list uchar int vertex_indices\nend_header\n", mesh.triangles.size());
@@ -60,7 +60,6 @@ void write_ply(const std::string& path, Existing existing, const TriangleMesh& m
     for (const AtomScalar& scalar : scalars) rows.put(scalar.values[atoms[v]]);
     rows.put(static_cast<float>(mesh.kind[triangle_of[v]]));
     rows.put(static_cast<float>(mesh.component[triangle_of[v]]));
-    rows.put(static_cast<float>(atoms[v]));
   }
   for (const auto& t : mesh.triangles) {
     rows.put(std::uint8_t{3});

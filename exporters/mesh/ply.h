@@ -17,8 +17,8 @@ struct AtomScalar {
   std::vector<float> values;
 };
 
-/// Writes one closed mesh: float vertex properties x y z nx ny nz, colours red green blue (uchar, sRGB), the scalars,
-/// kind, component and atom; faces as lists of three indices. Coordinates are Å as in the input file. Throws
+/// Writes one mesh: float vertex properties x y z nx ny nz, colours red green blue (uchar, sRGB), the scalars, kind and
+/// component; faces as lists of three indices. Coordinates are Å as in the input file. Throws
 /// OutputError.
 void write_ply(const std::string& path, Existing existing, const TriangleMesh& mesh, const Coloring& coloring,
                const std::vector<AtomScalar>& scalars);

@@ -8,6 +8,7 @@
 
 #include <glm/vec3.hpp>
 
+#include "core/surface/coloring.h"
 #include "core/surface/primitives.h"
 
 namespace meniscus {
@@ -17,8 +18,8 @@ struct MeshOptions {
   bool split_colors = true;  ///< cut triangles where the nearest contact changes, so colours change along edges
 };
 
-/// Plain arrays. Every edge has exactly two triangles, which walk it in opposite directions; seen from the solvent
-/// triangles are counter-clockwise. All vertices lie on the exact surface.
+/// Plain arrays. Every edge has exactly two triangles (but see partly_hidden), which walk it in opposite directions;
+/// seen from the solvent triangles are counter-clockwise. All vertices lie on the exact surface.
 struct TriangleMesh {
   std::vector<glm::dvec3> positions;  ///< Å
   std::vector<glm::dvec3> normals;    ///< unit, exact; at sharp vertices the mean of the normals around them
@@ -35,7 +36,8 @@ struct TriangleMesh {
   std::vector<glm::dvec3> sharp_corner_normals;
   std::vector<std::array<std::uint32_t, 2>> sharp_edges;  ///< vertex pairs along cusps
 
-  double tolerance = 0.0;  ///< Å, as asked
+  double tolerance = 0.0;      ///< Å, as asked
+  bool partly_hidden = false;  ///< triangles were left out: edges along the border of what is shown have one triangle
 };
 
 /// Measures of a triangle mesh, or of one component of it.
@@ -48,6 +50,10 @@ struct MeshMeasure {
   bool closed = false;  ///< every edge has two triangles that walk it in opposite directions
   int euler() const { return int(vertex_count) - int(edge_count) + int(triangle_count); }
 };
+
+/// The triangles whose atoms are shown, with the vertices they use; all of them when none is hidden. The mesh must have
+/// been split at colours, so that it ends where shown and hidden atoms are equally near.
+TriangleMesh shown_part(TriangleMesh mesh, const Coloring& coloring);
 
 /// Measures the triangles of one component, or of all when `component` is kNone.
 MeshMeasure measure(const TriangleMesh& mesh, std::uint32_t component = kNone);

@@ -3,7 +3,6 @@
 #include "exporters/povray/palette.h"
 
 #include <algorithm>
-#include <map>
 #include <span>
 #include <tuple>
 
@@ -11,21 +10,6 @@
 
 namespace meniscus::povray {
 namespace {
-
-// Numbers colours in order of first use.
-class ColorNumbers {
- public:
-  explicit ColorNumbers(std::vector<glm::vec3>& colors) : colors_(colors) {}
-  std::uint32_t operator()(const glm::vec3& c) {
-    const auto [known, is_new] = number_.try_emplace({c.x, c.y, c.z}, static_cast<std::uint32_t>(colors_.size()));
-    if (is_new) colors_.push_back(c);
-    return known->second;
-  }
-
- private:
-  std::map<std::tuple<float, float, float>, std::uint32_t> number_;
-  std::vector<glm::vec3>& colors_;
-};
 
 // Calls visit(kind, patch index, touched atoms) for every patch that has a face.
 void for_each_patch(const Surface& surface, const auto& visit) {
@@ -43,22 +27,31 @@ void for_each_patch(const Surface& surface, const auto& visit) {
 
 }  // namespace
 
-Palette make_palette(const Surface& surface, const Coloring& coloring) {
-  if (!coloring.kind && coloring.atom.size() != surface.atoms.size())
+std::uint32_t ColorTable::number(const glm::vec3& color) {
+  const auto [known, is_new] =
+      number_.try_emplace({color.x, color.y, color.z}, static_cast<std::uint32_t>(colors_.size()));
+  if (is_new) colors_.push_back(color);
+  return known->second;
+}
+
+Palette make_palette(const Surface& surface, const Coloring& coloring, ColorTable& table) {
+  if (coloring.atom.size() != surface.atoms.size())
     throw Error("POV-Ray export: the coloring does not have one colour for each atom");
   Palette palette;
-  ColorNumbers number(palette.colors);
-  if (!coloring.kind)
-    for (const glm::vec3& c : coloring.atom) palette.atom_color.push_back(number(c));
+  for (std::uint32_t a = 0; a < surface.atoms.size(); ++a) {
+    const std::uint32_t shown = coloring.kind ? 0 : table.number(coloring.atom[a]);
+    palette.atom_part.push_back(coloring.shows(a) ? shown : kNone);
+  }
   for_each_patch(surface, [&](PatchKind kind, std::uint32_t patch, std::span<const std::uint32_t> atoms) {
-    std::vector<std::uint32_t> colors;
-    if (coloring.kind)
-      colors.push_back(number((*coloring.kind)[static_cast<std::size_t>(kind)]));
-    else
-      for (const std::uint32_t a : atoms) colors.push_back(palette.atom_color[a]);
-    std::sort(colors.begin(), colors.end());
-    colors.erase(std::unique(colors.begin(), colors.end()), colors.end());
-    for (const std::uint32_t c : colors) palette.pieces.push_back({kind, c, patch});
+    std::vector<std::uint32_t> parts;
+    for (const std::uint32_t a : atoms)
+      if (coloring.shows(a)) parts.push_back(palette.atom_part[a]);
+    std::sort(parts.begin(), parts.end());
+    parts.erase(std::unique(parts.begin(), parts.end()), parts.end());
+    for (const std::uint32_t part : parts) {
+      const std::uint32_t color = coloring.kind ? table.number((*coloring.kind)[static_cast<std::size_t>(kind)]) : part;
+      palette.pieces.push_back({kind, color, part, patch});
+    }
   });
   std::stable_sort(palette.pieces.begin(), palette.pieces.end(), [](const ColoredPiece& a, const ColoredPiece& b) {
     return std::tie(a.kind, a.color) < std::tie(b.kind, b.color);

@@ -29,10 +29,10 @@ void PatchObjects::append(SceneText& out, const ColoredPiece& piece) const {
       convex(out, surface_.convex[piece.patch]);
       break;
     case PatchKind::toroidal:
-      toroidal(out, surface_.toroidal[piece.patch], piece.color);
+      toroidal(out, surface_.toroidal[piece.patch], piece.part);
       break;
     case PatchKind::concave:
-      concave(out, surface_.concave[piece.patch], piece.color);
+      concave(out, surface_.concave[piece.patch], piece.part);
       break;
   }
   out.literal("\n");
@@ -58,7 +58,7 @@ void PatchObjects::convex(SceneText& out, const ConvexPatch& patch) const {
   out.literal("}");
 }
 
-void PatchObjects::toroidal(SceneText& out, const ToroidalPatch& patch, std::uint32_t color) const {
+void PatchObjects::toroidal(SceneText& out, const ToroidalPatch& patch, std::uint32_t part) const {
   const double p = surface_.probe_radius;
   out.literal("torus{").length(patch.radius).literal(",").length(p).literal(" matrix<");
   // Local y is the axis; the matrix stands before clipped_by, so the clips stay in world space.
@@ -72,7 +72,7 @@ void PatchObjects::toroidal(SceneText& out, const ToroidalPatch& patch, std::uin
     const double lemon = std::sqrt((p - patch.radius) * (p + patch.radius));
     out.literal("sphere{").point(center).literal(",").length(lemon).literal(" inverse}");
   }
-  color_half(out, patch, color);
+  part_half(out, patch, part);
   const Box extent = toroidal_extent(surface_, patch);
   box(out, extent.low, extent.high);
   out.literal("}}");
@@ -102,10 +102,9 @@ void PatchObjects::wedge(SceneText& out, const ToroidalPatch& patch) const {
 }
 
 // On a saddle the points as near to one contact direction as to the other form a circle about the axis.
-void PatchObjects::color_half(SceneText& out, const ToroidalPatch& patch, std::uint32_t color) const {
-  if (palette_.atom_color.empty()) return;
-  const bool of_first = palette_.atom_color[patch.atom[0]] == color;
-  if (of_first == (palette_.atom_color[patch.atom[1]] == color)) return;
+void PatchObjects::part_half(SceneText& out, const ToroidalPatch& patch, std::uint32_t part) const {
+  const bool of_first = palette_.atom_part[patch.atom[0]] == part;
+  if (of_first == (palette_.atom_part[patch.atom[1]] == part)) return;
   const glm::dvec3 probe = patch.center + patch.radius * patch.start;
   const glm::dvec3 middle = glm::normalize(glm::normalize(surface_.atoms[patch.atom[0]].center - probe) +
                                            glm::normalize(surface_.atoms[patch.atom[1]].center - probe));
@@ -114,25 +113,24 @@ void PatchObjects::color_half(SceneText& out, const ToroidalPatch& patch, std::u
   plane(out, {normal, glm::dot(normal, border)}, patch.center);
 }
 
-void PatchObjects::concave(SceneText& out, const ConcavePatch& patch, std::uint32_t color) const {
+void PatchObjects::concave(SceneText& out, const ConcavePatch& patch, std::uint32_t part) const {
   out.literal("sphere{").point(patch.center - origin_).literal(",").length(surface_.probe_radius);
   out.literal(" clipped_by{");
   for (std::uint32_t n = 0; n < patch.side_count + patch.cut_count; ++n)
     plane(out, surface_.planes[patch.first_plane + n], patch.center);
-  color_cells(out, patch, color);
+  part_cells(out, patch, part);
   const Box extent = concave_extent(surface_, patch);
   box(out, extent.low, extent.high);
   out.literal("}}");
 }
 
-// A point belongs to the colour when one contact of that colour is nearer than every contact of other colours.
-void PatchObjects::color_cells(SceneText& out, const ConcavePatch& patch, std::uint32_t color) const {
-  if (palette_.atom_color.empty()) return;
+// A point belongs to the part when one contact of that part is nearer than every contact of others.
+void PatchObjects::part_cells(SceneText& out, const ConcavePatch& patch, std::uint32_t part) const {
   std::vector<glm::dvec3> own, other;
   for (std::uint32_t n = 0; n < patch.contact_count; ++n) {
     const std::uint32_t atom = surface_.contacts[patch.first_contact + n];
     const glm::dvec3 direction = glm::normalize(surface_.atoms[atom].center - patch.center);
-    (palette_.atom_color[atom] == color ? own : other).push_back(direction);
+    (palette_.atom_part[atom] == part ? own : other).push_back(direction);
   }
   if (other.empty()) return;
   if (own.size() > 1) out.literal("union{");

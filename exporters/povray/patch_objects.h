@@ -27,17 +27,18 @@ class PatchObjects {
   PatchObjects(const Surface& surface, const Palette& palette, const glm::dvec3& origin)
       : surface_(surface), palette_(palette), origin_(origin) {}
 
-  /// One line: the primitive of the piece, with a cut towards the pieces of other colours of the same patch.
+  /// One line: the primitive of the piece, with a cut towards other parts of the same patch, of other colours or
+  /// hidden.
   void append(SceneText& out, const ColoredPiece& piece) const;
 
  private:
   void convex(SceneText& out, const ConvexPatch& patch) const;
-  void toroidal(SceneText& out, const ToroidalPatch& patch, std::uint32_t color) const;
-  void concave(SceneText& out, const ConcavePatch& patch, std::uint32_t color) const;
+  void toroidal(SceneText& out, const ToroidalPatch& patch, std::uint32_t part) const;
+  void concave(SceneText& out, const ConcavePatch& patch, std::uint32_t part) const;
   void visibility_sphere(SceneText& out, const ToroidalPatch& patch) const;
   void wedge(SceneText& out, const ToroidalPatch& patch) const;
-  void color_half(SceneText& out, const ToroidalPatch& patch, std::uint32_t color) const;
-  void color_cells(SceneText& out, const ConcavePatch& patch, std::uint32_t color) const;
+  void part_half(SceneText& out, const ToroidalPatch& patch, std::uint32_t part) const;
+  void part_cells(SceneText& out, const ConcavePatch& patch, std::uint32_t part) const;
   void box(SceneText& out, const glm::dvec3& low, const glm::dvec3& high) const;
   void plane(SceneText& out, const Plane& plane, const glm::dvec3& anchor) const;
 

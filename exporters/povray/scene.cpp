@@ -10,31 +10,31 @@
 #include <glm/geometric.hpp>
 
 #include "core/base/error.h"
-#include "exporters/povray/palette.h"
-#include "exporters/povray/patch_objects.h"
+#include "exporters/povray/geometry.h"
 #include "exporters/povray/scene_templates.h"
 #include "exporters/povray/scene_text.h"
 
 namespace meniscus::povray {
 namespace {
 
-constexpr std::size_t kFlushBytes = std::size_t{1} << 20;
 constexpr std::size_t kMemoryWarningObjects = 2'000'000;  // about 3.5 GB in POV-Ray 3.7
 
 struct Extent {
   glm::dvec3 low{1e300}, high{-1e300};
 };
 
-Extent atom_extent(const Surface& surface) {
+Extent atom_extent(std::span<const SurfaceObject> objects) {
   Extent e;
-  for (const Ball& b : surface.atoms) {
-    e.low = glm::min(e.low, b.center - b.radius);
-    e.high = glm::max(e.high, b.center + b.radius);
-  }
+  for (const SurfaceObject& object : objects)
+    for (const RigidMotion& copy : object.copies)
+      for (const Ball& b : object.surface.atoms) {
+        e.low = glm::min(e.low, copy(b.center) - b.radius);
+        e.high = glm::max(e.high, copy(b.center) + b.radius);
+      }
   return e;
 }
 
-void check(const Surface& surface, const SceneOptions& options) {
+void check(std::span<const SurfaceObject> objects, const SceneOptions& options) {
   const auto allowed = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
   };
@@ -42,7 +42,8 @@ void check(const Surface& surface, const SceneOptions& options) {
   for (const char c : options.name) name_is_plain = name_is_plain && allowed(c);
   if (!name_is_plain) throw Error("POV-Ray export: a scene's name has only letters, digits, '-' and '_'");
   if (options.width < 1 || options.height < 1) throw Error("POV-Ray export: a picture has at least one pixel");
-  if (surface.atoms.empty()) throw Error("POV-Ray export: there is no atom");
+  for (const SurfaceObject& object : objects)
+    if (object.surface.atoms.empty()) throw Error("POV-Ray export: there is no atom");
 }
 
 std::string filled(std::string_view text, const std::string& name, std::string_view group) {
@@ -109,73 +110,33 @@ std::string main_text(const Camera& camera, const SceneOptions& options, const g
 
 void append_color(SceneText& out, const glm::vec3& c) { out.literal("srgb ").direction(glm::dvec3(c)); }
 
-std::string style_text(const Palette& palette, const SceneOptions& options) {
+std::string style_text(const std::vector<glm::vec3>& colors, const SceneOptions& options) {
   SceneText out;
   out.literal(
       "// Colours, lights and materials of the scene. Everything may be declared before this file is included.\n");
   out.literal("#declare Meniscus_Default_Background = ");
   append_color(out, options.background);
-  out.literal(";\n#ifndef (Meniscus_Color)\n  #declare Meniscus_Color = array[").count(palette.colors.size());
+  out.literal(";\n#ifndef (Meniscus_Color)\n  #declare Meniscus_Color = array[").count(colors.size());
   out.literal("] {\n");
-  for (std::size_t n = 0; n < palette.colors.size(); ++n) {
+  for (std::size_t n = 0; n < colors.size(); ++n) {
     out.literal("    ");
-    append_color(out, palette.colors[n]);
-    out.literal(n + 1 < palette.colors.size() ? ",\n" : "\n");
+    append_color(out, colors[n]);
+    out.literal(n + 1 < colors.size() ? ",\n" : "\n");
   }
   out.literal("  }\n#end\n").literal(kStyleTemplate);
   return out.text();
 }
 
-std::string buffer_text(const Palette& palette, const Surface& surface, const glm::dvec3& origin) {
-  const Extent e = atom_extent(surface);
+std::string buffer_text(std::size_t color_count, const Extent& e, const glm::dvec3& origin) {
   const glm::dvec3 size = e.high - e.low;
   // One cube for all axes, wide enough that no gradient reaches its own end.
   const double extent = std::ceil(std::max({size.x, size.y, size.z}) + 1.0);
   SceneText out;
   out.literal("// The surface as numbers instead of colours.\n#declare Meniscus_Low = ");
   out.full_vector(glm::floor((e.low - origin - 0.5) * 1e3) / 1e3).literal(";\n#declare Meniscus_Extent = ");
-  out.full(extent).literal(";\n#declare Meniscus_Color_Count = ").count(palette.colors.size()).literal(";\n");
+  out.full(extent).literal(";\n#declare Meniscus_Color_Count = ").count(color_count).literal(";\n");
   out.literal(kBufferTemplate);
   return out.text();
-}
-
-std::size_t group_end(const Palette& palette, std::size_t begin) {
-  std::size_t end = begin;
-  while (end < palette.pieces.size() && palette.pieces[end].kind == palette.pieces[begin].kind &&
-         palette.pieces[end].color == palette.pieces[begin].color)
-    ++end;
-  return end;
-}
-
-void write_geometry(OutputFile& file, const Surface& surface, const Palette& palette, const glm::dvec3& origin) {
-  SceneText out;
-  out.literal("// The patches of a solvent-excluded surface, one primitive each; nothing here but geometry.\n");
-  out.literal("// Position in the molecule's file = position here + ").full_vector(origin).literal(" (Å).\n");
-  out.literal("// Probe radius ").length(surface.probe_radius).literal(" Å, ");
-  out.count(palette.pieces.size()).literal(" objects.\n");
-  const PatchObjects objects(surface, palette, origin);
-  for (std::size_t begin = 0; begin < palette.pieces.size();) {
-    const std::size_t end = group_end(palette, begin);
-    out.literal(end - begin > 1 ? "union{\n" : "object{\n");
-    for (std::size_t n = begin; n < end; ++n) {
-      objects.append(out, palette.pieces[n]);
-      if (out.text().size() < kFlushBytes) continue;
-      file.write(out.text());
-      out.clear();
-    }
-    // The outside of a convex patch's sphere is the solvent; that of a torus or a probe is the solid.
-    const bool convex = palette.pieces[begin].kind == PatchKind::convex;
-    const auto side = [&](std::string_view property, std::string_view name) {
-      out.literal(property).literal("{Meniscus_").literal(name).literal("_Side[");
-      out.count(static_cast<std::size_t>(palette.pieces[begin].kind)).literal("][");
-      out.count(palette.pieces[begin].color).literal("]}");
-    };
-    side("texture", convex ? "Solvent" : "Solid");
-    side(" interior_texture", convex ? "Solid" : "Solvent");
-    out.literal("\n}\n");
-    begin = end;
-  }
-  file.write(out.text());
 }
 
 std::string ini_text(const SceneOptions& options) {
@@ -190,22 +151,27 @@ std::string ini_text(const SceneOptions& options) {
   return out.text();
 }
 
-std::vector<std::string> notes(const Surface& surface, const Palette& palette, const Camera& camera) {
+std::vector<std::string> notes(std::span<const SurfaceObject> objects, const Geometry& geometry, const Camera& camera) {
   std::vector<std::string> sentences;
   // Rays begin on the plane through an orthographic camera, here as in the ray caster.
   const glm::dvec3 forward = view_basis(camera).forward;
-  const auto reaches_behind = [&](const Ball& b) { return glm::dot(b.center - camera.position, forward) < b.radius; };
-  const auto behind = std::ranges::count_if(surface.atoms, reaches_behind);
+  std::size_t behind = 0, cut_away = 0;
+  for (const SurfaceObject& object : objects) {
+    for (const RigidMotion& copy : object.copies)
+      behind += static_cast<std::size_t>(std::ranges::count_if(object.surface.atoms, [&](const Ball& b) {
+        return glm::dot(copy(b.center) - camera.position, forward) < b.radius;
+      }));
+    for (const ConcavePatch& c : object.surface.concave) cut_away += c.face_count == 0;
+  }
   if (camera.projection == Projection::orthographic && behind > 0)
     sentences.push_back(fmt::format("{} atoms reach behind the orthographic camera and are cut off there", behind));
-  std::size_t cut_away = 0;
-  for (const ConcavePatch& c : surface.concave) cut_away += c.face_count == 0;
   if (cut_away > 0)
     sentences.push_back(
         fmt::format("{} fixed probes have no object: other probes cut all of their patch away", cut_away));
-  if (palette.pieces.size() > kMemoryWarningObjects)
-    sentences.push_back(fmt::format("{} objects need about {} GB of memory in POV-Ray", palette.pieces.size(),
-                                    palette.pieces.size() * 18 / 10'000'000));
+  const std::size_t held = geometry.primitives_in_memory();
+  if (held > kMemoryWarningObjects)
+    sentences.push_back(fmt::format("{} primitives, copies included, need about {} GB of memory in POV-Ray", held,
+                                    held * 18 / 10'000'000));
   return sentences;
 }
 
@@ -218,12 +184,12 @@ std::string shell_quoted(const std::string& text) {
 
 }  // namespace
 
-SceneReport write_scene(const Surface& surface, const Coloring& coloring, const Camera& camera,
-                        const SceneOptions& options, const std::filesystem::path& folder) {
-  check(surface, options);
-  const Extent extent = atom_extent(surface);
+SceneReport write_scene(std::span<const SurfaceObject> objects, const Camera& camera, const SceneOptions& options,
+                        const std::filesystem::path& folder) {
+  check(objects, options);
+  const Extent extent = atom_extent(objects);
   const glm::dvec3 origin = glm::round((extent.low + extent.high) * 0.5e3) / 1e3;
-  const Palette palette = make_palette(surface, coloring);
+  const Geometry geometry(objects, origin);
 
   OutputFolder output(folder, options.existing);
   SceneReport report;
@@ -231,16 +197,17 @@ SceneReport write_scene(const Surface& surface, const Coloring& coloring, const 
     report.files.push_back(folder / (options.name + ending));
     return output.file(options.name + ending);
   };
-  write_geometry(begin_file("_geometry.inc"), surface, palette, origin);
-  begin_file("_aov.inc").write(buffer_text(palette, surface, origin));
-  begin_file("_style.inc").write(style_text(palette, options));
-  begin_file(".pov").write(main_text(camera, options, origin, palette.pieces.size() == 1));
+  geometry.write(begin_file("_geometry.inc"));
+  begin_file("_aov.inc").write(buffer_text(geometry.colors().size(), extent, origin));
+  begin_file("_style.inc").write(style_text(geometry.colors(), options));
+  begin_file(".pov").write(main_text(camera, options, origin, geometry.is_one_item()));
   begin_file(".ini").write(ini_text(options));
+  begin_file("_objects.json").write(geometry.names_json(options.colors));
   output.commit();
 
-  report.object_count = palette.pieces.size();
+  report.object_count = geometry.primitive_count();
   report.origin = origin;
-  report.notes = notes(surface, palette, camera);
+  report.notes = notes(objects, geometry, camera);
   report.command = fmt::format("cd {} && povray {}.ini", shell_quoted(folder.string()), options.name);
   return report;
 }

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A folder with a POV-Ray 3.7 scene of a surface: the analytic patches themselves, never triangles.
+// A folder with a POV-Ray 3.7 scene of surfaces: the analytic patches themselves, never triangles.
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -10,8 +11,7 @@
 
 #include "core/base/output_file.h"
 #include "core/render/camera.h"
-#include "core/surface/coloring.h"
-#include "core/surface/primitives.h"
+#include "core/surface/surface_object.h"
 
 namespace meniscus::povray {
 
@@ -28,22 +28,24 @@ struct SceneOptions {
   Material material = Material::opaque;  ///< the scene's default; every scene holds all four
   glm::vec3 background{1.0f};            ///< sRGB
   Existing existing = Existing::refuse;
+  std::string colors;  ///< what the colours mean, as JSON, for <name>_objects.json; may be empty
 };
 
 /// What was written and what was not.
 struct SceneReport {
   std::vector<std::filesystem::path> files;
-  std::size_t object_count = 0;    ///< primitives; more than patches where atoms of several colours share a patch
+  std::size_t object_count = 0;    ///< primitives, copies not counted; atoms of several colours may share a patch
   std::vector<std::string> notes;  ///< sentences: what was left out, what will be slow; empty when all is shown
   glm::dvec3 origin{0.0};          ///< scene coordinates + origin = molecule coordinates
   std::string command;             ///< for a POSIX shell: renders the picture from any folder
 };
 
-/// Writes <name>.ini, <name>.pov, <name>_style.inc, <name>_aov.inc and <name>_geometry.inc into `folder`, all or none.
-/// One unit is 1 Å; coordinates are relative to the middle of the atoms. The camera shows the same pixels as the ray
-/// caster's. coloring.atom has one colour for each atom. The surface needs an atom.
-/// Throws OutputError (exists, not writable), Error (bad name or size, a number that is not finite).
-SceneReport write_scene(const Surface& surface, const Coloring& coloring, const Camera& camera,
-                        const SceneOptions& options, const std::filesystem::path& folder);
+/// Writes <name>.ini, <name>.pov, <name>_style.inc, <name>_aov.inc, <name>_geometry.inc and <name>_objects.json into
+/// `folder`, all or none. One unit is 1 Å; coordinates are relative to the middle of all atoms. The camera shows the
+/// same pixels as the ray caster's. Each object with its copies is a union object_1, object_2, ...; the names they came
+/// with stand in the .json only. Points of hidden atoms are left out.
+/// Throws OutputError (exists, not writable), Error (nothing is shown, bad name or size, a number that is not finite).
+SceneReport write_scene(std::span<const SurfaceObject> objects, const Camera& camera, const SceneOptions& options,
+                        const std::filesystem::path& folder);
 
 }  // namespace meniscus::povray

@@ -59,6 +59,8 @@ void hit_clipped_sphere(uint index, Primitive primitive, Rays rays, inout Neares
     }
   }
   for (int k = 0; k < 4; ++k) {
+    near_in[k] = near_in[k] && shows_sphere_point(primitive, near_x[k], place.w);
+    far_in[k] = far_in[k] && shows_sphere_point(primitive, far_x[k], place.w);
     if (!near_in[k] && !far_in[k]) continue;
     nearest.t[k] = near_in[k] ? near_t[k] : far_t[k];
     nearest.primitive[k] = index;
@@ -66,8 +68,9 @@ void hit_clipped_sphere(uint index, Primitive primitive, Rays rays, inout Neares
 }
 
 // One ray in the torus's own frame; `high` if it misses.
-float hit_torus_patch(vec3 o, vec3 d, float major, vec4 shape, float cos_sweep, float sin_sweep, int range, float low,
-                      float high) {
+float hit_torus_patch(Primitive primitive, vec3 o, vec3 d, float major, vec4 shape, float cos_sweep, float sin_sweep,
+                      float low, float high) {
+  int range = int(primitive.plane_count);
   // The sphere through both contact circles holds the whole patch and nothing of the outer half of the torus.
   SphereHits chord = ray_sphere(o - vec3(0.0, 0.0, shape.z), d, shape.w + slack);
   if (!chord.found) return high;
@@ -79,9 +82,12 @@ float hit_torus_patch(vec3 o, vec3 d, float major, vec4 shape, float cos_sweep, 
   }
   if (!(low < end)) return high;
   TorusHits hits = ray_torus(o, d, major, probe_radius, low, end, 2e-7);
-  for (int i = 0; i < hits.count; ++i)
-    if (in_toroidal_patch(o + d * hits.t[i], major, shape.x, shape.y, cos_sweep, sin_sweep, range, slack))
+  for (int i = 0; i < hits.count; ++i) {
+    vec3 x = o + d * hits.t[i];
+    if (in_toroidal_patch(x, major, shape.x, shape.y, cos_sweep, sin_sweep, range, slack) &&
+        shows_torus_point(primitive, x, major))
       return hits.t[i];
+  }
   return high;
 }
 
@@ -100,7 +106,7 @@ void hit_toroidal(uint index, Primitive primitive, inout Nearest nearest) {
     vec3 local_o = vec3(dot(o, x_axis.xyz), dot(o, y_axis), dot(o, z_axis.xyz));
     vec3 local_d = vec3(dot(d, x_axis.xyz), dot(d, y_axis), dot(d, z_axis.xyz));
     float high = nearest.t[k] - shift;
-    float t = hit_torus_patch(local_o, local_d, place.w, shape, x_axis.w, z_axis.w, int(primitive.plane_count),
+    float t = hit_torus_patch(primitive, local_o, local_d, place.w, shape, x_axis.w, z_axis.w,
                               eye_parameter(d) - shift, high);
     if (t < high) {
       nearest.t[k] = t + shift;

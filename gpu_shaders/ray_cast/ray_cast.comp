@@ -21,7 +21,7 @@ layout(binding = 0) uniform usamplerBuffer primitive_texels;  // three texels ea
 layout(binding = 1) uniform usamplerBuffer row_texels;
 layout(binding = 2) uniform usamplerBuffer first_entry;  // one more than there are tiles
 layout(binding = 3) uniform usamplerBuffer entries;
-layout(std430, binding = 0) readonly buffer Colors { vec4 atom_color[]; };  // linear; three more for the kinds
+layout(std430, binding = 0) readonly buffer Colors { vec4 atom_color[]; };  // linear, alpha 0: hidden; three more for the kinds
 layout(std430, binding = 1) buffer Picture { vec4 picture[]; };             // sums of linear, premultiplied samples
 layout(std430, binding = 2) writeonly buffer Hits { Hit hits[]; };
 
@@ -39,6 +39,7 @@ uniform vec3 up;
 uniform vec3 forward;
 uniform uint color_by_kind;
 uniform uint atom_count;
+uniform uint some_hidden;
 
 vec4 row(uint index) { return uintBitsToFloat(texelFetch(row_texels, int(index))); }
 
@@ -62,6 +63,7 @@ vec3 ray_direction(vec3 p) { return orthographic != 0u ? forward : normalize(for
 // Parameter of the camera's position (orthographic: of the plane through it).
 float eye_parameter(vec3 d) { return orthographic != 0u ? -eye_distance : -eye_distance / dot(d, forward); }
 
+#include "gpu_shaders/ray_cast/touched_atom.glsl"
 #include "gpu_shaders/ray_cast/intersect.glsl"
 #include "gpu_shaders/ray_cast/shade.glsl"
 
@@ -106,7 +108,7 @@ void write_pixel(ivec2 pixel, vec3 p, float t, uint index) {
     hit = Hit(point.normal, t, index, point.atom, 0u, 0u);
     vec3 n = vec3(dot(point.normal, right), dot(point.normal, up), -dot(point.normal, forward));
     vec3 to_camera = -vec3(dot(d, right), dot(d, up), -dot(d, forward));
-    if (dot(n, to_camera) < 0.0) n = -n;  // seen from inside the solid
+    if (dot(n, to_camera) < 0.0) n = -n;  // seen from inside the solid, or through what is hidden
     vec3 albedo = atom_color[color_by_kind != 0u ? atom_count + primitive.kind : point.atom].rgb;
     color = vec4(studio_light(albedo, n, to_camera), 1.0);
   }

@@ -15,16 +15,7 @@ SurfacePoint surface_point(Primitive primitive, vec3 p) {
     point.normal = x / place.w;
   } else if (primitive.kind == kConcave) {
     point.normal = -x / place.w;
-    uint first_contact = primitive.first_row + 1u + primitive.plane_count;
-    float best = -2.0 * place.w;
-    for (uint i = 0u; i < primitive.atom; ++i) {
-      vec4 contact = row(first_contact + i);
-      float nearness = dot(contact.xyz, x);
-      if (nearness > best) {
-        best = nearness;
-        point.atom = floatBitsToUint(contact.w);
-      }
-    }
+    point.atom = concave_atom(primitive, x, place.w);
   } else {
     vec3 x_axis = row(primitive.first_row + 1u).xyz;
     vec3 z_axis = row(primitive.first_row + 2u).xyz;
@@ -32,8 +23,7 @@ SurfacePoint surface_point(Primitive primitive, vec3 p) {
     vec3 local = vec3(dot(x, x_axis), dot(x, y_axis), dot(x, z_axis));
     vec3 normal = torus_normal(local, place.w, probe_radius);
     point.normal = x_axis * normal.x + y_axis * normal.y + z_axis * normal.z;
-    vec4 atoms = row(primitive.first_row + 4u);
-    if (toroidal_second_atom(local, place.w, atoms.x, atoms.y, atoms.z, atoms.w)) point.atom = primitive.second_atom;
+    point.atom = toroidal_atom(primitive, local, place.w);
   }
   point.normal = normalize(point.normal);
   return point;

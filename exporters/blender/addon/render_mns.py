@@ -2,7 +2,7 @@
 """Renders one .mns file in Blender without a window, with true exit codes.
 
   blender -b --factory-startup --python-exit-code 3 --python render_mns.py -- FILE.mns --output picture.png
-  ... -- FILE.mns --passes passes.exr       depth and normals through pixel centres, 32-bit, no anti-aliasing
+  ... -- FILE.mns --passes passes.exr       depth, normals and unlit colours through pixel centres, 32-bit, no anti-aliasing
 
 Prints one JSON line. Exit codes: 0 done, 2 wrong usage, 3 bad input or failed import, 6 output not written.
 """
@@ -45,7 +45,7 @@ def parse(arguments):
     parser = Parser(prog="render_mns", description="Render a .mns file with Cycles.")
     parser.add_argument("file")
     parser.add_argument("--output", help="picture, PNG")
-    parser.add_argument("--passes", help="depth and normals, multi-layer EXR; one unit is one Å")
+    parser.add_argument("--passes", help="depth, normals and colours, multi-layer EXR; one unit is one Å")
     parser.add_argument("--size", help="WIDTHxHEIGHT in pixels; default: that of the file")
     parser.add_argument("--samples", type=int, default=32)
     parser.add_argument("--style", choices=("studio", "film"), default="studio",
@@ -88,9 +88,9 @@ def add_lights(scene, camera, style):
     scene.world = world
 
 
-def make_matt(mesh):
+def make_matt(surfaces):
     """Nothing but diffuse colour, as in the studio style of the other renderers."""
-    for material in mesh.materials:
+    for material in {material for item in surfaces for material in item.data.materials}:
         shader = next(node for node in material.node_tree.nodes if node.type == "BSDF_PRINCIPLED")
         for name in ("Specular", "Specular IOR Level"):
             if name in shader.inputs:
@@ -134,7 +134,7 @@ def render_passes(scene, options):
     scene.cycles.pixel_filter_type = "BOX"
     scene.cycles.filter_width = 0.01  # a ray through each pixel's centre
     layer = scene.view_layers[0]
-    layer.use_pass_z = layer.use_pass_normal = True
+    layer.use_pass_z = layer.use_pass_normal = layer.use_pass_diffuse_color = True
     scene.render.film_transparent = True
     render_to(scene, options.passes, "OPEN_EXR_MULTILAYER", "32")
 
@@ -151,7 +151,7 @@ def run(options):
         scene.render.resolution_x, scene.render.resolution_y = options.size
     add_lights(scene, made.camera, options.style)
     if options.style == "studio":
-        make_matt(made.surface.data)
+        make_matt(made.surfaces)
         scene.cycles.max_bounces = 0
     if options.blend:
         bpy.ops.wm.save_as_mainfile(filepath=os.path.abspath(options.blend), compress=True)
@@ -159,7 +159,7 @@ def run(options):
         render_picture(scene, options)
     if options.passes:
         render_passes(scene, options)
-    print(json.dumps({"file": options.file, "triangles": len(made.surface.data.polygons),
+    print(json.dumps({"file": options.file, "triangles": sum(len(item.data.polygons) for item in made.surfaces),
                       "load_s": round(loaded - started, 3), "total_s": round(time.time() - started, 3)}), flush=True)
 
 

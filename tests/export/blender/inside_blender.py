@@ -9,6 +9,7 @@ from unittest import mock
 
 import addon_utils
 import bpy
+import mathutils
 import numpy as np
 
 FOLDER, ADDON, HERE, BLENDER = sys.argv[sys.argv.index("--") + 1:]
@@ -53,7 +54,7 @@ class Import(unittest.TestCase):
 
     def test_geometry_is_that_of_the_header(self):
         for name in samples.MOLECULES:
-            surface = mns_reader.read(path_of(name))
+            surface = mns_reader.read(path_of(name)).objects[0]
             mesh = imported(name, scale=1.0).data
             self.assertEqual(len(mesh.polygons), surface.header["mesh"]["triangles"])
             self.assertEqual(len(mesh.vertices), surface.header["mesh"]["vertices"])
@@ -70,7 +71,7 @@ class Import(unittest.TestCase):
         self.assertEqual(tuple(small.scale), (1.0, 1.0, 1.0))
 
     def test_coordinates_are_those_of_the_atoms_unmirrored(self):
-        surface = mns_reader.read(path_of("triple"))
+        surface = mns_reader.read(path_of("triple")).objects[0]
         mesh = imported("triple", scale=1.0).data
         kind, atom = surface["mesh.kind"], surface["mesh.atom"]
         for polygon in list(mesh.polygons)[::37]:
@@ -81,7 +82,7 @@ class Import(unittest.TestCase):
                 self.assertGreater(np.dot(offset, polygon.normal), 0.0)
 
     def test_attributes(self):
-        surface = mns_reader.read(path_of("cage"))
+        surface = mns_reader.read(path_of("cage")).objects[0]
         mesh = imported("cage").data
         found = {a.name: (a.data_type, a.domain) for a in mesh.attributes}
         for name in ("ses_kind", "ses_patch", "ses_component", "atom_index", "atomic_number", "res_id", "chain_id"):
@@ -108,7 +109,7 @@ class Import(unittest.TestCase):
 
     def test_normals_are_exact_where_smooth_and_at_cusps(self):
         for name in ("triple", "drops", "cage"):
-            surface = mns_reader.read(path_of(name))
+            surface = mns_reader.read(path_of(name)).objects[0]
             mesh = imported(name).data
             wanted = surface["mesh.normal"][surface["mesh.triangle"].ravel()].copy()
             wanted[surface["mesh.sharp_corner"]] = surface["mesh.sharp_corner_normal"]
@@ -149,6 +150,34 @@ class Import(unittest.TestCase):
         self.assertEqual(len([m for m in bpy.data.materials if m.name.startswith("Meniscus outer")]), 1)
         self.assertEqual(tuple(bpy.data.materials["Meniscus outer"].diffuse_color), (1, 0, 0, 1))
         self.assertEqual(len([c for c in bpy.data.collections if c.name.startswith("pair")]), 2)
+
+    def test_copies_share_their_mesh_and_stand_where_they_should(self):
+        with open(path_of("triple"), "rb") as file:
+            data = file.read()
+        with open(path_of("two"), "wb") as file:
+            file.write(samples.as_two_objects(data))
+        made = build.import_file(path_of("two"), scale=0.5)
+        self.assertEqual([item.name for item in made.surfaces], ["two.A", "two.A.001", "two.B"])
+        self.assertEqual(made.surfaces[0].data, made.surfaces[1].data)
+        self.assertNotEqual(made.surfaces[0].data, made.surfaces[2].data)
+        local = positions(made.surfaces[0].data)
+        placed = np.array([made.surfaces[1].matrix_world @ v.co for v in made.surfaces[1].data.vertices])
+        wanted = np.stack([-local[:, 1] + 5.0, local[:, 0] + 10.0, local[:, 2] + 15.0], axis=1)
+        np.testing.assert_allclose(placed, wanted, atol=1e-5)
+        self.assertEqual(made.surfaces[0].matrix_world, mathutils.Matrix.Identity(4))
+
+    def test_version_1_files_still_import(self):
+        with open(path_of("cage"), "rb") as file:
+            data = file.read()
+        with open(path_of("old"), "wb") as file:
+            file.write(samples.as_version_1(data))
+        old, new = imported("old").data, imported("cage").data
+        np.testing.assert_array_equal(positions(old), positions(new))
+        for name in ("atom_index", "ses_kind"):
+            values = [np.empty(len(mesh.polygons), dtype=np.int32) for mesh in (old, new)]
+            for mesh, found in zip((old, new), values):
+                mesh.attributes[name].data.foreach_get("value", found)
+            np.testing.assert_array_equal(*values)
 
     def test_register_twice(self):
         for _ in range(2):

@@ -27,7 +27,7 @@ class Reader(unittest.TestCase):
 
     def test_meshes_are_closed_outward_and_measure_what_the_header_says(self):
         for path in self.files.values():
-            surface = mns_reader.read(path)
+            surface = mns_reader.read(path).objects[0]
             mesh = surface.header["mesh"]
             self.assertTrue(mns_reader.is_closed(surface["mesh.triangle"]))
             volume = mns_reader.signed_volume(surface["mesh.position"], surface["mesh.triangle"])
@@ -41,7 +41,7 @@ class Reader(unittest.TestCase):
                 self.assertEqual(euler, part["euler"])
 
     def test_the_components_are_those_of_the_molecules(self):
-        kinds = {name: [part["kind"] for part in mns_reader.read(path).header["components"]]
+        kinds = {name: [part["kind"] for part in mns_reader.read(path).objects[0].header["components"]]
                  for name, path in self.files.items()}
         self.assertEqual(kinds["pair"], ["outer"])
         self.assertEqual(kinds["drops"], ["outer", "outer"])
@@ -51,12 +51,12 @@ class Reader(unittest.TestCase):
         for path in self.files.values():
             with open(path, "rb") as file:
                 data = file.read()
-            surface = mns_reader.read(path)
+            surface = mns_reader.read(path).objects[0]
             for name in surface.arrays:
                 self.assertEqual(samples.array_place(data, name)[0] % 64, 0, name)
 
     def test_vertices_lie_on_the_analytic_patches(self):
-        surface = mns_reader.read(self.files["triple"])
+        surface = mns_reader.read(self.files["triple"]).objects[0]
         origin = np.array(surface.header["mesh"]["origin"])
         probe = surface.header["probe_radius"]
         position = surface["mesh.position"].astype(float) + origin
@@ -87,12 +87,43 @@ class Reader(unittest.TestCase):
             with open(path, "wb") as file:
                 file.write(data)
             if name == "not_closed":  # the reader takes it; the import refuses it
-                self.assertFalse(mns_reader.is_closed(mns_reader.read(path)["mesh.triangle"]))
+                self.assertFalse(mns_reader.is_closed(mns_reader.read(path).objects[0]["mesh.triangle"]))
                 continue
             with self.assertRaises(mns_reader.MnsError, msg=name) as caught:
                 mns_reader.read(path)
             self.assertIn(word, str(caught.exception), name)
             self.assertIn("bad.mns", str(caught.exception), name)
+
+    def test_version_1_is_one_object(self):
+        with open(self.files["triple"], "rb") as file:
+            data = file.read()
+        path = os.path.join(self.folder.name, "old.mns")
+        with open(path, "wb") as file:
+            file.write(samples.as_version_1(data))
+        old, new = mns_reader.read(path), mns_reader.read(self.files["triple"])
+        self.assertEqual((len(old.objects), len(new.objects)), (1, 1))
+        np.testing.assert_array_equal(old.objects[0].copies, [np.eye(4)[:3]])
+        self.assertEqual(set(old.objects[0].arrays), set(new.objects[0].arrays) - {"atom.index"})
+        for name, array in old.objects[0].arrays.items():
+            np.testing.assert_array_equal(array, new.objects[0][name])
+        self.assertEqual(old.objects[0].header["mesh"]["volume"], new.objects[0].header["mesh"]["volume"])
+
+    def test_objects_and_copies(self):
+        with open(self.files["triple"], "rb") as file:
+            data = file.read()
+        path = os.path.join(self.folder.name, "two.mns")
+        with open(path, "wb") as file:
+            file.write(samples.as_two_objects(data))
+        objects = mns_reader.read(path).objects
+        self.assertEqual([surface.name for surface in objects], ["A", "B"])
+        self.assertEqual([len(surface.copies) for surface in objects], [2, 1])
+        np.testing.assert_array_equal(objects[0].copies[1], np.reshape(samples.QUARTER_TURN, (3, 4)))
+        for name, bad in samples.bad_copies(data).items():
+            with open(path, "wb") as file:
+                file.write(bad)
+            with self.assertRaises(mns_reader.MnsError, msg=name) as caught:
+                mns_reader.read(path)
+            self.assertIn("cop", str(caught.exception), name)
 
     def test_an_existing_file_is_kept_unless_forced(self):
         import subprocess
@@ -120,7 +151,7 @@ class Reader(unittest.TestCase):
         self.assertEqual(len(body), vertices.nbytes + rows.nbytes)
         self.assertTrue((rows["n"] == 3).all())
         self.assertTrue(mns_reader.is_closed(rows["v"]))
-        surface = mns_reader.read(self.files["triple"])
+        surface = mns_reader.read(self.files["triple"]).objects[0]
         self.assertEqual(counts, [len(surface["mesh.position"]), len(surface["mesh.triangle"])])
         xyz = np.stack([vertices[k] for k in "xyz"], axis=1)
         self.assertAlmostEqual(mns_reader.signed_volume(xyz, rows["v"]), surface.header["mesh"]["volume"], places=2)

@@ -47,10 +47,63 @@ def with_right_checksum(data):
     return bytes(data)
 
 
+def header_of(data):
+    """The header and its length in bytes."""
+    size = struct.unpack_from("<Q", data, 16)[0]
+    return json.loads(bytes(data[64:64 + size])), size
+
+
+def with_header(data, header, version=2):
+    """The file with another header. Offsets of arrays count from the header's end, so they stay right."""
+    _, size = header_of(data)
+    text = json.dumps(header).encode("ascii")
+    text = text.ljust((len(text) + 64) // 64 * 64 - 1) + b"\n"
+    prologue = bytearray(data[:64])
+    struct.pack_into("<I", prologue, 8, version)
+    struct.pack_into("<Q", prologue, 16, len(text))
+    return with_right_checksum(bytes(prologue) + text + data[64 + size:])
+
+
+def as_version_1(data):
+    """As the first release wrote it: one object, whose keys and arrays are the file's own."""
+    header, _ = header_of(data)
+    first = header.pop("objects")[0]
+    for key in ("name", "prefix", "copies"):
+        del first[key]
+    del first["mesh"]["closed"]
+    for array in header["arrays"]:
+        array["name"] = array["name"][2:]
+    header["arrays"] = [array for array in header["arrays"] if array["name"] != "atom.index"]
+    return with_header(data, {**header, **first}, 1)
+
+
+#: A quarter turn about z and a shift in Å.
+QUARTER_TURN = [0, -1, 0, 10, 1, 0, 0, 20, 0, 0, 1, 30]
+
+
+def as_two_objects(data):
+    """The molecule as "A" in two places, the second by QUARTER_TURN, and once more as "B"."""
+    header, _ = header_of(data)
+    first = header["objects"][0]
+    identity = first["copies"][0]
+    header["objects"] = [{**first, "name": "A", "copies": [identity, QUARTER_TURN]}, {**first, "name": "B"}]
+    return with_header(data, header)
+
+
+def bad_copies(data):
+    """name -> bytes whose copies no one should show."""
+    result = {}
+    for name, copies in (("none", []), ("short", [[1, 2, 3]]), ("mirror", [[-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0]]),
+                         ("scaled", [[2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0]]), ("text", [["a"] * 12])):
+        header, _ = header_of(data)
+        header["objects"][0]["copies"] = copies
+        result[name] = with_header(data, header)
+    return result
+
+
 def array_place(data, name):
-    header_size = struct.unpack_from("<Q", data, 16)[0]
-    header = json.loads(bytes(data[64:64 + header_size]))
-    entry = next(e for e in header["arrays"] if e["name"] == name)
+    header, header_size = header_of(data)
+    entry = next(e for e in header["arrays"] if e["name"] in (name, "0/" + name))
     return 64 + header_size + entry["offset"], entry
 
 

@@ -14,8 +14,10 @@ namespace meniscus::testing {
 
 ExportedScene::ExportedScene(const NamedBalls& molecule, int color_count)
     : molecule_(molecule),
-      coloring_(turning_colors(molecule.balls.size(), color_count)),
-      surface_(compute_surface_cpu(molecule.balls, molecule.probe_radius)),
+      object_{"surface",
+              compute_surface_cpu(molecule.balls, molecule.probe_radius),
+              turning_colors(molecule.balls.size(), color_count),
+              {}},
       tracer_(molecule.balls, molecule.probe_radius) {
   for (std::size_t a = 0; a < molecule.balls.size(); ++a) colors_.push_back(static_cast<int>(a) % color_count);
 }
@@ -25,7 +27,7 @@ povray::SceneReport ExportedScene::write(const Camera& camera, int width, int he
   povray::SceneOptions options;
   options.width = width;
   options.height = height;
-  return write_scene(surface_, coloring_, camera, options, folder);
+  return write_scene({&object_, 1}, camera, options, folder);
 }
 
 BufferDifference ExportedScene::difference(const Camera& camera, int width, int height,

@@ -22,7 +22,7 @@ class ExportedScene {
   /// The surface for the molecule's own probe. Atoms get `color_count` colours in turn.
   explicit ExportedScene(const NamedBalls& molecule, int color_count = 3);
 
-  const Surface& surface() const { return surface_; }
+  const Surface& surface() const { return object_.surface; }
 
   /// Writes the scene, renders its buffers and compares every pixel with the oracle. Expects a clean parse: no warning,
   /// no infinite object, as many objects as the exporter says. Prints the difference.
@@ -32,9 +32,8 @@ class ExportedScene {
 
  private:
   NamedBalls molecule_;
-  Coloring coloring_;
   std::vector<int> colors_;
-  Surface surface_;
+  SurfaceObject object_;
   SphereTracer tracer_;
 };
 

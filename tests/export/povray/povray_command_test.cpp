@@ -62,7 +62,7 @@ TEST(PovrayCommand, KeepsWhatExistsAndRefusesNonsense) {
   };
   const test::ProgramResult first = run({});
   ASSERT_EQ(first.exit_code, 0) << first.err;
-  EXPECT_NE(first.err.find("5 files"), std::string::npos) << first.err;
+  EXPECT_NE(first.err.find("6 files"), std::string::npos) << first.err;
   write_text(scene / "surface.pov", "mine");
   EXPECT_EQ(run({}).exit_code, 6);
   EXPECT_EQ(run({"--force", "--size", "0x10"}).exit_code, 2);

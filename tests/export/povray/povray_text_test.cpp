@@ -133,13 +133,27 @@ TEST(PatchExtent, ConcavePatchesFitTheirSamples) {
 TEST(Palette, PatchesSplitOnlyBetweenColours) {
   const Surface s = compute_surface_cpu(testing::three_atoms().balls, kWater);
   const std::size_t patches = s.convex.size() + s.toroidal.size() + s.concave.size();
-  EXPECT_EQ(make_palette(s, testing::turning_colors(3, 1)).pieces.size(), patches);
-  EXPECT_EQ(make_palette(s, testing::turning_colors(3, 3)).pieces.size(), 3u + 2u * 3u + 3u * 2u);
+  const auto pieces = [&](const Coloring& coloring) {
+    ColorTable table;
+    return make_palette(s, coloring, table).pieces;
+  };
+  EXPECT_EQ(pieces(testing::turning_colors(3, 1)).size(), patches);
+  EXPECT_EQ(pieces(testing::turning_colors(3, 3)).size(), 3u + 2u * 3u + 3u * 2u);
   Coloring by_kind = testing::turning_colors(3, 3);
   by_kind.kind = {{{1, 0, 0}, {0, 1, 0}, {1, 0, 0}}};
-  const Palette palette = make_palette(s, by_kind);
-  EXPECT_EQ(palette.pieces.size(), patches);
-  EXPECT_EQ(palette.colors.size(), 2u);
+  ColorTable table;
+  EXPECT_EQ(make_palette(s, by_kind, table).pieces.size(), patches);
+  EXPECT_EQ(table.colors().size(), 2u);
+
+  // Of three atoms in a ring one is hidden: its convex patch goes; of the others no patch goes as a whole.
+  for (Coloring coloring : {testing::turning_colors(3, 1), testing::turning_colors(3, 3), by_kind}) {
+    const std::size_t all = pieces(coloring).size();
+    const bool one_color = coloring.atom[0] == coloring.atom[1] || coloring.kind;
+    coloring.hidden = {false, true, false};
+    EXPECT_EQ(pieces(coloring).size(), one_color ? all - 1 : 2u + 2u + 2u + 2u * 2u);
+    coloring.hidden = {true, true, true};
+    EXPECT_TRUE(pieces(coloring).empty());
+  }
 }
 
 TEST(WriteScene, RefusesWhatItCannotWriteAndLeavesNothing) {
@@ -147,7 +161,8 @@ TEST(WriteScene, RefusesWhatItCannotWriteAndLeavesNothing) {
   const Camera camera = frame_camera(s, 1.0);
   const test::TemporaryFolder scratch;
   const auto write = [&](const SceneOptions& options, const Surface& surface) {
-    return write_scene(surface, testing::turning_colors(1, 1), camera, options, scratch.path() / "scene");
+    const SurfaceObject object{"one", surface, testing::turning_colors(1, 1), {0}};
+    return write_scene({&object, 1}, camera, options, scratch.path() / "scene");
   };
   for (const std::string name : {"", "a b", "x\"", "../up", "a;b", "ä"}) {
     SceneOptions options;
@@ -162,7 +177,7 @@ TEST(WriteScene, RefusesWhatItCannotWriteAndLeavesNothing) {
   EXPECT_THROW(write({}, broken), Error);
   EXPECT_FALSE(std::filesystem::exists(scratch.path() / "scene"));
 
-  EXPECT_EQ(write({}, s).files.size(), 5u);
+  EXPECT_EQ(write({}, s).files.size(), 6u);
   EXPECT_THROW(write({}, s), OutputError);
   SceneOptions replace;
   replace.existing = Existing::replace;

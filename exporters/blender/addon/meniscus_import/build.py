@@ -13,57 +13,70 @@ from . import compat, mns_reader
 #: Slots by role; triangles of cavities take the second.
 MATERIALS = ("Meniscus outer", "Meniscus cavity")
 FACE_INTEGERS = {  # attribute -> array; on faces, where they stay whole numbers
-    "ses_kind": "mesh.kind", "ses_patch": "mesh.patch", "ses_component": "mesh.component", "atom_index": "mesh.atom",
+    "ses_kind": "mesh.kind", "ses_patch": "mesh.patch", "ses_component": "mesh.component",
 }
-ATOM_INTEGERS = {"atomic_number": "atom.atomic_number", "res_id": "atom.res_id", "chain_id": "atom.chain_id"}
+ATOM_INTEGERS = {
+    "atom_index": "atom.index", "atomic_number": "atom.atomic_number", "res_id": "atom.res_id", "chain_id": "atom.chain_id",
+}
 ATOM_FLOATS = {"b_factor": "atom.b_factor", "vdw_radii": "atom.radius"}
 
 
 class Import:
-    """What one import made: the collection, the surface's object, the camera's object or None."""
+    """What one import made: the collection, an object for every copy of every surface, the camera's object or None."""
 
     def __init__(self):
         self.collection = None
-        self.surface = None
+        self.surfaces = []
         self.camera = None
 
 
 def import_file(path, context=None, scale=0.1, crisp_colors=True, import_camera=True, set_size=True):
     """Reads a .mns file into a new collection. Raises mns_reader.MnsError or OSError and then leaves nothing behind."""
     context = context or bpy.context
-    surface = mns_reader.read(path)
+    file = mns_reader.read(path)
     if not (math.isfinite(scale) and scale > 0.0):
         raise mns_reader.MnsError(f"scale {scale} is not a positive number")
     stem = os.path.splitext(os.path.basename(path))[0]
     made = Import()
-    mesh = camera = None
-    new_materials = []
+    camera = None
+    meshes, new_materials = [], []
     try:
-        mesh = build_mesh(surface, stem + ".surface", scale, crisp_colors, new_materials)
-        made.surface = bpy.data.objects.new(stem + ".surface", mesh)
-        set_provenance(made.surface, surface, scale)
         made.collection = bpy.data.collections.new(stem)
-        made.collection.objects.link(made.surface)
-        if import_camera and "camera" in surface.header:
+        for surface in file.objects:
+            name = f"{stem}.{surface.name if len(file.objects) > 1 else 'surface'}"
+            meshes.append(build_mesh(surface, name, scale, crisp_colors, new_materials))
+            for copy in surface.copies:  # linked: all copies share one mesh
+                made.surfaces.append(bpy.data.objects.new(name, meshes[-1]))
+                made.surfaces[-1].matrix_world = placement(copy, scale)
+                set_provenance(made.surfaces[-1], surface, scale)
+                made.collection.objects.link(made.surfaces[-1])
+        if import_camera and "camera" in file.header:
             camera = bpy.data.cameras.new(stem + ".camera")
-            made.camera = build_camera(surface, camera, scale)
+            made.camera = build_camera(file, camera, scale)
             made.collection.objects.link(made.camera)
         context.scene.collection.children.link(made.collection)
     except BaseException:
-        for item, store in ((made.surface, bpy.data.objects), (made.camera, bpy.data.objects),
-                            (made.collection, bpy.data.collections), (mesh, bpy.data.meshes),
-                            (camera, bpy.data.cameras)):
-            if item is not None:
-                store.remove(item)
-        for material in new_materials:
-            bpy.data.materials.remove(material)
+        for store, items in ((bpy.data.objects, [*made.surfaces, made.camera]), (bpy.data.collections, [made.collection]),
+                             (bpy.data.meshes, meshes), (bpy.data.cameras, [camera]),
+                             (bpy.data.materials, new_materials)):
+            for item in items:
+                if item is not None:
+                    store.remove(item)
         raise
     if made.camera is not None:
         context.scene.camera = made.camera
         if set_size:
-            use_picture_size(context.scene, surface)
-    show_all_in_viewports(context, made.surface)
+            use_picture_size(context.scene, file)
+    for item in made.surfaces:
+        show_all_in_viewports(context, item)
     return made
+
+
+def placement(copy, scale):
+    """The object's matrix: mesh coordinates are already scaled, so only the translation is."""
+    matrix = mathutils.Matrix([[float(value) for value in row] for row in copy] + [[0.0, 0.0, 0.0, 1.0]])
+    matrix.translation *= scale
+    return matrix
 
 
 def positions_of(surface, scale):
@@ -75,7 +88,7 @@ def positions_of(surface, scale):
 def build_mesh(surface, name, scale, crisp_colors, new_materials):
     positions = positions_of(surface, scale)
     triangles = surface["mesh.triangle"]
-    if not mns_reader.is_closed(triangles):
+    if surface.header["mesh"].get("closed", True) and not mns_reader.is_closed(triangles):
         raise mns_reader.MnsError(f"{surface.path}: the mesh is not closed")
     mesh = bpy.data.meshes.new(name)
     try:
@@ -105,6 +118,8 @@ def add_attributes(mesh, surface, crisp_colors):
     triangles = surface["mesh.triangle"]
     for name, array in FACE_INTEGERS.items():  # INT, not INT8: Cycles 3.4 reads INT8 as 0
         add_attribute(mesh, name, "INT", "FACE", surface[array].astype(np.int32))
+    if surface.get("atom.index") is None:  # version 1: one object, whose atoms are those of the molecule in order
+        add_attribute(mesh, "atom_index", "INT", "FACE", atom.astype(np.int32))
     for name, array in ATOM_INTEGERS.items():
         if surface.get(array) is not None:
             add_attribute(mesh, name, "INT", "FACE", surface[array][atom].astype(np.int32))
@@ -198,8 +213,8 @@ def set_provenance(item, surface, scale):
     item["meniscus_volume"] = float(header.get("volume", 0.0))
 
 
-def build_camera(surface, camera, scale):
-    shot = surface.header["camera"]
+def build_camera(file, camera, scale):
+    shot = file.header["camera"]
     position, target, up = (mathutils.Vector(shot[key]) for key in ("position", "target", "up"))
     forward = (target - position).normalized()
     right = forward.cross(up).normalized()
@@ -215,17 +230,15 @@ def build_camera(surface, camera, scale):
         camera.type = "PERSP"
         camera.lens_unit = "FOV"
         camera.angle_y = math.radians(shot["vertical_fov"])
-    reach = 0.0
-    centers = surface["atom.center"]
-    if len(centers):
-        reach = float(np.linalg.norm(centers - np.array(position), axis=1).max()) * scale
+    reach = max(float(np.linalg.norm(surface["atom.center"] @ copy[:, :3].T + copy[:, 3] - np.array(position), axis=1).max())
+                for surface in file.objects for copy in surface.copies) * scale
     camera.clip_start = max(1e-4 * reach, 1e-6)
     camera.clip_end = max(camera.clip_end, 4.0 * reach)
     return item
 
 
-def use_picture_size(scene, surface):
-    size = surface.header["camera"].get("size")
+def use_picture_size(scene, file):
+    size = file.header["camera"].get("size")
     if size:
         scene.render.resolution_x, scene.render.resolution_y = int(size[0]), int(size[1])
         scene.render.resolution_percentage = 100
@@ -234,7 +247,8 @@ def use_picture_size(scene, surface):
 
 def show_all_in_viewports(context, item):
     """Raises clip_end of 3-D views only if the body would be cut off."""
-    reach = 4.0 * max((mathutils.Vector(corner).length for corner in item.bound_box), default=0.0)
+    corners = (item.matrix_world @ mathutils.Vector(corner) for corner in item.bound_box)
+    reach = 4.0 * max((corner.length for corner in corners), default=0.0)
     for window in getattr(context.window_manager, "windows", ()):
         for area in window.screen.areas:
             for space in area.spaces:

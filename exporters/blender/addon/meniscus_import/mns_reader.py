@@ -9,7 +9,7 @@ import zlib
 import numpy as np
 
 MAGIC = b"\x89MNS\r\n\x1a\n"
-VERSION = 1
+VERSION = 2
 PROLOGUE = 64
 TYPES = ("<f4", "<f8", "<u4", "<i4", "|u1")
 #: Arrays a mesh cannot do without, and their columns.
@@ -24,13 +24,28 @@ class MnsError(Exception):
     """The file is not a whole, sound .mns file of a version this reader knows."""
 
 
+#: Where a surface stands that is not moved: three rows of four numbers.
+IDENTITY = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0]
+
+
+class File:
+    """header: dict. objects: the surfaces, at least one."""
+
+    def __init__(self, header, objects):
+        self.header = header
+        self.objects = objects
+
+
 class Surface:
-    """header: dict. arrays: name -> numpy array, (rows,) or (rows, columns), read-only."""
+    """One object. header: dict, the file's and the object's own keys. arrays: name without prefix -> numpy array, (rows,)
+    or (rows, columns), read-only. copies: 3x4 matrices [rotation | translation in Å]."""
 
     def __init__(self, path, header, arrays):
         self.path = path
         self.header = header
         self.arrays = arrays
+        self.name = str(header.get("name", ""))
+        self.copies = [np.array(copy, dtype=np.float64).reshape(3, 4) for copy in header.get("copies", [IDENTITY])]
 
     def __getitem__(self, name):
         return self.arrays[name]
@@ -44,7 +59,7 @@ class Surface:
 
 
 def read(path):
-    """The surface of a file. Raises MnsError with one sentence, or OSError."""
+    """The objects of a file. Raises MnsError with one sentence, or OSError."""
     with open(path, "rb") as file:
         try:
             data = mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ)
@@ -60,9 +75,35 @@ def read(path):
         if name in arrays:
             raise MnsError(f"{path}: array {name} comes twice")
         arrays[name] = array
-    surface = Surface(path, header, arrays)
-    _check(surface)
-    return surface
+    return File(header, _objects(path, header, arrays))
+
+
+def _objects(path, header, arrays):
+    entries = header.get("objects", [header])  # before version 2 a file was one object
+    if not isinstance(entries, list) or not entries or not all(isinstance(entry, dict) for entry in entries):
+        raise MnsError(f"{path}: the header lists no objects")
+    surfaces = []
+    for entry in entries:
+        prefix = str(entry.get("prefix", ""))
+        own = {name[len(prefix):]: array for name, array in arrays.items() if name.startswith(prefix)}
+        _check_copies(path, entry)
+        surfaces.append(Surface(path, {**header, **entry}, own))
+        _check(surfaces[-1])
+    return surfaces
+
+
+def _check_copies(path, entry):
+    """Rotations only: Blender would show a mirrored or sheared molecule without a word."""
+    copies = entry.get("copies", [IDENTITY])
+    try:
+        matrices = np.array(copies, dtype=np.float64).reshape(-1, 3, 4)
+    except (TypeError, ValueError):
+        raise MnsError(f"{path}: copies are not lists of twelve numbers") from None
+    turns = matrices[:, :, :3]
+    if not len(matrices) or not np.isfinite(matrices).all():
+        raise MnsError(f"{path}: copies are missing or not finite")
+    if not np.allclose(turns @ turns.transpose(0, 2, 1), np.eye(3), atol=1e-6) or (np.linalg.det(turns) < 0).any():
+        raise MnsError(f"{path}: a copy is not a rotation and a translation")
 
 
 def _read_header(path, data):
@@ -136,7 +177,7 @@ def _check(surface):
     lengths = {
         "mesh.normal": vertices, "mesh.kind": triangles, "mesh.patch": triangles, "mesh.component": triangles,
         "mesh.atom": triangles, "atom.radius": atoms, "atom.color": atoms, "atom.b_factor": atoms,
-        "atom.atomic_number": atoms, "atom.res_id": atoms, "atom.chain_id": atoms,
+        "atom.atomic_number": atoms, "atom.index": atoms, "atom.res_id": atoms, "atom.chain_id": atoms,
         "mesh.sharp_corner_normal": len(arrays["mesh.sharp_corner"]),
     }
     for name, rows in lengths.items():

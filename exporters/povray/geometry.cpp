@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Writes unions of pieces, and places them.
+#include "exporters/povray/geometry.h"
+
+#include <nlohmann/json.hpp>
+
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "exporters/povray/patch_objects.h"
+
+namespace meniscus::povray {
+namespace {
+
+constexpr std::size_t kFlushBytes = std::size_t{1} << 20;
+
+bool is_identity(const RigidMotion& motion) {
+  return motion.rotation == glm::dmat3(1.0) && motion.translation == glm::dvec3(0.0);
+}
+
+std::size_t group_end(const std::vector<ColoredPiece>& pieces, std::size_t begin) {
+  std::size_t end = begin;
+  while (end < pieces.size() && pieces[end].kind == pieces[begin].kind && pieces[end].color == pieces[begin].color)
+    ++end;
+  return end;
+}
+
+std::size_t group_count(const Palette& palette) {
+  std::size_t count = 0;
+  for (std::size_t begin = 0; begin < palette.pieces.size(); begin = group_end(palette.pieces, begin)) ++count;
+  return count;
+}
+
+void flush(OutputFile& file, SceneText& out, std::size_t limit) {
+  if (out.text().size() < limit) return;
+  file.write(out.text());
+  out.clear();
+}
+
+/// The outside of a convex patch's sphere is the solvent; that of a torus or a probe is the solid.
+void append_textures(SceneText& out, const ColoredPiece& piece) {
+  const bool convex = piece.kind == PatchKind::convex;
+  const auto side = [&](std::string_view property, std::string_view name) {
+    out.literal(property).literal("{Meniscus_").literal(name).literal("_Side[");
+    out.count(static_cast<std::size_t>(piece.kind)).literal("][").count(piece.color).literal("]}");
+  };
+  out.literal("#if (Meniscus_Own_Textures) ");
+  side("texture", convex ? "Solvent" : "Solid");
+  side(" interior_texture", convex ? "Solid" : "Solvent");
+  out.literal(" #end\n}\n");
+}
+
+}  // namespace
+
+Geometry::Geometry(std::span<const SurfaceObject> objects, const glm::dvec3& origin)
+    : objects_(objects), origin_(origin) {
+  for (const SurfaceObject& object : objects)
+    palettes_.push_back(make_palette(object.surface, object.coloring, table_));
+  if (primitive_count() == 0) throw Error("POV-Ray export: nothing of the surface is shown");
+}
+
+std::size_t Geometry::primitive_count() const {
+  std::size_t count = 0;
+  for (const Palette& palette : palettes_) count += palette.pieces.size();
+  return count;
+}
+
+std::size_t Geometry::primitives_in_memory() const {
+  if (!declares()) return primitive_count();
+  std::size_t count = 0;
+  for (std::size_t n = 0; n < objects_.size(); ++n)
+    count += palettes_[n].pieces.size() * (1 + objects_[n].copies.size());
+  return count;
+}
+
+bool Geometry::declares() const {
+  return objects_.size() > 1 || objects_[0].copies.size() != 1 || !is_identity(objects_[0].copies[0]);
+}
+
+bool Geometry::is_one_item() const {
+  if (!declares()) return group_count(palettes_[0]) == 1;
+  std::size_t copies = 0;
+  for (std::size_t n = 0; n < objects_.size(); ++n)
+    copies += palettes_[n].pieces.empty() ? 0 : objects_[n].copies.size();
+  return copies == 1;
+}
+
+void Geometry::write_pieces(OutputFile& file, SceneText& out, std::size_t object) const {
+  const std::vector<ColoredPiece>& pieces = palettes_[object].pieces;
+  const PatchObjects primitives(objects_[object].surface, palettes_[object], origin_);
+  for (std::size_t begin = 0; begin < pieces.size();) {
+    const std::size_t end = group_end(pieces, begin);
+    out.literal(end - begin > 1 ? "union{\n" : "object{\n");
+    for (std::size_t n = begin; n < end; ++n) {
+      primitives.append(out, pieces[n]);
+      flush(file, out, kFlushBytes);
+    }
+    append_textures(out, pieces[begin]);
+    begin = end;
+  }
+}
+
+// POV-Ray multiplies rows: the first three are the images of the axes. Scene coordinates are relative to the origin.
+void Geometry::append_copy(SceneText& out, std::size_t object, const RigidMotion& motion) const {
+  out.literal("object{object_").count(object + 1);
+  if (!is_identity(motion)) {
+    out.literal(" matrix<");
+    const glm::dvec3 shift = motion(origin_) - origin_;
+    for (int row = 0; row < 4; ++row) {
+      const glm::dvec3 values = row < 3 ? motion.rotation[row] : shift;
+      for (int k = 0; k < 3; ++k) out.full(values[k]).literal(row == 3 && k == 2 ? ">" : ",");
+    }
+  }
+  out.literal("}\n");
+}
+
+void Geometry::write(OutputFile& file) const {
+  SceneText out;
+  out.literal("// The patches of molecular surfaces, one primitive each; nothing here but geometry.\n");
+  out.literal("// Position in the molecule's file = position here + ").full_vector(origin_).literal(" (Å).\n");
+  out.literal("// Probe radius ").length(objects_[0].surface.probe_radius).literal(" Å, ");
+  out.count(primitive_count()).literal(" primitives.\n");
+  for (std::size_t n = 0; n < objects_.size(); ++n) {
+    if (palettes_[n].pieces.empty()) continue;
+    const bool several = group_count(palettes_[n]) > 1;
+    if (declares()) out.literal("#declare object_").count(n + 1).literal(several ? " =\nunion{\n" : " =\n");
+    write_pieces(file, out, n);
+    if (declares() && several) out.literal("}\n");
+  }
+  for (std::size_t n = 0; declares() && n < objects_.size(); ++n) {
+    if (palettes_[n].pieces.empty()) continue;
+    for (const RigidMotion& copy : objects_[n].copies) append_copy(out, n, copy);
+  }
+  flush(file, out, 0);
+}
+
+std::string Geometry::names_json(const std::string& colors) const {
+  using Json = nlohmann::ordered_json;
+  Json list = Json::array();
+  for (std::size_t n = 0; n < objects_.size(); ++n) {
+    list.push_back({{"object", "object_" + std::to_string(n + 1)},
+                    {"name", escaped(objects_[n].name)},
+                    {"primitives", palettes_[n].pieces.size()},
+                    {"copies", objects_[n].copies.size()}});
+  }
+  Json result{{"objects", list}};
+  if (!colors.empty()) result["colors"] = Json::parse(colors);
+  return result.dump(1, ' ', true, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace meniscus::povray

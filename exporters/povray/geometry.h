@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The geometry of a scene: each surface as a union of its pieces, and where its copies stand.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "core/base/output_file.h"
+#include "core/surface/surface_object.h"
+#include "exporters/povray/palette.h"
+#include "exporters/povray/scene_text.h"
+
+namespace meniscus::povray {
+
+/// Looks at objects that must outlive it. Pieces of hidden atoms are left out.
+class Geometry {
+ public:
+  /// Throws Error when nothing is shown. origin: Å, of the scene's coordinates.
+  Geometry(std::span<const SurfaceObject> objects, const glm::dvec3& origin);
+
+  const std::vector<glm::vec3>& colors() const { return table_.colors(); }
+  /// Primitives written.
+  std::size_t primitive_count() const;
+  /// Primitives that POV-Ray keeps: its copies of a union share nothing, and a declared union is one more.
+  std::size_t primitives_in_memory() const;
+  /// True when the text of write() is a single item, which a POV-Ray union does not like to hold.
+  bool is_one_item() const;
+
+  /// Pieces or, when anything is copied, moved or divided into objects, `#declare object_N = union {...}` for each
+  /// object that shows something and then `object { object_N matrix <...> }` for each copy.
+  void write(OutputFile& file) const;
+
+  /// {"objects": [{"object": "object_1", "name": ..., "primitives": ..., "copies": ...}], "colors": ...}
+  std::string names_json(const std::string& colors) const;
+
+ private:
+  bool declares() const;
+  void write_pieces(OutputFile& file, SceneText& out, std::size_t object) const;
+  void append_copy(SceneText& out, std::size_t object, const RigidMotion& motion) const;
+
+  std::span<const SurfaceObject> objects_;
+  glm::dvec3 origin_;
+  ColorTable table_;
+  std::vector<Palette> palettes_;  ///< one an object
+};
+
+}  // namespace meniscus::povray
