@@ -118,7 +118,7 @@ void run(const MoleculeOptions& options) {
   print_ranges(structure);
   print_classes_and_chains(structure);
   print_elements(structure);
-  for (const std::string& warning : structure.report.warnings) say(options, "warning: " + warning);
+  say_warnings(options, structure);
 }
 
 }  // namespace
@@ -128,9 +128,8 @@ void add_info(CLI::App& command) {
            "  meniscus info 1tii.pdb\n"
            "  meniscus info 6zu5.cif.gz");
   auto options = std::make_shared<MoleculeOptions>();
-  command.add_option("FILE", options->file, "Molecule: PDB, mmCIF (.gz too) or XYZR; told apart by content")
-      ->required();
-  command.add_flag("-q,--quiet", options->quiet, "No warnings on stderr; errors only");
+  add_file_argument(command, *options);
+  add_warning_options(command, *options);
   command.callback([options] { run(*options); });
 }
 

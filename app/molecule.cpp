@@ -15,9 +15,7 @@ namespace meniscus {
 Structure read_molecule(const MoleculeOptions& options) {
   Structure structure = read_structure(options.file, options.reading);
   say(options, fmt::format("{}: {}", structure.file, structure.report.sentence()));
-  for (const std::string& warning : structure.report.warnings) {
-    say(options, fmt::format("warning: {}: {}", structure.file, warning));
-  }
+  say_warnings(options, structure);
   return structure;
 }
 

@@ -31,6 +31,15 @@ void say(const MoleculeOptions& options, const std::string& line) {
   if (!options.quiet) std::cerr << "meniscus: " << escaped(line) << std::endl;
 }
 
+void say_warnings(const MoleculeOptions& options, const Structure& structure) {
+  if (options.warnings == WarningDetail::none) return;
+  for (const Warning& warning : structure.report.warnings) {
+    say(options, "warning: " + structure.file + ": " + warning.text);
+    if (options.warnings != WarningDetail::full) continue;
+    for (const std::string& detail : warning.details) say(options, "  " + detail);
+  }
+}
+
 ProgressSink progress_on_stderr(const MoleculeOptions& options) {
   if (options.quiet) return {};
   auto text = std::make_shared<ProgressText>(::isatty(STDERR_FILENO) == 1,

@@ -14,6 +14,9 @@
 
 namespace meniscus {
 
+/// How much is said about the oddities of a file: a line for every atom, a sentence for every kind, nothing.
+enum class WarningDetail { full, summary, none };
+
 /// What the common options say. Commands keep one of these alive as long as their CLI::App.
 struct MoleculeOptions {
   std::string file;
@@ -21,6 +24,7 @@ struct MoleculeOptions {
   ComputeOptions computing;
   ColorScheme color;
   std::string color_file;  ///< --color-by-file, read by load_molecule
+  WarningDetail warnings = WarningDetail::summary;
   bool quiet = false;
 };
 
@@ -31,8 +35,11 @@ struct OutputOptions {
   Existing existing() const { return force ? Existing::replace : Existing::refuse; }
 };
 
-/// FILE and what is taken from it (atom_options.cpp): --keep-water, --keep-ions, --unknown-element, --quiet.
+/// FILE and what is taken from it (atom_options.cpp): --model, --altloc, --keep-water, --keep-ions, --unknown-element, --quiet.
 void add_atom_options(CLI::App& command, MoleculeOptions& options);
+/// FILE alone, and --warnings and --quiet, for commands that take everything.
+void add_file_argument(CLI::App& command, MoleculeOptions& options);
+void add_warning_options(CLI::App& command, MoleculeOptions& options);
 /// How the surface is made of them (surface_options.cpp): --probe, --device, --verify, --threads.
 void add_surface_options(CLI::App& command, MoleculeOptions& options);
 /// How it is coloured (color_options.cpp): --color, --color-by-file, --map, --color-range, --missing-color.
@@ -56,6 +63,9 @@ class Heading {
 
 /// A line on stderr, unless quiet. Control characters are escaped.
 void say(const MoleculeOptions& options, const std::string& line);
+
+/// The warnings about a file on stderr, as detailed as wanted, unless quiet.
+void say_warnings(const MoleculeOptions& options, const Structure& structure);
 
 /// Progress on stderr: a bar on a terminal, plain lines elsewhere, nothing when quiet.
 ProgressSink progress_on_stderr(const MoleculeOptions& options);

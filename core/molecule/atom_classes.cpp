@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <map>
 #include <set>
 #include <string>
 #include <string_view>
@@ -14,14 +15,6 @@
 
 namespace meniscus {
 namespace {
-
-/// Water by the names of the wwPDB and of molecular dynamics programs.
-bool is_water_name(const std::string& name) {
-  static const std::set<std::string> kWaters{"HOH", "DOD",  "WAT",  "H2O",  "OH2",  "SOL",   "TIP",
-                                             "TP3", "TIP2", "TIP3", "TIP4", "TIP5", "T3P",   "T4P",
-                                             "T5P", "SPC",  "SPCE", "HHO",  "OHH",  "TIP3P", "TIP4P"};
-  return kWaters.contains(name);
-}
 
 /// Amino acids and nucleotides; names of force fields (HSD, CYX, DA5, ...) are found by their backbone instead.
 bool is_polymer_name(const std::string& name) {
@@ -76,42 +69,97 @@ bool is_amino_acid_atom_name(std::string_view name) {
          name.find_first_not_of("0123456789", 2) == std::string_view::npos;
 }
 
-/// An unknown element is guessed from the first letter of the name, except D, which is more often a dummy than
-/// deuterium.
+std::string capitals(std::string_view text) {
+  std::string result(text);
+  std::transform(result.begin(), result.end(), result.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  return result;
+}
+
+/// The element of a lone atom that is named like its residue, or lies in a residue "ION": "CL", "Na+", "ZN2", and
+/// CHARMM's own names.
+gemmi::Element lone_ion_element(const Atom& atom) {
+  static const std::map<std::string, gemmi::El> kCharmmIons{
+      {"SOD", gemmi::El::Na}, {"CLA", gemmi::El::Cl}, {"POT", gemmi::El::K},  {"CAL", gemmi::El::Ca},
+      {"CES", gemmi::El::Cs}, {"LIT", gemmi::El::Li}, {"RUB", gemmi::El::Rb}, {"BAR", gemmi::El::Ba}};
+  const auto letters = [](const std::string& name) {
+    return capitals(name.substr(0, name.find_first_of("0123456789+-")));
+  };
+  const std::string name = letters(atom.name);
+  if (atom.residue_name != "ION" && name != letters(atom.residue_name)) return gemmi::El::X;
+  const auto charmm = kCharmmIons.find(name);
+  const gemmi::Element element = charmm != kCharmmIons.end() ? gemmi::Element(charmm->second) : gemmi::Element(name);
+  return is_ion_element(element) ? element : gemmi::Element(gemmi::El::X);
+}
+
+/// The first letter of a name; two where only one element can be meant. D is more often a dummy than deuterium.
+gemmi::Element element_by_letters(const Atom& atom) {
+  const std::size_t letter = atom.name.find_first_not_of("0123456789");
+  if (letter == std::string::npos) return gemmi::El::X;
+  if (atom.kind != AtomClass::polymer) {
+    const std::string two = capitals(atom.name.substr(letter, 2));
+    for (const char* symbol : {"CL", "BR", "FE", "ZN", "MG", "MN", "SI", "SE"}) {
+      if (two == symbol) return gemmi::Element(two);
+    }
+  }
+  const gemmi::Element first(atom.name.substr(letter, 1));
+  return first == gemmi::El::D ? gemmi::Element(gemmi::El::X) : first;
+}
+
 gemmi::Element element_of(gemmi::Element stated, gemmi::Element hint, const Atom& atom) {
   if (is_of_organic_residues(stated)) return stated;
   const gemmi::Element given = stated == gemmi::El::X ? hint : stated;
-  const std::size_t letter = atom.name.find_first_not_of("0123456789");
-  if (letter == std::string::npos) return given;
-  const gemmi::Element guess(atom.name.substr(letter, 1));
   const gemmi::ResidueInfo residue = gemmi::find_tabulated_residue(atom.residue_name);
   const bool standard =
       residue.found() && residue.is_standard() && (residue.is_amino_acid() || residue.is_nucleic_acid());
   const bool variant = stated == gemmi::El::X && !residue.found() && atom.kind == AtomClass::polymer &&
                        is_amino_acid_atom_name(atom.name);
-  if ((standard || variant) && !is_of_organic_residues(given)) return guess;
-  return given == gemmi::El::X && guess != gemmi::El::D ? guess : given;
+  const bool doubtful = (standard || variant) && !is_of_organic_residues(given);
+  return doubtful || given == gemmi::El::X ? element_by_letters(atom) : given;
+}
+
+/// Atoms first..last are one residue: sets their class and elements.
+void classify_residue(std::vector<Atom>& atoms, std::size_t first, std::size_t last,
+                      const std::vector<AtomHints>& hints) {
+  const AtomHints none;
+  const auto hint = [&](std::size_t n) -> const AtomHints& { return hints.empty() ? none : hints[n]; };
+  std::set<std::string> names;
+  for (std::size_t n = first; n < last; ++n) names.insert(atoms[n].name);
+  const bool lone_without_element = names.size() == 1 && atoms[first].element == 0;
+  const gemmi::Element ion = lone_without_element ? lone_ion_element(atoms[first]) : gemmi::Element(gemmi::El::X);
+  const gemmi::Element stated(int{atoms[first].element != 0 ? atoms[first].element : hint(first).element});
+  const AtomClass kind =
+      classify(atoms[first].residue_name, hint(first).residue, ion == gemmi::El::X ? stated : ion, names);
+  for (std::size_t n = first; n < last; ++n) {
+    atoms[n].kind = kind;
+    const gemmi::Element element =
+        kind == AtomClass::ion && ion != gemmi::El::X
+            ? ion
+            : element_of(gemmi::Element(int{atoms[n].element}), gemmi::Element(int{hint(n).element}), atoms[n]);
+    atoms[n].element = static_cast<std::uint8_t>(element.atomic_number());
+  }
 }
 
 }  // namespace
 
+bool is_water_name(const std::string& residue_name) {
+  static const std::set<std::string> kWaters{"HOH", "DOD",  "WAT",  "H2O",  "OH2",  "SOL",   "TIP",
+                                             "TP3", "TIP2", "TIP3", "TIP4", "TIP5", "T3P",   "T4P",
+                                             "T5P", "SPC",  "SPCE", "HHO",  "OHH",  "TIP3P", "TIP4P"};
+  return kWaters.contains(residue_name);
+}
+
+bool is_tabulated_residue(const std::string& residue_name) {
+  return gemmi::find_tabulated_residue(residue_name).found();
+}
+
 void classify_atoms(std::vector<Atom>& atoms, const std::vector<AtomHints>& hints) {
-  const auto hint = [&](std::size_t n) { return hints.empty() ? AtomHints{} : hints[n]; };
   for (std::size_t first = 0, last = 0; first < atoms.size(); first = last) {
-    std::set<std::string> names;
-    const Atom head = atoms[first];
-    while (last < atoms.size() && atoms[last].residue == head.residue &&
-           atoms[last].residue_name == head.residue_name) {
-      names.insert(atoms[last++].name);
+    while (last < atoms.size() && atoms[last].residue == atoms[first].residue &&
+           atoms[last].residue_name == atoms[first].residue_name) {
+      ++last;
     }
-    const gemmi::Element head_element(int{head.element != 0 ? head.element : hint(first).element});
-    const AtomClass kind = classify(head.residue_name, hint(first).residue, head_element, names);
-    for (std::size_t n = first; n < last; ++n) {
-      atoms[n].kind = kind;
-      const gemmi::Element element =
-          element_of(gemmi::Element(int{atoms[n].element}), gemmi::Element(int{hint(n).element}), atoms[n]);
-      atoms[n].element = static_cast<std::uint8_t>(element.atomic_number());
-    }
+    classify_residue(atoms, first, last, hints);
   }
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "core/molecule/structure.h"
@@ -18,6 +19,12 @@ struct AtomHints {
   std::uint8_t element =
       0;  ///< what the columns of the name suggest (PDB: " CA " is carbon, "CA  " calcium); 0: nothing
 };
+
+/// Water by the names of the wwPDB and of molecular dynamics programs.
+bool is_water_name(const std::string& residue_name);
+
+/// True for the residues and ligands common enough to stand in gemmi's table.
+bool is_tabulated_residue(const std::string& residue_name);
 
 /// Sets `kind` of all atoms, residue by residue, and `element` where it is 0 or cannot be right: names are ambiguous
 /// (CA is carbon or calcium, HG hydrogen or mercury), but amino acids and nucleotides hold H, C, N, O, S, P and Se

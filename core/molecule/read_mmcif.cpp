@@ -3,7 +3,6 @@
 #include <cmath>
 #include <map>
 #include <set>
-#include <unordered_map>
 #include <utility>
 
 #include <fmt/format.h>
@@ -16,6 +15,7 @@
 #include "core/molecule/atom_classes.h"
 #include "core/molecule/cif_document.h"
 #include "core/molecule/reader.h"
+#include "core/molecule/residue_counter.h"
 
 namespace meniscus {
 namespace {
@@ -86,13 +86,14 @@ std::string_view without_uncertainty(const std::string& value) {
   return std::string_view(value).substr(0, value.find('('));
 }
 
-cif::Table atom_table(const TextFile& file, cif::Document& document, std::vector<std::string>& warnings) {
+cif::Table atom_table(const TextFile& file, cif::Document& document, std::vector<Warning>& warnings) {
   std::vector<cif::Table> tables;
   for (cif::Block& block : document.blocks) {
     cif::Table table = block.find("_atom_site.", kColumns);
     if (table.ok() && table.length() > 0) tables.push_back(table);
   }
-  if (tables.size() > 1) warnings.push_back(fmt::format("{} data blocks hold atoms; the first is used", tables.size()));
+  if (tables.size() > 1)
+    warnings.emplace_back(fmt::format("{} data blocks hold atoms; the first is used", tables.size()));
   if (!tables.empty()) return tables.front();
   for (cif::Block& block : document.blocks) {
     for (const char* tag : {"_atom_site_fract_x", "_atom_site.fract_x"}) {
@@ -105,20 +106,6 @@ cif::Table atom_table(const TextFile& file, cif::Document& document, std::vector
   }
   throw InputError(file.path, 0, "has no table _atom_site with Cartn_x, Cartn_y, Cartn_z: no atoms");
 }
-
-/// Gives residues of (chain, number, insertion code) running numbers and brings their atoms together.
-class ResidueNumbers {
- public:
-  std::uint32_t of(const Atom& atom) {
-    auto [found, added] =
-        numbers_.try_emplace(fmt::format("{}\n{}\n{}", atom.chain, atom.residue_number, atom.insertion_code),
-                             static_cast<std::uint32_t>(numbers_.size()));
-    return found->second;
-  }
-
- private:
-  std::unordered_map<std::string, std::uint32_t> numbers_;
-};
 
 /// gemmi's as_char() throws a bare runtime_error for longer texts, which the dictionary allows.
 char first_letter(const std::string& value) {
@@ -162,33 +149,34 @@ std::map<std::string, ResidueStatement> entities_of(cif::Document& document) {
   return entities;
 }
 
-FileContents read_mmcif(const TextFile& file) {
+FileContents read(const TextFile& file, const ModelChoice& choice) {
   cif::Document document = parse_cif(file);
   FileContents contents;
   cif::Table table = atom_table(file, document, contents.warnings);
   const std::map<std::string, ResidueStatement> entities = entities_of(document);
-  ResidueNumbers residues;
-  std::set<std::string> models;
+  ResidueCounter residues(contents.atoms);
+  std::map<std::string, std::int32_t> models;
   std::vector<AtomHints> hints;
   for (const cif::Table::Row row : table) {
-    const std::string model = row.has(kModel) ? row[kModel] : "1";
-    if (models.insert(model).second && models.size() > 1) ++contents.models;
-    if (contents.models > 1 && model != table[0][kModel]) {
+    const std::int32_t next_model = static_cast<std::int32_t>(models.size()) + 1;
+    const std::int32_t model = models.try_emplace(row.has(kModel) ? row[kModel] : "1", next_model).first->second;
+    if (!choice.takes(model)) {
       ++contents.other_model_atoms;
       continue;
     }
     Atom atom = read_row(file, table, row);
-    atom.index = static_cast<std::uint32_t>(contents.atoms.size());
-    atom.residue = residues.of(atom);
+    atom.model = model;
+    residues.number(atom);
     const auto statement = entities.find(row.has2(kEntityId) ? cif::as_string(row[kEntityId]) : std::string());
     hints.push_back({statement == entities.end() ? ResidueStatement::none : statement->second});
     contents.atoms.push_back(std::move(atom));
   }
+  contents.models = models.size();
   classify_atoms(contents.atoms, hints);
   return contents;
 }
 
-bool is_mmcif(std::string_view text) {
+bool recognizes(std::string_view text) {
   std::size_t first = text.find_first_not_of(" \t\n");
   while (first != std::string_view::npos && text[first] == '#') {
     first = text.find('\n', first);
@@ -202,10 +190,10 @@ bool is_mmcif(std::string_view text) {
 }  // namespace
 
 const Reader kMmcifReader{
-    {"mmCIF", ".cif .mmcif .cif.gz", "macromolecular CIF of the wwPDB",
-     "PDBx/mmCIF dictionary; Hall, Allen & Brown 1991", "_atom_site (author names where given) and _entity"},
-    is_mmcif,
-    read_mmcif,
+    {"mmCIF", ".cif .mmcif .mcif", "macromolecular CIF of the wwPDB", "PDBx/mmCIF dictionary; Hall, Allen & Brown 1991",
+     "_atom_site (author's names where given, label_asym_id too) and _entity"},
+    recognizes,
+    read,
     read_mmcif_assemblies};
 
 }  // namespace meniscus

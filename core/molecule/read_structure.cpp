@@ -3,12 +3,9 @@
 #include "core/molecule/read_structure.h"
 
 #include <algorithm>
-#include <array>
-#include <cctype>
-#include <cmath>
 #include <cstring>
-#include <tuple>
-#include <unordered_set>
+#include <map>
+#include <unordered_map>
 
 #include <fmt/format.h>
 
@@ -18,93 +15,6 @@
 
 namespace meniscus {
 namespace {
-
-constexpr std::array<const Reader*, 3> kReaders{&kMmcifReader, &kPdbReader, &kXyzrReader};
-
-std::string lower_case_name(const std::string& path) {
-  std::string name = path;
-  std::transform(name.begin(), name.end(), name.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (name.ends_with(".gz")) name.resize(name.size() - 3);
-  return name;
-}
-
-const Reader* reader_by_name(const std::string& name) {
-  for (const Reader* reader : kReaders) {
-    std::string_view rest = reader->metadata.extensions;
-    while (!rest.empty()) {
-      const std::string_view extension = rest.substr(0, rest.find(' '));
-      if (name.ends_with(extension)) return reader;
-      rest.remove_prefix(std::min(rest.size(), extension.size() + 1));
-    }
-  }
-  return nullptr;
-}
-
-/// Formats we can name but not read; better refused by name than misread as PDB.
-void refuse_known_foreign(const TextFile& file, const std::string& name) {
-  const std::size_t first = file.text.find_first_not_of(" \t\n");
-  if (file.text[first] == '<')
-    throw InputError(file.path, 0, "looks like HTML or XML, not like a molecule; was the download refused?");
-  if (file.text[first] == '{') throw InputError(file.path, 0, "looks like JSON; PDB, mmCIF and XYZR are read");
-  for (const char* extension : {".pqr", ".gro", ".xyz", ".pdbqt", ".mol2", ".sdf"}) {
-    if (name.ends_with(extension)) {
-      throw InputError(file.path, 0, fmt::format("{} files are not read; convert it to PDB, mmCIF or XYZR", extension));
-    }
-  }
-}
-
-const Reader& choose_reader(const TextFile& file, std::vector<std::string>& warnings) {
-  const std::string name = lower_case_name(file.path);
-  refuse_known_foreign(file, name);
-  const Reader* by_name = reader_by_name(name);
-  for (const Reader* reader : kReaders) {
-    if (!reader->recognizes(file.text)) continue;
-    if (by_name && by_name != reader) {
-      warnings.push_back(fmt::format("the name says {}, the content {}; read as {}", by_name->metadata.name,
-                                     reader->metadata.name, reader->metadata.name));
-    }
-    return *reader;
-  }
-  if (by_name) return *by_name;  // its reader says what is missing, and where
-  throw InputError(file.path, 0, "is in no format that is read (PDB, mmCIF, XYZR)");
-}
-
-/// The alternate location to keep in one residue: highest mean occupancy, then lowest mean B-factor, then letter.
-char best_altloc(std::span<const Atom> residue) {
-  struct Sum {
-    double occupancy = 0.0, b_factor = 0.0;
-    int count = 0;
-  };
-  std::map<char, Sum> sums;
-  for (const Atom& atom : residue) {
-    if (atom.altloc == ' ') continue;
-    Sum& sum = sums[atom.altloc];
-    sum.occupancy += std::isnan(atom.occupancy) ? 1.0 : atom.occupancy;
-    sum.b_factor += std::isnan(atom.b_factor) ? 0.0 : atom.b_factor;
-    ++sum.count;
-  }
-  if (sums.empty()) return ' ';
-  const auto rank = [](const std::pair<const char, Sum>& entry) {
-    return std::make_tuple(-entry.second.occupancy / entry.second.count, entry.second.b_factor / entry.second.count,
-                           entry.first);
-  };
-  return std::min_element(sums.begin(), sums.end(), [&](const auto& a, const auto& b) { return rank(a) < rank(b); })
-      ->first;
-}
-
-/// The altloc to keep, by residue.
-std::vector<char> chosen_altlocs(const std::vector<Atom>& atoms) {
-  std::uint32_t residue_count = 0;
-  for (const Atom& atom : atoms) residue_count = std::max(residue_count, atom.residue + 1);
-  std::vector<char> chosen(residue_count, ' ');
-  std::map<std::uint32_t, std::vector<Atom>> with_alternatives;
-  for (const Atom& atom : atoms) {
-    if (atom.altloc != ' ') with_alternatives[atom.residue].push_back(atom);
-  }
-  for (const auto& [residue, members] : with_alternatives) chosen[residue] = best_altloc(members);
-  return chosen;
-}
 
 /// Lone pairs and the mass-less sites of water models (LP, EP, M, MW, with digits), and the dummy atoms with which the
 /// OPM database draws membranes.
@@ -119,10 +29,12 @@ bool is_virtual_site(const Atom& atom) {
 }
 
 const char* reason_to_exclude(const Atom& atom, char altloc, bool radii_from_file, const ReadOptions& options) {
-  if (atom.altloc != ' ' && atom.altloc != altloc) return kExcludedAltloc;
-  if (radii_from_file) return atom.radius == 0.0 ? kExcludedRadius : nullptr;
+  const bool all_altlocs = options.altloc.rule == AltlocChoice::Rule::all;
+  if (atom.altloc != ' ' && atom.altloc != altloc && !all_altlocs) return kExcludedAltloc;
+  if (radii_from_file && atom.radius == 0.0) return kExcludedRadius;
   if (atom.kind == AtomClass::water && !options.keep_water) return kExcludedWater;
   if (atom.kind == AtomClass::ion && !options.keep_ions) return kExcludedIon;
+  if (radii_from_file) return nullptr;
   if (is_virtual_site(atom)) return kExcludedVirtual;
   if (atom.element == 0 && options.unknown_element == UnknownElement::skip) return kExcludedElement;
   return nullptr;
@@ -134,7 +46,7 @@ void halt_on_unknown_elements(const Structure& structure) {
   for (const Atom& atom : structure.atoms) {
     if (atom.element != 0) continue;
     ++count;
-    ++names[fmt::format("{} in {} {}{}", in_quotes(atom.name), atom.residue_name, atom.chain, atom.residue_number)];
+    ++names[label_of(atom)];
   }
   if (count == 0) return;
   std::string examples;
@@ -152,17 +64,33 @@ void halt_on_unknown_elements(const Structure& structure) {
 }
 
 void warn_of_coincident_atoms(Structure& structure) {
-  std::unordered_set<std::string> places;
-  std::size_t coincident = 0;
+  std::unordered_map<std::string, const Atom*> places;
+  std::vector<std::string> cases;
   for (const Atom& atom : structure.atoms) {
     std::string key(sizeof(atom.position), '\0');
     std::memcpy(key.data(), &atom.position, sizeof(atom.position));
-    if (!places.insert(std::move(key)).second) ++coincident;
+    const auto [place, free] = places.try_emplace(std::move(key), &atom);
+    if (!free) cases.push_back(fmt::format("{} at {}", label_of(atom), label_of(*place->second)));
   }
-  if (coincident == 0) return;
-  structure.report.warnings.push_back(
-      fmt::format("{} {} at exactly the place of another; the surface is as if they were one",
-                  with_thousands(coincident), coincident == 1 ? "atom lies" : "atoms lie"));
+  if (cases.empty()) return;
+  std::string sentence =
+      fmt::format("{} {} at exactly the place of another; the surface is as if they were one (first: {})",
+                  with_thousands(cases.size()), cases.size() == 1 ? "atom lies" : "atoms lie", cases.front());
+  structure.report.warnings.emplace_back(std::move(sentence), std::move(cases));
+}
+
+void require_model(const std::string& path, const ModelChoice& choice, std::size_t models) {
+  if (choice.all || static_cast<std::size_t>(choice.number) <= models) return;
+  throw InputError(path, 0,
+                   fmt::format("has no model {}: it holds {} {}; choose --model 1{}", choice.number, models,
+                               models == 1 ? "model" : "models", models == 1 ? "" : fmt::format(" to {}", models)));
+}
+
+void warn_of_missing_altloc(Structure& structure, const std::vector<Atom>& atoms, const AltlocChoice& choice) {
+  if (choice.rule != AltlocChoice::Rule::letter) return;
+  if (std::any_of(atoms.begin(), atoms.end(), [&](const Atom& atom) { return atom.altloc == choice.letter; })) return;
+  structure.report.warnings.emplace_back(
+      fmt::format("no atom has the alternate location {}; the best one of each residue is used", choice.letter));
 }
 
 /// Builds the assembly that is asked for; lists all when asked to, and then takes broken records as a warning.
@@ -185,23 +113,23 @@ void use_assemblies(Structure& structure, const TextFile& file, const Reader& re
 
 }  // namespace
 
-std::span<const Reader* const> readers() { return kReaders; }
-
 Structure read_structure(const std::string& path, const ReadOptions& options) {
   const TextFile file = read_text_file(path);
   Structure structure;
-  structure.file = path;
+  structure.file = file.path;
   ReadReport& report = structure.report;
-  const Reader& reader = choose_reader(file, report.warnings);
+  const Reader& reader = choose_reader(file);
   structure.format = reader.metadata.name;
 
-  FileContents contents = reader.read(file);
+  FileContents contents = reader.read(file, options.model);
+  require_model(file.path, options.model, contents.models);
   report.read = contents.atoms.size() + contents.other_model_atoms;
   report.models = contents.models;
   report.warnings.insert(report.warnings.end(), contents.warnings.begin(), contents.warnings.end());
   if (contents.other_model_atoms > 0) report.excluded[kExcludedModel] = contents.other_model_atoms;
 
-  const std::vector<char> altlocs = chosen_altlocs(contents.atoms);
+  warn_of_missing_altloc(structure, contents.atoms, options.altloc);
+  const std::vector<char> altlocs = kept_altlocs(contents.atoms, options.altloc);
   for (Atom& atom : contents.atoms) {
     if (const char* reason = reason_to_exclude(atom, altlocs[atom.residue], contents.radii_from_file, options)) {
       ++report.excluded[reason];
@@ -211,7 +139,7 @@ Structure read_structure(const std::string& path, const ReadOptions& options) {
   }
   report.used = structure.atoms.size();
   if (structure.atoms.empty()) {
-    throw InputError(path, 0,
+    throw InputError(file.path, 0,
                      fmt::format("leaves no atoms to make a surface of: {}; --keep-water and --keep-ions use more",
                                  report.sentence()));
   }

@@ -2,11 +2,11 @@
 // From a file name to the atoms of a surface: format by content, one model, one alternate location, no water, no ions.
 #pragma once
 
-#include <span>
 #include <string>
 
+#include "core/molecule/altloc.h"
 #include "core/molecule/assembly.h"
-#include "core/molecule/reader.h"
+#include "core/molecule/formats.h"
 #include "core/molecule/structure.h"
 
 namespace meniscus {
@@ -15,6 +15,8 @@ namespace meniscus {
 enum class UnknownElement { halt, guess, skip };
 
 struct ReadOptions {
+  ModelChoice model{};
+  AltlocChoice altloc{};
   bool keep_water = false;
   bool keep_ions = false;
   UnknownElement unknown_element = UnknownElement::halt;  ///< guess: radius kRadiusWithoutSource; skip: leave out
@@ -23,13 +25,10 @@ struct ReadOptions {
   bool list_assemblies = false;                           ///< fill in Structure::assemblies
 };
 
-/// All formats, in the order their content is tried.
-std::span<const Reader* const> readers();
-
-/// Reads PDB, mmCIF or XYZR, plain or gzipped, told apart by content. Default: polymer and ligands in, water and free
-/// ions out, first model, per residue the alternate location of highest mean occupancy (then lowest B-factor, then
-/// letter). Radii: Bondi, or the file's own (XYZR).
-/// Throws InputError (see read_text_file and the readers; no atoms left; unknown elements), CapacityError.
+/// Reads a file of any format in formats.h, plain or gzipped; "-" is standard input. Default: polymer and ligands in,
+/// water and free ions out, first model, best alternate location. Radii: Bondi, or the file's own (XYZR, PQR).
+/// Throws InputError (see read_text_file and the readers; no such model; no atoms left; unknown elements),
+/// CapacityError.
 Structure read_structure(const std::string& path, const ReadOptions& options = {});
 
 }  // namespace meniscus

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Numbers of molecule files, checked strictly: a reader that guesses at a coordinate draws a wrong surface.
+// Numbers and fields of molecule files, checked strictly: a reader that guesses at a coordinate draws a wrong surface.
 #include "core/molecule/reader.h"
 
 #include <charconv>
@@ -9,16 +9,40 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/molecule/text_lines.h"
 
 namespace meniscus {
+namespace {
+
+constexpr double kLargestRadius = 1000.0;
+
+std::string_view without_plus(std::string_view field) {
+  field = trimmed(field);
+  if (field.size() > 1 && field.front() == '+' && field[1] != '-') field.remove_prefix(1);
+  return field;
+}
+
+}  // namespace
 
 bool parse_number(std::string_view field, double& number) {
-  const std::size_t first = field.find_first_not_of(" \t");
-  if (first == std::string_view::npos) return false;
-  field = field.substr(first, field.find_last_not_of(" \t") + 1 - first);
-  if (field.size() > 1 && field.front() == '+' && field[1] != '-') field.remove_prefix(1);
+  field = without_plus(field);
   const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), number);
   return error == std::errc() && end == field.data() + field.size() && std::isfinite(number);
+}
+
+bool parse_whole_number(std::string_view field, std::int64_t& number) {
+  field = without_plus(field);
+  const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), number);
+  return error == std::errc() && end == field.data() + field.size();
+}
+
+double check_extent(const TextFile& file, std::size_t line, char axis, double coordinate) {
+  if (std::abs(coordinate) > kLargestCoordinate) {
+    throw InputError(file.path, line,
+                     fmt::format("coordinate {} is {} Å, beyond the extent of ±{} Å; is the unit right?", axis,
+                                 coordinate, kLargestCoordinate));
+  }
+  return coordinate;
 }
 
 double parse_coordinate(const TextFile& file, std::size_t line, char axis, std::string_view field) {
@@ -28,12 +52,22 @@ double parse_coordinate(const TextFile& file, std::size_t line, char axis, std::
         file.path, line,
         fmt::format("coordinate {} is {}, not a finite number; correct or remove the atom", axis, in_quotes(field)));
   }
-  if (std::abs(number) > kLargestCoordinate) {
+  return check_extent(file, line, axis, number);
+}
+
+double parse_radius(const TextFile& file, std::size_t line, std::string_view field, std::string_view columns) {
+  double radius = 0.0;
+  if (!parse_number(field, radius)) {
     throw InputError(file.path, line,
-                     fmt::format("coordinate {} is {} Å, beyond the extent of ±{} Å; is the unit right?", axis, number,
-                                 kLargestCoordinate));
+                     fmt::format("radius is {}, not a finite number; a line is: {}", in_quotes(field), columns));
   }
-  return number;
+  if (radius < 0.0) throw InputError(file.path, line, fmt::format("radius is {} Å; it must not be negative", radius));
+  if (radius > kLargestRadius) {
+    throw InputError(
+        file.path, line,
+        fmt::format("radius is {} Å, above the limit of {} Å; is the unit right?", radius, kLargestRadius));
+  }
+  return radius;
 }
 
 }  // namespace meniscus

@@ -15,41 +15,61 @@ namespace meniscus {
 /// What a format is, in words users can look up.
 struct FormatMetadata {
   std::string_view name;
-  std::string_view extensions;  ///< ".pdb .ent", blank-separated
+  std::string_view extensions;  ///< ".pdb .ent", blank-separated, in lower case
   std::string_view description;
   std::string_view reference;
   std::string_view reads;  ///< which records or columns are used
 };
 
-/// The atoms of a file's first model in file order, residues in one piece. Positions are finite.
-struct FileContents {
-  std::vector<Atom> atoms;  ///< as they stand in the file, nothing left out
-  std::size_t models = 1;
-  std::size_t other_model_atoms = 0;
-  bool radii_from_file = false;
-  std::vector<std::string> warnings;
+/// Which models (frames) of a file are wanted. They count from 1 in the order of the file, whatever numbers it gives.
+struct ModelChoice {
+  std::int32_t number = 1;
+  bool all = false;
+  bool takes(std::int32_t model) const { return all || model == number; }
 };
 
-/// One format. `recognizes` looks at content only; `read` throws InputError with file and line. `assemblies` is null
-/// for formats that describe none.
+/// The atoms of the wanted models in the order of the file, nothing left out. Positions are finite. The other models
+/// are counted, not checked.
+struct FileContents {
+  std::vector<Atom> atoms;  ///< Atom::model says of which model
+  std::size_t models = 0;   ///< in the whole file
+  std::size_t other_model_atoms = 0;
+  bool radii_from_file = false;
+  std::vector<Warning> warnings;
+};
+
+/// One format. `recognizes` looks at content only and may say yes to what another format reads too; `read` throws
+/// InputError with file and line. `assemblies` is null for formats that describe none.
 struct Reader {
   FormatMetadata metadata;
   bool (*recognizes)(std::string_view text);
-  FileContents (*read)(const TextFile& file);
+  FileContents (*read)(const TextFile& file, const ModelChoice& models);
   std::vector<Assembly> (*assemblies)(const TextFile& file) = nullptr;
 };
 
 extern const Reader kPdbReader;
 extern const Reader kMmcifReader;
+extern const Reader kPqrReader;
+extern const Reader kGroReader;
+extern const Reader kXyzReader;
 extern const Reader kXyzrReader;
 
 /// Largest coordinate in Å that readers accept (10 µm); beyond it the file is broken or in other units.
 inline constexpr double kLargestCoordinate = 1e5;
 
+/// Checks a coordinate in Å that was written as `field`; throws InputError beyond kLargestCoordinate.
+double check_extent(const TextFile& file, std::size_t line, char axis, double coordinate);
+
 /// Parses a coordinate field; throws InputError naming file, line, axis and text unless finite and within bounds.
 double parse_coordinate(const TextFile& file, std::size_t line, char axis, std::string_view field);
 
+/// Parses a radius field in Å; throws InputError unless it is a number from 0 to 1,000. `columns`: what a line holds.
+double parse_radius(const TextFile& file, std::size_t line, std::string_view field, std::string_view columns);
+
 /// Parses all of `field`, blanks around it aside, as a finite number; false if it is none.
 bool parse_number(std::string_view field, double& number);
+
+/// Parses all of `field`, blanks around it aside, as a whole number; false if it is none.
+bool parse_whole_number(std::string_view field, std::int64_t& number);
 
 }  // namespace meniscus

@@ -41,6 +41,12 @@ const char* class_name(AtomClass kind) {
   return "unclassified";
 }
 
+std::string label_of(const Atom& atom) {
+  if (atom.residue_name.empty()) return fmt::format("{} (atom {})", in_quotes(atom.name), atom.index + 1);
+  return fmt::format("{} in {} {}{}{}", in_quotes(atom.name), atom.residue_name, atom.chain, atom.residue_number,
+                     atom.insertion_code == ' ' ? "" : std::string(1, atom.insertion_code));
+}
+
 std::string ReadReport::sentence() const {
   std::string left_out;
   for (const auto& [reason, words] : kReasonWords) {

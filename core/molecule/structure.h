@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -31,7 +32,7 @@ struct Atom {
   char insertion_code = ' ';
   char altloc = ' ';          ///< letter of the alternate location, blank for none
   std::uint32_t index = 0;    ///< place in the file, from 0, counting every atom of every model that was read
-  std::uint32_t residue = 0;  ///< running number of the residue (same model, chain, number, insertion code), from 0
+  std::uint32_t residue = 0;  ///< running number of the residue, from 0; residues whose numbers wrapped stay distinct
   std::int32_t model = 1;     ///< which model of the file, from 1
   std::int32_t residue_number = 0;
   float occupancy = std::numeric_limits<float>::quiet_NaN();  ///< NaN: missing
@@ -41,7 +42,20 @@ struct Atom {
   std::string residue_name;
   std::string chain;
   std::string subchain;    ///< label_asym_id of mmCIF, which assemblies name; else the chain
+  std::string segment;     ///< segment identifier of PDB (columns 73 to 76), which molecular dynamics programs write
   std::uint32_t copy = 0;  ///< in an assembly: which copy, from 0
+};
+
+/// "'CA' in ALA A12", for messages; "'C' (atom 5)" where the format knows no residues. Nothing is escaped but the name.
+std::string label_of(const Atom& atom);
+
+/// Something odd about a file that did not stop the program.
+struct Warning {
+  Warning(std::string sentence, std::vector<std::string> each = {})
+      : text(std::move(sentence)), details(std::move(each)) {}
+
+  std::string text;                  ///< one sentence with the count and the first case
+  std::vector<std::string> details;  ///< a line for every case, where there are several
 };
 
 /// How many atoms a file holds and where they went: read == sum of excluded + used.
@@ -49,9 +63,9 @@ struct ReadReport {
   std::size_t read = 0;                         ///< every atom record of the file, all models and alternate locations
   std::map<std::string, std::size_t> excluded;  ///< reason -> atoms; an atom counts for the first reason it meets
   std::size_t used = 0;
-  std::size_t models = 1;             ///< models in the file; the first is used
-  std::string assembled;              ///< what an assembly made of the used atoms; empty: they are as deposited
-  std::vector<std::string> warnings;  ///< one summarised sentence each
+  std::size_t models = 1;  ///< models in the file, used or not
+  std::string assembled;   ///< what an assembly made of the used atoms; empty: they are as deposited
+  std::vector<Warning> warnings;
 
   /// "5,684 atoms read; 215 water left out; 5,469 used".
   std::string sentence() const;
@@ -88,8 +102,8 @@ struct Assembly {
 
 /// The atoms a surface is made of, in file order.
 struct Structure {
-  std::string file;       ///< the path as given
-  std::string format;     ///< "PDB", "mmCIF", "XYZR"
+  std::string file;       ///< the path as given, or "standard input"
+  std::string format;     ///< the reader's name for it: "PDB", "mmCIF", ...
   std::string radii_set;  ///< "bondi" or "file"
   std::vector<Atom> atoms;
   std::vector<Instances> instances;  ///< each atom belongs to one; empty: all stand where their positions say

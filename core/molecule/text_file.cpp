@@ -36,7 +36,8 @@ std::string read_bytes(const std::string& path, std::size_t largest) {
   if (::stat(path.c_str(), &status) != 0)
     throw InputError(path, 0, std::string("cannot be read: ") + std::strerror(errno));
   if (S_ISDIR(status.st_mode)) throw InputError(path, 0, "is a folder; give the name of a molecule file");
-  if (!S_ISREG(status.st_mode)) throw InputError(path, 0, "is a pipe or device; save it as a file first");
+  if (!S_ISREG(status.st_mode))
+    throw InputError(path, 0, "is a pipe or device; save it as a file first, or give - to read standard input");
   if (static_cast<std::size_t>(status.st_size) > largest) too_large(path, largest);
   const std::unique_ptr<std::FILE, CloseFile> file(std::fopen(path.c_str(), "rb"));
   if (!file) throw InputError(path, 0, std::string("cannot be read: ") + std::strerror(errno));
@@ -44,6 +45,18 @@ std::string read_bytes(const std::string& path, std::size_t largest) {
   // A file that is still being written keeps the size it had when we looked.
   bytes.resize(std::fread(bytes.data(), 1, bytes.size(), file.get()));
   if (std::ferror(file.get())) throw InputError(path, 0, "cannot be read to its end");
+  if (bytes.empty()) throw InputError(path, 0, "is empty: no atoms");
+  return bytes;
+}
+
+std::string read_standard_input(const std::string& path, std::size_t largest) {
+  std::string bytes;
+  std::string chunk(std::size_t{1} << 16, '\0');
+  while (const std::size_t count = std::fread(chunk.data(), 1, chunk.size(), stdin)) {
+    bytes.append(chunk, 0, count);
+    if (bytes.size() > largest) too_large(path, largest);
+  }
+  if (std::ferror(stdin)) throw InputError(path, 0, std::string("cannot be read: ") + std::strerror(errno));
   if (bytes.empty()) throw InputError(path, 0, "is empty: no atoms");
   return bytes;
 }
@@ -126,14 +139,16 @@ void refuse_long_lines(const std::string& path, std::string_view text) {
 
 }  // namespace
 
-TextFile read_text_file(const std::string& path, std::size_t largest) {
-  TextFile file{path, read_bytes(path, largest)};
+TextFile read_text_file(const std::string& given, std::size_t largest) {
+  const bool standard_input = given == "-";
+  const std::string path = standard_input ? "standard input" : given;
+  TextFile file{path, standard_input ? read_standard_input(path, largest) : read_bytes(path, largest)};
   std::string& text = file.text;
   if (text.starts_with("\x1f\x8b")) text = unpack_gzip(path, text, largest);
   if (text.starts_with("\xef\xbb\xbf")) text.erase(0, 3);
   refuse_other_containers(path, text);
   if (const std::size_t nul = text.find('\0'); nul != std::string::npos) {
-    throw InputError(path, 0, fmt::format("is binary, not text: byte {} is zero; PDB, mmCIF and XYZR are text", nul));
+    throw InputError(path, 0, fmt::format("is binary, not text: byte {} is zero; molecule files are text", nul));
   }
   unify_line_ends(text);
   if (text.find_first_not_of(" \t\n\v\f") == std::string::npos) throw InputError(path, 0, "is empty: no atoms");

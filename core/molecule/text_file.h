@@ -9,13 +9,13 @@ namespace meniscus {
 
 /// A file's text with LF line ends and without byte-order mark; never empty, free of NUL bytes.
 struct TextFile {
-  std::string path;
+  std::string path;  ///< as given, or "standard input"
   std::string text;
 };
 
-/// Reads a regular file, unpacking gzip (several members too) by its first bytes, not by its name.
-/// Throws InputError: missing, unreadable, a folder, a pipe or device, empty, binary, UTF-16, or damaged gzip;
-/// CapacityError: more than `largest` bytes after unpacking, or a line above 1 MiB.
+/// Reads a regular file, or standard input for "-", unpacking gzip (several members too) by its first bytes, not by its
+/// name. Throws InputError: missing, unreadable, a folder, a named pipe or device, empty, binary, UTF-16, or damaged
+/// gzip; CapacityError: more than `largest` bytes after unpacking, or a line above 1 MiB.
 TextFile read_text_file(const std::string& path, std::size_t largest = std::size_t{2} << 30);
 
 }  // namespace meniscus

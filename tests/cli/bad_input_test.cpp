@@ -85,8 +85,9 @@ std::vector<BadFile> bad_files() {
       {"json", "a.pdb", "{\"data_1abc\": {}}", "looks like JSON"},
       {"prose", "a.txt", "This is no molecule.\n", "no format that is read"},
       {"prose named pdb", "a.pdb", "This is no molecule.\n", "no ATOM or HETATM"},
-      {"pqr", "a.pqr", pdb({}), ".pqr files are not read"},
-      {"gro", "a.gro", "title\n 1\n    1ALA     CA    1   0.000   0.000   0.000\n 1 1 1\n", ".gro files are not read"},
+      {"pdb named cif", "a.cif", pdb({}), "the name says mmCIF, but the content is PDB"},
+      {"mmcif named pdb", "a.pdb", kMmcif, "the name says PDB, but the content is mmCIF"},
+      {"gzipped xyzr named pdb", "a.pdb.gz", gzipped("0 0 0 1.7\n"), "the name says PDB, but the content is XYZR"},
       // PDB (10-14, 19)
       {"header only", "a.pdb", "HEADER    X\nEND\n", "no ATOM or HETATM"},
       {"only water", "a.pdb", water, "leaves no atoms"},

@@ -40,7 +40,7 @@ TEST(Radii, ElementsWithoutSourceAreNamed) {
   EXPECT_EQ(structure.atoms[1].radius, 2.0);
   EXPECT_EQ(structure.radii_set, "bondi");
   ASSERT_EQ(structure.report.warnings.size(), 1u);
-  EXPECT_EQ(structure.report.warnings[0],
+  EXPECT_EQ(structure.report.warnings[0].text,
             "no published van der Waals radius for Fe (2 atoms), Mo (1 atom); 2.0 Å is used");
 }
 

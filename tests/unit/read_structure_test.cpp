@@ -88,13 +88,6 @@ TEST(Text, LineEndsAndByteOrderMarksDoNotMatter) {
   EXPECT_EQ(read_text("a.pdb", text).atoms.size(), 2u);
 }
 
-TEST(Format, ContentDecidesOverTheName) {
-  const Structure structure = read_text("a.cif", PdbLine{}.text());
-  EXPECT_EQ(structure.format, "PDB");
-  ASSERT_EQ(structure.report.warnings.size(), 1u);
-  EXPECT_EQ(structure.report.warnings[0], "the name says mmCIF, the content PDB; read as PDB");
-}
-
 TEST(Altloc, TheResidueKeepsItsMostOccupiedConformer) {
   const std::string text = PdbLine{.name = " N  "}.text() +
                            PdbLine{.name = " CA ", .altloc = 'A', .x = "   1.000", .occupancy = "  0.40"}.text() +
@@ -216,7 +209,7 @@ TEST(MissingValues, OccupancyAndBFactorAreOptional) {
   const Structure structure = read_text("a.pdb", PdbLine{.occupancy = "   inf", .b_factor = "******"}.text() +
                                                      PdbLine{.x = "   4.000"}.text().substr(0, 54) + "\n");
   ASSERT_EQ(structure.atoms.size(), 2u);
-  EXPECT_EQ(structure.atoms[0].occupancy, 1.0f);
+  EXPECT_TRUE(std::isnan(structure.atoms[0].occupancy));
   EXPECT_TRUE(std::isnan(structure.atoms[0].b_factor));
   EXPECT_TRUE(std::isnan(structure.atoms[1].b_factor));
   EXPECT_EQ(structure.report.warnings.size(), 3u);
@@ -226,7 +219,7 @@ TEST(Coincident, AtomsAtOnePlaceAreWarnedAbout) {
   const Structure structure = read_text("a.xyzr", "0 0 0 1.7\n0 0 0 1.7\n0 0 0 1.5\n");
   EXPECT_EQ(structure.atoms.size(), 3u);
   ASSERT_EQ(structure.report.warnings.size(), 1u);
-  EXPECT_EQ(structure.report.warnings[0].substr(0, 12), "2 atoms lie ");
+  EXPECT_EQ(structure.report.warnings[0].text.substr(0, 12), "2 atoms lie ");
 }
 
 TEST(Xyzr, TakesRadiiAsTheyAre) {

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Lines and blank-separated fields of a text, without copies.
+#pragma once
+
+#include <cstddef>
+#include <string_view>
+#include <vector>
+
+namespace meniscus {
+
+/// Goes through the lines of a text.
+class LineReader {
+ public:
+  explicit LineReader(std::string_view text) : rest_(text) {}
+
+  /// The next line, without its end; false behind the last one.
+  bool next(std::string_view& line) {
+    if (rest_.empty()) return false;
+    const std::size_t end = rest_.find('\n');
+    line = rest_.substr(0, end);
+    rest_.remove_prefix(end == std::string_view::npos ? rest_.size() : end + 1);
+    ++number_;
+    return true;
+  }
+
+  std::size_t number() const { return number_; }           ///< of the line last given, from 1
+  std::size_t bytes_left() const { return rest_.size(); }  ///< behind it
+
+ private:
+  std::string_view rest_;
+  std::size_t number_ = 0;
+};
+
+/// The text without blanks at both ends.
+std::string_view trimmed(std::string_view text);
+
+/// Takes the first field off a line; empty if there is none.
+std::string_view take_field(std::string_view& rest);
+
+/// All fields of a line, at most `most` of them; the last one is then followed by more.
+std::vector<std::string_view> fields_of(std::string_view line, std::size_t most = 64);
+
+}  // namespace meniscus
