@@ -7,6 +7,7 @@
 
 #include "app/molecule_options.h"
 #include "app/program_error.h"
+#include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/molecule/formats.h"
 
@@ -30,6 +31,15 @@ AltlocChoice altloc_choice(const std::string& text) {
   return *choice;
 }
 
+/// Understands the value of an option; the error names the option.
+Selection selection_of(const std::string& option, const std::string& text) {
+  try {
+    return parse_selection(text);
+  } catch (const SelectionError& error) {
+    throw SelectionError(option + ": " + error.sentence(), error.picture());
+  }
+}
+
 }  // namespace
 
 void add_atom_options(CLI::App& command, MoleculeOptions& options) {
@@ -46,6 +56,17 @@ void add_atom_options(CLI::App& command, MoleculeOptions& options) {
           "Which alternate location of a residue: best (default: highest occupancy), first, a letter (best where a "
           "residue has no such), or all (they overlap)")
       ->type_name("WORD");
+  command
+      .add_option_function<std::string>(
+          "--select",
+          [&options](const std::string& text) { options.reading.selection = selection_of("--select", text); },
+          "Take only these atoms, as in 'chain A and resid 10-50'; see meniscus help selections")
+      ->type_name("EXPR");
+  command
+      .add_option_function<std::string>(
+          "--show", [&options](const std::string& text) { options.show = selection_of("--show", text); },
+          "Compute the surface of all atoms taken, but draw and export only the part of these")
+      ->type_name("EXPR");
   command.add_flag("--keep-water", options.reading.keep_water, "Use water molecules too");
   command.add_flag("--keep-ions", options.reading.keep_ions, "Use free ions (lone metal and halogen atoms) too");
   const std::map<std::string, UnknownElement> words{

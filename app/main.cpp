@@ -3,6 +3,7 @@
 #include <csignal>
 #include <iostream>
 #include <new>
+#include <sstream>
 #include <thread>
 
 #include <pthread.h>
@@ -65,6 +66,15 @@ int report(ExitCode code, const std::string& message) {
   return code;
 }
 
+/// The lines of a selection with its caret, each of them harmless to a terminal.
+int report(const SelectionError& error) {
+  std::istringstream picture(error.picture());
+  std::string lines = escaped(error.sentence());
+  for (std::string line; std::getline(picture, line);) lines += "\n  " + escaped(line);
+  std::cerr << "meniscus: error: " << lines << std::endl;
+  return kExitUsage;
+}
+
 void refuse_unknown_command(std::string_view word) {
   std::string names;
   for (const Command& command : kCommands) {
@@ -116,6 +126,8 @@ int main(int argc, char** argv) {
     return run(argc, argv);
   } catch (const UsageError& error) {
     return report(kExitUsage, error.what());
+  } catch (const SelectionError& error) {
+    return report(error);
   } catch (const InputError& error) {
     return report(kExitInput, error.what());
   } catch (const GpuError& error) {

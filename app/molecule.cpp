@@ -10,6 +10,8 @@
 
 #include "core/base/text.h"
 
+#include "app/show_only.h"
+
 namespace meniscus {
 
 Structure read_molecule(const MoleculeOptions& options) {
@@ -64,6 +66,7 @@ Molecule load_molecule(const MoleculeOptions& options) {
   std::iota(object.atom.begin(), object.atom.end(), 0u);
   object.coloring = color_object(molecule.structure, object.atom, molecule.color, 0);
   molecule.objects.push_back(std::move(object));
+  if (options.show) show_only(*options.show, molecule.structure, molecule.objects);
   molecule.device = std::move(computed.device);
   molecule.stages = std::move(computed.stages);
   say(options, fmt::format("surface on {} in {:.1f} ms", molecule.device, total_ms(molecule.stages)));

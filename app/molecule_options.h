@@ -2,6 +2,7 @@
 // The options that commands share: which atoms, which surface, which colours, where it goes.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include <CLI/CLI.hpp>
@@ -21,6 +22,7 @@ enum class WarningDetail { full, summary, none };
 struct MoleculeOptions {
   std::string file;
   ReadOptions reading;
+  std::optional<Selection> show;  ///< of the atoms taken, those whose part of the surface is drawn and exported
   ComputeOptions computing;
   ColorScheme color;
   std::string color_file;  ///< --color-by-file, read by load_molecule

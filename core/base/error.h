@@ -21,6 +21,19 @@ class InputError : public Error {
       : Error((line ? file + ':' + std::to_string(line) : file) + ": " + what) {}
 };
 
+/// A selection that cannot be understood. what(): a sentence, a line with the expression, a line with a caret under the
+/// place; all of it may be printed as it is.
+class SelectionError : public Error {
+ public:
+  SelectionError(const std::string& sentence, const std::string& picture)
+      : Error(sentence + '\n' + picture), sentence_(sentence), picture_(picture) {}
+  const std::string& sentence() const { return sentence_; }
+  const std::string& picture() const { return picture_; }  ///< both lines, with a line end between
+
+ private:
+  std::string sentence_, picture_;
+};
+
 /// No usable GPU or GL, or the driver refused something.
 class GpuError : public Error {
  public:

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Escaping, quoting and grouping of digits.
+// Escaping, quoting, grouping of digits, and carets.
 #include "core/base/text.h"
+
+#include <algorithm>
 
 #include <fmt/format.h>
 
@@ -32,6 +34,20 @@ std::string with_thousands(std::uint64_t count) {
     grouped += digits[n];
   }
   return grouped;
+}
+
+std::string pointed_at(std::string_view text, std::size_t position) {
+  constexpr std::size_t kBefore = 50, kAfter = 30;
+  const auto continues = [&](std::size_t n) { return n < text.size() && (text[n] & 0xc0) == 0x80; };  // inside UTF-8
+  std::size_t first = position > kBefore ? position - kBefore : 0;
+  std::size_t last = std::min(text.size(), position + kAfter);
+  while (continues(first)) ++first;
+  while (continues(last)) ++last;
+  const std::string before = fmt::format("{}{}", first > 0 ? "..." : "", escaped(text.substr(first, position - first)));
+  const std::string after =
+      fmt::format("{}{}", escaped(text.substr(position, last - position)), last < text.size() ? "..." : "");
+  const auto width = std::count_if(before.begin(), before.end(), [](char c) { return (c & 0xc0) != 0x80; });
+  return fmt::format("{}{}\n{:{}}^", before, after, "", width);
 }
 
 }  // namespace meniscus

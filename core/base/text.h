@@ -17,4 +17,8 @@ std::string in_quotes(std::string_view text);
 /// 5469 -> "5,469".
 std::string with_thousands(std::uint64_t count);
 
+/// Two lines: the text, and a caret under byte `position` of it (at most its size). Of a long text only a window around
+/// the place is shown; control characters are escaped, and UTF-8 counts by character.
+std::string pointed_at(std::string_view text, std::size_t position);
+
 }  // namespace meniscus

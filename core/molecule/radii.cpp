@@ -2,6 +2,8 @@
 // The tables of Bondi 1964 and Mantina et al. 2009, laid out like the periodic table.
 #include "core/molecule/radii.h"
 
+#include <algorithm>
+#include <cctype>
 #include <iterator>
 #include <map>
 
@@ -52,6 +54,18 @@ ElementRadius bondi_radius(std::uint8_t element) {
 }
 
 const char* element_symbol(std::uint8_t element) { return kSymbols[element < std::size(kSymbols) ? element : 0]; }
+
+std::uint8_t element_of_symbol(std::string_view symbol) {
+  if (symbol == "D" || symbol == "d" || symbol == "T" || symbol == "t") return 1;
+  for (std::size_t element = 1; element < std::size(kSymbols); ++element) {
+    const std::string_view known = kSymbols[element];
+    const bool same = std::equal(symbol.begin(), symbol.end(), known.begin(), known.end(), [](char a, char b) {
+      return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
+    });
+    if (same) return static_cast<std::uint8_t>(element);
+  }
+  return 0;
+}
 
 void assign_bondi_radii(Structure& structure) {
   std::map<std::uint8_t, std::size_t> without_source;

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 #include "core/molecule/structure.h"
 
@@ -29,6 +30,9 @@ ElementRadius bondi_radius(std::uint8_t element);
 
 /// "C", "Zn", ...; "X" for 0 or above 118.
 const char* element_symbol(std::uint8_t element);
+
+/// The atomic number of "C", "zn", "CL", ... in any case, D and T as hydrogen; 0: none has this symbol.
+std::uint8_t element_of_symbol(std::string_view symbol);
 
 /// Gives every atom its Bondi radius, names the set in the structure, and adds a warning that lists the elements for
 /// which kRadiusWithoutSource stands in.

@@ -28,16 +28,60 @@ bool is_virtual_site(const Atom& atom) {
   return false;
 }
 
-const char* reason_to_exclude(const Atom& atom, char altloc, bool radii_from_file, const ReadOptions& options) {
+/// Moves the atoms without a reason to be left out to the front of `atoms`, drops the others and counts their reasons.
+template <typename Reason>
+void leave_out(std::vector<Atom>& atoms, ReadReport& report, Reason&& reason_of) {
+  std::size_t kept = 0;
+  for (std::size_t n = 0; n < atoms.size(); ++n) {
+    if (const char* reason = reason_of(n)) {
+      ++report.excluded[reason];
+    } else {
+      if (kept != n) atoms[kept] = std::move(atoms[n]);
+      ++kept;
+    }
+  }
+  atoms.resize(kept);
+}
+
+std::vector<bool> evaluate(const Selection& selection, const FileContents& contents, const std::string& path) {
+  if (selection.uses_radius() && !contents.radii_from_file) {
+    throw InputError(path, 0, "holds no radii to select by; radii are given to atoms once they are selected");
+  }
+  std::vector<bool> selected = selection.evaluate(contents.atoms);
+  if (std::find(selected.begin(), selected.end(), true) == selected.end()) {
+    throw InputError(path, 0,
+                     fmt::format("none of its {} atoms is selected by {}; chains and names are case-sensitive",
+                                 with_thousands(contents.atoms.size()), in_quotes(selection.text())));
+  }
+  return selected;
+}
+
+/// What each atom is left out for, in the order of the reasons in structure.h.
+void choose_atoms(FileContents& contents, const ReadOptions& options, ReadReport& report, const std::string& path) {
+  std::vector<Atom>& atoms = contents.atoms;
+  const std::vector<char> altlocs = kept_altlocs(atoms, options.altloc);
   const bool all_altlocs = options.altloc.rule == AltlocChoice::Rule::all;
-  if (atom.altloc != ' ' && atom.altloc != altloc && !all_altlocs) return kExcludedAltloc;
-  if (radii_from_file && atom.radius == 0.0) return kExcludedRadius;
-  if (atom.kind == AtomClass::water && !options.keep_water) return kExcludedWater;
-  if (atom.kind == AtomClass::ion && !options.keep_ions) return kExcludedIon;
-  if (radii_from_file) return nullptr;
-  if (is_virtual_site(atom)) return kExcludedVirtual;
-  if (atom.element == 0 && options.unknown_element == UnknownElement::skip) return kExcludedElement;
-  return nullptr;
+  leave_out(atoms, report, [&](std::size_t n) -> const char* {
+    if (atoms[n].altloc != ' ' && atoms[n].altloc != altlocs[atoms[n].residue] && !all_altlocs) return kExcludedAltloc;
+    return !contents.radii_from_file && is_virtual_site(atoms[n]) ? kExcludedVirtual : nullptr;
+  });
+  std::vector<bool> selected(atoms.size(), true), named(atoms.size());
+  if (options.selection) {
+    selected = evaluate(*options.selection, contents, path);
+    named = options.selection->names(atoms);
+  }
+  leave_out(atoms, report, [&](std::size_t n) -> const char* {
+    const Atom& atom = atoms[n];
+    if (!selected[n]) return kExcludedSelection;
+    if (contents.radii_from_file) {
+      if (atom.radius == 0.0) return kExcludedRadius;
+    } else if (atom.element == 0 && options.unknown_element == UnknownElement::skip) {
+      return kExcludedElement;
+    }
+    if (atom.kind == AtomClass::water && !options.keep_water && !named[n]) return kExcludedWater;
+    if (atom.kind == AtomClass::ion && !options.keep_ions && !named[n]) return kExcludedIon;
+    return nullptr;
+  });
 }
 
 void halt_on_unknown_elements(const Structure& structure) {
@@ -129,14 +173,8 @@ Structure read_structure(const std::string& path, const ReadOptions& options) {
   if (contents.other_model_atoms > 0) report.excluded[kExcludedModel] = contents.other_model_atoms;
 
   warn_of_missing_altloc(structure, contents.atoms, options.altloc);
-  const std::vector<char> altlocs = kept_altlocs(contents.atoms, options.altloc);
-  for (Atom& atom : contents.atoms) {
-    if (const char* reason = reason_to_exclude(atom, altlocs[atom.residue], contents.radii_from_file, options)) {
-      ++report.excluded[reason];
-    } else {
-      structure.atoms.push_back(std::move(atom));
-    }
-  }
+  choose_atoms(contents, options, report, file.path);
+  structure.atoms = std::move(contents.atoms);
   report.used = structure.atoms.size();
   if (structure.atoms.empty()) {
     throw InputError(file.path, 0,

@@ -2,11 +2,13 @@
 // From a file name to the atoms of a surface: format by content, one model, one alternate location, no water, no ions.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "core/molecule/altloc.h"
 #include "core/molecule/assembly.h"
 #include "core/molecule/formats.h"
+#include "core/molecule/selection.h"
 #include "core/molecule/structure.h"
 
 namespace meniscus {
@@ -23,12 +25,15 @@ struct ReadOptions {
   std::string assembly{};                                 ///< id of the assembly to build; empty: as deposited
   CopyMode copy_mode = CopyMode::atoms;                   ///< what becomes of its copies
   bool list_assemblies = false;                           ///< fill in Structure::assemblies
+  /// Evaluated on what other models, altlocs and virtual sites leave, water and ions included. Water and ions that it
+  /// selects are used only if it names them (Selection::names) or keep_water, keep_ions.
+  std::optional<Selection> selection = {};
 };
 
 /// Reads a file of any format in formats.h, plain or gzipped; "-" is standard input. Default: polymer and ligands in,
 /// water and free ions out, first model, best alternate location. Radii: Bondi, or the file's own (XYZR, PQR).
-/// Throws InputError (see read_text_file and the readers; no such model; no atoms left; unknown elements),
-/// CapacityError.
+/// Throws InputError (see read_text_file and the readers; no such model; nothing selected; no atoms left; unknown
+/// elements), CapacityError.
 Structure read_structure(const std::string& path, const ReadOptions& options = {});
 
 }  // namespace meniscus

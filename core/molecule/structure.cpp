@@ -2,7 +2,6 @@
 // The words for what happened to the atoms of a file.
 #include "core/molecule/structure.h"
 
-#include <array>
 #include <utility>
 
 #include <fmt/format.h>
@@ -12,16 +11,17 @@
 namespace meniscus {
 namespace {
 
-constexpr std::array<std::pair<const char*, const char*>, 8> kReasonWords{{
+constexpr std::pair<const char*, const char*> kReasonWords[] = {
     {kExcludedModel, "of other models"},
     {kExcludedAltloc, "of other alternate locations"},
     {kExcludedVirtual, "virtual sites"},
+    {kExcludedSelection, "not selected"},
     {kExcludedElement, "of unknown element"},
     {kExcludedRadius, "of radius zero"},
     {kExcludedWater, "water"},
     {kExcludedIon, "free ion"},
     {kExcludedAssembly, "outside the assembly"},
-}};
+};
 
 }  // namespace
 

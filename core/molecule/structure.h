@@ -75,6 +75,7 @@ struct ReadReport {
 inline constexpr const char* kExcludedModel = "other_model";
 inline constexpr const char* kExcludedAltloc = "altloc";
 inline constexpr const char* kExcludedVirtual = "virtual_site";
+inline constexpr const char* kExcludedSelection = "not_selected";
 inline constexpr const char* kExcludedElement = "unknown_element";
 inline constexpr const char* kExcludedRadius = "zero_radius";
 inline constexpr const char* kExcludedWater = "water";

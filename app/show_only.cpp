@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Marks atoms as hidden; renderers and exporters obey.
+#include "app/show_only.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+#include "core/base/text.h"
+
+namespace meniscus {
+
+void show_only(const Selection& shown, const Structure& structure, std::vector<SurfaceObject>& objects) {
+  const std::vector<bool> visible = shown.evaluate(structure.atoms);
+  if (std::find(visible.begin(), visible.end(), true) == visible.end()) {
+    throw InputError(structure.file, 0,
+                     fmt::format("none of the {} atoms used is to be shown by {}; chains and names are case-sensitive",
+                                 with_thousands(structure.atoms.size()), in_quotes(shown.text())));
+  }
+  for (SurfaceObject& object : objects) {
+    std::vector<bool>& hidden = object.coloring.hidden;
+    hidden.resize(object.atom.size());
+    for (std::size_t a = 0; a < hidden.size(); ++a) hidden[a] = hidden[a] || !visible[object.atom[a]];
+  }
+}
+
+}  // namespace meniscus

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// --show: the surface of everything, of which only a part is seen.
+#pragma once
+
+#include <vector>
+
+#include "core/molecule/selection.h"
+#include "core/molecule/structure.h"
+#include "core/surface/surface_object.h"
+
+namespace meniscus {
+
+/// Hides the points of all atoms that are not selected, in every object. Throws InputError if nothing would be seen.
+void show_only(const Selection& shown, const Structure& structure, std::vector<SurfaceObject>& objects);
+
+}  // namespace meniscus

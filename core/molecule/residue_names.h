@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Which residue names are amino acids, their caps or nucleotides.
+#pragma once
+
+#include <string>
+
+namespace meniscus {
+
+/// Amino acids of the wwPDB's chemical components (modified ones too), and caps of chains (ACE, NME, NH2, ...).
+bool is_amino_acid_name(const std::string& residue_name);
+
+/// Nucleotides of the wwPDB's chemical components, and the common names of force fields (ADE, DA5, RA3, ...).
+bool is_nucleotide_name(const std::string& residue_name);
+
+}  // namespace meniscus

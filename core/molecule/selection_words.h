@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The words of the selection language: one table from which the parser and the help are made.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace meniscus {
+
+/// What a word is followed by.
+enum class WordKind : std::uint8_t {
+  flag,      ///< nothing; `which` is an AtomFlag
+  text,      ///< names; `which` is an AtomField
+  element,   ///< symbols of elements
+  residue,   ///< residue numbers with insertion codes, ranges, or a comparison
+  whole,     ///< whole numbers, ranges, or a comparison; `which` is an AtomField
+  number,    ///< numbers, ranges, or a comparison; `which` is an AtomField
+  distance,  ///< a distance and a set; `which` is 1 if the set itself belongs to the result
+  group,     ///< a set; `which` is 1 for whole chains
+  same,      ///< "residue as" or "chain as" and a set
+  operation  ///< and, or, not
+};
+
+struct SelectionWord {
+  std::string_view words;  ///< blank-separated; the first is the one we write, the others mean the same
+  WordKind kind;
+  std::uint8_t which;
+  std::string_view usage;  ///< with its argument, as the help shows it
+  std::string_view help;
+};
+
+/// All words, in the order of the help.
+std::span<const SelectionWord> selection_words();
+
+/// The entry that this word (in any case) belongs to; nullptr: none.
+const SelectionWord* find_selection_word(std::string_view word);
+
+/// The known word nearest to this one if at most two letters differ, else empty.
+std::string_view nearest_selection_word(std::string_view word);
+
+/// The whole language as text of at most 100 columns: examples, words, rules.
+std::string selection_help();
+
+}  // namespace meniscus
