@@ -13,6 +13,7 @@
 #include "core/base/text.h"
 #include "core/gpu/egl_context.h"
 #include "core/render/image_output.h"
+#include "core/render/legend.h"
 #include "core/render/ray_caster.h"
 #include "core/surface/combine.h"
 
@@ -26,6 +27,7 @@ struct RenderCommand {
   std::string save_camera;
   int samples = 4;
   bool aovs = false;
+  bool legend = false;
   std::optional<glm::vec3> background;
 };
 
@@ -49,22 +51,32 @@ void run(const RenderCommand& command) {
   check_image_path(command.output.path);
   if (command.aovs && !holds_aovs(command.output.path))
     throw UsageError("--aovs needs an .exr output; other formats hold colour only");
+  if (command.legend && command.molecule.color.by == ColorScheme::By::fixed)
+    throw UsageError("--legend has nothing to explain where all is of one colour; choose another --color");
   // Whether the outputs can be written is known before the work begins; these vanish again.
   OutputFile(command.output.path, command.output.existing());
   if (!command.save_camera.empty()) OutputFile(command.save_camera, command.output.existing());
   Molecule molecule = load_molecule(command.molecule);
+  PictureOptions size = command.picture;  // of the molecule, beside the legend
+  std::optional<Legend> legend;
+  if (command.legend) {
+    legend.emplace(key_of(molecule), glm::ivec2(size.width, size.height));
+    size.width = legend->molecule_size().x;
+    size.height = legend->molecule_size().y;
+  }
   const SurfaceObject whole = merged(std::move(molecule.objects));
-  const Camera camera = picture_camera(command.picture, whole.surface.atoms);
+  const Camera camera = picture_camera(size, whole.surface.atoms);
 
   EglContext context(command.molecule.computing.cpu ? DeviceChoice{} : command.molecule.computing.gl);
   RayCaster caster;
   RenderSettings settings;
-  settings.size = {command.picture.width, command.picture.height};
+  settings.size = {size.width, size.height};
   settings.samples = command.samples;
   settings.aovs = command.aovs;
   Framebuffer picture = caster.render(whole.surface, whole.coloring, camera, settings);
   for (std::uint32_t& atom : picture.atom)
     if (atom != kNone) atom = whole.atom[atom];
+  if (legend) picture = legend->add_to(picture, command.background);
 
   write_image(command.output.path, picture, {command.background, command.output.existing()});
   if (!command.save_camera.empty()) save_camera(command, camera);
@@ -82,6 +94,7 @@ void add_render(CLI::App& command) {
       command, "Ray cast a picture of the analytic surface",
       "  meniscus render 1tii.pdb -o 1tii.png\n"
       "  meniscus render 1tii.pdb -o 1tii.png --size 3840x2160 --samples 16 --color chain --background white\n"
+      "  meniscus render 1tii.pdb -o 1tii.png --color hydrophobicity --legend --background white\n"
       "  meniscus render 1tii.pdb -o 1tii.exr --aovs --camera camera.json   depth, normals, atoms for compositing");
   auto state = std::make_shared<RenderCommand>();
   add_molecule_options(command, state->molecule);
@@ -95,6 +108,9 @@ void add_render(CLI::App& command) {
           "--background", [state](const std::string& text) { parse_background(text, state->background); },
           "transparent (default), white, black or #rrggbb")
       ->type_name("COLOR");
+  command.add_flag(
+      "--legend", state->legend,
+      "Write what the colours mean at the right (of high pictures: below); the molecule is framed beside it");
   command.add_flag("--aovs", state->aovs,
                    "Add Z, N.xyz, P.xyz, atom, kind and component of each pixel's centre to an .exr");
   command.add_option("--save-camera", state->save_camera, "Write the camera used, as JSON for --camera")

@@ -124,7 +124,7 @@ int main(int argc, char** argv) {
   clean_up_on_signals();
   try {
     return run(argc, argv);
-  } catch (const UsageError& error) {
+  } catch (const RequestError& error) {
     return report(kExitUsage, error.what());
   } catch (const SelectionError& error) {
     return report(error);

@@ -55,7 +55,7 @@ std::vector<TriangleMesh> meshes_of(const MoleculeOptions& options, std::span<co
     meshes.push_back(shown_part(tessellate(object.surface, {tolerance, true}), object.coloring));
     triangles += meshes.back().triangles.size();
   }
-  if (triangles == 0) throw Error("nothing of the surface is shown, so there is no mesh to write");
+  if (triangles == 0) throw RequestError("nothing of the surface is shown, so there is no mesh to write");
   say(options, fmt::format("{} triangles within {:.4g} Å of the surface", with_thousands(triangles), tolerance));
   return meshes;
 }

@@ -19,9 +19,9 @@ enum ExitCode : int {
 };
 
 /// Options that are wrong, alone or together.
-class UsageError : public Error {
+class UsageError : public RequestError {
  public:
-  using Error::Error;
+  using RequestError::RequestError;
 };
 
 }  // namespace meniscus

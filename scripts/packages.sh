@@ -3,10 +3,10 @@
 
 build_packages=(
   g++ cmake ninja-build pkg-config ccache
-  libepoxy-dev libegl-dev libglm-dev libopenimageio-dev gemmi-dev tao-pegtl-dev libcli11-dev libfmt-dev
+  libepoxy-dev libegl-dev libglm-dev libopenimageio-dev libfreetype-dev gemmi-dev tao-pegtl-dev libcli11-dev libfmt-dev
   nlohmann-json3-dev libtbb-dev zlib1g-dev
 )
-run_packages=(libegl1 libegl-mesa0 libgl1-mesa-dri)  # EGL and software GL
+run_packages=(libegl1 libegl-mesa0 libgl1-mesa-dri fonts-dejavu-core)  # EGL and software GL, letters of legends
 film_packages=(blender povray povray-includes openimageio-tools)
 sample_packages=(pymol-data)
 compare_packages=(python3 python3-numpy python3-openimageio)

@@ -34,6 +34,12 @@ class SelectionError : public Error {
   std::string sentence_, picture_;
 };
 
+/// A wish that cannot be met as it stands: options that make no sense together, a picture too small for its legend.
+class RequestError : public Error {
+ public:
+  using Error::Error;
+};
+
 /// No usable GPU or GL, or the driver refused something.
 class GpuError : public Error {
  public:

@@ -37,9 +37,9 @@ constexpr Table kMagma{0x000004, 0x02020b, 0x050416, 0x090720, 0x0e0b2b, 0x140e3
                        0xf7725c, 0xf97b5d, 0xfb8560, 0xfc8e64, 0xfd9869, 0xfea16e, 0xfeaa74, 0xfeb47b, 0xfebd82,
                        0xfec68a, 0xfecf92, 0xfed89a, 0xfde2a3, 0xfdebac, 0xfcf4b6, 0xfcfdbf};
 
-// The usual map of signed numbers, defined by its three colours: linear in sRGB between them.
-constexpr std::array<std::uint32_t, 3> kBlueWhiteRed{0x0000ff, 0xffffff, 0xff0000};
-constexpr std::array<std::uint32_t, 3> kRedWhiteBlue{0xff0000, 0xffffff, 0x0000ff};
+// The usual map of signed numbers: linear in sRGB between its colours, which are muted so that shading stays visible.
+constexpr std::array<std::uint32_t, 3> kBlueWhiteRed{0x2a4fd7, 0xffffff, 0xd2322a};
+constexpr std::array<std::uint32_t, 3> kRedWhiteBlue{0xd2322a, 0xffffff, 0x2a4fd7};
 
 constexpr ColorMapMetadata kMaps[] = {
     {ColorMap::viridis, "viridis", "N. J. Smith, S. van der Walt and E. Firing, matplotlib 1.5 (2015), CC0 1.0"},

@@ -61,28 +61,24 @@ std::vector<double> numbers_of(const Structure& structure, const ColorScheme& sc
   return numbers;
 }
 
-void name_scale(ColorScale& scale, By by) {
+struct ScaleWords {
+  std::string_view title, unit;
+};
+
+ScaleWords words_of(By by) {
   switch (by) {
     case By::bfactor:
-      scale.title = "B-factor";
-      scale.unit = "Å²";
-      break;
+      return {"B-factor", "Å²"};
     case By::occupancy:
-      scale.title = "occupancy";
-      break;
+      return {"occupancy", ""};
     case By::charge:
-      scale.title = "partial charge";
-      scale.unit = "e";
-      break;
+      return {"partial charge", "e"};
     case By::hydrophobicity:
-      scale.title = "hydrophobicity (Kyte & Doolittle 1982)";
-      break;
+      return {"hydrophobicity (Kyte & Doolittle 1982)", ""};
     case By::index:
-      scale.title = "place in the file";
-      break;
+      return {"place in the file", ""};
     default:
-      scale.title = "number from file";
-      break;
+      return {"number from file", ""};
   }
 }
 
@@ -154,7 +150,9 @@ glm::vec3 ColorScale::color(double number) const {
 
 ColorScale color_scale(const Structure& structure, const ColorScheme& scheme) {
   ColorScale scale;
-  name_scale(scale, scheme.by);
+  const ScaleWords words = words_of(scheme.by);
+  scale.title = std::string(words.title);
+  scale.unit = std::string(words.unit);
   scale.map = scheme.map.value_or(default_map(scheme.by));
   scale.missing_color = scheme.missing.value_or(default_missing_color(scale.map));
   scale.value = numbers_of(structure, scheme);
@@ -181,7 +179,7 @@ ColorKey color_key(const Structure& structure, const ColorScheme& scheme, std::s
     for (std::size_t n = 0; n < object_names.size(); ++n)
       key.classes.push_back({object_names[n], categorical_color(n)});
   } else if (scheme.by != By::fixed) {
-    key.title = scheme.by == By::element ? "element" : scheme.by == By::chain ? "chain" : "residue type";
+    key.title = std::string(scheme.by == By::element ? "element" : scheme.by == By::chain ? "chain" : "residue type");
     for (const Atom& atom : structure.atoms) {
       if (scheme.by == By::element)
         classes.add(atom.element == 0 ? "unknown" : element_symbol(atom.element), element_color(atom.element));

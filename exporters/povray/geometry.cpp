@@ -2,6 +2,7 @@
 // Writes unions of pieces, and places them.
 #include "exporters/povray/geometry.h"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "core/base/error.h"
@@ -55,7 +56,7 @@ Geometry::Geometry(std::span<const SurfaceObject> objects, const glm::dvec3& ori
     : objects_(objects), origin_(origin) {
   for (const SurfaceObject& object : objects)
     palettes_.push_back(make_palette(object.surface, object.coloring, table_));
-  if (primitive_count() == 0) throw Error("POV-Ray export: nothing of the surface is shown");
+  if (primitive_count() == 0) throw RequestError("nothing of the surface is shown, so there is no scene to write");
 }
 
 std::size_t Geometry::primitive_count() const {
@@ -137,7 +138,7 @@ std::string Geometry::names_json(const std::string& colors) const {
   using Json = nlohmann::ordered_json;
   Json list = Json::array();
   for (std::size_t n = 0; n < objects_.size(); ++n) {
-    list.push_back({{"object", "object_" + std::to_string(n + 1)},
+    list.push_back({{"object", fmt::format("object_{}", n + 1)},
                     {"name", escaped(objects_[n].name)},
                     {"primitives", palettes_[n].pieces.size()},
                     {"copies", objects_[n].copies.size()}});

@@ -19,7 +19,7 @@ namespace meniscus::povray {
 /// Looks at objects that must outlive it. Pieces of hidden atoms are left out.
 class Geometry {
  public:
-  /// Throws Error when nothing is shown. origin: Å, of the scene's coordinates.
+  /// Throws RequestError when nothing is shown. origin: Å, of the scene's coordinates.
   Geometry(std::span<const SurfaceObject> objects, const glm::dvec3& origin);
 
   const std::vector<glm::vec3>& colors() const { return table_.colors(); }

@@ -149,8 +149,8 @@ TEST(Colors, ChargesAreSymmetricAndNegativeIsRed) {
   EXPECT_EQ(scale.unit, "e");
   EXPECT_EQ(scale.missing, 1u);
   const Coloring charge = colored("charge");
-  EXPECT_EQ(charge.atom[0], glm::vec3(1.0f, 0.5f, 0.5f));
-  EXPECT_EQ(charge.atom[1], glm::vec3(0.0f, 0.0f, 1.0f));
+  EXPECT_EQ(charge.atom[0], 0.5f * color_from_hex(0xd2322a) + glm::vec3(0.5f));
+  EXPECT_EQ(charge.atom[1], color_from_hex(0x2a4fd7));
   EXPECT_EQ(charge.atom[2], color_from_hex(0x808080));
   EXPECT_EQ(charge.atom[3], glm::vec3(1.0f));
 }
@@ -166,12 +166,12 @@ TEST(Colors, HydrophobicityIsThatOfKyteAndDoolittle) {
   const ColorScale scale = color_scale(four_atoms(), scheme("hydrophobicity"));
   EXPECT_EQ(scale.range, (std::array<double, 2>{-4.5, 4.5}));
   EXPECT_NE(scale.title.find("Kyte & Doolittle"), std::string::npos);
-  EXPECT_EQ(scale.color(-4.5), glm::vec3(0.0f, 0.0f, 1.0f));
+  EXPECT_EQ(scale.color(-4.5), color_from_hex(0x2a4fd7));
   EXPECT_EQ(scale.missing, 1u);
 }
 
 TEST(Colors, MapsAreThePublishedOnes) {
-  // Rows 0, 128 and 255 of the tables in matplotlib 3.6.
+  // Rows 0, 128 and 255 of the tables in matplotlib 3.6; of blue-white-red our own ends.
   const std::pair<ColorMap, std::array<glm::dvec3, 3>> published[] = {
       {ColorMap::viridis,
        {{{0.267004, 0.004874, 0.329415}, {0.127568, 0.566949, 0.550556}, {0.993248, 0.906157, 0.143936}}}},
@@ -179,7 +179,7 @@ TEST(Colors, MapsAreThePublishedOnes) {
        {{{0.0, 0.135112, 0.304751}, {0.488697, 0.485318, 0.471008}, {0.995737, 0.909344, 0.217772}}}},
       {ColorMap::magma,
        {{{0.001462, 0.000466, 0.013866}, {0.716387, 0.214982, 0.47529}, {0.987053, 0.991438, 0.749504}}}},
-      {ColorMap::blue_white_red, {{{0.0, 0.0, 1.0}, {1.0, 0.996078, 0.996078}, {1.0, 0.0, 0.0}}}},
+      {ColorMap::blue_white_red, {{{0.1647, 0.3098, 0.8431}, {0.9993, 0.9969, 0.9967}, {0.8235, 0.1961, 0.1647}}}},
   };
   for (const auto& [map, rows] : published) {
     for (int k = 0; k < 3; ++k) {

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A legend beside the molecule: what its colours mean, as a bar with numbers or as named swatches.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "core/molecule/color_scale.h"
+#include "core/render/framebuffer.h"
+#include "core/render/text_raster.h"
+
+namespace meniscus {
+
+/// Text that begins at `place`, vertically centred on it. Pixels.
+struct LegendText {
+  std::string text;
+  glm::ivec2 place{0};
+};
+
+/// A framed rectangle of one colour, or of as many as it has pixels along its longer side.
+struct LegendBox {
+  glm::ivec2 low{0}, high{0};     ///< first pixel and one past the last
+  std::vector<glm::vec3> colors;  ///< sRGB; from the left, or from the bottom
+};
+
+/// The legend takes a strip at the right of a picture, at the bottom of one higher than wide; the molecule is framed in
+/// the rest, so nothing of it is covered. Letters are a thirtieth of the picture's shorter side, at least 9 pixels.
+class Legend {
+ public:
+  /// Throws RequestError when the picture is too small for it, or when there is no font.
+  Legend(const ColorKey& key, glm::ivec2 picture_size);
+
+  /// Pixels left for the molecule, at the top left.
+  glm::ivec2 molecule_size() const { return molecule_size_; }
+
+  /// The whole picture: `molecule`, of molecule_size(), and the legend. On a background letters are dark or light,
+  /// whichever it needs; on none (transparent) they are dark with a light rim. AOVs of the strip are those of a miss.
+  Framebuffer add_to(const Framebuffer& molecule, const std::optional<glm::vec3>& background) const;
+
+ private:
+  struct Entry {
+    std::string name;
+    glm::vec3 color;
+  };
+
+  int line() const { return (3 * font_.height() + 1) / 2; }
+  void lay_out_right(const std::string& title);
+  void lay_out_bottom(const std::string& title);
+  void add_entry(const Entry& entry, glm::ivec2 place);
+  void add_bar(glm::ivec2 low, glm::ivec2 high, bool upright);
+  int entry_width(const Entry& entry) const;
+  void keep_entries(std::size_t most);
+  void shift_to(glm::ivec2 place);
+
+  std::optional<ColorScale> bar_;  ///< unless colours are of classes
+  std::vector<Entry> entries_;
+  Font font_;
+  glm::ivec2 picture_size_, molecule_size_;
+  std::vector<LegendText> texts_;
+  std::vector<LegendBox> boxes_;
+};
+
+/// At most so many multiples of 1, 2 or 5 times a power of ten between two numbers, without these, ascending.
+std::vector<double> round_numbers(double low, double high, int most);
+
+}  // namespace meniscus

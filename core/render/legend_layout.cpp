@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Where the bar, the swatches and the text of a legend stand.
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/render/legend.h"
+
+namespace meniscus {
+namespace {
+
+constexpr int kSmallestLetters = 9;  // pixels; below that they cannot be read
+constexpr std::size_t kMostEntries = 24;
+
+int letter_height(glm::ivec2 size) { return std::max(kSmallestLetters, std::min(size.x, size.y) / 30); }
+
+std::string number_text(double number) { return fmt::format("{:.4g}", number == 0.0 ? 0.0 : number); }
+
+/// The text of a tick; at an end of a fixed range beyond which there are numbers, it says so.
+std::string tick_text(const ColorScale& scale, double number) {
+  const auto beyond = [&](auto is_beyond) { return std::ranges::any_of(scale.value, is_beyond); };
+  std::string text = number_text(number);
+  if (number == scale.range[0] && beyond([&](double v) { return v < number; })) return "≤ " + text;
+  if (number == scale.range[1] && beyond([&](double v) { return v > number; })) return "≥ " + text;
+  return text;
+}
+
+/// Words in lines no wider than `width`, if the words allow it.
+std::vector<std::string> wrapped(const std::string& text, const Font& font, int width) {
+  std::vector<std::string> lines{""};
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find(' ', begin), text.size());
+    const std::string word = text.substr(begin, end - begin);
+    const std::string longer = lines.back().empty() ? word : lines.back() + " " + word;
+    if (lines.back().empty() || font.width(longer) <= width)
+      lines.back() = longer;
+    else
+      lines.push_back(word);
+    begin = end + 1;
+  }
+  return lines;
+}
+
+[[noreturn]] void too_small(glm::ivec2 size) {
+  throw RequestError(fmt::format(
+      "--legend does not fit into {} x {} pixels beside the molecule; make the picture larger", size.x, size.y));
+}
+
+}  // namespace
+
+std::vector<double> round_numbers(double low, double high, int most) {
+  if (!(low < high) || most < 1) return {};
+  const double rough = (high - low) / most, power = std::pow(10.0, std::floor(std::log10(rough)));
+  double step = 10.0 * power;
+  for (const double factor : {5.0, 2.0, 1.0})
+    if (factor * power >= rough) step = factor * power;
+  std::vector<double> numbers;
+  for (double n = std::floor(low / step) + 1.0; n * step < high; ++n) numbers.push_back(n * step);
+  return numbers;
+}
+
+Legend::Legend(const ColorKey& key, glm::ivec2 picture_size)
+    : font_(letter_height(picture_size)), picture_size_(picture_size), molecule_size_(picture_size) {
+  std::string title = key.title;
+  for (const ColorClass& entry : key.classes) entries_.push_back({drawable(entry.name), entry.color});
+  if (key.scale) {
+    title = key.scale->title + (key.scale->unit.empty() ? "" : " (" + key.scale->unit + ")");
+    for (const double number : key.scale->classes) entries_.push_back({number_text(number), key.scale->color(number)});
+    if (key.scale->classes.empty()) bar_ = key.scale;
+    if (key.scale->missing > 0)
+      entries_.push_back(
+          {fmt::format("none ({} atoms)", with_thousands(key.scale->missing)), key.scale->missing_color});
+  }
+  if (entries_.empty() && !bar_) return;  // one colour for all needs no words
+  if (picture_size.y > picture_size.x)
+    lay_out_bottom(title);
+  else
+    lay_out_right(title);
+}
+
+int Legend::entry_width(const Entry& entry) const { return (3 * font_.height()) / 2 + font_.width(entry.name); }
+
+void Legend::add_entry(const Entry& entry, glm::ivec2 place) {
+  const int edge = font_.height();
+  const glm::ivec2 low(place.x, place.y - edge / 2);
+  boxes_.push_back({low, low + edge, {entry.color}});
+  texts_.push_back({entry.name, {place.x + edge + edge / 2, place.y}});
+}
+
+void Legend::keep_entries(std::size_t most) {
+  if (entries_.size() <= most) return;
+  const std::size_t more = entries_.size() - most + 1;
+  entries_.resize(most - 1);
+  entries_.push_back({fmt::format("+{} more", with_thousands(more)), glm::vec3(-1.0f)});
+}
+
+void Legend::add_bar(glm::ivec2 low, glm::ivec2 high, bool upright) {
+  const int length = upright ? high.y - low.y : high.x - low.x;
+  const double width = bar_->range[1] - bar_->range[0];
+  LegendBox box{low, high, {}};
+  for (int n = 0; n < length; ++n) box.colors.push_back(bar_->color(bar_->range[0] + width * (n + 0.5) / length));
+  boxes_.push_back(std::move(box));
+  // Both ends, and round numbers where they have room.
+  std::vector<double> numbers = round_numbers(bar_->range[0], bar_->range[1], std::min(5, length / line() / 2));
+  numbers.insert(numbers.begin(), {bar_->range[0], bar_->range[1]});
+  if (width == 0.0) numbers.resize(1);
+  std::vector<glm::ivec2> taken;  // along the bar
+  for (const double number : numbers) {
+    const std::string text = tick_text(*bar_, number);
+    const double share = width > 0.0 ? (number - bar_->range[0]) / width : 0.5;
+    const int along = static_cast<int>(std::lround(share * length));
+    const int half = upright ? line() / 2 : (font_.width(text) + font_.height()) / 2;
+    if (std::ranges::any_of(taken, [&](const glm::ivec2& t) { return along - half < t.y && along + half > t.x; }))
+      continue;
+    taken.emplace_back(along - half, along + half);
+    texts_.push_back({text, upright ? glm::ivec2(high.x + font_.height() / 2, high.y - along)
+                                    : glm::ivec2(low.x + along - font_.width(text) / 2, high.y + font_.height())});
+  }
+}
+
+void Legend::shift_to(glm::ivec2 place) {
+  for (LegendText& text : texts_) text.place += place;
+  for (LegendBox& box : boxes_) {
+    box.low += place;
+    box.high += place;
+  }
+}
+
+void Legend::lay_out_right(const std::string& title) {
+  const int em = font_.height(), room = picture_size_.y - 2 * em;
+  const std::vector<std::string> lines = wrapped(title, font_, picture_size_.x / 4);
+  const int title_height = static_cast<int>(lines.size()) * line() + em / 2;
+  const int least_bar = bar_ ? 5 * line() : 0;
+  if (room < title_height + least_bar + line()) too_small(picture_size_);
+  keep_entries(std::min<std::size_t>(kMostEntries, (room - title_height - least_bar) / line()));
+  int y = line() / 2;
+  for (const std::string& text : lines) {
+    texts_.push_back({text, {0, y}});
+    y += line();
+  }
+  y += em / 2;
+  if (bar_) {
+    const int height = std::min(18 * em, room - title_height - static_cast<int>(entries_.size()) * line() - line());
+    add_bar({0, y}, {em + em / 2, y + height}, true);
+    y += height + line();
+  }
+  for (const Entry& entry : entries_) {
+    add_entry(entry, {0, y});
+    y += line();
+  }
+  int width = 0;
+  for (const LegendText& text : texts_) width = std::max(width, text.place.x + font_.width(text.text));
+  molecule_size_.x = picture_size_.x - width - 2 * em;
+  if (molecule_size_.x < picture_size_.x / 3) too_small(picture_size_);
+  shift_to({molecule_size_.x + em, (picture_size_.y - (y - line() / 2)) / 2});
+}
+
+void Legend::lay_out_bottom(const std::string& title) {
+  const int em = font_.height(), room = picture_size_.x - 2 * em;
+  int y = line() / 2;
+  for (const std::string& text : wrapped(title, font_, room)) {
+    texts_.push_back({text, {0, y}});
+    y += line();
+  }
+  if (bar_) {
+    const int end = 2 * em;  // half a number reaches past each end of the bar
+    if (room < 14 * em) too_small(picture_size_);
+    add_bar({end, y}, {std::min(room - end, 30 * em), y + em + em / 2}, false);
+    y += 3 * em + em / 2;
+  }
+  int column = 1;
+  for (const Entry& entry : entries_) column = std::max(column, entry_width(entry) + em);
+  const int columns = std::max(1, (room + em) / column);
+  keep_entries(std::min<std::size_t>(kMostEntries, static_cast<std::size_t>(columns) * 6));
+  for (std::size_t n = 0; n < entries_.size(); ++n)
+    add_entry(entries_[n],
+              {static_cast<int>(n) % columns * column, y + line() / 2 + static_cast<int>(n) / columns * line()});
+  y += (static_cast<int>(entries_.size()) + columns - 1) / columns * line() + line() / 2;
+  int width = 0;
+  for (const LegendText& text : texts_) width = std::max(width, text.place.x + font_.width(text.text));
+  molecule_size_.y = picture_size_.y - y - em;
+  if (width > room + em || molecule_size_.y < picture_size_.y / 3) too_small(picture_size_);
+  shift_to({em, molecule_size_.y + em / 2});
+}
+
+}  // namespace meniscus

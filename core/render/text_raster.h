@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Text as pixels, by FreeType.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <glm/vec2.hpp>
+
+namespace meniscus {
+
+/// One face and size of letters. Text is UTF-8.
+class Font {
+ public:
+  /// height: of a line's letters, in pixels. Takes the first of DejaVu Sans, Liberation Sans and Noto Sans in the
+  /// places where Linux distributions keep them. Throws RequestError when there is none, naming the package to install.
+  explicit Font(int height);
+  ~Font();
+
+  int height() const { return height_; }
+  /// Pixels from the start of the text to its end.
+  int width(std::string_view text) const;
+
+  /// Draws text into `mask`, rows of `size`.x shares of coverage in [0, 1], from the left of `place`; its capitals are
+  /// centred on the row place.y. What lies outside is cut off.
+  void draw(std::string_view text, glm::ivec2 place, std::vector<float>& mask, glm::ivec2 size) const;
+
+ private:
+  struct Face;
+  std::unique_ptr<Face> face_;
+  int height_;
+  int capital_height_ = 0;
+};
+
+/// Text of a foreign file made fit to be drawn: control characters escaped, bytes that are no UTF-8 as '?', at most 24
+/// characters and then an ellipsis; "(blank)" for nothing.
+std::string drawable(std::string_view text);
+
+}  // namespace meniscus

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Legends: their place at every size, what is drawn where, transparency, and names that do not behave.
+#include "core/render/legend.h"
+
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "core/base/error.h"
+#include "core/render/color_space.h"
+
+namespace meniscus {
+namespace {
+
+ColorKey numbers(double low, double high, std::size_t missing = 0) {
+  ColorScale scale;
+  scale.title = "B-factor";
+  scale.unit = "Å²";
+  scale.range = {low, high};
+  scale.missing = missing;
+  scale.missing_color = glm::vec3(0.5f);
+  return {"", scale, {}};
+}
+
+ColorKey classes(std::size_t count) {
+  ColorKey key{"chain", {}, {}};
+  for (std::size_t n = 0; n < count; ++n)
+    key.classes.push_back({"chain " + std::to_string(n), glm::vec3(0.0f, 1.0f, 0.0f)});
+  return key;
+}
+
+/// A molecule that fills all of its part of the picture with half-transparent red.
+Framebuffer molecule(glm::ivec2 size, bool aovs) {
+  Framebuffer picture;
+  picture.size = size;
+  const std::size_t count = static_cast<std::size_t>(size.x) * size.y;
+  picture.color.assign(count, {0.5f, 0.0f, 0.0f, 0.5f});
+  if (!aovs) return picture;
+  picture.z.assign(count, 1.0f);
+  picture.normal.assign(count, glm::vec3(1.0f));
+  picture.position.assign(count, glm::vec3(1.0f));
+  picture.atom.assign(count, 3);
+  picture.kind.assign(count, 1);
+  picture.component.assign(count, 0);
+  return picture;
+}
+
+Framebuffer with_legend(const ColorKey& key, glm::ivec2 size, const std::optional<glm::vec3>& background) {
+  const Legend legend(key, size);
+  return legend.add_to(molecule(legend.molecule_size(), false), background);
+}
+
+bool same(const glm::vec4& a, const glm::vec4& b) { return glm::all(glm::lessThan(glm::abs(a - b), glm::vec4(1e-4f))); }
+
+std::size_t count(const Framebuffer& picture, const glm::vec4& color) {
+  std::size_t found = 0;
+  for (const glm::vec4& pixel : picture.color) found += same(pixel, color);
+  return found;
+}
+
+const glm::vec4 kRed(0.5f, 0.0f, 0.0f, 0.5f);
+
+TEST(Legend, NeverCoversTheMoleculeAndFitsAtEverySize) {
+  for (const glm::ivec2 size :
+       {glm::ivec2(200, 150), {200, 200}, {200, 300}, {800, 600}, {600, 800}, {1920, 400}, {3840, 2160}}) {
+    for (const ColorKey& key : {numbers(-1.5, 97.25, 12), classes(2), classes(300)}) {
+      const Legend legend(key, size);
+      const glm::ivec2 left = legend.molecule_size();
+      EXPECT_TRUE(size.x >= size.y ? left.x < size.x && left.y == size.y : left.x == size.x && left.y < size.y);
+      EXPECT_GE(3 * left.x * left.y, size.x * size.y);
+      const Framebuffer picture = legend.add_to(molecule(left, false), glm::vec3(1.0f));
+      ASSERT_EQ(picture.size, size);
+      EXPECT_EQ(count(picture, kRed), static_cast<std::size_t>(left.x) * left.y);
+      std::size_t drawn = 0, on_rim = 0;
+      for (int y = 0; y < size.y; ++y)
+        for (int x = 0; x < size.x; ++x) {
+          if (x < left.x && y < left.y) continue;
+          const bool ink = picture.color[static_cast<std::size_t>(y) * size.x + x].w > 0.0f;
+          drawn += ink;
+          on_rim += ink && (x == size.x - 1 || y == size.y - 1 || y == 0);  // it would go on outside
+        }
+      EXPECT_GT(drawn, 100u);
+      EXPECT_EQ(on_rim, 0u) << size.x << " " << size.y;
+    }
+  }
+}
+
+TEST(Legend, ASizeWithoutRoomIsRefused) {
+  for (const glm::ivec2 size : {glm::ivec2(60, 40), {40, 60}, {500, 60}, {1, 1}}) {
+    EXPECT_THROW(Legend(numbers(0.0, 1.0), size), RequestError);
+  }
+}
+
+TEST(Legend, TheBarRunsThroughTheMapFromBelow) {
+  const Framebuffer picture = with_legend(numbers(0.0, 10.0), {800, 600}, glm::vec3(1.0f));
+  // Along some column of the strip both ends of the map and its middle are met, the low end below.
+  const auto row_of = [&](double t) {
+    const glm::vec4 color(linear_from_srgb(mapped_color(ColorMap::viridis, t)), 1.0f);
+    for (std::size_t n = 0; n < picture.color.size(); ++n)
+      if (glm::length(picture.color[n] - color) < 0.01f) return static_cast<int>(n) / 800;
+    return -1;
+  };
+  EXPECT_GT(row_of(0.0), row_of(0.5));
+  EXPECT_GT(row_of(0.5), row_of(1.0));
+  EXPECT_GT(row_of(1.0), 0);
+}
+
+TEST(Legend, SwatchesHaveTheColoursAndMissingNumbersOne) {
+  EXPECT_GT(count(with_legend(classes(3), {800, 600}, glm::vec3(1.0f)), {0.0f, 1.0f, 0.0f, 1.0f}), 3u * 20u * 20u - 1u);
+  const glm::vec4 gray(linear_from_srgb(glm::vec3(0.5f)), 1.0f);
+  EXPECT_GT(count(with_legend(numbers(0.0, 1.0, 5), {800, 600}, glm::vec3(1.0f)), gray), 399u);
+  EXPECT_EQ(count(with_legend(numbers(0.0, 1.0, 0), {800, 600}, glm::vec3(1.0f)), gray), 0u);
+}
+
+TEST(Legend, LettersSuitTheBackground) {
+  const glm::vec4 dark(linear_from_srgb(glm::vec3(0.07f)), 1.0f), light(linear_from_srgb(glm::vec3(0.95f)), 1.0f);
+  const ColorKey key = classes(3);
+  const auto pixels = [&](const std::optional<glm::vec3>& background, const glm::vec4& ink) {
+    return count(with_legend(key, {800, 600}, background), ink);
+  };
+  for (const glm::vec3& pale : {glm::vec3(1.0f), glm::vec3(0.5f), glm::vec3(1.0f, 1.0f, 0.0f)}) {
+    EXPECT_GT(pixels(pale, dark), 200u);
+    EXPECT_EQ(pixels(pale, light), 0u);
+  }
+  for (const glm::vec3& deep : {glm::vec3(0.0f), glm::vec3(0.3f), glm::vec3(0.0f, 0.0f, 1.0f)}) {
+    EXPECT_GT(pixels(deep, light), 200u);
+    EXPECT_EQ(pixels(deep, dark), 0u);
+  }
+  // Transparent: dark letters, a light rim around them, clear elsewhere; premultiplied throughout.
+  const Framebuffer clear = with_legend(key, {800, 600}, std::nullopt);
+  EXPECT_GT(count(clear, dark), 200u);
+  EXPECT_GT(count(clear, glm::vec4(1.0f)), 200u);
+  EXPECT_GT(count(clear, glm::vec4(0.0f)), 800u * 600u / 20u);
+  for (const glm::vec4& pixel : clear.color) {
+    EXPECT_LE(std::max({pixel.x, pixel.y, pixel.z}), pixel.w + 1e-5f);
+    EXPECT_LE(pixel.w, 1.0f + 1e-5f);
+  }
+}
+
+TEST(Legend, TheStripIsAMissInEveryAov) {
+  const Legend legend(classes(2), {400, 300});
+  const Framebuffer picture = legend.add_to(molecule(legend.molecule_size(), true), std::nullopt);
+  ASSERT_EQ(picture.z.size(), 400u * 300u);
+  for (int y = 0; y < 300; ++y)
+    for (int x = 0; x < 400; ++x) {
+      const std::size_t at = static_cast<std::size_t>(y) * 400 + x;
+      const bool inside = x < legend.molecule_size().x;
+      ASSERT_EQ(std::isfinite(picture.z[at]), inside);
+      ASSERT_EQ(picture.atom[at], inside ? 3u : kNone);
+      ASSERT_EQ(picture.component[at], inside ? 0u : kNone);
+      ASSERT_EQ(picture.kind[at], inside ? 1u : kNone);
+      ASSERT_EQ(picture.normal[at], glm::vec3(inside ? 1.0f : 0.0f));
+      ASSERT_EQ(picture.position[at], glm::vec3(inside ? 1.0f : 0.0f));
+    }
+}
+
+TEST(Legend, NamesFromFilesAreBoundAndHarmless) {
+  EXPECT_EQ(drawable("A"), "A");
+  EXPECT_EQ(drawable("  "), "(blank)");
+  EXPECT_EQ(drawable(""), "(blank)");
+  EXPECT_EQ(drawable("a\x1b[2J\n"), "a\\x1b[2J\\x0a");
+  EXPECT_EQ(drawable("Å²≤"), "Å²≤");
+  EXPECT_EQ(drawable("\xff\xc3"), "??");
+  EXPECT_EQ(drawable("\xe2\x82z"), "??z");
+  EXPECT_EQ(drawable(std::string(25, 'x')), std::string(24, 'x') + "…");
+  ColorKey wild = classes(40);
+  for (ColorClass& entry : wild.classes) entry.name = std::string(10000, '\x01');
+  EXPECT_EQ(with_legend(wild, {800, 600}, std::nullopt).size, glm::ivec2(800, 600));
+}
+
+TEST(Legend, RoundNumbers) {
+  EXPECT_EQ(round_numbers(0.0, 10.0, 5), (std::vector<double>{2.0, 4.0, 6.0, 8.0}));
+  EXPECT_EQ(round_numbers(-4.5, 4.5, 5), (std::vector<double>{-4.0, -2.0, 0.0, 2.0, 4.0}));
+  EXPECT_EQ(round_numbers(3.0, 3.0, 5), std::vector<double>{});
+  EXPECT_EQ(round_numbers(0.0, 1.0, 0), std::vector<double>{});
+  for (const double scale : {1e-12, 1.0, 3.7, 1e9}) {
+    const std::vector<double> found = round_numbers(-scale, 1.3 * scale, 5);
+    EXPECT_GE(found.size(), 2u);
+    EXPECT_LE(found.size(), 5u);
+  }
+}
+
+TEST(Legend, LettersOfEveryAlphabetDiffer) {
+  const Font font(32);
+  const auto pixels = [&](std::string_view text) {
+    std::vector<float> mask(100 * 60, 0.0f);
+    font.draw(text, {10, 30}, mask, {100, 60});
+    return mask;
+  };
+  EXPECT_NE(pixels("Å"), pixels("A"));
+  EXPECT_NE(pixels("²"), pixels("2"));
+  EXPECT_NE(pixels("é"), pixels(")"));
+  EXPECT_NE(pixels("≤"), pixels("≥"));
+  EXPECT_GT(font.width("WW"), font.width("W"));
+}
+
+}  // namespace
+}  // namespace meniscus
