@@ -2,6 +2,7 @@
 // Every pixel of the ray caster against exact depths: closed forms, the double twin, and the sphere-tracing oracle.
 #include "core/render/ray_caster.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <functional>
@@ -246,6 +247,41 @@ TEST_F(RayCasting, AovsDescribeThePointOfThePixelCentre) {
   EXPECT_GT(hit_count, 4000);
   EXPECT_LE(other_patch, 4);
   EXPECT_LE(other_atom, 4);
+}
+
+TEST_F(RayCasting, RaysGoOnThroughHiddenAtoms) {
+  const Surface surface = compute_surface_cpu(testing::ubiquitin(), 1.4);
+  Coloring coloring = gray(surface);
+  for (std::uint32_t a = 0; a < surface.atoms.size(); ++a) coloring.hidden.push_back(a % 5 < 2);
+  const testing::RayCasterTwin twin(surface, coloring);
+  RenderSettings settings;
+  settings.size = {128, 96};
+  settings.aovs = true;
+  for (const Projection projection : {Projection::perspective, Projection::orthographic}) {
+    const Camera camera = frame_camera(surface, 4.0 / 3.0, projection);
+    const Framebuffer picture = caster_.render(surface, coloring, camera, settings);
+    const Agreement agreement = compare(picture, camera, [&](const Ray& ray) -> std::optional<double> {
+      const auto hit = twin.trace(ray);
+      return hit ? std::optional(hit->t) : std::nullopt;
+    });
+    EXPECT_EQ(agreement.wrong, 0) << agreement.first_wrong;
+    EXPECT_GT(agreement.hit, 3000);
+    // Every cut through a patch is a silhouette: more of them than of whole molecules.
+    EXPECT_LE(agreement.displaced, agreement.hit / 100);
+    int inside = 0;
+    for (int at = 0; at < 128 * 96; ++at) {
+      if (picture.atom[at] == kNone) continue;
+      EXPECT_TRUE(coloring.shows(picture.atom[at])) << at;
+      const Ray ray = pixel_ray(camera, picture.size, {at % 128 + 0.5, at / 128 + 0.5});
+      inside += glm::dot(glm::dvec3(picture.normal[at]), ray.direction) > 0.1;
+      // Seen from behind it is lit like a front: nothing is black.
+      EXPECT_GT(picture.color[at].x, 0.01f);
+    }
+    EXPECT_GT(inside, 300);
+  }
+  coloring.hidden.assign(surface.atoms.size(), true);
+  const Framebuffer empty = caster_.render(surface, coloring, frame_camera(surface, 4.0 / 3.0), settings);
+  EXPECT_TRUE(std::ranges::all_of(empty.color, [](const glm::vec4& c) { return c == glm::vec4(0.0f); }));
 }
 
 TEST_F(RayCasting, BlocksAndSamplesDoNotChangeThePicture) {

@@ -33,7 +33,8 @@ struct TorusFrame {
 
 }  // namespace
 
-RayCasterTwin::RayCasterTwin(const Surface& surface) : surface_(surface) {
+RayCasterTwin::RayCasterTwin(const Surface& surface, const Coloring& coloring)
+    : surface_(surface), coloring_(coloring) {
   for (std::uint32_t i = 0; i < surface.convex.size(); ++i) {
     const Ball& ball = surface.atoms[surface.convex[i].atom];
     candidates_.push_back({ball.center, ball.radius, PatchKind::convex, i});
@@ -64,19 +65,23 @@ std::optional<TwinHit> RayCasterTwin::trace(const Ray& ray) const {
 }
 
 double RayCasterTwin::hit(const Candidate& candidate, const Ray& ray, double nearest) const {
-  if (candidate.kind == PatchKind::toroidal) return hit_toroidal(surface_.toroidal[candidate.patch], ray, nearest);
+  if (candidate.kind == PatchKind::toroidal) return hit_toroidal(candidate, ray, nearest);
   if (candidate.kind == PatchKind::convex) {
     const ConvexPatch& patch = surface_.convex[candidate.patch];
-    return hit_sphere(candidate.center, candidate.radius, patch.first_plane, patch.plane_count, ray, nearest);
+    return hit_sphere(candidate, patch.first_plane, patch.plane_count, ray, nearest);
   }
   const ConcavePatch& patch = surface_.concave[candidate.patch];
-  return hit_sphere(candidate.center, candidate.radius, patch.first_plane, patch.side_count + patch.cut_count, ray,
-                    nearest);
+  return hit_sphere(candidate, patch.first_plane, patch.side_count + patch.cut_count, ray, nearest);
 }
 
-double RayCasterTwin::hit_sphere(const glm::dvec3& center, double radius, std::uint32_t first_plane,
-                                 std::uint32_t plane_count, const Ray& ray, double nearest) const {
-  const geometry::SphereHits hits = geometry::ray_sphere(ray.origin - center, ray.direction, radius);
+bool RayCasterTwin::shows(const Candidate& candidate, const Ray& ray, double t) const {
+  return coloring_.shows(describe(candidate, ray, t).atom);
+}
+
+double RayCasterTwin::hit_sphere(const Candidate& candidate, std::uint32_t first_plane, std::uint32_t plane_count,
+                                 const Ray& ray, double nearest) const {
+  const geometry::SphereHits hits =
+      geometry::ray_sphere(ray.origin - candidate.center, ray.direction, candidate.radius);
   if (!hits.found) return nearest;
   for (const double t : {hits.near_t, hits.far_t}) {
     if (t <= 0.0 || t >= nearest) continue;
@@ -84,12 +89,13 @@ double RayCasterTwin::hit_sphere(const glm::dvec3& center, double radius, std::u
     for (std::uint32_t i = first_plane; i < first_plane + plane_count && inside; ++i)
       inside = geometry::in_half_space(ray.origin + ray.direction * t, surface_.planes[i].normal,
                                        surface_.planes[i].offset, kSlack);
-    if (inside) return t;
+    if (inside && shows(candidate, ray, t)) return t;
   }
   return nearest;
 }
 
-double RayCasterTwin::hit_toroidal(const ToroidalPatch& patch, const Ray& ray, double nearest) const {
+double RayCasterTwin::hit_toroidal(const Candidate& candidate, const Ray& ray, double nearest) const {
+  const ToroidalPatch& patch = surface_.toroidal[candidate.patch];
   const double p = surface_.probe_radius;
   const TorusFrame frame(surface_, patch);
   const double shift = -glm::dot(ray.origin - patch.center, ray.direction);
@@ -105,7 +111,8 @@ double RayCasterTwin::hit_toroidal(const ToroidalPatch& patch, const Ray& ray, d
     if (t <= 0.0 || t >= nearest) continue;
     if (geometry::in_toroidal_patch(o + d * hits.t[i], patch.radius, frame.height[0] * p / frame.extended[0],
                                     frame.height[1] * p / frame.extended[1], std::cos(patch.sweep),
-                                    std::sin(patch.sweep), range, kSlack))
+                                    std::sin(patch.sweep), range, kSlack) &&
+        shows(candidate, ray, t))
       return t;
   }
   return nearest;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/render/camera.h"
+#include "core/surface/coloring.h"
 #include "core/surface/primitives.h"
 
 namespace meniscus::testing {
@@ -21,7 +22,8 @@ struct TwinHit {
 /// Looks at a surface that must outlive it.
 class RayCasterTwin {
  public:
-  explicit RayCasterTwin(const Surface& surface);
+  /// coloring: says which atoms are hidden.
+  explicit RayCasterTwin(const Surface& surface, const Coloring& coloring = {});
 
   /// Nearest point of any patch on the ray.
   std::optional<TwinHit> trace(const Ray& ray) const;
@@ -35,12 +37,14 @@ class RayCasterTwin {
   };
 
   double hit(const Candidate& candidate, const Ray& ray, double nearest) const;
-  double hit_toroidal(const ToroidalPatch& patch, const Ray& ray, double nearest) const;
-  double hit_sphere(const glm::dvec3& center, double radius, std::uint32_t first_plane, std::uint32_t plane_count,
-                    const Ray& ray, double nearest) const;
+  double hit_toroidal(const Candidate& candidate, const Ray& ray, double nearest) const;
+  double hit_sphere(const Candidate& candidate, std::uint32_t first_plane, std::uint32_t plane_count, const Ray& ray,
+                    double nearest) const;
+  bool shows(const Candidate& candidate, const Ray& ray, double t) const;
   TwinHit describe(const Candidate& candidate, const Ray& ray, double t) const;
 
   const Surface& surface_;
+  Coloring coloring_;
   std::vector<Candidate> candidates_;
 };
 

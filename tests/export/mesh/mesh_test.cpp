@@ -248,6 +248,55 @@ TEST(Mesh, ATorusIsColoredBySidesOfItsMiddle) {
   }
 }
 
+TEST(Mesh, HiddenAtomsLeaveAHoleThatTheirOwnPartFills) {
+  // Two atoms 5.6 Å apart are two drops: without the second one nothing is open.
+  const std::pair<Balls, bool> cases[] = {
+      {gas(9, 40, 11.0, 1.2, 2.0), false}, {two_atoms(4.0), false}, {two_atoms(5.6), true}, {c60(1.45), false}};
+  for (const auto& [balls, closed] : cases) {
+    const Surface surface = compute_surface_cpu(balls, kWater);
+    const TriangleMesh whole = tessellate(surface, {0.05, true});
+    Coloring shown, others;
+    for (std::size_t a = 0; a < balls.size(); ++a) {
+      shown.hidden.push_back(a % 3 == 1);
+      others.hidden.push_back(a % 3 != 1);
+    }
+    const TriangleMesh part = shown_part(whole, shown), rest = shown_part(whole, others);
+    EXPECT_TRUE(part.partly_hidden);
+    EXPECT_EQ(measure(part).closed, closed);
+    EXPECT_EQ(part.triangles.size() + rest.triangles.size(), whole.triangles.size());
+    EXPECT_NEAR(measure(part).area + measure(rest).area, measure(whole).area, 1e-6);
+    for (const std::uint32_t a : part.atom) EXPECT_TRUE(shown.shows(a));
+    EXPECT_EQ(part.sharp_corners.size() + rest.sharp_corners.size(), whole.sharp_corners.size());
+    // Each row still belongs to its triangle: the first corner's place, its normal, and the sharp ones.
+    std::size_t t = 0, sharp = 0, whole_sharp = 0;
+    for (std::size_t w = 0; w < whole.triangles.size(); ++w) {
+      const bool kept = shown.shows(whole.atom[w]);
+      for (std::uint32_t k = 0; k < 3; ++k) {
+        const bool is_sharp = whole_sharp < whole.sharp_corners.size() && whole.sharp_corners[whole_sharp] == 3 * w + k;
+        if (kept && is_sharp) {
+          ASSERT_EQ(part.sharp_corners[sharp], 3 * t + k);
+          ASSERT_EQ(part.sharp_corner_normals[sharp++], whole.sharp_corner_normals[whole_sharp]);
+        }
+        whole_sharp += is_sharp;
+        if (!kept) continue;
+        ASSERT_EQ(part.positions[part.triangles[t][k]], whole.positions[whole.triangles[w][k]]);
+        ASSERT_EQ(part.normals[part.triangles[t][k]], whole.normals[whole.triangles[w][k]]);
+      }
+      if (!kept) continue;
+      ASSERT_EQ(part.patch[t], whole.patch[w]);
+      ASSERT_EQ(part.kind[t], whole.kind[w]);
+      ASSERT_EQ(part.component[t++], whole.component[w]);
+    }
+    std::vector<bool> used(part.positions.size(), false);
+    for (const auto& triangle : part.triangles)
+      for (const std::uint32_t v : triangle) used[v] = true;
+    EXPECT_TRUE(std::ranges::all_of(used, [](bool u) { return u; }));
+    for (const auto& e : part.sharp_edges) EXPECT_LT(std::max(e[0], e[1]), part.positions.size());
+    EXPECT_EQ(shown_part(whole, {}).triangles, whole.triangles);
+    EXPECT_FALSE(shown_part(whole, {}).partly_hidden);
+  }
+}
+
 TEST(Mesh, AToleranceThatIsNoLengthIsRefused) {
   const Surface surface = compute_surface_cpu(two_atoms(4.0), kWater);
   for (const double tolerance : {0.0, -1.0, std::nan(""), HUGE_VAL}) {
