@@ -43,7 +43,8 @@ const std::string_view kStyleTemplate = R"pov(
   light_source { -Meniscus_Forward*1e4 color Meniscus_Head_Light parallel point_at 0 shadowless }
 #end
 #ifndef (Meniscus_Background) #declare Meniscus_Background = Meniscus_Default_Background; #end
-background { Meniscus_Background }
+#ifndef (Meniscus_Clear) #declare Meniscus_Clear = 0; #end
+#if (Meniscus_Clear = 1) background { rgbt 1 } #else background { Meniscus_Background } #end
 
 // Materials: 0 opaque, 1 ghost, 2 glass, 3 wax. Declare any of the names below before including to change it.
 #switch (Meniscus_Material)
@@ -179,7 +180,8 @@ Antialias_Depth=3
 Sampling_Method=2
 Display=Off
 
-; Other pictures of the same scene: povray @NAME@.ini[ghost] and so on. Add Output_Alpha=On for a clear background.
+; Other pictures of the same scene: povray @NAME@.ini[ghost] and so on. For a clear background add
+; Declare=Meniscus_Clear=1 Output_Alpha=On.
 [opaque]
 Declare=Meniscus_Material=0
 Output_File_Name=@NAME@_opaque.png

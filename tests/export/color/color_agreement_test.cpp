@@ -71,7 +71,7 @@ FlatPicture povray(const std::vector<SurfaceObject>& objects, const Camera& came
   options.height = kHeight;
   write_scene(objects, camera, options, scratch.path() / "scene");
   write_text(scratch.path() / "scene/flat.pov",
-             "#version 3.7;\n#declare Meniscus_Background = rgbt 1;\n#declare Meniscus_Finish = finish { emission 1 "
+             "#version 3.7;\n#declare Meniscus_Clear = 1;\n#declare Meniscus_Finish = finish { emission 1 "
              "ambient 0 diffuse 0 }\n"
              "#include \"surface.pov\"\n");
   const PovrayRun run =
