@@ -20,7 +20,8 @@ namespace meniscus {
 namespace {
 
 constexpr Command kCommands[] = {
-    {"surface", add_surface}, {"render", add_render}, {"info", add_info}, {"export", add_export}, {"bench", add_bench},
+    {"surface", add_surface}, {"render", add_render},   {"info", add_info},
+    {"export", add_export},   {"formats", add_formats}, {"bench", add_bench},
 };
 
 constexpr const char* kExamples = R"(  meniscus info 1tii.pdb                        what the file holds

@@ -13,10 +13,12 @@
 namespace meniscus {
 namespace {
 
-constexpr std::array<const Reader*, 3> kReaders{&kPdbReader, &kMmcifReader, &kXyzrReader};
+constexpr std::array<const Reader*, 6> kReaders{&kPdbReader, &kMmcifReader, &kPqrReader,
+                                                &kGroReader, &kXyzReader,   &kXyzrReader};
 
-/// Strict tests first: PDB takes any text with one of its records in it.
-constexpr std::array<const Reader*, 3> kOrderOfTrial{&kMmcifReader, &kPdbReader, &kXyzrReader};
+/// Strict tests first: PDB takes any text with one of its records in it, and what may be PQR too.
+constexpr std::array<const Reader*, 6> kOrderOfTrial{&kMmcifReader, &kGroReader, &kXyzReader,
+                                                     &kPdbReader,   &kPqrReader, &kXyzrReader};
 static_assert(kReaders.size() == kOrderOfTrial.size());
 
 std::string lower_case_name(const std::string& path) {

@@ -16,6 +16,7 @@
 #include "core/molecule/atom_classes.h"
 #include "core/molecule/oddity.h"
 #include "core/molecule/pdb_columns.h"
+#include "core/molecule/pqr_record.h"
 #include "core/molecule/reader.h"
 #include "core/molecule/residue_counter.h"
 #include "core/molecule/text_lines.h"
@@ -162,12 +163,14 @@ class PdbReader {
 };
 
 bool recognizes(std::string_view text) {
-  constexpr std::array<std::string_view, 16> kRecords{"ATOM",   "HETATM", "HEADER", "TITLE ", "COMPND", "SOURCE",
-                                                      "REMARK", "CRYST1", "MODEL ", "SEQRES", "EXPDTA", "AUTHOR",
-                                                      "KEYWDS", "CONECT", "ENDMDL", "DBREF "};
+  const AtomRecordStyle style = style_of_atom_records(text);
+  if (style.any) return style.pdb;
+  constexpr std::array<std::string_view, 14> kOtherRecords{"HEADER", "TITLE ", "COMPND", "SOURCE", "REMARK",
+                                                           "CRYST1", "MODEL ", "SEQRES", "EXPDTA", "AUTHOR",
+                                                           "KEYWDS", "CONECT", "ENDMDL", "DBREF "};
   LineReader lines(text);
   for (std::string_view line; lines.next(line);) {
-    if (std::any_of(kRecords.begin(), kRecords.end(),
+    if (std::any_of(kOtherRecords.begin(), kOtherRecords.end(),
                     [&](std::string_view record) { return is_pdb_record(line, record); }))
       return true;
   }

@@ -23,7 +23,8 @@ class LineReader {
     return true;
   }
 
-  std::size_t number() const { return number_; }           ///< of the line last given, from 1
+  std::size_t number() const { return number_; }  ///< of the line last given, from 1
+  bool only_blanks_left() const { return rest_.find_first_not_of(" \t\n") == std::string_view::npos; }
   std::size_t bytes_left() const { return rest_.size(); }  ///< behind it
 
  private:

@@ -46,6 +46,12 @@ const std::string kMmcif =
     "_atom_site.label_asym_id\n_atom_site.label_seq_id\n_atom_site.Cartn_x\n_atom_site.Cartn_y\n_atom_site.Cartn_z\n"
     "C CA GLY A 1 1.0 2.0 3.0\nC C GLY A 1 4.0 5.0 6.0\n";
 
+const std::string kPqr = "ATOM 1 N ALA A 1 0 0 0 -0.3 1.85\n";
+const std::string kGroAtom = "    1ALA     CA    1   0.000   0.000   0.000\n";
+std::string gro(const std::string& count, const std::string& atoms) {
+  return "title\n" + count + "\n" + atoms + " 1.0 1.0 1.0\n";
+}
+
 std::vector<BadFile> bad_files() {
   const std::string water = pdb({.record = "HETATM", .name = " O  ", .residue = "HOH", .element = " O"});
   const std::string good_gz = gzipped(pdb({}));
@@ -88,6 +94,48 @@ std::vector<BadFile> bad_files() {
       {"pdb named cif", "a.cif", pdb({}), "the name says mmCIF, but the content is PDB"},
       {"mmcif named pdb", "a.pdb", kMmcif, "the name says PDB, but the content is mmCIF"},
       {"gzipped xyzr named pdb", "a.pdb.gz", gzipped("0 0 0 1.7\n"), "the name says PDB, but the content is XYZR"},
+      // PQR (33)
+      {"pdb named pqr", "a.pqr", pdb({}), "the name says PQR, but the content is PDB"},
+      {"pqr named pdb", "a.pdb", kPqr, "the name says PDB, but the content is PQR"},
+      {"pqr without radius", "a.pqr", "ATOM 1 N ALA 1 0 0 0 0.1\n", ":1: 'ATOM 1 N ALA 1 0 0 0 0.1' cannot be taken"},
+      {"pqr of touching numbers", "a.pqr", kPqr + "ATOM 2 C ALA A 1 -100.125-100.25 0 0.1 1.5\n", ":2: 'ATOM 2 C ALA"},
+      {"pqr negative radius", "a.pqr", kPqr + "ATOM 2 C ALA A 1 1 0 0 0.1 -1.0\n", ":2: radius is -1 Å"},
+      {"pqr nan radius", "a.pqr", kPqr + "ATOM 2 C ALA A 1 1 0 0 0.1 nan\n",
+       ":2: radius is 'nan', not a finite number"},
+      {"pqr huge radius", "a.pqr", kPqr + "ATOM 2 C ALA A 1 1 0 0 0.1 1e6\n", ":2: radius is 1000000 Å, above"},
+      {"pqr nan charge", "a.pqr", kPqr + "ATOM 2 C ALA A 1 1 0 0 nan 1.5\n", ":2: charge is 'nan', not a finite"},
+      {"pqr nan coordinate", "a.pqr", kPqr + "ATOM 2 C ALA A 1 1 nan 0 0.1 1.5\n", ":2: coordinate y is 'nan'"},
+      {"pqr number", "a.pqr", kPqr + "ATOM 2 C ALA A x1 1 0 0 0.1 1.5\n", ":2: 'ATOM 2 C ALA A x1"},
+      // GRO (30, 31)
+      {"gro count text", "a.gro", gro("many", kGroAtom), ":2: 'many' should be the number of atoms"},
+      {"gro count negative", "a.gro", gro("-1", kGroAtom), ":2: '-1' should be the number of atoms"},
+      {"gro count 2 to the 31", "a.gro", gro("2147483648", kGroAtom),
+       ":2: the count says 2,147,483,648 atoms, more than"},
+      {"gro count of twenty digits", "a.gro", gro("99999999999999999999", kGroAtom), ":2: '99999999999999999999'"},
+      {"gro count too large", "a.gro", gro("2", kGroAtom), ":4: ' 1.0 1.0 1.0' has no three coordinates"},
+      {"gro count too small", "a.gro", gro("1", kGroAtom + kGroAtom),
+       ":4: '    1ALA     CA    1   0.000   0.000   0...' stands where the box"},
+      {"gro without box", "a.gro", "title\n1\n" + kGroAtom, ":3: is the last line; the box"},
+      {"gro without count", "a.gro", "title\n", ":1: is the last line; a title and the number"},
+      {"gro without atoms", "a.gro", gro("0", ""), "holds no atoms"},
+      {"gro stars", "a.gro", gro("1", with(kGroAtom, "   0.000", "********")), ":3: coordinate x is '********'"},
+      {"gro far", "a.gro", gro("1", with(kGroAtom, "   0.000", "20000.00")), ":3: coordinate x is 200000 Å, beyond"},
+      {"gro residue number", "a.gro", gro("2", kGroAtom + with(kGroAtom, "    1", "    x")),
+       ":4: residue number '    x' in columns 1 to 5 is no number"},
+      // XYZ (32)
+      {"xyz count text", "a.xyz", "C 0 0 0\n", ":1: 'C 0 0 0' should be the number of atoms of the file"},
+      {"xyz count negative", "a.xyz", "-2\n\nC 0 0 0\n", ":1: '-2' should be the number of atoms"},
+      {"xyz count huge", "a.xyz", "4294967296\n\nC 0 0 0\n", ":1: the count says 4,294,967,296 atoms, more than"},
+      {"xyz count too small", "a.xyz", "1\n\nC 0 0 0\nC 2 2 2\n",
+       ":4: 'C 2 2 2' should be the number of atoms of a further"},
+      {"xyz count too large", "a.xyz", "3\n\nC 0.00 0.00 0.00\nC 2.00 2.00 2.00\n",
+       ":1: the count says 3 atoms, but the file ends after 2"},
+      {"xyz of three columns", "a.xyz", "2\n\nC 0 0 0\nC 1 1\n", ":4: 'C 1 1' has 3 columns where an atom needs 4"},
+      {"xyz nan", "a.xyz", "2\n\nC 0 0 0\nC 1 nan 1\n", ":4: coordinate y is 'nan'"},
+      {"xyz far", "a.xyz", "2\n\nC 0 0 0\nC 1 2D7 1\n", ":4: coordinate y is 20000000 Å, beyond"},
+      {"xyz symbol", "a.xyz", "2\n\nC 0 0 0\nQq 1 1 1\n", "element of 1 atom is unknown: 'Qq' (atom 2)"},
+      {"xyz of no atoms", "a.xyz", "0\n\n", "holds no atoms"},
+      {"xyzr named xyz", "a.xyz", "6 0 0 0\n", "the name says XYZ, but the content is XYZR"},
       // PDB (10-14, 19)
       {"header only", "a.pdb", "HEADER    X\nEND\n", "no ATOM or HETATM"},
       {"only water", "a.pdb", water, "leaves no atoms"},

@@ -109,6 +109,30 @@ TEST(Altloc, TiesGoToLowerBFactorThenLetter) {
   EXPECT_EQ(read_text("a.pdb", b.text() + a.text()).atoms.front().position.x, 1.0);
 }
 
+TEST(Altloc, RulesAndLettersChooseByResidue) {
+  const auto line = [](char altloc, int number, const char* x, const char* occupancy) {
+    return PdbLine{.altloc = altloc, .number = number, .x = x, .occupancy = occupancy}.text();
+  };
+  const std::string text = line('B', 1, "   1.000", "  0.40") + line('A', 1, "   2.000", "  0.60") +
+                           line('B', 2, "   3.000", "  0.20") + line('C', 2, "   4.000", "  0.80") +
+                           line(' ', 3, "   5.000", "  1.00");
+  const auto places = [&](const char* choice) {
+    ReadOptions options;
+    options.altloc = parse_altloc_choice(choice).value();
+    std::vector<double> x;
+    for (const Atom& atom : read_text("a.pdb", text, options).atoms) x.push_back(atom.position.x);
+    return x;
+  };
+  EXPECT_EQ(places("best"), (std::vector<double>{2, 4, 5}));
+  EXPECT_EQ(places("first"), (std::vector<double>{1, 3, 5}));
+  EXPECT_EQ(places("B"), (std::vector<double>{1, 3, 5}));
+  EXPECT_EQ(places("A"), (std::vector<double>{2, 4, 5}));
+  EXPECT_EQ(places("C"), (std::vector<double>{2, 4, 5}));
+  EXPECT_EQ(places("all"), (std::vector<double>{1, 2, 3, 4, 5}));
+  EXPECT_FALSE(parse_altloc_choice("AB"));
+  EXPECT_FALSE(parse_altloc_choice(""));
+}
+
 TEST(Altloc, MicroheterogeneityKeepsOneResidue) {
   const std::string text = PdbLine{.altloc = 'A', .residue = "SER", .occupancy = "  0.30"}.text() +
                            PdbLine{.altloc = 'B', .residue = "PRO", .occupancy = "  0.70"}.text();

@@ -74,7 +74,10 @@ int read_damaged_copies(const std::string& whole, const char* name, int copies) 
     for (std::size_t n = 1 + below(random, 4); n > 0; --n) damage(bytes, random);
     const std::string path = folder.file(name, bytes);
     try {
-      const Structure structure = read_structure(path, {.unknown_element = UnknownElement::guess});
+      ReadOptions options;
+      options.unknown_element = UnknownElement::guess;
+      options.model.all = seed % 2 == 1;
+      const Structure structure = read_structure(path, options);
       std::size_t left_out = 0;
       for (const auto& [reason, count] : structure.report.excluded) left_out += count;
       EXPECT_EQ(structure.report.read, left_out + structure.atoms.size()) << seed;
@@ -110,6 +113,23 @@ TEST(Damaged, Mmcif) {
 
 TEST(Damaged, Xyzr) {
   EXPECT_GT(read_damaged_copies("# balls\n1 2 3 1.7 CA\n4 5 6 1.5\n-7 8e0 9 1.2\n", "a.xyzr", 500), 0);
+}
+
+TEST(Damaged, Pqr) {
+  const std::string line = "ATOM      1  N   THR A   1      17.047  14.099   3.625 -0.3200 2.0000\n";
+  EXPECT_GT(read_damaged_copies(line + line + "ATOM 3 CA THR 2 -1.5 2.5 3.5 0.1 2.0\nEND\n" + line, "a.pqr", 500), 0);
+}
+
+TEST(Damaged, Gro) {
+  const std::string frame =
+      "title\n    2\n    1SOL     OW    1   0.126   1.624   1.679  0.1227 -0.0580  0.0434\n"
+      "    2GLY     CA    2   0.190   1.661   1.747\n   1.82060   1.82060   1.82060\n";
+  EXPECT_GT(read_damaged_copies(frame + frame, "a.gro", 500), 0);
+}
+
+TEST(Damaged, Xyz) {
+  const std::string frame = "3\nProperties=species:S:1:pos:R:3\nC 0.5 -1.5 2D0\n8 1 2 3 more\nCl 4 5 6\n";
+  EXPECT_GT(read_damaged_copies(frame + frame, "a.xyz", 500), 0);
 }
 
 // The checksum finds every damage, except in the few header bytes that only carry a date and a name.

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// `meniscus formats`: which files can be read, and what of them is used.
+#include <iostream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ostream.h>
+#include <nlohmann/json.hpp>
+
+#include "app/commands.h"
+#include "core/molecule/formats.h"
+#include "core/molecule/text_lines.h"
+
+namespace meniscus {
+namespace {
+
+constexpr std::size_t kIndent = 13, kWidth = 100;
+
+/// A heading and its text in lines of kWidth, broken at blanks.
+void print_wrapped(std::string_view heading, std::string_view text) {
+  std::string line = fmt::format("  {:<{}}", heading, kIndent - 2);
+  std::size_t used = 0;
+  for (const std::string_view word : fields_of(text, text.size())) {
+    if (used > 0 && kIndent + used + 1 + word.size() > kWidth) {
+      fmt::print(std::cout, "{}\n", line);
+      line = std::string(kIndent, ' ');
+      used = 0;
+    }
+    line += fmt::format("{}{}", used == 0 ? "" : " ", word);
+    used += word.size() + 1;
+  }
+  fmt::print(std::cout, "{}\n", line);
+}
+
+void print_table() {
+  for (const Reader* reader : readers()) {
+    const FormatMetadata& metadata = reader->metadata;
+    fmt::print(std::cout, "{:<{}}{}\n", metadata.name, kIndent, metadata.extensions);
+    print_wrapped("what", metadata.description);
+    print_wrapped("read", metadata.reads);
+    print_wrapped("reference", metadata.reference);
+    fmt::print(std::cout, "\n");
+  }
+  fmt::print(std::cout,
+             "All of them plain or packed with gzip, from a file or from standard input (-). The content says which\n"
+             "format it is; a name that clearly says another one is an error.\n");
+}
+
+void print_json() {
+  nlohmann::ordered_json formats = nlohmann::ordered_json::array();
+  for (const Reader* reader : readers()) {
+    const FormatMetadata& metadata = reader->metadata;
+    formats.push_back({{"name", metadata.name},
+                       {"extensions", fields_of(metadata.extensions)},
+                       {"description", metadata.description},
+                       {"reads", metadata.reads},
+                       {"reference", metadata.reference}});
+  }
+  fmt::print(std::cout, "{}\n", formats.dump(2));
+}
+
+}  // namespace
+
+void add_formats(CLI::App& command) {
+  describe(command, "List the file formats that are read, and what of them is used",
+           "  meniscus formats\n"
+           "  meniscus formats --json");
+  auto json = std::make_shared<bool>(false);
+  command.add_flag("--json", *json, "As JSON, for programs");
+  command.callback([json] { *json ? print_json() : print_table(); });
+}
+
+}  // namespace meniscus
