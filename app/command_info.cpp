@@ -61,7 +61,7 @@ void print_classes_and_chains(const Structure& structure) {
     fmt::print(std::cout, "{:<14} {:>10} {:>10}\n", class_name(kind), with_thousands(tally.atoms),
                with_thousands(tally.residues));
   }
-  if (structure.radii_set == "file") return;  // XYZR knows no chains
+  if (classes.contains(AtomClass::unclassified)) return;  // XYZ and XYZR know no chains
   fmt::print(std::cout, "\n{:<14} {:>10} {:>10}\n", "chain", "atoms", "residues");
   for (const auto& [chain, tally] : chains) {
     fmt::print(std::cout, "{:<14} {:>10} {:>10}\n", chain.empty() ? "(none)" : escaped(chain),
@@ -70,7 +70,7 @@ void print_classes_and_chains(const Structure& structure) {
 }
 
 void print_elements(const Structure& structure) {
-  if (structure.radii_set == "file") return;  // XYZR has no elements
+  if (structure.format == "XYZR") return;  // it has no elements
   std::map<std::uint8_t, std::size_t> elements;
   for (const Atom& atom : structure.atoms) ++elements[atom.element];
   fmt::print(std::cout, "\n{:<14} {:>10} {:>10}  {}\n", "element", "atoms", "radius Å", "source");

@@ -9,9 +9,12 @@
 #include <string>
 #include <string_view>
 
+#include <fmt/format.h>
 #include <gemmi/elem.hpp>
 #include <gemmi/metadata.hpp>
 #include <gemmi/resinfo.hpp>
+
+#include "core/molecule/oddity.h"
 
 namespace meniscus {
 namespace {
@@ -92,7 +95,8 @@ gemmi::Element lone_ion_element(const Atom& atom) {
   return is_ion_element(element) ? element : gemmi::Element(gemmi::El::X);
 }
 
-/// The first letter of a name; two where only one element can be meant. D is more often a dummy than deuterium.
+/// The first letter of a name; two where only one element can be meant. Other letters are more often dummies and beads
+/// (D, M, W) than deuterium and tungsten.
 gemmi::Element element_by_letters(const Atom& atom) {
   const std::size_t letter = atom.name.find_first_not_of("0123456789");
   if (letter == std::string::npos) return gemmi::El::X;
@@ -102,8 +106,9 @@ gemmi::Element element_by_letters(const Atom& atom) {
       if (two == symbol) return gemmi::Element(two);
     }
   }
-  const gemmi::Element first(atom.name.substr(letter, 1));
-  return first == gemmi::El::D ? gemmi::Element(gemmi::El::X) : first;
+  const char first = static_cast<char>(std::toupper(static_cast<unsigned char>(atom.name[letter])));
+  return std::string_view("HCNOPSFIB").find(first) == std::string_view::npos ? gemmi::Element(gemmi::El::X)
+                                                                             : gemmi::Element(std::string(1, first));
 }
 
 gemmi::Element element_of(gemmi::Element stated, gemmi::Element hint, const Atom& atom) {
@@ -120,7 +125,7 @@ gemmi::Element element_of(gemmi::Element stated, gemmi::Element hint, const Atom
 
 /// Atoms first..last are one residue: sets their class and elements.
 void classify_residue(std::vector<Atom>& atoms, std::size_t first, std::size_t last,
-                      const std::vector<AtomHints>& hints) {
+                      const std::vector<AtomHints>& hints, Oddity& impossible) {
   const AtomHints none;
   const auto hint = [&](std::size_t n) -> const AtomHints& { return hints.empty() ? none : hints[n]; };
   std::set<std::string> names;
@@ -136,6 +141,8 @@ void classify_residue(std::vector<Atom>& atoms, std::size_t first, std::size_t l
         kind == AtomClass::ion && ion != gemmi::El::X
             ? ion
             : element_of(gemmi::Element(int{atoms[n].element}), gemmi::Element(int{hint(n).element}), atoms[n]);
+    if (atoms[n].element != 0 && atoms[n].element != element.atomic_number())
+      impossible.add(fmt::format("{}: {}", label_of(atoms[n]), gemmi::Element(int{atoms[n].element}).name()));
     atoms[n].element = static_cast<std::uint8_t>(element.atomic_number());
   }
 }
@@ -153,14 +160,16 @@ bool is_tabulated_residue(const std::string& residue_name) {
   return gemmi::find_tabulated_residue(residue_name).found();
 }
 
-void classify_atoms(std::vector<Atom>& atoms, const std::vector<AtomHints>& hints) {
+void classify_atoms(std::vector<Atom>& atoms, std::vector<Warning>& warnings, const std::vector<AtomHints>& hints) {
+  Oddity impossible;
   for (std::size_t first = 0, last = 0; first < atoms.size(); first = last) {
     while (last < atoms.size() && atoms[last].residue == atoms[first].residue &&
            atoms[last].residue_name == atoms[first].residue_name) {
       ++last;
     }
-    classify_residue(atoms, first, last, hints);
+    classify_residue(atoms, first, last, hints, impossible);
   }
+  impossible.warn(warnings, "an element that its residue cannot hold; its name was believed instead");
 }
 
 }  // namespace meniscus

@@ -14,6 +14,7 @@
 #include "core/molecule/assembly.h"
 #include "core/molecule/atom_classes.h"
 #include "core/molecule/cif_document.h"
+#include "core/molecule/oddity.h"
 #include "core/molecule/reader.h"
 #include "core/molecule/residue_counter.h"
 
@@ -157,6 +158,7 @@ FileContents read(const TextFile& file, const ModelChoice& choice) {
   ResidueCounter residues(contents.atoms);
   std::map<std::string, std::int32_t> models;
   std::vector<AtomHints> hints;
+  Oddity without_symbol;
   for (const cif::Table::Row row : table) {
     const std::int32_t next_model = static_cast<std::int32_t>(models.size()) + 1;
     const std::int32_t model = models.try_emplace(row.has(kModel) ? row[kModel] : "1", next_model).first->second;
@@ -167,12 +169,14 @@ FileContents read(const TextFile& file, const ModelChoice& choice) {
     Atom atom = read_row(file, table, row);
     atom.model = model;
     residues.number(atom);
+    if (atom.element == 0) without_symbol.add(label_of(atom));
     const auto statement = entities.find(row.has2(kEntityId) ? cif::as_string(row[kEntityId]) : std::string());
     hints.push_back({statement == entities.end() ? ResidueStatement::none : statement->second});
     contents.atoms.push_back(std::move(atom));
   }
   contents.models = models.size();
-  classify_atoms(contents.atoms, hints);
+  without_symbol.warn(contents.warnings, "no element symbol; elements were guessed from the names");
+  classify_atoms(contents.atoms, contents.warnings, hints);
   return contents;
 }
 

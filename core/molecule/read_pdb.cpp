@@ -48,12 +48,13 @@ class PdbReader {
     for (std::string_view line; lines.next(line);) take(line, lines.number());
     if (contents_.atoms.empty() && contents_.other_model_atoms == 0)
       throw InputError(file_.path, 0, "has no ATOM or HETATM records: no atoms");
-    classify_atoms(contents_.atoms, hints_);
     std::vector<Warning>& warnings = contents_.warnings;
+    classify_atoms(contents_.atoms, warnings, hints_);
     number_.warn(warnings, "no readable residue number; counted on from the residue before");
     occupancy_.warn(warnings, "no readable occupancy; treated as missing");
     b_factor_.warn(warnings, "no readable B-factor; treated as missing");
     element_.warn(warnings, "no element column; elements were guessed from the names");
+    symbol_.warn(warnings, "a symbol of no element; elements were guessed from the names");
     if (unmarked_models_ > 0) {
       warnings.emplace_back(
           fmt::format("{} {} no MODEL or ENDMDL record; atoms behind END or MODEL were taken for a further model",
@@ -144,6 +145,7 @@ class PdbReader {
     const std::string symbol(line.substr(std::min<std::size_t>(line.size(), 76), 2));
     if (std::any_of(symbol.begin(), symbol.end(), is_letter)) {
       atom.element = static_cast<std::uint8_t>(gemmi::Element(symbol).atomic_number());
+      if (atom.element == 0) symbol_.add(number, symbol);
     } else {
       element_.add(number, line.substr(12, 14));
       hints.element = static_cast<std::uint8_t>(element_by_place(line.substr(12, 4)).atomic_number());
@@ -159,7 +161,7 @@ class PdbReader {
   std::set<std::string> ended_chains_;
   bool open_ = false, ended_ = false, in_model_record_ = false;
   std::size_t unmarked_models_ = 0;
-  Oddity number_, occupancy_, b_factor_, element_;
+  Oddity number_, occupancy_, b_factor_, element_, symbol_;
 };
 
 bool recognizes(std::string_view text) {

@@ -3,14 +3,13 @@
 #include "core/molecule/read_structure.h"
 
 #include <algorithm>
-#include <cstring>
 #include <map>
-#include <unordered_map>
 
 #include <fmt/format.h>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/molecule/plausibility.h"
 #include "core/molecule/radii.h"
 
 namespace meniscus {
@@ -107,22 +106,6 @@ void halt_on_unknown_elements(const Structure& structure) {
                                with_thousands(count), count == 1 ? "atom" : "atoms", examples));
 }
 
-void warn_of_coincident_atoms(Structure& structure) {
-  std::unordered_map<std::string, const Atom*> places;
-  std::vector<std::string> cases;
-  for (const Atom& atom : structure.atoms) {
-    std::string key(sizeof(atom.position), '\0');
-    std::memcpy(key.data(), &atom.position, sizeof(atom.position));
-    const auto [place, free] = places.try_emplace(std::move(key), &atom);
-    if (!free) cases.push_back(fmt::format("{} at {}", label_of(atom), label_of(*place->second)));
-  }
-  if (cases.empty()) return;
-  std::string sentence =
-      fmt::format("{} {} at exactly the place of another; the surface is as if they were one (first: {})",
-                  with_thousands(cases.size()), cases.size() == 1 ? "atom lies" : "atoms lie", cases.front());
-  structure.report.warnings.emplace_back(std::move(sentence), std::move(cases));
-}
-
 void require_model(const std::string& path, const ModelChoice& choice, std::size_t models) {
   if (choice.all || static_cast<std::size_t>(choice.number) <= models) return;
   throw InputError(path, 0,
@@ -188,6 +171,7 @@ Structure read_structure(const std::string& path, const ReadOptions& options) {
     assign_bondi_radii(structure);
   }
   warn_of_coincident_atoms(structure);
+  if (!contents.radii_from_file) warn_of_wrong_unit(structure);
   use_assemblies(structure, file, reader, options);
   return structure;
 }

@@ -213,6 +213,18 @@ TEST(Format, EachIsReadFromGzip) {
   EXPECT_EQ(read_text("a.pqr.gz", test::gzipped(pqr_line("1 N MET A 1", 1, "-0.3 1.85"))).atoms.size(), 1u);
 }
 
+TEST(Unit, NanometresAreDoubted) {
+  const auto chain = [](double spacing) {
+    std::string text;
+    for (int n = 0; n < 12; ++n) text += PdbLine{.number = n, .x = fmt::format("{:8.3f}", spacing * n)}.text();
+    return read_text("a.pdb", text).report.warnings;
+  };
+  EXPECT_TRUE(chain(1.5).empty());
+  ASSERT_EQ(chain(0.15).size(), 1u);
+  EXPECT_EQ(chain(0.15)[0].text,
+            "atoms lie 0.15 Å from their nearest neighbour (median); are the coordinates in nanometres?");
+}
+
 TEST(Model, OneThatIsNotThereIsAnError) {
   const TemporaryFolder folder;
   const std::string model = "MODEL        1\n" + PdbLine{}.text() + "ENDMDL\n";

