@@ -31,15 +31,6 @@ AltlocChoice altloc_choice(const std::string& text) {
   return *choice;
 }
 
-/// Understands the value of an option; the error names the option.
-Selection selection_of(const std::string& option, const std::string& text) {
-  try {
-    return parse_selection(text);
-  } catch (const SelectionError& error) {
-    throw SelectionError(option + ": " + error.sentence(), error.picture());
-  }
-}
-
 }  // namespace
 
 void add_atom_options(CLI::App& command, MoleculeOptions& options) {
@@ -59,12 +50,12 @@ void add_atom_options(CLI::App& command, MoleculeOptions& options) {
   command
       .add_option_function<std::string>(
           "--select",
-          [&options](const std::string& text) { options.reading.selection = selection_of("--select", text); },
+          [&options](const std::string& text) { options.reading.selection = parse_selection_option("--select", text); },
           "Take only these atoms, as in 'chain A and resid 10-50'; see meniscus help selections")
       ->type_name("EXPR");
   command
       .add_option_function<std::string>(
-          "--show", [&options](const std::string& text) { options.show = selection_of("--show", text); },
+          "--show", [&options](const std::string& text) { options.show = parse_selection_option("--show", text); },
           "Compute the surface of all atoms taken, but draw and export only the part of these")
       ->type_name("EXPR");
   command.add_flag("--keep-water", options.reading.keep_water, "Use water molecules too");
@@ -77,6 +68,14 @@ void add_atom_options(CLI::App& command, MoleculeOptions& options) {
       ->transform(CLI::CheckedTransformer(words).description(""))
       ->type_name("WORD");
   add_warning_options(command, options);
+}
+
+Selection parse_selection_option(const std::string& option, const std::string& text) {
+  try {
+    return parse_selection(text);
+  } catch (const SelectionError& error) {
+    throw SelectionError(option + ": " + error.sentence(), error.picture());
+  }
 }
 
 void add_file_argument(CLI::App& command, MoleculeOptions& options) {

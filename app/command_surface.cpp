@@ -1,115 +1,104 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `meniscus surface`: computes the complete surface and prints its numbers, as a table or as one JSON object.
+// `meniscus surface`: computes the complete surface and prints its numbers: table, JSON object, CSV of atoms, residues.
+#include <algorithm>
 #include <iostream>
+#include <iterator>
 #include <memory>
+#include <optional>
 
-#include <fmt/format.h>
-#include <fmt/ostream.h>
-#include <nlohmann/json.hpp>
-
+#include "app/area_csv.h"
 #include "app/commands.h"
+#include "app/context_areas.h"
 #include "app/molecule.h"
-#include "core/base/text.h"
+#include "app/program_error.h"
+#include "app/surface_report.h"
 
 namespace meniscus {
 namespace {
 
-/// Raised when a key changes its meaning or goes away; new keys do not raise it.
-constexpr int kSchemaVersion = 1;
-
 struct SurfaceCommand {
   MoleculeOptions molecule;
   bool json = false;
+  std::string atom_csv, residue_csv;  ///< paths; empty: none; "-": standard output
+  std::optional<Selection> context;
+  bool force = false;
 };
 
-const char* kind_name(ComponentKind kind) { return kind == ComponentKind::outer ? "outer" : "cavity"; }
+bool is_stdout(const std::string& path) { return path == "-"; }
 
-nlohmann::ordered_json to_json(const Molecule& molecule) {
-  using Json = nlohmann::ordered_json;
-  const Structure& structure = molecule.structure;
-  const Surface& surface = molecule.surface();
-  const SurfaceCounts counts = surface.counts();
-  Json excluded = Json::object();
-  for (const auto& [reason, count] : structure.report.excluded) excluded[reason] = count;
-  Json components = Json::array();
-  for (const Component& component : surface.components) {
-    components.push_back({{"kind", kind_name(component.kind)},
-                          {"area", component.area},
-                          {"volume", component.volume},
-                          {"euler", component.euler}});
-  }
-  Json stages = Json::array();
-  for (const StageTime& stage : molecule.stages) stages.push_back({{"name", stage.name}, {"ms", stage.milliseconds}});
-  return {{"schema_version", kSchemaVersion},
-          {"atoms", {{"read", structure.report.read}, {"excluded", excluded}, {"used", structure.report.used}}},
-          {"probe_radius", surface.probe_radius},
-          {"radii_set", structure.radii_set},
-          {"counts",
-           {{"convex", counts.convex},
-            {"toroidal", counts.toroidal},
-            {"concave", counts.concave},
-            {"free_edges", counts.free_edges},
-            {"spindle", counts.spindle},
-            {"fixed_probes", counts.fixed_probes},
-            {"arcs", counts.arcs}}},
-          {"area", surface.area},
-          {"volume", surface.volume},
-          {"components", components},
-          {"certificate", {{"closed", surface.certificate.closed}, {"open_atoms", surface.certificate.open_atoms}}},
-          {"device", molecule.device},
-          {"stages", stages}};
+// Whether the outputs can be written is known before the work begins; these vanish again.
+void check_outputs(const SurfaceCommand& command, Existing existing) {
+  if (is_stdout(command.atom_csv) + is_stdout(command.residue_csv) + command.json > 1)
+    throw UsageError("standard output holds one thing at a time: --json, --csv - or --csv-residues -");
+  if (!command.atom_csv.empty() && command.atom_csv == command.residue_csv)
+    throw UsageError("--csv and --csv-residues need two different files");
+  for (const std::string& path : {command.atom_csv, command.residue_csv})
+    if (!path.empty() && !is_stdout(path)) OutputFile(path, existing);
 }
 
-void print_table(const Molecule& molecule) {
-  const Structure& structure = molecule.structure;
-  const Surface& surface = molecule.surface();
-  const SurfaceCounts counts = surface.counts();
-  const auto n = [](std::size_t count) { return with_thousands(count); };
-  fmt::print(std::cout, "molecule      {} ({})\n", escaped(structure.file), structure.format);
-  fmt::print(std::cout, "atoms         {}\n", structure.report.sentence());
-  fmt::print(std::cout, "probe, radii  {} Å, {}\n", surface.probe_radius,
-             structure.radii_set == "file" ? "radii of the file" : structure.radii_set);
-  fmt::print(std::cout, "patches       {} convex, {} toroidal ({} spindle, {} free), {} concave\n", n(counts.convex),
-             n(counts.toroidal), n(counts.spindle), n(counts.free_edges), n(counts.concave));
-  fmt::print(std::cout, "reduced       {} fixed probes, {} arcs\n", n(counts.fixed_probes), n(counts.arcs));
-  fmt::print(std::cout, "area          {:.3f} Å²\nvolume        {:.3f} Å³\n", surface.area, surface.volume);
-  fmt::print(std::cout, "closed        {}\n", surface.certificate.closed ? "yes" : "no");
-  fmt::print(std::cout, "device        {}\n", molecule.device);
-  for (const StageTime& stage : molecule.stages)
-    fmt::print(std::cout, "time          {:>9.2f} ms  {}\n", stage.milliseconds, stage.name);
-  fmt::print(std::cout, "\n{:>9}  {:<7} {:>14} {:>16} {:>6}\n", "component", "kind", "area Å²", "volume Å³", "Euler");
-  for (std::size_t c = 0; c < surface.components.size(); ++c) {
-    const Component& component = surface.components[c];
-    fmt::print(std::cout, "{:>9}  {:<7} {:>13.3f} {:>15.3f} {:>6}\n", c, kind_name(component.kind), component.area,
-               component.volume, component.euler);
+void write(const std::string& path, const std::string& text, Existing existing) {
+  if (path.empty()) return;
+  if (is_stdout(path)) {
+    std::cout << text;
+    return;
   }
+  OutputFile file(path, existing);
+  file.write(text);
+  file.commit();
 }
 
 void run(const SurfaceCommand& command) {
+  const Existing existing = command.force ? Existing::replace : Existing::refuse;
+  check_outputs(command, existing);
   const Molecule molecule = load_molecule(command.molecule);
-  if (command.json) {
-    std::cout << to_json(molecule).dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << "\n";
-  } else {
-    print_table(molecule);
+  std::vector<AreaColumn> columns = area_columns(molecule.structure, molecule.objects, command.molecule.computing.kind);
+  std::optional<ContextNote> context;
+  if (command.context) {
+    ContextAreas areas = context_areas(command.molecule, *command.context, molecule, columns);
+    context = ContextNote{command.context->text(), areas.atoms};
+    std::move(areas.columns.begin(), areas.columns.end(), std::back_inserter(columns));
   }
+  if (!command.atom_csv.empty()) write(command.atom_csv, atom_csv(molecule.structure, columns), existing);
+  if (!command.residue_csv.empty()) write(command.residue_csv, residue_csv(molecule.structure, columns), existing);
+  if (is_stdout(command.atom_csv) || is_stdout(command.residue_csv)) return;
+  const SurfaceReport report{molecule, command.molecule, columns, context};
+  std::cout << (command.json ? report_json(report) : report_table(report));
 }
 
 }  // namespace
 
 void add_surface(CLI::App& command) {
   describe(
-      command, "Compute the surface; print area, volume, components and counts",
-      "  meniscus surface 1tii.pdb                     a table\n"
-      "  meniscus surface 1tii.pdb --json > 1tii.json  one JSON object\n"
-      "  meniscus surface balls.xyzr --probe 0         van der Waals surface, radii of the file",
+      command, "Compute the surface; print area, volume, components, chains, and areas of atoms",
+      "  meniscus surface 1tii.pdb                         a table\n"
+      "  meniscus surface 1tii.pdb --json > 1tii.json      one JSON object\n"
+      "  meniscus surface 1tii.pdb --csv atoms.csv --csv-residues residues.csv   areas of each\n"
+      "  meniscus surface 1tii.pdb --by chain              each chain as if it were alone\n"
+      "  meniscus surface 1tii.pdb --select 'chain A' --context 'chain D'   area of A, and what D buries of it\n"
+      "  meniscus surface 1tii.pdb --cavities only         cavities, and what lies in them\n"
+      "  meniscus surface 1tii.pdb --surface sas --csv -   solvent-accessible areas of atoms on standard output\n"
+      "  meniscus surface balls.xyzr --surface vdw         van der Waals surface, radii of the file",
       "Used are the polymers and ligands of the first model, of each residue the most occupied conformer; water and\n"
       "free ions are left out. What was read, left out and used is always said. Radii are Bondi's (`meniscus info`\n"
       "lists them), or the file's own (XYZR). The surface is complete, cavities too, and closed; areas and volumes\n"
-      "are exact, in closed form. A cavity's volume is negative: it is missing from the solid.");
+      "are exact, in closed form. A cavity's volume is negative: it is missing from the solid. An atom's part of the\n"
+      "surface is what has its colour in pictures: its contact patch, and of the patches around it what is nearer to\n"
+      "its contact than to any other.");
   auto state = std::make_shared<SurfaceCommand>();
   add_atom_options(command, state->molecule);
   add_surface_options(command, state->molecule);
+  add_division_options(command, state->molecule);
   command.add_flag("--json", state->json, "Print one JSON object instead of a table");
+  command.add_option("--csv", state->atom_csv, "Write areas of atoms, a row each; -: to standard output, nothing else")
+      ->type_name("FILE");
+  command.add_option("--csv-residues", state->residue_csv, "Write areas of residues, a row each; -: likewise")
+      ->type_name("FILE");
+  command
+      .add_option_function<std::string>(
+          "--context", [state](const std::string& text) { state->context = parse_selection_option("--context", text); },
+          "Also the areas of --select in the presence of these atoms, and the difference: what is buried")
+      ->type_name("EXPR");
+  command.add_flag("--force", state->force, "Replace files that exist");
   command.callback([state] { run(*state); });
 }
 

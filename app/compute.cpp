@@ -19,31 +19,6 @@
 namespace meniscus {
 namespace {
 
-ComputedSurface compute_on_cpu(std::span<const Ball> balls, double probe_radius) {
-  StageClock clock;
-  ReducedSurface reduced;
-  {
-    const auto stage = clock.stage("reduced surface");
-    reduced = enumerate_reduced_surface(balls, probe_radius);
-  }
-  ComputedSurface result;
-  result.surface = assemble_surface(balls, probe_radius, reduced, &clock);
-  result.stages = clock.times();
-  const auto threads = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
-  result.device = fmt::format("cpu ({} {})", threads, threads == 1 ? "thread" : "threads");
-  return result;
-}
-
-ComputedSurface compute_on_gl(std::span<const Ball> balls, double probe_radius, const DeviceChoice& choice) {
-  const EglContext context(choice);
-  SurfacePipeline pipeline;
-  ComputedSurface result;
-  result.surface = pipeline.run(balls, probe_radius);
-  result.stages = pipeline.stage_times();
-  result.device = context.renderer() + ", GL " + context.version();
-  return result;
-}
-
 bool has_hardware_gpu() {
   try {
     const auto devices = list_gl_devices();
@@ -53,32 +28,90 @@ bool has_hardware_gpu() {
   }
 }
 
+std::string cpu_device() {
+  const auto threads = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
+  return fmt::format("cpu ({} {})", threads, threads == 1 ? "thread" : "threads");
+}
+
 // Names every difference: all of them, for a bug report is useless with the first few.
-void require_equal(const ComputedSurface& a, const ComputedSurface& b) {
-  const std::vector<std::string> found = differences(a.surface, b.surface);
+void require_equal(const Surface& a, const std::string& device_a, const Surface& b, const std::string& device_b) {
+  const std::vector<std::string> found = differences(a, b);
   if (found.empty()) return;
-  throw OpenSurfaceError(fmt::format("--verify: {} differences between {} and {}: {}", found.size(), a.device, b.device,
+  throw OpenSurfaceError(fmt::format("--verify: {} differences between {} and {}: {}", found.size(), device_a, device_b,
                                      fmt::join(found, "; ")));
 }
 
 }  // namespace
 
-ComputedSurface compute_surface(std::span<const Ball> balls, const ComputeOptions& options) {
-  std::optional<tbb::global_control> limit;
+struct SurfaceComputer::GlPipeline {
+  explicit GlPipeline(const DeviceChoice& choice) : context(choice) {}
+  std::string device() const { return context.renderer() + ", GL " + context.version(); }
+  EglContext context;
+  SurfacePipeline pipeline;
+};
+
+SurfaceComputer::SurfaceComputer(const ComputeOptions& options)
+    : options_(options),
+      on_cpu_(options.cpu || (options.gl.kind == DeviceChoice::Kind::automatic && !has_hardware_gpu())) {
   if (options.threads > 0) {
-    limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(options.threads));
+    thread_limit_.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(options.threads));
   }
-  const bool on_cpu = options.cpu || (options.gl.kind == DeviceChoice::Kind::automatic && !has_hardware_gpu());
-  ComputedSurface result =
-      on_cpu ? compute_on_cpu(balls, options.probe_radius) : compute_on_gl(balls, options.probe_radius, options.gl);
+}
+
+SurfaceComputer::~SurfaceComputer() = default;
+
+Surface SurfaceComputer::compute(std::span<const Ball> balls) {
+  std::vector<Ball> grown;
+  if (options_.kind == SurfaceKind::sas) {
+    grown.assign(balls.begin(), balls.end());
+    for (Ball& ball : grown) ball.radius += options_.probe_radius;
+    balls = grown;
+  }
+  const double probe_radius = options_.kind == SurfaceKind::ses ? options_.probe_radius : 0.0;
+  Surface surface = on_cpu_ ? compute_on_cpu(balls, probe_radius, clock_) : compute_on_gl(balls, probe_radius);
+  if (!options_.verify) {
+    device_ = on_cpu_ ? cpu_device() : gl_->device();
+    return surface;
+  }
+  // The other device's time is not this one's.
+  StageClock unused;
+  if (on_cpu_ && !gl_) gl_ = std::make_unique<GlPipeline>(DeviceChoice{});
+  const Surface other = on_cpu_ ? gl_->pipeline.run(balls, probe_radius) : compute_on_cpu(balls, probe_radius, unused);
+  const std::string first = on_cpu_ ? cpu_device() : gl_->device(), second = on_cpu_ ? gl_->device() : cpu_device();
+  require_equal(surface, first, other, second);
+  device_ = fmt::format("{}, verified on {}", first, second);
+  return surface;
+}
+
+Surface SurfaceComputer::compute_on_cpu(std::span<const Ball> balls, double probe_radius, StageClock& clock) {
+  ReducedSurface reduced;
+  {
+    const auto stage = clock.stage("reduced surface");
+    reduced = enumerate_reduced_surface(balls, probe_radius);
+  }
+  return assemble_surface(balls, probe_radius, reduced, &clock);
+}
+
+Surface SurfaceComputer::compute_on_gl(std::span<const Ball> balls, double probe_radius) {
+  if (!gl_) gl_ = std::make_unique<GlPipeline>(options_.gl);
+  Surface surface = gl_->pipeline.run(balls, probe_radius);
+  for (const StageTime& stage : gl_->pipeline.stage_times()) clock_.add(stage.name, stage.milliseconds);
+  return surface;
+}
+
+ComputedSurface compute_surface(std::span<const Ball> balls, const ComputeOptions& options) {
+  SurfaceComputer computer(options);
+  ComputedSurface result;
+  result.surface = computer.compute(balls);
   require_closed(result.surface);
-  if (options.verify) {
-    const ComputedSurface other =
-        on_cpu ? compute_on_gl(balls, options.probe_radius, {}) : compute_on_cpu(balls, options.probe_radius);
-    require_equal(result, other);
-    result.device += fmt::format(", verified on {}", other.device);
-  }
+  result.device = computer.device();
+  result.stages = computer.stages();
   return result;
+}
+
+const char* kind_word(SurfaceKind kind) {
+  constexpr const char* kWords[] = {"ses", "sas", "vdw"};
+  return kWords[static_cast<std::size_t>(kind)];
 }
 
 double total_ms(const std::vector<StageTime>& stages) {

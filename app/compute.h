@@ -2,9 +2,13 @@
 // From balls to a surface on the device a user asked for, with the time every stage took.
 #pragma once
 
+#include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
+
+#include <tbb/global_control.h>
 
 #include "core/base/stage_clock.h"
 #include "core/gpu/device_choice.h"
@@ -12,8 +16,19 @@
 
 namespace meniscus {
 
-/// Where the surface is computed: on the CPU, or through GL.
+/// Which surface of the atoms.
+enum class SurfaceKind {
+  ses,  ///< solvent-excluded: what the probe cannot reach
+  sas,  ///< solvent-accessible: where the probe's centre can be; the boundary of the balls of radius r + probe radius
+  vdw   ///< van der Waals: the boundary of the balls themselves; no probe
+};
+
+/// "ses", "sas" or "vdw".
+const char* kind_word(SurfaceKind kind);
+
+/// Which surface is computed, and where: on the CPU, or through GL.
 struct ComputeOptions {
+  SurfaceKind kind = SurfaceKind::ses;
   double probe_radius = 1.4;  ///< Å
   bool cpu = false;           ///< --device cpu
   DeviceChoice gl;            ///< otherwise; automatic: a hardware GPU if there is one, else the CPU
@@ -28,9 +43,36 @@ struct ComputedSurface {
   std::vector<StageTime> stages;
 };
 
-/// Automatic takes a hardware GPU if there is one, else the CPU, which is faster than software GL.
-/// With `verify` the surface is computed on the other device as well (software GL if need be) and every difference
-/// is an error. Throws OpenSurfaceError, CapacityError, GpuError.
+/// Computes any number of surfaces on the device that was asked for. A GL context is made once, with the first.
+class SurfaceComputer {
+ public:
+  /// Automatic takes a hardware GPU if there is one, else the CPU, which is faster than software GL.
+  explicit SurfaceComputer(const ComputeOptions& options);
+  ~SurfaceComputer();
+
+  /// balls: van der Waals. Sas and vdw surfaces are made of balls without a probe: of these grown, or of these.
+  /// With `verify` the surface is computed on the other device as well (software GL if need be) and every difference
+  /// is an error. Look at its certificate. Throws OpenSurfaceError, CapacityError, GpuError.
+  Surface compute(std::span<const Ball> balls);
+
+  const std::string& device() const { return device_; }  ///< "cpu (16 threads)", or GL renderer and version
+  const std::vector<StageTime>& stages() const { return clock_.times(); }  ///< of all surfaces so far
+
+ private:
+  struct GlPipeline;
+
+  Surface compute_on_cpu(std::span<const Ball> balls, double probe_radius, StageClock& clock);
+  Surface compute_on_gl(std::span<const Ball> balls, double probe_radius);
+
+  ComputeOptions options_;
+  std::optional<tbb::global_control> thread_limit_;
+  std::unique_ptr<GlPipeline> gl_;
+  bool on_cpu_;
+  std::string device_;
+  StageClock clock_;
+};
+
+/// One closed surface. Throws what SurfaceComputer::compute throws, and OpenSurfaceError if it is not closed.
 ComputedSurface compute_surface(std::span<const Ball> balls, const ComputeOptions& options);
 
 /// The sum of all stages.

@@ -2,15 +2,12 @@
 // Carries out what the common options say.
 #include "app/molecule.h"
 
-#include <numeric>
-#include <utility>
-
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "core/base/text.h"
-
 #include "app/show_only.h"
+#include "app/surface_objects.h"
+#include "core/base/text.h"
 
 namespace meniscus {
 
@@ -58,17 +55,17 @@ Molecule load_molecule(const MoleculeOptions& options) {
   Molecule molecule;
   molecule.structure = read_molecule(options);
   molecule.color = color_of(options);
-  ComputedSurface computed = compute_surface(balls_of(molecule.structure), options.computing);
-  SurfaceObject object;
-  object.name = "surface";
-  object.surface = std::move(computed.surface);
-  object.atom.resize(molecule.structure.atoms.size());
-  std::iota(object.atom.begin(), object.atom.end(), 0u);
-  object.coloring = color_object(molecule.structure, object.atom, molecule.color, 0);
-  molecule.objects.push_back(std::move(object));
+  SurfaceComputer computer(options.computing);
+  DivisionOptions division = options.division;
+  if (molecule.color.by == ColorScheme::By::component && !division.groups) division.components = true;
+  molecule.objects = surface_objects(molecule.structure, division, computer);
+  for (std::size_t n = 0; n < molecule.objects.size(); ++n) {
+    SurfaceObject& object = molecule.objects[n];
+    object.coloring = color_object(molecule.structure, object.atom, molecule.color, n);
+  }
   if (options.show) show_only(*options.show, molecule.structure, molecule.objects);
-  molecule.device = std::move(computed.device);
-  molecule.stages = std::move(computed.stages);
+  molecule.device = computer.device();
+  molecule.stages = computer.stages();
   say(options, fmt::format("surface on {} in {:.1f} ms", molecule.device, total_ms(molecule.stages)));
   return molecule;
 }

@@ -18,6 +18,7 @@ Heading::~Heading() { command_.option_defaults()->group("Options"); }
 void add_molecule_options(CLI::App& command, MoleculeOptions& options) {
   add_atom_options(command, options);
   add_surface_options(command, options);
+  add_division_options(command, options);
   add_color_options(command, options);
 }
 

@@ -10,6 +10,7 @@
 #include "app/compute.h"
 #include "core/base/output_file.h"
 #include "core/base/progress.h"
+#include "core/molecule/atom_groups.h"
 #include "core/molecule/color_schemes.h"
 #include "core/molecule/read_structure.h"
 
@@ -18,12 +19,27 @@ namespace meniscus {
 /// How much is said about the oddities of a file: a line for every atom, a sentence for every kind, nothing.
 enum class WarningDetail { full, summary, none };
 
+/// Which closed parts of the surface are taken.
+enum class Cavities {
+  keep,  ///< all of them
+  drop,  ///< those that the outside reaches: no cavities, and nothing that lies in one
+  only   ///< the others
+};
+
+/// What the surface is divided into.
+struct DivisionOptions {
+  std::optional<Grouping> groups;  ///< each group of atoms has a surface of its own, as if it were alone
+  bool components = false;         ///< each closed part is an object
+  Cavities cavities = Cavities::keep;
+};
+
 /// What the common options say. Commands keep one of these alive as long as their CLI::App.
 struct MoleculeOptions {
   std::string file;
   ReadOptions reading;
   std::optional<Selection> show;  ///< of the atoms taken, those whose part of the surface is drawn and exported
   ComputeOptions computing;
+  DivisionOptions division;
   ColorScheme color;
   std::string color_file;  ///< --color-by-file, read by load_molecule
   WarningDetail warnings = WarningDetail::summary;
@@ -37,13 +53,18 @@ struct OutputOptions {
   Existing existing() const { return force ? Existing::replace : Existing::refuse; }
 };
 
-/// FILE and what is taken from it (atom_options.cpp): --model, --altloc, --keep-water, --keep-ions, --unknown-element, --quiet.
+/// FILE and what is taken from it (atom_options.cpp): --model, --altloc, --keep-water, --keep-ions, --unknown-element,
+/// --quiet.
 void add_atom_options(CLI::App& command, MoleculeOptions& options);
+/// Understands an expression that is the value of an option. Throws SelectionError, which names the option.
+Selection parse_selection_option(const std::string& option, const std::string& text);
 /// FILE alone, and --warnings and --quiet, for commands that take everything.
 void add_file_argument(CLI::App& command, MoleculeOptions& options);
 void add_warning_options(CLI::App& command, MoleculeOptions& options);
-/// How the surface is made of them (surface_options.cpp): --probe, --device, --verify, --threads.
+/// How the surface is made of them (surface_options.cpp): --surface, --probe, --device, --verify, --threads.
 void add_surface_options(CLI::App& command, MoleculeOptions& options);
+/// Into which objects it is divided (surface_options.cpp): --by, --cavities.
+void add_division_options(CLI::App& command, MoleculeOptions& options);
 /// How it is coloured (color_options.cpp): --color, --color-by-file, --map, --color-range, --missing-color.
 void add_color_options(CLI::App& command, MoleculeOptions& options);
 /// All of the above.

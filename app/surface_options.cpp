@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Declares the options that say which surface is computed, and where.
+#include <map>
 #include <optional>
 
 #include <fmt/format.h>
@@ -43,11 +44,31 @@ void parse_device(const std::string& text, ComputeOptions& options) {
   options.gl = *choice;
 }
 
+void parse_division(const std::string& text, DivisionOptions& division) {
+  const std::map<std::string, Grouping> words{{"chain", Grouping::chain},
+                                              {"model", Grouping::model},
+                                              {"class", Grouping::atom_class},
+                                              {"residue", Grouping::residue}};
+  division = {{}, text == "component", division.cavities};
+  if (division.components) return;
+  const auto word = words.find(text);
+  if (word == words.end())
+    throw CLI::ValidationError("--by", in_quotes(text) + " is none of chain, model, class, residue, component");
+  division.groups = word->second;
+}
+
 }  // namespace
 
 void add_surface_options(CLI::App& command, MoleculeOptions& options) {
   const Heading heading(command, "Surface");
   ComputeOptions& computing = options.computing;
+  const std::map<std::string, SurfaceKind> kinds{
+      {"ses", SurfaceKind::ses}, {"sas", SurfaceKind::sas}, {"vdw", SurfaceKind::vdw}};
+  command
+      .add_option("--surface", computing.kind,
+                  "ses: solvent-excluded (default); sas: solvent-accessible; vdw: van der Waals, without a probe")
+      ->transform(CLI::CheckedTransformer(kinds).description(""))
+      ->type_name("KIND");
   command
       .add_option_function<std::string>(
           "--probe", [&computing](const std::string& text) { computing.probe_radius = parse_probe(text); },
@@ -62,6 +83,24 @@ void add_surface_options(CLI::App& command, MoleculeOptions& options) {
   command.add_option("--threads", computing.threads, "CPU threads [all]")
       ->check(CLI::Range(1, 4096).description(""))
       ->type_name("N");
+}
+
+void add_division_options(CLI::App& command, MoleculeOptions& options) {
+  const Heading heading(command, "Surface");
+  DivisionOptions& division = options.division;
+  command
+      .add_option_function<std::string>(
+          "--by", [&division](const std::string& text) { parse_division(text, division); },
+          "Several objects: chain, model, class (polymer, ligand, ...), residue: each a surface of its own, as if it "
+          "were alone; component: each closed part of the one surface")
+      ->type_name("WORD");
+  const std::map<std::string, Cavities> words{
+      {"keep", Cavities::keep}, {"drop", Cavities::drop}, {"only", Cavities::only}};
+  command
+      .add_option("--cavities", division.cavities,
+                  "keep (default); drop: only what the outside reaches; only: cavities and what lies in them")
+      ->transform(CLI::CheckedTransformer(words).description(""))
+      ->type_name("WORD");
 }
 
 }  // namespace meniscus

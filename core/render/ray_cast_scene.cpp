@@ -29,6 +29,11 @@ Bound cap_bound(const glm::dvec3& center, double radius, const glm::dvec3& axis,
   return {center + axis * (radius * cosine), radius * std::sqrt(std::max(1.0 - cosine * cosine, 0.0))};
 }
 
+/// How far from its centre a spindle comes to its axis, Å.
+double tip_height(const ToroidalPatch& patch, double probe_radius) {
+  return std::sqrt((probe_radius - patch.radius) * (probe_radius + patch.radius));
+}
+
 class Packer {
  public:
   Packer(const Surface& surface, const Coloring& coloring, const PictureFrame& frame, RayCastScene& scene)
@@ -141,7 +146,10 @@ class Packer {
     add_row(patch.center - frame_.pivot, patch.radius);
     add_row(patch.start, std::cos(patch.sweep));
     add_row(patch.axis, std::sin(patch.sweep));
-    add_row({contact_z[0], contact_z[1], clip_z}, clip_radius);
+    double z_low = contact_z[0], z_high = contact_z[1];
+    if (!patch.has_piece[0]) z_low = tip_height(patch, p);
+    if (!patch.has_piece[1]) z_high = -tip_height(patch, p);
+    add_row({z_low, z_high, clip_z}, clip_radius);
     add_row({height[0], extended[0], height[1]}, extended[1]);
     scene_.primitives.push_back(primitive);
   }
@@ -165,7 +173,7 @@ class Packer {
     }
     Primitive primitive{};
     if (!begin(bound, PatchKind::concave, index, primitive)) return;
-    primitive.plane_count = patch.side_count + patch.cut_count;
+    primitive.plane_count = patch.plane_count();
     primitive.atom = patch.contact_count;
     add_row(patch.center - frame_.pivot, p);
     add_planes(patch.first_plane, primitive.plane_count, patch.center);

@@ -79,10 +79,14 @@ void require_closed(const Surface& surface) {
 
 SurfaceCounts Surface::counts() const {
   SurfaceCounts n;
-  n.convex = convex.size();
+  // A part of a surface may hold several patches of one atom or probe; they stand next to each other.
+  for (std::size_t c = 0; c < convex.size(); ++c) n.convex += c == 0 || convex[c].atom != convex[c - 1].atom;
   n.toroidal = toroidal.size();
-  n.fixed_probes = concave.size();
-  for (const ConcavePatch& patch : concave) n.concave += patch.face_count > 0;
+  for (std::size_t c = 0; c < concave.size(); ++c) {
+    if (c > 0 && concave[c].center == concave[c - 1].center) continue;
+    ++n.fixed_probes;
+    n.concave += concave[c].face_count > 0;
+  }
   for (const ToroidalPatch& patch : toroidal) {
     n.free_edges += patch.free();
     n.spindle += spindle(patch);

@@ -98,14 +98,7 @@ class Measurement {
   FaceIntegrals measure_toroidal(const Face& face) const {
     const ToroidalPatch& t = s_.toroidal[face.patch];
     const double p = s_.probe_radius;
-    const Ball &a = s_.atoms[t.atom[0]], &b = s_.atoms[t.atom[1]];
-    // psi: latitude on the probe, from the direction to the axis towards atom[1].
-    double begin = std::atan2(glm::dot(t.axis, a.center - t.center), t.radius);
-    double end = std::atan2(glm::dot(t.axis, b.center - t.center), t.radius);
-    if (t.face_count == 2) {
-      const double tip = std::acos(std::min(1.0, t.radius / p));
-      (&face == &s_.faces[t.first_face] ? end : begin) = &face == &s_.faces[t.first_face] ? -tip : tip;
-    }
+    const auto [begin, end] = tube_range(s_, t, static_cast<std::uint32_t>(&face - &s_.faces[t.first_face]));
     const auto primitive = [&](double psi) {
       const double s = std::sin(psi), c = std::cos(psi);
       return glm::dvec3(p * (t.radius * psi - p * s),                  // of p (T - p cos psi)
@@ -148,5 +141,27 @@ class Measurement {
 }  // namespace
 
 void measure_surface(Surface& surface) { Measurement(surface).run(); }
+
+std::array<double, 2> contact_tube_angles(const Surface& surface, const ToroidalPatch& patch) {
+  const Ball &a = surface.atoms[patch.atom[0]], &b = surface.atoms[patch.atom[1]];
+  return {std::atan2(glm::dot(patch.axis, a.center - patch.center), patch.radius),
+          std::atan2(glm::dot(patch.axis, b.center - patch.center), patch.radius)};
+}
+
+std::array<double, 2> tube_range(const Surface& surface, const ToroidalPatch& patch, std::uint32_t n) {
+  std::array<double, 2> range = contact_tube_angles(surface, patch);
+  if (!surface.spindle(patch)) return range;
+  const double tip = std::acos(std::min(1.0, patch.radius / surface.probe_radius));
+  if (patch.piece(n) == 0)
+    range[1] = -tip;
+  else
+    range[0] = tip;
+  return range;
+}
+
+double toroidal_area(const Surface& surface, const ToroidalPatch& patch, double low, double high) {
+  const double p = surface.probe_radius;
+  return patch.sweep * p * (patch.radius * (high - low) - p * (std::sin(high) - std::sin(low)));
+}
 
 }  // namespace meniscus

@@ -2,6 +2,9 @@
 // Area and enclosed volume in closed form.
 #pragma once
 
+#include <array>
+#include <cstdint>
+
 #include "core/surface/primitives.h"
 
 namespace meniscus {
@@ -10,5 +13,13 @@ namespace meniscus {
 /// first, then cavities, each by falling area. Areas by Gauss-Bonnet, volumes by the divergence theorem; both are
 /// sums of closed forms over borders, so the error is rounding only.
 void measure_surface(Surface& surface);
+
+/// Tube angles of a torus: the latitude on the probe, from the direction to the axis towards atom[1].
+/// Those of the contacts with atom[0] and atom[1].
+std::array<double, 2> contact_tube_angles(const Surface& surface, const ToroidalPatch& patch);
+/// Those between which the patch's n-th face lies, the lower one first.
+std::array<double, 2> tube_range(const Surface& surface, const ToroidalPatch& patch, std::uint32_t n);
+/// Area of the patch between two tube angles, Å².
+double toroidal_area(const Surface& surface, const ToroidalPatch& patch, double low, double high);
 
 }  // namespace meniscus

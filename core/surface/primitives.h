@@ -63,7 +63,11 @@ struct ToroidalPatch {
   double sweep = 0.0;     ///< in (0, 2 pi]; exactly 2 pi for a free edge
   std::uint32_t first_face = 0;
   std::uint32_t face_count = 0;  ///< 1, or 2 for a spindle (the piece of atom[0], then that of atom[1])
+  /// Of a spindle: which of its two pieces there are. Always both, but in a part of a surface (part.h).
+  std::array<bool, 2> has_piece{true, true};
   bool free() const { return probe[0] == kNone; }
+  /// Of a spindle: the piece that its n-th face is.
+  int piece(std::uint32_t n) const { return has_piece[0] ? static_cast<int>(n) : 1; }
 };
 
 /// True where the patch crosses its axis or, with a circle as large as the probe, touches it in one point.
@@ -79,7 +83,8 @@ inline bool crosses_axis(const ToroidalPatch& t, std::span<const Ball> atoms, do
 }
 
 /// Re-entrant patch: the sphere of one fixed probe (an RS face) inside all its planes: first `side_count` planes
-/// through the probe and two neighbouring contacts, then `cut_count` bisectors towards the probes in `cuts`.
+/// through the probe and two neighbouring contacts, then `cut_count` bisectors towards the probes in `cuts`, then
+/// `parting_count` planes that part it from faces that a part of a surface left behind (part.h).
 struct ConcavePatch {
   glm::dvec3 center{0.0};
   std::uint32_t first_contact = 0;  ///< into Surface::contacts: touched atoms, counter-clockwise seen from the probe
@@ -87,9 +92,11 @@ struct ConcavePatch {
   std::uint32_t first_plane = 0;    ///< into Surface::planes: side planes (contact n and n+1), then bisectors
   std::uint32_t side_count = 0;     ///< equals contact_count
   std::uint32_t cut_count = 0;
-  std::uint32_t first_cut = 0;  ///< into Surface::cuts: indices of the fixed probes behind the bisectors
+  std::uint32_t parting_count = 0;
+  std::uint32_t first_cut = 0;  ///< into Surface::cuts: the fixed probes behind the bisectors; kNone: left behind
   std::uint32_t first_face = 0;
   std::uint32_t face_count = 0;  ///< 0 when other probes cut everything away
+  std::uint32_t plane_count() const { return side_count + cut_count + parting_count; }
 };
 
 /// What a border lies on.

@@ -88,9 +88,10 @@ void add_convex(MnsWriter& file, const Surface& surface) {
 }
 
 void add_toroidal(MnsWriter& file, const Surface& surface) {
-  Indices atom, probe;
+  Indices atom, probe, pieces;
   Doubles center, axis, start, circle;
   for (const ToroidalPatch& patch : surface.toroidal) {
+    for (const bool has_piece : patch.has_piece) pieces.push(has_piece ? 1 : 0);
     for (const std::uint32_t a : patch.atom) atom.push(a);
     for (const std::uint32_t p : patch.probe) probe.push(p);
     center.push(patch.center);
@@ -101,6 +102,7 @@ void add_toroidal(MnsWriter& file, const Surface& surface) {
   }
   file.add("toroidal.atoms", atom.values(), 2);
   file.add("toroidal.probes", probe.values(), 2);
+  file.add("toroidal.pieces", pieces.values(), 2);
   file.add("toroidal.center", center.values(), 3);
   file.add("toroidal.axis", axis.values(), 3);
   file.add("toroidal.start", start.values(), 3);
@@ -116,7 +118,7 @@ void add_concave(MnsWriter& file, const Surface& surface) {
     contacts.push(patch.contact_count);
     planes.push(patch.first_plane);
     planes.push(patch.side_count);
-    planes.push(patch.cut_count);
+    planes.push(patch.cut_count + patch.parting_count);
     cuts.push(patch.first_cut);
     cuts.push(patch.cut_count);
   }

@@ -25,9 +25,7 @@ Sphere sphere_of(const Surface& surface, const Face& face) {
     return {ball.center, ball.radius, {surface.planes.data() + patch.first_plane, patch.plane_count}};
   }
   const ConcavePatch& patch = surface.concave[face.patch];
-  return {patch.center,
-          surface.probe_radius,
-          {surface.planes.data() + patch.first_plane, patch.side_count + patch.cut_count}};
+  return {patch.center, surface.probe_radius, {surface.planes.data() + patch.first_plane, patch.plane_count()}};
 }
 
 /// The direction outside the patch that is farthest from the rim: the middle of a cap that a plane cuts off, or the

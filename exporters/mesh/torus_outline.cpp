@@ -24,7 +24,7 @@ class TorusRim {
         samples_(samples),
         tolerance_(tolerance),
         angles_(contact_angles(surface, patch_)),
-        piece_(face.patch < surface.toroidal.size() && &face == &surface.faces[patch_.first_face] ? 0 : 1),
+        piece_(patch_.piece(static_cast<std::uint32_t>(&face - &surface.faces[patch_.first_face]))),
         domain_(std::make_unique<TorusDomain>(patch_, surface.probe_radius, piece_)) {}
 
   FaceOutline build() {

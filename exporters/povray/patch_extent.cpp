@@ -64,7 +64,7 @@ Box concave_extent(const Surface& surface, const ConcavePatch& patch) {
       glm::dvec3 pole = patch.center;
       pole[k] += sign * surface.probe_radius;
       bool inside = true;
-      for (std::uint32_t n = 0; n < patch.side_count + patch.cut_count; ++n) {
+      for (std::uint32_t n = 0; n < patch.plane_count(); ++n) {
         const Plane& plane = surface.planes[patch.first_plane + n];
         inside = inside && glm::dot(plane.normal, pole) <= plane.offset + kGenerous;
       }

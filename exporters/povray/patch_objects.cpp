@@ -71,6 +71,10 @@ void PatchObjects::toroidal(SceneText& out, const ToroidalPatch& patch, std::uin
   if (surface_.spindle(patch)) {
     const double lemon = std::sqrt((p - patch.radius) * (p + patch.radius));
     out.literal("sphere{").point(center).literal(",").length(lemon).literal(" inverse}");
+    // The two pieces lie on either side of the plane of the circle.
+    const double height = glm::dot(patch.axis, patch.center);
+    if (!patch.has_piece[0]) plane(out, {-patch.axis, -height}, patch.center);
+    if (!patch.has_piece[1]) plane(out, {patch.axis, height}, patch.center);
   }
   part_half(out, patch, part);
   const Box extent = toroidal_extent(surface_, patch);
@@ -116,7 +120,7 @@ void PatchObjects::part_half(SceneText& out, const ToroidalPatch& patch, std::ui
 void PatchObjects::concave(SceneText& out, const ConcavePatch& patch, std::uint32_t part) const {
   out.literal("sphere{").point(patch.center - origin_).literal(",").length(surface_.probe_radius);
   out.literal(" clipped_by{");
-  for (std::uint32_t n = 0; n < patch.side_count + patch.cut_count; ++n)
+  for (std::uint32_t n = 0; n < patch.plane_count(); ++n)
     plane(out, surface_.planes[patch.first_plane + n], patch.center);
   part_cells(out, patch, part);
   const Box extent = concave_extent(surface_, patch);

@@ -92,8 +92,9 @@ TEST(Surface, JsonHasTheWholeSchema) {
   ASSERT_TRUE(result.is_object());
   std::vector<std::string> keys;
   for (const auto& [key, value] : result.items()) keys.push_back(key);
-  EXPECT_EQ(keys, (std::vector<std::string>{"area", "atoms", "certificate", "components", "counts", "device",
-                                            "probe_radius", "radii_set", "schema_version", "stages", "volume"}));
+  EXPECT_EQ(keys, (std::vector<std::string>{"area", "atoms", "certificate", "components", "counts", "device", "groups",
+                                            "probe_radius", "radii_set", "sas_area", "schema_version", "ses_area",
+                                            "stages", "surface", "volume"}));
   EXPECT_EQ(result["schema_version"], 1);
   EXPECT_EQ(result["atoms"], json::parse(R"({"read":5684,"excluded":{"water":215},"used":5469})"));
   EXPECT_EQ(result["probe_radius"], 1.4);

@@ -71,7 +71,7 @@ double RayCasterTwin::hit(const Candidate& candidate, const Ray& ray, double nea
     return hit_sphere(candidate, patch.first_plane, patch.plane_count, ray, nearest);
   }
   const ConcavePatch& patch = surface_.concave[candidate.patch];
-  return hit_sphere(candidate, patch.first_plane, patch.side_count + patch.cut_count, ray, nearest);
+  return hit_sphere(candidate, patch.first_plane, patch.plane_count(), ray, nearest);
 }
 
 bool RayCasterTwin::shows(const Candidate& candidate, const Ray& ray, double t) const {
@@ -109,6 +109,8 @@ double RayCasterTwin::hit_toroidal(const Candidate& candidate, const Ray& ray, d
   for (int i = 0; i < hits.count; ++i) {
     const double t = hits.t[i] + shift;
     if (t <= 0.0 || t >= nearest) continue;
+    const double z = o.z + d.z * hits.t[i];
+    if ((z < 0.0 && !patch.has_piece[0]) || (z > 0.0 && !patch.has_piece[1])) continue;
     if (geometry::in_toroidal_patch(o + d * hits.t[i], patch.radius, frame.height[0] * p / frame.extended[0],
                                     frame.height[1] * p / frame.extended[1], std::cos(patch.sweep),
                                     std::sin(patch.sweep), range, kSlack) &&

@@ -31,7 +31,7 @@ Sphere sphere_of(const Surface& s, PatchKind kind, std::uint32_t patch) {
     return {s.atoms[c.atom].center, s.atoms[c.atom].radius, {s.planes.data() + c.first_plane, c.plane_count}};
   }
   const ConcavePatch& c = s.concave[patch];
-  return {c.center, s.probe_radius, {s.planes.data() + c.first_plane, c.side_count + c.cut_count}};
+  return {c.center, s.probe_radius, {s.planes.data() + c.first_plane, c.plane_count()}};
 }
 
 // The least of plane.offset - dot(normal, x): positive inside.
@@ -47,8 +47,10 @@ double torus_depth(const Surface& s, const ToroidalPatch& t, const glm::dvec3& e
   const auto contact_height = [&](std::uint32_t atom) {
     return glm::dot(t.axis, s.atoms[atom].center - t.center) * p / (s.atoms[atom].radius + p);
   };
-  const double least =
+  double least =
       std::min({p * std::cos(psi), from_axis, height - contact_height(t.atom[0]), contact_height(t.atom[1]) - height});
+  if (!t.has_piece[0]) least = std::min(least, height);
+  if (!t.has_piece[1]) least = std::min(least, -height);
   if (t.free()) return least;
   double turn = std::atan2(glm::dot(t.axis, glm::cross(t.start, e)), glm::dot(t.start, e));
   if (turn < 0) turn += 2 * kPi;

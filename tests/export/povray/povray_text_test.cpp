@@ -121,7 +121,7 @@ TEST(PatchExtent, ConcavePatchesFitTheirSamples) {
       for (int n = 0; n < 400000; ++n) {
         const glm::dvec3 x = c.center + s.probe_radius * random_unit(random);
         bool inside = true;
-        for (std::uint32_t p = 0; p < c.side_count + c.cut_count; ++p)
+        for (std::uint32_t p = 0; p < c.plane_count(); ++p)
           inside = inside && glm::dot(s.planes[c.first_plane + p].normal, x) <= s.planes[c.first_plane + p].offset;
         if (inside) sampled.include(x);
       }

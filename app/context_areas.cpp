@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Computes selection and context together and finds the selection's atoms again.
+#include "app/context_areas.h"
+
+#include <unordered_map>
+
+#include <fmt/format.h>
+
+#include "app/program_error.h"
+#include "app/surface_objects.h"
+
+namespace meniscus {
+namespace {
+
+void check(const MoleculeOptions& options) {
+  if (!options.reading.selection)
+    throw UsageError("--context needs --select: of which atoms the area is wanted in the presence of others");
+  if (options.file == "-") throw UsageError("--context reads the file twice; standard input can be read only once");
+  if (!options.reading.assembly.empty()) throw UsageError("--context and --assembly cannot be combined");
+}
+
+}  // namespace
+
+ContextAreas context_areas(const MoleculeOptions& options, const Selection& context, const Molecule& molecule,
+                           const std::vector<AreaColumn>& alone) {
+  check(options);
+  MoleculeOptions together = options;
+  together.reading.selection =
+      parse_selection(fmt::format("({}) or ({})", options.reading.selection->text(), context.text()));
+  together.warnings = WarningDetail::none;  // they have been said
+  const Structure structure = read_molecule(together);
+  SurfaceComputer computer(options.computing);
+  const std::vector<SurfaceObject> objects =
+      surface_objects(structure, {.groups = {}, .components = false, .cavities = options.division.cavities}, computer);
+  const std::vector<AreaColumn> all = area_columns(structure, objects, options.computing.kind);
+
+  std::unordered_map<std::uint32_t, std::size_t> row;  // by place in the file
+  for (std::size_t a = 0; a < structure.atoms.size(); ++a) row[structure.atoms[a].index] = a;
+  ContextAreas result;
+  result.atoms = structure.atoms.size() - molecule.structure.atoms.size();
+  for (std::size_t c = 0; c < alone.size(); ++c) {
+    AreaColumn in_context{alone[c].name + "_in_context", {}}, buried{alone[c].name + "_buried", {}};
+    for (std::size_t a = 0; a < molecule.structure.atoms.size(); ++a) {
+      in_context.values.push_back(all[c].values[row.at(molecule.structure.atoms[a].index)]);
+      buried.values.push_back(alone[c].values[a] - in_context.values.back());
+    }
+    result.columns.push_back(std::move(in_context));
+    result.columns.push_back(std::move(buried));
+  }
+  return result;
+}
+
+}  // namespace meniscus

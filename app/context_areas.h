@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What becomes of the area of some atoms in the presence of others: how much of it is buried.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "app/area_columns.h"
+#include "app/molecule.h"
+#include "app/molecule_options.h"
+#include "core/molecule/selection.h"
+
+namespace meniscus {
+
+/// The atoms that stand around those of a molecule, and what they do to its areas.
+struct ContextAreas {
+  std::size_t atoms = 0;            ///< of the context alone
+  std::vector<AreaColumn> columns;  ///< for each given one: "<name>_in_context", "<name>_buried" (the difference)
+};
+
+/// Reads the file again with the context's atoms too, and computes the surface of all of them together, as one.
+/// `alone`: columns of the molecule by itself. Throws UsageError without --select (then there is nothing else in the
+/// file), for standard input, which can be read only once, and for assemblies; and what loading a molecule throws.
+ContextAreas context_areas(const MoleculeOptions& options, const Selection& context, const Molecule& molecule,
+                           const std::vector<AreaColumn>& alone);
+
+}  // namespace meniscus

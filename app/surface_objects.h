@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// From the atoms of a structure to the surfaces of a molecule: one, or one a chain, model, class, residue, component.
+#pragma once
+
+#include <vector>
+
+#include "app/compute.h"
+#include "app/molecule_options.h"
+#include "core/molecule/structure.h"
+#include "core/surface/surface_object.h"
+
+namespace meniscus {
+
+/// Closed surfaces with their names and atoms, not yet coloured. A group of atoms may have none: with --cavities only.
+/// Throws OpenSurfaceError, naming atoms by chain, residue and name; CapacityError, GpuError; Error when no part of the
+/// surface is left.
+std::vector<SurfaceObject> surface_objects(const Structure& structure, const DivisionOptions& division,
+                                           SurfaceComputer& computer);
+
+}  // namespace meniscus

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Cuts saddles by a latitude and re-entrant faces by bisector planes; integrates along the borders of the shares.
+#include "core/surface/atom_areas.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include <glm/geometric.hpp>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include "core/surface/measure.h"
+#include "core/surface/spherical.h"
+
+namespace meniscus {
+namespace {
+
+constexpr double kTurn = 2 * std::numbers::pi;
+
+/// A circle of the unit sphere, or the beginning of one: height*axis + cos t * x + sin t * y, counter-clockwise about
+/// the axis; |x| = |y| = its radius.
+struct Circle {
+  glm::dvec3 axis;
+  double height;
+  glm::dvec3 x, y;
+};
+
+Circle circle_of(const SphereArc& arc) {
+  const double sign = arc.sweep < 0 ? -1 : 1;
+  const glm::dvec3 x = arc.from - arc.height * arc.axis;
+  return {sign * arc.axis, sign * arc.height, x, sign * glm::cross(arc.axis, x)};
+}
+
+/// The great circle around a unit axis.
+Circle great_circle(const glm::dvec3& axis) {
+  const glm::dvec3 aside = std::abs(axis.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+  const glm::dvec3 x = glm::normalize(glm::cross(axis, aside));
+  return {axis, 0, x, glm::cross(axis, x)};
+}
+
+/// The parameters of a circle that are left after half-spaces have been cut away.
+class Intervals {
+ public:
+  explicit Intervals(double length) : kept_{{0.0, length}} {}
+
+  /// Keeps the points p of the circle with dot(normal, p) <= offset.
+  void keep(const Circle& circle, const glm::dvec3& normal, double offset) {
+    const double a = glm::dot(normal, circle.x), b = glm::dot(normal, circle.y), size = std::hypot(a, b);
+    const double room = offset - circle.height * glm::dot(normal, circle.axis);
+    if (room >= size) return;
+    if (room <= -size) {
+      kept_.clear();
+      return;
+    }
+    const double middle = std::atan2(b, a), half = std::acos(room / size);
+    for (const double turn : {0.0, kTurn}) remove(middle - half + turn, middle + half + turn);
+  }
+
+  const std::vector<std::pair<double, double>>& kept() const { return kept_; }
+
+ private:
+  void remove(double low, double high) {
+    rest_.clear();
+    for (const auto& [from, to] : kept_) {
+      if (low >= to || high <= from) {
+        rest_.emplace_back(from, to);
+        continue;
+      }
+      if (low > from) rest_.emplace_back(from, low);
+      if (high < to) rest_.emplace_back(high, to);
+    }
+    std::swap(kept_, rest_);
+  }
+
+  std::vector<std::pair<double, double>> kept_, rest_;
+};
+
+/// Integral of (1 - cos theta) d phi along the circle from t = from to t = to; theta and phi are polar coordinates
+/// about `pole`. Around a region without the antipode of the pole these integrals add up to the region's area. With
+/// alpha = dot(pole, axis) the integrand is -h + (h + alpha) / (1 + h alpha + B cos(t - t0)).
+double area_swept_from(const glm::dvec3& pole, const Circle& circle, double from, double to) {
+  const double alpha = glm::dot(pole, circle.axis), a = 1 + circle.height * alpha;
+  const double u = glm::dot(pole, circle.x), v = glm::dot(pole, circle.y), b = std::hypot(u, v), t0 = std::atan2(v, u);
+  const double slope = std::abs(circle.height + alpha);  // squared: a^2 - b^2
+  const auto angle = [&](double t) {
+    const double half = 0.5 * (t - t0);
+    // The same quadrant as `half`, and as many turns.
+    return half + std::remainder(std::atan2(slope * std::sin(half), (a + b) * std::cos(half)) - half, kTurn);
+  };
+  return -circle.height * (to - from) + std::copysign(2.0, circle.height + alpha) * (angle(to) - angle(from));
+}
+
+class AreaDivider {
+ public:
+  explicit AreaDivider(const Surface& surface) : s_(surface) {}
+
+  AtomAreas run() {
+    areas_.surface.assign(s_.atoms.size(), 0.0);
+    areas_.accessible.assign(s_.atoms.size(), 0.0);
+    for (const ConvexPatch& patch : s_.convex) add(patch);
+    for (const ToroidalPatch& patch : s_.toroidal) add(patch);
+    std::vector<double> share(s_.contacts.size(), 0.0);
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, s_.concave.size(), 64), [&](const auto& range) {
+      for (std::size_t n = range.begin(); n != range.end(); ++n) divide(s_.concave[n], share);
+    });
+    for (std::size_t n = 0; n < share.size(); ++n) areas_.surface[s_.contacts[n]] += share[n];
+    return std::move(areas_);
+  }
+
+ private:
+  void add(const ConvexPatch& patch) {
+    const double r = s_.atoms[patch.atom].radius, extended = r + s_.probe_radius;
+    for (std::uint32_t f = patch.first_face; f < patch.first_face + patch.face_count; ++f) {
+      areas_.surface[patch.atom] += s_.faces[f].area;
+      // Where the probe's centre is seen from the atom's centre, there it touches: the patch and the accessible part
+      // of the grown sphere fill the same solid angle.
+      areas_.accessible[patch.atom] += s_.faces[f].area * (extended / r) * (extended / r);
+    }
+  }
+
+  // The contacts are the two ends of the tube's arc: half-way in angle the nearest one changes.
+  void add(const ToroidalPatch& patch) {
+    const std::array<double, 2> contact = contact_tube_angles(s_, patch);
+    const double middle = 0.5 * (contact[0] + contact[1]);
+    for (std::uint32_t n = 0; n < patch.face_count; ++n) {
+      const auto [low, high] = tube_range(s_, patch, n);
+      const double cut = std::clamp(middle, low, high);
+      areas_.surface[patch.atom[0]] += toroidal_area(s_, patch, low, cut);
+      areas_.surface[patch.atom[1]] += toroidal_area(s_, patch, cut, high);
+    }
+  }
+
+  // The cell of a contact holds the points of the sphere that no other contact is nearer to. Its border consists of
+  // parts of the patch's borders and of the bisectors. A cell never holds the antipode of its own contact, which any
+  // other contact is nearer to: so the contact serves as the pole of the integral.
+  void divide(const ConcavePatch& patch, std::vector<double>& share) const {
+    if (patch.face_count == 0) return;
+    std::vector<glm::dvec3> contacts;
+    for (std::uint32_t n = 0; n < patch.contact_count; ++n)
+      contacts.push_back(glm::normalize(s_.atoms[s_.contacts[patch.first_contact + n]].center - patch.center));
+    std::vector<double> area(contacts.size(), 0.0);
+    for (std::uint32_t f = patch.first_face; f < patch.first_face + patch.face_count; ++f)
+      add_borders(s_.faces[f], patch.center, contacts, area);
+    for (std::uint32_t k = 1; k < contacts.size(); ++k)
+      for (std::uint32_t j = 0; j < k; ++j) add_bisector(patch, contacts, j, k, area);
+    for (std::uint32_t n = 0; n < contacts.size(); ++n)
+      share[patch.first_contact + n] = area[n] * s_.probe_radius * s_.probe_radius;
+  }
+
+  void add_borders(const Face& face, const glm::dvec3& center, const std::vector<glm::dvec3>& contacts,
+                   std::vector<double>& area) const {
+    for (std::uint32_t l = face.first_loop; l < face.first_loop + face.loop_count; ++l)
+      for (std::uint32_t n = 0; n < s_.loops[l].half_border_count; ++n) {
+        const HalfBorder half = s_.half_borders[s_.loops[l].first_half_border + n];
+        // Seen from inside of the sphere the face is on the other side.
+        const SphereArc arc = sphere_arc(s_.borders[half / 2], (half & 1) == 0, center, s_.probe_radius);
+        const Circle circle = circle_of(arc);
+        for (std::size_t k = 0; k < contacts.size(); ++k) {
+          Intervals cell(std::abs(arc.sweep));
+          for (std::size_t j = 0; j < contacts.size(); ++j)
+            if (j != k) cell.keep(circle, contacts[j] - contacts[k], 0.0);
+          for (const auto& [from, to] : cell.kept()) area[k] += area_swept_from(contacts[k], circle, from, to);
+        }
+      }
+  }
+
+  // Counter-clockwise about its axis the bisector has the cell of k on its left, that of j on its right.
+  void add_bisector(const ConcavePatch& patch, const std::vector<glm::dvec3>& contacts, std::size_t j, std::size_t k,
+                    std::vector<double>& area) const {
+    const Circle circle = great_circle(glm::normalize(contacts[k] - contacts[j]));
+    Intervals common(kTurn);
+    for (std::size_t other = 0; other < contacts.size(); ++other)
+      if (other != j && other != k) common.keep(circle, contacts[other] - contacts[k], 0.0);
+    for (std::uint32_t n = patch.first_plane; n < patch.first_plane + patch.plane_count(); ++n) {
+      const Plane& plane = s_.planes[n];
+      common.keep(circle, plane.normal, (plane.offset - glm::dot(plane.normal, patch.center)) / s_.probe_radius);
+    }
+    for (const auto& [from, to] : common.kept()) {
+      area[k] += area_swept_from(contacts[k], circle, from, to);
+      area[j] -= area_swept_from(contacts[j], circle, from, to);
+    }
+  }
+
+  const Surface& s_;
+  AtomAreas areas_;
+};
+
+}  // namespace
+
+AtomAreas atom_areas(const Surface& surface) { return AreaDivider(surface).run(); }
+
+}  // namespace meniscus

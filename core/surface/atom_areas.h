@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How much of the surface belongs to each atom, in closed form.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "core/surface/primitives.h"
+
+namespace meniscus {
+
+/// Å², one per Surface::atoms; 0 for buried atoms.
+struct AtomAreas {
+  /// Area of the points that take the atom's colour (coloring.h): its contact patch, and the parts of the saddle and
+  /// re-entrant patches around it whose nearest contact it is. Sums to Surface::area but for rounding.
+  std::vector<double> surface;
+  /// Solvent-accessible area: of the sphere of radius r + probe radius where the probe's centre can be.
+  std::vector<double> accessible;
+};
+
+/// Needs the surface's faces measured. Runs on all cores TBB may use; the result does not depend on their number.
+AtomAreas atom_areas(const Surface& surface);
+
+}  // namespace meniscus

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What `meniscus surface` says about parts: kinds of surface, cavities, chains, components, atoms and residues.
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/support/run_program.h"
+
+namespace meniscus {
+namespace {
+
+using nlohmann::json;
+using test::ProgramResult;
+using test::TemporaryFolder;
+
+constexpr const char* kToxin = "/usr/share/pymol/data/demo/1tii.pdb";
+constexpr const char* kUbiquitin = "/usr/share/freesasa/test-data/1ubq.pdb";
+
+ProgramResult surface(std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), {"surface", "-q", "--device", "cpu"});
+  return test::run_program(MENISCUS_PROGRAM, arguments);
+}
+
+json surface_json(std::vector<std::string> arguments) {
+  arguments.push_back("--json");
+  const ProgramResult result = surface(std::move(arguments));
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  return json::parse(result.out, nullptr, false);
+}
+
+using Table = std::vector<std::map<std::string, std::string>>;
+
+// Cells without quotes only.
+Table parse_csv(const std::string& text) {
+  std::istringstream lines(text);
+  std::string line, cell;
+  std::vector<std::string> names;
+  Table rows;
+  while (std::getline(lines, line)) {
+    std::vector<std::string> cells;
+    std::istringstream parts(line + ",");
+    while (std::getline(parts, cell, ',')) cells.push_back(cell);
+    if (names.empty()) {
+      names = cells;
+      continue;
+    }
+    EXPECT_EQ(cells.size(), names.size()) << line;
+    rows.emplace_back();
+    for (std::size_t n = 0; n < std::min(cells.size(), names.size()); ++n) rows.back()[names[n]] = cells[n];
+  }
+  return rows;
+}
+
+double sum(const Table& rows, const std::string& column) {
+  double total = 0.0;
+  for (const auto& row : rows) total += std::stod(row.at(column));
+  return total;
+}
+
+TEST(Kinds, AccessibleSurfaceIsTheUnionOfGrownBallsAndVdwHasNoProbe) {
+  const json ses = surface_json({kUbiquitin}), sas = surface_json({kUbiquitin, "--surface", "sas"});
+  const json vdw = surface_json({kUbiquitin, "--surface", "vdw"}), probe_0 = surface_json({kUbiquitin, "--probe", "0"});
+  EXPECT_EQ(ses["surface"], "ses");
+  EXPECT_EQ(sas["surface"], "sas");
+  EXPECT_EQ(sas["probe_radius"], 1.4);
+  EXPECT_NEAR(sas["area"].get<double>(), ses["sas_area"].get<double>(), 1e-6);
+  EXPECT_NEAR(sas["sas_area"].get<double>(), sas["area"].get<double>(), 1e-6);
+  EXPECT_NEAR(vdw["area"].get<double>(), probe_0["area"].get<double>(), 1e-9);
+  EXPECT_NEAR(vdw["vdw_area"].get<double>(), vdw["area"].get<double>(), 1e-6);
+  EXPECT_FALSE(vdw.contains("sas_area"));
+}
+
+TEST(Cavities, DropAndOnlyMakeUpTheWhole) {
+  const json keep = surface_json({kToxin}), drop = surface_json({kToxin, "--cavities", "drop"});
+  const json only = surface_json({kToxin, "--cavities", "only"});
+  for (const char* key : {"area", "volume", "ses_area", "sas_area"})
+    EXPECT_NEAR(keep[key].get<double>(), drop[key].get<double>() + only[key].get<double>(), 1e-6) << key;
+  for (const json& component : drop["components"]) EXPECT_EQ(component["kind"], "outer");
+  EXPECT_EQ(drop["components"].size() + only["components"].size(), keep["components"].size());
+}
+
+TEST(Cavities, AMoleculeWithoutAnyLeavesNothing) {
+  const TemporaryFolder folder;
+  const ProgramResult result = surface({folder.file("one.xyzr", "0 0 0 1.7\n"), "--cavities", "only"});
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_NE(result.err.find("no cavities"), std::string::npos) << result.err;
+}
+
+TEST(Objects, ChainsAreComputedAlone) {
+  const json whole = surface_json({kToxin}), chains = surface_json({kToxin, "--by", "chain"});
+  double area = 0.0, alone = 0.0;
+  int objects = 0;
+  for (const json& group : chains["groups"]) {
+    if (group["by"] == "chain") area += group["ses_area"].get<double>();
+    if (group["by"] != "object") continue;
+    ++objects;
+    alone += group["area"].get<double>();
+    EXPECT_NEAR(group["ses_area"].get<double>(), group["area"].get<double>(), 1e-6);
+    EXPECT_EQ(group["name"].get<std::string>().substr(0, 6), "chain ");
+  }
+  EXPECT_EQ(objects, 7);
+  EXPECT_NEAR(area, alone, 1e-6);
+  EXPECT_NEAR(chains["area"].get<double>(), alone, 1e-6);
+  EXPECT_GT(alone, whole["area"].get<double>() + 1000.0);  // the interfaces are open
+}
+
+TEST(Objects, ComponentsOfOneSurfaceAddUp) {
+  const json whole = surface_json({kToxin}), parts = surface_json({kToxin, "--by", "component"});
+  EXPECT_EQ(parts["components"].size(), whole["components"].size());
+  for (const char* key : {"area", "volume", "ses_area", "sas_area"})
+    EXPECT_NEAR(parts[key].get<double>(), whole[key].get<double>(), 1e-6) << key;
+  std::size_t objects = 0;
+  for (const json& group : parts["groups"]) objects += group["by"] == "object";
+  EXPECT_EQ(objects, whole["components"].size());
+}
+
+TEST(Csv, AtomsAndResiduesAddUpToTheSurface) {
+  const TemporaryFolder folder;
+  const std::string atoms = folder.path() / "atoms.csv", residues = folder.path() / "residues.csv";
+  const ProgramResult result = surface({kToxin, "--json", "--csv", atoms, "--csv-residues", residues});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const json numbers = json::parse(result.out, nullptr, false);
+  const Table by_atom = parse_csv(test::read_bytes(atoms)), by_residue = parse_csv(test::read_bytes(residues));
+  EXPECT_EQ(by_atom.size(), 5469u);
+  for (const char* column : {"ses_area", "sas_area"}) {
+    EXPECT_NEAR(sum(by_atom, column), numbers[column].get<double>(), 5e-3);  // six digits each
+    EXPECT_NEAR(sum(by_residue, column), numbers[column].get<double>(), 5e-3);
+  }
+  EXPECT_NEAR(sum(by_residue, "atoms"), 5469.0, 0.0);
+  EXPECT_EQ(by_atom.front().at("chain"), "D");
+  EXPECT_EQ(by_atom.front().at("class"), "polymer");
+  EXPECT_EQ(by_atom.front().at("element"), "N");
+
+  EXPECT_EQ(surface({kToxin, "--csv", atoms}).exit_code, 6);  // is there already
+  EXPECT_EQ(surface({kToxin, "--csv", atoms, "--force"}).exit_code, 0);
+  EXPECT_EQ(surface({kToxin, "--csv", "-", "--json"}).exit_code, 2);
+  EXPECT_EQ(surface({kToxin, "--csv", "same", "--csv-residues", "same"}).exit_code, 2);
+}
+
+TEST(Csv, NamesWithCommasAndQuotesStayInTheirCells) {
+  const TemporaryFolder folder;
+  const ProgramResult result = surface(
+      {folder.file("odd.pdb", "ATOM      1  C\",\"ALA A   1       0.000   0.000   0.000  1.00  0.00           C\n"),
+       "--csv", "-"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.out.find(",\"C\"\",\",C,"), std::string::npos) << result.out;
+}
+
+}  // namespace
+}  // namespace meniscus
