@@ -16,8 +16,9 @@ namespace meniscus {
 struct AreaColumn {
   std::string name;  ///< "ses_area", "sas_area", "vdw_area"; a word of ours
   std::vector<double> values;
+  double total = 0.0;  ///< of all copies of all atoms
 
-  double total() const;
+  /// Of one copy of these atoms.
   double total_of(const AtomGroup& group) const;
 };
 

@@ -68,6 +68,7 @@ void add_atom_options(CLI::App& command, MoleculeOptions& options) {
       ->transform(CLI::CheckedTransformer(words).description(""))
       ->type_name("WORD");
   add_warning_options(command, options);
+  add_assembly_options(command, options);
 }
 
 Selection parse_selection_option(const std::string& option, const std::string& text) {

@@ -106,6 +106,7 @@ void run(const MoleculeOptions& options) {
   ReadOptions everything;
   everything.keep_water = everything.keep_ions = true;
   everything.unknown_element = UnknownElement::guess;
+  everything.list_assemblies = true;
   const Structure structure = read_structure(options.file, everything);
   fmt::print(std::cout, "molecule      {} ({}, {} {})\n", escaped(structure.file), structure.format,
              structure.report.models, structure.report.models == 1 ? "model" : "models");
@@ -118,6 +119,7 @@ void run(const MoleculeOptions& options) {
   print_ranges(structure);
   print_classes_and_chains(structure);
   print_elements(structure);
+  print_assemblies(structure);
   say_warnings(options, structure);
 }
 

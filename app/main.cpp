@@ -20,8 +20,8 @@ namespace meniscus {
 namespace {
 
 constexpr Command kCommands[] = {
-    {"surface", add_surface}, {"render", add_render},   {"info", add_info},
-    {"export", add_export},   {"formats", add_formats}, {"bench", add_bench},
+    {"surface", add_surface}, {"render", add_render}, {"export", add_export}, {"info", add_info},
+    {"formats", add_formats}, {"bench", add_bench},   {"help", add_help},
 };
 
 constexpr const char* kExamples = R"(  meniscus info 1tii.pdb                        what the file holds

@@ -12,7 +12,16 @@
 namespace meniscus {
 
 Structure read_molecule(const MoleculeOptions& options) {
-  Structure structure = read_structure(options.file, options.reading);
+  if (options.reading.assembly == "list") {
+    ReadOptions listing = options.reading;
+    listing.assembly.clear();
+    listing.list_assemblies = true;
+    print_assemblies(read_structure(options.file, listing));
+    throw CLI::Success();
+  }
+  ReadOptions reading = options.reading;
+  if (options.division.instances != InstanceMode::none) reading.copy_mode = CopyMode::instances;
+  Structure structure = read_structure(options.file, reading);
   say(options, fmt::format("{}: {}", structure.file, structure.report.sentence()));
   say_warnings(options, structure);
   return structure;

@@ -25,7 +25,8 @@ struct Molecule {
   const Coloring& coloring() const { return objects.front().coloring; }
 };
 
-/// Reads the file and says on stderr, unless quiet, what was read and left out, and each warning.
+/// Reads the file and says on stderr, unless quiet, what was read and left out, and each warning. With --assembly list
+/// it prints the assemblies and ends the program by CLI::Success.
 Structure read_molecule(const MoleculeOptions& options);
 
 /// What the colours of its objects mean.
@@ -33,6 +34,9 @@ ColorKey key_of(const Molecule& molecule);
 
 /// The same as a JSON object: title, and unit, map, range, missing, missing_color or classes.
 std::string colors_json(const Molecule& molecule);
+
+/// A table of the assemblies the file describes, on stdout.
+void print_assemblies(const Structure& structure);
 
 /// Reads, computes and colours, in that order; says on stderr what was read and on which device it ran.
 Molecule load_molecule(const MoleculeOptions& options);

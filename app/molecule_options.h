@@ -26,11 +26,19 @@ enum class Cavities {
   only   ///< the others
 };
 
+/// What becomes of the copies of an assembly.
+enum class InstanceMode {
+  none,     ///< they are atoms like all others, under one surface
+  exact,    ///< one copy is computed; refused unless that gives the surface of the whole
+  separate  ///< one copy is computed as if alone
+};
+
 /// What the surface is divided into.
 struct DivisionOptions {
   std::optional<Grouping> groups;  ///< each group of atoms has a surface of its own, as if it were alone
   bool components = false;         ///< each closed part is an object
   Cavities cavities = Cavities::keep;
+  InstanceMode instances = InstanceMode::none;
 };
 
 /// What the common options say. Commands keep one of these alive as long as their CLI::App.
@@ -61,6 +69,8 @@ Selection parse_selection_option(const std::string& option, const std::string& t
 /// FILE alone, and --warnings and --quiet, for commands that take everything.
 void add_file_argument(CLI::App& command, MoleculeOptions& options);
 void add_warning_options(CLI::App& command, MoleculeOptions& options);
+/// Which copies of it there are (assembly_options.cpp): --assembly, --instances. Comes with add_atom_options.
+void add_assembly_options(CLI::App& command, MoleculeOptions& options);
 /// How the surface is made of them (surface_options.cpp): --surface, --probe, --device, --verify, --threads.
 void add_surface_options(CLI::App& command, MoleculeOptions& options);
 /// Into which objects it is divided (surface_options.cpp): --by, --cavities.

@@ -84,7 +84,7 @@ Json group_list(const SurfaceReport& report) {
                     {"area", object.surface.area},
                     {"volume", object.surface.volume}});
     const auto columns = area_columns(structure, {object}, report.options.computing.kind);
-    for (const AreaColumn& column : columns) list.back()[column.name] = column.total();
+    for (const AreaColumn& column : columns) list.back()[column.name] = column.total;
   }
   return list;
 }
@@ -175,7 +175,7 @@ std::string report_json(const SurfaceReport& report) {
                  {"arcs", counts.arcs}}},
                {"area", totals.area},
                {"volume", totals.volume}};
-  for (const AreaColumn& column : report.columns) json[column.name] = column.total();
+  for (const AreaColumn& column : report.columns) json[column.name] = column.total;
   if (report.context) json["context"] = {{"selection", report.context->selection}, {"atoms", report.context->atoms}};
   json["components"] = component_list(report.molecule.objects);
   json["groups"] = group_list(report);
@@ -203,7 +203,7 @@ std::string report_table(const SurfaceReport& report) {
   fmt::format_to(out, "reduced       {} fixed probes, {} arcs\n", n(counts.fixed_probes), n(counts.arcs));
   fmt::format_to(out, "area          {:.3f} Å²\n", totals.area);
   if (report.options.computing.kind == SurfaceKind::ses)
-    fmt::format_to(out, "accessible    {:.3f} Å²\n", report.columns[1].total());
+    fmt::format_to(out, "accessible    {:.3f} Å²\n", report.columns[1].total);
   fmt::format_to(out, "volume        {:.3f} Å³\nclosed        yes\n", totals.volume);
   if (report.context)
     fmt::format_to(out, "context       {} atoms: {}\n", n(report.context->atoms), escaped(report.context->selection));

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// `meniscus help TOPIC`: the pages that belong to no single command, and those of the commands.
+#include <iostream>
+#include <memory>
+
+#include <fmt/format.h>
+#include <fmt/ostream.h>
+
+#include "app/commands.h"
+#include "app/program_error.h"
+#include "core/base/text.h"
+#include "core/molecule/selection_words.h"
+
+namespace meniscus {
+namespace {
+
+struct Topic {
+  std::string_view name;
+  std::string_view summary;
+  std::string (*page)();
+};
+
+constexpr const char* kAssemblies = R"(Examples:
+  meniscus surface 1ihm.pdb --assembly list             what the file describes
+  meniscus surface 1ihm.pdb --assembly 1                one surface of the whole capsid
+  meniscus export povray 4v6x.cif --assembly 2 --instances exact -o 4v6x
+
+A file may describe how its chains are repeated in the biological molecule: REMARK 350 of PDB, _pdbx_struct_assembly
+of mmCIF. --assembly builds it of the atoms that --select and the other options leave (they work on the chains of the
+file). Copies of chain A beyond the first are called A-2, A-3, as in the assembly files of the wwPDB; --color chain
+gives them the colour of A, --color copy tells them apart.
+
+  without --instances  every copy becomes atoms, and all together get one surface: right where copies touch, and
+                       at most 10,000,000 atoms
+  --instances exact    one copy is computed and drawn many times. Only where no probe can touch two copies is that the
+                       surface of the whole; otherwise it is refused, naming the closest pair of atoms
+  --instances separate the same without asking: each copy has a surface of its own, as if it were alone
+
+Matrices must be rotations within 0.001; six decimals are completed to the nearest exact one. Mirrored, sheared or
+incomplete ones are errors.
+)";
+
+constexpr const char* kExitCodes = R"(  0  done
+  1  internal error: please report it
+  2  wrong usage
+  3  input cannot be read or makes no sense: "file:line: what, value, what to do"
+  4  no usable GPU or GL, or the driver refused something
+  5  a limit of the machine or of a format was reached
+  6  an output cannot be written, or exists and --force was not given
+  7  the surface is not closed: the atoms are named, nothing is written
+
+Files are written under a temporary name beside the final one and renamed when whole; a half file never bears the
+final name. Interrupted (Ctrl-C, SIGTERM) the program removes what is unfinished and ends with 128 + the signal.
+)";
+
+std::string selection_page() { return selection_help(); }
+std::string assembly_page() { return kAssemblies; }
+std::string exit_page() { return kExitCodes; }
+
+constexpr Topic kTopics[] = {
+    {"selections", "the language of --select, --show and --context", selection_page},
+    {"assemblies", "biological assemblies, and copies drawn as instances", assembly_page},
+    {"exit-codes", "what the program returns, and what is left behind", exit_page},
+};
+
+void list_topics(const CLI::App& program) {
+  fmt::print(std::cout, "meniscus help TOPIC shows a page:\n\n");
+  for (const Topic& topic : kTopics) fmt::print(std::cout, "  {:<12} {}\n", topic.name, topic.summary);
+  fmt::print(std::cout, "\nand the help of a command:\n\n");
+  for (const CLI::App* command : program.get_subcommands({}))
+    fmt::print(std::cout, "  {:<12} {}\n", command->get_name(), command->get_description());
+}
+
+void show(const CLI::App& program, const std::string& name) {
+  std::string names;
+  for (const Topic& topic : kTopics) {
+    names.append(names.empty() ? "" : ", ").append(topic.name);
+    if (name == topic.name) {
+      std::cout << topic.page();
+      return;
+    }
+  }
+  for (const CLI::App* command : program.get_subcommands({})) {
+    if (command->get_name() == name) {
+      std::cout << command->help();
+      return;
+    }
+  }
+  throw UsageError(fmt::format("{} is no topic; there are {} and the commands", in_quotes(name), names));
+}
+
+}  // namespace
+
+void add_help(CLI::App& command) {
+  describe(command, "Show a page of the manual: selections, assemblies, exit-codes, or a command",
+           "  meniscus help\n"
+           "  meniscus help selections");
+  auto topic = std::make_shared<std::string>();
+  command.add_option("TOPIC", *topic, "The page; none: what pages there are")->type_name("");
+  command.callback([topic, &command] {
+    const CLI::App& program = *command.get_parent();
+    if (topic->empty()) {
+      list_topics(program);
+    } else {
+      show(program, *topic);
+    }
+  });
+}
+
+}  // namespace meniscus
