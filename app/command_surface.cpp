@@ -74,7 +74,7 @@ void add_surface(CLI::App& command) {
       "  meniscus surface 1tii.pdb --json > 1tii.json      one JSON object\n"
       "  meniscus surface 1tii.pdb --csv atoms.csv --csv-residues residues.csv   areas of each\n"
       "  meniscus surface 1tii.pdb --by chain              each chain as if it were alone\n"
-      "  meniscus surface 1tii.pdb --select 'chain A' --context 'chain D'   area of A, and what D buries of it\n"
+      "  meniscus surface 1tii.pdb --select 'chain D' --context 'chain E'   area of D, and what E buries of it\n"
       "  meniscus surface 1tii.pdb --cavities only         cavities, and what lies in them\n"
       "  meniscus surface 1tii.pdb --surface sas --csv -   solvent-accessible areas of atoms on standard output\n"
       "  meniscus surface balls.xyzr --surface vdw         van der Waals surface, radii of the file",

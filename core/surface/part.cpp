@@ -257,6 +257,10 @@ double winding(const Surface& surface, std::span<const std::uint32_t> faces, con
   double sum = 0;
   for (const std::uint32_t f : faces) {
     const Face& face = surface.faces[f];
+    if (face.loop_count == 0) {  // an atom's whole sphere
+      const Ball& atom = surface.atoms[surface.convex[face.patch].atom];
+      if (glm::distance(atom.center, point) < atom.radius) sum += 4 * std::numbers::pi;
+    }
     std::optional<glm::dvec3> apex;
     for (std::uint32_t l = face.first_loop; l < face.first_loop + face.loop_count; ++l)
       for (std::uint32_t n = 0; n < surface.loops[l].half_border_count; ++n) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -83,6 +84,63 @@ TEST(Cavities, DropAndOnlyMakeUpTheWhole) {
     EXPECT_NEAR(keep[key].get<double>(), drop[key].get<double>() + only[key].get<double>(), 1e-6) << key;
   for (const json& component : drop["components"]) EXPECT_EQ(component["kind"], "outer");
   EXPECT_EQ(drop["components"].size() + only["components"].size(), keep["components"].size());
+}
+
+// Sixty atoms, for the other program needs 100,000 slices an atom until its areas are exact to 1e-4 Å².
+TEST(Csv, AccessibleAreasAreThoseOfFreesasa) {
+  const TemporaryFolder folder;
+  std::istringstream file(test::read_bytes(kUbiquitin));
+  std::string line, text;
+  for (int atoms = 0; atoms < 60 && std::getline(file, line);)
+    if (line.starts_with("ATOM  ")) {
+      text += line + "\n";
+      ++atoms;
+    }
+  const ProgramResult ours = surface({folder.file("few.pdb", text), "--csv", "-"});
+  ASSERT_EQ(ours.exit_code, 0) << ours.err;
+  const Table rows = parse_csv(ours.out);
+  ASSERT_EQ(rows.size(), 60u);
+  // The same atoms with our radii where freesasa takes radii from.
+  std::istringstream again(text);
+  std::string with_radii;
+  for (const auto& row : rows) {
+    std::getline(again, line);
+    with_radii += line.replace(54, 6, fmt::format("{:6.2f}", std::stod(row.at("radius")))) + "\n";
+  }
+  const ProgramResult theirs =
+      test::run_program("/usr/bin/freesasa",
+                        {"--lee-richards", "--resolution=100000", "--radius-from-occupancy", "--no-warnings",
+                         "--format=json", "--depth=atom", folder.file("radii.pdb", with_radii)},
+                        250);
+  ASSERT_EQ(theirs.exit_code, 0) << theirs.err;
+  const json result = json::parse(theirs.out, nullptr, false);
+  std::size_t n = 0;
+  for (const json& chain : result["results"][0]["structure"][0]["chains"])
+    for (const json& residue : chain["residues"])
+      for (const json& atom : residue["atoms"]) {
+        ASSERT_LT(n, rows.size());
+        EXPECT_NEAR(std::stod(rows[n].at("sas_area")), atom["area"].get<double>(), 1e-4) << rows[n].at("name");
+        ++n;
+      }
+  EXPECT_EQ(n, 60u);
+}
+
+TEST(Context, WhatOneChainBuriesOfAnother) {
+  const auto areas = [](const std::string& select, const std::string& context) {
+    std::vector<std::string> arguments{kToxin, "--select", select};
+    if (!context.empty()) arguments.insert(arguments.end(), {"--context", context});
+    return surface_json(arguments);
+  };
+  const json a = areas("chain D", "chain E"), d = areas("chain E", "chain D"), both = areas("chain D or chain E", "");
+  EXPECT_EQ(a["context"]["atoms"], 740);
+  for (const std::string kind : {"ses_area", "sas_area"}) {
+    const auto number = [&](const json& of, const char* suffix) { return of[kind + suffix].get<double>(); };
+    EXPECT_NEAR(number(a, "_in_context") + number(d, "_in_context"), number(both, ""), 1e-6);
+    EXPECT_NEAR(number(a, "") - number(a, "_in_context"), number(a, "_buried"), 1e-6);
+    EXPECT_GT(number(a, "_buried"), 100.0);
+  }
+  EXPECT_EQ(surface({kToxin, "--context", "chain D"}).exit_code, 2);
+  EXPECT_EQ(surface({kToxin, "--select", "chain A", "--context", "chain"}).exit_code, 2);
 }
 
 TEST(Cavities, AMoleculeWithoutAnyLeavesNothing) {
