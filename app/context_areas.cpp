@@ -39,10 +39,13 @@ ContextAreas context_areas(const MoleculeOptions& options, const Selection& cont
   ContextAreas result;
   result.atoms = structure.atoms.size() - molecule.structure.atoms.size();
   for (std::size_t c = 0; c < alone.size(); ++c) {
-    AreaColumn in_context{alone[c].name + "_in_context", {}}, buried{alone[c].name + "_buried", {}};
+    AreaColumn in_context{alone[c].name + "_in_context", {}, 0.0};
+    AreaColumn buried{alone[c].name + "_buried", {}, 0.0};
     for (std::size_t a = 0; a < molecule.structure.atoms.size(); ++a) {
       in_context.values.push_back(all[c].values[row.at(molecule.structure.atoms[a].index)]);
       buried.values.push_back(alone[c].values[a] - in_context.values.back());
+      in_context.total += in_context.values.back();
+      buried.total += buried.values.back();
     }
     result.columns.push_back(std::move(in_context));
     result.columns.push_back(std::move(buried));
