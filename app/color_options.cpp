@@ -62,23 +62,22 @@ void add_color_options(CLI::App& command, MoleculeOptions& options) {
         name, [&color, parse](const std::string& text) { parse(text, color); }, help);
     return option->type_name(type);
   };
-  CLI::Option* const scheme = add(
-      "--color", parse_color,
-      "element (default), chain, residue (type), kind (of patch), component, #rrggbb, or a number: bfactor, occupancy, "
-      "charge (PQR), hydrophobicity (Kyte & Doolittle 1982), index (place in the file)",
-      "SCHEME");
+  CLI::Option* const scheme =
+      add("--color", parse_color,
+          "element (default), chain, residue (type), kind (of patch), component, #rrggbb; or by number: bfactor, "
+          "occupancy, charge, hydrophobicity (Kyte & Doolittle 1982), index; meniscus colors explains them",
+          "SCHEME");
   CLI::Option* const file = command.add_option(
       "--color-by-file", options.color_file,
       "Colour by numbers from a file, one an atom of FILE or one an atom used; nan, ? or -: missing");
   file->type_name("NUMBERS");
   add("--map", parse_map,
-      "Colours for numbers: viridis (default), cividis, magma, blue-white-red (hydrophobicity), red-white-blue "
-      "(charge: "
-      "negative is red), categorical (each number a colour of its own)",
+      "Of numbers: viridis (default), cividis, magma, blue-white-red (default of hydrophobicity), red-white-blue (of "
+      "charge: negative is red), categorical (each number a colour of its own)",
       "MAP");
   add("--color-range", parse_range,
-      "Numbers at the ends of the map, or auto (default: smallest and largest; charge symmetric; hydrophobicity "
-      "-4.5:4.5)",
+      "Numbers at the ends of the map, or auto (default: smallest and largest; charge symmetric about 0; "
+      "hydrophobicity -4.5:4.5)",
       "LO:HI");
   add("--missing-color", parse_missing, "Of atoms without a number [#808080; with cividis #cc79a7]", "#rrggbb");
   command.parse_complete_callback([&options, scheme, file] {

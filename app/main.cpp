@@ -21,7 +21,7 @@ namespace {
 
 constexpr Command kCommands[] = {
     {"surface", add_surface}, {"render", add_render}, {"export", add_export}, {"info", add_info},
-    {"formats", add_formats}, {"bench", add_bench},   {"help", add_help},
+    {"formats", add_formats}, {"colors", add_colors}, {"bench", add_bench},   {"help", add_help},
 };
 
 constexpr const char* kExamples = R"(  meniscus info 1tii.pdb                        what the file holds

@@ -2,10 +2,11 @@
 // Reads the words of colour schemes, and colours atoms by them.
 #include "core/molecule/color_schemes.h"
 
+#include <algorithm>
 #include <charconv>
+#include <iterator>
 #include <map>
 #include <numeric>
-#include <utility>
 #include <vector>
 
 #include "core/molecule/color_scale.h"
@@ -17,11 +18,23 @@ namespace {
 
 using By = ColorScheme::By;
 
-constexpr std::pair<std::string_view, By> kWords[] = {
-    {"element", By::element},     {"chain", By::chain},   {"residue", By::residue},
-    {"bfactor", By::bfactor},     {"charge", By::charge}, {"hydrophobicity", By::hydrophobicity},
-    {"occupancy", By::occupancy}, {"kind", By::kind},     {"component", By::component},
-    {"index", By::index},         {"file", By::file}};
+constexpr ColorSchemeMetadata kSchemes[] = {
+    {"element", By::element, "chemical element, the default",
+     "after the models of R. B. Corey, L. Pauling and W. L. Koltun; metals and tones are our own"},
+    {"chain", By::chain, "chains in order of appearance, 21 colours in turn",
+     "M. Okabe and K. Ito, Color Universal Design (2008)"},
+    {"residue", By::residue, "residue type: acidic, basic, polar, aliphatic, aromatic, sulphur, GLY and PRO; each base",
+     "grouped by side chain; colours of Okabe and Ito"},
+    {"kind", By::kind, "kind of patch: convex, toroidal, concave", "colours of Okabe and Ito"},
+    {"component", By::component, "each closed part of the surface, 21 colours in turn", "colours of Okabe and Ito"},
+    {"bfactor", By::bfactor, "B-factor in Å²; viridis, smallest to largest", ""},
+    {"occupancy", By::occupancy, "occupancy; viridis, smallest to largest", ""},
+    {"charge", By::charge, "partial charge in e (PQR files); red-white-blue, symmetric about 0, negative is red", ""},
+    {"hydrophobicity", By::hydrophobicity,
+     "hydropathy of the amino acid; blue-white-red, -4.5 (arginine, blue) to 4.5 (isoleucine, red)",
+     "J. Kyte and R. F. Doolittle, J. Mol. Biol. 157, 105 (1982)"},
+    {"index", By::index, "place in the file, from 0; viridis", ""},
+    {"file", By::file, "numbers of --color-by-file; viridis, smallest to largest", ""}};
 
 /// Chains in order of appearance, so that colours follow the file.
 std::vector<glm::vec3> by_chain(const Structure& structure) {
@@ -49,6 +62,8 @@ std::vector<glm::vec3> colors_of(const Structure& structure, const ColorScheme& 
 
 }  // namespace
 
+std::span<const ColorSchemeMetadata> color_schemes() { return kSchemes; }
+
 std::optional<glm::vec3> parse_hex_color(std::string_view text) {
   std::uint32_t hex = 0;
   if (text.size() != 7 || text[0] != '#') return std::nullopt;
@@ -65,16 +80,15 @@ std::optional<ColorScheme> parse_color_scheme(std::string_view text) {
     return scheme;
   }
   if (text == "atom") text = "index";
-  for (const auto& [word, by] : kWords) {
-    scheme.by = by;
-    if (text == word) return scheme;
-  }
-  return std::nullopt;
+  const auto found = std::ranges::find(kSchemes, text, &ColorSchemeMetadata::word);
+  if (found == std::end(kSchemes)) return std::nullopt;
+  scheme.by = found->by;
+  return scheme;
 }
 
 std::string color_scheme_words() {
   std::string words;
-  for (const auto& [word, by] : kWords) words.append(word).append(", ");
+  for (const ColorSchemeMetadata& scheme : kSchemes) words.append(scheme.word).append(", ");
   return words + "#rrggbb";
 }
 

@@ -45,6 +45,17 @@ struct ColorScheme {
   bool has_scale() const { return by >= By::bfactor; }
 };
 
+/// What a scheme is, in words users can look up.
+struct ColorSchemeMetadata {
+  std::string_view word;  ///< for --color
+  ColorScheme::By by;
+  std::string_view description;
+  std::string_view source;  ///< of its colours or numbers; empty where it needs none
+};
+
+/// All schemes but the fixed colour, in the order the help names them.
+std::span<const ColorSchemeMetadata> color_schemes();
+
 /// Reads "element", ..., "file", "atom" (the same as "index") or "#rrggbb"; nothing for any other text.
 std::optional<ColorScheme> parse_color_scheme(std::string_view text);
 

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Colour options as a user gives them: numbers from a file, legends, what is refused, and names from a hostile file.
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/run_program.h"
+
+namespace meniscus {
+namespace {
+
+using test::ProgramResult;
+using test::TemporaryFolder;
+
+/// Three glycines' CA in chains A, B and one with a hostile name, and a water.
+std::string molecule(const char* chain = "C") {
+  constexpr const char* kLoop =
+      "data_x\nloop_\n_atom_site.group_PDB\n_atom_site.id\n_atom_site.type_symbol\n_atom_site.label_atom_id\n"
+      "_atom_site.label_comp_id\n_atom_site.label_asym_id\n_atom_site.auth_asym_id\n_atom_site.auth_seq_id\n"
+      "_atom_site.Cartn_x\n_atom_site.Cartn_y\n_atom_site.Cartn_z\n_atom_site.B_iso_or_equiv\n";
+  return fmt::format(
+      "{}ATOM 1 C CA GLY A A 1 0 0 0 10\nATOM 2 C CA GLY B B 1 3 0 0 20\n"
+      "HETATM 3 O O HOH D D 1 9 9 9 90\nATOM 4 C CA GLY C {} 1 0 3 0 30\n",
+      kLoop, chain);
+}
+
+class ColorCommand : public ::testing::Test {
+ protected:
+  ProgramResult meniscus(std::vector<std::string> arguments) { return test::run_program(MENISCUS_PROGRAM, arguments); }
+  ProgramResult render(const std::string& name, std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {"render", file_, "-o", path(name), "--size", "300x200", "-q", "--force"});
+    return meniscus(arguments);
+  }
+  std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
+  /// The picture's bytes.
+  std::string picture(const std::vector<std::string>& arguments) {
+    const ProgramResult result = render("a.png", arguments);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return test::read_bytes(path("a.png"));
+  }
+
+  TemporaryFolder folder_;
+  std::string file_ = folder_.file("m.cif", molecule());
+};
+
+TEST_F(ColorCommand, NumbersFromAFileAreThoseOfTheAtoms) {
+  // The same numbers as the B-factors, given for all atoms of the file or for those used.
+  const std::string by_b = picture({"--color", "bfactor"});
+  EXPECT_EQ(picture({"--color-by-file", folder_.file("all", "10 20 90 30\n")}), by_b);
+  EXPECT_EQ(picture({"--color-by-file", folder_.file("used", "10\n20\n30\n")}), by_b);
+  EXPECT_EQ(picture({"--color", "file", "--color-by-file", path("used")}), by_b);
+  EXPECT_NE(picture({"--color-by-file", folder_.file("gap", "10 ? 30")}), by_b);
+  EXPECT_EQ(picture({"--color", "bfactor", "--color-range", "10:30"}), by_b);
+  EXPECT_EQ(picture({"--color", "bfactor", "--color-range", "auto"}), by_b);
+  EXPECT_NE(picture({"--color", "bfactor", "--map", "magma"}), by_b);
+}
+
+TEST_F(ColorCommand, WhatCannotBeIsRefusedWithItsReason) {
+  const std::string five = folder_.file("five", "1 2 3 4 5"), words = folder_.file("words", "1\n2\nred\n"),
+                    gone = folder_.file("gone", "nan ? -");
+  const struct {
+    std::vector<std::string> arguments;
+    int exit_code;
+    std::string reason;
+  } cases[] = {
+      {{"--color", "blue"}, 2, "'blue' is none of element"},
+      {{"--color", "file"}, 2, "needs --color-by-file"},
+      {{"--color", "chain", "--color-by-file", five}, 2, "leave the other one out"},
+      {{"--map", "magma"}, 2, "is for colours by a number"},
+      {{"--color", "chain", "--color-range", "1:2"}, 2, "is for colours by a number"},
+      {{"--missing-color", "#102030"}, 2, "is for colours by a number"},
+      {{"--color", "bfactor", "--map", "jet"}, 2, "'jet' is none of viridis"},
+      {{"--color", "bfactor", "--color-range", "2:1"}, 2, "lo < hi"},
+      {{"--color", "bfactor", "--missing-color", "grey"}, 2, "is not #rrggbb"},
+      {{"--color", "charge"}, 3, "no partial charges"},
+      {{"--color", "occupancy"}, 3, "no occupancies"},
+      {{"--color-by-file", five}, 3, "holds 5 numbers"},
+      {{"--color-by-file", five}, 3, "holds 4 atoms, of which 3 are used"},
+      {{"--color-by-file", words}, 3, "words:3: 'red' is not a finite number"},
+      {{"--color-by-file", gone}, 3, "all numbers are missing"},
+      {{"--color-by-file", path("nowhere")}, 3, "cannot be read"},
+      {{"--color", "#102030", "--legend"}, 2, "nothing to explain"},
+  };
+  for (const auto& c : cases) {
+    const ProgramResult result = render("refused.png", c.arguments);
+    EXPECT_EQ(result.exit_code, c.exit_code) << c.reason;
+    EXPECT_NE(result.err.find(c.reason), std::string::npos) << result.err;
+    EXPECT_FALSE(std::filesystem::exists(path("refused.png")));
+  }
+  const ProgramResult small = meniscus({"render", file_, "-o", path("small.png"), "--size", "40x30", "--legend"});
+  EXPECT_EQ(small.exit_code, 2);
+  EXPECT_NE(small.err.find("does not fit into 40 x 30 pixels"), std::string::npos) << small.err;
+}
+
+TEST_F(ColorCommand, LegendsGoWithEveryScheme) {
+  for (const char* scheme : {"element", "chain", "residue", "kind", "component", "bfactor", "hydrophobicity", "index"})
+    EXPECT_NE(picture({"--color", scheme, "--legend", "--samples", "1"}),
+              picture({"--color", scheme, "--samples", "1"}));
+}
+
+TEST_F(ColorCommand, NamesFromTheFileStayOutOfOtherProgramsSource) {
+  const std::string name = "x\"}#include*/";
+  file_ = folder_.file("hostile.cif", molecule(("'" + name + "'").c_str()));
+  const ProgramResult scene = meniscus({"export", "povray", file_, "-o", path("scene"), "--color", "chain", "-q"});
+  ASSERT_EQ(scene.exit_code, 0) << scene.err;
+  int with_name = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(path("scene"))) {
+    if (test::read_bytes(entry.path()).find("#include*/") == std::string::npos) continue;
+    EXPECT_EQ(entry.path().filename(), "surface_objects.json");
+    ++with_name;
+  }
+  EXPECT_EQ(with_name, 1);  // and so the name was read
+  EXPECT_EQ(render("legend.png", {"--color", "chain", "--legend"}).exit_code, 0);
+}
+
+TEST_F(ColorCommand, SchemesAndMapsAreListedWithTheirSources) {
+  const ProgramResult list = meniscus({"colors"});
+  EXPECT_EQ(list.exit_code, 0);
+  for (const char* word : {"hydrophobicity", "Kyte", "viridis", "cividis", "magma", "CC0", "Okabe", "#808080"})
+    EXPECT_NE(list.out.find(word), std::string::npos) << word;
+}
+
+}  // namespace
+}  // namespace meniscus
