@@ -12,6 +12,7 @@
 #include "app/commands.h"
 #include "app/molecule.h"
 #include "core/base/text.h"
+#include "core/molecule/formats.h"
 #include "core/reference/rolling_probe.h"
 
 namespace meniscus {
@@ -129,7 +130,7 @@ void add_bench(CLI::App& command) {
       "All times are wall-clock milliseconds, the medians of the runs, after one run that is not counted. Reading\n"
       "the file is not part of them.");
   auto state = std::make_shared<BenchCommand>();
-  command.add_option("FILES", state->files, "Molecules: PDB, mmCIF (.gz too) or XYZR")->required();
+  command.add_option("FILES", state->files, "Molecules: " + format_names() + "; .gz too")->required();
   add_surface_options(command, state->molecule);
   command.add_option("--runs", state->runs, "Timed runs of each; the median is shown [5]")
       ->check(CLI::Range(1, 1000000).description(""))

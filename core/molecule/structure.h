@@ -17,7 +17,7 @@
 
 namespace meniscus {
 
-/// What an atom belongs to. `unclassified`: the format does not say (XYZR).
+/// What an atom belongs to. `unclassified`: the format does not say (XYZ, XYZR).
 enum class AtomClass : std::uint8_t { polymer, ligand, water, ion, unclassified };
 
 /// "polymer", "ligand", "water", "ion" or "unclassified".
@@ -26,7 +26,7 @@ const char* class_name(AtomClass kind);
 /// One atom. Text fields come from the file as they are: never paste them into the source code of another program.
 struct Atom {
   glm::dvec3 position{0.0};  ///< Å
-  double radius = 0.0;       ///< van der Waals radius in Å: from the file (XYZR), or 0 until a radii set fills it in
+  double radius = 0.0;  ///< van der Waals radius in Å: from the file (PQR, XYZR), or 0 until a radii set fills it in
   std::uint8_t element = 0;  ///< atomic number; 0: unknown, or the format does not say
   AtomClass kind = AtomClass::unclassified;
   char insertion_code = ' ';

@@ -3,6 +3,7 @@
 #include "core/molecule/read_structure.h"
 
 #include <cmath>
+#include <cstdio>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -211,6 +212,16 @@ TEST(Format, EachIsReadFromGzip) {
   EXPECT_EQ(read_text("a.gro.gz", test::gzipped(kGro)).atoms.size(), 1u);
   EXPECT_EQ(read_text("a.xyz.gz", test::gzipped("1\n\nC 0 0 0\n")).atoms.size(), 1u);
   EXPECT_EQ(read_text("a.pqr.gz", test::gzipped(pqr_line("1 N MET A 1", 1, "-0.3 1.85"))).atoms.size(), 1u);
+}
+
+TEST(StandardInput, IsReadUpToItsBound) {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("a", kGro);
+  ASSERT_NE(std::freopen(path.c_str(), "rb", stdin), nullptr);
+  EXPECT_THROW(read_text_file("-", 100), CapacityError);
+  ASSERT_NE(std::freopen(path.c_str(), "rb", stdin), nullptr);
+  EXPECT_EQ(read_text_file("-").text, kGro);
+  EXPECT_EQ(read_text_file(path).path, path);
 }
 
 TEST(Unit, NanometresAreDoubted) {

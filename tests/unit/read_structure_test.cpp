@@ -191,7 +191,7 @@ TEST(Elements, OnesThatCannotBeAreCountedAndReplaced) {
             "1 atom has an element that its residue cannot hold; its name was believed instead (first: 'CA' in ALA A1: "
             "Ca)");
   EXPECT_EQ(structure.report.warnings[1].text,
-            "1 atom has a symbol of no element; elements were guessed from the names (first: line 2, 'QQ')");
+            "1 atom has a symbol of no element; it was guessed from the name (first: line 2, 'QQ')");
 }
 
 TEST(Elements, AModifiedResidueKeepsTheMetalItStates) {
