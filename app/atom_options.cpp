@@ -39,13 +39,12 @@ void add_atom_options(CLI::App& command, MoleculeOptions& options) {
   command
       .add_option_function<std::string>(
           "--model", [&options](const std::string& text) { options.reading.model = model_choice(text); },
-          "Which model or frame of the file: 1 (default) is the first; all: all of them as one molecule")
+          "Model or frame to read: 1 (default) is the first; all: all of them as one molecule")
       ->type_name("N|all");
   command
       .add_option_function<std::string>(
           "--altloc", [&options](const std::string& text) { options.reading.altloc = altloc_choice(text); },
-          "Which alternate location of a residue: best (default: highest occupancy), first, a letter (best where a "
-          "residue has no such), or all (they overlap)")
+          "Alternate location to keep in a residue: best (default: the most occupied), first, a letter, all")
       ->type_name("WORD");
   command
       .add_option_function<std::string>(
@@ -90,7 +89,7 @@ void add_warning_options(CLI::App& command, MoleculeOptions& options) {
       {"full", WarningDetail::full}, {"summary", WarningDetail::summary}, {"none", WarningDetail::none}};
   command
       .add_option("--warnings", options.warnings,
-                  "Oddities of the file: summary (default, one sentence a kind), full (a line an atom), none")
+                  "Oddities of the file: summary (default), full (a line an atom), none")
       ->transform(CLI::CheckedTransformer(words).description(""))
       ->type_name("WORD");
   command.add_flag("-q,--quiet", options.quiet, "No notes on stderr; errors only");

@@ -13,6 +13,7 @@
 namespace meniscus {
 namespace {
 
+/// A new format is a file read_<name>.cpp, its name in reader.h and an entry in both lists.
 constexpr std::array<const Reader*, 6> kReaders{&kPdbReader, &kMmcifReader, &kPqrReader,
                                                 &kGroReader, &kXyzReader,   &kXyzrReader};
 

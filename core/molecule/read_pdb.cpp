@@ -29,13 +29,12 @@ constexpr std::size_t kCoordinatesEnd = 54;
 bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; }
 bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
 
-/// What the place of the name in its columns 13 to 16 suggests: elements of one letter begin in column 14, but
-/// hydrogens of long names (HG11, 1HB) in 13.
+/// What the place of the name in its columns 13 to 16 suggests: elements of one letter begin in column 14 (gemmi skips
+/// the blank), but hydrogens of long names (HG11, 1HB) in 13.
 gemmi::Element element_by_place(std::string_view name) {
   const char letters[3] = {name[0], name[1], '\0'};
-  const char first[2] = {name[0], '\0'}, second[2] = {name[1], '\0'};
+  const char first[2] = {name[0], '\0'};
   if ((name[0] == 'H' || name[0] == 'h') && name[3] != ' ') return gemmi::El::H;
-  if (is_digit(name[0]) || name[0] == ' ') return gemmi::Element(second);
   return is_digit(name[1]) ? gemmi::Element(first) : gemmi::Element(letters);
 }
 

@@ -63,8 +63,9 @@ TEST(Pqr, FieldsThatTouchAreReadAtTheColumnsOfPdb) {
   const Structure structure = read_text("a.pqr",
                                         "ATOM      1 HG21AVAL A1000    -100.125-100.250-100.500 -0.3000 1.5000\n"
                                         "ATOM  12345 HG22 VALX   11      17.047  14.099   3.625  0.2500 1.2500\n"
+                                        "ATOM  12345 HG23AVAL A  11      27.047  14.099   3.625  0.2500 1.2500\n"
                                         "HETATM12346  C1  LIG A 12       1.000   2.000   3.000  0.5000 2.0000\n");
-  ASSERT_EQ(structure.atoms.size(), 3u);
+  ASSERT_EQ(structure.atoms.size(), 4u);
   EXPECT_EQ(structure.atoms[0].name, "HG21");
   EXPECT_EQ(structure.atoms[0].residue_name, "VAL");
   EXPECT_EQ(structure.atoms[0].altloc, 'A');
@@ -74,8 +75,10 @@ TEST(Pqr, FieldsThatTouchAreReadAtTheColumnsOfPdb) {
   EXPECT_EQ(structure.atoms[1].name, "HG22");
   EXPECT_EQ(structure.atoms[1].residue_name, "VALX");
   EXPECT_EQ(structure.atoms[1].residue_number, 11);
-  EXPECT_EQ(structure.atoms[2].name, "C1");
-  EXPECT_EQ(structure.atoms[2].radius, 2.0);
+  EXPECT_EQ(structure.atoms[2].name, "HG23") << "between blanks it would be HG23AVAL in residue A";
+  EXPECT_EQ(structure.atoms[2].chain, "A");
+  EXPECT_EQ(structure.atoms[3].name, "C1");
+  EXPECT_EQ(structure.atoms[3].radius, 2.0);
 }
 
 TEST(Pqr, WaterIonsAndAtomsOfRadiusZeroAreLeftOut) {

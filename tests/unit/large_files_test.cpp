@@ -146,12 +146,14 @@ TEST(LargePdb, SegmentsStandInForChainsAndKeepResiduesApart) {
     std::string line = PdbLine{.chain = chain}.text();
     return line.replace(72, 4, segment);
   };
-  const Structure structure = read_text(in_segment("PROA", ' ') + in_segment("PROB", ' ') + in_segment("PROB", 'X'));
-  ASSERT_EQ(structure.atoms.size(), 3u);
+  const Structure structure =
+      read_text(in_segment("PROA", ' ') + in_segment("PROB", ' ') + in_segment("PROB", 'X') + in_segment("PROC", 'X'));
+  ASSERT_EQ(structure.atoms.size(), 4u);
   EXPECT_EQ(structure.atoms[0].chain, "PROA");
   EXPECT_EQ(structure.atoms[0].segment, "PROA");
   EXPECT_EQ(structure.atoms[2].chain, "X");
   EXPECT_EQ(structure.atoms[2].residue, 2u);
+  EXPECT_EQ(structure.atoms[3].residue, 3u) << "only the segment is another one";
 }
 
 TEST(Residues, PiecesOfOneResidueComeTogetherAndWrappedOnesDoNot) {

@@ -157,6 +157,16 @@ TEST(Classes, WaterAndIonsGoLigandsAndBoundMetalsStay) {
   EXPECT_EQ(read_text("a.pdb", text, keep).atoms.size(), 7u);
 }
 
+TEST(Classes, WhatFollowsTheEndOfItsChainIsNoPolymer) {
+  std::string peptide;
+  for (const char* name : {" N  ", " CA ", " C  "})
+    peptide += PdbLine{.record = "HETATM", .name = name, .residue = "XYZ", .number = 2}.text();
+  const auto kind = [](const std::string& text) { return read_text("a.pdb", text).atoms.back().kind; };
+  EXPECT_EQ(kind(PdbLine{}.text() + peptide), AtomClass::polymer);
+  EXPECT_EQ(kind(PdbLine{}.text() + "TER\n" + peptide), AtomClass::ligand);
+  EXPECT_EQ(kind(PdbLine{.chain = 'B'}.text() + "TER\n" + peptide), AtomClass::polymer);
+}
+
 TEST(Elements, NamesAreReadInTheirResidueWhenTheColumnIsMissing) {
   const auto element = [](const char* name, const char* residue) {
     return static_cast<int>(
@@ -322,6 +332,22 @@ TEST(Mmcif, TakesAuthorNamesEntitiesAndTheFirstModel) {
   EXPECT_EQ(structure.atoms[1].name, "C1'");
   EXPECT_EQ(structure.atoms[1].position.x, 1.234);
   EXPECT_TRUE(std::isnan(structure.atoms[0].b_factor));
+}
+
+TEST(Mmcif, ModelsAreToldApartAndMissingSymbolsCounted) {
+  std::string text = kMmcif;
+  text.replace(text.find("ATOM C CA"), 9, "ATOM ? CA");
+  ReadOptions options;
+  options.model.all = true;
+  const Structure structure = read_text("a.cif", text, options);
+  ASSERT_EQ(structure.atoms.size(), 3u);
+  EXPECT_EQ(structure.atoms[0].model, 1);
+  EXPECT_EQ(structure.atoms[2].model, 2);
+  EXPECT_NE(structure.atoms[2].residue, structure.atoms[0].residue);
+  EXPECT_EQ(structure.atoms[0].element, 6);
+  ASSERT_FALSE(structure.report.warnings.empty());
+  EXPECT_EQ(structure.report.warnings[0].text,
+            "1 atom has no element symbol; elements were guessed from the names (first: 'CA' in GLY Heavy10)");
 }
 
 TEST(Mmcif, BadCoordinatesNameTheirLine) {
