@@ -80,7 +80,7 @@ void add_surface(CLI::App& command) {
       "  meniscus surface balls.xyzr --surface vdw         van der Waals surface, radii of the file",
       "Used are the polymers and ligands of the first model, of each residue the most occupied conformer; water and\n"
       "free ions are left out. What was read, left out and used is always said. Radii are Bondi's (`meniscus info`\n"
-      "lists them), or the file's own (XYZR). The surface is complete, cavities too, and closed; areas and volumes\n"
+      "lists them), or the file's own (PQR, XYZR). The surface is complete, cavities too, and closed; areas and volumes\n"
       "are exact, in closed form. A cavity's volume is negative: it is missing from the solid. An atom's part of the\n"
       "surface is what has its colour in pictures: its contact patch, and of the patches around it what is nearer to\n"
       "its contact than to any other.");
