@@ -64,8 +64,9 @@ void add_color_options(CLI::App& command, MoleculeOptions& options) {
   };
   CLI::Option* const scheme =
       add("--color", parse_color,
-          "element (default), chain, residue (type), kind (of patch), component, #rrggbb; or by number: bfactor, "
-          "occupancy, charge, hydrophobicity (Kyte & Doolittle 1982), index; meniscus colors explains them",
+          "element (default), chain, copy (of an assembly), residue (type), kind (of patch), component, #rrggbb; or by "
+          "number: bfactor, occupancy, charge, hydrophobicity (Kyte & Doolittle 1982), index; meniscus colors explains "
+          "them",
           "SCHEME");
   CLI::Option* const file = command.add_option(
       "--color-by-file", options.color_file,

@@ -122,6 +122,10 @@ void count_classes(ColorScale& scale, const std::vector<double>& defined, const 
   scale.classes.assign(different.begin(), different.end());
 }
 
+std::string class_title(By by) {
+  return by == By::element ? "element" : by == By::chain ? "chain" : by == By::copy ? "copy" : "residue type";
+}
+
 /// Adds a class unless it is there already.
 class ClassList {
  public:
@@ -179,12 +183,14 @@ ColorKey color_key(const Structure& structure, const ColorScheme& scheme, std::s
     for (std::size_t n = 0; n < object_names.size(); ++n)
       key.classes.push_back({object_names[n], categorical_color(n)});
   } else if (scheme.by != By::fixed) {
-    key.title = std::string(scheme.by == By::element ? "element" : scheme.by == By::chain ? "chain" : "residue type");
+    key.title = class_title(scheme.by);
     for (const Atom& atom : structure.atoms) {
       if (scheme.by == By::element)
         classes.add(atom.element == 0 ? "unknown" : element_symbol(atom.element), element_color(atom.element));
       else if (scheme.by == By::chain)
-        classes.add(atom.chain, classes.next_color());
+        classes.add(chain_of_file(atom), classes.next_color());
+      else if (scheme.by == By::copy)
+        classes.add(fmt::format("copy {}", atom.copy + 1), categorical_color(atom.copy));
       else
         classes.add(std::string(residue_group(atom.residue_name).name),
                     color_from_hex(residue_group(atom.residue_name).color));

@@ -23,6 +23,7 @@ constexpr ColorSchemeMetadata kSchemes[] = {
      "after the models of R. B. Corey, L. Pauling and W. L. Koltun; metals and tones are our own"},
     {"chain", By::chain, "chains in order of appearance, 21 colours in turn",
      "M. Okabe and K. Ito, Color Universal Design (2008)"},
+    {"copy", By::copy, "copies of an --assembly made of atoms, 21 colours in turn", "colours of Okabe and Ito"},
     {"residue", By::residue, "residue type: acidic, basic, polar, aliphatic, aromatic, sulphur, GLY and PRO; each base",
      "grouped by side chain; colours of Okabe and Ito"},
     {"kind", By::kind, "kind of patch: convex, toroidal, concave", "colours of Okabe and Ito"},
@@ -41,7 +42,7 @@ std::vector<glm::vec3> by_chain(const Structure& structure) {
   std::map<std::string, std::size_t> order;
   std::vector<glm::vec3> colors;
   for (const Atom& atom : structure.atoms)
-    colors.push_back(categorical_color(order.try_emplace(atom.chain, order.size()).first->second));
+    colors.push_back(categorical_color(order.try_emplace(chain_of_file(atom), order.size()).first->second));
   return colors;
 }
 
@@ -54,13 +55,24 @@ std::vector<glm::vec3> colors_of(const Structure& structure, const ColorScheme& 
     for (const double number : scale.value) colors.push_back(scale.color(number));
     return colors;
   }
-  for (const Atom& atom : structure.atoms)
-    colors.push_back(scheme.by == By::element ? element_color(atom.element)
-                                              : color_from_hex(residue_group(atom.residue_name).color));
+  for (const Atom& atom : structure.atoms) {
+    if (scheme.by == By::copy)
+      colors.push_back(categorical_color(atom.copy));
+    else if (scheme.by == By::element)
+      colors.push_back(element_color(atom.element));
+    else
+      colors.push_back(color_from_hex(residue_group(atom.residue_name).color));
+  }
   return colors;
 }
 
 }  // namespace
+
+std::string chain_of_file(const Atom& atom) {
+  const std::string suffix = "-" + std::to_string(atom.copy + 1);
+  if (atom.copy == 0 || !atom.chain.ends_with(suffix)) return atom.chain;
+  return atom.chain.substr(0, atom.chain.size() - suffix.size());
+}
 
 std::span<const ColorSchemeMetadata> color_schemes() { return kSchemes; }
 

@@ -24,6 +24,7 @@ struct ColorScheme {
     element,
     chain,
     residue,    ///< type of residue, by chemistry
+    copy,       ///< of an assembly made of atoms
     kind,       ///< of patch
     component,  ///< objects in turn: closed parts of the surface, chains, ...
     fixed,      ///< one colour
@@ -67,6 +68,9 @@ std::optional<glm::vec3> parse_hex_color(std::string_view text);
 
 /// Reads "lo:hi" with lo < hi, both finite; nothing for any other text.
 std::optional<std::array<double, 2>> parse_color_range(std::string_view text);
+
+/// The chain as the file names it: in an assembly copies of A are called, ... and keep its colour.
+std::string chain_of_file(const Atom& atom);
 
 /// One colour an atom of the structure, for a surface that is one object.
 /// Throws InputError when colours are by a number and no atom has one, when a file's numbers are not as many as there

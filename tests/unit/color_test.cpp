@@ -93,6 +93,20 @@ TEST(Colors, ChainsInOrderOfAppearanceDiffer) {
   }
 }
 
+TEST(Colors, CopiesOfAChainKeepItsColorUnlessCopiesAreColored) {
+  Structure structure = four_atoms();
+  structure.atoms[1].copy = 1;
+  structure.atoms[1].chain = "A-2";
+  structure.atoms[3].chain = "A-2";  // a chain that the file itself calls so
+  const Coloring chain = colored("chain", structure), copy = colored("copy", structure);
+  EXPECT_EQ(chain.atom[1], chain.atom[0]);
+  EXPECT_NE(chain.atom[3], chain.atom[0]);
+  EXPECT_EQ(color_key(structure, scheme("chain"), {}).classes.size(), 3u);
+  EXPECT_NE(copy.atom[1], copy.atom[0]);
+  EXPECT_EQ(copy.atom[3], copy.atom[0]);
+  EXPECT_EQ(color_key(structure, scheme("copy"), {}).classes[1].name, "copy 2");
+}
+
 TEST(Colors, ResiduesByChemistry) {
   const Coloring residue = colored("residue");
   for (std::size_t i = 0; i < 4; ++i) {
