@@ -75,7 +75,7 @@ TorusDomain::TorusDomain(const ToroidalPatch& patch, double tube_radius, int pie
       side_(glm::cross(patch.axis, patch.start)),
       tube_radius_(tube_radius),
       piece_(piece),
-      spindle_(patch.face_count == 2) {
+      spindle_(patch.face_count == 2 || !patch.has_piece[0] || !patch.has_piece[1]) {
   if (patch.radius <= tube_radius) {
     tip_ = std::acos(patch.radius / tube_radius);
     tan_tip_ = std::sqrt((tube_radius - patch.radius) / (tube_radius + patch.radius));
