@@ -66,6 +66,7 @@ void add_atom_options(CLI::App& command, MoleculeOptions& options) {
                   "Atoms of unknown element: halt (default), guess (radius 2.0 Å), skip")
       ->transform(CLI::CheckedTransformer(words).description(""))
       ->type_name("WORD");
+  add_radii_options(command, options.reading);
   add_warning_options(command, options);
   add_assembly_options(command, options);
 }

@@ -15,7 +15,6 @@
 #include "app/commands.h"
 #include "app/molecule.h"
 #include "core/base/text.h"
-#include "core/molecule/radii.h"
 
 namespace meniscus {
 namespace {
@@ -25,18 +24,6 @@ struct Tally {
   std::size_t atoms = 0;
   std::size_t residues = 0;
 };
-
-const char* source_name(RadiusSource source) {
-  switch (source) {
-    case RadiusSource::bondi:
-      return "Bondi 1964";
-    case RadiusSource::mantina:
-      return "Mantina et al. 2009";
-    case RadiusSource::none:
-      break;
-  }
-  return "no published value";
-}
 
 void print_classes_and_chains(const Structure& structure) {
   std::map<AtomClass, Tally> classes;
@@ -69,16 +56,35 @@ void print_classes_and_chains(const Structure& structure) {
   }
 }
 
-void print_elements(const Structure& structure) {
-  if (structure.format == "XYZR") return;  // it has no elements
-  std::map<std::uint8_t, std::size_t> elements;
-  for (const Atom& atom : structure.atoms) ++elements[atom.element];
-  fmt::print(std::cout, "\n{:<14} {:>10} {:>10}  {}\n", "element", "atoms", "radius Å", "source");
-  for (const auto& [element, count] : elements) {
-    const ElementRadius radius = bondi_radius(element);
-    fmt::print(std::cout, "{:<14} {:>10} {:>9.2f}  {}\n", element == 0 ? "unknown" : element_symbol(element),
-               with_thousands(count), radius.radius, source_name(radius.source));
+/// As many digits as the source gives, from two to four.
+int decimals_of(double radius) {
+  for (int decimals = 2; decimals < 4; ++decimals) {
+    const double scale = std::pow(10.0, decimals);
+    if (std::abs(radius * scale - std::round(radius * scale)) < 1e-6) return decimals;
   }
+  return 4;
+}
+
+void print_radii(const Structure& structure) {
+  fmt::print(std::cout, "\n{:<14} {:>10} {:>10}  {}\n", "radii of", "atoms", "radius Å", "source");
+  for (const RadiusClass& row : structure.radius_classes) {
+    fmt::print(std::cout, "{:<14} {:>10} {:>9.{}f}  {}\n", escaped(row.label), with_thousands(row.atoms), row.radius,
+               decimals_of(row.radius), escaped(row.source));
+  }
+}
+
+/// How many of the atoms a surface would take: water and ions only if they are wanted or named.
+std::size_t count_taken(const Structure& structure, const ReadOptions& options) {
+  std::vector<bool> named(structure.atoms.size());
+  if (options.selection) named = options.selection->names(structure.atoms);
+  std::size_t taken = 0;
+  for (std::size_t n = 0; n < structure.atoms.size(); ++n) {
+    const AtomClass kind = structure.atoms[n].kind;
+    const bool unwanted =
+        (kind == AtomClass::water && !options.keep_water) || (kind == AtomClass::ion && !options.keep_ions);
+    taken += unwanted && !named[n] ? 0 : 1;
+  }
+  return taken;
 }
 
 void print_ranges(const Structure& structure) {
@@ -103,22 +109,19 @@ void print_ranges(const Structure& structure) {
 }
 
 void run(const MoleculeOptions& options) {
-  ReadOptions everything;
+  ReadOptions everything = options.reading;
   everything.keep_water = everything.keep_ions = true;
-  everything.unknown_element = UnknownElement::guess;
+  if (everything.unknown_element == UnknownElement::halt) everything.unknown_element = UnknownElement::guess;
   everything.list_assemblies = true;
   const Structure structure = read_structure(options.file, everything);
   fmt::print(std::cout, "molecule      {} ({}, {} {})\n", escaped(structure.file), structure.format,
              structure.report.models, structure.report.models == 1 ? "model" : "models");
-  const auto by_default = std::count_if(structure.atoms.begin(), structure.atoms.end(), [](const Atom& atom) {
-    return atom.kind != AtomClass::water && atom.kind != AtomClass::ion;
-  });
-  fmt::print(std::cout, "atoms         {} in the file; a surface takes {} of them by default\n",
-             with_thousands(structure.report.read), with_thousands(static_cast<std::size_t>(by_default)));
+  fmt::print(std::cout, "atoms         {} in the file; a surface takes {} of them\n",
+             with_thousands(structure.report.read), with_thousands(count_taken(structure, options.reading)));
   if (!structure.report.excluded.empty()) fmt::print(std::cout, "below         {}\n", structure.report.sentence());
   print_ranges(structure);
   print_classes_and_chains(structure);
-  print_elements(structure);
+  print_radii(structure);
   print_assemblies(structure);
   say_warnings(options, structure);
 }
@@ -126,12 +129,15 @@ void run(const MoleculeOptions& options) {
 }  // namespace
 
 void add_info(CLI::App& command) {
-  describe(command, "Tell what a file holds: models, chains, classes, elements, extent",
+  describe(command,
+           "Tell what a file holds: models, chains, classes, extent, and which radius each class of atoms gets",
            "  meniscus info 1tii.pdb\n"
-           "  meniscus info 6zu5.cif.gz");
+           "  meniscus info 6zu5.cif.gz --select 'nucleic and chain A'\n"
+           "  meniscus info 1tii.pdb --radii protor         radii of another set\n"
+           "  meniscus info 1tii.pdb --radii-file amber.dat --radius 'element Zn=1.1'");
   auto options = std::make_shared<MoleculeOptions>();
-  add_file_argument(command, *options);
-  add_warning_options(command, *options);
+  add_atom_options(command, *options);
+  command.get_option("--radii")->expected(0, 1);  // alone it asks for what is printed anyway
   command.callback([options] { run(*options); });
 }
 

@@ -71,6 +71,8 @@ void add_file_argument(CLI::App& command, MoleculeOptions& options);
 void add_warning_options(CLI::App& command, MoleculeOptions& options);
 /// Which copies of it there are (assembly_options.cpp): --assembly, --instances. Comes with add_atom_options.
 void add_assembly_options(CLI::App& command, MoleculeOptions& options);
+/// Which radii they get (radii_options.cpp): --hydrogens, --radii, --radii-file, --radius; part of the above.
+void add_radii_options(CLI::App& command, ReadOptions& reading);
 /// How the surface is made of them (surface_options.cpp): --surface, --probe, --device, --verify, --threads.
 void add_surface_options(CLI::App& command, MoleculeOptions& options);
 /// Into which objects it is divided (surface_options.cpp): --by, --cavities.

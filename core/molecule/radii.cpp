@@ -7,9 +7,7 @@
 #include <iterator>
 #include <map>
 
-#include <fmt/format.h>
-
-#include "core/base/text.h"
+#include "core/molecule/radii_set.h"
 
 namespace meniscus {
 namespace {
@@ -53,6 +51,18 @@ ElementRadius bondi_radius(std::uint8_t element) {
   return {kRadiusWithoutSource, RadiusSource::none};
 }
 
+const char* source_name(RadiusSource source) {
+  switch (source) {
+    case RadiusSource::bondi:
+      return "Bondi 1964, 1966";
+    case RadiusSource::mantina:
+      return "Mantina et al. 2009";
+    case RadiusSource::none:
+      break;
+  }
+  return "no published value";
+}
+
 const char* element_symbol(std::uint8_t element) { return kSymbols[element < std::size(kSymbols) ? element : 0]; }
 
 std::uint8_t element_of_symbol(std::string_view symbol) {
@@ -67,22 +77,12 @@ std::uint8_t element_of_symbol(std::string_view symbol) {
   return 0;
 }
 
-void assign_bondi_radii(Structure& structure) {
-  std::map<std::uint8_t, std::size_t> without_source;
-  for (Atom& atom : structure.atoms) {
-    const ElementRadius radius = bondi_radius(atom.element);
-    atom.radius = radius.radius;
-    if (radius.source == RadiusSource::none) ++without_source[atom.element];
-  }
-  structure.radii_set = "bondi";
-  if (without_source.empty()) return;
-  std::string elements;
-  for (const auto& [element, count] : without_source) {
-    elements += fmt::format("{}{} ({} {})", elements.empty() ? "" : ", ", element_symbol(element),
-                            with_thousands(count), count == 1 ? "atom" : "atoms");
-  }
-  structure.report.warnings.push_back(
-      fmt::format("no published van der Waals radius for {}; {:.1f} Å is used", elements, kRadiusWithoutSource));
-}
+const RadiiSet kBondiSet{"bondi", "by element; hydrogens are atoms of their own", "Bondi 1964, 1966", false,
+                         [](const Atom& atom) -> std::optional<FoundRadius> {
+                           const ElementRadius found = bondi_radius(atom.element);
+                           return FoundRadius{found.radius,
+                                              atom.element == 0 ? "unknown" : element_symbol(atom.element),
+                                              source_name(found.source)};
+                         }};
 
 }  // namespace meniscus

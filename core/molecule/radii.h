@@ -6,8 +6,6 @@
 #include <string>
 #include <string_view>
 
-#include "core/molecule/structure.h"
-
 namespace meniscus {
 
 /// Where a radius comes from.
@@ -28,14 +26,13 @@ inline constexpr double kRadiusWithoutSource = 2.0;
 /// The radius of the element with this atomic number, in Å; 0 or above 118: no source.
 ElementRadius bondi_radius(std::uint8_t element);
 
+/// "Bondi 1964, 1966", "Mantina et al. 2009" or "no published value".
+const char* source_name(RadiusSource source);
+
 /// "C", "Zn", ...; "X" for 0 or above 118.
 const char* element_symbol(std::uint8_t element);
 
 /// The atomic number of "C", "zn", "CL", ... in any case, D and T as hydrogen; 0: none has this symbol.
 std::uint8_t element_of_symbol(std::string_view symbol);
-
-/// Gives every atom its Bondi radius, names the set in the structure, and adds a warning that lists the elements for
-/// which kRadiusWithoutSource stands in.
-void assign_bondi_radii(Structure& structure);
 
 }  // namespace meniscus

@@ -3,14 +3,13 @@
 #include "core/molecule/read_structure.h"
 
 #include <algorithm>
-#include <map>
+#include <set>
 
 #include <fmt/format.h>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/molecule/plausibility.h"
-#include "core/molecule/radii.h"
 
 namespace meniscus {
 namespace {
@@ -27,6 +26,8 @@ bool is_virtual_site(const Atom& atom) {
   return false;
 }
 
+bool is_hydrogen(const Atom& atom) { return atom.element == 1; }
+
 /// Moves the atoms without a reason to be left out to the front of `atoms`, drops the others and counts their reasons.
 template <typename Reason>
 void leave_out(std::vector<Atom>& atoms, ReadReport& report, Reason&& reason_of) {
@@ -42,58 +43,67 @@ void leave_out(std::vector<Atom>& atoms, ReadReport& report, Reason&& reason_of)
   atoms.resize(kept);
 }
 
-std::vector<bool> evaluate(const Selection& selection, const FileContents& contents, const std::string& path) {
-  if (selection.uses_radius() && !contents.radii_from_file) {
-    throw InputError(path, 0, "holds no radii to select by; radii are given to atoms once they are selected");
+std::vector<bool> evaluate(const Selection& selection, const std::vector<Atom>& atoms, const RadiiChoice& radii,
+                           const std::string& path) {
+  if (selection.uses_radius() && !radii.from_molecule_file()) {
+    throw InputError(path, 0, "has no radii to select by yet; they are given to atoms once these are selected");
   }
-  std::vector<bool> selected = selection.evaluate(contents.atoms);
+  std::vector<bool> selected = selection.evaluate(atoms);
   if (std::find(selected.begin(), selected.end(), true) == selected.end()) {
     throw InputError(path, 0,
                      fmt::format("none of its {} atoms is selected by {}; chains and names are case-sensitive",
-                                 with_thousands(contents.atoms.size()), in_quotes(selection.text())));
+                                 with_thousands(atoms.size()), in_quotes(selection.text())));
   }
   return selected;
 }
 
+bool keeps_hydrogens(const std::vector<Atom>& atoms, const ReadOptions& options, const RadiiChoice& radii) {
+  if (options.hydrogens != Hydrogens::automatic) return options.hydrogens == Hydrogens::keep;
+  return !radii.united(std::any_of(atoms.begin(), atoms.end(), [](const Atom& atom) { return is_hydrogen(atom); }));
+}
+
 /// What each atom is left out for, in the order of the reasons in structure.h.
-void choose_atoms(FileContents& contents, const ReadOptions& options, ReadReport& report, const std::string& path) {
-  std::vector<Atom>& atoms = contents.atoms;
+void choose_atoms(std::vector<Atom>& atoms, const ReadOptions& options, const RadiiChoice& radii, ReadReport& report,
+                  const std::string& path) {
   const std::vector<char> altlocs = kept_altlocs(atoms, options.altloc);
   const bool all_altlocs = options.altloc.rule == AltlocChoice::Rule::all;
   leave_out(atoms, report, [&](std::size_t n) -> const char* {
     if (atoms[n].altloc != ' ' && atoms[n].altloc != altlocs[atoms[n].residue] && !all_altlocs) return kExcludedAltloc;
-    return !contents.radii_from_file && is_virtual_site(atoms[n]) ? kExcludedVirtual : nullptr;
+    return !radii.from_molecule_file() && is_virtual_site(atoms[n]) ? kExcludedVirtual : nullptr;
   });
   std::vector<bool> selected(atoms.size(), true), named(atoms.size());
   if (options.selection) {
-    selected = evaluate(*options.selection, contents, path);
+    selected = evaluate(*options.selection, atoms, radii, path);
     named = options.selection->names(atoms);
   }
+  const bool hydrogens = keeps_hydrogens(atoms, options, radii);
   leave_out(atoms, report, [&](std::size_t n) -> const char* {
     const Atom& atom = atoms[n];
     if (!selected[n]) return kExcludedSelection;
-    if (contents.radii_from_file) {
+    if (radii.from_molecule_file()) {
       if (atom.radius == 0.0) return kExcludedRadius;
     } else if (atom.element == 0 && options.unknown_element == UnknownElement::skip) {
       return kExcludedElement;
     }
+    if (!hydrogens && is_hydrogen(atom)) return kExcludedHydrogen;
     if (atom.kind == AtomClass::water && !options.keep_water && !named[n]) return kExcludedWater;
     if (atom.kind == AtomClass::ion && !options.keep_ions && !named[n]) return kExcludedIon;
     return nullptr;
   });
 }
 
-void halt_on_unknown_elements(const Structure& structure) {
-  std::map<std::string, std::size_t> names;
-  std::size_t count = 0;
-  for (const Atom& atom : structure.atoms) {
-    if (atom.element != 0) continue;
-    ++count;
-    ++names[label_of(atom)];
-  }
-  if (count == 0) return;
+void refuse_no_atoms(const Structure& structure) {
+  if (!structure.atoms.empty()) return;
+  throw InputError(structure.file, 0,
+                   fmt::format("leaves no atoms to make a surface of: {}; --keep-water and --keep-ions use more",
+                               structure.report.sentence()));
+}
+
+void halt_on_unknown_elements(const Structure& structure, const std::vector<std::string>& unknown) {
+  if (unknown.empty()) return;
+  const std::set<std::string> names(unknown.begin(), unknown.end());
   std::string examples;
-  for (const auto& [name, number] : names) {
+  for (const std::string& name : names) {
     if (examples.size() > 100) {
       examples += ", ...";
       break;
@@ -103,7 +113,7 @@ void halt_on_unknown_elements(const Structure& structure) {
   throw InputError(structure.file, 0,
                    fmt::format("the element of {} {} is unknown: {}; correct the element column, or choose "
                                "--unknown-element guess or skip",
-                               with_thousands(count), count == 1 ? "atom" : "atoms", examples));
+                               with_thousands(unknown.size()), unknown.size() == 1 ? "atom" : "atoms", examples));
 }
 
 void require_model(const std::string& path, const ModelChoice& choice, std::size_t models) {
@@ -156,20 +166,14 @@ Structure read_structure(const std::string& path, const ReadOptions& options) {
   if (contents.other_model_atoms > 0) report.excluded[kExcludedModel] = contents.other_model_atoms;
 
   warn_of_missing_altloc(structure, contents.atoms, options.altloc);
-  choose_atoms(contents, options, report, file.path);
+  const RadiiChoice radii(options.radii, file.path, contents.radii_from_file);
+  choose_atoms(contents.atoms, options, radii, report, file.path);
   structure.atoms = std::move(contents.atoms);
   report.used = structure.atoms.size();
-  if (structure.atoms.empty()) {
-    throw InputError(file.path, 0,
-                     fmt::format("leaves no atoms to make a surface of: {}; --keep-water and --keep-ions use more",
-                                 report.sentence()));
-  }
-  if (contents.radii_from_file) {
-    structure.radii_set = "file";
-  } else {
-    if (options.unknown_element == UnknownElement::halt) halt_on_unknown_elements(structure);
-    assign_bondi_radii(structure);
-  }
+  refuse_no_atoms(structure);
+  const std::vector<std::string> unknown = radii.assign(structure);
+  if (options.unknown_element == UnknownElement::halt) halt_on_unknown_elements(structure, unknown);
+  refuse_no_atoms(structure);
   warn_of_coincident_atoms(structure);
   if (!contents.radii_from_file) warn_of_wrong_unit(structure);
   use_assemblies(structure, file, reader, options);

@@ -7,6 +7,7 @@
 
 #include "core/molecule/altloc.h"
 #include "core/molecule/assembly.h"
+#include "core/molecule/assign_radii.h"
 #include "core/molecule/formats.h"
 #include "core/molecule/selection.h"
 #include "core/molecule/structure.h"
@@ -15,6 +16,9 @@ namespace meniscus {
 
 /// What to do with atoms whose element nobody can tell.
 enum class UnknownElement { halt, guess, skip };
+
+/// What to do with hydrogens. `automatic`: kept with radii for explicit hydrogens, left out with united atoms.
+enum class Hydrogens { automatic, keep, drop };
 
 struct ReadOptions {
   ModelChoice model{};
@@ -28,10 +32,13 @@ struct ReadOptions {
   /// Evaluated on what other models, altlocs and virtual sites leave, water and ions included. Water and ions that it
   /// selects are used only if it names them (Selection::names) or keep_water, keep_ions.
   std::optional<Selection> selection = {};
+  Hydrogens hydrogens = Hydrogens::automatic;
+  RadiiOptions radii{};
 };
 
 /// Reads a file of any format in formats.h, plain or gzipped; "-" is standard input. Default: polymer and ligands in,
-/// water and free ions out, first model, best alternate location. Radii: Bondi, or the file's own (XYZR, PQR).
+/// water and free ions out, first model, best alternate location. Radii: the file's own (XYZR, PQR), else
+/// Bondi's.
 /// Throws InputError (see read_text_file and the readers; no such model; nothing selected; no atoms left; unknown
 /// elements), CapacityError.
 Structure read_structure(const std::string& path, const ReadOptions& options = {});

@@ -18,6 +18,7 @@ constexpr std::pair<const char*, const char*> kReasonWords[] = {
     {kExcludedSelection, "not selected"},
     {kExcludedElement, "of unknown element"},
     {kExcludedRadius, "of radius zero"},
+    {kExcludedHydrogen, "hydrogen"},
     {kExcludedWater, "water"},
     {kExcludedIon, "free ion"},
     {kExcludedAssembly, "outside the assembly"},

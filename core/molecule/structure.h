@@ -78,9 +78,18 @@ inline constexpr const char* kExcludedVirtual = "virtual_site";
 inline constexpr const char* kExcludedSelection = "not_selected";
 inline constexpr const char* kExcludedElement = "unknown_element";
 inline constexpr const char* kExcludedRadius = "zero_radius";
+inline constexpr const char* kExcludedHydrogen = "hydrogen";
 inline constexpr const char* kExcludedWater = "water";
 inline constexpr const char* kExcludedIon = "ion";
 inline constexpr const char* kExcludedAssembly = "not_in_assembly";
+
+/// Atoms that got the same radius for the same reason.
+struct RadiusClass {
+  std::string label;  ///< bonding class, force-field type, or element
+  double radius;      ///< Å
+  std::string source;
+  std::size_t atoms;
+};
 
 /// Atoms that stand at several places at once (--instances).
 struct Instances {
@@ -105,7 +114,8 @@ struct Assembly {
 struct Structure {
   std::string file;       ///< the path as given, or "standard input"
   std::string format;     ///< the reader's name for it: "PDB", "mmCIF", ...
-  std::string radii_set;  ///< "bondi" or "file"
+  std::string radii_set;  ///< "bondi", "united", "protor", "file", or the files of radii
+  std::vector<RadiusClass> radius_classes;
   std::vector<Atom> atoms;
   std::vector<Instances> instances;  ///< each atom belongs to one; empty: all stand where their positions say
   std::vector<Assembly> assemblies;  ///< those the file describes, if they were asked for
