@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands.h"
+#include "core/base/text.h"
 #include "core/molecule/formats.h"
 #include "core/molecule/text_lines.h"
 
@@ -18,20 +19,8 @@ namespace {
 
 constexpr std::size_t kIndent = 13, kWidth = 100;
 
-/// A heading and its text in lines of kWidth, broken at blanks.
 void print_wrapped(std::string_view heading, std::string_view text) {
-  std::string line = fmt::format("  {:<{}}", heading, kIndent - 2);
-  std::size_t used = 0;
-  for (const std::string_view word : fields_of(text, text.size())) {
-    if (used > 0 && kIndent + used + 1 + word.size() > kWidth) {
-      fmt::print(std::cout, "{}\n", line);
-      line = std::string(kIndent, ' ');
-      used = 0;
-    }
-    line += fmt::format("{}{}", used == 0 ? "" : " ", word);
-    used += word.size() + 1;
-  }
-  fmt::print(std::cout, "{}\n", line);
+  fmt::print(std::cout, "  {:<{}}{}\n", heading, kIndent - 2, wrapped(text, kWidth - kIndent, kIndent));
 }
 
 void print_table() {

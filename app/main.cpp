@@ -24,15 +24,19 @@ constexpr Command kCommands[] = {
     {"formats", add_formats}, {"colors", add_colors}, {"bench", add_bench},   {"help", add_help},
 };
 
-constexpr const char* kExamples = R"(  meniscus info 1tii.pdb                        what the file holds
-  meniscus surface 1tii.pdb                     compute the surface; area, volume, cavities
-  meniscus surface 1tii.cif.gz --probe 1.5 --json
-  meniscus COMMAND --help                       everything about one command)";
+constexpr const char* kExamples = R"(  meniscus info 1tii.pdb                          what the file holds
+  meniscus surface 1tii.pdb                       area, volume, cavities; --json, --csv for programs
+  meniscus render 1tii.pdb -o 1tii.png            a picture
+  meniscus export povray 1tii.pdb -o 1tii         a POV-Ray scene; blender, ply likewise
+  meniscus surface 1tii.pdb --select 'chain A'    only some atoms; meniscus help selections
+  meniscus COMMAND --help                         everything about one command)";
 
 constexpr const char* kExitCodes = R"(Exit codes:
   0 done  1 internal error  2 wrong usage  3 bad input  4 no usable GPU  5 too large
   6 output not written  7 surface not closed
 )";
+
+constexpr std::size_t kHelpWidth = 100;
 
 /// Help in the order people read: what it is, examples, usage, options.
 class ManualFormatter : public CLI::Formatter {
@@ -44,6 +48,16 @@ class ManualFormatter : public CLI::Formatter {
     help += "\n" + make_usage(app, std::move(name)) + make_positionals(app) + make_groups(app, mode) +
             make_subcommands(app, mode);
     return help + (app->get_parent() ? "" : std::string("\n") + kExitCodes);
+  }
+
+  std::string make_option_desc(const CLI::Option* option) const override {
+    return wrapped(option->get_description(), kHelpWidth - column_width_);
+  }
+
+  /// The word for the value alone: what an option needs or excludes is said when it matters.
+  std::string make_option_opts(const CLI::Option* option) const override {
+    const std::string& type = option->get_type_name();
+    return (type.empty() ? "" : " " + type) + (option->get_required() ? " (required)" : "");
   }
 };
 

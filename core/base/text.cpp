@@ -26,6 +26,27 @@ std::string in_quotes(std::string_view text) {
   return fmt::format("'{}{}'", escaped(text.substr(0, kLongest)), text.size() > kLongest ? "..." : "");
 }
 
+std::string wrapped(std::string_view text, std::size_t width, std::size_t indent) {
+  std::string lines;
+  std::size_t used = 0;
+  while (!text.empty()) {
+    const std::size_t blank = std::min(text.find(' '), text.size());
+    const std::string_view word = text.substr(0, blank);
+    text.remove_prefix(std::min(text.size(), blank + 1));
+    if (word.empty()) continue;
+    const auto letters =
+        static_cast<std::size_t>(std::count_if(word.begin(), word.end(), [](char c) { return (c & 0xc0) != 0x80; }));
+    if (used > 0 && used + 1 + letters > width) {
+      lines.append("\n").append(indent, ' ');
+      used = 0;
+    }
+    if (used > 0) lines += ' ';
+    lines += word;
+    used += letters + (used > 0 ? 1 : 0);
+  }
+  return lines;
+}
+
 std::string with_thousands(std::uint64_t count) {
   const std::string digits = std::to_string(count);
   std::string grouped;

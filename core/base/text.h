@@ -14,6 +14,10 @@ std::string escaped(std::string_view text);
 /// 'text' in quotes, escaped, at most 40 bytes of it.
 std::string in_quotes(std::string_view text);
 
+/// The text in lines of at most `width` letters, broken at blanks; all but the first begin with `indent` blanks, which
+/// count for no width. A longer word stands in a line of its own.
+std::string wrapped(std::string_view text, std::size_t width, std::size_t indent = 0);
+
 /// 5469 -> "5,469".
 std::string with_thousands(std::uint64_t count);
 

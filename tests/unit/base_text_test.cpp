@@ -50,5 +50,13 @@ TEST(Progress, TheBarEndsItsLine) {
   EXPECT_TRUE(text.ends_with("100 %\n"));
 }
 
+TEST(Wrapped, BreaksAtBlanksAndCountsLetters) {
+  EXPECT_EQ(wrapped("one two three", 7), "one two\nthree");
+  EXPECT_EQ(wrapped("one two three", 6, 2), "one\n  two\n  three");
+  EXPECT_EQ(wrapped("ÅÅÅ ÅÅÅ", 7), "ÅÅÅ ÅÅÅ") << "letters, not bytes";
+  EXPECT_EQ(wrapped("unbreakable", 4), "unbreakable");
+  EXPECT_EQ(wrapped("", 4), "");
+}
+
 }  // namespace
 }  // namespace meniscus
