@@ -142,11 +142,17 @@ void RadiiChoice::warn(Structure& structure, const std::vector<Given>& given) co
 }
 
 std::string RadiiChoice::name() const {
-  if (tables_.empty()) return from_file_ ? "file" : std::string(set_->name);
   std::string names;
-  for (const RadiiTable& table : tables_) names += (names.empty() ? "" : ", ") + table.source();
-  if (from_file_) return names + ", file";
-  return set_ == &kBondiSet ? names : fmt::format("{}, {}", names, set_->name);
+  const auto add = [&names](const std::string& part) { names += (names.empty() ? "" : ", ") + part; };
+  for (const RadiiTable& table : tables_) add(table.source());
+  if (from_file_) {
+    add("file");
+  } else if (tables_.empty() || set_ != &kBondiSet) {
+    add(std::string(set_->name));
+  }
+  for (const RadiusOverride& change : options_.overrides)
+    add(fmt::format("{} = {} Å", escaped(change.atoms.text()), change.radius));
+  return names;
 }
 
 std::vector<std::string> RadiiChoice::assign(Structure& structure) const {

