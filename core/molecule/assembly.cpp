@@ -14,6 +14,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/molecule/text_lines.h"
 
 namespace meniscus {
 namespace {
@@ -38,12 +39,6 @@ glm::dmat3 nearest_rotation(glm::dmat3 m) {
     if (change < 1e-15) break;
   }
   return m;
-}
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(" \t");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t") + 1 - first);
 }
 
 bool parse_count(std::string_view text, std::size_t& count) {

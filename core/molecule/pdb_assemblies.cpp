@@ -9,29 +9,20 @@
 #include "core/base/text.h"
 #include "core/molecule/assembly.h"
 #include "core/molecule/reader.h"
+#include "core/molecule/text_lines.h"
 
 namespace meniscus {
 namespace {
 
-std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(" \t");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t") + 1 - first);
-}
-
 class Remark350 {
  public:
-  explicit Remark350(const TextFile& file) : file_(file) {}
+  explicit Remark350(const TextFile& file) : file_(file), lines_(file.text) {}
 
   std::vector<Assembly> run() {
-    std::string_view rest = file_.text;
-    while (!rest.empty()) {
-      ++line_;
-      const std::size_t end = rest.find('\n');
-      const std::string_view line = rest.substr(0, end);
+    std::string_view line;
+    while (lines_.next(line)) {
       if (line.starts_with("REMARK 350")) take(trimmed(line.substr(10)), line);
       if (line.starts_with("ATOM") || line.starts_with("HETATM") || line.starts_with("MODEL")) break;
-      rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
     }
     finish_matrix();
     return std::move(assemblies_);
@@ -72,12 +63,12 @@ class Remark350 {
   void take_row(std::string_view text, std::string_view line) {
     const char row = text.size() > 5 ? text[5] : ' ';
     if (row != static_cast<char>('1' + rows_)) {
-      throw InputError(file_.path, line_,
+      throw InputError(file_.path, lines_.number(),
                        fmt::format("BIOMT{} stands where BIOMT{} is missing; a matrix has three rows",
                                    escaped({&row, 1}), rows_ + 1));
     }
     if (row == '1') {
-      first_line_ = line_;
+      first_line_ = lines_.number();
       serial_ = trimmed(line.substr(std::min<std::size_t>(line.size(), 19), 4));
     }
     // Columns 24-33, 34-43, 44-53 and 54-68 hold the row.
@@ -85,7 +76,7 @@ class Remark350 {
     for (std::size_t n = 0; n < 4; ++n) {
       const std::string_view field = line.size() > kBegin[n] ? line.substr(kBegin[n], kLength[n]) : std::string_view();
       if (!parse_number(field, matrix_[rows_][n]) || std::abs(matrix_[rows_][n]) > kLargestCoordinate) {
-        throw InputError(file_.path, line_,
+        throw InputError(file_.path, lines_.number(),
                          fmt::format("BIOMT{} has {} where a number of at most {} is expected; correct the matrix", row,
                                      in_quotes(field), kLargestCoordinate));
       }
@@ -109,9 +100,10 @@ class Remark350 {
   }
 
   const TextFile& file_;
+  LineReader lines_;
   std::vector<Assembly> assemblies_;
   std::array<std::array<double, 4>, 3> matrix_{};
-  std::size_t rows_ = 0, line_ = 0, first_line_ = 0;
+  std::size_t rows_ = 0, first_line_ = 0;
   std::string serial_;
 };
 

@@ -154,7 +154,7 @@ TEST(HelpPages, AreThereAndNamed) {
     EXPECT_NE(list.out.find(fmt::format("  {} ", topic)), std::string::npos) << topic;
     const ProgramResult page = says({"help", topic});
     EXPECT_EQ(page.exit_code, 0) << page.err;
-    EXPECT_GT(page.out.size(), 300u) << topic;
+    EXPECT_GT(page.out.size(), 200u) << topic;
   }
   EXPECT_EQ(says({"help", "nonsense"}).exit_code, 2);
 }
