@@ -135,6 +135,7 @@ TEST(Instances, AreExactOnlyWhereNoProbeTouchesTwo) {
   const json built = surface_json({apart, "--assembly", "1"});
   EXPECT_NEAR(instanced["area"], built["area"], 1e-9);
   EXPECT_NEAR(instanced["volume"], built["volume"], 1e-9);
+  EXPECT_NEAR(instanced["ses_area"], built["ses_area"], 1e-9);
   EXPECT_NEAR(instanced["sas_area"], built["sas_area"], 1e-9);
   EXPECT_EQ(instanced["counts"], built["counts"]);
 
