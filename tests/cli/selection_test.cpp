@@ -86,6 +86,10 @@ TEST(Radii, SetsTablesAndOverridesReachTheSurface) {
   const std::string table = folder.file("radii.txt", "MET SD 2.5\n");
   EXPECT_EQ(surface_json({kUbiquitin, "--radii-file", table})["area"],
             surface_json({kUbiquitin, "--radius", "resname MET and name SD=2.5"})["area"]);
+  const std::string other = folder.file("other.txt", "MET SD 2.1\n");
+  EXPECT_EQ(surface_json({kUbiquitin, "--radii-file", other, "--radii-file", table})["area"],
+            surface_json({kUbiquitin, "--radii-file", table})["area"])
+      << "the last table that covers an atom counts";
   EXPECT_EQ(says({"surface", kUbiquitin, "--radius", "element S=-1"}).exit_code, 2);
   EXPECT_EQ(says({"surface", kUbiquitin, "--radii", "nonsense"}).exit_code, 2);
 }
