@@ -17,7 +17,7 @@ constexpr Command kFormats[] = {
 void add_export(CLI::App& command) {
   describe(command, "Write the surface for another program", "  meniscus export FORMAT --help");
   command.require_subcommand(1);
-  for (const Command& format : kFormats) format.add(*command.add_subcommand(format.name));
+  for (const Command& format : kFormats) format.add(*command.add_subcommand(format.name)->group("Formats"));
 }
 
 }  // namespace meniscus

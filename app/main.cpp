@@ -4,6 +4,7 @@
 #include <iostream>
 #include <new>
 #include <sstream>
+#include <sstream>
 #include <thread>
 
 #include <pthread.h>
@@ -52,6 +53,13 @@ class ManualFormatter : public CLI::Formatter {
 
   std::string make_option_desc(const CLI::Option* option) const override {
     return wrapped(option->get_description(), kHelpWidth - column_width_);
+  }
+
+  std::string make_subcommand(const CLI::App* command) const override {
+    std::ostringstream line;
+    CLI::detail::format_help(line, command->get_name(), wrapped(command->get_description(), kHelpWidth - column_width_),
+                             column_width_);
+    return line.str();
   }
 
   /// The word for the value alone: what an option needs or excludes is said when it matters.
@@ -107,12 +115,11 @@ int run(int argc, char** argv) {
   program.get_formatter()->label("REQUIRED", "(required)");
   program.get_formatter()->label("Positionals", "Arguments");
   program.get_formatter()->label("SUBCOMMAND", "COMMAND");
-  program.get_formatter()->label("Subcommands", "Commands");
   program.set_version_flag("--version", "meniscus " MENISCUS_VERSION, "Show the version");
   program.set_help_flag("-h,--help", "Show this help");
   program.require_subcommand(1);
   program.footer(kExamples);
-  for (const Command& command : kCommands) command.add(*program.add_subcommand(command.name));
+  for (const Command& command : kCommands) command.add(*program.add_subcommand(command.name)->group("Commands"));
   try {
     program.parse(argc, argv);
   } catch (const CLI::Success& success) {
