@@ -28,7 +28,7 @@ constexpr const char* kAssemblies = R"(Examples:
 A file may describe how its chains are repeated in the biological molecule: REMARK 350 of PDB, _pdbx_struct_assembly
 of mmCIF. --assembly builds it of the atoms that --select and the other options leave (they work on the chains of the
 file). Copies of chain A beyond the first are called A-2, A-3, as in the assembly files of the wwPDB; --color chain
-gives them the colour of A, --color copy tells them apart.
+gives them the colour of A, --color copy tells them apart (not with --instances, which share their colours).
 
   without --instances  every copy becomes atoms, and all together get one surface: right where copies touch, and
                        at most 10,000,000 atoms

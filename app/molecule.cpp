@@ -7,6 +7,7 @@
 
 #include "app/show_only.h"
 #include "app/surface_objects.h"
+#include "core/base/error.h"
 #include "core/base/text.h"
 
 namespace meniscus {
@@ -64,6 +65,8 @@ Molecule load_molecule(const MoleculeOptions& options) {
   Molecule molecule;
   molecule.structure = read_molecule(options);
   molecule.color = color_of(options);
+  if (molecule.color.by == ColorScheme::By::copy && !molecule.structure.instances.empty())
+    throw RequestError("--color copy needs copies with colours of their own; leave --instances away");
   SurfaceComputer computer(options.computing);
   DivisionOptions division = options.division;
   if (molecule.color.by == ColorScheme::By::component && !division.groups) division.components = true;

@@ -152,6 +152,15 @@ TEST(Instances, AreExactOnlyWhereNoProbeTouchesTwo) {
   EXPECT_NE(surface_json({close, "--assembly", "1"})["area"], separate["area"]);
 }
 
+TEST(Instances, ShareTheirColours) {
+  const TemporaryFolder folder;
+  const std::string apart = folder.file("apart.pdb", two_copies(20));
+  const ProgramResult result = says({"render", apart, "--assembly", "1", "--instances", "exact", "--color", "copy",
+                                     "-o", (folder.path() / "a.png").string()});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_NE(result.err.find("leave --instances away"), std::string::npos) << result.err;
+}
+
 TEST(HelpPages, AreThereAndNamed) {
   const ProgramResult list = says({"help"});
   EXPECT_EQ(list.exit_code, 0);
