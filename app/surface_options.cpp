@@ -49,7 +49,8 @@ void parse_division(const std::string& text, DivisionOptions& division) {
                                               {"model", Grouping::model},
                                               {"class", Grouping::atom_class},
                                               {"residue", Grouping::residue}};
-  division = {{}, text == "component", division.cavities};
+  division.groups.reset();
+  division.components = text == "component";
   if (division.components) return;
   const auto word = words.find(text);
   if (word == words.end())

@@ -152,6 +152,18 @@ TEST(Instances, AreExactOnlyWhereNoProbeTouchesTwo) {
   EXPECT_NE(surface_json({close, "--assembly", "1"})["area"], separate["area"]);
 }
 
+TEST(Instances, StayInstancesUnderBy) {
+  const TemporaryFolder folder;
+  const std::string apart = folder.file("apart.pdb", two_copies(20));
+  for (const char* by : {"chain", "class", "component"}) {
+    const json instanced = surface_json({apart, "--assembly", "1", "--instances", "exact", "--by", by});
+    EXPECT_EQ(instanced["components"].size(), 1u) << by << ": one copy is computed";
+    EXPECT_EQ(surface_json({apart, "--assembly", "1", "--by", by})["components"].size(), 2u) << by;
+  }
+  const std::string close = folder.file("close.pdb", two_copies(15));
+  EXPECT_EQ(says({"surface", close, "--assembly", "1", "--instances", "exact", "--by", "component"}).exit_code, 3);
+}
+
 TEST(Instances, ShareTheirColours) {
   const TemporaryFolder folder;
   const std::string apart = folder.file("apart.pdb", two_copies(20));
