@@ -92,11 +92,7 @@ class GroReader {
     residues_.end_piece();
     std::string_view line;
     for (std::size_t n = 0; n < count; ++n) {
-      if (!lines_.next(line)) {
-        throw InputError(file_.path, count_line,
-                         fmt::format("the count says {} atoms, but the file ends after {} of them; is it cut short?",
-                                     with_thousands(count), with_thousands(n)));
-      }
+      if (!lines_.next(line)) refuse_short_frame(file_, count_line, count, n);
       if (wanted) {
         take_atom(line);
       } else {

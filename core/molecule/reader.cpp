@@ -45,6 +45,12 @@ double check_extent(const TextFile& file, std::size_t line, char axis, double co
   return coordinate;
 }
 
+void refuse_short_frame(const TextFile& file, std::size_t line, std::size_t count, std::size_t found) {
+  throw InputError(file.path, line,
+                   fmt::format("the count says {} atoms, but the file ends after {} of them; is it cut short?",
+                               with_thousands(count), with_thousands(found)));
+}
+
 double parse_coordinate(const TextFile& file, std::size_t line, char axis, std::string_view field) {
   double number = 0.0;
   if (!parse_number(field, number)) {

@@ -54,6 +54,9 @@ extern const Reader kGroReader;
 extern const Reader kXyzReader;
 extern const Reader kXyzrReader;
 
+/// Throws InputError: the count in this line promises more atoms than the file holds.
+[[noreturn]] void refuse_short_frame(const TextFile& file, std::size_t line, std::size_t count, std::size_t found);
+
 /// Largest coordinate in Å that readers accept (10 µm); beyond it the file is broken or in other units.
 inline constexpr double kLargestCoordinate = 1e5;
 
