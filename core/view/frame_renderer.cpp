@@ -31,7 +31,7 @@ struct FrameRenderer::State {
     rgba.clear();
     rgba.reserve(picture.color.size() * 4);
     for (const glm::vec4& pixel : picture.color) {
-      const glm::vec3 srgb = srgb_from_linear(glm::vec3(pixel) + background * (1.0f - pixel.a));
+      const glm::vec3 srgb = srgb_from_linear(glm::vec3(pixel) + background * (1.0f - pixel.w));
       for (int c = 0; c < 3; ++c)
         rgba.push_back(static_cast<std::uint8_t>(std::lround(255.0f * glm::clamp(srgb[c], 0.0f, 1.0f))));
       rgba.push_back(255);
