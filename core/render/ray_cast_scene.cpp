@@ -12,27 +12,14 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/render/ray_geometry.h"
+
 namespace meniscus {
 namespace {
 
 using ray_cast::Primitive;
 
-/// A sphere around a patch.
-struct Bound {
-  glm::dvec3 center{0.0};
-  double radius = 0.0;
-};
-
-/// The part of a sphere that sees `axis` at an angle whose cosine is at least `cosine`.
-Bound cap_bound(const glm::dvec3& center, double radius, const glm::dvec3& axis, double cosine) {
-  if (cosine <= 0.0) return {center, radius};
-  return {center + axis * (radius * cosine), radius * std::sqrt(std::max(1.0 - cosine * cosine, 0.0))};
-}
-
-/// How far from its centre a spindle comes to its axis, Å.
-double tip_height(const ToroidalPatch& patch, double probe_radius) {
-  return std::sqrt((probe_radius - patch.radius) * (probe_radius + patch.radius));
-}
+using geometry::PatchBound;
 
 class Packer {
  public:
@@ -66,7 +53,7 @@ class Packer {
   }
 
   /// False when nothing of the bound lies in front of the camera.
-  bool begin(const Bound& bound, PatchKind kind, std::uint32_t index, Primitive& primitive) {
+  bool begin(const PatchBound& bound, PatchKind kind, std::uint32_t index, Primitive& primitive) {
     const double radius = bound.radius * (1.0 + 1e-6) + 4.0 * scene_.slack;
     const glm::dvec3 center = bound.center - frame_.pivot;
     const double depth = frame_.eye_distance + glm::dot(center, frame_.basis.forward);
@@ -89,11 +76,11 @@ class Packer {
   void pack(const ConvexPatch& patch, std::uint32_t index) {
     if (!coloring_.shows(patch.atom)) return;
     const Ball& ball = surface_.atoms[patch.atom];
-    Bound bound{ball.center, ball.radius};
+    PatchBound bound{ball.center, ball.radius};
     for (std::uint32_t i = patch.first_plane; i < patch.first_plane + patch.plane_count; ++i) {
       const Plane& plane = surface_.planes[i];
       const double cosine = (glm::dot(plane.normal, ball.center) - plane.offset) / ball.radius;
-      const Bound cap = cap_bound(ball.center, ball.radius, -plane.normal, std::min(cosine, 1.0));
+      const PatchBound cap = geometry::cap_bound(ball.center, ball.radius, -plane.normal, std::min(cosine, 1.0));
       if (cap.radius < bound.radius) bound = cap;
     }
     Primitive primitive{};
@@ -108,49 +95,28 @@ class Packer {
   void pack(const ToroidalPatch& patch, std::uint32_t index) {
     if (shows_none(patch.atom)) return;
     const double p = surface_.probe_radius;
-    double height[2], extended[2], contact_z[2], contact_rho[2];
-    for (int i = 0; i < 2; ++i) {
-      const Ball& ball = surface_.atoms[patch.atom[i]];
-      height[i] = glm::dot(ball.center - patch.center, patch.axis);
-      extended[i] = ball.radius + p;
-      contact_z[i] = height[i] * (p / extended[i]);
-      contact_rho[i] = patch.radius * (ball.radius / extended[i]);
-    }
-    const double clip_z = 0.5 * (contact_z[0] + contact_z[1]) + 0.5 * (contact_rho[1] - contact_rho[0]) *
-                                                                    (contact_rho[1] + contact_rho[0]) /
-                                                                    (contact_z[1] - contact_z[0]);
-    const double clip_radius = std::hypot(contact_rho[0], contact_z[0] - clip_z);
-    const glm::dvec3 y_axis = glm::cross(patch.axis, patch.start);
-
-    // In cylinder coordinates the patch lies in a box; the farthest point from the centre is one of its corners.
-    const double rho_low = std::max(patch.radius - p, 0.0), rho_high = std::max(contact_rho[0], contact_rho[1]);
-    const double half_sweep = std::min(0.5 * patch.sweep, std::numbers::pi);
-    const double rho_mid =
-        half_sweep < 0.5 * std::numbers::pi ? 0.5 * (rho_low + rho_high) * std::cos(half_sweep) : 0.0;
-    const double z_mid = 0.5 * (contact_z[0] + contact_z[1]);
-    double radius_squared = 0.0;
-    for (const double rho : {rho_low, rho_high})
-      for (const double angle : {0.0, half_sweep}) {
-        const double across = rho * rho + rho_mid * rho_mid - 2.0 * rho * rho_mid * std::cos(angle);
-        const double along = 0.5 * (contact_z[1] - contact_z[0]);
-        radius_squared = std::max(radius_squared, across + along * along);
-      }
-    const glm::dvec3 middle = patch.start * std::cos(0.5 * patch.sweep) + y_axis * std::sin(0.5 * patch.sweep);
+    const auto height = [&](int i) {
+      return glm::dot(surface_.atoms[patch.atom[i]].center - patch.center, patch.axis);
+    };
+    const geometry::SaddleShape shape =
+        geometry::saddle_shape(height(0), height(1), surface_.atoms[patch.atom[0]].radius,
+                               surface_.atoms[patch.atom[1]].radius, patch.radius, p);
+    const double cosine = std::cos(patch.sweep), sine = std::sin(patch.sweep);
     Primitive primitive{};
-    if (!begin({patch.center + middle * rho_mid + patch.axis * z_mid, std::sqrt(radius_squared)}, PatchKind::toroidal,
-               index, primitive))
+    if (!begin(geometry::saddle_bound(shape, patch.center, patch.axis, patch.start, patch.radius, cosine, sine, p),
+               PatchKind::toroidal, index, primitive))
       return;
     primitive.plane_count = patch.free() ? 0 : patch.sweep <= std::numbers::pi ? 1 : 2;
     primitive.atom = patch.atom[0];
     primitive.second_atom = patch.atom[1];
     add_row(patch.center - frame_.pivot, patch.radius);
-    add_row(patch.start, std::cos(patch.sweep));
-    add_row(patch.axis, std::sin(patch.sweep));
-    double z_low = contact_z[0], z_high = contact_z[1];
-    if (!patch.has_piece[0]) z_low = tip_height(patch, p);
-    if (!patch.has_piece[1]) z_high = -tip_height(patch, p);
-    add_row({z_low, z_high, clip_z}, clip_radius);
-    add_row({height[0], extended[0], height[1]}, extended[1]);
+    add_row(patch.start, cosine);
+    add_row(patch.axis, sine);
+    double z_low = shape.contact_z[0], z_high = shape.contact_z[1];
+    if (!patch.has_piece[0]) z_low = geometry::spindle_tip_height(patch.radius, p);
+    if (!patch.has_piece[1]) z_high = -geometry::spindle_tip_height(patch.radius, p);
+    add_row({z_low, z_high, shape.clip_z}, shape.clip_radius);
+    add_row({shape.height[0], shape.extended[0], shape.height[1]}, shape.extended[1]);
     scene_.primitives.push_back(primitive);
   }
 
@@ -164,12 +130,12 @@ class Packer {
       sum += directions[i];
     }
     // A cap of at most half a sphere is convex on the sphere: it holds the patch if it holds the contacts.
-    Bound bound{patch.center, p};
+    PatchBound bound{patch.center, p};
     if (glm::length(sum) > 1e-6) {
       const glm::dvec3 axis = glm::normalize(sum);
       double cosine = 1.0;
       for (const glm::dvec3& direction : directions) cosine = std::min(cosine, glm::dot(direction, axis));
-      bound = cap_bound(patch.center, p, axis, cosine);
+      bound = geometry::cap_bound(patch.center, p, axis, cosine);
     }
     Primitive primitive{};
     if (!begin(bound, PatchKind::concave, index, primitive)) return;

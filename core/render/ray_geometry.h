@@ -10,8 +10,6 @@
 
 namespace meniscus::geometry {
 
-using std::max;
-
 #include "gpu_shaders/geometry/patch_membership.glsl"
 #include "gpu_shaders/geometry/ray_sphere.glsl"
 #include "gpu_shaders/geometry/ray_torus.glsl"

@@ -127,32 +127,10 @@ class Placement {
     const auto& [a, b, c] = triples_[t].atom;
     const glm::dvec3 origin = atoms_[a].center;
     const glm::dvec3 db = atoms_[b].center - origin, dc = atoms_[c].center - origin;
-    const std::array<double, 3> radius = {extended(a), extended(b), extended(c)};
-    const double side = triples_[t].side ? 1.0 : -1.0;
-    double h2 = 0;
-    glm::dvec3 x =
-        geometry::probe_of_three(db, dc, radius[0] * radius[0], radius[1] * radius[1], radius[2] * radius[2], side, h2);
-    if (h2 < kFlat) {
-      // Probe (almost) in the plane of its atoms: grown as the decision that found it was, but all alike, so that
-      // n-fold contacts stay in one place.
-      const auto grown = [](double r) { return (r + kLargestGrowth) * (r + kLargestGrowth); };
-      x = geometry::probe_of_three(db, dc, grown(radius[0]), grown(radius[1]), grown(radius[2]), side, h2);
-    } else {
-      x = polished(x, db, dc, radius);
-    }
-    position_[t] = origin + x;
-    height_[t] = std::sqrt(std::max(h2, 0.0));
-  }
-
-  // One Newton step on the three distances removes what a slim triangle lost.
-  static glm::dvec3 polished(const glm::dvec3& x, const glm::dvec3& db, const glm::dvec3& dc,
-                             const std::array<double, 3>& radius) {
-    const glm::dvec3 ea = x, eb = x - db, ec = x - dc;
-    const glm::dvec3 residual =
-        0.5 * glm::dvec3(glm::dot(ea, ea) - radius[0] * radius[0], glm::dot(eb, eb) - radius[1] * radius[1],
-                         glm::dot(ec, ec) - radius[2] * radius[2]);
-    const glm::dvec3 bc = glm::cross(eb, ec), ca = glm::cross(ec, ea), ab = glm::cross(ea, eb);
-    return x - (bc * residual.x + ca * residual.y + ab * residual.z) / glm::dot(ea, bc);
+    const auto [position, height] = geometry::fixed_probe(db, dc, extended(a), extended(b), extended(c),
+                                                          triples_[t].side ? 1.0 : -1.0, kLargestGrowth, kFlat);
+    position_[t] = origin + position;
+    height_[t] = height;
   }
 
   // True if the arc is the vanishing one of the two between its (coincident) ends, as the decisions saw it.

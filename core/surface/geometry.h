@@ -19,12 +19,15 @@ using real3 = glm::dvec3;
 using glm::cross;
 using glm::dot;
 using std::abs;
+using std::max;
 using std::min;
 using std::sqrt;
 
 inline constexpr double kUnitRoundoff = 0x1p-53;
 
 #include "gpu_shaders/geometry/circle.glsl"
+#include "gpu_shaders/geometry/fixed_probe.glsl"
+#include "gpu_shaders/geometry/patch_bounds.glsl"
 #include "gpu_shaders/geometry/polygon_reach.glsl"
 
 }  // namespace meniscus::geometry

@@ -22,8 +22,8 @@ namespace {
 // Contact-circle plane of atom a towards atom b: the patch lies where dot(normal, x) <= offset.
 Plane contact_plane(const Ball& a, const Ball& b, double probe_radius) {
   const glm::dvec3 d = b.center - a.center;
-  const double distance = glm::length(d), ra = a.radius + probe_radius, rb = b.radius + probe_radius;
-  const double height = (distance * distance + ra * ra - rb * rb) / (2 * distance) * (a.radius / ra);
+  const double distance = glm::length(d);
+  const double height = geometry::contact_height(distance, a.radius, a.radius + probe_radius, b.radius + probe_radius);
   const glm::dvec3 normal = d / distance;
   return {normal, glm::dot(normal, a.center) + height};
 }

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What clips and bounds a patch: contact planes, the shape of a saddle, and spheres around what is left.
+//
+// Common subset of GLSL and C++ with GLM, see circle.glsl.
+#ifndef MENISCUS_GEOMETRY_PATCH_BOUNDS_GLSL
+#define MENISCUS_GEOMETRY_PATCH_BOUNDS_GLSL
+
+// A sphere around a patch.
+struct PatchBound {
+  real3 center;
+  real radius;
+};
+
+// The part of a sphere that sees the unit vector `axis` at an angle whose cosine is at least `cosine`.
+GEOMETRY PatchBound cap_bound(real3 center, real radius, real3 axis, real cosine) {
+  PatchBound bound;
+  bound.center = center;
+  bound.radius = radius;
+  if (cosine <= real(0)) return bound;
+  real square = real(1) - cosine * cosine;
+  bound.center = center + axis * (radius * cosine);
+  bound.radius = radius * sqrt(square > real(0) ? square : real(0));
+  return bound;
+}
+
+// How far the plane of the contact circle of two atoms lies from the centre of the first, towards the second; radius:
+// of the first atom; ra, rb: both SAS radii (theorem 1.1).
+GEOMETRY real contact_height(real distance, real radius, real ra, real rb) {
+  return (distance * distance + ra * ra - rb * rb) / (real(2) * distance) * (radius / ra);
+}
+
+// A toroidal patch in its own frame (origin: centre of the SAS circle, z: its axis), see patch_membership.glsl.
+struct SaddleShape {
+  real height[2];    // z of the atoms
+  real extended[2];  // SAS radii
+  real contact_z[2];
+  real contact_rho[2];
+  real clip_z;  // the sphere through both contact circles, centre on the axis
+  real clip_radius;
+};
+
+// height0, height1: z of the atoms; r0, r1: their radii; major: of the SAS circle.
+GEOMETRY SaddleShape saddle_shape(real height0, real height1, real r0, real r1, real major, real probe_radius) {
+  SaddleShape s;
+  s.height[0] = height0;
+  s.height[1] = height1;
+  s.extended[0] = r0 + probe_radius;
+  s.extended[1] = r1 + probe_radius;
+  s.contact_z[0] = height0 * (probe_radius / s.extended[0]);
+  s.contact_z[1] = height1 * (probe_radius / s.extended[1]);
+  s.contact_rho[0] = major * (r0 / s.extended[0]);
+  s.contact_rho[1] = major * (r1 / s.extended[1]);
+  s.clip_z = real(0.5) * (s.contact_z[0] + s.contact_z[1]) +
+             real(0.5) * (s.contact_rho[1] - s.contact_rho[0]) * (s.contact_rho[1] + s.contact_rho[0]) /
+                 (s.contact_z[1] - s.contact_z[0]);
+  real along = s.contact_z[0] - s.clip_z;
+  s.clip_radius = sqrt(s.contact_rho[0] * s.contact_rho[0] + along * along);
+  return s;
+}
+
+// How far from its centre a spindle comes to its axis.
+GEOMETRY real spindle_tip_height(real major, real probe_radius) {
+  return sqrt((probe_radius - major) * (probe_radius + major));
+}
+
+// axis, start: unit vectors, start where the arc begins; cos_sweep, sin_sweep: of its angle in [0, 2 pi].
+GEOMETRY PatchBound saddle_bound(SaddleShape s, real3 center, real3 axis, real3 start, real major, real cos_sweep,
+                                 real sin_sweep, real probe_radius) {
+  // In cylinder coordinates the patch lies in a box; the farthest point from the centre is one of its corners.
+  real rho_low = max(major - probe_radius, real(0));
+  real rho_high = max(s.contact_rho[0], s.contact_rho[1]);
+  // Of half the sweep, which is at most half a turn.
+  real cosine = sqrt(max(real(0.5) + real(0.5) * cos_sweep, real(0)));
+  if (sin_sweep < real(0)) cosine = -cosine;
+  real sine = sqrt(max(real(0.5) - real(0.5) * cos_sweep, real(0)));
+  real rho_mid = cosine > real(0) ? real(0.5) * (rho_low + rho_high) * cosine : real(0);
+  real along = real(0.5) * (s.contact_z[1] - s.contact_z[0]);
+  real square = real(0);
+  for (int high = 0; high < 2; ++high) {
+    real rho = high == 1 ? rho_high : rho_low;
+    real base = rho * rho + rho_mid * rho_mid;
+    square = max(square, max(base - real(2) * rho * rho_mid, base - real(2) * rho * rho_mid * cosine));
+  }
+  real3 middle = start * cosine + cross(axis, start) * sine;
+  PatchBound bound;
+  bound.center = center + middle * rho_mid + axis * (real(0.5) * (s.contact_z[0] + s.contact_z[1]));
+  bound.radius = sqrt(square + along * along);
+  return bound;
+}
+
+#endif
