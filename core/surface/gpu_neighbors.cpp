@@ -22,7 +22,7 @@ constexpr std::size_t kWord = sizeof(std::uint32_t);
 std::size_t group_count(std::size_t invocations) { return (invocations + 63) / 64; }
 
 const Program& GpuNeighbors::kernel(const char* name, int pass) {
-  ShaderDefines defines;
+  ShaderDefines defines = list_defines();
   if (pass >= 0) defines.emplace_back("PASS", std::to_string(pass));
   return programs_.get(std::string("gpu_shaders/") + name + ".comp", defines);
 }
@@ -31,8 +31,7 @@ const Program& GpuNeighbors::kernel(const char* name, int pass) {
 void GpuNeighbors::upload(std::span<const glm::dvec3> centers, std::span<const double> radii,
                           const std::vector<bool>& left_out) {
   count_ = static_cast<std::uint32_t>(centers.size());
-  resident_ = {};
-  if (count_ == 0) return;
+  if (count_ == 0) return adopt(0, {});
   glm::dvec3 low = centers[0], high = low;
   double largest = 0;
   for (std::size_t n = 0; n < count_; ++n) {
@@ -40,7 +39,7 @@ void GpuNeighbors::upload(std::span<const glm::dvec3> centers, std::span<const d
     high = glm::max(high, centers[n]);
     largest = std::max(largest, radii[n]);
   }
-  const glm::dvec3 middle = 0.5 * (low + high), extent = high - low;
+  const glm::dvec3 middle = 0.5 * (low + high);
   std::vector<glm::vec4> coarse(count_), fine(count_);
   for (std::size_t n = 0; n < count_; ++n) {
     const glm::dvec3 d = centers[n] - middle;
@@ -49,8 +48,17 @@ void GpuNeighbors::upload(std::span<const glm::dvec3> centers, std::span<const d
         glm::vec4(glm::vec3(d - glm::dvec3(glm::vec3(coarse[n]))), !left_out.empty() && left_out[n] ? 1.0f : 0.0f);
   }
   balls.upload(coarse);
-  balls_low_.upload(fine);
+  balls_low.upload(fine);
+  adopt(count_, {low - middle, high - middle, largest});
+}
 
+void GpuNeighbors::adopt(std::uint32_t count, const BallExtent& extent_of_balls) {
+  const auto& [low, high, largest] = extent_of_balls;
+  count_ = entry_count_ = count;
+  listed_ = false;
+  resident_ = {};
+  if (count_ == 0) return;
+  const glm::dvec3 extent = high - low;
   largest_radius_ = static_cast<float>(largest) * 1.00001f;
   double spacing = std::max(1e-3, static_cast<double>(largest_radius_));
   const auto cells = [&] {
@@ -58,7 +66,7 @@ void GpuNeighbors::upload(std::span<const glm::dvec3> centers, std::span<const d
            (std::floor(extent.z / spacing) + 1);
   };
   while (cells() > 4.0 * count_ + 64) spacing *= 1.25;
-  grid_low_ = glm::vec4(glm::vec3(low - middle), static_cast<float>(1 / spacing));
+  grid_low_ = glm::vec4(glm::vec3(low), static_cast<float>(1 / spacing));
   grid_size_ = glm::vec4(glm::vec3(glm::floor(extent / spacing) + 1.0), 0.0f);
   cell_count_ = static_cast<std::uint32_t>(grid_size_.x * grid_size_.y * grid_size_.z);
   build_grid();
@@ -85,19 +93,36 @@ void GpuNeighbors::build_grid() {
   cell_texels_.view(cell_atoms_);
 }
 
+void GpuNeighbors::list_only(const Buffer& listed, const Buffer& before, std::uint32_t count) {
+  listed_texels_.view(listed);
+  before_texels_.view(before);
+  entry_count_ = count;
+  listed_ = true;
+  resident_ = {};
+}
+
+ShaderDefines GpuNeighbors::list_defines() const { return listed_ ? ShaderDefines{{"LISTED", "1"}} : ShaderDefines{}; }
+
+void GpuNeighbors::bind_listed() const {
+  if (!listed_) return;
+  listed_texels_.bind(2);
+  before_texels_.bind(3);
+}
+
 void GpuNeighbors::run_neighbors(const BallBatch& batch, int pass) {
   ball_texels_.bind(0);
   cell_texels_.bind(1);
+  bind_listed();
   class_counts_.bind(0);
-  balls_low_.bind(1);
+  balls_low.bind(1);
   cell_first_.bind(2);
   first.bind(4);
   pair_first_.bind(5);
   relative.bind(6);
   labels.bind(7);
   const Program& program = kernel("reduced_surface/neighbors", pass);
-  program.set("first_atom", batch.first);
-  program.set("atom_count", batch.count);
+  program.set("first_entry", batch.first);
+  program.set("entry_count", batch.count);
   program.set("largest_radius", largest_radius_);
   program.set("grid_low", grid_low_);
   program.set("grid_size", grid_size_);
@@ -137,9 +162,10 @@ void GpuNeighbors::list_pairs(const BallBatch& batch) {
   labels.bind(1);
   pair_first_.bind(2);
   pairs.bind(3);
+  bind_listed();
   const Program& program = kernel("reduced_surface/pairs");
-  program.set("first_atom", batch.first);
-  program.set("atom_count", batch.count);
+  program.set("first_entry", batch.first);
+  program.set("entry_count", batch.count);
   program.dispatch(group_count(batch.count));
 }
 

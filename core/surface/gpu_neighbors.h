@@ -24,6 +24,12 @@ struct BallBatch {
   std::uint32_t pair_count = 0;
 };
 
+/// Where balls are and how large they get: a box around their centres, in the coordinates of the buffer `balls`, Å.
+struct BallExtent {
+  glm::dvec3 low{0.0}, high{0.0};
+  double largest_radius = 0.0;
+};
+
 /// Kernels "grid", "neighbors", "pairs" and their buffers. Needs a current GL context.
 class GpuNeighbors {
  public:
@@ -32,14 +38,26 @@ class GpuNeighbors {
   /// Puts balls into a grid: centres and radii in Å; `left_out` may be empty or say who neither has nor is a neighbour.
   void upload(std::span<const glm::dvec3> centers, std::span<const double> radii, const std::vector<bool>& left_out);
 
+  /// Takes balls that a kernel has written to `balls` and `balls_low`.
+  void adopt(std::uint32_t count, const BallExtent& extent);
+
+  /// From now on lists are made for these balls only, and pairs of two of them; all are still listed as neighbours.
+  /// listed: `count` ascending indices; before: per ball and one more, how many listed ones come before it. Batches
+  /// count entries of `listed`. Both buffers must stay. upload() and adopt() list all again.
+  void list_only(const Buffer& listed, const Buffer& before, std::uint32_t count);
+
+  /// What kernels that include listed_balls.glsl need: their define, and their two textures bound to units 2 and 3.
+  ShaderDefines list_defines() const;
+  void bind_listed() const;
+
   /// Calls work(batch) for consecutive batches with their lists in the buffers below; lists that are still there from
   /// the last time are not made again. Batches are as large as the driver's storage blocks allow. Throws CapacityError
   /// if a single ball has too many neighbours.
   template <typename Work>
   void for_each_batch(Work&& work) {
     BallBatch batch;
-    batch.count = std::min(kLargestBatch, count_);
-    while (batch.first < count_) {
+    batch.count = std::min(kLargestBatch, entry_count_);
+    while (batch.first < entry_count_) {
       const bool listed = resident_.count > 0 && resident_.first == batch.first && resident_.count == batch.count;
       if (listed) batch = resident_;
       if (listed || count_neighbors(batch)) {
@@ -50,18 +68,19 @@ class GpuNeighbors {
       } else {
         batch.count = (batch.count + 1) / 2;
       }
-      batch.count = std::min(batch.count, count_ - batch.first);
+      batch.count = std::min(batch.count, entry_count_ - batch.first);
     }
   }
 
   /// Lists each overlapping pair i < j of the batch once, in `pairs`.
   void list_pairs(const BallBatch& batch);
 
-  Buffer balls;     ///< vec4 per ball: centre from the middle (high part), radius
-  Buffer first;     ///< uint per ball of the batch + 1: into the two lists
-  Buffer relative;  ///< vec4 per neighbour: centre from the ball's, radius²; roughly nearest first
-  Buffer labels;    ///< uint per neighbour: its index
-  Buffer pairs;     ///< uvec2 per pair: ball, place of the other in the lists
+  Buffer balls;      ///< vec4 per ball: centre from the middle (high part), radius
+  Buffer balls_low;  ///< vec4 per ball: low part of the centre; w: 1 for balls left out
+  Buffer first;      ///< uint per ball of the batch + 1: into the two lists
+  Buffer relative;   ///< vec4 per neighbour: centre from the ball's, radius²; roughly nearest first
+  Buffer labels;     ///< uint per neighbour: its index
+  Buffer pairs;      ///< uvec2 per pair: entry of the ball, place of the other in the lists
 
  private:
   static constexpr std::size_t kClasses = 6;               // distance classes of the kernel
@@ -76,9 +95,12 @@ class GpuNeighbors {
 
   ProgramCache& programs_;
   TexelBuffer ball_texels_{TexelFormat::uint4}, cell_texels_{TexelFormat::uint1};  // of balls and cell_atoms_
-  Buffer balls_low_, cell_first_, rank_, cell_atoms_, totals_, pair_first_, class_counts_;
+  TexelBuffer listed_texels_{TexelFormat::uint1}, before_texels_{TexelFormat::uint1};
+  Buffer cell_first_, rank_, cell_atoms_, totals_, pair_first_, class_counts_;
   BallBatch resident_;  // whose lists the buffers hold; count 0: nobody's
   std::uint32_t count_ = 0;
+  std::uint32_t entry_count_ = 0;  // of the lists: count_, or that of list_only()
+  bool listed_ = false;
   std::uint32_t cell_count_ = 0;
   float largest_radius_ = 0;
   glm::vec4 grid_low_{0.0f};

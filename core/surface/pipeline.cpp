@@ -101,7 +101,7 @@ void SurfacePipeline::run_circles(const BallBatch& batch, bool in_double, const 
     doubtful.bind(5);
     counters_.bind(6);
     neighbors_.balls.bind(7);
-    program.set("first_atom", batch.first);
+    program.set("first_entry", batch.first);
     program.set("circle_count", circle_count);
     program.set("arc_capacity", arc_capacity_);
     program.set("doubtful_capacity", doubtful_capacity_);

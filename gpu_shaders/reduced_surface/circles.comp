@@ -8,8 +8,9 @@ layout(local_size_x = 64) in;
 #include "gpu_shaders/shared/linear_index.glsl"
 #include "gpu_shaders/reduced_surface/precision.glsl"
 #include "gpu_shaders/reduced_surface/contour.glsl"
+#include "gpu_shaders/reduced_surface/listed_balls.glsl"
 
-layout(std430, binding = 0) readonly buffer Circles { uvec2 circles[]; };  // atom i, place of j in the neighbour list
+layout(std430, binding = 0) readonly buffer Circles { uvec2 circles[]; };  // entry of atom i, place of j in the neighbour list
 layout(std430, binding = 1) readonly buffer NeighborFirst { uint neighbor_first[]; };
 layout(std430, binding = 2) readonly buffer NeighborLabels { uint neighbor_labels[]; };
 #ifdef DOUBLE_PRECISION
@@ -21,7 +22,7 @@ layout(std430, binding = 7) readonly buffer AtomsLow { vec4 atoms[]; };  // w: S
 layout(std430, binding = 4) writeonly buffer Arcs { uvec4 arcs[]; };  // i, j, begin_by, end_by
 layout(std430, binding = 5) writeonly buffer Doubtful { uvec2 doubtful[]; };
 layout(std430, binding = 6) buffer Counters { uint arc_count; uint doubtful_count; };
-uniform uint first_atom;  // of the batch, which the neighbour lists count from
+uniform uint first_entry;  // of the batch, which the neighbour lists count from
 uniform uint circle_count;
 uniform uint arc_capacity;
 uniform uint doubtful_capacity;
@@ -49,7 +50,8 @@ void neighbor(uint i, uint n, out real3 center, out real weight) {
 void main() {
   uint index = linear_invocation_index();
   if (index >= circle_count) return;
-  uint i = circles[index].x;
+  uint entry = circles[index].x;
+  uint i = ball_of(entry);
   uint place = circles[index].y;
 #ifdef DOUBLE_PRECISION
   real w0 = atoms[i].w;
@@ -66,8 +68,8 @@ void main() {
   if (c.radius_squared <= barely) {
     exposed_doubtful = true;
   } else {
-    uint last = neighbor_first[i - first_atom + 1u];
-    for (uint n = neighbor_first[i - first_atom]; n < last; ++n) {
+    uint last = neighbor_first[entry - first_entry + 1u];
+    for (uint n = neighbor_first[entry - first_entry]; n < last; ++n) {
       if (n == place) continue;
       real3 q;
       real wq;

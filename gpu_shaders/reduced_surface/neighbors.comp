@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Stage "neighbors": lists the atoms whose SAS balls overlap, roughly nearest first, as seen from each atom.
-// Pass 0 counts neighbours and pairs (i < j); pass 1 (after scans) writes them.
+// Pass 0 counts neighbours and pairs (i < j, both listed); pass 1 (after scans) writes them.
 // Reads: atoms, atoms_low, cells. Writes: class_counts, neighbor_first, pair_first (counts, then scanned), neighbor_balls,
 // neighbor_labels, pairs. One invocation per atom of the batch. Overflow: none, pass 0 counts
 // exactly what pass 1 writes.
@@ -9,6 +9,7 @@
 layout(local_size_x = 64) in;
 #include "gpu_shaders/shared/linear_index.glsl"
 #include "gpu_shaders/reduced_surface/cell_grid.glsl"
+#include "gpu_shaders/reduced_surface/listed_balls.glsl"
 
 layout(binding = 0) uniform usamplerBuffer atom_texels;                       // floats: hi part, SAS radius
 layout(std430, binding = 0) buffer ClassCounts { uint class_counts[]; };  // per atom of the batch and class
@@ -19,8 +20,8 @@ layout(std430, binding = 4) buffer NeighborFirst { uint neighbor_first[]; };
 layout(std430, binding = 5) buffer PairFirst { uint pair_first[]; };
 layout(std430, binding = 6) writeonly buffer NeighborBalls { vec4 neighbor_balls[]; };  // relative centre, SAS radius²
 layout(std430, binding = 7) writeonly buffer NeighborLabels { uint neighbor_labels[]; };
-uniform uint first_atom;  // of the batch
-uniform uint atom_count;  // in the batch
+uniform uint first_entry;  // of the batch
+uniform uint entry_count;  // in the batch
 uniform float largest_radius;
 
 vec4 atom(uint index) { return uintBitsToFloat(texelFetch(atom_texels, int(index))); }
@@ -30,8 +31,8 @@ const uint kClasses = 6u;
 
 void main() {
   uint entry = linear_invocation_index();
-  if (entry >= atom_count) return;
-  uint i = first_atom + entry;
+  if (entry >= entry_count) return;
+  uint i = ball_of(first_entry + entry);
   vec4 self = atom(i);
   vec4 self_low = atoms_low[i];
   bool swallowed = self_low.w > 0.5;
@@ -70,7 +71,7 @@ void main() {
           uint c = min(uint(float(kClasses) * square / (sum * sum)), kClasses - 1u);
 #if PASS == 0
           ++class_next[c];
-          if (j > i) ++pair_count;
+          if (j > i && is_listed(j)) ++pair_count;
 #else
           vec3 d = coarse + (other_low.xyz - self_low.xyz);
           neighbor_balls[class_next[c]] = vec4(d, other.w * other.w);

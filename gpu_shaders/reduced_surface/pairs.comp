@@ -1,22 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Stage "pairs": lists every overlapping pair i < j once, as (i, place of j in the neighbour list).
+// Stage "pairs": lists every overlapping pair i < j once, as (entry of i, place of j in the neighbour list).
 // Reads: neighbor_first, neighbor_labels, pair_first. Writes: pairs. One invocation per atom of the batch. Overflow: none.
 #version 450 core
 layout(local_size_x = 64) in;
 #include "gpu_shaders/shared/linear_index.glsl"
+#include "gpu_shaders/reduced_surface/listed_balls.glsl"
 
 layout(std430, binding = 0) readonly buffer NeighborFirst { uint neighbor_first[]; };
 layout(std430, binding = 1) readonly buffer NeighborLabels { uint neighbor_labels[]; };
 layout(std430, binding = 2) readonly buffer PairFirst { uint pair_first[]; };
 layout(std430, binding = 3) writeonly buffer Pairs { uvec2 pairs[]; };
-uniform uint first_atom;  // of the batch
-uniform uint atom_count;  // in the batch
+uniform uint first_entry;  // of the batch
+uniform uint entry_count;  // in the batch
 
 void main() {
   uint entry = linear_invocation_index();
-  if (entry >= atom_count) return;
-  uint i = first_atom + entry;
+  if (entry >= entry_count) return;
+  uint i = ball_of(first_entry + entry);
   uint next = pair_first[entry];
   for (uint n = neighbor_first[entry]; n < neighbor_first[entry + 1u]; ++n)
-    if (neighbor_labels[n] > i) pairs[next++] = uvec2(i, n);
+    if (neighbor_labels[n] > i && is_listed(neighbor_labels[n])) pairs[next++] = uvec2(first_entry + entry, n);
 }

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Whose neighbours are listed: an entry of the lists stands for every ball in order, or for one of those a view needs.
+
+#ifdef LISTED
+layout(binding = 2) uniform usamplerBuffer listed_balls;   // ascending
+layout(binding = 3) uniform usamplerBuffer listed_before;  // per ball, and one more: how many listed ones come before it
+
+uint ball_of(uint entry) { return texelFetch(listed_balls, int(entry)).x; }
+
+bool is_listed(uint ball) {
+  return texelFetch(listed_before, int(ball) + 1).x != texelFetch(listed_before, int(ball)).x;
+}
+#else
+uint ball_of(uint entry) { return entry; }
+
+bool is_listed(uint ball) { return true; }
+#endif
