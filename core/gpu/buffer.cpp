@@ -2,6 +2,7 @@
 // Storage buffers by direct state access (GL 4.5).
 #include "core/gpu/buffer.h"
 
+#include <algorithm>
 #include <cassert>
 #include <utility>
 
@@ -39,6 +40,14 @@ void Buffer::resize(std::size_t byte_count) {
     capacity_ = needed;
   }
   byte_count_ = byte_count;
+}
+
+void Buffer::grow(std::size_t byte_count) {
+  Buffer old = std::move(*this);
+  resize(byte_count);
+  if (old.byte_count_ == 0) return;
+  glCopyNamedBufferSubData(old.name_, name_, 0, 0, static_cast<GLsizeiptr>(std::min(old.byte_count_, byte_count)));
+  check_gl("growing a buffer");
 }
 
 void Buffer::write(std::size_t byte_offset, const void* bytes, std::size_t byte_count) {

@@ -26,6 +26,8 @@ class Buffer {
 
   /// Makes room for `byte_count` bytes; keeps the memory it has if that is enough, and loses the content if not.
   void resize(std::size_t byte_count);
+  /// Makes room like resize, but keeps the content.
+  void grow(std::size_t byte_count);
   std::size_t byte_count() const { return byte_count_; }
 
   /// Resizes to the values and copies them.

@@ -55,7 +55,7 @@ void GpuNeighbors::upload(std::span<const glm::dvec3> centers, std::span<const d
 void GpuNeighbors::adopt(std::uint32_t count, const BallExtent& extent_of_balls) {
   const auto& [low, high, largest] = extent_of_balls;
   count_ = entry_count_ = count;
-  listed_ = false;
+  listed_ = nullptr;
   resident_ = {};
   if (count_ == 0) return;
   const glm::dvec3 extent = high - low;
@@ -97,11 +97,15 @@ void GpuNeighbors::list_only(const Buffer& listed, const Buffer& before, std::ui
   listed_texels_.view(listed);
   before_texels_.view(before);
   entry_count_ = count;
-  listed_ = true;
+  listed_ = &listed;
   resident_ = {};
 }
 
 ShaderDefines GpuNeighbors::list_defines() const { return listed_ ? ShaderDefines{{"LISTED", "1"}} : ShaderDefines{}; }
+
+std::uint32_t GpuNeighbors::ball_of(std::uint32_t entry) const {
+  return listed_ ? listed_->download<std::uint32_t>(1, entry * kWord).front() : entry;
+}
 
 void GpuNeighbors::bind_listed() const {
   if (!listed_) return;

@@ -50,6 +50,9 @@ class GpuNeighbors {
   ShaderDefines list_defines() const;
   void bind_listed() const;
 
+  /// The ball that an entry of the lists stands for. Reads it back from the GPU.
+  std::uint32_t ball_of(std::uint32_t entry) const;
+
   /// Calls work(batch) for consecutive batches with their lists in the buffers below; lists that are still there from
   /// the last time are not made again. Batches are as large as the driver's storage blocks allow. Throws CapacityError
   /// if a single ball has too many neighbours.
@@ -100,7 +103,7 @@ class GpuNeighbors {
   BallBatch resident_;  // whose lists the buffers hold; count 0: nobody's
   std::uint32_t count_ = 0;
   std::uint32_t entry_count_ = 0;  // of the lists: count_, or that of list_only()
-  bool listed_ = false;
+  const Buffer* listed_ = nullptr;
   std::uint32_t cell_count_ = 0;
   float largest_radius_ = 0;
   glm::vec4 grid_low_{0.0f};

@@ -8,22 +8,14 @@
 #include <vector>
 
 #include "core/base/stage_clock.h"
-#include "core/gpu/buffer.h"
 #include "core/gpu/program.h"
-#include "core/gpu/texel_buffer.h"
 #include "core/surface/cusp_tracer.h"
+#include "core/surface/gpu_circles.h"
 #include "core/surface/gpu_neighbors.h"
 #include "core/surface/primitives.h"
 #include "core/surface/reduced_surface.h"
 
 namespace meniscus {
-
-/// How the circles of one frame were decided.
-struct PipelineStats {
-  std::size_t pairs = 0;              ///< overlapping pairs of SAS balls, each one circle
-  std::size_t decided_in_double = 0;  ///< circles that single precision left in doubt
-  std::size_t decided_on_host = 0;    ///< circles that double left in doubt, decided in quadruple precision
-};
 
 /// Finds surfaces with compute shaders. Keeps kernels and buffers from frame to frame. The GL context it was made in
 /// must be current. Results equal those of the CPU, arc by arc.
@@ -41,25 +33,16 @@ class SurfacePipeline {
 
   /// Wall-clock times of the stages of the last run, batches added up. (Software GL reports no GPU times.)
   const std::vector<StageTime>& stage_times() const { return clock_.times(); }
-  const PipelineStats& stats() const { return stats_; }
+  const CircleStats& stats() const { return circles_.stats(); }
 
  private:
-  void expose_circles(const BallBatch& batch, ReducedSurface& rs);
-  void run_circles(const BallBatch& batch, bool in_double, const Buffer& circles, std::uint32_t circle_count,
-                   Buffer& doubtful, ReducedSurface& rs);
-  void decide_on_host(const BallBatch& batch, std::span<const glm::uvec2> circles, ReducedSurface& rs);
   void collect_lone_atoms(const BallBatch& batch, ReducedSurface& rs);
 
   ProgramCache programs_;
   GpuNeighbors neighbors_;
-  TexelBuffer relative_texels_{TexelFormat::uint4};  // of the neighbours, which circles fetch most
-  Buffer atoms_double_, arcs_, doubtful_, still_doubtful_, counters_;
-  std::uint32_t arc_capacity_ = 1 << 14;
-  std::uint32_t doubtful_capacity_ = 1 << 12;
-  std::uint32_t doubtful_count_ = 0;
+  GpuCircles circles_;
   std::unique_ptr<CuspTracer> cusp_tracer_;
   StageClock clock_;
-  PipelineStats stats_;
 
   // The frame at work.
   std::span<const Ball> atoms_;
