@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `meniscus export blender`: mesh, analytic patches, atoms and camera as one .mns file.
-#include <cmath>
 #include <filesystem>
 #include <iostream>
-#include <map>
 #include <memory>
 
+#include "app/blender_attributes.h"
 #include "app/commands.h"
 #include "app/mesh_options.h"
 #include "core/base/text.h"
@@ -22,21 +21,6 @@ struct BlenderCommand {
   OutputOptions output;
 };
 
-blender::AtomAttributes attributes_of(const Structure& structure, const std::vector<std::uint32_t>& atoms) {
-  blender::AtomAttributes attributes;
-  std::map<std::string, std::int32_t> chains;
-  for (const std::uint32_t index : atoms) {
-    const Atom& atom = structure.atoms[index];
-    attributes.b_factor.push_back(std::isfinite(atom.b_factor) ? atom.b_factor : 0.0f);
-    attributes.atomic_number.push_back(atom.element);
-    attributes.residue_number.push_back(atom.residue_number);
-    const auto [at, fresh] = chains.try_emplace(atom.chain, static_cast<std::int32_t>(chains.size()));
-    if (fresh) attributes.chain_names.push_back(atom.chain);
-    attributes.chain.push_back(at->second);
-  }
-  return attributes;
-}
-
 void run(const BlenderCommand& command) {
   const Molecule molecule = load_molecule(command.molecule);
   const std::vector<Ball> balls = placed_balls(molecule.objects);
@@ -46,7 +30,7 @@ void run(const BlenderCommand& command) {
   std::vector<blender::MeshedObject> objects;
   for (std::size_t n = 0; n < meshes.size(); ++n) {
     const SurfaceObject& object = molecule.objects[n];
-    objects.push_back({object, std::move(meshes[n]), attributes_of(molecule.structure, object.atom)});
+    objects.push_back({object, std::move(meshes[n]), blender_attributes(molecule.structure, object.atom)});
   }
   const blender::Provenance provenance{std::filesystem::path(molecule.structure.file).filename().string(),
                                        molecule.structure.radii_set, molecule.device, colors_json(molecule)};

@@ -45,9 +45,10 @@ ColorKey key_of(const Molecule& molecule) {
   return color_key(molecule.structure, molecule.color, names);
 }
 
-std::string colors_json(const Molecule& molecule) {
+std::string colors_json(const Molecule& molecule) { return colors_json(key_of(molecule)); }
+
+std::string colors_json(const ColorKey& key) {
   using Json = nlohmann::ordered_json;
-  const ColorKey key = key_of(molecule);
   const auto triple = [](const glm::vec3& c) { return Json{c.x, c.y, c.z}; };
   Json json{{"title", key.title}};
   if (key.scale) {

@@ -33,6 +33,7 @@ Structure read_molecule(const MoleculeOptions& options);
 ColorKey key_of(const Molecule& molecule);
 
 /// The same as a JSON object: title, and unit, map, range, missing, missing_color or classes.
+std::string colors_json(const ColorKey& key);
 std::string colors_json(const Molecule& molecule);
 
 /// A table of the assemblies the file describes, on stdout.

@@ -21,18 +21,8 @@ double parse_probe(const std::string& text) {
   double radius = 0.0;
   if (!parse_number(text, radius))
     throw CLI::ValidationError("--probe", in_quotes(text) + " is not a finite number of Å, such as 1.4");
-  if (radius < 0.0)
-    throw CLI::ValidationError("--probe", fmt::format("{} Å is negative; 0 gives the van der Waals surface", radius));
-  if (radius > 0.0 && radius < kSmallestProbe) {
-    throw CLI::ValidationError(
-        "--probe",
-        fmt::format("{} Å is finer than any file's coordinates; use 0 (van der Waals surface) or at least {} Å", radius,
-                    kSmallestProbe));
-  }
-  if (radius > kLargestProbe) {
-    throw CLI::ValidationError(
-        "--probe", fmt::format("{} Å is larger than molecules are; use at most {} Å", radius, kLargestProbe));
-  }
+  const std::string fault = probe_fault(radius);
+  if (!fault.empty()) throw CLI::ValidationError("--probe", fault);
   return radius;
 }
 
@@ -59,6 +49,17 @@ void parse_division(const std::string& text, DivisionOptions& division) {
 }
 
 }  // namespace
+
+std::string probe_fault(double radius) {
+  if (radius < 0.0) return fmt::format("{} Å is negative; 0 gives the van der Waals surface", radius);
+  if (radius > 0.0 && radius < kSmallestProbe) {
+    return fmt::format("{} Å is finer than any file's coordinates; use 0 (van der Waals surface) or at least {} Å",
+                       radius, kSmallestProbe);
+  }
+  if (radius > kLargestProbe)
+    return fmt::format("{} Å is larger than molecules are; use at most {} Å", radius, kLargestProbe);
+  return {};
+}
 
 void add_surface_options(CLI::App& command, MoleculeOptions& options) {
   const Heading heading(command, "Surface");

@@ -62,7 +62,9 @@ Ray pixel_ray(const Camera& camera, glm::dvec2 size, glm::dvec2 pixel);
 /// A camera that shows all of the balls with a small margin, their widest side across the picture (principal axes of
 /// the centres), from the side nearest to +z. aspect: width / height of the picture. There must be a ball.
 Camera frame_camera(std::span<const Ball> balls, double aspect, Projection projection = Projection::perspective);
-/// The same for the atoms of a surface, which hold all of it.
+/// The same, seen along the axes given. lens: its projection and, with perspective, its angle are taken.
+Camera frame_camera(std::span<const Ball> balls, const ViewBasis& basis, double aspect, const Camera& lens);
+/// The first one for the atoms of a surface, which hold all of it.
 Camera frame_camera(const Surface& surface, double aspect, Projection projection = Projection::perspective);
 
 }  // namespace meniscus

@@ -84,15 +84,20 @@ Camera frame_camera(const Surface& surface, double aspect, Projection projection
 }
 
 Camera frame_camera(std::span<const Ball> balls, double aspect, Projection projection) {
+  assert(!balls.empty());
+  Camera lens;
+  lens.projection = projection;
+  return frame_camera(balls, broad_side(balls), aspect, lens);
+}
+
+Camera frame_camera(std::span<const Ball> balls, const ViewBasis& basis, double aspect, const Camera& lens) {
   assert(!balls.empty() && aspect > 0.0);
-  const ViewBasis basis = broad_side(balls);
   const glm::dvec2 depth = range_along(balls, basis.forward);
-  Camera camera;
-  camera.projection = projection;
+  Camera camera = lens;
   camera.up = basis.up;
   glm::dvec2 side;
   double eye_depth = 0.0;
-  if (projection == Projection::perspective) {
+  if (camera.projection == Projection::perspective) {
     const double tangent = std::tan(camera.vertical_fov * (std::numbers::pi / 360.0)) / kMargin;
     const glm::dvec2 x = touch(balls, basis.right, basis.forward, tangent * aspect);
     const glm::dvec2 y = touch(balls, basis.up, basis.forward, tangent);

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// One background computation, and the areas that earlier ones found.
+#include "app/preview/exposed_areas.h"
+
+#include <chrono>
+
+#include "core/base/error.h"
+#include "core/reference/exhaustive.h"
+#include "core/surface/atom_areas.h"
+#include "core/surface/surface.h"
+
+namespace meniscus {
+namespace {
+
+constexpr std::size_t kKept = 16;  // frames and probes
+
+std::vector<double> exposed_areas(const std::vector<Ball>& balls, double probe_radius) {
+  return atom_areas(compute_surface_cpu(balls, probe_radius)).surface;
+}
+
+bool is_ready(const std::future<std::vector<double>>& pending) {
+  return pending.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+}
+
+}  // namespace
+
+std::optional<double> ExposedAreas::of(std::size_t frame, double probe_radius, const std::vector<Ball>& balls,
+                                       std::size_t atom, bool wait) {
+  const Key key{frame, probe_radius};
+  if (pending_.valid() && pending_key_ != key && (wait || is_ready(pending_))) forget_or_keep();
+  if (pending_.valid() && pending_key_ == key && (wait || is_ready(pending_))) finish();
+  if (!known_.contains(key) && !pending_.valid()) {
+    begin(key, balls);
+    if (wait) finish();
+  }
+  const auto found = known_.find(key);
+  if (found == known_.end()) return {};
+  return found->second[atom];
+}
+
+void ExposedAreas::begin(const Key& key, const std::vector<Ball>& balls) {
+  pending_key_ = key;
+  pending_ = std::async(std::launch::async, [balls, radius = key.second] { return exposed_areas(balls, radius); });
+}
+
+void ExposedAreas::forget_or_keep() {
+  try {
+    finish();
+  } catch (const Error&) {
+    // Nobody asks for this surface any more.
+  }
+}
+
+void ExposedAreas::finish() {
+  known_.insert_or_assign(pending_key_, pending_.get());
+  order_.push_back(pending_key_);
+  if (order_.size() <= kKept) return;
+  known_.erase(order_.front());
+  order_.erase(order_.begin());
+}
+
+}  // namespace meniscus

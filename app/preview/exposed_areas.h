@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How much of the surface belongs to each atom, computed beside the pictures and kept.
+#pragma once
+
+#include <cstddef>
+#include <future>
+#include <map>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "core/surface/primitives.h"
+
+namespace meniscus {
+
+/// Exact areas per frame and probe radius, from the complete surface on the CPU in a thread of its own. One is computed
+/// at a time; the latest few are kept.
+class ExposedAreas {
+ public:
+  /// Area of the points that take the atom's colour, Å² (AtomAreas::surface). If it is not known yet it is computed:
+  /// with `wait` before this returns, else nothing comes back and a later call finds it.
+  /// Throws OpenSurfaceError, CapacityError.
+  std::optional<double> of(std::size_t frame, double probe_radius, const std::vector<Ball>& balls, std::size_t atom,
+                           bool wait);
+
+ private:
+  using Key = std::pair<std::size_t, double>;
+  using Areas = std::vector<double>;
+
+  void begin(const Key& key, const std::vector<Ball>& balls);
+  void finish();
+  void forget_or_keep();
+
+  std::map<Key, Areas> known_;
+  std::vector<Key> order_;  ///< of known_, oldest first
+  Key pending_key_{};
+  std::future<Areas> pending_;
+};
+
+}  // namespace meniscus

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The look of pictures as JSON, for the command "look" and the state.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+#include <nlohmann/json.hpp>
+
+#include "app/preview/command_reader.h"
+#include "core/render/look.h"
+
+namespace meniscus {
+
+/// The keys of the command "look".
+std::span<const std::string_view> look_keys();
+
+/// `look` with what the command says changed. Throws RequestError.
+Look changed_look(Look look, const CommandReader& command);
+
+/// "#rrggbb" of an sRGB colour in [0, 1].
+std::string hex_color(const glm::vec3& color);
+
+/// Every key with its value.
+nlohmann::json look_json(const Look& look);
+
+/// The same for a picture while something moves: nothing that takes time.
+Look draft_look(Look look);
+
+}  // namespace meniscus

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a preview shows and how it changes: one set of JSON commands for the window, the page and recorded sessions.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <glm/vec2.hpp>
+#include <nlohmann/json.hpp>
+
+#include "app/preview/exposed_areas.h"
+#include "core/molecule/atom_groups.h"
+#include "core/molecule/color_schemes.h"
+#include "core/molecule/structure.h"
+#include "core/render/camera.h"
+#include "core/render/look.h"
+#include "core/view/frame_renderer.h"
+
+namespace meniscus {
+
+class CommandReader;
+
+/// Everything that commands change.
+struct PreviewView {
+  Camera camera;
+  double probe_radius = 1.4;  ///< Å
+  ColorScheme color;
+  bool patch_kinds = false;  ///< coloured by kind of patch, whatever the scheme (figure 2 of Krone et al. 2010)
+  Look look;
+  std::size_t frame = 0;  ///< from 0
+  bool playing = false;
+  double frames_per_second = 10.0;  ///< while playing
+  glm::ivec2 size{1024, 768};       ///< of the full picture, in pixels
+  int samples = 4;                  ///< rays per pixel of the full picture
+};
+
+/// A picture while something moves, or at rest.
+enum class Quality {
+  draft,  ///< half the size, one ray a pixel
+  full
+};
+
+/// A command or a reply as one line of text, without a line end; bytes that are no UTF-8 are replaced.
+std::string json_line(const nlohmann::json& json);
+
+/// A molecule, how it is seen, and the renderer that draws it. Needs a current GL context for its whole life, and is
+/// used by one thread.
+class PreviewSession {
+ public:
+  /// Each model of the structure, which has atoms, is a frame. `view` says how it looks at first; without `camera`
+  /// everything is shown. Throws InputError for a bad camera, and as color_atoms does.
+  PreviewSession(Structure structure, PreviewView view, const std::optional<Camera>& camera,
+                 std::filesystem::path export_folder);
+
+  /// Carries out {"command": WORD, ...} and answers {"ok": true, ...} or {"ok": false, "error": "one clear line"};
+  /// after an error nothing has changed. The commands: app/preview/commands.md. Throws GpuError only: then all is lost.
+  nlohmann::json apply(const nlohmann::json& command);
+
+  /// Draws, unless this very picture is there already. Throws GpuError, CapacityError, OpenSurfaceError; but for the
+  /// first of them the session can go on.
+  void render(Quality quality);
+  /// Is the last picture what render(quality) would draw?
+  bool is_drawn(Quality quality) const;
+
+  /// The last picture; see FrameRenderer. A new one may come with render and with apply (pick).
+  std::vector<std::uint8_t> rgba() const { return renderer_.rgba(); }
+  std::uint32_t texture() const { return renderer_.texture(); }
+  glm::ivec2 picture_size() const { return renderer_.size(); }
+
+  /// While playing, a face sends {"command":"next_frame"} at this pace.
+  bool playing() const { return view_.playing; }
+  double frames_per_second() const { return view_.frames_per_second; }
+  /// A command asked to end.
+  bool wants_to_quit() const { return quit_; }
+
+  const PreviewView& view() const { return view_; }
+  const Structure& structure() const { return structure_; }
+  std::size_t frame_count() const { return frames_.size(); }
+
+ private:
+  /// A row of the table of commands.
+  struct Command;
+  static const std::vector<Command>& commands();
+
+  nlohmann::json orbit(const CommandReader& command);
+  nlohmann::json pan(const CommandReader& command);
+  nlohmann::json zoom(const CommandReader& command);
+  nlohmann::json roll(const CommandReader& command);
+  nlohmann::json zoom_to(const CommandReader& command);
+  nlohmann::json reset_view(const CommandReader& command);
+  nlohmann::json set_camera(const CommandReader& command);
+  nlohmann::json set_projection(const CommandReader& command);
+  nlohmann::json set_probe(const CommandReader& command);
+  nlohmann::json set_color(const CommandReader& command);
+  nlohmann::json set_patch_kinds(const CommandReader& command);
+  nlohmann::json set_look(const CommandReader& command);
+  nlohmann::json set_frame(const CommandReader& command);
+  nlohmann::json next_frame(const CommandReader& command);
+  nlohmann::json play(const CommandReader& command);
+  nlohmann::json pause(const CommandReader& command);
+  nlohmann::json resize(const CommandReader& command);
+  nlohmann::json set_samples(const CommandReader& command);
+  nlohmann::json pick(const CommandReader& command);
+  nlohmann::json export_view(const CommandReader& command);
+  nlohmann::json stats(const CommandReader& command);
+  nlohmann::json state(const CommandReader& command);
+  nlohmann::json quit(const CommandReader& command);
+
+  nlohmann::json carry_out(const nlohmann::json& command);
+  void look_from(const Camera& camera);
+  void show_frame(std::size_t frame);
+  Coloring frame_coloring() const;
+  double aspect() const { return static_cast<double>(view_.size.x) / view_.size.y; }
+  FrameRequest request(Quality quality) const;
+
+  /// What of the session the last picture shows. No quality: one made for picking.
+  struct Drawn {
+    std::uint64_t revision = 0;
+    std::optional<Quality> quality;
+    bool full_size = false;
+  };
+  void draw(const FrameRequest& request, const Drawn& what);
+
+  Structure structure_;
+  std::vector<AtomGroup> frames_;
+  PreviewView view_;
+  std::filesystem::path export_folder_;
+  std::vector<Ball> balls_;  ///< of the frame shown
+  Coloring coloring_;        ///< of all atoms of the structure
+  FrameRenderer renderer_;
+  ExposedAreas areas_;
+  std::uint64_t revision_ = 1;  ///< grows with every change
+  Drawn drawn_;
+  double frame_ms_ = 0.0;  ///< of the last picture
+  bool quit_ = false;
+};
+
+}  // namespace meniscus

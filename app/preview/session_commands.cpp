@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The commands that change what is seen, and the table of all.
+#include <algorithm>
+#include <array>
+#include <new>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "app/molecule_options.h"
+#include "app/preview/camera_motion.h"
+#include "app/preview/command_reader.h"
+#include "app/preview/look_json.h"
+#include "app/preview/session.h"
+#include "core/base/error.h"
+#include "core/base/text.h"
+
+namespace meniscus {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr double kLongestDrag = 100.0;  // heights of the picture
+constexpr int kLongestSide = 8192;      // pixels; a GL texture holds it on all hardware of GL 4.5
+constexpr int kMostSamples = 64;
+
+glm::dvec2 drag_of(const CommandReader& command) {
+  return {command.number("dx", -kLongestDrag, kLongestDrag), command.number("dy", -kLongestDrag, kLongestDrag)};
+}
+
+ColorScheme color_of(const CommandReader& command, const NumberFile& file) {
+  const std::string word = command.text("scheme");
+  const std::optional<ColorScheme> scheme = parse_color_scheme(word);
+  if (!scheme) throw RequestError("color: " + in_quotes(word) + " is none of " + color_scheme_words());
+  ColorScheme color = *scheme;
+  if (color.by == ColorScheme::By::component)
+    throw RequestError("color: parts of the surface have no atoms of their own; use meniscus render --color component");
+  if (color.by == ColorScheme::By::file && file.numbers.empty())
+    throw RequestError("color: \"file\" needs numbers; begin the preview with --color-by-file FILE");
+  color.file = file;
+  if (!command.has("map")) return color;
+  color.map = parse_color_map(command.text("map"));
+  if (!color.map) throw RequestError("color: " + in_quotes(command.text("map")) + " is no map; see meniscus colors");
+  if (!color.has_scale()) throw RequestError("color: \"map\" is for colours by a number, not " + in_quotes(word));
+  return color;
+}
+
+}  // namespace
+
+struct PreviewSession::Command {
+  std::string_view word;
+  std::vector<std::string_view> keys;
+  Json (PreviewSession::*run)(const CommandReader&);
+  bool changes_picture;
+};
+
+const std::vector<PreviewSession::Command>& PreviewSession::commands() {
+  using S = PreviewSession;
+  const std::span<const std::string_view> look = look_keys();
+  static const std::vector<Command> table{
+      {"orbit", {"dx", "dy"}, &S::orbit, true},
+      {"pan", {"dx", "dy"}, &S::pan, true},
+      {"zoom", {"factor"}, &S::zoom, true},
+      {"roll", {"degrees"}, &S::roll, true},
+      {"zoom_to", {"selection"}, &S::zoom_to, true},
+      {"reset_view", {}, &S::reset_view, true},
+      {"camera", {"camera"}, &S::set_camera, true},
+      {"projection", {"projection"}, &S::set_projection, true},
+      {"probe", {"radius"}, &S::set_probe, true},
+      {"color", {"scheme", "map"}, &S::set_color, true},
+      {"patch_kinds", {"on"}, &S::set_patch_kinds, true},
+      {"look", {look.begin(), look.end()}, &S::set_look, true},
+      {"frame", {"index"}, &S::set_frame, true},
+      {"next_frame", {}, &S::next_frame, true},
+      {"play", {"fps"}, &S::play, false},
+      {"pause", {}, &S::pause, false},
+      {"resize", {"width", "height"}, &S::resize, true},
+      {"samples", {"count"}, &S::set_samples, true},
+      {"pick", {"x", "y", "wait"}, &S::pick, false},
+      {"export", {"format", "path", "width", "height", "samples", "force"}, &S::export_view, false},
+      {"stats", {}, &S::stats, false},
+      {"state", {}, &S::state, false},
+      {"quit", {}, &S::quit, false},
+  };
+  return table;
+}
+
+Json PreviewSession::apply(const Json& command) {
+  const auto failed = [](const std::string& error) { return Json{{"ok", false}, {"error", escaped(error)}}; };
+  try {
+    return carry_out(command);
+  } catch (const GpuError&) {
+    throw;
+  } catch (const SelectionError& error) {
+    return failed(error.sentence());
+  } catch (const Error& error) {
+    return failed(error.what());
+  } catch (const std::bad_alloc&) {
+    return failed("not enough memory");
+  }
+}
+
+Json PreviewSession::carry_out(const Json& json) {
+  const CommandReader reader(json);
+  const auto command = std::ranges::find(commands(), reader.word(), &Command::word);
+  if (command == commands().end()) {
+    std::string words;
+    for (const Command& known : commands()) words.append(words.empty() ? "" : ", ").append(known.word);
+    throw RequestError(fmt::format("{} is no command; there are {}", in_quotes(reader.word()), words));
+  }
+  reader.expect_only(command->keys);
+  Json reply = (this->*command->run)(reader);
+  if (command->changes_picture) ++revision_;
+  reply["ok"] = true;
+  return reply;
+}
+
+Json PreviewSession::orbit(const CommandReader& command) {
+  look_from(orbited(view_.camera, drag_of(command)));
+  return Json::object();
+}
+
+Json PreviewSession::pan(const CommandReader& command) {
+  look_from(panned(view_.camera, drag_of(command)));
+  return Json::object();
+}
+
+Json PreviewSession::zoom(const CommandReader& command) {
+  look_from(zoomed(view_.camera, command.number("factor", 1e-3, 1e3)));
+  return Json::object();
+}
+
+Json PreviewSession::roll(const CommandReader& command) {
+  look_from(rolled(view_.camera, command.number("degrees", -360.0, 360.0) * (std::numbers::pi / 180.0)));
+  return Json::object();
+}
+
+Json PreviewSession::zoom_to(const CommandReader& command) {
+  const Selection selection = parse_selection(command.text("selection"));
+  std::vector<Atom> atoms;
+  for (const std::uint32_t a : frames_[view_.frame].atoms) atoms.push_back(structure_.atoms[a]);
+  const std::vector<bool> chosen = selection.evaluate(atoms);
+  std::vector<Ball> shown;
+  for (std::size_t n = 0; n < atoms.size(); ++n)
+    if (chosen[n]) shown.push_back(balls_[n]);
+  if (shown.empty()) throw RequestError("zoom_to: no atom of this frame is " + in_quotes(selection.text()));
+  look_from(zoomed_to(view_.camera, shown, balls_, aspect()));
+  return {{"atoms", shown.size()}};
+}
+
+Json PreviewSession::reset_view(const CommandReader&) {
+  look_from(overview(balls_, aspect(), view_.camera.projection));
+  return Json::object();
+}
+
+Json PreviewSession::set_camera(const CommandReader& command) {
+  look_from(parse_camera(json_line(command.value("camera")), "camera"));
+  return Json::object();
+}
+
+Json PreviewSession::set_projection(const CommandReader& command) {
+  const std::size_t word = command.choice("projection", {"perspective", "orthographic"});
+  look_from(projected(view_.camera, word == 0 ? Projection::perspective : Projection::orthographic, balls_));
+  return Json::object();
+}
+
+Json PreviewSession::set_probe(const CommandReader& command) {
+  const double radius = command.number("radius", 0.0, 1e6);
+  const std::string fault = probe_fault(radius);
+  if (!fault.empty()) throw RequestError("probe: " + fault);
+  view_.probe_radius = radius;
+  return Json::object();
+}
+
+Json PreviewSession::set_color(const CommandReader& command) {
+  const ColorScheme color = color_of(command, view_.color.file);
+  coloring_ = color_atoms(structure_, color);
+  view_.color = color;
+  renderer_.set_coloring(frame_coloring());
+  return Json::object();
+}
+
+Json PreviewSession::set_patch_kinds(const CommandReader& command) {
+  view_.patch_kinds = command.flag("on");
+  renderer_.set_coloring(frame_coloring());
+  return Json::object();
+}
+
+Json PreviewSession::set_look(const CommandReader& command) {
+  view_.look = changed_look(view_.look, command);
+  return Json::object();
+}
+
+Json PreviewSession::set_frame(const CommandReader& command) {
+  show_frame(static_cast<std::size_t>(command.integer("index", 0, static_cast<int>(frames_.size()) - 1)));
+  return Json::object();
+}
+
+Json PreviewSession::next_frame(const CommandReader&) {
+  show_frame((view_.frame + 1) % frames_.size());
+  return {{"frame", view_.frame}};
+}
+
+Json PreviewSession::play(const CommandReader& command) {
+  view_.frames_per_second = command.number_or(view_.frames_per_second, "fps", 0.1, 240.0);
+  view_.playing = frames_.size() > 1;
+  return {{"playing", view_.playing}};
+}
+
+Json PreviewSession::pause(const CommandReader&) {
+  view_.playing = false;
+  return Json::object();
+}
+
+Json PreviewSession::resize(const CommandReader& command) {
+  view_.size = {command.integer("width", 16, kLongestSide), command.integer("height", 16, kLongestSide)};
+  return Json::object();
+}
+
+Json PreviewSession::set_samples(const CommandReader& command) {
+  view_.samples = command.integer("count", 1, kMostSamples);
+  return Json::object();
+}
+
+Json PreviewSession::quit(const CommandReader&) {
+  quit_ = true;
+  return Json::object();
+}
+
+}  // namespace meniscus

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The commands that ask: what is under the cursor, how fast it is, what the state is; and exports.
+#include <algorithm>
+#include <cmath>
+
+#include "app/preview/command_reader.h"
+#include "app/preview/look_json.h"
+#include "app/preview/session.h"
+#include "app/preview/view_export.h"
+#include "core/base/text.h"
+#include "core/molecule/radii.h"
+
+namespace meniscus {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr int kLongestExportedSide = 16384;  // pixels
+
+const char* kind_word(PatchKind kind) {
+  constexpr const char* kWords[] = {"convex", "toroidal", "concave"};
+  return kWords[static_cast<std::size_t>(kind)];
+}
+
+Json atom_json(const Atom& atom) {
+  return {{"index", atom.index},
+          {"name", escaped(atom.name)},
+          {"element", atom.element ? element_symbol(atom.element) : ""},
+          {"residue", escaped(atom.residue_name)},
+          {"residue_number", atom.residue_number},
+          {"insertion_code", atom.insertion_code == ' ' ? "" : std::string(1, atom.insertion_code)},
+          {"chain", escaped(atom.chain)},
+          {"model", atom.model},
+          {"place", escaped(atom_place(atom))}};
+}
+
+std::string scheme_word(const ColorScheme& color) {
+  for (const ColorSchemeMetadata& scheme : color_schemes())
+    if (scheme.by == color.by) return std::string(scheme.word);
+  return hex_color(color.fixed);
+}
+
+}  // namespace
+
+Json PreviewSession::pick(const CommandReader& command) {
+  const glm::ivec2 pixel{command.integer("x", 0, view_.size.x - 1), command.integer("y", 0, view_.size.y - 1)};
+  const bool wait = command.flag_or(true, "wait");
+  if (drawn_.revision != revision_ || !drawn_.full_size) {
+    FrameRequest centres = request(Quality::draft);
+    centres.size = view_.size;
+    draw(centres, {revision_, {}, true});
+  }
+  const std::optional<PickedPoint> point = renderer_.pick(pixel);
+  if (!point) return {{"hit", false}};
+  Json reply = atom_json(structure_.atoms[frames_[view_.frame].atoms[point->atom]]);
+  reply["hit"] = true;
+  reply["kind"] = kind_word(point->kind);
+  reply["position"] = {point->position.x, point->position.y, point->position.z};
+  const std::optional<double> area = areas_.of(view_.frame, view_.probe_radius, balls_, point->atom, wait);
+  reply["exposed_area"] = area ? Json(*area) : Json(nullptr);
+  return reply;
+}
+
+Json PreviewSession::export_view(const CommandReader& command) {
+  const std::size_t format = command.choice("format", {"png", "povray", "blender", "camera"});
+  const ExportTarget target{export_path(export_folder_, command.text("path")),
+                            command.flag_or(false, "force") ? Existing::replace : Existing::refuse};
+  ColorScheme color = view_.color;
+  if (view_.patch_kinds) color.by = ColorScheme::By::kind;
+  const Coloring coloring = frame_coloring();
+  const ExportedView view{structure_,
+                          frames_[view_.frame].atoms,
+                          balls_,
+                          coloring,
+                          color,
+                          view_.probe_radius,
+                          view_.camera,
+                          view_.look,
+                          {command.integer_or(view_.size.x, "width", 16, kLongestExportedSide),
+                           command.integer_or(view_.size.y, "height", 16, kLongestExportedSide)},
+                          command.integer_or(view_.samples, "samples", 1, 1024)};
+  Json reply{{"path", target.path.string()}};
+  if (format == 0) export_picture(view, target);
+  if (format == 1) reply["render_with"] = export_povray(view, target);
+  if (format == 2) export_blender(view, target);
+  if (format == 3) export_camera(view, target);
+  return reply;
+}
+
+Json PreviewSession::stats(const CommandReader&) {
+  Json stages = Json::array();
+  for (const StageTime& stage : renderer_.times())
+    stages.push_back({{"name", stage.name}, {"milliseconds", stage.milliseconds}});
+  return {{"frame_milliseconds", frame_ms_},
+          {"fps", frame_ms_ > 0.0 ? 1000.0 / frame_ms_ : 0.0},
+          {"width", renderer_.size().x},
+          {"height", renderer_.size().y},
+          {"stages", stages}};
+}
+
+Json PreviewSession::state(const CommandReader&) {
+  Json color{{"scheme", scheme_word(view_.color)}};
+  if (view_.color.map) color["map"] = map_name(*view_.color.map);
+  return {{"file", escaped(structure_.file)},
+          {"atoms", balls_.size()},
+          {"frame", view_.frame},
+          {"frames", frames_.size()},
+          {"playing", view_.playing},
+          {"fps", view_.frames_per_second},
+          {"camera", Json::parse(camera_json(view_.camera))},
+          {"probe_radius", view_.probe_radius},
+          {"color", color},
+          {"patch_kinds", view_.patch_kinds},
+          {"look", look_json(view_.look)},
+          {"width", view_.size.x},
+          {"height", view_.size.y},
+          {"samples", view_.samples}};
+}
+
+}  // namespace meniscus

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Exports of a view through the code of the commands `render` and `export`.
+#include "app/preview/view_export.h"
+
+#include <algorithm>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "app/blender_attributes.h"
+#include "app/compute.h"
+#include "app/mesh_options.h"
+#include "app/molecule.h"
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/render/image_output.h"
+#include "core/render/ray_caster.h"
+#include "core/surface/surface_object.h"
+#include "exporters/blender/surface_file.h"
+#include "exporters/povray/scene.h"
+
+namespace meniscus {
+namespace {
+
+/// The complete surface, and what computed it.
+std::pair<SurfaceObject, std::string> complete_surface(const ExportedView& view) {
+  ComputeOptions computing;
+  computing.probe_radius = view.probe_radius;
+  computing.cpu = true;
+  ComputedSurface computed = compute_surface(view.balls, computing);
+  SurfaceObject object;
+  object.name = "surface";
+  object.surface = std::move(computed.surface);
+  object.coloring = view.coloring;
+  object.atom = view.atoms;
+  return {std::move(object), std::move(computed.device)};
+}
+
+std::string colors_of(const ExportedView& view) {
+  const std::string names[] = {"surface"};
+  return colors_json(color_key(view.structure, view.color, names));
+}
+
+}  // namespace
+
+void export_picture(const ExportedView& view, const ExportTarget& target) {
+  check_image_path(target.path);
+  OutputFile(target.path, target.existing);  // known to be possible before the work begins
+  const SurfaceObject object = complete_surface(view).first;
+  RayCaster caster;
+  RenderSettings settings;
+  settings.size = view.size;
+  settings.samples = view.samples;
+  const Framebuffer picture = caster.render(object.surface, object.coloring, view.camera, settings);
+  write_image(target.path, picture, {view.look.background, target.existing});
+}
+
+std::string export_povray(const ExportedView& view, const ExportTarget& target) {
+  povray::SceneOptions options;
+  options.width = view.size.x;
+  options.height = view.size.y;
+  options.background = view.look.background;
+  options.existing = target.existing;
+  options.colors = colors_of(view);
+  const SurfaceObject objects[] = {complete_surface(view).first};
+  return write_scene(objects, view.camera, options, target.path).command;
+}
+
+void export_blender(const ExportedView& view, const ExportTarget& target) {
+  OutputFile(target.path, target.existing);
+  const auto [object, device] = complete_surface(view);
+  MoleculeOptions silent;
+  silent.quiet = true;
+  std::vector<TriangleMesh> meshes = meshes_of(silent, std::span(&object, 1), MeshCommandOptions{}.tolerance);
+  const blender::MeshedObject objects[] = {
+      {object, std::move(meshes.front()), blender_attributes(view.structure, object.atom)}};
+  const blender::Provenance provenance{std::filesystem::path(view.structure.file).filename().string(),
+                                       view.structure.radii_set, device, colors_of(view)};
+  write_objects(target.path.string(), target.existing, objects, blender::Shot{view.camera, view.size.x, view.size.y},
+                provenance);
+}
+
+void export_camera(const ExportedView& view, const ExportTarget& target) {
+  OutputFile file(target.path, target.existing);
+  file.write(camera_json(view.camera));
+  file.commit();
+}
+
+std::filesystem::path export_path(const std::filesystem::path& folder, const std::string& name) {
+  constexpr std::string_view kLetters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789._-";
+  constexpr std::size_t kLongest = 100;
+  if (name.empty() || name.size() > kLongest || name[0] == '.' || name[0] == '-' ||
+      name.find_first_not_of(kLetters) != std::string::npos) {
+    throw RequestError(fmt::format(
+        "export: \"path\" is {}; it must be a plain file name of letters, digits, '.', '_' and '-', such as view.png",
+        in_quotes(name)));
+  }
+  return folder / name;
+}
+
+}  // namespace meniscus

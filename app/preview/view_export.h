@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// "Export this view": what a preview shows as a picture, a scene, a file for Blender, or a camera.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <glm/vec2.hpp>
+
+#include "core/base/output_file.h"
+#include "core/molecule/color_schemes.h"
+#include "core/molecule/structure.h"
+#include "core/render/camera.h"
+#include "core/render/look.h"
+#include "core/surface/coloring.h"
+
+namespace meniscus {
+
+/// A view to be exported. References live longer than the call.
+struct ExportedView {
+  const Structure& structure;
+  const std::vector<std::uint32_t>& atoms;  ///< those shown, into structure.atoms
+  const std::vector<Ball>& balls;           ///< theirs
+  const Coloring& coloring;                 ///< theirs
+  const ColorScheme& color;                 ///< what the colours mean
+  double probe_radius;                      ///< Å
+  const Camera& camera;
+  const Look& look;
+  glm::ivec2 size;  ///< pixels
+  int samples;      ///< rays per pixel
+};
+
+/// Where it goes.
+struct ExportTarget {
+  std::filesystem::path path;
+  Existing existing = Existing::refuse;
+};
+
+/// As `meniscus render`: the complete surface, ray cast; .png, .tif or .exr. Needs a current GL context.
+/// Throws OutputError, OpenSurfaceError, CapacityError, GpuError; so do the others, but for the last.
+void export_picture(const ExportedView& view, const ExportTarget& target);
+
+/// As `meniscus export povray`; returns the command that renders it.
+std::string export_povray(const ExportedView& view, const ExportTarget& target);
+
+/// As `meniscus export blender`.
+void export_blender(const ExportedView& view, const ExportTarget& target);
+
+/// As `meniscus render --save-camera`.
+void export_camera(const ExportedView& view, const ExportTarget& target);
+
+/// The path in `folder` of a file with this plain name: letters, digits, '.', '_' and '-', the first no '.' or '-', at
+/// most 100 of them. Throws RequestError.
+std::filesystem::path export_path(const std::filesystem::path& folder, const std::string& name);
+
+}  // namespace meniscus

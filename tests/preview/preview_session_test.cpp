@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Commands of a preview session: what they answer, what they change, and that a bad one changes nothing.
+#include "app/preview/session.h"
+
+#include <cmath>
+#include <memory>
+#include <numbers>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include "core/gpu/egl_context.h"
+#include "core/molecule/read_structure.h"
+#include "core/reference/exhaustive.h"
+#include "core/surface/atom_areas.h"
+#include "core/surface/surface.h"
+#include "tests/support/run_program.h"
+
+namespace meniscus::test {
+namespace {
+
+using Json = nlohmann::json;
+
+// Two models; the oxygen moves. Columns of PDB.
+constexpr std::string_view kTwoModels = R"(MODEL        1
+ATOM      1  N   ALA A   1       0.000   0.000   0.000  1.00 10.00           N
+ATOM      2  CA  ALA A   1       1.458   0.000   0.000  1.00 20.00           C
+ATOM      3  C   ALA A   1       2.009   1.420   0.000  1.00 30.00           C
+ATOM      4  O   ALA B   2       1.251   2.390   0.000  1.00 40.00           O
+ENDMDL
+MODEL        2
+ATOM      1  N   ALA A   1       0.000   0.000   0.000  1.00 10.00           N
+ATOM      2  CA  ALA A   1       1.458   0.000   0.000  1.00 20.00           C
+ATOM      3  C   ALA A   1       2.009   1.420   0.000  1.00 30.00           C
+ATOM      4  O   ALA B   2       5.251   5.390   0.000  1.00 40.00           O
+ENDMDL
+END
+)";
+
+class PreviewSessionTest : public ::testing::Test {
+ protected:
+  PreviewSessionTest() {
+    ReadOptions reading;
+    reading.model.all = true;
+    PreviewView view;
+    view.size = {80, 60};
+    session_ = std::make_unique<PreviewSession>(read_structure(folder_.file("two.pdb", kTwoModels), reading), view,
+                                                std::nullopt, folder_.path());
+  }
+
+  Json apply(const std::string& command) { return session_->apply(Json::parse(command)); }
+  Json state() { return apply(R"({"command":"state"})"); }
+  void expect_ok(const std::string& command) {
+    const Json reply = apply(command);
+    EXPECT_TRUE(reply["ok"]) << command << " -> " << reply;
+  }
+
+  TemporaryFolder folder_;
+  EglContext context_;
+  std::unique_ptr<PreviewSession> session_;
+};
+
+TEST_F(PreviewSessionTest, BadCommandsAreAnsweredAndChangeNothing) {
+  const Json before = state();
+  for (const char* command : {
+           R"(7)",
+           R"([])",
+           R"({})",
+           R"({"command":3})",
+           R"({"command":"fly"})",
+           R"({"command":"orbit","dx":1})",
+           R"({"command":"orbit","dx":"a","dy":0})",
+           R"({"command":"orbit","dx":1e9,"dy":0})",
+           R"({"command":"orbit","dx":0,"dy":0,"dz":0})",
+           R"({"command":"zoom","factor":0})",
+           R"({"command":"zoom_to","selection":"chain Z"})",
+           R"({"command":"zoom_to","selection":"chain ("})",
+           R"({"command":"camera","camera":{"position":[0,0,0]}})",
+           R"({"command":"projection","projection":"fish"})",
+           R"({"command":"probe","radius":-1})",
+           R"({"command":"probe","radius":101})",
+           R"({"command":"probe","radius":1e-9})",
+           R"({"command":"probe","radius":null})",
+           R"({"command":"color","scheme":"rainbow"})",
+           R"({"command":"color","scheme":"component"})",
+           R"({"command":"color","scheme":"file"})",
+           R"({"command":"color","scheme":"charge"})",
+           R"({"command":"color","scheme":"chain","map":"viridis"})",
+           R"({"command":"color","scheme":"bfactor","map":"jet"})",
+           R"({"command":"look","background":"#12"})",
+           R"({"command":"look","glow":1})",
+           R"({"command":"frame","index":2})",
+           R"({"command":"frame","index":0.5})",
+           R"({"command":"resize","width":80,"height":100000})",
+           R"({"command":"pick","x":80,"y":0})",
+           R"({"command":"export","format":"png","path":"../x.png"})",
+           R"({"command":"export","format":"png","path":".x.png"})",
+           R"({"command":"export","format":"stl","path":"x.stl"})",
+           R"({"command":"export","format":"png","path":"x.gif"})",
+           R"({"command":"play","fps":0})",
+       }) {
+    const Json reply = apply(command);
+    EXPECT_FALSE(reply["ok"]) << command;
+    const std::string error = reply.value("error", "");
+    EXPECT_GT(error.size(), 10u) << command;
+    EXPECT_EQ(error.find('\n'), std::string::npos) << command;
+  }
+  EXPECT_EQ(state(), before);
+  EXPECT_EQ(folder_.entries(), std::vector<std::string>{"two.pdb"});
+}
+
+TEST_F(PreviewSessionTest, EveryModelIsAFrame) {
+  EXPECT_EQ(state()["frames"], 2);
+  session_->render(Quality::full);
+  const auto first = session_->rgba();
+  expect_ok(R"({"command":"frame","index":1})");
+  EXPECT_FALSE(session_->is_drawn(Quality::full));
+  session_->render(Quality::full);
+  EXPECT_NE(session_->rgba(), first);
+  EXPECT_EQ(apply(R"({"command":"next_frame"})")["frame"], 0);
+  session_->render(Quality::full);
+  EXPECT_EQ(session_->rgba(), first);
+}
+
+TEST_F(PreviewSessionTest, DraftsAreHalfTheSize) {
+  session_->render(Quality::draft);
+  EXPECT_EQ(session_->picture_size(), glm::ivec2(40, 30));
+  EXPECT_TRUE(session_->is_drawn(Quality::draft));
+  EXPECT_FALSE(session_->is_drawn(Quality::full));
+  session_->render(Quality::full);
+  EXPECT_EQ(session_->picture_size(), glm::ivec2(80, 60));
+  EXPECT_EQ(session_->rgba().size(), 80u * 60 * 4);
+  EXPECT_GT(apply(R"({"command":"stats"})")["fps"], 0.0);
+}
+
+TEST_F(PreviewSessionTest, APickNamesTheAtomAndItsExactArea) {
+  expect_ok(R"({"command":"zoom_to","selection":"name O"})");
+  const Json reply = apply(R"({"command":"pick","x":40,"y":30})");
+  ASSERT_TRUE(reply["hit"]) << reply;
+  EXPECT_EQ(reply["name"], "O");
+  EXPECT_EQ(reply["element"], "O");
+  EXPECT_EQ(reply["chain"], "B");
+  EXPECT_EQ(reply["residue_number"], 2);
+  EXPECT_EQ(reply["kind"], "convex");
+  std::vector<Ball> balls = balls_of(session_->structure());
+  balls.resize(4);
+  EXPECT_EQ(reply["exposed_area"].get<double>(), atom_areas(compute_surface_cpu(balls, 1.4)).surface[3]);
+  const glm::dvec3 position{reply["position"][0], reply["position"][1], reply["position"][2]};
+  EXPECT_NEAR(glm::length(position - balls[3].center), balls[3].radius, 1e-4);
+  expect_ok(R"({"command":"reset_view"})");
+  EXPECT_FALSE(apply(R"({"command":"pick","x":0,"y":0})")["hit"]);
+}
+
+TEST_F(PreviewSessionTest, APickDoesNotPassForThePicture) {
+  session_->render(Quality::full);
+  const auto picture = session_->rgba();
+  expect_ok(R"({"command":"orbit","dx":0.3,"dy":0})");
+  expect_ok(R"({"command":"pick","x":40,"y":30})");
+  expect_ok(R"({"command":"orbit","dx":-0.3,"dy":0})");
+  EXPECT_FALSE(session_->is_drawn(Quality::full));
+  session_->render(Quality::full);
+  EXPECT_EQ(session_->rgba().size(), picture.size());
+}
+
+TEST_F(PreviewSessionTest, AnAreaThatIsNotWaitedForComesLater) {
+  const Json first = apply(R"({"command":"pick","x":40,"y":30,"wait":false})");
+  ASSERT_TRUE(first["hit"]);
+  EXPECT_TRUE(first["exposed_area"].is_null());
+  const Json later = apply(R"({"command":"pick","x":40,"y":30})");
+  EXPECT_GT(later["exposed_area"], 0.0);
+  EXPECT_EQ(apply(R"({"command":"pick","x":40,"y":30,"wait":false})"), later);
+}
+
+TEST_F(PreviewSessionTest, PatchKindsColourWhateverTheSchemeIs) {
+  expect_ok(R"({"command":"color","scheme":"#ff0000"})");
+  expect_ok(R"({"command":"patch_kinds","on":true})");
+  session_->render(Quality::full);
+  const auto kinds = session_->rgba();
+  expect_ok(R"({"command":"patch_kinds","on":false})");
+  expect_ok(R"({"command":"color","scheme":"kind"})");
+  session_->render(Quality::full);
+  EXPECT_EQ(session_->rgba(), kinds);
+  expect_ok(R"({"command":"color","scheme":"bfactor","map":"magma"})");
+  EXPECT_EQ(state()["color"], Json::parse(R"({"scheme":"bfactor","map":"magma"})"));
+}
+
+TEST_F(PreviewSessionTest, ACameraComesBackAsItWas) {
+  expect_ok(R"({"command":"orbit","dx":0.123,"dy":0.0456})");
+  const Json camera = state()["camera"];
+  expect_ok(R"({"command":"reset_view"})");
+  EXPECT_NE(state()["camera"], camera);
+  session_->apply({{"command", "camera"}, {"camera", camera}});
+  EXPECT_EQ(state()["camera"], camera);
+}
+
+TEST_F(PreviewSessionTest, ExportsAreWholeAndReplaceNothing) {
+  const std::string png = R"({"command":"export","format":"png","path":"view.png","width":50,"height":40)";
+  expect_ok(png + "}");
+  EXPECT_EQ(apply(png + "}")["ok"], false);
+  expect_ok(png + R"(,"force":true})");
+  expect_ok(R"({"command":"export","format":"camera","path":"view.json"})");
+  expect_ok(R"({"command":"export","format":"blender","path":"view.mns"})");
+  const Json povray = apply(R"({"command":"export","format":"povray","path":"scene"})");
+  ASSERT_TRUE(povray["ok"]) << povray;
+  EXPECT_NE(povray["render_with"].get<std::string>().find("povray"), std::string::npos);
+  EXPECT_EQ(folder_.entries(), (std::vector<std::string>{"scene", "two.pdb", "view.json", "view.mns", "view.png"}));
+  EXPECT_EQ(Json::parse(read_bytes(folder_.path() / "view.json")), state()["camera"]);
+}
+
+TEST_F(PreviewSessionTest, PlaysOnlyWhatHasFrames) {
+  EXPECT_EQ(apply(R"({"command":"play","fps":25})")["playing"], true);
+  EXPECT_TRUE(session_->playing());
+  EXPECT_EQ(session_->frames_per_second(), 25.0);
+  expect_ok(R"({"command":"pause"})");
+  EXPECT_FALSE(session_->playing());
+  EXPECT_FALSE(session_->wants_to_quit());
+  expect_ok(R"({"command":"quit"})");
+  EXPECT_TRUE(session_->wants_to_quit());
+}
+
+}  // namespace
+}  // namespace meniscus::test
