@@ -54,6 +54,9 @@ class Program {
   std::uint32_t name_ = 0;
 };
 
+/// Groups of 64 invocations, the usual local size of a kernel.
+constexpr std::size_t group_count(std::size_t invocations) { return (invocations + 63) / 64; }
+
 /// Compiles each pair of path and defines once.
 class ProgramCache {
  public:

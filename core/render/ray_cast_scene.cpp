@@ -39,7 +39,6 @@ class Packer {
       for (std::uint32_t i = 0; i < s.toroidal.size(); ++i) pack(s.toroidal[i], i);
       for (std::uint32_t i = 0; i < s.concave.size(); ++i) pack(s.concave[i], i);
     }
-    std::ranges::stable_sort(scene_.primitives, {}, &Primitive::nearest);
   }
 
  private:
@@ -73,6 +72,20 @@ class Packer {
     return std::ranges::none_of(atoms, [&](std::uint32_t a) { return coloring_.shows(a); });
   }
 
+  std::uint32_t tie_key(const ConcavePatch& patch) const {
+    std::vector<std::uint32_t> contacts(surface_.contacts.begin() + patch.first_contact,
+                                        surface_.contacts.begin() + patch.first_contact + patch.contact_count);
+    std::ranges::rotate(contacts, std::ranges::min_element(contacts));
+    return std::accumulate(contacts.begin(), contacts.end(), 0u, ray_cast::add_to_key);
+  }
+
+  std::uint32_t tie_key(const ToroidalPatch& patch) const {
+    std::uint32_t key = ray_cast::add_to_key(ray_cast::add_to_key(0, patch.atom[0]), patch.atom[1]);
+    if (!patch.free())
+      for (const std::uint32_t probe : patch.probe) key = ray_cast::add_to_key(key, tie_key(surface_.concave[probe]));
+    return key;
+  }
+
   void pack(const ConvexPatch& patch, std::uint32_t index) {
     if (!coloring_.shows(patch.atom)) return;
     const Ball& ball = surface_.atoms[patch.atom];
@@ -86,7 +99,7 @@ class Packer {
     Primitive primitive{};
     if (!begin(bound, PatchKind::convex, index, primitive)) return;
     primitive.plane_count = patch.plane_count;
-    primitive.atom = patch.atom;
+    primitive.atom = primitive.tie_key = patch.atom;
     add_row(ball.center - frame_.pivot, ball.radius);
     add_planes(patch.first_plane, patch.plane_count, ball.center);
     scene_.primitives.push_back(primitive);
@@ -109,6 +122,7 @@ class Packer {
     primitive.plane_count = patch.free() ? 0 : patch.sweep <= std::numbers::pi ? 1 : 2;
     primitive.atom = patch.atom[0];
     primitive.second_atom = patch.atom[1];
+    primitive.tie_key = tie_key(patch);
     add_row(patch.center - frame_.pivot, patch.radius);
     add_row(patch.start, cosine);
     add_row(patch.axis, sine);
@@ -141,6 +155,7 @@ class Packer {
     if (!begin(bound, PatchKind::concave, index, primitive)) return;
     primitive.plane_count = patch.plane_count();
     primitive.atom = patch.contact_count;
+    primitive.tie_key = tie_key(patch);
     add_row(patch.center - frame_.pivot, p);
     add_planes(patch.first_plane, primitive.plane_count, patch.center);
     for (std::uint32_t i = 0; i < patch.contact_count; ++i)
@@ -185,6 +200,17 @@ RayCastScene pack_scene(const Surface& surface, const Coloring& coloring, const 
   RayCastScene scene;
   Packer(surface, coloring, frame, scene).pack();
   return scene;
+}
+
+void upload_scene(const RayCastScene& packed, const Surface& surface, GpuScene& scene) {
+  scene.primitives.upload(packed.primitives);
+  scene.rows.upload(packed.rows);
+  scene.primitive_count = static_cast<std::uint32_t>(packed.primitives.size());
+  scene.slack = packed.slack;
+  scene.probe_radius = surface.probe_radius;
+  const auto [first, last] = std::ranges::minmax_element(packed.primitives, {}, &Primitive::nearest);
+  scene.first_depth = packed.primitives.empty() ? 0.0f : first->nearest;
+  scene.last_depth = packed.primitives.empty() ? 0.0f : last->nearest;
 }
 
 }  // namespace meniscus

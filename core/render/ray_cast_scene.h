@@ -11,6 +11,7 @@
 #include <glm/vec4.hpp>
 
 #include "core/render/camera.h"
+#include "core/render/gpu_scene.h"
 #include "core/surface/coloring.h"
 #include "core/surface/primitives.h"
 
@@ -22,6 +23,9 @@ using glm::vec3;
 using glm::vec4;
 using uint = std::uint32_t;
 #include "gpu_shaders/ray_cast/records.glsl"
+#define GEOMETRY inline
+#include "gpu_shaders/ray_cast/tie_key.glsl"
+#undef GEOMETRY
 static_assert(sizeof(Primitive) == 48 && sizeof(Hit) == 32, "std430 has these sizes");
 }  // namespace ray_cast
 
@@ -38,8 +42,7 @@ struct PictureFrame {
 /// Throws nothing; the camera must be valid.
 PictureFrame make_picture_frame(const Surface& surface, const Camera& camera, glm::ivec2 size);
 
-/// What the kernel reads. Primitives are sorted by `nearest`, then by kind and index; those behind the camera are left
-/// out.
+/// What the kernel reads. Primitives stand by kind and index; those behind the camera are left out.
 struct RayCastScene {
   std::vector<ray_cast::Primitive> primitives;
   std::vector<glm::vec4> rows;
@@ -49,17 +52,7 @@ struct RayCastScene {
 /// Patches that touch hidden atoms only are left out.
 RayCastScene pack_scene(const Surface& surface, const Coloring& coloring, const PictureFrame& frame);
 
-/// For each tile of 16 x 16 pixels of one block of the picture: which primitives may show in it, nearest first.
-struct TileLists {
-  glm::ivec2 tiles{0};                     ///< columns, rows
-  std::vector<std::uint32_t> first_entry;  ///< one more than tiles
-  std::vector<std::uint32_t> entries;      ///< indices of primitives, ascending within a tile
-};
-
-inline constexpr int kTileEdge = 16;
-
-/// block_origin, block_size: pixels of the block. A tile's list covers all rays through any place of its pixels.
-TileLists bin_primitives(const RayCastScene& scene, const PictureFrame& frame, glm::ivec2 block_origin,
-                         glm::ivec2 block_size);
+/// Everything of `scene` on the GPU but the colours.
+void upload_scene(const RayCastScene& packed, const Surface& surface, GpuScene& scene);
 
 }  // namespace meniscus

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The host's side of ray casting: pack, bin, dispatch block by block, collect.
+// The host's side of ray casting: pack, dispatch block by block, collect.
 #include "core/render/ray_caster.h"
 
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <limits>
-#include <optional>
+#include <utility>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -14,8 +14,6 @@
 
 #include "core/gpu/gpu_stage.h"
 #include "core/gpu/limits.h"
-#include "core/gpu/texel_buffer.h"
-#include "core/render/color_space.h"
 #include "core/render/component_lookup.h"
 #include "core/render/ray_cast_scene.h"
 
@@ -26,17 +24,6 @@ namespace {
 glm::vec2 sample_offset(int index) {
   const double x = 0.5 + index * 0.7548776662466927, y = 0.5 + index * 0.5698402909980532;
   return {static_cast<float>(x - std::floor(x) - 0.5), static_cast<float>(y - std::floor(y) - 0.5)};
-}
-
-std::vector<glm::vec4> linear_colors(const Surface& surface, const Coloring& coloring) {
-  assert(coloring.atom.size() == surface.atoms.size());
-  std::vector<glm::vec4> colors;
-  colors.reserve(surface.atoms.size() + 3);
-  for (std::uint32_t a = 0; a < surface.atoms.size(); ++a)
-    colors.emplace_back(linear_from_srgb(coloring.atom[a]), coloring.shows(a) ? 1.0f : 0.0f);
-  if (coloring.kind)
-    for (const glm::vec3& color : *coloring.kind) colors.emplace_back(linear_from_srgb(color), 1.0f);
-  return colors;
 }
 
 /// The largest block whose buffers the driver can hold, in whole tiles.
@@ -59,16 +46,14 @@ void resize(Framebuffer& picture, const RenderSettings& settings) {
   picture.component.assign(count, kNone);
 }
 
-using Block = RayCaster::Block;
-
-void copy_colors(const Block& block, const std::vector<glm::vec4>& sums, float scale, Framebuffer& picture) {
+void copy_colors(const PictureBlock& block, const std::vector<glm::vec4>& sums, float scale, Framebuffer& picture) {
   for (int y = 0; y < block.size.y; ++y)
     for (int x = 0; x < block.size.x; ++x)
       picture.color[static_cast<std::size_t>(block.origin.y + y) * picture.size.x + block.origin.x + x] =
           sums[static_cast<std::size_t>(y) * block.size.x + x] * scale;
 }
 
-void copy_hits(const Block& block, const std::vector<ray_cast::Hit>& hits, const RayCastScene& scene,
+void copy_hits(const PictureBlock& block, const std::vector<ray_cast::Hit>& hits, const RayCastScene& scene,
                const PictureFrame& frame, const ComponentLookup& components, Framebuffer& picture) {
   tbb::parallel_for(0, block.size.y, [&](int y) {
     for (int x = 0; x < block.size.x; ++x) {
@@ -94,93 +79,78 @@ void copy_hits(const Block& block, const std::vector<ray_cast::Hit>& hits, const
 
 }  // namespace
 
-struct RayCaster::Buffers {
-  TexelBuffer primitives{TexelFormat::uint4}, rows{TexelFormat::uint4};
-  TexelBuffer first_entry{TexelFormat::uint1}, entries{TexelFormat::uint1};
-  Buffer colors, picture, hits;
-
-  void bind() const {
-    std::uint32_t unit = 0, binding = 0;
-    for (const TexelBuffer* buffer : {&primitives, &rows, &first_entry, &entries}) buffer->bind(unit++);
-    for (const Buffer* buffer : {&colors, &picture, &hits}) buffer->bind(binding++);
-  }
+/// What render() makes of each block.
+struct RayCaster::Collected {
+  const RenderSettings& settings;
+  const RayCastScene& packed;
+  const ComponentLookup components;
+  Framebuffer picture;
 };
-
-RayCaster::RayCaster() : program_("gpu_shaders/ray_cast/ray_cast.comp"), buffers_(std::make_unique<Buffers>()) {}
-
-RayCaster::~RayCaster() = default;
 
 Framebuffer RayCaster::render(const Surface& surface, const Coloring& coloring, const Camera& camera,
                               const RenderSettings& settings) {
   assert(settings.size.x > 0 && settings.size.y > 0 && settings.samples > 0);
+  assert(coloring.atom.size() == surface.atoms.size());
   validate_camera(camera, "camera");
   clock_.restart();
   const PictureFrame frame = make_picture_frame(surface, camera, settings.size);
-  const RayCastScene scene = upload_scene(surface, coloring, frame);
-  set_uniforms(surface, coloring, frame, scene);
-
-  Framebuffer picture;
-  resize(picture, settings);
-  std::optional<ComponentLookup> components;
-  if (settings.aovs) components.emplace(surface);
-  const int edge = usable_block_edge(settings.block_edge);
-  for (int top = 0; top < settings.size.y; top += edge) {
-    for (int left = 0; left < settings.size.x; left += edge) {
-      const Block block{{left, top}, glm::min(glm::ivec2(edge), settings.size - glm::ivec2(left, top))};
-      cast_block(scene, frame, block, settings.samples);
-      const std::size_t count = static_cast<std::size_t>(block.size.x) * block.size.y;
-      copy_colors(block, buffers_->picture.download<glm::vec4>(count), 1.0f / static_cast<float>(settings.samples),
-                  picture);
-      if (settings.aovs)
-        copy_hits(block, buffers_->hits.download<ray_cast::Hit>(count), scene, frame, *components, picture);
-    }
+  RayCastScene packed;
+  {
+    const GpuStage stage(clock_, "pack");
+    packed = pack_scene(surface, coloring, frame);
+    upload_scene(packed, surface, scene_);
+    upload_coloring(coloring, scene_);
   }
-  return picture;
+  Collected collected{settings, packed, ComponentLookup(surface), {}};
+  resize(collected.picture, settings);
+  const int edge = usable_block_edge(settings.block_edge);
+  for (int top = 0; top < settings.size.y; top += edge)
+    for (int left = 0; left < settings.size.x; left += edge)
+      render_block(frame, {{left, top}, glm::min(glm::ivec2(edge), settings.size - glm::ivec2(left, top))}, collected);
+  return std::move(collected.picture);
 }
 
-RayCastScene RayCaster::upload_scene(const Surface& surface, const Coloring& coloring, const PictureFrame& frame) {
-  const GpuStage stage(clock_, "pack");
-  RayCastScene scene = pack_scene(surface, coloring, frame);
-  buffers_->primitives.upload(scene.primitives);
-  buffers_->rows.upload(scene.rows);
-  buffers_->colors.upload(linear_colors(surface, coloring));
-  return scene;
-}
-
-void RayCaster::set_uniforms(const Surface& surface, const Coloring& coloring, const PictureFrame& frame,
-                             const RayCastScene& scene) const {
-  program_.set("probe_radius", static_cast<float>(surface.probe_radius));
-  program_.set("slack", scene.slack);
-  program_.set("pixel_size", static_cast<float>(frame.pixel_size));
-  program_.set("eye_distance", static_cast<float>(frame.eye_distance));
-  program_.set("orthographic", frame.camera.projection == Projection::orthographic ? 1u : 0u);
-  program_.set("right", glm::vec3(frame.basis.right));
-  program_.set("up", glm::vec3(frame.basis.up));
-  program_.set("forward", glm::vec3(frame.basis.forward));
-  program_.set("color_by_kind", coloring.kind ? 1u : 0u);
-  program_.set("atom_count", static_cast<std::uint32_t>(surface.atoms.size()));
-  program_.set("some_hidden", std::ranges::find(coloring.hidden, true) != coloring.hidden.end() ? 1u : 0u);
-}
-
-void RayCaster::cast_block(const RayCastScene& scene, const PictureFrame& frame, const Block& block, int sample_count) {
+void RayCaster::render_block(const PictureFrame& frame, const PictureBlock& block, Collected& collected) {
+  const RenderSettings& settings = collected.settings;
+  cast(scene_, frame, block, settings.samples);
   const std::size_t count = static_cast<std::size_t>(block.size.x) * block.size.y;
-  TileLists lists;
+  copy_colors(block, picture_.download<glm::vec4>(count), 1.0f / static_cast<float>(settings.samples),
+              collected.picture);
+  if (settings.aovs)
+    copy_hits(block, hits_.download<ray_cast::Hit>(count), collected.packed, frame, collected.components,
+              collected.picture);
+}
+
+void RayCaster::cast(const GpuScene& scene, const PictureFrame& frame, const PictureBlock& block, int sample_count) {
   {
     const GpuStage stage(clock_, "tile lists");
-    lists = bin_primitives(scene, frame, block.origin, block.size);
-    buffers_->first_entry.upload(lists.first_entry);
-    buffers_->entries.upload(lists.entries);
+    lists_.build(scene, frame, block);
   }
   const GpuStage stage(clock_, "ray cast");
-  buffers_->picture.resize(count * sizeof(glm::vec4));
-  buffers_->hits.resize(count * sizeof(ray_cast::Hit));
-  buffers_->bind();
-  program_.set("size", block.size);
-  program_.set("first_offset", glm::vec2(glm::dvec2(block.origin) + 0.5 - 0.5 * glm::dvec2(frame.size)));
+  const std::size_t count = static_cast<std::size_t>(block.size.x) * block.size.y;
+  picture_.resize(count * sizeof(glm::vec4));
+  hits_.resize(count * sizeof(ray_cast::Hit));
+  const Program& program = programs_.get("gpu_shaders/ray_cast/ray_cast.comp");
+  lists_.bind(0, 2, 3);
+  row_texels_.view(scene.rows);
+  row_texels_.bind(1);
+  std::uint32_t binding = 0;
+  for (const Buffer* buffer : {&scene.colors, &std::as_const(picture_), &std::as_const(hits_)})
+    buffer->bind(binding++);
+  program.set("probe_radius", static_cast<float>(scene.probe_radius));
+  program.set("slack", scene.slack);
+  program.set("pixel_size", static_cast<float>(frame.pixel_size));
+  set_view(program, frame);
+  set_depth_slices(program, scene);
+  program.set("color_by_kind", scene.color_by_kind ? 1u : 0u);
+  program.set("atom_count", scene.atom_count);
+  program.set("some_hidden", scene.some_hidden ? 1u : 0u);
+  program.set("size", block.size);
+  program.set("first_offset", glm::vec2(glm::dvec2(block.origin) + 0.5 - 0.5 * glm::dvec2(frame.size)));
   for (int sample = 0; sample < sample_count; ++sample) {
-    program_.set("sample_index", static_cast<std::uint32_t>(sample));
-    program_.set("sample_offset", sample_offset(sample));
-    program_.dispatch_2d(static_cast<std::uint32_t>(lists.tiles.x), static_cast<std::uint32_t>(lists.tiles.y));
+    program.set("sample_index", static_cast<std::uint32_t>(sample));
+    program.set("sample_offset", sample_offset(sample));
+    program.dispatch_2d(static_cast<std::uint32_t>(lists_.tiles().x), static_cast<std::uint32_t>(lists_.tiles().y));
   }
 }
 

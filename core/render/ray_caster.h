@@ -2,13 +2,14 @@
 // Pictures of the analytic surface: sphere, torus and clipped concave sphere, one ray a sample, never a mesh.
 #pragma once
 
-#include <memory>
-
 #include "core/base/stage_clock.h"
 #include "core/gpu/program.h"
+#include "core/gpu/texel_buffer.h"
 #include "core/render/camera.h"
 #include "core/render/framebuffer.h"
+#include "core/render/gpu_scene.h"
 #include "core/render/ray_cast_scene.h"
+#include "core/render/tile_lists.h"
 #include "core/surface/coloring.h"
 #include "core/surface/primitives.h"
 
@@ -24,33 +25,39 @@ struct RenderSettings {
 /// Needs a current GL context for its whole life. The picture is the same for any block_edge.
 class RayCaster {
  public:
-  RayCaster();
-  ~RayCaster();
-
   /// coloring.atom has one colour per surface.atoms. Rays go on through points of hidden atoms; what they meet from
   /// behind is shaded like its front, and its normal still points towards the solvent. Throws GpuError, CapacityError,
   /// InputError for a bad camera.
   Framebuffer render(const Surface& surface, const Coloring& coloring, const Camera& camera,
                      const RenderSettings& settings);
 
-  /// Times of the last render: packing and tile lists on the host, the kernel on the GPU.
-  const std::vector<StageTime>& times() const { return clock_.times(); }
+  /// Casts a block of a picture of a scene that is on the GPU already and leaves it there, in picture() and hits().
+  /// frame.size is that of the whole picture. Throws GpuError; CapacityError if the block is too large for this GPU.
+  void cast(const GpuScene& scene, const PictureFrame& frame, const PictureBlock& block, int sample_count);
+  /// Casts the whole picture.
+  void cast(const GpuScene& scene, const PictureFrame& frame, int sample_count) {
+    cast(scene, frame, {{0, 0}, frame.size}, sample_count);
+  }
 
-  /// A part of the picture, in pixels.
-  struct Block {
-    glm::ivec2 origin, size;
-  };
+  /// Of the last block, row by row from the top: vec4 per pixel, the sum of its samples, linear and premultiplied.
+  const Buffer& picture() const { return picture_; }
+  /// Likewise ray_cast::Hit, of the ray through the pixel's centre.
+  const Buffer& hits() const { return hits_; }
+
+  /// Times of what was cast since the last render began, or since restart_times().
+  const std::vector<StageTime>& times() const { return clock_.times(); }
+  void restart_times() { clock_.restart(); }
 
  private:
-  struct Buffers;
+  struct Collected;
 
-  RayCastScene upload_scene(const Surface& surface, const Coloring& coloring, const PictureFrame& frame);
-  void set_uniforms(const Surface& surface, const Coloring& coloring, const PictureFrame& frame,
-                    const RayCastScene& scene) const;
-  void cast_block(const RayCastScene& scene, const PictureFrame& frame, const Block& block, int sample_count);
+  void render_block(const PictureFrame& frame, const PictureBlock& block, Collected& collected);
 
-  Program program_;
-  std::unique_ptr<Buffers> buffers_;
+  ProgramCache programs_;
+  TileLists lists_{programs_};
+  GpuScene scene_;  // of render
+  TexelBuffer row_texels_{TexelFormat::uint4};
+  Buffer picture_, hits_;
   StageClock clock_;
 };
 

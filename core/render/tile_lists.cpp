@@ -1,101 +1,65 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which primitives may show in which tile: the exact extent of each bounding sphere in the picture.
-#include <algorithm>
-#include <cmath>
-#include <limits>
+// Counts, places and fills the lists of tiles.
+#include "core/render/tile_lists.h"
 
-#include <glm/geometric.hpp>
-
-#include "core/render/ray_cast_scene.h"
+#include <string>
 
 namespace meniscus {
-namespace {
 
-struct Range {
-  double low = -std::numeric_limits<double>::max(), high = std::numeric_limits<double>::max();
-};
-
-/// Slopes x/z of the two lines through the origin that touch the circle around (x, z), z > radius.
-Range tangent_slopes(double x, double z, double radius) {
-  if (z <= radius) return {};
-  const double denominator = (z - radius) * (z + radius);
-  const double root = radius * std::sqrt(x * x + denominator);
-  return {(x * z - root) / denominator, (x * z + root) / denominator};
+void set_view(const Program& program, const PictureFrame& frame) {
+  program.set("eye_distance", static_cast<float>(frame.eye_distance));
+  program.set("orthographic", frame.camera.projection == Projection::orthographic ? 1u : 0u);
+  program.set("right", glm::vec3(frame.basis.right));
+  program.set("up", glm::vec3(frame.basis.up));
+  program.set("forward", glm::vec3(frame.basis.forward));
 }
 
-/// Tiles [low, high) along one axis.
-struct TileRange {
-  int low = 0, high = 0;
-};
-
-TileRange tile_range(Range pixels, int tile_count) {
-  // A pixel's samples reach to its borders, and rounding may move a ray: half a pixel more on each side is plenty.
-  const double low = std::floor((pixels.low - 0.5) / kTileEdge), high = std::floor((pixels.high + 0.5) / kTileEdge);
-  return {static_cast<int>(std::clamp(low, 0.0, static_cast<double>(tile_count))),
-          static_cast<int>(std::clamp(high + 1.0, 0.0, static_cast<double>(tile_count)))};
+void set_depth_slices(const Program& program, const GpuScene& scene) {
+  const float thickness = (scene.last_depth - scene.first_depth) / static_cast<float>(kSliceCount);
+  program.set("first_depth", scene.first_depth);
+  program.set("slices_per_angstrom", thickness > 0.0f ? 1.0f / thickness : 0.0f);
 }
 
-struct TileRectangle {
-  TileRange x, y;
-};
+void TileLists::build(const GpuScene& scene, const PictureFrame& frame, const PictureBlock& block) {
+  tiles_ = (block.size + (kTileEdge - 1)) / kTileEdge;
+  const std::uint32_t slots = static_cast<std::uint32_t>(tiles_.x) * static_cast<std::uint32_t>(tiles_.y) * kSliceCount;
+  counts_.resize((slots + 1) * sizeof(std::uint32_t));
+  counts_.fill(0);
+  entries_.resize(0);
+  primitive_texels_.view(scene.primitives);
+  run(0, scene, frame, block);
+  scan_(counts_, slots);
+  std::uint32_t entry_count = 0;
+  counts_.read(slots * sizeof(std::uint32_t), &entry_count, sizeof(entry_count));
+  entries_.resize(entry_count * sizeof(std::uint32_t));
+  run(1, scene, frame, block);
+  slot_texels_.view(counts_);
+  entry_texels_.view(entries_);
+}
 
-/// Finds the rectangle of tiles that the bound of a primitive may touch.
-class BoundProjector {
- public:
-  BoundProjector(const PictureFrame& frame, glm::ivec2 block_origin, glm::ivec2 tiles)
-      : frame_(frame),
-        tiles_(tiles),
-        origin_(0.5 * frame.size.x - block_origin.x, 0.5 * frame.size.y - block_origin.y),
-        scale_(1.0 / frame.pixel_size) {}
+void TileLists::run(int pass, const GpuScene& scene, const PictureFrame& frame, const PictureBlock& block) {
+  const Program& program = programs_.get("gpu_shaders/ray_cast/tile_lists.comp", {{"PASS", std::to_string(pass)}});
+  primitive_texels_.bind(0);
+  counts_.bind(0);
+  entries_.bind(1);
+  const bool bounded = scene.tile_depths.byte_count() > 0;
+  (bounded ? scene.tile_depths : counts_).bind(2);  // something must be there
+  program.set("bounded", bounded ? 1u : 0u);
+  program.set("first_tile", block.origin / kTileEdge);
+  program.set("picture_tile_columns", (frame.size.x + kTileEdge - 1) / kTileEdge);
+  program.set("primitive_count", scene.primitive_count);
+  program.set("block_center", glm::vec2(0.5 * glm::dvec2(frame.size) - glm::dvec2(block.origin)));
+  program.set("pixels_per_angstrom", static_cast<float>(1.0 / frame.pixel_size));
+  program.set("tiles", tiles_);
+  set_depth_slices(program, scene);
+  set_view(program, frame);
+  program.dispatch(group_count(scene.primitive_count));
+}
 
-  TileRectangle operator()(const ray_cast::Primitive& primitive) const {
-    const glm::dvec3 center(primitive.bound.x, primitive.bound.y, primitive.bound.z);
-    const double radius = primitive.bound.w;
-    const double x = glm::dot(center, frame_.basis.right), y = -glm::dot(center, frame_.basis.up);
-    if (frame_.camera.projection == Projection::orthographic)
-      return place({x - radius, x + radius}, {y - radius, y + radius}, scale_);
-    const double z = frame_.eye_distance + glm::dot(center, frame_.basis.forward);
-    return place(tangent_slopes(x, z, radius), tangent_slopes(y, z, radius), scale_ * frame_.eye_distance);
-  }
-
- private:
-  TileRectangle place(Range x, Range y, double scale) const {
-    return {tile_range({origin_.x + x.low * scale, origin_.x + x.high * scale}, tiles_.x),
-            tile_range({origin_.y + y.low * scale, origin_.y + y.high * scale}, tiles_.y)};
-  }
-
-  const PictureFrame& frame_;
-  glm::ivec2 tiles_;
-  glm::dvec2 origin_;  // the picture's centre in pixels of the block
-  double scale_;       // pixels per Å on the plane through the pivot
-};
-
-}  // namespace
-
-TileLists bin_primitives(const RayCastScene& scene, const PictureFrame& frame, glm::ivec2 block_origin,
-                         glm::ivec2 block_size) {
-  TileLists lists;
-  lists.tiles = (block_size + (kTileEdge - 1)) / kTileEdge;
-  const BoundProjector project(frame, block_origin, lists.tiles);
-  std::vector<TileRectangle> rectangles;
-  rectangles.reserve(scene.primitives.size());
-  lists.first_entry.assign(static_cast<std::size_t>(lists.tiles.x) * lists.tiles.y + 1, 0);
-  for (const auto& primitive : scene.primitives) {
-    const TileRectangle r = rectangles.emplace_back(project(primitive));
-    for (int y = r.y.low; y < r.y.high; ++y)
-      for (int x = r.x.low; x < r.x.high; ++x) ++lists.first_entry[static_cast<std::size_t>(y) * lists.tiles.x + x + 1];
-  }
-  for (std::size_t i = 1; i < lists.first_entry.size(); ++i) lists.first_entry[i] += lists.first_entry[i - 1];
-  lists.entries.resize(lists.first_entry.back());
-  // Primitives come nearest first, so every tile's list is sorted as it fills.
-  std::vector<std::uint32_t> next(lists.first_entry.begin(), lists.first_entry.end() - 1);
-  for (std::uint32_t i = 0; i < rectangles.size(); ++i) {
-    const TileRectangle& r = rectangles[i];
-    for (int y = r.y.low; y < r.y.high; ++y)
-      for (int x = r.x.low; x < r.x.high; ++x)
-        lists.entries[next[static_cast<std::size_t>(y) * lists.tiles.x + x]++] = i;
-  }
-  return lists;
+void TileLists::bind(std::uint32_t primitives, std::uint32_t slot_ends, std::uint32_t entries) const {
+  primitive_texels_.bind(primitives);
+  slot_texels_.bind(slot_ends);
+  entry_texels_.bind(entries);
 }
 
 }  // namespace meniscus

@@ -14,12 +14,9 @@
 namespace meniscus {
 namespace {
 
-constexpr std::uint32_t kScanChunk = 512;  // words per invocation of the scan
 constexpr std::size_t kWord = sizeof(std::uint32_t);
 
 }  // namespace
-
-std::size_t group_count(std::size_t invocations) { return (invocations + 63) / 64; }
 
 const Program& GpuNeighbors::kernel(const char* name, int pass) {
   ShaderDefines defines = list_defines();
@@ -87,7 +84,7 @@ void GpuNeighbors::build_grid() {
     program.set("grid_low", grid_low_);
     program.set("grid_size", grid_size_);
     program.dispatch(group_count(count_));
-    if (pass == 0) scan(cell_first_, cell_count_);
+    if (pass == 0) scan_(cell_first_, cell_count_);
   }
   ball_texels_.view(balls);
   cell_texels_.view(cell_atoms_);
@@ -141,8 +138,8 @@ bool GpuNeighbors::count_neighbors(BallBatch& batch) {
   relative.resize(sizeof(glm::vec4));
   labels.resize(kWord);
   run_neighbors(batch, 0);
-  scan(first, batch.count);
-  scan(pair_first_, batch.count);
+  scan_(first, batch.count);
+  scan_(pair_first_, batch.count);
   first.read(batch.count * kWord, &batch.neighbor_count, kWord);
   pair_first_.read(batch.count * kWord, &batch.pair_count, kWord);
   const std::size_t limit = query_gpu_limits().storage_block_bytes;
@@ -171,19 +168,6 @@ void GpuNeighbors::list_pairs(const BallBatch& batch) {
   program.set("first_entry", batch.first);
   program.set("entry_count", batch.count);
   program.dispatch(group_count(batch.count));
-}
-
-void GpuNeighbors::scan(Buffer& words, std::uint32_t count) {
-  const std::uint32_t chunks = (count + kScanChunk - 1) / kScanChunk;
-  totals_.resize(std::max(1u, chunks) * kWord);
-  for (int pass = 0; pass < 3; ++pass) {
-    words.bind(0);
-    totals_.bind(1);
-    const Program& program = kernel("parallel/scan", pass);
-    program.set("count", count);
-    program.set("chunk_length", kScanChunk);
-    program.dispatch(pass == 1 ? 1 : group_count(chunks));
-  }
 }
 
 }  // namespace meniscus

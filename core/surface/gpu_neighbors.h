@@ -11,6 +11,7 @@
 #include <glm/vec4.hpp>
 
 #include "core/gpu/buffer.h"
+#include "core/gpu/prefix_sum.h"
 #include "core/gpu/program.h"
 #include "core/gpu/texel_buffer.h"
 
@@ -33,7 +34,7 @@ struct BallExtent {
 /// Kernels "grid", "neighbors", "pairs" and their buffers. Needs a current GL context.
 class GpuNeighbors {
  public:
-  explicit GpuNeighbors(ProgramCache& programs) : programs_(programs) {}
+  explicit GpuNeighbors(ProgramCache& programs) : programs_(programs), scan_(programs) {}
 
   /// Puts balls into a grid: centres and radii in Å; `left_out` may be empty or say who neither has nor is a neighbour.
   void upload(std::span<const glm::dvec3> centers, std::span<const double> radii, const std::vector<bool>& left_out);
@@ -93,13 +94,13 @@ class GpuNeighbors {
   void list_neighbors(const BallBatch& batch);
   void run_neighbors(const BallBatch& batch, int pass);
   void build_grid();
-  void scan(Buffer& words, std::uint32_t count);
   const Program& kernel(const char* name, int pass = -1);
 
   ProgramCache& programs_;
+  PrefixSum scan_;
   TexelBuffer ball_texels_{TexelFormat::uint4}, cell_texels_{TexelFormat::uint1};  // of balls and cell_atoms_
   TexelBuffer listed_texels_{TexelFormat::uint1}, before_texels_{TexelFormat::uint1};
-  Buffer cell_first_, rank_, cell_atoms_, totals_, pair_first_, class_counts_;
+  Buffer cell_first_, rank_, cell_atoms_, pair_first_, class_counts_;
   BallBatch resident_;  // whose lists the buffers hold; count 0: nobody's
   std::uint32_t count_ = 0;
   std::uint32_t entry_count_ = 0;  // of the lists: count_, or that of list_only()
@@ -109,8 +110,5 @@ class GpuNeighbors {
   glm::vec4 grid_low_{0.0f};
   glm::vec4 grid_size_{1.0f};
 };
-
-/// Groups of 64 invocations, the local size of every kernel here.
-std::size_t group_count(std::size_t invocations);
 
 }  // namespace meniscus

@@ -4,6 +4,8 @@
 // Four rays share each fetch of a primitive's rows: on software GL fetching costs more than all arithmetic. Both sides
 // of a patch count, because a camera may stand inside the solid. Each ray is moved to its closest approach first:
 // there the numbers are as small as the primitive, and single precision is good to about 1e-6 Å.
+// What a ray hits of a primitive depends on nothing but the two, to the bit: not on the hits so far, nor on the order in
+// which primitives come. Pictures of more or fewer hidden primitives are therefore the same.
 
 struct Rays {
   vec3 p[4];  // on the plane through the pivot
@@ -29,6 +31,17 @@ bool misses_bound(vec4 bound, vec3 p, vec3 d, float eye_t, float spread, float h
   return room < 0.0 || bound_t - sqrt(room) > high;
 }
 
+// Keeps the nearer hit; of two at the same distance the same one in any order.
+void keep_nearest(uint index, Primitive primitive, int k, float t, inout Nearest nearest) {
+  if (t > nearest.t[k]) return;
+  if (t == nearest.t[k]) {
+    Primitive other = load_primitive(nearest.primitive[k]);
+    if (other.kind < primitive.kind || (other.kind == primitive.kind && other.tie_key <= primitive.tie_key)) return;
+  }
+  nearest.t[k] = t;
+  nearest.primitive[k] = index;
+}
+
 void hit_clipped_sphere(uint index, Primitive primitive, Rays rays, inout Nearest nearest) {
   vec4 place = row(primitive.first_row);
   vec3 near_x[4];
@@ -47,8 +60,8 @@ void hit_clipped_sphere(uint index, Primitive primitive, Rays rays, inout Neares
     near_t[k] = hits.near_t + shift;
     far_t[k] = hits.far_t + shift;
     float low = eye_parameter(rays.d[k]);
-    near_in[k] = hits.found && near_t[k] > low && near_t[k] < nearest.t[k];
-    far_in[k] = hits.found && far_t[k] > low && far_t[k] < nearest.t[k];
+    near_in[k] = hits.found && near_t[k] > low && near_t[k] <= nearest.t[k];
+    far_in[k] = hits.found && far_t[k] > low && far_t[k] <= nearest.t[k];
   }
   uint end = primitive.first_row + 1u + primitive.plane_count;
   for (uint i = primitive.first_row + 1u; i < end && (any(near_in) || any(far_in)); ++i) {
@@ -61,26 +74,27 @@ void hit_clipped_sphere(uint index, Primitive primitive, Rays rays, inout Neares
   for (int k = 0; k < 4; ++k) {
     near_in[k] = near_in[k] && shows_sphere_point(primitive, near_x[k], place.w);
     far_in[k] = far_in[k] && shows_sphere_point(primitive, far_x[k], place.w);
-    if (!near_in[k] && !far_in[k]) continue;
-    nearest.t[k] = near_in[k] ? near_t[k] : far_t[k];
-    nearest.primitive[k] = index;
+    if (near_in[k] || far_in[k]) keep_nearest(index, primitive, k, near_in[k] ? near_t[k] : far_t[k], nearest);
   }
 }
 
-// One ray in the torus's own frame; `high` if it misses.
+const float kMiss = 3.0e38;
+
+// One ray in the torus's own frame; kMiss if it misses. Hits beyond `high` may be left out.
 float hit_torus_patch(Primitive primitive, vec3 o, vec3 d, float major, vec4 shape, float cos_sweep, float sin_sweep,
                       float low, float high) {
   int range = int(primitive.plane_count);
   // The sphere through both contact circles holds the whole patch and nothing of the outer half of the torus.
   SphereHits chord = ray_sphere(o - vec3(0.0, 0.0, shape.z), d, shape.w + slack);
-  if (!chord.found) return high;
+  if (!chord.found) return kMiss;
   low = max(low, chord.near_t - slack);
-  float end = min(high, chord.far_t + slack);
+  float end = chord.far_t + slack;
   if (range == kUpToHalfTurn) {
     clip_to_half_space(-o.y - slack, -d.y, low, end);
     clip_to_half_space(o.y * cos_sweep - o.x * sin_sweep - slack, d.y * cos_sweep - d.x * sin_sweep, low, end);
   }
-  if (!(low < end)) return high;
+  // Roots are bracketed by the patch alone: `high` would leave its mark on their last bits.
+  if (!(low < end) || low > high) return kMiss;
   TorusHits hits = ray_torus(o, d, major, probe_radius, low, end, 2e-7);
   for (int i = 0; i < hits.count; ++i) {
     vec3 x = o + d * hits.t[i];
@@ -88,7 +102,7 @@ float hit_torus_patch(Primitive primitive, vec3 o, vec3 d, float major, vec4 sha
         shows_torus_point(primitive, x, major))
       return hits.t[i];
   }
-  return high;
+  return kMiss;
 }
 
 void hit_toroidal(uint index, Primitive primitive, inout Nearest nearest) {
@@ -105,12 +119,10 @@ void hit_toroidal(uint index, Primitive primitive, inout Nearest nearest) {
     o += d * shift;
     vec3 local_o = vec3(dot(o, x_axis.xyz), dot(o, y_axis), dot(o, z_axis.xyz));
     vec3 local_d = vec3(dot(d, x_axis.xyz), dot(d, y_axis), dot(d, z_axis.xyz));
-    float high = nearest.t[k] - shift;
+    // A little more than to the nearest hit, for the rounding of the sum below.
+    float high = nearest.t[k] - shift + slack;
     float t = hit_torus_patch(primitive, local_o, local_d, place.w, shape, x_axis.w, z_axis.w,
                               eye_parameter(d) - shift, high);
-    if (t < high) {
-      nearest.t[k] = t + shift;
-      nearest.primitive[k] = index;
-    }
+    if (t < kMiss) keep_nearest(index, primitive, k, t + shift, nearest);
   }
 }

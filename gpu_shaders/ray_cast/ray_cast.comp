@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Ray casts one sample of each pixel of a block: a group is a tile of 16 x 16 pixels, an invocation 2 x 2 of them.
 //
-// The host gives each tile the primitives that may show in it, sorted by their nearest distance; rays stop at the
-// first one that begins behind their hits. The first sample goes through the pixel's centre and writes the exact point.
+// tile_lists.comp gives each tile the primitives that may show in it, by slices of their nearest distance; rays stop
+// where a slice begins behind their hits. The first sample goes through the pixel's centre and writes the exact point.
 #version 450 core
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -15,11 +15,12 @@ layout(local_size_x = 8, local_size_y = 8) in;
 #include "gpu_shaders/geometry/ray_sphere.glsl"
 #include "gpu_shaders/geometry/ray_torus.glsl"
 #include "gpu_shaders/geometry/patch_membership.glsl"
+#include "gpu_shaders/ray_cast/depth_slices.glsl"
 #include "gpu_shaders/ray_cast/records.glsl"
 
 layout(binding = 0) uniform usamplerBuffer primitive_texels;  // three texels each: struct Primitive
 layout(binding = 1) uniform usamplerBuffer row_texels;
-layout(binding = 2) uniform usamplerBuffer first_entry;  // one more than there are tiles
+layout(binding = 2) uniform usamplerBuffer slot_ends;  // of tile_lists.comp: where each slice of each tile ends
 layout(binding = 3) uniform usamplerBuffer entries;
 layout(std430, binding = 0) readonly buffer Colors { vec4 atom_color[]; };  // linear, alpha 0: hidden; three more for the kinds
 layout(std430, binding = 1) buffer Picture { vec4 picture[]; };             // sums of linear, premultiplied samples
@@ -44,6 +45,10 @@ uniform uint some_hidden;
 vec4 row(uint index) { return uintBitsToFloat(texelFetch(row_texels, int(index))); }
 
 vec4 bound_of(uint primitive) { return uintBitsToFloat(texelFetch(primitive_texels, int(3u * primitive))); }
+
+float nearest_of(uint primitive) {
+  return uintBitsToFloat(texelFetch(primitive_texels, int(3u * primitive + 1u)).x);
+}
 
 Primitive load_primitive(uint index) {
   uvec4 a = texelFetch(primitive_texels, int(3u * index + 1u));
@@ -81,15 +86,14 @@ Nearest trace(uint tile) {
   float eye_t = eye_parameter(middle_d);
   // The four rays lie half a pixel's diagonal from the middle; a little more covers their rounding.
   float spread = 0.75 * pixel_size;
-  int first = int(texelFetch(first_entry, int(tile)).x);
-  int end = int(texelFetch(first_entry, int(tile) + 1).x);
+  int slot = int(kSliceCount * tile);
+  int first = tile == 0u ? 0 : int(texelFetch(slot_ends, slot - 1).x);
+  int end = int(texelFetch(slot_ends, slot + int(kSliceCount) - 1).x);
   for (int i = first; i < end; ++i) {
     uint index = texelFetch(entries, i).x;
     float farthest = max(max(nearest.t.x, nearest.t.y), max(nearest.t.z, nearest.t.w));
-    // All that follow begin later than this one; to ask each would cost more than it saves.
-    if (((i - first) & 7) == 0 &&
-        uintBitsToFloat(texelFetch(primitive_texels, int(3u * index + 1u)).x) + eye_t - spread > farthest)
-      break;
+    // All that follow begin no earlier than the slice of this one; to ask each would cost more than it saves.
+    if (((i - first) & 7) == 0 && slice_begin(slice_of(nearest_of(index))) + eye_t - spread > farthest) break;
     if (misses_bound(bound_of(index), middle_p, middle_d, eye_t, spread, farthest)) continue;
     Primitive primitive = load_primitive(index);
     if (primitive.kind == kToroidal) hit_toroidal(index, primitive, nearest);

@@ -19,7 +19,7 @@ struct Primitive {
   uint patch_index;   // into the table of its kind
   uint atom;          // convex: the atom; toroidal: the first; concave: contact_count
   uint second_atom;   // toroidal
-  uint unused;        // fills the record up to a multiple of 16 bytes
+  uint tie_key;       // tie_key.glsl: which of two patches of a kind a ray shows that meets both at once
 };
 
 // Where the ray through a pixel's centre ends.

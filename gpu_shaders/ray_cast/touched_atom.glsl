@@ -3,7 +3,8 @@
 
 bool shows(uint atom) { return atom_color[atom].a > 0.0; }
 
-// On a concave patch; x: from the probe's centre. The nearest contact wins.
+// On a concave patch; x: from the probe's centre. The nearest contact wins; of two, the smaller atom, in whatever order
+// they stand.
 uint concave_atom(Primitive primitive, vec3 x, float radius) {
   uint first_contact = primitive.first_row + 1u + primitive.plane_count;
   uint atom = kNoPrimitive;
@@ -11,9 +12,10 @@ uint concave_atom(Primitive primitive, vec3 x, float radius) {
   for (uint i = 0u; i < primitive.atom; ++i) {
     vec4 contact = row(first_contact + i);
     float nearness = dot(contact.xyz, x);
-    if (nearness > best) {
+    uint candidate = floatBitsToUint(contact.w);
+    if (nearness > best || (nearness == best && candidate < atom)) {
       best = nearness;
-      atom = floatBitsToUint(contact.w);
+      atom = candidate;
     }
   }
   return atom;

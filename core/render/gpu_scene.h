@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the ray caster reads, as it stands in GPU memory; host code or kernels make it.
+#pragma once
+
+#include <cstdint>
+
+#include "core/gpu/buffer.h"
+#include "core/surface/coloring.h"
+
+namespace meniscus {
+
+/// Records and rows are those of gpu_shaders/ray_cast/records.glsl. Positions are relative to the pivot of the picture
+/// (PictureFrame), so that a scene belongs to one camera. Primitives stand in any order; what the picture does not show
+/// may be there or not: the picture is the same to the bit.
+struct GpuScene {
+  Buffer primitives;  ///< ray_cast::Primitive each
+  Buffer rows;        ///< vec4 each
+  std::uint32_t primitive_count = 0;
+  float slack = 0.0f;         ///< Å by which patches overlap: a few roundings of the largest coordinate
+  double probe_radius = 0.0;  ///< Å
+
+  /// Most of Primitive::nearest lies between these, in Å. For speed only: lists are sorted by 32 slices of this range.
+  float first_depth = 0.0f, last_depth = 0.0f;
+  /// Empty, or one float for each tile of 16 x 16 pixels of the picture, row by row: a distance from the camera
+  /// (orthographic: from its plane), in Å, beyond which nothing that begins there can show in the tile.
+  Buffer tile_depths;
+
+  Buffer colors;  ///< vec4 per atom, linear, alpha 0: hidden; then, if by kind, three for convex, toroidal, concave
+  std::uint32_t atom_count = 0;
+  bool color_by_kind = false;
+  bool some_hidden = false;
+};
+
+/// Sets the last four members.
+void upload_coloring(const Coloring& coloring, GpuScene& scene);
+
+}  // namespace meniscus

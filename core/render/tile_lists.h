@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Which primitives may show in which tile of a picture, found on the GPU.
+#pragma once
+
+#include <glm/vec2.hpp>
+
+#include "core/gpu/buffer.h"
+#include "core/gpu/prefix_sum.h"
+#include "core/gpu/program.h"
+#include "core/gpu/texel_buffer.h"
+#include "core/render/gpu_scene.h"
+#include "core/render/ray_cast_scene.h"
+
+namespace meniscus {
+
+inline constexpr int kTileEdge = 16;
+inline constexpr std::uint32_t kSliceCount = 32;
+
+/// A part of a picture, in pixels; the origin is a multiple of kTileEdge.
+struct PictureBlock {
+  glm::ivec2 origin{0}, size{0};
+};
+
+/// For each tile of 16 x 16 pixels a list of primitives by slices of depth, nearest slice first, in any order within a
+/// slice. A list covers all rays through any place of its tile's pixels. Needs a current GL context.
+class TileLists {
+ public:
+  explicit TileLists(ProgramCache& programs) : programs_(programs), scan_(programs) {}
+
+  /// Throws CapacityError when the lists are larger than a kernel can see; smaller blocks help.
+  void build(const GpuScene& scene, const PictureFrame& frame, const PictureBlock& block);
+
+  glm::ivec2 tiles() const { return tiles_; }  ///< columns, rows
+  /// uint32 for each slice of each tile, row by row: where its primitives end in entries(); they begin where the slice
+  /// before ends.
+  const Buffer& slot_ends() const { return counts_; }
+  const Buffer& entries() const { return entries_; }  ///< uint32 each: places in GpuScene::primitives
+
+  /// Texels for `primitive_texels`, `slot_ends` and `entries` of a kernel, at these units.
+  void bind(std::uint32_t primitives, std::uint32_t slot_ends, std::uint32_t entries) const;
+
+ private:
+  void run(int pass, const GpuScene& scene, const PictureFrame& frame, const PictureBlock& block);
+
+  ProgramCache& programs_;
+  PrefixSum scan_;
+  glm::ivec2 tiles_{0};
+  Buffer counts_, entries_;
+  TexelBuffer primitive_texels_{TexelFormat::uint4}, slot_texels_{TexelFormat::uint1}, entry_texels_{TexelFormat::uint1};
+};
+
+/// Uniforms eye_distance, orthographic, right, up, forward.
+void set_view(const Program& program, const PictureFrame& frame);
+
+/// Uniforms of gpu_shaders/ray_cast/depth_slices.glsl.
+void set_depth_slices(const Program& program, const GpuScene& scene);
+
+}  // namespace meniscus
