@@ -3,6 +3,7 @@
 #include "core/render/ray_caster.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <limits>
@@ -12,6 +13,7 @@
 #include <glm/geometric.hpp>
 #include <tbb/parallel_for.h>
 
+#include "core/base/error.h"
 #include "core/gpu/gpu_stage.h"
 #include "core/gpu/limits.h"
 #include "core/render/component_lookup.h"
@@ -31,6 +33,17 @@ int usable_block_edge(int wanted) {
   const std::size_t pixels = query_gpu_limits().storage_block_bytes / sizeof(ray_cast::Hit);
   const int largest = static_cast<int>(std::min(std::sqrt(static_cast<double>(pixels)), 65536.0));
   return std::max(std::min(wanted, largest) / kTileEdge * kTileEdge, kTileEdge);
+}
+
+/// The same pixels in two blocks of whole tiles; for blocks of more than one.
+std::array<PictureBlock, 2> halves(const PictureBlock& block) {
+  const int axis = block.size.x > block.size.y ? 0 : 1;
+  std::array<PictureBlock, 2> result{block, block};
+  const int first = (block.size[axis] / kTileEdge + 1) / 2 * kTileEdge;
+  result[0].size[axis] = first;
+  result[1].origin[axis] += first;
+  result[1].size[axis] -= first;
+  return result;
 }
 
 void resize(Framebuffer& picture, const RenderSettings& settings) {
@@ -112,7 +125,13 @@ Framebuffer RayCaster::render(const Surface& surface, const Coloring& coloring, 
 
 void RayCaster::render_block(const PictureFrame& frame, const PictureBlock& block, Collected& collected) {
   const RenderSettings& settings = collected.settings;
-  cast(scene_, frame, block, settings.samples);
+  try {
+    cast(scene_, frame, block, settings.samples);
+  } catch (const CapacityError&) {
+    if (block.size.x <= kTileEdge && block.size.y <= kTileEdge) throw;
+    for (const PictureBlock& half : halves(block)) render_block(frame, half, collected);
+    return;
+  }
   const std::size_t count = static_cast<std::size_t>(block.size.x) * block.size.y;
   copy_colors(block, picture_.download<glm::vec4>(count), 1.0f / static_cast<float>(settings.samples),
               collected.picture);
@@ -135,8 +154,7 @@ void RayCaster::cast(const GpuScene& scene, const PictureFrame& frame, const Pic
   row_texels_.view(scene.rows);
   row_texels_.bind(1);
   std::uint32_t binding = 0;
-  for (const Buffer* buffer : {&scene.colors, &std::as_const(picture_), &std::as_const(hits_)})
-    buffer->bind(binding++);
+  for (const Buffer* buffer : {&scene.colors, &std::as_const(picture_), &std::as_const(hits_)}) buffer->bind(binding++);
   program.set("probe_radius", static_cast<float>(scene.probe_radius));
   program.set("slack", scene.slack);
   program.set("pixel_size", static_cast<float>(frame.pixel_size));

@@ -46,7 +46,8 @@ class TileLists {
   PrefixSum scan_;
   glm::ivec2 tiles_{0};
   Buffer counts_, entries_;
-  TexelBuffer primitive_texels_{TexelFormat::uint4}, slot_texels_{TexelFormat::uint1}, entry_texels_{TexelFormat::uint1};
+  TexelBuffer primitive_texels_{TexelFormat::uint4}, slot_texels_{TexelFormat::uint1},
+      entry_texels_{TexelFormat::uint1};
 };
 
 /// Uniforms eye_distance, orthographic, right, up, forward.

@@ -3,10 +3,8 @@
 #include "core/render/gpu_scene.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstring>
-#include <functional>
 #include <random>
 #include <set>
 #include <tuple>
@@ -14,7 +12,9 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "core/base/error.h"
 #include "core/gpu/egl_context.h"
+#include "core/gpu/limits.h"
 #include "core/render/ray_caster.h"
 #include "core/surface/surface.h"
 #include "tests/support/molecules.h"
@@ -101,7 +101,8 @@ TEST_F(GpuScenes, OrderDoesNotShow) {
   for (const View& view : views()) {
     RayCastScene packed = pack_scene(view.surface, view.coloring, view.frame);
     const Shown expected = cast(view, packed);
-    EXPECT_GT(std::ranges::count_if(expected.picture, [](const glm::vec4& c) { return c.w > 0.0f; }), 2000) << view.name;
+    EXPECT_GT(std::ranges::count_if(expected.picture, [](const glm::vec4& c) { return c.w > 0.0f; }), 2000)
+        << view.name;
     for (int n = 0; n < 3; ++n) {
       std::ranges::shuffle(packed.primitives, random_);
       EXPECT_TRUE(cast(view, packed) == expected) << view.name;
@@ -146,7 +147,6 @@ TEST_F(GpuScenes, TwinsAreToldApartByTheirKeys) {
 }
 
 TEST_F(GpuScenes, TieKeysNamePatches) {
-  // Also of a part, whose tables stand otherwise; and no two patches of a molecule share one.
   for (const View& view : views()) {
     std::set<std::tuple<std::uint32_t, std::uint32_t>> keys;
     const RayCastScene packed = pack_scene(view.surface, view.coloring, view.frame);
@@ -241,6 +241,31 @@ TEST_F(GpuScenes, NoTileMissesABound) {
   }
   EXPECT_GT(seen, 100000);
   EXPECT_LT(listed, 2 * seen) << "the lists are much longer than they need be";
+}
+
+TEST_F(GpuScenes, ListsTooLongForAKernelAreMadeOfSmallerBlocks) {
+  // A picture of one place: every tile lists every ball.
+  const int edge = 1024, tile_count = (edge / kTileEdge) * (edge / kTileEdge);
+  const std::size_t limit = query_gpu_limits().storage_block_bytes;
+  if (limit > (1u << 28)) GTEST_SKIP() << "this driver's blocks hold any list";
+  const int count = static_cast<int>(limit / (sizeof(std::uint32_t) * tile_count)) + 2;
+  testing::Balls balls;
+  for (int n = 0; n < count; ++n) balls.push_back({{0.0, 0.0, -5.0 * n}, 1.7});
+  const Surface surface = compute_surface_cpu(balls, 0.0);
+  Coloring coloring;
+  coloring.atom.assign(balls.size(), glm::vec3(0.7f));
+  const Camera camera{{0, 0, 10}, {0, 0, 0}, {0, 1, 0}, Projection::orthographic, 30.0, 0.5};
+  RenderSettings settings;
+  settings.size = {edge, edge};
+  const Framebuffer whole = caster_.render(surface, coloring, camera, settings);
+  EXPECT_EQ(whole.color[0].w, 1.0f);
+  settings.block_edge = 128;
+  EXPECT_TRUE(whole.color == caster_.render(surface, coloring, camera, settings).color);
+  GpuScene scene;
+  PictureFrame frame = make_picture_frame(surface, camera, settings.size);
+  upload_scene(pack_scene(surface, coloring, frame), surface, scene);
+  upload_coloring(coloring, scene);
+  EXPECT_THROW(caster_.cast(scene, frame, 1), CapacityError) << "the test does not see what it is about";
 }
 
 }  // namespace
