@@ -69,6 +69,10 @@ void Program::set(const char* uniform, std::uint32_t value) const {
   glProgramUniform1ui(name_, location(uniform), value);
 }
 void Program::set(const char* uniform, float value) const { glProgramUniform1f(name_, location(uniform), value); }
+void Program::set(const char* uniform, double value) const { glProgramUniform1d(name_, location(uniform), value); }
+void Program::set(const char* uniform, const glm::dvec3& v) const {
+  glProgramUniform3d(name_, location(uniform), v.x, v.y, v.z);
+}
 void Program::set(const char* uniform, const glm::vec2& v) const {
   glProgramUniform2f(name_, location(uniform), v.x, v.y);
 }

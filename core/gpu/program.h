@@ -31,6 +31,8 @@ class Program {
   void set(const char* uniform, std::int32_t value) const;
   void set(const char* uniform, std::uint32_t value) const;
   void set(const char* uniform, float value) const;
+  void set(const char* uniform, double value) const;
+  void set(const char* uniform, const glm::dvec3& value) const;
   void set(const char* uniform, const glm::vec2& value) const;
   void set(const char* uniform, const glm::vec3& value) const;
   void set(const char* uniform, const glm::vec4& value) const;

@@ -116,7 +116,8 @@ class Packer {
                                surface_.atoms[patch.atom[1]].radius, patch.radius, p);
     const double cosine = std::cos(patch.sweep), sine = std::sin(patch.sweep);
     Primitive primitive{};
-    if (!begin(geometry::saddle_bound(shape, patch.center, patch.axis, patch.start, patch.radius, cosine, sine, p),
+    if (!begin(geometry::saddle_bound(shape, patch.center, patch.axis, patch.start, patch.radius,
+                                      {std::cos(0.5 * patch.sweep), std::sin(0.5 * patch.sweep)}, p),
                PatchKind::toroidal, index, primitive))
       return;
     primitive.plane_count = patch.free() ? 0 : patch.sweep <= std::numbers::pi ? 1 : 2;
@@ -172,17 +173,17 @@ class Packer {
 
 }  // namespace
 
-PictureFrame make_picture_frame(const Surface& surface, const Camera& camera, glm::ivec2 size) {
+PictureFrame make_picture_frame(std::span<const Ball> atoms, const Camera& camera, glm::ivec2 size) {
   PictureFrame frame;
   frame.camera = camera;
   frame.basis = view_basis(camera);
   frame.size = size;
   // The pivot: the first ball on the view axis, else as deep as the balls are on average.
   double first = std::numeric_limits<double>::max(), mean = 0.0;
-  for (const Ball& ball : surface.atoms) {
+  for (const Ball& ball : atoms) {
     const glm::dvec3 v = ball.center - camera.position;
     const double along = glm::dot(v, frame.basis.forward);
-    mean += along / static_cast<double>(surface.atoms.size());
+    mean += along / static_cast<double>(atoms.size());
     const glm::dvec3 across = v - frame.basis.forward * along;
     const double room = ball.radius * ball.radius - glm::dot(across, across);
     if (room > 0.0 && along + std::sqrt(room) > 0.0) first = std::min(first, along - std::sqrt(room));

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include <glm/vec2.hpp>
@@ -40,7 +41,7 @@ struct PictureFrame {
 };
 
 /// Throws nothing; the camera must be valid.
-PictureFrame make_picture_frame(const Surface& surface, const Camera& camera, glm::ivec2 size);
+PictureFrame make_picture_frame(std::span<const Ball> atoms, const Camera& camera, glm::ivec2 size);
 
 /// What the kernel reads. Primitives stand by kind and index; those behind the camera are left out.
 struct RayCastScene {

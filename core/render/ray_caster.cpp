@@ -106,7 +106,7 @@ Framebuffer RayCaster::render(const Surface& surface, const Coloring& coloring, 
   assert(coloring.atom.size() == surface.atoms.size());
   validate_camera(camera, "camera");
   clock_.restart();
-  const PictureFrame frame = make_picture_frame(surface, camera, settings.size);
+  const PictureFrame frame = make_picture_frame(surface.atoms, camera, settings.size);
   RayCastScene packed;
   {
     const GpuStage stage(clock_, "pack");

@@ -15,6 +15,8 @@
 #include "core/render/look.h"
 #include "core/surface/coloring.h"
 #include "core/surface/primitives.h"
+#include "core/view/extent.h"
+#include "core/view/view_pipeline.h"
 
 namespace meniscus {
 
@@ -24,6 +26,7 @@ struct FrameRequest {
   glm::ivec2 size{1024, 768};  ///< pixels
   int samples = 1;             ///< rays per pixel, the first through its centre
   double probe_radius = 1.4;   ///< Å, >= 0
+  Extent extent = Extent::visible;
   Look look;
 };
 
@@ -59,8 +62,13 @@ class FrameRenderer {
   /// pixel: column, row from the top. Nothing where nothing is hit.
   std::optional<PickedPoint> pick(glm::ivec2 pixel) const;
 
-  /// Wall-clock times of the stages of the last picture.
+  /// Wall-clock times of the stages of the last picture, and what it took.
   const std::vector<StageTime>& times() const { return clock_.times(); }
+  const ViewStats& stats() const;
+
+  /// What the last picture was finished from: RayCaster::picture() and RayCaster::hits().
+  const Buffer& samples() const;
+  const Buffer& hits() const;
 
  private:
   struct State;

@@ -63,25 +63,27 @@ GEOMETRY real spindle_tip_height(real major, real probe_radius) {
   return sqrt((probe_radius - major) * (probe_radius + major));
 }
 
-// axis, start: unit vectors, start where the arc begins; cos_sweep, sin_sweep: of its angle in [0, 2 pi].
-GEOMETRY PatchBound saddle_bound(SaddleShape s, real3 center, real3 axis, real3 start, real major, real cos_sweep,
-                                 real sin_sweep, real probe_radius) {
+// Cosine and sine of half the angle in [0, 2 pi) whose cosine and sine these are.
+GEOMETRY real2 half_angle(real cosine, real sine) {
+  real half_cosine = sqrt(max(real(0.5) + real(0.5) * cosine, real(0)));
+  return real2(sine < real(0) ? -half_cosine : half_cosine, sqrt(max(real(0.5) - real(0.5) * cosine, real(0))));
+}
+
+// axis, start: unit vectors, start where the arc begins; half_sweep: cosine and sine of half its angle in [0, 2 pi].
+GEOMETRY PatchBound saddle_bound(SaddleShape s, real3 center, real3 axis, real3 start, real major, real2 half_sweep,
+                                 real probe_radius) {
   // In cylinder coordinates the patch lies in a box; the farthest point from the centre is one of its corners.
   real rho_low = max(major - probe_radius, real(0));
   real rho_high = max(s.contact_rho[0], s.contact_rho[1]);
-  // Of half the sweep, which is at most half a turn.
-  real cosine = sqrt(max(real(0.5) + real(0.5) * cos_sweep, real(0)));
-  if (sin_sweep < real(0)) cosine = -cosine;
-  real sine = sqrt(max(real(0.5) - real(0.5) * cos_sweep, real(0)));
-  real rho_mid = cosine > real(0) ? real(0.5) * (rho_low + rho_high) * cosine : real(0);
+  real rho_mid = half_sweep.x > real(0) ? real(0.5) * (rho_low + rho_high) * half_sweep.x : real(0);
   real along = real(0.5) * (s.contact_z[1] - s.contact_z[0]);
   real square = real(0);
   for (int high = 0; high < 2; ++high) {
     real rho = high == 1 ? rho_high : rho_low;
     real base = rho * rho + rho_mid * rho_mid;
-    square = max(square, max(base - real(2) * rho * rho_mid, base - real(2) * rho * rho_mid * cosine));
+    square = max(square, max(base - real(2) * rho * rho_mid, base - real(2) * rho * rho_mid * half_sweep.x));
   }
-  real3 middle = start * cosine + cross(axis, start) * sine;
+  real3 middle = start * half_sweep.x + cross(axis, start) * half_sweep.y;
   PatchBound bound;
   bound.center = center + middle * rho_mid + axis * (real(0.5) * (s.contact_z[0] + s.contact_z[1]));
   bound.radius = sqrt(square + along * along);

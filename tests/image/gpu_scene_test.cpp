@@ -39,7 +39,7 @@ View view_of(const std::string& name, const testing::Balls& balls, double probe_
   View view{name, compute_surface_cpu(balls, probe_radius), {}, {}};
   for (std::size_t a = 0; a < balls.size(); ++a)
     view.coloring.atom.emplace_back(0.1f + 0.02f * (a % 40), 0.5f, 0.9f - 0.02f * (a % 30));
-  view.frame = make_picture_frame(view.surface, frame_camera(view.surface, 4.0 / 3.0, projection), kSize);
+  view.frame = make_picture_frame(view.surface.atoms, frame_camera(view.surface, 4.0 / 3.0, projection), kSize);
   return view;
 }
 
@@ -57,7 +57,7 @@ std::vector<View> views() {
   inside.vertical_fov = 80.0;
   inside.position += 0.9 * (inside.target - inside.position);
   hidden.name = "inside";
-  hidden.frame = make_picture_frame(hidden.surface, inside, kSize);
+  hidden.frame = make_picture_frame(hidden.surface.atoms, inside, kSize);
   all.push_back(hidden);
   return all;
 }
@@ -262,7 +262,7 @@ TEST_F(GpuScenes, ListsTooLongForAKernelAreMadeOfSmallerBlocks) {
   settings.block_edge = 128;
   EXPECT_TRUE(whole.color == caster_.render(surface, coloring, camera, settings).color);
   GpuScene scene;
-  PictureFrame frame = make_picture_frame(surface, camera, settings.size);
+  PictureFrame frame = make_picture_frame(surface.atoms, camera, settings.size);
   upload_scene(pack_scene(surface, coloring, frame), surface, scene);
   upload_coloring(coloring, scene);
   EXPECT_THROW(caster_.cast(scene, frame, 1), CapacityError) << "the test does not see what it is about";

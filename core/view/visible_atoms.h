@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The atoms that can matter for a pixel of one view, found on the GPU (theorem 2 of the design notes).
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "core/gpu/buffer.h"
+#include "core/gpu/prefix_sum.h"
+#include "core/gpu/program.h"
+#include "core/gpu/texel_buffer.h"
+#include "core/render/ray_cast_scene.h"
+#include "core/surface/primitives.h"
+
+namespace meniscus {
+
+/// Kernels of gpu_shaders/visibility and their buffers. Needs a current GL context.
+///
+/// Theorem: if atom a makes or cuts a point x that a ray shows, then x lies within r_a + 2p of its centre; and x lies
+/// in front of the nearest van der Waals sphere of the ray, as long as the eye is in the solvent, because that sphere
+/// lies in the solid. So an atom is needed only if the ball of radius r_a + 2p begins in front of the nearest vdW
+/// sphere on some ray. The spheres are drawn into blocks of pixels, each with a depth by which all its rays have met
+/// one; balls are asked block by block with bounds that hold for every ray of the block, so that what is left out is
+/// never missed.
+class VisibleAtoms {
+ public:
+  explicit VisibleAtoms(ProgramCache& programs) : programs_(programs), prefix_sum_(programs) {}
+
+  /// One view of `atoms`, whose middle is `middle`. Must come before everything else; says whether the theorem applies:
+  /// an eye in the solid sees walls behind vdW spheres, and then everything is kept, as it is when `keep_all`.
+  void look(std::span<const Ball> atoms, const glm::dvec3& middle, double probe_radius, const PictureFrame& frame,
+            bool keep_all);
+
+  /// Draws the vdW spheres. balls: vec4 per atom, centre from the middle and SAS radius. Fills in tile_depths as
+  /// GpuScene wants it; that buffer must stay.
+  void draw_occluders(const Buffer& balls, std::uint32_t atom_count, Buffer& tile_depths);
+
+  /// Lists the atoms to keep; returns how many. balls_low: w is 1 for swallowed atoms, which are not kept.
+  std::uint32_t keep(const Buffer& balls, const Buffer& balls_low, std::uint32_t atom_count);
+
+  /// For kernels that include begins_in_front.glsl: its uniforms, and its textures at units 4 and 5.
+  void bind(const Program& program) const;
+
+  Buffer kept;    ///< ascending atom indices
+  Buffer before;  ///< per atom, and one more: how many kept ones come before it
+
+ private:
+  bool theorem_applies(std::span<const Ball> atoms, double probe_radius, const PictureFrame& frame) const;
+
+  ProgramCache& programs_;
+  PrefixSum prefix_sum_;
+  Buffer block_depths_;
+  TexelBuffer tile_texels_{TexelFormat::uint1}, block_texels_{TexelFormat::uint1};
+  bool keep_all_ = true;
+  float probe_radius_ = 0.0f;
+  glm::ivec2 tiles_{0};
+  int block_edge_ = 4;
+
+  // Of the view, see gpu_shaders/visibility/view.glsl.
+  PictureFrame frame_;
+  glm::vec3 eye_{0.0f};
+  float pixel_scale_ = 0.0f;
+  float margin_ = 0.0f;
+};
+
+}  // namespace meniscus

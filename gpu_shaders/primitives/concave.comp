@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Stage "primitives", 2: a concave patch for every fixed probe (RS face), cut by all probes that reach into it.
+// Reads: probes, their neighbour lists, atoms. Writes: primitives, rows, counters. One invocation per probe of the batch.
+// Overflow: appends stop at the capacity but go on counting; the host grows and runs again.
+// Based on: Krone, Dachsbacher & Ertl 2010, section 3.4 (singularity handling), with every probe within two radii.
+#version 450 core
+layout(local_size_x = 64) in;
+#define DOUBLE_PRECISION
+#include "gpu_shaders/shared/linear_index.glsl"
+#include "gpu_shaders/reduced_surface/precision.glsl"
+#include "gpu_shaders/geometry/circle.glsl"
+#include "gpu_shaders/geometry/polygon_reach.glsl"
+#include "gpu_shaders/shared/probe_record.glsl"
+#include "gpu_shaders/primitives/append_primitive.glsl"
+
+layout(std430, binding = 0) readonly buffer Atoms { dvec4 atoms[]; };  // centre, decision weight
+layout(std430, binding = 1) readonly buffer Probes { ProbeRecord probes[]; };
+layout(std430, binding = 5) readonly buffer NeighborFirst { uint neighbor_first[]; };
+layout(std430, binding = 6) readonly buffer NeighborLabels { uint neighbor_labels[]; };
+uniform uint first_probe;  // of the batch
+uniform uint probe_count;  // in the batch
+uniform double exact_probe_radius;
+
+// Probes this near are one probe with n contacts; there is no plane between them.
+const double kMergeDistance = 1e-6LF;
+
+dvec3 contact[3];  // unit vectors, counter-clockwise seen from the probe
+
+// Whether the bisector towards a probe at s + d reaches into the spherical polygon; when in doubt, yes: every bisector
+// is true (theorem 1.3), it may only be one that cuts nothing.
+bool cuts(dvec3 d) {
+  double distance = length(d);
+  if (distance < kMergeDistance || distance >= 2.0LF * exact_probe_radius) return false;
+  dvec3 toward = d / distance;
+  double best = -1.0LF;
+  double most_outside = -1.0LF;
+  for (int n = 0; n < 3; ++n) {
+    double outside;
+    best = max(best, reach_of_side(contact[n], contact[n == 2 ? 0 : n + 1], toward, outside));
+    most_outside = max(most_outside, outside);
+  }
+  if (most_outside <= 0.0LF) best = 1.0LF;
+  return best * 2.0LF * exact_probe_radius > distance - 1e-9LF;
+}
+
+void main() {
+  uint entry = linear_invocation_index();
+  if (entry >= probe_count) return;
+  ProbeRecord probe = probes[first_probe + entry];
+  dvec3 s = probe.position;
+  uvec3 atom = probe.atoms.w != 0u ? probe.atoms.xyz : probe.atoms.xzy;
+  dvec3 sum = dvec3(0.0LF);
+  for (int n = 0; n < 3; ++n) {
+    contact[n] = normalize(atoms[atom[n]].xyz - s);
+    sum += contact[n];
+  }
+  PatchBound bound = PatchBound(s, exact_probe_radius);
+  if (length(sum) > 1e-6LF) {
+    // A cap of at most half a sphere is convex on the sphere: it holds the patch if it holds the contacts.
+    dvec3 axis = normalize(sum);
+    double cosine = min(min(dot(contact[0], axis), dot(contact[1], axis)), dot(contact[2], axis));
+    bound = cap_bound(s, exact_probe_radius, axis, cosine);
+  }
+
+  // Only where a probe stands lower over its atoms than its radius does its patch leave its simplex (theorem 1.3).
+  uint first = neighbor_first[entry];
+  uint last = probe.height < exact_probe_radius ? neighbor_first[entry + 1u] : first;
+  uint cut_count = 0u;
+  for (uint n = first; n < last; ++n)
+    if (cuts(probes[neighbor_labels[n]].position - s)) ++cut_count;
+
+  Primitive primitive;
+  if (!begin_primitive(bound, 7u + cut_count, primitive)) return;
+  primitive.kind = kConcave;
+  primitive.plane_count = 3u + cut_count;
+  primitive.atom = 3u;  // contacts
+  primitive.tie_key = probe.key;
+  add_row(s - pivot, exact_probe_radius);
+  for (int n = 0; n < 3; ++n)
+    add_row(normalize(cross(atoms[atom[n]].xyz - s, atoms[atom[n == 2 ? 0 : n + 1]].xyz - s)), 0.0LF);
+  for (uint n = first; n < last; ++n) {
+    dvec3 d = probes[neighbor_labels[n]].position - s;
+    if (cuts(d)) add_row(normalize(d), 0.5LF * length(d));
+  }
+  for (int n = 0; n < 3; ++n) add_bits(contact[n], atom[n]);
+  append_primitive(primitive);
+}

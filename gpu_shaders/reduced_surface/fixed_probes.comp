@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Stage "fixed probes" (RS faces): places those that the view needs, visible or cutting what is visible.
+// Reads: arcs, atoms, radii, kept atoms, depths. Writes: probes, probe_balls, probe_balls_low, counters.
+// One invocation per arc. Overflow: appends stop at the capacity but go on counting; the host grows and runs again.
+// Based on: Krone, Dachsbacher & Ertl 2010, section 3.3 (visible and adjacent RS faces), by theorem 2 instead.
+#version 450 core
+layout(local_size_x = 64) in;
+#define DOUBLE_PRECISION
+#include "gpu_shaders/shared/linear_index.glsl"
+#include "gpu_shaders/reduced_surface/precision.glsl"
+#include "gpu_shaders/geometry/circle.glsl"
+#include "gpu_shaders/geometry/fixed_probe.glsl"
+#include "gpu_shaders/reduced_surface/arc_ends.glsl"
+#include "gpu_shaders/reduced_surface/listed_balls.glsl"
+#include "gpu_shaders/shared/probe_record.glsl"
+#include "gpu_shaders/visibility/begins_in_front.glsl"
+
+layout(std430, binding = 2) writeonly buffer Probes { ProbeRecord probes[]; };
+layout(std430, binding = 3) writeonly buffer ProbeBalls { vec4 probe_balls[]; };         // from the middle of the atoms, p
+layout(std430, binding = 4) writeonly buffer ProbeBallsLow { vec4 probe_balls_low[]; };  // what is left of the centre
+layout(std430, binding = 5) buffer Counters {
+  uint probe_count;
+  uint end_sums[6];  // over the ends of arcs, by the place of the third atom among the sorted three: two keys each
+};
+uniform uint arc_count;
+uniform uint probe_capacity;
+uniform dvec3 middle;  // of the atoms
+
+void append(Triple t) {
+  FixedProbe probe = place_probe(t);
+  dvec3 from_middle = probe.position - middle;
+  vec3 coarse = vec3(from_middle);
+  // What a probe makes or cuts is within p of it.
+  if (!begins_in_front(coarse, float(exact_probe_radius))) return;
+  uint slot = atomicAdd(probe_count, 1u);
+  if (slot >= probe_capacity) return;
+  probes[slot] = ProbeRecord(probe.position, probe.height, uvec4(t.a, t.b, t.c, t.side),
+                             triple_key(t, 0u), uint[3](0u, 0u, 0u));
+  probe_balls[slot] = vec4(coarse, float(exact_probe_radius));
+  probe_balls_low[slot] = vec4(vec3(from_middle - dvec3(coarse)), 0.0);
+}
+
+void main() {
+  uint index = linear_invocation_index();
+  if (index >= arc_count) return;
+  uvec4 arc = texelFetch(arcs, int(index));
+  if (arc.z == kNone) return;
+  for (int end = 0; end < 2; ++end) {
+    uint k = end == 1 ? arc.w : arc.z;
+    // A probe that touches an atom the view does not need, the view does not need.
+    if (!is_listed(k)) continue;
+    Triple t = triple_at(arc.x, arc.y, k, end == 1);
+    // Three arcs end at every probe, with each of its atoms once as the third: the certificate of closure (theorem 3)
+    // is that the keys of all three kinds of ends have equal sums.
+    uint role = k > arc.y ? 0u : k > arc.x ? 1u : 2u;
+    atomicAdd(end_sums[2u * role], triple_key(t, 0u));
+    atomicAdd(end_sums[2u * role + 1u], triple_key(t, 0x9e6c63d0u));
+    if (role == 0u) append(t);
+  }
+}

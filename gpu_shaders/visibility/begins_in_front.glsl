@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Theorem 2 of the design notes, for any ball: does it begin in front of the nearest vdW sphere on some ray?
+#include "gpu_shaders/visibility/view.glsl"
+
+layout(binding = 4) uniform usamplerBuffer tile_depths;   // floats
+layout(binding = 5) uniform usamplerBuffer block_depths;  // floats
+uniform uint keep_all;  // 1: the eye may stand in the solid, or the whole surface is wanted
+
+// position: from the middle of the atoms. False only if no ray of the picture enters the ball in front of the vdW
+// spheres: rays are asked block by block, with bounds that hold for every ray of a block.
+bool begins_in_front(vec3 position, float radius) {
+  if (keep_all != 0u) return true;
+  radius += margin;
+  vec3 v = view_from_molecule(position);
+  if (v.z + radius <= 0.0) return false;
+  if (orthographic == 0u && dot(v, v) <= radius * radius) return true;
+  vec4 pixels = touched_pixels(v, radius);
+  if (pixels.x >= pixels.z || pixels.y >= pixels.w) return false;
+  ivec2 last = picture_size - 1;
+  ivec2 low = min(ivec2(pixels.xy), last);
+  ivec2 high = min(ivec2(pixels.zw), last);
+  ivec2 tiles = tile_count();
+  int blocks = kTileEdge / block_edge;
+  for (int y = low.y / kTileEdge; y <= high.y / kTileEdge; ++y)
+    for (int x = low.x / kTileEdge; x <= high.x / kTileEdge; ++x) {
+      ivec2 tile = ivec2(x, y);
+      float tile_depth = uintBitsToFloat(texelFetch(tile_depths, y * tiles.x + x).x);
+      if (earliest_depth(ray_block(tile * kTileEdge, kTileEdge), v, radius) > tile_depth) continue;
+      ivec2 first = max(low - tile * kTileEdge, ivec2(0)) / block_edge;
+      ivec2 past = min(high - tile * kTileEdge, ivec2(kTileEdge - 1)) / block_edge + 1;
+      for (int j = first.y; j < past.y; ++j)
+        for (int i = first.x; i < past.x; ++i) {
+          ivec2 block = tile * blocks + ivec2(i, j);
+          float depth = uintBitsToFloat(texelFetch(block_depths, block.y * tiles.x * blocks + block.x).x);
+          if (earliest_depth(ray_block(block * block_edge, block_edge), v, radius) <= depth) return true;
+        }
+    }
+  return false;
+}

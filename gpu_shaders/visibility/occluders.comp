@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Stage "visible atoms", 1: draws the vdW spheres into blocks of pixels; each keeps the depth by which all its rays end.
+// Reads: balls. Writes: block_depths (bits of floats, filled with those of kNothing before).
+// One group per atom. Overflow: none.
+// Based on: Krone, Dachsbacher & Ertl 2010, section 3.2 (visible atoms), with blocks of rays instead of single ones.
+#version 450 core
+layout(local_size_x = 32) in;
+#include "gpu_shaders/shared/linear_index.glsl"
+#include "gpu_shaders/visibility/view.glsl"
+
+layout(std430, binding = 0) readonly buffer Balls { vec4 balls[]; };  // from the middle of the atoms, SAS radius
+layout(std430, binding = 1) buffer BlockDepths { uint block_depths[]; };
+uniform uint atom_count;
+uniform float probe_radius;
+
+void main() {
+  uint a = linear_group_index();
+  if (a >= atom_count) return;
+  vec4 ball = balls[a];
+  vec3 v = view_from_molecule(ball.xyz);
+  float radius = ball.w - probe_radius;
+  if (v.z <= 0.0) return;
+  vec4 pixels = touched_pixels(v, radius);
+  ivec2 low = ivec2(pixels.xy) / block_edge;
+  ivec2 blocks = ivec2(pixels.zw) / block_edge - low + 1;
+  int row_length = tile_count().x * (kTileEdge / block_edge);
+  int row_count = tile_count().y * (kTileEdge / block_edge);
+  for (int n = int(gl_LocalInvocationID.x); n < blocks.x * blocks.y; n += 32) {
+    ivec2 block = low + ivec2(n % blocks.x, n / blocks.x);
+    if (block.x >= row_length || block.y >= row_count) continue;
+    float depth = latest_depth(ray_block(block * block_edge, block_edge), v, radius);
+    // Positive floats are ordered as their bits are.
+    if (depth < kNothing) atomicMin(block_depths[block.y * row_length + block.x], floatBitsToUint(depth));
+  }
+}

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Where spheres begin along the rays of a block of pixels: bounds that hold for every ray of the block.
+//
+// View coordinates: origin at the eye, x right, y down, z forward, Å. A depth is the distance along a ray from the eye
+// (orthographic: from the plane through it). Pixels are counted from the middle of the picture.
+
+uniform vec3 eye;  // from the middle of the atoms
+uniform vec3 right;
+uniform vec3 up;
+uniform vec3 forward;
+uniform uint orthographic;
+uniform float pixel_scale;  // of a pixel at distance 1; orthographic: in Å
+uniform ivec2 picture_size;  // pixels
+uniform int block_edge;      // pixels; divides kTileEdge
+uniform float margin;        // covers the rounding of every bound here, in Å
+
+const int kTileEdge = 16;
+const float kNothing = 3.0e38;
+
+ivec2 tile_count() { return (picture_size + (kTileEdge - 1)) / kTileEdge; }
+
+vec3 view_from_molecule(vec3 position) {
+  vec3 v = position - eye;
+  return vec3(dot(v, right), -dot(v, up), dot(v, forward));
+}
+
+// Slopes x/z of the two lines through the eye that touch the circle around (x, z), z > radius.
+vec2 tangent_slopes(float x, float z, float radius) {
+  float square = (z - radius) * (z + radius);
+  float root = radius * sqrt(x * x + square);
+  return vec2(x * z - root, x * z + root) / square;
+}
+
+// Pixels from the picture's corner that a ball may touch: low corner, high corner; grown by more than rounding.
+vec4 touched_pixels(vec3 v, float radius) {
+  vec2 x;
+  vec2 y;
+  if (orthographic != 0u) {
+    x = vec2(v.x - radius, v.x + radius);
+    y = vec2(v.y - radius, v.y + radius);
+  } else {
+    if (v.z <= radius * 1.001) return vec4(0.0, 0.0, vec2(picture_size));
+    x = tangent_slopes(v.x, v.z, radius);
+    y = tangent_slopes(v.y, v.z, radius);
+  }
+  vec4 range = vec4(x.x, y.x, x.y, y.y) / pixel_scale;
+  range += (1.0 + 2e-3 * abs(range)) * vec4(-1.0, -1.0, 1.0, 1.0);
+  vec2 size = vec2(picture_size);
+  return clamp(range + 0.5 * size.xyxy, vec4(0.0), size.xyxy);
+}
+
+// A block of pixels as the rays within `reach` pixels of `middle`.
+struct RayBlock {
+  vec2 middle;
+  float reach;
+};
+
+RayBlock ray_block(ivec2 first_pixel, int edge) {
+  return RayBlock(vec2(first_pixel) + 0.5 * (float(edge) - vec2(picture_size)), 0.70711 * float(edge));
+}
+
+// How far the middle ray passes the point v, and how much farther or nearer other rays of the block pass it. Two
+// directions whose points on the plane at distance 1 are e apart enclose an angle of at most e.
+vec2 passing_distance(RayBlock block, vec3 v) {
+  vec2 slope = block.middle * pixel_scale;
+  if (orthographic != 0u) return vec2(length(v.xy - slope), block.reach * pixel_scale);
+  vec3 d = normalize(vec3(slope, 1.0));
+  return vec2(length(v - d * dot(v, d)), block.reach * pixel_scale * length(v));
+}
+
+float depth_on_sphere(vec3 v, float radius, float passing) {
+  float half_chord = sqrt(max(radius * radius - passing * passing, 0.0));
+  if (orthographic != 0u) return v.z - half_chord;
+  return sqrt(max(dot(v, v) - passing * passing, 0.0)) - half_chord;
+}
+
+// No ray of the block enters the ball before this depth; kNothing if none enters it.
+float earliest_depth(RayBlock block, vec3 v, float radius) {
+  vec2 passing = passing_distance(block, v);
+  // sin(a - e) >= sin a (1 - e^2) - e for the angle a between the middle ray and v.
+  float e = orthographic != 0u ? 0.0 : block.reach * pixel_scale;
+  float nearest = max(passing.x * (1.0 - e * e) - passing.y - margin, 0.0);
+  return nearest < radius ? depth_on_sphere(v, radius, nearest) : kNothing;
+}
+
+// Every ray of the block enters the ball before this depth; kNothing if one may miss it or begins inside.
+float latest_depth(RayBlock block, vec3 v, float radius) {
+  vec2 passing = passing_distance(block, v);
+  float farthest = passing.x + passing.y + margin;  // sin(a + e) <= sin a + e
+  if (v.z <= 0.0 || farthest >= radius) return kNothing;
+  float depth = depth_on_sphere(v, radius, farthest) + margin;
+  return depth > margin ? depth : kNothing;
+}

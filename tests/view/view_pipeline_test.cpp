@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The picture of what a view needs against the picture of the complete surface, bit for bit, from any camera.
+#include "core/view/view_pipeline.h"
+
+#include <cmath>
+#include <random>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include "core/gpu/egl_context.h"
+#include "core/reference/exhaustive.h"
+#include "core/render/ray_caster.h"
+#include "core/surface/solvent.h"
+#include "core/surface/surface.h"
+#include "core/view/frame_renderer.h"
+#include "tests/support/molecules.h"
+
+namespace meniscus {
+namespace {
+
+using testing::Balls;
+
+constexpr glm::ivec2 kSize{160, 120};
+
+class Views : public ::testing::Test {
+ protected:
+  void load(const Balls& atoms) {
+    renderer_.set_atoms(atoms);
+    Coloring coloring;
+    for (std::size_t a = 0; a < atoms.size(); ++a)
+      coloring.atom.emplace_back(0.1f * static_cast<float>(a % 10), 0.2f * static_cast<float>(a % 5), 0.5f);
+    renderer_.set_coloring(coloring);
+  }
+
+  std::vector<glm::vec4> draw(const Camera& camera, double probe_radius, Extent extent) {
+    FrameRequest request;
+    request.camera = camera;
+    request.size = kSize;
+    request.probe_radius = probe_radius;
+    request.extent = extent;
+    renderer_.render(request);
+    return renderer_.samples().download<glm::vec4>(static_cast<std::size_t>(kSize.x) * kSize.y);
+  }
+
+  int differing_pixels(const Camera& camera, double probe_radius) {
+    const auto complete = draw(camera, probe_radius, Extent::complete);
+    const auto visible = draw(camera, probe_radius, Extent::visible);
+    int count = 0;
+    for (std::size_t at = 0; at < complete.size(); ++at) count += complete[at] != visible[at];
+    return count;
+  }
+
+  const EglContext context_{{DeviceChoice::Kind::software, 0}};
+  FrameRenderer renderer_;
+};
+
+TEST_F(Views, CompleteEqualsTheSurfaceOfTheHost) {
+  for (const auto& [name, atoms] : {std::pair{"1UBQ", testing::ubiquitin()}}) {
+    load(atoms);
+    const Surface surface = assemble_surface(atoms, 1.4, enumerate_reduced_surface(atoms, 1.4));
+    Coloring coloring;
+    coloring.atom.assign(atoms.size(), glm::vec3(0.5f));
+    renderer_.set_coloring(coloring);
+    const Camera camera = frame_camera(surface, 4.0 / 3.0);
+    RayCaster caster;
+    RenderSettings settings;
+    settings.size = kSize;
+    const Framebuffer expected = caster.render(surface, coloring, camera, settings);
+    const auto found = draw(camera, 1.4, Extent::complete);
+    int count = 0;
+    for (std::size_t at = 0; at < found.size(); ++at) {
+      const glm::vec4 d = glm::abs(found[at] - expected.color[at]);
+      count += d.x > 1e-4f || d.y > 1e-4f || d.z > 1e-4f || d.w > 0.0f;
+    }
+    EXPECT_EQ(count, 0) << name;
+    EXPECT_EQ(renderer_.stats().primitives, surface.convex.size() + surface.toroidal.size() + surface.concave.size());
+  }
+}
+
+/// Cameras around the atoms, near and far, every other one orthographic.
+Camera camera_outside(const Balls& atoms, std::mt19937& random) {
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> uniform;
+  Camera camera = frame_camera(atoms, 4.0 / 3.0);
+  const double distance = glm::length(camera.position - camera.target) * (0.6 + uniform(random));
+  camera.position =
+      camera.target + distance * glm::normalize(glm::dvec3(normal(random), normal(random), normal(random)));
+  camera.up = {normal(random), normal(random), normal(random)};
+  if (random() % 2 == 0) {
+    camera.projection = Projection::orthographic;
+    camera.height = 0.4 * distance;
+  }
+  return camera;
+}
+
+/// Cameras among the atoms, most of them in the solvent.
+Camera camera_inside(const Balls& atoms, double probe_radius, std::mt19937& random) {
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> uniform;
+  Camera camera;
+  for (int attempt = 0; attempt < 200; ++attempt) {
+    const Ball& near = atoms[random() % atoms.size()];
+    camera.position = near.center + glm::normalize(glm::dvec3(normal(random), normal(random), normal(random))) *
+                                        (near.radius + 4.0 * uniform(random));
+    if (in_solvent(atoms, probe_radius, camera.position)) break;
+  }
+  camera.target = camera.position + glm::dvec3(normal(random), normal(random), normal(random));
+  camera.up = {normal(random), normal(random), normal(random)};
+  camera.vertical_fov = 40.0 + 80.0 * uniform(random);
+  return camera;
+}
+
+TEST_F(Views, VisibleEqualsCompleteFromOutside) {
+  const Balls atoms = testing::ubiquitin();
+  load(atoms);
+  std::mt19937 random(4);
+  for (const double probe_radius : {0.7, 1.4, 3.0, 10.0})
+    for (int n = 0; n < 8; ++n) EXPECT_EQ(differing_pixels(camera_outside(atoms, random), probe_radius), 0);
+}
+
+TEST_F(Views, VisibleEqualsCompleteFromInside) {
+  const Balls atoms = testing::enterotoxin();
+  load(atoms);
+  std::mt19937 random(5);
+  for (const double probe_radius : {0.7, 1.4, 3.0})
+    for (int n = 0; n < 4; ++n)
+      EXPECT_EQ(differing_pixels(camera_inside(atoms, probe_radius, random), probe_radius), 0);
+}
+
+}  // namespace
+}  // namespace meniscus
