@@ -11,6 +11,8 @@
 
 #include "app/commands.h"
 #include "app/molecule.h"
+#include "app/paper_bench.h"
+#include "app/picture_options.h"
 #include "core/base/text.h"
 #include "core/molecule/formats.h"
 #include "core/reference/rolling_probe.h"
@@ -23,6 +25,8 @@ struct BenchCommand {
   std::vector<std::string> files;
   int runs = 5;
   bool baseline = false;
+  bool paper = false;
+  glm::ivec2 size{1024, 768};
 };
 
 /// One measured molecule: the run with the median total.
@@ -109,7 +113,22 @@ void print_table(const std::vector<Row>& rows) {
   }
 }
 
+void run_paper(BenchCommand& command) {
+  PaperBenchSettings settings;
+  settings.device = command.molecule.computing.cpu ? DeviceChoice{} : command.molecule.computing.gl;
+  settings.size = command.size;
+  settings.probe_radius = command.molecule.computing.probe_radius;
+  settings.runs = command.runs;
+  std::vector<PaperBenchMolecule> molecules;
+  for (const std::string& file : command.files) {
+    command.molecule.file = file;
+    molecules.push_back({std::filesystem::path(file).filename().string(), balls_of(read_molecule(command.molecule))});
+  }
+  print_paper_tables(molecules, settings);
+}
+
 void run(BenchCommand& command) {
+  if (command.paper) return run_paper(command);
   Progress progress(progress_on_stderr(command.molecule), "bench",
                     command.files.size() * static_cast<std::size_t>(command.runs));
   std::vector<Row> rows;
@@ -126,7 +145,8 @@ void add_bench(CLI::App& command) {
   describe(
       command, "Time the stages of the surface computation for several files",
       "  meniscus bench 1ubq.pdb 1tii.pdb            a row each: stages, total, surfaces per second\n"
-      "  meniscus bench 6zu5.cif --device cpu --threads 1 --runs 20",
+      "  meniscus bench 6zu5.cif --device cpu --threads 1 --runs 20\n"
+      "  meniscus bench --paper 1crn.pdb 1vis.pdb 1tii.pdb   frames as in the paper, beside its own figures",
       "All times are wall-clock milliseconds, the medians of the runs, after one run that is not counted. Reading\n"
       "the file is not part of them.");
   auto state = std::make_shared<BenchCommand>();
@@ -137,6 +157,8 @@ void add_bench(CLI::App& command) {
       ->type_name("N");
   command.add_flag("--baseline", state->baseline,
                    "Also time Sanner's sequential rolling probe (reduced surface alone, one thread)");
+  command.add_flag("--paper", state->paper,
+                   "Time whole frames instead, ray casting included, like table 1 of the paper: complete and visible");
   command.add_flag("-q,--quiet", state->molecule.quiet, "No notes on stderr; errors only");
   command.callback([state] { run(*state); });
 }

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Table 1 of the paper (Krone, Dachsbacher & Ertl 2010) measured anew: frames of a view, stage group by stage group.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <glm/vec2.hpp>
+
+#include "core/gpu/device_choice.h"
+#include "core/surface/primitives.h"
+
+namespace meniscus {
+
+/// How frames are drawn and counted.
+struct PaperBenchSettings {
+  DeviceChoice device;
+  glm::ivec2 size{1024, 768};  ///< pixels
+  double probe_radius = 1.4;   ///< Å
+  int runs = 5;                ///< timed frames of each kind; medians are shown
+};
+
+/// The balls of one file under the name to be shown.
+struct PaperBenchMolecule {
+  std::string name;
+  std::vector<Ball> balls;
+};
+
+/// Prints the tables on stdout. Throws GpuError, OpenSurfaceError, CapacityError.
+void print_paper_tables(const std::vector<PaperBenchMolecule>& molecules, const PaperBenchSettings& settings);
+
+}  // namespace meniscus
