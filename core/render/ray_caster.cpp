@@ -7,6 +7,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include <glm/common.hpp>
@@ -94,10 +95,12 @@ void copy_hits(const PictureBlock& block, const std::vector<ray_cast::Hit>& hits
 
 /// What render() makes of each block.
 struct RayCaster::Collected {
+  const GpuScene& scene;
+  const PictureFrame& frame;
   const RenderSettings& settings;
-  const RayCastScene& packed;
-  const ComponentLookup components;
-  Framebuffer picture;
+  const RayCastScene* packed = nullptr;  // for AOVs
+  const ComponentLookup* components = nullptr;
+  Framebuffer picture{};
 };
 
 Framebuffer RayCaster::render(const Surface& surface, const Coloring& coloring, const Camera& camera,
@@ -114,29 +117,44 @@ Framebuffer RayCaster::render(const Surface& surface, const Coloring& coloring, 
     upload_scene(packed, surface, scene_);
     upload_coloring(coloring, scene_);
   }
-  Collected collected{settings, packed, ComponentLookup(surface), {}};
+  std::optional<ComponentLookup> components;
+  if (settings.aovs) components.emplace(surface);
+  Collected collected{scene_, frame, settings, &packed, components ? &*components : nullptr};
+  render_blocks(collected);
+  return std::move(collected.picture);
+}
+
+Framebuffer RayCaster::render(const GpuScene& scene, const PictureFrame& frame, const RenderSettings& settings) {
+  assert(settings.size == frame.size && settings.samples > 0 && !settings.aovs);
+  clock_.restart();
+  Collected collected{scene, frame, settings};
+  render_blocks(collected);
+  return std::move(collected.picture);
+}
+
+void RayCaster::render_blocks(Collected& collected) {
+  const RenderSettings& settings = collected.settings;
   resize(collected.picture, settings);
   const int edge = usable_block_edge(settings.block_edge);
   for (int top = 0; top < settings.size.y; top += edge)
     for (int left = 0; left < settings.size.x; left += edge)
-      render_block(frame, {{left, top}, glm::min(glm::ivec2(edge), settings.size - glm::ivec2(left, top))}, collected);
-  return std::move(collected.picture);
+      render_block({{left, top}, glm::min(glm::ivec2(edge), settings.size - glm::ivec2(left, top))}, collected);
 }
 
-void RayCaster::render_block(const PictureFrame& frame, const PictureBlock& block, Collected& collected) {
+void RayCaster::render_block(const PictureBlock& block, Collected& collected) {
   const RenderSettings& settings = collected.settings;
   try {
-    cast(scene_, frame, block, settings.samples);
+    cast(collected.scene, collected.frame, block, settings.samples);
   } catch (const CapacityError&) {
     if (block.size.x <= kTileEdge && block.size.y <= kTileEdge) throw;
-    for (const PictureBlock& half : halves(block)) render_block(frame, half, collected);
+    for (const PictureBlock& half : halves(block)) render_block(half, collected);
     return;
   }
   const std::size_t count = static_cast<std::size_t>(block.size.x) * block.size.y;
   copy_colors(block, picture_.download<glm::vec4>(count), 1.0f / static_cast<float>(settings.samples),
               collected.picture);
   if (settings.aovs)
-    copy_hits(block, hits_.download<ray_cast::Hit>(count), collected.packed, frame, collected.components,
+    copy_hits(block, hits_.download<ray_cast::Hit>(count), *collected.packed, collected.frame, *collected.components,
               collected.picture);
 }
 

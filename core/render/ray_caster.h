@@ -31,6 +31,9 @@ class RayCaster {
   Framebuffer render(const Surface& surface, const Coloring& coloring, const Camera& camera,
                      const RenderSettings& settings);
 
+  /// The same for a scene that is on the GPU already; settings.size is frame.size, and there are no AOVs.
+  Framebuffer render(const GpuScene& scene, const PictureFrame& frame, const RenderSettings& settings);
+
   /// Casts a block of a picture of a scene that is on the GPU already and leaves it there, in picture() and hits().
   /// frame.size is that of the whole picture. Throws GpuError; CapacityError if the block is too large for this GPU.
   void cast(const GpuScene& scene, const PictureFrame& frame, const PictureBlock& block, int sample_count);
@@ -51,7 +54,8 @@ class RayCaster {
  private:
   struct Collected;
 
-  void render_block(const PictureFrame& frame, const PictureBlock& block, Collected& collected);
+  void render_blocks(Collected& collected);
+  void render_block(const PictureBlock& block, Collected& collected);
 
   ProgramCache programs_;
   TileLists lists_{programs_};
