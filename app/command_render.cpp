@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `meniscus render`: a picture of the surface by ray casting its analytic patches.
+#include <iostream>
+#include <map>
 #include <memory>
 #include <optional>
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ostream.h>
 
 #include "app/commands.h"
 #include "app/molecule.h"
 #include "app/picture_options.h"
 #include "app/program_error.h"
+#include "app/view_picture.h"
 #include "core/base/text.h"
 #include "core/gpu/egl_context.h"
 #include "core/render/image_output.h"
@@ -29,6 +33,8 @@ struct RenderCommand {
   bool aovs = false;
   bool legend = false;
   std::optional<glm::vec3> background;
+  std::optional<Extent> extent;  ///< nothing: the complete surface, computed and certified before the picture
+  bool stats = false;
 };
 
 void parse_background(const std::string& text, std::optional<glm::vec3>& background) {
@@ -41,50 +47,100 @@ void parse_background(const std::string& text, std::optional<glm::vec3>& backgro
     throw CLI::ValidationError("--background", in_quotes(text) + " is none of transparent, white, black, #rrggbb");
 }
 
+void parse_extent(const std::string& text, std::optional<Extent>& extent) {
+  const std::map<std::string, Extent> words{
+      {"complete", Extent::complete}, {"visible", Extent::visible}, {"paper", Extent::paper}};
+  const auto word = words.find(text);
+  if (word == words.end())
+    throw CLI::ValidationError("--extent", in_quotes(text) + " is none of visible, complete, paper");
+  extent = word->second;
+}
+
 void save_camera(const RenderCommand& command, const Camera& camera) {
   OutputFile file(command.save_camera, command.output.existing());
   file.write(camera_json(camera));
   file.commit();
 }
 
+/// The picture's size, of which the molecule takes what the legend leaves.
+struct Frame {
+  PictureOptions size;
+  std::optional<Legend> legend;
+
+  Frame(const RenderCommand& command, const ColorKey& key) : size(command.picture) {
+    if (!command.legend) return;
+    legend.emplace(key, glm::ivec2(size.width, size.height));
+    size.width = legend->molecule_size().x;
+    size.height = legend->molecule_size().y;
+  }
+};
+
+RenderSettings render_settings(const RenderCommand& command, const Frame& frame) {
+  RenderSettings settings;
+  settings.size = {frame.size.width, frame.size.height};
+  settings.samples = command.samples;
+  settings.aovs = command.aovs;
+  return settings;
+}
+
+DeviceChoice gl_device(const RenderCommand& command) {
+  return command.molecule.computing.cpu ? DeviceChoice{} : command.molecule.computing.gl;
+}
+
+void finish(const RenderCommand& command, const Frame& frame, Framebuffer picture, const Camera& camera) {
+  if (frame.legend) picture = frame.legend->add_to(picture, command.background);
+  write_image(command.output.path, picture, {command.background, command.output.existing()});
+  if (!command.save_camera.empty()) save_camera(command, camera);
+}
+
+void say_times(const RenderCommand& command, const EglContext& context, const std::vector<StageTime>& stages) {
+  std::string times;
+  for (const StageTime& stage : stages)
+    times += fmt::format("{}{} {:.1f} ms", times.empty() ? "" : ", ", stage.name, stage.milliseconds);
+  say(command.molecule, fmt::format("picture on {}, GL {}{}: {}", context.renderer(), context.version(),
+                                    context.is_software() ? " (software)" : "", times));
+}
+
+// Without the complete surface: from atoms to the picture on the GPU.
+void draw_view(const RenderCommand& command) {
+  const ColoredAtoms atoms = load_atoms(command.molecule);
+  const Frame frame(command, key_of(atoms.molecule));
+  const Camera camera = picture_camera(frame.size, atoms.balls);
+  const EglContext context(gl_device(command));
+  ViewPicture view = view_picture(atoms, camera, command.molecule.computing.probe_radius, *command.extent,
+                                  render_settings(command, frame));
+  if (command.stats) fmt::print(std::cerr, "{}", stats_text(view));
+  say_times(command, context, view.times);
+  finish(command, frame, std::move(view.picture), camera);
+}
+
 void run(const RenderCommand& command) {
   check_image_path(command.output.path);
   if (command.aovs && !holds_aovs(command.output.path))
     throw UsageError("--aovs needs an .exr output; other formats hold colour only");
+  if (command.extent) {
+    check_view_options(command.molecule);
+    if (command.aovs) throw UsageError("--aovs needs the complete surface; leave --extent away");
+  } else if (command.stats) {
+    throw UsageError("--stats tells the stages of a view; add --extent");
+  }
   if (command.legend && command.molecule.color.by == ColorScheme::By::fixed)
     throw UsageError("--legend has nothing to explain where all is of one colour; choose another --color");
   // Whether the outputs can be written is known before the work begins; these vanish again.
   OutputFile(command.output.path, command.output.existing());
   if (!command.save_camera.empty()) OutputFile(command.save_camera, command.output.existing());
+  if (command.extent) return draw_view(command);
   Molecule molecule = load_molecule(command.molecule);
-  PictureOptions size = command.picture;  // of the molecule, beside the legend
-  std::optional<Legend> legend;
-  if (command.legend) {
-    legend.emplace(key_of(molecule), glm::ivec2(size.width, size.height));
-    size.width = legend->molecule_size().x;
-    size.height = legend->molecule_size().y;
-  }
+  const Frame frame(command, key_of(molecule));
   const SurfaceObject whole = merged(std::move(molecule.objects));
-  const Camera camera = picture_camera(size, whole.surface.atoms);
-
-  EglContext context(command.molecule.computing.cpu ? DeviceChoice{} : command.molecule.computing.gl);
+  const Camera camera = picture_camera(frame.size, whole.surface.atoms);
+  const EglContext context(gl_device(command));
   RayCaster caster;
-  RenderSettings settings;
-  settings.size = {size.width, size.height};
-  settings.samples = command.samples;
-  settings.aovs = command.aovs;
-  Framebuffer picture = caster.render(whole.surface, whole.coloring, camera, settings);
+  Framebuffer picture = caster.render(whole.surface, whole.coloring, camera, render_settings(command, frame));
   for (std::uint32_t& atom : picture.atom)
     if (atom != kNone) atom = whole.atom[atom];
-  if (legend) picture = legend->add_to(picture, command.background);
-
-  write_image(command.output.path, picture, {command.background, command.output.existing()});
-  if (!command.save_camera.empty()) save_camera(command, camera);
-  std::string times;
-  for (const StageTime& stage : caster.times())
-    times += fmt::format("{}{} {:.1f} ms", times.empty() ? "" : ", ", stage.name, stage.milliseconds);
-  say(command.molecule, fmt::format("picture on {}, GL {}{}: {}", context.renderer(), context.version(),
-                                    context.is_software() ? " (software)" : "", times));
+  finish(command, frame, std::move(picture), camera);
+  say_times(command, context, caster.times());
 }
 
 }  // namespace
@@ -113,6 +169,13 @@ void add_render(CLI::App& command) {
       "Write what the colours mean at the right (of high pictures: below); the molecule is framed beside it");
   command.add_flag("--aovs", state->aovs,
                    "Add Z, N.xyz, P.xyz, atom, kind and component of each pixel's centre to an .exr");
+  command
+      .add_option_function<std::string>(
+          "--extent", [state](const std::string& text) { parse_extent(text, state->extent); },
+          "Compute on the GPU only what this view needs: visible (the same picture, pixel for pixel); complete "
+          "(everything, the same way); paper (as Krone et al. 2010 select it: deep clefts may have holes)")
+      ->type_name("WORD");
+  command.add_flag("--stats", state->stats, "With --extent: what each group of stages found, and its time, on stderr");
   command.add_option("--save-camera", state->save_camera, "Write the camera used, as JSON for --camera")
       ->type_name("FILE");
   command.callback([state] { run(*state); });

@@ -28,16 +28,11 @@ Structure read_molecule(const MoleculeOptions& options) {
   return structure;
 }
 
-namespace {
-
-/// The colour scheme with the numbers of its file, if it has one.
 ColorScheme color_of(const MoleculeOptions& options) {
   ColorScheme color = options.color;
   if (color.by == ColorScheme::By::file) color.file = read_number_file(options.color_file);
   return color;
 }
-
-}  // namespace
 
 ColorKey key_of(const Molecule& molecule) {
   std::vector<std::string> names;

@@ -29,6 +29,9 @@ struct Molecule {
 /// it prints the assemblies and ends the program by CLI::Success.
 Structure read_molecule(const MoleculeOptions& options);
 
+/// The colour scheme with the numbers of its file, if it has one. Throws InputError.
+ColorScheme color_of(const MoleculeOptions& options);
+
 /// What the colours of its objects mean.
 ColorKey key_of(const Molecule& molecule);
 

@@ -11,17 +11,23 @@
 
 namespace meniscus {
 
-void show_only(const Selection& shown, const Structure& structure, std::vector<SurfaceObject>& objects) {
-  const std::vector<bool> visible = shown.evaluate(structure.atoms);
+std::vector<bool> hidden_atoms(const Selection& shown, const Structure& structure) {
+  std::vector<bool> visible = shown.evaluate(structure.atoms);
   if (std::find(visible.begin(), visible.end(), true) == visible.end()) {
     throw InputError(structure.file, 0,
                      fmt::format("none of the {} atoms used is to be shown by {}; chains and names are case-sensitive",
                                  with_thousands(structure.atoms.size()), in_quotes(shown.text())));
   }
+  visible.flip();
+  return visible;
+}
+
+void show_only(const Selection& shown, const Structure& structure, std::vector<SurfaceObject>& objects) {
+  const std::vector<bool> hidden_of_structure = hidden_atoms(shown, structure);
   for (SurfaceObject& object : objects) {
     std::vector<bool>& hidden = object.coloring.hidden;
     hidden.resize(object.atom.size());
-    for (std::size_t a = 0; a < hidden.size(); ++a) hidden[a] = hidden[a] || !visible[object.atom[a]];
+    for (std::size_t a = 0; a < hidden.size(); ++a) hidden[a] = hidden[a] || hidden_of_structure[object.atom[a]];
   }
 }
 

@@ -10,6 +10,9 @@
 
 namespace meniscus {
 
+/// Per atom of the structure, whether it is not selected. Throws InputError if nothing would be seen.
+std::vector<bool> hidden_atoms(const Selection& shown, const Structure& structure);
+
 /// Hides the points of all atoms that are not selected, in every object. Throws InputError if nothing would be seen.
 void show_only(const Selection& shown, const Structure& structure, std::vector<SurfaceObject>& objects);
 

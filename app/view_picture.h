@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A picture made of what one view needs (`render --extent`), without the complete surface.
+#pragma once
+
+#include <string>
+
+#include "app/molecule.h"
+#include "core/render/framebuffer.h"
+#include "core/render/ray_caster.h"
+#include "core/view/extent.h"
+#include "core/view/view_pipeline.h"
+
+namespace meniscus {
+
+/// Throws UsageError for options that only a complete surface can serve: --by, --cavities, --instances, --verify,
+/// --color component, another --surface.
+void check_view_options(const MoleculeOptions& options);
+
+/// The atoms of a structure with their colours, and no surface yet. Throws InputError.
+struct ColoredAtoms {
+  Molecule molecule;  ///< without objects
+  std::vector<Ball> balls;
+  Coloring coloring;
+};
+ColoredAtoms load_atoms(const MoleculeOptions& options);
+
+/// A finished picture, and how it came to be.
+struct ViewPicture {
+  Framebuffer picture;
+  std::vector<StageTime> times;
+  ViewStats stats;
+};
+
+/// Draws; needs a current GL context. Throws OpenSurfaceError, GpuError, CapacityError, InputError for a bad camera.
+ViewPicture view_picture(const ColoredAtoms& atoms, const Camera& camera, double probe_radius, Extent extent,
+                         const RenderSettings& settings);
+
+/// The four groups of stages and the ray casting line by line, with what each of them found.
+std::string stats_text(const ViewPicture& view);
+
+}  // namespace meniscus
