@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
@@ -40,15 +39,17 @@ GlDevice describe(EGLDeviceEXT device, int egl_index) {
   return result;
 }
 
-bool is_software_renderer(std::string renderer) {
-  std::transform(renderer.begin(), renderer.end(), renderer.begin(), [](unsigned char c) { return std::tolower(c); });
-  return std::ranges::any_of(std::array{"llvmpipe", "softpipe", "swrast", "swiftshader", "software"},
-                             [&](const char* word) { return renderer.find(word) != std::string::npos; });
-}
+constexpr std::array<EGLint, 7> kCoreProfile{
+    EGL_CONTEXT_MAJOR_VERSION,           4,       EGL_CONTEXT_MINOR_VERSION, 5, EGL_CONTEXT_OPENGL_PROFILE_MASK,
+    EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
 
-std::string gl_text(GLenum name) {
-  const auto* text = reinterpret_cast<const char*>(glGetString(name));
-  return text ? text : "unknown";
+EGLConfig config_of(EGLDisplay display, EGLContext context) {
+  EGLint id = 0;
+  eglQueryContext(display, context, EGL_CONFIG_ID, &id);
+  const std::array<EGLint, 3> same{EGL_CONFIG_ID, id, EGL_NONE};
+  EGLConfig config = nullptr;
+  EGLint count = 0;
+  return eglChooseConfig(display, same.data(), &config, 1, &count) && count == 1 ? config : nullptr;
 }
 
 /// The devices that fit the wish, best first.
@@ -73,6 +74,13 @@ std::vector<GlDevice> list_gl_devices() {
     if (!result.back().software) result.back().gpu_index = gpu_count++;
   }
   return result;
+}
+
+std::optional<ForeignContext> current_egl_context() {
+  if (!epoxy_has_egl() || eglGetCurrentContext() == EGL_NO_CONTEXT) return {};
+  GLint strategy = GL_NO_RESET_NOTIFICATION;
+  glGetIntegerv(GL_RESET_NOTIFICATION_STRATEGY, &strategy);
+  return ForeignContext{eglGetCurrentDisplay(), eglGetCurrentContext(), strategy == GL_LOSE_CONTEXT_ON_RESET};
 }
 
 EglContext::EglContext(const DeviceChoice& choice) {
@@ -104,17 +112,14 @@ bool EglContext::try_device(const GlDevice& device, std::string& why_not) {
   EGLint config_count = 0;
   // Surfaceless: any config with OpenGL does, and none is needed where EGL_KHR_no_config_context is offered.
   if (!eglChooseConfig(display, config_wish.data(), &config, 1, &config_count) || config_count == 0) config = nullptr;
-  const std::array<EGLint, 7> wish{
-      EGL_CONTEXT_MAJOR_VERSION,           4,       EGL_CONTEXT_MINOR_VERSION, 5, EGL_CONTEXT_OPENGL_PROFILE_MASK,
-      EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
-  context = eglCreateContext(display, config, EGL_NO_CONTEXT, wish.data());
+  context = eglCreateContext(display, config, EGL_NO_CONTEXT, kCoreProfile.data());
   if (context == EGL_NO_CONTEXT)
     return why_not = fmt::format("no GL 4.5 core (EGL error 0x{:x})", eglGetError()), false;
   if (!adopt_context(display, context, why_not)) {
     eglDestroyContext(display, context);
     return false;
   }
-  is_software_ = device.software || is_software_renderer(renderer_);
+  description_.software |= device.software;
   return true;
 }
 
@@ -123,10 +128,26 @@ bool EglContext::adopt_context(void* display, void* context, std::string& why_no
     return why_not = fmt::format("its context cannot be made current (EGL error 0x{:x})", eglGetError()), false;
   display_ = display;
   context_ = context;
-  vendor_ = gl_text(GL_VENDOR);
-  renderer_ = gl_text(GL_RENDERER);
-  version_ = gl_text(GL_VERSION);
+  description_ = describe_current_context();
   return true;
+}
+
+EglContext::EglContext(const ForeignContext& sibling) {
+  if (!epoxy_has_egl_extension(sibling.display, "EGL_KHR_surfaceless_context") || !eglBindAPI(EGL_OPENGL_API))
+    throw GpuError("this display cannot draw beside its windows (EGL_KHR_surfaceless_context is missing)");
+  std::vector<EGLint> wish(kCoreProfile.begin(), kCoreProfile.end() - 1);
+  if (sibling.tells_resets)  // contexts that share agree about this
+    wish.insert(wish.end(), {EGL_CONTEXT_OPENGL_ROBUST_ACCESS, EGL_TRUE,
+                             EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY, EGL_LOSE_CONTEXT_ON_RESET});
+  wish.push_back(EGL_NONE);
+  const EGLContext context = eglCreateContext(sibling.display, config_of(sibling.display, sibling.context),
+                                              sibling.context, wish.data());
+  if (context == EGL_NO_CONTEXT)
+    throw GpuError(fmt::format("no GL context beside the window's (EGL error 0x{:x})", eglGetError()));
+  if (std::string why_not; !adopt_context(sibling.display, context, why_not)) {
+    eglDestroyContext(sibling.display, context);
+    throw GpuError("the GL context beside the window's: " + why_not);
+  }
 }
 
 EglContext::~EglContext() {

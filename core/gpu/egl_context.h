@@ -2,9 +2,11 @@
 // A GL 4.5 core context without any window, on a device of the user's choice.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "core/gpu/context_description.h"
 #include "core/gpu/device_choice.h"
 
 namespace meniscus {
@@ -20,11 +22,23 @@ struct GlDevice {
 /// All devices that EGL_EXT_device_enumeration offers. Throws GpuError when EGL cannot enumerate devices.
 std::vector<GlDevice> list_gl_devices();
 
+/// A context that others made through EGL, such as a window's.
+struct ForeignContext {
+  void* display = nullptr;
+  void* context = nullptr;
+  bool tells_resets = false;  ///< GL_LOSE_CONTEXT_ON_RESET
+};
+
+/// The context current on this thread; nothing if there is none, or not through EGL.
+std::optional<ForeignContext> current_egl_context();
+
 /// Owns one GL 4.5 core context, current on the thread that made it. All GL calls of the library need one current.
 class EglContext {
  public:
   /// Throws GpuError when no device fits `choice` or it has no GL 4.5.
   explicit EglContext(const DeviceChoice& choice = {});
+  /// Shares textures and buffers with `sibling`, which outlives it and is current on another thread. Throws GpuError.
+  explicit EglContext(const ForeignContext& sibling);
   ~EglContext();
   EglContext(const EglContext&) = delete;
   EglContext& operator=(const EglContext&) = delete;
@@ -32,10 +46,10 @@ class EglContext {
   /// Makes the context current on the calling thread. Throws GpuError.
   void make_current();
 
-  bool is_software() const { return is_software_; }
-  const std::string& vendor() const { return vendor_; }
-  const std::string& renderer() const { return renderer_; }
-  const std::string& version() const { return version_; }
+  bool is_software() const { return description_.software; }
+  const std::string& vendor() const { return description_.vendor; }
+  const std::string& renderer() const { return description_.renderer; }
+  const std::string& version() const { return description_.version; }
 
  private:
   bool try_device(const GlDevice& device, std::string& why_not);
@@ -43,8 +57,7 @@ class EglContext {
 
   void* display_ = nullptr;
   void* context_ = nullptr;
-  bool is_software_ = false;
-  std::string vendor_, renderer_, version_;
+  ContextDescription description_;
 };
 
 }  // namespace meniscus

@@ -67,14 +67,18 @@ struct Font::Face {
   }
 };
 
-Font::Font(int height) : face_(std::make_unique<Face>()), height_(height) {
+std::optional<std::string> find_font_file() {
   std::error_code ignored;
   const auto file = std::ranges::find_if(kFonts, [&](const char* f) { return std::filesystem::exists(f, ignored); });
-  if (file == kFonts.end())
-    throw RequestError("--legend found no font to write with; install the package fonts-dejavu-core");
-  if (FT_Init_FreeType(&face_->library) != 0 || FT_New_Face(face_->library, *file, 0, &face_->face) != 0 ||
+  return file == kFonts.end() ? std::nullopt : std::optional<std::string>(*file);
+}
+
+Font::Font(int height) : face_(std::make_unique<Face>()), height_(height) {
+  const std::optional<std::string> file = find_font_file();
+  if (!file) throw RequestError("--legend found no font to write with; install the package fonts-dejavu-core");
+  if (FT_Init_FreeType(&face_->library) != 0 || FT_New_Face(face_->library, file->c_str(), 0, &face_->face) != 0 ||
       FT_Set_Pixel_Sizes(face_->face, 0, static_cast<FT_UInt>(height)) != 0)
-    throw RequestError(std::string(*file) + ": this font cannot be read; install the package fonts-dejavu-core again");
+    throw RequestError(*file + ": this font cannot be read; install the package fonts-dejavu-core again");
   face_->for_each_letter("H", [&](int) { capital_height_ = face_->face->glyph->bitmap_top; });
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,11 +12,14 @@
 
 namespace meniscus {
 
+/// The first of DejaVu Sans, Liberation Sans and Noto Sans in the places where Linux distributions keep them.
+std::optional<std::string> find_font_file();
+
 /// One face and size of letters. Text is UTF-8.
 class Font {
  public:
-  /// height: of a line's letters, in pixels. Takes the first of DejaVu Sans, Liberation Sans and Noto Sans in the
-  /// places where Linux distributions keep them. Throws RequestError when there is none, naming the package to install.
+  /// height: of a line's letters, in pixels. Throws RequestError when there is no font file, naming the package to
+  /// install.
   explicit Font(int height);
   ~Font();
 

@@ -59,6 +59,26 @@ TEST_F(GpuCore, MovesToAnotherThread) {
   }).join();
 }
 
+TEST_F(GpuCore, SharesBuffersWithASibling) {
+  const auto shared = current_egl_context();
+  ASSERT_TRUE(shared);
+  Buffer buffer(64);
+  std::thread([&] {
+    const EglContext sibling(*shared);
+    EXPECT_EQ(sibling.renderer(), context_.renderer());
+    EXPECT_EQ(sibling.is_software(), context_.is_software());
+    buffer.fill(7);
+    check_gl("filling");
+    require_living_context();
+  }).join();
+  EXPECT_EQ(buffer.download<std::uint32_t>(16), std::vector<std::uint32_t>(16, 7));
+  EXPECT_FALSE([] {
+    bool found = true;
+    std::thread([&] { found = current_egl_context().has_value(); }).join();
+    return found;
+  }());
+}
+
 TEST_F(GpuCore, BuffersReturnWhatTheyWereGiven) {
   for (const std::size_t count : {0u, 1u, 3u, 1000u, 100000u}) {
     std::vector<std::uint32_t> words(count);

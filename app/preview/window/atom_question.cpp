@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A question that repeats itself as long as the area is missing.
+#include "app/preview/window/atom_question.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace meniscus {
+namespace {
+
+constexpr double kAskAgain = 0.3;  // seconds
+
+}  // namespace
+
+void AtomQuestion::ask_at(glm::dvec2 place, double time) {
+  forget();
+  place_ = place;
+  due_ = time;
+}
+
+void AtomQuestion::forget() {
+  place_.reset();
+  number_ = 0;
+  answer_ = nullptr;
+}
+
+std::optional<double> AtomQuestion::advance(SessionLink& link, double time) {
+  if (!place_ || number_ != 0) return {};
+  if (time < due_) return due_ - time;
+  const auto pixel = [&](double x, const char* side) {
+    return std::clamp(static_cast<int>(std::floor(x)), 0, link.state()[side].get<int>() - 1);
+  };
+  number_ = link.send(
+      {{"command", "pick"}, {"x", pixel(place_->x, "width")}, {"y", pixel(place_->y, "height")}, {"wait", false}});
+  return {};
+}
+
+bool AtomQuestion::take(const SessionReply& reply, double time) {
+  if (number_ == 0 || reply.number != number_) return false;
+  number_ = 0;
+  answer_ = reply.reply;
+  const bool whole = !answer_.value("hit", false) || answer_["exposed_area"].is_number();
+  if (whole) place_.reset();
+  due_ = time + kAskAgain;
+  return true;
+}
+
+}  // namespace meniscus

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// "What is here?", asked of the session at a place of the picture until all of the answer is known.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include <glm/vec2.hpp>
+#include <nlohmann/json.hpp>
+
+#include "app/preview/window/session_link.h"
+
+namespace meniscus {
+
+/// Exposed areas take a while; the rest of the answer comes at once. Times: seconds on any one clock.
+class AtomQuestion {
+ public:
+  /// To be asked at `time`, in place of any question before. place: pixels of the picture.
+  void ask_at(glm::dvec2 place, double time);
+  /// Asks no more; what is known stays.
+  void stop() { place_.reset(); }
+  void forget();
+
+  /// Asks if it is time to. Seconds until it will be; nothing: not until something else happens.
+  std::optional<double> advance(SessionLink& link, double time);
+  /// True if this was the answer.
+  bool take(const SessionReply& reply, double time);
+
+  /// As the command "pick" answers; null while unknown.
+  const nlohmann::json& answer() const { return answer_; }
+
+ private:
+  std::optional<glm::dvec2> place_;
+  double due_ = 0.0;
+  std::uint64_t number_ = 0;  // of the question on its way; 0: none
+  nlohmann::json answer_;
+};
+
+}  // namespace meniscus

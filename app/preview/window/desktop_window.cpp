@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// GLFW with an EGL context: opening, listening, and saying in one line why there is no window.
+#include "app/preview/window/desktop_window.h"
+
+#include <cstdlib>
+#include <optional>
+#include <utility>
+
+#include <dlfcn.h>
+#include <unistd.h>
+
+#include <epoxy/gl.h>
+#include <fmt/format.h>
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include "app/program_error.h"
+#include "core/base/error.h"
+#include "core/base/output_file.h"
+
+namespace meniscus {
+namespace {
+
+constexpr const char* kElsewhere = "run on a desktop, or use --serve";
+
+/// Why the last GLFW call failed.
+std::string glfw_reason() {
+  const char* text = nullptr;
+  return glfwGetError(&text) == GLFW_NO_ERROR || !text ? "no reason given" : text;
+}
+
+/// Xlib ends the program when the display goes away; this keeps its exit code and its tidiness ours.
+int lose_display(void*) {
+  constexpr char kLine[] = "meniscus: error: the display went away; the preview ends\n";
+  [[maybe_unused]] const auto written = ::write(STDERR_FILENO, kLine, sizeof kLine - 1);
+  remove_unfinished_outputs();
+  ::_exit(kExitGpu);
+}
+
+/// By name, since GLFW is also built without X11.
+void catch_lost_display() {
+  using Handler = int (*)(void*);
+  const auto set_handler = reinterpret_cast<Handler (*)(Handler)>(::dlsym(RTLD_DEFAULT, "XSetIOErrorHandler"));
+  if (set_handler) set_handler(lose_display);
+}
+
+GLFWwindow* create_window(const std::string& title, glm::ivec2 size, bool tell_resets) {
+  glfwDefaultWindowHints();
+  glfwWindowHint(GLFW_CONTEXT_CREATION_API, GLFW_EGL_CONTEXT_API);
+  glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
+  glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
+  glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+  glfwWindowHint(GLFW_CONTEXT_ROBUSTNESS, tell_resets ? GLFW_LOSE_CONTEXT_ON_RESET : GLFW_NO_ROBUSTNESS);
+  glfwWindowHint(GLFW_DEPTH_BITS, 0);
+  glfwWindowHint(GLFW_STENCIL_BITS, 0);
+  glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
+  return glfwCreateWindow(size.x, size.y, title.c_str(), nullptr, nullptr);
+}
+
+DesktopWindow& owner(GLFWwindow* window) { return *static_cast<DesktopWindow*>(glfwGetWindowUserPointer(window)); }
+
+std::optional<MouseButton> button_of(int glfw_button) {
+  if (glfw_button == GLFW_MOUSE_BUTTON_LEFT) return MouseButton::left;
+  if (glfw_button == GLFW_MOUSE_BUTTON_RIGHT) return MouseButton::right;
+  if (glfw_button == GLFW_MOUSE_BUTTON_MIDDLE) return MouseButton::middle;
+  return {};
+}
+
+}  // namespace
+
+DesktopWindow::DesktopWindow(const std::string& title, glm::ivec2 size) {
+  if (!glfwInit()) throw GpuError(fmt::format("no display: {} ({})", kElsewhere, glfw_reason()));
+  catch_lost_display();
+  window_ = create_window(title, size, true);
+  if (!window_) window_ = create_window(title, size, false);  // drivers that cannot tell a reset
+  if (!window_) {
+    const std::string reason = glfw_reason();
+    glfwTerminate();
+    throw GpuError(fmt::format("no window with GL 4.5 through EGL on this display: {} ({})", kElsewhere, reason));
+  }
+  glfwMakeContextCurrent(window_);
+  glfwSwapInterval(0);  // frames are drawn when something changed, not as fast as possible
+  context_ = describe_current_context();
+  gl_ = current_egl_context().value_or(ForeignContext{});
+  listen();
+}
+
+DesktopWindow::~DesktopWindow() {
+  glfwDestroyWindow(window_);
+  glfwTerminate();
+}
+
+bool DesktopWindow::wait(double seconds) {
+  const double begin = glfwGetTime();
+  if (seconds > 0.0)
+    glfwWaitEventsTimeout(seconds);
+  else
+    glfwPollEvents();
+  return !events_.empty() || glfwGetTime() - begin < seconds;
+}
+
+void DesktopWindow::wake() { glfwPostEmptyEvent(); }
+
+std::vector<InputEvent> DesktopWindow::take_events() { return std::exchange(events_, {}); }
+
+void DesktopWindow::swap() {
+  glfwSwapBuffers(window_);
+  require_living_context();
+}
+
+void DesktopWindow::close() { glfwSetWindowShouldClose(window_, GLFW_TRUE); }
+void DesktopWindow::hide() { glfwHideWindow(window_); }
+bool DesktopWindow::closing() const { return glfwWindowShouldClose(window_); }
+
+glm::ivec2 DesktopWindow::pixels() const {
+  glm::ivec2 size{0};
+  glfwGetFramebufferSize(window_, &size.x, &size.y);
+  return size;
+}
+
+double DesktopWindow::scale() const {
+  float x = 1.0f, y = 1.0f;
+  glfwGetWindowContentScale(window_, &x, &y);
+  return x > 0.0f ? x : 1.0;
+}
+
+double DesktopWindow::seconds() const { return glfwGetTime(); }
+
+glm::dvec2 DesktopWindow::pixels_per_unit() const {
+  glm::ivec2 units{0};
+  glfwGetWindowSize(window_, &units.x, &units.y);
+  return units.x > 0 && units.y > 0 ? glm::dvec2(pixels()) / glm::dvec2(units) : glm::dvec2(1.0);
+}
+
+InputEvent DesktopWindow::event_now(InputEvent::Kind kind) const {
+  InputEvent event;
+  event.kind = kind;
+  event.time = seconds();
+  glm::dvec2 units{0.0};
+  glfwGetCursorPos(window_, &units.x, &units.y);
+  event.position = units * pixels_per_unit();
+  return event;
+}
+
+void DesktopWindow::listen() {
+  glfwSetWindowUserPointer(window_, this);
+  glfwSetMouseButtonCallback(window_, [](GLFWwindow* window, int glfw_button, int action, int modifiers) {
+    const auto button = button_of(glfw_button);
+    if (!button) return;
+    InputEvent event =
+        owner(window).event_now(action == GLFW_PRESS ? InputEvent::Kind::press : InputEvent::Kind::release);
+    event.button = *button;
+    event.shift = modifiers & GLFW_MOD_SHIFT;
+    owner(window).events_.push_back(event);
+  });
+  glfwSetCursorPosCallback(window_, [](GLFWwindow* window, double x, double y) {
+    InputEvent event = owner(window).event_now(InputEvent::Kind::move);
+    event.position = glm::dvec2(x, y) * owner(window).pixels_per_unit();
+    owner(window).events_.push_back(event);
+  });
+  glfwSetScrollCallback(window_, [](GLFWwindow* window, double, double notches) {
+    InputEvent event = owner(window).event_now(InputEvent::Kind::scroll);
+    event.scroll = notches;
+    owner(window).events_.push_back(event);
+  });
+  glfwSetCharCallback(window_, [](GLFWwindow* window, unsigned letter) {
+    InputEvent event = owner(window).event_now(InputEvent::Kind::text);
+    event.letter = letter;
+    owner(window).events_.push_back(event);
+  });
+  glfwSetKeyCallback(window_, [](GLFWwindow* window, int key, int, int action, int) {
+    if (action == GLFW_RELEASE) return;
+    InputEvent event = owner(window).event_now(InputEvent::Kind::key);
+    event.key = key;
+    owner(window).events_.push_back(event);
+  });
+}
+
+}  // namespace meniscus

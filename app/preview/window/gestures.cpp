@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Drags are told in heights of the picture, so that they mean the same in a picture of another size.
+#include "app/preview/window/gestures.h"
+
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+namespace meniscus {
+namespace {
+
+constexpr double kSlack = 3.0;                // pixels; a hand that clicks moves that much
+constexpr double kDoubleClickSeconds = 0.35;  // between two clicks
+constexpr double kZoomPerNotch = 1.1;
+
+void add_movement(const char* word, glm::dvec2 drag, std::vector<nlohmann::json>& commands) {
+  if (!commands.empty() && commands.back().value("command", "") == word) {
+    drag.x += commands.back()["dx"].get<double>();
+    drag.y += commands.back()["dy"].get<double>();
+    commands.pop_back();
+  }
+  commands.push_back({{"command", word}, {"dx", drag.x}, {"dy", drag.y}});
+}
+
+void add_zoom(double factor, std::vector<nlohmann::json>& commands) {
+  if (!commands.empty() && commands.back().value("command", "") == "zoom") {
+    factor *= commands.back()["factor"].get<double>();
+    commands.pop_back();
+  }
+  commands.push_back({{"command", "zoom"}, {"factor", factor}});
+}
+
+}  // namespace
+
+void Gestures::take(const InputEvent& event, glm::ivec2 size, bool elsewhere, std::vector<nlohmann::json>& commands) {
+  click_.reset();
+  switch (event.kind) {
+    case InputEvent::Kind::press:
+      if (!elsewhere && !held_) press(event);
+      break;
+    case InputEvent::Kind::release:
+      if (held_ && held_->button == event.button) release(event);
+      break;
+    case InputEvent::Kind::move:
+      if (held_) move(event, size, commands);
+      break;
+    case InputEvent::Kind::scroll:
+      if (!elsewhere && event.scroll != 0.0) add_zoom(std::pow(kZoomPerNotch, event.scroll), commands);
+      break;
+    case InputEvent::Kind::text:
+    case InputEvent::Kind::key:
+      break;
+  }
+}
+
+void Gestures::press(const InputEvent& event) {
+  held_ = Hold{event.button, event.shift || event.button != MouseButton::left, event.position, event.position};
+}
+
+void Gestures::release(const InputEvent& event) {
+  if (!held_->moved && event.button == MouseButton::left) {
+    const bool twice = last_click_ && event.time - last_click_->time < kDoubleClickSeconds &&
+                       glm::distance(event.position, last_click_->position) <= 2.0 * kSlack;
+    click_ = Click{event.position, twice};
+    last_click_.reset();
+    if (!twice) last_click_ = event;
+  }
+  held_.reset();
+}
+
+void Gestures::move(const InputEvent& event, glm::ivec2 size, std::vector<nlohmann::json>& commands) {
+  held_->moved |= glm::distance(event.position, held_->start) > kSlack;
+  if (!held_->moved) return;
+  add_movement(held_->pan ? "pan" : "orbit", (event.position - held_->last) / static_cast<double>(size.y), commands);
+  held_->last = event.position;
+}
+
+}  // namespace meniscus

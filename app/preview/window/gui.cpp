@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Style of the panel: dark ink on pale paper, one accent, letters as large as the desktop wants them.
+#include "app/preview/window/gui.h"
+
+#include <backends/imgui_impl_glfw.h>
+#include <backends/imgui_impl_opengl3.h>
+#include <imgui.h>
+
+#include "core/render/text_raster.h"
+
+namespace meniscus {
+namespace {
+
+constexpr float kLetterHeight = 15.0f;  // on an ordinary screen
+
+const ImVec4 kPaper{0.965f, 0.965f, 0.957f, 1.0f};
+const ImVec4 kInk{0.13f, 0.15f, 0.17f, 1.0f};
+const ImVec4 kPaleInk{0.42f, 0.45f, 0.48f, 1.0f};
+const ImVec4 kField{0.89f, 0.90f, 0.90f, 1.0f};
+const ImVec4 kFieldHovered{0.83f, 0.86f, 0.87f, 1.0f};
+const ImVec4 kFieldActive{0.76f, 0.82f, 0.85f, 1.0f};
+const ImVec4 kAccent{0.13f, 0.43f, 0.53f, 1.0f};
+const ImVec4 kLine{0.80f, 0.82f, 0.83f, 1.0f};
+
+void set_colors(ImVec4* colors) {
+  colors[ImGuiCol_Text] = kInk;
+  colors[ImGuiCol_TextDisabled] = kPaleInk;
+  colors[ImGuiCol_WindowBg] = colors[ImGuiCol_PopupBg] = kPaper;
+  colors[ImGuiCol_Border] = colors[ImGuiCol_Separator] = kLine;
+  colors[ImGuiCol_FrameBg] = colors[ImGuiCol_Button] = colors[ImGuiCol_Header] = kField;
+  colors[ImGuiCol_FrameBgHovered] = colors[ImGuiCol_ButtonHovered] = colors[ImGuiCol_HeaderHovered] = kFieldHovered;
+  colors[ImGuiCol_FrameBgActive] = colors[ImGuiCol_ButtonActive] = colors[ImGuiCol_HeaderActive] = kFieldActive;
+  colors[ImGuiCol_SliderGrab] = colors[ImGuiCol_SliderGrabActive] = colors[ImGuiCol_CheckMark] = kAccent;
+  colors[ImGuiCol_PlotHistogram] = kAccent;
+  colors[ImGuiCol_TableRowBgAlt] = ImVec4(0.0f, 0.0f, 0.0f, 0.03f);
+}
+
+void set_style(float scale) {
+  ImGui::StyleColorsLight();
+  ImGuiStyle& style = ImGui::GetStyle();
+  style.WindowPadding = {14.0f, 12.0f};
+  style.FramePadding = {8.0f, 4.0f};
+  style.ItemSpacing = {8.0f, 7.0f};
+  style.ItemInnerSpacing = {6.0f, 4.0f};
+  style.GrabMinSize = 12.0f;
+  style.ScrollbarSize = 12.0f;
+  style.WindowRounding = style.PopupRounding = 6.0f;
+  style.FrameRounding = style.GrabRounding = 4.0f;
+  style.FrameBorderSize = 0.0f;
+  set_colors(style.Colors);
+  style.ScaleAllSizes(scale);
+}
+
+/// pixels: height of a letter. Without a font file ImGui's own letters do.
+void load_font(float pixels) {
+  ImGuiIO& io = ImGui::GetIO();
+  const auto file = find_font_file();
+  if (!file || !io.Fonts->AddFontFromFileTTF(file->c_str(), pixels)) {
+    ImFontConfig plain;
+    plain.SizePixels = pixels;
+    io.Fonts->AddFontDefault(&plain);
+  }
+}
+
+}  // namespace
+
+Gui::Gui(DesktopWindow& window) {
+  IMGUI_CHECKVERSION();
+  ImGui::CreateContext();
+  ImGuiIO& io = ImGui::GetIO();
+  io.IniFilename = nullptr;  // nothing is written into the user's folder
+  io.LogFilename = nullptr;
+  const float scale = static_cast<float>(window.scale());
+  const float per_unit = static_cast<float>(window.pixels_per_unit().y);
+  load_font(kLetterHeight * scale);
+  io.FontGlobalScale = 1.0f / per_unit;
+  em_ = kLetterHeight * scale / per_unit;
+  set_style(scale / per_unit);
+  ImGui_ImplGlfw_InitForOpenGL(window.glfw(), true);  // hands on the events the window listens to
+  ImGui_ImplOpenGL3_Init("#version 450 core");
+}
+
+Gui::~Gui() {
+  ImGui_ImplOpenGL3_Shutdown();
+  ImGui_ImplGlfw_Shutdown();
+  ImGui::DestroyContext();
+}
+
+void Gui::begin() {
+  ImGui_ImplOpenGL3_NewFrame();
+  ImGui_ImplGlfw_NewFrame();
+  ImGui::NewFrame();
+}
+
+void Gui::end() {
+  ImGui::Render();
+  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+}
+
+bool Gui::wants_mouse() { return ImGui::GetIO().WantCaptureMouse; }
+bool Gui::wants_keyboard() { return ImGui::GetIO().WantTextInput; }
+
+}  // namespace meniscus

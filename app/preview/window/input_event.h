@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a user does to a window, one small record each, in the order it was done.
+#pragma once
+
+#include <glm/vec2.hpp>
+
+namespace meniscus {
+
+enum class MouseButton { left, right, middle };
+
+/// Positions and sizes are in pixels of the picture, from its upper left corner.
+struct InputEvent {
+  enum class Kind { press, release, move, scroll, text, key };
+  Kind kind = Kind::move;
+  glm::dvec2 position{0.0};                ///< of the pointer
+  MouseButton button = MouseButton::left;  ///< press and release
+  double scroll = 0.0;                     ///< notches, > 0: away from the user
+  char32_t letter = 0;                     ///< as typed on the user's keyboard
+  int key = 0;                             ///< GLFW_KEY_..., for what types nothing; also repeated while held
+  bool shift = false;
+  double time = 0.0;  ///< seconds on the window's clock
+};
+
+}  // namespace meniscus

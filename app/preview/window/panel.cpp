@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Widgets that read the state and send commands; none of them holds a value of the session.
+#include "app/preview/window/panel.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+#include "app/preview/look_json.h"
+#include "app/preview/window/keys.h"
+#include "core/molecule/color_maps.h"
+#include "core/molecule/color_schemes.h"
+#include "core/molecule/named_colors.h"
+
+namespace meniscus {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr float kLargestSliderProbe = 10.0f;  // Å; larger ones can be typed
+
+ImVec4 fault_color() { return {0.70f, 0.16f, 0.12f, 1.0f}; }
+
+void heading(const char* text) {
+  ImGui::Dummy({0.0f, 0.2f * ImGui::GetFontSize()});
+  ImGui::TextDisabled("%s", text);
+  ImGui::Separator();
+}
+
+/// Text of a file or the session, never a format.
+void plain(const std::string& text) { ImGui::TextWrapped("%s", text.c_str()); }
+
+/// A name at the left; the next widget stands at its right and fills the line.
+void label(const char* text) {
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted(text);
+  ImGui::SameLine(6.5f * ImGui::GetFontSize());
+  ImGui::SetNextItemWidth(-1.0f);
+}
+
+/// A list to choose from; the word chosen now, or nothing.
+template <class Words>
+std::optional<std::string> chosen(const char* id, const std::string& current, const Words& words) {
+  std::optional<std::string> choice;
+  if (!ImGui::BeginCombo(id, current.c_str(), ImGuiComboFlags_HeightLarge)) return choice;
+  for (const auto& word : words) {
+    const std::string text(word);
+    if (ImGui::Selectable(text.c_str(), text == current)) choice = text;
+  }
+  ImGui::EndCombo();
+  return choice;
+}
+
+std::vector<std::string> map_names() {
+  std::vector<std::string> names;
+  for (const ColorMapMetadata& map : color_maps()) names.emplace_back(map.name);
+  return names;
+}
+
+}  // namespace
+
+void Panel::draw(float em) {
+  const ImVec2 window = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowPos({window.x - width(em), 0.0f});
+  ImGui::SetNextWindowSize({width(em), window.y});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.0f);
+  ImGui::Begin(
+      "panel", nullptr,
+      ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoMove);
+  ImGui::PopStyleVar();
+  if (link_.has_state()) {
+    title();
+    surface();
+    coloring();
+    view();
+    look();
+    if (link_.state()["frames"].get<int>() > 1) frames();
+    exports();
+    picked();
+    timing();
+  } else {
+    ImGui::TextUnformatted("The first picture is being made ...");
+  }
+  status();
+  ImGui::End();
+}
+
+void Panel::title() {
+  const Json& state = link_.state();
+  const std::string file = state["file"];
+  plain(file.substr(file.rfind('/') + 1));
+  ImGui::TextDisabled("%s atoms", fmt::format("{}", state["atoms"].get<std::size_t>()).c_str());
+}
+
+void Panel::surface() {
+  heading("Surface");
+  label("Probe");
+  float radius = link_.state()["probe_radius"];
+  if (ImGui::SliderFloat("##probe", &radius, 0.0f, kLargestSliderProbe, "%.2f \xc3\x85", ImGuiSliderFlags_Logarithmic))
+    link_.send({{"command", "probe"}, {"radius", std::round(100.0 * std::max(radius, 0.0f)) / 100.0}});
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("Ctrl + click to type a radius; 0 shows the van der Waals surface");
+}
+
+void Panel::coloring() {
+  heading("Colour");
+  const Json& state = link_.state();
+  label("By");
+  const std::string scheme = state["color"]["scheme"];
+  if (const auto word = chosen("##scheme", scheme, offered_schemes()))
+    link_.send({{"command", "color"}, {"scheme", *word}});
+  const auto parsed = parse_color_scheme(scheme);
+  if (parsed && parsed->has_scale()) {
+    label("Map");
+    if (const auto map = chosen("##map", state["color"].value("map", "as the scheme has it"), map_names()))
+      link_.send({{"command", "color"}, {"scheme", scheme}, {"map", *map}});
+  }
+  bool kinds = state["patch_kinds"];
+  if (ImGui::Checkbox("Kinds of patch instead", &kinds)) link_.send({{"command", "patch_kinds"}, {"on", kinds}});
+  if (!kinds) return;
+  constexpr const char* kWords[] = {"convex", "toroidal", "concave"};
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (k > 0) ImGui::SameLine();
+    const glm::vec3 color = kPatchKindColors[k];
+    const float edge = 0.8f * ImGui::GetFontSize();
+    ImGui::ColorButton(kWords[k], {color.x, color.y, color.z, 1.0f}, ImGuiColorEditFlags_NoTooltip, {edge, edge});
+    ImGui::SameLine(0.0f, 0.4f * edge);
+    ImGui::TextUnformatted(kWords[k]);
+  }
+}
+
+void Panel::view() {
+  heading("View");
+  const bool perspective = link_.state()["camera"]["projection"] == "perspective";
+  if (ImGui::RadioButton("perspective", perspective) && !perspective)
+    link_.send({{"command", "projection"}, {"projection", "perspective"}});
+  ImGui::SameLine();
+  if (ImGui::RadioButton("orthographic", !perspective) && perspective)
+    link_.send({{"command", "projection"}, {"projection", "orthographic"}});
+  label("Zoom to");
+  if (ImGui::InputTextWithHint("##zoom", "chain A and resid 10-50", &selection_,
+                               ImGuiInputTextFlags_EnterReturnsTrue) &&
+      !selection_.empty())
+    link_.send({{"command", "zoom_to"}, {"selection", selection_}});
+  if (ImGui::Button("Show everything", {-1.0f, 0.0f})) link_.send({{"command", "reset_view"}});
+}
+
+void Panel::look() {
+  heading("Look");
+  label("Background");
+  const auto hex = parse_hex_color(link_.state()["look"]["background"].get<std::string>());
+  glm::vec3 color = hex.value_or(glm::vec3(1.0f));
+  if (ImGui::ColorEdit3("##background", &color.x, ImGuiColorEditFlags_DisplayHex))
+    link_.send({{"command", "look"}, {"background", hex_color(color)}});
+}
+
+void Panel::frames() {
+  heading("Frames");
+  const Json& state = link_.state();
+  const int count = state["frames"];
+  const bool playing = state["playing"];
+  if (ImGui::Button(playing ? "Pause" : "Play", {5.5f * ImGui::GetFontSize(), 0.0f}))
+    link_.send({{"command", playing ? "pause" : "play"}});
+  ImGui::SameLine(6.5f * ImGui::GetFontSize());
+  ImGui::SetNextItemWidth(-1.0f);
+  int number = state["frame"].get<int>() + 1;
+  const std::string format = fmt::format("%d of {}", count);
+  if (ImGui::SliderInt("##frame", &number, 1, count, format.c_str(), ImGuiSliderFlags_AlwaysClamp))
+    link_.send({{"command", "frame"}, {"index", number - 1}});
+}
+
+void Panel::exports() {
+  struct Format {
+    const char *word, *shown, *ending;
+  };
+  constexpr Format kFormats[] = {{"png", "picture (PNG)", ".png"},
+                                 {"povray", "POV-Ray scene", "_povray"},
+                                 {"blender", "Blender file", ".mns"},
+                                 {"camera", "camera (JSON)", ".json"}};
+  heading("Export this view");
+  label("As");
+  if (ImGui::BeginCombo("##format", kFormats[format_].shown)) {
+    for (int f = 0; f < 4; ++f)
+      if (ImGui::Selectable(kFormats[f].shown, f == format_)) format_ = f;
+    ImGui::EndCombo();
+  }
+  label("Name");
+  if (std::exchange(name_wanted_, false)) ImGui::SetKeyboardFocusHere();
+  bool go = ImGui::InputText("##name", &name_, ImGuiInputTextFlags_EnterReturnsTrue);
+  const std::string path = name_ + kFormats[format_].ending;
+  go |= ImGui::Button(fmt::format("Write {}###write", path).c_str(), {-1.0f, 0.0f});
+  ImGui::Checkbox("replace what exists", &replace_);
+  if (go) link_.send({{"command", "export"}, {"format", kFormats[format_].word}, {"path", path}, {"force", replace_}});
+}
+
+std::array<std::string, 4> pick_lines(const Json& pick) {
+  if (!pick.value("hit", false)) return {};
+  const auto text = [&](const char* key) { return pick.value(key, std::string()); };
+  std::string area = "exposed area ...";
+  if (pick["exposed_area"].is_number())
+    area = fmt::format("exposed area {:.2f} \xc3\x85\xc2\xb2", pick["exposed_area"].get<double>());
+  const std::string element = text("element").empty() ? "" : fmt::format(" ({})", text("element"));
+  return {fmt::format("atom {}{}", text("name"), element),
+          fmt::format("residue {} {}{}, chain {}", text("residue"), pick["residue_number"].get<int>(),
+                      text("insertion_code"), text("chain")),
+          text("kind") + " patch", area};
+}
+
+void Panel::picked() {
+  heading("Picked");
+  if (!pick_.value("hit", false)) {
+    ImGui::TextDisabled("click an atom, or let the mouse rest on it");
+    return;
+  }
+  for (const std::string& line : pick_lines(pick_)) plain(line);
+}
+
+void Panel::timing() {
+  heading("Last picture");
+  const Json& stats = link_.stats();
+  if (!stats.is_object() || !ImGui::BeginTable("times", 2, ImGuiTableFlags_RowBg)) return;
+  ImGui::TableSetupColumn("stage", ImGuiTableColumnFlags_WidthStretch);
+  ImGui::TableSetupColumn("time", ImGuiTableColumnFlags_WidthFixed);
+  const auto row = [](const std::string& name, const std::string& value) {
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(name.c_str());
+    ImGui::TableNextColumn();
+    const float room = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(value.c_str()).x;
+    ImGui::SetCursorPosX(ImGui::GetCursorPosX() + std::max(room, 0.0f));
+    ImGui::TextUnformatted(value.c_str());
+  };
+  row(fmt::format("{} x {}{}", stats["width"].get<int>(), stats["height"].get<int>(),
+                  link_.news().full ? "" : ", draft"),
+      fmt::format("{:.1f} fps", stats["fps"].get<double>()));
+  for (const Json& stage : stats["stages"])
+    row(stage["name"], fmt::format("{:.1f} ms", stage["milliseconds"].get<double>()));
+  row("total", fmt::format("{:.1f} ms", stats["frame_milliseconds"].get<double>()));
+  ImGui::EndTable();
+}
+
+void Panel::show_reply(const SessionReply& reply) {
+  line_is_fault_ = !reply.reply.value("ok", false);
+  if (line_is_fault_) line_ = reply.reply.value("error", "the command failed");
+  if (!line_is_fault_ && reply.command.value("command", "") == "export")
+    line_ = "written: " + reply.reply.value("path", std::string());
+}
+
+void Panel::status() {
+  constexpr double kPatience = 0.4;  // seconds; shorter work is not worth a word
+  ImGui::Dummy({0.0f, 0.2f * ImGui::GetFontSize()});
+  const auto& busy = link_.news().busy_seconds;
+  if (busy && *busy > kPatience) plain(fmt::format("working, {:.0f} s ...", std::floor(*busy)));
+  const std::string& trouble = link_.news().trouble;
+  if (!trouble.empty() || line_is_fault_) ImGui::PushStyleColor(ImGuiCol_Text, fault_color());
+  if (!trouble.empty() || !line_.empty()) plain(trouble.empty() ? line_ : trouble);
+  if (!trouble.empty() || line_is_fault_) ImGui::PopStyleColor();
+  ImGui::TextDisabled("h: help");
+}
+
+}  // namespace meniscus

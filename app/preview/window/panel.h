@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The column beside the picture: what can be changed, what was picked, how long a frame takes.
+#pragma once
+
+#include <array>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "app/preview/window/session_link.h"
+
+namespace meniscus {
+
+/// Lives between Gui frames; draw() belongs between Gui::begin and Gui::end.
+class Panel {
+ public:
+  explicit Panel(SessionLink& link) : link_(link) {}
+
+  /// Fills the right edge of the window. em: height of a letter.
+  void draw(float em);
+  static float width(float em) { return 20.0f * em; }
+
+  /// An atom to tell about, as the command "pick" answers.
+  void show_pick(const nlohmann::json& pick) { pick_ = pick; }
+  /// The answer to a command for which a line should stand in the panel: a fault, or where an export went.
+  void show_reply(const SessionReply& reply);
+  /// Puts the cursor into the field for the name of an export.
+  void ask_for_name() { name_wanted_ = true; }
+
+ private:
+  void title();
+  void surface();
+  void coloring();
+  void view();
+  void look();
+  void frames();
+  void exports();
+  void picked();
+  void timing();
+  void status();
+
+  SessionLink& link_;
+  nlohmann::json pick_ = nlohmann::json::object();
+  std::string selection_;
+  std::string name_ = "view";
+  int format_ = 0;
+  bool replace_ = false;
+  bool name_wanted_ = false;
+  std::string line_;  ///< about the last export or fault
+  bool line_is_fault_ = false;
+};
+
+/// What a pick says, in up to four lines: atom, residue and chain, kind of patch, exposed area.
+std::array<std::string, 4> pick_lines(const nlohmann::json& pick);
+
+}  // namespace meniscus

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Triple buffering: neither side waits for the other's frame.
+#include "app/preview/window/picture_exchange.h"
+
+#include <utility>
+
+#include <epoxy/gl.h>
+
+namespace meniscus {
+
+PictureExchange::~PictureExchange() {
+  for (const SharedPicture& slot : slots_) glDeleteTextures(1, &slot.texture);
+}
+
+void PictureExchange::offer(std::uint32_t texture, glm::ivec2 size) {
+  SharedPicture& slot = slots_[free_];  // nobody else touches it
+  if (slot.size != size) {
+    glDeleteTextures(1, &slot.texture);
+    glCreateTextures(GL_TEXTURE_2D, 1, &slot.texture);
+    glTextureStorage2D(slot.texture, 1, GL_RGBA8, size.x, size.y);
+    slot.size = size;
+  }
+  glCopyImageSubData(texture, GL_TEXTURE_2D, 0, 0, 0, 0, slot.texture, GL_TEXTURE_2D, 0, 0, 0, 0, size.x, size.y, 1);
+  glFinish();  // other contexts see what is finished
+  const std::scoped_lock lock(mutex_);
+  std::swap(free_, ready_);
+  fresh_ = true;
+}
+
+SharedPicture PictureExchange::newest() {
+  const std::scoped_lock lock(mutex_);
+  if (fresh_) {
+    glFinish();  // what is shown until now may be written from here on
+    std::swap(shown_, ready_);
+    fresh_ = false;
+  }
+  return slots_[shown_];
+}
+
+}  // namespace meniscus

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Hands pictures from the thread that draws them to the thread that shows them, without a copy through the CPU.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <mutex>
+
+#include <glm/vec2.hpp>
+
+namespace meniscus {
+
+/// A texture, GL_RGBA8, first row on top; 0: none.
+struct SharedPicture {
+  std::uint32_t texture = 0;
+  glm::ivec2 size{0};
+};
+
+/// Three textures: one is shown, one is ready, one may be written. Their contexts share textures.
+class PictureExchange {
+ public:
+  /// With a context current.
+  ~PictureExchange();
+
+  /// On the drawing thread: copies a texture and offers the copy in place of the last one offered.
+  void offer(std::uint32_t texture, glm::ivec2 size);
+  /// On the showing thread: the newest picture, which stays as it is until the next call.
+  SharedPicture newest();
+
+ private:
+  std::array<SharedPicture, 3> slots_;
+  int shown_ = 0, ready_ = 1, free_ = 2;
+  bool fresh_ = false;  ///< slot ready_ is newer than slot shown_
+  std::mutex mutex_;
+};
+
+}  // namespace meniscus

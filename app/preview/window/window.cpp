@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The loop of the window: what was done becomes commands, what came back becomes a picture; else it sleeps.
+#include "app/preview/window/window.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <epoxy/gl.h>
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include "app/preview/window/atom_question.h"
+#include "app/preview/window/desktop_window.h"
+#include "app/preview/window/gestures.h"
+#include "app/preview/window/gui.h"
+#include "app/preview/window/keys.h"
+#include "app/preview/window/overlays.h"
+#include "app/preview/window/panel.h"
+#include "app/preview/window/picture_view.h"
+#include "app/preview/window/session_link.h"
+
+namespace meniscus {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr double kMouseRest = 0.25;  // seconds until the mouse is taken to point at something
+constexpr double kLongSleep = 10.0;
+constexpr double kBusyLook = 0.25;  // how often the word that it is working is renewed
+constexpr int kSettlingFrames = 3;  // ImGui shows the effect of an event one or two frames later
+
+class PreviewWindow {
+ public:
+  PreviewWindow(const WindowOptions& options, SessionThread::Make make)
+      : options_(options),
+        window_(options.title, options.size),
+        gui_(window_),
+        thread_(window_.gl(), std::move(make), DesktopWindow::wake),
+        link_(thread_, [this](std::uint64_t number, const Json& command) { note(number, command); }),
+        panel_(link_) {
+    if (options_.commands.empty()) link_.send(resize_command());
+  }
+
+  WindowReport run();
+
+ private:
+  bool replaying() const { return !replay_done_; }
+  glm::ivec2 picture_area() const;
+  Json resize_command() const;
+  double patience();
+  void note(std::uint64_t number, const Json& command);
+  void take_events();
+  void take_pointer(const InputEvent& event, bool elsewhere);
+  void take_key(const InputEvent& event);
+  void take_click(const Click& click);
+  void take_news();
+  void take_reply(const SessionReply& reply);
+  void go_on();
+  void fit_picture();
+  void draw();
+
+  const WindowOptions& options_;
+  DesktopWindow window_;
+  Gui gui_;
+  PictureView view_;
+  SessionThread thread_;
+  SessionLink link_;
+  Panel panel_;
+  Gestures gestures_;
+  AtomQuestion hover_, clicked_;
+  LatencyMeter latency_;
+  WindowReport report_;
+  bool zoom_to_clicked_ = false;
+  bool help_ = false, panel_shown_ = true;
+  int redraws_ = kSettlingFrames;
+  std::size_t next_ = 0;  // of options_.commands
+  std::uint64_t first_number_ = 0;
+  bool replay_done_ = false;
+  double next_frame_due_ = 0.0;
+};
+
+WindowReport PreviewWindow::run() {
+  report_.context = window_.context();
+  while (!window_.closing()) {
+    if (window_.wait(redraws_ > 0 ? 0.0 : patience()) && !gestures_.dragging()) redraws_ = kSettlingFrames;
+    take_events();
+    take_news();
+    if (redraws_ > 0) draw();
+    go_on();
+  }
+  window_.hide();
+  report_.latency = latency_.result();
+  return std::move(report_);
+}
+
+glm::ivec2 PreviewWindow::picture_area() const {
+  glm::ivec2 area = window_.pixels();
+  if (panel_shown_) area.x -= static_cast<int>(Panel::width(gui_.em()) * window_.pixels_per_unit().x);
+  return glm::max(area, glm::ivec2(16));
+}
+
+Json PreviewWindow::resize_command() const {
+  const glm::ivec2 area = picture_area();
+  return {{"command", "resize"}, {"width", area.x}, {"height", area.y}};
+}
+
+double PreviewWindow::patience() {
+  double seconds = link_.news().busy_seconds ? kBusyLook : kLongSleep;
+  if (Gui::wants_keyboard()) seconds = kBusyLook;  // the cursor in a field blinks
+  if (!link_.has_state() || replaying()) return seconds;
+  const double now = window_.seconds();
+  if (link_.news().at_rest)
+    if (const auto due = hover_.advance(link_, now)) seconds = std::min(seconds, *due);
+  if (const auto due = clicked_.advance(link_, now)) seconds = std::min(seconds, *due);
+  if (link_.state()["playing"].get<bool>()) seconds = std::min(seconds, std::max(next_frame_due_ - now, 1e-3));
+  return seconds;
+}
+
+void PreviewWindow::note(std::uint64_t number, const Json& command) {
+  latency_.sent(number, command, window_.seconds());
+  const std::string word = command.value("command", "");
+  if (word == "pick" || word == "export") return;
+  hover_.forget();
+  clicked_.stop();
+}
+
+void PreviewWindow::take_events() {
+  std::vector<Json> movements;
+  const auto send_movements = [&] {
+    for (const Json& command : std::exchange(movements, {})) link_.send(command);
+  };
+  const bool elsewhere = Gui::wants_mouse();
+  for (const InputEvent& event : window_.take_events()) {
+    if (!link_.has_state() || replaying()) continue;
+    gestures_.take(event, picture_area(), elsewhere, movements);
+    if (gestures_.click()) take_click(*gestures_.click());
+    if (event.kind == InputEvent::Kind::text || event.kind == InputEvent::Kind::key) {
+      send_movements();  // things happen in the order they were done
+      take_key(event);
+    }
+    if (event.kind == InputEvent::Kind::move) take_pointer(event, elsewhere);
+  }
+  send_movements();
+}
+
+void PreviewWindow::take_pointer(const InputEvent& event, bool elsewhere) {
+  const glm::dvec2 area(picture_area());
+  const bool over = !elsewhere && event.position.x < area.x && event.position.y < area.y;
+  hover_.forget();
+  if (over && !gestures_.dragging()) hover_.ask_at(event.position, event.time + kMouseRest);
+}
+
+void PreviewWindow::take_key(const InputEvent& event) {
+  if (Gui::wants_keyboard()) return;
+  const KeyMeaning meaning = key_meaning(event, link_.state());
+  if (meaning.command) link_.send(*meaning.command);
+  if (!meaning.action) return;
+  switch (*meaning.action) {
+    case WindowAction::help:
+      help_ = !help_;
+      break;
+    case WindowAction::panel:
+      panel_shown_ = !panel_shown_;
+      break;
+    case WindowAction::export_name:
+      panel_shown_ = true;
+      panel_.ask_for_name();
+      break;
+    case WindowAction::leave:
+      if (!std::exchange(help_, false)) window_.close();
+      break;
+  }
+}
+
+void PreviewWindow::take_click(const Click& click) {
+  clicked_.ask_at(click.position, window_.seconds());
+  zoom_to_clicked_ = click.twice;
+}
+
+void PreviewWindow::take_news() {
+  if (!link_.update()) return;
+  redraws_ = std::max(redraws_, gestures_.dragging() || replaying() ? 1 : kSettlingFrames);
+  for (const SessionReply& reply : link_.replies()) take_reply(reply);
+  if (link_.news().quit) window_.close();
+}
+
+void PreviewWindow::take_reply(const SessionReply& reply) {
+  if (replaying() && options_.replied) options_.replied(reply.number - first_number_, reply.reply);
+  const double now = window_.seconds();
+  if (hover_.take(reply, now)) return;
+  if (!clicked_.take(reply, now)) return panel_.show_reply(reply);
+  panel_.show_pick(clicked_.answer());
+  if (std::exchange(zoom_to_clicked_, false) && clicked_.answer().value("hit", false))
+    link_.send({{"command", "zoom_to"},
+                {"selection", fmt::format("byres index {}", clicked_.answer()["index"].get<std::size_t>())}});
+}
+
+/// What the window does by itself: the next command of a replay, the next frame of a film, another size.
+void PreviewWindow::go_on() {
+  if (!link_.settled() || window_.closing()) return;
+  if (next_ < options_.commands.size()) {
+    const std::uint64_t number = link_.send(options_.commands[next_]);
+    if (next_++ == 0) first_number_ = number;
+    return;
+  }
+  replay_done_ = true;
+  fit_picture();
+  if (!link_.state()["playing"].get<bool>() || window_.seconds() < next_frame_due_) return;
+  next_frame_due_ = window_.seconds() + 1.0 / link_.state()["fps"].get<double>();
+  link_.send({{"command", "next_frame"}});
+}
+
+void PreviewWindow::fit_picture() {
+  const glm::ivec2 area = picture_area();
+  const Json& state = link_.state();
+  if (window_.pixels().x == 0 || (state["width"] == area.x && state["height"] == area.y)) return;
+  link_.send(resize_command());
+}
+
+void PreviewWindow::draw() {
+  --redraws_;
+  if (window_.pixels().x == 0) return;
+  gui_.begin();
+  if (panel_shown_) panel_.draw(gui_.em());
+  if (help_) draw_help(gui_.em());
+  if (!gestures_.dragging()) draw_answer(hover_.answer());
+  const SharedPicture picture = link_.picture();
+  const std::uint64_t shown = link_.news().shown;
+  glViewport(0, 0, window_.pixels().x, window_.pixels().y);
+  glClear(GL_COLOR_BUFFER_BIT);
+  if (picture.texture) view_.show(picture.texture, picture.size, picture_area(), window_.pixels());
+  gui_.end();
+  window_.swap();
+  link_.presented(shown);
+  latency_.shown(shown, window_.seconds());
+}
+
+}  // namespace
+
+WindowReport run_window(const WindowOptions& options, SessionThread::Make make) {
+  return PreviewWindow(options, std::move(make)).run();
+}
+
+}  // namespace meniscus
