@@ -50,19 +50,24 @@ void ViewPipeline::set_atoms(std::vector<Ball> atoms) {
 void ViewPipeline::run(const PictureFrame& frame, double probe_radius, Extent extent, GpuScene& scene) {
   assert(!atoms_.empty() && probe_radius >= 0.0);
   clock_.restart();
-  stats_ = {};
-  stats_.atoms = atoms_.size();
   if (probe_radius != probe_radius_) upload_atoms(probe_radius);
   scene.probe_radius = probe_radius;
-  find_visible_atoms(frame, extent, scene);
-  find_arcs();
-  find_fixed_probes();
+  look(frame, extent, scene);
+  if (!(all_probes_found_ && visible_.keeps_all())) {
+    keep_atoms();
+    find_arcs();
+    find_fixed_probes();
+    all_probes_found_ = visible_.keeps_all();
+  }
   make_primitives(frame, scene);
 }
 
 void ViewPipeline::upload_atoms(double probe_radius) {
   const GpuStage stage(clock_, "upload");
   probe_radius_ = probe_radius;
+  all_probes_found_ = false;
+  stats_ = {};
+  stats_.atoms = atoms_.size();
   weights_ = decision_weights(atoms_, probe_radius);
   std::vector<glm::dvec3> centers(atoms_.size());
   std::vector<double> extended(atoms_.size()), radii(atoms_.size());
@@ -77,10 +82,14 @@ void ViewPipeline::upload_atoms(double probe_radius) {
 }
 
 // Group 1 (section 3.2 of the paper).
-void ViewPipeline::find_visible_atoms(const PictureFrame& frame, Extent extent, GpuScene& scene) {
+void ViewPipeline::look(const PictureFrame& frame, Extent extent, GpuScene& scene) {
   const GpuStage stage(clock_, "visible atoms");
   visible_.look(atoms_, middle_, probe_radius_, frame, extent == Extent::complete || scene.some_hidden);
   visible_.draw_occluders(neighbors_.balls, atom_count(), scene.tile_depths);
+}
+
+void ViewPipeline::keep_atoms() {
+  const GpuStage stage(clock_, "visible atoms");
   const std::uint32_t count = visible_.keep(neighbors_.balls, neighbors_.balls_low, atom_count());
   neighbors_.list_only(visible_.kept, visible_.before, count);
   stats_.kept_atoms = count;

@@ -39,6 +39,7 @@ struct ViewStats {
 /// Its four groups of stages are those of Krone, Dachsbacher & Ertl 2010, section 3: visible atoms; neighbours and
 /// potential RS faces and edges; the RS faces that are visible or cut what is visible; primitives and singularities.
 /// All atoms still act as blockers. The picture of what it finds equals that of the complete surface, pixel for pixel.
+/// A complete surface does not depend on the camera: for the same atoms and probe its arcs and RS faces are found once.
 class ViewPipeline {
  public:
   ViewPipeline();
@@ -57,7 +58,8 @@ class ViewPipeline {
 
  private:
   void upload_atoms(double probe_radius);
-  void find_visible_atoms(const PictureFrame& frame, Extent extent, GpuScene& scene);
+  void look(const PictureFrame& frame, Extent extent, GpuScene& scene);
+  void keep_atoms();
   void find_arcs();
   void find_fixed_probes();
   void make_primitives(const PictureFrame& frame, GpuScene& scene);
@@ -84,10 +86,11 @@ class ViewPipeline {
   std::vector<bool> swallowed_;
   std::vector<double> weights_;
   glm::dvec3 middle_{0.0};
-  BallExtent extent_of_atoms_;  // around their middle; radii without the probe
-  double probe_radius_ = -1.0;  // of what is on the GPU; negative: nothing is
-  Buffer radii_;                // double per atom: van der Waals
-  Buffer probes_;               // ProbeRecord each
+  BallExtent extent_of_atoms_;     // around their middle; radii without the probe
+  double probe_radius_ = -1.0;     // of what is on the GPU; negative: nothing is
+  bool all_probes_found_ = false;  // arcs and probes on the GPU are those of the complete surface
+  Buffer radii_;                   // double per atom: van der Waals
+  Buffer probes_;                  // ProbeRecord each
   Buffer counters_;
   Buffer atom_arc_first_, atom_arc_rank_, atom_arcs_;
   TexelBuffer arc_texels_{TexelFormat::uint4}, atom_arc_first_texels_{TexelFormat::uint1},

@@ -31,6 +31,9 @@ class VisibleAtoms {
   void look(std::span<const Ball> atoms, const glm::dvec3& middle, double probe_radius, const PictureFrame& frame,
             bool keep_all);
 
+  /// Whether this view keeps all atoms, whatever it shows.
+  bool keeps_all() const { return keep_all_; }
+
   /// Draws the vdW spheres. balls: vec4 per atom, centre from the middle and SAS radius. Fills in tile_depths as
   /// GpuScene wants it; that buffer must stay.
   void draw_occluders(const Buffer& balls, std::uint32_t atom_count, Buffer& tile_depths);

@@ -2,19 +2,17 @@
 // The picture of what a view needs against the picture of the complete surface, bit for bit, from any camera.
 #include "core/view/view_pipeline.h"
 
-#include <cmath>
 #include <random>
 
-#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 #include "core/gpu/egl_context.h"
 #include "core/reference/exhaustive.h"
 #include "core/render/ray_caster.h"
-#include "core/surface/solvent.h"
 #include "core/surface/surface.h"
 #include "core/view/frame_renderer.h"
 #include "tests/support/molecules.h"
+#include "tests/view/view_cameras.h"
 
 namespace meniscus {
 namespace {
@@ -78,45 +76,13 @@ TEST_F(Views, CompleteEqualsTheSurfaceOfTheHost) {
   }
 }
 
-/// Cameras around the atoms, near and far, every other one orthographic.
-Camera camera_outside(const Balls& atoms, std::mt19937& random) {
-  std::normal_distribution<double> normal;
-  std::uniform_real_distribution<double> uniform;
-  Camera camera = frame_camera(atoms, 4.0 / 3.0);
-  const double distance = glm::length(camera.position - camera.target) * (0.6 + uniform(random));
-  camera.position =
-      camera.target + distance * glm::normalize(glm::dvec3(normal(random), normal(random), normal(random)));
-  camera.up = {normal(random), normal(random), normal(random)};
-  if (random() % 2 == 0) {
-    camera.projection = Projection::orthographic;
-    camera.height = 0.4 * distance;
-  }
-  return camera;
-}
-
-/// Cameras among the atoms, most of them in the solvent.
-Camera camera_inside(const Balls& atoms, double probe_radius, std::mt19937& random) {
-  std::normal_distribution<double> normal;
-  std::uniform_real_distribution<double> uniform;
-  Camera camera;
-  for (int attempt = 0; attempt < 200; ++attempt) {
-    const Ball& near = atoms[random() % atoms.size()];
-    camera.position = near.center + glm::normalize(glm::dvec3(normal(random), normal(random), normal(random))) *
-                                        (near.radius + 4.0 * uniform(random));
-    if (in_solvent(atoms, probe_radius, camera.position)) break;
-  }
-  camera.target = camera.position + glm::dvec3(normal(random), normal(random), normal(random));
-  camera.up = {normal(random), normal(random), normal(random)};
-  camera.vertical_fov = 40.0 + 80.0 * uniform(random);
-  return camera;
-}
-
 TEST_F(Views, VisibleEqualsCompleteFromOutside) {
   const Balls atoms = testing::ubiquitin();
   load(atoms);
   std::mt19937 random(4);
   for (const double probe_radius : {0.7, 1.4, 3.0, 10.0})
-    for (int n = 0; n < 8; ++n) EXPECT_EQ(differing_pixels(camera_outside(atoms, random), probe_radius), 0);
+    for (int n = 0; n < 8; ++n)
+      EXPECT_EQ(differing_pixels(testing::camera_outside(atoms, 4.0 / 3.0, random), probe_radius), 0);
 }
 
 TEST_F(Views, VisibleEqualsCompleteFromInside) {
@@ -125,7 +91,7 @@ TEST_F(Views, VisibleEqualsCompleteFromInside) {
   std::mt19937 random(5);
   for (const double probe_radius : {0.7, 1.4, 3.0})
     for (int n = 0; n < 4; ++n)
-      EXPECT_EQ(differing_pixels(camera_inside(atoms, probe_radius, random), probe_radius), 0);
+      EXPECT_EQ(differing_pixels(testing::camera_inside(atoms, probe_radius, random), probe_radius), 0);
 }
 
 }  // namespace
