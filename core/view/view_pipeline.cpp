@@ -53,11 +53,11 @@ void ViewPipeline::run(const PictureFrame& frame, double probe_radius, Extent ex
   if (probe_radius != probe_radius_) upload_atoms(probe_radius);
   scene.probe_radius = probe_radius;
   look(frame, extent, scene);
-  if (!(all_probes_found_ && visible_.keeps_all())) {
+  if (!all_probes_found_ || !visible_.keeps_all() || extent == Extent::paper) {
     keep_atoms();
     find_arcs();
-    find_fixed_probes();
-    all_probes_found_ = visible_.keeps_all();
+    find_fixed_probes(frame, extent);
+    all_probes_found_ = visible_.keeps_all() && extent != Extent::paper;
   }
   make_primitives(frame, scene);
 }
@@ -84,7 +84,7 @@ void ViewPipeline::upload_atoms(double probe_radius) {
 // Group 1 (section 3.2 of the paper).
 void ViewPipeline::look(const PictureFrame& frame, Extent extent, GpuScene& scene) {
   const GpuStage stage(clock_, "visible atoms");
-  visible_.look(atoms_, middle_, probe_radius_, frame, extent == Extent::complete || scene.some_hidden);
+  visible_.look(atoms_, middle_, probe_radius_, frame, extent != Extent::visible || scene.some_hidden);
   visible_.draw_occluders(neighbors_.balls, atom_count(), scene.tile_depths);
 }
 
@@ -106,17 +106,34 @@ void ViewPipeline::find_arcs() {
     circles_.expose(batch, clock_);
   });
   stats_.circles = circles_.stats();
-  stats_.arcs = circles_.arc_count();
+  arc_count_ = circles_.arc_count();
+  stats_.arcs = arc_count_;
   arc_texels_.view(circles_.arcs);
 }
 
 // Group 3 (section 3.3): fixed probes are RS faces.
-void ViewPipeline::find_fixed_probes() {
+void ViewPipeline::find_fixed_probes(const PictureFrame& frame, Extent extent) {
   const GpuStage stage(clock_, "fixed probes");
   place_probes();
+  whole_spheres_ = extent == Extent::paper;
+  if (whole_spheres_) select_as_the_paper(frame);
   const double reach = extent_of_atoms_.largest_radius + probe_radius_;
   probe_neighbors_.adopt(static_cast<std::uint32_t>(stats_.probes),
                          {extent_of_atoms_.low - reach, extent_of_atoms_.high + reach, probe_radius_});
+}
+
+void ViewPipeline::select_as_the_paper(const PictureFrame& frame) {
+  RollingBuffers rolling{&circles_.arcs,
+                         &probes_,
+                         &probe_neighbors_.balls,
+                         &probe_neighbors_.balls_low,
+                         arc_count_,
+                         static_cast<std::uint32_t>(stats_.probes)};
+  paper_.select(frame, visible_, neighbors_.balls, atom_count(), probe_radius_, rolling);
+  arc_texels_.view(circles_.arcs);
+  arc_count_ = rolling.arc_count;
+  stats_.arcs = rolling.arc_count;
+  stats_.probes = rolling.probe_count;
 }
 
 void ViewPipeline::place_probes() {
@@ -137,10 +154,10 @@ void ViewPipeline::place_probes() {
     neighbors_.bind_listed();
     visible_.bind(program);
     program.set("exact_probe_radius", probe_radius_);
-    program.set("arc_count", circles_.arc_count());
+    program.set("arc_count", arc_count_);
     program.set("probe_capacity", probe_capacity_);
     program.set("middle", middle_);
-    program.dispatch(group_count(circles_.arc_count()));
+    program.dispatch(group_count(arc_count_));
     std::array<std::uint32_t, 7> counts{};
     counters_.read(0, counts.data(), sizeof counts);
     if (counts[0] <= probe_capacity_) {
@@ -190,7 +207,7 @@ void ViewPipeline::make_primitives(const PictureFrame& frame, GpuScene& scene) {
 }
 
 void ViewPipeline::list_arcs_by_atom() {
-  const std::uint32_t arc_count = circles_.arc_count();
+  const std::uint32_t arc_count = arc_count_;
   atom_arc_first_.resize((atom_count() + 1) * kWord);
   atom_arc_first_.fill(0);
   atom_arc_rank_.resize(arc_count * sizeof(glm::uvec2));
@@ -218,8 +235,8 @@ void ViewPipeline::append_primitives(const PictureFrame& frame, GpuScene& scene)
     circles_.atoms.bind(0);
     radii_.bind(1);
     arc_texels_.bind(0);
-    toroidal.set("arc_count", circles_.arc_count());
-    toroidal.dispatch(group_count(circles_.arc_count()));
+    toroidal.set("arc_count", arc_count_);
+    toroidal.dispatch(group_count(arc_count_));
 
     probe_neighbors_.for_each_batch([&](const BallBatch& batch) {
       const Program& concave = primitive_kernel("concave", frame, scene);
@@ -233,7 +250,10 @@ void ViewPipeline::append_primitives(const PictureFrame& frame, GpuScene& scene)
     });
   }
   neighbors_.for_each_batch([&](const BallBatch& batch) {
-    const Program& convex = primitive_kernel("convex", frame, scene, {{"LISTED", "1"}});
+    ShaderDefines defines{{"LISTED", "1"}};
+    if (whole_spheres_) defines.emplace_back("WHOLE_SPHERES", "1");
+    const Program& convex = primitive_kernel("convex", frame, scene, defines);
+    if (whole_spheres_) paper_.drawn().bind(7);
     circles_.atoms.bind(0);
     radii_.bind(1);
     atom_arc_first_texels_.bind(0);

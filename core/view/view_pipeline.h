@@ -19,6 +19,7 @@
 #include "core/surface/gpu_neighbors.h"
 #include "core/surface/primitives.h"
 #include "core/view/extent.h"
+#include "core/view/paper_selection.h"
 #include "core/view/visible_atoms.h"
 
 namespace meniscus {
@@ -61,10 +62,11 @@ class ViewPipeline {
   void look(const PictureFrame& frame, Extent extent, GpuScene& scene);
   void keep_atoms();
   void find_arcs();
-  void find_fixed_probes();
+  void find_fixed_probes(const PictureFrame& frame, Extent extent);
   void make_primitives(const PictureFrame& frame, GpuScene& scene);
 
   void place_probes();
+  void select_as_the_paper(const PictureFrame& frame);
   void require_closed(const std::array<std::uint32_t, 6>& end_sums) const;
   void list_arcs_by_atom();
   void append_primitives(const PictureFrame& frame, GpuScene& scene);
@@ -78,6 +80,7 @@ class ViewPipeline {
   GpuNeighbors probe_neighbors_{programs_};  // of fixed probes
   GpuCircles circles_{programs_, neighbors_};
   VisibleAtoms visible_{programs_};
+  PaperSelection paper_{programs_};
   StageClock clock_;
   ViewStats stats_;
 
@@ -95,6 +98,8 @@ class ViewPipeline {
   Buffer atom_arc_first_, atom_arc_rank_, atom_arcs_;
   TexelBuffer arc_texels_{TexelFormat::uint4}, atom_arc_first_texels_{TexelFormat::uint1},
       atom_arc_texels_{TexelFormat::uint4};
+  std::uint32_t arc_count_ = 0;
+  bool whole_spheres_ = false;  // drawn instead of convex patches
   std::uint32_t probe_capacity_ = 1 << 13;
   std::uint32_t primitive_capacity_ = 1 << 15;
   std::uint32_t row_capacity_ = 1 << 17;

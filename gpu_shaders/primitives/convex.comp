@@ -24,6 +24,9 @@ uniform uint first_entry;  // of the batch
 uniform uint entry_count;  // in the batch
 uniform double exact_probe_radius;
 uniform dvec3 middle;  // of the atoms
+#ifdef WHOLE_SPHERES
+layout(std430, binding = 7) readonly buffer Drawn { uint drawn[]; };
+#endif
 
 const uint kNone = 0xffffffffu;
 
@@ -88,6 +91,19 @@ void main() {
   uint entry = linear_invocation_index();
   if (entry >= entry_count) return;
   uint a = ball_of(first_entry + entry);
+#ifdef WHOLE_SPHERES
+  // As in the paper: all of the vdW sphere, most of it inside the solid.
+  if (drawn[a] == 0u) return;
+  Primitive sphere;
+  if (!begin_primitive(PatchBound(atoms[a].xyz, radii[a]), 1u, sphere)) return;
+  sphere.kind = kConvex;
+  sphere.plane_count = 0u;
+  sphere.atom = a;
+  sphere.tie_key = a;
+  add_row(atoms[a].xyz - pivot, radii[a]);
+  append_primitive(sphere);
+  return;
+#endif
   uint first = texelFetch(atom_arc_first, int(a)).x;
   uint last = texelFetch(atom_arc_first, int(a) + 1).x;
   if (first == last && !alone(a, entry)) return;

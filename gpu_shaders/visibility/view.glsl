@@ -59,13 +59,20 @@ RayBlock ray_block(ivec2 first_pixel, int edge) {
   return RayBlock(vec2(first_pixel) + 0.5 * (float(edge) - vec2(picture_size)), 0.70711 * float(edge));
 }
 
-// How far the middle ray passes the point v, and how much farther or nearer other rays of the block pass it. Two
-// directions whose points on the plane at distance 1 are e apart enclose an angle of at most e.
-vec2 passing_distance(RayBlock block, vec3 v) {
+// How the rays of a block pass the point v.
+struct Passing {
+  float along;     // of the middle ray: depth at closest approach
+  float distance;  // there
+  float spread;    // how much farther or nearer other rays of the block pass
+};
+
+// Two directions whose points on the plane at distance 1 are e apart enclose an angle of at most e.
+Passing pass_by(RayBlock block, vec3 v) {
   vec2 slope = block.middle * pixel_scale;
-  if (orthographic != 0u) return vec2(length(v.xy - slope), block.reach * pixel_scale);
+  if (orthographic != 0u) return Passing(v.z, length(v.xy - slope), block.reach * pixel_scale);
   vec3 d = normalize(vec3(slope, 1.0));
-  return vec2(length(v - d * dot(v, d)), block.reach * pixel_scale * length(v));
+  float along = dot(v, d);
+  return Passing(along, length(v - d * along), block.reach * pixel_scale * length(v));
 }
 
 float depth_on_sphere(vec3 v, float radius, float passing) {
@@ -76,18 +83,18 @@ float depth_on_sphere(vec3 v, float radius, float passing) {
 
 // No ray of the block enters the ball before this depth; kNothing if none enters it.
 float earliest_depth(RayBlock block, vec3 v, float radius) {
-  vec2 passing = passing_distance(block, v);
+  Passing passing = pass_by(block, v);
   // sin(a - e) >= sin a (1 - e^2) - e for the angle a between the middle ray and v.
   float e = orthographic != 0u ? 0.0 : block.reach * pixel_scale;
-  float nearest = max(passing.x * (1.0 - e * e) - passing.y - margin, 0.0);
+  float nearest = max(passing.distance * (1.0 - e * e) - passing.spread - margin, 0.0);
   return nearest < radius ? depth_on_sphere(v, radius, nearest) : kNothing;
 }
 
 // Every ray of the block enters the ball before this depth; kNothing if one may miss it or begins inside.
 float latest_depth(RayBlock block, vec3 v, float radius) {
-  vec2 passing = passing_distance(block, v);
-  float farthest = passing.x + passing.y + margin;  // sin(a + e) <= sin a + e
-  if (v.z <= 0.0 || farthest >= radius) return kNothing;
+  Passing passing = pass_by(block, v);
+  float farthest = passing.distance + passing.spread + margin;  // sin(a + e) <= sin a + e
+  if (passing.along <= 0.0 || farthest >= radius) return kNothing;
   float depth = depth_on_sphere(v, radius, farthest) + margin;
   return depth > margin ? depth : kNothing;
 }

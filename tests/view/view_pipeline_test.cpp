@@ -85,6 +85,14 @@ TEST_F(Views, VisibleEqualsCompleteFromOutside) {
       EXPECT_EQ(differing_pixels(testing::camera_outside(atoms, 4.0 / 3.0, random), probe_radius), 0);
 }
 
+TEST_F(Views, WideAnglesAmongAtomsHideNothing) {
+  // Spheres beside and behind the eye are no occluders.
+  const Balls atoms = testing::ubiquitin();
+  load(atoms);
+  std::mt19937 random(7);
+  for (int n = 0; n < 30; ++n) EXPECT_EQ(differing_pixels(testing::camera_inside(atoms, 0.7, random), 0.7), 0);
+}
+
 TEST_F(Views, VisibleEqualsCompleteFromInside) {
   const Balls atoms = testing::enterotoxin();
   load(atoms);

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Stage "paper selection", 3: fills the table that finds RS faces by their atoms.
+// Reads: probes. Writes: face_table (0 before). One invocation per probe. Overflow: none.
+#version 450 core
+layout(local_size_x = 64) in;
+#include "gpu_shaders/shared/linear_index.glsl"
+#include "gpu_shaders/shared/probe_record.glsl"
+#include "gpu_shaders/ray_cast/tie_key.glsl"
+#include "gpu_shaders/paper_selection/face_table.glsl"
+
+uniform uint probe_count;
+
+void main() {
+  uint face = linear_invocation_index();
+  if (face < probe_count) insert_face(face);
+}
