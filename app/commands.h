@@ -24,6 +24,7 @@ void add_export_povray(CLI::App& command);
 void add_formats(CLI::App& command);
 void add_help(CLI::App& command);
 void add_info(CLI::App& command);
+void add_preview(CLI::App& command);
 void add_render(CLI::App& command);
 void add_surface(CLI::App& command);
 

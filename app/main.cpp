@@ -21,13 +21,15 @@ namespace meniscus {
 namespace {
 
 constexpr Command kCommands[] = {
-    {"surface", add_surface}, {"render", add_render}, {"export", add_export}, {"info", add_info},
-    {"formats", add_formats}, {"colors", add_colors}, {"bench", add_bench},   {"help", add_help},
+    {"surface", add_surface}, {"render", add_render}, {"preview", add_preview},
+    {"export", add_export},   {"info", add_info},     {"formats", add_formats},
+    {"colors", add_colors},   {"bench", add_bench},   {"help", add_help},
 };
 
 constexpr const char* kExamples = R"(  meniscus info 1tii.pdb                          what the file holds
   meniscus surface 1tii.pdb                       area, volume, cavities; --json, --csv for programs
   meniscus render 1tii.pdb -o 1tii.png            a picture
+  meniscus preview 1tii.pdb --serve               look at it while it changes
   meniscus export povray 1tii.pdb -o 1tii         a POV-Ray scene; blender, ply likewise
   meniscus surface 1tii.pdb --select 'chain A'    only some atoms; meniscus help selections
   meniscus COMMAND --help                         everything about one command)";

@@ -75,6 +75,8 @@ void add_assembly_options(CLI::App& command, MoleculeOptions& options);
 void add_radii_options(CLI::App& command, ReadOptions& reading);
 /// How the surface is made of them (surface_options.cpp): --surface, --probe, --device, --verify, --threads.
 void add_surface_options(CLI::App& command, MoleculeOptions& options);
+void add_probe_option(CLI::App& command, ComputeOptions& computing);
+void add_device_option(CLI::App& command, ComputeOptions& computing);
 /// What is wrong with a probe radius (Å) and what would be right; empty if nothing is.
 std::string probe_fault(double radius);
 /// Into which objects it is divided (surface_options.cpp): --by, --cavities.

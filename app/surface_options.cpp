@@ -61,6 +61,22 @@ std::string probe_fault(double radius) {
   return {};
 }
 
+void add_probe_option(CLI::App& command, ComputeOptions& computing) {
+  command
+      .add_option_function<std::string>(
+          "--probe", [&computing](const std::string& text) { computing.probe_radius = parse_probe(text); },
+          "Probe radius in Å [1.4]; 0 gives the van der Waals surface")
+      ->type_name("RADIUS");
+}
+
+void add_device_option(CLI::App& command, ComputeOptions& computing) {
+  command
+      .add_option_function<std::string>(
+          "--device", [&computing](const std::string& text) { parse_device(text, computing); },
+          "auto (default: a GPU if there is one, else cpu), gpu, gpu:N, software (GL without a GPU), cpu")
+      ->type_name("DEVICE");
+}
+
 void add_surface_options(CLI::App& command, MoleculeOptions& options) {
   const Heading heading(command, "Surface");
   ComputeOptions& computing = options.computing;
@@ -71,16 +87,8 @@ void add_surface_options(CLI::App& command, MoleculeOptions& options) {
                   "ses: solvent-excluded (default); sas: solvent-accessible; vdw: van der Waals, without a probe")
       ->transform(CLI::CheckedTransformer(kinds).description(""))
       ->type_name("KIND");
-  command
-      .add_option_function<std::string>(
-          "--probe", [&computing](const std::string& text) { computing.probe_radius = parse_probe(text); },
-          "Probe radius in Å [1.4]; 0 gives the van der Waals surface")
-      ->type_name("RADIUS");
-  command
-      .add_option_function<std::string>(
-          "--device", [&computing](const std::string& text) { parse_device(text, computing); },
-          "auto (default: a GPU if there is one, else cpu), gpu, gpu:N, software (GL without a GPU), cpu")
-      ->type_name("DEVICE");
+  add_probe_option(command, computing);
+  add_device_option(command, computing);
   command.add_flag("--verify", computing.verify, "Compute on GPU and CPU and name every difference");
   command.add_option("--threads", computing.threads, "CPU threads [all]")
       ->check(CLI::Range(1, 4096).description(""))

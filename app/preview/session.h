@@ -4,8 +4,10 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <glm/vec2.hpp>
@@ -59,6 +61,11 @@ class PreviewSession {
   /// after an error nothing has changed. The commands: app/preview/commands.md. Throws GpuError only: then all is lost.
   nlohmann::json apply(const nlohmann::json& command);
 
+  /// Calls `sink` with every command from now on that was carried out and is no mere question.
+  void record(std::function<void(const nlohmann::json&)> sink) { sink_ = std::move(sink); }
+  /// Does the command only ask: state, stats, or a pick that does not wait? Anybody may, and nobody records it.
+  static bool is_question(const nlohmann::json& command);
+
   /// Draws, unless this very picture is there already. Throws GpuError, CapacityError, OpenSurfaceError; but for the
   /// first of them the session can go on.
   void render(Quality quality);
@@ -73,6 +80,8 @@ class PreviewSession {
   /// While playing, a face sends {"command":"next_frame"} at this pace.
   bool playing() const { return view_.playing; }
   double frames_per_second() const { return view_.frames_per_second; }
+  /// Grows with every change of what is seen.
+  std::uint64_t revision() const { return revision_; }
   /// A command asked to end.
   bool wants_to_quit() const { return quit_; }
 
@@ -107,6 +116,7 @@ class PreviewSession {
   nlohmann::json export_view(const CommandReader& command);
   nlohmann::json stats(const CommandReader& command);
   nlohmann::json state(const CommandReader& command);
+  nlohmann::json choices(const CommandReader& command);
   nlohmann::json quit(const CommandReader& command);
 
   nlohmann::json carry_out(const nlohmann::json& command);
@@ -135,6 +145,7 @@ class PreviewSession {
   std::uint64_t revision_ = 1;  ///< grows with every change
   Drawn drawn_;
   double frame_ms_ = 0.0;  ///< of the last picture
+  std::function<void(const nlohmann::json&)> sink_;
   bool quit_ = false;
 };
 

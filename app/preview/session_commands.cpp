@@ -80,6 +80,7 @@ const std::vector<PreviewSession::Command>& PreviewSession::commands() {
       {"export", {"format", "path", "width", "height", "samples", "force"}, &S::export_view, false},
       {"stats", {}, &S::stats, false},
       {"state", {}, &S::state, false},
+      {"choices", {}, &S::choices, false},
       {"quit", {}, &S::quit, false},
   };
   return table;
@@ -111,8 +112,15 @@ Json PreviewSession::carry_out(const Json& json) {
   reader.expect_only(command->keys);
   Json reply = (this->*command->run)(reader);
   if (command->changes_picture) ++revision_;
+  if (sink_ && !is_question(json)) sink_(json);
   reply["ok"] = true;
   return reply;
+}
+
+bool PreviewSession::is_question(const Json& command) {
+  const std::string word = command.is_object() ? command.value("command", Json()).dump() : "";
+  if (word == "\"pick\"") return command.value("wait", Json()) == false;
+  return word == "\"state\"" || word == "\"stats\"" || word == "\"choices\"";
 }
 
 Json PreviewSession::orbit(const CommandReader& command) {

@@ -98,6 +98,19 @@ Json PreviewSession::stats(const CommandReader&) {
           {"stages", stages}};
 }
 
+Json PreviewSession::choices(const CommandReader&) {
+  Json schemes = Json::array(), maps = Json::array();
+  for (const ColorSchemeMetadata& scheme : color_schemes()) {
+    if (scheme.by == ColorScheme::By::component) continue;
+    if (scheme.by == ColorScheme::By::file && view_.color.file.numbers.empty()) continue;
+    ColorScheme color;
+    color.by = scheme.by;
+    schemes.push_back({{"word", scheme.word}, {"has_map", color.has_scale()}, {"description", scheme.description}});
+  }
+  for (const ColorMapMetadata& map : color_maps()) maps.push_back(map.name);
+  return {{"schemes", schemes}, {"maps", maps}};
+}
+
 Json PreviewSession::state(const CommandReader&) {
   Json color{{"scheme", scheme_word(view_.color)}};
   if (view_.color.map) color["map"] = map_name(*view_.color.map);

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// `meniscus preview`: look at the surface while it changes.
+#include <charconv>
+#include <csignal>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include <unistd.h>
+
+#include <fmt/format.h>
+
+#include "app/commands.h"
+#include "app/molecule.h"
+#include "app/picture_options.h"
+#include "app/preview/command_log.h"
+#include "app/preview/server/serve.h"
+#include "app/preview/session.h"
+#include "app/program_error.h"
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/gpu/egl_context.h"
+
+namespace meniscus {
+namespace {
+
+struct PreviewCommand {
+  MoleculeOptions molecule;
+  PictureOptions picture;
+  std::optional<std::uint16_t> port;  ///< of --serve
+  std::string record, commands, output_folder = ".";
+  bool force = false;
+};
+
+std::uint16_t parse_port(const std::string& text) {
+  if (text.empty()) return 0;
+  std::uint16_t port = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), port);
+  if (error != std::errc() || end != text.data() + text.size())
+    throw CLI::ValidationError("--serve", in_quotes(text) + " is no port, 0 to 65535; put FILE before --serve");
+  return port;
+}
+
+/// The name by which ssh may know this machine.
+std::string host_name() {
+  char name[256] = {};
+  return ::gethostname(name, sizeof name - 1) == 0 && name[0] ? escaped(name) : "HOST";
+}
+
+Structure read_frames(PreviewCommand& command) {
+  if (!std::filesystem::is_directory(command.output_folder))
+    throw OutputError(command.output_folder, "--output-dir is no folder");
+  Structure structure = read_molecule(command.molecule);
+  if (command.molecule.show) throw UsageError("--show is for render and export; the preview draws all atoms taken");
+  if (command.molecule.computing.cpu) throw UsageError("--device cpu draws no pictures; use auto, gpu or software");
+  if (!structure.instances.empty()) throw UsageError("--instances is for render and export; the preview draws atoms");
+  ColorScheme& color = command.molecule.color;
+  if (color.by == ColorScheme::By::file) color.file = read_number_file(command.molecule.color_file);
+  return structure;
+}
+
+/// A session as the options say, after the commands of --commands. Needs a current GL context.
+std::unique_ptr<PreviewSession> begin_session(const PreviewCommand& command, Structure structure) {
+  PreviewView view;
+  view.color = command.molecule.color;
+  view.probe_radius = command.molecule.computing.probe_radius;
+  view.size = {command.picture.width, command.picture.height};
+  view.camera.projection = command.picture.projection;
+  std::optional<Camera> camera;
+  if (!command.picture.camera_file.empty()) camera = read_camera(command.picture.camera_file);
+  auto session = std::make_unique<PreviewSession>(std::move(structure), view, camera, command.output_folder);
+  if (!command.record.empty()) {
+    auto log = std::make_shared<CommandLog>(command.record, command.force ? Existing::replace : Existing::refuse);
+    session->record([log](const nlohmann::json& line) { log->write(line); });
+  }
+  if (!command.commands.empty()) replay_commands(command.commands, *session, std::cout);
+  return session;
+}
+
+void say_address(const PreviewCommand& command, const std::string& url, std::uint16_t port) {
+  std::cout << url << std::endl;
+  say(command.molecule, fmt::format("from another machine: ssh -L {0}:127.0.0.1:{0} {1}", port, host_name()));
+  say(command.molecule, "Ctrl-C ends the preview");
+}
+
+void run(PreviewCommand& command) {
+  if (!command.port) throw UsageError("a page is all there is yet: give --serve");
+  std::signal(SIGPIPE, SIG_IGN);  // whoever stops reading must not end the server
+  Structure structure = read_frames(command);
+  const EglContext context(command.molecule.computing.gl);
+  const std::unique_ptr<PreviewSession> session = begin_session(command, std::move(structure));
+  if (session->wants_to_quit()) return;
+  serve_session(*session, *command.port,
+                [&](const std::string& url, std::uint16_t port) { say_address(command, url, port); });
+}
+
+void add_session_options(CLI::App& command, PreviewCommand& state) {
+  command
+      .add_option_function<std::string>(
+          "--serve", [&state](const std::string& text) { state.port = parse_port(text); },
+          "Serve a page for browsers on 127.0.0.1: at this port, or at any free one")
+      ->expected(0, 1)
+      ->type_name("[PORT]");
+  const Heading heading(command, "Session");
+  command.add_option("--commands", state.commands, "Carry out these commands first, one JSON object a line")
+      ->type_name("FILE");
+  command.add_option("--record", state.record, "Write every command to this file, for --commands")->type_name("FILE");
+  command.add_option("--output-dir", state.output_folder, "Folder of exports [.]")->type_name("FOLDER");
+  command.add_flag("--force", state.force, "Let --record replace a file");
+}
+
+}  // namespace
+
+void add_preview(CLI::App& command) {
+  describe(command, "Look at the surface while it changes, in a browser",
+           "  meniscus preview 1tii.pdb --serve                   prints an address to open in a browser\n"
+           "  meniscus preview 1tii.pdb --serve 8080 --color chain\n"
+           "  meniscus preview 1tii.pdb --serve --record session.jsonl",
+           "Each model of FILE is a frame. The page is served on 127.0.0.1 only, to whoever has the address with its "
+           "token;\nto look from another machine, use the ssh line that is printed. SIGINT and SIGTERM end it.");
+  auto state = std::make_shared<PreviewCommand>();
+  state->molecule.reading.model.all = true;
+  add_atom_options(command, state->molecule);
+  command.get_option("--model")->description("Model to show; default: all of them, each a frame");
+  {
+    const Heading heading(command, "Surface");
+    add_probe_option(command, state->molecule.computing);
+    add_device_option(command, state->molecule.computing);
+  }
+  add_color_options(command, state->molecule);
+  add_picture_options(command, state->picture);
+  add_session_options(command, *state);
+  command.callback([state] { run(*state); });
+}
+
+}  // namespace meniscus

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The clients of the preview server, as its network thread knows them.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/preview/server/mailbox.h"
+
+namespace meniscus {
+
+/// Bytes on their way to clients, which share them.
+struct OutgoingMessage {
+  std::shared_ptr<const std::vector<std::uint8_t>> bytes;
+  bool is_text = true;
+};
+
+/// A connected socket, as others see it. Used by the network thread only.
+class Client {
+ public:
+  virtual ~Client() = default;
+  virtual void send(OutgoingMessage message) = 0;
+  virtual void close() = 0;
+};
+
+/// Who is connected, and what all connections share. Used by the network thread only.
+struct Clients {
+  Clients(Mailbox& box, std::string word) : mailbox(box), token(std::move(word)) {}
+
+  Mailbox& mailbox;
+  std::string token;
+  std::uint16_t port = 0;
+  std::size_t connections = 0;  ///< sockets of any kind, open
+  std::map<ClientNumber, std::shared_ptr<Client>> sockets;
+  ClientNumber next_number = 1;
+
+  /// The first of them controls.
+  bool controls(ClientNumber client) const { return !sockets.empty() && sockets.begin()->first == client; }
+  bool full() const;
+  ClientNumber join(std::shared_ptr<Client> client);
+  void leave(ClientNumber client);
+};
+
+/// A JSON message as text.
+OutgoingMessage text_message(const std::string& text);
+
+}  // namespace meniscus

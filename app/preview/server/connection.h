@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// One TCP connection to the preview server: a file of the page, a refusal, or the way to a socket.
+#pragma once
+
+#include <memory>
+
+#include <boost/asio/ip/tcp.hpp>
+
+#include "app/preview/server/clients.h"
+
+namespace meniscus {
+
+/// Reads one request and answers it; it lives as long as that takes.
+void serve_connection(boost::asio::ip::tcp::socket socket, const std::shared_ptr<Clients>& clients);
+
+}  // namespace meniscus

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The listener, its thread, and the list of clients.
+#include "app/preview/server/network.h"
+
+#include <chrono>
+#include <thread>
+#include <utility>
+
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/post.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <fmt/format.h>
+
+#include "app/preview/server/access.h"
+#include "app/preview/server/clients.h"
+#include "app/preview/server/connection.h"
+#include "app/preview/session.h"
+#include "core/base/error.h"
+
+namespace meniscus {
+
+namespace asio = boost::asio;
+
+bool Clients::full() const { return sockets.size() >= Network::kMostClients; }
+
+ClientNumber Clients::join(std::shared_ptr<Client> client) {
+  sockets.emplace(next_number, std::move(client));
+  return next_number++;
+}
+
+void Clients::leave(ClientNumber client) {
+  const bool controlled = controls(client);
+  if (sockets.erase(client) == 0) return;
+  mailbox.forget(client);
+  if (controlled && !sockets.empty())
+    sockets.begin()->second->send(text_message(json_line({{"event", "role"}, {"controls", true}})));
+}
+
+OutgoingMessage text_message(const std::string& text) {
+  return {std::make_shared<const std::vector<std::uint8_t>>(text.begin(), text.end()), true};
+}
+
+struct Network::State {
+  State(std::uint16_t port, Mailbox& mailbox)
+      : acceptor(context), clients(std::make_shared<Clients>(mailbox, random_token())) {
+    try {
+      const asio::ip::tcp::endpoint here(asio::ip::address_v4::loopback(), port);
+      acceptor.open(here.protocol());
+      acceptor.set_option(asio::socket_base::reuse_address(true));
+      acceptor.bind(here);
+      acceptor.listen();
+      clients->port = acceptor.local_endpoint().port();
+    } catch (const boost::system::system_error& error) {
+      throw RequestError(
+          fmt::format("--serve: port {} cannot be had: {}; try another, or 0 for any", port, error.code().message()));
+    }
+  }
+
+  void accept() {
+    acceptor.async_accept([this](boost::system::error_code error, asio::ip::tcp::socket socket) {
+      if (error == asio::error::operation_aborted) return;
+      if (error) return accept_later();
+      if (clients->connections < Network::kMostConnections) serve_connection(std::move(socket), clients);
+      accept();
+    });
+  }
+
+  /// Out of file descriptors, for instance: connections that end will give some back.
+  void accept_later() {
+    pause.expires_after(std::chrono::milliseconds(200));
+    pause.async_wait([this](boost::system::error_code error) {
+      if (!error) accept();
+    });
+  }
+
+  void run() {
+    try {
+      context.run();
+    } catch (const std::exception& error) {
+      clients->mailbox.fail(fmt::format("the network thread ended: {}", error.what()));
+    }
+  }
+
+  asio::io_context context{1};
+  asio::ip::tcp::acceptor acceptor;
+  asio::steady_timer pause{context};
+  std::shared_ptr<Clients> clients;
+  std::thread thread;
+};
+
+Network::Network(std::uint16_t port, Mailbox& mailbox) : state_(std::make_unique<State>(port, mailbox)) {
+  state_->accept();
+  state_->thread = std::thread([this] { state_->run(); });
+}
+
+Network::~Network() {
+  asio::post(state_->context, [state = state_.get()] {
+    boost::system::error_code ignored;
+    state->acceptor.close(ignored);
+    state->pause.expires_after(std::chrono::seconds(1));
+    state->pause.async_wait([state](boost::system::error_code) { state->context.stop(); });
+    const auto sockets = state->clients->sockets;
+    for (const auto& [number, client] : sockets) client->close();
+    if (sockets.empty()) state->context.stop();
+  });
+  state_->thread.join();
+  state_->clients->sockets.clear();  // they hold the list that holds them
+}
+
+std::uint16_t Network::port() const { return state_->clients->port; }
+
+std::string Network::url() const { return fmt::format("http://127.0.0.1:{}/{}/", port(), state_->clients->token); }
+
+void Network::send(ClientNumber client, const nlohmann::json& message) {
+  asio::post(state_->context, [clients = state_->clients, client, text = text_message(json_line(message))] {
+    if (const auto found = clients->sockets.find(client); found != clients->sockets.end()) found->second->send(text);
+  });
+}
+
+void Network::send_to_all(const nlohmann::json& message) {
+  asio::post(state_->context, [clients = state_->clients, text = text_message(json_line(message))] {
+    const auto sockets = clients->sockets;  // a client that is abandoned leaves the list
+    for (const auto& [number, socket] : sockets) socket->send(text);
+  });
+}
+
+void Network::send_picture(ClientNumber client, const nlohmann::json& message,
+                           std::shared_ptr<const std::vector<std::uint8_t>> picture) {
+  asio::post(state_->context, [clients = state_->clients, client, text = text_message(json_line(message)),
+                               bytes = OutgoingMessage{std::move(picture), false}] {
+    const auto found = clients->sockets.find(client);
+    if (found == clients->sockets.end()) return;
+    const std::shared_ptr<Client> socket = found->second;
+    socket->send(text);
+    socket->send(bytes);
+  });
+}
+
+}  // namespace meniscus

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The preview's web server: pages and sockets on 127.0.0.1, in a thread of its own.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "app/preview/server/mailbox.h"
+
+namespace meniscus {
+
+/// Serves the page to browsers on this machine that know the token, and passes their commands to the mailbox. Limits:
+/// kMostClients sockets (the first of them controls, the others look), kLargestMessage bytes a message,
+/// kLargestHeader bytes of request header, kPatience seconds for a request. Foreign hosts, foreign origins and wrong
+/// tokens are answered with 403. All functions may be called from any thread.
+class Network {
+ public:
+  static constexpr std::size_t kMostClients = 4;
+  static constexpr std::size_t kMostConnections = 32;
+  static constexpr std::size_t kLargestMessage = 4096;
+  static constexpr std::size_t kLargestHeader = 8192;
+  static constexpr int kPatience = 10;
+
+  /// port 0: any free one. Listens when this returns. Throws RequestError if the port cannot be had, Error.
+  Network(std::uint16_t port, Mailbox& mailbox);
+  /// Says goodbye to all clients, for a second at most.
+  ~Network();
+  Network(const Network&) = delete;
+  Network& operator=(const Network&) = delete;
+
+  std::uint16_t port() const;
+  /// http://127.0.0.1:PORT/TOKEN/
+  std::string url() const;
+
+  /// Sends a message to one client, or to all. A client that is gone, or too slow to read, is no error.
+  void send(ClientNumber client, const nlohmann::json& message);
+  void send_to_all(const nlohmann::json& message);
+  /// A message and the picture it speaks of.
+  void send_picture(ClientNumber client, const nlohmann::json& message,
+                    std::shared_ptr<const std::vector<std::uint8_t>> picture);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace meniscus

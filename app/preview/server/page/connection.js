@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The socket: numbered questions with their replies, and one picture at a time.
+
+/// Calls handlers[event](message) for what the server says of itself, and for "picture" with the bytes as well; asks for
+/// the next picture only when the last one is shown.
+export class Connection {
+  #socket;
+  #handlers;
+  #open;
+  #announced = null;  // the message whose picture comes next
+  #replies = new Map();
+  #next = 1;
+  #ended = false;
+
+  constructor(handlers) {
+    this.#handlers = handlers;
+    const address = new URL("socket", location.href);
+    address.protocol = "ws:";
+    this.#socket = new WebSocket(address);
+    this.#socket.binaryType = "arraybuffer";
+    this.#open = new Promise((resolve) => this.#socket.addEventListener("open", resolve));
+    this.#open.then(() => this.#want_picture());
+    this.#socket.addEventListener("message", (event) => this.#receive(event.data));
+    this.#socket.addEventListener("close", () => this.#close());
+  }
+
+  /// Sends a command; the promise becomes its reply.
+  async ask(command) {
+    await this.#open;
+    const id = this.#next++;
+    return new Promise((resolve) => {
+      this.#replies.set(id, resolve);
+      this.#socket.send(JSON.stringify({ id, ...command }));
+    });
+  }
+
+  #want_picture() {
+    this.#socket.send(JSON.stringify({ request: "picture" }));
+  }
+
+  async #receive(data) {
+    if (typeof data !== "string") {
+      await this.#handlers.picture(this.#announced, data);
+      if (this.#socket.readyState === WebSocket.OPEN) this.#want_picture();
+      return;
+    }
+    const message = JSON.parse(data);
+    if (message.event === "picture") this.#announced = message;
+    else if (message.event) this.#tell(message);
+    else {
+      this.#replies.get(message.id)?.(message);
+      this.#replies.delete(message.id);
+    }
+  }
+
+  #tell(message) {
+    this.#ended ||= message.event === "ended";
+    this.#handlers[message.event]?.(message);
+  }
+
+  #close() {
+    for (const resolve of this.#replies.values()) resolve({ ok: false });
+    this.#replies.clear();
+    if (!this.#ended) this.#handlers.lost();
+  }
+}

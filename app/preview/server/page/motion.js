@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Mouse, pen, touch and keys as camera commands; without inertia.
+
+const kClick = 4;            // CSS pixels a click may wander
+const kHoverRest = 120;      // ms the pointer must rest before an atom is named
+const kWheel = 0.0015;       // growth per unit of wheel
+const kKeyTurn = 1 / 36;     // heights of the picture: five degrees
+const kKeyZoom = 1.1;
+
+/// Calls to.command(word, values) for motions, to.hover(pixel or null, place) and to.pick(pixel).
+export function follow_pointer(canvas, to) {
+  let drag = null;
+  let rest = 0;
+  const pointers = new Map();
+
+  /// Column and row in the picture, which stands in the middle of its element.
+  const pixel_at = (event) => {
+    const scale = Math.min(canvas.clientWidth / canvas.width, canvas.clientHeight / canvas.height);
+    const x = Math.floor((event.offsetX - canvas.clientWidth / 2) / scale + canvas.width / 2);
+    const y = Math.floor((event.offsetY - canvas.clientHeight / 2) / scale + canvas.height / 2);
+    return x >= 0 && y >= 0 && x < canvas.width && y < canvas.height ? { x, y } : null;
+  };
+
+  const pinch = (event) => {
+    const before = [...pointers.values()];
+    pointers.set(event.pointerId, { x: event.offsetX, y: event.offsetY });
+    const after = [...pointers.values()];
+    const span = ([a, b]) => Math.hypot(a.x - b.x, a.y - b.y) || 1;
+    const middle = ([a, b]) => ({ x: (a.x + b.x) / 2, y: (a.y + b.y) / 2 });
+    const [from, to_place] = [middle(before), middle(after)];
+    to.command("zoom", { factor: span(after) / span(before) });
+    to.command("pan", { dx: (to_place.x - from.x) / canvas.clientHeight, dy: (to_place.y - from.y) / canvas.clientHeight });
+  };
+
+  canvas.addEventListener("contextmenu", (event) => event.preventDefault());
+  canvas.addEventListener("pointerdown", (event) => {
+    canvas.setPointerCapture(event.pointerId);
+    canvas.focus({ preventScroll: true });
+    clearTimeout(rest);
+    to.hover(null);
+    pointers.set(event.pointerId, { x: event.offsetX, y: event.offsetY });
+    const pans = event.button === 2 || event.button === 1 || event.shiftKey;
+    drag = { word: pans ? "pan" : "orbit", x: event.clientX, y: event.clientY, wandered: 0, button: event.button };
+  });
+  canvas.addEventListener("pointermove", (event) => {
+    if (pointers.size === 2) { drag.wandered = kClick; return pinch(event); }
+    if (!drag) {
+      clearTimeout(rest);
+      to.hover(null);
+      const [pixel, place] = [pixel_at(event), { x: event.offsetX, y: event.offsetY }];
+      rest = setTimeout(() => to.hover(pixel, place), kHoverRest);
+      return;
+    }
+    const [dx, dy] = [event.clientX - drag.x, event.clientY - drag.y];
+    drag.wandered += Math.hypot(dx, dy);
+    if (drag.wandered < kClick) return;
+    Object.assign(drag, { x: event.clientX, y: event.clientY });
+    to.command(drag.word, { dx: dx / canvas.clientHeight, dy: dy / canvas.clientHeight });
+  });
+  const release = (event) => {
+    pointers.delete(event.pointerId);
+    const was = drag;
+    if (pointers.size === 0) drag = null;
+    const pixel = pixel_at(event);
+    if (event.type === "pointerup" && was && was.button === 0 && was.wandered < kClick && pixel) to.pick(pixel);
+  };
+  canvas.addEventListener("pointerup", release);
+  canvas.addEventListener("pointercancel", release);
+  canvas.addEventListener("pointerleave", () => { clearTimeout(rest); to.hover(null); });
+  canvas.addEventListener("wheel", (event) => {
+    event.preventDefault();
+    const lines = event.deltaMode === WheelEvent.DOM_DELTA_PIXEL ? 1 : 16;
+    const growth = Math.exp(-event.deltaY * lines * kWheel);
+    to.command("zoom", { factor: Math.min(2, Math.max(0.5, growth)) });
+  }, { passive: false });
+}
+
+/// Calls the action of a key, while `allowed`, unless something is being typed.
+export function follow_keys(actions, allowed) {
+  const keys = {
+    ArrowLeft: () => actions.orbit(-kKeyTurn, 0), ArrowRight: () => actions.orbit(kKeyTurn, 0),
+    ArrowUp: () => actions.orbit(0, -kKeyTurn), ArrowDown: () => actions.orbit(0, kKeyTurn),
+    "+": () => actions.zoom(kKeyZoom), "=": () => actions.zoom(kKeyZoom), "-": () => actions.zoom(1 / kKeyZoom),
+    "[": () => actions.probe(-0.1), "]": () => actions.probe(0.1),
+    k: actions.kinds, p: actions.projection, r: actions.reset, s: actions.save, h: actions.panel, " ": actions.play,
+  };
+  document.addEventListener("keydown", (event) => {
+    const action = keys[event.key.length === 1 ? event.key.toLowerCase() : event.key];
+    const typing = event.target.closest?.("input, select, textarea, button");
+    if (!action || typing || event.ctrlKey || event.metaKey || event.altKey || !allowed()) return;
+    event.preventDefault();
+    action();
+  });
+}
