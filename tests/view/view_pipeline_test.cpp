@@ -111,6 +111,36 @@ TEST_F(Views, WhatStandsBesideTheEyeHidesNothingAcross) {
   EXPECT_GT(renderer_.stats().arcs, 0u);
 }
 
+TEST_F(Views, ThePaperDrawsLessAndMissesSome) {
+  const Balls atoms = testing::enterotoxin();
+  load(atoms);
+  const Camera camera = frame_camera(atoms, 4.0 / 3.0);
+  const auto complete = draw(camera, 1.4, Extent::complete);
+  const ViewStats all = renderer_.stats();
+  const auto paper = draw(camera, 1.4, Extent::paper);
+  EXPECT_LT(renderer_.stats().probes, all.probes / 2);
+  int missed = 0, shown = 0;
+  for (std::size_t at = 0; at < complete.size(); ++at) {
+    missed += paper[at] != complete[at];
+    shown += complete[at].w > 0.0f;
+  }
+  EXPECT_GT(missed, 0);
+  EXPECT_LT(missed, shown / 50);
+  EXPECT_EQ(draw(camera, 1.4, Extent::complete), complete);  // nothing of the selection stays
+}
+
+TEST_F(Views, NewAtomsAndProbesLeaveNothingBehind) {
+  const Balls atoms = testing::ubiquitin();
+  const Camera camera = frame_camera(atoms, 4.0 / 3.0);
+  load(atoms);
+  const auto first = draw(camera, 1.4, Extent::visible);
+  EXPECT_NE(draw(camera, 2.0, Extent::complete), first);
+  load(testing::rotated(atoms, glm::dmat3(0, 1, 0, -1, 0, 0, 0, 0, 1)));
+  EXPECT_NE(draw(camera, 1.4, Extent::complete), first);
+  load(atoms);
+  EXPECT_EQ(draw(camera, 1.4, Extent::visible), first);
+}
+
 TEST_F(Views, VisibleEqualsCompleteFromInside) {
   const Balls atoms = testing::enterotoxin();
   load(atoms);
