@@ -2,6 +2,7 @@
 // The rectangle of tiles that a bounding sphere may touch; a little too large rather than too small.
 #ifndef MENISCUS_RAY_CAST_BOUND_FOOTPRINT_GLSL
 #define MENISCUS_RAY_CAST_BOUND_FOOTPRINT_GLSL
+#include "gpu_shaders/shared/tangent_slopes.glsl"
 
 const float kTileEdge = 16.0;  // pixels
 
@@ -13,16 +14,6 @@ uniform uint orthographic;
 uniform vec3 right;
 uniform vec3 up;
 uniform vec3 forward;
-
-// Slopes x/z of the two lines through the eye that touch the circle around (x, z), widened by what rounding may do.
-vec2 tangent_slopes(float x, float z, float radius) {
-  // Close to the eye the difference below would lose its digits, and the circle fills the picture anyway.
-  if (z < 1.01 * radius) return vec2(-1e20, 1e20);
-  float denominator = (z - radius) * (z + radius);
-  float root = radius * sqrt(x * x + denominator);
-  float margin = 1e-6 * (1.0 + z / (z - radius)) * (abs(x) * z + root);
-  return vec2(x * z - root - margin, x * z + root + margin) / denominator;
-}
 
 // Tiles [low, high) along one axis.
 ivec2 tile_range(vec2 pixels, int tile_count) {

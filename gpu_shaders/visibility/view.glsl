@@ -3,6 +3,7 @@
 //
 // View coordinates: origin at the eye, x right, y down, z forward, Å. A depth is the distance along a ray from the eye
 // (orthographic: from the plane through it). Pixels are counted from the middle of the picture.
+#include "gpu_shaders/shared/tangent_slopes.glsl"
 
 uniform vec3 eye;  // from the middle of the atoms
 uniform vec3 right;
@@ -24,27 +25,15 @@ vec3 view_from_molecule(vec3 position) {
   return vec3(dot(v, right), -dot(v, up), dot(v, forward));
 }
 
-// Slopes x/z of the two lines through the eye that touch the circle around (x, z), z > radius.
-vec2 tangent_slopes(float x, float z, float radius) {
-  float square = (z - radius) * (z + radius);
-  float root = radius * sqrt(x * x + square);
-  return vec2(x * z - root, x * z + root) / square;
-}
-
-// Pixels from the picture's corner that a ball may touch: low corner, high corner; grown by more than rounding.
+// Pixels from the picture's corner that a ball may touch: low corner, high corner; a pixel more on each side.
 vec4 touched_pixels(vec3 v, float radius) {
-  vec2 x;
-  vec2 y;
-  if (orthographic != 0u) {
-    x = vec2(v.x - radius, v.x + radius);
-    y = vec2(v.y - radius, v.y + radius);
-  } else {
-    if (v.z <= radius * 1.001) return vec4(0.0, 0.0, vec2(picture_size));
+  vec2 x = vec2(v.x - radius, v.x + radius);
+  vec2 y = vec2(v.y - radius, v.y + radius);
+  if (orthographic == 0u) {
     x = tangent_slopes(v.x, v.z, radius);
     y = tangent_slopes(v.y, v.z, radius);
   }
-  vec4 range = vec4(x.x, y.x, x.y, y.y) / pixel_scale;
-  range += (1.0 + 2e-3 * abs(range)) * vec4(-1.0, -1.0, 1.0, 1.0);
+  vec4 range = vec4(x.x, y.x, x.y, y.y) / pixel_scale + vec4(-1.0, -1.0, 1.0, 1.0);
   vec2 size = vec2(picture_size);
   return clamp(range + 0.5 * size.xyxy, vec4(0.0), size.xyxy);
 }
