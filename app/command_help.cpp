@@ -44,7 +44,7 @@ constexpr const char* kExitCodes = R"(  0  done
   1  internal error: please report it
   2  wrong usage
   3  input cannot be read or makes no sense: "file:line: what, value, what to do"
-  4  no usable GPU or GL, or the driver refused something
+  4  no usable GPU or GL, no display for a window, or the driver refused or lost something
   5  a limit of the machine or of a format was reached
   6  an output cannot be written, or exists and --force was not given
   7  the surface is not closed: the atoms are named, nothing is written

@@ -18,6 +18,7 @@
 #include "app/preview/command_log.h"
 #include "app/preview/server/serve.h"
 #include "app/preview/session.h"
+#include "app/preview/window/window.h"
 #include "app/program_error.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
@@ -61,7 +62,7 @@ Structure read_frames(PreviewCommand& command) {
   return structure;
 }
 
-/// A session as the options say, after the commands of --commands. Needs a current GL context.
+/// A session as the options say. Needs a current GL context.
 std::unique_ptr<PreviewSession> begin_session(const PreviewCommand& command, Structure structure) {
   PreviewView view;
   view.color = command.molecule.color;
@@ -75,7 +76,6 @@ std::unique_ptr<PreviewSession> begin_session(const PreviewCommand& command, Str
     auto log = std::make_shared<CommandLog>(command.record, command.force ? Existing::replace : Existing::refuse);
     session->record([log](const nlohmann::json& line) { log->write(line); });
   }
-  if (!command.commands.empty()) replay_commands(command.commands, *session, std::cout);
   return session;
 }
 
@@ -85,22 +85,47 @@ void say_address(const PreviewCommand& command, const std::string& url, std::uin
   say(command.molecule, "Ctrl-C ends the preview");
 }
 
-void run(PreviewCommand& command) {
-  if (!command.port) throw UsageError("a page is all there is yet: give --serve");
+void serve(PreviewCommand& command) {
   std::signal(SIGPIPE, SIG_IGN);  // whoever stops reading must not end the server
   Structure structure = read_frames(command);
   const EglContext context(command.molecule.computing.gl);
   const std::unique_ptr<PreviewSession> session = begin_session(command, std::move(structure));
+  if (!command.commands.empty()) replay_commands(command.commands, *session, std::cout);
   if (session->wants_to_quit()) return;
   serve_session(*session, *command.port,
                 [&](const std::string& url, std::uint16_t port) { say_address(command, url, port); });
 }
 
+void say_report(const PreviewCommand& command, const WindowReport& report) {
+  say(command.molecule, fmt::format("window on {}, GL {}{}", report.context.renderer, report.context.version,
+                                    report.context.software ? " (software)" : ""));
+  if (report.latency.pictures > 0)
+    say(command.molecule, fmt::format("from movement to picture: median {:.1f} ms, 95 % within {:.1f} ms, {} pictures",
+                                      report.latency.median_ms, report.latency.p95_ms, report.latency.pictures));
+}
+
+void open_window(PreviewCommand& command) {
+  if (command.molecule.computing.gl.kind != DeviceChoice::Kind::automatic)
+    throw UsageError("--device is for --serve; a window draws on the device of its display");
+  std::vector<WrittenCommand> commands;
+  if (!command.commands.empty()) commands = read_commands(command.commands);
+  Structure structure = read_frames(command);
+  WindowOptions options;
+  options.title = fmt::format("{} - Meniscus", std::filesystem::path(command.molecule.file).filename().string());
+  for (const WrittenCommand& written : commands) options.commands.push_back(written.command);
+  options.replied = [&](std::size_t index, const nlohmann::json& reply) {
+    print_reply(command.commands, commands[index].line, reply, std::cout);
+  };
+  say_report(command, run_window(options, [&] { return begin_session(command, std::move(structure)); }));
+}
+
+void run(PreviewCommand& command) { command.port ? serve(command) : open_window(command); }
+
 void add_session_options(CLI::App& command, PreviewCommand& state) {
   command
       .add_option_function<std::string>(
           "--serve", [&state](const std::string& text) { state.port = parse_port(text); },
-          "Serve a page for browsers on 127.0.0.1: at this port, or at any free one")
+          "No window: serve a page for browsers on 127.0.0.1, at this port or at any free one")
       ->expected(0, 1)
       ->type_name("[PORT]");
   const Heading heading(command, "Session");
@@ -114,12 +139,14 @@ void add_session_options(CLI::App& command, PreviewCommand& state) {
 }  // namespace
 
 void add_preview(CLI::App& command) {
-  describe(command, "Look at the surface while it changes, in a browser",
+  describe(command, "Look at the surface while it changes, in a window or in a browser",
+           "  meniscus preview 1tii.pdb                           a window; h shows its keys\n"
            "  meniscus preview 1tii.pdb --serve                   prints an address to open in a browser\n"
            "  meniscus preview 1tii.pdb --serve 8080 --color chain\n"
-           "  meniscus preview 1tii.pdb --serve --record session.jsonl",
-           "Each model of FILE is a frame. The page is served on 127.0.0.1 only, to whoever has the address with its "
-           "token;\nto look from another machine, use the ssh line that is printed. SIGINT and SIGTERM end it.");
+           "  meniscus preview 1tii.pdb --record session.jsonl    what is done, for --commands",
+           "Each model of FILE is a frame. A window needs a display with OpenGL 4.5 through EGL; without one the exit code "
+           "is 4.\nThe page is served on 127.0.0.1 only, to whoever has the address with its token; to look from another "
+           "machine,\nuse the ssh line that is printed. SIGINT and SIGTERM end both.");
   auto state = std::make_shared<PreviewCommand>();
   state->molecule.reading.model.all = true;
   add_atom_options(command, state->molecule);

@@ -15,6 +15,7 @@
 #include <iterator>
 #include <stdexcept>
 #include <thread>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -50,15 +51,25 @@ int wait_for(pid_t child, int limit_seconds) {
 }  // namespace
 
 ProgramResult run_program(const std::string& program, const std::vector<std::string>& arguments, int limit_seconds) {
-  const TemporaryFolder folder;
-  const std::string out = folder.path() / "out", err = folder.path() / "err";
-  const pid_t child = ::fork();
-  if (child == 0) become(program, arguments, out.c_str(), err.c_str());
-  if (child < 0) throw std::runtime_error("cannot fork");
+  return RunningProgram(program, arguments).finish(limit_seconds);
+}
+
+RunningProgram::RunningProgram(const std::string& program, const std::vector<std::string>& arguments) {
+  const std::string out = folder_.file("out", ""), err = folder_.file("err", "");
+  child_ = ::fork();
+  if (child_ == 0) become(program, arguments, out.c_str(), err.c_str());
+  if (child_ < 0) throw std::runtime_error("cannot fork");
+}
+
+RunningProgram::~RunningProgram() {
+  if (child_ > 0) wait_for(child_, 0);
+}
+
+ProgramResult RunningProgram::finish(int limit_seconds) {
   ProgramResult result;
-  result.exit_code = wait_for(child, limit_seconds);
-  result.out = read_bytes(out);
-  result.err = read_bytes(err);
+  result.exit_code = wait_for(std::exchange(child_, -1), limit_seconds);
+  result.out = out();
+  result.err = err();
   return result;
 }
 

@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include <sys/types.h>
+
 namespace meniscus::test {
 
 struct ProgramResult {
@@ -18,6 +20,9 @@ struct ProgramResult {
 /// Runs `program` with arguments, no shell between. It is killed after `limit_seconds`.
 ProgramResult run_program(const std::string& program, const std::vector<std::string>& arguments,
                           int limit_seconds = 60);
+
+/// The content of a file; fails the test if it cannot be read.
+std::string read_bytes(const std::filesystem::path& path);
 
 /// A fresh folder that vanishes with this object.
 class TemporaryFolder {
@@ -40,7 +45,23 @@ class TemporaryFolder {
 /// The bytes as one gzip member.
 std::string gzipped(std::string_view bytes);
 
-/// The content of a file; fails the test if it cannot be read.
-std::string read_bytes(const std::filesystem::path& path);
+/// A program that goes on while the test does something else. It is killed with this object.
+class RunningProgram {
+ public:
+  RunningProgram(const std::string& program, const std::vector<std::string>& arguments);
+  ~RunningProgram();
+  RunningProgram(const RunningProgram&) = delete;
+  RunningProgram& operator=(const RunningProgram&) = delete;
+
+  /// What it wrote so far.
+  std::string out() const { return read_bytes(folder_.path() / "out"); }
+  std::string err() const { return read_bytes(folder_.path() / "err"); }
+  /// Waits for its end; it is killed after `limit_seconds`. Once.
+  ProgramResult finish(int limit_seconds = 60);
+
+ private:
+  TemporaryFolder folder_;
+  pid_t child_ = -1;
+};
 
 }  // namespace meniscus::test

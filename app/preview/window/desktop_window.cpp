@@ -132,47 +132,41 @@ glm::dvec2 DesktopWindow::pixels_per_unit() const {
   return units.x > 0 && units.y > 0 ? glm::dvec2(pixels()) / glm::dvec2(units) : glm::dvec2(1.0);
 }
 
-InputEvent DesktopWindow::event_now(InputEvent::Kind kind) const {
+InputEvent& DesktopWindow::add_event(InputEvent::Kind kind) {
   InputEvent event;
   event.kind = kind;
+  event.position = pointer_;
   event.time = seconds();
-  glm::dvec2 units{0.0};
-  glfwGetCursorPos(window_, &units.x, &units.y);
-  event.position = units * pixels_per_unit();
-  return event;
+  return events_.emplace_back(event);
 }
 
 void DesktopWindow::listen() {
   glfwSetWindowUserPointer(window_, this);
+  glfwSetCursorPosCallback(window_, [](GLFWwindow* window, double x, double y) {
+    // GLFW's own word on where the pointer is may be from after the events that are still to come.
+    owner(window).pointer_ = glm::dvec2(x, y) * owner(window).pixels_per_unit();
+    owner(window).add_event(InputEvent::Kind::move);
+  });
+  glfwSetCursorEnterCallback(window_, [](GLFWwindow* window, int entered) {
+    if (!entered) owner(window).add_event(InputEvent::Kind::leave);
+  });
   glfwSetMouseButtonCallback(window_, [](GLFWwindow* window, int glfw_button, int action, int modifiers) {
     const auto button = button_of(glfw_button);
     if (!button) return;
-    InputEvent event =
-        owner(window).event_now(action == GLFW_PRESS ? InputEvent::Kind::press : InputEvent::Kind::release);
+    InputEvent& event =
+        owner(window).add_event(action == GLFW_PRESS ? InputEvent::Kind::press : InputEvent::Kind::release);
     event.button = *button;
     event.shift = modifiers & GLFW_MOD_SHIFT;
-    owner(window).events_.push_back(event);
-  });
-  glfwSetCursorPosCallback(window_, [](GLFWwindow* window, double x, double y) {
-    InputEvent event = owner(window).event_now(InputEvent::Kind::move);
-    event.position = glm::dvec2(x, y) * owner(window).pixels_per_unit();
-    owner(window).events_.push_back(event);
   });
   glfwSetScrollCallback(window_, [](GLFWwindow* window, double, double notches) {
-    InputEvent event = owner(window).event_now(InputEvent::Kind::scroll);
-    event.scroll = notches;
-    owner(window).events_.push_back(event);
+    owner(window).add_event(InputEvent::Kind::scroll).scroll = notches;
   });
   glfwSetCharCallback(window_, [](GLFWwindow* window, unsigned letter) {
-    InputEvent event = owner(window).event_now(InputEvent::Kind::text);
-    event.letter = letter;
-    owner(window).events_.push_back(event);
+    owner(window).add_event(InputEvent::Kind::text).letter = letter;
   });
   glfwSetKeyCallback(window_, [](GLFWwindow* window, int key, int, int action, int) {
-    if (action == GLFW_RELEASE) return;
-    InputEvent event = owner(window).event_now(InputEvent::Kind::key);
-    event.key = key;
-    owner(window).events_.push_back(event);
+    if (key < 0) return;  // a key that GLFW has no name for
+    owner(window).add_event(action == GLFW_RELEASE ? InputEvent::Kind::key_up : InputEvent::Kind::key).key = key;
   });
 }
 

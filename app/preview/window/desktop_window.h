@@ -45,12 +45,13 @@ class DesktopWindow {
 
  private:
   void listen();
-  InputEvent event_now(InputEvent::Kind kind) const;
+  InputEvent& add_event(InputEvent::Kind kind);
 
   GLFWwindow* window_ = nullptr;
   ContextDescription context_;
   ForeignContext gl_;
   std::vector<InputEvent> events_;
+  glm::dvec2 pointer_{0.0};
 };
 
 }  // namespace meniscus

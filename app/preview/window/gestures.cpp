@@ -47,8 +47,7 @@ void Gestures::take(const InputEvent& event, glm::ivec2 size, bool elsewhere, st
     case InputEvent::Kind::scroll:
       if (!elsewhere && event.scroll != 0.0) add_zoom(std::pow(kZoomPerNotch, event.scroll), commands);
       break;
-    case InputEvent::Kind::text:
-    case InputEvent::Kind::key:
+    default:
       break;
   }
 }

@@ -2,9 +2,15 @@
 // Style of the panel: dark ink on pale paper, one accent, letters as large as the desktop wants them.
 #include "app/preview/window/gui.h"
 
+#include <algorithm>
+#include <cfloat>
+#include <set>
+
 #include <backends/imgui_impl_glfw.h>
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
 
 #include "core/render/text_raster.h"
 
@@ -64,7 +70,7 @@ void load_font(float pixels) {
 
 }  // namespace
 
-Gui::Gui(DesktopWindow& window) {
+Gui::Gui(DesktopWindow& window) : window_(window) {
   IMGUI_CHECKVERSION();
   ImGui::CreateContext();
   ImGuiIO& io = ImGui::GetIO();
@@ -76,7 +82,7 @@ Gui::Gui(DesktopWindow& window) {
   io.FontGlobalScale = 1.0f / per_unit;
   em_ = kLetterHeight * scale / per_unit;
   set_style(scale / per_unit);
-  ImGui_ImplGlfw_InitForOpenGL(window.glfw(), true);  // hands on the events the window listens to
+  ImGui_ImplGlfw_InitForOpenGL(window.glfw(), false);  // events come from take()
   ImGui_ImplOpenGL3_Init("#version 450 core");
 }
 
@@ -89,15 +95,52 @@ Gui::~Gui() {
 void Gui::begin() {
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
+  hand_on();
   ImGui::NewFrame();
 }
 
-void Gui::end() {
+bool Gui::end() {
   ImGui::Render();
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+  return !waiting_.empty();
 }
 
-bool Gui::wants_mouse() { return ImGui::GetIO().WantCaptureMouse; }
-bool Gui::wants_keyboard() { return ImGui::GetIO().WantTextInput; }
+void Gui::hand_on() {
+  ImGuiIO& io = ImGui::GetIO();
+  std::set<int> changed;  // keys, and buttons as negative numbers, that went up or down in this frame
+  const auto changes = [&](int key) { return changed.insert(key).second; };
+  bool button_changed = false, dragged = false;
+  for (; !waiting_.empty(); waiting_.pop_front()) {
+    const InputEvent& event = waiting_.front();
+    const int button = static_cast<int>(event.button);
+    const bool moves = event.kind == InputEvent::Kind::move || event.kind == InputEvent::Kind::leave;
+    if (moves && button_changed) break;  // what was pressed is where the pointer was
+    if (moves) {
+      dragged |= std::ranges::count(held_, true) > 0;
+      inside_ = event.kind == InputEvent::Kind::move;
+      pointer_ = event.position / window_.pixels_per_unit();
+    } else if (event.kind == InputEvent::Kind::press || event.kind == InputEvent::Kind::release) {
+      if (dragged || !changes(-1 - button)) break;  // a slider follows to where it is let go
+      button_changed = true;
+      held_[button] = event.kind == InputEvent::Kind::press;
+    } else if (event.kind == InputEvent::Kind::key || event.kind == InputEvent::Kind::key_up) {
+      if (!changes(event.key)) break;
+      io.KeysDown[event.key] = event.kind == InputEvent::Kind::key;
+    } else if (event.kind == InputEvent::Kind::scroll) {
+      io.MouseWheel += static_cast<float>(event.scroll);
+    } else if (event.kind == InputEvent::Kind::text) {
+      io.AddInputCharacter(event.letter);
+    }
+  }
+  io.KeyCtrl = io.KeysDown[GLFW_KEY_LEFT_CONTROL] || io.KeysDown[GLFW_KEY_RIGHT_CONTROL];
+  io.KeyShift = io.KeysDown[GLFW_KEY_LEFT_SHIFT] || io.KeysDown[GLFW_KEY_RIGHT_SHIFT];
+  std::ranges::copy(held_, io.MouseDown);
+  const bool known = inside_ || std::ranges::count(held_, true) > 0;
+  io.MousePos =
+      known ? ImVec2(static_cast<float>(pointer_.x), static_cast<float>(pointer_.y)) : ImVec2(-FLT_MAX, -FLT_MAX);
+}
+
+bool Gui::list_open() { return ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopup); }
+bool Gui::typing() { return ImGui::GetIO().WantTextInput; }
 
 }  // namespace meniscus

@@ -2,6 +2,9 @@
 // Dear ImGui in the preview's window: its letters, its colours, and where a frame of it begins and ends.
 #pragma once
 
+#include <array>
+#include <deque>
+
 #include "app/preview/window/desktop_window.h"
 
 namespace meniscus {
@@ -14,17 +17,28 @@ class Gui {
   Gui(const Gui&) = delete;
   Gui& operator=(const Gui&) = delete;
 
+  /// To be handed on to the widgets, in this order.
+  void take(const InputEvent& event) { waiting_.push_back(event); }
+  /// Hands on as much of it as one frame can tell apart: a key that goes down and up in one frame would not be seen.
   void begin();
-  /// Draws over what the window shows.
-  void end();
+  /// Draws over what the window shows. True if another frame is needed for what still waits.
+  bool end();
 
   /// Height of a letter, in the units ImGui counts in; everything else is sized by it.
   float em() const { return em_; }
-  /// True if the pointer, or the keyboard, is busy with a widget.
-  static bool wants_mouse();
-  static bool wants_keyboard();
+  /// True while a list hangs open, which may lie over the picture.
+  static bool list_open();
+  /// True while a field is typed into.
+  static bool typing();
 
  private:
+  void hand_on();
+
+  DesktopWindow& window_;
+  std::deque<InputEvent> waiting_;
+  std::array<bool, 3> held_{};  // buttons, as handed on
+  glm::dvec2 pointer_{0.0};     // ImGui's units, as handed on
+  bool inside_ = false;
   float em_ = 0.0f;
 };
 

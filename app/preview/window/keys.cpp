@@ -15,7 +15,9 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr double kProbeStep = 0.1;  // Å
+constexpr double kProbeStep = 0.1;         // Å
+constexpr double kUsualOcclusion = 1.0;    // share
+constexpr double kUsualSilhouettes = 1.5;  // pixels
 
 constexpr KeyHelp kHelp[] = {
     {"left drag", "turn"},
@@ -38,8 +40,9 @@ constexpr KeyHelp kHelp[] = {
     {"q  Esc", "leave"},
 };
 
-Json flipped_look(const char* key, const Json& state) {
-  return {{"command", "look"}, {key, !state["look"].value(key, false)}};
+/// A strength of the look, off or as strong as it usually is.
+Json flipped_look(const char* key, double usual, const Json& state) {
+  return {{"command", "look"}, {key, state["look"].value(key, 0.0) > 0.0 ? 0.0 : usual}};
 }
 
 Json probe_by(double step, const Json& state) {
@@ -70,9 +73,9 @@ std::optional<Json> command_of(char32_t letter, const Json& state) {
     case U'k':
       return Json{{"command", "patch_kinds"}, {"on", !state["patch_kinds"].get<bool>()}};
     case U'a':
-      return flipped_look("ambient_occlusion", state);
+      return flipped_look("ambient_occlusion", kUsualOcclusion, state);
     case U's':
-      return flipped_look("silhouettes", state);
+      return flipped_look("silhouettes", kUsualSilhouettes, state);
     case U' ':
       if (state["frames"].get<int>() < 2) return {};
       return Json{{"command", state["playing"].get<bool>() ? "pause" : "play"}};

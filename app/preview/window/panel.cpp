@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
@@ -40,6 +41,9 @@ void label(const char* text) {
   ImGui::SameLine(6.5f * ImGui::GetFontSize());
   ImGui::SetNextItemWidth(-1.0f);
 }
+
+/// A number of a slider with no more digits than it shows.
+double rounded(float value) { return std::round(100.0 * value) / 100.0; }
 
 /// A list to choose from; the word chosen now, or nothing.
 template <class Words>
@@ -100,7 +104,7 @@ void Panel::surface() {
   label("Probe");
   float radius = link_.state()["probe_radius"];
   if (ImGui::SliderFloat("##probe", &radius, 0.0f, kLargestSliderProbe, "%.2f \xc3\x85", ImGuiSliderFlags_Logarithmic))
-    link_.send({{"command", "probe"}, {"radius", std::round(100.0 * std::max(radius, 0.0f)) / 100.0}});
+    link_.send({{"command", "probe"}, {"radius", rounded(std::max(radius, 0.0f))}});
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("Ctrl + click to type a radius; 0 shows the van der Waals surface");
 }
 
@@ -154,6 +158,35 @@ void Panel::look() {
   glm::vec3 color = hex.value_or(glm::vec3(1.0f));
   if (ImGui::ColorEdit3("##background", &color.x, ImGuiColorEditFlags_DisplayHex))
     link_.send({{"command", "look"}, {"background", hex_color(color)}});
+  strength("Occlusion", "ambient_occlusion", 1.0f, "Shade in pockets and clefts, when the picture is at rest (a)");
+  strength("Silhouettes", "silhouettes", 8.0f, "Width of lines where something stands in front, pixels (s)");
+  strength("Depth cue", "depth_cue", 1.0f, "How much the farthest atoms fade into the background");
+  strength("Light", "light_strength", 2.0f, "Strength of the key light");
+  light();
+}
+
+void Panel::strength(const char* name, const char* key, float most, const char* tip) {
+  if (!link_.state()["look"].contains(key)) return;
+  label(name);
+  float value = link_.state()["look"][key];
+  if (ImGui::SliderFloat(fmt::format("##{}", key).c_str(), &value, 0.0f, most, "%.2f", ImGuiSliderFlags_AlwaysClamp))
+    link_.send({{"command", "look"}, {key, rounded(value)}});
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", tip);
+}
+
+void Panel::light() {
+  if (!link_.state()["look"].contains("light_direction")) return;
+  const Json& direction = link_.state()["look"]["light_direction"];
+  const glm::vec3 light =
+      glm::normalize(glm::vec3(direction[0].get<float>(), direction[1].get<float>(), direction[2].get<float>()));
+  label("Light from");
+  glm::vec2 across(light);
+  if (!ImGui::SliderFloat2("##light", &across.x, -1.0f, 1.0f, "%.2f", ImGuiSliderFlags_AlwaysClamp)) {
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("Where the key light stands: left to right, below to above");
+    return;
+  }
+  const float front = std::sqrt(std::max(0.0f, 1.0f - glm::dot(across, across)));
+  link_.send({{"command", "look"}, {"light_direction", {rounded(across.x), rounded(across.y), rounded(front)}}});
 }
 
 void Panel::frames() {
@@ -231,7 +264,7 @@ void Panel::timing() {
     ImGui::SetCursorPosX(ImGui::GetCursorPosX() + std::max(room, 0.0f));
     ImGui::TextUnformatted(value.c_str());
   };
-  row(fmt::format("{} x {}{}", stats["width"].get<int>(), stats["height"].get<int>(),
+  row(fmt::format("{} \xc3\x97 {}{}", stats["width"].get<int>(), stats["height"].get<int>(),
                   link_.news().full ? "" : ", draft"),
       fmt::format("{:.1f} fps", stats["fps"].get<double>()));
   for (const Json& stage : stats["stages"])

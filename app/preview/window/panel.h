@@ -33,6 +33,8 @@ class Panel {
   void coloring();
   void view();
   void look();
+  void strength(const char* name, const char* key, float most, const char* tip);
+  void light();
   void frames();
   void exports();
   void picked();

@@ -38,7 +38,8 @@ class PreviewWindow {
         thread_(window_.gl(), std::move(make), DesktopWindow::wake),
         link_(thread_, [this](std::uint64_t number, const Json& command) { note(number, command); }),
         panel_(link_) {
-    if (options_.commands.empty()) link_.send(resize_command());
+    replay_done_ = options_.commands.empty();
+    if (replay_done_) link_.send(resize_command());
   }
 
   WindowReport run();
@@ -106,7 +107,7 @@ Json PreviewWindow::resize_command() const {
 
 double PreviewWindow::patience() {
   double seconds = link_.news().busy_seconds ? kBusyLook : kLongSleep;
-  if (Gui::wants_keyboard()) seconds = kBusyLook;  // the cursor in a field blinks
+  if (Gui::typing()) seconds = kBusyLook;  // the cursor in a field blinks
   if (!link_.has_state() || replaying()) return seconds;
   const double now = window_.seconds();
   if (link_.news().at_rest)
@@ -129,29 +130,30 @@ void PreviewWindow::take_events() {
   const auto send_movements = [&] {
     for (const Json& command : std::exchange(movements, {})) link_.send(command);
   };
-  const bool elsewhere = Gui::wants_mouse();
+  const bool list_open = Gui::list_open();
   for (const InputEvent& event : window_.take_events()) {
+    gui_.take(event);
     if (!link_.has_state() || replaying()) continue;
+    const bool elsewhere = list_open || event.position.x >= picture_area().x;
     gestures_.take(event, picture_area(), elsewhere, movements);
     if (gestures_.click()) take_click(*gestures_.click());
     if (event.kind == InputEvent::Kind::text || event.kind == InputEvent::Kind::key) {
       send_movements();  // things happen in the order they were done
       take_key(event);
     }
-    if (event.kind == InputEvent::Kind::move) take_pointer(event, elsewhere);
+    if (event.kind == InputEvent::Kind::move || event.kind == InputEvent::Kind::leave) take_pointer(event, elsewhere);
   }
   send_movements();
 }
 
 void PreviewWindow::take_pointer(const InputEvent& event, bool elsewhere) {
-  const glm::dvec2 area(picture_area());
-  const bool over = !elsewhere && event.position.x < area.x && event.position.y < area.y;
   hover_.forget();
-  if (over && !gestures_.dragging()) hover_.ask_at(event.position, event.time + kMouseRest);
+  if (event.kind == InputEvent::Kind::move && !elsewhere && !gestures_.dragging())
+    hover_.ask_at(event.position, event.time + kMouseRest);
 }
 
 void PreviewWindow::take_key(const InputEvent& event) {
-  if (Gui::wants_keyboard()) return;
+  if (Gui::typing() || Gui::list_open()) return;
   const KeyMeaning meaning = key_meaning(event, link_.state());
   if (meaning.command) link_.send(*meaning.command);
   if (!meaning.action) return;
@@ -229,7 +231,7 @@ void PreviewWindow::draw() {
   glViewport(0, 0, window_.pixels().x, window_.pixels().y);
   glClear(GL_COLOR_BUFFER_BIT);
   if (picture.texture) view_.show(picture.texture, picture.size, picture_area(), window_.pixels());
-  gui_.end();
+  if (gui_.end()) redraws_ = std::max(redraws_, 1);
   window_.swap();
   link_.presented(shown);
   latency_.shown(shown, window_.seconds());

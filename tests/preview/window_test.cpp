@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The window as users have it: opened, dragged, typed into, closed and bereft of its display.
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <functional>
+#include <thread>
+
+#include <OpenImageIO/imageio.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/support/run_program.h"
+#include "tests/support/virtual_screen.h"
+
+namespace meniscus::test {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr glm::ivec2 kScreen{1280, 800};
+constexpr int kPicture = 980;  // columns of the window that the panel leaves
+const std::string kProgram = MENISCUS_PROGRAM;
+const std::vector<std::string> kMolecule{"preview", "/usr/share/pymol/data/demo/1tii.pdb", "--select", "chain D",
+                                         "--quiet"};
+
+std::vector<std::string> with(std::vector<std::string> more) {
+  std::vector<std::string> all = kMolecule;
+  all.insert(all.end(), more.begin(), more.end());
+  return all;
+}
+
+bool happens(const std::function<bool()>& condition, int seconds = 60) {
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(seconds);
+  while (!condition()) {
+    if (std::chrono::steady_clock::now() > deadline) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+  return true;
+}
+
+/// The recorded session and an order to quit, as a file.
+std::string session_file(const TemporaryFolder& folder) {
+  return folder.file("session.jsonl",
+                     read_bytes(MENISCUS_TEST_DATA "/preview_session.jsonl") + "{\"command\":\"quit\"}\n");
+}
+
+ScreenPicture read_png(const std::string& path) {
+  const auto file = OIIO::ImageInput::open(path);
+  if (!file) throw std::runtime_error(path + " cannot be read");
+  ScreenPicture picture{{file->spec().width, file->spec().height}, {}};
+  std::vector<std::uint8_t> bytes(file->spec().image_pixels() * file->spec().nchannels);
+  file->read_image(0, 0, 0, file->spec().nchannels, OIIO::TypeDesc::UINT8, bytes.data());
+  for (std::size_t p = 0; p < bytes.size(); p += file->spec().nchannels)
+    picture.pixels.emplace_back(bytes[p], bytes[p + 1], bytes[p + 2]);
+  return picture;
+}
+
+/// A preview with its window on a virtual screen, recorded.
+class WindowTest : public ::testing::Test {
+ protected:
+  void open(const std::vector<std::string>& more = {}) {
+    std::vector<std::string> arguments = with({"--record", record(), "--output-dir", folder_.path()});
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    program_.emplace(kProgram, arguments);
+    ASSERT_TRUE(happens([&] { return is_drawn(); })) << program_->err();
+  }
+
+  /// The panel's paper is there, and a picture with its white background; both stay as they are for a while.
+  bool is_drawn() {
+    const ScreenPicture before = screen_.picture();
+    if (before.at({kPicture + 4, 4}) != glm::u8vec3(246, 246, 244) || before.at({4, 4}) != glm::u8vec3(255))
+      return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(600));
+    return screen_.picture().pixels == before.pixels;
+  }
+
+  std::vector<Json> recorded(const std::string& word) const {
+    std::vector<Json> commands;
+    std::istringstream lines(read_bytes(record()));
+    for (std::string line; std::getline(lines, line);)
+      if (const Json command = Json::parse(line); command["command"] == word) commands.push_back(command);
+    return commands;
+  }
+
+  /// The sum of a number over all recorded commands of this word.
+  double sum(const std::string& word, const char* key) const {
+    double total = 0.0;
+    for (const Json& command : recorded(word)) total += command[key].get<double>();
+    return total;
+  }
+
+  std::string record() const { return folder_.path() / "record.jsonl"; }
+
+  TemporaryFolder folder_;
+  VirtualScreen screen_{kScreen};
+  std::optional<RunningProgram> program_;
+};
+
+TEST_F(WindowTest, ReplaysASessionAsItIsWithoutAWindow) {
+  const TemporaryFolder window, page;
+  const ProgramResult seen =
+      run_program(kProgram, with({"--commands", session_file(window), "--output-dir", window.path()}), 200);
+  const ProgramResult unseen =
+      run_program(kProgram, with({"--serve", "--commands", session_file(page), "--output-dir", page.path()}), 200);
+  ASSERT_EQ(seen.exit_code, 0) << seen.err;
+  ASSERT_EQ(unseen.exit_code, 0) << unseen.err;
+  const std::string png = read_bytes(window.path() / "session.png");
+  EXPECT_GT(png.size(), 20000u);
+  EXPECT_TRUE(png == read_bytes(page.path() / "session.png"));
+  EXPECT_EQ(read_bytes(window.path() / "session.json"), read_bytes(page.path() / "session.json"));
+  EXPECT_NE(seen.out.find("\"hit\":true"), std::string::npos) << seen.out;
+  const auto without_folders = [](std::string text, const TemporaryFolder& folder) {
+    for (std::size_t at; (at = text.find(folder.path())) != std::string::npos;)
+      text.erase(at, folder.path().string().size());
+    return text;
+  };
+  EXPECT_EQ(without_folders(seen.out, window), without_folders(unseen.out, page));
+}
+
+TEST_F(WindowTest, ShowsThePictureItExports) {
+  open();
+  screen_.act({"mousemove", "1100", "780"});
+  screen_.act({"type", "e"});
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  screen_.act({"key", "Return"});
+  ASSERT_TRUE(happens([&] { return recorded("export").size() == 1; }));
+  const ScreenPicture exported = read_png(folder_.path() / "view.png"), shown = screen_.picture();
+  ASSERT_EQ(exported.size, glm::ivec2(kPicture, kScreen.y));
+  int largest = 0, surface = 0;
+  for (int y = 0; y < exported.size.y; ++y)
+    for (int x = 0; x < exported.size.x; ++x)
+      for (int c = 0; c < 3; ++c) {
+        largest = std::max(largest, std::abs(exported.at({x, y})[c] - shown.at({x, y})[c]));
+        surface += exported.at({x, y})[c] < 250;
+      }
+  EXPECT_LE(largest, 1);  // of 255: both round
+  EXPECT_GT(surface, 100000);
+}
+
+TEST_F(WindowTest, MouseMovesTheCamera) {
+  open();
+  screen_.act({"mousemove", "400", "400", "mousedown", "1", "mousemove", "440", "400", "mousemove", "560", "320"});
+  screen_.act({"mouseup", "1", "mousemove", "500", "500"});
+  screen_.act({"mousedown", "3", "mousemove", "420", "540", "mouseup", "3"});
+  screen_.act({"click", "4", "click", "4", "click", "5"});
+  ASSERT_TRUE(happens([&] { return sum("zoom", "factor") > 0.0; }));
+  screen_.act({"type", "q"});
+  EXPECT_EQ(program_->finish().exit_code, 0);
+  EXPECT_NEAR(sum("orbit", "dx"), 160.0 / 800.0, 1e-9);
+  EXPECT_NEAR(sum("orbit", "dy"), -80.0 / 800.0, 1e-9);
+  EXPECT_NEAR(sum("pan", "dx"), -80.0 / 800.0, 1e-9);
+  EXPECT_NEAR(sum("pan", "dy"), 40.0 / 800.0, 1e-9);
+  double zoomed = 1.0;
+  for (const Json& command : recorded("zoom")) zoomed *= command["factor"].get<double>();
+  EXPECT_NEAR(zoomed, 1.1, 1e-9);
+}
+
+TEST_F(WindowTest, KeysAndPanelSendCommands) {
+  open();
+  screen_.act({"type", "ok+"});
+  screen_.act({"mousemove", "1200", "106", "mousedown", "1", "mousemove", "1235", "106", "mouseup", "1"});
+  ASSERT_TRUE(happens([&] { return recorded("probe").size() >= 2; }));
+  screen_.act({"mousemove", "400", "400", "click", "--repeat", "2", "--delay", "40", "1"});
+  ASSERT_TRUE(happens([&] { return recorded("zoom_to").size() == 1; }));
+  screen_.act({"key", "Escape"});
+  EXPECT_EQ(program_->finish().exit_code, 0);
+  EXPECT_EQ(recorded("projection").at(0)["projection"], "orthographic");
+  EXPECT_EQ(recorded("patch_kinds").at(0)["on"], true);
+  EXPECT_EQ(recorded("probe").front()["radius"], 1.5);
+  EXPECT_GT(recorded("probe").back()["radius"], 1.5);
+  EXPECT_TRUE(recorded("orbit").empty());
+  EXPECT_EQ(recorded("zoom_to").at(0)["selection"].get<std::string>().substr(0, 12), "byres index ");
+}
+
+TEST_F(WindowTest, EndsWithALineWhenTheDisplayGoesAway) {
+  open();
+  screen_.crash();
+  const ProgramResult result = program_->finish(30);
+  EXPECT_EQ(result.exit_code, 4);
+  EXPECT_EQ(result.err, "meniscus: error: the display went away; the preview ends\n");
+}
+
+TEST(Window, SaysThatThereIsNoDisplay) {
+  ::unsetenv("DISPLAY");
+  ::unsetenv("WAYLAND_DISPLAY");
+  const ProgramResult result = run_program(kProgram, kMolecule);
+  EXPECT_EQ(result.exit_code, 4);
+  EXPECT_EQ(result.out, "");
+  EXPECT_EQ(result.err.find("meniscus: error: no display: run on a desktop, or use --serve ("), 0u) << result.err;
+}
+
+TEST(Window, RefusesADeviceThatItCannotChoose) {
+  const ProgramResult result = run_program(kProgram, with({"--device", "software"}));
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_NE(result.err.find("--device is for --serve"), std::string::npos) << result.err;
+}
+
+TEST_F(WindowTest, ARefusedCommandOfAReplayIsNamedByItsLine) {
+  const std::string file =
+      folder_.file("bad.jsonl", "{\"command\":\"reset_view\"}\n\n{\"command\":\"probe\",\"radius\":-1}\n");
+  const ProgramResult result = run_program(kProgram, with({"--commands", file}), 200);
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_NE(result.err.find("bad.jsonl:3: probe: "), std::string::npos) << result.err;
+}
+
+}  // namespace
+}  // namespace meniscus::test
