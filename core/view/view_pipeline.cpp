@@ -6,6 +6,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -98,13 +99,14 @@ void ViewPipeline::keep_atoms() {
 // Group 2 (section 3.3): circles in place of atom triples.
 void ViewPipeline::find_arcs() {
   circles_.restart();
+  std::optional<GpuStage> listing(std::in_place, clock_, "neighbors");
   neighbors_.for_each_batch([&](const BallBatch& batch) {
-    {
-      const GpuStage stage(clock_, "neighbors");
-      neighbors_.list_pairs(batch);
-    }
+    neighbors_.list_pairs(batch);
+    listing.reset();
     circles_.expose(batch, clock_);
+    listing.emplace(clock_, "neighbors");
   });
+  listing.reset();
   stats_.circles = circles_.stats();
   arc_count_ = circles_.arc_count();
   stats_.arcs = arc_count_;
