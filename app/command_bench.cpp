@@ -13,6 +13,7 @@
 #include "app/molecule.h"
 #include "app/paper_bench.h"
 #include "app/picture_options.h"
+#include "app/program_error.h"
 #include "core/base/text.h"
 #include "core/molecule/formats.h"
 #include "core/reference/rolling_probe.h"
@@ -26,7 +27,7 @@ struct BenchCommand {
   int runs = 5;
   bool baseline = false;
   bool paper = false;
-  glm::ivec2 size{1024, 768};
+  PictureOptions picture;  ///< size of the frames of --paper
 };
 
 /// One measured molecule: the run with the median total.
@@ -114,9 +115,13 @@ void print_table(const std::vector<Row>& rows) {
 }
 
 void run_paper(BenchCommand& command) {
+  if (command.baseline) throw UsageError("--baseline times surfaces, --paper frames; choose one");
+  if (command.molecule.computing.verify) throw UsageError("--verify compares surfaces, --paper times frames");
+  if (command.molecule.computing.kind != SurfaceKind::ses)
+    throw UsageError("--paper draws solvent-excluded surfaces only");
   PaperBenchSettings settings;
   settings.device = command.molecule.computing.cpu ? DeviceChoice{} : command.molecule.computing.gl;
-  settings.size = command.size;
+  settings.size = {command.picture.width, command.picture.height};
   settings.probe_radius = command.molecule.computing.probe_radius;
   settings.runs = command.runs;
   std::vector<PaperBenchMolecule> molecules;
@@ -159,6 +164,9 @@ void add_bench(CLI::App& command) {
                    "Also time Sanner's sequential rolling probe (reduced surface alone, one thread)");
   command.add_flag("--paper", state->paper,
                    "Time whole frames instead, ray casting included, like table 1 of the paper: complete and visible");
+  state->picture.width = 1024;
+  state->picture.height = 768;
+  add_size_option(command, state->picture, "With --paper: frames");
   command.add_flag("-q,--quiet", state->molecule.quiet, "No notes on stderr; errors only");
   command.callback([state] { run(*state); });
 }

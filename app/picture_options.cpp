@@ -33,11 +33,16 @@ void parse_size(const std::string& text, PictureOptions& options) {
 
 }  // namespace
 
-void add_picture_options(CLI::App& command, PictureOptions& options) {
+void add_size_option(CLI::App& command, PictureOptions& options, const std::string& what) {
   command
       .add_option_function<std::string>(
-          "--size", [&options](const std::string& text) { parse_size(text, options); }, "Picture in pixels [1280x960]")
+          "--size", [&options](const std::string& text) { parse_size(text, options); },
+          fmt::format("{} in pixels [{}x{}]", what, options.width, options.height))
       ->type_name("WxH");
+}
+
+void add_picture_options(CLI::App& command, PictureOptions& options) {
+  add_size_option(command, options, "Picture");
   CLI::Option* const camera = command.add_option("--camera", options.camera_file, "Camera as JSON [shows everything]");
   camera->type_name("FILE");
   const std::map<std::string, Projection> words{{"perspective", Projection::perspective},

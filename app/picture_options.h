@@ -18,6 +18,9 @@ struct PictureOptions {
   Projection projection = Projection::perspective;  ///< of that default camera
 };
 
+/// --size alone; `what` has it.
+void add_size_option(CLI::App& command, PictureOptions& options, const std::string& what);
+
 /// --size, --camera, --projection.
 void add_picture_options(CLI::App& command, PictureOptions& options);
 

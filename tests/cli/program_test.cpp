@@ -203,6 +203,18 @@ TEST(Bench, PrintsARowForEachFile) {
   EXPECT_NE(result.out.find("rolled, outer"), std::string::npos);
 }
 
+TEST(Bench, PaperPrintsBothExtentsBesideThePapersFigures) {
+  const TemporaryFolder folder;
+  const std::string balls = folder.file("1crn.xyzr", "0 0 0 1.7\n3 0 0 1.7\n");
+  const ProgramResult result = meniscus_says({"bench", "--paper", balls, "--runs", "1", "-q", "--size", "64x48"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.out.find("1crn.xyzr         2 complete"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("1crn.xyzr         2 visible"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("     31 "), std::string::npos) << result.out;
+  EXPECT_EQ(meniscus_says({"bench", "--paper", balls, "--baseline"}).exit_code, 2);
+  EXPECT_EQ(meniscus_says({"bench", "--paper", balls, "--surface", "sas"}).exit_code, 2);
+}
+
 TEST(Output, ExistingFilesStayUnlessForced) {
   const TemporaryFolder folder;
   const std::string balls = folder.file("a.xyzr", "0 0 0 1.7\n3 0 0 1.7\n");

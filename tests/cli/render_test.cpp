@@ -58,6 +58,39 @@ TEST_F(RenderCommand, OptionsChangeThePicture) {
   }
 }
 
+TEST_F(RenderCommand, WhatAViewNeedsMakesTheSamePicture) {
+  for (const char* projection : {"perspective", "orthographic"}) {
+    EXPECT_EQ(render({"-o", path("a.png"), "--force", "--projection", projection}).exit_code, 0);
+    for (const char* extent : {"visible", "complete"}) {
+      const ProgramResult result =
+          render({"-o", path("b.png"), "--force", "--projection", projection, "--extent", extent});
+      EXPECT_EQ(result.exit_code, 0) << result.err;
+      EXPECT_EQ(test::read_bytes(path("a.png")), test::read_bytes(path("b.png"))) << extent;
+    }
+  }
+  const ProgramResult result = render({"-o", path("c.png"), "--extent", "paper", "--stats"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.err.find("1 visible atoms"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("2 of 2 atoms"), std::string::npos) << result.err;
+}
+
+TEST_F(RenderCommand, AViewRefusesWhatOnlyACompleteSurfaceKnows) {
+  const std::vector<std::vector<std::string>> needs{
+      {"--by", "chain"},        {"--by", "component"}, {"--cavities", "drop"},   {"--verify"},
+      {"--color", "component"}, {"--surface", "sas"},  {"--aovs", "-o", "a.exr"}};
+  for (const auto& need : needs) {
+    std::vector<std::string> arguments{"--extent", "visible"};
+    arguments.insert(arguments.end(), need.begin(), need.end());
+    if (need.size() < 3) arguments.insert(arguments.end(), {"-o", path("a.png")});
+    const ProgramResult result = render(arguments);
+    EXPECT_EQ(result.exit_code, 2) << need[0];
+    EXPECT_NE(result.err.find(need[0]), std::string::npos) << result.err;
+    EXPECT_NE(result.err.find("complete surface"), std::string::npos) << result.err;
+  }
+  EXPECT_EQ(render({"-o", path("a.png"), "--extent", "some"}).exit_code, 2);
+  EXPECT_EQ(render({"-o", path("a.png"), "--stats"}).exit_code, 2);
+}
+
 TEST_F(RenderCommand, KeepsWhatExists) {
   const std::string existing = folder_.file("a.png", "precious");
   EXPECT_EQ(render({"-o", existing}).exit_code, 6);
