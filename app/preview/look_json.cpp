@@ -42,6 +42,6 @@ Look changed_look(Look look, const CommandReader& command) {
 
 nlohmann::json look_json(const Look& look) { return {{"background", hex_color(look.background)}}; }
 
-Look draft_look(Look look) { return look; }
+Look without_effects(Look look) { return look; }
 
 }  // namespace meniscus

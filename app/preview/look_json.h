@@ -25,7 +25,7 @@ std::string hex_color(const glm::vec3& color);
 /// Every key with its value.
 nlohmann::json look_json(const Look& look);
 
-/// The same for a picture while something moves: nothing that takes time.
-Look draft_look(Look look);
+/// The same without what takes time.
+Look without_effects(Look look);
 
 }  // namespace meniscus

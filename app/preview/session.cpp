@@ -25,12 +25,18 @@ PreviewSession::PreviewSession(Structure structure, PreviewView view, const std:
       export_folder_(std::move(export_folder)),
       coloring_(color_atoms(structure_, view_.color)) {
   show_frame(0);
-  look_from(camera ? *camera : overview(balls_, aspect(), view_.camera.projection));
+  camera ? look_from(*camera) : look_at_all();
 }
 
 void PreviewSession::look_from(const Camera& camera) {
   validate_camera(camera, "the view");
   view_.camera = camera;
+  overview_ = false;
+}
+
+void PreviewSession::look_at_all() {
+  look_from(overview(balls_, aspect(), view_.camera.projection));
+  overview_ = true;
 }
 
 void PreviewSession::show_frame(std::size_t frame) {
@@ -56,28 +62,20 @@ bool PreviewSession::is_drawn(Quality quality) const {
 FrameRequest PreviewSession::request(Quality quality) const {
   FrameRequest request;
   request.camera = view_.camera;
-  request.size = view_.size;
-  request.samples = view_.samples;
+  request.size = quality == Quality::draft ? glm::max(view_.size / 2, glm::ivec2(1)) : view_.size;
+  request.samples = quality == Quality::full ? view_.samples : 1;
   request.probe_radius = view_.probe_radius;
-  request.look = view_.look;
-  if (quality == Quality::draft) {
-    request.size = glm::max(view_.size / 2, glm::ivec2(1));
-    request.samples = 1;
-    request.look = draft_look(view_.look);
-  }
+  request.look = quality == Quality::full ? view_.look : without_effects(view_.look);
   return request;
 }
 
 void PreviewSession::render(Quality quality) {
-  if (!is_drawn(quality)) draw(request(quality), {revision_, quality, quality == Quality::full});
-}
-
-void PreviewSession::draw(const FrameRequest& request, const Drawn& what) {
+  if (is_drawn(quality)) return;
   drawn_ = {};
   const auto begin = std::chrono::steady_clock::now();
-  renderer_.render(request);
+  renderer_.render(request(quality));
   frame_ms_ = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
-  drawn_ = what;
+  drawn_ = {revision_, quality};
 }
 
 }  // namespace meniscus

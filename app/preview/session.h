@@ -41,8 +41,9 @@ struct PreviewView {
 
 /// A picture while something moves, or at rest.
 enum class Quality {
-  draft,  ///< half the size, one ray a pixel
-  full
+  draft,  ///< half the size, one ray a pixel, no effects
+  plain,  ///< the same in full size
+  full    ///< as exported
 };
 
 /// A command or a reply as one line of text, without a line end; bytes that are no UTF-8 are replaced.
@@ -121,18 +122,17 @@ class PreviewSession {
 
   nlohmann::json carry_out(const nlohmann::json& command);
   void look_from(const Camera& camera);
+  void look_at_all();
   void show_frame(std::size_t frame);
   Coloring frame_coloring() const;
   double aspect() const { return static_cast<double>(view_.size.x) / view_.size.y; }
   FrameRequest request(Quality quality) const;
 
-  /// What of the session the last picture shows. No quality: one made for picking.
+  /// What of the session the last picture shows.
   struct Drawn {
     std::uint64_t revision = 0;
-    std::optional<Quality> quality;
-    bool full_size = false;
+    Quality quality = Quality::draft;
   };
-  void draw(const FrameRequest& request, const Drawn& what);
 
   Structure structure_;
   std::vector<AtomGroup> frames_;
@@ -144,6 +144,7 @@ class PreviewSession {
   ExposedAreas areas_;
   std::uint64_t revision_ = 1;  ///< grows with every change
   Drawn drawn_;
+  bool overview_ = true;   ///< all is shown, as long as nobody moved the camera
   double frame_ms_ = 0.0;  ///< of the last picture
   std::function<void(const nlohmann::json&)> sink_;
   bool quit_ = false;

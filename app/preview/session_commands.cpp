@@ -157,7 +157,7 @@ Json PreviewSession::zoom_to(const CommandReader& command) {
 }
 
 Json PreviewSession::reset_view(const CommandReader&) {
-  look_from(overview(balls_, aspect(), view_.camera.projection));
+  look_at_all();
   return Json::object();
 }
 
@@ -222,6 +222,7 @@ Json PreviewSession::pause(const CommandReader&) {
 
 Json PreviewSession::resize(const CommandReader& command) {
   view_.size = {command.integer("width", 16, kLongestSide), command.integer("height", 16, kLongestSide)};
+  if (overview_) look_at_all();
   return Json::object();
 }
 

@@ -45,11 +45,7 @@ std::string scheme_word(const ColorScheme& color) {
 Json PreviewSession::pick(const CommandReader& command) {
   const glm::ivec2 pixel{command.integer("x", 0, view_.size.x - 1), command.integer("y", 0, view_.size.y - 1)};
   const bool wait = command.flag_or(true, "wait");
-  if (drawn_.revision != revision_ || !drawn_.full_size) {
-    FrameRequest centres = request(Quality::draft);
-    centres.size = view_.size;
-    draw(centres, {revision_, {}, true});
-  }
+  if (drawn_.revision != revision_ || drawn_.quality == Quality::draft) render(Quality::plain);
   const std::optional<PickedPoint> point = renderer_.pick(pixel);
   if (!point) return {{"hit", false}};
   Json reply = atom_json(structure_.atoms[frames_[view_.frame].atoms[point->atom]]);

@@ -151,15 +151,32 @@ TEST_F(PreviewSessionTest, APickNamesTheAtomAndItsExactArea) {
   EXPECT_FALSE(apply(R"({"command":"pick","x":0,"y":0})")["hit"]);
 }
 
-TEST_F(PreviewSessionTest, APickDoesNotPassForThePicture) {
+TEST_F(PreviewSessionTest, APickDoesNotPassForTheFullPicture) {
   session_->render(Quality::full);
   const auto picture = session_->rgba();
+  expect_ok(R"({"command":"pick","x":40,"y":30})");
+  EXPECT_TRUE(session_->is_drawn(Quality::full)) << "nothing had to be drawn";
+  const Json camera = state()["camera"];
   expect_ok(R"({"command":"orbit","dx":0.3,"dy":0})");
   expect_ok(R"({"command":"pick","x":40,"y":30})");
-  expect_ok(R"({"command":"orbit","dx":-0.3,"dy":0})");
+  EXPECT_TRUE(session_->is_drawn(Quality::plain));
   EXPECT_FALSE(session_->is_drawn(Quality::full));
+  session_->apply({{"command", "camera"}, {"camera", camera}});
   session_->render(Quality::full);
-  EXPECT_EQ(session_->rgba().size(), picture.size());
+  EXPECT_EQ(session_->rgba(), picture);
+}
+
+TEST_F(PreviewSessionTest, EverythingStaysInViewUntilTheCameraMoves) {
+  expect_ok(R"({"command":"resize","width":40,"height":120})");
+  const Json narrow = state()["camera"];
+  expect_ok(R"({"command":"resize","width":80,"height":60})");
+  EXPECT_NE(state()["camera"], narrow);
+  expect_ok(R"({"command":"zoom","factor":1.1})");
+  const Json moved = state()["camera"];
+  expect_ok(R"({"command":"resize","width":40,"height":120})");
+  EXPECT_EQ(state()["camera"], moved);
+  expect_ok(R"({"command":"reset_view"})");
+  EXPECT_EQ(state()["camera"], narrow);
 }
 
 TEST_F(PreviewSessionTest, AnAreaThatIsNotWaitedForComesLater) {

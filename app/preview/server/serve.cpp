@@ -21,7 +21,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using Json = nlohmann::json;
 
-constexpr auto kRest = std::chrono::milliseconds(200);  // without a change: time for the full picture
+// Without a change for so long: time for a picture in full size, and later for the full one.
+constexpr std::chrono::milliseconds kPause{120}, kRest{250}, kLongestRest{1500};
 constexpr int kJpegQuality = 80;
 
 /// A picture as pages get it.
@@ -79,12 +80,21 @@ class ServedSession {
     note_change();
   }
 
-  Quality wanted() const { return Clock::now() < last_change_ + kRest ? Quality::draft : Quality::full; }
+  /// A full picture is begun after a rest that is as long as it may take, for it cannot be stopped.
+  Clock::time_point time_for(Quality quality) const {
+    if (quality == Quality::draft) return last_change_;
+    return last_change_ + (quality == Quality::plain ? kPause : rest_);
+  }
+  Quality wanted() const {
+    const Clock::time_point now = Clock::now();
+    return now < time_for(Quality::plain)  ? Quality::draft
+           : now < time_for(Quality::full) ? Quality::plain
+                                           : Quality::full;
+  }
 
   /// Is the latest picture good enough for now?
   bool is_current() const {
-    return picture_.number > 0 && picture_.revision == session_.revision() &&
-           (picture_.quality == Quality::full || wanted() == Quality::draft);
+    return picture_.number > 0 && picture_.revision == session_.revision() && picture_.quality >= wanted();
   }
 
   bool somebody_lacks_the_picture() const {
@@ -113,6 +123,7 @@ class ServedSession {
 
   void draw() {
     const Quality quality = wanted();
+    const Clock::time_point begin = Clock::now();
     try {
       session_.render(quality);
     } catch (const GpuError&) {
@@ -122,6 +133,9 @@ class ServedSession {
       network_.send_to_all({{"event", "error"}, {"error", escaped(error.what())}, {"state", question("state")}});
       return;
     }
+    if (quality == Quality::full)
+      rest_ =
+          std::clamp(std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now() - begin), kRest, kLongestRest);
     encode(quality);
   }
 
@@ -149,7 +163,9 @@ class ServedSession {
   std::optional<Clock::time_point> next_deadline() const {
     std::optional<Clock::time_point> deadline;
     if (waiting_.empty()) return deadline;
-    if (!broken_ && (!is_current() || picture_.quality == Quality::draft)) deadline = last_change_ + kRest;
+    if (!broken_ && !is_current()) return Clock::now();
+    if (!broken_ && picture_.quality != Quality::full)
+      deadline = time_for(picture_.quality == Quality::draft ? Quality::plain : Quality::full);
     if (session_.playing()) deadline = deadline ? std::min(*deadline, next_frame_) : next_frame_;
     return deadline;
   }
@@ -163,6 +179,7 @@ class ServedSession {
   std::map<ClientNumber, std::uint64_t> shown_;  ///< number of the picture each was sent last
   std::uint64_t seen_revision_ = 0;
   Clock::time_point last_change_{}, next_frame_{};
+  std::chrono::milliseconds rest_ = kRest;
   bool broken_ = false;  ///< what is asked for cannot be drawn; said once
 };
 

@@ -35,7 +35,7 @@ export function follow_pointer(canvas, to) {
   canvas.addEventListener("contextmenu", (event) => event.preventDefault());
   canvas.addEventListener("pointerdown", (event) => {
     canvas.setPointerCapture(event.pointerId);
-    canvas.focus({ preventScroll: true });
+    document.activeElement?.blur();  // keys are for the picture again
     clearTimeout(rest);
     to.hover(null);
     pointers.set(event.pointerId, { x: event.offsetX, y: event.offsetY });

@@ -66,9 +66,20 @@ async function show_picture(message, bytes) {
 
 function show_stats(stats) {
   const ms = (value) => `${value < 10 ? value.toFixed(1) : Math.round(value)} ms`;
-  $("fps").textContent = `${stats.fps < 10 ? stats.fps.toFixed(1) : Math.round(stats.fps)} fps`;
-  const stages = stats.stages.filter((stage) => stage.milliseconds >= 0.5);
-  $("stages").textContent = stages.map((stage) => `${stage.name} ${ms(stage.milliseconds)}`).join(" · ");
+  const rate = stats.fps < 10 ? stats.fps.toFixed(1) : Math.round(stats.fps);
+  $("fps").textContent = `${rate} fps · ${ms(stats.frame_milliseconds)}`;
+  fill_list($("stages"), [...stats.stages.map((stage) => [stage.name, ms(stage.milliseconds)]),
+    ["encoding", ms(stats.encode_milliseconds)]]);
+}
+
+/// Rows of term and text.
+function fill_list(list, rows) {
+  list.replaceChildren(...rows.flatMap(([term, text]) => {
+    const [dt, dd] = [document.createElement("dt"), document.createElement("dd")];
+    dt.textContent = term;
+    dd.textContent = text;
+    return [dt, dd];
+  }));
 }
 
 /// The server draws as many pixels as the canvas has on this screen.
@@ -183,12 +194,7 @@ async function pick(pixel) {
     ["exposed", `${found.exposed_area.toFixed(3)} Å²`], ["position", found.position.map((x) => x.toFixed(2)).join(", ")],
   ] : [];
   $("picked").hidden = rows.length === 0;
-  $("picked").querySelector("dl").replaceChildren(...rows.flatMap(([term, text]) => {
-    const [dt, dd] = [document.createElement("dt"), document.createElement("dd")];
-    dt.textContent = term;
-    dd.textContent = text;
-    return [dt, dd];
-  }));
+  fill_list($("picked").querySelector("dl"), rows);
 }
 
 follow_pointer(canvas, { command: (...values) => { if (controls) command(...values); }, hover, pick });
