@@ -59,15 +59,18 @@ async function show_picture(message, bytes) {
   bitmap.close();
   full_picture = message.full ? blob : null;
   canvas.dataset.full = String(message.full);
+  canvas.dataset.state = JSON.stringify(message.state);
   canvas.dataset.pictures = String(Number(canvas.dataset.pictures ?? 0) + 1);
-  show_stats(message.stats);
+  show_stats(message.stats, message.full);
   apply_state(message.state);
 }
 
-function show_stats(stats) {
+let moving = "";  // pictures a second, of the last one that was not full
+function show_stats(stats, full) {
   const ms = (value) => `${value < 10 ? value.toFixed(1) : Math.round(value)} ms`;
-  const rate = stats.fps < 10 ? stats.fps.toFixed(1) : Math.round(stats.fps);
-  $("fps").textContent = `${rate} fps · ${ms(stats.frame_milliseconds)}`;
+  if (!full) moving = `${stats.fps < 10 ? stats.fps.toFixed(1) : Math.round(stats.fps)} fps`;
+  const rest = full ? `full picture in ${ms(stats.frame_milliseconds)}` : "";
+  $("fps").textContent = [moving, rest].filter(Boolean).join(" · ");
   fill_list($("stages"), [...stats.stages.map((stage) => [stage.name, ms(stage.milliseconds)]),
     ["encoding", ms(stats.encode_milliseconds)]]);
 }

@@ -1,0 +1,233 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The preview's page in headless Chromium, used as a person would: arguments PROGRAM CHROMIUM SESSION.
+
+With MENISCUS_SCREENSHOTS=FOLDER in the environment, pictures of the page are left there to be looked at."""
+
+import asyncio
+import json
+import os
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+from browser import Browser, Preview
+
+PROGRAM, CHROMIUM, SESSION = sys.argv[1:4]
+MOLECULE = "/usr/share/pymol/data/demo/1tii.pdb"
+SIZE = (760, 420)  # of the browser's window; the picture is smaller by the panel
+
+# Text of a file must never become markup: this one's chain and residue names try to.
+HOSTILE = """data_x
+loop_
+_atom_site.group_PDB
+_atom_site.id
+_atom_site.type_symbol
+_atom_site.label_atom_id
+_atom_site.label_alt_id
+_atom_site.label_comp_id
+_atom_site.label_asym_id
+_atom_site.label_seq_id
+_atom_site.Cartn_x
+_atom_site.Cartn_y
+_atom_site.Cartn_z
+_atom_site.pdbx_PDB_model_num
+ATOM 1 C C1 . '<img/src=x/onerror=alert(1)>' '<b>' 1 0.0 0.0 0.0 1
+ATOM 2 C C1 . '<img/src=x/onerror=alert(1)>' '<b>' 1 0.0 0.0 0.0 2
+ATOM 3 C C2 . '<img/src=x/onerror=alert(1)>' '<b>' 1 2.0 0.0 0.0 2
+"""
+
+
+def same_pixels(a, b):
+    return subprocess.run(["idiff", "-q", a, b], capture_output=True).returncode == 0
+
+
+class Page(unittest.IsolatedAsyncioTestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+
+    def path(self, name):
+        return os.path.join(self.folder.name, name)
+
+    def serve(self, file, *arguments):
+        preview = Preview(PROGRAM, file, "--output-dir", self.folder.name, *arguments)
+        self.addCleanup(preview.end)
+        return preview
+
+    async def shoot(self, page, name):
+        if "MENISCUS_SCREENSHOTS" in os.environ:
+            await page.screenshot(os.path.join(os.environ["MENISCUS_SCREENSHOTS"], name))
+
+    async def downloaded(self, page, name):
+        path = os.path.join(page.downloads, name)
+        for _ in range(200):
+            if os.path.exists(path):
+                return path
+            await asyncio.sleep(0.05)
+        self.fail(f"{name} was not downloaded; there are {os.listdir(page.downloads)}")
+
+    async def pictures_of_drag(self, page, path, pause, **options):
+        """Draws a path and gives the milliseconds between the pictures the page showed meanwhile."""
+        await page.evaluate("""window.shown = []; window.watcher = new MutationObserver(() => shown.push(performance.now()));
+            watcher.observe(document.getElementById('picture'), {attributeFilter: ['data-pictures']}); 0""")
+        await page.drag(path, pause=pause, **options)
+        shown = await page.evaluate("watcher.disconnect(), window.shown")
+        return [after - before for before, after in zip(shown, shown[1:])]
+
+    async def test_a_person_at_work(self):
+        preview = self.serve(MOLECULE, "--record", self.path("recorded.jsonl"))
+        async with Browser(CHROMIUM, SIZE) as page:
+            await page.open(preview.url)
+            await self.turn(page)
+            await self.change_the_probe(page)
+            await self.pick(page)
+            await self.colour(page)
+            await self.save(page)
+            await self.shoot(page, "page.png")
+            self.assertEqual(page.complaints, [])
+            code, _ = preview.end()
+            self.assertEqual(code, 143)
+            await page.until("document.getElementById('message').textContent.includes('lost')")
+            self.assertTrue(await page.evaluate("document.getElementById('controls').disabled"))
+        with open(self.path("recorded.jsonl")) as file:
+            words = {json.loads(line)["command"] for line in file}
+        self.assertLessEqual({"resize", "orbit", "pan", "zoom", "probe", "pick", "color", "patch_kinds", "export"}, words)
+
+    async def state(self, page):
+        await page.at_rest()
+        return await page.evaluate("JSON.parse(document.getElementById('picture').dataset.state)")
+
+    async def turn(self, page):
+        before = (await self.state(page))["camera"]
+        await self.shoot(page, "page_at_first.png")
+        between = await self.pictures_of_drag(page, [(150 + 4 * n, 200 + n) for n in range(40)], 0.03)
+        ranked = sorted(between)
+        self.assertGreater(len(ranked), 3, "pictures while dragging")
+        print(f"\npage, {MOLECULE.split('/')[-1]}: {len(ranked)} pictures while dragging, "
+              f"median {statistics.median(ranked):.0f} ms apart, p95 {ranked[int(0.95 * (len(ranked) - 1))]:.0f} ms")
+        turned = (await self.state(page))["camera"]
+        self.assertEqual(turned["target"], before["target"])
+        self.assertNotEqual(turned["position"], before["position"])
+        await page.drag([(200, 200), (230, 210), (260, 220)], button="right")
+        shifted = (await self.state(page))["camera"]
+        self.assertNotEqual(shifted["target"], turned["target"])
+        distance = lambda c: sum((p - t) ** 2 for p, t in zip(c["position"], c["target"])) ** 0.5
+        self.assertAlmostEqual(distance(shifted), distance(before), places=6)
+        await page.drag([(260, 220), (230, 210), (200, 200)], modifiers=8)
+        await page.mouse("mouseWheel", 200, 200, deltaX=0, deltaY=-200)
+        self.assertAlmostEqual(distance((await self.state(page))["camera"]), distance(before) / 2.718281828459 ** 0.3,
+                               places=6)
+
+    async def change_the_probe(self, page):
+        await page.evaluate("""const slider = document.getElementById('probe'); slider.value = '2.5';
+            slider.dispatchEvent(new Event('input', {bubbles: true})); 0""")
+        await page.until("document.getElementById('probe-number').value === '2.5'")
+        self.assertEqual((await self.state(page))["probe_radius"], 2.5)
+
+    async def pick(self, page):
+        await page.mouse("mouseMoved", 210, 210)
+        await page.until("document.querySelector('#tip span').textContent.includes('Å² exposed')")
+        self.assertFalse(await page.evaluate("document.getElementById('tip').hidden"))
+        hovered = await page.evaluate("document.querySelector('#tip strong').textContent")
+        await page.drag([(210, 210), (210, 210)])
+        await page.until("!document.getElementById('picked').hidden")
+        rows = await page.evaluate("[...document.querySelectorAll('#picked dd')].map((row) => row.textContent)")
+        self.assertEqual(rows[0], hovered)
+        self.assertRegex(rows[3], r"^\d+\.\d{3} Å²$")
+
+    async def colour(self, page):
+        await page.evaluate("""const scheme = document.getElementById('scheme'); scheme.value = 'chain';
+            scheme.dispatchEvent(new Event('change')); 0""")
+        await page.until("JSON.parse(document.getElementById('picture').dataset.state).color.scheme === 'chain'")
+        await page.click("#kinds")
+        await page.until("!document.getElementById('kinds-key').hidden")
+        self.assertTrue((await self.state(page))["patch_kinds"])
+
+    async def save(self, page):
+        """The picture saved here, that written by the server, and that of `meniscus render` are the same."""
+        await page.evaluate("document.getElementById('export-name').value = 'written'; 0")
+        state = await self.state(page)
+        await page.click("#save-png")
+        await page.click("#save-camera")
+        await page.click("button[value=png]")
+        await page.until("document.getElementById('message').textContent.includes('Written')")
+        camera = await self.downloaded(page, "1tii_camera.json")
+        rendered = self.path("rendered.png")
+        subprocess.run([PROGRAM, "render", MOLECULE, "--camera", camera, "--size", f"{state['width']}x{state['height']}",
+                        "--probe", "2.5", "--color", "kind", "--background", state["look"]["background"], "-o", rendered],
+                       check=True, capture_output=True)
+        saved = await self.downloaded(page, "1tii.png")
+        self.assertTrue(same_pixels(rendered, saved))
+        with open(rendered, "rb") as a, open(self.path("written.png"), "rb") as b:
+            self.assertEqual(a.read(), b.read())
+        await page.click("button[value=png]")
+        await page.until("document.getElementById('message').textContent.includes('exists')")
+
+    async def test_the_recorded_session_ends_in_the_same_picture(self):
+        """The session that the window's test replays too: here the page shows its end."""
+        preview = self.serve(MOLECULE, "--commands", SESSION, "--quiet")
+        replies = [json.loads(line) for line in preview.lines[:-1]]
+        with open(SESSION) as file:
+            commands = [json.loads(line) for line in file]
+        self.assertEqual(len(replies), len(commands))
+        exported = next(r["path"] for r in replies if r.get("path", "").endswith(".png"))
+        async with preview.socket() as client:
+            await client.send('{"request":"picture"}')
+            message = {}
+            while not message.get("full"):
+                data = await asyncio.wait_for(client.recv(), 60)
+                if isinstance(data, bytes):
+                    with open(self.path("shown.png"), "wb") as file:
+                        file.write(data)
+                    await client.send('{"request":"picture"}')
+                    if message["full"]:
+                        break
+                elif json.loads(data).get("event") == "picture":
+                    message = json.loads(data)
+                    if message["full"]:
+                        with open(self.path("shown.png"), "wb") as file:
+                            file.write(await client.recv())
+        self.assertTrue(same_pixels(exported, self.path("shown.png")))
+
+    async def test_text_of_a_file_stays_text(self):
+        name = self.path("<img src=x onerror=alert(1)>.cif")
+        with open(name, "w") as file:
+            file.write(HOSTILE)
+        preview = self.serve(name)
+        async with Browser(CHROMIUM, SIZE) as page:
+            await page.open(preview.url)
+            self.assertFalse(await page.evaluate("document.getElementById('frames').hidden"))
+            await page.drag([(200, 200), (200, 200)])
+            await page.until("!document.getElementById('picked').hidden")
+            self.assertIn("onerror", await page.evaluate("document.querySelector('#picked dd').textContent"))
+            self.assertEqual(await page.evaluate("document.querySelectorAll('img, b, script:not([src])').length"), 0)
+            await page.click("#play")
+            for frame in (2, 1):
+                await page.until(f"document.getElementById('frame-number').textContent === '{frame} of 2'")
+            await page.click("#play")
+            await page.at_rest()
+            self.assertEqual(page.complaints, [])
+
+    async def test_keys_do_what_the_page_says(self):
+        preview = self.serve(MOLECULE, "--select", "chain D")
+        async with Browser(CHROMIUM, SIZE) as page:
+            await page.open(preview.url)
+            for key, changed in (("ArrowLeft", "camera"), ("-", "camera"), ("k", "patch_kinds"), ("]", "probe_radius"),
+                                 ("p", "camera"), ("r", "camera")):
+                before = (await self.state(page))[changed]
+                await page.send("Input.dispatchKeyEvent", type="keyDown", key=key, text=key if len(key) == 1 else "")
+                await page.send("Input.dispatchKeyEvent", type="keyUp", key=key)
+                end = time.monotonic() + 30
+                while (await self.state(page))[changed] == before:
+                    self.assertLess(time.monotonic(), end, f"{key} does nothing")
+            await page.evaluate("""document.getElementById('selection').value = 'resid 10-20 and (';
+                document.getElementById('zoom-form').requestSubmit(); 0""")
+            await page.until("document.getElementById('message').classList.contains('error')")
+            self.assertEqual(page.complaints, [])
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])

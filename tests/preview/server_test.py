@@ -1,0 +1,246 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The preview server against visitors it must refuse or endure: arguments PROGRAM PAGE_FOLDER."""
+
+import asyncio
+import http.client
+import json
+import os
+import signal
+import socket
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+import websockets
+
+from browser import Preview
+
+PROGRAM, PAGE = sys.argv[1], sys.argv[2]
+
+ATOMS = "".join(f"ATOM  {n:5d}  C{n:<2d} UNL A   1    {3 * n:8.3f}{n:8.3f}{0:8.3f}  1.00 {n:5.2f}           C\n"
+                for n in range(1, 6))
+
+
+async def receive(client, wanted):
+    """The first message that `wanted` accepts; pictures that come before it are passed by."""
+    while True:
+        data = await asyncio.wait_for(client.recv(), 30)
+        if isinstance(data, str) and wanted(json.loads(data)):
+            return json.loads(data)
+
+
+async def ask(client, command, number=1):
+    await client.send(json.dumps({"id": number, **command}))
+    return await receive(client, lambda message: message.get("id") == number)
+
+
+async def picture(client):
+    await client.send('{"request":"picture"}')
+    message = await receive(client, lambda m: m.get("event") == "picture")
+    return message, await asyncio.wait_for(client.recv(), 30)
+
+
+class Server(unittest.IsolatedAsyncioTestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        self.file = self.path("five.pdb")
+        with open(self.file, "w") as file:
+            file.write(ATOMS)
+        self.preview = self.serve("--size", "64x48")
+
+    def path(self, name):
+        return os.path.join(self.folder.name, name)
+
+    def serve(self, *arguments):
+        preview = Preview(PROGRAM, self.file, "--output-dir", self.folder.name, *arguments)
+        self.addCleanup(preview.end)
+        return preview
+
+    def get(self, path="", method="GET", **headers):
+        connection = http.client.HTTPConnection("127.0.0.1", self.preview.port, timeout=20)
+        token = self.preview.url.split("/")[3]
+        connection.request(method, path if path.startswith("/") else f"/{token}/{path}", headers=headers)
+        answer = connection.getresponse()
+        return answer.status, answer.read(), answer.headers
+
+    async def refused(self, status, **options):
+        with self.assertRaises(websockets.exceptions.InvalidStatusCode) as caught:
+            await self.preview.socket(**options)
+        self.assertEqual(caught.exception.status_code, status)
+
+    async def still_serves(self):
+        async with self.preview.socket() as client:
+            self.assertTrue((await ask(client, {"command": "state"}))["ok"])
+
+    def test_the_page_is_whole_and_stands_under_a_strict_policy(self):
+        for name in os.listdir(PAGE):
+            with open(os.path.join(PAGE, name), "rb") as file:
+                self.assertEqual(self.get(name)[:2], (200, file.read()), name)
+        status, _, headers = self.get()
+        self.assertEqual(status, 200)
+        policy = headers["Content-Security-Policy"]
+        self.assertIn("default-src 'none'", policy)
+        self.assertNotIn("unsafe", policy)
+        self.assertEqual(headers["Referrer-Policy"], "no-referrer")
+
+    def test_strangers_are_refused(self):
+        token = self.preview.url.split("/")[3]
+        wrong = ("0" if token[0] != "0" else "1") + token[1:]
+        for path in ("/", f"/{wrong}/", f"/{token}", f"/{token[:-1]}/", f"/{wrong}/page.js", "/favicon.ico"):
+            self.assertEqual(self.get(path)[0], 403, path)
+        self.assertEqual(self.get("nothing.html")[0], 404)
+        self.assertEqual(self.get("../../etc/passwd")[0], 404)
+        self.assertEqual(self.get(method="POST")[0], 405)
+        self.assertEqual(self.get(Host="example.org")[0], 403)
+        self.assertEqual(self.get(Host=f"example.org:{self.preview.port}")[0], 403)
+        self.assertEqual(self.get(Host=f"localhost:{self.preview.port}")[0], 200)
+
+    async def test_sockets_of_foreign_pages_are_refused(self):
+        await self.refused(403, origin="http://example.org")
+        await self.refused(403, origin=f"http://example.org:{self.preview.port}")
+        await self.refused(403, origin=f"https://127.0.0.1:{self.preview.port}")
+        await self.refused(403, origin=None)
+        async with self.preview.socket(origin=f"http://localhost:{self.preview.port}"):
+            pass
+
+    async def test_a_wrong_token_opens_no_socket(self):
+        with self.assertRaises(websockets.exceptions.InvalidStatusCode) as caught:
+            await websockets.connect(f"ws://127.0.0.1:{self.preview.port}/{'0' * 32}/socket", origin=self.preview.origin)
+        self.assertEqual(caught.exception.status_code, 403)
+
+    def test_it_listens_on_this_machine_only(self):
+        with open("/proc/net/tcp") as file:
+            own = [line.split()[1] for line in file if line.split()[1].endswith(f":{self.preview.port:04X}")
+                   and line.split()[3] == "0A"]
+        self.assertEqual(own, [f"0100007F:{self.preview.port:04X}"])
+        with open("/proc/net/tcp6") as file:
+            self.assertNotIn(f":{self.preview.port:04X} ", file.read().split("\n", 1)[1])
+
+    async def test_messages_that_are_too_large_or_make_no_sense(self):
+        client = await self.preview.socket()
+        for nonsense in ("", "{", "[]", "7", '"state"', "[" * 4000, '{"command":"state"', '{"id":3}'):
+            await client.send(nonsense)
+            self.assertFalse((await receive(client, lambda m: "ok" in m))["ok"], nonsense)
+        await client.send(b"\0\1\2")  # no text: passed over
+        self.assertTrue((await ask(client, {"command": "state"}))["ok"])
+        await client.send(json.dumps({"command": "state", "id": "x" * 5000}))
+        with self.assertRaises(websockets.exceptions.ConnectionClosed) as caught:
+            while True:
+                await asyncio.wait_for(client.recv(), 30)
+        self.assertEqual(caught.exception.rcvd.code, 1009)
+        await self.still_serves()
+
+    async def test_a_header_that_is_too_large_is_refused(self):
+        self.assertEqual(self.get(**{"X-Long": "x" * 20000})[0], 431)
+        await self.still_serves()
+
+    async def test_four_may_look_and_the_first_controls(self):
+        clients = [await self.preview.socket() for _ in range(4)]
+        await self.refused(503)
+        roles = [json.loads(await client.recv())["controls"] for client in clients]
+        self.assertEqual(roles, [True, False, False, False])
+        for client in clients:
+            self.assertTrue((await ask(client, {"command": "state"}))["ok"])
+            self.assertIn("picture", (await picture(client))[0]["event"])
+        self.assertFalse((await ask(clients[1], {"command": "reset_view"}))["ok"])
+        self.assertFalse((await ask(clients[1], {"command": "quit"}))["ok"])
+        await clients[0].close()
+        self.assertTrue((await receive(clients[1], lambda m: m.get("event") == "role"))["controls"])
+        self.assertTrue((await ask(clients[1], {"command": "reset_view"}))["ok"])
+        clients.append(await self.preview.socket())
+        for client in clients:
+            await client.close()
+
+    async def test_a_client_that_vanishes_harms_nobody(self):
+        for _ in range(5):
+            client = await self.preview.socket()
+            await client.send('{"request":"picture"}')
+            await client.send('{"command":"orbit","dx":0.1,"dy":0}')
+            client.transport.abort()
+        await self.still_serves()
+
+    def test_silence_ends_and_does_not_block_others(self):
+        silent = [socket.create_connection(("127.0.0.1", self.preview.port)) for _ in range(8)]
+        silent[0].sendall(b"GET / HTTP/1.1\r\n")
+        self.assertEqual(self.get()[0], 200)
+        begin = time.monotonic()
+        for connection in silent:
+            connection.settimeout(30)
+            self.assertEqual(connection.recv(1), b"")
+            connection.close()
+        self.assertLess(time.monotonic() - begin, 25)
+
+    async def test_connections_are_counted(self):
+        crowd = [socket.create_connection(("127.0.0.1", self.preview.port)) for _ in range(60)]
+        await asyncio.sleep(0.5)
+        for connection in crowd:
+            connection.close()
+        await asyncio.sleep(0.5)
+        await self.still_serves()
+
+    async def test_pictures_come_when_asked_and_are_exact_at_rest(self):
+        async with self.preview.socket() as client:
+            message, data = await picture(client)
+            while not message["full"]:
+                self.assertTrue(data.startswith(b"\xff\xd8"), "JPEG")
+                message, data = await picture(client)
+            self.assertTrue(data.startswith(b"\x89PNG"))
+            self.assertEqual(message["state"]["width"], 64)
+            await client.send('{"request":"picture"}')
+            with self.assertRaises(asyncio.TimeoutError):
+                await asyncio.wait_for(client.recv(), 0.5)
+            await client.send('{"id":9,"command":"orbit","dx":0.1,"dy":0}')
+            self.assertFalse((await receive(client, lambda m: m.get("event") == "picture"))["full"])
+
+    async def test_drags_in_a_hurry_become_one(self):
+        log = self.path("session.jsonl")
+        self.preview = self.serve("--record", log, "--size", "800x600")
+        async with self.preview.socket() as client:
+            count = 150
+            for n in range(count):
+                await client.send(json.dumps({"id": n, "command": "orbit", "dx": 1 / 1024, "dy": 0}))
+                if n == 0:
+                    await client.send('{"request":"picture"}')
+            for n in range(count):
+                self.assertTrue((await receive(client, lambda m, n=n: m.get("id") == n))["ok"])
+            camera = (await ask(client, {"command": "state"}))["camera"]
+        self.assertEqual(self.preview.end(signal.SIGINT)[0], 130)
+        with open(log) as file:
+            text = file.read()
+        drags = [json.loads(line) for line in text.splitlines()]
+        self.assertLess(len(drags), count)
+        self.assertEqual(sum(drag["dx"] for drag in drags), count / 1024)
+        again = subprocess.run(
+            [PROGRAM, "preview", self.file, "--serve", "--commands", "/dev/stdin", "--size", "800x600", "--quiet"],
+            input=text + '{"command":"state"}\n{"command":"quit"}\n', capture_output=True, text=True, check=True)
+        self.assertEqual(json.loads(again.stdout.splitlines()[-2])["camera"], camera)
+
+    async def test_it_ends_as_it_is_told(self):
+        async with self.preview.socket() as client:
+            self.assertTrue((await ask(client, {"command": "quit"}))["ok"])
+            await receive(client, lambda m: m.get("event") == "ended")
+        self.assertEqual(self.preview.process.wait(20), 0)
+        self.assertEqual(self.serve().end(signal.SIGTERM)[0], 143)
+
+    def test_what_cannot_be_begun_is_said_in_one_line(self):
+        def fails(code, *arguments):
+            result = subprocess.run([PROGRAM, "preview", self.file, *arguments], capture_output=True, text=True, timeout=60)
+            errors = [line for line in result.stderr.splitlines() if "error" in line]
+            self.assertEqual((result.returncode, len(errors)), (code, 1), result.stderr)
+
+        fails(2, "--serve", str(self.preview.port))
+        fails(2, "--serve", "70000")
+        fails(2, "--serve", "--show", "chain A")
+        fails(6, "--serve", "--output-dir", self.path("nowhere"))
+        fails(6, "--serve", "--record", self.file)
+        with open(self.path("bad.jsonl"), "w") as file:
+            file.write('{"command":"state"}\n{"command":"probe","radius":-1}\n')
+        fails(3, "--serve", "--commands", self.path("bad.jsonl"))
+        fails(3, "--serve", "--commands", self.path("missing.jsonl"))
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
