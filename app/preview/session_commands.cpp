@@ -111,7 +111,7 @@ Json PreviewSession::carry_out(const Json& json) {
   }
   reader.expect_only(command->keys);
   Json reply = (this->*command->run)(reader);
-  if (command->changes_picture) ++revision_;
+  if (command->changes_picture) reply["revision"] = ++revision_;
   if (sink_ && !is_question(json)) sink_(json);
   reply["ok"] = true;
   return reply;

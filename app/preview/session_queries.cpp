@@ -7,6 +7,7 @@
 #include "app/preview/look_json.h"
 #include "app/preview/session.h"
 #include "app/preview/view_export.h"
+#include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/molecule/radii.h"
 
@@ -61,6 +62,8 @@ Json PreviewSession::export_view(const CommandReader& command) {
   const std::size_t format = command.choice("format", {"png", "povray", "blender", "camera"});
   const ExportTarget target{export_path(export_folder_, command.text("path")),
                             command.flag_or(false, "force") ? Existing::replace : Existing::refuse};
+  if (target.existing == Existing::refuse && std::filesystem::exists(target.path))
+    throw RequestError(target.path.string() + " exists already; say that it may be replaced (force), or another name");
   ColorScheme color = view_.color;
   if (view_.patch_kinds) color.by = ColorScheme::By::kind;
   const Coloring coloring = frame_coloring();
@@ -112,6 +115,7 @@ Json PreviewSession::state(const CommandReader&) {
   if (view_.color.map) color["map"] = map_name(*view_.color.map);
   return {{"file", escaped(structure_.file)},
           {"atoms", balls_.size()},
+          {"revision", revision_},
           {"frame", view_.frame},
           {"frames", frames_.size()},
           {"playing", view_.playing},

@@ -138,7 +138,7 @@ class Browser:
         await self.at_rest()
 
     async def at_rest(self, seconds=60):
-        await self.until("document.querySelector('#picture')?.dataset.full === 'true'", seconds)
+        await self.until("document.querySelector('#picture')?.dataset.rest === 'true'", seconds)
 
     async def mouse(self, kind, x, y, **more):
         await self.send("Input.dispatchMouseEvent", type=kind, x=x, y=y, **more)

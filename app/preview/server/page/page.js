@@ -6,8 +6,11 @@ import { follow_pointer, follow_keys } from "./motion.js";
 const $ = (id) => document.getElementById(id);
 const canvas = $("picture"), stage = $("stage");
 let state = null;      // what the server shows
-let full_picture = null;  // the latest PNG, if nothing has changed since
 let controls = false;  // does this page decide?
+let shown = null;      // the message of the picture in the canvas
+let full_picture = null;  // its PNG, if it is full
+let outstanding = 0;   // commands without a reply
+let newest = 0;        // the revision of the latest reply
 
 const server = new Connection({
   picture: show_picture,
@@ -20,10 +23,19 @@ const server = new Connection({
 
 /// Carries out a command; a refusal is said. Returns the reply, or null.
 async function command(word, values = {}) {
+  ++outstanding;
+  note_rest();
   const reply = await server.ask({ command: word, ...values });
+  --outstanding;
+  newest = reply.revision ?? newest;
+  note_rest();
   if (!reply.ok && reply.error) say(reply.error, true);
   return reply.ok ? reply : null;
 }
+
+/// At rest the canvas shows, in full, what all commands came to.
+const is_at_rest = () => Boolean(shown?.full) && outstanding === 0 && shown.state.revision >= newest;
+function note_rest() { canvas.dataset.rest = String(is_at_rest()); }
 
 // Messages
 
@@ -58,7 +70,8 @@ async function show_picture(message, bytes) {
   context.drawImage(bitmap, 0, 0, width, height);
   bitmap.close();
   full_picture = message.full ? blob : null;
-  canvas.dataset.full = String(message.full);
+  shown = message;
+  note_rest();
   canvas.dataset.state = JSON.stringify(message.state);
   canvas.dataset.pictures = String(Number(canvas.dataset.pictures ?? 0) + 1);
   show_stats(message.stats, message.full);
@@ -176,7 +189,7 @@ let hovered = 0;  // number of the latest hover; older answers are late
 async function hover(pixel, place) {
   const number = ++hovered;
   const tip = $("tip");
-  if (!pixel || canvas.dataset.full !== "true") { tip.hidden = true; return; }
+  if (!pixel || !is_at_rest()) { tip.hidden = true; return; }
   const found = await server.ask({ command: "pick", ...pixel, wait: false });
   if (number !== hovered) return;
   tip.hidden = !(found.ok && found.hit);
@@ -213,7 +226,7 @@ function download(blob, name) {
 }
 
 const stem = () => state.file.split("/").pop().replace(/\.[^.]*$/, "").replace(/[^A-Za-z0-9_-]+/g, "_") || "view";
-const save_picture = () => full_picture ? download(full_picture, `${stem()}.png`) : say("One moment: the picture is not finished.");
+const save_picture = () => is_at_rest() ? download(full_picture, `${stem()}.png`) : say("One moment: the picture is not finished.");
 $("save-png").addEventListener("click", save_picture);
 $("save-camera").addEventListener("click", () => {
   download(new Blob([JSON.stringify(state.camera, null, 2) + "\n"], { type: "application/json" }), `${stem()}_camera.json`);
@@ -222,7 +235,7 @@ $("export-form").addEventListener("submit", async (event) => {
   event.preventDefault();
   const format = event.submitter?.value ?? "png";
   const ending = { png: ".png", povray: "", blender: ".mns" }[format];
-  const reply = await command("export", { format, path: $("export-name").value + ending });
+  const reply = await command("export", { format, path: $("export-name").value + ending, force: $("export-force").checked });
   if (reply) say(`Written: ${reply.path}`);
 });
 
