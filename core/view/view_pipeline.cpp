@@ -246,6 +246,7 @@ void ViewPipeline::append_primitives(const PictureFrame& frame, GpuScene& scene)
       probes_.bind(1);
       probe_neighbors_.first.bind(5);
       probe_neighbors_.labels.bind(6);
+      probe_neighbors_.relative.bind(7);
       concave.set("first_probe", batch.first);
       concave.set("probe_count", batch.count);
       concave.dispatch(group_count(batch.count));

@@ -17,6 +17,7 @@ layout(std430, binding = 0) readonly buffer Atoms { dvec4 atoms[]; };  // centre
 layout(std430, binding = 1) readonly buffer Probes { ProbeRecord probes[]; };
 layout(std430, binding = 5) readonly buffer NeighborFirst { uint neighbor_first[]; };
 layout(std430, binding = 6) readonly buffer NeighborLabels { uint neighbor_labels[]; };
+layout(std430, binding = 7) readonly buffer NeighborBalls { vec4 neighbor_balls[]; };  // relative centre
 uniform uint first_probe;  // of the batch
 uniform uint probe_count;  // in the batch
 uniform double exact_probe_radius;
@@ -43,6 +44,23 @@ bool cuts(dvec3 d) {
   return best * 2.0LF * exact_probe_radius > distance - 1e-9LF;
 }
 
+bool touches(uint probe, uint atom) { return any(equal(probes[probe].atoms.xyz, uvec3(atom))); }
+
+bool coincides(uint place, dvec3 s) {
+  vec3 coarse = neighbor_balls[place].xyz;
+  return dot(coarse, coarse) < 1e-6 && length(probes[neighbor_labels[place]].position - s) < kMergeDistance;
+}
+
+// Contact n of the probe listed at `place`, a member of the same n-fold probe as the one at s: false if that one, or
+// a member listed before, touches this atom too.
+bool is_new_contact(uint self, uint first, uint place, int n, dvec3 s) {
+  uint atom = probes[neighbor_labels[place]].atoms[n];
+  if (touches(self, atom)) return false;
+  for (uint m = first; m < place; ++m)
+    if (coincides(m, s) && touches(neighbor_labels[m], atom)) return false;
+  return true;
+}
+
 void main() {
   uint entry = linear_invocation_index();
   if (entry >= probe_count) return;
@@ -63,25 +81,39 @@ void main() {
   }
 
   // Only where a probe stands lower over its atoms than its radius does its patch leave its simplex (theorem 1.3).
+  bool low = probe.height < exact_probe_radius;
   uint first = neighbor_first[entry];
-  uint last = probe.height < exact_probe_radius ? neighbor_first[entry + 1u] : first;
+  uint last = neighbor_first[entry + 1u];
   uint cut_count = 0u;
-  for (uint n = first; n < last; ++n)
-    if (cuts(probes[neighbor_labels[n]].position - s)) ++cut_count;
+  uint contact_count = 3u;
+  for (uint n = first; n < last; ++n) {
+    if (low && cuts(probes[neighbor_labels[n]].position - s)) ++cut_count;
+    if (!coincides(n, s)) continue;
+    for (int m = 0; m < 3; ++m)
+      if (is_new_contact(first_probe + entry, first, n, m, s)) ++contact_count;
+  }
 
   Primitive primitive;
-  if (!begin_primitive(bound, 7u + cut_count, primitive)) return;
+  if (!begin_primitive(bound, 4u + cut_count + contact_count, primitive)) return;
   primitive.kind = kConcave;
   primitive.plane_count = 3u + cut_count;
-  primitive.atom = 3u;  // contacts
+  primitive.atom = contact_count;
   primitive.tie_key = probe.key;
   add_row(s - pivot, exact_probe_radius);
   for (int n = 0; n < 3; ++n)
     add_row(normalize(cross(atoms[atom[n]].xyz - s, atoms[atom[n == 2 ? 0 : n + 1]].xyz - s)), 0.0LF);
   for (uint n = first; n < last; ++n) {
     dvec3 d = probes[neighbor_labels[n]].position - s;
-    if (cuts(d)) add_row(normalize(d), 0.5LF * length(d));
+    if (low && cuts(d)) add_row(normalize(d), 0.5LF * length(d));
   }
   for (int n = 0; n < 3; ++n) add_bits(contact[n], atom[n]);
+  // A point takes the colour of the nearest contact, and the other members of an n-fold probe have more of them.
+  for (uint n = first; n < last && contact_count > 3u; ++n) {
+    if (!coincides(n, s)) continue;
+    for (int m = 0; m < 3; ++m) {
+      uint other = probes[neighbor_labels[n]].atoms[m];
+      if (is_new_contact(first_probe + entry, first, n, m, s)) add_bits(normalize(atoms[other].xyz - s), other);
+    }
+  }
   append_primitive(primitive);
 }

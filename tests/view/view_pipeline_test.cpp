@@ -27,10 +27,14 @@ class Views : public ::testing::Test {
  protected:
   void load(const Balls& atoms) {
     renderer_.set_atoms(atoms);
+    renderer_.set_coloring(coloring_of(atoms.size()));
+  }
+
+  static Coloring coloring_of(std::size_t atom_count) {
     Coloring coloring;
-    for (std::size_t a = 0; a < atoms.size(); ++a)
+    for (std::size_t a = 0; a < atom_count; ++a)
       coloring.atom.emplace_back(0.1f * static_cast<float>(a % 10), 0.2f * static_cast<float>(a % 5), 0.5f);
-    renderer_.set_coloring(coloring);
+    return coloring;
   }
 
   std::vector<glm::vec4> draw(const Camera& camera, double probe_radius, Extent extent) {
@@ -52,9 +56,10 @@ class Views : public ::testing::Test {
   }
 
   /// Pixels in which the complete view is not the picture of the host's surface; n-fold probes are split in a view.
-  int differing_from_host(const Surface& surface) {
-    Coloring coloring;
-    coloring.atom.assign(surface.atoms.size(), glm::vec3(0.5f));
+  /// With every third atom hidden rays go on inside the solid, and see what clips convex and toroidal patches there.
+  int differing_from_host(const Surface& surface, bool some_hidden) {
+    Coloring coloring = coloring_of(surface.atoms.size());
+    for (std::size_t a = 0; some_hidden && a < surface.atoms.size(); ++a) coloring.hidden.push_back(a % 3 == 0);
     renderer_.set_coloring(coloring);
     const Camera camera = frame_camera(surface, 4.0 / 3.0);
     RayCaster caster;
@@ -78,7 +83,8 @@ TEST_F(Views, CompleteEqualsTheSurfaceOfTheHost) {
   const Balls atoms = testing::ubiquitin();
   load(atoms);
   const Surface surface = assemble_surface(atoms, 1.4, enumerate_reduced_surface(atoms, 1.4));
-  EXPECT_EQ(differing_from_host(surface), 0);
+  EXPECT_EQ(differing_from_host(surface, true), 0);
+  EXPECT_EQ(differing_from_host(surface, false), 0);
   EXPECT_EQ(renderer_.stats().primitives, surface.convex.size() + surface.toroidal.size() + surface.concave.size());
   EXPECT_EQ(renderer_.stats().probes, surface.counts().fixed_probes);
 }
@@ -86,9 +92,18 @@ TEST_F(Views, CompleteEqualsTheSurfaceOfTheHost) {
 TEST_F(Views, DegenerateMoleculesLookAsOnTheHost) {
   for (const auto& [name, atoms, probe_radius] : testing::degenerate_molecules()) {
     load(atoms);
-    EXPECT_EQ(
-        differing_from_host(assemble_surface(atoms, probe_radius, enumerate_reduced_surface(atoms, probe_radius))), 0)
-        << name;
+    const Surface surface = assemble_surface(atoms, probe_radius, enumerate_reduced_surface(atoms, probe_radius));
+    for (const bool some_hidden : {false, true}) EXPECT_EQ(differing_from_host(surface, some_hidden), 0) << name;
+  }
+}
+
+TEST_F(Views, GasesLookAsOnTheHost) {
+  for (std::uint32_t n = 0; n < 40; ++n) {
+    const auto [atoms, probe_radius, on_grid] = testing::gas_case(n);
+    const Surface surface = assemble_surface(atoms, probe_radius, enumerate_reduced_surface(atoms, probe_radius));
+    if (!surface.certificate.closed) continue;
+    load(atoms);
+    for (const bool some_hidden : {false, true}) EXPECT_LE(differing_from_host(surface, some_hidden), 0) << n;
   }
 }
 
