@@ -10,6 +10,7 @@
 #include <fmt/ostream.h>
 
 #include "app/commands.h"
+#include "app/look_options.h"
 #include "app/molecule.h"
 #include "app/picture_options.h"
 #include "app/program_error.h"
@@ -27,6 +28,7 @@ namespace {
 struct RenderCommand {
   MoleculeOptions molecule;
   PictureOptions picture;
+  Look look;  // but for the background, which may be transparent
   OutputOptions output;
   std::string save_camera;
   int samples = 4;
@@ -80,6 +82,7 @@ RenderSettings render_settings(const RenderCommand& command, const Frame& frame)
   settings.size = {frame.size.width, frame.size.height};
   settings.samples = command.samples;
   settings.aovs = command.aovs;
+  settings.look = command.look;
   return settings;
 }
 
@@ -151,10 +154,13 @@ void add_render(CLI::App& command) {
       "  meniscus render 1tii.pdb -o 1tii.png\n"
       "  meniscus render 1tii.pdb -o 1tii.png --size 3840x2160 --samples 16 --color chain --background white\n"
       "  meniscus render 1tii.pdb -o 1tii.png --color hydrophobicity --legend --background white\n"
+      "  meniscus render 1tii.pdb -o 1tii.png --color chain --ambient-occlusion 0.8 --silhouettes 2 --background "
+      "white\n"
       "  meniscus render 1tii.pdb -o 1tii.exr --aovs --camera camera.json   depth, normals, atoms for compositing");
   auto state = std::make_shared<RenderCommand>();
   add_molecule_options(command, state->molecule);
   add_picture_options(command, state->picture);
+  add_look_options(command, state->look);
   add_output_options(command, state->output, "Picture to write: .png, .tif, .tiff or .exr");
   command.add_option("--samples", state->samples, "Rays per pixel, the first through its centre [4]")
       ->check(CLI::Range(1, 1024).description(""))

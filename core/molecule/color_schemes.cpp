@@ -7,6 +7,8 @@
 #include <iterator>
 #include <map>
 #include <numeric>
+#include <string_view>
+#include <tuple>
 #include <vector>
 
 #include "core/molecule/color_scale.h"
@@ -123,6 +125,12 @@ Coloring color_atoms(const Structure& structure, const ColorScheme& scheme) {
 Coloring color_object(const Structure& structure, std::span<const std::uint32_t> atom, const ColorScheme& scheme,
                       std::size_t object_number) {
   Coloring coloring;
+  std::map<std::tuple<std::int32_t, std::uint32_t, std::string_view>, std::uint32_t> chains;
+  for (const std::uint32_t a : atom) {
+    const Atom& place = structure.atoms[a];
+    const auto next = static_cast<std::uint32_t>(chains.size());
+    coloring.part.push_back(chains.try_emplace({place.model, place.copy, place.chain}, next).first->second);
+  }
   if (scheme.by == By::kind) {
     coloring.atom.assign(atom.size(), default_missing_color(ColorMap::categorical));
     coloring.kind = kPatchKindColors;

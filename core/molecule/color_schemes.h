@@ -78,7 +78,8 @@ std::string chain_of_file(const Atom& atom);
 Coloring color_atoms(const Structure& structure, const ColorScheme& scheme);
 
 /// The same for one of several objects. atom: per atom of the object, its index into structure.atoms. object_number:
-/// its place in the list of objects, which By::component colours by. Ranges are those of the whole structure.
+/// its place in the list of objects, which By::component colours by. Ranges are those of the whole structure. Parts are
+/// chains.
 Coloring color_object(const Structure& structure, std::span<const std::uint32_t> atom, const ColorScheme& scheme,
                       std::size_t object_number);
 

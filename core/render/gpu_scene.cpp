@@ -22,6 +22,7 @@ void upload_coloring(const Coloring& coloring, GpuScene& scene) {
   if (coloring.kind)
     for (const glm::vec3& color : *coloring.kind) colors.emplace_back(linear_from_srgb(color), 1.0f);
   scene.colors.upload(colors);
+  scene.parts.upload(coloring.part);
 }
 
 }  // namespace meniscus

@@ -19,7 +19,8 @@ struct GpuScene {
   float slack = 0.0f;         ///< Å by which patches overlap: a few roundings of the largest coordinate
   double probe_radius = 0.0;  ///< Å
 
-  /// Most of Primitive::nearest lies between these, in Å. For speed only: lists are sorted by 32 slices of this range.
+  /// The atoms lie between these depths along the view axis, Å: all atoms, shown or not, so that depth cues do not
+  /// depend on which primitives are here. Tile lists are made of 32 slices of this range.
   float first_depth = 0.0f, last_depth = 0.0f;
   /// Empty, or one float for each tile of 16 x 16 pixels of the picture, row by row: a distance from the camera
   /// (orthographic: from its plane), in Å, beyond which nothing that begins there can show in the tile.
@@ -29,9 +30,10 @@ struct GpuScene {
   std::uint32_t atom_count = 0;
   bool color_by_kind = false;
   bool some_hidden = false;
+  Buffer parts;  ///< uint32 per atom, or empty: Coloring::part
 };
 
-/// Sets the last four members.
+/// Sets the last five members.
 void upload_coloring(const Coloring& coloring, GpuScene& scene);
 
 }  // namespace meniscus

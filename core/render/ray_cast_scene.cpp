@@ -203,15 +203,20 @@ RayCastScene pack_scene(const Surface& surface, const Coloring& coloring, const 
   return scene;
 }
 
-void upload_scene(const RayCastScene& packed, const Surface& surface, GpuScene& scene) {
+void upload_scene(const RayCastScene& packed, const Surface& surface, const PictureFrame& frame, GpuScene& scene) {
   scene.primitives.upload(packed.primitives);
   scene.rows.upload(packed.rows);
   scene.primitive_count = static_cast<std::uint32_t>(packed.primitives.size());
   scene.slack = packed.slack;
   scene.probe_radius = surface.probe_radius;
-  const auto [first, last] = std::ranges::minmax_element(packed.primitives, {}, &Primitive::nearest);
-  scene.first_depth = packed.primitives.empty() ? 0.0f : first->nearest;
-  scene.last_depth = packed.primitives.empty() ? 0.0f : last->nearest;
+  double first = std::numeric_limits<double>::max(), last = 0.0;
+  for (const Ball& ball : surface.atoms) {
+    const double depth = glm::dot(ball.center - frame.camera.position, frame.basis.forward);
+    first = std::min(first, depth - ball.radius);
+    last = std::max(last, depth + ball.radius);
+  }
+  scene.first_depth = static_cast<float>(std::max(std::min(first, last), 0.0));
+  scene.last_depth = static_cast<float>(last);
 }
 
 }  // namespace meniscus

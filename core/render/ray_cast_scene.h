@@ -54,6 +54,6 @@ struct RayCastScene {
 RayCastScene pack_scene(const Surface& surface, const Coloring& coloring, const PictureFrame& frame);
 
 /// Everything of `scene` on the GPU but the colours.
-void upload_scene(const RayCastScene& packed, const Surface& surface, GpuScene& scene);
+void upload_scene(const RayCastScene& packed, const Surface& surface, const PictureFrame& frame, GpuScene& scene);
 
 }  // namespace meniscus

@@ -60,35 +60,37 @@ void resize(Framebuffer& picture, const RenderSettings& settings) {
   picture.component.assign(count, kNone);
 }
 
-void copy_colors(const PictureBlock& block, const std::vector<glm::vec4>& sums, float scale, Framebuffer& picture) {
-  for (int y = 0; y < block.size.y; ++y)
-    for (int x = 0; x < block.size.x; ++x)
-      picture.color[static_cast<std::size_t>(block.origin.y + y) * picture.size.x + block.origin.x + x] =
-          sums[static_cast<std::size_t>(y) * block.size.x + x] * scale;
+/// `inner` and the neighbours that its colours depend on, as far as there are any.
+PictureBlock with_neighbors(const PictureBlock& inner, int reach, glm::ivec2 picture_size) {
+  const glm::ivec2 low = glm::max(inner.origin - reach, glm::ivec2(0));
+  return {low, glm::min(inner.origin + inner.size + reach, picture_size) - low};
 }
 
-void copy_hits(const PictureBlock& block, const std::vector<ray_cast::Hit>& hits, const RayCastScene& scene,
-               const PictureFrame& frame, const ComponentLookup& components, Framebuffer& picture) {
-  tbb::parallel_for(0, block.size.y, [&](int y) {
-    for (int x = 0; x < block.size.x; ++x) {
-      const ray_cast::Hit& hit = hits[static_cast<std::size_t>(y) * block.size.x + x];
-      if (hit.primitive == ray_cast::kNoPrimitive) continue;
-      const glm::ivec2 pixel = block.origin + glm::ivec2(x, y);
-      const std::size_t at = static_cast<std::size_t>(pixel.y) * picture.size.x + pixel.x;
-      const Ray ray = pixel_ray(frame.camera, frame.size, glm::dvec2(pixel) + 0.5);
-      // The kernel counts from the plane through the pivot.
-      const double z = hit.t + frame.eye_distance / glm::dot(ray.direction, frame.basis.forward);
-      const glm::dvec3 point = ray.origin + ray.direction * z;
-      const ray_cast::Primitive& primitive = scene.primitives[hit.primitive];
-      const auto kind = static_cast<PatchKind>(primitive.kind);
-      picture.z[at] = static_cast<float>(z);
-      picture.normal[at] = hit.normal;
-      picture.position[at] = glm::vec3(point);
-      picture.atom[at] = hit.atom;
-      picture.kind[at] = primitive.kind;
-      picture.component[at] = components.at(kind, primitive.patch_index, point);
-    }
+/// Calls work(place in the block, place in the picture) for each pixel of `inner`, which is part of the block.
+template <typename Work>
+void for_each_pixel(const PictureBlock& inner, const PictureBlock& block, glm::ivec2 picture_size, const Work& work) {
+  tbb::parallel_for(inner.origin.y, inner.origin.y + inner.size.y, [&](int y) {
+    for (int x = inner.origin.x; x < inner.origin.x + inner.size.x; ++x)
+      work(static_cast<std::size_t>(y - block.origin.y) * block.size.x + (x - block.origin.x),
+           static_cast<std::size_t>(y) * picture_size.x + x);
   });
+}
+
+void copy_hit(const ray_cast::Hit& hit, std::size_t at, const RayCastScene& scene, const PictureFrame& frame,
+              const ComponentLookup& components, Framebuffer& picture) {
+  if (hit.primitive == ray_cast::kNoPrimitive) return;
+  const glm::dvec2 pixel(static_cast<double>(at % frame.size.x) + 0.5, static_cast<double>(at / frame.size.x) + 0.5);
+  const Ray ray = pixel_ray(frame.camera, frame.size, pixel);
+  // The kernel counts from the plane through the pivot.
+  const double z = hit.t + frame.eye_distance / glm::dot(ray.direction, frame.basis.forward);
+  const glm::dvec3 point = ray.origin + ray.direction * z;
+  const ray_cast::Primitive& primitive = scene.primitives[hit.primitive];
+  picture.z[at] = static_cast<float>(z);
+  picture.normal[at] = hit.normal;
+  picture.position[at] = glm::vec3(point);
+  picture.atom[at] = hit.atom;
+  picture.kind[at] = primitive.kind;
+  picture.component[at] = components.at(static_cast<PatchKind>(primitive.kind), primitive.patch_index, point);
 }
 
 }  // namespace
@@ -114,7 +116,7 @@ Framebuffer RayCaster::render(const Surface& surface, const Coloring& coloring, 
   {
     const GpuStage stage(clock_, "pack");
     packed = pack_scene(surface, coloring, frame);
-    upload_scene(packed, surface, scene_);
+    upload_scene(packed, surface, frame, scene_);
     upload_coloring(coloring, scene_);
   }
   std::optional<ComponentLookup> components;
@@ -141,53 +143,77 @@ void RayCaster::render_blocks(Collected& collected) {
       render_block({{left, top}, glm::min(glm::ivec2(edge), settings.size - glm::ivec2(left, top))}, collected);
 }
 
-void RayCaster::render_block(const PictureBlock& block, Collected& collected) {
+void RayCaster::render_block(const PictureBlock& inner, Collected& collected) {
   const RenderSettings& settings = collected.settings;
+  const PictureFrame& frame = collected.frame;
+  const PictureBlock block = with_neighbors(inner, look_reach(settings.look), frame.size);
   try {
-    cast(collected.scene, collected.frame, block, settings.samples);
+    cast(collected.scene, frame, block, settings.samples, settings.look);
   } catch (const CapacityError&) {
-    if (block.size.x <= kTileEdge && block.size.y <= kTileEdge) throw;
-    for (const PictureBlock& half : halves(block)) render_block(half, collected);
+    if (inner.size.x <= kTileEdge && inner.size.y <= kTileEdge) throw;
+    for (const PictureBlock& half : halves(inner)) render_block(half, collected);
     return;
   }
   const std::size_t count = static_cast<std::size_t>(block.size.x) * block.size.y;
-  copy_colors(block, picture_.download<glm::vec4>(count), 1.0f / static_cast<float>(settings.samples),
-              collected.picture);
-  if (settings.aovs)
-    copy_hits(block, hits_.download<ray_cast::Hit>(count), *collected.packed, collected.frame, *collected.components,
-              collected.picture);
+  const auto sums = picture_.download<glm::vec4>(count);
+  const float scale = 1.0f / static_cast<float>(settings.samples);
+  for_each_pixel(inner, block, frame.size,
+                 [&](std::size_t from, std::size_t to) { collected.picture.color[to] = sums[from] * scale; });
+  if (!settings.aovs) return;
+  const auto hits = hits_.download<ray_cast::Hit>(count);
+  for_each_pixel(inner, block, frame.size, [&](std::size_t from, std::size_t to) {
+    copy_hit(hits[from], to, *collected.packed, frame, *collected.components, collected.picture);
+  });
 }
 
-void RayCaster::cast(const GpuScene& scene, const PictureFrame& frame, const PictureBlock& block, int sample_count) {
+void RayCaster::cast(const GpuScene& scene, const PictureFrame& frame, const PictureBlock& block, int sample_count,
+                     const Look& look) {
   {
     const GpuStage stage(clock_, "tile lists");
     lists_.build(scene, frame, block);
   }
-  const GpuStage stage(clock_, "ray cast");
   const std::size_t count = static_cast<std::size_t>(block.size.x) * block.size.y;
   picture_.resize(count * sizeof(glm::vec4));
   hits_.resize(count * sizeof(ray_cast::Hit));
-  const Program& program = programs_.get("gpu_shaders/ray_cast/ray_cast.comp");
-  lists_.bind(0, 2, 3);
-  row_texels_.view(scene.rows);
-  row_texels_.bind(1);
-  std::uint32_t binding = 0;
-  for (const Buffer* buffer : {&scene.colors, &std::as_const(picture_), &std::as_const(hits_)}) buffer->bind(binding++);
+  if (look.has_effects()) {
+    sample_colors_.resize(count * sizeof(glm::vec4));
+    if (sample_count > 1) sample_hits_.resize(count * sizeof(ray_cast::Hit));
+  }
+  const Program& program = kernel();
+  set_block(program, frame, block);
+  set_depth_slices(program, scene);
   program.set("probe_radius", static_cast<float>(scene.probe_radius));
   program.set("slack", scene.slack);
-  program.set("pixel_size", static_cast<float>(frame.pixel_size));
-  set_view(program, frame);
-  set_depth_slices(program, scene);
   program.set("color_by_kind", scene.color_by_kind ? 1u : 0u);
   program.set("atom_count", scene.atom_count);
   program.set("some_hidden", scene.some_hidden ? 1u : 0u);
-  program.set("size", block.size);
-  program.set("first_offset", glm::vec2(glm::dvec2(block.origin) + 0.5 - 0.5 * glm::dvec2(frame.size)));
-  for (int sample = 0; sample < sample_count; ++sample) {
-    program.set("sample_index", static_cast<std::uint32_t>(sample));
-    program.set("sample_offset", sample_offset(sample));
-    program.dispatch_2d(static_cast<std::uint32_t>(lists_.tiles().x), static_cast<std::uint32_t>(lists_.tiles().y));
+  program.set("key_direction", glm::normalize(look.light_direction));
+  program.set("key_strength", look.light_strength);
+  row_texels_.view(scene.rows);
+  for (int n = 0; n < sample_count; ++n) {
+    const CastSample sample{look.has_effects() ? sample_colors_ : picture_,
+                            n && look.has_effects() ? sample_hits_ : hits_, static_cast<std::uint32_t>(n),
+                            sample_offset(n)};
+    {
+      const GpuStage stage(clock_, "ray cast");
+      cast_sample(scene, sample, n > 0 && !look.has_effects());
+    }
+    if (!look.has_effects()) continue;
+    const GpuStage stage(clock_, "look");
+    look_pass_.add(sample, look, scene, frame, block, picture_);
   }
+}
+
+void RayCaster::cast_sample(const GpuScene& scene, const CastSample& sample, bool add) {
+  const Program& program = kernel();
+  lists_.bind(0, 2, 3);
+  row_texels_.bind(1);
+  scene.colors.bind(0);
+  sample.colors.bind(1);
+  sample.hits.bind(2);
+  program.set("add", add ? 1u : 0u);
+  program.set("sample_offset", sample.offset);
+  program.dispatch_2d(static_cast<std::uint32_t>(lists_.tiles().x), static_cast<std::uint32_t>(lists_.tiles().y));
 }
 
 }  // namespace meniscus

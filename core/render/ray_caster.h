@@ -8,6 +8,8 @@
 #include "core/render/camera.h"
 #include "core/render/framebuffer.h"
 #include "core/render/gpu_scene.h"
+#include "core/render/look.h"
+#include "core/render/look_pass.h"
 #include "core/render/ray_cast_scene.h"
 #include "core/render/tile_lists.h"
 #include "core/surface/coloring.h"
@@ -20,6 +22,7 @@ struct RenderSettings {
   int samples = 1;             ///< rays per pixel, the first through its centre
   bool aovs = false;           ///< fill the AOV arrays too
   int block_edge = 2048;       ///< larger pictures are cast in blocks of at most this edge, in pixels
+  Look look;                   ///< but for its background
 };
 
 /// Needs a current GL context for its whole life. The picture is the same for any block_edge.
@@ -35,11 +38,13 @@ class RayCaster {
   Framebuffer render(const GpuScene& scene, const PictureFrame& frame, const RenderSettings& settings);
 
   /// Casts a block of a picture of a scene that is on the GPU already and leaves it there, in picture() and hits().
-  /// frame.size is that of the whole picture. Throws GpuError; CapacityError if the block is too large for this GPU.
-  void cast(const GpuScene& scene, const PictureFrame& frame, const PictureBlock& block, int sample_count);
+  /// frame.size is that of the whole picture. The look's effects see nothing of what lies outside the block, and its
+  /// background is not used. Throws GpuError; CapacityError if the block is too large for this GPU.
+  void cast(const GpuScene& scene, const PictureFrame& frame, const PictureBlock& block, int sample_count,
+            const Look& look);
   /// Casts the whole picture.
-  void cast(const GpuScene& scene, const PictureFrame& frame, int sample_count) {
-    cast(scene, frame, {{0, 0}, frame.size}, sample_count);
+  void cast(const GpuScene& scene, const PictureFrame& frame, int sample_count, const Look& look = {}) {
+    cast(scene, frame, {{0, 0}, frame.size}, sample_count, look);
   }
 
   /// Of the last block, row by row from the top: vec4 per pixel, the sum of its samples, linear and premultiplied.
@@ -55,13 +60,17 @@ class RayCaster {
   struct Collected;
 
   void render_blocks(Collected& collected);
-  void render_block(const PictureBlock& block, Collected& collected);
+  void render_block(const PictureBlock& inner, Collected& collected);
+  void cast_sample(const GpuScene& scene, const CastSample& sample, bool add);
+  const Program& kernel() { return programs_.get("gpu_shaders/ray_cast/ray_cast.comp"); }
 
   ProgramCache programs_;
   TileLists lists_{programs_};
   GpuScene scene_;  // of render
   TexelBuffer row_texels_{TexelFormat::uint4};
+  LookPass look_pass_{programs_};
   Buffer picture_, hits_;
+  Buffer sample_colors_, sample_hits_;  // where a look has effects
   StageClock clock_;
 };
 

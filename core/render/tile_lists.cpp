@@ -14,6 +14,13 @@ void set_view(const Program& program, const PictureFrame& frame) {
   program.set("forward", glm::vec3(frame.basis.forward));
 }
 
+void set_block(const Program& program, const PictureFrame& frame, const PictureBlock& block) {
+  set_view(program, frame);
+  program.set("size", block.size);
+  program.set("first_offset", glm::vec2(glm::dvec2(block.origin) + 0.5 - 0.5 * glm::dvec2(frame.size)));
+  program.set("pixel_size", static_cast<float>(frame.pixel_size));
+}
+
 void set_depth_slices(const Program& program, const GpuScene& scene) {
   const float thickness = (scene.last_depth - scene.first_depth) / static_cast<float>(kSliceCount);
   program.set("first_depth", scene.first_depth);

@@ -53,6 +53,9 @@ class TileLists {
 /// Uniforms eye_distance, orthographic, right, up, forward.
 void set_view(const Program& program, const PictureFrame& frame);
 
+/// The same, and size, first_offset, pixel_size.
+void set_block(const Program& program, const PictureFrame& frame, const PictureBlock& block);
+
 /// Uniforms of gpu_shaders/ray_cast/depth_slices.glsl.
 void set_depth_slices(const Program& program, const GpuScene& scene);
 

@@ -21,6 +21,10 @@ struct Coloring {
   /// not drawn, in pictures and in exports, whatever colours are by.
   std::vector<bool> hidden;
 
+  /// Empty, or the part of each of Surface::atoms, such as its chain: pictures with silhouettes have lines where parts
+  /// meet.
+  std::vector<std::uint32_t> part;
+
   bool shows(std::uint32_t a) const { return hidden.empty() || !hidden[a]; }
 };
 

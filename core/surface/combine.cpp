@@ -134,6 +134,10 @@ class Appender {
 
 void append_coloring(Coloring& whole, const Coloring& part, std::size_t atoms_before, std::size_t atoms) {
   whole.atom.insert(whole.atom.end(), part.atom.begin(), part.atom.end());
+  if (!part.part.empty()) {  // copies and objects are parts of their own
+    const std::uint32_t before = whole.part.empty() ? 0 : *std::ranges::max_element(whole.part) + 1;
+    std::ranges::transform(part.part, std::back_inserter(whole.part), [&](std::uint32_t n) { return before + n; });
+  }
   if (part.hidden.empty() && whole.hidden.empty()) return;
   whole.hidden.resize(atoms_before, false);
   whole.hidden.insert(whole.hidden.end(), part.hidden.begin(), part.hidden.end());

@@ -3,14 +3,12 @@
 #include "core/view/frame_renderer.h"
 
 #include <cassert>
-#include <cmath>
 #include <utility>
 
-#include <epoxy/gl.h>
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "core/render/color_space.h"
+#include "core/gpu/gpu_stage.h"
+#include "core/render/presenter.h"
 #include "core/render/ray_caster.h"
 
 namespace meniscus {
@@ -20,28 +18,7 @@ struct FrameRenderer::State {
   RayCaster caster;
   GpuScene scene;
   PictureFrame frame;  // of the last picture
-  std::vector<std::uint8_t> rgba;
-  GLuint texture = 0;
-
-  ~State() { glDeleteTextures(1, &texture); }
-
-  void finish(const Look& look, int samples) {
-    const glm::vec3 background = linear_from_srgb(look.background);
-    const std::size_t count = static_cast<std::size_t>(frame.size.x) * frame.size.y;
-    rgba.clear();
-    rgba.reserve(count * 4);
-    for (const glm::vec4& sum : caster.picture().download<glm::vec4>(count)) {
-      const glm::vec4 pixel = sum / static_cast<float>(samples);
-      const glm::vec3 srgb = srgb_from_linear(glm::vec3(pixel) + background * (1.0f - pixel.w));
-      for (int c = 0; c < 3; ++c)
-        rgba.push_back(static_cast<std::uint8_t>(std::lround(255.0f * glm::clamp(srgb[c], 0.0f, 1.0f))));
-      rgba.push_back(255);
-    }
-    glDeleteTextures(1, &texture);
-    glCreateTextures(GL_TEXTURE_2D, 1, &texture);
-    glTextureStorage2D(texture, 1, GL_RGBA8, frame.size.x, frame.size.y);
-    glTextureSubImage2D(texture, 0, 0, 0, frame.size.x, frame.size.y, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
-  }
+  Presenter presenter;
 };
 
 FrameRenderer::FrameRenderer() : state_(std::make_unique<State>()) {}
@@ -62,15 +39,15 @@ void FrameRenderer::render(const FrameRequest& request) {
   }
   state_->pipeline.run(state_->frame, request.probe_radius, request.extent, state_->scene);
   state_->caster.restart_times();
-  state_->caster.cast(state_->scene, state_->frame, request.samples);
+  state_->caster.cast(state_->scene, state_->frame, request.samples, request.look);
   for (const auto* times : {&state_->pipeline.times(), &state_->caster.times()})
     for (const StageTime& stage : *times) clock_.add(stage.name, stage.milliseconds);
-  const auto stage = clock_.stage("finish");
-  state_->finish(request.look, request.samples);
+  const GpuStage stage(clock_, "finish");
+  state_->presenter.present(state_->caster.picture(), request.size, request.samples, request.look.background);
 }
 
-std::vector<std::uint8_t> FrameRenderer::rgba() const { return state_->rgba; }
-std::uint32_t FrameRenderer::texture() const { return state_->texture; }
+std::vector<std::uint8_t> FrameRenderer::rgba() const { return state_->presenter.rgba(); }
+std::uint32_t FrameRenderer::texture() const { return state_->presenter.texture(); }
 glm::ivec2 FrameRenderer::size() const { return state_->frame.size; }
 const ViewStats& FrameRenderer::stats() const { return state_->pipeline.stats(); }
 const Buffer& FrameRenderer::samples() const { return state_->caster.picture(); }

@@ -4,8 +4,8 @@
 // Four rays share each fetch of a primitive's rows: on software GL fetching costs more than all arithmetic. Both sides
 // of a patch count, because a camera may stand inside the solid. Each ray is moved to its closest approach first:
 // there the numbers are as small as the primitive, and single precision is good to about 1e-6 Å.
-// What a ray hits of a primitive depends on nothing but the two, to the bit: not on the hits so far, nor on the order in
-// which primitives come. Pictures of more or fewer hidden primitives are therefore the same.
+// What a ray hits of a primitive depends on nothing but the two, to the bit: not on the hits so far, nor on the order
+// in which primitives come. Pictures of more or fewer hidden primitives are therefore the same.
 
 struct Rays {
   vec3 p[4];  // on the plane through the pivot

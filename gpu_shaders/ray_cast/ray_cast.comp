@@ -31,7 +31,7 @@ uniform float slack;
 uniform ivec2 size;          // of this block, in pixels
 uniform vec2 first_offset;   // of the block's first pixel centre from the picture's centre, in pixels
 uniform vec2 sample_offset;  // of this sample from the pixel's centre
-uniform uint sample_index;
+uniform uint add;            // 0: the first sample, which also writes hits; 1: adds to the picture
 uniform float pixel_size;    // on the pivot's plane, in Å
 uniform float eye_distance;  // from the camera's position to the pivot's plane, in Å
 uniform uint orthographic;
@@ -41,6 +41,8 @@ uniform vec3 forward;
 uniform uint color_by_kind;
 uniform uint atom_count;
 uniform uint some_hidden;
+uniform vec3 key_direction;  // of studio_light
+uniform float key_strength;
 
 vec4 row(uint index) { return uintBitsToFloat(texelFetch(row_texels, int(index))); }
 
@@ -117,7 +119,7 @@ void write_pixel(ivec2 pixel, vec3 p, float t, uint index) {
     color = vec4(studio_light(albedo, n, to_camera), 1.0);
   }
   uint at = uint(pixel.y * size.x + pixel.x);
-  if (sample_index == 0u) {
+  if (add == 0u) {
     picture[at] = color;
     hits[at] = hit;
   } else {

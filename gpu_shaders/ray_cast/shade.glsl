@@ -29,19 +29,21 @@ SurfacePoint surface_point(Primitive primitive, vec3 p) {
   return point;
 }
 
-// Key light from the upper left behind the camera, a dim fill from the right, a sky that is brighter above, and a
-// little sheen. All directions are in the camera's axes (x right, y up, z towards the camera); colours are linear.
+// Key light (unless told otherwise from the upper left behind the camera), a dim fill from the right, a sky that is
+// brighter above, and a little sheen. All directions are in the camera's axes (x right, y up, z towards the camera);
+// colours are linear.
 vec3 studio_light(vec3 albedo, vec3 n, vec3 to_camera) {
-  const vec3 key = normalize(vec3(-0.45, 0.65, 0.75));
+  vec3 key = key_direction;
   const vec3 fill = normalize(vec3(0.85, -0.05, 0.45));
   // Wrapped diffuse light: a soft terminator, as from a large lamp.
   float key_light = max((dot(n, key) + 0.25) / 1.25, 0.0);
   float fill_light = max((dot(n, fill) + 0.3) / 1.3, 0.0);
   float sky = 0.5 + 0.5 * n.y;
   float facing = max(dot(n, to_camera), 0.0);
-  vec3 light = vec3(1.0, 0.97, 0.92) * (0.78 * key_light * key_light) + vec3(0.75, 0.85, 1.0) * (0.20 * fill_light) +
+  vec3 light = key_strength * (vec3(1.0, 0.97, 0.92) * (0.78 * key_light * key_light)) +
+               vec3(0.75, 0.85, 1.0) * (0.20 * fill_light) +
                mix(vec3(0.10, 0.09, 0.09), vec3(0.24, 0.26, 0.29), sky) * (0.35 + 0.65 * facing);
   vec3 half_way = normalize(key + to_camera);
-  float sheen = 0.10 * pow(max(dot(n, half_way), 0.0), 40.0);
+  float sheen = key_strength * (0.10 * pow(max(dot(n, half_way), 0.0), 40.0));
   return albedo * light + vec3(sheen);
 }

@@ -46,10 +46,31 @@ TEST_F(RenderCommand, ASavedCameraTakesTheSamePicture) {
   }
 }
 
+TEST_F(RenderCommand, LooksAreChecked) {
+  for (const auto& [option, value] : {std::pair{"--light", "0,0,0"},
+                                      {"--light", "1,2"},
+                                      {"--light", "1,nan,2"},
+                                      {"--light-strength", "-1"},
+                                      {"--ambient-occlusion", "1.5"},
+                                      {"--ambient-occlusion-radius", "0"},
+                                      {"--silhouettes", "17"},
+                                      {"--depth-cue", "x"}}) {
+    const ProgramResult result = render({"-o", path("c.png"), option, value});
+    EXPECT_EQ(result.exit_code, 2) << option << " " << value;
+    EXPECT_NE(result.err.find(option), std::string::npos) << result.err;
+  }
+  // Without shade its radius does nothing.
+  EXPECT_EQ(render({"-o", path("a.png"), "--silhouettes", "0"}).exit_code, 0);
+  EXPECT_EQ(render({"-o", path("b.png"), "--ambient-occlusion-radius", "3"}).exit_code, 0);
+  EXPECT_EQ(test::read_bytes(path("a.png")), test::read_bytes(path("b.png")));
+}
+
 TEST_F(RenderCommand, OptionsChangeThePicture) {
   EXPECT_EQ(render({"-o", path("a.png")}).exit_code, 0);
   const std::vector<std::vector<std::string>> changes{
-      {"--color", "kind"}, {"--background", "#204060"}, {"--samples", "1"}, {"--probe", "0.5"}};
+      {"--color", "kind"},          {"--background", "#204060"}, {"--samples", "1"},
+      {"--probe", "0.5"},           {"--light", "1,0,0.5"},      {"--light-strength", "2"},
+      {"--ambient-occlusion", "1"}, {"--silhouettes", "2"},      {"--depth-cue", "0.5"}};
   for (const auto& change : changes) {
     std::vector<std::string> arguments{"-o", path("b.png"), "--force"};
     arguments.insert(arguments.end(), change.begin(), change.end());

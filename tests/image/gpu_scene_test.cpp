@@ -78,7 +78,7 @@ class GpuScenes : public ::testing::Test {
  protected:
   Shown cast(const View& view, RayCastScene packed, const std::vector<float>& tile_depths = {}) {
     GpuScene scene;
-    upload_scene(packed, view.surface, scene);
+    upload_scene(packed, view.surface, view.frame, scene);
     upload_coloring(view.coloring, scene);
     scene.tile_depths.upload(tile_depths);
     caster_.cast(scene, view.frame, 1);
@@ -263,7 +263,7 @@ TEST_F(GpuScenes, ListsTooLongForAKernelAreMadeOfSmallerBlocks) {
   EXPECT_TRUE(whole.color == caster_.render(surface, coloring, camera, settings).color);
   GpuScene scene;
   PictureFrame frame = make_picture_frame(surface.atoms, camera, settings.size);
-  upload_scene(pack_scene(surface, coloring, frame), surface, scene);
+  upload_scene(pack_scene(surface, coloring, frame), surface, frame, scene);
   upload_coloring(coloring, scene);
   EXPECT_THROW(caster_.cast(scene, frame, 1), CapacityError) << "the test does not see what it is about";
 }

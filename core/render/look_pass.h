@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Shade, air and ink: what a look makes of cast pixels and their neighbours, on the GPU.
+#pragma once
+
+#include <cstdint>
+
+#include <glm/vec2.hpp>
+
+#include "core/gpu/buffer.h"
+#include "core/gpu/program.h"
+#include "core/gpu/texel_buffer.h"
+#include "core/render/gpu_scene.h"
+#include "core/render/look.h"
+#include "core/render/ray_cast_scene.h"
+#include "core/render/tile_lists.h"
+
+namespace meniscus {
+
+/// One sample of each pixel of a block, as the ray caster leaves it.
+struct CastSample {
+  const Buffer& colors;  ///< vec4 each
+  const Buffer& hits;    ///< ray_cast::Hit each
+  std::uint32_t index;
+  glm::vec2 offset;  ///< from the pixels' centres, pixels
+};
+
+/// Kernels of gpu_shaders/look/ and their buffers. Needs a current GL context.
+class LookPass {
+ public:
+  explicit LookPass(ProgramCache& programs) : programs_(programs) {}
+
+  /// Adds the sample's colours, changed by the look's effects, to `picture`; the first sample replaces it.
+  void add(const CastSample& sample, const Look& look, const GpuScene& scene, const PictureFrame& frame,
+           const PictureBlock& block, const Buffer& picture);
+
+ private:
+  ProgramCache& programs_;
+  Buffer depths_, visibility_;
+  TexelBuffer hit_texels_{TexelFormat::uint4}, depth_texels_{TexelFormat::uint1},
+      visibility_texels_{TexelFormat::uint1}, part_texels_{TexelFormat::uint1};
+};
+
+}  // namespace meniscus

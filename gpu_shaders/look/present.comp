@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Sums of samples over a background, as sRGB (IEC 61966-2-1) in 8 bits.
+#version 450 core
+layout(local_size_x = 8, local_size_y = 8) in;
+
+layout(std430, binding = 0) readonly buffer Picture { vec4 picture[]; };  // sums of linear, premultiplied samples
+layout(rgba8, binding = 0) uniform writeonly image2D presented;
+
+uniform ivec2 size;
+uniform float per_sample;  // 1 / number of samples
+uniform vec3 background;   // linear
+
+vec3 srgb_from_linear(vec3 c) {
+  c = clamp(c, 0.0, 1.0);
+  return mix(1.055 * pow(c, vec3(1.0 / 2.4)) - 0.055, c * 12.92, lessThanEqual(c, vec3(0.0031308)));
+}
+
+void main() {
+  ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+  if (any(greaterThanEqual(pixel, size))) return;
+  vec4 color = picture[pixel.y * size.x + pixel.x] * per_sample;
+  imageStore(presented, pixel, vec4(srgb_from_linear(color.rgb + background * (1.0 - color.a)), 1.0));
+}
