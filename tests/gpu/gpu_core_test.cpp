@@ -176,23 +176,43 @@ TEST_F(GpuCore, StagesWaitForTheGpu) {
   EXPECT_LT(times[0].milliseconds, 10000.0);
 }
 
+// The variants a kernel has: without any define, for each pass, and with each switch it or its includes ask for.
+std::vector<ShaderDefines> variants_of(const EmbeddedShader& shader) {
+  std::vector<ShaderDefines> variants{{}};
+  const std::string text = expand_embedded_shader(shader.path).text;
+  for (const char* pass : {"1", "2"})
+    if (text.find("#if PASS == " + std::string(pass)) != std::string::npos ||
+        (text.find("#if PASS") != std::string::npos && std::string_view(pass) == "1"))
+      variants.push_back({{"PASS", pass}});
+  for (const char* word : {"LISTED", "WHOLE_SPHERES"})
+    if (text.find("#ifdef " + std::string(word)) != std::string::npos) variants.push_back({{word, "1"}});
+  // Many include precision.glsl for single precision alone.
+  if (shader.text.find("#ifdef DOUBLE_PRECISION") != std::string::npos) variants.push_back({{"DOUBLE_PRECISION", "1"}});
+  return variants;
+}
+
 TEST(Shaders, PassTheReferenceCompiler) {
   const auto folder = std::filesystem::temp_directory_path() / ("meniscus_shaders_" + std::to_string(::getpid()));
   std::filesystem::create_directories(folder);
-  int entry_count = 0;
+  std::size_t entry_count = 0, variant_count = 0;
   for (const EmbeddedShader& shader : embedded_shaders()) {
     if (!shader.path.ends_with(".comp")) continue;
     ++entry_count;
-    const ShaderSource source = expand_embedded_shader(shader.path);  // every entry has defaults for its defines
-    const auto file = folder / "shader.comp", log = folder / "log";
-    std::ofstream(file) << source.text;
-    const std::string command = std::string(GLSLANG_VALIDATOR) + " " + file.string() + " > " + log.string() + " 2>&1";
-    const int status = std::system(command.c_str());
-    std::ifstream log_stream(log);
-    const std::string text{std::istreambuf_iterator<char>(log_stream), {}};
-    EXPECT_EQ(status, 0) << shader.path << "\n" << translate_shader_log(text, source.files);
+    for (const ShaderDefines& defines : variants_of(shader)) {
+      ++variant_count;
+      const ShaderSource source = expand_embedded_shader(shader.path, defines);
+      const auto file = folder / "shader.comp", log = folder / "log";
+      std::ofstream(file) << source.text;
+      const std::string command = std::string(GLSLANG_VALIDATOR) + " " + file.string() + " > " + log.string() + " 2>&1";
+      const int status = std::system(command.c_str());
+      std::ifstream log_stream(log);
+      const std::string text{std::istreambuf_iterator<char>(log_stream), {}};
+      EXPECT_EQ(status, 0) << shader.path << (defines.empty() ? "" : " with " + defines[0].first) << "\n"
+                           << translate_shader_log(text, source.files);
+    }
   }
-  EXPECT_GT(entry_count, 0);
+  EXPECT_GT(entry_count, 0u);
+  EXPECT_GT(variant_count, entry_count + 5);
   std::filesystem::remove_all(folder);
 }
 
