@@ -2,7 +2,7 @@
 // GLFW with an EGL context: opening, listening, and saying in one line why there is no window.
 #include "app/preview/window/desktop_window.h"
 
-#include <cstdlib>
+#include <algorithm>
 #include <optional>
 #include <utility>
 
@@ -11,6 +11,7 @@
 
 #include <epoxy/gl.h>
 #include <fmt/format.h>
+#include <glm/common.hpp>
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
@@ -44,6 +45,17 @@ void catch_lost_display() {
   if (set_handler) set_handler(lose_display);
 }
 
+/// At most as large as the screen has room for.
+glm::ivec2 fitting(glm::ivec2 size) {
+  GLFWmonitor* const monitor = glfwGetPrimaryMonitor();
+  if (!monitor) return size;
+  glm::ivec2 corner{0}, room{0};
+  glfwGetMonitorWorkarea(monitor, &corner.x, &corner.y, &room.x, &room.y);
+  float scale = 1.0f;
+  glfwGetMonitorContentScale(monitor, &scale, nullptr);
+  return room.x > 0 && room.y > 0 ? glm::min(size, glm::ivec2(glm::vec2(room) / std::max(scale, 1.0f))) : size;
+}
+
 GLFWwindow* create_window(const std::string& title, glm::ivec2 size, bool tell_resets) {
   glfwDefaultWindowHints();
   glfwWindowHint(GLFW_CONTEXT_CREATION_API, GLFW_EGL_CONTEXT_API);
@@ -71,8 +83,8 @@ std::optional<MouseButton> button_of(int glfw_button) {
 DesktopWindow::DesktopWindow(const std::string& title, glm::ivec2 size) {
   if (!glfwInit()) throw GpuError(fmt::format("no display: {} ({})", kElsewhere, glfw_reason()));
   catch_lost_display();
-  window_ = create_window(title, size, true);
-  if (!window_) window_ = create_window(title, size, false);  // drivers that cannot tell a reset
+  window_ = create_window(title, fitting(size), true);
+  if (!window_) window_ = create_window(title, fitting(size), false);  // drivers that cannot tell a reset
   if (!window_) {
     const std::string reason = glfw_reason();
     glfwTerminate();

@@ -17,8 +17,8 @@ namespace meniscus {
 /// One at a time, on the main thread. Its context is current there.
 class DesktopWindow {
  public:
-  /// size: in the desktop's units, which are pixels unless it scales. Throws GpuError without a display, EGL, or GL
-  /// 4.5.
+  /// size: in the desktop's units, which are pixels unless it scales; less on a small screen. Throws GpuError without a
+  /// display, EGL, or GL 4.5.
   DesktopWindow(const std::string& title, glm::ivec2 size);
   ~DesktopWindow();
   DesktopWindow(const DesktopWindow&) = delete;

@@ -17,8 +17,6 @@
 namespace meniscus {
 namespace {
 
-constexpr float kLetterHeight = 15.0f;  // on an ordinary screen
-
 const ImVec4 kPaper{0.965f, 0.965f, 0.957f, 1.0f};
 const ImVec4 kInk{0.13f, 0.15f, 0.17f, 1.0f};
 const ImVec4 kPaleInk{0.42f, 0.45f, 0.48f, 1.0f};
@@ -44,9 +42,9 @@ void set_colors(ImVec4* colors) {
 void set_style(float scale) {
   ImGui::StyleColorsLight();
   ImGuiStyle& style = ImGui::GetStyle();
-  style.WindowPadding = {14.0f, 12.0f};
-  style.FramePadding = {8.0f, 4.0f};
-  style.ItemSpacing = {8.0f, 7.0f};
+  style.WindowPadding = {14.0f, 10.0f};
+  style.FramePadding = {8.0f, 3.0f};
+  style.ItemSpacing = {8.0f, 5.0f};
   style.ItemInnerSpacing = {6.0f, 4.0f};
   style.GrabMinSize = 12.0f;
   style.ScrollbarSize = 12.0f;

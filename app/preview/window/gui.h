@@ -12,6 +12,8 @@ namespace meniscus {
 /// One at a time, while the window's context is current. Between begin() and end() the functions of ImGui may be used.
 class Gui {
  public:
+  static constexpr float kLetterHeight = 15.0f;  ///< pixels on an ordinary screen
+
   explicit Gui(DesktopWindow& window);
   ~Gui();
   Gui(const Gui&) = delete;

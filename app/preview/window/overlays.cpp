@@ -31,7 +31,8 @@ void draw_help(float em) {
 void draw_answer(const nlohmann::json& pick) {
   if (!pick.is_object() || !pick.value("hit", false)) return;
   ImGui::BeginTooltip();
-  for (const std::string& line : pick_lines(pick)) ImGui::TextUnformatted(line.c_str());
+  for (const std::string& line : pick_lines(pick))
+    if (!line.empty()) ImGui::TextUnformatted(line.c_str());
   ImGui::EndTooltip();
 }
 

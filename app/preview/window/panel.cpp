@@ -22,8 +22,7 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr float kLargestSliderProbe = 10.0f;  // Å; larger ones can be typed
-
-ImVec4 fault_color() { return {0.70f, 0.16f, 0.12f, 1.0f}; }
+constexpr float kFooterLines = 3.3f;          // room for a fault
 
 void heading(const char* text) {
   ImGui::Dummy({0.0f, 0.2f * ImGui::GetFontSize()});
@@ -33,6 +32,12 @@ void heading(const char* text) {
 
 /// Text of a file or the session, never a format.
 void plain(const std::string& text) { ImGui::TextWrapped("%s", text.c_str()); }
+
+void fault(const std::string& text) {
+  ImGui::PushStyleColor(ImGuiCol_Text, {0.70f, 0.16f, 0.12f, 1.0f});
+  plain(text);
+  ImGui::PopStyleColor();
+}
 
 /// A name at the left; the next widget stands at its right and fills the line.
 void label(const char* text) {
@@ -71,25 +76,26 @@ void Panel::draw(float em) {
   ImGui::SetNextWindowPos({window.x - width(em), 0.0f});
   ImGui::SetNextWindowSize({width(em), window.y});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.0f);
-  ImGui::Begin(
-      "panel", nullptr,
-      ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoMove);
+  ImGui::Begin("panel", nullptr, ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove);
   ImGui::PopStyleVar();
-  if (link_.has_state()) {
-    title();
-    surface();
-    coloring();
-    view();
-    look();
-    if (link_.state()["frames"].get<int>() > 1) frames();
-    exports();
-    picked();
-    timing();
-  } else {
-    ImGui::TextUnformatted("The first picture is being made ...");
-  }
+  const float footer = kFooterLines * ImGui::GetTextLineHeightWithSpacing();
+  ImGui::BeginChild("widgets", {0.0f, -footer});
+  if (link_.has_state()) widgets();
+  ImGui::EndChild();
   status();
   ImGui::End();
+}
+
+void Panel::widgets() {
+  title();
+  surface();
+  coloring();
+  view();
+  look();
+  if (link_.state()["frames"].get<int>() > 1) frames();
+  exports();
+  picked();
+  timing();
 }
 
 void Panel::title() {
@@ -223,15 +229,17 @@ void Panel::exports() {
   if (std::exchange(name_wanted_, false)) ImGui::SetKeyboardFocusHere();
   bool go = ImGui::InputText("##name", &name_, ImGuiInputTextFlags_EnterReturnsTrue);
   const std::string path = name_ + kFormats[format_].ending;
-  go |= ImGui::Button(fmt::format("Write {}###write", path).c_str(), {-1.0f, 0.0f});
-  ImGui::Checkbox("replace what exists", &replace_);
+  go |= ImGui::Button(fmt::format("Write {}###write", path).c_str(), {-7.0f * ImGui::GetFontSize(), 0.0f});
+  ImGui::SameLine();
+  ImGui::Checkbox("replace", &replace_);
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("Replace a file of this name");
   if (go) link_.send({{"command", "export"}, {"format", kFormats[format_].word}, {"path", path}, {"force", replace_}});
 }
 
 std::array<std::string, 4> pick_lines(const Json& pick) {
   if (!pick.value("hit", false)) return {};
   const auto text = [&](const char* key) { return pick.value(key, std::string()); };
-  std::string area = "exposed area ...";
+  std::string area;  // not known yet
   if (pick["exposed_area"].is_number())
     area = fmt::format("exposed area {:.2f} \xc3\x85\xc2\xb2", pick["exposed_area"].get<double>());
   const std::string element = text("element").empty() ? "" : fmt::format(" ({})", text("element"));
@@ -247,29 +255,30 @@ void Panel::picked() {
     ImGui::TextDisabled("click an atom, or let the mouse rest on it");
     return;
   }
-  for (const std::string& line : pick_lines(pick_)) plain(line);
+  for (const std::string& line : pick_lines(pick_))
+    if (!line.empty()) plain(line);
 }
 
 void Panel::timing() {
   heading("Last picture");
   const Json& stats = link_.stats();
-  if (!stats.is_object() || !ImGui::BeginTable("times", 2, ImGuiTableFlags_RowBg)) return;
+  if (!stats.is_object()) return;
+  plain(fmt::format("{} \xc3\x97 {}{}: {:.1f} ms, {:.1f} fps", stats["width"].get<int>(), stats["height"].get<int>(),
+                    link_.news().full ? "" : ", draft", stats["frame_milliseconds"].get<double>(),
+                    stats["fps"].get<double>()));
+  if (!ImGui::TreeNodeEx("stages", ImGuiTreeNodeFlags_NoTreePushOnOpen)) return;
+  if (!ImGui::BeginTable("times", 2, ImGuiTableFlags_RowBg)) return;
   ImGui::TableSetupColumn("stage", ImGuiTableColumnFlags_WidthStretch);
   ImGui::TableSetupColumn("time", ImGuiTableColumnFlags_WidthFixed);
-  const auto row = [](const std::string& name, const std::string& value) {
+  for (const Json& stage : stats["stages"]) {
     ImGui::TableNextColumn();
-    ImGui::TextUnformatted(name.c_str());
+    plain(stage["name"]);
     ImGui::TableNextColumn();
-    const float room = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(value.c_str()).x;
+    const std::string time = fmt::format("{:.1f} ms", stage["milliseconds"].get<double>());
+    const float room = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(time.c_str()).x;
     ImGui::SetCursorPosX(ImGui::GetCursorPosX() + std::max(room, 0.0f));
-    ImGui::TextUnformatted(value.c_str());
-  };
-  row(fmt::format("{} \xc3\x97 {}{}", stats["width"].get<int>(), stats["height"].get<int>(),
-                  link_.news().full ? "" : ", draft"),
-      fmt::format("{:.1f} fps", stats["fps"].get<double>()));
-  for (const Json& stage : stats["stages"])
-    row(stage["name"], fmt::format("{:.1f} ms", stage["milliseconds"].get<double>()));
-  row("total", fmt::format("{:.1f} ms", stats["frame_milliseconds"].get<double>()));
+    plain(time);
+  }
   ImGui::EndTable();
 }
 
@@ -282,14 +291,17 @@ void Panel::show_reply(const SessionReply& reply) {
 
 void Panel::status() {
   constexpr double kPatience = 0.4;  // seconds; shorter work is not worth a word
-  ImGui::Dummy({0.0f, 0.2f * ImGui::GetFontSize()});
+  ImGui::Separator();
   const auto& busy = link_.news().busy_seconds;
-  if (busy && *busy > kPatience) plain(fmt::format("working, {:.0f} s ...", std::floor(*busy)));
   const std::string& trouble = link_.news().trouble;
-  if (!trouble.empty() || line_is_fault_) ImGui::PushStyleColor(ImGuiCol_Text, fault_color());
-  if (!trouble.empty() || !line_.empty()) plain(trouble.empty() ? line_ : trouble);
-  if (!trouble.empty() || line_is_fault_) ImGui::PopStyleColor();
-  ImGui::TextDisabled("h: help");
+  if (busy && *busy > kPatience)
+    plain(fmt::format("working, {:.0f} s ...", std::floor(*busy)));
+  else if (!trouble.empty() || line_is_fault_)
+    fault(trouble.empty() ? line_ : trouble);
+  else if (!line_.empty())
+    plain(line_);
+  else
+    ImGui::TextDisabled("h: help");
 }
 
 }  // namespace meniscus

@@ -28,6 +28,7 @@ class Panel {
   void ask_for_name() { name_wanted_ = true; }
 
  private:
+  void widgets();
   void title();
   void surface();
   void coloring();

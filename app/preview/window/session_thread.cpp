@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// All commands that wait are carried out, then one draft is drawn; the full picture when nothing has moved for a while.
+// All commands that wait are carried out, then one draft is drawn; better pictures when nothing moves for a while.
 #include "app/preview/window/session_thread.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "core/base/error.h"
@@ -12,19 +13,21 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto kRest = 150ms;     // people pause for less between two parts of one movement
+constexpr auto kPause = 60ms;  // of the mouse, until the draft gets its full size
+// Until the full picture is begun; as long as it may take, for it cannot be stopped.
+constexpr std::chrono::steady_clock::duration kRest = 150ms, kLongestRest = 1500ms;
 constexpr auto kUnseen = 1000ms;  // how long a draft may wait to be seen
 
-/// Words that look, and leave the picture as it is.
-bool only_asks(const nlohmann::json& command) {
-  const std::string word = command.value("command", "");
-  return word == "pick" || word == "state" || word == "stats" || word == "export";
+std::optional<Quality> quality_drawn(const PreviewSession& session) {
+  for (const Quality quality : {Quality::full, Quality::plain, Quality::draft})
+    if (session.is_drawn(quality)) return quality;
+  return {};
 }
 
 }  // namespace
 
 SessionThread::SessionThread(const ForeignContext& sibling, Make make, std::function<void()> wake)
-    : wake_(std::move(wake)), last_change_(Clock::now()) {
+    : wake_(std::move(wake)), last_change_(Clock::now()), rest_(kRest) {
   thread_ = std::thread([this, sibling, make = std::move(make)] { run(sibling, make); });
 }
 
@@ -75,69 +78,67 @@ void SessionThread::run(const ForeignContext& sibling, const Make& make) {
 
 void SessionThread::work(PreviewSession& session) {
   for (;;) {
-    std::deque<SessionReply> commands = next_commands(session);
-    {
-      const std::scoped_lock lock(mutex_);
-      if (stop_) return;
-    }
-    for (SessionReply& command : commands) {
+    for (SessionReply& command : next_commands(session)) {
       carry_out(session, command);
       const std::scoped_lock lock(mutex_);
       news_.replies.push_back(std::move(command));
       news_.quit |= session.wants_to_quit();
+    }
+    {
+      const std::scoped_lock lock(mutex_);
+      if (stop_) return;  // what was asked for is done
     }
     draw(session);
   }
 }
 
 std::deque<SessionReply> SessionThread::next_commands(const PreviewSession& session) {
-  const bool draft = session.is_drawn(Quality::draft), full = session.is_drawn(Quality::full);
-  const bool done = full || !trouble_.empty() || (draft && session.playing());
+  const std::optional<Quality> drawn = quality_drawn(session);
+  const bool done = drawn == Quality::full || !trouble_.empty() || (drawn && session.playing());
   std::unique_lock lock(mutex_);
   busy_since_.reset();
+  wanted_ = Quality::draft;
   if (done)
     posted_.wait(lock, [&] { return stop_ || !queue_.empty(); });
-  else if (draft)
-    at_rest_ = wait_for_rest(lock);
+  else if (drawn && rests(lock, drawn == Quality::draft ? kPause : rest_))
+    wanted_ = drawn == Quality::draft ? Quality::plain : Quality::full;
   busy_since_ = Clock::now();
   return std::exchange(queue_, {});
 }
 
-/// True when the draft has been in the window for a while and nothing came; false as soon as something comes.
-bool SessionThread::wait_for_rest(std::unique_lock<std::mutex>& lock) {
+/// True when the picture has been in the window for a while and nothing came; false as soon as something comes.
+bool SessionThread::rests(std::unique_lock<std::mutex>& lock, Clock::duration pause) {
   const auto called = [&] { return stop_ || !queue_.empty(); };
   const auto seen = [&] { return called() || presented_ >= done_; };
   posted_.wait_until(lock, last_change_ + kUnseen, seen);  // windows that are minimised never say so
-  return !posted_.wait_until(lock, Clock::now() + kRest, called);
+  return !posted_.wait_until(lock, Clock::now() + pause, called);
 }
 
 void SessionThread::carry_out(PreviewSession& session, SessionReply& command) {
+  const std::uint64_t before = session.revision();
   command.reply = session.apply(command.command);
   done_ = command.number;
-  if (only_asks(command.command)) return;
+  if (session.revision() == before) return;
   trouble_.clear();
   last_change_ = Clock::now();
-  at_rest_ = false;
 }
 
 void SessionThread::draw(PreviewSession& session) {
-  bool full = session.is_drawn(Quality::full);
-  if (trouble_.empty() && !full) {
-    full = std::exchange(at_rest_, false);
-    const Quality quality = full ? Quality::full : Quality::draft;
+  const std::optional<Quality> drawn = quality_drawn(session);
+  if (trouble_.empty() && (!drawn || *drawn < wanted_)) {
     try {
-      if (!session.is_drawn(quality)) {
-        session.render(quality);
-        require_living_context();
-        pictures_.offer(session.texture(), session.picture_size());
-      }
+      const Clock::time_point begin = Clock::now();
+      session.render(wanted_);
+      require_living_context();
+      pictures_.offer(session.texture(), session.picture_size());
+      if (wanted_ == Quality::full) rest_ = std::clamp(Clock::now() - begin, kRest, kLongestRest);
     } catch (const CapacityError& error) {
       trouble_ = error.what();
     } catch (const OpenSurfaceError& error) {
       trouble_ = error.what();
     }
   }
-  tell(session, full);
+  tell(session, session.is_drawn(Quality::full));
 }
 
 void SessionThread::tell(PreviewSession& session, bool full) {

@@ -48,7 +48,7 @@ class SessionThread {
   /// make: called on the thread, a context beside `sibling` being current. wake: called from the thread when there are
   /// news.
   SessionThread(const ForeignContext& sibling, Make make, std::function<void()> wake);
-  /// Waits for the frame at hand.
+  /// Waits for the frame at hand, and for commands that were posted.
   ~SessionThread();
 
   /// Queues a command; its number.
@@ -65,7 +65,7 @@ class SessionThread {
   void run(const ForeignContext& sibling, const Make& make);
   void work(PreviewSession& session);
   std::deque<SessionReply> next_commands(const PreviewSession& session);
-  bool wait_for_rest(std::unique_lock<std::mutex>& lock);
+  bool rests(std::unique_lock<std::mutex>& lock, Clock::duration pause);
   void carry_out(PreviewSession& session, SessionReply& command);
   void draw(PreviewSession& session);
   void tell(PreviewSession& session, bool full);
@@ -84,7 +84,8 @@ class SessionThread {
 
   std::uint64_t done_ = 0;  // of the thread alone
   Clock::time_point last_change_;
-  bool at_rest_ = false;
+  Clock::duration rest_;
+  Quality wanted_ = Quality::draft;
   std::string trouble_;
   std::thread thread_;
 };

@@ -33,7 +33,7 @@ class PreviewWindow {
  public:
   PreviewWindow(const WindowOptions& options, SessionThread::Make make)
       : options_(options),
-        window_(options.title, options.size),
+        window_(options.title, options.size + glm::ivec2(static_cast<int>(Panel::width(Gui::kLetterHeight)), 0)),
         gui_(window_),
         thread_(window_.gl(), std::move(make), DesktopWindow::wake),
         link_(thread_, [this](std::uint64_t number, const Json& command) { note(number, command); }),
@@ -83,7 +83,11 @@ class PreviewWindow {
 WindowReport PreviewWindow::run() {
   report_.context = window_.context();
   while (!window_.closing()) {
-    if (window_.wait(redraws_ > 0 ? 0.0 : patience()) && !gestures_.dragging()) redraws_ = kSettlingFrames;
+    const bool ticking = link_.news().busy_seconds || Gui::typing();  // something changes by itself
+    if (window_.wait(redraws_ > 0 ? 0.0 : patience()) && !gestures_.dragging())
+      redraws_ = kSettlingFrames;
+    else if (ticking)
+      redraws_ = std::max(redraws_, 1);
     take_events();
     take_news();
     if (redraws_ > 0) draw();
@@ -105,6 +109,7 @@ Json PreviewWindow::resize_command() const {
   return {{"command", "resize"}, {"width", area.x}, {"height", area.y}};
 }
 
+/// Asks what is due to be asked; seconds for which there is nothing else to do by itself.
 double PreviewWindow::patience() {
   double seconds = link_.news().busy_seconds ? kBusyLook : kLongSleep;
   if (Gui::typing()) seconds = kBusyLook;  // the cursor in a field blinks
