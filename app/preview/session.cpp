@@ -51,7 +51,10 @@ void PreviewSession::show_frame(std::size_t frame) {
 Coloring PreviewSession::frame_coloring() const {
   Coloring coloring;
   coloring.kind = view_.patch_kinds ? kPatchKindColors : coloring_.kind;
-  for (const std::uint32_t a : frames_[view_.frame].atoms) coloring.atom.push_back(coloring_.atom[a]);
+  for (const std::uint32_t a : frames_[view_.frame].atoms) {
+    coloring.atom.push_back(coloring_.atom[a]);
+    coloring.part.push_back(coloring_.part[a]);
+  }
   return coloring;
 }
 

@@ -52,6 +52,7 @@ void export_picture(const ExportedView& view, const ExportTarget& target) {
   RenderSettings settings;
   settings.size = view.size;
   settings.samples = view.samples;
+  settings.look = view.look;
   const Framebuffer picture = caster.render(object.surface, object.coloring, view.camera, settings);
   write_image(target.path, picture, {view.look.background, target.existing});
 }

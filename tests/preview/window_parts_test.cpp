@@ -147,6 +147,11 @@ TEST(Keys, MeanWhatTheHelpSays) {
   EXPECT_EQ(typed(U'k', kState), Json({{"command", "patch_kinds"}, {"on", true}}));
   EXPECT_EQ(typed(U' ', kState), Json({{"command", "play"}}));
   EXPECT_EQ(typed(U'x', kState), Json());
+  Json shaded = kState;
+  foresee(typed(U'a', shaded), shaded);
+  EXPECT_EQ(shaded["look"]["ambient_occlusion"], 1.0);
+  EXPECT_EQ(typed(U'a', shaded), Json({{"command", "look"}, {"ambient_occlusion", 0.0}}));
+  EXPECT_EQ(typed(U's', shaded), Json({{"command", "look"}, {"silhouettes", 1.5}}));
   EXPECT_EQ(pressed(GLFW_KEY_RIGHT, kState), Json({{"command", "frame"}, {"index", 1}}));
   EXPECT_EQ(pressed(GLFW_KEY_LEFT, kState), Json({{"command", "frame"}, {"index", 2}}));
   Json single = kState;
