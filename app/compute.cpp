@@ -53,6 +53,8 @@ struct SurfaceComputer::GlPipeline {
 SurfaceComputer::SurfaceComputer(const ComputeOptions& options)
     : options_(options),
       on_cpu_(options.cpu || (options.gl.kind == DeviceChoice::Kind::automatic && !has_hardware_gpu())) {
+  if (options.kind == SurfaceKind::vdw && options.probe_named)
+    throw RequestError("--probe: the van der Waals surface has no probe; leave --probe or --surface vdw away");
   if (options.threads > 0) {
     thread_limit_.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(options.threads));
   }

@@ -30,6 +30,7 @@ const char* kind_word(SurfaceKind kind);
 struct ComputeOptions {
   SurfaceKind kind = SurfaceKind::ses;
   double probe_radius = 1.4;  ///< Å
+  bool probe_named = false;   ///< whether somebody asked for it; a van der Waals surface has none
   bool cpu = false;           ///< --device cpu
   DeviceChoice gl;            ///< otherwise; automatic: a hardware GPU if there is one, else the CPU
   bool verify = false;        ///< compute on the other device too and compare
@@ -46,7 +47,8 @@ struct ComputedSurface {
 /// Computes any number of surfaces on the device that was asked for. A GL context is made once, with the first.
 class SurfaceComputer {
  public:
-  /// Automatic takes a hardware GPU if there is one, else the CPU, which is faster than software GL.
+  /// Automatic takes a hardware GPU if there is one, else the CPU, which is faster than software GL. Throws RequestError
+  /// for a van der Waals surface with a probe.
   explicit SurfaceComputer(const ComputeOptions& options);
   ~SurfaceComputer();
 

@@ -64,7 +64,11 @@ std::string probe_fault(double radius) {
 void add_probe_option(CLI::App& command, ComputeOptions& computing) {
   command
       .add_option_function<std::string>(
-          "--probe", [&computing](const std::string& text) { computing.probe_radius = parse_probe(text); },
+          "--probe",
+          [&computing](const std::string& text) {
+            computing.probe_radius = parse_probe(text);
+            computing.probe_named = true;
+          },
           "Probe radius in Å [1.4]; 0 gives the van der Waals surface")
       ->type_name("RADIUS");
 }

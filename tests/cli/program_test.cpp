@@ -194,6 +194,12 @@ TEST(Info, ReadsWhatHasNothingForASurface) {
   EXPECT_EQ(meniscus_says({"surface", "/usr/share/pymol/data/chempy/water.pdb", "--keep-water", "-q"}).exit_code, 0);
 }
 
+TEST(Usage, AVanDerWaalsSurfaceHasNoProbe) {
+  const ProgramResult result = meniscus_says({"surface", kUbiquitin, "--probe", "1", "--surface", "vdw", "-q"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_NE(result.err.find("has no probe"), std::string::npos) << result.err;
+}
+
 TEST(Bench, PrintsARowForEachFile) {
   const ProgramResult result =
       meniscus_says({"bench", kUbiquitin, kUbiquitin, "--runs", "1", "-q", "--device", "cpu", "--baseline"});
