@@ -54,7 +54,6 @@ Structure read_frames(PreviewCommand& command) {
   if (!std::filesystem::is_directory(command.output_folder))
     throw OutputError(command.output_folder, "--output-dir is no folder");
   Structure structure = read_molecule(command.molecule);
-  if (command.molecule.show) throw UsageError("--show is for render and export; the preview draws all atoms taken");
   if (command.molecule.computing.cpu) throw UsageError("--device cpu draws no pictures; use auto, gpu or software");
   if (!structure.instances.empty()) throw UsageError("--instances is for render and export; the preview draws atoms");
   ColorScheme& color = command.molecule.color;
@@ -153,10 +152,12 @@ void add_preview(CLI::App& command) {
   state->molecule.reading.model.all = true;
   add_atom_options(command, state->molecule);
   command.get_option("--model")->description("Model to show; default: all of them, each a frame");
+  command.remove_option(command.get_option("--instances"));  // the preview draws atoms
   {
     const Heading heading(command, "Surface");
     add_probe_option(command, state->molecule.computing);
     add_device_option(command, state->molecule.computing);
+    command.get_option("--device")->description("auto (default: a GPU if there is one), gpu, gpu:N, software");
   }
   add_color_options(command, state->molecule);
   add_picture_options(command, state->picture);
