@@ -20,6 +20,7 @@
 #include "app/preview/session.h"
 #include "app/preview/window/window.h"
 #include "app/program_error.h"
+#include "app/show_only.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/gpu/egl_context.h"
@@ -65,6 +66,7 @@ Structure read_frames(PreviewCommand& command) {
 std::unique_ptr<PreviewSession> begin_session(const PreviewCommand& command, Structure structure) {
   PreviewView view;
   view.color = command.molecule.color;
+  if (command.molecule.show) view.hidden = hidden_atoms(*command.molecule.show, structure);
   view.probe_radius = command.molecule.computing.probe_radius;
   view.size = {command.picture.width, command.picture.height};
   view.camera.projection = command.picture.projection;

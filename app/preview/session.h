@@ -25,11 +25,12 @@ namespace meniscus {
 
 class CommandReader;
 
-/// Everything that commands change.
+/// What is seen, and how; all but `hidden` changes by commands.
 struct PreviewView {
   Camera camera;
   double probe_radius = 1.4;  ///< Å
   ColorScheme color;
+  std::vector<bool> hidden;  ///< per atom of the structure: its part of the surface is not drawn; empty: all is
   bool patch_kinds = false;  ///< coloured by kind of patch, whatever the scheme (figure 2 of Krone et al. 2010)
   Look look;
   std::size_t frame = 0;  ///< from 0
