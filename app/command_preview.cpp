@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include "app/commands.h"
+#include "app/look_options.h"
 #include "app/molecule.h"
 #include "app/picture_options.h"
 #include "app/preview/command_log.h"
@@ -31,6 +32,7 @@ namespace {
 struct PreviewCommand {
   MoleculeOptions molecule;
   PictureOptions picture;
+  Look look;
   std::optional<std::uint16_t> port;  ///< of --serve
   std::string record, commands, output_folder = ".";
   bool force = false;
@@ -68,6 +70,7 @@ std::unique_ptr<PreviewSession> begin_session(const PreviewCommand& command, Str
   view.color = command.molecule.color;
   if (command.molecule.show) view.hidden = hidden_atoms(*command.molecule.show, structure);
   view.probe_radius = command.molecule.computing.probe_radius;
+  view.look = command.look;
   view.size = {command.picture.width, command.picture.height};
   view.camera.projection = command.picture.projection;
   std::optional<Camera> camera;
@@ -163,6 +166,7 @@ void add_preview(CLI::App& command) {
   }
   add_color_options(command, state->molecule);
   add_picture_options(command, state->picture);
+  add_look_options(command, state->look);
   add_session_options(command, *state);
   command.callback([state] { run(*state); });
 }

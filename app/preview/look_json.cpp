@@ -2,6 +2,7 @@
 // Colours and switches of the look, to and from JSON.
 #include "app/preview/look_json.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>

@@ -53,7 +53,7 @@ Coloring PreviewSession::frame_coloring() const {
   coloring.kind = view_.patch_kinds ? kPatchKindColors : coloring_.kind;
   for (const std::uint32_t a : frames_[view_.frame].atoms) {
     coloring.atom.push_back(coloring_.atom[a]);
-    coloring.part.push_back(coloring_.part[a]);
+    if (!coloring_.part.empty()) coloring.part.push_back(coloring_.part[a]);
     if (!view_.hidden.empty()) coloring.hidden.push_back(view_.hidden[a]);
   }
   return coloring;

@@ -94,6 +94,10 @@ TEST_F(PreviewSessionTest, BadCommandsAreAnsweredAndChangeNothing) {
            R"({"command":"look","light_direction":[0,0,0]})",
            R"({"command":"look","light_direction":[1,2]})",
            R"({"command":"look","light_direction":[1,2,"3"]})",
+           R"({"command":"look","silhouettes":17})",
+           R"({"command":"look","light_direction":[0,0,0]})",
+           R"({"command":"look","light_direction":[0,1]})",
+           R"({"command":"look","ambient_occlusion":0.5,"depth_cue":2})",
            R"({"command":"frame","index":2})",
            R"({"command":"frame","index":0.5})",
            R"({"command":"resize","width":80,"height":100000})",
@@ -204,6 +208,23 @@ TEST_F(PreviewSessionTest, PatchKindsColourWhateverTheSchemeIs) {
   EXPECT_EQ(session_->rgba(), kinds);
   expect_ok(R"({"command":"color","scheme":"bfactor","map":"magma"})");
   EXPECT_EQ(state()["color"], Json::parse(R"({"scheme":"bfactor","map":"magma"})"));
+}
+
+TEST_F(PreviewSessionTest, TheLookIsForPicturesAtRest) {
+  session_->render(Quality::draft);
+  const auto draft = session_->rgba();
+  session_->render(Quality::full);
+  const auto full = session_->rgba();
+  const Json look = Json::parse(R"({"ambient_occlusion":0.9,"silhouettes":2.0})");
+  expect_ok(R"({"command":"look","ambient_occlusion":0.9,"silhouettes":2})");
+  for (const auto& [key, value] : look.items()) EXPECT_EQ(state()["look"][key], value) << key;
+  session_->render(Quality::draft);
+  EXPECT_EQ(session_->rgba(), draft);
+  session_->render(Quality::full);
+  EXPECT_NE(session_->rgba(), full);
+  expect_ok(R"({"command":"look","light_direction":[1,0,0.5]})");
+  session_->render(Quality::draft);
+  EXPECT_NE(session_->rgba(), draft);
 }
 
 TEST_F(PreviewSessionTest, ACameraComesBackAsItWas) {

@@ -108,7 +108,8 @@ class Server(unittest.IsolatedAsyncioTestCase):
 
     async def test_a_wrong_token_opens_no_socket(self):
         with self.assertRaises(websockets.exceptions.InvalidStatusCode) as caught:
-            await websockets.connect(f"ws://127.0.0.1:{self.preview.port}/{'0' * 32}/socket", origin=self.preview.origin)
+            await websockets.connect(f"ws://127.0.0.1:{self.preview.port}/{'0' * 32}/socket",
+                                     origin=self.preview.origin)
         self.assertEqual(caught.exception.status_code, 403)
 
     def test_it_listens_on_this_machine_only(self):
@@ -227,7 +228,8 @@ class Server(unittest.IsolatedAsyncioTestCase):
 
     def test_what_cannot_be_begun_is_said_in_one_line(self):
         def fails(code, *arguments):
-            result = subprocess.run([PROGRAM, "preview", self.file, *arguments], capture_output=True, text=True, timeout=60)
+            result = subprocess.run([PROGRAM, "preview", self.file, *arguments], capture_output=True, text=True,
+                                    timeout=60)
             errors = [line for line in result.stderr.splitlines() if "error" in line]
             self.assertEqual((result.returncode, len(errors)), (code, 1), result.stderr)
 

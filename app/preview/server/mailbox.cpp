@@ -27,7 +27,7 @@ bool are_numbers(const nlohmann::json& a, const nlohmann::json& b, const char* k
 
 bool merge_commands(nlohmann::json& first, const nlohmann::json& second) {
   constexpr std::array<std::string_view, 2> kDrags{"orbit", "pan"};
-  constexpr std::array<std::string_view, 5> kLatest{"probe", "frame", "resize", "pick", "samples"};
+  constexpr std::array<std::string_view, 6> kLatest{"probe", "frame", "resize", "pick", "samples", "look"};
   if (!first.is_object() || !second.is_object() || first.size() != second.size()) return false;
   if (!first.contains("command") || !first["command"].is_string() ||
       first["command"] != second.value("command", nlohmann::json()))
@@ -45,6 +45,7 @@ bool merge_commands(nlohmann::json& first, const nlohmann::json& second) {
   // A pick that is waited for is a click, and each click counts.
   const auto waits = [](const nlohmann::json& pick) { return !pick.contains("wait") || pick["wait"] != false; };
   if (!is_one_of(kLatest, word) || (word == "pick" && (waits(first) || waits(second)))) return false;
+  if (std::ranges::any_of(first.items(), [&](const auto& item) { return !second.contains(item.key()); })) return false;
   first = second;
   return true;
 }

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The page: input becomes commands, pictures become pixels, and the controls show what the server says.
 import { Connection } from "./connection.js";
+import { follow_lamp, place_lamp } from "./lamp.js";
 import { follow_pointer, follow_keys } from "./motion.js";
 
 const $ = (id) => document.getElementById(id);
 const canvas = $("picture"), stage = $("stage");
+const numbered = new Set();  // colour schemes that take a map
+const strengths = ["ambient_occlusion", "silhouettes", "depth_cue"];  // of the look, each with a slider
 let state = null;      // what the server shows
 let controls = false;  // does this page decide?
 let shown = null;      // the message of the picture in the canvas
@@ -111,8 +114,9 @@ new ResizeObserver(fit).observe(stage);
 
 // State
 
+/// Unless somebody is at it: what is typed, or dragged ahead of the pictures, stays.
 function set_value(element, value) {
-  if (element !== document.activeElement || element.type === "range") element.value = value;
+  if (element !== document.activeElement || (element.type === "range" && outstanding === 0)) element.value = value;
 }
 
 function apply_state(next) {
@@ -130,6 +134,8 @@ function apply_state(next) {
   set_value($("projection"), next.camera.projection);
   set_value($("background"), next.look.background);
   stage.style.background = next.look.background;
+  for (const key of strengths) set_value($(key), next.look[key]);
+  place_lamp($("lamp"), next.look.light_direction);
   $("frames").hidden = next.frames < 2;
   $("frame").max = next.frames - 1;
   set_value($("frame"), next.frame);
@@ -137,7 +143,6 @@ function apply_state(next) {
   $("play").textContent = next.playing ? "Pause" : "Play";
 }
 
-const numbered = new Set();  // schemes that take a map
 function fill_choices(choices) {
   if (!choices.ok) return;
   for (const { word, has_map, description } of choices.schemes) {
@@ -168,6 +173,9 @@ $("map").addEventListener("change", set_color);
 $("kinds").addEventListener("change", (event) => command("patch_kinds", { on: event.target.checked }));
 $("projection").addEventListener("change", (event) => command("projection", { projection: event.target.value }));
 $("background").addEventListener("input", (event) => command("look", { background: event.target.value }));
+for (const key of strengths)
+  $(key).addEventListener("input", (event) => command("look", { [key]: event.target.valueAsNumber }));
+follow_lamp($("lamp"), (light_direction) => { if (controls) command("look", { light_direction }); });
 $("reset").addEventListener("click", () => command("reset_view"));
 $("zoom-form").addEventListener("submit", async (event) => {
   event.preventDefault();

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The direction of the light as a dot on a disc: a half ball seen from the viewer's side.
+
+/// Puts the dot where light comes from: [right, up, towards the viewer].
+export function place_lamp(disc, [x, y, z]) {
+  const length = Math.hypot(x, y, z);
+  const dot = disc.firstElementChild;
+  dot.style.left = `${50 + 44 * x / length}%`;
+  dot.style.top = `${50 - 44 * y / length}%`;
+}
+
+/// Calls tell(direction) while the dot is dragged.
+export function follow_lamp(disc, tell) {
+  const follow = (event) => {
+    const box = disc.getBoundingClientRect();
+    let x = (event.clientX - box.left - box.width / 2) / (0.44 * box.width);
+    let y = (box.top + box.height / 2 - event.clientY) / (0.44 * box.height);
+    const across = Math.hypot(x, y);
+    if (across > 0.98) [x, y] = [0.98 * x / across, 0.98 * y / across];
+    const round = (value) => Math.round(value * 1000) / 1000;
+    tell([round(x), round(y), round(Math.sqrt(1 - x * x - y * y))]);
+  };
+  disc.addEventListener("pointerdown", (event) => { disc.setPointerCapture(event.pointerId); follow(event); });
+  disc.addEventListener("pointermove", (event) => { if (disc.hasPointerCapture(event.pointerId)) follow(event); });
+}
