@@ -179,14 +179,13 @@ void RayCaster::cast(const GpuScene& scene, const PictureFrame& frame, const Pic
     sample_colors_.resize(count * sizeof(glm::vec4));
     if (sample_count > 1) sample_hits_.resize(count * sizeof(ray_cast::Hit));
   }
-  const Program& program = kernel();
+  const Program& program = kernel(scene);
   set_block(program, frame, block);
   set_depth_slices(program, scene);
   program.set("probe_radius", static_cast<float>(scene.probe_radius));
   program.set("slack", scene.slack);
   program.set("color_by_kind", scene.color_by_kind ? 1u : 0u);
   program.set("atom_count", scene.atom_count);
-  program.set("some_hidden", scene.some_hidden ? 1u : 0u);
   program.set("key_direction", glm::normalize(look.light_direction));
   program.set("key_strength", look.light_strength);
   row_texels_.view(scene.rows);
@@ -204,8 +203,13 @@ void RayCaster::cast(const GpuScene& scene, const PictureFrame& frame, const Pic
   }
 }
 
+const Program& RayCaster::kernel(const GpuScene& scene) {
+  const ShaderDefines hidden{{"SOME_HIDDEN", "1"}};
+  return programs_.get("gpu_shaders/ray_cast/ray_cast.comp", scene.some_hidden ? hidden : ShaderDefines{});
+}
+
 void RayCaster::cast_sample(const GpuScene& scene, const CastSample& sample, bool add) {
-  const Program& program = kernel();
+  const Program& program = kernel(scene);
   lists_.bind(0, 2, 3);
   row_texels_.bind(1);
   scene.colors.bind(0);

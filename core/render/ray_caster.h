@@ -62,7 +62,7 @@ class RayCaster {
   void render_blocks(Collected& collected);
   void render_block(const PictureBlock& inner, Collected& collected);
   void cast_sample(const GpuScene& scene, const CastSample& sample, bool add);
-  const Program& kernel() { return programs_.get("gpu_shaders/ray_cast/ray_cast.comp"); }
+  const Program& kernel(const GpuScene& scene);
 
   ProgramCache programs_;
   TileLists lists_{programs_};

@@ -29,7 +29,8 @@ void set_depth_slices(const Program& program, const GpuScene& scene) {
 
 void TileLists::build(const GpuScene& scene, const PictureFrame& frame, const PictureBlock& block) {
   tiles_ = (block.size + (kTileEdge - 1)) / kTileEdge;
-  const std::uint32_t slots = static_cast<std::uint32_t>(tiles_.x) * static_cast<std::uint32_t>(tiles_.y) * kSliceCount;
+  const std::uint32_t slots =
+      static_cast<std::uint32_t>(tiles_.x) * static_cast<std::uint32_t>(tiles_.y) * kSlotsPerTile;
   counts_.resize((slots + 1) * sizeof(std::uint32_t));
   counts_.fill(0);
   entries_.resize(0);

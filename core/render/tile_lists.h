@@ -15,14 +15,16 @@ namespace meniscus {
 
 inline constexpr int kTileEdge = 16;
 inline constexpr std::uint32_t kSliceCount = 32;
+inline constexpr std::uint32_t kSlotsPerTile = 2 * kSliceCount;
 
 /// A part of a picture, in pixels; the origin is a multiple of kTileEdge.
 struct PictureBlock {
   glm::ivec2 origin{0}, size{0};
 };
 
-/// For each tile of 16 x 16 pixels a list of primitives by slices of depth, nearest slice first, in any order within a
-/// slice. A list covers all rays through any place of its tile's pixels. Needs a current GL context.
+/// For each tile of 16 x 16 pixels two lists of primitives, spheres and tori, each by slices of depth, nearest slice
+/// first, in any order within a slice. A list covers all rays through any place of its tile's pixels. Needs a current
+/// GL context.
 class TileLists {
  public:
   explicit TileLists(ProgramCache& programs) : programs_(programs), scan_(programs) {}
@@ -31,8 +33,8 @@ class TileLists {
   void build(const GpuScene& scene, const PictureFrame& frame, const PictureBlock& block);
 
   glm::ivec2 tiles() const { return tiles_; }  ///< columns, rows
-  /// uint32 for each slice of each tile, row by row: where its primitives end in entries(); they begin where the slice
-  /// before ends.
+  /// uint32 for each slice of spheres and of tori of each tile, row by row: where its primitives end in entries(); they
+  /// begin where the slice before ends.
   const Buffer& slot_ends() const { return counts_; }
   const Buffer& entries() const { return entries_; }  ///< uint32 each: places in GpuScene::primitives
 

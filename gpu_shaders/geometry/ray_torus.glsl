@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where a ray meets a torus around the z axis: the quartic, isolated by its derivatives, refined on the torus itself.
+// Where a ray meets a torus around the z axis: Newton's method on pieces of the ray where it cannot fail.
 //
-// Common subset of GLSL and C++ with GLM; the includer defines real, real2, real3, GEOMETRY and GEOMETRY_OUT.
-// A quartic in single precision loses roots when solved by radicals. Here its derivatives, solved one after another,
-// split the ray into pieces on which it is monotone (Collins & Akritas 1976 isolate roots that way; see also Yuksel
-// 2022), and each root is refined on a factor of the quartic that keeps all digits.
+// Common subset of GLSL and C++ with GLM; the includer defines real, real2, real3, GEOMETRY, GEOMETRY_OUT and
+// GEOMETRY_INOUT.
+// A quartic in single precision loses roots when solved by radicals. Here no quartic is formed: it has the torus as a
+// factor, |x|^2 + R^2 - p^2 - 2 R rho, which keeps all digits and whose turns along the ray are known.
 #ifndef MENISCUS_GEOMETRY_RAY_TORUS_GLSL
 #define MENISCUS_GEOMETRY_RAY_TORUS_GLSL
 
@@ -12,54 +12,112 @@
 // apple part only: the lemon inside is the other factor of the quartic.
 struct TorusFactors {
   real apple;        // |x|^2 + R^2 - p^2 - 2 R rho: zero on the torus (the apple), negative inside the tube
-  real lemon;        // |x|^2 + R^2 - p^2 + 2 R rho: zero on the lemon, negative inside it; positive if R > p
-  real apple_slope;  // derivative of `apple` along the ray
+  real apple_slope;  // derivative of `apple` along the ray; on the axis, where it jumps, towards larger t or smaller t
 };
 
-GEOMETRY TorusFactors torus_factors(real3 o, real3 d, real major, real offset, real t) {
+// offset: R^2 - p^2; side: 1 or -1, as above.
+GEOMETRY TorusFactors torus_factors(real3 o, real3 d, real major, real offset, real t, real side) {
   TorusFactors f;
   real3 x = o + d * t;
   real rho = sqrt(x.x * x.x + x.y * x.y);
   real a = dot(x, x) + offset;
   f.apple = a - real(2) * major * rho;
-  f.lemon = a + real(2) * major * rho;
-  real rho_slope = rho > real(0) ? (x.x * d.x + x.y * d.y) / rho : real(0);
+  real rho_slope = rho > real(0) ? (x.x * d.x + x.y * d.y) / rho : side * sqrt(d.x * d.x + d.y * d.y);
   f.apple_slope = real(2) * (dot(x, d) - major * rho_slope);
   return f;
 }
 
-// Root of the cubic 4t^3 + 3 c.z t^2 + 2 c.y t + c.x between low and high, where it changes sign.
-GEOMETRY real cubic_root_between(real3 c, real low, real high, bool rising, real tolerance) {
-  real t = real(0.5) * (low + high);
-  for (int i = 0; i < 60; ++i) {
-    real value = ((real(4) * t + real(3) * c.z) * t + real(2) * c.y) * t + c.x;
-    real slope = (real(12) * t + real(6) * c.z) * t + real(2) * c.y;
-    if ((value > real(0)) == rising) high = t;
-    else low = t;
-    real next = t - value / slope;
-    if (!(next > low && next < high)) next = real(0.5) * (low + high);
-    real step = abs(next - t);
-    t = next;
-    if (step <= tolerance) break;
+// Newton's method towards the roots of the apple factor. Along the ray it is convex, then concave around the closest
+// approach to the axis, then convex again; the bounds of the middle piece have a closed form. Where a convex function
+// is positive, Newton's method walks towards a root without ever stepping over it, and sees when there is none.
+struct TorusRuns {
+  real knot[4];  // the three pieces: convex, concave, convex
+  int sure;      // bits: the run ends at a root
+  int waiting;   // bits: runs to be done, two for each piece: from its lower end up, then from its upper end down
+};
+
+GEOMETRY TorusRuns torus_runs(real3 o, real3 d, real major, real minor, real low, real high) {
+  TorusRuns runs;
+  real offset = (major - minor) * (major + minor);
+  // rho^2 = h2 + s2 (t - middle)^2; the second derivative of the factor, 2 - 2 R h2 s2 / rho^3, vanishes at +-width.
+  real s2 = d.x * d.x + d.y * d.y;
+  real middle = s2 > real(0) ? -(o.x * d.x + o.y * d.y) / s2 : real(0);
+  real x = o.x + d.x * middle;
+  real y = o.y + d.y * middle;
+  real h2 = x * x + y * y;
+  real width_squared = pow(major * s2 * h2, real(2) / real(3)) - h2;
+  real width = s2 > real(0) && width_squared > real(0) ? sqrt(width_squared / s2) : real(0);
+  runs.knot[0] = low;
+  runs.knot[1] = min(max(middle - width, low), high);
+  runs.knot[2] = min(max(middle + width, low), high);
+  runs.knot[3] = high;
+  runs.sure = 0;
+  runs.waiting = 0;
+  TorusFactors at_low = torus_factors(o, d, major, offset, low, real(1));
+  for (int piece = 0; piece < 3; ++piece) {
+    TorusFactors at_high = torus_factors(o, d, major, offset, runs.knot[piece + 1], real(1));
+    bool concave = piece == 1;
+    bool low_above = (at_low.apple > real(0)) != concave;
+    bool high_above = (at_high.apple > real(0)) != concave;
+    bool descends = (at_low.apple_slope < real(0)) != concave;
+    int up_run = 1 << (2 * piece);
+    if (runs.knot[piece] < runs.knot[piece + 1]) {
+      bool goes_up = low_above && (descends || !high_above);
+      if (goes_up) runs.waiting |= up_run;
+      if (goes_up && !high_above) runs.sure |= up_run;
+      if (high_above && (!low_above || goes_up)) runs.waiting |= 2 * up_run;
+    }
+    at_low = at_high;
   }
-  return t;
+  return runs;
 }
 
-// Root of the apple factor between low and high, where it changes sign.
-GEOMETRY real torus_root_between(real3 o, real3 d, real major, real offset, real low, real high, bool rising,
-                                 real tolerance) {
-  real t = real(0.5) * (low + high);
-  for (int i = 0; i < 60; ++i) {
-    TorusFactors f = torus_factors(o, d, major, offset, t);
-    if ((f.apple > real(0)) == rising) high = t;
-    else low = t;
-    real next = t - f.apple / f.apple_slope;
-    if (!(next > low && next < high)) next = real(0.5) * (low + high);
-    real step = abs(next - t);
-    t = next;
-    if (step <= tolerance) break;
-  }
-  return t;
+// Does the next waiting run; `none` if it finds no root. Roots come in ascending order. tolerance: of t.
+GEOMETRY real torus_run(real3 o, real3 d, real major, real minor, real tolerance, real none,
+                        GEOMETRY_INOUT(TorusRuns) runs) {
+  real offset = (major - minor) * (major + minor);
+  int bit = runs.waiting & -runs.waiting;
+  runs.waiting -= bit;
+  bool down = (bit & 42) != 0;
+  int piece = bit < 4 ? 0 : bit < 16 ? 1 : 2;
+  real low = piece == 0 ? runs.knot[0] : piece == 1 ? runs.knot[1] : runs.knot[2];
+  real high = piece == 0 ? runs.knot[1] : piece == 1 ? runs.knot[2] : runs.knot[3];
+  real sign = piece == 1 ? real(-1) : real(1);
+  // A run down is only started where there is a root.
+  bool sure = down || (runs.sure & bit) != 0;
+  real t = down ? high : low;
+  real root = none;
+  bool ended = bit == 0;
+  int n = 0;
+  do {
+    TorusFactors f = torus_factors(o, d, major, offset, t, down ? real(-1) : real(1));
+    real value = sign * f.apple;
+    real slope = sign * f.apple_slope;
+    if (down) slope = -slope;
+    if (!ended && !(value > real(0))) {  // exactly on it, or a rounding past it
+      root = t;
+      ended = true;
+    }
+    if (!ended && !(slope < real(0))) {  // it turns before it comes to zero
+      if (sure) root = t;
+      ended = true;
+    }
+    if (!ended) {
+      real walked = -value / slope;
+      t = down ? t - walked : t + walked;
+      bool outside = down ? t < low : t > high;
+      // The next step would be about the square of this one over the slope.
+      bool settled = real(8) * walked * walked <= -tolerance * slope || ++n == 60;
+      if (outside) {
+        if (sure) root = down ? low : high;
+      } else if (settled) {
+        root = t;
+      }
+      ended = outside || settled;
+    }
+  } while (!ended);
+  if (!down && root == none) runs.waiting &= ~(2 * bit);  // then there is no second one either
+  return root;
 }
 
 struct TorusHits {
@@ -73,44 +131,11 @@ GEOMETRY TorusHits ray_torus(real3 o, real3 d, real major, real minor, real low,
   TorusHits hits;
   hits.count = 0;
   hits.t[0] = hits.t[1] = hits.t[2] = hits.t[3] = high;
-  real offset = (major - minor) * (major + minor);
-
-  // f = (|x|^2 + offset)^2 - 4 R^2 rho^2 = t^4 + a3 t^3 + a2 t^2 + a1 t + a0; c holds a1, a2, a3.
-  real od = dot(o, d);
-  real k = dot(o, o) + offset;
-  real r4 = real(4) * major * major;
-  real3 c = real3(real(4) * od * k - real(2) * r4 * (o.x * d.x + o.y * d.y),
-                  real(4) * od * od + real(2) * k - r4 * (d.x * d.x + d.y * d.y), real(4) * od);
-
-  // Where f'' = 12 t^2 + 6 a3 t + 2 a2 vanishes, f' turns; f' has one root at most between two turns.
-  real knot[4];
-  real discriminant = real(9) * c.z * c.z - real(24) * c.y;
-  real root = sqrt(discriminant > real(0) ? discriminant : real(0));
-  knot[0] = low;
-  knot[1] = min(max((real(-3) * c.z - root) / real(12), low), high);
-  knot[2] = min(max((real(-3) * c.z + root) / real(12), low), high);
-  knot[3] = high;
-
-  // f is monotone between `start` and each following root of f'. Its sign is the product of its exact factors.
-  real start = low;
-  TorusFactors f_start = torus_factors(o, d, major, offset, low);
-  real slope_low = ((real(4) * low + real(3) * c.z) * low + real(2) * c.y) * low + c.x;
-  for (int i = 0; i < 4; ++i) {
-    real end = high;
-    if (i < 3) {
-      real slope_high = ((real(4) * knot[i + 1] + real(3) * c.z) * knot[i + 1] + real(2) * c.y) * knot[i + 1] + c.x;
-      bool turns = (slope_low > real(0)) != (slope_high > real(0)) && knot[i + 1] > knot[i];
-      bool rising = slope_high > real(0);
-      slope_low = slope_high;
-      if (!turns) continue;
-      end = cubic_root_between(c, knot[i], knot[i + 1], rising, real(16) * tolerance);
-    }
-    TorusFactors f_end = torus_factors(o, d, major, offset, end);
-    if ((f_start.apple > real(0)) != (f_end.apple > real(0)))
-      hits.t[hits.count++] =
-          torus_root_between(o, d, major, offset, start, end, f_end.apple > real(0), tolerance);
-    start = end;
-    f_start = f_end;
+  real none = real(2) * abs(high) + real(1);
+  TorusRuns runs = torus_runs(o, d, major, minor, low, high);
+  while (runs.waiting != 0) {
+    real root = torus_run(o, d, major, minor, tolerance, none, runs);
+    if (root != none && hits.count < 4) hits.t[hits.count++] = root;
   }
   return hits;
 }

@@ -4,6 +4,7 @@
 #define MENISCUS_RAY_CAST_DEPTH_SLICES_GLSL
 
 const uint kSliceCount = 32u;
+const uint kSlotsPerTile = 2u * kSliceCount;  // spheres first, then tori
 
 uniform float first_depth;          // of slice 0, which also takes what begins before it, in Å
 uniform float slices_per_angstrom;  // 0: everything is in slice 0

@@ -12,10 +12,12 @@ struct Rays {
   vec3 d[4];  // unit length
 };
 
-// Nearest hits so far.
+// Nearest hits so far, and what decides between two at one distance.
 struct Nearest {
   vec4 t;
   uvec4 primitive;
+  uvec4 kind;
+  uvec4 tie_key;
 };
 
 // True if no point p + t*d with t < high of any ray within `spread` (Å, at the pivot, growing as the rays spread) of
@@ -33,96 +35,148 @@ bool misses_bound(vec4 bound, vec3 p, vec3 d, float eye_t, float spread, float h
 
 // Keeps the nearer hit; of two at the same distance the same one in any order.
 void keep_nearest(uint index, Primitive primitive, int k, float t, inout Nearest nearest) {
-  if (t > nearest.t[k]) return;
-  if (t == nearest.t[k]) {
-    Primitive other = load_primitive(nearest.primitive[k]);
-    if (other.kind < primitive.kind || (other.kind == primitive.kind && other.tie_key <= primitive.tie_key)) return;
+  bool tie_won = primitive.kind < nearest.kind[k] ||
+                 (primitive.kind == nearest.kind[k] && primitive.tie_key < nearest.tie_key[k]);
+  if (t < nearest.t[k] || (t == nearest.t[k] && tie_won)) {
+    nearest.t[k] = t;
+    nearest.primitive[k] = index;
+    nearest.kind[k] = primitive.kind;
+    nearest.tie_key[k] = primitive.tie_key;
   }
-  nearest.t[k] = t;
-  nearest.primitive[k] = index;
+}
+
+// Which of the four points x, relative to the patch's centre, are on the patch; asks only where `asked`.
+bvec4 on_clipped_sphere(Primitive primitive, vec3 x[4], float radius, bvec4 asked) {
+  uint end = primitive.first_row + 1u + primitive.plane_count;
+  for (uint i = primitive.first_row + 1u; i < end && any(asked); ++i) {
+    vec4 plane = row(i);
+    for (int k = 0; k < 4; ++k) asked[k] = asked[k] && in_half_space(x[k], plane.xyz, plane.w, slack);
+  }
+  for (int k = 0; k < 4; ++k) asked[k] = asked[k] && shows_sphere_point(primitive, x[k], radius);
+  return asked;
 }
 
 void hit_clipped_sphere(uint index, Primitive primitive, Rays rays, inout Nearest nearest) {
   vec4 place = row(primitive.first_row);
-  vec3 near_x[4];
+  vec3 x[4];
   vec3 far_x[4];
-  vec4 near_t;
+  vec4 t;
   vec4 far_t;
-  bvec4 near_in;
-  bvec4 far_in;
+  bvec4 found;
+  bvec4 far_found;
   for (int k = 0; k < 4; ++k) {
     vec3 o = rays.p[k] - place.xyz;
     float shift = -dot(o, rays.d[k]);
     o += rays.d[k] * shift;
     SphereHits hits = ray_sphere(o, rays.d[k], place.w);
-    near_x[k] = o + rays.d[k] * hits.near_t;
-    far_x[k] = o + rays.d[k] * hits.far_t;
-    near_t[k] = hits.near_t + shift;
-    far_t[k] = hits.far_t + shift;
     float low = eye_parameter(rays.d[k]);
-    near_in[k] = hits.found && near_t[k] > low && near_t[k] <= nearest.t[k];
-    far_in[k] = hits.found && far_t[k] > low && far_t[k] <= nearest.t[k];
+    x[k] = o + rays.d[k] * hits.near_t;
+    far_x[k] = o + rays.d[k] * hits.far_t;
+    t[k] = hits.near_t + shift;
+    far_t[k] = hits.far_t + shift;
+    found[k] = hits.found && t[k] > low && t[k] <= nearest.t[k];
+    far_found[k] = hits.found && far_t[k] > low;
   }
-  uint end = primitive.first_row + 1u + primitive.plane_count;
-  for (uint i = primitive.first_row + 1u; i < end && (any(near_in) || any(far_in)); ++i) {
-    vec4 plane = row(i);
-    for (int k = 0; k < 4; ++k) {
-      near_in[k] = near_in[k] && in_half_space(near_x[k], plane.xyz, plane.w, slack);
-      far_in[k] = far_in[k] && in_half_space(far_x[k], plane.xyz, plane.w, slack);
-    }
-  }
+  found = on_clipped_sphere(primitive, x, place.w, found);
   for (int k = 0; k < 4; ++k) {
-    near_in[k] = near_in[k] && shows_sphere_point(primitive, near_x[k], place.w);
-    far_in[k] = far_in[k] && shows_sphere_point(primitive, far_x[k], place.w);
-    if (near_in[k] || far_in[k]) keep_nearest(index, primitive, k, near_in[k] ? near_t[k] : far_t[k], nearest);
+    if (found[k]) keep_nearest(index, primitive, k, t[k], nearest);
+    far_found[k] = far_found[k] && !found[k] && far_t[k] <= nearest.t[k];
   }
+  far_found = on_clipped_sphere(primitive, far_x, place.w, far_found);
+  for (int k = 0; k < 4; ++k)
+    if (far_found[k]) keep_nearest(index, primitive, k, far_t[k], nearest);
 }
 
 const float kMiss = 3.0e38;
 
-// One ray in the torus's own frame; kMiss if it misses. Hits beyond `high` may be left out.
-float hit_torus_patch(Primitive primitive, vec3 o, vec3 d, float major, vec4 shape, float cos_sweep, float sin_sweep,
-                      float low, float high) {
-  int range = int(primitive.plane_count);
-  // The sphere through both contact circles holds the whole patch and nothing of the outer half of the torus.
-  SphereHits chord = ray_sphere(o - vec3(0.0, 0.0, shape.z), d, shape.w + slack);
-  if (!chord.found) return kMiss;
-  low = max(low, chord.near_t - slack);
-  float end = chord.far_t + slack;
-  if (range == kUpToHalfTurn) {
-    clip_to_half_space(-o.y - slack, -d.y, low, end);
-    clip_to_half_space(o.y * cos_sweep - o.x * sin_sweep - slack, d.y * cos_sweep - d.x * sin_sweep, low, end);
-  }
-  // Roots are bracketed by the patch alone: `high` would leave its mark on their last bits.
-  if (!(low < end) || low > high) return kMiss;
-  TorusHits hits = ray_torus(o, d, major, probe_radius, low, end, 2e-7);
-  for (int i = 0; i < hits.count; ++i) {
-    vec3 x = o + d * hits.t[i];
-    if (in_toroidal_patch(x, major, shape.x, shape.y, cos_sweep, sin_sweep, range, slack) &&
-        shows_torus_point(primitive, x, major))
-      return hits.t[i];
-  }
-  return kMiss;
+// A toroidal patch, as its rows say.
+struct TorusPatch {
+  Primitive primitive;
+  vec3 center;
+  vec3 x_axis;
+  vec3 y_axis;
+  vec3 z_axis;
+  float major;
+  float cos_sweep;
+  float sin_sweep;
+  vec4 shape;  // z_low, z_high, clip z, clip radius
+};
+
+TorusPatch load_torus(uint index) {
+  TorusPatch saddle;
+  saddle.primitive = load_primitive(index);
+  vec4 place = row(saddle.primitive.first_row);
+  vec4 x_axis = row(saddle.primitive.first_row + 1u);
+  vec4 z_axis = row(saddle.primitive.first_row + 2u);
+  saddle.shape = row(saddle.primitive.first_row + 3u);
+  saddle.center = place.xyz;
+  saddle.major = place.w;
+  saddle.x_axis = x_axis.xyz;
+  saddle.cos_sweep = x_axis.w;
+  saddle.z_axis = z_axis.xyz;
+  saddle.sin_sweep = z_axis.w;
+  saddle.y_axis = cross(z_axis.xyz, x_axis.xyz);
+  return saddle;
 }
 
-void hit_toroidal(uint index, Primitive primitive, inout Nearest nearest) {
-  vec4 place = row(primitive.first_row);
-  vec4 x_axis = row(primitive.first_row + 1u);
-  vec4 z_axis = row(primitive.first_row + 2u);
-  vec4 shape = row(primitive.first_row + 3u);
-  vec3 y_axis = cross(z_axis.xyz, x_axis.xyz);
-  for (int k = 0; k < 4; ++k) {
-    vec3 p = ray_point(k);
-    vec3 d = ray_direction(p);
-    vec3 o = p - place.xyz;
-    float shift = -dot(o, d);
-    o += d * shift;
-    vec3 local_o = vec3(dot(o, x_axis.xyz), dot(o, y_axis), dot(o, z_axis.xyz));
-    vec3 local_d = vec3(dot(d, x_axis.xyz), dot(d, y_axis), dot(d, z_axis.xyz));
-    // A little more than to the nearest hit, for the rounding of the sum below.
-    float high = nearest.t[k] - shift + slack;
-    float t = hit_torus_patch(primitive, local_o, local_d, place.w, shape, x_axis.w, z_axis.w,
-                              eye_parameter(d) - shift, high);
-    if (t < kMiss) keep_nearest(index, primitive, k, t + shift, nearest);
+// A ray in a torus's own frame, from its closest approach on, which is `shift` along it; the patch may only be met from
+// `low` to `high`, and not at all if low >= high.
+struct LocalRay {
+  vec3 o;
+  vec3 d;
+  float shift;
+  float low;
+  float high;
+};
+
+LocalRay to_torus(TorusPatch saddle, int k) {
+  LocalRay ray;
+  vec3 p = ray_point(k);
+  vec3 d = ray_direction(p);
+  vec3 o = p - saddle.center;
+  ray.shift = -dot(o, d);
+  o += d * ray.shift;
+  ray.o = vec3(dot(o, saddle.x_axis), dot(o, saddle.y_axis), dot(o, saddle.z_axis));
+  ray.d = vec3(dot(d, saddle.x_axis), dot(d, saddle.y_axis), dot(d, saddle.z_axis));
+  // The sphere through both contact circles holds the whole patch and nothing of the outer half of the torus.
+  SphereHits chord = ray_sphere(ray.o - vec3(0.0, 0.0, saddle.shape.z), ray.d, saddle.shape.w + slack);
+  ray.low = max(eye_parameter(d) - ray.shift, chord.near_t - slack);
+  ray.high = chord.far_t + slack;
+  if (saddle.primitive.plane_count == uint(kUpToHalfTurn)) {
+    clip_to_half_space(-ray.o.y - slack, -ray.d.y, ray.low, ray.high);
+    clip_to_half_space(ray.o.y * saddle.cos_sweep - ray.o.x * saddle.sin_sweep - slack,
+                       ray.d.y * saddle.cos_sweep - ray.d.x * saddle.sin_sweep, ray.low, ray.high);
   }
+  if (!chord.found) ray.high = ray.low;
+  return ray;
+}
+
+// Bits of the rays that may meet torus `index` before their hits so far.
+uint rays_towards_torus(uint index, Nearest nearest) {
+  TorusPatch saddle = load_torus(index);
+  uint rays = 0u;
+  for (int k = 0; k < 4; ++k) {
+    LocalRay ray = to_torus(saddle, k);
+    // A little more than to the nearest hit, for the rounding of the sum in hit_toroidal.
+    if (ray.low < ray.high && ray.low <= nearest.t[k] - ray.shift + slack) rays |= 1u << k;
+  }
+  return rays;
+}
+
+// Roots are looked for by the patch alone: hits so far would leave their mark on the last bits.
+void hit_toroidal(uint index, int k, inout Nearest nearest) {
+  TorusPatch saddle = load_torus(index);
+  LocalRay ray = to_torus(saddle, k);
+  TorusRuns runs = torus_runs(ray.o, ray.d, saddle.major, probe_radius, ray.low, ray.high);
+  float t = kMiss;
+  do {
+    float root = torus_run(ray.o, ray.d, saddle.major, probe_radius, 2e-7, kMiss, runs);
+    vec3 x = ray.o + ray.d * root;
+    if (root < kMiss &&
+        in_toroidal_patch(x, saddle.major, saddle.shape.x, saddle.shape.y, saddle.cos_sweep, saddle.sin_sweep,
+                          int(saddle.primitive.plane_count), slack) &&
+        shows_torus_point(saddle.primitive, x, saddle.major))
+      t = root;
+  } while (t == kMiss && runs.waiting != 0);
+  if (t < kMiss) keep_nearest(index, saddle.primitive, k, t + ray.shift, nearest);
 }

@@ -3,6 +3,7 @@
 //
 // tile_lists.comp gives each tile the primitives that may show in it, by slices of their nearest distance; rays stop
 // where a slice begins behind their hits. The first sample goes through the pixel's centre and writes the exact point.
+// SOME_HIDDEN is defined if points of hidden atoms are no hits.
 #version 450 core
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -40,7 +41,6 @@ uniform vec3 up;
 uniform vec3 forward;
 uniform uint color_by_kind;
 uniform uint atom_count;
-uniform uint some_hidden;
 uniform vec3 key_direction;  // of studio_light
 uniform float key_strength;
 
@@ -58,9 +58,16 @@ Primitive load_primitive(uint index) {
   return Primitive(bound_of(index), uintBitsToFloat(a.x), a.y, a.z, a.w, b.x, b.y, b.z, b.w);
 }
 
+// Pixel k of this invocation's four. Consecutive invocations, which a vector holds, fill squares rather than rows.
+ivec2 pixel_of(int k) {
+  int i = int(gl_LocalInvocationIndex);
+  ivec2 quad = ivec2((i & 3) | (i >> 1 & 4), (i >> 2 & 1) | (i >> 3 & 6));
+  return 16 * ivec2(gl_WorkGroupID.xy) + 2 * quad + ivec2(k & 1, k >> 1);
+}
+
 // Rays are cheaper to make again than to keep where an index can reach them.
 vec3 ray_point(int k) {
-  ivec2 pixel = 2 * ivec2(gl_GlobalInvocationID.xy) + ivec2(k & 1, k >> 1);
+  ivec2 pixel = pixel_of(k);
   vec2 offset = (first_offset + vec2(pixel) + sample_offset) * pixel_size;
   return right * offset.x - up * offset.y;
 }
@@ -74,33 +81,89 @@ float eye_parameter(vec3 d) { return orthographic != 0u ? -eye_distance : -eye_d
 #include "gpu_shaders/ray_cast/intersect.glsl"
 #include "gpu_shaders/ray_cast/shade.glsl"
 
-Nearest trace(uint tile) {
-  Nearest nearest;
-  nearest.t = vec4(3.0e38);
-  nearest.primitive = uvec4(kNoPrimitive);
+// What an invocation walks through: a part of its tile's list, with the ray in the middle of its four.
+struct Walk {
+  int first;
+  int end;
+  vec3 p;
+  vec3 d;
+  float eye_t;
+  float spread;  // Å from the middle ray to the others
+};
+
+// The place of the next primitive after `i` that one of the four rays may meet, or the end.
+int next_candidate(Walk walk, int i, Nearest nearest) {
+  float farthest = max(max(nearest.t.x, nearest.t.y), max(nearest.t.z, nearest.t.w));
+  bool found = true;
+  do {
+    ++i;
+    uint index = texelFetch(entries, i).x;
+    // All that follow begin no earlier than the slice of this one; to ask each would cost more than it saves.
+    if (i < walk.end && ((i - walk.first) & 7) == 0 &&
+        slice_begin(slice_of(nearest_of(index))) + walk.eye_t - walk.spread > farthest)
+      i = walk.end;
+    found = i >= walk.end || !misses_bound(bound_of(index), walk.p, walk.d, walk.eye_t, walk.spread, farthest);
+  } while (!found);
+  return min(i, walk.end);
+}
+
+void trace_spheres(Walk walk, inout Nearest nearest) {
   Rays rays;
   for (int k = 0; k < 4; ++k) {
     rays.p[k] = ray_point(k);
     rays.d[k] = ray_direction(rays.p[k]);
   }
-  vec3 middle_p = 0.5 * (rays.p[0] + rays.p[3]);
-  vec3 middle_d = ray_direction(middle_p);
-  float eye_t = eye_parameter(middle_d);
+  int i = next_candidate(walk, walk.first - 1, nearest);
+  do {
+    if (i < walk.end) {
+      uint index = texelFetch(entries, i).x;
+      hit_clipped_sphere(index, load_primitive(index), rays, nearest);
+    }
+    i = next_candidate(walk, i, nearest);
+  } while (i < walk.end);
+}
+
+void trace_tori(Walk walk, inout Nearest nearest) {
+  int i = walk.first - 1;
+  uint index = 0u;
+  uint waiting = 0u;  // bits of rays that may meet torus `index`
+  do {
+    if (waiting != 0u) {
+      int k = findLSB(waiting);
+      waiting &= waiting - 1u;
+      hit_toroidal(index, k, nearest);
+    }
+    do {
+      if (waiting == 0u && i < walk.end) {
+        i = next_candidate(walk, i, nearest);
+        if (i < walk.end) {
+          index = texelFetch(entries, i).x;
+          waiting = rays_towards_torus(index, nearest);
+        }
+      }
+    } while (waiting == 0u && i < walk.end);
+  } while (waiting != 0u);
+}
+
+// Software GL runs every branch for all lanes of a vector. So each invocation first walks, cheaply, to what it has to
+// look at next, and then all of them look.
+Nearest trace(uint tile) {
+  Nearest nearest;
+  nearest.t = vec4(kMiss);
+  nearest.primitive = nearest.kind = nearest.tie_key = uvec4(kNoPrimitive);
+  Walk walk;
+  walk.p = 0.5 * (ray_point(0) + ray_point(3));
+  walk.d = ray_direction(walk.p);
+  walk.eye_t = eye_parameter(walk.d);
   // The four rays lie half a pixel's diagonal from the middle; a little more covers their rounding.
-  float spread = 0.75 * pixel_size;
-  int slot = int(kSliceCount * tile);
-  int first = tile == 0u ? 0 : int(texelFetch(slot_ends, slot - 1).x);
-  int end = int(texelFetch(slot_ends, slot + int(kSliceCount) - 1).x);
-  for (int i = first; i < end; ++i) {
-    uint index = texelFetch(entries, i).x;
-    float farthest = max(max(nearest.t.x, nearest.t.y), max(nearest.t.z, nearest.t.w));
-    // All that follow begin no earlier than the slice of this one; to ask each would cost more than it saves.
-    if (((i - first) & 7) == 0 && slice_begin(slice_of(nearest_of(index))) + eye_t - spread > farthest) break;
-    if (misses_bound(bound_of(index), middle_p, middle_d, eye_t, spread, farthest)) continue;
-    Primitive primitive = load_primitive(index);
-    if (primitive.kind == kToroidal) hit_toroidal(index, primitive, nearest);
-    else hit_clipped_sphere(index, primitive, rays, nearest);
-  }
+  walk.spread = 0.75 * pixel_size;
+  int slot = int(kSlotsPerTile * tile);
+  walk.first = tile == 0u ? 0 : int(texelFetch(slot_ends, slot - 1).x);
+  walk.end = int(texelFetch(slot_ends, slot + int(kSliceCount) - 1).x);
+  trace_spheres(walk, nearest);
+  walk.first = walk.end;
+  walk.end = int(texelFetch(slot_ends, slot + int(kSlotsPerTile) - 1).x);
+  trace_tori(walk, nearest);
   return nearest;
 }
 
@@ -130,7 +193,7 @@ void write_pixel(ivec2 pixel, vec3 p, float t, uint index) {
 void main() {
   Nearest nearest = trace(gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x);
   for (int k = 0; k < 4; ++k) {
-    ivec2 pixel = 2 * ivec2(gl_GlobalInvocationID.xy) + ivec2(k & 1, k >> 1);
+    ivec2 pixel = pixel_of(k);
     if (pixel.x < size.x && pixel.y < size.y) write_pixel(pixel, ray_point(k), nearest.t[k], nearest.primitive[k]);
   }
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Which primitives may show in which tile, by slices of depth. Order within a slice is left to chance.
-// Pass 0: counts[kSliceCount * tile + slice] += 1 for each tile that a primitive's bound touches.
+// Pass 0: counts[slot of tile, kind and slice] += 1 for each tile that a primitive's bound touches.
 // Pass 1: counts hold their prefix sums; each primitive takes the next place of its slot, so that in the end each
 //         count is where its slot ends and the next one begins.
 #version 450 core
@@ -8,6 +8,7 @@ layout(local_size_x = 64) in;
 #include "gpu_shaders/shared/linear_index.glsl"
 #include "gpu_shaders/ray_cast/depth_slices.glsl"
 #include "gpu_shaders/ray_cast/bound_footprint.glsl"
+#include "gpu_shaders/ray_cast/records.glsl"
 
 layout(binding = 0) uniform usamplerBuffer primitive_texels;  // three texels each: struct Primitive
 layout(std430, binding = 0) buffer Counts { uint counts[]; };
@@ -25,10 +26,10 @@ shared uint wide_count;
 shared uint wide_primitive[64];
 shared ivec4 wide_footprint[64];
 
-void add_to_tile(uint primitive, float nearest, ivec2 tile) {
+void add_to_tile(uint primitive, float nearest, uint slot_in_tile, ivec2 tile) {
   ivec2 of_picture = first_tile + tile;
   if (bounded != 0u && nearest > tile_depth[of_picture.y * picture_tile_columns + of_picture.x]) return;
-  uint place = atomicAdd(counts[kSliceCount * uint(tile.y * tiles.x + tile.x) + slice_of(nearest)], 1u);
+  uint place = atomicAdd(counts[kSlotsPerTile * uint(tile.y * tiles.x + tile.x) + slot_in_tile], 1u);
 #if PASS == 1
   entries[place] = primitive;
 #endif
@@ -38,6 +39,11 @@ float nearest_of(uint primitive) {
   return uintBitsToFloat(texelFetch(primitive_texels, int(3u * primitive + 1u)).x);
 }
 
+uint slot_of(uint primitive) {
+  uint kind = texelFetch(primitive_texels, int(3u * primitive + 1u)).w;
+  return (kind == kToroidal ? kSliceCount : 0u) + slice_of(nearest_of(primitive));
+}
+
 void main() {
   if (gl_LocalInvocationIndex == 0u) wide_count = 0u;
   barrier();
@@ -45,22 +51,24 @@ void main() {
   if (primitive < primitive_count) {
     ivec4 footprint = bound_footprint(uintBitsToFloat(texelFetch(primitive_texels, int(3u * primitive))));
     float nearest = nearest_of(primitive);
+    uint slot = slot_of(primitive);
     if ((footprint.y - footprint.x) * (footprint.w - footprint.z) > kNarrow) {
       uint place = atomicAdd(wide_count, 1u);
       wide_primitive[place] = primitive;
       wide_footprint[place] = footprint;
     } else {
       for (int y = footprint.z; y < footprint.w; ++y)
-        for (int x = footprint.x; x < footprint.y; ++x) add_to_tile(primitive, nearest, ivec2(x, y));
+        for (int x = footprint.x; x < footprint.y; ++x) add_to_tile(primitive, nearest, slot, ivec2(x, y));
     }
   }
   barrier();
   for (uint n = 0u; n < wide_count; ++n) {
     ivec4 footprint = wide_footprint[n];
     float nearest = nearest_of(wide_primitive[n]);
+    uint slot = slot_of(wide_primitive[n]);
     int width = footprint.y - footprint.x;
     int area = width * (footprint.w - footprint.z);
     for (int i = int(gl_LocalInvocationIndex); i < area; i += 64)
-      add_to_tile(wide_primitive[n], nearest, ivec2(footprint.x + i % width, footprint.z + i / width));
+      add_to_tile(wide_primitive[n], nearest, slot, ivec2(footprint.x + i % width, footprint.z + i / width));
   }
 }

@@ -27,12 +27,20 @@ uint toroidal_atom(Primitive primitive, vec3 x, float major) {
   return toroidal_second_atom(x, major, atoms.x, atoms.y, atoms.z, atoms.w) ? primitive.second_atom : primitive.atom;
 }
 
+// Not asked where nothing is hidden: software GL would pay for the answer all the same.
+#ifdef SOME_HIDDEN
+
 // x: from the centre of a convex or concave patch.
 bool shows_sphere_point(Primitive primitive, vec3 x, float radius) {
-  if (some_hidden == 0u) return true;
   return shows(primitive.kind == kConvex ? primitive.atom : concave_atom(primitive, x, radius));
 }
 
-bool shows_torus_point(Primitive primitive, vec3 x, float major) {
-  return some_hidden == 0u || shows(toroidal_atom(primitive, x, major));
-}
+bool shows_torus_point(Primitive primitive, vec3 x, float major) { return shows(toroidal_atom(primitive, x, major)); }
+
+#else
+
+bool shows_sphere_point(Primitive primitive, vec3 x, float radius) { return true; }
+
+bool shows_torus_point(Primitive primitive, vec3 x, float major) { return true; }
+
+#endif

@@ -51,7 +51,7 @@ TEST(RayGeometryOnGpu, FindsTheRootsOfTheDoubleVersion) {
     for (int i = 0; i < count; ++i) {
       // A root moves by the error of the distance over the slope of the distance.
       const auto f = geometry::torus_factors(q.origin, q.direction, q.major, (q.major - q.minor) * (q.major + q.minor),
-                                             exact.t[i]);
+                                             exact.t[i], 1.0);
       const double slope = std::abs(f.apple_slope) / (2.0 * q.minor);
       EXPECT_LT(std::abs(answers[n].torus_t[i] - exact.t[i]) * std::min(slope, 1.0), 2e-5 / std::min(q.minor, 1.0))
           << n;

@@ -213,6 +213,7 @@ TEST_F(GpuScenes, NoTileMissesABound) {
       if (where == 1) center = frame.camera.position + vector() * radius;
       if (where == 2) center = frame.camera.position + frame.basis.forward * along + vector() * radius * 1.5;
       p.bound = glm::vec4(glm::vec3(center - frame.pivot), static_cast<float>(radius + 1e-4));
+      p.kind = static_cast<std::uint32_t>(where);
       p.nearest = static_cast<float>(glm::length(center - frame.camera.position) - radius);
     }
     GpuScene scene;
@@ -221,11 +222,11 @@ TEST_F(GpuScenes, NoTileMissesABound) {
     scene.last_depth = 80.0f;
     const PictureBlock block{{n % 2 ? kTileEdge : 0, 0}, {100, 150}};
     lists.build(scene, frame, block);
-    const std::size_t slots = static_cast<std::size_t>(lists.tiles().x) * lists.tiles().y * kSliceCount;
+    const std::size_t slots = static_cast<std::size_t>(lists.tiles().x) * lists.tiles().y * kSlotsPerTile;
     const auto ends = lists.slot_ends().download<std::uint32_t>(slots);
     const auto entries = lists.entries().download<std::uint32_t>(ends.back());
-    for (std::size_t tile = 0; tile < slots / kSliceCount; ++tile) {
-      const std::uint32_t begin = tile ? ends[tile * kSliceCount - 1] : 0, end = ends[(tile + 1) * kSliceCount - 1];
+    for (std::size_t tile = 0; tile < slots / kSlotsPerTile; ++tile) {
+      const std::uint32_t begin = tile ? ends[tile * kSlotsPerTile - 1] : 0, end = ends[(tile + 1) * kSlotsPerTile - 1];
       const std::set<std::uint32_t> list(entries.begin() + begin, entries.begin() + end);
       EXPECT_EQ(list.size(), end - begin) << "one is listed twice";
       listed += static_cast<int>(list.size());
