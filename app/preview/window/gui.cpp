@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <cfloat>
 #include <set>
+#include <utility>
 
 #include <backends/imgui_impl_glfw.h>
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
+#include <imgui_internal.h>
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
@@ -34,7 +36,9 @@ void set_colors(ImVec4* colors) {
   colors[ImGuiCol_FrameBg] = colors[ImGuiCol_Button] = colors[ImGuiCol_Header] = kField;
   colors[ImGuiCol_FrameBgHovered] = colors[ImGuiCol_ButtonHovered] = colors[ImGuiCol_HeaderHovered] = kFieldHovered;
   colors[ImGuiCol_FrameBgActive] = colors[ImGuiCol_ButtonActive] = colors[ImGuiCol_HeaderActive] = kFieldActive;
-  colors[ImGuiCol_SliderGrab] = colors[ImGuiCol_SliderGrabActive] = colors[ImGuiCol_CheckMark] = kAccent;
+  colors[ImGuiCol_CheckMark] = kAccent;
+  colors[ImGuiCol_SliderGrab] = ImVec4(kAccent.x, kAccent.y, kAccent.z, 0.40f);  // the number shows through
+  colors[ImGuiCol_SliderGrabActive] = ImVec4(kAccent.x, kAccent.y, kAccent.z, 0.60f);
   colors[ImGuiCol_PlotHistogram] = kAccent;
   colors[ImGuiCol_TableRowBgAlt] = ImVec4(0.0f, 0.0f, 0.0f, 0.03f);
 }
@@ -95,6 +99,7 @@ void Gui::begin() {
   ImGui_ImplGlfw_NewFrame();
   hand_on();
   ImGui::NewFrame();
+  if (std::exchange(lists_close_, false)) ImGui::ClosePopupToLevel(0, true);
 }
 
 bool Gui::end() {

@@ -30,6 +30,7 @@ class Gui {
   float em() const { return em_; }
   /// True while a list hangs open, which may lie over the picture.
   static bool list_open();
+  void close_lists() { lists_close_ = true; }
   /// True while a field is typed into.
   static bool typing();
 
@@ -41,6 +42,7 @@ class Gui {
   std::array<bool, 3> held_{};  // buttons, as handed on
   glm::dvec2 pointer_{0.0};     // ImGui's units, as handed on
   bool inside_ = false;
+  bool lists_close_ = false;
   float em_ = 0.0f;
 };
 

@@ -22,7 +22,7 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr float kLargestSliderProbe = 10.0f;  // Å; larger ones can be typed
-constexpr float kFooterLines = 3.3f;          // room for a fault
+constexpr float kFooterLines = 2.3f;          // room for a fault
 
 void heading(const char* text) {
   ImGui::Dummy({0.0f, 0.2f * ImGui::GetFontSize()});

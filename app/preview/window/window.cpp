@@ -158,8 +158,9 @@ void PreviewWindow::take_pointer(const InputEvent& event, bool elsewhere) {
 }
 
 void PreviewWindow::take_key(const InputEvent& event) {
-  if (Gui::typing() || Gui::list_open()) return;
+  if (Gui::typing()) return;
   const KeyMeaning meaning = key_meaning(event, link_.state());
+  if (Gui::list_open() && meaning.action == WindowAction::leave) return gui_.close_lists();
   if (meaning.command) link_.send(*meaning.command);
   if (!meaning.action) return;
   switch (*meaning.action) {
