@@ -73,13 +73,16 @@ FrameRequest PreviewSession::request(Quality quality) const {
   return request;
 }
 
-void PreviewSession::render(Quality quality) {
-  if (is_drawn(quality)) return;
+bool PreviewSession::render(Quality quality, std::function<bool()> stop) {
+  if (is_drawn(quality)) return true;
   drawn_ = {};
   const auto begin = std::chrono::steady_clock::now();
-  renderer_.render(request(quality));
+  FrameRequest frame = request(quality);
+  frame.stop = std::move(stop);
+  if (!renderer_.render(frame)) return false;
   frame_ms_ = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
   drawn_ = {revision_, quality};
+  return true;
 }
 
 }  // namespace meniscus

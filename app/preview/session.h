@@ -68,9 +68,10 @@ class PreviewSession {
   /// Does the command only ask: state, stats, or a pick that does not wait? Anybody may, and nobody records it.
   static bool is_question(const nlohmann::json& command);
 
-  /// Draws, unless this very picture is there already. Throws GpuError, CapacityError, OpenSurfaceError; but for the
-  /// first of them the session can go on.
-  void render(Quality quality);
+  /// Draws, unless this very picture is there already. stop: asked now and then; if true, the picture is given up:
+  /// false, and the last one stays. Throws GpuError, CapacityError, OpenSurfaceError; but for the first of them the
+  /// session can go on.
+  bool render(Quality quality, std::function<bool()> stop = {});
   /// Is the last picture what render(quality) would draw?
   bool is_drawn(Quality quality) const;
 

@@ -166,8 +166,8 @@ void RayCaster::render_block(const PictureBlock& inner, Collected& collected) {
   });
 }
 
-void RayCaster::cast(const GpuScene& scene, const PictureFrame& frame, const PictureBlock& block, int sample_count,
-                     const Look& look) {
+bool RayCaster::cast(const GpuScene& scene, const PictureFrame& frame, const PictureBlock& block, int sample_count,
+                     const Look& look, const std::function<bool()>& stop) {
   {
     const GpuStage stage(clock_, "tile lists");
     lists_.build(scene, frame, block);
@@ -190,6 +190,7 @@ void RayCaster::cast(const GpuScene& scene, const PictureFrame& frame, const Pic
   program.set("key_strength", look.light_strength);
   row_texels_.view(scene.rows);
   for (int n = 0; n < sample_count; ++n) {
+    if (n > 0 && stop && stop()) return false;
     const CastSample sample{look.has_effects() ? sample_colors_ : picture_,
                             n && look.has_effects() ? sample_hits_ : hits_, static_cast<std::uint32_t>(n),
                             sample_offset(n)};
@@ -201,6 +202,7 @@ void RayCaster::cast(const GpuScene& scene, const PictureFrame& frame, const Pic
     const GpuStage stage(clock_, "look");
     look_pass_.add(sample, look, scene, frame, block, picture_);
   }
+  return true;
 }
 
 const Program& RayCaster::kernel(const GpuScene& scene) {

@@ -2,6 +2,8 @@
 // Pictures of the analytic surface: sphere, torus and clipped concave sphere, one ray a sample, never a mesh.
 #pragma once
 
+#include <functional>
+
 #include "core/base/stage_clock.h"
 #include "core/gpu/program.h"
 #include "core/gpu/texel_buffer.h"
@@ -39,12 +41,14 @@ class RayCaster {
 
   /// Casts a block of a picture of a scene that is on the GPU already and leaves it there, in picture() and hits().
   /// frame.size is that of the whole picture. The look's effects see nothing of what lies outside the block, and its
-  /// background is not used. Throws GpuError; CapacityError if the block is too large for this GPU.
-  void cast(const GpuScene& scene, const PictureFrame& frame, const PictureBlock& block, int sample_count,
-            const Look& look);
+  /// background is not used. stop: asked between samples; if true, the block is given up: false, and no picture. Throws
+  /// GpuError; CapacityError if the block is too large for this GPU.
+  bool cast(const GpuScene& scene, const PictureFrame& frame, const PictureBlock& block, int sample_count,
+            const Look& look, const std::function<bool()>& stop = {});
   /// Casts the whole picture.
-  void cast(const GpuScene& scene, const PictureFrame& frame, int sample_count, const Look& look = {}) {
-    cast(scene, frame, {{0, 0}, frame.size}, sample_count, look);
+  bool cast(const GpuScene& scene, const PictureFrame& frame, int sample_count, const Look& look = {},
+            const std::function<bool()>& stop = {}) {
+    return cast(scene, frame, {{0, 0}, frame.size}, sample_count, look, stop);
   }
 
   /// Of the last block, row by row from the top: vec4 per pixel, the sum of its samples, linear and premultiplied.

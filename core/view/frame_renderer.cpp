@@ -28,7 +28,7 @@ void FrameRenderer::set_atoms(std::vector<Ball> atoms) { state_->pipeline.set_at
 
 void FrameRenderer::set_coloring(Coloring coloring) { upload_coloring(coloring, state_->scene); }
 
-void FrameRenderer::render(const FrameRequest& request) {
+bool FrameRenderer::render(const FrameRequest& request) {
   const std::vector<Ball>& atoms = state_->pipeline.atoms();
   assert(state_->scene.atom_count == atoms.size());
   validate_camera(request.camera, "camera");
@@ -39,11 +39,12 @@ void FrameRenderer::render(const FrameRequest& request) {
   }
   state_->pipeline.run(state_->frame, request.probe_radius, request.extent, state_->scene);
   state_->caster.restart_times();
-  state_->caster.cast(state_->scene, state_->frame, request.samples, request.look);
+  if (!state_->caster.cast(state_->scene, state_->frame, request.samples, request.look, request.stop)) return false;
   for (const auto* times : {&state_->pipeline.times(), &state_->caster.times()})
     for (const StageTime& stage : *times) clock_.add(stage.name, stage.milliseconds);
   const GpuStage stage(clock_, "finish");
   state_->presenter.present(state_->caster.picture(), request.size, request.samples, request.look.background);
+  return true;
 }
 
 std::vector<std::uint8_t> FrameRenderer::rgba() const { return state_->presenter.rgba(); }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -28,6 +29,7 @@ struct FrameRequest {
   double probe_radius = 1.4;   ///< Å, >= 0
   Extent extent = Extent::visible;
   Look look;
+  std::function<bool()> stop;  ///< asked now and then; if true, the picture is given up
 };
 
 /// What the ray through the centre of a pixel hits.
@@ -49,9 +51,9 @@ class FrameRenderer {
   /// One colour per atom; to be set after atoms of another number and before the next picture.
   void set_coloring(Coloring coloring);
 
-  /// Draws; the picture stays on the GPU. Throws GpuError, CapacityError, OpenSurfaceError, InputError for a bad
-  /// camera.
-  void render(const FrameRequest& request);
+  /// Draws; the picture stays on the GPU. False if it was given up: then the texture shows the one before, and there is
+  /// nothing to pick. Throws GpuError, CapacityError, OpenSurfaceError, InputError for a bad camera.
+  bool render(const FrameRequest& request);
 
   /// The last picture, 8 bit sRGB and alpha (255) per pixel, rows from the top.
   std::vector<std::uint8_t> rgba() const;

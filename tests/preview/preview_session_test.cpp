@@ -131,6 +131,22 @@ TEST_F(PreviewSessionTest, EveryModelIsAFrame) {
   EXPECT_EQ(session_->rgba(), first);
 }
 
+TEST_F(PreviewSessionTest, PicturesCanBeGivenUpBetweenSamples) {
+  ASSERT_TRUE(session_->render(Quality::draft));
+  const auto draft = session_->rgba();
+  expect_ok(R"({"command":"samples","count":4})");
+  int asked = 0;
+  EXPECT_FALSE(session_->render(Quality::full, [&] { return ++asked == 2; }));
+  EXPECT_EQ(asked, 2);
+  EXPECT_FALSE(session_->is_drawn(Quality::full));
+  EXPECT_EQ(session_->rgba(), draft);
+  ASSERT_TRUE(session_->render(Quality::full, [] { return false; }));
+  const auto full = session_->rgba();
+  expect_ok(R"({"command":"samples","count":4})");
+  ASSERT_TRUE(session_->render(Quality::full));
+  EXPECT_EQ(session_->rgba(), full);
+}
+
 TEST_F(PreviewSessionTest, DraftsAreHalfTheSize) {
   session_->render(Quality::draft);
   EXPECT_EQ(session_->picture_size(), glm::ivec2(40, 30));

@@ -203,11 +203,15 @@ TEST(Window, RefusesADeviceThatItCannotChoose) {
 }
 
 TEST_F(WindowTest, ARefusedCommandOfAReplayIsNamedByItsLine) {
-  const std::string file =
-      folder_.file("bad.jsonl", "{\"command\":\"reset_view\"}\n\n{\"command\":\"probe\",\"radius\":-1}\n");
-  const ProgramResult result = run_program(kProgram, with({"--commands", file}), 200);
-  EXPECT_EQ(result.exit_code, 3);
-  EXPECT_NE(result.err.find("bad.jsonl:3: probe: "), std::string::npos) << result.err;
+  for (const char* command : {R"({"command":"probe","radius":-1})", R"({"command":"look"})", R"([1])",
+                              R"({"command":5})", R"({"command":"probe","radius":"x"})"}) {
+    const std::string file = folder_.file(
+        "bad.jsonl", std::string("{\"command\":\"pause\"}\n\n") + command + "\n" + R"({"command":"nonsense"})");
+    const ProgramResult result = run_program(kProgram, with({"--commands", file}), 200);
+    EXPECT_EQ(result.exit_code, 3) << command;
+    const std::string line = std::string(command).find("look") == std::string::npos ? "3" : "4";
+    EXPECT_NE(result.err.find("bad.jsonl:" + line + ": "), std::string::npos) << command << result.err;
+  }
 }
 
 }  // namespace

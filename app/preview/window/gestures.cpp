@@ -6,6 +6,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "app/preview/window/command_word.h"
+
 namespace meniscus {
 namespace {
 
@@ -14,7 +16,7 @@ constexpr double kDoubleClickSeconds = 0.35;  // between two clicks
 constexpr double kZoomPerNotch = 1.1;
 
 void add_movement(const char* word, glm::dvec2 drag, std::vector<nlohmann::json>& commands) {
-  if (!commands.empty() && commands.back().value("command", "") == word) {
+  if (!commands.empty() && command_word(commands.back()) == word) {
     drag.x += commands.back()["dx"].get<double>();
     drag.y += commands.back()["dy"].get<double>();
     commands.pop_back();
@@ -23,7 +25,7 @@ void add_movement(const char* word, glm::dvec2 drag, std::vector<nlohmann::json>
 }
 
 void add_zoom(double factor, std::vector<nlohmann::json>& commands) {
-  if (!commands.empty() && commands.back().value("command", "") == "zoom") {
+  if (!commands.empty() && command_word(commands.back()) == "zoom") {
     factor *= commands.back()["factor"].get<double>();
     commands.pop_back();
   }

@@ -7,6 +7,8 @@
 #include <optional>
 #include <string>
 
+#include "app/preview/window/command_word.h"
+
 namespace meniscus {
 namespace {
 
@@ -19,7 +21,7 @@ double quantile(const std::vector<double>& sorted, double share) {
 }  // namespace
 
 void LatencyMeter::sent(std::uint64_t number, const nlohmann::json& command, double time) {
-  const std::string word = command.value("command", "");
+  const std::string word = command_word(command);
   for (const char* movement : {"orbit", "pan", "zoom", "probe", "frame", "next_frame"})
     if (word == movement) waiting_.push_back({number, time});
 }

@@ -11,7 +11,9 @@
 #include <imgui_stdlib.h>
 
 #include "app/preview/look_json.h"
+#include "app/preview/window/command_word.h"
 #include "app/preview/window/keys.h"
+#include "core/base/text.h"
 #include "core/molecule/color_maps.h"
 #include "core/molecule/color_schemes.h"
 #include "core/molecule/named_colors.h"
@@ -102,7 +104,7 @@ void Panel::title() {
   const Json& state = link_.state();
   const std::string file = state["file"];
   plain(file.substr(file.rfind('/') + 1));
-  ImGui::TextDisabled("%s atoms", fmt::format("{}", state["atoms"].get<std::size_t>()).c_str());
+  ImGui::TextDisabled("%s atoms", with_thousands(state["atoms"].get<std::size_t>()).c_str());
 }
 
 void Panel::surface() {
@@ -285,7 +287,7 @@ void Panel::timing() {
 void Panel::show_reply(const SessionReply& reply) {
   line_is_fault_ = !reply.reply.value("ok", false);
   if (line_is_fault_) line_ = reply.reply.value("error", "the command failed");
-  if (!line_is_fault_ && reply.command.value("command", "") == "export")
+  if (!line_is_fault_ && command_word(reply.command) == "export")
     line_ = "written: " + reply.reply.value("path", std::string());
 }
 
@@ -295,7 +297,7 @@ void Panel::status() {
   const auto& busy = link_.news().busy_seconds;
   const std::string& trouble = link_.news().trouble;
   if (busy && *busy > kPatience)
-    plain(fmt::format("working, {:.0f} s ...", std::floor(*busy)));
+    plain(fmt::format("{}working, {:.0f} s ...", link_.has_state() ? "" : "the first picture: ", std::floor(*busy)));
   else if (!trouble.empty() || line_is_fault_)
     fault(trouble.empty() ? line_ : trouble);
   else if (!line_.empty())

@@ -2,11 +2,17 @@
 // Foresight: a switch moves when it is clicked, though the picture may take a while.
 #include "app/preview/window/session_link.h"
 
+#include "app/preview/window/command_word.h"
+
 namespace meniscus {
 
 std::uint64_t SessionLink::send(const nlohmann::json& command) {
-  sent_ = thread_.post(command);
   if (has_state()) foresee(command, state_);
+  return replay(command);
+}
+
+std::uint64_t SessionLink::replay(const nlohmann::json& command) {
+  sent_ = thread_.post(command);
   if (witness_) witness_(sent_, command);
   return sent_;
 }
@@ -22,7 +28,7 @@ bool SessionLink::update() {
 }
 
 void foresee(const nlohmann::json& command, nlohmann::json& state) {
-  const std::string word = command.value("command", "");
+  const std::string word = command_word(command);
   if (word == "probe") state["probe_radius"] = command["radius"];
   if (word == "projection") state["camera"]["projection"] = command["projection"];
   if (word == "patch_kinds") state["patch_kinds"] = command["on"];

@@ -25,6 +25,8 @@ class SessionLink {
 
   /// The number of the command.
   std::uint64_t send(const nlohmann::json& command);
+  /// The same for a command that may be wrong in any way.
+  std::uint64_t replay(const nlohmann::json& command);
   /// Takes the news; true if there is something new to see. Throws what ended the session.
   bool update();
 
@@ -52,7 +54,7 @@ class SessionLink {
   std::uint64_t sent_ = 0;
 };
 
-/// The state after a command, as far as a window can tell: switches, sliders and frames.
+/// The state after a command that is right, as far as a window can tell: switches, sliders and frames.
 void foresee(const nlohmann::json& command, nlohmann::json& state);
 
 }  // namespace meniscus

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "app/preview/window/command_word.h"
 #include "core/base/error.h"
 #include "core/gpu/context_description.h"
 
@@ -65,6 +66,10 @@ SessionNews SessionThread::take_news() {
 }
 
 void SessionThread::run(const ForeignContext& sibling, const Make& make) {
+  {
+    const std::scoped_lock lock(mutex_);
+    busy_since_ = Clock::now();
+  }
   try {
     const EglContext context(sibling);
     const std::unique_ptr<PreviewSession> session = make();
@@ -123,13 +128,22 @@ void SessionThread::carry_out(PreviewSession& session, SessionReply& command) {
   last_change_ = Clock::now();
 }
 
+/// Does a command wait that will change the view, or is it all over?
+bool SessionThread::something_new_waits() {
+  const std::scoped_lock lock(mutex_);
+  return stop_ || std::ranges::any_of(queue_, [](const SessionReply& waiting) {
+           return !PreviewSession::is_question(waiting.command) && command_word(waiting.command) != "export";
+         });
+}
+
 void SessionThread::draw(PreviewSession& session) {
   const std::optional<Quality> drawn = quality_drawn(session);
   if (trouble_.empty() && (!drawn || *drawn < wanted_)) {
     try {
       const Clock::time_point begin = Clock::now();
-      session.render(wanted_);
+      const bool whole = session.render(wanted_, [this] { return something_new_waits(); });
       require_living_context();
+      if (!whole) return;
       pictures_.offer(session.texture(), session.picture_size());
       if (wanted_ == Quality::full) rest_ = std::clamp(Clock::now() - begin, kRest, kLongestRest);
     } catch (const CapacityError& error) {

@@ -67,6 +67,7 @@ class SessionThread {
   std::deque<SessionReply> next_commands(const PreviewSession& session);
   bool rests(std::unique_lock<std::mutex>& lock, Clock::duration pause);
   void carry_out(PreviewSession& session, SessionReply& command);
+  bool something_new_waits();
   void draw(PreviewSession& session);
   void tell(PreviewSession& session, bool full);
 

@@ -10,6 +10,7 @@
 #include <imgui.h>
 
 #include "app/preview/window/atom_question.h"
+#include "app/preview/window/command_word.h"
 #include "app/preview/window/desktop_window.h"
 #include "app/preview/window/gestures.h"
 #include "app/preview/window/gui.h"
@@ -124,7 +125,7 @@ double PreviewWindow::patience() {
 
 void PreviewWindow::note(std::uint64_t number, const Json& command) {
   latency_.sent(number, command, window_.seconds());
-  const std::string word = command.value("command", "");
+  const std::string word = command_word(command);
   if (word == "pick" || word == "export") return;
   hover_.forget();
   clicked_.stop();
@@ -207,7 +208,7 @@ void PreviewWindow::take_reply(const SessionReply& reply) {
 void PreviewWindow::go_on() {
   if (!link_.settled() || window_.closing()) return;
   if (next_ < options_.commands.size()) {
-    const std::uint64_t number = link_.send(options_.commands[next_]);
+    const std::uint64_t number = link_.replay(options_.commands[next_]);
     if (next_++ == 0) first_number_ = number;
     return;
   }
@@ -235,6 +236,7 @@ void PreviewWindow::draw() {
   const SharedPicture picture = link_.picture();
   const std::uint64_t shown = link_.news().shown;
   glViewport(0, 0, window_.pixels().x, window_.pixels().y);
+  glClearColor(1.0f, 1.0f, 1.0f, 1.0f);
   glClear(GL_COLOR_BUFFER_BIT);
   if (picture.texture) view_.show(picture.texture, picture.size, picture_area(), window_.pixels());
   if (gui_.end()) redraws_ = std::max(redraws_, 1);
