@@ -196,7 +196,9 @@ bool RayCaster::cast(const GpuScene& scene, const PictureFrame& frame, const Pic
                             sample_offset(n)};
     {
       const GpuStage stage(clock_, "ray cast");
-      cast_sample(scene, sample, n > 0 && !look.has_effects());
+      const bool add = n > 0 && !look.has_effects();
+      if (!add) lists_.clear_empty(block, sample.colors, sample.hits);
+      cast_sample(scene, sample, add);
     }
     if (!look.has_effects()) continue;
     const GpuStage stage(clock_, "look");
@@ -212,14 +214,13 @@ const Program& RayCaster::kernel(const GpuScene& scene) {
 
 void RayCaster::cast_sample(const GpuScene& scene, const CastSample& sample, bool add) {
   const Program& program = kernel(scene);
-  lists_.bind(0, 2, 3);
   row_texels_.bind(1);
   scene.colors.bind(0);
   sample.colors.bind(1);
   sample.hits.bind(2);
   program.set("add", add ? 1u : 0u);
   program.set("sample_offset", sample.offset);
-  program.dispatch_2d(static_cast<std::uint32_t>(lists_.tiles().x), static_cast<std::uint32_t>(lists_.tiles().y));
+  lists_.dispatch(program);
 }
 
 }  // namespace meniscus

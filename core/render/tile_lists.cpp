@@ -3,6 +3,7 @@
 #include "core/render/tile_lists.h"
 
 #include <string>
+#include <vector>
 
 namespace meniscus {
 
@@ -43,6 +44,7 @@ void TileLists::build(const GpuScene& scene, const PictureFrame& frame, const Pi
   run(1, scene, frame, block);
   slot_texels_.view(counts_);
   entry_texels_.view(entries_);
+  split_tiles();
 }
 
 void TileLists::run(int pass, const GpuScene& scene, const PictureFrame& frame, const PictureBlock& block) {
@@ -64,10 +66,36 @@ void TileLists::run(int pass, const GpuScene& scene, const PictureFrame& frame, 
   program.dispatch(group_count(scene.primitive_count));
 }
 
-void TileLists::bind(std::uint32_t primitives, std::uint32_t slot_ends, std::uint32_t entries) const {
-  primitive_texels_.bind(primitives);
-  slot_texels_.bind(slot_ends);
-  entry_texels_.bind(entries);
+void TileLists::split_tiles() {
+  const auto tile_count = static_cast<std::uint32_t>(tiles_.x * tiles_.y);
+  tile_order_.resize(tile_count * sizeof(std::uint32_t));
+  dispatches_.upload(std::vector<std::uint32_t>{0, 1, 1, 0, 0, 1, 1, 0});
+  slot_texels_.bind(0);
+  tile_order_.bind(0);
+  dispatches_.bind(1);
+  const Program& program = programs_.get("gpu_shaders/ray_cast/split_tiles.comp");
+  program.set("tile_count", tile_count);
+  program.dispatch(group_count(tile_count));
+  order_texels_.view(tile_order_);
+}
+
+void TileLists::dispatch(const Program& ray_cast) const {
+  primitive_texels_.bind(0);
+  slot_texels_.bind(2);
+  entry_texels_.bind(3);
+  order_texels_.bind(4);
+  ray_cast.set("tiles", tiles_);
+  ray_cast.dispatch_indirect(dispatches_);
+}
+
+void TileLists::clear_empty(const PictureBlock& block, const Buffer& picture, const Buffer& hits) const {
+  order_texels_.bind(0);
+  picture.bind(1);
+  hits.bind(2);
+  const Program& program = programs_.get("gpu_shaders/ray_cast/empty_tiles.comp");
+  program.set("size", block.size);
+  program.set("tiles", tiles_);
+  program.dispatch_indirect(dispatches_, 4 * sizeof(std::uint32_t));
 }
 
 }  // namespace meniscus

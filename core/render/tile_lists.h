@@ -38,18 +38,22 @@ class TileLists {
   const Buffer& slot_ends() const { return counts_; }
   const Buffer& entries() const { return entries_; }  ///< uint32 each: places in GpuScene::primitives
 
-  /// Texels for `primitive_texels`, `slot_ends` and `entries` of a kernel, at these units.
-  void bind(std::uint32_t primitives, std::uint32_t slot_ends, std::uint32_t entries) const;
+  /// Binds what gpu_shaders/ray_cast/ray_cast.comp fetches and starts it, a group for each tile that lists something.
+  void dispatch(const Program& ray_cast) const;
+  /// Writes what rays see in the other tiles. Both buffers as RayCaster leaves them.
+  void clear_empty(const PictureBlock& block, const Buffer& picture, const Buffer& hits) const;
 
  private:
+  void split_tiles();
   void run(int pass, const GpuScene& scene, const PictureFrame& frame, const PictureBlock& block);
 
   ProgramCache& programs_;
   PrefixSum scan_;
   glm::ivec2 tiles_{0};
   Buffer counts_, entries_;
+  Buffer tile_order_, dispatches_;  // of split_tiles.comp
   TexelBuffer primitive_texels_{TexelFormat::uint4}, slot_texels_{TexelFormat::uint1},
-      entry_texels_{TexelFormat::uint1};
+      entry_texels_{TexelFormat::uint1}, order_texels_{TexelFormat::uint1};
 };
 
 /// Uniforms eye_distance, orthographic, right, up, forward.

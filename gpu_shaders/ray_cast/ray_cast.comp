@@ -7,6 +7,8 @@
 #version 450 core
 layout(local_size_x = 8, local_size_y = 8) in;
 
+#include "gpu_shaders/shared/linear_index.glsl"
+
 #define real float
 #define real2 vec2
 #define real3 vec3
@@ -23,6 +25,7 @@ layout(binding = 0) uniform usamplerBuffer primitive_texels;  // three texels ea
 layout(binding = 1) uniform usamplerBuffer row_texels;
 layout(binding = 2) uniform usamplerBuffer slot_ends;  // of tile_lists.comp: where each slice of each tile ends
 layout(binding = 3) uniform usamplerBuffer entries;
+layout(binding = 4) uniform usamplerBuffer tile_order;  // of split_tiles.comp: a group each
 layout(std430, binding = 0) readonly buffer Colors { vec4 atom_color[]; };  // linear, alpha 0: hidden; three more for the kinds
 layout(std430, binding = 1) buffer Picture { vec4 picture[]; };             // sums of linear, premultiplied samples
 layout(std430, binding = 2) writeonly buffer Hits { Hit hits[]; };
@@ -30,6 +33,7 @@ layout(std430, binding = 2) writeonly buffer Hits { Hit hits[]; };
 uniform float probe_radius;
 uniform float slack;
 uniform ivec2 size;          // of this block, in pixels
+uniform ivec2 tiles;         // columns and rows
 uniform vec2 first_offset;   // of the block's first pixel centre from the picture's centre, in pixels
 uniform vec2 sample_offset;  // of this sample from the pixel's centre
 uniform uint add;            // 0: the first sample, which also writes hits; 1: adds to the picture
@@ -58,11 +62,13 @@ Primitive load_primitive(uint index) {
   return Primitive(bound_of(index), uintBitsToFloat(a.x), a.y, a.z, a.w, b.x, b.y, b.z, b.w);
 }
 
+ivec2 tile_origin;  // of this group, in pixels
+
 // Pixel k of this invocation's four. Consecutive invocations, which a vector holds, fill squares rather than rows.
 ivec2 pixel_of(int k) {
   int i = int(gl_LocalInvocationIndex);
   ivec2 quad = ivec2((i & 3) | (i >> 1 & 4), (i >> 2 & 1) | (i >> 3 & 6));
-  return 16 * ivec2(gl_WorkGroupID.xy) + 2 * quad + ivec2(k & 1, k >> 1);
+  return tile_origin + 2 * quad + ivec2(k & 1, k >> 1);
 }
 
 // Rays are cheaper to make again than to keep where an index can reach them.
@@ -191,9 +197,14 @@ void write_pixel(ivec2 pixel, vec3 p, float t, uint index) {
 }
 
 void main() {
-  Nearest nearest = trace(gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x);
+  uint group = linear_group_index();
+  uint tile_count = uint(tiles.x * tiles.y);
+  uint tile = texelFetch(tile_order, int(min(group, tile_count - 1u))).x;
+  tile_origin = 16 * ivec2(int(tile) % tiles.x, int(tile) / tiles.x);
+  Nearest nearest = trace(tile);
   for (int k = 0; k < 4; ++k) {
     ivec2 pixel = pixel_of(k);
-    if (pixel.x < size.x && pixel.y < size.y) write_pixel(pixel, ray_point(k), nearest.t[k], nearest.primitive[k]);
+    if (group < tile_count && pixel.x < size.x && pixel.y < size.y)
+      write_pixel(pixel, ray_point(k), nearest.t[k], nearest.primitive[k]);
   }
 }

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Parts tiles that list something from empty ones, so that no group is started for nothing: software GL has no early way
+// out of a kernel.
+#version 450 core
+layout(local_size_x = 64) in;
+#include "gpu_shaders/shared/linear_index.glsl"
+#include "gpu_shaders/ray_cast/depth_slices.glsl"
+
+layout(binding = 0) uniform usamplerBuffer slot_ends;
+layout(std430, binding = 0) writeonly buffer TileOrder { uint tile_order[]; };  // listing ones from the front on
+// Group counts {x, y, z} for those that list something, then their number; the same for the empty ones, which stand at
+// the end. To be {0, 1, 1, 0} before.
+layout(std430, binding = 1) buffer Dispatches { uint dispatches[8]; };
+
+uniform uint tile_count;
+
+const uint kLongestRow = 32768u;
+
+void main() {
+  uint tile = linear_invocation_index();
+  if (tile >= tile_count) return;
+  int slot = int(kSlotsPerTile * tile);
+  uint first = tile == 0u ? 0u : texelFetch(slot_ends, slot - 1).x;
+  bool empty = first == texelFetch(slot_ends, slot + int(kSlotsPerTile) - 1).x;
+  uint at = empty ? 4u : 0u;
+  uint place = atomicAdd(dispatches[at + 3u], 1u);
+  tile_order[empty ? tile_count - 1u - place : place] = tile;
+  atomicMax(dispatches[at], min(place + 1u, kLongestRow));
+  atomicMax(dispatches[at + 1u], place / kLongestRow + 1u);
+}
