@@ -117,6 +117,7 @@ void GpuNeighbors::run_neighbors(const BallBatch& batch, int pass) {
   class_counts_.bind(0);
   balls_low.bind(1);
   cell_first_.bind(2);
+  cut_short_.bind(3);
   first.bind(4);
   pair_first_.bind(5);
   relative.bind(6);
@@ -137,7 +138,14 @@ bool GpuNeighbors::count_neighbors(BallBatch& batch) {
   class_counts_.resize(batch.count * kClasses * kWord);
   relative.resize(sizeof(glm::vec4));
   labels.resize(kWord);
+  cut_short_.resize(kWord);
+  cut_short_.fill(0);
   run_neighbors(batch, 0);
+  if (cut_short_.download<std::uint32_t>(1).front() != 0)
+    throw CapacityError(
+        "there are more balls about each ball than this driver's kernels can go through; use --device cpu, or a "
+        "smaller "
+        "probe");
   scan_(first, batch.count);
   scan_(pair_first_, batch.count);
   first.read(batch.count * kWord, &batch.neighbor_count, kWord);

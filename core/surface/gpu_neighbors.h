@@ -100,7 +100,7 @@ class GpuNeighbors {
   PrefixSum scan_;
   TexelBuffer ball_texels_{TexelFormat::uint4}, cell_texels_{TexelFormat::uint1};  // of balls and cell_atoms_
   TexelBuffer listed_texels_{TexelFormat::uint1}, before_texels_{TexelFormat::uint1};
-  Buffer cell_first_, rank_, cell_atoms_, pair_first_, class_counts_;
+  Buffer cell_first_, rank_, cell_atoms_, pair_first_, class_counts_, cut_short_;
   BallBatch resident_;  // whose lists the buffers hold; count 0: nobody's
   std::uint32_t count_ = 0;
   std::uint32_t entry_count_ = 0;  // of the lists: count_, or that of list_only()

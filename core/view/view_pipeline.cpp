@@ -198,8 +198,11 @@ void ViewPipeline::make_primitives(const PictureFrame& frame, GpuScene& scene) {
   scene.last_depth = static_cast<float>(farthest);
   for (;;) {
     append_primitives(frame, scene);
-    std::uint32_t counts[2];
+    std::uint32_t counts[3];
     counters_.read(0, counts, sizeof counts);
+    if (counts[2] != 0)
+      throw CapacityError(
+          "some patch is cut by more others than this driver's kernels can go through; use a smaller probe");
     scene.primitive_count = counts[0];
     stats_.primitives = counts[0];
     if (counts[0] <= primitive_capacity_ && counts[1] <= row_capacity_) break;

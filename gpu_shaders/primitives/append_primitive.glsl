@@ -7,7 +7,7 @@
 
 layout(std430, binding = 2) writeonly buffer Primitives { Primitive primitives[]; };
 layout(std430, binding = 3) writeonly buffer Rows { vec4 rows[]; };
-layout(std430, binding = 4) buffer Counters { uint primitive_count; uint row_count; };
+layout(std430, binding = 4) buffer Counters { uint primitive_count; uint row_count; uint cut_short; };  // cut_short: loop_guard.glsl
 uniform uint primitive_capacity;
 uniform uint row_capacity;
 uniform dvec3 pivot;

@@ -7,6 +7,7 @@
 layout(local_size_x = 64) in;
 #define DOUBLE_PRECISION
 #include "gpu_shaders/shared/linear_index.glsl"
+#include "gpu_shaders/shared/loop_guard.glsl"
 #include "gpu_shaders/reduced_surface/precision.glsl"
 #include "gpu_shaders/geometry/circle.glsl"
 #include "gpu_shaders/geometry/polygon_reach.glsl"
@@ -116,4 +117,5 @@ void main() {
     }
   }
   append_primitive(primitive);
+  if (loops_cut_short()) cut_short = 1u;
 }

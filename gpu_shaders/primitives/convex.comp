@@ -8,6 +8,7 @@
 layout(local_size_x = 64) in;
 #define DOUBLE_PRECISION
 #include "gpu_shaders/shared/linear_index.glsl"
+#include "gpu_shaders/shared/loop_guard.glsl"
 #include "gpu_shaders/reduced_surface/precision.glsl"
 #include "gpu_shaders/reduced_surface/contour.glsl"
 #include "gpu_shaders/reduced_surface/listed_balls.glsl"
@@ -144,4 +145,5 @@ void main() {
     add_row(plane.xyz, plane.w);
   }
   append_primitive(primitive);
+  if (loops_cut_short()) cut_short = 1u;
 }

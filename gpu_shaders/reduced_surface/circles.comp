@@ -6,6 +6,7 @@
 #version 450 core
 layout(local_size_x = 64) in;
 #include "gpu_shaders/shared/linear_index.glsl"
+#include "gpu_shaders/shared/loop_guard.glsl"
 #include "gpu_shaders/reduced_surface/precision.glsl"
 #include "gpu_shaders/reduced_surface/contour.glsl"
 #include "gpu_shaders/reduced_surface/listed_balls.glsl"
@@ -77,6 +78,7 @@ void main() {
       block(c, w0, q, wq, n);  // named by its place in the list until an arc needs the atom
       if (contour_ended()) break;
     }
+    if (loops_cut_short()) exposed_doubtful = true;
   }
   if (exposed_doubtful) {
     uint slot = atomicAdd(doubtful_count, 1u);

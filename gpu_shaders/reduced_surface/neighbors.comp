@@ -8,6 +8,7 @@
 #version 450 core
 layout(local_size_x = 64) in;
 #include "gpu_shaders/shared/linear_index.glsl"
+#include "gpu_shaders/shared/loop_guard.glsl"
 #include "gpu_shaders/reduced_surface/cell_grid.glsl"
 #include "gpu_shaders/reduced_surface/listed_balls.glsl"
 
@@ -16,6 +17,7 @@ layout(std430, binding = 0) buffer ClassCounts { uint class_counts[]; };  // per
 layout(std430, binding = 1) readonly buffer AtomsLow { vec4 atoms_low[]; };  // lo part, w: 1 if swallowed
 layout(std430, binding = 2) readonly buffer CellFirst { uint cell_first[]; };
 layout(binding = 1) uniform usamplerBuffer cell_atoms;
+layout(std430, binding = 3) buffer Trouble { uint cut_short; };  // 1: some ball has too many balls about it
 layout(std430, binding = 4) buffer NeighborFirst { uint neighbor_first[]; };
 layout(std430, binding = 5) buffer PairFirst { uint pair_first[]; };
 layout(std430, binding = 6) writeonly buffer NeighborBalls { vec4 neighbor_balls[]; };  // relative centre, SAS radius²
@@ -83,6 +85,7 @@ void main() {
     }
   }
 #if PASS == 0
+  if (loops_cut_short()) cut_short = 1u;
   uint neighbor_count = 0u;
   for (uint c = 0u; c < kClasses; ++c) {
     class_counts[entry * kClasses + c] = class_next[c];

@@ -6,6 +6,9 @@ layout(binding = 4) uniform usamplerBuffer tile_depths;   // floats
 layout(binding = 5) uniform usamplerBuffer block_depths;  // floats
 uniform uint keep_all;  // 1: the eye may stand in the solid, or the whole surface is wanted
 
+// More blocks than this are not asked one by one: drivers have limits (loop_guard.glsl).
+const int kMostSteps = 8192;
+
 // position: from the middle of the atoms. False only if no ray of the picture enters the ball in front of the vdW
 // spheres: rays are asked block by block, with bounds that hold for every ray of a block.
 bool begins_in_front(vec3 position, float radius) {
@@ -21,8 +24,10 @@ bool begins_in_front(vec3 position, float radius) {
   ivec2 high = min(ivec2(pixels.zw), last);
   ivec2 tiles = tile_count();
   int blocks = kTileEdge / block_edge;
+  int steps = 0;
   for (int y = low.y / kTileEdge; y <= high.y / kTileEdge; ++y)
     for (int x = low.x / kTileEdge; x <= high.x / kTileEdge; ++x) {
+      if (++steps > kMostSteps) return true;
       ivec2 tile = ivec2(x, y);
       float tile_depth = uintBitsToFloat(texelFetch(tile_depths, y * tiles.x + x).x);
       if (earliest_depth(ray_block(tile * kTileEdge, kTileEdge), v, radius) > tile_depth) continue;
@@ -30,6 +35,7 @@ bool begins_in_front(vec3 position, float radius) {
       ivec2 past = min(high - tile * kTileEdge, ivec2(kTileEdge - 1)) / block_edge + 1;
       for (int j = first.y; j < past.y; ++j)
         for (int i = first.x; i < past.x; ++i) {
+          if (++steps > kMostSteps) return true;
           ivec2 block = tile * blocks + ivec2(i, j);
           float depth = uintBitsToFloat(texelFetch(block_depths, block.y * tiles.x * blocks + block.x).x);
           if (earliest_depth(ray_block(block * block_edge, block_edge), v, radius) <= depth) return true;

@@ -176,6 +176,20 @@ TEST_F(GpuCore, StagesWaitForTheGpu) {
   EXPECT_LT(times[0].milliseconds, 10000.0);
 }
 
+TEST_F(GpuCore, LoopsEndWhereTheyShouldOrSaySo) {
+  const Program program("gpu_shaders/test_support/long_loop.comp");
+  for (const auto& [outer, inner] : {std::pair{100u, 100u}, {10u, 6000u}, {2000u, 100u}, {1u, 200000u}}) {
+    Buffer found(2 * sizeof(std::uint32_t));
+    found.fill(0);
+    found.bind(0);
+    program.set("outer", outer);
+    program.set("inner", inner);
+    program.dispatch(1);
+    const auto counts = found.download<std::uint32_t>(2);
+    EXPECT_EQ(counts[0] != outer * inner, counts[1] != 0u) << outer << " x " << inner << ": " << counts[0];
+  }
+}
+
 // The variants a kernel has: without any define, for each pass, and with each switch it or its includes ask for.
 std::vector<ShaderDefines> variants_of(const EmbeddedShader& shader) {
   std::vector<ShaderDefines> variants{{}};

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Counts in two nested loops and says whether they were cut short.
+#version 450 core
+layout(local_size_x = 1) in;
+#include "gpu_shaders/shared/loop_guard.glsl"
+
+layout(std430, binding = 0) writeonly buffer Found { uint counted; uint cut_short; };
+uniform uint outer;
+uniform uint inner;
+
+void main() {
+  uint count = 0u;
+  for (uint n = 0u; n < outer; ++n)
+    for (uint m = 0u; m < inner; ++m) count += 1u + (count & 0u);
+  counted = count;
+  cut_short = loops_cut_short() ? 1u : 0u;
+}
