@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "app/preview/session.h"
 #include "core/base/error.h"
 
 namespace meniscus {
@@ -63,6 +64,11 @@ bool Mailbox::put(ClientNumber client, const nlohmann::json& id, nlohmann::json 
   news_ = true;
   arrived_.notify_one();
   return true;
+}
+
+bool Mailbox::has_changes() {
+  const std::lock_guard lock(mutex_);
+  return !std::ranges::all_of(content_.commands, PreviewSession::is_question, &ClientCommand::command);
 }
 
 void Mailbox::want_picture(ClientNumber client) {

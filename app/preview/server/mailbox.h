@@ -29,6 +29,8 @@ class Mailbox {
  public:
   /// False, and nothing happens, if too many commands wait already.
   bool put(ClientNumber client, const nlohmann::json& id, nlohmann::json command);
+  /// Does a command wait that may change something?
+  bool has_changes();
   /// The client has shown its last picture and is ready for another.
   void want_picture(ClientNumber client);
   /// The client has gone; its commands are still carried out.

@@ -80,7 +80,7 @@ class ServedSession {
     note_change();
   }
 
-  /// A full picture is begun after a rest that is as long as it may take, for it cannot be stopped.
+  /// A full picture is begun after a rest that is as long as it may take, for it stops between samples only.
   Clock::time_point time_for(Quality quality) const {
     if (quality == Quality::draft) return last_change_;
     return last_change_ + (quality == Quality::plain ? kPause : rest_);
@@ -107,8 +107,8 @@ class ServedSession {
 
   void show() {
     if (waiting_.empty() || broken_) return;
-    if (!is_current()) draw();
-    if (broken_ || !somebody_lacks_the_picture()) return;
+    if (!is_current() && !draw()) return;
+    if (!somebody_lacks_the_picture()) return;
     std::set<ClientNumber> still_waiting;
     for (const ClientNumber client : waiting_) {
       if (!lacks_the_picture(client)) {
@@ -121,22 +121,24 @@ class ServedSession {
     waiting_ = std::move(still_waiting);
   }
 
-  void draw() {
+  /// False if there is nothing to show: it cannot be drawn, or a newer command stopped it.
+  bool draw() {
     const Quality quality = wanted();
     const Clock::time_point begin = Clock::now();
     try {
-      session_.render(quality);
+      if (!session_.render(quality, [this] { return mailbox_.has_changes(); })) return false;
     } catch (const GpuError&) {
       throw;
     } catch (const Error& error) {
       broken_ = true;
       network_.send_to_all({{"event", "error"}, {"error", escaped(error.what())}, {"state", question("state")}});
-      return;
+      return false;
     }
     if (quality == Quality::full)
       rest_ =
           std::clamp(std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now() - begin), kRest, kLongestRest);
     encode(quality);
+    return true;
   }
 
   void encode(Quality quality) {
