@@ -165,7 +165,7 @@ TEST_F(WindowTest, MouseMovesTheCamera) {
 TEST_F(WindowTest, KeysAndPanelSendCommands) {
   open();
   screen_.act({"type", "ok+"});
-  screen_.act({"mousemove", "1200", "93", "mousedown", "1", "mousemove", "1240", "93", "mouseup", "1"});
+  screen_.act({"mousemove", "1200", "66", "mousedown", "1", "mousemove", "1240", "66", "mouseup", "1"});
   ASSERT_TRUE(happens([&] { return recorded("probe").size() >= 2; }));
   screen_.act({"mousemove", "400", "400", "click", "--repeat", "2", "--delay", "40", "1"});
   ASSERT_TRUE(happens([&] { return recorded("zoom_to").size() == 1; }));

@@ -108,7 +108,6 @@ void Panel::title() {
 }
 
 void Panel::surface() {
-  heading("Surface");
   label("Probe");
   float radius = link_.state()["probe_radius"];
   if (ImGui::SliderFloat("##probe", &radius, 0.0f, kLargestSliderProbe, "%.2f \xc3\x85", ImGuiSliderFlags_Logarithmic))
@@ -152,11 +151,15 @@ void Panel::view() {
   if (ImGui::RadioButton("orthographic", !perspective) && perspective)
     link_.send({{"command", "projection"}, {"projection", "orthographic"}});
   label("Zoom to");
-  if (ImGui::InputTextWithHint("##zoom", "chain A and resid 10-50", &selection_,
-                               ImGuiInputTextFlags_EnterReturnsTrue) &&
+  const ImGuiStyle& style = ImGui::GetStyle();
+  const float button = ImGui::CalcTextSize("all").x + 2.0f * style.FramePadding.x;
+  ImGui::SetNextItemWidth(-button - style.ItemInnerSpacing.x);
+  if (ImGui::InputTextWithHint("##zoom", "chain A ...", &selection_, ImGuiInputTextFlags_EnterReturnsTrue) &&
       !selection_.empty())
     link_.send({{"command", "zoom_to"}, {"selection", selection_}});
-  if (ImGui::Button("Show everything", {-1.0f, 0.0f})) link_.send({{"command", "reset_view"}});
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("A selection, such as chain A and resid 10-50; then Enter");
+  ImGui::SameLine(0.0f, style.ItemInnerSpacing.x);
+  if (ImGui::Button("all")) link_.send({{"command", "reset_view"}});
 }
 
 void Panel::look() {
@@ -254,7 +257,7 @@ std::array<std::string, 4> pick_lines(const Json& pick) {
 void Panel::picked() {
   heading("Picked");
   if (!pick_.value("hit", false)) {
-    ImGui::TextDisabled("click an atom, or let the mouse rest on it");
+    ImGui::TextDisabled("click an atom, or rest on it");
     return;
   }
   for (const std::string& line : pick_lines(pick_))

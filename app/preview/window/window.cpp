@@ -176,7 +176,8 @@ void PreviewWindow::take_key(const InputEvent& event) {
       panel_.ask_for_name();
       break;
     case WindowAction::leave:
-      if (!std::exchange(help_, false)) window_.close();
+      if (event.kind == InputEvent::Kind::text || !std::exchange(help_, false))
+        window_.close();  // Esc first closes help
       break;
   }
 }
