@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Depths of the hits of a block along the view axis, packed for the many fetches that follow.
+// Depths of the hits of a block along the view axis, and their parts, packed for the many fetches that follow.
 #version 450 core
 layout(local_size_x = 8, local_size_y = 8) in;
 #include "gpu_shaders/look/view_space.glsl"
 
+layout(binding = 2) uniform usamplerBuffer atom_parts;  // there if has_parts
 layout(std430, binding = 0) writeonly buffer Depths { float depths[]; };
+layout(std430, binding = 1) writeonly buffer Parts { uint parts[]; };
+
+uniform uint has_parts;
 
 const uint kNoPrimitive = 0xffffffffu;
 
@@ -14,10 +18,12 @@ void main() {
   int at = index_of(pixel);
   float t = uintBitsToFloat(texelFetch(hit_texels, 2 * at).w);
   float depth = kNothing;
-  if (texelFetch(hit_texels, 2 * at + 1).x != kNoPrimitive) {
+  uvec4 what = texelFetch(hit_texels, 2 * at + 1);
+  if (what.x != kNoPrimitive) {
     // Rays count from the pivot's plane; a perspective one is longer than its part along the axis.
     vec2 slope = (first_offset + vec2(pixel) + sample_offset) * pixel_size / eye_distance;
     depth = eye_distance + (orthographic != 0u ? t : t / sqrt(1.0 + dot(slope, slope)));
   }
   depths[at] = depth;
+  if (has_parts != 0u) parts[at] = what.x != kNoPrimitive ? texelFetch(atom_parts, int(what.y)).x : 0u;
 }

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Shade, air and ink on one sample of each pixel of a block, which is then added to the picture.
+// AMBIENT_OCCLUSION and SILHOUETTES are defined where they are asked for: software GL would pay for them all the same.
 #version 450 core
 layout(local_size_x = 8, local_size_y = 8) in;
 #include "gpu_shaders/look/view_space.glsl"
 
-layout(binding = 2) uniform usamplerBuffer visibility_texels;
-layout(binding = 3) uniform usamplerBuffer part_texels;
+layout(binding = 2) uniform usamplerBuffer visibility_texels;  // there for AMBIENT_OCCLUSION
+layout(binding = 3) uniform usamplerBuffer part_texels;  // of each pixel; there if has_parts
 layout(std430, binding = 0) readonly buffer Samples { vec4 samples[]; };  // linear, premultiplied
 layout(std430, binding = 1) buffer Picture { vec4 picture[]; };
 
-uniform float ambient_occlusion;  // 0: visibility_texels are not there
+uniform float ambient_occlusion;
 uniform float silhouettes;        // pixels
 uniform float depth_cue;
 uniform float first_depth;
@@ -40,28 +41,33 @@ float mean_visibility(ivec2 pixel, float depth) {
   return sum / weights;
 }
 
-// How strong a line is drawn between two pixels for their depths: from none at a small step to full at a large one.
+// The least difference of depths that is a step, Å.
+float least_step(float depth) { return 0.5 + 2.0 * pixel_size_at(depth); }
+
+// False if no line is drawn between two pixels for their depths.
+bool may_step(float depth_a, float depth_b) {
+  if (depth_a == kNothing || depth_b == kNothing) return depth_a != depth_b;
+  return abs(depth_a - depth_b) > least_step(min(depth_a, depth_b));
+}
+
+// How strong that line is: from none at a small step to full at a large one.
 float step_ink(ivec2 a, float depth_a, ivec2 b, float depth_b) {
   if (depth_a == kNothing || depth_b == kNothing) return depth_a == depth_b ? 0.0 : 1.0;
-  float jump = abs(depth_a - depth_b);
-  float nearer = pixel_size_at(min(depth_a, depth_b));
-  float least = 0.5 + 2.0 * nearer;
-  if (jump < least) return 0.0;
+  float nearer = min(depth_a, depth_b);
+  float least = least_step(nearer);
   // What the slope of the flatter one explains is no step.
   vec3 viewer_a = to_viewer_at(position_at(a, depth_a));
   vec3 viewer_b = to_viewer_at(position_at(b, depth_b));
   float facing = max(dot(normal_at(a, viewer_a), viewer_a), dot(normal_at(b, viewer_b), viewer_b));
-  jump -= length(vec2(a - b)) * nearer * sqrt(max(1.0 - facing * facing, 0.0)) / max(facing, 0.01);
+  float slope = sqrt(max(1.0 - facing * facing, 0.0)) / max(facing, 0.01);
+  float jump = abs(depth_a - depth_b) - length(vec2(a - b)) * pixel_size_at(nearer) * slope;
   float missing = 1.0 - smoothstep(least, least + 3.0, jump);
   return 1.0 - missing * missing;  // as the eye sees it, about
 }
 
-uint part_at(ivec2 pixel) {
-  uint atom = texelFetch(hit_texels, 2 * index_of(pixel) + 1).y;
-  return texelFetch(part_texels, int(atom)).x;
+bool parts_differ(ivec2 a, ivec2 b) {
+  return has_parts != 0u && texelFetch(part_texels, index_of(a)).x != texelFetch(part_texels, index_of(b)).x;
 }
-
-bool parts_differ(ivec2 a, ivec2 b) { return has_parts != 0u && part_at(a) != part_at(b); }
 
 // Share of a pixel that lines cover, and the depth of what they outline.
 struct Ink {
@@ -69,21 +75,31 @@ struct Ink {
   float depth;
 };
 
-// A line is `silhouettes` wide, half on each side of where it belongs.
+// A line is `silhouettes` wide, half on each side of where it belongs. Software GL runs every branch: so each pixel
+// first looks, cheaply, for the next neighbour that matters to it.
 Ink ink_on(ivec2 pixel, float depth) {
   int reach = int(ceil(0.5 * silhouettes + 0.5));
   Ink ink = Ink(0.0, depth);
-  for (int y = -reach; y <= reach; ++y)
-    for (int x = -reach; x <= reach; ++x) {
-      ivec2 other = pixel + ivec2(x, y);
-      float share = clamp(0.5 * silhouettes + 1.0 - length(vec2(x, y)), 0.0, 1.0);
-      if (share <= ink.covered || !in_block(other)) continue;
-      float other_depth = depth_at(other);
-      float strength = step_ink(pixel, depth, other, other_depth);
-      if (strength < kPartInk && depth != kNothing && other_depth != kNothing && parts_differ(pixel, other))
-        strength = kPartInk;
-      if (share * strength > ink.covered) ink = Ink(share * strength, min(depth, other_depth));
-    }
+  ivec2 offset = ivec2(-reach - 1, -reach);
+  do {
+    ivec2 other;
+    float share;
+    float other_depth;
+    bool step;
+    bool seam;
+    do {
+      ++offset.x;
+      if (offset.x > reach) offset = ivec2(-reach, offset.y + 1);
+      other = pixel + offset;
+      other_depth = depth_at(other);
+      share = clamp(0.5 * silhouettes + 1.0 - length(vec2(offset)), 0.0, 1.0);
+      bool counts = offset.y <= reach && share > ink.covered && in_block(other);
+      step = counts && may_step(depth, other_depth);
+      seam = counts && depth != kNothing && other_depth != kNothing && parts_differ(pixel, other);
+    } while (!step && !seam && offset.y <= reach);
+    float strength = max(step ? step_ink(pixel, depth, other, other_depth) : 0.0, seam ? kPartInk : 0.0);
+    if (share * strength > ink.covered) ink = Ink(share * strength, min(depth, other_depth));
+  } while (offset.y <= reach);
   return ink;
 }
 
@@ -98,13 +114,14 @@ void main() {
   int at = index_of(pixel);
   vec4 color = samples[at];
   float depth = depth_at(pixel);
-  if (depth != kNothing && ambient_occlusion > 0.0)
-    color.rgb *= mix(1.0, mean_visibility(pixel, depth), ambient_occlusion);
+#ifdef AMBIENT_OCCLUSION
+  if (depth != kNothing) color.rgb *= mix(1.0, mean_visibility(pixel, depth), ambient_occlusion);
+#endif
   if (depth != kNothing) color *= clarity(depth);
-  if (silhouettes > 0.0) {
-    Ink ink = ink_on(pixel, depth);
-    float covered = ink.covered * clarity(ink.depth);
-    color = vec4(color.rgb * (1.0 - covered), mix(color.a, 1.0, covered));
-  }
+#ifdef SILHOUETTES
+  Ink ink = ink_on(pixel, depth);
+  float covered = ink.covered * clarity(ink.depth);
+  color = vec4(color.rgb * (1.0 - covered), mix(color.a, 1.0, covered));
+#endif
   picture[at] = sample_index == 0u ? color : picture[at] + color;
 }

@@ -110,6 +110,24 @@ TEST_F(GpuScenes, OrderDoesNotShow) {
   }
 }
 
+TEST_F(GpuScenes, NothingStaysOfThePictureBefore) {
+  const View view = view_of("close", testing::ubiquitin(), 1.4, Projection::perspective);
+  Camera afar = view.frame.camera;
+  afar.vertical_fov *= 3.0;
+  View small = view;
+  small.frame = make_picture_frame(view.surface.atoms, afar, kSize);
+  cast(view, pack_scene(view.surface, view.coloring, view.frame));
+  const Shown shown = cast(small, pack_scene(view.surface, view.coloring, small.frame));
+  int nothing = 0;
+  for (std::size_t at = 0; at < shown.hits.size(); ++at) {
+    const bool hit = shown.hits[at].primitive != ray_cast::kNoPrimitive;
+    EXPECT_EQ(shown.picture[at].w, hit ? 1.0f : 0.0f) << at;
+    EXPECT_EQ(hit, shown.hits[at].atom != ray_cast::kNoPrimitive) << at;
+    nothing += !hit;
+  }
+  EXPECT_GT(nothing, 12000);
+}
+
 TEST_F(GpuScenes, HiddenCompanyDoesNotShow) {
   for (const View& view : views()) {
     const RayCastScene packed = pack_scene(view.surface, view.coloring, view.frame);
