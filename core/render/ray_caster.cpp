@@ -179,16 +179,21 @@ bool RayCaster::cast(const GpuScene& scene, const PictureFrame& frame, const Pic
     sample_colors_.resize(count * sizeof(glm::vec4));
     if (sample_count > 1) sample_hits_.resize(count * sizeof(ray_cast::Hit));
   }
-  const Program& program = kernel(scene);
-  set_block(program, frame, block);
-  set_depth_slices(program, scene);
-  program.set("probe_radius", static_cast<float>(scene.probe_radius));
-  program.set("slack", scene.slack);
-  program.set("color_by_kind", scene.color_by_kind ? 1u : 0u);
-  program.set("atom_count", scene.atom_count);
-  program.set("key_direction", glm::normalize(look.light_direction));
-  program.set("key_strength", look.light_strength);
+  const auto prepare = [&](const Program& program) {
+    set_block(program, frame, block);
+    set_depth_slices(program, scene);
+    program.set("probe_radius", static_cast<float>(scene.probe_radius));
+    program.set("slack", scene.slack);
+    program.set("color_by_kind", scene.color_by_kind ? 1u : 0u);
+    program.set("atom_count", scene.atom_count);
+    program.set("key_direction", glm::normalize(look.light_direction));
+    program.set("key_strength", look.light_strength);
+  };
+  prepare(kernel(scene, false));
   row_texels_.view(scene.rows);
+  const std::size_t invocations = 64 * static_cast<std::size_t>(lists_.tiles().x) * lists_.tiles().y;
+  unfinished_.resize((2 + invocations) * sizeof(std::uint32_t));
+  unfinished_.fill(0);
   for (int n = 0; n < sample_count; ++n) {
     if (n > 0 && stop && stop()) return false;
     const CastSample sample{look.has_effects() ? sample_colors_ : picture_,
@@ -198,7 +203,7 @@ bool RayCaster::cast(const GpuScene& scene, const PictureFrame& frame, const Pic
       const GpuStage stage(clock_, "ray cast");
       const bool add = n > 0 && !look.has_effects();
       if (!add) lists_.clear_empty(block, sample.colors, sample.hits);
-      cast_sample(scene, sample, add);
+      cast_sample(scene, sample, add, prepare);
     }
     if (!look.has_effects()) continue;
     const GpuStage stage(clock_, "look");
@@ -207,20 +212,51 @@ bool RayCaster::cast(const GpuScene& scene, const PictureFrame& frame, const Pic
   return true;
 }
 
-const Program& RayCaster::kernel(const GpuScene& scene) {
-  const ShaderDefines hidden{{"SOME_HIDDEN", "1"}};
-  return programs_.get("gpu_shaders/ray_cast/ray_cast.comp", scene.some_hidden ? hidden : ShaderDefines{});
+const Program& RayCaster::kernel(const GpuScene& scene, bool resumed) {
+  ShaderDefines defines;
+  if (scene.some_hidden) defines.emplace_back("SOME_HIDDEN", "1");
+  if (resumed) defines.emplace_back("RESUMED", "1");
+  return programs_.get("gpu_shaders/ray_cast/ray_cast.comp", defines);
 }
 
-void RayCaster::cast_sample(const GpuScene& scene, const CastSample& sample, bool add) {
-  const Program& program = kernel(scene);
-  row_texels_.bind(1);
-  scene.colors.bind(0);
-  sample.colors.bind(1);
-  sample.hits.bind(2);
-  program.set("add", add ? 1u : 0u);
-  program.set("sample_offset", sample.offset);
-  lists_.dispatch(program);
+void RayCaster::cast_sample(const GpuScene& scene, const CastSample& sample, bool add,
+                            const std::function<void(const Program&)>& prepare) {
+  const auto start = [&](const Program& program) {
+    row_texels_.bind(1);
+    scene.colors.bind(0);
+    sample.colors.bind(1);
+    sample.hits.bind(2);
+    unfinished_.bind(3);
+    program.set("add", add ? 1u : 0u);
+    program.set("sample_offset", sample.offset);
+    lists_.dispatch(program);
+  };
+  start(kernel(scene, false));
+  const auto longest = unfinished_.download<std::uint32_t>(1).front();
+  if (longest == 0) return;
+  const Program& program = kernel(scene, true);
+  prepare(program);
+  finish_long_lists(program, longest, [&] { start(program); });
+}
+
+// Lists of thousands, as of large molecules in small pictures, are too long for one go of software GL's kernels.
+void RayCaster::finish_long_lists(const Program& program, std::uint32_t longest, const std::function<void()>& start) {
+  constexpr std::uint32_t kFirstPart = 256, kSmallestPart = 4;
+  states_.resize(unfinished_.byte_count() * 16);  // four vectors of four words for each word there
+  for (std::uint32_t length = kFirstPart; length >= kSmallestPart; length /= 4) {
+    const std::uint32_t none[2] = {0, 0};
+    unfinished_.write(0, none, sizeof none);
+    const std::uint32_t part_count = (longest + length - 1) / length;
+    program.set("part_length", static_cast<std::int32_t>(length));
+    for (std::uint32_t part = 0; part < part_count; ++part) {
+      program.set("part", static_cast<std::int32_t>(part));
+      program.set("is_last_part", part + 1 == part_count ? 1u : 0u);
+      states_.bind(4);
+      start();
+    }
+    if (unfinished_.download<std::uint32_t>(1, sizeof(std::uint32_t)).front() == 0) return;
+  }
+  throw CapacityError("some rays meet more than this driver's kernels can go through; use another device");
 }
 
 }  // namespace meniscus

@@ -65,8 +65,10 @@ class RayCaster {
 
   void render_blocks(Collected& collected);
   void render_block(const PictureBlock& inner, Collected& collected);
-  void cast_sample(const GpuScene& scene, const CastSample& sample, bool add);
-  const Program& kernel(const GpuScene& scene);
+  void cast_sample(const GpuScene& scene, const CastSample& sample, bool add,
+                   const std::function<void(const Program&)>& prepare);
+  void finish_long_lists(const Program& program, std::uint32_t longest, const std::function<void()>& start);
+  const Program& kernel(const GpuScene& scene, bool resumed);
 
   ProgramCache programs_;
   TileLists lists_{programs_};
@@ -74,6 +76,7 @@ class RayCaster {
   TexelBuffer row_texels_{TexelFormat::uint4};
   LookPass look_pass_{programs_};
   Buffer picture_, hits_;
+  Buffer unfinished_, states_;          // of invocations whose loops the driver cut short
   Buffer sample_colors_, sample_hits_;  // where a look has effects
   StageClock clock_;
 };

@@ -3,11 +3,14 @@
 //
 // tile_lists.comp gives each tile the primitives that may show in it, by slices of their nearest distance; rays stop
 // where a slice begins behind their hits. The first sample goes through the pixel's centre and writes the exact point.
-// SOME_HIDDEN is defined if points of hidden atoms are no hits.
+// SOME_HIDDEN is defined if points of hidden atoms are no hits. Invocations whose loops a driver cuts short (long lists,
+// see loop_guard.glsl) write nothing but that they are unfinished; with RESUMED these go through their lists again, in
+// one pass for each `part_length` entries.
 #version 450 core
 layout(local_size_x = 8, local_size_y = 8) in;
 
 #include "gpu_shaders/shared/linear_index.glsl"
+#include "gpu_shaders/shared/loop_guard.glsl"
 
 #define real float
 #define real2 vec2
@@ -29,6 +32,11 @@ layout(binding = 4) uniform usamplerBuffer tile_order;  // of split_tiles.comp: 
 layout(std430, binding = 0) readonly buffer Colors { vec4 atom_color[]; };  // linear, alpha 0: hidden; three more for the kinds
 layout(std430, binding = 1) buffer Picture { vec4 picture[]; };             // sums of linear, premultiplied samples
 layout(std430, binding = 2) writeonly buffer Hits { Hit hits[]; };
+layout(std430, binding = 3) buffer Unfinished {
+  uint longest;             // list of an unfinished invocation; 0: there is none
+  uint still_too_long;      // RESUMED: parts that were cut short again
+  uint unfinished[];        // not 0 for invocations that are: 64 for each tile
+};
 
 uniform float probe_radius;
 uniform float slack;
@@ -151,27 +159,67 @@ void trace_tori(Walk walk, inout Nearest nearest) {
   } while (waiting != 0u);
 }
 
-// Software GL runs every branch for all lanes of a vector. So each invocation first walks, cheaply, to what it has to
-// look at next, and then all of them look.
-Nearest trace(uint tile) {
+Nearest nothing_yet() {
   Nearest nearest;
   nearest.t = vec4(kMiss);
   nearest.primitive = nearest.kind = nearest.tie_key = uvec4(kNoPrimitive);
+  return nearest;
+}
+
+// A tile's list: spheres from x to y, tori from y to z.
+ivec3 list_of(uint tile) {
+  int slot = int(kSlotsPerTile * tile);
+  return ivec3(tile == 0u ? 0 : int(texelFetch(slot_ends, slot - 1).x),
+               int(texelFetch(slot_ends, slot + int(kSliceCount) - 1).x),
+               int(texelFetch(slot_ends, slot + int(kSlotsPerTile) - 1).x));
+}
+
+// Software GL runs every branch for all lanes of a vector. So each invocation first walks, cheaply, to what it has to
+// look at next, and then all of them look.
+void trace(ivec3 list, inout Nearest nearest) {
   Walk walk;
   walk.p = 0.5 * (ray_point(0) + ray_point(3));
   walk.d = ray_direction(walk.p);
   walk.eye_t = eye_parameter(walk.d);
   // The four rays lie half a pixel's diagonal from the middle; a little more covers their rounding.
   walk.spread = 0.75 * pixel_size;
-  int slot = int(kSlotsPerTile * tile);
-  walk.first = tile == 0u ? 0 : int(texelFetch(slot_ends, slot - 1).x);
-  walk.end = int(texelFetch(slot_ends, slot + int(kSliceCount) - 1).x);
+  walk.first = list.x;
+  walk.end = list.y;
   trace_spheres(walk, nearest);
-  walk.first = walk.end;
-  walk.end = int(texelFetch(slot_ends, slot + int(kSlotsPerTile) - 1).x);
+  walk.first = list.y;
+  walk.end = list.z;
   trace_tori(walk, nearest);
-  return nearest;
 }
+
+#ifdef RESUMED
+struct State {
+  vec4 t;
+  uvec4 primitive;
+  uvec4 kind;
+  uvec4 tie_key;
+};
+layout(std430, binding = 4) buffer States { State states[]; };  // by invocation, as `unfinished`
+uniform int part_length;
+uniform int part;
+uniform uint is_last_part;
+
+// True when the invocation has been through its whole list. One that is cut short again waits for shorter parts.
+bool trace_part(uint tile, uint place, out Nearest nearest) {
+  nearest = nothing_yet();
+  if (part > 0) nearest = Nearest(states[place].t, states[place].primitive, states[place].kind, states[place].tie_key);
+  ivec3 list = list_of(tile);
+  int from = min(list.x + part * part_length, list.z);
+  int to = min(from + part_length, list.z);
+  trace(ivec3(from, clamp(list.y, from, to), to), nearest);
+  if (loops_cut_short()) {
+    atomicAdd(still_too_long, 1u);
+    unfinished[place] = 2u;
+    return false;
+  }
+  states[place] = State(nearest.t, nearest.primitive, nearest.kind, nearest.tie_key);
+  return is_last_part != 0u;
+}
+#endif
 
 void write_pixel(ivec2 pixel, vec3 p, float t, uint index) {
   vec4 color = vec4(0.0);
@@ -201,10 +249,26 @@ void main() {
   uint tile_count = uint(tiles.x * tiles.y);
   uint tile = texelFetch(tile_order, int(min(group, tile_count - 1u))).x;
   tile_origin = 16 * ivec2(int(tile) % tiles.x, int(tile) / tiles.x);
-  Nearest nearest = trace(tile);
+  if (group >= tile_count) return;
+  uint place = 64u * tile + gl_LocalInvocationIndex;
+#ifdef RESUMED
+  if (unfinished[place] == 0u || (unfinished[place] == 2u && part > 0)) return;
+  if (part == 0) unfinished[place] = 1u;
+  Nearest nearest;
+  if (!trace_part(tile, place, nearest)) return;
+  unfinished[place] = 0u;
+#else
+  ivec3 list = list_of(tile);
+  Nearest nearest = nothing_yet();
+  trace(list, nearest);
+  if (loops_cut_short()) {
+    unfinished[place] = 1u;
+    atomicMax(longest, uint(list.z - list.x));
+    return;
+  }
+#endif
   for (int k = 0; k < 4; ++k) {
     ivec2 pixel = pixel_of(k);
-    if (group < tile_count && pixel.x < size.x && pixel.y < size.y)
-      write_pixel(pixel, ray_point(k), nearest.t[k], nearest.primitive[k]);
+    if (pixel.x < size.x && pixel.y < size.y) write_pixel(pixel, ray_point(k), nearest.t[k], nearest.primitive[k]);
   }
 }

@@ -187,6 +187,16 @@ TEST_F(RayCasting, Proteins) {
   expect_exact(testing::enterotoxin(), 1.4, "1TII", {160, 120}, false);
 }
 
+TEST_F(RayCasting, ManyAtomsInAFewTiles) {
+  // Lists of 77,000 patches a tile: software GL cuts loops short after 65,535 steps, and nothing of that may show.
+  Balls many;
+  for (int n = 0; n < 4; ++n) {
+    const Balls copy = testing::translated(testing::enterotoxin(), {n % 2 * 90.0, 0.0, n / 2 * 90.0});
+    many.insert(many.end(), copy.begin(), copy.end());
+  }
+  expect_exact(many, 1.4, "four times 1TII", {24, 18}, false);
+}
+
 TEST_F(RayCasting, FarFromTheOrigin) {
   expect_exact(testing::translated(testing::ubiquitin(), {1000.0, -1000.0, 500.0}), 1.4, "1UBQ far away", {96, 72},
                false);
