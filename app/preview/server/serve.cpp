@@ -14,6 +14,7 @@
 #include "app/preview/server/picture_encoder.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/gpu/context_description.h"
 
 namespace meniscus {
 namespace {
@@ -126,7 +127,9 @@ class ServedSession {
     const Quality quality = wanted();
     const Clock::time_point begin = Clock::now();
     try {
-      if (!session_.render(quality, [this] { return mailbox_.has_changes(); })) return false;
+      const bool whole = session_.render(quality, [this] { return mailbox_.has_changes(); });
+      require_living_context();
+      if (!whole) return false;
     } catch (const GpuError&) {
       throw;
     } catch (const Error& error) {
