@@ -36,6 +36,7 @@ class GpuCuspTracer final : public CuspTracer {
     cuts.first.assign(1, 0);
     neighbors_.for_each_batch([&](const BallBatch& batch) {
       flags_.resize(std::max(1u, batch.neighbor_count) * sizeof(std::uint32_t));
+      flags_.fill(2);  // what a driver that cuts loops short leaves out is in doubt
       neighbors_.first.bind(0);
       neighbors_.relative.bind(1);
       heads_.bind(2);

@@ -6,6 +6,7 @@
 #version 450 core
 layout(local_size_x = 64) in;
 #include "gpu_shaders/shared/linear_index.glsl"
+#include "gpu_shaders/shared/loop_guard.glsl"
 #include "gpu_shaders/shared/cusp_side.glsl"
 #include "gpu_shaders/reduced_surface/precision.glsl"
 #include "gpu_shaders/reduced_surface/contour.glsl"
@@ -107,6 +108,7 @@ void main() {
     vec4 ball = neighbor_balls[n];
     block(c, w0, ball.xyz, ball.w, u);
   }
+  if (loops_cut_short()) exposed_doubtful = true;
   if (exposed_doubtful) {
     uint slot = atomicAdd(doubtful_count, 1u);
     if (slot < doubtful_capacity) doubtful[slot] = circles[index];
