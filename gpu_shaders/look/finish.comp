@@ -18,8 +18,6 @@ uniform float last_depth;
 uniform uint sample_index;
 uniform uint has_parts;
 
-const float kPartInk = 0.9;  // strength of the lines between parts
-
 // Mean over 4 x 4 pixels, as a square of 5 x 5 whose rim counts half; pixels of other surfaces do not count.
 float mean_visibility(ivec2 pixel, float depth) {
   vec3 p = position_at(pixel, depth);
@@ -97,7 +95,7 @@ Ink ink_on(ivec2 pixel, float depth) {
       step = counts && may_step(depth, other_depth);
       seam = counts && depth != kNothing && other_depth != kNothing && parts_differ(pixel, other);
     } while (!step && !seam && offset.y <= reach);
-    float strength = max(step ? step_ink(pixel, depth, other, other_depth) : 0.0, seam ? kPartInk : 0.0);
+    float strength = seam ? 1.0 : step ? step_ink(pixel, depth, other, other_depth) : 0.0;
     if (share * strength > ink.covered) ink = Ink(share * strength, min(depth, other_depth));
   } while (offset.y <= reach);
   return ink;
