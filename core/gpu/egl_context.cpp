@@ -137,11 +137,11 @@ EglContext::EglContext(const ForeignContext& sibling) {
     throw GpuError("this display cannot draw beside its windows (EGL_KHR_surfaceless_context is missing)");
   std::vector<EGLint> wish(kCoreProfile.begin(), kCoreProfile.end() - 1);
   if (sibling.tells_resets)  // contexts that share agree about this
-    wish.insert(wish.end(), {EGL_CONTEXT_OPENGL_ROBUST_ACCESS, EGL_TRUE,
-                             EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY, EGL_LOSE_CONTEXT_ON_RESET});
+    wish.insert(wish.end(), {EGL_CONTEXT_OPENGL_ROBUST_ACCESS, EGL_TRUE, EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY,
+                             EGL_LOSE_CONTEXT_ON_RESET});
   wish.push_back(EGL_NONE);
-  const EGLContext context = eglCreateContext(sibling.display, config_of(sibling.display, sibling.context),
-                                              sibling.context, wish.data());
+  const EGLContext context =
+      eglCreateContext(sibling.display, config_of(sibling.display, sibling.context), sibling.context, wish.data());
   if (context == EGL_NO_CONTEXT)
     throw GpuError(fmt::format("no GL context beside the window's (EGL error 0x{:x})", eglGetError()));
   if (std::string why_not; !adopt_context(sibling.display, context, why_not)) {
