@@ -144,15 +144,14 @@ void add_session_options(CLI::App& command, PreviewCommand& state) {
 }  // namespace
 
 void add_preview(CLI::App& command) {
-  describe(
-      command, "Look at the surface while it changes, in a window or in a browser",
-      "  meniscus preview 1tii.pdb                           a window; h shows its keys\n"
-      "  meniscus preview 1tii.pdb --serve                   prints an address to open in a browser\n"
-      "  meniscus preview 1tii.pdb --serve 8080 --color chain\n"
-      "  meniscus preview 1tii.pdb --record session.jsonl    what is done, for --commands",
-      "Each model of FILE is a frame. A window needs a display with OpenGL 4.5 through EGL; without one the exit code "
-      "is 4.\nThe page is served on 127.0.0.1 only, to whoever has the address with its token; to look from another "
-      "machine,\nuse the ssh line that is printed. SIGINT and SIGTERM end both.");
+  describe(command, "Look at the surface while it changes, in a window or in a browser",
+           "  meniscus preview 1tii.pdb                           a window; h shows its keys\n"
+           "  meniscus preview 1tii.pdb --serve                   prints an address to open in a browser\n"
+           "  meniscus preview 1tii.pdb --serve 8080 --color chain\n"
+           "  meniscus preview 1tii.pdb --record session.jsonl    what is done, for --commands",
+           "Each model of FILE is a frame. A window needs a display with OpenGL 4.5 through EGL; without one the\n"
+           "exit code is 4. The page is served on 127.0.0.1 only, to whoever has the address with its token; to\n"
+           "look from another machine, use the ssh line that is printed. SIGINT and SIGTERM end both.");
   auto state = std::make_shared<PreviewCommand>();
   state->molecule.reading.model.all = true;
   add_atom_options(command, state->molecule);
