@@ -14,7 +14,8 @@
 namespace meniscus {
 namespace {
 
-constexpr double kDoubt = 1e-6;  // Å
+constexpr double kDoubt = 1e-6;          // Å
+constexpr std::size_t kMostBalls = 200;  // whose triples are tried: a million, in a tenth of a second
 
 /// Balls around the point that any accessible place near it must avoid, relative to the point.
 class Surroundings {
@@ -30,13 +31,14 @@ class Surroundings {
 
   bool some_accessible() const {
     if (!covered_) return true;
+    const bool few = balls_.size() <= kMostBalls;
     for (std::size_t i = 0; i < balls_.size(); ++i) {
       const double distance = glm::length(balls_[i].center);
       if (distance > 0.0 && accessible(balls_[i].center * (1.0 - balls_[i].radius / distance), {i})) return true;
     }
     for (std::size_t i = 0; i < balls_.size(); ++i)
       for (std::size_t j = 0; j < i; ++j)
-        if (accessible_on_two(i, j)) return true;
+        if (accessible_on_two(i, j, few)) return true;
     return false;
   }
 
@@ -53,7 +55,7 @@ class Surroundings {
     return true;
   }
 
-  bool accessible_on_two(std::size_t i, std::size_t j) const {
+  bool accessible_on_two(std::size_t i, std::size_t j, bool and_on_three) const {
     const Ball &a = balls_[i], &b = balls_[j];
     const geometry::Circle circle =
         geometry::circle_of_two_spheres(b.center - a.center, a.radius * a.radius, b.radius * b.radius);
@@ -62,7 +64,7 @@ class Surroundings {
     const glm::dvec3 across = -center + circle.axis * glm::dot(center, circle.axis);
     const double offset = glm::length(across);
     if (offset > 0.0 && accessible(center + across * (circle.radius / offset), {i, j})) return true;
-    for (std::size_t k = 0; k < j; ++k)
+    for (std::size_t k = 0; and_on_three && k < j; ++k)
       for (const double side : {-1.0, 1.0}) {
         const Ball& c = balls_[k];
         double h2 = 0.0;
