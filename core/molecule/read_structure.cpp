@@ -130,6 +130,19 @@ void warn_of_missing_altloc(Structure& structure, const std::vector<Atom>& atoms
       fmt::format("no atom has the alternate location {}; the best one of each residue is used", choice.letter));
 }
 
+/// The atoms of a topology stand where the options say.
+void place_atoms(FileContents& contents, const ReadOptions& options, const TextFile& file) {
+  if (!contents.without_positions) return;
+  if (options.positions.empty())
+    throw InputError(file.path, 0, "lists atoms without coordinates; add --trajectory with a file that has them");
+  if (options.positions.size() != contents.atoms.size()) {
+    throw InputError(file.path, 0,
+                     fmt::format("lists {} atoms, a frame of the trajectory has {}; they do not belong together",
+                                 with_thousands(contents.atoms.size()), with_thousands(options.positions.size())));
+  }
+  for (std::size_t n = 0; n < contents.atoms.size(); ++n) contents.atoms[n].position = options.positions[n];
+}
+
 /// Builds the assembly that is asked for; lists all when asked to, and then takes broken records as a warning.
 void use_assemblies(Structure& structure, const TextFile& file, const Reader& reader, const ReadOptions& options) {
   if (options.list_assemblies && reader.assemblies) {
@@ -164,6 +177,9 @@ Structure read_structure(const std::string& path, const ReadOptions& options) {
   report.models = contents.models;
   report.warnings.insert(report.warnings.end(), contents.warnings.begin(), contents.warnings.end());
   if (contents.other_model_atoms > 0) report.excluded[kExcludedModel] = contents.other_model_atoms;
+  place_atoms(contents, options, file);
+  if (options.keep_topology)
+    structure.topology = std::make_shared<const Topology>(Topology{contents.atoms, std::move(contents.bonds)});
 
   warn_of_missing_altloc(structure, contents.atoms, options.altloc);
   const RadiiChoice radii(options.radii, file.path, contents.radii_from_file);

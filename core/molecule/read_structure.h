@@ -34,6 +34,9 @@ struct ReadOptions {
   std::optional<Selection> selection = {};
   Hydrogens hydrogens = Hydrogens::automatic;
   RadiiOptions radii{};
+  bool keep_topology = false;  ///< fill in Structure::topology
+  /// Where the atoms of a file without positions (PSF) stand, Å, one each in the order of the file.
+  std::vector<glm::dvec3> positions{};
 };
 
 /// Reads a file of any format in formats.h, plain or gzipped; "-" is standard input. Default: polymer and ligands in,

@@ -2,6 +2,7 @@
 // What every structure reader provides: a description of its format, a test for its content, and the atoms of a file.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -31,8 +32,10 @@ struct ModelChoice {
 /// The atoms of the wanted models in the order of the file, nothing left out. Positions are finite. The other models
 /// are counted, not checked.
 struct FileContents {
-  std::vector<Atom> atoms;  ///< Atom::model says of which model
-  std::size_t models = 0;   ///< in the whole file
+  std::vector<Atom> atoms;         ///< Atom::model says of which model
+  std::vector<Bond> bonds;         ///< those the file lists, of the first of these models
+  bool without_positions = false;  ///< a topology (PSF): all positions are the origin
+  std::size_t models = 0;          ///< in the whole file
   std::size_t other_model_atoms = 0;
   bool radii_from_file = false;
   std::vector<Warning> warnings;

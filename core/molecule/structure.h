@@ -2,10 +2,12 @@
 // A molecule as read from a file: its atoms, and the account of what was read, left out and used.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <map>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -110,6 +112,15 @@ struct Assembly {
   std::vector<AssemblyPart> parts;
 };
 
+/// Two atoms of a file, by their place in it (Atom::index), that are bonded.
+using Bond = std::array<std::uint32_t, 2>;
+
+/// A file's atoms before anything is left out, and its bonds: what the frames of a trajectory are about.
+struct Topology {
+  std::vector<Atom> atoms;  ///< of one model
+  std::vector<Bond> bonds;  ///< those the file lists, which may be none or few
+};
+
 /// The atoms a surface is made of, in file order.
 struct Structure {
   std::string file;       ///< the path as given, or "standard input"
@@ -117,8 +128,9 @@ struct Structure {
   std::string radii_set;  ///< "bondi", "united", "protor", "file", or the files of radii
   std::vector<RadiusClass> radius_classes;
   std::vector<Atom> atoms;
-  std::vector<Instances> instances;  ///< each atom belongs to one; empty: all stand where their positions say
-  std::vector<Assembly> assemblies;  ///< those the file describes, if they were asked for
+  std::vector<Instances> instances;          ///< each atom belongs to one; empty: all stand where their positions say
+  std::vector<Assembly> assemblies;          ///< those the file describes, if they were asked for
+  std::shared_ptr<const Topology> topology;  ///< if it was asked for
   ReadReport report;
 };
 

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The table of trajectory formats.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "core/molecule/reader.h"
+#include "core/trajectory/trajectory.h"
+
+namespace meniscus {
+
+/// One format. `recognizes` looks at the first kTrajectoryStart bytes of a file (unpacked if gzipped text), and `open`
+/// throws as open_trajectory does.
+struct TrajectoryFormat {
+  FormatMetadata metadata;
+  bool (*recognizes)(std::string_view start);
+  std::unique_ptr<Trajectory> (*open)(const std::string& path, const TrajectoryOptions& options);
+};
+
+inline constexpr std::size_t kTrajectoryStart = 4096;
+
+/// All formats, in the order they are tried. The last is the models of a structure file, of any format of
+/// core/molecule/formats.h.
+std::span<const TrajectoryFormat* const> trajectory_formats();
+
+/// Does the file begin like one of the binary formats, which hold no atoms of their own? False for a file that cannot
+/// be read.
+bool is_binary_trajectory(const std::string& path);
+
+extern const TrajectoryFormat kModelsFormat;
+
+}  // namespace meniscus

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A trajectory file, open for reading its frames in any order.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/molecule/structure.h"
+#include "core/trajectory/frame.h"
+
+namespace meniscus {
+
+/// What every format provides. Frames count from 0 in the order of the file. Memory does not grow with their number,
+/// but for the frame index. One thread at a time.
+class Trajectory {
+ public:
+  virtual ~Trajectory() = default;
+  Trajectory(const Trajectory&) = delete;
+  Trajectory& operator=(const Trajectory&) = delete;
+
+  const std::string& path() const { return path_; }      ///< as given
+  const std::string& format() const { return format_; }  ///< "DCD", "XTC", ...
+  std::size_t atom_count() const { return atom_count_; }
+  /// Whole frames, at least one.
+  std::uint64_t frame_count() const { return frame_count_; }
+  /// Oddities that stop nobody: a frame count in the header that is not the file's, ...
+  const std::vector<Warning>& warnings() const { return warnings_; }
+  /// Empty, or what is wrong behind the last whole frame: "the file ends within frame 42; its 42 whole frames are
+  /// used".
+  const std::string& cut_short() const { return cut_short_; }
+
+  /// Reads one frame, bit by bit the same whatever was read before. Throws InputError naming file and frame: a
+  /// coordinate that is not finite or beyond kLargestCoordinate, another number of atoms, damaged data, no such frame,
+  /// a file that changed meanwhile.
+  void read(std::uint64_t number, Frame& frame);
+
+ protected:
+  Trajectory(std::string path, std::string format) : path_(std::move(path)), format_(std::move(format)) {}
+  /// As read(); `number` is one of frame_count(), and what is read is checked by the caller.
+  virtual void read_unchecked(std::uint64_t number, Frame& frame) = 0;
+
+  std::string path_, format_;
+  std::size_t atom_count_ = 0;
+  std::uint64_t frame_count_ = 0;
+  std::vector<Warning> warnings_;
+  std::string cut_short_;
+};
+
+/// How a trajectory is opened.
+struct TrajectoryOptions {
+  /// Folder for the frame indices of formats whose frames are found only by walking through the file (XTC, TRR); made
+  /// when missing. Empty: none is kept. An index is used only while size and time of its file are as they were.
+  std::string index_folder;
+};
+
+/// Opens a file of any format in core/trajectory/formats.h, told by its content. Throws InputError: missing, no
+/// trajectory, not one whole frame, broken header.
+std::unique_ptr<Trajectory> open_trajectory(const std::string& path, const TrajectoryOptions& options = {});
+
+}  // namespace meniscus
