@@ -48,6 +48,10 @@ constexpr const char* kExitCodes = R"(  0  done
   5  a limit of the machine or of a format was reached
   6  an output cannot be written, or exists and --force was not given
   7  the surface is not closed: the atoms are named, nothing is written
+  8  all whole frames are done, but the trajectory ends in mid-frame
+  9  a worker of a farm was told to stop (SIGTERM, SIGUSR1): run it again, and it goes on where it stopped
+
+A run of frames goes on after a frame that fails, and ends with the code of the first that did.
 
 Files are written under a temporary name beside the final one and renamed when whole; a half file never bears the
 final name. Interrupted (Ctrl-C, SIGTERM) the program removes what is unfinished and ends with 128 + the signal.

@@ -36,7 +36,7 @@ constexpr const char* kExamples = R"(  meniscus info 1tii.pdb                   
 
 constexpr const char* kExitCodes = R"(Exit codes:
   0 done  1 internal error  2 wrong usage  3 bad input  4 no usable GPU  5 too large
-  6 output not written  7 surface not closed
+  6 output not written  7 surface not closed  8 trajectory cut short  9 stopped, to be resumed
 )";
 
 constexpr std::size_t kHelpWidth = 100;

@@ -16,6 +16,8 @@ enum ExitCode : int {
   kExitCapacity = 5,
   kExitOutput = 6,
   kExitNotClosed = 7,
+  kExitIncomplete = 8,  ///< a run of frames is done, but its trajectory ends in mid-frame
+  kExitStopped = 9,     ///< a worker was told to stop; the same command goes on where it stopped
 };
 
 /// Options that are wrong, alone or together.
