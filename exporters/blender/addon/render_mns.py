@@ -1,16 +1,27 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Renders one .mns file in Blender without a window, with true exit codes.
+"""Renders a .mns file, or frames of a sequence of them, in Blender without a window, with true exit codes.
 
   blender -b --factory-startup --python-exit-code 3 --python render_mns.py -- FILE.mns --output picture.png
   ... -- FILE.mns --passes passes.exr       depth, normals and unlit colours through pixel centres, 32-bit, no anti-aliasing
+  ... -- SEQUENCE.json --frames 0-99:10,250 --output DIR/frame_#####
 
-Prints one JSON line. Exit codes: 0 done, 2 wrong usage, 3 bad input or failed import, 6 output not written.
+Of a sequence, --frames names frames of the trajectory (default: all of the run), --scene-frames those of the scene, from
+1; a run of # in a path stands for the number of the trajectory's frame. --motion-blur 0.5 blurs by half a frame.
+--mode driver, the default, holds one frame in memory; bake puts all frames into the scene, stream has the add-on's handler
+read them, and with these two --blend keeps the scene. One unit is one Å unless --scale says otherwise.
+
+Standard output holds, after Blender's name, one JSON line a frame, for a sequence
+  {"frame": 42, "scene_frame": 5, "state": "done", "files": ["DIR/frame_00042.png"], "triangles": 6120, "ms": 812.4}
+  {"frame": 43, "scene_frame": 6, "state": "failed", "exit": 3, "error": "surface_00043.mns: missing"}
+Pictures appear whole or not at all. After a frame that fails the others are rendered all the same.
+Exit codes: 0 done, 2 wrong usage, 3 bad input or failed import, 6 output not written; that of the first frame that failed.
 """
 
 import argparse
 import json
 import math
 import os
+import re
 import sys
 import time
 
@@ -18,7 +29,7 @@ import bpy
 import mathutils
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from meniscus_import import build, mns_reader  # noqa: E402
+from meniscus_import import build, mns_reader, sequence, sequence_reader  # noqa: E402
 
 #: Direction towards the light in the camera's axes (right, up, back), its colour; strengths are what a white, matt
 #: surface that faces the light sends to the camera. As in the POV-Ray scenes of Meniscus.
@@ -42,19 +53,24 @@ class Parser(argparse.ArgumentParser):
 
 
 def parse(arguments):
-    parser = Parser(prog="render_mns", description="Render a .mns file with Cycles.")
-    parser.add_argument("file")
+    parser = Parser(prog="render_mns", description="Render .mns files with Cycles.")
+    parser.add_argument("file", help=".mns file, or the manifest of a sequence (.json)")
+    parser.add_argument("--frames", help="of the trajectory: 0-99:10,250 or all")
+    parser.add_argument("--scene-frames", help="the same by place in the run, from 1")
+    parser.add_argument("--mode", choices=("driver", "bake", "stream"), help="how a sequence comes into the scene")
+    parser.add_argument("--motion-blur", type=float, metavar="SHUTTER", help="share of a frame the shutter is open")
     parser.add_argument("--output", help="picture, PNG")
-    parser.add_argument("--passes", help="depth, normals and colours, multi-layer EXR; one unit is one Å")
+    parser.add_argument("--passes", help="depth, normals and colours, multi-layer EXR")
     parser.add_argument("--size", help="WIDTHxHEIGHT in pixels; default: that of the file")
+    parser.add_argument("--scale", type=float, default=1.0, help="Blender units per Å")
     parser.add_argument("--samples", type=int, default=32)
     parser.add_argument("--style", choices=("studio", "film"), default="studio",
                         help="studio: matt, no shadows, as the POV-Ray scenes; film: soft shadows and sky light")
     parser.add_argument("--blend", help="save the scene here, too")
     parser.add_argument("--transparent", action="store_true", help="no background")
     options = parser.parse_args(arguments)
-    if not (options.output or options.passes or options.blend):
-        parser.error("nothing to do: give --output, --passes or --blend")
+    options.is_sequence = options.file.endswith(".json")
+    check_together(parser, options)
     if options.size:
         try:
             options.size = tuple(int(side) for side in options.size.split("x"))
@@ -64,6 +80,23 @@ def parse(arguments):
     return options
 
 
+def check_together(parser, options):
+    if not (options.output or options.passes or options.blend):
+        parser.error("nothing to do: give --output, --passes or --blend")
+    if not (math.isfinite(options.scale) and options.scale > 0):
+        parser.error("--scale is not a positive number")
+    if options.motion_blur is not None and not 0 < options.motion_blur <= 2:
+        parser.error("--motion-blur is not between 0 and 2 frames")
+    if not options.is_sequence:
+        if options.frames or options.scene_frames or options.mode:
+            parser.error("--frames, --scene-frames and --mode are for the manifest of a sequence (.json)")
+        return
+    if options.frames and options.scene_frames:
+        parser.error("--frames or --scene-frames, not both")
+    if options.blend and options.mode in (None, "driver"):
+        parser.error("--blend with a sequence needs --mode bake or stream")
+
+
 def empty_scene():
     for store in (bpy.data.objects, bpy.data.meshes, bpy.data.lights, bpy.data.cameras):
         for item in list(store):
@@ -71,14 +104,14 @@ def empty_scene():
 
 
 def add_lights(scene, camera, style):
-    axes = camera.matrix_world.to_3x3()
     for index, (direction, color, *angle) in enumerate(FILM if style == "film" else STUDIO):
         light = bpy.data.lights.new(f"Meniscus light {index + 1}", "SUN")
         light.color, light.energy = color, math.pi
         light.angle = math.radians(angle[0]) if angle else 0.0
         light.cycles.cast_shadow = bool(angle)
         item = bpy.data.objects.new(light.name, light)
-        item.rotation_euler = (axes @ mathutils.Vector(direction)).to_track_quat("Z", "Y").to_euler()
+        item.parent = camera
+        item.rotation_euler = mathutils.Vector(direction).to_track_quat("Z", "Y").to_euler()
         scene.collection.objects.link(item)
     world = bpy.data.worlds.new("Meniscus world")
     world.use_nodes = True
@@ -88,9 +121,9 @@ def add_lights(scene, camera, style):
     scene.world = world
 
 
-def make_matt(surfaces):
+def make_matt():
     """Nothing but diffuse colour, as in the studio style of the other renderers."""
-    for material in {material for item in surfaces for material in item.data.materials}:
+    for material in (bpy.data.materials[name] for name in build.MATERIALS):
         shader = next(node for node in material.node_tree.nodes if node.type == "BSDF_PRINCIPLED")
         for name in ("Specular", "Specular IOR Level"):
             if name in shader.inputs:
@@ -123,57 +156,188 @@ def render_to(scene, path, file_format, depth):
     os.replace(beside, path)
 
 
-def render_picture(scene, options):
+def render_picture(scene, options, path):
     set_up_cycles(scene, options.samples)
     scene.render.film_transparent = options.transparent
-    render_to(scene, options.output, "PNG", "8")
+    render_to(scene, path, "PNG", "8")
 
 
-def render_passes(scene, options):
+def render_passes(scene, path):
     set_up_cycles(scene, 1)
     scene.cycles.pixel_filter_type = "BOX"
     scene.cycles.filter_width = 0.01  # a ray through each pixel's centre
     layer = scene.view_layers[0]
     layer.use_pass_z = layer.use_pass_normal = layer.use_pass_diffuse_color = True
     scene.render.film_transparent = True
-    render_to(scene, options.passes, "OPEN_EXR_MULTILAYER", "32")
+    scene.render.use_motion_blur = False
+    render_to(scene, path, "OPEN_EXR_MULTILAYER", "32")
 
 
-def run(options):
-    started = time.time()
-    empty_scene()
-    made = build.import_file(options.file, bpy.context, scale=1.0)
-    if made.camera is None:
+def dress(scene, camera, options):
+    """Lights, size, style; saves the scene when asked to."""
+    if camera is None:
         raise mns_reader.MnsError(f"{options.file}: the file holds no camera")
-    loaded = time.time()
-    scene = bpy.context.scene
     if options.size:
         scene.render.resolution_x, scene.render.resolution_y = options.size
-    add_lights(scene, made.camera, options.style)
+    add_lights(scene, camera, options.style)
     if options.style == "studio":
-        make_matt(made.surfaces)
+        make_matt()
         scene.cycles.max_bounces = 0
+    if options.motion_blur:
+        scene.render.use_motion_blur = True
+        scene.render.motion_blur_shutter = options.motion_blur
     if options.blend:
+        set_up_cycles(scene, options.samples)
         bpy.ops.wm.save_as_mainfile(filepath=os.path.abspath(options.blend), compress=True)
+
+
+def run_file(options):
+    started = time.time()
+    empty_scene()
+    made = build.import_file(options.file, bpy.context, scale=options.scale)
+    loaded = time.time()
+    scene = bpy.context.scene
+    dress(scene, made.camera, options)
     if options.output:
-        render_picture(scene, options)
+        render_picture(scene, options, options.output)
     if options.passes:
-        render_passes(scene, options)
-    print(json.dumps({"file": options.file, "triangles": sum(len(item.data.polygons) for item in made.surfaces),
-                      "load_s": round(loaded - started, 3), "total_s": round(time.time() - started, 3)}), flush=True)
+        render_passes(scene, options.passes)
+    say({"file": options.file, "triangles": sum(len(item.data.polygons) for item in made.surfaces),
+         "load_s": round(loaded - started, 3), "total_s": round(time.time() - started, 3)})
+    return 0
+
+
+class Stage:
+    """A sequence in the scene, in one of the three modes."""
+
+    def __init__(self, options, frames):
+        self.frames = frames
+        self.mode = options.mode or "driver"
+        scene, context = bpy.context.scene, bpy.context
+        if self.mode == "bake":
+            self.item = sequence.bake(options.file, context, scale=options.scale)
+        elif self.mode == "stream":
+            sequence.register()
+            self.item = sequence.stream(options.file, context, scale=options.scale)
+        else:
+            self.placement = sequence.Placement(frames, options.scale)
+            self.item = bpy.data.objects.new(frames.stem, sequence.new_mesh(frames.stem))
+            scene.collection.objects.link(self.item)
+            sequence.add_camera(scene, scene.collection, self.placement)
+            sequence.set_up_scene(scene, frames)
+        self.camera = scene.camera
+
+    def show(self, scene_frame):
+        """Brings one frame to the camera; its triangles."""
+        scene = bpy.context.scene
+        if self.mode == "driver":
+            file = self.placement.refill(self.item.data, scene_frame)
+            self.item.data.update()
+            scene.frame_set(scene_frame)
+            build.reach_all(self.camera, file, self.placement.scale, self.placement.origin)
+        else:
+            scene.frame_set(scene_frame)
+        if self.item.get("meniscus_error"):
+            raise mns_reader.MnsError(self.item["meniscus_error"])
+        evaluated = self.item.evaluated_get(bpy.context.evaluated_depsgraph_get())
+        if self.mode == "bake":
+            shown = [each.object.data for each in bpy.context.evaluated_depsgraph_get().object_instances
+                     if each.is_instance and each.parent == evaluated]
+        else:
+            shown = [evaluated.data]
+        return sum(len(mesh.polygons) for mesh in shown)
+
+
+def numbered(pattern, number):
+    """The path with each run of # replaced by the number, at least as wide."""
+    return re.sub("#+", lambda run: str(number).zfill(len(run.group())), pattern)
+
+
+def chosen_frames(options, frames):
+    """Pairs: scene frame, frame of the trajectory."""
+    try:
+        if options.scene_frames:
+            places = sequence_reader.parse_frames(options.scene_frames, range(1, len(frames.frames) + 1))
+            for place in places:
+                if not 1 <= place <= len(frames.frames):
+                    raise ValueError(f"scene frame {place} is not one of 1 to {len(frames.frames)}")
+            return [(place, frames.frames[place - 1].number) for place in places]
+        numbers = sequence_reader.parse_frames(options.frames or "all", [frame.number for frame in frames.frames])
+        for number in numbers:
+            if frames.scene_frame(number) is None:
+                raise ValueError(f"frame {number} is not in the run of {options.file}")
+        return [(frames.scene_frame(number), number) for number in numbers]
+    except ValueError as error:
+        fail(2, error)
+
+
+def render_frame(stage, options, scene_frame, number):
+    """Files and triangles of one frame of a sequence."""
+    triangles = stage.show(scene_frame)
+    if triangles == 0:
+        raise mns_reader.MnsError(f"frame {number}: there is nothing to show")
+    files = []
+    if options.output:
+        files.append(numbered(options.output if options.output.endswith(".png") else options.output + ".png", number))
+        render_picture(bpy.context.scene, options, files[-1])
+    if options.passes:
+        files.append(numbered(options.passes, number))
+        render_passes(bpy.context.scene, files[-1])
+    if stage.item.get("meniscus_error"):
+        raise mns_reader.MnsError(stage.item["meniscus_error"])
+    return files, triangles
+
+
+def run_sequence(options):
+    empty_scene()
+    frames = sequence_reader.read(options.file)
+    chosen = chosen_frames(options, frames)
+    for path in (options.output, options.passes):
+        if path and "#" not in path and len(chosen) > 1:
+            fail(2, f"{path}: {len(chosen)} frames need a run of # for their numbers")
+    stage = Stage(options, frames)
+    dress(bpy.context.scene, stage.camera, options)
+    code = 0
+    for scene_frame, number in chosen if options.output or options.passes else ():
+        started = time.time()
+        line = {"frame": number, "scene_frame": scene_frame}
+        try:
+            files, triangles = render_frame(stage, options, scene_frame, number)
+            say({**line, "state": "done", "files": files, "triangles": triangles,
+                 "ms": round(1e3 * (time.time() - started), 1)})
+        except (mns_reader.MnsError, OSError, RuntimeError) as error:
+            failure = exit_code(error)
+            code = code or failure
+            say({**line, "state": "failed", "exit": failure, "error": str(error)})
+            sys.stderr.write(f"render_mns: error: {error}\n")
+    return code
+
+
+def exit_code(error):
+    return 3 if isinstance(error, (mns_reader.MnsError, FileNotFoundError, PermissionError)) else 6
+
+
+def fail(code, message):
+    sys.stderr.write(f"render_mns: error: {message}\n")
+    sys.exit(code)
+
+
+def say(line):
+    RESULTS.write(json.dumps(line) + "\n")
+    RESULTS.flush()
 
 
 def main():
     arguments = sys.argv[sys.argv.index("--") + 1:] if "--" in sys.argv else []
     options = parse(arguments)
     try:
-        run(options)
-    except (mns_reader.MnsError, FileNotFoundError, PermissionError) as error:
-        sys.stderr.write(f"render_mns: error: {error}\n")
-        sys.exit(3)
-    except (OSError, RuntimeError) as error:
-        sys.stderr.write(f"render_mns: error: {error}\n")
-        sys.exit(6)
+        code = run_sequence(options) if options.is_sequence else run_file(options)
+    except (mns_reader.MnsError, OSError, RuntimeError) as error:
+        fail(exit_code(error), error)
+    sys.exit(code)
 
 
+# Blender's own lines, which its C library holds back and cuts anywhere, go to standard error.
+RESULTS = os.fdopen(os.dup(1), "w", encoding="utf-8")
+os.dup2(2, 1)
 main()

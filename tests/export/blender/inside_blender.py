@@ -137,7 +137,7 @@ class Import(unittest.TestCase):
 
     def test_a_failure_half_way_leaves_nothing(self):
         before = everything()
-        for step in ("add_attributes", "add_normals", "build_camera"):
+        for step in ("add_attributes", "add_normals", "place_camera"):
             with mock.patch.object(build, step, side_effect=MemoryError(step)):
                 with self.assertRaises(MemoryError):
                     build.import_file(path_of("triple"))

@@ -15,6 +15,7 @@ MATERIALS = ("Meniscus outer", "Meniscus cavity")
 FACE_INTEGERS = {  # attribute -> array; on faces, where they stay whole numbers
     "ses_kind": "mesh.kind", "ses_patch": "mesh.patch", "ses_component": "mesh.component",
 }
+OBJECT_INTEGER = {"ses_object": "mesh.object"}  # only of joined objects
 ATOM_INTEGERS = {
     "atom_index": "atom.index", "atomic_number": "atom.atomic_number", "res_id": "atom.res_id", "chain_id": "atom.chain_id",
 }
@@ -44,7 +45,7 @@ def import_file(path, context=None, scale=0.1, crisp_colors=True, import_camera=
         made.collection = bpy.data.collections.new(stem)
         for surface in file.objects:
             name = f"{stem}.{surface.name if len(file.objects) > 1 else 'surface'}"
-            meshes.append(build_mesh(surface, name, scale, crisp_colors, new_materials))
+            meshes.append(build_mesh(surface, name, scale, crisp_colors, new_materials, fps_of(context.scene)))
             for copy in surface.copies:  # linked: all copies share one mesh
                 made.surfaces.append(bpy.data.objects.new(name, meshes[-1]))
                 made.surfaces[-1].matrix_world = placement(copy, scale)
@@ -52,7 +53,9 @@ def import_file(path, context=None, scale=0.1, crisp_colors=True, import_camera=
                 made.collection.objects.link(made.surfaces[-1])
         if import_camera and "camera" in file.header:
             camera = bpy.data.cameras.new(stem + ".camera")
-            made.camera = build_camera(file, camera, scale)
+            made.camera = bpy.data.objects.new(camera.name, camera)
+            place_camera(made.camera, file.header["camera"], scale)
+            reach_all(made.camera, file, scale)
             made.collection.objects.link(made.camera)
         context.scene.collection.children.link(made.collection)
     except BaseException:
@@ -66,7 +69,7 @@ def import_file(path, context=None, scale=0.1, crisp_colors=True, import_camera=
     if made.camera is not None:
         context.scene.camera = made.camera
         if set_size:
-            use_picture_size(context.scene, file)
+            use_picture_size(context.scene, file.header["camera"])
     for item in made.surfaces:
         show_all_in_viewports(context, item)
     return made
@@ -85,27 +88,41 @@ def positions_of(surface, scale):
     return ((surface["mesh.position"].astype(np.float64) + origin) * scale).astype(np.float32)
 
 
-def build_mesh(surface, name, scale, crisp_colors, new_materials):
-    positions = positions_of(surface, scale)
-    triangles = surface["mesh.triangle"]
-    if surface.header["mesh"].get("closed", True) and not mns_reader.is_closed(triangles):
-        raise mns_reader.MnsError(f"{surface.path}: the mesh is not closed")
+def fps_of(scene):
+    return scene.render.fps / scene.render.fps_base
+
+
+def build_mesh(surface, name, scale, crisp_colors, new_materials, fps):
     mesh = bpy.data.meshes.new(name)
     try:
-        mesh.vertices.add(len(positions))
-        mesh.vertices.foreach_set("co", positions.ravel())
-        compat.set_triangles(mesh, triangles)
-        mesh.update(calc_edges=True)
-        add_attributes(mesh, surface, crisp_colors)
-        add_materials(mesh, surface, new_materials)
-        add_sharp_edges(mesh, surface)
-        if mesh.validate(clean_customdata=False):
-            raise mns_reader.MnsError(f"{surface.path}: Blender found faults in the mesh")
-        add_normals(mesh, surface)
+        add_materials(mesh, new_materials)
+        fill_mesh(mesh, surface, scale, crisp_colors, fps)
     except BaseException:
         bpy.data.meshes.remove(mesh)
         raise
     return mesh
+
+
+def fill_mesh(mesh, surface, scale, crisp_colors, fps):
+    """Puts a surface into a mesh without geometry. Materials stay. On an error the mesh is half filled."""
+    positions = positions_of(surface, scale)
+    triangles = surface["mesh.triangle"]
+    if surface.header["mesh"].get("closed", True) and not mns_reader.is_closed(triangles):
+        raise mns_reader.MnsError(f"{surface.path}: the mesh is not closed")
+    mesh.vertices.add(len(positions))
+    mesh.vertices.foreach_set("co", positions.ravel())
+    compat.set_triangles(mesh, triangles)
+    mesh.update(calc_edges=True)
+    add_attributes(mesh, surface, crisp_colors)
+    if surface.get("mesh.velocity") is not None:  # Cycles blurs by the attribute of this name: units per second
+        add_attribute(mesh, "velocity", "FLOAT_VECTOR", "POINT",
+                      (surface["mesh.velocity"] * (scale * fps)).astype(np.float32), "vector")
+    cavity = np.array([part["kind"] == "cavity" for part in surface.header["components"]], dtype=np.int32)
+    mesh.polygons.foreach_set("material_index", cavity[surface["mesh.component"]])
+    add_sharp_edges(mesh, surface)
+    if mesh.validate(clean_customdata=False):
+        raise mns_reader.MnsError(f"{surface.path}: Blender found faults in the mesh")
+    add_normals(mesh, surface)
 
 
 def add_attribute(mesh, name, kind, domain, values, field="value"):
@@ -116,8 +133,9 @@ def add_attribute(mesh, name, kind, domain, values, field="value"):
 def add_attributes(mesh, surface, crisp_colors):
     atom = surface["mesh.atom"]
     triangles = surface["mesh.triangle"]
-    for name, array in FACE_INTEGERS.items():  # INT, not INT8: Cycles 3.4 reads INT8 as 0
-        add_attribute(mesh, name, "INT", "FACE", surface[array].astype(np.int32))
+    for name, array in {**FACE_INTEGERS, **OBJECT_INTEGER}.items():  # INT, not INT8: Cycles 3.4 reads INT8 as 0
+        if surface.get(array) is not None:
+            add_attribute(mesh, name, "INT", "FACE", surface[array].astype(np.int32))
     if surface.get("atom.index") is None:  # version 1: one object, whose atoms are those of the molecule in order
         add_attribute(mesh, "atom_index", "INT", "FACE", atom.astype(np.int32))
     for name, array in ATOM_INTEGERS.items():
@@ -158,7 +176,7 @@ def linear(srgb):
     return np.where(srgb <= 0.04045, srgb / 12.92, ((srgb + 0.055) / 1.055) ** 2.4).astype(np.float32)
 
 
-def add_materials(mesh, surface, new_materials):
+def add_materials(mesh, new_materials):
     for name in MATERIALS:
         material = bpy.data.materials.get(name)  # one that a user has edited stays as it is
         if material is None:
@@ -166,8 +184,6 @@ def add_materials(mesh, surface, new_materials):
             new_materials.append(material)
             fill_material(material)
         mesh.materials.append(material)
-    cavity = np.array([part["kind"] == "cavity" for part in surface.header["components"]], dtype=np.int32)
-    mesh.polygons.foreach_set("material_index", cavity[surface["mesh.component"]])
 
 
 def fill_material(material):
@@ -213,15 +229,14 @@ def set_provenance(item, surface, scale):
     item["meniscus_volume"] = float(header.get("volume", 0.0))
 
 
-def build_camera(file, camera, scale):
-    shot = file.header["camera"]
+def place_camera(item, shot, scale, origin=(0.0, 0.0, 0.0)):
+    """Moves a camera's object to where `shot`, the camera of a file, stands. origin: Å, of the scene's coordinates."""
     position, target, up = (mathutils.Vector(shot[key]) for key in ("position", "target", "up"))
     forward = (target - position).normalized()
     right = forward.cross(up).normalized()
-    item = bpy.data.objects.new(camera.name, camera)
     axes = mathutils.Matrix((right, right.cross(forward), -forward)).transposed()
-    item.matrix_world = mathutils.Matrix.Translation(position * scale) @ axes.to_4x4()
-    width, height = shot.get("size", (1, 1))
+    item.matrix_world = mathutils.Matrix.Translation((position - mathutils.Vector(origin)) * scale) @ axes.to_4x4()
+    camera = item.data
     camera.sensor_fit = "VERTICAL"
     if shot["projection"] == "orthographic":
         camera.type = "ORTHO"
@@ -230,15 +245,19 @@ def build_camera(file, camera, scale):
         camera.type = "PERSP"
         camera.lens_unit = "FOV"
         camera.angle_y = math.radians(shot["vertical_fov"])
-    reach = max(float(np.linalg.norm(surface["atom.center"] @ copy[:, :3].T + copy[:, 3] - np.array(position), axis=1).max())
+
+
+def reach_all(item, file, scale, origin=(0.0, 0.0, 0.0)):
+    """Sets the clipping of a camera so that no atom of the file is cut off; never brings its end nearer."""
+    place = np.array(item.matrix_world.translation) / scale + np.array(origin)
+    reach = max(float(np.linalg.norm(surface["atom.center"] @ copy[:, :3].T + copy[:, 3] - place, axis=1).max())
                 for surface in file.objects for copy in surface.copies) * scale
-    camera.clip_start = max(1e-4 * reach, 1e-6)
-    camera.clip_end = max(camera.clip_end, 4.0 * reach)
-    return item
+    item.data.clip_start = max(1e-4 * reach, 1e-6)
+    item.data.clip_end = max(item.data.clip_end, 4.0 * reach)
 
 
-def use_picture_size(scene, file):
-    size = file.header["camera"].get("size")
+def use_picture_size(scene, shot):
+    size = shot.get("size")
     if size:
         scene.render.resolution_x, scene.render.resolution_y = int(size[0]), int(size[1])
         scene.render.resolution_percentage = 100

@@ -85,3 +85,26 @@ def principled_input(node, *names):
 def can_drop_files(bpy):
     """FileHandler came with 4.1."""
     return hasattr(bpy.types, "FileHandler")
+
+
+def add_geometry_sockets(tree):
+    """One geometry in, one out: 4.0 moved the sockets of a node group to its interface."""
+    if hasattr(tree, "interface"):
+        tree.interface.new_socket("Geometry", in_out="INPUT", socket_type="NodeSocketGeometry")
+        tree.interface.new_socket("Geometry", in_out="OUTPUT", socket_type="NodeSocketGeometry")
+    else:
+        tree.inputs.new("NodeSocketGeometry", "Geometry")
+        tree.outputs.new("NodeSocketGeometry", "Geometry")
+
+
+def frame_rate(fps):
+    """fps and fps_base of the render settings: the first is a whole number before 5.0."""
+    whole = max(1, round(fps))
+    return whole, whole / fps
+
+
+def show_message(bpy, title, text):
+    """A message in the window, if there is one."""
+    if bpy.app.background or not getattr(bpy.context, "window", None):
+        return
+    bpy.context.window_manager.popup_menu(lambda menu, _context: menu.layout.label(text=text), title=title, icon="ERROR")

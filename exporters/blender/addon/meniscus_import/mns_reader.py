@@ -18,6 +18,8 @@ NEEDED = {
     "mesh.atom": 1, "mesh.sharp_corner": 1, "mesh.sharp_corner_normal": 3, "mesh.sharp_edge": 2,
     "atom.center": 3, "atom.radius": 1, "atom.color": 3,
 }
+#: Arrays a mesh may have, and their columns.
+OPTIONAL = {"mesh.velocity": 3}
 
 
 class MnsError(Exception):
@@ -155,8 +157,10 @@ def _read_array(path, data, start, entry):
 
 def _check(surface):
     path, arrays = surface.path, surface.arrays
-    for name, columns in NEEDED.items():
+    for name, columns in {**NEEDED, **OPTIONAL}.items():
         if name not in arrays:
+            if name in OPTIONAL:
+                continue
             raise MnsError(f"{path}: array {name} is missing")
         found = 1 if arrays[name].ndim == 1 else arrays[name].shape[1]
         if found != columns:
@@ -175,7 +179,8 @@ def _check(surface):
         raise MnsError(f"{path}: mesh.origin is not three numbers")
     components = len(surface.header.get("components") or [])
     lengths = {
-        "mesh.normal": vertices, "mesh.kind": triangles, "mesh.patch": triangles, "mesh.component": triangles,
+        "mesh.normal": vertices, "mesh.velocity": vertices, "mesh.kind": triangles, "mesh.patch": triangles,
+        "mesh.component": triangles,
         "mesh.atom": triangles, "atom.radius": atoms, "atom.color": atoms, "atom.b_factor": atoms,
         "atom.atomic_number": atoms, "atom.index": atoms, "atom.res_id": atoms, "atom.chain_id": atoms,
         "mesh.sharp_corner_normal": len(arrays["mesh.sharp_corner"]),

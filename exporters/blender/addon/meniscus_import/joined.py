@@ -1,0 +1,72 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Joins the objects of a .mns file and their copies into one surface: frames of a sequence differ in what they hold."""
+
+import numpy as np
+
+from . import mns_reader
+
+#: Arrays whose rows refer to others, and by how many rows those of earlier objects have moved on.
+INDICES = {"mesh.triangle": "mesh.position", "mesh.sharp_edge": "mesh.position", "mesh.atom": "atom.center"}
+TURNED = ("mesh.normal", "mesh.sharp_corner_normal", "mesh.velocity")
+PLAIN = ("mesh.kind", "mesh.patch", "atom.radius", "atom.color", "atom.index", "atom.b_factor", "atom.atomic_number",
+         "atom.res_id")
+
+
+def joined(file, origin):
+    """One mns_reader.Surface of all objects and copies, with mesh.position in Å relative to `origin` as float64, and
+    mesh.object: the object of each triangle."""
+    columns = {}
+    rows = {"mesh.position": 0, "mesh.triangle": 0, "atom.center": 0, "components": 0}
+    chains = {}
+    for number, surface in enumerate(file.objects):
+        for copy in surface.copies:
+            part = _placed(surface, copy, origin, rows, chains)
+            part["mesh.object"] = np.full(surface.triangle_count, number, dtype=np.int32)
+            for name, values in part.items():
+                columns.setdefault(name, []).append(values)
+            for name in ("mesh.position", "mesh.triangle", "atom.center"):
+                rows[name] += len(surface[name])
+            rows["components"] += len(surface.header["components"])
+    total = sum(len(surface.copies) for surface in file.objects)
+    arrays = {name: np.concatenate(parts) for name, parts in columns.items() if len(parts) == total}
+    return mns_reader.Surface(file.objects[0].path, _header(file, arrays, list(chains)), arrays)
+
+
+def _placed(surface, copy, origin, rows, chains):
+    turn, shift = copy[:, :3], copy[:, 3]
+    base = np.array(surface.header["mesh"]["origin"], dtype=np.float64)
+    part = {"mesh.position": (surface["mesh.position"].astype(np.float64) + base) @ turn.T + shift - origin,
+            "atom.center": surface["atom.center"] @ turn.T + shift - origin,
+            "mesh.component": surface["mesh.component"] + np.uint32(rows["components"]),
+            "mesh.sharp_corner": surface["mesh.sharp_corner"] + np.uint32(3 * rows["mesh.triangle"])}
+    for name, of in INDICES.items():
+        part[name] = surface[name] + np.uint32(rows[of])
+    for name in TURNED:
+        if surface.get(name) is not None:
+            part[name] = surface[name].astype(np.float64) @ turn.T
+    for name in PLAIN:
+        if surface.get(name) is not None:
+            part[name] = surface[name]
+    if surface.get("atom.chain_id") is not None:
+        names = surface.header.get("chain_names", [])
+        number = np.array([chains.setdefault(name, len(chains)) for name in names], dtype=np.int32)
+        ids = surface["atom.chain_id"]
+        if len(ids) and not 0 <= ids.min() <= ids.max() < len(names):
+            raise mns_reader.MnsError(f"{surface.path}: array atom.chain_id points to no chain name")
+        part["atom.chain_id"] = number[ids]
+    return part
+
+
+def _header(file, arrays, chains):
+    first = file.objects[0].header
+    meshes = [(surface.header["mesh"], len(surface.copies)) for surface in file.objects]
+    header = {key: value for key, value in first.items() if key not in ("name", "prefix", "copies", "objects")}
+    header["mesh"] = {"origin": [0.0, 0.0, 0.0], "tolerance": max(mesh.get("tolerance", 0.0) for mesh, _ in meshes),
+                      "vertices": len(arrays["mesh.position"]), "triangles": len(arrays["mesh.triangle"]),
+                      "closed": all(mesh.get("closed", True) for mesh, _ in meshes)}
+    header["components"] = [part for surface in file.objects for _ in surface.copies
+                            for part in surface.header["components"]]
+    for key in ("area", "volume"):
+        header[key] = sum(surface.header.get(key, 0.0) * len(surface.copies) for surface in file.objects)
+    header["chain_names"] = chains
+    return header

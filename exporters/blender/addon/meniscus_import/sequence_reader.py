@@ -1,0 +1,145 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Reads and checks the manifest of a sequence of .mns files with numpy alone; knows nothing of Blender (FORMAT.md)."""
+
+import json
+import math
+import os
+
+import numpy as np
+
+try:
+    from . import mns_reader
+except ImportError:  # outside of the add-on
+    import mns_reader
+
+VERSION = 1
+#: Longer than any film.
+MOST_FRAMES = 10_000_000
+
+
+class Frame:
+    """number: of the trajectory. path: its .mns file. camera: dict as in a .mns header, or None."""
+
+    def __init__(self, number, path, camera):
+        self.number = number
+        self.path = path
+        self.camera = camera
+
+
+class Sequence:
+    """frames: list of Frame; scene frame n, from 1, is frames[n - 1]. origin: Å. scale: Blender units per Å."""
+
+    def __init__(self, path, header, frames):
+        self.path = path
+        self.header = header
+        self.frames = frames
+        self.origin = np.array(header["origin"], dtype=np.float64)
+        self.scale = float(header["scale"])
+        self.fps = float(header["fps"])
+        self.run = header["run"]
+        self._scene_frame = {frame.number: index for index, frame in enumerate(frames, 1)}
+
+    @property
+    def stem(self):
+        return os.path.splitext(os.path.basename(self.path))[0]
+
+    @property
+    def camera_moves(self):
+        return any(frame.camera != self.frames[0].camera for frame in self.frames)
+
+    def scene_frame(self, number):
+        """Of a frame of the trajectory; None if it is not in the run."""
+        return self._scene_frame.get(number)
+
+    def resolve(self, time):
+        """The scene frame that stands for a moment, which may lie between frames: the nearest; None outside the run."""
+        nearest = math.floor(time + 0.5)
+        return nearest if 1 <= nearest <= len(self.frames) else None
+
+    def read(self, scene_frame):
+        """The .mns file of one scene frame. Raises MnsError or OSError: missing, damaged, of another run."""
+        frame = self.frames[scene_frame - 1]
+        if not os.path.exists(frame.path):
+            raise mns_reader.MnsError(f"{frame.path}: missing; it is frame {frame.number} (scene frame {scene_frame})")
+        file = mns_reader.read(frame.path)
+        place = file.header.get("sequence")
+        if not isinstance(place, dict) or place.get("run") != self.run or place.get("frame") != frame.number:
+            raise mns_reader.MnsError(
+                f"{frame.path}: not frame {frame.number} of this run ({self.path}); export it again")
+        return file
+
+
+def read(path):
+    """The sequence a manifest describes. Its .mns files may not be there yet. Raises MnsError or OSError."""
+    with open(path, encoding="utf-8") as file:
+        try:
+            header = json.load(file)
+        except ValueError as error:
+            raise mns_reader.MnsError(f"{path}: no JSON ({error})") from None
+    if not isinstance(header, dict) or header.get("format") != "meniscus surface sequence":
+        raise mns_reader.MnsError(f"{path}: not the manifest of a sequence of surfaces")
+    version = header.get("version")
+    if not isinstance(version, int) or version < 1:
+        raise mns_reader.MnsError(f"{path}: version {version!r} does not exist")
+    if version > VERSION:
+        raise mns_reader.MnsError(f"{path}: version {version} is newer than this add-on knows ({VERSION}); update it")
+    _check_numbers(path, header)
+    entries = header.get("frames")
+    if not isinstance(entries, list) or not entries:
+        raise mns_reader.MnsError(f"{path}: it lists no frames")
+    frames = [_frame(path, header, entry) for entry in entries]
+    if len({frame.number for frame in frames}) != len(frames):
+        raise mns_reader.MnsError(f"{path}: a frame comes twice")
+    return Sequence(path, header, frames)
+
+
+def _check_numbers(path, header):
+    try:
+        origin = np.array(header["origin"], dtype=np.float64)
+        good = origin.shape == (3,) and np.isfinite(origin).all()
+        good = good and all(math.isfinite(header[key]) and header[key] > 0 for key in ("scale", "fps"))
+        good = good and isinstance(header["run"], str)
+    except (KeyError, TypeError, ValueError):
+        good = False
+    if not good:
+        raise mns_reader.MnsError(f"{path}: run, origin, scale or fps is missing or makes no sense")
+
+
+def _frame(path, header, entry):
+    try:
+        number, name = entry["frame"], entry["file"]
+        plain = isinstance(name, str) and name == os.path.basename(name) and "\\" not in name and name not in ("", ".", "..")
+        if not plain or isinstance(number, bool) or not isinstance(number, int) or number < 0:
+            raise ValueError
+        camera = entry.get("camera", header.get("camera"))
+        if camera is not None:
+            _check_camera(camera)
+    except (KeyError, TypeError, ValueError):
+        raise mns_reader.MnsError(f"{path}: an entry of the list of frames makes no sense") from None
+    return Frame(number, os.path.join(os.path.dirname(path), name), camera)
+
+
+def _check_camera(camera):
+    vectors = np.array([camera[key] for key in ("position", "target", "up")], dtype=np.float64)
+    size = camera["height" if camera["projection"] == "orthographic" else "vertical_fov"]
+    if vectors.shape != (3, 3) or not np.isfinite(vectors).all() or not (math.isfinite(size) and size > 0):
+        raise ValueError
+
+
+def parse_frames(text, known):
+    """Frame numbers of a list such as "0-99:10,250" (first-last:step), in its order, each once. "all": those of `known`.
+    Raises ValueError with one sentence."""
+    if text == "all":
+        return list(known)
+    numbers = []
+    for part in text.split(","):
+        span, _, step = part.partition(":")
+        first, dash, last = span.partition("-")
+        words = [first] + ([last] if dash else []) + ([step] if ":" in part else [])
+        if not all(word.isascii() and word.isdigit() for word in words) or (":" in part and not dash):
+            raise ValueError(f"'{part}' is neither a frame, nor first-last, nor first-last:step")
+        begin, end, stride = int(first), int(last if dash else first), int(step or 1)
+        if end < begin or stride < 1 or (end - begin) // stride >= MOST_FRAMES:
+            raise ValueError(f"'{part}' names no frames, or too many")
+        numbers.extend(range(begin, end + 1, stride))
+    return list(dict.fromkeys(numbers))
