@@ -8,6 +8,7 @@
 
 #include "app/area_csv.h"
 #include "app/commands.h"
+#include "app/frame_run.h"
 #include "app/context_areas.h"
 #include "app/molecule.h"
 #include "app/program_error.h"
@@ -18,6 +19,7 @@ namespace {
 
 struct SurfaceCommand {
   MoleculeOptions molecule;
+  SequenceOptions sequence;
   bool json = false;
   std::string atom_csv, residue_csv;  ///< paths; empty: none; "-": standard output
   std::optional<Selection> context;
@@ -47,7 +49,27 @@ void write(const std::string& path, const std::string& text, Existing existing) 
   file.commit();
 }
 
+// A line or a row for every frame, as soon as it is there.
+void run_sequence(const SurfaceCommand& command) {
+  if (command.context) throw UsageError("--context: not in a run of frames; leave one of them away");
+  if (!command.atom_csv.empty() || !command.residue_csv.empty())
+    throw UsageError("--csv: not in a run of frames; --json has the areas of chains");
+  Sequence sequence(command.molecule, command.sequence);
+  MoleculeBuilder builder(command.molecule);
+  if (!command.json) std::cout << report_row_header(command.molecule);
+  run_frames(sequence, command.molecule, command.sequence, [&](const SequenceFrame& frame) {
+    const Molecule molecule = builder.build(frame.structure);
+    const auto columns = area_columns(molecule.structure, molecule.objects, command.molecule.computing.kind);
+    const SurfaceReport report{molecule, command.molecule, columns, std::nullopt};
+    const FrameNote note{frame.number, frame.time};
+    std::cout << (command.json ? report_json_line(report, note) : report_row(report, note)) << std::flush;
+    if (!std::cout) throw OutputError("standard output", "cannot be written");
+    return std::vector<std::string>{};
+  });
+}
+
 void run(const SurfaceCommand& command) {
+  if (command.sequence.asked()) return run_sequence(command);
   const Existing existing = command.force ? Existing::replace : Existing::refuse;
   check_outputs(command, existing);
   const Molecule molecule = load_molecule(command.molecule);
@@ -77,10 +99,12 @@ void add_surface(CLI::App& command) {
       "  meniscus surface 1tii.pdb --select 'chain D' --context 'chain E'   area of D, and what E buries of it\n"
       "  meniscus surface 1tii.pdb --cavities only         cavities, and what lies in them\n"
       "  meniscus surface 1tii.pdb --surface sas --csv -   solvent-accessible areas of atoms on standard output\n"
-      "  meniscus surface balls.xyzr --surface vdw         van der Waals surface, radii of the file",
+      "  meniscus surface balls.xyzr --surface vdw         van der Waals surface, radii of the file\n"
+      "  meniscus surface adk.psf --trajectory adk.dcd --frames all --json      a line of JSON a frame",
       "Used are the polymers and ligands of the first model, of each residue the most occupied conformer; water and\n"
       "free ions are left out. What was read, left out and used is always said. Radii are Bondi's (`meniscus info`\n"
-      "lists them), or the file's own (PQR, XYZR). The surface is complete, cavities too, and closed; areas and volumes\n"
+      "lists them), or the file's own (PQR, XYZR). The surface is complete, cavities too, and closed; areas and "
+      "volumes\n"
       "are exact, in closed form. A cavity's volume is negative: it is missing from the solid. An atom's part of the\n"
       "surface is what has its colour in pictures: its contact patch, and of the patches around it what is nearer to\n"
       "its contact than to any other.");
@@ -88,6 +112,7 @@ void add_surface(CLI::App& command) {
   add_atom_options(command, state->molecule);
   add_surface_options(command, state->molecule);
   add_division_options(command, state->molecule);
+  add_sequence_options(command, state->sequence);
   command.add_flag("--json", state->json, "Print one JSON object instead of a table");
   command.add_option("--csv", state->atom_csv, "Write areas of atoms, a row each; -: to standard output, nothing else")
       ->type_name("FILE");

@@ -47,8 +47,8 @@ struct ComputedSurface {
 /// Computes any number of surfaces on the device that was asked for. A GL context is made once, with the first.
 class SurfaceComputer {
  public:
-  /// Automatic takes a hardware GPU if there is one, else the CPU, which is faster than software GL. Throws RequestError
-  /// for a van der Waals surface with a probe.
+  /// Automatic takes a hardware GPU if there is one, else the CPU, which is faster than software GL. Throws
+  /// RequestError for a van der Waals surface with a probe.
   explicit SurfaceComputer(const ComputeOptions& options);
   ~SurfaceComputer();
 
@@ -58,7 +58,8 @@ class SurfaceComputer {
   Surface compute(std::span<const Ball> balls);
 
   const std::string& device() const { return device_; }  ///< "cpu (16 threads)", or GL renderer and version
-  const std::vector<StageTime>& stages() const { return clock_.times(); }  ///< of all surfaces so far
+  const std::vector<StageTime>& stages() const { return clock_.times(); }  ///< of all surfaces since the last restart
+  void restart_clock() { clock_.restart(); }
 
  private:
   struct GlPipeline;

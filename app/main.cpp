@@ -148,23 +148,13 @@ int main(int argc, char** argv) {
   clean_up_on_signals();
   try {
     return run(argc, argv);
-  } catch (const RequestError& error) {
-    return report(kExitUsage, error.what());
   } catch (const SelectionError& error) {
     return report(error);
-  } catch (const InputError& error) {
-    return report(kExitInput, error.what());
-  } catch (const GpuError& error) {
-    return report(kExitGpu, error.what());
-  } catch (const CapacityError& error) {
-    return report(kExitCapacity, error.what());
-  } catch (const OutputError& error) {
-    return report(kExitOutput, error.what());
-  } catch (const OpenSurfaceError& error) {
-    return report(kExitNotClosed, error.what());
   } catch (const std::bad_alloc&) {
     return report(kExitCapacity, "not enough memory");
   } catch (const std::exception& error) {
-    return report(kExitInternal, fmt::format("internal: {}; please report this", error.what()));
+    const ExitCode code = exit_code_of(error);
+    return report(code, code == kExitInternal ? fmt::format("internal: {}; please report this", error.what())
+                                              : std::string(error.what()));
   }
 }

@@ -2,6 +2,8 @@
 // Carries out what the common options say.
 #include "app/molecule.h"
 
+#include <utility>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -57,23 +59,32 @@ std::string colors_json(const ColorKey& key) {
   return json.dump(-1, ' ', true, Json::error_handler_t::replace);
 }
 
-Molecule load_molecule(const MoleculeOptions& options) {
-  Molecule molecule;
-  molecule.structure = read_molecule(options);
-  molecule.color = color_of(options);
-  if (molecule.color.by == ColorScheme::By::copy && !molecule.structure.instances.empty())
+MoleculeBuilder::MoleculeBuilder(const MoleculeOptions& options)
+    : options_(options), color_(color_of(options)), division_(options.division), computer_(options.computing) {
+  if (color_.by == ColorScheme::By::component && !division_.groups) division_.components = true;
+}
+
+Molecule MoleculeBuilder::build(Structure structure) {
+  if (color_.by == ColorScheme::By::copy && !structure.instances.empty())
     throw RequestError("--color copy needs copies with colours of their own; leave --instances away");
-  SurfaceComputer computer(options.computing);
-  DivisionOptions division = options.division;
-  if (molecule.color.by == ColorScheme::By::component && !division.groups) division.components = true;
-  molecule.objects = surface_objects(molecule.structure, division, computer);
+  Molecule molecule;
+  molecule.structure = std::move(structure);
+  molecule.color = color_;
+  computer_.restart_clock();
+  molecule.objects = surface_objects(molecule.structure, division_, computer_);
   for (std::size_t n = 0; n < molecule.objects.size(); ++n) {
     SurfaceObject& object = molecule.objects[n];
     object.coloring = color_object(molecule.structure, object.atom, molecule.color, n);
   }
-  if (options.show) show_only(*options.show, molecule.structure, molecule.objects);
-  molecule.device = computer.device();
-  molecule.stages = computer.stages();
+  if (options_.show) show_only(*options_.show, molecule.structure, molecule.objects);
+  molecule.device = computer_.device();
+  molecule.stages = computer_.stages();
+  return molecule;
+}
+
+Molecule load_molecule(const MoleculeOptions& options) {
+  Structure structure = read_molecule(options);
+  Molecule molecule = MoleculeBuilder(options).build(std::move(structure));
   say(options, fmt::format("surface on {} in {:.1f} ms", molecule.device, total_ms(molecule.stages)));
   return molecule;
 }

@@ -42,6 +42,22 @@ std::string colors_json(const Molecule& molecule);
 /// A table of the assemblies the file describes, on stdout.
 void print_assemblies(const Structure& structure);
 
+/// Makes molecules of one structure after another: the frames of a trajectory.
+class MoleculeBuilder {
+ public:
+  /// `options` must live as long. Throws InputError for the numbers of --color-by-file, RequestError.
+  explicit MoleculeBuilder(const MoleculeOptions& options);
+
+  /// Computes and colours. Throws what surface_objects and color_object throw, InputError if --show shows nothing.
+  Molecule build(Structure structure);
+
+ private:
+  const MoleculeOptions& options_;
+  ColorScheme color_;
+  DivisionOptions division_;
+  SurfaceComputer computer_;
+};
+
 /// Reads, computes and colours, in that order; says on stderr what was read and on which device it ran.
 Molecule load_molecule(const MoleculeOptions& options);
 

@@ -2,6 +2,8 @@
 // The program's exit codes, and the error for options that make no sense together.
 #pragma once
 
+#include <exception>
+
 #include "core/base/error.h"
 
 namespace meniscus {
@@ -18,6 +20,19 @@ enum ExitCode : int {
   kExitNotClosed = 7,
   kExitIncomplete = 8,  ///< a run of frames is done, but its trajectory ends in mid-frame
   kExitStopped = 9,     ///< a worker was told to stop; the same command goes on where it stopped
+};
+
+/// The code a program ends with because of this error.
+ExitCode exit_code_of(const std::exception& error);
+
+/// A run of frames of which some failed, or whose trajectory was cut short.
+class RunError : public Error {
+ public:
+  RunError(ExitCode code, const std::string& message) : Error(message), code_(code) {}
+  ExitCode code() const { return code_; }
+
+ private:
+  ExitCode code_;
 };
 
 /// Options that are wrong, alone or together.

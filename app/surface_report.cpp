@@ -149,9 +149,7 @@ std::string chain_table(const SurfaceReport& report) {
   return text;
 }
 
-}  // namespace
-
-std::string report_json(const SurfaceReport& report) {
+Json report_object(const SurfaceReport& report) {
   const Structure& structure = report.molecule.structure;
   const Totals totals = totals_of(report.molecule.objects);
   const SurfaceCounts& counts = totals.counts;
@@ -182,7 +180,35 @@ std::string report_json(const SurfaceReport& report) {
   json["certificate"] = {{"closed", true}, {"open_atoms", Json::array()}};
   json["device"] = report.molecule.device;
   json["stages"] = stages;
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json;
+}
+
+}  // namespace
+
+std::string report_json(const SurfaceReport& report) {
+  return report_object(report).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string report_json_line(const SurfaceReport& report, const FrameNote& note) {
+  Json json{{"frame", note.frame}, {"time", note.time ? Json(*note.time) : Json()}};
+  json.update(report_object(report));
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string report_row_header(const MoleculeOptions& options) {
+  return fmt::format("{:>9} {:>12} {:>14} {:>16} {:>10} {}\n", "frame", "time ps", "area Å²", "volume Å³", "components",
+                     options.computing.kind == SurfaceKind::ses ? " accessible Å²" : "");
+}
+
+std::string report_row(const SurfaceReport& report, const FrameNote& note) {
+  const Totals totals = totals_of(report.molecule.objects);
+  std::size_t components = 0;
+  for (const SurfaceObject& object : report.molecule.objects) components += object.surface.components.size();
+  std::string row =
+      fmt::format("{:>9} {:>12} {:>13.3f} {:>15.3f} {:>10}", note.frame,
+                  note.time ? fmt::format("{:.3f}", *note.time) : "-", totals.area, totals.volume, components);
+  if (report.options.computing.kind == SurfaceKind::ses) row += fmt::format(" {:>14.3f}", report.columns[1].total);
+  return row + "\n";
 }
 
 std::string report_table(const SurfaceReport& report) {

@@ -31,4 +31,16 @@ struct SurfaceReport {
 std::string report_json(const SurfaceReport& report);
 std::string report_table(const SurfaceReport& report);
 
+/// Which frame of a trajectory it is, and its time in ps if that is known.
+struct FrameNote {
+  std::uint64_t frame = 0;
+  std::optional<double> time;
+};
+
+/// The object of report_json in one line that begins with "frame" and "time" (null if unknown).
+std::string report_json_line(const SurfaceReport& report, const FrameNote& note);
+/// A row of the table of a run, and the line above all of them.
+std::string report_row(const SurfaceReport& report, const FrameNote& note);
+std::string report_row_header(const MoleculeOptions& options);
+
 }  // namespace meniscus

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The loop over frames.
+#include "app/frame_run.h"
+
+#include <algorithm>
+#include <chrono>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "app/program_error.h"
+#include "app/run_progress.h"
+#include "core/base/text.h"
+
+namespace meniscus {
+namespace {
+
+bool ends_the_run(const std::exception& error) {
+  const ExitCode code = exit_code_of(error);
+  return code == kExitOutput || code == kExitGpu || code == kExitUsage || code == kExitInternal;
+}
+
+/// The first frame that failed, and how many did.
+struct Failures {
+  std::uint64_t count = 0, frame = 0;
+  ExitCode code = kExitOk;
+  std::string message;
+};
+
+}  // namespace
+
+void run_frames(Sequence& sequence, const MoleculeOptions& molecule, const SequenceOptions& options,
+                const std::function<std::vector<std::string>(const SequenceFrame&)>& make) {
+  RunProgress progress(options.progress, molecule.quiet, sequence.share().size());
+  Failures failures;
+  for (std::size_t n = 0; n < sequence.share().size(); ++n) {
+    const std::uint64_t number = sequence.upcoming();
+    const auto begin = std::chrono::steady_clock::now();
+    try {
+      const std::optional<SequenceFrame> frame = sequence.next();
+      const std::vector<std::string> files = make(*frame);
+      const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - begin;
+      progress.done(number, files, elapsed.count());
+    } catch (const std::exception& error) {
+      if (ends_the_run(error)) throw;
+      if (failures.count++ == 0) failures = {1, number, exit_code_of(error), error.what()};
+      progress.failed(number, exit_code_of(error), error.what());
+    }
+  }
+  progress.end();
+  if (failures.count > 0) {
+    throw RunError(failures.code,
+                   fmt::format("{} of {} frames failed; the first, frame {}: {}", with_thousands(failures.count),
+                               with_thousands(sequence.share().size()), failures.frame, failures.message));
+  }
+  const Trajectory& trajectory = sequence.trajectory();
+  const bool reaches_end = std::ranges::find(sequence.share(), trajectory.frame_count() - 1) != sequence.share().end();
+  if (!trajectory.cut_short().empty() && reaches_end) {
+    throw RunError(kExitIncomplete, fmt::format("{}: {}; every whole frame asked for is done", trajectory.path(),
+                                                trajectory.cut_short()));
+  }
+}
+
+}  // namespace meniscus

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Makes the frames of a run one after another, goes on after one that fails, and tells it all.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "app/sequence.h"
+
+namespace meniscus {
+
+/// Calls `make` for each frame of the share; it gives the files it wrote. A frame that throws, in reading or making, is
+/// told on stderr, and the run goes on; but OutputError and GpuError end it at once, as the next frame would meet them
+/// too. At the end throws RunError: with the code of the first frame that failed, else with kExitIncomplete if the
+/// trajectory was cut short and the run reaches its last whole frame.
+void run_frames(Sequence& sequence, const MoleculeOptions& molecule, const SequenceOptions& options,
+                const std::function<std::vector<std::string>(const SequenceFrame& frame)>& make);
+
+}  // namespace meniscus

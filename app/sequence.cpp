@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// From options to prepared frames.
+#include "app/sequence.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cstdlib>
+#include <unordered_map>
+#include <unordered_set>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "app/molecule.h"
+#include "app/program_error.h"
+#include "core/base/text.h"
+#include "core/trajectory/found_bonds.h"
+#include "core/trajectory/frame_list.h"
+
+namespace meniscus {
+namespace {
+
+void check_options(const MoleculeOptions& molecule, const SequenceOptions& options) {
+  if (!molecule.reading.assembly.empty()) throw UsageError("--assembly: runs of frames are as the file has them");
+  if (molecule.division.instances != InstanceMode::none) throw UsageError("--instances: runs of frames have no copies");
+  if (molecule.reading.model.all || molecule.reading.model.number != 1)
+    throw UsageError("--model and --frames: the models of a file are its frames, counted from 0; leave --model away");
+  if (options.trajectory.empty() && molecule.file == "-")
+    throw UsageError("standard input is read once, so it has no frames; save it as a file");
+  if (options.smooth % 2 == 0) throw UsageError(fmt::format("--smooth {}: an odd number has a middle", options.smooth));
+}
+
+/// Where frame indices are kept: beside other caches of the user, or nowhere.
+std::string index_folder() {
+  if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache && *cache == '/')
+    return std::string(cache) + "/meniscus";
+  if (const char* home = std::getenv("HOME"); home && *home == '/') return std::string(home) + "/.cache/meniscus";
+  return {};
+}
+
+/// A bound in ps, if the text is one: a number and "ps", "ns" or "fs".
+std::optional<double> time_of(std::string_view text) {
+  constexpr std::pair<std::string_view, double> kUnits[] = {{"fs", 1e-3}, {"ps", 1.0}, {"ns", 1e3}, {"us", 1e6}};
+  for (const auto& [unit, ps] : kUnits) {
+    if (!text.ends_with(unit)) continue;
+    const std::string_view number = text.substr(0, text.size() - unit.size());
+    double value = 0.0;
+    const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), value);
+    if (error == std::errc() && end == number.data() + number.size()) return value * ps;
+  }
+  return {};
+}
+
+/// Is a frame inside a bound of --begin or --end?
+class Bound {
+ public:
+  Bound(const char* option, const std::string& text, Trajectory& trajectory)
+      : option_(option), text_(text), trajectory_(trajectory), time_(time_of(text)) {
+    if (time_) return;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), frame_);
+    if (error != std::errc() || end != text.data() + text.size())
+      throw UsageError(
+          fmt::format("{}: {} is neither a frame such as 100 nor a time such as 300ps", option, in_quotes(text)));
+  }
+
+  /// Less than 0: before it; 0: at it; more: behind.
+  double compare(std::uint64_t number) const {
+    if (!time_) return static_cast<double>(number) - static_cast<double>(frame_);
+    Frame frame;
+    trajectory_.read(number, frame);
+    if (!frame.time)
+      throw UsageError(
+          fmt::format("{} {}: the frames of {} have no times; give a frame", option_, text_, trajectory_.path()));
+    return *frame.time - *time_;
+  }
+
+ private:
+  const char* option_;
+  std::string text_;
+  Trajectory& trajectory_;
+  std::optional<double> time_;
+  std::uint64_t frame_ = 0;
+};
+
+std::vector<std::uint32_t> chosen(const Selection& selection, const std::vector<Atom>& atoms, const char* option,
+                                  std::size_t least) {
+  std::vector<std::uint32_t> indices;
+  const std::vector<bool> selected = selection.evaluate(atoms);
+  for (std::uint32_t n = 0; n < atoms.size(); ++n)
+    if (selected[n]) indices.push_back(n);
+  if (indices.size() < least) {
+    throw UsageError(fmt::format("{} {}: selects {} of {} atoms, and needs at least {}", option,
+                                 in_quotes(selection.text()), indices.size(), with_thousands(atoms.size()), least));
+  }
+  return indices;
+}
+
+}  // namespace
+
+Sequence::Sequence(const MoleculeOptions& molecule, const SequenceOptions& options, bool velocities)
+    : velocities_(velocities) {
+  check_options(molecule, options);
+  trajectory_ = open_trajectory(options.trajectory.empty() ? molecule.file : options.trajectory, {index_folder()});
+  choose_frames(options);
+  MoleculeOptions reading = molecule;
+  reading.reading.keep_topology = true;
+  Frame first;
+  if (!options.trajectory.empty()) {
+    trajectory_->read(run_.front(), first);
+    reading.reading.positions = first.positions;
+  }
+  structure_ = read_molecule(reading);
+  const std::size_t atoms = structure_.topology->atoms.size();
+  if (atoms != trajectory_->atom_count()) {
+    throw InputError(trajectory_->path(), 0,
+                     fmt::format("its frames have {} atoms, {} has {}; they do not belong together",
+                                 with_thousands(trajectory_->atom_count()), structure_.file, with_thousands(atoms)));
+  }
+  say(molecule,
+      fmt::format("{}: {}, {} frames; this run has {}{}", trajectory_->path(), trajectory_->format(),
+                  with_thousands(trajectory_->frame_count()), with_thousands(run_.size()),
+                  share_.size() < run_.size() ? fmt::format(", of which {} are made here", share_.size()) : ""));
+  for (const Warning& warning : trajectory_->warnings())
+    if (molecule.warnings != WarningDetail::none)
+      say(molecule, fmt::format("warning: {}: {}", trajectory_->path(), warning.text));
+  if (!trajectory_->cut_short().empty())
+    say(molecule, fmt::format("warning: {}: {}", trajectory_->path(), trajectory_->cut_short()));
+  prepare(molecule, options);
+  Frame frame;
+  frames_->read(run_.front(), frame);
+  place(frame.positions, structure_);
+}
+
+Sequence::~Sequence() = default;
+
+void Sequence::choose_frames(const SequenceOptions& options) {
+  run_ = parse_frame_list("--frames", options.frames.empty() ? "all" : options.frames, trajectory_->frame_count());
+  const auto keep = [this](const char* option, const std::string& text, int side) {
+    if (text.empty()) return;
+    const Bound bound(option, text, *trajectory_);
+    std::erase_if(run_, [&](std::uint64_t number) { return side * bound.compare(number) < 0.0; });
+  };
+  keep("--begin", options.begin, 1);
+  keep("--end", options.end, -1);
+  if (run_.empty()) throw UsageError("no frame is left between --begin and --end");
+  for (std::size_t n = 0; n * options.stride < run_.size(); ++n) run_[n] = run_[n * options.stride];
+  run_.resize((run_.size() + options.stride - 1) / options.stride);
+  if (options.reference >= trajectory_->frame_count())
+    throw UsageError(fmt::format("--reference {}: the trajectory has frames 0 to {}", options.reference,
+                                 trajectory_->frame_count() - 1));
+  if (options.only.empty()) {
+    share_ = run_;
+    return;
+  }
+  const std::unordered_set<std::uint64_t> members(run_.begin(), run_.end());
+  share_ = parse_frame_list("--only", options.only, trajectory_->frame_count());
+  for (const std::uint64_t number : share_)
+    if (!members.contains(number)) throw UsageError(fmt::format("--only: frame {} is not in the run", number));
+}
+
+void Sequence::prepare(const MoleculeOptions& molecule, const SequenceOptions& options) {
+  const Topology& topology = *structure_.topology;
+  Preparation preparation;
+  preparation.reference = options.reference;
+  preparation.smooth_half = options.smooth / 2;
+  if (options.superpose) preparation.superposed = chosen(*options.superpose, topology.atoms, "--superpose", 3);
+  if (options.center) preparation.centered = chosen(*options.center, topology.atoms, "--center", 1);
+  if (options.whole != WholeBy::nothing) {
+    Frame frame;
+    trajectory_->read(run_.front(), frame);
+    const std::optional<PeriodicCell> cell = frame.cell ? PeriodicCell::of(*frame.cell) : std::nullopt;
+    std::vector<Bond> bonds = options.whole == WholeBy::guess ? guessed_bonds(topology.atoms, frame.positions, cell)
+                                                              : template_bonds(topology.atoms, frame.positions, cell);
+    bonds.insert(bonds.end(), topology.bonds.begin(), topology.bonds.end());
+    std::vector<std::uint32_t> wanted = preparation.superposed;
+    wanted.insert(wanted.end(), preparation.centered.begin(), preparation.centered.end());
+    for (const Atom& atom : structure_.atoms) wanted.push_back(atom.index);
+    preparation.whole.emplace(topology.atoms, bonds, wanted, molecule.file);
+  }
+  frames_ = std::make_unique<PreparedFrames>(*trajectory_, std::move(preparation));
+}
+
+void Sequence::place(const std::vector<glm::dvec3>& positions, Structure& structure) const {
+  for (Atom& atom : structure.atoms) atom.position = positions[atom.index];
+}
+
+void Sequence::survey(const std::function<void(std::uint64_t, std::span<const Ball>)>& look) {
+  std::vector<Ball> balls = balls_of(structure_);
+  Frame frame;
+  for (std::uint64_t place = 0; place < run_.size(); ++place) {
+    try {
+      frames_->read(run_[place], frame);
+    } catch (const InputError&) {
+      continue;  // whoever makes this frame says what is wrong with it
+    }
+    for (std::size_t n = 0; n < balls.size(); ++n) balls[n].center = frame.positions[structure_.atoms[n].index];
+    look(place, balls);
+  }
+}
+
+std::optional<SequenceFrame> Sequence::next() {
+  if (taken_ == share_.size()) return {};
+  if (!ahead_) {
+    ahead_ = std::make_unique<ReadAhead>(
+        [this](ReadFrame& read) {
+          frames_->read(read.number, read.frame);
+          if (velocities_) frames_->read_velocities(read.number, read.velocities);
+        },
+        share_);
+  }
+  std::optional<ReadFrame> read = ahead_->next();
+  ++taken_;
+  if (read->error) std::rethrow_exception(read->error);
+  SequenceFrame frame;
+  frame.number = read->number;
+  frame.place = static_cast<std::uint64_t>(std::ranges::find(run_, read->number) - run_.begin());
+  frame.time = read->frame.time;
+  frame.structure = structure_;
+  place(read->frame.positions, frame.structure);
+  if (velocities_)
+    for (const Atom& atom : frame.structure.atoms) frame.velocities.push_back(read->velocities[atom.index]);
+  return frame;
+}
+
+}  // namespace meniscus

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Reads and writes lists of frames.
+#include "core/trajectory/frame_list.h"
+
+#include <charconv>
+#include <optional>
+#include <unordered_set>
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+#include "core/base/text.h"
+
+namespace meniscus {
+namespace {
+
+/// FIRST, FIRST-LAST, FIRST- or FIRST-LAST:STEP.
+struct Part {
+  std::uint64_t first = 0, last = 0, step = 1;
+};
+
+class ListParser {
+ public:
+  ListParser(const std::string& option, std::string_view text, std::uint64_t count)
+      : option_(option), text_(text), count_(count) {}
+
+  std::vector<std::uint64_t> parse() {
+    std::string_view rest = text_;
+    while (true) {
+      const std::size_t comma = rest.find(',');
+      take(rest.substr(0, comma));
+      if (comma == std::string_view::npos) return std::move(frames_);
+      rest.remove_prefix(comma + 1);
+    }
+  }
+
+ private:
+  [[noreturn]] void refuse(const std::string& what) const {
+    throw RequestError(fmt::format("{}: {} {}", option_, in_quotes(text_), what));
+  }
+
+  std::uint64_t number(std::string_view& rest) const {
+    std::uint64_t value = 0;
+    const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), value);
+    if (error != std::errc())
+      refuse("is no list of frames such as all, 7, 0-99, 0-99:10, 90- or several of these with commas between");
+    rest.remove_prefix(static_cast<std::size_t>(end - rest.data()));
+    return value;
+  }
+
+  static bool skip(std::string_view& rest, char c) {
+    if (!rest.starts_with(c)) return false;
+    rest.remove_prefix(1);
+    return true;
+  }
+
+  Part part_of(std::string_view rest) const {
+    Part part;
+    part.first = part.last = number(rest);
+    if (skip(rest, '-')) part.last = rest.empty() || rest.front() == ':' ? count_ - 1 : number(rest);
+    if (skip(rest, ':')) part.step = number(rest);
+    if (!rest.empty()) refuse(fmt::format("has {} where a comma or the end should be", in_quotes(rest)));
+    return part;
+  }
+
+  void take(std::string_view word) {
+    const Part part = word == "all" ? Part{0, count_ - 1, 1} : part_of(word);
+    const std::uint64_t beyond = std::max(part.first, part.last);
+    if (beyond >= count_) {
+      refuse(fmt::format("asks for frame {}; there {} {}, 0 to {}", beyond, count_ == 1 ? "is" : "are",
+                         with_thousands(count_), count_ - 1));
+    }
+    if (part.last < part.first) refuse(fmt::format("runs backwards from {} to {}", part.first, part.last));
+    if (part.step == 0) refuse("has a step of 0");
+    for (std::uint64_t frame = part.first; frame <= part.last; frame += part.step) {
+      if (!seen_.insert(frame).second) refuse(fmt::format("has frame {} twice", frame));
+      frames_.push_back(frame);
+      if (part.last - frame < part.step) break;
+    }
+  }
+
+  const std::string& option_;
+  std::string_view text_;
+  std::uint64_t count_;
+  std::vector<std::uint64_t> frames_;
+  std::unordered_set<std::uint64_t> seen_;
+};
+
+}  // namespace
+
+std::vector<std::uint64_t> parse_frame_list(const std::string& option, std::string_view text,
+                                            std::uint64_t frame_count) {
+  return ListParser(option, text, frame_count).parse();
+}
+
+std::string frame_list_text(const std::vector<std::uint64_t>& frames) {
+  std::string text;
+  for (std::size_t begin = 0; begin < frames.size();) {
+    std::size_t end = begin + 1;
+    std::uint64_t step = 1;
+    if (end < frames.size() && frames[end] > frames[begin]) {
+      step = frames[end] - frames[begin];
+      while (end < frames.size() && frames[end] > frames[end - 1] && frames[end] - frames[end - 1] == step) ++end;
+    }
+    if (end - begin == 2 && step > 1) end = begin + 1;  // two frames apart are no series yet
+    if (!text.empty()) text += ',';
+    text += fmt::format("{}", frames[begin]);
+    if (end - begin > 1) text += fmt::format("-{}", frames[end - 1]);
+    if (end - begin > 1 && step > 1) text += fmt::format(":{}", step);
+    begin = end;
+  }
+  return text;
+}
+
+}  // namespace meniscus

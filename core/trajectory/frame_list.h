@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Lists of frames as people write them: "0-99:10,250".
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace meniscus {
+
+/// The frames of "all", or of parts such as "7", "0-99", "0-99:10" (every tenth) and "90-" (to the last), joined by
+/// commas; in the order written. Throws RequestError, its text beginning with `option`: not understood, beyond
+/// frame_count (the frames count from 0), backwards, a step of 0, a frame twice.
+std::vector<std::uint64_t> parse_frame_list(const std::string& option, std::string_view text,
+                                            std::uint64_t frame_count);
+
+/// The shortest list of parts that parse_frame_list reads as these frames: "0-97", "0-90:10,250".
+std::string frame_list_text(const std::vector<std::uint64_t>& frames);
+
+}  // namespace meniscus

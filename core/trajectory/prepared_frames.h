@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Frames made ready for pictures: molecules whole, centred, superposed, smoothed.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <vector>
+
+#include "core/trajectory/trajectory.h"
+#include "core/trajectory/whole_molecules.h"
+
+namespace meniscus {
+
+/// What is done to each frame, in this order. Atoms are given by their place in the file.
+struct Preparation {
+  std::optional<WholeMolecules> whole;
+  /// Turned and moved onto where they stand in the reference frame, and all others with them; empty: not. At least 3.
+  std::vector<std::uint32_t> superposed;
+  /// Moved, not turned, so that the mean of their positions stays where it is in the reference frame; empty: not.
+  std::vector<std::uint32_t> centered;
+  std::uint64_t reference = 0;    ///< a frame of the trajectory
+  std::uint64_t smooth_half = 0;  ///< each position becomes the mean over the frames from this many before to as many
+                                  ///< behind; near the ends of the trajectory over fewer, as many on both sides
+};
+
+/// A prepared frame depends on the trajectory and its number only, not on what was read before: processes that share a
+/// run make equal frames.
+class PreparedFrames {
+ public:
+  /// `trajectory` must live as long. Throws as read does, for the reference frame.
+  PreparedFrames(Trajectory& trajectory, Preparation preparation);
+
+  /// Throws InputError naming the frame: what Trajectory::read throws, a missing or flat box where molecules are to be
+  /// made whole, a molecule bonded to its own image.
+  void read(std::uint64_t number, Frame& frame);
+
+  /// How the atoms move at this frame, in Å per frame of the trajectory: the central difference of the prepared frames
+  /// next to it, at the ends the difference to the one neighbour; zero where there is but one frame.
+  void read_velocities(std::uint64_t number, std::vector<glm::dvec3>& velocities);
+
+ private:
+  struct Kept {
+    std::uint64_t number;
+    Frame frame;
+  };
+  void read_placed(std::uint64_t number, Frame& frame);
+  const Frame& placed(std::uint64_t number);
+
+  Trajectory& trajectory_;
+  Preparation preparation_;
+  std::vector<glm::dvec3> reference_;  ///< all atoms of the reference frame, whole
+  std::deque<Kept> kept_;              ///< placed frames that smoothing will ask for again
+};
+
+}  // namespace meniscus
