@@ -1,23 +1,93 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The choice among trajectory formats by what a file begins with.
+// The choice among trajectory formats by what a file begins with; a name that says otherwise is an error.
 #include "core/trajectory/formats.h"
 
+#include <algorithm>
 #include <array>
+#include <cctype>
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+#include "core/molecule/formats.h"
+#include "core/molecule/text_lines.h"
+#include "core/trajectory/binary_file.h"
 
 namespace meniscus {
 namespace {
 
 /// A new format is a file read_<name>.cpp, its name in formats.h and an entry here, before the last.
-constexpr std::array<const TrajectoryFormat*, 1> kFormats{&kModelsFormat};
+constexpr std::array<const TrajectoryFormat*, 2> kFormats{&kDcdFormat, &kModelsFormat};
+constexpr std::span<const TrajectoryFormat* const> kBinaryFormats{kFormats.data(), kFormats.size() - 1};
+
+std::string binary_format_names() {
+  std::string names;
+  for (const TrajectoryFormat* format : kBinaryFormats) names += fmt::format("{}, ", format->metadata.name);
+  return names;
+}
+
+const TrajectoryFormat* format_by_name(const std::string& path) {
+  std::string name = path;
+  std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
+  for (const TrajectoryFormat* format : kBinaryFormats) {
+    const auto extensions = fields_of(format->metadata.extensions);
+    if (std::any_of(extensions.begin(), extensions.end(), [&](std::string_view end) { return name.ends_with(end); }))
+      return format;
+  }
+  return nullptr;
+}
+
+const TrajectoryFormat* format_by_content(std::string_view start) {
+  const auto found = std::find_if(kBinaryFormats.begin(), kBinaryFormats.end(),
+                                  [&](const TrajectoryFormat* format) { return format->recognizes(start); });
+  return found == kBinaryFormats.end() ? nullptr : *found;
+}
+
+std::string start_of(const std::string& path) {
+  const BinaryFile file(path);
+  std::string start(std::min<std::uint64_t>(file.size(), kTrajectoryStart), '\0');
+  file.read(0, std::as_writable_bytes(std::span(start)));
+  return start;
+}
+
+const TrajectoryFormat& choose_format(const std::string& path, const std::string& start) {
+  const TrajectoryFormat* by_name = format_by_name(path);
+  if (by_name && by_name->recognizes(start)) return *by_name;
+  const TrajectoryFormat* by_content = format_by_content(start);
+  if (by_name && by_content) {
+    throw InputError(path, 0,
+                     fmt::format("the name says {}, but the content is {}; rename the file, or check that it is the "
+                                 "right one",
+                                 by_name->metadata.name, by_content->metadata.name));
+  }
+  if (by_name) return *by_name;  // its reader says what is missing
+  if (by_content) return *by_content;
+  const bool packed = start.starts_with("\x1f\x8b");
+  if (!packed && start.find('\0') != std::string::npos) {
+    throw InputError(path, 0,
+                     fmt::format("is in no trajectory format that is read ({}or models of {})", binary_format_names(),
+                                 format_names()));
+  }
+  return kModelsFormat;
+}
 
 }  // namespace
 
 std::span<const TrajectoryFormat* const> trajectory_formats() { return kFormats; }
 
-bool is_binary_trajectory(const std::string&) { return false; }
+bool is_binary_trajectory(const std::string& path) {
+  try {
+    return path != "-" && format_by_content(start_of(path)) != nullptr;
+  } catch (const InputError&) {
+    return false;
+  }
+}
 
 std::unique_ptr<Trajectory> open_trajectory(const std::string& path, const TrajectoryOptions& options) {
-  return kFormats.back()->open(path, options);
+  if (path == "-")
+    throw InputError("standard input", 0,
+                     "cannot be a trajectory, whose frames are read in any order; save it as a file");
+  return choose_format(path, start_of(path)).open(path, options);
 }
 
 }  // namespace meniscus

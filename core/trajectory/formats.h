@@ -12,8 +12,8 @@
 
 namespace meniscus {
 
-/// One format. `recognizes` looks at the first kTrajectoryStart bytes of a file (unpacked if gzipped text), and `open`
-/// throws as open_trajectory does.
+/// One format. `recognizes` looks at the first kTrajectoryStart bytes of a file, and `open` throws as open_trajectory
+/// does.
 struct TrajectoryFormat {
   FormatMetadata metadata;
   bool (*recognizes)(std::string_view start);
@@ -30,6 +30,7 @@ std::span<const TrajectoryFormat* const> trajectory_formats();
 /// be read.
 bool is_binary_trajectory(const std::string& path);
 
+extern const TrajectoryFormat kDcdFormat;
 extern const TrajectoryFormat kModelsFormat;
 
 }  // namespace meniscus

@@ -39,6 +39,8 @@ class Trajectory {
 
  protected:
   Trajectory(std::string path, std::string format) : path_(std::move(path)), format_(std::move(format)) {}
+  /// "the file ends within frame 42; its 42 whole frames are used".
+  static std::string cut_short_sentence(std::uint64_t whole_frames);
   /// As read(); `number` is one of frame_count(), and what is read is checked by the caller.
   virtual void read_unchecked(std::uint64_t number, Frame& frame) = 0;
 
