@@ -31,6 +31,7 @@ std::span<const TrajectoryFormat* const> trajectory_formats();
 bool is_binary_trajectory(const std::string& path);
 
 extern const TrajectoryFormat kDcdFormat;
+extern const TrajectoryFormat kXtcFormat;
 extern const TrajectoryFormat kModelsFormat;
 
 }  // namespace meniscus

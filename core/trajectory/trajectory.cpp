@@ -28,7 +28,7 @@ void check_positions(const Frame& frame, std::uint64_t number, const std::string
 
 }  // namespace
 
-std::string Trajectory::cut_short_sentence(std::uint64_t whole_frames) {
+std::string cut_short_sentence(std::uint64_t whole_frames) {
   return fmt::format("the file ends within frame {}; its {} whole {} used", whole_frames, with_thousands(whole_frames),
                      whole_frames == 1 ? "frame is" : "frames are");
 }

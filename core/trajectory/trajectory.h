@@ -39,8 +39,6 @@ class Trajectory {
 
  protected:
   Trajectory(std::string path, std::string format) : path_(std::move(path)), format_(std::move(format)) {}
-  /// "the file ends within frame 42; its 42 whole frames are used".
-  static std::string cut_short_sentence(std::uint64_t whole_frames);
   /// As read(); `number` is one of frame_count(), and what is read is checked by the caller.
   virtual void read_unchecked(std::uint64_t number, Frame& frame) = 0;
 
@@ -50,6 +48,9 @@ class Trajectory {
   std::vector<Warning> warnings_;
   std::string cut_short_;
 };
+
+/// "the file ends within frame 42; its 42 whole frames are used".
+std::string cut_short_sentence(std::uint64_t whole_frames);
 
 /// How a trajectory is opened.
 struct TrajectoryOptions {
