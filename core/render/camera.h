@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -66,5 +67,25 @@ Camera frame_camera(std::span<const Ball> balls, double aspect, Projection proje
 Camera frame_camera(std::span<const Ball> balls, const ViewBasis& basis, double aspect, const Camera& lens);
 /// The first one for the atoms of a surface, which hold all of it.
 Camera frame_camera(const Surface& surface, double aspect, Projection projection = Projection::perspective);
+
+/// The axes along which frame_camera looks by default. There must be a ball.
+ViewBasis broad_side(std::span<const Ball> balls);
+
+/// Of any number of balls the few on which frame_camera with these axes depends: so it can frame all the moments of a
+/// trajectory without keeping them.
+class DecisiveBalls {
+ public:
+  DecisiveBalls(const ViewBasis& basis, double aspect, const Camera& lens);
+  void add(std::span<const Ball> balls);
+  /// What frame_camera makes of all the balls that were added. There must be one.
+  Camera frame() const;
+
+ private:
+  ViewBasis basis_;
+  double aspect_;
+  Camera lens_;
+  std::vector<glm::dvec3> directions_;
+  std::vector<Ball> farthest_;  ///< along each direction, by its outer side; empty before the first
+};
 
 }  // namespace meniscus

@@ -42,18 +42,8 @@ glm::dmat3 principal_axes(glm::dmat3 a) {
   return {axes[order[0]], axes[order[1]], axes[order[2]]};
 }
 
-ViewBasis broad_side(std::span<const Ball> balls) {
-  glm::dvec3 mean(0.0);
-  for (const Ball& ball : balls) mean += ball.center;
-  mean /= static_cast<double>(balls.size());
-  glm::dmat3 covariance(0.0);
-  for (const Ball& ball : balls) covariance += glm::outerProduct(ball.center - mean, ball.center - mean);
-  const glm::dmat3 axes = principal_axes(covariance);
-  // Of the four turns that show the same side, the one nearest to the usual view along -z with y up.
-  const glm::dvec3 forward = axes[2].z > 0.0 ? -axes[2] : axes[2];
-  const glm::dvec3 up = axes[1].y < 0.0 ? -axes[1] : axes[1];
-  return {glm::cross(forward, up), up, forward};
-}
+/// Of half the angle of a perspective camera, with the margin taken off.
+double tangent_of(const Camera& camera) { return std::tan(camera.vertical_fov * (std::numbers::pi / 360.0)) / kMargin; }
 
 /// Where two planes that open at `half_angle` about +z touch all balls from outside: (sideways, depth) of their edge.
 glm::dvec2 touch(std::span<const Ball> balls, const glm::dvec3& sideways, const glm::dvec3& forward, double tangent) {
@@ -79,6 +69,19 @@ glm::dvec2 range_along(std::span<const Ball> balls, const glm::dvec3& direction)
 
 }  // namespace
 
+ViewBasis broad_side(std::span<const Ball> balls) {
+  glm::dvec3 mean(0.0);
+  for (const Ball& ball : balls) mean += ball.center;
+  mean /= static_cast<double>(balls.size());
+  glm::dmat3 covariance(0.0);
+  for (const Ball& ball : balls) covariance += glm::outerProduct(ball.center - mean, ball.center - mean);
+  const glm::dmat3 axes = principal_axes(covariance);
+  // Of the four turns that show the same side, the one nearest to the usual view along -z with y up.
+  const glm::dvec3 forward = axes[2].z > 0.0 ? -axes[2] : axes[2];
+  const glm::dvec3 up = axes[1].y < 0.0 ? -axes[1] : axes[1];
+  return {glm::cross(forward, up), up, forward};
+}
+
 Camera frame_camera(const Surface& surface, double aspect, Projection projection) {
   return frame_camera(std::span(surface.atoms), aspect, projection);
 }
@@ -98,7 +101,7 @@ Camera frame_camera(std::span<const Ball> balls, const ViewBasis& basis, double 
   glm::dvec2 side;
   double eye_depth = 0.0;
   if (camera.projection == Projection::perspective) {
-    const double tangent = std::tan(camera.vertical_fov * (std::numbers::pi / 360.0)) / kMargin;
+    const double tangent = tangent_of(camera);
     const glm::dvec2 x = touch(balls, basis.right, basis.forward, tangent * aspect);
     const glm::dvec2 y = touch(balls, basis.up, basis.forward, tangent);
     side = {x.x, y.x};
@@ -114,5 +117,35 @@ Camera frame_camera(std::span<const Ball> balls, const ViewBasis& basis, double 
   camera.target = axis_point + basis.forward * (0.5 * (depth.x + depth.y));
   return camera;
 }
+
+DecisiveBalls::DecisiveBalls(const ViewBasis& basis, double aspect, const Camera& lens)
+    : basis_(basis), aspect_(aspect), lens_(lens) {
+  const double tangent = tangent_of(lens_);
+  for (const auto& [sideways, opening] : {std::pair{basis.right, tangent * aspect}, {basis.up, tangent}}) {
+    const double cosine = 1.0 / std::sqrt(1.0 + opening * opening), sine = opening * cosine;
+    for (const double side : {-1.0, 1.0}) {
+      directions_.push_back(side * cosine * sideways - sine * basis.forward);  // the two planes of touch()
+      directions_.push_back(side * sideways);
+    }
+  }
+  directions_.push_back(basis.forward);
+  directions_.push_back(-basis.forward);
+}
+
+void DecisiveBalls::add(std::span<const Ball> balls) {
+  if (balls.empty()) return;
+  if (farthest_.empty()) farthest_.assign(directions_.size(), balls.front());
+  for (std::size_t n = 0; n < directions_.size(); ++n) {
+    const auto reach = [&](const Ball& ball) { return glm::dot(ball.center, directions_[n]) + ball.radius; };
+    double farthest = reach(farthest_[n]);
+    for (const Ball& ball : balls) {
+      if (reach(ball) <= farthest) continue;
+      farthest = reach(ball);
+      farthest_[n] = ball;
+    }
+  }
+}
+
+Camera DecisiveBalls::frame() const { return frame_camera(farthest_, basis_, aspect_, lens_); }
 
 }  // namespace meniscus
