@@ -15,6 +15,7 @@
 #include "core/molecule/assembly.h"
 #include "core/molecule/atom_classes.h"
 #include "core/molecule/oddity.h"
+#include "core/molecule/pdb_bonds.h"
 #include "core/molecule/pdb_columns.h"
 #include "core/molecule/pqr_record.h"
 #include "core/molecule/reader.h"
@@ -49,6 +50,7 @@ class PdbReader {
       throw InputError(file_.path, 0, "has no ATOM or HETATM records: no atoms");
     std::vector<Warning>& warnings = contents_.warnings;
     classify_atoms(contents_.atoms, warnings, hints_);
+    contents_.bonds = bonds_.bonds();
     number_.warn(warnings, "no readable residue number; counted on from the residue before");
     occupancy_.warn(warnings, "no readable occupancy; treated as missing");
     b_factor_.warn(warnings, "no readable B-factor; treated as missing");
@@ -78,6 +80,8 @@ class PdbReader {
       in_model_record_ = false;
     } else if (is_pdb_record(line, "END")) {
       ended_ = true;
+    } else if (is_pdb_record(line, "CONECT")) {
+      bonds_.add_record(line);
     }
   }
 
@@ -126,6 +130,7 @@ class PdbReader {
     take_element(line, number, atom);
     residues_.number(atom);
     contents_.atoms.push_back(std::move(atom));
+    if (contents_.atoms.front().model == model()) bonds_.add_atom(line);
   }
 
   float optional_number(std::string_view line, std::size_t column, Oddity& oddity, std::size_t number) {
@@ -156,6 +161,7 @@ class PdbReader {
   FileContents contents_;
   std::vector<AtomHints> hints_;
   ResidueCounter residues_{contents_.atoms};
+  PdbBonds bonds_;
   PdbResidueNumbers residue_numbers_;
   std::set<std::string> ended_chains_;
   bool open_ = false, ended_ = false, in_model_record_ = false;
@@ -182,13 +188,14 @@ FileContents read(const TextFile& file, const ModelChoice& models) { return PdbR
 
 }  // namespace
 
-const Reader kPdbReader{{"PDB", ".pdb .ent .pdb1 .brk", "Protein Data Bank format, in fixed columns",
-                         "wwPDB file format 3.3 (2012); hybrid-36 numbers by R. W. Grosse-Kunstleve",
-                         "ATOM, HETATM, TER, MODEL, ENDMDL, END; serial numbers (decimal, hybrid-36, hexadecimal, "
-                         "stars) are ignored, residue numbers (decimal, hybrid-36, hexadecimal) kept; chain names of "
-                         "two letters, residue names of four, segments"},
-                        recognizes,
-                        read,
-                        read_pdb_assemblies};
+const Reader kPdbReader{
+    {"PDB", ".pdb .ent .pdb1 .brk", "Protein Data Bank format, in fixed columns",
+     "wwPDB file format 3.3 (2012); hybrid-36 numbers by R. W. Grosse-Kunstleve",
+     "ATOM, HETATM, TER, MODEL, ENDMDL, END, CONECT; serial numbers (decimal, hybrid-36, hexadecimal, "
+     "stars) only name the atoms of CONECT, residue numbers (decimal, hybrid-36, hexadecimal) kept; chain names of "
+     "two letters, residue names of four, segments"},
+    recognizes,
+    read,
+    read_pdb_assemblies};
 
 }  // namespace meniscus

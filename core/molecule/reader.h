@@ -56,6 +56,7 @@ extern const Reader kPqrReader;
 extern const Reader kGroReader;
 extern const Reader kXyzReader;
 extern const Reader kXyzrReader;
+extern const Reader kPsfReader;
 
 /// Throws InputError: the count in this line promises more atoms than the file holds.
 [[noreturn]] void refuse_short_frame(const TextFile& file, std::size_t line, std::size_t count, std::size_t found);
