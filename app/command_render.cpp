@@ -12,32 +12,16 @@
 #include "app/commands.h"
 #include "app/look_options.h"
 #include "app/molecule.h"
-#include "app/picture_options.h"
 #include "app/program_error.h"
+#include "app/render_command.h"
 #include "app/view_picture.h"
 #include "core/base/text.h"
 #include "core/gpu/egl_context.h"
 #include "core/render/image_output.h"
-#include "core/render/legend.h"
-#include "core/render/ray_caster.h"
 #include "core/surface/combine.h"
 
 namespace meniscus {
 namespace {
-
-struct RenderCommand {
-  MoleculeOptions molecule;
-  PictureOptions picture;
-  Look look;  // but for the background, which may be transparent
-  OutputOptions output;
-  std::string save_camera;
-  int samples = 4;
-  bool aovs = false;
-  bool legend = false;
-  std::optional<glm::vec3> background;
-  std::optional<Extent> extent;  ///< nothing: the complete surface, computed and certified before the picture
-  bool stats = false;
-};
 
 void parse_background(const std::string& text, std::optional<glm::vec3>& background) {
   background.reset();
@@ -64,34 +48,8 @@ void save_camera(const RenderCommand& command, const Camera& camera) {
   file.commit();
 }
 
-/// The picture's size, of which the molecule takes what the legend leaves.
-struct Frame {
-  PictureOptions size;
-  std::optional<Legend> legend;
-
-  Frame(const RenderCommand& command, const ColorKey& key) : size(command.picture) {
-    if (!command.legend) return;
-    legend.emplace(key, glm::ivec2(size.width, size.height));
-    size.width = legend->molecule_size().x;
-    size.height = legend->molecule_size().y;
-  }
-};
-
-RenderSettings render_settings(const RenderCommand& command, const Frame& frame) {
-  RenderSettings settings;
-  settings.size = {frame.size.width, frame.size.height};
-  settings.samples = command.samples;
-  settings.aovs = command.aovs;
-  settings.look = command.look;
-  return settings;
-}
-
-DeviceChoice gl_device(const RenderCommand& command) {
-  return command.molecule.computing.cpu ? DeviceChoice{} : command.molecule.computing.gl;
-}
-
-void finish(const RenderCommand& command, const Frame& frame, Framebuffer picture, const Camera& camera) {
-  if (frame.legend) picture = frame.legend->add_to(picture, command.background);
+void finish(const RenderCommand& command, const PictureLayout& layout, Framebuffer picture, const Camera& camera) {
+  if (layout.legend) picture = layout.legend->add_to(picture, command.background);
   write_image(command.output.path, picture, {command.background, command.output.existing()});
   if (!command.save_camera.empty()) save_camera(command, camera);
 }
@@ -107,17 +65,20 @@ void say_times(const RenderCommand& command, const EglContext& context, const st
 // Without the complete surface: from atoms to the picture on the GPU.
 void draw_view(const RenderCommand& command) {
   const ColoredAtoms atoms = load_atoms(command.molecule);
-  const Frame frame(command, key_of(atoms.molecule));
-  const Camera camera = picture_camera(frame.size, atoms.balls);
+  const PictureLayout layout(command, key_of(atoms.molecule));
+  const Camera camera = picture_camera(layout.size, atoms.balls);
   const EglContext context(gl_device(command));
-  ViewPicture view = view_picture(atoms, camera, command.molecule.computing.probe_radius, *command.extent,
-                                  render_settings(command, frame));
+  ViewPicture view = ViewPainter().paint(atoms, camera, command.molecule.computing.probe_radius, *command.extent,
+                                         render_settings(command, layout));
   if (command.stats) fmt::print(std::cerr, "{}", stats_text(view));
   say_times(command, context, view.times);
-  finish(command, frame, std::move(view.picture), camera);
+  finish(command, layout, std::move(view.picture), camera);
 }
 
 void run(const RenderCommand& command) {
+  if (command.sequence.asked()) return render_frames(command);
+  if (command.run_camera.moves())
+    throw UsageError("--camera-path, --turntable and --follow move the camera over a run of frames; add --frames");
   check_image_path(command.output.path);
   if (command.aovs && !holds_aovs(command.output.path))
     throw UsageError("--aovs needs an .exr output; other formats hold colour only");
@@ -134,19 +95,45 @@ void run(const RenderCommand& command) {
   if (!command.save_camera.empty()) OutputFile(command.save_camera, command.output.existing());
   if (command.extent) return draw_view(command);
   Molecule molecule = load_molecule(command.molecule);
-  const Frame frame(command, key_of(molecule));
-  const SurfaceObject whole = merged(std::move(molecule.objects));
-  const Camera camera = picture_camera(frame.size, whole.surface.atoms);
+  const PictureLayout layout(command, key_of(molecule));
+  const Camera camera = picture_camera(layout.size, placed_balls(molecule.objects));
   const EglContext context(gl_device(command));
   RayCaster caster;
-  Framebuffer picture = caster.render(whole.surface, whole.coloring, camera, render_settings(command, frame));
-  for (std::uint32_t& atom : picture.atom)
-    if (atom != kNone) atom = whole.atom[atom];
-  finish(command, frame, std::move(picture), camera);
+  Framebuffer picture = cast(caster, std::move(molecule.objects), camera, render_settings(command, layout));
+  finish(command, layout, std::move(picture), camera);
   say_times(command, context, caster.times());
 }
 
 }  // namespace
+
+PictureLayout::PictureLayout(const RenderCommand& command, const ColorKey& key) : size(command.picture) {
+  if (!command.legend) return;
+  legend.emplace(key, glm::ivec2(size.width, size.height));
+  size.width = legend->molecule_size().x;
+  size.height = legend->molecule_size().y;
+}
+
+RenderSettings render_settings(const RenderCommand& command, const PictureLayout& layout) {
+  RenderSettings settings;
+  settings.size = {layout.size.width, layout.size.height};
+  settings.samples = command.samples;
+  settings.aovs = command.aovs;
+  settings.look = command.look;
+  return settings;
+}
+
+DeviceChoice gl_device(const RenderCommand& command) {
+  return command.molecule.computing.cpu ? DeviceChoice{} : command.molecule.computing.gl;
+}
+
+Framebuffer cast(RayCaster& caster, std::vector<SurfaceObject> objects, const Camera& camera,
+                 const RenderSettings& settings) {
+  const SurfaceObject whole = merged(std::move(objects));
+  Framebuffer picture = caster.render(whole.surface, whole.coloring, camera, settings);
+  for (std::uint32_t& atom : picture.atom)
+    if (atom != kNone) atom = whole.atom[atom];
+  return picture;
+}
 
 void add_render(CLI::App& command) {
   describe(
@@ -156,12 +143,17 @@ void add_render(CLI::App& command) {
       "  meniscus render 1tii.pdb -o 1tii.png --color hydrophobicity --legend --background white\n"
       "  meniscus render 1tii.pdb -o 1tii.png --color chain --ambient-occlusion 0.8 --silhouettes 2 --background "
       "white\n"
-      "  meniscus render 1tii.pdb -o 1tii.exr --aovs --camera camera.json   depth, normals, atoms for compositing");
+      "  meniscus render 1tii.pdb -o 1tii.exr --aovs --camera camera.json   depth, normals, atoms for compositing\n"
+      "  meniscus render adk.psf --trajectory adk.dcd --frames all --superpose 'name CA' -o adk.mp4");
   auto state = std::make_shared<RenderCommand>();
   add_molecule_options(command, state->molecule);
   add_picture_options(command, state->picture);
+  add_sequence_options(command, state->sequence);
+  add_run_camera_options(command, state->run_camera);
   add_look_options(command, state->look);
-  add_output_options(command, state->output, "Picture to write: .png, .tif, .tiff or .exr");
+  add_output_options(
+      command, state->output,
+      "Picture to write: .png, .tif, .tiff or .exr; of frames: frame_#####.png, or a film: .mp4, .mkv, .mov");
   command.add_option("--samples", state->samples, "Rays per pixel, the first through its centre [4]")
       ->check(CLI::Range(1, 1024).description(""))
       ->type_name("N");
@@ -184,6 +176,9 @@ void add_render(CLI::App& command) {
   command.add_flag("--stats", state->stats, "With --extent: what each group of stages found, and its time, on stderr");
   command.add_option("--save-camera", state->save_camera, "Write the camera used, as JSON for --camera")
       ->type_name("FILE");
+  command.add_option("--fps", state->frames_per_second, "Frames per second of a film [25]")
+      ->check(CLI::Range(0.1, 240.0).description(""))
+      ->type_name("N");
   command.callback([state] { run(*state); });
 }
 

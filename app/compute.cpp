@@ -44,14 +44,19 @@ void require_equal(const Surface& a, const std::string& device_a, const Surface&
 }  // namespace
 
 struct SurfaceComputer::GlPipeline {
-  explicit GlPipeline(const DeviceChoice& choice) : context(choice) {}
-  std::string device() const { return context.renderer() + ", GL " + context.version(); }
-  EglContext context;
+  GlPipeline(const EglContext* shared, const DeviceChoice& choice) {
+    if (!shared) own.emplace(choice);
+    const EglContext& context = shared ? *shared : *own;
+    device = context.renderer() + ", GL " + context.version();
+  }
+  std::optional<EglContext> own;
+  std::string device;
   SurfacePipeline pipeline;
 };
 
-SurfaceComputer::SurfaceComputer(const ComputeOptions& options)
+SurfaceComputer::SurfaceComputer(const ComputeOptions& options, const EglContext* context)
     : options_(options),
+      context_(context),
       on_cpu_(options.cpu || (options.gl.kind == DeviceChoice::Kind::automatic && !has_hardware_gpu())) {
   if (options.kind == SurfaceKind::vdw && options.probe_named)
     throw RequestError("--probe: the van der Waals surface has no probe; leave --probe or --surface vdw away");
@@ -72,14 +77,14 @@ Surface SurfaceComputer::compute(std::span<const Ball> balls) {
   const double probe_radius = options_.kind == SurfaceKind::ses ? options_.probe_radius : 0.0;
   Surface surface = on_cpu_ ? compute_on_cpu(balls, probe_radius, clock_) : compute_on_gl(balls, probe_radius);
   if (!options_.verify) {
-    device_ = on_cpu_ ? cpu_device() : gl_->device();
+    device_ = on_cpu_ ? cpu_device() : gl_->device;
     return surface;
   }
   // The other device's time is not this one's.
   StageClock unused;
-  if (on_cpu_ && !gl_) gl_ = std::make_unique<GlPipeline>(DeviceChoice{});
+  if (on_cpu_ && !gl_) gl_ = std::make_unique<GlPipeline>(context_, DeviceChoice{});
   const Surface other = on_cpu_ ? gl_->pipeline.run(balls, probe_radius) : compute_on_cpu(balls, probe_radius, unused);
-  const std::string first = on_cpu_ ? cpu_device() : gl_->device(), second = on_cpu_ ? gl_->device() : cpu_device();
+  const std::string first = on_cpu_ ? cpu_device() : gl_->device, second = on_cpu_ ? gl_->device : cpu_device();
   require_equal(surface, first, other, second);
   device_ = fmt::format("{}, verified on {}", first, second);
   return surface;
@@ -95,7 +100,7 @@ Surface SurfaceComputer::compute_on_cpu(std::span<const Ball> balls, double prob
 }
 
 Surface SurfaceComputer::compute_on_gl(std::span<const Ball> balls, double probe_radius) {
-  if (!gl_) gl_ = std::make_unique<GlPipeline>(options_.gl);
+  if (!gl_) gl_ = std::make_unique<GlPipeline>(context_, options_.gl);
   Surface surface = gl_->pipeline.run(balls, probe_radius);
   for (const StageTime& stage : gl_->pipeline.stage_times()) clock_.add(stage.name, stage.milliseconds);
   return surface;

@@ -16,6 +16,8 @@
 
 namespace meniscus {
 
+class EglContext;
+
 /// Which surface of the atoms.
 enum class SurfaceKind {
   ses,  ///< solvent-excluded: what the probe cannot reach
@@ -44,12 +46,13 @@ struct ComputedSurface {
   std::vector<StageTime> stages;
 };
 
-/// Computes any number of surfaces on the device that was asked for. A GL context is made once, with the first.
+/// Computes any number of surfaces on the device that was asked for.
 class SurfaceComputer {
  public:
-  /// Automatic takes a hardware GPU if there is one, else the CPU, which is faster than software GL. Throws
+  /// Automatic takes a hardware GPU if there is one, else the CPU, which is faster than software GL. What runs on GL
+  /// runs in `context`, if there is one: it is current and lives longer; else in a context of its own. Throws
   /// RequestError for a van der Waals surface with a probe.
-  explicit SurfaceComputer(const ComputeOptions& options);
+  explicit SurfaceComputer(const ComputeOptions& options, const EglContext* context = nullptr);
   ~SurfaceComputer();
 
   /// balls: van der Waals. Sas and vdw surfaces are made of balls without a probe: of these grown, or of these.
@@ -68,6 +71,7 @@ class SurfaceComputer {
   Surface compute_on_gl(std::span<const Ball> balls, double probe_radius);
 
   ComputeOptions options_;
+  const EglContext* context_;
   std::optional<tbb::global_control> thread_limit_;
   std::unique_ptr<GlPipeline> gl_;
   bool on_cpu_;

@@ -59,8 +59,8 @@ std::string colors_json(const ColorKey& key) {
   return json.dump(-1, ' ', true, Json::error_handler_t::replace);
 }
 
-MoleculeBuilder::MoleculeBuilder(const MoleculeOptions& options)
-    : options_(options), color_(color_of(options)), division_(options.division), computer_(options.computing) {
+MoleculeBuilder::MoleculeBuilder(const MoleculeOptions& options, const EglContext* context)
+    : options_(options), color_(color_of(options)), division_(options.division), computer_(options.computing, context) {
   if (color_.by == ColorScheme::By::component && !division_.groups) division_.components = true;
 }
 

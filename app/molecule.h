@@ -45,8 +45,9 @@ void print_assemblies(const Structure& structure);
 /// Makes molecules of one structure after another: the frames of a trajectory.
 class MoleculeBuilder {
  public:
-  /// `options` must live as long. Throws InputError for the numbers of --color-by-file, RequestError.
-  explicit MoleculeBuilder(const MoleculeOptions& options);
+  /// `options` must live as long, and so must `context`, if surfaces on GL shall be made in it. Throws InputError for
+  /// the numbers of --color-by-file, RequestError.
+  explicit MoleculeBuilder(const MoleculeOptions& options, const EglContext* context = nullptr);
 
   /// Computes and colours. Throws what surface_objects and color_object throw, InputError if --show shows nothing.
   Molecule build(Structure structure);

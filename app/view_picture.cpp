@@ -34,9 +34,11 @@ void check_view_options(const MoleculeOptions& options) {
   if (options.computing.kind != SurfaceKind::ses) refuse("--surface sas or vdw");
 }
 
-ColoredAtoms load_atoms(const MoleculeOptions& options) {
+ColoredAtoms load_atoms(const MoleculeOptions& options) { return colored_atoms(options, read_molecule(options)); }
+
+ColoredAtoms colored_atoms(const MoleculeOptions& options, Structure molecule) {
   ColoredAtoms atoms;
-  atoms.molecule.structure = read_molecule(options);
+  atoms.molecule.structure = std::move(molecule);
   atoms.molecule.color = color_of(options);
   const Structure& structure = atoms.molecule.structure;
   atoms.balls = balls_of(structure);
@@ -47,21 +49,18 @@ ColoredAtoms load_atoms(const MoleculeOptions& options) {
   return atoms;
 }
 
-ViewPicture view_picture(const ColoredAtoms& atoms, const Camera& camera, double probe_radius, Extent extent,
-                         const RenderSettings& settings) {
+ViewPicture ViewPainter::paint(const ColoredAtoms& atoms, const Camera& camera, double probe_radius, Extent extent,
+                               const RenderSettings& settings) {
   validate_camera(camera, "camera");
-  ViewPipeline pipeline;
-  RayCaster caster;
-  GpuScene scene;
-  pipeline.set_atoms(atoms.balls);
-  upload_coloring(atoms.coloring, scene);
+  pipeline_.set_atoms(atoms.balls);
+  upload_coloring(atoms.coloring, scene_);
   const PictureFrame frame = make_picture_frame(atoms.balls, camera, settings.size);
-  pipeline.run(frame, probe_radius, extent, scene);
+  pipeline_.run(frame, probe_radius, extent, scene_);
   ViewPicture view;
-  view.picture = caster.render(scene, frame, settings);
-  view.times = pipeline.times();
-  view.times.insert(view.times.end(), caster.times().begin(), caster.times().end());
-  view.stats = pipeline.stats();
+  view.picture = caster_.render(scene_, frame, settings);
+  view.times = pipeline_.times();
+  view.times.insert(view.times.end(), caster_.times().begin(), caster_.times().end());
+  view.stats = pipeline_.stats();
   return view;
 }
 

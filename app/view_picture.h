@@ -23,6 +23,7 @@ struct ColoredAtoms {
   Coloring coloring;
 };
 ColoredAtoms load_atoms(const MoleculeOptions& options);
+ColoredAtoms colored_atoms(const MoleculeOptions& options, Structure structure);
 
 /// A finished picture, and how it came to be.
 struct ViewPicture {
@@ -31,9 +32,18 @@ struct ViewPicture {
   ViewStats stats;
 };
 
-/// Draws; needs a current GL context. Throws OpenSurfaceError, GpuError, CapacityError, InputError for a bad camera.
-ViewPicture view_picture(const ColoredAtoms& atoms, const Camera& camera, double probe_radius, Extent extent,
-                         const RenderSettings& settings);
+/// Draws one picture after another; needs a current GL context as long as it lives.
+class ViewPainter {
+ public:
+  /// Throws OpenSurfaceError, GpuError, CapacityError, InputError for a bad camera.
+  ViewPicture paint(const ColoredAtoms& atoms, const Camera& camera, double probe_radius, Extent extent,
+                    const RenderSettings& settings);
+
+ private:
+  ViewPipeline pipeline_;
+  RayCaster caster_;
+  GpuScene scene_;
+};
 
 /// The four groups of stages and the ray casting line by line, with what each of them found.
 std::string stats_text(const ViewPicture& view);

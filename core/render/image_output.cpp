@@ -98,6 +98,14 @@ OIIO::ImageSpec make_spec(const Framebuffer& picture, const Channels& channels, 
 
 bool holds_aovs(const std::filesystem::path& path) { return extension_of(path) == ".exr"; }
 
+std::vector<std::uint8_t> srgb_pixels(const Framebuffer& picture, const glm::vec3& background) {
+  const Channels channels = display_channels(picture, {background, Existing::refuse});
+  std::vector<std::uint8_t> pixels(channels.values.size());
+  OIIO::convert_pixel_values(OIIO::TypeDesc::FLOAT, channels.values.data(), OIIO::TypeDesc::UINT8, pixels.data(),
+                             static_cast<int>(pixels.size()));
+  return pixels;
+}
+
 void check_image_path(const std::filesystem::path& path) {
   constexpr std::array<std::string_view, 4> kExtensions{".png", ".tif", ".tiff", ".exr"};
   if (std::ranges::find(kExtensions, extension_of(path)) == kExtensions.end())

@@ -2,9 +2,11 @@
 // Pictures as files: PNG and TIFF for eyes, EXR for compositing, whole or not at all.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/base/output_file.h"
 #include "core/render/framebuffer.h"
@@ -18,6 +20,9 @@ struct ImageSettings {
 
 /// True if the extension names a format that can hold AOVs (.exr).
 bool holds_aovs(const std::filesystem::path& path);
+
+/// The picture on an opaque background, as PNG would have it: 8 bit sRGB, 3 bytes a pixel, rows from the top.
+std::vector<std::uint8_t> srgb_pixels(const Framebuffer& picture, const glm::vec3& background);
 
 /// Throws OutputError unless the extension is .png, .tif, .tiff or .exr.
 void check_image_path(const std::filesystem::path& path);

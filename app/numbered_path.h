@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// File names with a place for the number of a frame: "film/frame_#####.png".
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace meniscus {
+
+class NumberedPath {
+ public:
+  /// The last run of # in the file's name stands for the number. Nothing if there is none.
+  static std::optional<NumberedPath> parse(const std::string& path);
+
+  /// With zeros before the number, at least as many digits as there are #.
+  std::string at(std::uint64_t number) const;
+
+ private:
+  std::string before_, behind_;
+  std::size_t digits_ = 0;
+};
+
+}  // namespace meniscus
