@@ -5,7 +5,7 @@ build_packages=(
   g++ cmake ninja-build pkg-config ccache
   libepoxy-dev libegl-dev libglm-dev libopenimageio-dev libfreetype-dev gemmi-dev tao-pegtl-dev libcli11-dev libfmt-dev
   nlohmann-json3-dev libtbb-dev zlib1g-dev libglfw3-dev libimgui-dev
-  libboost-dev libturbojpeg0-dev
+  libboost-dev libturbojpeg0-dev libhdf5-dev
 )
 # EGL and software GL, the preview's window, letters
 run_packages=(libegl1 libegl-mesa0 libgl1 libgl1-mesa-dri libglfw3 fonts-dejavu-core)

@@ -17,7 +17,8 @@ namespace meniscus {
 namespace {
 
 /// A new format is a file read_<name>.cpp, its name in formats.h and an entry here, before the last.
-constexpr std::array<const TrajectoryFormat*, 3> kFormats{&kXtcFormat, &kDcdFormat, &kModelsFormat};
+constexpr std::array<const TrajectoryFormat*, 6> kFormats{&kXtcFormat,         &kTrrFormat,  &kDcdFormat,
+                                                          &kAmberNetcdfFormat, &kH5mdFormat, &kModelsFormat};
 constexpr std::span<const TrajectoryFormat* const> kBinaryFormats{kFormats.data(), kFormats.size() - 1};
 
 std::string binary_format_names() {

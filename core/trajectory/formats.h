@@ -32,6 +32,9 @@ bool is_binary_trajectory(const std::string& path);
 
 extern const TrajectoryFormat kDcdFormat;
 extern const TrajectoryFormat kXtcFormat;
+extern const TrajectoryFormat kTrrFormat;
+extern const TrajectoryFormat kAmberNetcdfFormat;
+extern const TrajectoryFormat kH5mdFormat;
 extern const TrajectoryFormat kModelsFormat;
 
 }  // namespace meniscus
