@@ -56,6 +56,12 @@ glm::dvec3 hermite(const glm::dvec3& a, const glm::dvec3& slope_a, const glm::dv
          (s3 - s2) * h * slope_b;
 }
 
+/// The Bézier curve of four turns (K. Shoemake, Animating rotation with quaternion curves, 1985).
+glm::dquat bezier(const glm::dquat& a, const glm::dquat& b, const glm::dquat& c, const glm::dquat& d, double s) {
+  const glm::dquat ab = glm::slerp(a, b, s), bc = glm::slerp(b, c, s), cd = glm::slerp(c, d, s);
+  return glm::slerp(glm::slerp(ab, bc, s), glm::slerp(bc, cd, s), s);
+}
+
 /// q or -q, which is the same turn: the one nearer to the other.
 glm::dquat beside(const glm::dquat& q, const glm::dquat& other) { return glm::dot(q, other) < 0.0 ? -q : q; }
 
@@ -80,10 +86,14 @@ Camera CameraPath::at(double frame) const {
   const auto curve = [&](const glm::dvec3 Pose::*part) {
     return hermite(pose[1].*part, slope(part, 0, 2, before, j), pose[2].*part, slope(part, 1, 3, i, after), h, s);
   };
-  const glm::dquat a = glm::intermediate(pose[0].axes, pose[1].axes, pose[2].axes);
-  const glm::dquat b = glm::intermediate(pose[1].axes, pose[2].axes, pose[3].axes);
-  return camera_of({curve(&Pose::target), curve(&Pose::size), glm::squad(pose[1].axes, pose[2].axes, a, b, s)},
-                   keys_[i].camera.projection);
+  // The turn over a third of this interval at the pace at each of its ends.
+  const auto third = [&](int from, int to, std::size_t key_from, std::size_t key_to) {
+    return glm::pow(glm::inverse(pose[from].axes) * pose[to].axes,
+                    h / (3.0 * (keys_[key_to].frame - keys_[key_from].frame)));
+  };
+  const glm::dquat axes = bezier(pose[1].axes, pose[1].axes * third(0, 2, before, j),
+                                 pose[2].axes * glm::inverse(third(1, 3, i, after)), pose[2].axes, s);
+  return camera_of({curve(&Pose::target), curve(&Pose::size), axes}, keys_[i].camera.projection);
 }
 
 CameraPath parse_camera_path(std::string_view text, const std::string& file) {

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Lists of frames: every way to write one, every way to write it wrong.
+#include "core/trajectory/frame_list.h"
+
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "core/base/error.h"
+
+namespace meniscus {
+namespace {
+
+using Frames = std::vector<std::uint64_t>;
+
+Frames parse(std::string_view text, std::uint64_t count = 300) { return parse_frame_list("--frames", text, count); }
+
+std::string complaint(std::string_view text, std::uint64_t count = 300) {
+  try {
+    parse(text, count);
+  } catch (const RequestError& error) {
+    return error.what();
+  }
+  return "none";
+}
+
+TEST(FrameList, EveryForm) {
+  EXPECT_EQ(parse("all", 3), (Frames{0, 1, 2}));
+  EXPECT_EQ(parse("7"), (Frames{7}));
+  EXPECT_EQ(parse("0-3"), (Frames{0, 1, 2, 3}));
+  EXPECT_EQ(parse("0-9:4"), (Frames{0, 4, 8}));
+  EXPECT_EQ(parse("297-"), (Frames{297, 298, 299}));
+  EXPECT_EQ(parse("290-:5"), (Frames{290, 295}));
+  EXPECT_EQ(parse("250,0-99:50"), (Frames{250, 0, 50}));
+  EXPECT_EQ(parse("5-5"), (Frames{5}));
+  EXPECT_EQ(parse("0-299:18446744073709551615"), (Frames{0}));
+}
+
+TEST(FrameList, SaysWhatIsWrong) {
+  for (const char* text : {"", "x", "1,", ",1", "-3", "1--2", "1-2-3", "1:2:3", "0x10", "1 ", "18446744073709551616"})
+    EXPECT_NE(complaint(text), "none") << text;
+  EXPECT_EQ(complaint("5-2"), "--frames: '5-2' runs backwards from 5 to 2");
+  EXPECT_EQ(complaint("0-9:0"), "--frames: '0-9:0' has a step of 0");
+  EXPECT_EQ(complaint("300"), "--frames: '300' asks for frame 300; there are 300, 0 to 299");
+  EXPECT_EQ(complaint("0-1000000000"), "--frames: '0-1000000000' asks for frame 1000000000; there are 300, 0 to 299");
+  EXPECT_EQ(complaint("1-4,3"), "--frames: '1-4,3' has frame 3 twice");
+}
+
+TEST(FrameList, WrittenAndReadAgain) {
+  std::mt19937 random(5);
+  for (int round = 0; round < 2000; ++round) {
+    Frames frames;
+    std::uint64_t next = random() % 3;
+    const std::size_t count = 1 + random() % 12;
+    while (frames.size() < count) {
+      frames.push_back(next);
+      next += 1 + random() % (round % 2 ? 2 : 6);
+    }
+    EXPECT_EQ(parse(frame_list_text(frames)), frames) << frame_list_text(frames);
+  }
+  EXPECT_EQ(frame_list_text({0, 1, 2, 3, 10, 20, 30, 250}), "0-3,10-30:10,250");
+  EXPECT_EQ(frame_list_text({9, 3, 4}), "9,3-4");
+}
+
+}  // namespace
+}  // namespace meniscus
