@@ -116,8 +116,8 @@ FrameIndex walk(const BinaryFile& file, const std::function<FrameExtent(std::uin
       const std::string sentence =
           fmt::format("frame {} at byte {} {}", with_thousands(number), with_thousands(offset), extent.fault);
       if (number == 0) throw InputError(file.path(), 0, sentence);
-      index.cut_short = fmt::format("{}; the {} before it {} used", sentence, with_thousands(number),
-                                    number == 1 ? "frame is" : "frames are");
+      index.cut_short = sentence + (number == 1 ? "; the frame before it is used"
+                                                : fmt::format("; the {} before it are used", with_thousands(number)));
       return index;
     }
     if (extent.bytes > file.size() - offset) {

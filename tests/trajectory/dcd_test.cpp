@@ -1,101 +1,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // DCD: both byte orders, markers of both sizes, fixed atoms, boxes of every form, cut and damaged files.
 #include <cmath>
-#include <functional>
+#include <algorithm>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "core/base/error.h"
 #include "core/trajectory/formats.h"
 #include "tests/support/run_program.h"
 #include "tests/trajectory/byte_writer.h"
+#include "tests/trajectory/samples.h"
 
 namespace meniscus {
 namespace {
 
 using test::ByteWriter;
+using test::coordinate;
+using test::dcd;
+using test::DcdSample;
+using test::refusal;
 using test::TemporaryFolder;
-
-struct DcdSample {
-  std::endian order = std::endian::little;
-  int marker = 4;
-  std::int32_t promised = 3, version = 24;
-  std::uint32_t atoms = 4, frames = 3;
-  std::vector<std::int32_t> free = {};  // from 1; empty: all
-  std::vector<double> cell = {};
-  bool fourth_axis = false;
-};
-
-float coordinate(std::uint32_t frame, std::uint32_t atom, int axis) {
-  return static_cast<float>(frame) + 0.125F * static_cast<float>(atom) - 10.0F * static_cast<float>(axis);
-}
-
-std::string dcd(const DcdSample& sample) {
-  ByteWriter file(sample.order);
-  const auto record = [&](const std::function<void(ByteWriter&)>& fill) {
-    ByteWriter content(sample.order);
-    fill(content);
-    const auto length = static_cast<std::uint32_t>(content.bytes().size());
-    const auto marker = [&] { sample.marker == 4 ? file.put(length) : file.put(std::uint64_t{length}); };
-    marker();
-    file.put_text(content.bytes());
-    marker();
-  };
-  record([&](ByteWriter& header) {
-    std::int32_t numbers[20] = {sample.promised, 100, 10};
-    numbers[8] = sample.free.empty() ? 0 : static_cast<std::int32_t>(sample.atoms - sample.free.size());
-    numbers[10] = !sample.cell.empty();
-    numbers[11] = sample.fourth_axis;
-    numbers[19] = sample.version;
-    header.put_text("CORD");
-    for (int n = 0; n < 20; ++n) {
-      if (n == 9 && sample.version == 0) {
-        header.put(0.5);
-        ++n;
-      } else if (n == 9) {
-        header.put(0.5F);
-      } else {
-        header.put(numbers[n]);
-      }
-    }
-  });
-  record([](ByteWriter& titles) { titles.put(std::int32_t{1}).put_text(std::string(80, ' ')); });
-  record([&](ByteWriter& count) { count.put(sample.atoms); });
-  if (!sample.free.empty()) {
-    record([&](ByteWriter& list) {
-      for (const std::int32_t atom : sample.free) list.put(atom);
-    });
-  }
-  for (std::uint32_t frame = 0; frame < sample.frames; ++frame) {
-    if (!sample.cell.empty()) {
-      record([&](ByteWriter& cell) {
-        for (const double number : sample.cell) cell.put(number);
-      });
-    }
-    for (int axis = 0; axis < (sample.fourth_axis ? 4 : 3); ++axis) {
-      record([&](ByteWriter& values) {
-        for (std::uint32_t atom = 0; atom < sample.atoms; ++atom) {
-          const bool moves = std::find(sample.free.begin(), sample.free.end(), atom + 1) != sample.free.end();
-          if (frame == 0 || sample.free.empty() || moves) values.put(coordinate(frame, atom, axis));
-        }
-      });
-    }
-  }
-  return file.bytes();
-}
 
 std::unique_ptr<Trajectory> open_bytes(const TemporaryFolder& folder, const std::string& bytes) {
   return open_trajectory(folder.file("a.dcd", bytes));
-}
-
-std::string refusal(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
 }
 
 void expect_frame(const Frame& frame, const DcdSample& sample, std::uint32_t number) {
