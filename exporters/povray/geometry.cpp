@@ -52,8 +52,9 @@ void append_textures(SceneText& out, const ColoredPiece& piece) {
 
 }  // namespace
 
-Geometry::Geometry(std::span<const SurfaceObject> objects, const glm::dvec3& origin)
+Geometry::Geometry(std::span<const SurfaceObject> objects, const glm::dvec3& origin, std::span<const glm::vec3> colors)
     : objects_(objects), origin_(origin) {
+  for (const glm::vec3& color : colors) table_.number(color);
   for (const SurfaceObject& object : objects)
     palettes_.push_back(make_palette(object.surface, object.coloring, table_));
   if (primitive_count() == 0) throw RequestError("nothing of the surface is shown, so there is no scene to write");
@@ -114,12 +115,12 @@ void Geometry::append_copy(SceneText& out, std::size_t object, const RigidMotion
   out.literal("}\n");
 }
 
-void Geometry::write(OutputFile& file) const {
+void Geometry::write(OutputFile& file, std::string_view head) const {
   SceneText out;
   out.literal("// The patches of molecular surfaces, one primitive each; nothing here but geometry.\n");
   out.literal("// Position in the molecule's file = position here + ").full_vector(origin_).literal(" (Å).\n");
   out.literal("// Probe radius ").length(objects_[0].surface.probe_radius).literal(" Å, ");
-  out.count(primitive_count()).literal(" primitives.\n");
+  out.count(primitive_count()).literal(" primitives.\n").literal(head);
   for (std::size_t n = 0; n < objects_.size(); ++n) {
     if (palettes_[n].pieces.empty()) continue;
     const bool several = group_count(palettes_[n]) > 1;

@@ -20,7 +20,8 @@ namespace meniscus::povray {
 class Geometry {
  public:
   /// Throws RequestError when nothing is shown. origin: Å, of the scene's coordinates.
-  Geometry(std::span<const SurfaceObject> objects, const glm::dvec3& origin);
+  /// colors: those that come first in colors(), whether they occur or not.
+  Geometry(std::span<const SurfaceObject> objects, const glm::dvec3& origin, std::span<const glm::vec3> colors = {});
 
   const std::vector<glm::vec3>& colors() const { return table_.colors(); }
   /// Primitives written.
@@ -32,13 +33,16 @@ class Geometry {
 
   /// Pieces or, when anything is copied, moved or divided into objects, `#declare object_N = union {...}` for each
   /// object that shows something and then `object { object_N matrix <...> }` for each copy.
-  void write(OutputFile& file) const;
+  /// head: scene text behind the comments at the top.
+  void write(OutputFile& file, std::string_view head = {}) const;
+
+  /// Are there names of objects to tell?
+  bool declares() const;
 
   /// {"objects": [{"object": "object_1", "name": ..., "primitives": ..., "copies": ...}], "colors": ...}
   std::string names_json(const std::string& colors) const;
 
  private:
-  bool declares() const;
   void write_pieces(OutputFile& file, SceneText& out, std::size_t object) const;
   void append_copy(SceneText& out, std::size_t object, const RigidMotion& motion) const;
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -28,7 +29,8 @@ struct SceneOptions {
   Material material = Material::opaque;  ///< the scene's default; every scene holds all four
   glm::vec3 background{1.0f};            ///< sRGB
   Existing existing = Existing::refuse;
-  std::string colors;  ///< what the colours mean, as JSON, for <name>_objects.json; may be empty
+  std::optional<glm::dvec3> origin;  ///< Å: where coordinates of the scene begin; nothing: the middle of all atoms
+  std::string colors;                ///< what the colours mean, as JSON, for <name>_objects.json; may be empty
 };
 
 /// What was written and what was not.
@@ -41,7 +43,7 @@ struct SceneReport {
 };
 
 /// Writes <name>.ini, <name>.pov, <name>_style.inc, <name>_aov.inc, <name>_geometry.inc and <name>_objects.json into
-/// `folder`, all or none. One unit is 1 Å; coordinates are relative to the middle of all atoms. The camera shows the
+/// `folder`, all or none. One unit is 1 Å; coordinates are relative to options.origin. The camera shows the
 /// same pixels as the ray caster's. Each object with its copies is a union object_1, object_2, ...; the names they came
 /// with stand in the .json only. Points of hidden atoms are left out.
 /// Throws OutputError (exists, not writable), Error (nothing is shown, bad name or size, a number that is not finite).

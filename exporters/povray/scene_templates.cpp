@@ -14,11 +14,26 @@ const std::string_view kMainTemplate = R"pov(
 #end
 
 @GROUP@ {
-  #include "@NAME@_geometry.inc"
+  #include @GEOMETRY@
   #if (!Meniscus_Own_Textures) texture { Meniscus_Texture } #end
   // One interior for all patches: POV-Ray then takes the open pieces for one solid.
   interior { Meniscus_Interior }
 }
+)pov";
+
+const std::string_view kFrameTemplate =
+    R"pov(// The frame to show: that of the animation (the .ini), or one declared before.
+#ifndef (Meniscus_Frame) #declare Meniscus_Frame = frame_number; #end
+#if (Meniscus_Frame < 1 | Meniscus_Frame > Meniscus_Frame_Count | Meniscus_Frame != int(Meniscus_Frame))
+  #error concat("There is no scene frame ", str(Meniscus_Frame, 0, -1), "; they are 1 to ",
+                str(Meniscus_Frame_Count, 0, 0), ". Render @NAME@.ini, or declare Meniscus_Frame.\n")
+#end
+#declare Meniscus_Frame_Name = str(Meniscus_Trajectory_Frame[Meniscus_Frame - 1], -5, 0);
+#declare Meniscus_Geometry = concat("@NAME@_geometry_", Meniscus_Frame_Name, ".inc");
+#if (!file_exists(Meniscus_Geometry))
+  #error concat("Frame ", Meniscus_Frame_Name, " (scene frame ", str(Meniscus_Frame, 0, 0), ") is missing: there is no ",
+                Meniscus_Geometry, ". Export it, or render in the folder of the scene.\n")
+#end
 )pov";
 
 const std::string_view kStyleTemplate = R"pov(
@@ -172,7 +187,7 @@ const std::string_view kBufferTemplate = R"pov(
 )pov";
 
 const std::string_view kIniTemplate = R"ini(Input_File_Name=@NAME@.pov
-Output_File_Name=@NAME@.png
+Output_File_Name=@NAME@@PICTURE@.png
 Output_File_Type=N
 Antialias=On
 Antialias_Threshold=0.05
@@ -184,26 +199,26 @@ Display=Off
 ; Declare=Meniscus_Clear=1 Output_Alpha=On.
 [opaque]
 Declare=Meniscus_Material=0
-Output_File_Name=@NAME@_opaque.png
+Output_File_Name=@NAME@_opaque@PICTURE@.png
 
 [ghost]
 Declare=Meniscus_Material=1
-Output_File_Name=@NAME@_ghost.png
+Output_File_Name=@NAME@_ghost@PICTURE@.png
 
 [glass]
 Declare=Meniscus_Material=2
-Output_File_Name=@NAME@_glass.png
+Output_File_Name=@NAME@_glass@PICTURE@.png
 Antialias_Depth=2
 Antialias_Threshold=0.1
 
 [wax]
 Declare=Meniscus_Material=3
-Output_File_Name=@NAME@_wax.png
+Output_File_Name=@NAME@_wax@PICTURE@.png
 
 ; Buffers of the same geometry, described in @NAME@_aov.inc.
 [position]
 Declare=Meniscus_Buffer=1
-Output_File_Name=@NAME@_position.png
+Output_File_Name=@NAME@_position@PICTURE@.png
 Antialias=Off
 Bits_Per_Color=16
 File_Gamma=1.0
@@ -211,7 +226,7 @@ Output_Alpha=On
 
 [normal]
 Declare=Meniscus_Buffer=2
-Output_File_Name=@NAME@_normal.png
+Output_File_Name=@NAME@_normal@PICTURE@.png
 Antialias=Off
 Bits_Per_Color=16
 File_Gamma=1.0
@@ -219,7 +234,7 @@ Output_Alpha=On
 
 [group]
 Declare=Meniscus_Buffer=3
-Output_File_Name=@NAME@_group.png
+Output_File_Name=@NAME@_group@PICTURE@.png
 Antialias=Off
 Bits_Per_Color=16
 File_Gamma=1.0
@@ -227,7 +242,7 @@ Output_Alpha=On
 
 [layers]
 Declare=Meniscus_Buffer=4
-Output_File_Name=@NAME@_layers.png
+Output_File_Name=@NAME@_layers@PICTURE@.png
 Antialias=Off
 Bits_Per_Color=16
 File_Gamma=1.0

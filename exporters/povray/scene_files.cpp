@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Puts the text of a scene's files together: settings and camera, style, buffers, .ini.
+#include "exporters/povray/scene_files.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/common.hpp>
+
+#include "exporters/povray/scene_templates.h"
+#include "exporters/povray/scene_text.h"
+
+namespace meniscus::povray {
+namespace {
+
+std::string filled(std::string_view text, std::initializer_list<std::pair<std::string_view, std::string_view>> marks) {
+  std::string result(text);
+  for (const auto& [mark, by] : marks)
+    for (std::size_t at = result.find(mark); at != std::string::npos; at = result.find(mark, at + by.size()))
+      result.replace(at, mark.size(), by);
+  return result;
+}
+
+/// What the scene knows of one camera: vectors, and numbers.
+struct CameraNumbers {
+  std::array<glm::dvec3, 4> vectors;
+  std::array<double, 2> sizes;
+};
+constexpr std::array<std::string_view, 4> kVectorNames{"Meniscus_Right", "Meniscus_Up", "Meniscus_Forward",
+                                                       "Meniscus_Eye"};
+constexpr std::array<std::string_view, 2> kSizeNames{"Meniscus_Picture_Width", "Meniscus_Picture_Height"};
+
+// POV-Ray takes explicit vectors literally, so the right-handed basis goes in as it is, without a minus sign.
+CameraNumbers camera_numbers(const Camera& camera, double aspect, const glm::dvec3& origin) {
+  const ViewBasis basis = view_basis(camera);
+  const glm::dvec2 half = half_extent(camera, aspect);
+  return {{basis.right, basis.up, basis.forward, camera.position - origin}, {2.0 * half.x, 2.0 * half.y}};
+}
+
+void append_one_camera(SceneText& out, const CameraNumbers& camera) {
+  const auto declare = [&](std::string_view name) -> SceneText& {
+    return out.literal("#declare ").literal(name).literal(" = ");
+  };
+  for (std::size_t n = 0; n < kVectorNames.size(); ++n)
+    declare(kVectorNames[n]).full_vector(camera.vectors[n]).literal(";\n");
+  for (std::size_t n = 0; n < kSizeNames.size(); ++n) declare(kSizeNames[n]).full(camera.sizes[n]).literal(";\n");
+}
+
+// A list of each name, of which the scene's frame takes one.
+void append_camera_lists(SceneText& out, const std::vector<CameraNumbers>& cameras) {
+  const auto list = [&](std::string_view name, const auto& append) {
+    out.literal("#declare ").literal(name).literal("_List = array[").count(cameras.size()).literal("] {\n");
+    for (std::size_t n = 0; n < cameras.size(); ++n) {
+      append(cameras[n]);
+      out.literal(n + 1 < cameras.size() ? ",\n" : "\n}\n");
+    }
+    out.literal("#declare ").literal(name).literal(" = ").literal(name).literal("_List[Meniscus_Frame - 1];\n");
+  };
+  for (std::size_t k = 0; k < kVectorNames.size(); ++k)
+    list(kVectorNames[k], [&](const CameraNumbers& camera) { out.full_vector(camera.vectors[k]); });
+  for (std::size_t k = 0; k < kSizeNames.size(); ++k)
+    list(kSizeNames[k], [&](const CameraNumbers& camera) { out.full(camera.sizes[k]); });
+}
+
+void append_camera(SceneText& out, std::span<const Camera> cameras, const SceneOptions& options,
+                   const glm::dvec3& origin) {
+  const double aspect = static_cast<double>(options.width) / options.height;
+  out.literal("\n// The camera: axes of the picture and its size 1 Å in front of the eye (orthographic: in Å).\n");
+  std::vector<CameraNumbers> numbers;
+  for (const Camera& camera : cameras) numbers.push_back(camera_numbers(camera, aspect, origin));
+  if (numbers.size() == 1)
+    append_one_camera(out, numbers[0]);
+  else
+    append_camera_lists(out, numbers);
+  out.literal("// Declare Meniscus_Fit_Aspect = 1 to render at another ratio of width to height without stretching.\n");
+  out.literal("#ifndef (Meniscus_Fit_Aspect) #declare Meniscus_Fit_Aspect = 0; #end\n");
+  out.literal("#if (Meniscus_Fit_Aspect = 1)\n  #declare Meniscus_Picture_Width = ");
+  out.literal("Meniscus_Picture_Height*image_width/image_height;\n#end\n");
+  out.literal("#ifndef (Meniscus_Custom_Camera)\n  camera {\n    ");
+  out.literal(cameras[0].projection == Projection::perspective ? "perspective" : "orthographic");
+  out.literal("\n    location Meniscus_Eye\n    direction Meniscus_Forward\n");
+  out.literal(
+      "    right Meniscus_Right*Meniscus_Picture_Width\n    up Meniscus_Up*Meniscus_Picture_Height\n  }\n#end\n");
+}
+
+// Which include belongs to a frame of the scene. POV-Ray's own message about a missing file would not name the frame.
+void append_frames(SceneText& out, const SceneOptions& options, const SceneFrames& frames) {
+  out.literal("\n// Frames of the scene count from 1; this is what each of them is called in the trajectory.\n");
+  out.literal("#declare Meniscus_Frame_Count = ").count(frames.numbers.size()).literal(";\n");
+  out.literal("#declare Meniscus_Trajectory_Frame = array[").count(frames.numbers.size()).literal("] {");
+  for (std::size_t n = 0; n < frames.numbers.size(); ++n)
+    out.literal(n == 0 ? "" : n % 16 == 0 ? ",\n" : ",").count(frames.numbers[n]);
+  out.literal("};\n#declare Meniscus_Palette = ")
+      .count(frames.palette)
+      .literal(";  // the includes must have the same\n");
+  out.literal(filled(kFrameTemplate, {{"@NAME@", options.name}}));
+}
+
+void append_color(SceneText& out, const glm::vec3& c) { out.literal("srgb ").direction(glm::dvec3(c)); }
+
+}  // namespace
+
+std::string main_text(std::span<const Camera> cameras, const SceneOptions& options, const glm::dvec3& origin,
+                      bool single, const SceneFrames* frames) {
+  SceneText out;
+  out.literal("// A solvent-excluded surface, written by Meniscus " MENISCUS_VERSION
+              " for POV-Ray 3.7. One unit is 1 Å.\n");
+  out.literal("// Render with: povray ").literal(options.name).literal(".ini (in this folder).\n");
+  out.literal("// To change something, declare it in a scene of your own and then include this file, for example\n");
+  out.literal("//   #version 3.7; #declare Meniscus_Material = 2; #include \"")
+      .literal(options.name)
+      .literal(".pov\"\n");
+  out.literal("// Colours as srgb need assumed_gamma first: write global_settings of your own and declare\n");
+  out.literal(
+      "// Meniscus_Custom_Settings; likewise Meniscus_Custom_Camera and Meniscus_Custom_Lights.\n#version 3.7;\n");
+  out.literal("#ifndef (Meniscus_Material) #declare Meniscus_Material = ");
+  out.count(static_cast<std::size_t>(options.material)).literal("; #end  // 0 opaque, 1 ghost, 2 glass, 3 wax\n");
+  out.literal("#ifndef (Meniscus_Buffer) #declare Meniscus_Buffer = 0; #end  // 0 picture; others: see ");
+  out.literal(options.name).literal("_aov.inc\n");
+  out.literal("#ifndef (Meniscus_Subsurface) #declare Meniscus_Subsurface = 0; #end\n");
+  out.literal("#ifndef (Meniscus_Custom_Settings)\nglobal_settings {\n  assumed_gamma 1.0\n");
+  out.literal("  #if (Meniscus_Buffer = 4) max_trace_level 200 adc_bailout 0 #else max_trace_level 12 #end\n");
+  out.literal("  #if (Meniscus_Subsurface = 1) mm_per_unit 1 subsurface { samples 50, 20 } #end\n}\n#end\n");
+  if (frames) append_frames(out, options, *frames);
+  append_camera(out, cameras, options, origin);
+  const std::string include = frames ? std::string("Meniscus_Geometry") : "\"" + options.name + "_geometry.inc\"";
+  out.literal(filled(kMainTemplate,
+                     {{"@NAME@", options.name}, {"@GROUP@", single ? "object" : "union"}, {"@GEOMETRY@", include}}));
+  return out.text();
+}
+
+std::string style_text(const std::vector<glm::vec3>& colors, const SceneOptions& options) {
+  SceneText out;
+  out.literal(
+      "// Colours, lights and materials of the scene. Everything may be declared before this file is included.\n");
+  out.literal("#declare Meniscus_Default_Background = ");
+  append_color(out, options.background);
+  out.literal(";\n#ifndef (Meniscus_Color)\n  #declare Meniscus_Color = array[").count(colors.size());
+  out.literal("] {\n");
+  for (std::size_t n = 0; n < colors.size(); ++n) {
+    out.literal("    ");
+    append_color(out, colors[n]);
+    out.literal(n + 1 < colors.size() ? ",\n" : "\n");
+  }
+  out.literal("  }\n#end\n").literal(kStyleTemplate);
+  return out.text();
+}
+
+std::string buffer_text(std::size_t color_count, const Extent& e, const glm::dvec3& origin) {
+  const glm::dvec3 size = e.high - e.low;
+  // One cube for all axes, wide enough that no gradient reaches its own end.
+  const double extent = std::ceil(std::max({size.x, size.y, size.z}) + 1.0);
+  SceneText out;
+  out.literal("// The surface as numbers instead of colours.\n#declare Meniscus_Low = ");
+  out.full_vector(glm::floor((e.low - origin - 0.5) * 1e3) / 1e3).literal(";\n#declare Meniscus_Extent = ");
+  out.full(extent).literal(";\n#declare Meniscus_Color_Count = ").count(color_count).literal(";\n");
+  out.literal(kBufferTemplate);
+  return out.text();
+}
+
+std::string ini_text(const SceneOptions& options, std::size_t frame_count) {
+  SceneText out;
+  out.literal("; A solvent-excluded surface. In this folder: povray ").literal(options.name).literal(".ini\n");
+  out.literal("; From elsewhere, where no path holds a space: povray FOLDER/").literal(options.name);
+  out.literal(".ini +LFOLDER +IFOLDER/").literal(options.name).literal(".pov +OFOLDER/\n");
+  out.literal("; The camera is made for this size; another ratio stretches (see Meniscus_Fit_Aspect in the .pov).\n");
+  out.literal("Width=").count(static_cast<std::size_t>(options.width)).literal("\nHeight=");
+  out.count(static_cast<std::size_t>(options.height)).literal("\n");
+  if (frame_count > 0) {
+    out.literal("; All frames; of several machines each renders a part of them: +SF1 +EF10 and so on.\n");
+    out.literal("Initial_Frame=1\nFinal_Frame=").count(frame_count).literal("\n");
+  }
+  // POV-Ray writes the number of the frame behind the name.
+  out.literal(filled(kIniTemplate, {{"@NAME@", options.name}, {"@PICTURE@", frame_count > 0 ? "_" : ""}}));
+  return out.text();
+}
+
+}  // namespace meniscus::povray

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The text of a scene's files but for the geometry: for one surface, or for a run of frames.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "core/render/camera.h"
+#include "exporters/povray/scene.h"
+
+namespace meniscus::povray {
+
+/// A box, Å.
+struct Extent {
+  glm::dvec3 low{1e300}, high{-1e300};
+};
+
+/// What a scene of several frames knows of them.
+struct SceneFrames {
+  std::vector<std::uint64_t> numbers;  ///< of the trajectory, in the order of the scene
+  std::uint32_t palette = 0;           ///< tells colours and origin from those of other runs
+};
+
+/// <name>.pov. cameras: one, or one a frame. single: the geometry is one item. frames: nothing for a single surface.
+std::string main_text(std::span<const Camera> cameras, const SceneOptions& options, const glm::dvec3& origin,
+                      bool single, const SceneFrames* frames = nullptr);
+/// <name>_style.inc
+std::string style_text(const std::vector<glm::vec3>& colors, const SceneOptions& options);
+/// <name>_aov.inc
+std::string buffer_text(std::size_t color_count, const Extent& e, const glm::dvec3& origin);
+/// <name>.ini. frame_count: 0 for a single surface.
+std::string ini_text(const SceneOptions& options, std::size_t frame_count = 0);
+
+}  // namespace meniscus::povray

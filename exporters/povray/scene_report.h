@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What scenes of one surface and of a run have to look at before and after: names, extents, things worth a note.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "exporters/povray/geometry.h"
+#include "exporters/povray/scene_files.h"
+
+namespace meniscus::povray {
+
+/// Of all atoms and copies.
+Extent atom_extent(std::span<const SurfaceObject> objects);
+
+/// Å, to three decimals.
+glm::dvec3 middle(const Extent& extent);
+
+/// Throws Error: a name that cannot stand in a scene, no pixels, no atom.
+void check(std::span<const SurfaceObject> objects, const SceneOptions& options);
+
+/// Sentences: what the picture lacks, what will be slow.
+std::vector<std::string> notes(std::span<const SurfaceObject> objects, const Geometry& geometry, const Camera& camera);
+
+/// One word of a POSIX shell, whatever the text holds.
+std::string shell_quoted(const std::string& text);
+
+}  // namespace meniscus::povray

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Writes the shared files of a run, and the geometry of its frames.
+#include "exporters/povray/sequence.h"
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <utility>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <zlib.h>
+
+#include "core/base/error.h"
+#include "exporters/povray/geometry.h"
+#include "exporters/povray/scene_files.h"
+#include "exporters/povray/scene_report.h"
+#include "exporters/povray/scene_text.h"
+
+namespace meniscus::povray {
+namespace {
+
+void check(const Run& run) {
+  if (run.frames.empty()) throw Error("POV-Ray export: a run has at least one frame");
+  if (run.cameras.size() != 1 && run.cameras.size() != run.frames.size())
+    throw Error("POV-Ray export: a run has one camera, or one for each frame");
+  for (const Camera& camera : run.cameras)
+    if (camera.projection != run.cameras[0].projection)
+      throw Error("POV-Ray export: the cameras of a run have one projection");
+}
+
+std::uint32_t palette_number(const Run& run, const glm::dvec3& origin) {
+  SceneText text;
+  text.full_vector(origin);
+  for (const glm::vec3& color : run.colors) text.full_vector(glm::dvec3(color));
+  const std::string& bytes = text.text();
+  return static_cast<std::uint32_t>(crc32_z(0, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()));
+}
+
+// Colours are numbers in the geometry, and a place counts from the origin.
+std::string palette_check(std::uint32_t palette) {
+  SceneText out;
+  out.literal("#ifdef (Meniscus_Palette) #if (Meniscus_Palette != ").count(palette);
+  out.literal(
+      ")\n  #error \"This geometry was written with other colours or another origin than the scene: export its ");
+  out.literal("frame again.\\n\"\n#end #end\n");
+  return out.text();
+}
+
+bool holds(const std::filesystem::path& path, const std::string& text) {
+  std::ifstream file(path, std::ios::binary);
+  return file && std::string(std::istreambuf_iterator<char>(file), {}) == text;
+}
+
+std::string objects_text(const Run& run, const std::string& colors) {
+  nlohmann::ordered_json json{{"frames", run.frames}};
+  if (!colors.empty()) json["colors"] = nlohmann::ordered_json::parse(colors);
+  return json.dump(1, ' ', true, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace
+
+SequenceScene::SequenceScene(Run run, SceneOptions options, std::filesystem::path folder)
+    : run_(std::move(run)), options_(std::move(options)), folder_(std::move(folder)) {
+  check(run_);
+  check({}, options_);
+  origin_ = options_.origin ? *options_.origin : middle({run_.low, run_.high});
+  palette_ = palette_number(run_, origin_);
+}
+
+SceneReport SequenceScene::write_shared() const {
+  const SceneFrames frames{run_.frames, palette_};
+  const std::pair<const char*, std::string> texts[] = {
+      {"_aov.inc", buffer_text(run_.colors.size(), {run_.low, run_.high}, origin_)},
+      {"_style.inc", style_text(run_.colors, options_)},
+      {"_objects.json", objects_text(run_, options_.colors)},
+      {".pov", main_text(run_.cameras, options_, origin_, false, &frames)},
+      {".ini", ini_text(options_, run_.frames.size())}};
+  SceneReport report;
+  for (const auto& [ending, text] : texts) report.files.push_back(folder_ / (options_.name + ending));
+  const auto is_there = [&](const auto& file) { return holds(folder_ / (options_.name + file.first), file.second); };
+  try {
+    OutputFolder output(folder_, options_.existing);
+    for (const auto& file : texts)
+      if (!is_there(file)) output.file(options_.name + file.first).write(file.second);
+    output.commit();
+  } catch (const OutputError&) {
+    if (!std::ranges::all_of(texts, is_there)) throw;  // else another share was faster
+  }
+  report.origin = origin_;
+  report.command = fmt::format("cd {} && povray {}.ini", shell_quoted(folder_.string()), options_.name);
+  return report;
+}
+
+SceneReport SequenceScene::write_frame(std::span<const SurfaceObject> objects, std::size_t place) const {
+  check(objects, options_);
+  const Geometry geometry(objects, origin_, run_.colors);
+  if (geometry.colors().size() > run_.colors.size())
+    throw Error(fmt::format("frame {} has a colour that the run does not have", run_.frames[place]));
+  OutputFolder output(folder_, options_.existing);
+  SceneReport report;
+  const auto begin_file = [&](const char* what, const char* ending) -> OutputFile& {
+    const std::string name = fmt::format("{}_{}_{:05}{}", options_.name, what, run_.frames[place], ending);
+    report.files.push_back(folder_ / name);
+    return output.file(name);
+  };
+  if (geometry.declares()) begin_file("objects", ".json").write(geometry.names_json({}));
+  geometry.write(begin_file("geometry", ".inc"), palette_check(palette_));
+  output.commit();
+  report.object_count = geometry.primitive_count();
+  report.origin = origin_;
+  report.notes = notes(objects, geometry, run_.cameras[run_.cameras.size() == 1 ? 0 : place]);
+  return report;
+}
+
+}  // namespace meniscus::povray

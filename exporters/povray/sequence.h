@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A folder with one POV-Ray scene for a run of frames: a geometry include a frame, everything else once.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "core/render/camera.h"
+#include "exporters/povray/scene.h"
+
+namespace meniscus::povray {
+
+/// What all frames of a run share. Every process that makes some of them must be given the same.
+struct Run {
+  std::vector<std::uint64_t> frames;  ///< of the trajectory; scene frame n, from 1, is frames[n - 1]
+  std::vector<Camera> cameras;        ///< one for all, or one a frame; of one projection
+  std::vector<glm::vec3> colors;      ///< sRGB: all that may occur, in the order of the style file
+  glm::dvec3 low{0.0}, high{0.0};     ///< Å: a box around all atoms at all frames
+};
+
+class SequenceScene {
+ public:
+  /// options.origin: nothing: the middle of the run's box. Throws Error (no frame, bad name or size, cameras of two
+  /// projections or of another number).
+  SequenceScene(Run run, SceneOptions options, std::filesystem::path folder);
+
+  /// Writes <name>.ini, <name>.pov, <name>_style.inc, <name>_aov.inc and <name>_objects.json (the frames, and what the
+  /// colours mean). Files that are there with just this content stay; the others are written, all or none. Throws
+  /// OutputError.
+  SceneReport write_shared() const;
+
+  /// Writes <name>_geometry_#####.inc, numbered by the frame of the trajectory, and where there are several objects
+  /// <name>_objects_#####.json. place: in the run, from 0. Throws what write_scene throws, and Error for a colour that
+  /// is not the run's.
+  SceneReport write_frame(std::span<const SurfaceObject> objects, std::size_t place) const;
+
+ private:
+  Run run_;
+  SceneOptions options_;
+  std::filesystem::path folder_;
+  glm::dvec3 origin_;
+  std::uint32_t palette_;  ///< of origin and colours: scene and includes must agree on both
+};
+
+}  // namespace meniscus::povray
