@@ -47,15 +47,22 @@ double tolerance_of(const MeshCommandOptions& options, const PictureOptions& pic
   return std::clamp(options.tolerance_pixels * pixel, kSmallestTolerance, kLargestTolerance);
 }
 
-std::vector<TriangleMesh> meshes_of(const MoleculeOptions& options, std::span<const SurfaceObject> objects,
-                                    double tolerance) {
+std::vector<TriangleMesh> mesh_objects(std::span<const SurfaceObject> objects, double tolerance) {
   std::vector<TriangleMesh> meshes;
-  std::size_t triangles = 0;
+  bool any = false;
   for (const SurfaceObject& object : objects) {
     meshes.push_back(shown_part(tessellate(object.surface, {tolerance, true}), object.coloring));
-    triangles += meshes.back().triangles.size();
+    any = any || !meshes.back().triangles.empty();
   }
-  if (triangles == 0) throw RequestError("nothing of the surface is shown, so there is no mesh to write");
+  if (!any) throw RequestError("nothing of the surface is shown, so there is no mesh to write");
+  return meshes;
+}
+
+std::vector<TriangleMesh> meshes_of(const MoleculeOptions& options, std::span<const SurfaceObject> objects,
+                                    double tolerance) {
+  std::vector<TriangleMesh> meshes = mesh_objects(objects, tolerance);
+  std::size_t triangles = 0;
+  for (const TriangleMesh& mesh : meshes) triangles += mesh.triangles.size();
   say(options, fmt::format("{} triangles within {:.4g} Å of the surface", with_thousands(triangles), tolerance));
   return meshes;
 }

@@ -24,7 +24,9 @@ void add_mesh_options(CLI::App& command, MeshCommandOptions& options);
 double tolerance_of(const MeshCommandOptions& options, const PictureOptions& picture, const Camera& camera,
                     std::span<const Ball> balls);
 
-/// Meshes what is shown of each object and says on stderr how many triangles came out. Throws RequestError if none did.
+/// Meshes what is shown of each object. Throws RequestError when no triangle came out.
+std::vector<TriangleMesh> mesh_objects(std::span<const SurfaceObject> objects, double tolerance);
+/// The same, and says on stderr how many triangles came out.
 std::vector<TriangleMesh> meshes_of(const MoleculeOptions& options, std::span<const SurfaceObject> objects,
                                     double tolerance);
 

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/text.h"
+#include "exporters/blender/camera_object.h"
 #include "exporters/blender/mns_file.h"
 #include "exporters/mesh/mesh_colors.h"
 
@@ -56,6 +57,12 @@ void add_mesh(MnsWriter& file, const TriangleMesh& mesh, const glm::dvec3& origi
   file.add("mesh.sharp_corner", std::span(mesh.sharp_corners));
   file.add("mesh.sharp_corner_normal", corner_normal.values(), 3);
   file.add("mesh.sharp_edge", sharp_edge.values(), 2);
+}
+
+void add_velocities(MnsWriter& file, const std::vector<glm::dvec3>& velocities) {
+  Floats velocity;
+  for (const glm::dvec3& v : velocities) velocity.push(v);
+  if (!velocities.empty()) file.add("mesh.velocity", velocity.values(), 3);
 }
 
 void add_atoms(MnsWriter& file, const SurfaceObject& object, const AtomAttributes& atoms) {
@@ -152,12 +159,6 @@ json component_list(const Surface& surface, const TriangleMesh& mesh) {
   return list;
 }
 
-json camera_object(const Shot& shot) {
-  json camera = json::parse(camera_json(shot.camera));
-  camera["size"] = {shot.width, shot.height};
-  return camera;
-}
-
 /// The matrix [rotation | translation], row after row.
 json matrix(const RigidMotion& motion) {
   json rows = json::array();
@@ -199,8 +200,15 @@ json object_header(const MeshedObject& meshed, const std::string& prefix, const 
 
 }  // namespace
 
+nlohmann::json camera_object(const Shot& shot) {
+  json camera = json::parse(camera_json(shot.camera));
+  camera["size"] = {shot.width, shot.height};
+  return camera;
+}
+
 void write_objects(const std::string& path, Existing existing, std::span<const MeshedObject> objects,
-                   const std::optional<Shot>& shot, const Provenance& provenance) {
+                   const std::optional<Shot>& shot, const Provenance& provenance,
+                   const std::optional<PlaceInRun>& place) {
   MnsWriter file;
   json list = json::array();
   for (const MeshedObject& meshed : objects) {
@@ -209,6 +217,7 @@ void write_objects(const std::string& path, Existing existing, std::span<const M
     const glm::dvec3 origin = mesh_origin(meshed.mesh);
     file.set_prefix(prefix);
     add_mesh(file, meshed.mesh, origin);
+    add_velocities(file, meshed.velocities);
     add_atoms(file, meshed.object, meshed.atoms);
     add_convex(file, meshed.object.surface);
     add_toroidal(file, meshed.object.surface);
@@ -224,6 +233,7 @@ void write_objects(const std::string& path, Existing existing, std::span<const M
               {"objects", std::move(list)}};
   if (!provenance.colors.empty()) header["colors"] = json::parse(provenance.colors);
   if (shot) header["camera"] = camera_object(*shot);
+  if (place) header["sequence"] = {{"run", place->run}, {"frame", place->frame}, {"scene_frame", place->scene_frame}};
   file.write(path, existing, std::move(header));
 }
 

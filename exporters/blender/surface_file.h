@@ -43,10 +43,19 @@ struct MeshedObject {
   const SurfaceObject& object;
   TriangleMesh mesh;  ///< without triangles: the object is left out
   AtomAttributes atoms;
+  std::vector<glm::dvec3> velocities;  ///< per vertex, Å per scene frame; empty: the file has none
+};
+
+/// Which frame of a run a file is: it must say so, since files of several runs may get into one folder.
+struct PlaceInRun {
+  std::string run;              ///< run_name() of the manifest
+  std::uint64_t frame = 0;      ///< of the trajectory
+  std::size_t scene_frame = 0;  ///< from 1
 };
 
 /// Writes the file as FORMAT.md describes. At least one mesh has triangles. Throws OutputError.
 void write_objects(const std::string& path, Existing existing, std::span<const MeshedObject> objects,
-                   const std::optional<Shot>& shot, const Provenance& provenance);
+                   const std::optional<Shot>& shot, const Provenance& provenance,
+                   const std::optional<PlaceInRun>& place = {});
 
 }  // namespace meniscus::blender

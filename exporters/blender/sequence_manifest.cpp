@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Writes the manifest, the same bytes from every share of a run.
+#include "exporters/blender/sequence_manifest.h"
+
+#include <fstream>
+#include <iterator>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <zlib.h>
+
+#include "core/base/error.h"
+#include "exporters/blender/camera_object.h"
+
+namespace meniscus::blender {
+namespace {
+
+using nlohmann::json;
+using nlohmann::ordered_json;
+
+/// What makes frames of two runs different things.
+ordered_json shared_by_files(const SequenceManifest& manifest) {
+  ordered_json source{{"file", manifest.provenance.source}, {"radii_set", manifest.provenance.radii_set}};
+  if (!manifest.trajectory.empty()) source["trajectory"] = manifest.trajectory;
+  ordered_json json{{"format", "meniscus surface sequence"},
+                    {"version", 1},
+                    {"generator", "meniscus " MENISCUS_VERSION},
+                    {"source", source},
+                    {"unit", "angstrom"},
+                    {"atoms", manifest.atom_count},
+                    {"probe_radius", manifest.probe_radius},
+                    {"tolerance", manifest.tolerance},
+                    {"origin", {manifest.origin.x, manifest.origin.y, manifest.origin.z}}};
+  if (!manifest.provenance.colors.empty()) json["colors"] = ordered_json::parse(manifest.provenance.colors);
+  json["frames"] = ordered_json::array();
+  for (const std::uint64_t frame : manifest.frames)
+    json["frames"].push_back({{"frame", frame}, {"file", frame_file(frame)}});
+  return json;
+}
+
+std::string text_of(const ordered_json& json) {
+  return json.dump(1, ' ', true, ordered_json::error_handler_t::replace) + "\n";
+}
+
+bool holds(const std::filesystem::path& path, const std::string& text) {
+  std::ifstream file(path, std::ios::binary);
+  return file && std::string(std::istreambuf_iterator<char>(file), {}) == text;
+}
+
+}  // namespace
+
+std::string frame_file(std::uint64_t frame) { return fmt::format("surface_{:05}.mns", frame); }
+
+std::string run_name(const SequenceManifest& manifest) {
+  const std::string text = text_of(shared_by_files(manifest));
+  return fmt::format("{:08x}", crc32_z(0, reinterpret_cast<const unsigned char*>(text.data()), text.size()));
+}
+
+std::filesystem::path write_manifest(const std::filesystem::path& folder, Existing existing,
+                                     const SequenceManifest& manifest) {
+  ordered_json json = shared_by_files(manifest);
+  json["run"] = run_name(manifest);
+  json["scale"] = manifest.scale;
+  json["fps"] = manifest.fps;
+  if (manifest.shots.size() == 1) {
+    json["camera"] = camera_object(manifest.shots[0]);
+  } else {
+    for (std::size_t n = 0; n < manifest.frames.size(); ++n)
+      json["frames"][n]["camera"] = camera_object(manifest.shots[n]);
+  }
+  ordered_json frames = std::move(json["frames"]);  // the long list goes last
+  json.erase("frames");
+  json["frames"] = std::move(frames);
+  const std::string text = text_of(json);
+  const std::filesystem::path path = folder / "surface_sequence.json";
+  if (holds(path, text)) return path;
+  try {
+    OutputFolder output(folder, existing);
+    output.file(path.filename().string()).write(text);
+    output.commit();
+  } catch (const OutputError&) {
+    if (!holds(path, text)) throw;  // else another share was faster
+  }
+  return path;
+}
+
+}  // namespace meniscus::blender

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The manifest of a run of .mns files: what all frames share, and which file is which frame.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "core/base/output_file.h"
+#include "exporters/blender/surface_file.h"
+
+namespace meniscus::blender {
+
+/// Every process that makes some frames of a run must have the same.
+struct SequenceManifest {
+  Provenance provenance;              ///< the device is left out: another share may run on another
+  std::string trajectory;             ///< its file's name, without its folder; empty: the models of provenance.source
+  std::vector<std::uint64_t> frames;  ///< of the trajectory; scene frame n, from 1, is frames[n - 1]
+  std::vector<Shot> shots;            ///< one for all, or one a frame
+  glm::dvec3 origin{0.0};             ///< Å, of the scene's coordinates
+  double scale = 0.1;                 ///< Blender units per Å
+  double fps = 24.0;                  ///< scene frames per second
+  double probe_radius = 0.0, tolerance = 0.0;  ///< Å
+  std::size_t atom_count = 0;
+
+  const Shot& shot(std::size_t place) const { return shots[shots.size() == 1 ? 0 : place]; }
+};
+
+/// "surface_00042.mns"
+std::string frame_file(std::uint64_t frame);
+
+/// A text that two runs share only if their frames may be mixed: all but cameras, fps and scale goes into it.
+std::string run_name(const SequenceManifest& manifest);
+
+/// Writes surface_sequence.json as FORMAT.md describes and gives its path. A file that is there with just this content
+/// stays. Throws OutputError.
+std::filesystem::path write_manifest(const std::filesystem::path& folder, Existing existing,
+                                     const SequenceManifest& manifest);
+
+}  // namespace meniscus::blender
