@@ -75,7 +75,7 @@ void export_blender(const ExportedView& view, const ExportTarget& target) {
   silent.quiet = true;
   std::vector<TriangleMesh> meshes = meshes_of(silent, std::span(&object, 1), MeshCommandOptions{}.tolerance);
   const blender::MeshedObject objects[] = {
-      {object, std::move(meshes.front()), blender_attributes(view.structure, object.atom)}};
+      {object, std::move(meshes.front()), blender_attributes(view.structure, object.atom), {}}};
   const blender::Provenance provenance{std::filesystem::path(view.structure.file).filename().string(),
                                        view.structure.radii_set, device, colors_of(view)};
   write_objects(target.path.string(), target.existing, objects, blender::Shot{view.camera, view.size.x, view.size.y},

@@ -15,14 +15,13 @@
 namespace meniscus::blender {
 namespace {
 
-using nlohmann::json;
 using nlohmann::ordered_json;
 
 /// What makes frames of two runs different things.
 ordered_json shared_by_files(const SequenceManifest& manifest) {
   ordered_json source{{"file", manifest.provenance.source}, {"radii_set", manifest.provenance.radii_set}};
   if (!manifest.trajectory.empty()) source["trajectory"] = manifest.trajectory;
-  ordered_json json{{"format", "meniscus surface sequence"},
+  ordered_json result{{"format", "meniscus surface sequence"},
                     {"version", 1},
                     {"generator", "meniscus " MENISCUS_VERSION},
                     {"source", source},
@@ -31,11 +30,11 @@ ordered_json shared_by_files(const SequenceManifest& manifest) {
                     {"probe_radius", manifest.probe_radius},
                     {"tolerance", manifest.tolerance},
                     {"origin", {manifest.origin.x, manifest.origin.y, manifest.origin.z}}};
-  if (!manifest.provenance.colors.empty()) json["colors"] = ordered_json::parse(manifest.provenance.colors);
-  json["frames"] = ordered_json::array();
+  if (!manifest.provenance.colors.empty()) result["colors"] = ordered_json::parse(manifest.provenance.colors);
+  result["frames"] = ordered_json::array();
   for (const std::uint64_t frame : manifest.frames)
-    json["frames"].push_back({{"frame", frame}, {"file", frame_file(frame)}});
-  return json;
+    result["frames"].push_back({{"frame", frame}, {"file", frame_file(frame)}});
+  return result;
 }
 
 std::string text_of(const ordered_json& json) {
@@ -58,20 +57,20 @@ std::string run_name(const SequenceManifest& manifest) {
 
 std::filesystem::path write_manifest(const std::filesystem::path& folder, Existing existing,
                                      const SequenceManifest& manifest) {
-  ordered_json json = shared_by_files(manifest);
-  json["run"] = run_name(manifest);
-  json["scale"] = manifest.scale;
-  json["fps"] = manifest.fps;
+  ordered_json content = shared_by_files(manifest);
+  content["run"] = run_name(manifest);
+  content["scale"] = manifest.scale;
+  content["fps"] = manifest.fps;
   if (manifest.shots.size() == 1) {
-    json["camera"] = camera_object(manifest.shots[0]);
+    content["camera"] = camera_object(manifest.shots[0]);
   } else {
     for (std::size_t n = 0; n < manifest.frames.size(); ++n)
-      json["frames"][n]["camera"] = camera_object(manifest.shots[n]);
+      content["frames"][n]["camera"] = camera_object(manifest.shots[n]);
   }
-  ordered_json frames = std::move(json["frames"]);  // the long list goes last
-  json.erase("frames");
-  json["frames"] = std::move(frames);
-  const std::string text = text_of(json);
+  ordered_json frames = std::move(content["frames"]);  // the long list goes last
+  content.erase("frames");
+  content["frames"] = std::move(frames);
+  const std::string text = text_of(content);
   const std::filesystem::path path = folder / "surface_sequence.json";
   if (holds(path, text)) return path;
   try {

@@ -170,8 +170,8 @@ std::string ini_text(const SceneOptions& options, std::size_t frame_count) {
     out.literal("; All frames; of several machines each renders a part of them: +SF1 +EF10 and so on.\n");
     out.literal("Initial_Frame=1\nFinal_Frame=").count(frame_count).literal("\n");
   }
-  // POV-Ray writes the number of the frame behind the name.
-  out.literal(filled(kIniTemplate, {{"@NAME@", options.name}, {"@PICTURE@", frame_count > 0 ? "_" : ""}}));
+  // POV-Ray writes the number of the frame behind the name, if there are several.
+  out.literal(filled(kIniTemplate, {{"@NAME@", options.name}, {"@PICTURE@", frame_count > 1 ? "_" : ""}}));
   return out.text();
 }
 

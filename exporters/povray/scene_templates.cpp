@@ -23,9 +23,12 @@ const std::string_view kMainTemplate = R"pov(
 
 const std::string_view kFrameTemplate =
     R"pov(// The frame to show: that of the animation (the .ini), or one declared before.
-#ifndef (Meniscus_Frame) #declare Meniscus_Frame = frame_number; #end
+#ifndef (Meniscus_Frame)
+  #declare Meniscus_Frame = frame_number;
+  #if (Meniscus_Frame_Count = 1) #declare Meniscus_Frame = 1; #end  // of one frame POV-Ray makes no animation
+#end
 #if (Meniscus_Frame < 1 | Meniscus_Frame > Meniscus_Frame_Count | Meniscus_Frame != int(Meniscus_Frame))
-  #error concat("There is no scene frame ", str(Meniscus_Frame, 0, -1), "; they are 1 to ",
+  #error concat("There is no scene frame ", str(Meniscus_Frame, 0, 0), "; they are 1 to ",
                 str(Meniscus_Frame_Count, 0, 0), ". Render @NAME@.ini, or declare Meniscus_Frame.\n")
 #end
 #declare Meniscus_Frame_Name = str(Meniscus_Trajectory_Frame[Meniscus_Frame - 1], -5, 0);
