@@ -13,6 +13,7 @@ blender, program, addon, script = sys.argv[1:]
 with tempfile.TemporaryDirectory() as folder:
     for name in samples.MOLECULES:
         samples.export(program, folder, name, "--size", "160x120", "--tolerance", "0.004")
+    samples.export_run(program, os.path.join(folder, "run"))
     scripts = os.path.join(folder, "scripts")
     os.makedirs(os.path.join(scripts, "addons"))
     os.symlink(os.path.join(addon, "meniscus_import"), os.path.join(scripts, "addons", "meniscus_import"))

@@ -40,6 +40,13 @@ def export(program, folder, name, *options):
     return target
 
 
+def export_run(program, target, *options):
+    """Three frames of fifteen residues of ubiquitin in solution: of ten models the frames 1, 3, 5; 25 a second."""
+    subprocess.run([program, "export", "blender", "/usr/share/freesasa/test-data/1d3z.pdb", "--select", "resi 1-15",
+                    "--frames", "1-5:2", "--fps", "25", "-o", target, "--device", "cpu", "--color", "residue", "--size", "120x90",
+                    "--tolerance", "0.05", "-q", *options], check=True, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+
+
 def with_right_checksum(data):
     data = bytearray(data)
     struct.pack_into("<Q", data, 24, len(data))

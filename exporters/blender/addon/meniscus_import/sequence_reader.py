@@ -4,6 +4,7 @@
 import json
 import math
 import os
+import re
 
 import numpy as np
 
@@ -127,18 +128,19 @@ def _check_camera(camera):
 
 
 def parse_frames(text, known):
-    """Frame numbers of a list such as "0-99:10,250" (first-last:step), in its order, each once. "all": those of `known`.
-    Raises ValueError with one sentence."""
+    """Frame numbers of a list such as "0-99:10,250,300-" (first-last:step; to the last of `known`), each once, in its order.
+    "all": those of `known`. Raises ValueError with one sentence."""
+    known = list(known)
     if text == "all":
-        return list(known)
+        return known
     numbers = []
     for part in text.split(","):
-        span, _, step = part.partition(":")
-        first, dash, last = span.partition("-")
-        words = [first] + ([last] if dash else []) + ([step] if ":" in part else [])
-        if not all(word.isascii() and word.isdigit() for word in words) or (":" in part and not dash):
+        found = re.fullmatch(r"([0-9]+)(?:(-)([0-9]*)(?::([0-9]+))?)?", part)
+        if not found:
             raise ValueError(f"'{part}' is neither a frame, nor first-last, nor first-last:step")
-        begin, end, stride = int(first), int(last if dash else first), int(step or 1)
+        first, dash, last, step = found.groups()
+        begin, stride = int(first), int(step or 1)
+        end = int(last) if last else max(known) if dash else begin
         if end < begin or stride < 1 or (end - begin) // stride >= MOST_FRAMES:
             raise ValueError(f"'{part}' names no frames, or too many")
         numbers.extend(range(begin, end + 1, stride))

@@ -1,0 +1,305 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Sequences in Blender: baked, streamed and driven frames are the same pictures, and what is missing is never shown."""
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+import unittest
+
+import addon_utils
+import bpy
+import numpy as np
+
+FOLDER, ADDON, HERE, BLENDER = sys.argv[sys.argv.index("--") + 1:]
+sys.path.insert(0, HERE)
+import samples  # noqa: E402
+
+from meniscus_import import build, compat, joined, mns_reader, sequence, sequence_reader  # noqa: E402
+
+RUN = os.path.join(FOLDER, "run")
+MANIFEST = os.path.join(RUN, "surface_sequence.json")
+NUMBERS = [1, 3, 5]  # frames of the trajectory, of scene frames 1, 2, 3
+#: Pictures of the same scene differ where threads add up in another order, and where a ray just meets an edge.
+ROUNDING = 1.01 / 255
+FEW = 0.001
+
+
+def drive(*arguments):
+    """Exit code, the JSON lines, and standard error of the driver in a Blender of its own."""
+    command = [BLENDER, "-b", "--factory-startup", "--python-exit-code", "3", "--python",
+               os.path.join(ADDON, "render_mns.py"), "--", *arguments]
+    environment = {key: value for key, value in os.environ.items() if key != "BLENDER_USER_SCRIPTS"}
+    done = subprocess.run(command, capture_output=True, text=True, env=environment, check=False)
+    lines = [json.loads(line) for line in done.stdout.splitlines() if line.startswith("{")]
+    return done.returncode, lines, done.stderr
+
+
+def pixels(path):
+    image = bpy.data.images.load(path)
+    try:
+        values = np.empty(len(image.pixels), dtype=np.float32)
+        image.pixels.foreach_get(values)
+        return values.reshape(image.size[1], image.size[0], 4)[:, :, :3]
+    finally:
+        bpy.data.images.remove(image)
+
+
+def other(a, b):
+    """Share of pixels that differ by more than rounding."""
+    return float((np.abs(a - b).max(axis=2) > ROUNDING).mean())
+
+
+def shown(item):
+    """Positions of the mesh an object shows at the scene's time, instances of Geometry Nodes included."""
+    graph = bpy.context.evaluated_depsgraph_get()
+    meshes = [each.object.data for each in graph.object_instances if each.is_instance and each.parent
+              and each.parent.original == item] or [item.evaluated_get(graph).data]
+    assert len(meshes) == 1
+    co = np.empty(3 * len(meshes[0].vertices), dtype=np.float32)
+    meshes[0].vertices.foreach_get("co", co)
+    return co.reshape(-1, 3)
+
+
+def expected(scene_frame, scale=0.1, center=True):
+    manifest = sequence_reader.read(MANIFEST)
+    surface = manifest.read(scene_frame).objects[0]
+    origin = np.array(surface.header["mesh"]["origin"]) - (manifest.origin if center else 0.0)
+    return (surface["mesh.position"] + origin) * scale
+
+
+class Sequence(unittest.TestCase):
+    def setUp(self):
+        bpy.ops.wm.read_factory_settings(use_empty=True)
+        addon_utils.enable("meniscus_import")
+        self.folder = os.path.join(FOLDER, self.id())
+        os.makedirs(self.folder)
+
+    def copy_of_run(self):
+        target = os.path.join(self.folder, "copy")
+        shutil.copytree(RUN, target)
+        return target
+
+    def pictures(self, name, *options, manifest=MANIFEST):
+        code, lines, error = drive(manifest, "--output", os.path.join(self.folder, name + "_##"), "--samples", "4", *options)
+        self.assertEqual(code, 0, error)
+        self.assertTrue(all(line["state"] == "done" and line["triangles"] > 1000 for line in lines), lines)
+        return {line["frame"]: pixels(line["files"][0]) for line in lines}
+
+    def test_driver_bake_and_stream_are_the_same_pictures(self):
+        driven = self.pictures("driver")
+        self.assertEqual(list(driven), NUMBERS)
+        self.assertGreater(other(driven[1], driven[3]), 0.05)
+        for mode in ("bake", "stream"):
+            made = self.pictures(mode, "--mode", mode)
+            for number in NUMBERS:
+                self.assertLess(other(made[number], driven[number]), FEW, (mode, number))
+        one = self.pictures("one", "--frames", "5,1-4:4")
+        self.assertEqual(list(one), [5, 1])
+        self.assertLess(other(one[5], driven[5]), FEW)
+        self.assertEqual(list(self.pictures("place", "--scene-frames", "2")), [3])
+
+    def test_a_baked_file_renders_without_add_on_and_scripts(self):
+        driven = self.pictures("driver")
+        blend = os.path.join(self.folder, "baked.blend")
+        self.assertEqual(drive(MANIFEST, "--mode", "bake", "--blend", blend, "--samples", "4")[0], 0)
+        moved = os.path.join(self.folder, "elsewhere.blend")
+        os.replace(blend, moved)
+        subprocess.run([BLENDER, "-b", "--factory-startup", "--disable-autoexec", moved, "-o",
+                        os.path.join(self.folder, "farm_##"), "-F", "PNG", "-s", "1", "-e", "3", "-a"],
+                       check=True, stdout=subprocess.DEVNULL,
+                       env={key: value for key, value in os.environ.items() if key != "BLENDER_USER_SCRIPTS"})
+        for place, number in enumerate(NUMBERS, 1):
+            picture = pixels(os.path.join(self.folder, f"farm_{place:02d}.png"))
+            for compared in NUMBERS:
+                difference = other(picture, driven[compared])
+                if compared == number:
+                    self.assertLess(difference, FEW, number)
+                else:
+                    self.assertGreater(difference, 0.05, (number, compared))
+
+    def test_motion_blur_follows_the_velocity_in_every_mode(self):
+        sharp = self.pictures("sharp", "--frames", "3")[3]
+        blurred = {mode: self.pictures(mode, "--mode", mode, "--motion-blur", "0.5", "--frames", "3")[3]
+                   for mode in ("driver", "bake", "stream")}
+        self.assertGreater(other(blurred["driver"], sharp), 0.05)
+        for mode in ("bake", "stream"):  # a few samples fall to another surface of the same place
+            self.assertLess(other(blurred[mode], blurred["driver"]), 2 * FEW, mode)
+        # Without the attribute nothing is blurred, so it is the velocity that does it.
+        folder = self.copy_of_run()
+        path = os.path.join(folder, "surface_00003.mns")
+        with open(path, "rb") as file:
+            data = file.read()
+        header, _ = samples.header_of(data)
+        header["arrays"] = [array for array in header["arrays"] if not array["name"].endswith("mesh.velocity")]
+        with open(path, "wb") as file:
+            file.write(samples.with_header(data, header))
+        still = self.pictures("still", "--motion-blur", "0.5", "--frames", "3",
+                              manifest=os.path.join(folder, "surface_sequence.json"))[3]
+        self.assertLess(other(still, sharp), other(blurred["driver"], sharp) / 4)
+
+    def test_velocity_is_in_units_a_second(self):
+        item = sequence.stream(MANIFEST)
+        mesh = item.data
+        surface = sequence_reader.read(MANIFEST).read(1).objects[0]
+        values = np.empty(3 * len(mesh.vertices), dtype=np.float32)
+        mesh.attributes["velocity"].data.foreach_get("vector", values)
+        np.testing.assert_allclose(values.reshape(-1, 3), surface["mesh.velocity"] * 0.1 * 25.0, atol=1e-5)
+        self.assertGreater(np.abs(values).max(), 0.1)
+        self.assertEqual(bpy.context.scene.render.fps / bpy.context.scene.render.fps_base, 25.0)
+
+    def test_every_time_shows_the_nearest_frame_and_none_outside(self):
+        for mode in ("BAKE", "STREAM"):
+            bpy.ops.wm.read_factory_settings(use_empty=True)
+            addon_utils.enable("meniscus_import")
+            self.assertEqual(bpy.ops.import_scene.meniscus_sequence(filepath=MANIFEST, mode=mode), {"FINISHED"})
+            scene = bpy.context.scene
+            self.assertEqual((scene.frame_start, scene.frame_end), (1, 3))
+            item = next(each for each in bpy.data.objects if "meniscus_sequence" in each)
+            for frame, part, place in ((1, 0.0, 1), (3, 0.0, 3), (2, 0.25, 2), (1, 0.75, 2), (2, 0.5, 3)):
+                scene.frame_set(frame, subframe=part)
+                np.testing.assert_allclose(shown(item), expected(place), atol=1e-5, err_msg=f"{mode} {frame} {part}")
+            for frame in (0, 4):
+                scene.frame_set(frame)
+                graph = bpy.context.evaluated_depsgraph_get()
+                instances = [each for each in graph.object_instances if each.is_instance]
+                self.assertFalse(instances, mode)
+                self.assertEqual(len(item.evaluated_get(graph).data.vertices), 0, mode)
+
+    def test_one_origin_for_all_frames_or_that_of_the_trajectory(self):
+        item = sequence.stream(MANIFEST, center=False, scale=0.5)
+        for frame in (1, 2):
+            bpy.context.scene.frame_set(frame)
+            np.testing.assert_allclose(shown(item), expected(frame, 0.5, False), atol=2e-4)
+
+    def test_the_handler_reads_a_frame_once_and_keeps_memory_flat(self):
+        item = sequence.stream(MANIFEST)
+        scene, reads = bpy.context.scene, []
+        self.assertTrue(scene.render.use_lock_interface)
+        original = sequence_reader.Sequence.read
+
+        def counted(self, scene_frame):
+            reads.append(scene_frame)
+            return original(self, scene_frame)
+
+        sequence_reader.Sequence.read = counted
+        try:
+            for frame, part in ((2, 0.0), (1, 0.75), (2, 0.25), (2, 0.0), (3, 0.0)):
+                scene.frame_set(frame, subframe=part)
+        finally:
+            sequence_reader.Sequence.read = original
+        self.assertEqual(reads, [2, 3])
+        self.assertEqual(len([mesh for mesh in bpy.data.meshes if mesh.users]), 1)
+        self.assertEqual(len(item.data.materials), 2)
+
+    def test_a_frame_that_cannot_be_shown_is_an_error_and_not_the_last_one(self):
+        folder = self.copy_of_run()
+        manifest = os.path.join(folder, "surface_sequence.json")
+        bad, good = (os.path.join(folder, f"surface_0000{number}.mns") for number in (3, 5))
+        with open(bad, "rb") as file:
+            data = bytearray(file.read())
+        flipped = bytearray(data)
+        flipped[len(data) // 2] ^= 1
+        foreign, _ = samples.header_of(data)
+        foreign["sequence"]["run"] = "00000000"
+        cases = {"missing": None, "checksum": bytes(flipped), "incomplete": bytes(data[:-64]),
+                 "not frame 3": samples.with_header(bytes(data), foreign)}
+        for word, content in cases.items():
+            if os.path.exists(bad):
+                os.remove(bad)
+            if content is not None:
+                with open(bad, "wb") as file:
+                    file.write(content)
+            bpy.ops.wm.read_factory_settings(use_empty=True)
+            addon_utils.enable("meniscus_import")
+            item = sequence.stream(manifest)
+            bpy.context.scene.frame_set(2)
+            self.assertEqual(len(shown(item)), 0, word)
+            self.assertIn(word, item["meniscus_error"])
+            bpy.context.scene.frame_set(3)
+            self.assertEqual(item["meniscus_error"], "")
+            self.assertGreater(len(shown(item)), 0)
+            before = sorted(each.name for each in bpy.data.objects)
+            with self.assertRaises(RuntimeError) as caught:
+                bpy.ops.import_scene.meniscus_sequence(filepath=manifest, mode="BAKE")
+            self.assertIn(word, str(caught.exception))
+            self.assertEqual(sorted(each.name for each in bpy.data.objects), before)
+        self.assertTrue(os.path.exists(good))
+
+    def test_the_driver_goes_on_behind_a_fault_and_exits_with_it(self):
+        folder = self.copy_of_run()
+        manifest = os.path.join(folder, "surface_sequence.json")
+        bad = os.path.join(folder, "surface_00003.mns")
+        with open(bad, "rb") as file:
+            data = bytearray(file.read())
+        data[len(data) // 2] ^= 1
+        with open(bad, "wb") as file:
+            file.write(data)
+        pattern = os.path.join(self.folder, "fault_#####")
+        for mode in ("driver", "stream"):
+            code, lines, error = drive(manifest, "--mode", mode, "--output", pattern, "--samples", "1")
+            self.assertEqual(code, 3, error)
+            self.assertEqual([line["state"] for line in lines], ["done", "failed", "done"])
+            self.assertIn("checksum", lines[1]["error"])
+            self.assertFalse(os.path.exists(pattern.replace("#####", "00003") + ".png"))
+        os.remove(bad)
+        self.assertEqual(drive(manifest, "--frames", "3", "--output", pattern)[0], 3)
+        self.assertEqual(drive(manifest, "--mode", "bake", "--output", pattern)[0], 3)
+        self.assertEqual(drive(manifest, "--frames", "1", "--output", os.path.join(manifest, "no_#.png"))[0], 6)
+        self.assertEqual(drive(manifest, "--frames", "2", "--output", pattern)[0], 2)
+        self.assertEqual(drive(manifest, "--frames", "3-1", "--output", pattern)[0], 2)
+        self.assertEqual(drive(manifest, "--output", os.path.join(self.folder, "same.png"))[0], 2)
+        self.assertFalse([name for name in os.listdir(self.folder) if "unfinished" in name])
+
+    def test_objects_and_copies_are_joined(self):
+        with open(os.path.join(FOLDER, "triple.mns"), "rb") as file:
+            data = file.read()
+        path = os.path.join(self.folder, "two.mns")
+        with open(path, "wb") as file:
+            file.write(samples.as_two_objects(data))
+        file = mns_reader.read(path)
+        surface = joined.joined(file, np.array([1.0, 2.0, 3.0]))
+        alone = file.objects[0]
+        count, rows = alone.triangle_count, len(alone["mesh.position"])
+        self.assertEqual(surface.triangle_count, 3 * count)
+        np.testing.assert_array_equal(surface["mesh.object"], np.repeat([0, 0, 1], count))
+        self.assertEqual(len(surface.header["components"]), 3)
+        np.testing.assert_array_equal(surface["mesh.component"], np.repeat([0, 1, 2], count))
+        base = alone["mesh.position"] + np.array(alone.header["mesh"]["origin"])
+        turned = np.stack([-base[:, 1] + 10.0, base[:, 0] + 20.0, base[:, 2] + 30.0], axis=1)
+        np.testing.assert_allclose(surface["mesh.position"][rows:2 * rows], turned - [1, 2, 3], atol=1e-5)
+        np.testing.assert_allclose(surface["mesh.normal"][rows:2 * rows, 0], -alone["mesh.normal"][:, 1], atol=1e-6)
+        mesh = build.build_mesh(surface, "joined", 1.0, True, [], 24.0)
+        self.assertEqual(len(mesh.polygons), 3 * count)
+        corners = compat.corner_normals(mesh)
+        np.testing.assert_allclose(corners[3 * count:6 * count, 0], -corners[:3 * count, 1], atol=2e-3)
+
+    def test_manifests_that_make_no_sense(self):
+        with open(MANIFEST, encoding="ascii") as file:
+            good = json.load(file)
+        bad = {"newer": {"version": 99}, "does not exist": {"version": 0}, "not the manifest": {"format": "x"},
+               "origin": {"origin": [0, 0]}, "scale": {"scale": -1}, "fps": {"fps": float("nan")}, "no frames": {"frames": []},
+               "twice": {"frames": [good["frames"][0]] * 2}, "list of frames": {"frames": [{"frame": 1, "file": "../x.mns"}]}}
+        path = os.path.join(self.folder, "bad.json")
+        for word, change in bad.items():
+            with open(path, "w", encoding="ascii") as file:
+                json.dump({**good, **change}, file)
+            with self.assertRaises(mns_reader.MnsError, msg=word) as caught:
+                sequence_reader.read(path)
+            self.assertIn(word, str(caught.exception))
+        with open(path, "w", encoding="ascii") as file:
+            file.write("{")
+        self.assertRaises(mns_reader.MnsError, sequence_reader.read, path)
+
+    def test_lists_of_frames(self):
+        parse = sequence_reader.parse_frames
+        self.assertEqual(parse("0-20:10,7,5-6,20", range(30)), [0, 10, 20, 7, 5, 6])
+        self.assertEqual(parse("7-", range(10)), [7, 8, 9])
+        self.assertEqual(parse("all", [3, 1]), [3, 1])
+        for text in ("", "3-1", "1:2", "1-5:0", "a", "-3", "1--2", "0-99999999999", "1,,2"):
+            self.assertRaises(ValueError, parse, text, range(3))
+
+
+if not unittest.main(argv=["inside_sequence"], exit=False).result.wasSuccessful():
+    sys.exit(1)

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A run of frames as one POV-Ray scene: which frame is which, split over machines, with a camera that moves.
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "tests/export/povray/povray_render.h"
+#include "tests/support/run_program.h"
+
+namespace meniscus::testing {
+namespace {
+
+// Fifteen residues of ubiquitin in solution: ten models, which are the frames.
+const std::vector<std::string> kMolecule{
+    "/usr/share/freesasa/test-data/1d3z.pdb", "--select", "resi 1-15", "--device", "cpu", "--size", "120x90"};
+const std::vector<int> kFrames{1, 3, 5};  // of --frames 1-5:2
+
+using Words = std::vector<std::string>;
+
+Words operator+(Words first, const Words& second) {
+  first.insert(first.end(), second.begin(), second.end());
+  return first;
+}
+
+class PovraySequence : public ::testing::Test {
+ protected:
+  test::ProgramResult meniscus(const Words& command, const Words& options) const {
+    return test::run_program(MENISCUS_PROGRAM, command + kMolecule + options);
+  }
+  std::filesystem::path path(const std::string& name) const { return folder_.path() / name; }
+  test::ProgramResult export_run(const std::string& name, const Words& options) const {
+    return meniscus({"export", "povray"}, Words{"-o", path(name).string()} + options);
+  }
+  /// Renders without antialiasing and gives the pixels of each picture, by their names.
+  std::vector<glm::dvec3> picture(const std::string& scene, const std::string& name) const {
+    return read_rgb(path(scene) / name);
+  }
+  PovrayRun render(const std::string& scene, const Words& options = {}) const {
+    return run_povray(path(scene), Words{"surface.ini", "-A"} + options);
+  }
+  /// A camera for all frames.
+  std::string camera() const {
+    const std::string file = path("camera.json").string();
+    EXPECT_EQ(meniscus({"render"}, {"-o", path("still.png").string(), "--save-camera", file, "--force"}).exit_code, 0);
+    return file;
+  }
+
+  test::TemporaryFolder folder_;
+};
+
+double share_of_other_pixels(const std::vector<glm::dvec3>& a, const std::vector<glm::dvec3>& b) {
+  std::size_t other = a.size() == b.size() ? 0 : a.size();
+  for (std::size_t n = 0; n < std::min(a.size(), b.size()); ++n) other += a[n] != b[n];
+  return static_cast<double>(other) / static_cast<double>(a.size());
+}
+
+TEST_F(PovraySequence, EachFrameIsThatOfItsOwnExport) {
+  const std::string shot = camera();
+  ASSERT_EQ(export_run("run", {"--frames", "1-5:2", "--camera", shot}).exit_code, 0);
+  ASSERT_EQ(render("run", {"+SF1", "+EF1"}).exit_code, 0);
+  EXPECT_FALSE(std::filesystem::exists(path("run") / "surface_2.png"));
+  ASSERT_EQ(render("run", {"+SF2", "+EF3"}).exit_code, 0);
+  std::vector<std::vector<glm::dvec3>> alone;
+  for (const int frame : kFrames) {
+    const std::string name = fmt::format("alone{}", frame);
+    ASSERT_EQ(export_run(name, {"--model", fmt::format("{}", frame + 1), "--camera", shot}).exit_code, 0);
+    ASSERT_EQ(render(name).exit_code, 0);
+    alone.push_back(picture(name, "surface.png"));
+  }
+  for (std::size_t place = 0; place < kFrames.size(); ++place) {
+    const auto shown = picture("run", fmt::format("surface_{}.png", place + 1));
+    for (std::size_t other = 0; other < kFrames.size(); ++other) {
+      const double differs = share_of_other_pixels(shown, alone[other]);
+      if (other == place)
+        EXPECT_EQ(differs, 0.0) << "scene frame " << place + 1;
+      else
+        EXPECT_GT(differs, 0.05) << "scene frame " << place + 1;
+    }
+  }
+}
+
+TEST_F(PovraySequence, SharesAreTheSameBytesAsOneRun) {
+  const Words options{"--frames", "1-5:2", "--turntable", "0.25"};
+  ASSERT_EQ(export_run("whole", options).exit_code, 0);
+  ASSERT_EQ(export_run("shares", options + Words{"--only", "5"}).exit_code, 0);
+  const test::ProgramResult second = export_run("shares", options + Words{"--only", "1,3"});
+  ASSERT_EQ(second.exit_code, 0) << second.err;
+  std::size_t files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(path("whole"))) {
+    const std::string name = entry.path().filename().string();
+    EXPECT_EQ(test::read_bytes(entry.path()), test::read_bytes(path("shares") / name)) << name;
+    ++files;
+  }
+  EXPECT_EQ(files, 5 + kFrames.size());
+  // What is there of another run is not overwritten.
+  const test::ProgramResult other = export_run("shares", {"--frames", "0-4:2"});
+  EXPECT_EQ(other.exit_code, 6) << other.err;
+}
+
+TEST_F(PovraySequence, MissingAndForeignFramesAreNamedErrors) {
+  ASSERT_EQ(export_run("run", {"--frames", "1-5:2", "--only", "1,5"}).exit_code, 0);
+  EXPECT_EQ(render("run", {"+SF3", "+EF3"}).exit_code, 0);
+  const PovrayRun missing = render("run", {"+SF2", "+EF2"});
+  EXPECT_NE(missing.exit_code, 0);
+  EXPECT_NE(missing.log.find("00003 (scene frame 2) is missing"), std::string::npos) << missing.log;
+  EXPECT_FALSE(std::filesystem::exists(path("run") / "surface_2.png"));
+  // The same atoms in other colours: the numbers of the colours mean something else.
+  ASSERT_EQ(export_run("other", {"--frames", "1-5:2", "--color", "residue", "--only", "3"}).exit_code, 0);
+  std::filesystem::copy(path("other") / "surface_geometry_00003.inc", path("run"));
+  const PovrayRun foreign = render("run", {"+SF2", "+EF2"});
+  EXPECT_NE(foreign.exit_code, 0);
+  EXPECT_NE(foreign.log.find("other colours"), std::string::npos) << foreign.log;
+  const PovrayRun beyond = run_povray(path("run"), {"surface.pov", "+W12", "+H9", "Declare=Meniscus_Frame=4"});
+  EXPECT_NE(beyond.exit_code, 0);
+  EXPECT_NE(beyond.log.find("they are 1 to 3"), std::string::npos) << beyond.log;
+}
+
+TEST_F(PovraySequence, TheCameraMovesUnlessTheUserHasOne) {
+  const std::string shot = camera();
+  ASSERT_EQ(export_run("turning", {"--frames", "1,3", "--camera", shot, "--turntable", "0.5"}).exit_code, 0);
+  ASSERT_EQ(export_run("still", {"--frames", "1,3", "--camera", shot}).exit_code, 0);
+  ASSERT_EQ(render("turning").exit_code, 0);
+  ASSERT_EQ(render("still").exit_code, 0);
+  EXPECT_EQ(share_of_other_pixels(picture("turning", "surface_1.png"), picture("still", "surface_1.png")), 0.0);
+  EXPECT_GT(share_of_other_pixels(picture("turning", "surface_2.png"), picture("still", "surface_2.png")), 0.2);
+  const std::string own =
+      "#version 3.7;\n#declare Meniscus_Custom_Camera = 1;\n#declare Meniscus_Custom_Lights = 1;\n"
+      "camera { location <0,0,60> look_at 0 angle 30 }\nlight_source { <0,0,100> rgb 1 }\n#include \"surface.pov\"\n";
+  for (const char* const scene : {"turning", "still"}) {
+    write_text(path(scene) / "own.pov", own);
+    const PovrayRun run =
+        run_povray(path(scene), {"+Iown.pov", "+Oown.png", "+W120", "+H90", "+KFI1", "+KFF2", "+SF2"});
+    ASSERT_EQ(run.exit_code, 0) << run.log;
+  }
+  EXPECT_EQ(share_of_other_pixels(picture("turning", "own2.png"), picture("still", "own2.png")), 0.0);
+}
+
+TEST_F(PovraySequence, ARunOfOneFrameIsAPicture) {
+  ASSERT_EQ(export_run("run", {"--frames", "4"}).exit_code, 0);
+  const PovrayRun run = render("run");
+  EXPECT_EQ(run.exit_code, 0) << run.log;
+  EXPECT_TRUE(std::filesystem::exists(path("run") / "surface.png"));
+}
+
+}  // namespace
+}  // namespace meniscus::testing
