@@ -21,6 +21,7 @@
 #include "app/preview/session.h"
 #include "app/preview/window/window.h"
 #include "app/program_error.h"
+#include "app/sequence.h"
 #include "app/show_only.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
@@ -31,6 +32,7 @@ namespace {
 
 struct PreviewCommand {
   MoleculeOptions molecule;
+  SequenceOptions sequence;
   PictureOptions picture;
   Look look;
   std::optional<std::uint16_t> port;  ///< of --serve
@@ -53,29 +55,47 @@ std::string host_name() {
   return ::gethostname(name, sizeof name - 1) == 0 && name[0] ? escaped(name) : "HOST";
 }
 
-Structure read_frames(PreviewCommand& command) {
+/// A molecule, and where its atoms stand at the frames of a trajectory, if there is one.
+struct Shown {
+  Structure structure;
+  std::optional<Moments> moments;
+};
+
+Shown read_run(const PreviewCommand& command) {
+  if (!command.sequence.asked()) return {read_molecule(command.molecule), {}};
+  MoleculeOptions molecule = command.molecule;
+  if (molecule.reading.model.all) molecule.reading.model = {};  // the preview's default; a run has frames instead
+  const auto sequence = std::make_shared<Sequence>(molecule, command.sequence);
+  return {sequence->structure(), Moments{sequence->share().size(), [sequence](std::size_t frame) {
+                                           return sequence->positions(sequence->share()[frame]);
+                                         }}};
+}
+
+Shown read_frames(PreviewCommand& command) {
   if (!std::filesystem::is_directory(command.output_folder))
     throw OutputError(command.output_folder, "--output-dir is no folder");
-  Structure structure = read_molecule(command.molecule);
+  Shown shown = read_run(command);
   if (command.molecule.computing.cpu) throw UsageError("--device cpu draws no pictures; use auto, gpu or software");
-  if (!structure.instances.empty()) throw UsageError("--instances is for render and export; the preview draws atoms");
+  if (!shown.structure.instances.empty())
+    throw UsageError("--instances is for render and export; the preview draws atoms");
   ColorScheme& color = command.molecule.color;
   if (color.by == ColorScheme::By::file) color.file = read_number_file(command.molecule.color_file);
-  return structure;
+  return shown;
 }
 
 /// A session as the options say. Needs a current GL context.
-std::unique_ptr<PreviewSession> begin_session(const PreviewCommand& command, Structure structure) {
+std::unique_ptr<PreviewSession> begin_session(const PreviewCommand& command, Shown shown) {
   PreviewView view;
   view.color = command.molecule.color;
-  if (command.molecule.show) view.hidden = hidden_atoms(*command.molecule.show, structure);
+  if (command.molecule.show) view.hidden = hidden_atoms(*command.molecule.show, shown.structure);
   view.probe_radius = command.molecule.computing.probe_radius;
   view.look = command.look;
   view.size = {command.picture.width, command.picture.height};
   view.camera.projection = command.picture.projection;
   std::optional<Camera> camera;
   if (!command.picture.camera_file.empty()) camera = read_camera(command.picture.camera_file);
-  auto session = std::make_unique<PreviewSession>(std::move(structure), view, camera, command.output_folder);
+  auto session = std::make_unique<PreviewSession>(std::move(shown.structure), view, camera, command.output_folder,
+                                                  std::move(shown.moments));
   if (!command.record.empty()) {
     auto log = std::make_shared<CommandLog>(command.record, command.force ? Existing::replace : Existing::refuse);
     session->record([log](const nlohmann::json& line) { log->write(line); });
@@ -91,9 +111,9 @@ void say_address(const PreviewCommand& command, const std::string& url, std::uin
 
 void serve(PreviewCommand& command) {
   std::signal(SIGPIPE, SIG_IGN);  // whoever stops reading must not end the server
-  Structure structure = read_frames(command);
+  Shown shown = read_frames(command);
   const EglContext context(command.molecule.computing.gl);
-  const std::unique_ptr<PreviewSession> session = begin_session(command, std::move(structure));
+  const std::unique_ptr<PreviewSession> session = begin_session(command, std::move(shown));
   if (!command.commands.empty()) replay_commands(command.commands, *session, std::cout);
   if (session->wants_to_quit()) return;
   serve_session(*session, *command.port,
@@ -113,7 +133,7 @@ void open_window(PreviewCommand& command) {
     throw UsageError("--device is for --serve; a window draws on the device of its display");
   std::vector<WrittenCommand> commands;
   if (!command.commands.empty()) commands = read_commands(command.commands);
-  Structure structure = read_frames(command);
+  Shown shown = read_frames(command);
   WindowOptions options;
   options.title = fmt::format("{} - Meniscus", std::filesystem::path(command.molecule.file).filename().string());
   for (const WrittenCommand& written : commands) options.commands.push_back(written.command);
@@ -121,7 +141,7 @@ void open_window(PreviewCommand& command) {
   options.replied = [&](std::size_t index, const nlohmann::json& reply) {
     print_reply(command.commands, commands[index].line, reply, std::cout);
   };
-  say_report(command, run_window(options, [&] { return begin_session(command, std::move(structure)); }));
+  say_report(command, run_window(options, [&] { return begin_session(command, std::move(shown)); }));
 }
 
 void run(PreviewCommand& command) { command.port ? serve(command) : open_window(command); }
@@ -148,8 +168,10 @@ void add_preview(CLI::App& command) {
            "  meniscus preview 1tii.pdb                           a window; h shows its keys\n"
            "  meniscus preview 1tii.pdb --serve                   prints an address to open in a browser\n"
            "  meniscus preview 1tii.pdb --serve 8080 --color chain\n"
-           "  meniscus preview 1tii.pdb --record session.jsonl    what is done, for --commands",
-           "Each model of FILE is a frame. A window needs a display with OpenGL 4.5 through EGL; without one the\n"
+           "  meniscus preview 1tii.pdb --record session.jsonl    what is done, for --commands\n"
+           "  meniscus preview adk.psf --trajectory adk.dcd --superpose 'name CA'   blank plays it",
+           "Each model of FILE is a frame, or each frame of --trajectory. A window needs a display with OpenGL 4.5 "
+           "through EGL; without one the\n"
            "exit code is 4. The page is served on 127.0.0.1 only, to whoever has the address with its token; to\n"
            "look from another machine, use the ssh line that is printed. SIGINT and SIGTERM end both.");
   auto state = std::make_shared<PreviewCommand>();
@@ -164,6 +186,8 @@ void add_preview(CLI::App& command) {
     command.get_option("--device")->description("auto (default: a GPU if there is one), gpu, gpu:N, software");
   }
   add_color_options(command, state->molecule);
+  add_sequence_options(command, state->sequence);
+  for (const char* option : {"--only", "--progress"}) command.remove_option(command.get_option(option));
   add_picture_options(command, state->picture);
   add_look_options(command, state->look);
   add_session_options(command, *state);

@@ -16,6 +16,7 @@
 #include "core/base/text.h"
 #include "core/trajectory/found_bonds.h"
 #include "core/trajectory/frame_list.h"
+#include "core/trajectory/repeated_frames.h"
 
 namespace meniscus {
 namespace {
@@ -101,6 +102,7 @@ Sequence::Sequence(const MoleculeOptions& molecule, const SequenceOptions& optio
     : velocities_(velocities) {
   check_options(molecule, options);
   trajectory_ = open_trajectory(options.trajectory.empty() ? molecule.file : options.trajectory, {index_folder()});
+  if (options.repeat > 1) trajectory_ = std::make_unique<RepeatedFrames>(std::move(trajectory_), options.repeat);
   choose_frames(options);
   MoleculeOptions reading = molecule;
   reading.reading.keep_topology = true;
@@ -182,6 +184,14 @@ void Sequence::prepare(const MoleculeOptions& molecule, const SequenceOptions& o
 
 void Sequence::place(const std::vector<glm::dvec3>& positions, Structure& structure) const {
   for (Atom& atom : structure.atoms) atom.position = positions[atom.index];
+}
+
+std::vector<glm::dvec3> Sequence::positions(std::uint64_t number) {
+  Frame frame;
+  frames_->read(number, frame);
+  std::vector<glm::dvec3> positions;
+  for (const Atom& atom : structure_.atoms) positions.push_back(frame.positions[atom.index]);
+  return positions;
 }
 
 void Sequence::survey(const std::function<void(std::uint64_t, std::span<const Ball>)>& look) {

@@ -28,7 +28,8 @@ void add_selection(CLI::App& command, const std::string& name, std::optional<Sel
 }  // namespace
 
 bool SequenceOptions::asked() const {
-  return !trajectory.empty() || !frames.empty() || stride != 1 || !begin.empty() || !end.empty() || !only.empty();
+  return !trajectory.empty() || !frames.empty() || stride != 1 || repeat != 1 || !begin.empty() || !end.empty() ||
+         !only.empty();
 }
 
 void add_sequence_options(CLI::App& command, SequenceOptions& options) {
@@ -38,6 +39,13 @@ void add_sequence_options(CLI::App& command, SequenceOptions& options) {
                   "Coordinates of the atoms of FILE, frame by frame (meniscus formats); without it the models of FILE "
                   "are the frames")
       ->type_name("PATH");
+  command
+      .add_option(
+          "--repeat", options.repeat,
+          "Each frame N times in a row [1]: slow motion, or a camera about a molecule that stands still; frames "
+          "are counted after that")
+      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000}).description(""))
+      ->type_name("N");
   command.add_option("--frames", options.frames, "The run: all, or a list such as 0-99:10,250 (frames count from 0)")
       ->type_name("LIST");
   command.add_option("--stride", options.stride, "Of these every Nth [1]")

@@ -18,9 +18,10 @@ std::string json_line(const nlohmann::json& json) {
 }
 
 PreviewSession::PreviewSession(Structure structure, PreviewView view, const std::optional<Camera>& camera,
-                               std::filesystem::path export_folder)
+                               std::filesystem::path export_folder, std::optional<Moments> moments)
     : structure_(std::move(structure)),
       frames_(group_atoms(structure_, Grouping::model)),
+      moments_(std::move(moments)),
       view_(std::move(view)),
       export_folder_(std::move(export_folder)),
       coloring_(color_atoms(structure_, view_.color)) {
@@ -40,9 +41,13 @@ void PreviewSession::look_at_all() {
 }
 
 void PreviewSession::show_frame(std::size_t frame) {
+  if (moments_) {  // read first: what cannot be read changes nothing
+    const std::vector<glm::dvec3> positions = moments_->positions(frame);
+    for (std::size_t n = 0; n < positions.size(); ++n) structure_.atoms[n].position = positions[n];
+  }
   view_.frame = frame;
   balls_.clear();
-  for (const std::uint32_t a : frames_[frame].atoms)
+  for (const std::uint32_t a : shown_atoms())
     balls_.push_back({structure_.atoms[a].position, structure_.atoms[a].radius});
   renderer_.set_atoms(balls_);
   renderer_.set_coloring(frame_coloring());
@@ -51,7 +56,7 @@ void PreviewSession::show_frame(std::size_t frame) {
 Coloring PreviewSession::frame_coloring() const {
   Coloring coloring;
   coloring.kind = view_.patch_kinds ? kPatchKindColors : coloring_.kind;
-  for (const std::uint32_t a : frames_[view_.frame].atoms) {
+  for (const std::uint32_t a : shown_atoms()) {
     coloring.atom.push_back(coloring_.atom[a]);
     if (!coloring_.part.empty()) coloring.part.push_back(coloring_.part[a]);
     if (!view_.hidden.empty()) coloring.hidden.push_back(view_.hidden[a]);

@@ -14,6 +14,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/preview/exposed_areas.h"
+#include "app/preview/moments.h"
 #include "core/molecule/atom_groups.h"
 #include "core/molecule/color_schemes.h"
 #include "core/molecule/structure.h"
@@ -54,10 +55,11 @@ std::string json_line(const nlohmann::json& json);
 /// used by one thread.
 class PreviewSession {
  public:
-  /// Each model of the structure, which has atoms, is a frame. `view` says how it looks at first; without `camera`
-  /// everything is shown. Throws InputError for a bad camera, and as color_atoms does.
+  /// Each model of the structure, which has atoms, is a frame; with `moments` these are the frames of its one model.
+  /// `view` says how it looks at first; without `camera` everything is shown. Throws InputError for a bad camera or
+  /// first frame, and as color_atoms does.
   PreviewSession(Structure structure, PreviewView view, const std::optional<Camera>& camera,
-                 std::filesystem::path export_folder);
+                 std::filesystem::path export_folder, std::optional<Moments> moments = {});
 
   /// Carries out {"command": WORD, ...} and answers {"ok": true, ...} or {"ok": false, "error": "one clear line"};
   /// after an error nothing has changed. The commands: app/preview/commands.md. Throws GpuError only: then all is lost.
@@ -90,7 +92,7 @@ class PreviewSession {
 
   const PreviewView& view() const { return view_; }
   const Structure& structure() const { return structure_; }
-  std::size_t frame_count() const { return frames_.size(); }
+  std::size_t frame_count() const { return moments_ ? moments_->count : frames_.size(); }
 
  private:
   /// A row of the table of commands.
@@ -126,6 +128,8 @@ class PreviewSession {
   void look_from(const Camera& camera);
   void look_at_all();
   void show_frame(std::size_t frame);
+  /// Of the frame that is shown, into structure_.atoms.
+  const std::vector<std::uint32_t>& shown_atoms() const { return frames_[moments_ ? 0 : view_.frame].atoms; }
   Coloring frame_coloring() const;
   double aspect() const { return static_cast<double>(view_.size.x) / view_.size.y; }
   FrameRequest request(Quality quality) const;
@@ -137,7 +141,8 @@ class PreviewSession {
   };
 
   Structure structure_;
-  std::vector<AtomGroup> frames_;
+  std::vector<AtomGroup> frames_;  ///< models
+  std::optional<Moments> moments_;
   PreviewView view_;
   std::filesystem::path export_folder_;
   std::vector<Ball> balls_;  ///< of the frame shown

@@ -146,7 +146,7 @@ Json PreviewSession::roll(const CommandReader& command) {
 Json PreviewSession::zoom_to(const CommandReader& command) {
   const Selection selection = parse_selection(command.text("selection"));
   std::vector<Atom> atoms;
-  for (const std::uint32_t a : frames_[view_.frame].atoms) atoms.push_back(structure_.atoms[a]);
+  for (const std::uint32_t a : shown_atoms()) atoms.push_back(structure_.atoms[a]);
   const std::vector<bool> chosen = selection.evaluate(atoms);
   std::vector<Ball> shown;
   for (std::size_t n = 0; n < atoms.size(); ++n)
@@ -200,18 +200,25 @@ Json PreviewSession::set_look(const CommandReader& command) {
 }
 
 Json PreviewSession::set_frame(const CommandReader& command) {
-  show_frame(static_cast<std::size_t>(command.integer("index", 0, static_cast<int>(frames_.size()) - 1)));
+  show_frame(static_cast<std::size_t>(command.integer("index", 0, static_cast<int>(frame_count()) - 1)));
   return Json::object();
 }
 
 Json PreviewSession::next_frame(const CommandReader&) {
-  show_frame((view_.frame + 1) % frames_.size());
-  return {{"frame", view_.frame}};
+  // A frame that cannot be read is passed over, or playing would never come past it.
+  for (std::size_t step = 1;; ++step) {
+    try {
+      show_frame((view_.frame + step) % frame_count());
+      return {{"frame", view_.frame}};
+    } catch (const InputError&) {
+      if (step >= frame_count()) throw;
+    }
+  }
 }
 
 Json PreviewSession::play(const CommandReader& command) {
   view_.frames_per_second = command.number_or(view_.frames_per_second, "fps", 0.1, 240.0);
-  view_.playing = frames_.size() > 1;
+  view_.playing = frame_count() > 1;
   return {{"playing", view_.playing}};
 }
 

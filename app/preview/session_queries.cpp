@@ -49,7 +49,7 @@ Json PreviewSession::pick(const CommandReader& command) {
   if (drawn_.revision != revision_ || drawn_.quality == Quality::draft) render(Quality::plain);
   const std::optional<PickedPoint> point = renderer_.pick(pixel);
   if (!point) return {{"hit", false}};
-  Json reply = atom_json(structure_.atoms[frames_[view_.frame].atoms[point->atom]]);
+  Json reply = atom_json(structure_.atoms[shown_atoms()[point->atom]]);
   reply["hit"] = true;
   reply["kind"] = kind_word(point->kind);
   reply["position"] = {point->position.x, point->position.y, point->position.z};
@@ -68,7 +68,7 @@ Json PreviewSession::export_view(const CommandReader& command) {
   if (view_.patch_kinds) color.by = ColorScheme::By::kind;
   const Coloring coloring = frame_coloring();
   const ExportedView view{structure_,
-                          frames_[view_.frame].atoms,
+                          shown_atoms(),
                           balls_,
                           coloring,
                           color,
@@ -117,7 +117,7 @@ Json PreviewSession::state(const CommandReader&) {
           {"atoms", balls_.size()},
           {"revision", revision_},
           {"frame", view_.frame},
-          {"frames", frames_.size()},
+          {"frames", frame_count()},
           {"playing", view_.playing},
           {"fps", view_.frames_per_second},
           {"camera", Json::parse(camera_json(view_.camera))},

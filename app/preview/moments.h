@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Where the atoms of a preview stand at the frames of a trajectory.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+namespace meniscus {
+
+struct Moments {
+  std::size_t count = 0;
+  /// Å, one per atom of the structure. Throws InputError for a frame that cannot be read.
+  std::function<std::vector<glm::dvec3>(std::size_t frame)> positions;
+};
+
+}  // namespace meniscus
