@@ -2,6 +2,7 @@
 // Frames, colours and pictures of a session.
 #include "app/preview/session.h"
 
+#include <algorithm>
 #include <chrono>
 #include <utility>
 
@@ -9,6 +10,7 @@
 
 #include "app/preview/camera_motion.h"
 #include "app/preview/look_json.h"
+#include "core/base/error.h"
 #include "core/molecule/named_colors.h"
 
 namespace meniscus {
@@ -25,6 +27,7 @@ PreviewSession::PreviewSession(Structure structure, PreviewView view, const std:
       view_(std::move(view)),
       export_folder_(std::move(export_folder)),
       coloring_(color_atoms(structure_, view_.color)) {
+  if (moments_) sample_moments();
   show_frame(0);
   camera ? look_from(*camera) : look_at_all();
 }
@@ -36,8 +39,22 @@ void PreviewSession::look_from(const Camera& camera) {
 }
 
 void PreviewSession::look_at_all() {
-  look_from(overview(balls_, aspect(), view_.camera.projection));
+  look_from(overview(moments_ ? sampled_ : balls_, aspect(), view_.camera.projection));
   overview_ = true;
+}
+
+void PreviewSession::sample_moments() {
+  constexpr std::size_t kSamples = 16;  // few enough to begin at once, enough to see where the molecule goes
+  const std::size_t count = std::min(kSamples, moments_->count);
+  for (std::size_t n = 0; n < count; ++n) {
+    const std::size_t frame = count == 1 ? 0 : n * (moments_->count - 1) / (count - 1);
+    try {
+      const std::vector<glm::dvec3> positions = moments_->positions(frame);
+      for (const std::uint32_t a : shown_atoms()) sampled_.push_back({positions[a], structure_.atoms[a].radius});
+    } catch (const InputError&) {
+      if (n == 0) throw;  // a later one is told when it is shown
+    }
+  }
 }
 
 void PreviewSession::show_frame(std::size_t frame) {

@@ -127,6 +127,7 @@ class PreviewSession {
   nlohmann::json carry_out(const nlohmann::json& command);
   void look_from(const Camera& camera);
   void look_at_all();
+  void sample_moments();
   void show_frame(std::size_t frame);
   /// Of the frame that is shown, into structure_.atoms.
   const std::vector<std::uint32_t>& shown_atoms() const { return frames_[moments_ ? 0 : view_.frame].atoms; }
@@ -143,6 +144,7 @@ class PreviewSession {
   Structure structure_;
   std::vector<AtomGroup> frames_;  ///< models
   std::optional<Moments> moments_;
+  std::vector<Ball> sampled_;  ///< of frames all over the moments, for a view of all
   PreviewView view_;
   std::filesystem::path export_folder_;
   std::vector<Ball> balls_;  ///< of the frame shown
