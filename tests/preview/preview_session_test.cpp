@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "core/base/error.h"
 #include "core/gpu/egl_context.h"
 #include "core/molecule/read_structure.h"
 #include "core/reference/exhaustive.h"
@@ -275,6 +276,42 @@ TEST_F(PreviewSessionTest, PlaysOnlyWhatHasFrames) {
   EXPECT_FALSE(session_->wants_to_quit());
   expect_ok(R"({"command":"quit"})");
   EXPECT_TRUE(session_->wants_to_quit());
+}
+
+// One atom walks along x; its third step cannot be read.
+TEST(PreviewMoments, FramesOfATrajectory) {
+  const EglContext context;
+  const TemporaryFolder folder;
+  const Structure structure = read_structure(folder.file("one.pdb", kTwoModels));
+  std::vector<glm::dvec3> start;
+  for (const Atom& atom : structure.atoms) start.push_back(atom.position);
+  Moments moments{4, [start](std::size_t frame) {
+                    if (frame == 2) throw InputError("walk.dcd", 0, "frame 2 is damaged");
+                    std::vector<glm::dvec3> positions = start;
+                    positions.back().x += 30.0 * static_cast<double>(frame);
+                    return positions;
+                  }};
+  PreviewView view;
+  view.size = {80, 60};
+  PreviewSession session(structure, view, std::nullopt, folder.path(), moments);
+  const auto apply = [&](const char* command) { return session.apply(Json::parse(command)); };
+  EXPECT_EQ(apply(R"({"command":"state"})")["frames"], 4);
+  // The first view holds all of the walk: the last place of the atom is in the picture.
+  ASSERT_TRUE(apply(R"({"command":"frame","index":3})")["ok"]);
+  ASSERT_TRUE(session.render(Quality::plain));
+  const std::vector<std::uint8_t> with = session.rgba();
+  EXPECT_EQ(session.structure().atoms.back().position.x, start.back().x + 90.0);
+  ASSERT_TRUE(apply(R"({"command":"frame","index":0})")["ok"]);
+  ASSERT_TRUE(session.render(Quality::plain));
+  EXPECT_NE(session.rgba(), with);
+  // A bad frame is an error that changes nothing; playing passes over it.
+  const Json bad = apply(R"({"command":"frame","index":2})");
+  EXPECT_FALSE(bad["ok"]);
+  EXPECT_NE(bad["error"].get<std::string>().find("frame 2 is damaged"), std::string::npos);
+  EXPECT_EQ(apply(R"({"command":"state"})")["frame"], 0);
+  EXPECT_EQ(apply(R"({"command":"next_frame"})")["frame"], 1);
+  EXPECT_EQ(apply(R"({"command":"next_frame"})")["frame"], 3);
+  EXPECT_EQ(apply(R"({"command":"next_frame"})")["frame"], 0);
 }
 
 }  // namespace

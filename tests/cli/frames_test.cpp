@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Runs of frames as a user makes them: which frames, what is prepared, what fails and how it is told.
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <sstream>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/support/run_program.h"
+
+namespace meniscus::test {
+namespace {
+
+using Json = nlohmann::json;
+
+std::string atom_line(int serial, const char* name, double x, double y, double z, const char* element) {
+  return fmt::format("ATOM  {:>5} {:<4} ALA A   1    {:>8.3f}{:>8.3f}{:>8.3f}  1.00 10.00          {:>2}\n", serial,
+                     name, x, y, z, element);
+}
+
+/// Four atoms whose last one walks away, and the whole of which turns and drifts.
+std::string walk(int frames, int bad_frame = -1) {
+  std::string text;
+  for (int frame = 0; frame < frames; ++frame) {
+    const double turn = 0.3 * frame, c = std::cos(turn), s = std::sin(turn);
+    text += fmt::format("MODEL     {:>4}\n", frame + 1);
+    const double sites[4][3] = {{0, 0, 0}, {1.5, 0, 0}, {2.0, 1.4, 0}, {1.2, 2.4 + 0.5 * frame, 0.3}};
+    const char* names[4] = {" N", " CA", " C", " O"};
+    for (int n = 0; n < 4; ++n) {
+      std::string line =
+          atom_line(n + 1, names[n], c * sites[n][0] - s * sites[n][1] + frame, s * sites[n][0] + c * sites[n][1],
+                    sites[n][2], names[n] + 1 == std::string("CA") ? "C" : names[n] + 1);
+      if (frame == bad_frame && n == 2) line.replace(30, 8, "     nan");
+      text += line;
+    }
+    text += "ENDMDL\n";
+  }
+  return text + "END\n";
+}
+
+ProgramResult meniscus(std::vector<std::string> arguments) { return run_program(MENISCUS_PROGRAM, arguments); }
+
+std::vector<Json> lines_of(const std::string& text) {
+  std::vector<Json> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);)
+    if (line.starts_with('{')) lines.push_back(Json::parse(line));
+  return lines;
+}
+
+class Frames : public ::testing::Test {
+ protected:
+  std::vector<Json> surface(std::vector<std::string> options) {
+    std::vector<std::string> arguments{"surface", file_, "--json", "-q"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const ProgramResult result = meniscus(arguments);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return lines_of(result.out);
+  }
+  std::vector<int> numbers(std::vector<std::string> options) {
+    std::vector<int> numbers;
+    for (const Json& line : surface(options)) numbers.push_back(line["frame"]);
+    return numbers;
+  }
+  void expect_error(std::vector<std::string> options, int exit_code, const std::string& words) {
+    std::vector<std::string> arguments{"surface", file_, "-q"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const ProgramResult result = meniscus(arguments);
+    EXPECT_EQ(result.exit_code, exit_code) << result.err;
+    EXPECT_NE(result.err.find(words), std::string::npos) << result.err;
+  }
+
+  TemporaryFolder folder_;
+  std::string file_ = folder_.file("walk.pdb", walk(8));
+};
+
+TEST_F(Frames, EachIsTheSurfaceOfItsModel) {
+  const std::vector<Json> frames = surface({"--frames", "all"});
+  ASSERT_EQ(frames.size(), 8u);
+  for (int n = 0; n < 8; ++n) {
+    const ProgramResult single = meniscus({"surface", file_, "--json", "-q", "--model", std::to_string(n + 1)});
+    const Json model = Json::parse(single.out);
+    EXPECT_EQ(frames[n]["area"], model["area"]) << n;
+    EXPECT_EQ(frames[n]["volume"], model["volume"]) << n;
+    EXPECT_EQ(frames[n]["certificate"]["closed"], true);
+  }
+  EXPECT_NE(frames[0]["area"], frames[7]["area"]);
+}
+
+TEST_F(Frames, WhichOnes) {
+  EXPECT_EQ(numbers({"--frames", "0-7:3,5"}), (std::vector<int>{0, 3, 6, 5}));
+  EXPECT_EQ(numbers({"--stride", "3"}), (std::vector<int>{0, 3, 6}));
+  EXPECT_EQ(numbers({"--begin", "2", "--end", "5", "--stride", "2"}), (std::vector<int>{2, 4}));
+  EXPECT_EQ(numbers({"--frames", "all", "--only", "6,1"}), (std::vector<int>{6, 1}));
+  EXPECT_EQ(numbers({"--repeat", "3", "--frames", "0-5"}).size(), 6u);
+  const std::vector<Json> slow = surface({"--repeat", "3", "--frames", "2-3"});
+  EXPECT_EQ(slow[0]["area"], surface({"--frames", "0"})[0]["area"]);
+  EXPECT_EQ(slow[1]["area"], surface({"--frames", "1"})[0]["area"]);
+}
+
+TEST_F(Frames, SharesAreTheRun) {
+  const std::vector<std::string> prepared{"--frames", "all", "--superpose", "name N CA C", "--smooth", "3"};
+  const std::vector<Json> run = surface(prepared);
+  for (const char* share : {"5", "0", "7"}) {
+    std::vector<std::string> options = prepared;
+    options.insert(options.end(), {"--only", share});
+    EXPECT_EQ(surface(options)[0]["area"], run[std::stoul(share)]["area"]);
+  }
+}
+
+TEST_F(Frames, SuperpositionMovesButDoesNotChange) {
+  const std::vector<Json> plain = surface({"--frames", "all"}),
+                          moved = surface({"--frames", "all", "--superpose", "name N CA C"});
+  for (int n = 0; n < 8; ++n) EXPECT_NEAR(plain[n]["area"].get<double>(), moved[n]["area"].get<double>(), 1e-6);
+}
+
+TEST_F(Frames, WrongRequests) {
+  expect_error({"--frames", "0-8"}, 2, "asks for frame 8; there are 8, 0 to 7");
+  expect_error({"--frames", "5-2"}, 2, "runs backwards");
+  expect_error({"--frames", "0-3", "--only", "5"}, 2, "frame 5 is not in the run");
+  expect_error({"--begin", "5", "--end", "3"}, 2, "no frame is left");
+  expect_error({"--begin", "3ps"}, 2, "have no times");
+  expect_error({"--begin", "soon"}, 2, "neither a frame");
+  expect_error({"--frames", "all", "--smooth", "4"}, 2, "odd");
+  expect_error({"--frames", "all", "--superpose", "name CA"}, 2, "selects 1 of 4 atoms, and needs at least 3");
+  expect_error({"--frames", "all", "--model", "2"}, 2, "leave --model away");
+  expect_error({"--frames", "all", "--reference", "8"}, 2, "frames 0 to 7");
+  expect_error({"--frames", "all", "--csv", "-"}, 2, "not in a run");
+  expect_error({"--frames", "0", "--whole"}, 3, "frame 0: has no periodic box");
+  const std::string other = folder_.file("other.xyz", "2\n\nC 0 0 0\nC 0 0 2\n");
+  expect_error({"--trajectory", other}, 3, "its frames have 2 atoms");
+}
+
+TEST_F(Frames, GoOnAfterABadOne) {
+  const std::string file = folder_.file("bad.pdb", walk(5, 2));
+  const ProgramResult result = meniscus({"surface", file, "--json", "--progress", "json", "--frames", "all"});
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_EQ(lines_of(result.out).size(), 4u);
+  EXPECT_NE(result.err.find("1 of 5 frames failed; the first, frame 2: "), std::string::npos) << result.err;
+  const std::vector<Json> progress = lines_of(result.err);
+  ASSERT_EQ(progress.size(), 7u);
+  EXPECT_EQ(progress[0]["frames"], 5);
+  EXPECT_EQ(progress[3]["state"], "failed");
+  EXPECT_EQ(progress[3]["frame"], 2);
+  EXPECT_EQ(progress[3]["exit"], 3);
+  EXPECT_EQ(progress[6]["done"], 4);
+}
+
+TEST_F(Frames, OpenjdLinesAreOnStandardOutput) {
+  const ProgramResult result = meniscus({"surface", file_, "-q", "--frames", "0-1", "--progress", "openjd"});
+  EXPECT_NE(result.out.find("openjd_progress: 50.0\n"), std::string::npos);
+  EXPECT_NE(result.out.find("openjd_progress: 100.0\n"), std::string::npos);
+}
+
+TEST_F(Frames, NumberedPictures) {
+  const std::string folder = folder_.path().string();
+  const std::vector<std::string> view{"render", file_, "-q", "--size", "64x48", "--frames", "1-5:2"};
+  const auto render = [&](std::vector<std::string> more) {
+    std::vector<std::string> arguments = view;
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return meniscus(arguments);
+  };
+  EXPECT_EQ(render({"-o", folder + "/a_###.png"}).exit_code, 0);
+  for (const char* name : {"/a_001.png", "/a_003.png", "/a_005.png"})
+    EXPECT_TRUE(std::filesystem::exists(folder + name));
+  // A share has the camera of the run; the visible extent gives the same picture.
+  EXPECT_EQ(render({"-o", folder + "/b_###.png", "--only", "3"}).exit_code, 0);
+  EXPECT_EQ(read_bytes(folder + "/a_003.png"), read_bytes(folder + "/b_003.png"));
+  EXPECT_EQ(render({"-o", folder + "/c_###.png", "--only", "3", "--extent", "visible"}).exit_code, 0);
+  EXPECT_EQ(read_bytes(folder + "/a_003.png"), read_bytes(folder + "/c_003.png"));
+  EXPECT_NE(read_bytes(folder + "/a_003.png"), read_bytes(folder + "/a_005.png"));
+  // A turned camera sees something else, but after whole turns the same.
+  EXPECT_EQ(render({"-o", folder + "/d_###.png", "--turntable", "0.5"}).exit_code, 0);
+  EXPECT_NE(read_bytes(folder + "/d_003.png"), read_bytes(folder + "/a_003.png"));
+
+  const ProgramResult unnumbered = render({"-o", folder + "/a.png"});
+  EXPECT_EQ(unnumbered.exit_code, 2);
+  EXPECT_NE(unnumbered.err.find("a_#####.png"), std::string::npos) << unnumbered.err;
+  EXPECT_EQ(render({"-o", folder + "/a_###.png"}).exit_code, 6);  // they exist
+  EXPECT_EQ(meniscus({"render", file_, "-q", "-o", folder + "/z.png", "--turntable", "1"}).exit_code, 2);
+}
+
+TEST_F(Frames, Film) {
+  if (std::system("command -v ffmpeg ffprobe > /dev/null") != 0) GTEST_SKIP() << "ffmpeg is not installed";
+  const std::string folder = folder_.path().string();
+  const std::vector<std::string> view{"render", file_, "-q", "--size", "64x48", "--frames", "all"};
+  const auto render = [&](std::vector<std::string> more) {
+    std::vector<std::string> arguments = view;
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return meniscus(arguments);
+  };
+  for (const char* name : {"/a.mp4", "/b.mp4"}) {
+    const ProgramResult result = render({"-o", folder + name, "--fps", "12"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+  }
+  EXPECT_EQ(read_bytes(folder + "/a.mp4"), read_bytes(folder + "/b.mp4"));
+  const ProgramResult probe = run_program(
+      "/usr/bin/ffprobe", {"-v", "error", "-count_frames", "-show_entries",
+                           "stream=nb_read_frames,width,height,r_frame_rate", "-of", "csv=p=0", folder + "/a.mp4"});
+  EXPECT_EQ(probe.out, "64,48,12/1,8\n");
+  EXPECT_EQ(render({"-o", folder + "/c.mp4", "--size", "63x48"}).exit_code, 2);
+  // A film with a hole is no film, and nothing stays behind.
+  const std::string bad = folder_.file("bad.pdb", walk(5, 2));
+  EXPECT_EQ(meniscus({"render", bad, "-q", "--size", "64x48", "--frames", "all", "-o", folder + "/d.mp4"}).exit_code,
+            3);
+  const std::vector<std::string> entries = folder_.entries();
+  EXPECT_EQ(
+      std::ranges::count_if(entries, [](const std::string& name) { return name.find("d.mp4") != std::string::npos; }),
+      0);
+}
+
+TEST_F(Frames, FilmWithoutFfmpegSaysSo) {
+  const ProgramResult result =
+      run_program("/usr/bin/env", {"PATH=/nowhere", MENISCUS_PROGRAM, "render", file_, "-q", "--size", "64x48",
+                                   "--frames", "all", "-o", folder_.path().string() + "/a.mp4"});
+  EXPECT_EQ(result.exit_code, 6);
+  EXPECT_NE(result.err.find("need the program ffmpeg"), std::string::npos) << result.err;
+}
+
+}  // namespace
+}  // namespace meniscus::test
