@@ -47,7 +47,7 @@ glm::dmat3 any_cell() {
 }
 
 TEST(PeriodicCell, ShortestOfManyImages) {
-  for (int round = 0; round < 300; ++round) {
+  for (int round = 0; round < 1000; ++round) {
     const glm::dmat3 vectors = any_cell();
     const auto cell = PeriodicCell::of(vectors);
     ASSERT_TRUE(cell);
