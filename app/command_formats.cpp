@@ -13,6 +13,7 @@
 #include "core/base/text.h"
 #include "core/molecule/formats.h"
 #include "core/molecule/text_lines.h"
+#include "core/trajectory/formats.h"
 
 namespace meniscus {
 namespace {
@@ -23,30 +24,36 @@ void print_wrapped(std::string_view heading, std::string_view text) {
   fmt::print(std::cout, "  {:<{}}{}\n", heading, kIndent - 2, wrapped(text, kWidth - kIndent, kIndent));
 }
 
+void print_format(const FormatMetadata& metadata) {
+  fmt::print(std::cout, "{:<{}}{}\n", metadata.name, kIndent, metadata.extensions);
+  print_wrapped("what", metadata.description);
+  print_wrapped("read", metadata.reads);
+  if (!metadata.reference.empty()) print_wrapped("reference", metadata.reference);
+  fmt::print(std::cout, "\n");
+}
+
 void print_table() {
-  for (const Reader* reader : readers()) {
-    const FormatMetadata& metadata = reader->metadata;
-    fmt::print(std::cout, "{:<{}}{}\n", metadata.name, kIndent, metadata.extensions);
-    print_wrapped("what", metadata.description);
-    print_wrapped("read", metadata.reads);
-    print_wrapped("reference", metadata.reference);
-    fmt::print(std::cout, "\n");
-  }
+  for (const Reader* reader : readers()) print_format(reader->metadata);
   fmt::print(std::cout,
              "All of them plain or packed with gzip, from a file or from standard input (-). The content says which\n"
-             "format it is; a name that clearly says another one is an error.\n");
+             "format it is; a name that clearly says another one is an error.\n\nTrajectories (--trajectory):\n\n");
+  for (const TrajectoryFormat* format : trajectory_formats()) print_format(format->metadata);
+}
+
+nlohmann::ordered_json json_of(const FormatMetadata& metadata, const char* kind) {
+  return {{"name", metadata.name},
+          {"kind", kind},
+          {"extensions", fields_of(metadata.extensions)},
+          {"description", metadata.description},
+          {"reads", metadata.reads},
+          {"reference", metadata.reference}};
 }
 
 void print_json() {
   nlohmann::ordered_json formats = nlohmann::ordered_json::array();
-  for (const Reader* reader : readers()) {
-    const FormatMetadata& metadata = reader->metadata;
-    formats.push_back({{"name", metadata.name},
-                       {"extensions", fields_of(metadata.extensions)},
-                       {"description", metadata.description},
-                       {"reads", metadata.reads},
-                       {"reference", metadata.reference}});
-  }
+  for (const Reader* reader : readers()) formats.push_back(json_of(reader->metadata, "structure"));
+  for (const TrajectoryFormat* format : trajectory_formats())
+    formats.push_back(json_of(format->metadata, "trajectory"));
   fmt::print(std::cout, "{}\n", formats.dump(2));
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `meniscus info`: what a file holds, and what of it a surface would use.
+// `meniscus info`: what a file holds, and what of it a surface would use; frames and times of trajectories.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,7 +14,10 @@
 
 #include "app/commands.h"
 #include "app/molecule.h"
+#include "app/sequence.h"
+#include "app/trajectory_report.h"
 #include "core/base/text.h"
+#include "core/trajectory/formats.h"
 
 namespace meniscus {
 namespace {
@@ -108,11 +111,17 @@ void print_ranges(const Structure& structure) {
     fmt::print(std::cout, "B-factors     {:.2f} to {:.2f} Å²\n", b_factor[0], b_factor[1]);
 }
 
-void run(const MoleculeOptions& options) {
+/// The atoms of a topology stand where the first frame has them.
+void print_structure(const MoleculeOptions& options, Trajectory* trajectory) {
   ReadOptions everything = options.reading;
   everything.keep_water = everything.keep_ions = true;
   if (everything.unknown_element == UnknownElement::halt) everything.unknown_element = UnknownElement::guess;
   everything.list_assemblies = true;
+  if (trajectory) {
+    Frame first;
+    trajectory->read(0, first);
+    everything.positions = std::move(first.positions);
+  }
   const Structure structure = read_structure(options.file, everything);
   fmt::print(std::cout, "molecule      {} ({}, {} {})\n", escaped(structure.file), structure.format,
              structure.report.models, structure.report.models == 1 ? "model" : "models");
@@ -126,6 +135,16 @@ void run(const MoleculeOptions& options) {
   say_warnings(options, structure);
 }
 
+void run(const MoleculeOptions& options, const std::string& trajectory_path) {
+  const bool alone = trajectory_path.empty() && !binary_trajectory_format(options.file).empty();
+  std::unique_ptr<Trajectory> trajectory;
+  if (alone || !trajectory_path.empty())
+    trajectory = open_trajectory(alone ? options.file : trajectory_path, {frame_index_folder()});
+  if (!alone) print_structure(options, trajectory.get());
+  if (!alone && trajectory) fmt::print(std::cout, "\n");
+  if (trajectory) print_trajectory(*trajectory);
+}
+
 }  // namespace
 
 void add_info(CLI::App& command) {
@@ -134,11 +153,16 @@ void add_info(CLI::App& command) {
            "  meniscus info 1tii.pdb\n"
            "  meniscus info 6zu5.cif.gz --select 'nucleic and chain A'\n"
            "  meniscus info 1tii.pdb --radii protor         radii of another set\n"
-           "  meniscus info 1tii.pdb --radii-file amber.dat --radius 'element Zn=1.1'");
+           "  meniscus info 1tii.pdb --radii-file amber.dat --radius 'element Zn=1.1'\n"
+           "  meniscus info run.xtc                         frames, times and box of a trajectory\n"
+           "  meniscus info run.psf --trajectory run.dcd");
   auto options = std::make_shared<MoleculeOptions>();
   add_atom_options(command, *options);
   command.get_option("--radii")->expected(0, 1);  // alone it asks for what is printed anyway
-  command.callback([options] { run(*options); });
+  auto trajectory = std::make_shared<std::string>();
+  command.add_option("--trajectory", *trajectory, "Coordinates of the atoms of FILE, frame by frame; tell of them too")
+      ->type_name("PATH");
+  command.callback([options, trajectory] { run(*options, *trajectory); });
 }
 
 }  // namespace meniscus

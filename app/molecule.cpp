@@ -11,10 +11,24 @@
 #include "app/surface_objects.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/trajectory/formats.h"
 
 namespace meniscus {
+namespace {
+
+void refuse_trajectory(const std::string& path) {
+  const std::string_view format = binary_trajectory_format(path);
+  if (format.empty()) return;
+  throw InputError(path, 0,
+                   fmt::format("is a trajectory ({}) and holds no atoms; give their structure or topology as FILE, and "
+                               "this one with --trajectory",
+                               format));
+}
+
+}  // namespace
 
 Structure read_molecule(const MoleculeOptions& options) {
+  refuse_trajectory(options.file);
   if (options.reading.assembly == "list") {
     ReadOptions listing = options.reading;
     listing.assembly.clear();

@@ -31,14 +31,6 @@ void check_options(const MoleculeOptions& molecule, const SequenceOptions& optio
   if (options.smooth % 2 == 0) throw UsageError(fmt::format("--smooth {}: an odd number has a middle", options.smooth));
 }
 
-/// Where frame indices are kept: beside other caches of the user, or nowhere.
-std::string index_folder() {
-  if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache && *cache == '/')
-    return std::string(cache) + "/meniscus";
-  if (const char* home = std::getenv("HOME"); home && *home == '/') return std::string(home) + "/.cache/meniscus";
-  return {};
-}
-
 /// A bound in ps, if the text is one: a number and "ps", "ns" or "fs".
 std::optional<double> time_of(std::string_view text) {
   constexpr std::pair<std::string_view, double> kUnits[] = {{"fs", 1e-3}, {"ps", 1.0}, {"ns", 1e3}, {"us", 1e6}};
@@ -98,10 +90,18 @@ std::vector<std::uint32_t> chosen(const Selection& selection, const std::vector<
 
 }  // namespace
 
+std::string frame_index_folder() {
+  if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache && *cache == '/')
+    return std::string(cache) + "/meniscus";
+  if (const char* home = std::getenv("HOME"); home && *home == '/') return std::string(home) + "/.cache/meniscus";
+  return {};
+}
+
 Sequence::Sequence(const MoleculeOptions& molecule, const SequenceOptions& options, bool velocities)
     : velocities_(velocities) {
   check_options(molecule, options);
-  trajectory_ = open_trajectory(options.trajectory.empty() ? molecule.file : options.trajectory, {index_folder()});
+  trajectory_ =
+      open_trajectory(options.trajectory.empty() ? molecule.file : options.trajectory, {frame_index_folder()});
   if (options.repeat > 1) trajectory_ = std::make_unique<RepeatedFrames>(std::move(trajectory_), options.repeat);
   choose_frames(options);
   MoleculeOptions reading = molecule;

@@ -20,6 +20,9 @@
 
 namespace meniscus {
 
+/// Where frame indices are kept: beside other caches of the user, or nowhere.
+std::string frame_index_folder();
+
 /// The molecule at one frame.
 struct SequenceFrame {
   std::uint64_t number = 0;    ///< in the trajectory, from 0

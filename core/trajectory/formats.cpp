@@ -76,11 +76,13 @@ const TrajectoryFormat& choose_format(const std::string& path, const std::string
 
 std::span<const TrajectoryFormat* const> trajectory_formats() { return kFormats; }
 
-bool is_binary_trajectory(const std::string& path) {
+std::string_view binary_trajectory_format(const std::string& path) {
+  if (path == "-") return {};
   try {
-    return path != "-" && format_by_content(start_of(path)) != nullptr;
+    const TrajectoryFormat* format = format_by_content(start_of(path));
+    return format ? format->metadata.name : std::string_view();
   } catch (const InputError&) {
-    return false;
+    return {};
   }
 }
 

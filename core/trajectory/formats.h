@@ -26,9 +26,9 @@ inline constexpr std::size_t kTrajectoryStart = 4096;
 /// core/molecule/formats.h.
 std::span<const TrajectoryFormat* const> trajectory_formats();
 
-/// Does the file begin like one of the binary formats, which hold no atoms of their own? False for a file that cannot
-/// be read.
-bool is_binary_trajectory(const std::string& path);
+/// The name of the binary format that the file begins like; these hold no atoms of their own. Empty for other files,
+/// and for one that cannot be read.
+std::string_view binary_trajectory_format(const std::string& path);
 
 extern const TrajectoryFormat kDcdFormat;
 extern const TrajectoryFormat kXtcFormat;

@@ -109,11 +109,13 @@ std::unique_ptr<Trajectory> open_models(const std::string& path, const Trajector
 
 }  // namespace
 
-const TrajectoryFormat kModelsFormat{{"models", "", "each model of a structure file is a frame", "",
-                                      "positions; boxes of CRYST1, GRO and extended XYZ, times of GRO titles; of plain "
-                                      "PDB, GRO and XYZ files one model is "
-                                      "in memory at a time, of others all"},
-                                     [](std::string_view) { return true; },
-                                     open_models};
+const TrajectoryFormat kModelsFormat{
+    {"models", ".pdb .cif .gro .xyz", "each model of a structure file of any format is a frame",
+     "those of the formats of structures",
+     "positions; boxes of CRYST1, GRO and extended XYZ, times of GRO titles; of plain "
+     "PDB, GRO and XYZ files one model is "
+     "in memory at a time, of others all"},
+    [](std::string_view) { return true; },
+    open_models};
 
 }  // namespace meniscus

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The options that say what is taken from a file, and standard input, as users give them.
 #include <algorithm>
+#include <map>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -113,14 +114,16 @@ TEST(Formats, AreListedWithTheirMetadata) {
   ASSERT_EQ(table.exit_code, 0);
   const ProgramResult json = run_program(MENISCUS_PROGRAM, {"formats", "--json"});
   const nlohmann::json formats = nlohmann::json::parse(json.out);
-  ASSERT_EQ(formats.size(), 6u);
+  std::map<std::string, int> kinds;
   for (const nlohmann::json& format : formats) {
     for (const char* key : {"name", "description", "reads", "reference"}) {
       EXPECT_FALSE(format.at(key).get<std::string>().empty()) << format;
     }
     EXPECT_FALSE(format.at("extensions").empty());
     EXPECT_NE(table.out.find(format.at("name").get<std::string>() + " "), std::string::npos);
+    ++kinds[format.at("kind").get<std::string>()];
   }
+  EXPECT_EQ(kinds, (std::map<std::string, int>{{"structure", 7}, {"trajectory", 6}}));
   EXPECT_TRUE(table.out.starts_with("PDB"));
 }
 
