@@ -1,0 +1,190 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Files that MDAnalysis and MDTraj write are read as they read them, in any order: readers_test.py FRAME_DUMP PDB."""
+
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+import warnings
+
+import numpy as np
+
+warnings.filterwarnings("ignore")
+import MDAnalysis  # noqa: E402
+import mdtraj.formats  # noqa: E402
+from MDAnalysis.lib.mdamath import triclinic_box  # noqa: E402
+
+FRAMES = 6
+ORDER = [4, 0, 5, 2, 2, 1, 3]
+dump_program = structure_file = None
+
+
+def dump(path, numbers=()):
+    """The frames of a file as frame_dump prints them: a dictionary of number, text, positions, cell, time each."""
+    arguments = [dump_program, str(path), *map(str, numbers)]
+    text = subprocess.run(arguments, check=True, capture_output=True, text=True).stdout
+    frames = []
+    for part in text.split("frame ")[1:]:
+        lines = part.splitlines()
+        words = lines[0].split()
+        cell = None
+        if lines[1].startswith("cell"):
+            cell = np.array(lines.pop(1).split()[1:], float).reshape(3, 3)
+        positions = np.array([line.split() for line in lines[1:]], float)
+        time = float(words[words.index("time") + 1]) if "time" in words else None
+        frames.append({"number": int(words[0]), "text": part, "positions": positions, "cell": cell, "time": time})
+    return frames
+
+
+class Readers(unittest.TestCase):
+    """Each test writes one file with one program and compares it with what both programs read from it."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.universe = MDAnalysis.Universe(structure_file)
+        cls.atoms = cls.universe.atoms
+        start = cls.atoms.positions - cls.atoms.center_of_geometry()
+        rng = np.random.default_rng(20)
+        cls.motion = [start * (1 + 0.02 * n) + [7 * n, -3, 40] + rng.normal(0, 0.2, start.shape) for n in range(FRAMES)]
+        cls.boxes = [np.array([60 + n, 65, 70 - n, 90 - 2 * n, 80, 100 + n], np.float32) for n in range(FRAMES)]
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.folder.cleanup()
+
+    def path(self, name):
+        return pathlib.Path(self.folder.name) / name
+
+    def write(self, name, universe=None, **options):
+        """Lets MDAnalysis write the motion."""
+        path = self.path(name)
+        atoms = (universe or self.universe).atoms
+        step = atoms.universe.trajectory.ts
+        with MDAnalysis.Writer(str(path), n_atoms=len(atoms), **options) as writer:
+            for n in range(FRAMES):
+                atoms.positions = self.motion[n][: len(atoms)]
+                step.dimensions, step.time, step.frame, step.data["step"] = self.boxes[n], 2.5 * n, n, 10 * n
+                writer.write(atoms)
+        return path
+
+    def compare(self, frames, positions, boxes=None, times=None):
+        """Equal but for the rounding of single precision, in which the other programs compute."""
+        self.assertEqual(len(frames), len(positions))
+        for n, frame in enumerate(frames):
+            self.assertEqual(frame["positions"].shape, positions[n].shape)
+            rounding = 2 * np.spacing(np.float32(np.abs(positions[n]).max()))
+            self.assertLessEqual(np.abs(frame["positions"] - positions[n]).max(), rounding, n)
+            if boxes is not None:
+                np.testing.assert_allclose(triclinic_box(*frame["cell"]), boxes[n], rtol=0, atol=1e-4)
+            if times is not None:
+                self.assertAlmostEqual(frame["time"], times[n], places=4)
+
+    def check(self, path, boxes=True, times=True, **options):
+        """Compares with MDAnalysis, and any order with the order of the file."""
+        frames = dump(path)
+        other = MDAnalysis.coordinates.core.reader(str(path), **options)
+        read = [(step.positions.copy(), np.copy(step.dimensions), step.time) for step in other]
+        self.compare(frames, [each[0] for each in read], [each[1] for each in read] if boxes else None,
+                     [each[2] for each in read] if times else None)
+        for frame in dump(path, ORDER):
+            self.assertEqual(frame["text"].splitlines(), frames[frame["number"]]["text"].splitlines())
+        return frames
+
+    def test_xtc(self):
+        for digits in range(1, 7):
+            path = self.write(f"{digits}.xtc", precision=digits)
+            frames = self.check(path)
+            with mdtraj.formats.XTCTrajectoryFile(str(path)) as file:
+                positions, times, _, _ = file.read()
+            self.compare(frames, 10 * positions.astype(float), times=times)
+            rounding = 0.6 * 10 ** (1 - digits) + 1e-4
+            self.assertLess(np.abs(frames[3]["positions"] - self.motion[3]).max(), rounding)
+
+    def test_xtc_of_few_and_of_far_atoms(self):
+        for count in (1, 9, 10):
+            few = MDAnalysis.Universe.empty(count, trajectory=True)
+            self.check(self.write(f"few{count}.xtc", few))
+        far = MDAnalysis.Universe.empty(len(self.atoms), trajectory=True)
+        path = self.path("far.xtc")
+        rng = np.random.default_rng(5)
+        with MDAnalysis.Writer(str(path), n_atoms=len(far.atoms), precision=4) as writer:
+            for scale in (0.01, 1, 100, 10000, 90000):
+                far.atoms.positions = rng.uniform(-scale, scale, self.motion[0].shape)
+                far.trajectory.ts.dimensions = self.boxes[0]
+                writer.write(far.atoms)
+        frames = dump(path)
+        self.compare(frames, [step.positions.copy() for step in MDAnalysis.coordinates.core.reader(str(path))])
+
+    def test_trr(self):
+        frames = self.check(self.write("a.trr"))
+        with mdtraj.formats.TRRTrajectoryFile(str(self.path("a.trr"))) as file:
+            positions, times, _, _, _ = file.read()
+        self.compare(frames, 10 * positions.astype(float), times=times)
+
+    def test_dcd(self):
+        frames = self.check(self.write("a.dcd", dt=2.5))
+        with mdtraj.formats.DCDTrajectoryFile(str(self.path("a.dcd"))) as file:
+            positions, lengths, angles = file.read()
+        self.compare(frames, positions, np.hstack([lengths, angles]))
+
+    def test_amber_netcdf(self):
+        frames = self.check(self.write("a.ncdf"))
+        with mdtraj.formats.NetCDFTrajectoryFile(str(self.path("a.ncdf"))) as file:
+            positions, times, lengths, angles = file.read()
+        self.compare(frames, positions, np.hstack([lengths, angles]), times)
+
+    def test_what_mdtraj_writes(self):
+        positions = np.array(self.motion, np.float32)
+        lengths, angles = np.array(self.boxes)[:, :3], np.array(self.boxes)[:, 3:]
+        times = np.arange(FRAMES, dtype=np.float32)
+        vectors = np.array([mdtraj.utils.lengths_and_angles_to_box_vectors(*box[:3] / 10, *box[3:]) for box in self.boxes])
+        vectors = vectors.astype(np.float32)
+        with mdtraj.formats.DCDTrajectoryFile(str(self.path("m.dcd")), "w") as file:
+            file.write(positions, lengths, angles)
+        with mdtraj.formats.NetCDFTrajectoryFile(str(self.path("m.nc")), "w") as file:
+            file.write(positions, times, lengths, angles)
+        with mdtraj.formats.XTCTrajectoryFile(str(self.path("m.xtc")), "w") as file:
+            file.write(positions / 10, times, np.arange(FRAMES), vectors)
+        with mdtraj.formats.TRRTrajectoryFile(str(self.path("m.trr")), "w") as file:
+            file.write(positions / 10, times, np.arange(FRAMES), vectors)
+        self.check(self.path("m.dcd"), times=False)
+        for name in ("m.nc", "m.xtc", "m.trr"):
+            self.check(self.path(name))
+
+    def test_h5md(self):
+        for unit in ("nm", "Angstrom"):
+            path = self.write(f"{unit}.h5md", positions=True, velocities=False, forces=False, convert_units=False,
+                              lengthunit=unit, timeunit="ps", n_frames=FRAMES)
+            self.check(path)
+
+    def test_models_of_text(self):
+        self.check(self.write("a.pdb", multiframe=True), boxes=False, times=False)
+        self.check(self.write("a.xyz"), boxes=False, times=False)
+
+    def test_gro(self):
+        parts = []
+        for n in range(FRAMES):
+            self.atoms.positions = self.motion[n]
+            self.universe.trajectory.ts.dimensions = self.boxes[n]
+            self.atoms.write(str(self.path("one.gro")))
+            parts.append(self.path("one.gro").read_text())
+        self.path("a.gro").write_text("".join(parts))
+        frames = dump(self.path("a.gro"))
+        positions, boxes = [], []
+        for part in parts:
+            self.path("one.gro").write_text(part)
+            step = MDAnalysis.coordinates.core.reader(str(self.path("one.gro"))).ts
+            positions.append(step.positions.copy())
+            boxes.append(step.dimensions)
+        self.compare(frames, positions)
+        for frame, box in zip(frames, boxes):  # GRO rounds its box to 1e-4 Å
+            np.testing.assert_allclose(triclinic_box(*frame["cell"]), box, rtol=0, atol=1e-3)
+        for frame in dump(self.path("a.gro"), ORDER):
+            self.assertEqual(frame["text"].splitlines(), frames[frame["number"]]["text"].splitlines())
+
+
+if __name__ == "__main__":
+    dump_program, structure_file = sys.argv[1:3]
+    unittest.main(argv=sys.argv[:1])
