@@ -57,6 +57,35 @@ Files are written under a temporary name beside the final one and renamed when w
 final name. Interrupted (Ctrl-C, SIGTERM) the program removes what is unfinished and ends with 128 + the signal.
 )";
 
+constexpr const char* kFrames = R"(Examples:
+  meniscus surface adk.psf --trajectory adk.dcd --frames all --json        a line of JSON a frame
+  meniscus render adk.psf --trajectory adk.dcd --superpose 'name CA' -o adk.mp4
+  meniscus render 1d3z.pdb --frames 0-9 -o model_##.png                    the models of a file are its frames
+  meniscus render 1tii.pdb --repeat 120 --turntable 1 -o turn.mp4          once around what stands still
+  meniscus export povray adk.psf --trajectory adk.xtc --frames 0-999:10 -o adk
+  meniscus preview adk.psf --trajectory adk.xtc --whole --center protein
+
+FILE says what the atoms are, --trajectory where they are (meniscus formats lists what is read). Selections, radii and
+colours are decided once, with the coordinates of FILE or, where it has none (PSF), of the first frame asked for.
+
+Which frames  they count from 0. --frames takes all, 7, 0-99, 0-99:10 (every tenth), 90- (to the last), and several of
+              these with commas between; then --begin and --end (a frame, or a time such as 2.5ns) and --stride N.
+              --only LIST makes a share of this run: camera, colours and scene stay those of the whole.
+Prepared      in this order: --whole puts molecules together that the periodic box cuts, along the bonds of FILE and of
+              standard residues (guess: by distance), and gathers them around the largest; --superpose EXPR fits atoms
+              to where they are in the --reference frame (0), --center EXPR only moves; --smooth N takes means over N
+              frames. A prepared frame depends on its number alone, so shares of a run fit together.
+Camera        by default still, showing all of every frame. --camera FILE for one of your own, --camera-path FILE for key
+              frames {"keys":[{"frame":0,"camera":{...}},...]} (cameras as --save-camera writes them), --turntable TURNS,
+              --follow EXPR.
+Files         bear the number of the frame in the trajectory. Pictures: -o frame_#####.png; a film: -o film.mp4 (needs
+              ffmpeg), --fps.
+What fails    is told, and the run goes on; in the end the exit code is that of the first frame that failed. A trajectory
+              that ends in mid-frame gives all its whole frames, and then exit code 8.
+Progress      --progress bar, plain, json (a line a frame on stderr), openjd, none.
+)";
+
+std::string frames_page() { return kFrames; }
 std::string selection_page() { return selection_help(); }
 std::string assembly_page() { return kAssemblies; }
 std::string exit_page() { return kExitCodes; }
@@ -64,6 +93,7 @@ std::string exit_page() { return kExitCodes; }
 constexpr Topic kTopics[] = {
     {"selections", "the language of --select, --show and --context", selection_page},
     {"assemblies", "biological assemblies, and copies drawn as instances", assembly_page},
+    {"frames", "trajectories, films, and the cameras that move through them", frames_page},
     {"exit-codes", "what the program returns, and what is left behind", exit_page},
 };
 
@@ -96,7 +126,7 @@ void show(const CLI::App& program, const std::string& name) {
 }  // namespace
 
 void add_help(CLI::App& command) {
-  describe(command, "Show a page of the manual: selections, assemblies, exit-codes, or a command",
+  describe(command, "Show a page of the manual: selections, assemblies, frames, exit-codes, or a command",
            "  meniscus help\n"
            "  meniscus help selections");
   auto topic = std::make_shared<std::string>();

@@ -15,7 +15,8 @@
 namespace meniscus {
 namespace {
 
-constexpr std::string_view kBackbone = "N-CA-C-O C-OXT";
+constexpr std::string_view kBackbone =
+    "N-CA-C-O C-OXT C-O1 C-O2 C-OC1 C-OC2";  // the last four: ends of chains by GROMACS
 constexpr std::string_view kSugar = "OP1-P-OP2 P-OP3 P-O5'-C5'-C4'-C3'-C2'-C1'-O4'-C4' C3'-O3' C2'-O2'";
 
 /// Heavy atoms of a residue beyond its backbone or sugar: paths of bonded atoms, names of wwPDB's components.
@@ -135,11 +136,11 @@ class BondFinder {
   void join_hydrogens(std::size_t r) {
     constexpr double kLongest = 1.6;
     for (std::uint32_t h = begins_[r]; h < begins_[r + 1]; ++h) {
-      if (atoms_[h].element != 1) continue;
+      if (atoms_[h].element > 1) continue;  // and sites without an element, such as the fourth of water models
       std::uint32_t nearest = h;
       double least = kLongest * kLongest;
       for (std::uint32_t n = begins_[r]; n < begins_[r + 1]; ++n) {
-        if (atoms_[n].element == 1 || squared_distance(h, n) > least) continue;
+        if (atoms_[n].element <= 1 || squared_distance(h, n) > least) continue;
         nearest = n;
         least = squared_distance(h, n);
       }

@@ -13,9 +13,10 @@
 
 namespace meniscus {
 
-/// Bonds of amino acids, nucleotides and water by the names of their heavy atoms; a hydrogen to the nearest heavy atom
-/// of its residue, within 1.6 Å; residues of a chain by C-N and O3'-P within 2.2 Å; disulphides are left out, for
-/// chains hold together without them. positions: Å, one per atom; cell: distances are to the nearest image.
+/// Bonds of amino acids, nucleotides and water by the names of their heavy atoms; a hydrogen,
+/// or a site without element, to the nearest heavy atom of its residue, within 1.6 Å; residues of a chain by C-N and
+/// O3'-P within 2.2 Å; disulphides are left out, for chains hold together without them. positions: Å, one per atom;
+/// cell: distances are to the nearest image.
 std::vector<Bond> template_bonds(std::span<const Atom> atoms, std::span<const glm::dvec3> positions,
                                  const std::optional<PeriodicCell>& cell);
 

@@ -165,6 +165,18 @@ TEST(WholeMolecules, TemplatesAreTheBondsOfDistances) {
   EXPECT_GT(named.size(), 600u);
 }
 
+TEST(WholeMolecules, WaterOfFourSites) {
+  // TIP4P (W. L. Jorgensen et al., J. Chem. Phys. 79, 926, 1983): the hydrogens are nearer to M than to the oxygen.
+  std::vector<Atom> atoms(4);
+  const std::vector<glm::dvec3> positions{{0, 0, 0}, {0.586, 0.757, 0}, {0.586, -0.757, 0}, {0.15, 0, 0}};
+  for (std::size_t n = 0; n < 4; ++n) {
+    atoms[n].name = std::vector<std::string>{"OW", "HW1", "HW2", "MW"}[n];
+    atoms[n].residue_name = "SOL";
+    atoms[n].element = std::vector<std::uint8_t>{8, 1, 1, 0}[n];
+  }
+  EXPECT_EQ(template_bonds(atoms, positions, {}), (std::vector<Bond>{{0, 1}, {0, 2}, {0, 3}}));
+}
+
 TEST(WholeMolecules, PartnersGatherAroundTheLargest) {
   // Two rods of three and four atoms, put on opposite sides of the box.
   std::vector<Atom> atoms(7);
