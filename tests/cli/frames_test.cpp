@@ -118,6 +118,50 @@ TEST_F(Frames, SuperpositionMovesButDoesNotChange) {
   for (int n = 0; n < 8; ++n) EXPECT_NEAR(plain[n]["area"].get<double>(), moved[n]["area"].get<double>(), 1e-6);
 }
 
+/// An alanine without hydrogens in boxes of 2 nm (the second one sheared), moved by `shift` nm and cut at the faces.
+std::string cut_gro(double shift) {
+  const double sites[5][3] = {{0, 0, 0}, {0.146, 0, 0}, {0.201, 0.142, 0}, {0.125, 0.239, 0}, {0.199, -0.077, -0.12}};
+  const char* names[5] = {"N", "CA", "C", "O", "CB"};
+  std::string text;
+  for (int frame = 0; frame < 2; ++frame) {
+    text += fmt::format("alanine t= {:.1f}\n5\n", 10.0 * frame);
+    for (int n = 0; n < 5; ++n) {
+      double x = sites[n][0] + shift, y = sites[n][1] + shift;
+      if (y >= 2.0) {
+        y -= 2.0;
+        if (frame == 1) x -= 0.5;  // the sheared box's b is (0.5, 2, 0)
+      }
+      if (x >= 2.0) x -= 2.0;
+      text += fmt::format("    1ALA  {:>5}{:>5}{:>8.3f}{:>8.3f}{:>8.3f}\n", names[n], n + 1, x, y, sites[n][2] + 1.0);
+    }
+    text += frame == 0 ? "2 2 2\n" : "2 2 2 0 0 0.5 0 0 0\n";
+  }
+  return text;
+}
+
+TEST_F(Frames, MoleculesAcrossTheBoxAreMadeWhole) {
+  const std::string whole = folder_.file("whole.gro", cut_gro(0.5)), cut = folder_.file("cut.gro", cut_gro(1.9));
+  const auto areas = [&](const std::string& file, std::vector<std::string> more) {
+    std::vector<std::string> arguments{"surface", file, "--json", "-q", "--frames", "all"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const ProgramResult result = meniscus(arguments);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    std::vector<double> areas;
+    for (const Json& line : lines_of(result.out)) areas.push_back(line["area"]);
+    return areas;
+  };
+  const std::vector<double> right = areas(whole, {}), broken = areas(cut, {});
+  ASSERT_EQ(right.size(), 2u);
+  for (const std::vector<std::string>& option : {std::vector<std::string>{"--whole"}, {"--whole", "guess"}}) {
+    const std::vector<double> mended = areas(cut, option);
+    for (int frame = 0; frame < 2; ++frame) {
+      EXPECT_NEAR(mended[frame], right[frame], 1e-6);
+      EXPECT_GT(broken[frame], right[frame] + 10.0);
+    }
+  }
+  EXPECT_EQ(meniscus({"surface", cut, "--begin", "5ps", "--json", "-q"}).out.find("\"frame\":1"), 1u);
+}
+
 TEST_F(Frames, WrongRequests) {
   expect_error({"--frames", "0-8"}, 2, "asks for frame 8; there are 8, 0 to 7");
   expect_error({"--frames", "5-2"}, 2, "runs backwards");
