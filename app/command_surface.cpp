@@ -6,6 +6,8 @@
 #include <memory>
 #include <optional>
 
+#include <unistd.h>
+
 #include "app/area_csv.h"
 #include "app/commands.h"
 #include "app/frame_run.h"
@@ -57,7 +59,10 @@ void run_sequence(const SurfaceCommand& command) {
   Sequence sequence(command.molecule, command.sequence);
   MoleculeBuilder builder(command.molecule);
   if (!command.json) std::cout << report_row_header(command.molecule);
-  run_frames(sequence, command.molecule, command.sequence, [&](const SequenceFrame& frame) {
+  SequenceOptions options = command.sequence;
+  // On a terminal the rows themselves tell how far it is; a bar would run into them.
+  if (options.progress == ProgressStyle::automatic && ::isatty(STDOUT_FILENO)) options.progress = ProgressStyle::none;
+  run_frames(sequence, command.molecule, options, [&](const SequenceFrame& frame) {
     const Molecule molecule = builder.build(frame.structure);
     const auto columns = area_columns(molecule.structure, molecule.objects, command.molecule.computing.kind);
     const SurfaceReport report{molecule, command.molecule, columns, std::nullopt};
