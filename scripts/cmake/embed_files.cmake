@@ -1,0 +1,32 @@
+# Writes one C++ file that holds the text of every file below a folder, sorted by path.
+# Run as: cmake -DFOLDER=<folder> -DROOT=<what paths begin behind> -DOUTPUT=<file.cpp> -DHEADER=<declares both>
+#         -DTYPE=<struct of path and text> -DFUNCTION=<gives them all> -P embed_files.cmake
+file(GLOB_RECURSE paths RELATIVE ${ROOT} ${FOLDER}/*)
+list(SORT paths)
+
+set(entries "")
+foreach(path IN LISTS paths)
+  file(READ ${ROOT}/${path} text)
+  string(APPEND entries "    {\"${path}\",\n     R\"embedded(${text})embedded\"},\n")
+endforeach()
+list(LENGTH paths count)
+
+file(WRITE ${OUTPUT}.new "// SPDX-License-Identifier: BSD-3-Clause
+// The text of files, written by scripts/cmake/embed_files.cmake; change the files instead.
+#include \"${HEADER}\"
+
+#include <array>
+
+namespace meniscus {
+namespace {
+
+constexpr std::array<${TYPE}, ${count}> kFiles = {{
+${entries}}};
+
+}  // namespace
+
+std::span<const ${TYPE}> ${FUNCTION}() { return kFiles; }
+
+}  // namespace meniscus
+")
+file(RENAME ${OUTPUT}.new ${OUTPUT})
