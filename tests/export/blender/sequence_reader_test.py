@@ -1,0 +1,143 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The manifest of a run and its files under plain Python: arguments PROGRAM ADDON_FOLDER."""
+
+import json
+import os
+import sys
+import tempfile
+import unittest
+
+PROGRAM, ADDON = sys.argv[1], sys.argv[2]
+sys.path[:0] = [os.path.join(ADDON, "meniscus_import"), os.path.dirname(os.path.abspath(__file__))]
+
+import numpy as np  # noqa: E402
+
+import compat  # noqa: E402
+import mns_reader  # noqa: E402
+import samples  # noqa: E402
+import sequence_reader  # noqa: E402
+
+
+class SequenceReader(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.whole = os.path.join(cls.folder.name, "run")
+        samples.export_run(PROGRAM, cls.whole)
+        cls.manifest = os.path.join(cls.whole, "surface_sequence.json")
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.folder.cleanup()
+
+    def test_scene_frames_are_those_of_the_run(self):
+        found = sequence_reader.read(self.manifest)
+        self.assertEqual([frame.number for frame in found.frames], [1, 3, 5])
+        self.assertEqual([found.scene_frame(number) for number in (1, 2, 3, 5)], [1, None, 2, 3])
+        for place in (1, 2, 3):
+            self.assertEqual(found.read(place).header["sequence"]["scene_frame"], place)
+        self.assertEqual([found.resolve(time) for time in (0.4, 0.5, 1.25, 1.5, 3.4, 3.5)], [None, 1, 1, 2, 3, None])
+        self.assertFalse(found.camera_moves)
+
+    def test_shares_write_the_same_bytes(self):
+        shares = os.path.join(self.folder.name, "shares")
+        samples.export_run(PROGRAM, shares, "1-5:2", "--only", "5")
+        samples.export_run(PROGRAM, shares, "1-5:2", "--only", "1,3")
+        self.assertEqual(sorted(os.listdir(shares)), sorted(os.listdir(self.whole)))
+        for name in os.listdir(self.whole):
+            with open(os.path.join(self.whole, name), "rb") as one, open(os.path.join(shares, name), "rb") as share:
+                self.assertEqual(one.read(), share.read(), name)
+
+    def test_cameras_move(self):
+        turning = os.path.join(self.folder.name, "turning")
+        samples.export_run(PROGRAM, turning, "1-5:2", "--turntable", "0.5")
+        found = sequence_reader.read(os.path.join(turning, "surface_sequence.json"))
+        self.assertTrue(found.camera_moves)
+        self.assertEqual(len({tuple(frame.camera["position"]) for frame in found.frames}), 3)
+        self.assertEqual(found.run, sequence_reader.read(self.manifest).run)  # its frames may be used with either camera
+        for place, frame in enumerate(found.frames, 1):
+            self.assertEqual(found.read(place).header["camera"], frame.camera)
+
+    def test_points_of_contact_move_with_their_atom(self):
+        """Convex points between the atoms' places in the neighbouring frames of the trajectory, per frame of the scene."""
+        every = os.path.join(self.folder.name, "every")
+        samples.export_run(PROGRAM, every, "0-9")
+        all_frames = sequence_reader.read(os.path.join(every, "surface_sequence.json"))
+
+        def centers(number):
+            return all_frames.read(number + 1).objects[0]["atom.center"]
+
+        strided = sequence_reader.read(self.manifest)
+        for found, number, wanted in (
+                (all_frames, 0, centers(1) - centers(0)), (all_frames, 9, centers(9) - centers(8)),
+                (all_frames, 4, (centers(5) - centers(3)) / 2), (strided, 3, centers(4) - centers(2)),
+                (strided, 5, centers(6) - centers(4))):
+            surface = found.read(found.scene_frame(number)).objects[0]
+            triangles, atom, kind = (surface["mesh." + name] for name in ("triangle", "atom", "kind"))
+            curved = set(triangles[kind != 0].ravel())
+            checked = 0
+            for corners, index in zip(triangles[kind == 0], atom[kind == 0]):
+                for vertex in set(corners) - curved:
+                    np.testing.assert_allclose(surface["mesh.velocity"][vertex], wanted[index], atol=1e-5)
+                    checked += 1
+            self.assertGreater(checked, 500)
+
+    def test_files_of_another_run_are_refused(self):
+        finer = os.path.join(self.folder.name, "finer")
+        samples.export_run(PROGRAM, finer, "1-5:4")
+        mixed = sequence_reader.read(self.manifest)
+        mixed.frames[0].path = os.path.join(finer, "surface_00001.mns")
+        with self.assertRaises(mns_reader.MnsError) as caught:
+            mixed.read(1)
+        self.assertIn("not frame 1 of this run", str(caught.exception))
+
+    def test_manifests_that_make_no_sense(self):
+        with open(self.manifest, encoding="ascii") as file:
+            good = json.load(file)
+        bad = {"newer": {"version": 99}, "does not exist": {"version": 0}, "not the manifest": {"format": "x"},
+               "origin": {"origin": [0, 0]}, "scale": {"scale": -1}, "fps": {"fps": float("nan")}, "no frames": {"frames": []},
+               "twice": {"frames": [good["frames"][0]] * 2}, "list of frames": {"frames": [{"frame": 1, "file": "../x.mns"}]}}
+        path = os.path.join(self.folder.name, "bad.json")
+        for word, change in bad.items():
+            with open(path, "w", encoding="ascii") as file:
+                json.dump({**good, **change}, file)
+            with self.assertRaises(mns_reader.MnsError, msg=word) as caught:
+                sequence_reader.read(path)
+            self.assertIn(word, str(caught.exception))
+        with open(path, "w", encoding="ascii") as file:
+            file.write("{")
+        self.assertRaises(mns_reader.MnsError, sequence_reader.read, path)
+
+    def test_lists_of_frames(self):
+        parse = sequence_reader.parse_frames
+        self.assertEqual(parse("0-20:10,7,5-6,20", range(30)), [0, 10, 20, 7, 5, 6])
+        self.assertEqual(parse("7-", range(10)), [7, 8, 9])
+        self.assertEqual(parse("all", [3, 1]), [3, 1])
+        for text in ("", "3-1", "1:2", "1-5:0", "a", "-3", "1--2", "0-99999999999", "1,,2"):
+            self.assertRaises(ValueError, parse, text, range(3))
+
+
+class Compat(unittest.TestCase):
+    def test_sockets_of_a_node_group(self):
+        class Interface:
+            def __init__(self):
+                self.made = []
+
+            def new_socket(self, name, in_out, socket_type):
+                self.made.append((name, in_out, socket_type))
+
+        class NewTree:  # 4.0 and later
+            interface = Interface()
+
+        compat.add_geometry_sockets(NewTree)
+        self.assertEqual([made[1] for made in NewTree.interface.made], ["INPUT", "OUTPUT"])
+
+    def test_frame_rates(self):
+        self.assertEqual(compat.frame_rate(25.0), (25, 1.0))
+        whole, base = compat.frame_rate(23.976)
+        self.assertEqual(whole, 24)
+        self.assertAlmostEqual(whole / base, 23.976)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
