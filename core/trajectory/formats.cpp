@@ -17,8 +17,8 @@ namespace meniscus {
 namespace {
 
 /// A new format is a file read_<name>.cpp, its name in formats.h and an entry here, before the last.
-constexpr std::array<const TrajectoryFormat*, 6> kFormats{&kXtcFormat,         &kTrrFormat,  &kDcdFormat,
-                                                          &kAmberNetcdfFormat, &kH5mdFormat, &kModelsFormat};
+constexpr std::array<const TrajectoryFormat*, 6> kFormats{&kXtcFormat,  &kTrrFormat,         &kDcdFormat,
+                                                          &kH5mdFormat, &kAmberNetcdfFormat, &kModelsFormat};
 constexpr std::span<const TrajectoryFormat* const> kBinaryFormats{kFormats.data(), kFormats.size() - 1};
 
 std::string binary_format_names() {
@@ -27,9 +27,12 @@ std::string binary_format_names() {
   return names;
 }
 
-const TrajectoryFormat* format_by_name(const std::string& path) {
-  std::string name = path;
-  std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
+std::string lower_case(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+  return text;
+}
+
+const TrajectoryFormat* format_by_name(const std::string& name) {
   for (const TrajectoryFormat* format : kBinaryFormats) {
     const auto extensions = fields_of(format->metadata.extensions);
     if (std::any_of(extensions.begin(), extensions.end(), [&](std::string_view end) { return name.ends_with(end); }))
@@ -52,7 +55,11 @@ std::string start_of(const std::string& path) {
 }
 
 const TrajectoryFormat& choose_format(const std::string& path, const std::string& start) {
-  const TrajectoryFormat* by_name = format_by_name(path);
+  const std::string name = lower_case(path);
+  const bool packed = start.starts_with("\x1f\x8b");
+  if (packed && name.ends_with(".gz") && format_by_name(name.substr(0, name.size() - 3)))
+    throw InputError(path, 0, "is packed with gzip; unpack it first: frames are read where they stand in the file");
+  const TrajectoryFormat* by_name = format_by_name(name);
   if (by_name && by_name->recognizes(start)) return *by_name;
   const TrajectoryFormat* by_content = format_by_content(start);
   if (by_name && by_content) {
@@ -63,7 +70,6 @@ const TrajectoryFormat& choose_format(const std::string& path, const std::string
   }
   if (by_name) return *by_name;  // its reader says what is missing
   if (by_content) return *by_content;
-  const bool packed = start.starts_with("\x1f\x8b");
   if (!packed && start.find('\0') != std::string::npos) {
     throw InputError(path, 0,
                      fmt::format("is in no trajectory format that is read ({}or models of {})", binary_format_names(),

@@ -30,6 +30,7 @@ class HeaderReader {
 
   NetcdfLayout run() {
     const std::string magic = text_of(4);
+    if (magic == "\x89HDF") refuse("is NetCDF-4; convert it to the classic format: nccopy -k nc6 OLD NEW");
     if (!magic.starts_with("CDF") || (magic[3] != 1 && magic[3] != 2 && magic[3] != 5))
       refuse("begins like no NetCDF file of the classic formats");
     version_ = magic[3];

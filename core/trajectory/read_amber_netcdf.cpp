@@ -147,7 +147,9 @@ class AmberNetcdf final : public Trajectory {
   std::vector<std::byte> bytes_;
 };
 
+/// NetCDF-4 too, so that its reader names it.
 bool recognizes(std::string_view start) {
+  if (start.starts_with("\x89HDF")) return true;
   return start.size() > 3 && start.starts_with("CDF") && (start[3] == 1 || start[3] == 2 || start[3] == 5);
 }
 

@@ -142,7 +142,7 @@ class H5md final : public Trajectory {
     position_ = table(group_, "position/value");
     const std::vector<hsize_t>& lengths = position_.lengths;
     if (lengths.size() != 3 || lengths[2] != 3 || lengths[1] == 0)
-      throw InputError(path, 0, fmt::format("{}/position/value is not x, y and z of atoms of frames", name_));
+      throw InputError(path, 0, fmt::format("{}/position/value is not x, y and z of atoms of frames", escaped(name_)));
     if (lengths[0] == 0) throw InputError(path, 0, "holds no frames");
     frame_count_ = lengths[0];
     atom_count_ = lengths[1];

@@ -169,6 +169,21 @@ TEST(Dcd, NameAndContentMustAgree) {
   EXPECT_EQ(open_trajectory(folder.file("x.bin", dcd({})))->format(), "DCD");
   EXPECT_NE(refusal([&] { open_bytes(folder, "ATOM  "); }).find("it does not begin with a record of 84 bytes and CORD"),
             std::string::npos);
+  EXPECT_NE(refusal([&] {
+              open_trajectory(folder.file("a.xtc", dcd({})));
+            }).find("the name says XTC, but the content is DCD"),
+            std::string::npos);
+  EXPECT_NE(refusal([&] { open_trajectory(folder.file("a.XTC.gz", test::gzipped("\x01"))); }).find("unpack it first"),
+            std::string::npos);
+  EXPECT_NE(refusal([&] { open_trajectory(folder.file("a.nc", "\x89HDF\r\n\x1a\n")); }).find("is NetCDF-4"),
+            std::string::npos);
+  EXPECT_NE(refusal([&] { open_trajectory(folder.file("a", "\x89HDF\r\n\x1a\n")); }).find("cannot open it"),
+            std::string::npos);
+  EXPECT_NE(refusal([&] {
+              open_trajectory(folder.file("a.bin", std::string(9, '\0')));
+            }).find("in no trajectory format that is read"),
+            std::string::npos);
+  EXPECT_NE(refusal([&] { open_trajectory("-"); }).find("cannot be a trajectory"), std::string::npos);
   EXPECT_NE(refusal([&] { open_bytes(folder, ""); }).find("is empty"), std::string::npos);
   EXPECT_NE(refusal([&] { open_trajectory(folder.path().string()); }).find("is a folder"), std::string::npos);
 }
