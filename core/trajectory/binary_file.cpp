@@ -53,8 +53,8 @@ BinaryFile::~BinaryFile() { ::close(descriptor_); }
 void BinaryFile::read(std::uint64_t offset, std::span<std::byte> bytes) const {
   if (offset > size_ || bytes.size() > size_ - offset) {
     throw InputError(path_, 0,
-                     fmt::format("ends at byte {}, but {} bytes at byte {} are needed", with_thousands(size_),
-                                 with_thousands(bytes.size()), with_thousands(offset)));
+                     fmt::format("is cut short or damaged: it ends at byte {}, but {} bytes at byte {} are needed",
+                                 with_thousands(size_), with_thousands(bytes.size()), with_thousands(offset)));
   }
   while (!bytes.empty()) {
     const ssize_t count = ::pread(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(offset));

@@ -26,6 +26,8 @@ constexpr std::array<std::uint32_t, 73> kSmallSizes{
 constexpr std::int32_t kFirstClass = 9;
 constexpr std::uint32_t kLargestJointSize = 0xffffff;  // beyond it the three numbers stand one after the other
 
+constexpr std::size_t kMostBytesLeft = 8;  // none are usual; a writer might fill up a word
+
 using Steps = std::array<std::int64_t, 3>;
 using Sizes = std::array<std::uint32_t, 3>;
 
@@ -41,6 +43,7 @@ class BitReader {
   explicit BitReader(std::span<const std::byte> bits) : bytes_(bits.data()), end_(bits.size() * 8) {}
 
   bool overrun() const { return next_ > end_; }
+  std::size_t bytes_left() const { return overrun() ? 0 : (end_ - next_) / 8; }
 
   /// At most 56 bits.
   std::uint64_t take(int count) {
@@ -159,10 +162,13 @@ std::string unpack(const PackedCoordinates& packed, std::span<glm::dvec3> positi
   if (std::string fault = fault_of(packed); !fault.empty()) return fault;
   StepReader steps(packed);
   const double precision = packed.precision;
+  bool inside = true;  // the extent in front of the bits holds for all atoms, unless they are damaged
   const auto place = [&](std::size_t n, const Steps& at) {
-    // The product is exact, so this is the double next to the decimal number that was packed.
-    for (int axis = 0; axis < 3; ++axis)
-      positions[n][axis] = 10.0 * static_cast<double>(at[static_cast<std::size_t>(axis)]) / precision;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      inside = inside && at[axis] >= packed.lowest[axis] && at[axis] <= packed.highest[axis];
+      // The product is exact, so this is the double next to the decimal number that was packed.
+      positions[n][static_cast<int>(axis)] = 10.0 * static_cast<double>(at[axis]) / precision;
+    }
   };
   std::size_t run = 0;  // near atoms that follow; stays until another one is given
   for (std::size_t n = 0; n < positions.size();) {
@@ -189,8 +195,11 @@ std::string unpack(const PackedCoordinates& packed, std::span<glm::dvec3> positi
         if (steps.bits().overrun()) return fmt::format("has too few bits: they end at atom {}", n);
       }
     }
+    if (!inside) return fmt::format("is damaged: atom {} lies outside of the extent that the frame names", n);
     if (class_change != 0) steps.set_small_class(steps.small_class() + class_change);
   }
+  if (steps.bits().bytes_left() > kMostBytesLeft)
+    return fmt::format("is damaged: {} bytes are left behind its last atom", steps.bits().bytes_left());
   return {};
 }
 

@@ -82,7 +82,34 @@ TEST(Xtc, HostileHeadersEndInErrorsWithFrameAndPlace) {
   expect(hostile(84, 74), place + " has the class 74 of small differences");
   expect(hostile(84, -1), place + " has the class -1 of small differences");
   expect(hostile(84, 8), place + " is damaged at atom 1: class 8 of differences");
-  expect(hostile(84, 72), place + " has too few bits: they end at atom");
+  expect(hostile(84, 72), place + " is damaged: atom 3 lies outside of the extent");
+}
+
+TEST(Xtc, TooFewBitsAreNoticed) {
+  const TemporaryFolder folder;
+  std::string bytes = test::xtc({.frames = 1});
+  bytes.replace(88, 4, ByteWriter(std::endian::big).put(20).bytes());
+  const auto trajectory = open_trajectory(folder.file("a.xtc", bytes.substr(0, 92 + 20)));
+  Frame frame;
+  EXPECT_NE(refusal([&] { trajectory->read(0, frame); }).find("frame 0 at byte 0 has too few bits: they end at atom"),
+            std::string::npos);
+}
+
+TEST(Xtc, OverwrittenBitsAreNoticed) {
+  const TemporaryFolder folder;
+  const std::string whole = test::xtc({.atoms = 300, .frames = 1});
+  int noticed = 0;
+  constexpr int kTrials = 200;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    std::string bytes = whole;
+    const std::size_t place = 92 + static_cast<std::size_t>(trial * 7919) % (whole.size() - 100);
+    bytes.replace(place, 4, trial % 2 == 0 ? std::string(4, '\0') : std::string(4, '\xff'));
+    const auto trajectory = open_trajectory(folder.file("a.xtc", bytes));
+    Frame frame;
+    const std::string message = refusal([&] { trajectory->read(0, frame); });
+    noticed += message.find("frame 0 at byte 0 ") != std::string::npos;
+  }
+  EXPECT_GT(noticed, kTrials / 3);  // not all, for the format has no checksum
 }
 
 TEST(Xtc, HeadersThatLeadNowhereEndTheTrajectory) {
