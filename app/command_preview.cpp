@@ -66,7 +66,7 @@ Shown read_run(const PreviewCommand& command) {
   MoleculeOptions molecule = command.molecule;
   if (molecule.reading.model.all) molecule.reading.model = {};  // the preview's default; a run has frames instead
   const auto sequence = std::make_shared<Sequence>(molecule, command.sequence);
-  return {sequence->structure(), Moments{sequence->share().size(), [sequence](std::size_t frame) {
+  return {sequence->structure(), Moments{sequence->share(), [sequence](std::size_t frame) {
                                            return sequence->positions(sequence->share()[frame]);
                                          }}};
 }

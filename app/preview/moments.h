@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <vector>
 
@@ -11,7 +12,7 @@
 namespace meniscus {
 
 struct Moments {
-  std::size_t count = 0;
+  std::vector<std::uint64_t> numbers;  ///< of the frames in the trajectory; at least one
   /// Å, one per atom of the structure. Throws InputError for a frame that cannot be read.
   std::function<std::vector<glm::dvec3>(std::size_t frame)> positions;
 };

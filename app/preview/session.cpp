@@ -45,9 +45,9 @@ void PreviewSession::look_at_all() {
 
 void PreviewSession::sample_moments() {
   constexpr std::size_t kSamples = 16;  // few enough to begin at once, enough to see where the molecule goes
-  const std::size_t count = std::min(kSamples, moments_->count);
+  const std::size_t count = std::min(kSamples, moments_->numbers.size());
   for (std::size_t n = 0; n < count; ++n) {
-    const std::size_t frame = count == 1 ? 0 : n * (moments_->count - 1) / (count - 1);
+    const std::size_t frame = count == 1 ? 0 : n * (moments_->numbers.size() - 1) / (count - 1);
     try {
       const std::vector<glm::dvec3> positions = moments_->positions(frame);
       for (const std::uint32_t a : shown_atoms()) sampled_.push_back({positions[a], structure_.atoms[a].radius});
@@ -63,11 +63,19 @@ void PreviewSession::show_frame(std::size_t frame) {
     for (std::size_t n = 0; n < positions.size(); ++n) structure_.atoms[n].position = positions[n];
   }
   view_.frame = frame;
+  if (view_.follows_keys && !view_.keys.empty())
+    look_from(CameraPath(camera_keys()).at(static_cast<double>(number_of(frame))));
   balls_.clear();
   for (const std::uint32_t a : shown_atoms())
     balls_.push_back({structure_.atoms[a].position, structure_.atoms[a].radius});
   renderer_.set_atoms(balls_);
   renderer_.set_coloring(frame_coloring());
+}
+
+std::vector<CameraKey> PreviewSession::camera_keys() const {
+  std::vector<CameraKey> keys;
+  for (const auto& [frame, camera] : view_.keys) keys.push_back({static_cast<double>(number_of(frame)), camera});
+  return keys;
 }
 
 Coloring PreviewSession::frame_coloring() const {

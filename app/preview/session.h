@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -19,6 +20,7 @@
 #include "core/molecule/color_schemes.h"
 #include "core/molecule/structure.h"
 #include "core/render/camera.h"
+#include "core/render/camera_path.h"
 #include "core/render/look.h"
 #include "core/view/frame_renderer.h"
 
@@ -34,7 +36,9 @@ struct PreviewView {
   std::vector<bool> hidden;  ///< per atom of the structure: its part of the surface is not drawn; empty: all is
   bool patch_kinds = false;  ///< coloured by kind of patch, whatever the scheme (figure 2 of Krone et al. 2010)
   Look look;
-  std::size_t frame = 0;  ///< from 0
+  std::size_t frame = 0;               ///< from 0
+  std::map<std::size_t, Camera> keys;  ///< of the camera, by frame; all of one projection
+  bool follows_keys = false;           ///< showing a frame moves the camera along its keys
   bool playing = false;
   double frames_per_second = 10.0;  ///< while playing
   glm::ivec2 size{1024, 768};       ///< of the full picture, in pixels
@@ -92,7 +96,7 @@ class PreviewSession {
 
   const PreviewView& view() const { return view_; }
   const Structure& structure() const { return structure_; }
-  std::size_t frame_count() const { return moments_ ? moments_->count : frames_.size(); }
+  std::size_t frame_count() const { return moments_ ? moments_->numbers.size() : frames_.size(); }
 
  private:
   /// A row of the table of commands.
@@ -113,6 +117,8 @@ class PreviewSession {
   nlohmann::json set_look(const CommandReader& command);
   nlohmann::json set_frame(const CommandReader& command);
   nlohmann::json next_frame(const CommandReader& command);
+  nlohmann::json set_key(const CommandReader& command);
+  nlohmann::json follow_keys(const CommandReader& command);
   nlohmann::json play(const CommandReader& command);
   nlohmann::json pause(const CommandReader& command);
   nlohmann::json resize(const CommandReader& command);
@@ -127,6 +133,8 @@ class PreviewSession {
   nlohmann::json carry_out(const nlohmann::json& command);
   void look_from(const Camera& camera);
   void look_at_all();
+  std::uint64_t number_of(std::size_t frame) const { return moments_ ? moments_->numbers[frame] : frame; }
+  std::vector<CameraKey> camera_keys() const;
   void sample_moments();
   void show_frame(std::size_t frame);
   /// Of the frame that is shown, into structure_.atoms.

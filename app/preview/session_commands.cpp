@@ -72,6 +72,8 @@ const std::vector<PreviewSession::Command>& PreviewSession::commands() {
       {"look", {look.begin(), look.end()}, &S::set_look, true},
       {"frame", {"index"}, &S::set_frame, true},
       {"next_frame", {}, &S::next_frame, true},
+      {"key", {"on"}, &S::set_key, true},
+      {"follow_keys", {"on"}, &S::follow_keys, true},
       {"play", {"fps"}, &S::play, false},
       {"pause", {}, &S::pause, false},
       {"resize", {"width", "height"}, &S::resize, true},
@@ -214,6 +216,24 @@ Json PreviewSession::next_frame(const CommandReader&) {
       if (step >= frame_count()) throw;
     }
   }
+}
+
+Json PreviewSession::set_key(const CommandReader& command) {
+  if (!command.flag_or(true, "on")) {
+    view_.keys.erase(view_.frame);
+  } else {
+    for (const auto& [frame, camera] : view_.keys)
+      if (frame != view_.frame && camera.projection != view_.camera.projection)
+        throw RequestError("key: all keys of the camera must have one projection, that of the first");
+    view_.keys[view_.frame] = view_.camera;
+  }
+  return {{"keys", view_.keys.size()}};
+}
+
+Json PreviewSession::follow_keys(const CommandReader& command) {
+  view_.follows_keys = command.flag("on");
+  show_frame(view_.frame);
+  return {{"follow_keys", view_.follows_keys}};
 }
 
 Json PreviewSession::play(const CommandReader& command) {

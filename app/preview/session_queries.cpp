@@ -59,7 +59,7 @@ Json PreviewSession::pick(const CommandReader& command) {
 }
 
 Json PreviewSession::export_view(const CommandReader& command) {
-  const std::size_t format = command.choice("format", {"png", "povray", "blender", "camera"});
+  const std::size_t format = command.choice("format", {"png", "povray", "blender", "camera", "camera_path"});
   const ExportTarget target{export_path(export_folder_, command.text("path")),
                             command.flag_or(false, "force") ? Existing::replace : Existing::refuse};
   if (target.existing == Existing::refuse && std::filesystem::exists(target.path))
@@ -83,6 +83,7 @@ Json PreviewSession::export_view(const CommandReader& command) {
   if (format == 1) reply["render_with"] = export_povray(view, target);
   if (format == 2) export_blender(view, target);
   if (format == 3) export_camera(view, target);
+  if (format == 4) export_camera_path(camera_keys(), target);
   return reply;
 }
 
@@ -117,7 +118,10 @@ Json PreviewSession::state(const CommandReader&) {
           {"atoms", balls_.size()},
           {"revision", revision_},
           {"frame", view_.frame},
+          {"frame_number", number_of(view_.frame)},
           {"frames", frame_count()},
+          {"keys", Json::parse(camera_path_json(camera_keys()))["keys"]},
+          {"follow_keys", view_.follows_keys},
           {"playing", view_.playing},
           {"fps", view_.frames_per_second},
           {"camera", Json::parse(camera_json(view_.camera))},

@@ -88,6 +88,13 @@ void export_camera(const ExportedView& view, const ExportTarget& target) {
   file.commit();
 }
 
+void export_camera_path(const std::vector<CameraKey>& keys, const ExportTarget& target) {
+  if (keys.empty()) throw RequestError("export: the camera has no keys yet; set some, each at a frame");
+  OutputFile file(target.path, target.existing);
+  file.write(camera_path_json(keys));
+  file.commit();
+}
+
 std::filesystem::path export_path(const std::filesystem::path& folder, const std::string& name) {
   constexpr std::string_view kLetters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789._-";
   constexpr std::size_t kLongest = 100;

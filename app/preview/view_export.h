@@ -12,6 +12,7 @@
 #include "core/molecule/color_schemes.h"
 #include "core/molecule/structure.h"
 #include "core/render/camera.h"
+#include "core/render/camera_path.h"
 #include "core/render/look.h"
 #include "core/surface/coloring.h"
 
@@ -49,6 +50,9 @@ void export_blender(const ExportedView& view, const ExportTarget& target);
 
 /// As `meniscus render --save-camera`.
 void export_camera(const ExportedView& view, const ExportTarget& target);
+
+/// Key frames for `meniscus render --camera-path`. Throws RequestError where there are none.
+void export_camera_path(const std::vector<CameraKey>& keys, const ExportTarget& target);
 
 /// The path in `folder` of a file with this plain name: letters, digits, '.', '_' and '-', the first no '.' or '-', at
 /// most 100 of them. Throws RequestError.

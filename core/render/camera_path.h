@@ -34,6 +34,9 @@ class CameraPath {
 CameraPath parse_camera_path(std::string_view json, const std::string& file);
 CameraPath read_camera_path(const std::string& file);
 
+/// The inverse of parse_camera_path: every number survives exactly. Ends with a newline.
+std::string camera_path_json(const std::vector<CameraKey>& keys);
+
 /// The camera carried around the line through `pivot` along `axis` (of length 1) by `angle` (radians, right-handed).
 Camera turned(const Camera& camera, const glm::dvec3& pivot, const glm::dvec3& axis, double angle);
 /// The camera carried along.

@@ -225,6 +225,14 @@ class Page(unittest.IsolatedAsyncioTestCase):
                 await page.until(f"document.getElementById('frame-number').textContent === '{frame} of 2'")
             await page.click("#play")
             await page.at_rest()
+            # A key of the camera at this frame, which is then none at the other.
+            self.assertTrue(await page.evaluate("document.getElementById('save-path').disabled"))
+            await page.click("#key")
+            await page.until("document.getElementById('key').textContent === 'Remove key'")
+            self.assertFalse(await page.evaluate("document.getElementById('save-path').disabled"))
+            state = await self.state(page)
+            self.assertEqual([key["frame"] for key in state["keys"]], [state["frame_number"]])
+            self.assertEqual(state["keys"][0]["camera"], state["camera"])
             self.assertEqual(page.complaints, [])
 
     async def test_keys_do_what_the_page_says(self):

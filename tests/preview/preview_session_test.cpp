@@ -285,7 +285,7 @@ TEST(PreviewMoments, FramesOfATrajectory) {
   const Structure structure = read_structure(folder.file("one.pdb", kTwoModels));
   std::vector<glm::dvec3> start;
   for (const Atom& atom : structure.atoms) start.push_back(atom.position);
-  Moments moments{4, [start](std::size_t frame) {
+  Moments moments{{10, 20, 30, 40}, [start](std::size_t frame) {
                     if (frame == 2) throw InputError("walk.dcd", 0, "frame 2 is damaged");
                     std::vector<glm::dvec3> positions = start;
                     positions.back().x += 30.0 * static_cast<double>(frame);
@@ -312,6 +312,41 @@ TEST(PreviewMoments, FramesOfATrajectory) {
   EXPECT_EQ(apply(R"({"command":"next_frame"})")["frame"], 1);
   EXPECT_EQ(apply(R"({"command":"next_frame"})")["frame"], 3);
   EXPECT_EQ(apply(R"({"command":"next_frame"})")["frame"], 0);
+}
+
+TEST(PreviewMoments, KeysOfTheCamera) {
+  const EglContext context;
+  const TemporaryFolder folder;
+  const Structure structure = read_structure(folder.file("one.pdb", kTwoModels));
+  std::vector<glm::dvec3> positions;
+  for (const Atom& atom : structure.atoms) positions.push_back(atom.position);
+  PreviewView view;
+  view.size = {80, 60};
+  PreviewSession session(structure, view, std::nullopt, folder.path(),
+                         Moments{{10, 20, 30, 40}, [positions](std::size_t) { return positions; }});
+  const auto apply = [&](const char* command) { return session.apply(Json::parse(command)); };
+  const char* kExport = R"({"command":"export","format":"camera_path","path":"path.json","force":true})";
+  EXPECT_FALSE(apply(kExport)["ok"]);  // none yet
+  EXPECT_EQ(apply(R"({"command":"key"})")["keys"], 1);
+  const Camera first = session.view().camera;
+  apply(R"({"command":"frame","index":3})");
+  apply(R"({"command":"orbit","dx":0.5,"dy":0.1})");
+  EXPECT_EQ(apply(R"({"command":"key"})")["keys"], 2);
+  const Camera last = session.view().camera;
+  // The file has the numbers of the trajectory, and moves the camera as the preview does.
+  ASSERT_TRUE(apply(kExport)["ok"]);
+  const CameraPath path = read_camera_path((folder.path() / "path.json").string());
+  EXPECT_EQ(path.at(10).position, first.position);
+  EXPECT_EQ(path.at(40).position, last.position);
+  ASSERT_TRUE(apply(R"({"command":"follow_keys","on":true})")["ok"]);
+  apply(R"({"command":"frame","index":1})");
+  EXPECT_EQ(session.view().camera.position, path.at(20).position);
+  EXPECT_GT(glm::distance(session.view().camera.position, first.position), 0.1);
+  // Keys of two projections make no path.
+  apply(R"({"command":"projection","projection":"orthographic"})");
+  EXPECT_FALSE(apply(R"({"command":"key"})")["ok"]);
+  apply(R"({"command":"frame","index":3})");
+  EXPECT_EQ(apply(R"({"command":"key","on":false})")["keys"], 1);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -213,6 +214,13 @@ void Panel::frames() {
   const std::string format = fmt::format("%d of {}", count);
   if (ImGui::SliderInt("##frame", &number, 1, count, format.c_str(), ImGuiSliderFlags_AlwaysClamp))
     link_.send({{"command", "frame"}, {"index", number - 1}});
+  bool is_key = false;
+  for (const Json& key : state["keys"]) is_key |= key["frame"] == state["frame_number"];
+  if (ImGui::Button(is_key ? "Remove key" : "Set key")) link_.send({{"command", "key"}, {"on", !is_key}});
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("The camera passes here at this frame; %zu keys", state["keys"].size());
+  ImGui::SameLine();
+  bool follows = state["follow_keys"];
+  if (ImGui::Checkbox("follow", &follows)) link_.send({{"command", "follow_keys"}, {"on", follows}});
 }
 
 void Panel::exports() {
@@ -222,11 +230,12 @@ void Panel::exports() {
   constexpr Format kFormats[] = {{"png", "picture (PNG)", ".png"},
                                  {"povray", "POV-Ray scene", "_povray"},
                                  {"blender", "Blender file", ".mns"},
-                                 {"camera", "camera (JSON)", ".json"}};
+                                 {"camera", "camera (JSON)", ".json"},
+                                 {"camera_path", "camera keys (JSON)", "_path.json"}};
   heading("Export this view");
   label("As");
   if (ImGui::BeginCombo("##format", kFormats[format_].shown)) {
-    for (int f = 0; f < 4; ++f)
+    for (int f = 0; f < static_cast<int>(std::size(kFormats)); ++f)
       if (ImGui::Selectable(kFormats[f].shown, f == format_)) format_ = f;
     ImGui::EndCombo();
   }

@@ -141,6 +141,9 @@ function apply_state(next) {
   set_value($("frame"), next.frame);
   $("frame-number").textContent = `${next.frame + 1} of ${next.frames}`;
   $("play").textContent = next.playing ? "Pause" : "Play";
+  $("key").textContent = is_key(next) ? "Remove key" : "Set key";
+  $("save-path").disabled = next.keys.length === 0;
+  $("follow").checked = next.follow_keys;
 }
 
 function fill_choices(choices) {
@@ -183,10 +186,13 @@ $("zoom-form").addEventListener("submit", async (event) => {
   if (reply) say(`${reply.atoms.toLocaleString("en")} atoms`);
 });
 $("frame").addEventListener("input", (event) => command("frame", { index: event.target.valueAsNumber }));
+const is_key = ({ keys, frame_number }) => keys.some((key) => key.frame === frame_number);
 const toggle_playing = () => state?.playing ? command("pause") : command("play", { fps: $("rate").valueAsNumber || 10 });
 $("play").addEventListener("click", () => toggle_playing().then((reply) => {
   if (reply) apply_state({ ...state, playing: Boolean(reply.playing) });
 }));
+$("key").addEventListener("click", () => command("key", { on: !is_key(state) }));
+$("follow").addEventListener("change", (event) => command("follow_keys", { on: event.target.checked }));
 $("rate").addEventListener("change", () => { if (state?.playing) command("play", { fps: $("rate").valueAsNumber || 10 }); });
 
 // Atoms under the cursor
@@ -238,6 +244,9 @@ const save_picture = () => is_at_rest() ? download(full_picture, `${stem()}.png`
 $("save-png").addEventListener("click", save_picture);
 $("save-camera").addEventListener("click", () => {
   download(new Blob([JSON.stringify(state.camera, null, 2) + "\n"], { type: "application/json" }), `${stem()}_camera.json`);
+});
+$("save-path").addEventListener("click", () => {
+  download(new Blob([JSON.stringify({ keys: state.keys }, null, 2) + "\n"], { type: "application/json" }), `${stem()}_camera_path.json`);
 });
 $("export-form").addEventListener("submit", async (event) => {
   event.preventDefault();
