@@ -130,7 +130,7 @@ void say_report(const PreviewCommand& command, const WindowReport& report) {
 
 void open_window(PreviewCommand& command) {
   if (command.molecule.computing.gl.kind != DeviceChoice::Kind::automatic)
-    throw UsageError("--device is for --serve; a window draws on the device of its display");
+    throw UsageError("--device and --require-gpu are for --serve; a window draws on the device of its display");
   std::vector<WrittenCommand> commands;
   if (!command.commands.empty()) commands = read_commands(command.commands);
   Shown shown = read_frames(command);

@@ -73,7 +73,8 @@ void add_warning_options(CLI::App& command, MoleculeOptions& options);
 void add_assembly_options(CLI::App& command, MoleculeOptions& options);
 /// Which radii they get (radii_options.cpp): --hydrogens, --radii, --radii-file, --radius; part of the above.
 void add_radii_options(CLI::App& command, ReadOptions& reading);
-/// How the surface is made of them (surface_options.cpp): --surface, --probe, --device, --verify, --threads.
+/// How the surface is made of them (surface_options.cpp): --surface, --probe, --device, --require-gpu,
+/// --verify, --threads.
 void add_surface_options(CLI::App& command, MoleculeOptions& options);
 void add_probe_option(CLI::App& command, ComputeOptions& computing);
 void add_device_option(CLI::App& command, ComputeOptions& computing);

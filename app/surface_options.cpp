@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "app/molecule_options.h"
+#include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/molecule/reader.h"
 
@@ -32,6 +33,14 @@ void parse_device(const std::string& text, ComputeOptions& options) {
   const std::optional<DeviceChoice> choice = parse_device_choice(text);
   if (!choice) throw CLI::ValidationError("--device", in_quotes(text) + " is none of auto, gpu, gpu:N, software, cpu");
   options.gl = *choice;
+}
+
+/// "auto" becomes the first hardware GPU and nothing else. Runs after --device, whatever their order.
+void require_gpu(ComputeOptions& options) {
+  if (options.cpu || options.gl.kind == DeviceChoice::Kind::software)
+    throw GpuError(fmt::format("--require-gpu refuses --device {}; leave one of them away",
+                               options.cpu ? "cpu" : to_string(options.gl)));
+  if (options.gl.kind == DeviceChoice::Kind::automatic) options.gl = {DeviceChoice::Kind::gpu, 0};
 }
 
 void parse_division(const std::string& text, DivisionOptions& division) {
@@ -79,6 +88,9 @@ void add_device_option(CLI::App& command, ComputeOptions& computing) {
           "--device", [&computing](const std::string& text) { parse_device(text, computing); },
           "auto (default: a GPU if there is one, else cpu), gpu, gpu:N, software (GL without a GPU), cpu")
       ->type_name("DEVICE");
+  command.add_flag_callback(
+      "--require-gpu", [&computing] { require_gpu(computing); },
+      "Refuse (exit code 4) to run on the CPU or on software GL where there is no hardware GPU");
 }
 
 void add_surface_options(CLI::App& command, MoleculeOptions& options) {

@@ -86,7 +86,8 @@ std::optional<ForeignContext> current_egl_context() {
 EglContext::EglContext(const DeviceChoice& choice) {
   const std::vector<GlDevice> devices = candidates(choice);
   if (devices.empty())
-    throw GpuError(fmt::format("no device for '{}': EGL lists {} device(s), none of that kind", to_string(choice),
+    throw GpuError(fmt::format("no {} for '{}': EGL lists {} device(s), none of that kind",
+                               choice.kind == DeviceChoice::Kind::gpu ? "hardware GPU" : "device", to_string(choice),
                                list_gl_devices().size()));
   std::string reasons;
   for (const GlDevice& device : devices) {

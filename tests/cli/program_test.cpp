@@ -251,6 +251,22 @@ TEST(Device, AMissingGpuIsExitFour) {
   EXPECT_EQ(result.exit_code, 4) << result.err;
 }
 
+// A machine with a GPU computes; one without must not fall back to anything else.
+TEST(Device, ARequiredGpuIsAGpuOrExitFour) {
+  for (const char* device : {"cpu", "software"}) {
+    const ProgramResult result = meniscus_says({"surface", kUbiquitin, "--require-gpu", "--device", device});
+    EXPECT_EQ(result.exit_code, 4) << result.err;
+    EXPECT_NE(result.err.find(std::string("--require-gpu refuses --device ") + device), std::string::npos);
+  }
+  for (const std::vector<std::string>& command :
+       {std::vector<std::string>{"surface"}, {"export", "povray", "-o", "/nonexistent/scene"}, {"bench"}}) {
+    std::vector<std::string> required = command, gpu = command;
+    required.insert(required.end(), {kUbiquitin, "-q", "--require-gpu"});
+    gpu.insert(gpu.end(), {kUbiquitin, "-q", "--device", "gpu"});
+    EXPECT_EQ(meniscus_says(required).exit_code, meniscus_says(gpu).exit_code) << command[0];
+  }
+}
+
 TEST(Signals, TerminateEndsTheProgramAsUsual) {
   const std::string command = std::string(MENISCUS_PROGRAM) + " bench -q --runs 1000000 " + kUbiquitin +
                               " & pid=$!; sleep 0.3; kill -TERM $pid; wait $pid";
