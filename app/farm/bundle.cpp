@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Writes and reads bundle.json, and cuts the run into chunks.
+#include "app/farm/bundle.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "app/farm/checksum.h"
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/trajectory/frame_list.h"
+
+namespace meniscus::farm {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int kSchemaVersion = 1;
+constexpr std::uint64_t kMostChunks = 1000;         // Slurm's MaxArraySize is 1001 unless a site says otherwise
+constexpr std::uint64_t kMostFrames = 100'000'000;  // a manifest that asks for more is damaged
+constexpr const char* kMakers[] = {"meniscus", "povray", "blender"};
+
+std::string word_of(Maker maker) { return kMakers[static_cast<std::size_t>(maker)]; }
+
+Maker maker_of(const std::string& word) {
+  for (const Maker maker : {Maker::meniscus, Maker::povray, Maker::blender})
+    if (word == word_of(maker)) return maker;
+  throw RequestError(fmt::format("{} makes no frames", in_quotes(word)));
+}
+
+// A path that stays in the bundle.
+std::string inside(const std::string& text) {
+  const std::filesystem::path path(text);
+  const bool leaves = path.is_absolute() || std::ranges::find(path, "..") != path.end();
+  if (text.empty() || leaves) throw RequestError(fmt::format("{} is no path in the bundle", in_quotes(text)));
+  return text;
+}
+
+// What decides how frames look.
+Json work_json(const Bundle& bundle) {
+  Json json;
+  json["schema"] = "meniscus-farm-bundle";
+  json["schema_version"] = kSchemaVersion;
+  json["program_version"] = bundle.program_version;
+  json["command"] = bundle.command;
+  json["frames"] = frame_list_text(bundle.frames);
+  json["frame_count"] = bundle.frames.size();
+  json["size"] = {bundle.width, bundle.height};
+  json["steps"] = Json::array();
+  for (const Step& step : bundle.steps) json["steps"].push_back({{"name", step.name}, {"maker", word_of(step.maker)}});
+  json["inputs"] = Json::array();
+  for (const Input& input : bundle.inputs)
+    json["inputs"].push_back({{"path", input.path}, {"bytes", input.bytes}, {"sha256", input.sha256}});
+  return json;
+}
+
+Json chunking_json(const Chunking& chunking, bool measured) {
+  Json json;
+  if (chunking.asked_frames) {
+    json["frames"] = *chunking.asked_frames;
+  } else {
+    json["minutes"] = chunking.asked_minutes;
+  }
+  if (measured && chunking.seconds_per_frame) json["seconds_per_frame"] = *chunking.seconds_per_frame;
+  if (measured) json["count"] = chunking.count;
+  return json;
+}
+
+Json whole_json(const Bundle& bundle, bool measured) {
+  Json json = work_json(bundle);
+  if (bundle.film) json["film"] = {{"file", bundle.film->file}, {"frames_per_second", bundle.film->frames_per_second}};
+  json["chunks"] = chunking_json(bundle.chunking, measured);
+  return json;
+}
+
+Chunking read_chunking(const Json& json) {
+  Chunking chunking;
+  if (json.contains("frames")) chunking.asked_frames = json.at("frames").get<std::uint64_t>();
+  if (json.contains("minutes")) chunking.asked_minutes = json.at("minutes").get<double>();
+  if (json.contains("seconds_per_frame")) chunking.seconds_per_frame = json.at("seconds_per_frame").get<double>();
+  chunking.count = json.at("count").get<std::uint64_t>();
+  return chunking;
+}
+
+Bundle from_json(const Json& json) {
+  if (json.at("schema") != "meniscus-farm-bundle") throw RequestError("is no bundle of a farm");
+  if (json.at("schema_version") != kSchemaVersion)
+    throw RequestError(fmt::format("has schema version {}; this program reads {}: use the program of version {}",
+                                   json.at("schema_version").dump(), kSchemaVersion,
+                                   in_quotes(json.value("program_version", "?"))));
+  Bundle bundle;
+  bundle.program_version = json.at("program_version").get<std::string>();
+  bundle.command = json.at("command").get<std::vector<std::string>>();
+  if (bundle.command.size() < 2) throw RequestError("has no command");
+  bundle.frames = parse_frame_list("frames", json.at("frames").get<std::string>(), kMostFrames);
+  bundle.width = json.at("size").at(0).get<int>();
+  bundle.height = json.at("size").at(1).get<int>();
+  for (const Json& step : json.at("steps"))
+    bundle.steps.push_back({inside(step.at("name").get<std::string>()), maker_of(step.at("maker").get<std::string>())});
+  for (const Json& input : json.at("inputs"))
+    bundle.inputs.push_back({inside(input.at("path").get<std::string>()), input.at("bytes").get<std::uint64_t>(),
+                             input.at("sha256").get<std::string>()});
+  if (json.contains("film"))
+    bundle.film = Film{inside(json.at("film").at("file").get<std::string>()),
+                       json.at("film").at("frames_per_second").get<double>()};
+  bundle.chunking = read_chunking(json.at("chunks"));
+  return bundle;
+}
+
+}  // namespace
+
+void Chunking::decide(std::uint64_t frame_count) {
+  double frames = 10.0;
+  if (asked_frames) frames = static_cast<double>(*asked_frames);
+  if (!asked_frames && seconds_per_frame) frames = std::floor(60.0 * asked_minutes / *seconds_per_frame);
+  const double tasks = std::ceil(static_cast<double>(frame_count) / std::max(frames, 1.0));
+  count = std::clamp<std::uint64_t>(static_cast<std::uint64_t>(tasks), 1, std::min(kMostChunks, frame_count));
+}
+
+std::string Bundle::fingerprint() const { return sha256(work_json(*this).dump()); }
+
+std::size_t Bundle::place_of(std::uint64_t frame) const {
+  const auto found = std::ranges::find(frames, frame);
+  if (found == frames.end())
+    throw RequestError(fmt::format("frame {} is not in this bundle; it has {}", frame, frame_list_text(frames)));
+  return static_cast<std::size_t>(found - frames.begin());
+}
+
+const Step* Bundle::step(const std::string& name) const {
+  const auto found = std::ranges::find(steps, name, &Step::name);
+  return found == steps.end() ? nullptr : &*found;
+}
+
+std::vector<std::uint64_t> chunk_of(const Bundle& bundle, std::uint64_t k, std::uint64_t n) {
+  const std::uint64_t count = bundle.frames.size();
+  // First of chunk k without a product that could overflow: the first `count % n` chunks have one frame more.
+  const auto first = [&](std::uint64_t before) {
+    return static_cast<std::ptrdiff_t>(before * (count / n) + std::min(before, count % n));
+  };
+  return {bundle.frames.begin() + first(k - 1), bundle.frames.begin() + first(k)};
+}
+
+std::string frame_digits(std::uint64_t frame) { return fmt::format("{:05}", frame); }
+
+std::string bundle_json(const Bundle& bundle) { return whole_json(bundle, true).dump(2, ' ', true) + "\n"; }
+
+Bundle read_bundle(const std::filesystem::path& folder) {
+  const std::string path = (folder / "bundle.json").string();
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw InputError(path, 0, "cannot be opened; meniscus farm bundle makes it");
+  const std::string text(std::istreambuf_iterator<char>(file), {});
+  try {
+    return from_json(Json::parse(text));
+  } catch (const nlohmann::json::exception& error) {
+    throw InputError(path, 0, fmt::format("is damaged: {}", error.what()));
+  } catch (const RequestError& error) {
+    throw InputError(path, 0, error.what());
+  }
+}
+
+bool same_but_for_measurement(const Bundle& a, const Bundle& b) { return whole_json(a, false) == whole_json(b, false); }
+
+}  // namespace meniscus::farm

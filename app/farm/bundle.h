@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A run of frames as a folder that any machine can work on: what bundle.json says.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace meniscus::farm {
+
+/// What makes the frames of a step.
+enum class Maker {
+  meniscus,  ///< this program: pictures, scenes, geometry
+  povray,    ///< one process a frame
+  blender    ///< one process for many frames
+};
+
+/// One kind of work on every frame. A frame of a step needs the same frame of the step before, nothing else.
+struct Step {
+  std::string name;  ///< "surface", "render"
+  Maker maker = Maker::meniscus;
+};
+
+/// A file the command reads, copied into the bundle.
+struct Input {
+  std::string path;  ///< relative to the bundle
+  std::uint64_t bytes = 0;
+  std::string sha256;
+};
+
+/// The film that `farm verify` makes of the pictures.
+struct Film {
+  std::string file;  ///< plain name, in the bundle
+  double frames_per_second = 25.0;
+};
+
+/// How the run is cut into tasks: as asked for, and as decided.
+struct Chunking {
+  std::optional<std::uint64_t> asked_frames;  ///< a task; else by time
+  double asked_minutes = 5.0;                 ///< a task
+  std::optional<double> seconds_per_frame;    ///< of the slowest step, measured when the bundle was made
+  std::uint64_t count = 1;                    ///< tasks of each step
+
+  /// Decides `count` for so many frames: at least 1, at most 1000, for queues take arrays of 1000 by default.
+  void decide(std::uint64_t frame_count);
+};
+
+/// Everything a worker needs to know. Nothing in it depends on time, machine or user, but seconds_per_frame and what
+/// follows of it.
+struct Bundle {
+  std::string program_version;
+  std::vector<std::string> command;    ///< of the program, as {"render", "inputs/a.pdb", ...}; paths are relative
+  std::vector<std::uint64_t> frames;   ///< of the run, by their numbers in the trajectory
+  std::vector<Step> steps;             ///< in order
+  std::vector<Input> inputs;
+  int width = 0, height = 0;           ///< of the pictures, in pixels
+  std::optional<Film> film;
+  Chunking chunking;
+
+  /// Of what decides how a frame looks. Work done for another bundle never counts for this one.
+  std::string fingerprint() const;
+  /// Place of a frame in the run, from 0. Throws RequestError if it is not in it.
+  std::size_t place_of(std::uint64_t frame) const;
+  const Step* step(const std::string& name) const;  ///< nullptr: there is none
+};
+
+/// Part K of N of the run, K from 1: frames that follow each other in it, sizes differing by one at most.
+std::vector<std::uint64_t> chunk_of(const Bundle& bundle, std::uint64_t k, std::uint64_t n);
+
+/// "00042": as frames are numbered in names of files.
+std::string frame_digits(std::uint64_t frame);
+
+/// The text of bundle.json, with a line end.
+std::string bundle_json(const Bundle& bundle);
+
+/// Reads DIR/bundle.json. Throws InputError: missing, damaged, of another schema.
+Bundle read_bundle(const std::filesystem::path& folder);
+
+/// Whether both are the same but for what was measured.
+bool same_but_for_measurement(const Bundle& a, const Bundle& b);
+
+}  // namespace meniscus::farm

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Forks and executes with care for signals, descriptors and orphans.
+#include "app/farm/child_process.h"
+
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstring>
+#include <mutex>
+#include <set>
+#include <thread>
+#include <utility>
+
+#include <fcntl.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+
+namespace meniscus::farm {
+namespace {
+
+constexpr std::size_t kLongestLine = 1 << 16;
+
+/// Processes started and not yet waited for.
+struct Registry {
+  std::mutex mutex;
+  std::set<pid_t> running;
+  bool closed = false;
+};
+
+Registry& registry() {
+  static Registry instance;
+  return instance;
+}
+
+// Between fork and exec: nothing but calls that are safe there, for other threads may hold any lock.
+[[noreturn]] void become(char* const* argv, const char* folder, int output, int report, pid_t parent) {
+  sigset_t none;
+  sigemptyset(&none);
+  sigprocmask(SIG_SETMASK, &none, nullptr);
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  const int nothing = ::open("/dev/null", O_RDONLY);
+  // The parent may have died before the request above.
+  if (::getppid() == parent && nothing >= 0 && ::dup2(nothing, STDIN_FILENO) >= 0 &&
+      ::dup2(output, STDOUT_FILENO) >= 0 && ::dup2(output, STDERR_FILENO) >= 0 && ::chdir(folder) == 0)
+    ::execvp(argv[0], argv);
+  const int error = errno;
+  [[maybe_unused]] const ssize_t written = ::write(report, &error, sizeof error);
+  ::_exit(127);
+}
+
+struct Pipe {
+  Pipe() {
+    if (::pipe2(ends, O_CLOEXEC) != 0) throw CapacityError(fmt::format("no pipe to a child: {}", std::strerror(errno)));
+  }
+  ~Pipe() {
+    for (const int end : ends)
+      if (end >= 0) ::close(end);
+  }
+  void close_writing() { ::close(std::exchange(ends[1], -1)); }
+  int ends[2] = {-1, -1};
+};
+
+}  // namespace
+
+ChildProcess::ChildProcess(const std::vector<std::string>& arguments, const std::filesystem::path& folder) {
+  std::vector<char*> argv;
+  for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
+  argv.push_back(nullptr);
+  Pipe output, report;
+  {
+    // A stop waits for the start to be whole, so that no child escapes it; afterwards there is none.
+    const std::lock_guard lock(registry().mutex);
+    while (registry().closed) std::this_thread::sleep_for(std::chrono::hours(1));
+    const pid_t parent = ::getpid();
+    pid_ = ::fork();
+    if (pid_ == 0) become(argv.data(), folder.c_str(), output.ends[1], report.ends[1], parent);
+    if (pid_ < 0) throw CapacityError(fmt::format("{} cannot be started: {}", arguments[0], std::strerror(errno)));
+    registry().running.insert(pid_);
+  }
+  output.close_writing();
+  report.close_writing();
+  int error = 0;
+  if (::read(report.ends[0], &error, sizeof error) == sizeof error) {
+    wait();
+    throw InputError(arguments[0], 0,
+                     fmt::format("cannot be started: {}; is it installed, and in PATH?", std::strerror(error)));
+  }
+  output_ = std::exchange(output.ends[0], -1);
+}
+
+ChildProcess::~ChildProcess() {
+  if (pid_ > 0) {
+    ::kill(pid_, SIGKILL);
+    wait();
+  }
+  if (output_ >= 0) ::close(output_);
+}
+
+std::optional<std::string> ChildProcess::next_line() {
+  while (true) {
+    const std::size_t end = pending_.find('\n');
+    if (end != std::string::npos) {
+      std::string line = pending_.substr(0, end);
+      pending_.erase(0, end + 1);
+      return line;
+    }
+    if (pending_.size() >= kLongestLine) return std::exchange(pending_, {});
+    char part[4096];
+    const ssize_t count = ::read(output_, part, sizeof part);
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) break;
+    pending_.append(part, static_cast<std::size_t>(count));
+  }
+  if (pending_.empty()) return {};
+  return std::exchange(pending_, {});
+}
+
+int ChildProcess::wait() {
+  siginfo_t ended{};
+  while (::waitid(P_PID, static_cast<id_t>(pid_), &ended, WEXITED | WNOWAIT) < 0 && errno == EINTR) {
+  }
+  // Its number is given back under the lock, lest a stop kills another process that got it meanwhile.
+  const std::lock_guard lock(registry().mutex);
+  int status = 0;
+  ::waitpid(pid_, &status, 0);
+  registry().running.erase(std::exchange(pid_, -1));
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+void stop_children() {
+  std::set<pid_t> children;
+  {
+    const std::lock_guard lock(registry().mutex);
+    registry().closed = true;
+    children = registry().running;
+    for (const pid_t child : children) ::kill(child, SIGTERM);
+  }
+  const auto alive = [](pid_t child) {
+    siginfo_t ended{};
+    return ::waitid(P_PID, static_cast<id_t>(child), &ended, WEXITED | WNOHANG | WNOWAIT) == 0 && ended.si_pid == 0;
+  };
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(2);
+  for (const pid_t child : children) {
+    while (alive(child) && std::chrono::steady_clock::now() < deadline)
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    if (alive(child)) ::kill(child, SIGKILL);
+  }
+}
+
+}  // namespace meniscus::farm

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A program that works for this one: started without a shell, read line by line, and gone when this one is gone.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <sys/types.h>
+
+namespace meniscus::farm {
+
+/// One child. Made and used by the main thread, since the kernel ends a child when the *thread* that started it ends;
+/// even kill -9 of this process leaves none behind.
+class ChildProcess {
+ public:
+  /// arguments[0] is the program, looked for in PATH unless it has a slash; it runs in `folder`, with an empty standard
+  /// input and no signal blocked. Throws InputError if it cannot be started.
+  ChildProcess(const std::vector<std::string>& arguments, const std::filesystem::path& folder);
+  ~ChildProcess();
+  ChildProcess(const ChildProcess&) = delete;
+  ChildProcess& operator=(const ChildProcess&) = delete;
+
+  /// The next line it writes, to standard output or error; nothing at their end. A line without
+  /// end comes in pieces of 64 KiB.
+  std::optional<std::string> next_line();
+
+  /// Waits for its end, once: its exit code, or 128 + the signal that ended it.
+  int wait();
+
+ private:
+  int output_ = -1;
+  pid_t pid_ = -1;
+  std::string pending_;
+};
+
+/// Ends all children, at once with SIGTERM and after two seconds with SIGKILL, and lets none be started from then on.
+/// For the thread that ends the program; the main thread may be anywhere.
+void stop_children();
+
+}  // namespace meniscus::farm

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What became of one frame in one step: a small file in state/STEP/, the farm's only memory.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/farm/bundle.h"
+
+namespace meniscus::farm {
+
+/// A file that a frame consists of.
+struct MadeFile {
+  std::string path;  ///< relative to the bundle
+  std::uint64_t bytes = 0;
+  std::string sha256;
+};
+
+/// A frame that was made, or that failed.
+struct FrameRecord {
+  std::uint64_t frame = 0;
+  int exit_code = 0;            ///< 0: made
+  std::string error;            ///< of a frame that failed: one line
+  std::vector<MadeFile> files;  ///< of a frame that was made
+  double seconds = 0.0;         ///< that it took
+
+  bool done() const { return exit_code == 0; }
+};
+
+/// The records of one bundle. Records of another bundle, damaged ones, and none at all are the same: nothing.
+class FrameRecords {
+ public:
+  FrameRecords(std::filesystem::path folder, const Bundle& bundle);
+
+  std::optional<FrameRecord> read(const std::string& step, std::uint64_t frame) const;
+  /// Whole or not at all. Throws OutputError.
+  void write(const std::string& step, const FrameRecord& record) const;
+
+  /// The frame as it lies in the bundle: paths (relative) with sizes and checksums. Throws InputError.
+  FrameRecord measured(std::uint64_t frame, const std::vector<std::string>& paths, double seconds) const;
+  /// What is wrong with the files of a frame that was made: "" or "images/frame_00042.png: is missing".
+  std::string fault(const FrameRecord& record) const;
+
+ private:
+  std::filesystem::path path_of(const std::string& step, std::uint64_t frame) const;
+
+  std::filesystem::path folder_;
+  std::string fingerprint_;
+};
+
+}  // namespace meniscus::farm

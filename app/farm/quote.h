@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Texts as one word of the languages that farms are described in.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace meniscus::farm {
+
+/// One word of a POSIX shell.
+std::string shell_word(std::string_view text);
+
+/// Character data or an attribute's value in XML.
+std::string xml_text(std::string_view text);
+
+/// A string literal of JSON, and of JavaScript of any edition: ASCII only.
+std::string json_text(std::string_view text);
+
+/// Throws RequestError, which begins with `what`, for a path with control characters or that is no UTF-8: there are
+/// engines that cannot be told of it.
+void refuse_unspeakable(const std::string& what, std::string_view path);
+
+}  // namespace meniscus::farm
