@@ -1,20 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The program `meniscus`: a table of commands, and the one place where errors become a line and an exit code.
-#include <csignal>
 #include <iostream>
 #include <new>
 #include <sstream>
-#include <sstream>
-#include <thread>
-
-#include <pthread.h>
-#include <unistd.h>
 
 #include <fmt/format.h>
 
 #include "app/commands.h"
 #include "app/program_error.h"
-#include "core/base/output_file.h"
+#include "app/stop_signals.h"
 #include "core/base/text.h"
 
 namespace meniscus {
@@ -23,7 +17,8 @@ namespace {
 constexpr Command kCommands[] = {
     {"surface", add_surface}, {"render", add_render}, {"preview", add_preview},
     {"export", add_export},   {"info", add_info},     {"formats", add_formats},
-    {"colors", add_colors},   {"bench", add_bench},   {"help", add_help},
+    {"colors", add_colors},   {"bench", add_bench},
+      {"help", add_help},
 };
 
 constexpr const char* kExamples = R"(  meniscus info 1tii.pdb                          what the file holds
@@ -70,21 +65,6 @@ class ManualFormatter : public CLI::Formatter {
     return (type.empty() ? "" : " " + type) + (option->get_required() ? " (required)" : "");
   }
 };
-
-/// Ctrl-C or a queue's SIGTERM removes unfinished files before the program ends, as the signal would have ended it.
-void clean_up_on_signals() {
-  sigset_t signals;
-  sigemptyset(&signals);
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&signals, signal);
-  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
-  std::thread([signals] {
-    int signal = 0;
-    while (sigwait(&signals, &signal) != 0) {
-    }
-    remove_unfinished_outputs();
-    ::_exit(128 + signal);
-  }).detach();
-}
 
 int report(ExitCode code, const std::string& message) {
   std::cerr << "meniscus: error: " << escaped(message) << std::endl;

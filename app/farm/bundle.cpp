@@ -52,7 +52,8 @@ Json work_json(const Bundle& bundle) {
   json["frame_count"] = bundle.frames.size();
   json["size"] = {bundle.width, bundle.height};
   json["steps"] = Json::array();
-  for (const Step& step : bundle.steps) json["steps"].push_back({{"name", step.name}, {"maker", word_of(step.maker)}});
+  for (const Step& step : bundle.steps)
+    json["steps"].push_back({{"name", step.name}, {"maker", word_of(step.maker)}, {"arguments", step.arguments}});
   json["inputs"] = Json::array();
   for (const Input& input : bundle.inputs)
     json["inputs"].push_back({{"path", input.path}, {"bytes", input.bytes}, {"sha256", input.sha256}});
@@ -101,7 +102,8 @@ Bundle from_json(const Json& json) {
   bundle.width = json.at("size").at(0).get<int>();
   bundle.height = json.at("size").at(1).get<int>();
   for (const Json& step : json.at("steps"))
-    bundle.steps.push_back({inside(step.at("name").get<std::string>()), maker_of(step.at("maker").get<std::string>())});
+    bundle.steps.push_back({inside(step.at("name").get<std::string>()), maker_of(step.at("maker").get<std::string>()),
+                            step.at("arguments").get<std::vector<std::string>>()});
   for (const Json& input : json.at("inputs"))
     bundle.inputs.push_back({inside(input.at("path").get<std::string>()), input.at("bytes").get<std::uint64_t>(),
                              input.at("sha256").get<std::string>()});

@@ -21,6 +21,7 @@ enum class Maker {
 struct Step {
   std::string name;  ///< "surface", "render"
   Maker maker = Maker::meniscus;
+  std::vector<std::string> arguments;  ///< more of them: devices of this program, POV-Ray's, those of Blender's driver
 };
 
 /// A file the command reads, copied into the bundle.

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Names, measures and copies the inputs of a bundle.
+#include "app/farm/bundle_inputs.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "app/farm/checksum.h"
+#include "core/base/error.h"
+#include "core/base/output_file.h"
+
+namespace meniscus::farm {
+namespace {
+
+namespace fs = std::filesystem;
+
+// The end of a name tells its format, so it is kept; a leading dot or dash would hide or mislead.
+std::string plain(std::string name) {
+  const auto fine = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.' || c == '_' ||
+           c == '-';
+  };
+  std::ranges::replace_if(name, [&](char c) { return !fine(c); }, '_');
+  if (name.starts_with('.') || name.starts_with('-')) name.front() = '_';
+  constexpr std::size_t kLongest = 100;
+  return name.size() > kLongest ? name.substr(name.size() - kLongest) : name;
+}
+
+}  // namespace
+
+std::string BundleInputs::add_file(const fs::path& source) {
+  std::error_code error;
+  const fs::path path = fs::canonical(source, error);
+  if (error) throw InputError(source.string(), 0, fmt::format("cannot be bundled: {}", error.message()));
+  if (!fs::is_regular_file(path)) throw InputError(source.string(), 0, "is no regular file and cannot be bundled");
+  for (const Item& item : items_)
+    if (item.source == path) return item.inside;
+  items_.push_back({"inputs/" + unique(plain(source.filename().string())), path, {}});
+  return items_.back().inside;
+}
+
+std::string BundleInputs::unique(const std::string& name) {
+  std::string result = name;
+  for (int n = 2; !names_.insert(result).second; ++n) result = fmt::format("{}_{}", n, name);
+  return result;
+}
+
+std::string BundleInputs::add_file_as(const std::string& name, const fs::path& source) {
+  names_.insert(name);
+  items_.push_back({"inputs/" + name, fs::absolute(source), {}});
+  return items_.back().inside;
+}
+
+std::string BundleInputs::add_text(const std::string& name, std::string text) {
+  items_.push_back({"inputs/" + unique(name), {}, std::move(text)});
+  return items_.back().inside;
+}
+
+std::vector<Input> BundleInputs::measured() const {
+  std::vector<Input> inputs;
+  for (const Item& item : items_) {
+    if (item.source.empty()) {
+      inputs.push_back({item.inside, item.text.size(), sha256(item.text)});
+    } else {
+      const std::string sum = sha256_of_file(item.source);
+      inputs.push_back({item.inside, fs::file_size(item.source), sum});
+    }
+  }
+  return inputs;
+}
+
+void BundleInputs::bring(const fs::path& folder, Bring how) const {
+  for (const Item& item : items_) {
+    const fs::path target = folder / item.inside;
+    std::error_code error;
+    fs::create_directories(target.parent_path(), error);
+    if (item.source.empty()) {
+      OutputFile file(target, Existing::refuse);
+      file.write(item.text);
+      file.commit();
+    } else if (how == Bring::link) {
+      fs::create_hard_link(item.source, target, error);
+      if (error)
+        throw OutputError(target.string(), fmt::format("cannot be a link to {}: {}; leave --link out to copy",
+                                                       item.source.string(), error.message()));
+    } else if (!fs::copy_file(item.source, target, error)) {
+      throw OutputError(target.string(), fmt::format("cannot be copied: {}", error.message()));
+    }
+  }
+}
+
+}  // namespace meniscus::farm

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The table of engines, and what emitters share.
+#include "app/farm/emit.h"
+
+#include <algorithm>
+
+namespace meniscus::farm {
+
+const std::vector<Engine>& engines() {
+  static const std::vector<Engine> table{
+      {"make", emit_make, nullptr, "make -C {} -j2"},
+      {"slurm", emit_slurm, nullptr, "{}/submit.sh"},
+      {"openjd", emit_openjd, nullptr, "deadline bundle submit {}, or openjd run {}/template.json"},
+      {"flamenco", emit_flamenco, nullptr, "copy {}/meniscus_film.js to the manager's scripts folder"},
+      {"opencue", emit_opencue, "its commands have no working directory", "launch {}/opencue.xml, by pycue's launchSpec"},
+  };
+  return table;
+}
+
+bool needs_gpu(const Step& step) {
+  return step.maker == Maker::meniscus && std::ranges::find(step.arguments, "--require-gpu") != step.arguments.end();
+}
+
+std::string filled(std::string_view text, const std::vector<Filling>& fillings) {
+  std::string result;
+  while (true) {
+    const std::size_t begin = text.find('@');
+    result.append(text.substr(0, begin));
+    if (begin == std::string_view::npos) return result;
+    text.remove_prefix(begin);
+    const auto filling = std::ranges::find_if(
+        fillings, [&](const Filling& f) { return text.starts_with("@" + f.name + "@"); });
+    const bool is_mark = filling != fillings.end();
+    result.append(is_mark ? filling->text : "@");
+    text.remove_prefix(is_mark ? filling->name.size() + 2 : 1);
+  }
+}
+
+}  // namespace meniscus::farm

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A Makefile, for one machine without any queue: make is the engine.
+#include <fmt/format.h>
+
+#include "app/farm/emit.h"
+
+namespace meniscus::farm {
+namespace {
+
+constexpr const char* kTemplate = R"make(# The frames of this folder on one machine: make -j2 (-k goes on with other chunks after one that failed).
+# MENISCUS is the program; THREADS, if set, what each task may use.
+MENISCUS ?= meniscus
+WORK = $(MENISCUS) work . --progress plain $(if $(THREADS),--threads $(THREADS))
+CHUNKS := @CHUNKS@
+
+all: verify
+
+@RULES@verify: $(addprefix @LAST@-,$(CHUNKS))
+	$(MENISCUS) farm verify .
+
+status:
+	$(MENISCUS) farm status .
+
+.PHONY: all verify status @PHONY@
+)make";
+
+}  // namespace
+
+std::vector<EngineFile> emit_make(const Emission& emission) {
+  const Bundle& bundle = emission.bundle;
+  std::string chunks, rules, phony, before;
+  for (std::uint64_t k = 1; k <= bundle.chunking.count; ++k) chunks += fmt::format("{}{}", k == 1 ? "" : " ", k);
+  for (const Step& step : bundle.steps) {
+    const std::string all = fmt::format("$(addprefix {}-,$(CHUNKS))", step.name);
+    phony += (phony.empty() ? "" : " ") + all;
+    rules += fmt::format("{}: {}-%:{}\n\t$(WORK) --step {} --chunk $*/{}\n\n", all, step.name,
+                         before.empty() ? "" : " " + before + "-%", step.name, bundle.chunking.count);
+    before = step.name;
+  }
+  const std::string text =
+      filled(kTemplate, {{"CHUNKS", chunks}, {"RULES", rules}, {"LAST", before}, {"PHONY", phony}});
+  return {{"Makefile", text, false}};
+}
+
+}  // namespace meniscus::farm

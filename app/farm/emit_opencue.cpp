@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A job specification of OpenCue, after its DTD cjsl 1.15.
+#include <fmt/format.h>
+
+#include "app/farm/emit.h"
+#include "app/farm/quote.h"
+#include "core/base/error.h"
+#include "core/base/text.h"
+
+namespace meniscus::farm {
+namespace {
+
+constexpr const char* kTemplate = R"xml(<?xml version="1.0"?>
+<!DOCTYPE spec PUBLIC "SPI Cue Specification Language" "http://localhost:8080/spcue/dtd/cjsl-1.15.dtd">
+<!-- Show, shot and user are the site's: change them before launching. The frames of a layer are chunks of the run. -->
+<spec>
+  <facility>local</facility>
+  <show>testing</show>
+  <shot>meniscus</shot>
+  <user>meniscus</user>
+  <uid>1000</uid>
+  <job name="frames">
+    <paused>False</paused>
+    <maxretries>2</maxretries>
+    <autoeat>False</autoeat>
+    <env/>
+    <layers>
+@LAYERS@    </layers>
+  </job>
+  <depends>
+@DEPENDS@  </depends>
+</spec>
+)xml";
+
+struct Layer {
+  std::string name, type, command, range, gpus;
+};
+
+std::string layer_xml(const Layer& layer) {
+  return fmt::format(
+      "      <layer name=\"{}\" type=\"{}\">\n        <cmd>{}</cmd>\n        <range>{}</range>\n"
+      "        <chunk>1</chunk>\n{}        <env/>\n        <services>\n          <service>shell</service>\n"
+      "        </services>\n      </layer>\n",
+      xml_text(layer.name), layer.type, xml_text(layer.command), layer.range,
+      layer.gpus.empty() ? "" : "        <gpus>" + layer.gpus + "</gpus>\n");
+}
+
+std::string depend_xml(const char* type, const std::string& layer, const std::string& on) {
+  return fmt::format(
+      "    <depend type=\"{}\" anyframe=\"False\">\n      <depjob>frames</depjob>\n      <deplayer>{}</deplayer>\n"
+      "      <onjob>frames</onjob>\n      <onlayer>{}</onlayer>\n    </depend>\n",
+      type, layer, on);
+}
+
+}  // namespace
+
+std::vector<EngineFile> emit_opencue(const Emission& emission) {
+  // Cuebot replaces #IFRAME# and the like anywhere in a command.
+  if (emission.farm_path.find('#') != std::string::npos)
+    throw RequestError(fmt::format("--farm-path {}: OpenCue reads # as the start of a token; choose another path",
+                                   in_quotes(emission.farm_path)));
+  const Bundle& bundle = emission.bundle;
+  const std::string path = shell_word(emission.farm_path), count = std::to_string(bundle.chunking.count);
+  std::string layers, depends, before;
+  for (const Step& step : bundle.steps) {
+    layers += layer_xml({step.name, "Render",
+                         fmt::format("meniscus work {} --step {} --chunk #IFRAME#/{} --progress plain", path, step.name,
+                                     count),
+                         "1-" + count, needs_gpu(step) ? "1" : ""});
+    if (!before.empty()) depends += depend_xml("FRAME_BY_FRAME", step.name, before);
+    before = step.name;
+  }
+  layers += layer_xml({"verify", "Util", fmt::format("meniscus farm verify {}", path), "1-1", ""});
+  depends += depend_xml("LAYER_ON_LAYER", "verify", before);
+  return {{"opencue.xml", filled(kTemplate, {{"LAYERS", layers}, {"DEPENDS", depends}}), false}};
+}
+
+}  // namespace meniscus::farm

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Puts a bundle together beside its final name, tries one frame, and renames it.
+#include "app/farm/make_bundle.h"
+
+#include <algorithm>
+
+#include <unistd.h>
+
+#include <fmt/format.h>
+
+#include "app/farm/child_process.h"
+#include "app/farm/frame_record.h"
+#include "app/farm/quote.h"
+#include "app/farm/worker.h"
+#include "app/farm/wrapped_command.h"
+#include "app/program_error.h"
+#include "app/run_camera.h"
+#include "app/sequence.h"
+#include "app/stop_signals.h"
+#include "core/base/output_file.h"
+#include "core/base/text.h"
+
+namespace meniscus::farm {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<Step> steps_of(const WrappedCommand& command) {
+  if (command.words.front() == "render") return {{"render", Maker::meniscus, command.device}};
+  const Maker renderer = command.words.back() == "povray" ? Maker::povray : Maker::blender;
+  return {{"surface", Maker::meniscus, command.device}, {"render", renderer, command.renderer}};
+}
+
+bool has(const WrappedCommand& command, const std::string& option) {
+  return std::ranges::any_of(command.arguments,
+                             [&](const std::string& word) { return word.substr(0, word.find('=')) == option; });
+}
+
+/// The camera that shows all of every frame, so that no worker has to read all frames for it. Nothing if the command
+/// has its own, or frames the molecule beside a legend.
+std::optional<std::string> default_camera(const WrappedCommand& command, const RunCameraOptions& motion,
+                                          Sequence& sequence) {
+  if (!command.picture.camera_file.empty() || !motion.path_file.empty() || has(command, "--legend")) return {};
+  return camera_json(run_cameras(command.picture, motion, sequence).front());
+}
+
+void add_addon(const fs::path& addon, BundleInputs& inputs) {
+  std::vector<fs::path> files;
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(addon, error))
+    if (entry.is_regular_file() && (entry.path().extension() == ".py" || entry.path().filename() == "LICENSE.txt"))
+      files.push_back(entry.path());
+  if (!fs::exists(addon / "render_mns.py"))
+    throw InputError(addon.string(), 0, "has no render_mns.py, Blender's driver; name its folder by --addon");
+  std::ranges::sort(files);
+  for (const fs::path& file : files) inputs.add_file_as("blender/" + fs::relative(file, addon).string(), file);
+}
+
+/// The arguments with paths in the bundle, and with the camera.
+std::vector<std::string> bundled_command(const WrappedCommand& command, const std::optional<std::string>& camera,
+                                         BundleInputs& inputs) {
+  std::vector<std::string> arguments = command.arguments;
+  for (const WrappedCommand::File& file : command.files)
+    arguments[file.place] = file.prefix + inputs.add_file(file.path);
+  if (camera) {
+    // The default camera's projection is in the file now, and the two options exclude each other.
+    const auto option = std::ranges::find_if(arguments, [](const auto& a) { return a.starts_with("--projection"); });
+    if (option != arguments.end()) arguments.erase(option, option + (option->find('=') == std::string::npos ? 2 : 1));
+    arguments.insert(arguments.end(), {"--camera", inputs.add_text("camera.json", *camera)});
+  }
+  std::vector<std::string> all = command.words;
+  all.insert(all.end(), arguments.begin(), arguments.end());
+  return all;
+}
+
+/// A folder under a hidden name beside its final one; it vanishes unless renamed.
+class Staging {
+ public:
+  explicit Staging(const fs::path& target)
+      : target_(target), path_(target.parent_path() / fmt::format(".{}.{}.part", target.filename().string(), ::getpid())) {
+    std::error_code error;
+    fs::create_directories(path_, error);
+    if (error) throw OutputError(target.string(), fmt::format("cannot be made: {}", error.message()));
+  }
+  ~Staging() { remove(); }
+  Staging(const Staging&) = delete;
+  Staging& operator=(const Staging&) = delete;
+
+  const fs::path& path() const { return path_; }
+  void remove() const {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  /// An older bundle under that name goes away.
+  void become_target() {
+    std::error_code error;
+    if (fs::exists(target_ / "bundle.json")) fs::remove_all(target_, error);
+    if (!error) fs::rename(path_, target_, error);
+    if (error) throw OutputError(target_.string(), fmt::format("cannot get its final name: {}", error.message()));
+  }
+
+ private:
+  fs::path target_, path_;
+};
+
+/// Makes the first frame and takes it away again: the farm's machines shall make all of them alike.
+double trial_seconds(const Bundle& bundle, const Staging& staging) {
+  const StopHandler handler(
+      [&] {
+        stop_children();
+        staging.remove();
+      },
+      std::nullopt);
+  Share share;
+  for (const Step& step : bundle.steps) share.steps.push_back(step.name);
+  share.frames = {bundle.frames.front()};
+  try {
+    work(bundle, Workplace{staging.path(), {}, 0}, share, ProgressStyle::none);
+  } catch (const RunError& error) {
+    throw RunError(error.code(), fmt::format("the trial frame: {}; with --chunk-frames N there is none", error.what()));
+  }
+  const FrameRecords records(staging.path(), bundle);
+  double slowest = 0.0;
+  for (const std::string& step : share.steps)
+    slowest = std::max(slowest, records.read(step, share.frames.front()).value().seconds);
+  for (const char* made : {"state", "images", "scene"}) fs::remove_all(staging.path() / made);
+  return std::max(slowest, 1e-3);
+}
+
+void write_engine_files(const BundleOptions& options, const Bundle& bundle, const fs::path& folder) {
+  for (const Engine& engine : options.engines) {
+    for (const EngineFile& text : engine.emit({bundle, options.farm_path})) {
+      const fs::path path = folder / text.path;
+      fs::create_directories(path.parent_path());
+      OutputFile file(path, Existing::replace);
+      file.write(text.text);
+      file.commit();
+      if (text.executable) fs::permissions(path, fs::perms::owner_exec | fs::perms::group_exec | fs::perms::others_exec,
+                                           fs::perm_options::add);
+    }
+  }
+}
+
+/// What lies at the target: nothing, or the same bundle. Throws OutputError for anything else, unless forced.
+std::optional<Bundle> same_bundle_at(const BundleOptions& options, const Bundle& bundle) {
+  std::error_code error;
+  if (!fs::exists(options.folder / "bundle.json")) {
+    if (fs::exists(options.folder) && !fs::is_empty(options.folder, error))
+      throw OutputError(options.folder.string(), "exists and is no bundle; choose another folder");
+    return {};
+  }
+  try {
+    Bundle there = read_bundle(options.folder);
+    if (same_but_for_measurement(there, bundle)) return there;
+  } catch (const InputError&) {
+    // Damaged: another bundle, then.
+  }
+  if (!options.force)
+    throw OutputError(options.folder.string(), "holds another bundle; use --force to replace it and all its frames");
+  return {};
+}
+
+Bundle described(const BundleOptions& options, BundleInputs& inputs, std::vector<std::string>& notes) {
+  WrappedCommand command;
+  parse_wrapped_command(options.command, command);
+  Sequence sequence(command.molecule, command.sequence);
+  if (!sequence.trajectory().cut_short().empty())
+    notes.push_back(sequence.trajectory().path() + ": " + sequence.trajectory().cut_short());
+  Bundle bundle;
+  bundle.program_version = MENISCUS_VERSION;
+  bundle.frames = sequence.run();
+  bundle.steps = steps_of(command);
+  bundle.width = command.picture.width;
+  bundle.height = command.picture.height;
+  bundle.film = options.film;
+  bundle.command = bundled_command(command, default_camera(command, command.camera_motion, sequence), inputs);
+  if (bundle.steps.back().maker == Maker::blender) add_addon(options.addon, inputs);
+  bundle.inputs = inputs.measured();
+  bundle.chunking = options.chunking;
+  return bundle;
+}
+
+}  // namespace
+
+MadeBundle make_bundle(const BundleOptions& given) {
+  BundleOptions options = given;
+  options.folder = fs::absolute(options.folder).lexically_normal();
+  if (!options.folder.has_filename()) options.folder = options.folder.parent_path();
+  refuse_unspeakable("bundle folder", options.folder.string());
+  refuse_unspeakable("--farm-path", options.farm_path);
+  MadeBundle made;
+  BundleInputs inputs;
+  made.bundle = described(options, inputs, made.notes);
+  if (const std::optional<Bundle> there = same_bundle_at(options, made.bundle)) {
+    made.bundle = *there;
+    made.was_there = true;
+    write_engine_files(options, made.bundle, options.folder);
+    return made;
+  }
+  Staging staging(options.folder);
+  inputs.bring(staging.path(), options.bring);
+  Chunking& chunking = made.bundle.chunking;
+  if (!chunking.asked_frames) chunking.seconds_per_frame = trial_seconds(made.bundle, staging);
+  chunking.decide(made.bundle.frames.size());
+  write_engine_files(options, made.bundle, staging.path());
+  OutputFile file(staging.path() / "bundle.json", Existing::refuse);
+  file.write(bundle_json(made.bundle));
+  file.commit();
+  staging.become_target();
+  return made;
+}
+
+}  // namespace meniscus::farm

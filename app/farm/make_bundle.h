@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Makes the folder of a bundle from a command line.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/farm/bundle_inputs.h"
+#include "app/farm/emit.h"
+
+namespace meniscus::farm {
+
+struct BundleOptions {
+  std::filesystem::path folder;
+  std::vector<std::string> command;  ///< behind --
+  std::vector<Engine> engines;
+  std::string farm_path;
+  std::optional<Film> film;
+  Chunking chunking;
+  Bring bring = Bring::copy;
+  std::filesystem::path addon;  ///< folder of render_mns.py
+  bool force = false;
+};
+
+/// What came of it.
+struct MadeBundle {
+  Bundle bundle;
+  bool was_there = false;           ///< the same bundle lay there already; only missing engine files were written
+  std::vector<std::string> notes;   ///< for people
+};
+
+/// Checks the command, decides camera and chunks (making one frame to see how long it takes, if chunks are asked for by
+/// time), and puts all of it under its name at once. Throws UsageError, InputError, OutputError (another bundle is there
+/// and `force` is not, or something that is no bundle), RunError if the trial frame fails.
+MadeBundle make_bundle(const BundleOptions& options);
+
+}  // namespace meniscus::farm

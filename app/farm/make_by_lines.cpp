@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Follows a program that makes many frames and tells each by a line of JSON.
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "app/farm/child_process.h"
+#include "app/farm/makers.h"
+#include "app/program_error.h"
+#include "core/trajectory/frame_list.h"
+
+namespace meniscus::farm {
+namespace {
+
+using nlohmann::json;
+
+constexpr int kSignalCode = 128;  // codes above: ended by a signal
+
+// A path as the bundle knows it; the program may have said it in a longer way.
+std::string relative_to(const std::filesystem::path& folder, const std::string& text) {
+  const std::filesystem::path path = std::filesystem::path(text).lexically_normal();
+  return path.is_absolute() ? path.lexically_proximate(std::filesystem::absolute(folder)).string() : path.string();
+}
+
+/// Tells the listener about the frame of this line, takes it off the list, and is true; false for any other line.
+bool take_frame(const std::string& line, const std::filesystem::path& folder, std::vector<std::uint64_t>& frames,
+                const FrameListener& listener) {
+  if (!line.starts_with('{')) return false;
+  const json event = json::parse(line, nullptr, false);
+  if (!event.is_object() || !event.contains("frame") || !event.contains("state")) return event.is_object();
+  const auto frame = event["frame"].get<std::uint64_t>();
+  if (std::erase(frames, frame) == 0) return true;
+  if (event["state"] == "done") {
+    std::vector<std::string> files;
+    for (const json& file : event.at("files")) files.push_back(relative_to(folder, file.get<std::string>()));
+    listener.done(frame, files, event.value("ms", 0.0) / 1000.0);
+  } else {
+    listener.failed(frame, event.value("exit", static_cast<int>(kExitInternal)), event.value("error", "no reason"));
+  }
+  return true;
+}
+
+}  // namespace
+
+void make_by_lines(const std::function<std::vector<std::string>(const std::vector<std::uint64_t>&)>& command_for,
+                   const std::filesystem::path& folder, std::vector<std::uint64_t> frames,
+                   const FrameListener& listener) {
+  while (!frames.empty()) {
+    ChildProcess child(command_for(frames), folder);
+    std::string last_words;
+    while (const std::optional<std::string> line = child.next_line())
+      if (!take_frame(*line, folder, frames, listener) && !line->empty()) last_words = *line;
+    const int code = child.wait();
+    if (frames.empty()) return;
+    if (code <= kSignalCode) {
+      // An orderly end before the last frame: the next process would end so, too.
+      throw RunError(code == kExitOk ? kExitInternal : static_cast<ExitCode>(code),
+                     fmt::format("frame {} and {} more were not begun: {}", frames.front(), frames.size() - 1,
+                                 last_words.empty() ? fmt::format("exit code {}", code) : last_words));
+    }
+    const std::uint64_t culprit = frames.front();
+    frames.erase(frames.begin());
+    listener.failed(culprit, kExitInternal,
+                    fmt::format("the process that made it was ended by signal {}", code - kSignalCode));
+  }
+}
+
+}  // namespace meniscus::farm

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// POV-Ray renders one frame of the scene a process, into a folder of its own; the picture gets its name when whole.
+#include <algorithm>
+#include <chrono>
+
+#include <unistd.h>
+
+#include <fmt/format.h>
+
+#include "app/farm/child_process.h"
+#include "app/farm/makers.h"
+#include "app/program_error.h"
+#include "core/base/output_file.h"
+
+namespace meniscus::farm {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kScene = "surface.ini";
+constexpr std::string_view kPrefix = ".povray_";
+
+std::string own_prefix() { return fmt::format("{}{}_", kPrefix, ::getpid()); }
+
+std::vector<std::string> povray_command(const Step& step, const Workplace& place, std::size_t scene_frame,
+                                        const std::string& output) {
+  std::vector<std::string> command{"povray"};
+  const bool chosen = std::ranges::any_of(step.arguments, [](const auto& a) { return a.starts_with(kScene); });
+  if (!chosen) command.emplace_back(kScene);
+  command.insert(command.end(), step.arguments.begin(), step.arguments.end());
+  if (place.threads > 0) command.push_back(fmt::format("+WT{}", place.threads));
+  for (const std::string& option : {fmt::format("+SF{}", scene_frame), fmt::format("+EF{}", scene_frame),
+                                    std::string("-D"), std::string("+FN"), "+O" + output})
+    command.push_back(option);
+  return command;
+}
+
+// The one picture in the folder: POV-Ray adds the scene frame to its name.
+fs::path picture_in(const fs::path& folder) {
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+    if (entry.path().extension() == ".png") return entry.path();
+  return {};
+}
+
+/// The line that says why, of all that POV-Ray says.
+class LastWords {
+ public:
+  void hear(const std::string& line) {
+    if (line.find_first_not_of(" =-\t") == std::string::npos) return;
+    const bool names_error = line.find("rror") != std::string::npos;
+    if (names_error || !named_) words_ = line.substr(line.find_first_not_of(" \t"));
+    named_ |= names_error;
+  }
+  const std::string& words() const { return words_; }
+
+ private:
+  std::string words_;
+  bool named_ = false;
+};
+
+void render(const Bundle& bundle, const Step& step, const Workplace& place, std::uint64_t frame,
+            const std::string& picture) {
+  const fs::path images = place.folder / "images";
+  const std::string name = own_prefix() + frame_digits(frame);
+  const fs::path own = images / name;
+  fs::create_directories(own);
+  LastWords last;
+  ChildProcess child(povray_command(step, place, bundle.place_of(frame) + 1, fmt::format("../images/{}/frame.png", name)),
+                     place.folder / "scene");
+  while (const std::optional<std::string> line = child.next_line()) last.hear(*line);
+  const int code = child.wait();
+  const fs::path made = picture_in(own);
+  if (code != 0 || made.empty()) {
+    fs::remove_all(own);
+    throw RunError(kExitInput, fmt::format("povray ended with code {}: {}", code, last.words()));
+  }
+  OutputFile file(place.folder / picture, Existing::replace);
+  fs::rename(made, file.temporary_path());
+  file.commit();
+  fs::remove_all(own);
+}
+
+}  // namespace
+
+void make_by_povray(const Bundle& bundle, const Step& step, const Workplace& place,
+                    const std::vector<std::uint64_t>& frames, const FrameListener& listener) {
+  for (const std::uint64_t frame : frames) {
+    const auto begin = std::chrono::steady_clock::now();
+    const std::string picture = fmt::format("images/frame_{}.png", frame_digits(frame));
+    try {
+      render(bundle, step, place, frame, picture);
+    } catch (const RunError& error) {
+      listener.failed(frame, error.code(), error.what());
+      continue;
+    }
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
+    listener.done(frame, {picture}, elapsed.count());
+  }
+}
+
+void remove_unfinished_pictures(const fs::path& folder, Leftovers which) {
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder / "images", error)) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with(which == Leftovers::own ? own_prefix() : std::string(kPrefix)))
+      fs::remove_all(entry.path(), error);
+  }
+}
+
+}  // namespace meniscus::farm

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The command line of each maker.
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "app/farm/makers.h"
+#include "core/trajectory/frame_list.h"
+
+namespace meniscus::farm {
+namespace {
+
+using Arguments = std::vector<std::string>;
+
+// This very program, whatever PATH says: the frames of a run must come from one version.
+std::string this_program() { return std::filesystem::read_symlink("/proc/self/exe").string(); }
+
+Arguments meniscus_command(const Bundle& bundle, const Step& step, const Workplace& place,
+                           const std::vector<std::uint64_t>& frames) {
+  Arguments command{this_program()};
+  command.insert(command.end(), bundle.command.begin(), bundle.command.end());
+  const Arguments& device = place.device_options.empty() ? step.arguments : place.device_options;
+  command.insert(command.end(), device.begin(), device.end());
+  const bool pictures = bundle.command.front() == "render";
+  for (const char* word : {"--force", "-q", "--progress", "json", "-o", pictures ? "images/frame_#####.png" : "scene"})
+    command.emplace_back(word);
+  command.insert(command.end(), {"--only", frame_list_text(frames)});
+  return command;
+}
+
+Arguments blender_command(const Step& step, const Workplace& place, const std::vector<std::uint64_t>& frames) {
+  Arguments command{"blender", "-b", "--factory-startup"};
+  if (place.threads > 0) command.insert(command.end(), {"-t", std::to_string(place.threads)});
+  for (const char* word : {"--python-exit-code", "3", "--python", "inputs/blender/render_mns.py", "--",
+                           "scene/surface.json", "--output", "images/frame_#####.png"})
+    command.emplace_back(word);
+  command.insert(command.end(), {"--frames", frame_list_text(frames)});
+  command.insert(command.end(), step.arguments.begin(), step.arguments.end());
+  return command;
+}
+
+}  // namespace
+
+void make_frames(const Bundle& bundle, const Step& step, const Workplace& place,
+                 const std::vector<std::uint64_t>& frames, const FrameListener& listener) {
+  if (step.maker == Maker::povray) return make_by_povray(bundle, step, place, frames, listener);
+  std::filesystem::create_directories(place.folder / "images");
+  const bool blender = step.maker == Maker::blender;
+  make_by_lines(
+      [&](const std::vector<std::uint64_t>& left) {
+        return blender ? blender_command(step, place, left) : meniscus_command(bundle, step, place, left);
+      },
+      place.folder, frames, listener);
+}
+
+}  // namespace meniscus::farm

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Counts records and writes the counts.
+#include "app/farm/status.h"
+
+#include <algorithm>
+#include <iterator>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "core/base/text.h"
+#include "core/trajectory/frame_list.h"
+
+namespace meniscus::farm {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t kFailuresShown = 5;
+
+std::string duration(double seconds) {
+  const auto whole = static_cast<std::int64_t>(seconds + 0.5);
+  if (whole < 60) return fmt::format("{} s", whole);
+  return whole < 3600 ? fmt::format("{}:{:02} min", whole / 60, whole % 60)
+                      : fmt::format("{}:{:02}:{:02} h", whole / 3600, whole / 60 % 60, whole % 60);
+}
+
+StepStatus status_of(const Step& step, const Bundle& bundle, const FrameRecords& records) {
+  StepStatus status;
+  status.step = step.name;
+  double seconds = 0.0;
+  for (const std::uint64_t frame : bundle.frames) {
+    std::optional<FrameRecord> record = records.read(step.name, frame);
+    if (!record) {
+      ++status.missing;
+    } else if (record->done()) {
+      ++status.done;
+      seconds += record->seconds;
+    } else {
+      status.failed.push_back(std::move(*record));
+    }
+  }
+  if (status.done > 0) status.seconds_per_frame = seconds / static_cast<double>(status.done);
+  const std::size_t left = status.missing + status.failed.size();
+  if (left == 0) {
+    status.seconds_left = 0.0;
+  } else if (status.seconds_per_frame) {
+    status.seconds_left = *status.seconds_per_frame * static_cast<double>(left);
+  }
+  return status;
+}
+
+}  // namespace
+
+std::vector<StepStatus> status_of(const Bundle& bundle, const std::filesystem::path& folder) {
+  const FrameRecords records(folder, bundle);
+  std::vector<StepStatus> steps;
+  for (const Step& step : bundle.steps) steps.push_back(status_of(step, bundle, records));
+  return steps;
+}
+
+std::string status_table(const Bundle& bundle, const std::vector<StepStatus>& steps) {
+  std::string text;
+  auto out = std::back_inserter(text);
+  fmt::format_to(out, "{} frames, {}; {} tasks a step\n\n{:<10} {:>9} {:>9} {:>9} {:>12} {:>12}\n",
+                 with_thousands(bundle.frames.size()), frame_list_text(bundle.frames), bundle.chunking.count, "step",
+                 "done", "failed", "missing", "s a frame", "left, alone");
+  for (const StepStatus& step : steps) {
+    fmt::format_to(out, "{:<10} {:>9} {:>9} {:>9} {:>12} {:>12}\n", step.step, with_thousands(step.done),
+                   with_thousands(step.failed.size()), with_thousands(step.missing),
+                   step.seconds_per_frame ? fmt::format("{:.2f}", *step.seconds_per_frame) : "?",
+                   step.seconds_left ? duration(*step.seconds_left) : "?");
+  }
+  for (const StepStatus& step : steps) {
+    const std::size_t shown = std::min(step.failed.size(), kFailuresShown);
+    for (std::size_t n = step.failed.size() - shown; n < step.failed.size(); ++n) {
+      fmt::format_to(out, "\n{} frame {}, exit code {}: {}", step.step, step.failed[n].frame, step.failed[n].exit_code,
+                     escaped(step.failed[n].error));
+    }
+    if (shown > 0) text += "\n";
+  }
+  return text;
+}
+
+std::string status_json(const Bundle& bundle, const std::vector<StepStatus>& steps) {
+  Json json;
+  json["schema_version"] = 1;
+  json["frames"] = bundle.frames.size();
+  json["tasks"] = bundle.chunking.count;
+  json["steps"] = Json::array();
+  for (const StepStatus& step : steps) {
+    Json failed = Json::array();
+    for (const FrameRecord& record : step.failed)
+      failed.push_back({{"frame", record.frame}, {"exit", record.exit_code}, {"error", record.error}});
+    const auto number = [](const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); };
+    json["steps"].push_back({{"name", step.step},
+                             {"done", step.done},
+                             {"missing", step.missing},
+                             {"failed", failed},
+                             {"seconds_per_frame", number(step.seconds_per_frame)},
+                             {"seconds_left", number(step.seconds_left)}});
+  }
+  return json.dump(2, ' ', true) + "\n";
+}
+
+}  // namespace meniscus::farm

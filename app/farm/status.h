@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How far a bundle is, from its records alone: no queue needs to be asked.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/farm/bundle.h"
+#include "app/farm/frame_record.h"
+
+namespace meniscus::farm {
+
+struct StepStatus {
+  std::string step;
+  std::uint64_t done = 0, missing = 0;
+  std::vector<FrameRecord> failed;          ///< in the order of the run
+  std::optional<double> seconds_per_frame;  ///< mean of those done
+  std::optional<double> seconds_left;       ///< of one worker alone, for what is missing or failed
+};
+
+/// Files are taken to be as recorded; `farm verify` looks at them.
+std::vector<StepStatus> status_of(const Bundle& bundle, const std::filesystem::path& folder);
+
+/// A table with the last failures, and the same as one JSON object.
+std::string status_table(const Bundle& bundle, const std::vector<StepStatus>& steps);
+std::string status_json(const Bundle& bundle, const std::vector<StepStatus>& steps);
+
+}  // namespace meniscus::farm

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Checks records, checksums and pixels.
+#include "app/farm/verify.h"
+
+#include <optional>
+
+#include <OpenImageIO/imagebuf.h>
+#include <OpenImageIO/imagebufalgo.h>
+#include <fmt/format.h>
+
+#include "app/farm/frame_record.h"
+#include "app/program_error.h"
+
+namespace meniscus::farm {
+namespace {
+
+std::string picture_fault(const std::filesystem::path& path, const Bundle& bundle) {
+  OIIO::ImageBuf picture(path.string());
+  if (!picture.read(0, 0, true)) return fmt::format("cannot be read as a picture: {}", picture.geterror());
+  const OIIO::ImageSpec& spec = picture.spec();
+  if (spec.width != bundle.width || spec.height != bundle.height)
+    return fmt::format("is {}x{} pixels, not {}x{}", spec.width, spec.height, bundle.width, bundle.height);
+  if (OIIO::ImageBufAlgo::isConstantColor(picture)) return "is blank: all its pixels are equal";
+  return {};
+}
+
+bool is_picture(const std::string& path) { return path.starts_with("images/"); }
+
+std::string fault_of(const FrameRecord& record, const FrameRecords& records, const Bundle& bundle,
+                     const std::filesystem::path& folder) {
+  std::string fault = records.fault(record);
+  for (const MadeFile& file : record.files) {
+    if (!fault.empty() || !is_picture(file.path)) continue;
+    const std::string wrong = picture_fault(folder / file.path, bundle);
+    if (!wrong.empty()) fault = file.path + ": " + wrong;
+  }
+  return fault;
+}
+
+}  // namespace
+
+std::vector<FrameFault> faults_of(const Bundle& bundle, const std::filesystem::path& folder) {
+  const FrameRecords records(folder, bundle);
+  std::vector<FrameFault> faults;
+  for (const Step& step : bundle.steps) {
+    for (const std::uint64_t frame : bundle.frames) {
+      const std::optional<FrameRecord> record = records.read(step.name, frame);
+      if (!record) {
+        faults.push_back({step.name, frame, kExitInput, "is not made yet"});
+      } else if (!record->done()) {
+        faults.push_back({step.name, frame, record->exit_code, "failed: " + record->error});
+      } else if (const std::string fault = fault_of(*record, records, bundle, folder); !fault.empty()) {
+        faults.push_back({step.name, frame, kExitInput, fault});
+      }
+    }
+  }
+  return faults;
+}
+
+}  // namespace meniscus::farm

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Looks at every file that a bundle's frames consist of.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "app/farm/bundle.h"
+
+namespace meniscus::farm {
+
+/// What is wrong with one frame.
+struct FrameFault {
+  std::string step;
+  std::uint64_t frame = 0;
+  int exit_code = 0;  ///< that of the frame if it failed, else kExitInput
+  std::string what;
+};
+
+/// Frames that are missing, failed, or not what was made; pictures that cannot be read, have the wrong size, or are
+/// blank: all pixels equal.
+std::vector<FrameFault> faults_of(const Bundle& bundle, const std::filesystem::path& folder);
+
+/// Makes the film of the bundle's pictures by ffmpeg: H.264, 4:2:0, the same bytes for the same pictures. Transparent
+/// pixels show black. Throws OutputError, RunError if ffmpeg fails.
+void encode_film(const Bundle& bundle, const std::filesystem::path& folder);
+
+}  // namespace meniscus::farm

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Makes what is missing of a share of a bundle: the one worker behind every engine.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "app/farm/bundle.h"
+#include "app/farm/makers.h"
+#include "app/run_progress.h"
+
+namespace meniscus::farm {
+
+/// Which part of the work is done.
+struct Share {
+  std::vector<std::string> steps;     ///< in order
+  std::vector<std::uint64_t> frames;  ///< in order
+  bool force = false;                 ///< frames that are there are made again
+};
+
+/// Sizes, and of files up to 256 MiB checksums, of the bundle's inputs; of all files if `thorough`. Throws InputError.
+void check_inputs(const Bundle& bundle, const std::filesystem::path& folder, bool thorough);
+
+/// Makes every frame of the share that has no record with good files, step by step, and writes a record of each. A frame
+/// that fails is recorded, too, and the others are made. Throws RunError with the code of the first frame that failed,
+/// whatever the step; what check_inputs and make_frames throw.
+void work(const Bundle& bundle, const Workplace& place, const Share& share, ProgressStyle progress);
+
+}  // namespace meniscus::farm

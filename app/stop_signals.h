@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What happens when the program is told to stop: by Ctrl-C, by a queue, by the end of the terminal.
+#pragma once
+
+#include <functional>
+#include <optional>
+
+namespace meniscus {
+
+/// From now on SIGINT, SIGTERM, SIGHUP and SIGUSR1 remove unfinished files before the program ends, as the signal would
+/// have ended it. Call first, before any other thread is there.
+void clean_up_on_signals();
+
+/// While this lives, these signals call `stop` first, on a thread of its own, and the program ends with `exit_code`,
+/// if there is one. One at a time.
+class StopHandler {
+ public:
+  StopHandler(std::function<void()> stop, std::optional<int> exit_code);
+  ~StopHandler();
+  StopHandler(const StopHandler&) = delete;
+  StopHandler& operator=(const StopHandler&) = delete;
+};
+
+}  // namespace meniscus
