@@ -11,6 +11,7 @@
 #include "app/farm/child_process.h"
 #include "app/farm/make_bundle.h"
 #include "app/farm/makers.h"
+#include "app/farm/quote.h"
 #include "app/farm/status.h"
 #include "app/farm/verify.h"
 #include "app/program_error.h"
@@ -73,12 +74,9 @@ void bundle(BundleCommand command) {
              with_thousands(made.bundle.frames.size()), chunking.count, chunking.count == 1 ? "task" : "tasks",
              chunking.seconds_per_frame ? fmt::format(", {:.3g} s a frame here", *chunking.seconds_per_frame) : "",
              made.was_there ? "; it was there already" : "");
-  for (const farm::Engine& engine : options.engines) {
-    std::string start = engine.start;
-    for (std::size_t at; (at = start.find("{}")) != std::string::npos;)
-      start.replace(at, 2, escaped(farm::shell_word(command.folder)));
-    fmt::print(std::cout, "  {:<9} {}\n", engine.name, start);
-  }
+  for (const farm::Engine& engine : options.engines)
+    fmt::print(std::cout, "  {:<9} {}\n", engine.name,
+               escaped(farm::filled(engine.start, {{"DIR", farm::shell_word(command.folder)}})));
 }
 
 void add_bundle(CLI::App& command) {

@@ -21,12 +21,14 @@ void add_export(CLI::App& command);
 void add_export_blender(CLI::App& command);
 void add_export_ply(CLI::App& command);
 void add_export_povray(CLI::App& command);
+void add_farm(CLI::App& command);
 void add_formats(CLI::App& command);
 void add_help(CLI::App& command);
 void add_info(CLI::App& command);
 void add_preview(CLI::App& command);
 void add_render(CLI::App& command);
 void add_surface(CLI::App& command);
+void add_work(CLI::App& command);
 
 /// Sets a command's one-line summary, its examples, which the help shows first, and what else a reader should know.
 void describe(CLI::App& command, const std::string& summary, const std::string& examples,

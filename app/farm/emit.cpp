@@ -8,11 +8,11 @@ namespace meniscus::farm {
 
 const std::vector<Engine>& engines() {
   static const std::vector<Engine> table{
-      {"make", emit_make, nullptr, "make -C {} -j2"},
-      {"slurm", emit_slurm, nullptr, "{}/submit.sh"},
-      {"openjd", emit_openjd, nullptr, "deadline bundle submit {}, or openjd run {}/template.json"},
-      {"flamenco", emit_flamenco, nullptr, "copy {}/meniscus_film.js to the manager's scripts folder"},
-      {"opencue", emit_opencue, "its commands have no working directory", "launch {}/opencue.xml, by pycue's launchSpec"},
+      {"make", emit_make, nullptr, "make -C @DIR@ -j2"},
+      {"slurm", emit_slurm, nullptr, "@DIR@/submit.sh"},
+      {"openjd", emit_openjd, nullptr, "deadline bundle submit @DIR@, or openjd run @DIR@/template.json"},
+      {"flamenco", emit_flamenco, nullptr, "copy @DIR@/meniscus_film.js to the manager's scripts folder"},
+      {"opencue", emit_opencue, "its commands have no working directory", "launch @DIR@/opencue.xml, by pycue's launchSpec"},
   };
   return table;
 }

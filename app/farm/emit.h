@@ -26,7 +26,7 @@ struct Engine {
   const char* name;
   std::vector<EngineFile> (*emit)(const Emission& emission);
   const char* needs_farm_path;  ///< nullptr, or why
-  const char* start;            ///< for people: how to start it, with {} for the bundle
+  const char* start;            ///< for people: how to start it, with @DIR@ for the bundle
 };
 
 /// make, slurm, openjd, flamenco, opencue.
