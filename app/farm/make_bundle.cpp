@@ -13,6 +13,7 @@
 #include "app/farm/quote.h"
 #include "app/farm/worker.h"
 #include "app/farm/wrapped_command.h"
+#include "app/film.h"
 #include "app/program_error.h"
 #include "app/run_camera.h"
 #include "app/sequence.h"
@@ -172,6 +173,7 @@ Bundle described(const BundleOptions& options, BundleInputs& inputs, std::vector
   bundle.steps = steps_of(command);
   bundle.width = command.picture.width;
   bundle.height = command.picture.height;
+  if (options.film) check_film_size({bundle.width, bundle.height});
   bundle.film = options.film;
   bundle.command = bundled_command(command, default_camera(command, command.camera_motion, sequence), inputs);
   if (bundle.steps.back().maker == Maker::blender) add_addon(options.addon, inputs);
