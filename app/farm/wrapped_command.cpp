@@ -64,8 +64,8 @@ void take_out_device(WrappedCommand& result) {
   result.arguments = left;
 }
 
-/// The command of this name with all its options and nothing to do.
-CLI::App& add_idle(CLI::App& program, const Words& words) {
+/// The command of this name with all its options.
+CLI::App& add_command(CLI::App& program, const Words& words) {
   const Command table[] = {
       {"render", add_render}, {"povray", add_export_povray}, {"blender", add_export_blender}};
   const auto* entry = std::ranges::find_if(table, [&](const Command& c) { return words.back() == c.name; });
@@ -73,14 +73,15 @@ CLI::App& add_idle(CLI::App& program, const Words& words) {
   if (words.size() == 2) parent = program.add_subcommand(words.front());
   CLI::App& command = *parent->add_subcommand(words.back());
   entry->add(command);
-  command.callback([] {});
   return command;
 }
 
 void check_by_own_options(WrappedCommand& result) {
   CLI::App program("", "meniscus");
   program.set_help_flag();
-  const CLI::App& command = add_idle(program, result.words);
+  // Thrown when all options are understood, before the command itself is called.
+  program.parse_complete_callback([] { throw CLI::Success(); });
+  const CLI::App& command = add_command(program, result.words);
   Words all = result.words;
   all.insert(all.end(), result.arguments.begin(), result.arguments.end());
   all.insert(all.end(), result.device.begin(), result.device.end());
@@ -88,6 +89,7 @@ void check_by_own_options(WrappedCommand& result) {
   std::reverse(all.begin(), all.end());
   try {
     program.parse(all);
+  } catch (const CLI::Success&) {
   } catch (const CLI::ParseError& error) {
     throw UsageError(fmt::format("behind --: {}", error.what()));
   }

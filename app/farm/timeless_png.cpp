@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copies a PNG file chunk by chunk.
+#include "app/farm/timeless_png.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
+#include "app/program_error.h"
+
+namespace meniscus::farm {
+namespace {
+
+constexpr std::string_view kSignature = "\x89PNG\r\n\x1a\n";
+constexpr std::array<std::string_view, 4> kDropped{"tIME", "tEXt", "zTXt", "iTXt"};
+constexpr std::size_t kFrameBytes = 12;  // of a chunk, around its data: length, type, CRC
+
+std::size_t big_endian(std::string_view bytes) {
+  std::size_t value = 0;
+  for (const char byte : bytes.substr(0, 4)) value = value << 8 | static_cast<std::uint8_t>(byte);
+  return value;
+}
+
+}  // namespace
+
+std::string timeless_png(std::string_view file) {
+  if (!file.starts_with(kSignature)) throw RunError(kExitInput, "the picture is no PNG file");
+  std::string result(kSignature);
+  file.remove_prefix(kSignature.size());
+  for (std::string_view type; type != "IEND";) {
+    const std::size_t size = file.size() < kFrameBytes ? file.size() : kFrameBytes + big_endian(file);
+    if (file.size() < kFrameBytes || file.size() < size) throw RunError(kExitInput, "the picture ends in the middle");
+    type = file.substr(4, 4);
+    if (std::ranges::find(kDropped, type) == kDropped.end()) result.append(file.substr(0, size));
+    file.remove_prefix(size);
+  }
+  return result;
+}
+
+}  // namespace meniscus::farm

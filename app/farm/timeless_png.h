@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// PNG files without what renderers write about themselves and the day.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace meniscus::farm {
+
+/// The file without its chunks of time and text (tIME, tEXt, zTXt, iTXt; PNG, W3C 2003), so that the same picture is the
+/// same file. Pixels and colour space stay as they are, to the byte. Throws RunError (kExitInput) if it is no whole PNG.
+std::string timeless_png(std::string_view file);
+
+}  // namespace meniscus::farm

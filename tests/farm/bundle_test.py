@@ -1,0 +1,109 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What farm bundle writes, and what it refuses."""
+
+import json
+import os
+import subprocess
+
+from farm_case import FarmCase, MENISCUS, UBIQUITIN, main, sample_run, sums
+
+
+class Bundle(FarmCase):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.molecule = sample_run(cls.folder / "run.pdb", 6)
+
+    def render(self, *more):
+        return ("render", self.molecule, "--frames", "all", "--size", "40x30", *more)
+
+    def files(self, folder):
+        return {str(path.relative_to(folder)): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
+
+    def test_the_same_command_makes_the_same_bytes_anywhere(self):
+        a, b = self.bundle("a", *self.render()), self.bundle("b", *self.render())
+        self.assertEqual(self.files(a), self.files(b))
+        before = self.files(a)
+        again = self.meniscus("farm", "bundle", a, "--chunk-frames", "5", "--", *self.render())
+        self.assertIn("was there already", again.stdout)
+        self.assertEqual(self.files(a), before)
+        for text in before.values():
+            for word in (str(self.folder), os.uname().nodename):
+                self.assertNotIn(word.encode(), text)
+
+    def test_the_manifest_tells_everything(self):
+        manifest = json.loads((self.bundle("manifest", *self.render("--stride", "2")) / "bundle.json").read_text())
+        self.assertEqual((manifest["schema"], manifest["schema_version"]), ("meniscus-farm-bundle", 1))
+        self.assertEqual((manifest["frames"], manifest["frame_count"], manifest["size"]), ("0-4:2", 3, [40, 30]))
+        self.assertEqual(manifest["command"][:2], ["render", "inputs/run.pdb"])
+        self.assertEqual(manifest["command"][-2:], ["--camera", "inputs/camera.json"])
+        listed = {entry["path"].split("/")[1]: entry["sha256"] for entry in manifest["inputs"]}
+        self.assertEqual(listed, sums(self.folder / "manifest" / "inputs", "*"))
+
+    def test_another_bundle_is_kept_unless_forced(self):
+        folder = self.bundle("kept", *self.render())
+        self.meniscus("work", folder, "--frames", "0", "--progress", "none")
+        refused = self.meniscus("farm", "bundle", folder, "--chunk-frames", "5", "--", *self.render("--probe", "1.2"),
+                                code=6)
+        self.assertIn("another bundle", refused.stderr)
+        self.assertTrue((folder / "images" / "frame_00000.png").exists())
+        self.meniscus("farm", "bundle", folder, "--force", "--chunk-frames", "5", "--", *self.render("--probe", "1.2"))
+        self.assertFalse((folder / "images").exists())
+        foreign = self.folder / "foreign"
+        foreign.mkdir()
+        (foreign / "thesis.tex").write_text("years")
+        self.meniscus("farm", "bundle", foreign, "--force", "--chunk-frames", "5", "--", *self.render(), code=6)
+        self.assertEqual((foreign / "thesis.tex").read_text(), "years")
+
+    def test_a_trial_frame_decides_the_chunks_and_leaves_no_trace(self):
+        folder = self.bundle("trial", *self.render(), options=("--chunk-minutes", "0.01"))
+        chunks = json.loads((folder / "bundle.json").read_text())["chunks"]
+        per_task = max(1, int(0.6 / chunks["seconds_per_frame"]))
+        self.assertEqual(chunks["count"], -(-6 // min(per_task, 6)))
+        self.assertFalse((folder / "images").exists() or (folder / "state").exists())
+        before = self.files(folder)
+        self.meniscus("farm", "bundle", folder, "--chunk-minutes", "0.01", "--", *self.render())
+        self.assertEqual(self.files(folder), before)
+
+    def test_hostile_names_become_plain_and_links_are_links(self):
+        hostile = self.folder / "a $(touch x) `b` \"c\" 'd'; é.pdb"
+        os.link(self.molecule, hostile)
+        folder = self.bundle("plain", "render", hostile, "--frames", "all", "--size", "40x30",
+                             options=("--chunk-frames", "5", "--link"))
+        names = [path.name for path in (folder / "inputs").iterdir() if path.suffix == ".pdb"]
+        self.assertRegex(names[0], r"^[A-Za-z0-9._-]+\.pdb$")
+        self.assertTrue(os.path.samefile(hostile, folder / "inputs" / names[0]))
+
+    def test_folders_with_hostile_names_work(self):
+        folder = self.bundle("it's $HOME \"quoted\" `x` é", *self.render(), options=("--chunk-frames", "3"))
+        make = subprocess.run(["make", "-C", folder, f"MENISCUS={MENISCUS}"], capture_output=True, text=True)
+        self.assertEqual(make.returncode, 0, make.stdout + make.stderr)
+        self.assertEqual(len(sums(folder / "images", "*.png")), 6)
+        refused = self.meniscus("farm", "bundle", self.folder / "two\nlines", "--", *self.render(), code=2)
+        self.assertIn("control characters", refused.stderr)
+
+    def test_what_cannot_be_bundled_is_refused_before_any_work(self):
+        cases = {
+            ("surface", UBIQUITIN): "cannot be bundled",
+            ("render",): "no FILE",
+            ("render", "-"): "right behind",
+            ("render", "--frames", "all", UBIQUITIN): "right behind",
+            ("render", UBIQUITIN, "-o", "x.png"): "decide that",
+            ("render", UBIQUITIN, "--only=3"): "decide that",
+            ("render", UBIQUITIN, "--nonsense"): "nonsense",
+            ("render", UBIQUITIN, "--probe", "-1"): "negative",
+            ("render", UBIQUITIN, "--frames", "0-9"): "asks for frame 9",
+            ("export", "ply", UBIQUITIN): "cannot be bundled",
+        }
+        for command, reason in cases.items():
+            result = self.meniscus("farm", "bundle", self.folder / "no", "--chunk-frames", "1", "--", *command, code=2)
+            self.assertIn(reason, result.stderr)
+            self.assertFalse((self.folder / "no").exists())
+        self.meniscus("farm", "bundle", self.folder / "no", "--engine", "opencue", "--", *self.render(), code=2)
+        self.meniscus("farm", "bundle", self.folder / "no", "--engine", "abacus", "--", *self.render(), code=2)
+        self.meniscus("farm", "bundle", self.folder / "no", "--", "render", self.folder / "missing.pdb", code=3)
+        self.assertEqual([path for path in self.folder.iterdir() if path.name.endswith(".part")], [])
+
+
+if __name__ == "__main__":
+    main()

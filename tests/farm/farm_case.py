@@ -1,0 +1,106 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the tests of the farm share: a made-up run of a real protein, bundles of it, and the program as users run it."""
+
+import hashlib
+import json
+import math
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+MENISCUS = os.path.abspath(sys.argv[1])
+UBIQUITIN = "/usr/share/freesasa/test-data/1ubq.pdb"
+
+
+def sample_run(path, frames, bad_frame=None, atoms=300):
+    """A PDB file of models: the first atoms of ubiquitin, breathing. A bad frame has a coordinate that is none."""
+    lines = pathlib.Path(UBIQUITIN).read_text().splitlines(keepends=True)
+    records = [line for line in lines if line.startswith("ATOM")][:atoms]
+    with open(path, "w") as out:
+        for frame in range(frames):
+            out.write(f"MODEL {frame + 1:8d}\n")
+            for n, line in enumerate(records):
+                swell = 1.0 + 0.02 * math.sin(0.7 * frame)
+                position = [swell * float(line[30 + 8 * k:38 + 8 * k]) for k in range(3)]
+                text = "".join(f"{value:8.3f}" for value in position)
+                if frame == bad_frame and n == 100:
+                    text = "     nan" + text[8:]
+                out.write(line[:30] + text + line[54:])
+            out.write("ENDMDL\n")
+    return str(path)
+
+
+def sums(folder, pattern):
+    """SHA-256 of the files that fit, by name."""
+    return {path.name: hashlib.sha256(path.read_bytes()).hexdigest() for path in sorted(folder.glob(pattern))}
+
+
+def processes_in(folder):
+    """Numbers of the processes that work in this folder."""
+    found = []
+    for entry in pathlib.Path("/proc").iterdir():
+        if not entry.name.isdigit():
+            continue
+        try:
+            if str(os.readlink(entry / "cwd")).startswith(str(folder)):
+                found.append(int(entry.name))
+        except OSError:
+            pass
+    return found
+
+
+def wait_until(condition, seconds=30.0, what="condition"):
+    """The first true value of the condition; fails when it takes too long."""
+    deadline = time.monotonic() + seconds
+    while time.monotonic() < deadline:
+        value = condition()
+        if value:
+            return value
+        time.sleep(0.02)
+    raise AssertionError(f"waited {seconds} s in vain for {what}")
+
+
+class FarmCase(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = pathlib.Path(tempfile.mkdtemp(prefix="meniscus-farm-"))
+        cls.addClassCleanup(shutil.rmtree, cls.folder, ignore_errors=True)
+
+    def meniscus(self, *arguments, code=0, **more):
+        """Runs the program and checks its exit code; what it said."""
+        result = subprocess.run([MENISCUS, *map(str, arguments)], capture_output=True, text=True, timeout=300, **more)
+        self.assertEqual(result.returncode, code, f"{arguments}\n{result.stdout}\n{result.stderr}")
+        return result
+
+    def bundle(self, name, *command, options=("--chunk-frames", "5")):
+        folder = self.folder / name
+        self.meniscus("farm", "bundle", folder, *options, "--", *command)
+        return folder
+
+    def povray_bundle(self, name, frames=8, bad_frame=None, options=("--chunk-frames", "5")):
+        molecule = self.folder / f"{frames}_{bad_frame}.pdb"
+        if not molecule.exists():
+            sample_run(molecule, frames, bad_frame)
+        return self.bundle(name, "export", "povray", molecule, "--frames", "all", "--size", "160x120", "--device",
+                           "cpu", "--", "-A", options=options)
+
+    def records(self, bundle, step):
+        """Records of frames by number."""
+        found = {}
+        for path in (bundle / "state" / step).glob("frame_*.json"):
+            record = json.loads(path.read_text())
+            found[record["frame"]] = record
+        return found
+
+    def assert_nothing_unfinished(self, bundle):
+        left = [path for path in bundle.rglob(".*") if path.name.startswith(".")]
+        self.assertEqual(left, [])
+
+
+def main():
+    unittest.main(argv=sys.argv[:1] + sys.argv[2:], verbosity=2)

@@ -1,0 +1,124 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Bundles on a real Slurm: arrays, a task killed, one preempted, requeued and resumed, and a frame that fails."""
+
+import os
+import pathlib
+import re
+import signal
+import subprocess
+import tempfile
+import shutil
+import unittest
+
+from farm_case import FarmCase, MENISCUS, main, processes_in, sums, wait_until
+from slurm_cluster import SlurmCluster, why_not
+
+FRAMES = 20
+
+
+@unittest.skipIf(why_not(), why_not())
+class Slurm(FarmCase):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        home = tempfile.mkdtemp(prefix="meniscus-slurm-")
+        cls.addClassCleanup(shutil.rmtree, home, ignore_errors=True)
+        cls.cluster = cls.enterClassContext(SlurmCluster(home))
+
+    def submit(self, folder, *options):
+        """Numbers of the jobs by step."""
+        result = self.cluster.run(folder / "submit.sh", *options, MENISCUS=MENISCUS)
+        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+        return dict(line.split() for line in result.stdout.splitlines())
+
+    def worker_of(self, folder, chunk):
+        """The process that works on this share of the render step."""
+        for number in processes_in(folder):
+            try:
+                words = pathlib.Path(f"/proc/{number}/cmdline").read_bytes().split(b"\0")
+            except OSError:
+                continue
+            if words[:2] == [MENISCUS.encode(), b"work"] and f"{chunk}/4".encode() in words and b"render" in words:
+                return number
+        return None
+
+    def state(self, job):
+        return self.cluster.job(job).get("JobState", "")
+
+    def logs(self, folder):
+        return "\n".join(f"{path.name}:\n{path.read_text()}" for path in sorted((folder / "logs").glob("*.log")))
+
+    def test_an_array_survives_a_kill_and_a_preemption(self):
+        options = ("--chunk-frames", "5", "--film", "film.mp4", "--engine", "slurm")
+        local = self.povray_bundle("local", FRAMES, options=options)
+        folder = self.povray_bundle("it's a $queue", FRAMES, options=options)
+        jobs = self.submit(folder, "--time=5")
+        render = jobs["render"]
+
+        # Task 1 is killed as a machine out of memory would; its script puts it back into the queue.
+        victim = wait_until(lambda: len(self.records(folder, "render")) > 0 and self.worker_of(folder, 1), 60,
+                            "task 1 at work")
+        os.kill(victim, signal.SIGKILL)
+        # Task 3 gets the signal that comes a minute before its time is over.
+        wait_until(lambda: any(10 <= frame < 15 for frame in self.records(folder, "render")) and
+                   self.worker_of(folder, 3), 60, "task 3 at work")
+        self.cluster.run("scancel", "--batch", "--signal=USR1", f"{render}_3")
+        for task, code in ((1, 137), (3, 9)):
+            log = folder / "logs" / f"render-{task}.log"
+            wait_until(lambda: f"stopped (code {code})" in log.read_text(), 20, f"task {task} to be put back")
+            wait_until(lambda: self.cluster.tasks(render)[task]["JobState"] == "PENDING", 20, f"task {task} to wait")
+            # A requeued task waits two minutes; not here.
+            wait_until(lambda: self.cluster.run("scontrol", "update", f"JobId={render}_{task}",
+                                                "StartTime=now").returncode == 0, 20, "an earlier start")
+        self.assertLess(len(self.records(folder, "render")), FRAMES)
+
+        wait_until(lambda: self.state(jobs["verify"]) in ("COMPLETED", "FAILED", "CANCELLED"), 90, "the last job")
+        self.assertEqual(self.state(jobs["verify"]), "COMPLETED", self.logs(folder))
+        tasks = self.cluster.tasks(render)
+        self.assertEqual({task: (tasks[task]["JobState"], int(tasks[task]["Restarts"])) for task in tasks},
+                         {1: ("COMPLETED", 1), 2: ("COMPLETED", 0), 3: ("COMPLETED", 1), 4: ("COMPLETED", 0)})
+
+        subprocess.run([MENISCUS, "work", local, "--progress", "none"], check=True)
+        self.meniscus("farm", "verify", local)
+        for place, pattern, count in (("images", "*.png", FRAMES), ("scene", "*", None), (".", "film.mp4", 1)):
+            expected = sums(local / place, pattern)
+            self.assertEqual(sums(folder / place, pattern), expected)
+            self.assertTrue(count is None or len(expected) == count)
+        self.assert_nothing_unfinished(folder)
+
+    def test_a_failing_frame_fails_its_task_with_its_own_code(self):
+        folder = self.povray_bundle("failing", 8, bad_frame=5, options=("--chunk-frames", "2", "--engine", "slurm"))
+        jobs = self.submit(folder)
+        wait_until(lambda: self.state(jobs["verify"]) == "CANCELLED", 60, "the end")
+        surface = self.cluster.tasks(jobs["surface"])
+        self.assertEqual({task: (surface[task]["JobState"], surface[task]["ExitCode"]) for task in surface},
+                         {1: ("COMPLETED", "0:0"), 2: ("COMPLETED", "0:0"), 3: ("FAILED", "3:0"),
+                          4: ("COMPLETED", "0:0")})
+        self.assertIn("frame 5", (folder / "logs" / "surface-3.log").read_text())
+        # The frames of the other tasks are there; what depends on the bad one was not begun.
+        self.assertEqual(sorted(self.records(folder, "render")), [0, 1, 2, 3, 6, 7])
+
+    def test_gpus_are_asked_for_where_the_command_needs_them(self):
+        molecule = self.folder / "8_None.pdb"
+        if not molecule.exists():
+            self.povray_bundle("unused", 8)
+        folder = self.bundle("gpu", "render", molecule, "--frames", "all", "--require-gpu",
+                             options=("--chunk-frames", "8", "--engine", "slurm"))
+        self.assertRegex((folder / "slurm" / "render.sbatch").read_text(), re.compile("^#SBATCH --gres=gpu:1$", re.M))
+        checked = self.cluster.run("sbatch", "--test-only", folder / "slurm" / "render.sbatch")
+        self.assertEqual(checked.returncode, 0, checked.stderr)
+
+    def test_arrays_beyond_the_limit_are_refused_with_a_reason(self):
+        folder = self.povray_bundle("many", 8, options=("--chunk-frames", "2", "--engine", "slurm"))
+        shim = self.folder / "shim"
+        shim.mkdir()
+        (shim / "scontrol").write_text("#!/bin/sh\necho 'MaxArraySize            = 4'\n")
+        (shim / "scontrol").chmod(0o755)
+        result = self.cluster.run(folder / "submit.sh", MENISCUS=MENISCUS,
+                                  PATH=f"{shim}:{self.cluster.environment['PATH']}")
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("larger chunks", result.stderr)
+
+
+if __name__ == "__main__":
+    main()
