@@ -150,7 +150,7 @@ void verify(const std::filesystem::path& folder) {
                                with_thousands(faults.size()),
                                with_thousands(bundle.frames.size() * bundle.steps.size())));
   }
-  farm::remove_unfinished_pictures(folder, farm::Leftovers::all);
+  farm::remove_leftovers(folder);
   if (bundle.film) farm::encode_film(bundle, folder);
   fmt::print(std::cout, "{} frames are good{}\n", with_thousands(bundle.frames.size()),
              bundle.film ? "; film: " + escaped((folder / bundle.film->file).string()) : "");

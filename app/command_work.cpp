@@ -81,7 +81,7 @@ void run(const WorkCommand& command) {
   const StopHandler handler(
       [&] {
         farm::stop_children();
-        farm::remove_unfinished_pictures(place.folder, farm::Leftovers::own);
+        farm::remove_own_pictures(place.folder);
       },
       kExitStopped);
   farm::work(bundle, place, share, command.progress);

@@ -61,6 +61,15 @@ class LastWords {
   bool named_ = false;
 };
 
+template <typename Condition>
+void remove_from(const fs::path& folder, const Condition& unwanted) {
+  std::error_code error;
+  std::vector<fs::path> found;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error))
+    if (unwanted(entry.path().filename().string())) found.push_back(entry.path());
+  for (const fs::path& path : found) fs::remove_all(path, error);
+}
+
 void render(const Bundle& bundle, const Step& step, const Workplace& place, std::uint64_t frame,
             const std::string& picture) {
   const fs::path images = place.folder / "images";
@@ -102,13 +111,16 @@ void make_by_povray(const Bundle& bundle, const Step& step, const Workplace& pla
   }
 }
 
-void remove_unfinished_pictures(const fs::path& folder, Leftovers which) {
-  std::error_code error;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder / "images", error)) {
-    const std::string name = entry.path().filename().string();
-    if (name.starts_with(which == Leftovers::own ? own_prefix() : std::string(kPrefix)))
-      fs::remove_all(entry.path(), error);
-  }
+void remove_own_pictures(const fs::path& folder) {
+  remove_from(folder / "images", [](const std::string& name) { return name.starts_with(own_prefix()); });
+}
+
+void remove_leftovers(const fs::path& folder) {
+  const auto unfinished = [](const std::string& name) {
+    return name.starts_with(kPrefix) || (name.starts_with('.') && name.find(".part") != std::string::npos);
+  };
+  for (const char* place : {".", "images", "scene", "state/surface", "state/render"})
+    remove_from(folder / place, unfinished);
 }
 
 }  // namespace meniscus::farm

@@ -43,8 +43,9 @@ void make_by_lines(const std::function<std::vector<std::string>(const std::vecto
 void make_by_povray(const Bundle& bundle, const Step& step, const Workplace& place,
                     const std::vector<std::uint64_t>& frames, const FrameListener& listener);
 
-/// Removes what POV-Ray left unfinished in images/: of this process, or (when nothing works there) of all.
-enum class Leftovers { own, all };
-void remove_unfinished_pictures(const std::filesystem::path& folder, Leftovers which);
+/// Removes POV-Ray's unfinished pictures of this process.
+void remove_own_pictures(const std::filesystem::path& folder);
+/// Removes whatever killed workers left unfinished. For a bundle that nobody works on any more.
+void remove_leftovers(const std::filesystem::path& folder);
 
 }  // namespace meniscus::farm

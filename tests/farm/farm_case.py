@@ -36,8 +36,9 @@ def sample_run(path, frames, bad_frame=None, atoms=300):
 
 
 def sums(folder, pattern):
-    """SHA-256 of the files that fit, by name."""
-    return {path.name: hashlib.sha256(path.read_bytes()).hexdigest() for path in sorted(folder.glob(pattern))}
+    """SHA-256 of the files that fit, by name; without hidden ones, which only killed workers leave."""
+    return {path.name: hashlib.sha256(path.read_bytes()).hexdigest()
+            for path in sorted(folder.glob(pattern)) if not path.name.startswith(".")}
 
 
 def processes_in(folder):
