@@ -34,8 +34,8 @@ const std::string_view kFrameTemplate =
 #declare Meniscus_Frame_Name = str(Meniscus_Trajectory_Frame[Meniscus_Frame - 1], -5, 0);
 #declare Meniscus_Geometry = concat("@NAME@_geometry_", Meniscus_Frame_Name, ".inc");
 #if (!file_exists(Meniscus_Geometry))
-  #error concat("Frame ", Meniscus_Frame_Name, " (scene frame ", str(Meniscus_Frame, 0, 0), ") is missing: there is no ",
-                Meniscus_Geometry, ". Export it, or render in the folder of the scene.\n")
+  #error concat("Frame ", Meniscus_Frame_Name, " (scene frame ", str(Meniscus_Frame, 0, 0), ") is missing: ",
+                "there is no ", Meniscus_Geometry, ". Export it, or render in the folder of the scene.\n")
 #end
 )pov";
 

@@ -184,6 +184,35 @@ class Sequence(unittest.TestCase):
             bpy.context.scene.frame_set(frame)
             np.testing.assert_allclose(shown(item), expected(frame, 0.5, False), atol=2e-4)
 
+    def test_a_streamed_file_streams_when_it_is_opened_again(self):
+        sequence.stream(MANIFEST)
+        blend = os.path.join(self.folder, "streamed.blend")
+        bpy.ops.wm.save_as_mainfile(filepath=blend)
+        bpy.ops.wm.open_mainfile(filepath=blend)
+        item = next(each for each in bpy.data.objects if each.get("meniscus_stream"))
+        np.testing.assert_allclose(shown(item), expected(1), atol=1e-5)
+        bpy.context.scene.frame_set(3)
+        np.testing.assert_allclose(shown(item), expected(3), atol=1e-5)
+
+    def test_a_camera_that_moves_stands_where_the_manifest_says(self):
+        turning = os.path.join(FOLDER, "turning", "surface_sequence.json")
+        for mode in (sequence.bake, sequence.stream):
+            bpy.ops.wm.read_factory_settings(use_empty=True)
+            mode(turning, scale=0.5)
+            manifest = sequence_reader.read(turning)
+            for place, frame in enumerate(manifest.frames, 1):
+                bpy.context.scene.frame_set(place)
+                matrix = np.array(bpy.context.scene.camera.matrix_world)
+                position, target = (np.array(frame.camera[key]) for key in ("position", "target"))
+                np.testing.assert_allclose(matrix[:3, 3], (position - manifest.origin) * 0.5, atol=1e-4)
+                forward = (target - position) / np.linalg.norm(target - position)
+                np.testing.assert_allclose(-matrix[:3, 2], forward, atol=1e-5)
+            # Between frames it takes the short way.
+            ends = [np.array(frame.camera["position"]) - manifest.origin for frame in manifest.frames[:2]]
+            bpy.context.scene.frame_set(1, subframe=0.5)
+            between = np.array(bpy.context.scene.camera.matrix_world)[:3, 3] / 0.5
+            self.assertLess(max(np.linalg.norm(between - end) for end in ends), np.linalg.norm(ends[0] - ends[1]))
+
     def test_the_handler_reads_a_frame_once_and_keeps_memory_flat(self):
         item = sequence.stream(MANIFEST)
         scene, reads = bpy.context.scene, []

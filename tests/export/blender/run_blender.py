@@ -14,6 +14,7 @@ with tempfile.TemporaryDirectory() as folder:
     for name in samples.MOLECULES:
         samples.export(program, folder, name, "--size", "160x120", "--tolerance", "0.004")
     samples.export_run(program, os.path.join(folder, "run"))
+    samples.export_run(program, os.path.join(folder, "turning"), "1-5:2", "--turntable", "0.6")
     scripts = os.path.join(folder, "scripts")
     os.makedirs(os.path.join(scripts, "addons"))
     os.symlink(os.path.join(addon, "meniscus_import"), os.path.join(scripts, "addons", "meniscus_import"))

@@ -95,6 +95,8 @@ def add_geometry_sockets(tree):
     else:
         tree.inputs.new("NodeSocketGeometry", "Geometry")
         tree.outputs.new("NodeSocketGeometry", "Geometry")
+    if hasattr(tree, "is_modifier"):  # 4.0 and later offer only such trees to modifiers
+        tree.is_modifier = True
 
 
 def frame_rate(fps):
