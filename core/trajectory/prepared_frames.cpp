@@ -76,11 +76,19 @@ void PreparedFrames::read(std::uint64_t number, Frame& frame) {
 }
 
 void PreparedFrames::read_velocities(std::uint64_t number, std::vector<glm::dvec3>& velocities) {
-  const std::uint64_t before = number == 0 ? 0 : number - 1;
-  const std::uint64_t behind = std::min(number + 1, trajectory_.frame_count() - 1);
+  // A damaged neighbour is an error of its own frame, not of this one.
+  const auto read_neighbor = [&](std::uint64_t neighbor, Frame& frame) {
+    try {
+      read(neighbor, frame);
+      return neighbor;
+    } catch (const InputError&) {
+      read(number, frame);
+      return number;
+    }
+  };
   Frame first, last;
-  read(before, first);
-  read(behind, last);
+  const std::uint64_t before = read_neighbor(number == 0 ? 0 : number - 1, first);
+  const std::uint64_t behind = read_neighbor(std::min(number + 1, trajectory_.frame_count() - 1), last);
   velocities.resize(first.positions.size());
   const double steps = std::max<double>(1.0, static_cast<double>(behind - before));
   for (std::size_t a = 0; a < velocities.size(); ++a) velocities[a] = (last.positions[a] - first.positions[a]) / steps;

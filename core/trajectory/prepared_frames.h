@@ -36,7 +36,8 @@ class PreparedFrames {
   void read(std::uint64_t number, Frame& frame);
 
   /// How the atoms move at this frame, in Å per frame of the trajectory: the central difference of the prepared frames
-  /// next to it, at the ends the difference to the one neighbour; zero where there is but one frame.
+  /// next to it, at the ends and beside a frame that cannot be read the difference to the one neighbour; zero where
+  /// there is none.
   void read_velocities(std::uint64_t number, std::vector<glm::dvec3>& velocities);
 
  private:

@@ -40,9 +40,13 @@ def export(program, folder, name, *options):
     return target
 
 
+#: Ubiquitin in solution, ten models.
+UBIQUITIN = "/usr/share/freesasa/test-data/1d3z.pdb"
+
+
 def export_run(program, target, frames="1-5:2", *options):
     """Fifteen residues of ubiquitin in solution, ten models; by default the frames 1, 3, 5, 25 a second."""
-    subprocess.run([program, "export", "blender", "/usr/share/freesasa/test-data/1d3z.pdb", "--select", "resi 1-15",
+    subprocess.run([program, "export", "blender", UBIQUITIN, "--select", "resi 1-15",
                     "--frames", frames, "--fps", "25", "-o", target, "--device", "cpu", "--color", "residue",
                     "--size", "120x90", "--tolerance", "0.05", "-q", *options], check=True, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
 

@@ -3,6 +3,7 @@
 
 import json
 import os
+import subprocess
 import sys
 import tempfile
 import unittest
@@ -81,6 +82,23 @@ class SequenceReader(unittest.TestCase):
                     np.testing.assert_allclose(surface["mesh.velocity"][vertex], wanted[index], atol=1e-5)
                     checked += 1
             self.assertGreater(checked, 500)
+
+    def test_a_damaged_frame_fails_alone(self):
+        source, model = os.path.join(self.folder.name, "damaged.pdb"), 0
+        with open(samples.UBIQUITIN, encoding="ascii") as file, open(source, "w", encoding="ascii") as target:
+            for line in file:
+                model += line.startswith("MODEL")
+                if model == 3 and line.startswith("ATOM") and line[6:11].strip() == "3":
+                    line = line[:30] + "     nan" + line[38:]
+                if model <= 4 and (line.startswith(("MODEL", "ENDMDL")) or line[:4] == "ATOM" and int(line[22:26]) < 6):
+                    target.write(line)
+        damaged = os.path.join(self.folder.name, "damaged")
+        done = subprocess.run([PROGRAM, "export", "blender", source, "--frames", "all", "-o", damaged, "--device", "cpu",
+                               "--tolerance", "0.05"], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, check=False, text=True)
+        self.assertEqual(done.returncode, 3)
+        self.assertIn("1 of 4 frames failed; the first, frame 2", done.stderr)
+        self.assertEqual(sorted(os.listdir(damaged)), ["surface_00000.mns", "surface_00001.mns", "surface_00003.mns",
+                                                       "surface_sequence.json"])
 
     def test_files_of_another_run_are_refused(self):
         finer = os.path.join(self.folder.name, "finer")
