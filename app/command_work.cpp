@@ -4,7 +4,9 @@
 #include <charconv>
 #include <cstdlib>
 #include <filesystem>
+#include <iterator>
 #include <memory>
+#include <unordered_set>
 
 #include <fmt/format.h>
 
@@ -40,10 +42,16 @@ std::vector<std::uint64_t> frames_of_chunk(const farm::Bundle& bundle, const std
   return farm::chunk_of(bundle, k, n);
 }
 
+/// Of the run those that the list has: of every tenth frame, 0-30 means four.
 std::vector<std::uint64_t> listed_frames(const farm::Bundle& bundle, const std::string& text) {
   const std::uint64_t largest = *std::ranges::max_element(bundle.frames);
-  std::vector<std::uint64_t> frames = parse_frame_list("--frames", text, largest + 1);
-  for (const std::uint64_t frame : frames) bundle.place_of(frame);
+  const std::vector<std::uint64_t> list = parse_frame_list("--frames", text, largest + 1);
+  const std::unordered_set<std::uint64_t> wanted(list.begin(), list.end());
+  std::vector<std::uint64_t> frames;
+  std::ranges::copy_if(bundle.frames, std::back_inserter(frames), [&](std::uint64_t n) { return wanted.contains(n); });
+  if (frames.empty())
+    throw UsageError(fmt::format("--frames {}: none of them is in this bundle; it has {}", in_quotes(text),
+                                 frame_list_text(bundle.frames)));
   return frames;
 }
 
