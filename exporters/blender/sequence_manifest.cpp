@@ -2,14 +2,11 @@
 // Writes the manifest, the same bytes from every share of a run.
 #include "exporters/blender/sequence_manifest.h"
 
-#include <fstream>
-#include <iterator>
-
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <zlib.h>
 
-#include "core/base/error.h"
+#include "core/base/shared_files.h"
 #include "exporters/blender/camera_object.h"
 
 namespace meniscus::blender {
@@ -22,14 +19,14 @@ ordered_json shared_by_files(const SequenceManifest& manifest) {
   ordered_json source{{"file", manifest.provenance.source}, {"radii_set", manifest.provenance.radii_set}};
   if (!manifest.trajectory.empty()) source["trajectory"] = manifest.trajectory;
   ordered_json result{{"format", "meniscus surface sequence"},
-                    {"version", 1},
-                    {"generator", "meniscus " MENISCUS_VERSION},
-                    {"source", source},
-                    {"unit", "angstrom"},
-                    {"atoms", manifest.atom_count},
-                    {"probe_radius", manifest.probe_radius},
-                    {"tolerance", manifest.tolerance},
-                    {"origin", {manifest.origin.x, manifest.origin.y, manifest.origin.z}}};
+                      {"version", 1},
+                      {"generator", "meniscus " MENISCUS_VERSION},
+                      {"source", source},
+                      {"unit", "angstrom"},
+                      {"atoms", manifest.atom_count},
+                      {"probe_radius", manifest.probe_radius},
+                      {"tolerance", manifest.tolerance},
+                      {"origin", {manifest.origin.x, manifest.origin.y, manifest.origin.z}}};
   if (!manifest.provenance.colors.empty()) result["colors"] = ordered_json::parse(manifest.provenance.colors);
   result["frames"] = ordered_json::array();
   for (const std::uint64_t frame : manifest.frames)
@@ -39,11 +36,6 @@ ordered_json shared_by_files(const SequenceManifest& manifest) {
 
 std::string text_of(const ordered_json& json) {
   return json.dump(1, ' ', true, ordered_json::error_handler_t::replace) + "\n";
-}
-
-bool holds(const std::filesystem::path& path, const std::string& text) {
-  std::ifstream file(path, std::ios::binary);
-  return file && std::string(std::istreambuf_iterator<char>(file), {}) == text;
 }
 
 }  // namespace
@@ -70,17 +62,9 @@ std::filesystem::path write_manifest(const std::filesystem::path& folder, Existi
   ordered_json frames = std::move(content["frames"]);  // the long list goes last
   content.erase("frames");
   content["frames"] = std::move(frames);
-  const std::string text = text_of(content);
-  const std::filesystem::path path = folder / "surface_sequence.json";
-  if (holds(path, text)) return path;
-  try {
-    OutputFolder output(folder, existing);
-    output.file(path.filename().string()).write(text);
-    output.commit();
-  } catch (const OutputError&) {
-    if (!holds(path, text)) throw;  // else another share was faster
-  }
-  return path;
+  const SharedFile file{"surface_sequence.json", text_of(content)};
+  write_shared_files(folder, existing, {&file, 1});
+  return folder / file.name;
 }
 
 }  // namespace meniscus::blender

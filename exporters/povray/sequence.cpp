@@ -2,9 +2,6 @@
 // Writes the shared files of a run, and the geometry of its frames.
 #include "exporters/povray/sequence.h"
 
-#include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <utility>
 
 #include <fmt/format.h>
@@ -12,6 +9,7 @@
 #include <zlib.h>
 
 #include "core/base/error.h"
+#include "core/base/shared_files.h"
 #include "exporters/povray/geometry.h"
 #include "exporters/povray/scene_files.h"
 #include "exporters/povray/scene_report.h"
@@ -47,11 +45,6 @@ std::string palette_check(std::uint32_t palette) {
   return out.text();
 }
 
-bool holds(const std::filesystem::path& path, const std::string& text) {
-  std::ifstream file(path, std::ios::binary);
-  return file && std::string(std::istreambuf_iterator<char>(file), {}) == text;
-}
-
 std::string objects_text(const Run& run, const std::string& colors) {
   nlohmann::ordered_json json{{"frames", run.frames}};
   if (!colors.empty()) json["colors"] = nlohmann::ordered_json::parse(colors);
@@ -70,23 +63,15 @@ SequenceScene::SequenceScene(Run run, SceneOptions options, std::filesystem::pat
 
 SceneReport SequenceScene::write_shared() const {
   const SceneFrames frames{run_.frames, palette_};
-  const std::pair<const char*, std::string> texts[] = {
-      {"_aov.inc", buffer_text(run_.colors.size(), {run_.low, run_.high}, origin_)},
-      {"_style.inc", style_text(run_.colors, options_)},
-      {"_objects.json", objects_text(run_, options_.colors)},
-      {".pov", main_text(run_.cameras, options_, origin_, false, &frames)},
-      {".ini", ini_text(options_, run_.frames.size())}};
+  const std::string& name = options_.name;
+  const SharedFile files[] = {{name + "_aov.inc", buffer_text(run_.colors.size(), {run_.low, run_.high}, origin_)},
+                              {name + "_style.inc", style_text(run_.colors, options_)},
+                              {name + "_objects.json", objects_text(run_, options_.colors)},
+                              {name + ".pov", main_text(run_.cameras, options_, origin_, false, &frames)},
+                              {name + ".ini", ini_text(options_, run_.frames.size())}};
+  write_shared_files(folder_, options_.existing, files);
   SceneReport report;
-  for (const auto& [ending, text] : texts) report.files.push_back(folder_ / (options_.name + ending));
-  const auto is_there = [&](const auto& file) { return holds(folder_ / (options_.name + file.first), file.second); };
-  try {
-    OutputFolder output(folder_, options_.existing);
-    for (const auto& file : texts)
-      if (!is_there(file)) output.file(options_.name + file.first).write(file.second);
-    output.commit();
-  } catch (const OutputError&) {
-    if (!std::ranges::all_of(texts, is_there)) throw;  // else another share was faster
-  }
+  for (const SharedFile& file : files) report.files.push_back(folder_ / file.name);
   report.origin = origin_;
   report.command = fmt::format("cd {} && povray {}.ini", shell_quoted(folder_.string()), options_.name);
   return report;
