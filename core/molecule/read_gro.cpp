@@ -163,6 +163,23 @@ bool recognizes(std::string_view text) {
 
 FileContents read(const TextFile& file, const ModelChoice& models) { return GroReader(file, models).run(); }
 
+bool positions(std::string_view model, std::vector<glm::dvec3>& positions) {
+  LineReader lines(model);
+  std::string_view line;
+  std::int64_t count = 0;
+  if (!lines.next(line) || !lines.next(line) || !parse_whole_number(line, count)) return false;
+  positions.clear();
+  for (std::int64_t n = 0; n < count; ++n) {
+    const std::size_t width = lines.next(line) ? coordinate_width(line) : 0;
+    std::int64_t residue = 0;
+    if (width == 0 || !parse_whole_number(line.substr(0, 5), residue)) return false;
+    glm::dvec3& position = positions.emplace_back();
+    for (int axis = 0; axis < 3; ++axis)
+      if (!parse_quickly(coordinate(line, width, axis), kAngstromPerNanometre, position[axis])) return false;
+  }
+  return lines.next(line) && is_box_line(line);
+}
+
 }  // namespace
 
 const Reader kGroReader{
@@ -170,6 +187,8 @@ const Reader kGroReader{
      "title, count, atoms in fixed columns (numbers may wrap after 99,999; any number of decimals), "
      "box; velocities are ignored; elements are guessed from the names; each frame is a model"},
     recognizes,
-    read};
+    read,
+    nullptr,
+    positions};
 
 }  // namespace meniscus

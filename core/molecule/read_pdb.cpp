@@ -186,6 +186,19 @@ bool recognizes(std::string_view text) {
 
 FileContents read(const TextFile& file, const ModelChoice& models) { return PdbReader(file, models).run(); }
 
+bool positions(std::string_view model, std::vector<glm::dvec3>& positions) {
+  LineReader lines(model);
+  positions.clear();
+  for (std::string_view line; lines.next(line);) {
+    if (!is_pdb_atom(line)) continue;
+    glm::dvec3& position = positions.emplace_back();
+    if (line.size() < kCoordinatesEnd || !parse_quickly(line.substr(30, 8), 1.0, position.x) ||
+        !parse_quickly(line.substr(38, 8), 1.0, position.y) || !parse_quickly(line.substr(46, 8), 1.0, position.z))
+      return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 const Reader kPdbReader{
@@ -196,6 +209,7 @@ const Reader kPdbReader{
      "two letters, residue names of four, segments"},
     recognizes,
     read,
-    read_pdb_assemblies};
+    read_pdb_assemblies,
+    positions};
 
 }  // namespace meniscus

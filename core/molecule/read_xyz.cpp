@@ -169,6 +169,23 @@ bool recognizes(std::string_view text) {
 
 FileContents read(const TextFile& file, const ModelChoice& models) { return XyzReader(file, models).run(); }
 
+bool positions(std::string_view model, std::vector<glm::dvec3>& positions) {
+  LineReader lines(model);
+  std::string_view line;
+  std::int64_t count = 0;
+  if (!lines.next(line) || !parse_whole_number(line, count) || !lines.next(line)) return false;
+  const Columns columns = columns_of(line);
+  if (columns.element > columns.position) return false;
+  positions.clear();
+  while (lines.next(line)) {
+    glm::dvec3& position = positions.emplace_back();
+    for (std::size_t n = 0; n < columns.position; ++n) take_field(line);
+    for (int axis = 0; axis < 3; ++axis)
+      if (!parse_quickly(take_field(line), 1.0, position[axis])) return false;
+  }
+  return positions.size() == static_cast<std::uint64_t>(count);
+}
+
 }  // namespace
 
 const Reader kXyzReader{{"XYZ", ".xyz .extxyz", "element and position, frame by frame",
@@ -176,6 +193,8 @@ const Reader kXyzReader{{"XYZ", ".xyz .extxyz", "element and position, frame by 
                          "count, comment, then element (symbol or atomic number) x y z; further columns are ignored; "
                          "Properties= of extended XYZ; exponents with D; each frame is a model"},
                         recognizes,
-                        read};
+                        read,
+                        nullptr,
+                        positions};
 
 }  // namespace meniscus

@@ -61,6 +61,12 @@ double parse_coordinate(const TextFile& file, std::size_t line, char axis, std::
   return check_extent(file, line, axis, number);
 }
 
+bool parse_quickly(std::string_view field, double unit, double& coordinate) {
+  if (!parse_number(field, coordinate)) return false;
+  coordinate *= unit;
+  return std::abs(coordinate) <= kLargestCoordinate;
+}
+
 double parse_radius(const TextFile& file, std::size_t line, std::string_view field, std::string_view columns) {
   double radius = 0.0;
   if (!parse_number(field, radius)) {

@@ -42,12 +42,15 @@ struct FileContents {
 };
 
 /// One format. `recognizes` looks at content only and may say yes to what another format reads too; `read` throws
-/// InputError with file and line. `assemblies` is null for formats that describe none.
+/// InputError with file and line. `assemblies` is null for formats that describe none. `positions`, where there is one,
+/// quickly gives the positions (Å) that `read` gives for a text of one model; false: ask `read`, which may say what is
+/// wrong.
 struct Reader {
   FormatMetadata metadata;
   bool (*recognizes)(std::string_view text);
   FileContents (*read)(const TextFile& file, const ModelChoice& models);
   std::vector<Assembly> (*assemblies)(const TextFile& file) = nullptr;
+  bool (*positions)(std::string_view model, std::vector<glm::dvec3>& positions) = nullptr;
 };
 
 extern const Reader kPdbReader;
@@ -69,6 +72,9 @@ double check_extent(const TextFile& file, std::size_t line, char axis, double co
 
 /// Parses a coordinate field; throws InputError naming file, line, axis and text unless finite and within bounds.
 double parse_coordinate(const TextFile& file, std::size_t line, char axis, std::string_view field);
+
+/// Parses a coordinate field times `unit` (Å) as parse_coordinate does; false instead of an error.
+bool parse_quickly(std::string_view field, double unit, double& coordinate);
 
 /// Parses a radius field in Å; throws InputError unless it is a number from 0 to 1,000. `columns`: what a line holds.
 double parse_radius(const TextFile& file, std::size_t line, std::string_view field, std::string_view columns);

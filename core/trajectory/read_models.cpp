@@ -75,10 +75,11 @@ class ModelsInFile final : public Trajectory {
     if (place.box != kNoBox) box = text_of(place.box, std::min(file_.size(), place.box + kBoxRecord));
     file_.check_unchanged();
     if (model.text.find('\0') != std::string::npos) throw InputError(model.path, 0, "is binary, not text");
-    const FileContents contents = reader_.read(model, ModelChoice{});
-    frame.positions.resize(contents.atoms.size());
-    std::transform(contents.atoms.begin(), contents.atoms.end(), frame.positions.begin(),
-                   [](const Atom& atom) { return atom.position; });
+    if (!reader_.positions || !reader_.positions(model.text, frame.positions)) {
+      const FileContents contents = reader_.read(model, ModelChoice{});
+      frame.positions.clear();
+      for (const Atom& atom : contents.atoms) frame.positions.push_back(atom.position);
+    }
     frame.cell = cell_of_text(reader_, model.text, box.substr(0, box.find('\n')));
     if (&reader_ != &kGroReader) return;
     frame.time = time_of_title(model.text);
