@@ -48,12 +48,14 @@ blender::SequenceManifest manifest_of(const BlenderCommand& command, Sequence& s
   return manifest;
 }
 
-// How the vertices of one object move in a frame of the scene.
+// How the vertices of one object move in a frame of the scene, while so many frames of the trajectory pass.
 std::vector<glm::dvec3> velocities_of(const SurfaceObject& object, const TriangleMesh& mesh, const SequenceFrame& frame,
                                       double frames_passed) {
   std::vector<glm::dvec3> atoms;
-  for (const std::uint32_t atom : object.atom) atoms.push_back(frame.velocities[atom] * frames_passed);
-  return vertex_velocities(object.surface, mesh, atoms);
+  for (const std::uint32_t atom : object.atom) atoms.push_back(frame.velocities[atom]);
+  std::vector<glm::dvec3> velocities = vertex_velocities(object.surface, mesh, atoms);
+  for (glm::dvec3& v : velocities) v *= frames_passed;
+  return velocities;
 }
 
 // A file for each frame of the share; the manifest for all of the run, the same from every share.
