@@ -8,6 +8,7 @@
 #include <cstring>
 #include <mutex>
 #include <set>
+#include <string_view>
 #include <thread>
 #include <utility>
 
@@ -43,7 +44,7 @@ void stay_if_stopping() {
 }
 
 // Between fork and exec: nothing but calls that are safe there, for other threads may hold any lock.
-[[noreturn]] void become(char* const* argv, const char* folder, int output, int report, pid_t parent) {
+[[noreturn]] void become(char* const* argv, char* const* environment, const char* folder, int output, int report, pid_t parent) {
   sigset_t none;
   sigemptyset(&none);
   sigprocmask(SIG_SETMASK, &none, nullptr);
@@ -52,7 +53,7 @@ void stay_if_stopping() {
   // The parent may have died before the request above.
   if (::getppid() == parent && nothing >= 0 && ::dup2(nothing, STDIN_FILENO) >= 0 &&
       ::dup2(output, STDOUT_FILENO) >= 0 && ::dup2(output, STDERR_FILENO) >= 0 && ::chdir(folder) == 0)
-    ::execvp(argv[0], argv);
+    ::execvpe(argv[0], argv, environment);
   const int error = errno;
   [[maybe_unused]] const ssize_t written = ::write(report, &error, sizeof error);
   ::_exit(127);
@@ -76,6 +77,12 @@ ChildProcess::ChildProcess(const std::vector<std::string>& arguments, const std:
   std::vector<char*> argv;
   for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
   argv.push_back(nullptr);
+  // Some, such as Blender, believe PWD rather than the system.
+  std::string working_folder = "PWD=" + std::filesystem::absolute(folder).lexically_normal().string();
+  std::vector<char*> environment{working_folder.data()};
+  for (char** variable = environ; *variable; ++variable)
+    if (!std::string_view(*variable).starts_with("PWD=")) environment.push_back(*variable);
+  environment.push_back(nullptr);
   Pipe output, report;
   {
     // A stop waits for the start to be whole, so that no child escapes it; afterwards there is none.
@@ -83,7 +90,7 @@ ChildProcess::ChildProcess(const std::vector<std::string>& arguments, const std:
     stay_if_stopping();
     const pid_t parent = ::getpid();
     pid_ = ::fork();
-    if (pid_ == 0) become(argv.data(), folder.c_str(), output.ends[1], report.ends[1], parent);
+    if (pid_ == 0) become(argv.data(), environment.data(), folder.c_str(), output.ends[1], report.ends[1], parent);
     if (pid_ < 0) throw CapacityError(fmt::format("{} cannot be started: {}", arguments[0], std::strerror(errno)));
     registry().running.insert(pid_);
   }

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/farm/child_process.h"
+#include "app/farm/last_words.h"
 #include "app/farm/makers.h"
 #include "app/program_error.h"
 #include "core/trajectory/frame_list.h"
@@ -48,16 +49,16 @@ void make_by_lines(const std::function<std::vector<std::string>(const std::vecto
                    const FrameListener& listener) {
   while (!frames.empty()) {
     ChildProcess child(command_for(frames), folder);
-    std::string last_words;
+    LastWords last;
     while (const std::optional<std::string> line = child.next_line())
-      if (!take_frame(*line, folder, frames, listener) && !line->empty()) last_words = *line;
+      if (!take_frame(*line, folder, frames, listener)) last.hear(*line);
     const int code = child.wait();
     if (frames.empty()) return;
     if (code <= kSignalCode) {
       // An orderly end before the last frame: the next process would end so, too.
       throw RunError(code == kExitOk ? kExitInternal : static_cast<ExitCode>(code),
                      fmt::format("frame {} and {} more were not begun: {}", frames.front(), frames.size() - 1,
-                                 last_words.empty() ? fmt::format("exit code {}", code) : last_words));
+                                 last.words().empty() ? fmt::format("exit code {}", code) : last.words()));
     }
     const std::uint64_t culprit = frames.front();
     frames.erase(frames.begin());

@@ -2,18 +2,16 @@
 // POV-Ray renders one frame of the scene a process, into a folder of its own; the picture gets its name when whole, without its date.
 #include <algorithm>
 #include <chrono>
-#include <fstream>
-#include <iterator>
 
 #include <unistd.h>
 
 #include <fmt/format.h>
 
 #include "app/farm/child_process.h"
+#include "app/farm/last_words.h"
 #include "app/farm/makers.h"
 #include "app/farm/timeless_png.h"
 #include "app/program_error.h"
-#include "core/base/output_file.h"
 
 namespace meniscus::farm {
 namespace {
@@ -45,22 +43,6 @@ fs::path picture_in(const fs::path& folder) {
   return {};
 }
 
-/// The line that says why, of all that POV-Ray says.
-class LastWords {
- public:
-  void hear(const std::string& line) {
-    if (line.find_first_not_of(" =-\t") == std::string::npos) return;
-    const bool names_error = line.find("rror") != std::string::npos;
-    if (names_error || !named_) words_ = line.substr(line.find_first_not_of(" \t"));
-    named_ |= names_error;
-  }
-  const std::string& words() const { return words_; }
-
- private:
-  std::string words_;
-  bool named_ = false;
-};
-
 template <typename Condition>
 void remove_from(const fs::path& folder, const Condition& unwanted) {
   std::error_code error;
@@ -86,10 +68,8 @@ void render(const Bundle& bundle, const Step& step, const Workplace& place, std:
     fs::remove_all(own);
     throw RunError(kExitInput, fmt::format("povray ended with code {}: {}", code, last.words()));
   }
-  std::ifstream written(made, std::ios::binary);
-  OutputFile file(place.folder / picture, Existing::replace);
-  file.write(timeless_png(std::string(std::istreambuf_iterator<char>(written), {})));
-  file.commit();
+  make_timeless(made);
+  fs::rename(made, place.folder / picture);
   fs::remove_all(own);
 }
 

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "app/farm/makers.h"
+#include "app/farm/timeless_png.h"
 #include "core/trajectory/frame_list.h"
 
 namespace meniscus::farm {
@@ -32,11 +33,21 @@ Arguments blender_command(const Step& step, const Workplace& place, const std::v
   Arguments command{"blender", "-b", "--factory-startup"};
   if (place.threads > 0) command.insert(command.end(), {"-t", std::to_string(place.threads)});
   for (const char* word : {"--python-exit-code", "3", "--python", "inputs/blender/render_mns.py", "--",
-                           "scene/surface.json", "--output", "images/frame_#####.png"})
+                           "scene/surface_sequence.json", "--output", "images/frame_#####.png"})
     command.emplace_back(word);
   command.insert(command.end(), {"--frames", frame_list_text(frames)});
   command.insert(command.end(), step.arguments.begin(), step.arguments.end());
   return command;
+}
+
+/// Blender writes the time into its pictures.
+FrameListener without_dates(const FrameListener& listener, const std::filesystem::path& folder) {
+  FrameListener result = listener;
+  result.done = [=](std::uint64_t frame, const std::vector<std::string>& files, double seconds) {
+    for (const std::string& file : files) make_timeless(folder / file);
+    listener.done(frame, files, seconds);
+  };
+  return result;
 }
 
 }  // namespace
@@ -50,7 +61,7 @@ void make_frames(const Bundle& bundle, const Step& step, const Workplace& place,
       [&](const std::vector<std::uint64_t>& left) {
         return blender ? blender_command(step, place, left) : meniscus_command(bundle, step, place, left);
       },
-      place.folder, frames, listener);
+      place.folder, frames, blender ? without_dates(listener, place.folder) : listener);
 }
 
 }  // namespace meniscus::farm

@@ -5,8 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <fstream>
+#include <iterator>
 
 #include "app/program_error.h"
+#include "core/base/output_file.h"
 
 namespace meniscus::farm {
 namespace {
@@ -35,6 +38,14 @@ std::string timeless_png(std::string_view file) {
     file.remove_prefix(size);
   }
   return result;
+}
+
+void make_timeless(const std::filesystem::path& path) {
+  std::ifstream written(path, std::ios::binary);
+  const std::string bytes(std::istreambuf_iterator<char>(written), {});
+  OutputFile file(path, Existing::replace);
+  file.write(timeless_png(bytes));
+  file.commit();
 }
 
 }  // namespace meniscus::farm

@@ -2,6 +2,7 @@
 // PNG files without what renderers write about themselves and the day.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <string_view>
 
@@ -10,5 +11,8 @@ namespace meniscus::farm {
 /// The file without its chunks of time and text (tIME, tEXt, zTXt, iTXt; PNG, W3C 2003), so that the same picture is the
 /// same file. Pixels and colour space stay as they are, to the byte. Throws RunError (kExitInput) if it is no whole PNG.
 std::string timeless_png(std::string_view file);
+
+/// The same done to a file where it lies, whole or not at all. Throws OutputError, too.
+void make_timeless(const std::filesystem::path& path);
 
 }  // namespace meniscus::farm

@@ -167,6 +167,26 @@ class Work(FarmCase):
         for options in (("--require-gpu", "--device", "cpu"), ("--require-gpu", "--device", "software")):
             self.assertIn("--require-gpu", self.meniscus("work", folder, "--step", "surface", *options, code=4).stderr)
 
+    def test_blender_renders_the_same_bytes_in_any_division(self):
+        molecule = sample_run(self.folder / "blender.pdb", 2, atoms=60)
+
+        def bundle(name):
+            return self.bundle(name, "export", "blender", molecule, "--frames", "all", "--size", "64x48", "--device",
+                               "cpu", "--", "--samples", "2", options=("--chunk-frames", "1", "--film", "film.mp4"))
+
+        whole, parts = bundle("blender $HOME"), bundle("blender parts")
+        self.meniscus("work", whole)
+        self.meniscus("farm", "verify", whole)
+        self.meniscus("work", parts, "--step", "surface")
+        self.meniscus("work", parts, "--step", "render", "--chunk", "2/2")
+        (parts / "scene" / "surface_00000.mns").write_bytes(b"")
+        self.assertIn("do that step first", self.meniscus("work", parts, "--step", "render", code=3).stderr)
+        self.meniscus("work", parts)
+        self.meniscus("farm", "verify", parts)
+        for place, pattern in (("images", "*.png"), (".", "film.mp4"), ("scene", "*")):
+            self.assertEqual(sums(parts / place, pattern), sums(whole / place, pattern))
+        self.assertEqual(len(sums(whole / "images", "*.png")), 2)
+
     def test_progress_styles(self):
         folder = self.povray_bundle("progress", frames=2)
         openjd = self.meniscus("work", folder, "--step", "surface", "--progress", "openjd")

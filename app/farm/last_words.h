@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Of all that a program says before it fails, the line that tells why.
+#pragma once
+
+#include <string>
+
+namespace meniscus::farm {
+
+/// The first line that speaks of an error, else the last that says anything.
+class LastWords {
+ public:
+  void hear(const std::string& line) {
+    const std::size_t begin = line.find_first_not_of(" =-\t\r");
+    if (begin == std::string::npos || names_error_) return;
+    names_error_ = line.find("rror") != std::string::npos;
+    words_ = line.substr(begin);
+  }
+  const std::string& words() const { return words_; }
+
+ private:
+  std::string words_;
+  bool names_error_ = false;
+};
+
+}  // namespace meniscus::farm

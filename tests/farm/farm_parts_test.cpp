@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The small parts of a farm, each alone: checksums, chunks, quotes, children, pictures without dates.
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+
+#include <gtest/gtest.h>
+
+#include "app/farm/bundle.h"
+#include "app/farm/checksum.h"
+#include "app/farm/child_process.h"
+#include "app/farm/emit.h"
+#include "app/farm/quote.h"
+#include "app/farm/timeless_png.h"
+#include "app/program_error.h"
+#include "tests/support/run_program.h"
+
+namespace meniscus::farm {
+namespace {
+
+using test::TemporaryFolder;
+
+Bundle bundle_of(std::uint64_t frames) {
+  Bundle bundle;
+  bundle.program_version = "1";
+  bundle.command = {"render", "inputs/a.pdb"};
+  for (std::uint64_t n = 0; n < frames; ++n) bundle.frames.push_back(3 * n);
+  bundle.steps = {{"render", Maker::meniscus, {}}};
+  bundle.width = bundle.height = 10;
+  return bundle;
+}
+
+// The examples of FIPS 180-4, and a file that takes several readings.
+TEST(Checksum, IsSha256) {
+  EXPECT_EQ(sha256("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+  EXPECT_EQ(sha256(""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
+  const TemporaryFolder folder;
+  const std::string million(1'000'000, 'a'), more(3'000'000, 'b');
+  EXPECT_EQ(sha256_of_file(folder.file("a", million)),
+            "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
+  EXPECT_EQ(sha256_of_file(folder.file("b", more)), sha256(more));
+  EXPECT_THROW(sha256_of_file(folder.path() / "missing"), InputError);
+  EXPECT_THROW(sha256_of_file(folder.path()), InputError);
+}
+
+TEST(Chunks, AreTheRunCutIntoNearlyEqualParts) {
+  for (const std::uint64_t frames : {1u, 7u, 98u}) {
+    const Bundle bundle = bundle_of(frames);
+    for (const std::uint64_t n : {1u, 2u, 5u, 98u, 200u}) {
+      std::vector<std::uint64_t> all;
+      std::size_t smallest = frames, largest = 0;
+      for (std::uint64_t k = 1; k <= n; ++k) {
+        const std::vector<std::uint64_t> chunk = chunk_of(bundle, k, n);
+        all.insert(all.end(), chunk.begin(), chunk.end());
+        smallest = std::min(smallest, chunk.size());
+        largest = std::max(largest, chunk.size());
+      }
+      EXPECT_EQ(all, bundle.frames);
+      EXPECT_LE(largest - smallest, 1u);
+    }
+  }
+}
+
+TEST(Chunks, AreAsLongAsWishedAndNeverTooMany) {
+  const auto decided = [](std::uint64_t frames, double minutes, double seconds) {
+    Chunking chunking;
+    chunking.asked_minutes = minutes;
+    chunking.seconds_per_frame = seconds;
+    chunking.decide(frames);
+    return chunking.count;
+  };
+  EXPECT_EQ(decided(100, 5, 30), 10u);
+  EXPECT_EQ(decided(100, 5, 1000), 100u);
+  EXPECT_EQ(decided(100, 5, 0.001), 1u);
+  EXPECT_EQ(decided(100'000, 5, 1000), 1000u);
+  EXPECT_EQ(decided(1, 5, 1e9), 1u);
+  Chunking by_frames;
+  by_frames.asked_frames = 7;
+  by_frames.decide(15);
+  EXPECT_EQ(by_frames.count, 3u);
+}
+
+TEST(Manifest, ComesBackAsItWas) {
+  const TemporaryFolder folder;
+  Bundle bundle = bundle_of(5);
+  bundle.inputs = {{"inputs/a.pdb", 12, sha256("a")}};
+  bundle.film = Film{"film.mp4", 23.976};
+  bundle.chunking.seconds_per_frame = 0.1;
+  bundle.chunking.decide(5);
+  folder.file("bundle.json", bundle_json(bundle));
+  const Bundle read = read_bundle(folder.path());
+  EXPECT_EQ(bundle_json(read), bundle_json(bundle));
+  EXPECT_EQ(read.fingerprint(), bundle.fingerprint());
+  EXPECT_EQ(read.place_of(9), 3u);
+  EXPECT_THROW(read.place_of(10), RequestError);
+  // What was measured is not what was asked for; everything else is.
+  Bundle other = bundle;
+  other.chunking.seconds_per_frame = 7.0;
+  EXPECT_TRUE(same_but_for_measurement(bundle, other));
+  other.inputs[0].sha256 = sha256("b");
+  EXPECT_FALSE(same_but_for_measurement(bundle, other));
+  EXPECT_NE(other.fingerprint(), bundle.fingerprint());
+}
+
+TEST(Quotes, HoldAnything) {
+  const std::string hostile = "it's \"$HOME\" `x` \\ #{}<&>\n;*";
+  const test::ProgramResult said = test::run_program("/bin/sh", {"-c", "printf %s " + shell_word(hostile)});
+  EXPECT_EQ(said.out, hostile);
+  EXPECT_EQ(xml_text("<a b=\"c\" d='&'>"), "&lt;a b=&quot;c&quot; d=&apos;&amp;&apos;&gt;");
+  EXPECT_EQ(json_text("\"\\\u2028"), "\"\\\"\\\\\\u2028\"");
+  EXPECT_NO_THROW(refuse_unspeakable("x", "/a b/é'\"$"));
+  for (const char* bad : {"a\nb", "a\x7f", "\xff\xfe"}) EXPECT_THROW(refuse_unspeakable("x", bad), RequestError);
+}
+
+TEST(Templates, AreFilledOnce) {
+  EXPECT_EQ(filled("@A@ \"$@\" @B@@A@ @C@ a@b", {{"A", "@B@"}, {"B", "2"}}), "@B@ \"$@\" 2@B@ @C@ a@b");
+}
+
+TEST(Pictures, LoseTheirDatesAndNothingElse) {
+  const auto chunk = [](const std::string& type, const std::string& data) {
+    return std::string("\0\0\0", 3) + static_cast<char>(data.size()) + type + data + "CRC!";
+  };
+  const std::string signature = "\x89PNG\r\n\x1a\n", header = chunk("IHDR", "header"), pixels = chunk("IDAT", "pixels"),
+                    end = chunk("IEND", "");
+  EXPECT_EQ(timeless_png(signature + header + chunk("tIME", "1234567") + chunk("tEXt", "Date") + pixels +
+                         chunk("zTXt", "z") + chunk("gAMA", "gama") + chunk("iTXt", "") + end),
+            signature + header + pixels + chunk("gAMA", "gama") + end);
+  for (const std::string& broken : {std::string(), std::string("GIF89a"), signature, signature + header + pixels,
+                                    signature + header + pixels.substr(0, 10)})
+    EXPECT_THROW(timeless_png(broken), RunError);
+}
+
+TEST(Children, AreHeardAndWaitedFor) {
+  const TemporaryFolder folder;
+  ChildProcess child({"sh", "-c", "echo one; echo two >&2; printf '%s' \"$PWD\"; exit 7"}, folder.path());
+  EXPECT_EQ(child.next_line(), "one");
+  EXPECT_EQ(child.next_line(), "two");
+  EXPECT_EQ(child.next_line(), folder.path().string());
+  EXPECT_EQ(child.next_line(), std::nullopt);
+  EXPECT_EQ(child.wait(), 7);
+  ChildProcess killed({"sh", "-c", "kill -9 $$"}, folder.path());
+  EXPECT_EQ(killed.wait(), 128 + 9);
+  EXPECT_THROW(ChildProcess({"no-such-program"}, folder.path()), InputError);
+  EXPECT_THROW(ChildProcess({"sh"}, folder.path() / "missing"), InputError);
+}
+
+TEST(Children, EndWithTheirObject) {
+  const auto begin = std::chrono::steady_clock::now();
+  { const ChildProcess child({"sleep", "60"}, "/"); }
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(10));
+}
+
+}  // namespace
+}  // namespace meniscus::farm
