@@ -145,10 +145,10 @@ void verify(const std::filesystem::path& folder) {
   for (std::size_t n = 0; n < std::min(faults.size(), kFaultsShown); ++n)
     std::cerr << fmt::format("meniscus: {} frame {}: {}\n", faults[n].step, faults[n].frame, escaped(faults[n].what));
   if (!faults.empty()) {
-    throw RunError(static_cast<ExitCode>(faults.front().exit_code),
-                   fmt::format("{}: {} of {} frames are not good; meniscus work makes them", folder.string(),
-                               with_thousands(faults.size()),
-                               with_thousands(bundle.frames.size() * bundle.steps.size())));
+    throw RunError(
+        static_cast<ExitCode>(faults.front().exit_code),
+        fmt::format("{}: {} of {} frames are not good; meniscus work makes them", folder.string(),
+                    with_thousands(faults.size()), with_thousands(bundle.frames.size() * bundle.steps.size())));
   }
   farm::remove_leftovers(folder);
   if (bundle.film) farm::encode_film(bundle, folder);

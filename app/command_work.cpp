@@ -98,13 +98,14 @@ void run(const WorkCommand& command) {
 }  // namespace
 
 void add_work(CLI::App& command) {
-  describe(command, "Make the missing frames of a bundle, or a share of them (see meniscus farm)",
-           "  meniscus work film                                all that is missing\n"
-           "  meniscus work film --step render --chunk 3/10     the third of ten shares of one step\n"
-           "  meniscus work film --frames 40-49 --force         these once more",
-           "A frame whose files are there with the right checksums is not made again, so the same command goes on after\n"
-           "whatever stopped it, even kill -9. Told to stop (SIGTERM, SIGUSR1, Ctrl-C) it leaves whole files only and\n"
-           "ends with exit code 9. After a frame that fails the others are made; the exit code is that frame's.");
+  describe(
+      command, "Make the missing frames of a bundle, or a share of them (see meniscus farm)",
+      "  meniscus work film                                all that is missing\n"
+      "  meniscus work film --step render --chunk 3/10     the third of ten shares of one step\n"
+      "  meniscus work film --frames 40-49 --force         these once more",
+      "A frame whose files are there with the right checksums is not made again, so the same command goes on after\n"
+      "whatever stopped it, even kill -9. Told to stop (SIGTERM, SIGUSR1, Ctrl-C) it leaves whole files only and\n"
+      "ends with exit code 9. After a frame that fails the others are made; the exit code is that frame's.");
   auto state = std::make_shared<WorkCommand>();
   command.add_option("BUNDLE", state->folder, "The bundle's folder")->required()->type_name("");
   command.add_option("--step", state->step, "Only this step of the work: surface or render [all, in order]")

@@ -15,10 +15,9 @@ namespace meniscus {
 namespace {
 
 constexpr Command kCommands[] = {
-    {"surface", add_surface}, {"render", add_render}, {"preview", add_preview},
-    {"export", add_export},   {"farm", add_farm},     {"work", add_work},
-    {"info", add_info},       {"formats", add_formats}, {"colors", add_colors},
-    {"bench", add_bench},     {"help", add_help},
+    {"surface", add_surface}, {"render", add_render}, {"preview", add_preview}, {"export", add_export},
+    {"farm", add_farm},       {"work", add_work},     {"info", add_info},       {"formats", add_formats},
+    {"colors", add_colors},   {"bench", add_bench},   {"help", add_help},
 };
 
 constexpr const char* kExamples = R"(  meniscus info 1tii.pdb                          what the file holds

@@ -52,11 +52,11 @@ struct Chunking {
 /// follows of it.
 struct Bundle {
   std::string program_version;
-  std::vector<std::string> command;    ///< of the program, as {"render", "inputs/a.pdb", ...}; paths are relative
-  std::vector<std::uint64_t> frames;   ///< of the run, by their numbers in the trajectory
-  std::vector<Step> steps;             ///< in order
+  std::vector<std::string> command;   ///< of the program, as {"render", "inputs/a.pdb", ...}; paths are relative
+  std::vector<std::uint64_t> frames;  ///< of the run, by their numbers in the trajectory
+  std::vector<Step> steps;            ///< in order
   std::vector<Input> inputs;
-  int width = 0, height = 0;           ///< of the pictures, in pixels
+  int width = 0, height = 0;  ///< of the pictures, in pixels
   std::optional<Film> film;
   Chunking chunking;
 

@@ -21,7 +21,8 @@ std::string plain(std::string name) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.' || c == '_' ||
            c == '-';
   };
-  std::ranges::replace_if(name, [&](char c) { return !fine(c); }, '_');
+  std::ranges::replace_if(
+      name, [&](char c) { return !fine(c); }, '_');
   if (name.starts_with('.') || name.starts_with('-')) name.front() = '_';
   constexpr std::size_t kLongest = 100;
   return name.size() > kLongest ? name.substr(name.size() - kLongest) : name;

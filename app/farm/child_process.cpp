@@ -38,13 +38,15 @@ Registry& registry() {
   return instance;
 }
 
-// A child that was stopped has not failed, and its work is not to be judged: the program is about to end. Under the lock.
+// A child that was stopped has not failed, and its work is not to be judged: the program is about to end. Under the
+// lock.
 void stay_if_stopping() {
   while (registry().closed) std::this_thread::sleep_for(std::chrono::hours(1));
 }
 
 // Between fork and exec: nothing but calls that are safe there, for other threads may hold any lock.
-[[noreturn]] void become(char* const* argv, char* const* environment, const char* folder, int output, int report, pid_t parent) {
+[[noreturn]] void become(char* const* argv, char* const* environment, const char* folder, int output, int report,
+                         pid_t parent) {
   sigset_t none;
   sigemptyset(&none);
   sigprocmask(SIG_SETMASK, &none, nullptr);

@@ -12,7 +12,8 @@ const std::vector<Engine>& engines() {
       {"slurm", emit_slurm, nullptr, "@DIR@/submit.sh"},
       {"openjd", emit_openjd, nullptr, "deadline bundle submit @DIR@, or openjd run @DIR@/template.json"},
       {"flamenco", emit_flamenco, nullptr, "copy @DIR@/meniscus_film.js to the manager's scripts folder"},
-      {"opencue", emit_opencue, "its commands have no working directory", "launch @DIR@/opencue.xml, by pycue's launchSpec"},
+      {"opencue", emit_opencue, "its commands have no working directory",
+       "launch @DIR@/opencue.xml, by pycue's launchSpec"},
   };
   return table;
 }
@@ -28,8 +29,8 @@ std::string filled(std::string_view text, const std::vector<Filling>& fillings) 
     result.append(text.substr(0, begin));
     if (begin == std::string_view::npos) return result;
     text.remove_prefix(begin);
-    const auto filling = std::ranges::find_if(
-        fillings, [&](const Filling& f) { return text.starts_with("@" + f.name + "@"); });
+    const auto filling =
+        std::ranges::find_if(fillings, [&](const Filling& f) { return text.starts_with("@" + f.name + "@"); });
     const bool is_mark = filling != fillings.end();
     result.append(is_mark ? filling->text : "@");
     text.remove_prefix(is_mark ? filling->name.size() + 2 : 1);

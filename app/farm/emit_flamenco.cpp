@@ -8,7 +8,8 @@
 namespace meniscus::farm {
 namespace {
 
-constexpr const char* kTemplate = R"js(// A job type of Flamenco 3 for one Meniscus bundle. Copy it into the manager's scripts folder and restart the manager.
+constexpr const char* kTemplate =
+    R"js(// A job type of Flamenco 3 for one Meniscus bundle. Copy it into the manager's scripts folder and restart the manager.
 const JOB_TYPE = {
     label: "Meniscus frames",
     settings: [

@@ -7,7 +7,8 @@
 namespace meniscus::farm {
 namespace {
 
-constexpr const char* kTemplate = R"make(# The frames of this folder on one machine: make -j2 (-k goes on with other chunks after one that failed).
+constexpr const char* kTemplate =
+    R"make(# The frames of this folder on one machine: make -j2 (-k goes on with other chunks after one that failed).
 # MENISCUS is the program; THREADS, if set, what each task may use.
 MENISCUS ?= meniscus
 WORK = $(MENISCUS) work . --progress plain $(if $(THREADS),--threads $(THREADS))

@@ -63,10 +63,10 @@ std::vector<EngineFile> emit_opencue(const Emission& emission) {
   const std::string path = shell_word(emission.farm_path), count = std::to_string(bundle.chunking.count);
   std::string layers, depends, before;
   for (const Step& step : bundle.steps) {
-    layers += layer_xml({step.name, "Render",
-                         fmt::format("meniscus work {} --step {} --chunk #IFRAME#/{} --progress plain", path, step.name,
-                                     count),
-                         "1-" + count, needs_gpu(step) ? "1" : ""});
+    layers += layer_xml(
+        {step.name, "Render",
+         fmt::format("meniscus work {} --step {} --chunk #IFRAME#/{} --progress plain", path, step.name, count),
+         "1-" + count, needs_gpu(step) ? "1" : ""});
     if (!before.empty()) depends += depend_xml("FRAME_BY_FRAME", step.name, before);
     before = step.name;
   }

@@ -73,8 +73,10 @@ std::string upper(std::string text) {
 // Three times what was measured, and ten minutes for a slow start; a site's default where nothing was measured.
 std::string time_limit(const Bundle& bundle) {
   if (!bundle.chunking.seconds_per_frame) return {};
-  const double frames = std::ceil(static_cast<double>(bundle.frames.size()) / static_cast<double>(bundle.chunking.count));
-  return fmt::format("#SBATCH --time={:.0f}\n", std::ceil(10.0 + 3.0 * frames * *bundle.chunking.seconds_per_frame / 60.0));
+  const double frames =
+      std::ceil(static_cast<double>(bundle.frames.size()) / static_cast<double>(bundle.chunking.count));
+  return fmt::format("#SBATCH --time={:.0f}\n",
+                     std::ceil(10.0 + 3.0 * frames * *bundle.chunking.seconds_per_frame / 60.0));
 }
 
 }  // namespace
@@ -88,12 +90,14 @@ std::vector<EngineFile> emit_slurm(const Emission& emission) {
     const std::string more = (needs_gpu(step) ? "#SBATCH --gres=gpu:1\n" : "") + time_limit(bundle);
     files.push_back({fmt::format("slurm/{}.sbatch", step.name),
                      filled(kStepScript, {{"STEP", step.name}, {"COUNT", count}, {"MORE", more}}), false});
-    jobs += filled(kStepJob, {{"UPPER", upper(step.name)},
-                              {"STEP", step.name},
-                              {"DEPENDENCY", jobs.empty() ? "" : "--dependency=\"aftercorr:$job\" --kill-on-invalid-dep=yes "}});
+    jobs += filled(kStepJob,
+                   {{"UPPER", upper(step.name)},
+                    {"STEP", step.name},
+                    {"DEPENDENCY", jobs.empty() ? "" : "--dependency=\"aftercorr:$job\" --kill-on-invalid-dep=yes "}});
   }
   files.push_back({"submit.sh",
-                   filled(kSubmit, {{"FIRST", upper(bundle.steps.front().name)}, {"COUNT", count}, {"JOBS", jobs}}), true});
+                   filled(kSubmit, {{"FIRST", upper(bundle.steps.front().name)}, {"COUNT", count}, {"JOBS", jobs}}),
+                   true});
   return files;
 }
 

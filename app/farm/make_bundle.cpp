@@ -78,7 +78,8 @@ std::vector<std::string> bundled_command(const WrappedCommand& command, const st
 class Staging {
  public:
   explicit Staging(const fs::path& target)
-      : target_(target), path_(target.parent_path() / fmt::format(".{}.{}.part", target.filename().string(), ::getpid())) {
+      : target_(target),
+        path_(target.parent_path() / fmt::format(".{}.{}.part", target.filename().string(), ::getpid())) {
     std::error_code error;
     fs::create_directories(path_, error);
     if (error) throw OutputError(target.string(), fmt::format("cannot be made: {}", error.message()));
@@ -136,8 +137,9 @@ void write_engine_files(const BundleOptions& options, const Bundle& bundle, cons
       OutputFile file(path, Existing::replace);
       file.write(text.text);
       file.commit();
-      if (text.executable) fs::permissions(path, fs::perms::owner_exec | fs::perms::group_exec | fs::perms::others_exec,
-                                           fs::perm_options::add);
+      if (text.executable)
+        fs::permissions(path, fs::perms::owner_exec | fs::perms::group_exec | fs::perms::others_exec,
+                        fs::perm_options::add);
     }
   }
 }

@@ -27,13 +27,13 @@ struct BundleOptions {
 /// What came of it.
 struct MadeBundle {
   Bundle bundle;
-  bool was_there = false;           ///< the same bundle lay there already; only missing engine files were written
-  std::vector<std::string> notes;   ///< for people
+  bool was_there = false;          ///< the same bundle lay there already; only missing engine files were written
+  std::vector<std::string> notes;  ///< for people
 };
 
 /// Checks the command, decides camera and chunks (making one frame to see how long it takes, if chunks are asked for by
-/// time), and puts all of it under its name at once. Throws UsageError, InputError, OutputError (another bundle is there
-/// and `force` is not, or something that is no bundle), RunError if the trial frame fails.
+/// time), and puts all of it under its name at once. Throws UsageError, InputError, OutputError (another bundle is
+/// there and `force` is not, or something that is no bundle), RunError if the trial frame fails.
 MadeBundle make_bundle(const BundleOptions& options);
 
 }  // namespace meniscus::farm

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// POV-Ray renders one frame of the scene a process, into a folder of its own; the picture gets its name when whole, without its date.
+// POV-Ray renders one frame of the scene a process, into a folder of its own; the picture gets its name when whole,
+// without its date.
 #include <algorithm>
 #include <chrono>
 
@@ -59,8 +60,9 @@ void render(const Bundle& bundle, const Step& step, const Workplace& place, std:
   const fs::path own = images / name;
   fs::create_directories(own);
   LastWords last;
-  ChildProcess child(povray_command(step, place, bundle.place_of(frame) + 1, fmt::format("../images/{}/frame.png", name)),
-                     place.folder / "scene");
+  ChildProcess child(
+      povray_command(step, place, bundle.place_of(frame) + 1, fmt::format("../images/{}/frame.png", name)),
+      place.folder / "scene");
   while (const std::optional<std::string> line = child.next_line()) last.hear(*line);
   const int code = child.wait();
   const fs::path made = picture_in(own);

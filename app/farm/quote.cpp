@@ -28,12 +28,23 @@ std::string xml_text(std::string_view text) {
   std::string result;
   for (const char c : text) {
     switch (c) {
-      case '&': result += "&amp;"; break;
-      case '<': result += "&lt;"; break;
-      case '>': result += "&gt;"; break;
-      case '"': result += "&quot;"; break;
-      case '\'': result += "&apos;"; break;
-      default: result += c;
+      case '&':
+        result += "&amp;";
+        break;
+      case '<':
+        result += "&lt;";
+        break;
+      case '>':
+        result += "&gt;";
+        break;
+      case '"':
+        result += "&quot;";
+        break;
+      case '\'':
+        result += "&apos;";
+        break;
+      default:
+        result += c;
     }
   }
   return result;
@@ -50,8 +61,8 @@ void refuse_unspeakable(const std::string& what, std::string_view path) {
     speakable = false;
   }
   if (!speakable)
-    throw RequestError(fmt::format("{}: {} has control characters or is no UTF-8; choose another path", what,
-                                   in_quotes(path)));
+    throw RequestError(
+        fmt::format("{}: {} has control characters or is no UTF-8; choose another path", what, in_quotes(path)));
 }
 
 }  // namespace meniscus::farm

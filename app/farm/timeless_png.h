@@ -8,8 +8,9 @@
 
 namespace meniscus::farm {
 
-/// The file without its chunks of time and text (tIME, tEXt, zTXt, iTXt; PNG, W3C 2003), so that the same picture is the
-/// same file. Pixels and colour space stay as they are, to the byte. Throws RunError (kExitInput) if it is no whole PNG.
+/// The file without its chunks of time and text (tIME, tEXt, zTXt, iTXt; PNG, W3C 2003), so that the same picture is
+/// the same file. Pixels and colour space stay as they are, to the byte. Throws RunError (kExitInput) if it is no whole
+/// PNG.
 std::string timeless_png(std::string_view file);
 
 /// The same done to a file where it lies, whole or not at all. Throws OutputError, too.

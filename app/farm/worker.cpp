@@ -40,10 +40,10 @@ class Worker {
   void run() {
     for (const std::string& name : share_.steps) run_step(*bundle_.step(name));
     if (!failures_.frames.empty())
-      throw RunError(static_cast<ExitCode>(failures_.code),
-                     fmt::format("{} of {} frames failed; the first, frame {}: {}",
-                                 with_thousands(failures_.frames.size()), with_thousands(share_.frames.size()),
-                                 failures_.first, failures_.message));
+      throw RunError(
+          static_cast<ExitCode>(failures_.code),
+          fmt::format("{} of {} frames failed; the first, frame {}: {}", with_thousands(failures_.frames.size()),
+                      with_thousands(share_.frames.size()), failures_.first, failures_.message));
   }
 
  private:
@@ -120,8 +120,8 @@ void check_inputs(const Bundle& bundle, const std::filesystem::path& folder, boo
     std::error_code error;
     const std::uintmax_t bytes = std::filesystem::file_size(path, error);
     if (error) throw InputError(path, 0, fmt::format("is missing ({}); make the bundle again", error.message()));
-    const bool same = bytes == input.bytes &&
-                      ((!thorough && bytes > kQuickToCheck) || sha256_of_file(path) == input.sha256);
+    const bool same =
+        bytes == input.bytes && ((!thorough && bytes > kQuickToCheck) || sha256_of_file(path) == input.sha256);
     if (!same) throw InputError(path, 0, "is not what was bundled (size or SHA-256); make the bundle again");
   }
 }

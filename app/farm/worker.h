@@ -22,9 +22,9 @@ struct Share {
 /// Sizes, and of files up to 256 MiB checksums, of the bundle's inputs; of all files if `thorough`. Throws InputError.
 void check_inputs(const Bundle& bundle, const std::filesystem::path& folder, bool thorough);
 
-/// Makes every frame of the share that has no record with good files, step by step, and writes a record of each. A frame
-/// that fails is recorded, too, and the others are made. Throws RunError with the code of the first frame that failed,
-/// whatever the step; what check_inputs and make_frames throw.
+/// Makes every frame of the share that has no record with good files, step by step, and writes a record of each. A
+/// frame that fails is recorded, too, and the others are made. Throws RunError with the code of the first frame that
+/// failed, whatever the step; what check_inputs and make_frames throw.
 void work(const Bundle& bundle, const Workplace& place, const Share& share, ProgressStyle progress);
 
 }  // namespace meniscus::farm

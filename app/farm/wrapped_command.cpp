@@ -66,8 +66,7 @@ void take_out_device(WrappedCommand& result) {
 
 /// The command of this name with all its options.
 CLI::App& add_command(CLI::App& program, const Words& words) {
-  const Command table[] = {
-      {"render", add_render}, {"povray", add_export_povray}, {"blender", add_export_blender}};
+  const Command table[] = {{"render", add_render}, {"povray", add_export_povray}, {"blender", add_export_blender}};
   const auto* entry = std::ranges::find_if(table, [&](const Command& c) { return words.back() == c.name; });
   CLI::App* parent = &program;
   if (words.size() == 2) parent = program.add_subcommand(words.front());

@@ -25,8 +25,8 @@ struct WrappedCommand {
 
   /// A word in `arguments` that is the path of a file to read, or has it behind "--option=".
   struct File {
-    std::size_t place = 0;   ///< in `arguments`
-    std::string prefix;      ///< "" or "--option="
+    std::size_t place = 0;  ///< in `arguments`
+    std::string prefix;     ///< "" or "--option="
     std::string path;
   };
   std::vector<File> files;
