@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // DCD: both byte orders, markers of both sizes, fixed atoms, boxes of every form, cut and damaged files.
 #include <cmath>
+#include <limits>
 #include <algorithm>
 
 #include <glm/geometric.hpp>
@@ -146,6 +147,18 @@ TEST(Dcd, DamageIsNamedWithFrameAndPlace) {
   }
   EXPECT_NE(refusal([&] { open_bytes(folder, with_count(0x7fffffffU)); }).find("not one frame of them fits"),
             std::string::npos);
+}
+
+TEST(Dcd, CoordinatesThatAreNoneAreNamed) {
+  const TemporaryFolder folder;
+  for (const float wrong : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(), -1e6F}) {
+    std::string bytes = dcd({});
+    bytes.replace(bytes.size() - 8, 4, ByteWriter(std::endian::little).put(wrong).bytes());
+    const auto trajectory = open_bytes(folder, bytes);
+    Frame frame;
+    trajectory->read(1, frame);
+    EXPECT_NE(refusal([&] { trajectory->read(2, frame); }).find("frame 2: z of atom 4 is "), std::string::npos);
+  }
 }
 
 TEST(Dcd, ChangesWhileOpenAreErrors) {

@@ -68,6 +68,20 @@ TEST(FrameIndex, IsBuiltAnewWhenTheFileOrTheIndexChanged) {
   }
 }
 
+TEST(FrameIndex, SizeAndTimeBothCount) {
+  const TemporaryFolder folder;
+  const std::string keep = folder.path().string();
+  const std::string path = write_old(folder, test::xtc({}));
+  EXPECT_EQ(frames_of(path, keep), 3U);
+  const auto time = fs::last_write_time(path);
+  folder.file("a.xtc", test::xtc({.frames = 4}));
+  fs::last_write_time(path, time);
+  EXPECT_EQ(frames_of(path, keep), 4U);
+  std::string damaged = test::xtc({.frames = 4});
+  damaged[test::xtc({.frames = 1}).size()] = 1;
+  EXPECT_EQ(frames_of(write_old(folder, damaged, 3), keep), 1U);
+}
+
 TEST(FrameIndex, IsNotKeptWhereItMayBecomeWrong) {
   const TemporaryFolder folder;
   const std::string path = folder.file("a.xtc", test::xtc({}));

@@ -39,9 +39,10 @@ void expect_xtc_frame(Trajectory& trajectory, const XtcSample& sample, std::uint
 
 TEST(Xtc, PackedAndPlainAtomsInAnyOrder) {
   const TemporaryFolder folder;
-  for (const XtcSample& sample : {XtcSample{}, XtcSample{.atoms = 9}, XtcSample{.atoms = 3}, XtcSample{.magic = 2023},
-                                  XtcSample{.spread = 100000}, XtcSample{.precision = 100.0F, .spread = 9},
-                                  XtcSample{.precision = 1e7F, .spread = 20'000'000}}) {
+  for (const XtcSample& sample :
+       {XtcSample{}, XtcSample{.atoms = 9}, XtcSample{.atoms = 3}, XtcSample{.magic = 2023},
+        XtcSample{.spread = 100000}, XtcSample{.spread = 900'000}, XtcSample{.precision = 100.0F, .spread = 9},
+        XtcSample{.precision = 1e7F, .spread = 20'000'000}}) {
     const auto trajectory = open_trajectory(folder.file("a.xtc", test::xtc(sample)));
     EXPECT_EQ(trajectory->format(), "XTC");
     ASSERT_EQ(trajectory->frame_count(), sample.frames);

@@ -102,8 +102,8 @@ std::string dcd(const DcdSample& sample) {
 
 std::int32_t xtc_step(const XtcSample& sample, std::uint32_t frame, std::uint32_t atom, int axis) {
   const std::uint32_t first = atom / 3 * 3;
-  const auto place = static_cast<std::int32_t>((first * 7919 + frame * 104729 + static_cast<std::uint32_t>(axis) * 31) %
-                                               static_cast<std::uint32_t>(2 * sample.spread));
+  const std::uint32_t mixed = (first * 7 + frame * 3 + static_cast<std::uint32_t>(axis) + 1) * 2654435761U;
+  const auto place = static_cast<std::int32_t>(mixed % static_cast<std::uint32_t>(2 * sample.spread));
   return place - sample.spread + static_cast<std::int32_t>(atom % 3) * (axis == 1 ? -9 : 17);
 }
 
@@ -190,12 +190,13 @@ std::string trr(const TrrSample& sample) {
   for (std::uint32_t frame = 0; frame < sample.frames; ++frame) {
     const bool positions = frame != sample.without_positions;
     file.put(std::int32_t{1993}).put(std::int32_t{13}).put(std::int32_t{12}).put_text("GMX_trn_file");
-    const std::uint32_t sizes[10] = {0, 0, 9 * width, 0, 0, 0, 0, positions ? vectors : 0, vectors, 0};
+    const std::uint32_t sizes[10] = {0, 0, 9 * width, 9 * width, 0, 0, 0, positions ? vectors : 0, vectors, 0};
     for (const std::uint32_t size : sizes) file.put(size);
     file.put(sample.atoms).put(10 * frame).put(std::int32_t{0});
     put_real(0.5 * frame);
     put_real(0.0);
     for (const double number : {3.0, 0.0, 0.0, 0.5, 4.0, 0.0, -1.0, 0.25, 5.0}) put_real(number);
+    for (int n = 0; n < 9; ++n) put_real(77.0);  // the virial
     for (const bool velocities : {false, true}) {
       for (std::uint32_t n = 0; (positions || velocities) && n < 3 * sample.atoms; ++n)
         put_real(velocities ? 99.0 : double{coordinate(frame, n / 3, static_cast<int>(n % 3))});

@@ -16,7 +16,7 @@ using test::refusal;
 using test::TemporaryFolder;
 
 std::string atom(double x) {
-  return fmt::format("ATOM      1  N   THR A   1    {:8.3f}  14.099   3.625  1.00 13.79           N\n", x);
+  return fmt::format("ATOM      1  N   THR A   1    {:8.3f}  14.0991113.625  1.00 13.79           N\n", x);
 }
 
 /// Opens the file and compares each frame with the model that the reader of the format gives.
@@ -46,6 +46,9 @@ TEST(TextFrames, ModelsOfPdbInEveryForm) {
   open_and_compare(folder.file("b.pdb", ended + "END\n"), 3);
   open_and_compare(folder.file("c.pdb", ended), 3);
   open_and_compare(folder.file("d.pdb", "MODEL        1\n" + atom(1) + "END\nMODEL        2\n" + atom(2)), 2);
+  open_and_compare(folder.file("g.pdb", "MODEL        1\n" + atom(1) + "END\n" + atom(3) + "ENDMDL\nMODEL        2\n" +
+                                            atom(2) + atom(4) + "ENDMDL\n"),
+                   2);
   open_and_compare(folder.file("e.pdb", test::gzipped(three)), 3);
   std::string returns = three;
   for (std::size_t n = 0; (n = returns.find('\n', n)) != std::string::npos; n += 2) returns.insert(n, 1, '\r');

@@ -104,6 +104,7 @@ TEST(Psf, DamageIsNamedWithItsLine) {
   expect(whole.substr(0, whole.find("       3 B")), "a.psf:6: the count says 3 atoms, but the file ends after 2");
   expect(whole.substr(0, whole.find("2 !NBOND")), "has no line with a number and !NBOND; is the file cut short?");
   expect(psf("PSF", kAtoms, "\n 2 !NBOND: bonds\n 1 2\n"), "!NBOND says 2 bonds, but 1 follow; is the file cut short?");
+  expect(psf("PSF", kAtoms, "\n 2 !NBOND: bonds\n 1 2\n\n 9 !NTHETA\n"), "!NBOND says 2 bonds, but 1 follow");
   expect(psf("PSF", kAtoms, "\n 1 !NBOND: bonds\n 1 4\n"), "a bond names atom '4'; the atoms are 1 to 3");
   expect("PSF\n\n 99999999 !NATOM\n", "more than the 0 bytes behind it can hold");
   expect("PSF\n\n -3 !NATOM\n", "!NATOM says -3");
