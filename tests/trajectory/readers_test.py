@@ -117,6 +117,18 @@ class Readers(unittest.TestCase):
         frames = dump(path)
         self.compare(frames, [step.positions.copy() for step in MDAnalysis.coordinates.core.reader(str(path))])
 
+    def test_xtc_of_small_differences_of_every_size(self):
+        rng = np.random.default_rng(7)
+        walker = MDAnalysis.Universe.empty(200, trajectory=True)
+        path = self.path("walk.xtc")
+        with MDAnalysis.Writer(str(path), n_atoms=200, precision=6) as writer:
+            for size in range(9, 73):  # the table of sizes grows by the cube root of 2
+                step = 1e-5 * 2 ** (size / 3) / 2
+                walker.atoms.positions = np.cumsum(rng.uniform(-step, step, (200, 3)), axis=0)
+                writer.write(walker.atoms)
+        other = MDAnalysis.coordinates.core.reader(str(path))
+        self.compare(dump(path), [step.positions.copy() for step in other])
+
     def test_trr(self):
         frames = self.check(self.write("a.trr"))
         with mdtraj.formats.TRRTrajectoryFile(str(self.path("a.trr"))) as file:
