@@ -145,16 +145,16 @@ class CuspSearch {
     found.arc.vertex[end] = first * 2 + (upper ? 1 : 0);
   }
 
-  // A piece of the circle lies on both patches or on neither, so one point of it decides; near a border the point and
-  // the patch with the larger margin have the say.
+  // A piece of the circle lies on both patches all along, or nowhere, so one point of it decides: the one that is
+  // farthest from the border of what both have in common.
   bool on_both_patches(const CuspArc& arc) const {
     double clearest = 0;
     for (const double part : {0.5, 0.3, 0.7}) {
       const double angle = part * arc.sweep;
       const glm::dvec3 e = std::cos(angle) * arc.start + std::sin(angle) * glm::cross(arc.axis, arc.start);
-      for (const std::uint32_t s : arc.probe)
-        if (const double depth = depth_in_cone(s, arc.center + arc.radius * e); std::abs(depth) > std::abs(clearest))
-          clearest = depth;
+      const glm::dvec3 point = arc.center + arc.radius * e;
+      const double depth = std::min(depth_in_cone(arc.probe[0], point), depth_in_cone(arc.probe[1], point));
+      if (std::abs(depth) > std::abs(clearest)) clearest = depth;
     }
     return clearest > 0;
   }
