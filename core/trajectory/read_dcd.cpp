@@ -46,9 +46,15 @@ std::optional<Markers> markers_of(std::string_view start) {
   return std::nullopt;
 }
 
+/// Programs write edges of 0 or 1 Å where there is no box.
+bool stands_for_no_box(const std::array<double, 6>& numbers) {
+  return std::abs(numbers[0]) <= 1.0 && std::abs(numbers[2]) <= 1.0 && std::abs(numbers[5]) <= 1.0;
+}
+
 /// Six numbers of one box as the versions of CHARMM and NAMD have written them: A gamma B beta alpha C with angles in
 /// degrees or as cosines, or the symmetric shape matrix of CHARMM, row by row of its lower half.
 std::optional<glm::dmat3> cell_of_record(const std::array<double, 6>& numbers, bool charmm_itself) {
+  if (stands_for_no_box(numbers)) return std::nullopt;
   const auto& [n0, n1, n2, n3, n4, n5] = numbers;
   const glm::dmat3 shape(glm::dvec3(n0, n1, n3), glm::dvec3(n1, n2, n4), glm::dvec3(n3, n4, n5));
   const bool right_angles = n1 == 90.0 && n3 == 90.0 && n4 == 90.0;
@@ -198,7 +204,7 @@ class Dcd final : public Trajectory {
     const std::byte* next = bytes_.data();
     if (has_cell_) {
       check_markers(next, kCellRecord, offset, fmt::format("the box of frame {}", number));
-      frame.cell = cell_at(next + markers_.size);
+      frame.cell = cell_of_record(box_at(next + markers_.size), charmm_itself_);
       next += kCellRecord + 2 * markers_.size;
       offset += kCellRecord + 2 * markers_.size;
     }
@@ -214,10 +220,10 @@ class Dcd final : public Trajectory {
     set_time(number, frame);
   }
 
-  std::optional<glm::dmat3> cell_at(const std::byte* bytes) const {
+  std::array<double, 6> box_at(const std::byte* bytes) const {
     std::array<double, 6> numbers;
     for (std::size_t n = 0; n < numbers.size(); ++n) numbers[n] = number<double>(bytes + n * sizeof(double));
-    return cell_of_record(numbers, charmm_itself_);
+    return numbers;
   }
 
   void copy_axis(const std::byte* from, int axis, bool whole, std::vector<glm::dvec3>& to) const {
@@ -240,8 +246,8 @@ class Dcd final : public Trajectory {
     if (!has_cell_) return;
     std::array<std::byte, kCellRecord> record;
     file_.read(first_frame_ + markers_.size, record);
-    const bool zero = std::all_of(record.begin(), record.end(), [](std::byte byte) { return byte == std::byte{0}; });
-    if (zero || cell_at(record.data())) return;  // zeros stand for no box
+    const std::array<double, 6> box = box_at(record.data());
+    if (stands_for_no_box(box) || cell_of_record(box, charmm_itself_)) return;
     warnings_.emplace_back("the box of its first frame is no box in any of the forms DCD knows; it is left out");
   }
 

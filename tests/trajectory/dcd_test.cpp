@@ -88,8 +88,11 @@ TEST(Dcd, BoxesInEveryForm) {
   // CHARMM's own files hold the shape matrix, also where its entries could be cosines.
   EXPECT_EQ(cell_of({30.0, 0.5, 31.0, -0.25, 0.75, 32.0}, 36), glm::dmat3(30, .5, -.25, .5, 31, .75, -.25, .75, 32));
   EXPECT_EQ(cell_of({30.0, -8.0, 31.0, 9.0, 7.0, 32.0}, 24), glm::dmat3(30, -8, 9, -8, 31, 7, 9, 7, 32));
-  EXPECT_FALSE(cell_of({0, 0, 0, 0, 0, 0}, 24));
-  EXPECT_TRUE(open_bytes(folder, dcd({.cell = {0, 0, 0, 0, 0, 0}}))->warnings().empty());
+  for (const std::vector<double>& none :
+       {std::vector<double>{0, 0, 0, 0, 0, 0}, {1, 90, 1, 90, 90, 1}, {1, 0, 1, 0, 0, 1}}) {
+    EXPECT_FALSE(cell_of(none, 24));
+    EXPECT_TRUE(open_bytes(folder, dcd({.cell = none}))->warnings().empty());
+  }
   EXPECT_FALSE(cell_of({10, 170, 20, 10, 10, 30}, 24));
   EXPECT_EQ(open_bytes(folder, dcd({.cell = {10, 170, 20, 10, 10, 30}}))->warnings().size(), 1U);
 }
