@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Follows a program that makes many frames and tells each by a line of JSON.
 #include <algorithm>
+#include <csignal>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -62,8 +63,12 @@ void make_by_lines(const std::function<std::vector<std::string>(const std::vecto
     }
     const std::uint64_t culprit = frames.front();
     frames.erase(frames.begin());
-    listener.failed(culprit, kExitInternal,
-                    fmt::format("the process that made it was ended by signal {}", code - kSignalCode));
+    const int signal = code - kSignalCode;
+    if (signal == SIGKILL) {
+      listener.failed(culprit, kExitCapacity, "the process that made it was killed, as when memory runs out");
+    } else {
+      listener.failed(culprit, kExitInternal, fmt::format("the process that made it was ended by signal {}", signal));
+    }
   }
 }
 

@@ -3,6 +3,7 @@
 
 import json
 import os
+import shutil
 import signal
 import subprocess
 import time
@@ -62,6 +63,39 @@ class Work(FarmCase):
             self.assert_nothing_unfinished(folder)
         self.meniscus("work", folder)
         self.assert_equals_reference(folder)
+
+    def test_a_renderer_ends_with_its_worker(self):
+        """Even one that would go on for a minute, and even when the worker is killed without a chance to say so."""
+        folder = self.povray_bundle("endless")
+        self.meniscus("work", folder, "--step", "surface")
+        endless = self.folder / "endless_bin"
+        endless.mkdir()
+        (endless / "povray").write_text("#!/bin/sh\nexec sleep 60\n")
+        (endless / "povray").chmod(0o755)
+        for number, code in ((signal.SIGKILL, -9), (signal.SIGTERM, 9)):
+            worker = subprocess.Popen([MENISCUS, "work", folder, "--progress", "none"],
+                                      env=dict(os.environ, PATH=f"{endless}:{os.environ['PATH']}"))
+            wait_until(lambda: processes_in(folder / "scene"), what="the renderer")
+            worker.send_signal(number)
+            self.assertEqual(worker.wait(20), code)
+            wait_until(lambda: not processes_in(folder), 10, "the renderer to end")
+        self.assertEqual(self.records(folder, "render"), {})
+
+    def test_a_frame_that_kills_its_process_costs_one_frame(self):
+        """As one that needs more memory than there is: that frame has failed, another process makes the others."""
+        molecule = sample_run(self.folder / "fatal.pdb", 5)
+        folder = self.bundle("fatal", "render", molecule, "--frames", "all", "--size", "640x480", "--samples", "16")
+        worker = self.start(folder)
+        wait_until(lambda: self.records(folder, "render"), what="a frame")
+        child = next(number for number in processes_in(folder) if number != worker.pid)
+        os.kill(child, signal.SIGKILL)
+        self.assertEqual(worker.wait(120), 5)
+        records = self.records(folder, "render")
+        failed = [frame for frame, record in records.items() if record["state"] == "failed"]
+        self.assertEqual((len(records), len(failed)), (5, 1))
+        self.assertIn("was killed", records[failed[0]]["error"])
+        self.meniscus("work", folder)
+        self.meniscus("farm", "verify", folder)
 
     def test_shares_make_the_whole(self):
         folder = self.povray_bundle("shares")
@@ -161,6 +195,18 @@ class Work(FarmCase):
             manifest.write_text(broken)
             self.assertIn("bundle.json", self.meniscus("work", folder, code=3).stderr)
         self.assertIn("cannot be opened", self.meniscus("work", self.folder / "nowhere", code=3).stderr)
+
+    def test_records_of_another_bundle_count_for_nothing(self):
+        """Frames of an older bundle, copied into the folder of a newer one, are not taken for its own."""
+        molecule = sample_run(self.folder / "two.pdb", 2)
+        old, new = (self.bundle(name, "render", molecule, "--frames", "all", "--size", size)
+                    for name, size in (("old", "40x30"), ("new", "60x45")))
+        self.meniscus("work", old)
+        for place in ("state", "images"):
+            shutil.copytree(old / place, new / place)
+        self.assertIn("is not made yet", self.meniscus("farm", "verify", new, code=3).stderr)
+        self.meniscus("work", new)
+        self.meniscus("farm", "verify", new)
 
     def test_a_missing_gpu_is_exit_four_for_farms_that_need_one(self):
         folder = self.povray_bundle("gpu")
