@@ -62,9 +62,10 @@ std::vector<StepStatus> status_of(const Bundle& bundle, const std::filesystem::p
 std::string status_table(const Bundle& bundle, const std::vector<StepStatus>& steps) {
   std::string text;
   auto out = std::back_inserter(text);
-  fmt::format_to(out, "{} frames, {}; {} tasks a step\n\n{:<10} {:>9} {:>9} {:>9} {:>12} {:>12}\n",
-                 with_thousands(bundle.frames.size()), frame_list_text(bundle.frames), bundle.chunking.count, "step",
-                 "done", "failed", "missing", "s a frame", "left, alone");
+  fmt::format_to(out, "{} frames, {}; {} {} a step\n\n{:<10} {:>9} {:>9} {:>9} {:>12} {:>12}\n",
+                 with_thousands(bundle.frames.size()), frame_list_text(bundle.frames), bundle.chunking.count,
+                 bundle.chunking.count == 1 ? "task" : "tasks", "step", "done", "failed", "missing", "s a frame",
+                 "left, alone");
   for (const StepStatus& step : steps) {
     fmt::format_to(out, "{:<10} {:>9} {:>9} {:>9} {:>12} {:>12}\n", step.step, with_thousands(step.done),
                    with_thousands(step.failed.size()), with_thousands(step.missing),
