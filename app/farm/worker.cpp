@@ -127,6 +127,11 @@ void check_inputs(const Bundle& bundle, const std::filesystem::path& folder, boo
 }
 
 void work(const Bundle& bundle, const Workplace& place, const Share& share, ProgressStyle progress) {
+  // Frames of one film must not come from two programs.
+  if (bundle.program_version != MENISCUS_VERSION)
+    throw InputError((place.folder / "bundle.json").string(), 0,
+                     fmt::format("was made by meniscus {}, and this is {}; use one version on all machines",
+                                 in_quotes(bundle.program_version), MENISCUS_VERSION));
   check_inputs(bundle, place.folder, false);
   Worker(bundle, place, share, progress).run();
 }

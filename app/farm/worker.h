@@ -24,7 +24,8 @@ void check_inputs(const Bundle& bundle, const std::filesystem::path& folder, boo
 
 /// Makes every frame of the share that has no record with good files, step by step, and writes a record of each. A
 /// frame that fails is recorded, too, and the others are made. Throws RunError with the code of the first frame that
-/// failed, whatever the step; what check_inputs and make_frames throw.
+/// failed, whatever the step; InputError for a bundle of
+/// another version of the program; what check_inputs and make_frames throw.
 void work(const Bundle& bundle, const Workplace& place, const Share& share, ProgressStyle progress);
 
 }  // namespace meniscus::farm

@@ -189,7 +189,7 @@ class Work(FarmCase):
         self.assertIn("not what was bundled", self.meniscus("work", folder, code=3).stderr)
         manifest = folder / "bundle.json"
         text = manifest.read_text()
-        for broken in (text[:200], text.replace('"schema_version": 1', '"schema_version": 2'),
+        for broken in (text[:200], text.replace('"program_version": "', '"program_version": "9'), text.replace('"schema_version": 1', '"schema_version": 2'),
                        text.replace('"inputs/camera.json",\n      "bytes"', '"../camera.json",\n      "bytes"')):
             self.assertNotEqual(broken, text)
             manifest.write_text(broken)
