@@ -14,6 +14,7 @@
 #include "app/farm/quote.h"
 #include "app/farm/status.h"
 #include "app/farm/verify.h"
+#include "app/farm/worker.h"
 #include "app/program_error.h"
 #include "app/stop_signals.h"
 #include "core/base/text.h"
@@ -141,6 +142,7 @@ void add_status(CLI::App& command) {
 void verify(const std::filesystem::path& folder) {
   const farm::Bundle bundle = farm::read_bundle(folder);
   const StopHandler handler([] { farm::stop_children(); }, std::nullopt);
+  farm::check_inputs(bundle, folder, true);
   const std::vector<farm::FrameFault> faults = farm::faults_of(bundle, folder);
   for (std::size_t n = 0; n < std::min(faults.size(), kFaultsShown); ++n)
     std::cerr << fmt::format("meniscus: {} frame {}: {}\n", faults[n].step, faults[n].frame, escaped(faults[n].what));

@@ -146,9 +146,9 @@ TEST_F(Frames, MoleculesAcrossTheBoxAreMadeWhole) {
     arguments.insert(arguments.end(), more.begin(), more.end());
     const ProgramResult result = meniscus(arguments);
     EXPECT_EQ(result.exit_code, 0) << result.err;
-    std::vector<double> areas;
-    for (const Json& line : lines_of(result.out)) areas.push_back(line["area"]);
-    return areas;
+    std::vector<double> found;
+    for (const Json& line : lines_of(result.out)) found.push_back(line["area"]);
+    return found;
   };
   const std::vector<double> right = areas(whole, {}), broken = areas(cut, {});
   ASSERT_EQ(right.size(), 2u);

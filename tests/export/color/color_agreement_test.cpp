@@ -92,7 +92,7 @@ FlatPicture blender(const std::vector<SurfaceObject>& objects, const Camera& cam
   const std::string mns = (scratch.path() / "a.mns").string(), exr = (scratch.path() / "a.exr").string();
   std::vector<blender::MeshedObject> meshed;
   for (const SurfaceObject& object : objects)
-    meshed.push_back({object, shown_part(tessellate(object.surface, {0.01, true}), object.coloring), {}});
+    meshed.push_back({object, shown_part(tessellate(object.surface, {0.01, true}), object.coloring), {}, {}});
   write_objects(mns, Existing::refuse, meshed, blender::Shot{camera, kWidth, kHeight}, {});
   const auto run = test::run_program(BLENDER_PROGRAM,
                                      {"-b", "--factory-startup", "--python-exit-code", "3", "--python",

@@ -137,7 +137,9 @@ TEST(PovrayExport, SwitchesOfTheCommandLineAreUnderstood) {
     const PovrayRun run = run_povray(path, arguments);
     EXPECT_EQ(run.exit_code, 0) << run.log;
     // POV-Ray calls its subsurface light experimental.
-    if (switches.size() < 2) EXPECT_TRUE(run.warnings.empty()) << run.warnings.front();
+    if (switches.size() < 2) {
+      EXPECT_TRUE(run.warnings.empty()) << run.warnings.front();
+    }
     return read_rgb(path / "surface.png");
   };
   const std::vector<glm::dvec3> plain = render({}), shadows = render({"Declare=Meniscus_Shadows=1"});
