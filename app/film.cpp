@@ -94,6 +94,8 @@ void FilmWriter::wait() {
 }
 
 void FilmWriter::fail() {
+  if (pictures_ >= 0) ::close(pictures_);  // an encoder that still reads comes to its end
+  pictures_ = -1;
   wait();
   std::array<char, 2000> text{};
   const ssize_t length = ::pread(complaints_, text.data(), text.size(), 0);

@@ -2,7 +2,6 @@
 // Runs of frames as a user makes them: which frames, what is prepared, what fails and how it is told.
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <sstream>
 
@@ -229,7 +228,6 @@ TEST_F(Frames, NumberedPictures) {
 }
 
 TEST_F(Frames, Film) {
-  if (std::system("command -v ffmpeg ffprobe > /dev/null") != 0) GTEST_SKIP() << "ffmpeg is not installed";
   const std::string folder = folder_.path().string();
   const std::vector<std::string> view{"render", file_, "-q", "--size", "64x48", "--frames", "all"};
   const auto render = [&](std::vector<std::string> more) {
