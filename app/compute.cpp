@@ -15,9 +15,14 @@
 #include "core/surface/pipeline.h"
 #include "core/surface/reduced_surface.h"
 #include "core/surface/surface.h"
+#include "core/surface/tie_ladder.h"
+#include "exporters/mesh/compare_mesh.h"
+#include "exporters/mesh/tessellate.h"
 
 namespace meniscus {
 namespace {
+
+constexpr double kCheckTolerance = 0.1;  // Å, of the mesh that --verify makes
 
 bool has_hardware_gpu() {
   try {
@@ -38,6 +43,14 @@ void require_equal(const Surface& a, const std::string& device_a, const Surface&
   const std::vector<std::string> found = differences(a, b);
   if (found.empty()) return;
   throw OpenSurfaceError(fmt::format("--verify: {} differences between {} and {}: {}", found.size(), device_a, device_b,
+                                     fmt::join(found, "; ")));
+}
+
+// An independent look at areas and volumes: those of the triangles, face by face.
+void require_equal_to_mesh(const Surface& surface) {
+  const std::vector<std::string> found = differences(surface, tessellate(surface, {kCheckTolerance, false}));
+  if (found.empty()) return;
+  throw OpenSurfaceError(fmt::format("--verify: {} differences between the surface and its mesh: {}", found.size(),
                                      fmt::join(found, "; ")));
 }
 
@@ -75,35 +88,42 @@ Surface SurfaceComputer::compute(std::span<const Ball> balls) {
     balls = grown;
   }
   const double probe_radius = options_.kind == SurfaceKind::ses ? options_.probe_radius : 0.0;
-  Surface surface = on_cpu_ ? compute_on_cpu(balls, probe_radius, clock_) : compute_on_gl(balls, probe_radius);
+  Surface surface = on_cpu_ ? compute_on_cpu(balls, probe_radius, clock_)
+                             : compute_on_gl(balls, probe_radius, options_.gl, clock_);
   if (!options_.verify) {
     device_ = on_cpu_ ? cpu_device() : gl_->device;
     return surface;
   }
   // The other device's time is not this one's.
   StageClock unused;
-  if (on_cpu_ && !gl_) gl_ = std::make_unique<GlPipeline>(context_, DeviceChoice{});
-  const Surface other = on_cpu_ ? gl_->pipeline.run(balls, probe_radius) : compute_on_cpu(balls, probe_radius, unused);
+  const Surface other = on_cpu_ ? compute_on_gl(balls, probe_radius, DeviceChoice{}, unused)
+                                : compute_on_cpu(balls, probe_radius, unused);
   const std::string first = on_cpu_ ? cpu_device() : gl_->device, second = on_cpu_ ? gl_->device : cpu_device();
   require_equal(surface, first, other, second);
+  if (surface.certificate.closed) require_equal_to_mesh(surface);
   device_ = fmt::format("{}, verified on {}", first, second);
   return surface;
 }
 
-Surface SurfaceComputer::compute_on_cpu(std::span<const Ball> balls, double probe_radius, StageClock& clock) {
-  ReducedSurface reduced;
-  {
-    const auto stage = clock.stage("reduced surface");
-    reduced = enumerate_reduced_surface(balls, probe_radius);
-  }
-  return assemble_surface(balls, probe_radius, reduced, &clock);
+Surface SurfaceComputer::compute_on_cpu(std::span<const Ball> given, double probe_radius, StageClock& clock) {
+  return compute_through_ties(given, [&](std::span<const Ball> balls) {
+    ReducedSurface reduced;
+    {
+      const auto stage = clock.stage("reduced surface");
+      reduced = enumerate_reduced_surface(balls, probe_radius);
+    }
+    return assemble_surface(balls, probe_radius, reduced, &clock);
+  });
 }
 
-Surface SurfaceComputer::compute_on_gl(std::span<const Ball> balls, double probe_radius) {
-  if (!gl_) gl_ = std::make_unique<GlPipeline>(context_, options_.gl);
-  Surface surface = gl_->pipeline.run(balls, probe_radius);
-  for (const StageTime& stage : gl_->pipeline.stage_times()) clock_.add(stage.name, stage.milliseconds);
-  return surface;
+Surface SurfaceComputer::compute_on_gl(std::span<const Ball> given, double probe_radius, const DeviceChoice& choice,
+                                       StageClock& clock) {
+  if (!gl_) gl_ = std::make_unique<GlPipeline>(context_, choice);
+  return compute_through_ties(given, [&](std::span<const Ball> balls) {
+    Surface surface = gl_->pipeline.run(balls, probe_radius);
+    for (const StageTime& stage : gl_->pipeline.stage_times()) clock.add(stage.name, stage.milliseconds);
+    return surface;
+  });
 }
 
 ComputedSurface compute_surface(std::span<const Ball> balls, const ComputeOptions& options) {

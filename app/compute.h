@@ -56,8 +56,8 @@ class SurfaceComputer {
   ~SurfaceComputer();
 
   /// balls: van der Waals. Sas and vdw surfaces are made of balls without a probe: of these grown, or of these.
-  /// With `verify` the surface is computed on the other device as well (software GL if need be) and every difference
-  /// is an error. Look at its certificate. Throws OpenSurfaceError, CapacityError, GpuError.
+  /// With `verify` the surface is computed on the other device as well (software GL if need be) and meshed, and every
+  /// difference is an error. Look at its certificate. Throws OpenSurfaceError, CapacityError, GpuError.
   Surface compute(std::span<const Ball> balls);
 
   const std::string& device() const { return device_; }  ///< "cpu (16 threads)", or GL renderer and version
@@ -68,7 +68,8 @@ class SurfaceComputer {
   struct GlPipeline;
 
   Surface compute_on_cpu(std::span<const Ball> balls, double probe_radius, StageClock& clock);
-  Surface compute_on_gl(std::span<const Ball> balls, double probe_radius);
+  Surface compute_on_gl(std::span<const Ball> balls, double probe_radius, const DeviceChoice& choice,
+                        StageClock& clock);
 
   ComputeOptions options_;
   const EglContext* context_;

@@ -43,6 +43,13 @@ Totals totals_of(const std::vector<SurfaceObject>& objects) {
   return sum;
 }
 
+// Å; 0 unless ties had to be told apart (core/surface/tie_ladder.h).
+double largest_growth(const std::vector<SurfaceObject>& objects) {
+  double largest = 0.0;
+  for (const SurfaceObject& object : objects) largest = std::max(largest, object.surface.certificate.grown_by);
+  return largest;
+}
+
 Json component_list(const std::vector<SurfaceObject>& objects) {
   Json list = Json::array();
   for (std::size_t n = 0; n < objects.size(); ++n)
@@ -178,6 +185,8 @@ Json report_object(const SurfaceReport& report) {
   json["components"] = component_list(report.molecule.objects);
   json["groups"] = group_list(report);
   json["certificate"] = {{"closed", true}, {"open_atoms", Json::array()}};
+  if (const double grown_by = largest_growth(report.molecule.objects); grown_by > 0)
+    json["certificate"]["radii_grown_by"] = grown_by;
   json["device"] = report.molecule.device;
   json["stages"] = stages;
   return json;
@@ -231,6 +240,8 @@ std::string report_table(const SurfaceReport& report) {
   if (report.options.computing.kind == SurfaceKind::ses)
     fmt::format_to(out, "accessible    {:.3f} Å²\n", report.columns[1].total);
   fmt::format_to(out, "volume        {:.3f} Å³\nclosed        yes\n", totals.volume);
+  if (const double grown_by = largest_growth(objects); grown_by > 0)
+    fmt::format_to(out, "ties          told apart by radii grown by up to {:.2g} Å\n", grown_by);
   if (report.context)
     fmt::format_to(out, "context       {} atoms: {}\n", n(report.context->atoms), escaped(report.context->selection));
   fmt::format_to(out, "device        {}\n", report.molecule.device);

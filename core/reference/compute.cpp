@@ -2,11 +2,14 @@
 // The surface on the CPU from end to end.
 #include "core/reference/exhaustive.h"
 #include "core/surface/surface.h"
+#include "core/surface/tie_ladder.h"
 
 namespace meniscus {
 
 Surface compute_surface_cpu(std::span<const Ball> atoms, double probe_radius) {
-  Surface surface = assemble_surface(atoms, probe_radius, enumerate_reduced_surface(atoms, probe_radius));
+  Surface surface = compute_through_ties(atoms, [&](std::span<const Ball> balls) {
+    return assemble_surface(balls, probe_radius, enumerate_reduced_surface(balls, probe_radius));
+  });
   require_closed(surface);
   return surface;
 }

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The second half of the pipeline as a list of its stages: place, cut, bound, trim, measure, certify.
-#include <algorithm>
-#include <cmath>
 #include <string>
-
-#include <glm/geometric.hpp>
 
 #include "core/base/error.h"
 #include "core/surface/boundary.h"
+#include "core/surface/certificate.h"
 #include "core/surface/cusps.h"
 #include "core/surface/fixed_probes.h"
 #include "core/surface/measure.h"
@@ -16,23 +13,6 @@
 #include "core/surface/trim.h"
 
 namespace meniscus {
-namespace {
-
-// Theorem 3: every triple three times, every border two faces, every Euler characteristic even and at most 2.
-void certify(Surface& surface) {
-  auto& open = surface.certificate.open_atoms;
-  for (std::uint32_t f = 0; f < surface.faces.size(); ++f) {
-    const Component& component = surface.components[surface.faces[f].component];
-    if ((component.euler % 2 != 0 || component.euler > 2) && surface.faces[f].kind == PatchKind::convex)
-      open.push_back(surface.convex[surface.faces[f].patch].atom);
-  }
-  std::sort(open.begin(), open.end());
-  open.erase(std::unique(open.begin(), open.end()), open.end());
-  surface.certificate.closed = open.empty();
-}
-
-}  // namespace
-
 Surface assemble_surface(std::span<const Ball> atoms, double probe_radius, const ReducedSurface& rs, StageClock* clock,
                          CuspTracer* tracer) {
   StageClock unused;
@@ -62,8 +42,7 @@ Surface assemble_surface(std::span<const Ball> atoms, double probe_radius, const
     trim_convex_patches(surface, rs);
   }
   const auto stage = stages.stage("area and volume");
-  measure_surface(surface);
-  certify(surface);
+  certify(surface, measure_surface(surface));
   return surface;
 }
 

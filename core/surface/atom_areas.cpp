@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <utility>
 
 #include <glm/geometric.hpp>
@@ -19,22 +20,8 @@ namespace {
 
 constexpr double kTurn = 2 * std::numbers::pi;
 
-/// A circle of the unit sphere, or the beginning of one: height*axis + cos t * x + sin t * y, counter-clockwise about
-/// the axis; |x| = |y| = its radius.
-struct Circle {
-  glm::dvec3 axis;
-  double height;
-  glm::dvec3 x, y;
-};
-
-Circle circle_of(const SphereArc& arc) {
-  const double sign = arc.sweep < 0 ? -1 : 1;
-  const glm::dvec3 x = arc.from - arc.height * arc.axis;
-  return {sign * arc.axis, sign * arc.height, x, sign * glm::cross(arc.axis, x)};
-}
-
 /// The great circle around a unit axis.
-Circle great_circle(const glm::dvec3& axis) {
+SphereCircle great_circle(const glm::dvec3& axis) {
   const glm::dvec3 aside = std::abs(axis.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
   const glm::dvec3 x = glm::normalize(glm::cross(axis, aside));
   return {axis, 0, x, glm::cross(axis, x)};
@@ -46,7 +33,7 @@ class Intervals {
   explicit Intervals(double length) : kept_{{0.0, length}} {}
 
   /// Keeps the points p of the circle with dot(normal, p) <= offset.
-  void keep(const Circle& circle, const glm::dvec3& normal, double offset) {
+  void keep(const SphereCircle& circle, const glm::dvec3& normal, double offset) {
     const double a = glm::dot(normal, circle.x), b = glm::dot(normal, circle.y), size = std::hypot(a, b);
     const double room = offset - circle.height * glm::dot(normal, circle.axis);
     if (room >= size) return;
@@ -77,21 +64,6 @@ class Intervals {
   std::vector<std::pair<double, double>> kept_, rest_;
 };
 
-/// Integral of (1 - cos theta) d phi along the circle from t = from to t = to; theta and phi are polar coordinates
-/// about `pole`. Around a region without the antipode of the pole these integrals add up to the region's area. With
-/// alpha = dot(pole, axis) the integrand is -h + (h + alpha) / (1 + h alpha + B cos(t - t0)).
-double area_swept_from(const glm::dvec3& pole, const Circle& circle, double from, double to) {
-  const double alpha = glm::dot(pole, circle.axis), a = 1 + circle.height * alpha;
-  const double u = glm::dot(pole, circle.x), v = glm::dot(pole, circle.y), b = std::hypot(u, v), t0 = std::atan2(v, u);
-  const double slope = std::abs(circle.height + alpha);  // squared: a^2 - b^2
-  const auto angle = [&](double t) {
-    const double half = 0.5 * (t - t0);
-    // The same quadrant as `half`, and as many turns.
-    return half + std::remainder(std::atan2(slope * std::sin(half), (a + b) * std::cos(half)) - half, kTurn);
-  };
-  return -circle.height * (to - from) + std::copysign(2.0, circle.height + alpha) * (angle(to) - angle(from));
-}
-
 class AreaDivider {
  public:
   explicit AreaDivider(const Surface& surface) : s_(surface) {}
@@ -103,10 +75,28 @@ class AreaDivider {
     for (const ToroidalPatch& patch : s_.toroidal) add(patch);
     std::vector<double> share(s_.contacts.size(), 0.0);
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, s_.concave.size(), 64), [&](const auto& range) {
-      for (std::size_t n = range.begin(); n != range.end(); ++n) divide(s_.concave[n], share);
+      for (std::size_t n = range.begin(); n != range.end(); ++n) std::ranges::copy(divide(s_.concave[n]), share.begin() + s_.concave[n].first_contact);
     });
     for (std::size_t n = 0; n < share.size(); ++n) areas_.surface[s_.contacts[n]] += share[n];
     return std::move(areas_);
+  }
+
+  // The cell of a contact holds the points of the sphere that no other contact is nearer to. Its border consists of
+  // parts of the patch's borders and of the bisectors. A cell never holds the antipode of its own contact, which any
+  // other contact is nearer to: so the contact serves as the pole of the integral.
+  // Returns Å² by contact.
+  std::vector<double> divide(const ConcavePatch& patch) const {
+    std::vector<double> area(patch.contact_count, 0.0);
+    if (patch.face_count == 0) return area;
+    std::vector<glm::dvec3> contacts;
+    for (std::uint32_t n = 0; n < patch.contact_count; ++n)
+      contacts.push_back(glm::normalize(s_.atoms[s_.contacts[patch.first_contact + n]].center - patch.center));
+    for (std::uint32_t f = patch.first_face; f < patch.first_face + patch.face_count; ++f)
+      add_borders(s_.faces[f], patch.center, contacts, area);
+    for (std::uint32_t k = 1; k < contacts.size(); ++k)
+      for (std::uint32_t j = 0; j < k; ++j) add_bisector(patch, contacts, j, k, area);
+    for (double& share : area) share = share * s_.probe_radius * s_.probe_radius;
+    return area;
   }
 
  private:
@@ -132,23 +122,6 @@ class AreaDivider {
     }
   }
 
-  // The cell of a contact holds the points of the sphere that no other contact is nearer to. Its border consists of
-  // parts of the patch's borders and of the bisectors. A cell never holds the antipode of its own contact, which any
-  // other contact is nearer to: so the contact serves as the pole of the integral.
-  void divide(const ConcavePatch& patch, std::vector<double>& share) const {
-    if (patch.face_count == 0) return;
-    std::vector<glm::dvec3> contacts;
-    for (std::uint32_t n = 0; n < patch.contact_count; ++n)
-      contacts.push_back(glm::normalize(s_.atoms[s_.contacts[patch.first_contact + n]].center - patch.center));
-    std::vector<double> area(contacts.size(), 0.0);
-    for (std::uint32_t f = patch.first_face; f < patch.first_face + patch.face_count; ++f)
-      add_borders(s_.faces[f], patch.center, contacts, area);
-    for (std::uint32_t k = 1; k < contacts.size(); ++k)
-      for (std::uint32_t j = 0; j < k; ++j) add_bisector(patch, contacts, j, k, area);
-    for (std::uint32_t n = 0; n < contacts.size(); ++n)
-      share[patch.first_contact + n] = area[n] * s_.probe_radius * s_.probe_radius;
-  }
-
   void add_borders(const Face& face, const glm::dvec3& center, const std::vector<glm::dvec3>& contacts,
                    std::vector<double>& area) const {
     for (std::uint32_t l = face.first_loop; l < face.first_loop + face.loop_count; ++l)
@@ -156,7 +129,7 @@ class AreaDivider {
         const HalfBorder half = s_.half_borders[s_.loops[l].first_half_border + n];
         // Seen from inside of the sphere the face is on the other side.
         const SphereArc arc = sphere_arc(s_.borders[half / 2], (half & 1) == 0, center, s_.probe_radius);
-        const Circle circle = circle_of(arc);
+        const SphereCircle circle = circle_of(arc);
         for (std::size_t k = 0; k < contacts.size(); ++k) {
           Intervals cell(std::abs(arc.sweep));
           for (std::size_t j = 0; j < contacts.size(); ++j)
@@ -169,7 +142,7 @@ class AreaDivider {
   // Counter-clockwise about its axis the bisector has the cell of k on its left, that of j on its right.
   void add_bisector(const ConcavePatch& patch, const std::vector<glm::dvec3>& contacts, std::size_t j, std::size_t k,
                     std::vector<double>& area) const {
-    const Circle circle = great_circle(glm::normalize(contacts[k] - contacts[j]));
+    const SphereCircle circle = great_circle(glm::normalize(contacts[k] - contacts[j]));
     Intervals common(kTurn);
     for (std::size_t other = 0; other < contacts.size(); ++other)
       if (other != j && other != k) common.keep(circle, contacts[other] - contacts[k], 0.0);
@@ -190,5 +163,10 @@ class AreaDivider {
 }  // namespace
 
 AtomAreas atom_areas(const Surface& surface) { return AreaDivider(surface).run(); }
+
+double divided_area(const Surface& surface, const ConcavePatch& patch) {
+  const std::vector<double> shares = AreaDivider(surface).divide(patch);
+  return std::accumulate(shares.begin(), shares.end(), 0.0);
+}
 
 }  // namespace meniscus

@@ -22,4 +22,8 @@ struct AtomAreas {
 /// Needs the surface's faces measured. Runs on all cores TBB may use; the result does not depend on their number.
 AtomAreas atom_areas(const Surface& surface);
 
+/// Å²: the sum of what the atoms that a re-entrant patch touches get of it. It comes from integrals along the patch's
+/// planes as well as its borders, so it is the area of the patch's faces only if both describe one figure.
+double divided_area(const Surface& surface, const ConcavePatch& patch);
+
 }  // namespace meniscus

@@ -122,6 +122,7 @@ class Appender {
       shift(face.tip, vertex_);
     });
     add(whole_.components, part_.components, [](Component&) {});
+    whole_.certificate.grown_by = std::max(whole_.certificate.grown_by, part_.certificate.grown_by);
     add(whole_.certificate.open_atoms, part_.certificate.open_atoms, [&](std::uint32_t& atom) { atom += atom_; });
   }
 

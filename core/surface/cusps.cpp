@@ -17,6 +17,7 @@ namespace meniscus {
 namespace {
 
 constexpr double kTwoPi = 2 * std::numbers::pi;
+constexpr double kBlur = 1e-6;  // Å for a probe of no size: what merging (fixed_probes.h) may move a point by
 
 struct FoundArc {
   CuspArc arc;
@@ -133,8 +134,10 @@ class CuspSearch {
       name_axis_cusp(found, end, end ? traced.end : traced.begin);
       from_axis = true;
     }
-    if (!from_axis && !on_both_patches(found.arc)) return;
-    found_.push_back(found);
+    const DepthRange depth = depth_on_both_patches(found.arc);
+    if (std::min(depth.highest, -depth.lowest) > kBlur * (1 + p_))
+      parts_.open_probes.insert(parts_.open_probes.end(), traced.probe.begin(), traced.probe.end());
+    if (from_axis || depth.highest > -depth.lowest) found_.push_back(found);
   }
 
   void name_axis_cusp(FoundArc& found, int end, const glm::dvec3& direction) const {
@@ -145,18 +148,26 @@ class CuspSearch {
     found.arc.vertex[end] = first * 2 + (upper ? 1 : 0);
   }
 
-  // A piece of the circle lies on both patches all along, or nowhere, so one point of it decides: the one that is
-  // farthest from the border of what both have in common.
-  bool on_both_patches(const CuspArc& arc) const {
-    double clearest = 0;
-    for (const double part : {0.5, 0.3, 0.7}) {
+  struct DepthRange {
+    double lowest = 1e300;
+    double highest = -1e300;
+  };
+
+  // How deep points of the circle's piece lie in the cones of both probes, Å. It lies on both patches all along, or
+  // nowhere, so the point that is clearest decides; where two points clearly disagree the search for its ends failed.
+  DepthRange depth_on_both_patches(const CuspArc& arc) const {
+    DepthRange range;
+    const bool whole = arc.sweep == kTwoPi;
+    for (const double part : {0.5, 0.3, 0.7, 0.0, 0.1, 0.2, 0.4, 0.6, 0.8, 0.9}) {
+      if (part == 0.0 && !whole) break;  // the ends lie on borders
       const double angle = part * arc.sweep;
       const glm::dvec3 e = std::cos(angle) * arc.start + std::sin(angle) * glm::cross(arc.axis, arc.start);
       const glm::dvec3 point = arc.center + arc.radius * e;
       const double depth = std::min(depth_in_cone(arc.probe[0], point), depth_in_cone(arc.probe[1], point));
-      if (std::abs(depth) > std::abs(clearest)) clearest = depth;
+      range.lowest = std::min(range.lowest, depth);
+      range.highest = std::max(range.highest, depth);
     }
-    return clearest > 0;
+    return range;
   }
 
   double depth_in_cone(std::uint32_t s, const glm::dvec3& point) const {

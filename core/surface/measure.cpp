@@ -6,22 +6,29 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <span>
+#include <vector>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include "core/surface/component_side.h"
 #include "core/surface/spherical.h"
 
 namespace meniscus {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
+constexpr double kRounding = 1e-9;  // of a solid angle
+constexpr double kMisfit = 1e-9;    // of a loop, beyond which its turning is not trusted
 
 struct FaceIntegrals {
   double area = 0.0;  // Å²
   double flux = 0.0;  // integral of x·n, Å³; a third of it is the face's share of the volume
+  bool doubtful = false;  // corners are blurred: the area was integrated about a pole
+  bool disputed = false;  // and Gauss-Bonnet gives another one
 };
 
 class Measurement {
@@ -35,27 +42,32 @@ class Measurement {
     origin_ = 0.5 * (low + high);
   }
 
-  void run() {
-    std::vector<double> flux(s_.faces.size());
+  MeasurementDoubts run() {
+    MeasurementDoubts doubts;
+    std::vector<FaceIntegrals> measured(s_.faces.size());
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, s_.faces.size(), 64), [&](const auto& range) {
       std::vector<SphereArc> loop;
       for (std::size_t f = range.begin(); f != range.end(); ++f) {
-        const FaceIntegrals integrals = measure(s_.faces[f], loop);
-        s_.faces[f].area = integrals.area;
-        flux[f] = integrals.flux;
+        measured[f] = measure(s_.faces[f], loop);
+        s_.faces[f].area = measured[f].area;
       }
     });
-    for (std::size_t f = 0; f < s_.faces.size(); ++f) {
+    for (std::uint32_t f = 0; f < s_.faces.size(); ++f) {
       Component& component = s_.components[s_.faces[f].component];
       component.area += s_.faces[f].area;
-      component.volume += flux[f] / 3;
+      component.volume += measured[f].flux / 3;
+      if (measured[f].doubtful) doubts.doubtful.push_back(f);
+      if (measured[f].disputed) doubts.disputed.push_back(f);
     }
-    for (Component& component : s_.components) {
-      component.kind = component.volume < 0 ? ComponentKind::cavity : ComponentKind::outer;
+    const std::vector<ComponentKind> sides = side_of_components(s_);
+    for (std::size_t c = 0; c < s_.components.size(); ++c) {
+      Component& component = s_.components[c];
+      component.kind = sides[c];
       s_.area += component.area;
       s_.volume += component.volume;
     }
     sort_components();
+    return doubts;
   }
 
  private:
@@ -74,25 +86,86 @@ class Measurement {
 
   FaceIntegrals measure_spherical(const Face& face, const glm::dvec3& center, double radius, bool seen_from_inside,
                                   std::vector<SphereArc>& loop) const {
-    double area = 4 * kPi;
+    double area = 4 * kPi, misfit = 0;
     glm::dvec3 moment(0.0);
     for (std::uint32_t l = face.first_loop; l < face.first_loop + face.loop_count; ++l) {
-      loop.clear();
-      const Loop& walk = s_.loops[l];
-      for (std::uint32_t n = 0; n < walk.half_border_count; ++n) {
-        const HalfBorder h = s_.half_borders[walk.first_half_border + n];
-        loop.push_back(sphere_arc(s_.borders[h / 2], ((h & 1) != 0) != seen_from_inside, center, radius));
-      }
-      if (seen_from_inside) std::reverse(loop.begin(), loop.end());
+      walk_loop(s_, s_.loops[l], center, radius, seen_from_inside, loop);
       area += area_left_of(loop) - 4 * kPi;
       moment += moment_left_of(loop);
+      misfit = std::max(misfit, misfit_of(loop));
     }
     FaceIntegrals integrals;
+    if (misfit > kMisfit) {
+      const double turned = area;
+      area = area_about_pole(face, center, radius, seen_from_inside, loop);
+      integrals.doubtful = true;
+      integrals.disputed = !(std::abs(area - turned) <= 1e-5 + 8 * misfit);
+    }
+    // What rounding and blurred corners may have taken from nothing or added to everything.
+    const double blur = kRounding + 8 * misfit;
+    if (area < blur && area > -blur) area = std::max(area, 0.0);
+    if (area > 4 * kPi - blur && area < 4 * kPi + blur) area = std::min(area, 4 * kPi);
     integrals.area = area * radius * radius;
     // On the outside of a sphere x·n = (center + radius u)·u; seen from inside the normal is -u.
     const double outward = radius * radius * glm::dot(center - origin_, moment) + radius * integrals.area;
     integrals.flux = seen_from_inside ? -outward : outward;
     return integrals;
+  }
+
+  // The solid angle of a face whose corners are too blurred for Gauss-Bonnet: integrated about a pole whose antipode
+  // is known to lie in the face or beside it.
+  double area_about_pole(const Face& face, const glm::dvec3& center, double radius, bool seen_from_inside,
+                         std::vector<SphereArc>& loop) const {
+    const Antipode antipode = face.kind == PatchKind::concave
+                                  ? beside_concave(s_.concave[face.patch])
+                                  : farthest_known(face, s_.convex[face.patch], center, radius, loop);
+    double area = antipode.inside ? 4 * kPi : 0;
+    for (std::uint32_t l = face.first_loop; l < face.first_loop + face.loop_count; ++l) {
+      walk_loop(s_, s_.loops[l], center, radius, seen_from_inside, loop);
+      area += area_swept_from(-antipode.direction, loop);
+    }
+    return area;
+  }
+
+  struct Antipode {
+    glm::dvec3 direction;
+    bool inside;
+  };
+
+  // A concave patch lies in a half-space of the probe: within all sides, hence behind the plane whose normal is the
+  // sum of theirs. The patch is at least a quarter turn away from that normal.
+  Antipode beside_concave(const ConcavePatch& patch) const {
+    glm::dvec3 normal(0.0);
+    for (std::uint32_t n = patch.first_plane; n < patch.first_plane + patch.side_count; ++n)
+      normal += s_.planes[n].normal;
+    return {glm::normalize(normal), false};
+  }
+
+  // Of the middles of the caps that neighbours cover, none of which is in the patch, and, if the patch is one piece, of
+  // some fixed directions whose side all planes know: the one farthest from the face's loops.
+  Antipode farthest_known(const Face& face, const ConvexPatch& patch, const glm::dvec3& center, double radius,
+                          std::vector<SphereArc>& loop) const {
+    std::vector<Antipode> candidates;
+    const std::span<const Plane> planes(s_.planes.data() + patch.first_plane, patch.plane_count);
+    for (const Plane& plane : planes)
+      if (plane.offset - glm::dot(plane.normal, center) < radius) candidates.push_back({plane.normal, false});
+    if (patch.face_count == 1)
+      for (int n = 0; n < 27; ++n) {
+        if (n == 13) continue;
+        const glm::dvec3 direction = glm::normalize(glm::dvec3(n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1));
+        const glm::dvec3 x = center + radius * direction;
+        candidates.push_back({direction, std::ranges::all_of(planes, [&](const Plane& plane) {
+                                return glm::dot(plane.normal, x) <= plane.offset;
+                              })});
+      }
+    std::vector<double> distance(candidates.size(), 4.0);
+    for (std::uint32_t l = face.first_loop; l < face.first_loop + face.loop_count; ++l) {
+      walk_loop(s_, s_.loops[l], center, radius, false, loop);
+      for (std::size_t c = 0; c < candidates.size(); ++c)
+        distance[c] = std::min(distance[c], std::abs(distance_left_of(candidates[c].direction, loop)));
+    }
+    const auto farthest = std::max_element(distance.begin(), distance.end()) - distance.begin();
+    return candidates.empty() ? Antipode{{0, 0, 1}, false} : candidates[static_cast<std::size_t>(farthest)];
   }
 
   FaceIntegrals measure_toroidal(const Face& face) const {
@@ -110,7 +183,7 @@ class Measurement {
     const glm::dvec3 around = std::sin(t.sweep) * t.start + (1 - std::cos(t.sweep)) * side;
     const glm::dvec3 c = t.center - origin_;
     FaceIntegrals integrals;
-    integrals.area = t.sweep * i.x;
+    integrals.area = std::max(0.0, t.sweep * i.x);
     // n = cos psi e - sin psi axis, x·n = c·n + T cos psi - p.
     integrals.flux =
         glm::dot(c, around) * i.y - glm::dot(c, t.axis) * t.sweep * i.z + t.sweep * (t.radius * i.y - p * i.x);
@@ -140,7 +213,7 @@ class Measurement {
 
 }  // namespace
 
-void measure_surface(Surface& surface) { Measurement(surface).run(); }
+MeasurementDoubts measure_surface(Surface& surface) { return Measurement(surface).run(); }
 
 std::array<double, 2> contact_tube_angles(const Surface& surface, const ToroidalPatch& patch) {
   const Ball &a = surface.atoms[patch.atom[0]], &b = surface.atoms[patch.atom[1]];

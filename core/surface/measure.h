@@ -4,15 +4,23 @@
 
 #include <array>
 #include <cstdint>
+#include <vector>
 
 #include "core/surface/primitives.h"
 
 namespace meniscus {
 
+/// Faces by the trust in their areas.
+struct MeasurementDoubts {
+  std::vector<std::uint32_t> doubtful;  ///< corners do not fit their circles: measured by a second closed form
+  std::vector<std::uint32_t> disputed;  ///< those of them on whose area the two closed forms do not agree
+};
+
 /// Fills in Face::area, Component::{area, volume, kind}, Surface::{area, volume}, and sorts the components: outer ones
 /// first, then cavities, each by falling area. Areas by Gauss-Bonnet, volumes by the divergence theorem; both are
-/// sums of closed forms over borders, so the error is rounding only.
-void measure_surface(Surface& surface);
+/// sums of closed forms over borders, so the error is rounding only. Where ties have left a face with corners beside its
+/// circles its area is integrated about a pole instead, which needs no tangents.
+MeasurementDoubts measure_surface(Surface& surface);
 
 /// Tube angles of a torus: the latitude on the probe, from the direction to the axis towards atom[1].
 /// Those of the contacts with atom[0] and atom[1].

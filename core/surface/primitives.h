@@ -154,6 +154,7 @@ struct Component {
 struct Certificate {
   bool closed = false;
   std::vector<std::uint32_t> open_atoms;  ///< atoms at which the surface is not closed; empty when closed
+  double grown_by = 0.0;  ///< Å by which radii were grown at most to tell ties apart (tie_ladder.h); 0 as a rule
 };
 
 /// Numbers that users and papers quote.

@@ -14,10 +14,17 @@
 namespace meniscus {
 namespace {
 
-// Atoms this little larger than the one that holds them count as inside: four times the largest growth below.
-constexpr double kSwallowTolerance = 4e-9;
+// Atoms this little larger than the one that holds them count as inside: as near as two probe positions count as one.
+// The circle of two spheres nearer than this would be as blurred as their difference.
+constexpr double kSwallowTolerance = 1e-6;
 
-// Golden-ratio hash of an index to [0, 1): neighbouring indices land far apart.
+// Of two balls that nearly coincide the larger one stays; of equal ones that of the lower index.
+bool outranks(std::span<const Ball> atoms, std::uint32_t a, std::uint32_t b) {
+  return atoms[a].radius != atoms[b].radius ? atoms[a].radius > atoms[b].radius : a < b;
+}
+
+}  // namespace
+
 double scattered(std::size_t index) {
   std::uint32_t h = static_cast<std::uint32_t>(index) * 0x9e3779b9u;
   h ^= h >> 16;
@@ -25,8 +32,6 @@ double scattered(std::size_t index) {
   h ^= h >> 13;
   return h * 0x1p-32;
 }
-
-}  // namespace
 
 double decision_weight(double radius, std::size_t index) {
   const double grown = radius + 1e-9 * (1.0 + 0.5 * scattered(index));
@@ -51,17 +56,24 @@ std::vector<bool> swallowed_atoms(std::span<const Ball> atoms) {
       std::minmax_element(atoms.begin(), atoms.end(), [](auto& a, auto& b) { return a.radius < b.radius; });
   const double reach = largest->radius - smallest->radius + kSwallowTolerance;
   const BallGrid grid(atoms, std::max(reach, 2.0));
-  std::vector<char> swallowed(atoms.size(), 0);
+  // Who could swallow whom, and nobody else: exact containment hands on from ball to ball, nearness does not.
+  std::vector<std::vector<std::uint32_t>> holders(atoms.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, atoms.size(), 256), [&](const auto& range) {
     for (std::size_t a = range.begin(); a != range.end(); ++a)
       grid.for_each_near(atoms[a].center, reach, [&](std::uint32_t b) {
-        if (b == a) return;
         const double slack = atoms[b].radius - atoms[a].radius - glm::distance(atoms[a].center, atoms[b].center);
-        const bool wins = atoms[b].radius > atoms[a].radius || (atoms[b].radius == atoms[a].radius && b < a);
-        if (wins && slack + kSwallowTolerance >= 0) swallowed[a] = 1;
+        if (b != a && outranks(atoms, b, static_cast<std::uint32_t>(a)) && slack + kSwallowTolerance >= 0)
+          holders[a].push_back(b);
       });
   });
-  return {swallowed.begin(), swallowed.end()};
+  std::vector<std::uint32_t> held;
+  for (std::uint32_t a = 0; a < atoms.size(); ++a)
+    if (!holders[a].empty()) held.push_back(a);
+  std::sort(held.begin(), held.end(), [&](std::uint32_t a, std::uint32_t b) { return outranks(atoms, a, b); });
+  std::vector<bool> swallowed(atoms.size(), false);
+  for (const std::uint32_t a : held)
+    swallowed[a] = std::ranges::any_of(holders[a], [&](std::uint32_t b) { return !swallowed[b]; });
+  return swallowed;
 }
 
 }  // namespace meniscus

@@ -37,6 +37,9 @@ struct ReducedSurface {
 /// disagree). Positions, areas and volumes are computed from the unchanged radii.
 std::vector<double> decision_weights(std::span<const Ball> atoms, double probe_radius);
 
+/// Golden-ratio hash of an index to [0, 1): neighbouring indices land far apart.
+double scattered(std::size_t index);
+
 /// The decision weight of one ball of (extended) radius R with the given index.
 double decision_weight(double radius, std::size_t index);
 
@@ -46,7 +49,8 @@ double decision_weight(double radius, std::size_t index);
 /// remain broken: quadruple precision tells weights apart that differ by far less.
 double probe_decision_weight(double probe_radius, std::size_t index);
 
-/// Atoms whose SAS ball lies in another's (ties: the lower index wins). They have no patch and block nothing more.
+/// Atoms whose SAS ball lies in that of an atom that is not swallowed itself, but for 1e-6 Å (ties: the lower index
+/// wins). They have no patch and block nothing more.
 std::vector<bool> swallowed_atoms(std::span<const Ball> atoms);
 
 }  // namespace meniscus

@@ -61,9 +61,18 @@ SphereArc sphere_arc(const Border& border, bool backwards, const glm::dvec3& cen
   return arc;
 }
 
+void walk_loop(const Surface& surface, const Loop& loop, const glm::dvec3& center, double radius, bool seen_from_inside,
+               std::vector<SphereArc>& arcs) {
+  arcs.clear();
+  for (std::uint32_t n = 0; n < loop.half_border_count; ++n) {
+    const HalfBorder h = surface.half_borders[loop.first_half_border + n];
+    arcs.push_back(sphere_arc(surface.borders[h / 2], ((h & 1) != 0) != seen_from_inside, center, radius));
+  }
+  if (seen_from_inside) std::reverse(arcs.begin(), arcs.end());
+}
+
 double area_left_of(std::span<const SphereArc> loop) {
-  // Gauss-Bonnet on the unit sphere: area = 2 pi - integral of geodesic curvature - exterior angles. The curvature of
-  // a circle at height h, walked counter-clockwise, integrates to h times the angle.
+  // The curvature of a circle at height h, walked counter-clockwise, integrates to h times the angle.
   if (loop.size() == 1 && loop[0].whole)
     return 2 * kPi * (1 - std::clamp(loop[0].height, -1.0, 1.0) * (loop[0].sweep < 0 ? -1 : 1));
   double turning = 0;
@@ -76,19 +85,44 @@ double area_left_of(std::span<const SphereArc> loop) {
     if (exterior < -0.5 * kPi) exterior += 2 * kPi;  // patches are convex at their corners: no interior angle over pi
     turning += exterior;
   }
-  double area = 2 * kPi - turning;
-  area -= 4 * kPi * std::floor(area / (4 * kPi));
-  if (area > 1e-6 && area < 4 * kPi - 1e-6) return area;
-  // Next to nothing or next to everything: rounding must not choose. What looks positive in the tangent plane (polygon
-  // of the corners plus the segments under the arcs) is walked counter-clockwise, so the small part is the left one.
-  const glm::dvec3 corner = loop.front().from;
-  double flat = 0;
-  for (const SphereArc& arc : loop)
-    flat += glm::dot(corner, glm::cross(arc.from - corner, arc.to - corner)) +
-            glm::dot(corner, arc.axis) * (1 - arc.height * arc.height) * (arc.sweep - std::sin(arc.sweep));
-  const bool small = flat > 0;
-  const double excess = area > 2 * kPi ? area - 4 * kPi : area;
-  return small ? std::max(0.0, excess) : 4 * kPi + std::min(0.0, excess);
+  return 2 * kPi - turning;
+}
+
+double misfit_of(std::span<const SphereArc> loop) {
+  if (loop.size() == 1 && loop[0].whole) return 0;
+  double worst = 0;
+  for (std::size_t n = 0; n < loop.size(); ++n) {
+    const SphereArc &arc = loop[n], &next = loop[n + 1 == loop.size() ? 0 : n + 1];
+    const glm::dvec3 step = next.from - arc.to;
+    const double height = std::max(std::abs(arc.height), std::abs(next.height));
+    worst = std::max(worst, glm::dot(step, step) / std::max(1 - height * height, 1e-300));
+  }
+  return std::sqrt(worst);
+}
+
+SphereCircle circle_of(const SphereArc& arc) {
+  const double sign = arc.sweep < 0 ? -1 : 1;
+  const glm::dvec3 x = arc.from - arc.height * arc.axis;
+  return {sign * arc.axis, sign * arc.height, x, sign * glm::cross(arc.axis, x)};
+}
+
+double area_swept_from(const glm::dvec3& pole, const SphereCircle& circle, double from, double to) {
+  // With alpha = dot(pole, axis) the integrand is -h + (h + alpha) / (1 + h alpha + B cos(t - t0)).
+  const double alpha = glm::dot(pole, circle.axis), a = 1 + circle.height * alpha;
+  const double u = glm::dot(pole, circle.x), v = glm::dot(pole, circle.y), b = std::hypot(u, v), t0 = std::atan2(v, u);
+  const double slope = std::abs(circle.height + alpha);  // squared: a^2 - b^2
+  const auto angle = [&](double t) {
+    const double half = 0.5 * (t - t0);
+    // The same quadrant as `half`, and as many turns.
+    return half + std::remainder(std::atan2(slope * std::sin(half), (a + b) * std::cos(half)) - half, 2 * kPi);
+  };
+  return -circle.height * (to - from) + std::copysign(2.0, circle.height + alpha) * (angle(to) - angle(from));
+}
+
+double area_swept_from(const glm::dvec3& pole, std::span<const SphereArc> loop) {
+  double area = 0;
+  for (const SphereArc& arc : loop) area += area_swept_from(pole, circle_of(arc), 0.0, std::abs(arc.sweep));
+  return area;
 }
 
 glm::dvec3 moment_left_of(std::span<const SphereArc> loop) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "core/surface/primitives.h"
 
@@ -23,8 +24,39 @@ struct SphereArc {
 /// (concave patches) have their region on the left of the reversed walk.
 SphereArc sphere_arc(const Border& border, bool backwards, const glm::dvec3& center, double radius);
 
-/// Area of the disc on the left of a closed loop, in (0, 4 pi) (Gauss-Bonnet), all interior angles below pi.
+/// A loop of a spherical face as a walk on the unit sphere that has the face on its left; `arcs` is overwritten.
+void walk_loop(const Surface& surface, const Loop& loop, const glm::dvec3& center, double radius, bool seen_from_inside,
+               std::vector<SphereArc>& arcs);
+
+/// Area of the disc on the left of a closed loop, all interior angles at most pi: 2 pi less its total turning, which is
+/// its geodesic curvature and the exterior angles at its corners (Gauss-Bonnet). From 0 to 4 pi but for rounding,
+/// provided the loop is closed, see misfit_of().
 double area_left_of(std::span<const SphereArc> loop);
+
+/// How far the loop is from being closed, relative to its smallest circle: the largest step from the end of an arc to
+/// the beginning of the next, over the smaller radius of the two. The turning at that corner is wrong by so many
+/// radians: rounding, as a rule, but anything where a tie was decided for spheres that differ by more than the circle.
+double misfit_of(std::span<const SphereArc> loop);
+
+/// A circle of the unit sphere, or the beginning of one: height*axis + cos t * x + sin t * y, counter-clockwise about
+/// the axis; |x| = |y| = its radius.
+struct SphereCircle {
+  glm::dvec3 axis;
+  double height;
+  glm::dvec3 x, y;
+};
+
+/// The circle of an arc, so turned that the arc runs counter-clockwise from t = 0 to t = |sweep|.
+SphereCircle circle_of(const SphereArc& arc);
+
+/// Integral of (1 - cos theta) d phi along a circle from t = from to t = to; theta and phi are polar coordinates about
+/// `pole`. Along the border of a region these integrals add up to the region's area, less 4 pi if the region holds the
+/// antipode of the pole. Small steps between arcs change the sum by as little, wherever they are far from the antipode:
+/// unlike the turning it needs no tangents, which tiny circles do not have.
+double area_swept_from(const glm::dvec3& pole, const SphereCircle& circle, double from, double to);
+
+/// The same along closed loops.
+double area_swept_from(const glm::dvec3& pole, std::span<const SphereArc> loop);
 
 /// Integral of the unit vector u over the region on the left of the loops: 1/2 of the sum of integrals of u x du.
 glm::dvec3 moment_left_of(std::span<const SphereArc> loop);

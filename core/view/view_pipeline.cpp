@@ -16,6 +16,7 @@
 
 #include "core/base/error.h"
 #include "core/gpu/gpu_stage.h"
+#include "core/surface/tie_ladder.h"
 
 namespace meniscus {
 namespace {
@@ -49,6 +50,17 @@ void ViewPipeline::set_atoms(std::vector<Ball> atoms) {
 }
 
 void ViewPipeline::run(const PictureFrame& frame, double probe_radius, Extent extent, GpuScene& scene) {
+  for (int attempt = 1;; ++attempt) {
+    try {
+      return run_once(frame, probe_radius, extent, scene);
+    } catch (const OpenSurfaceError&) {
+      if (attempt == kTieAttempts) throw;
+      set_atoms(grown_balls(atoms_, attempt));
+    }
+  }
+}
+
+void ViewPipeline::run_once(const PictureFrame& frame, double probe_radius, Extent extent, GpuScene& scene) {
   assert(!atoms_.empty() && probe_radius >= 0.0);
   clock_.restart();
   if (probe_radius != probe_radius_) upload_atoms(probe_radius);

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The checks in the order of the header; each names the atoms at which it fails.
+#include "core/surface/certificate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <glm/geometric.hpp>
+
+#include "core/surface/atom_areas.h"
+
+namespace meniscus {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kSlack = 1e-9;  // relative, of areas and volumes that may be 0 or whole
+constexpr double kClose = 1e-3;  // Å, half the distance of probes whose bisector rounding may turn
+
+class Examination {
+ public:
+  Examination(Surface& surface, const MeasurementDoubts& doubts) : s_(surface), doubts_(doubts) {}
+
+  void run() {
+    check_components();
+    check_faces();
+    for (const ConvexPatch& patch : s_.convex) check_atom(patch);
+    for (const std::uint32_t f : doubts_.disputed) add_atoms_of(s_.faces[f]);
+    for (std::uint32_t n = 0; n < s_.concave.size(); ++n) check_planes(n);
+    std::sort(open().begin(), open().end());
+    open().erase(std::unique(open().begin(), open().end()), open().end());
+    s_.certificate.closed = open().empty();
+  }
+
+ private:
+  std::vector<std::uint32_t>& open() { return s_.certificate.open_atoms; }
+
+  void add_atoms_of(const Face& face) {
+    if (face.kind == PatchKind::convex) open().push_back(s_.convex[face.patch].atom);
+    if (face.kind == PatchKind::toroidal)
+      for (const std::uint32_t atom : s_.toroidal[face.patch].atom) open().push_back(atom);
+    if (face.kind == PatchKind::concave) {
+      const ConcavePatch& patch = s_.concave[face.patch];
+      open().insert(open().end(), s_.contacts.begin() + patch.first_contact,
+                    s_.contacts.begin() + patch.first_contact + patch.contact_count);
+    }
+  }
+
+  void check_components() {
+    const double p = s_.probe_radius;
+    std::vector<char> bad(s_.components.size(), 0);
+    for (std::size_t c = 0; c < bad.size(); ++c) {
+      const Component& component = s_.components[c];
+      const double slack = kSlack * (1 + component.area);
+      const double most = component.kind == ComponentKind::cavity ? -4 * kPi / 3 * p * p * p + slack : 1e300;
+      const double least = component.kind == ComponentKind::cavity ? -1e300 : -slack;
+      const bool sided = component.volume >= least && component.volume <= most;
+      bad[c] = component.euler % 2 != 0 || component.euler > 2 || !sided;
+    }
+    if (std::ranges::find(bad, 1) == bad.end()) return;
+    for (const Face& face : s_.faces)
+      if (bad[face.component]) add_atoms_of(face);
+  }
+
+  double largest_area(const Face& face) const {
+    const double p = s_.probe_radius;
+    if (face.kind == PatchKind::concave) return 2 * kPi * p * p;
+    if (face.kind == PatchKind::toroidal) return 4 * kPi * kPi * p * (s_.toroidal[face.patch].radius + p);
+    const double r = s_.atoms[s_.convex[face.patch].atom].radius;
+    return 4 * kPi * r * r;
+  }
+
+  void check_faces() {
+    for (const Face& face : s_.faces) {
+      const double most = largest_area(face), slack = kSlack * (1 + most);
+      if (!(face.area >= -slack && face.area <= most + slack)) add_atoms_of(face);
+    }
+  }
+
+  void check_atom(const ConvexPatch& patch) {
+    const Ball& atom = s_.atoms[patch.atom];
+    double sum = 0;
+    for (std::uint32_t f = patch.first_face; f < patch.first_face + patch.face_count; ++f) sum += s_.faces[f].area;
+    const double whole = 4 * kPi * atom.radius * atom.radius, share = whole > 0 ? sum / whole : 0;
+    const bool little = share < 1e-3, much = share > 1 - 1e-3;
+    if (!(sum <= whole * (1 + kSlack)) || ((little || much) && much != most_is_left(patch, atom)))
+      open().push_back(patch.atom);
+  }
+
+  // Whether the clip planes leave most of an atom's sphere, judged by points spread evenly (Fibonacci's spiral).
+  bool most_is_left(const ConvexPatch& patch, const Ball& atom) const {
+    constexpr int kPoints = 32;
+    int left = 0;
+    for (int n = 0; n < kPoints; ++n) {
+      const double z = (2 * n + 1.0) / kPoints - 1, turn = 2 * kPi * std::numbers::phi * n, across = std::sqrt(1 - z * z);
+      const glm::dvec3 x = atom.center + atom.radius * glm::dvec3(across * std::cos(turn), across * std::sin(turn), z);
+      left += std::all_of(s_.planes.begin() + patch.first_plane,
+                          s_.planes.begin() + patch.first_plane + patch.plane_count,
+                          [&](const Plane& plane) { return glm::dot(plane.normal, x) <= plane.offset; });
+    }
+    return 2 * left > kPoints;
+  }
+
+  bool has_cusp(const ConcavePatch& patch) const {
+    for (std::uint32_t f = patch.first_face; f < patch.first_face + patch.face_count; ++f)
+      for (std::uint32_t l = s_.faces[f].first_loop; l < s_.faces[f].first_loop + s_.faces[f].loop_count; ++l)
+        for (std::uint32_t n = 0; n < s_.loops[l].half_border_count; ++n)
+          if (s_.borders[s_.half_borders[s_.loops[l].first_half_border + n] / 2].kind == BorderKind::cusp) return true;
+    return false;
+  }
+
+  // A re-entrant patch of several probes in one, cut from close by, cut to no avail, or with blurred corners: divided among its atoms
+  // along its planes it has the area that its borders give.
+  void check_planes(std::uint32_t n) {
+    const ConcavePatch& patch = s_.concave[n];
+    double sum = 0;
+    bool doubtful = patch.contact_count > 3;
+    for (std::uint32_t f = patch.first_face; f < patch.first_face + patch.face_count; ++f) {
+      sum += s_.faces[f].area;
+      doubtful = doubtful || std::ranges::binary_search(doubts_.doubtful, f);
+    }
+    for (std::uint32_t c = patch.first_plane + patch.side_count; c < patch.first_plane + patch.plane_count(); ++c)
+      doubtful = doubtful || s_.planes[c].offset - glm::dot(s_.planes[c].normal, patch.center) < kClose;
+    if (!doubtful && (patch.cut_count == 0 || patch.face_count == 0 || has_cusp(patch))) return;
+    const double p = s_.probe_radius, divided = divided_area(s_, patch);
+    if (std::abs(divided - sum) <= 1e-8 * (4 * kPi * p * p)) return;
+    for (std::uint32_t f = patch.first_face; f < patch.first_face + patch.face_count; ++f) add_atoms_of(s_.faces[f]);
+  }
+
+  Surface& s_;
+  const MeasurementDoubts& doubts_;
+};
+
+}  // namespace
+
+void certify(Surface& surface, const MeasurementDoubts& doubts) { Examination(surface, doubts).run(); }
+
+}  // namespace meniscus

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Compares, for each component, the poles of its convex and concave patches and its borders in one direction.
+#include "core/surface/component_side.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <glm/geometric.hpp>
+
+#include "core/surface/spherical.h"
+
+namespace meniscus {
+namespace {
+
+// No axis, diagonal or other direction that molecules are likely to be aligned with.
+const glm::dvec3 kDirection = glm::normalize(glm::dvec3(0.5377266, 0.3183099, 0.7788008));
+
+struct Farthest {
+  double border = -std::numeric_limits<double>::infinity();
+  double convex = border;
+  double concave = border;
+};
+
+double farthest_of(const Border& border) {
+  const glm::dvec3 across = kDirection - border.axis * glm::dot(border.axis, kDirection);
+  const double length = glm::length(across), middle = glm::dot(border.center, kDirection);
+  const glm::dvec3 side = glm::cross(border.axis, border.start);
+  const double at_start = middle + border.radius * glm::dot(border.start, kDirection);
+  if (!(length > 0)) return at_start;
+  double turn = std::atan2(glm::dot(side, across), glm::dot(border.start, across));
+  if (turn < 0) turn += 2 * std::acos(-1.0);
+  if (border.vertex[0] == kNone || turn <= border.sweep) return middle + border.radius * length;
+  const double at_end =
+      middle + border.radius * glm::dot(std::cos(border.sweep) * border.start + std::sin(border.sweep) * side, kDirection);
+  return std::max(at_start, at_end);
+}
+
+class SideTest {
+ public:
+  explicit SideTest(const Surface& surface) : s_(surface), farthest_(surface.components.size()) {}
+
+  std::vector<ComponentKind> run() {
+    for (const Border& border : s_.borders) look_at(border);
+    for (const ConvexPatch& patch : s_.convex) {
+      const Ball& atom = s_.atoms[patch.atom];
+      look_at(patch, patch.plane_count, atom.center, atom.radius, &Farthest::convex);
+    }
+    if (s_.probe_radius > 0)
+      for (const ConcavePatch& patch : s_.concave)
+        look_at(patch, patch.plane_count(), patch.center, s_.probe_radius, &Farthest::concave);
+    std::vector<ComponentKind> kinds;
+    for (const Farthest& f : farthest_) {
+      const bool cavity = s_.probe_radius > 0 ? f.concave > std::max(f.convex, f.border) : !(f.convex > f.border);
+      kinds.push_back(cavity ? ComponentKind::cavity : ComponentKind::outer);
+    }
+    return kinds;
+  }
+
+ private:
+  void look_at(const Border& border) {
+    const std::uint32_t face = border.face[0] != kNone ? border.face[0] : border.face[1];
+    if (face == kNone) return;
+    double& best = farthest_[s_.faces[face].component].border;
+    if (glm::dot(border.center, kDirection) + border.radius > best) best = std::max(best, farthest_of(border));
+  }
+
+  template <typename Patch>
+  void look_at(const Patch& patch, std::uint32_t plane_count, const glm::dvec3& center, double radius,
+               double Farthest::*which) {
+    const glm::dvec3 pole = center + radius * kDirection;
+    const double reached = glm::dot(pole, kDirection);
+    bool new_for_some = false;
+    for (std::uint32_t f = patch.first_face; f < patch.first_face + patch.face_count; ++f)
+      new_for_some = new_for_some || reached > farthest_[s_.faces[f].component].*which;
+    if (!new_for_some) return;
+    for (std::uint32_t n = patch.first_plane; n < patch.first_plane + plane_count; ++n)
+      if (glm::dot(s_.planes[n].normal, pole) > s_.planes[n].offset) return;
+    double& best = farthest_[s_.faces[face_at_pole(patch, center, radius)].component].*which;
+    best = std::max(best, reached);
+  }
+
+  // The face of the patch that holds the pole: the one whose loops have it farthest on their left.
+  template <typename Patch>
+  std::uint32_t face_at_pole(const Patch& patch, const glm::dvec3& center, double radius) {
+    std::uint32_t best = patch.first_face;
+    double clearest = -3;
+    for (std::uint32_t f = patch.first_face; f < patch.first_face + patch.face_count && patch.face_count > 1; ++f) {
+      double least = 3;
+      for (std::uint32_t l = s_.faces[f].first_loop; l < s_.faces[f].first_loop + s_.faces[f].loop_count; ++l) {
+        walk_loop(s_, s_.loops[l], center, radius, s_.faces[f].kind == PatchKind::concave, loop_);
+        least = std::min(least, distance_left_of(kDirection, loop_));
+      }
+      if (least <= clearest) continue;
+      clearest = least;
+      best = f;
+    }
+    return best;
+  }
+
+  const Surface& s_;
+  std::vector<Farthest> farthest_;
+  std::vector<SphereArc> loop_;
+};
+
+}  // namespace
+
+std::vector<ComponentKind> side_of_components(const Surface& surface) { return SideTest(surface).run(); }
+
+}  // namespace meniscus

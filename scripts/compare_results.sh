@@ -1,0 +1,52 @@
+#!/usr/bin/env bash
+# compare_results.sh OLD NEW [FILE...]: two builds of meniscus must give the same results to the last bit: numbers, areas
+# of atoms, meshes, scenes and pictures of a fixed list of molecules, and of further files. Times and devices are left
+# out. Prints a line for each comparison and ends with `cases N failures M`.
+set -euo pipefail
+if (($# < 2)); then sed -n '2,4s/^# //p' "$0" >&2; exit 2; fi
+old=$(realpath "$1") new=$(realpath "$2")
+shift 2
+samples=(/usr/share/pymol/data/demo/1tii.pdb /usr/share/freesasa/test-data/1ubq.pdb "$@")
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cases=0 failures=0
+
+# What a JSON report says of the surface: all but the device, times, and the version.
+results_only() { grep -v -E '"(ms|name|device|version)":' "$1" || true; }
+
+# compare NAME OUTPUT ARGUMENTS...: the file OUTPUT that both builds make, or their standard output if it is "-".
+compare() {
+  local name=$1 output=$2 build
+  shift 2
+  for build in old new; do
+    mkdir -p "$work/$build"
+    (cd "$work/$build" && "${!build}" "$@" >standard_output 2>standard_error) || echo "exit $?" >>"$work/$build/standard_output"
+    [[ $output == - ]] && results_only "$work/$build/standard_output" >"$work/$build/result" || true
+    [[ $output != - ]] && cat "$work/$build"/$output >"$work/$build/result" 2>/dev/null || true
+  done
+  cases=$((cases + 1))
+  if [[ -s $work/old/result ]] && cmp -s "$work/old/result" "$work/new/result"; then
+    echo "same       $name"
+  else
+    failures=$((failures + 1))
+    echo "DIFFERENT  $name: $(diff <(head -c 200000 "$work/old/result" | strings | head -2000) <(head -c 200000 "$work/new/result" | strings | head -2000) | head -3 | tr '\n' ' ')"
+  fi
+  rm -rf "$work/old" "$work/new"
+}
+
+for sample in "${samples[@]}"; do
+  base=$(basename "$sample")
+  for probe in 0.5 1.4 3; do
+    compare "$base probe $probe" - surface "$sample" --probe "$probe" --json --device cpu
+  done
+  compare "$base areas of atoms" areas.csv surface "$sample" --csv areas.csv --device cpu
+  if (($(stat -c %s "$sample") < 2000000)); then
+    compare "$base software GL" - surface "$sample" --json --device software
+    compare "$base mesh" mesh.ply export ply "$sample" -o mesh.ply --tolerance 0.05 --device cpu
+    compare "$base scene" 'scene/*.inc' export povray "$sample" -o scene --device cpu
+    compare "$base picture" picture.png render "$sample" -o picture.png --size 320x240 --color chain --device software
+    compare "$base visible part" picture.png render "$sample" -o picture.png --size 320x240 --extent visible --device software
+  fi
+done
+echo "cases $cases failures $failures"
+((failures == 0))

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Families of balls made to tie: an endless, seeded list of the inputs on which surfaces go wrong first.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/surface/primitives.h"
+#include "tests/support/molecules.h"
+
+namespace meniscus::testing {
+
+/// One input, and how far it is from the tie it was made for.
+struct FamilyCase {
+  std::string family;
+  Balls balls;                ///< Å
+  double probe_radius = 0.0;  ///< Å
+  double jitter = 0.0;        ///< Å by which each centre was moved; 0: exact up to rounding
+};
+
+/// The names of the families, in the order in which cases go round them.
+const std::vector<std::string>& family_names();
+
+/// The n-th case of a family: exact, or jittered by 1e-12 to 1e-3 Å; turned and reordered, or as made. The same n is
+/// the same case on every machine.
+FamilyCase family_case(const std::string& family, std::uint32_t n);
+
+}  // namespace meniscus::testing

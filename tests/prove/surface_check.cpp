@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The checks, cheapest first; the first that fails gives the complaint.
+#include "tests/prove/surface_check.h"
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include <fmt/format.h>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "core/base/error.h"
+#include "core/surface/atom_areas.h"
+#include "core/surface/reduced_surface.h"
+#include "core/surface/surface.h"
+#include "tests/support/patch_samples.h"
+#include "tests/support/sphere_tracer.h"
+
+namespace meniscus::testing {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+const char* name_of(PatchKind kind) {
+  return kind == PatchKind::convex ? "convex" : kind == PatchKind::toroidal ? "toroidal" : "concave";
+}
+
+class Check {
+ public:
+  Check(const Surface& surface, const Balls& balls, std::uint32_t seed, int effort)
+      : s_(surface), balls_(balls), random_(seed), effort_(effort) {}
+
+  std::string complaint() {
+    for (const auto check : {&Check::faces, &Check::atoms, &Check::patches, &Check::points, &Check::volume}) {
+      if (std::string text = (this->*check)(); !text.empty()) return text;
+      if (check == &Check::patches && effort_ == 0) break;
+    }
+    return {};
+  }
+
+ private:
+  std::string faces() {
+    for (const Face& face : s_.faces) {
+      const double whole = whole_area(s_, face.kind, face.patch);
+      if (!(face.area >= 0 && face.area <= whole * (1 + 1e-12)))
+        return fmt::format("{} face of area {} of {}", name_of(face.kind), face.area, whole);
+    }
+    return {};
+  }
+
+  std::string atoms() {
+    const AtomAreas areas = atom_areas(s_);
+    double sum = 0;
+    for (std::size_t a = 0; a < balls_.size(); ++a) {
+      sum += areas.surface[a];
+      const double R = s_.atoms[a].radius + s_.probe_radius;
+      const double noise = 1e-8 * (1 + R * R);
+      if (!(areas.surface[a] >= -noise)) return fmt::format("SES area {} of atom {}", areas.surface[a], a);
+      if (!(areas.accessible[a] >= -noise && areas.accessible[a] <= 4 * kPi * R * R + noise))
+        return fmt::format("SAS area {} of atom {}", areas.accessible[a], a);
+    }
+    if (!(std::abs(sum - s_.area) <= 1e-7 * (1 + s_.area))) return fmt::format("atoms' areas {} of {}", sum, s_.area);
+    return {};
+  }
+
+  // An area that is off by a sphere is off by a share of 1: a few points tell.
+  std::string patches() {
+    for (const PatchKind kind : {PatchKind::convex, PatchKind::concave}) {
+      if (kind == PatchKind::concave && s_.probe_radius == 0) continue;
+      for (std::uint32_t patch = 0; patch < patch_count(s_, kind); ++patch) {
+        const int samples = 40 * std::max(effort_, 1);
+        int inside = 0;
+        for (int n = 0; n < samples; ++n) inside += sample_patch(s_, kind, patch, random_).inside;
+        const double share = face_area(s_, kind, patch) / whole_area(s_, kind, patch);
+        const double off = std::abs(inside - share * samples);
+        if (off > 6 * std::sqrt(samples * share * std::abs(1 - share)) + 6)
+          return fmt::format("{} patch {} has {} of its sphere, its planes leave {}", name_of(kind), patch, share,
+                             double(inside) / samples);
+      }
+    }
+    return {};
+  }
+
+  SphereTracer& oracle() {
+    if (!oracle_) {
+      Balls grown;
+      const std::vector<bool> swallowed = swallowed_atoms(s_.atoms);
+      for (std::size_t a = 0; a < s_.atoms.size(); ++a)
+        if (!swallowed[a])
+          grown.push_back({s_.atoms[a].center,
+                           std::sqrt(decision_weight(s_.atoms[a].radius + s_.probe_radius, a)) - s_.probe_radius});
+      oracle_.emplace(grown, s_.probe_radius, 0.01);
+    }
+    return *oracle_;
+  }
+
+  std::string points() {
+    for (const PatchKind kind : {PatchKind::convex, PatchKind::toroidal, PatchKind::concave}) {
+      const std::size_t count = patch_count(s_, kind);
+      if (count == 0 || (kind != PatchKind::convex && s_.probe_radius == 0)) continue;
+      for (int n = 0; n < 40 * std::max(effort_, 1); ++n) {
+        const auto patch = static_cast<std::uint32_t>(random_() % count);
+        const PatchSample sample = kind == PatchKind::toroidal ? sample_circle(s_, patch, random_)
+                                                               : sample_patch(s_, kind, patch, random_);
+        const double off =
+            s_.probe_radius > 0 ? oracle().nearest(sample.point).distance - s_.probe_radius : oracle().outside(sample.point);
+        // Where spheres touch, growth moves a probe by its square root.
+        if (sample.inside && std::abs(off) > 2e-3 * (1 + s_.probe_radius))
+          return fmt::format("a point of {} patch {} is {} off the surface", name_of(kind), patch, off);
+        if (!sample.inside && sample.clearance > 0.05 && std::abs(off) < 1e-9)
+          return fmt::format("{} patch {} lacks a point of the surface", name_of(kind), patch);
+      }
+    }
+    return {};
+  }
+
+  // Two random points in each cell of a grid over the molecule: is the probe kept from them?
+  std::string volume() {
+    glm::dvec3 low(1e300), high(-1e300);
+    for (const Ball& b : balls_) {
+      low = glm::min(low, b.center - b.radius);
+      high = glm::max(high, b.center + b.radius);
+    }
+    std::uniform_real_distribution<double> unit(0, 1);
+    const int cells = effort_ > 1 ? 16 : 9;
+    const glm::dvec3 step = (high - low) / double(cells);
+    const double p = s_.probe_radius;
+    const auto solid = [&](const glm::ivec3& cell) {
+      const glm::dvec3 x = low + step * (glm::dvec3(cell) + glm::dvec3(unit(random_), unit(random_), unit(random_)));
+      return p > 0 ? oracle().nearest(x).distance >= p : oracle().outside(x) <= 0;
+    };
+    double sum = 0, variance = 0;
+    for (int z = 0; z < cells; ++z)
+      for (int y = 0; y < cells; ++y)
+        for (int x = 0; x < cells; ++x) {
+          const bool a = solid({x, y, z}), b = solid({x, y, z});
+          sum += 0.5 * (a + b);
+          variance += a != b ? 0.25 : 0.0;
+        }
+    const double cell = step.x * step.y * step.z, error = std::sqrt(variance) * cell;
+    if (!(std::abs(s_.volume - sum * cell) <= 5.5 * error + 3 * cell * 0.5 + 1e-9))
+      return fmt::format("volume {}, sampled {} +- {}", s_.volume, sum * cell, error);
+    return {};
+  }
+
+  const Surface& s_;
+  const Balls& balls_;
+  std::mt19937 random_;
+  int effort_;
+  std::optional<SphereTracer> oracle_;
+};
+
+}  // namespace
+
+SurfaceVerdict check_surface(const Balls& balls, double probe_radius, std::uint32_t seed, int effort) {
+  SurfaceVerdict verdict;
+  try {
+    verdict.surface = compute_surface_cpu(balls, probe_radius);
+  } catch (const OpenSurfaceError&) {
+    verdict.refused = true;
+    return verdict;
+  }
+  verdict.complaint = Check(*verdict.surface, balls, seed, effort).complaint();
+  return verdict;
+}
+
+}  // namespace meniscus::testing
