@@ -50,7 +50,8 @@ class Sequence {
   /// camera for all of them needs. A frame that cannot be read is passed over here.
   void survey(const std::function<void(std::uint64_t place, std::span<const Ball> balls)>& look);
 
-  /// Where the atoms of the structure stand at any frame of the trajectory; not together with next(). Throws InputError.
+  /// Where the atoms of the structure stand at any frame of the trajectory; not together with next(). Throws
+  /// InputError.
   std::vector<glm::dvec3> positions(std::uint64_t number);
 
   /// The next frame of the share; nothing behind the last. Throws what reading it threw: then next() can be called

@@ -29,7 +29,6 @@ bool is_tabulated_residue(const std::string& residue_name);
 /// Sets `kind` of all atoms, residue by residue, and `element` where it is 0 or cannot be right: names are ambiguous
 /// (CA is carbon or calcium, HG hydrogen or mercury), but amino acids and nucleotides hold H, C, N, O, S, P and Se
 /// only; stated elements that cannot be right are warned about. `hints` has one entry an atom, or none.
-void classify_atoms(std::vector<Atom>& atoms, std::vector<Warning>& warnings,
-                    const std::vector<AtomHints>& hints = {});
+void classify_atoms(std::vector<Atom>& atoms, std::vector<Warning>& warnings, const std::vector<AtomHints>& hints = {});
 
 }  // namespace meniscus

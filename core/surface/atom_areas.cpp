@@ -75,7 +75,8 @@ class AreaDivider {
     for (const ToroidalPatch& patch : s_.toroidal) add(patch);
     std::vector<double> share(s_.contacts.size(), 0.0);
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, s_.concave.size(), 64), [&](const auto& range) {
-      for (std::size_t n = range.begin(); n != range.end(); ++n) std::ranges::copy(divide(s_.concave[n]), share.begin() + s_.concave[n].first_contact);
+      for (std::size_t n = range.begin(); n != range.end(); ++n)
+        std::ranges::copy(divide(s_.concave[n]), share.begin() + s_.concave[n].first_contact);
     });
     for (std::size_t n = 0; n < share.size(); ++n) areas_.surface[s_.contacts[n]] += share[n];
     return std::move(areas_);

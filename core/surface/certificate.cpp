@@ -82,7 +82,7 @@ class Examination {
     double sum = 0;
     for (std::uint32_t f = patch.first_face; f < patch.first_face + patch.face_count; ++f) sum += s_.faces[f].area;
     const double whole = 4 * kPi * atom.radius * atom.radius, share = whole > 0 ? sum / whole : 0;
-    const bool little = share < 1e-3, much = share > 1 - 1e-3;
+    const bool little = share<1e-3, much = share> 1 - 1e-3;
     if (!(sum <= whole * (1 + kSlack)) || ((little || much) && much != most_is_left(patch, atom)))
       open().push_back(patch.atom);
   }
@@ -92,11 +92,12 @@ class Examination {
     constexpr int kPoints = 32;
     int left = 0;
     for (int n = 0; n < kPoints; ++n) {
-      const double z = (2 * n + 1.0) / kPoints - 1, turn = 2 * kPi * std::numbers::phi * n, across = std::sqrt(1 - z * z);
+      const double z = (2 * n + 1.0) / kPoints - 1, turn = 2 * kPi * std::numbers::phi * n,
+                   across = std::sqrt(1 - z * z);
       const glm::dvec3 x = atom.center + atom.radius * glm::dvec3(across * std::cos(turn), across * std::sin(turn), z);
-      left += std::all_of(s_.planes.begin() + patch.first_plane,
-                          s_.planes.begin() + patch.first_plane + patch.plane_count,
-                          [&](const Plane& plane) { return glm::dot(plane.normal, x) <= plane.offset; });
+      left +=
+          std::all_of(s_.planes.begin() + patch.first_plane, s_.planes.begin() + patch.first_plane + patch.plane_count,
+                      [&](const Plane& plane) { return glm::dot(plane.normal, x) <= plane.offset; });
     }
     return 2 * left > kPoints;
   }
@@ -109,8 +110,8 @@ class Examination {
     return false;
   }
 
-  // A re-entrant patch of several probes in one, cut from close by, cut to no avail, or with blurred corners: divided among its atoms
-  // along its planes it has the area that its borders give.
+  // A re-entrant patch of several probes in one, cut from close by, cut to no avail, or with blurred corners: divided
+  // among its atoms along its planes it has the area that its borders give.
   void check_planes(std::uint32_t n) {
     const ConcavePatch& patch = s_.concave[n];
     double sum = 0;

@@ -32,7 +32,8 @@ double farthest_of(const Border& border) {
   if (turn < 0) turn += 2 * std::acos(-1.0);
   if (border.vertex[0] == kNone || turn <= border.sweep) return middle + border.radius * length;
   const double at_end =
-      middle + border.radius * glm::dot(std::cos(border.sweep) * border.start + std::sin(border.sweep) * side, kDirection);
+      middle +
+      border.radius * glm::dot(std::cos(border.sweep) * border.start + std::sin(border.sweep) * side, kDirection);
   return std::max(at_start, at_end);
 }
 

@@ -25,8 +25,8 @@ constexpr double kRounding = 1e-9;  // of a solid angle
 constexpr double kMisfit = 1e-9;    // of a loop, beyond which its turning is not trusted
 
 struct FaceIntegrals {
-  double area = 0.0;  // Å²
-  double flux = 0.0;  // integral of x·n, Å³; a third of it is the face's share of the volume
+  double area = 0.0;      // Å²
+  double flux = 0.0;      // integral of x·n, Å³; a third of it is the face's share of the volume
   bool doubtful = false;  // corners are blurred: the area was integrated about a pole
   bool disputed = false;  // and Gauss-Bonnet gives another one
 };

@@ -18,8 +18,8 @@ struct MeasurementDoubts {
 
 /// Fills in Face::area, Component::{area, volume, kind}, Surface::{area, volume}, and sorts the components: outer ones
 /// first, then cavities, each by falling area. Areas by Gauss-Bonnet, volumes by the divergence theorem; both are
-/// sums of closed forms over borders, so the error is rounding only. Where ties have left a face with corners beside its
-/// circles its area is integrated about a pole instead, which needs no tangents.
+/// sums of closed forms over borders, so the error is rounding only. Where ties have left a face with corners beside
+/// its circles its area is integrated about a pole instead, which needs no tangents.
 MeasurementDoubts measure_surface(Surface& surface);
 
 /// Tube angles of a torus: the latitude on the probe, from the direction to the axis towards atom[1].

@@ -49,8 +49,8 @@ class ViewPipeline {
   void set_atoms(std::vector<Ball> atoms);
   const std::vector<Ball>& atoms() const { return atoms_; }
 
-  /// Fills in all of the scene but its colours. Where the arcs around the view do not close for ties the radii grow by a
-  /// hair (tie_ladder.h). Throws OpenSurfaceError when that does not help, GpuError, CapacityError.
+  /// Fills in all of the scene but its colours. Where the arcs around the view do not close for ties the radii grow by
+  /// a hair (tie_ladder.h). Throws OpenSurfaceError when that does not help, GpuError, CapacityError.
   void run(const PictureFrame& frame, double probe_radius, Extent extent, GpuScene& scene);
 
   /// Wall-clock times of the stages of the last run.

@@ -10,6 +10,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "core/base/error.h"
 #include "exporters/mesh/planar_triangulation.h"
 
 namespace meniscus {
@@ -18,6 +19,7 @@ namespace {
 /// Segments shorter than this (Å) are not halved further to untangle a rim.
 constexpr double kShortestSegment = 1e-6;
 constexpr int kRefinementRounds = 12;
+constexpr int kPartingRounds = 32;  // of doubled edges: each halves some, and one or two rounds are usual
 constexpr int kManyRimPoints = 200;
 constexpr int kBoxCorners = 4;
 
@@ -213,7 +215,10 @@ void part_doubled_edges(FaceMesh& mesh) {
   auto named = [&](std::uint32_t v) { return v < same.size() ? same[v] : v; };
   std::set<Edge> rim;
   for (const auto& [a, b] : mesh.rim_edges) rim.insert(ordered(a, b));
-  for (bool again = true; again;) {
+  int round = 0;
+  for (bool again = true; again; ++round) {
+    if (round == kPartingRounds)
+      throw OpenSurfaceError("edges of the mesh cannot be told apart; give another tolerance");
     std::map<Edge, Edge> seen;  // by name: the first edge found
     for (const auto& [a, b] : rim) seen.try_emplace(ordered(named(a), named(b)), Edge(a, b));
     std::set<Edge> doubled;

@@ -2,8 +2,9 @@
 // Insertion, flips and constraint recovery of the exact planar triangulation.
 #include "exporters/mesh/planar_triangulation.h"
 
-#include <cassert>
 #include <deque>
+
+#include "core/base/error.h"
 
 namespace meniscus {
 namespace {
@@ -23,6 +24,10 @@ bool inside_circle(GridPoint a, GridPoint b, GridPoint c, GridPoint d) {
   const std::int64_t ax = a.x - d.x, ay = a.y - d.y, bx = b.x - d.x, by = b.y - d.y, cx = c.x - d.x, cy = c.y - d.y;
   const Wide lift_a = ax * ax + ay * ay, lift_b = bx * bx + by * by, lift_c = cx * cx + cy * cy;
   return lift_a * (bx * cy - by * cx) + lift_b * (cx * ay - cy * ax) + lift_c * (ax * by - ay * bx) > 0;
+}
+
+void PlanarTriangulation::refuse() {
+  throw OpenSurfaceError("a face of the mesh cannot be triangulated; give another tolerance");
 }
 
 PlanarTriangulation::PlanarTriangulation() {
@@ -58,8 +63,7 @@ int PlanarTriangulation::locate(GridPoint point) const {
       return last_ = int(i);
     }
   }
-  assert(false && "the point lies outside the grid");
-  return 0;
+  refuse();  // outside the grid, or no number at all
 }
 
 void PlanarTriangulation::set(int triangle, std::array<int, 3> vertex, std::array<int, 3> neighbor,
@@ -174,7 +178,9 @@ std::optional<PlanarTriangulation::Edge> PlanarTriangulation::find_edge(int a, i
 }
 
 void PlanarTriangulation::legalize(std::vector<std::array<int, 2>>& edges) {
-  while (!edges.empty()) {
+  // Each flip makes the triangulation more Delaunay, so flips end; were they ever not to, the caller is told.
+  const std::size_t most_flips = 64 + 16 * triangles_.size();
+  for (std::size_t flips = 0; !edges.empty();) {
     const auto [a, b] = edges.back();
     edges.pop_back();
     const auto edge = find_edge(a, b);
@@ -187,6 +193,7 @@ void PlanarTriangulation::legalize(std::vector<std::array<int, 2>>& edges) {
     const int p = t.vertex[edge->side], s = triangles_[u].vertex[j];
     if (!inside_circle(points_[t.vertex[0]], points_[t.vertex[1]], points_[t.vertex[2]], points_[s])) continue;
     flip(*edge);
+    if (++flips > most_flips) refuse();
     for (auto e : {std::array{p, a}, std::array{a, s}, std::array{s, b}, std::array{b, p}}) edges.push_back(e);
   }
 }
@@ -238,8 +245,9 @@ std::optional<PlanarTriangulation::Conflict> PlanarTriangulation::crossed_edges(
       return Conflict{-1, right};
     }
   }
-  assert(t >= 0);
-  while (true) {
+  if (t < 0) refuse();
+  for (std::size_t step = 0;; ++step) {
+    if (step > triangles_.size()) refuse();
     const Triangle& triangle = triangles_[t];
     if (triangle.segment[side] >= 0) return Conflict{triangle.segment[side], -1};
     const int right = triangle.vertex[next(side)], left = triangle.vertex[previous(side)];
@@ -271,7 +279,9 @@ std::optional<PlanarTriangulation::Conflict> PlanarTriangulation::constrain(int 
     std::vector<std::array<int, 2>> crossing, fresh;
     if (const auto conflict = crossed_edges(a, b, crossing)) return conflict;
     std::deque<std::array<int, 2>> queue(crossing.begin(), crossing.end());
-    while (!queue.empty()) {
+    const std::size_t most_turns = 1024 + 16 * crossing.size() * crossing.size();
+    for (std::size_t turns = 0; !queue.empty(); ++turns) {
+      if (turns > most_turns) refuse();
       const auto [u, w] = queue.front();
       queue.pop_front();
       const auto edge_uw = find_edge(u, w);

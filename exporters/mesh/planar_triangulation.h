@@ -25,6 +25,7 @@ bool inside_circle(GridPoint a, GridPoint b, GridPoint c, GridPoint d);
 
 /// Incremental Delaunay triangulation (Lawson 1977) with constrained edges recovered by flips (Sloan 1993).
 /// Vertices 0..3 are the corners of a box around the grid; those of the caller follow.
+/// No call runs for ever: points off the grid, or figures that no flips untangle, are an OpenSurfaceError.
 class PlanarTriangulation {
  public:
   struct Triangle {
@@ -59,6 +60,7 @@ class PlanarTriangulation {
     int triangle;
     int side;
   };
+  [[noreturn]] static void refuse();
   int locate(GridPoint point) const;
   std::optional<Edge> find_edge(int a, int b) const;
   std::vector<int> star(int vertex) const;

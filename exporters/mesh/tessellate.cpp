@@ -14,6 +14,7 @@
 
 #include "core/base/error.h"
 #include "exporters/mesh/border_samples.h"
+#include "exporters/mesh/compare_mesh.h"
 #include "exporters/mesh/face_mesh.h"
 #include "exporters/mesh/sphere_lattice.h"
 
@@ -267,6 +268,10 @@ TriangleMesh tessellate(const Surface& surface, const MeshOptions& options) {
   TriangleMesh mesh = Tessellation(surface, options).run();
   if (!mesh.triangles.empty() && !measure(mesh).closed) {
     throw OpenSurfaceError(fmt::format("the mesh at {} Å is not closed; give another tolerance", options.tolerance));
+  }
+  if (const std::vector<std::string> found = differences(surface, mesh); !found.empty()) {
+    throw OpenSurfaceError(fmt::format("the mesh at {} Å is not that of the surface: {}; give another tolerance",
+                                       options.tolerance, found.front()));
   }
   return mesh;
 }

@@ -7,7 +7,6 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "core/base/error.h"
 #include "core/surface/surface.h"
 #include "tests/support/molecules.h"
 
@@ -39,10 +38,6 @@ Balls symmetric_gas(int fold, double jitter, std::mt19937& random) {
   return balls;
 }
 
-/// Of the 3,200 gases below. Without either rule of settle_neighbors there are 15 and 17, with any probe as a blocker
-/// 15, with the weights of atoms for probes 8.
-constexpr int kRefused = 6;
-
 class Symmetry : public ::testing::TestWithParam<double> {};
 
 TEST_P(Symmetry, IsClosed) {
@@ -57,20 +52,16 @@ TEST_P(Symmetry, IsClosed) {
 INSTANTIATE_TEST_SUITE_P(Jitters, Symmetry, ::testing::Values(0.0, 1e-14, 1e-12, 1e-10, 1e-9, 1e-4, 1e-3));
 
 // Two probes as near as the shaking, and a third that passes their circle's axis: what neighbours on a circle cannot do
-// must be known, for it cannot be computed. A few in a thousand are refused all the same (CONTRIBUTING.md), never
-// wrong.
-TEST(Symmetry, OfTheHardestFewAreRefused) {
+// must be known, for it cannot be computed. Six of these close only because radii grow by a hair (tie_ladder.h).
+TEST(Symmetry, OfTheHardestAllAreClosed) {
   std::mt19937 random(12);
-  int refused = 0;
   for (int n = 0; n < 3200; ++n) {
     const double jitter = std::pow(10.0, -5 - n % 4);
-    try {
-      compute_surface_cpu(symmetric_gas(2 + n % 5, jitter, random), n % 3 == 0 ? 0.7 : n % 3 == 1 ? 1.4 : 3.0);
-    } catch (const OpenSurfaceError&) {
-      ++refused;
-    }
+    EXPECT_NO_THROW(compute_surface_cpu(symmetric_gas(2 + n % 5, jitter, random), n % 3 == 0   ? 0.7
+                                                                                  : n % 3 == 1 ? 1.4
+                                                                                               : 3.0))
+        << n;
   }
-  EXPECT_LE(refused, kRefused);
 }
 
 // The five phenylalanine rings about a five-fold axis of the Norwalk virus capsid (1IHM), whose matrices have six

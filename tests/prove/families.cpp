@@ -3,6 +3,8 @@
 #include "tests/prove/families.h"
 
 #include <cmath>
+#include <cstdio>
+#include <fstream>
 #include <functional>
 #include <numbers>
 #include <random>
@@ -109,11 +111,20 @@ Made solid(Dice& dice) {
   const double free_edge = dice.between(0.5, 1.6) * fit;
   Balls balls;
   switch (kind) {
-    case 0: balls = tetrahedron(tie == 0 ? fit * std::sqrt(8.0 / 3) : tie == 1 ? fit * std::sqrt(3.0) : free_edge, r); break;
-    case 1: balls = octahedron(tie == 0 ? fit * std::sqrt(2.0) : tie == 1 ? fit * std::sqrt(3.0) : free_edge, r); break;
-    case 2: balls = lattice(2, 2, 2, tie == 0 ? fit * 2 / std::sqrt(3.0) : tie == 1 ? fit * std::sqrt(2.0) : free_edge, r); break;
-    case 3: balls = icosahedron(tie == 0 ? fit / std::sin(2 * kPi / 5) : tie == 1 ? fit * std::sqrt(3.0) : free_edge, r); break;
-    default: balls = dodecahedron(tie == 0 ? fit : free_edge, r);
+    case 0:
+      balls = tetrahedron(tie == 0 ? fit * std::sqrt(8.0 / 3) : tie == 1 ? fit * std::sqrt(3.0) : free_edge, r);
+      break;
+    case 1:
+      balls = octahedron(tie == 0 ? fit * std::sqrt(2.0) : tie == 1 ? fit * std::sqrt(3.0) : free_edge, r);
+      break;
+    case 2:
+      balls = lattice(2, 2, 2, tie == 0 ? fit * 2 / std::sqrt(3.0) : tie == 1 ? fit * std::sqrt(2.0) : free_edge, r);
+      break;
+    case 3:
+      balls = icosahedron(tie == 0 ? fit / std::sin(2 * kPi / 5) : tie == 1 ? fit * std::sqrt(3.0) : free_edge, r);
+      break;
+    default:
+      balls = dodecahedron(tie == 0 ? fit : free_edge, r);
   }
   if (dice.chance(0.2)) balls.push_back({{0, 0, 0}, dice.radius()});
   return {balls, p};
@@ -182,8 +193,8 @@ Made tangent(Dice& dice) {
     const Ball onto = balls[static_cast<std::size_t>(dice.count(0, n))];
     const double r = dice.chance(0.2) ? onto.radius * dice.between(0.2, 0.9) : dice.radius();
     const double sum = onto.radius + r;
-    const double distances[] = {sum, sum + 2 * p, std::abs(onto.radius - r), 0.0,
-                                std::abs(onto.radius - r) * dice.unit(), sum * dice.unit()};
+    const double distances[] = {
+        sum, sum + 2 * p, std::abs(onto.radius - r), 0.0, std::abs(onto.radius - r) * dice.unit(), sum * dice.unit()};
     const glm::dvec3 axes[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, dice.direction()};
     balls.push_back({onto.center + distances[dice.count(0, 5)] * axes[dice.count(0, 3)], r});
   }
@@ -204,10 +215,14 @@ Made critical_spindles(Dice& dice) {
 Made carbon(Dice& dice) {
   const double p = dice.small_probe(), r = dice.chance(0.7) ? 1.7 : dice.radius();
   switch (dice.count(0, 3)) {
-    case 0: return {c60(dice.chance(0.5) ? 1.45 : dice.between(1.0, 3.0), r), p};
-    case 1: return {nanotube(5, 5, 2, r), p};
-    case 2: return {dice.chance(0.5) ? nanotube(6, 0, 2, r) : nanotube(4, 2, 1, r), p};
-    default: return {graphene(dice.count(1, 3), r), p};
+    case 0:
+      return {c60(dice.chance(0.5) ? 1.45 : dice.between(1.0, 3.0), r), p};
+    case 1:
+      return {nanotube(5, 5, 2, r), p};
+    case 2:
+      return {dice.chance(0.5) ? nanotube(6, 0, 2, r) : nanotube(4, 2, 1, r), p};
+    default:
+      return {graphene(dice.count(1, 3), r), p};
   }
 }
 
@@ -258,14 +273,19 @@ Made nearly_coincident(Dice& dice) {
 using Recipe = std::function<Made(Dice&)>;
 
 const std::vector<std::pair<std::string, Recipe>>& recipes() {
-  static const std::vector<std::pair<std::string, Recipe>> all = {
-      {"one-point", through_one_point}, {"two-points", through_two_points},
-      {"tube", tube},                   {"solid", solid},
-      {"crystal", crystal},             {"ring-helix", ring_or_helix},
-      {"tangent", tangent},             {"spindle", critical_spindles},
-      {"carbon", carbon},               {"large-probe", few_with_large_probe},
-      {"grid-gas", grid_gas},           {"symmetric", symmetric},
-      {"coincident", nearly_coincident}};
+  static const std::vector<std::pair<std::string, Recipe>> all = {{"one-point", through_one_point},
+                                                                  {"two-points", through_two_points},
+                                                                  {"tube", tube},
+                                                                  {"solid", solid},
+                                                                  {"crystal", crystal},
+                                                                  {"ring-helix", ring_or_helix},
+                                                                  {"tangent", tangent},
+                                                                  {"spindle", critical_spindles},
+                                                                  {"carbon", carbon},
+                                                                  {"large-probe", few_with_large_probe},
+                                                                  {"grid-gas", grid_gas},
+                                                                  {"symmetric", symmetric},
+                                                                  {"coincident", nearly_coincident}};
   return all;
 }
 
@@ -295,6 +315,18 @@ FamilyCase family_case(const std::string& family, std::uint32_t n) {
     return made;
   }
   return {};
+}
+
+CorpusCase read_corpus(const std::string& path) {
+  std::ifstream file(path);
+  CorpusCase entry;
+  for (std::string line; std::getline(file, line);) {
+    Ball b;
+    if (std::sscanf(line.c_str(), "# probe %lf", &entry.probe_radius) == 1) continue;
+    if (std::sscanf(line.c_str(), "%lf %lf %lf %lf", &b.center.x, &b.center.y, &b.center.z, &b.radius) == 4)
+      entry.balls.push_back(b);
+  }
+  return entry;
 }
 
 }  // namespace meniscus::testing

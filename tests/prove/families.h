@@ -26,4 +26,13 @@ const std::vector<std::string>& family_names();
 /// the same case on every machine.
 FamilyCase family_case(const std::string& family, std::uint32_t n);
 
+/// An input that once went wrong or was refused, cut down.
+struct CorpusCase {
+  Balls balls;
+  double probe_radius = 0.0;
+};
+
+/// A file of tests/corpus: a line `# probe P: what went wrong`, then `x y z radius` in Å.
+CorpusCase read_corpus(const std::string& path);
+
 }  // namespace meniscus::testing

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // prove_surfaces COUNT [FAMILY...] [--first N] [--effort N] [--write FOLDER]: the families of balls made to tie, each
 // surface checked; prints a line for each family and the sum, writes what failed as files.
+// prove_surfaces --minimize FILE: leaves out balls while the surface still fails, or still needs to be helped over
+// ties, and prints what is left: an entry for tests/corpus.
 #include <tbb/parallel_for.h>
 
 #include <atomic>
@@ -33,6 +35,34 @@ void write_case(const std::string& path, const FamilyCase& made, const std::stri
     file << fmt::format("{:.17g} {:.17g} {:.17g} {:.17g}\n", b.center.x, b.center.y, b.center.z, b.radius);
 }
 
+// What is worth keeping of an input: it fails, or its radii have to grow (core/surface/tie_ladder.h).
+std::string trouble_of(const CorpusCase& entry) {
+  const SurfaceVerdict verdict = check_surface(entry.balls, entry.probe_radius, 1);
+  if (verdict.refused) return "refused";
+  if (!verdict.complaint.empty()) return "wrong";
+  return verdict.surface->certificate.grown_by > 0 ? "ties" : "";
+}
+
+int minimize(const std::string& path) {
+  CorpusCase entry = read_corpus(path);
+  const std::string trouble = trouble_of(entry);
+  for (bool again = !trouble.empty(); again;) {
+    again = false;
+    for (std::size_t n = 0; n < entry.balls.size(); ++n) {
+      CorpusCase less = entry;
+      less.balls.erase(less.balls.begin() + static_cast<std::ptrdiff_t>(n));
+      if (less.balls.empty() || trouble_of(less) != trouble) continue;
+      entry = std::move(less);
+      again = true;
+      --n;
+    }
+  }
+  fmt::print("# probe {}: {}\n", entry.probe_radius, trouble.empty() ? "no trouble" : trouble);
+  for (const Ball& b : entry.balls)
+    fmt::print("{:.17g} {:.17g} {:.17g} {:.17g}\n", b.center.x, b.center.y, b.center.z, b.radius);
+  return 0;
+}
+
 int run(const Options& options) {
   std::size_t cases = 0, wrong = 0, refused = 0;
   std::mutex lock;
@@ -43,7 +73,7 @@ int run(const Options& options) {
       const FamilyCase made = family_case(family, n);
       SurfaceVerdict verdict;
       try {
-        const bool quick = n % 8 != 0 && options.effort == 1;  // the oracle costs more than all the rest
+        const bool quick = n % 8 != 0 && options.effort == 1;
         verdict = check_surface(made.balls, made.probe_radius, n + 1, quick ? 0 : options.effort);
       } catch (const std::exception& error) {
         verdict.complaint = error.what();
@@ -78,11 +108,17 @@ int main(int argc, char** argv) {
   for (int n = 1; n < argc; ++n) {
     const std::string word = argv[n];
     const auto value = [&] { return n + 1 < argc ? argv[++n] : ""; };
-    if (word == "--first") options.first = static_cast<std::uint32_t>(std::atoi(value()));
-    else if (word == "--effort") options.effort = std::atoi(value());
-    else if (word == "--write") options.folder = value();
-    else if (n == 1) options.count = static_cast<std::uint32_t>(std::atoi(word.c_str()));
-    else options.families.push_back(word);
+    if (word == "--minimize") return meniscus::testing::minimize(value());
+    if (word == "--first")
+      options.first = static_cast<std::uint32_t>(std::atoi(value()));
+    else if (word == "--effort")
+      options.effort = std::atoi(value());
+    else if (word == "--write")
+      options.folder = value();
+    else if (n == 1)
+      options.count = static_cast<std::uint32_t>(std::atoi(word.c_str()));
+    else
+      options.families.push_back(word);
   }
   if (options.families.empty()) options.families = meniscus::testing::family_names();
   return meniscus::testing::run(options);

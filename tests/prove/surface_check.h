@@ -12,15 +12,15 @@ namespace meniscus::testing {
 
 /// What became of one input.
 struct SurfaceVerdict {
-  bool refused = false;    ///< OpenSurfaceError
-  std::string complaint;   ///< empty if all checks agree; else one line
+  bool refused = false;   ///< OpenSurfaceError
+  std::string complaint;  ///< empty if all checks agree; else one line
   std::optional<Surface> surface;
 };
 
 /// Computes the surface on the CPU and checks it: the area of each spherical patch against its planes by sampling,
-/// areas of atoms, points of every patch and the volume against an oracle that knows only the balls (sphere_tracer.h).
-/// The oracle gets the balls as decisions see them (decision_weight()), so ties are no excuse.
-/// effort: 1 looks for errors of a whole sphere; larger ones sample so much more.
+/// areas of atoms, a mesh, points of every patch and the volume against an oracle that knows only the balls
+/// (sphere_tracer.h). The oracle gets the balls as decisions see them (decision_weight()), so ties are no excuse.
+/// effort: 0 leaves mesh and oracle out, 1 looks for errors of a whole sphere, larger ones sample so much more.
 SurfaceVerdict check_surface(const Balls& balls, double probe_radius, std::uint32_t seed, int effort = 1);
 
 }  // namespace meniscus::testing

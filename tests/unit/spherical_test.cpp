@@ -94,6 +94,47 @@ TEST(Area, OfCaps) {
     }
 }
 
+// The second closed form, for faces with blurred corners: about any pole, with 4 pi less where the antipode is inside.
+TEST(Area, SweptFromAnyPole) {
+  std::mt19937 random(4);
+  for (const int corners : {3, 4, 7})
+    for (double size = 1.5; size > 1e-10; size /= 3)
+      for (int n = 0; n < 20; ++n) {
+        const glm::dmat3 turn = random_rotation(random);
+        const std::vector<SphereArc> loop = polygon(corners, size, turn);
+        const glm::dvec3 middle = turn[2], pole = random_rotation(random)[0];
+        const double area = polygon_area(corners, size);
+        EXPECT_NEAR(area_swept_from(middle, loop), area, 1e-13);
+        EXPECT_NEAR(area_swept_from(-middle, loop), area - 4 * kPi, 1e-7);
+        if (glm::dot(pole, middle) < 0) continue;  // the antipode may be inside
+        EXPECT_NEAR(area_swept_from(pole, loop), area, 1e-13) << corners << " corners, size " << size;
+        EXPECT_NEAR(area_swept_from(pole, backwards(loop)), -area, 1e-13);
+      }
+}
+
+// Corners beside their circles by more than these are wide: the turning is lost, the swept area is not.
+TEST(Area, OfATinyCapWithABlurredCorner) {
+  const double size = 1e-7, height = std::cos(size);
+  const glm::dvec3 from(size, 0, height), beside(1.3 * size, 0.4 * size, height);
+  const std::vector<SphereArc> loop{{{0, 0, 1}, height, from, beside, 2 * kPi, false}};
+  EXPECT_GT(misfit_of(loop), 0.1);
+  EXPECT_NEAR(area_swept_from({0.6, 0, 0.8}, loop), kPi * size * size, 1e-6);
+}
+
+TEST(Area, OfCapsSweptFromAnyPole) {
+  std::mt19937 random(5);
+  for (const double height : {-0.999999999, -0.3, 0.0, 0.7, 0.999999999})
+    for (const double sweep : {2 * kPi, -2 * kPi})
+      for (int n = 0; n < 50; ++n) {
+        const double s = std::sqrt(1 - height * height);
+        const glm::dvec3 start(s, 0, height), pole = random_rotation(random)[0];
+        const std::vector<SphereArc> loop{{{0, 0, 1}, height, start, start, sweep, true}};
+        const bool antipode_in_cap = -pole.z > height, antipode_inside = antipode_in_cap == (sweep > 0);
+        const double cap = 2 * kPi * (1 - height), area = sweep > 0 ? cap : 4 * kPi - cap;
+        EXPECT_NEAR(area_swept_from(pole, loop), antipode_inside ? area - 4 * kPi : area, 1e-6);
+      }
+}
+
 TEST(Moment, IsTheIntegralOfDirections) {
   // Octant: the integral of u over it is pi/4 (1, 1, 1).
   const glm::dvec3 x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
