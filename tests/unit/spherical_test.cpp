@@ -105,7 +105,9 @@ TEST(Area, SweptFromAnyPole) {
         const glm::dvec3 middle = turn[2], pole = random_rotation(random)[0];
         const double area = polygon_area(corners, size);
         EXPECT_NEAR(area_swept_from(middle, loop), area, 1e-13);
-        EXPECT_NEAR(area_swept_from(-middle, loop), area - 4 * kPi, 1e-7);
+        if (size > 1e-3) {
+          EXPECT_NEAR(area_swept_from(-middle, loop), area - 4 * kPi, 1e-9);
+        }
         if (glm::dot(pole, middle) < 0) continue;  // the antipode may be inside
         EXPECT_NEAR(area_swept_from(pole, loop), area, 1e-13) << corners << " corners, size " << size;
         EXPECT_NEAR(area_swept_from(pole, backwards(loop)), -area, 1e-13);
