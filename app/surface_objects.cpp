@@ -156,4 +156,10 @@ std::vector<SurfaceObject> surface_objects(const Structure& structure, const Div
   return objects;
 }
 
+double largest_growth(const std::vector<SurfaceObject>& objects) {
+  double largest = 0.0;
+  for (const SurfaceObject& object : objects) largest = std::max(largest, object.surface.certificate.grown_by);
+  return largest;
+}
+
 }  // namespace meniscus

@@ -17,4 +17,7 @@ namespace meniscus {
 std::vector<SurfaceObject> surface_objects(const Structure& structure, const DivisionOptions& division,
                                            SurfaceComputer& computer);
 
+/// By how many Å radii were grown at most to tell ties apart (core/surface/tie_ladder.h); 0 as a rule.
+double largest_growth(const std::vector<SurfaceObject>& objects);
+
 }  // namespace meniscus

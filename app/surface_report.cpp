@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "app/surface_objects.h"
 #include "core/base/text.h"
 
 namespace meniscus {
@@ -41,13 +42,6 @@ Totals totals_of(const std::vector<SurfaceObject>& objects) {
     sum.volume += object.surface.volume * static_cast<double>(copies);
   }
   return sum;
-}
-
-// Å; 0 unless ties had to be told apart (core/surface/tie_ladder.h).
-double largest_growth(const std::vector<SurfaceObject>& objects) {
-  double largest = 0.0;
-  for (const SurfaceObject& object : objects) largest = std::max(largest, object.surface.certificate.grown_by);
-  return largest;
 }
 
 Json component_list(const std::vector<SurfaceObject>& objects) {
