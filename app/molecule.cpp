@@ -101,7 +101,8 @@ Molecule load_molecule(const MoleculeOptions& options) {
   Molecule molecule = MoleculeBuilder(options).build(std::move(structure));
   say(options, fmt::format("surface on {} in {:.1f} ms", molecule.device, total_ms(molecule.stages)));
   if (const double grown_by = largest_growth(molecule.objects); grown_by > 0)
-    say(options, fmt::format("spheres that meet in one point were told apart by radii grown by up to {:.2g} Å", grown_by));
+    say(options,
+        fmt::format("spheres that meet in one point were told apart by radii grown by up to {:.2g} Å", grown_by));
   return molecule;
 }
 

@@ -199,6 +199,8 @@ void PlanarTriangulation::legalize(std::vector<std::array<int, 2>>& edges) {
 }
 
 std::optional<int> PlanarTriangulation::insert(GridPoint point) {
+  for (const std::int64_t c : {point.x, point.y})
+    if (c < -kGridLimit || c > kGridLimit) refuse();  // a point that was no number lies far outside
   const int t = locate(point);
   const Triangle triangle = triangles_[t];
   int on = -1;

@@ -2,6 +2,7 @@
 // The exact planar triangulation: Delaunay by brute force, constraints kept, conflicts named; and the sphere lattice.
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 #include <random>
 #include <set>
@@ -9,6 +10,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "core/base/error.h"
 #include "exporters/mesh/planar_triangulation.h"
 #include "exporters/mesh/sphere_lattice.h"
 
@@ -21,6 +23,16 @@ std::vector<GridPoint> random_points(int count, std::int64_t limit, unsigned see
   std::vector<GridPoint> points(count);
   for (auto& p : points) p = {at(random), at(random)};
   return points;
+}
+
+// What llround() makes of a point that is no number; before this was refused flips went on for ever.
+TEST(PlanarTriangulation, RefusesPointsOffTheGrid) {
+  for (const GridPoint point :
+       {GridPoint{INT64_MIN, INT64_MIN}, GridPoint{0, kGridLimit + 1}, GridPoint{INT64_MAX, 0}}) {
+    PlanarTriangulation plane;
+    plane.insert({5, 7});
+    EXPECT_THROW(plane.insert(point), OpenSurfaceError);
+  }
 }
 
 TEST(PlanarTriangulation, IsDelaunayEvenOnACoarseGridFullOfTies) {
