@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Classes and elements of atoms by the names of their residues, with gemmi's tables of residues and elements.
+// Classes of atoms by the names and bonds of their residues, and elements, with gemmi's tables of both.
 #include "core/molecule/atom_classes.h"
 
 #include <algorithm>
 #include <cctype>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -14,15 +15,23 @@
 #include <gemmi/metadata.hpp>
 #include <gemmi/resinfo.hpp>
 
+#include "core/molecule/canonical_names.h"
+#include "core/molecule/chain_links.h"
 #include "core/molecule/oddity.h"
+#include "core/molecule/residue_names.h"
 
 namespace meniscus {
 namespace {
 
-/// Amino acids and nucleotides; names of force fields (HSD, CYX, DA5, ...) are found by their backbone instead.
-bool is_polymer_name(const std::string& name) {
+bool is_tabulated_polymer(const std::string& name) {
   const gemmi::ResidueInfo residue = gemmi::find_tabulated_residue(name);
   return residue.is_amino_acid() || residue.is_nucleic_acid();
+}
+
+/// Amino acids and nucleotides, also by the names of force fields, but not the caps of chains, which are polymer only
+/// where they cap one.
+bool is_polymer_name(const std::string& name) {
+  return is_tabulated_polymer(name) || is_tabulated_polymer(canonical_residue(name)) || is_nucleotide_name(name);
 }
 
 /// Elements that stand alone in a file as ions: metals and halogens.
@@ -38,17 +47,17 @@ bool is_ion_element(gemmi::Element element) {
   }
 }
 
-/// The class of one residue from its name, its file's statement, and its atoms (`names`: distinct atom names).
-AtomClass classify(const std::string& residue_name, ResidueStatement statement, gemmi::Element first_element,
-                   const std::set<std::string>& names) {
-  if (is_water_name(residue_name)) return AtomClass::water;
-  const bool polymer_name = is_polymer_name(residue_name);
-  if (names.size() == 1 && !polymer_name && is_ion_element(first_element)) return AtomClass::ion;
-  if (statement == ResidueStatement::polymer) return AtomClass::polymer;
-  if (statement == ResidueStatement::other) return AtomClass::ligand;
-  const bool peptide = names.contains("N") && names.contains("CA") && names.contains("C");
-  const bool nucleotide = names.contains("C4'") || names.contains("C4*");
-  return polymer_name || peptide || nucleotide ? AtomClass::polymer : AtomClass::ligand;
+/// Distinct names of the atoms of a residue.
+using Names = std::set<std::string>;
+
+bool is_named_like_polymer(const Names& names) {
+  return (names.contains("N") && names.contains("CA") && names.contains("C")) || names.contains("C4'") ||
+         names.contains("C4*");
+}
+
+/// A chain drawn by its CA or P, or a chromophore whose backbone has other names: what it is linked to cannot be told.
+bool has_no_ends(const Names& names) {
+  return !names.contains("C") && !names.contains("N") && !names.contains("O3'") && !names.contains("O3*");
 }
 
 bool is_of_organic_residues(gemmi::Element element) {
@@ -97,10 +106,10 @@ gemmi::Element lone_ion_element(const Atom& atom) {
 
 /// The first letter of a name; two where only one element can be meant. Other letters are more often dummies and beads
 /// (D, M, W) than deuterium and tungsten.
-gemmi::Element element_by_letters(const Atom& atom) {
+gemmi::Element element_by_letters(const Atom& atom, bool of_polymer) {
   const std::size_t letter = atom.name.find_first_not_of("0123456789");
   if (letter == std::string::npos) return gemmi::El::X;
-  if (atom.kind != AtomClass::polymer) {
+  if (!of_polymer) {
     const std::string two = capitals(atom.name.substr(letter, 2));
     for (const char* symbol : {"CL", "BR", "FE", "ZN", "MG", "MN", "SI", "SE"}) {
       if (two == symbol) return gemmi::Element(two);
@@ -111,41 +120,102 @@ gemmi::Element element_by_letters(const Atom& atom) {
                                                                              : gemmi::Element(std::string(1, first));
 }
 
-gemmi::Element element_of(gemmi::Element stated, gemmi::Element hint, const Atom& atom) {
+/// of_polymer: the residue has the atoms of an amino acid or nucleotide, in a chain or alone.
+gemmi::Element element_of(gemmi::Element stated, gemmi::Element hint, const Atom& atom, bool of_polymer) {
   if (is_of_organic_residues(stated)) return stated;
   const gemmi::Element given = stated == gemmi::El::X ? hint : stated;
   const gemmi::ResidueInfo residue = gemmi::find_tabulated_residue(atom.residue_name);
   const bool standard =
       residue.found() && residue.is_standard() && (residue.is_amino_acid() || residue.is_nucleic_acid());
-  const bool variant = stated == gemmi::El::X && !residue.found() && atom.kind == AtomClass::polymer &&
-                       is_amino_acid_atom_name(atom.name);
+  const bool variant = stated == gemmi::El::X && !residue.found() && of_polymer && is_amino_acid_atom_name(atom.name);
   const bool doubtful = (standard || variant) && !is_of_organic_residues(given);
-  return doubtful || given == gemmi::El::X ? element_by_letters(atom) : given;
+  return doubtful || given == gemmi::El::X ? element_by_letters(atom, of_polymer) : given;
 }
 
-/// Atoms first..last are one residue: sets their class and elements.
-void classify_residue(std::vector<Atom>& atoms, std::size_t first, std::size_t last,
-                      const std::vector<AtomHints>& hints, Oddity& impossible) {
-  const AtomHints none;
-  const auto hint = [&](std::size_t n) -> const AtomHints& { return hints.empty() ? none : hints[n]; };
-  std::set<std::string> names;
-  for (std::size_t n = first; n < last; ++n) names.insert(atoms[n].name);
-  const bool lone_without_element = names.size() == 1 && atoms[first].element == 0;
-  const gemmi::Element ion = lone_without_element ? lone_ion_element(atoms[first]) : gemmi::Element(gemmi::El::X);
-  const gemmi::Element stated(int{atoms[first].element != 0 ? atoms[first].element : hint(first).element});
-  const AtomClass kind =
-      classify(atoms[first].residue_name, hint(first).residue, ion == gemmi::El::X ? stated : ion, names);
-  for (std::size_t n = first; n < last; ++n) {
-    atoms[n].kind = kind;
-    const gemmi::Element element =
-        kind == AtomClass::ion && ion != gemmi::El::X
-            ? ion
-            : element_of(gemmi::Element(int{atoms[n].element}), gemmi::Element(int{hint(n).element}), atoms[n]);
-    if (atoms[n].element != 0 && atoms[n].element != element.atomic_number())
-      impossible.add(fmt::format("{}: {}", label_of(atoms[n]), gemmi::Element(int{atoms[n].element}).name()));
-    atoms[n].element = static_cast<std::uint8_t>(element.atomic_number());
+class Classifier {
+ public:
+  Classifier(std::vector<Atom>& atoms, std::span<const AtomHints> hints, std::span<const Bond> bonds)
+      : atoms_(atoms), hints_(hints), bonds_(bonds) {
+    for (std::size_t n = 0; n < atoms.size(); ++n) {
+      if (n == 0 || atoms[n].residue != atoms[n - 1].residue || atoms[n].residue_name != atoms[n - 1].residue_name)
+        begins_.push_back(n);
+    }
+    begins_.push_back(atoms.size());
   }
-}
+
+  void run(std::vector<Warning>& warnings) {
+    for (std::size_t r = 0; r + 1 < begins_.size(); ++r) classify(r);
+    impossible_.warn(warnings, "an element that its residue cannot hold; its name was believed instead");
+  }
+
+ private:
+  const Atom& head(std::size_t r) const { return atoms_[begins_[r]]; }
+
+  AtomHints hint(std::size_t atom) const { return hints_.empty() ? AtomHints{} : hints_[atom]; }
+
+  void classify(std::size_t r) {
+    Names names;
+    for (std::size_t n = begins_[r]; n < begins_[r + 1]; ++n) names.insert(atoms_[n].name);
+    const bool lone_without_element = names.size() == 1 && head(r).element == 0;
+    const gemmi::Element ion = lone_without_element ? lone_ion_element(head(r)) : gemmi::Element(gemmi::El::X);
+    const AtomHints first = hint(begins_[r]);
+    const gemmi::Element stated(int{head(r).element != 0 ? head(r).element : first.element});
+    const AtomClass kind = class_of(r, names, ion == gemmi::El::X ? stated : ion);
+    const bool of_polymer =
+        kind == AtomClass::polymer || (kind == AtomClass::ligand && first.residue == ResidueStatement::none &&
+                                       (is_tabulated_polymer(head(r).residue_name) || is_named_like_polymer(names)));
+    for (std::size_t n = begins_[r]; n < begins_[r + 1]; ++n) {
+      atoms_[n].kind = kind;
+      set_element(n, kind == AtomClass::ion ? ion : gemmi::Element(gemmi::El::X), of_polymer);
+    }
+  }
+
+  AtomClass class_of(std::size_t r, const Names& names, gemmi::Element first_element) {
+    const std::string& name = head(r).residue_name;
+    if (is_water_name(name)) return AtomClass::water;
+    if (names.size() == 1 && !is_tabulated_polymer(name) && is_ion_element(first_element)) return AtomClass::ion;
+    const ResidueStatement statement = hint(begins_[r]).residue;
+    if (statement != ResidueStatement::none)
+      return statement == ResidueStatement::polymer ? AtomClass::polymer : AtomClass::ligand;
+    return is_polymer(r, names) ? AtomClass::polymer : AtomClass::ligand;
+  }
+
+  bool is_polymer(std::size_t r, const Names& names) {
+    const bool named = is_polymer_name(head(r).residue_name);
+    if (named && !hint(begins_[r]).heteroatom) return true;
+    if (!linked_) linked_ = linked_residues(atoms_, bonds_);
+    if ((*linked_)[head(r).residue]) return true;
+    return named && (has_no_ends(names) || (in_chain(r, r - 1) && in_chain(r, r + 1)));
+  }
+
+  /// Is the residue before or behind in the file one of the same chain, and numbered so?
+  bool in_chain(std::size_t r, std::size_t neighbor) const {
+    if (neighbor >= begins_.size() - 1) return false;  // r - 1 of the first residue is the largest number
+    const Atom &here = head(r), &there = head(neighbor);
+    return is_polymer_name(there.residue_name) && !hint(begins_[neighbor]).heteroatom && there.chain == here.chain &&
+           there.segment == here.segment && there.model == here.model &&
+           (neighbor < r ? there.residue_number < here.residue_number : here.residue_number < there.residue_number);
+  }
+
+  /// `ion`: what the lone atom is, unless X.
+  void set_element(std::size_t n, gemmi::Element ion, bool of_polymer) {
+    Atom& atom = atoms_[n];
+    const gemmi::Element element =
+        ion != gemmi::El::X
+            ? ion
+            : element_of(gemmi::Element(int{atom.element}), gemmi::Element(int{hint(n).element}), atom, of_polymer);
+    if (atom.element != 0 && atom.element != element.atomic_number())
+      impossible_.add(fmt::format("{}: {}", label_of(atom), gemmi::Element(int{atom.element}).name()));
+    atom.element = static_cast<std::uint8_t>(element.atomic_number());
+  }
+
+  std::vector<Atom>& atoms_;
+  std::span<const AtomHints> hints_;
+  std::span<const Bond> bonds_;
+  std::vector<std::size_t> begins_;          ///< of the residues in atoms_, and the end
+  std::optional<std::vector<bool>> linked_;  ///< made when first asked for
+  Oddity impossible_;
+};
 
 }  // namespace
 
@@ -160,16 +230,9 @@ bool is_tabulated_residue(const std::string& residue_name) {
   return gemmi::find_tabulated_residue(residue_name).found();
 }
 
-void classify_atoms(std::vector<Atom>& atoms, std::vector<Warning>& warnings, const std::vector<AtomHints>& hints) {
-  Oddity impossible;
-  for (std::size_t first = 0, last = 0; first < atoms.size(); first = last) {
-    while (last < atoms.size() && atoms[last].residue == atoms[first].residue &&
-           atoms[last].residue_name == atoms[first].residue_name) {
-      ++last;
-    }
-    classify_residue(atoms, first, last, hints, impossible);
-  }
-  impossible.warn(warnings, "an element that its residue cannot hold; its name was believed instead");
+void classify_atoms(std::vector<Atom>& atoms, std::vector<Warning>& warnings, std::span<const AtomHints> hints,
+                    std::span<const Bond> bonds) {
+  Classifier(atoms, hints, bonds).run(warnings);
 }
 
 }  // namespace meniscus

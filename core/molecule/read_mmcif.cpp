@@ -42,7 +42,8 @@ enum Column {
   kOccupancy,
   kB,
   kModel,
-  kEntityId
+  kEntityId,
+  kGroup
 };
 const std::vector<std::string> kColumns{"Cartn_x",
                                         "Cartn_y",
@@ -61,7 +62,8 @@ const std::vector<std::string> kColumns{"Cartn_x",
                                         "?occupancy",
                                         "?B_iso_or_equiv",
                                         "?pdbx_PDB_model_num",
-                                        "?label_entity_id"};
+                                        "?label_entity_id",
+                                        "?group_PDB"};
 
 /// The line of a row of _atom_site; rows are one line each in all but hand-made files, otherwise the loop's first line.
 std::size_t line_of_row(const TextFile& file, const cif::Table& table, int row, const std::string& value) {
@@ -140,12 +142,15 @@ Atom read_row(const TextFile& file, const cif::Table& table, const cif::Table::R
   return atom;
 }
 
+/// What _entity says of each entity, or, where that is missing, _entity_poly of polymers.
 std::map<std::string, ResidueStatement> entities_of(cif::Document& document) {
   std::map<std::string, ResidueStatement> entities;
   for (cif::Block& block : document.blocks) {
     for (const auto row : block.find("_entity.", {"id", "type"})) {
       entities[row.str(0)] = row.str(1) == "polymer" ? ResidueStatement::polymer : ResidueStatement::other;
     }
+    for (const auto row : block.find("_entity_poly.", {"entity_id"}))
+      entities.try_emplace(row.str(0), ResidueStatement::polymer);
   }
   return entities;
 }
@@ -171,7 +176,8 @@ FileContents read(const TextFile& file, const ModelChoice& choice) {
     residues.number(atom);
     if (atom.element == 0) without_symbol.add(label_of(atom));
     const auto statement = entities.find(row.has2(kEntityId) ? cif::as_string(row[kEntityId]) : std::string());
-    hints.push_back({statement == entities.end() ? ResidueStatement::none : statement->second});
+    hints.push_back({.residue = statement == entities.end() ? ResidueStatement::none : statement->second,
+                     .heteroatom = row.has2(kGroup) && row[kGroup] == "HETATM"});
     contents.atoms.push_back(std::move(atom));
   }
   contents.models = models.size();
@@ -195,7 +201,7 @@ bool recognizes(std::string_view text) {
 
 const Reader kMmcifReader{
     {"mmCIF", ".cif .mmcif .mcif", "macromolecular CIF of the wwPDB", "PDBx/mmCIF dictionary; Hall, Allen & Brown 1991",
-     "_atom_site (author's names where given, label_asym_id too) and _entity"},
+     "_atom_site (author's names where given, label_asym_id too), _entity and _entity_poly"},
     recognizes,
     read,
     read_mmcif_assemblies};

@@ -142,10 +142,12 @@ class PdbReader {
   }
 
   /// TER marks what precedes it as polymer, yet some programs write one TER at the very end; so only HETATM behind a
-  /// TER is a statement.
+  /// TER of its chain is a statement, and where chains have no names, a TER may have ended another.
   void take_element(std::string_view line, std::size_t number, Atom& atom) {
     AtomHints& hints = hints_.emplace_back();
-    if (is_pdb_record(line, "HETATM") && ended_chains_.contains(atom.chain)) hints.residue = ResidueStatement::other;
+    hints.heteroatom = is_pdb_record(line, "HETATM");
+    if (hints.heteroatom && !atom.chain.empty() && ended_chains_.contains(atom.chain))
+      hints.residue = ResidueStatement::other;
     const std::string symbol(line.substr(std::min<std::size_t>(line.size(), 76), 2));
     if (std::any_of(symbol.begin(), symbol.end(), is_letter)) {
       atom.element = static_cast<std::uint8_t>(gemmi::Element(symbol).atomic_number());

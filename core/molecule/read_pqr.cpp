@@ -30,7 +30,7 @@ class PqrReader {
     for (std::string_view line; lines.next(line);) take(line, lines.number());
     if (contents_.atoms.empty() && contents_.other_model_atoms == 0)
       throw InputError(file_.path, 0, "has no ATOM or HETATM records: no atoms");
-    classify_atoms(contents_.atoms, contents_.warnings);
+    classify_atoms(contents_.atoms, contents_.warnings, hints_);
     warn_of_doubtful_radii();
     return std::move(contents_);
   }
@@ -78,6 +78,7 @@ class PqrReader {
     atom.charge = static_cast<float>(charge);
     atom.radius = parse_radius(file_, number, record->numbers[4], kLine);
     residues_.number(atom);
+    hints_.push_back({.heteroatom = is_pdb_record(line, "HETATM")});
     contents_.atoms.push_back(std::move(atom));
   }
 
@@ -94,6 +95,7 @@ class PqrReader {
   const TextFile& file_;
   const ModelChoice& choice_;
   FileContents contents_;
+  std::vector<AtomHints> hints_;
   ResidueCounter residues_{contents_.atoms};
   bool open_ = false;
 };

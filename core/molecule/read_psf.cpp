@@ -59,7 +59,7 @@ class PsfReader {
     extended_ = line.find("EXT") != std::string_view::npos;
     read_atoms(find_section("!NATOM"));
     read_bonds(find_section("!NBOND"));
-    classify_atoms(contents_.atoms, contents_.warnings);
+    classify_atoms(contents_.atoms, contents_.warnings, {}, contents_.bonds);
     contents_.without_positions = true;
     contents_.models = 1;
     return std::move(contents_);

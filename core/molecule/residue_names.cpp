@@ -9,8 +9,12 @@
 namespace meniscus {
 
 bool is_amino_acid_name(const std::string& residue_name) {
+  return gemmi::find_tabulated_residue(residue_name).is_amino_acid() || is_chain_cap_name(residue_name);
+}
+
+bool is_chain_cap_name(const std::string& residue_name) {
   static const std::set<std::string> kCaps{"ACE", "NME", "NMA", "NH2", "FOR"};
-  return gemmi::find_tabulated_residue(residue_name).is_amino_acid() || kCaps.contains(residue_name);
+  return kCaps.contains(residue_name);
 }
 
 bool is_nucleotide_name(const std::string& residue_name) {

@@ -9,6 +9,9 @@ namespace meniscus {
 /// Amino acids of the wwPDB's chemical components (modified ones too), and caps of chains (ACE, NME, NH2, ...).
 bool is_amino_acid_name(const std::string& residue_name);
 
+/// Caps of peptide chains: ACE, NME, NH2, ...
+bool is_chain_cap_name(const std::string& residue_name);
+
 /// Nucleotides of the wwPDB's chemical components, and the common names of force fields (ADE, DA5, RA3, ...).
 bool is_nucleotide_name(const std::string& residue_name);
 

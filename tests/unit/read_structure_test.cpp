@@ -159,12 +159,20 @@ TEST(Classes, WaterAndIonsGoLigandsAndBoundMetalsStay) {
 
 TEST(Classes, WhatFollowsTheEndOfItsChainIsNoPolymer) {
   std::string peptide;
-  for (const char* name : {" N  ", " CA ", " C  "})
-    peptide += PdbLine{.record = "HETATM", .name = name, .residue = "XYZ", .number = 2}.text();
-  const auto kind = [](const std::string& text) { return read_text("a.pdb", text).atoms.back().kind; };
-  EXPECT_EQ(kind(PdbLine{}.text() + peptide), AtomClass::polymer);
-  EXPECT_EQ(kind(PdbLine{}.text() + "TER\n" + peptide), AtomClass::ligand);
-  EXPECT_EQ(kind(PdbLine{.chain = 'B'}.text() + "TER\n" + peptide), AtomClass::polymer);
+  double x = 4.2;
+  for (const char* name : {" N  ", " CA ", " C  "}) {
+    peptide +=
+        PdbLine{.record = "HETATM", .name = name, .residue = "XYZ", .number = 2, .x = fmt::format("{:8.3f}", x)}.text();
+    x += 1.4;
+  }
+  const auto kind = [&](char chain, const std::string& end) {
+    const std::string alanine = PdbLine{.name = " CA ", .chain = chain, .x = "   1.400"}.text() +
+                                PdbLine{.name = " C  ", .chain = chain, .x = "   2.800"}.text();
+    return read_text("a.pdb", alanine + end + peptide).atoms.back().kind;
+  };
+  EXPECT_EQ(kind('A', ""), AtomClass::polymer);
+  EXPECT_EQ(kind('A', "TER\n"), AtomClass::ligand);
+  EXPECT_EQ(kind('B', "TER\n"), AtomClass::polymer);
 }
 
 TEST(Elements, NamesAreReadInTheirResidueWhenTheColumnIsMissing) {
