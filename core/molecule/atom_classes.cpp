@@ -55,6 +55,11 @@ bool is_named_like_polymer(const Names& names) {
          names.contains("C4*");
 }
 
+/// Names of force fields are also those of bare bases (ADE, URA) and others, which have none of these.
+bool has_backbone(const Names& names) {
+  return names.contains("CA") || names.contains("P") || names.contains("C4'") || names.contains("C4*");
+}
+
 /// A chain drawn by its CA or P, or a chromophore whose backbone has other names: what it is linked to cannot be told.
 bool has_no_ends(const Names& names) {
   return !names.contains("C") && !names.contains("N") && !names.contains("O3'") && !names.contains("O3*");
@@ -181,7 +186,8 @@ class Classifier {
   }
 
   bool is_polymer(std::size_t r, const Names& names) {
-    const bool named = is_polymer_name(head(r).residue_name);
+    const std::string& name = head(r).residue_name;
+    const bool named = is_tabulated_polymer(name) || (is_polymer_name(name) && has_backbone(names));
     if (named && !hint(begins_[r]).heteroatom) return true;
     if (!linked_) linked_ = linked_residues(atoms_, bonds_);
     if ((*linked_)[head(r).residue]) return true;

@@ -175,6 +175,18 @@ TEST(ClassesByBonds, CofactorsAreLigandsWithAndWithoutHetatm) {
   }
 }
 
+TEST(ClassesByBonds, BareBasesAreLigandsThoughNucleotidesBearTheirNames) {
+  for (const char* record : {"ATOM", "HETATM"}) {
+    EXPECT_EQ(Chain()
+                  .nucleotide(record, "ADE")
+                  .nucleotide(record, "CYT")
+                  .add(record, "ADE", {"N9", "C8", "N7"}, kApart)
+                  .classes(),
+              (Kinds{P, P, L}))
+        << record;
+  }
+}
+
 TEST(ClassesByBonds, CapsAreOfTheChainTheyCap) {
   const auto capped = [](double gap) {
     return Chain().add("HETATM", "ACE", {"CH3", "C"}).amino("ATOM", "ALA", gap).add("HETATM", "NH2", {"N"}, gap);
