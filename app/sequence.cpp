@@ -14,6 +14,9 @@
 #include "app/molecule.h"
 #include "app/program_error.h"
 #include "core/base/text.h"
+#include "core/molecule/reader.h"
+#include "core/molecule/usual_part.h"
+#include "core/trajectory/atom_order.h"
 #include "core/trajectory/found_bonds.h"
 #include "core/trajectory/frame_list.h"
 #include "core/trajectory/repeated_frames.h"
@@ -88,6 +91,9 @@ std::vector<std::uint32_t> chosen(const Selection& selection, const std::vector<
   return indices;
 }
 
+/// Does the file place the atoms that it names? All formats do but one.
+bool has_positions(const Structure& structure) { return structure.format != kPsfReader.metadata.name; }
+
 }  // namespace
 
 std::string frame_index_folder() {
@@ -115,9 +121,13 @@ Sequence::Sequence(const MoleculeOptions& molecule, const SequenceOptions& optio
   const std::size_t atoms = structure_.topology->atoms.size();
   if (atoms != trajectory_->atom_count()) {
     throw InputError(trajectory_->path(), 0,
-                     fmt::format("its frames have {} atoms, {} has {}; they do not belong together",
-                                 with_thousands(trajectory_->atom_count()), structure_.file, with_thousands(atoms)));
+                     fmt::format("its frames have {} atoms, {} has {}: {}", with_thousands(trajectory_->atom_count()),
+                                 structure_.file, with_thousands(atoms),
+                                 advice_on_count(structure_.topology->atoms, trajectory_->atom_count())));
   }
+  if (!options.trajectory.empty() && !options.trust_atom_order)
+    check_atom_order(*structure_.topology, structure_.atoms, first,
+                     {structure_.file, has_positions(structure_), trajectory_->path(), run_.front()});
   say(molecule,
       fmt::format("{}: {}, {} frames; this run has {}{}", trajectory_->path(), trajectory_->format(),
                   with_thousands(trajectory_->frame_count()), with_thousands(run_.size()),

@@ -39,6 +39,8 @@ void add_sequence_options(CLI::App& command, SequenceOptions& options) {
                   "Coordinates of the atoms of FILE, frame by frame (meniscus formats); without it the models of FILE "
                   "are the frames")
       ->type_name("PATH");
+  command.add_flag("--trust-atom-order", options.trust_atom_order,
+                   "Take the atoms of the trajectory for those of FILE, in its order, though bonds come out too long");
   command
       .add_option(
           "--repeat", options.repeat,

@@ -22,9 +22,10 @@ enum class WholeBy {
 
 /// What the sequence options say. Commands keep one of these alive as long as their CLI::App.
 struct SequenceOptions {
-  std::string trajectory;    ///< empty: the models of the molecule's file are the frames
-  std::uint64_t repeat = 1;  ///< each frame this often in a row
-  std::string frames;        ///< as parse_frame_list reads it; empty: all
+  std::string trajectory;         ///< empty: the models of the molecule's file are the frames
+  bool trust_atom_order = false;  ///< bonds of the first frame are not compared with those of the molecule's file
+  std::uint64_t repeat = 1;       ///< each frame this often in a row
+  std::string frames;             ///< as parse_frame_list reads it; empty: all
   std::uint64_t stride = 1;
   std::string begin, end;  ///< a frame ("100") or a time ("2.5ns", "300ps"); empty: no bound
   std::string only;        ///< the share of the run that is made; empty: all of it
@@ -38,7 +39,8 @@ struct SequenceOptions {
   bool asked() const;
 };
 
-/// --trajectory, --repeat, --frames, --stride, --begin, --end, --only, --whole, --superpose, --center, --reference,
+/// --trajectory, --trust-atom-order, --repeat, --frames, --stride, --begin, --end, --only, --whole, --superpose,
+/// --center, --reference,
 /// --smooth,
 /// --progress, under a heading of their own.
 void add_sequence_options(CLI::App& command, SequenceOptions& options);

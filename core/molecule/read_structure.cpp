@@ -10,6 +10,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/molecule/plausibility.h"
+#include "core/molecule/usual_part.h"
 
 namespace meniscus {
 namespace {
@@ -137,8 +138,9 @@ void place_atoms(FileContents& contents, const ReadOptions& options, const TextF
     throw InputError(file.path, 0, "lists atoms without coordinates; add --trajectory with a file that has them");
   if (options.positions.size() != contents.atoms.size()) {
     throw InputError(file.path, 0,
-                     fmt::format("lists {} atoms, a frame of the trajectory has {}; they do not belong together",
-                                 with_thousands(contents.atoms.size()), with_thousands(options.positions.size())));
+                     fmt::format("lists {} atoms, a frame of the trajectory has {}: {}",
+                                 with_thousands(contents.atoms.size()), with_thousands(options.positions.size()),
+                                 advice_on_count(contents.atoms, options.positions.size())));
   }
   for (std::size_t n = 0; n < contents.atoms.size(); ++n) contents.atoms[n].position = options.positions[n];
 }
