@@ -55,26 +55,31 @@ std::string host_name() {
   return ::gethostname(name, sizeof name - 1) == 0 && name[0] ? escaped(name) : "HOST";
 }
 
-/// A molecule, and where its atoms stand at the frames of a trajectory, if there is one.
+/// A molecule, where its atoms stand at the frames of a trajectory, if there is one, and the camera of a file, if one
+/// is named.
 struct Shown {
   Structure structure;
   std::optional<Moments> moments;
+  std::optional<Camera> camera;
 };
 
 Shown read_run(const PreviewCommand& command) {
-  if (!command.sequence.asked()) return {read_molecule(command.molecule), {}};
+  if (!command.sequence.asked()) return {read_molecule(command.molecule), {}, {}};
   MoleculeOptions molecule = command.molecule;
   if (molecule.reading.model.all) molecule.reading.model = {};  // the preview's default; a run has frames instead
   const auto sequence = std::make_shared<Sequence>(molecule, command.sequence);
-  return {sequence->structure(), Moments{sequence->share(), [sequence](std::size_t frame) {
-                                           return sequence->positions(sequence->share()[frame]);
-                                         }}};
+  return {sequence->structure(),
+          Moments{sequence->share(),
+                  [sequence](std::size_t frame) { return sequence->positions(sequence->share()[frame]); }},
+          {}};
 }
 
-Shown read_frames(PreviewCommand& command) {
+Shown read_inputs(PreviewCommand& command) {
   if (!std::filesystem::is_directory(command.output_folder))
     throw OutputError(command.output_folder, "--output-dir is no folder");
+  const std::optional<Camera> camera = given_camera(command.picture);
   Shown shown = read_run(command);
+  shown.camera = camera;
   if (command.molecule.computing.cpu) throw UsageError("--device cpu draws no pictures; use auto, gpu or software");
   if (!shown.structure.instances.empty())
     throw UsageError("--instances is for render and export; the preview draws atoms");
@@ -92,9 +97,7 @@ std::unique_ptr<PreviewSession> begin_session(const PreviewCommand& command, Sho
   view.look = command.look;
   view.size = {command.picture.width, command.picture.height};
   view.camera.projection = command.picture.projection;
-  std::optional<Camera> camera;
-  if (!command.picture.camera_file.empty()) camera = read_camera(command.picture.camera_file);
-  auto session = std::make_unique<PreviewSession>(std::move(shown.structure), view, camera, command.output_folder,
+  auto session = std::make_unique<PreviewSession>(std::move(shown.structure), view, shown.camera, command.output_folder,
                                                   std::move(shown.moments));
   if (!command.record.empty()) {
     auto log = std::make_shared<CommandLog>(command.record, command.force ? Existing::replace : Existing::refuse);
@@ -109,12 +112,18 @@ void say_address(const PreviewCommand& command, const std::string& url, std::uin
   say(command.molecule, "Ctrl-C ends the preview");
 }
 
+std::vector<WrittenCommand> written_commands(const PreviewCommand& command) {
+  if (command.commands.empty()) return {};
+  return read_commands(command.commands);
+}
+
 void serve(PreviewCommand& command) {
   std::signal(SIGPIPE, SIG_IGN);  // whoever stops reading must not end the server
-  Shown shown = read_frames(command);
+  const std::vector<WrittenCommand> commands = written_commands(command);
+  Shown shown = read_inputs(command);
   const EglContext context(command.molecule.computing.gl);
   const std::unique_ptr<PreviewSession> session = begin_session(command, std::move(shown));
-  if (!command.commands.empty()) replay_commands(command.commands, *session, std::cout);
+  replay_commands(command.commands, commands, *session, std::cout);
   if (session->wants_to_quit()) return;
   serve_session(*session, *command.port,
                 [&](const std::string& url, std::uint16_t port) { say_address(command, url, port); });
@@ -131,9 +140,8 @@ void say_report(const PreviewCommand& command, const WindowReport& report) {
 void open_window(PreviewCommand& command) {
   if (command.molecule.computing.gl.kind != DeviceChoice::Kind::automatic)
     throw UsageError("--device and --require-gpu are for --serve; a window draws on the device of its display");
-  std::vector<WrittenCommand> commands;
-  if (!command.commands.empty()) commands = read_commands(command.commands);
-  Shown shown = read_frames(command);
+  const std::vector<WrittenCommand> commands = written_commands(command);
+  Shown shown = read_inputs(command);
   WindowOptions options;
   options.title = fmt::format("{} - Meniscus", std::filesystem::path(command.molecule.file).filename().string());
   for (const WrittenCommand& written : commands) options.commands.push_back(written.command);

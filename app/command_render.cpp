@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `meniscus render`: a picture of the surface by ray casting its analytic patches.
+#include <algorithm>
 #include <iostream>
 #include <map>
 #include <memory>
@@ -49,6 +50,10 @@ void save_camera(const RenderCommand& command, const Camera& camera) {
 }
 
 void finish(const RenderCommand& command, const PictureLayout& layout, Framebuffer picture, const Camera& camera) {
+  if (shows_nothing(picture))
+    say(command.molecule,
+        "warning: the picture shows nothing: no ray meets a part of the surface that --show leaves; where does the "
+        "camera look?");
   if (layout.legend) picture = layout.legend->add_to(picture, command.background);
   write_image(command.output.path, picture, {command.background, command.output.existing()});
   if (!command.save_camera.empty()) save_camera(command, camera);
@@ -63,10 +68,10 @@ void say_times(const RenderCommand& command, const EglContext& context, const st
 }
 
 // Without the complete surface: from atoms to the picture on the GPU.
-void draw_view(const RenderCommand& command) {
+void draw_view(const RenderCommand& command, const std::optional<Camera>& given) {
   const ColoredAtoms atoms = load_atoms(command.molecule);
   const PictureLayout layout(command, key_of(atoms.molecule));
-  const Camera camera = picture_camera(layout.size, atoms.balls);
+  const Camera camera = picture_camera(layout.size, given, atoms.balls);
   const EglContext context(gl_device(command));
   ViewPicture view = ViewPainter().paint(atoms, camera, command.molecule.computing.probe_radius, *command.extent,
                                          render_settings(command, layout));
@@ -93,10 +98,11 @@ void run(const RenderCommand& command) {
   // Whether the outputs can be written is known before the work begins; these vanish again.
   OutputFile(command.output.path, command.output.existing());
   if (!command.save_camera.empty()) OutputFile(command.save_camera, command.output.existing());
-  if (command.extent) return draw_view(command);
+  const std::optional<Camera> given = given_camera(command.picture);
+  if (command.extent) return draw_view(command, given);
   Molecule molecule = load_molecule(command.molecule);
   const PictureLayout layout(command, key_of(molecule));
-  const Camera camera = picture_camera(layout.size, placed_balls(molecule.objects));
+  const Camera camera = picture_camera(layout.size, given, placed_balls(molecule.objects));
   const EglContext context(gl_device(command));
   RayCaster caster;
   Framebuffer picture = cast(caster, std::move(molecule.objects), camera, render_settings(command, layout));
@@ -133,6 +139,10 @@ Framebuffer cast(RayCaster& caster, std::vector<SurfaceObject> objects, const Ca
   for (std::uint32_t& atom : picture.atom)
     if (atom != kNone) atom = whole.atom[atom];
   return picture;
+}
+
+bool shows_nothing(const Framebuffer& picture) {
+  return std::ranges::none_of(picture.color, [](const glm::vec4& pixel) { return pixel.w > 0.0f; });
 }
 
 void add_render(CLI::App& command) {

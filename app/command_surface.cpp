@@ -69,7 +69,7 @@ void run_sequence(const SurfaceCommand& command) {
     const FrameNote note{frame.number, frame.time};
     std::cout << (command.json ? report_json_line(report, note) : report_row(report, note)) << std::flush;
     if (!std::cout) throw OutputError("standard output", "cannot be written");
-    return std::vector<std::string>{};
+    return MadeFrame{};
   });
 }
 

@@ -31,8 +31,8 @@ struct BlenderCommand {
 
 std::string file_name(const std::string& path) { return std::filesystem::path(path).filename().string(); }
 
-blender::SequenceManifest manifest_of(const BlenderCommand& command, Sequence& sequence) {
-  const RunFraming framing = run_framing(command.picture, command.run_camera, sequence);
+blender::SequenceManifest manifest_of(const BlenderCommand& command, const GivenCameras& cameras, Sequence& sequence) {
+  const RunFraming framing = run_framing(command.picture, command.run_camera, cameras, sequence);
   const ColorKey key = color_key(sequence.structure(), color_of(command.molecule), {});
   blender::SequenceManifest manifest;
   manifest.provenance = {file_name(sequence.structure().file), sequence.structure().radii_set, {}, colors_json(key)};
@@ -60,9 +60,10 @@ std::vector<glm::dvec3> velocities_of(const SurfaceObject& object, const Triangl
 
 // A file for each frame of the share; the manifest for all of the run, the same from every share.
 void run_sequence(const BlenderCommand& command) {
+  const GivenCameras cameras = given_cameras(command.picture, command.run_camera);
   Sequence sequence(command.molecule, command.sequence, true);
   MoleculeBuilder builder(command.molecule);
-  const blender::SequenceManifest manifest = manifest_of(command, sequence);
+  const blender::SequenceManifest manifest = manifest_of(command, cameras, sequence);
   const std::string run = run_name(manifest);
   const std::filesystem::path folder = command.output.path;
   const std::filesystem::path written = write_manifest(folder, command.output.existing(), manifest);
@@ -82,7 +83,7 @@ void run_sequence(const BlenderCommand& command) {
     const std::string path = (folder / blender::frame_file(frame.number)).string();
     write_objects(path, command.output.existing(), objects, manifest.shot(frame.place), provenance,
                   blender::PlaceInRun{run, frame.number, frame.place + 1});
-    return std::vector<std::string>{path};
+    return MadeFrame{{path}};
   });
   std::cout << escaped(written.string()) << "\n";
 }
@@ -90,9 +91,10 @@ void run_sequence(const BlenderCommand& command) {
 void run(const BlenderCommand& command) {
   if (command.sequence.asked()) return run_sequence(command);
   if (command.run_camera.moves()) throw UsageError(kMovesWithoutFrames);
+  const std::optional<Camera> given = given_camera(command.picture);
   const Molecule molecule = load_molecule(command.molecule);
   const std::vector<Ball> balls = placed_balls(molecule.objects);
-  const Camera camera = picture_camera(command.picture, balls);
+  const Camera camera = picture_camera(command.picture, given, balls);
   const double tolerance = tolerance_of(command.mesh, command.picture, camera, balls);
   std::vector<TriangleMesh> meshes = meshes_of(command.molecule, molecule.objects, tolerance);
   std::vector<blender::MeshedObject> objects;

@@ -37,9 +37,10 @@ std::vector<AtomScalar> scalars_of(const Structure& structure, const std::vector
 }
 
 void run(const PlyCommand& command) {
+  const std::optional<Camera> given = given_camera(command.picture);
   Molecule molecule = load_molecule(command.molecule);
   const SurfaceObject whole = merged(std::move(molecule.objects));
-  const Camera camera = picture_camera(command.picture, whole.surface.atoms);
+  const Camera camera = picture_camera(command.picture, given, whole.surface.atoms);
   const double tolerance = tolerance_of(command.mesh, command.picture, camera, whole.surface.atoms);
   const TriangleMesh mesh = std::move(meshes_of(command.molecule, {&whole, 1}, tolerance).front());
   write_ply(command.output.path, command.output.existing(), mesh, whole.coloring,

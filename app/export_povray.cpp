@@ -40,9 +40,10 @@ povray::SceneOptions scene_options(const PovrayCommand& command) {
 
 // An include for each frame of the share; the scene for all of the run, the same from every share.
 void run_sequence(const PovrayCommand& command) {
+  const GivenCameras cameras = given_cameras(command.picture, command.run_camera);
   Sequence sequence(command.molecule, command.sequence);
   MoleculeBuilder builder(command.molecule);
-  const RunFraming framing = run_framing(command.picture, command.run_camera, sequence);
+  const RunFraming framing = run_framing(command.picture, command.run_camera, cameras, sequence);
   const ColorScheme scheme = color_of(command.molecule);
   povray::SceneOptions options = scene_options(command);
   options.origin = framing.origin();
@@ -62,7 +63,7 @@ void run_sequence(const PovrayCommand& command) {
     noted = noted || !report.notes.empty();
     std::vector<std::string> files;
     for (const std::filesystem::path& file : report.files) files.push_back(file.string());
-    return files;
+    return MadeFrame{std::move(files)};
   };
   run_frames(sequence, command.molecule, command.sequence, make);
   std::cout << escaped(shared.command) << "\n";
@@ -71,10 +72,11 @@ void run_sequence(const PovrayCommand& command) {
 void run(const PovrayCommand& command) {
   if (command.sequence.asked()) return run_sequence(command);
   if (command.run_camera.moves()) throw UsageError(kMovesWithoutFrames);
+  const std::optional<Camera> given = given_camera(command.picture);
   const Molecule molecule = load_molecule(command.molecule);
   povray::SceneOptions options = scene_options(command);
   options.colors = colors_json(molecule);
-  const Camera camera = picture_camera(command.picture, placed_balls(molecule.objects));
+  const Camera camera = picture_camera(command.picture, given, placed_balls(molecule.objects));
   const povray::SceneReport report = write_scene(molecule.objects, camera, options, command.output.path);
   say(command.molecule,
       fmt::format("{} primitives in {} files", with_thousands(report.object_count), report.files.size()));

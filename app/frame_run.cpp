@@ -27,20 +27,34 @@ struct Failures {
   std::string message;
 };
 
+/// The first picture on which nothing is to be seen, and how many there are.
+struct EmptyPictures {
+  std::uint64_t count = 0, first = 0;
+
+  std::string sentence() const {
+    return fmt::format(
+        "warning: {} of the pictures {} nothing (first: frame {}): no ray meets a part of the surface that --show "
+        "leaves; where does the camera look?",
+        with_thousands(count), count == 1 ? "shows" : "show", first);
+  }
+};
+
 }  // namespace
 
 void run_frames(Sequence& sequence, const MoleculeOptions& molecule, const SequenceOptions& options,
-                const std::function<std::vector<std::string>(const SequenceFrame&)>& make) {
+                const std::function<MadeFrame(const SequenceFrame&)>& make) {
   RunProgress progress(options.progress, molecule.quiet, sequence.share().size());
   Failures failures;
+  EmptyPictures empty;
   for (std::size_t n = 0; n < sequence.share().size(); ++n) {
     const std::uint64_t number = sequence.upcoming();
     const auto begin = std::chrono::steady_clock::now();
     try {
       const std::optional<SequenceFrame> frame = sequence.next();
-      const std::vector<std::string> files = make(*frame);
+      const MadeFrame made = make(*frame);
       const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - begin;
-      progress.done(number, files, elapsed.count());
+      progress.done(number, made.files, elapsed.count(), made.shows_nothing);
+      if (made.shows_nothing && empty.count++ == 0) empty.first = number;
     } catch (const std::exception& error) {
       if (ends_the_run(error)) throw;
       if (failures.count++ == 0) failures = {1, number, exit_code_of(error), error.what()};
@@ -48,6 +62,7 @@ void run_frames(Sequence& sequence, const MoleculeOptions& molecule, const Seque
     }
   }
   progress.end();
+  if (empty.count > 0) say(molecule, empty.sentence());
   if (failures.count > 0) {
     throw RunError(failures.code,
                    fmt::format("{} of {} frames failed; the first, frame {}: {}", with_thousands(failures.count),

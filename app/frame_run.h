@@ -10,11 +10,18 @@
 
 namespace meniscus {
 
-/// Calls `make` for each frame of the share; it gives the files it wrote. A frame that throws, in reading or making, is
+/// What came of a frame.
+struct MadeFrame {
+  std::vector<std::string> files;  ///< those written
+  bool shows_nothing = false;      ///< it is a picture on which nothing is to be seen
+};
+
+/// Calls `make` for each frame of the share. A frame that throws, in reading or making, is
 /// told on stderr, and the run goes on; but OutputError and GpuError end it at once, as the next frame would meet them
-/// too. At the end throws RunError: with the code of the first frame that failed, else with kExitIncomplete if the
-/// trajectory was cut short and the run reaches its last whole frame.
+/// too. Pictures that show nothing are told in one line for all of them. At the end throws RunError: with the code of
+/// the first frame that failed, else with kExitIncomplete if the trajectory was cut short and the run reaches its last
+/// whole frame.
 void run_frames(Sequence& sequence, const MoleculeOptions& molecule, const SequenceOptions& options,
-                const std::function<std::vector<std::string>(const SequenceFrame& frame)>& make);
+                const std::function<MadeFrame(const SequenceFrame& frame)>& make);
 
 }  // namespace meniscus

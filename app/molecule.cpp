@@ -84,13 +84,17 @@ Molecule MoleculeBuilder::build(Structure structure) {
   Molecule molecule;
   molecule.structure = std::move(structure);
   molecule.color = color_;
+  // What the options ask for that the molecule has not is said before the surfaces are computed.
+  if (color_.has_scale()) color_scale(molecule.structure, color_);
+  std::vector<bool> hidden;
+  if (options_.show) hidden = hidden_atoms(*options_.show, molecule.structure);
   computer_.restart_clock();
   molecule.objects = surface_objects(molecule.structure, division_, computer_);
   for (std::size_t n = 0; n < molecule.objects.size(); ++n) {
     SurfaceObject& object = molecule.objects[n];
     object.coloring = color_object(molecule.structure, object.atom, molecule.color, n);
   }
-  if (options_.show) show_only(*options_.show, molecule.structure, molecule.objects);
+  if (!hidden.empty()) hide(hidden, molecule.objects);
   molecule.device = computer_.device();
   molecule.stages = computer_.stages();
   return molecule;

@@ -53,8 +53,13 @@ void add_picture_options(CLI::App& command, PictureOptions& options) {
       ->excludes(camera);
 }
 
-Camera picture_camera(const PictureOptions& options, std::span<const Ball> balls) {
-  if (!options.camera_file.empty()) return read_camera(options.camera_file);
+std::optional<Camera> given_camera(const PictureOptions& options) {
+  if (options.camera_file.empty()) return {};
+  return read_camera(options.camera_file);
+}
+
+Camera picture_camera(const PictureOptions& options, const std::optional<Camera>& given, std::span<const Ball> balls) {
+  if (given) return *given;
   return frame_camera(balls, static_cast<double>(options.width) / options.height, options.projection);
 }
 

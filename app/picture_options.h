@@ -2,6 +2,7 @@
 // The options that say how a picture is taken: its size and its camera.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 
@@ -24,7 +25,10 @@ void add_size_option(CLI::App& command, PictureOptions& options, const std::stri
 /// --size, --camera, --projection.
 void add_picture_options(CLI::App& command, PictureOptions& options);
 
-/// The camera of the file, or the default one, which shows all of the balls. Throws InputError.
-Camera picture_camera(const PictureOptions& options, std::span<const Ball> balls);
+/// The camera of the file, if one is named. Commands ask for it before they compute anything. Throws InputError.
+std::optional<Camera> given_camera(const PictureOptions& options);
+
+/// The camera given, or the default one, which shows all of the balls.
+Camera picture_camera(const PictureOptions& options, const std::optional<Camera>& given, std::span<const Ball> balls);
 
 }  // namespace meniscus

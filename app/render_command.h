@@ -51,6 +51,9 @@ DeviceChoice gl_device(const RenderCommand& command);
 Framebuffer cast(RayCaster& caster, std::vector<SurfaceObject> objects, const Camera& camera,
                  const RenderSettings& settings);
 
+/// Did no ray of the picture meet a part of the surface that is shown?
+bool shows_nothing(const Framebuffer& picture);
+
 /// Pictures of all frames of a run, or a film of them.
 void render_frames(const RenderCommand& command);
 

@@ -106,13 +106,14 @@ class FramePainter {
 
 void render_frames(const RenderCommand& command) {
   check_options(command);
+  const GivenCameras given = given_cameras(command.picture, command.run_camera);
   Sequence sequence(command.molecule, command.sequence);
   Molecule first;  // what the colours mean does not change with the frames
   first.structure = sequence.structure();
   first.color = color_of(command.molecule);
   const PictureLayout layout(command, key_of(first));
   PictureSink sink(command);
-  const std::vector<Camera> cameras = run_cameras(layout.size, command.run_camera, sequence);
+  const std::vector<Camera> cameras = run_cameras(layout.size, command.run_camera, given, sequence);
   if (!command.save_camera.empty()) {
     OutputFile file(command.save_camera, command.output.existing());
     file.write(camera_json(cameras.front()));
@@ -122,8 +123,9 @@ void render_frames(const RenderCommand& command) {
   const RenderSettings settings = render_settings(command, layout);
   run_frames(sequence, command.molecule, command.sequence, [&](const SequenceFrame& frame) {
     Framebuffer picture = painter.paint(frame, cameras[frame.place], settings);
+    const bool empty = shows_nothing(picture);
     if (layout.legend) picture = layout.legend->add_to(picture, command.background);
-    return sink.add(frame.number, picture);
+    return MadeFrame{sink.add(frame.number, picture), empty};
   });
   sink.finish();
 }

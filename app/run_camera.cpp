@@ -9,7 +9,6 @@
 
 #include "app/program_error.h"
 #include "core/base/text.h"
-#include "core/render/camera_path.h"
 
 namespace meniscus {
 namespace {
@@ -91,13 +90,18 @@ void add_run_camera_options(CLI::App& command, RunCameraOptions& options) {
       ->type_name("EXPR");
 }
 
-std::vector<Camera> run_cameras(const PictureOptions& picture, const RunCameraOptions& options, Sequence& sequence) {
+GivenCameras given_cameras(const PictureOptions& picture, const RunCameraOptions& options) {
+  GivenCameras given;
+  given.still = given_camera(picture);
+  if (!options.path_file.empty()) given.path = read_camera_path(options.path_file);
+  return given;
+}
+
+std::vector<Camera> run_cameras(const PictureOptions& picture, const RunCameraOptions& options,
+                                const GivenCameras& given, Sequence& sequence) {
   const double aspect = static_cast<double>(picture.width) / picture.height;
   const std::vector<Ball> first = balls_of(sequence.structure());
   const CameraMotion motion(options, sequence);
-  std::optional<CameraPath> path;
-  if (!options.path_file.empty()) path = read_camera_path(options.path_file);
-  const bool given = path || !picture.camera_file.empty();
 
   const ViewBasis basis = broad_side(first);
   Camera lens;
@@ -105,18 +109,18 @@ std::vector<Camera> run_cameras(const PictureOptions& picture, const RunCameraOp
   DecisiveBalls decisive(basis, aspect, lens);
   decisive.add(first);
   std::vector<glm::dvec3> shifts(sequence.run().size(), glm::dvec3(0.0));
-  if (!given || motion.follows()) {
+  if (!given.any() || motion.follows()) {
     sequence.survey([&](std::uint64_t place, std::span<const Ball> balls) {
       shifts[place] = motion.shift(balls);
-      if (given) return;
+      if (given.any()) return;
       decisive.add(options.moves() ? before_camera(balls, shifts[place], motion.pivot(), basis.up, motion.angle(place))
                                    : std::vector<Ball>(balls.begin(), balls.end()));
     });
   }
-  const Camera still = path ? Camera{} : given ? read_camera(picture.camera_file) : decisive.frame();
+  const Camera still = given.path ? Camera{} : given.still ? *given.still : decisive.frame();
   std::vector<Camera> cameras;
   for (std::uint64_t place = 0; place < sequence.run().size(); ++place) {
-    Camera camera = path ? path->at(static_cast<double>(sequence.run()[place])) : still;
+    Camera camera = given.path ? given.path->at(static_cast<double>(sequence.run()[place])) : still;
     if (options.turns != 0.0) camera = turned(camera, motion.pivot(), view_basis(camera).up, motion.angle(place));
     cameras.push_back(shifted(camera, shifts[place]));
   }

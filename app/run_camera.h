@@ -11,7 +11,7 @@
 #include "app/picture_options.h"
 #include "app/sequence.h"
 #include "core/molecule/selection.h"
-#include "core/render/camera.h"
+#include "core/render/camera_path.h"
 
 namespace meniscus {
 
@@ -27,8 +27,20 @@ struct RunCameraOptions {
 /// --camera-path, --turntable, --follow.
 void add_run_camera_options(CLI::App& command, RunCameraOptions& options);
 
+/// The cameras that files give to a run.
+struct GivenCameras {
+  std::optional<Camera> still;
+  std::optional<CameraPath> path;
+
+  bool any() const { return still || path; }
+};
+
+/// Those of --camera and --camera-path. Commands ask for them before they read or compute anything. Throws InputError.
+GivenCameras given_cameras(const PictureOptions& picture, const RunCameraOptions& options);
+
 /// A camera for each frame of the run, by its place. Without a camera from a file all frames are read once, so that all
 /// of every frame is seen. Throws InputError, UsageError.
-std::vector<Camera> run_cameras(const PictureOptions& picture, const RunCameraOptions& options, Sequence& sequence);
+std::vector<Camera> run_cameras(const PictureOptions& picture, const RunCameraOptions& options,
+                                const GivenCameras& given, Sequence& sequence);
 
 }  // namespace meniscus

@@ -12,9 +12,10 @@ namespace meniscus {
 
 glm::dvec3 RunFraming::origin() const { return glm::round((low + high) * 0.5e3) / 1e3; }
 
-RunFraming run_framing(const PictureOptions& picture, const RunCameraOptions& options, Sequence& sequence) {
+RunFraming run_framing(const PictureOptions& picture, const RunCameraOptions& options, const GivenCameras& given,
+                       Sequence& sequence) {
   RunFraming framing;
-  framing.cameras = run_cameras(picture, options, sequence);
+  framing.cameras = run_cameras(picture, options, given, sequence);
   if (!options.moves()) framing.cameras.resize(1);
   framing.low = glm::dvec3(1e300);
   framing.high = glm::dvec3(-1e300);

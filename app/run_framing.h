@@ -28,7 +28,8 @@ struct RunFraming {
 };
 
 /// Reads all frames of the run once or twice. Throws what run_cameras throws.
-RunFraming run_framing(const PictureOptions& picture, const RunCameraOptions& options, Sequence& sequence);
+RunFraming run_framing(const PictureOptions& picture, const RunCameraOptions& options, const GivenCameras& given,
+                       Sequence& sequence);
 
 /// All colours that a frame of the run may have, in the order of the atoms; of components all there are.
 std::vector<glm::vec3> run_colors(const Structure& structure, const ColorScheme& scheme);

@@ -50,9 +50,12 @@ RunProgress::RunProgress(ProgressStyle style, bool quiet, std::uint64_t frames)
   if (style_ == ProgressStyle::json) write_line({{"event", "start"}, {"frames", total_}});
 }
 
-void RunProgress::done(std::uint64_t frame, const std::vector<std::string>& files, double milliseconds) {
-  if (style_ == ProgressStyle::json)
-    write_line({{"event", "frame"}, {"frame", frame}, {"state", "done"}, {"files", files}, {"ms", milliseconds}});
+void RunProgress::done(std::uint64_t frame, const std::vector<std::string>& files, double milliseconds, bool empty) {
+  if (style_ == ProgressStyle::json) {
+    Json line{{"event", "frame"}, {"frame", frame}, {"state", "done"}, {"files", files}, {"ms", milliseconds}};
+    if (empty) line["empty"] = true;
+    write_line(line);
+  }
   advance();
 }
 

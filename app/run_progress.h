@@ -28,7 +28,8 @@ class RunProgress {
  public:
   RunProgress(ProgressStyle style, bool quiet, std::uint64_t frames);
 
-  void done(std::uint64_t frame, const std::vector<std::string>& files, double milliseconds);
+  /// empty: its picture shows nothing.
+  void done(std::uint64_t frame, const std::vector<std::string>& files, double milliseconds, bool empty = false);
   void failed(std::uint64_t frame, int exit_code, const std::string& message);
   /// Behind the last frame, whatever became of it.
   void end();

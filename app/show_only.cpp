@@ -22,12 +22,11 @@ std::vector<bool> hidden_atoms(const Selection& shown, const Structure& structur
   return visible;
 }
 
-void show_only(const Selection& shown, const Structure& structure, std::vector<SurfaceObject>& objects) {
-  const std::vector<bool> hidden_of_structure = hidden_atoms(shown, structure);
+void hide(const std::vector<bool>& hidden, std::vector<SurfaceObject>& objects) {
   for (SurfaceObject& object : objects) {
-    std::vector<bool>& hidden = object.coloring.hidden;
-    hidden.resize(object.atom.size());
-    for (std::size_t a = 0; a < hidden.size(); ++a) hidden[a] = hidden[a] || hidden_of_structure[object.atom[a]];
+    std::vector<bool>& of_object = object.coloring.hidden;
+    of_object.resize(object.atom.size());
+    for (std::size_t a = 0; a < of_object.size(); ++a) of_object[a] = of_object[a] || hidden[object.atom[a]];
   }
 }
 

@@ -13,7 +13,7 @@ namespace meniscus {
 /// Per atom of the structure, whether it is not selected. Throws InputError if nothing would be seen.
 std::vector<bool> hidden_atoms(const Selection& shown, const Structure& structure);
 
-/// Hides the points of all atoms that are not selected, in every object. Throws InputError if nothing would be seen.
-void show_only(const Selection& shown, const Structure& structure, std::vector<SurfaceObject>& objects);
+/// Hides the points of these atoms in every object. hidden: per atom of the structure.
+void hide(const std::vector<bool>& hidden, std::vector<SurfaceObject>& objects);
 
 }  // namespace meniscus

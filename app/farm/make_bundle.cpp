@@ -39,10 +39,10 @@ bool has(const WrappedCommand& command, const std::string& option) {
 
 /// The camera that shows all of every frame, so that no worker has to read all frames for it. Nothing if the command
 /// has its own, or frames the molecule beside a legend.
-std::optional<std::string> default_camera(const WrappedCommand& command, const RunCameraOptions& motion,
+std::optional<std::string> default_camera(const WrappedCommand& command, const GivenCameras& given,
                                           Sequence& sequence) {
-  if (!command.picture.camera_file.empty() || !motion.path_file.empty() || has(command, "--legend")) return {};
-  return camera_json(run_cameras(command.picture, motion, sequence).front());
+  if (given.any() || has(command, "--legend")) return {};
+  return camera_json(run_cameras(command.picture, command.camera_motion, given, sequence).front());
 }
 
 void add_addon(const fs::path& addon, BundleInputs& inputs) {
@@ -166,6 +166,7 @@ std::optional<Bundle> same_bundle_at(const BundleOptions& options, const Bundle&
 Bundle described(const BundleOptions& options, BundleInputs& inputs, std::vector<std::string>& notes) {
   WrappedCommand command;
   parse_wrapped_command(options.command, command);
+  const GivenCameras cameras = given_cameras(command.picture, command.camera_motion);
   Sequence sequence(command.molecule, command.sequence);
   if (!sequence.trajectory().cut_short().empty())
     notes.push_back(sequence.trajectory().path() + ": " + sequence.trajectory().cut_short());
@@ -177,7 +178,7 @@ Bundle described(const BundleOptions& options, BundleInputs& inputs, std::vector
   bundle.height = command.picture.height;
   if (options.film) check_film_size({bundle.width, bundle.height});
   bundle.film = options.film;
-  bundle.command = bundled_command(command, default_camera(command, command.camera_motion, sequence), inputs);
+  bundle.command = bundled_command(command, default_camera(command, cameras, sequence), inputs);
   if (bundle.steps.back().maker == Maker::blender) add_addon(options.addon, inputs);
   bundle.inputs = inputs.measured();
   bundle.chunking = options.chunking;

@@ -39,8 +39,9 @@ void print_reply(const std::string& path, std::size_t line, const nlohmann::json
   replies << json_line(reply) << std::endl;
 }
 
-void replay_commands(const std::string& path, PreviewSession& session, std::ostream& replies) {
-  for (const auto& [line, command] : read_commands(path)) {
+void replay_commands(const std::string& path, std::span<const WrittenCommand> commands, PreviewSession& session,
+                     std::ostream& replies) {
+  for (const auto& [line, command] : commands) {
     if (session.wants_to_quit()) return;
     print_reply(path, line, session.apply(command), replies);
   }

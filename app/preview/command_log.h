@@ -6,6 +6,7 @@
 #include <fstream>
 #include <iosfwd>
 #include <string>
+#include <span>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -41,7 +42,8 @@ std::vector<WrittenCommand> read_commands(const std::string& path);
 /// Throws InputError, naming the line, if the command was refused; else prints the reply as a line.
 void print_reply(const std::string& path, std::size_t line, const nlohmann::json& reply, std::ostream& replies);
 
-/// Carries out the commands, up to one that asks to quit, and prints the replies.
-void replay_commands(const std::string& path, PreviewSession& session, std::ostream& replies);
+/// Carries out the commands of the file `path`, up to one that asks to quit, and prints the replies.
+void replay_commands(const std::string& path, std::span<const WrittenCommand> commands, PreviewSession& session,
+                     std::ostream& replies);
 
 }  // namespace meniscus
