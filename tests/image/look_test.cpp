@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 #include "core/gpu/egl_context.h"
@@ -97,6 +98,35 @@ TEST_F(Looks, ShadeDarkensCleftsAndNothingElse) {
   }
   EXPECT_LT(sum_deep, 0.9 * sum_plain);
   EXPECT_GT(sum_deep, 0.4 * sum_plain);
+}
+
+TEST_F(Looks, ShadeReachesAsFarAsItsRadiusAndNoFarther) {
+  // Of two balls far from touching the farther one from the eye is shaded by the other, where that is within reach.
+  const testing::Balls lone{{{0, 0, 0}, 2.0}}, both{{{0, 0, 0}, 2.0}, {{6.2, 0, 3.5}, 2.0}};
+  const Camera camera{{2, 0, 40}, {2, 0, 0}, {0, 1, 0}, Projection::orthographic, 30.0, 8.0};
+  constexpr double kPixel = 8.0 / 150.0, kRadius = 5.0;
+  constexpr double kBlur = 6.0 * kPixel;  // shade is averaged over blocks of 4 x 4 pixels
+  Look look;
+  look.ambient_occlusion = 1.0f;
+  look.ambient_occlusion_radius = static_cast<float>(kRadius);
+  const Framebuffer without = render(lone, camera, look), with = render(both, camera, look);
+  std::size_t shaded = 0, beyond = 0;
+  for (std::size_t at = 0; at < without.atom.size(); ++at) {
+    if (without.atom[at] != 0 || with.atom[at] != 0) continue;
+    double distance = 1e9;
+    for (std::size_t other = 0; other < with.atom.size(); ++other) {
+      if (with.atom[other] != 1) continue;
+      distance = std::min<double>(distance, glm::distance(with.position[at], with.position[other]));
+    }
+    const bool differs = with.color[at] != without.color[at];
+    if (distance > kRadius + kBlur) {
+      EXPECT_FALSE(differs) << at << ": " << distance << " Å";
+      beyond += distance < 1.2 * kRadius ? 1 : 0;
+    }
+    shaded += differs && distance > 0.85 * kRadius ? 1 : 0;
+  }
+  EXPECT_GT(shaded, 20u) << "close to the radius some shade is left";
+  EXPECT_GT(beyond, 20u) << "a radius a little larger would show";
 }
 
 TEST_F(Looks, ShadeLeavesNoPattern) {

@@ -67,6 +67,19 @@ TEST(CameraPath, ZoomKeepsItsPace) {
     EXPECT_NEAR(glm::length(path.at(frame).position), 10.0 * std::pow(2.0, frame / 10.0), 1e-9);
 }
 
+TEST(CameraPath, TurningKeepsItsPace) {
+  // A twelfth of a turn every ten frames: the angle grows with the frame, between the keys too.
+  const Camera start = camera({0, 0, 50}, {0, 0, 0}, {0, 1, 0}, 30);
+  std::vector<CameraKey> keys;
+  for (int n = 0; n < 5; ++n)
+    keys.push_back({10.0 * n, turned(start, glm::dvec3(0.0), {0, 1, 0}, n * std::numbers::pi / 6.0)});
+  const CameraPath path(keys);
+  for (double frame = 0.0; frame <= 40.0; frame += 0.7) {
+    const glm::dvec3 eye = path.at(frame).position;
+    EXPECT_NEAR(std::atan2(eye.x, eye.z), frame * std::numbers::pi / 60.0, 1e-9) << frame;
+  }
+}
+
 TEST(CameraPath, TurnsCarryEverything) {
   const Camera start = camera({10, 3, 50}, {1, 2, 3}, {0, 1, 0}, 30);
   const glm::dvec3 pivot(1, 0, 2), axis(0, 1, 0);

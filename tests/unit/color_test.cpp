@@ -169,6 +169,13 @@ TEST(Colors, ChargesAreSymmetricAndNegativeIsRed) {
   EXPECT_EQ(charge.atom[3], glm::vec3(1.0f));
 }
 
+TEST(Colors, ChargesAreSymmetricAboutZeroWhicheverSignIsLarger) {
+  Structure anion = four_atoms();
+  for (Atom& atom : anion.atoms) atom.charge = -atom.charge;
+  EXPECT_EQ(color_scale(anion, scheme("charge")).range, (std::array<double, 2>{-0.5, 0.5}));
+  EXPECT_EQ(colored("charge", anion).atom[1], color_from_hex(0xd2322a));
+}
+
 TEST(Colors, HydrophobicityIsThatOfKyteAndDoolittle) {
   const std::pair<const char*, double> table[] = {
       {"ILE", 4.5},  {"VAL", 4.2},  {"LEU", 3.8},  {"PHE", 2.8},  {"CYS", 2.5},  {"MET", 1.9},

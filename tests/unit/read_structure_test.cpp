@@ -101,6 +101,17 @@ TEST(Altloc, TheResidueKeepsItsMostOccupiedConformer) {
   EXPECT_EQ(structure.report.excluded.at(kExcludedAltloc), 2u);
 }
 
+TEST(Altloc, TheMeanOccupancyCountsHoweverManyAtomsAConformerHas) {
+  const auto line = [](const char* name, char altloc, const char* occupancy) {
+    return PdbLine{.name = name, .altloc = altloc, .occupancy = occupancy}.text();
+  };
+  const std::string text = line(" CB ", 'A', "  0.40") + line(" CG ", 'A', "  0.40") + line(" CD ", 'A', "  0.40") +
+                           line(" CB ", 'B', "  0.55") + line(" CG ", 'B', "  0.55");
+  const Structure structure = read_text("a.pdb", text);
+  ASSERT_EQ(structure.atoms.size(), 2u);
+  EXPECT_EQ(structure.atoms[0].altloc, 'B');
+}
+
 TEST(Altloc, TiesGoToLowerBFactorThenLetter) {
   const PdbLine a{.altloc = 'A', .x = "   1.000", .occupancy = "  0.50", .b_factor = " 30.00"};
   PdbLine b{.altloc = 'B', .x = "   2.000", .occupancy = "  0.50", .b_factor = " 10.00"};

@@ -70,6 +70,15 @@ class Import(unittest.TestCase):
         np.testing.assert_allclose(positions(small.data), 0.1 * positions(large.data), atol=1e-6)
         self.assertEqual(tuple(small.scale), (1.0, 1.0, 1.0))
 
+    def test_the_camera_reaches_behind_all_of_the_body_at_any_scale(self):
+        for scale in (0.1, 1.0, 10.0, 100.0):
+            item = imported("triple", scale=scale)
+            camera = next(other for other in item.users_collection[0].all_objects if other.type == "CAMERA")
+            inverse = np.array(camera.matrix_world.inverted())
+            depth = -(positions(item.data) @ inverse[2, :3] + inverse[2, 3])
+            self.assertGreater(camera.data.clip_end, depth.max(), scale)
+            self.assertLess(camera.data.clip_start, depth.min(), scale)
+
     def test_coordinates_are_those_of_the_atoms_unmirrored(self):
         surface = mns_reader.read(path_of("triple")).objects[0]
         mesh = imported("triple", scale=1.0).data

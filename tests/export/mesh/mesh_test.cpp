@@ -2,7 +2,10 @@
 // Meshes of many surfaces: closed, outward, of the right topology, on the surface, within the tolerance, crisply
 // coloured.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstring>
+#include <map>
 #include <random>
 #include <set>
 
@@ -13,8 +16,10 @@
 #include "core/base/error.h"
 #include "core/surface/surface.h"
 #include "exporters/mesh/contact_colors.h"
+#include "exporters/mesh/ply.h"
 #include "exporters/mesh/tessellate.h"
 #include "tests/support/molecules.h"
+#include "tests/support/run_program.h"
 #include "tests/support/sphere_tracer.h"
 
 namespace meniscus::testing {
@@ -295,6 +300,59 @@ TEST(Mesh, HiddenAtomsLeaveAHoleThatTheirOwnPartFills) {
     EXPECT_EQ(shown_part(whole, {}).triangles, whole.triangles);
     EXPECT_FALSE(shown_part(whole, {}).partly_hidden);
   }
+}
+
+/// The rows of vertices of a binary PLY file: normals and colours.
+struct PlyVertex {
+  glm::vec3 normal;
+  std::array<std::uint8_t, 3> color;
+};
+
+std::vector<PlyVertex> ply_vertices(const TriangleMesh& mesh, const Coloring& coloring) {
+  const test::TemporaryFolder folder;
+  const std::string path = (folder.path() / "a.ply").string();
+  write_ply(path, Existing::refuse, mesh, coloring, {});
+  const std::string file = test::read_bytes(path);
+  constexpr std::string_view kEnd = "end_header\n";
+  constexpr std::size_t kRow = 6 * sizeof(float) + 3 + 2 * sizeof(float);
+  const char* row = file.data() + file.find(kEnd) + kEnd.size();
+  std::vector<PlyVertex> vertices(mesh.positions.size());
+  for (PlyVertex& vertex : vertices) {
+    std::memcpy(&vertex.normal, row + 3 * sizeof(float), sizeof vertex.normal);
+    std::memcpy(vertex.color.data(), row + 6 * sizeof(float), 3);
+    row += kRow;
+  }
+  return vertices;
+}
+
+TEST(Mesh, PlyNormalsAtCuspsAreTheMeanOfThoseAround) {
+  const Balls balls = two_atoms(5.3, 1.7, 1.2);
+  const TriangleMesh mesh = tessellate(compute_surface_cpu(balls, kWater), {0.02, true});
+  std::map<std::uint32_t, glm::dvec3> sum;
+  for (std::size_t n = 0; n < mesh.sharp_corners.size(); ++n) {
+    const std::uint32_t corner = mesh.sharp_corners[n];
+    sum[mesh.triangles[corner / 3][corner % 3]] += mesh.sharp_corner_normals[n];
+  }
+  ASSERT_FALSE(sum.empty());
+  Coloring gray;
+  gray.atom.assign(balls.size(), glm::vec3(0.5f));
+  const std::vector<PlyVertex> vertices = ply_vertices(mesh, gray);
+  std::size_t bent = 0;  // where the mean is none of those around
+  for (const auto& [vertex, normals] : sum) {
+    if (glm::length(normals) < 1e-6) continue;
+    EXPECT_LT(glm::distance(glm::dvec3(vertices[vertex].normal), glm::normalize(normals)), 1e-6) << vertex;
+    ++bent;
+  }
+  EXPECT_GT(bent, 0u);
+}
+
+TEST(Mesh, PlyColorsAreRoundedToTheNearestByte) {
+  const Balls balls{{{0, 0, 0}, 1.5}};
+  const TriangleMesh mesh = tessellate(compute_surface_cpu(balls, kWater), {0.2, true});
+  Coloring coloring;
+  coloring.atom = {glm::vec3(0.5f, 0.999f, 0.2f)};  // 127.5, 254.7, 51
+  for (const PlyVertex& vertex : ply_vertices(mesh, coloring))
+    ASSERT_EQ(vertex.color, (std::array<std::uint8_t, 3>{128, 255, 51}));
 }
 
 TEST(Mesh, AToleranceThatIsNoLengthIsRefused) {
