@@ -61,7 +61,7 @@ TEST(FrameRenderer, PicksTheAtomOfEveryPixelOfThePicture) {
     request.camera.position = {0.7, 1, 20};
     request.camera.target = {0.7, 1, 0};
     request.camera.projection = Projection::orthographic;
-    request.camera.height = size.x > size.y ? 3.5 : 6.0;
+    request.camera.height = size.x > size.y ? 3.0 : 5.0;
     request.size = size;
     renderer.render(request);
     RenderSettings settings;
