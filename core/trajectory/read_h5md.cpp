@@ -71,11 +71,17 @@ bool has(hid_t place, const std::string& path) {
   return H5Lexists(place, path.c_str(), H5P_DEFAULT) > 0;
 }
 
+/// Whether the numbers lie in other files, which this one names: a file that is read never has others read.
+bool is_elsewhere(hid_t set) {
+  const Handle creation(H5Dget_create_plist(set), H5Pclose);
+  return H5Pget_external_count(creation) != 0 || H5Pget_layout(creation) == H5D_VIRTUAL;
+}
+
 Table table(hid_t place, const std::string& path) {
   Table result;
   if (!has(place, path)) return result;
   result.set = Handle(H5Dopen2(place, path.c_str(), H5P_DEFAULT), H5Dclose);
-  if (!result.set) return result;
+  if (!result.set || is_elsewhere(result.set)) return {};
   const Handle space(H5Dget_space(result.set), H5Sclose);
   const int dimensions = H5Sget_simple_extent_ndims(space);
   if (dimensions > 0) {
@@ -134,6 +140,7 @@ class H5md final : public Trajectory {
  public:
   explicit H5md(const std::string& path) : Trajectory(path, "H5MD"), bytes_(path) {
     const Quiet quiet;
+    H5Lunregister(H5L_TYPE_EXTERNAL);  // links to other files lead nowhere; it does not matter if they did so before
     const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
     H5Pset_file_locking(access, false, true);  // readers of one file must not wait for each other
     file_ = Handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access), H5Fclose);

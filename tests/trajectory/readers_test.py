@@ -8,6 +8,7 @@ import tempfile
 import unittest
 import warnings
 
+import h5py
 import numpy as np
 
 warnings.filterwarnings("ignore")
@@ -170,6 +171,37 @@ class Readers(unittest.TestCase):
             path = self.write(f"{unit}.h5md", positions=True, velocities=False, forces=False, convert_units=False,
                               lengthunit=unit, timeunit="ps", n_frames=FRAMES)
             self.check(path)
+
+    def test_h5md_has_no_other_file_read(self):
+        """Links, raw data and views that lead to other files lead nowhere."""
+        whole = self.write("whole.h5md", positions=True, velocities=False, forces=False, convert_units=False,
+                           n_frames=FRAMES)
+        with h5py.File(whole) as file:
+            shape, dtype = file["particles/trajectory/position/value"].shape, "f4"
+        self.path("raw").write_bytes(b"\0" * (4 * int(np.prod(shape))))
+
+        def particles(file):
+            file["particles"] = h5py.ExternalLink(str(whole), "/particles")
+
+        def value(file):
+            file["particles/trajectory/position/value"] = h5py.ExternalLink(
+                str(whole), "/particles/trajectory/position/value")
+
+        def raw(file):
+            file.create_dataset("particles/trajectory/position/value", shape, dtype,
+                                external=[(str(self.path("raw")), 0, h5py.h5f.UNLIMITED)])
+
+        def view(file):
+            layout = h5py.VirtualLayout(shape, dtype)
+            layout[:] = h5py.VirtualSource(str(whole), "particles/trajectory/position/value", shape)
+            file.create_virtual_dataset("particles/trajectory/position/value", layout)
+
+        for write in (particles, value, raw, view):
+            path = self.path(f"{write.__name__}.h5md")
+            with h5py.File(path, "w") as file:
+                file.attrs["fill"] = np.zeros(4 * int(np.prod(shape)) // 1000, "u1")  # a plausible size
+                write(file)
+            self.assertNotEqual(subprocess.run([dump_program, str(path)], capture_output=True).returncode, 0, path)
 
     def test_models_of_text(self):
         self.check(self.write("a.pdb", multiframe=True), boxes=False, times=False)
