@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "app/build_version.h"
 #include "app/commands.h"
 #include "app/program_error.h"
 #include "app/stop_signals.h"
@@ -96,7 +97,7 @@ int run(int argc, char** argv) {
   program.get_formatter()->label("REQUIRED", "(required)");
   program.get_formatter()->label("Positionals", "Arguments");
   program.get_formatter()->label("SUBCOMMAND", "COMMAND");
-  program.set_version_flag("--version", "meniscus " MENISCUS_VERSION, "Show the version");
+  program.set_version_flag("--version", std::string("meniscus ") + build_version(), "Show version and commit");
   program.set_help_flag("-h,--help", "Show this help");
   program.require_subcommand(1);
   program.footer(kExamples);

@@ -51,7 +51,7 @@ struct Chunking {
 /// Everything a worker needs to know. Nothing in it depends on time, machine or user, but seconds_per_frame and what
 /// follows of it.
 struct Bundle {
-  std::string program_version;
+  std::string program_version;        ///< with its commit (app/build_version.h)
   std::vector<std::string> command;   ///< of the program, as {"render", "inputs/a.pdb", ...}; paths are relative
   std::vector<std::uint64_t> frames;  ///< of the run, by their numbers in the trajectory
   std::vector<Step> steps;            ///< in order

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "app/build_version.h"
 #include "app/farm/child_process.h"
 #include "app/farm/frame_record.h"
 #include "app/farm/quote.h"
@@ -171,7 +172,7 @@ Bundle described(const BundleOptions& options, BundleInputs& inputs, std::vector
   if (!sequence.trajectory().cut_short().empty())
     notes.push_back(sequence.trajectory().path() + ": " + sequence.trajectory().cut_short());
   Bundle bundle;
-  bundle.program_version = MENISCUS_VERSION;
+  bundle.program_version = build_version();
   bundle.frames = sequence.run();
   bundle.steps = steps_of(command);
   bundle.width = command.picture.width;

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "app/build_version.h"
 #include "app/farm/checksum.h"
 #include "app/farm/frame_record.h"
 #include "app/program_error.h"
@@ -128,10 +129,10 @@ void check_inputs(const Bundle& bundle, const std::filesystem::path& folder, boo
 
 void work(const Bundle& bundle, const Workplace& place, const Share& share, ProgressStyle progress) {
   // Frames of one film must not come from two programs.
-  if (bundle.program_version != MENISCUS_VERSION)
+  if (bundle.program_version != build_version())
     throw InputError((place.folder / "bundle.json").string(), 0,
-                     fmt::format("was made by meniscus {}, and this is {}; use one version on all machines",
-                                 in_quotes(bundle.program_version), MENISCUS_VERSION));
+                     fmt::format("was made by meniscus {}, and this is {}; use one build on all machines",
+                                 in_quotes(bundle.program_version), build_version()));
   check_inputs(bundle, place.folder, false);
   Worker(bundle, place, share, progress).run();
 }

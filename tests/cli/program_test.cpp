@@ -2,6 +2,7 @@
 // The program's promises: help, JSON, exit codes for options, what goes to stdout and what to stderr.
 #include <algorithm>
 #include <cmath>
+#include <regex>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -50,7 +51,9 @@ TEST(Help, ExamplesComeBeforeOptions) {
 TEST(Help, VersionIsOneLine) {
   const ProgramResult result = meniscus_says({"--version"});
   EXPECT_EQ(result.exit_code, 0);
-  EXPECT_EQ(result.out, "meniscus " MENISCUS_VERSION "\n");
+  // The version, and the commit or, without a repository, a checksum of the sources.
+  const std::regex expected("meniscus " MENISCUS_VERSION R"(\+[gs][0-9a-f]{12}(\.dirty\.[0-9a-f]{12})?\n)");
+  EXPECT_TRUE(std::regex_match(result.out, expected)) << result.out;
 }
 
 TEST(Usage, WrongOptionsExitWithTwoAndSayWhy) {
