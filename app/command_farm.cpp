@@ -9,6 +9,7 @@
 
 #include "app/commands.h"
 #include "app/farm/child_process.h"
+#include "app/farm/inner_path.h"
 #include "app/farm/make_bundle.h"
 #include "app/farm/makers.h"
 #include "app/farm/quote.h"
@@ -75,6 +76,8 @@ void bundle(BundleCommand command) {
              with_thousands(made.bundle.frames.size()), chunking.count, chunking.count == 1 ? "task" : "tasks",
              chunking.seconds_per_frame ? fmt::format(", {:.3g} s a frame here", *chunking.seconds_per_frame) : "",
              made.was_there ? "; it was there already" : "");
+  fmt::print(std::cout, "a task: {} {}{}\n", chunking.cores, chunking.cores == 1 ? "core" : "cores",
+             chunking.memory() ? fmt::format(", {} MiB of memory", with_thousands(*chunking.memory())) : "");
   for (const farm::Engine& engine : options.engines)
     fmt::print(std::cout, "  {:<9} {}\n", engine.name,
                escaped(farm::filled(engine.start, {{"DIR", farm::shell_word(command.folder)}})));
@@ -105,6 +108,16 @@ void add_bundle(CLI::App& command) {
       ->check(CLI::PositiveNumber.description(""))
       ->type_name("N")
       ->excludes(minutes);
+  command
+      .add_option("--task-cores", state->options.chunking.cores,
+                  "Cores of a task, for engines that give tasks a part of a machine [--threads behind --, else 2]")
+      ->check(CLI::Range(1, 4096).description(""))
+      ->type_name("N");
+  command
+      .add_option("--task-memory", state->options.chunking.asked_memory,
+                  "Memory of a task in MiB [half as much again as the trial frame needed, and 256]")
+      ->check(CLI::Range(1, 1 << 30).description(""))
+      ->type_name("MIB");
   CLI::Option* const film =
       command.add_option("--film", state->film, "Film that farm verify makes of the pictures, in DIR");
   film->type_name("NAME.mp4");
@@ -117,10 +130,14 @@ void add_bundle(CLI::App& command) {
                   "DIR as the farm's machines see it: needed by OpenCue, and the default of Flamenco's setting")
       ->type_name("PATH");
   command.add_flag("--link", state->link, "Inputs as hard links instead of copies");
-  command.add_option("--addon", state->addon, "Folder of render_mns.py, to go along with export blender")
+  command
+      .add_option("--addon", state->addon, "Folder of render_mns.py, of this version, to go along with export blender")
       ->type_name("DIR");
   command.add_flag("--force", state->options.force, "Replace another bundle at DIR, with all its frames");
-  command.callback([state] { bundle(*state); });
+  command.callback([state, &command] {
+    state->options.cores_asked = command.count("--task-cores") > 0;
+    bundle(*state);
+  });
 }
 
 void add_status(CLI::App& command) {
@@ -142,6 +159,7 @@ void add_status(CLI::App& command) {
 void verify(const std::filesystem::path& folder) {
   const farm::Bundle bundle = farm::read_bundle(folder);
   const StopHandler handler([] { farm::stop_children(); }, std::nullopt);
+  farm::check_places(folder);
   farm::check_inputs(bundle, folder, true);
   const std::vector<farm::FrameFault> faults = farm::faults_of(bundle, folder);
   for (std::size_t n = 0; n < std::min(faults.size(), kFaultsShown); ++n)

@@ -12,6 +12,7 @@
 
 #include "app/commands.h"
 #include "app/farm/child_process.h"
+#include "app/farm/claims.h"
 #include "app/farm/worker.h"
 #include "app/molecule_options.h"
 #include "app/program_error.h"
@@ -25,6 +26,7 @@ namespace {
 struct WorkCommand {
   std::string folder, step, frames, chunk;
   bool force = false, require_gpu = false;
+  double lease = farm::kDefaultLease;
   std::string device;
   int threads = 0;
   ProgressStyle progress = ProgressStyle::automatic;
@@ -58,6 +60,8 @@ std::vector<std::uint64_t> listed_frames(const farm::Bundle& bundle, const std::
 farm::Share share_of(const WorkCommand& command, const farm::Bundle& bundle) {
   farm::Share share;
   share.force = command.force;
+  share.alone = !command.chunk.empty();
+  share.lease_seconds = command.lease;
   std::string names;
   for (const farm::Step& step : bundle.steps) {
     names += (names.empty() ? "" : ", ") + step.name;
@@ -89,7 +93,8 @@ void run(const WorkCommand& command) {
   const StopHandler handler(
       [&] {
         farm::stop_children();
-        farm::remove_own_pictures(place.folder);
+        farm::give_back_all_claims();
+        farm::remove_own_leftovers(place.folder);
       },
       kExitStopped);
   farm::work(bundle, place, share, command.progress);
@@ -104,7 +109,9 @@ void add_work(CLI::App& command) {
       "  meniscus work film --step render --chunk 3/10     the third of ten shares of one step\n"
       "  meniscus work film --frames 40-49 --force         these once more",
       "A frame whose files are there with the right checksums is not made again, so the same command goes on after\n"
-      "whatever stopped it, even kill -9. Told to stop (SIGTERM, SIGUSR1, Ctrl-C) it leaves whole files only and\n"
+      "whatever stopped it, even kill -9, and any number of workers share a bundle: each frame is made by one of "
+      "them.\n"
+      "Told to stop (SIGTERM, SIGUSR1, Ctrl-C) it leaves whole files only and\n"
       "ends with exit code 9. After a frame that fails the others are made; the exit code is that frame's.");
   auto state = std::make_shared<WorkCommand>();
   command.add_option("BUNDLE", state->folder, "The bundle's folder")->required()->type_name("");
@@ -117,6 +124,11 @@ void add_work(CLI::App& command) {
       ->type_name("K/N")
       ->excludes(frames);
   command.add_flag("--force", state->force, "Make frames again that are there");
+  command
+      .add_option("--lease", state->lease,
+                  "Seconds after which others take this worker for dead, if it does not touch its file [60]")
+      ->check(CLI::Range(farm::kShortestLease, farm::kLongestLease).description(""))
+      ->type_name("S");
   add_progress_option(command, state->progress);
   command
       .add_option("--device", state->device,

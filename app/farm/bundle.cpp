@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "app/farm/check_bundle.h"
 #include "app/farm/checksum.h"
+#include "app/farm/inner_path.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/trajectory/frame_list.h"
@@ -21,8 +21,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr int kSchemaVersion = 1;
-constexpr std::uint64_t kMostChunks = 1000;         // Slurm's MaxArraySize is 1001 unless a site says otherwise
-constexpr std::uint64_t kMostFrames = 100'000'000;  // a manifest that asks for more is damaged
+constexpr std::uint64_t kMostChunks = 1000;                // Slurm's MaxArraySize is 1001 unless a site says otherwise
+constexpr std::uint64_t kMostFrames = 100'000'000;         // a manifest that asks for more is damaged
+constexpr std::size_t kMostBytes = std::size_t{64} << 20;  // of a manifest
 constexpr const char* kMakers[] = {"meniscus", "povray", "blender"};
 
 std::string word_of(Maker maker) { return kMakers[static_cast<std::size_t>(maker)]; }
@@ -31,14 +32,6 @@ Maker maker_of(const std::string& word) {
   for (const Maker maker : {Maker::meniscus, Maker::povray, Maker::blender})
     if (word == word_of(maker)) return maker;
   throw RequestError(fmt::format("{} makes no frames", in_quotes(word)));
-}
-
-// A path that stays in the bundle.
-std::string inside(const std::string& text) {
-  const std::filesystem::path path(text);
-  const bool leaves = path.is_absolute() || std::ranges::find(path, "..") != path.end();
-  if (text.empty() || leaves) throw RequestError(fmt::format("{} is no path in the bundle", in_quotes(text)));
-  return text;
 }
 
 // What decides how frames look.
@@ -67,7 +60,10 @@ Json chunking_json(const Chunking& chunking, bool measured) {
   } else {
     json["minutes"] = chunking.asked_minutes;
   }
+  json["cores"] = chunking.cores;
+  if (chunking.asked_memory) json["memory"] = *chunking.asked_memory;
   if (measured && chunking.seconds_per_frame) json["seconds_per_frame"] = *chunking.seconds_per_frame;
+  if (measured && chunking.peak_memory) json["peak_memory"] = *chunking.peak_memory;
   if (measured) json["count"] = chunking.count;
   return json;
 }
@@ -84,6 +80,9 @@ Chunking read_chunking(const Json& json) {
   if (json.contains("frames")) chunking.asked_frames = json.at("frames").get<std::uint64_t>();
   if (json.contains("minutes")) chunking.asked_minutes = json.at("minutes").get<double>();
   if (json.contains("seconds_per_frame")) chunking.seconds_per_frame = json.at("seconds_per_frame").get<double>();
+  chunking.cores = json.at("cores").get<std::uint64_t>();
+  if (json.contains("memory")) chunking.asked_memory = json.at("memory").get<std::uint64_t>();
+  if (json.contains("peak_memory")) chunking.peak_memory = json.at("peak_memory").get<std::uint64_t>();
   chunking.count = json.at("count").get<std::uint64_t>();
   return chunking;
 }
@@ -97,20 +96,20 @@ Bundle from_json(const Json& json) {
   Bundle bundle;
   bundle.program_version = json.at("program_version").get<std::string>();
   bundle.command = json.at("command").get<std::vector<std::string>>();
-  if (bundle.command.size() < 2) throw RequestError("has no command");
   bundle.frames = parse_frame_list("frames", json.at("frames").get<std::string>(), kMostFrames);
   bundle.width = json.at("size").at(0).get<int>();
   bundle.height = json.at("size").at(1).get<int>();
   for (const Json& step : json.at("steps"))
-    bundle.steps.push_back({inside(step.at("name").get<std::string>()), maker_of(step.at("maker").get<std::string>()),
+    bundle.steps.push_back({step.at("name").get<std::string>(), maker_of(step.at("maker").get<std::string>()),
                             step.at("arguments").get<std::vector<std::string>>()});
   for (const Json& input : json.at("inputs"))
-    bundle.inputs.push_back({inside(input.at("path").get<std::string>()), input.at("bytes").get<std::uint64_t>(),
+    bundle.inputs.push_back({input.at("path").get<std::string>(), input.at("bytes").get<std::uint64_t>(),
                              input.at("sha256").get<std::string>()});
   if (json.contains("film"))
-    bundle.film = Film{inside(json.at("film").at("file").get<std::string>()),
-                       json.at("film").at("frames_per_second").get<double>()};
+    bundle.film =
+        Film{json.at("film").at("file").get<std::string>(), json.at("film").at("frames_per_second").get<double>()};
   bundle.chunking = read_chunking(json.at("chunks"));
+  check_bundle(bundle);
   return bundle;
 }
 
@@ -122,6 +121,13 @@ void Chunking::decide(std::uint64_t frame_count) {
   if (!asked_frames && seconds_per_frame) frames = std::floor(60.0 * asked_minutes / *seconds_per_frame);
   const double tasks = std::ceil(static_cast<double>(frame_count) / std::max(frames, 1.0));
   count = std::clamp<std::uint64_t>(static_cast<std::uint64_t>(tasks), 1, std::min(kMostChunks, frame_count));
+}
+
+std::optional<std::uint64_t> Chunking::memory() const {
+  constexpr std::uint64_t kWorker = 256, kStep = 256;
+  if (asked_memory || !peak_memory) return asked_memory;
+  const std::uint64_t needed = *peak_memory + *peak_memory / 2 + kWorker;
+  return (needed + kStep - 1) / kStep * kStep;
 }
 
 std::string Bundle::fingerprint() const { return sha256(work_json(*this).dump()); }
@@ -153,11 +159,10 @@ std::string bundle_json(const Bundle& bundle) { return whole_json(bundle, true).
 
 Bundle read_bundle(const std::filesystem::path& folder) {
   const std::string path = (folder / "bundle.json").string();
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw InputError(path, 0, "cannot be opened; meniscus farm bundle makes it");
-  const std::string text(std::istreambuf_iterator<char>(file), {});
+  const std::optional<std::string> text = inner_text(folder, "bundle.json", kMostBytes);
+  if (!text) throw InputError(path, 0, "cannot be opened; meniscus farm bundle makes it");
   try {
-    return from_json(Json::parse(text));
+    return from_json(Json::parse(*text));
   } catch (const nlohmann::json::exception& error) {
     throw InputError(path, 0, fmt::format("is damaged: {}", error.what()));
   } catch (const RequestError& error) {

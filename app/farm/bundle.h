@@ -37,19 +37,26 @@ struct Film {
   double frames_per_second = 25.0;
 };
 
-/// How the run is cut into tasks: as asked for, and as decided.
+/// How the run is cut into tasks, and what each needs: as asked for, and as decided.
 struct Chunking {
   std::optional<std::uint64_t> asked_frames;  ///< a task; else by time
   double asked_minutes = 5.0;                 ///< a task
   std::optional<double> seconds_per_frame;    ///< of the slowest step, measured when the bundle was made
   std::uint64_t count = 1;                    ///< tasks of each step
+  std::uint64_t cores = 2;                    ///< of a task
+  std::optional<std::uint64_t> asked_memory;  ///< of a task, in MiB
+  std::optional<std::uint64_t> peak_memory;   ///< of the largest process of the trial frame, in MiB
 
   /// Decides `count` for so many frames: at least 1, at most 1000, for queues take arrays of 1000 by default.
   void decide(std::uint64_t frame_count);
+
+  /// Memory that a task should be given, in MiB: what was asked for; else half as much again as was measured, for other
+  /// frames may need more, and something for the worker itself. Nothing if neither is known.
+  std::optional<std::uint64_t> memory() const;
 };
 
-/// Everything a worker needs to know. Nothing in it depends on time, machine or user, but seconds_per_frame and what
-/// follows of it.
+/// Everything a worker needs to know. Nothing in it depends on time, machine or user, but what was measured
+/// and follows of it.
 struct Bundle {
   std::string program_version;        ///< with its commit (app/build_version.h)
   std::vector<std::string> command;   ///< of the program, as {"render", "inputs/a.pdb", ...}; paths are relative
@@ -76,7 +83,8 @@ std::string frame_digits(std::uint64_t frame);
 /// The text of bundle.json, with a line end.
 std::string bundle_json(const Bundle& bundle);
 
-/// Reads DIR/bundle.json. Throws InputError: missing, damaged, of another schema.
+/// Reads DIR/bundle.json. Throws InputError: missing, damaged, of another schema, or asking for anything that this
+/// program would not have bundled (check_bundle.h).
 Bundle read_bundle(const std::filesystem::path& folder);
 
 /// Whether both are the same but for what was measured.

@@ -2,9 +2,11 @@
 // Forks and executes with care for signals, descriptors and orphans.
 #include "app/farm/child_process.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
 #include <cstring>
 #include <mutex>
 #include <set>
@@ -19,7 +21,7 @@
 
 #include <fmt/format.h>
 
-#include "core/base/error.h"
+#include "app/program_error.h"
 
 namespace meniscus::farm {
 namespace {
@@ -45,8 +47,8 @@ void stay_if_stopping() {
 }
 
 // Between fork and exec: nothing but calls that are safe there, for other threads may hold any lock.
-[[noreturn]] void become(char* const* argv, char* const* environment, const char* folder, int output, int report,
-                         pid_t parent) {
+[[noreturn]] void become(const char* program, char* const* argv, char* const* environment, const char* folder,
+                         int output, int report, pid_t parent) {
   sigset_t none;
   sigemptyset(&none);
   sigprocmask(SIG_SETMASK, &none, nullptr);
@@ -55,10 +57,24 @@ void stay_if_stopping() {
   // The parent may have died before the request above.
   if (::getppid() == parent && nothing >= 0 && ::dup2(nothing, STDIN_FILENO) >= 0 &&
       ::dup2(output, STDOUT_FILENO) >= 0 && ::dup2(output, STDERR_FILENO) >= 0 && ::chdir(folder) == 0)
-    ::execvpe(argv[0], argv, environment);
+    ::execve(program, argv, environment);
   const int error = errno;
   [[maybe_unused]] const ssize_t written = ::write(report, &error, sizeof error);
   ::_exit(127);
+}
+
+/// The program's path, looked for in the absolute folders of PATH only: the folder that a child runs in may come from
+/// anybody.
+std::string program_path(const std::string& name) {
+  if (name.find('/') != std::string::npos) return name;
+  const char* const path = std::getenv("PATH");
+  for (std::string_view rest = path ? path : ""; !rest.empty();) {
+    const std::string_view folder = rest.substr(0, rest.find(':'));
+    rest.remove_prefix(std::min(rest.size(), folder.size() + 1));
+    const std::string candidate = fmt::format("{}/{}", folder, name);
+    if (folder.starts_with('/') && ::access(candidate.c_str(), X_OK) == 0) return candidate;
+  }
+  return fmt::format("/{}", name);  // starting it tells that it is not there
 }
 
 struct Pipe {
@@ -85,6 +101,7 @@ ChildProcess::ChildProcess(const std::vector<std::string>& arguments, const std:
   for (char** variable = environ; *variable; ++variable)
     if (!std::string_view(*variable).starts_with("PWD=")) environment.push_back(*variable);
   environment.push_back(nullptr);
+  const std::string program = program_path(arguments[0]);
   Pipe output, report;
   {
     // A stop waits for the start to be whole, so that no child escapes it; afterwards there is none.
@@ -92,7 +109,8 @@ ChildProcess::ChildProcess(const std::vector<std::string>& arguments, const std:
     stay_if_stopping();
     const pid_t parent = ::getpid();
     pid_ = ::fork();
-    if (pid_ == 0) become(argv.data(), environment.data(), folder.c_str(), output.ends[1], report.ends[1], parent);
+    if (pid_ == 0)
+      become(program.c_str(), argv.data(), environment.data(), folder.c_str(), output.ends[1], report.ends[1], parent);
     if (pid_ < 0) throw CapacityError(fmt::format("{} cannot be started: {}", arguments[0], std::strerror(errno)));
     registry().running.insert(pid_);
   }
@@ -146,8 +164,16 @@ int ChildProcess::wait() {
     registry().running.erase(std::exchange(pid_, -1));
     stay_if_stopping();
   }
-  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : kSignalCode + WTERMSIG(status);
 }
+
+std::string signal_text(int code) {
+  return code == kSignalCode + SIGKILL
+             ? std::string("the process that made it was killed, as when memory runs out")
+             : fmt::format("the process that made it was ended by signal {}", code - kSignalCode);
+}
+
+int signal_exit_code(int code) { return code == kSignalCode + SIGKILL ? kExitCapacity : kExitInternal; }
 
 void stop_children() {
   std::set<pid_t> children;

@@ -15,8 +15,8 @@ namespace meniscus::farm {
 /// even kill -9 of this process leaves none behind.
 class ChildProcess {
  public:
-  /// arguments[0] is the program, looked for in PATH unless it has a slash; it runs in `folder`, with an empty standard
-  /// input and no signal blocked. Throws InputError if it cannot be started.
+  /// arguments[0] is the program, looked for in the absolute folders of PATH unless it has a slash; it runs in
+  /// `folder`, with an empty standard input and no signal blocked. Throws InputError if it cannot be started.
   ChildProcess(const std::vector<std::string>& arguments, const std::filesystem::path& folder);
   ~ChildProcess();
   ChildProcess(const ChildProcess&) = delete;
@@ -34,6 +34,14 @@ class ChildProcess {
   pid_t pid_ = -1;
   std::string pending_;
 };
+
+/// Codes of wait() above this one: a signal ended the child.
+constexpr int kSignalCode = 128;
+
+/// What such a code means: "the process was killed, as when memory runs out", and the program's own exit code for it:
+/// kExitCapacity for SIGKILL, else kExitInternal.
+std::string signal_text(int code);
+int signal_exit_code(int code);
 
 /// Ends all children, at once with SIGTERM and after two seconds with SIGKILL, and lets none be started from then on.
 /// For the thread that ends the program; the main thread may be anywhere.

@@ -5,6 +5,8 @@
 #include <OpenImageIO/imagebuf.h>
 #include <fmt/format.h>
 
+#include "app/farm/inner_path.h"
+#include "app/farm/timeless_png.h"
 #include "app/farm/verify.h"
 #include "app/film.h"
 #include "core/base/error.h"
@@ -15,7 +17,9 @@ namespace {
 namespace fs = std::filesystem;
 
 /// 8-bit sRGB; what is transparent shows white, as in the films of `render`.
-std::vector<std::uint8_t> picture_rgb(const fs::path& path) {
+std::vector<std::uint8_t> picture_rgb(const fs::path& folder, const std::string& inner) {
+  const fs::path path = folder / inner;
+  if (inner_entry(folder, inner) != Entry::file || !is_png(path)) throw InputError(path.string(), 0, "is no PNG file");
   OIIO::ImageBuf picture(path.string());
   std::vector<float> pixels;
   if (picture.read(0, 0, true, OIIO::TypeDesc::FLOAT))
@@ -42,7 +46,7 @@ void encode_film(const Bundle& bundle, const fs::path& folder) {
   FilmWriter film((folder / bundle.film->file).string(), Existing::replace, {bundle.width, bundle.height},
                   bundle.film->frames_per_second);
   for (const std::uint64_t frame : bundle.frames)
-    film.add(picture_rgb(folder / "images" / fmt::format("frame_{}.png", frame_digits(frame))));
+    film.add(picture_rgb(folder, fmt::format("images/frame_{}.png", frame_digits(frame))));
   film.finish();
 }
 

@@ -2,8 +2,7 @@
 // Writes, reads and checks the records of frames.
 #include "app/farm/frame_record.h"
 
-#include <fstream>
-#include <iterator>
+#include <algorithm>
 #include <utility>
 
 #include <fmt/format.h>
@@ -19,6 +18,13 @@ namespace {
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
+constexpr std::size_t kMostBytes = std::size_t{1} << 20;  // of a record
+
+// Frames are made of files in these two folders.
+bool is_made_path(const std::string& path) {
+  return is_inner_path(path) && (path.starts_with("images/") || path.starts_with("scene/"));
+}
+
 Json to_json(const FrameRecord& record) {
   Json json;
   json["frame"] = record.frame;
@@ -31,6 +37,7 @@ Json to_json(const FrameRecord& record) {
   for (const MadeFile& file : record.files)
     json["files"].push_back({{"path", file.path}, {"bytes", file.bytes}, {"sha256", file.sha256}});
   json["seconds"] = record.seconds;
+  if (!record.first_try.empty()) json["first_try"] = record.first_try;
   return json;
 }
 
@@ -45,7 +52,13 @@ FrameRecord from_json(const Json& json) {
     record.files.push_back({file.at("path").get<std::string>(), file.at("bytes").get<std::uint64_t>(),
                             file.at("sha256").get<std::string>()});
   record.seconds = json.at("seconds").get<double>();
+  record.first_try = json.value("first_try", "");
   return record;
+}
+
+bool is_sound(const FrameRecord& record) {
+  return record.exit_code >= 0 && record.exit_code < 256 &&
+         std::ranges::all_of(record.files, [](const MadeFile& file) { return is_made_path(file.path); });
 }
 
 }  // namespace
@@ -54,26 +67,29 @@ FrameRecords::FrameRecords(fs::path folder, const Bundle& bundle)
     : folder_(std::move(folder)), fingerprint_(bundle.fingerprint()) {}
 
 fs::path FrameRecords::path_of(const std::string& step, std::uint64_t frame) const {
-  return folder_ / "state" / step / fmt::format("frame_{}.json", frame_digits(frame));
+  return fs::path("state") / step / fmt::format("frame_{}.json", frame_digits(frame));
 }
 
 std::optional<FrameRecord> FrameRecords::read(const std::string& step, std::uint64_t frame) const {
-  std::ifstream file(path_of(step, frame), std::ios::binary);
-  if (!file) return {};
-  const std::string text(std::istreambuf_iterator<char>(file), {});
+  const std::optional<std::string> text = inner_text(folder_, path_of(step, frame), kMostBytes);
+  if (!text) return {};
   try {
-    const Json json = Json::parse(text);
+    const Json json = Json::parse(*text);
     if (json.at("bundle") != fingerprint_) return {};
-    const FrameRecord record = from_json(json);
-    if (record.frame != frame) return {};
+    FrameRecord record = from_json(json);
+    if (record.frame != frame || !is_sound(record)) return {};
     return record;
   } catch (const nlohmann::json::exception&) {
     return {};
   }
 }
 
+std::optional<FileTime> FrameRecords::written(const std::string& step, std::uint64_t frame) const {
+  return modified(folder_ / path_of(step, frame));
+}
+
 void FrameRecords::write(const std::string& step, const FrameRecord& record) const {
-  const fs::path path = path_of(step, record.frame);
+  const fs::path path = folder_ / path_of(step, record.frame);
   std::error_code ignored;  // if it cannot be made, the file says so
   fs::create_directories(path.parent_path(), ignored);
   Json json = to_json(record);
@@ -88,20 +104,22 @@ FrameRecord FrameRecords::measured(std::uint64_t frame, const std::vector<std::s
   record.frame = frame;
   record.seconds = seconds;
   for (const std::string& path : paths) {
+    if (!is_made_path(path) || inner_entry(folder_, path) != Entry::file)
+      throw InputError(path, 0, "is no file that a frame can consist of");
     const std::string sum = sha256_of_file(folder_ / path);
     record.files.push_back({path, fs::file_size(folder_ / path), sum});
   }
   return record;
 }
 
-std::string FrameRecords::fault(const FrameRecord& record) const {
+std::string FrameRecords::fault(const FrameRecord& record, Look look) const {
   if (record.files.empty()) return "its record names no file";
   for (const MadeFile& file : record.files) {
-    std::error_code error;
-    const std::uintmax_t bytes = fs::file_size(folder_ / file.path, error);
-    if (error) return file.path + ": is missing";
     try {
-      if (bytes != file.bytes || sha256_of_file(folder_ / file.path) != file.sha256)
+      if (inner_entry(folder_, file.path) != Entry::file) return file.path + ": is missing";
+      const std::uintmax_t bytes = fs::file_size(folder_ / file.path);
+      if (bytes != file.bytes) return fmt::format("{}: has {} bytes, not {}", file.path, bytes, file.bytes);
+      if (look == Look::contents && sha256_of_file(folder_ / file.path) != file.sha256)
         return file.path + ": is not what was made (SHA-256)";
     } catch (const InputError& unreadable) {
       return unreadable.what();

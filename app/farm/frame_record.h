@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "app/farm/bundle.h"
+#include "app/farm/inner_path.h"
 
 namespace meniscus::farm {
 
@@ -26,8 +27,15 @@ struct FrameRecord {
   std::string error;            ///< of a frame that failed: one line
   std::vector<MadeFile> files;  ///< of a frame that was made
   double seconds = 0.0;         ///< that it took
+  std::string first_try;        ///< why a second process made it, if the first was ended by a signal
 
   bool done() const { return exit_code == 0; }
+};
+
+/// How closely files are compared with their record.
+enum class Look {
+  sizes,    ///< quick: a look at the folder
+  contents  ///< by checksum
 };
 
 /// The records of one bundle. Records of another bundle, damaged ones, and none at all are the same: nothing.
@@ -36,15 +44,18 @@ class FrameRecords {
   FrameRecords(std::filesystem::path folder, const Bundle& bundle);
 
   std::optional<FrameRecord> read(const std::string& step, std::uint64_t frame) const;
+  /// When it was written; nothing if there is none.
+  std::optional<FileTime> written(const std::string& step, std::uint64_t frame) const;
   /// Whole or not at all. Throws OutputError.
   void write(const std::string& step, const FrameRecord& record) const;
 
   /// The frame as it lies in the bundle: paths (relative) with sizes and checksums. Throws InputError.
   FrameRecord measured(std::uint64_t frame, const std::vector<std::string>& paths, double seconds) const;
   /// What is wrong with the files of a frame that was made: "" or "images/frame_00042.png: is missing".
-  std::string fault(const FrameRecord& record) const;
+  std::string fault(const FrameRecord& record, Look look = Look::contents) const;
 
  private:
+  /// Relative to the bundle.
   std::filesystem::path path_of(const std::string& step, std::uint64_t frame) const;
 
   std::filesystem::path folder_;

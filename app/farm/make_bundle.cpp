@@ -4,13 +4,18 @@
 
 #include <algorithm>
 
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <fmt/format.h>
 
 #include "app/build_version.h"
+#include "app/farm/blender_driver.h"
+#include "app/farm/check_bundle.h"
 #include "app/farm/child_process.h"
+#include "app/farm/command_options.h"
 #include "app/farm/frame_record.h"
+#include "app/farm/inner_path.h"
 #include "app/farm/quote.h"
 #include "app/farm/worker.h"
 #include "app/farm/wrapped_command.h"
@@ -47,15 +52,9 @@ std::optional<std::string> default_camera(const WrappedCommand& command, const G
 }
 
 void add_addon(const fs::path& addon, BundleInputs& inputs) {
-  std::vector<fs::path> files;
-  std::error_code error;
-  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(addon, error))
-    if (entry.is_regular_file() && (entry.path().extension() == ".py" || entry.path().filename() == "LICENSE.txt"))
-      files.push_back(entry.path());
   if (!fs::exists(addon / "render_mns.py"))
     throw InputError(addon.string(), 0, "has no render_mns.py, Blender's driver; name its folder by --addon");
-  std::ranges::sort(files);
-  for (const fs::path& file : files) inputs.add_file_as("blender/" + fs::relative(file, addon).string(), file);
+  for (const DriverFile& file : driver_files()) inputs.add_file_as("blender/" + file.path, addon / file.path);
 }
 
 /// The arguments with paths in the bundle, and with the camera.
@@ -106,8 +105,15 @@ class Staging {
   fs::path target_, path_;
 };
 
+/// In MiB, of the largest child that this process has had.
+std::uint64_t peak_memory_of_children() {
+  struct rusage usage {};
+  ::getrusage(RUSAGE_CHILDREN, &usage);
+  return static_cast<std::uint64_t>(usage.ru_maxrss) / 1024 + 1;
+}
+
 /// Makes the first frame and takes it away again: the farm's machines shall make all of them alike.
-double trial_seconds(const Bundle& bundle, const Staging& staging) {
+void make_trial(const Bundle& bundle, const Staging& staging, Chunking& measured) {
   const StopHandler handler(
       [&] {
         stop_children();
@@ -117,6 +123,7 @@ double trial_seconds(const Bundle& bundle, const Staging& staging) {
   Share share;
   for (const Step& step : bundle.steps) share.steps.push_back(step.name);
   share.frames = {bundle.frames.front()};
+  share.alone = true;
   try {
     work(bundle, Workplace{staging.path(), {}, 0}, share, ProgressStyle::none);
   } catch (const RunError& error) {
@@ -127,13 +134,15 @@ double trial_seconds(const Bundle& bundle, const Staging& staging) {
   for (const std::string& step : share.steps)
     slowest = std::max(slowest, records.read(step, share.frames.front()).value().seconds);
   for (const char* made : {"state", "images", "scene"}) fs::remove_all(staging.path() / made);
-  return std::max(slowest, 1e-3);
+  measured.seconds_per_frame = std::max(slowest, 1e-3);
+  measured.peak_memory = peak_memory_of_children();
 }
 
 void write_engine_files(const BundleOptions& options, const Bundle& bundle, const fs::path& folder) {
   for (const Engine& engine : options.engines) {
     for (const EngineFile& text : engine.emit({bundle, options.farm_path})) {
       const fs::path path = folder / text.path;
+      inner_entry(folder, text.path);  // no link leads out of a folder that was there before
       fs::create_directories(path.parent_path());
       OutputFile file(path, Existing::replace);
       file.write(text.text);
@@ -164,6 +173,12 @@ std::optional<Bundle> same_bundle_at(const BundleOptions& options, const Bundle&
   return {};
 }
 
+std::optional<std::uint64_t> threads_of(const std::vector<std::string>& device) {
+  for (const CommandOption& option : read_device_options(device))
+    if (option.name == "--threads") return std::stoull(*option.value);
+  return {};
+}
+
 Bundle described(const BundleOptions& options, BundleInputs& inputs, std::vector<std::string>& notes) {
   WrappedCommand command;
   parse_wrapped_command(options.command, command);
@@ -183,6 +198,8 @@ Bundle described(const BundleOptions& options, BundleInputs& inputs, std::vector
   if (bundle.steps.back().maker == Maker::blender) add_addon(options.addon, inputs);
   bundle.inputs = inputs.measured();
   bundle.chunking = options.chunking;
+  if (!options.cores_asked) bundle.chunking.cores = threads_of(command.device).value_or(bundle.chunking.cores);
+  check_bundle(bundle);
   return bundle;
 }
 
@@ -206,7 +223,7 @@ MadeBundle make_bundle(const BundleOptions& given) {
   Staging staging(options.folder);
   inputs.bring(staging.path(), options.bring);
   Chunking& chunking = made.bundle.chunking;
-  if (!chunking.asked_frames) chunking.seconds_per_frame = trial_seconds(made.bundle, staging);
+  if (!chunking.asked_frames) make_trial(made.bundle, staging, chunking);
   chunking.decide(made.bundle.frames.size());
   write_engine_files(options, made.bundle, staging.path());
   OutputFile file(staging.path() / "bundle.json", Existing::refuse);

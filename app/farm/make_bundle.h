@@ -19,6 +19,7 @@ struct BundleOptions {
   std::string farm_path;
   std::optional<Film> film;
   Chunking chunking;
+  bool cores_asked = false;  ///< else as many as --threads behind -- says, if it does
   Bring bring = Bring::copy;
   std::filesystem::path addon;  ///< folder of render_mns.py
   bool force = false;

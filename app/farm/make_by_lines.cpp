@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Follows a program that makes many frames and tells each by a line of JSON.
 #include <algorithm>
-#include <csignal>
+#include <optional>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -16,8 +16,6 @@ namespace meniscus::farm {
 namespace {
 
 using nlohmann::json;
-
-constexpr int kSignalCode = 128;  // codes above: ended by a signal
 
 // A path as the bundle knows it; the program may have said it in a longer way.
 std::string relative_to(const std::filesystem::path& folder, const std::string& text) {
@@ -48,6 +46,7 @@ bool take_frame(const std::string& line, const std::filesystem::path& folder, st
 void make_by_lines(const std::function<std::vector<std::string>(const std::vector<std::uint64_t>&)>& command_for,
                    const std::filesystem::path& folder, std::vector<std::uint64_t> frames,
                    const FrameListener& listener) {
+  std::optional<std::uint64_t> tried;  // the frame that was given a second process
   while (!frames.empty()) {
     ChildProcess child(command_for(frames), folder);
     LastWords last;
@@ -62,13 +61,13 @@ void make_by_lines(const std::function<std::vector<std::string>(const std::vecto
                                  last.words().empty() ? fmt::format("exit code {}", code) : last.words()));
     }
     const std::uint64_t culprit = frames.front();
-    frames.erase(frames.begin());
-    const int signal = code - kSignalCode;
-    if (signal == SIGKILL) {
-      listener.failed(culprit, kExitCapacity, "the process that made it was killed, as when memory runs out");
-    } else {
-      listener.failed(culprit, kExitInternal, fmt::format("the process that made it was ended by signal {}", signal));
+    if (tried != culprit) {
+      tried = culprit;
+      listener.tried_again(culprit, signal_text(code));
+      continue;
     }
+    frames.erase(frames.begin());
+    listener.failed(culprit, signal_exit_code(code), signal_text(code) + ", twice");
   }
 }
 

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "app/farm/check_scene.h"
 #include "app/farm/child_process.h"
 #include "app/farm/last_words.h"
 #include "app/farm/makers.h"
@@ -20,9 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kScene = "surface.ini";
-constexpr std::string_view kPrefix = ".povray_";
-
-std::string own_prefix() { return fmt::format("{}{}_", kPrefix, ::getpid()); }
+std::string own_name(std::uint64_t frame) { return fmt::format(".povray_{}_{}", ::getpid(), frame_digits(frame)); }
 
 std::vector<std::string> povray_command(const Step& step, const Workplace& place, std::size_t scene_frame,
                                         const std::string& output) {
@@ -44,46 +43,66 @@ fs::path picture_in(const fs::path& folder) {
   return {};
 }
 
-template <typename Condition>
-void remove_from(const fs::path& folder, const Condition& unwanted) {
-  std::error_code error;
-  std::vector<fs::path> found;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error))
-    if (unwanted(entry.path().filename().string())) found.push_back(entry.path());
-  for (const fs::path& path : found) fs::remove_all(path, error);
-}
+struct Ended {
+  int code = 0;
+  std::string words;  ///< that tell why
+};
 
-void render(const Bundle& bundle, const Step& step, const Workplace& place, std::uint64_t frame,
-            const std::string& picture) {
-  const fs::path images = place.folder / "images";
-  const std::string name = own_prefix() + frame_digits(frame);
-  const fs::path own = images / name;
-  fs::create_directories(own);
+Ended run_povray(const std::vector<std::string>& command, const fs::path& folder) {
   LastWords last;
-  ChildProcess child(
-      povray_command(step, place, bundle.place_of(frame) + 1, fmt::format("../images/{}/frame.png", name)),
-      place.folder / "scene");
+  ChildProcess child(command, folder);
   while (const std::optional<std::string> line = child.next_line()) last.hear(*line);
   const int code = child.wait();
-  const fs::path made = picture_in(own);
-  if (code != 0 || made.empty()) {
-    fs::remove_all(own);
-    throw RunError(kExitInput, fmt::format("povray ended with code {}: {}", code, last.words()));
+  return {code, last.words()};
+}
+
+/// A folder for the picture of one process, away with this object.
+class OwnFolder {
+ public:
+  explicit OwnFolder(fs::path path) : path_(std::move(path)) { fs::create_directories(path_); }
+  ~OwnFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
   }
+  OwnFolder(const OwnFolder&) = delete;
+  OwnFolder& operator=(const OwnFolder&) = delete;
+
+ private:
+  fs::path path_;
+};
+
+void render(const Bundle& bundle, const Step& step, const Workplace& place, std::uint64_t frame,
+            const std::string& picture, const FrameListener& listener) {
+  const std::string name = own_name(frame);
+  const fs::path own = place.folder / "images" / name, scene = place.folder / "scene";
+  check_scene_frame(place.folder, frame);
+  const OwnFolder folder(own);
+  const std::vector<std::string> command =
+      povray_command(step, place, bundle.place_of(frame) + 1, fmt::format("../images/{}/frame.png", name));
+  Ended ended = run_povray(command, scene);
+  if (ended.code > kSignalCode) {
+    listener.tried_again(frame, signal_text(ended.code));
+    ended = run_povray(command, scene);
+  }
+  if (ended.code > kSignalCode)
+    throw RunError(static_cast<ExitCode>(signal_exit_code(ended.code)), signal_text(ended.code) + ", twice");
+  const fs::path made = picture_in(own);
+  if (ended.code != 0 || made.empty())
+    throw RunError(kExitInput, fmt::format("povray ended with code {}: {}", ended.code, ended.words));
   make_timeless(made);
   fs::rename(made, place.folder / picture);
-  fs::remove_all(own);
 }
 
 }  // namespace
 
 void make_by_povray(const Bundle& bundle, const Step& step, const Workplace& place,
                     const std::vector<std::uint64_t>& frames, const FrameListener& listener) {
+  check_scene(place.folder);
   for (const std::uint64_t frame : frames) {
     const auto begin = std::chrono::steady_clock::now();
     const std::string picture = fmt::format("images/frame_{}.png", frame_digits(frame));
     try {
-      render(bundle, step, place, frame, picture);
+      render(bundle, step, place, frame, picture, listener);
     } catch (const RunError& error) {
       listener.failed(frame, error.code(), error.what());
       continue;
@@ -91,18 +110,6 @@ void make_by_povray(const Bundle& bundle, const Step& step, const Workplace& pla
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
     listener.done(frame, {picture}, elapsed.count());
   }
-}
-
-void remove_own_pictures(const fs::path& folder) {
-  remove_from(folder / "images", [](const std::string& name) { return name.starts_with(own_prefix()); });
-}
-
-void remove_leftovers(const fs::path& folder) {
-  const auto unfinished = [](const std::string& name) {
-    return name.starts_with(kPrefix) || (name.starts_with('.') && name.find(".part") != std::string::npos);
-  };
-  for (const char* place : {".", "images", "scene", "state/surface", "state/render"})
-    remove_from(folder / place, unfinished);
 }
 
 }  // namespace meniscus::farm

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The command line of each maker.
 #include <filesystem>
+#include <optional>
 
 #include <fmt/format.h>
 
+#include "app/farm/blender_driver.h"
+#include "app/farm/check_bundle.h"
+#include "app/farm/command_options.h"
 #include "app/farm/makers.h"
 #include "app/farm/timeless_png.h"
 #include "core/trajectory/frame_list.h"
@@ -16,11 +20,24 @@ using Arguments = std::vector<std::string>;
 // This very program, whatever PATH says: the frames of a run must come from one version.
 std::string this_program() { return std::filesystem::read_symlink("/proc/self/exe").string(); }
 
+// What the worker was told replaces what the bundle says.
+Arguments device_words(const Step& step, const Workplace& place) {
+  std::vector<CommandOption> options = read_device_options(step.arguments);
+  std::erase_if(options, [&](const CommandOption& option) {
+    return option.name == "--threads" ? place.threads > 0 : !place.device_options.empty();
+  });
+  Arguments words = as_words(options);
+  words.insert(words.end(), place.device_options.begin(), place.device_options.end());
+  if (place.threads > 0) words.push_back(fmt::format("--threads={}", place.threads));
+  return words;
+}
+
 Arguments meniscus_command(const Bundle& bundle, const Step& step, const Workplace& place,
                            const std::vector<std::uint64_t>& frames) {
   Arguments command{this_program()};
-  command.insert(command.end(), bundle.command.begin(), bundle.command.end());
-  const Arguments& device = place.device_options.empty() ? step.arguments : place.device_options;
+  const Arguments checked = checked_command(bundle);
+  command.insert(command.end(), checked.begin(), checked.end());
+  const Arguments device = device_words(step, place);
   command.insert(command.end(), device.begin(), device.end());
   const bool pictures = bundle.command.front() == "render";
   for (const char* word : {"--force", "-q", "--progress", "json", "-o", pictures ? "images/frame_#####.png" : "scene"})
@@ -29,12 +46,12 @@ Arguments meniscus_command(const Bundle& bundle, const Step& step, const Workpla
   return command;
 }
 
-Arguments blender_command(const Step& step, const Workplace& place, const std::vector<std::uint64_t>& frames) {
+Arguments blender_command(const std::string& driver, const Step& step, const Workplace& place,
+                          const std::vector<std::uint64_t>& frames) {
   Arguments command{"blender", "-b", "--factory-startup"};
   if (place.threads > 0) command.insert(command.end(), {"-t", std::to_string(place.threads)});
-  for (const char* word : {"--python-exit-code", "3", "--python", "inputs/blender/render_mns.py", "--",
-                           "scene/surface_sequence.json", "--output", "images/frame_#####.png"})
-    command.emplace_back(word);
+  command.insert(command.end(), {"--python-exit-code", "3", "--python", driver, "--", "scene/surface_sequence.json",
+                                 "--output", "images/frame_#####.png"});
   command.insert(command.end(), {"--frames", frame_list_text(frames)});
   command.insert(command.end(), step.arguments.begin(), step.arguments.end());
   return command;
@@ -57,9 +74,12 @@ void make_frames(const Bundle& bundle, const Step& step, const Workplace& place,
   if (step.maker == Maker::povray) return make_by_povray(bundle, step, place, frames, listener);
   std::filesystem::create_directories(place.folder / "images");
   const bool blender = step.maker == Maker::blender;
+  std::optional<DriverCopy> driver;
+  if (blender) driver.emplace(place.folder);
   make_by_lines(
       [&](const std::vector<std::uint64_t>& left) {
-        return blender ? blender_command(step, place, left) : meniscus_command(bundle, step, place, left);
+        return blender ? blender_command(driver->script(), step, place, left)
+                       : meniscus_command(bundle, step, place, left);
       },
       place.folder, frames, blender ? without_dates(listener, place.folder) : listener);
 }

@@ -17,13 +17,15 @@ struct FrameListener {
   /// files: paths relative to the bundle.
   std::function<void(std::uint64_t frame, const std::vector<std::string>& files, double seconds)> done;
   std::function<void(std::uint64_t frame, int exit_code, const std::string& error)> failed;
+  /// Hears, before the above, of a frame whose process was ended by a signal and that is tried a second time.
+  std::function<void(std::uint64_t frame, const std::string& error)> tried_again;
 };
 
 /// Where and with what a step is made.
 struct Workplace {
   std::filesystem::path folder;             ///< the bundle
   std::vector<std::string> device_options;  ///< of this program, instead of those of the bundle; empty: those
-  int threads = 0;                          ///< for the renderers; 0: as many as they like
+  int threads = 0;                          ///< of each process; 0: what the bundle says, else as many as it likes
 };
 
 /// Makes these frames of the step, in this order; a frame that fails is told, and the others are made all the same.
@@ -33,18 +35,18 @@ void make_frames(const Bundle& bundle, const Step& step, const Workplace& place,
 
 /// The same by a program that tells each frame by a line of JSON, {"frame":42,"state":"done","files":[...],"ms":1.5} or
 /// {"frame":42,"state":"failed","exit":7,"error":"..."}, and makes the frames in the order of the list. `command_for`
-/// gives its arguments for a list of frames. If a signal ends it, the frame it was at has failed, and another process
-/// makes the others.
+/// gives its arguments for a list of frames. If a signal ends it, another process goes on with the frame it was
+/// at; if that ends so, too, the frame has failed, and a third makes the others.
 void make_by_lines(const std::function<std::vector<std::string>(const std::vector<std::uint64_t>&)>& command_for,
                    const std::filesystem::path& folder, std::vector<std::uint64_t> frames,
                    const FrameListener& listener);
 
-/// The same by POV-Ray, one process a frame, from scene/ into images/.
+/// The same by POV-Ray, one process a frame, from scene/ into images/; a second one if a signal ends the first.
 void make_by_povray(const Bundle& bundle, const Step& step, const Workplace& place,
                     const std::vector<std::uint64_t>& frames, const FrameListener& listener);
 
-/// Removes POV-Ray's unfinished pictures of this process.
-void remove_own_pictures(const std::filesystem::path& folder);
+/// Removes unfinished pictures of this process, and its copy of Blender's driver.
+void remove_own_leftovers(const std::filesystem::path& folder);
 /// Removes whatever killed workers left unfinished. For a bundle that nobody works on any more.
 void remove_leftovers(const std::filesystem::path& folder);
 

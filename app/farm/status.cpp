@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Counts records and writes the counts.
+// Counts records with their files, and writes the counts.
 #include "app/farm/status.h"
 
 #include <algorithm>
 #include <iterator>
+#include <span>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -16,13 +17,18 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t kFailuresShown = 5;
+constexpr std::size_t kFaultsShown = 5;  // of a step and kind, the last ones
 
 std::string duration(double seconds) {
   const auto whole = static_cast<std::int64_t>(seconds + 0.5);
   if (whole < 60) return fmt::format("{} s", whole);
   return whole < 3600 ? fmt::format("{}:{:02} min", whole / 60, whole % 60)
                       : fmt::format("{}:{:02}:{:02} h", whole / 3600, whole / 60 % 60, whole % 60);
+}
+
+template <typename Frame>
+std::span<const Frame> last(const std::vector<Frame>& frames) {
+  return std::span(frames).last(std::min(frames.size(), kFaultsShown));
 }
 
 StepStatus status_of(const Step& step, const Bundle& bundle, const FrameRecords& records) {
@@ -33,15 +39,17 @@ StepStatus status_of(const Step& step, const Bundle& bundle, const FrameRecords&
     std::optional<FrameRecord> record = records.read(step.name, frame);
     if (!record) {
       ++status.missing;
-    } else if (record->done()) {
+    } else if (!record->done()) {
+      status.failed.push_back(std::move(*record));
+    } else if (std::string fault = records.fault(*record, Look::sizes); !fault.empty()) {
+      status.damaged.push_back({frame, std::move(fault)});
+    } else {
       ++status.done;
       seconds += record->seconds;
-    } else {
-      status.failed.push_back(std::move(*record));
     }
   }
   if (status.done > 0) status.seconds_per_frame = seconds / static_cast<double>(status.done);
-  const std::size_t left = status.missing + status.failed.size();
+  const std::size_t left = status.missing + status.failed.size() + status.damaged.size();
   if (left == 0) {
     status.seconds_left = 0.0;
   } else if (status.seconds_per_frame) {
@@ -62,23 +70,24 @@ std::vector<StepStatus> status_of(const Bundle& bundle, const std::filesystem::p
 std::string status_table(const Bundle& bundle, const std::vector<StepStatus>& steps) {
   std::string text;
   auto out = std::back_inserter(text);
-  fmt::format_to(out, "{} frames, {}; {} {} a step\n\n{:<10} {:>9} {:>9} {:>9} {:>12} {:>12}\n",
+  fmt::format_to(out, "{} frames, {}; {} {} a step\n\n{:<10} {:>9} {:>9} {:>9} {:>9} {:>12} {:>12}\n",
                  with_thousands(bundle.frames.size()), frame_list_text(bundle.frames), bundle.chunking.count,
-                 bundle.chunking.count == 1 ? "task" : "tasks", "step", "done", "failed", "missing", "s a frame",
-                 "left, alone");
+                 bundle.chunking.count == 1 ? "task" : "tasks", "step", "done", "failed", "damaged", "missing",
+                 "s a frame", "left, alone");
   for (const StepStatus& step : steps) {
-    fmt::format_to(out, "{:<10} {:>9} {:>9} {:>9} {:>12} {:>12}\n", step.step, with_thousands(step.done),
-                   with_thousands(step.failed.size()), with_thousands(step.missing),
+    fmt::format_to(out, "{:<10} {:>9} {:>9} {:>9} {:>9} {:>12} {:>12}\n", step.step, with_thousands(step.done),
+                   with_thousands(step.failed.size()), with_thousands(step.damaged.size()),
+                   with_thousands(step.missing),
                    step.seconds_per_frame ? fmt::format("{:.2f}", *step.seconds_per_frame) : "?",
                    step.seconds_left ? duration(*step.seconds_left) : "?");
   }
   for (const StepStatus& step : steps) {
-    const std::size_t shown = std::min(step.failed.size(), kFailuresShown);
-    for (std::size_t n = step.failed.size() - shown; n < step.failed.size(); ++n) {
-      fmt::format_to(out, "\n{} frame {}, exit code {}: {}", step.step, step.failed[n].frame, step.failed[n].exit_code,
-                     escaped(step.failed[n].error));
-    }
-    if (shown > 0) text += "\n";
+    for (const FrameRecord& frame : last(step.failed))
+      fmt::format_to(out, "\n{} frame {}, exit code {}: {}", step.step, frame.frame, frame.exit_code,
+                     escaped(frame.error));
+    for (const DamagedFrame& frame : last(step.damaged))
+      fmt::format_to(out, "\n{} frame {}: {}", step.step, frame.frame, escaped(frame.what));
+    if (!step.failed.empty() || !step.damaged.empty()) text += "\n";
   }
   return text;
 }
@@ -93,11 +102,14 @@ std::string status_json(const Bundle& bundle, const std::vector<StepStatus>& ste
     Json failed = Json::array();
     for (const FrameRecord& record : step.failed)
       failed.push_back({{"frame", record.frame}, {"exit", record.exit_code}, {"error", record.error}});
+    Json damaged = Json::array();
+    for (const DamagedFrame& frame : step.damaged) damaged.push_back({{"frame", frame.frame}, {"what", frame.what}});
     const auto number = [](const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); };
     json["steps"].push_back({{"name", step.step},
                              {"done", step.done},
                              {"missing", step.missing},
                              {"failed", failed},
+                             {"damaged", damaged},
                              {"seconds_per_frame", number(step.seconds_per_frame)},
                              {"seconds_left", number(step.seconds_left)}});
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How far a bundle is, from its records alone: no queue needs to be asked.
+// How far a bundle is, from its folder alone: no queue needs to be asked.
 #pragma once
 
 #include <cstdint>
@@ -13,15 +13,22 @@
 
 namespace meniscus::farm {
 
+/// A frame that was made, but whose files are gone or of another size now.
+struct DamagedFrame {
+  std::uint64_t frame = 0;
+  std::string what;
+};
+
 struct StepStatus {
   std::string step;
   std::uint64_t done = 0, missing = 0;
   std::vector<FrameRecord> failed;          ///< in the order of the run
+  std::vector<DamagedFrame> damaged;        ///< likewise
   std::optional<double> seconds_per_frame;  ///< mean of those done
-  std::optional<double> seconds_left;       ///< of one worker alone, for what is missing or failed
+  std::optional<double> seconds_left;       ///< of one worker alone, for all that is not done
 };
 
-/// Files are taken to be as recorded; `farm verify` looks at them.
+/// Of files their sizes are looked at; `farm verify` looks at what is in them.
 std::vector<StepStatus> status_of(const Bundle& bundle, const std::filesystem::path& folder);
 
 /// A table with the last failures, and the same as one JSON object.

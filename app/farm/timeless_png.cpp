@@ -40,6 +40,13 @@ std::string timeless_png(std::string_view file) {
   return result;
 }
 
+bool is_png(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::array<char, kSignature.size()> begin{};
+  file.read(begin.data(), begin.size());
+  return file && std::string_view(begin.data(), begin.size()) == kSignature;
+}
+
 void make_timeless(const std::filesystem::path& path) {
   std::ifstream written(path, std::ios::binary);
   const std::string bytes(std::istreambuf_iterator<char>(written), {});

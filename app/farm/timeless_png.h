@@ -13,6 +13,9 @@ namespace meniscus::farm {
 /// PNG.
 std::string timeless_png(std::string_view file);
 
+/// Whether the file begins as one.
+bool is_png(const std::filesystem::path& path);
+
 /// The same done to a file where it lies, whole or not at all. Throws OutputError, too.
 void make_timeless(const std::filesystem::path& path);
 

@@ -9,12 +9,15 @@
 #include <fmt/format.h>
 
 #include "app/farm/frame_record.h"
+#include "app/farm/inner_path.h"
+#include "app/farm/timeless_png.h"
 #include "app/program_error.h"
 
 namespace meniscus::farm {
 namespace {
 
 std::string picture_fault(const std::filesystem::path& path, const Bundle& bundle) {
+  if (!is_png(path)) return "is no PNG file";
   OIIO::ImageBuf picture(path.string());
   if (!picture.read(0, 0, true)) return fmt::format("cannot be read as a picture: {}", picture.geterror());
   const OIIO::ImageSpec& spec = picture.spec();

@@ -2,14 +2,22 @@
 // Finds what is missing, has it made, and keeps the records.
 #include "app/farm/worker.h"
 
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <list>
 #include <optional>
 #include <set>
+#include <thread>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "app/build_version.h"
 #include "app/farm/checksum.h"
+#include "app/farm/claims.h"
 #include "app/farm/frame_record.h"
+#include "app/farm/inner_path.h"
 #include "app/program_error.h"
 #include "core/base/text.h"
 
@@ -33,13 +41,46 @@ struct Failures {
   }
 };
 
+// A process begins slowly: with so many frames that its start is a thirtieth of its time.
+constexpr double kStartShare = 1.0 / 30.0;
+constexpr std::chrono::milliseconds kShortestWait(50), kLongestWait(1000);
+
+/// How long the processes of a step need to begin, and for each frame.
+struct Pace {
+  double start_seconds = 0.0, frame_seconds = 0.0;
+
+  /// Frames that one process should make at least.
+  double worthwhile() const { return frame_seconds > 0.0 ? start_seconds / (kStartShare * frame_seconds) : 1.0; }
+};
+
+/// One step: what is still to be made or waited for.
+struct Task {
+  Task(const Step& which, std::vector<std::uint64_t> missing, ProgressStyle style)
+      : step(which), open(std::move(missing)), progress(style, false, open.size()) {}
+  const Step& step;
+  std::vector<std::uint64_t> open;  ///< frames that have neither failed nor a good record, as far as is known
+  RunProgress progress;
+  Pace pace;
+};
+
 class Worker {
  public:
   Worker(const Bundle& bundle, const Workplace& place, const Share& share, ProgressStyle progress)
-      : bundle_(bundle), place_(place), share_(share), style_(progress), records_(place.folder, bundle) {}
+      : bundle_(bundle),
+        place_(place),
+        share_(share),
+        style_(progress),
+        records_(place.folder, bundle),
+        claims_(place.folder, share.lease_seconds) {}
 
   void run() {
-    for (const std::string& name : share_.steps) run_step(*bundle_.step(name));
+    for (const std::string& name : share_.steps) {
+      const Step& step = *bundle_.step(name);
+      tasks_.emplace_back(step, missing_of(step), style_);
+      make(tasks_.back());
+    }
+    wait_for_others();
+    for (Task& task : tasks_) task.progress.end();
     if (!failures_.frames.empty())
       throw RunError(
           static_cast<ExitCode>(failures_.code),
@@ -48,9 +89,85 @@ class Worker {
   }
 
  private:
-  bool is_done(const std::string& step, std::uint64_t frame) const {
-    const std::optional<FrameRecord> record = records_.read(step, frame);
+  /// What a frame needs before it can be made.
+  enum class Way { free, waits, settled };
+
+  std::vector<std::uint64_t> missing_of(const Step& step) const {
+    std::vector<std::uint64_t> missing;
+    for (const std::uint64_t frame : share_.frames) {
+      const bool hopeless = failures_.frames.contains(frame);  // a step before failed just now
+      if (!hopeless && (share_.force || !is_good(records_.read(step.name, frame)))) missing.push_back(frame);
+    }
+    return missing;
+  }
+
+  bool is_good(const std::optional<FrameRecord>& record) const {
     return record && record->done() && records_.fault(*record).empty();
+  }
+
+  /// Whether its record says what became of the frame while this worker was there.
+  bool is_recent(const Step& step, std::uint64_t frame) const {
+    const std::optional<FileTime> when = records_.written(step.name, frame);
+    return when && *when > claims_.begin();
+  }
+
+  /// Makes what nobody else makes, until all of the step is made or claimed.
+  void make(Task& task) {
+    while (true) {
+      const std::vector<std::uint64_t> batch = next_batch(task);
+      if (batch.empty()) return;
+      begin_ = std::chrono::steady_clock::now();
+      first_ = true;
+      make_frames(bundle_, task.step, place_, batch, listener(task));
+    }
+  }
+
+  /// A share of engines is one worker's alone. Of the whole run each worker takes half of what would be fair, so that
+  /// all come to the end together (guided self-scheduling: Polychronopoulos & Kuck, IEEE Trans. Comput. 1987).
+  std::size_t batch_size(const Task& task) {
+    const auto open = static_cast<double>(task.open.size());
+    if (share_.alone || open == 0.0) return task.open.size();
+    const double fair = open / static_cast<double>(claims_.others() + 1);
+    return static_cast<std::size_t>(std::ceil(std::min(fair, std::max(fair / 2.0, task.pace.worthwhile()))));
+  }
+
+  /// Frames that are this worker's from now on.
+  std::vector<std::uint64_t> next_batch(Task& task) {
+    const std::size_t size = batch_size(task);
+    std::vector<std::uint64_t> batch;
+    std::erase_if(task.open, [&](std::uint64_t frame) {
+      if (batch.size() == size) return false;
+      const Way way = way_to(task, frame);
+      if (way == Way::free) batch.push_back(frame);
+      return way != Way::waits;
+    });
+    return batch;
+  }
+
+  Way way_to(Task& task, std::uint64_t frame) {
+    if (failures_.frames.contains(frame) || is_settled(task, frame)) return Way::settled;
+    std::string why;
+    const int code = obstacle(task.step, frame, why);
+    if (code != 0) {
+      if (is_before_open(task.step, frame)) return Way::waits;
+      fail(task, frame, code, why);
+      return Way::settled;
+    }
+    if (!claims_.take(task.step.name, frame)) return Way::waits;
+    // Another may have made it between the looks above.
+    if (!is_settled(task, frame)) return Way::free;
+    claims_.give_back(task.step.name, frame);
+    return Way::settled;
+  }
+
+  /// Whether another has made the frame, or failed in it, since this worker began.
+  bool is_settled(Task& task, std::uint64_t frame) {
+    const std::optional<FrameRecord> record = records_.read(task.step.name, frame);
+    if (!record) return false;
+    if (record->done()) return (!share_.force || is_recent(task.step, frame)) && is_good(record);
+    if (!is_recent(task.step, frame)) return false;
+    fail(task, frame, record->exit_code, record->error);
+    return true;
   }
 
   /// Why the frame cannot be made: the step before has not made it. 0: it can.
@@ -68,41 +185,60 @@ class Worker {
     return kExitInput;
   }
 
-  void run_step(const Step& step) {
-    std::vector<std::uint64_t> missing;
-    for (const std::uint64_t frame : share_.frames) {
-      const bool hopeless = failures_.frames.contains(frame);  // a step before failed just now
-      if (!hopeless && (share_.force || !is_done(step.name, frame))) missing.push_back(frame);
-    }
-    RunProgress progress(style_, false, missing.size());
-    std::erase_if(missing, [&](std::uint64_t frame) {
-      std::string why;
-      const int code = obstacle(step, frame, why);
-      if (code == 0) return false;
-      failures_.add(frame, code, why);
-      progress.failed(frame, code, why);
-      return true;
-    });
-    if (!missing.empty()) make_frames(bundle_, step, place_, missing, listener(step, progress));
-    progress.end();
+  /// Whether the step before is being made: here, later, or by another.
+  bool is_before_open(const Step& step, std::uint64_t frame) {
+    const Step& before = *(&step - 1);
+    for (const Task& task : tasks_)
+      if (&task.step == &before && std::ranges::find(task.open, frame) != task.open.end()) return true;
+    return claims_.is_taken(before.name, frame);
   }
 
-  FrameListener listener(const Step& step, RunProgress& progress) {
+  void fail(Task& task, std::uint64_t frame, int code, const std::string& why) {
+    failures_.add(frame, code, why);
+    task.progress.failed(frame, code, why);
+  }
+
+  /// Frames that others had claimed: made by them meanwhile, or given up.
+  void wait_for_others() {
+    auto wait = kShortestWait;
+    while (std::ranges::any_of(tasks_, [](const Task& task) { return !task.open.empty(); })) {
+      std::this_thread::sleep_for(wait);
+      wait = std::min(2 * wait, kLongestWait);
+      for (Task& task : tasks_) make(task);
+    }
+  }
+
+  FrameListener listener(Task& task) {
+    const std::string& step = task.step.name;
     FrameListener listener;
     listener.done = [&](std::uint64_t frame, const std::vector<std::string>& files, double seconds) {
-      records_.write(step.name, records_.measured(frame, files, seconds));
-      progress.done(frame, files, 1000.0 * seconds);
+      FrameRecord record = records_.measured(frame, files, seconds);
+      record.first_try = std::exchange(first_try_, {});
+      records_.write(step, record);
+      claims_.give_back(step, frame);
+      measure(task.pace, seconds);
+      task.progress.done(frame, files, 1000.0 * seconds);
     };
     listener.failed = [&](std::uint64_t frame, int code, const std::string& error) {
       FrameRecord record;
       record.frame = frame;
       record.exit_code = code;
       record.error = error;
-      records_.write(step.name, record);
-      failures_.add(frame, code, error);
-      progress.failed(frame, code, error);
+      record.first_try = std::exchange(first_try_, {});
+      records_.write(step, record);
+      claims_.give_back(step, frame);
+      fail(task, frame, code, error);
     };
+    listener.tried_again = [&](std::uint64_t, const std::string& error) { first_try_ = error; };
     return listener;
+  }
+
+  void measure(Pace& pace, double seconds) {
+    if (std::exchange(first_, false)) {
+      const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin_;
+      pace.start_seconds = std::max(0.0, elapsed.count() - seconds);
+    }
+    pace.frame_seconds = seconds;
   }
 
   const Bundle& bundle_;
@@ -110,7 +246,12 @@ class Worker {
   const Share& share_;
   ProgressStyle style_;
   FrameRecords records_;
+  Claims claims_;
   Failures failures_;
+  std::list<Task> tasks_;
+  std::string first_try_;  ///< of the frame at work
+  std::chrono::steady_clock::time_point begin_;
+  bool first_ = true;  ///< no frame of this batch is made yet
 };
 
 }  // namespace
@@ -118,9 +259,8 @@ class Worker {
 void check_inputs(const Bundle& bundle, const std::filesystem::path& folder, bool thorough) {
   for (const Input& input : bundle.inputs) {
     const std::string path = (folder / input.path).string();
-    std::error_code error;
-    const std::uintmax_t bytes = std::filesystem::file_size(path, error);
-    if (error) throw InputError(path, 0, fmt::format("is missing ({}); make the bundle again", error.message()));
+    if (inner_entry(folder, input.path) != Entry::file) throw InputError(path, 0, "is missing; make the bundle again");
+    const std::uintmax_t bytes = std::filesystem::file_size(path);
     const bool same =
         bytes == input.bytes && ((!thorough && bytes > kQuickToCheck) || sha256_of_file(path) == input.sha256);
     if (!same) throw InputError(path, 0, "is not what was bundled (size or SHA-256); make the bundle again");
@@ -133,6 +273,7 @@ void work(const Bundle& bundle, const Workplace& place, const Share& share, Prog
     throw InputError((place.folder / "bundle.json").string(), 0,
                      fmt::format("was made by meniscus {}, and this is {}; use one build on all machines",
                                  in_quotes(bundle.program_version), build_version()));
+  check_places(place.folder);
   check_inputs(bundle, place.folder, false);
   Worker(bundle, place, share, progress).run();
 }

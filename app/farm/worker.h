@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/farm/bundle.h"
+#include "app/farm/claims.h"
 #include "app/farm/makers.h"
 #include "app/run_progress.h"
 
@@ -14,18 +15,21 @@ namespace meniscus::farm {
 
 /// Which part of the work is done.
 struct Share {
-  std::vector<std::string> steps;     ///< in order
-  std::vector<std::uint64_t> frames;  ///< in order
-  bool force = false;                 ///< frames that are there are made again
+  std::vector<std::string> steps;        ///< in order
+  std::vector<std::uint64_t> frames;     ///< in order
+  bool force = false;                    ///< frames that are there are made again
+  bool alone = false;                    ///< no other worker is meant to make these: all are claimed at once
+  double lease_seconds = kDefaultLease;  ///< others take over what a worker has that was not heard of for so long
 };
 
 /// Sizes, and of files up to 256 MiB checksums, of the bundle's inputs; of all files if `thorough`. Throws InputError.
 void check_inputs(const Bundle& bundle, const std::filesystem::path& folder, bool thorough);
 
-/// Makes every frame of the share that has no record with good files, step by step, and writes a record of each. A
-/// frame that fails is recorded, too, and the others are made. Throws RunError with the code of the first frame that
-/// failed, whatever the step; InputError for a bundle of
-/// another version of the program; what check_inputs and make_frames throw.
+/// Makes every frame of the share that has no record with good files and that no other worker makes (claims.h), step by
+/// step, and writes a record of each; then waits for what others make, and takes over what they leave. A frame that
+/// fails is recorded, too, and the others are made. Throws RunError with the code of the first frame that failed,
+/// whatever the step and the worker; InputError for a bundle of another version of the program; what check_inputs and
+/// make_frames throw.
 void work(const Bundle& bundle, const Workplace& place, const Share& share, ProgressStyle progress);
 
 }  // namespace meniscus::farm

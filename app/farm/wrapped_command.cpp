@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "app/commands.h"
+#include "app/farm/command_options.h"
 #include "app/program_error.h"
 #include "core/base/text.h"
 
@@ -20,7 +21,6 @@ using Words = std::vector<std::string>;
 const std::set<std::string> kDecidedByBundle{"-o", "--output", "--force", "--only", "--progress", "--save-camera"};
 // How many words the value has.
 const std::map<std::string, std::size_t> kDeviceOptions{{"--device", 1}, {"--threads", 1}, {"--require-gpu", 0}};
-const std::set<std::string> kFileTypes{"FILE", "NUMBERS", "PATH"};
 
 std::string option_name(const std::string& word) { return word.substr(0, word.find('=')); }
 
@@ -65,14 +65,13 @@ void take_out_device(WrappedCommand& result) {
 }
 
 /// The command of this name with all its options.
-CLI::App& add_command(CLI::App& program, const Words& words) {
+void add_command(CLI::App& program, const Words& words) {
   const Command table[] = {{"render", add_render}, {"povray", add_export_povray}, {"blender", add_export_blender}};
   const auto* entry = std::ranges::find_if(table, [&](const Command& c) { return words.back() == c.name; });
   CLI::App* parent = &program;
   if (words.size() == 2) parent = program.add_subcommand(words.front());
   CLI::App& command = *parent->add_subcommand(words.back());
   entry->add(command);
-  return command;
 }
 
 void check_by_own_options(WrappedCommand& result) {
@@ -80,7 +79,7 @@ void check_by_own_options(WrappedCommand& result) {
   program.set_help_flag();
   // Thrown when all options are understood, before the command itself is called.
   program.parse_complete_callback([] { throw CLI::Success(); });
-  const CLI::App& command = add_command(program, result.words);
+  add_command(program, result.words);
   Words all = result.words;
   all.insert(all.end(), result.arguments.begin(), result.arguments.end());
   all.insert(all.end(), result.device.begin(), result.device.end());
@@ -92,19 +91,13 @@ void check_by_own_options(WrappedCommand& result) {
   } catch (const CLI::ParseError& error) {
     throw UsageError(fmt::format("behind --: {}", error.what()));
   }
+}
+
+void find_files(WrappedCommand& result) {
   result.files.push_back({0, "", result.arguments.front()});
-  for (std::size_t n = 1; n < result.arguments.size(); ++n) {
-    const std::string& word = result.arguments[n];
-    const CLI::Option* const option = word.starts_with("--") ? command.get_option_no_throw(option_name(word)) : nullptr;
-    if (!option || !kFileTypes.contains(option->get_type_name())) continue;
-    const std::size_t equals = word.find('=');
-    if (equals != std::string::npos) {
-      result.files.push_back({n, word.substr(0, equals + 1), word.substr(equals + 1)});
-    } else {
-      ++n;
-      result.files.push_back({n, "", result.arguments.at(n)});
-    }
-  }
+  for (const CommandOption& option : read_command_options({result.arguments.begin() + 1, result.arguments.end()}))
+    if (option.reads_file)
+      result.files.push_back({option.place + 1, option.joined ? option.name + "=" : "", option.value.value()});
 }
 
 void parse_shared_options(WrappedCommand& result) {
@@ -129,6 +122,7 @@ void parse_wrapped_command(const Words& words, WrappedCommand& result) {
       throw UsageError(fmt::format("{} behind --: the bundle and its workers decide that; leave it out", word));
   take_out_device(result);
   check_by_own_options(result);
+  find_files(result);
   parse_shared_options(result);
 }
 

@@ -7,9 +7,12 @@
 #include <gtest/gtest.h>
 
 #include "app/farm/bundle.h"
+#include "app/farm/check_scene.h"
 #include "app/farm/checksum.h"
 #include "app/farm/child_process.h"
+#include "app/farm/command_options.h"
 #include "app/farm/emit.h"
+#include "app/farm/inner_path.h"
 #include "app/farm/quote.h"
 #include "app/farm/timeless_png.h"
 #include "app/program_error.h"
@@ -78,6 +81,64 @@ TEST(Chunks, AreAsLongAsWishedAndNeverTooMany) {
   by_frames.asked_frames = 7;
   by_frames.decide(15);
   EXPECT_EQ(by_frames.count, 3u);
+}
+
+TEST(Tasks, AreGivenMemoryByWhatWasMeasured) {
+  Chunking chunking;
+  EXPECT_FALSE(chunking.memory());
+  chunking.peak_memory = 100;  // 150, and 256 for the worker
+  EXPECT_EQ(chunking.memory(), 512u);
+  chunking.peak_memory = 1024;
+  EXPECT_EQ(chunking.memory(), 1792u);
+  chunking.asked_memory = 77;
+  EXPECT_EQ(chunking.memory(), 77u);
+}
+
+TEST(CommandOptions, AreSaidAgainInOneWay) {
+  const auto again = [](const std::vector<std::string>& words) { return as_words(read_command_options(words)); };
+  using Words = std::vector<std::string>;
+  EXPECT_EQ(again({"--select", "--force", "--light", "1", "2", "3", "--whole", "-q", "--probe=-1"}),
+            (Words{"--select=--force", "--light=1,2,3", "--whole", "-q", "--probe=-1"}));
+  EXPECT_EQ(again({"--whole", "guess", "--radius", "name CA=2", "--light", "1,2,3"}),
+            (Words{"--whole=guess", "--radius=name CA=2", "--light=1,2,3"}));
+  EXPECT_TRUE(read_command_options({"--camera", "a"}).front().reads_file);
+  for (const Words& bad : {Words{"--save-camera", "x"}, Words{"--output=x"}, Words{"word"}, Words{"--"}, Words{""},
+                           Words{"--select"}, Words{"--select="}, Words{"-q=1"}, Words{"--sel", "all"}})
+    EXPECT_THROW(read_command_options(bad), RequestError) << bad.front();
+  EXPECT_THROW(check_povray_options({"+Q" + std::string(10'000'000, '1')}), RequestError);
+  EXPECT_NO_THROW(check_povray_options({"+A0.1", "-A", "+AM2", "+Q9", "surface.ini[ghost]", "Declare=Meniscus_A=1"}));
+}
+
+TEST(InnerPaths, StayBelowTheFolder) {
+  for (const char* fine : {"a", "inputs/a.pdb", "a/b-c/d_e.F9"}) EXPECT_TRUE(is_inner_path(fine)) << fine;
+  for (const char* bad : {"", "/a", "a/", "a//b", "../a", "a/..", ".", ".a", "a/.b", "-a", "a b", "a\nb", "a\\b", "é"})
+    EXPECT_FALSE(is_inner_path(bad)) << bad;
+  const TemporaryFolder folder;
+  folder.file("file", "text");
+  std::filesystem::create_symlink("/etc", folder.path() / "link");
+  EXPECT_EQ(inner_entry(folder.path(), "file"), Entry::file);
+  EXPECT_EQ(inner_entry(folder.path(), "none/file"), Entry::nothing);
+  EXPECT_EQ(inner_text(folder.path(), "file", 4), "text");
+  EXPECT_THROW(inner_text(folder.path(), "file", 3), InputError);
+  EXPECT_THROW(inner_entry(folder.path(), "link"), InputError);
+  EXPECT_THROW(inner_entry(folder.path(), "link/passwd"), InputError);
+}
+
+TEST(Scenes, AreReadAsPovrayReadsThem) {
+  for (const char* fine :
+       {"", "#declare Meniscus_A = 1e-5; // a \"b\" #fopen\n", "#include \"surface_style.inc\"",
+        "#error concat(\"no frame \", str(1, 0, 0), \"; so.\\n\")", "sphere{<1.5,-2.,.3>,1e5 inverse}"})
+    EXPECT_EQ(wrong_in_scene(fine), "") << fine;
+  for (const char* bad : {"#fopen F", "# \n\tfopen F", "#//\nfopen F", "#", "/* */", "\"surface", "\"a/b c\"",
+                          "\"strings\"", "\"a \\\" b\"", "\"a \\u002f\"", "chr(47)", "1e5chr(47)", "a\rb", "// a\rb\n",
+                          "@", "Chr", "\"\"", "#macro M()", "// a\v#fopen"})
+    EXPECT_NE(wrong_in_scene(bad), "") << bad;
+  EXPECT_EQ(wrong_in_settings("; words\nWidth=40\n\n[glass]\nDeclare=Meniscus_Material=2\n"), "");
+  EXPECT_EQ(wrong_in_settings("Width=40\nPre_Scene_Command=id\nHeight=30\n"), "Pre_Scene_Command=id");
+  EXPECT_NE(wrong_in_settings("Width=40 +O/x"), "");
+  // Long texts are no way to a crash.
+  EXPECT_NE(wrong_in_scene('"' + std::string(10'000'000, ' ') + '"'), "");
+  EXPECT_NE(wrong_in_settings(';' + std::string(10'000'000, ' ')), "");
 }
 
 TEST(Manifest, ComesBackAsItWas) {

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Compares a bundle with what this program would have made.
+#include "app/farm/check_bundle.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "app/farm/blender_driver.h"
+#include "app/farm/command_options.h"
+#include "app/farm/inner_path.h"
+#include "core/base/error.h"
+#include "core/base/text.h"
+
+namespace meniscus::farm {
+namespace {
+
+using Words = std::vector<std::string>;
+
+constexpr int kLargestSide = 65535;
+constexpr std::uint64_t kMostTasks = 1000, kMostCores = 4096, kMostMemory = std::uint64_t{1} << 30;  // MiB
+
+Words command_words(const Words& command) {
+  const std::size_t count = command_word_count(command);
+  if (command.size() <= count) throw RequestError("has no command");
+  return {command.begin(), command.begin() + static_cast<std::ptrdiff_t>(count)};
+}
+
+void check_inputs(const Bundle& bundle) {
+  std::set<std::string> paths;
+  for (const Input& input : bundle.inputs) {
+    if (!input.path.starts_with("inputs/") || !is_inner_path(input.path))
+      throw RequestError(fmt::format("input {} is no plain path below inputs/", in_quotes(input.path)));
+    if (!paths.insert(input.path).second) throw RequestError(fmt::format("input {} comes twice", input.path));
+  }
+}
+
+void check_steps(const Bundle& bundle) {
+  const Words words = command_words(bundle.command);
+  const bool render = words == Words{"render"};
+  const bool povray = words == Words{"export", "povray"};
+  if (!render && !povray && words != Words{"export", "blender"})
+    throw RequestError(fmt::format("{} cannot be bundled; render, export povray and export blender can",
+                                   in_quotes(fmt::format("{}", fmt::join(words, " ")))));
+  const auto is = [&](std::size_t n, const char* name, Maker maker) {
+    return bundle.steps[n].name == name && bundle.steps[n].maker == maker;
+  };
+  const bool fits = render ? bundle.steps.size() == 1 && is(0, "render", Maker::meniscus)
+                           : bundle.steps.size() == 2 && is(0, "surface", Maker::meniscus) &&
+                                 is(1, "render", povray ? Maker::povray : Maker::blender);
+  if (!fits) throw RequestError("its steps are not those of its command");
+  for (const Step& step : bundle.steps) {
+    if (step.maker == Maker::meniscus) read_device_options(step.arguments);
+    if (step.maker == Maker::povray) check_povray_options(step.arguments);
+    if (step.maker == Maker::blender) check_blender_options(step.arguments);
+  }
+}
+
+void check_numbers(const Bundle& bundle) {
+  const auto side = [](int pixels) { return pixels >= 1 && pixels <= kLargestSide; };
+  if (!side(bundle.width) || !side(bundle.height)) throw RequestError("its picture size makes no sense");
+  if (bundle.frames.empty()) throw RequestError("has no frames");
+  const std::uint64_t count = bundle.chunking.count;
+  if (count < 1 || count > std::min<std::uint64_t>(kMostTasks, bundle.frames.size()))
+    throw RequestError("its number of tasks makes no sense");
+  const std::uint64_t memory =
+      std::max(bundle.chunking.asked_memory.value_or(1), bundle.chunking.peak_memory.value_or(1));
+  if (bundle.chunking.cores < 1 || bundle.chunking.cores > kMostCores || memory < 1 || memory > kMostMemory)
+    throw RequestError("cores or memory of its tasks make no sense");
+  if (!bundle.film) return;
+  const double rate = bundle.film->frames_per_second;
+  if (!(rate >= 0.1 && rate <= 1000.0)) throw RequestError("its film's frames a second make no sense");
+  const std::string& name = bundle.film->file;
+  if (name.find('/') != std::string::npos || !name.ends_with(".mp4") || name.starts_with('.') || name.starts_with('-'))
+    throw RequestError(fmt::format("film {} is no plain name that ends in .mp4", in_quotes(name)));
+}
+
+}  // namespace
+
+std::size_t command_word_count(const Words& command) { return !command.empty() && command.front() == "export" ? 2 : 1; }
+
+Words checked_command(const Bundle& bundle) {
+  Words result = command_words(bundle.command);
+  const auto file = bundle.command.begin() + static_cast<std::ptrdiff_t>(result.size());
+  const auto check_file = [&](const std::string& path) {
+    if (std::ranges::find(bundle.inputs, path, &Input::path) == bundle.inputs.end())
+      throw RequestError(fmt::format("{} is no input of the bundle", in_quotes(path)));
+  };
+  check_file(*file);
+  result.push_back(*file);
+  const std::vector<CommandOption> options = read_command_options({file + 1, bundle.command.end()});
+  for (const CommandOption& option : options)
+    if (option.reads_file) check_file(*option.value);
+  const Words words = as_words(options);
+  result.insert(result.end(), words.begin(), words.end());
+  return result;
+}
+
+void check_bundle(const Bundle& bundle) {
+  check_inputs(bundle);
+  check_steps(bundle);
+  check_driver(bundle);
+  check_numbers(bundle);
+  checked_command(bundle);
+}
+
+}  // namespace meniscus::farm

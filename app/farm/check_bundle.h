@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Whether what a bundle asks for stays in its folder: it may come from anywhere.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/farm/bundle.h"
+
+namespace meniscus::farm {
+
+/// Throws RequestError unless: the command is a framed one whose options are all known to be harmless, and whose files
+/// are inputs of the bundle; inputs, steps, film and numbers are such as this program makes.
+void check_bundle(const Bundle& bundle);
+
+/// The command as it is run, by words that cannot be understood in two ways: {"render", "inputs/a.pdb",
+/// "--probe=1.2", ...}. Throws RequestError as check_bundle does.
+std::vector<std::string> checked_command(const Bundle& bundle);
+
+/// Of {"render", "FILE", ...} 1, of {"export", "povray", "FILE", ...} 2: words before FILE.
+std::size_t command_word_count(const std::vector<std::string>& command);
+
+}  // namespace meniscus::farm

@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Reads scenes word by word, against lists of the words that this program writes.
+#include "app/farm/check_scene.h"
+
+#include <algorithm>
+#include <regex>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "app/farm/bundle.h"
+#include "app/farm/inner_path.h"
+#include "core/base/error.h"
+#include "core/base/text.h"
+
+namespace meniscus::farm {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMostBytes = std::size_t{1} << 32;  // of a file of a scene
+
+constexpr std::size_t kLongestText = 200;  // of a string, and of a setting: the matcher recurses by the letter
+
+// Sorted, as those below.
+constexpr std::string_view kDirectives[] = {"break", "case",  "declare", "else",    "end",    "error",  "for",
+                                            "if",    "ifdef", "ifndef",  "include", "switch", "version"};
+
+// The part of the language that scenes of this program use. No function of strings but concat and str, none of files
+// but file_exists.
+constexpr std::string_view kWords[] = {"adc_bailout",
+                                       "ambient",
+                                       "array",
+                                       "assumed_gamma",
+                                       "average",
+                                       "background",
+                                       "box",
+                                       "brilliance",
+                                       "camera",
+                                       "clipped_by",
+                                       "color",
+                                       "color_map",
+                                       "concat",
+                                       "diffuse",
+                                       "dimension_size",
+                                       "direction",
+                                       "emission",
+                                       "file_exists",
+                                       "filter",
+                                       "finish",
+                                       "floor",
+                                       "frame_number",
+                                       "global_settings",
+                                       "gradient",
+                                       "image_height",
+                                       "image_width",
+                                       "int",
+                                       "interior",
+                                       "interior_texture",
+                                       "intersection",
+                                       "inverse",
+                                       "ior",
+                                       "light_source",
+                                       "location",
+                                       "matrix",
+                                       "max_trace_level",
+                                       "mm_per_unit",
+                                       "mod",
+                                       "object",
+                                       "orthographic",
+                                       "parallel",
+                                       "perspective",
+                                       "pigment",
+                                       "pigment_map",
+                                       "plane",
+                                       "point_at",
+                                       "rgb",
+                                       "rgbt",
+                                       "right",
+                                       "roughness",
+                                       "samples",
+                                       "scale",
+                                       "shadowless",
+                                       "slope",
+                                       "specular",
+                                       "sphere",
+                                       "srgb",
+                                       "str",
+                                       "subsurface",
+                                       "texture",
+                                       "torus",
+                                       "translate",
+                                       "translucency",
+                                       "transmit",
+                                       "union",
+                                       "up",
+                                       "x",
+                                       "y",
+                                       "z"};
+
+bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\n'; }
+
+template <typename List>
+bool has(const List& list, std::string_view word) {
+  return std::ranges::binary_search(list, word);
+}
+
+// Names of our own begin like this; the language has no word that does.
+bool is_own_name(std::string_view word) {
+  return word.starts_with("Meniscus_") || word.starts_with("object_") || word == "Kind" || word == "I" ||
+         word == "Tinted";
+}
+
+/// Names of files in the folder, parts of them, or sentences of error messages: none can be joined to a path out of the
+/// folder, or to a file of POV-Ray's library, which has no blanks and nothing that begins with "surface".
+bool is_harmless_string(std::string_view text) {
+  static const std::regex harmless(R"(surface[A-Za-z0-9_]*(\.inc)?|\.inc|([^/\\]|\\n)* ([^/\\]|\\n)*)");
+  return text.size() < kLongestText && std::regex_match(text.begin(), text.end(), harmless);
+}
+
+/// Goes through a text; each step takes something off its front.
+class SceneReader {
+ public:
+  explicit SceneReader(std::string_view text) : rest_(text) {}
+
+  std::string_view wrong() {
+    while (!rest_.empty()) {
+      const std::string_view word = next();
+      if (!word.empty()) return word;
+    }
+    return {};
+  }
+
+ private:
+  std::string_view take(std::size_t count) {
+    const std::string_view taken = rest_.substr(0, count);
+    rest_.remove_prefix(taken.size());
+    return taken;
+  }
+  template <typename Condition>
+  std::string_view take_while(const Condition& condition) {
+    return take(static_cast<std::size_t>(std::ranges::find_if_not(rest_, condition) - rest_.begin()));
+  }
+
+  /// Takes one piece; gives it back if it is wrong.
+  std::string_view next() {
+    const char c = rest_.front();
+    if (is_blank(c)) return take_while(is_blank), std::string_view{};
+    if (rest_.starts_with("//")) return comment();
+    if (rest_.starts_with("/*") || rest_.starts_with("*/")) return take(2);
+    if (c == '#') return directive();
+    if (c == '"') return string();
+    if (is_digit(c)) return number();
+    if (is_letter(c)) {
+      const std::string_view word = identifier();
+      return is_own_name(word) || has(kWords, word) ? std::string_view{} : word;
+    }
+    constexpr std::string_view kSigns = "{}()<>[],;.=+-*/!&|?:";
+    return kSigns.find(c) == std::string_view::npos ? take(1) : (take(1), std::string_view{});
+  }
+  std::string_view identifier() {
+    return take_while([](char c) { return is_letter(c) || is_digit(c); });
+  }
+  // 12, 1.5, 2e-7: an exponent is not the beginning of a word.
+  std::string_view number() {
+    take_while([](char c) { return is_digit(c) || c == '.'; });
+    if (!rest_.empty() && rest_.front() == 'e') {
+      take(1);
+      if (!rest_.empty() && (rest_.front() == '-' || rest_.front() == '+')) take(1);
+      take_while(is_digit);
+    }
+    return {};
+  }
+  // Anything but control characters, which might end it for others.
+  std::string_view comment() {
+    const std::string_view text = take_while([](char c) { return c != '\n'; });
+    const auto control = std::ranges::find_if(text, [](unsigned char c) { return c < 0x20 || c == 0x7f; });
+    return control == text.end() ? std::string_view{} : text;
+  }
+  std::string_view directive() {
+    const std::string_view begin = rest_;
+    take(1);
+    take_while(is_blank);
+    const std::string_view word = identifier();
+    return has(kDirectives, word) ? std::string_view{} : begin.substr(0, 1 + std::max<std::size_t>(word.size(), 20));
+  }
+  std::string_view string() {
+    const std::string_view begin = rest_;
+    take(1);
+    const std::string_view text = take_while([](unsigned char c) { return c != '"' && c >= 0x20 && c < 0x7f; });
+    const bool ends = take(1) == "\"";
+    return ends && is_harmless_string(text) ? std::string_view{} : begin.substr(0, text.size() + 2);
+  }
+
+  std::string_view rest_;
+};
+
+bool is_scene_file(const std::string& name) {
+  static const std::regex known(R"(surface[A-Za-z0-9_]*\.(ini|pov|inc|json))");
+  // Begun by a worker that was killed; nothing names it.
+  const bool unfinished = name.starts_with('.') && name.find(".part") != std::string::npos;
+  return unfinished || std::regex_match(name, known);
+}
+
+/// For an error message: what is no ASCII might not be text at all.
+std::string beginning(std::string_view word) {
+  constexpr std::size_t kShown = 60;
+  std::string text(word.substr(0, kShown));
+  std::ranges::replace_if(
+      text, [](unsigned char c) { return c < 0x20 || c > 0x7e; }, '?');
+  return text;
+}
+
+void check_text(const fs::path& folder, const fs::path& inner, std::string_view (*wrong)(std::string_view)) {
+  const std::optional<std::string> text = inner_text(folder, inner, kMostBytes);
+  const std::string path = (folder / inner).string();
+  if (!text) throw InputError(path, 0, "is missing; do the step surface first");
+  const std::string_view word = wrong(*text);
+  if (!word.empty())
+    throw InputError(path, 0,
+                     fmt::format("has {}, which this program does not write; remove scene/ and state/ and do "
+                                 "the step surface again",
+                                 in_quotes(beginning(word))));
+}
+
+}  // namespace
+
+std::string_view wrong_in_scene(std::string_view text) { return SceneReader(text).wrong(); }
+
+std::string_view wrong_in_settings(std::string_view text) {
+  static const std::regex harmless(
+      R"(;.*|\[[a-z]+\]|)"
+      R"((Width|Height|Initial_Frame|Final_Frame|Antialias_Depth|Sampling_Method|Bits_Per_Color)=[0-9]+|)"
+      R"((Antialias_Threshold|File_Gamma)=[0-9.]+|(Antialias|Display|Output_Alpha)=(On|Off)|Output_File_Type=N|)"
+      R"(Declare=Meniscus_[A-Za-z_]+=[0-9]+|Input_File_Name=surface\.pov|Output_File_Name=surface[a-z_]*\.png)");
+  while (!text.empty()) {
+    const std::string_view line = text.substr(0, text.find('\n'));
+    text.remove_prefix(std::min(text.size(), line.size() + 1));
+    const bool fits = line.size() < kLongestText && std::regex_match(line.begin(), line.end(), harmless);
+    if (!line.empty() && !fits) return line;
+  }
+  return {};
+}
+
+void check_scene(const fs::path& folder) {
+  if (inner_entry(folder, "scene") != Entry::folder)
+    throw InputError((folder / "scene").string(), 0, "is missing; do the step surface first");
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder / "scene")) {
+    const fs::path inner = fs::path("scene") / entry.path().filename();
+    if (inner_entry(folder, inner) != Entry::file || !is_scene_file(entry.path().filename().string()))
+      throw InputError(entry.path().string(), 0, "is nothing that this program writes; take it away");
+  }
+  check_text(folder, "scene/surface.ini", wrong_in_settings);
+  for (const char* shared : {"scene/surface.pov", "scene/surface_style.inc", "scene/surface_aov.inc"})
+    check_text(folder, shared, wrong_in_scene);
+}
+
+void check_scene_frame(const fs::path& folder, std::uint64_t frame) {
+  check_text(folder, fmt::format("scene/surface_geometry_{}.inc", frame_digits(frame)), wrong_in_scene);
+}
+
+}  // namespace meniscus::farm

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Whether the POV-Ray scene of a bundle is such as this program writes: scenes are programs, which could read and write
+// files anywhere.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string_view>
+
+namespace meniscus::farm {
+
+/// What POV-Ray would find in scene/ and its shared files. Throws InputError: an entry that is no file of a scene, a
+/// link, a setting or a word that this program does not write.
+void check_scene(const std::filesystem::path& folder);
+
+/// The geometry of one frame. Throws InputError likewise.
+void check_scene_frame(const std::filesystem::path& folder, std::uint64_t frame);
+
+/// The words that are wrong in a text of POV-Ray's scene language, of which this program writes a small part: no
+/// directive that opens a file but #include, no string from which a path out of the folder can be made, no function
+/// that makes other strings. Empty: nothing is wrong.
+std::string_view wrong_in_scene(std::string_view text);
+
+/// The same for an .ini: the line that is wrong.
+std::string_view wrong_in_settings(std::string_view text);
+
+}  // namespace meniscus::farm

@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Claims and signs of life as files.
+#include "app/farm/claims.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <fstream>
+#include <random>
+#include <sstream>
+#include <vector>
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "app/farm/bundle.h"
+#include "app/farm/inner_path.h"
+#include "core/base/error.h"
+
+namespace meniscus::farm {
+namespace {
+
+using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMostBytes = 4096;  // of a claim, and of a sign of life
+constexpr int kMostGenerations = 1000;    // so many workers died of one frame
+
+Claims* current = nullptr;
+std::mutex current_mutex;
+
+/// The letters that names in a bundle have.
+std::string plain(std::string text) {
+  std::erase_if(text, [](unsigned char c) { return !std::isalnum(c) && c != '-'; });
+  return text.empty() || text.front() == '-' ? "host" + text : text.substr(0, 60);
+}
+
+std::string host_name() {
+  char name[256] = {};
+  ::gethostname(name, sizeof name - 1);
+  return plain(name);
+}
+
+std::string first_line(const fs::path& path) {
+  std::ifstream file(path);
+  std::string line;
+  std::getline(file, line);
+  return line;
+}
+
+/// Processes are numbered within one boot of one machine, and there within one space of numbers.
+std::string process_space() {
+  std::error_code error;
+  return first_line("/proc/sys/kernel/random/boot_id") + " " + fs::read_symlink("/proc/self/ns/pid", error).string();
+}
+
+/// When a process began, in the kernel's ticks; empty: it is gone. Numbers of processes are used again, times are not.
+std::string process_start(long pid) {
+  const std::string line = first_line(fmt::format("/proc/{}/stat", pid));
+  const std::size_t name_end = line.rfind(')');  // the name may hold anything
+  if (name_end == std::string::npos) return {};
+  std::istringstream fields(line.substr(name_end + 1));
+  std::string field, state;
+  fields >> state;
+  constexpr int kStart = 22, kState = 3;  // proc(5)
+  for (int n = kState; n < kStart; ++n) fields >> field;
+  return state == "Z" || state == "X" ? std::string() : field;
+}
+
+double seconds_between(FileTime earlier, FileTime later) { return 1e-9 * static_cast<double>(later - earlier); }
+
+}  // namespace
+
+Claims::Claims(fs::path folder, double lease) : folder_(std::move(folder)), lease_(lease) {
+  std::random_device random;
+  name_ = fmt::format("{}-{}-{:08x}", host_name(), ::getpid(), random());
+  life_ = folder_ / "state" / "workers" / (name_ + ".json");
+  std::error_code ignored;  // if it cannot be made, touching says so
+  fs::create_directories(life_.parent_path(), ignored);
+  begin_ = touch();
+  heart_ = std::thread([this] { keep_alive(); });
+  const std::lock_guard lock(current_mutex);
+  current = this;
+}
+
+Claims::~Claims() {
+  {
+    const std::lock_guard lock(current_mutex);
+    current = nullptr;
+  }
+  give_all_back();
+  heart_.join();
+}
+
+std::string Claims::own_life() const {
+  return Json{{"host", host_name()},
+              {"process", ::getpid()},
+              {"space", process_space()},
+              {"start", process_start(::getpid())},
+              {"lease", lease_}}
+             .dump() +
+         "\n";
+}
+
+/// Now, by the file system: the time it gives this worker's file.
+FileTime Claims::touch() {
+  if (over_) return begin_;
+  const int file = ::open(life_.c_str(), O_WRONLY | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666);
+  const auto fail = [&] {
+    const int error = errno;
+    if (file >= 0) ::close(file);
+    throw OutputError(life_.string(), fmt::format("cannot be written: {}", std::strerror(error)));
+  };
+  if (file < 0) fail();
+  struct stat status {};
+  if (::fstat(file, &status) != 0) fail();
+  if (status.st_size == 0) {
+    const std::string text = own_life();
+    if (::write(file, text.data(), text.size()) != static_cast<ssize_t>(text.size())) fail();
+  }
+  // No time given: the server's, where there is one.
+  if (::futimens(file, nullptr) != 0) fail();
+  ::close(file);
+  return modified(life_).value_or(begin_);
+}
+
+void Claims::keep_alive() {
+  std::unique_lock lock(mutex_);
+  while (!stop_.wait_for(lock, std::chrono::duration<double>(lease_ / 4.0), [&] { return over_.load(); })) {
+    try {
+      touch();
+    } catch (const OutputError&) {
+      // A disk that is full or away for a while: others take over if it lasts.
+    }
+  }
+}
+
+fs::path Claims::claim_path(const std::string& step, std::uint64_t frame, int generation) const {
+  return fs::path("state") / step / fmt::format("frame_{}.claim{}", frame_digits(frame), generation);
+}
+
+/// False: there is one already.
+bool Claims::make_claim(const fs::path& path) const {
+  const fs::path whole = folder_ / path;
+  std::error_code ignored;
+  fs::create_directories(whole.parent_path(), ignored);
+  const int file = ::open(whole.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+  if (file < 0 && errno == EEXIST) return false;
+  const std::string text = name_ + "\n";
+  const bool written = file >= 0 && ::write(file, text.data(), text.size()) == static_cast<ssize_t>(text.size());
+  const int error = errno;
+  if (file >= 0) ::close(file);
+  if (written) return true;
+  if (file >= 0) ::unlink(whole.c_str());
+  throw OutputError(whole.string(), fmt::format("cannot be written: {}", std::strerror(error)));
+}
+
+Claims::Holder Claims::holder(const fs::path& claim) {
+  const std::optional<std::string> text = inner_text(folder_, claim, kMostBytes);
+  if (!text) return {};
+  const std::string worker = text->substr(0, text->find('\n'));
+  if (worker == name_) return {true, true};
+  if (text->ends_with('\n') && is_inner_path(worker)) return {lives(worker), false};
+  // Its writer has only begun, or died when it had.
+  const std::optional<FileTime> when = modified(folder_ / claim);
+  return {when && seconds_between(*when, touch()) < kDefaultLease, false};
+}
+
+bool Claims::lives(const std::string& worker) {
+  const fs::path file = fs::path("state") / "workers" / (worker + ".json");
+  const std::optional<FileTime> when = modified(folder_ / file);
+  const std::optional<std::string> text = inner_text(folder_, file, kMostBytes);
+  if (!when || !text) return false;
+  const Json life = Json::parse(*text, nullptr, false);
+  double lease = kDefaultLease;
+  if (life.is_object()) {
+    const auto given = life.find("lease");
+    if (given != life.end() && given->is_number())
+      lease = std::clamp(given->get<double>(), kShortestLease, kLongestLease);
+    const auto process = life.find("process");
+    const bool is_here =
+        life.value("space", Json()) == process_space() && process != life.end() && process->is_number_integer();
+    if (is_here && life.value("start", Json()) != process_start(process->get<long>())) return false;
+  }
+  return seconds_between(*when, touch()) < lease;
+}
+
+bool Claims::take(const std::string& step, std::uint64_t frame) {
+  for (int generation = 1; generation <= kMostGenerations; ++generation) {
+    const fs::path path = claim_path(step, frame, generation);
+    if (make_claim(path)) {
+      // One that was given back below a later one.
+      if (holder(claim_path(step, frame, generation + 1)).lives) {
+        ::unlink((folder_ / path).c_str());
+        return false;
+      }
+      const std::lock_guard lock(mutex_);
+      held_[{step, frame}] = generation;
+      return true;
+    }
+    const Holder found = holder(path);
+    if (found.lives) return found.is_self;
+  }
+  return false;
+}
+
+void Claims::give_back(const std::string& step, std::uint64_t frame) {
+  int generation = 0;
+  {
+    const std::lock_guard lock(mutex_);
+    const auto found = held_.find({step, frame});
+    if (found == held_.end()) return;
+    generation = found->second;
+    held_.erase(found);
+  }
+  std::error_code ignored;
+  // Another took over meanwhile: what lies below its claim stays until it is done.
+  if (fs::exists(folder_ / claim_path(step, frame, generation + 1), ignored)) return;
+  // From the first: as long as one of the dead is left, nobody begins below this one.
+  for (int n = 1; n <= generation; ++n) ::unlink((folder_ / claim_path(step, frame, n)).c_str());
+}
+
+bool Claims::is_taken(const std::string& step, std::uint64_t frame) {
+  for (int generation = 1; generation <= kMostGenerations; ++generation) {
+    const fs::path path = claim_path(step, frame, generation);
+    if (inner_entry(folder_, path) == Entry::nothing) return false;
+    const Holder found = holder(path);
+    if (found.lives) return !found.is_self;
+  }
+  return false;
+}
+
+std::size_t Claims::others() {
+  std::size_t count = 0;
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::directory_iterator(life_.parent_path(), error)) {
+    const std::string worker = entry.path().stem().string();
+    if (entry.path().extension() == ".json" && worker != name_ && is_inner_path(worker) && lives(worker)) ++count;
+  }
+  return count;
+}
+
+void Claims::give_all_back() {
+  std::vector<std::pair<std::string, std::uint64_t>> frames;
+  {
+    const std::lock_guard lock(mutex_);
+    over_ = true;
+    for (const auto& [frame, generation] : held_) frames.push_back(frame);
+  }
+  stop_.notify_all();
+  for (const auto& [step, frame] : frames) give_back(step, frame);
+  ::unlink(life_.c_str());
+}
+
+void give_back_all_claims() {
+  const std::lock_guard lock(current_mutex);
+  if (current) current->give_all_back();
+}
+
+}  // namespace meniscus::farm
