@@ -11,7 +11,8 @@ const std::vector<Engine>& engines() {
       {"make", emit_make, nullptr, "make -C @DIR@ -j2"},
       {"slurm", emit_slurm, nullptr, "@DIR@/submit.sh"},
       {"openjd", emit_openjd, nullptr, "deadline bundle submit @DIR@, or openjd run @DIR@/template.json"},
-      {"flamenco", emit_flamenco, nullptr, "copy @DIR@/meniscus_film.js to the manager's scripts folder"},
+      {"flamenco", emit_flamenco, nullptr,
+       "once: @DIR@/meniscus_film.js into the manager's scripts folder; then POST @DIR@/flamenco_job.json"},
       {"opencue", emit_opencue, "its commands have no working directory",
        "launch @DIR@/opencue.xml, by pycue's launchSpec"},
   };

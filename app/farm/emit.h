@@ -35,7 +35,7 @@ const std::vector<Engine>& engines();
 std::vector<EngineFile> emit_make(const Emission& emission);      ///< Makefile
 std::vector<EngineFile> emit_slurm(const Emission& emission);     ///< submit.sh and scripts of job arrays
 std::vector<EngineFile> emit_openjd(const Emission& emission);    ///< template.json, of jobtemplate-2023-09
-std::vector<EngineFile> emit_flamenco(const Emission& emission);  ///< a job type of Flamenco 3
+std::vector<EngineFile> emit_flamenco(const Emission& emission);  ///< a job type of Flamenco 3, and a job
 std::vector<EngineFile> emit_opencue(const Emission& emission);   ///< a job specification, cjsl 1.15
 
 /// Whether the frames of this step must be computed on a GPU.

@@ -9,9 +9,11 @@ namespace {
 
 constexpr const char* kTemplate =
     R"make(# The frames of this folder on one machine: make -j2 (-k goes on with other chunks after one that failed).
-# MENISCUS is the program; THREADS, if set, what each task may use.
+# MENISCUS is the program; THREADS what each task may use: of the machine's cores as many as -j leaves to one.@MEMORY@
 MENISCUS ?= meniscus
-WORK = $(MENISCUS) work . --progress plain $(if $(THREADS),--threads $(THREADS))
+JOBS = $(or $(patsubst -j%,%,$(filter -j%,$(MAKEFLAGS))),$(if $(filter -j,$(MAKEFLAGS)),$(shell nproc),1))
+THREADS ?= $(shell threads=$$(($$(nproc) / $(JOBS))); echo $$((threads > 0 ? threads : 1)))
+WORK = $(MENISCUS) work . --progress plain --threads $(THREADS)
 CHUNKS := @CHUNKS@
 
 all: verify
@@ -38,8 +40,13 @@ std::vector<EngineFile> emit_make(const Emission& emission) {
                          before.empty() ? "" : " " + before + "-%", step.name, bundle.chunking.count);
     before = step.name;
   }
-  const std::string text =
-      filled(kTemplate, {{"CHUNKS", chunks}, {"RULES", rules}, {"LAST", before}, {"PHONY", phony}});
+  const std::optional<std::uint64_t> memory = bundle.chunking.memory();
+  const std::string text = filled(
+      kTemplate, {{"CHUNKS", chunks},
+                  {"RULES", rules},
+                  {"LAST", before},
+                  {"PHONY", phony},
+                  {"MEMORY", memory ? fmt::format("\n# Each task needs about {} MiB of memory.", *memory) : ""}});
   return {{"Makefile", text, false}};
 }
 

@@ -33,7 +33,7 @@ constexpr const char* kTemplate = R"xml(<?xml version="1.0"?>
 )xml";
 
 struct Layer {
-  std::string name, type, command, range, gpus;
+  std::string name, type, command, range, resources;
 };
 
 std::string layer_xml(const Layer& layer) {
@@ -41,8 +41,15 @@ std::string layer_xml(const Layer& layer) {
       "      <layer name=\"{}\" type=\"{}\">\n        <cmd>{}</cmd>\n        <range>{}</range>\n"
       "        <chunk>1</chunk>\n{}        <env/>\n        <services>\n          <service>shell</service>\n"
       "        </services>\n      </layer>\n",
-      xml_text(layer.name), layer.type, xml_text(layer.command), layer.range,
-      layer.gpus.empty() ? "" : "        <gpus>" + layer.gpus + "</gpus>\n");
+      xml_text(layer.name), layer.type, xml_text(layer.command), layer.range, layer.resources);
+}
+
+// In the order of the DTD; without them Cuebot gives a frame one core and its own idea of memory.
+std::string resources_xml(const Step& step, const Chunking& chunking) {
+  std::string text = fmt::format("        <cores>{}</cores>\n        <threadable>True</threadable>\n", chunking.cores);
+  if (chunking.memory()) text += fmt::format("        <memory>{}m</memory>\n", *chunking.memory());
+  if (needs_gpu(step)) text += "        <gpus>1</gpus>\n";
+  return text;
 }
 
 std::string depend_xml(const char* type, const std::string& layer, const std::string& on) {
@@ -63,10 +70,10 @@ std::vector<EngineFile> emit_opencue(const Emission& emission) {
   const std::string path = shell_word(emission.farm_path), count = std::to_string(bundle.chunking.count);
   std::string layers, depends, before;
   for (const Step& step : bundle.steps) {
-    layers += layer_xml(
-        {step.name, "Render",
-         fmt::format("meniscus work {} --step {} --chunk #IFRAME#/{} --progress plain", path, step.name, count),
-         "1-" + count, needs_gpu(step) ? "1" : ""});
+    layers += layer_xml({step.name, "Render",
+                         fmt::format("meniscus work {} --step {} --chunk #IFRAME#/{} --threads {} --progress plain",
+                                     path, step.name, count, bundle.chunking.cores),
+                         "1-" + count, resources_xml(step, bundle.chunking)});
     if (!before.empty()) depends += depend_xml("FRAME_BY_FRAME", step.name, before);
     before = step.name;
   }

@@ -32,17 +32,25 @@ Json parameters() {
                        {"description", "The program, or its path on the workers"}}});
 }
 
+// Memory is in MiB.
+Json amounts(const Step& step, const Chunking& chunking) {
+  Json json = Json::array({{{"name", "amount.worker.vcpu"}, {"min", chunking.cores}}});
+  if (chunking.memory()) json.push_back({{"name", "amount.worker.memory"}, {"min", *chunking.memory()}});
+  if (needs_gpu(step)) json.push_back({{"name", "amount.worker.gpu"}, {"min", 1}});
+  return json;
+}
+
 // A chunk is a plain INT: the extension for chunks of tasks is not known everywhere.
-Json step_json(const Step& step, const std::string& count, const std::string& before) {
+Json step_json(const Step& step, const Chunking& chunking, const std::string& before) {
+  const std::string count = std::to_string(chunking.count);
   Json json;
   json["name"] = step.name;
   if (!before.empty()) json["dependencies"] = Json::array({{{"dependsOn", before}}});
-  if (needs_gpu(step))
-    json["hostRequirements"] = {{"amounts", Json::array({{{"name", "amount.worker.gpu"}, {"min", 1}}})}};
+  json["hostRequirements"] = {{"amounts", amounts(step, chunking)}};
   json["parameterSpace"] = {
       {"taskParameterDefinitions", Json::array({{{"name", "Chunk"}, {"type", "INT"}, {"range", "1-" + count}}})}};
   json["script"] = action({"work", "{{Param.Bundle}}", "--step", step.name, "--chunk", "{{Task.Param.Chunk}}/" + count,
-                           "--progress", "openjd"});
+                           "--threads", std::to_string(chunking.cores), "--progress", "openjd"});
   return json;
 }
 
@@ -56,7 +64,7 @@ std::vector<EngineFile> emit_openjd(const Emission& emission) {
   json["steps"] = Json::array();
   std::string before;
   for (const Step& step : emission.bundle.steps) {
-    json["steps"].push_back(step_json(step, std::to_string(emission.bundle.chunking.count), before));
+    json["steps"].push_back(step_json(step, emission.bundle.chunking, before));
     before = step.name;
   }
   Json verify;

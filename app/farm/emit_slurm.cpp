@@ -79,6 +79,12 @@ std::string time_limit(const Bundle& bundle) {
                      std::ceil(10.0 + 3.0 * frames * *bundle.chunking.seconds_per_frame / 60.0));
 }
 
+std::string resources(const Bundle& bundle) {
+  const std::optional<std::uint64_t> memory = bundle.chunking.memory();
+  return fmt::format("#SBATCH --cpus-per-task={}\n", bundle.chunking.cores) +
+         (memory ? fmt::format("#SBATCH --mem={}M\n", *memory) : "");
+}
+
 }  // namespace
 
 std::vector<EngineFile> emit_slurm(const Emission& emission) {
@@ -87,7 +93,7 @@ std::vector<EngineFile> emit_slurm(const Emission& emission) {
   std::vector<EngineFile> files{{"slurm/verify.sbatch", kVerifyScript, false}};
   std::string jobs;
   for (const Step& step : bundle.steps) {
-    const std::string more = (needs_gpu(step) ? "#SBATCH --gres=gpu:1\n" : "") + time_limit(bundle);
+    const std::string more = (needs_gpu(step) ? "#SBATCH --gres=gpu:1\n" : "") + resources(bundle) + time_limit(bundle);
     files.push_back({fmt::format("slurm/{}.sbatch", step.name),
                      filled(kStepScript, {{"STEP", step.name}, {"COUNT", count}, {"MORE", more}}), false});
     jobs += filled(kStepJob,

@@ -89,6 +89,48 @@ class Engines(FarmCase):
                     self.assertIn("openjd_progress: 100.0\n", said.stdout)
         self.assert_film_is_done(folder)
 
+    def test_every_engine_is_told_of_cores_and_memory(self):
+        options = ("--chunk-frames", "2", "--engine", "all", "--farm-path", "/mnt/film", "--task-cores", "3",
+                   "--task-memory", "1234")
+        folder = self.povray_bundle("resources", FRAMES, options=options)
+        for step in ("surface", "render"):
+            script = (folder / "slurm" / f"{step}.sbatch").read_text()
+            self.assertIn("#SBATCH --cpus-per-task=3\n#SBATCH --mem=1234M\n", script)
+        for step in json.loads((folder / "template.json").read_text())["steps"][:2]:
+            self.assertEqual(step["hostRequirements"]["amounts"], [{"name": "amount.worker.vcpu", "min": 3},
+                                                                   {"name": "amount.worker.memory", "min": 1234}])
+            self.assertIn("--threads 3", " ".join(step["script"]["actions"]["onRun"]["args"]))
+        self.assertTrue(*self.valid(folder / "opencue.xml"))
+        for layer in list(ElementTree.parse(folder / "opencue.xml").getroot().iter("layer"))[:2]:
+            self.assertEqual([layer.findtext(name) for name in ("cores", "threadable", "memory")], ["3", "True", "1234m"])
+            self.assertIn("--threads 3", layer.findtext("cmd"))
+        self.assertEqual(json.loads((folder / "flamenco_job.json").read_text())["metadata"],
+                         {"cores": "3", "memory_mib": "1234"})
+        self.assertIn("1234 MiB", (folder / "Makefile").read_text())
+
+    def test_a_trial_frame_tells_how_much_memory_tasks_need(self):
+        folder = self.povray_bundle("measured", FRAMES, options=("--engine", "slurm"))
+        peak = json.loads((folder / "bundle.json").read_text())["chunks"]["peak_memory"]
+        self.assertTrue(10 < peak < 4000, peak)
+        asked = int(re.search(r"--mem=(\d+)M", (folder / "slurm" / "render.sbatch").read_text()).group(1))
+        self.assertTrue(1.5 * peak < asked <= 1.5 * peak + 513, (peak, asked))
+
+    def test_make_divides_the_cores_among_its_jobs(self):
+        """-j2 on a machine of 12 cores gives each task six; THREADS is obeyed."""
+        folder = self.povray_bundle("jobs", FRAMES, options=("--chunk-frames", "2", "--engine", "make"))
+        shim = self.folder / "shim"
+        shim.mkdir()
+        (shim / "nproc").write_text("#!/bin/sh\necho 12\n")
+        (shim / "meniscus").write_text("#!/bin/sh\necho \"$@\"\n")
+        for program in shim.iterdir():
+            program.chmod(0o755)
+        environment = dict(os.environ, PATH=f"{shim}:{os.environ['PATH']}")
+        for words, threads in (((), 12), (("-j2",), 6), (("-k", "-j", "5"), 2), (("-j", "64"), 1), (("-j",), 1),
+                               (("-j2", "THREADS=3"), 3)):
+            said = subprocess.run(["make", "-C", folder, *words], env=environment, capture_output=True, text=True)
+            self.assertEqual(said.returncode, 0, said.stderr)
+            self.assertEqual(set(re.findall(r"^work .*--threads (\d+)", said.stdout, re.M)), {str(threads)}, words)
+
     def test_the_openjd_schema_refuses_mistakes(self):
         folder = self.povray_bundle("schema", FRAMES, options=("--chunk-frames", "2", "--engine", "openjd"))
         template = json.loads((folder / "template.json").read_text())
@@ -130,26 +172,30 @@ class Engines(FarmCase):
 
     def test_flamenco(self):
         folder = self.hostile_bundle("flamenco", "flamenco")
-        job = self.compiled(folder, {"bundle": str(folder)})
+        job = self.compiled(folder, {"bundle": str(folder), "tasks": 2})
         tasks = {task["name"]: task for task in job["tasks"]}
-        self.assertEqual(sorted(tasks), ["render-0-1", "render-2-3", "surface-0-1", "surface-2-3", "verify"])
-        self.assertEqual(tasks["render-2-3"]["dependencies"], ["surface-2-3"])
-        self.assertEqual(sorted(tasks["verify"]["dependencies"]), ["render-0-1", "render-2-3"])
+        self.assertEqual(sorted(tasks), ["frames-1", "frames-2", "verify"])
+        self.assertEqual(sorted(tasks["verify"]["dependencies"]), ["frames-1", "frames-2"])
         for name in in_order(list(tasks), lambda name: tasks[name]["dependencies"]):
             for command in tasks[name]["commands"]:
                 self.assertEqual(command["name"], "exec")
                 self.run_task([command["parameters"]["exe"], *command["parameters"]["args"]])
         self.assert_film_is_done(folder)
 
-    def test_flamenco_settings(self):
+    def test_flamenco_has_one_job_type_for_all_bundles(self):
         path = "/mnt/a \"b\" 'c' \\ `d` ${e} </script>\u2028é"
-        folder = self.povray_bundle("settings", 8, options=("--chunk-frames", "3", "--engine", "flamenco", "--farm-path",
-                                                            path))
-        job = self.compiled(folder, {})
-        self.assertEqual({setting["key"]: setting["default"] for setting in job["settings"]},
-                         {"bundle": path, "meniscus": "meniscus", "frames": "0-7", "chunk_size": 3})
-        self.assertEqual([task["name"] for task in job["tasks"]][:3], ["surface-0-2", "surface-3-5", "surface-6-7"])
-        self.assertEqual(len(self.compiled(folder, {"frames": "0-3,6", "chunk_size": 2})["tasks"]), 7)
+        folders = [self.povray_bundle(name, 8, options=("--chunk-frames", "3", "--engine", "flamenco", *more))
+                   for name, more in (("settings", ("--farm-path", path)), ("others", ("--task-cores", "7")))]
+        scripts = [(folder / "meniscus_film.js").read_bytes() for folder in folders]
+        self.assertEqual(scripts[0], scripts[1])
+        job = json.loads((folders[0] / "flamenco_job.json").read_text())
+        self.assertEqual((job["type"], job["settings"]["bundle"], job["settings"]["tasks"]), ("meniscus-film", path, 3))
+        compiled = self.compiled(folders[0], job["settings"])
+        self.assertEqual(sorted(job["settings"]), sorted(setting["key"] for setting in compiled["settings"]))
+        self.assertEqual(compiled["tasks"][1]["commands"][0]["parameters"]["args"],
+                         ["work", path, "--chunk", "2/3", "--progress", "plain"])
+        limited = self.compiled(folders[0], {**job["settings"], "threads": 4})
+        self.assertEqual(limited["tasks"][0]["commands"][0]["parameters"]["args"][-2:], ["--threads", "4"])
 
     def valid(self, path):
         result = subprocess.run(["xmllint", "--noout", "--nonet", "--dtdvalid", HERE / "opencue_job.dtd", path],

@@ -49,7 +49,7 @@ class Slurm(FarmCase):
         return "\n".join(f"{path.name}:\n{path.read_text()}" for path in sorted((folder / "logs").glob("*.log")))
 
     def test_an_array_survives_a_kill_and_a_preemption(self):
-        options = ("--chunk-frames", "5", "--film", "film.mp4", "--engine", "slurm")
+        options = ("--chunk-frames", "5", "--film", "film.mp4", "--engine", "slurm", "--task-cores", "1")
         local = self.povray_bundle("local", FRAMES, options=options)
         folder = self.povray_bundle("it's a $queue", FRAMES, options=options)
         jobs = self.submit(folder, "--time=5")
@@ -87,7 +87,8 @@ class Slurm(FarmCase):
         self.assert_nothing_unfinished(folder)
 
     def test_a_failing_frame_fails_its_task_with_its_own_code(self):
-        folder = self.povray_bundle("failing", 8, bad_frame=5, options=("--chunk-frames", "2", "--engine", "slurm"))
+        folder = self.povray_bundle("failing", 8, bad_frame=5, options=("--chunk-frames", "2", "--engine", "slurm",
+                                                                       "--task-cores", "1", "--task-memory", "600"))
         jobs = self.submit(folder)
         wait_until(lambda: self.state(jobs["verify"]) == "CANCELLED", 60, "the end")
         surface = self.cluster.tasks(jobs["surface"])
