@@ -55,7 +55,7 @@ def processes_in(folder):
     return found
 
 
-def wait_until(condition, seconds=30.0, what="condition"):
+def wait_until(condition, seconds=120.0, what="condition"):
     """The first true value of the condition; fails when it takes too long."""
     deadline = time.monotonic() + seconds
     while time.monotonic() < deadline:

@@ -18,7 +18,9 @@ class Repair(WorkCase):
         images = folder / "images"
         (images / "frame_00001.png").unlink()
         (images / "frame_00002.png").write_bytes((images / "frame_00000.png").read_bytes()[:100])
-        (images / "frame_00004.png").write_bytes((images / "frame_00005.png").read_bytes())
+        changed = bytearray((images / "frame_00004.png").read_bytes())
+        changed[len(changed) // 2] ^= 1
+        (images / "frame_00004.png").write_bytes(changed)
         (folder / "state" / "render" / "frame_00006.json").write_text("{")
         (folder / "film.mp4").unlink()
         told = self.meniscus("farm", "verify", folder, code=3).stderr
@@ -87,7 +89,8 @@ class Repair(WorkCase):
         manifest = folder / "bundle.json"
         text = manifest.read_text()
         for broken in (text[:200], text.replace('"program_version": "', '"program_version": "9'),
-                       re.sub(r'("program_version": "[^"]*)[0-9a-f]"', r'\1x"', text), text.replace('"schema_version": 1', '"schema_version": 2'),
+                       re.sub(r'("program_version": "[^"]*)[0-9a-f]"', r'\1x"', text),
+                       text.replace('"schema_version": 1', '"schema_version": 2'),
                        text.replace('"inputs/camera.json",\n      "bytes"', '"../camera.json",\n      "bytes"')):
             self.assertNotEqual(broken, text)
             manifest.write_text(broken)
