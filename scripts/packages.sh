@@ -16,6 +16,7 @@ test_packages=(libgtest-dev libbenchmark-dev glslang-tools freesasa python3-prod
   python3-openimageio xvfb xdotool chromium python3-websockets
   python3-mdanalysis python3-mdtraj python3-h5py
   slurmctld slurmd slurm-client munge python3-jsonschema libxml2-utils nodejs make)
+fuzz_packages=(clang-14 libclang-rt-14-dev)
 
 # install_packages NAME...: apt-get, only for what dpkg does not already have.
 install_packages() {

@@ -12,6 +12,7 @@
 #include "app/farm/checksum.h"
 #include "app/farm/inner_path.h"
 #include "core/base/error.h"
+#include "core/base/json_depth.h"
 #include "core/base/text.h"
 #include "core/trajectory/frame_list.h"
 
@@ -23,6 +24,8 @@ using Json = nlohmann::ordered_json;
 constexpr int kSchemaVersion = 1;
 constexpr std::uint64_t kMostChunks = 1000;                // Slurm's MaxArraySize is 1001 unless a site says otherwise
 constexpr std::uint64_t kMostFrames = 100'000'000;         // a manifest that asks for more is damaged
+constexpr std::uint64_t kLargestSide = 65'535;
+constexpr std::uint64_t kAnyNumber = ~std::uint64_t{0};
 constexpr std::size_t kMostBytes = std::size_t{64} << 20;  // of a manifest
 constexpr const char* kMakers[] = {"meniscus", "povray", "blender"};
 
@@ -32,6 +35,13 @@ Maker maker_of(const std::string& word) {
   for (const Maker maker : {Maker::meniscus, Maker::povray, Maker::blender})
     if (word == word_of(maker)) return maker;
   throw RequestError(fmt::format("{} makes no frames", in_quotes(word)));
+}
+
+// A whole number; the library would make any number one.
+std::uint64_t whole_number(const Json& json, std::uint64_t most) {
+  if (!json.is_number_unsigned() || json.get<std::uint64_t>() > most)
+    throw RequestError(fmt::format("is damaged: {} is no whole number up to {}", json.dump(), most));
+  return json.get<std::uint64_t>();
 }
 
 // What decides how frames look.
@@ -77,13 +87,13 @@ Json whole_json(const Bundle& bundle, bool measured) {
 
 Chunking read_chunking(const Json& json) {
   Chunking chunking;
-  if (json.contains("frames")) chunking.asked_frames = json.at("frames").get<std::uint64_t>();
+  if (json.contains("frames")) chunking.asked_frames = whole_number(json.at("frames"), kMostFrames);
   if (json.contains("minutes")) chunking.asked_minutes = json.at("minutes").get<double>();
   if (json.contains("seconds_per_frame")) chunking.seconds_per_frame = json.at("seconds_per_frame").get<double>();
-  chunking.cores = json.at("cores").get<std::uint64_t>();
-  if (json.contains("memory")) chunking.asked_memory = json.at("memory").get<std::uint64_t>();
-  if (json.contains("peak_memory")) chunking.peak_memory = json.at("peak_memory").get<std::uint64_t>();
-  chunking.count = json.at("count").get<std::uint64_t>();
+  chunking.cores = whole_number(json.at("cores"), kAnyNumber);
+  if (json.contains("memory")) chunking.asked_memory = whole_number(json.at("memory"), kAnyNumber);
+  if (json.contains("peak_memory")) chunking.peak_memory = whole_number(json.at("peak_memory"), kAnyNumber);
+  chunking.count = whole_number(json.at("count"), kMostChunks);
   return chunking;
 }
 
@@ -97,13 +107,13 @@ Bundle from_json(const Json& json) {
   bundle.program_version = json.at("program_version").get<std::string>();
   bundle.command = json.at("command").get<std::vector<std::string>>();
   bundle.frames = parse_frame_list("frames", json.at("frames").get<std::string>(), kMostFrames);
-  bundle.width = json.at("size").at(0).get<int>();
-  bundle.height = json.at("size").at(1).get<int>();
+  bundle.width = static_cast<int>(whole_number(json.at("size").at(0), kLargestSide));
+  bundle.height = static_cast<int>(whole_number(json.at("size").at(1), kLargestSide));
   for (const Json& step : json.at("steps"))
     bundle.steps.push_back({step.at("name").get<std::string>(), maker_of(step.at("maker").get<std::string>()),
                             step.at("arguments").get<std::vector<std::string>>()});
   for (const Json& input : json.at("inputs"))
-    bundle.inputs.push_back({input.at("path").get<std::string>(), input.at("bytes").get<std::uint64_t>(),
+    bundle.inputs.push_back({input.at("path").get<std::string>(), whole_number(input.at("bytes"), kAnyNumber),
                              input.at("sha256").get<std::string>()});
   if (json.contains("film"))
     bundle.film =
@@ -162,6 +172,7 @@ Bundle read_bundle(const std::filesystem::path& folder) {
   const std::optional<std::string> text = inner_text(folder, "bundle.json", kMostBytes);
   if (!text) throw InputError(path, 0, "cannot be opened; meniscus farm bundle makes it");
   try {
+    if (is_nested_too_deep(*text)) throw RequestError("is damaged: it is nested too deep");
     return from_json(Json::parse(*text));
   } catch (const nlohmann::json::exception& error) {
     throw InputError(path, 0, fmt::format("is damaged: {}", error.what()));

@@ -10,6 +10,7 @@
 
 #include "app/farm/checksum.h"
 #include "core/base/error.h"
+#include "core/base/json_depth.h"
 #include "core/base/output_file.h"
 
 namespace meniscus::farm {
@@ -41,16 +42,22 @@ Json to_json(const FrameRecord& record) {
   return json;
 }
 
+// A whole number; the library would make any number one.
+std::uint64_t whole_number(const Json& json) {
+  if (!json.is_number_unsigned()) throw Json::type_error::create(302, "this is no whole number", &json);
+  return json.get<std::uint64_t>();
+}
+
 FrameRecord from_json(const Json& json) {
   FrameRecord record;
-  record.frame = json.at("frame").get<std::uint64_t>();
+  record.frame = whole_number(json.at("frame"));
   if (json.at("state") != "done") {
-    record.exit_code = json.at("exit").get<int>();
+    record.exit_code = static_cast<int>(std::min<std::uint64_t>(whole_number(json.at("exit")), 255));
     record.error = json.at("error").get<std::string>();
   }
   for (const Json& file : json.at("files"))
-    record.files.push_back({file.at("path").get<std::string>(), file.at("bytes").get<std::uint64_t>(),
-                            file.at("sha256").get<std::string>()});
+    record.files.push_back(
+        {file.at("path").get<std::string>(), whole_number(file.at("bytes")), file.at("sha256").get<std::string>()});
   record.seconds = json.at("seconds").get<double>();
   record.first_try = json.value("first_try", "");
   return record;
@@ -73,6 +80,7 @@ fs::path FrameRecords::path_of(const std::string& step, std::uint64_t frame) con
 std::optional<FrameRecord> FrameRecords::read(const std::string& step, std::uint64_t frame) const {
   const std::optional<std::string> text = inner_text(folder_, path_of(step, frame), kMostBytes);
   if (!text) return {};
+  if (is_nested_too_deep(*text)) return {};
   try {
     const Json json = Json::parse(*text);
     if (json.at("bundle") != fingerprint_) return {};

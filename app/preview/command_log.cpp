@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Recording and replaying commands.
+// Recording commands, and reading what was recorded.
 #include "app/preview/command_log.h"
 
 #include <ostream>
 
+#include "app/preview/command_json.h"
 #include "core/base/error.h"
+#include "core/base/json_depth.h"
 
 namespace meniscus {
 
@@ -27,6 +29,7 @@ std::vector<WrittenCommand> read_commands(const std::string& path) {
   std::string line;
   for (std::size_t number = 1; std::getline(stream, line); ++number) {
     if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
+    if (is_nested_too_deep(line)) throw InputError(path, number, "commands: this is nested too deep to be a command");
     commands.push_back({number, nlohmann::json::parse(line, nullptr, false)});
     if (commands.back().command.is_discarded()) throw InputError(path, number, "commands: this is not JSON");
   }
@@ -37,14 +40,6 @@ std::vector<WrittenCommand> read_commands(const std::string& path) {
 void print_reply(const std::string& path, std::size_t line, const nlohmann::json& reply, std::ostream& replies) {
   if (reply["ok"] == false) throw InputError(path, line, reply["error"]);
   replies << json_line(reply) << std::endl;
-}
-
-void replay_commands(const std::string& path, std::span<const WrittenCommand> commands, PreviewSession& session,
-                     std::ostream& replies) {
-  for (const auto& [line, command] : commands) {
-    if (session.wants_to_quit()) return;
-    print_reply(path, line, session.apply(command), replies);
-  }
 }
 
 }  // namespace meniscus

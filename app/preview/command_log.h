@@ -11,10 +11,11 @@
 
 #include <nlohmann/json.hpp>
 
-#include "app/preview/session.h"
 #include "core/base/output_file.h"
 
 namespace meniscus {
+
+class PreviewSession;
 
 /// Writes a session while it goes on: each line is complete as soon as its command was carried out, however the program
 /// ends.

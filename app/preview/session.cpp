@@ -15,10 +15,6 @@
 
 namespace meniscus {
 
-std::string json_line(const nlohmann::json& json) {
-  return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-}
-
 PreviewSession::PreviewSession(Structure structure, PreviewView view, const std::optional<Camera>& camera,
                                std::filesystem::path export_folder, std::optional<Moments> moments)
     : structure_(std::move(structure)),

@@ -14,6 +14,7 @@
 #include <glm/vec2.hpp>
 #include <nlohmann/json.hpp>
 
+#include "app/preview/command_json.h"
 #include "app/preview/exposed_areas.h"
 #include "app/preview/moments.h"
 #include "core/molecule/atom_groups.h"
@@ -52,9 +53,6 @@ enum class Quality {
   full    ///< as exported
 };
 
-/// A command or a reply as one line of text, without a line end; bytes that are no UTF-8 are replaced.
-std::string json_line(const nlohmann::json& json);
-
 /// A molecule, how it is seen, and the renderer that draws it. Needs a current GL context for its whole life, and is
 /// used by one thread.
 class PreviewSession {
@@ -69,10 +67,8 @@ class PreviewSession {
   /// after an error nothing has changed. The commands: app/preview/commands.md. Throws GpuError only: then all is lost.
   nlohmann::json apply(const nlohmann::json& command);
 
-  /// Calls `sink` with every command from now on that was carried out and is no mere question.
+  /// Calls `sink` with every command from now on that was carried out and is no mere question (is_question).
   void record(std::function<void(const nlohmann::json&)> sink) { sink_ = std::move(sink); }
-  /// Does the command only ask: state, stats, or a pick that does not wait? Anybody may, and nobody records it.
-  static bool is_question(const nlohmann::json& command);
 
   /// Draws, unless this very picture is there already. stop: asked now and then; if true, the picture is given up:
   /// false, and the last one stays. Throws GpuError, CapacityError, OpenSurfaceError; but for the first of them the

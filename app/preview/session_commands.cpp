@@ -119,12 +119,6 @@ Json PreviewSession::carry_out(const Json& json) {
   return reply;
 }
 
-bool PreviewSession::is_question(const Json& command) {
-  const std::string word = command.is_object() ? command.value("command", Json()).dump() : "";
-  if (word == "\"pick\"") return command.value("wait", Json()) == false;
-  return word == "\"state\"" || word == "\"stats\"" || word == "\"choices\"";
-}
-
 Json PreviewSession::orbit(const CommandReader& command) {
   look_from(orbited(view_.camera, drag_of(command)));
   return Json::object();

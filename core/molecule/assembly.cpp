@@ -14,6 +14,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/molecule/reader.h"
 #include "core/molecule/text_lines.h"
 
 namespace meniscus {
@@ -21,6 +22,7 @@ namespace {
 
 /// Files give six decimals or fewer; what is farther from a rotation than this was not meant as one.
 constexpr double kRotationTolerance = 1e-3;
+constexpr std::size_t kMostFactors = 16;  // of a product; capsids have two
 
 double farthest_from_identity(const glm::dmat3& m) {
   double farthest = 0.0;
@@ -71,6 +73,7 @@ std::vector<std::string> operator_list(std::string_view list, std::string_view e
       }
       for (std::size_t n = first; n <= last; ++n) names.push_back(std::to_string(n));
     }
+    if (names.size() > kMostOperators) bad_expression(expression, file);
     if (comma == list.size()) return names;
     list.remove_prefix(comma + 1);
   }
@@ -123,9 +126,14 @@ void keep_members(Structure& structure, std::vector<Instances>& groups) {
   }
 }
 
+bool within_extent(const glm::dvec3& position) {
+  return std::abs(position.x) <= kLargestCoordinate && std::abs(position.y) <= kLargestCoordinate &&
+         std::abs(position.z) <= kLargestCoordinate;
+}
+
 /// Copy after copy, the atoms of each in file order.
 std::vector<Atom> expanded(const std::vector<Atom>& atoms, const std::vector<Instances>& groups, std::size_t total,
-                           std::size_t copies) {
+                           std::size_t copies, const std::string& file) {
   std::vector<const Instances*> group_of(atoms.size());
   std::uint32_t residues = 0;
   for (const Instances& group : groups) {
@@ -139,6 +147,11 @@ std::vector<Atom> expanded(const std::vector<Atom>& atoms, const std::vector<Ins
       if (copy >= group_of[n]->motions.size()) continue;
       Atom& atom = result.emplace_back(atoms[n]);
       atom.position = group_of[n]->motions[copy](atom.position);
+      if (!within_extent(atom.position)) {
+        throw InputError(file, 0,
+                         fmt::format("copy {} of its assembly puts atoms beyond ±{} Å; correct its operators", copy + 1,
+                                     kLargestCoordinate));
+      }
       atom.copy = copy;
       atom.residue += copy * residues;
       if (copy > 0) atom.chain += fmt::format("-{}", copy + 1);
@@ -189,7 +202,8 @@ std::vector<std::vector<std::string>> operator_products(std::string_view express
       factors = operator_list(rest.substr(0, open), expression, file);
       rest = rest.substr(open);
     }
-    if (products.size() * factors.size() > kMostOperators) bad_expression(expression, file);
+    if (products.size() * factors.size() > kMostOperators || products.front().size() == kMostFactors)
+      bad_expression(expression, file);
     std::vector<std::vector<std::string>> longer;
     for (const auto& product : products) {
       for (const std::string& factor : factors) {
@@ -238,7 +252,7 @@ void assemble(Structure& structure, const Assembly& assembly, CopyMode mode) {
                     structure.file, in_quotes(assembly.id), with_thousands(total), with_thousands(kMostAssembledAtoms),
                     with_thousands(total / 250'000)));
   }
-  structure.atoms = expanded(structure.atoms, groups, total, copies);
+  structure.atoms = expanded(structure.atoms, groups, total, copies, structure.file);
 }
 
 }  // namespace meniscus

@@ -33,13 +33,13 @@ RigidMotion operator*(const RigidMotion& a, const RigidMotion& b);
 
 /// The operator identifiers of "1", "1,2,5", "(1-60)", "P,1" or, for products, "(X0)(1-5)": each element is one
 /// product, its factors in the order written (the last is applied first).
-/// Throws InputError when the expression cannot be read or has more than kMostOperators products.
+/// Throws InputError when the expression cannot be read, has more than kMostOperators products or 16 factors in one.
 std::vector<std::vector<std::string>> operator_products(std::string_view expression, const std::string& file);
 
 /// From REMARK 350 of a PDB file (wwPDB format 3.3). Throws InputError with the line of a broken or missing row.
 std::vector<Assembly> read_pdb_assemblies(const TextFile& file);
 
-/// From _pdbx_struct_assembly_gen and _pdbx_struct_oper_list of mmCIF. Throws InputError.
+/// From _pdbx_struct_assembly_gen and _pdbx_struct_oper_list of mmCIF. Throws InputError, CapacityError.
 std::vector<Assembly> read_mmcif_assemblies(const TextFile& file);
 
 /// The assembly of this id. Throws InputError naming those there are.
@@ -47,7 +47,7 @@ const Assembly& find_assembly(std::span<const Assembly> assemblies, const std::s
 
 /// Builds the assembly out of structure.atoms; atoms of chains that it does not name are left out and counted. Copies
 /// beyond the first are chains "A-2", "A-3", as in the assembly files of the wwPDB.
-/// Throws InputError (no chain of it is there), CapacityError (more than kMostAssembledAtoms with CopyMode::atoms).
+/// Throws InputError (no such chain, atoms beyond 10 µm), CapacityError (above kMostAssembledAtoms by CopyMode::atoms).
 void assemble(Structure& structure, const Assembly& assembly, CopyMode mode);
 
 }  // namespace meniscus

@@ -11,13 +11,12 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/molecule/number_bounds.h"
 #include "core/molecule/radii.h"
 #include "core/molecule/reader.h"
 
 namespace meniscus {
 namespace {
-
-constexpr double kLargestRadius = 1000.0;  // Å, as in molecule files
 
 bool is_hydrogen(const Atom& atom) { return atom.element == 1; }
 

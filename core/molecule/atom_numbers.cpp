@@ -2,6 +2,7 @@
 // Parsing of number files, and the hydropathy table.
 #include "core/molecule/atom_numbers.h"
 
+#include <cmath>
 #include <limits>
 
 #include <fmt/format.h>
@@ -13,6 +14,9 @@
 
 namespace meniscus {
 namespace {
+
+/// Differences of such numbers are finite, which scales of colours rely on.
+constexpr double kLargestNumber = 1e300;
 
 constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
@@ -35,7 +39,7 @@ constexpr Hydropathy kKyteDoolittle[] = {{4.5, " ILE "},         {4.2, " VAL "},
 double parse_word(const std::string& path, std::size_t line, std::string_view word) {
   if (word == "nan" || word == "NaN" || word == "?" || word == "-") return kMissing;
   double number = 0.0;
-  if (!parse_number(word, number)) {
+  if (!parse_number(word, number) || std::abs(number) > kLargestNumber) {
     throw InputError(path, line,
                      fmt::format("{} is not a finite number; write one number an atom, nan, ? or - for a missing one",
                                  in_quotes(word)));

@@ -11,6 +11,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/molecule/number_bounds.h"
 #include "core/molecule/reader.h"
 #include "core/molecule/text_lines.h"
 
@@ -79,8 +80,10 @@ void CharmmRadii::read_atom(const TextFile& file, std::size_t line, const std::v
 
 void CharmmRadii::read_type(const TextFile& file, std::size_t line, const std::vector<std::string_view>& fields) {
   double half = 0.0;
-  if (fields.size() < 4 || !parse_number(fields[3], half) || half < 0.0) {
-    throw InputError(file.path, line, "a line of NONBONDED needs a type, two numbers and half of Rmin, not negative");
+  if (fields.size() < 4 || !parse_number(fields[3], half) || half < 0.0 || half > kLargestRadius) {
+    throw InputError(
+        file.path, line,
+        fmt::format("a line of NONBONDED needs a type, two numbers and half of Rmin, from 0 to {} Å", kLargestRadius));
   }
   radii_[std::string(fields[0])] = half;
 }
@@ -88,6 +91,14 @@ void CharmmRadii::read_type(const TextFile& file, std::size_t line, const std::v
 RadiiTable CharmmRadii::table() const {
   if (residues_.empty()) throw InputError(files_, 0, "lacks residues; give the CHARMM topology (.rtf) too");
   if (radii_.empty()) throw InputError(files_, 0, "lacks NONBONDED parameters; give the CHARMM parameters (.prm) too");
+  // Every residue may have the atoms of all patches.
+  constexpr std::size_t kMostEntries = 1'000'000;
+  if (patch_atoms_.size() > kMostEntries / residues_.size()) {
+    throw CapacityError(
+        fmt::format("{}: {} residues with the atoms of patches, {} of them, are more than this program "
+                    "reads",
+                    files_, with_thousands(residues_.size()), with_thousands(patch_atoms_.size())));
+  }
   RadiiTable table(files_, "CHARMM");
   const auto add = [&](const std::string& residue, const std::string& atom, const std::string& type) {
     const auto radius = radii_.find(type);

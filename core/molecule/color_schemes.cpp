@@ -110,7 +110,8 @@ std::optional<std::array<double, 2>> parse_color_range(std::string_view text) {
   const std::size_t colon = text.find(':');
   std::array<double, 2> range{};
   if (colon == std::string_view::npos || !parse_number(text.substr(0, colon), range[0]) ||
-      !parse_number(text.substr(colon + 1), range[1]) || !(range[0] < range[1])) {
+      !parse_number(text.substr(colon + 1), range[1]) || !(range[0] < range[1]) ||
+      !std::isfinite(range[1] - range[0])) {
     return std::nullopt;
   }
   return range;

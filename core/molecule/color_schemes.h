@@ -66,7 +66,7 @@ std::string color_scheme_words();
 /// Reads "#rrggbb"; nothing for any other text.
 std::optional<glm::vec3> parse_hex_color(std::string_view text);
 
-/// Reads "lo:hi" with lo < hi, both finite; nothing for any other text.
+/// Reads "lo:hi" with lo < hi and a finite difference; nothing for any other text.
 std::optional<std::array<double, 2>> parse_color_range(std::string_view text);
 
 /// The chain as the file names it: in an assembly copies of A are called, ... and keep its colour.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Reads the assemblies of an mmCIF file: which chains (label_asym_id) stand under which products of operators.
+#include <cmath>
 #include <map>
 
 #include <fmt/format.h>
@@ -16,6 +17,8 @@ namespace {
 
 namespace cif = gemmi::cif;
 
+constexpr std::size_t kMostMotions = 1'000'000;  // of all assemblies of a file
+
 std::map<std::string, RigidMotion> operators_of(const TextFile& file, cif::Block& block) {
   std::vector<std::string> tags{"id"};
   for (const char row : {'1', '2', '3'}) {
@@ -26,10 +29,12 @@ std::map<std::string, RigidMotion> operators_of(const TextFile& file, cif::Block
   for (const cif::Table::Row row : block.find("_pdbx_struct_oper_list.", tags)) {
     std::array<std::array<double, 4>, 3> matrix{};
     for (std::size_t n = 0; n < 12; ++n) {
-      if (!parse_number(row[n + 1], matrix[n / 4][n % 4])) {
+      double& number = matrix[n / 4][n % 4];
+      if (!parse_number(row[n + 1], number) || std::abs(number) > kLargestCoordinate) {
         throw InputError(file.path, 0,
-                         fmt::format("operator {} of _pdbx_struct_oper_list has {} for {}; correct the matrix",
-                                     in_quotes(row.str(0)), in_quotes(row[n + 1]), tags[n + 1]));
+                         fmt::format("operator {} of _pdbx_struct_oper_list has {} for {}, no number of at most {}; "
+                                     "correct the matrix",
+                                     in_quotes(row.str(0)), in_quotes(row[n + 1]), tags[n + 1], kLargestCoordinate));
       }
     }
     operators.emplace(row.str(0), rigid_motion(matrix, file.path, 0));
@@ -80,6 +85,7 @@ std::map<std::string, std::string> descriptions_of(cif::Block& block) {
 std::vector<Assembly> read_mmcif_assemblies(const TextFile& file) {
   cif::Document document = parse_cif(file);
   std::vector<Assembly> assemblies;
+  std::size_t motions = 0;
   for (cif::Block& block : document.blocks) {
     const std::map<std::string, RigidMotion> operators = operators_of(file, block);
     const std::map<std::string, std::string> descriptions = descriptions_of(block);
@@ -91,8 +97,13 @@ std::vector<Assembly> read_mmcif_assemblies(const TextFile& file) {
       }
       AssemblyPart& part = assemblies.back().parts.emplace_back();
       part.chains = split_at_commas(row.str(2));
-      for (const auto& names : operator_products(row.str(1), file.path))
+      for (const auto& names : operator_products(row.str(1), file.path)) {
+        if (++motions > kMostMotions)
+          throw CapacityError(
+              fmt::format("{}: its assemblies have more than {} operators, more than this program reads", file.path,
+                          with_thousands(kMostMotions)));
         part.motions.push_back(product_of(names, operators, file.path));
+      }
     }
   }
   return assemblies;

@@ -27,7 +27,7 @@ bool read_residue_number(std::string_view field, PqrRecord& record) {
     field.remove_suffix(1);
   }
   std::int64_t number = 0;
-  if (!parse_whole_number(field, number) || std::abs(number) > 1000000000) return false;
+  if (!parse_whole_number(field, number) || number < -1'000'000'000 || number > 1'000'000'000) return false;
   record.residue_number = static_cast<std::int32_t>(number);
   return true;
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Reads the atom table of mmCIF.
+#include <charconv>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 #include <utility>
@@ -17,6 +19,7 @@
 #include "core/molecule/oddity.h"
 #include "core/molecule/reader.h"
 #include "core/molecule/residue_counter.h"
+#include "core/molecule/text_lines.h"
 
 namespace meniscus {
 namespace {
@@ -116,6 +119,27 @@ char first_letter(const std::string& value) {
   return text.empty() ? ' ' : text.front();
 }
 
+/// The number that the text begins with; 0 where it begins with none.
+std::int32_t residue_number(const TextFile& file, const cif::Table& table, const cif::Table::Row& row) {
+  const std::string& value = row.one_of(kAuthSeq, kLabelSeq);
+  std::string_view digits = trimmed(value);
+  if (digits.starts_with('+')) digits.remove_prefix(1);
+  std::int32_t number = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
+  if (error == std::errc::result_out_of_range) {
+    throw InputError(file.path, line_of_row(file, table, row.row_index, value),
+                     fmt::format("the residue number {} is larger than any; correct it", in_quotes(value)));
+  }
+  return number;
+}
+
+/// In single precision; missing where the text is no number or beyond its range.
+float kept_number(const std::string& value) {
+  const double number = cif::as_number(value);
+  const bool fits = std::abs(number) <= std::numeric_limits<float>::max();
+  return fits ? static_cast<float>(number) : std::numeric_limits<float>::quiet_NaN();
+}
+
 Atom read_row(const TextFile& file, const cif::Table& table, const cif::Table::Row& row) {
   Atom atom;
   for (int axis = 0; axis < 3; ++axis) {
@@ -132,11 +156,11 @@ Atom read_row(const TextFile& file, const cif::Table& table, const cif::Table::R
   atom.residue_name = text(kAuthComp, kLabelComp);
   atom.chain = text(kAuthAsym, kLabelAsym);
   atom.subchain = text(kLabelAsym, kAuthAsym);
-  atom.residue_number = gemmi::string_to_int(row.one_of(kAuthSeq, kLabelSeq), false);
+  atom.residue_number = residue_number(file, table, row);
   if (row.has2(kInsertion)) atom.insertion_code = first_letter(row[kInsertion]);
   if (row.has2(kAlt)) atom.altloc = first_letter(row[kAlt]);
-  if (row.has2(kOccupancy)) atom.occupancy = static_cast<float>(cif::as_number(row[kOccupancy]));
-  if (row.has2(kB)) atom.b_factor = static_cast<float>(cif::as_number(row[kB]));
+  if (row.has2(kOccupancy)) atom.occupancy = kept_number(row[kOccupancy]);
+  if (row.has2(kB)) atom.b_factor = kept_number(row[kB]);
   const gemmi::Element symbol(row.has2(kSymbol) ? cif::as_string(row[kSymbol]) : std::string());
   atom.element = static_cast<std::uint8_t>(symbol.atomic_number());
   return atom;

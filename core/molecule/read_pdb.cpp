@@ -14,6 +14,7 @@
 #include "core/base/text.h"
 #include "core/molecule/assembly.h"
 #include "core/molecule/atom_classes.h"
+#include "core/molecule/number_bounds.h"
 #include "core/molecule/oddity.h"
 #include "core/molecule/pdb_bonds.h"
 #include "core/molecule/pdb_columns.h"
@@ -134,9 +135,9 @@ class PdbReader {
   }
 
   float optional_number(std::string_view line, std::size_t column, Oddity& oddity, std::size_t number) {
-    double value = 0.0;
+    float value = 0.0F;
     const std::string_view field = line.substr(std::min(line.size(), column), 6);
-    if (parse_number(field, value)) return static_cast<float>(value);
+    if (parse_single(field, value)) return value;
     oddity.add(number, field);
     return std::numeric_limits<float>::quiet_NaN();
   }

@@ -8,6 +8,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/molecule/atom_classes.h"
+#include "core/molecule/number_bounds.h"
 #include "core/molecule/pdb_columns.h"
 #include "core/molecule/pqr_record.h"
 #include "core/molecule/reader.h"
@@ -69,13 +70,11 @@ class PqrReader {
       atom.position[axis] =
           parse_coordinate(file_, number, "xyz"[axis], record -> numbers[static_cast<std::size_t>(axis)]);
     }
-    double charge = 0.0;
-    if (!parse_number(record->numbers[3], charge)) {
+    if (!parse_single(record->numbers[3], atom.charge)) {
       throw InputError(
           file_.path, number,
           fmt::format("charge is {}, not a finite number; a line is: {}", in_quotes(record->numbers[3]), kLine));
     }
-    atom.charge = static_cast<float>(charge);
     atom.radius = parse_radius(file_, number, record->numbers[4], kLine);
     residues_.number(atom);
     hints_.push_back({.heteroatom = is_pdb_record(line, "HETATM")});

@@ -11,6 +11,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/molecule/atom_classes.h"
+#include "core/molecule/number_bounds.h"
 #include "core/molecule/reader.h"
 #include "core/molecule/residue_counter.h"
 #include "core/molecule/text_lines.h"
@@ -116,13 +117,12 @@ class PsfReader {
     atom.residue_name = residue_name;
     atom.name = name;
     read_residue_number(residue, atom);
-    double number = 0.0, weight = 0.0;
-    if (!parse_number(charge, number) || !parse_number(mass, weight)) {
+    double weight = 0.0;
+    if (!parse_single(charge, atom.charge) || !parse_number(mass, weight)) {
       throw InputError(file_.path, lines_.number(),
                        fmt::format("charge {} and mass {} are not both numbers; columns may have run together",
                                    in_quotes(charge), in_quotes(mass)));
     }
-    atom.charge = static_cast<float>(number);
     atom.element = element_of(atom.name, weight);
     residues_.number(atom);
     contents_.atoms.push_back(std::move(atom));
@@ -136,7 +136,7 @@ class PsfReader {
       digits.remove_suffix(1);
     }
     std::int64_t number = 0;
-    if (!parse_whole_number(digits, number) || std::abs(number) > 99'999'999) {
+    if (!parse_whole_number(digits, number) || number < -99'999'999 || number > 99'999'999) {
       throw InputError(file_.path, lines_.number(),
                        fmt::format("residue {} is no number; columns may have run together", in_quotes(field)));
     }

@@ -4,17 +4,17 @@
 
 #include <charconv>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/molecule/number_bounds.h"
 #include "core/molecule/text_lines.h"
 
 namespace meniscus {
 namespace {
-
-constexpr double kLargestRadius = 1000.0;
 
 std::string_view without_plus(std::string_view field) {
   field = trimmed(field);
@@ -28,6 +28,13 @@ bool parse_number(std::string_view field, double& number) {
   field = without_plus(field);
   const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), number);
   return error == std::errc() && end == field.data() + field.size() && std::isfinite(number);
+}
+
+bool parse_single(std::string_view field, float& number) {
+  double value = 0.0;
+  if (!parse_number(field, value) || std::abs(value) > std::numeric_limits<float>::max()) return false;
+  number = static_cast<float>(value);
+  return true;
 }
 
 bool parse_whole_number(std::string_view field, std::int64_t& number) {

@@ -14,11 +14,20 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/error.h"
+#include "core/base/json_depth.h"
+#include "core/base/text.h"
 
 namespace meniscus {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+/// A value as it may stand in a message: short, and without control characters.
+std::string shown(const Json& value) {
+  constexpr std::size_t kLongest = 100;
+  const std::string text = value.dump();
+  return escaped(text.substr(0, kLongest)) + (text.size() > kLongest ? "..." : "");
+}
 
 /// Values of one camera file, with complaints that name the key.
 class CameraReader {
@@ -50,7 +59,7 @@ class CameraReader {
   void expect_only(std::initializer_list<std::string_view> keys) const {
     for (const auto& [key, value] : json_.items())
       if (std::ranges::find(keys, key) == keys.end())
-        throw InputError(file_, 0, fmt::format("camera: unknown key {}", Json(key).dump()));
+        throw InputError(file_, 0, fmt::format("camera: unknown key {}", shown(Json(key))));
   }
 
  private:
@@ -59,7 +68,7 @@ class CameraReader {
     return json_.at(key);
   }
   [[noreturn]] void fail(const char* key, const char* what) const {
-    throw InputError(file_, 0, fmt::format("camera: \"{}\" is {}; it {}", key, json_.at(key).dump(), what));
+    throw InputError(file_, 0, fmt::format("camera: \"{}\" is {}; it {}", key, shown(json_.at(key)), what));
   }
 
   const Json& json_;
@@ -73,6 +82,7 @@ Json to_json(const glm::dvec3& v) { return Json::array({v.x, v.y, v.z}); }
 }  // namespace
 
 Camera parse_camera(std::string_view text, const std::string& file) {
+  if (is_nested_too_deep(text)) throw InputError(file, 0, "camera: is nested too deep to be one");
   Json json;
   try {
     json = Json::parse(text);
@@ -129,17 +139,19 @@ void validate_camera(const Camera& camera, const std::string& file) {
   if (!is_finite(camera.position) || !is_finite(camera.target) || !is_finite(camera.up)) fail("a number is not finite");
   const glm::dvec3 view = camera.target - camera.position;
   const double scale = std::max(glm::length(camera.position), glm::length(camera.target));
-  if (!std::isfinite(scale) || glm::length(view) <= 1e-12 * scale || glm::length(view) == 0.0)
+  // Squares of smaller and larger numbers have no place in double precision.
+  constexpr double kSmallest = 1e-100, kLargest = 1e100;
+  if (!(scale <= kLargest) || glm::length(view) <= 1e-12 * scale || glm::length(view) < kSmallest)
     fail("position and target are the same point, so there is no view direction");
   const double up_length = glm::length(camera.up);
-  if (!std::isfinite(up_length) || up_length == 0.0) fail("\"up\" has no direction");
+  if (!(up_length >= kSmallest && up_length <= kLargest)) fail("\"up\" has no direction");
   // The sine of their angle; below this the picture would turn with rounding errors.
   if (glm::length(glm::cross(view / glm::length(view), camera.up / up_length)) < 1e-9)
     fail("\"up\" is parallel to the view direction");
   if (camera.projection == Projection::perspective) {
     if (!(camera.vertical_fov > 0.0 && camera.vertical_fov < 180.0))
       fail(fmt::format("\"vertical_fov\" is {} degrees; it must lie between 0 and 180", camera.vertical_fov));
-  } else if (!(camera.height > 0.0 && std::isfinite(camera.height))) {
+  } else if (!(camera.height >= kSmallest && camera.height <= kLargest)) {
     fail(fmt::format("\"height\" is {} Å; it must be positive", camera.height));
   }
 }

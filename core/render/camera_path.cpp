@@ -17,9 +17,12 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/error.h"
+#include "core/base/json_depth.h"
 
 namespace meniscus {
 namespace {
+
+constexpr double kLargestFrame = 1e9;
 
 /// What is interpolated of a camera.
 struct Pose {
@@ -41,10 +44,14 @@ Camera camera_of(const Pose& pose, Projection projection) {
   const glm::dmat3 axes = glm::mat3_cast(glm::normalize(pose.axes));
   camera.projection = projection;
   camera.target = pose.target;
-  camera.position = pose.target + axes[2] * std::exp(pose.size.x);
+  // Between keys the curves may go beyond them, but not to where there is no camera: an angle of 180 degrees, or a
+  // distance that vanishes beside the target.
+  constexpr double kWidest = 179.9;
+  const double nearest = 1e-9 * glm::length(pose.target);
+  camera.position = pose.target + axes[2] * std::clamp(std::exp(pose.size.x), std::max(nearest, 1e-99), 1e99);
   camera.up = axes[1];
-  camera.vertical_fov = std::exp(pose.size.y);
-  camera.height = std::exp(pose.size.z);
+  camera.vertical_fov = std::min(std::exp(pose.size.y), kWidest);
+  camera.height = std::clamp(std::exp(pose.size.z), 1e-99, 1e99);
   return camera;
 }
 
@@ -98,8 +105,9 @@ Camera CameraPath::at(double frame) const {
 
 CameraPath parse_camera_path(std::string_view text, const std::string& file) {
   using Json = nlohmann::json;
-  const Json json = Json::parse(text, nullptr, false);
   const auto fail = [&](const std::string& what) { throw InputError(file, 0, "camera path: " + what); };
+  if (is_nested_too_deep(text)) fail("is nested too deep to be one");
+  const Json json = Json::parse(text, nullptr, false);
   if (!json.is_object() || !json.contains("keys") || !json["keys"].is_array() || json["keys"].empty())
     fail(R"(must be {"keys":[{"frame":0,"camera":{...}},...]})");
   std::vector<CameraKey> keys;
@@ -108,6 +116,7 @@ CameraPath parse_camera_path(std::string_view text, const std::string& file) {
     if (!entry.is_object() || !entry.contains("frame") || !entry["frame"].is_number() || !entry.contains("camera"))
       fail(where + " must have a \"frame\", a number, and a \"camera\"");
     const double frame = entry["frame"].get<double>();
+    if (!(std::abs(frame) <= kLargestFrame)) fail(where + fmt::format(": the frame is beyond {:.0f}", kLargestFrame));
     keys.push_back({frame, parse_camera(entry["camera"].dump(), fmt::format("{}: {}", file, where))});
     if (keys.size() == 1) continue;
     if (!(keys[keys.size() - 2].frame < frame)) fail(where + ": frames must rise from key to key");

@@ -58,7 +58,9 @@ std::vector<double> round_numbers(double low, double high, int most) {
   for (const double factor : {5.0, 2.0, 1.0})
     if (factor * power >= rough) step = factor * power;
   std::vector<double> numbers;
-  for (double n = std::floor(low / step) + 1.0; n * step < high; ++n) numbers.push_back(n * step);
+  // Where the range is narrow beside its numbers, steps get lost in their last digits; `most` is as many as there are.
+  const double first = std::floor(low / step) + 1.0;
+  for (int n = 0; n <= most && (first + n) * step < high; ++n) numbers.push_back((first + n) * step);
   return numbers;
 }
 

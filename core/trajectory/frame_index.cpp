@@ -2,6 +2,7 @@
 // Walks from frame to frame, and keeps what it found beside a checksum.
 #include "core/trajectory/frame_index.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cstring>
 #include <filesystem>
@@ -77,8 +78,11 @@ std::optional<FrameIndex> kept_index(const BinaryFile& file, const std::string& 
   if (Fields(std::string_view(bytes).substr(content.size())).number() != checksum(content)) return std::nullopt;
   Fields fields(content.substr(expected.size()));
   FrameIndex index;
-  index.offsets.resize(fields.number());
+  const std::uint64_t count = fields.number();
+  if (count == 0 || count > fields.rest().size() / sizeof(std::uint64_t)) return std::nullopt;
+  index.offsets.resize(count);
   for (std::uint64_t& offset : index.offsets) offset = fields.number();
+  if (std::ranges::max(index.offsets) >= file.size()) return std::nullopt;
   fields.number();
   index.cut_short = fields.rest();
   return index;

@@ -9,9 +9,12 @@
 
 namespace meniscus {
 
+/// No run has as many; a list of a few letters could ask for any number.
+inline constexpr std::size_t kMostListedFrames = 10'000'000;
+
 /// The frames of "all", or of parts such as "7", "0-99", "0-99:10" (every tenth) and "90-" (to the last), joined by
 /// commas; in the order written. Throws RequestError, its text beginning with `option`: not understood, beyond
-/// frame_count (the frames count from 0), backwards, a step of 0, a frame twice.
+/// frame_count (the frames count from 0), backwards, a step of 0, a frame twice, more than kMostListedFrames.
 std::vector<std::uint64_t> parse_frame_list(const std::string& option, std::string_view text,
                                             std::uint64_t frame_count);
 

@@ -118,6 +118,7 @@ class HeaderReader {
         ++record_variables;
         unpadded = variable.record_bytes;
         layout.record_stride += padded(variable.record_bytes);
+        if (layout.record_stride > kLargestVariable) refuse("is damaged: a record is larger than any disk");
       }
       layout.variables[key] = variable;
     }

@@ -12,6 +12,7 @@ namespace meniscus {
 class PeriodicCell {
  public:
   /// vectors: columns a, b, c in Å. Nothing for a box without volume, as files write it when there is none.
+  /// Edges are 1e-6 to 1e9 Å long.
   static std::optional<PeriodicCell> of(const glm::dmat3& vectors);
 
   /// Of all d + n_a a + n_b b + n_c c with whole numbers n the shortest. Exact for every shape of box.

@@ -189,13 +189,16 @@ class H5md final : public Trajectory {
     }
   }
 
-  /// No compression of positions is a thousandfold; a header that promises more would only exhaust the memory.
+  /// No compression of positions is a thousandfold; a header that promises more would only exhaust the memory. Frames
+  /// that were never written take no place, and would be read as zeros.
   void check_plausible_size() const {
-    const double promised = static_cast<double>(atom_count_) * 3 * sizeof(float);
-    if (promised > 1000.0 * static_cast<double>(bytes_.size()))
-      throw InputError(path_, 0,
-                       fmt::format("says {} atoms, far more than its {} bytes can hold", with_thousands(atom_count_),
-                                   with_thousands(bytes_.size())));
+    const double frame = static_cast<double>(atom_count_) * 3 * sizeof(float),
+                 size = static_cast<double>(bytes_.size());
+    if (frame > 1000.0 * size || frame * static_cast<double>(frame_count_) > 10'000.0 * size)
+      throw InputError(
+          path_, 0,
+          fmt::format("says {} atoms in {} frames, far more than its {} bytes can hold", with_thousands(atom_count_),
+                      with_thousands(frame_count_), with_thousands(bytes_.size())));
   }
 
   /// The part of a table that belongs to a frame: all dimensions but the first, which counts frames.
@@ -221,9 +224,20 @@ class H5md final : public Trajectory {
     Number offset{};
     if (H5Aexists(from.set, "offset") > 0) {
       const Handle attribute(H5Aopen(from.set, "offset", H5P_DEFAULT), H5Aclose);
-      if (H5Aread(attribute, type, &offset) < 0) return std::nullopt;
+      const Handle space(H5Aget_space(attribute), H5Sclose);
+      if (H5Sget_simple_extent_npoints(space) != 1 || H5Aread(attribute, type, &offset) < 0) return std::nullopt;
     }
-    return static_cast<Number>(offset + number * static_cast<Number>(frame));
+    return sum_of(offset, number, frame);
+  }
+
+  /// offset + number * frame; nothing where whole numbers have no place for it.
+  static std::optional<double> sum_of(double offset, double number, std::uint64_t frame) {
+    return offset + number * static_cast<double>(frame);
+  }
+  static std::optional<std::int64_t> sum_of(std::int64_t offset, std::int64_t number, std::uint64_t frame) {
+    std::int64_t sum = 0;
+    if (__builtin_mul_overflow(number, frame, &sum) || __builtin_add_overflow(sum, offset, &sum)) return std::nullopt;
+    return sum;
   }
 
   std::optional<glm::dmat3> cell_at(std::uint64_t frame) const {
@@ -259,7 +273,7 @@ class H5md final : public Trajectory {
     frame.cell = cell_at(number);
     frame.step = number_of<std::int64_t>(step_, number, H5T_NATIVE_INT64);
     const auto time = number_of<double>(time_, number, H5T_NATIVE_DOUBLE);
-    if (time && std::isfinite(*time) && time_unit_ > 0.0) frame.time = time_unit_ * *time;
+    if (time && time_unit_ > 0.0 && std::isfinite(time_unit_ * *time)) frame.time = time_unit_ * *time;
   }
 
   BinaryFile bytes_;  // tells whether the file changed

@@ -24,8 +24,9 @@ class ModelsInMemory final : public Trajectory {
     const FileContents contents = reader.read(file, ModelChoice{1, true});
     if (contents.without_positions) throw InputError(path, 0, "lists atoms without coordinates: it is no trajectory");
     for (const Atom& atom : contents.atoms) {
-      frames_.resize(static_cast<std::size_t>(atom.model));
-      frames_.back().push_back(atom.position);
+      const auto model = static_cast<std::size_t>(atom.model);  // mmCIF may list models in turn
+      if (frames_.size() < model) frames_.resize(model);
+      frames_[model - 1].push_back(atom.position);
     }
     if (frames_.empty()) throw InputError(path, 0, "holds no atoms");
     atom_count_ = frames_.front().size();

@@ -150,7 +150,7 @@ TextFrames walk_by_counts(const BinaryFile& file, bool title_first) {
     const bool ends_in_count = !whole || !lines.ended_by_newline();
     std::int64_t count = 0;
     const bool counted = whole && parse_whole_number(without_return(line), count) && count >= 0;
-    for (std::int64_t n = 0; whole && (!counted || n < count + 1); ++n) advance();
+    for (std::int64_t n = 0; whole && (!counted || n <= count); ++n) advance();
     if (blank) break;  // lines behind the last frame
     last_bytes_before = std::exchange(last_bytes, line.size());
     const bool ends_in_last_line = !lines.ended_by_newline() && last_bytes < last_bytes_before;

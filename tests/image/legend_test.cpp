@@ -174,6 +174,7 @@ TEST(Legend, RoundNumbers) {
   EXPECT_EQ(round_numbers(-4.5, 4.5, 5), (std::vector<double>{-4.0, -2.0, 0.0, 2.0, 4.0}));
   EXPECT_EQ(round_numbers(3.0, 3.0, 5), std::vector<double>{});
   EXPECT_EQ(round_numbers(0.0, 1.0, 0), std::vector<double>{});
+  EXPECT_LE(round_numbers(1e17, 1e17 + 32.0, 5).size(), 6u);
   for (const double scale : {1e-12, 1.0, 3.7, 1e9}) {
     const std::vector<double> found = round_numbers(-scale, 1.3 * scale, 5);
     EXPECT_GE(found.size(), 2u);

@@ -4,11 +4,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <span>
 #include <string_view>
 #include <utility>
 
-#include "app/preview/session.h"
+#include "app/preview/command_json.h"
 #include "core/base/error.h"
 
 namespace meniscus {
@@ -36,12 +37,17 @@ bool merge_commands(nlohmann::json& first, const nlohmann::json& second) {
   const std::string word = first["command"];
   if (is_one_of(kDrags, word) && first.size() == 3 && are_numbers(first, second, "dx") &&
       are_numbers(first, second, "dy")) {
-    for (const char* key : {"dx", "dy"}) first[key] = first[key].get<double>() + second[key].get<double>();
+    const auto sum = [&](const char* key) { return first[key].get<double>() + second[key].get<double>(); };
+    const double dx = sum("dx"), dy = sum("dy");
+    if (!std::isfinite(dx) || !std::isfinite(dy)) return false;  // no number of JSON
+    first["dx"] = dx;
+    first["dy"] = dy;
     return true;
   }
   if (word == "zoom" && first.size() == 2 && are_numbers(first, second, "factor")) {
-    first["factor"] = first["factor"].get<double>() * second["factor"].get<double>();
-    return true;
+    const double factor = first["factor"].get<double>() * second["factor"].get<double>();
+    if (std::isfinite(factor)) first["factor"] = factor;
+    return std::isfinite(factor);
   }
   // A pick that is waited for is a click, and each click counts.
   const auto waits = [](const nlohmann::json& pick) { return !pick.contains("wait") || pick["wait"] != false; };
@@ -68,7 +74,7 @@ bool Mailbox::put(ClientNumber client, const nlohmann::json& id, nlohmann::json 
 
 bool Mailbox::has_changes() {
   const std::lock_guard lock(mutex_);
-  return !std::ranges::all_of(content_.commands, PreviewSession::is_question, &ClientCommand::command);
+  return !std::ranges::all_of(content_.commands, is_question, &ClientCommand::command);
 }
 
 void Mailbox::want_picture(ClientNumber client) {

@@ -12,10 +12,10 @@
 #include <boost/asio/steady_timer.hpp>
 #include <fmt/format.h>
 
+#include "app/preview/command_json.h"
 #include "app/preview/server/access.h"
 #include "app/preview/server/clients.h"
 #include "app/preview/server/connection.h"
-#include "app/preview/session.h"
 #include "core/base/error.h"
 
 namespace meniscus {

@@ -11,8 +11,9 @@
 #include <boost/beast/core.hpp>
 #include <boost/beast/websocket.hpp>
 
+#include "app/preview/command_json.h"
 #include "app/preview/server/network.h"
-#include "app/preview/session.h"
+#include "core/base/json_depth.h"
 
 namespace meniscus {
 namespace {
@@ -73,7 +74,7 @@ class SocketClient : public Client, public std::enable_shared_from_this<SocketCl
   }
 
   void understand(const std::string& text) {
-    Json message = Json::parse(text, nullptr, false);
+    Json message = is_nested_too_deep(text) ? Json() : Json::parse(text, nullptr, false);
     if (!message.is_object()) return reply(nullptr, "a message is a JSON object such as {\"command\":\"state\"}");
     Json id;
     if (const auto found = message.find("id"); found != message.end()) {
@@ -81,8 +82,7 @@ class SocketClient : public Client, public std::enable_shared_from_this<SocketCl
       message.erase(found);
     }
     if (message == Json{{"request", "picture"}}) return clients_->mailbox.want_picture(number_);
-    if (!clients_->controls(number_) && !PreviewSession::is_question(message))
-      return reply(id, "another page controls this preview");
+    if (!clients_->controls(number_) && !is_question(message)) return reply(id, "another page controls this preview");
     if (!clients_->mailbox.put(number_, id, std::move(message))) reply(id, "too many commands wait; send fewer");
   }
 

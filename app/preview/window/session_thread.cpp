@@ -132,7 +132,7 @@ void SessionThread::carry_out(PreviewSession& session, SessionReply& command) {
 bool SessionThread::something_new_waits() {
   const std::scoped_lock lock(mutex_);
   return stop_ || std::ranges::any_of(queue_, [](const SessionReply& waiting) {
-           return !PreviewSession::is_question(waiting.command) && command_word(waiting.command) != "export";
+           return !is_question(waiting.command) && command_word(waiting.command) != "export";
          });
 }
 

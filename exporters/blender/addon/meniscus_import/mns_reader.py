@@ -26,6 +26,9 @@ class MnsError(Exception):
     """The file is not a whole, sound .mns file of a version this reader knows."""
 
 
+#: Of an array; none of the format has more than four.
+MOST_COLUMNS = 64
+
 #: Where a surface stands that is not moved: three rows of four numbers.
 IDENTITY = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0]
 
@@ -97,15 +100,20 @@ def _objects(path, header, arrays):
 def _check_copies(path, entry):
     """Rotations only: Blender would show a mirrored or sheared molecule without a word."""
     copies = entry.get("copies", [IDENTITY])
-    try:
-        matrices = np.array(copies, dtype=np.float64).reshape(-1, 3, 4)
-    except (TypeError, ValueError):
-        raise MnsError(f"{path}: copies are not lists of twelve numbers") from None
+    if not isinstance(copies, list) or not all(_are_numbers(copy, 12) for copy in copies):
+        raise MnsError(f"{path}: copies are not lists of twelve numbers")
+    matrices = np.array(copies, dtype=np.float64).reshape(-1, 3, 4)
     turns = matrices[:, :, :3]
-    if not len(matrices) or not np.isfinite(matrices).all():
-        raise MnsError(f"{path}: copies are missing or not finite")
+    if not len(matrices):
+        raise MnsError(f"{path}: copies are missing")
     if not np.allclose(turns @ turns.transpose(0, 2, 1), np.eye(3), atol=1e-6) or (np.linalg.det(turns) < 0).any():
         raise MnsError(f"{path}: a copy is not a rotation and a translation")
+
+
+def _are_numbers(values, count):
+    """A list of so many finite numbers, which fit into double precision with room for their squares."""
+    return (isinstance(values, list) and len(values) == count
+            and all(type(value) in (int, float) and abs(value) < 1e100 for value in values))
 
 
 def _read_header(path, data):
@@ -129,7 +137,7 @@ def _read_header(path, data):
     start = PROLOGUE + header_size
     try:
         header = json.loads(data[PROLOGUE:start].decode("utf-8"))
-    except ValueError as error:
+    except (ValueError, RecursionError) as error:
         raise MnsError(f"{path}: the header is no JSON ({error})") from None
     if not isinstance(header, dict):
         raise MnsError(f"{path}: the header is no JSON object")
@@ -139,14 +147,16 @@ def _read_header(path, data):
 def _read_array(path, data, start, entry):
     try:
         name, kind = str(entry["name"]), entry["type"]
-        rows, columns, offset = (int(entry[key]) for key in ("rows", "columns", "offset"))
-    except (TypeError, KeyError, ValueError):
+        rows, columns, offset = (entry[key] for key in ("rows", "columns", "offset"))
+    except (TypeError, KeyError):
         raise MnsError(f"{path}: an entry of the array list is malformed") from None
+    if not all(type(number) is int for number in (rows, columns, offset)):
+        raise MnsError(f"{path}: an entry of the array list is malformed")
     if kind not in TYPES:
         raise MnsError(f"{path}: array {name} has the unknown type {kind}")
     dtype = np.dtype(kind)
     size = rows * columns * dtype.itemsize
-    if rows < 0 or columns < 1 or offset < 0 or start + offset + size > len(data):
+    if rows < 0 or not 1 <= columns <= MOST_COLUMNS or offset < 0 or start + offset + size > len(data):
         raise MnsError(f"{path}: array {name} lies outside the file")
     if rows == 0:
         array = np.empty(0, dtype)
@@ -175,9 +185,13 @@ def _check(surface):
     if not isinstance(mesh, dict) or mesh.get("vertices") != vertices or mesh.get("triangles") != triangles:
         raise MnsError(f"{path}: header and arrays disagree on the number of vertices or triangles")
     origin = mesh.get("origin")
-    if not isinstance(origin, list) or len(origin) != 3 or not np.isfinite(np.array(origin, dtype=float)).all():
+    if not _are_numbers(origin, 3):
         raise MnsError(f"{path}: mesh.origin is not three numbers")
-    components = len(surface.header.get("components") or [])
+    listed = surface.header.get("components") or []
+    if not isinstance(listed, list) or not all(
+            isinstance(component, dict) and isinstance(component.get("kind"), str) for component in listed):
+        raise MnsError(f"{path}: the components are not listed")
+    components = len(listed)
     lengths = {
         "mesh.normal": vertices, "mesh.velocity": vertices, "mesh.kind": triangles, "mesh.patch": triangles,
         "mesh.component": triangles,
@@ -193,6 +207,8 @@ def _check(surface):
         "mesh.component": components, "mesh.atom": atoms,
     }
     for name, limit in limits.items():
+        if arrays[name].dtype.kind not in "iu" or (arrays[name].size and int(arrays[name].min()) < 0):
+            raise MnsError(f"{path}: array {name} does not hold indices")
         if arrays[name].size and int(arrays[name].max()) >= limit:
             raise MnsError(f"{path}: array {name} holds the index {int(arrays[name].max())}, the limit is {limit - 1}")
 

@@ -75,7 +75,7 @@ def read(path):
     with open(path, encoding="utf-8") as file:
         try:
             header = json.load(file)
-        except ValueError as error:
+        except (ValueError, RecursionError) as error:
             raise mns_reader.MnsError(f"{path}: no JSON ({error})") from None
     if not isinstance(header, dict) or header.get("format") != "meniscus surface sequence":
         raise mns_reader.MnsError(f"{path}: not the manifest of a sequence of surfaces")
@@ -100,7 +100,7 @@ def _check_numbers(path, header):
         good = origin.shape == (3,) and np.isfinite(origin).all()
         good = good and all(math.isfinite(header[key]) and header[key] > 0 for key in ("scale", "fps"))
         good = good and isinstance(header["run"], str)
-    except (KeyError, TypeError, ValueError):
+    except (KeyError, TypeError, ValueError, OverflowError):
         good = False
     if not good:
         raise mns_reader.MnsError(f"{path}: run, origin, scale or fps is missing or makes no sense")
@@ -115,7 +115,7 @@ def _frame(path, header, entry):
         camera = entry.get("camera", header.get("camera"))
         if camera is not None:
             _check_camera(camera)
-    except (KeyError, TypeError, ValueError):
+    except (KeyError, TypeError, ValueError, OverflowError):
         raise mns_reader.MnsError(f"{path}: an entry of the list of frames makes no sense") from None
     return Frame(number, os.path.join(os.path.dirname(path), name), camera)
 

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Lines of JSON.
+#include "app/preview/command_json.h"
+
+namespace meniscus {
+
+std::string json_line(const nlohmann::json& json) {
+  return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+bool is_question(const nlohmann::json& command) {
+  const std::string word = command.is_object() ? command.value("command", nlohmann::json()).dump() : "";
+  if (word == "\"pick\"") return command.value("wait", nlohmann::json()) == false;
+  return word == "\"state\"" || word == "\"stats\"" || word == "\"choices\"";
+}
+
+}  // namespace meniscus

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Commands of a preview as text, and which of them only ask; for those who pass commands on without a session.
+#pragma once
+
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+namespace meniscus {
+
+/// A command or a reply as one line of text, without a line end; bytes that are no UTF-8 are replaced.
+std::string json_line(const nlohmann::json& json);
+
+/// Does the command only ask: state, stats, choices, or a pick that does not wait? Anybody may, and nobody records it.
+bool is_question(const nlohmann::json& command);
+
+}  // namespace meniscus

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What must hold for every camera that was accepted.
+#pragma once
+
+#include "core/render/camera.h"
+
+namespace meniscus::fuzz {
+
+/// Its axes are orthonormal, rays through the corners of a picture have a direction, and it is valid.
+void check_camera(const Camera& camera);
+
+bool same_camera(const Camera& a, const Camera& b);
+
+}  // namespace meniscus::fuzz

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Writes the seeds of binary trajectory formats from scratch into the folder given.
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "tests/trajectory/samples.h"
+
+namespace {
+
+void write(const std::filesystem::path& path, const std::string& bytes) {
+  std::filesystem::create_directories(path.parent_path());
+  std::ofstream(path, std::ios::binary) << bytes;
+}
+
+}  // namespace
+
+int main(int, char** arguments) {
+  using namespace meniscus::test;
+  const std::filesystem::path folder(arguments[1]);
+  write(folder / "dcd/plain.dcd", dcd({}));
+  write(folder / "dcd/big_endian.dcd",
+        dcd({.order = std::endian::big, .marker = 8, .free = {2, 4}, .cell = {9, 0, 9, 0, 0, 9}}));
+  write(folder / "dcd/fourth_axis.dcd", dcd({.version = 36, .cell = {30, 90, 40, 90, 90, 50}, .fourth_axis = true}));
+  write(folder / "xtc/plain.xtc", xtc({.atoms = 6, .frames = 2}));
+  write(folder / "xtc/packed.xtc", xtc({.frames = 2}));
+  write(folder / "xtc/large.xtc", xtc({.frames = 1, .magic = 2023, .spread = 10'000'000}));
+  write(folder / "trr/single.trr", trr({.frames = 2}));
+  write(folder / "trr/double.trr", trr({.frames = 2, .doubles = true, .without_positions = 0}));
+  write(folder / "netcdf/cdf2.nc", amber_netcdf({.frames = 2}));
+  write(folder / "netcdf/cdf5.nc", amber_netcdf({.frames = 2, .version = 5}));
+}

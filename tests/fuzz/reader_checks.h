@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What must hold for every reader of molecules, whatever it is given.
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "core/molecule/reader.h"
+#include "tests/fuzz/target.h"
+
+namespace meniscus::fuzz {
+
+/// Reads the bytes by this reader, one model and all; compares its quick reading of positions, builds its assemblies;
+/// then goes the whole way from a file to a structure. `file`: the name has the format's extension.
+void check_reader(const Reader& reader, const ScratchFile& file, std::string_view bytes);
+
+/// Numbers are finite or missing and within their bounds, and there are no more atoms than a text of so many bytes can
+/// name.
+void check_contents(const FileContents& contents, std::size_t bytes);
+
+/// A dozen atoms of two residues, water and an ion, with all that atoms can have.
+std::vector<Atom> sample_atoms();
+
+}  // namespace meniscus::fuzz

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Camera files.
+#include "core/base/error.h"
+#include "tests/fuzz/camera_checks.h"
+#include "tests/fuzz/target.h"
+
+namespace meniscus::fuzz {
+namespace {
+
+void run(std::string_view bytes) {
+  try {
+    const Camera camera = parse_camera(bytes, "camera.json");
+    check_camera(camera);
+    require(same_camera(parse_camera(camera_json(camera), "again"), camera), "a camera written is read as it was");
+  } catch (const InputError& error) {
+    require_clear(error);
+  }
+}
+
+const Registration registration{"camera", run};
+
+}  // namespace
+}  // namespace meniscus::fuzz

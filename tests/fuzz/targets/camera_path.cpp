@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Camera paths: every camera between the keys is one that can be used.
+#include "core/base/error.h"
+#include "core/render/camera_path.h"
+#include "tests/fuzz/camera_checks.h"
+#include "tests/fuzz/target.h"
+
+namespace meniscus::fuzz {
+namespace {
+
+void run(std::string_view bytes) {
+  try {
+    const CameraPath path = parse_camera_path(bytes, "path.json");
+    for (const double frame : {-1.0, 0.0, 0.25, 1.0, 7.5, 10.0, 33.3, 1e6}) check_camera(path.at(frame));
+  } catch (const InputError& error) {
+    require_clear(error);
+  }
+}
+
+const Registration registration{"camera_path", run};
+
+}  // namespace
+}  // namespace meniscus::fuzz

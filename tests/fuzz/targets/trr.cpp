@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Trajectories in TRR.
+#include "tests/fuzz/trajectory_checks.h"
+
+namespace meniscus::fuzz {
+namespace {
+
+void run(std::string_view bytes) {
+  static const ScratchFile file("input.trr");
+  check_trajectory(kTrrFormat, file, bytes);
+}
+
+const Registration registration{"trr", run};
+
+}  // namespace
+}  // namespace meniscus::fuzz

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What must hold for every format of trajectories, whatever it is given.
+#pragma once
+
+#include <string_view>
+
+#include "core/trajectory/formats.h"
+#include "tests/fuzz/target.h"
+
+namespace meniscus::fuzz {
+
+/// Opens the bytes as this format and reads frames, some of them twice: numbers are finite, boxes have a shortest
+/// image, and frames do not depend on what was read before. `file`: the name has the format's extension.
+void check_trajectory(const TrajectoryFormat& format, const ScratchFile& file, std::string_view bytes);
+
+}  // namespace meniscus::fuzz
