@@ -11,6 +11,7 @@
 #include "core/base/json_depth.h"
 #include "core/molecule/assembly.h"
 #include "core/molecule/radii_file.h"
+#include "core/molecule/reader.h"
 #include "core/render/camera_path.h"
 #include "core/trajectory/formats.h"
 #include "core/trajectory/frame_list.h"
@@ -144,6 +145,19 @@ TEST(Bombs, NetcdfRecordsOf64Bits) {
   file.put_text(std::string(64, '\0'));
   const ScratchFile scratch("bomb.nc");
   EXPECT_THROW(kAmberNetcdfFormat.open(scratch.write(file.bytes()), {}), InputError);
+}
+
+// The one number whose absolute value is negative was residue 0.
+TEST(Bombs, ResidueNumbersOf64Bits) {
+  const auto pqr = [](const std::string& residue) { return "ATOM 1 C ALA " + residue + " 1 2 3 0.1 1.5\n"; };
+  const auto psf = [](const std::string& residue) {
+    return "PSF\n\n1 !NATOM\n1 A " + residue + " ALA CA CT1 0.07 12.011 0\n\n0 !NBOND: bonds\n";
+  };
+  const std::string most = "-9223372036854775808";
+  EXPECT_EQ(kPqrReader.read({"a.pqr", pqr("-3")}, {}).atoms.at(0).residue_number, -3);
+  EXPECT_EQ(kPsfReader.read({"a.psf", psf("-3")}, {}).atoms.at(0).residue_number, -3);
+  EXPECT_THROW(kPqrReader.read({"a.pqr", pqr(most)}, {}), InputError);
+  EXPECT_THROW(kPsfReader.read({"a.psf", psf(most)}, {}), InputError);
 }
 
 }  // namespace
