@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Every seed and every input that once was a crash, through the same targets without a fuzzer: in any build.
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -40,7 +41,7 @@ TEST_P(FuzzReplay, SeedsAndCrashes) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Targets, FuzzReplay, testing::ValuesIn(targets().begin(), targets().end()),
-                         [](const auto& info) { return std::string(info.param.name); });
+                         [](const auto& target) { return std::string(target.param.name); });
 
 /// A folder that belongs to no target is replayed by nobody.
 TEST(FuzzInputs, BelongToTargets) {

@@ -14,7 +14,7 @@ constexpr std::string_view kFingerprint = "FINGERPRINT";  // in seeds, for that 
 /// A bundle with one step and one frame, whose record is given by the bytes.
 farm::Bundle sample_bundle() {
   farm::Bundle bundle;
-  bundle.program_version = "1";
+  bundle.program_version = "0.1.0";
   bundle.command = {"render", "inputs/a.pdb"};
   bundle.frames = {0};
   bundle.steps = {{"render", farm::Maker::meniscus, {}}};
