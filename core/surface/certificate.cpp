@@ -14,8 +14,9 @@ namespace meniscus {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kSlack = 1e-9;  // relative, of areas and volumes that may be 0 or whole
-constexpr double kClose = 1e-3;  // Å, half the distance of probes whose bisector rounding may turn
+constexpr double kSlack = 1e-9;   // relative, of areas and volumes that may be 0 or whole
+constexpr double kBeside = 1e-5;  // Å for a probe of no size: what merging probes may turn a plane by
+constexpr double kClose = 1e-3;   // Å, half the distance of probes whose bisector rounding may turn
 
 class Examination {
  public:
@@ -26,7 +27,10 @@ class Examination {
     check_faces();
     for (const ConvexPatch& patch : s_.convex) check_atom(patch);
     for (const std::uint32_t f : doubts_.disputed) add_atoms_of(s_.faces[f]);
-    for (std::uint32_t n = 0; n < s_.concave.size(); ++n) check_planes(n);
+    for (const ConcavePatch& patch : s_.concave) {
+      check_contacts(patch);
+      check_planes(patch);
+    }
     std::sort(open().begin(), open().end());
     open().erase(std::unique(open().begin(), open().end()), open().end());
     s_.certificate.closed = open().empty();
@@ -39,11 +43,7 @@ class Examination {
     if (face.kind == PatchKind::convex) open().push_back(s_.convex[face.patch].atom);
     if (face.kind == PatchKind::toroidal)
       for (const std::uint32_t atom : s_.toroidal[face.patch].atom) open().push_back(atom);
-    if (face.kind == PatchKind::concave) {
-      const ConcavePatch& patch = s_.concave[face.patch];
-      open().insert(open().end(), s_.contacts.begin() + patch.first_contact,
-                    s_.contacts.begin() + patch.first_contact + patch.contact_count);
-    }
+    if (face.kind == PatchKind::concave) add_atoms_of(s_.concave[face.patch]);
   }
 
   void check_components() {
@@ -102,6 +102,24 @@ class Examination {
     return 2 * left > kPoints;
   }
 
+  void add_atoms_of(const ConcavePatch& patch) {
+    open().insert(open().end(), s_.contacts.begin() + patch.first_contact,
+                  s_.contacts.begin() + patch.first_contact + patch.contact_count);
+  }
+
+  // Every contact lies within the planes of all sides: the contacts go round the right way, and without a corner
+  // inwards.
+  void check_contacts(const ConcavePatch& patch) {
+    for (std::uint32_t n = 0; n < patch.side_count; ++n)
+      for (std::uint32_t m = 0; m < patch.contact_count; ++m) {
+        const glm::dvec3 d = s_.atoms[s_.contacts[patch.first_contact + m]].center - patch.center;
+        if (glm::dot(s_.planes[patch.first_plane + n].normal, d) > kBeside * (1 + s_.probe_radius)) {
+          add_atoms_of(patch);
+          return;
+        }
+      }
+  }
+
   bool has_cusp(const ConcavePatch& patch) const {
     for (std::uint32_t f = patch.first_face; f < patch.first_face + patch.face_count; ++f)
       for (std::uint32_t l = s_.faces[f].first_loop; l < s_.faces[f].first_loop + s_.faces[f].loop_count; ++l)
@@ -112,8 +130,7 @@ class Examination {
 
   // A re-entrant patch of several probes in one, cut from close by, cut to no avail, or with blurred corners: divided
   // among its atoms along its planes it has the area that its borders give.
-  void check_planes(std::uint32_t n) {
-    const ConcavePatch& patch = s_.concave[n];
+  void check_planes(const ConcavePatch& patch) {
     double sum = 0;
     bool doubtful = patch.contact_count > 3;
     for (std::uint32_t f = patch.first_face; f < patch.first_face + patch.face_count; ++f) {
@@ -125,7 +142,7 @@ class Examination {
     if (!doubtful && (patch.cut_count == 0 || patch.face_count == 0 || has_cusp(patch))) return;
     const double p = s_.probe_radius, divided = divided_area(s_, patch);
     if (std::abs(divided - sum) <= 1e-8 * (4 * kPi * p * p)) return;
-    for (std::uint32_t f = patch.first_face; f < patch.first_face + patch.face_count; ++f) add_atoms_of(s_.faces[f]);
+    add_atoms_of(patch);
   }
 
   Surface& s_;

@@ -14,6 +14,7 @@ namespace meniscus {
 ///    has all atoms that it touches on one side; all faces of an atom together fill one sphere at most;
 ///  * an atom that shows next to nothing or next to everything: its clip planes leave as much;
 ///  * every face whose corners are blurred: both closed forms give one area (MeasurementDoubts);
+///  * every fixed probe: its contacts go round it the right way, without a corner inwards;
 ///  * every component: volume positive for outer ones; a cavity (side_of_components()) has room for the probe;
 ///  * every re-entrant patch with such a face, with more than three contacts, cut from close by, or cut without a cusp:
 ///  its

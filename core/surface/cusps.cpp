@@ -153,13 +153,12 @@ class CuspSearch {
     double highest = -1e300;
   };
 
-  // How deep points of the circle's piece lie in the cones of both probes, Å. It lies on both patches all along, or
-  // nowhere, so the point that is clearest decides; where two points clearly disagree the search for its ends failed.
+  // How deep the circle's piece lies in the cones of both probes, Å. It lies on both patches all along, or nowhere, so
+  // of three points the clearest decides; where the piece also has a point clearly on the other side the search for its
+  // ends failed. The ends lie on borders, so of a piece only what is farthest out between them counts.
   DepthRange depth_on_both_patches(const CuspArc& arc) const {
     DepthRange range;
-    const bool whole = arc.sweep == kTwoPi;
-    for (const double part : {0.5, 0.3, 0.7, 0.0, 0.1, 0.2, 0.4, 0.6, 0.8, 0.9}) {
-      if (part == 0.0 && !whole) break;  // the ends lie on borders
+    for (const double part : {0.5, 0.3, 0.7}) {
       const double angle = part * arc.sweep;
       const glm::dvec3 e = std::cos(angle) * arc.start + std::sin(angle) * glm::cross(arc.axis, arc.start);
       const glm::dvec3 point = arc.center + arc.radius * e;
@@ -167,17 +166,37 @@ class CuspSearch {
       range.lowest = std::min(range.lowest, depth);
       range.highest = std::max(range.highest, depth);
     }
+    if (range.highest > -range.lowest)
+      for (const std::uint32_t s : arc.probe) range.lowest = std::min(range.lowest, least_depth(arc, s));
     return range;
   }
 
+  // Of the point of the piece that is farthest beyond a side of the probe's cone, where that is no end of the piece.
+  double least_depth(const CuspArc& arc, std::uint32_t s) const {
+    double least = 1e300;
+    for_each_side(s, [&](const glm::dvec3& normal) {
+      const double along = glm::dot(normal, arc.axis), across = std::sqrt(std::max(0.0, 1 - along * along));
+      if (arc.sweep < kTwoPi && angle_between(arc.axis, arc.start, normal) > arc.sweep) return;
+      least = std::min(least, -glm::dot(normal, arc.center - probes_.position[s]) - arc.radius * across);
+    });
+    return least;
+  }
+
   double depth_in_cone(std::uint32_t s, const glm::dvec3& point) const {
-    const auto sides = problem_.sides_of(s);
     double depth = 1e300;
+    for_each_side(
+        s, [&](const glm::dvec3& normal) { depth = std::min(depth, -glm::dot(normal, point - probes_.position[s])); });
+    return depth;
+  }
+
+  // The unit normals of the planes through the probe and two neighbouring contacts; they point out of the cone.
+  template <typename Visit>
+  void for_each_side(std::uint32_t s, const Visit& visit) const {
+    const auto sides = problem_.sides_of(s);
     for (std::size_t n = 0; n < sides.size(); ++n) {
       const glm::dvec3 normal = glm::cross(sides[n].contact, sides[n + 1 == sides.size() ? 0 : n + 1].contact);
-      depth = std::min(depth, -glm::dot(normal, point - probes_.position[s]) / glm::length(normal));
+      visit(normal / glm::length(normal));
     }
-    return depth;
   }
 
   // Names the points where three probes meet by the three, as arc ends of fixed probes are named by their atoms.

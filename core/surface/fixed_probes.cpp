@@ -24,6 +24,7 @@ constexpr double kMergeDistance = 1e-6;
 constexpr double kSteep =
     0.01;  // a lower probe moves so much more than its atoms that it must come nearer to be merged
 constexpr double kTouchDistance = 1e-9;
+constexpr double kLittle = 0.01;           // radian
 constexpr double kLargestGrowth = 1.5e-9;  // of decision weights
 constexpr double kFlat = 1e-7;             // squared height of a probe that growth may have moved by its square root
 
@@ -227,9 +228,21 @@ class Placement {
     for (std::uint32_t n = 0; n < arcs_.size(); ++n)
       if (!vanished_[n]) toroidal_of_arc_[n] = count++;
     parts_.toroidal.resize(count);
+    std::vector<char> contradicted(arcs_.size(), 0);
     tbb::parallel_for(std::size_t{0}, arcs_.size(), [&](std::size_t n) {
-      if (!vanished_[n]) parts_.toroidal[toroidal_of_arc_[n]] = toroidal_patch(n);
+      if (vanished_[n]) return;
+      const ToroidalPatch& patch = parts_.toroidal[toroidal_of_arc_[n]] = toroidal_patch(n);
+      contradicted[n] = contradicts(arcs_[n], patch);
     });
+    for (std::uint32_t n = 0; n < arcs_.size(); ++n)
+      if (contradicted[n]) parts_.open_atoms.insert(parts_.open_atoms.end(), {arcs_[n].i, arcs_[n].j});
+  }
+
+  // An arc that the decisions saw as next to nothing and the positions as nearly all of the circle, or the other way
+  // round: the probes at its ends stand in the wrong order. Nothing that follows would notice.
+  bool contradicts(const RsArc& arc, const ToroidalPatch& patch) const {
+    const bool little = patch.sweep<kLittle, much = patch.sweep> 2 * std::numbers::pi - kLittle;
+    return !patch.free() && (little || much) && little != vanishes(arc);
   }
 
   ToroidalPatch toroidal_patch(std::size_t n) const {
