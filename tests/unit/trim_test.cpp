@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The planes of a convex patch leave what a probe can touch and nothing else, however shallow a cover is; and probes
+// are merged where they stand within 10⁻⁶ Å, not farther apart.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include "core/surface/surface.h"
+#include "tests/support/molecules.h"
+#include "tests/support/patch_samples.h"
+
+namespace meniscus::testing {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+/// Unit vectors that cover the sphere evenly.
+std::vector<glm::dvec3> directions(int count) {
+  std::vector<glm::dvec3> all;
+  for (int n = 0; n < count; ++n) {
+    const double z = 1 - (2 * n + 1.0) / count, rho = std::sqrt(1 - z * z), phi = n * kPi * (3 - std::sqrt(5.0));
+    all.emplace_back(rho * std::cos(phi), rho * std::sin(phi), z);
+  }
+  return all;
+}
+
+/// How deep a probe that touches atom a in this direction stands in another atom at most: power, Å².
+double depth(const Balls& atoms, std::size_t a, const glm::dvec3& direction, double p) {
+  const glm::dvec3 probe = atoms[a].center + (atoms[a].radius + p) * direction;
+  double deepest = -1e300;
+  for (std::size_t b = 0; b < atoms.size(); ++b) {
+    if (b == a) continue;
+    const glm::dvec3 d = probe - atoms[b].center;
+    deepest = std::max(deepest, (atoms[b].radius + p) * (atoms[b].radius + p) - glm::dot(d, d));
+  }
+  return deepest;
+}
+
+/// Directions in which the planes of the atoms' patches say otherwise than the atoms do.
+int wrong_directions(const Surface& s, const std::vector<glm::dvec3>& all) {
+  int wrong = 0;
+  for (std::uint32_t c = 0; c < s.convex.size(); ++c) {
+    const std::uint32_t a = s.convex[c].atom;
+    for (const glm::dvec3& u : all) {
+      const double covered = depth(s.atoms, a, u, s.probe_radius);
+      if (std::abs(covered) < 1e-6) continue;  // on a border
+      const glm::dvec3 point = s.atoms[a].center + s.atoms[a].radius * u;
+      wrong += inside_planes(s, PatchKind::convex, c, point) != (covered < 0);
+    }
+  }
+  return wrong;
+}
+
+// Three atoms leave a gap between their circles on the first one, a few degrees wide; a fourth covers it by a third of
+// a square Å where it is deepest, and its own circle lies behind the three all around. None of its arcs is shown: only
+// the gap says that its plane is needed.
+Balls gap_behind_three(double gap) {
+  const double extended = kCarbon + kWater, polar = kPi / 3, cap = polar - gap;
+  Balls balls{{{0, 0, 0}, kCarbon}};
+  const double distance = 2 * extended * std::cos(cap);
+  for (int n = 0; n < 3; ++n) {
+    const double turn = 2 * kPi * n / 3;
+    balls.push_back(
+        {distance * glm::dvec3(std::sin(polar) * std::cos(turn), std::sin(polar) * std::sin(turn), std::cos(polar)),
+         kCarbon});
+  }
+  const double cover = 2.6 * gap, across = extended * std::sin(cover), small = 1.0 + kWater;
+  balls.push_back({{0, 0, extended * std::cos(cover) + std::sqrt(small * small - across * across)}, 1.0});
+  return balls;
+}
+
+TEST(Trim, AShallowCoverIsNoneTheLess) {
+  for (const double degrees : {3.0, 2.0, 1.0, 0.3, 0.1}) {
+    SCOPED_TRACE(degrees);
+    const Balls balls = gap_behind_three(degrees * kPi / 180);
+    const double covered = depth(balls, 0, {0, 0, 1}, kWater);
+    ASSERT_GT(covered, 1e-5);
+    ASSERT_LT(covered, 0.5);
+    const Surface s = compute_surface_cpu(balls, kWater);
+    ASSERT_EQ(s.convex[0].atom, 0u);
+    EXPECT_FALSE(inside_planes(s, PatchKind::convex, 0, {0, 0, kCarbon})) << "the gap is covered";
+    EXPECT_EQ(wrong_directions(s, directions(3000)), 0);
+  }
+}
+
+TEST(Trim, PlanesLeaveWhatAProbeCanTouch) {
+  const auto all = directions(400);
+  for (std::uint32_t n = 0; n < 60; ++n) {
+    const GasCase gas = gas_case(n);
+    EXPECT_EQ(wrong_directions(compute_surface_cpu(gas.balls, gas.probe_radius), all), 0) << "gas " << n;
+  }
+  EXPECT_EQ(wrong_directions(compute_surface_cpu(ubiquitin(), kWater), all), 0);
+}
+
+/// A square of atoms, one of them moved outwards: the probe over all four becomes two, which touch three each.
+Balls opened_square(double by) {
+  Balls square = ring(4, 3.0);
+  square[0].center += by * glm::normalize(square[0].center);
+  return square;
+}
+
+double least_distance_of_probes(const Surface& s) {
+  double least = 1e300;
+  for (std::size_t n = 0; n < s.concave.size(); ++n)
+    for (std::size_t m = 0; m < n; ++m)
+      least = std::min(least, glm::distance(s.concave[n].center, s.concave[m].center));
+  return least;
+}
+
+TEST(Merging, IsOfProbesWithinAMillionthOfAnAngstrom) {
+  const double apart = least_distance_of_probes(compute_surface_cpu(opened_square(1e-4), kWater)) / 1e-4;
+  ASSERT_GT(apart, 0.1);
+  ASSERT_LT(apart, 10);
+  for (const double distance : {1e-4, 1e-5, 5e-6, 2e-6, 1.2e-6}) {
+    const Surface s = compute_surface_cpu(opened_square(distance / apart), kWater);
+    EXPECT_EQ(s.counts().fixed_probes, 4u) << distance;
+    EXPECT_EQ(s.counts().arcs, 6u) << distance;
+    EXPECT_NEAR(least_distance_of_probes(s), distance, 0.05 * distance);
+  }
+  for (const double distance : {8e-7, 1e-7, 0.0}) {
+    const Surface s = compute_surface_cpu(opened_square(distance / apart), kWater);
+    EXPECT_EQ(s.counts().fixed_probes, 2u) << distance;
+    EXPECT_EQ(s.counts().arcs, 4u) << distance;
+  }
+}
+
+}  // namespace
+}  // namespace meniscus::testing
