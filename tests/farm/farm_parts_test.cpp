@@ -12,9 +12,11 @@
 #include "app/farm/child_process.h"
 #include "app/farm/command_options.h"
 #include "app/farm/emit.h"
+#include "app/farm/frame_record.h"
 #include "app/farm/inner_path.h"
 #include "app/farm/quote.h"
 #include "app/farm/timeless_png.h"
+#include "app/farm/worker.h"
 #include "app/program_error.h"
 #include "tests/support/run_program.h"
 
@@ -161,6 +163,82 @@ TEST(Manifest, ComesBackAsItWas) {
   other.inputs[0].sha256 = sha256("b");
   EXPECT_FALSE(same_but_for_measurement(bundle, other));
   EXPECT_NE(other.fingerprint(), bundle.fingerprint());
+}
+
+// Checksums of what takes long to read are for `verify`; sizes are always looked at. The files are sparse.
+TEST(Inputs, AreCheckedBySizeAndUpToAQuarterOfAGibibyteBySum) {
+  constexpr std::uint64_t kQuick = std::uint64_t{256} << 20;
+  const TemporaryFolder folder;
+  const auto refused = [&](std::uint64_t bytes, std::uint64_t said, const std::string& sum, bool thorough) {
+    Bundle bundle = bundle_of(1);
+    bundle.inputs = {{"a.xtc", said, sum}};
+    std::filesystem::resize_file(folder.file("a.xtc", ""), bytes);
+    try {
+      check_inputs(bundle, folder.path(), thorough);
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("a.xtc"), std::string::npos) << error.what();
+      return true;
+    }
+    return false;
+  };
+  const std::string other = sha256("something else");
+  EXPECT_FALSE(refused(3, 3, sha256(std::string(3, '\0')), false));
+  EXPECT_TRUE(refused(3, 3, other, false));
+  EXPECT_TRUE(refused(3, 4, sha256(std::string(3, '\0')), false));
+  EXPECT_TRUE(refused(kQuick, kQuick, other, false)) << "this large is quick enough";
+  EXPECT_FALSE(refused(kQuick + 1, kQuick + 1, other, false)) << "larger files are not read at the start";
+  EXPECT_TRUE(refused(kQuick + 1, kQuick + 1, other, true)) << "but when one asks for all of it";
+  EXPECT_TRUE(refused(kQuick + 1, kQuick + 2, other, false)) << "their size is known at once";
+  EXPECT_TRUE(refused(2 * kQuick, kQuick + 1, other, false));
+  Bundle missing = bundle_of(1);
+  missing.inputs = {{"none.pdb", 0, sha256("")}};
+  EXPECT_THROW(check_inputs(missing, folder.path(), false), InputError);
+}
+
+TEST(Records, CountForTheirBundleAndTheirFrameAndTheFilesTheyName) {
+  const TemporaryFolder folder;
+  const Bundle bundle = bundle_of(3);
+  const FrameRecords records(folder.path(), bundle);
+  EXPECT_EQ(records.read("render", 3), std::nullopt);
+  folder.file("a.png", "picture");
+  folder.file("b.png", "another");
+  const FrameRecord made = records.measured(3, {"a.png", "b.png"}, 1.5);
+  ASSERT_EQ(made.files.size(), 2u);
+  EXPECT_EQ(made.files[0].bytes, 7u);
+  EXPECT_EQ(made.files[1].sha256, sha256("another"));
+  records.write("render", made);
+  const std::optional<FrameRecord> read = records.read("render", 3);
+  ASSERT_TRUE(read && read->done());
+  EXPECT_EQ(read->seconds, 1.5);
+  EXPECT_EQ(records.fault(*read), "");
+  EXPECT_EQ(records.read("surface", 3), std::nullopt) << "each step has its own";
+  Bundle other = bundle;
+  other.command.push_back("--probe");
+  EXPECT_EQ(FrameRecords(folder.path(), other).read("render", 3), std::nullopt) << "another bundle";
+  std::filesystem::copy_file(folder.path() / "state/render/frame_00003.json",
+                             folder.path() / "state/render/frame_00006.json");
+  EXPECT_EQ(records.read("render", 6), std::nullopt) << "the record of another frame";
+
+  folder.file("b.png", "anotheR");
+  EXPECT_EQ(records.fault(*read), "b.png: is not what was made (SHA-256)");
+  folder.file("b.png", "");
+  EXPECT_EQ(records.fault(*read), "b.png: is not what was made (SHA-256)");
+  std::filesystem::remove(folder.path() / "a.png");
+  EXPECT_EQ(records.fault(*read), "a.png: is missing");
+  EXPECT_EQ(records.fault(FrameRecord{}), "its record names no file");
+
+  FrameRecord failed;
+  failed.frame = 3;
+  failed.exit_code = 4;
+  failed.error = "no \"luck\"";
+  records.write("render", failed);
+  const std::optional<FrameRecord> again = records.read("render", 3);
+  ASSERT_TRUE(again);
+  EXPECT_FALSE(again->done());
+  EXPECT_EQ(again->exit_code, 4);
+  EXPECT_EQ(again->error, failed.error);
+  folder.file("state/render/frame_00003.json", "{\"frame\": 3, \"state\"");
+  EXPECT_EQ(records.read("render", 3), std::nullopt) << "damaged";
 }
 
 TEST(Quotes, HoldAnything) {

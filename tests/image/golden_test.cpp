@@ -8,6 +8,7 @@
 
 #include "core/gpu/egl_context.h"
 #include "core/render/image_output.h"
+#include "core/render/legend.h"
 #include "core/render/ray_caster.h"
 #include "core/surface/surface.h"
 #include "tests/support/molecules.h"
@@ -25,17 +26,20 @@ std::vector<float> read_png(const std::string& path, int& channel_count) {
 }
 
 /// 96 x 96 pixels, 4 samples, transparent.
-Framebuffer render(const testing::Balls& balls, bool by_kind, Projection projection) {
+Framebuffer render(const testing::Balls& balls, bool by_kind, Projection projection, const Look& look = {},
+                   glm::ivec2 size = {96, 96}) {
   const Surface surface = compute_surface_cpu(balls, 1.4);
   Coloring coloring;
   for (std::size_t i = 0; i < balls.size(); ++i)
     coloring.atom.push_back(i % 2 ? glm::vec3(0.80f, 0.25f, 0.20f) : glm::vec3(0.70f, 0.72f, 0.75f));
   if (by_kind) coloring.kind = {{{0.2f, 0.6f, 0.4f}, {0.4f, 0.6f, 0.9f}, {0.8f, 0.4f, 0.2f}}};
   RenderSettings settings;
-  settings.size = {96, 96};
+  settings.size = size;
   settings.samples = 4;
+  settings.look = look;
   EglContext context;
-  return RayCaster().render(surface, coloring, frame_camera(surface, 1.0, projection), settings);
+  const double aspect = static_cast<double>(size.x) / size.y;
+  return RayCaster().render(surface, coloring, frame_camera(surface, aspect, projection), settings);
 }
 
 void expect_golden(const std::string& name, const Framebuffer& picture) {
@@ -65,6 +69,27 @@ TEST(Golden, Lattice) {
 }
 
 TEST(Golden, Ubiquitin) { expect_golden("ubiquitin", render(testing::ubiquitin(), true, Projection::perspective)); }
+
+TEST(Golden, ShadeLinesAndAir) {
+  Look look;
+  look.ambient_occlusion = 1.0f;
+  look.silhouettes = 2.0f;
+  look.depth_cue = 0.6f;
+  expect_golden("shade_lines_air", render(testing::ubiquitin(), false, Projection::perspective, look));
+}
+
+TEST(Golden, LegendOfNumbers) {
+  ColorScale scale;
+  scale.title = "B-factor";
+  scale.unit = "Å²";
+  scale.range = {4.0, 87.5};
+  scale.missing = 3;
+  scale.missing_color = glm::vec3(0.5f);
+  const Legend legend({"", scale, {}}, {240, 160});
+  const Framebuffer molecule =
+      render(testing::tetrahedron(3.5), false, Projection::perspective, {}, legend.molecule_size());
+  expect_golden("legend_of_numbers", legend.add_to(molecule, std::nullopt));
+}
 
 }  // namespace
 }  // namespace meniscus

@@ -167,7 +167,7 @@ TEST_F(Looks, LinesAreAsWideAsAsked) {
     Look look;
     look.silhouettes = width;
     const Framebuffer bare = render(kOne, kFront, {}), inked = render(kOne, kFront, look);
-    EXPECT_NEAR(ink_along(bare, inked, 75, 0, 100), width, 0.51f);  // the left rim, and nothing inside
+    EXPECT_NEAR(ink_along(bare, inked, 75, 0, 100), width, 0.05f);  // the left rim, and nothing inside
     EXPECT_NEAR(ink_along(bare, inked, 75, 60, 140), 0.0f, 0.01f);
     EXPECT_EQ(inked.color[0].w, 0.0f);
     // One ball in front of another: a line between them, none where they touch.

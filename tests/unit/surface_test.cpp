@@ -122,6 +122,19 @@ TEST(Atoms, SingleSphere) {
   }
 }
 
+TEST(Atoms, LoneOnesAmongOthersAreWholeSpheres) {
+  const Balls pair = two_atoms(3.0);
+  const Surface alone = compute_surface_cpu(pair, kWater);
+  for (const std::size_t place : {0, 1, 2}) {
+    Balls balls = pair;
+    balls.insert(balls.begin() + static_cast<std::ptrdiff_t>(place), {{0, 40, 0}, 1.5});
+    const Surface s = compute_surface_cpu(balls, kWater);
+    EXPECT_EQ(s.counts().convex, 3u);
+    EXPECT_EQ(euler_numbers(s), (std::vector<int>{2, 2}));
+    EXPECT_NEAR(s.area, alone.area + sphere_area(1.5), 1e-9);
+  }
+}
+
 TEST(Atoms, NoneIsAnEmptyClosedSurface) {
   const Surface s = compute_surface_cpu({}, 1.4);
   EXPECT_EQ(s.area, 0);

@@ -126,6 +126,34 @@ TEST_F(Views, WhatStandsBesideTheEyeHidesNothingAcross) {
   EXPECT_GT(renderer_.stats().arcs, 0u);
 }
 
+/// A probe under a roof, which rests on two atoms of the floor and on one far back: what it touches there lies, with
+/// all places of the probe's centre around it, behind the roof, but the probe reaches out past the roof's edge.
+Balls probe_under_a_roof() {
+  Balls atoms{{{3.1, 0.0, 0.0}, 1.7}, {{-2.0, 1.2, -2.042}, 1.7}, {{-2.0, -1.2, -2.042}, 1.7}, {{0.5, 0.0, -3.7}, 1.7}};
+  for (int x = 0; x < 3; ++x)
+    for (int y = -4; y <= 4; ++y) atoms.push_back({{1.2 + x, 0.8 * y, 4.5}, 1.7});
+  return atoms;
+}
+
+// The theorem's ball of radius r + 2p: with r + p the atom far back would be left out, and the probe with it.
+TEST_F(Views, AnAtomMattersThroughAProbeThatReachesOutOfACleft) {
+  const Balls atoms = probe_under_a_roof();
+  Camera camera;
+  camera.position = {-0.6, 0.0, 30.0};
+  camera.target = {-0.6, 0.0, 0.0};
+  camera.up = {0.0, 1.0, 0.0};
+  camera.projection = Projection::orthographic;
+  camera.height = 1.6;
+  load(atoms);
+  EXPECT_EQ(differing_pixels(camera, 1.4), 0);
+  const auto with = draw(camera, 1.4, Extent::visible);
+  load(Balls(atoms.begin() + 1, atoms.end()));
+  const auto without = draw(camera, 1.4, Extent::visible);
+  int different = 0;
+  for (std::size_t at = 0; at < with.size(); ++at) different += with[at] != without[at];
+  EXPECT_GT(different, 1000) << "the atom far back shapes what is seen";
+}
+
 TEST_F(Views, ThePaperDrawsLessAndMissesSome) {
   const Balls atoms = testing::enterotoxin();
   load(atoms);
