@@ -227,6 +227,31 @@ TEST_F(Frames, NumberedPictures) {
   EXPECT_EQ(meniscus({"render", file_, "-q", "-o", folder + "/z.png", "--turntable", "1"}).exit_code, 2);
 }
 
+TEST_F(Frames, ATurntableTakesEqualStepsAndShowsNoPlaceTwice) {
+  const std::string folder = (folder_.path() / "turn").string();
+  const ProgramResult result = meniscus(
+      {"export", "blender", file_, "-q", "--device", "cpu", "--frames", "0-3", "--turntable", "1", "-o", folder});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const Json sequence = Json::parse(read_bytes(folder + "/surface_sequence.json"));
+  ASSERT_EQ(sequence["frames"].size(), 4u);
+  const auto view = [&](std::size_t n, int axis) {
+    const Json& camera = sequence["frames"][n % 4]["camera"];
+    return camera["target"][axis].get<double>() - camera["position"][axis].get<double>();
+  };
+  const auto cosine = [&](std::size_t a, std::size_t b) {
+    double product = 0, square = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      product += view(a, axis) * view(b, axis);
+      square += view(a, axis) * view(a, axis);
+    }
+    return product / square;
+  };
+  for (std::size_t n = 0; n < 4; ++n) {
+    EXPECT_NEAR(cosine(n, n + 1), 0.0, 1e-9) << "a quarter of a turn, also from the last frame to the first";
+    EXPECT_NEAR(cosine(n, n + 2), -1.0, 1e-9);
+  }
+}
+
 TEST_F(Frames, Film) {
   const std::string folder = folder_.path().string();
   const std::vector<std::string> view{"render", file_, "-q", "--size", "64x48", "--frames", "all"};
