@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From half-borders to loops and faces: small cases whose answer is plain.
+// From half-borders to loops, faces and areas: small cases whose answer is plain.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <random>
 #include <vector>
 
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 #include "core/surface/loops.h"
+#include "core/surface/spherical.h"
 
 namespace meniscus::testing {
 namespace {
@@ -75,6 +79,24 @@ TEST(Loops, AWalkThatDoesNotReturnIsOpen) {
 TEST(Loops, NoBordersAreAWholeSphereOrNothing) {
   EXPECT_EQ(chain_faces({}, {}, glm::dvec3(0.0), 1.0, false).face_count, 1u);
   EXPECT_EQ(chain_faces({}, {}, glm::dvec3(0.0), 1.0, true).face_count, 0u);
+}
+
+// Where a loop turns back on itself the turn is half a turn to the left, whatever sign rounding gives it.
+TEST(Loops, ALuneWithoutWidthHasNoArea) {
+  std::mt19937 random(5);
+  std::normal_distribution<double> normal;
+  const auto direction = [&] {
+    const double x = normal(random), y = normal(random), z = normal(random);
+    return glm::normalize(glm::dvec3(x, y, z));
+  };
+  for (int n = 0; n < 200; ++n) {
+    const glm::dvec3 a = direction(), b = direction(), axis = glm::normalize(glm::cross(a, b));
+    const double sweep = std::acos(glm::dot(a, b));
+    const SphereArc there{axis, 0.0, a, b, sweep, false};
+    const SphereArc back{glm::normalize(axis + 1e-15 * direction()), 0.0, b, a, -sweep, false};
+    const double area = area_left_of(std::vector<SphereArc>{there, back});
+    EXPECT_LT(std::min(area, 4 * std::numbers::pi - area), 1e-6) << "all but nothing, or all but everything";
+  }
 }
 
 }  // namespace
