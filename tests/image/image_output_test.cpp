@@ -94,6 +94,15 @@ TEST_F(ImageFile, BackgroundIsMixedInLinearLight) {
   ASSERT_EQ(file.spec.nchannels, 3);
   EXPECT_EQ(file.at(0, "R"), 1.0f);
   EXPECT_NEAR(file.at(1, "R"), srgb_from_linear(0.25f + 0.5f), 0.003);
+  const glm::vec3 blue(0.2f, 0.5f, 0.8f);
+  write_image(folder_ / "b.png", picture(), {blue, Existing::refuse});
+  const File over_blue = read(folder_ / "b.png");
+  for (int n = 0; n < 3; ++n) {
+    const std::string channel(1, "RGB"[n]);
+    EXPECT_NEAR(over_blue.at(0, channel), blue[n], 0.003) << "the background as it was asked for";
+    const float half = picture().color[1][n] + 0.5f * linear_from_srgb(blue[n]);
+    EXPECT_NEAR(over_blue.at(1, channel), srgb_from_linear(half), 0.003) << channel;
+  }
 }
 
 TEST_F(ImageFile, RefusesWhatItCannotDo) {
