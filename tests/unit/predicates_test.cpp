@@ -43,7 +43,9 @@ TEST(PseudoAngle, RisesWithTheAngleAndNamesItsDirection) {
     const double angle = 2 * kPi * n / 4000;
     const glm::dvec2 u(std::cos(angle), std::sin(angle));
     const double pseudo = pseudo_angle(u * 0.37);
-    if (n > 0) EXPECT_GT(pseudo, before) << n;
+    if (n > 0) {
+      EXPECT_GT(pseudo, before) << n;
+    }
     EXPECT_LT(pseudo, 4.0);
     EXPECT_NEAR(glm::distance(direction_at(pseudo), u), 0, 1e-14);
     before = pseudo;
