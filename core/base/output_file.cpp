@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
+#include <chrono>
 #include <cstdio>
 #include <cstring>
 #include <mutex>
@@ -18,6 +19,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/base/uninterrupted.h"
 
 namespace meniscus {
 namespace {
@@ -30,10 +32,24 @@ fs::path folder_of(const fs::path& file) { return file.has_parent_path() ? file.
 
 /// Makes a rename durable; file systems that cannot sync folders (EINVAL) are left to their own order.
 void sync_folder(const fs::path& folder) {
-  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  const int descriptor = uninterrupted([&] { return ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC); });
   if (descriptor < 0) return;
-  ::fsync(descriptor);
+  uninterrupted([&] { return ::fsync(descriptor); });
   ::close(descriptor);
+}
+
+/// Gives the file a name that nobody has, even if somebody takes it at this moment. Otherwise false, and why in errno.
+bool rename_to_free(const fs::path& from, const fs::path& to) {
+  const auto rename = [&] { return ::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE); };
+  if (uninterrupted(rename) == 0) return true;
+  if (errno != EINVAL && errno != ENOSYS) return false;
+  // File systems without it, such as NFS, have links, which do not replace either.
+  if (uninterrupted([&] { return ::link(from.c_str(), to.c_str()); }) == 0) {
+    ::unlink(from.c_str());
+    return true;
+  }
+  const bool no_links = errno == EPERM || errno == EOPNOTSUPP || errno == ENOSYS;
+  return no_links && uninterrupted([&] { return ::rename(from.c_str(), to.c_str()); }) == 0;
 }
 
 void refuse_unsuitable_target(const fs::path& target, Existing existing) {
@@ -57,13 +73,15 @@ class Unfinished {
     paths_.erase(path);
   }
   void unlink_all() {
-    const std::lock_guard lock(mutex_);
+    // The program may be ending because of an error under this very lock.
+    const std::unique_lock lock(mutex_, std::chrono::seconds(1));
+    if (!lock) return;
     // Backwards, so that files go before the folder they are in; a folder that others use meanwhile stays.
     for (auto path = paths_.rbegin(); path != paths_.rend(); ++path) std::remove(path->c_str());
   }
 
  private:
-  std::mutex mutex_;
+  std::timed_mutex mutex_;
   std::set<fs::path> paths_;
 };
 
@@ -83,7 +101,8 @@ OutputFile::OutputFile(fs::path target, Existing existing) : target_(std::move(t
   for (int attempt = 0; descriptor_ < 0 && attempt < 1000; ++attempt) {
     temporary_ = folder_of(target_) / fmt::format(".{}.{}-{}.part{}", target_.stem().string(), ::getpid(), serial++,
                                                   target_.extension().string());
-    descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0666);
+    descriptor_ = uninterrupted(
+        [&] { return ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0666); });
     if (descriptor_ < 0 && errno != EEXIST) break;
   }
   if (descriptor_ < 0) {
@@ -91,7 +110,13 @@ OutputFile::OutputFile(fs::path target, Existing existing) : target_(std::move(t
     temporary_.clear();
     fail(fmt::format("cannot be written in {}: {}", folder_of(target_).string(), reason(error)));
   }
-  unfinished().add(temporary_);
+  try {
+    unfinished().add(temporary_);
+  } catch (...) {
+    ::close(descriptor_);
+    ::unlink(temporary_.c_str());
+    throw;
+  }
 }
 
 OutputFile::~OutputFile() {
@@ -105,19 +130,20 @@ void OutputFile::write(std::string_view text) { write(std::as_bytes(std::span(te
 
 void OutputFile::write(std::span<const std::byte> bytes) {
   while (!bytes.empty()) {
-    const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) fail("cannot be written: " + reason(errno));
+    const ssize_t written = uninterrupted([&] { return ::write(descriptor_, bytes.data(), bytes.size()); });
+    if (written <= 0) fail("cannot be written: " + reason(written < 0 ? errno : ENOSPC));
     bytes = bytes.subspan(static_cast<std::size_t>(written));
   }
 }
 
 void OutputFile::sync() {
-  // A library may have replaced the temporary file by name, so the name is synced, not our descriptor.
-  if (descriptor_ >= 0 && ::close(std::exchange(descriptor_, -1)) != 0) fail("cannot be written: " + reason(errno));
-  const int descriptor = ::open(temporary_.c_str(), O_RDONLY | O_CLOEXEC);
+  // A descriptor is closed even where that is interrupted, and what matters is the sync.
+  if (descriptor_ >= 0 && ::close(std::exchange(descriptor_, -1)) != 0 && errno != EINTR)
+    fail("cannot be written: " + reason(errno));
+  // A program may have replaced the temporary file by name, so the name is synced, not our descriptor.
+  const int descriptor = uninterrupted([&] { return ::open(temporary_.c_str(), O_RDONLY | O_CLOEXEC); });
   if (descriptor < 0) fail("vanished while it was written: " + reason(errno));
-  const int error = ::fsync(descriptor) != 0 ? errno : 0;
+  const int error = uninterrupted([&] { return ::fsync(descriptor); }) != 0 ? errno : 0;
   ::close(descriptor);
   if (error != 0 && error != EINVAL) fail("cannot be written: " + reason(error));
 }
@@ -125,14 +151,16 @@ void OutputFile::sync() {
 void OutputFile::rename_to_target() {
   struct stat status {};
   replaced_ = ::lstat(target_.c_str(), &status) == 0;
-  bool done = false;
   if (existing_ == Existing::refuse) {
-    // RENAME_NOREPLACE closes the gap between this check and the rename, on file systems that have it.
     refuse_unsuitable_target(target_, existing_);
-    done = ::renameat2(AT_FDCWD, temporary_.c_str(), AT_FDCWD, target_.c_str(), RENAME_NOREPLACE) == 0;
-    if (!done && errno == EEXIST) refuse_unsuitable_target(target_, existing_);
+    if (!rename_to_free(temporary_, target_)) {
+      const int error = errno;
+      refuse_unsuitable_target(target_, existing_);
+      fail("cannot get its final name: " + reason(error));
+    }
+  } else if (uninterrupted([&] { return ::rename(temporary_.c_str(), target_.c_str()); }) != 0) {
+    fail("cannot get its final name: " + reason(errno));
   }
-  if (!done && ::rename(temporary_.c_str(), target_.c_str()) != 0) fail("cannot get its final name: " + reason(errno));
   unfinished().remove(temporary_);
   temporary_.clear();
 }
@@ -154,12 +182,18 @@ OutputFolder::OutputFolder(fs::path folder, Existing existing) : folder_(std::mo
     if (path.has_filename()) missing.push_back(path);
   }
   std::reverse(missing.begin(), missing.end());
-  for (const fs::path& path : missing) {
-    if (fs::create_directory(path, error)) {
-      created_folders_.push_back(path);
-      unfinished().add(path);
+  try {
+    created_folders_.reserve(missing.size());
+    for (const fs::path& path : missing) {
+      if (fs::create_directory(path, error)) {
+        created_folders_.push_back(path);
+        unfinished().add(path);
+      }
+      if (error) break;
     }
-    if (error) break;
+  } catch (...) {
+    remove_created_folders();
+    throw;
   }
   if (std::error_code ignored; !fs::is_directory(folder_, ignored)) {
     remove_created_folders();

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <new>
 #include <string>
 
 #include <gemmi/cif.hpp>
@@ -30,6 +31,8 @@ namespace {
 gemmi::cif::Document parse_cif(const TextFile& file) {
   try {
     return gemmi::cif::read_memory(file.text.data(), file.text.size(), "cif");
+  } catch (const std::bad_alloc&) {
+    throw;  // the machine's fault, not the file's
   } catch (const std::exception& error) {
     rethrow_parse_error(file, error.what());
   }

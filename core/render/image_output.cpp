@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writing pictures through OpenImageIO.
+// Pictures encoded in memory by OpenImageIO.
 #include "core/render/image_output.h"
 
 #include <algorithm>
@@ -9,11 +9,15 @@
 #include <span>
 #include <vector>
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
+#include <sys/resource.h>
 
 #include "core/base/error.h"
+#include "core/base/text.h"
 #include "core/render/color_space.h"
+#include "core/render/memory_file.h"
 
 namespace meniscus {
 namespace {
@@ -94,6 +98,51 @@ OIIO::ImageSpec make_spec(const Framebuffer& picture, const Channels& channels, 
   return spec;
 }
 
+/// To a file of this name, or wherever `output` was told to.
+void write_pixels(const std::filesystem::path& path, OIIO::ImageOutput* output, const std::string& name,
+                  const OIIO::ImageSpec& spec, const Channels& channels) {
+  const auto fail = [&](const std::string& why) { throw OutputError(path.string(), "cannot be encoded: " + why); };
+  if (!output) fail(OIIO::geterror());
+  if (!output->open(name, spec)) fail(output->geterror());
+  if (!output->write_image(OIIO::TypeDesc::FLOAT, channels.values.data())) fail(output->geterror());
+  if (!output->close()) fail(output->geterror());
+}
+
+/// A TIFF file that meets a limit on the size of files lacks what libtiff writes last, and libtiff does not tell. So it
+/// is refused where it might meet one: where the limit is below what the pixels take if they cannot be compressed.
+void refuse_limited_size(const std::filesystem::path& path, const OIIO::ImageSpec& spec) {
+  constexpr rlim_t kDirectories = 1 << 16, kOfALine = 32;
+  const rlim_t pixels = spec.image_bytes(), largest = pixels + pixels / 1000 + kOfALine * spec.height + kDirectories;
+  rlimit limit{};
+  if (::getrlimit(RLIMIT_FSIZE, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY || limit.rlim_cur >= largest) return;
+  throw OutputError(path.string(), fmt::format("may have up to {} bytes, and the system allows files of {} (ulimit -f)",
+                                               with_thousands(largest), with_thousands(limit.rlim_cur)));
+}
+
+/// By name: through a proxy OpenImageIO 2.4 cannot read back what it wrote, and the file would lack its last directory.
+std::vector<std::uint8_t> encoded_tiff(const std::filesystem::path& path, const OIIO::ImageSpec& spec,
+                                       const Channels& channels) {
+  refuse_limited_size(path, spec);
+  const MemoryFile file;
+  write_pixels(path, OIIO::ImageOutput::create("tiff").get(), file.name(), spec, channels);
+  return file.bytes();
+}
+
+/// The bytes of the file. OpenImageIO never writes to the disk itself, for its PNG writer overlooks writes that fail.
+std::vector<std::uint8_t> encoded(const std::filesystem::path& path, const Framebuffer& picture,
+                                  const ImageSettings& settings) {
+  const std::string extension = extension_of(path);
+  const Channels channels =
+      extension == ".exr" ? scene_channels(picture, settings) : display_channels(picture, settings);
+  const OIIO::ImageSpec spec = make_spec(picture, channels, extension);
+  if (extension.starts_with(".tif")) return encoded_tiff(path, spec, channels);
+  std::vector<std::uint8_t> bytes;
+  OIIO::Filesystem::IOVecOutput sink(bytes);
+  const std::string name = "picture" + extension;
+  write_pixels(path, OIIO::ImageOutput::create(name, &sink).get(), name, spec, channels);
+  return bytes;
+}
+
 }  // namespace
 
 bool holds_aovs(const std::filesystem::path& path) { return extension_of(path) == ".exr"; }
@@ -114,17 +163,9 @@ void check_image_path(const std::filesystem::path& path) {
 
 void write_image(const std::filesystem::path& path, const Framebuffer& picture, const ImageSettings& settings) {
   check_image_path(path);
-  const std::string extension = extension_of(path);
-  const bool exr = extension == ".exr";
   OutputFile file(path, settings.existing);
-  const Channels channels = exr ? scene_channels(picture, settings) : display_channels(picture, settings);
-  const OIIO::ImageSpec spec = make_spec(picture, channels, extension);
-  const auto output = OIIO::ImageOutput::create(file.temporary_path().string());
-  const auto fail = [&](const std::string& why) { throw OutputError(path.string(), "cannot be written: " + why); };
-  if (!output) fail(OIIO::geterror());
-  if (!output->open(file.temporary_path().string(), spec)) fail(output->geterror());
-  if (!output->write_image(OIIO::TypeDesc::FLOAT, channels.values.data())) fail(output->geterror());
-  if (!output->close()) fail(output->geterror());
+  const std::vector<std::uint8_t> bytes = encoded(path, picture, settings);
+  file.write(std::as_bytes(std::span(bytes)));
   file.commit();
 }
 

@@ -14,6 +14,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/base/uninterrupted.h"
 
 namespace meniscus {
 namespace {
@@ -31,7 +32,7 @@ BinaryFile::BinaryFile(const std::string& path) : path_(path) {
     throw InputError(path, 0, std::string("cannot be read: ") + std::strerror(errno));
   if (S_ISDIR(status.st_mode)) throw InputError(path, 0, "is a folder; give the name of a trajectory file");
   if (!S_ISREG(status.st_mode)) throw InputError(path, 0, "is a pipe or device; save it as a file first");
-  descriptor_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  descriptor_ = uninterrupted([&] { return ::open(path.c_str(), O_RDONLY | O_CLOEXEC); });
   if (descriptor_ < 0 || ::fstat(descriptor_, &status) != 0) {
     const int error = errno;
     if (descriptor_ >= 0) ::close(descriptor_);
@@ -57,8 +58,8 @@ void BinaryFile::read(std::uint64_t offset, std::span<std::byte> bytes) const {
                                  with_thousands(size_), with_thousands(bytes.size()), with_thousands(offset)));
   }
   while (!bytes.empty()) {
-    const ssize_t count = ::pread(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(offset));
-    if (count < 0 && errno == EINTR) continue;
+    const ssize_t count =
+        uninterrupted([&] { return ::pread(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(offset)); });
     if (count < 0)
       throw InputError(path_, 0, fmt::format("cannot be read at byte {}: {}", offset, std::strerror(errno)));
     if (count == 0) throw InputError(path_, 0, "became shorter while it was read; run again once it is complete");

@@ -2,12 +2,15 @@
 // Picture files read back: channels, alpha, colour space; and what is refused.
 #include "core/render/image_output.h"
 
+#include <algorithm>
 #include <cmath>
+#include <csignal>
 #include <filesystem>
 #include <limits>
 
 #include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include "core/base/error.h"
@@ -113,6 +116,25 @@ TEST_F(ImageFile, RefusesWhatItCannotDo) {
   EXPECT_THROW(write_image(folder_ / "a.png", picture(), {}), OutputError);
   EXPECT_NO_THROW(write_image(folder_ / "a.png", picture(), {std::nullopt, Existing::replace}));
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_), {}), 1) << "a temporary file was left";
+}
+
+TEST_F(ImageFile, IsWholeOrNotThereWhenTheDiskIsFull) {
+  rlimit old{};
+  ::getrlimit(RLIMIT_FSIZE, &old);
+  std::signal(SIGXFSZ, SIG_IGN);
+  for (const char* name : {"a.png", "a.tif", "a.exr"}) {
+    write_image(folder_ / name, picture(), {});
+    const auto whole = std::filesystem::file_size(folder_ / name);
+    std::filesystem::remove(folder_ / name);
+    // From nothing to all but the last byte, behind which directories and end marks stand.
+    for (rlim_t room = 0; room < whole; room += std::min<rlim_t>(13, std::max<rlim_t>(1, whole - 1 - room))) {
+      const rlimit small{room, old.rlim_max};
+      ::setrlimit(RLIMIT_FSIZE, &small);
+      EXPECT_THROW(write_image(folder_ / name, picture(), {}), OutputError) << name << " " << room;
+      ::setrlimit(RLIMIT_FSIZE, &old);
+      EXPECT_TRUE(std::filesystem::is_empty(folder_)) << name << " " << room;
+    }
+  }
 }
 
 TEST(ColorSpace, RoundTrips) {
