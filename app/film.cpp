@@ -2,9 +2,12 @@
 // Runs ffmpeg by an argument vector, never through a shell.
 #include "app/film.h"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <string_view>
+#include <utility>
 
 #include <fcntl.h>
 #include <signal.h>
@@ -16,6 +19,7 @@
 
 #include <fmt/format.h>
 
+#include "app/film_check.h"
 #include "app/program_error.h"
 #include "core/base/error.h"
 
@@ -25,7 +29,7 @@ namespace meniscus {
 namespace {
 
 std::vector<std::string> arguments(const std::string& output, glm::ivec2 size, double frames_per_second) {
-  return {"ffmpeg", "-hide_banner", "-loglevel", "error", "-y",
+  return {"ffmpeg", "-hide_banner", "-loglevel", "error", "-xerror", "-y",
           // pictures as they come
           "-f", "rawvideo", "-pixel_format", "rgb24", "-video_size", fmt::format("{}x{}", size.x, size.y), "-framerate",
           fmt::format("{}", frames_per_second), "-i", "pipe:0",
@@ -34,6 +38,12 @@ std::vector<std::string> arguments(const std::string& output, glm::ivec2 size, d
           "-pix_fmt", "yuv420p", "-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709",
           "-color_range", "tv", "-movflags", "+faststart", "-fflags", "+bitexact", "-flags:v", "+bitexact",
           "-map_metadata", "-1", output};
+}
+
+std::string in_one_line(std::string_view text) {
+  std::string line(text.substr(0, text.find_last_not_of(" \r\n") + 1));
+  std::ranges::replace(line, '\n', ';');
+  return line;
 }
 
 }  // namespace
@@ -81,8 +91,7 @@ FilmWriter::FilmWriter(const std::string& path, Existing existing, glm::ivec2 si
 
 FilmWriter::~FilmWriter() {
   if (encoder_ >= 0) ::kill(encoder_, SIGKILL);  // given up: nobody wants what it has
-  if (pictures_ >= 0) ::close(pictures_);
-  wait();
+  end_pictures();
   ::close(complaints_);
 }
 
@@ -93,30 +102,40 @@ void FilmWriter::wait() {
   encoder_ = -1;
 }
 
-void FilmWriter::fail() {
-  if (pictures_ >= 0) ::close(pictures_);  // an encoder that still reads comes to its end
-  pictures_ = -1;
+void FilmWriter::end_pictures() {
+  if (pictures_ >= 0) ::close(std::exchange(pictures_, -1));  // an encoder that still reads comes to its end
   wait();
+}
+
+// On a full disk ffmpeg may end with 0, and says so on standard error only.
+std::string FilmWriter::fault() const {
   std::array<char, 2000> text{};
   const ssize_t length = ::pread(complaints_, text.data(), text.size(), 0);
-  throw OutputError(file_.target().string(),
-                    fmt::format("ffmpeg failed: {}", std::string_view(text.data(), length > 0 ? length : 0)));
+  const std::string said = in_one_line(std::string_view(text.data(), length > 0 ? length : 0));
+  if (!said.empty()) return "ffmpeg failed: " + said;
+  if (WIFSIGNALED(status_)) return fmt::format("ffmpeg was ended by signal {}", WTERMSIG(status_));
+  if (WEXITSTATUS(status_) != 0) return fmt::format("ffmpeg failed with exit code {}", WEXITSTATUS(status_));
+  const std::string broken = film_fault(file_.temporary_path(), added_);
+  return broken.empty() ? "" : fmt::format("ffmpeg says nothing, but what it wrote {}", broken);
 }
 
 void FilmWriter::add(std::span<const std::uint8_t> rgb) {
   while (!rgb.empty()) {
     const ssize_t sent = ::send(pictures_, rgb.data(), rgb.size(), MSG_NOSIGNAL);
     if (sent < 0 && errno == EINTR) continue;
-    if (sent <= 0) fail();
+    if (sent <= 0) {
+      end_pictures();
+      const std::string why = fault();
+      throw OutputError(file_.target().string(), why.empty() ? "ffmpeg takes no more pictures" : why);
+    }
     rgb = rgb.subspan(static_cast<std::size_t>(sent));
   }
+  ++added_;
 }
 
 void FilmWriter::finish() {
-  ::close(pictures_);
-  pictures_ = -1;
-  wait();
-  if (!WIFEXITED(status_) || WEXITSTATUS(status_) != 0) fail();
+  end_pictures();
+  if (const std::string why = fault(); !why.empty()) throw OutputError(file_.target().string(), why);
   file_.commit();
 }
 

@@ -22,7 +22,8 @@ bool is_film_path(const std::string& path);
 void check_film_size(glm::ivec2 size);
 
 /// One film in H.264 (yuv420p, BT.709, constant quality 18); equal pictures give equal bytes on one machine. It appears
-/// under its name when finish() succeeds. Needs the program ffmpeg; without it, or when it fails, throws OutputError.
+/// under its name when finish() succeeds: when ffmpeg had nothing to complain of and the file is whole. Needs the
+/// program ffmpeg; without it, or when it fails, throws OutputError.
 class FilmWriter {
  public:
   FilmWriter(const std::string& path, Existing existing, glm::ivec2 size, double frames_per_second);
@@ -36,13 +37,15 @@ class FilmWriter {
 
  private:
   void wait();
-  [[noreturn]] void fail();
+  void end_pictures();
+  std::string fault() const;  ///< why what the encoder has written is no film; empty if it is one
 
   OutputFile file_;
   pid_t encoder_ = -1;
   int pictures_ = -1;    ///< socket to the encoder's standard input
   int complaints_ = -1;  ///< what it writes on standard error
   int status_ = 0;
+  std::uint64_t added_ = 0;  ///< pictures
 };
 
 }  // namespace meniscus

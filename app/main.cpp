@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The program `meniscus`: a table of commands, and the one place where errors become a line and an exit code.
+// The program `meniscus`: a table of commands.
 #include <iostream>
-#include <new>
 #include <sstream>
+
+#include <unistd.h>
 
 #include <fmt/format.h>
 
 #include "app/build_version.h"
 #include "app/commands.h"
+#include "app/error_report.h"
+#include "app/memory_limit.h"
 #include "app/program_error.h"
+#include "app/standard_streams.h"
 #include "app/stop_signals.h"
 #include "core/base/text.h"
 
@@ -66,20 +70,6 @@ class ManualFormatter : public CLI::Formatter {
   }
 };
 
-int report(ExitCode code, const std::string& message) {
-  std::cerr << "meniscus: error: " << escaped(message) << std::endl;
-  return code;
-}
-
-/// The lines of a selection with its caret, each of them harmless to a terminal.
-int report(const SelectionError& error) {
-  std::istringstream picture(error.picture());
-  std::string lines = escaped(error.sentence());
-  for (std::string line; std::getline(picture, line);) lines += "\n  " + escaped(line);
-  std::cerr << "meniscus: error: " << lines << std::endl;
-  return kExitUsage;
-}
-
 void refuse_unknown_command(std::string_view word) {
   std::string names;
   for (const Command& command : kCommands) {
@@ -89,7 +79,7 @@ void refuse_unknown_command(std::string_view word) {
   throw UsageError(fmt::format("{} is no command; there are {}; see meniscus --help", in_quotes(word), names));
 }
 
-int run(int argc, char** argv) {
+void run(int argc, char** argv) {
   if (argc > 1 && argv[1][0] != '-') refuse_unknown_command(argv[1]);
   CLI::App program("Meniscus computes the exact, complete solvent-excluded surface of a molecule.", "meniscus");
   program.formatter(std::make_shared<ManualFormatter>());
@@ -105,13 +95,11 @@ int run(int argc, char** argv) {
   try {
     program.parse(argc, argv);
   } catch (const CLI::Success& success) {
-    return program.exit(success);
+    program.exit(success);
   } catch (const CLI::ParseError& error) {
     throw UsageError(std::string(error.what()) + "; see meniscus --help");
   }
-  std::cout.flush();
-  if (!std::cout) throw OutputError("standard output", "cannot be written");
-  return kExitOk;
+  finish_standard_output();
 }
 
 }  // namespace
@@ -125,16 +113,19 @@ void describe(CLI::App& command, const std::string& summary, const std::string& 
 
 int main(int argc, char** argv) {
   using namespace meniscus;
-  clean_up_on_signals();
+  libraries_are_loaded();
+  ExitCode code = kExitOk;
   try {
-    return run(argc, argv);
-  } catch (const SelectionError& error) {
-    return report(error);
-  } catch (const std::bad_alloc&) {
-    return report(kExitCapacity, "not enough memory");
-  } catch (const std::exception& error) {
-    const ExitCode code = exit_code_of(error);
-    return report(code, code == kExitInternal ? fmt::format("internal: {}; please report this", error.what())
-                                              : std::string(error.what()));
+    report_uncaught_errors();
+    hold_standard_streams();
+    clean_up_on_signals();
+    run(argc, argv);
+  } catch (...) {
+    code = report_current_error();
   }
+  if (memory_is_limited()) {
+    std::cout.flush();
+    ::_exit(code);  // a thread of OpenBLAS that gets no memory asks again for ever, and its destructor waits for it
+  }
+  return code;
 }

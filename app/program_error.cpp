@@ -2,7 +2,10 @@
 // Which error ends the program with which code.
 #include "app/program_error.h"
 
+#include <filesystem>
 #include <new>
+#include <string_view>
+#include <system_error>
 
 namespace meniscus {
 namespace {
@@ -10,6 +13,13 @@ namespace {
 template <typename Kind>
 bool is(const std::exception& error) {
   return dynamic_cast<const Kind*>(&error) != nullptr;
+}
+
+/// What the system refused: memory or another thread, or one of the folders that are made, renamed and removed.
+ExitCode code_of_system(const std::system_error& error) {
+  if (error.code() == std::errc::not_enough_memory || error.code() == std::errc::resource_unavailable_try_again)
+    return kExitCapacity;
+  return is<std::filesystem::filesystem_error>(error) ? kExitOutput : kExitInternal;
 }
 
 }  // namespace
@@ -22,6 +32,8 @@ ExitCode exit_code_of(const std::exception& error) {
   if (is<CapacityError>(error) || is<std::bad_alloc>(error)) return kExitCapacity;
   if (is<OutputError>(error)) return kExitOutput;
   if (is<OpenSurfaceError>(error)) return kExitNotClosed;
+  if (std::string_view(error.what()).starts_with("pthread_create")) return kExitCapacity;  // so oneTBB tells of it
+  if (const auto* system = dynamic_cast<const std::system_error*>(&error)) return code_of_system(*system);
   return kExitInternal;
 }
 

@@ -45,6 +45,7 @@ void tell(int signal) {
 // All threads of ours but one block the signals, so that nothing of theirs is interrupted. That alone would not do:
 // libraries such as OpenBLAS start threads before main begins, and one of these would end the program at once.
 void clean_up_on_signals() {
+  std::signal(SIGXFSZ, SIG_IGN);  // a limit on the size of files is then an error of write(), and reported
   ::sem_init(&told, 0, 0);
   struct sigaction action {};
   action.sa_handler = tell;

@@ -8,7 +8,8 @@
 namespace meniscus {
 
 /// From now on SIGINT, SIGTERM, SIGHUP and SIGUSR1 remove unfinished files before the program ends, as the signal would
-/// have ended it. Call once, before other threads are started.
+/// have ended it; SIGXFSZ is ignored, so that a file too large is an OutputError. Call once, before other threads are
+/// started.
 void clean_up_on_signals();
 
 /// While this lives, these signals call `stop` first, on a thread of its own, and the program ends with `exit_code`,

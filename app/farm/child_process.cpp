@@ -52,6 +52,7 @@ void stay_if_stopping() {
   sigset_t none;
   sigemptyset(&none);
   sigprocmask(SIG_SETMASK, &none, nullptr);
+  std::signal(SIGXFSZ, SIG_DFL);  // this program hears of a file too large otherwise; a foreign one may not listen
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   const int nothing = ::open("/dev/null", O_RDONLY);
   // The parent may have died before the request above.
