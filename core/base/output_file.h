@@ -28,7 +28,7 @@ class OutputFile {
   void write(std::string_view text);
   void write(std::span<const std::byte> bytes);
 
-  /// For libraries that open files by name: write here instead of calling write(). Ends in the target's extension.
+  /// For programs that open files by name: write here instead of calling write(). Ends in the target's extension.
   const std::filesystem::path& temporary_path() const { return temporary_; }
   const std::filesystem::path& target() const { return target_; }
 

@@ -14,8 +14,9 @@ struct TextFile {
 };
 
 /// Reads a regular file, or standard input for "-", unpacking gzip (several members too) by its first bytes, not by its
-/// name. Throws InputError: missing, unreadable, a folder, a named pipe or device, empty, binary, UTF-16, or damaged
-/// gzip; CapacityError: more than `largest` bytes after unpacking, or a line above 1 MiB.
+/// name. Throws InputError: missing, unreadable, a folder, a named pipe or device, empty, binary, UTF-16, damaged gzip,
+/// or changed while it was read, other than by appending, of which nothing is seen; CapacityError: more than `largest`
+/// bytes after unpacking, or a line above 1 MiB.
 TextFile read_text_file(const std::string& path, std::size_t largest = std::size_t{2} << 30);
 
 }  // namespace meniscus
