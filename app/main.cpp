@@ -123,9 +123,11 @@ int main(int argc, char** argv) {
   } catch (...) {
     code = report_current_error();
   }
-  if (memory_is_limited()) {
+  // Without memory no destructor of a library can be relied on: a thread of OpenBLAS that gets none asks again for
+  // ever, and its destructor waits for it.
+  if (memory_is_limited() || code == kExitCapacity) {
     std::cout.flush();
-    ::_exit(code);  // a thread of OpenBLAS that gets no memory asks again for ever, and its destructor waits for it
+    ::_exit(code);
   }
   return code;
 }
