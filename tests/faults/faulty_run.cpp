@@ -37,19 +37,19 @@ std::string walk() {
   return text;
 }
 
+/// Without the time that stages took, and without the date in pictures.
+std::string timeless(const std::string& text) {
+  static const std::regex time(R"("ms": ?[-+.0-9e]+|time +[.0-9]+ ms|\d{4}:\d\d:\d\d \d\d:\d\d:\d\d)");
+  return std::regex_replace(text, time, "");
+}
+
 std::map<std::string, std::string> files_below(const fs::path& folder) {
   std::map<std::string, std::string> files;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
     const std::string name = fs::relative(entry.path(), folder).string();
-    files[name] = entry.is_directory() ? "(folder)" : read_bytes(entry.path());
+    files[name] = entry.is_directory() ? "(folder)" : timeless(read_bytes(entry.path()));
   }
   return files;
-}
-
-/// Without the time that stages took.
-std::string timeless(const std::string& text) {
-  static const std::regex time(R"("ms": ?[-+.0-9e]+|time +[.0-9]+ ms)");
-  return std::regex_replace(text, time, "");
 }
 
 }  // namespace
