@@ -120,7 +120,7 @@ void run_paper(BenchCommand& command) {
   if (command.molecule.computing.kind != SurfaceKind::ses)
     throw UsageError("--paper draws solvent-excluded surfaces only");
   PaperBenchSettings settings;
-  settings.device = command.molecule.computing.cpu ? DeviceChoice{} : command.molecule.computing.gl;
+  settings.device = command.molecule.computing.gl;
   settings.size = {command.picture.width, command.picture.height};
   settings.probe_radius = command.molecule.computing.probe_radius;
   settings.runs = command.runs;

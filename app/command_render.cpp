@@ -128,9 +128,7 @@ RenderSettings render_settings(const RenderCommand& command, const PictureLayout
   return settings;
 }
 
-DeviceChoice gl_device(const RenderCommand& command) {
-  return command.molecule.computing.cpu ? DeviceChoice{} : command.molecule.computing.gl;
-}
+DeviceChoice gl_device(const RenderCommand& command) { return command.molecule.computing.gl; }
 
 Framebuffer cast(RayCaster& caster, std::vector<SurfaceObject> objects, const Camera& camera,
                  const RenderSettings& settings) {

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <iterator>
 #include <memory>
+#include <optional>
 #include <unordered_set>
 
 #include <fmt/format.h>
@@ -32,8 +33,12 @@ struct WorkCommand {
   ProgressStyle progress = ProgressStyle::automatic;
 };
 
+struct Chunk {
+  std::uint64_t number = 0, count = 0;
+};
+
 /// K/N, 1 <= K <= N.
-std::vector<std::uint64_t> frames_of_chunk(const farm::Bundle& bundle, const std::string& text) {
+Chunk parse_chunk(const std::string& text) {
   std::uint64_t k = 0, n = 0;
   const char* const end = text.data() + text.size();
   const auto [slash, first_error] = std::from_chars(text.data(), end, k);
@@ -41,7 +46,7 @@ std::vector<std::uint64_t> frames_of_chunk(const farm::Bundle& bundle, const std
   const auto [rest, second_error] = has_slash ? std::from_chars(slash + 1, end, n) : std::from_chars(end, end, n);
   if (!has_slash || second_error != std::errc() || rest != end || k < 1 || k > n)
     throw UsageError(fmt::format("--chunk is {}; it must be K/N with K from 1 to N, such as 3/10", in_quotes(text)));
-  return farm::chunk_of(bundle, k, n);
+  return {k, n};
 }
 
 /// Of the run those that the list has: of every tenth frame, 0-30 means four.
@@ -69,7 +74,10 @@ farm::Share share_of(const WorkCommand& command, const farm::Bundle& bundle) {
   }
   if (share.steps.empty())
     throw UsageError(fmt::format("--step {} is none of this bundle's: {}", in_quotes(command.step), names));
-  share.frames = !command.chunk.empty()    ? frames_of_chunk(bundle, command.chunk)
+  const std::optional<Chunk> chunk = command.chunk.empty() ? std::nullopt : std::optional(parse_chunk(command.chunk));
+  // Workers of neighbouring shares on a machine of several GPUs take one each.
+  if (chunk) ::setenv(kWorkerVariable, std::to_string(chunk->number - 1).c_str(), 0);
+  share.frames = chunk                     ? farm::chunk_of(bundle, chunk->number, chunk->count)
                  : !command.frames.empty() ? listed_frames(bundle, command.frames)
                                            : bundle.frames;
   return share;

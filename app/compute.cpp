@@ -24,18 +24,16 @@ namespace {
 
 constexpr std::array kCheckTolerances{0.1, 0.03, 0.01};  // Å, of the mesh that --verify makes
 
-bool has_hardware_gpu() {
-  try {
-    const auto devices = list_gl_devices();
-    return std::any_of(devices.begin(), devices.end(), [](const GlDevice& d) { return !d.software; });
-  } catch (const GpuError&) {
-    return false;  // no EGL at all
-  }
-}
-
 std::string cpu_device() {
   const auto threads = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
   return fmt::format("cpu ({} {})", threads, threads == 1 ? "thread" : "threads");
+}
+
+/// Any GL will do, but hardware is better.
+DeviceChoice gl_for_verifying(const ComputeOptions& options) {
+  DeviceChoice choice = options.gl;
+  choice.kind = DeviceChoice::Kind::automatic;
+  return choice;
 }
 
 // Names every difference: all of them, for a bug report is useless with the first few.
@@ -73,13 +71,25 @@ struct SurfaceComputer::GlPipeline {
 };
 
 SurfaceComputer::SurfaceComputer(const ComputeOptions& options, const EglContext* context)
-    : options_(options),
-      context_(context),
-      on_cpu_(options.cpu || (options.gl.kind == DeviceChoice::Kind::automatic && !has_hardware_gpu())) {
+    : options_(options), context_(context), on_cpu_(options.cpu) {
   if (options.kind == SurfaceKind::vdw && options.probe_named)
     throw RequestError("--probe: the van der Waals surface has no probe; leave --probe or --surface vdw away");
   if (options.threads > 0) {
     thread_limit_.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(options.threads));
+  }
+  if (!options.cpu && options.gl.kind == DeviceChoice::Kind::automatic) on_cpu_ = !find_hardware();
+}
+
+// Automatic never lands on software GL. A list of devices does not tell: only a context knows its renderer.
+bool SurfaceComputer::find_hardware() {
+  if (context_) return !context_->is_software();
+  DeviceChoice hardware = options_.gl;
+  hardware.kind = DeviceChoice::Kind::gpu;
+  try {
+    gl_ = std::make_unique<GlPipeline>(nullptr, hardware);
+    return true;
+  } catch (const GpuError&) {
+    return false;  // no EGL, no GPU, or none with GL 4.5
   }
 }
 
@@ -101,7 +111,7 @@ Surface SurfaceComputer::compute(std::span<const Ball> balls) {
   }
   // The other device's time is not this one's.
   StageClock unused;
-  const Surface other = on_cpu_ ? compute_on_gl(balls, probe_radius, DeviceChoice{}, unused)
+  const Surface other = on_cpu_ ? compute_on_gl(balls, probe_radius, gl_for_verifying(options_), unused)
                                 : compute_on_cpu(balls, probe_radius, unused);
   const std::string first = on_cpu_ ? cpu_device() : gl_->device, second = on_cpu_ ? gl_->device : cpu_device();
   require_equal(surface, first, other, second);

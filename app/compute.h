@@ -67,6 +67,7 @@ class SurfaceComputer {
  private:
   struct GlPipeline;
 
+  bool find_hardware();
   Surface compute_on_cpu(std::span<const Ball> balls, double probe_radius, StageClock& clock);
   Surface compute_on_gl(std::span<const Ball> balls, double probe_radius, const DeviceChoice& choice,
                         StageClock& clock);

@@ -77,7 +77,10 @@ void add_radii_options(CLI::App& command, ReadOptions& reading);
 /// --verify, --threads.
 void add_surface_options(CLI::App& command, MoleculeOptions& options);
 void add_probe_option(CLI::App& command, ComputeOptions& computing);
+/// Reads CUDA_VISIBLE_DEVICES, and the number of this worker in kWorkerVariable or SLURM_LOCALID: see DeviceChoice.
 void add_device_option(CLI::App& command, ComputeOptions& computing);
+/// What `meniscus work` tells the programs it starts: from 0, which of the workers on this machine they belong to.
+inline constexpr const char* kWorkerVariable = "MENISCUS_WORKER";
 /// What is wrong with a probe radius (Å) and what would be right; empty if nothing is.
 std::string probe_fault(double radius);
 /// Into which objects it is divided (surface_options.cpp): --by, --cavities.

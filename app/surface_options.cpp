@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Declares the options that say which surface is computed, and where.
+#include <charconv>
+#include <cstdlib>
+#include <cstring>
 #include <map>
 #include <optional>
 
@@ -29,18 +32,33 @@ double parse_probe(const std::string& text) {
 
 void parse_device(const std::string& text, ComputeOptions& options) {
   options.cpu = text == "cpu";
-  if (options.cpu) return;
-  const std::optional<DeviceChoice> choice = parse_device_choice(text);
-  if (!choice) throw CLI::ValidationError("--device", in_quotes(text) + " is none of auto, gpu, gpu:N, software, cpu");
-  options.gl = *choice;
+  const std::optional<DeviceChoice> choice = parse_device_choice(options.cpu ? "auto" : text);
+  if (!choice) {
+    throw CLI::ValidationError(
+        "--device", in_quotes(text) + " is none of auto, gpu, gpu:N, gpu:UUID, gpu:PCI-ADDRESS, software, cpu");
+  }
+  options.gl.kind = choice->kind;
+  options.gl.index = choice->index;
+  options.gl.name = choice->name;
 }
 
-/// "auto" becomes the first hardware GPU and nothing else. Runs after --device, whatever their order.
+/// "auto" becomes any hardware GPU and nothing else. Runs after --device, whatever their order.
 void require_gpu(ComputeOptions& options) {
   if (options.cpu || options.gl.kind == DeviceChoice::Kind::software)
     throw GpuError(fmt::format("--require-gpu refuses --device {}; leave one of them away",
                                options.cpu ? "cpu" : to_string(options.gl)));
-  if (options.gl.kind == DeviceChoice::Kind::automatic) options.gl = {DeviceChoice::Kind::gpu, 0};
+  if (options.gl.kind == DeviceChoice::Kind::automatic) options.gl.kind = DeviceChoice::Kind::gpu;
+}
+
+/// Which GPUs this process is meant to see, and which of several it takes.
+void read_environment(DeviceChoice& choice) {
+  if (const char* const visible = std::getenv("CUDA_VISIBLE_DEVICES")) choice.cuda_visible = visible;
+  for (const char* const variable : {"SLURM_LOCALID", kWorkerVariable}) {
+    const char* const text = std::getenv(variable);
+    int number = -1;
+    if (text && std::from_chars(text, text + std::strlen(text), number).ec == std::errc() && number >= 0)
+      choice.worker = number;
+  }
 }
 
 void parse_division(const std::string& text, DivisionOptions& division) {
@@ -83,10 +101,12 @@ void add_probe_option(CLI::App& command, ComputeOptions& computing) {
 }
 
 void add_device_option(CLI::App& command, ComputeOptions& computing) {
+  read_environment(computing.gl);
   command
       .add_option_function<std::string>(
           "--device", [&computing](const std::string& text) { parse_device(text, computing); },
-          "auto (default: a GPU if there is one, else cpu), gpu, gpu:N, software (GL without a GPU), cpu")
+          "auto (default: a GPU if there is one, else cpu), gpu, gpu:N (or UUID, PCI address), software (GL "
+          "without a GPU), cpu")
       ->type_name("DEVICE");
   command.add_flag_callback(
       "--require-gpu", [&computing] { require_gpu(computing); },

@@ -11,6 +11,7 @@
 
 #include "core/base/error.h"
 #include "core/gpu/limits.h"
+#include "core/gpu/work_proof.h"
 
 namespace meniscus {
 
@@ -63,6 +64,7 @@ void Buffer::read(std::size_t byte_offset, void* bytes, std::size_t byte_count) 
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
   glGetNamedBufferSubData(name_, static_cast<GLintptr>(byte_offset), static_cast<GLsizeiptr>(byte_count), bytes);
   check_gl("downloading a buffer");
+  WorkProof::current().verify();
 }
 
 void Buffer::fill(std::uint32_t word) {

@@ -41,7 +41,8 @@ class Buffer {
   void upload(const std::vector<T>& values) {
     upload(std::span<const T>(values));
   }
-  /// Copies `count` values of type T out, from `byte_offset` on; waits for kernels to end.
+  /// Copies `count` values of type T out, from `byte_offset` on; waits for kernels to end. Throws GpuError if one of
+  /// them did not (work_proof.h).
   template <typename T>
   std::vector<T> download(std::size_t count, std::size_t byte_offset = 0) const {
     static_assert(std::is_trivially_copyable_v<T>);
@@ -49,7 +50,7 @@ class Buffer {
     read(byte_offset, values.data(), count * sizeof(T));
     return values;
   }
-  /// Copies into existing memory; waits for kernels to end.
+  /// Copies into existing memory; otherwise the same.
   template <typename T>
   void download(std::span<T> values, std::size_t byte_offset = 0) const {
     read(byte_offset, values.data(), values.size_bytes());

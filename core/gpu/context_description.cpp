@@ -18,13 +18,16 @@ std::string gl_text(GLenum name) {
   return text ? text : "unknown";
 }
 
-bool is_software_renderer(std::string renderer) {
-  std::transform(renderer.begin(), renderer.end(), renderer.begin(), [](unsigned char c) { return std::tolower(c); });
-  return std::ranges::any_of(std::array{"llvmpipe", "softpipe", "swrast", "swiftshader", "software"},
-                             [&](const char* word) { return renderer.find(word) != std::string::npos; });
-}
-
 }  // namespace
+
+bool is_software_renderer(std::string renderer) {
+  std::ranges::transform(renderer, renderer.begin(), [](unsigned char c) { return std::tolower(c); });
+  // Zink and others name the device below them in parentheses, such as "zink (llvmpipe (LLVM 15.0.6, 256 bits))".
+  return renderer.starts_with("swr ") ||
+         std::ranges::any_of(
+             std::array{"llvmpipe", "lavapipe", "softpipe", "swrast", "swiftshader", "software", "basic render"},
+             [&](const char* word) { return renderer.find(word) != std::string::npos; });
+}
 
 ContextDescription describe_current_context() {
   ContextDescription description;

@@ -12,6 +12,9 @@ struct ContextDescription {
   bool software = false;
 };
 
+/// Whether a renderer of this name (GL_RENDERER) draws on the CPU: llvmpipe, softpipe, SwiftShader, zink on lavapipe...
+bool is_software_renderer(std::string renderer);
+
 /// Of the context current on this thread; there must be one.
 ContextDescription describe_current_context();
 

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
+#include <system_error>
 
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
@@ -27,21 +29,61 @@ std::vector<EGLDeviceEXT> query_devices() {
   return devices;
 }
 
+// Of EGL_EXT_device_persistent_id, younger than the headers at hand.
+constexpr EGLint kDeviceUuid = 0x335C;  // EGL_DEVICE_UUID_EXT
+using QueryDeviceBinary = EGLBoolean (*)(EGLDeviceEXT device, EGLint name, EGLint max_size, void* value, EGLint* size);
+
+/// As CUDA and nvidia-smi write it; empty if the device has none.
+std::string uuid_of(EGLDeviceEXT device) {
+  const auto query = reinterpret_cast<QueryDeviceBinary>(eglGetProcAddress("eglQueryDeviceBinaryEXT"));
+  std::array<unsigned char, 16> bytes{};
+  EGLint size = 0;
+  if (!query || !query(device, kDeviceUuid, static_cast<EGLint>(bytes.size()), bytes.data(), &size) || size != 16)
+    return {};
+  std::string text = "GPU";
+  for (std::size_t n = 0; n < bytes.size(); ++n)
+    text += fmt::format("{}{:02x}", n == 0 || n == 4 || n == 6 || n == 8 || n == 10 ? "-" : "", bytes[n]);
+  return text;
+}
+
+/// The PCI address behind a file such as /dev/dri/card0; empty if there is none.
+std::string pci_of(const std::string& drm_file) {
+  std::error_code none;
+  const auto name = std::filesystem::path(drm_file).filename();
+  return std::filesystem::read_symlink("/sys/class/drm" / name / "device", none).filename().string();
+}
+
 GlDevice describe(EGLDeviceEXT device, int egl_index) {
   const char* words = eglQueryDeviceStringEXT(device, EGL_EXTENSIONS);
   const std::string extensions = words ? words : "";
+  const auto has = [&](const char* extension) { return extensions.find(extension) != std::string::npos; };
   GlDevice result;
   result.egl_index = egl_index;
-  result.software = extensions.find("EGL_MESA_device_software") != std::string::npos;
+  result.software = has("EGL_MESA_device_software");
   result.name = extensions;
-  if (extensions.find("EGL_EXT_device_drm") != std::string::npos)
-    if (const char* file = eglQueryDeviceStringEXT(device, EGL_DRM_DEVICE_FILE_EXT)) result.name = file;
+  if (has("EGL_EXT_device_drm"))
+    if (const char* file = eglQueryDeviceStringEXT(device, EGL_DRM_DEVICE_FILE_EXT)) {
+      result.name = file;
+      result.pci = pci_of(file);
+    }
+  EGLAttrib cuda = 0;
+  if (has("EGL_NV_device_cuda") && eglQueryDeviceAttribEXT(device, EGL_CUDA_DEVICE_NV, &cuda))
+    result.cuda_index = static_cast<int>(cuda);
+  if (has("EGL_EXT_device_persistent_id")) result.uuid = uuid_of(device);
   return result;
 }
 
-constexpr std::array<EGLint, 7> kCoreProfile{
-    EGL_CONTEXT_MAJOR_VERSION,           4,       EGL_CONTEXT_MINOR_VERSION, 5, EGL_CONTEXT_OPENGL_PROFILE_MASK,
-    EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
+/// GL 4.5 core, or EGL_NO_CONTEXT. Contexts that share agree about whether they are told of resets.
+EGLContext create_context(EGLDisplay display, EGLConfig config, EGLContext sibling, bool told_of_resets) {
+  std::vector<EGLint> wish{EGL_CONTEXT_MAJOR_VERSION,       4,
+                           EGL_CONTEXT_MINOR_VERSION,       5,
+                           EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT};
+  if (told_of_resets)
+    wish.insert(wish.end(), {EGL_CONTEXT_OPENGL_ROBUST_ACCESS, EGL_TRUE, EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY,
+                             EGL_LOSE_CONTEXT_ON_RESET});
+  wish.push_back(EGL_NONE);
+  return eglCreateContext(display, config, sibling, wish.data());
+}
 
 EGLConfig config_of(EGLDisplay display, EGLContext context) {
   EGLint id = 0;
@@ -52,27 +94,16 @@ EGLConfig config_of(EGLDisplay display, EGLContext context) {
   return eglChooseConfig(display, same.data(), &config, 1, &count) && count == 1 ? config : nullptr;
 }
 
-/// The devices that fit the wish, best first.
-std::vector<GlDevice> candidates(const DeviceChoice& choice) {
-  std::vector<GlDevice> devices = list_gl_devices();
-  if (choice.kind == DeviceChoice::Kind::software)
-    std::erase_if(devices, [](const GlDevice& d) { return !d.software; });
-  else if (choice.kind == DeviceChoice::Kind::gpu)
-    std::erase_if(devices, [&](const GlDevice& d) { return d.gpu_index != choice.index; });
-  else
-    std::ranges::stable_partition(devices, [](const GlDevice& d) { return !d.software; });
-  return devices;
+std::string visibility_note(const DeviceChoice& choice) {
+  return choice.cuda_visible ? fmt::format(" among those that CUDA_VISIBLE_DEVICES='{}' leaves", *choice.cuda_visible)
+                             : "";
 }
 
 }  // namespace
 
 std::vector<GlDevice> list_gl_devices() {
   std::vector<GlDevice> result;
-  int gpu_count = 0;
-  for (const EGLDeviceEXT device : query_devices()) {
-    result.push_back(describe(device, static_cast<int>(result.size())));
-    if (!result.back().software) result.back().gpu_index = gpu_count++;
-  }
+  for (const EGLDeviceEXT device : query_devices()) result.push_back(describe(device, static_cast<int>(result.size())));
   return result;
 }
 
@@ -84,21 +115,24 @@ std::optional<ForeignContext> current_egl_context() {
 }
 
 EglContext::EglContext(const DeviceChoice& choice) {
-  const std::vector<GlDevice> devices = candidates(choice);
-  if (devices.empty())
-    throw GpuError(fmt::format("no {} for '{}': EGL lists {} device(s), none of that kind",
+  const std::vector<GlDevice> devices = list_gl_devices();
+  const std::vector<DeviceAttempt> attempts = device_attempts(choice, devices);
+  if (attempts.empty())
+    throw GpuError(fmt::format("no {} for '{}': EGL lists {} device(s), none of that kind{}",
                                choice.kind == DeviceChoice::Kind::gpu ? "hardware GPU" : "device", to_string(choice),
-                               list_gl_devices().size()));
+                               devices.size(), visibility_note(choice)));
   std::string reasons;
-  for (const GlDevice& device : devices) {
+  for (const DeviceAttempt& attempt : attempts) {
     std::string why_not;
-    if (try_device(device, why_not)) return;
-    reasons += fmt::format("{}device {} ({}): {}", reasons.empty() ? "" : "; ", device.egl_index, device.name, why_not);
+    if (try_device(attempt, why_not)) return;
+    reasons += fmt::format("{}device {} ({}): {}", reasons.empty() ? "" : "; ", attempt.device.egl_index,
+                           attempt.device.name, why_not);
   }
   throw GpuError(fmt::format("no usable GL 4.5 device for '{}': {}", to_string(choice), reasons));
 }
 
-bool EglContext::try_device(const GlDevice& device, std::string& why_not) {
+bool EglContext::try_device(const DeviceAttempt& attempt, std::string& why_not) {
+  const GlDevice& device = attempt.device;
   const auto devices = query_devices();
   if (static_cast<std::size_t>(device.egl_index) >= devices.size()) return why_not = "it went away", false;
   const EGLDisplay display = eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, devices[device.egl_index], nullptr);
@@ -107,13 +141,14 @@ bool EglContext::try_device(const GlDevice& device, std::string& why_not) {
   if (!epoxy_has_egl_extension(display, "EGL_KHR_surfaceless_context"))
     return why_not = "no EGL_KHR_surfaceless_context", false;
   if (!eglBindAPI(EGL_OPENGL_API)) return why_not = "no desktop OpenGL", false;
-  EGLContext context = EGL_NO_CONTEXT;
   const std::array<EGLint, 3> config_wish{EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE};
   EGLConfig config = nullptr;
   EGLint config_count = 0;
   // Surfaceless: any config with OpenGL does, and none is needed where EGL_KHR_no_config_context is offered.
   if (!eglChooseConfig(display, config_wish.data(), &config, 1, &config_count) || config_count == 0) config = nullptr;
-  context = eglCreateContext(display, config, EGL_NO_CONTEXT, kCoreProfile.data());
+  // Where the driver tells of resets, work that a reset took away is known to be lost.
+  EGLContext context = create_context(display, config, EGL_NO_CONTEXT, true);
+  if (context == EGL_NO_CONTEXT) context = create_context(display, config, EGL_NO_CONTEXT, false);
   if (context == EGL_NO_CONTEXT)
     return why_not = fmt::format("no GL 4.5 core (EGL error 0x{:x})", eglGetError()), false;
   if (!adopt_context(display, context, why_not)) {
@@ -121,7 +156,10 @@ bool EglContext::try_device(const GlDevice& device, std::string& why_not) {
     return false;
   }
   description_.software |= device.software;
-  return true;
+  if (!attempt.hardware_only || !description_.software) return true;
+  why_not = fmt::format("its renderer is software: {}", description_.renderer);
+  abandon();
+  return false;
 }
 
 bool EglContext::adopt_context(void* display, void* context, std::string& why_not) {
@@ -130,19 +168,15 @@ bool EglContext::adopt_context(void* display, void* context, std::string& why_no
   display_ = display;
   context_ = context;
   description_ = describe_current_context();
+  proof_.emplace();
   return true;
 }
 
 EglContext::EglContext(const ForeignContext& sibling) {
   if (!epoxy_has_egl_extension(sibling.display, "EGL_KHR_surfaceless_context") || !eglBindAPI(EGL_OPENGL_API))
     throw GpuError("this display cannot draw beside its windows (EGL_KHR_surfaceless_context is missing)");
-  std::vector<EGLint> wish(kCoreProfile.begin(), kCoreProfile.end() - 1);
-  if (sibling.tells_resets)  // contexts that share agree about this
-    wish.insert(wish.end(), {EGL_CONTEXT_OPENGL_ROBUST_ACCESS, EGL_TRUE, EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY,
-                             EGL_LOSE_CONTEXT_ON_RESET});
-  wish.push_back(EGL_NONE);
-  const EGLContext context =
-      eglCreateContext(sibling.display, config_of(sibling.display, sibling.context), sibling.context, wish.data());
+  const EGLContext context = create_context(sibling.display, config_of(sibling.display, sibling.context),
+                                            sibling.context, sibling.tells_resets);
   if (context == EGL_NO_CONTEXT)
     throw GpuError(fmt::format("no GL context beside the window's (EGL error 0x{:x})", eglGetError()));
   if (std::string why_not; !adopt_context(sibling.display, context, why_not)) {
@@ -151,16 +185,21 @@ EglContext::EglContext(const ForeignContext& sibling) {
   }
 }
 
-EglContext::~EglContext() {
+EglContext::~EglContext() { abandon(); }
+
+void EglContext::abandon() {
+  proof_.reset();
   // The display stays initialised: EGL gives all contexts of a device the same one, and terminating it would end them.
   if (eglGetCurrentContext() == context_) eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
   eglDestroyContext(display_, context_);
+  context_ = nullptr;
 }
 
 void EglContext::make_current() {
   // The bound API is per thread, and its default is OpenGL ES.
   if (!eglBindAPI(EGL_OPENGL_API) || !eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_))
     throw GpuError(fmt::format("the GL context cannot be made current (EGL error 0x{:x})", eglGetError()));
+  proof_->make_current();
 }
 
 }  // namespace meniscus

@@ -8,16 +8,9 @@
 
 #include "core/gpu/context_description.h"
 #include "core/gpu/device_choice.h"
+#include "core/gpu/work_proof.h"
 
 namespace meniscus {
-
-/// What EGL says about one device.
-struct GlDevice {
-  int egl_index = 0;  ///< place in EGL's own list
-  bool software = false;
-  int gpu_index = -1;  ///< the N of "gpu:N"; -1 for software devices
-  std::string name;    ///< driver file, or EGL's extension words; only for people to read
-};
 
 /// All devices that EGL_EXT_device_enumeration offers. Throws GpuError when EGL cannot enumerate devices.
 std::vector<GlDevice> list_gl_devices();
@@ -35,7 +28,9 @@ std::optional<ForeignContext> current_egl_context();
 /// Owns one GL 4.5 core context, current on the thread that made it. All GL calls of the library need one current.
 class EglContext {
  public:
-  /// Throws GpuError when no device fits `choice` or it has no GL 4.5.
+  /// On the first device that fits `choice`, has GL 4.5 and, where hardware is asked for, does not draw on the
+  /// CPU: its renderer is asked, as EGL's list may take Mesa's software for a GPU. Throws GpuError that names what was
+  /// tried.
   explicit EglContext(const DeviceChoice& choice = {});
   /// Shares textures and buffers with `sibling`, which outlives it and is current on another thread. Throws GpuError.
   explicit EglContext(const ForeignContext& sibling);
@@ -52,12 +47,14 @@ class EglContext {
   const std::string& version() const { return description_.version; }
 
  private:
-  bool try_device(const GlDevice& device, std::string& why_not);
+  bool try_device(const DeviceAttempt& attempt, std::string& why_not);
+  void abandon();
   bool adopt_context(void* display, void* context, std::string& why_not);
 
   void* display_ = nullptr;
   void* context_ = nullptr;
   ContextDescription description_;
+  std::optional<WorkProof> proof_;
 };
 
 }  // namespace meniscus

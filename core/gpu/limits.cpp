@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/gpu/context_description.h"
 
 namespace meniscus {
 namespace {
@@ -39,6 +40,7 @@ GpuLimits query_gpu_limits() {
 void check_gl(const char* what) {
   const GLenum error = glGetError();
   if (error == GL_NO_ERROR) return;
+  if (error == GL_CONTEXT_LOST) require_living_context();
   if (error == GL_OUT_OF_MEMORY) throw CapacityError(fmt::format("the GPU ran out of memory while {}", what));
   throw GpuError(fmt::format("GL error 0x{:04x} while {}", error, what));
 }

@@ -9,6 +9,7 @@
 
 #include "core/base/error.h"
 #include "core/gpu/limits.h"
+#include "core/gpu/work_proof.h"
 
 namespace meniscus {
 namespace {
@@ -106,7 +107,8 @@ void Program::dispatch(std::size_t group_count, std::uint32_t longest_row) const
 void Program::dispatch_2d(std::uint32_t x, std::uint32_t y) const {
   glUseProgram(name_);
   glDispatchCompute(x, y, 1);
-  finish("starting");
+  finish();
+  WorkProof::current().started(x * y);
 }
 
 void Program::dispatch_indirect(const Buffer& counts, std::size_t byte_offset) const {
@@ -114,11 +116,17 @@ void Program::dispatch_indirect(const Buffer& counts, std::size_t byte_offset) c
   glMemoryBarrier(GL_COMMAND_BARRIER_BIT);
   glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, counts.gl_name());
   glDispatchComputeIndirect(static_cast<GLintptr>(byte_offset));
-  finish("starting");
+  finish();
+  WorkProof::current().started_indirect(counts.gl_name(), byte_offset);
 }
 
-void Program::finish(const char* what) const {
-  check_gl(fmt::format("{} {}", what, path_).c_str());
+void Program::finish() const {
+  try {
+    check_gl(("starting " + path_).c_str());
+  } catch (const Error&) {
+    WorkProof::current().settle();
+    throw;
+  }
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
 }
 

@@ -18,7 +18,8 @@
 
 namespace meniscus {
 
-/// One linked compute kernel. Needs a current context. Setting a uniform that the compiler removed does nothing.
+/// One linked compute kernel. Needs a current EglContext, which hears of all that is started (work_proof.h). Setting a
+/// uniform that the compiler removed does nothing.
 class Program {
  public:
   /// path: "gpu_shaders/<stage>/<name>.comp". Throws GpuError with the compiler's log, in terms of our files.
@@ -50,7 +51,7 @@ class Program {
 
  private:
   int location(const char* uniform) const;
-  void finish(const char* what) const;
+  void finish() const;
 
   std::string path_;
   std::uint32_t name_ = 0;

@@ -31,11 +31,13 @@ class Expander {
  public:
   Expander(const ShaderFinder& find, const ShaderDefines& defines) : find_(find), defines_(defines) {}
 
-  ShaderSource expand(std::string_view path) {
+  /// epilogue: a file to put behind the last line, or nothing.
+  ShaderSource expand(std::string_view path, std::string_view epilogue) {
     const auto text = find_(path);
     if (!text) throw GpuError(fmt::format("{}: no such shader", path));
     append_file(std::string(path), *text);
     if (!has_version_) throw GpuError(fmt::format("{}: a shader needs a #version line", path));
+    if (!epilogue.empty()) append_file(std::string(epilogue), *find_(epilogue));
     return std::move(source_);
   }
 
@@ -97,7 +99,7 @@ class Expander {
 }  // namespace
 
 ShaderSource expand_shader(std::string_view path, const ShaderFinder& find, const ShaderDefines& defines) {
-  return Expander(find, defines).expand(path);
+  return Expander(find, defines).expand(path, {});
 }
 
 ShaderSource expand_embedded_shader(std::string_view path, const ShaderDefines& defines) {
@@ -106,7 +108,9 @@ ShaderSource expand_embedded_shader(std::string_view path, const ShaderDefines& 
       if (shader.path == wanted) return shader.text;
     return std::nullopt;
   };
-  return expand_shader(path, find, defines);
+  ShaderDefines renamed = defines;
+  renamed.emplace_back("main", "kernel_main");
+  return Expander(find, renamed).expand(path, "gpu_shaders/shared/finished_groups.glsl");
 }
 
 std::string translate_shader_log(std::string_view log, const std::vector<std::string>& files) {

@@ -28,7 +28,8 @@ struct ShaderSource {
 /// Throws GpuError with "file:line:" when a file is missing, includes itself, or the entry has no #version.
 ShaderSource expand_shader(std::string_view path, const ShaderFinder& find, const ShaderDefines& defines = {});
 
-/// The same, with the shaders compiled into the library.
+/// The same for a kernel compiled into the library, with gpu_shaders/shared/finished_groups.glsl behind it: its own
+/// main() is called from there.
 ShaderSource expand_embedded_shader(std::string_view path, const ShaderDefines& defines = {});
 
 /// Rewrites the positions in a compiler's log ("0:12(5):" of Mesa, "0(12) :" of NVIDIA, "ERROR: 0:12:" of the

@@ -5,6 +5,7 @@
 #include <epoxy/gl.h>
 
 #include "core/gpu/limits.h"
+#include "core/gpu/work_proof.h"
 #include "core/render/color_space.h"
 
 namespace meniscus {
@@ -29,6 +30,7 @@ void Presenter::present(const Buffer& picture, glm::ivec2 size, int sample_count
   program_.set("background", linear_from_srgb(background));
   program_.dispatch_2d((static_cast<std::uint32_t>(size.x) + 7) / 8, (static_cast<std::uint32_t>(size.y) + 7) / 8);
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT);
+  WorkProof::current().verify();  // others show the texture without another look at it
 }
 
 std::vector<std::uint8_t> Presenter::rgba() const {
@@ -36,6 +38,7 @@ std::vector<std::uint8_t> Presenter::rgba() const {
   if (texture_)
     glGetTextureImage(texture_, 0, GL_RGBA, GL_UNSIGNED_BYTE, static_cast<GLsizei>(bytes.size()), bytes.data());
   check_gl("downloading the picture");
+  WorkProof::current().verify();
   return bytes;
 }
 

@@ -47,6 +47,33 @@ TEST_F(GpuCore, HonoursTheChoiceOrSaysWhyNot) {
     }
 }
 
+TEST_F(GpuCore, HardwareAskedForIsHardwareOrAnError) {
+  try {
+    EXPECT_FALSE(EglContext({DeviceChoice::Kind::gpu}).is_software());
+  } catch (const GpuError& error) {
+    EXPECT_NE(std::string(error.what()).find("'gpu'"), std::string::npos) << error.what();
+  }
+}
+
+TEST_F(GpuCore, HearsOfResets) {
+  const std::optional<ForeignContext> current = current_egl_context();
+  ASSERT_TRUE(current);
+  if (!current->tells_resets) GTEST_SKIP() << context_.renderer() << " cannot tell";
+  EXPECT_NO_THROW(require_living_context());
+}
+
+TEST_F(GpuCore, KernelsNeedAContextThatKeepsAccounts) {
+  bool refused = false;
+  std::thread([&] {
+    try {
+      WorkProof::current();
+    } catch (const GpuError&) {
+      refused = true;
+    }
+  }).join();
+  EXPECT_TRUE(refused);
+}
+
 TEST_F(GpuCore, MovesToAnotherThread) {
   Buffer buffer(64);
   buffer.fill(7);
@@ -205,7 +232,7 @@ std::vector<ShaderDefines> variants_of(const EmbeddedShader& shader) {
   return variants;
 }
 
-TEST(Shaders, PassTheReferenceCompiler) {
+TEST(Shaders, PassTheReferenceCompilerAndValidator) {
   const auto folder = std::filesystem::temp_directory_path() / ("meniscus_shaders_" + std::to_string(::getpid()));
   std::filesystem::create_directories(folder);
   std::size_t entry_count = 0, variant_count = 0;
@@ -215,9 +242,11 @@ TEST(Shaders, PassTheReferenceCompiler) {
     for (const ShaderDefines& defines : variants_of(shader)) {
       ++variant_count;
       const ShaderSource source = expand_embedded_shader(shader.path, defines);
-      const auto file = folder / "shader.comp", log = folder / "log";
+      const auto file = folder / "shader.comp", binary = folder / "shader.spv", log = folder / "log";
       std::ofstream(file) << source.text;
-      const std::string command = std::string(GLSLANG_VALIDATOR) + " " + file.string() + " > " + log.string() + " 2>&1";
+      const std::string command = "(" GLSLANG_VALIDATOR " -G --aml -o " + binary.string() + " " + file.string() +
+                                  " && " SPIRV_VAL " --target-env opengl4.5 " + binary.string() + ") > " +
+                                  log.string() + " 2>&1";
       const int status = std::system(command.c_str());
       std::ifstream log_stream(log);
       const std::string text{std::istreambuf_iterator<char>(log_stream), {}};

@@ -7,7 +7,6 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
-#include "core/gpu/device_choice.h"
 
 namespace meniscus {
 namespace {
@@ -73,16 +72,6 @@ TEST(ShaderSource, TranslatesTheLogsOfAllCompilers) {
   EXPECT_EQ(translate_shader_log("ERROR: 1:3: 'y' : undeclared identifier", files),
             "gpu_shaders/geometry/a.glsl:3: ERROR: 'y' : undeclared identifier\n");
   EXPECT_EQ(translate_shader_log("9:3: no such file\nplain words", files), "9:3: no such file\nplain words\n");
-}
-
-TEST(DeviceChoice, ReadsEveryFormAndNothingElse) {
-  for (const char* text : {"auto", "gpu:0", "gpu:12", "software"}) {
-    ASSERT_TRUE(parse_device_choice(text)) << text;
-    EXPECT_EQ(to_string(*parse_device_choice(text)), text);
-  }
-  EXPECT_EQ(to_string(*parse_device_choice("gpu")), "gpu:0");
-  for (const char* text : {"", "gpu:", "gpu:-1", "gpu:1x", "cpu", "Auto", "gpu:99999999999"})
-    EXPECT_FALSE(parse_device_choice(text)) << text;
 }
 
 }  // namespace

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The program on a GPU that stops, and on a second driver (zink on lavapipe): the exit code, and what files there are.
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/run_program.h"
+
+namespace meniscus {
+namespace {
+
+constexpr const char* kUbiquitin = "/usr/share/freesasa/test-data/1ubq.pdb";
+constexpr const char* kLavapipe = "/usr/share/vulkan/icd.d/lvp_icd.x86_64.json";
+
+/// The program with more in its environment.
+test::ProgramResult run_with(std::vector<std::string> environment, const std::vector<std::string>& arguments) {
+  environment.emplace_back(MENISCUS_PROGRAM);
+  environment.insert(environment.end(), arguments.begin(), arguments.end());
+  return test::run_program("/usr/bin/env", environment, 200);
+}
+
+class StoppingGpu : public ::testing::Test {
+ protected:
+  /// Every atom of a helix turn, twice as models when `frames` are 2.
+  void SetUp() override {
+    std::ifstream file(kUbiquitin);
+    ASSERT_TRUE(file) << kUbiquitin;
+    std::string model;
+    int count = 0;
+    for (std::string line; count < 60 && std::getline(file, line);)
+      if (line.starts_with("ATOM")) model += line + "\n", ++count;
+    molecule_ = folder_.file("molecule.pdb", model + "END\n");
+    run_ = folder_.file("run.pdb", "MODEL        1\n" + model + "ENDMDL\nMODEL        2\n" + model + "ENDMDL\n");
+  }
+
+  test::ProgramResult with_fault(const std::string& fault, const std::vector<std::string>& arguments) const {
+    return run_with({std::string("LD_PRELOAD=") + GL_FAULTS, "MENISCUS_TEST_GL_FAULT=" + fault}, arguments);
+  }
+  std::string path(const char* name) const { return (folder_.path() / name).string(); }
+
+  void ends_with_code_4(const std::vector<std::string>& arguments, const std::string& output) const {
+    for (const char* fault : {"drop_from 0", "drop_from 9", "drop_one 5", "reset 40"}) {
+      const auto result = with_fault(fault, arguments);
+      EXPECT_EQ(result.exit_code, 4) << arguments.front() << ", " << fault << ": " << result.err;
+      EXPECT_NE(result.err.find("GPU"), std::string::npos) << result.err;
+      EXPECT_EQ(result.out, "") << fault;
+      EXPECT_FALSE(!output.empty() && std::filesystem::exists(output)) << fault;
+    }
+    const auto memory = with_fault("out_of_memory 30", arguments);
+    EXPECT_EQ(memory.exit_code, 5) << memory.err;
+  }
+
+  test::TemporaryFolder folder_;
+  std::string molecule_, run_;
+};
+
+TEST_F(StoppingGpu, SurfaceIsRefused) { ends_with_code_4({"surface", molecule_, "--device", "software", "-q"}, ""); }
+
+TEST_F(StoppingGpu, PicturesAreRefused) {
+  const std::string picture = path("picture.png");
+  for (const char* extent : {"visible", "complete"}) {
+    ends_with_code_4({"render", molecule_, "--extent", extent, "--size", "64x48", "-q", "-o", picture}, picture);
+  }
+  ends_with_code_4({"render", molecule_, "--device", "cpu", "--color", "element", "--legend", "--size", "640x480",
+                    "--ambient-occlusion", "0.8", "-q", "-o", picture},
+                   picture);
+}
+
+TEST_F(StoppingGpu, FarmLeavesTheFrameUndone) {
+  const std::string bundle = path("bundle");
+  const auto made = test::run_program(MENISCUS_PROGRAM, {"farm", "bundle", bundle, "--chunk-frames", "2", "--",
+                                                         "render", run_, "--frames", "all", "--size", "64x48"});
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  const auto worked = with_fault("drop_from 4", {"work", bundle});
+  EXPECT_EQ(worked.exit_code, 4) << worked.err;
+  EXPECT_FALSE(std::filesystem::exists(bundle + "/images/frame_00000.png"));
+  EXPECT_FALSE(std::filesystem::exists(bundle + "/state/render/frame_00000.json")) << "a frame to be made elsewhere";
+  EXPECT_EQ(test::run_program(MENISCUS_PROGRAM, {"work", bundle}).exit_code, 0);
+  EXPECT_TRUE(std::filesystem::exists(bundle + "/images/frame_00000.png"));
+}
+
+TEST(SecondDriver, FindsTheSameSurface) {
+  ASSERT_TRUE(std::filesystem::exists(kLavapipe)) << "mesa-vulkan-drivers is missing";
+  const test::TemporaryFolder folder;
+  const std::vector<std::string> zink{"LIBGL_ALWAYS_SOFTWARE=1", "MESA_LOADER_DRIVER_OVERRIDE=zink",
+                                      std::string("VK_ICD_FILENAMES=") + kLavapipe,
+                                      "XDG_RUNTIME_DIR=" + folder.path().string()};
+  const auto surface = run_with(zink, {"surface", kUbiquitin, "--device", "software", "--verify", "-q"});
+  EXPECT_EQ(surface.exit_code, 0) << surface.err;
+  EXPECT_NE(surface.out.find("zink"), std::string::npos) << "another driver: " << surface.out;
+  const auto draw = [&](const std::vector<std::string>& environment, const char* extent) {
+    const std::string picture = (folder.path() / "picture.png").string();
+    const auto result = run_with(environment, {"render", kUbiquitin, "--device", "software", "--extent", extent,
+                                               "--size", "160x120", "--force", "-q", "-o", picture});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return test::read_bytes(picture);
+  };
+  EXPECT_EQ(draw(zink, "visible"), draw(zink, "complete"));
+}
+
+}  // namespace
+}  // namespace meniscus
