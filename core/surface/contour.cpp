@@ -112,7 +112,7 @@ bool Contour::expose_in_double(const Blockers& blockers, std::size_t skip, std::
   }
   const double inverse_radius = circle_.inverse_radius;
   const double w0 = blockers.first_weight();
-  const double noise = 8 * circle_.slackness * geometry::kUnitRoundoff * inverse_radius;
+  const double noise = geometry::half_plane_noise(circle_, geometry::kUnitRoundoff);
   for (std::size_t n = 0; n < blockers.size() && !left.gone(); ++n) {
     if (n == skip) continue;
     const Blockers::Ball& b = blockers[n];

@@ -2,8 +2,10 @@
 // The circle where two spheres meet, and which parts of it other balls cover: the predicates of the whole program.
 //
 // Written in the common subset of GLSL and C++ with GLM. The includer defines `real`, `real2`, `real3` and
-// `GEOMETRY` (inline in C++, nothing in GLSL). Only + - * / and sqrt decide anything: they are exact to the last bit
-// on every device, where trigonometric functions and fused products are not.
+// `GEOMETRY` (inline in C++, nothing in GLSL). Only + - * / and sqrt decide anything, for GLSL bounds their errors, and
+// not those of trigonometric functions. What they yield differs between devices all the same: a*b + c may be fused,
+// a quotient is good to 2.5 units in the last place and sqrt, by way of inversesqrt, to 4.5. half_plane_noise() covers
+// all that; CONTRIBUTING.md derives it.
 //
 // All positions are relative to the centre of the circle's first ball. A ball is a centre and a weight (squared radius).
 #ifndef MENISCUS_GEOMETRY_CIRCLE_GLSL
@@ -31,7 +33,7 @@ struct Circle {
   real radius_squared;  // not positive: the spheres do not meet
   real radius;
   real inverse_radius;  // 0 where there is no circle
-  real slackness;  // how much near coincident centres magnify rounding, at least 1
+  real slackness;  // how much unequal lengths magnify rounding, at least 3
 };
 
 // d: second centre; w0, w1: weights (Sanner, Olson & Spehner 1996; power of a point).
@@ -45,7 +47,8 @@ GEOMETRY Circle circle_of_two_spheres(real3 d, real w0, real w1) {
   c.inverse_radius = c.radius > real(0) ? real(1) / c.radius : real(0);
   c.u = perpendicular(c.axis);
   c.v = cross(c.axis, c.u);
-  c.slackness = real(1) + sqrt(w0) / distance;
+  real ratio = sqrt(w0) / distance;
+  c.slackness = real(1) + ratio + real(1) / ratio;
   return c;
 }
 
@@ -58,6 +61,12 @@ struct HalfPlane {
   real error;           // bound on |error of dot(normal, (x, y)) - offset| by rounding
 };
 
+// Bound on the rounding error of covered_half_plane() over (qq + w0) * (1 + |q| / radius). epsilon: unit roundoff of
+// `real`; the 18 is the worst sum of all errors, those of the numbers that come in included.
+GEOMETRY real half_plane_noise(Circle c, real epsilon) {
+  return real(18) * c.slackness * epsilon * c.inverse_radius;
+}
+
 // q: centre of the covering ball relative to the circle's first ball, q_length its length; w0: weight of that first
 // ball; wq: of this one; epsilon: unit roundoff of `real`. A point x of the circle has |x|^2 = w0, so |x - q|^2 < wq
 // is linear in x.
@@ -68,7 +77,7 @@ GEOMETRY HalfPlane covered_half_plane(Circle c, real w0, real3 q, real q_length,
   h.offset = ((w0 + qq - wq) * real(0.5) - c.height * dot(c.axis, q)) * c.inverse_radius;
   h.length_squared = dot(h.normal, h.normal);
   h.length_bound = q_length;
-  h.error = real(8) * c.slackness * epsilon * (qq + w0) * (real(1) + q_length * c.inverse_radius) * c.inverse_radius;
+  h.error = half_plane_noise(c, epsilon) * (qq + w0) * (real(1) + q_length * c.inverse_radius);
   return h;
 }
 

@@ -64,9 +64,9 @@ void main() {
   neighbor(i, place, d, w1);
   Circle c = circle_of_two_spheres(d, w0, w1);
   begin_contour();
-  real barely = real(1024) * kUnitRoundoff * w0;
-  if (c.radius_squared < -barely) return;  // the balls do not overlap after all
-  if (c.radius_squared <= barely) {
+  real unit = kUnitRoundoff * w0;
+  if (c.radius_squared < real(-1024) * unit) return;  // the balls do not overlap after all
+  if (c.radius_squared <= kSmallestCircle * unit) {
     exposed_doubtful = true;
   } else {
     uint last = neighbor_first[entry - first_entry + 1u];

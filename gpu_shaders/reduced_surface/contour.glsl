@@ -13,6 +13,10 @@ struct ExposedArc {
 // More arcs than this on one circle are left to the host, as doubtful circles are. Real structures show up to five.
 const uint kArcCapacity = 8u;
 
+// Circles whose squared radius is smaller than this many roundings of the ball's are in doubt as a whole. Rounding moves
+// what a ball covers of them by up to its share of this, and block() leaves it 0.001 Å.
+const real kSmallestCircle = real(65536);
+
 ExposedArc exposed_arcs[kArcCapacity];
 uint exposed_count;
 bool exposed_whole;

@@ -98,7 +98,7 @@ void main() {
   if (!find_pencils(s, t)) return;
   float w0 = other.w;  // all probes have one radius
   Circle c = circle_of_two_spheres(other.xyz, w0, w0);
-  if (c.radius_squared < 1e-4 * w0 || dot(other.xyz, other.xyz) < 1e-4 * w0) exposed_doubtful = true;
+  if (c.radius_squared < kSmallestCircle * kUnitRoundoff * w0 || dot(other.xyz, other.xyz) < 1e-4 * w0) exposed_doubtful = true;
   if (!exposed_doubtful) cover_past_axes(c);
   uint last = neighbor_first[s - first_probe + 1u];
   for (uint n = neighbor_first[s - first_probe]; n < last; ++n) {

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// GPUs whose arithmetic is less exact than the CPU's find the very same surface, or the difference is seen.
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/base/error.h"
+#include "core/gpu/egl_context.h"
+#include "core/reference/exhaustive.h"
+#include "core/surface/compare.h"
+#include "core/surface/pipeline.h"
+#include "core/surface/surface.h"
+#include "tests/gpu/inexact_shaders.h"
+#include "tests/support/molecules.h"
+
+namespace meniscus::testing {
+namespace {
+
+class InexactGpu : public ::testing::Test {
+ protected:
+  void TearDown() override { compile_exactly(); }
+
+  /// Those whose surface is not the CPU's.
+  static std::vector<std::string> different(const std::vector<NamedBalls>& molecules) {
+    SurfacePipeline pipeline;
+    std::vector<std::string> names;
+    for (const auto& [name, balls, probe_radius] : molecules) {
+      const Surface expected = assemble_surface(balls, probe_radius, enumerate_reduced_surface(balls, probe_radius));
+      try {
+        const Surface found = pipeline.run(balls, probe_radius);
+        if (!found.certificate.closed || !differences(expected, found).empty()) names.push_back(name);
+      } catch (const Error&) {
+        names.push_back(name);
+      }
+    }
+    return names;
+  }
+
+  EglContext context_;
+};
+
+// GLSL allows 2.5 units for quotients and 4.5 for roots; scalar products are sums of a few roundings.
+TEST_F(InexactGpu, FindsTheSameSurface) {
+  compile_inexactly(5, 5);
+  std::vector<NamedBalls> molecules = degenerate_molecules();
+  molecules.push_back({"ubiquitin", ubiquitin()});
+  for (std::uint32_t n = 0; n < 30; ++n) {
+    const GasCase gas = gas_case(n);
+    molecules.push_back({"gas " + std::to_string(n), gas.balls, gas.probe_radius});
+  }
+  EXPECT_EQ(different(molecules), std::vector<std::string>());
+}
+
+TEST_F(InexactGpu, IsSeenWhereItGoesTooFar) {
+  compile_inexactly(5, 1u << 20);
+  EXPECT_FALSE(different(degenerate_molecules()).empty()) << "the test above sees nothing";
+}
+
+}  // namespace
+}  // namespace meniscus::testing
