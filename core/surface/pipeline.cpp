@@ -10,6 +10,7 @@
 #include <glm/geometric.hpp>
 #include <tbb/parallel_sort.h>
 
+#include "core/base/error.h"
 #include "core/surface/surface.h"
 
 namespace meniscus {
@@ -53,6 +54,9 @@ ReducedSurface SurfacePipeline::reduce(std::span<const Ball> atoms, double probe
     listing.emplace(clock_, "neighbors");
   });
   listing.reset();
+  // Some atom is exposed, whatever the atoms: with arcs, or as a whole.
+  if (circles_.arc_count() == 0 && rs.lone_atoms.empty())
+    throw GpuError("the GPU finds no surface at all, which cannot be; run again, or on another --device");
   const auto stage = clock_.stage("sort arcs");
   rs.arcs.resize(circles_.arc_count());
   circles_.arcs.download(std::span<RsArc>(rs.arcs));

@@ -24,7 +24,7 @@ test::ProgramResult run_with(std::vector<std::string> environment, const std::ve
 
 class StoppingGpu : public ::testing::Test {
  protected:
-  /// Every atom of a helix turn, twice as models when `frames` are 2.
+  /// The first atoms of ubiquitin, alone and as two models.
   void SetUp() override {
     std::ifstream file(kUbiquitin);
     ASSERT_TRUE(file) << kUbiquitin;
@@ -49,8 +49,6 @@ class StoppingGpu : public ::testing::Test {
       EXPECT_EQ(result.out, "") << fault;
       EXPECT_FALSE(!output.empty() && std::filesystem::exists(output)) << fault;
     }
-    const auto memory = with_fault("out_of_memory 30", arguments);
-    EXPECT_EQ(memory.exit_code, 5) << memory.err;
   }
 
   test::TemporaryFolder folder_;
@@ -67,6 +65,17 @@ TEST_F(StoppingGpu, PicturesAreRefused) {
   ends_with_code_4({"render", molecule_, "--device", "cpu", "--color", "element", "--legend", "--size", "640x480",
                     "--ambient-occlusion", "0.8", "-q", "-o", picture},
                    picture);
+}
+
+TEST_F(StoppingGpu, WithoutMemoryIsAnotherError) {
+  const std::string picture = path("picture.png");
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"surface", molecule_, "--device", "software", "-q"},
+        {"render", molecule_, "--extent", "visible", "--size", "64x48", "-q", "-o", picture}}) {
+    const auto result = with_fault("out_of_memory 30", arguments);
+    EXPECT_EQ(result.exit_code, 5) << result.err;
+    EXPECT_FALSE(std::filesystem::exists(picture));
+  }
 }
 
 TEST_F(StoppingGpu, FarmLeavesTheFrameUndone) {
