@@ -17,6 +17,10 @@ test_packages=(libgtest-dev libbenchmark-dev glslang-tools spirv-tools mesa-vulk
   python3-mdanalysis python3-mdtraj python3-h5py
   slurmctld slurmd slurm-client munge python3-jsonschema libxml2-utils nodejs make)
 fuzz_packages=(clang-14 libclang-rt-14-dev)
+# form, and a second compiler with sanitizers
+check_packages=("${fuzz_packages[@]}" clang-format-14 clang-tidy-14)
+# a second GL driver
+prove_packages=(mesa-vulkan-drivers)
 
 # install_packages NAME...: apt-get, only for what dpkg does not already have.
 install_packages() {

@@ -1,20 +1,51 @@
 #!/usr/bin/env bash
-# Installs what the tests need, builds everything and runs all tests. Safe to run again; options go to ctest.
+# Installs what the tests need, checks the code's form, builds everything twice and runs the tests: all of them as
+# released, and those without a renderer with asserts, warnings as errors, AddressSanitizer and UBSan. At the end it
+# names what could not run; with CI=true a skip that scripts/expected_skips.txt does not name is a failure.
+# Safe to run again; options go to ctest (-R NAME, -L LABEL).
 set -euo pipefail
 cd "$(dirname "$0")/.."
 source scripts/packages.sh
 
 step() { printf '\n== %s (%s s)\n' "$1" "$SECONDS"; }
+failed=()
 
-step "1/3 packages"
+step "1/7 packages"
 install_packages "${build_packages[@]}" "${run_packages[@]}" "${film_packages[@]}" "${sample_packages[@]}" \
-  "${test_packages[@]}"
+  "${test_packages[@]}" "${check_packages[@]}"
 
-step "2/3 build"
-build=${MENISCUS_BUILD:-build/test}
+step "2/7 format"
+bash scripts/format.sh --check || failed+=("format")
+
+step "3/7 build"
+build=${MENISCUS_BUILD:-$PWD/build/test}
+results=$PWD/build/results
 cmake -S . -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DMENISCUS_TESTS=ON >/dev/null
 cmake --build "$build"
+rm -rf "$results"
+mkdir -p "$results"
 
-step "3/3 tests"
-ctest --test-dir "$build" --output-on-failure --timeout 600 -j "$(nproc)" "$@"
-step "all tests passed"
+step "4/7 tests"
+ctest --test-dir "$build" --output-on-failure --timeout 600 -j "$(nproc)" --output-junit "$results/release.xml" \
+  --test-output-size-passed 16384 "$@" || failed+=("tests")
+
+step "5/7 build with asserts and sanitizers, warnings are errors"
+cmake --preset asan >/dev/null
+cmake --build --preset asan
+
+step "6/7 tests with asserts and sanitizers"
+ctest --preset asan --timeout 600 -j "$(nproc)" --output-junit "$results/sanitized.xml" \
+  --test-output-size-passed 16384 "$@" || failed+=("sanitized tests")
+
+step "7/7 clang-tidy"
+bash scripts/lint.sh || failed+=("clang-tidy")
+
+step "what was tried"
+strict=()
+[[ ${CI:-} == true ]] && strict=(--strict)
+/usr/bin/python3 scripts/test_summary.py "${strict[@]}" --expected scripts/expected_skips.txt \
+  "release=$results/release.xml" "sanitized=$results/sanitized.xml" || failed+=("summary")
+if ((${#failed[@]})); then
+  echo "failed: ${failed[*]}" >&2
+  exit 1
+fi

@@ -1,0 +1,29 @@
+#!/usr/bin/env bash
+# clang-tidy with the checks of .clang-tidy; warnings are errors. Without options the rooms that read files of others
+# and compute the surface, without the static analyzer, which takes as long as all the rest; --all takes all of our
+# code and all checks; or name files. The last line says how many files were checked and how many failed.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+command -v clang-tidy-14 >/dev/null || { echo "clang-tidy is missing: apt-get install clang-tidy-14" >&2; exit 1; }
+
+checks=(--checks=-clang-analyzer-*)
+rooms=(core/base core/molecule core/trajectory core/surface)
+if [[ ${1:-} == --all ]]; then
+  checks=()
+  rooms=(core exporters app)
+  shift
+fi
+files=("$@")
+if ((${#files[@]} == 0)); then mapfile -t files < <(find "${rooms[@]}" -name '*.cpp' | sort); fi
+
+# How clang compiles each file.
+build=build/asan
+[[ -f $build/compile_commands.json ]] || cmake --preset asan >/dev/null
+
+printf '%s\0' "${files[@]}" |
+  xargs -0 -P "${MENISCUS_JOBS:-$(nproc)}" -n 1 bash -c \
+    'clang-tidy-14 -p "$1" --quiet --warnings-as-errors="*" "${@:2}" 2>/dev/null || echo "FAILED ${*: -1}"' - "$build" "${checks[@]}" |
+  tee "$build/clang-tidy.log"
+failures=$(grep -c '^FAILED ' "$build/clang-tidy.log" || true)
+echo "cases ${#files[@]} failures $failures"
+((failures == 0))
