@@ -1,0 +1,124 @@
+#!/usr/bin/env bash
+# The long proofs, and one table of everything tried: what, cases, failures, seconds.
+#
+#   scripts/prove.sh [--seconds N] [--cases N] [--limit MINUTES] [--list] [NAME...]
+#
+# Without names all rows, one after another: some hours on two cores. --seconds is how long each fuzz target runs (300),
+# --cases how many molecules each family of the generators gives (10000), --limit how long a row may take (180 minutes).
+# What a row printed stands in build/prove/NAME.log. Exit code 1 if anything failed, or did not say that it ended well.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+source scripts/packages.sh
+
+seconds=300
+cases=10000
+limit=180
+list=
+names=()
+while (($#)); do
+  case $1 in
+    --seconds | --cases | --limit)
+      [[ ${2:-} =~ ^[1-9][0-9]*$ ]] || { echo "prove.sh: $1 needs a whole number above 0, not '${2:-}'" >&2; exit 2; }
+      printf -v "${1#--}" %s "$2"
+      shift
+      ;;
+    --list) list=yes ;;
+    -h | --help) sed -n '2,9s/^# \{0,1\}//p' "$0"; exit ;;
+    -*) echo "prove.sh: unknown option $1" >&2; exit 2 ;;
+    *) names+=("$1") ;;
+  esac
+  shift
+done
+jobs=$(nproc)
+export MENISCUS_JOBS=$jobs
+
+# A second GL driver: zink on lavapipe, software again but with another compiler and another arithmetic.
+zink="env LIBGL_ALWAYS_SOFTWARE=1 MESA_LOADER_DRIVER_OVERRIDE=zink VK_ICD_FILENAMES=$(
+  compgen -G '/usr/share/vulkan/icd.d/lvp_icd*.json' | head -n 1 || true)"
+proteins="/usr/share/freesasa/test-data/1ubq.pdb $(dpkg -L pymol-data 2>/dev/null | grep -m1 '/1tii\.pdb$' || true)"
+
+# name | what is shown | command; its last line "cases N failures M", or that of ctest, is what counts.
+rows=(
+  "tests|every test, as released|ctest --test-dir build/test --timeout 900 -j $jobs"
+  "sanitizers|every test, renderers too, with asserts, ASan and UBSan|ctest --preset asan-all --timeout 1800 -j $jobs"
+  "tidy|clang-tidy and its analyzer over every file|bash scripts/lint.sh --all"
+  "fuzz|each reader and parser, $seconds s of libFuzzer a target (executions)|bash scripts/fuzz.sh $seconds"
+  "families|balls made to tie, rotated and jittered, against an oracle|build/test/tests/prove/prove_surfaces $cases"
+  "views|views against complete pictures, bit for bit|build/test/tests/view/view_equality $proteins --probes 0.7 1.4 3 10 --outside 200 --inside 50"
+  "dropped|a GPU that drops work, runs out of memory, is reset, at every call|ctest --test-dir build/test -R LostWork|StoppingGpu"
+  "poisoned|fresh buffers full of any word|ctest --test-dir build/test -R FreshBuffers"
+  "inexact|less exact shader arithmetic, with a control that must fail|ctest --test-dir build/test -R InexactGpu"
+  "zink|tests of GPU and pictures on a second GL driver|$zink ctest --test-dir build/test -L gpu|image -E SecondDriver --timeout 900 -j $jobs"
+  "faults|calls that fail, full disks, kills, other writers|ctest --test-dir build/test -L fault --timeout 1800 -j $jobs"
+  "mutations|planted faults that the tests must find|/usr/bin/python3 scripts/mutate.py --jobs $jobs"
+)
+
+names_of_rows() { printf '%s\n' "${rows[@]%%|*}"; }
+for name in ${names[@]+"${names[@]}"}; do
+  names_of_rows | grep -qx -- "$name" || { echo "prove.sh: there is no row $name; see --list" >&2; exit 2; }
+done
+chosen() { ((${#names[@]} == 0)) || printf '%s\n' "${names[@]}" | grep -qx -- "$1"; }
+
+# split ROW: sets name, what, command; only the first two bars part them.
+split() {
+  name=${1%%|*}
+  local rest=${1#*|}
+  what=${rest%%|*}
+  command=${rest#*|}
+}
+
+if [[ $list ]]; then
+  for row in "${rows[@]}"; do
+    split "$row"
+    printf '%-11s %s\n' "$name" "$what"
+  done
+  exit
+fi
+
+install_packages "${build_packages[@]}" "${run_packages[@]}" "${film_packages[@]}" "${sample_packages[@]}" \
+  "${test_packages[@]}" "${check_packages[@]}" "${prove_packages[@]}"
+logs=$PWD/build/prove
+mkdir -p "$logs"
+
+# Built before the clock of any row runs.
+build() { "$@" >"$logs/build.log" 2>&1 || { tail -n 30 "$logs/build.log" >&2; echo "failed: $*" >&2; exit 1; }; }
+build cmake -S . -B build/test -G Ninja -DCMAKE_BUILD_TYPE=Release -DMENISCUS_TESTS=ON
+build cmake --build build/test --target all view_equality
+if chosen sanitizers || chosen tidy; then build cmake --preset asan; fi
+if chosen sanitizers; then build cmake --build --preset asan; fi
+
+# counted LOG: "CASES FAILURES" of its last line that tells them; nothing if there is none.
+counted() {
+  sed -nE -e 's/^cases ([0-9]+) failures ([0-9]+)$/\1 \2/p' \
+    -e 's/^[0-9]+% tests passed, ([0-9]+) tests? failed out of ([0-9]+)$/\2 \1/p' "$1" | tail -n 1
+}
+
+printf '%-11s %12s %9s %8s  %s\n' name cases failures seconds what
+bad=()
+for row in "${rows[@]}"; do
+  split "$row"
+  chosen "$name" || continue
+  log=$logs/$name.log
+  began=$SECONDS
+  status=0
+  # Words of the command are its own: no pattern, no second expansion.
+  read -ra words <<<"$command"
+  timeout --kill-after=30 "${limit}m" "${words[@]}" >"$log" 2>&1 </dev/null || status=$?
+  read -r tried failures <<<"$(counted "$log")" || true
+  remark=
+  if ((status == 124)); then remark="; out of time"
+  elif [[ -z $tried ]]; then remark="; did not say what it tried, exit code $status"
+  elif ((tried == 0)); then remark="; tried nothing"
+  elif ((status != 0 && failures == 0)); then remark="; exit code $status"
+  fi
+  skipped=$(grep -cE '^\s+[0-9]+ - .* \((Skipped|Disabled)\)$' "$log" || true)
+  ((skipped == 0)) || what+=" ($skipped could not run)"
+  printf '%-11s %12s %9s %8d  %s\n' "$name" "${tried:--}" "${failures:--}" $((SECONDS - began)) "$what$remark"
+  if [[ $remark ]] || ((failures > 0)); then bad+=("$name"); fi
+done
+
+if ((${#bad[@]})); then
+  echo "failed: ${bad[*]}; see $logs"
+  exit 1
+fi
+echo "nothing failed"
