@@ -32,10 +32,13 @@ done
 jobs=$(nproc)
 export MENISCUS_JOBS=$jobs
 
+[[ $list ]] || install_packages "${build_packages[@]}" "${run_packages[@]}" "${film_packages[@]}" "${sample_packages[@]}" \
+  "${test_packages[@]}" "${check_packages[@]}" "${prove_packages[@]}"
+
 # A second GL driver: zink on lavapipe, software again but with another compiler and another arithmetic.
 zink="env LIBGL_ALWAYS_SOFTWARE=1 MESA_LOADER_DRIVER_OVERRIDE=zink VK_ICD_FILENAMES=$(
   compgen -G '/usr/share/vulkan/icd.d/lvp_icd*.json' | head -n 1 || true)"
-proteins="/usr/share/freesasa/test-data/1ubq.pdb $(dpkg -L pymol-data 2>/dev/null | grep -m1 '/1tii\.pdb$' || true)"
+proteins="/usr/share/freesasa/test-data/1ubq.pdb $(dpkg -L pymol-data 2>/dev/null | awk '/\/1tii\.pdb$/ && !n++' || true)"
 
 # name | what is shown | command; its last line "cases N failures M", or that of ctest, is what counts.
 rows=(
@@ -53,11 +56,16 @@ rows=(
   "mutations|planted faults that the tests must find|/usr/bin/python3 scripts/mutate.py --jobs $jobs"
 )
 
-names_of_rows() { printf '%s\n' "${rows[@]%%|*}"; }
-for name in ${names[@]+"${names[@]}"}; do
-  names_of_rows | grep -qx -- "$name" || { echo "prove.sh: there is no row $name; see --list" >&2; exit 2; }
+# one_of WORD WORDS...
+one_of() {
+  local word
+  for word in "${@:2}"; do [[ $word == "$1" ]] && return; done
+  return 1
+}
+for name in "${names[@]}"; do
+  one_of "$name" "${rows[@]%%|*}" || { echo "prove.sh: there is no row $name; see --list" >&2; exit 2; }
 done
-chosen() { ((${#names[@]} == 0)) || printf '%s\n' "${names[@]}" | grep -qx -- "$1"; }
+chosen() { ((${#names[@]} == 0)) || one_of "$1" "${names[@]}"; }
 
 # split ROW: sets name, what, command; only the first two bars part them.
 split() {
@@ -75,8 +83,6 @@ if [[ $list ]]; then
   exit
 fi
 
-install_packages "${build_packages[@]}" "${run_packages[@]}" "${film_packages[@]}" "${sample_packages[@]}" \
-  "${test_packages[@]}" "${check_packages[@]}" "${prove_packages[@]}"
 logs=$PWD/build/prove
 mkdir -p "$logs"
 

@@ -19,7 +19,8 @@ cmake -S "$here" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DMENISCUS_TEST
 cmake --build "$build" --target meniscus
 meniscus=$build/meniscus
 
-molecule=$(dpkg -L pymol-data | grep -m1 '/1tii\.pdb$') || {
+molecule=$(dpkg -L pymol-data | awk '/\/1tii\.pdb$/ && !n++')
+[[ $molecule ]] || {
   echo "the package pymol-data has no 1tii.pdb; give another file to $meniscus" >&2
   exit 1
 }
