@@ -75,7 +75,7 @@ class Packer {
   std::uint32_t tie_key(const ConcavePatch& patch) const {
     std::vector<std::uint32_t> contacts(surface_.contacts.begin() + patch.first_contact,
                                         surface_.contacts.begin() + patch.first_contact + patch.contact_count);
-    std::ranges::rotate(contacts, std::ranges::min_element(contacts));
+    std::rotate(contacts.begin(), std::ranges::min_element(contacts), contacts.end());
     return std::accumulate(contacts.begin(), contacts.end(), 0u, ray_cast::add_to_key);
   }
 
