@@ -83,6 +83,8 @@ def main():
     runs = {}
     for each in arguments.runs:
         name, path = each.split("=", 1)
+        if not pathlib.Path(path).is_file():
+            sys.exit(f"{name}: ctest left no {path}")
         runs[name] = read_run(name, path)
     skips = [skip for run in runs.values() for skip in run.skips]
     surprises = [skip for skip in skips if not any(fnmatch.fnmatchcase(skip.name, known) for known in expected)]

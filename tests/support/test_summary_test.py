@@ -64,6 +64,10 @@ class Summary(unittest.TestCase):
         self.assertEqual(code, 1)
         self.assertIn("no test at all", out)
 
+    def test_a_run_that_left_nothing_is_no_success(self):
+        done = subprocess.run([sys.executable, SUMMARY, "run=/no/such/junit.xml"], capture_output=True, text=True)
+        self.assertEqual((done.returncode, done.stderr), (1, "run: ctest left no /no/such/junit.xml\n"))
+
 
 if __name__ == "__main__":
     unittest.main(verbosity=2)
