@@ -141,7 +141,7 @@ TEST(Colors, WithoutAnyNumberTheReasonIsNamed) {
                                                          {"charge", "no partial charges to colour by; PQR"},
                                                          {"hydrophobicity", "no amino acids"}};
   for (const auto& [word, reason] : reasons) {
-    const std::string said = complaint([&] { colored(word, none); });
+    const std::string said = complaint([&, word = word] { colored(word, none); });
     EXPECT_NE(said.find(reason), std::string::npos) << word << ": " << said;
   }
   ColorScheme wish = scheme("file");

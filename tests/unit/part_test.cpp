@@ -213,7 +213,9 @@ TEST(Parting, ThePlaneBetweenTwoCapsHalvesTheirDistance) {
     const double above = glm::dot(plane->normal, on_sphere(angle - 0.2)) - plane->offset;
     EXPECT_GT(below, 0.0);
     EXPECT_GT(above, 0.0);
-    if (angle < 1.0) EXPECT_NEAR(below, above, 1e-3);
+    if (angle < 1.0) {
+      EXPECT_NEAR(below, above, 1e-3);
+    }
   }
 }
 

@@ -39,7 +39,7 @@ std::map<std::string, std::vector<float>> read_passes(const std::string& path) {
   EXPECT_EQ(spec.width, kWidth);
   EXPECT_EQ(spec.height, kHeight);
   std::vector<float> pixels(spec.image_pixels() * spec.nchannels);
-  EXPECT_TRUE(file->read_image(OIIO::TypeDesc::FLOAT, pixels.data()));
+  EXPECT_TRUE(file->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, pixels.data()));
   for (int c = 0; c < spec.nchannels; ++c) {
     const std::string& name = spec.channelnames[c];
     auto& plane = planes[name.substr(name.find('.') + 1)];

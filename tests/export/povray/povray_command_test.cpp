@@ -45,8 +45,9 @@ TEST(PovrayCommand, TextOfAMoleculeNeverReachesTheScene) {
       for (const char* const word : {"#fopen", "passwd", "#error", "write //"})
         EXPECT_EQ(text.find(word), std::string::npos) << word << " in " << file;
       // Residue names choose colours; otherwise not a byte may differ.
-      if (color != "residue")
+      if (color != "residue") {
         EXPECT_TRUE(test::read_bytes(folder.path() / "a" / file) == text) << file << " by " << color;
+      }
     }
   }
 }
