@@ -5,8 +5,8 @@
 namespace meniscus {
 
 /// "0.1.0+g2b6bb4a4c1d2": the version and the commit; "....dirty.5f0c..." and a checksum if files differ from it;
-/// "0.1.0+s77b1..." and a checksum of all sources where no repository tells. Programs with the same text are made of the
-/// same sources.
+/// "0.1.0+s77b1..." and a checksum of all sources where no repository tells. Programs with the same text are made of
+/// the same sources.
 const char* build_version();
 
 }  // namespace meniscus

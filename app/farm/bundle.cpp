@@ -22,8 +22,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr int kSchemaVersion = 1;
-constexpr std::uint64_t kMostChunks = 1000;                // Slurm's MaxArraySize is 1001 unless a site says otherwise
-constexpr std::uint64_t kMostFrames = 100'000'000;         // a manifest that asks for more is damaged
+constexpr std::uint64_t kMostChunks = 1000;         // Slurm's MaxArraySize is 1001 unless a site says otherwise
+constexpr std::uint64_t kMostFrames = 100'000'000;  // a manifest that asks for more is damaged
 constexpr std::uint64_t kLargestSide = 65'535;
 constexpr std::uint64_t kAnyNumber = ~std::uint64_t{0};
 constexpr std::size_t kMostBytes = std::size_t{64} << 20;  // of a manifest
