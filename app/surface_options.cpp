@@ -125,7 +125,7 @@ void add_surface_options(CLI::App& command, MoleculeOptions& options) {
       ->type_name("KIND");
   add_probe_option(command, computing);
   add_device_option(command, computing);
-  command.add_flag("--verify", computing.verify, "Compute on GPU and CPU and name every difference");
+  command.add_flag("--verify", computing.verify, "Compute on GPU and CPU, mesh, and name every difference");
   command.add_option("--threads", computing.threads, "CPU threads [all]")
       ->check(CLI::Range(1, 4096).description(""))
       ->type_name("N");

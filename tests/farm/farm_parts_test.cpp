@@ -200,9 +200,10 @@ TEST(Records, CountForTheirBundleAndTheirFrameAndTheFilesTheyName) {
   const Bundle bundle = bundle_of(3);
   const FrameRecords records(folder.path(), bundle);
   EXPECT_EQ(records.read("render", 3), std::nullopt);
-  folder.file("a.png", "picture");
-  folder.file("b.png", "another");
-  const FrameRecord made = records.measured(3, {"a.png", "b.png"}, 1.5);
+  std::filesystem::create_directory(folder.path() / "images");
+  folder.file("images/a.png", "picture");
+  folder.file("images/b.png", "another");
+  const FrameRecord made = records.measured(3, {"images/a.png", "images/b.png"}, 1.5);
   ASSERT_EQ(made.files.size(), 2u);
   EXPECT_EQ(made.files[0].bytes, 7u);
   EXPECT_EQ(made.files[1].sha256, sha256("another"));
@@ -219,12 +220,13 @@ TEST(Records, CountForTheirBundleAndTheirFrameAndTheFilesTheyName) {
                              folder.path() / "state/render/frame_00006.json");
   EXPECT_EQ(records.read("render", 6), std::nullopt) << "the record of another frame";
 
-  folder.file("b.png", "anotheR");
-  EXPECT_EQ(records.fault(*read), "b.png: is not what was made (SHA-256)");
-  folder.file("b.png", "");
-  EXPECT_EQ(records.fault(*read), "b.png: is not what was made (SHA-256)");
-  std::filesystem::remove(folder.path() / "a.png");
-  EXPECT_EQ(records.fault(*read), "a.png: is missing");
+  folder.file("images/b.png", "anotheR");
+  EXPECT_EQ(records.fault(*read), "images/b.png: is not what was made (SHA-256)");
+  EXPECT_EQ(records.fault(*read, Look::sizes), "") << "a quick look does not read";
+  folder.file("images/b.png", "");
+  EXPECT_EQ(records.fault(*read, Look::sizes), "images/b.png: has 0 bytes, not 7");
+  std::filesystem::remove(folder.path() / "images/a.png");
+  EXPECT_EQ(records.fault(*read, Look::sizes), "images/a.png: is missing");
   EXPECT_EQ(records.fault(FrameRecord{}), "its record names no file");
 
   FrameRecord failed;
