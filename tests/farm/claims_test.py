@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Any number of workers share one bundle: each frame is made once, and what a dead one had is made by another."""
 
+import contextlib
 import json
 import os
 import signal
@@ -108,9 +109,13 @@ class Claims(FarmCase):
         folder = self.povray_bundle("slow", 2)
         worker = self.start(folder, "--lease", "4", "--chunk", "1/1")
         wait_until(lambda: self.claims_of(folder, worker), what="a claim")
-        for child in processes_in(folder):
-            if child != worker.pid:
-                os.kill(child, signal.SIGSTOP)
+        def stopped_children():
+            children = [child for child in processes_in(folder) if child != worker.pid]
+            for child in children:
+                with contextlib.suppress(ProcessLookupError):
+                    os.kill(child, signal.SIGSTOP)
+            return children
+        wait_until(stopped_children, what="a process that makes a frame")
         other = self.start(folder, "--lease", "4")
         time.sleep(6)
         self.assertIsNone(other.poll())
