@@ -78,6 +78,7 @@ const Options& command_table() {
       {"--extent", Value::text},
       // frames
       {"--trajectory", Value::file},
+      {"--trust-atom-order", Value::none},
       {"--repeat", Value::text},
       {"--frames", Value::text},
       {"--stride", Value::text},
