@@ -115,9 +115,10 @@ void Program::dispatch_indirect(const Buffer& counts, std::size_t byte_offset) c
   glUseProgram(name_);
   glMemoryBarrier(GL_COMMAND_BARRIER_BIT);
   glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, counts.gl_name());
+  // Before: the account may be settled to make room, and must not find groups that it was not told of.
+  WorkProof::current().started_indirect(counts.gl_name(), byte_offset);
   glDispatchComputeIndirect(static_cast<GLintptr>(byte_offset));
   finish();
-  WorkProof::current().started_indirect(counts.gl_name(), byte_offset);
 }
 
 void Program::finish() const {

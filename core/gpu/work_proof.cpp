@@ -56,9 +56,7 @@ void WorkProof::started_indirect(std::uint32_t buffer, std::size_t byte_offset) 
 void WorkProof::verify() {
   if (expected_ != proven_ || indirect_ > 0) {
     const Groups groups = settle();
-    // Never fewer. A few more: software GL, where it cuts the loops of a kernel short (loop_guard.glsl), lets some
-    // groups end twice, and what came of the loops is asked elsewhere.
-    if (groups.finished < groups.started) {
+    if (groups.started != groups.finished) {
       require_living_context();
       throw GpuError(
           fmt::format("the GPU left work undone without saying so: of {} groups of its kernels {} came to their end; "
