@@ -147,7 +147,7 @@ TEST_P(FailingAllocationsAtWork, NoneIsLeft) { check("on", 8); }
 INSTANTIATE_TEST_SUITE_P(Options, FailingAllocations, testing::Values(FaultCase{"version", {"--version"}}), name_of);
 INSTANTIATE_TEST_SUITE_P(Computing, FailingAllocationsAtWork, testing::ValuesIn(kComputing), name_of);
 // With GL the program shares its memory with a driver that does not survive when none is left; one allocation it does.
-class FailingAllocationsWithGl : public FailingAllocations {};
+class FailingAllocationsWithGl : public FailingAllocationsAtWork {};
 
 TEST_P(FailingAllocationsWithGl, OneIsMissing) { check("once", 20); }
 
