@@ -14,6 +14,9 @@ namespace {
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
 
+// A row on the axis has no length, and the quotient of that and its step is no number: it has no parts.
+int whole_parts(double parts) { return parts < 1e6 ? static_cast<int>(std::ceil(parts)) : 0; }
+
 /// Collects the rim of a torus face in walking order; every visit of a point is a point of its own.
 class TorusRim {
  public:
@@ -234,7 +237,7 @@ class TorusRim {
   void add_interior() {
     const double p = surface_.probe_radius, edge = edge_length(p, tolerance_);
     if (!patch_.free()) {
-      const int rows = static_cast<int>(std::ceil(p * (high_ - low_) / edge));
+      const int rows = whole_parts(p * (high_ - low_) / edge);
       for (int i = 1; i < rows; ++i) rows_.push_back(double(i) / rows);
     }
     for (std::size_t i = 0; i < rows_.size(); ++i) {
@@ -242,7 +245,7 @@ class TorusRim {
       const double distance = domain_->axis_distance(tube);
       const double across = std::min(edge, edge_length(distance / std::max(std::cos(tube), 1e-3), tolerance_));
       const double start = seam_[0].x + (seam_[1].x - seam_[0].x) * share;
-      const int columns = static_cast<int>(std::ceil(std::max(patch_.sweep * distance / across, patch_.sweep / 0.8)));
+      const int columns = whole_parts(std::max(patch_.sweep * distance / across, patch_.sweep / 0.8));
       if (columns < 2) continue;
       const double shift = i % 2 ? 0.5 : 0.0;  // rows are staggered
       for (int k = 0; k < columns; ++k) {
