@@ -16,7 +16,9 @@ constexpr double kPi = std::numbers::pi;
 
 glm::dvec3 random_direction(std::mt19937& random) {
   std::normal_distribution<double> normal;
-  return glm::normalize(glm::dvec3(normal(random), normal(random), normal(random)));
+  // Drawn one by one: the order of arguments is the compiler's, and every compiler must see the same points.
+  const double z = normal(random), y = normal(random), x = normal(random);
+  return glm::normalize(glm::dvec3(x, y, z));
 }
 
 struct Sphere {
