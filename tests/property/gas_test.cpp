@@ -4,46 +4,16 @@
 #include <numbers>
 #include <random>
 
-#include <glm/common.hpp>
 #include <gtest/gtest.h>
 
 #include "core/surface/surface.h"
 #include "tests/support/molecules.h"
 #include "tests/support/patch_samples.h"
+#include "tests/support/sampled_volume.h"
 #include "tests/support/sphere_tracer.h"
 
 namespace meniscus::testing {
 namespace {
-
-struct Estimate {
-  double value = 0.0;
-  double error = 0.0;  ///< one standard deviation
-};
-
-// Two random points in each cell of a grid over the molecule: is the probe kept from them?
-Estimate sampled_volume(const Balls& balls, double p, const SphereTracer& oracle, int cells, std::mt19937& random) {
-  glm::dvec3 low(1e300), high(-1e300);
-  for (const Ball& b : balls) {
-    low = glm::min(low, b.center - b.radius);
-    high = glm::max(high, b.center + b.radius);
-  }
-  std::uniform_real_distribution<double> unit(0, 1);
-  const glm::dvec3 step = (high - low) / double(cells);
-  const auto solid = [&](const glm::ivec3& cell) {
-    const glm::dvec3 x = low + step * (glm::dvec3(cell) + glm::dvec3(unit(random), unit(random), unit(random)));
-    return p > 0 ? oracle.nearest(x).distance >= p : oracle.outside(x) <= 0;
-  };
-  double sum = 0, variance = 0;
-  for (int z = 0; z < cells; ++z)
-    for (int y = 0; y < cells; ++y)
-      for (int x = 0; x < cells; ++x) {
-        const bool a = solid({x, y, z}), b = solid({x, y, z});
-        sum += 0.5 * (a + b);
-        variance += a != b ? 0.25 : 0.0;
-      }
-  const double cell = step.x * step.y * step.z;
-  return {sum * cell, std::sqrt(variance) * cell};
-}
 
 PatchSample sample_surface(const Surface& s, PatchKind kind, std::uint32_t patch, std::mt19937& random) {
   return kind == PatchKind::toroidal ? sample_circle(s, patch, random) : sample_patch(s, kind, patch, random);
@@ -81,7 +51,7 @@ void check_gas(std::uint32_t n, std::mt19937& random) {
   if (gas.on_grid)
     for (Ball& b : grown) b.radius += 1e-8;
   const SphereTracer oracle(grown, gas.probe_radius, 0.01);
-  const Estimate volume = sampled_volume(gas.balls, gas.probe_radius, oracle, 12, random);
+  const VolumeEstimate volume = sampled_volume(gas.balls, gas.probe_radius, oracle, 12, random);
   EXPECT_NEAR(s.volume, volume.value, 5 * volume.error + 1e-9) << "off by so much of " << volume.error;
   // Where spheres touch, 1e-8 Å move a probe by its square root.
   EXPECT_GT(check_points(s, oracle, 60, gas.on_grid ? 1e-3 : 1e-6, random), 0);
@@ -133,7 +103,7 @@ TEST(Ubiquitin, VolumeBySamplingTheOracle) {
   std::mt19937 random(4);
   for (const double p : {0.0, 0.6, 1.4, 3.0}) {
     const SphereTracer oracle(balls, p, 0.01);
-    const Estimate volume = sampled_volume(balls, p, oracle, 50, random);
+    const VolumeEstimate volume = sampled_volume(balls, p, oracle, 50, random);
     EXPECT_NEAR(compute_surface_cpu(balls, p).volume, volume.value, 5 * volume.error) << p;
     EXPECT_LT(volume.error, 2e-3 * volume.value);
   }
