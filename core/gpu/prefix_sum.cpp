@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <string>
 
+#include "core/gpu/kernel_parameters.h"
+
 namespace meniscus {
 
 void PrefixSum::operator()(const Buffer& words, std::uint32_t count) {
@@ -15,8 +17,7 @@ void PrefixSum::operator()(const Buffer& words, std::uint32_t count) {
     words.bind(0);
     totals_.bind(1);
     const Program& program = programs_.get("gpu_shaders/parallel/scan.comp", {{"PASS", std::to_string(pass)}});
-    program.set("count", count);
-    program.set("chunk_length", kChunkLength);
+    program.set(kernel::ScanParameters{.count = count, .chunk_length = kChunkLength});
     program.dispatch(pass == 1 ? 1 : group_count(chunks));
   }
 }

@@ -3,6 +3,7 @@
 #include "core/gpu/program.h"
 
 #include <algorithm>
+#include <cstring>
 
 #include <epoxy/gl.h>
 #include <fmt/format.h>
@@ -29,6 +30,9 @@ std::string program_log(GLuint program) {
   glGetProgramInfoLog(program, length, nullptr, log.data());
   return log.substr(0, log.find('\0'));
 }
+
+/// Uniform blocks are whole rows of 16 bytes, and some drivers count the last one whole.
+std::size_t in_rows(std::size_t byte_count) { return (byte_count + 15) / 16 * 16; }
 
 }  // namespace
 
@@ -57,37 +61,43 @@ Program::Program(std::string_view path, const ShaderSource& source) : path_(path
     glDeleteProgram(name_);
     throw GpuError(fmt::format("{} does not link:\n{}", path_, log));
   }
+  find_blocks();
 }
 
-Program::~Program() { glDeleteProgram(name_); }
+Program::~Program() {
+  for (const Block& block : blocks_) glDeleteBuffers(1, &block.buffer);
+  glDeleteProgram(name_);
+}
 
-int Program::location(const char* uniform) const { return glGetUniformLocation(name_, uniform); }
+void Program::find_blocks() {
+  GLint count = 0;
+  glGetProgramInterfaceiv(name_, GL_UNIFORM_BLOCK, GL_ACTIVE_RESOURCES, &count);
+  for (GLuint n = 0; n < static_cast<GLuint>(count); ++n) {
+    constexpr GLenum kAsked[] = {GL_BUFFER_BINDING, GL_BUFFER_DATA_SIZE};
+    GLint found[2] = {};
+    glGetProgramResourceiv(name_, GL_UNIFORM_BLOCK, n, 2, kAsked, 2, nullptr, found);
+    blocks_.push_back({static_cast<std::uint32_t>(found[0]), 0, std::vector<std::byte>(in_rows(found[1]))});
+  }
+}
 
-void Program::set(const char* uniform, std::int32_t value) const {
-  glProgramUniform1i(name_, location(uniform), value);
-}
-void Program::set(const char* uniform, std::uint32_t value) const {
-  glProgramUniform1ui(name_, location(uniform), value);
-}
-void Program::set(const char* uniform, float value) const { glProgramUniform1f(name_, location(uniform), value); }
-void Program::set(const char* uniform, double value) const { glProgramUniform1d(name_, location(uniform), value); }
-void Program::set(const char* uniform, const glm::dvec3& v) const {
-  glProgramUniform3d(name_, location(uniform), v.x, v.y, v.z);
-}
-void Program::set(const char* uniform, const glm::vec2& v) const {
-  glProgramUniform2f(name_, location(uniform), v.x, v.y);
-}
-void Program::set(const char* uniform, const glm::vec3& v) const {
-  glProgramUniform3f(name_, location(uniform), v.x, v.y, v.z);
-}
-void Program::set(const char* uniform, const glm::vec4& v) const {
-  glProgramUniform4f(name_, location(uniform), v.x, v.y, v.z, v.w);
-}
-void Program::set(const char* uniform, const glm::ivec2& v) const {
-  glProgramUniform2i(name_, location(uniform), v.x, v.y);
-}
-void Program::set(const char* uniform, const glm::uvec2& v) const {
-  glProgramUniform2ui(name_, location(uniform), v.x, v.y);
+void Program::set_block(int binding, const void* bytes, std::size_t byte_count) const {
+  const auto block =
+      std::find_if(blocks_.begin(), blocks_.end(), [&](const Block& b) { return int(b.binding) == binding; });
+  if (block == blocks_.end()) throw GpuError(fmt::format("{} has no parameters at binding {}", path_, binding));
+  std::vector<std::byte>& content = block->content;
+  if (in_rows(byte_count) != content.size())
+    throw GpuError(fmt::format("{}: {} bytes of parameters at binding {} are given, {} wanted", path_,
+                               in_rows(byte_count), binding, content.size()));
+  if (block->buffer && std::memcmp(content.data(), bytes, byte_count) == 0) return;
+  std::memcpy(content.data(), bytes, byte_count);
+  const auto size = static_cast<GLsizeiptr>(content.size());
+  if (block->buffer) {
+    glNamedBufferSubData(block->buffer, 0, size, content.data());
+  } else {
+    glCreateBuffers(1, &block->buffer);
+    glNamedBufferStorage(block->buffer, size, content.data(), GL_DYNAMIC_STORAGE_BIT);
+  }
+  check_gl("setting the parameters of a kernel");
 }
 
 void Program::dispatch(std::size_t group_count, std::uint32_t longest_row) const {
@@ -105,20 +115,29 @@ void Program::dispatch(std::size_t group_count, std::uint32_t longest_row) const
 }
 
 void Program::dispatch_2d(std::uint32_t x, std::uint32_t y) const {
-  glUseProgram(name_);
+  start();
   glDispatchCompute(x, y, 1);
   finish();
   WorkProof::current().started(x * y);
 }
 
 void Program::dispatch_indirect(const Buffer& counts, std::size_t byte_offset) const {
-  glUseProgram(name_);
+  start();
   glMemoryBarrier(GL_COMMAND_BARRIER_BIT);
   glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, counts.gl_name());
   // Before: the account may be settled to make room, and must not find groups that it was not told of.
   WorkProof::current().started_indirect(counts.gl_name(), byte_offset);
   glDispatchComputeIndirect(static_cast<GLintptr>(byte_offset));
   finish();
+}
+
+void Program::start() const {
+  for (const Block& block : blocks_) {
+    if (!block.buffer)
+      throw GpuError(fmt::format("{}: the parameters at binding {} are not set", path_, block.binding));
+    glBindBufferBase(GL_UNIFORM_BUFFER, block.binding, block.buffer);
+  }
+  glUseProgram(name_);
 }
 
 void Program::finish() const {

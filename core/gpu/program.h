@@ -8,18 +8,16 @@
 #include <memory>
 #include <string>
 #include <string_view>
-
-#include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
-#include <glm/vec4.hpp>
+#include <type_traits>
+#include <vector>
 
 #include "core/gpu/buffer.h"
 #include "core/gpu/shader_source.h"
 
 namespace meniscus {
 
-/// One linked compute kernel. Needs a current EglContext, which hears of all that is started (work_proof.h). Setting a
-/// uniform that the compiler removed does nothing.
+/// One linked compute kernel. Needs a current EglContext, which hears of all that is started (work_proof.h). Its
+/// parameters are uniform blocks; it cannot be started before all of them are set.
 class Program {
  public:
   /// path: "gpu_shaders/<stage>/<name>.comp". Throws GpuError with the compiler's log, in terms of our files.
@@ -29,20 +27,18 @@ class Program {
   Program(const Program&) = delete;
   Program& operator=(const Program&) = delete;
 
-  void set(const char* uniform, std::int32_t value) const;
-  void set(const char* uniform, std::uint32_t value) const;
-  void set(const char* uniform, float value) const;
-  void set(const char* uniform, double value) const;
-  void set(const char* uniform, const glm::dvec3& value) const;
-  void set(const char* uniform, const glm::vec2& value) const;
-  void set(const char* uniform, const glm::vec3& value) const;
-  void set(const char* uniform, const glm::vec4& value) const;
-  void set(const char* uniform, const glm::ivec2& value) const;
-  void set(const char* uniform, const glm::uvec2& value) const;
+  /// Sets a uniform block, given as one of the structs of kernel_parameters.h; it stays until it is set again. Throws
+  /// GpuError if the kernel has no block at this binding, or one of another size.
+  template <typename T>
+  void set(const T& parameters, int binding = 0) const {
+    static_assert(std::is_trivially_copyable_v<T> && std::is_standard_layout_v<T>);
+    set_block(binding, &parameters, sizeof parameters);
+  }
 
   /// Starts `group_count` groups; more than the driver takes along x are folded into a rectangle, so that kernels must
   /// use linear_group_index() of gpu_shaders/shared/linear_index.glsl and ignore what is past the end.
   /// A full barrier for storage follows. `longest_row` is for tests: 0 means the driver's limit.
+  /// Throws GpuError if a block was never set.
   void dispatch(std::size_t group_count, std::uint32_t longest_row = 0) const;
   /// Groups in a plane, without folding.
   void dispatch_2d(std::uint32_t x, std::uint32_t y) const;
@@ -50,11 +46,21 @@ class Program {
   void dispatch_indirect(const Buffer& counts, std::size_t byte_offset = 0) const;
 
  private:
-  int location(const char* uniform) const;
+  /// What the host knows of a uniform block.
+  struct Block {
+    std::uint32_t binding = 0;
+    std::uint32_t buffer = 0;        ///< GL name; 0: never set
+    std::vector<std::byte> content;  ///< as many bytes as the kernel sees
+  };
+
+  void find_blocks();
+  void set_block(int binding, const void* bytes, std::size_t byte_count) const;
+  void start() const;
   void finish() const;
 
   std::string path_;
   std::uint32_t name_ = 0;
+  mutable std::vector<Block> blocks_;
 };
 
 /// Groups of 64 invocations, the usual local size of a kernel.

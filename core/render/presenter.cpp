@@ -4,6 +4,7 @@
 
 #include <epoxy/gl.h>
 
+#include "core/gpu/kernel_parameters.h"
 #include "core/gpu/limits.h"
 #include "core/gpu/work_proof.h"
 #include "core/render/color_space.h"
@@ -25,9 +26,8 @@ void Presenter::present(const Buffer& picture, glm::ivec2 size, int sample_count
   }
   picture.bind(0);
   glBindImageTexture(0, texture_, 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_RGBA8);
-  program_.set("size", size);
-  program_.set("per_sample", 1.0f / static_cast<float>(sample_count));
-  program_.set("background", linear_from_srgb(background));
+  program_.set(kernel::PresentParameters{
+      .background = linear_from_srgb(background), .per_sample = 1.0f / static_cast<float>(sample_count), .size = size});
   program_.dispatch_2d((static_cast<std::uint32_t>(size.x) + 7) / 8, (static_cast<std::uint32_t>(size.y) + 7) / 8);
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT);
   WorkProof::current().verify();  // others show the texture without another look at it

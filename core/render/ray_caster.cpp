@@ -93,7 +93,27 @@ void copy_hit(const ray_cast::Hit& hit, std::size_t at, const RayCastScene& scen
   picture.component[at] = components.at(static_cast<PatchKind>(primitive.kind), primitive.patch_index, point);
 }
 
+/// Of the first sample.
+kernel::RayCastParameters own_parameters(const GpuScene& scene, const Look& look, glm::ivec2 tiles) {
+  kernel::RayCastParameters own{};
+  own.key_direction = glm::normalize(look.light_direction);
+  own.key_strength = look.light_strength;
+  own.tiles = tiles;
+  own.probe_radius = static_cast<float>(scene.probe_radius);
+  own.slack = scene.slack;
+  own.color_by_kind = scene.color_by_kind;
+  own.atom_count = scene.atom_count;
+  return own;
+}
+
 }  // namespace
+
+/// What the kernel is told.
+struct RayCaster::Parameters {
+  kernel::RayCastParameters own;
+  kernel::BlockView view;
+  kernel::DepthSlices slices;
+};
 
 /// What render() makes of each block.
 struct RayCaster::Collected {
@@ -179,17 +199,7 @@ bool RayCaster::cast(const GpuScene& scene, const PictureFrame& frame, const Pic
     sample_colors_.resize(count * sizeof(glm::vec4));
     if (sample_count > 1) sample_hits_.resize(count * sizeof(ray_cast::Hit));
   }
-  const auto prepare = [&](const Program& program) {
-    set_block(program, frame, block);
-    set_depth_slices(program, scene);
-    program.set("probe_radius", static_cast<float>(scene.probe_radius));
-    program.set("slack", scene.slack);
-    program.set("color_by_kind", scene.color_by_kind ? 1u : 0u);
-    program.set("atom_count", scene.atom_count);
-    program.set("key_direction", glm::normalize(look.light_direction));
-    program.set("key_strength", look.light_strength);
-  };
-  prepare(kernel(scene, false));
+  Parameters parameters{own_parameters(scene, look, lists_.tiles()), {}, depth_slices(scene)};
   row_texels_.view(scene.rows);
   const std::size_t invocations = 64 * static_cast<std::size_t>(lists_.tiles().x) * lists_.tiles().y;
   unfinished_.resize((2 + invocations) * sizeof(std::uint32_t));
@@ -203,7 +213,9 @@ bool RayCaster::cast(const GpuScene& scene, const PictureFrame& frame, const Pic
       const GpuStage stage(clock_, "ray cast");
       const bool add = n > 0 && !look.has_effects();
       if (!add) lists_.clear_empty(block, sample.colors, sample.hits);
-      cast_sample(scene, sample, add, prepare);
+      parameters.own.add = add;
+      parameters.view = block_view(frame, block, sample.offset);
+      cast_sample(scene, sample, parameters);
     }
     if (!look.has_effects()) continue;
     const GpuStage stage(clock_, "look");
@@ -212,47 +224,47 @@ bool RayCaster::cast(const GpuScene& scene, const PictureFrame& frame, const Pic
   return true;
 }
 
-const Program& RayCaster::kernel(const GpuScene& scene, bool resumed) {
+const Program& RayCaster::program(const GpuScene& scene, bool resumed) {
   ShaderDefines defines;
   if (scene.some_hidden) defines.emplace_back("SOME_HIDDEN", "1");
   if (resumed) defines.emplace_back("RESUMED", "1");
   return programs_.get("gpu_shaders/ray_cast/ray_cast.comp", defines);
 }
 
-void RayCaster::cast_sample(const GpuScene& scene, const CastSample& sample, bool add,
-                            const std::function<void(const Program&)>& prepare) {
-  const auto start = [&](const Program& program) {
-    row_texels_.bind(1);
-    scene.colors.bind(0);
-    sample.colors.bind(1);
-    sample.hits.bind(2);
-    unfinished_.bind(3);
-    program.set("add", add ? 1u : 0u);
-    program.set("sample_offset", sample.offset);
-    lists_.dispatch(program);
-  };
-  start(kernel(scene, false));
+void RayCaster::cast_sample(const GpuScene& scene, const CastSample& sample, const Parameters& parameters) {
+  start(program(scene, false), scene, sample, parameters);
   const auto longest = unfinished_.download<std::uint32_t>(1).front();
-  if (longest == 0) return;
-  const Program& program = kernel(scene, true);
-  prepare(program);
-  finish_long_lists(program, longest, [&] { start(program); });
+  if (longest > 0) finish_long_lists(longest, scene, sample, parameters);
+}
+
+void RayCaster::start(const Program& program, const GpuScene& scene, const CastSample& sample,
+                      const Parameters& parameters) {
+  row_texels_.bind(1);
+  scene.colors.bind(0);
+  sample.colors.bind(1);
+  sample.hits.bind(2);
+  unfinished_.bind(3);
+  program.set(parameters.own);
+  program.set(parameters.view, kernel::kBlockViewBinding);
+  program.set(parameters.slices, kernel::kDepthSlicesBinding);
+  lists_.dispatch(program);
 }
 
 // Lists of thousands, as of large molecules in small pictures, are too long for one go of software GL's kernels.
-void RayCaster::finish_long_lists(const Program& program, std::uint32_t longest, const std::function<void()>& start) {
+void RayCaster::finish_long_lists(std::uint32_t longest, const GpuScene& scene, const CastSample& sample,
+                                  Parameters parameters) {
   constexpr std::uint32_t kFirstPart = 256, kSmallestPart = 4;
   states_.resize(unfinished_.byte_count() * 16);  // four vectors of four words for each word there
   for (std::uint32_t length = kFirstPart; length >= kSmallestPart; length /= 4) {
     const std::uint32_t none[2] = {0, 0};
     unfinished_.write(0, none, sizeof none);
     const std::uint32_t part_count = (longest + length - 1) / length;
-    program.set("part_length", static_cast<std::int32_t>(length));
+    parameters.own.part_length = static_cast<std::int32_t>(length);
     for (std::uint32_t part = 0; part < part_count; ++part) {
-      program.set("part", static_cast<std::int32_t>(part));
-      program.set("is_last_part", part + 1 == part_count ? 1u : 0u);
+      parameters.own.part = static_cast<std::int32_t>(part);
+      parameters.own.is_last_part = part + 1 == part_count;
       states_.bind(4);
-      start();
+      start(program(scene, true), scene, sample, parameters);
     }
     if (unfinished_.download<std::uint32_t>(1, sizeof(std::uint32_t)).front() == 0) return;
   }

@@ -62,13 +62,14 @@ class RayCaster {
 
  private:
   struct Collected;
+  struct Parameters;
 
   void render_blocks(Collected& collected);
   void render_block(const PictureBlock& inner, Collected& collected);
-  void cast_sample(const GpuScene& scene, const CastSample& sample, bool add,
-                   const std::function<void(const Program&)>& prepare);
-  void finish_long_lists(const Program& program, std::uint32_t longest, const std::function<void()>& start);
-  const Program& kernel(const GpuScene& scene, bool resumed);
+  void cast_sample(const GpuScene& scene, const CastSample& sample, const Parameters& parameters);
+  void start(const Program& program, const GpuScene& scene, const CastSample& sample, const Parameters& parameters);
+  void finish_long_lists(std::uint32_t longest, const GpuScene& scene, const CastSample& sample, Parameters parameters);
+  const Program& program(const GpuScene& scene, bool resumed);
 
   ProgramCache programs_;
   TileLists lists_{programs_};

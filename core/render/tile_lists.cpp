@@ -7,25 +7,21 @@
 
 namespace meniscus {
 
-void set_view(const Program& program, const PictureFrame& frame) {
-  program.set("eye_distance", static_cast<float>(frame.eye_distance));
-  program.set("orthographic", frame.camera.projection == Projection::orthographic ? 1u : 0u);
-  program.set("right", glm::vec3(frame.basis.right));
-  program.set("up", glm::vec3(frame.basis.up));
-  program.set("forward", glm::vec3(frame.basis.forward));
+kernel::BlockView block_view(const PictureFrame& frame, const PictureBlock& block, const glm::vec2& sample_offset) {
+  return {.right = glm::vec3(frame.basis.right),
+          .eye_distance = static_cast<float>(frame.eye_distance),
+          .up = glm::vec3(frame.basis.up),
+          .pixel_size = static_cast<float>(frame.pixel_size),
+          .forward = glm::vec3(frame.basis.forward),
+          .orthographic = frame.camera.projection == Projection::orthographic,
+          .first_offset = glm::vec2(glm::dvec2(block.origin) + 0.5 - 0.5 * glm::dvec2(frame.size)),
+          .sample_offset = sample_offset,
+          .size = block.size};
 }
 
-void set_block(const Program& program, const PictureFrame& frame, const PictureBlock& block) {
-  set_view(program, frame);
-  program.set("size", block.size);
-  program.set("first_offset", glm::vec2(glm::dvec2(block.origin) + 0.5 - 0.5 * glm::dvec2(frame.size)));
-  program.set("pixel_size", static_cast<float>(frame.pixel_size));
-}
-
-void set_depth_slices(const Program& program, const GpuScene& scene) {
+kernel::DepthSlices depth_slices(const GpuScene& scene) {
   const float thickness = (scene.last_depth - scene.first_depth) / static_cast<float>(kSliceCount);
-  program.set("first_depth", scene.first_depth);
-  program.set("slices_per_angstrom", thickness > 0.0f ? 1.0f / thickness : 0.0f);
+  return {.first_depth = scene.first_depth, .slices_per_angstrom = thickness > 0.0f ? 1.0f / thickness : 0.0f};
 }
 
 void TileLists::build(const GpuScene& scene, const PictureFrame& frame, const PictureBlock& block) {
@@ -54,15 +50,20 @@ void TileLists::run(int pass, const GpuScene& scene, const PictureFrame& frame, 
   entries_.bind(1);
   const bool bounded = scene.tile_depths.byte_count() > 0;
   (bounded ? scene.tile_depths : counts_).bind(2);  // something must be there
-  program.set("bounded", bounded ? 1u : 0u);
-  program.set("first_tile", block.origin / kTileEdge);
-  program.set("picture_tile_columns", (frame.size.x + kTileEdge - 1) / kTileEdge);
-  program.set("primitive_count", scene.primitive_count);
-  program.set("block_center", glm::vec2(0.5 * glm::dvec2(frame.size) - glm::dvec2(block.origin)));
-  program.set("pixels_per_angstrom", static_cast<float>(1.0 / frame.pixel_size));
-  program.set("tiles", tiles_);
-  set_depth_slices(program, scene);
-  set_view(program, frame);
+  program.set(
+      kernel::TileListParameters{.right = glm::vec3(frame.basis.right),
+                                 .eye_distance = static_cast<float>(frame.eye_distance),
+                                 .up = glm::vec3(frame.basis.up),
+                                 .pixels_per_angstrom = static_cast<float>(1.0 / frame.pixel_size),
+                                 .forward = glm::vec3(frame.basis.forward),
+                                 .orthographic = frame.camera.projection == Projection::orthographic,
+                                 .block_center = glm::vec2(0.5 * glm::dvec2(frame.size) - glm::dvec2(block.origin)),
+                                 .tiles = tiles_,
+                                 .first_tile = block.origin / kTileEdge,
+                                 .picture_tile_columns = (frame.size.x + kTileEdge - 1) / kTileEdge,
+                                 .bounded = bounded,
+                                 .primitive_count = scene.primitive_count});
+  program.set(depth_slices(scene), kernel::kDepthSlicesBinding);
   program.dispatch(group_count(scene.primitive_count));
 }
 
@@ -74,7 +75,7 @@ void TileLists::split_tiles() {
   tile_order_.bind(0);
   dispatches_.bind(1);
   const Program& program = programs_.get("gpu_shaders/ray_cast/split_tiles.comp");
-  program.set("tile_count", tile_count);
+  program.set(kernel::SplitTilesParameters{.tile_count = tile_count});
   program.dispatch(group_count(tile_count));
   order_texels_.view(tile_order_);
 }
@@ -84,7 +85,6 @@ void TileLists::dispatch(const Program& ray_cast) const {
   slot_texels_.bind(2);
   entry_texels_.bind(3);
   order_texels_.bind(4);
-  ray_cast.set("tiles", tiles_);
   ray_cast.dispatch_indirect(dispatches_);
 }
 
@@ -93,8 +93,7 @@ void TileLists::clear_empty(const PictureBlock& block, const Buffer& picture, co
   picture.bind(1);
   hits.bind(2);
   const Program& program = programs_.get("gpu_shaders/ray_cast/empty_tiles.comp");
-  program.set("size", block.size);
-  program.set("tiles", tiles_);
+  program.set(kernel::EmptyTilesParameters{.size = block.size, .tiles = tiles_});
   program.dispatch_indirect(dispatches_, 4 * sizeof(std::uint32_t));
 }
 

@@ -5,6 +5,7 @@
 #include <glm/vec2.hpp>
 
 #include "core/gpu/buffer.h"
+#include "core/gpu/kernel_parameters.h"
 #include "core/gpu/prefix_sum.h"
 #include "core/gpu/program.h"
 #include "core/gpu/texel_buffer.h"
@@ -56,13 +57,10 @@ class TileLists {
       entry_texels_{TexelFormat::uint1}, order_texels_{TexelFormat::uint1};
 };
 
-/// Uniforms eye_distance, orthographic, right, up, forward.
-void set_view(const Program& program, const PictureFrame& frame);
+/// The block as a sample of each of its pixels sees it.
+kernel::BlockView block_view(const PictureFrame& frame, const PictureBlock& block, const glm::vec2& sample_offset);
 
-/// The same, and size, first_offset, pixel_size.
-void set_block(const Program& program, const PictureFrame& frame, const PictureBlock& block);
-
-/// Uniforms of gpu_shaders/ray_cast/depth_slices.glsl.
-void set_depth_slices(const Program& program, const GpuScene& scene);
+/// Where the scene's depths are cut into slices.
+kernel::DepthSlices depth_slices(const GpuScene& scene);
 
 }  // namespace meniscus

@@ -7,6 +7,7 @@
 #include <glm/vec4.hpp>
 
 #include "core/gpu/gpu_stage.h"
+#include "core/gpu/kernel_parameters.h"
 #include "core/surface/contour.h"
 
 namespace meniscus {
@@ -65,10 +66,10 @@ std::uint32_t GpuCircles::run(const BallBatch& batch, bool in_double, const Buff
     counters_.bind(6);
     neighbors_.balls.bind(7);
     neighbors_.bind_listed();
-    program.set("first_entry", batch.first);
-    program.set("circle_count", circle_count);
-    program.set("arc_capacity", arc_capacity_);
-    program.set("doubtful_capacity", doubtful_capacity_);
+    program.set(kernel::CircleParameters{.first_entry = batch.first,
+                                         .circle_count = circle_count,
+                                         .arc_capacity = arc_capacity_,
+                                         .doubtful_capacity = doubtful_capacity_});
     program.dispatch(group_count(circle_count));
     counters_.read(0, counts, sizeof counts);
     if (counts[0] <= arc_capacity_ && counts[1] <= doubtful_capacity_) {

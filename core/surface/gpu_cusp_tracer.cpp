@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vec4.hpp>
 
+#include "core/gpu/kernel_parameters.h"
 #include "core/surface/contour.h"
 #include "core/surface/pipeline.h"
 
@@ -43,9 +44,9 @@ class GpuCuspTracer final : public CuspTracer {
       sides_.bind(3);
       flags_.bind(4);
       const Program& program = programs_.get("gpu_shaders/singularities/cuts.comp");
-      program.set("first_probe", batch.first);
-      program.set("probe_count", batch.count);
-      program.set("probe_radius", static_cast<float>(problem.probe_radius));
+      program.set(kernel::CutParameters{.first_probe = batch.first,
+                                        .probe_count = batch.count,
+                                        .probe_radius = static_cast<float>(problem.probe_radius)});
       program.dispatch(group_count(batch.count));
       collect_cuts(problem, batch, cuts);
     });
@@ -131,10 +132,10 @@ class GpuCuspTracer final : public CuspTracer {
       sides_.bind(5);
       arcs_.bind(6);
       doubtful_.bind(7);
-      program.set("first_probe", batch.first);
-      program.set("circle_count", static_cast<std::uint32_t>(circles.size()));
-      program.set("arc_capacity", arc_capacity_);
-      program.set("doubtful_capacity", doubtful_capacity_);
+      program.set(kernel::CuspParameters{.first_probe = batch.first,
+                                         .circle_count = static_cast<std::uint32_t>(circles.size()),
+                                         .arc_capacity = arc_capacity_,
+                                         .doubtful_capacity = doubtful_capacity_});
       program.dispatch(group_count(circles.size()));
       arcs_.read(0, counts, sizeof counts);
       if (counts[0] <= arc_capacity_ && counts[1] <= doubtful_capacity_) break;

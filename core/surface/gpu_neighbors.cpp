@@ -63,9 +63,9 @@ void GpuNeighbors::adopt(std::uint32_t count, const BallExtent& extent_of_balls)
            (std::floor(extent.z / spacing) + 1);
   };
   while (cells() > 4.0 * count_ + 64) spacing *= 1.25;
-  grid_low_ = glm::vec4(glm::vec3(low), static_cast<float>(1 / spacing));
-  grid_size_ = glm::vec4(glm::vec3(glm::floor(extent / spacing) + 1.0), 0.0f);
-  cell_count_ = static_cast<std::uint32_t>(grid_size_.x * grid_size_.y * grid_size_.z);
+  grid_.low = glm::vec4(glm::vec3(low), static_cast<float>(1 / spacing));
+  grid_.size = glm::vec4(glm::vec3(glm::floor(extent / spacing) + 1.0), 0.0f);
+  cell_count_ = static_cast<std::uint32_t>(grid_.size.x * grid_.size.y * grid_.size.z);
   build_grid();
 }
 
@@ -80,9 +80,8 @@ void GpuNeighbors::build_grid() {
     rank_.bind(2);
     cell_atoms_.bind(3);
     const Program& program = kernel("reduced_surface/grid", pass);
-    program.set("atom_count", count_);
-    program.set("grid_low", grid_low_);
-    program.set("grid_size", grid_size_);
+    program.set(kernel::GridParameters{.atom_count = count_});
+    program.set(grid_, kernel::kCellGridBinding);
     program.dispatch(group_count(count_));
     if (pass == 0) scan_(cell_first_, cell_count_);
   }
@@ -123,11 +122,9 @@ void GpuNeighbors::run_neighbors(const BallBatch& batch, int pass) {
   relative.bind(6);
   labels.bind(7);
   const Program& program = kernel("reduced_surface/neighbors", pass);
-  program.set("first_entry", batch.first);
-  program.set("entry_count", batch.count);
-  program.set("largest_radius", largest_radius_);
-  program.set("grid_low", grid_low_);
-  program.set("grid_size", grid_size_);
+  program.set(kernel::NeighborParameters{
+      .first_entry = batch.first, .entry_count = batch.count, .largest_radius = largest_radius_});
+  program.set(grid_, kernel::kCellGridBinding);
   program.dispatch(group_count(batch.count));
 }
 
@@ -173,8 +170,7 @@ void GpuNeighbors::list_pairs(const BallBatch& batch) {
   pairs.bind(3);
   bind_listed();
   const Program& program = kernel("reduced_surface/pairs");
-  program.set("first_entry", batch.first);
-  program.set("entry_count", batch.count);
+  program.set(kernel::PairParameters{.first_entry = batch.first, .entry_count = batch.count});
   program.dispatch(group_count(batch.count));
 }
 

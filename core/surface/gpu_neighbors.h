@@ -11,6 +11,7 @@
 #include <glm/vec4.hpp>
 
 #include "core/gpu/buffer.h"
+#include "core/gpu/kernel_parameters.h"
 #include "core/gpu/prefix_sum.h"
 #include "core/gpu/program.h"
 #include "core/gpu/texel_buffer.h"
@@ -107,8 +108,7 @@ class GpuNeighbors {
   const Buffer* listed_ = nullptr;
   std::uint32_t cell_count_ = 0;
   float largest_radius_ = 0;
-  glm::vec4 grid_low_{0.0f};
-  glm::vec4 grid_size_{1.0f};
+  kernel::CellGrid grid_{};
 };
 
 }  // namespace meniscus

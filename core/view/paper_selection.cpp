@@ -45,11 +45,8 @@ void PaperSelection::draw(const char* kernel, const PictureFrame& frame, const V
   pixel_depths_.bind(1);
   const Program& program = programs_.get("gpu_shaders/paper_selection/" + std::string(kernel) + ".comp");
   view.bind(program);
-  program.set("atom_count", count);
-  program.set("probe_count", count);
-  program.set("probe_radius", probe_radius);
   for (const std::uint32_t pass : {0u, 1u}) {
-    program.set("pass", pass);
+    program.set(kernel::DrawParameters{.count = count, .probe_radius = probe_radius, .pass = pass});
     program.dispatch(count);
   }
 }
@@ -65,8 +62,7 @@ void PaperSelection::keep_arcs(RollingBuffers& rolling) {
   const Program& table = programs_.get("gpu_shaders/paper_selection/face_table.comp");
   face_table_.bind(2);
   rolling.probes->bind(3);
-  table.set("table_size", table_size);
-  table.set("probe_count", rolling.probe_count);
+  table.set(kernel::FaceTableParameters{.table_size = table_size, .count = rolling.probe_count});
   table.dispatch(group_count(rolling.probe_count));
   for (const char* pass : {"0", "1"}) {
     const Program& program = programs_.get("gpu_shaders/paper_selection/selected_arcs.comp", {{"PASS", pass}});
@@ -78,8 +74,7 @@ void PaperSelection::keep_arcs(RollingBuffers& rolling) {
     kept_arcs_.bind(4);
     drawn_.bind(5);
     counter_.bind(6);
-    program.set("table_size", table_size);
-    program.set("arc_count", rolling.arc_count);
+    program.set(kernel::FaceTableParameters{.table_size = table_size, .count = rolling.arc_count});
     program.dispatch(group_count(rolling.arc_count));
   }
   rolling.arc_count = counted();
@@ -100,7 +95,7 @@ void PaperSelection::keep_probes(RollingBuffers& rolling) {
   kept_balls_low_.bind(5);
   kept_probes_.bind(6);
   counter_.bind(7);
-  program.set("probe_count", rolling.probe_count);
+  program.set(kernel::FaceParameters{.probe_count = rolling.probe_count});
   program.dispatch(group_count(rolling.probe_count));
   rolling.probe_count = counted();
   std::swap(*rolling.probes, kept_probes_);

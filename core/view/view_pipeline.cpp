@@ -167,10 +167,8 @@ void ViewPipeline::place_probes() {
     arc_texels_.bind(0);
     neighbors_.bind_listed();
     visible_.bind(program);
-    program.set("exact_probe_radius", probe_radius_);
-    program.set("arc_count", arc_count_);
-    program.set("probe_capacity", probe_capacity_);
-    program.set("middle", middle_);
+    program.set(kernel::FixedProbeParameters{
+        .middle = middle_, .probe_radius = probe_radius_, .arc_count = arc_count_, .probe_capacity = probe_capacity_});
     program.dispatch(group_count(arc_count_));
     std::array<std::uint32_t, 7> counts{};
     counters_.read(0, counts.data(), sizeof counts);
@@ -235,7 +233,7 @@ void ViewPipeline::list_arcs_by_atom() {
     atom_arc_first_.bind(0);
     atom_arc_rank_.bind(1);
     atom_arcs_.bind(2);
-    program.set("arc_count", arc_count);
+    program.set(kernel::ArcParameters{.arc_count = arc_count});
     program.dispatch(group_count(arc_count));
     if (pass == 0) prefix_sum_(atom_arc_first_, atom_count());
   }
@@ -252,7 +250,7 @@ void ViewPipeline::append_primitives(const PictureFrame& frame, GpuScene& scene)
     circles_.atoms.bind(0);
     radii_.bind(1);
     arc_texels_.bind(0);
-    toroidal.set("arc_count", arc_count_);
+    toroidal.set(kernel::ArcParameters{.arc_count = arc_count_});
     toroidal.dispatch(group_count(arc_count_));
 
     probe_neighbors_.for_each_batch([&](const BallBatch& batch) {
@@ -262,8 +260,7 @@ void ViewPipeline::append_primitives(const PictureFrame& frame, GpuScene& scene)
       probe_neighbors_.first.bind(5);
       probe_neighbors_.labels.bind(6);
       probe_neighbors_.relative.bind(7);
-      concave.set("first_probe", batch.first);
-      concave.set("probe_count", batch.count);
+      concave.set(kernel::ConcaveParameters{.first_probe = batch.first, .probe_count = batch.count});
       concave.dispatch(group_count(batch.count));
     });
   }
@@ -280,9 +277,7 @@ void ViewPipeline::append_primitives(const PictureFrame& frame, GpuScene& scene)
     neighbors_.labels.bind(6);
     neighbors_.bind_listed();
     visible_.bind(convex);
-    convex.set("first_entry", batch.first);
-    convex.set("entry_count", batch.count);
-    convex.set("middle", middle_);
+    convex.set(kernel::ConvexParameters{.middle = middle_, .first_entry = batch.first, .entry_count = batch.count});
     convex.dispatch(group_count(batch.count));
   });
 }
@@ -294,15 +289,16 @@ const Program& ViewPipeline::primitive_kernel(const char* name, const PictureFra
   scene.primitives.bind(2);
   scene.rows.bind(3);
   counters_.bind(4);
-  program.set("primitive_capacity", primitive_capacity_);
-  program.set("row_capacity", row_capacity_);
-  program.set("pivot", frame.pivot);
-  program.set("camera_position", frame.camera.position);
-  program.set("camera_forward", frame.basis.forward);
-  program.set("eye_distance", frame.eye_distance);
-  program.set("camera_orthographic", frame.camera.projection == Projection::orthographic ? 1u : 0u);
-  program.set("slack", scene.slack);
-  program.set("exact_probe_radius", probe_radius_);
+  program.set(kernel::PrimitiveParameters{.pivot = frame.pivot,
+                                          .eye_distance = frame.eye_distance,
+                                          .camera_position = frame.camera.position,
+                                          .probe_radius = probe_radius_,
+                                          .camera_forward = frame.basis.forward,
+                                          .slack = scene.slack,
+                                          .orthographic = frame.camera.projection == Projection::orthographic,
+                                          .primitive_capacity = primitive_capacity_,
+                                          .row_capacity = row_capacity_},
+              kernel::kPrimitiveBinding);
   return program;
 }
 

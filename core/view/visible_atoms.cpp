@@ -35,38 +35,33 @@ bool VisibleAtoms::theorem_applies(std::span<const Ball> atoms, double probe_rad
 
 void VisibleAtoms::look(std::span<const Ball> atoms, const glm::dvec3& middle, double probe_radius,
                         const PictureFrame& frame, bool keep_all) {
-  frame_ = frame;
   probe_radius_ = static_cast<float>(probe_radius);
-  keep_all_ = keep_all || !theorem_applies(atoms, probe_radius, frame);
   const glm::dvec3 eye = frame.camera.position - middle;
-  eye_ = glm::vec3(eye);
-  pixel_scale_ = static_cast<float>(
-      frame.camera.projection == Projection::orthographic ? frame.pixel_size : frame.pixel_size / frame.eye_distance);
   double farthest = glm::length(eye);
   for (const Ball& ball : atoms) farthest = std::max(farthest, glm::distance(ball.center, frame.camera.position));
-  // Covers the rounding of every bound in single precision several times over; keeping too much is never wrong.
-  margin_ = static_cast<float>(1e-3 + 4e-6 * farthest);
   tiles_ = (frame.size + (kTileEdge - 1)) / kTileEdge;
-  block_edge_ = suitable_block_edge(frame);
+  const bool orthographic = frame.camera.projection == Projection::orthographic;
+  view_ = {.eye = glm::vec3(eye),
+           .pixel_scale = static_cast<float>(orthographic ? frame.pixel_size : frame.pixel_size / frame.eye_distance),
+           .right = glm::vec3(frame.basis.right),
+           // Several times the rounding of every bound in single precision; keeping too much is never wrong.
+           .margin = static_cast<float>(1e-3 + 4e-6 * farthest),
+           .up = glm::vec3(frame.basis.up),
+           .orthographic = orthographic,
+           .forward = glm::vec3(frame.basis.forward),
+           .block_edge = suitable_block_edge(frame),
+           .picture_size = frame.size,
+           .keep_all = keep_all || !theorem_applies(atoms, probe_radius, frame)};
 }
 
 void VisibleAtoms::bind(const Program& program) const {
-  program.set("eye", eye_);
-  program.set("right", glm::vec3(frame_.basis.right));
-  program.set("up", glm::vec3(frame_.basis.up));
-  program.set("forward", glm::vec3(frame_.basis.forward));
-  program.set("orthographic", frame_.camera.projection == Projection::orthographic ? 1u : 0u);
-  program.set("pixel_scale", pixel_scale_);
-  program.set("margin", margin_);
-  program.set("picture_size", frame_.size);
-  program.set("block_edge", block_edge_);
-  program.set("keep_all", keep_all_ ? 1u : 0u);
+  program.set(view_, kernel::kViewBinding);
   tile_texels_.bind(4);
   block_texels_.bind(5);
 }
 
 void VisibleAtoms::draw_occluders(const Buffer& balls, std::uint32_t atom_count, Buffer& tile_depths) {
-  const int blocks_across = kTileEdge / block_edge_;
+  const int blocks_across = kTileEdge / view_.block_edge;
   const std::size_t tile_count = static_cast<std::size_t>(tiles_.x) * tiles_.y;
   block_depths_.resize(tile_count * blocks_across * blocks_across * sizeof(float));
   tile_depths.resize(tile_count * sizeof(float));
@@ -74,14 +69,13 @@ void VisibleAtoms::draw_occluders(const Buffer& balls, std::uint32_t atom_count,
   tile_depths.fill(std::bit_cast<std::uint32_t>(kNothing));
   tile_texels_.view(tile_depths);
   block_texels_.view(block_depths_);
-  if (keep_all_) return;
+  if (keeps_all()) return;
 
   const Program& occluders = programs_.get("gpu_shaders/visibility/occluders.comp");
   bind(occluders);
   balls.bind(0);
   block_depths_.bind(1);
-  occluders.set("atom_count", atom_count);
-  occluders.set("probe_radius", probe_radius_);
+  occluders.set(kernel::VisibleAtomsParameters{.atom_count = atom_count, .probe_radius = probe_radius_});
   occluders.dispatch(atom_count);
 
   const Program& tiles = programs_.get("gpu_shaders/visibility/tile_depths.comp");
@@ -101,8 +95,7 @@ std::uint32_t VisibleAtoms::keep(const Buffer& balls, const Buffer& balls_low, s
     balls_low.bind(1);
     before.bind(2);
     kept.bind(3);
-    program.set("atom_count", atom_count);
-    program.set("probe_radius", probe_radius_);
+    program.set(kernel::VisibleAtomsParameters{.atom_count = atom_count, .probe_radius = probe_radius_});
     program.dispatch(group_count(atom_count));
     if (pass == 0) prefix_sum_(before, atom_count);
   }

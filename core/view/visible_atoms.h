@@ -6,6 +6,7 @@
 #include <span>
 
 #include "core/gpu/buffer.h"
+#include "core/gpu/kernel_parameters.h"
 #include "core/gpu/prefix_sum.h"
 #include "core/gpu/program.h"
 #include "core/gpu/texel_buffer.h"
@@ -32,7 +33,7 @@ class VisibleAtoms {
             bool keep_all);
 
   /// Whether this view keeps all atoms, whatever it shows.
-  bool keeps_all() const { return keep_all_; }
+  bool keeps_all() const { return view_.keep_all != 0; }
 
   /// Draws the vdW spheres. balls: vec4 per atom, centre from the middle and SAS radius. Fills in tile_depths as
   /// GpuScene wants it; that buffer must stay.
@@ -41,7 +42,7 @@ class VisibleAtoms {
   /// Lists the atoms to keep; returns how many. balls_low: w is 1 for swallowed atoms, which are not kept.
   std::uint32_t keep(const Buffer& balls, const Buffer& balls_low, std::uint32_t atom_count);
 
-  /// For kernels that include begins_in_front.glsl: its uniforms, and its textures at units 4 and 5.
+  /// For kernels that include begins_in_front.glsl: its parameters, and its textures at units 4 and 5.
   void bind(const Program& program) const;
 
   Buffer kept;    ///< ascending atom indices
@@ -54,16 +55,9 @@ class VisibleAtoms {
   PrefixSum prefix_sum_;
   Buffer block_depths_;
   TexelBuffer tile_texels_{TexelFormat::uint1}, block_texels_{TexelFormat::uint1};
-  bool keep_all_ = true;
   float probe_radius_ = 0.0f;
   glm::ivec2 tiles_{0};
-  int block_edge_ = 4;
-
-  // Of the view, see gpu_shaders/visibility/view.glsl.
-  PictureFrame frame_;
-  glm::vec3 eye_{0.0f};
-  float pixel_scale_ = 0.0f;
-  float margin_ = 0.0f;
+  kernel::View view_{};
 };
 
 }  // namespace meniscus

@@ -3,12 +3,13 @@
 #version 450 core
 layout(local_size_x = 8, local_size_y = 8) in;
 #include "gpu_shaders/look/view_space.glsl"
+#include "gpu_shaders/look/parameters.glsl"
 
 layout(binding = 2) uniform usamplerBuffer atom_parts;  // there if has_parts
 layout(std430, binding = 0) writeonly buffer Depths { float depths[]; };
 layout(std430, binding = 1) writeonly buffer Parts { uint parts[]; };
 
-uniform uint has_parts;
+layout(std140, binding = 0) uniform Parameters { DepthParameters params; };
 
 const uint kNoPrimitive = 0xffffffffu;
 
@@ -21,9 +22,9 @@ void main() {
   uvec4 what = texelFetch(hit_texels, 2 * at + 1);
   if (what.x != kNoPrimitive) {
     // Rays count from the pivot's plane; a perspective one is longer than its part along the axis.
-    vec2 slope = (first_offset + vec2(pixel) + sample_offset) * pixel_size / eye_distance;
-    depth = eye_distance + (orthographic != 0u ? t : t / sqrt(1.0 + dot(slope, slope)));
+    vec2 slope = (view.first_offset + vec2(pixel) + view.sample_offset) * view.pixel_size / view.eye_distance;
+    depth = view.eye_distance + (view.orthographic != 0u ? t : t / sqrt(1.0 + dot(slope, slope)));
   }
   depths[at] = depth;
-  if (has_parts != 0u) parts[at] = what.x != kNoPrimitive ? texelFetch(atom_parts, int(what.y)).x : 0u;
+  if (params.has_parts != 0u) parts[at] = what.x != kNoPrimitive ? texelFetch(atom_parts, int(what.y)).x : 0u;
 }

@@ -4,19 +4,14 @@
 #version 450 core
 layout(local_size_x = 8, local_size_y = 8) in;
 #include "gpu_shaders/look/view_space.glsl"
+#include "gpu_shaders/look/parameters.glsl"
 
 layout(binding = 2) uniform usamplerBuffer visibility_texels;  // there for AMBIENT_OCCLUSION
 layout(binding = 3) uniform usamplerBuffer part_texels;  // of each pixel; there if has_parts
 layout(std430, binding = 0) readonly buffer Samples { vec4 samples[]; };  // linear, premultiplied
 layout(std430, binding = 1) buffer Picture { vec4 picture[]; };
 
-uniform float ambient_occlusion;
-uniform float silhouettes;        // pixels
-uniform float depth_cue;
-uniform float first_depth;
-uniform float last_depth;
-uniform uint sample_index;
-uniform uint has_parts;
+layout(std140, binding = 0) uniform Parameters { FinishParameters params; };
 
 // Mean over 4 x 4 pixels, as a square of 5 x 5 whose rim counts half; pixels of other surfaces do not count.
 float mean_visibility(ivec2 pixel, float depth) {
@@ -64,7 +59,7 @@ float step_ink(ivec2 a, float depth_a, ivec2 b, float depth_b) {
 }
 
 bool parts_differ(ivec2 a, ivec2 b) {
-  return has_parts != 0u && texelFetch(part_texels, index_of(a)).x != texelFetch(part_texels, index_of(b)).x;
+  return params.has_parts != 0u && texelFetch(part_texels, index_of(a)).x != texelFetch(part_texels, index_of(b)).x;
 }
 
 // Share of a pixel that lines cover, and the depth of what they outline.
@@ -76,7 +71,7 @@ struct Ink {
 // A line is `silhouettes` wide, half on each side of where it belongs. Software GL runs every branch: so each pixel
 // first looks, cheaply, for the next neighbour that matters to it.
 Ink ink_on(ivec2 pixel, float depth) {
-  int reach = int(ceil(0.5 * silhouettes + 0.5));
+  int reach = int(ceil(0.5 * params.silhouettes + 0.5));
   Ink ink = Ink(0.0, depth);
   ivec2 offset = ivec2(-reach - 1, -reach);
   do {
@@ -90,7 +85,7 @@ Ink ink_on(ivec2 pixel, float depth) {
       if (offset.x > reach) offset = ivec2(-reach, offset.y + 1);
       other = pixel + offset;
       other_depth = depth_at(other);
-      share = clamp(0.5 * silhouettes + 1.0 - length(vec2(offset)), 0.0, 1.0);
+      share = clamp(0.5 * params.silhouettes + 1.0 - length(vec2(offset)), 0.0, 1.0);
       bool counts = offset.y <= reach && share > ink.covered && in_block(other);
       step = counts && may_step(depth, other_depth);
       seam = counts && depth != kNothing && other_depth != kNothing && parts_differ(pixel, other);
@@ -103,7 +98,8 @@ Ink ink_on(ivec2 pixel, float depth) {
 
 // What is left of a colour at this depth.
 float clarity(float depth) {
-  return 1.0 - depth_cue * clamp((depth - first_depth) / max(last_depth - first_depth, 1e-3), 0.0, 1.0);
+  float range = max(params.last_depth - params.first_depth, 1e-3);
+  return 1.0 - params.depth_cue * clamp((depth - params.first_depth) / range, 0.0, 1.0);
 }
 
 void main() {
@@ -113,7 +109,7 @@ void main() {
   vec4 color = samples[at];
   float depth = depth_at(pixel);
 #ifdef AMBIENT_OCCLUSION
-  if (depth != kNothing) color.rgb *= mix(1.0, mean_visibility(pixel, depth), ambient_occlusion);
+  if (depth != kNothing) color.rgb *= mix(1.0, mean_visibility(pixel, depth), params.ambient_occlusion);
 #endif
   if (depth != kNothing) color *= clarity(depth);
 #ifdef SILHOUETTES
@@ -121,5 +117,5 @@ void main() {
   float covered = ink.covered * clarity(ink.depth);
   color = vec4(color.rgb * (1.0 - covered), mix(color.a, 1.0, covered));
 #endif
-  picture[at] = sample_index == 0u ? color : picture[at] + color;
+  picture[at] = params.sample_index == 0u ? color : picture[at] + color;
 }

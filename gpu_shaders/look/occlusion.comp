@@ -7,12 +7,11 @@
 #version 450 core
 layout(local_size_x = 8, local_size_y = 8) in;
 #include "gpu_shaders/look/view_space.glsl"
+#include "gpu_shaders/look/parameters.glsl"
 
 layout(std430, binding = 0) writeonly buffer Visibility { float visibility[]; };
 
-uniform float radius;         // Å
-uniform float longest_reach;  // pixels
-uniform uint sample_index;    // other samples take other places of the pattern
+layout(std140, binding = 0) uniform Parameters { OcclusionParameters params; };
 
 const int kSliceCount = 2;
 const int kStepCount = 6;
@@ -53,9 +52,9 @@ float sky_visibility(ivec2 pixel, float depth) {
   vec3 p = position_at(pixel, depth);
   vec3 to_viewer = to_viewer_at(p);
   vec3 normal = normal_at(pixel, to_viewer);
-  float reach = min(radius / pixel_size_at(depth), longest_reach);
+  float reach = min(params.radius / pixel_size_at(depth), params.longest_reach);
   if (reach < 1.0) return 1.0;
-  uint place = (pattern(pixel) + 5u * sample_index) & 15u;
+  uint place = (pattern(pixel) + 5u * params.sample_index) & 15u;
   float seen = 0.0;
   float open = 0.0;  // what it would see alone
   for (int s = 0; s < kSliceCount; ++s) {

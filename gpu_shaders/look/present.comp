@@ -2,13 +2,12 @@
 // Sums of samples over a background, as sRGB (IEC 61966-2-1) in 8 bits.
 #version 450 core
 layout(local_size_x = 8, local_size_y = 8) in;
+#include "gpu_shaders/look/parameters.glsl"
 
 layout(std430, binding = 0) readonly buffer Picture { vec4 picture[]; };  // sums of linear, premultiplied samples
 layout(rgba8, binding = 0) uniform writeonly image2D presented;
 
-uniform ivec2 size;
-uniform float per_sample;  // 1 / number of samples
-uniform vec3 background;   // linear
+layout(std140, binding = 0) uniform Parameters { PresentParameters params; };
 
 vec3 srgb_from_linear(vec3 c) {
   c = clamp(c, 0.0, 1.0);
@@ -17,7 +16,7 @@ vec3 srgb_from_linear(vec3 c) {
 
 void main() {
   ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-  if (any(greaterThanEqual(pixel, size))) return;
-  vec4 color = picture[pixel.y * size.x + pixel.x] * per_sample;
-  imageStore(presented, pixel, vec4(srgb_from_linear(color.rgb + background * (1.0 - color.a)), 1.0));
+  if (any(greaterThanEqual(pixel, params.size))) return;
+  vec4 color = picture[pixel.y * params.size.x + pixel.x] * params.per_sample;
+  imageStore(presented, pixel, vec4(srgb_from_linear(color.rgb + params.background * (1.0 - color.a)), 1.0));
 }

@@ -8,9 +8,8 @@ layout(local_size_x = 64) in;
 #include "gpu_shaders/ray_cast/tie_key.glsl"
 #include "gpu_shaders/paper_selection/face_table.glsl"
 
-uniform uint probe_count;
 
 void main() {
   uint face = linear_invocation_index();
-  if (face < probe_count) insert_face(face);
+  if (face < params.count) insert_face(face);
 }

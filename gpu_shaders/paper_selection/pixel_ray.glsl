@@ -8,8 +8,8 @@ struct PixelRay {
 };
 
 PixelRay pixel_ray(ivec2 pixel) {
-  vec2 slope = (vec2(pixel) + 0.5 - 0.5 * vec2(picture_size)) * pixel_scale;
-  if (orthographic != 0u) return PixelRay(vec3(slope, 0.0), vec3(0.0, 0.0, 1.0));
+  vec2 slope = (vec2(pixel) + 0.5 - 0.5 * vec2(view.picture_size)) * view.pixel_scale;
+  if (view.orthographic != 0u) return PixelRay(vec3(slope, 0.0), vec3(0.0, 0.0, 1.0));
   return PixelRay(vec3(0.0), normalize(vec3(slope, 1.0)));
 }
 
@@ -21,9 +21,9 @@ struct PixelRange {
 PixelRange pixels_of(vec3 v, float radius) {
   vec4 pixels = touched_pixels(v, radius);
   ivec2 low = ivec2(pixels.xy);
-  return PixelRange(low, max(min(ivec2(pixels.zw), picture_size - 1) - low + 1, ivec2(0)));
+  return PixelRange(low, max(min(ivec2(pixels.zw), view.picture_size - 1) - low + 1, ivec2(0)));
 }
 
 ivec2 pixel_of(PixelRange range, int n) { return range.low + ivec2(n % range.size.x, n / range.size.x); }
 
-uint pixel_index(ivec2 pixel) { return uint(pixel.y * picture_size.x + pixel.x); }
+uint pixel_index(ivec2 pixel) { return uint(pixel.y * view.picture_size.x + pixel.x); }

@@ -19,7 +19,6 @@ layout(std430, binding = 1) readonly buffer Visible { uint visible[]; };
 layout(std430, binding = 4) writeonly buffer KeptArcs { uvec4 kept_arcs[]; };
 layout(std430, binding = 5) writeonly buffer Drawn { uint drawn[]; };
 layout(std430, binding = 6) buffer Counters { uint arc_count_kept; };
-uniform uint arc_count;
 
 uint face_at(uvec4 arc, bool at_end) {
   Triple t = triple_at(arc.x, arc.y, at_end ? arc.w : arc.z, at_end);
@@ -34,7 +33,7 @@ void keep(uvec4 arc) {
 
 void main() {
   uint index = linear_invocation_index();
-  if (index >= arc_count) return;
+  if (index >= params.count) return;
   uvec4 arc = texelFetch(arcs, int(index));
   if (arc.z == kNone) {
 #if PASS == 1

@@ -6,6 +6,7 @@
 layout(local_size_x = 64) in;
 #include "gpu_shaders/shared/linear_index.glsl"
 #include "gpu_shaders/shared/probe_record.glsl"
+#include "gpu_shaders/paper_selection/parameters.glsl"
 
 layout(std430, binding = 0) readonly buffer Selected { uint selected[]; };
 layout(std430, binding = 1) readonly buffer ProbeBalls { vec4 probe_balls[]; };
@@ -15,11 +16,11 @@ layout(std430, binding = 4) writeonly buffer KeptBalls { vec4 kept_balls[]; };
 layout(std430, binding = 5) writeonly buffer KeptBallsLow { vec4 kept_balls_low[]; };
 layout(std430, binding = 6) writeonly buffer KeptProbes { ProbeRecord kept_probes[]; };
 layout(std430, binding = 7) buffer Counters { uint probe_count_kept; };
-uniform uint probe_count;
+layout(std140, binding = 0) uniform Parameters { FaceParameters params; };
 
 void main() {
   uint s = linear_invocation_index();
-  if (s >= probe_count || selected[s] == 0u) return;
+  if (s >= params.probe_count || selected[s] == 0u) return;
   uint slot = atomicAdd(probe_count_kept, 1u);
   kept_balls[slot] = probe_balls[s];
   kept_balls_low[slot] = probe_balls_low[s];

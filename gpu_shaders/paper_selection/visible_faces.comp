@@ -9,14 +9,14 @@ layout(local_size_x = 32) in;
 #include "gpu_shaders/shared/linear_index.glsl"
 #include "gpu_shaders/shared/probe_record.glsl"
 #include "gpu_shaders/paper_selection/pixel_ray.glsl"
+#include "gpu_shaders/paper_selection/parameters.glsl"
 
 layout(std430, binding = 0) readonly buffer Balls { vec4 balls[]; };  // from the middle of the atoms
 layout(std430, binding = 1) buffer PixelDepths { uint pixel_depths[]; };
 layout(std430, binding = 2) readonly buffer Visible { uint visible[]; };
 layout(std430, binding = 3) readonly buffer Probes { ProbeRecord probes[]; };
 layout(std430, binding = 4) writeonly buffer Selected { uint selected[]; };
-uniform uint probe_count;
-uniform uint pass;
+layout(std140, binding = 0) uniform Parameters { DrawParameters params; };
 
 // Distance along the ray to the triangle a, b, c; not positive where it misses (Moeller & Trumbore 1997).
 float triangle_depth(PixelRay ray, vec3 a, vec3 b, vec3 c) {
@@ -33,7 +33,7 @@ float triangle_depth(PixelRay ray, vec3 a, vec3 b, vec3 c) {
 
 void main() {
   uint s = linear_group_index();
-  if (s >= probe_count) return;
+  if (s >= params.count) return;
   uvec3 atom = probes[s].atoms.xyz;
   if (visible[atom.x] + visible[atom.y] + visible[atom.z] == 0u) return;
   vec3 a = view_from_molecule(balls[atom.x].xyz);
@@ -46,7 +46,7 @@ void main() {
     ivec2 pixel = pixel_of(range, n);
     float depth = triangle_depth(pixel_ray(pixel), a, b, c);
     if (!(depth > 0.0)) continue;
-    if (pass == 0u) atomicMin(pixel_depths[pixel_index(pixel)], floatBitsToUint(depth));
+    if (params.pass == 0u) atomicMin(pixel_depths[pixel_index(pixel)], floatBitsToUint(depth));
     else if (pixel_depths[pixel_index(pixel)] == floatBitsToUint(depth)) selected[s] = 1u;
   }
 }

@@ -7,20 +7,19 @@
 layout(local_size_x = 32) in;
 #include "gpu_shaders/shared/linear_index.glsl"
 #include "gpu_shaders/paper_selection/pixel_ray.glsl"
+#include "gpu_shaders/paper_selection/parameters.glsl"
 
 layout(std430, binding = 0) readonly buffer Balls { vec4 balls[]; };  // from the middle of the atoms, SAS radius
 layout(std430, binding = 1) buffer PixelDepths { uint pixel_depths[]; };
 layout(std430, binding = 2) writeonly buffer Visible { uint visible[]; };
 layout(std430, binding = 3) writeonly buffer Drawn { uint drawn[]; };
-uniform uint atom_count;
-uniform float probe_radius;
-uniform uint pass;  // one program for both, so that both find the same numbers
+layout(std140, binding = 0) uniform Parameters { DrawParameters params; };
 
 void main() {
   uint a = linear_group_index();
-  if (a >= atom_count) return;
+  if (a >= params.count) return;
   vec3 v = view_from_molecule(balls[a].xyz);
-  float radius = balls[a].w - probe_radius;
+  float radius = balls[a].w - params.probe_radius;
   PixelRange range = pixels_of(v, radius);
   for (int n = int(gl_LocalInvocationID.x); n < range.size.x * range.size.y; n += 32) {
     ivec2 pixel = pixel_of(range, n);
@@ -32,7 +31,7 @@ void main() {
     if (square < 0.0) continue;
     float depth = along - sqrt(square);
     if (depth <= 0.0) continue;
-    if (pass == 0u) atomicMin(pixel_depths[pixel_index(pixel)], floatBitsToUint(depth));
+    if (params.pass == 0u) atomicMin(pixel_depths[pixel_index(pixel)], floatBitsToUint(depth));
     else if (pixel_depths[pixel_index(pixel)] == floatBitsToUint(depth)) visible[a] = drawn[a] = 1u;
   }
 }

@@ -7,28 +7,28 @@
 #version 450 core
 layout(local_size_x = 64) in;
 #include "gpu_shaders/shared/linear_index.glsl"
+#include "gpu_shaders/parallel/parameters.glsl"
 
 layout(std430, binding = 0) buffer Words { uint words[]; };
 layout(std430, binding = 1) buffer Totals { uint totals[]; };
-uniform uint count;
-uniform uint chunk_length;
+layout(std140, binding = 0) uniform Parameters { ScanParameters params; };
 
 void main() {
   uint chunk = linear_invocation_index();
 #if PASS == 1
   if (chunk != 0u) return;
   uint sum = 0u;
-  uint chunk_count = (count + chunk_length - 1u) / chunk_length;
+  uint chunk_count = (params.count + params.chunk_length - 1u) / params.chunk_length;
   for (uint n = 0u; n < chunk_count; ++n) {
     uint total = totals[n];
     totals[n] = sum;
     sum += total;
   }
-  words[count] = sum;
+  words[params.count] = sum;
 #else
-  uint begin = chunk * chunk_length;
-  if (begin >= count) return;
-  uint end = min(begin + chunk_length, count);
+  uint begin = chunk * params.chunk_length;
+  if (begin >= params.count) return;
+  uint end = min(begin + params.chunk_length, params.count);
 #if PASS == 0
   uint sum = 0u;
   for (uint n = begin; n < end; ++n) sum += words[n];

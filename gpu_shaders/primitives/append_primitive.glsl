@@ -4,38 +4,32 @@
 // does on the host.
 #include "gpu_shaders/geometry/patch_bounds.glsl"
 #include "gpu_shaders/ray_cast/records.glsl"
+#include "gpu_shaders/primitives/parameters.glsl"
 
 layout(std430, binding = 2) writeonly buffer Primitives { Primitive primitives[]; };
 layout(std430, binding = 3) writeonly buffer Rows { vec4 rows[]; };
 layout(std430, binding = 4) buffer Counters { uint primitive_count; uint row_count; uint cut_short; };  // cut_short: loop_guard.glsl
-uniform uint primitive_capacity;
-uniform uint row_capacity;
-uniform dvec3 pivot;
-uniform dvec3 camera_position;
-uniform dvec3 camera_forward;
-uniform double eye_distance;  // from the camera to the pivot
-uniform uint camera_orthographic;
-uniform float slack;
+layout(std140, binding = kPrimitiveBinding) uniform PrimitiveBlock { PrimitiveParameters scene; };
 
 uint next_row;
 
 void add_row(dvec3 v, double w) {
-  if (next_row < row_capacity) rows[next_row] = vec4(vec3(v), float(w));
+  if (next_row < scene.row_capacity) rows[next_row] = vec4(vec3(v), float(w));
   ++next_row;
 }
 
 void add_bits(dvec3 v, uint bits) {
-  if (next_row < row_capacity) rows[next_row] = vec4(vec3(v), uintBitsToFloat(bits));
+  if (next_row < scene.row_capacity) rows[next_row] = vec4(vec3(v), uintBitsToFloat(bits));
   ++next_row;
 }
 
 // False when nothing of the bound lies in front of the camera; else sets the record's bound, and room for its rows.
 bool begin_primitive(PatchBound bound, uint row_count_of_it, out Primitive primitive) {
-  double radius = bound.radius * (1.0LF + 1e-6LF) + 4.0LF * double(slack);
-  dvec3 center = bound.center - pivot;
-  double depth = eye_distance + dot(center, camera_forward);
+  double radius = bound.radius * (1.0LF + 1e-6LF) + 4.0LF * double(scene.slack);
+  dvec3 center = bound.center - scene.pivot;
+  double depth = scene.eye_distance + dot(center, scene.camera_forward);
   if (depth + radius <= 0.0LF) return false;
-  double distance = camera_orthographic != 0u ? depth : length(bound.center - camera_position);
+  double distance = scene.orthographic != 0u ? depth : length(bound.center - scene.camera_position);
   primitive.bound = vec4(vec3(center), float(radius));
   primitive.nearest = float((distance - radius) - 1e-6LF * (abs(distance) + radius));
   next_row = atomicAdd(row_count, row_count_of_it);
@@ -47,5 +41,5 @@ bool begin_primitive(PatchBound bound, uint row_count_of_it, out Primitive primi
 
 void append_primitive(Primitive primitive) {
   uint slot = atomicAdd(primitive_count, 1u);
-  if (slot < primitive_capacity) primitives[slot] = primitive;
+  if (slot < scene.primitive_capacity) primitives[slot] = primitive;
 }

@@ -19,9 +19,7 @@ layout(std430, binding = 1) readonly buffer Probes { ProbeRecord probes[]; };
 layout(std430, binding = 5) readonly buffer NeighborFirst { uint neighbor_first[]; };
 layout(std430, binding = 6) readonly buffer NeighborLabels { uint neighbor_labels[]; };
 layout(std430, binding = 7) readonly buffer NeighborBalls { vec4 neighbor_balls[]; };  // relative centre
-uniform uint first_probe;  // of the batch
-uniform uint probe_count;  // in the batch
-uniform double exact_probe_radius;
+layout(std140, binding = 0) uniform Parameters { ConcaveParameters params; };
 
 // Probes this near are one probe with n contacts; there is no plane between them.
 const double kMergeDistance = 1e-6LF;
@@ -32,7 +30,7 @@ dvec3 contact[3];  // unit vectors, counter-clockwise seen from the probe
 // is true (theorem 1.3), it may only be one that cuts nothing.
 bool cuts(dvec3 d) {
   double distance = length(d);
-  if (distance < kMergeDistance || distance >= 2.0LF * exact_probe_radius) return false;
+  if (distance < kMergeDistance || distance >= 2.0LF * scene.probe_radius) return false;
   dvec3 toward = d / distance;
   double best = -1.0LF;
   double most_outside = -1.0LF;
@@ -42,7 +40,7 @@ bool cuts(dvec3 d) {
     most_outside = max(most_outside, outside);
   }
   if (most_outside <= 0.0LF) best = 1.0LF;
-  return best * 2.0LF * exact_probe_radius > distance - 1e-9LF;
+  return best * 2.0LF * scene.probe_radius > distance - 1e-9LF;
 }
 
 bool touches(uint probe, uint atom) { return any(equal(probes[probe].atoms.xyz, uvec3(atom))); }
@@ -64,8 +62,8 @@ bool is_new_contact(uint self, uint first, uint place, int n, dvec3 s) {
 
 void main() {
   uint entry = linear_invocation_index();
-  if (entry >= probe_count) return;
-  ProbeRecord probe = probes[first_probe + entry];
+  if (entry >= params.probe_count) return;
+  ProbeRecord probe = probes[params.first_probe + entry];
   dvec3 s = probe.position;
   uvec3 atom = probe.atoms.w != 0u ? probe.atoms.xyz : probe.atoms.xzy;
   dvec3 sum = dvec3(0.0LF);
@@ -73,16 +71,16 @@ void main() {
     contact[n] = normalize(atoms[atom[n]].xyz - s);
     sum += contact[n];
   }
-  PatchBound bound = PatchBound(s, exact_probe_radius);
+  PatchBound bound = PatchBound(s, scene.probe_radius);
   if (length(sum) > 1e-6LF) {
     // A cap of at most half a sphere is convex on the sphere: it holds the patch if it holds the contacts.
     dvec3 axis = normalize(sum);
     double cosine = min(min(dot(contact[0], axis), dot(contact[1], axis)), dot(contact[2], axis));
-    bound = cap_bound(s, exact_probe_radius, axis, cosine);
+    bound = cap_bound(s, scene.probe_radius, axis, cosine);
   }
 
   // Only where a probe stands lower over its atoms than its radius does its patch leave its simplex (theorem 1.3).
-  bool low = probe.height < exact_probe_radius;
+  bool low = probe.height < scene.probe_radius;
   uint first = neighbor_first[entry];
   uint last = neighbor_first[entry + 1u];
   uint cut_count = 0u;
@@ -91,7 +89,7 @@ void main() {
     if (low && cuts(probes[neighbor_labels[n]].position - s)) ++cut_count;
     if (!coincides(n, s)) continue;
     for (int m = 0; m < 3; ++m)
-      if (is_new_contact(first_probe + entry, first, n, m, s)) ++contact_count;
+      if (is_new_contact(params.first_probe + entry, first, n, m, s)) ++contact_count;
   }
 
   Primitive primitive;
@@ -100,7 +98,7 @@ void main() {
   primitive.plane_count = 3u + cut_count;
   primitive.atom = contact_count;
   primitive.tie_key = probe.key;
-  add_row(s - pivot, exact_probe_radius);
+  add_row(s - scene.pivot, scene.probe_radius);
   for (int n = 0; n < 3; ++n)
     add_row(normalize(cross(atoms[atom[n]].xyz - s, atoms[atom[n == 2 ? 0 : n + 1]].xyz - s)), 0.0LF);
   for (uint n = first; n < last; ++n) {
@@ -113,7 +111,7 @@ void main() {
     if (!coincides(n, s)) continue;
     for (int m = 0; m < 3; ++m) {
       uint other = probes[neighbor_labels[n]].atoms[m];
-      if (is_new_contact(first_probe + entry, first, n, m, s)) add_bits(normalize(atoms[other].xyz - s), other);
+      if (is_new_contact(params.first_probe + entry, first, n, m, s)) add_bits(normalize(atoms[other].xyz - s), other);
     }
   }
   append_primitive(primitive);

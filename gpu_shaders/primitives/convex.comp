@@ -21,10 +21,7 @@ layout(binding = 0) uniform usamplerBuffer atom_arc_first;
 layout(binding = 1) uniform usamplerBuffer atom_arcs;  // partner, begin_by, end_by, 0
 layout(std430, binding = 5) readonly buffer NeighborFirst { uint neighbor_first[]; };
 layout(std430, binding = 6) readonly buffer NeighborLabels { uint neighbor_labels[]; };
-uniform uint first_entry;  // of the batch
-uniform uint entry_count;  // in the batch
-uniform double exact_probe_radius;
-uniform dvec3 middle;  // of the atoms
+layout(std140, binding = 0) uniform Parameters { ConvexParameters params; };
 #ifdef WHOLE_SPHERES
 layout(std430, binding = 7) readonly buffer Drawn { uint drawn[]; };
 #endif
@@ -84,14 +81,14 @@ bool alone(uint a, uint entry) {
 dvec4 contact_plane(uint a, uint b) {
   dvec3 d = atoms[b].xyz - atoms[a].xyz;
   double distance = length(d);
-  return dvec4(d / distance, contact_height(distance, radii[a], radii[a] + exact_probe_radius,
-                                            radii[b] + exact_probe_radius));
+  return dvec4(d / distance, contact_height(distance, radii[a], radii[a] + scene.probe_radius,
+                                            radii[b] + scene.probe_radius));
 }
 
 void main() {
   uint entry = linear_invocation_index();
-  if (entry >= entry_count) return;
-  uint a = ball_of(first_entry + entry);
+  if (entry >= params.entry_count) return;
+  uint a = ball_of(params.first_entry + entry);
 #ifdef WHOLE_SPHERES
   // As in the paper: all of the vdW sphere, most of it inside the solid.
   if (drawn[a] == 0u) return;
@@ -101,7 +98,7 @@ void main() {
   sphere.plane_count = 0u;
   sphere.atom = a;
   sphere.tie_key = a;
-  add_row(atoms[a].xyz - pivot, radii[a]);
+  add_row(atoms[a].xyz - scene.pivot, radii[a]);
   append_primitive(sphere);
   return;
 #endif
@@ -109,7 +106,7 @@ void main() {
   uint last = texelFetch(atom_arc_first, int(a) + 1).x;
   if (first == last && !alone(a, entry)) return;
   // The patch lies on the vdW sphere itself.
-  if (!begins_in_front(vec3(atoms[a].xyz - middle), float(radii[a]))) return;
+  if (!begins_in_front(vec3(atoms[a].xyz - params.middle), float(radii[a]))) return;
 
   partner_count = 0u;
   all_neighbors = false;
@@ -139,7 +136,7 @@ void main() {
   primitive.plane_count = past_plane - first_plane;
   primitive.atom = a;
   primitive.tie_key = a;
-  add_row(center - pivot, radii[a]);
+  add_row(center - scene.pivot, radii[a]);
   for (uint n = first_plane; n < past_plane; ++n) {
     dvec4 plane = contact_plane(a, all_neighbors ? neighbor_labels[n] : partners[n]);
     add_row(plane.xyz, plane.w);

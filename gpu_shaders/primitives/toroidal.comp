@@ -13,7 +13,7 @@ layout(local_size_x = 64) in;
 #include "gpu_shaders/reduced_surface/arc_ends.glsl"
 #include "gpu_shaders/primitives/append_primitive.glsl"
 
-uniform uint arc_count;
+layout(std140, binding = 0) uniform Parameters { ArcParameters params; };
 
 // As in core/surface/fixed_probes.cpp.
 const double kMergeDistance = 1e-6LF;
@@ -33,19 +33,19 @@ bool vanishes(uvec4 arc) {
 
 void main() {
   uint index = linear_invocation_index();
-  if (index >= arc_count) return;
+  if (index >= params.arc_count) return;
   uvec4 arc = texelFetch(arcs, int(index));
   dvec3 origin = atoms[arc.x].xyz;
   dvec3 d = atoms[arc.y].xyz - origin;
-  double ri = extended(arc.x);
-  double rj = extended(arc.y);
+  double ri = extended(arc.x, scene.probe_radius);
+  double rj = extended(arc.y, scene.probe_radius);
   Circle circle = circle_of_two_spheres(d, ri * ri, rj * rj);
   // Touching spheres: the circle that the decisions saw.
   if (circle.radius_squared < 1e-12LF) circle = circle_of_two_spheres(d, atoms[arc.x].w, atoms[arc.y].w);
   dvec3 center = origin + circle.axis * circle.height;
   double major = circle.radius;
   // A circle as large as the probe touches its axis in one point; rounding must not open a spindle there.
-  if (abs(major - exact_probe_radius) < kTouchDistance) major = exact_probe_radius;
+  if (abs(major - scene.probe_radius) < kTouchDistance) major = scene.probe_radius;
 
   dvec3 start = circle.u;
   double cosine = 1.0LF;
@@ -57,8 +57,8 @@ void main() {
     Triple first = triple_at(arc.x, arc.y, arc.z, false);
     Triple last = triple_at(arc.x, arc.y, arc.w, true);
     key = add_to_key(add_to_key(key, triple_key(first, 0u)), triple_key(last, 0u));
-    dvec3 begin = place_probe(first).position;
-    dvec3 end = place_probe(last).position;
+    dvec3 begin = place_probe(first, scene.probe_radius).position;
+    dvec3 end = place_probe(last, scene.probe_radius).position;
     dvec3 to_begin = begin - center;
     dvec3 to_end = end - center;
     start = normalize(to_begin - circle.axis * dot(to_begin, circle.axis));
@@ -77,8 +77,8 @@ void main() {
   }
 
   SaddleShape shape = saddle_shape(dot(origin - center, circle.axis), dot(atoms[arc.y].xyz - center, circle.axis),
-                                   radii[arc.x], radii[arc.y], major, exact_probe_radius);
-  PatchBound bound = saddle_bound(shape, center, circle.axis, start, major, half_sweep, exact_probe_radius);
+                                   radii[arc.x], radii[arc.y], major, scene.probe_radius);
+  PatchBound bound = saddle_bound(shape, center, circle.axis, start, major, half_sweep, scene.probe_radius);
   Primitive primitive;
   if (!begin_primitive(bound, 5u, primitive)) return;
   primitive.kind = kToroidal;
@@ -86,7 +86,7 @@ void main() {
   primitive.atom = arc.x;
   primitive.second_atom = arc.y;
   primitive.tie_key = key;
-  add_row(center - pivot, major);
+  add_row(center - scene.pivot, major);
   add_row(start, cosine);
   add_row(circle.axis, sine);
   add_row(dvec3(shape.contact_z[0], shape.contact_z[1], shape.clip_z), shape.clip_radius);

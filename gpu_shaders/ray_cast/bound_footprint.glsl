@@ -1,19 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The rectangle of tiles that a bounding sphere may touch; a little too large rather than too small.
+// To be included below the block of TileListParameters.
 #ifndef MENISCUS_RAY_CAST_BOUND_FOOTPRINT_GLSL
 #define MENISCUS_RAY_CAST_BOUND_FOOTPRINT_GLSL
 #include "gpu_shaders/shared/tangent_slopes.glsl"
 
 const float kTileEdge = 16.0;  // pixels
-
-uniform vec2 block_center;   // the picture's centre in pixels of the block
-uniform float pixels_per_angstrom;  // on the pivot's plane
-uniform ivec2 tiles;         // columns and rows of the block
-uniform float eye_distance;  // from the camera's position to the pivot's plane, in Å
-uniform uint orthographic;
-uniform vec3 right;
-uniform vec3 up;
-uniform vec3 forward;
 
 // Tiles [low, high) along one axis.
 ivec2 tile_range(vec2 pixels, int tile_count) {
@@ -24,21 +16,21 @@ ivec2 tile_range(vec2 pixels, int tile_count) {
 
 // x and y of the rectangle [low, high) as (x_low, x_high, y_low, y_high); empty if nothing is in front of the camera.
 ivec4 bound_footprint(vec4 bound) {
-  float x = dot(bound.xyz, right);
-  float y = -dot(bound.xyz, up);
-  float z = eye_distance + dot(bound.xyz, forward);
+  float x = dot(bound.xyz, params.right);
+  float y = -dot(bound.xyz, params.up);
+  float z = params.eye_distance + dot(bound.xyz, params.forward);
   float radius = bound.w + 1e-6 * (bound.w + length(bound.xyz));
-  if (z + radius + 1e-6 * eye_distance < 0.0) return ivec4(0);
+  if (z + radius + 1e-6 * params.eye_distance < 0.0) return ivec4(0);
   vec2 slopes_x = vec2(x - radius, x + radius);
   vec2 slopes_y = vec2(y - radius, y + radius);
-  float scale = pixels_per_angstrom;
-  if (orthographic == 0u) {
+  float scale = params.pixels_per_angstrom;
+  if (params.orthographic == 0u) {
     slopes_x = tangent_slopes(x, z, radius);
     slopes_y = tangent_slopes(y, z, radius);
-    scale *= eye_distance;
+    scale *= params.eye_distance;
   }
-  return ivec4(tile_range(block_center.x + slopes_x * scale, tiles.x),
-               tile_range(block_center.y + slopes_y * scale, tiles.y));
+  return ivec4(tile_range(params.block_center.x + slopes_x * scale, params.tiles.x),
+               tile_range(params.block_center.y + slopes_y * scale, params.tiles.y));
 }
 
 #endif

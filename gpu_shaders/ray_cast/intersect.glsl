@@ -27,7 +27,7 @@ bool misses_bound(vec4 bound, vec3 p, vec3 d, float eye_t, float spread, float h
   float bound_t = -dot(to_bound, d);
   vec3 closest = to_bound + d * bound_t;
   // At the far end of the sphere neighbouring rays are farthest from this one.
-  float widest = orthographic != 0u ? spread : spread * max((bound_t + bound.w - eye_t) / -eye_t, 0.0);
+  float widest = view.orthographic != 0u ? spread : spread * max((bound_t + bound.w - eye_t) / -eye_t, 0.0);
   float reach = bound.w + widest;
   float room = reach * reach - dot(closest, closest);
   return room < 0.0 || bound_t - sqrt(room) > high;
@@ -50,7 +50,7 @@ bvec4 on_clipped_sphere(Primitive primitive, vec3 x[4], float radius, bvec4 aske
   uint end = primitive.first_row + 1u + primitive.plane_count;
   for (uint i = primitive.first_row + 1u; i < end && any(asked); ++i) {
     vec4 plane = row(i);
-    for (int k = 0; k < 4; ++k) asked[k] = asked[k] && in_half_space(x[k], plane.xyz, plane.w, slack);
+    for (int k = 0; k < 4; ++k) asked[k] = asked[k] && in_half_space(x[k], plane.xyz, plane.w, params.slack);
   }
   for (int k = 0; k < 4; ++k) asked[k] = asked[k] && shows_sphere_point(primitive, x[k], radius);
   return asked;
@@ -139,12 +139,12 @@ LocalRay to_torus(TorusPatch saddle, int k) {
   ray.o = vec3(dot(o, saddle.x_axis), dot(o, saddle.y_axis), dot(o, saddle.z_axis));
   ray.d = vec3(dot(d, saddle.x_axis), dot(d, saddle.y_axis), dot(d, saddle.z_axis));
   // The sphere through both contact circles holds the whole patch and nothing of the outer half of the torus.
-  SphereHits chord = ray_sphere(ray.o - vec3(0.0, 0.0, saddle.shape.z), ray.d, saddle.shape.w + slack);
-  ray.low = max(eye_parameter(d) - ray.shift, chord.near_t - slack);
-  ray.high = chord.far_t + slack;
+  SphereHits chord = ray_sphere(ray.o - vec3(0.0, 0.0, saddle.shape.z), ray.d, saddle.shape.w + params.slack);
+  ray.low = max(eye_parameter(d) - ray.shift, chord.near_t - params.slack);
+  ray.high = chord.far_t + params.slack;
   if (saddle.primitive.plane_count == uint(kUpToHalfTurn)) {
-    clip_to_half_space(-ray.o.y - slack, -ray.d.y, ray.low, ray.high);
-    clip_to_half_space(ray.o.y * saddle.cos_sweep - ray.o.x * saddle.sin_sweep - slack,
+    clip_to_half_space(-ray.o.y - params.slack, -ray.d.y, ray.low, ray.high);
+    clip_to_half_space(ray.o.y * saddle.cos_sweep - ray.o.x * saddle.sin_sweep - params.slack,
                        ray.d.y * saddle.cos_sweep - ray.d.x * saddle.sin_sweep, ray.low, ray.high);
   }
   if (!chord.found) ray.high = ray.low;
@@ -158,7 +158,7 @@ uint rays_towards_torus(uint index, Nearest nearest) {
   for (int k = 0; k < 4; ++k) {
     LocalRay ray = to_torus(saddle, k);
     // A little more than to the nearest hit, for the rounding of the sum in hit_toroidal.
-    if (ray.low < ray.high && ray.low <= nearest.t[k] - ray.shift + slack) rays |= 1u << k;
+    if (ray.low < ray.high && ray.low <= nearest.t[k] - ray.shift + params.slack) rays |= 1u << k;
   }
   return rays;
 }
@@ -167,14 +167,14 @@ uint rays_towards_torus(uint index, Nearest nearest) {
 void hit_toroidal(uint index, int k, inout Nearest nearest) {
   TorusPatch saddle = load_torus(index);
   LocalRay ray = to_torus(saddle, k);
-  TorusRuns runs = torus_runs(ray.o, ray.d, saddle.major, probe_radius, ray.low, ray.high);
+  TorusRuns runs = torus_runs(ray.o, ray.d, saddle.major, params.probe_radius, ray.low, ray.high);
   float t = kMiss;
   do {
-    float root = torus_run(ray.o, ray.d, saddle.major, probe_radius, 2e-7, kMiss, runs);
+    float root = torus_run(ray.o, ray.d, saddle.major, params.probe_radius, 2e-7, kMiss, runs);
     vec3 x = ray.o + ray.d * root;
     if (root < kMiss &&
         in_toroidal_patch(x, saddle.major, saddle.shape.x, saddle.shape.y, saddle.cos_sweep, saddle.sin_sweep,
-                          int(saddle.primitive.plane_count), slack) &&
+                          int(saddle.primitive.plane_count), params.slack) &&
         shows_torus_point(saddle.primitive, x, saddle.major))
       t = root;
   } while (t == kMiss && runs.waiting != 0);

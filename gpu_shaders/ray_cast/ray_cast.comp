@@ -38,23 +38,9 @@ layout(std430, binding = 3) buffer Unfinished {
   uint unfinished[];        // not 0 for invocations that are: 64 for each tile
 };
 
-uniform float probe_radius;
-uniform float slack;
-uniform ivec2 size;          // of this block, in pixels
-uniform ivec2 tiles;         // columns and rows
-uniform vec2 first_offset;   // of the block's first pixel centre from the picture's centre, in pixels
-uniform vec2 sample_offset;  // of this sample from the pixel's centre
-uniform uint add;            // 0: the first sample, which also writes hits; 1: adds to the picture
-uniform float pixel_size;    // on the pivot's plane, in Å
-uniform float eye_distance;  // from the camera's position to the pivot's plane, in Å
-uniform uint orthographic;
-uniform vec3 right;
-uniform vec3 up;
-uniform vec3 forward;
-uniform uint color_by_kind;
-uniform uint atom_count;
-uniform vec3 key_direction;  // of studio_light
-uniform float key_strength;
+layout(std140, binding = 0) uniform Parameters { RayCastParameters params; };
+layout(std140, binding = kDepthSlicesBinding) uniform SlicesBlock { DepthSlices slices; };
+layout(std140, binding = kBlockViewBinding) uniform ViewBlock { BlockView view; };
 
 vec4 row(uint index) { return uintBitsToFloat(texelFetch(row_texels, int(index))); }
 
@@ -82,14 +68,18 @@ ivec2 pixel_of(int k) {
 // Rays are cheaper to make again than to keep where an index can reach them.
 vec3 ray_point(int k) {
   ivec2 pixel = pixel_of(k);
-  vec2 offset = (first_offset + vec2(pixel) + sample_offset) * pixel_size;
-  return right * offset.x - up * offset.y;
+  vec2 offset = (view.first_offset + vec2(pixel) + view.sample_offset) * view.pixel_size;
+  return view.right * offset.x - view.up * offset.y;
 }
 
-vec3 ray_direction(vec3 p) { return orthographic != 0u ? forward : normalize(forward + p / eye_distance); }
+vec3 ray_direction(vec3 p) {
+  return view.orthographic != 0u ? view.forward : normalize(view.forward + p / view.eye_distance);
+}
 
 // Parameter of the camera's position (orthographic: of the plane through it).
-float eye_parameter(vec3 d) { return orthographic != 0u ? -eye_distance : -eye_distance / dot(d, forward); }
+float eye_parameter(vec3 d) {
+  return view.orthographic != 0u ? -view.eye_distance : -view.eye_distance / dot(d, view.forward);
+}
 
 #include "gpu_shaders/ray_cast/touched_atom.glsl"
 #include "gpu_shaders/ray_cast/intersect.glsl"
@@ -114,7 +104,7 @@ int next_candidate(Walk walk, int i, Nearest nearest) {
     uint index = texelFetch(entries, i).x;
     // All that follow begin no earlier than the slice of this one; to ask each would cost more than it saves.
     if (i < walk.end && ((i - walk.first) & 7) == 0 &&
-        slice_begin(slice_of(nearest_of(index))) + walk.eye_t - walk.spread > farthest)
+        slice_begin(slices, slice_of(slices, nearest_of(index))) + walk.eye_t - walk.spread > farthest)
       i = walk.end;
     found = i >= walk.end || !misses_bound(bound_of(index), walk.p, walk.d, walk.eye_t, walk.spread, farthest);
   } while (!found);
@@ -182,7 +172,7 @@ void trace(ivec3 list, inout Nearest nearest) {
   walk.d = ray_direction(walk.p);
   walk.eye_t = eye_parameter(walk.d);
   // The four rays lie half a pixel's diagonal from the middle; a little more covers their rounding.
-  walk.spread = 0.75 * pixel_size;
+  walk.spread = 0.75 * view.pixel_size;
   walk.first = list.x;
   walk.end = list.y;
   trace_spheres(walk, nearest);
@@ -199,17 +189,15 @@ struct State {
   uvec4 tie_key;
 };
 layout(std430, binding = 4) buffer States { State states[]; };  // by invocation, as `unfinished`
-uniform int part_length;
-uniform int part;
-uniform uint is_last_part;
 
 // True when the invocation has been through its whole list. One that is cut short again waits for shorter parts.
 bool trace_part(uint tile, uint place, out Nearest nearest) {
   nearest = nothing_yet();
-  if (part > 0) nearest = Nearest(states[place].t, states[place].primitive, states[place].kind, states[place].tie_key);
+  if (params.part > 0)
+    nearest = Nearest(states[place].t, states[place].primitive, states[place].kind, states[place].tie_key);
   ivec3 list = list_of(tile);
-  int from = min(list.x + part * part_length, list.z);
-  int to = min(from + part_length, list.z);
+  int from = min(list.x + params.part * params.part_length, list.z);
+  int to = min(from + params.part_length, list.z);
   trace(ivec3(from, clamp(list.y, from, to), to), nearest);
   if (loops_cut_short()) {
     atomicAdd(still_too_long, 1u);
@@ -217,7 +205,7 @@ bool trace_part(uint tile, uint place, out Nearest nearest) {
     return false;
   }
   states[place] = State(nearest.t, nearest.primitive, nearest.kind, nearest.tie_key);
-  return is_last_part != 0u;
+  return params.is_last_part != 0u;
 }
 #endif
 
@@ -229,14 +217,14 @@ void write_pixel(ivec2 pixel, vec3 p, float t, uint index) {
     Primitive primitive = load_primitive(index);
     SurfacePoint point = surface_point(primitive, p + d * t);
     hit = Hit(point.normal, t, index, point.atom, 0u, 0u);
-    vec3 n = vec3(dot(point.normal, right), dot(point.normal, up), -dot(point.normal, forward));
-    vec3 to_camera = -vec3(dot(d, right), dot(d, up), -dot(d, forward));
+    vec3 n = vec3(dot(point.normal, view.right), dot(point.normal, view.up), -dot(point.normal, view.forward));
+    vec3 to_camera = -vec3(dot(d, view.right), dot(d, view.up), -dot(d, view.forward));
     if (dot(n, to_camera) < 0.0) n = -n;  // seen from inside the solid, or through what is hidden
-    vec3 albedo = atom_color[color_by_kind != 0u ? atom_count + primitive.kind : point.atom].rgb;
+    vec3 albedo = atom_color[params.color_by_kind != 0u ? params.atom_count + primitive.kind : point.atom].rgb;
     color = vec4(studio_light(albedo, n, to_camera), 1.0);
   }
-  uint at = uint(pixel.y * size.x + pixel.x);
-  if (add == 0u) {
+  uint at = uint(pixel.y * view.size.x + pixel.x);
+  if (params.add == 0u) {
     picture[at] = color;
     hits[at] = hit;
   } else {
@@ -246,14 +234,14 @@ void write_pixel(ivec2 pixel, vec3 p, float t, uint index) {
 
 void main() {
   uint group = linear_group_index();
-  uint tile_count = uint(tiles.x * tiles.y);
+  uint tile_count = uint(params.tiles.x * params.tiles.y);
   uint tile = texelFetch(tile_order, int(min(group, tile_count - 1u))).x;
-  tile_origin = 16 * ivec2(int(tile) % tiles.x, int(tile) / tiles.x);
+  tile_origin = 16 * ivec2(int(tile) % params.tiles.x, int(tile) / params.tiles.x);
   if (group >= tile_count) return;
   uint place = 64u * tile + gl_LocalInvocationIndex;
 #ifdef RESUMED
-  if (unfinished[place] == 0u || (unfinished[place] == 2u && part > 0)) return;
-  if (part == 0) unfinished[place] = 1u;
+  if (unfinished[place] == 0u || (unfinished[place] == 2u && params.part > 0)) return;
+  if (params.part == 0) unfinished[place] = 1u;
   Nearest nearest;
   if (!trace_part(tile, place, nearest)) return;
   unfinished[place] = 0u;
@@ -269,6 +257,7 @@ void main() {
 #endif
   for (int k = 0; k < 4; ++k) {
     ivec2 pixel = pixel_of(k);
-    if (pixel.x < size.x && pixel.y < size.y) write_pixel(pixel, ray_point(k), nearest.t[k], nearest.primitive[k]);
+    if (pixel.x < view.size.x && pixel.y < view.size.y)
+      write_pixel(pixel, ray_point(k), nearest.t[k], nearest.primitive[k]);
   }
 }

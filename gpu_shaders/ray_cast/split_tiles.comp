@@ -12,19 +12,19 @@ layout(std430, binding = 0) writeonly buffer TileOrder { uint tile_order[]; };  
 // the end. To be {0, 1, 1, 0} before.
 layout(std430, binding = 1) buffer Dispatches { uint dispatches[8]; };
 
-uniform uint tile_count;
+layout(std140, binding = 0) uniform Parameters { SplitTilesParameters params; };
 
 const uint kLongestRow = 32768u;
 
 void main() {
   uint tile = linear_invocation_index();
-  if (tile >= tile_count) return;
+  if (tile >= params.tile_count) return;
   int slot = int(kSlotsPerTile * tile);
   uint first = tile == 0u ? 0u : texelFetch(slot_ends, slot - 1).x;
   bool empty = first == texelFetch(slot_ends, slot + int(kSlotsPerTile) - 1).x;
   uint at = empty ? 4u : 0u;
   uint place = atomicAdd(dispatches[at + 3u], 1u);
-  tile_order[empty ? tile_count - 1u - place : place] = tile;
+  tile_order[empty ? params.tile_count - 1u - place : place] = tile;
   atomicMax(dispatches[at], min(place + 1u, kLongestRow));
   atomicMax(dispatches[at + 1u], place / kLongestRow + 1u);
 }

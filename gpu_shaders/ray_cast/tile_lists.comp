@@ -7,18 +7,16 @@
 layout(local_size_x = 64) in;
 #include "gpu_shaders/shared/linear_index.glsl"
 #include "gpu_shaders/ray_cast/depth_slices.glsl"
-#include "gpu_shaders/ray_cast/bound_footprint.glsl"
 #include "gpu_shaders/ray_cast/records.glsl"
+
+layout(std140, binding = 0) uniform Parameters { TileListParameters params; };
+layout(std140, binding = kDepthSlicesBinding) uniform SlicesBlock { DepthSlices slices; };
+#include "gpu_shaders/ray_cast/bound_footprint.glsl"
 
 layout(binding = 0) uniform usamplerBuffer primitive_texels;  // three texels each: struct Primitive
 layout(std430, binding = 0) buffer Counts { uint counts[]; };
 layout(std430, binding = 1) writeonly buffer Entries { uint entries[]; };
 layout(std430, binding = 2) readonly buffer TileDepths { float tile_depth[]; };
-
-uniform uint primitive_count;
-uniform uint bounded;           // 1: tile_depth holds, for each tile of the picture, how deep its rays see
-uniform ivec2 first_tile;       // of the block, in the picture
-uniform int picture_tile_columns;
 
 // Footprints too large for one invocation; the whole group shares them.
 const int kNarrow = 64;
@@ -27,9 +25,9 @@ shared uint wide_primitive[64];
 shared ivec4 wide_footprint[64];
 
 void add_to_tile(uint primitive, float nearest, uint slot_in_tile, ivec2 tile) {
-  ivec2 of_picture = first_tile + tile;
-  if (bounded != 0u && nearest > tile_depth[of_picture.y * picture_tile_columns + of_picture.x]) return;
-  uint place = atomicAdd(counts[kSlotsPerTile * uint(tile.y * tiles.x + tile.x) + slot_in_tile], 1u);
+  ivec2 of_picture = params.first_tile + tile;
+  if (params.bounded != 0u && nearest > tile_depth[of_picture.y * params.picture_tile_columns + of_picture.x]) return;
+  uint place = atomicAdd(counts[kSlotsPerTile * uint(tile.y * params.tiles.x + tile.x) + slot_in_tile], 1u);
 #if PASS == 1
   entries[place] = primitive;
 #endif
@@ -41,14 +39,14 @@ float nearest_of(uint primitive) {
 
 uint slot_of(uint primitive) {
   uint kind = texelFetch(primitive_texels, int(3u * primitive + 1u)).w;
-  return (kind == kToroidal ? kSliceCount : 0u) + slice_of(nearest_of(primitive));
+  return (kind == kToroidal ? kSliceCount : 0u) + slice_of(slices, nearest_of(primitive));
 }
 
 void main() {
   if (gl_LocalInvocationIndex == 0u) wide_count = 0u;
   barrier();
   uint primitive = linear_invocation_index();
-  if (primitive < primitive_count) {
+  if (primitive < params.primitive_count) {
     ivec4 footprint = bound_footprint(uintBitsToFloat(texelFetch(primitive_texels, int(3u * primitive))));
     float nearest = nearest_of(primitive);
     uint slot = slot_of(primitive);

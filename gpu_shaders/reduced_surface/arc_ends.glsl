@@ -6,17 +6,17 @@
 layout(std430, binding = 0) readonly buffer Atoms { dvec4 atoms[]; };   // centre, decision weight
 layout(std430, binding = 1) readonly buffer Radii { double radii[]; };  // van der Waals
 layout(binding = 0) uniform usamplerBuffer arcs;                        // i, j, begin_by, end_by
-uniform double exact_probe_radius;
 
 const double kLargestGrowth = 1.5e-9LF;  // of decision weights
 const double kFlat = 1e-7LF;             // as in core/surface/fixed_probes.cpp
 
-double extended(uint atom) { return radii[atom] + exact_probe_radius; }
+double extended(uint atom, double probe_radius) { return radii[atom] + probe_radius; }
 
-FixedProbe place_probe(Triple t) {
+FixedProbe place_probe(Triple t, double probe_radius) {
   dvec3 origin = atoms[t.a].xyz;
-  FixedProbe probe = fixed_probe(atoms[t.b].xyz - origin, atoms[t.c].xyz - origin, extended(t.a), extended(t.b),
-                                 extended(t.c), t.side != 0u ? 1.0LF : -1.0LF, kLargestGrowth, kFlat);
+  FixedProbe probe = fixed_probe(atoms[t.b].xyz - origin, atoms[t.c].xyz - origin, extended(t.a, probe_radius),
+                                 extended(t.b, probe_radius), extended(t.c, probe_radius),
+                                 t.side != 0u ? 1.0LF : -1.0LF, kLargestGrowth, kFlat);
   probe.position += origin;
   return probe;
 }

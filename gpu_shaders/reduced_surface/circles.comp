@@ -10,6 +10,7 @@ layout(local_size_x = 64) in;
 #include "gpu_shaders/reduced_surface/precision.glsl"
 #include "gpu_shaders/reduced_surface/contour.glsl"
 #include "gpu_shaders/reduced_surface/listed_balls.glsl"
+#include "gpu_shaders/reduced_surface/parameters.glsl"
 
 layout(std430, binding = 0) readonly buffer Circles { uvec2 circles[]; };  // entry of atom i, place of j in the neighbour list
 layout(std430, binding = 1) readonly buffer NeighborFirst { uint neighbor_first[]; };
@@ -23,16 +24,13 @@ layout(std430, binding = 7) readonly buffer AtomsLow { vec4 atoms[]; };  // w: S
 layout(std430, binding = 4) writeonly buffer Arcs { uvec4 arcs[]; };  // i, j, begin_by, end_by
 layout(std430, binding = 5) writeonly buffer Doubtful { uvec2 doubtful[]; };
 layout(std430, binding = 6) buffer Counters { uint arc_count; uint doubtful_count; };
-uniform uint first_entry;  // of the batch, which the neighbour lists count from
-uniform uint circle_count;
-uniform uint arc_capacity;
-uniform uint doubtful_capacity;
+layout(std140, binding = 0) uniform Parameters { CircleParameters params; };
 
 const uint kNone = 0xffffffffu;
 
 void append(uvec4 arc) {
   uint slot = atomicAdd(arc_count, 1u);
-  if (slot < arc_capacity) arcs[slot] = arc;
+  if (slot < params.arc_capacity) arcs[slot] = arc;
 }
 
 // Centre relative to atom i and weight of the neighbour at place n.
@@ -50,7 +48,7 @@ void neighbor(uint i, uint n, out real3 center, out real weight) {
 
 void main() {
   uint index = linear_invocation_index();
-  if (index >= circle_count) return;
+  if (index >= params.circle_count) return;
   uint entry = circles[index].x;
   uint i = ball_of(entry);
   uint place = circles[index].y;
@@ -69,8 +67,8 @@ void main() {
   if (c.radius_squared <= kSmallestCircle * unit) {
     exposed_doubtful = true;
   } else {
-    uint last = neighbor_first[entry - first_entry + 1u];
-    for (uint n = neighbor_first[entry - first_entry]; n < last; ++n) {
+    uint last = neighbor_first[entry - params.first_entry + 1u];
+    for (uint n = neighbor_first[entry - params.first_entry]; n < last; ++n) {
       if (n == place) continue;
       real3 q;
       real wq;
@@ -82,7 +80,7 @@ void main() {
   }
   if (exposed_doubtful) {
     uint slot = atomicAdd(doubtful_count, 1u);
-    if (slot < doubtful_capacity) doubtful[slot] = circles[index];
+    if (slot < params.doubtful_capacity) doubtful[slot] = circles[index];
     return;
   }
   uint j = neighbor_labels[place];

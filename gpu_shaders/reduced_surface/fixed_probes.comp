@@ -14,6 +14,7 @@ layout(local_size_x = 64) in;
 #include "gpu_shaders/reduced_surface/listed_balls.glsl"
 #include "gpu_shaders/shared/probe_record.glsl"
 #include "gpu_shaders/visibility/begins_in_front.glsl"
+#include "gpu_shaders/reduced_surface/parameters.glsl"
 
 layout(std430, binding = 2) writeonly buffer Probes { ProbeRecord probes[]; };
 layout(std430, binding = 3) writeonly buffer ProbeBalls { vec4 probe_balls[]; };         // from the middle of the atoms, p
@@ -22,27 +23,25 @@ layout(std430, binding = 5) buffer Counters {
   uint probe_count;
   uint end_sums[6];  // over the ends of arcs, by the place of the third atom among the sorted three: two keys each
 };
-uniform uint arc_count;
-uniform uint probe_capacity;
-uniform dvec3 middle;  // of the atoms
+layout(std140, binding = 0) uniform Parameters { FixedProbeParameters params; };
 
 void append(Triple t) {
-  FixedProbe probe = place_probe(t);
-  dvec3 from_middle = probe.position - middle;
+  FixedProbe probe = place_probe(t, params.probe_radius);
+  dvec3 from_middle = probe.position - params.middle;
   vec3 coarse = vec3(from_middle);
   // What a probe makes or cuts is within p of it.
-  if (!begins_in_front(coarse, float(exact_probe_radius))) return;
+  if (!begins_in_front(coarse, float(params.probe_radius))) return;
   uint slot = atomicAdd(probe_count, 1u);
-  if (slot >= probe_capacity) return;
+  if (slot >= params.probe_capacity) return;
   probes[slot] = ProbeRecord(probe.position, probe.height, uvec4(t.a, t.b, t.c, t.side),
                              triple_key(t, 0u), uint[3](0u, 0u, 0u));
-  probe_balls[slot] = vec4(coarse, float(exact_probe_radius));
+  probe_balls[slot] = vec4(coarse, float(params.probe_radius));
   probe_balls_low[slot] = vec4(vec3(from_middle - dvec3(coarse)), 0.0);
 }
 
 void main() {
   uint index = linear_invocation_index();
-  if (index >= arc_count) return;
+  if (index >= params.arc_count) return;
   uvec4 arc = texelFetch(arcs, int(index));
   if (arc.z == kNone) return;
   for (int end = 0; end < 2; ++end) {

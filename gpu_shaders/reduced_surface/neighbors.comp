@@ -22,9 +22,7 @@ layout(std430, binding = 4) buffer NeighborFirst { uint neighbor_first[]; };
 layout(std430, binding = 5) buffer PairFirst { uint pair_first[]; };
 layout(std430, binding = 6) writeonly buffer NeighborBalls { vec4 neighbor_balls[]; };  // relative centre, SAS radius²
 layout(std430, binding = 7) writeonly buffer NeighborLabels { uint neighbor_labels[]; };
-uniform uint first_entry;  // of the batch
-uniform uint entry_count;  // in the batch
-uniform float largest_radius;
+layout(std140, binding = 0) uniform Parameters { NeighborParameters params; };
 
 vec4 atom(uint index) { return uintBitsToFloat(texelFetch(atom_texels, int(index))); }
 
@@ -33,15 +31,15 @@ const uint kClasses = 6u;
 
 void main() {
   uint entry = linear_invocation_index();
-  if (entry >= entry_count) return;
-  uint i = ball_of(first_entry + entry);
+  if (entry >= params.entry_count) return;
+  uint i = ball_of(params.first_entry + entry);
   vec4 self = atom(i);
   vec4 self_low = atoms_low[i];
   bool swallowed = self_low.w > 0.5;
-  float reach = self.w + largest_radius;
+  float reach = self.w + params.largest_radius;
   ivec3 low = cell_of(self.xyz - reach);
   ivec3 high = cell_of(self.xyz + reach);
-  ivec3 size = ivec3(grid_size.xyz);
+  ivec3 size = ivec3(grid.size.xyz);
 
   // Pass 0 counts each class; pass 1 turns the counts into places.
   uint class_next[kClasses];

@@ -5,19 +5,19 @@
 layout(local_size_x = 64) in;
 #include "gpu_shaders/shared/linear_index.glsl"
 #include "gpu_shaders/reduced_surface/listed_balls.glsl"
+#include "gpu_shaders/reduced_surface/parameters.glsl"
 
 layout(std430, binding = 0) readonly buffer NeighborFirst { uint neighbor_first[]; };
 layout(std430, binding = 1) readonly buffer NeighborLabels { uint neighbor_labels[]; };
 layout(std430, binding = 2) readonly buffer PairFirst { uint pair_first[]; };
 layout(std430, binding = 3) writeonly buffer Pairs { uvec2 pairs[]; };
-uniform uint first_entry;  // of the batch
-uniform uint entry_count;  // in the batch
+layout(std140, binding = 0) uniform Parameters { PairParameters params; };
 
 void main() {
   uint entry = linear_invocation_index();
-  if (entry >= entry_count) return;
-  uint i = ball_of(first_entry + entry);
+  if (entry >= params.entry_count) return;
+  uint i = ball_of(params.first_entry + entry);
   uint next = pair_first[entry];
   for (uint n = neighbor_first[entry]; n < neighbor_first[entry + 1u]; ++n)
-    if (neighbor_labels[n] > i && is_listed(neighbor_labels[n])) pairs[next++] = uvec2(first_entry + entry, n);
+    if (neighbor_labels[n] > i && is_listed(neighbor_labels[n])) pairs[next++] = uvec2(params.first_entry + entry, n);
 }

@@ -10,6 +10,7 @@ layout(local_size_x = 64) in;
 #include "gpu_shaders/shared/cusp_side.glsl"
 #include "gpu_shaders/reduced_surface/precision.glsl"
 #include "gpu_shaders/reduced_surface/contour.glsl"
+#include "gpu_shaders/singularities/parameters.glsl"
 
 struct CuspArc {
   uvec4 names;  // lower probe, higher probe, who begins, who ends
@@ -31,10 +32,7 @@ layout(std430, binding = 6) buffer Arcs {
   CuspArc arcs[];
 };
 layout(std430, binding = 7) writeonly buffer Doubtful { uvec2 doubtful[]; };
-uniform uint first_probe;  // of the batch, which the neighbour lists count from
-uniform uint circle_count;
-uniform uint arc_capacity;
-uniform uint doubtful_capacity;
+layout(std140, binding = 0) uniform Parameters { CuspParameters params; };
 
 const uint kNone = 0xffffffffu;
 const uint kAxisLabel = 0x80000000u;
@@ -81,7 +79,7 @@ void cover_past_axes(Circle c) {
 
 void append(uint s, uint t, uint by_begin, uint by_end, vec3 begin, vec3 end) {
   uint slot = atomicAdd(arc_count, 1u);
-  if (slot >= arc_capacity) return;
+  if (slot >= params.arc_capacity) return;
   arcs[slot].names = uvec4(s, t, by_begin, by_end);
   arcs[slot].begin = vec4(begin, 0.0);
   arcs[slot].end = vec4(end, 0.0);
@@ -89,7 +87,7 @@ void append(uint s, uint t, uint by_begin, uint by_end, vec3 begin, vec3 end) {
 
 void main() {
   uint index = linear_invocation_index();
-  if (index >= circle_count) return;
+  if (index >= params.circle_count) return;
   uint s = circles[index].x;
   uint place = circles[index].y;
   uint t = neighbor_labels[place];
@@ -100,8 +98,8 @@ void main() {
   Circle c = circle_of_two_spheres(other.xyz, w0, w0);
   if (c.radius_squared < kSmallestCircle * kUnitRoundoff * w0 || dot(other.xyz, other.xyz) < 1e-4 * w0) exposed_doubtful = true;
   if (!exposed_doubtful) cover_past_axes(c);
-  uint last = neighbor_first[s - first_probe + 1u];
-  for (uint n = neighbor_first[s - first_probe]; n < last; ++n) {
+  uint last = neighbor_first[s - params.first_probe + 1u];
+  for (uint n = neighbor_first[s - params.first_probe]; n < last; ++n) {
     if (contour_ended()) break;
     uint u = neighbor_labels[n];
     if (n == place || on_pencil(u)) continue;
@@ -111,7 +109,7 @@ void main() {
   if (loops_cut_short()) exposed_doubtful = true;
   if (exposed_doubtful) {
     uint slot = atomicAdd(doubtful_count, 1u);
-    if (slot < doubtful_capacity) doubtful[slot] = circles[index];
+    if (slot < params.doubtful_capacity) doubtful[slot] = circles[index];
     return;
   }
   if (exposed_whole) append(s, t, kNone, kNone, c.u, c.u);

@@ -9,15 +9,14 @@ layout(local_size_x = 64) in;
 #include "gpu_shaders/shared/cusp_side.glsl"
 #include "gpu_shaders/reduced_surface/precision.glsl"
 #include "gpu_shaders/geometry/polygon_reach.glsl"
+#include "gpu_shaders/singularities/parameters.glsl"
 
 layout(std430, binding = 0) readonly buffer NeighborFirst { uint neighbor_first[]; };
 layout(std430, binding = 1) readonly buffer NeighborBalls { vec4 neighbor_balls[]; };
 layout(std430, binding = 2) readonly buffer Heads { uvec2 heads[]; };  // per probe: first side, 1 if low
 layout(std430, binding = 3) readonly buffer Sides { CuspSide sides[]; };
 layout(std430, binding = 4) writeonly buffer Flags { uint flags[]; };
-uniform uint first_probe;
-uniform uint probe_count;
-uniform float probe_radius;
+layout(std140, binding = 0) uniform Parameters { CutParameters params; };
 
 // What reaches() in core/surface/cusp_tracer.cpp decides; single precision leaves a margin in doubt: some 60 roundings
 // of a side's normal, twenty times magnified where the root below it is taken of a twentieth.
@@ -26,7 +25,7 @@ const float kDoubt = 1e-4;
 uint flag_of(uint first, uint past, vec3 toward) {
   float distance = length(toward);
   // Close probes are decided by a root near zero, where single precision has nothing left.
-  if (distance < 0.1 * probe_radius) return 2u;
+  if (distance < 0.1 * params.probe_radius) return 2u;
   vec3 d = toward / distance;
   float best = -1.0;
   float most_outside = -1.0;
@@ -36,16 +35,16 @@ uint flag_of(uint first, uint past, vec3 toward) {
     most_outside = max(most_outside, outside);
   }
   if (most_outside <= 0.0) best = 1.0;
-  float margin = best * 2.0 * probe_radius - distance;
-  if (abs(margin) < kDoubt * probe_radius || abs(most_outside) < kDoubt) return 2u;
+  float margin = best * 2.0 * params.probe_radius - distance;
+  if (abs(margin) < kDoubt * params.probe_radius || abs(most_outside) < kDoubt) return 2u;
   return margin > 0.0 ? 1u : 0u;
 }
 
 void main() {
   uint entry = linear_invocation_index();
-  if (entry >= probe_count) return;
-  uvec2 head = heads[first_probe + entry];
-  uint past = heads[first_probe + entry + 1u].x;
+  if (entry >= params.probe_count) return;
+  uvec2 head = heads[params.first_probe + entry];
+  uint past = heads[params.first_probe + entry + 1u].x;
   for (uint n = neighbor_first[entry]; n < neighbor_first[entry + 1u]; ++n)
     flags[n] = head.y == 0u ? 0u : flag_of(head.x, past, neighbor_balls[n].xyz);
 }

@@ -3,15 +3,15 @@
 #version 450 core
 layout(local_size_x = 1) in;
 #include "gpu_shaders/shared/loop_guard.glsl"
+#include "gpu_shaders/test_support/parameters.glsl"
 
 layout(std430, binding = 0) writeonly buffer Found { uint counted; uint cut_short; };
-uniform uint outer;
-uniform uint inner;
+layout(std140, binding = 0) uniform Parameters { LoopParameters params; };
 
 void main() {
   uint count = 0u;
-  for (uint n = 0u; n < outer; ++n)
-    for (uint m = 0u; m < inner; ++m) count += 1u + (count & 0u);
+  for (uint n = 0u; n < params.outer; ++n)
+    for (uint m = 0u; m < params.inner; ++m) count += 1u + (count & 0u);
   counted = count;
   cut_short = loops_cut_short() ? 1u : 0u;
 }

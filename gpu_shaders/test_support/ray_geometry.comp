@@ -13,6 +13,7 @@ layout(local_size_x = 64) in;
 #include "gpu_shaders/geometry/ray_sphere.glsl"
 #include "gpu_shaders/geometry/ray_torus.glsl"
 #include "gpu_shaders/geometry/patch_membership.glsl"
+#include "gpu_shaders/test_support/parameters.glsl"
 
 struct Query {
   vec4 origin_major;
@@ -27,11 +28,11 @@ struct Answer {
 
 layout(std430, binding = 0) readonly buffer Queries { Query queries[]; };
 layout(std430, binding = 1) writeonly buffer Answers { Answer answers[]; };
-uniform uint count;
+layout(std140, binding = 0) uniform Parameters { QueryParameters params; };
 
 void main() {
   uint i = linear_invocation_index();
-  if (i >= count) return;
+  if (i >= params.count) return;
   vec3 o = queries[i].origin_major.xyz;
   vec3 d = queries[i].direction_minor.xyz;
   float major = queries[i].origin_major.w;

@@ -6,14 +6,14 @@
 #endif
 layout(local_size_x = 64) in;
 #include "gpu_shaders/shared/linear_index.glsl"
+#include "gpu_shaders/test_support/parameters.glsl"
 
 layout(std430, binding = 0) buffer Words { uint words[]; };
 layout(std430, binding = 1) buffer Counters { uint surplus; };
-uniform uint count;
-uniform uint offset;
+layout(std140, binding = 0) uniform Parameters { ScaleParameters params; };
 
 void main() {
   uint i = linear_invocation_index();
-  if (i < count) words[i] = i * uint(FACTOR) + offset;
+  if (i < params.count) words[i] = i * uint(FACTOR) + params.offset;
   else atomicAdd(surplus, 1u);
 }

@@ -4,7 +4,6 @@
 
 layout(binding = 4) uniform usamplerBuffer tile_depths;   // floats
 layout(binding = 5) uniform usamplerBuffer block_depths;  // floats
-uniform uint keep_all;  // 1: the eye may stand in the solid, or the whole surface is wanted
 
 // More blocks than this are not asked one by one: drivers have limits (loop_guard.glsl).
 const int kMostSteps = 8192;
@@ -12,18 +11,18 @@ const int kMostSteps = 8192;
 // position: from the middle of the atoms. False only if no ray of the picture enters the ball in front of the vdW
 // spheres: rays are asked block by block, with bounds that hold for every ray of a block.
 bool begins_in_front(vec3 position, float radius) {
-  if (keep_all != 0u) return true;
-  radius += margin;
+  if (view.keep_all != 0u) return true;
+  radius += view.margin;
   vec3 v = view_from_molecule(position);
   if (v.z + radius <= 0.0) return false;
-  if (orthographic == 0u && dot(v, v) <= radius * radius) return true;
+  if (view.orthographic == 0u && dot(v, v) <= radius * radius) return true;
   vec4 pixels = touched_pixels(v, radius);
   if (pixels.x >= pixels.z || pixels.y >= pixels.w) return false;
-  ivec2 last = picture_size - 1;
+  ivec2 last = view.picture_size - 1;
   ivec2 low = min(ivec2(pixels.xy), last);
   ivec2 high = min(ivec2(pixels.zw), last);
   ivec2 tiles = tile_count();
-  int blocks = kTileEdge / block_edge;
+  int blocks = kTileEdge / view.block_edge;
   int steps = 0;
   for (int y = low.y / kTileEdge; y <= high.y / kTileEdge; ++y)
     for (int x = low.x / kTileEdge; x <= high.x / kTileEdge; ++x) {
@@ -31,14 +30,14 @@ bool begins_in_front(vec3 position, float radius) {
       ivec2 tile = ivec2(x, y);
       float tile_depth = uintBitsToFloat(texelFetch(tile_depths, y * tiles.x + x).x);
       if (earliest_depth(ray_block(tile * kTileEdge, kTileEdge), v, radius) > tile_depth) continue;
-      ivec2 first = max(low - tile * kTileEdge, ivec2(0)) / block_edge;
-      ivec2 past = min(high - tile * kTileEdge, ivec2(kTileEdge - 1)) / block_edge + 1;
+      ivec2 first = max(low - tile * kTileEdge, ivec2(0)) / view.block_edge;
+      ivec2 past = min(high - tile * kTileEdge, ivec2(kTileEdge - 1)) / view.block_edge + 1;
       for (int j = first.y; j < past.y; ++j)
         for (int i = first.x; i < past.x; ++i) {
           if (++steps > kMostSteps) return true;
           ivec2 block = tile * blocks + ivec2(i, j);
           float depth = uintBitsToFloat(texelFetch(block_depths, block.y * tiles.x * blocks + block.x).x);
-          if (earliest_depth(ray_block(block * block_edge, block_edge), v, radius) <= depth) return true;
+          if (earliest_depth(ray_block(block * view.block_edge, view.block_edge), v, radius) <= depth) return true;
         }
     }
   return false;

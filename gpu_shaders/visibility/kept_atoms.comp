@@ -11,15 +11,14 @@ layout(std430, binding = 0) readonly buffer Balls { vec4 balls[]; };        // f
 layout(std430, binding = 1) readonly buffer BallsLow { vec4 balls_low[]; };  // w: 1 if swallowed
 layout(std430, binding = 2) buffer Before { uint before[]; };
 layout(std430, binding = 3) writeonly buffer Kept { uint kept[]; };
-uniform uint atom_count;
-uniform float probe_radius;
+layout(std140, binding = 0) uniform Parameters { VisibleAtomsParameters params; };
 
 void main() {
   uint a = linear_invocation_index();
-  if (a >= atom_count) return;
+  if (a >= params.atom_count) return;
 #if PASS == 0
   // Every point that any probe touching the atom can make or cut is within r + 2p of the atom.
-  bool needed = balls_low[a].w < 0.5 && begins_in_front(balls[a].xyz, balls[a].w + probe_radius);
+  bool needed = balls_low[a].w < 0.5 && begins_in_front(balls[a].xyz, balls[a].w + params.probe_radius);
   before[a] = needed ? 1u : 0u;
 #else
   if (before[a + 1u] != before[a]) kept[before[a]] = a;

@@ -10,25 +10,24 @@ layout(local_size_x = 32) in;
 
 layout(std430, binding = 0) readonly buffer Balls { vec4 balls[]; };  // from the middle of the atoms, SAS radius
 layout(std430, binding = 1) buffer BlockDepths { uint block_depths[]; };
-uniform uint atom_count;
-uniform float probe_radius;
+layout(std140, binding = 0) uniform Parameters { VisibleAtomsParameters params; };
 
 void main() {
   uint a = linear_group_index();
-  if (a >= atom_count) return;
+  if (a >= params.atom_count) return;
   vec4 ball = balls[a];
   vec3 v = view_from_molecule(ball.xyz);
-  float radius = ball.w - probe_radius;
+  float radius = ball.w - params.probe_radius;
   if (v.z <= 0.0) return;
   vec4 pixels = touched_pixels(v, radius);
-  ivec2 low = ivec2(pixels.xy) / block_edge;
-  ivec2 blocks = ivec2(pixels.zw) / block_edge - low + 1;
-  int row_length = tile_count().x * (kTileEdge / block_edge);
-  int row_count = tile_count().y * (kTileEdge / block_edge);
+  ivec2 low = ivec2(pixels.xy) / view.block_edge;
+  ivec2 blocks = ivec2(pixels.zw) / view.block_edge - low + 1;
+  int row_length = tile_count().x * (kTileEdge / view.block_edge);
+  int row_count = tile_count().y * (kTileEdge / view.block_edge);
   for (int n = int(gl_LocalInvocationID.x); n < blocks.x * blocks.y; n += 32) {
     ivec2 block = low + ivec2(n % blocks.x, n / blocks.x);
     if (block.x >= row_length || block.y >= row_count) continue;
-    float depth = latest_depth(ray_block(block * block_edge, block_edge), v, radius);
+    float depth = latest_depth(ray_block(block * view.block_edge, view.block_edge), v, radius);
     // Positive floats are ordered as their bits are.
     if (depth < kNothing) atomicMin(block_depths[block.y * row_length + block.x], floatBitsToUint(depth));
   }

@@ -14,13 +14,13 @@ void main() {
   ivec2 tiles = tile_count();
   if (index >= tiles.x * tiles.y) return;
   ivec2 tile = ivec2(index % tiles.x, index / tiles.x);
-  int blocks = kTileEdge / block_edge;
+  int blocks = kTileEdge / view.block_edge;
   uint latest = 0u;
   for (int y = 0; y < blocks; ++y)
     for (int x = 0; x < blocks; ++x) {
       ivec2 block = tile * blocks + ivec2(x, y);
       // Blocks past the picture's edge have no rays.
-      if (any(greaterThanEqual(block * block_edge, picture_size))) continue;
+      if (any(greaterThanEqual(block * view.block_edge, view.picture_size))) continue;
       latest = max(latest, block_depths[block.y * tiles.x * blocks + block.x]);
     }
   tile_depths[index] = uintBitsToFloat(latest);

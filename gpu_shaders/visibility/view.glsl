@@ -4,37 +4,30 @@
 // View coordinates: origin at the eye, x right, y down, z forward, Å. A depth is the distance along a ray from the eye
 // (orthographic: from the plane through it). Pixels are counted from the middle of the picture.
 #include "gpu_shaders/shared/tangent_slopes.glsl"
+#include "gpu_shaders/visibility/parameters.glsl"
 
-uniform vec3 eye;  // from the middle of the atoms
-uniform vec3 right;
-uniform vec3 up;
-uniform vec3 forward;
-uniform uint orthographic;
-uniform float pixel_scale;  // of a pixel at distance 1; orthographic: in Å
-uniform ivec2 picture_size;  // pixels
-uniform int block_edge;      // pixels; divides kTileEdge
-uniform float margin;        // covers the rounding of every bound here, in Å
+layout(std140, binding = kViewBinding) uniform ViewBlock { View view; };
 
 const int kTileEdge = 16;
 const float kNothing = 3.0e38;
 
-ivec2 tile_count() { return (picture_size + (kTileEdge - 1)) / kTileEdge; }
+ivec2 tile_count() { return (view.picture_size + (kTileEdge - 1)) / kTileEdge; }
 
 vec3 view_from_molecule(vec3 position) {
-  vec3 v = position - eye;
-  return vec3(dot(v, right), -dot(v, up), dot(v, forward));
+  vec3 v = position - view.eye;
+  return vec3(dot(v, view.right), -dot(v, view.up), dot(v, view.forward));
 }
 
 // Pixels from the picture's corner that a ball may touch: low corner, high corner; a pixel more on each side.
 vec4 touched_pixels(vec3 v, float radius) {
   vec2 x = vec2(v.x - radius, v.x + radius);
   vec2 y = vec2(v.y - radius, v.y + radius);
-  if (orthographic == 0u) {
+  if (view.orthographic == 0u) {
     x = tangent_slopes(v.x, v.z, radius);
     y = tangent_slopes(v.y, v.z, radius);
   }
-  vec4 range = vec4(x.x, y.x, x.y, y.y) / pixel_scale + vec4(-1.0, -1.0, 1.0, 1.0);
-  vec2 size = vec2(picture_size);
+  vec4 range = vec4(x.x, y.x, x.y, y.y) / view.pixel_scale + vec4(-1.0, -1.0, 1.0, 1.0);
+  vec2 size = vec2(view.picture_size);
   return clamp(range + 0.5 * size.xyxy, vec4(0.0), size.xyxy);
 }
 
@@ -45,7 +38,7 @@ struct RayBlock {
 };
 
 RayBlock ray_block(ivec2 first_pixel, int edge) {
-  return RayBlock(vec2(first_pixel) + 0.5 * (float(edge) - vec2(picture_size)), 0.70711 * float(edge));
+  return RayBlock(vec2(first_pixel) + 0.5 * (float(edge) - vec2(view.picture_size)), 0.70711 * float(edge));
 }
 
 // How the rays of a block pass the point v.
@@ -57,16 +50,16 @@ struct Passing {
 
 // Two directions whose points on the plane at distance 1 are e apart enclose an angle of at most e.
 Passing pass_by(RayBlock block, vec3 v) {
-  vec2 slope = block.middle * pixel_scale;
-  if (orthographic != 0u) return Passing(v.z, length(v.xy - slope), block.reach * pixel_scale);
+  vec2 slope = block.middle * view.pixel_scale;
+  if (view.orthographic != 0u) return Passing(v.z, length(v.xy - slope), block.reach * view.pixel_scale);
   vec3 d = normalize(vec3(slope, 1.0));
   float along = dot(v, d);
-  return Passing(along, length(v - d * along), block.reach * pixel_scale * length(v));
+  return Passing(along, length(v - d * along), block.reach * view.pixel_scale * length(v));
 }
 
 float depth_on_sphere(vec3 v, float radius, float passing) {
   float half_chord = sqrt(max(radius * radius - passing * passing, 0.0));
-  if (orthographic != 0u) return v.z - half_chord;
+  if (view.orthographic != 0u) return v.z - half_chord;
   return sqrt(max(dot(v, v) - passing * passing, 0.0)) - half_chord;
 }
 
@@ -74,16 +67,16 @@ float depth_on_sphere(vec3 v, float radius, float passing) {
 float earliest_depth(RayBlock block, vec3 v, float radius) {
   Passing passing = pass_by(block, v);
   // sin(a - e) >= sin a (1 - e^2) - e for the angle a between the middle ray and v.
-  float e = orthographic != 0u ? 0.0 : block.reach * pixel_scale;
-  float nearest = max(passing.distance * (1.0 - e * e) - passing.spread - margin, 0.0);
+  float e = view.orthographic != 0u ? 0.0 : block.reach * view.pixel_scale;
+  float nearest = max(passing.distance * (1.0 - e * e) - passing.spread - view.margin, 0.0);
   return nearest < radius ? depth_on_sphere(v, radius, nearest) : kNothing;
 }
 
 // Every ray of the block enters the ball before this depth; kNothing if one may miss it or begins inside.
 float latest_depth(RayBlock block, vec3 v, float radius) {
   Passing passing = pass_by(block, v);
-  float farthest = passing.distance + passing.spread + margin;  // sin(a + e) <= sin a + e
+  float farthest = passing.distance + passing.spread + view.margin;  // sin(a + e) <= sin a + e
   if (passing.along <= 0.0 || farthest >= radius) return kNothing;
-  float depth = depth_on_sphere(v, radius, farthest) + margin;
-  return depth > margin ? depth : kNothing;
+  float depth = depth_on_sphere(v, radius, farthest) + view.margin;
+  return depth > view.margin ? depth : kNothing;
 }

@@ -15,8 +15,10 @@
 #include "core/gpu/egl_context.h"
 #include "core/gpu/embedded_shaders.h"
 #include "core/gpu/gpu_stage.h"
+#include "core/gpu/kernel_parameters.h"
 #include "core/gpu/limits.h"
 #include "core/gpu/program.h"
+#include "tests/gpu/kernel_variants.h"
 
 namespace meniscus {
 namespace {
@@ -131,8 +133,7 @@ TEST_F(GpuCore, DispatchFoldsManyGroups) {
     surplus.fill(0);
     words.bind(0);
     surplus.bind(1);
-    program.set("count", count);
-    program.set("offset", 11u);
+    program.set(kernel::ScaleParameters{.count = count, .offset = 11});
     program.dispatch((count + 63) / 64, longest_row);
     std::vector<std::uint32_t> expected(count);
     for (std::uint32_t i = 0; i < count; ++i) expected[i] = i * 3 + 11;
@@ -154,8 +155,7 @@ TEST_F(GpuCore, IndirectDispatchReadsItsCounts) {
   words.fill(0);
   words.bind(0);
   surplus.bind(1);
-  program.set("count", 128u);
-  program.set("offset", 1u);
+  program.set(kernel::ScaleParameters{.count = 128, .offset = 1});
   program.dispatch_indirect(counts, 4);
   EXPECT_EQ(words.download<std::uint32_t>(128).back(), 128u);
 }
@@ -190,7 +190,7 @@ TEST_F(GpuCore, StagesWaitForTheGpu) {
   Buffer words(4000000), surplus(4);
   words.bind(0);
   surplus.bind(1);
-  program.set("count", 1000000u);
+  program.set(kernel::ScaleParameters{.count = 1000000, .offset = 0});
   StageClock clock;
   for (const char* name : {"scale", "idle", "scale"}) {
     const GpuStage stage(clock, name);
@@ -209,27 +209,11 @@ TEST_F(GpuCore, LoopsEndWhereTheyShouldOrSaySo) {
     Buffer found(2 * sizeof(std::uint32_t));
     found.fill(0);
     found.bind(0);
-    program.set("outer", outer);
-    program.set("inner", inner);
+    program.set(kernel::LoopParameters{.outer = outer, .inner = inner});
     program.dispatch(1);
     const auto counts = found.download<std::uint32_t>(2);
     EXPECT_EQ(counts[0] != outer * inner, counts[1] != 0u) << outer << " x " << inner << ": " << counts[0];
   }
-}
-
-// The variants a kernel has: without any define, for each pass, and with each switch it or its includes ask for.
-std::vector<ShaderDefines> variants_of(const EmbeddedShader& shader) {
-  std::vector<ShaderDefines> variants{{}};
-  const std::string text = expand_embedded_shader(shader.path).text;
-  for (const char* pass : {"1", "2"})
-    if (text.find("#if PASS == " + std::string(pass)) != std::string::npos ||
-        (text.find("#if PASS") != std::string::npos && std::string_view(pass) == "1"))
-      variants.push_back({{"PASS", pass}});
-  for (const char* word : {"AMBIENT_OCCLUSION", "LISTED", "SILHOUETTES", "SOME_HIDDEN", "WHOLE_SPHERES"})
-    if (text.find("#ifdef " + std::string(word)) != std::string::npos) variants.push_back({{word, "1"}});
-  // Many include precision.glsl for single precision alone.
-  if (shader.text.find("#ifdef DOUBLE_PRECISION") != std::string::npos) variants.push_back({{"DOUBLE_PRECISION", "1"}});
-  return variants;
 }
 
 TEST(Shaders, PassTheReferenceCompilerAndValidator) {

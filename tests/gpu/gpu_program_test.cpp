@@ -91,12 +91,27 @@ TEST_F(StoppingGpu, FarmLeavesTheFrameUndone) {
   EXPECT_TRUE(std::filesystem::exists(bundle + "/images/frame_00000.png"));
 }
 
+std::vector<std::string> zink_environment(const test::TemporaryFolder& folder) {
+  return {"LIBGL_ALWAYS_SOFTWARE=1", "MESA_LOADER_DRIVER_OVERRIDE=zink", std::string("VK_ICD_FILENAMES=") + kLavapipe,
+          "XDG_RUNTIME_DIR=" + folder.path().string()};
+}
+
+// One pipeline for one molecule after another: it was here that zink started kernels with numbers of an earlier one.
+TEST(SecondDriver, TakesMoleculesInTurn) {
+  const test::TemporaryFolder folder;
+  const auto result = test::run_program("/usr/bin/env", [&] {
+    auto arguments = zink_environment(folder);
+    arguments.insert(arguments.end(), {GPU_SURFACE_TEST, "--gtest_filter=*.MoleculesInTurn"});
+    return arguments;
+  }());
+  EXPECT_EQ(result.exit_code, 0) << result.out;
+  EXPECT_NE(result.out.find("[  PASSED  ] 1 test."), std::string::npos) << result.out;
+}
+
 TEST(SecondDriver, FindsTheSameSurface) {
   ASSERT_TRUE(std::filesystem::exists(kLavapipe)) << "mesa-vulkan-drivers is missing";
   const test::TemporaryFolder folder;
-  const std::vector<std::string> zink{"LIBGL_ALWAYS_SOFTWARE=1", "MESA_LOADER_DRIVER_OVERRIDE=zink",
-                                      std::string("VK_ICD_FILENAMES=") + kLavapipe,
-                                      "XDG_RUNTIME_DIR=" + folder.path().string()};
+  const auto zink = zink_environment(folder);
   const auto surface = run_with(zink, {"surface", kUbiquitin, "--device", "software", "--verify", "-q"});
   EXPECT_EQ(surface.exit_code, 0) << surface.err;
   EXPECT_NE(surface.out.find("zink"), std::string::npos) << "another driver: " << surface.out;

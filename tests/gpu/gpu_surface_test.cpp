@@ -54,6 +54,15 @@ TEST_F(GpuSurface, Proteins) {
   expect_equal(translated(balls, {1000, -1000, 1000}), kWater);
 }
 
+// Nothing of one molecule stays for the next, be it larger or smaller.
+TEST_F(GpuSurface, MoleculesInTurn) {
+  for (int turn = 0; turn < 2; ++turn) {
+    expect_equal(ubiquitin(), kWater);
+    expect_equal(enterotoxin(), kWater);
+    expect_equal(degenerate_molecules().front().balls, kWater);
+  }
+}
+
 TEST_F(GpuSurface, NoAtoms) { EXPECT_TRUE(pipeline_.run({}, kWater).components.empty()); }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "core/gpu/egl_context.h"
+#include "core/gpu/kernel_parameters.h"
 #include "core/gpu/program.h"
 #include "core/render/ray_geometry.h"
 #include "tests/support/random_rays.h"
@@ -36,7 +37,7 @@ TEST(RayGeometryOnGpu, FindsTheRootsOfTheDoubleVersion) {
   Buffer in{std::span<const Query>(input)}, out(kCount * sizeof(Answer));
   in.bind(0);
   out.bind(1);
-  program.set("count", static_cast<std::uint32_t>(kCount));
+  program.set(kernel::QueryParameters{.count = static_cast<std::uint32_t>(kCount)});
   program.dispatch((kCount + 63) / 64);
   const auto answers = out.download<Answer>(kCount);
   int compared = 0, grazing = 0;

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the host tells the kernels of this stage, as uniform blocks of GLSL and structs of C++
+// (core/gpu/kernel_parameters.h says how).
+#ifndef MENISCUS_PARALLEL_PARAMETERS_GLSL
+#define MENISCUS_PARALLEL_PARAMETERS_GLSL
+
+struct ScanParameters {
+  uint count;         // words
+  uint chunk_length;  // words per invocation
+};
+
+#endif

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the host tells the kernels of this stage, as uniform blocks of GLSL and structs of C++
+// (core/gpu/kernel_parameters.h says how).
+#ifndef MENISCUS_RAY_CAST_PARAMETERS_GLSL
+#define MENISCUS_RAY_CAST_PARAMETERS_GLSL
+
+// A block of a picture, as one sample of each of its pixels sees it.
+struct BlockView {
+  vec3 right;
+  float eye_distance;  // from the camera's position to the pivot's plane, in Å
+  vec3 up;
+  float pixel_size;  // on the pivot's plane, in Å
+  vec3 forward;
+  uint orthographic;
+  vec2 first_offset;   // of the block's first pixel centre from the picture's centre, in pixels
+  vec2 sample_offset;  // of the sample from the pixel's centre
+  ivec2 size;          // of the block, in pixels
+};
+const int kBlockViewBinding = 1;
+
+struct DepthSlices {
+  float first_depth;          // of slice 0, which also takes what begins before it, in Å
+  float slices_per_angstrom;  // 0: everything is in slice 0
+};
+const int kDepthSlicesBinding = 2;
+
+struct TileListParameters {
+  vec3 right;
+  float eye_distance;  // from the camera's position to the pivot's plane, in Å
+  vec3 up;
+  float pixels_per_angstrom;  // on the pivot's plane
+  vec3 forward;
+  uint orthographic;
+  vec2 block_center;  // the picture's centre in pixels of the block
+  ivec2 tiles;        // columns and rows of the block
+  ivec2 first_tile;   // of the block, in the picture
+  int picture_tile_columns;
+  uint bounded;  // 1: tile_depth holds, for each tile of the picture, how deep its rays see
+  uint primitive_count;
+};
+
+struct SplitTilesParameters {
+  uint tile_count;
+};
+
+struct EmptyTilesParameters {
+  ivec2 size;  // of the block, in pixels
+  ivec2 tiles;
+};
+
+struct RayCastParameters {
+  vec3 key_direction;  // of studio_light
+  float key_strength;
+  ivec2 tiles;  // columns and rows
+  float probe_radius;
+  float slack;
+  uint add;  // 0: the first sample, which also writes hits; 1: adds to the picture
+  uint color_by_kind;
+  uint atom_count;
+  int part_length;  // of lists, where they are gone through in parts
+  int part;
+  uint is_last_part;
+};
+
+#endif

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the host tells the kernels of this stage, as uniform blocks of GLSL and structs of C++
+// (core/gpu/kernel_parameters.h says how).
+#ifndef MENISCUS_REDUCED_SURFACE_PARAMETERS_GLSL
+#define MENISCUS_REDUCED_SURFACE_PARAMETERS_GLSL
+
+// The uniform grid over atom centres, as all kernels that look for neighbours see it.
+struct CellGrid {
+  vec4 low;   // xyz: low corner, Å; w: 1 / cell edge
+  vec4 size;  // xyz: number of cells along each axis (whole numbers)
+};
+const int kCellGridBinding = 1;
+
+struct GridParameters {
+  uint atom_count;
+};
+
+struct NeighborParameters {
+  uint first_entry;  // of the batch
+  uint entry_count;  // in the batch
+  float largest_radius;
+};
+
+struct PairParameters {
+  uint first_entry;  // of the batch
+  uint entry_count;  // in the batch
+};
+
+struct CircleParameters {
+  uint first_entry;  // of the batch, which the neighbour lists count from
+  uint circle_count;
+  uint arc_capacity;
+  uint doubtful_capacity;
+};
+
+struct FixedProbeParameters {
+  dvec3 middle;  // of the atoms
+  double probe_radius;
+  uint arc_count;
+  uint probe_capacity;
+};
+
+#endif

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the host tells the kernels of this stage, as uniform blocks of GLSL and structs of C++
+// (core/gpu/kernel_parameters.h says how).
+#ifndef MENISCUS_SINGULARITIES_PARAMETERS_GLSL
+#define MENISCUS_SINGULARITIES_PARAMETERS_GLSL
+
+struct CutParameters {
+  uint first_probe;  // of the batch
+  uint probe_count;  // in the batch
+  float probe_radius;
+};
+
+struct CuspParameters {
+  uint first_probe;  // of the batch, which the neighbour lists count from
+  uint circle_count;
+  uint arc_capacity;
+  uint doubtful_capacity;
+};
+
+#endif

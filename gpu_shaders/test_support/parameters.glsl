@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What tests tell their kernels, as uniform blocks of GLSL and structs of C++ (core/gpu/kernel_parameters.h says how).
+#ifndef MENISCUS_TEST_SUPPORT_PARAMETERS_GLSL
+#define MENISCUS_TEST_SUPPORT_PARAMETERS_GLSL
+
+struct ScaleParameters {
+  uint count;
+  uint offset;
+};
+
+struct LoopParameters {
+  uint outer;
+  uint inner;
+};
+
+struct QueryParameters {
+  uint count;
+};
+
+#endif
