@@ -184,7 +184,8 @@ void SphereTracer::build_grid() {
   }
   if (spheres_.empty()) low = high = glm::dvec3(0.0);
   const glm::dvec3 size = high - low;
-  cell_size_ = std::max(1.0, std::cbrt(size.x * size.y * size.z / 4e6));
+  // With a large reach neighbouring cells hear of the same things; small ones would only hear of them more often.
+  cell_size_ = std::max({1.0, reach_ / 8, std::cbrt(size.x * size.y * size.z / 4e6)});
   grid_low_ = low;
   cells_ = glm::ivec3(glm::floor(size / cell_size_)) + 1;
   sphere_cells_ = fill_cells(

@@ -38,7 +38,7 @@ struct TraceHit {
   NearestProbe probe;
 };
 
-/// Everything is double precision and O(1) a query after a grid of about 1 Å has been built.
+/// Everything is double precision and O(1) a query after a grid has been built, of about 1 Å or an eighth of the reach.
 class SphereTracer {
  public:
   /// balls: vdW balls, any number, any degeneracy; probe_radius >= 0 in Å.
