@@ -6,7 +6,7 @@ namespace meniscus {
 
 enum class Extent {
   complete,  ///< all of it
-  visible,   ///< what can matter for a pixel (theorem 2 of the design notes): the same picture
+  visible,   ///< what can matter for a pixel (theorem 2): the same picture
   paper      ///< what Krone, Dachsbacher & Ertl 2010 select: faces in deep clefts may be missing
 };
 

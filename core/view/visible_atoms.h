@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The atoms that can matter for a pixel of one view, found on the GPU (theorem 2 of the design notes).
+// The atoms that can matter for a pixel of one view, found on the GPU (theorem 2).
 #pragma once
 
 #include <cstdint>

@@ -14,8 +14,7 @@
 
 namespace meniscus::povray {
 
-/// Writes patches relative to `origin`. What is inside all clips is exactly the patch (theorem 1 of the geometry
-/// notes):
+/// Writes patches relative to `origin`. What is inside all clips is exactly the patch (theorem 1):
 ///  convex    sphere within its planes;
 ///  toroidal  torus within the visibility sphere (through both contact circles, centred on the axis; it keeps the side
 ///            that faces the axis), the wedge of the arc, and outside of the lemon where a spindle crosses its axis;

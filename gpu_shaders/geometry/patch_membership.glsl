@@ -24,7 +24,7 @@ const int kWholeTurn = 0;
 const int kUpToHalfTurn = 1;
 const int kOverHalfTurn = 2;
 
-// Part 2 of theorem 1 (design notes), in the torus's own frame: origin = centre of the SAS circle, x = direction in
+// Theorem 1.2, in the torus's own frame: origin = centre of the SAS circle, x = direction in
 // which the arc starts, z = axis. x: a point of the torus; major, minor: R and p; z_low, z_high: the planes of the two
 // contact circles; cos_sweep, sin_sweep: of the arc, which runs counter-clockwise.
 GEOMETRY bool in_toroidal_patch(real3 x, real major, real z_low, real z_high, real cos_sweep,

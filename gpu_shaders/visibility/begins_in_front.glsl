@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Theorem 2 of the design notes, for any ball: does it begin in front of the nearest vdW sphere on some ray?
+// Theorem 2 for any ball: does it begin in front of the nearest vdW sphere on some ray?
 #include "gpu_shaders/visibility/view.glsl"
 
 layout(binding = 4) uniform usamplerBuffer tile_depths;   // floats

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Stage "visible atoms", 3: keeps the atoms that can matter for a pixel (theorem 2 of the design notes).
+// Stage "visible atoms", 3: keeps the atoms that can matter for a pixel (theorem 2).
 // Pass 0 marks them in `before`; pass 1 (after a scan) lists them, ascending.
 // Reads: balls, balls_low, tile_depths, block_depths. Writes: before, kept. One invocation per atom. Overflow: none.
 #version 450 core

@@ -1,0 +1,61 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What documents and comments point to is there: links, kernels, theorems."""
+import pathlib
+import re
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+SOURCE_FOLDERS = ("app", "core", "exporters", "gpu_shaders", "tests")
+
+
+def sources():
+    for folder in SOURCE_FOLDERS:
+        for path in (ROOT / folder).rglob("*"):
+            if path.suffix in {".cpp", ".h", ".glsl", ".comp"}:
+                yield path
+
+
+def documents():
+    yield from ROOT.glob("*.md")
+    for folder in (*SOURCE_FOLDERS, "docs"):
+        yield from (ROOT / folder).rglob("*.md")
+
+
+class Documents(unittest.TestCase):
+    def test_links_lead_to_files(self):
+        checked = 0
+        for document in documents():
+            for target in re.findall(r"\]\(([^)#\s]+)", document.read_text()):
+                if "://" in target or target.startswith("mailto:"):
+                    continue
+                checked += 1
+                self.assertTrue((document.parent / target).exists(), f"{document.relative_to(ROOT)} links to {target}")
+        self.assertGreater(checked, 40)
+
+    def test_theorems_that_are_cited_are_there(self):
+        theory = (ROOT / "docs/theory.md").read_text()
+        parts = {}
+        for number, body in re.findall(r"^## Theorem (\d+):.*?\n(.*?)(?=^## |\Z)", theory, re.M | re.S):
+            parts[number] = set(re.findall(r"^(\d+)\. ", body, re.M))
+        self.assertEqual(set(parts), {"1", "2", "3"})
+        cited = 0
+        for source in sources():
+            for number, part in re.findall(r"[Tt]heorem (\d+)(?:\.(\d+))?", source.read_text()):
+                cited += 1
+                self.assertIn(number, parts, f"{source.relative_to(ROOT)} cites theorem {number}")
+                if part:
+                    self.assertIn(part, parts[number], f"{source.relative_to(ROOT)} cites theorem {number}.{part}")
+        self.assertGreater(cited, 15)
+
+    def test_the_table_of_kernels_is_complete(self):
+        listed = set(re.findall(r"\]\(([a-z_]+/[a-z_]+\.comp)\)", (ROOT / "gpu_shaders/README.md").read_text()))
+        there = {str(path.relative_to(ROOT / "gpu_shaders")) for path in (ROOT / "gpu_shaders").rglob("*.comp")}
+        self.assertEqual(listed, there)
+
+    def test_nobody_cites_what_is_not_in_the_tree(self):
+        for source in sources():
+            self.assertNotRegex(source.read_text(), r"design notes|design/geometry", str(source.relative_to(ROOT)))
+
+
+if __name__ == "__main__":
+    unittest.main()
