@@ -139,7 +139,7 @@ TEST_F(WindowTest, ShowsThePictureItExports) {
   for (int attempt = 0; attempt < 8 && !exported_once; ++attempt) {
     std::this_thread::sleep_for(std::chrono::milliseconds(500));
     screen_.act({"key", "Return"});
-    exported_once = happens([&] { return recorded("export").size() == 1; }, 8);
+    exported_once = happens([&] { return !recorded("export").empty(); }, 8);  // a late one may come twice
   }
   ASSERT_TRUE(exported_once);
   const ScreenPicture exported = read_png(folder_.path() / "view.png");
