@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Hands the pictures of a bundle to the encoder, in the order of the run.
 #include <algorithm>
+#include <stdexcept>
+#include <string>
 
-#include <OpenImageIO/imagebuf.h>
 #include <fmt/format.h>
 
 #include "app/farm/inner_path.h"
@@ -10,30 +11,35 @@
 #include "app/farm/verify.h"
 #include "app/film.h"
 #include "core/base/error.h"
+#include "core/image/image_codec.h"
 
 namespace meniscus::farm {
 namespace {
 
 namespace fs = std::filesystem;
 
+DecodedImage decoded(const fs::path& path) {
+  try {
+    return image_codec().decode(path.string());
+  } catch (const Error&) {
+    throw;
+  } catch (const std::runtime_error& error) {
+    throw InputError(path.string(), 0, std::string("cannot be read as a picture: ") + error.what());
+  }
+}
+
 /// 8-bit sRGB; what is transparent shows white, as in the films of `render`.
 std::vector<std::uint8_t> picture_rgb(const fs::path& folder, const std::string& inner) {
   const fs::path path = folder / inner;
   if (inner_entry(folder, inner) != Entry::file || !is_png(path)) throw InputError(path.string(), 0, "is no PNG file");
-  OIIO::ImageBuf picture(path.string());
-  std::vector<float> pixels;
-  if (picture.read(0, 0, true, OIIO::TypeDesc::FLOAT))
-    pixels.resize(picture.spec().image_pixels() * static_cast<std::size_t>(picture.nchannels()));
-  if (pixels.empty() || !picture.get_pixels(OIIO::ROI::All(), OIIO::TypeDesc::FLOAT, pixels.data()))
-    throw InputError(path.string(), 0, "cannot be read as a picture: " + picture.geterror());
-  const auto channels = static_cast<std::size_t>(picture.nchannels());
+  const DecodedImage picture = decoded(path);
+  const auto channels = static_cast<std::size_t>(picture.channels);
   std::vector<std::uint8_t> rgb;
-  rgb.reserve(3 * picture.spec().image_pixels());
-  for (std::size_t at = 0; at < pixels.size(); at += channels) {
-    // OpenImageIO gives colours multiplied by their alpha.
-    const float ground = channels == 2 || channels == 4 ? 1.0f - pixels[at + channels - 1] : 0.0f;
+  rgb.reserve(3 * picture.values.size() / channels);
+  for (std::size_t at = 0; at < picture.values.size(); at += channels) {
+    const float ground = channels == 2 || channels == 4 ? 1.0f - picture.values[at + channels - 1] : 0.0f;
     for (std::size_t c = 0; c < 3; ++c) {
-      const float value = pixels[at + (channels < 3 ? 0 : c)] + ground;
+      const float value = picture.values[at + (channels < 3 ? 0 : c)] + ground;
       rgb.push_back(static_cast<std::uint8_t>(std::clamp(value, 0.0f, 1.0f) * 255.0f + 0.5f));
     }
   }

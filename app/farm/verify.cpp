@@ -2,28 +2,42 @@
 // Checks records, checksums and pixels.
 #include "app/farm/verify.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <optional>
+#include <stdexcept>
 
-#include <OpenImageIO/imagebuf.h>
-#include <OpenImageIO/imagebufalgo.h>
 #include <fmt/format.h>
 
 #include "app/farm/frame_record.h"
 #include "app/farm/inner_path.h"
 #include "app/farm/timeless_png.h"
 #include "app/program_error.h"
+#include "core/base/error.h"
+#include "core/image/image_codec.h"
 
 namespace meniscus::farm {
 namespace {
 
+// Every value equals the one a pixel before.
+bool is_blank(const DecodedImage& picture) {
+  const auto one = static_cast<std::ptrdiff_t>(picture.channels);
+  return std::equal(picture.values.begin() + one, picture.values.end(), picture.values.begin());
+}
+
 std::string picture_fault(const std::filesystem::path& path, const Bundle& bundle) {
   if (!is_png(path)) return "is no PNG file";
-  OIIO::ImageBuf picture(path.string());
-  if (!picture.read(0, 0, true)) return fmt::format("cannot be read as a picture: {}", picture.geterror());
-  const OIIO::ImageSpec& spec = picture.spec();
-  if (spec.width != bundle.width || spec.height != bundle.height)
-    return fmt::format("is {}x{} pixels, not {}x{}", spec.width, spec.height, bundle.width, bundle.height);
-  if (OIIO::ImageBufAlgo::isConstantColor(picture)) return "is blank: all its pixels are equal";
+  DecodedImage picture;
+  try {
+    picture = image_codec().decode(path.string());
+  } catch (const Error&) {
+    throw;
+  } catch (const std::runtime_error& error) {
+    return fmt::format("cannot be read as a picture: {}", error.what());
+  }
+  if (picture.width != bundle.width || picture.height != bundle.height)
+    return fmt::format("is {}x{} pixels, not {}x{}", picture.width, picture.height, bundle.width, bundle.height);
+  if (is_blank(picture)) return "is blank: all its pixels are equal";
   return {};
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pictures encoded in memory by OpenImageIO.
+// Pictures encoded in memory.
 #include "core/render/image_output.h"
 
 #include <algorithm>
@@ -7,15 +7,15 @@
 #include <cctype>
 #include <cstdint>
 #include <span>
+#include <stdexcept>
 #include <vector>
 
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 #include <sys/resource.h>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/image/image_codec.h"
 #include "core/render/color_space.h"
 #include "core/render/memory_file.h"
 
@@ -28,7 +28,7 @@ std::string extension_of(const std::filesystem::path& path) {
   return extension;
 }
 
-/// A picture as rows of floats, ready for OpenImageIO.
+/// A picture as rows of floats, ready to be encoded.
 struct Channels {
   std::vector<std::string> names;
   std::vector<float> values;  ///< pixel after pixel
@@ -83,36 +83,41 @@ Channels scene_channels(const Framebuffer& picture, const ImageSettings& setting
   return channels;
 }
 
-OIIO::ImageSpec make_spec(const Framebuffer& picture, const Channels& channels, const std::string& extension) {
-  const bool exr = extension == ".exr";
-  const auto type = exr ? OIIO::TypeDesc::FLOAT : extension == ".png" ? OIIO::TypeDesc::UINT8 : OIIO::TypeDesc::UINT16;
-  OIIO::ImageSpec spec(picture.size.x, picture.size.y, static_cast<int>(channels.names.size()), type);
-  spec.channelnames = channels.names;
-  spec.alpha_channel = channels.alpha;
+ImageToEncode described(const Framebuffer& picture, const Channels& channels, const std::string& extension) {
+  const bool exr = extension == ".exr", png = extension == ".png";
+  ImageToEncode image;
+  image.format = exr ? "exr" : png ? "png" : "tiff";
+  image.width = picture.size.x;
+  image.height = picture.size.y;
+  image.channels = channels.names;
+  image.sample = exr ? SampleType::float32 : png ? SampleType::uint8 : SampleType::uint16;
+  image.alpha_channel = channels.alpha;
   const auto z = std::ranges::find(channels.names, "Z");
-  if (z != channels.names.end()) spec.z_channel = static_cast<int>(z - channels.names.begin());
-  spec.attribute("oiio:ColorSpace", exr ? "Linear" : "sRGB");
-  if (!exr) spec.attribute("oiio:UnassociatedAlpha", 1);
-  spec.attribute("compression", "zip");
-  spec.attribute("Software", "Meniscus " MENISCUS_VERSION);
-  return spec;
+  if (z != channels.names.end()) image.depth_channel = static_cast<int>(z - channels.names.begin());
+  image.color_space = exr ? "Linear" : "sRGB";
+  image.unassociated_alpha = !exr;
+  image.compression = "zip";
+  image.software = "Meniscus " MENISCUS_VERSION;
+  image.floats = channels.values;
+  return image;
 }
 
-/// To a file of this name, or wherever `output` was told to.
-void write_pixels(const std::filesystem::path& path, OIIO::ImageOutput* output, const std::string& name,
-                  const OIIO::ImageSpec& spec, const Channels& channels) {
-  const auto fail = [&](const std::string& why) { throw OutputError(path.string(), "cannot be encoded: " + why); };
-  if (!output) fail(OIIO::geterror());
-  if (!output->open(name, spec)) fail(output->geterror());
-  if (!output->write_image(OIIO::TypeDesc::FLOAT, channels.values.data())) fail(output->geterror());
-  if (!output->close()) fail(output->geterror());
+std::vector<std::uint8_t> encode(const std::filesystem::path& path, const ImageToEncode& image) {
+  try {
+    return image_codec().encode(image);
+  } catch (const Error&) {
+    throw;
+  } catch (const std::runtime_error& error) {
+    throw OutputError(path.string(), std::string("cannot be encoded: ") + error.what());
+  }
 }
 
 /// A TIFF file that meets a limit on the size of files lacks what libtiff writes last, and libtiff does not tell. So it
 /// is refused where it might meet one: where the limit is below what the pixels take if they cannot be compressed.
-void refuse_limited_size(const std::filesystem::path& path, const OIIO::ImageSpec& spec) {
+void refuse_limited_size(const std::filesystem::path& path, const ImageToEncode& image) {
   constexpr rlim_t kDirectories = 1 << 16, kOfALine = 32;
-  const rlim_t pixels = spec.image_bytes(), largest = pixels + pixels / 1000 + kOfALine * spec.height + kDirectories;
+  const rlim_t pixels = pixel_bytes(image), lines = static_cast<rlim_t>(image.height);
+  const rlim_t largest = pixels + pixels / 1000 + kOfALine * lines + kDirectories;
   rlimit limit{};
   if (::getrlimit(RLIMIT_FSIZE, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY || limit.rlim_cur >= largest) return;
   throw OutputError(path.string(), fmt::format("may have up to {} bytes, and the system allows files of {} (ulimit -f)",
@@ -120,11 +125,11 @@ void refuse_limited_size(const std::filesystem::path& path, const OIIO::ImageSpe
 }
 
 /// By name: through a proxy OpenImageIO 2.4 cannot read back what it wrote, and the file would lack its last directory.
-std::vector<std::uint8_t> encoded_tiff(const std::filesystem::path& path, const OIIO::ImageSpec& spec,
-                                       const Channels& channels) {
-  refuse_limited_size(path, spec);
+std::vector<std::uint8_t> encoded_tiff(const std::filesystem::path& path, ImageToEncode image) {
+  refuse_limited_size(path, image);
   const MemoryFile file;
-  write_pixels(path, OIIO::ImageOutput::create("tiff").get(), file.name(), spec, channels);
+  image.file = file.name();
+  encode(path, image);
   return file.bytes();
 }
 
@@ -134,13 +139,8 @@ std::vector<std::uint8_t> encoded(const std::filesystem::path& path, const Frame
   const std::string extension = extension_of(path);
   const Channels channels =
       extension == ".exr" ? scene_channels(picture, settings) : display_channels(picture, settings);
-  const OIIO::ImageSpec spec = make_spec(picture, channels, extension);
-  if (extension.starts_with(".tif")) return encoded_tiff(path, spec, channels);
-  std::vector<std::uint8_t> bytes;
-  OIIO::Filesystem::IOVecOutput sink(bytes);
-  const std::string name = "picture" + extension;
-  write_pixels(path, OIIO::ImageOutput::create(name, &sink).get(), name, spec, channels);
-  return bytes;
+  const ImageToEncode image = described(picture, channels, extension);
+  return image.format == "tiff" ? encoded_tiff(path, image) : encode(path, image);
 }
 
 }  // namespace
@@ -150,8 +150,9 @@ bool holds_aovs(const std::filesystem::path& path) { return extension_of(path) =
 std::vector<std::uint8_t> srgb_pixels(const Framebuffer& picture, const glm::vec3& background) {
   const Channels channels = display_channels(picture, {background, Existing::refuse});
   std::vector<std::uint8_t> pixels(channels.values.size());
-  OIIO::convert_pixel_values(OIIO::TypeDesc::FLOAT, channels.values.data(), OIIO::TypeDesc::UINT8, pixels.data(),
-                             static_cast<int>(pixels.size()));
+  std::ranges::transform(channels.values, pixels.begin(), [](float value) {
+    return static_cast<std::uint8_t>(std::clamp(value * 255.0f, 0.0f, 255.0f) + 0.5f);  // as PNG files have it
+  });
   return pixels;
 }
 
@@ -159,6 +160,7 @@ void check_image_path(const std::filesystem::path& path) {
   constexpr std::array<std::string_view, 4> kExtensions{".png", ".tif", ".tiff", ".exr"};
   if (std::ranges::find(kExtensions, extension_of(path)) == kExtensions.end())
     throw OutputError(path.string(), "a picture's name must end in .png, .tif, .tiff or .exr");
+  image_codec();  // what is missing is missed before anything is computed
 }
 
 void write_image(const std::filesystem::path& path, const Framebuffer& picture, const ImageSettings& settings) {

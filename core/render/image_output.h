@@ -24,7 +24,7 @@ bool holds_aovs(const std::filesystem::path& path);
 /// The picture on an opaque background, as PNG would have it: 8 bit sRGB, 3 bytes a pixel, rows from the top.
 std::vector<std::uint8_t> srgb_pixels(const Framebuffer& picture, const glm::vec3& background);
 
-/// Throws OutputError unless the extension is .png, .tif, .tiff or .exr.
+/// Throws OutputError unless the extension is .png, .tif, .tiff or .exr, Error if this installation writes no pictures.
 void check_image_path(const std::filesystem::path& path);
 
 /// By extension: .png 8 bit, .tif and .tiff 16 bit, both sRGB with unassociated alpha; .exr float, linear, associated

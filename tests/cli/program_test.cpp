@@ -56,6 +56,14 @@ TEST(Help, VersionIsOneLine) {
   EXPECT_TRUE(std::regex_match(result.out, expected)) << result.out;
 }
 
+// It and the libraries it brings take a quarter of a second: they come with the first picture (core/image).
+TEST(Start, OpenImageIOIsNotLoadedForNothing) {
+  const ProgramResult linked = test::run_program("/usr/bin/ldd", {MENISCUS_PROGRAM});
+  ASSERT_EQ(linked.exit_code, 0) << linked.err;
+  EXPECT_NE(linked.out.find("libstdc++"), std::string::npos) << linked.out;
+  EXPECT_EQ(linked.out.find("OpenImageIO"), std::string::npos) << linked.out;
+}
+
 TEST(Usage, WrongOptionsExitWithTwoAndSayWhy) {
   const std::pair<std::vector<std::string>, const char*> cases[] = {
       {{}, "subcommand"},

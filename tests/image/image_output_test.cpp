@@ -142,5 +142,22 @@ TEST(ColorSpace, RoundTrips) {
   EXPECT_NEAR(linear_from_srgb(0.5f), 0.21404f, 1e-5);
 }
 
+// Films get their pixels from srgb_pixels(): to the bit what a PNG file has.
+TEST_F(ImageFile, PixelsOfFilmsAreThoseOfPng) {
+  Framebuffer ramp;
+  ramp.size = {4096, 1};
+  for (int n = 0; n < ramp.size.x; ++n)
+    ramp.color.emplace_back(glm::vec3(static_cast<float>(n) / 4095.0f) * glm::vec3(1.0f, 0.37f, 1.1f), 1.0f);
+  const glm::vec3 white(1.0f);
+  const std::vector<std::uint8_t> pixels = srgb_pixels(ramp, white);
+  write_image(folder_ / "ramp.png", ramp, {white, Existing::refuse});
+  auto input = OIIO::ImageInput::open((folder_ / "ramp.png").string());
+  ASSERT_TRUE(input);
+  std::vector<std::uint8_t> stored(pixels.size());
+  ASSERT_EQ(input->spec().nchannels, 3);
+  ASSERT_TRUE(input->read_image(0, 0, 0, -1, OIIO::TypeDesc::UINT8, stored.data()));
+  EXPECT_EQ(pixels, stored);
+}
+
 }  // namespace
 }  // namespace meniscus

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// JPEG through TurboJPEG, PNG through OpenImageIO.
+// JPEG through TurboJPEG, PNG through the image codec.
 #include "app/preview/server/picture_encoder.h"
 
+#include <stdexcept>
 #include <string>
 
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
 #include <turbojpeg.h>
 
 #include "core/base/error.h"
+#include "core/image/image_codec.h"
 
 namespace meniscus {
 
@@ -31,20 +31,20 @@ std::vector<std::uint8_t> JpegEncoder::encode(std::span<const std::uint8_t> rgba
 }
 
 std::vector<std::uint8_t> encode_png(std::span<const std::uint8_t> rgba, glm::ivec2 size) {
-  constexpr int kQuickly = 1;  // of 9; more takes ten times as long for a tenth less
-  std::vector<std::uint8_t> bytes;
-  OIIO::Filesystem::IOVecOutput sink(bytes);
-  void* const proxy = &sink;
-  OIIO::ImageSpec spec(size.x, size.y, 3, OIIO::TypeDesc::UINT8);
-  spec.attribute("oiio:ColorSpace", "sRGB");
-  spec.attribute("png:compressionLevel", kQuickly);
-  spec.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
-  const auto output = OIIO::ImageOutput::create("picture.png");
-  if (!output) throw Error("PNG: " + OIIO::geterror());
-  if (!output->open("picture.png", spec) || !output->write_image(OIIO::TypeDesc::UINT8, rgba.data(), 4) ||
-      !output->close())
-    throw Error("PNG: " + output->geterror());
-  return bytes;
+  ImageToEncode image;
+  image.format = "png";
+  image.width = size.x;
+  image.height = size.y;
+  image.channels = {"R", "G", "B"};
+  image.color_space = "sRGB";
+  image.png_level = 1;  // of 9; more takes ten times as long for a tenth less
+  image.bytes = rgba;
+  image.byte_stride = 4;
+  try {
+    return image_codec().encode(image);
+  } catch (const std::runtime_error& error) {
+    throw Error(std::string("PNG: ") + error.what());
+  }
 }
 
 }  // namespace meniscus

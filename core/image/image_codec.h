@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Pictures to bytes and back, by OpenImageIO, which is loaded when the first picture is.
+//
+// OpenImageIO brings two hundred libraries, a quarter of a second and a hundred megabytes before main(); most commands
+// make no picture. So what needs it is a module of its own (openimageio_codec.cpp), found beside the program.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace meniscus {
+
+enum class SampleType : std::uint8_t { uint8, uint16, float32 };
+
+/// A picture as a file will hold it. Rows from the top, channels of a pixel together.
+struct ImageToEncode {
+  std::string format;  ///< "png", "tiff" or "exr"
+  std::string file;    ///< TIFF: written under this name, for OpenImageIO 2.4 cannot write it to memory
+  int width = 0;
+  int height = 0;
+  std::vector<std::string> channels;
+  SampleType sample = SampleType::uint8;
+  int alpha_channel = -1;           ///< -1: none
+  int depth_channel = -1;           ///< likewise
+  std::string color_space;          ///< "sRGB" or "Linear"
+  bool unassociated_alpha = false;  ///< colours are not multiplied by alpha
+  std::string compression;          ///< "" for the format's own
+  int png_level = -1;               ///< of 9; -1 for the usual
+  std::string software;             ///< written into the file; "" for nothing
+
+  /// One of these has the pixels: floats in [0, 1] (EXR: any), or bytes with `byte_stride` from pixel to pixel.
+  std::span<const float> floats;
+  std::span<const std::uint8_t> bytes;
+  int byte_stride = 0;
+};
+
+/// A picture read from a file: floats in [0, 1], colours multiplied by their alpha.
+struct DecodedImage {
+  int width = 0;
+  int height = 0;
+  int channels = 0;
+  std::vector<float> values;
+};
+
+/// The size in bytes of the pixels alone, not compressed.
+std::size_t pixel_bytes(const ImageToEncode& image);
+
+/// What the module gives. Both throw std::runtime_error with OpenImageIO's words.
+class ImageCodec {
+ public:
+  virtual ~ImageCodec() = default;
+  /// The bytes of the file; of TIFF none, they are in ImageToEncode::file.
+  virtual std::vector<std::uint8_t> encode(const ImageToEncode& image) const = 0;
+  virtual DecodedImage decode(const std::string& path) const = 0;
+};
+
+/// Loads the module at the first call; from any thread. Throws Error where it is missing.
+const ImageCodec& image_codec();
+
+}  // namespace meniscus

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The module that speaks OpenImageIO: one function is seen from outside.
+#include <cstddef>
+#include <stdexcept>
+#include <string_view>
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imagebuf.h>
+#include <OpenImageIO/imageio.h>
+
+#include "core/image/image_codec.h"
+
+namespace meniscus {
+namespace {
+
+OIIO::ImageSpec spec_of(const ImageToEncode& image) {
+  const auto type = image.sample == SampleType::float32  ? OIIO::TypeDesc::FLOAT
+                    : image.sample == SampleType::uint16 ? OIIO::TypeDesc::UINT16
+                                                         : OIIO::TypeDesc::UINT8;
+  OIIO::ImageSpec spec(image.width, image.height, static_cast<int>(image.channels.size()), type);
+  spec.channelnames = image.channels;
+  spec.alpha_channel = image.alpha_channel;
+  spec.z_channel = image.depth_channel;
+  spec.attribute("oiio:ColorSpace", image.color_space);
+  if (image.unassociated_alpha) spec.attribute("oiio:UnassociatedAlpha", 1);
+  if (!image.compression.empty()) spec.attribute("compression", image.compression);
+  if (image.png_level >= 0) spec.attribute("png:compressionLevel", image.png_level);
+  if (!image.software.empty()) spec.attribute("Software", image.software);
+  return spec;
+}
+
+/// To a file of this name, or wherever `output` was told to.
+void write(OIIO::ImageOutput* output, const std::string& name, const ImageToEncode& image) {
+  if (!output) throw std::runtime_error(OIIO::geterror());
+  const auto check = [&](bool done) {
+    if (!done) throw std::runtime_error(output->geterror());
+  };
+  check(output->open(name, spec_of(image)));
+  check(image.floats.empty() ? output->write_image(OIIO::TypeDesc::UINT8, image.bytes.data(), image.byte_stride)
+                             : output->write_image(OIIO::TypeDesc::FLOAT, image.floats.data()));
+  check(output->close());
+}
+
+class OpenImageIOCodec final : public ImageCodec {
+ public:
+  std::vector<std::uint8_t> encode(const ImageToEncode& image) const override {
+    std::vector<std::uint8_t> bytes;
+    if (!image.file.empty()) {
+      write(OIIO::ImageOutput::create(image.format).get(), image.file, image);
+      return bytes;
+    }
+    const std::string name = "picture." + image.format;
+    OIIO::Filesystem::IOVecOutput sink(bytes);
+    write(OIIO::ImageOutput::create(name, &sink).get(), name, image);
+    return bytes;
+  }
+
+  DecodedImage decode(const std::string& path) const override {
+    OIIO::ImageBuf picture(path);
+    DecodedImage decoded;
+    if (picture.read(0, 0, true, OIIO::TypeDesc::FLOAT)) {
+      const OIIO::ImageSpec& spec = picture.spec();
+      decoded = {spec.width, spec.height, spec.nchannels, {}};
+      decoded.values.resize(spec.image_pixels() * static_cast<std::size_t>(spec.nchannels));
+    }
+    if (decoded.values.empty() || !picture.get_pixels(OIIO::ROI::All(), OIIO::TypeDesc::FLOAT, decoded.values.data()))
+      throw std::runtime_error(picture.geterror());
+    return decoded;
+  }
+};
+
+}  // namespace
+}  // namespace meniscus
+
+// Nothing for a program that was built with another idea of what passes between them.
+extern "C" __attribute__((visibility("default"))) const meniscus::ImageCodec* meniscus_image_codec(
+    const char* version, std::size_t image_size) {
+  static const meniscus::OpenImageIOCodec codec;
+  return version == std::string_view(MENISCUS_VERSION) && image_size == sizeof(meniscus::ImageToEncode) ? &codec
+                                                                                                        : nullptr;
+}
