@@ -8,10 +8,12 @@
 #include <numeric>
 #include <utility>
 
+#include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include "core/base/error.h"
 #include "core/surface/measure.h"
 #include "core/surface/spherical.h"
 
@@ -76,17 +78,21 @@ class AreaDivider {
     std::vector<double> share(s_.contacts.size(), 0.0);
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, s_.concave.size(), 64), [&](const auto& range) {
       for (std::size_t n = range.begin(); n != range.end(); ++n)
-        std::ranges::copy(divide(s_.concave[n]), share.begin() + s_.concave[n].first_contact);
+        std::ranges::copy(divide(s_.concave[n], Cuts::shown), share.begin() + s_.concave[n].first_contact);
     });
     for (std::size_t n = 0; n < share.size(); ++n) areas_.surface[s_.contacts[n]] += share[n];
+    require_sum();
     return std::move(areas_);
   }
 
   // The cell of a contact holds the points of the sphere that no other contact is nearer to. Its border consists of
   // parts of the patch's borders and of the bisectors. A cell never holds the antipode of its own contact, which any
   // other contact is nearer to: so the contact serves as the pole of the integral.
-  // Returns Å² by contact.
-  std::vector<double> divide(const ConcavePatch& patch) const {
+  // Returns Å² by contact. A probe that does no more than touch the patch cuts nothing of it, but the plane towards it
+  // may take a hair from a bisector, which no border makes up for: so cells are cut by planes that show as borders.
+  // What planes and borders disagree about is asked with all of them.
+  enum class Cuts { shown, all };
+  std::vector<double> divide(const ConcavePatch& patch, Cuts cuts) const {
     std::vector<double> area(patch.contact_count, 0.0);
     if (patch.face_count == 0) return area;
     std::vector<glm::dvec3> contacts;
@@ -94,8 +100,9 @@ class AreaDivider {
       contacts.push_back(glm::normalize(s_.atoms[s_.contacts[patch.first_contact + n]].center - patch.center));
     for (std::uint32_t f = patch.first_face; f < patch.first_face + patch.face_count; ++f)
       add_borders(s_.faces[f], patch.center, contacts, area);
+    const std::vector<std::uint32_t> planes = planes_of(patch, cuts);
     for (std::uint32_t k = 1; k < contacts.size(); ++k)
-      for (std::uint32_t j = 0; j < k; ++j) add_bisector(patch, contacts, j, k, area);
+      for (std::uint32_t j = 0; j < k; ++j) add_bisector(patch, planes, contacts, j, k, area);
     for (double& share : area) share = share * s_.probe_radius * s_.probe_radius;
     return area;
   }
@@ -140,14 +147,55 @@ class AreaDivider {
       }
   }
 
+  // Whoever computed the faces: what is divided among the atoms is all of it.
+  void require_sum() const {
+    const double sum = std::accumulate(areas_.surface.begin(), areas_.surface.end(), 0.0);
+    const double noise = 1e-6 * (1 + s_.area);
+    const auto least = std::ranges::min_element(areas_.surface);
+    if (std::abs(sum - s_.area) <= noise && (least == areas_.surface.end() || *least >= -noise)) return;
+    throw OpenSurfaceError(
+        fmt::format("the areas of atoms, {} Å² in sum and {} Å² the least, do not make up the surface's {} Å²; nothing "
+                    "was written; "
+                    "please report this structure",
+                    sum, *least, s_.area));
+  }
+
+  std::vector<std::uint32_t> planes_of(const ConcavePatch& patch, Cuts cuts) const {
+    std::vector<std::uint32_t> planes(patch.plane_count());
+    std::iota(planes.begin(), planes.end(), patch.first_plane);
+    if (cuts == Cuts::all || patch.cut_count == 0) return planes;
+    const std::vector<std::uint32_t> beyond = probes_beyond_cusps(patch);
+    std::erase_if(planes, [&](std::uint32_t plane) {
+      const std::uint32_t n = plane - patch.first_plane;
+      if (n < patch.side_count || n >= patch.side_count + patch.cut_count) return false;
+      const std::uint32_t cut = s_.cuts[patch.first_cut + n - patch.side_count];
+      return cut != kNone && std::ranges::find(beyond, cut) == beyond.end();
+    });
+    return planes;
+  }
+
+  std::vector<std::uint32_t> probes_beyond_cusps(const ConcavePatch& patch) const {
+    std::vector<std::uint32_t> probes;
+    for (std::uint32_t f = patch.first_face; f < patch.first_face + patch.face_count; ++f)
+      for (std::uint32_t l = s_.faces[f].first_loop; l < s_.faces[f].first_loop + s_.faces[f].loop_count; ++l)
+        for (std::uint32_t n = 0; n < s_.loops[l].half_border_count; ++n) {
+          const Border& border = s_.borders[s_.half_borders[s_.loops[l].first_half_border + n] / 2];
+          if (border.kind != BorderKind::cusp) continue;
+          for (const std::uint32_t face : border.face)
+            if (face != kNone) probes.push_back(s_.faces[face].patch);
+        }
+    return probes;
+  }
+
   // Counter-clockwise about its axis the bisector has the cell of k on its left, that of j on its right.
-  void add_bisector(const ConcavePatch& patch, const std::vector<glm::dvec3>& contacts, std::size_t j, std::size_t k,
+  void add_bisector(const ConcavePatch& patch, const std::vector<std::uint32_t>& planes,
+                    const std::vector<glm::dvec3>& contacts, std::size_t j, std::size_t k,
                     std::vector<double>& area) const {
     const SphereCircle circle = great_circle(glm::normalize(contacts[k] - contacts[j]));
     Intervals common(kTurn);
     for (std::size_t other = 0; other < contacts.size(); ++other)
       if (other != j && other != k) common.keep(circle, contacts[other] - contacts[k], 0.0);
-    for (std::uint32_t n = patch.first_plane; n < patch.first_plane + patch.plane_count(); ++n) {
+    for (const std::uint32_t n : planes) {
       const Plane& plane = s_.planes[n];
       common.keep(circle, plane.normal, (plane.offset - glm::dot(plane.normal, patch.center)) / s_.probe_radius);
     }
@@ -166,7 +214,7 @@ class AreaDivider {
 AtomAreas atom_areas(const Surface& surface) { return AreaDivider(surface).run(); }
 
 double divided_area(const Surface& surface, const ConcavePatch& patch) {
-  const std::vector<double> shares = AreaDivider(surface).divide(patch);
+  const std::vector<double> shares = AreaDivider(surface).divide(patch, AreaDivider::Cuts::all);
   return std::accumulate(shares.begin(), shares.end(), 0.0);
 }
 

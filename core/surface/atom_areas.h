@@ -19,7 +19,8 @@ struct AtomAreas {
   std::vector<double> accessible;
 };
 
-/// Needs the surface's faces measured. Runs on all cores TBB may use; the result does not depend on their number.
+/// Needs the surface's faces measured. Throws OpenSurfaceError if the areas do not add up to the surface's, or one is
+/// negative, by more than a millionth. Runs on all cores TBB may use; the result does not depend on their number.
 AtomAreas atom_areas(const Surface& surface);
 
 /// Å²: the sum of what the atoms that a re-entrant patch touches get of it. It comes from integrals along the patch's

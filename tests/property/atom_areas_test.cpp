@@ -11,6 +11,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "core/base/error.h"
 #include "core/surface/surface.h"
 #include "tests/support/molecules.h"
 #include "tests/support/patch_samples.h"
@@ -71,6 +72,16 @@ TEST(AtomAreas, SumUpToTheWholeSurface) {
     const GasCase gas = gas_case(n);
     expect_sum(compute_surface_cpu(gas.balls, gas.probe_radius));
   }
+}
+
+TEST(AtomAreas, ThatDoNotAddUpAreRefused) {
+  Surface s = compute_surface_cpu(ubiquitin(), 1.4);
+  s.area *= 1 + 1e-5;
+  EXPECT_THROW(atom_areas(s), OpenSurfaceError);
+  s = compute_surface_cpu(ubiquitin(), 1.4);
+  s.faces[s.convex[3].first_face].area -= 100;
+  s.area -= 100;
+  EXPECT_THROW(atom_areas(s), OpenSurfaceError) << "an atom has a negative area";
 }
 
 TEST(AtomAreas, AccessibleAreaIsThatOfTheUnionOfGrownBalls) {
