@@ -21,6 +21,7 @@ namespace meniscus {
 namespace {
 
 constexpr double kTurn = 2 * std::numbers::pi;
+constexpr double kTouching = 1 - 5e-9;  // of the probe radius; the cap beyond such a plane is 1e-4 radian wide
 
 /// The great circle around a unit axis.
 SphereCircle great_circle(const glm::dvec3& axis) {
@@ -78,7 +79,7 @@ class AreaDivider {
     std::vector<double> share(s_.contacts.size(), 0.0);
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, s_.concave.size(), 64), [&](const auto& range) {
       for (std::size_t n = range.begin(); n != range.end(); ++n)
-        std::ranges::copy(divide(s_.concave[n], Cuts::shown), share.begin() + s_.concave[n].first_contact);
+        std::ranges::copy(divide(s_.concave[n], Cuts::beyond_touching), share.begin() + s_.concave[n].first_contact);
     });
     for (std::size_t n = 0; n < share.size(); ++n) areas_.surface[s_.contacts[n]] += share[n];
     require_sum();
@@ -88,10 +89,10 @@ class AreaDivider {
   // The cell of a contact holds the points of the sphere that no other contact is nearer to. Its border consists of
   // parts of the patch's borders and of the bisectors. A cell never holds the antipode of its own contact, which any
   // other contact is nearer to: so the contact serves as the pole of the integral.
-  // Returns Å² by contact. A probe that does no more than touch the patch cuts nothing of it, but the plane towards it
-  // may take a hair from a bisector, which no border makes up for: so cells are cut by planes that show as borders.
-  // What planes and borders disagree about is asked with all of them.
-  enum class Cuts { shown, all };
+  // Returns Å² by contact. A probe that does no more than touch the sphere cuts nothing of it, but the plane towards it
+  // may take a hair from a bisector, which no border makes up for: such planes are left out. What planes and borders
+  // disagree about is asked with all of them.
+  enum class Cuts { beyond_touching, all };
   std::vector<double> divide(const ConcavePatch& patch, Cuts cuts) const {
     std::vector<double> area(patch.contact_count, 0.0);
     if (patch.face_count == 0) return area;
@@ -168,6 +169,8 @@ class AreaDivider {
     std::erase_if(planes, [&](std::uint32_t plane) {
       const std::uint32_t n = plane - patch.first_plane;
       if (n < patch.side_count || n >= patch.side_count + patch.cut_count) return false;
+      if (s_.planes[plane].offset - glm::dot(s_.planes[plane].normal, patch.center) < kTouching * s_.probe_radius)
+        return false;
       const std::uint32_t cut = s_.cuts[patch.first_cut + n - patch.side_count];
       return cut != kNone && std::ranges::find(beyond, cut) == beyond.end();
     });

@@ -23,12 +23,13 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr double kRounding = 1e-9;  // of a solid angle
 constexpr double kMisfit = 1e-9;    // of a loop, beyond which its turning is not trusted
+constexpr double kShort = 1e-6;  // of an arc, radian on the sphere: the way that corners turn hangs on next to nothing
 
 struct FaceIntegrals {
   double area = 0.0;      // Å²
   double flux = 0.0;      // integral of x·n, Å³; a third of it is the face's share of the volume
   bool doubtful = false;  // corners are blurred: the area was integrated about a pole
-  bool disputed = false;  // and Gauss-Bonnet gives another one
+  bool disputed = false;  // the two closed forms give different areas
 };
 
 class Measurement {
@@ -86,13 +87,14 @@ class Measurement {
 
   FaceIntegrals measure_spherical(const Face& face, const glm::dvec3& center, double radius, bool seen_from_inside,
                                   std::vector<SphereArc>& loop) const {
-    double area = 4 * kPi, misfit = 0;
+    double area = 4 * kPi, misfit = 0, shortest = 1;
     glm::dvec3 moment(0.0);
     for (std::uint32_t l = face.first_loop; l < face.first_loop + face.loop_count; ++l) {
       walk_loop(s_, s_.loops[l], center, radius, seen_from_inside, loop);
       area += area_left_of(loop) - 4 * kPi;
       moment += moment_left_of(loop);
       misfit = std::max(misfit, misfit_of(loop));
+      shortest = std::min(shortest, shortest_of(loop));
     }
     FaceIntegrals integrals;
     if (misfit > kMisfit) {
@@ -100,6 +102,9 @@ class Measurement {
       area = area_about_pole(face, center, radius, seen_from_inside, loop);
       integrals.doubtful = true;
       integrals.disputed = !(std::abs(area - turned) <= 1e-5 + 8 * misfit);
+    } else if (shortest < kShort) {
+      integrals.disputed =
+          !(std::abs(area - area_about_pole(face, center, radius, seen_from_inside, loop)) <= 1e-5 + 8 * kShort);
     }
     // What rounding and blurred corners may have taken from nothing or added to everything.
     const double blur = kRounding + 8 * misfit;

@@ -24,7 +24,7 @@ glm::dvec3 rotated(const SphereArc& arc, double angle) {
 glm::dvec3 tangent(const SphereArc& arc, const glm::dvec3& point) {
   const glm::dvec3 t = glm::cross(arc.axis, point);
   const double length = glm::length(t);
-  return length > 0 ? t * ((arc.sweep < 0 ? -1.0 : 1.0) / length) : t;
+  return length > 0 ? t * ((arc.clockwise() ? -1.0 : 1.0) / length) : t;
 }
 
 // The point of the arc's whole circle that is nearest to a point of the sphere.
@@ -38,7 +38,7 @@ glm::dvec3 nearest_of_circle(const SphereArc& arc, const glm::dvec3& point) {
 bool on_sweep(const SphereArc& arc, const glm::dvec3& point) {
   const glm::dvec3 e = arc.from - arc.axis * arc.height, f = point - arc.axis * arc.height;
   double angle = std::atan2(glm::dot(arc.axis, glm::cross(e, f)), glm::dot(e, f));
-  if (arc.sweep < 0) angle = -angle;
+  if (arc.clockwise()) angle = -angle;
   if (angle < 0) angle += 2 * kPi;
   return angle < std::abs(arc.sweep);
 }
@@ -74,7 +74,7 @@ void walk_loop(const Surface& surface, const Loop& loop, const glm::dvec3& cente
 double area_left_of(std::span<const SphereArc> loop) {
   // The curvature of a circle at height h, walked counter-clockwise, integrates to h times the angle.
   if (loop.size() == 1 && loop[0].whole)
-    return 2 * kPi * (1 - std::clamp(loop[0].height, -1.0, 1.0) * (loop[0].sweep < 0 ? -1 : 1));
+    return 2 * kPi * (1 - std::clamp(loop[0].height, -1.0, 1.0) * (loop[0].clockwise() ? -1 : 1));
   double turning = 0;
   for (std::size_t n = 0; n < loop.size(); ++n) {
     const SphereArc& arc = loop[n];
@@ -100,8 +100,16 @@ double misfit_of(std::span<const SphereArc> loop) {
   return std::sqrt(worst);
 }
 
+double shortest_of(std::span<const SphereArc> loop) {
+  double shortest = 1;
+  for (const SphereArc& arc : loop)
+    if (!arc.whole)
+      shortest = std::min(shortest, std::abs(arc.sweep) * std::sqrt(std::max(0.0, 1 - arc.height * arc.height)));
+  return shortest;
+}
+
 SphereCircle circle_of(const SphereArc& arc) {
-  const double sign = arc.sweep < 0 ? -1 : 1;
+  const double sign = arc.clockwise() ? -1 : 1;
   const glm::dvec3 x = arc.from - arc.height * arc.axis;
   return {sign * arc.axis, sign * arc.height, x, sign * glm::cross(arc.axis, x)};
 }
@@ -153,7 +161,7 @@ double distance_left_of(const glm::dvec3& point, std::span<const SphereArc> loop
     if (arc.whole || on_sweep(arc, on_arc)) {
       if (const double cosine = glm::dot(on_arc, point); cosine > nearest) {
         nearest = cosine;
-        left = (glm::dot(arc.axis, point) > arc.height) == (arc.sweep > 0);
+        left = (glm::dot(arc.axis, point) > arc.height) == !arc.clockwise();
       }
     }
     if (arc.whole) continue;

@@ -2,6 +2,7 @@
 // Regions on a sphere bounded by circular arcs: area, first moment, and which loops bound the same region.
 #pragma once
 
+#include <cmath>
 #include <span>
 #include <vector>
 
@@ -10,7 +11,8 @@
 namespace meniscus {
 
 /// One step of a loop on the unit sphere: an arc of the circle dot(axis, u) = height, counter-clockwise about the axis
-/// when sweep > 0, clockwise when sweep < 0, from the point `from` to the point `to`.
+/// unless the sweep has a negative sign, from the point `from` to the point `to`. A sweep of 0 has a sign, too: an arc
+/// without length still has a direction, which the corners on both sides of it need.
 struct SphereArc {
   glm::dvec3 axis{0.0};
   double height = 0.0;
@@ -18,6 +20,8 @@ struct SphereArc {
   glm::dvec3 to{0.0};
   double sweep = 0.0;
   bool whole = false;  ///< a whole circle without vertices
+
+  bool clockwise() const { return std::signbit(sweep); }
 };
 
 /// A half-border as a step on the unit sphere around `center` of radius `radius`. Faces seen from the sphere's inside
@@ -37,6 +41,9 @@ double area_left_of(std::span<const SphereArc> loop);
 /// the beginning of the next, over the smaller radius of the two. The turning at that corner is wrong by so many
 /// radians: rounding, as a rule, but anything where a tie was decided for spheres that differ by more than the circle.
 double misfit_of(std::span<const SphereArc> loop);
+
+/// Length of the shortest arc that has ends, radian; at most 1.
+double shortest_of(std::span<const SphereArc> loop);
 
 /// A circle of the unit sphere, or the beginning of one: height*axis + cos t * x + sin t * y, counter-clockwise about
 /// the axis; |x| = |y| = its radius.

@@ -123,6 +123,22 @@ TEST(Area, OfATinyCapWithABlurredCorner) {
   EXPECT_NEAR(area_swept_from({0.6, 0, 0.8}, loop), kPi * size * size, 1e-6);
 }
 
+// Two circles that touch in a point, and an arc without length of the second: walked either way it adds no turning.
+// (Its direction was lost with the sign of its sweep, and the area was off by half a sphere.)
+TEST(Area, OfACapWithAnArcWithoutLength) {
+  const double size = 0.9, small = 0.4;
+  const glm::dvec3 touching(std::sin(size), 0, std::cos(size)), wide(0, 0, 1);
+  const glm::dvec3 narrow(std::sin(size - small), 0, std::cos(size - small));
+  const double cap = 2 * kPi * (1 - std::cos(size));
+  for (const double sign : {1.0, -1.0}) {
+    const std::vector<SphereArc> loop{{wide, std::cos(size), touching, touching, sign * 2 * kPi, false},
+                                      {narrow, std::cos(small), touching, touching, sign * 0.0, false}};
+    EXPECT_NEAR(area_left_of(loop), sign > 0 ? cap : 4 * kPi - cap, 1e-12) << sign;
+    EXPECT_EQ(shortest_of(loop), 0.0);
+    EXPECT_NEAR(area_swept_from(sign * wide, loop), sign > 0 ? cap : 4 * kPi - cap, 1e-12);
+  }
+}
+
 TEST(Area, OfCapsSweptFromAnyPole) {
   std::mt19937 random(5);
   for (const double height : {-0.999999999, -0.3, 0.0, 0.7, 0.999999999})
