@@ -100,13 +100,25 @@ class Check {
     if (!oracle_) {
       Balls grown;
       const std::vector<bool> swallowed = swallowed_atoms(s_.atoms);
-      for (std::size_t a = 0; a < s_.atoms.size(); ++a)
-        if (!swallowed[a])
-          grown.push_back({s_.atoms[a].center,
-                           std::sqrt(decision_weight(s_.atoms[a].radius + s_.probe_radius, a)) - s_.probe_radius});
+      for (std::uint32_t a = 0; a < s_.atoms.size(); ++a) {
+        if (swallowed[a]) continue;
+        const double extended = std::sqrt(decision_weight(s_.atoms[a].radius + s_.probe_radius, a));
+        grown.push_back({s_.atoms[a].center, extended - s_.probe_radius});
+        asked_.push_back(a);
+      }
       oracle_.emplace(grown, s_.probe_radius, 0.01);
     }
     return *oracle_;
+  }
+
+  // Two probes that are next to each other are as far from a point but for the square of the way between them. So a
+  // point that is on the surface belongs to a patch only if the probe at it touches that patch's atoms.
+  bool is_of(const NearestProbe& probe, PatchKind kind, std::uint32_t patch) const {
+    if (s_.probe_radius == 0) return true;
+    if (probe.kind != kind) return false;
+    if (kind == PatchKind::toroidal)
+      return asked_[probe.atom[0]] == s_.toroidal[patch].atom[0] && asked_[probe.atom[1]] == s_.toroidal[patch].atom[1];
+    return kind == PatchKind::concave || asked_[probe.atom[0]] == s_.convex[patch].atom;
   }
 
   std::string points() {
@@ -125,7 +137,7 @@ class Check {
         // Where spheres touch, growth moves a probe by its square root.
         if (sample.inside && std::abs(off) > 2e-3 * (1 + s_.probe_radius))
           return fmt::format("a point of {} patch {} is {} off the surface", name_of(kind), patch, off);
-        if (!sample.inside && sample.clearance > 0.05 && std::abs(off) < 1e-9 && probe.kind == kind)
+        if (!sample.inside && sample.clearance > 0.05 && std::abs(off) < 1e-9 && is_of(probe, kind, patch))
           return fmt::format("{} patch {} lacks a point of the surface", name_of(kind), patch);
       }
     }
@@ -149,6 +161,7 @@ class Check {
   std::mt19937 random_;
   int effort_;
   std::optional<SphereTracer> oracle_;
+  std::vector<std::uint32_t> asked_;  // the atoms that the oracle knows, by its indices
 };
 
 }  // namespace
