@@ -34,7 +34,7 @@ Frame read_or_warn(Trajectory& trajectory, std::uint64_t number) {
   try {
     trajectory.read(number, frame);
   } catch (const InputError& error) {
-    fmt::print(std::cerr, "meniscus: warning: {}\n", error.what());
+    fmt::print(std::cerr, "meniscus: warning: {}\n", escaped(error.what()));
   }
   return frame;
 }

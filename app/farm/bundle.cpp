@@ -26,6 +26,7 @@ constexpr std::uint64_t kMostChunks = 1000;         // Slurm's MaxArraySize is 1
 constexpr std::uint64_t kMostFrames = 100'000'000;  // a manifest that asks for more is damaged
 constexpr std::uint64_t kLargestSide = 65'535;
 constexpr std::uint64_t kAnyNumber = ~std::uint64_t{0};
+constexpr std::size_t kLongestShown = 200;                 // bytes of a value in a message
 constexpr std::size_t kMostBytes = std::size_t{64} << 20;  // of a manifest
 constexpr const char* kMakers[] = {"meniscus", "povray", "blender"};
 
@@ -40,7 +41,8 @@ Maker maker_of(const std::string& word) {
 // A whole number; the library would make any number one.
 std::uint64_t whole_number(const Json& json, std::uint64_t most) {
   if (!json.is_number_unsigned() || json.get<std::uint64_t>() > most)
-    throw RequestError(fmt::format("is damaged: {} is no whole number up to {}", json.dump(), most));
+    throw RequestError(
+        fmt::format("is damaged: {} is no whole number up to {}", shortened(json.dump(), kLongestShown), most));
   return json.get<std::uint64_t>();
 }
 
@@ -101,7 +103,7 @@ Bundle from_json(const Json& json) {
   if (json.at("schema") != "meniscus-farm-bundle") throw RequestError("is no bundle of a farm");
   if (json.at("schema_version") != kSchemaVersion)
     throw RequestError(fmt::format("has schema version {}; this program reads {}: use the program of version {}",
-                                   json.at("schema_version").dump(), kSchemaVersion,
+                                   shortened(json.at("schema_version").dump(), kLongestShown), kSchemaVersion,
                                    in_quotes(json.value("program_version", "?"))));
   Bundle bundle;
   bundle.program_version = json.at("program_version").get<std::string>();
@@ -175,7 +177,7 @@ Bundle read_bundle(const std::filesystem::path& folder) {
     if (is_nested_too_deep(*text)) throw RequestError("is damaged: it is nested too deep");
     return from_json(Json::parse(*text));
   } catch (const nlohmann::json::exception& error) {
-    throw InputError(path, 0, fmt::format("is damaged: {}", error.what()));
+    throw InputError(path, 0, "is damaged: " + shortened(error.what(), kLongestShown));
   } catch (const RequestError& error) {
     throw InputError(path, 0, error.what());
   }

@@ -15,9 +15,7 @@ namespace {
 /// A value as it may stand in a message: short, and in one line.
 std::string shown(const nlohmann::json& value) {
   constexpr std::size_t kLongest = 60;
-  std::string text = value.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
-  if (text.size() > kLongest) text = text.substr(0, kLongest) + "...";
-  return text;
+  return shortened(value.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace), kLongest);
 }
 
 }  // namespace
@@ -29,7 +27,7 @@ CommandReader::CommandReader(const nlohmann::json& command) : command_(command) 
 void CommandReader::expect_only(std::span<const std::string_view> keys) const {
   for (const auto& [key, value] : command_.items()) {
     if (key == "command" || std::ranges::find(keys, key) != keys.end()) continue;
-    throw RequestError(fmt::format("{}: unknown key {}; {}", word(), in_quotes(key),
+    throw RequestError(fmt::format("{}: unknown key {}; {}", shown_word(), in_quotes(key),
                                    keys.empty() ? "it takes none" : fmt::format("it takes {}", fmt::join(keys, ", "))));
   }
 }
@@ -38,7 +36,7 @@ const nlohmann::json& CommandReader::value(const char* key) const {
   const auto found = command_.find(key);
   if (found != command_.end()) return *found;
   if (std::string_view(key) == "command") throw RequestError("\"command\" is missing, the word that says what to do");
-  throw RequestError(fmt::format("{}: \"{}\" is missing", word(), key));
+  throw RequestError(fmt::format("{}: \"{}\" is missing", shown_word(), key));
 }
 
 double CommandReader::number(const char* key, double lowest, double highest) const {
@@ -71,10 +69,15 @@ std::size_t CommandReader::choice(const char* key, std::initializer_list<std::st
   return static_cast<std::size_t>(found - words.begin());
 }
 
+std::string CommandReader::shown_word() const {
+  constexpr std::size_t kLongest = 40;
+  return shortened(word(), kLongest);
+}
+
 void CommandReader::fail(const char* key, const std::string& wanted) const {
   const bool named = std::string_view(key) != "command";
   throw RequestError(
-      fmt::format("{}\"{}\" is {}; it must be {}", named ? word() + ": " : "", key, shown(value(key)), wanted));
+      fmt::format("{}\"{}\" is {}; it must be {}", named ? shown_word() + ": " : "", key, shown(value(key)), wanted));
 }
 
 }  // namespace meniscus

@@ -41,6 +41,7 @@ class CommandReader {
   bool flag_or(bool other, const char* key) const { return has(key) ? flag(key) : other; }
 
  private:
+  std::string shown_word() const;  // as it may stand in a message
   [[noreturn]] void fail(const char* key, const std::string& wanted) const;
 
   const nlohmann::json& command_;

@@ -9,21 +9,29 @@
 namespace meniscus {
 
 std::string escaped(std::string_view text) {
+  const auto byte_at = [&](std::size_t n) { return n < text.size() ? static_cast<unsigned char>(text[n]) : 0x20U; };
   std::string result;
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
+  for (std::size_t n = 0; n < text.size(); ++n) {
+    const unsigned byte = byte_at(n), next = byte_at(n + 1);
     if (byte < 0x20 || byte == 0x7f) {
       result += fmt::format("\\x{:02x}", byte);
+    } else if (byte == 0xc2 && next >= 0x80 && next < 0xa0) {
+      result += fmt::format("\\x{:02x}\\x{:02x}", byte, next);
+      ++n;
     } else {
-      result += c;
+      result += text[n];
     }
   }
   return result;
 }
 
+std::string shortened(std::string_view text, std::size_t bytes) {
+  return escaped(text.substr(0, bytes)) + (text.size() > bytes ? "..." : "");
+}
+
 std::string in_quotes(std::string_view text) {
   constexpr std::size_t kLongest = 40;
-  return fmt::format("'{}{}'", escaped(text.substr(0, kLongest)), text.size() > kLongest ? "..." : "");
+  return fmt::format("'{}'", shortened(text, kLongest));
 }
 
 std::string wrapped(std::string_view text, std::size_t width, std::size_t indent) {
@@ -60,9 +68,10 @@ std::string with_thousands(std::uint64_t count) {
 std::string pointed_at(std::string_view text, std::size_t position) {
   constexpr std::size_t kBefore = 50, kAfter = 30;
   const auto continues = [&](std::size_t n) { return n < text.size() && (text[n] & 0xc0) == 0x80; };  // inside UTF-8
+  while (position > 0 && continues(position)) --position;  // a character is shown before the caret or above it
   std::size_t first = position > kBefore ? position - kBefore : 0;
   std::size_t last = std::min(text.size(), position + kAfter);
-  while (continues(first)) ++first;
+  while (first < position && continues(first)) ++first;
   while (continues(last)) ++last;
   const std::string before = fmt::format("{}{}", first > 0 ? "..." : "", escaped(text.substr(first, position - first)));
   const std::string after =

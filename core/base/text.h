@@ -8,8 +8,12 @@
 
 namespace meniscus {
 
-/// The text with control characters as \xNN, so that a foreign file cannot steer a terminal. UTF-8 passes.
+/// The text with control characters as \xNN, so that a foreign file cannot steer a terminal: those of ASCII, and U+0080
+/// to U+009F, which steer some terminals as well. All other UTF-8 passes.
 std::string escaped(std::string_view text);
+
+/// At most `bytes` bytes of the text, escaped, and "..." in place of the rest.
+std::string shortened(std::string_view text, std::size_t bytes);
 
 /// 'text' in quotes, escaped, at most 40 bytes of it.
 std::string in_quotes(std::string_view text);

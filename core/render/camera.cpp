@@ -25,8 +25,7 @@ using Json = nlohmann::ordered_json;
 /// A value as it may stand in a message: short, and without control characters.
 std::string shown(const Json& value) {
   constexpr std::size_t kLongest = 100;
-  const std::string text = value.dump();
-  return escaped(text.substr(0, kLongest)) + (text.size() > kLongest ? "..." : "");
+  return shortened(value.dump(), kLongest);
 }
 
 /// Values of one camera file, with complaints that name the key.

@@ -16,6 +16,13 @@ std::vector<Target>& list() {
   return all;
 }
 
+/// A control character of ASCII but the line end, or one of U+0080 to U+009F in UTF-8.
+bool begins_with_control(std::string_view text) {
+  const auto byte = static_cast<unsigned char>(text[0]);
+  if (byte == 0xc2 && text.size() > 1) return (static_cast<unsigned char>(text[1]) & 0xe0) == 0x80;
+  return (byte < 0x20 && byte != '\n') || byte == 0x7f;
+}
+
 }  // namespace
 
 std::span<const Target> targets() { return list(); }
@@ -32,8 +39,8 @@ void require(bool holds, const char* property) {
 void require_clear(const std::exception& error) {
   const std::string_view text = error.what();
   require(!text.empty(), "an error says what is wrong");
-  const bool steers = std::ranges::any_of(text, [](char c) { return (c >= 0 && c < 0x20 && c != '\n') || c == 0x7f; });
-  require(!steers, "an error holds no control characters");
+  for (std::size_t n = 0; n < text.size(); ++n)
+    require(!begins_with_control(text.substr(n)), "an error holds no control characters");
 }
 
 ScratchFile::ScratchFile(const std::string& name) {

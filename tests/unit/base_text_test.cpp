@@ -13,7 +13,21 @@ namespace {
 TEST(Text, EscapesWhatWouldSteerATerminal) {
   EXPECT_EQ(escaped("a\x1b[2Jb\nc\x7f"), "a\\x1b[2Jb\\x0ac\\x7f");
   EXPECT_EQ(escaped("1.4 Å"), "1.4 Å");
+  EXPECT_EQ(escaped("\u009b2J\u0080\u009f\u00a0\xc2"), "\\xc2\\x9b2J\\xc2\\x80\\xc2\\x9f\u00a0\xc2");
   EXPECT_EQ(in_quotes(std::string(41, 'x')), "'" + std::string(40, 'x') + "...'");
+}
+
+TEST(Text, ShortensBeforeItEscapes) {
+  EXPECT_EQ(shortened("a\x7f", 2), "a\\x7f");
+  EXPECT_EQ(shortened("a\x7f z", 2), "a\\x7f...");
+}
+
+TEST(Text, PointsAtCharactersNotIntoThem) {
+  EXPECT_EQ(pointed_at("Å = x", 5), "Å = x\n    ^");
+  EXPECT_EQ(pointed_at("aÅ", 2), "aÅ\n ^");
+  EXPECT_EQ(pointed_at("a\u009b", 2), "a\\xc2\\x9b\n ^");
+  const std::string middles(100, '\x80');
+  EXPECT_EQ(pointed_at(middles, 60), middles + "\n^");
 }
 
 TEST(Text, GroupsDigits) {
