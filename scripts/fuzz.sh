@@ -31,7 +31,10 @@ if ((${#built[@]} > 0)); then
   cmake --build build/fuzz -j "$jobs" --target "${built[@]}" >&2
 fi
 
-work=$(mktemp -d)
+# In memory where there is some: targets write a file an execution, and a disk would have most of them wait for it.
+base=/dev/shm
+[[ -d $base && -w $base ]] || base=${TMPDIR:-/tmp}
+work=$(mktemp -d -p "$base")
 trap 'rm -rf "$work"' EXIT
 export TMPDIR=$work
 export ASAN_OPTIONS=allocator_may_return_null=0:detect_leaks=1

@@ -186,34 +186,27 @@ RigidMotion operator*(const RigidMotion& a, const RigidMotion& b) {
   return {a.rotation * b.rotation, a(b.translation)};
 }
 
-std::vector<std::vector<std::string>> operator_products(std::string_view expression, const std::string& file) {
-  std::vector<std::vector<std::string>> products{{}};
+std::vector<std::vector<std::string>> operator_factors(std::string_view expression, const std::string& file) {
+  std::vector<std::vector<std::string>> lists;
+  std::size_t products = 1;
   std::string_view rest = trimmed(expression);
   if (rest.empty()) bad_expression(expression, file);
   while (!rest.empty()) {
-    std::vector<std::string> factors;
+    std::string_view list;
     if (rest.front() == '(') {
       const std::size_t close = rest.find(')');
       if (close == std::string_view::npos) bad_expression(expression, file);
-      factors = operator_list(rest.substr(1, close - 1), expression, file);
+      list = rest.substr(1, close - 1);
       rest = trimmed(rest.substr(close + 1));
     } else {
-      const std::size_t open = std::min(rest.find('('), rest.size());
-      factors = operator_list(rest.substr(0, open), expression, file);
-      rest = rest.substr(open);
+      list = rest.substr(0, rest.find('('));
+      rest.remove_prefix(list.size());
     }
-    if (products.size() * factors.size() > kMostOperators || products.front().size() == kMostFactors)
-      bad_expression(expression, file);
-    std::vector<std::vector<std::string>> longer;
-    for (const auto& product : products) {
-      for (const std::string& factor : factors) {
-        longer.push_back(product);
-        longer.back().push_back(factor);
-      }
-    }
-    products = std::move(longer);
+    lists.push_back(operator_list(list, expression, file));
+    products *= lists.back().size();
+    if (products > kMostOperators || lists.size() > kMostFactors) bad_expression(expression, file);
   }
-  return products;
+  return lists;
 }
 
 const Assembly& find_assembly(std::span<const Assembly> assemblies, const std::string& id, const std::string& file) {

@@ -31,10 +31,10 @@ RigidMotion rigid_motion(const std::array<std::array<double, 4>, 3>& rows, const
 /// First b, then a.
 RigidMotion operator*(const RigidMotion& a, const RigidMotion& b);
 
-/// The operator identifiers of "1", "1,2,5", "(1-60)", "P,1" or, for products, "(X0)(1-5)": each element is one
-/// product, its factors in the order written (the last is applied first).
+/// The operator identifiers of "1", "1,2,5", "(1-60)", "P,1": one list; of "(X0)(1-5)": one list a factor. A product
+/// takes one operator of each list, in the order written (the last is applied first).
 /// Throws InputError when the expression cannot be read, has more than kMostOperators products or 16 factors in one.
-std::vector<std::vector<std::string>> operator_products(std::string_view expression, const std::string& file);
+std::vector<std::vector<std::string>> operator_factors(std::string_view expression, const std::string& file);
 
 /// From REMARK 350 of a PDB file (wwPDB format 3.3). Throws InputError with the line of a broken or missing row.
 std::vector<Assembly> read_pdb_assemblies(const TextFile& file);

@@ -42,19 +42,30 @@ std::map<std::string, RigidMotion> operators_of(const TextFile& file, cif::Block
   return operators;
 }
 
-RigidMotion product_of(const std::vector<std::string>& names, const std::map<std::string, RigidMotion>& operators,
-                       const std::string& file) {
-  RigidMotion product;
-  for (const std::string& name : names) {
-    const auto found = operators.find(name);
-    if (found == operators.end()) {
-      throw InputError(
-          file, 0,
-          fmt::format("an assembly asks for operator {}, which _pdbx_struct_oper_list does not hold", in_quotes(name)));
+const RigidMotion& operator_named(const std::string& name, const std::map<std::string, RigidMotion>& operators,
+                                  const std::string& file) {
+  const auto found = operators.find(name);
+  if (found != operators.end()) return found->second;
+  throw InputError(
+      file, 0,
+      fmt::format("an assembly asks for operator {}, which _pdbx_struct_oper_list does not hold", in_quotes(name)));
+}
+
+/// All products of an expression, those of the last factor side by side. They share what they have in common.
+std::vector<RigidMotion> products_of(std::string_view expression, const std::map<std::string, RigidMotion>& operators,
+                                     const std::string& file) {
+  std::vector<RigidMotion> products(1);
+  for (const std::vector<std::string>& names : operator_factors(expression, file)) {
+    std::vector<const RigidMotion*> factors;
+    for (const std::string& name : names) factors.push_back(&operator_named(name, operators, file));
+    std::vector<RigidMotion> longer;
+    longer.reserve(products.size() * factors.size());
+    for (const RigidMotion& product : products) {
+      for (const RigidMotion* factor : factors) longer.push_back(product * *factor);
     }
-    product = product * found->second;
+    products = std::move(longer);
   }
-  return product;
+  return products;
 }
 
 std::vector<std::string> split_at_commas(const std::string& list) {
@@ -97,13 +108,11 @@ std::vector<Assembly> read_mmcif_assemblies(const TextFile& file) {
       }
       AssemblyPart& part = assemblies.back().parts.emplace_back();
       part.chains = split_at_commas(row.str(2));
-      for (const auto& names : operator_products(row.str(1), file.path)) {
-        if (++motions > kMostMotions)
-          throw CapacityError(
-              fmt::format("{}: its assemblies have more than {} operators, more than this program reads", file.path,
-                          with_thousands(kMostMotions)));
-        part.motions.push_back(product_of(names, operators, file.path));
-      }
+      part.motions = products_of(row.str(1), operators, file.path);
+      motions += part.motions.size();
+      if (motions > kMostMotions)
+        throw CapacityError(fmt::format("{}: its assemblies have more than {} operators, more than this program reads",
+                                        file.path, with_thousands(kMostMotions)));
     }
   }
   return assemblies;

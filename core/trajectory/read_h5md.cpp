@@ -143,6 +143,7 @@ class H5md final : public Trajectory {
     H5Lunregister(H5L_TYPE_EXTERNAL);  // links to other files lead nowhere; it does not matter if they did so before
     const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
     H5Pset_file_locking(access, false, true);  // readers of one file must not wait for each other
+    H5Pset_sieve_buf_size(access, 0);  // after a read that failed, the library takes this buffer of zeros for the data
     file_ = Handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access), H5Fclose);
     if (!file_) throw InputError(path, 0, "is damaged or cut short: the HDF5 library cannot open it");
     choose_group();

@@ -76,9 +76,19 @@ TEST(Bombs, JsonInEveryTarget) {
 
 TEST(Bombs, OperatorsOfAssemblies) {
   const Bounds bounds;
-  EXPECT_THROW(operator_products(repeated("(1)", 300'000), "a.cif"), InputError);
-  EXPECT_THROW(operator_products(repeated("1-99999,", 10'000) + "1", "a.cif"), InputError);
-  EXPECT_EQ(operator_products("(1-99999)", "a.cif").size(), 99'999u);
+  EXPECT_THROW(operator_factors(repeated("(1)", 300'000), "a.cif"), InputError);
+  EXPECT_THROW(operator_factors(repeated("1-99999,", 10'000) + "1", "a.cif"), InputError);
+  EXPECT_EQ(operator_factors("(1-99999)", "a.cif").at(0).size(), 99'999u);
+}
+
+// The name belongs to every product, and is written once.
+TEST(Bombs, AnOperatorOfALongName) {
+  const Bounds bounds;
+  const std::string cif =
+      "data_x\nloop_\n_pdbx_struct_assembly_gen.assembly_id\n_pdbx_struct_assembly_gen.oper_expression\n"
+      "_pdbx_struct_assembly_gen.asym_id_list\n1 (" +
+      repeated("x", 1'000'000) + ")(1-300)(1-300) A\n";
+  EXPECT_THROW(read_mmcif_assemblies({"a.cif", cif}), InputError);
 }
 
 TEST(Bombs, AssembliesOfManyOperators) {

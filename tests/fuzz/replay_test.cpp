@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "app/farm/bundle.h"
 #include "tests/fuzz/target.h"
 
 namespace meniscus::fuzz {
@@ -42,6 +43,15 @@ TEST_P(FuzzReplay, SeedsAndCrashes) {
 
 INSTANTIATE_TEST_SUITE_P(Targets, FuzzReplay, testing::ValuesIn(targets().begin(), targets().end()),
                          [](const auto& target) { return std::string(target.param.name); });
+
+/// A key that bundles came to need would leave all that is read behind it to nobody.
+TEST(FuzzInputs, SeedsOfBundlesAreBundles) {
+  const ScratchFile scratch("bundle.json");
+  for (const fs::directory_entry& seed : fs::directory_iterator(fs::path(MENISCUS_FUZZ_INPUTS) / "seeds" / "bundle")) {
+    scratch.write(content_of(seed.path()));
+    EXPECT_NO_THROW(farm::read_bundle(scratch.folder())) << seed.path();
+  }
+}
 
 /// A folder that belongs to no target is replayed by nobody.
 TEST(FuzzInputs, BelongToTargets) {

@@ -118,16 +118,19 @@ TEST(Remark350, BrokenMatricesAreErrorsWithTheirLine) {
 }
 
 TEST(OperatorExpressions, AreListsRangesAndProducts) {
-  using Products = std::vector<std::vector<std::string>>;
-  EXPECT_EQ(operator_products("1", ""), (Products{{"1"}}));
-  EXPECT_EQ(operator_products("1,2,5", ""), (Products{{"1"}, {"2"}, {"5"}}));
-  EXPECT_EQ(operator_products("(1-3)", ""), (Products{{"1"}, {"2"}, {"3"}}));
-  EXPECT_EQ(operator_products("P,1-2", ""), (Products{{"P"}, {"1"}, {"2"}}));
-  EXPECT_EQ(operator_products("(X0)(1-2)", ""), (Products{{"X0", "1"}, {"X0", "2"}}));
-  EXPECT_EQ(operator_products("(1,2)(3-4)", ""), (Products{{"1", "3"}, {"1", "4"}, {"2", "3"}, {"2", "4"}}));
-  EXPECT_EQ(operator_products("(1-60)(61-88)", "").size(), 1680u);
+  using Factors = std::vector<std::vector<std::string>>;
+  EXPECT_EQ(operator_factors("1", ""), (Factors{{"1"}}));
+  EXPECT_EQ(operator_factors("1,2,5", ""), (Factors{{"1", "2", "5"}}));
+  EXPECT_EQ(operator_factors("(1-3)", ""), (Factors{{"1", "2", "3"}}));
+  EXPECT_EQ(operator_factors("P,1-2", ""), (Factors{{"P", "1", "2"}}));
+  EXPECT_EQ(operator_factors("(X0)(1-2)", ""), (Factors{{"X0"}, {"1", "2"}}));
+  EXPECT_EQ(operator_factors("(1,2) (3-4)", ""), (Factors{{"1", "2"}, {"3", "4"}}));
+  EXPECT_EQ(operator_factors("P(3-4)", ""), (Factors{{"P"}, {"3", "4"}}));
+  const Factors large = operator_factors("(1-60)(61-88)", "");
+  EXPECT_EQ(large.at(0).size(), 60u);
+  EXPECT_EQ(large.at(1).size(), 28u);
   for (const char* text : {"", "(1-60", "1,,2", "5-2", "(1-9999)(1-9999)", "1-99999999999999999999", "()"})
-    EXPECT_THROW(operator_products(text, "file"), InputError) << text;
+    EXPECT_THROW(operator_factors(text, "file"), InputError) << text;
 }
 
 TEST(Assembling, CopiesAtomsPartByPart) {

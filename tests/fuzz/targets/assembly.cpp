@@ -11,8 +11,11 @@ namespace {
 
 void check_expression(std::string_view text) {
   try {
-    const auto products = operator_products(text, "expression");
-    require(!products.empty() && products.size() <= kMostOperators, "there are products, and not too many");
+    std::size_t products = 1;
+    for (const std::vector<std::string>& list : operator_factors(text, "expression")) {
+      products *= list.size();
+      require(products >= 1 && products <= kMostOperators, "there are products, and not too many");
+    }
   } catch (const InputError& error) {
     require_clear(error);
   }
