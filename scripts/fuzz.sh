@@ -37,7 +37,9 @@ base=/dev/shm
 work=$(mktemp -d -p "$base")
 trap 'rm -rf "$work"' EXIT
 export TMPDIR=$work
-export ASAN_OPTIONS=allocator_may_return_null=0:detect_leaks=1
+# More than 1,000 MB at once is refused: C libraries then return an error as on a machine without memory, while for C++,
+# which is what our own code asks in, the run ends.
+export ASAN_OPTIONS=allocator_may_return_null=1:max_allocation_size_mb=1000:detect_leaks=1
 export UBSAN_OPTIONS=print_stacktrace=1
 limits=(-timeout=5 -rss_limit_mb=2048 -malloc_limit_mb=1024)
 
@@ -47,6 +49,8 @@ fuzz_one() {
   local kept=tests/fuzz/crashes/$1 inputs=(tests/fuzz/seeds/"$1") options=() failures=0
   mkdir -p "$corpus" "$found"
   [[ -d $kept ]] && inputs+=("$kept")
+  # HDF5 itself loses the header of an object that it cannot read; its target counts what was left open instead.
+  [[ $target != h5md ]] || export ASAN_OPTIONS=$ASAN_OPTIONS:detect_leaks=0
   [[ -f tests/fuzz/dictionaries/$target.dict ]] && options+=(-dict=tests/fuzz/dictionaries/"$target".dict)
   local status=0
   "$program" "${limits[@]}" "${options[@]}" -max_len=16384 -max_total_time="$seconds" -print_final_stats=1 -verbosity=0 \

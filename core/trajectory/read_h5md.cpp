@@ -77,11 +77,20 @@ bool is_elsewhere(hid_t set) {
   return H5Pget_external_count(creation) != 0 || H5Pget_layout(creation) == H5D_VIRTUAL;
 }
 
+/// Whether a value is a number such as processors know: for one of a damaged size the library would ask for any memory.
+bool is_number(const Handle& type) {
+  const H5T_class_t kind = H5Tget_class(type);
+  const std::size_t size = H5Tget_size(type);
+  return (kind == H5T_INTEGER || kind == H5T_FLOAT) && size >= 1 && size <= sizeof(long double);
+}
+
+/// None, if there is none at this path, or none of numbers that this file holds itself.
 Table table(hid_t place, const std::string& path) {
   Table result;
   if (!has(place, path)) return result;
   result.set = Handle(H5Dopen2(place, path.c_str(), H5P_DEFAULT), H5Dclose);
   if (!result.set || is_elsewhere(result.set)) return {};
+  if (!is_number(Handle(H5Dget_type(result.set), H5Tclose))) return {};
   const Handle space(H5Dget_space(result.set), H5Sclose);
   const int dimensions = H5Sget_simple_extent_ndims(space);
   if (dimensions > 0) {
@@ -226,6 +235,7 @@ class H5md final : public Trajectory {
     if (H5Aexists(from.set, "offset") > 0) {
       const Handle attribute(H5Aopen(from.set, "offset", H5P_DEFAULT), H5Aclose);
       const Handle space(H5Aget_space(attribute), H5Sclose);
+      if (!is_number(Handle(H5Aget_type(attribute), H5Tclose))) return std::nullopt;
       if (H5Sget_simple_extent_npoints(space) != 1 || H5Aread(attribute, type, &offset) < 0) return std::nullopt;
     }
     return sum_of(offset, number, frame);
