@@ -203,6 +203,13 @@ class Readers(unittest.TestCase):
                 write(file)
             self.assertNotEqual(subprocess.run([dump_program, str(path)], capture_output=True).returncode, 0, path)
 
+    def test_damaged_h5md_is_one_line(self):
+        """The library would say at the end of the process what it lost of a damaged file."""
+        kept = pathlib.Path(__file__).parent.parent / "fuzz" / "crashes" / "h5md"
+        for path in sorted(kept.iterdir()):
+            said = subprocess.run([dump_program, str(path)], capture_output=True, text=True).stderr
+            self.assertLessEqual(said.count("\n"), 1, f"{path}: {said}")
+
     def test_models_of_text(self):
         self.check(self.write("a.pdb", multiframe=True), boxes=False, times=False)
         self.check(self.write("a.xyz"), boxes=False, times=False)
