@@ -28,7 +28,7 @@ ExitCode say(ExitCode code, const std::string& message) {
 ExitCode say(const SelectionError& error) {
   std::istringstream picture(error.picture());
   std::string lines = escaped(error.sentence());
-  for (std::string line; std::getline(picture, line);) lines += "\n  " + escaped(line);
+  for (std::string line; std::getline(picture, line);) lines.append("\n  ").append(escaped(line));
   std::cerr << "meniscus: error: " << lines << std::endl;
   return kExitUsage;
 }
