@@ -3,17 +3,17 @@
 #include "core/base/output_file.h"
 
 #include <fcntl.h>
+#include <sched.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
-#include <chrono>
 #include <cstdio>
 #include <cstring>
-#include <mutex>
-#include <set>
+#include <ctime>
+#include <memory>
 #include <utility>
 
 #include <fmt/format.h>
@@ -61,38 +61,59 @@ void refuse_unsuitable_target(const fs::path& target, Existing existing) {
   if (existing == Existing::refuse) throw OutputError(target.string(), "exists already; use --force to replace it");
 }
 
-/// Temporary files of this process that have not got their final name, and folders made for them.
+/// Temporary files of this process that have not got their final name, and folders made for them, newest first. What
+/// is done under the lock needs no memory and no other lock, so that a signal handler may go through them.
 class Unfinished {
  public:
   void add(const fs::path& path) {
-    const std::lock_guard lock(mutex_);
-    paths_.insert(path);
+    auto entry = std::make_unique<Entry>(Entry{path, nullptr});
+    lock();
+    entry->older = newest_;
+    newest_ = entry.release();
+    unlock();
   }
-  void remove(const fs::path& path) {
-    const std::lock_guard lock(mutex_);
-    paths_.erase(path);
+  void remove(const fs::path& path) noexcept {
+    lock();
+    Entry** place = &newest_;
+    while (*place && (*place)->path.native() != path.native()) place = &(*place)->older;
+    const std::unique_ptr<Entry> found(*place);
+    if (found) *place = found->older;
+    unlock();
   }
-  void unlink_all() {
+  /// Files go before the folder they are in, for it is older; a folder that others use meanwhile stays.
+  void unlink_all() noexcept {
     // The program may be ending because of an error under this very lock.
-    const std::unique_lock lock(mutex_, std::chrono::seconds(1));
-    if (!lock) return;
-    // Backwards, so that files go before the folder they are in; a folder that others use meanwhile stays.
-    for (auto path = paths_.rbegin(); path != paths_.rend(); ++path) std::remove(path->c_str());
+    constexpr int kMostWaits = 1000;
+    for (int waits = 0; locked_.test_and_set(std::memory_order_acquire); ++waits) {
+      if (waits == kMostWaits) return;
+      const timespec millisecond{0, 1'000'000};
+      ::nanosleep(&millisecond, nullptr);
+    }
+    for (const Entry* entry = newest_; entry; entry = entry->older)
+      if (::unlink(entry->path.c_str()) != 0) ::rmdir(entry->path.c_str());
+    unlock();
   }
 
  private:
-  std::timed_mutex mutex_;
-  std::set<fs::path> paths_;
+  struct Entry {
+    fs::path path;
+    Entry* older;
+  };
+
+  void lock() noexcept {
+    while (locked_.test_and_set(std::memory_order_acquire)) ::sched_yield();
+  }
+  void unlock() noexcept { locked_.clear(std::memory_order_release); }
+
+  std::atomic_flag locked_;
+  Entry* newest_ = nullptr;
 };
 
-Unfinished& unfinished() {
-  static Unfinished instance;
-  return instance;
-}
+constinit Unfinished unfinished;
 
 }  // namespace
 
-void remove_unfinished_outputs() { unfinished().unlink_all(); }
+void remove_unfinished_outputs() noexcept { unfinished.unlink_all(); }
 
 OutputFile::OutputFile(fs::path target, Existing existing) : target_(std::move(target)), existing_(existing) {
   refuse_unsuitable_target(target_, existing_);
@@ -111,7 +132,7 @@ OutputFile::OutputFile(fs::path target, Existing existing) : target_(std::move(t
     fail(fmt::format("cannot be written in {}: {}", folder_of(target_).string(), reason(error)));
   }
   try {
-    unfinished().add(temporary_);
+    unfinished.add(temporary_);
   } catch (...) {
     ::close(descriptor_);
     ::unlink(temporary_.c_str());
@@ -123,7 +144,7 @@ OutputFile::~OutputFile() {
   if (descriptor_ >= 0) ::close(descriptor_);
   if (temporary_.empty()) return;
   ::unlink(temporary_.c_str());
-  unfinished().remove(temporary_);
+  unfinished.remove(temporary_);
 }
 
 void OutputFile::write(std::string_view text) { write(std::as_bytes(std::span(text))); }
@@ -161,14 +182,15 @@ void OutputFile::rename_to_target() {
   } else if (uninterrupted([&] { return ::rename(temporary_.c_str(), target_.c_str()); }) != 0) {
     fail("cannot get its final name: " + reason(errno));
   }
-  unfinished().remove(temporary_);
+  unfinished.remove(temporary_);
   temporary_.clear();
 }
 
 void OutputFile::commit() {
+  const fs::path folder = folder_of(target_);  // nothing may fail once the file has its name
   sync();
   rename_to_target();
-  sync_folder(folder_of(target_));
+  sync_folder(folder);
 }
 
 void OutputFile::fail(const std::string& what) const { throw OutputError(target_.string(), what); }
@@ -184,11 +206,8 @@ OutputFolder::OutputFolder(fs::path folder, Existing existing) : folder_(std::mo
   std::reverse(missing.begin(), missing.end());
   try {
     created_folders_.reserve(missing.size());
-    for (const fs::path& path : missing) {
-      if (fs::create_directory(path, error)) {
-        created_folders_.push_back(path);
-        unfinished().add(path);
-      }
+    for (fs::path& path : missing) {
+      if (fs::create_directory(path, error)) unfinished.add(created_folders_.emplace_back(std::move(path)));
       if (error) break;
     }
   } catch (...) {
@@ -204,7 +223,7 @@ OutputFolder::OutputFolder(fs::path folder, Existing existing) : folder_(std::mo
 OutputFolder::~OutputFolder() {
   files_.clear();
   if (committed_) {
-    for (const fs::path& path : created_folders_) unfinished().remove(path);
+    for (const fs::path& path : created_folders_) unfinished.remove(path);
   } else {
     remove_created_folders();
   }
@@ -213,7 +232,7 @@ OutputFolder::~OutputFolder() {
 void OutputFolder::remove_created_folders() {
   for (auto made = created_folders_.rbegin(); made != created_folders_.rend(); ++made) {
     ::rmdir(made->c_str());
-    unfinished().remove(*made);
+    unfinished.remove(*made);
   }
 }
 

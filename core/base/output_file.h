@@ -75,7 +75,8 @@ class OutputFolder {
 };
 
 /// Deletes the temporary files of all outputs that are not committed yet, and the empty folders made for them: for a
-/// program that is told to stop.
-void remove_unfinished_outputs();
+/// program that ends otherwise than by its own will. Signal handlers may call it: it needs no memory, and waits for
+/// others a second at most.
+void remove_unfinished_outputs() noexcept;
 
 }  // namespace meniscus

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstddef>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,40 +17,57 @@ struct StageTime {
   double milliseconds = 0.0;
 };
 
-/// Adds up the times of stages by name, in order of first appearance.
+/// Adds up the times of stages by name, in the order in which they first ended.
 class StageClock {
  public:
   /// A stage lasts as long as the returned object.
   class Stage {
    public:
     Stage(StageClock& clock, std::string name)
-        : clock_(clock), name_(std::move(name)), begin_(std::chrono::steady_clock::now()) {}
+        : clock_(clock), time_{std::move(name), 0.0}, begin_(std::chrono::steady_clock::now()) {
+      clock_.keep_room();
+    }
     ~Stage() {
-      const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - begin_;
-      clock_.add(name_, elapsed.count());
+      time_.milliseconds = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin_).count();
+      clock_.end(std::move(time_));
     }
     Stage(const Stage&) = delete;
     Stage& operator=(const Stage&) = delete;
 
    private:
     StageClock& clock_;
-    std::string name_;
+    StageTime time_;
     std::chrono::steady_clock::time_point begin_;
   };
 
   [[nodiscard]] Stage stage(const std::string& name) { return Stage(*this, name); }
 
-  void add(const std::string& name, double milliseconds) {
-    auto known = std::find_if(times_.begin(), times_.end(), [&](const StageTime& t) { return t.name == name; });
-    if (known == times_.end()) known = times_.insert(times_.end(), {name, 0.0});
-    known->milliseconds += milliseconds;
+  void add(std::string name, double milliseconds) {
+    keep_room();
+    end({std::move(name), milliseconds});
   }
 
   void restart() { times_.clear(); }
   const std::vector<StageTime>& times() const { return times_; }
 
  private:
+  /// Also without memory a stage comes to its end, so the place of its time is there when it begins.
+  void keep_room() {
+    times_.reserve(times_.size() + open_ + 1);
+    ++open_;
+  }
+
+  void end(StageTime time) noexcept {
+    --open_;
+    const auto known = std::ranges::find(times_, time.name, &StageTime::name);
+    if (known == times_.end())
+      times_.push_back(std::move(time));
+    else
+      known->milliseconds += time.milliseconds;
+  }
+
   std::vector<StageTime> times_;
+  std::size_t open_ = 0;
 };
 
 }  // namespace meniscus
