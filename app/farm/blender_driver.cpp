@@ -3,6 +3,7 @@
 #include "app/farm/blender_driver.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <unistd.h>
 
@@ -45,8 +46,12 @@ void check_driver(const Bundle& bundle) {
     throw RequestError("does not bring all of the Blender add-on that belongs to this program");
 }
 
+DriverCopy::DriverCopy(const fs::path& bundle_folder, std::string name)
+    : name_(std::move(name)), path_(bundle_folder / name_) {}
+
+// An object whose first constructor is done is destroyed when the second throws, and the folder with it.
 DriverCopy::DriverCopy(const fs::path& bundle_folder)
-    : name_(fmt::format(".blender_{}", ::getpid())), path_(bundle_folder / name_) {
+    : DriverCopy(bundle_folder, fmt::format(".blender_{}", ::getpid())) {
   std::error_code error;
   fs::remove_all(path_, error);  // of a process that had this number before
   for (const DriverFile& file : driver_files()) {

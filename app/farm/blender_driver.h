@@ -37,6 +37,8 @@ class DriverCopy {
   std::string script() const { return name_ + "/render_mns.py"; }
 
  private:
+  DriverCopy(const std::filesystem::path& bundle_folder, std::string name);
+
   std::string name_;
   std::filesystem::path path_;
 };

@@ -9,7 +9,6 @@
 #include <cstdlib>
 #include <cstring>
 #include <mutex>
-#include <set>
 #include <string_view>
 #include <thread>
 #include <utility>
@@ -31,7 +30,7 @@ constexpr std::size_t kLongestLine = 1 << 16;
 /// Processes started and not yet waited for.
 struct Registry {
   std::mutex mutex;
-  std::set<pid_t> running;
+  std::vector<pid_t> running;
   bool closed = false;
 };
 
@@ -108,12 +107,13 @@ ChildProcess::ChildProcess(const std::vector<std::string>& arguments, const std:
     // A stop waits for the start to be whole, so that no child escapes it; afterwards there is none.
     const std::lock_guard lock(registry().mutex);
     stay_if_stopping();
+    registry().running.reserve(registry().running.size() + 1);  // nothing may fail between the start and the note of it
     const pid_t parent = ::getpid();
     pid_ = ::fork();
     if (pid_ == 0)
       become(program.c_str(), argv.data(), environment.data(), folder.c_str(), output.ends[1], report.ends[1], parent);
     if (pid_ < 0) throw CapacityError(fmt::format("{} cannot be started: {}", arguments[0], std::strerror(errno)));
-    registry().running.insert(pid_);
+    registry().running.push_back(pid_);
   }
   output.close_writing();
   report.close_writing();
@@ -162,7 +162,7 @@ int ChildProcess::wait() {
     // Its number is given back under the lock, lest a stop kills another process that got it meanwhile.
     const std::lock_guard lock(registry().mutex);
     ::waitpid(pid_, &status, 0);
-    registry().running.erase(std::exchange(pid_, -1));
+    std::erase(registry().running, std::exchange(pid_, -1));
     stay_if_stopping();
   }
   return WIFEXITED(status) ? WEXITSTATUS(status) : kSignalCode + WTERMSIG(status);
@@ -177,12 +177,12 @@ std::string signal_text(int code) {
 int signal_exit_code(int code) { return code == kSignalCode + SIGKILL ? kExitCapacity : kExitInternal; }
 
 void stop_children() {
-  std::set<pid_t> children;
+  std::vector<pid_t> children;
   {
     const std::lock_guard lock(registry().mutex);
     registry().closed = true;
+    for (const pid_t child : registry().running) ::kill(child, SIGTERM);
     children = registry().running;
-    for (const pid_t child : children) ::kill(child, SIGTERM);
   }
   const auto alive = [](pid_t child) {
     siginfo_t ended{};
