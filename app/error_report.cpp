@@ -2,6 +2,7 @@
 // Lines for people, harmless to a terminal.
 #include "app/error_report.h"
 
+#include <atomic>
 #include <exception>
 #include <iostream>
 #include <new>
@@ -13,6 +14,7 @@
 
 #include <fmt/format.h>
 
+#include "app/failed_allocation.h"
 #include "core/base/output_file.h"
 #include "core/base/text.h"
 
@@ -64,8 +66,18 @@ ExitCode report_without_memory() noexcept {
   return kExitCapacity;
 }
 
+/// An exception that would leave a function which promises to throw none is no current one: nobody can ask what it is.
+ExitCode report_unnamed_error() noexcept {
+  if (memory_ran_out()) return report_without_memory();
+  constexpr std::string_view kLine = "meniscus: error: internal: an exception where none may be; please report this\n";
+  [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, kLine.data(), kLine.size());
+  return kExitInternal;
+}
+
 [[noreturn]] void end_by_uncaught_error() {
-  const ExitCode code = report_current_error();
+  static std::atomic_flag ending;
+  while (ending.test_and_set()) ::pause();  // another thread says it already
+  const ExitCode code = std::current_exception() ? report_current_error() : report_unnamed_error();
   remove_unfinished_outputs();
   ::_exit(code);
 }

@@ -10,6 +10,7 @@
 #include "app/build_version.h"
 #include "app/commands.h"
 #include "app/error_report.h"
+#include "app/failed_allocation.h"
 #include "app/memory_limit.h"
 #include "app/program_error.h"
 #include "app/standard_streams.h"
@@ -116,6 +117,7 @@ int main(int argc, char** argv) {
   libraries_are_loaded();
   ExitCode code = kExitOk;
   try {
+    remember_failed_allocations();
     report_uncaught_errors();
     hold_standard_streams();
     clean_up_on_signals();
