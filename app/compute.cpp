@@ -75,7 +75,8 @@ SurfaceComputer::SurfaceComputer(const ComputeOptions& options, const EglContext
   if (options.kind == SurfaceKind::vdw && options.probe_named)
     throw RequestError("--probe: the van der Waals surface has no probe; leave --probe or --surface vdw away");
   if (options.threads > 0) {
-    thread_limit_.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(options.threads));
+    thread_limit_.reset(new tbb::global_control(tbb::global_control::max_allowed_parallelism,
+                                                static_cast<std::size_t>(options.threads)));
   }
   if (!options.cpu && options.gl.kind == DeviceChoice::Kind::automatic) on_cpu_ = !find_hardware();
 }

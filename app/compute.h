@@ -2,8 +2,8 @@
 // From balls to a surface on the device a user asked for, with the time every stage took.
 #pragma once
 
+#include <exception>
 #include <memory>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -66,6 +66,13 @@ class SurfaceComputer {
 
  private:
   struct GlPipeline;
+  /// Not when an exception passes: oneTBB that got no memory may hold a lock for ever, and would wait for it. The limit
+  /// stays in force then, as all computers of a program have the same.
+  struct EndOfThreadLimit {
+    void operator()(tbb::global_control* limit) const noexcept {
+      if (std::uncaught_exceptions() == 0) delete limit;
+    }
+  };
 
   bool find_hardware();
   Surface compute_on_cpu(std::span<const Ball> balls, double probe_radius, StageClock& clock);
@@ -74,7 +81,7 @@ class SurfaceComputer {
 
   ComputeOptions options_;
   const EglContext* context_;
-  std::optional<tbb::global_control> thread_limit_;
+  std::unique_ptr<tbb::global_control, EndOfThreadLimit> thread_limit_;
   std::unique_ptr<GlPipeline> gl_;
   bool on_cpu_;
   std::string device_;
