@@ -8,6 +8,7 @@
 // allocations
 //                once: this one, on: this one and all behind it
 // FAULT_FOLDER   files elsewhere are left alone; standard output is not
+// FAULT_LIBRARY  allocations: part of a library's file name; only what it asks for is counted and fails
 // FAULT_TALLY    a file that receives a Tally
 //
 // Counting begins with main(): what libraries do before is not the program's. Allocations of the GL driver are left
@@ -50,6 +51,7 @@ struct Settings {
   const char* call = "";
   const char* kind = "";
   const char* folder = "";
+  const char* library = "";
   std::uint64_t at = 0;
   Tally* tally = nullptr;
 };
@@ -68,8 +70,12 @@ void start() {
   if (::readlink("/proc/self/exe", program, sizeof program - 1) < 0) return;
   const char* name = std::strrchr(program, '/');
   if (!name || std::strcmp(name + 1, variable("FAULT_PROGRAM")) != 0) return;
-  settings = {variable("FAULT_CALL"), variable("FAULT_KIND"), variable("FAULT_FOLDER"),
-              std::strtoull(variable("FAULT_AT"), nullptr, 10), nullptr};
+  settings = {variable("FAULT_CALL"),
+              variable("FAULT_KIND"),
+              variable("FAULT_FOLDER"),
+              variable("FAULT_LIBRARY"),
+              std::strtoull(variable("FAULT_AT"), nullptr, 10),
+              nullptr};
   const int file = ::open(variable("FAULT_TALLY"), O_RDWR | O_CREAT, 0600);
   if (file < 0 || ::ftruncate(file, sizeof(Tally)) != 0) ::abort();
   void* const memory = ::mmap(nullptr, sizeof(Tally), PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
@@ -113,22 +119,31 @@ Function* next(const char* name) {
 
 // --- allocations
 
+enum class Owner { others, driver, library };
+
 struct Module {
   std::uintptr_t begin, end;
+  Owner owner;
 };
-std::array<Module, 64> driver_modules;
-std::atomic<std::size_t> driver_count{0};
+std::array<Module, 64> modules;  // those that are not of others
+std::atomic<std::size_t> module_count{0};
 std::atomic<unsigned long long> modules_seen{0};
+
+Owner owner_of(const char* module) {
+  if (*settings.library && std::strstr(module, settings.library)) return Owner::library;
+  for (const char* part : kDriver)
+    if (std::strstr(module, part)) return Owner::driver;
+  return Owner::others;
+}
 
 int note_module(dl_phdr_info* info, std::size_t, void*) {
   modules_seen = info->dlpi_adds;
-  bool driver = false;
-  for (const char* part : kDriver) driver = driver || std::strstr(info->dlpi_name, part);
-  for (int n = 0; driver && n < info->dlpi_phnum; ++n) {
+  const Owner owner = owner_of(info->dlpi_name);
+  for (int n = 0; owner != Owner::others && n < info->dlpi_phnum; ++n) {
     const auto& header = info->dlpi_phdr[n];
     const std::uintptr_t begin = info->dlpi_addr + header.p_vaddr;
-    if (header.p_type == PT_LOAD && (header.p_flags & PF_X) && driver_count < driver_modules.size())
-      driver_modules[driver_count++] = {begin, begin + header.p_memsz};
+    if (header.p_type == PT_LOAD && (header.p_flags & PF_X) && module_count < modules.size())
+      modules[module_count++] = {begin, begin + header.p_memsz, owner};
   }
   return 0;
 }
@@ -142,28 +157,30 @@ void note_new_modules() {
   bool is_new = false;
   ::dl_iterate_phdr(note_if_new, &is_new);
   if (!is_new) return;
-  driver_count = 0;
+  module_count = 0;
   ::dl_iterate_phdr(note_module, nullptr);
 }
 
-bool is_driver(std::uintptr_t place) {
-  for (std::size_t n = 0; n < driver_count; ++n)
-    if (place >= driver_modules[n].begin && place < driver_modules[n].end) return true;
-  return false;
+Owner owner_at(std::uintptr_t place) {
+  for (std::size_t n = 0; n < module_count; ++n)
+    if (place >= modules[n].begin && place < modules[n].end) return modules[n].owner;
+  return Owner::others;
 }
 
 /// Who asks for memory: the innermost callers.
 struct Stack {
   std::uint64_t hash = 0xcbf29ce484222325;
   int depth = 0;
-  bool driver = false;
+  bool driver = false, library = false;
 };
 
 _Unwind_Reason_Code add_frame(_Unwind_Context* context, void* stack) {
   auto& found = *static_cast<Stack*>(stack);
   const std::uintptr_t place = _Unwind_GetIP(context);
   found.hash = (found.hash ^ place) * 0x100000001b3;
-  found.driver = found.driver || is_driver(place);
+  const Owner owner = owner_at(place);
+  found.driver = found.driver || owner == Owner::driver;
+  found.library = found.library || owner == Owner::library;
   constexpr int kDeep = 8;
   return ++found.depth < kDeep ? _URC_NO_REASON : _URC_END_OF_STACK;
 }
@@ -188,7 +205,7 @@ bool refuse_allocation() {
   Stack stack;
   _Unwind_Backtrace(add_frame, &stack);
   inside = false;
-  if (stack.driver) return false;
+  if (stack.driver || (*settings.library && !stack.library)) return false;
   std::uint64_t number = 0;
   const bool refused = due("allocate", &number);
   if (settings.at == 0) note_place(stack, number);
@@ -196,11 +213,16 @@ bool refuse_allocation() {
   return refused;
 }
 
+/// As the standard has it: the program's handler is called for as long as it returns.
 void* allocate_or_throw(std::size_t size, std::size_t alignment) {
-  void* const memory =
-      refuse_allocation() ? nullptr : (alignment ? __libc_memalign(alignment, size ? size : 1) : __libc_malloc(size));
-  if (!memory) throw std::bad_alloc();
-  return memory;
+  while (true) {
+    void* const memory =
+        refuse_allocation() ? nullptr : (alignment ? __libc_memalign(alignment, size ? size : 1) : __libc_malloc(size));
+    if (memory) return memory;
+    const std::new_handler handler = std::get_new_handler();
+    if (!handler) throw std::bad_alloc();
+    handler();
+  }
 }
 
 int (*program_main)(int, char**, char**) = nullptr;

@@ -24,6 +24,12 @@ std::string replaced(std::string text, const std::string& word, const std::strin
   return text;
 }
 
+std::size_t count_of(const std::string& word, const std::string& text) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + word.size())) ++count;
+  return count;
+}
+
 /// Three frames of three atoms, which part.
 std::string walk() {
   std::string text;
@@ -71,6 +77,7 @@ FaultyRun FaultBench::run(const Fault& fault) const {
                                  "FAULT_KIND=" + fault.kind,
                                  fmt::format("FAULT_AT={}", fault.at),
                                  "FAULT_FOLDER=" + folder,
+                                 "FAULT_LIBRARY=" + fault.library,
                                  "FAULT_TALLY=" + tally,
                                  MENISCUS_PROGRAM};
   for (const std::string& word : command_.arguments)
@@ -85,7 +92,7 @@ FaultyRun FaultBench::run(const Fault& fault) const {
 }
 
 const FaultyRun& FaultBench::sound(const Fault& fault) {
-  sound_ = run({fault.call, fault.kind, 0, fault.program});
+  sound_ = run({fault.call, fault.kind, 0, fault.program, fault.library});
   EXPECT_EQ(sound_.result.exit_code, 0) << sound_.result.err;
   return sound_;
 }
@@ -103,7 +110,7 @@ std::string FaultBench::broken_promise(const FaultyRun& run, const std::vector<i
     return result.out == sound_.result.out ? "" : "standard output differs" + said;
   }
   if (std::ranges::find(codes, result.exit_code) == codes.end()) return "the code is wrong" + said;
-  return result.err.find("meniscus: error: ") == std::string::npos ? "it says nothing" + said : "";
+  return count_of("meniscus: error: ", result.err) == 1 ? "" : "it says that not once" + said;
 }
 
 std::vector<std::uint64_t> sampled(std::vector<std::uint64_t> numbers, std::size_t most) {

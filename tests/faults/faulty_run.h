@@ -23,6 +23,7 @@ struct Fault {
   std::string call, kind;
   std::uint64_t at = 0;
   std::string program = "meniscus";
+  std::string library = {};  ///< empty: all
 };
 
 /// How a run ended: what it said, and each file it left, with hidden ones, by its path below the folder.
