@@ -15,30 +15,27 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What the module gives, or `why` it gives nothing.
-const ImageCodec* load(const fs::path& module, std::string& why) {
+/// What the module gives. Throws CapacityError where the system cannot load it, Error if it belongs to another build.
+const ImageCodec& load(const fs::path& module) {
   using Give = const ImageCodec*(const char* version, std::size_t image_size);
   void* const handle = ::dlopen(module.c_str(), RTLD_NOW | RTLD_LOCAL);
   void* const give = handle ? ::dlsym(handle, "meniscus_image_codec") : nullptr;
   if (!give) {
-    why = ::dlerror();
-    return nullptr;
+    const char* const why = ::dlerror();
+    throw CapacityError("pictures cannot be written: " + (why ? std::string(why) : module.string()));
   }
-  const ImageCodec* const codec = reinterpret_cast<Give*>(give)(MENISCUS_VERSION, sizeof(ImageToEncode));
-  if (!codec) why = module.string() + " belongs to another build";
-  return codec;
+  if (const ImageCodec* const codec = reinterpret_cast<Give*>(give)(MENISCUS_VERSION, sizeof(ImageToEncode)))
+    return *codec;
+  throw Error(module.string() + " belongs to another build; install it together with the program");
 }
 
-const ImageCodec& load_from_anywhere() {
+const ImageCodec& find_and_load() {
   const std::string name = MENISCUS_IMAGE_MODULE_NAME;
   std::error_code none;
   const fs::path program = fs::read_symlink("/proc/self/exe", none).parent_path();
-  std::string why;
-  for (const fs::path& module : {program / name, program / "../lib/meniscus" / name, fs::path(MENISCUS_IMAGE_MODULE)}) {
-    if (!fs::exists(module, none)) continue;
-    if (const ImageCodec* codec = load(module, why)) return *codec;
-  }
-  throw Error("pictures need " + name + " beside the program: " + (why.empty() ? "it is not there" : why));
+  for (const fs::path& module : {program / name, program / "../lib/meniscus" / name, fs::path(MENISCUS_IMAGE_MODULE)})
+    if (fs::exists(module, none)) return load(module);
+  throw Error("pictures need " + name + " beside the program, and it is not there");
 }
 
 }  // namespace
@@ -50,7 +47,7 @@ std::size_t pixel_bytes(const ImageToEncode& image) {
 }
 
 const ImageCodec& image_codec() {
-  static const ImageCodec& codec = load_from_anywhere();
+  static const ImageCodec& codec = find_and_load();
   return codec;
 }
 

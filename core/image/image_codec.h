@@ -56,7 +56,8 @@ class ImageCodec {
   virtual DecodedImage decode(const std::string& path) const = 0;
 };
 
-/// Loads the module at the first call; from any thread. Throws Error where it is missing.
+/// Loads the module at the first call; from any thread. Throws Error where it is missing or of another build,
+/// CapacityError where the system cannot load it.
 const ImageCodec& image_codec();
 
 }  // namespace meniscus

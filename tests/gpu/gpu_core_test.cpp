@@ -51,7 +51,7 @@ TEST_F(GpuCore, HonoursTheChoiceOrSaysWhyNot) {
 
 TEST_F(GpuCore, HardwareAskedForIsHardwareOrAnError) {
   try {
-    EXPECT_FALSE(EglContext({DeviceChoice::Kind::gpu}).is_software());
+    EXPECT_FALSE(EglContext({.kind = DeviceChoice::Kind::gpu, .index = {}}).is_software());
   } catch (const GpuError& error) {
     EXPECT_NE(std::string(error.what()).find("'gpu'"), std::string::npos) << error.what();
   }
