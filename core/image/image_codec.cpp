@@ -3,10 +3,14 @@
 #include "core/image/image_codec.h"
 
 #include <array>
+#include <cstddef>
 #include <filesystem>
 #include <system_error>
 
 #include <dlfcn.h>
+#include <sys/mman.h>
+
+#include <fmt/format.h>
 
 #include "core/base/error.h"
 
@@ -29,12 +33,25 @@ const ImageCodec& load(const fs::path& module) {
   throw Error(module.string() + " belongs to another build; install it together with the program");
 }
 
+// Among what OpenImageIO brings there are libraries that end the program when they begin without memory. So there has
+// to be room for all of them before the first is loaded: together they take this much of the address space.
+void require_room() {
+  constexpr std::size_t kRoom = std::size_t{640} << 20;
+  void* const room = ::mmap(nullptr, kRoom, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  if (room == MAP_FAILED)
+    throw CapacityError(fmt::format("pictures need {} MiB of address space more (ulimit -v)", kRoom >> 20));
+  ::munmap(room, kRoom);
+}
+
 const ImageCodec& find_and_load() {
   const std::string name = MENISCUS_IMAGE_MODULE_NAME;
   std::error_code none;
   const fs::path program = fs::read_symlink("/proc/self/exe", none).parent_path();
   for (const fs::path& module : {program / name, program / "../lib/meniscus" / name, fs::path(MENISCUS_IMAGE_MODULE)})
-    if (fs::exists(module, none)) return load(module);
+    if (fs::exists(module, none)) {
+      require_room();
+      return load(module);
+    }
   throw Error("pictures need " + name + " beside the program, and it is not there");
 }
 

@@ -11,8 +11,8 @@
 // FAULT_LIBRARY  allocations: part of a library's file name; only what it asks for is counted and fails
 // FAULT_TALLY    a file that receives a Tally
 //
-// Counting begins with main(): what libraries do before is not the program's. Allocations of the GL driver are left
-// alone too, for it does not check them.
+// Counting begins with main(): what libraries do before is not the program's, nor is what they do while they are
+// loaded. Allocations of the GL driver are left alone too, for it does not check them.
 #include "tests/faults/tally.h"
 
 #include <array>
@@ -301,6 +301,15 @@ ssize_t write(int descriptor, const void* bytes, std::size_t count) {
 int fsync(int descriptor) {
   if (concerns(descriptor) && due("sync")) return errno = error_of_kind(), -1;
   return next<int(int)>("fsync")(descriptor);
+}
+
+void* dlopen(const char* file, int flags) {
+  static const auto original = next<void*(const char*, int)>("dlopen");
+  const bool was_inside = inside;
+  inside = true;
+  void* const handle = original(file, flags);
+  inside = was_inside;
+  return handle;
 }
 
 int rename(const char* from, const char* to) {
