@@ -140,6 +140,21 @@ TEST(Surface, NumbersOfTheToxinAreTheIndependentOnes) {
   EXPECT_NEAR(volume, result["volume"].get<double>(), 1e-6);
 }
 
+// Five spheres through one point: without the growth they have no surface, and whoever quotes its area must know of it.
+TEST(Surface, SaysByHowMuchRadiiGrew) {
+  const std::vector<std::string> tied{MENISCUS_TEST_DATA "/../corpus/one-point-4239.xyzr", "--probe", "0.5"};
+  for (const std::string device : {"cpu", "software"}) {
+    const json certificate = surface_json({tied[0], tied[1], tied[2], "--device", device})["certificate"];
+    EXPECT_EQ(certificate["closed"], true);
+    EXPECT_GT(certificate.value("radii_grown_by", 0.0), 0.0);
+    EXPECT_LT(certificate.value("radii_grown_by", 1.0), 1e-5);
+    const ProgramResult result = meniscus_says({"surface", tied[0], tied[1], tied[2], "--device", device});
+    EXPECT_NE(result.out.find("told apart by radii grown by up to"), std::string::npos) << result.out;
+    EXPECT_NE(result.err.find("told apart by radii grown by up to"), std::string::npos) << result.err;
+  }
+  EXPECT_FALSE(surface_json({kUbiquitin, "--device", "cpu"})["certificate"].contains("radii_grown_by"));
+}
+
 // Two balls of radius 1 and a probe of 1.5: BALL 1.5 states these areas, and so does the closed form.
 TEST(Surface, TwoSpheresOfTheLiterature) {
   const TemporaryFolder folder;

@@ -8,7 +8,9 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
+#include "core/gpu/buffer.h"
 #include "core/gpu/egl_context.h"
+#include "core/gpu/program.h"
 #include "core/gpu/work_proof.h"
 #include "core/render/ray_caster.h"
 #include "core/surface/compare.h"
@@ -156,6 +158,32 @@ TEST_F(LostWork, PictureOfASurface) {
   const Surface surface = pipeline.run(atoms_, kWater);
   RayCaster caster;
   survives(picture_job(caster, surface));
+}
+
+// Between two looks at the GPU nothing but dispatches whose groups the GPU counts, more of them than the account holds.
+TEST_F(LostWork, OfGroupsThatTheGpuCounts) {
+  const Program program("gpu_shaders/test_support/scale.comp");
+  Buffer words(128 * sizeof(std::uint32_t)), surplus(sizeof(std::uint32_t));
+  const Buffer counts{std::span<const std::uint32_t>(std::vector<std::uint32_t>{2, 1, 1})};
+  const auto run = [&](std::uint32_t times) {
+    words.bind(0);
+    surplus.bind(1);
+    program.set("count", 128u);
+    for (std::uint32_t n = 0; n < times; ++n) program.dispatch_indirect(counts, 0);
+    WorkProof::current().verify();
+  };
+  words.fill(0);
+  surplus.fill(0);
+  WorkProof::current().verify();
+  for (const std::uint32_t times : {1u, 2u, 63u, 64u, 65u, 200u}) {
+    EXPECT_NO_THROW(run(times)) << times;
+    for (const std::uint32_t lost : {0u, times / 2, times - 1}) {
+      plan({Kind::drop_one, lost});
+      EXPECT_THROW(run(times), GpuError) << lost << " of " << times;
+      plan({});
+      WorkProof::current().settle();
+    }
+  }
 }
 
 TEST_F(LostWork, FreshBuffersMayHoldAnything) {

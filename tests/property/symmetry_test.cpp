@@ -18,7 +18,7 @@ Balls symmetric_gas(int fold, double jitter, std::mt19937& random) {
   std::uniform_real_distribution<double> unit(-1, 1);
   std::normal_distribution<double> normal;
   const auto vector = [&](auto& distribution) {
-    return glm::dvec3(distribution(random), distribution(random), distribution(random));
+    return glm::dvec3{distribution(random), distribution(random), distribution(random)};  // in this order
   };
   const glm::dvec3 axis = glm::normalize(vector(normal)), origin = 100.0 * vector(unit);
   constexpr double kRadii[] = {1.7, 1.55, 1.52, 1.8, 1.2};
@@ -40,28 +40,30 @@ Balls symmetric_gas(int fold, double jitter, std::mt19937& random) {
 
 class Symmetry : public ::testing::TestWithParam<double> {};
 
+constexpr double kProbes[] = {0.7, 1.4, 3.0};
+
 TEST_P(Symmetry, IsClosed) {
   std::mt19937 random(11);
   for (int n = 0; n < 300; ++n) {
     const Balls balls = symmetric_gas(2 + n % 5, GetParam(), random);
-    const double probe = n % 3 == 0 ? 0.7 : n % 3 == 1 ? 1.4 : 3.0;
-    EXPECT_NO_THROW(compute_surface_cpu(balls, probe)) << n << "-th of jitter " << GetParam();
+    EXPECT_NO_THROW(compute_surface_cpu(balls, kProbes[n % 3])) << n << "-th of jitter " << GetParam();
   }
 }
 
 INSTANTIATE_TEST_SUITE_P(Jitters, Symmetry, ::testing::Values(0.0, 1e-14, 1e-12, 1e-10, 1e-9, 1e-4, 1e-3));
 
 // Two probes as near as the shaking, and a third that passes their circle's axis: what neighbours on a circle cannot do
-// must be known, for it cannot be computed. Six of these close only because radii grow by a hair (tie_ladder.h).
+// must be known, for it cannot be computed. 17 of these close only because radii grow by a hair (tie_ladder.h); that
+// many more do would be a rule forgotten, which the growth hides.
 TEST(Symmetry, OfTheHardestAllAreClosed) {
   std::mt19937 random(12);
+  int grown = 0;
   for (int n = 0; n < 3200; ++n) {
-    const double jitter = std::pow(10.0, -5 - n % 4);
-    EXPECT_NO_THROW(compute_surface_cpu(symmetric_gas(2 + n % 5, jitter, random), n % 3 == 0   ? 0.7
-                                                                                  : n % 3 == 1 ? 1.4
-                                                                                               : 3.0))
-        << n;
+    const Balls balls = symmetric_gas(2 + n % 5, std::pow(10.0, -5 - n % 4), random);
+    SCOPED_TRACE(n);
+    EXPECT_NO_THROW(grown += compute_surface_cpu(balls, kProbes[n % 3]).certificate.grown_by > 0);
   }
+  EXPECT_LE(grown, 22);
 }
 
 // The five phenylalanine rings about a five-fold axis of the Norwalk virus capsid (1IHM), whose matrices have six

@@ -7,6 +7,7 @@
 #include <random>
 #include <string>
 
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
@@ -31,11 +32,26 @@ bool holds(Surface surface, const MeasurementDoubts& doubts = {}) {
 // With a cavity: a lattice whose cells have room for the probe.
 Surface lattice_with_cavities() { return compute_surface_cpu(lattice(3, 3, 3, 3.8), kWater); }
 
+Surface lone_atom() { return compute_surface_cpu(Balls{{{0, 0, 0}, kCarbon}}, kWater); }
+
+// Two probes of three contacts each, too far apart to cut each other.
+Surface three_atoms() { return compute_surface_cpu(ring(3, 3.0), kWater); }
+
 Face& first_face(Surface& surface, PatchKind kind) {
   for (Face& face : surface.faces)
     if (face.kind == kind) return face;
   ADD_FAILURE() << "no such face";
   return surface.faces.front();
+}
+
+double border_length(const Surface& surface, const Face& face) {
+  double length = 0;
+  for (std::uint32_t l = face.first_loop; l < face.first_loop + face.loop_count; ++l)
+    for (std::uint32_t n = 0; n < surface.loops[l].half_border_count; ++n) {
+      const Border& border = surface.borders[surface.half_borders[surface.loops[l].first_half_border + n] / 2];
+      length += border.radius * border.sweep;
+    }
+  return length;
 }
 
 TEST(Certificate, HoldsForWhatItShould) {
@@ -52,6 +68,32 @@ TEST(Certificate, FindsAFaceThatIsOffByASphere) {
       first_face(surface, kind).area += sign * 4 * kPi * radius * radius;
       EXPECT_FALSE(holds(surface)) << int(kind) << ' ' << sign;
     }
+}
+
+// Below a whole sphere, which a convex face may fill: a probe has all that it touches on one side.
+TEST(Certificate, FindsAReEntrantFaceOfMoreThanHalfASphere) {
+  Surface surface = three_atoms();
+  first_face(surface, PatchKind::concave).area = 3 * kPi * kWater * kWater;
+  EXPECT_FALSE(holds(surface));
+}
+
+TEST(Certificate, FindsASaddleLargerThanItsTorus) {
+  for (const double tori : {0.9, 1.1}) {
+    Surface surface = three_atoms();
+    Face& face = first_face(surface, PatchKind::toroidal);
+    face.area = tori * 4 * kPi * kPi * kWater * (surface.toroidal[face.patch].radius + kWater);
+    EXPECT_EQ(holds(surface), tori < 1);
+  }
+}
+
+TEST(Certificate, FindsFacesThatFillMoreThanTheirAtom) {
+  for (const double share : {0.45, 0.55}) {
+    Surface surface = lone_atom();
+    surface.faces[0].area *= share;
+    surface.faces.push_back(surface.faces[0]);
+    surface.convex[0].face_count = 2;
+    EXPECT_EQ(holds(surface), share < 0.5);
+  }
 }
 
 TEST(Certificate, FindsAFaceWithoutANumber) {
@@ -76,6 +118,18 @@ TEST(Certificate, FindsAComponentOnTheWrongSide) {
   }
 }
 
+// Half a probe cannot be where a whole one must have room.
+TEST(Certificate, FindsACavityWithoutRoomForTheProbe) {
+  const double probe = 4 * kPi / 3 * kWater * kWater * kWater;
+  for (const double volumes : {0.5, 1.0}) {
+    Surface surface = lattice_with_cavities();
+    Component& cavity = surface.components.back();
+    ASSERT_EQ(cavity.kind, ComponentKind::cavity);
+    cavity.volume = -volumes * probe;
+    EXPECT_EQ(holds(surface), volumes == 1.0);
+  }
+}
+
 TEST(Certificate, FindsAnOddEulerNumberAndOneAboveTwo) {
   for (const int euler : {1, 3, 4, -7}) {
     Surface surface = lattice_with_cavities();
@@ -84,14 +138,73 @@ TEST(Certificate, FindsAnOddEulerNumberAndOneAboveTwo) {
   }
 }
 
-// A lone atom shows everything; a plane that covers most of it contradicts.
+// A lone atom shows everything; a plane that covers most of it contradicts, and so does a face of no area without one.
 TEST(Certificate, FindsPlanesThatContradictTheFaces) {
-  Surface surface = compute_surface_cpu(Balls{{{0, 0, 0}, 1.7}}, kWater);
-  EXPECT_TRUE(holds(surface));
-  surface.convex[0].first_plane = static_cast<std::uint32_t>(surface.planes.size());
-  surface.convex[0].plane_count = 1;
-  surface.planes.push_back({{0, 0, 1}, -1.0});
+  EXPECT_TRUE(holds(lone_atom()));
+  for (const double share : {0.0, 1.0})
+    for (const double offset : {-1.0, 1.0}) {
+      Surface surface = lone_atom();
+      surface.faces[0].area *= share;
+      surface.convex[0].first_plane = static_cast<std::uint32_t>(surface.planes.size());
+      surface.convex[0].plane_count = 1;
+      surface.planes.push_back({{0, 0, 1}, offset});
+      EXPECT_EQ(holds(surface), (share > 0.5) == (offset > 0)) << share << ' ' << offset;
+    }
+}
+
+TEST(Certificate, FindsContactsThatGoRoundTheWrongWay) {
+  Surface surface = three_atoms();
+  const ConcavePatch& patch = surface.concave[0];
+  for (std::uint32_t n = patch.first_plane; n < patch.first_plane + patch.side_count; ++n)
+    surface.planes[n] = {-surface.planes[n].normal, -surface.planes[n].offset};
   EXPECT_FALSE(holds(surface));
+}
+
+// Where rounding may turn a plane, the area divided along the planes must be that of the borders: a little is too much.
+constexpr double kLittle = 1e-5;
+
+TEST(Certificate, ComparesPlanesAndBordersOfProbesWithFourContacts) {
+  Surface surface = lattice_with_cavities();
+  Face& face = first_face(surface, PatchKind::concave);
+  ASSERT_GT(surface.concave[face.patch].contact_count, 3u);
+  face.area += kLittle;
+  EXPECT_FALSE(holds(surface));
+}
+
+TEST(Certificate, ComparesPlanesAndBordersWhereCornersAreBlurred) {
+  Surface surface = three_atoms();
+  Face& face = first_face(surface, PatchKind::concave);
+  const auto index = static_cast<std::uint32_t>(&face - surface.faces.data());
+  EXPECT_TRUE(holds(surface, {{index}, {}}));
+  face.area += kLittle;
+  EXPECT_FALSE(holds(surface, {{index}, {}}));
+}
+
+// Two probes on both sides of three atoms, so near to each other that rounding could swap them.
+TEST(Certificate, ComparesPlanesAndBordersOfPatchesCutFromCloseBy) {
+  const double apart = 8e-4, reach = kCarbon + kWater;
+  Surface surface = compute_surface_cpu(ring(3, std::sqrt(3 * (reach * reach - apart * apart))), kWater);
+  EXPECT_TRUE(holds(surface));
+  ASSERT_EQ(surface.concave[0].contact_count, 3u);
+  ASSERT_GT(surface.concave[0].cut_count, 0u);
+  first_face(surface, PatchKind::concave).area += kLittle;
+  EXPECT_FALSE(holds(surface));
+}
+
+// A plane that cuts a patch of which no border is a cusp.
+TEST(Certificate, FindsACutThatLeavesNoCusp) {
+  for (const double distance : {0.5, 1.9}) {
+    Surface surface = three_atoms();
+    ConcavePatch& patch = surface.concave[0];
+    const std::vector<Plane> sides(surface.planes.begin() + patch.first_plane,
+                                   surface.planes.begin() + patch.first_plane + patch.side_count);
+    const glm::dvec3 normal = glm::normalize(surface.atoms[0].center - patch.center);
+    patch.first_plane = static_cast<std::uint32_t>(surface.planes.size());
+    patch.cut_count = 1;
+    surface.planes.insert(surface.planes.end(), sides.begin(), sides.end());
+    surface.planes.push_back({normal, glm::dot(normal, patch.center) + distance});
+    EXPECT_EQ(holds(surface), distance > kWater) << distance;
+  }
 }
 
 TEST(Certificate, NamesDisputedFaces) {
@@ -152,6 +265,30 @@ TEST(TieLadder, GrowsOnlyWhatDoesNotClose) {
   EXPECT_EQ(attempts, kTieAttempts);
 }
 
+// From the least that decisions do not see, by threes; each rung draws anew.
+TEST(TieLadder, GrowsByThreesAndDrawsAnew) {
+  EXPECT_EQ(tie_growth(0), 0.0);
+  EXPECT_DOUBLE_EQ(tie_growth(1), 1e-8);
+  for (int attempt = 2; attempt < kTieAttempts; ++attempt)
+    EXPECT_DOUBLE_EQ(tie_growth(attempt), 3 * tie_growth(attempt - 1));
+  const Balls balls{{{0, 0, 0}, kCarbon}, {{1, 0, 0}, kCarbon}};
+  const auto share = [&](int attempt) {
+    return (grown_balls(balls, attempt)[0].radius - kCarbon) / tie_growth(attempt);
+  };
+  for (int attempt = 7; attempt + 1 < kTieAttempts; ++attempt)  // before, rounding blurs the shares
+    EXPECT_GT(std::abs(share(attempt + 1) - share(attempt)), 1e-4) << attempt;
+}
+
+// Ties as such are told apart by the decisions; radii grow only where positions contradict them.
+TEST(TieLadder, IsNotNeededForTiesThatDecisionsTellApart) {
+  for (const NamedBalls& molecule : degenerate_molecules())
+    EXPECT_EQ(compute_surface_cpu(molecule.balls, molecule.probe_radius).certificate.grown_by, 0.0) << molecule.name;
+  for (std::uint32_t n = 0; n < 200; ++n) {
+    const GasCase gas = gas_case(n);
+    EXPECT_EQ(compute_surface_cpu(gas.balls, gas.probe_radius).certificate.grown_by, 0.0) << n;
+  }
+}
+
 // What --verify compares: a face off by a sphere, a component by a probe, an area that is none.
 TEST(CompareMesh, FindsWhatTrianglesContradict) {
   const Surface surface = compute_surface_cpu(lattice(3, 3, 3, 3.8), kWater);
@@ -167,6 +304,25 @@ TEST(CompareMesh, FindsWhatTrianglesContradict) {
   EXPECT_EQ(differences(wrong, mesh).size(), 1u);
   wrong.faces[0].area = std::nan("");
   EXPECT_EQ(differences(wrong, mesh).size(), 2u);
+}
+
+// The bounds that the header states: what exceeds one by half is found, whatever the kind of face; half of it is not.
+TEST(CompareMesh, FindsAsLittleAsItSays) {
+  const Surface surface = three_atoms();
+  const TriangleMesh mesh = tessellate(surface, {0.01, false});
+  for (const auto& [part, count] : {std::pair{0.5, 0u}, {1.5, 1u}}) {
+    for (const PatchKind kind : {PatchKind::convex, PatchKind::toroidal, PatchKind::concave}) {
+      Surface wrong = surface;
+      Face& face = first_face(wrong, kind);
+      const double curvature = kind == PatchKind::convex ? kCarbon : kWater;
+      const double strip = 2 * (border_length(surface, face) + 0.5 * mesh.tolerance);
+      face.area += part * mesh.tolerance * (4 / curvature * face.area + strip);
+      EXPECT_EQ(differences(wrong, mesh).size(), count) << int(kind);
+    }
+    Surface wrong = surface;
+    wrong.components[0].volume += part * 2 * mesh.tolerance * wrong.components[0].area;
+    EXPECT_EQ(differences(wrong, mesh).size(), count);
+  }
 }
 
 }  // namespace

@@ -279,6 +279,13 @@ TEST(Models, MissingEndmdlAndBareEndAreFurtherModels) {
   EXPECT_EQ(read_text("a.pdb", "MODEL        1\n" + atom + "ENDMDL\nEND\n").report.excluded.size(), 0u);
 }
 
+TEST(Coordinates, ThatTouchAreReadAtTheirColumns) {
+  const Structure structure =
+      read_text("a.pdb", PdbLine{.x = "-123.456", .y = "1234.567", .z = "-234.567", .occupancy = "999.00"}.text());
+  ASSERT_EQ(structure.atoms.size(), 1u);
+  EXPECT_EQ(structure.atoms[0].position, glm::dvec3(-123.456, 1234.567, -234.567));
+}
+
 TEST(MissingValues, OccupancyAndBFactorAreOptional) {
   const Structure structure = read_text("a.pdb", PdbLine{.occupancy = "   inf", .b_factor = "******"}.text() +
                                                      PdbLine{.x = "   4.000"}.text().substr(0, 54) + "\n");
