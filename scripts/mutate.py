@@ -5,13 +5,15 @@
   mutate.py [--only NAME ...] [--tree DIR] [--jobs N] [--faults FILE] [--list | --check]
 
 The faults are data: tests/mutation/faults.toml. The working tree is copied to a folder of its own (a temporary one, or
-DIR, whose build is used again), so nothing is ever planted here. First all tests that the faults name must be green;
-then each fault is planted, what its tests need is built, and its tests run until one is red. A fault that no test
-finds survives; one whose text is not in its file exactly once no longer applies. Both are failures: exit code 1.
+DIR, whose build is used again), so nothing is ever planted here. First all tests that the faults name must be green,
+and be of programs that the fault builds; then each fault is planted, what its tests need is built, and its tests run
+until one is red. A fault that no test finds survives; one whose text is not in its file exactly once no longer applies.
+All of these are failures: exit code 1.
 """
 
 import argparse
 import dataclasses
+import json
 import os
 import pathlib
 import re
@@ -120,6 +122,14 @@ class Copy:
     def build(self, targets):
         self.run(["cmake", "--build", self.build_folder, "-j", self.jobs, "--target", *sorted(targets)])
 
+    def not_built(self, fault):
+        """Programs that the fault's tests run and that are not built with it: an earlier fault may be in them still."""
+        listed = self.run(["ctest", "--test-dir", self.build_folder, "-R", fault.tests, "--no-tests=error",
+                           "--show-only=json-v1"])
+        words = {pathlib.Path(word) for test in json.loads(listed)["tests"] for word in test.get("command", [])}
+        programs = {word.name for word in words if self.build_folder in word.parents and os.access(word, os.X_OK)}
+        return sorted(programs - set(fault.build))
+
     def first_red(self, tests):
         """The first test that fails among those that match, or None."""
         try:
@@ -177,10 +187,15 @@ def plant(copy, fault):
 
 
 def control(copy, faults, table):
-    """Without a fault every test is green; else a red one would prove nothing."""
+    """Without a fault every test is green, and each fault builds what its tests run; else a red one proves nothing."""
     begin = time.monotonic()
     try:
         copy.build({target for fault in faults for target in fault.build})
+        for fault in faults:
+            if programs := copy.not_built(fault):
+                table.add(fault.name, f"DOES NOT BUILD {', '.join(programs)}, WHICH ITS TESTS RUN", begin, True)
+        if table.failures:
+            return False
         red = copy.first_red("|".join(sorted({fault.tests for fault in faults})))
     except subprocess.CalledProcessError as error:
         print(last_lines(error), file=sys.stderr)

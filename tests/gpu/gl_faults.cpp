@@ -49,7 +49,8 @@ GLenum get_error() {
 GLenum reset_status() { return lost() ? GL_UNKNOWN_CONTEXT_RESET : GL_NO_ERROR; }
 
 void read_buffer(GLuint buffer, GLintptr offset, GLsizeiptr size, void* data) {
-  if (!lost()) driver<epoxy_glGetNamedBufferSubData>("glGetNamedBufferSubData")(buffer, offset, size, data);
+  if (lost() || planned.kind == Kind::no_reads) return;
+  driver<epoxy_glGetNamedBufferSubData>("glGetNamedBufferSubData")(buffer, offset, size, data);
 }
 
 void make_storage(GLuint buffer, GLsizeiptr size, const void* data, GLbitfield flags) {

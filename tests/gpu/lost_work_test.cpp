@@ -186,6 +186,23 @@ TEST_F(LostWork, OfGroupsThatTheGpuCounts) {
   }
 }
 
+TEST_F(LostWork, AnAccountThatCannotBeReadProvesNothing) {
+  const Program program("gpu_shaders/test_support/scale.comp");
+  Buffer words(128 * sizeof(std::uint32_t)), surplus(sizeof(std::uint32_t));
+  const Buffer counts{std::span<const std::uint32_t>(std::vector<std::uint32_t>{2, 1, 1})};
+  words.bind(0);
+  surplus.bind(1);
+  program.set("count", 128u);
+  for (const bool indirect : {false, true}) {
+    WorkProof::current().verify();
+    indirect ? program.dispatch_indirect(counts, 0) : program.dispatch(2);
+    plan({Kind::no_reads});
+    EXPECT_THROW(WorkProof::current().verify(), GpuError);
+    plan({});
+    EXPECT_EQ(WorkProof::current().settle().finished, 2u);
+  }
+}
+
 TEST_F(LostWork, FreshBuffersMayHoldAnything) {
   SurfacePipeline clean;
   const Surface expected = clean.run(atoms_, kWater);

@@ -18,20 +18,32 @@
 namespace meniscus::testing {
 namespace {
 
-void expect_right(const Balls& balls, double probe_radius, std::uint32_t seed, int effort) {
+/// Returns whether it took growing radii to close the surface.
+bool expect_right(const Balls& balls, double probe_radius, std::uint32_t seed, int effort) {
   const SurfaceVerdict verdict = check_surface(balls, probe_radius, seed, effort);
   EXPECT_FALSE(verdict.refused);
   EXPECT_EQ(verdict.complaint, "");
+  return verdict.surface && verdict.surface->certificate.grown_by > 0;
+}
+
+/// What the growth of the last rung may hide: of 160 cases 26, 23, 5, 2 and 1 need it, and none of the other families.
+int most_grown(const std::string& family) {
+  if (family == "one-point") return 32;
+  if (family == "tube") return 29;
+  if (family == "two-points") return 9;
+  return family == "crystal" || family == "carbon" ? 5 : 2;
 }
 
 class Family : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(Family, IsClosedAndRight) {
+  int grown = 0;
   for (std::uint32_t n = 0; n < 160; ++n) {
     const FamilyCase made = family_case(GetParam(), n);
     SCOPED_TRACE(GetParam() + " " + std::to_string(n));
-    expect_right(made.balls, made.probe_radius, n + 1, n % 16 == 0 ? 1 : 0);
+    grown += expect_right(made.balls, made.probe_radius, n + 1, n % 16 == 0 ? 1 : 0);
   }
+  EXPECT_LE(grown, most_grown(GetParam()));
 }
 
 std::string test_name(const ::testing::TestParamInfo<std::string>& info) {

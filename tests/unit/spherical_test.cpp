@@ -189,6 +189,18 @@ TEST(Sides, PointsThatLookAtACornerOrThroughIt) {
     }
 }
 
+// The equator in five arcs: rounding decides whether an arc's end is nearest, where tangents tell no side.
+TEST(Sides, PointsBesideAVertexThatIsNoCorner) {
+  std::mt19937 random(6);
+  for (int n = 0; n < 200; ++n) {
+    const glm::dmat3 turn = random_rotation(random);
+    const std::vector<SphereArc> loop = polygon(5, kPi / 2, turn);
+    for (const SphereArc& arc : loop)
+      for (const double north : {0.3, -0.3, 1e-3, -1e-3})
+        EXPECT_EQ(distance_left_of(std::cos(north) * arc.to + std::sin(north) * turn[2], loop) > 0, north > 0);
+  }
+}
+
 TEST(Sides, LoopsThatTouch) {
   // A circle that touches one side of an octant from inside: it lies left of it, wherever its points are asked.
   const glm::dvec3 x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);

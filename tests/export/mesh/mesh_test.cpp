@@ -355,6 +355,20 @@ TEST(Mesh, PlyColorsAreRoundedToTheNearestByte) {
     ASSERT_EQ(vertex.color, (std::array<std::uint8_t, 3>{128, 255, 51}));
 }
 
+// Nobody is given a mesh of another surface: one face more by a sphere of the probe, one component the other way round.
+TEST(Mesh, OfASurfaceWithOtherAreasOrVolumesIsRefused) {
+  const Surface surface = compute_surface_cpu(ring(3, 3.0), kWater);
+  EXPECT_NO_THROW(tessellate(surface, {0.1, false}));
+  for (std::size_t f = 0; f < surface.faces.size(); ++f) {
+    Surface wrong = surface;
+    wrong.faces[f].area += 4 * M_PI * kWater * kWater;
+    EXPECT_THROW(tessellate(wrong, {0.1, false}), OpenSurfaceError) << f;
+  }
+  Surface wrong = surface;
+  wrong.components[0].volume *= -1;
+  EXPECT_THROW(tessellate(wrong, {0.1, false}), OpenSurfaceError);
+}
+
 TEST(Mesh, AToleranceThatIsNoLengthIsRefused) {
   const Surface surface = compute_surface_cpu(two_atoms(4.0), kWater);
   for (const double tolerance : {0.0, -1.0, std::nan(""), HUGE_VAL}) {
