@@ -355,6 +355,20 @@ TEST(Mesh, PlyColorsAreRoundedToTheNearestByte) {
     ASSERT_EQ(vertex.color, (std::array<std::uint8_t, 3>{128, 255, 51}));
 }
 
+TEST(Mesh, PlyColorsAreThoseOfTheAtomBelow) {
+  const Balls balls{{{0, 0, 0}, 1.5}, {{20, 0, 0}, 1.5}, {{0, 20, 0}, 1.5}};
+  const TriangleMesh mesh = tessellate(compute_surface_cpu(balls, kWater), {0.2, true});
+  Coloring coloring;
+  coloring.atom = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  const std::vector<PlyVertex> vertices = ply_vertices(mesh, coloring);
+  for (std::size_t v = 0; v < vertices.size(); ++v) {
+    const std::size_t atom = mesh.positions[v].x > 10 ? 1 : mesh.positions[v].y > 10 ? 2 : 0;
+    std::array<std::uint8_t, 3> expected{};
+    expected[atom] = 255;
+    ASSERT_EQ(vertices[v].color, expected) << v;
+  }
+}
+
 // Nobody is given a mesh of another surface: one face more by a sphere of the probe, one component the other way round.
 TEST(Mesh, OfASurfaceWithOtherAreasOrVolumesIsRefused) {
   const Surface surface = compute_surface_cpu(ring(3, 3.0), kWater);
