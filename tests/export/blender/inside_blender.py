@@ -79,6 +79,19 @@ class Import(unittest.TestCase):
             self.assertGreater(camera.data.clip_end, depth.max(), scale)
             self.assertLess(camera.data.clip_start, depth.min(), scale)
 
+    def test_the_camera_stands_and_sees_as_the_file_says(self):
+        shot = mns_reader.read(path_of("triple")).header["camera"]
+        for scale in (0.1, 10.0):
+            item = imported("triple", scale=scale)
+            camera = next(other for other in item.users_collection[0].all_objects if other.type == "CAMERA")
+            world = np.array(camera.matrix_world)
+            ahead, up = np.array(shot["target"]) - shot["position"], np.array(shot["up"])
+            np.testing.assert_allclose(world[:3, 3], scale * np.array(shot["position"]), rtol=1e-5, atol=1e-5 * scale)
+            np.testing.assert_allclose(-world[:3, 2], ahead / np.linalg.norm(ahead), atol=1e-5)
+            self.assertGreater(world[:3, 1] @ up, 0.0)
+            self.assertEqual(camera.data.sensor_fit, "VERTICAL")
+            self.assertAlmostEqual(np.degrees(camera.data.angle_y), shot["vertical_fov"], places=4)
+
     def test_coordinates_are_those_of_the_atoms_unmirrored(self):
         surface = mns_reader.read(path_of("triple")).objects[0]
         mesh = imported("triple", scale=1.0).data
