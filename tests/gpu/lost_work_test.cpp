@@ -10,6 +10,7 @@
 #include "core/base/error.h"
 #include "core/gpu/buffer.h"
 #include "core/gpu/egl_context.h"
+#include "core/gpu/kernel_parameters.h"
 #include "core/gpu/program.h"
 #include "core/gpu/work_proof.h"
 #include "core/render/ray_caster.h"
@@ -168,7 +169,7 @@ TEST_F(LostWork, OfGroupsThatTheGpuCounts) {
   const auto run = [&](std::uint32_t times) {
     words.bind(0);
     surplus.bind(1);
-    program.set("count", 128u);
+    program.set(kernel::ScaleParameters{.count = 128, .offset = 1});
     for (std::uint32_t n = 0; n < times; ++n) program.dispatch_indirect(counts, 0);
     WorkProof::current().verify();
   };
@@ -192,7 +193,7 @@ TEST_F(LostWork, AnAccountThatCannotBeReadProvesNothing) {
   const Buffer counts{std::span<const std::uint32_t>(std::vector<std::uint32_t>{2, 1, 1})};
   words.bind(0);
   surplus.bind(1);
-  program.set("count", 128u);
+  program.set(kernel::ScaleParameters{.count = 128, .offset = 1});
   for (const bool indirect : {false, true}) {
     WorkProof::current().verify();
     indirect ? program.dispatch_indirect(counts, 0) : program.dispatch(2);
