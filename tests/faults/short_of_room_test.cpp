@@ -72,7 +72,7 @@ TEST_F(NoRoom, ForAFilm) {
 // From what cannot even load the program to what is enough; loading is the system's, which says so and ends with 127.
 TEST(NoMemory, IsOneLineAndExitFive) {
   bool was_refused = false, was_enough = false;
-  for (int megabytes = 200; megabytes <= 3400 && !was_enough; megabytes += megabytes / 8) {
+  for (int megabytes = 24; megabytes <= 3400 && !was_enough; megabytes += megabytes / 8) {
     const ProgramResult result =
         in_shell(fmt::format("ulimit -v {}", megabytes * 1024), std::string("surface -q --device cpu ") + kUbiquitin);
     if (result.exit_code == 127) continue;
