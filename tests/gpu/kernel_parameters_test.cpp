@@ -226,7 +226,9 @@ TEST(KernelParameters, AreNeitherForgottenNorMistaken) {
   surplus.bind(1);
   EXPECT_THROW(program.dispatch(1), GpuError) << "never set";
   EXPECT_THROW(program.set(kernel::ScaleParameters{4, 1}, 3), GpuError) << "no such binding";
-  EXPECT_THROW(program.set(kernel::CellGrid{}), GpuError) << "another size";
+  EXPECT_THROW(program.set(kernel::CellGrid{}), GpuError) << "too large";
+  const Program larger("gpu_shaders/ray_cast/tile_lists.comp", ShaderDefines{{"PASS", "0"}});
+  EXPECT_THROW(larger.set(kernel::ScaleParameters{4, 1}), GpuError) << "too small";
   EXPECT_THROW(program.dispatch(1), GpuError) << "still not set";
   program.set(kernel::ScaleParameters{.count = 4, .offset = 1});
   program.dispatch(1);
