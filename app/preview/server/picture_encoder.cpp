@@ -42,6 +42,8 @@ std::vector<std::uint8_t> encode_png(std::span<const std::uint8_t> rgba, glm::iv
   image.byte_stride = 4;
   try {
     return image_codec().encode(image);
+  } catch (const Error&) {
+    throw;
   } catch (const std::runtime_error& error) {
     throw Error(std::string("PNG: ") + error.what());
   }
