@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "app/compute.h"
-#include "core/molecule/atom_groups.h"
-#include "core/molecule/structure.h"
-#include "core/surface/surface_object.h"
+#include "core/structure/atom_groups.h"
+#include "core/structure/structure.h"
+#include "core/queries/surface_object.h"
 
 namespace meniscus {
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/molecule/structure.h"
+#include "core/structure/structure.h"
 #include "exporters/blender/surface_file.h"
 
 namespace meniscus {

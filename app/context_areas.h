@@ -7,8 +7,8 @@
 
 #include "app/area_columns.h"
 #include "app/molecule.h"
-#include "app/molecule_options.h"
-#include "core/molecule/selection.h"
+#include "app/options/molecule_options.h"
+#include "core/structure/selection/selection.h"
 
 namespace meniscus {
 

@@ -12,7 +12,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "core/trajectory/binary_file.h"
+#include "core/trajectory/formats/binary_file.h"
 
 namespace meniscus {
 namespace {

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "app/program_error.h"
-#include "app/run_progress.h"
+#include "app/reports/run_progress.h"
 #include "core/base/text.h"
 
 namespace meniscus {

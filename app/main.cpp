@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 
 #include "app/build_version.h"
-#include "app/commands.h"
-#include "app/error_report.h"
+#include "app/commands/commands.h"
+#include "app/reports/error_report.h"
 #include "app/failed_allocation.h"
 #include "app/memory_limit.h"
 #include "app/program_error.h"

@@ -11,7 +11,7 @@
 #include "app/surface_objects.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/trajectory/formats.h"
+#include "core/trajectory/formats/formats.h"
 
 namespace meniscus {
 namespace {

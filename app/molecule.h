@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "app/molecule_options.h"
+#include "app/options/molecule_options.h"
 #include "core/base/stage_clock.h"
-#include "core/molecule/color_scale.h"
-#include "core/molecule/structure.h"
-#include "core/surface/surface_object.h"
+#include "core/color/color_scale.h"
+#include "core/structure/structure.h"
+#include "core/queries/surface_object.h"
 
 namespace meniscus {
 

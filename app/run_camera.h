@@ -8,10 +8,10 @@
 
 #include <CLI/CLI.hpp>
 
-#include "app/picture_options.h"
+#include "app/options/picture_options.h"
 #include "app/sequence.h"
-#include "core/molecule/selection.h"
-#include "core/render/camera_path.h"
+#include "core/structure/selection/selection.h"
+#include "core/camera/camera_path.h"
 
 namespace meniscus {
 

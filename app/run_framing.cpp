@@ -6,7 +6,7 @@
 
 #include <glm/common.hpp>
 
-#include "core/molecule/named_colors.h"
+#include "core/color/named_colors.h"
 
 namespace meniscus {
 

@@ -7,11 +7,11 @@
 
 #include <glm/vec3.hpp>
 
-#include "app/picture_options.h"
+#include "app/options/picture_options.h"
 #include "app/run_camera.h"
 #include "app/sequence.h"
-#include "core/molecule/color_schemes.h"
-#include "core/render/camera.h"
+#include "core/color/color_schemes.h"
+#include "core/camera/camera.h"
 
 namespace meniscus {
 

@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
-#include "app/molecule_options.h"
-#include "app/sequence_options.h"
-#include "core/molecule/structure.h"
+#include "app/options/molecule_options.h"
+#include "app/options/sequence_options.h"
+#include "core/structure/structure.h"
 #include "core/trajectory/prepared_frames.h"
 #include "core/trajectory/read_ahead.h"
 #include "core/trajectory/trajectory.h"

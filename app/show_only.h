@@ -4,9 +4,9 @@
 
 #include <vector>
 
-#include "core/molecule/selection.h"
-#include "core/molecule/structure.h"
-#include "core/surface/surface_object.h"
+#include "core/structure/selection/selection.h"
+#include "core/structure/structure.h"
+#include "core/queries/surface_object.h"
 
 namespace meniscus {
 

@@ -13,8 +13,8 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "core/surface/copy_contact.h"
-#include "core/surface/part.h"
+#include "core/queries/copy_contact.h"
+#include "core/queries/part.h"
 
 namespace meniscus {
 namespace {

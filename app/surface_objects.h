@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "app/compute.h"
-#include "app/molecule_options.h"
-#include "core/molecule/structure.h"
-#include "core/surface/surface_object.h"
+#include "app/options/molecule_options.h"
+#include "core/structure/structure.h"
+#include "core/queries/surface_object.h"
 
 namespace meniscus {
 

@@ -7,8 +7,8 @@
 #include "app/molecule.h"
 #include "core/render/framebuffer.h"
 #include "core/render/ray_caster.h"
-#include "core/view/extent.h"
-#include "core/view/view_pipeline.h"
+#include "core/visible_surface/extent.h"
+#include "core/visible_surface/view_pipeline.h"
 
 namespace meniscus {
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# clang-tidy with the checks of .clang-tidy; warnings are errors. Without options the rooms that write files
+# clang-tidy with the checks of .clang-tidy; warnings are errors. Without options the folders that write files
 # and compute the surface, without the static analyzer, which takes as long as all the rest; --all takes all of our
 # code and all checks; or name files. The last line says how many files were checked and how many failed.
 set -euo pipefail
@@ -7,14 +7,14 @@ cd "$(dirname "$0")/.."
 command -v clang-tidy-14 >/dev/null || { echo "clang-tidy is missing: apt-get install clang-tidy-14" >&2; exit 1; }
 
 checks=(--checks=-clang-analyzer-*)
-rooms=(core/base core/surface)
+folders=(core/base core/reduced_surface core/surface core/queries)
 if [[ ${1:-} == --all ]]; then
   checks=()
-  rooms=(core exporters app)
+  folders=(core exporters app)
   shift
 fi
 files=("$@")
-if ((${#files[@]} == 0)); then mapfile -t files < <(find "${rooms[@]}" -name '*.cpp' | sort); fi
+if ((${#files[@]} == 0)); then mapfile -t files < <(find "${folders[@]}" -name '*.cpp' | sort); fi
 
 # How clang compiles each file.
 build=build/asan

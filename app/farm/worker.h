@@ -9,7 +9,7 @@
 #include "app/farm/bundle.h"
 #include "app/farm/claims.h"
 #include "app/farm/makers.h"
-#include "app/run_progress.h"
+#include "app/reports/run_progress.h"
 
 namespace meniscus::farm {
 

@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "app/commands.h"
+#include "app/commands/commands.h"
 #include "app/farm/command_options.h"
 #include "app/program_error.h"
 #include "core/base/text.h"

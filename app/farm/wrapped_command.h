@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "app/molecule_options.h"
-#include "app/picture_options.h"
+#include "app/options/molecule_options.h"
+#include "app/options/picture_options.h"
 #include "app/run_camera.h"
-#include "app/sequence_options.h"
+#include "app/options/sequence_options.h"
 
 namespace meniscus::farm {
 

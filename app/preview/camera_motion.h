@@ -6,7 +6,7 @@
 
 #include <glm/vec2.hpp>
 
-#include "core/render/camera.h"
+#include "core/camera/camera.h"
 
 namespace meniscus {
 

@@ -5,7 +5,7 @@
 #include <chrono>
 
 #include "core/base/error.h"
-#include "core/reference/exhaustive.h"
+#include "core/reduced_surface/cpu/exhaustive.h"
 #include "core/surface/atom_areas.h"
 #include "core/surface/surface.h"
 

@@ -12,7 +12,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/molecule/color_schemes.h"
+#include "core/color/color_schemes.h"
 
 namespace meniscus {
 namespace {

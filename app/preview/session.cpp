@@ -11,7 +11,7 @@
 #include "app/preview/camera_motion.h"
 #include "app/preview/look_json.h"
 #include "core/base/error.h"
-#include "core/molecule/named_colors.h"
+#include "core/color/named_colors.h"
 
 namespace meniscus {
 

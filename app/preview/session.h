@@ -17,13 +17,13 @@
 #include "app/preview/command_json.h"
 #include "app/preview/exposed_areas.h"
 #include "app/preview/moments.h"
-#include "core/molecule/atom_groups.h"
-#include "core/molecule/color_schemes.h"
-#include "core/molecule/structure.h"
-#include "core/render/camera.h"
-#include "core/render/camera_path.h"
+#include "core/structure/atom_groups.h"
+#include "core/color/color_schemes.h"
+#include "core/structure/structure.h"
+#include "core/camera/camera.h"
+#include "core/camera/camera_path.h"
 #include "core/render/look.h"
-#include "core/view/frame_renderer.h"
+#include "core/visible_surface/frame_renderer.h"
 
 namespace meniscus {
 

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "app/molecule_options.h"
+#include "app/options/molecule_options.h"
 #include "app/preview/camera_motion.h"
 #include "app/preview/command_reader.h"
 #include "app/preview/look_json.h"

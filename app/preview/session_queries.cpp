@@ -9,7 +9,7 @@
 #include "app/preview/view_export.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/molecule/radii.h"
+#include "core/structure/radii.h"
 
 namespace meniscus {
 namespace {

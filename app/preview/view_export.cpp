@@ -10,13 +10,13 @@
 
 #include "app/blender_attributes.h"
 #include "app/compute.h"
-#include "app/mesh_options.h"
+#include "app/options/mesh_options.h"
 #include "app/molecule.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/render/image_output.h"
 #include "core/render/ray_caster.h"
-#include "core/surface/surface_object.h"
+#include "core/queries/surface_object.h"
 #include "exporters/blender/surface_file.h"
 #include "exporters/povray/scene.h"
 

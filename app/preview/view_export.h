@@ -9,12 +9,12 @@
 #include <glm/vec2.hpp>
 
 #include "core/base/output_file.h"
-#include "core/molecule/color_schemes.h"
-#include "core/molecule/structure.h"
-#include "core/render/camera.h"
-#include "core/render/camera_path.h"
+#include "core/color/color_schemes.h"
+#include "core/structure/structure.h"
+#include "core/camera/camera.h"
+#include "core/camera/camera_path.h"
 #include "core/render/look.h"
-#include "core/surface/coloring.h"
+#include "core/color/coloring.h"
 
 namespace meniscus {
 

@@ -7,7 +7,7 @@
 
 #include <glm/vec4.hpp>
 
-#include "core/render/color_space.h"
+#include "core/image/color_space.h"
 
 namespace meniscus {
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "core/gpu/buffer.h"
-#include "core/surface/coloring.h"
+#include "core/color/coloring.h"
 
 namespace meniscus {
 

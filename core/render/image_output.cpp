@@ -16,8 +16,8 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/image/image_codec.h"
-#include "core/render/color_space.h"
-#include "core/render/memory_file.h"
+#include "core/image/color_space.h"
+#include "core/image/memory_file.h"
 
 namespace meniscus {
 namespace {

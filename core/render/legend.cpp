@@ -9,7 +9,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "core/render/color_space.h"
+#include "core/image/color_space.h"
 
 namespace meniscus {
 namespace {

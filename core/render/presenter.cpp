@@ -7,7 +7,7 @@
 #include "core/gpu/kernel_parameters.h"
 #include "core/gpu/limits.h"
 #include "core/gpu/work_proof.h"
-#include "core/render/color_space.h"
+#include "core/image/color_space.h"
 
 namespace meniscus {
 

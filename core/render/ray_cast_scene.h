@@ -11,9 +11,9 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
-#include "core/render/camera.h"
+#include "core/camera/camera.h"
 #include "core/render/gpu_scene.h"
-#include "core/surface/coloring.h"
+#include "core/color/coloring.h"
 #include "core/surface/primitives.h"
 
 namespace meniscus {

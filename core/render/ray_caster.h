@@ -7,14 +7,14 @@
 #include "core/base/stage_clock.h"
 #include "core/gpu/program.h"
 #include "core/gpu/texel_buffer.h"
-#include "core/render/camera.h"
+#include "core/camera/camera.h"
 #include "core/render/framebuffer.h"
 #include "core/render/gpu_scene.h"
 #include "core/render/look.h"
 #include "core/render/look_pass.h"
 #include "core/render/ray_cast_scene.h"
 #include "core/render/tile_lists.h"
-#include "core/surface/coloring.h"
+#include "core/color/coloring.h"
 #include "core/surface/primitives.h"
 
 namespace meniscus {

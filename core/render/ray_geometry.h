@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "core/surface/geometry.h"
+#include "core/math/geometry.h"
 
 #define GEOMETRY_INOUT(type) type&
 

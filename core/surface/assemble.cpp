@@ -8,7 +8,7 @@
 #include "core/surface/cusps.h"
 #include "core/surface/fixed_probes.h"
 #include "core/surface/measure.h"
-#include "core/surface/reduced_surface.h"
+#include "core/reduced_surface/reduced_surface.h"
 #include "core/surface/surface.h"
 #include "core/surface/trim.h"
 

@@ -10,7 +10,7 @@
 #include <tbb/parallel_for.h>
 
 #include "core/surface/loops.h"
-#include "core/surface/union_find.h"
+#include "core/math/union_find.h"
 
 namespace meniscus {
 namespace {

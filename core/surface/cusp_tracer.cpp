@@ -11,8 +11,8 @@
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
-#include "core/surface/ball_grid.h"
-#include "core/surface/contour.h"
+#include "core/math/ball_grid.h"
+#include "core/reduced_surface/contour/contour.h"
 
 namespace meniscus {
 namespace {

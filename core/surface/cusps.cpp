@@ -10,8 +10,8 @@
 #include <glm/geometric.hpp>
 #include <tbb/parallel_for.h>
 
-#include "core/surface/geometry.h"
-#include "core/surface/reduced_surface.h"
+#include "core/math/geometry.h"
+#include "core/reduced_surface/reduced_surface.h"
 
 namespace meniscus {
 namespace {

@@ -13,9 +13,9 @@
 #include <glm/geometric.hpp>
 #include <tbb/parallel_for.h>
 
-#include "core/surface/geometry.h"
-#include "core/surface/quad_geometry.h"
-#include "core/surface/union_find.h"
+#include "core/math/geometry.h"
+#include "core/math/quad_geometry.h"
+#include "core/math/union_find.h"
 
 namespace meniscus {
 namespace {

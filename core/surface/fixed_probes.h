@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/surface/primitives.h"
-#include "core/surface/reduced_surface.h"
+#include "core/reduced_surface/reduced_surface.h"
 
 namespace meniscus {
 

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "core/surface/spherical.h"
-#include "core/surface/union_find.h"
+#include "core/math/union_find.h"
 
 namespace meniscus {
 namespace {

@@ -14,22 +14,16 @@
 
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
 
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
+#include "core/base/index.h"
+#include "core/math/ball.h"
+
 namespace meniscus {
-
-inline constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
-
-/// A van der Waals ball: centre and radius r_i.
-struct Ball {
-  glm::dvec3 center{0.0};
-  double radius = 0.0;
-};
 
 /// A half-space: a point x is inside where dot(normal, x) <= offset. The normal has unit length.
 struct Plane {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "core/surface/reduced_surface.h"
+#include "core/reduced_surface/reduced_surface.h"
 
 namespace meniscus {
 

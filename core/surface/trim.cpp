@@ -12,9 +12,9 @@
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
-#include "core/surface/ball_grid.h"
-#include "core/surface/contour.h"
-#include "core/surface/reduced_surface.h"
+#include "core/math/ball_grid.h"
+#include "core/reduced_surface/contour/contour.h"
+#include "core/reduced_surface/reduced_surface.h"
 
 namespace meniscus {
 namespace {

@@ -5,7 +5,7 @@
 #include "core/surface/cusps.h"
 #include "core/surface/fixed_probes.h"
 #include "core/surface/primitives.h"
-#include "core/surface/reduced_surface.h"
+#include "core/reduced_surface/reduced_surface.h"
 
 namespace meniscus {
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-#include "core/molecule/structure.h"
+#include "core/structure/structure.h"
 #include "core/trajectory/frame.h"
 
 namespace meniscus {

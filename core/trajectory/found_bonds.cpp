@@ -10,7 +10,7 @@
 #include <gemmi/elem.hpp>
 #include <glm/geometric.hpp>
 
-#include "core/molecule/canonical_names.h"
+#include "core/structure/canonical_names.h"
 
 namespace meniscus {
 namespace {

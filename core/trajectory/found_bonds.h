@@ -8,7 +8,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "core/molecule/structure.h"
+#include "core/structure/structure.h"
 #include "core/trajectory/periodic_cell.h"
 
 namespace meniscus {

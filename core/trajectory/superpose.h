@@ -7,7 +7,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "core/surface/rigid_motion.h"
+#include "core/math/rigid_motion.h"
 
 namespace meniscus {
 

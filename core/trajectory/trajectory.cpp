@@ -8,7 +8,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/molecule/reader.h"
+#include "core/text/parse_number.h"
 
 namespace meniscus {
 namespace {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "core/molecule/structure.h"
+#include "core/structure/structure.h"
 #include "core/trajectory/frame.h"
 
 namespace meniscus {
@@ -59,7 +59,7 @@ struct TrajectoryOptions {
   std::string index_folder;
 };
 
-/// Opens a file of any format in core/trajectory/formats.h, told by its content. Throws InputError: missing, no
+/// Opens a file of any format in core/trajectory/formats/formats.h, told by its content. Throws InputError: missing, no
 /// trajectory, not one whole frame, broken header.
 std::unique_ptr<Trajectory> open_trajectory(const std::string& path, const TrajectoryOptions& options = {});
 

@@ -10,7 +10,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 
-#include "core/molecule/structure.h"
+#include "core/structure/structure.h"
 
 namespace meniscus {
 

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "core/base/output_file.h"
-#include "core/render/camera.h"
-#include "core/surface/surface_object.h"
+#include "core/camera/camera.h"
+#include "core/queries/surface_object.h"
 #include "exporters/mesh/triangle_mesh.h"
 
 namespace meniscus::blender {

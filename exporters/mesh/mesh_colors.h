@@ -6,7 +6,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "core/surface/coloring.h"
+#include "core/color/coloring.h"
 #include "exporters/mesh/triangle_mesh.h"
 
 namespace meniscus {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/base/output_file.h"
-#include "core/surface/coloring.h"
+#include "core/color/coloring.h"
 #include "exporters/mesh/triangle_mesh.h"
 
 namespace meniscus {

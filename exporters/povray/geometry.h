@@ -10,7 +10,7 @@
 #include <glm/vec3.hpp>
 
 #include "core/base/output_file.h"
-#include "core/surface/surface_object.h"
+#include "core/queries/surface_object.h"
 #include "exporters/povray/palette.h"
 #include "exporters/povray/scene_text.h"
 

@@ -9,7 +9,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "core/surface/coloring.h"
+#include "core/color/coloring.h"
 #include "core/surface/primitives.h"
 
 namespace meniscus::povray {

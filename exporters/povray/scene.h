@@ -11,8 +11,8 @@
 #include <glm/vec3.hpp>
 
 #include "core/base/output_file.h"
-#include "core/render/camera.h"
-#include "core/surface/surface_object.h"
+#include "core/camera/camera.h"
+#include "core/queries/surface_object.h"
 
 namespace meniscus::povray {
 

@@ -10,7 +10,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "core/render/camera.h"
+#include "core/camera/camera.h"
 #include "exporters/povray/scene.h"
 
 namespace meniscus::povray {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Contour build-up of one circle in a kernel: what core/surface/contour.cpp does on the host, arc by arc.
+// Contour build-up of one circle in a kernel: what core/reduced_surface/contour/contour.cpp does on the host, arc by arc.
 // Based on: Totrov & Abagyan 1996.
 #include "gpu_shaders/geometry/circle.glsl"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One side of a fixed probe's spherical polygon, as core/surface/gpu_cusp_tracer.cpp uploads it (64 bytes, std430).
+// One side of a fixed probe's spherical polygon, as core/surface/gpu/gpu_cusp_tracer.cpp uploads it (64 bytes, std430).
 struct CuspSide {
   vec4 contact;        // xyz: unit vector from the probe to the side's first contact
   vec4 gap_direction;  // xyz: from the spindle circle's centre to the middle of the covered gap

@@ -11,10 +11,10 @@
 
 #include "core/base/error.h"
 #include "core/gpu/egl_context.h"
-#include "core/molecule/read_structure.h"
-#include "core/reference/exhaustive.h"
-#include "core/surface/pipeline.h"
-#include "core/surface/reduced_surface.h"
+#include "core/structure/formats/read_structure.h"
+#include "core/reduced_surface/cpu/exhaustive.h"
+#include "core/surface/gpu/pipeline.h"
+#include "core/reduced_surface/reduced_surface.h"
 #include "core/surface/surface.h"
 
 namespace meniscus {

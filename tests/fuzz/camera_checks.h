@@ -2,7 +2,7 @@
 // What must hold for every camera that was accepted.
 #pragma once
 
-#include "core/render/camera.h"
+#include "core/camera/camera.h"
 
 namespace meniscus::fuzz {
 

@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "core/base/error.h"
-#include "core/molecule/read_structure.h"
+#include "core/structure/formats/read_structure.h"
 
 namespace meniscus::fuzz {
 namespace {

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/molecule/reader.h"
+#include "core/structure/formats/reader.h"
 #include "tests/fuzz/target.h"
 
 namespace meniscus::fuzz {

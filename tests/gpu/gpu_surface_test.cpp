@@ -6,9 +6,9 @@
 #include <gtest/gtest.h>
 
 #include "core/gpu/egl_context.h"
-#include "core/reference/exhaustive.h"
-#include "core/surface/compare.h"
-#include "core/surface/pipeline.h"
+#include "core/reduced_surface/cpu/exhaustive.h"
+#include "core/queries/compare.h"
+#include "core/surface/gpu/pipeline.h"
 #include "core/surface/surface.h"
 #include "tests/support/molecules.h"
 

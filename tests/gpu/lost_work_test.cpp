@@ -14,9 +14,9 @@
 #include "core/gpu/program.h"
 #include "core/gpu/work_proof.h"
 #include "core/render/ray_caster.h"
-#include "core/surface/compare.h"
-#include "core/surface/pipeline.h"
-#include "core/view/frame_renderer.h"
+#include "core/queries/compare.h"
+#include "core/surface/gpu/pipeline.h"
+#include "core/visible_surface/frame_renderer.h"
 #include "tests/gpu/gl_faults.h"
 #include "tests/support/molecules.h"
 

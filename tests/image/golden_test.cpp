@@ -39,7 +39,7 @@ Framebuffer render(const testing::Balls& balls, bool by_kind, Projection project
   settings.look = look;
   EglContext context;
   const double aspect = static_cast<double>(size.x) / size.y;
-  return RayCaster().render(surface, coloring, frame_camera(surface, aspect, projection), settings);
+  return RayCaster().render(surface, coloring, frame_camera(surface.atoms, aspect, projection), settings);
 }
 
 void expect_golden(const std::string& name, const Framebuffer& picture) {

@@ -39,7 +39,7 @@ View view_of(const std::string& name, const testing::Balls& balls, double probe_
   View view{name, compute_surface_cpu(balls, probe_radius), {}, {}};
   for (std::size_t a = 0; a < balls.size(); ++a)
     view.coloring.atom.emplace_back(0.1f + 0.02f * (a % 40), 0.5f, 0.9f - 0.02f * (a % 30));
-  view.frame = make_picture_frame(view.surface.atoms, frame_camera(view.surface, 4.0 / 3.0, projection), kSize);
+  view.frame = make_picture_frame(view.surface.atoms, frame_camera(view.surface.atoms, 4.0 / 3.0, projection), kSize);
   return view;
 }
 

@@ -14,7 +14,7 @@
 #include <unistd.h>
 
 #include "core/base/error.h"
-#include "core/render/color_space.h"
+#include "core/image/color_space.h"
 
 namespace meniscus {
 namespace {

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
-#include "core/render/color_space.h"
+#include "core/image/color_space.h"
 
 namespace meniscus {
 namespace {

@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "core/gpu/egl_context.h"
-#include "core/render/color_space.h"
+#include "core/image/color_space.h"
 #include "core/render/presenter.h"
 #include "core/render/ray_caster.h"
 #include "core/surface/surface.h"

@@ -14,8 +14,8 @@
 
 #include "core/gpu/egl_context.h"
 #include "core/render/ray_caster.h"
-#include "core/surface/combine.h"
-#include "core/surface/part.h"
+#include "core/queries/combine.h"
+#include "core/queries/part.h"
 #include "core/surface/surface.h"
 #include "tests/support/molecules.h"
 
@@ -103,7 +103,7 @@ TEST_F(Pictures, PartsTogetherLookLikeTheWhole) {
     SCOPED_TRACE(molecule.name);
     const Surface whole = compute_surface_cpu(molecule.balls, molecule.probe_radius);
     if (whole.components.size() < 2 || whole.components.size() > 8) continue;
-    const Camera camera = frame_camera(whole, double(kSize.x) / kSize.y);
+    const Camera camera = frame_camera(whole.atoms, double(kSize.x) / kSize.y);
     const Framebuffer expected = cast(whole, camera);
     std::vector<float> nearest(expected.z.size(), std::numeric_limits<float>::infinity());
     for (std::size_t c = 0; c < whole.components.size(); ++c) {

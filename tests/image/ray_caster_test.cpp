@@ -93,7 +93,7 @@ class RayCasting : public ::testing::Test {
     const testing::SphereTracer tracer(balls, probe_radius);
     const testing::RayCasterTwin cpu_twin(surface);
     for (const Projection projection : {Projection::perspective, Projection::orthographic}) {
-      const Camera camera = frame_camera(surface, static_cast<double>(size.x) / size.y, projection);
+      const Camera camera = frame_camera(surface.atoms, static_cast<double>(size.x) / size.y, projection);
       const Framebuffer picture = cast(surface, camera, size);
       expect_agreement(
           picture, camera,
@@ -120,7 +120,7 @@ class RayCasting : public ::testing::Test {
 TEST_F(RayCasting, OneSphereHasItsClosedForm) {
   const Surface surface = compute_surface_cpu(Balls{{{100.0, -40.0, 7.0}, 1.7}}, 1.4);
   for (const Projection projection : {Projection::perspective, Projection::orthographic}) {
-    const Camera camera = frame_camera(surface, 1.25, projection);
+    const Camera camera = frame_camera(surface.atoms, 1.25, projection);
     const Framebuffer picture = cast(surface, camera, {200, 160});
     expect_agreement(
         picture, camera,
@@ -211,7 +211,7 @@ TEST_F(RayCasting, AnyZoom) {
     return hit ? std::optional(hit->t) : std::nullopt;
   };
   for (const double zoom : {10.0, 1e3, 1e5}) {
-    Camera camera = frame_camera(surface, 1.0);
+    Camera camera = frame_camera(surface.atoms, 1.0);
     camera.vertical_fov /= zoom;
     expect_agreement(cast(surface, camera, {64, 64}), camera, depth, "zoom");
     Camera close = camera;  // the same by walking up to the surface, and a little inside of it
@@ -228,7 +228,7 @@ TEST_F(RayCasting, AnyZoom) {
 TEST_F(RayCasting, AovsDescribeThePointOfThePixelCentre) {
   const Surface surface = compute_surface_cpu(testing::ubiquitin(), 1.4);
   const testing::RayCasterTwin twin(surface);
-  const Camera camera = frame_camera(surface, 4.0 / 3.0);
+  const Camera camera = frame_camera(surface.atoms, 4.0 / 3.0);
   const Framebuffer picture = cast(surface, camera, {128, 96});
   int other_patch = 0, other_atom = 0, hit_count = 0;
   for (int at = 0; at < 128 * 96; ++at) {
@@ -268,7 +268,7 @@ TEST_F(RayCasting, RaysGoOnThroughHiddenAtoms) {
   settings.size = {128, 96};
   settings.aovs = true;
   for (const Projection projection : {Projection::perspective, Projection::orthographic}) {
-    const Camera camera = frame_camera(surface, 4.0 / 3.0, projection);
+    const Camera camera = frame_camera(surface.atoms, 4.0 / 3.0, projection);
     const Framebuffer picture = caster_.render(surface, coloring, camera, settings);
     const Agreement agreement = compare(picture, camera, [&](const Ray& ray) -> std::optional<double> {
       const auto hit = twin.trace(ray);
@@ -290,13 +290,13 @@ TEST_F(RayCasting, RaysGoOnThroughHiddenAtoms) {
     EXPECT_GT(inside, 300);
   }
   coloring.hidden.assign(surface.atoms.size(), true);
-  const Framebuffer empty = caster_.render(surface, coloring, frame_camera(surface, 4.0 / 3.0), settings);
+  const Framebuffer empty = caster_.render(surface, coloring, frame_camera(surface.atoms, 4.0 / 3.0), settings);
   EXPECT_TRUE(std::ranges::all_of(empty.color, [](const glm::vec4& c) { return c == glm::vec4(0.0f); }));
 }
 
 TEST_F(RayCasting, BlocksAndSamplesDoNotChangeThePicture) {
   const Surface surface = compute_surface_cpu(testing::ubiquitin(), 1.4);
-  const Camera camera = frame_camera(surface, 1.3);
+  const Camera camera = frame_camera(surface.atoms, 1.3);
   RenderSettings settings;
   settings.size = {130, 101};
   settings.samples = 3;
@@ -324,7 +324,7 @@ TEST_F(RayCasting, ACavityIsAComponentOfItsOwn) {
     const Framebuffer picture = cast(surface, camera, {32, 32});
     for (const std::uint32_t c : picture.component) EXPECT_TRUE(c == component || (component == 0 && c == kNone));
     EXPECT_EQ(picture.component[16 * 32 + 16], component);
-    camera = frame_camera(surface, 1.0);
+    camera = frame_camera(surface.atoms, 1.0);
   }
 }
 

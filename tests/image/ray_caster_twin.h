@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "core/render/camera.h"
-#include "core/surface/coloring.h"
+#include "core/camera/camera.h"
+#include "core/color/coloring.h"
 #include "core/surface/primitives.h"
 
 namespace meniscus::testing {

@@ -11,8 +11,8 @@
 
 #include "core/base/error.h"
 #include "core/gpu/egl_context.h"
-#include "core/molecule/read_structure.h"
-#include "core/reference/exhaustive.h"
+#include "core/structure/formats/read_structure.h"
+#include "core/reduced_surface/cpu/exhaustive.h"
 #include "core/surface/atom_areas.h"
 #include "core/surface/surface.h"
 #include "tests/support/run_program.h"

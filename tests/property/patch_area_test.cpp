@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "core/surface/surface.h"
-#include "core/surface/union_find.h"
+#include "core/math/union_find.h"
 #include "tests/support/molecules.h"
 #include "tests/support/patch_samples.h"
 

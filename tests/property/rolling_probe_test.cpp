@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "core/reference/exhaustive.h"
-#include "core/reference/rolling_probe.h"
+#include "core/reduced_surface/cpu/exhaustive.h"
+#include "core/reduced_surface/rolling_probe/rolling_probe.h"
 #include "tests/support/molecules.h"
 
 namespace meniscus::testing {

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/surface/reduced_surface.h"
+#include "core/reduced_surface/reduced_surface.h"
 #include "core/surface/surface.h"
 #include "exporters/mesh/tessellate.h"
 #include "tests/prove/families.h"

@@ -11,7 +11,7 @@
 
 #include "core/base/error.h"
 #include "core/surface/atom_areas.h"
-#include "core/surface/reduced_surface.h"
+#include "core/reduced_surface/reduced_surface.h"
 #include "core/surface/surface.h"
 #include "exporters/mesh/tessellate.h"
 #include "tests/support/patch_samples.h"

@@ -9,7 +9,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "core/molecule/read_structure.h"
+#include "core/structure/formats/read_structure.h"
 
 namespace meniscus::testing {
 namespace {

@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
-#include "core/molecule/read_structure.h"
+#include "core/structure/formats/read_structure.h"
 
 namespace meniscus {
 namespace {

@@ -6,7 +6,7 @@
 #include <exception>
 #include <vector>
 
-#include "core/trajectory/formats.h"
+#include "core/trajectory/formats/formats.h"
 
 namespace {
 

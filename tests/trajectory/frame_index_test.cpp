@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "core/trajectory/formats.h"
-#include "core/trajectory/frame_index.h"
+#include "core/trajectory/formats/formats.h"
+#include "core/trajectory/formats/frame_index.h"
 #include "tests/support/run_program.h"
 #include "tests/trajectory/samples.h"
 

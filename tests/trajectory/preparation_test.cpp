@@ -13,7 +13,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
-#include "core/molecule/read_structure.h"
+#include "core/structure/formats/read_structure.h"
 #include "core/trajectory/found_bonds.h"
 #include "core/trajectory/periodic_cell.h"
 #include "core/trajectory/prepared_frames.h"

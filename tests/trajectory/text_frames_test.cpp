@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
-#include "core/molecule/formats.h"
-#include "core/trajectory/formats.h"
+#include "core/structure/formats/formats.h"
+#include "core/trajectory/formats/formats.h"
 #include "tests/support/run_program.h"
 #include "tests/trajectory/samples.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Assemblies as files describe them, built up of atoms or left as instances, and the faults such records have.
-#include "core/molecule/assembly.h"
+#include "core/structure/assembly.h"
 
 #include <cmath>
 
@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
-#include "core/molecule/read_structure.h"
+#include "core/structure/formats/read_structure.h"
 #include "tests/support/run_program.h"
 #include "tests/unit/pdb_line.h"
 

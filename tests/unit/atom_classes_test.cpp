@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "core/molecule/read_structure.h"
+#include "core/structure/formats/read_structure.h"
 #include "tests/support/run_program.h"
 
 namespace meniscus {

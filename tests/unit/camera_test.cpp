@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Camera files, pixel rays and default framing.
-#include "core/render/camera.h"
+#include "core/camera/camera.h"
 
 #include <cmath>
 #include <random>
@@ -133,7 +133,7 @@ TEST(Camera, DefaultFramingShowsEverythingAndLittleElse) {
         Surface surface;
         for (std::size_t i = 0; i < count; ++i)
           surface.atoms.push_back({{100 + 20 * uniform(random), 30 * uniform(random), 8 * uniform(random)}, 1.7});
-        const Camera camera = frame_camera(surface, aspect, projection);
+        const Camera camera = frame_camera(surface.atoms, aspect, projection);
         EXPECT_NO_THROW(validate_camera(camera, "default"));
         EXPECT_GT(clearance(surface, camera, aspect), 0.0);
         Camera closer = camera;  // less than one margin closer, something is cut off

@@ -8,9 +8,9 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
-#include "core/molecule/color_scale.h"
-#include "core/molecule/color_schemes.h"
-#include "core/molecule/named_colors.h"
+#include "core/color/color_scale.h"
+#include "core/color/color_schemes.h"
+#include "core/color/named_colors.h"
 #include "tests/support/run_program.h"
 
 namespace meniscus {

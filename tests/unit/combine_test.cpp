@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Surfaces put together are what one computation of all their atoms gives, and copies stand where they are put.
-#include "core/surface/combine.h"
+#include "core/queries/combine.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The closest pair of balls in different copies, against all pairs.
-#include "core/surface/copy_contact.h"
+#include "core/queries/copy_contact.h"
 
 #include <cmath>
 #include <random>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The formats beside PDB and mmCIF: what is read from good and odd files of each, and how they are told apart.
-#include "core/molecule/read_structure.h"
+#include "core/structure/formats/read_structure.h"
 
 #include <cmath>
 #include <cstdio>

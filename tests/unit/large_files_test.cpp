@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // PDB beyond its columns: more than 99,999 atoms, 9,999 residues and 62 chains, as the programs of the trade write it.
-#include "core/molecule/read_structure.h"
+#include "core/structure/formats/read_structure.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Parts of a surface: closed, with tables that agree with each other; what lies in what; planes between faces.
-#include "core/surface/part.h"
+#include "core/queries/part.h"
 
 #include <algorithm>
 #include <cmath>

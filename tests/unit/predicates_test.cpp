@@ -10,7 +10,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "core/surface/geometry.h"
+#include "core/math/geometry.h"
 
 namespace meniscus::geometry {
 namespace {

@@ -6,11 +6,11 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
-#include "core/molecule/assign_radii.h"
-#include "core/molecule/bonding_classes.h"
-#include "core/molecule/name_pattern.h"
-#include "core/molecule/radii_file.h"
-#include "core/molecule/read_structure.h"
+#include "core/structure/radii/assign_radii.h"
+#include "core/structure/bonding_classes.h"
+#include "core/structure/radii/name_pattern.h"
+#include "core/structure/radii/radii_file.h"
+#include "core/structure/formats/read_structure.h"
 #include "tests/support/run_program.h"
 
 namespace meniscus {

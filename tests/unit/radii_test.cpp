@@ -2,8 +2,8 @@
 // Radii: table entries against their sources.
 #include <gtest/gtest.h>
 
-#include "core/molecule/assign_radii.h"
-#include "core/molecule/radii.h"
+#include "core/structure/radii/assign_radii.h"
+#include "core/structure/radii.h"
 
 namespace meniscus {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the readers take from good files, odd files and real entries, and the account they give of it.
-#include "core/molecule/read_structure.h"
+#include "core/structure/formats/read_structure.h"
 
 #include <cmath>
 

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
-#include "core/molecule/read_structure.h"
+#include "core/structure/formats/read_structure.h"
 #include "tests/support/run_program.h"
 
 namespace meniscus {

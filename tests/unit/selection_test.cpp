@@ -9,10 +9,10 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/molecule/point_tree.h"
-#include "core/molecule/selection.h"
-#include "core/molecule/selection_steps.h"
-#include "core/molecule/selection_words.h"
+#include "core/structure/point_tree.h"
+#include "core/structure/selection/selection.h"
+#include "core/structure/selection/selection_steps.h"
+#include "core/structure/selection/selection_words.h"
 
 namespace meniscus {
 namespace {

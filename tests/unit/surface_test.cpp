@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
-#include "core/reference/exhaustive.h"
-#include "core/surface/reduced_surface.h"
+#include "core/reduced_surface/cpu/exhaustive.h"
+#include "core/reduced_surface/reduced_surface.h"
 #include "core/surface/surface.h"
 #include "tests/support/molecules.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Frames of the preview against pictures of the complete surface.
-#include "core/view/frame_renderer.h"
+#include "core/visible_surface/frame_renderer.h"
 
 #include <algorithm>
 

@@ -4,7 +4,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "core/surface/solvent.h"
+#include "core/queries/solvent.h"
 
 namespace meniscus::testing {
 namespace {

@@ -5,7 +5,7 @@
 #include <random>
 #include <span>
 
-#include "core/render/camera.h"
+#include "core/camera/camera.h"
 #include "core/surface/primitives.h"
 
 namespace meniscus::testing {

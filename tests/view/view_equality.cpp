@@ -14,8 +14,8 @@
 #include <fmt/ostream.h>
 
 #include "core/gpu/egl_context.h"
-#include "core/molecule/read_structure.h"
-#include "core/view/frame_renderer.h"
+#include "core/structure/formats/read_structure.h"
+#include "core/visible_surface/frame_renderer.h"
 #include "tests/view/view_cameras.h"
 
 namespace meniscus {

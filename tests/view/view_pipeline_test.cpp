@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The picture of what a view needs against the picture of the complete surface, bit for bit, from any camera.
-#include "core/view/view_pipeline.h"
+#include "core/visible_surface/view_pipeline.h"
 
 #include <algorithm>
 #include <random>
@@ -9,10 +9,10 @@
 #include <gtest/gtest.h>
 
 #include "core/gpu/egl_context.h"
-#include "core/reference/exhaustive.h"
+#include "core/reduced_surface/cpu/exhaustive.h"
 #include "core/render/ray_caster.h"
 #include "core/surface/surface.h"
-#include "core/view/frame_renderer.h"
+#include "core/visible_surface/frame_renderer.h"
 #include "tests/support/molecules.h"
 #include "tests/view/view_cameras.h"
 
@@ -61,7 +61,7 @@ class Views : public ::testing::Test {
     Coloring coloring = coloring_of(surface.atoms.size());
     for (std::size_t a = 0; some_hidden && a < surface.atoms.size(); ++a) coloring.hidden.push_back(a % 3 == 0);
     renderer_.set_coloring(coloring);
-    const Camera camera = frame_camera(surface, 4.0 / 3.0);
+    const Camera camera = frame_camera(surface.atoms, 4.0 / 3.0);
     RayCaster caster;
     RenderSettings settings;
     settings.size = kSize;

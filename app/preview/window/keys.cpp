@@ -8,7 +8,7 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
-#include "core/molecule/color_schemes.h"
+#include "core/color/color_schemes.h"
 
 namespace meniscus {
 namespace {

@@ -15,9 +15,9 @@
 #include "app/preview/window/command_word.h"
 #include "app/preview/window/keys.h"
 #include "core/base/text.h"
-#include "core/molecule/color_maps.h"
-#include "core/molecule/color_schemes.h"
-#include "core/molecule/named_colors.h"
+#include "core/color/color_maps.h"
+#include "core/color/color_schemes.h"
+#include "core/color/named_colors.h"
 
 namespace meniscus {
 namespace {

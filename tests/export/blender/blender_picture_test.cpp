@@ -10,7 +10,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "core/render/camera.h"
+#include "core/camera/camera.h"
 #include "core/surface/surface.h"
 #include "tests/support/molecules.h"
 #include "tests/support/run_program.h"
@@ -110,7 +110,7 @@ Difference compare(const Balls& balls, const Camera& camera, std::map<std::strin
 
 void expect_agreement(const Balls& balls, Projection projection) {
   const Surface surface = compute_surface_cpu(balls, kWater);
-  const Camera camera = frame_camera(surface, double(kWidth) / kHeight, projection);
+  const Camera camera = frame_camera(surface.atoms, double(kWidth) / kHeight, projection);
   auto planes = render(balls, camera);
   ASSERT_EQ(planes["Depth.Z"].size(), std::size_t(kWidth) * kHeight);
   ASSERT_EQ(planes["Normal.X"].size(), std::size_t(kWidth) * kHeight);

@@ -10,11 +10,11 @@
 #include <gtest/gtest.h>
 
 #include "core/gpu/egl_context.h"
-#include "core/molecule/color_schemes.h"
-#include "core/molecule/read_structure.h"
-#include "core/render/color_space.h"
+#include "core/color/color_schemes.h"
+#include "core/structure/formats/read_structure.h"
+#include "core/image/color_space.h"
 #include "core/render/ray_caster.h"
-#include "core/surface/combine.h"
+#include "core/queries/combine.h"
 #include "core/surface/surface.h"
 #include "exporters/blender/surface_file.h"
 #include "exporters/mesh/tessellate.h"

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "core/surface/atom_areas.h"
-#include "core/surface/part.h"
+#include "core/queries/part.h"
 #include "core/surface/surface.h"
 #include "exporters/mesh/tessellate.h"
 #include "tests/support/molecules.h"

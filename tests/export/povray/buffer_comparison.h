@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-#include "core/render/camera.h"
+#include "core/camera/camera.h"
 #include "core/surface/primitives.h"
 #include "tests/export/povray/povray_render.h"
 #include "tests/support/sphere_tracer.h"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/render/camera.h"
+#include "core/camera/camera.h"
 #include "core/surface/surface.h"
 #include "exporters/povray/scene.h"
 #include "tests/export/povray/buffer_comparison.h"

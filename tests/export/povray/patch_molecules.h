@@ -5,7 +5,7 @@
 #include <ostream>
 #include <vector>
 
-#include "core/surface/coloring.h"
+#include "core/color/coloring.h"
 #include "tests/support/molecules.h"
 
 namespace meniscus::testing {

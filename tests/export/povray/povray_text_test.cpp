@@ -158,7 +158,7 @@ TEST(Palette, PatchesSplitOnlyBetweenColours) {
 
 TEST(WriteScene, RefusesWhatItCannotWriteAndLeavesNothing) {
   const Surface s = compute_surface_cpu(testing::one_atom().balls, kWater);
-  const Camera camera = frame_camera(s, 1.0);
+  const Camera camera = frame_camera(s.atoms, 1.0);
   const test::TemporaryFolder scratch;
   const auto write = [&](const SceneOptions& options, const Surface& surface) {
     const SurfaceObject object{"one", surface, testing::turning_colors(1, 1), {0}};

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "core/base/error.h"
-#include "core/molecule/assembly.h"
+#include "core/structure/assembly.h"
 #include "tests/fuzz/reader_checks.h"
 
 namespace meniscus::fuzz {

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "core/base/error.h"
-#include "core/molecule/color_schemes.h"
+#include "core/color/color_schemes.h"
 #include "tests/fuzz/reader_checks.h"
 
 namespace meniscus::fuzz {

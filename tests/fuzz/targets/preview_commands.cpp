@@ -9,7 +9,7 @@
 #include "app/preview/look_json.h"
 #include "app/preview/server/mailbox.h"
 #include "core/base/error.h"
-#include "core/render/camera.h"
+#include "core/camera/camera.h"
 #include "tests/fuzz/target.h"
 
 namespace meniscus::fuzz {

@@ -4,8 +4,8 @@
 #include <optional>
 
 #include "core/base/error.h"
-#include "core/molecule/assign_radii.h"
-#include "core/molecule/selection.h"
+#include "core/structure/radii/assign_radii.h"
+#include "core/structure/selection/selection.h"
 #include "tests/fuzz/reader_checks.h"
 
 namespace meniscus::fuzz {

@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "core/base/error.h"
-#include "core/molecule/formats.h"
+#include "core/structure/formats/formats.h"
 #include "tests/fuzz/trajectory_checks.h"
 
 namespace meniscus::fuzz {

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// `meniscus bench`: times the stages of the surface for several molecules, one row each, like table 1 of the paper
+// (Krone, Dachsbacher & Ertl 2010).
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+
+#include <fmt/format.h>
+#include <fmt/ostream.h>
+
+#include "app/commands/commands.h"
+#include "app/molecule.h"
+#include "app/commands/paper_bench.h"
+#include "app/options/picture_options.h"
+#include "app/program_error.h"
+#include "core/base/text.h"
+#include "core/structure/formats/formats.h"
+#include "core/reduced_surface/rolling_probe/rolling_probe.h"
+
+namespace meniscus {
+namespace {
+
+struct BenchCommand {
+  MoleculeOptions molecule;
+  std::vector<std::string> files;
+  int runs = 5;
+  bool baseline = false;
+  bool paper = false;
+  PictureOptions picture;  ///< size of the frames of --paper
+};
+
+/// One measured molecule: the run with the median total.
+struct Row {
+  std::string file;
+  std::size_t atoms = 0;
+  std::string device;
+  std::vector<StageTime> stages;
+  std::vector<StageTime> baseline;  ///< of the sequential algorithm, reduced surface alone; empty unless asked for
+};
+
+/// Sanner's sequential rolling probe: what the classical programs find, and everything.
+std::vector<StageTime> roll(const std::vector<Ball>& balls, double probe_radius) {
+  StageClock clock;
+  for (const auto& [scope, name] :
+       {std::pair{RollingScope::outer_component, "rolled, outer"}, {RollingScope::complete, "rolled, all"}}) {
+    const auto stage = clock.stage(name);
+    roll_probe(balls, probe_radius, scope);
+  }
+  return clock.times();
+}
+
+/// The run whose total is the median.
+std::vector<StageTime> median(std::vector<std::vector<StageTime>> runs) {
+  const auto middle = runs.begin() + static_cast<std::ptrdiff_t>(runs.size() / 2);
+  std::nth_element(runs.begin(), middle, runs.end(),
+                   [](const auto& a, const auto& b) { return total_ms(a) < total_ms(b); });
+  return *middle;
+}
+
+/// Runs once to warm the caches, then `runs` times.
+Row measure(const Structure& structure, const BenchCommand& command, Progress& progress) {
+  const std::vector<Ball> balls = balls_of(structure);
+  Row row{std::filesystem::path(structure.file).filename().string(),
+          balls.size(),
+          compute_surface(balls, command.molecule.computing).device,
+          {},
+          {}};
+  std::vector<std::vector<StageTime>> times, baselines;
+  for (int n = 0; n < command.runs; ++n) {
+    times.push_back(compute_surface(balls, command.molecule.computing).stages);
+    if (command.baseline) baselines.push_back(roll(balls, command.molecule.computing.probe_radius));
+    progress.advance();
+  }
+  row.stages = median(std::move(times));
+  if (command.baseline) row.baseline = median(std::move(baselines));
+  return row;
+}
+
+/// The stages of all rows in order of appearance: not every molecule needs every stage.
+std::vector<std::string> stage_names(const std::vector<Row>& rows) {
+  std::vector<std::string> names;
+  for (const Row& row : rows) {
+    for (const StageTime& stage : row.stages) {
+      if (std::find(names.begin(), names.end(), stage.name) == names.end()) names.push_back(stage.name);
+    }
+  }
+  return names;
+}
+
+std::string stage_cell(const Row& row, const std::string& name) {
+  const auto found =
+      std::find_if(row.stages.begin(), row.stages.end(), [&](const StageTime& s) { return s.name == name; });
+  return found == row.stages.end() ? "-" : fmt::format("{:.2f}", found->milliseconds);
+}
+
+void print_table(const std::vector<Row>& rows) {
+  std::size_t width = 8;
+  for (const Row& row : rows) width = std::max(width, escaped(row.file).size());
+  const std::vector<std::string> names = stage_names(rows);
+  const auto column = [](const std::string& name) { return std::max<std::size_t>(name.size(), 8) + 1; };
+  fmt::print(std::cout, "{:<{}} {:>9}", "molecule", width, "atoms");
+  for (const std::string& name : names) fmt::print(std::cout, " {:>{}}", name, column(name));
+  fmt::print(std::cout, " {:>9} {:>9}", "total ms", "per s");
+  for (const StageTime& time : rows.front().baseline) fmt::print(std::cout, " {:>14}", time.name);
+  fmt::print(std::cout, "  device\n");
+  for (const Row& row : rows) {
+    fmt::print(std::cout, "{:<{}} {:>9}", escaped(row.file), width, with_thousands(row.atoms));
+    for (const std::string& name : names) fmt::print(std::cout, " {:>{}}", stage_cell(row, name), column(name));
+    const double total = total_ms(row.stages);
+    fmt::print(std::cout, " {:>9.2f} {:>9.1f}", total, 1000.0 / total);
+    for (const StageTime& time : row.baseline) fmt::print(std::cout, " {:>14.2f}", time.milliseconds);
+    fmt::print(std::cout, "  {}\n", row.device);
+  }
+}
+
+void run_paper(BenchCommand& command) {
+  if (command.baseline) throw UsageError("--baseline times surfaces, --paper frames; choose one");
+  if (command.molecule.computing.verify) throw UsageError("--verify compares surfaces, --paper times frames");
+  if (command.molecule.computing.kind != SurfaceKind::ses)
+    throw UsageError("--paper draws solvent-excluded surfaces only");
+  PaperBenchSettings settings;
+  settings.device = command.molecule.computing.gl;
+  settings.size = {command.picture.width, command.picture.height};
+  settings.probe_radius = command.molecule.computing.probe_radius;
+  settings.runs = command.runs;
+  std::vector<PaperBenchMolecule> molecules;
+  for (const std::string& file : command.files) {
+    command.molecule.file = file;
+    molecules.push_back({std::filesystem::path(file).filename().string(), balls_of(read_molecule(command.molecule))});
+  }
+  print_paper_tables(molecules, settings);
+}
+
+void run(BenchCommand& command) {
+  if (command.paper) return run_paper(command);
+  Progress progress(progress_on_stderr(command.molecule), "bench",
+                    command.files.size() * static_cast<std::size_t>(command.runs));
+  std::vector<Row> rows;
+  for (const std::string& file : command.files) {
+    command.molecule.file = file;
+    rows.push_back(measure(read_molecule(command.molecule), command, progress));
+  }
+  print_table(rows);
+}
+
+}  // namespace
+
+void add_bench(CLI::App& command) {
+  describe(
+      command, "Time the stages of the surface computation for several files",
+      "  meniscus bench 1ubq.pdb 1tii.pdb            a row each: stages, total, surfaces per second\n"
+      "  meniscus bench 6zu5.cif --device cpu --threads 1 --runs 20\n"
+      "  meniscus bench --paper 1crn.pdb 1vis.pdb 1tii.pdb   frames as in the paper, beside its own figures",
+      "All times are wall-clock milliseconds, the medians of the runs, after one run that is not counted. Reading\n"
+      "the file is not part of them.");
+  auto state = std::make_shared<BenchCommand>();
+  command.add_option("FILES", state->files, "Molecules: " + format_names() + "; .gz too")->required();
+  add_surface_options(command, state->molecule);
+  command.add_option("--runs", state->runs, "Timed runs of each; the median is shown [5]")
+      ->check(CLI::Range(1, 1000000).description(""))
+      ->type_name("N");
+  command.add_flag("--baseline", state->baseline,
+                   "Also time Sanner's sequential rolling probe (reduced surface alone, one thread)");
+  command.add_flag("--paper", state->paper,
+                   "Time whole frames instead, ray casting included, like table 1 of the paper: complete and visible");
+  state->picture.width = 1024;
+  state->picture.height = 768;
+  add_size_option(command, state->picture, "With --paper: frames");
+  command.add_flag("-q,--quiet", state->molecule.quiet, "No notes on stderr; errors only");
+  command.callback([state] { run(*state); });
+}
+
+}  // namespace meniscus

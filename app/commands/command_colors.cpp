@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// `meniscus colors`: what surfaces can be coloured by, the maps for numbers, and where both come from.
+#include <iostream>
+
+#include <fmt/format.h>
+#include <fmt/ostream.h>
+
+#include "app/commands/commands.h"
+#include "core/color/color_schemes.h"
+
+namespace meniscus {
+namespace {
+
+constexpr int kColumn = 17;
+
+void print_row(std::string_view word, std::string_view description, std::string_view source) {
+  fmt::print(std::cout, "  {:<{}}{}\n", word, kColumn, description);
+  if (!source.empty()) fmt::print(std::cout, "  {:<{}}  {}\n", "", kColumn, source);
+}
+
+void run() {
+  fmt::print(std::cout, "--color SCHEME\n");
+  for (const ColorSchemeMetadata& scheme : color_schemes()) print_row(scheme.word, scheme.description, scheme.source);
+  print_row("#rrggbb", "one colour for all", "");
+  fmt::print(std::cout, "\n--map MAP, for numbers\n");
+  for (const ColorMapMetadata& map : color_maps()) print_row(map.name, map.source, "");
+  fmt::print(
+      std::cout,
+      "\nNumbers beyond --color-range take the colour of its end. Atoms without a number are grey #808080 (with\n"
+      "cividis, which goes through grey, #cc79a7) or of --missing-color. If all numbers are equal they take the\n"
+      "middle of the map.\n");
+}
+
+}  // namespace
+
+void add_colors(CLI::App& command) {
+  describe(command, "List colour schemes and colour maps with their sources", "  meniscus colors");
+  command.callback(run);
+}
+
+}  // namespace meniscus

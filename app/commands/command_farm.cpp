@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// `meniscus farm`: bundles a framed command for any render farm, tells how far it is, verifies it and makes the film.
+#include <algorithm>
+#include <iostream>
+#include <memory>
+
+#include <fmt/format.h>
+#include <fmt/ostream.h>
+
+#include "app/commands/commands.h"
+#include "app/farm/child_process.h"
+#include "app/farm/inner_path.h"
+#include "app/farm/make_bundle.h"
+#include "app/farm/makers.h"
+#include "app/farm/quote.h"
+#include "app/farm/status.h"
+#include "app/farm/verify.h"
+#include "app/farm/worker.h"
+#include "app/program_error.h"
+#include "app/stop_signals.h"
+#include "core/base/text.h"
+
+namespace meniscus {
+namespace {
+
+constexpr std::size_t kFaultsShown = 10;
+
+struct BundleCommand {
+  farm::BundleOptions options;
+  std::string folder, engines = "make,slurm,openjd,flamenco", film, addon = MENISCUS_ADDON;
+  double frames_per_second = 25.0;
+  bool link = false;
+};
+
+std::vector<farm::Engine> engines_of(const BundleCommand& command) {
+  std::vector<farm::Engine> chosen;
+  std::string names;
+  for (const farm::Engine& engine : farm::engines()) names.append(names.empty() ? "" : ", ").append(engine.name);
+  for (const std::string& word : CLI::detail::split(command.engines, ',')) {
+    const auto& table = farm::engines();
+    const auto found = std::ranges::find_if(table, [&](const farm::Engine& engine) { return word == engine.name; });
+    if (word == "all") {
+      chosen = table;
+    } else if (found == table.end()) {
+      throw UsageError(fmt::format("--engine: {} is none of {}, all", in_quotes(word), names));
+    } else {
+      chosen.push_back(*found);
+    }
+  }
+  for (const farm::Engine& engine : chosen)
+    if (engine.needs_farm_path && command.options.farm_path.empty())
+      throw UsageError(fmt::format("--engine {} needs --farm-path: {}", engine.name, engine.needs_farm_path));
+  return chosen;
+}
+
+void check_film_name(const std::string& name) {
+  if (name.find('/') != std::string::npos || name.starts_with('.') || name.starts_with('-') || !name.ends_with(".mp4"))
+    throw UsageError(fmt::format("--film {} is no plain name that ends in .mp4", in_quotes(name)));
+  farm::refuse_unspeakable("--film", name);
+}
+
+void bundle(BundleCommand command) {
+  farm::BundleOptions& options = command.options;
+  options.folder = command.folder;
+  options.addon = command.addon;
+  options.engines = engines_of(command);
+  if (command.link) options.bring = farm::Bring::link;
+  if (!command.film.empty()) {
+    check_film_name(command.film);
+    options.film = farm::Film{command.film, command.frames_per_second};
+  }
+  const farm::MadeBundle made = farm::make_bundle(options);
+  for (const std::string& note : made.notes) std::cerr << "meniscus: note: " << escaped(note) << "\n";
+  const farm::Chunking& chunking = made.bundle.chunking;
+  fmt::print(std::cout, "{}: {} frames in {} {} a step{}{}\n", escaped(command.folder),
+             with_thousands(made.bundle.frames.size()), chunking.count, chunking.count == 1 ? "task" : "tasks",
+             chunking.seconds_per_frame ? fmt::format(", {:.3g} s a frame here", *chunking.seconds_per_frame) : "",
+             made.was_there ? "; it was there already" : "");
+  fmt::print(std::cout, "a task: {} {}{}\n", chunking.cores, chunking.cores == 1 ? "core" : "cores",
+             chunking.memory() ? fmt::format(", {} MiB of memory", with_thousands(*chunking.memory())) : "");
+  for (const farm::Engine& engine : options.engines)
+    fmt::print(std::cout, "  {:<9} {}\n", engine.name,
+               escaped(farm::filled(engine.start, {{"DIR", farm::shell_word(command.folder)}})));
+}
+
+void add_bundle(CLI::App& command) {
+  describe(command, "Make a folder that any machine can work on",
+           "  meniscus farm bundle film --film film.mp4 -- render adk.psf --trajectory adk.dcd --frames all\n"
+           "  meniscus farm bundle film -- export povray adk.psf --trajectory adk.dcd --frames 0-97 -- +A0.1\n"
+           "  meniscus farm bundle film --engine slurm --chunk-frames 20 -- export blender adk.pdb --frames all -- "
+           "--samples 64",
+           "Behind -- stands the command without -o, FILE first; behind another --, options for POV-Ray or Blender's\n"
+           "driver. Files that the command reads are copied into the bundle. One frame is made for trial, to see how\n"
+           "long it takes, unless --chunk-frames says how many frames make a task.");
+  auto state = std::make_shared<BundleCommand>();
+  command.add_option("DIR", state->folder, "The folder to make")->required()->type_name("");
+  command.add_option("COMMAND", state->options.command, "Behind --: render, export povray or export blender, and more")
+      ->required()
+      ->type_name("");
+  command
+      .add_option("--engine", state->engines,
+                  "Whose files to write, commas between: make, slurm, openjd, flamenco, opencue, all [all but opencue]")
+      ->type_name("WORDS");
+  CLI::Option* const minutes = command.add_option("--chunk-minutes", state->options.chunking.asked_minutes,
+                                                  "Time that a task shall take, by the trial frame [5]");
+  minutes->check(CLI::Range(0.01, 10000.0).description(""))->type_name("M");
+  command.add_option("--chunk-frames", state->options.chunking.asked_frames, "Frames a task, and no trial")
+      ->check(CLI::PositiveNumber.description(""))
+      ->type_name("N")
+      ->excludes(minutes);
+  command
+      .add_option("--task-cores", state->options.chunking.cores,
+                  "Cores of a task, for engines that give tasks a part of a machine [--threads behind --, else 2]")
+      ->check(CLI::Range(1, 4096).description(""))
+      ->type_name("N");
+  command
+      .add_option("--task-memory", state->options.chunking.asked_memory,
+                  "Memory of a task in MiB [half as much again as the trial frame needed, and 256]")
+      ->check(CLI::Range(1, 1 << 30).description(""))
+      ->type_name("MIB");
+  CLI::Option* const film =
+      command.add_option("--film", state->film, "Film that farm verify makes of the pictures, in DIR");
+  film->type_name("NAME.mp4");
+  command.add_option("--fps", state->frames_per_second, "Frames a second of it [25]")
+      ->check(CLI::Range(0.1, 1000.0).description(""))
+      ->type_name("N")
+      ->needs(film);
+  command
+      .add_option("--farm-path", state->options.farm_path,
+                  "DIR as the farm's machines see it: needed by OpenCue, and the default of Flamenco's setting")
+      ->type_name("PATH");
+  command.add_flag("--link", state->link, "Inputs as hard links instead of copies");
+  command
+      .add_option("--addon", state->addon, "Folder of render_mns.py, of this version, to go along with export blender")
+      ->type_name("DIR");
+  command.add_flag("--force", state->options.force, "Replace another bundle at DIR, with all its frames");
+  command.callback([state, &command] {
+    state->options.cores_asked = command.count("--task-cores") > 0;
+    bundle(*state);
+  });
+}
+
+void add_status(CLI::App& command) {
+  struct Status {
+    std::string folder;
+    bool json = false;
+  };
+  describe(command, "Tell how far the frames of a bundle are, and what failed last", "  meniscus farm status film");
+  auto state = std::make_shared<Status>();
+  command.add_option("BUNDLE", state->folder, "The bundle's folder")->required()->type_name("");
+  command.add_flag("--json", state->json, "Print one JSON object instead of a table");
+  command.callback([state] {
+    const farm::Bundle bundle = farm::read_bundle(state->folder);
+    const std::vector<farm::StepStatus> steps = farm::status_of(bundle, state->folder);
+    std::cout << (state->json ? farm::status_json(bundle, steps) : farm::status_table(bundle, steps));
+  });
+}
+
+void verify(const std::filesystem::path& folder) {
+  const farm::Bundle bundle = farm::read_bundle(folder);
+  const StopHandler handler([] { farm::stop_children(); }, std::nullopt);
+  farm::check_places(folder);
+  farm::check_inputs(bundle, folder, true);
+  const std::vector<farm::FrameFault> faults = farm::faults_of(bundle, folder);
+  for (std::size_t n = 0; n < std::min(faults.size(), kFaultsShown); ++n)
+    std::cerr << fmt::format("meniscus: {} frame {}: {}\n", faults[n].step, faults[n].frame, escaped(faults[n].what));
+  if (!faults.empty()) {
+    throw RunError(
+        static_cast<ExitCode>(faults.front().exit_code),
+        fmt::format("{}: {} of {} frames are not good; meniscus work makes them", folder.string(),
+                    with_thousands(faults.size()), with_thousands(bundle.frames.size() * bundle.steps.size())));
+  }
+  farm::remove_leftovers(folder);
+  if (bundle.film) farm::encode_film(bundle, folder);
+  fmt::print(std::cout, "{} frames are good{}\n", with_thousands(bundle.frames.size()),
+             bundle.film ? "; film: " + escaped((folder / bundle.film->file).string()) : "");
+}
+
+void add_verify(CLI::App& command) {
+  describe(command, "Check that every frame is there, whole, of the right size and not blank; then make the film",
+           "  meniscus farm verify film");
+  auto folder = std::make_shared<std::string>();
+  command.add_option("BUNDLE", *folder, "The bundle's folder")->required()->type_name("");
+  command.callback([folder] { verify(*folder); });
+}
+
+constexpr Command kFarmCommands[] = {{"bundle", add_bundle}, {"status", add_status}, {"verify", add_verify}};
+
+}  // namespace
+
+void add_farm(CLI::App& command) {
+  describe(command, "Make films on many machines: make, Slurm, OpenJD, Flamenco, OpenCue",
+           "  meniscus farm bundle film -- render adk.psf --trajectory adk.dcd --frames all\n"
+           "  meniscus work film            on any number of machines (meniscus work --help)\n"
+           "  meniscus farm status film\n"
+           "  meniscus farm verify film");
+  command.require_subcommand(1);
+  for (const Command& entry : kFarmCommands) entry.add(*command.add_subcommand(entry.name)->group("Commands"));
+}
+
+}  // namespace meniscus

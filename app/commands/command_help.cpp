@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// `meniscus help TOPIC`: the pages that belong to no single command, and those of the commands.
+#include <iostream>
+#include <memory>
+
+#include <fmt/format.h>
+#include <fmt/ostream.h>
+
+#include "app/commands/commands.h"
+#include "app/program_error.h"
+#include "core/base/text.h"
+#include "core/structure/selection/selection_words.h"
+
+namespace meniscus {
+namespace {
+
+struct Topic {
+  std::string_view name;
+  std::string_view summary;
+  std::string (*page)();
+};
+
+constexpr const char* kAssemblies = R"(Examples:
+  meniscus surface 1ihm.pdb --assembly list             what the file describes
+  meniscus surface 1ihm.pdb --assembly 1                one surface of the whole capsid
+  meniscus export povray 4v6x.cif --assembly 2 --instances exact -o 4v6x
+
+A file may describe how its chains are repeated in the biological molecule: REMARK 350 of PDB, _pdbx_struct_assembly
+of mmCIF. --assembly builds it of the atoms that --select and the other options leave (they work on the chains of the
+file). Copies of chain A beyond the first are called A-2, A-3, as in the assembly files of the wwPDB; --color chain
+gives them the colour of A, --color copy tells them apart (not with --instances, which share their colours).
+
+  without --instances  every copy becomes atoms, and all together get one surface: right where copies touch, and
+                       at most 10,000,000 atoms
+  --instances exact    one copy is computed and drawn many times. Only where no probe can touch two copies is that the
+                       surface of the whole; otherwise it is refused, naming the closest pair of atoms
+  --instances separate the same without asking: each copy has a surface of its own, as if it were alone
+
+Matrices must be rotations within 0.001; six decimals are completed to the nearest exact one. Mirrored, sheared or
+incomplete ones are errors.
+)";
+
+constexpr const char* kExitCodes = R"(  0  done
+  1  internal error: please report it
+  2  wrong usage
+  3  input cannot be read or makes no sense: "file:line: what, value, what to do"
+  4  no usable GPU or GL, no display for a window, or the driver refused or lost something
+  5  a limit of the machine or of a format was reached
+  6  an output cannot be written, or exists and --force was not given
+  7  the surface is not closed: the atoms are named, nothing is written
+  8  all whole frames are done, but the trajectory ends in mid-frame
+  9  a worker of a farm was told to stop (SIGTERM, SIGUSR1): run it again, and it goes on where it stopped
+
+A run of frames goes on after a frame that fails, and ends with the code of the first that did.
+
+Files are written under a temporary name beside the final one and renamed when whole; a half file never bears the
+final name. Interrupted (Ctrl-C, SIGTERM) the program removes what is unfinished and ends with 128 + the signal.
+)";
+
+constexpr const char* kFrames = R"(Examples:
+  meniscus surface adk.psf --trajectory adk.dcd --frames all --json        a line of JSON a frame
+  meniscus render adk.psf --trajectory adk.dcd --superpose 'name CA' -o adk.mp4
+  meniscus render 1d3z.pdb --frames 0-9 -o model_##.png                    the models of a file are its frames
+  meniscus render 1tii.pdb --repeat 120 --turntable 1 -o turn.mp4          once around what stands still
+  meniscus export povray adk.psf --trajectory adk.xtc --frames 0-999:10 -o adk
+  meniscus preview adk.psf --trajectory adk.xtc --whole --center protein
+
+FILE says what the atoms are, --trajectory where they are (meniscus formats lists what is read). Selections, radii and
+colours are decided once, with the coordinates of FILE or, where it has none (PSF), of the first frame asked for.
+
+Which frames  they count from 0. --frames takes all, 7, 0-99, 0-99:10 (every tenth), 90- (to the last), and several of
+              these with commas between; then --begin and --end (a frame, or a time such as 2.5ns) and --stride N.
+              --only LIST makes a share of this run: camera, colours and scene stay those of the whole.
+Prepared      in this order: --whole puts molecules together that the periodic box cuts, along the bonds of FILE and of
+              standard residues (guess: by distance), and gathers them around the largest; --superpose EXPR fits atoms
+              to where they are in the --reference frame (0), --center EXPR only moves; --smooth N takes means over N
+              frames. A prepared frame depends on its number alone, so shares of a run fit together.
+Camera        by default still, showing all of every frame. --camera FILE for one of your own, --camera-path FILE for key
+              frames {"keys":[{"frame":0,"camera":{...}},...]} (cameras as --save-camera writes them), --turntable TURNS,
+              --follow EXPR.
+Files         bear the number of the frame in the trajectory. Pictures: -o frame_#####.png; a film: -o film.mp4 (needs
+              ffmpeg), --fps.
+What fails    is told, and the run goes on; in the end the exit code is that of the first frame that failed. A trajectory
+              that ends in mid-frame gives all its whole frames, and then exit code 8.
+Progress      --progress bar, plain, json (a line a frame on stderr), openjd, none.
+)";
+
+std::string frames_page() { return kFrames; }
+std::string selection_page() { return selection_help(); }
+std::string assembly_page() { return kAssemblies; }
+std::string exit_page() { return kExitCodes; }
+
+constexpr Topic kTopics[] = {
+    {"selections", "the language of --select, --show and --context", selection_page},
+    {"assemblies", "biological assemblies, and copies drawn as instances", assembly_page},
+    {"frames", "trajectories, films, and the cameras that move through them", frames_page},
+    {"exit-codes", "what the program returns, and what is left behind", exit_page},
+};
+
+void list_topics(const CLI::App& program) {
+  fmt::print(std::cout, "meniscus help TOPIC shows a page:\n\n");
+  for (const Topic& topic : kTopics) fmt::print(std::cout, "  {:<12} {}\n", topic.name, topic.summary);
+  fmt::print(std::cout, "\nand the help of a command:\n\n");
+  for (const CLI::App* command : program.get_subcommands({}))
+    fmt::print(std::cout, "  {:<12} {}\n", command->get_name(), command->get_description());
+}
+
+void show(const CLI::App& program, const std::string& name) {
+  std::string names;
+  for (const Topic& topic : kTopics) {
+    names.append(names.empty() ? "" : ", ").append(topic.name);
+    if (name == topic.name) {
+      std::cout << topic.page();
+      return;
+    }
+  }
+  for (const CLI::App* command : program.get_subcommands({})) {
+    if (command->get_name() == name) {
+      std::cout << command->help();
+      return;
+    }
+  }
+  throw UsageError(fmt::format("{} is no topic; there are {} and the commands", in_quotes(name), names));
+}
+
+}  // namespace
+
+void add_help(CLI::App& command) {
+  describe(command, "Show a page of the manual: selections, assemblies, frames, exit-codes, or a command",
+           "  meniscus help\n"
+           "  meniscus help selections");
+  auto topic = std::make_shared<std::string>();
+  command.add_option("TOPIC", *topic, "The page; none: what pages there are")->type_name("");
+  command.callback([topic, &command] {
+    const CLI::App& program = *command.get_parent();
+    if (topic->empty()) {
+      list_topics(program);
+    } else {
+      show(program, *topic);
+    }
+  });
+}
+
+}  // namespace meniscus

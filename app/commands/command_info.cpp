@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// `meniscus info`: what a file holds, and what of it a surface would use; frames and times of trajectories.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iostream>
+#include <limits>
+#include <map>
+#include <memory>
+#include <tuple>
+
+#include <fmt/format.h>
+#include <fmt/ostream.h>
+
+#include "app/commands/commands.h"
+#include "app/molecule.h"
+#include "app/sequence.h"
+#include "app/reports/trajectory_report.h"
+#include "core/base/text.h"
+#include "core/trajectory/formats/formats.h"
+
+namespace meniscus {
+namespace {
+
+/// Atoms and residues of one kind.
+struct Tally {
+  std::size_t atoms = 0;
+  std::size_t residues = 0;
+};
+
+void print_classes_and_chains(const Structure& structure) {
+  std::map<AtomClass, Tally> classes;
+  std::vector<std::pair<std::string, Tally>> chains;
+  std::map<std::string, std::size_t> place;
+  const Atom* previous = nullptr;
+  for (const Atom& atom : structure.atoms) {
+    const auto identity = [](const Atom& a) {
+      return std::tie(a.chain, a.residue_number, a.insertion_code, a.residue_name);
+    };
+    const bool new_residue = !previous || identity(*previous) != identity(atom);
+    previous = &atom;
+    const auto [found, added] = place.try_emplace(atom.chain, chains.size());
+    if (added) chains.emplace_back(atom.chain, Tally{});
+    for (Tally* tally : {&classes[atom.kind], &chains[found->second].second}) {
+      ++tally->atoms;
+      tally->residues += new_residue ? 1 : 0;
+    }
+  }
+  fmt::print(std::cout, "\n{:<14} {:>10} {:>10}\n", "class", "atoms", "residues");
+  for (const auto& [kind, tally] : classes) {
+    fmt::print(std::cout, "{:<14} {:>10} {:>10}\n", class_name(kind), with_thousands(tally.atoms),
+               with_thousands(tally.residues));
+  }
+  if (classes.contains(AtomClass::unclassified)) return;  // XYZ and XYZR know no chains
+  fmt::print(std::cout, "\n{:<14} {:>10} {:>10}\n", "chain", "atoms", "residues");
+  for (const auto& [chain, tally] : chains) {
+    fmt::print(std::cout, "{:<14} {:>10} {:>10}\n", chain.empty() ? "(none)" : escaped(chain),
+               with_thousands(tally.atoms), with_thousands(tally.residues));
+  }
+}
+
+/// As many digits as the source gives, from two to four.
+int decimals_of(double radius) {
+  for (int decimals = 2; decimals < 4; ++decimals) {
+    const double scale = std::pow(10.0, decimals);
+    if (std::abs(radius * scale - std::round(radius * scale)) < 1e-6) return decimals;
+  }
+  return 4;
+}
+
+void print_radii(const Structure& structure) {
+  fmt::print(std::cout, "\n{:<14} {:>10} {:>10}  {}\n", "radii of", "atoms", "radius Å", "source");
+  for (const RadiusClass& row : structure.radius_classes) {
+    fmt::print(std::cout, "{:<14} {:>10} {:>9.{}f}  {}\n", escaped(row.label), with_thousands(row.atoms), row.radius,
+               decimals_of(row.radius), escaped(row.source));
+  }
+}
+
+/// How many of the atoms a surface would take: water and ions only if they are wanted or named.
+std::size_t count_taken(const Structure& structure, const ReadOptions& options) {
+  std::vector<bool> named(structure.atoms.size());
+  if (options.selection) named = options.selection->names(structure.atoms);
+  std::size_t taken = 0;
+  for (std::size_t n = 0; n < structure.atoms.size(); ++n) {
+    const AtomClass kind = structure.atoms[n].kind;
+    const bool unwanted =
+        (kind == AtomClass::water && !options.keep_water) || (kind == AtomClass::ion && !options.keep_ions);
+    taken += unwanted && !named[n] ? 0 : 1;
+  }
+  return taken;
+}
+
+void print_ranges(const Structure& structure) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  glm::dvec3 low(kInfinity), high(-kInfinity);
+  std::array<double, 2> radius{kInfinity, -kInfinity}, b_factor{kInfinity, -kInfinity};
+  for (const Atom& atom : structure.atoms) {
+    for (int axis = 0; axis < 3; ++axis) {
+      low[axis] = std::min(low[axis], atom.position[axis]);
+      high[axis] = std::max(high[axis], atom.position[axis]);
+    }
+    radius = {std::min(radius[0], atom.radius), std::max(radius[1], atom.radius)};
+    if (!std::isnan(atom.b_factor))
+      b_factor = {std::min<double>(b_factor[0], atom.b_factor), std::max<double>(b_factor[1], atom.b_factor)};
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    fmt::print(std::cout, "{}             {:.3f} to {:.3f} Å (centres)\n", "xyz"[axis], low[axis], high[axis]);
+  }
+  fmt::print(std::cout, "radii         {:.2f} to {:.2f} Å\n", radius[0], radius[1]);
+  if (b_factor[0] <= b_factor[1])
+    fmt::print(std::cout, "B-factors     {:.2f} to {:.2f} Å²\n", b_factor[0], b_factor[1]);
+}
+
+/// The atoms of a topology stand where the first frame has them.
+void print_structure(const MoleculeOptions& options, Trajectory* trajectory) {
+  ReadOptions everything = options.reading;
+  everything.keep_water = everything.keep_ions = true;
+  if (everything.unknown_element == UnknownElement::halt) everything.unknown_element = UnknownElement::guess;
+  everything.list_assemblies = true;
+  if (trajectory) {
+    Frame first;
+    trajectory->read(0, first);
+    everything.positions = std::move(first.positions);
+  }
+  const Structure structure = read_structure(options.file, everything);
+  fmt::print(std::cout, "molecule      {} ({}, {} {})\n", escaped(structure.file), structure.format,
+             structure.report.models, structure.report.models == 1 ? "model" : "models");
+  fmt::print(std::cout, "atoms         {} in the file; a surface takes {} of them\n",
+             with_thousands(structure.report.read), with_thousands(count_taken(structure, options.reading)));
+  if (!structure.report.excluded.empty()) fmt::print(std::cout, "below         {}\n", structure.report.sentence());
+  print_ranges(structure);
+  print_classes_and_chains(structure);
+  print_radii(structure);
+  print_assemblies(structure);
+  say_warnings(options, structure);
+}
+
+void run(const MoleculeOptions& options, const std::string& trajectory_path) {
+  const bool alone = trajectory_path.empty() && !binary_trajectory_format(options.file).empty();
+  std::unique_ptr<Trajectory> trajectory;
+  if (alone || !trajectory_path.empty())
+    trajectory = open_trajectory(alone ? options.file : trajectory_path, {frame_index_folder()});
+  if (!alone) print_structure(options, trajectory.get());
+  if (!alone && trajectory) fmt::print(std::cout, "\n");
+  if (trajectory) print_trajectory(*trajectory);
+}
+
+}  // namespace
+
+void add_info(CLI::App& command) {
+  describe(command,
+           "Tell what a file holds: models, chains, classes, extent, and which radius each class of atoms gets",
+           "  meniscus info 1tii.pdb\n"
+           "  meniscus info 6zu5.cif.gz --select 'nucleic and chain A'\n"
+           "  meniscus info 1tii.pdb --radii protor         radii of another set\n"
+           "  meniscus info 1tii.pdb --radii-file amber.dat --radius 'element Zn=1.1'\n"
+           "  meniscus info run.xtc                         frames, times and box of a trajectory\n"
+           "  meniscus info run.psf --trajectory run.dcd");
+  auto options = std::make_shared<MoleculeOptions>();
+  add_atom_options(command, *options);
+  command.get_option("--radii")->expected(0, 1);  // alone it asks for what is printed anyway
+  auto trajectory = std::make_shared<std::string>();
+  command.add_option("--trajectory", *trajectory, "Coordinates of the atoms of FILE, frame by frame; tell of them too")
+      ->type_name("PATH");
+  command.callback([options, trajectory] { run(*options, *trajectory); });
+}
+
+}  // namespace meniscus

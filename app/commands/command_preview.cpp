@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// `meniscus preview`: look at the surface while it changes.
+#include <charconv>
+#include <csignal>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include <unistd.h>
+
+#include <fmt/format.h>
+
+#include "app/commands/commands.h"
+#include "app/options/look_options.h"
+#include "app/molecule.h"
+#include "app/options/picture_options.h"
+#include "app/preview/command_log.h"
+#include "app/preview/server/serve.h"
+#include "app/preview/session.h"
+#include "app/preview/window/window.h"
+#include "app/program_error.h"
+#include "app/sequence.h"
+#include "app/show_only.h"
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/gpu/egl_context.h"
+
+namespace meniscus {
+namespace {
+
+struct PreviewCommand {
+  MoleculeOptions molecule;
+  SequenceOptions sequence;
+  PictureOptions picture;
+  Look look;
+  std::optional<std::uint16_t> port;  ///< of --serve
+  std::string record, commands, output_folder = ".";
+  bool force = false;
+};
+
+std::uint16_t parse_port(const std::string& text) {
+  if (text.empty()) return 0;
+  std::uint16_t port = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), port);
+  if (error != std::errc() || end != text.data() + text.size())
+    throw CLI::ValidationError("--serve", in_quotes(text) + " is no port, 0 to 65535; put FILE before --serve");
+  return port;
+}
+
+/// The name by which ssh may know this machine.
+std::string host_name() {
+  char name[256] = {};
+  return ::gethostname(name, sizeof name - 1) == 0 && name[0] ? escaped(name) : "HOST";
+}
+
+/// A molecule, where its atoms stand at the frames of a trajectory, if there is one, and the camera of a file, if one
+/// is named.
+struct Shown {
+  Structure structure;
+  std::optional<Moments> moments;
+  std::optional<Camera> camera;
+};
+
+Shown read_run(const PreviewCommand& command) {
+  if (!command.sequence.asked()) return {read_molecule(command.molecule), {}, {}};
+  MoleculeOptions molecule = command.molecule;
+  if (molecule.reading.model.all) molecule.reading.model = {};  // the preview's default; a run has frames instead
+  const auto sequence = std::make_shared<Sequence>(molecule, command.sequence);
+  return {sequence->structure(),
+          Moments{sequence->share(),
+                  [sequence](std::size_t frame) { return sequence->positions(sequence->share()[frame]); }},
+          {}};
+}
+
+Shown read_inputs(PreviewCommand& command) {
+  if (!std::filesystem::is_directory(command.output_folder))
+    throw OutputError(command.output_folder, "--output-dir is no folder");
+  const std::optional<Camera> camera = given_camera(command.picture);
+  Shown shown = read_run(command);
+  shown.camera = camera;
+  if (command.molecule.computing.cpu) throw UsageError("--device cpu draws no pictures; use auto, gpu or software");
+  if (!shown.structure.instances.empty())
+    throw UsageError("--instances is for render and export; the preview draws atoms");
+  ColorScheme& color = command.molecule.color;
+  if (color.by == ColorScheme::By::file) color.file = read_number_file(command.molecule.color_file);
+  return shown;
+}
+
+/// A session as the options say. Needs a current GL context.
+std::unique_ptr<PreviewSession> begin_session(const PreviewCommand& command, Shown shown) {
+  PreviewView view;
+  view.color = command.molecule.color;
+  if (command.molecule.show) view.hidden = hidden_atoms(*command.molecule.show, shown.structure);
+  view.probe_radius = command.molecule.computing.probe_radius;
+  view.look = command.look;
+  view.size = {command.picture.width, command.picture.height};
+  view.camera.projection = command.picture.projection;
+  auto session = std::make_unique<PreviewSession>(std::move(shown.structure), view, shown.camera, command.output_folder,
+                                                  std::move(shown.moments));
+  if (!command.record.empty()) {
+    auto log = std::make_shared<CommandLog>(command.record, command.force ? Existing::replace : Existing::refuse);
+    session->record([log](const nlohmann::json& line) { log->write(line); });
+  }
+  return session;
+}
+
+void say_address(const PreviewCommand& command, const std::string& url, std::uint16_t port) {
+  std::cout << url << std::endl;
+  say(command.molecule, fmt::format("from another machine: ssh -L {0}:127.0.0.1:{0} {1}", port, host_name()));
+  say(command.molecule, "Ctrl-C ends the preview");
+}
+
+std::vector<WrittenCommand> written_commands(const PreviewCommand& command) {
+  if (command.commands.empty()) return {};
+  return read_commands(command.commands);
+}
+
+void serve(PreviewCommand& command) {
+  std::signal(SIGPIPE, SIG_IGN);  // whoever stops reading must not end the server
+  const std::vector<WrittenCommand> commands = written_commands(command);
+  Shown shown = read_inputs(command);
+  const EglContext context(command.molecule.computing.gl);
+  const std::unique_ptr<PreviewSession> session = begin_session(command, std::move(shown));
+  replay_commands(command.commands, commands, *session, std::cout);
+  if (session->wants_to_quit()) return;
+  serve_session(*session, *command.port,
+                [&](const std::string& url, std::uint16_t port) { say_address(command, url, port); });
+}
+
+void say_report(const PreviewCommand& command, const WindowReport& report) {
+  say(command.molecule, fmt::format("window on {}, GL {}{}", report.context.renderer, report.context.version,
+                                    report.context.software ? " (software)" : ""));
+  if (report.latency.pictures > 0)
+    say(command.molecule, fmt::format("from movement to picture: median {:.1f} ms, 95 % within {:.1f} ms, {} pictures",
+                                      report.latency.median_ms, report.latency.p95_ms, report.latency.pictures));
+}
+
+void open_window(PreviewCommand& command) {
+  if (command.molecule.computing.gl.kind != DeviceChoice::Kind::automatic)
+    throw UsageError("--device and --require-gpu are for --serve; a window draws on the device of its display");
+  const std::vector<WrittenCommand> commands = written_commands(command);
+  Shown shown = read_inputs(command);
+  WindowOptions options;
+  options.title = fmt::format("{} - Meniscus", std::filesystem::path(command.molecule.file).filename().string());
+  for (const WrittenCommand& written : commands) options.commands.push_back(written.command);
+  options.size = {command.picture.width, command.picture.height};
+  options.replied = [&](std::size_t index, const nlohmann::json& reply) {
+    print_reply(command.commands, commands[index].line, reply, std::cout);
+  };
+  say_report(command, run_window(options, [&] { return begin_session(command, std::move(shown)); }));
+}
+
+void run(PreviewCommand& command) { command.port ? serve(command) : open_window(command); }
+
+void add_session_options(CLI::App& command, PreviewCommand& state) {
+  command
+      .add_option_function<std::string>(
+          "--serve", [&state](const std::string& text) { state.port = parse_port(text); },
+          "No window: serve a page for browsers on 127.0.0.1, at this port or at any free one")
+      ->expected(0, 1)
+      ->type_name("[PORT]");
+  const Heading heading(command, "Session");
+  command.add_option("--commands", state.commands, "Carry out these commands first, one JSON object a line")
+      ->type_name("FILE");
+  command.add_option("--record", state.record, "Write every command to this file, for --commands")->type_name("FILE");
+  command.add_option("--output-dir", state.output_folder, "Folder of exports [.]")->type_name("FOLDER");
+  command.add_flag("--force", state.force, "Let --record replace a file");
+}
+
+}  // namespace
+
+void add_preview(CLI::App& command) {
+  describe(command, "Look at the surface while it changes, in a window or in a browser",
+           "  meniscus preview 1tii.pdb                           a window; h shows its keys\n"
+           "  meniscus preview 1tii.pdb --serve                   prints an address to open in a browser\n"
+           "  meniscus preview 1tii.pdb --serve 8080 --color chain\n"
+           "  meniscus preview 1tii.pdb --record session.jsonl    what is done, for --commands\n"
+           "  meniscus preview adk.psf --trajectory adk.dcd --superpose 'name CA'   blank plays it",
+           "Each model of FILE is a frame, or each frame of --trajectory. A window needs a display with OpenGL 4.5 "
+           "through EGL; without one the\n"
+           "exit code is 4. The page is served on 127.0.0.1 only, to whoever has the address with its token; to\n"
+           "look from another machine, use the ssh line that is printed. SIGINT and SIGTERM end both.");
+  auto state = std::make_shared<PreviewCommand>();
+  state->molecule.reading.model.all = true;
+  add_atom_options(command, state->molecule);
+  command.get_option("--model")->description("Model to show; default: all of them, each a frame");
+  command.remove_option(command.get_option("--instances"));  // the preview draws atoms
+  {
+    const Heading heading(command, "Surface");
+    add_probe_option(command, state->molecule.computing);
+    add_device_option(command, state->molecule.computing);
+    command.get_option("--device")->description("auto (default: a GPU if there is one), gpu, gpu:N, software");
+  }
+  add_color_options(command, state->molecule);
+  add_sequence_options(command, state->sequence);
+  for (const char* option : {"--only", "--progress"}) command.remove_option(command.get_option(option));
+  add_picture_options(command, state->picture);
+  add_look_options(command, state->look);
+  add_session_options(command, *state);
+  command.callback([state] { run(*state); });
+}
+
+}  // namespace meniscus

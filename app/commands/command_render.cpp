@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// `meniscus render`: a picture of the surface by ray casting its analytic patches.
+#include <algorithm>
+#include <iostream>
+#include <map>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ostream.h>
+
+#include "app/commands/commands.h"
+#include "app/options/look_options.h"
+#include "app/molecule.h"
+#include "app/program_error.h"
+#include "app/commands/render_command.h"
+#include "app/view_picture.h"
+#include "core/base/text.h"
+#include "core/gpu/egl_context.h"
+#include "core/render/image_output.h"
+#include "core/queries/combine.h"
+
+namespace meniscus {
+namespace {
+
+void parse_background(const std::string& text, std::optional<glm::vec3>& background) {
+  background.reset();
+  if (text == "transparent") return;
+  if (text == "white") background = glm::vec3(1.0f);
+  if (text == "black") background = glm::vec3(0.0f);
+  if (!background) background = parse_hex_color(text);
+  if (!background)
+    throw CLI::ValidationError("--background", in_quotes(text) + " is none of transparent, white, black, #rrggbb");
+}
+
+void parse_extent(const std::string& text, std::optional<Extent>& extent) {
+  const std::map<std::string, Extent> words{
+      {"complete", Extent::complete}, {"visible", Extent::visible}, {"paper", Extent::paper}};
+  const auto word = words.find(text);
+  if (word == words.end())
+    throw CLI::ValidationError("--extent", in_quotes(text) + " is none of visible, complete, paper");
+  extent = word->second;
+}
+
+void save_camera(const RenderCommand& command, const Camera& camera) {
+  OutputFile file(command.save_camera, command.output.existing());
+  file.write(camera_json(camera));
+  file.commit();
+}
+
+void finish(const RenderCommand& command, const PictureLayout& layout, Framebuffer picture, const Camera& camera) {
+  if (shows_nothing(picture))
+    say(command.molecule,
+        "warning: the picture shows nothing: no ray meets a part of the surface that --show leaves; where does the "
+        "camera look?");
+  if (layout.legend) picture = layout.legend->add_to(picture, command.background);
+  write_image(command.output.path, picture, {command.background, command.output.existing()});
+  if (!command.save_camera.empty()) save_camera(command, camera);
+}
+
+void say_times(const RenderCommand& command, const EglContext& context, const std::vector<StageTime>& stages) {
+  std::string times;
+  for (const StageTime& stage : stages)
+    times += fmt::format("{}{} {:.1f} ms", times.empty() ? "" : ", ", stage.name, stage.milliseconds);
+  say(command.molecule, fmt::format("picture on {}, GL {}{}: {}", context.renderer(), context.version(),
+                                    context.is_software() ? " (software)" : "", times));
+}
+
+// Without the complete surface: from atoms to the picture on the GPU.
+void draw_view(const RenderCommand& command, const std::optional<Camera>& given) {
+  const ColoredAtoms atoms = load_atoms(command.molecule);
+  const PictureLayout layout(command, key_of(atoms.molecule));
+  const Camera camera = picture_camera(layout.size, given, atoms.balls);
+  const EglContext context(gl_device(command));
+  ViewPicture view = ViewPainter().paint(atoms, camera, command.molecule.computing.probe_radius, *command.extent,
+                                         render_settings(command, layout));
+  if (command.stats) fmt::print(std::cerr, "{}", stats_text(view));
+  say_times(command, context, view.times);
+  finish(command, layout, std::move(view.picture), camera);
+}
+
+void run(const RenderCommand& command) {
+  if (command.sequence.asked()) return render_frames(command);
+  if (command.run_camera.moves())
+    throw UsageError("--camera-path, --turntable and --follow move the camera over a run of frames; add --frames");
+  check_image_path(command.output.path);
+  if (command.aovs && !holds_aovs(command.output.path))
+    throw UsageError("--aovs needs an .exr output; other formats hold colour only");
+  if (command.extent) {
+    check_view_options(command.molecule);
+    if (command.aovs) throw UsageError("--aovs needs the complete surface; leave --extent away");
+  } else if (command.stats) {
+    throw UsageError("--stats tells the stages of a view; add --extent");
+  }
+  if (command.legend && command.molecule.color.by == ColorScheme::By::fixed)
+    throw UsageError("--legend has nothing to explain where all is of one colour; choose another --color");
+  // Whether the outputs can be written is known before the work begins; these vanish again.
+  OutputFile(command.output.path, command.output.existing());
+  if (!command.save_camera.empty()) OutputFile(command.save_camera, command.output.existing());
+  const std::optional<Camera> given = given_camera(command.picture);
+  if (command.extent) return draw_view(command, given);
+  Molecule molecule = load_molecule(command.molecule);
+  const PictureLayout layout(command, key_of(molecule));
+  const Camera camera = picture_camera(layout.size, given, placed_balls(molecule.objects));
+  const EglContext context(gl_device(command));
+  RayCaster caster;
+  Framebuffer picture = cast(caster, std::move(molecule.objects), camera, render_settings(command, layout));
+  finish(command, layout, std::move(picture), camera);
+  say_times(command, context, caster.times());
+}
+
+}  // namespace
+
+PictureLayout::PictureLayout(const RenderCommand& command, const ColorKey& key) : size(command.picture) {
+  if (!command.legend) return;
+  legend.emplace(key, glm::ivec2(size.width, size.height));
+  size.width = legend->molecule_size().x;
+  size.height = legend->molecule_size().y;
+}
+
+RenderSettings render_settings(const RenderCommand& command, const PictureLayout& layout) {
+  RenderSettings settings;
+  settings.size = {layout.size.width, layout.size.height};
+  settings.samples = command.samples;
+  settings.aovs = command.aovs;
+  settings.look = command.look;
+  return settings;
+}
+
+DeviceChoice gl_device(const RenderCommand& command) { return command.molecule.computing.gl; }
+
+Framebuffer cast(RayCaster& caster, std::vector<SurfaceObject> objects, const Camera& camera,
+                 const RenderSettings& settings) {
+  const SurfaceObject whole = merged(std::move(objects));
+  Framebuffer picture = caster.render(whole.surface, whole.coloring, camera, settings);
+  for (std::uint32_t& atom : picture.atom)
+    if (atom != kNone) atom = whole.atom[atom];
+  return picture;
+}
+
+bool shows_nothing(const Framebuffer& picture) {
+  return std::ranges::none_of(picture.color, [](const glm::vec4& pixel) { return pixel.w > 0.0f; });
+}
+
+void add_render(CLI::App& command) {
+  describe(
+      command, "Ray cast a picture of the analytic surface",
+      "  meniscus render 1tii.pdb -o 1tii.png\n"
+      "  meniscus render 1tii.pdb -o 1tii.png --size 3840x2160 --samples 16 --color chain --background white\n"
+      "  meniscus render 1tii.pdb -o 1tii.png --color hydrophobicity --legend --background white\n"
+      "  meniscus render 1tii.pdb -o 1tii.png --color chain --ambient-occlusion 0.8 --silhouettes 2 --background "
+      "white\n"
+      "  meniscus render 1tii.pdb -o 1tii.exr --aovs --camera camera.json   depth, normals, atoms for compositing\n"
+      "  meniscus render adk.psf --trajectory adk.dcd --frames all --superpose 'name CA' -o adk.mp4");
+  auto state = std::make_shared<RenderCommand>();
+  add_molecule_options(command, state->molecule);
+  add_picture_options(command, state->picture);
+  add_sequence_options(command, state->sequence);
+  add_run_camera_options(command, state->run_camera);
+  add_look_options(command, state->look);
+  add_output_options(
+      command, state->output,
+      "Picture to write: .png, .tif, .tiff or .exr; of frames: frame_#####.png, or a film: .mp4, .mkv, .mov");
+  command.add_option("--samples", state->samples, "Rays per pixel, the first through its centre [4]")
+      ->check(CLI::Range(1, 1024).description(""))
+      ->type_name("N");
+  command
+      .add_option_function<std::string>(
+          "--background", [state](const std::string& text) { parse_background(text, state->background); },
+          "transparent (default), white, black or #rrggbb")
+      ->type_name("COLOR");
+  command.add_flag(
+      "--legend", state->legend,
+      "Write what the colours mean at the right (of high pictures: below); the molecule is framed beside it");
+  command.add_flag("--aovs", state->aovs,
+                   "Add Z, N.xyz, P.xyz, atom, kind and component of each pixel's centre to an .exr");
+  command
+      .add_option_function<std::string>(
+          "--extent", [state](const std::string& text) { parse_extent(text, state->extent); },
+          "Compute on the GPU only what this view needs: visible (the same picture, pixel for pixel); complete "
+          "(everything, the same way); paper (as Krone et al. 2010 select it: deep clefts may have holes)")
+      ->type_name("WORD");
+  command.add_flag("--stats", state->stats, "With --extent: what each group of stages found, and its time, on stderr");
+  command.add_option("--save-camera", state->save_camera, "Write the camera used, as JSON for --camera")
+      ->type_name("FILE");
+  command.add_option("--fps", state->frames_per_second, "Frames per second of a film [25]")
+      ->check(CLI::Range(0.1, 240.0).description(""))
+      ->type_name("N");
+  command.callback([state] { run(*state); });
+}
+
+}  // namespace meniscus

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// `meniscus work`: makes what is missing of a bundle, for a person or for any engine.
+#include <algorithm>
+#include <charconv>
+#include <cstdlib>
+#include <filesystem>
+#include <iterator>
+#include <memory>
+#include <optional>
+#include <unordered_set>
+
+#include <fmt/format.h>
+
+#include "app/commands/commands.h"
+#include "app/farm/child_process.h"
+#include "app/farm/claims.h"
+#include "app/farm/worker.h"
+#include "app/options/molecule_options.h"
+#include "app/program_error.h"
+#include "app/stop_signals.h"
+#include "core/base/text.h"
+#include "core/trajectory/frame_list.h"
+
+namespace meniscus {
+namespace {
+
+struct WorkCommand {
+  std::string folder, step, frames, chunk;
+  bool force = false, require_gpu = false;
+  double lease = farm::kDefaultLease;
+  std::string device;
+  int threads = 0;
+  ProgressStyle progress = ProgressStyle::automatic;
+};
+
+struct Chunk {
+  std::uint64_t number = 0, count = 0;
+};
+
+/// K/N, 1 <= K <= N.
+Chunk parse_chunk(const std::string& text) {
+  std::uint64_t k = 0, n = 0;
+  const char* const end = text.data() + text.size();
+  const auto [slash, first_error] = std::from_chars(text.data(), end, k);
+  const bool has_slash = first_error == std::errc() && slash != end && *slash == '/';
+  const auto [rest, second_error] = has_slash ? std::from_chars(slash + 1, end, n) : std::from_chars(end, end, n);
+  if (!has_slash || second_error != std::errc() || rest != end || k < 1 || k > n)
+    throw UsageError(fmt::format("--chunk is {}; it must be K/N with K from 1 to N, such as 3/10", in_quotes(text)));
+  return {k, n};
+}
+
+/// Of the run those that the list has: of every tenth frame, 0-30 means four.
+std::vector<std::uint64_t> listed_frames(const farm::Bundle& bundle, const std::string& text) {
+  const std::uint64_t largest = *std::ranges::max_element(bundle.frames);
+  const std::vector<std::uint64_t> list = parse_frame_list("--frames", text, largest + 1);
+  const std::unordered_set<std::uint64_t> wanted(list.begin(), list.end());
+  std::vector<std::uint64_t> frames;
+  std::ranges::copy_if(bundle.frames, std::back_inserter(frames), [&](std::uint64_t n) { return wanted.contains(n); });
+  if (frames.empty())
+    throw UsageError(fmt::format("--frames {}: none of them is in this bundle; it has {}", in_quotes(text),
+                                 frame_list_text(bundle.frames)));
+  return frames;
+}
+
+farm::Share share_of(const WorkCommand& command, const farm::Bundle& bundle) {
+  farm::Share share;
+  share.force = command.force;
+  share.alone = !command.chunk.empty();
+  share.lease_seconds = command.lease;
+  std::string names;
+  for (const farm::Step& step : bundle.steps) {
+    names += (names.empty() ? "" : ", ") + step.name;
+    if (command.step.empty() || command.step == step.name) share.steps.push_back(step.name);
+  }
+  if (share.steps.empty())
+    throw UsageError(fmt::format("--step {} is none of this bundle's: {}", in_quotes(command.step), names));
+  const std::optional<Chunk> chunk = command.chunk.empty() ? std::nullopt : std::optional(parse_chunk(command.chunk));
+  // Workers of neighbouring shares on a machine of several GPUs take one each.
+  if (chunk) ::setenv(kWorkerVariable, std::to_string(chunk->number - 1).c_str(), 0);
+  share.frames = chunk                     ? farm::chunk_of(bundle, chunk->number, chunk->count)
+                 : !command.frames.empty() ? listed_frames(bundle, command.frames)
+                                           : bundle.frames;
+  return share;
+}
+
+farm::Workplace workplace_of(const WorkCommand& command) {
+  farm::Workplace place;
+  place.folder = std::filesystem::absolute(command.folder);
+  place.threads = command.threads;
+  if (!command.device.empty()) place.device_options = {"--device", command.device};
+  if (command.require_gpu) place.device_options.emplace_back("--require-gpu");
+  return place;
+}
+
+void run(const WorkCommand& command) {
+  const farm::Bundle bundle = farm::read_bundle(command.folder);
+  const farm::Share share = share_of(command, bundle);
+  const farm::Workplace place = workplace_of(command);
+  // Software GL takes as many threads as the machine has cores unless told.
+  if (command.threads > 0) ::setenv("LP_NUM_THREADS", std::to_string(command.threads).c_str(), 0);
+  const StopHandler handler(
+      [&] {
+        farm::stop_children();
+        farm::give_back_all_claims();
+        farm::remove_own_leftovers(place.folder);
+      },
+      kExitStopped);
+  farm::work(bundle, place, share, command.progress);
+}
+
+}  // namespace
+
+void add_work(CLI::App& command) {
+  describe(
+      command, "Make the missing frames of a bundle, or a share of them (see meniscus farm)",
+      "  meniscus work film                                all that is missing\n"
+      "  meniscus work film --step render --chunk 3/10     the third of ten shares of one step\n"
+      "  meniscus work film --frames 40-49 --force         these once more",
+      "A frame whose files are there with the right checksums is not made again, so the same command goes on after\n"
+      "whatever stopped it, even kill -9, and any number of workers share a bundle: each frame is made by one of "
+      "them.\n"
+      "Told to stop (SIGTERM, SIGUSR1, Ctrl-C) it leaves whole files only and\n"
+      "ends with exit code 9. After a frame that fails the others are made; the exit code is that frame's.");
+  auto state = std::make_shared<WorkCommand>();
+  command.add_option("BUNDLE", state->folder, "The bundle's folder")->required()->type_name("");
+  command.add_option("--step", state->step, "Only this step of the work: surface or render [all, in order]")
+      ->type_name("STEP");
+  CLI::Option* const frames =
+      command.add_option("--frames", state->frames, "Only these frames of the run, such as 0-99:10,250");
+  frames->type_name("LIST");
+  command.add_option("--chunk", state->chunk, "Only the Kth of N shares of the run, all nearly equal; K from 1")
+      ->type_name("K/N")
+      ->excludes(frames);
+  command.add_flag("--force", state->force, "Make frames again that are there");
+  command
+      .add_option("--lease", state->lease,
+                  "Seconds after which others take this worker for dead, if it does not touch its file [60]")
+      ->check(CLI::Range(farm::kShortestLease, farm::kLongestLease).description(""))
+      ->type_name("S");
+  add_progress_option(command, state->progress);
+  command
+      .add_option("--device", state->device,
+                  "Where surfaces and pictures are computed, instead of what the bundle says: auto, gpu, gpu:N, "
+                  "software, cpu")
+      ->type_name("DEVICE");
+  command.add_flag("--require-gpu", state->require_gpu, "Refuse (exit code 4) the CPU and software GL for these");
+  command.add_option("--threads", state->threads, "CPU threads of each process [all]")
+      ->check(CLI::Range(1, 4096).description(""))
+      ->type_name("N");
+  command.callback([state] { run(*state); });
+}
+
+}  // namespace meniscus

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// `meniscus export blender`: mesh, analytic patches, atoms and camera as one .mns file.
+#include <filesystem>
+#include <iostream>
+#include <memory>
+
+#include "app/blender_attributes.h"
+#include "app/commands/commands.h"
+#include "app/frame_run.h"
+#include "app/options/mesh_options.h"
+#include "app/program_error.h"
+#include "app/run_framing.h"
+#include "core/base/text.h"
+#include "core/queries/combine.h"
+#include "exporters/blender/sequence_manifest.h"
+#include "exporters/blender/surface_file.h"
+#include "exporters/mesh/velocity.h"
+
+namespace meniscus {
+namespace {
+
+struct BlenderCommand {
+  MoleculeOptions molecule;
+  MeshCommandOptions mesh;
+  SequenceOptions sequence;
+  RunCameraOptions run_camera;
+  PictureOptions picture;
+  OutputOptions output;
+  double fps = 24.0;
+};
+
+std::string file_name(const std::string& path) { return std::filesystem::path(path).filename().string(); }
+
+blender::SequenceManifest manifest_of(const BlenderCommand& command, const GivenCameras& cameras, Sequence& sequence) {
+  const RunFraming framing = run_framing(command.picture, command.run_camera, cameras, sequence);
+  const ColorKey key = color_key(sequence.structure(), color_of(command.molecule), {});
+  blender::SequenceManifest manifest;
+  manifest.provenance = {file_name(sequence.structure().file), sequence.structure().radii_set, {}, colors_json(key)};
+  manifest.trajectory = file_name(command.sequence.trajectory);
+  manifest.frames = sequence.run();
+  for (const Camera& camera : framing.cameras)
+    manifest.shots.push_back({camera, command.picture.width, command.picture.height});
+  manifest.origin = framing.origin();
+  manifest.fps = command.fps;
+  manifest.probe_radius = command.molecule.computing.probe_radius;
+  manifest.tolerance = tolerance_of(command.mesh, command.picture, framing.cameras[0], balls_of(sequence.structure()));
+  manifest.atom_count = sequence.structure().atoms.size();
+  return manifest;
+}
+
+// How the vertices of one object move in a frame of the scene, while so many frames of the trajectory pass.
+std::vector<glm::dvec3> velocities_of(const SurfaceObject& object, const TriangleMesh& mesh, const SequenceFrame& frame,
+                                      double frames_passed) {
+  std::vector<glm::dvec3> atoms;
+  for (const std::uint32_t atom : object.atom) atoms.push_back(frame.velocities[atom]);
+  std::vector<glm::dvec3> velocities = vertex_velocities(object.surface, mesh, atoms);
+  for (glm::dvec3& v : velocities) v *= frames_passed;
+  return velocities;
+}
+
+// A file for each frame of the share; the manifest for all of the run, the same from every share.
+void run_sequence(const BlenderCommand& command) {
+  const GivenCameras cameras = given_cameras(command.picture, command.run_camera);
+  Sequence sequence(command.molecule, command.sequence, true);
+  MoleculeBuilder builder(command.molecule);
+  const blender::SequenceManifest manifest = manifest_of(command, cameras, sequence);
+  const std::string run = run_name(manifest);
+  const std::filesystem::path folder = command.output.path;
+  const std::filesystem::path written = write_manifest(folder, command.output.existing(), manifest);
+  run_frames(sequence, command.molecule, command.sequence, [&](const SequenceFrame& frame) {
+    const Molecule molecule = builder.build(frame.structure);
+    std::vector<TriangleMesh> meshes = mesh_objects(molecule.objects, manifest.tolerance);
+    std::vector<blender::MeshedObject> objects;
+    for (std::size_t n = 0; n < meshes.size(); ++n) {
+      const SurfaceObject& object = molecule.objects[n];
+      std::vector<glm::dvec3> velocities = velocities_of(object, meshes[n], frame, pace(sequence.run(), frame.place));
+      objects.push_back(
+          {object, std::move(meshes[n]), blender_attributes(molecule.structure, object.atom), std::move(velocities)});
+    }
+    blender::Provenance provenance = manifest.provenance;
+    provenance.device = molecule.device;
+    provenance.colors = colors_json(molecule);
+    const std::string path = (folder / blender::frame_file(frame.number)).string();
+    write_objects(path, command.output.existing(), objects, manifest.shot(frame.place), provenance,
+                  blender::PlaceInRun{run, frame.number, frame.place + 1});
+    return MadeFrame{{path}};
+  });
+  std::cout << escaped(written.string()) << "\n";
+}
+
+void run(const BlenderCommand& command) {
+  if (command.sequence.asked()) return run_sequence(command);
+  if (command.run_camera.moves()) throw UsageError(kMovesWithoutFrames);
+  const std::optional<Camera> given = given_camera(command.picture);
+  const Molecule molecule = load_molecule(command.molecule);
+  const std::vector<Ball> balls = placed_balls(molecule.objects);
+  const Camera camera = picture_camera(command.picture, given, balls);
+  const double tolerance = tolerance_of(command.mesh, command.picture, camera, balls);
+  std::vector<TriangleMesh> meshes = meshes_of(command.molecule, molecule.objects, tolerance);
+  std::vector<blender::MeshedObject> objects;
+  for (std::size_t n = 0; n < meshes.size(); ++n) {
+    const SurfaceObject& object = molecule.objects[n];
+    objects.push_back({object, std::move(meshes[n]), blender_attributes(molecule.structure, object.atom), {}});
+  }
+  const blender::Provenance provenance{file_name(molecule.structure.file), molecule.structure.radii_set,
+                                       molecule.device, colors_json(molecule)};
+  write_objects(command.output.path, command.output.existing(), objects,
+                blender::Shot{camera, command.picture.width, command.picture.height}, provenance);
+  std::cout << escaped(command.output.path) << "\n";
+}
+
+}  // namespace
+
+void add_export_blender(CLI::App& command) {
+  describe(
+      command, "Write a file for Blender: closed mesh, analytic patches, atoms, camera (add-on: meniscus_import)",
+      "  meniscus export blender 1tii.pdb -o 1tii.mns\n"
+      "  meniscus export blender 1tii.pdb -o 1tii.mns --camera camera.json --tolerance-pixels 0.25 "
+      "--size 1920x1080\n"
+      "  meniscus export blender adk.psf --trajectory adk.dcd --frames all -o adk   a file a frame, and a manifest");
+  auto state = std::make_shared<BlenderCommand>();
+  add_molecule_options(command, state->molecule);
+  add_mesh_options(command, state->mesh);
+  add_picture_options(command, state->picture);
+  add_sequence_options(command, state->sequence);
+  add_run_camera_options(command, state->run_camera);
+  command.add_option("--fps", state->fps, "Frames of a run a second [24]")
+      ->type_name("N")
+      ->check(CLI::Range(0.01, 1000.0));
+  add_output_options(command, state->output, ".mns file to write; of a run, the folder");
+  command.callback([state] { run(*state); });
+}
+
+}  // namespace meniscus

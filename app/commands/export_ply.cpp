@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// `meniscus export ply`: the closed mesh as a binary PLY file.
+#include <cmath>
+#include <iostream>
+#include <memory>
+#include <utility>
+
+#include "app/commands/commands.h"
+#include "app/options/mesh_options.h"
+#include "core/base/text.h"
+#include "core/queries/combine.h"
+#include "exporters/mesh/ply.h"
+
+namespace meniscus {
+namespace {
+
+struct PlyCommand {
+  MoleculeOptions molecule;
+  MeshCommandOptions mesh;
+  PictureOptions picture;
+  OutputOptions output;
+};
+
+// One row for each atom of the surface.
+std::vector<AtomScalar> scalars_of(const Structure& structure, const std::vector<std::uint32_t>& atoms) {
+  AtomScalar b_factor{"b_factor", {}}, number{"atomic_number", {}}, residue{"res_id", {}}, radius{"vdw_radii", {}},
+      place{"atom_index", {}};
+  for (const std::uint32_t index : atoms) {
+    const Atom& atom = structure.atoms[index];
+    b_factor.values.push_back(std::isfinite(atom.b_factor) ? atom.b_factor : 0.0f);
+    number.values.push_back(atom.element);
+    residue.values.push_back(static_cast<float>(atom.residue_number));
+    radius.values.push_back(static_cast<float>(atom.radius));
+    place.values.push_back(static_cast<float>(index));
+  }
+  return {b_factor, number, residue, radius, place};
+}
+
+void run(const PlyCommand& command) {
+  const std::optional<Camera> given = given_camera(command.picture);
+  Molecule molecule = load_molecule(command.molecule);
+  const SurfaceObject whole = merged(std::move(molecule.objects));
+  const Camera camera = picture_camera(command.picture, given, whole.surface.atoms);
+  const double tolerance = tolerance_of(command.mesh, command.picture, camera, whole.surface.atoms);
+  const TriangleMesh mesh = std::move(meshes_of(command.molecule, {&whole, 1}, tolerance).front());
+  write_ply(command.output.path, command.output.existing(), mesh, whole.coloring,
+            scalars_of(molecule.structure, whole.atom));
+  std::cout << escaped(command.output.path) << "\n";
+}
+
+}  // namespace
+
+void add_export_ply(CLI::App& command) {
+  describe(command, "Write a closed triangle mesh as binary PLY",
+           "  meniscus export ply 1tii.pdb -o 1tii.ply\n"
+           "  meniscus export ply 1tii.pdb -o fine.ply --tolerance 0.002 --color chain");
+  auto state = std::make_shared<PlyCommand>();
+  add_molecule_options(command, state->molecule);
+  add_mesh_options(command, state->mesh);
+  add_picture_options(command, state->picture);
+  add_output_options(command, state->output, "PLY file to write");
+  command.callback([state] { run(*state); });
+}
+
+}  // namespace meniscus

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// `meniscus export povray`: a folder with a POV-Ray scene of the analytic patches.
+#include <iostream>
+#include <map>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "app/commands/commands.h"
+#include "app/frame_run.h"
+#include "app/molecule.h"
+#include "app/options/picture_options.h"
+#include "app/program_error.h"
+#include "app/run_framing.h"
+#include "core/base/text.h"
+#include "core/queries/combine.h"
+#include "exporters/povray/scene.h"
+#include "exporters/povray/sequence.h"
+
+namespace meniscus {
+namespace {
+
+struct PovrayCommand {
+  MoleculeOptions molecule;
+  SequenceOptions sequence;
+  RunCameraOptions run_camera;
+  PictureOptions picture;
+  OutputOptions output;
+  povray::Material material = povray::Material::opaque;
+};
+
+povray::SceneOptions scene_options(const PovrayCommand& command) {
+  povray::SceneOptions options;
+  options.width = command.picture.width;
+  options.height = command.picture.height;
+  options.material = command.material;
+  options.existing = command.output.existing();
+  return options;
+}
+
+// An include for each frame of the share; the scene for all of the run, the same from every share.
+void run_sequence(const PovrayCommand& command) {
+  const GivenCameras cameras = given_cameras(command.picture, command.run_camera);
+  Sequence sequence(command.molecule, command.sequence);
+  MoleculeBuilder builder(command.molecule);
+  const RunFraming framing = run_framing(command.picture, command.run_camera, cameras, sequence);
+  const ColorScheme scheme = color_of(command.molecule);
+  povray::SceneOptions options = scene_options(command);
+  options.origin = framing.origin();
+  options.colors = colors_json(color_key(sequence.structure(), scheme, {}));
+  const povray::SequenceScene scene(
+      {sequence.run(), framing.cameras, run_colors(sequence.structure(), scheme), framing.low, framing.high}, options,
+      command.output.path);
+  const povray::SceneReport shared = scene.write_shared();
+  bool noted = false;
+  const auto make = [&](const SequenceFrame& frame) {
+    const Molecule molecule = builder.build(frame.structure);
+    const povray::SceneReport report = scene.write_frame(molecule.objects, frame.place);
+    // Notes of later frames would differ in their numbers only.
+    if (!noted)
+      for (const std::string& note : report.notes)
+        say(command.molecule, fmt::format("note: frame {}: {}", frame.number, note));
+    noted = noted || !report.notes.empty();
+    std::vector<std::string> files;
+    for (const std::filesystem::path& file : report.files) files.push_back(file.string());
+    return MadeFrame{std::move(files)};
+  };
+  run_frames(sequence, command.molecule, command.sequence, make);
+  std::cout << escaped(shared.command) << "\n";
+}
+
+void run(const PovrayCommand& command) {
+  if (command.sequence.asked()) return run_sequence(command);
+  if (command.run_camera.moves()) throw UsageError(kMovesWithoutFrames);
+  const std::optional<Camera> given = given_camera(command.picture);
+  const Molecule molecule = load_molecule(command.molecule);
+  povray::SceneOptions options = scene_options(command);
+  options.colors = colors_json(molecule);
+  const Camera camera = picture_camera(command.picture, given, placed_balls(molecule.objects));
+  const povray::SceneReport report = write_scene(molecule.objects, camera, options, command.output.path);
+  say(command.molecule,
+      fmt::format("{} primitives in {} files", with_thousands(report.object_count), report.files.size()));
+  for (const std::string& note : report.notes) say(command.molecule, "note: " + note);
+  std::cout << escaped(report.command) << "\n";
+}
+
+}  // namespace
+
+void add_export_povray(CLI::App& command) {
+  describe(
+      command, "Write a POV-Ray scene of the analytic patches, no triangles; prints how to render it",
+      "  meniscus export povray 1tii.pdb -o 1tii                 then: cd 1tii; povray surface.ini\n"
+      "  meniscus export povray 1tii.pdb -o glass --material glass --size 1920x1080\n"
+      "  meniscus export povray 1tii.pdb -o 1tii --camera camera.json --color chain --force\n"
+      "  meniscus export povray adk.psf --trajectory adk.dcd --frames 0-90:10 -o adk   then: povray surface.ini",
+      "Of a run of frames the folder holds one scene and an include for each frame; POV-Ray's frames count from 1.\n"
+      "Machines that share the work give the same options and --only, and render with +SF and +EF.");
+  auto state = std::make_shared<PovrayCommand>();
+  add_molecule_options(command, state->molecule);
+  add_picture_options(command, state->picture);
+  add_sequence_options(command, state->sequence);
+  add_run_camera_options(command, state->run_camera);
+  add_output_options(command, state->output, "Folder to write; made when missing");
+  const std::map<std::string, povray::Material> words{{"opaque", povray::Material::opaque},
+                                                      {"ghost", povray::Material::ghost},
+                                                      {"glass", povray::Material::glass},
+                                                      {"wax", povray::Material::wax}};
+  command.add_option("--material", state->material, "Default material: opaque, ghost, glass, wax; the scene holds all")
+      ->transform(CLI::CheckedTransformer(words).description(""))
+      ->type_name("WORD");
+  command.callback([state] { run(*state); });
+}
+
+}  // namespace meniscus

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Draws frames from a turning camera, with a changing probe, with moving atoms, and prints what each took.
+#include "app/commands/paper_bench.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <iostream>
+#include <numbers>
+#include <optional>
+#include <span>
+
+#include <fmt/format.h>
+#include <fmt/ostream.h>
+#include <glm/geometric.hpp>
+
+#include "core/base/text.h"
+#include "core/gpu/egl_context.h"
+#include "core/visible_surface/frame_renderer.h"
+
+namespace meniscus {
+namespace {
+
+/// Frames per second of the paper's table 1, on a GeForce GTX 285.
+struct PaperFigure {
+  const char* name;
+  double frames_per_second;
+};
+constexpr PaperFigure kPaper[] = {{"1A3I", 68}, {"1CRN", 31}, {"1RWE", 16}, {"1J4N", 7}, {"1VIS", 5}, {"1TII", 3}};
+
+std::optional<double> paper_figure(const std::string& name) {
+  std::string upper = name.substr(0, 4);
+  std::ranges::transform(upper, upper.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  for (const PaperFigure& figure : kPaper)
+    if (upper == figure.name) return figure.frames_per_second;
+  return {};
+}
+
+/// The paper's four groups of stages, and what comes after them.
+constexpr std::array kGroups = {"visible atoms", "potential", "faces", "primitives", "ray cast"};
+
+std::size_t group_of(const std::string& stage) {
+  if (stage == "neighbors" || stage == "circles" || stage == "doubtful circles") return 1;
+  if (stage == "fixed probes") return 2;
+  if (stage == "primitives") return 3;
+  if (stage == "tile lists" || stage == "ray cast" || stage == "finish") return 4;
+  return 0;  // frame, upload, visible atoms
+}
+
+struct FrameTime {
+  double total = 0.0;  ///< ms by the clock on the wall
+  std::array<double, kGroups.size()> groups{};
+};
+
+FrameTime median(std::vector<FrameTime> times) {
+  const auto middle = times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2);
+  std::nth_element(times.begin(), middle, times.end(), [](auto& a, auto& b) { return a.total < b.total; });
+  return *middle;
+}
+
+/// What changes from frame to frame.
+enum class Change { camera, probe, atoms };
+
+class MoleculeBench {
+ public:
+  MoleculeBench(const PaperBenchMolecule& molecule, const PaperBenchSettings& settings)
+      : molecule_(molecule), settings_(settings) {
+    const double aspect = static_cast<double>(settings.size.x) / settings.size.y;
+    request_.camera = frame_camera(molecule.balls, aspect);
+    request_.size = settings.size;
+    first_position_ = request_.camera.position;
+    renderer_.set_atoms(molecule.balls);
+    Coloring coloring;
+    coloring.atom.assign(molecule.balls.size(), glm::vec3(0.8f));
+    renderer_.set_coloring(std::move(coloring));
+  }
+
+  FrameTime measure(Extent extent, Change change) {
+    request_.extent = extent;
+    request_.probe_radius = settings_.probe_radius;
+    draw();  // kernels are compiled and buffers sized once
+    std::vector<FrameTime> times;
+    for (int n = 1; n <= settings_.runs; ++n) {
+      const double turn = 2.0 * std::numbers::pi * n / settings_.runs;
+      std::vector<Ball> moved;
+      if (change == Change::camera) turn_camera(turn);
+      if (change == Change::probe) request_.probe_radius = settings_.probe_radius * (1.0 + 1e-3 * n);
+      if (change == Change::atoms) {
+        moved = molecule_.balls;
+        for (std::size_t a = 0; a < moved.size(); ++a) moved[a].center.x += 1e-3 * n * std::sin(static_cast<double>(a));
+      }
+      const auto begin = std::chrono::steady_clock::now();
+      if (change == Change::atoms) renderer_.set_atoms(std::move(moved));
+      draw();
+      const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - begin;
+      FrameTime time{elapsed.count(), {}};
+      for (const StageTime& stage : renderer_.times()) time.groups[group_of(stage.name)] += stage.milliseconds;
+      times.push_back(time);
+    }
+    request_.camera.position = first_position_;
+    if (change == Change::atoms) renderer_.set_atoms(molecule_.balls);
+    return median(std::move(times));
+  }
+
+  const ViewStats& stats() const { return renderer_.stats(); }
+
+ private:
+  void draw() { renderer_.render(request_); }
+
+  // About the vertical axis through the target.
+  void turn_camera(double angle) {
+    const glm::dvec3 axis = glm::normalize(request_.camera.up), d = first_position_ - request_.camera.target;
+    request_.camera.position = request_.camera.target + d * std::cos(angle) + glm::cross(axis, d) * std::sin(angle) +
+                               axis * (glm::dot(axis, d) * (1.0 - std::cos(angle)));
+  }
+
+  const PaperBenchMolecule& molecule_;
+  const PaperBenchSettings& settings_;
+  FrameRenderer renderer_;
+  FrameRequest request_;
+  glm::dvec3 first_position_{0.0};
+};
+
+void print_head(std::size_t width) {
+  fmt::print(std::cout, "{:<{}} {:>9} {:<9} {:>6}", "molecule", width, "atoms", "extent", "kept");
+  for (const char* group : kGroups) fmt::print(std::cout, " {:>13}", group);
+  fmt::print(std::cout, " {:>9} {:>7} {:>7} {:>9} {:>9}\n", "total ms", "fps", "paper", "new probe", "new atoms");
+}
+
+void print_row(MoleculeBench& bench, const PaperBenchMolecule& molecule, std::size_t width, Extent extent) {
+  // A complete surface does not depend on the camera: there only new atoms make all of it anew.
+  const FrameTime turned = bench.measure(extent, extent == Extent::complete ? Change::atoms : Change::camera);
+  const ViewStats stats = bench.stats();
+  const FrameTime probe = bench.measure(extent, Change::probe), moved = bench.measure(extent, Change::atoms);
+  fmt::print(std::cout, "{:<{}} {:>9} {:<9} {:>5.0f}%", escaped(molecule.name), width,
+             with_thousands(molecule.balls.size()), extent == Extent::complete ? "complete" : "visible",
+             100.0 * static_cast<double>(stats.kept_atoms) / static_cast<double>(stats.atoms));
+  for (const double group : turned.groups) fmt::print(std::cout, " {:>13.2f}", group);
+  const auto paper = paper_figure(molecule.name);
+  fmt::print(std::cout, " {:>9.2f} {:>7.1f} {:>7} {:>9.2f} {:>9.2f}\n", turned.total, 1000.0 / turned.total,
+             paper ? fmt::format("{:.0f}", *paper) : "-", probe.total, moved.total);
+  std::cout.flush();
+}
+
+}  // namespace
+
+void print_paper_tables(const std::vector<PaperBenchMolecule>& molecules, const PaperBenchSettings& settings) {
+  const EglContext context(settings.device);
+  std::size_t width = 8;
+  for (const PaperBenchMolecule& molecule : molecules) width = std::max(width, escaped(molecule.name).size());
+  fmt::print(std::cout,
+             "Frames of {}x{} pixels, probe {} \u00c5, on {}, GL {}. Milliseconds, medians of {} frames.\n"
+             "visible atoms, potential (arcs in place of faces), faces, primitives: the paper's groups of stages; ray "
+             "cast: with tile lists.\nCamera turning; in the last two columns the probe changes, or all atoms move.\n"
+             "paper: frames per second of table 1 in Krone, Dachsbacher & Ertl 2010, GeForce GTX 285.\n\n",
+             settings.size.x, settings.size.y, settings.probe_radius, context.renderer(), context.version(),
+             settings.runs);
+  print_head(width);
+  for (const PaperBenchMolecule& molecule : molecules) {
+    MoleculeBench bench(molecule, settings);
+    for (const Extent extent : {Extent::complete, Extent::visible}) print_row(bench, molecule, width, extent);
+  }
+}
+
+}  // namespace meniscus

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the options of `meniscus render` say, and its two ways: one picture, or a run of them.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/options/molecule_options.h"
+#include "app/options/picture_options.h"
+#include "app/run_camera.h"
+#include "app/options/sequence_options.h"
+#include "core/render/legend.h"
+#include "core/render/look.h"
+#include "core/render/ray_caster.h"
+#include "core/visible_surface/extent.h"
+
+namespace meniscus {
+
+struct RenderCommand {
+  MoleculeOptions molecule;
+  SequenceOptions sequence;
+  PictureOptions picture;
+  RunCameraOptions run_camera;
+  Look look;  // but for the background, which may be transparent
+  OutputOptions output;
+  std::string save_camera;
+  int samples = 4;
+  bool aovs = false;
+  bool legend = false;
+  std::optional<glm::vec3> background;
+  std::optional<Extent> extent;  ///< nothing: the complete surface, computed and certified before the picture
+  bool stats = false;
+  double frames_per_second = 25.0;  ///< of a film
+};
+
+/// The picture's size, of which the molecule takes what the legend leaves.
+struct PictureLayout {
+  PictureOptions size;
+  std::optional<Legend> legend;
+
+  PictureLayout(const RenderCommand& command, const ColorKey& key);
+};
+
+RenderSettings render_settings(const RenderCommand& command, const PictureLayout& layout);
+
+/// For pictures of what was computed on the CPU any GL will do.
+DeviceChoice gl_device(const RenderCommand& command);
+
+/// Casts the surface of all objects. atom of the AOVs: into Structure::atoms.
+Framebuffer cast(RayCaster& caster, std::vector<SurfaceObject> objects, const Camera& camera,
+                 const RenderSettings& settings);
+
+/// Did no ray of the picture meet a part of the surface that is shown?
+bool shows_nothing(const Framebuffer& picture);
+
+/// Pictures of all frames of a run, or a film of them.
+void render_frames(const RenderCommand& command);
+
+}  // namespace meniscus

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// `meniscus render --frames`: numbered pictures, or a film.
+#include <filesystem>
+#include <memory>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "app/film.h"
+#include "app/frame_run.h"
+#include "app/molecule.h"
+#include "app/options/numbered_path.h"
+#include "app/program_error.h"
+#include "app/commands/render_command.h"
+#include "app/view_picture.h"
+#include "core/base/text.h"
+#include "core/gpu/egl_context.h"
+#include "core/render/image_output.h"
+
+namespace meniscus {
+namespace {
+
+void check_options(const RenderCommand& command) {
+  if (command.stats) throw UsageError("--stats: of one picture only; leave --frames away");
+  if (command.aovs && !holds_aovs(command.output.path))
+    throw UsageError("--aovs needs .exr outputs; other formats hold colour only");
+  if (!command.save_camera.empty() && command.run_camera.moves())
+    throw UsageError("--save-camera: a camera that moves is no single one");
+  if (command.extent) check_view_options(command.molecule);
+}
+
+/// Pictures with numbers in their names, or a film.
+class PictureSink {
+ public:
+  explicit PictureSink(const RenderCommand& command) : command_(command) {
+    const std::string& path = command.output.path;
+    const glm::ivec2 size{command.picture.width, command.picture.height};
+    if (is_film_path(path)) {
+      if (!command.sequence.only.empty())
+        throw UsageError("--only: a film needs all frames; write the share as pictures: frame_#####.png");
+      film_ = std::make_unique<FilmWriter>(path, command.output.existing(), size, command.frames_per_second);
+      return;
+    }
+    numbered_ = NumberedPath::parse(path);
+    if (!numbered_) {
+      const std::filesystem::path plain(path);
+      const std::filesystem::path name =
+          plain.parent_path() /
+          (plain.stem().string() + "_#####" + (plain.has_extension() ? plain.extension().string() : ".png"));
+      throw UsageError(
+          fmt::format("-o {}: every frame would replace the one before; put # where its number shall "
+                      "stand, as in {}, or name a film (.mp4)",
+                      in_quotes(path), in_quotes(name.string())));
+    }
+    check_image_path(path);
+  }
+
+  std::vector<std::string> add(std::uint64_t number, const Framebuffer& picture) {
+    if (film_) {
+      film_->add(srgb_pixels(picture, command_.background.value_or(glm::vec3(1.0f))));
+      return {};
+    }
+    const std::string path = numbered_->at(number);
+    write_image(path, picture, {command_.background, command_.output.existing()});
+    return {path};
+  }
+
+  void finish() {
+    if (film_) film_->finish();
+  }
+
+ private:
+  const RenderCommand& command_;
+  std::optional<NumberedPath> numbered_;
+  std::unique_ptr<FilmWriter> film_;
+};
+
+/// Makes the picture of a frame: by way of the complete surface, or of what the view needs.
+class FramePainter {
+ public:
+  FramePainter(const RenderCommand& command, const Sequence& sequence)
+      : command_(command), context_(gl_device(command)), builder_(command.molecule, &context_) {
+    if (command.extent) atoms_ = colored_atoms(command.molecule, sequence.structure());
+  }
+
+  Framebuffer paint(const SequenceFrame& frame, const Camera& camera, const RenderSettings& settings) {
+    if (!command_.extent) {
+      if (!caster_) caster_.emplace();
+      return cast(*caster_, builder_.build(frame.structure).objects, camera, settings);
+    }
+    atoms_->balls = balls_of(frame.structure);
+    return painter_.paint(*atoms_, camera, command_.molecule.computing.probe_radius, *command_.extent, settings)
+        .picture;
+  }
+
+ private:
+  const RenderCommand& command_;
+  EglContext context_;
+  MoleculeBuilder builder_;
+  std::optional<RayCaster> caster_;
+  std::optional<ColoredAtoms> atoms_;
+  ViewPainter painter_;
+};
+
+}  // namespace
+
+void render_frames(const RenderCommand& command) {
+  check_options(command);
+  const GivenCameras given = given_cameras(command.picture, command.run_camera);
+  Sequence sequence(command.molecule, command.sequence);
+  Molecule first;  // what the colours mean does not change with the frames
+  first.structure = sequence.structure();
+  first.color = color_of(command.molecule);
+  const PictureLayout layout(command, key_of(first));
+  PictureSink sink(command);
+  const std::vector<Camera> cameras = run_cameras(layout.size, command.run_camera, given, sequence);
+  if (!command.save_camera.empty()) {
+    OutputFile file(command.save_camera, command.output.existing());
+    file.write(camera_json(cameras.front()));
+    file.commit();
+  }
+  FramePainter painter(command, sequence);
+  const RenderSettings settings = render_settings(command, layout);
+  run_frames(sequence, command.molecule, command.sequence, [&](const SequenceFrame& frame) {
+    Framebuffer picture = painter.paint(frame, cameras[frame.place], settings);
+    const bool empty = shows_nothing(picture);
+    if (layout.legend) picture = layout.legend->add_to(picture, command.background);
+    return MadeFrame{sink.add(frame.number, picture), empty};
+  });
+  sink.finish();
+}
+
+}  // namespace meniscus

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Declares the options that say how a surface is coloured.
+#include <optional>
+
+#include "app/options/molecule_options.h"
+#include "core/base/text.h"
+
+namespace meniscus {
+namespace {
+
+using By = ColorScheme::By;
+
+void parse_color(const std::string& text, ColorScheme& color) {
+  const std::optional<ColorScheme> scheme = parse_color_scheme(text);
+  if (!scheme) throw CLI::ValidationError("--color", in_quotes(text) + " is none of " + color_scheme_words());
+  color.by = scheme->by;
+  color.fixed = scheme->fixed;
+}
+
+void parse_map(const std::string& text, ColorScheme& color) {
+  color.map = parse_color_map(text);
+  if (color.map) return;
+  std::string names;
+  for (const ColorMapMetadata& map : color_maps()) names.append(names.empty() ? "" : ", ").append(map.name);
+  throw CLI::ValidationError("--map", in_quotes(text) + " is none of " + names);
+}
+
+void parse_range(const std::string& text, ColorScheme& color) {
+  color.range = parse_color_range(text);
+  if (!color.range && text != "auto")
+    throw CLI::ValidationError("--color-range",
+                               in_quotes(text) + " is neither auto nor lo:hi with lo < hi, such as 10:60");
+}
+
+void parse_missing(const std::string& text, ColorScheme& color) {
+  color.missing = parse_hex_color(text);
+  if (!color.missing) throw CLI::ValidationError("--missing-color", in_quotes(text) + " is not #rrggbb");
+}
+
+/// What can only be said once all colour options are known, whatever their order.
+void check_together(const ColorScheme& color, const CLI::Option& scheme, const CLI::Option& file) {
+  if (color.by == By::file && file.empty()) throw CLI::ValidationError("--color", "file needs --color-by-file FILE");
+  if (!file.empty() && !scheme.empty() && color.by != By::file)
+    throw CLI::ValidationError("--color-by-file", "is itself a --color; leave the other one out");
+  if (color.has_scale()) return;
+  if (color.map || color.range || color.missing) {
+    throw CLI::ValidationError(color.map     ? "--map"
+                               : color.range ? "--color-range"
+                                             : "--missing-color",
+                               "is for colours by a number: bfactor, occupancy, charge, hydrophobicity, index, file");
+  }
+}
+
+}  // namespace
+
+void add_color_options(CLI::App& command, MoleculeOptions& options) {
+  const Heading heading(command, "Colour");
+  ColorScheme& color = options.color;
+  const auto add = [&](const char* name, void (*parse)(const std::string&, ColorScheme&), const char* help,
+                       const char* type) {
+    CLI::Option* const option = command.add_option_function<std::string>(
+        name, [&color, parse](const std::string& text) { parse(text, color); }, help);
+    return option->type_name(type);
+  };
+  CLI::Option* const scheme =
+      add("--color", parse_color,
+          "element (default), chain, copy (of an assembly), residue (type), kind (of patch), component, #rrggbb; or by "
+          "number: bfactor, occupancy, charge, hydrophobicity (Kyte & Doolittle 1982), index; meniscus colors explains "
+          "them",
+          "SCHEME");
+  CLI::Option* const file = command.add_option(
+      "--color-by-file", options.color_file,
+      "Colour by numbers from a file, one an atom of FILE or one an atom used; nan, ? or -: missing");
+  file->type_name("NUMBERS");
+  add("--map", parse_map,
+      "Of numbers: viridis (default), cividis, magma, blue-white-red (default of hydrophobicity), red-white-blue (of "
+      "charge: negative is red), categorical (each number a colour of its own)",
+      "MAP");
+  add("--color-range", parse_range,
+      "Numbers at the ends of the map, or auto (default: smallest and largest; charge symmetric about 0; "
+      "hydrophobicity -4.5:4.5)",
+      "LO:HI");
+  add("--missing-color", parse_missing, "Of atoms without a number [#808080; with cividis #cc79a7]", "#rrggbb");
+  command.parse_complete_callback([&options, scheme, file] {
+    if (scheme->empty() && !file->empty()) options.color.by = By::file;
+    check_together(options.color, *scheme, *file);
+  });
+}
+
+}  // namespace meniscus

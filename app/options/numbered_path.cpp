@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Puts numbers into file names.
+#include "app/options/numbered_path.h"
+
+#include <fmt/format.h>
+
+namespace meniscus {
+
+std::optional<NumberedPath> NumberedPath::parse(const std::string& path) {
+  const std::size_t last = path.rfind('#'), slash = path.rfind('/');
+  if (last == std::string::npos || (slash != std::string::npos && last < slash)) return {};
+  std::size_t first = last;
+  while (first > 0 && path[first - 1] == '#') --first;
+  NumberedPath numbered;
+  numbered.before_ = path.substr(0, first);
+  numbered.behind_ = path.substr(last + 1);
+  numbered.digits_ = last + 1 - first;
+  return numbered;
+}
+
+std::string NumberedPath::at(std::uint64_t number) const {
+  return fmt::format("{}{:0{}}{}", before_, number, digits_, behind_);
+}
+
+}  // namespace meniscus

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Declares the options that say which surface is computed, and where.
+#include <charconv>
+#include <cstdlib>
+#include <cstring>
+#include <map>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "app/options/molecule_options.h"
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/text/parse_number.h"
+
+namespace meniscus {
+namespace {
+
+// Below 0.001 Å the patches between atoms are thinner than any file's coordinates are precise; above 100 Å the probe is
+// larger than most molecules and every atom neighbours every other.
+constexpr double kSmallestProbe = 1e-3;
+constexpr double kLargestProbe = 100.0;
+
+double parse_probe(const std::string& text) {
+  double radius = 0.0;
+  if (!parse_number(text, radius))
+    throw CLI::ValidationError("--probe", in_quotes(text) + " is not a finite number of Å, such as 1.4");
+  const std::string fault = probe_fault(radius);
+  if (!fault.empty()) throw CLI::ValidationError("--probe", fault);
+  return radius;
+}
+
+void parse_device(const std::string& text, ComputeOptions& options) {
+  options.cpu = text == "cpu";
+  const std::optional<DeviceChoice> choice = parse_device_choice(options.cpu ? "auto" : text);
+  if (!choice) {
+    throw CLI::ValidationError(
+        "--device", in_quotes(text) + " is none of auto, gpu, gpu:N, gpu:UUID, gpu:PCI-ADDRESS, software, cpu");
+  }
+  options.gl.kind = choice->kind;
+  options.gl.index = choice->index;
+  options.gl.name = choice->name;
+}
+
+/// "auto" becomes any hardware GPU and nothing else. Runs after --device, whatever their order.
+void require_gpu(ComputeOptions& options) {
+  if (options.cpu || options.gl.kind == DeviceChoice::Kind::software)
+    throw GpuError(fmt::format("--require-gpu refuses --device {}; leave one of them away",
+                               options.cpu ? "cpu" : to_string(options.gl)));
+  if (options.gl.kind == DeviceChoice::Kind::automatic) options.gl.kind = DeviceChoice::Kind::gpu;
+}
+
+/// Which GPUs this process is meant to see, and which of several it takes.
+void read_environment(DeviceChoice& choice) {
+  if (const char* const visible = std::getenv("CUDA_VISIBLE_DEVICES")) choice.cuda_visible = visible;
+  for (const char* const variable : {"SLURM_LOCALID", kWorkerVariable}) {
+    const char* const text = std::getenv(variable);
+    int number = -1;
+    if (text && std::from_chars(text, text + std::strlen(text), number).ec == std::errc() && number >= 0)
+      choice.worker = number;
+  }
+}
+
+void parse_division(const std::string& text, DivisionOptions& division) {
+  const std::map<std::string, Grouping> words{{"chain", Grouping::chain},
+                                              {"model", Grouping::model},
+                                              {"class", Grouping::atom_class},
+                                              {"residue", Grouping::residue}};
+  division.groups.reset();
+  division.components = text == "component";
+  if (division.components) return;
+  const auto word = words.find(text);
+  if (word == words.end())
+    throw CLI::ValidationError("--by", in_quotes(text) + " is none of chain, model, class, residue, component");
+  division.groups = word->second;
+}
+
+}  // namespace
+
+std::string probe_fault(double radius) {
+  if (radius < 0.0) return fmt::format("{} Å is negative; 0 gives the van der Waals surface", radius);
+  if (radius > 0.0 && radius < kSmallestProbe) {
+    return fmt::format("{} Å is finer than any file's coordinates; use 0 (van der Waals surface) or at least {} Å",
+                       radius, kSmallestProbe);
+  }
+  if (radius > kLargestProbe)
+    return fmt::format("{} Å is larger than molecules are; use at most {} Å", radius, kLargestProbe);
+  return {};
+}
+
+void add_probe_option(CLI::App& command, ComputeOptions& computing) {
+  command
+      .add_option_function<std::string>(
+          "--probe",
+          [&computing](const std::string& text) {
+            computing.probe_radius = parse_probe(text);
+            computing.probe_named = true;
+          },
+          "Probe radius in Å [1.4]; 0 gives the van der Waals surface")
+      ->type_name("RADIUS");
+}
+
+void add_device_option(CLI::App& command, ComputeOptions& computing) {
+  read_environment(computing.gl);
+  command
+      .add_option_function<std::string>(
+          "--device", [&computing](const std::string& text) { parse_device(text, computing); },
+          "auto (default: a GPU if there is one, else cpu), gpu, gpu:N (or UUID, PCI address), software (GL "
+          "without a GPU), cpu")
+      ->type_name("DEVICE");
+  command.add_flag_callback(
+      "--require-gpu", [&computing] { require_gpu(computing); },
+      "Refuse (exit code 4) to run on the CPU or on software GL where there is no hardware GPU");
+}
+
+void add_surface_options(CLI::App& command, MoleculeOptions& options) {
+  const Heading heading(command, "Surface");
+  ComputeOptions& computing = options.computing;
+  const std::map<std::string, SurfaceKind> kinds{
+      {"ses", SurfaceKind::ses}, {"sas", SurfaceKind::sas}, {"vdw", SurfaceKind::vdw}};
+  command
+      .add_option("--surface", computing.kind,
+                  "ses: solvent-excluded (default); sas: solvent-accessible; vdw: van der Waals, without a probe")
+      ->transform(CLI::CheckedTransformer(kinds).description(""))
+      ->type_name("KIND");
+  add_probe_option(command, computing);
+  add_device_option(command, computing);
+  command.add_flag("--verify", computing.verify, "Compute on GPU and CPU, mesh, and name every difference");
+  command.add_option("--threads", computing.threads, "CPU threads [all]")
+      ->check(CLI::Range(1, 4096).description(""))
+      ->type_name("N");
+}
+
+void add_division_options(CLI::App& command, MoleculeOptions& options) {
+  const Heading heading(command, "Surface");
+  DivisionOptions& division = options.division;
+  command
+      .add_option_function<std::string>(
+          "--by", [&division](const std::string& text) { parse_division(text, division); },
+          "Several objects: chain, model, class (polymer, ligand, ...), residue: each a surface of its own, as if it "
+          "were alone; component: each closed part of the one surface")
+      ->type_name("WORD");
+  const std::map<std::string, Cavities> words{
+      {"keep", Cavities::keep}, {"drop", Cavities::drop}, {"only", Cavities::only}};
+  command
+      .add_option("--cavities", division.cavities,
+                  "keep (default); drop: only what the outside reaches; only: cavities and what lies in them")
+      ->transform(CLI::CheckedTransformer(words).description(""))
+      ->type_name("WORD");
+}
+
+}  // namespace meniscus

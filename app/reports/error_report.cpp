@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Lines for people, harmless to a terminal.
+#include "app/reports/error_report.h"
+
+#include <atomic>
+#include <exception>
+#include <iostream>
+#include <new>
+#include <sstream>
+#include <string>
+#include <string_view>
+
+#include <unistd.h>
+
+#include <fmt/format.h>
+
+#include "app/failed_allocation.h"
+#include "core/base/output_file.h"
+#include "core/base/text.h"
+
+namespace meniscus {
+namespace {
+
+ExitCode say(ExitCode code, const std::string& message) {
+  std::cerr << "meniscus: error: " << escaped(message) << std::endl;
+  return code;
+}
+
+/// The lines of a selection with its caret.
+ExitCode say(const SelectionError& error) {
+  std::istringstream picture(error.picture());
+  std::string lines = escaped(error.sentence());
+  for (std::string line; std::getline(picture, line);) lines.append("\n  ").append(escaped(line));
+  std::cerr << "meniscus: error: " << lines << std::endl;
+  return kExitUsage;
+}
+
+std::string sentence(const std::exception& error) {
+  const ExitCode code = exit_code_of(error);
+  if (code == kExitInternal) return fmt::format("internal: {}; please report this", error.what());
+  if (code == kExitCapacity && !dynamic_cast<const Error*>(&error))
+    return fmt::format("the machine gives no more memory or threads: {}", error.what());
+  return error.what();
+}
+
+ExitCode report_with_memory() {
+  try {
+    throw;
+  } catch (const SelectionError& error) {
+    return say(error);
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& error) {
+    return say(exit_code_of(error), sentence(error));
+  } catch (...) {
+    return say(kExitInternal, "internal: an exception of a library; please report this");
+  }
+}
+
+/// Needs no memory at all.
+ExitCode report_without_memory() noexcept {
+  constexpr std::string_view kLine =
+      "meniscus: error: not enough memory; use a machine with more, a smaller molecule or picture, or fewer "
+      "--threads\n";
+  [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, kLine.data(), kLine.size());
+  return kExitCapacity;
+}
+
+/// An exception that would leave a function which promises to throw none is no current one: nobody can ask what it is.
+ExitCode report_unnamed_error() noexcept {
+  if (memory_ran_out()) return report_without_memory();
+  constexpr std::string_view kLine = "meniscus: error: internal: an exception where none may be; please report this\n";
+  [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, kLine.data(), kLine.size());
+  return kExitInternal;
+}
+
+[[noreturn]] void end_by_uncaught_error() {
+  static std::atomic_flag ending;
+  while (ending.test_and_set()) ::pause();  // another thread says it already
+  const ExitCode code = std::current_exception() ? report_current_error() : report_unnamed_error();
+  remove_unfinished_outputs();
+  ::_exit(code);
+}
+
+}  // namespace
+
+ExitCode report_current_error() noexcept {
+  try {
+    return report_with_memory();
+  } catch (const std::bad_alloc&) {
+    return report_without_memory();
+  } catch (...) {
+    return kExitInternal;
+  }
+}
+
+void report_uncaught_errors() { std::set_terminate(end_by_uncaught_error); }
+
+}  // namespace meniscus

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Writes progress in the style that was asked for.
+#include "app/reports/run_progress.h"
+
+#include <iostream>
+#include <map>
+
+#include <unistd.h>
+
+#include <fmt/format.h>
+#include <fmt/ostream.h>
+#include <nlohmann/json.hpp>
+
+#include "core/base/text.h"
+
+namespace meniscus {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+void write_line(const Json& json) {
+  std::cerr << json.dump(-1, ' ', true, Json::error_handler_t::replace) << std::endl;
+}
+
+std::string duration(double seconds) {
+  const auto whole = static_cast<std::int64_t>(seconds + 0.5);
+  if (whole < 60) return fmt::format("{} s", whole);
+  if (whole < 3600) return fmt::format("{}:{:02} min", whole / 60, whole % 60);
+  return fmt::format("{}:{:02}:{:02} h", whole / 3600, whole / 60 % 60, whole % 60);
+}
+
+}  // namespace
+
+void add_progress_option(CLI::App& command, ProgressStyle& style) {
+  const std::map<std::string, ProgressStyle> words{{"auto", ProgressStyle::automatic}, {"bar", ProgressStyle::bar},
+                                                   {"plain", ProgressStyle::plain},    {"json", ProgressStyle::json},
+                                                   {"openjd", ProgressStyle::openjd},  {"none", ProgressStyle::none}};
+  command
+      .add_option("--progress", style,
+                  "Of the frames: auto (default: a bar on a terminal, else plain lines), bar, plain, json (a line a "
+                  "frame on stderr), openjd, none")
+      ->transform(CLI::CheckedTransformer(words).description(""))
+      ->type_name("WORD");
+}
+
+RunProgress::RunProgress(ProgressStyle style, bool quiet, std::uint64_t frames)
+    : style_(style), total_(frames), begin_(std::chrono::steady_clock::now()) {
+  if (style_ == ProgressStyle::automatic)
+    style_ = quiet ? ProgressStyle::none : ::isatty(STDERR_FILENO) ? ProgressStyle::bar : ProgressStyle::plain;
+  if (style_ == ProgressStyle::json) write_line({{"event", "start"}, {"frames", total_}});
+}
+
+void RunProgress::done(std::uint64_t frame, const std::vector<std::string>& files, double milliseconds, bool empty) {
+  if (style_ == ProgressStyle::json) {
+    Json line{{"event", "frame"}, {"frame", frame}, {"state", "done"}, {"files", files}, {"ms", milliseconds}};
+    if (empty) line["empty"] = true;
+    write_line(line);
+  }
+  advance();
+}
+
+void RunProgress::failed(std::uint64_t frame, int exit_code, const std::string& message) {
+  ++failed_;
+  if (style_ == ProgressStyle::json) {
+    write_line({{"event", "frame"}, {"frame", frame}, {"state", "failed"}, {"exit", exit_code}, {"error", message}});
+  } else {
+    if (style_ == ProgressStyle::bar) std::cerr << "\r\033[K";
+    std::cerr << "meniscus: frame " << frame << " failed: " << escaped(message) << std::endl;
+  }
+  advance();
+}
+
+void RunProgress::advance() {
+  ++done_;
+  const double share = static_cast<double>(done_) / static_cast<double>(total_);
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin_;
+  const double each = elapsed.count() / static_cast<double>(done_);
+  const std::string rest = done_ < total_ ? ", " + duration(each * static_cast<double>(total_ - done_)) + " left" : "";
+  const std::string rate = fmt::format("{} of {} frames, {:.2f} s each{}", done_, total_, each, rest);
+  if (style_ == ProgressStyle::bar) {
+    constexpr int kWidth = 30;
+    const int filled = static_cast<int>(kWidth * share);
+    fmt::print(std::cerr, "\r\033[K[{:#<{}}{:.<{}}] {}", "", filled, "", kWidth - filled, rate);
+    std::cerr.flush();
+  } else if (style_ == ProgressStyle::plain) {
+    const int tenth = static_cast<int>(10.0 * share);
+    if (tenth != last_tenth_) std::cerr << "meniscus: " << rate << std::endl;
+    last_tenth_ = tenth;
+  } else if (style_ == ProgressStyle::openjd) {
+    std::cout << fmt::format("openjd_progress: {:.1f}\nopenjd_status: {}", 100.0 * share, rate) << std::endl;
+  }
+}
+
+void RunProgress::end() {
+  if (style_ == ProgressStyle::bar && done_ > 0) std::cerr << std::endl;
+  if (style_ == ProgressStyle::json) write_line({{"event", "end"}, {"done", done_ - failed_}, {"failed", failed_}});
+}
+
+}  // namespace meniscus

@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Adds up the numbers of all objects and lays them out.
+#include "app/reports/surface_report.h"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "app/surface_objects.h"
+#include "core/base/text.h"
+
+namespace meniscus {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Raised when a key changes its meaning or goes away; new keys do not raise it.
+constexpr int kSchemaVersion = 1;
+
+const char* kind_name(ComponentKind kind) { return kind == ComponentKind::outer ? "outer" : "cavity"; }
+
+/// Sums over all copies of all objects.
+struct Totals {
+  SurfaceCounts counts;
+  double area = 0.0, volume = 0.0;
+};
+
+Totals totals_of(const std::vector<SurfaceObject>& objects) {
+  Totals sum;
+  for (const SurfaceObject& object : objects) {
+    const SurfaceCounts counts = object.surface.counts();
+    const std::size_t copies = object.copies.size();
+    const auto add = [&](std::size_t SurfaceCounts::*count) { sum.counts.*count += counts.*count * copies; };
+    for (const auto count :
+         {&SurfaceCounts::convex, &SurfaceCounts::toroidal, &SurfaceCounts::concave, &SurfaceCounts::free_edges,
+          &SurfaceCounts::spindle, &SurfaceCounts::fixed_probes, &SurfaceCounts::arcs})
+      add(count);
+    sum.area += object.surface.area * static_cast<double>(copies);
+    sum.volume += object.surface.volume * static_cast<double>(copies);
+  }
+  return sum;
+}
+
+Json component_list(const std::vector<SurfaceObject>& objects) {
+  Json list = Json::array();
+  for (std::size_t n = 0; n < objects.size(); ++n)
+    for (const Component& component : objects[n].surface.components) {
+      list.push_back({{"kind", kind_name(component.kind)},
+                      {"area", component.area},
+                      {"volume", component.volume},
+                      {"euler", component.euler}});
+      if (objects.size() > 1) list.back()["object"] = n;
+    }
+  return list;
+}
+
+void add_columns(Json& row, const std::vector<AreaColumn>& columns, const AtomGroup& group) {
+  for (const AreaColumn& column : columns) row[column.name] = column.total_of(group);
+}
+
+/// Chains always; objects, when there are several, with the numbers of their own surfaces.
+Json group_list(const SurfaceReport& report) {
+  Json list = Json::array();
+  const Structure& structure = report.molecule.structure;
+  for (const AtomGroup& group : group_atoms(structure, Grouping::chain)) {
+    const Atom& first = structure.atoms[group.atoms.front()];
+    list.push_back({{"by", "chain"},
+                    {"name", group.name},
+                    {"model", first.model},
+                    {"chain", first.chain},
+                    {"atoms", group.atoms.size()}});
+    add_columns(list.back(), report.columns, group);
+  }
+  const auto& objects = report.molecule.objects;
+  for (std::size_t n = 0; n < objects.size() && objects.size() > 1; ++n) {
+    const SurfaceObject& object = objects[n];
+    list.push_back({{"by", "object"},
+                    {"name", object.name},
+                    {"object", n},
+                    {"atoms", object.atom.size()},
+                    {"copies", object.copies.size()},
+                    {"area", object.surface.area},
+                    {"volume", object.surface.volume}});
+    const auto columns = area_columns(structure, {object}, report.options.computing.kind);
+    for (const AreaColumn& column : columns) list.back()[column.name] = column.total;
+  }
+  return list;
+}
+
+std::string surface_words(const ComputeOptions& computing) {
+  switch (computing.kind) {
+    case SurfaceKind::sas:
+      return fmt::format("solvent-accessible, probe {} Å", computing.probe_radius);
+    case SurfaceKind::vdw:
+      return "van der Waals";
+    default:
+      return fmt::format("solvent-excluded, probe {} Å", computing.probe_radius);
+  }
+}
+
+const char* cavity_words(Cavities cavities) {
+  constexpr const char* kWords[] = {"", "; cavities dropped", "; cavities only"};
+  return kWords[static_cast<std::size_t>(cavities)];
+}
+
+std::string object_table(const SurfaceReport& report) {
+  std::string text =
+      fmt::format("\n{:>9} {:>9} {:>14} {:>16}  {}\n", "object", "atoms", "area Å²", "volume Å³", "name");
+  for (std::size_t n = 0; n < report.molecule.objects.size(); ++n) {
+    const SurfaceObject& object = report.molecule.objects[n];
+    text += fmt::format("{:>9} {:>9} {:>13.3f} {:>15.3f}  {}", n, with_thousands(object.atom.size()),
+                        object.surface.area, object.surface.volume, escaped(object.name));
+    if (object.copies.size() > 1) text += fmt::format(" ({} copies)", object.copies.size());
+    text += "\n";
+  }
+  return text;
+}
+
+std::string component_table(const Surface& surface) {
+  std::string text =
+      fmt::format("\n{:>9}  {:<7} {:>14} {:>16} {:>6}\n", "component", "kind", "area Å²", "volume Å³", "Euler");
+  for (std::size_t c = 0; c < surface.components.size(); ++c) {
+    const Component& component = surface.components[c];
+    text += fmt::format("{:>9}  {:<7} {:>13.3f} {:>15.3f} {:>6}\n", c, kind_name(component.kind), component.area,
+                        component.volume, component.euler);
+  }
+  return text;
+}
+
+/// A row of areas for each chain; what all have together if there is more to say than the lines above do.
+std::string chain_table(const SurfaceReport& report) {
+  std::vector<AtomGroup> rows = group_atoms(report.molecule.structure, Grouping::chain);
+  if (rows.size() == 1 && !report.context) return {};
+  AtomGroup all{"all", {}};
+  for (const AtomGroup& chain : rows) all.atoms.insert(all.atoms.end(), chain.atoms.begin(), chain.atoms.end());
+  if (rows.size() > 1) rows.push_back(std::move(all));
+  std::string text = fmt::format("\n{:>9}", "atoms");
+  const auto width = [](const AreaColumn& column) { return std::max<std::size_t>(column.name.size(), 11) + 1; };
+  for (const AreaColumn& column : report.columns) text += fmt::format(" {:>{}}", column.name, width(column));
+  text += "\n";
+  for (const AtomGroup& row : rows) {
+    text += fmt::format("{:>9}", with_thousands(row.atoms.size()));
+    for (const AreaColumn& column : report.columns)
+      text += fmt::format(" {:>{}.3f}", column.total_of(row), width(column));
+    text += "  " + escaped(row.name) + "\n";
+  }
+  return text;
+}
+
+Json report_object(const SurfaceReport& report) {
+  const Structure& structure = report.molecule.structure;
+  const Totals totals = totals_of(report.molecule.objects);
+  const SurfaceCounts& counts = totals.counts;
+  Json excluded = Json::object();
+  for (const auto& [reason, count] : structure.report.excluded) excluded[reason] = count;
+  Json stages = Json::array();
+  for (const StageTime& stage : report.molecule.stages)
+    stages.push_back({{"name", stage.name}, {"ms", stage.milliseconds}});
+  Json json = {{"schema_version", kSchemaVersion},
+               {"atoms", {{"read", structure.report.read}, {"excluded", excluded}, {"used", structure.report.used}}},
+               {"surface", kind_word(report.options.computing.kind)},
+               {"probe_radius", report.options.computing.probe_radius},
+               {"radii_set", structure.radii_set},
+               {"counts",
+                {{"convex", counts.convex},
+                 {"toroidal", counts.toroidal},
+                 {"concave", counts.concave},
+                 {"free_edges", counts.free_edges},
+                 {"spindle", counts.spindle},
+                 {"fixed_probes", counts.fixed_probes},
+                 {"arcs", counts.arcs}}},
+               {"area", totals.area},
+               {"volume", totals.volume}};
+  for (const AreaColumn& column : report.columns) json[column.name] = column.total;
+  if (report.context) json["context"] = {{"selection", report.context->selection}, {"atoms", report.context->atoms}};
+  json["components"] = component_list(report.molecule.objects);
+  json["groups"] = group_list(report);
+  json["certificate"] = {{"closed", true}, {"open_atoms", Json::array()}};
+  if (const double grown_by = largest_growth(report.molecule.objects); grown_by > 0)
+    json["certificate"]["radii_grown_by"] = grown_by;
+  json["device"] = report.molecule.device;
+  json["stages"] = stages;
+  return json;
+}
+
+}  // namespace
+
+std::string report_json(const SurfaceReport& report) {
+  return report_object(report).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string report_json_line(const SurfaceReport& report, const FrameNote& note) {
+  Json json{{"frame", note.frame}, {"time", note.time ? Json(*note.time) : Json()}};
+  json.update(report_object(report));
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string report_row_header(const MoleculeOptions& options) {
+  return fmt::format("{:>9} {:>12} {:>14} {:>16} {:>10} {}\n", "frame", "time ps", "area Å²", "volume Å³", "components",
+                     options.computing.kind == SurfaceKind::ses ? " accessible Å²" : "");
+}
+
+std::string report_row(const SurfaceReport& report, const FrameNote& note) {
+  const Totals totals = totals_of(report.molecule.objects);
+  std::size_t components = 0;
+  for (const SurfaceObject& object : report.molecule.objects) components += object.surface.components.size();
+  std::string row =
+      fmt::format("{:>9} {:>12} {:>13.3f} {:>15.3f} {:>10}", note.frame,
+                  note.time ? fmt::format("{:.3f}", *note.time) : "-", totals.area, totals.volume, components);
+  if (report.options.computing.kind == SurfaceKind::ses) row += fmt::format(" {:>14.3f}", report.columns[1].total);
+  return row + "\n";
+}
+
+std::string report_table(const SurfaceReport& report) {
+  const Structure& structure = report.molecule.structure;
+  const auto& objects = report.molecule.objects;
+  const Totals totals = totals_of(objects);
+  const SurfaceCounts& counts = totals.counts;
+  const auto n = [](std::size_t count) { return with_thousands(count); };
+  std::string text;
+  const auto out = std::back_inserter(text);
+  fmt::format_to(out, "molecule      {} ({})\n", escaped(structure.file), structure.format);
+  fmt::format_to(out, "atoms         {}\n", structure.report.sentence());
+  fmt::format_to(out, "surface       {}{}\n", surface_words(report.options.computing),
+                 cavity_words(report.options.division.cavities));
+  fmt::format_to(out, "radii         {}\n", structure.radii_set == "file" ? "of the file" : structure.radii_set);
+  fmt::format_to(out, "patches       {} convex, {} toroidal ({} spindle, {} free), {} concave\n", n(counts.convex),
+                 n(counts.toroidal), n(counts.spindle), n(counts.free_edges), n(counts.concave));
+  fmt::format_to(out, "reduced       {} fixed probes, {} arcs\n", n(counts.fixed_probes), n(counts.arcs));
+  fmt::format_to(out, "area          {:.3f} Å²\n", totals.area);
+  if (report.options.computing.kind == SurfaceKind::ses)
+    fmt::format_to(out, "accessible    {:.3f} Å²\n", report.columns[1].total);
+  fmt::format_to(out, "volume        {:.3f} Å³\nclosed        yes\n", totals.volume);
+  if (const double grown_by = largest_growth(objects); grown_by > 0)
+    fmt::format_to(out, "ties          told apart by radii grown by up to {:.2g} Å\n", grown_by);
+  if (report.context)
+    fmt::format_to(out, "context       {} atoms: {}\n", n(report.context->atoms), escaped(report.context->selection));
+  fmt::format_to(out, "device        {}\n", report.molecule.device);
+  for (const StageTime& stage : report.molecule.stages)
+    fmt::format_to(out, "time          {:>9.2f} ms  {}\n", stage.milliseconds, stage.name);
+  text += chain_table(report);
+  return text + (objects.size() > 1 ? object_table(report) : component_table(objects.front().surface));
+}
+
+}  // namespace meniscus

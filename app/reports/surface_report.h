@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What `meniscus surface` prints: a table for people, a JSON object for programs.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/area_columns.h"
+#include "app/molecule.h"
+#include "app/options/molecule_options.h"
+
+namespace meniscus {
+
+/// Which atoms --context put around the molecule.
+struct ContextNote {
+  std::string selection;
+  std::size_t atoms = 0;
+};
+
+/// All numbers of a molecule's surfaces. `columns`: areas of its atoms.
+struct SurfaceReport {
+  const Molecule& molecule;
+  const MoleculeOptions& options;
+  const std::vector<AreaColumn>& columns;
+  const std::optional<ContextNote>& context;
+};
+
+/// Indented, ends with a line feed.
+std::string report_json(const SurfaceReport& report);
+std::string report_table(const SurfaceReport& report);
+
+/// Which frame of a trajectory it is, and its time in ps if that is known.
+struct FrameNote {
+  std::uint64_t frame = 0;
+  std::optional<double> time;
+};
+
+/// The object of report_json in one line that begins with "frame" and "time" (null if unknown).
+std::string report_json_line(const SurfaceReport& report, const FrameNote& note);
+/// A row of the table of a run, and the line above all of them.
+std::string report_row(const SurfaceReport& report, const FrameNote& note);
+std::string report_row_header(const MoleculeOptions& options);
+
+}  // namespace meniscus

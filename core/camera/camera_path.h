@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A camera that moves: key frames and what lies between them.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/camera/camera.h"
+
+namespace meniscus {
+
+/// A camera at a moment.
+struct CameraKey {
+  double frame = 0.0;
+  Camera camera;
+};
+
+/// Goes through its keys smoothly: the target and the logarithms of distance, angle and height along cubic Hermite
+/// curves with the slopes of Catmull and Rom (1974) for uneven steps, the axes of the view along the spherical
+/// quadrangles of Shoemake (1987). Still before the first key and behind the last.
+class CameraPath {
+ public:
+  /// keys: at least one, frames rising, all of one projection.
+  explicit CameraPath(std::vector<CameraKey> keys);
+  Camera at(double frame) const;
+
+ private:
+  std::vector<CameraKey> keys_;
+};
+
+/// Reads {"keys":[{"frame":0,"camera":{...}},...]}, each camera as parse_camera has it. Throws InputError naming `file`
+/// and the key.
+CameraPath parse_camera_path(std::string_view json, const std::string& file);
+CameraPath read_camera_path(const std::string& file);
+
+/// The inverse of parse_camera_path: every number survives exactly. Ends with a newline.
+std::string camera_path_json(const std::vector<CameraKey>& keys);
+
+/// The camera carried around the line through `pivot` along `axis` (of length 1) by `angle` (radians, right-handed).
+Camera turned(const Camera& camera, const glm::dvec3& pivot, const glm::dvec3& axis, double angle);
+/// The camera carried along.
+Camera shifted(const Camera& camera, const glm::dvec3& shift);
+
+}  // namespace meniscus

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What colours mean: the scale of a scheme of numbers, the names of a scheme of classes. Legends, JSON and exporters
+// all take it from here.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "core/color/color_schemes.h"
+
+namespace meniscus {
+
+/// The numbers atoms are coloured by, and how.
+struct ColorScale {
+  std::string title;  ///< "B-factor", "hydrophobicity (Kyte & Doolittle 1982)", ...
+  std::string unit;   ///< "Å²", "e", or empty
+  ColorMap map = ColorMap::viridis;
+  std::array<double, 2> range{0.0, 1.0};  ///< at the ends of the map; equal if all numbers are
+  std::vector<double> classes;            ///< categorical map only: the different numbers, ascending
+  glm::vec3 missing_color{0.5f};
+  std::size_t missing = 0;    ///< atoms without a number
+  std::vector<double> value;  ///< per atom of the structure; NaN: missing
+
+  /// sRGB. Beyond the range: the colour of its end. All numbers equal: the middle of the map. NaN: missing_color.
+  glm::vec3 color(double number) const;
+};
+
+/// The scale of a scheme that has one. Automatic ranges are the smallest and the largest number; for charges symmetric
+/// about 0; for hydrophobicity the ends of its scale, -4.5 and 4.5. Default maps: charge red-white-blue (negative is
+/// red), hydrophobicity blue-white-red, others viridis. Throws as color_atoms does.
+ColorScale color_scale(const Structure& structure, const ColorScheme& scheme);
+
+/// A name and its colour.
+struct ColorClass {
+  std::string name;  ///< may come from a molecule file
+  glm::vec3 color{0.0f};
+};
+
+/// What a legend says: either a scale, or classes, or neither for one fixed colour.
+struct ColorKey {
+  std::string title;  ///< "chain", "element", ...; the scale has its own
+  std::optional<ColorScale> scale;
+  std::vector<ColorClass> classes;  ///< those that occur, in order of first appearance
+};
+
+/// object_names: for ColorScheme::By::component. Throws as color_atoms does.
+ColorKey color_key(const Structure& structure, const ColorScheme& scheme, std::span<const std::string> object_names);
+
+}  // namespace meniscus

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Reads the words of colour schemes, and colours atoms by them.
+#include "core/color/color_schemes.h"
+
+#include <algorithm>
+#include <charconv>
+#include <iterator>
+#include <map>
+#include <numeric>
+#include <string_view>
+#include <tuple>
+#include <vector>
+
+#include "core/color/color_scale.h"
+#include "core/color/named_colors.h"
+#include "core/text/parse_number.h"
+
+namespace meniscus {
+namespace {
+
+using By = ColorScheme::By;
+
+constexpr ColorSchemeMetadata kSchemes[] = {
+    {"element", By::element, "chemical element, the default",
+     "after the models of R. B. Corey, L. Pauling and W. L. Koltun; metals and tones are our own"},
+    {"chain", By::chain, "chains in order of appearance, 21 colours in turn",
+     "M. Okabe and K. Ito, Color Universal Design (2008)"},
+    {"copy", By::copy, "copies of an --assembly made of atoms, 21 colours in turn", "colours of Okabe and Ito"},
+    {"residue", By::residue, "residue type: acidic, basic, polar, aliphatic, aromatic, sulphur, GLY and PRO; each base",
+     "grouped by side chain; colours of Okabe and Ito"},
+    {"kind", By::kind, "kind of patch: convex, toroidal, concave", "colours of Okabe and Ito"},
+    {"component", By::component, "each closed part of the surface, 21 colours in turn", "colours of Okabe and Ito"},
+    {"bfactor", By::bfactor, "B-factor in Å²; viridis, smallest to largest", ""},
+    {"occupancy", By::occupancy, "occupancy; viridis, smallest to largest", ""},
+    {"charge", By::charge, "partial charge in e (PQR files); red-white-blue, symmetric about 0, negative is red", ""},
+    {"hydrophobicity", By::hydrophobicity,
+     "hydropathy of the amino acid; blue-white-red, -4.5 (arginine, blue) to 4.5 (isoleucine, red)",
+     "J. Kyte and R. F. Doolittle, J. Mol. Biol. 157, 105 (1982)"},
+    {"index", By::index, "place in the file, from 0; viridis", ""},
+    {"file", By::file, "numbers of --color-by-file; viridis, smallest to largest", ""}};
+
+/// Chains in order of appearance, so that colours follow the file.
+std::vector<glm::vec3> by_chain(const Structure& structure) {
+  std::map<std::string, std::size_t> order;
+  std::vector<glm::vec3> colors;
+  for (const Atom& atom : structure.atoms)
+    colors.push_back(categorical_color(order.try_emplace(chain_of_file(atom), order.size()).first->second));
+  return colors;
+}
+
+std::vector<glm::vec3> colors_of(const Structure& structure, const ColorScheme& scheme) {
+  if (scheme.by == By::chain) return by_chain(structure);
+  std::vector<glm::vec3> colors;
+  colors.reserve(structure.atoms.size());
+  if (scheme.has_scale()) {
+    const ColorScale scale = color_scale(structure, scheme);
+    for (const double number : scale.value) colors.push_back(scale.color(number));
+    return colors;
+  }
+  for (const Atom& atom : structure.atoms) {
+    if (scheme.by == By::copy)
+      colors.push_back(categorical_color(atom.copy));
+    else if (scheme.by == By::element)
+      colors.push_back(element_color(atom.element));
+    else
+      colors.push_back(color_from_hex(residue_group(atom.residue_name).color));
+  }
+  return colors;
+}
+
+}  // namespace
+
+std::string chain_of_file(const Atom& atom) {
+  const std::string suffix = "-" + std::to_string(atom.copy + 1);
+  if (atom.copy == 0 || !atom.chain.ends_with(suffix)) return atom.chain;
+  return atom.chain.substr(0, atom.chain.size() - suffix.size());
+}
+
+std::span<const ColorSchemeMetadata> color_schemes() { return kSchemes; }
+
+std::optional<glm::vec3> parse_hex_color(std::string_view text) {
+  std::uint32_t hex = 0;
+  if (text.size() != 7 || text[0] != '#') return std::nullopt;
+  const auto [end, error] = std::from_chars(text.data() + 1, text.data() + 7, hex, 16);
+  if (error != std::errc() || end != text.data() + 7) return std::nullopt;
+  return color_from_hex(hex);
+}
+
+std::optional<ColorScheme> parse_color_scheme(std::string_view text) {
+  ColorScheme scheme;
+  if (const std::optional<glm::vec3> color = parse_hex_color(text)) {
+    scheme.by = By::fixed;
+    scheme.fixed = *color;
+    return scheme;
+  }
+  if (text == "atom") text = "index";
+  const auto found = std::ranges::find(kSchemes, text, &ColorSchemeMetadata::word);
+  if (found == std::end(kSchemes)) return std::nullopt;
+  scheme.by = found->by;
+  return scheme;
+}
+
+std::string color_scheme_words() {
+  std::string words;
+  for (const ColorSchemeMetadata& scheme : kSchemes) words.append(scheme.word).append(", ");
+  return words + "#rrggbb";
+}
+
+std::optional<std::array<double, 2>> parse_color_range(std::string_view text) {
+  const std::size_t colon = text.find(':');
+  std::array<double, 2> range{};
+  if (colon == std::string_view::npos || !parse_number(text.substr(0, colon), range[0]) ||
+      !parse_number(text.substr(colon + 1), range[1]) || !(range[0] < range[1]) ||
+      !std::isfinite(range[1] - range[0])) {
+    return std::nullopt;
+  }
+  return range;
+}
+
+Coloring color_atoms(const Structure& structure, const ColorScheme& scheme) {
+  std::vector<std::uint32_t> all(structure.atoms.size());
+  std::iota(all.begin(), all.end(), 0u);
+  return color_object(structure, all, scheme, 0);
+}
+
+Coloring color_object(const Structure& structure, std::span<const std::uint32_t> atom, const ColorScheme& scheme,
+                      std::size_t object_number) {
+  Coloring coloring;
+  std::map<std::tuple<std::int32_t, std::uint32_t, std::string_view>, std::uint32_t> chains;
+  for (const std::uint32_t a : atom) {
+    const Atom& place = structure.atoms[a];
+    const auto next = static_cast<std::uint32_t>(chains.size());
+    coloring.part.push_back(chains.try_emplace({place.model, place.copy, place.chain}, next).first->second);
+  }
+  if (scheme.by == By::kind) {
+    coloring.atom.assign(atom.size(), default_missing_color(ColorMap::categorical));
+    coloring.kind = kPatchKindColors;
+  } else if (scheme.by == By::component) {
+    coloring.atom.assign(atom.size(), categorical_color(object_number));
+  } else if (scheme.by == By::fixed) {
+    coloring.atom.assign(atom.size(), scheme.fixed);
+  } else {
+    const std::vector<glm::vec3> colors = colors_of(structure, scheme);
+    for (const std::uint32_t a : atom) coloring.atom.push_back(colors[a]);
+  }
+  return coloring;
+}
+
+}  // namespace meniscus

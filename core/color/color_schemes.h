@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How atoms get their colours: by what they are, by a number they have, or one colour for all.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include <glm/vec3.hpp>
+
+#include "core/structure/atom_numbers.h"
+#include "core/color/color_maps.h"
+#include "core/structure/structure.h"
+#include "core/color/coloring.h"
+
+namespace meniscus {
+
+/// A wish such as "chain" or "#e69f00".
+struct ColorScheme {
+  enum class By : std::uint8_t {
+    element,
+    chain,
+    residue,    ///< type of residue, by chemistry
+    copy,       ///< of an assembly made of atoms
+    kind,       ///< of patch
+    component,  ///< objects in turn: closed parts of the surface, chains, ...
+    fixed,      ///< one colour
+    bfactor,    ///< this one and those below are numbers, with a map and a range
+    occupancy,
+    charge,
+    hydrophobicity,  ///< Kyte & Doolittle 1982
+    index,           ///< place in the file
+    file             ///< numbers of a file of the user's own
+  };
+  By by = By::element;
+  glm::vec3 fixed{0.8f};                       ///< sRGB in [0, 1], for By::fixed
+  std::optional<ColorMap> map;                 ///< nothing: that of the scheme (color_scale)
+  std::optional<std::array<double, 2>> range;  ///< numbers at both ends of the map; nothing: automatic (color_scale)
+  std::optional<glm::vec3> missing;            ///< of atoms without a number; nothing: default_missing_color
+  NumberFile file;                             ///< for By::file
+
+  /// True for schemes that colour by a number.
+  bool has_scale() const { return by >= By::bfactor; }
+};
+
+/// What a scheme is, in words users can look up.
+struct ColorSchemeMetadata {
+  std::string_view word;  ///< for --color
+  ColorScheme::By by;
+  std::string_view description;
+  std::string_view source;  ///< of its colours or numbers; empty where it needs none
+};
+
+/// All schemes but the fixed colour, in the order the help names them.
+std::span<const ColorSchemeMetadata> color_schemes();
+
+/// Reads "element", ..., "file", "atom" (the same as "index") or "#rrggbb"; nothing for any other text.
+std::optional<ColorScheme> parse_color_scheme(std::string_view text);
+
+/// All words parse_color_scheme reads, for messages: "element, chain, ..., #rrggbb".
+std::string color_scheme_words();
+
+/// Reads "#rrggbb"; nothing for any other text.
+std::optional<glm::vec3> parse_hex_color(std::string_view text);
+
+/// Reads "lo:hi" with lo < hi and a finite difference; nothing for any other text.
+std::optional<std::array<double, 2>> parse_color_range(std::string_view text);
+
+/// The chain as the file names it: in an assembly copies of A are called, ... and keep its colour.
+std::string chain_of_file(const Atom& atom);
+
+/// One colour an atom of the structure, for a surface that is one object.
+/// Throws InputError when colours are by a number and no atom has one, when a file's numbers are not as many as there
+/// are atoms, and when the categorical map has fewer colours than there are different numbers.
+Coloring color_atoms(const Structure& structure, const ColorScheme& scheme);
+
+/// The same for one of several objects. atom: per atom of the object, its index into structure.atoms. object_number:
+/// its place in the list of objects, which By::component colours by. Ranges are those of the whole structure. Parts are
+/// chains.
+Coloring color_object(const Structure& structure, std::span<const std::uint32_t> atom, const ColorScheme& scheme,
+                      std::size_t object_number);
+
+}  // namespace meniscus

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A uniform grid over ball centres that lists the balls near a point.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include "core/math/ball.h"
+
+namespace meniscus {
+
+/// Cells are sized by the wanted spacing, and made larger where the extent would need more cells than there are balls
+/// (a few atoms far apart must not cost memory).
+class BallGrid {
+ public:
+  BallGrid(std::span<const Ball> balls, double spacing) {
+    build(balls.size(), spacing, [&](std::size_t n) { return balls[n].center; });
+  }
+  BallGrid(std::span<const glm::dvec3> centers, double spacing) {
+    build(centers.size(), spacing, [&](std::size_t n) { return centers[n]; });
+  }
+
+  /// Calls visit(index) for every ball whose centre is within `reach` of `point`, boundary cases included.
+  template <typename Visit>
+  void for_each_near(const glm::dvec3& point, double reach, Visit&& visit) const {
+    const glm::ivec3 low = cell_of(point - reach);
+    const glm::ivec3 high = cell_of(point + reach);
+    const double reach_squared = reach * reach * (1.0 + 1e-12);
+    for (int z = low.z; z <= high.z; ++z)
+      for (int y = low.y; y <= high.y; ++y) {
+        const std::size_t row = (static_cast<std::size_t>(z) * size_.y + y) * size_.x;
+        const std::uint32_t last = first_[row + high.x + 1];
+        for (std::uint32_t n = first_[row + low.x]; n < last; ++n) {
+          const glm::dvec3 d = centers_[n] - point;
+          if (glm::dot(d, d) <= reach_squared) visit(order_[n]);
+        }
+      }
+  }
+
+  /// Ball indices, cell by cell: neighbours in this order are near each other in space and in the cache.
+  const std::vector<std::uint32_t>& order() const { return order_; }
+
+ private:
+  template <typename Center>
+  void build(std::size_t count, double spacing, Center&& center) {
+    glm::dvec3 low(0), high(0);
+    for (std::size_t n = 0; n < count; ++n) {
+      low = n ? glm::min(low, center(n)) : center(n);
+      high = n ? glm::max(high, center(n)) : center(n);
+    }
+    low_ = low;
+    spacing = std::max(spacing, 1e-6);
+    const double limit = 4.0 * static_cast<double>(count) + 64.0;
+    const glm::dvec3 extent = high - low;
+    const auto cells = [&](double s) {
+      return (std::floor(extent.x / s) + 1) * (std::floor(extent.y / s) + 1) * (std::floor(extent.z / s) + 1);
+    };
+    while (cells(spacing) > limit) spacing *= 1.25;
+    inverse_spacing_ = 1.0 / spacing;
+    size_ = glm::ivec3(glm::floor(extent * inverse_spacing_)) + 1;
+
+    first_.assign(static_cast<std::size_t>(size_.x) * size_.y * size_.z + 1, 0);
+    std::vector<std::uint32_t> cell(count);
+    for (std::size_t n = 0; n < count; ++n) {
+      const glm::ivec3 c = cell_of(center(n));
+      cell[n] = (static_cast<std::uint32_t>(c.z) * size_.y + c.y) * size_.x + c.x;
+      ++first_[cell[n] + 1];
+    }
+    for (std::size_t c = 1; c < first_.size(); ++c) first_[c] += first_[c - 1];
+    std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
+    order_.resize(count);
+    centers_.resize(count);
+    for (std::size_t n = 0; n < count; ++n) {
+      const std::uint32_t slot = next[cell[n]]++;
+      order_[slot] = static_cast<std::uint32_t>(n);
+      centers_[slot] = center(n);
+    }
+  }
+
+  glm::ivec3 cell_of(const glm::dvec3& point) const {
+    const glm::dvec3 scaled = (point - low_) * inverse_spacing_;
+    return glm::ivec3(glm::clamp(glm::floor(scaled), glm::dvec3(0.0), glm::dvec3(size_ - 1)));
+  }
+
+  glm::dvec3 low_{0.0};
+  double inverse_spacing_ = 1.0;
+  glm::ivec3 size_{1};
+  std::vector<std::uint32_t> first_;  // cell -> first slot; one past the last cell closes the list
+  std::vector<std::uint32_t> order_;  // slot -> ball
+  std::vector<glm::dvec3> centers_;   // slot -> centre
+};
+
+}  // namespace meniscus

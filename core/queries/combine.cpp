@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Shifts the indices and moves the coordinates of one surface's tables behind those of another.
+#include "core/queries/combine.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <iterator>
+#include <limits>
+#include <utility>
+
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+
+#include "core/base/error.h"
+
+namespace meniscus {
+namespace {
+
+bool is_identity(const RigidMotion& motion) {
+  return motion.rotation == glm::dmat3(1.0) && motion.translation == glm::dvec3(0.0);
+}
+
+// Half-borders count twice as far as borders; no other table is longer.
+void check_capacity(const Surface& whole, const Surface& part) {
+  constexpr std::size_t kMost = std::numeric_limits<std::uint32_t>::max() / 2;
+  if (whole.borders.size() + part.borders.size() < kMost && whole.planes.size() + part.planes.size() < kMost) return;
+  throw CapacityError("all surfaces together have too many patches for one picture or mesh; draw fewer copies");
+}
+
+class Appender {
+ public:
+  Appender(Surface& whole, const Surface& part, const RigidMotion& motion)
+      : whole_(whole),
+        part_(part),
+        motion_(motion),
+        atom_(size(whole.atoms)),
+        concave_(size(whole.concave)),
+        plane_(size(whole.planes)),
+        vertex_(size(whole.vertices)),
+        border_(size(whole.borders)),
+        face_(size(whole.faces)) {}
+
+  void run() {
+    append_patches();
+    append_boundary();
+    whole_.area += part_.area;
+    whole_.volume += part_.volume;
+  }
+
+ private:
+  template <typename Row>
+  static std::uint32_t size(const std::vector<Row>& rows) {
+    return static_cast<std::uint32_t>(rows.size());
+  }
+
+  template <typename Row, typename Move>
+  static void add(std::vector<Row>& rows, const std::vector<Row>& more, Move&& move) {
+    std::transform(more.begin(), more.end(), std::back_inserter(rows), [&](Row row) {
+      move(row);
+      return row;
+    });
+  }
+
+  static void shift(std::uint32_t& index, std::uint32_t by) {
+    if (index != kNone) index += by;
+  }
+
+  void move(glm::dvec3& point) const { point = motion_(point); }
+  void turn(glm::dvec3& direction) const { direction = motion_.rotation * direction; }
+
+  void append_patches() {
+    const std::uint32_t contact = size(whole_.contacts), cut = size(whole_.cuts);
+    add(whole_.convex, part_.convex, [&](ConvexPatch& patch) {
+      patch.atom += atom_;
+      patch.first_plane += plane_;
+      patch.first_face += face_;
+    });
+    add(whole_.toroidal, part_.toroidal, [&](ToroidalPatch& patch) {
+      for (std::uint32_t& atom : patch.atom) atom += atom_;
+      for (std::uint32_t& probe : patch.probe) shift(probe, concave_);
+      move(patch.center);
+      turn(patch.axis);
+      turn(patch.start);
+      patch.first_face += face_;
+    });
+    add(whole_.concave, part_.concave, [&](ConcavePatch& patch) {
+      move(patch.center);
+      patch.first_contact += contact;
+      patch.first_plane += plane_;
+      patch.first_cut += cut;
+      patch.first_face += face_;
+    });
+    add(whole_.atoms, part_.atoms, [&](Ball& ball) { move(ball.center); });
+    add(whole_.planes, part_.planes, [&](Plane& plane) {
+      turn(plane.normal);
+      plane.offset += glm::dot(plane.normal, motion_.translation);
+    });
+    add(whole_.contacts, part_.contacts, [&](std::uint32_t& atom) { atom += atom_; });
+    add(whole_.cuts, part_.cuts, [&](std::uint32_t& probe) { shift(probe, concave_); });
+  }
+
+  void append_boundary() {
+    const std::uint32_t half_border = size(whole_.half_borders), loop = size(whole_.loops);
+    const std::uint32_t component = size(whole_.components);
+    const std::array<std::uint32_t, 3> first_patch{size(whole_.convex) - size(part_.convex),
+                                                   size(whole_.toroidal) - size(part_.toroidal), concave_};
+    add(whole_.vertices, part_.vertices, [&](glm::dvec3& vertex) { move(vertex); });
+    add(whole_.borders, part_.borders, [&](Border& border) {
+      move(border.center);
+      turn(border.axis);
+      turn(border.start);
+      for (std::uint32_t& vertex : border.vertex) shift(vertex, vertex_);
+      for (std::uint32_t& face : border.face) shift(face, face_);
+    });
+    add(whole_.half_borders, part_.half_borders, [&](HalfBorder& half) { half += 2 * border_; });
+    add(whole_.loops, part_.loops, [&](Loop& walk) { walk.first_half_border += half_border; });
+    add(whole_.faces, part_.faces, [&](Face& face) {
+      face.patch += first_patch[static_cast<std::size_t>(face.kind)];
+      face.first_loop += loop;
+      face.component += component;
+      shift(face.tip, vertex_);
+    });
+    add(whole_.components, part_.components, [](Component&) {});
+    whole_.certificate.grown_by = std::max(whole_.certificate.grown_by, part_.certificate.grown_by);
+    add(whole_.certificate.open_atoms, part_.certificate.open_atoms, [&](std::uint32_t& atom) { atom += atom_; });
+  }
+
+  Surface& whole_;
+  const Surface& part_;
+  const RigidMotion& motion_;
+  // How many rows the tables had before, so how far an index is shifted.
+  std::uint32_t atom_, concave_, plane_, vertex_, border_, face_;
+};
+
+void append_coloring(Coloring& whole, const Coloring& part, std::size_t atoms_before, std::size_t atoms) {
+  whole.atom.insert(whole.atom.end(), part.atom.begin(), part.atom.end());
+  if (!part.part.empty()) {  // copies and objects are parts of their own
+    const std::uint32_t before = whole.part.empty() ? 0 : *std::ranges::max_element(whole.part) + 1;
+    std::ranges::transform(part.part, std::back_inserter(whole.part), [&](std::uint32_t n) { return before + n; });
+  }
+  if (part.hidden.empty() && whole.hidden.empty()) return;
+  whole.hidden.resize(atoms_before, false);
+  whole.hidden.insert(whole.hidden.end(), part.hidden.begin(), part.hidden.end());
+  whole.hidden.resize(atoms_before + atoms, false);
+}
+
+}  // namespace
+
+void append(Surface& whole, const Surface& part, const RigidMotion& motion) {
+  if (whole.atoms.empty()) {
+    whole.probe_radius = part.probe_radius;
+    whole.certificate.closed = true;
+  }
+  assert(&whole != &part && whole.probe_radius == part.probe_radius);
+  check_capacity(whole, part);
+  Appender(whole, part, motion).run();
+  whole.certificate.closed = whole.certificate.closed && part.certificate.closed;
+}
+
+SurfaceObject merged(std::vector<SurfaceObject> objects) {
+  if (objects.size() == 1 && objects[0].copies.size() == 1 && is_identity(objects[0].copies[0]))
+    return std::move(objects[0]);
+  SurfaceObject whole;
+  if (objects.empty()) return whole;
+  whole.name = objects.front().name;
+  whole.coloring.kind = objects.front().coloring.kind;
+  for (SurfaceObject& object : objects) {
+    assert(object.coloring.kind == whole.coloring.kind);
+    for (const RigidMotion& copy : object.copies) {
+      append_coloring(whole.coloring, object.coloring, whole.surface.atoms.size(), object.surface.atoms.size());
+      append(whole.surface, object.surface, copy);
+      whole.atom.insert(whole.atom.end(), object.atom.begin(), object.atom.end());
+    }
+    object = {};  // its memory, before the next one's copies need some
+  }
+  return whole;
+}
+
+std::vector<Ball> placed_balls(const std::vector<SurfaceObject>& objects) {
+  std::vector<Ball> balls;
+  for (const SurfaceObject& object : objects)
+    for (const RigidMotion& copy : object.copies)
+      for (const Ball& ball : object.surface.atoms) balls.push_back({copy(ball.center), ball.radius});
+  return balls;
+}
+
+}  // namespace meniscus

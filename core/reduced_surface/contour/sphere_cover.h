@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A quick, safe answer to "is this part of a SAS sphere covered?": most atoms and circles are, and need no more work.
+//
+// A sphere is watched in 162 directions so dense that every point lies within a known angle of one. A direction counts
+// as covered when one ball covers everything within that angle of it, with room for rounding; so "covered" is certain
+// and "not covered" only means that somebody has to look closer.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include <glm/vec3.hpp>
+
+#include "core/reduced_surface/contour/contour.h"
+
+namespace meniscus {
+
+/// Directions that are not surely covered, one bit each.
+struct UncoveredDirections {
+  std::array<std::uint64_t, 3> bits{};
+  bool none() const { return (bits[0] | bits[1] | bits[2]) == 0; }
+};
+
+/// Which surroundings of the watched directions of the blockers' first ball no single blocker surely covers.
+UncoveredDirections uncovered_directions(const Blockers& blockers);
+
+/// False if no point of the circle around `axis` (unit) at angular radius acos(`cosine`) lies near an uncovered
+/// direction: then all of the circle is covered.
+bool may_be_exposed(const UncoveredDirections& uncovered, const glm::dvec3& axis, double cosine);
+
+}  // namespace meniscus

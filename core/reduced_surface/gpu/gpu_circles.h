@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The exposed arcs of all circles of a batch on the GPU: single precision first, doubt in double, what is left on the
+// host.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <glm/vec2.hpp>
+
+#include "core/base/stage_clock.h"
+#include "core/gpu/buffer.h"
+#include "core/gpu/program.h"
+#include "core/gpu/texel_buffer.h"
+#include "core/math/ball.h"
+#include "core/reduced_surface/gpu/gpu_neighbors.h"
+#include "core/reduced_surface/reduced_surface.h"
+
+namespace meniscus {
+
+/// How the circles of one frame were decided.
+struct CircleStats {
+  std::size_t pairs = 0;              ///< overlapping pairs of SAS balls, each one circle
+  std::size_t decided_in_double = 0;  ///< circles that single precision left in doubt
+  std::size_t decided_on_host = 0;    ///< circles that double left in doubt, decided in quadruple precision
+};
+
+/// Kernel "circles" and its buffers. Needs a current GL context.
+class GpuCircles {
+ public:
+  GpuCircles(ProgramCache& programs, GpuNeighbors& neighbors) : programs_(programs), neighbors_(neighbors) {}
+
+  /// New atoms or a new probe; weights: decision weights. Both must stay until the last expose().
+  void upload(std::span<const Ball> atoms, std::span<const double> weights);
+
+  /// Forgets all arcs and figures.
+  void restart();
+
+  /// Appends the arcs of the batch's circles, in any order. Its pairs must have been listed. Times go to `clock`.
+  void expose(const BallBatch& batch, StageClock& clock);
+
+  Buffer atoms;  ///< dvec4 per atom: centre in Å, decision weight
+  Buffer arcs;   ///< RsArc each
+  std::uint32_t arc_count() const { return arc_count_; }
+  const CircleStats& stats() const { return stats_; }
+
+ private:
+  std::uint32_t run(const BallBatch& batch, bool in_double, const Buffer& circles, std::uint32_t circle_count,
+                    Buffer& doubtful);
+  void decide_on_host(const BallBatch& batch, std::span<const glm::uvec2> circles);
+
+  ProgramCache& programs_;
+  GpuNeighbors& neighbors_;
+  std::span<const Ball> host_atoms_;
+  std::span<const double> weights_;
+  TexelBuffer relative_texels_{TexelFormat::uint4};  // of the neighbours, which circles fetch most
+  Buffer doubtful_, still_doubtful_, counters_;
+  std::uint32_t arc_count_ = 0;
+  std::uint32_t arc_capacity_ = 1 << 14;
+  std::uint32_t doubtful_capacity_ = 1 << 12;
+  CircleStats stats_;
+};
+
+}  // namespace meniscus

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Runs the grid and neighbour kernels and sizes their lists.
+#include "core/reduced_surface/gpu/gpu_neighbors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include <glm/common.hpp>
+
+#include "core/base/error.h"
+#include "core/gpu/limits.h"
+
+namespace meniscus {
+namespace {
+
+constexpr std::size_t kWord = sizeof(std::uint32_t);
+
+}  // namespace
+
+const Program& GpuNeighbors::kernel(const char* name, int pass) {
+  ShaderDefines defines = list_defines();
+  if (pass >= 0) defines.emplace_back("PASS", std::to_string(pass));
+  return programs_.get(std::string("gpu_shaders/") + name + ".comp", defines);
+}
+
+// A centre goes up as two floats each from the middle of all; their difference is good to single precision anywhere.
+void GpuNeighbors::upload(std::span<const glm::dvec3> centers, std::span<const double> radii,
+                          const std::vector<bool>& left_out) {
+  count_ = static_cast<std::uint32_t>(centers.size());
+  if (count_ == 0) return adopt(0, {});
+  glm::dvec3 low = centers[0], high = low;
+  double largest = 0;
+  for (std::size_t n = 0; n < count_; ++n) {
+    low = glm::min(low, centers[n]);
+    high = glm::max(high, centers[n]);
+    largest = std::max(largest, radii[n]);
+  }
+  const glm::dvec3 middle = 0.5 * (low + high);
+  std::vector<glm::vec4> coarse(count_), fine(count_);
+  for (std::size_t n = 0; n < count_; ++n) {
+    const glm::dvec3 d = centers[n] - middle;
+    coarse[n] = glm::vec4(glm::vec3(d), static_cast<float>(radii[n]));
+    fine[n] =
+        glm::vec4(glm::vec3(d - glm::dvec3(glm::vec3(coarse[n]))), !left_out.empty() && left_out[n] ? 1.0f : 0.0f);
+  }
+  balls.upload(coarse);
+  balls_low.upload(fine);
+  adopt(count_, {low - middle, high - middle, largest});
+}
+
+void GpuNeighbors::adopt(std::uint32_t count, const BallExtent& extent_of_balls) {
+  const auto& [low, high, largest] = extent_of_balls;
+  count_ = entry_count_ = count;
+  listed_ = nullptr;
+  resident_ = {};
+  if (count_ == 0) return;
+  const glm::dvec3 extent = high - low;
+  largest_radius_ = static_cast<float>(largest) * 1.00001f;
+  double spacing = std::max(1e-3, static_cast<double>(largest_radius_));
+  const auto cells = [&] {
+    return (std::floor(extent.x / spacing) + 1) * (std::floor(extent.y / spacing) + 1) *
+           (std::floor(extent.z / spacing) + 1);
+  };
+  while (cells() > 4.0 * count_ + 64) spacing *= 1.25;
+  grid_.low = glm::vec4(glm::vec3(low), static_cast<float>(1 / spacing));
+  grid_.size = glm::vec4(glm::vec3(glm::floor(extent / spacing) + 1.0), 0.0f);
+  cell_count_ = static_cast<std::uint32_t>(grid_.size.x * grid_.size.y * grid_.size.z);
+  build_grid();
+}
+
+void GpuNeighbors::build_grid() {
+  cell_first_.resize((cell_count_ + 1) * kWord);
+  cell_first_.fill(0);
+  rank_.resize(count_ * kWord);
+  cell_atoms_.resize(count_ * kWord);
+  for (int pass = 0; pass < 2; ++pass) {
+    balls.bind(0);
+    cell_first_.bind(1);
+    rank_.bind(2);
+    cell_atoms_.bind(3);
+    const Program& program = kernel("reduced_surface/grid", pass);
+    program.set(kernel::GridParameters{.atom_count = count_});
+    program.set(grid_, kernel::kCellGridBinding);
+    program.dispatch(group_count(count_));
+    if (pass == 0) scan_(cell_first_, cell_count_);
+  }
+  ball_texels_.view(balls);
+  cell_texels_.view(cell_atoms_);
+}
+
+void GpuNeighbors::list_only(const Buffer& listed, const Buffer& before, std::uint32_t count) {
+  listed_texels_.view(listed);
+  before_texels_.view(before);
+  entry_count_ = count;
+  listed_ = &listed;
+  resident_ = {};
+}
+
+ShaderDefines GpuNeighbors::list_defines() const { return listed_ ? ShaderDefines{{"LISTED", "1"}} : ShaderDefines{}; }
+
+std::uint32_t GpuNeighbors::ball_of(std::uint32_t entry) const {
+  return listed_ ? listed_->download<std::uint32_t>(1, entry * kWord).front() : entry;
+}
+
+void GpuNeighbors::bind_listed() const {
+  if (!listed_) return;
+  listed_texels_.bind(2);
+  before_texels_.bind(3);
+}
+
+void GpuNeighbors::run_neighbors(const BallBatch& batch, int pass) {
+  ball_texels_.bind(0);
+  cell_texels_.bind(1);
+  bind_listed();
+  class_counts_.bind(0);
+  balls_low.bind(1);
+  cell_first_.bind(2);
+  cut_short_.bind(3);
+  first.bind(4);
+  pair_first_.bind(5);
+  relative.bind(6);
+  labels.bind(7);
+  const Program& program = kernel("reduced_surface/neighbors", pass);
+  program.set(kernel::NeighborParameters{
+      .first_entry = batch.first, .entry_count = batch.count, .largest_radius = largest_radius_});
+  program.set(grid_, kernel::kCellGridBinding);
+  program.dispatch(group_count(batch.count));
+}
+
+bool GpuNeighbors::count_neighbors(BallBatch& batch) {
+  resident_ = {};
+  first.resize((batch.count + 1) * kWord);
+  pair_first_.resize((batch.count + 1) * kWord);
+  class_counts_.resize(batch.count * kClasses * kWord);
+  relative.resize(sizeof(glm::vec4));
+  labels.resize(kWord);
+  cut_short_.resize(kWord);
+  cut_short_.fill(0);
+  run_neighbors(batch, 0);
+  if (cut_short_.download<std::uint32_t>(1).front() != 0)
+    throw CapacityError(
+        "there are more balls about each ball than this driver's kernels can go through; use --device cpu, or a "
+        "smaller "
+        "probe");
+  scan_(first, batch.count);
+  scan_(pair_first_, batch.count);
+  first.read(batch.count * kWord, &batch.neighbor_count, kWord);
+  pair_first_.read(batch.count * kWord, &batch.pair_count, kWord);
+  const std::size_t limit = query_gpu_limits().storage_block_bytes;
+  if (batch.neighbor_count * sizeof(glm::vec4) <= limit) return true;
+  if (batch.count == 1)
+    throw CapacityError("ball " + std::to_string(batch.first + 1) + " overlaps " +
+                        std::to_string(batch.neighbor_count) + " others, more than this driver's storage blocks of " +
+                        std::to_string(limit >> 20) + " MiB hold; use --device cpu");
+  return false;
+}
+
+void GpuNeighbors::list_neighbors(const BallBatch& batch) {
+  relative.resize(std::max(1u, batch.neighbor_count) * sizeof(glm::vec4));
+  labels.resize(std::max(1u, batch.neighbor_count) * kWord);
+  run_neighbors(batch, 1);
+}
+
+void GpuNeighbors::list_pairs(const BallBatch& batch) {
+  pairs.resize(std::max(1u, batch.pair_count) * sizeof(glm::uvec2));
+  first.bind(0);
+  labels.bind(1);
+  pair_first_.bind(2);
+  pairs.bind(3);
+  bind_listed();
+  const Program& program = kernel("reduced_surface/pairs");
+  program.set(kernel::PairParameters{.first_entry = batch.first, .entry_count = batch.count});
+  program.dispatch(group_count(batch.count));
+}
+
+}  // namespace meniscus

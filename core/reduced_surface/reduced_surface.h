@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The reduced surface as pure combinatorics: which circles have exposed arcs, and which atoms end them.
+#pragma once
+
+#include <compare>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/base/index.h"
+#include "core/math/ball.h"
+
+namespace meniscus {
+
+/// An exposed arc of the SAS circle of atoms i < j (an RS edge), counter-clockwise about the axis from i to j.
+/// It begins where it leaves the SAS ball of atom `begin_by` and ends where it enters that of `end_by`;
+/// both are kNone for a free edge (a whole circle).
+struct RsArc {
+  std::uint32_t i = 0;
+  std::uint32_t j = 0;
+  std::uint32_t begin_by = kNone;
+  std::uint32_t end_by = kNone;
+  auto operator<=>(const RsArc&) const = default;
+};
+
+/// All exposed arcs, sorted, and the atoms that have none but are wholly exposed. Whatever computes it (exhaustive
+/// enumeration, rolling probe, GPU) must give the same lists.
+struct ReducedSurface {
+  std::vector<RsArc> arcs;
+  std::vector<std::uint32_t> lone_atoms;  ///< SAS spheres that meet no other and lie in none, sorted
+  bool operator==(const ReducedSurface&) const = default;
+};
+
+/// The squared SAS radii in which every sign decision is taken: (r_i + p + g_i)^2, with g_i between 1e-9 and 1.5e-9 Å,
+/// different for each index. Touching thereby counts as overlapping, in any orientation; and n-fold contacts fall
+/// apart into consistent threefold ones (a perturbation that is the same for all predicates, so no two circles can
+/// disagree). Positions, areas and volumes are computed from the unchanged radii.
+std::vector<double> decision_weights(std::span<const Ball> atoms, double probe_radius);
+
+/// Golden-ratio hash of an index to [0, 1): neighbouring indices land far apart.
+double scattered(std::size_t index);
+
+/// The decision weight of one ball of (extended) radius R with the given index.
+double decision_weight(double radius, std::size_t index);
+
+/// The decision weight of a fixed probe where probes cut each other: grown by 1e-12 to 1.5e-12 Å only. Two probes may
+/// be as near as 1e-6 Å, and growth moves the plane between them by its ratio to their distance; through it run the
+/// axes of spindle circles, which do not move. Copies about a symmetry axis have such probes, and their exact ties
+/// remain broken: quadruple precision tells weights apart that differ by far less.
+double probe_decision_weight(double probe_radius, std::size_t index);
+
+/// Atoms whose SAS ball lies in that of an atom that is not swallowed itself, but for 1e-6 Å (ties: the lower index
+/// wins). They have no patch and block nothing more.
+std::vector<bool> swallowed_atoms(std::span<const Ball> atoms);
+
+}  // namespace meniscus

@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Classes of atoms by the names and bonds of their residues, and elements, with gemmi's tables of both.
+#include "core/structure/atom_classes.h"
+
+#include <algorithm>
+#include <cctype>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+
+#include <fmt/format.h>
+#include <gemmi/elem.hpp>
+#include <gemmi/metadata.hpp>
+#include <gemmi/resinfo.hpp>
+
+#include "core/structure/canonical_names.h"
+#include "core/structure/chain_links.h"
+#include "core/structure/oddity.h"
+#include "core/structure/residue_names.h"
+
+namespace meniscus {
+namespace {
+
+bool is_tabulated_polymer(const std::string& name) {
+  const gemmi::ResidueInfo residue = gemmi::find_tabulated_residue(name);
+  return residue.is_amino_acid() || residue.is_nucleic_acid();
+}
+
+/// Amino acids and nucleotides, also by the names of force fields, but not the caps of chains, which are polymer only
+/// where they cap one.
+bool is_polymer_name(const std::string& name) {
+  return is_tabulated_polymer(name) || is_tabulated_polymer(canonical_residue(name)) || is_nucleotide_name(name);
+}
+
+/// Elements that stand alone in a file as ions: metals and halogens.
+bool is_ion_element(gemmi::Element element) {
+  switch (element.elem) {
+    case gemmi::El::F:
+    case gemmi::El::Cl:
+    case gemmi::El::Br:
+    case gemmi::El::I:
+      return true;
+    default:
+      return element.elem != gemmi::El::X && gemmi::is_metal(element.elem);
+  }
+}
+
+/// Distinct names of the atoms of a residue.
+using Names = std::set<std::string>;
+
+bool is_named_like_polymer(const Names& names) {
+  return (names.contains("N") && names.contains("CA") && names.contains("C")) || names.contains("C4'") ||
+         names.contains("C4*");
+}
+
+/// Names of force fields are also those of bare bases (ADE, URA) and others, which have none of these.
+bool has_backbone(const Names& names) {
+  return names.contains("CA") || names.contains("P") || names.contains("C4'") || names.contains("C4*");
+}
+
+/// A chain drawn by its CA or P, or a chromophore whose backbone has other names: what it is linked to cannot be told.
+bool has_no_ends(const Names& names) {
+  return !names.contains("C") && !names.contains("N") && !names.contains("O3'") && !names.contains("O3*");
+}
+
+bool is_of_organic_residues(gemmi::Element element) {
+  switch (element.elem) {
+    case gemmi::El::C:
+    case gemmi::El::N:
+    case gemmi::El::O:
+    case gemmi::El::S:
+    case gemmi::El::P:
+    case gemmi::El::Se:
+      return true;
+    default:
+      return element.is_hydrogen();
+  }
+}
+
+/// CA, CB, CG, CD, CE, CZ, NE1, OG, SG, HG21, ...: an element and a Greek letter, as in amino acids only.
+bool is_amino_acid_atom_name(std::string_view name) {
+  return name.size() >= 2 && std::string_view("CNOSH").find(name[0]) != std::string_view::npos &&
+         std::string_view("ABGDEZH").find(name[1]) != std::string_view::npos &&
+         name.find_first_not_of("0123456789", 2) == std::string_view::npos;
+}
+
+std::string capitals(std::string_view text) {
+  std::string result(text);
+  std::transform(result.begin(), result.end(), result.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  return result;
+}
+
+/// The element of a lone atom that is named like its residue, or lies in a residue "ION": "CL", "Na+", "ZN2", and
+/// CHARMM's own names.
+gemmi::Element lone_ion_element(const Atom& atom) {
+  static const std::map<std::string, gemmi::El> kCharmmIons{
+      {"SOD", gemmi::El::Na}, {"CLA", gemmi::El::Cl}, {"POT", gemmi::El::K},  {"CAL", gemmi::El::Ca},
+      {"CES", gemmi::El::Cs}, {"LIT", gemmi::El::Li}, {"RUB", gemmi::El::Rb}, {"BAR", gemmi::El::Ba}};
+  const auto letters = [](const std::string& name) {
+    return capitals(name.substr(0, name.find_first_of("0123456789+-")));
+  };
+  const std::string name = letters(atom.name);
+  if (atom.residue_name != "ION" && name != letters(atom.residue_name)) return gemmi::El::X;
+  const auto charmm = kCharmmIons.find(name);
+  const gemmi::Element element = charmm != kCharmmIons.end() ? gemmi::Element(charmm->second) : gemmi::Element(name);
+  return is_ion_element(element) ? element : gemmi::Element(gemmi::El::X);
+}
+
+/// The first letter of a name; two where only one element can be meant. Other letters are more often dummies and beads
+/// (D, M, W) than deuterium and tungsten.
+gemmi::Element element_by_letters(const Atom& atom, bool of_polymer) {
+  const std::size_t letter = atom.name.find_first_not_of("0123456789");
+  if (letter == std::string::npos) return gemmi::El::X;
+  if (!of_polymer) {
+    const std::string two = capitals(atom.name.substr(letter, 2));
+    for (const char* symbol : {"CL", "BR", "FE", "ZN", "MG", "MN", "SI", "SE"}) {
+      if (two == symbol) return gemmi::Element(two);
+    }
+  }
+  const char first = static_cast<char>(std::toupper(static_cast<unsigned char>(atom.name[letter])));
+  return std::string_view("HCNOPSFIB").find(first) == std::string_view::npos ? gemmi::Element(gemmi::El::X)
+                                                                             : gemmi::Element(std::string(1, first));
+}
+
+/// of_polymer: the residue has the atoms of an amino acid or nucleotide, in a chain or alone.
+gemmi::Element element_of(gemmi::Element stated, gemmi::Element hint, const Atom& atom, bool of_polymer) {
+  if (is_of_organic_residues(stated)) return stated;
+  const gemmi::Element given = stated == gemmi::El::X ? hint : stated;
+  const gemmi::ResidueInfo residue = gemmi::find_tabulated_residue(atom.residue_name);
+  const bool standard =
+      residue.found() && residue.is_standard() && (residue.is_amino_acid() || residue.is_nucleic_acid());
+  const bool variant = stated == gemmi::El::X && !residue.found() && of_polymer && is_amino_acid_atom_name(atom.name);
+  const bool doubtful = (standard || variant) && !is_of_organic_residues(given);
+  return doubtful || given == gemmi::El::X ? element_by_letters(atom, of_polymer) : given;
+}
+
+class Classifier {
+ public:
+  Classifier(std::vector<Atom>& atoms, std::span<const AtomHints> hints, std::span<const Bond> bonds)
+      : atoms_(atoms), hints_(hints), bonds_(bonds) {
+    for (std::size_t n = 0; n < atoms.size(); ++n) {
+      if (n == 0 || atoms[n].residue != atoms[n - 1].residue || atoms[n].residue_name != atoms[n - 1].residue_name)
+        begins_.push_back(n);
+    }
+    begins_.push_back(atoms.size());
+  }
+
+  void run(std::vector<Warning>& warnings) {
+    for (std::size_t r = 0; r + 1 < begins_.size(); ++r) classify(r);
+    impossible_.warn(warnings, "an element that its residue cannot hold; its name was believed instead");
+  }
+
+ private:
+  const Atom& head(std::size_t r) const { return atoms_[begins_[r]]; }
+
+  AtomHints hint(std::size_t atom) const { return hints_.empty() ? AtomHints{} : hints_[atom]; }
+
+  void classify(std::size_t r) {
+    Names names;
+    for (std::size_t n = begins_[r]; n < begins_[r + 1]; ++n) names.insert(atoms_[n].name);
+    const bool lone_without_element = names.size() == 1 && head(r).element == 0;
+    const gemmi::Element ion = lone_without_element ? lone_ion_element(head(r)) : gemmi::Element(gemmi::El::X);
+    const AtomHints first = hint(begins_[r]);
+    const gemmi::Element stated(int{head(r).element != 0 ? head(r).element : first.element});
+    const AtomClass kind = class_of(r, names, ion == gemmi::El::X ? stated : ion);
+    const bool of_polymer =
+        kind == AtomClass::polymer || (kind == AtomClass::ligand && first.residue == ResidueStatement::none &&
+                                       (is_tabulated_polymer(head(r).residue_name) || is_named_like_polymer(names)));
+    for (std::size_t n = begins_[r]; n < begins_[r + 1]; ++n) {
+      atoms_[n].kind = kind;
+      set_element(n, kind == AtomClass::ion ? ion : gemmi::Element(gemmi::El::X), of_polymer);
+    }
+  }
+
+  AtomClass class_of(std::size_t r, const Names& names, gemmi::Element first_element) {
+    const std::string& name = head(r).residue_name;
+    if (is_water_name(name)) return AtomClass::water;
+    if (names.size() == 1 && !is_tabulated_polymer(name) && is_ion_element(first_element)) return AtomClass::ion;
+    const ResidueStatement statement = hint(begins_[r]).residue;
+    if (statement != ResidueStatement::none)
+      return statement == ResidueStatement::polymer ? AtomClass::polymer : AtomClass::ligand;
+    return is_polymer(r, names) ? AtomClass::polymer : AtomClass::ligand;
+  }
+
+  bool is_polymer(std::size_t r, const Names& names) {
+    const std::string& name = head(r).residue_name;
+    const bool named = is_tabulated_polymer(name) || (is_polymer_name(name) && has_backbone(names));
+    if (named && !hint(begins_[r]).heteroatom) return true;
+    if (!linked_) linked_ = linked_residues(atoms_, bonds_);
+    if ((*linked_)[head(r).residue]) return true;
+    return named && (has_no_ends(names) || (in_chain(r, r - 1) && in_chain(r, r + 1)));
+  }
+
+  /// Is the residue before or behind in the file one of the same chain, and numbered so?
+  bool in_chain(std::size_t r, std::size_t neighbor) const {
+    if (neighbor >= begins_.size() - 1) return false;  // r - 1 of the first residue is the largest number
+    const Atom &here = head(r), &there = head(neighbor);
+    return is_polymer_name(there.residue_name) && !hint(begins_[neighbor]).heteroatom && there.chain == here.chain &&
+           there.segment == here.segment && there.model == here.model &&
+           (neighbor < r ? there.residue_number < here.residue_number : here.residue_number < there.residue_number);
+  }
+
+  /// `ion`: what the lone atom is, unless X.
+  void set_element(std::size_t n, gemmi::Element ion, bool of_polymer) {
+    Atom& atom = atoms_[n];
+    const gemmi::Element element =
+        ion != gemmi::El::X
+            ? ion
+            : element_of(gemmi::Element(int{atom.element}), gemmi::Element(int{hint(n).element}), atom, of_polymer);
+    if (atom.element != 0 && atom.element != element.atomic_number())
+      impossible_.add(fmt::format("{}: {}", label_of(atom), gemmi::Element(int{atom.element}).name()));
+    atom.element = static_cast<std::uint8_t>(element.atomic_number());
+  }
+
+  std::vector<Atom>& atoms_;
+  std::span<const AtomHints> hints_;
+  std::span<const Bond> bonds_;
+  std::vector<std::size_t> begins_;          ///< of the residues in atoms_, and the end
+  std::optional<std::vector<bool>> linked_;  ///< made when first asked for
+  Oddity impossible_;
+};
+
+}  // namespace
+
+bool is_water_name(const std::string& residue_name) {
+  static const std::set<std::string> kWaters{"HOH", "DOD",  "WAT",  "H2O",  "OH2",  "SOL",   "TIP",
+                                             "TP3", "TIP2", "TIP3", "TIP4", "TIP5", "T3P",   "T4P",
+                                             "T5P", "SPC",  "SPCE", "HHO",  "OHH",  "TIP3P", "TIP4P"};
+  return kWaters.contains(residue_name);
+}
+
+bool is_tabulated_residue(const std::string& residue_name) {
+  return gemmi::find_tabulated_residue(residue_name).found();
+}
+
+void classify_atoms(std::vector<Atom>& atoms, std::vector<Warning>& warnings, std::span<const AtomHints> hints,
+                    std::span<const Bond> bonds) {
+  Classifier(atoms, hints, bonds).run(warnings);
+}
+
+}  // namespace meniscus

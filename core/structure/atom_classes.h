@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Tells polymer, ligand, water and ion apart, and the elements that a file does not state, alike for every format.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/structure/structure.h"
+
+namespace meniscus {
+
+/// What a file itself says about the residue of an atom.
+enum class ResidueStatement : std::uint8_t { none, polymer, other };
+
+/// What a file says about an atom besides its names.
+struct AtomHints {
+  ResidueStatement residue = ResidueStatement::none;
+  bool heteroatom = false;  ///< HETATM: no standard residue of a chain, but perhaps a modified one
+  std::uint8_t element =
+      0;  ///< what the columns of the name suggest (PDB: " CA " is carbon, "CA  " calcium); 0: nothing
+};
+
+/// Water by the names of the wwPDB and of molecular dynamics programs.
+bool is_water_name(const std::string& residue_name);
+
+/// True for the residues and ligands common enough to stand in gemmi's table.
+bool is_tabulated_residue(const std::string& residue_name);
+
+/// Sets `kind` of all atoms, residue by residue. What the file states decides; then names: amino acids and nucleotides
+/// of the wwPDB's chemical components and of force fields are polymer unless they are heteroatoms or bare bases. Those,
+/// and residues of any other name, are polymer if they are linked to another residue (chain_links.h); heteroatoms with
+/// the name of an amino acid or nucleotide also where a chain is drawn by one atom a residue, or is missing on both
+/// their sides. All else is a ligand: free amino acids and nucleotides, cofactors, sugars.
+///
+/// Sets `element` where it is 0 or cannot be right: names are ambiguous (CA is carbon or calcium, HG hydrogen or
+/// mercury), but amino acids and nucleotides hold H, C, N, O, S, P and Se only; stated elements that cannot be right
+/// are warned about. `hints` has one entry an atom, or none; `bonds` are those of a file without coordinates.
+void classify_atoms(std::vector<Atom>& atoms, std::vector<Warning>& warnings, std::span<const AtomHints> hints = {},
+                    std::span<const Bond> bonds = {});
+
+}  // namespace meniscus

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Reads GRO of GROMACS: fixed columns, nanometres, frames one after the other.
+#include <algorithm>
+#include <array>
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/structure/atom_classes.h"
+#include "core/structure/formats/reader.h"
+#include "core/text/parse_number.h"
+#include "core/structure/residue_counter.h"
+#include "core/text/text_lines.h"
+
+namespace meniscus {
+namespace {
+
+constexpr std::size_t kNamesEnd = 20;  // residue number and name, atom name and number: five columns each
+constexpr double kAngstromPerNanometre = 10.0;
+
+/// The columns of a coordinate: the distance of the first two points, whatever the number of decimals. 0: no such line.
+std::size_t coordinate_width(std::string_view line) {
+  const std::size_t first = line.find('.', std::min(line.size(), kNamesEnd));
+  const std::size_t second = first == std::string_view::npos ? first : line.find('.', first + 1);
+  if (second == std::string_view::npos) return 0;
+  const std::size_t width = second - first;
+  return line.size() >= kNamesEnd + 3 * width ? width : 0;
+}
+
+std::string_view coordinate(std::string_view line, std::size_t width, int axis) {
+  return line.substr(kNamesEnd + width * static_cast<std::size_t>(axis), width);
+}
+
+bool is_atom_line(std::string_view line) {
+  const std::size_t width = coordinate_width(line);
+  double ignored = 0.0;
+  std::int64_t number = 0;
+  return width != 0 && parse_whole_number(line.substr(0, 5), number) &&
+         parse_number(coordinate(line, width, 0), ignored) && parse_number(coordinate(line, width, 1), ignored) &&
+         parse_number(coordinate(line, width, 2), ignored);
+}
+
+/// Three lengths, or nine numbers of a triclinic box.
+bool is_box_line(std::string_view line) {
+  const std::vector<std::string_view> fields = fields_of(line);
+  double ignored = 0.0;
+  return (fields.size() == 3 || fields.size() == 9) &&
+         std::all_of(fields.begin(), fields.end(),
+                     [&](std::string_view field) { return parse_number(field, ignored); });
+}
+
+class GroReader {
+ public:
+  GroReader(const TextFile& file, const ModelChoice& models) : file_(file), choice_(models), lines_(file.text) {}
+
+  FileContents run() {
+    while (!lines_.only_blanks_left()) read_frame();
+    if (contents_.atoms.empty() && contents_.other_model_atoms == 0) throw InputError(file_.path, 0, "holds no atoms");
+    classify_atoms(contents_.atoms, contents_.warnings);
+    return std::move(contents_);
+  }
+
+ private:
+  std::size_t read_title_and_count() {
+    // Names and numbers in 20 columns, three coordinates of at least two, the end of the line.
+    constexpr std::size_t kShortestLine = 27;
+    std::string_view line;
+    std::int64_t count = 0;
+    if (!lines_.next(line) || !lines_.next(line)) {
+      throw InputError(file_.path, lines_.number(), "is the last line; a title and the number of atoms were expected");
+    }
+    if (!parse_whole_number(line, count) || count < 0) {
+      throw InputError(
+          file_.path, lines_.number(),
+          fmt::format("{} should be the number of atoms, the second line of a GRO frame", in_quotes(line)));
+    }
+    if (static_cast<std::uint64_t>(count) > (lines_.bytes_left() + 1) / kShortestLine) {
+      throw InputError(
+          file_.path, lines_.number(),
+          fmt::format("the count says {} atoms, more than the {} bytes behind it can hold; correct it, or "
+                      "is the file cut short?",
+                      with_thousands(static_cast<std::uint64_t>(count)), with_thousands(lines_.bytes_left())));
+    }
+    return static_cast<std::size_t>(count);
+  }
+
+  void read_frame() {
+    const std::size_t count = read_title_and_count();
+    const std::size_t count_line = lines_.number();
+    ++contents_.models;
+    const bool wanted = choice_.takes(static_cast<std::int32_t>(contents_.models));
+    residues_.end_piece();
+    std::string_view line;
+    for (std::size_t n = 0; n < count; ++n) {
+      if (!lines_.next(line)) refuse_short_frame(file_, count_line, count, n);
+      if (wanted) {
+        take_atom(line);
+      } else {
+        ++contents_.other_model_atoms;
+      }
+    }
+    read_box(count);
+  }
+
+  /// A surface needs no box, but without it the count is wrong, and then atoms would be missing.
+  void read_box(std::size_t count) {
+    std::string_view line;
+    if (!lines_.next(line)) {
+      throw InputError(
+          file_.path, lines_.number(),
+          "is the last line; the box (three or nine numbers) is missing behind it: is the file cut short?");
+    }
+    if (!is_box_line(line)) {
+      throw InputError(file_.path, lines_.number(),
+                       fmt::format("{} stands where the box (three or nine numbers) should be by the count of {}; "
+                                   "correct the count",
+                                   in_quotes(line), with_thousands(count)));
+    }
+  }
+
+  void take_atom(std::string_view line) {
+    const std::size_t width = coordinate_width(line);
+    if (width == 0) {
+      throw InputError(file_.path, lines_.number(),
+                       fmt::format("{} has no three coordinates behind column 20; is it cut short, or does the count "
+                                   "say too many atoms?",
+                                   in_quotes(line)));
+    }
+    Atom atom;
+    atom.model = static_cast<std::int32_t>(contents_.models);
+    std::int64_t residue = 0;
+    if (!parse_whole_number(line.substr(0, 5), residue)) {
+      throw InputError(file_.path, lines_.number(),
+                       fmt::format("residue number {} in columns 1 to 5 is no number; columns may have shifted",
+                                   in_quotes(line.substr(0, 5))));
+    }
+    atom.residue_number = static_cast<std::int32_t>(residue);
+    atom.residue_name = trimmed(line.substr(5, 5));
+    atom.name = trimmed(line.substr(10, 5));
+    for (int axis = 0; axis < 3; ++axis) {
+      const std::string_view field = coordinate(line, width, axis);
+      const double nanometres = parse_coordinate(file_, lines_.number(), "xyz"[axis], field);
+      atom.position[axis] = check_extent(file_, lines_.number(), "xyz"[axis], kAngstromPerNanometre * nanometres);
+    }
+    residues_.number(atom);
+    contents_.atoms.push_back(std::move(atom));
+  }
+
+  const TextFile& file_;
+  const ModelChoice& choice_;
+  LineReader lines_;
+  FileContents contents_;
+  ResidueCounter residues_{contents_.atoms};
+};
+
+bool recognizes(std::string_view text) {
+  LineReader lines(text);
+  std::string_view line;
+  std::int64_t count = 0;
+  return lines.next(line) && lines.next(line) && parse_whole_number(line, count) && count >= 0 && lines.next(line) &&
+         is_atom_line(line);
+}
+
+FileContents read(const TextFile& file, const ModelChoice& models) { return GroReader(file, models).run(); }
+
+bool positions(std::string_view model, std::vector<glm::dvec3>& positions) {
+  LineReader lines(model);
+  std::string_view line;
+  std::int64_t count = 0;
+  if (!lines.next(line) || !lines.next(line) || !parse_whole_number(line, count)) return false;
+  positions.clear();
+  for (std::int64_t n = 0; n < count; ++n) {
+    const std::size_t width = lines.next(line) ? coordinate_width(line) : 0;
+    std::int64_t residue = 0;
+    if (width == 0 || !parse_whole_number(line.substr(0, 5), residue)) return false;
+    glm::dvec3& position = positions.emplace_back();
+    for (int axis = 0; axis < 3; ++axis)
+      if (!parse_quickly(coordinate(line, width, axis), kAngstromPerNanometre, position[axis])) return false;
+  }
+  return lines.next(line) && is_box_line(line);
+}
+
+}  // namespace
+
+const Reader kGroReader{
+    {"GRO", ".gro", "GROMACS coordinates, in nanometres", "GROMACS manual, file formats: gro",
+     "title, count, atoms in fixed columns (numbers may wrap after 99,999; any number of decimals), "
+     "box; velocities are ignored; elements are guessed from the names; each frame is a model"},
+    recognizes,
+    read,
+    nullptr,
+    positions};
+
+}  // namespace meniscus

@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Reads the atom table of mmCIF.
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+#include <utility>
+
+#include <fmt/format.h>
+#include <gemmi/elem.hpp>
+#include <gemmi/numb.hpp>
+
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/structure/assembly.h"
+#include "core/structure/atom_classes.h"
+#include "core/structure/formats/cif_document.h"
+#include "core/structure/oddity.h"
+#include "core/structure/formats/reader.h"
+#include "core/text/parse_number.h"
+#include "core/structure/residue_counter.h"
+#include "core/text/text_lines.h"
+
+namespace meniscus {
+namespace {
+
+namespace cif = gemmi::cif;
+
+/// Columns of _atom_site, in the order AtomTable asks for them; '?' marks what may be missing.
+enum Column {
+  kX,
+  kY,
+  kZ,
+  kSymbol,
+  kAuthAtom,
+  kLabelAtom,
+  kAuthComp,
+  kLabelComp,
+  kAuthAsym,
+  kLabelAsym,
+  kAuthSeq,
+  kLabelSeq,
+  kInsertion,
+  kAlt,
+  kOccupancy,
+  kB,
+  kModel,
+  kEntityId,
+  kGroup
+};
+const std::vector<std::string> kColumns{"Cartn_x",
+                                        "Cartn_y",
+                                        "Cartn_z",
+                                        "?type_symbol",
+                                        "?auth_atom_id",
+                                        "?label_atom_id",
+                                        "?auth_comp_id",
+                                        "?label_comp_id",
+                                        "?auth_asym_id",
+                                        "?label_asym_id",
+                                        "?auth_seq_id",
+                                        "?label_seq_id",
+                                        "?pdbx_PDB_ins_code",
+                                        "?label_alt_id",
+                                        "?occupancy",
+                                        "?B_iso_or_equiv",
+                                        "?pdbx_PDB_model_num",
+                                        "?label_entity_id",
+                                        "?group_PDB"};
+
+/// The line of a row of _atom_site; rows are one line each in all but hand-made files, otherwise the loop's first line.
+std::size_t line_of_row(const TextFile& file, const cif::Table& table, int row, const std::string& value) {
+  if (!table.loop_item) return 0;
+  const auto loop_line = static_cast<std::size_t>(table.loop_item->line_number);
+  std::size_t begin = 0;
+  std::size_t line = 1;
+  int rows_seen = -1;
+  while (begin < file.text.size()) {
+    const std::size_t end = std::min(file.text.find('\n', begin), file.text.size());
+    const std::string_view text(file.text.data() + begin, end - begin);
+    const bool value_line =
+        line > loop_line && !text.empty() && text[0] != '_' && text[0] != '#' && !text.starts_with("loop_");
+    if (value_line && ++rows_seen == row) return text.find(value) != std::string_view::npos ? line : loop_line;
+    begin = end + 1;
+    ++line;
+  }
+  return loop_line;
+}
+
+/// Strips the standard uncertainty of "1.234(5)".
+std::string_view without_uncertainty(const std::string& value) {
+  return std::string_view(value).substr(0, value.find('('));
+}
+
+cif::Table atom_table(const TextFile& file, cif::Document& document, std::vector<Warning>& warnings) {
+  std::vector<cif::Table> tables;
+  for (cif::Block& block : document.blocks) {
+    cif::Table table = block.find("_atom_site.", kColumns);
+    if (table.ok() && table.length() > 0) tables.push_back(table);
+  }
+  if (tables.size() > 1)
+    warnings.emplace_back(fmt::format("{} data blocks hold atoms; the first is used", tables.size()));
+  if (!tables.empty()) return tables.front();
+  for (cif::Block& block : document.blocks) {
+    for (const char* tag : {"_atom_site_fract_x", "_atom_site.fract_x"}) {
+      if (block.has_tag(tag)) {
+        throw InputError(
+            file.path, 0,
+            "is a small-molecule CIF with fractional coordinates; convert it to Cartesian coordinates first");
+      }
+    }
+  }
+  throw InputError(file.path, 0, "has no table _atom_site with Cartn_x, Cartn_y, Cartn_z: no atoms");
+}
+
+/// gemmi's as_char() throws a bare runtime_error for longer texts, which the dictionary allows.
+char first_letter(const std::string& value) {
+  const std::string text = cif::as_string(value);
+  return text.empty() ? ' ' : text.front();
+}
+
+/// The number that the text begins with; 0 where it begins with none.
+std::int32_t residue_number(const TextFile& file, const cif::Table& table, const cif::Table::Row& row) {
+  const std::string& value = row.one_of(kAuthSeq, kLabelSeq);
+  std::string_view digits = trimmed(value);
+  if (digits.starts_with('+')) digits.remove_prefix(1);
+  std::int32_t number = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
+  if (error == std::errc::result_out_of_range) {
+    throw InputError(file.path, line_of_row(file, table, row.row_index, value),
+                     fmt::format("the residue number {} is larger than any; correct it", in_quotes(value)));
+  }
+  return number;
+}
+
+/// In single precision; missing where the text is no number or beyond its range.
+float kept_number(const std::string& value) {
+  const double number = cif::as_number(value);
+  const bool fits = std::abs(number) <= std::numeric_limits<float>::max();
+  return fits ? static_cast<float>(number) : std::numeric_limits<float>::quiet_NaN();
+}
+
+Atom read_row(const TextFile& file, const cif::Table& table, const cif::Table::Row& row) {
+  Atom atom;
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::string& value = row[static_cast<std::size_t>(axis)];
+    double number = 0.0;
+    if (parse_number(without_uncertainty(value), number) && std::abs(number) <= kLargestCoordinate) {
+      atom.position[axis] = number;
+    } else {
+      parse_coordinate(file, line_of_row(file, table, row.row_index, value), "xyz"[axis], value);
+    }
+  }
+  const auto text = [&](Column first, Column second) { return cif::as_string(row.one_of(first, second)); };
+  atom.name = text(kAuthAtom, kLabelAtom);
+  atom.residue_name = text(kAuthComp, kLabelComp);
+  atom.chain = text(kAuthAsym, kLabelAsym);
+  atom.subchain = text(kLabelAsym, kAuthAsym);
+  atom.residue_number = residue_number(file, table, row);
+  if (row.has2(kInsertion)) atom.insertion_code = first_letter(row[kInsertion]);
+  if (row.has2(kAlt)) atom.altloc = first_letter(row[kAlt]);
+  if (row.has2(kOccupancy)) atom.occupancy = kept_number(row[kOccupancy]);
+  if (row.has2(kB)) atom.b_factor = kept_number(row[kB]);
+  const gemmi::Element symbol(row.has2(kSymbol) ? cif::as_string(row[kSymbol]) : std::string());
+  atom.element = static_cast<std::uint8_t>(symbol.atomic_number());
+  return atom;
+}
+
+/// What _entity says of each entity, or, where that is missing, _entity_poly of polymers.
+std::map<std::string, ResidueStatement> entities_of(cif::Document& document) {
+  std::map<std::string, ResidueStatement> entities;
+  for (cif::Block& block : document.blocks) {
+    for (const auto row : block.find("_entity.", {"id", "type"})) {
+      entities[row.str(0)] = row.str(1) == "polymer" ? ResidueStatement::polymer : ResidueStatement::other;
+    }
+    for (const auto row : block.find("_entity_poly.", {"entity_id"}))
+      entities.try_emplace(row.str(0), ResidueStatement::polymer);
+  }
+  return entities;
+}
+
+FileContents read(const TextFile& file, const ModelChoice& choice) {
+  cif::Document document = parse_cif(file);
+  FileContents contents;
+  cif::Table table = atom_table(file, document, contents.warnings);
+  const std::map<std::string, ResidueStatement> entities = entities_of(document);
+  ResidueCounter residues(contents.atoms);
+  std::map<std::string, std::int32_t> models;
+  std::vector<AtomHints> hints;
+  Oddity without_symbol;
+  for (const cif::Table::Row row : table) {
+    const std::int32_t next_model = static_cast<std::int32_t>(models.size()) + 1;
+    const std::int32_t model = models.try_emplace(row.has(kModel) ? row[kModel] : "1", next_model).first->second;
+    if (!choice.takes(model)) {
+      ++contents.other_model_atoms;
+      continue;
+    }
+    Atom atom = read_row(file, table, row);
+    atom.model = model;
+    residues.number(atom);
+    if (atom.element == 0) without_symbol.add(label_of(atom));
+    const auto statement = entities.find(row.has2(kEntityId) ? cif::as_string(row[kEntityId]) : std::string());
+    hints.push_back({.residue = statement == entities.end() ? ResidueStatement::none : statement->second,
+                     .heteroatom = row.has2(kGroup) && row[kGroup] == "HETATM"});
+    contents.atoms.push_back(std::move(atom));
+  }
+  contents.models = models.size();
+  without_symbol.warn(contents.warnings, "no element symbol; elements were guessed from the names");
+  classify_atoms(contents.atoms, contents.warnings, hints);
+  return contents;
+}
+
+bool recognizes(std::string_view text) {
+  std::size_t first = text.find_first_not_of(" \t\n");
+  while (first != std::string_view::npos && text[first] == '#') {
+    first = text.find('\n', first);
+    if (first != std::string_view::npos) first = text.find_first_not_of(" \t\n", first);
+  }
+  if (first == std::string_view::npos || text.size() < first + 5) return false;
+  const std::string_view head = text.substr(first, 5);
+  return head == "data_" || head == "DATA_" || head == "Data_";
+}
+
+}  // namespace
+
+const Reader kMmcifReader{
+    {"mmCIF", ".cif .mmcif .mcif", "macromolecular CIF of the wwPDB", "PDBx/mmCIF dictionary; Hall, Allen & Brown 1991",
+     "_atom_site (author's names where given, label_asym_id too), _entity and _entity_poly"},
+    recognizes,
+    read,
+    read_mmcif_assemblies};
+
+}  // namespace meniscus

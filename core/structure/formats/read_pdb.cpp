@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Reads PDB: its columns strictly where a surface needs them, leniently elsewhere. No library does both and keeps the
+// order of the file and residues whose numbers wrap.
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <set>
+#include <utility>
+
+#include <fmt/format.h>
+#include <gemmi/elem.hpp>
+
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/structure/assembly.h"
+#include "core/structure/atom_classes.h"
+#include "core/text/parse_number.h"
+#include "core/structure/oddity.h"
+#include "core/structure/formats/pdb_bonds.h"
+#include "core/structure/formats/pdb_columns.h"
+#include "core/structure/formats/pqr_record.h"
+#include "core/structure/formats/reader.h"
+#include "core/structure/residue_counter.h"
+#include "core/text/text_lines.h"
+
+namespace meniscus {
+namespace {
+
+constexpr std::size_t kCoordinatesEnd = 54;
+
+bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; }
+bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
+
+/// What the place of the name in its columns 13 to 16 suggests: elements of one letter begin in column 14 (gemmi skips
+/// the blank), but hydrogens of long names (HG11, 1HB) in 13.
+gemmi::Element element_by_place(std::string_view name) {
+  const char letters[3] = {name[0], name[1], '\0'};
+  const char first[2] = {name[0], '\0'};
+  if ((name[0] == 'H' || name[0] == 'h') && name[3] != ' ') return gemmi::El::H;
+  return is_digit(name[1]) ? gemmi::Element(first) : gemmi::Element(letters);
+}
+
+class PdbReader {
+ public:
+  PdbReader(const TextFile& file, const ModelChoice& models) : file_(file), choice_(models) {}
+
+  FileContents run() {
+    LineReader lines(file_.text);
+    for (std::string_view line; lines.next(line);) take(line, lines.number());
+    if (contents_.atoms.empty() && contents_.other_model_atoms == 0)
+      throw InputError(file_.path, 0, "has no ATOM or HETATM records: no atoms");
+    std::vector<Warning>& warnings = contents_.warnings;
+    classify_atoms(contents_.atoms, warnings, hints_);
+    contents_.bonds = bonds_.bonds();
+    number_.warn(warnings, "no readable residue number; counted on from the residue before");
+    occupancy_.warn(warnings, "no readable occupancy; treated as missing");
+    b_factor_.warn(warnings, "no readable B-factor; treated as missing");
+    element_.warn(warnings, "no element column; elements were guessed from the names");
+    symbol_.warn(warnings, "a symbol of no element; it was guessed from the name");
+    if (unmarked_models_ > 0) {
+      warnings.emplace_back(
+          fmt::format("{} {} no MODEL or ENDMDL record; atoms behind END or MODEL were taken for a further model",
+                      unmarked_models_, unmarked_models_ == 1 ? "model has" : "models have"));
+    }
+    return std::move(contents_);
+  }
+
+ private:
+  void take(std::string_view line, std::size_t number) {
+    if (is_pdb_atom(line)) {
+      take_atom(line, number);
+    } else if (is_pdb_record(line, "TER")) {
+      if (open_ && wanted() && !contents_.atoms.empty()) ended_chains_.insert(contents_.atoms.back().chain);
+      residues_.end_piece();
+    } else if (is_pdb_record(line, "MODEL")) {
+      if (open_) ++unmarked_models_;
+      close_model();
+      in_model_record_ = true;
+    } else if (is_pdb_record(line, "ENDMDL")) {
+      close_model();
+      in_model_record_ = false;
+    } else if (is_pdb_record(line, "END")) {
+      ended_ = true;
+    } else if (is_pdb_record(line, "CONECT")) {
+      bonds_.add_record(line);
+    }
+  }
+
+  /// Atoms after END belong to a further model, as molecular dynamics programs write them.
+  void open_model() {
+    if (open_ && ended_ && !in_model_record_) {
+      ++unmarked_models_;
+      close_model();
+    }
+    ended_ = false;
+    if (open_) return;
+    ++contents_.models;
+    open_ = true;
+  }
+
+  void close_model() {
+    open_ = ended_ = false;
+    ended_chains_.clear();
+    residues_.end_piece();
+  }
+
+  std::int32_t model() const { return static_cast<std::int32_t>(contents_.models); }
+  bool wanted() const { return choice_.takes(model()); }
+
+  void take_atom(std::string_view line, std::size_t number) {
+    open_model();
+    if (!wanted()) {
+      ++contents_.other_model_atoms;
+      return;
+    }
+    if (line.size() < kCoordinatesEnd) {
+      throw InputError(file_.path, number,
+                       fmt::format("atom record {} is cut short at column {}; coordinates need 54 columns",
+                                   in_quotes(line), line.size()));
+    }
+    Atom atom;
+    atom.model = model();
+    for (int axis = 0; axis < 3; ++axis) {
+      const std::size_t column = 30 + 8 * static_cast<std::size_t>(axis);
+      atom.position[axis] = parse_coordinate(file_, number, "xyz"[axis], line.substr(column, 8));
+    }
+    read_pdb_names(line, atom);
+    if (!residue_numbers_.read(line, atom)) number_.add(number, line.substr(22, 4));
+    atom.occupancy = optional_number(line, 54, occupancy_, number);
+    atom.b_factor = optional_number(line, 60, b_factor_, number);
+    take_element(line, number, atom);
+    residues_.number(atom);
+    contents_.atoms.push_back(std::move(atom));
+    if (contents_.atoms.front().model == model()) bonds_.add_atom(line);
+  }
+
+  float optional_number(std::string_view line, std::size_t column, Oddity& oddity, std::size_t number) {
+    float value = 0.0F;
+    const std::string_view field = line.substr(std::min(line.size(), column), 6);
+    if (parse_single(field, value)) return value;
+    oddity.add(number, field);
+    return std::numeric_limits<float>::quiet_NaN();
+  }
+
+  /// TER marks what precedes it as polymer, yet some programs write one TER at the very end; so only HETATM behind a
+  /// TER of its chain is a statement, and where chains have no names, a TER may have ended another.
+  void take_element(std::string_view line, std::size_t number, Atom& atom) {
+    AtomHints& hints = hints_.emplace_back();
+    hints.heteroatom = is_pdb_record(line, "HETATM");
+    if (hints.heteroatom && !atom.chain.empty() && ended_chains_.contains(atom.chain))
+      hints.residue = ResidueStatement::other;
+    const std::string symbol(line.substr(std::min<std::size_t>(line.size(), 76), 2));
+    if (std::any_of(symbol.begin(), symbol.end(), is_letter)) {
+      atom.element = static_cast<std::uint8_t>(gemmi::Element(symbol).atomic_number());
+      if (atom.element == 0) symbol_.add(number, symbol);
+    } else {
+      element_.add(number, line.substr(12, 14));
+      hints.element = static_cast<std::uint8_t>(element_by_place(line.substr(12, 4)).atomic_number());
+    }
+  }
+
+  const TextFile& file_;
+  const ModelChoice& choice_;
+  FileContents contents_;
+  std::vector<AtomHints> hints_;
+  ResidueCounter residues_{contents_.atoms};
+  PdbBonds bonds_;
+  PdbResidueNumbers residue_numbers_;
+  std::set<std::string> ended_chains_;
+  bool open_ = false, ended_ = false, in_model_record_ = false;
+  std::size_t unmarked_models_ = 0;
+  Oddity number_, occupancy_, b_factor_, element_, symbol_;
+};
+
+bool recognizes(std::string_view text) {
+  const AtomRecordStyle style = style_of_atom_records(text);
+  if (style.any) return style.pdb;
+  constexpr std::array<std::string_view, 14> kOtherRecords{"HEADER", "TITLE ", "COMPND", "SOURCE", "REMARK",
+                                                           "CRYST1", "MODEL ", "SEQRES", "EXPDTA", "AUTHOR",
+                                                           "KEYWDS", "CONECT", "ENDMDL", "DBREF "};
+  LineReader lines(text);
+  for (std::string_view line; lines.next(line);) {
+    if (std::any_of(kOtherRecords.begin(), kOtherRecords.end(),
+                    [&](std::string_view record) { return is_pdb_record(line, record); }))
+      return true;
+  }
+  return false;
+}
+
+FileContents read(const TextFile& file, const ModelChoice& models) { return PdbReader(file, models).run(); }
+
+bool positions(std::string_view model, std::vector<glm::dvec3>& positions) {
+  LineReader lines(model);
+  positions.clear();
+  for (std::string_view line; lines.next(line);) {
+    if (!is_pdb_atom(line)) continue;
+    glm::dvec3& position = positions.emplace_back();
+    if (line.size() < kCoordinatesEnd || !parse_quickly(line.substr(30, 8), 1.0, position.x) ||
+        !parse_quickly(line.substr(38, 8), 1.0, position.y) || !parse_quickly(line.substr(46, 8), 1.0, position.z))
+      return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+const Reader kPdbReader{
+    {"PDB", ".pdb .ent .pdb1 .brk", "Protein Data Bank format, in fixed columns",
+     "wwPDB file format 3.3 (2012); hybrid-36 numbers by R. W. Grosse-Kunstleve",
+     "ATOM, HETATM, TER, MODEL, ENDMDL, END, CONECT; serial numbers (decimal, hybrid-36, hexadecimal, "
+     "stars) only name the atoms of CONECT, residue numbers (decimal, hybrid-36, hexadecimal) kept; chain names of "
+     "two letters, residue names of four, segments"},
+    recognizes,
+    read,
+    read_pdb_assemblies,
+    positions};
+
+}  // namespace meniscus

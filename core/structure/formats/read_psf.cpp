@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Reads PSF: the atoms, charges, masses and bonds of CHARMM, NAMD and X-PLOR, without coordinates.
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <gemmi/elem.hpp>
+
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/structure/atom_classes.h"
+#include "core/text/parse_number.h"
+#include "core/structure/formats/reader.h"
+#include "core/structure/residue_counter.h"
+#include "core/text/text_lines.h"
+
+namespace meniscus {
+namespace {
+
+constexpr std::string_view kOrganic = "HCNOPS";
+
+/// The element whose weight this is, within 0.1; 0 if there is none.
+std::uint8_t element_of_mass(double mass) {
+  int best = 0;
+  double least = 0.1;
+  for (int number = 1; number < 119; ++number) {
+    const double distance = std::abs(gemmi::Element(number).weight() - mass);
+    if (distance < least) {
+      least = distance;
+      best = number;
+    }
+  }
+  return static_cast<std::uint8_t>(best);
+}
+
+/// By the mass, which tells calcium from carbon, unless the name says another element of organic residues: where mass
+/// was moved from carbon and nitrogen to their hydrogens, NH weighs as much as C.
+std::uint8_t element_of(const std::string& name, double mass) {
+  const std::uint8_t by_mass = element_of_mass(mass);
+  const std::size_t letter = std::min(name.find_first_not_of("0123456789"), name.size());
+  const char first =
+      letter < name.size() ? static_cast<char>(std::toupper(static_cast<unsigned char>(name[letter]))) : ' ';
+  const bool named_organic = kOrganic.find(first) != std::string_view::npos;
+  const gemmi::Element heavy_or_light(int{by_mass});
+  const bool moved_mass = named_organic &&
+                          (by_mass == 2 || kOrganic.find(heavy_or_light.name()) != std::string_view::npos) &&
+                          heavy_or_light.name()[0] != first;
+  return moved_mass ? 0 : by_mass;
+}
+
+class PsfReader {
+ public:
+  explicit PsfReader(const TextFile& file) : file_(file), lines_(file.text) {}
+
+  FileContents run() {
+    std::string_view line;
+    lines_.next(line);
+    extended_ = line.find("EXT") != std::string_view::npos;
+    read_atoms(find_section("!NATOM"));
+    read_bonds(find_section("!NBOND"));
+    classify_atoms(contents_.atoms, contents_.warnings, {}, contents_.bonds);
+    contents_.without_positions = true;
+    contents_.models = 1;
+    return std::move(contents_);
+  }
+
+ private:
+  /// Goes to the line "N !NAME..."; the N.
+  std::size_t find_section(std::string_view name) {
+    for (std::string_view line; lines_.next(line);) {
+      const std::size_t at = line.find(name);
+      std::int64_t count = 0;
+      if (at == std::string_view::npos || !parse_whole_number(line.substr(0, at), count)) continue;  // a title, perhaps
+      if (count < 0) throw InputError(file_.path, lines_.number(), fmt::format("{} says {}", name, count));
+      if (static_cast<std::uint64_t>(count) > lines_.bytes_left() / 2) {
+        throw InputError(
+            file_.path, lines_.number(),
+            fmt::format("{} says {}, more than the {} bytes behind it can hold; is the file cut short?", name,
+                        with_thousands(static_cast<std::uint64_t>(count)), with_thousands(lines_.bytes_left())));
+      }
+      return static_cast<std::size_t>(count);
+    }
+    throw InputError(file_.path, 0, fmt::format("has no line with a number and {}; is the file cut short?", name));
+  }
+
+  void read_atoms(std::size_t count) {
+    const std::size_t count_line = lines_.number();
+    if (count == 0) throw InputError(file_.path, count_line, "lists no atoms");
+    for (std::size_t n = 0; n < count; ++n) {
+      std::string_view line;
+      if (!lines_.next(line)) refuse_short_frame(file_, count_line, count, n);
+      read_atom(line);
+    }
+  }
+
+  /// Number, segment, residue, its name, atom name, type, charge, mass, and what follows.
+  std::array<std::string_view, 7> columns_of(std::string_view line) const {
+    std::vector<std::string_view> fields = fields_of(line, 12);
+    if (fields.size() == 8) fields.insert(fields.begin() + 1, std::string_view());  // a blank segment
+    if (fields.size() < 9) {
+      throw InputError(
+          file_.path, lines_.number(),
+          fmt::format("{} is no atom: number, segment, residue, residue name, name, type, charge, mass and "
+                      "a flag; is the file cut short, or the number of atoms wrong?",
+                      in_quotes(line)));
+    }
+    return {fields[1], fields[2], fields[3], fields[4], fields[5], fields[6], fields[7]};
+  }
+
+  void read_atom(std::string_view line) {
+    const auto [segment, residue, residue_name, name, type, charge, mass] = columns_of(line);
+    Atom atom;
+    atom.segment = segment;
+    atom.chain = atom.subchain = atom.segment;
+    atom.residue_name = residue_name;
+    atom.name = name;
+    read_residue_number(residue, atom);
+    double weight = 0.0;
+    if (!parse_single(charge, atom.charge) || !parse_number(mass, weight)) {
+      throw InputError(file_.path, lines_.number(),
+                       fmt::format("charge {} and mass {} are not both numbers; columns may have run together",
+                                   in_quotes(charge), in_quotes(mass)));
+    }
+    atom.element = element_of(atom.name, weight);
+    residues_.number(atom);
+    contents_.atoms.push_back(std::move(atom));
+  }
+
+  /// "52" or "52A", with an insertion code.
+  void read_residue_number(std::string_view field, Atom& atom) const {
+    std::string_view digits = field;
+    if (!digits.empty() && std::isalpha(static_cast<unsigned char>(digits.back()))) {
+      atom.insertion_code = digits.back();
+      digits.remove_suffix(1);
+    }
+    std::int64_t number = 0;
+    if (!parse_whole_number(digits, number) || number < -99'999'999 || number > 99'999'999) {
+      throw InputError(file_.path, lines_.number(),
+                       fmt::format("residue {} is no number; columns may have run together", in_quotes(field)));
+    }
+    atom.residue_number = static_cast<std::int32_t>(number);
+  }
+
+  void read_bonds(std::size_t count) {
+    const std::size_t count_line = lines_.number();
+    std::vector<std::uint32_t> ends;
+    ends.reserve(2 * count);
+    for (std::string_view line; ends.size() < 2 * count && lines_.next(line);) {
+      if (line.find('!') != std::string_view::npos) break;  // the next section
+      take_bond_ends(line, 2 * count, ends);
+    }
+    if (ends.size() < 2 * count) {
+      throw InputError(file_.path, count_line,
+                       fmt::format("!NBOND says {} bonds, but {} follow; is the file cut short?", with_thousands(count),
+                                   with_thousands(ends.size() / 2)));
+    }
+    for (std::size_t n = 0; n < count; ++n) contents_.bonds.push_back({ends[2 * n], ends[2 * n + 1]});
+  }
+
+  /// Numbers fill their columns in the largest systems, so that no blank is left between them.
+  void take_bond_ends(std::string_view line, std::size_t most, std::vector<std::uint32_t>& ends) const {
+    const std::size_t width = extended_ ? 10 : 8;
+    const bool touching =
+        std::ranges::any_of(fields_of(line), [&](std::string_view field) { return field.size() > width; });
+    while (ends.size() < most) {
+      std::string_view field = touching ? line.substr(0, width) : take_field(line);
+      if (touching) line.remove_prefix(field.size());
+      if (trimmed(field).empty()) return;
+      std::int64_t atom = 0;
+      if (!parse_whole_number(field, atom) || atom < 1 || atom > static_cast<std::int64_t>(contents_.atoms.size())) {
+        throw InputError(file_.path, lines_.number(),
+                         fmt::format("a bond names atom {}; the atoms are 1 to {}", in_quotes(trimmed(field)),
+                                     with_thousands(contents_.atoms.size())));
+      }
+      ends.push_back(static_cast<std::uint32_t>(atom - 1));
+    }
+  }
+
+  const TextFile& file_;
+  LineReader lines_;
+  FileContents contents_;
+  ResidueCounter residues_{contents_.atoms};
+  bool extended_ = false;
+};
+
+bool recognizes(std::string_view text) {
+  return text.starts_with("PSF") && (text.size() == 3 || std::isspace(static_cast<unsigned char>(text[3])));
+}
+
+FileContents read(const TextFile& file, const ModelChoice&) { return PsfReader(file).run(); }
+
+}  // namespace
+
+const Reader kPsfReader{
+    {"PSF", ".psf", "topology of CHARMM, NAMD and X-PLOR, without coordinates: add --trajectory",
+     "CHARMM documentation, struct.info; NAMD tutorial, PSF files",
+     "atoms with segments (they are the chains), residues, names, charges; elements by mass and name; bonds; standard, "
+     "EXT, XPLOR and NAMD forms"},
+    recognizes,
+    read};
+
+}  // namespace meniscus

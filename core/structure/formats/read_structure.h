@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// From a file name to the atoms of a surface: format by content, one model, one alternate location, no water, no ions.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "core/structure/altloc.h"
+#include "core/structure/assembly.h"
+#include "core/structure/radii/assign_radii.h"
+#include "core/structure/formats/formats.h"
+#include "core/structure/selection/selection.h"
+#include "core/structure/structure.h"
+
+namespace meniscus {
+
+/// What to do with atoms whose element nobody can tell.
+enum class UnknownElement { halt, guess, skip };
+
+/// What to do with hydrogens. `automatic`: kept with radii for explicit hydrogens, left out with united atoms.
+enum class Hydrogens { automatic, keep, drop };
+
+struct ReadOptions {
+  ModelChoice model{};
+  AltlocChoice altloc{};
+  bool keep_water = false;
+  bool keep_ions = false;
+  UnknownElement unknown_element = UnknownElement::halt;  ///< guess: radius kRadiusWithoutSource; skip: leave out
+  std::string assembly{};                                 ///< id of the assembly to build; empty: as deposited
+  CopyMode copy_mode = CopyMode::atoms;                   ///< what becomes of its copies
+  bool list_assemblies = false;                           ///< fill in Structure::assemblies
+  /// Evaluated on what other models, altlocs and virtual sites leave, water and ions included. Water and ions that it
+  /// selects are used only if it names them (Selection::names) or keep_water, keep_ions.
+  std::optional<Selection> selection = {};
+  Hydrogens hydrogens = Hydrogens::automatic;
+  RadiiOptions radii{};
+  bool keep_topology = false;  ///< fill in Structure::topology
+  /// Where the atoms of a file without positions (PSF) stand, Å, one each in the order of the file.
+  std::vector<glm::dvec3> positions{};
+};
+
+/// Reads a file of any format in formats.h, plain or gzipped; "-" is standard input. Default: polymer and ligands in,
+/// water and free ions out, first model, best alternate location. Radii: the file's own (XYZR, PQR), else
+/// Bondi's.
+/// Throws InputError (see read_text_file and the readers; no such model; nothing selected; no atoms left; unknown
+/// elements), CapacityError.
+Structure read_structure(const std::string& path, const ReadOptions& options = {});
+
+}  // namespace meniscus

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Reads XYZ: frames of a count, a comment and a line for each atom.
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cctype>
+#include <optional>
+
+#include <fmt/format.h>
+#include <gemmi/elem.hpp>
+
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/structure/formats/reader.h"
+#include "core/text/parse_number.h"
+#include "core/text/text_lines.h"
+
+namespace meniscus {
+namespace {
+
+/// Which fields of a line hold what, counted from 0.
+struct Columns {
+  std::size_t element = 0;
+  std::size_t position = 1;  ///< and the two behind it
+  std::size_t count() const { return std::max(element + 1, position + 3); }
+};
+
+/// Extended XYZ says Properties=species:S:1:pos:R:3:... in its comment: name, kind, number of columns.
+Columns columns_of(std::string_view comment) {
+  Columns columns;
+  constexpr std::string_view kKey = "Properties=";
+  const std::size_t at = comment.find(kKey);
+  if (at == std::string_view::npos) return columns;
+  std::string_view rest = comment.substr(at + kKey.size());
+  if (rest.starts_with('"')) rest.remove_prefix(1);
+  rest = rest.substr(0, rest.find_first_of(" \t\""));
+  const auto take = [&rest] {
+    const std::string_view part = rest.substr(0, rest.find(':'));
+    rest.remove_prefix(std::min(rest.size(), part.size() + 1));
+    return part;
+  };
+  std::optional<std::size_t> species, number, position;
+  for (std::size_t column = 0; !rest.empty() && column < 1000;) {
+    const std::string_view name = take();
+    take();
+    std::int64_t width = 0;
+    if (!parse_whole_number(take(), width) || width < 1 || width > 1000) return columns;
+    if (name == "species") species = column;
+    if (name == "Z") number = column;
+    if (name == "pos" && width == 3) position = column;
+    column += static_cast<std::size_t>(width);
+  }
+  if ((!species && !number) || !position) return columns;
+  return {species ? *species : *number, *position};
+}
+
+/// Fortran writes exponents with D.
+bool parse_fortran_number(std::string_view field, double& number) {
+  if (parse_number(field, number)) return true;
+  std::string text(field);
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c == 'D' || c == 'd'; }, 'e');
+  return parse_number(text, number);
+}
+
+/// A symbol of any case, digits behind it aside ("C", "CL", "H12"), or an atomic number; 0 if it is neither.
+std::uint8_t element_of(std::string_view word) {
+  std::int64_t number = 0;
+  if (parse_whole_number(word, number)) return static_cast<std::uint8_t>(number > 0 && number <= 118 ? number : 0);
+  const std::string symbol(word.substr(0, word.find_first_of("0123456789_")));
+  return static_cast<std::uint8_t>(symbol.size() > 2 ? 0 : gemmi::Element(symbol).atomic_number());
+}
+
+bool is_atom_line(std::string_view line, const Columns& columns) {
+  const std::vector<std::string_view> fields = fields_of(line, columns.count());
+  if (fields.size() < columns.count()) return false;
+  double ignored = 0.0;
+  return std::all_of(fields.begin() + static_cast<std::ptrdiff_t>(columns.position),
+                     fields.begin() + static_cast<std::ptrdiff_t>(columns.position) + 3,
+                     [&](std::string_view field) { return parse_fortran_number(field, ignored); });
+}
+
+class XyzReader {
+ public:
+  XyzReader(const TextFile& file, const ModelChoice& models) : file_(file), choice_(models), lines_(file.text) {}
+
+  FileContents run() {
+    for (std::string_view line; lines_.next(line);) {
+      if (trimmed(line).empty()) continue;
+      read_frame(count_of(line));
+    }
+    if (contents_.atoms.empty() && contents_.other_model_atoms == 0) throw InputError(file_.path, 0, "holds no atoms");
+    return std::move(contents_);
+  }
+
+ private:
+  /// The shortest line of an atom is "H 0 0 0", but for its end.
+  std::size_t count_of(std::string_view line) const {
+    constexpr std::size_t kShortestLine = 8;
+    std::int64_t count = 0;
+    if (!parse_whole_number(line, count) || count < 0) {
+      throw InputError(file_.path, lines_.number(),
+                       fmt::format("{} should be the number of atoms of {}; {}", in_quotes(line),
+                                   contents_.models == 0 ? "the file" : "a further frame",
+                                   contents_.models == 0 ? "XYZ begins with it" : "does the count above say too few?"));
+    }
+    if (static_cast<std::uint64_t>(count) > (lines_.bytes_left() + 1) / kShortestLine) {
+      throw InputError(
+          file_.path, lines_.number(),
+          fmt::format("the count says {} atoms, more than the {} bytes behind it can hold; correct it",
+                      with_thousands(static_cast<std::uint64_t>(count)), with_thousands(lines_.bytes_left())));
+    }
+    return static_cast<std::size_t>(count);
+  }
+
+  void read_frame(std::size_t count) {
+    const std::size_t count_line = lines_.number();
+    ++contents_.models;
+    std::string_view line;
+    const Columns columns = lines_.next(line) ? columns_of(line) : Columns{};
+    const bool wanted = choice_.takes(static_cast<std::int32_t>(contents_.models));
+    for (std::size_t n = 0; n < count; ++n) {
+      if (!lines_.next(line)) refuse_short_frame(file_, count_line, count, n);
+      if (wanted) {
+        take_atom(line, columns);
+      } else {
+        ++contents_.other_model_atoms;
+      }
+    }
+  }
+
+  void take_atom(std::string_view line, const Columns& columns) {
+    const std::vector<std::string_view> fields = fields_of(line, columns.count());
+    if (fields.size() < columns.count()) {
+      throw InputError(file_.path, lines_.number(),
+                       fmt::format("{} has {} columns where an atom needs {} (element x y z); does the count of the "
+                                   "frame say too many?",
+                                   in_quotes(line), fields.size(), columns.count()));
+    }
+    Atom atom;
+    atom.model = static_cast<std::int32_t>(contents_.models);
+    atom.index = static_cast<std::uint32_t>(contents_.atoms.size());
+    atom.residue = choice_.all ? static_cast<std::uint32_t>(contents_.models - 1) : 0;
+    atom.name = fields[columns.element];
+    atom.element = element_of(fields[columns.element]);
+    for (int axis = 0; axis < 3; ++axis) {
+      const std::string_view field = fields[columns.position + static_cast<std::size_t>(axis)];
+      double number = 0.0;
+      atom.position[axis] = parse_fortran_number(field, number)
+                                ? check_extent(file_, lines_.number(), "xyz"[axis], number)
+                                : parse_coordinate(file_, lines_.number(), "xyz"[axis], field);
+    }
+    contents_.atoms.push_back(std::move(atom));
+  }
+
+  const TextFile& file_;
+  const ModelChoice& choice_;
+  LineReader lines_;
+  FileContents contents_;
+};
+
+bool recognizes(std::string_view text) {
+  LineReader lines(text);
+  std::string_view line;
+  std::int64_t count = 0;
+  if (!lines.next(line) || !parse_whole_number(line, count) || count < 0 || !lines.next(line)) return false;
+  const Columns columns = columns_of(line);
+  return lines.next(line) && is_atom_line(line, columns);
+}
+
+FileContents read(const TextFile& file, const ModelChoice& models) { return XyzReader(file, models).run(); }
+
+bool positions(std::string_view model, std::vector<glm::dvec3>& positions) {
+  LineReader lines(model);
+  std::string_view line;
+  std::int64_t count = 0;
+  if (!lines.next(line) || !parse_whole_number(line, count) || !lines.next(line)) return false;
+  const Columns columns = columns_of(line);
+  if (columns.element > columns.position) return false;
+  positions.clear();
+  while (lines.next(line)) {
+    glm::dvec3& position = positions.emplace_back();
+    for (std::size_t n = 0; n < columns.position; ++n) take_field(line);
+    for (int axis = 0; axis < 3; ++axis)
+      if (!parse_quickly(take_field(line), 1.0, position[axis])) return false;
+  }
+  return positions.size() == static_cast<std::uint64_t>(count);
+}
+
+}  // namespace
+
+const Reader kXyzReader{{"XYZ", ".xyz .extxyz", "element and position, frame by frame",
+                         "XMol (Minnesota Supercomputer Center); extended XYZ of ASE and libAtoms",
+                         "count, comment, then element (symbol or atomic number) x y z; further columns are ignored; "
+                         "Properties= of extended XYZ; exponents with D; each frame is a model"},
+                        recognizes,
+                        read,
+                        nullptr,
+                        positions};
+
+}  // namespace meniscus

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Reads XYZR: one ball a line, as MSMS and NanoShaper take it.
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/structure/formats/reader.h"
+#include "core/text/parse_number.h"
+#include "core/text/text_lines.h"
+
+namespace meniscus {
+namespace {
+
+constexpr std::string_view kLine = "x y z radius [name]";
+
+std::vector<std::string_view> fields_before_comment(std::string_view line) {
+  return fields_of(line.substr(0, line.find('#')), 5);
+}
+
+bool recognizes(std::string_view text) {
+  LineReader lines(text);
+  for (std::string_view line; lines.next(line);) {
+    const std::vector<std::string_view> fields = fields_before_comment(line);
+    if (fields.empty()) continue;
+    double ignored = 0.0;
+    return fields.size() >= 4 && parse_number(fields[0], ignored) && parse_number(fields[1], ignored);
+  }
+  return false;
+}
+
+FileContents read(const TextFile& file, const ModelChoice& models) {
+  FileContents contents;
+  contents.models = 1;
+  contents.radii_from_file = true;
+  LineReader lines(file.text);
+  for (std::string_view line; lines.next(line);) {
+    const std::vector<std::string_view> fields = fields_before_comment(line);
+    if (fields.empty()) continue;
+    if (fields.size() < 4) {
+      throw InputError(file.path, lines.number(),
+                       fmt::format("{} has fewer than four columns; a line is: {}", in_quotes(line), kLine));
+    }
+    Atom atom;
+    atom.index = atom.residue = static_cast<std::uint32_t>(contents.atoms.size());
+    for (int axis = 0; axis < 3; ++axis) {
+      atom.position[axis] = parse_coordinate(file, lines.number(), "xyz"[axis], fields[static_cast<std::size_t>(axis)]);
+    }
+    atom.radius = parse_radius(file, lines.number(), fields[3], kLine);
+    if (fields.size() > 4) atom.name = fields[4];
+    if (models.takes(1)) {
+      contents.atoms.push_back(std::move(atom));
+    } else {
+      ++contents.other_model_atoms;
+    }
+  }
+  return contents;
+}
+
+}  // namespace
+
+const Reader kXyzrReader{
+    {"XYZR", ".xyzr", "balls: centre and radius in Å, one a line", "Sanner, Olson & Spehner 1996 (input of MSMS)",
+     "x y z radius [name]; # begins a comment; radii as they are"},
+    recognizes,
+    read};
+
+}  // namespace meniscus

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Atoms of equal names and element are looked up once.
+#include "core/structure/radii/assign_radii.h"
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+#include <unordered_map>
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/text/parse_number.h"
+#include "core/structure/radii.h"
+
+namespace meniscus {
+namespace {
+
+bool is_hydrogen(const Atom& atom) { return atom.element == 1; }
+
+const char* atoms_word(std::size_t count) { return count == 1 ? "atom" : "atoms"; }
+
+void warn_of_elements_without_source(Structure& structure, const std::map<std::uint8_t, std::size_t>& elements) {
+  if (elements.empty()) return;
+  std::string list;
+  for (const auto& [element, count] : elements) {
+    list += fmt::format("{}{} ({} {})", list.empty() ? "" : ", ", element_symbol(element), with_thousands(count),
+                        atoms_word(count));
+  }
+  structure.report.warnings.emplace_back(
+      fmt::format("no published van der Waals radius for {}; {:.1f} Å is used", list, kRadiusWithoutSource));
+}
+
+}  // namespace
+
+RadiusOverride parse_radius_override(const std::string& text) {
+  const std::size_t sign = text.rfind('=');
+  double radius = 0.0;
+  if (sign == std::string::npos) {
+    throw SelectionError("a radius is missing; write EXPR=RADIUS, as in 'element Zn=1.1'",
+                         pointed_at(text, text.size()));
+  }
+  if (!parse_number(std::string_view(text).substr(sign + 1), radius) || radius <= 0.0 || radius > kLargestRadius) {
+    throw SelectionError(fmt::format("the radius must be a number of Å above 0, at most {}", kLargestRadius),
+                         pointed_at(text, sign + 1));
+  }
+  return {parse_selection(std::string_view(text).substr(0, sign)), radius};
+}
+
+RadiiChoice::RadiiChoice(const RadiiOptions& options, const std::string& molecule_file, bool has_radii)
+    : options_(options), tables_(read_radii_files(options.files)) {
+  if (options.set.empty()) {
+    from_file_ = has_radii && tables_.empty();
+  } else if (options.set == "file") {
+    if (!has_radii) throw InputError(molecule_file, 0, "holds no radii; choose another set: " + radii_set_names());
+    from_file_ = true;
+  } else {
+    set_ = find_radii_set(options.set);
+    if (!set_) {
+      throw InputError(molecule_file, 0,
+                       fmt::format("{} is no set of radii; there are {}", in_quotes(options.set), radii_set_names()));
+    }
+  }
+}
+
+bool RadiiChoice::united(bool any_hydrogens) const {
+  if (from_file_ || !any_hydrogens) return false;
+  const bool tables_united =
+      std::all_of(tables_.begin(), tables_.end(), [](const auto& table) { return table.united(); });
+  return tables_.empty() || !options_.set.empty() ? set_->united && tables_united : tables_united;
+}
+
+RadiiChoice::Given RadiiChoice::radius_for(const Atom& atom, bool hydrogens_used) const {
+  for (auto table = tables_.rbegin(); table != tables_.rend(); ++table) {
+    if (const auto found = table->find(atom, hydrogens_used)) return {*found};
+  }
+  if (from_file_) return {{atom.radius, element_symbol(atom.element), "the molecule file"}};
+  if (const auto found = set_->radius_of(atom)) return {*found, tables_.empty() || set_ != &kBondiSet};
+  return {*kBondiSet.radius_of(atom), false};
+}
+
+std::vector<RadiiChoice::Given> RadiiChoice::radii_for(const Structure& structure, bool hydrogens_used) const {
+  std::vector<Given> given;
+  given.reserve(structure.atoms.size());
+  std::unordered_map<std::string, Given> known;
+  for (const Atom& atom : structure.atoms) {
+    if (from_file_) {  // every atom has a radius of its own
+      given.push_back(radius_for(atom, hydrogens_used));
+      continue;
+    }
+    const std::string key = fmt::format("{}\n{}\n{}", atom.residue_name, atom.name, atom.element);
+    const auto [found, added] = known.try_emplace(key);
+    if (added) found->second = radius_for(atom, hydrogens_used);
+    given.push_back(found->second);
+  }
+  return given;
+}
+
+void RadiiChoice::override_radii(Structure& structure, std::vector<Given>& given) const {
+  for (const RadiusOverride& replacement : options_.overrides) {
+    const std::vector<bool> selected = replacement.atoms.evaluate(structure.atoms);
+    if (std::find(selected.begin(), selected.end(), true) == selected.end()) {
+      structure.report.warnings.emplace_back(
+          fmt::format("the radius of {} Å is given to no atom: none is selected by {}", replacement.radius,
+                      in_quotes(replacement.atoms.text())));
+    }
+    for (std::size_t n = 0; n < given.size(); ++n) {
+      if (!selected[n]) continue;
+      given[n] = {{replacement.radius, replacement.atoms.text(), "given for this run"}, true};
+      structure.atoms[n].radius = replacement.radius;
+    }
+  }
+}
+
+void RadiiChoice::warn(Structure& structure, const std::vector<Given>& given) const {
+  std::map<std::uint8_t, std::size_t> without_source;
+  std::vector<std::string> uncovered;
+  std::size_t hydrogens = 0;
+  for (std::size_t n = 0; n < given.size(); ++n) {
+    const Atom& atom = structure.atoms[n];
+    if (!given[n].covered) uncovered.push_back(label_of(atom));
+    if (is_hydrogen(atom)) ++hydrogens;
+    const bool by_element = !given[n].covered || set_ == &kBondiSet;
+    if (by_element && given[n].found.source == source_name(RadiusSource::none)) ++without_source[atom.element];
+  }
+  if (!uncovered.empty()) {
+    std::string sentence =
+        fmt::format("{} gives no radius to {} {}; Bondi's of the element is used (first: {})", name(),
+                    with_thousands(uncovered.size()), atoms_word(uncovered.size()), uncovered.front());
+    structure.report.warnings.emplace_back(std::move(sentence), std::move(uncovered));
+  }
+  if (hydrogens > 0 && united(true)) {
+    structure.report.warnings.emplace_back(
+        fmt::format("{} {} used beside radii of united atoms ({}), which contain them already; drop the hydrogens or "
+                    "choose radii for explicit ones",
+                    with_thousands(hydrogens), hydrogens == 1 ? "hydrogen is" : "hydrogens are", name()));
+  }
+  warn_of_elements_without_source(structure, without_source);
+}
+
+std::string RadiiChoice::name() const {
+  std::string names;
+  const auto add = [&names](const std::string& part) { names += (names.empty() ? "" : ", ") + part; };
+  for (const RadiiTable& table : tables_) add(table.source());
+  if (from_file_) {
+    add("file");
+  } else if (tables_.empty() || set_ != &kBondiSet) {
+    add(std::string(set_->name));
+  }
+  for (const RadiusOverride& change : options_.overrides)
+    add(fmt::format("{} = {} Å", escaped(change.atoms.text()), change.radius));
+  return names;
+}
+
+std::vector<std::string> RadiiChoice::assign(Structure& structure) const {
+  const bool hydrogens_used = std::any_of(structure.atoms.begin(), structure.atoms.end(), is_hydrogen);
+  std::vector<Given> given = radii_for(structure, hydrogens_used);
+  for (std::size_t n = 0; n < given.size(); ++n) structure.atoms[n].radius = given[n].found.radius;
+  override_radii(structure, given);
+  warn(structure, given);
+  structure.radii_set = name();
+
+  std::vector<std::string> unknown;
+  std::map<std::tuple<std::string, double, std::string>, std::size_t> classes;
+  std::size_t kept = 0;
+  for (std::size_t n = 0; n < given.size(); ++n) {
+    Atom& atom = structure.atoms[n];
+    const bool guessed = !from_file_ && atom.element == 0 && given[n].found.label == "unknown";
+    if (guessed) unknown.push_back(label_of(atom));
+    if (atom.radius == 0.0) {
+      ++structure.report.excluded[kExcludedRadius];
+      continue;
+    }
+    ++classes[{std::string(given[n].found.label), atom.radius, std::string(given[n].found.source)}];
+    if (kept != n) structure.atoms[kept] = std::move(atom);
+    ++kept;
+  }
+  structure.atoms.resize(kept);
+  structure.report.used = kept;
+  for (const auto& [what, count] : classes) {
+    structure.radius_classes.push_back({std::get<0>(what), std::get<1>(what), std::get<2>(what), count});
+  }
+  return unknown;
+}
+
+}  // namespace meniscus

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Which radius each atom gets: tables and sets in their order, overrides, and the account of it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/structure/radii/radii_file.h"
+#include "core/structure/radii/radii_set.h"
+#include "core/structure/selection/selection.h"
+#include "core/structure/structure.h"
+
+namespace meniscus {
+
+/// The radius of some atoms, whatever else says.
+struct RadiusOverride {
+  Selection atoms;
+  double radius;  ///< Å, above 0
+};
+
+struct RadiiOptions {
+  std::string set{};                        ///< "bondi", "united", "protor" or "file"; empty: file if it has radii
+  std::vector<std::string> files{};         ///< read_radii_files; the last that covers an atom counts, then the set
+  std::vector<RadiusOverride> overrides{};  ///< the last that selects an atom counts
+};
+
+/// Reads "EXPR=R", cut at the last "=". Throws SelectionError.
+RadiusOverride parse_radius_override(const std::string& text);
+
+/// Where radii come from, once files are read.
+class RadiiChoice {
+ public:
+  /// Throws InputError: an unknown set, "file" for a molecule file without radii, or what read_radii_files throws.
+  RadiiChoice(const RadiiOptions& options, const std::string& molecule_file, bool has_radii);
+
+  bool from_molecule_file() const { return from_file_; }
+  /// Do the radii contain hydrogens, so that these are left out unless the user keeps them? `any`: the molecule has
+  /// some.
+  bool united(bool any_hydrogens) const;
+
+  /// Gives every atom its radius and leaves out those whose radius is zero (tables say so of some hydrogens). Fills in
+  /// Structure::radii_set and radius_classes. Warns of atoms that neither files nor set cover, which get Bondi's radius
+  /// of their element; of explicit hydrogens beside united atoms; of elements without a published radius; of overrides
+  /// that select nothing. Returns the labels of atoms whose radius is a guess because nobody knows their element.
+  std::vector<std::string> assign(Structure& structure) const;
+
+ private:
+  struct Given {
+    FoundRadius found;
+    bool covered = true;  // by what the user chose, not by the element for want of better
+  };
+  Given radius_for(const Atom& atom, bool hydrogens_used) const;
+  std::vector<Given> radii_for(const Structure& structure, bool hydrogens_used) const;
+  void override_radii(Structure& structure, std::vector<Given>& given) const;
+  void warn(Structure& structure, const std::vector<Given>& given) const;
+  std::string name() const;
+
+  const RadiiOptions& options_;
+  std::vector<RadiiTable> tables_;
+  const RadiiSet* set_ = &kBondiSet;
+  bool from_file_ = false;
+};
+
+}  // namespace meniscus

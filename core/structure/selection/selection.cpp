@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Evaluates understood selections: each step over all atoms at once, sets on a stack.
+#include "core/structure/selection/selection.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <tuple>
+#include <unordered_set>
+
+#include "core/structure/point_tree.h"
+#include "core/structure/selection/selection_classes.h"
+#include "core/structure/selection/selection_steps.h"
+
+namespace meniscus {
+namespace {
+
+std::string text_of(AtomField field, const Atom& atom) {
+  switch (field) {
+    case AtomField::chain:
+      return atom.chain;
+    case AtomField::residue_name:
+      return atom.residue_name;
+    case AtomField::altloc:
+      return atom.altloc == ' ' ? std::string() : std::string(1, atom.altloc);
+    default:
+      return atom.name;
+  }
+}
+
+double number_of(AtomField field, const Atom& atom) {
+  switch (field) {
+    case AtomField::element:
+      return atom.element;
+    case AtomField::residue_number:
+      return atom.residue_number;
+    case AtomField::index:
+      return atom.index;
+    case AtomField::serial:
+      return atom.index + 1.0;
+    case AtomField::model:
+      return atom.model;
+    case AtomField::b_factor:
+      return atom.b_factor;
+    case AtomField::occupancy:
+      return atom.occupancy;
+    case AtomField::charge:
+      return atom.charge;
+    case AtomField::radius:
+      return atom.radius;
+    case AtomField::x:
+      return atom.position.x;
+    case AtomField::y:
+      return atom.position.y;
+    default:
+      return atom.position.z;
+  }
+}
+
+/// Atoms keep some values in single precision: 20.1 in the file must equal 20.1 in the expression.
+double as_kept(AtomField field, double value) {
+  const bool single = field == AtomField::b_factor || field == AtomField::occupancy || field == AtomField::charge;
+  return single ? static_cast<float>(value) : value;
+}
+
+bool meets(double left, Comparison comparison, double right) {
+  switch (comparison) {
+    case Comparison::less:
+      return left < right;
+    case Comparison::less_or_equal:
+      return left <= right;
+    case Comparison::greater:
+      return left > right;
+    case Comparison::greater_or_equal:
+      return left >= right;
+    case Comparison::equal:
+      return left == right;
+    case Comparison::not_equal:
+      return left < right || left > right;  // false for a missing value
+  }
+  return false;
+}
+
+using Set = std::vector<bool>;
+
+template <typename Predicate>
+Set atoms_where(std::span<const Atom> atoms, Predicate&& predicate) {
+  Set set(atoms.size());
+  for (std::size_t n = 0; n < atoms.size(); ++n) set[n] = predicate(atoms[n]);
+  return set;
+}
+
+/// Carries out one step after another; each overload is a kind of step.
+class Evaluation {
+ public:
+  explicit Evaluation(std::span<const Atom> atoms) : atoms_(atoms) {}
+
+  void operator()(const FlagTest& test) { stack_.push_back(atoms_with(test.flag, atoms_)); }
+
+  void operator()(const TextTest& test) {
+    stack_.push_back(atoms_where(atoms_, [&](const Atom& atom) {
+      const std::string text = text_of(test.field, atom);
+      return std::any_of(test.values.begin(), test.values.end(),
+                         [&](const TextPattern& pattern) { return matches(pattern, text); });
+    }));
+  }
+
+  void operator()(const NumberTest& test) {
+    stack_.push_back(atoms_where(atoms_, [&](const Atom& atom) {
+      const double value = number_of(test.field, atom);
+      return std::any_of(test.ranges.begin(), test.ranges.end(), [&](const std::array<double, 2>& range) {
+        return value >= as_kept(test.field, range[0]) && value <= as_kept(test.field, range[1]);
+      });
+    }));
+  }
+
+  void operator()(const ResidueTest& test) {
+    stack_.push_back(atoms_where(atoms_, [&](const Atom& atom) {
+      const ResidueTest::Id id{atom.residue_number, atom.insertion_code};
+      return std::any_of(test.ranges.begin(), test.ranges.end(),
+                         [&](const std::array<ResidueTest::Id, 2>& range) { return range[0] <= id && id <= range[1]; });
+    }));
+  }
+
+  void operator()(const CompareTest& test) {
+    const double value = as_kept(test.field, test.value);
+    stack_.push_back(atoms_where(
+        atoms_, [&](const Atom& atom) { return meets(number_of(test.field, atom), test.comparison, value); }));
+  }
+
+  void operator()(NotStep) { top().flip(); }
+
+  void operator()(AndStep) {
+    const Set right = pop();
+    for (std::size_t n = 0; n < right.size(); ++n) top()[n] = top()[n] && right[n];
+  }
+
+  void operator()(OrStep) {
+    const Set right = pop();
+    for (std::size_t n = 0; n < right.size(); ++n) top()[n] = top()[n] || right[n];
+  }
+
+  void operator()(const WithinStep& step) {
+    Set& set = top();
+    std::vector<glm::dvec3> points;
+    for (std::size_t n = 0; n < atoms_.size(); ++n) {
+      if (set[n]) points.push_back(atoms_[n].position);
+    }
+    const PointTree tree(std::move(points));
+    for (std::size_t n = 0; n < atoms_.size(); ++n) {
+      set[n] = set[n] ? step.with_the_set : tree.any_within(atoms_[n].position, step.distance);
+    }
+  }
+
+  void operator()(const WholeStep& step) {
+    Set& set = top();
+    if (step.chains) {
+      std::set<std::pair<std::int32_t, std::string>> chains;
+      for (std::size_t n = 0; n < atoms_.size(); ++n) {
+        if (set[n]) chains.emplace(atoms_[n].model, atoms_[n].chain);
+      }
+      set = atoms_where(atoms_, [&](const Atom& atom) { return chains.contains({atom.model, atom.chain}); });
+    } else {
+      std::unordered_set<std::uint32_t> residues;
+      for (std::size_t n = 0; n < atoms_.size(); ++n) {
+        if (set[n]) residues.insert(atoms_[n].residue);
+      }
+      set = atoms_where(atoms_, [&](const Atom& atom) { return residues.contains(atom.residue); });
+    }
+  }
+
+  Set pop() {
+    Set set = std::move(stack_.back());
+    stack_.pop_back();
+    return set;
+  }
+
+ private:
+  Set& top() { return stack_.back(); }
+
+  std::span<const Atom> atoms_;
+  std::vector<Set> stack_;
+};
+
+/// Do the step's values, wildcards aside, say what this atom is?
+bool names_by(const SelectionStep& step, const Atom& atom, const std::set<std::string>& names_of_others) {
+  if (const auto* test = std::get_if<FlagTest>(&step)) {
+    return (test->flag == AtomFlag::water && atom.kind == AtomClass::water) ||
+           (test->flag == AtomFlag::ion && atom.kind == AtomClass::ion);
+  }
+  const bool ion = atom.kind == AtomClass::ion;
+  if (const auto* test = std::get_if<NumberTest>(&step)) {
+    return ion && test->field == AtomField::element &&
+           std::any_of(test->ranges.begin(), test->ranges.end(),
+                       [&](const std::array<double, 2>& range) { return range[0] == atom.element; });
+  }
+  const auto* test = std::get_if<TextTest>(&step);
+  if (!test) return false;
+  const bool by_atom_name = test->field == AtomField::name && ion && !names_of_others.contains(atom.name);
+  if (test->field != AtomField::residue_name && !by_atom_name) return false;
+  return std::any_of(test->values.begin(), test->values.end(), [&](const TextPattern& pattern) {
+    return !pattern.wildcards && pattern.text == text_of(test->field, atom);
+  });
+}
+
+}  // namespace
+
+bool matches(const TextPattern& pattern, const std::string& text) {
+  if (!pattern.wildcards) return pattern.text == text;
+  std::size_t p = 0, t = 0, star = std::string::npos, retry = 0;
+  while (t < text.size()) {
+    if (p < pattern.text.size() && pattern.text[p] == '*') {
+      star = p++;
+      retry = t;
+    } else if (p < pattern.text.size() && (pattern.text[p] == '?' || pattern.text[p] == text[t])) {
+      ++p;
+      ++t;
+    } else if (star != std::string::npos) {
+      p = star + 1;
+      t = ++retry;
+    } else {
+      return false;
+    }
+  }
+  return pattern.text.find_first_not_of('*', p) == std::string::npos;
+}
+
+std::vector<bool> Selection::evaluate(std::span<const Atom> atoms) const {
+  Evaluation evaluation(atoms);
+  for (const SelectionStep& step : steps_->steps) std::visit(evaluation, step);
+  return evaluation.pop();
+}
+
+std::vector<bool> Selection::names(std::span<const Atom> atoms) const {
+  std::set<std::string> names_of_others;
+  for (const Atom& atom : atoms) {
+    if (atom.kind != AtomClass::ion) names_of_others.insert(atom.name);
+  }
+  return atoms_where(atoms, [&](const Atom& atom) {
+    return (atom.kind == AtomClass::water || atom.kind == AtomClass::ion) &&
+           std::any_of(steps_->steps.begin(), steps_->steps.end(),
+                       [&](const SelectionStep& step) { return names_by(step, atom, names_of_others); });
+  });
+}
+
+bool Selection::uses_radius() const {
+  return std::any_of(steps_->steps.begin(), steps_->steps.end(), [](const SelectionStep& step) {
+    const auto* numbers = std::get_if<NumberTest>(&step);
+    const auto* comparison = std::get_if<CompareTest>(&step);
+    return (numbers && numbers->field == AtomField::radius) || (comparison && comparison->field == AtomField::radius);
+  });
+}
+
+}  // namespace meniscus

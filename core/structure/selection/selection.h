@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Sets of atoms by expression, in the words that users of PyMOL, VMD, MDAnalysis and gmx know.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/structure/structure.h"
+
+namespace meniscus {
+
+struct SelectionSteps;
+
+/// An expression that has been understood. Copies share it.
+class Selection {
+ public:
+  /// One truth value an atom. A value that an atom lacks (NaN) meets no comparison. `within` measures between atoms of
+  /// this span, in Å, without periodic images, exactly: squared distance <= squared limit in double. Time is linear in
+  /// atoms, n log n for `within`.
+  std::vector<bool> evaluate(std::span<const Atom> atoms) const;
+
+  /// Per atom: is it water or an ion, and does the expression speak of it? It does by the keyword of the class, by a
+  /// residue name without wildcards, and of an ion also by its element or by an atom name that nothing but ions has in
+  /// `atoms` (so that `name CA` does not mean calcium where there are alpha carbons).
+  std::vector<bool> names(std::span<const Atom> atoms) const;
+
+  /// Does it ask for radii, which not every moment knows?
+  bool uses_radius() const;
+
+  const std::string& text() const { return text_; }
+
+ private:
+  friend Selection parse_selection(std::string_view text);
+  Selection() = default;
+  std::string text_;
+  std::shared_ptr<const SelectionSteps> steps_;
+};
+
+/// Understands an expression (selection_words.h lists the words). Throws SelectionError: a sentence, the expression and
+/// a caret under the place. At most kLongestSelection bytes and kDeepestSelection levels of nesting.
+Selection parse_selection(std::string_view text);
+
+inline constexpr std::size_t kLongestSelection = 65'536;
+inline constexpr int kDeepestSelection = 200;
+
+}  // namespace meniscus

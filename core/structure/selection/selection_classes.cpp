@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Residue by residue where the answer depends on its other atoms, else atom by atom.
+#include "core/structure/selection/selection_classes.h"
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+
+#include "core/structure/residue_names.h"
+
+namespace meniscus {
+namespace {
+
+enum class Chemistry : std::uint8_t { other, protein, nucleic };
+
+bool among(std::string_view names, const std::string& name) {
+  if (name.empty() || name.find(' ') != std::string::npos) return false;
+  return names.find(' ' + name + ' ') != std::string_view::npos;
+}
+
+// After IUPAC-IUB 1970 and 1983, with the older names of phosphate oxygens (O1P) and sugars (C5*).
+constexpr std::string_view kProteinBackbone = " N CA C O ";
+constexpr std::string_view kProteinMainChain =
+    " N CA C O OXT OT OT1 OT2 H H1 H2 H3 HN HT1 HT2 HT3 1H 2H 3H HA HA1 HA2 HA3 1HA 2HA HXT D D1 D2 D3 DA ";
+constexpr std::string_view kNucleicBackbone = " P OP1 OP2 OP3 O1P O2P O3P O5' C5' C4' C3' O3' O5* C5* C4* C3* O3* ";
+constexpr std::string_view kPhosphateHydrogens = " HOP2 HOP3 HO5 HO3 H5T H3T ";
+
+/// Names of nucleotide atoms carry a prime (or an asterisk) in the sugar, and begin with P or say P in the phosphate.
+bool is_base_atom(const std::string& name) {
+  return name.find_first_of("'*P") == std::string::npos && !among(kPhosphateHydrogens, name);
+}
+
+Chemistry chemistry_of(std::span<const Atom> residue) {
+  const Atom& head = residue.front();
+  if (is_amino_acid_name(head.residue_name)) return Chemistry::protein;
+  if (is_nucleotide_name(head.residue_name)) return Chemistry::nucleic;
+  if (head.kind != AtomClass::polymer) return Chemistry::other;
+  const auto has = [&](std::string_view name) {
+    return std::any_of(residue.begin(), residue.end(), [&](const Atom& atom) { return atom.name == name; });
+  };
+  if (has("N") && has("CA") && has("C")) return Chemistry::protein;
+  return has("C4'") || has("C4*") ? Chemistry::nucleic : Chemistry::other;
+}
+
+bool answers(AtomFlag flag, Chemistry chemistry, const Atom& atom) {
+  const bool protein = chemistry == Chemistry::protein, nucleic = chemistry == Chemistry::nucleic;
+  switch (flag) {
+    case AtomFlag::protein:
+      return protein;
+    case AtomFlag::nucleic:
+      return nucleic;
+    case AtomFlag::backbone:
+      return among(protein ? kProteinBackbone : nucleic ? kNucleicBackbone : std::string_view(), atom.name);
+    case AtomFlag::sidechain:
+      return (protein && !among(kProteinMainChain, atom.name)) || (nucleic && is_base_atom(atom.name));
+    default:
+      return false;
+  }
+}
+
+bool answers(AtomFlag flag, const Atom& atom) {
+  switch (flag) {
+    case AtomFlag::all:
+      return true;
+    case AtomFlag::polymer:
+      return atom.kind == AtomClass::polymer;
+    case AtomFlag::ligand:
+      return atom.kind == AtomClass::ligand;
+    case AtomFlag::water:
+      return atom.kind == AtomClass::water;
+    case AtomFlag::ion:
+      return atom.kind == AtomClass::ion;
+    case AtomFlag::hydrogen:
+      return atom.element == 1;
+    default:
+      return false;
+  }
+}
+
+bool needs_residues(AtomFlag flag) {
+  return flag == AtomFlag::protein || flag == AtomFlag::nucleic || flag == AtomFlag::backbone ||
+         flag == AtomFlag::sidechain;
+}
+
+}  // namespace
+
+std::vector<bool> atoms_with(AtomFlag flag, std::span<const Atom> atoms) {
+  std::vector<bool> result(atoms.size());
+  if (!needs_residues(flag)) {
+    for (std::size_t n = 0; n < atoms.size(); ++n) result[n] = answers(flag, atoms[n]);
+    return result;
+  }
+  std::size_t last = 0;
+  for (std::size_t first = 0; first < atoms.size(); first = last) {
+    const Atom& head = atoms[first];
+    while (last < atoms.size() && atoms[last].residue == head.residue && atoms[last].residue_name == head.residue_name)
+      ++last;
+    const Chemistry chemistry = chemistry_of(atoms.subspan(first, last - first));
+    for (std::size_t n = first; n < last; ++n) result[n] = answers(flag, chemistry, atoms[n]);
+  }
+  return result;
+}
+
+}  // namespace meniscus

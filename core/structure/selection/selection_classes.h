@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Answers the questions of a selection that are about what an atom is: protein, backbone, water, ...
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/structure/selection/selection_steps.h"
+#include "core/structure/structure.h"
+
+namespace meniscus {
+
+/// One truth value an atom. Protein and nucleic are residues with a known name; other residues of polymers count by
+/// their atoms: N, CA and C make an amino acid, C4' or C4* a nucleotide.
+std::vector<bool> atoms_with(AtomFlag flag, std::span<const Atom> atoms);
+
+}  // namespace meniscus

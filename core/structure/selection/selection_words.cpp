@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The table of words, and the manual page made of it.
+#include "core/structure/selection/selection_words.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "core/structure/selection/selection_steps.h"
+
+namespace meniscus {
+namespace {
+
+constexpr std::uint8_t of(AtomFlag flag) { return static_cast<std::uint8_t>(flag); }
+constexpr std::uint8_t of(AtomField field) { return static_cast<std::uint8_t>(field); }
+
+constexpr SelectionWord kWords[] = {
+    {"chain chainid segid", WordKind::text, of(AtomField::chain), "chain A B", "chains by name"},
+    {"resid resi resnum", WordKind::residue, of(AtomField::residue_number), "resid 5 10-20 52A",
+     "residues by number; ranges 5-10, 5:10, 5 to 10"},
+    {"resname resn", WordKind::text, of(AtomField::residue_name), "resname ALA G*", "residues by name"},
+    {"name", WordKind::text, of(AtomField::name), "name CA C?", "atoms by name"},
+    {"element elem", WordKind::element, of(AtomField::element), "element C Zn", "atoms by element"},
+    {"altloc alt", WordKind::text, of(AtomField::altloc), "altloc A", "alternate location; '' for none"},
+    {"index", WordKind::whole, of(AtomField::index), "index 0 to 99", "place in the file, from 0"},
+    {"serial bynum", WordKind::whole, of(AtomField::serial), "serial 1 to 100",
+     "place in the file, from 1, whatever numbers it gives"},
+    {"model", WordKind::whole, of(AtomField::model), "model 1", "model of the file, from 1"},
+
+    {"bfactor b beta tempfactor", WordKind::number, of(AtomField::b_factor), "bfactor > 40",
+     "B-factor in Å²; < <= > >= = !="},
+    {"occupancy q", WordKind::number, of(AtomField::occupancy), "occupancy < 1", "occupancy"},
+    {"charge", WordKind::number, of(AtomField::charge), "charge > 0.5", "partial charge in e, where the file has it"},
+    {"radius", WordKind::number, of(AtomField::radius), "radius >= 1.8",
+     "radius in Å; not in --select unless from file"},
+    {"x", WordKind::number, of(AtomField::x), "x > 0", "coordinate in Å"},
+    {"y", WordKind::number, of(AtomField::y), "y < -5.5", "coordinate in Å"},
+    {"z", WordKind::number, of(AtomField::z), "z 0 to 10", "coordinate in Å"},
+
+    {"all", WordKind::flag, of(AtomFlag::all), "all", "every atom"},
+    {"none", WordKind::flag, of(AtomFlag::none), "none", "no atom"},
+    {"protein", WordKind::flag, of(AtomFlag::protein), "protein", "amino acids and their caps"},
+    {"nucleic", WordKind::flag, of(AtomFlag::nucleic), "nucleic", "DNA and RNA"},
+    {"polymer", WordKind::flag, of(AtomFlag::polymer), "polymer", "all chains of residues"},
+    {"ligand", WordKind::flag, of(AtomFlag::ligand), "ligand", "what is no polymer, water or ion"},
+    {"water waters solvent", WordKind::flag, of(AtomFlag::water), "water", "water molecules"},
+    {"ion ions", WordKind::flag, of(AtomFlag::ion), "ion", "free ions: lone metal and halogen atoms"},
+    {"hydrogen hydrogens hydro", WordKind::flag, of(AtomFlag::hydrogen), "hydrogen", "hydrogen and deuterium"},
+    {"backbone bb", WordKind::flag, of(AtomFlag::backbone), "backbone",
+     "N CA C O of protein; phosphate and sugar chain P to O3' of nucleic"},
+    {"sidechain", WordKind::flag, of(AtomFlag::sidechain), "sidechain",
+     "protein without its main chain (with its hydrogens and ends); bases of nucleic"},
+
+    {"within", WordKind::distance, 1, "within 5 of (EXPR)", "at most 5 Å from an atom of EXPR; EXPR itself too"},
+    {"exwithin around", WordKind::distance, 0, "exwithin 5 of (EXPR)", "the same without EXPR itself"},
+    {"byres byresidue", WordKind::group, 0, "byres (EXPR)", "whole residues that have an atom in EXPR"},
+    {"bychain", WordKind::group, 1, "bychain (EXPR)", "whole chains that have an atom in EXPR"},
+    {"same", WordKind::same, 0, "same residue as (EXPR)", "as byres; same chain as: as bychain"},
+
+    {"not", WordKind::operation, 0, "not EXPR", "or !; binds most tightly"},
+    {"and", WordKind::operation, 0, "EXPR and EXPR", "or &"},
+    {"or", WordKind::operation, 0, "EXPR or EXPR", "or |; binds least"},
+};
+
+std::string lower_case(std::string_view word) {
+  std::string lower(word);
+  for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return lower;
+}
+
+/// Calls visit(entry, word) for each word of each entry.
+template <typename Visit>
+void for_each_word(Visit&& visit) {
+  for (const SelectionWord& entry : kWords) {
+    std::string_view rest = entry.words;
+    while (!rest.empty()) {
+      const std::string_view word = rest.substr(0, rest.find(' '));
+      visit(entry, word);
+      rest.remove_prefix(std::min(rest.size(), word.size() + 1));
+    }
+  }
+}
+
+/// Letters to change, insert or drop to get from one word to the other (Levenshtein 1966).
+std::size_t letters_apart(std::string_view from, std::string_view to) {
+  std::vector<std::size_t> row(to.size() + 1);
+  for (std::size_t j = 0; j <= to.size(); ++j) row[j] = j;
+  for (std::size_t i = 1; i <= from.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= to.size(); ++j) {
+      const std::size_t changed = diagonal + (from[i - 1] == to[j - 1] ? 0 : 1);
+      diagonal = row[j];
+      row[j] = std::min({changed, row[j] + 1, row[j - 1] + 1});
+    }
+  }
+  return row[to.size()];
+}
+
+constexpr std::string_view kExamples = R"(Examples:
+  chain A and resid 10-50
+  protein and not hydrogen
+  byres (within 5 of resname ATP)
+  (chain A or chain B) and bfactor < 40
+  name CA CB "C1*" and not resname GLY
+)";
+
+constexpr std::string_view kRules = R"(
+Rules:
+  Keywords are read in any case; values (chains, names) as they stand, only elements in any case.
+  Lists of values: A B C, A,B,C or A+B+C. * stands for any letters and ? for one; quotes ("..." or
+  '...') take a value as it is, and are needed for a value that is also a keyword.
+  Ranges of residues follow number and insertion code: 52 < 52A < 53.
+  A set after within, around, byres, bychain or same ... as stands in parentheses where and/or follows.
+  Distances are exact and between the atoms of the file, without periodic images.
+  Values that an atom lacks (B-factor, charge) meet no comparison.
+
+Water and free ions:
+  They take part in the expression (within 5 of water works), but are left out of the surface even where
+  chain A or all selects them, unless --keep-water or --keep-ions is given or the expression names them:
+  water by the keyword or its residue name; ions by the keyword, residue name, element or atom name (a
+  name that other atoms of the file have too, as CA, does not name an ion). Then the expression decides.
+)";
+
+}  // namespace
+
+std::span<const SelectionWord> selection_words() { return kWords; }
+
+const SelectionWord* find_selection_word(std::string_view word) {
+  const std::string lower = lower_case(word);
+  const SelectionWord* found = nullptr;
+  for_each_word([&](const SelectionWord& entry, std::string_view known) {
+    if (known == lower) found = &entry;
+  });
+  return found;
+}
+
+std::string_view nearest_selection_word(std::string_view word) {
+  constexpr std::size_t kLongestWord = 20;
+  if (word.size() > kLongestWord) return {};
+  const std::string lower = lower_case(word);
+  std::size_t fewest = std::min<std::size_t>(3, (word.size() + 1) / 2);
+  std::string_view nearest;
+  for_each_word([&](const SelectionWord&, std::string_view known) {
+    const std::size_t apart = letters_apart(lower, known);
+    if (known.size() > 2 && apart < fewest) {
+      fewest = apart;
+      nearest = known;
+    }
+  });
+  return nearest;
+}
+
+std::string selection_help() {
+  std::string help(kExamples);
+  help += "\nWords:\n";
+  for (const SelectionWord& entry : kWords) {
+    const std::size_t blank = entry.words.find(' ');
+    std::string others;
+    if (blank != std::string_view::npos) {
+      others = fmt::format(" (also: {})", entry.words.substr(blank + 1));
+    }
+    help += fmt::format("  {:<24}{}{}\n", entry.usage, entry.help, others);
+  }
+  return help += kRules;
+}
+
+}  // namespace meniscus

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A molecule as read from a file: its atoms, and the account of what was read, left out and used.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "core/math/ball.h"
+#include "core/math/rigid_motion.h"
+
+namespace meniscus {
+
+/// What an atom belongs to. `unclassified`: the format does not say (XYZ, XYZR).
+enum class AtomClass : std::uint8_t { polymer, ligand, water, ion, unclassified };
+
+/// "polymer", "ligand", "water", "ion" or "unclassified".
+const char* class_name(AtomClass kind);
+
+/// One atom. Text fields come from the file as they are: never paste them into the source code of another program.
+struct Atom {
+  glm::dvec3 position{0.0};  ///< Å
+  double radius = 0.0;  ///< van der Waals radius in Å: from the file (PQR, XYZR), or 0 until a radii set fills it in
+  std::uint8_t element = 0;  ///< atomic number; 0: unknown, or the format does not say
+  AtomClass kind = AtomClass::unclassified;
+  char insertion_code = ' ';
+  char altloc = ' ';          ///< letter of the alternate location, blank for none
+  std::uint32_t index = 0;    ///< place in the file, from 0, counting every atom of every model that was read
+  std::uint32_t residue = 0;  ///< running number of the residue, from 0; residues whose numbers wrapped stay distinct
+  std::int32_t model = 1;     ///< which model of the file, from 1
+  std::int32_t residue_number = 0;
+  float occupancy = std::numeric_limits<float>::quiet_NaN();  ///< NaN: missing
+  float b_factor = std::numeric_limits<float>::quiet_NaN();   ///< Å²; NaN: missing
+  float charge = std::numeric_limits<float>::quiet_NaN();     ///< partial charge in e; NaN: the format gives none
+  std::string name;
+  std::string residue_name;
+  std::string chain;
+  std::string subchain;    ///< label_asym_id of mmCIF, which assemblies name; else the chain
+  std::string segment;     ///< segment identifier of PDB (columns 73 to 76), which molecular dynamics programs write
+  std::uint32_t copy = 0;  ///< in an assembly: which copy, from 0
+};
+
+/// "'CA' in ALA A12", for messages; "'C' (atom 5)" where the format knows no residues. Nothing is escaped but the name.
+std::string label_of(const Atom& atom);
+
+/// Something odd about a file that did not stop the program.
+struct Warning {
+  Warning(std::string sentence, std::vector<std::string> each = {})
+      : text(std::move(sentence)), details(std::move(each)) {}
+
+  std::string text;                  ///< one sentence with the count and the first case
+  std::vector<std::string> details;  ///< a line for every case, where there are several
+};
+
+/// How many atoms a file holds and where they went: read == sum of excluded + used.
+struct ReadReport {
+  std::size_t read = 0;                         ///< every atom record of the file, all models and alternate locations
+  std::map<std::string, std::size_t> excluded;  ///< reason -> atoms; an atom counts for the first reason it meets
+  std::size_t used = 0;
+  std::size_t models = 1;  ///< models in the file, used or not
+  std::string assembled;   ///< what an assembly made of the used atoms; empty: they are as deposited
+  std::vector<Warning> warnings;
+
+  /// "5,684 atoms read; 215 water left out; 5,469 used".
+  std::string sentence() const;
+};
+
+/// The reasons of ReadReport::excluded in the order they are tried.
+inline constexpr const char* kExcludedModel = "other_model";
+inline constexpr const char* kExcludedAltloc = "altloc";
+inline constexpr const char* kExcludedVirtual = "virtual_site";
+inline constexpr const char* kExcludedSelection = "not_selected";
+inline constexpr const char* kExcludedElement = "unknown_element";
+inline constexpr const char* kExcludedRadius = "zero_radius";
+inline constexpr const char* kExcludedHydrogen = "hydrogen";
+inline constexpr const char* kExcludedWater = "water";
+inline constexpr const char* kExcludedIon = "ion";
+inline constexpr const char* kExcludedAssembly = "not_in_assembly";
+
+/// Atoms that got the same radius for the same reason.
+struct RadiusClass {
+  std::string label;  ///< bonding class, force-field type, or element
+  double radius;      ///< Å
+  std::string source;
+  std::size_t atoms;
+};
+
+/// Atoms that stand at several places at once (--instances).
+struct Instances {
+  std::vector<std::uint32_t> atoms;  ///< into Structure::atoms, ascending
+  std::vector<RigidMotion> motions;  ///< at least one
+};
+
+/// Chains that stand together at these places.
+struct AssemblyPart {
+  std::vector<std::string> chains;  ///< Atom::subchain; empty: all
+  std::vector<RigidMotion> motions;
+};
+
+/// A biological assembly as a file describes it.
+struct Assembly {
+  std::string id;           ///< as the file says, "1"
+  std::string description;  ///< "tetrameric"; may be empty
+  std::vector<AssemblyPart> parts;
+};
+
+/// Two atoms of a file, by their place in it (Atom::index), that are bonded.
+using Bond = std::array<std::uint32_t, 2>;
+
+/// A file's atoms before anything is left out, and its bonds: what the frames of a trajectory are about.
+struct Topology {
+  std::vector<Atom> atoms;  ///< of one model
+  std::vector<Bond> bonds;  ///< those the file lists, which may be none or few
+};
+
+/// The atoms a surface is made of, in file order.
+struct Structure {
+  std::string file;       ///< the path as given, or "standard input"
+  std::string format;     ///< the reader's name for it: "PDB", "mmCIF", ...
+  std::string radii_set;  ///< "bondi", "united", "protor", "file", or the files of radii
+  std::vector<RadiusClass> radius_classes;
+  std::vector<Atom> atoms;
+  std::vector<Instances> instances;          ///< each atom belongs to one; empty: all stand where their positions say
+  std::vector<Assembly> assemblies;          ///< those the file describes, if they were asked for
+  std::shared_ptr<const Topology> topology;  ///< if it was asked for
+  ReadReport report;
+};
+
+/// The atoms' van der Waals balls, one each, in order.
+std::vector<Ball> balls_of(const Structure& structure);
+
+}  // namespace meniscus

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Reading, unpacking and vetting of text input.
+#include "core/text/text_file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <memory>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/base/uninterrupted.h"
+
+namespace meniscus {
+namespace {
+
+constexpr std::size_t kLongestLine = std::size_t{1} << 20;
+constexpr std::size_t kTail = 4096;  // bytes before the end, to tell appending from writing anew
+
+[[noreturn]] void too_large(const std::string& path, std::size_t largest) {
+  throw CapacityError(
+      fmt::format("{}: holds more than {} bytes, more than this program reads", path, with_thousands(largest)));
+}
+
+[[noreturn]] void unreadable(const std::string& path) {
+  throw InputError(path, 0, std::string("cannot be read: ") + std::strerror(errno));
+}
+
+/// An open file. The descriptor is closed with it.
+class OpenFile {
+ public:
+  explicit OpenFile(const std::string& path)
+      : path_(path), descriptor_(uninterrupted([&] { return ::open(path.c_str(), O_RDONLY | O_CLOEXEC); })) {
+    if (descriptor_ < 0) unreadable(path_);
+  }
+  ~OpenFile() { ::close(descriptor_); }
+  OpenFile(const OpenFile&) = delete;
+  OpenFile& operator=(const OpenFile&) = delete;
+
+  struct stat status() const {
+    struct stat status {};
+    if (::fstat(descriptor_, &status) != 0) unreadable(path_);
+    return status;
+  }
+
+  /// These bytes of the file, fewer where it ends before.
+  std::string read(std::size_t offset, std::size_t count) const {
+    std::string bytes(count, '\0');
+    std::size_t filled = 0;
+    while (filled < count) {
+      const ssize_t got = uninterrupted([&] {
+        return ::pread(descriptor_, bytes.data() + filled, count - filled, static_cast<off_t>(offset + filled));
+      });
+      if (got < 0) unreadable(path_);
+      if (got == 0) break;
+      filled += static_cast<std::size_t>(got);
+    }
+    bytes.resize(filled);
+    return bytes;
+  }
+
+ private:
+  const std::string& path_;
+  int descriptor_;
+};
+
+bool same_time(const timespec& a, const timespec& b) { return a.tv_sec == b.tv_sec && a.tv_nsec == b.tv_nsec; }
+
+/// Is what was read what the file held when it was opened? Bytes appended since then do not matter.
+bool is_snapshot(const OpenFile& file, const struct stat& opened, std::string_view bytes) {
+  if (bytes.size() != static_cast<std::size_t>(opened.st_size)) return false;
+  const struct stat now = file.status();
+  if (now.st_size == opened.st_size) return same_time(now.st_mtim, opened.st_mtim);
+  const std::string_view tail = bytes.substr(bytes.size() - std::min(bytes.size(), kTail));
+  return now.st_size > opened.st_size && file.read(bytes.size() - tail.size(), tail.size()) == tail;
+}
+
+std::string read_bytes(const std::string& path, std::size_t largest) {
+  struct stat status {};
+  // Asked before opening, because to open a pipe waits for somebody who writes to it.
+  if (::stat(path.c_str(), &status) != 0) unreadable(path);
+  if (S_ISDIR(status.st_mode)) throw InputError(path, 0, "is a folder; give the name of a molecule file");
+  if (!S_ISREG(status.st_mode))
+    throw InputError(path, 0, "is a pipe or device; save it as a file first, or give - to read standard input");
+  const OpenFile file(path);
+  status = file.status();
+  if (static_cast<std::size_t>(status.st_size) > largest) too_large(path, largest);
+  std::string bytes = file.read(0, static_cast<std::size_t>(status.st_size));
+  if (!is_snapshot(file, status, bytes))
+    throw InputError(path, 0, "was changed while it was read; run again once it is complete");
+  if (bytes.empty()) throw InputError(path, 0, "is empty: no atoms");
+  return bytes;
+}
+
+std::string read_standard_input(const std::string& path, std::size_t largest) {
+  std::string bytes;
+  std::string chunk(std::size_t{1} << 16, '\0');
+  while (true) {
+    const ssize_t count = uninterrupted([&] { return ::read(STDIN_FILENO, chunk.data(), chunk.size()); });
+    if (count < 0) unreadable(path);
+    if (count == 0) break;
+    bytes.append(chunk, 0, static_cast<std::size_t>(count));
+    if (bytes.size() > largest) too_large(path, largest);
+  }
+  if (bytes.empty()) throw InputError(path, 0, "is empty: no atoms");
+  return bytes;
+}
+
+/// Unpacks all members; RFC 1952 checks length and CRC of each. Zero padding after the last one is usual on tapes.
+std::string unpack_gzip(const std::string& path, const std::string& packed, std::size_t largest) {
+  z_stream stream{};
+  if (inflateInit2(&stream, 15 + 16) != Z_OK) throw std::bad_alloc();
+  const std::unique_ptr<z_stream, int (*)(z_stream*)> guard(&stream, inflateEnd);
+  std::string text;
+  std::string chunk(std::size_t{1} << 18, '\0');
+  std::size_t next = 0;
+  int state = Z_OK;
+  while (true) {
+    stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(packed.data() + next));
+    stream.avail_in = static_cast<uInt>(std::min<std::size_t>(packed.size() - next, std::size_t{1} << 30));
+    const uInt given = stream.avail_in;
+    stream.next_out = reinterpret_cast<Bytef*>(chunk.data());
+    stream.avail_out = static_cast<uInt>(chunk.size());
+    state = inflate(&stream, Z_NO_FLUSH);
+    next += given - stream.avail_in;
+    text.append(chunk, 0, chunk.size() - stream.avail_out);
+    if (text.size() > largest) too_large(path, largest);
+    if (state == Z_STREAM_END) {
+      next = std::min(packed.find_first_not_of('\0', next), packed.size());
+      if (next == packed.size()) return text;
+      if (packed.compare(next, 2, "\x1f\x8b") != 0)
+        throw InputError(path, 0, "has foreign bytes after its gzip data; unpack it by hand");
+      inflateReset(&stream);
+    } else if (state == Z_BUF_ERROR || (state == Z_OK && next == packed.size() && stream.avail_out > 0)) {
+      throw InputError(path, 0, "is cut short: its gzip data ends too early; fetch it again");
+    } else if (state != Z_OK) {
+      throw InputError(
+          path, 0, fmt::format("is damaged: gzip says '{}'; fetch it again", stream.msg ? stream.msg : "wrong data"));
+    }
+  }
+}
+
+void refuse_other_containers(const std::string& path, std::string_view bytes) {
+  constexpr std::pair<std::string_view, const char*> kContainers[] = {{"BZh", "bzip2"},
+                                                                      {"\xfd"
+                                                                       "7zXZ",
+                                                                       "xz"},
+                                                                      {"\x28\xb5\x2f\xfd", "zstd"},
+                                                                      {"PK\x03\x04", "zip"}};
+  for (const auto& [magic, name] : kContainers) {
+    if (bytes.starts_with(magic))
+      throw InputError(path, 0, fmt::format("is packed with {}; only gzip is read, unpack it first", name));
+  }
+  if (bytes.starts_with("\xff\xfe") || bytes.starts_with("\xfe\xff")) {
+    throw InputError(path, 0, "is UTF-16 text; save it as UTF-8 or ASCII");
+  }
+}
+
+void unify_line_ends(std::string& text) {
+  if (text.find('\r') == std::string::npos) return;
+  std::size_t out = 0;
+  for (std::size_t in = 0; in < text.size(); ++in) {
+    if (text[in] == '\r') {
+      if (in + 1 < text.size() && text[in + 1] == '\n') continue;
+      text[out++] = '\n';
+    } else {
+      text[out++] = text[in];
+    }
+  }
+  text.resize(out);
+}
+
+void refuse_long_lines(const std::string& path, std::string_view text) {
+  std::size_t line = 1;
+  for (std::size_t begin = 0; begin < text.size(); ++line) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    if (end - begin > kLongestLine) {
+      throw CapacityError(fmt::format("{}:{}: the line has {} bytes, more than {}; is this a molecule file?", path,
+                                      line, with_thousands(end - begin), with_thousands(kLongestLine)));
+    }
+    begin = end + 1;
+  }
+}
+
+}  // namespace
+
+TextFile read_text_file(const std::string& given, std::size_t largest) {
+  const bool standard_input = given == "-";
+  const std::string path = standard_input ? "standard input" : given;
+  TextFile file{path, standard_input ? read_standard_input(path, largest) : read_bytes(path, largest)};
+  std::string& text = file.text;
+  if (text.starts_with("\x1f\x8b")) text = unpack_gzip(path, text, largest);
+  if (text.starts_with("\xef\xbb\xbf")) text.erase(0, 3);
+  refuse_other_containers(path, text);
+  if (const std::size_t nul = text.find('\0'); nul != std::string::npos) {
+    throw InputError(path, 0, fmt::format("is binary, not text: byte {} is zero; molecule files are text", nul));
+  }
+  unify_line_ends(text);
+  if (text.find_first_not_of(" \t\n\v\f") == std::string::npos) throw InputError(path, 0, "is empty: no atoms");
+  refuse_long_lines(path, text);
+  return file;
+}
+
+}  // namespace meniscus

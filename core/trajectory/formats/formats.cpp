@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The choice among trajectory formats by what a file begins with; a name that says otherwise is an error.
+#include "core/trajectory/formats/formats.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+#include "core/structure/formats/formats.h"
+#include "core/text/text_lines.h"
+#include "core/trajectory/formats/binary_file.h"
+
+namespace meniscus {
+namespace {
+
+/// A new format is a file read_<name>.cpp, its name in formats.h and an entry here, before the last.
+constexpr std::array<const TrajectoryFormat*, 6> kFormats{&kXtcFormat,  &kTrrFormat,         &kDcdFormat,
+                                                          &kH5mdFormat, &kAmberNetcdfFormat, &kModelsFormat};
+constexpr std::span<const TrajectoryFormat* const> kBinaryFormats{kFormats.data(), kFormats.size() - 1};
+
+std::string binary_format_names() {
+  std::string names;
+  for (const TrajectoryFormat* format : kBinaryFormats) names += fmt::format("{}, ", format->metadata.name);
+  return names;
+}
+
+std::string lower_case(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+  return text;
+}
+
+const TrajectoryFormat* format_by_name(const std::string& name) {
+  for (const TrajectoryFormat* format : kBinaryFormats) {
+    const auto extensions = fields_of(format->metadata.extensions);
+    if (std::any_of(extensions.begin(), extensions.end(), [&](std::string_view end) { return name.ends_with(end); }))
+      return format;
+  }
+  return nullptr;
+}
+
+const TrajectoryFormat* format_by_content(std::string_view start) {
+  const auto found = std::find_if(kBinaryFormats.begin(), kBinaryFormats.end(),
+                                  [&](const TrajectoryFormat* format) { return format->recognizes(start); });
+  return found == kBinaryFormats.end() ? nullptr : *found;
+}
+
+std::string start_of(const std::string& path) {
+  const BinaryFile file(path);
+  std::string start(std::min<std::uint64_t>(file.size(), kTrajectoryStart), '\0');
+  file.read(0, std::as_writable_bytes(std::span(start)));
+  return start;
+}
+
+const TrajectoryFormat& choose_format(const std::string& path, const std::string& start) {
+  const std::string name = lower_case(path);
+  const bool packed = start.starts_with("\x1f\x8b");
+  if (packed && name.ends_with(".gz") && format_by_name(name.substr(0, name.size() - 3)))
+    throw InputError(path, 0, "is packed with gzip; unpack it first: frames are read where they stand in the file");
+  const TrajectoryFormat* by_name = format_by_name(name);
+  if (by_name && by_name->recognizes(start)) return *by_name;
+  const TrajectoryFormat* by_content = format_by_content(start);
+  if (by_name && by_content) {
+    throw InputError(path, 0,
+                     fmt::format("the name says {}, but the content is {}; rename the file, or check that it is the "
+                                 "right one",
+                                 by_name->metadata.name, by_content->metadata.name));
+  }
+  if (by_name) return *by_name;  // its reader says what is missing
+  if (by_content) return *by_content;
+  if (!packed && start.find('\0') != std::string::npos) {
+    throw InputError(path, 0,
+                     fmt::format("is in no trajectory format that is read ({}or models of {})", binary_format_names(),
+                                 format_names()));
+  }
+  return kModelsFormat;
+}
+
+}  // namespace
+
+std::span<const TrajectoryFormat* const> trajectory_formats() { return kFormats; }
+
+std::string_view binary_trajectory_format(const std::string& path) {
+  if (path == "-") return {};
+  try {
+    const TrajectoryFormat* format = format_by_content(start_of(path));
+    return format ? format->metadata.name : std::string_view();
+  } catch (const InputError&) {
+    return {};
+  }
+}
+
+std::unique_ptr<Trajectory> open_trajectory(const std::string& path, const TrajectoryOptions& options) {
+  if (path == "-")
+    throw InputError("standard input", 0,
+                     "cannot be a trajectory, whose frames are read in any order; save it as a file");
+  return choose_format(path, start_of(path)).open(path, options);
+}
+
+}  // namespace meniscus

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The table of trajectory formats.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "core/structure/formats/reader.h"
+#include "core/trajectory/trajectory.h"
+
+namespace meniscus {
+
+/// One format. `recognizes` looks at the first kTrajectoryStart bytes of a file, and `open` throws as open_trajectory
+/// does.
+struct TrajectoryFormat {
+  FormatMetadata metadata;
+  bool (*recognizes)(std::string_view start);
+  std::unique_ptr<Trajectory> (*open)(const std::string& path, const TrajectoryOptions& options);
+};
+
+inline constexpr std::size_t kTrajectoryStart = 4096;
+
+/// All formats, in the order they are tried. The last is the models of a structure file, of any format of
+/// core/structure/formats/formats.h.
+std::span<const TrajectoryFormat* const> trajectory_formats();
+
+/// The name of the binary format that the file begins like; these hold no atoms of their own. Empty for other files,
+/// and for one that cannot be read.
+std::string_view binary_trajectory_format(const std::string& path);
+
+extern const TrajectoryFormat kDcdFormat;
+extern const TrajectoryFormat kXtcFormat;
+extern const TrajectoryFormat kTrrFormat;
+extern const TrajectoryFormat kAmberNetcdfFormat;
+extern const TrajectoryFormat kH5mdFormat;
+extern const TrajectoryFormat kModelsFormat;
+
+}  // namespace meniscus

@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Reads DCD of CHARMM, NAMD and X-PLOR: Fortran records, coordinates in single precision, axis by axis.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/trajectory/formats/binary_file.h"
+#include "core/trajectory/formats/byte_order.h"
+#include "core/trajectory/formats/cell.h"
+#include "core/trajectory/formats/formats.h"
+
+namespace meniscus {
+namespace {
+
+constexpr std::size_t kHeaderRecord = 84;  // "CORD" and twenty integers
+constexpr std::size_t kCellRecord = 6 * sizeof(double);
+constexpr double kPicosecondsPerAkma = 4.888821e-2;  // the unit of time of CHARMM
+constexpr int kFirstCharmmWithShapeMatrix = 25;      // NAMD, VMD and all who follow them write 24 here
+
+/// How a file writes the length of a Fortran record, in front of it and behind it.
+struct Markers {
+  std::endian order = std::endian::little;
+  std::size_t size = 4;
+
+  std::uint64_t at(const std::byte* bytes) const {
+    return size == 4 ? number_at<std::uint32_t>(bytes, order) : number_at<std::uint64_t>(bytes, order);
+  }
+};
+
+/// Told by the first record, which has 84 bytes and begins with CORD or VELD.
+std::optional<Markers> markers_of(std::string_view start) {
+  const auto* bytes = reinterpret_cast<const std::byte*>(start.data());
+  for (const std::size_t size : {std::size_t{4}, std::size_t{8}}) {
+    for (const std::endian order : {std::endian::little, std::endian::big}) {
+      const Markers markers{order, size};
+      if (start.size() < size + 4 || markers.at(bytes) != kHeaderRecord) continue;
+      const std::string_view word = start.substr(size, 4);
+      if (word == "CORD" || word == "VELD") return markers;
+    }
+  }
+  return std::nullopt;
+}
+
+/// Programs write edges of 0 or 1 Å where there is no box.
+bool stands_for_no_box(const std::array<double, 6>& numbers) {
+  return std::abs(numbers[0]) <= 1.0 && std::abs(numbers[2]) <= 1.0 && std::abs(numbers[5]) <= 1.0;
+}
+
+/// Six numbers of one box as the versions of CHARMM and NAMD have written them: A gamma B beta alpha C with angles in
+/// degrees or as cosines, or the symmetric shape matrix of CHARMM, row by row of its lower half.
+std::optional<glm::dmat3> cell_of_record(const std::array<double, 6>& numbers, bool charmm_itself) {
+  if (stands_for_no_box(numbers)) return std::nullopt;
+  const auto& [n0, n1, n2, n3, n4, n5] = numbers;
+  const glm::dmat3 shape(glm::dvec3(n0, n1, n3), glm::dvec3(n1, n2, n4), glm::dvec3(n3, n4, n5));
+  const bool right_angles = n1 == 90.0 && n3 == 90.0 && n4 == 90.0;
+  const bool positive_definite = n0 > 0.0 && n0 * n2 - n1 * n1 > 0.0 && glm::determinant(shape) > 0.0;
+  if (charmm_itself && positive_definite && !right_angles) return cell_of_vectors(shape);
+  const glm::dvec3 edges(n0, n2, n5), angles(n4, n3, n1);
+  if (std::abs(n1) <= 1.0 && std::abs(n3) <= 1.0 && std::abs(n4) <= 1.0) return cell_of_cosines(edges, angles);
+  if (const auto cell = cell_of_angles(edges, angles)) return cell;
+  return positive_definite ? cell_of_vectors(shape) : std::nullopt;
+}
+
+class Dcd final : public Trajectory {
+ public:
+  explicit Dcd(const std::string& path) : Trajectory(path, "DCD"), file_(path) {
+    std::uint64_t offset = read_header();
+    offset = read_fixed_atoms(read_atom_count(skip_titles(offset)));
+    count_frames(offset);
+    if (has_fixed_atoms()) read_unchecked(0, first_);
+    warn_of_strange_cell();
+  }
+
+ private:
+  bool has_fixed_atoms() const { return !free_atoms_.empty(); }
+
+  [[noreturn]] void refuse(std::uint64_t offset, const std::string& what) const {
+    throw InputError(path_, 0, fmt::format("{} (byte {})", what, with_thousands(offset)));
+  }
+
+  /// A record that must have this length; its content, and the offset behind it.
+  std::vector<std::byte> record(std::uint64_t& offset, std::uint64_t length, const char* what) const {
+    std::vector<std::byte> bytes(length + 2 * markers_.size);
+    file_.read(offset, bytes);
+    check_markers(bytes.data(), length, offset, what);
+    offset += bytes.size();
+    bytes.resize(length + markers_.size);
+    bytes.erase(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(markers_.size));
+    return bytes;
+  }
+
+  void check_markers(const std::byte* record, std::uint64_t length, std::uint64_t offset,
+                     const std::string& what) const {
+    const std::uint64_t before = markers_.at(record), behind = markers_.at(record + markers_.size + length);
+    if (before == length && behind == length) return;
+    const std::uint64_t wrong = before == length ? behind : before;
+    refuse(before == length ? offset + markers_.size + length : offset,
+           fmt::format("is damaged: the record with {} should have {} bytes, but a marker says {}", what,
+                       with_thousands(length), with_thousands(wrong)));
+  }
+
+  template <typename Number>
+  Number number(const std::byte* bytes) const {
+    return number_at<Number>(bytes, markers_.order);
+  }
+
+  std::uint64_t read_header() {
+    std::string start(std::min<std::uint64_t>(file_.size(), 16), '\0');
+    file_.read(0, std::as_writable_bytes(std::span(start)));
+    const auto markers = markers_of(start);
+    if (!markers) refuse(0, "is no DCD file: it does not begin with a record of 84 bytes and CORD");
+    markers_ = *markers;
+    std::uint64_t offset = 0;
+    const std::vector<std::byte> header = record(offset, kHeaderRecord, "the header");
+    if (static_cast<char>(header[0]) == 'V') refuse(0, "holds velocities, not positions");
+    const auto integer = [&](std::size_t n) { return number<std::int32_t>(header.data() + 4 + 4 * n); };
+    const int version = integer(19);  // X-PLOR writes 0, and the time step in double precision
+    promised_frames_ = integer(0);
+    first_step_ = integer(1);
+    steps_between_ = integer(2);
+    fixed_count_ = integer(8);
+    time_step_ = version == 0 ? number<double>(header.data() + 40) : number<float>(header.data() + 40);
+    has_cell_ = version != 0 && integer(10) != 0;
+    has_fourth_axis_ = version != 0 && integer(11) != 0;
+    charmm_itself_ = version >= kFirstCharmmWithShapeMatrix;
+    return offset;
+  }
+
+  std::uint64_t skip_titles(std::uint64_t offset) const {
+    std::vector<std::byte> marker(markers_.size);
+    file_.read(offset, marker);
+    const std::uint64_t length = markers_.at(marker.data());
+    if (length > file_.size()) refuse(offset, "is damaged: its titles are longer than the file");
+    file_.read(offset + markers_.size + length, marker);
+    if (markers_.at(marker.data()) != length) refuse(offset, "is damaged: the markers about its titles disagree");
+    return offset + length + 2 * markers_.size;
+  }
+
+  std::uint64_t read_atom_count(std::uint64_t offset) {
+    const auto count = number<std::int32_t>(record(offset, sizeof(std::int32_t), "the number of atoms").data());
+    if (count <= 0) refuse(offset, fmt::format("its header says {} atoms", count));
+    if (static_cast<std::uint64_t>(count) > file_.size() / (3 * sizeof(float))) {
+      refuse(offset,
+             fmt::format("its header says {} atoms, but not one frame of them fits into the {} bytes of the file",
+                         with_thousands(static_cast<std::uint64_t>(count)), with_thousands(file_.size())));
+    }
+    atom_count_ = static_cast<std::size_t>(count);
+    return offset;
+  }
+
+  /// With fixed atoms the header lists the others, and all frames but the first hold only these.
+  std::uint64_t read_fixed_atoms(std::uint64_t offset) {
+    if (fixed_count_ == 0) return offset;
+    if (fixed_count_ < 0 || static_cast<std::size_t>(fixed_count_) >= atom_count_)
+      refuse(offset, fmt::format("its header says {} fixed atoms of {}", fixed_count_, with_thousands(atom_count_)));
+    const std::size_t free = atom_count_ - static_cast<std::size_t>(fixed_count_);
+    const std::vector<std::byte> list = record(offset, free * sizeof(std::int32_t), "the atoms that move");
+    for (std::size_t n = 0; n < free; ++n) {
+      const auto atom = number<std::int32_t>(list.data() + n * sizeof(std::int32_t));
+      if (atom < 1 || static_cast<std::size_t>(atom) > atom_count_)
+        refuse(offset, fmt::format("its list of moving atoms names atom {} of {}", atom, with_thousands(atom_count_)));
+      free_atoms_.push_back(static_cast<std::uint32_t>(atom - 1));
+    }
+    return offset;
+  }
+
+  std::uint64_t frame_bytes(std::uint64_t atoms) const {
+    const std::uint64_t axis = atoms * sizeof(float) + 2 * markers_.size;
+    return (has_cell_ ? kCellRecord + 2 * markers_.size : 0) + (has_fourth_axis_ ? 4 : 3) * axis;
+  }
+
+  /// The size of the file decides; the header is often wrong after a stop, a restart or a cut.
+  void count_frames(std::uint64_t offset) {
+    first_frame_ = offset;
+    const std::uint64_t first = frame_bytes(atom_count_);
+    const std::uint64_t others = has_fixed_atoms() ? frame_bytes(free_atoms_.size()) : first;
+    const std::uint64_t rest = file_.size() - offset;
+    if (rest < first) {
+      throw InputError(path_, 0,
+                       fmt::format("holds not one whole frame: {} of the {} bytes of the first", with_thousands(rest),
+                                   with_thousands(first)));
+    }
+    frame_count_ = 1 + (rest - first) / others;
+    if ((rest - first) % others != 0) cut_short_ = cut_short_sentence(frame_count_);
+    if (promised_frames_ < 0 || static_cast<std::uint64_t>(promised_frames_) != frame_count_) {
+      warnings_.emplace_back(fmt::format("its header says {} frames, but it holds {}; these are used", promised_frames_,
+                                         with_thousands(frame_count_)));
+    }
+  }
+
+  void read_unchecked(std::uint64_t number, Frame& frame) override {
+    const bool whole = number == 0 || !has_fixed_atoms();
+    const std::size_t atoms = whole ? atom_count_ : free_atoms_.size();
+    const std::uint64_t first = frame_bytes(atom_count_);
+    std::uint64_t offset = number == 0 ? first_frame_ : first_frame_ + first + (number - 1) * frame_bytes(atoms);
+    bytes_.resize(frame_bytes(atoms));
+    file_.read(offset, bytes_);
+    file_.check_unchanged();
+    const std::byte* next = bytes_.data();
+    if (has_cell_) {
+      check_markers(next, kCellRecord, offset, fmt::format("the box of frame {}", number));
+      frame.cell = cell_of_record(box_at(next + markers_.size), charmm_itself_);
+      next += kCellRecord + 2 * markers_.size;
+      offset += kCellRecord + 2 * markers_.size;
+    }
+    frame.positions.resize(atom_count_);
+    if (!whole) std::copy(first_.positions.begin(), first_.positions.end(), frame.positions.begin());
+    for (int axis = 0; axis < 3; ++axis) {
+      const std::size_t length = atoms * sizeof(float);
+      check_markers(next, length, offset, fmt::format("{} of frame {}", "xyz"[axis], number));
+      copy_axis(next + markers_.size, axis, whole, frame.positions);
+      next += length + 2 * markers_.size;
+      offset += length + 2 * markers_.size;
+    }
+    set_time(number, frame);
+  }
+
+  std::array<double, 6> box_at(const std::byte* bytes) const {
+    std::array<double, 6> numbers;
+    for (std::size_t n = 0; n < numbers.size(); ++n) numbers[n] = number<double>(bytes + n * sizeof(double));
+    return numbers;
+  }
+
+  void copy_axis(const std::byte* from, int axis, bool whole, std::vector<glm::dvec3>& to) const {
+    if (whole) {
+      for (std::size_t n = 0; n < to.size(); ++n) to[n][axis] = number<float>(from + n * sizeof(float));
+    } else {
+      for (std::size_t n = 0; n < free_atoms_.size(); ++n)
+        to[free_atoms_[n]][axis] = number<float>(from + n * sizeof(float));
+    }
+  }
+
+  void set_time(std::uint64_t number, Frame& frame) const {
+    if (steps_between_ <= 0) return;
+    frame.step = first_step_ + static_cast<std::int64_t>(number) * steps_between_;
+    const double time = static_cast<double>(*frame.step) * time_step_ * kPicosecondsPerAkma;
+    if (time_step_ > 0.0 && std::isfinite(time)) frame.time = time;
+  }
+
+  void warn_of_strange_cell() {
+    if (!has_cell_) return;
+    std::array<std::byte, kCellRecord> record;
+    file_.read(first_frame_ + markers_.size, record);
+    const std::array<double, 6> box = box_at(record.data());
+    if (stands_for_no_box(box) || cell_of_record(box, charmm_itself_)) return;
+    warnings_.emplace_back("the box of its first frame is no box in any of the forms DCD knows; it is left out");
+  }
+
+  BinaryFile file_;
+  Markers markers_;
+  std::int32_t promised_frames_ = 0, first_step_ = 0, steps_between_ = 0, fixed_count_ = 0;
+  double time_step_ = 0.0;  // AKMA
+  bool has_cell_ = false, has_fourth_axis_ = false, charmm_itself_ = false;
+  std::vector<std::uint32_t> free_atoms_;  // empty: all of them
+  std::uint64_t first_frame_ = 0;          // its offset
+  Frame first_;                            // where the fixed atoms stand
+  std::vector<std::byte> bytes_;
+};
+
+bool recognizes(std::string_view start) { return markers_of(start).has_value(); }
+
+}  // namespace
+
+const TrajectoryFormat kDcdFormat{
+    {"DCD", ".dcd", "trajectories of CHARMM, NAMD, X-PLOR, OpenMM and LAMMPS",
+     "CHARMM documentation, dynamc.info; NAMD and VMD source of the dcd plugin, for what others write",
+     "positions, boxes (edges with angles or cosines, shape matrix), steps and times; both byte orders, markers of 32 "
+     "and "
+     "64 bits, fixed atoms, a fourth axis; the size of the file says how many frames there are"},
+    recognizes,
+    [](const std::string& path, const TrajectoryOptions&) {
+      return std::unique_ptr<Trajectory>(std::make_unique<Dcd>(path));
+    }};
+
+}  // namespace meniscus

@@ -1,0 +1,316 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Reads H5MD through the HDF5 library.
+#include <hdf5.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/trajectory/formats/binary_file.h"
+#include "core/trajectory/formats/cell.h"
+#include "core/trajectory/formats/formats.h"
+
+namespace meniscus {
+namespace {
+
+constexpr double kAngstromPerNanometre = 10.0;
+
+/// An open object of the library, closed by the function that belongs to its kind.
+class Handle {
+ public:
+  Handle() = default;
+  Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
+  Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
+  Handle& operator=(Handle&& other) noexcept {
+    std::swap(id_, other.id_);
+    std::swap(close_, other.close_);
+    return *this;
+  }
+  ~Handle() {
+    if (id_ >= 0) close_(id_);
+  }
+  operator hid_t() const { return id_; }
+  explicit operator bool() const { return id_ >= 0; }
+
+ private:
+  hid_t id_ = -1;
+  herr_t (*close_)(hid_t) = nullptr;
+};
+
+/// An array of numbers and the lengths of its dimensions.
+struct Table {
+  Handle set;
+  std::vector<hsize_t> lengths;
+};
+
+/// Keeps the library from printing its own lines about what is not there.
+class Quiet {
+ public:
+  Quiet() {
+    H5Eget_auto2(H5E_DEFAULT, &function_, &data_);
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  }
+  ~Quiet() { H5Eset_auto2(H5E_DEFAULT, function_, data_); }
+  Quiet(const Quiet&) = delete;
+  Quiet& operator=(const Quiet&) = delete;
+
+ private:
+  H5E_auto2_t function_ = nullptr;
+  void* data_ = nullptr;
+};
+
+/// At the end of the process the library would look for what it lost of damaged files itself, and print that it found
+/// no end of it. Our handles have closed by then what there is to close.
+void leave_no_last_words() { [[maybe_unused]] static const herr_t told = H5dont_atexit(); }
+
+bool has(hid_t place, const std::string& path) {
+  // The library asks that every step of a path is looked up by itself.
+  for (std::size_t end = path.find('/'); end != std::string::npos; end = path.find('/', end + 1)) {
+    if (H5Lexists(place, path.substr(0, end).c_str(), H5P_DEFAULT) <= 0) return false;
+  }
+  return H5Lexists(place, path.c_str(), H5P_DEFAULT) > 0;
+}
+
+/// Whether the numbers lie in other files, which this one names: a file that is read never has others read.
+bool is_elsewhere(hid_t set) {
+  const Handle creation(H5Dget_create_plist(set), H5Pclose);
+  return H5Pget_external_count(creation) != 0 || H5Pget_layout(creation) == H5D_VIRTUAL;
+}
+
+/// Whether a value is a number such as processors know: for one of a damaged size the library would ask for any memory.
+bool is_number(const Handle& type) {
+  const H5T_class_t kind = H5Tget_class(type);
+  const std::size_t size = H5Tget_size(type);
+  return (kind == H5T_INTEGER || kind == H5T_FLOAT) && size >= 1 && size <= sizeof(long double);
+}
+
+/// None, if there is none at this path, or none of numbers that this file holds itself.
+Table table(hid_t place, const std::string& path) {
+  Table result;
+  if (!has(place, path)) return result;
+  result.set = Handle(H5Dopen2(place, path.c_str(), H5P_DEFAULT), H5Dclose);
+  if (!result.set || is_elsewhere(result.set)) return {};
+  if (!is_number(Handle(H5Dget_type(result.set), H5Tclose))) return {};
+  const Handle space(H5Dget_space(result.set), H5Sclose);
+  const int dimensions = H5Sget_simple_extent_ndims(space);
+  if (dimensions > 0) {
+    result.lengths.resize(static_cast<std::size_t>(dimensions));
+    H5Sget_simple_extent_dims(space, result.lengths.data(), nullptr);
+  }
+  return result;
+}
+
+/// The text of an attribute; empty if there is none, or no short one.
+std::string text_attribute(hid_t object, const char* name) {
+  if (H5Aexists(object, name) <= 0) return {};
+  const Handle attribute(H5Aopen(object, name, H5P_DEFAULT), H5Aclose);
+  const Handle type(H5Aget_type(attribute), H5Tclose);
+  const Handle space(H5Aget_space(attribute), H5Sclose);
+  if (!type || H5Tget_class(type) != H5T_STRING || H5Sget_simple_extent_npoints(space) != 1) return {};
+  if (H5Tis_variable_str(type) > 0) {
+    char* text = nullptr;
+    if (H5Aread(attribute, type, &text) < 0 || !text) return {};
+    std::string result(text);
+    H5free_memory(text);
+    return result;
+  }
+  const std::size_t size = H5Tget_size(type);
+  if (size == 0 || size > 1000) return {};
+  std::string text(size, '\0');
+  if (H5Aread(attribute, type, text.data()) < 0) return {};
+  return text.substr(0, text.find('\0'));
+}
+
+/// What one unit of length of this table is in Å.
+double length_unit(const Table& values, const std::string& path, std::vector<Warning>& warnings) {
+  const std::string unit = text_attribute(values.set, "unit");
+  if (unit == "nm") return kAngstromPerNanometre;
+  if (unit == "pm") return 0.01;
+  if (unit == "m") return 1e10;
+  if (!unit.empty() && unit != "Angstrom" && unit != "angstrom" && unit != "A" && unit != "\u00c5") {
+    throw InputError(path, 0,
+                     fmt::format("its positions are in {}; Angstrom, nm, pm and m are understood", in_quotes(unit)));
+  }
+  if (unit.empty()) warnings.emplace_back("it names no unit of length; its numbers are taken to be Å");
+  return 1.0;
+}
+
+/// What one unit of time is in ps; 0: unknown, so that there are no times.
+double time_unit(const Table& times) {
+  const std::string unit = times.set ? text_attribute(times.set, "unit") : std::string();
+  if (unit == "fs") return 1e-3;
+  if (unit == "ns") return 1e3;
+  if (unit == "us") return 1e6;
+  if (unit == "s") return 1e12;
+  return unit.empty() || unit == "ps" ? 1.0 : 0.0;
+}
+
+class H5md final : public Trajectory {
+ public:
+  explicit H5md(const std::string& path) : Trajectory(path, "H5MD"), bytes_(path) {
+    leave_no_last_words();  // before all other calls
+    const Quiet quiet;
+    H5Lunregister(H5L_TYPE_EXTERNAL);  // links to other files lead nowhere; it does not matter if they did so before
+    const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+    H5Pset_file_locking(access, false, true);  // readers of one file must not wait for each other
+    H5Pset_sieve_buf_size(access, 0);  // after a read that failed, the library takes this buffer of zeros for the data
+    file_ = Handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access), H5Fclose);
+    if (!file_) throw InputError(path, 0, "is damaged or cut short: the HDF5 library cannot open it");
+    choose_group();
+    position_ = table(group_, "position/value");
+    const std::vector<hsize_t>& lengths = position_.lengths;
+    if (lengths.size() != 3 || lengths[2] != 3 || lengths[1] == 0)
+      throw InputError(path, 0, fmt::format("{}/position/value is not x, y and z of atoms of frames", escaped(name_)));
+    if (lengths[0] == 0) throw InputError(path, 0, "holds no frames");
+    frame_count_ = lengths[0];
+    atom_count_ = lengths[1];
+    check_plausible_size();
+    unit_ = length_unit(position_, path, warnings_);
+    time_ = table(group_, "position/time");
+    time_unit_ = time_unit(time_);
+    step_ = table(group_, "position/step");
+    box_ = table(group_, "box/edges/value");
+    if (!box_.set) box_ = table(group_, "box/edges");
+  }
+
+ private:
+  static herr_t collect(hid_t, const char* name, const H5L_info_t*, void* names) {
+    static_cast<std::vector<std::string>*>(names)->emplace_back(name);
+    return 0;
+  }
+
+  /// The first group of particles that has positions, in the order of names.
+  void choose_group() {
+    std::vector<std::string> names;
+    if (!has(file_, "particles")) {
+      const bool mdtraj = text_attribute(file_, "conventions").find("Pande") != std::string::npos;
+      throw InputError(path_, 0,
+                       mdtraj ? "is HDF5 of MDTraj, not H5MD; convert it with mdconvert to XTC, DCD or NetCDF"
+                              : "is HDF5, but not H5MD: it has no group 'particles'");
+    }
+    const Handle particles(H5Gopen2(file_, "particles", H5P_DEFAULT), H5Gclose);
+    H5Literate(particles, H5_INDEX_NAME, H5_ITER_INC, nullptr, collect, &names);
+    std::erase_if(names, [&](const std::string& name) { return !has(particles, name + "/position/value"); });
+    if (names.empty()) throw InputError(path_, 0, "is H5MD without positions that change with time");
+    name_ = "particles/" + names.front();
+    group_ = Handle(H5Gopen2(particles, names.front().c_str(), H5P_DEFAULT), H5Gclose);
+    if (names.size() > 1) {
+      warnings_.emplace_back(fmt::format("it has {} groups of particles; the positions of {} are used", names.size(),
+                                         in_quotes(names.front())));
+    }
+  }
+
+  /// No compression of positions is a thousandfold; a header that promises more would only exhaust the memory. Frames
+  /// that were never written take no place, and would be read as zeros.
+  void check_plausible_size() const {
+    const double frame = static_cast<double>(atom_count_) * 3 * sizeof(float),
+                 size = static_cast<double>(bytes_.size());
+    if (frame > 1000.0 * size || frame * static_cast<double>(frame_count_) > 10'000.0 * size)
+      throw InputError(
+          path_, 0,
+          fmt::format("says {} atoms in {} frames, far more than its {} bytes can hold", with_thousands(atom_count_),
+                      with_thousands(frame_count_), with_thousands(bytes_.size())));
+  }
+
+  /// The part of a table that belongs to a frame: all dimensions but the first, which counts frames.
+  bool read_frame_of(const Table& from, std::uint64_t number, hid_t type, void* numbers) const {
+    const Handle space(H5Dget_space(from.set), H5Sclose);
+    std::vector<hsize_t> start(from.lengths.size(), 0), count = from.lengths;
+    start[0] = number;
+    count[0] = 1;
+    if (H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr) < 0) return false;
+    const Handle memory(H5Screate_simple(static_cast<int>(count.size()), count.data(), nullptr), H5Sclose);
+    return H5Dread(from.set, type, memory, space, H5P_DEFAULT, numbers) >= 0;
+  }
+
+  /// A number of each frame, or one of all: then it is the increment from frame to frame.
+  template <typename Number>
+  std::optional<Number> number_of(const Table& from, std::uint64_t frame, hid_t type) const {
+    Number number{};
+    if (!from.set) return std::nullopt;
+    if (from.lengths.size() == 1 && frame < from.lengths[0])
+      return read_frame_of(from, frame, type, &number) ? std::optional(number) : std::nullopt;
+    if (!from.lengths.empty() || H5Dread(from.set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, &number) < 0)
+      return std::nullopt;
+    Number offset{};
+    if (H5Aexists(from.set, "offset") > 0) {
+      const Handle attribute(H5Aopen(from.set, "offset", H5P_DEFAULT), H5Aclose);
+      const Handle space(H5Aget_space(attribute), H5Sclose);
+      if (!is_number(Handle(H5Aget_type(attribute), H5Tclose))) return std::nullopt;
+      if (H5Sget_simple_extent_npoints(space) != 1 || H5Aread(attribute, type, &offset) < 0) return std::nullopt;
+    }
+    return sum_of(offset, number, frame);
+  }
+
+  /// offset + number * frame; nothing where whole numbers have no place for it.
+  static std::optional<double> sum_of(double offset, double number, std::uint64_t frame) {
+    return offset + number * static_cast<double>(frame);
+  }
+  static std::optional<std::int64_t> sum_of(std::int64_t offset, std::int64_t number, std::uint64_t frame) {
+    std::int64_t sum = 0;
+    if (__builtin_mul_overflow(number, frame, &sum) || __builtin_add_overflow(sum, offset, &sum)) return std::nullopt;
+    return sum;
+  }
+
+  std::optional<glm::dmat3> cell_at(std::uint64_t frame) const {
+    if (!box_.set) return std::nullopt;
+    std::array<double, 9> numbers{};
+    const std::vector<hsize_t>& lengths = box_.lengths;
+    const bool fixed = lengths == std::vector<hsize_t>{3} || lengths == std::vector<hsize_t>{3, 3};
+    const bool edges = lengths.size() == 2 && lengths[0] == frame_count_ && lengths[1] == 3;
+    const bool vectors = lengths.size() == 3 && lengths[0] == frame_count_ && lengths[1] == 3 && lengths[2] == 3;
+    if (edges || vectors) {
+      if (!read_frame_of(box_, frame, H5T_NATIVE_DOUBLE, numbers.data())) return std::nullopt;
+    } else if (!fixed || H5Dread(box_.set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers.data()) < 0) {
+      return std::nullopt;
+    }
+    glm::dmat3 cell(0.0);
+    for (int n = 0; n < 9; ++n) cell[n / 3][n % 3] = unit_ * numbers[static_cast<std::size_t>(n)];
+    if (edges || lengths.size() == 1)
+      cell = glm::dmat3(unit_ * numbers[0], 0.0, 0.0, 0.0, unit_ * numbers[1], 0.0, 0.0, 0.0, unit_ * numbers[2]);
+    return cell_of_vectors(cell);
+  }
+
+  void read_unchecked(std::uint64_t number, Frame& frame) override {
+    const Quiet quiet;
+    numbers_.resize(3 * atom_count_);
+    const bool good = read_frame_of(position_, number, H5T_NATIVE_DOUBLE, numbers_.data());
+    bytes_.check_unchanged();
+    if (!good)
+      throw InputError(path_, 0,
+                       fmt::format("frame {} is damaged: the HDF5 library cannot read its positions", number));
+    frame.positions.resize(atom_count_);
+    for (std::size_t n = 0; n < atom_count_; ++n)
+      frame.positions[n] = unit_ * glm::dvec3(numbers_[3 * n], numbers_[3 * n + 1], numbers_[3 * n + 2]);
+    frame.cell = cell_at(number);
+    frame.step = number_of<std::int64_t>(step_, number, H5T_NATIVE_INT64);
+    const auto time = number_of<double>(time_, number, H5T_NATIVE_DOUBLE);
+    if (time && time_unit_ > 0.0 && std::isfinite(time_unit_ * *time)) frame.time = time_unit_ * *time;
+  }
+
+  BinaryFile bytes_;  // tells whether the file changed
+  Handle file_, group_;
+  std::string name_;
+  Table position_, time_, step_, box_;
+  double unit_ = 1.0, time_unit_ = 1.0;
+  std::vector<double> numbers_;
+};
+
+bool recognizes(std::string_view start) { return start.starts_with("\x89HDF\r\n\x1a\n"); }
+
+}  // namespace
+
+const TrajectoryFormat kH5mdFormat{
+    {"H5MD", ".h5md .h5", "trajectories in HDF5, as MDAnalysis, LAMMPS and ESPResSo write them",
+     "P. de Buyl, P. H. Colberg and F. Höfling, Comput. Phys. Commun. 185, 1546 (2014)",
+     "positions of the first group of particles, with their unit; boxes (edges or vectors), steps and times"},
+    recognizes,
+    [](const std::string& path, const TrajectoryOptions&) {
+      return std::unique_ptr<Trajectory>(std::make_unique<H5md>(path));
+    }};
+
+}  // namespace meniscus

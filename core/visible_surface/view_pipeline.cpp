@@ -1,0 +1,305 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The stages of one view in order, each a kernel or two, with the buffers they hand on.
+#include "core/visible_surface/view_pipeline.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vec4.hpp>
+
+#include "core/base/error.h"
+#include "core/gpu/gpu_stage.h"
+#include "core/surface/tie_ladder.h"
+
+namespace meniscus {
+namespace {
+
+constexpr std::size_t kWord = sizeof(std::uint32_t);
+constexpr std::size_t kProbeRecordBytes = 64;  // gpu_shaders/shared/probe_record.glsl
+
+/// Room for what was counted, and some more.
+std::uint32_t grown(std::uint32_t capacity, std::uint32_t count) {
+  return count <= capacity ? capacity : count + count / 4;
+}
+
+}  // namespace
+
+ViewPipeline::ViewPipeline() = default;
+
+void ViewPipeline::set_atoms(std::vector<Ball> atoms) {
+  assert(!atoms.empty());
+  atoms_ = std::move(atoms);
+  swallowed_ = swallowed_atoms(atoms_);
+  glm::dvec3 low = atoms_[0].center, high = low;
+  double largest = 0.0;
+  for (const Ball& ball : atoms_) {
+    low = glm::min(low, ball.center);
+    high = glm::max(high, ball.center);
+    largest = std::max(largest, ball.radius);
+  }
+  middle_ = 0.5 * (low + high);  // as GpuNeighbors places it
+  extent_of_atoms_ = {low - middle_, high - middle_, largest};
+  probe_radius_ = -1.0;
+}
+
+void ViewPipeline::run(const PictureFrame& frame, double probe_radius, Extent extent, GpuScene& scene) {
+  for (int attempt = 1;; ++attempt) {
+    try {
+      return run_once(frame, probe_radius, extent, scene);
+    } catch (const OpenSurfaceError&) {
+      if (attempt == kTieAttempts) throw;
+      set_atoms(grown_balls(atoms_, attempt));
+    }
+  }
+}
+
+void ViewPipeline::run_once(const PictureFrame& frame, double probe_radius, Extent extent, GpuScene& scene) {
+  assert(!atoms_.empty() && probe_radius >= 0.0);
+  clock_.restart();
+  if (probe_radius != probe_radius_) upload_atoms(probe_radius);
+  scene.probe_radius = probe_radius;
+  look(frame, extent, scene);
+  if (!all_probes_found_ || !visible_.keeps_all() || extent == Extent::paper) {
+    keep_atoms();
+    find_arcs();
+    find_fixed_probes(frame, extent);
+    all_probes_found_ = visible_.keeps_all() && extent != Extent::paper;
+  }
+  make_primitives(frame, scene);
+}
+
+void ViewPipeline::upload_atoms(double probe_radius) {
+  const GpuStage stage(clock_, "upload");
+  probe_radius_ = probe_radius;
+  all_probes_found_ = false;
+  stats_ = {};
+  stats_.atoms = atoms_.size();
+  weights_ = decision_weights(atoms_, probe_radius);
+  std::vector<glm::dvec3> centers(atoms_.size());
+  std::vector<double> extended(atoms_.size()), radii(atoms_.size());
+  for (std::size_t a = 0; a < atoms_.size(); ++a) {
+    centers[a] = atoms_[a].center;
+    radii[a] = atoms_[a].radius;
+    extended[a] = atoms_[a].radius + probe_radius;
+  }
+  radii_.upload(radii);
+  circles_.upload(atoms_, weights_);
+  neighbors_.upload(centers, extended, swallowed_);
+}
+
+// Group 1 (section 3.2 of the paper).
+void ViewPipeline::look(const PictureFrame& frame, Extent extent, GpuScene& scene) {
+  const GpuStage stage(clock_, "visible atoms");
+  visible_.look(atoms_, middle_, probe_radius_, frame, extent != Extent::visible || scene.some_hidden);
+  visible_.draw_occluders(neighbors_.balls, atom_count(), scene.tile_depths);
+}
+
+void ViewPipeline::keep_atoms() {
+  const GpuStage stage(clock_, "visible atoms");
+  const std::uint32_t count = visible_.keep(neighbors_.balls, neighbors_.balls_low, atom_count());
+  neighbors_.list_only(visible_.kept, visible_.before, count);
+  stats_.kept_atoms = count;
+}
+
+// Group 2 (section 3.3): circles in place of atom triples.
+void ViewPipeline::find_arcs() {
+  circles_.restart();
+  std::optional<GpuStage> listing(std::in_place, clock_, "neighbors");
+  neighbors_.for_each_batch([&](const BallBatch& batch) {
+    neighbors_.list_pairs(batch);
+    listing.reset();
+    circles_.expose(batch, clock_);
+    listing.emplace(clock_, "neighbors");
+  });
+  listing.reset();
+  stats_.circles = circles_.stats();
+  arc_count_ = circles_.arc_count();
+  stats_.arcs = arc_count_;
+  arc_texels_.view(circles_.arcs);
+}
+
+// Group 3 (section 3.3): fixed probes are RS faces.
+void ViewPipeline::find_fixed_probes(const PictureFrame& frame, Extent extent) {
+  const GpuStage stage(clock_, "fixed probes");
+  place_probes();
+  whole_spheres_ = extent == Extent::paper;
+  if (whole_spheres_) select_as_the_paper(frame);
+  const double reach = extent_of_atoms_.largest_radius + probe_radius_;
+  probe_neighbors_.adopt(static_cast<std::uint32_t>(stats_.probes),
+                         {extent_of_atoms_.low - reach, extent_of_atoms_.high + reach, probe_radius_});
+}
+
+void ViewPipeline::select_as_the_paper(const PictureFrame& frame) {
+  RollingBuffers rolling{&circles_.arcs,
+                         &probes_,
+                         &probe_neighbors_.balls,
+                         &probe_neighbors_.balls_low,
+                         arc_count_,
+                         static_cast<std::uint32_t>(stats_.probes)};
+  paper_.select(frame, visible_, neighbors_.balls, atom_count(), probe_radius_, rolling);
+  arc_texels_.view(circles_.arcs);
+  arc_count_ = rolling.arc_count;
+  stats_.arcs = rolling.arc_count;
+  stats_.probes = rolling.probe_count;
+}
+
+void ViewPipeline::place_probes() {
+  const Program& program = programs_.get("gpu_shaders/reduced_surface/fixed_probes.comp", {{"LISTED", "1"}});
+  for (;;) {
+    probes_.resize(probe_capacity_ * kProbeRecordBytes);
+    probe_neighbors_.balls.resize(probe_capacity_ * sizeof(glm::vec4));
+    probe_neighbors_.balls_low.resize(probe_capacity_ * sizeof(glm::vec4));
+    counters_.resize(8 * kWord);
+    counters_.fill(0);
+    circles_.atoms.bind(0);
+    radii_.bind(1);
+    probes_.bind(2);
+    probe_neighbors_.balls.bind(3);
+    probe_neighbors_.balls_low.bind(4);
+    counters_.bind(5);
+    arc_texels_.bind(0);
+    neighbors_.bind_listed();
+    visible_.bind(program);
+    program.set(kernel::FixedProbeParameters{
+        .middle = middle_, .probe_radius = probe_radius_, .arc_count = arc_count_, .probe_capacity = probe_capacity_});
+    program.dispatch(group_count(arc_count_));
+    std::array<std::uint32_t, 7> counts{};
+    counters_.read(0, counts.data(), sizeof counts);
+    if (counts[0] <= probe_capacity_) {
+      stats_.probes = counts[0];
+      require_closed({counts[1], counts[2], counts[3], counts[4], counts[5], counts[6]});
+      return;
+    }
+    probe_capacity_ = grown(probe_capacity_, counts[0]);
+  }
+}
+
+// Theorem 3: three arcs end at every fixed probe, with each of its atoms once as the third.
+void ViewPipeline::require_closed(const std::array<std::uint32_t, 6>& end_sums) const {
+  if (end_sums[0] == end_sums[2] && end_sums[2] == end_sums[4] && end_sums[1] == end_sums[3] &&
+      end_sums[3] == end_sums[5])
+    return;
+  throw OpenSurfaceError(
+      "the part of the surface that this view needs is not closed; nothing was drawn; "
+      "please report this structure");
+}
+
+// Group 4 (section 3.4).
+void ViewPipeline::make_primitives(const PictureFrame& frame, GpuScene& scene) {
+  const GpuStage stage(clock_, "primitives");
+  list_arcs_by_atom();
+  // As pack_scene does: centres are rounded to 2^-24 of the extent.
+  double extent = 0.0, nearest = std::numeric_limits<double>::max(), farthest = 0.0;
+  for (const Ball& ball : atoms_) {
+    extent = std::max(extent, glm::length(ball.center - frame.pivot) + ball.radius + probe_radius_);
+    const double depth = glm::dot(ball.center - frame.camera.position, frame.basis.forward);
+    nearest = std::min(nearest, depth - ball.radius);
+    farthest = std::max(farthest, depth + ball.radius);
+  }
+  scene.slack = static_cast<float>(1e-5 + 2.5e-7 * extent);
+  scene.first_depth = static_cast<float>(std::max(nearest, 0.0));
+  scene.last_depth = static_cast<float>(farthest);
+  for (;;) {
+    append_primitives(frame, scene);
+    std::uint32_t counts[3];
+    counters_.read(0, counts, sizeof counts);
+    if (counts[2] != 0)
+      throw CapacityError(
+          "some patch is cut by more others than this driver's kernels can go through; use a smaller probe");
+    scene.primitive_count = counts[0];
+    stats_.primitives = counts[0];
+    if (counts[0] <= primitive_capacity_ && counts[1] <= row_capacity_) break;
+    primitive_capacity_ = grown(primitive_capacity_, counts[0]);
+    row_capacity_ = grown(row_capacity_, counts[1]);
+  }
+}
+
+void ViewPipeline::list_arcs_by_atom() {
+  const std::uint32_t arc_count = arc_count_;
+  atom_arc_first_.resize((atom_count() + 1) * kWord);
+  atom_arc_first_.fill(0);
+  atom_arc_rank_.resize(arc_count * sizeof(glm::uvec2));
+  atom_arcs_.resize(2 * arc_count * sizeof(glm::uvec4));
+  for (int pass = 0; pass < 2; ++pass) {
+    const Program& program = programs_.get("gpu_shaders/primitives/atom_arcs.comp", {{"PASS", std::to_string(pass)}});
+    arc_texels_.bind(0);
+    atom_arc_first_.bind(0);
+    atom_arc_rank_.bind(1);
+    atom_arcs_.bind(2);
+    program.set(kernel::ArcParameters{.arc_count = arc_count});
+    program.dispatch(group_count(arc_count));
+    if (pass == 0) prefix_sum_(atom_arc_first_, atom_count());
+  }
+  atom_arc_first_texels_.view(atom_arc_first_);
+  atom_arc_texels_.view(atom_arcs_);
+}
+
+void ViewPipeline::append_primitives(const PictureFrame& frame, GpuScene& scene) {
+  scene.primitives.resize(primitive_capacity_ * sizeof(ray_cast::Primitive));
+  scene.rows.resize(row_capacity_ * sizeof(glm::vec4));
+  counters_.fill(0);
+  if (probe_radius_ > 0.0) {  // a probe of no size leaves tori and concave patches without area
+    const Program& toroidal = primitive_kernel("toroidal", frame, scene);
+    circles_.atoms.bind(0);
+    radii_.bind(1);
+    arc_texels_.bind(0);
+    toroidal.set(kernel::ArcParameters{.arc_count = arc_count_});
+    toroidal.dispatch(group_count(arc_count_));
+
+    probe_neighbors_.for_each_batch([&](const BallBatch& batch) {
+      const Program& concave = primitive_kernel("concave", frame, scene);
+      circles_.atoms.bind(0);
+      probes_.bind(1);
+      probe_neighbors_.first.bind(5);
+      probe_neighbors_.labels.bind(6);
+      probe_neighbors_.relative.bind(7);
+      concave.set(kernel::ConcaveParameters{.first_probe = batch.first, .probe_count = batch.count});
+      concave.dispatch(group_count(batch.count));
+    });
+  }
+  neighbors_.for_each_batch([&](const BallBatch& batch) {
+    ShaderDefines defines{{"LISTED", "1"}};
+    if (whole_spheres_) defines.emplace_back("WHOLE_SPHERES", "1");
+    const Program& convex = primitive_kernel("convex", frame, scene, defines);
+    if (whole_spheres_) paper_.drawn().bind(7);
+    circles_.atoms.bind(0);
+    radii_.bind(1);
+    atom_arc_first_texels_.bind(0);
+    atom_arc_texels_.bind(1);
+    neighbors_.first.bind(5);
+    neighbors_.labels.bind(6);
+    neighbors_.bind_listed();
+    visible_.bind(convex);
+    convex.set(kernel::ConvexParameters{.middle = middle_, .first_entry = batch.first, .entry_count = batch.count});
+    convex.dispatch(group_count(batch.count));
+  });
+}
+
+// The kernel with everything that append_primitive.glsl needs.
+const Program& ViewPipeline::primitive_kernel(const char* name, const PictureFrame& frame, GpuScene& scene,
+                                              const ShaderDefines& defines) {
+  const Program& program = programs_.get(std::string("gpu_shaders/primitives/") + name + ".comp", defines);
+  scene.primitives.bind(2);
+  scene.rows.bind(3);
+  counters_.bind(4);
+  program.set(kernel::PrimitiveParameters{.pivot = frame.pivot,
+                                          .eye_distance = frame.eye_distance,
+                                          .camera_position = frame.camera.position,
+                                          .probe_radius = probe_radius_,
+                                          .camera_forward = frame.basis.forward,
+                                          .slack = scene.slack,
+                                          .orthographic = frame.camera.projection == Projection::orthographic,
+                                          .primitive_capacity = primitive_capacity_,
+                                          .row_capacity = row_capacity_},
+              kernel::kPrimitiveBinding);
+  return program;
+}
+
+}  // namespace meniscus

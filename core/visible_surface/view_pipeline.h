@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The paper's pipeline: for every frame the part of the surface that one view needs, from atoms to primitives on the
+// GPU.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/base/stage_clock.h"
+#include "core/gpu/buffer.h"
+#include "core/gpu/prefix_sum.h"
+#include "core/gpu/program.h"
+#include "core/gpu/texel_buffer.h"
+#include "core/render/gpu_scene.h"
+#include "core/render/ray_cast_scene.h"
+#include "core/reduced_surface/gpu/gpu_circles.h"
+#include "core/reduced_surface/gpu/gpu_neighbors.h"
+#include "core/surface/primitives.h"
+#include "core/visible_surface/extent.h"
+#include "core/visible_surface/paper_selection.h"
+#include "core/visible_surface/visible_atoms.h"
+
+namespace meniscus {
+
+/// What one view took.
+struct ViewStats {
+  std::size_t atoms = 0;
+  std::size_t kept_atoms = 0;  ///< that can matter for a pixel
+  std::size_t arcs = 0;        ///< RS edges between kept atoms
+  std::size_t probes = 0;      ///< RS faces that can matter for a pixel
+  std::size_t primitives = 0;
+  CircleStats circles;
+};
+
+/// Finds the primitives of a view; nothing but counters comes back from the GPU between the stages, and the few circles
+/// that double precision cannot decide. Keeps kernels and buffers from frame to frame. Needs a current GL context.
+///
+/// Its four groups of stages are those of Krone, Dachsbacher & Ertl 2010, section 3: visible atoms; neighbours and
+/// potential RS faces and edges; the RS faces that are visible or cut what is visible; primitives and singularities.
+/// All atoms still act as blockers. The picture of what it finds equals that of the complete surface, pixel for pixel.
+/// A complete surface does not depend on the camera: for the same atoms and probe its arcs and RS faces are found once.
+class ViewPipeline {
+ public:
+  ViewPipeline();
+
+  /// Van der Waals balls, Å, of one frame; there must be one.
+  void set_atoms(std::vector<Ball> atoms);
+  const std::vector<Ball>& atoms() const { return atoms_; }
+
+  /// Fills in all of the scene but its colours. Where the arcs around the view do not close for ties the radii grow by
+  /// a hair (tie_ladder.h). Throws OpenSurfaceError when that does not help, GpuError, CapacityError.
+  void run(const PictureFrame& frame, double probe_radius, Extent extent, GpuScene& scene);
+
+  /// Wall-clock times of the stages of the last run.
+  const std::vector<StageTime>& times() const { return clock_.times(); }
+  const ViewStats& stats() const { return stats_; }
+
+ private:
+  void run_once(const PictureFrame& frame, double probe_radius, Extent extent, GpuScene& scene);
+  void upload_atoms(double probe_radius);
+  void look(const PictureFrame& frame, Extent extent, GpuScene& scene);
+  void keep_atoms();
+  void find_arcs();
+  void find_fixed_probes(const PictureFrame& frame, Extent extent);
+  void make_primitives(const PictureFrame& frame, GpuScene& scene);
+
+  void place_probes();
+  void select_as_the_paper(const PictureFrame& frame);
+  void require_closed(const std::array<std::uint32_t, 6>& end_sums) const;
+  void list_arcs_by_atom();
+  void append_primitives(const PictureFrame& frame, GpuScene& scene);
+  const Program& primitive_kernel(const char* name, const PictureFrame& frame, GpuScene& scene,
+                                  const ShaderDefines& defines = {});
+  std::uint32_t atom_count() const { return static_cast<std::uint32_t>(atoms_.size()); }
+
+  ProgramCache programs_;
+  PrefixSum prefix_sum_{programs_};
+  GpuNeighbors neighbors_{programs_};        // of atoms
+  GpuNeighbors probe_neighbors_{programs_};  // of fixed probes
+  GpuCircles circles_{programs_, neighbors_};
+  VisibleAtoms visible_{programs_};
+  PaperSelection paper_{programs_};
+  StageClock clock_;
+  ViewStats stats_;
+
+  // The frame at work.
+  std::vector<Ball> atoms_;
+  std::vector<bool> swallowed_;
+  std::vector<double> weights_;
+  glm::dvec3 middle_{0.0};
+  BallExtent extent_of_atoms_;     // around their middle; radii without the probe
+  double probe_radius_ = -1.0;     // of what is on the GPU; negative: nothing is
+  bool all_probes_found_ = false;  // arcs and probes on the GPU are those of the complete surface
+  Buffer radii_;                   // double per atom: van der Waals
+  Buffer probes_;                  // ProbeRecord each
+  Buffer counters_;
+  Buffer atom_arc_first_, atom_arc_rank_, atom_arcs_;
+  TexelBuffer arc_texels_{TexelFormat::uint4}, atom_arc_first_texels_{TexelFormat::uint1},
+      atom_arc_texels_{TexelFormat::uint4};
+  std::uint32_t arc_count_ = 0;
+  bool whole_spheres_ = false;  // drawn instead of convex patches
+  std::uint32_t probe_capacity_ = 1 << 13;
+  std::uint32_t primitive_capacity_ = 1 << 15;
+  std::uint32_t row_capacity_ = 1 << 17;
+};
+
+}  // namespace meniscus
