@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs what the tests need, checks the code's form, builds everything and runs the tests: all of them as
-# released, and the unit, property, trajectory and command-line tests with asserts, warnings as errors, AddressSanitizer and
-# UBSan. At the end it names what could not run; with CI=true a skip that scripts/expected_skips.txt does not name is a failure.
+# released, and the unit, property and trajectory tests with asserts, warnings as errors, AddressSanitizer and UBSan. At the end it
+# names what could not run; with CI=true a skip that scripts/expected_skips.txt does not name is a failure.
 # Safe to run again; options go to ctest (-R NAME, -L LABEL).
 set -euo pipefail
 cd "$(dirname "$0")/.."

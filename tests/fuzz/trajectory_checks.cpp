@@ -8,6 +8,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/text/parse_number.h"
 #include "core/base/error.h"
 #include "core/trajectory/periodic_cell.h"
 
