@@ -7,14 +7,14 @@
 
 #include <fmt/format.h>
 
-#include "app/build_version.h"
+#include "app/process/build_version.h"
 #include "app/commands/commands.h"
 #include "app/reports/error_report.h"
-#include "app/failed_allocation.h"
-#include "app/memory_limit.h"
-#include "app/program_error.h"
-#include "app/standard_streams.h"
-#include "app/stop_signals.h"
+#include "app/process/failed_allocation.h"
+#include "app/process/memory_limit.h"
+#include "app/process/program_error.h"
+#include "app/process/standard_streams.h"
+#include "app/process/stop_signals.h"
 #include "core/base/text.h"
 
 namespace meniscus {

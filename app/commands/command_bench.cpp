@@ -10,12 +10,14 @@
 #include <fmt/ostream.h>
 
 #include "app/commands/commands.h"
-#include "app/molecule.h"
+#include "core/scene/molecule.h"
 #include "app/commands/paper_bench.h"
 #include "app/options/picture_options.h"
-#include "app/program_error.h"
+#include "app/process/program_error.h"
 #include "core/base/text.h"
 #include "core/structure/formats/formats.h"
+#include "app/reports/notes.h"
+#include "app/options/molecule_options.h"
 #include "core/reduced_surface/rolling_probe/rolling_probe.h"
 
 namespace meniscus {
@@ -27,7 +29,7 @@ struct BenchCommand {
   int runs = 5;
   bool baseline = false;
   bool paper = false;
-  PictureOptions picture;  ///< size of the frames of --paper
+  ViewRequest picture;  ///< size of the frames of --paper
 };
 
 /// One measured molecule: the run with the median total.
@@ -63,13 +65,13 @@ Row measure(const Structure& structure, const BenchCommand& command, Progress& p
   const std::vector<Ball> balls = balls_of(structure);
   Row row{std::filesystem::path(structure.file).filename().string(),
           balls.size(),
-          compute_surface(balls, command.molecule.computing).device,
+          compute_surface(balls, command.molecule.surface).device,
           {},
           {}};
   std::vector<std::vector<StageTime>> times, baselines;
   for (int n = 0; n < command.runs; ++n) {
-    times.push_back(compute_surface(balls, command.molecule.computing).stages);
-    if (command.baseline) baselines.push_back(roll(balls, command.molecule.computing.probe_radius));
+    times.push_back(compute_surface(balls, command.molecule.surface).stages);
+    if (command.baseline) baselines.push_back(roll(balls, command.molecule.surface.probe_radius));
     progress.advance();
   }
   row.stages = median(std::move(times));
@@ -116,18 +118,18 @@ void print_table(const std::vector<Row>& rows) {
 
 void run_paper(BenchCommand& command) {
   if (command.baseline) throw UsageError("--baseline times surfaces, --paper frames; choose one");
-  if (command.molecule.computing.verify) throw UsageError("--verify compares surfaces, --paper times frames");
-  if (command.molecule.computing.kind != SurfaceKind::ses)
+  if (command.molecule.surface.verify) throw UsageError("--verify compares surfaces, --paper times frames");
+  if (command.molecule.surface.kind != SurfaceKind::ses)
     throw UsageError("--paper draws solvent-excluded surfaces only");
   PaperBenchSettings settings;
-  settings.device = command.molecule.computing.gl;
+  settings.device = command.molecule.surface.gl;
   settings.size = {command.picture.width, command.picture.height};
-  settings.probe_radius = command.molecule.computing.probe_radius;
+  settings.probe_radius = command.molecule.surface.probe_radius;
   settings.runs = command.runs;
   std::vector<PaperBenchMolecule> molecules;
   for (const std::string& file : command.files) {
     command.molecule.file = file;
-    molecules.push_back({std::filesystem::path(file).filename().string(), balls_of(read_molecule(command.molecule))});
+    molecules.push_back({std::filesystem::path(file).filename().string(), balls_of(read_and_tell(command.molecule))});
   }
   print_paper_tables(molecules, settings);
 }
@@ -139,7 +141,7 @@ void run(BenchCommand& command) {
   std::vector<Row> rows;
   for (const std::string& file : command.files) {
     command.molecule.file = file;
-    rows.push_back(measure(read_molecule(command.molecule), command, progress));
+    rows.push_back(measure(read_and_tell(command.molecule), command, progress));
   }
   print_table(rows);
 }

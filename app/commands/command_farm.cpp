@@ -8,6 +8,7 @@
 #include <fmt/ostream.h>
 
 #include "app/commands/commands.h"
+#include "app/commands/parse_bundled_command.h"
 #include "app/farm/child_process.h"
 #include "app/farm/inner_path.h"
 #include "app/farm/make_bundle.h"
@@ -16,8 +17,8 @@
 #include "app/farm/status.h"
 #include "app/farm/verify.h"
 #include "app/farm/worker.h"
-#include "app/program_error.h"
-#include "app/stop_signals.h"
+#include "app/process/program_error.h"
+#include "app/process/stop_signals.h"
 #include "core/base/text.h"
 
 namespace meniscus {
@@ -26,6 +27,7 @@ namespace {
 constexpr std::size_t kFaultsShown = 10;
 
 struct BundleCommand {
+  std::vector<std::string> words;  // behind --
   farm::BundleOptions options;
   std::string folder, engines = "make,slurm,openjd,flamenco", film, addon = MENISCUS_ADDON;
   double frames_per_second = 25.0;
@@ -69,7 +71,9 @@ void bundle(BundleCommand command) {
     check_film_name(command.film);
     options.film = farm::Film{command.film, command.frames_per_second};
   }
-  const farm::MadeBundle made = farm::make_bundle(options);
+  farm::BundledCommand bundled;
+  farm::parse_bundled_command(command.words, bundled);
+  const farm::MadeBundle made = farm::make_bundle(options, bundled);
   for (const std::string& note : made.notes) std::cerr << "meniscus: note: " << escaped(note) << "\n";
   const farm::Chunking& chunking = made.bundle.chunking;
   fmt::print(std::cout, "{}: {} frames in {} {} a step{}{}\n", escaped(command.folder),
@@ -94,7 +98,7 @@ void add_bundle(CLI::App& command) {
            "long it takes, unless --chunk-frames says how many frames make a task.");
   auto state = std::make_shared<BundleCommand>();
   command.add_option("DIR", state->folder, "The folder to make")->required()->type_name("");
-  command.add_option("COMMAND", state->options.command, "Behind --: render, export povray or export blender, and more")
+  command.add_option("COMMAND", state->words, "Behind --: render, export povray or export blender, and more")
       ->required()
       ->type_name("");
   command

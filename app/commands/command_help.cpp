@@ -7,7 +7,7 @@
 #include <fmt/ostream.h>
 
 #include "app/commands/commands.h"
-#include "app/program_error.h"
+#include "app/process/program_error.h"
 #include "core/base/text.h"
 #include "core/structure/selection/selection_words.h"
 

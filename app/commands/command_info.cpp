@@ -13,10 +13,14 @@
 #include <fmt/ostream.h>
 
 #include "app/commands/commands.h"
-#include "app/molecule.h"
-#include "app/sequence.h"
+#include "core/scene/molecule.h"
+#include "core/scene/frame_run.h"
 #include "app/reports/trajectory_report.h"
 #include "core/base/text.h"
+#include "app/reports/notes.h"
+#include "app/reports/assembly_table.h"
+#include "app/options/frame_options.h"
+#include "app/options/molecule_options.h"
 #include "core/trajectory/formats/formats.h"
 
 namespace meniscus {

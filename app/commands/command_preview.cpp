@@ -13,18 +13,22 @@
 #include <fmt/format.h>
 
 #include "app/commands/commands.h"
+#include "app/options/frame_options.h"
+#include "app/options/picture_options.h"
 #include "app/options/look_options.h"
-#include "app/molecule.h"
+#include "core/scene/molecule.h"
 #include "app/options/picture_options.h"
 #include "app/preview/command_log.h"
 #include "app/preview/server/serve.h"
 #include "app/preview/session.h"
 #include "app/preview/window/window.h"
-#include "app/program_error.h"
-#include "app/sequence.h"
-#include "app/show_only.h"
+#include "app/process/program_error.h"
+#include "core/scene/frame_run.h"
+#include "core/scene/hidden_atoms.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "app/reports/notes.h"
+#include "app/options/molecule_options.h"
 #include "core/gpu/egl_context.h"
 
 namespace meniscus {
@@ -32,8 +36,8 @@ namespace {
 
 struct PreviewCommand {
   MoleculeOptions molecule;
-  SequenceOptions sequence;
-  PictureOptions picture;
+  FrameOptions frames;
+  ViewRequest picture;
   Look look;
   std::optional<std::uint16_t> port;  ///< of --serve
   std::string record, commands, output_folder = ".";
@@ -64,13 +68,13 @@ struct Shown {
 };
 
 Shown read_run(const PreviewCommand& command) {
-  if (!command.sequence.asked()) return {read_molecule(command.molecule), {}, {}};
+  if (!command.frames.asked()) return {read_and_tell(command.molecule), {}, {}};
   MoleculeOptions molecule = command.molecule;
   if (molecule.reading.model.all) molecule.reading.model = {};  // the preview's default; a run has frames instead
-  const auto sequence = std::make_shared<Sequence>(molecule, command.sequence);
-  return {sequence->structure(),
-          Moments{sequence->share(),
-                  [sequence](std::size_t frame) { return sequence->positions(sequence->share()[frame]); }},
+  const auto frames = std::make_shared<FrameRun>(molecule, command.frames);
+  tell_run(molecule, *frames);
+  return {frames->structure(),
+          Moments{frames->chunk(), [frames](std::size_t frame) { return frames->positions(frames->chunk()[frame]); }},
           {}};
 }
 
@@ -80,11 +84,11 @@ Shown read_inputs(PreviewCommand& command) {
   const std::optional<Camera> camera = given_camera(command.picture);
   Shown shown = read_run(command);
   shown.camera = camera;
-  if (command.molecule.computing.cpu) throw UsageError("--device cpu draws no pictures; use auto, gpu or software");
+  if (command.molecule.surface.cpu) throw UsageError("--device cpu draws no pictures; use auto, gpu or software");
   if (!shown.structure.instances.empty())
     throw UsageError("--instances is for render and export; the preview draws atoms");
   ColorScheme& color = command.molecule.color;
-  if (color.by == ColorScheme::By::file) color.file = read_number_file(command.molecule.color_file);
+  if (color.by == ColorScheme::By::file) color.file = read_number_file(command.molecule.number_file);
   return shown;
 }
 
@@ -93,7 +97,7 @@ std::unique_ptr<PreviewSession> begin_session(const PreviewCommand& command, Sho
   PreviewView view;
   view.color = command.molecule.color;
   if (command.molecule.show) view.hidden = hidden_atoms(*command.molecule.show, shown.structure);
-  view.probe_radius = command.molecule.computing.probe_radius;
+  view.probe_radius = command.molecule.surface.probe_radius;
   view.look = command.look;
   view.size = {command.picture.width, command.picture.height};
   view.camera.projection = command.picture.projection;
@@ -121,7 +125,7 @@ void serve(PreviewCommand& command) {
   std::signal(SIGPIPE, SIG_IGN);  // whoever stops reading must not end the server
   const std::vector<WrittenCommand> commands = written_commands(command);
   Shown shown = read_inputs(command);
-  const EglContext context(command.molecule.computing.gl);
+  const EglContext context(command.molecule.surface.gl);
   const std::unique_ptr<PreviewSession> session = begin_session(command, std::move(shown));
   replay_commands(command.commands, commands, *session, std::cout);
   if (session->wants_to_quit()) return;
@@ -138,7 +142,7 @@ void say_report(const PreviewCommand& command, const WindowReport& report) {
 }
 
 void open_window(PreviewCommand& command) {
-  if (command.molecule.computing.gl.kind != DeviceChoice::Kind::automatic)
+  if (command.molecule.surface.gl.kind != DeviceChoice::Kind::automatic)
     throw UsageError("--device and --require-gpu are for --serve; a window draws on the device of its display");
   const std::vector<WrittenCommand> commands = written_commands(command);
   Shown shown = read_inputs(command);
@@ -189,12 +193,12 @@ void add_preview(CLI::App& command) {
   command.remove_option(command.get_option("--instances"));  // the preview draws atoms
   {
     const Heading heading(command, "Surface");
-    add_probe_option(command, state->molecule.computing);
-    add_device_option(command, state->molecule.computing);
+    add_probe_option(command, state->molecule.surface);
+    add_device_option(command, state->molecule.surface);
     command.get_option("--device")->description("auto (default: a GPU if there is one), gpu, gpu:N, software");
   }
   add_color_options(command, state->molecule);
-  add_sequence_options(command, state->sequence);
+  add_frame_options(command, state->frames);
   for (const char* option : {"--only", "--progress"}) command.remove_option(command.get_option(option));
   add_picture_options(command, state->picture);
   add_look_options(command, state->look);

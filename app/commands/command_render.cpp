@@ -12,13 +12,15 @@
 
 #include "app/commands/commands.h"
 #include "app/options/look_options.h"
-#include "app/molecule.h"
-#include "app/program_error.h"
+#include "core/scene/molecule.h"
+#include "app/process/program_error.h"
 #include "app/commands/render_command.h"
-#include "app/view_picture.h"
+#include "app/commands/view_picture.h"
 #include "core/base/text.h"
 #include "core/gpu/egl_context.h"
 #include "core/render/image_output.h"
+#include "app/reports/notes.h"
+#include "app/options/run_camera_options.h"
 #include "core/queries/combine.h"
 
 namespace meniscus {
@@ -71,9 +73,9 @@ void say_times(const RenderCommand& command, const EglContext& context, const st
 void draw_view(const RenderCommand& command, const std::optional<Camera>& given) {
   const ColoredAtoms atoms = load_atoms(command.molecule);
   const PictureLayout layout(command, key_of(atoms.molecule));
-  const Camera camera = picture_camera(layout.size, given, atoms.balls);
+  const Camera camera = view_camera(layout.size, given, atoms.balls);
   const EglContext context(gl_device(command));
-  ViewPicture view = ViewPainter().paint(atoms, camera, command.molecule.computing.probe_radius, *command.extent,
+  ViewPicture view = ViewPainter().paint(atoms, camera, command.molecule.surface.probe_radius, *command.extent,
                                          render_settings(command, layout));
   if (command.stats) fmt::print(std::cerr, "{}", stats_text(view));
   say_times(command, context, view.times);
@@ -81,7 +83,7 @@ void draw_view(const RenderCommand& command, const std::optional<Camera>& given)
 }
 
 void run(const RenderCommand& command) {
-  if (command.sequence.asked()) return render_frames(command);
+  if (command.frames.asked()) return render_frames(command);
   if (command.run_camera.moves())
     throw UsageError("--camera-path, --turntable and --follow move the camera over a run of frames; add --frames");
   check_image_path(command.output.path);
@@ -102,7 +104,7 @@ void run(const RenderCommand& command) {
   if (command.extent) return draw_view(command, given);
   Molecule molecule = load_molecule(command.molecule);
   const PictureLayout layout(command, key_of(molecule));
-  const Camera camera = picture_camera(layout.size, given, placed_balls(molecule.objects));
+  const Camera camera = view_camera(layout.size, given, placed_balls(molecule.objects));
   const EglContext context(gl_device(command));
   RayCaster caster;
   Framebuffer picture = cast(caster, std::move(molecule.objects), camera, render_settings(command, layout));
@@ -128,7 +130,7 @@ RenderSettings render_settings(const RenderCommand& command, const PictureLayout
   return settings;
 }
 
-DeviceChoice gl_device(const RenderCommand& command) { return command.molecule.computing.gl; }
+DeviceChoice gl_device(const RenderCommand& command) { return command.molecule.surface.gl; }
 
 Framebuffer cast(RayCaster& caster, std::vector<SurfaceObject> objects, const Camera& camera,
                  const RenderSettings& settings) {
@@ -156,7 +158,7 @@ void add_render(CLI::App& command) {
   auto state = std::make_shared<RenderCommand>();
   add_molecule_options(command, state->molecule);
   add_picture_options(command, state->picture);
-  add_sequence_options(command, state->sequence);
+  add_frame_options(command, state->frames);
   add_run_camera_options(command, state->run_camera);
   add_look_options(command, state->look);
   add_output_options(

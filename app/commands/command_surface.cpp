@@ -10,10 +10,13 @@
 
 #include "app/reports/area_csv.h"
 #include "app/commands/commands.h"
-#include "app/frame_run.h"
-#include "app/context_areas.h"
-#include "app/molecule.h"
-#include "app/program_error.h"
+#include "app/reports/run_frames.h"
+#include "core/scene/context_areas.h"
+#include "core/scene/molecule.h"
+#include "app/process/program_error.h"
+#include "app/reports/notes.h"
+#include "app/options/molecule_options.h"
+#include "app/options/frame_options.h"
 #include "app/reports/surface_report.h"
 
 namespace meniscus {
@@ -21,7 +24,7 @@ namespace {
 
 struct SurfaceCommand {
   MoleculeOptions molecule;
-  SequenceOptions sequence;
+  FrameOptions frames;
   bool json = false;
   std::string atom_csv, residue_csv;  ///< paths; empty: none; "-": standard output
   std::optional<Selection> context;
@@ -56,15 +59,16 @@ void run_sequence(const SurfaceCommand& command) {
   if (command.context) throw UsageError("--context: not in a run of frames; leave one of them away");
   if (!command.atom_csv.empty() || !command.residue_csv.empty())
     throw UsageError("--csv: not in a run of frames; --json has the areas of chains");
-  Sequence sequence(command.molecule, command.sequence);
+  FrameRun frames(command.molecule, command.frames);
+  tell_run(command.molecule, frames);
   MoleculeBuilder builder(command.molecule);
   if (!command.json) std::cout << report_row_header(command.molecule);
-  SequenceOptions options = command.sequence;
+  FrameOptions options = command.frames;
   // On a terminal the rows themselves tell how far it is; a bar would run into them.
   if (options.progress == ProgressStyle::automatic && ::isatty(STDOUT_FILENO)) options.progress = ProgressStyle::none;
-  run_frames(sequence, command.molecule, options, [&](const SequenceFrame& frame) {
+  run_frames(frames, command.molecule, options, [&](const RunFrame& frame) {
     const Molecule molecule = builder.build(frame.structure);
-    const auto columns = area_columns(molecule.structure, molecule.objects, command.molecule.computing.kind);
+    const auto columns = area_columns(molecule.structure, molecule.objects, command.molecule.surface.kind);
     const SurfaceReport report{molecule, command.molecule, columns, std::nullopt};
     const FrameNote note{frame.number, frame.time};
     std::cout << (command.json ? report_json_line(report, note) : report_row(report, note)) << std::flush;
@@ -74,11 +78,11 @@ void run_sequence(const SurfaceCommand& command) {
 }
 
 void run(const SurfaceCommand& command) {
-  if (command.sequence.asked()) return run_sequence(command);
+  if (command.frames.asked()) return run_sequence(command);
   const Existing existing = command.force ? Existing::replace : Existing::refuse;
   check_outputs(command, existing);
   const Molecule molecule = load_molecule(command.molecule);
-  std::vector<AreaColumn> columns = area_columns(molecule.structure, molecule.objects, command.molecule.computing.kind);
+  std::vector<AreaColumn> columns = area_columns(molecule.structure, molecule.objects, command.molecule.surface.kind);
   std::optional<ContextNote> context;
   if (command.context) {
     ContextAreas areas = context_areas(command.molecule, *command.context, molecule, columns);
@@ -117,7 +121,7 @@ void add_surface(CLI::App& command) {
   add_atom_options(command, state->molecule);
   add_surface_options(command, state->molecule);
   add_division_options(command, state->molecule);
-  add_sequence_options(command, state->sequence);
+  add_frame_options(command, state->frames);
   command.add_flag("--json", state->json, "Print one JSON object instead of a table");
   command.add_option("--csv", state->atom_csv, "Write areas of atoms, a row each; -: to standard output, nothing else")
       ->type_name("FILE");

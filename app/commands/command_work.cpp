@@ -16,8 +16,8 @@
 #include "app/farm/claims.h"
 #include "app/farm/worker.h"
 #include "app/options/molecule_options.h"
-#include "app/program_error.h"
-#include "app/stop_signals.h"
+#include "app/process/program_error.h"
+#include "app/process/stop_signals.h"
 #include "core/base/text.h"
 #include "core/trajectory/frame_list.h"
 

@@ -4,16 +4,21 @@
 #include <iostream>
 #include <memory>
 
-#include "app/blender_attributes.h"
+#include "exporters/blender/atom_attributes.h"
 #include "app/commands/commands.h"
-#include "app/frame_run.h"
+#include "app/reports/run_frames.h"
 #include "app/options/mesh_options.h"
-#include "app/program_error.h"
-#include "app/run_framing.h"
+#include "app/process/program_error.h"
+#include "core/scene/run_framing.h"
 #include "core/base/text.h"
 #include "core/queries/combine.h"
 #include "exporters/blender/sequence_manifest.h"
 #include "exporters/blender/surface_file.h"
+#include "app/reports/notes.h"
+#include "app/options/run_camera_options.h"
+#include "app/options/molecule_options.h"
+#include "app/options/frame_options.h"
+#include "app/options/picture_options.h"
 #include "exporters/mesh/velocity.h"
 
 namespace meniscus {
@@ -21,35 +26,36 @@ namespace {
 
 struct BlenderCommand {
   MoleculeOptions molecule;
-  MeshCommandOptions mesh;
-  SequenceOptions sequence;
-  RunCameraOptions run_camera;
-  PictureOptions picture;
+  MeshRequest mesh;
+  FrameOptions frames;
+  CameraMotionRequest run_camera;
+  ViewRequest picture;
   OutputOptions output;
   double fps = 24.0;
 };
 
 std::string file_name(const std::string& path) { return std::filesystem::path(path).filename().string(); }
 
-blender::SequenceManifest manifest_of(const BlenderCommand& command, const GivenCameras& cameras, Sequence& sequence) {
-  const RunFraming framing = run_framing(command.picture, command.run_camera, cameras, sequence);
-  const ColorKey key = color_key(sequence.structure(), color_of(command.molecule), {});
+blender::SequenceManifest manifest_of(const BlenderCommand& command, const GivenCameras& cameras, FrameRun& frames) {
+  const RunFraming framing = run_framing(command.picture, command.run_camera, cameras, frames);
+  const ColorKey key = color_key(frames.structure(), color_of(command.molecule), {});
   blender::SequenceManifest manifest;
-  manifest.provenance = {file_name(sequence.structure().file), sequence.structure().radii_set, {}, colors_json(key)};
-  manifest.trajectory = file_name(command.sequence.trajectory);
-  manifest.frames = sequence.run();
+  manifest.provenance = {file_name(frames.structure().file), frames.structure().radii_set, {}, key};
+  manifest.trajectory = file_name(command.frames.trajectory);
+  manifest.frames = frames.numbers();
   for (const Camera& camera : framing.cameras)
     manifest.shots.push_back({camera, command.picture.width, command.picture.height});
   manifest.origin = framing.origin();
   manifest.fps = command.fps;
-  manifest.probe_radius = command.molecule.computing.probe_radius;
-  manifest.tolerance = tolerance_of(command.mesh, command.picture, framing.cameras[0], balls_of(sequence.structure()));
-  manifest.atom_count = sequence.structure().atoms.size();
+  manifest.probe_radius = command.molecule.surface.probe_radius;
+  manifest.tolerance =
+      tolerance_of(command.mesh, command.picture.size(), framing.cameras[0], balls_of(frames.structure()));
+  manifest.atom_count = frames.structure().atoms.size();
   return manifest;
 }
 
 // How the vertices of one object move in a frame of the scene, while so many frames of the trajectory pass.
-std::vector<glm::dvec3> velocities_of(const SurfaceObject& object, const TriangleMesh& mesh, const SequenceFrame& frame,
+std::vector<glm::dvec3> velocities_of(const SurfaceObject& object, const TriangleMesh& mesh, const RunFrame& frame,
                                       double frames_passed) {
   std::vector<glm::dvec3> atoms;
   for (const std::uint32_t atom : object.atom) atoms.push_back(frame.velocities[atom]);
@@ -61,25 +67,26 @@ std::vector<glm::dvec3> velocities_of(const SurfaceObject& object, const Triangl
 // A file for each frame of the share; the manifest for all of the run, the same from every share.
 void run_sequence(const BlenderCommand& command) {
   const GivenCameras cameras = given_cameras(command.picture, command.run_camera);
-  Sequence sequence(command.molecule, command.sequence, true);
+  FrameRun frames(command.molecule, command.frames, true);
+  tell_run(command.molecule, frames);
   MoleculeBuilder builder(command.molecule);
-  const blender::SequenceManifest manifest = manifest_of(command, cameras, sequence);
+  const blender::SequenceManifest manifest = manifest_of(command, cameras, frames);
   const std::string run = run_name(manifest);
   const std::filesystem::path folder = command.output.path;
   const std::filesystem::path written = write_manifest(folder, command.output.existing(), manifest);
-  run_frames(sequence, command.molecule, command.sequence, [&](const SequenceFrame& frame) {
+  run_frames(frames, command.molecule, command.frames, [&](const RunFrame& frame) {
     const Molecule molecule = builder.build(frame.structure);
     std::vector<TriangleMesh> meshes = mesh_objects(molecule.objects, manifest.tolerance);
     std::vector<blender::MeshedObject> objects;
     for (std::size_t n = 0; n < meshes.size(); ++n) {
       const SurfaceObject& object = molecule.objects[n];
-      std::vector<glm::dvec3> velocities = velocities_of(object, meshes[n], frame, pace(sequence.run(), frame.place));
-      objects.push_back(
-          {object, std::move(meshes[n]), blender_attributes(molecule.structure, object.atom), std::move(velocities)});
+      std::vector<glm::dvec3> velocities = velocities_of(object, meshes[n], frame, pace(frames.numbers(), frame.place));
+      objects.push_back({object, std::move(meshes[n]), blender::atom_attributes(molecule.structure, object.atom),
+                         std::move(velocities)});
     }
     blender::Provenance provenance = manifest.provenance;
     provenance.device = molecule.device;
-    provenance.colors = colors_json(molecule);
+    provenance.colors = key_of(molecule);
     const std::string path = (folder / blender::frame_file(frame.number)).string();
     write_objects(path, command.output.existing(), objects, manifest.shot(frame.place), provenance,
                   blender::PlaceInRun{run, frame.number, frame.place + 1});
@@ -89,21 +96,21 @@ void run_sequence(const BlenderCommand& command) {
 }
 
 void run(const BlenderCommand& command) {
-  if (command.sequence.asked()) return run_sequence(command);
+  if (command.frames.asked()) return run_sequence(command);
   if (command.run_camera.moves()) throw UsageError(kMovesWithoutFrames);
   const std::optional<Camera> given = given_camera(command.picture);
   const Molecule molecule = load_molecule(command.molecule);
   const std::vector<Ball> balls = placed_balls(molecule.objects);
-  const Camera camera = picture_camera(command.picture, given, balls);
-  const double tolerance = tolerance_of(command.mesh, command.picture, camera, balls);
-  std::vector<TriangleMesh> meshes = meshes_of(command.molecule, molecule.objects, tolerance);
+  const Camera camera = view_camera(command.picture, given, balls);
+  const double tolerance = tolerance_of(command.mesh, command.picture.size(), camera, balls);
+  std::vector<TriangleMesh> meshes = mesh_and_tell(command.molecule, molecule.objects, tolerance);
   std::vector<blender::MeshedObject> objects;
   for (std::size_t n = 0; n < meshes.size(); ++n) {
     const SurfaceObject& object = molecule.objects[n];
-    objects.push_back({object, std::move(meshes[n]), blender_attributes(molecule.structure, object.atom), {}});
+    objects.push_back({object, std::move(meshes[n]), blender::atom_attributes(molecule.structure, object.atom), {}});
   }
   const blender::Provenance provenance{file_name(molecule.structure.file), molecule.structure.radii_set,
-                                       molecule.device, colors_json(molecule)};
+                                       molecule.device, key_of(molecule)};
   write_objects(command.output.path, command.output.existing(), objects,
                 blender::Shot{camera, command.picture.width, command.picture.height}, provenance);
   std::cout << escaped(command.output.path) << "\n";
@@ -122,7 +129,7 @@ void add_export_blender(CLI::App& command) {
   add_molecule_options(command, state->molecule);
   add_mesh_options(command, state->mesh);
   add_picture_options(command, state->picture);
-  add_sequence_options(command, state->sequence);
+  add_frame_options(command, state->frames);
   add_run_camera_options(command, state->run_camera);
   command.add_option("--fps", state->fps, "Frames of a run a second [24]")
       ->type_name("N")

@@ -9,6 +9,9 @@
 #include "app/options/mesh_options.h"
 #include "core/base/text.h"
 #include "core/queries/combine.h"
+#include "app/reports/notes.h"
+#include "app/options/molecule_options.h"
+#include "app/options/picture_options.h"
 #include "exporters/mesh/ply.h"
 
 namespace meniscus {
@@ -16,8 +19,8 @@ namespace {
 
 struct PlyCommand {
   MoleculeOptions molecule;
-  MeshCommandOptions mesh;
-  PictureOptions picture;
+  MeshRequest mesh;
+  ViewRequest picture;
   OutputOptions output;
 };
 
@@ -40,9 +43,9 @@ void run(const PlyCommand& command) {
   const std::optional<Camera> given = given_camera(command.picture);
   Molecule molecule = load_molecule(command.molecule);
   const SurfaceObject whole = merged(std::move(molecule.objects));
-  const Camera camera = picture_camera(command.picture, given, whole.surface.atoms);
-  const double tolerance = tolerance_of(command.mesh, command.picture, camera, whole.surface.atoms);
-  const TriangleMesh mesh = std::move(meshes_of(command.molecule, {&whole, 1}, tolerance).front());
+  const Camera camera = view_camera(command.picture, given, whole.surface.atoms);
+  const double tolerance = tolerance_of(command.mesh, command.picture.size(), camera, whole.surface.atoms);
+  const TriangleMesh mesh = std::move(mesh_and_tell(command.molecule, {&whole, 1}, tolerance).front());
   write_ply(command.output.path, command.output.existing(), mesh, whole.coloring,
             scalars_of(molecule.structure, whole.atom));
   std::cout << escaped(command.output.path) << "\n";

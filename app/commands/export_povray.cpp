@@ -7,14 +7,18 @@
 #include <fmt/format.h>
 
 #include "app/commands/commands.h"
-#include "app/frame_run.h"
-#include "app/molecule.h"
+#include "app/reports/run_frames.h"
+#include "core/scene/molecule.h"
 #include "app/options/picture_options.h"
-#include "app/program_error.h"
-#include "app/run_framing.h"
+#include "app/process/program_error.h"
+#include "core/scene/run_framing.h"
 #include "core/base/text.h"
 #include "core/queries/combine.h"
 #include "exporters/povray/scene.h"
+#include "app/reports/notes.h"
+#include "app/options/run_camera_options.h"
+#include "app/options/molecule_options.h"
+#include "app/options/frame_options.h"
 #include "exporters/povray/sequence.h"
 
 namespace meniscus {
@@ -22,9 +26,9 @@ namespace {
 
 struct PovrayCommand {
   MoleculeOptions molecule;
-  SequenceOptions sequence;
-  RunCameraOptions run_camera;
-  PictureOptions picture;
+  FrameOptions frames;
+  CameraMotionRequest run_camera;
+  ViewRequest picture;
   OutputOptions output;
   povray::Material material = povray::Material::opaque;
 };
@@ -41,19 +45,20 @@ povray::SceneOptions scene_options(const PovrayCommand& command) {
 // An include for each frame of the share; the scene for all of the run, the same from every share.
 void run_sequence(const PovrayCommand& command) {
   const GivenCameras cameras = given_cameras(command.picture, command.run_camera);
-  Sequence sequence(command.molecule, command.sequence);
+  FrameRun frames(command.molecule, command.frames);
+  tell_run(command.molecule, frames);
   MoleculeBuilder builder(command.molecule);
-  const RunFraming framing = run_framing(command.picture, command.run_camera, cameras, sequence);
+  const RunFraming framing = run_framing(command.picture, command.run_camera, cameras, frames);
   const ColorScheme scheme = color_of(command.molecule);
   povray::SceneOptions options = scene_options(command);
   options.origin = framing.origin();
-  options.colors = colors_json(color_key(sequence.structure(), scheme, {}));
+  options.colors = color_key(frames.structure(), scheme, {});
   const povray::SequenceScene scene(
-      {sequence.run(), framing.cameras, run_colors(sequence.structure(), scheme), framing.low, framing.high}, options,
+      {frames.numbers(), framing.cameras, run_colors(frames.structure(), scheme), framing.low, framing.high}, options,
       command.output.path);
   const povray::SceneReport shared = scene.write_shared();
   bool noted = false;
-  const auto make = [&](const SequenceFrame& frame) {
+  const auto make = [&](const RunFrame& frame) {
     const Molecule molecule = builder.build(frame.structure);
     const povray::SceneReport report = scene.write_frame(molecule.objects, frame.place);
     // Notes of later frames would differ in their numbers only.
@@ -65,18 +70,18 @@ void run_sequence(const PovrayCommand& command) {
     for (const std::filesystem::path& file : report.files) files.push_back(file.string());
     return MadeFrame{std::move(files)};
   };
-  run_frames(sequence, command.molecule, command.sequence, make);
+  run_frames(frames, command.molecule, command.frames, make);
   std::cout << escaped(shared.command) << "\n";
 }
 
 void run(const PovrayCommand& command) {
-  if (command.sequence.asked()) return run_sequence(command);
+  if (command.frames.asked()) return run_sequence(command);
   if (command.run_camera.moves()) throw UsageError(kMovesWithoutFrames);
   const std::optional<Camera> given = given_camera(command.picture);
   const Molecule molecule = load_molecule(command.molecule);
   povray::SceneOptions options = scene_options(command);
-  options.colors = colors_json(molecule);
-  const Camera camera = picture_camera(command.picture, given, placed_balls(molecule.objects));
+  options.colors = key_of(molecule);
+  const Camera camera = view_camera(command.picture, given, placed_balls(molecule.objects));
   const povray::SceneReport report = write_scene(molecule.objects, camera, options, command.output.path);
   say(command.molecule,
       fmt::format("{} primitives in {} files", with_thousands(report.object_count), report.files.size()));
@@ -98,7 +103,7 @@ void add_export_povray(CLI::App& command) {
   auto state = std::make_shared<PovrayCommand>();
   add_molecule_options(command, state->molecule);
   add_picture_options(command, state->picture);
-  add_sequence_options(command, state->sequence);
+  add_frame_options(command, state->frames);
   add_run_camera_options(command, state->run_camera);
   add_output_options(command, state->output, "Folder to write; made when missing");
   const std::map<std::string, povray::Material> words{{"opaque", povray::Material::opaque},

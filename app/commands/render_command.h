@@ -8,8 +8,8 @@
 
 #include "app/options/molecule_options.h"
 #include "app/options/picture_options.h"
-#include "app/run_camera.h"
-#include "app/options/sequence_options.h"
+#include "core/scene/run_cameras.h"
+#include "app/options/frame_options.h"
 #include "core/render/legend.h"
 #include "core/render/look.h"
 #include "core/render/ray_caster.h"
@@ -19,9 +19,9 @@ namespace meniscus {
 
 struct RenderCommand {
   MoleculeOptions molecule;
-  SequenceOptions sequence;
-  PictureOptions picture;
-  RunCameraOptions run_camera;
+  FrameOptions frames;
+  ViewRequest picture;
+  CameraMotionRequest run_camera;
   Look look;  // but for the background, which may be transparent
   OutputOptions output;
   std::string save_camera;
@@ -36,7 +36,7 @@ struct RenderCommand {
 
 /// The picture's size, of which the molecule takes what the legend leaves.
 struct PictureLayout {
-  PictureOptions size;
+  ViewRequest size;
   std::optional<Legend> legend;
 
   PictureLayout(const RenderCommand& command, const ColorKey& key);

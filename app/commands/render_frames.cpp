@@ -6,15 +6,16 @@
 
 #include <fmt/format.h>
 
-#include "app/film.h"
-#include "app/frame_run.h"
-#include "app/molecule.h"
+#include "app/film/film.h"
+#include "app/reports/run_frames.h"
+#include "core/scene/molecule.h"
 #include "app/options/numbered_path.h"
-#include "app/program_error.h"
+#include "app/process/program_error.h"
 #include "app/commands/render_command.h"
-#include "app/view_picture.h"
+#include "app/commands/view_picture.h"
 #include "core/base/text.h"
 #include "core/gpu/egl_context.h"
+#include "app/reports/notes.h"
 #include "core/render/image_output.h"
 
 namespace meniscus {
@@ -36,7 +37,7 @@ class PictureSink {
     const std::string& path = command.output.path;
     const glm::ivec2 size{command.picture.width, command.picture.height};
     if (is_film_path(path)) {
-      if (!command.sequence.only.empty())
+      if (!command.frames.only.empty())
         throw UsageError("--only: a film needs all frames; write the share as pictures: frame_#####.png");
       film_ = std::make_unique<FilmWriter>(path, command.output.existing(), size, command.frames_per_second);
       return;
@@ -78,19 +79,18 @@ class PictureSink {
 /// Makes the picture of a frame: by way of the complete surface, or of what the view needs.
 class FramePainter {
  public:
-  FramePainter(const RenderCommand& command, const Sequence& sequence)
+  FramePainter(const RenderCommand& command, const FrameRun& frames)
       : command_(command), context_(gl_device(command)), builder_(command.molecule, &context_) {
-    if (command.extent) atoms_ = colored_atoms(command.molecule, sequence.structure());
+    if (command.extent) atoms_ = colored_atoms(command.molecule, frames.structure());
   }
 
-  Framebuffer paint(const SequenceFrame& frame, const Camera& camera, const RenderSettings& settings) {
+  Framebuffer paint(const RunFrame& frame, const Camera& camera, const RenderSettings& settings) {
     if (!command_.extent) {
       if (!caster_) caster_.emplace();
       return cast(*caster_, builder_.build(frame.structure).objects, camera, settings);
     }
     atoms_->balls = balls_of(frame.structure);
-    return painter_.paint(*atoms_, camera, command_.molecule.computing.probe_radius, *command_.extent, settings)
-        .picture;
+    return painter_.paint(*atoms_, camera, command_.molecule.surface.probe_radius, *command_.extent, settings).picture;
   }
 
  private:
@@ -107,21 +107,22 @@ class FramePainter {
 void render_frames(const RenderCommand& command) {
   check_options(command);
   const GivenCameras given = given_cameras(command.picture, command.run_camera);
-  Sequence sequence(command.molecule, command.sequence);
+  FrameRun frames(command.molecule, command.frames);
+  tell_run(command.molecule, frames);
   Molecule first;  // what the colours mean does not change with the frames
-  first.structure = sequence.structure();
+  first.structure = frames.structure();
   first.color = color_of(command.molecule);
   const PictureLayout layout(command, key_of(first));
   PictureSink sink(command);
-  const std::vector<Camera> cameras = run_cameras(layout.size, command.run_camera, given, sequence);
+  const std::vector<Camera> cameras = run_cameras(layout.size, command.run_camera, given, frames);
   if (!command.save_camera.empty()) {
     OutputFile file(command.save_camera, command.output.existing());
     file.write(camera_json(cameras.front()));
     file.commit();
   }
-  FramePainter painter(command, sequence);
+  FramePainter painter(command, frames);
   const RenderSettings settings = render_settings(command, layout);
-  run_frames(sequence, command.molecule, command.sequence, [&](const SequenceFrame& frame) {
+  run_frames(frames, command.molecule, command.frames, [&](const RunFrame& frame) {
     Framebuffer picture = painter.paint(frame, cameras[frame.place], settings);
     const bool empty = shows_nothing(picture);
     if (layout.legend) picture = layout.legend->add_to(picture, command.background);

@@ -20,7 +20,7 @@
 
 #include <fmt/format.h>
 
-#include "app/program_error.h"
+#include "app/process/program_error.h"
 
 namespace meniscus::farm {
 namespace {

@@ -9,7 +9,7 @@
 #include "app/farm/inner_path.h"
 #include "app/farm/timeless_png.h"
 #include "app/farm/verify.h"
-#include "app/film.h"
+#include "app/film/film.h"
 #include "core/base/error.h"
 #include "core/image/image_codec.h"
 

@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include "app/build_version.h"
+#include "app/process/build_version.h"
 #include "app/farm/blender_driver.h"
 #include "app/farm/check_bundle.h"
 #include "app/farm/child_process.h"
@@ -18,12 +18,12 @@
 #include "app/farm/inner_path.h"
 #include "app/farm/quote.h"
 #include "app/farm/worker.h"
-#include "app/farm/wrapped_command.h"
-#include "app/film.h"
-#include "app/program_error.h"
-#include "app/run_camera.h"
-#include "app/sequence.h"
-#include "app/stop_signals.h"
+#include "app/reports/notes.h"
+#include "app/film/film.h"
+#include "app/process/program_error.h"
+#include "core/scene/run_cameras.h"
+#include "core/scene/frame_run.h"
+#include "app/process/stop_signals.h"
 #include "core/base/output_file.h"
 #include "core/base/text.h"
 
@@ -32,23 +32,22 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<Step> steps_of(const WrappedCommand& command) {
+std::vector<Step> steps_of(const BundledCommand& command) {
   if (command.words.front() == "render") return {{"render", Maker::meniscus, command.device}};
   const Maker renderer = command.words.back() == "povray" ? Maker::povray : Maker::blender;
   return {{"surface", Maker::meniscus, command.device}, {"render", renderer, command.renderer}};
 }
 
-bool has(const WrappedCommand& command, const std::string& option) {
+bool has(const BundledCommand& command, const std::string& option) {
   return std::ranges::any_of(command.arguments,
                              [&](const std::string& word) { return word.substr(0, word.find('=')) == option; });
 }
 
 /// The camera that shows all of every frame, so that no worker has to read all frames for it. Nothing if the command
 /// has its own, or frames the molecule beside a legend.
-std::optional<std::string> default_camera(const WrappedCommand& command, const GivenCameras& given,
-                                          Sequence& sequence) {
+std::optional<std::string> default_camera(const BundledCommand& command, const GivenCameras& given, FrameRun& frames) {
   if (given.any() || has(command, "--legend")) return {};
-  return camera_json(run_cameras(command.picture, command.camera_motion, given, sequence).front());
+  return camera_json(run_cameras(command.picture, command.camera_motion, given, frames).front());
 }
 
 void add_addon(const fs::path& addon, BundleInputs& inputs) {
@@ -58,10 +57,10 @@ void add_addon(const fs::path& addon, BundleInputs& inputs) {
 }
 
 /// The arguments with paths in the bundle, and with the camera.
-std::vector<std::string> bundled_command(const WrappedCommand& command, const std::optional<std::string>& camera,
+std::vector<std::string> bundled_command(const BundledCommand& command, const std::optional<std::string>& camera,
                                          BundleInputs& inputs) {
   std::vector<std::string> arguments = command.arguments;
-  for (const WrappedCommand::File& file : command.files)
+  for (const BundledCommand::File& file : command.files)
     arguments[file.place] = file.prefix + inputs.add_file(file.path);
   if (camera) {
     // The default camera's projection is in the file now, and the two options exclude each other.
@@ -179,22 +178,22 @@ std::optional<std::uint64_t> threads_of(const std::vector<std::string>& device) 
   return {};
 }
 
-Bundle described(const BundleOptions& options, BundleInputs& inputs, std::vector<std::string>& notes) {
-  WrappedCommand command;
-  parse_wrapped_command(options.command, command);
+Bundle described(const BundleOptions& options, const BundledCommand& command, BundleInputs& inputs,
+                 std::vector<std::string>& notes) {
   const GivenCameras cameras = given_cameras(command.picture, command.camera_motion);
-  Sequence sequence(command.molecule, command.sequence);
-  if (!sequence.trajectory().cut_short().empty())
-    notes.push_back(sequence.trajectory().path() + ": " + sequence.trajectory().cut_short());
+  FrameRun frames(command.molecule, command.frames);
+  tell_run(command.molecule, frames);
+  if (!frames.trajectory().cut_short().empty())
+    notes.push_back(frames.trajectory().path() + ": " + frames.trajectory().cut_short());
   Bundle bundle;
   bundle.program_version = build_version();
-  bundle.frames = sequence.run();
+  bundle.frames = frames.numbers();
   bundle.steps = steps_of(command);
   bundle.width = command.picture.width;
   bundle.height = command.picture.height;
   if (options.film) check_film_size({bundle.width, bundle.height});
   bundle.film = options.film;
-  bundle.command = bundled_command(command, default_camera(command, cameras, sequence), inputs);
+  bundle.command = bundled_command(command, default_camera(command, cameras, frames), inputs);
   if (bundle.steps.back().maker == Maker::blender) add_addon(options.addon, inputs);
   bundle.inputs = inputs.measured();
   bundle.chunking = options.chunking;
@@ -205,7 +204,7 @@ Bundle described(const BundleOptions& options, BundleInputs& inputs, std::vector
 
 }  // namespace
 
-MadeBundle make_bundle(const BundleOptions& given) {
+MadeBundle make_bundle(const BundleOptions& given, const BundledCommand& command) {
   BundleOptions options = given;
   options.folder = fs::absolute(options.folder).lexically_normal();
   if (!options.folder.has_filename()) options.folder = options.folder.parent_path();
@@ -213,7 +212,7 @@ MadeBundle make_bundle(const BundleOptions& given) {
   refuse_unspeakable("--farm-path", options.farm_path);
   MadeBundle made;
   BundleInputs inputs;
-  made.bundle = described(options, inputs, made.notes);
+  made.bundle = described(options, command, inputs, made.notes);
   if (const std::optional<Bundle> there = same_bundle_at(options, made.bundle)) {
     made.bundle = *there;
     made.was_there = true;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Makes the folder of a bundle from a command line.
+// Makes the folder of a bundle of a framed command.
 #pragma once
 
 #include <filesystem>
@@ -8,13 +8,13 @@
 #include <vector>
 
 #include "app/farm/bundle_inputs.h"
+#include "app/farm/bundled_command.h"
 #include "app/farm/emit.h"
 
 namespace meniscus::farm {
 
 struct BundleOptions {
   std::filesystem::path folder;
-  std::vector<std::string> command;  ///< behind --
   std::vector<Engine> engines;
   std::string farm_path;
   std::optional<Film> film;
@@ -32,9 +32,9 @@ struct MadeBundle {
   std::vector<std::string> notes;  ///< for people
 };
 
-/// Checks the command, decides camera and chunks (making one frame to see how long it takes, if chunks are asked for by
+/// Decides camera and chunks (making one frame to see how long it takes, if chunks are asked for by
 /// time), and puts all of it under its name at once. Throws UsageError, InputError, OutputError (another bundle is
 /// there and `force` is not, or something that is no bundle), RunError if the trial frame fails.
-MadeBundle make_bundle(const BundleOptions& options);
+MadeBundle make_bundle(const BundleOptions& options, const BundledCommand& command);
 
 }  // namespace meniscus::farm

@@ -9,7 +9,7 @@
 #include "app/farm/child_process.h"
 #include "app/farm/last_words.h"
 #include "app/farm/makers.h"
-#include "app/program_error.h"
+#include "app/process/program_error.h"
 #include "core/trajectory/frame_list.h"
 
 namespace meniscus::farm {

@@ -13,7 +13,7 @@
 #include "app/farm/last_words.h"
 #include "app/farm/makers.h"
 #include "app/farm/timeless_png.h"
-#include "app/program_error.h"
+#include "app/process/program_error.h"
 
 namespace meniscus::farm {
 namespace {

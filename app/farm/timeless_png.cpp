@@ -8,7 +8,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "app/program_error.h"
+#include "app/process/program_error.h"
 #include "core/base/output_file.h"
 
 namespace meniscus::farm {

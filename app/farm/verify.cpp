@@ -12,7 +12,7 @@
 #include "app/farm/frame_record.h"
 #include "app/farm/inner_path.h"
 #include "app/farm/timeless_png.h"
-#include "app/program_error.h"
+#include "app/process/program_error.h"
 #include "core/base/error.h"
 #include "core/image/image_codec.h"
 

@@ -23,7 +23,7 @@ struct FrameFault {
 /// blank: all pixels equal.
 std::vector<FrameFault> faults_of(const Bundle& bundle, const std::filesystem::path& folder);
 
-/// Makes the film of the bundle's pictures (app/film.h): the same bytes for the same pictures. What is transparent
+/// Makes the film of the bundle's pictures (app/film/film.h): the same bytes for the same pictures. What is transparent
 /// shows white. Throws OutputError if ffmpeg is not there or fails.
 void encode_film(const Bundle& bundle, const std::filesystem::path& folder);
 

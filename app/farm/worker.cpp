@@ -13,12 +13,12 @@
 
 #include <fmt/format.h>
 
-#include "app/build_version.h"
+#include "app/process/build_version.h"
 #include "app/farm/checksum.h"
 #include "app/farm/claims.h"
 #include "app/farm/frame_record.h"
 #include "app/farm/inner_path.h"
-#include "app/program_error.h"
+#include "app/process/program_error.h"
 #include "core/base/text.h"
 
 namespace meniscus::farm {

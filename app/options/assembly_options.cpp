@@ -1,14 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Declares the options that build biological assemblies, and lists those of a file.
-#include <iostream>
+// Declares the options that build biological assemblies.
 #include <map>
 
-#include <fmt/format.h>
-#include <fmt/ostream.h>
-#include <fmt/ranges.h>
-
-#include "app/molecule.h"
-#include "core/base/text.h"
+#include "app/options/molecule_options.h"
 
 namespace meniscus {
 
@@ -26,22 +20,6 @@ void add_assembly_options(CLI::App& command, MoleculeOptions& options) {
       ->transform(CLI::CheckedTransformer(words).description(""))
       ->type_name("WORD")
       ->needs(command.get_option("--assembly"));
-}
-
-void print_assemblies(const Structure& structure) {
-  if (structure.assemblies.empty()) {
-    fmt::print(std::cout, "assemblies    none described\n");
-    return;
-  }
-  fmt::print(std::cout, "\n{:<14} {:>10}  {:<24} {}\n", "assembly", "copies", "chains", "");
-  for (const Assembly& assembly : structure.assemblies) {
-    for (const AssemblyPart& part : assembly.parts) {
-      std::string chains = part.chains.empty() ? "all" : escaped(fmt::format("{}", fmt::join(part.chains, ",")));
-      if (chains.size() > 24) chains = fmt::format("{}... ({})", chains.substr(0, 14), part.chains.size());
-      fmt::print(std::cout, "{:<14} {:>10}  {:<24} {}\n", escaped(assembly.id), with_thousands(part.motions.size()),
-                 chains, escaped(assembly.description));
-    }
-  }
 }
 
 }  // namespace meniscus

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "app/options/molecule_options.h"
-#include "app/program_error.h"
+#include "app/process/program_error.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/structure/formats/formats.h"

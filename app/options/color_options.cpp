@@ -69,7 +69,7 @@ void add_color_options(CLI::App& command, MoleculeOptions& options) {
           "them",
           "SCHEME");
   CLI::Option* const file = command.add_option(
-      "--color-by-file", options.color_file,
+      "--color-by-file", options.number_file,
       "Colour by numbers from a file, one an atom of FILE or one an atom used; nan, ? or -: missing");
   file->type_name("NUMBERS");
   add("--map", parse_map,

@@ -1,13 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What all commands do alike with their options.
+// Declares what several commands have alike.
 #include "app/options/molecule_options.h"
-
-#include <iostream>
-#include <memory>
-
-#include <unistd.h>
-
-#include "core/base/text.h"
 
 namespace meniscus {
 
@@ -26,26 +19,6 @@ void add_output_options(CLI::App& command, OutputOptions& options, const std::st
   const Heading heading(command, "Output");
   command.add_option("-o,--output", options.path, what)->required()->type_name("PATH");
   command.add_flag("--force", options.force, "Replace what exists at the output path");
-}
-
-void say(const MoleculeOptions& options, const std::string& line) {
-  if (!options.quiet) std::cerr << "meniscus: " << escaped(line) << std::endl;
-}
-
-void say_warnings(const MoleculeOptions& options, const Structure& structure) {
-  if (options.warnings == WarningDetail::none) return;
-  for (const Warning& warning : structure.report.warnings) {
-    say(options, "warning: " + structure.file + ": " + warning.text);
-    if (options.warnings != WarningDetail::full) continue;
-    for (const std::string& detail : warning.details) say(options, "  " + detail);
-  }
-}
-
-ProgressSink progress_on_stderr(const MoleculeOptions& options) {
-  if (options.quiet) return {};
-  auto text = std::make_shared<ProgressText>(::isatty(STDERR_FILENO) == 1,
-                                             [](std::string_view part) { std::cerr << part << std::flush; });
-  return [text](const ProgressReport& report) { text->report(report); };
 }
 
 }  // namespace meniscus

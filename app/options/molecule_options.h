@@ -7,49 +7,18 @@
 
 #include <CLI/CLI.hpp>
 
-#include "app/compute.h"
 #include "core/base/output_file.h"
 #include "core/base/progress.h"
-#include "core/structure/atom_groups.h"
-#include "core/color/color_schemes.h"
-#include "core/structure/formats/read_structure.h"
+#include "core/scene/molecule.h"
 
 namespace meniscus {
 
 /// How much is said about the oddities of a file: a line for every atom, a sentence for every kind, nothing.
 enum class WarningDetail { full, summary, none };
 
-/// Which closed parts of the surface are taken.
-enum class Cavities {
-  keep,  ///< all of them
-  drop,  ///< those that the outside reaches: no cavities, and nothing that lies in one
-  only   ///< the others
-};
-
-/// What becomes of the copies of an assembly.
-enum class InstanceMode {
-  none,     ///< they are atoms like all others, under one surface
-  exact,    ///< one copy is computed; refused unless that gives the surface of the whole
-  separate  ///< one copy is computed as if alone
-};
-
-/// What the surface is divided into.
-struct DivisionOptions {
-  std::optional<Grouping> groups;  ///< each group of atoms has a surface of its own, as if it were alone
-  bool components = false;         ///< each closed part is an object
-  Cavities cavities = Cavities::keep;
-  InstanceMode instances = InstanceMode::none;
-};
-
-/// What the common options say. Commands keep one of these alive as long as their CLI::App.
-struct MoleculeOptions {
-  std::string file;
-  ReadOptions reading;
-  std::optional<Selection> show;  ///< of the atoms taken, those whose part of the surface is drawn and exported
-  ComputeOptions computing;
-  DivisionOptions division;
-  ColorScheme color;
-  std::string color_file;  ///< --color-by-file, read by load_molecule
+/// What the common options say: a molecule, and how much is told of it. Commands keep one of these alive as long as
+/// their CLI::App.
+struct MoleculeOptions : MoleculeRequest {
   WarningDetail warnings = WarningDetail::summary;
   bool quiet = false;
 };
@@ -76,13 +45,11 @@ void add_radii_options(CLI::App& command, ReadOptions& reading);
 /// How the surface is made of them (surface_options.cpp): --surface, --probe, --device, --require-gpu,
 /// --verify, --threads.
 void add_surface_options(CLI::App& command, MoleculeOptions& options);
-void add_probe_option(CLI::App& command, ComputeOptions& computing);
+void add_probe_option(CLI::App& command, SurfaceRequest& surface);
 /// Reads CUDA_VISIBLE_DEVICES, and the number of this worker in kWorkerVariable or SLURM_LOCALID: see DeviceChoice.
-void add_device_option(CLI::App& command, ComputeOptions& computing);
+void add_device_option(CLI::App& command, SurfaceRequest& surface);
 /// What `meniscus work` tells the programs it starts: from 0, which of the workers on this machine they belong to.
 inline constexpr const char* kWorkerVariable = "MENISCUS_WORKER";
-/// What is wrong with a probe radius (Å) and what would be right; empty if nothing is.
-std::string probe_fault(double radius);
 /// Into which objects it is divided (surface_options.cpp): --by, --cavities.
 void add_division_options(CLI::App& command, MoleculeOptions& options);
 /// How it is coloured (color_options.cpp): --color, --color-by-file, --map, --color-range, --missing-color.
@@ -103,14 +70,5 @@ class Heading {
  private:
   CLI::App& command_;
 };
-
-/// A line on stderr, unless quiet. Control characters are escaped.
-void say(const MoleculeOptions& options, const std::string& line);
-
-/// The warnings about a file on stderr, as detailed as wanted, unless quiet.
-void say_warnings(const MoleculeOptions& options, const Structure& structure);
-
-/// Progress on stderr: a bar on a terminal, plain lines elsewhere, nothing when quiet.
-ProgressSink progress_on_stderr(const MoleculeOptions& options);
 
 }  // namespace meniscus

@@ -12,14 +12,10 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/text/parse_number.h"
+#include "exporters/mesh/check_by_mesh.h"
 
 namespace meniscus {
 namespace {
-
-// Below 0.001 Å the patches between atoms are thinner than any file's coordinates are precise; above 100 Å the probe is
-// larger than most molecules and every atom neighbours every other.
-constexpr double kSmallestProbe = 1e-3;
-constexpr double kLargestProbe = 100.0;
 
 double parse_probe(const std::string& text) {
   double radius = 0.0;
@@ -30,7 +26,7 @@ double parse_probe(const std::string& text) {
   return radius;
 }
 
-void parse_device(const std::string& text, ComputeOptions& options) {
+void parse_device(const std::string& text, SurfaceRequest& options) {
   options.cpu = text == "cpu";
   const std::optional<DeviceChoice> choice = parse_device_choice(options.cpu ? "auto" : text);
   if (!choice) {
@@ -43,7 +39,7 @@ void parse_device(const std::string& text, ComputeOptions& options) {
 }
 
 /// "auto" becomes any hardware GPU and nothing else. Runs after --device, whatever their order.
-void require_gpu(ComputeOptions& options) {
+void require_gpu(SurfaceRequest& options) {
   if (options.cpu || options.gl.kind == DeviceChoice::Kind::software)
     throw GpuError(fmt::format("--require-gpu refuses --device {}; leave one of them away",
                                options.cpu ? "cpu" : to_string(options.gl)));
@@ -61,7 +57,7 @@ void read_environment(DeviceChoice& choice) {
   }
 }
 
-void parse_division(const std::string& text, DivisionOptions& division) {
+void parse_division(const std::string& text, Division& division) {
   const std::map<std::string, Grouping> words{{"chain", Grouping::chain},
                                               {"model", Grouping::model},
                                               {"class", Grouping::atom_class},
@@ -77,63 +73,53 @@ void parse_division(const std::string& text, DivisionOptions& division) {
 
 }  // namespace
 
-std::string probe_fault(double radius) {
-  if (radius < 0.0) return fmt::format("{} Å is negative; 0 gives the van der Waals surface", radius);
-  if (radius > 0.0 && radius < kSmallestProbe) {
-    return fmt::format("{} Å is finer than any file's coordinates; use 0 (van der Waals surface) or at least {} Å",
-                       radius, kSmallestProbe);
-  }
-  if (radius > kLargestProbe)
-    return fmt::format("{} Å is larger than molecules are; use at most {} Å", radius, kLargestProbe);
-  return {};
-}
-
-void add_probe_option(CLI::App& command, ComputeOptions& computing) {
+void add_probe_option(CLI::App& command, SurfaceRequest& surface) {
   command
       .add_option_function<std::string>(
           "--probe",
-          [&computing](const std::string& text) {
-            computing.probe_radius = parse_probe(text);
-            computing.probe_named = true;
+          [&surface](const std::string& text) {
+            surface.probe_radius = parse_probe(text);
+            surface.probe_named = true;
           },
           "Probe radius in Å [1.4]; 0 gives the van der Waals surface")
       ->type_name("RADIUS");
 }
 
-void add_device_option(CLI::App& command, ComputeOptions& computing) {
-  read_environment(computing.gl);
+void add_device_option(CLI::App& command, SurfaceRequest& surface) {
+  read_environment(surface.gl);
   command
       .add_option_function<std::string>(
-          "--device", [&computing](const std::string& text) { parse_device(text, computing); },
+          "--device", [&surface](const std::string& text) { parse_device(text, surface); },
           "auto (default: a GPU if there is one, else cpu), gpu, gpu:N (or UUID, PCI address), software (GL "
           "without a GPU), cpu")
       ->type_name("DEVICE");
   command.add_flag_callback(
-      "--require-gpu", [&computing] { require_gpu(computing); },
+      "--require-gpu", [&surface] { require_gpu(surface); },
       "Refuse (exit code 4) to run on the CPU or on software GL where there is no hardware GPU");
 }
 
 void add_surface_options(CLI::App& command, MoleculeOptions& options) {
   const Heading heading(command, "Surface");
-  ComputeOptions& computing = options.computing;
+  SurfaceRequest& surface = options.surface;
   const std::map<std::string, SurfaceKind> kinds{
       {"ses", SurfaceKind::ses}, {"sas", SurfaceKind::sas}, {"vdw", SurfaceKind::vdw}};
   command
-      .add_option("--surface", computing.kind,
+      .add_option("--surface", surface.kind,
                   "ses: solvent-excluded (default); sas: solvent-accessible; vdw: van der Waals, without a probe")
       ->transform(CLI::CheckedTransformer(kinds).description(""))
       ->type_name("KIND");
-  add_probe_option(command, computing);
-  add_device_option(command, computing);
-  command.add_flag("--verify", computing.verify, "Compute on GPU and CPU, mesh, and name every difference");
-  command.add_option("--threads", computing.threads, "CPU threads [all]")
+  add_probe_option(command, surface);
+  add_device_option(command, surface);
+  surface.check = check_by_mesh;
+  command.add_flag("--verify", surface.verify, "Compute on GPU and CPU, mesh, and name every difference");
+  command.add_option("--threads", surface.threads, "CPU threads [all]")
       ->check(CLI::Range(1, 4096).description(""))
       ->type_name("N");
 }
 
 void add_division_options(CLI::App& command, MoleculeOptions& options) {
   const Heading heading(command, "Surface");
-  DivisionOptions& division = options.division;
+  Division& division = options.division;
   command
       .add_option_function<std::string>(
           "--by", [&division](const std::string& text) { parse_division(text, division); },

@@ -7,11 +7,11 @@
 
 #include <fmt/format.h>
 
-#include "app/options/molecule_options.h"
 #include "app/preview/camera_motion.h"
 #include "app/preview/command_reader.h"
 #include "app/preview/look_json.h"
 #include "app/preview/session.h"
+#include "core/scene/surface_request.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 

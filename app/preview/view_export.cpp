@@ -8,10 +8,10 @@
 
 #include <fmt/format.h>
 
-#include "app/blender_attributes.h"
-#include "app/compute.h"
+#include "exporters/blender/atom_attributes.h"
+#include "core/scene/surface_computer.h"
 #include "app/options/mesh_options.h"
-#include "app/molecule.h"
+#include "core/scene/molecule.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/render/image_output.h"
@@ -25,10 +25,10 @@ namespace {
 
 /// The complete surface, and what computed it.
 std::pair<SurfaceObject, std::string> complete_surface(const ExportedView& view) {
-  ComputeOptions computing;
-  computing.probe_radius = view.probe_radius;
-  computing.cpu = true;
-  ComputedSurface computed = compute_surface(view.balls, computing);
+  SurfaceRequest request;
+  request.probe_radius = view.probe_radius;
+  request.cpu = true;
+  ComputedSurface computed = compute_surface(view.balls, request);
   SurfaceObject object;
   object.name = "surface";
   object.surface = std::move(computed.surface);
@@ -37,9 +37,9 @@ std::pair<SurfaceObject, std::string> complete_surface(const ExportedView& view)
   return {std::move(object), std::move(computed.device)};
 }
 
-std::string colors_of(const ExportedView& view) {
+ColorKey colors_of(const ExportedView& view) {
   const std::string names[] = {"surface"};
-  return colors_json(color_key(view.structure, view.color, names));
+  return color_key(view.structure, view.color, names);
 }
 
 }  // namespace
@@ -71,11 +71,9 @@ std::string export_povray(const ExportedView& view, const ExportTarget& target) 
 void export_blender(const ExportedView& view, const ExportTarget& target) {
   OutputFile(target.path, target.existing);
   const auto [object, device] = complete_surface(view);
-  MoleculeOptions silent;
-  silent.quiet = true;
-  std::vector<TriangleMesh> meshes = meshes_of(silent, std::span(&object, 1), MeshCommandOptions{}.tolerance);
+  std::vector<TriangleMesh> meshes = mesh_objects(std::span(&object, 1), MeshRequest{}.tolerance);
   const blender::MeshedObject objects[] = {
-      {object, std::move(meshes.front()), blender_attributes(view.structure, object.atom), {}}};
+      {object, std::move(meshes.front()), blender::atom_attributes(view.structure, object.atom), {}}};
   const blender::Provenance provenance{std::filesystem::path(view.structure.file).filename().string(),
                                        view.structure.radii_set, device, colors_of(view)};
   write_objects(target.path.string(), target.existing, objects, blender::Shot{view.camera, view.size.x, view.size.y},

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "app/area_columns.h"
+#include "core/scene/area_columns.h"
 #include "core/structure/structure.h"
 
 namespace meniscus {

@@ -14,7 +14,7 @@
 
 #include <fmt/format.h>
 
-#include "app/failed_allocation.h"
+#include "app/process/failed_allocation.h"
 #include "core/base/output_file.h"
 #include "core/base/text.h"
 

@@ -2,7 +2,7 @@
 // The one place where errors become a line on standard error and an exit code.
 #pragma once
 
-#include "app/program_error.h"
+#include "app/process/program_error.h"
 
 namespace meniscus {
 

@@ -31,18 +31,6 @@ std::string duration(double seconds) {
 
 }  // namespace
 
-void add_progress_option(CLI::App& command, ProgressStyle& style) {
-  const std::map<std::string, ProgressStyle> words{{"auto", ProgressStyle::automatic}, {"bar", ProgressStyle::bar},
-                                                   {"plain", ProgressStyle::plain},    {"json", ProgressStyle::json},
-                                                   {"openjd", ProgressStyle::openjd},  {"none", ProgressStyle::none}};
-  command
-      .add_option("--progress", style,
-                  "Of the frames: auto (default: a bar on a terminal, else plain lines), bar, plain, json (a line a "
-                  "frame on stderr), openjd, none")
-      ->transform(CLI::CheckedTransformer(words).description(""))
-      ->type_name("WORD");
-}
-
 RunProgress::RunProgress(ProgressStyle style, bool quiet, std::uint64_t frames)
     : style_(style), total_(frames), begin_(std::chrono::steady_clock::now()) {
   if (style_ == ProgressStyle::automatic)

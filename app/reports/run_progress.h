@@ -7,21 +7,9 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
+#include "app/options/frame_options.h"
 
 namespace meniscus {
-
-enum class ProgressStyle {
-  automatic,  ///< a bar on a terminal, else plain lines
-  bar,
-  plain,   ///< a line at every tenth
-  json,    ///< a JSON object a line on standard error: start, each frame, end
-  openjd,  ///< openjd_progress and openjd_status lines on standard output, as OpenJD 2023-09 defines them
-  none
-};
-
-/// --progress.
-void add_progress_option(CLI::App& command, ProgressStyle& style);
 
 /// Tells the progress of one run; one thread.
 class RunProgress {

@@ -9,7 +9,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "app/surface_objects.h"
+#include "core/scene/surface_objects.h"
+#include "app/options/molecule_options.h"
 #include "core/base/text.h"
 
 namespace meniscus {
@@ -84,13 +85,13 @@ Json group_list(const SurfaceReport& report) {
                     {"copies", object.copies.size()},
                     {"area", object.surface.area},
                     {"volume", object.surface.volume}});
-    const auto columns = area_columns(structure, {object}, report.options.computing.kind);
+    const auto columns = area_columns(structure, {object}, report.options.surface.kind);
     for (const AreaColumn& column : columns) list.back()[column.name] = column.total;
   }
   return list;
 }
 
-std::string surface_words(const ComputeOptions& computing) {
+std::string surface_words(const SurfaceRequest& computing) {
   switch (computing.kind) {
     case SurfaceKind::sas:
       return fmt::format("solvent-accessible, probe {} Å", computing.probe_radius);
@@ -161,8 +162,8 @@ Json report_object(const SurfaceReport& report) {
     stages.push_back({{"name", stage.name}, {"ms", stage.milliseconds}});
   Json json = {{"schema_version", kSchemaVersion},
                {"atoms", {{"read", structure.report.read}, {"excluded", excluded}, {"used", structure.report.used}}},
-               {"surface", kind_word(report.options.computing.kind)},
-               {"probe_radius", report.options.computing.probe_radius},
+               {"surface", kind_word(report.options.surface.kind)},
+               {"probe_radius", report.options.surface.probe_radius},
                {"radii_set", structure.radii_set},
                {"counts",
                 {{"convex", counts.convex},
@@ -200,7 +201,7 @@ std::string report_json_line(const SurfaceReport& report, const FrameNote& note)
 
 std::string report_row_header(const MoleculeOptions& options) {
   return fmt::format("{:>9} {:>12} {:>14} {:>16} {:>10} {}\n", "frame", "time ps", "area Å²", "volume Å³", "components",
-                     options.computing.kind == SurfaceKind::ses ? " accessible Å²" : "");
+                     options.surface.kind == SurfaceKind::ses ? " accessible Å²" : "");
 }
 
 std::string report_row(const SurfaceReport& report, const FrameNote& note) {
@@ -210,7 +211,7 @@ std::string report_row(const SurfaceReport& report, const FrameNote& note) {
   std::string row =
       fmt::format("{:>9} {:>12} {:>13.3f} {:>15.3f} {:>10}", note.frame,
                   note.time ? fmt::format("{:.3f}", *note.time) : "-", totals.area, totals.volume, components);
-  if (report.options.computing.kind == SurfaceKind::ses) row += fmt::format(" {:>14.3f}", report.columns[1].total);
+  if (report.options.surface.kind == SurfaceKind::ses) row += fmt::format(" {:>14.3f}", report.columns[1].total);
   return row + "\n";
 }
 
@@ -224,14 +225,14 @@ std::string report_table(const SurfaceReport& report) {
   const auto out = std::back_inserter(text);
   fmt::format_to(out, "molecule      {} ({})\n", escaped(structure.file), structure.format);
   fmt::format_to(out, "atoms         {}\n", structure.report.sentence());
-  fmt::format_to(out, "surface       {}{}\n", surface_words(report.options.computing),
+  fmt::format_to(out, "surface       {}{}\n", surface_words(report.options.surface),
                  cavity_words(report.options.division.cavities));
   fmt::format_to(out, "radii         {}\n", structure.radii_set == "file" ? "of the file" : structure.radii_set);
   fmt::format_to(out, "patches       {} convex, {} toroidal ({} spindle, {} free), {} concave\n", n(counts.convex),
                  n(counts.toroidal), n(counts.spindle), n(counts.free_edges), n(counts.concave));
   fmt::format_to(out, "reduced       {} fixed probes, {} arcs\n", n(counts.fixed_probes), n(counts.arcs));
   fmt::format_to(out, "area          {:.3f} Å²\n", totals.area);
-  if (report.options.computing.kind == SurfaceKind::ses)
+  if (report.options.surface.kind == SurfaceKind::ses)
     fmt::format_to(out, "accessible    {:.3f} Å²\n", report.columns[1].total);
   fmt::format_to(out, "volume        {:.3f} Å³\nclosed        yes\n", totals.volume);
   if (const double grown_by = largest_growth(objects); grown_by > 0)

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "app/area_columns.h"
-#include "app/molecule.h"
+#include "core/scene/area_columns.h"
+#include "core/scene/molecule.h"
 #include "app/options/molecule_options.h"
 
 namespace meniscus {

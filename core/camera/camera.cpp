@@ -118,7 +118,7 @@ Camera read_camera(const std::string& file) {
   return parse_camera(text, file);
 }
 
-std::string camera_json(const Camera& camera) {
+nlohmann::ordered_json camera_object(const Camera& camera) {
   Json json;
   json["position"] = to_json(camera.position);
   json["target"] = to_json(camera.target);
@@ -130,8 +130,10 @@ std::string camera_json(const Camera& camera) {
     json["projection"] = "orthographic";
     json["height"] = camera.height;
   }
-  return json.dump(2) + "\n";
+  return json;
 }
+
+std::string camera_json(const Camera& camera) { return camera_object(camera).dump(2) + "\n"; }
 
 void validate_camera(const Camera& camera, const std::string& file) {
   const auto fail = [&](const std::string& what) { throw InputError(file, 0, "camera: " + what); };

@@ -9,6 +9,7 @@
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include "core/math/ball.h"
 
@@ -46,6 +47,8 @@ Camera read_camera(const std::string& file);
 
 /// The inverse of parse_camera: every number survives exactly. Ends with a newline.
 std::string camera_json(const Camera& camera);
+/// The same as an object.
+nlohmann::ordered_json camera_object(const Camera& camera);
 
 /// Throws InputError naming `file` when the camera shows nothing sensible.
 void validate_camera(const Camera& camera, const std::string& file);

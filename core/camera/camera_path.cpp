@@ -132,13 +132,14 @@ CameraPath read_camera_path(const std::string& file) {
   return parse_camera_path(std::string(std::istreambuf_iterator<char>(stream), {}), file);
 }
 
-std::string camera_path_json(const std::vector<CameraKey>& keys) {
+nlohmann::ordered_json camera_path_object(const std::vector<CameraKey>& keys) {
   using Json = nlohmann::ordered_json;
   Json list = Json::array();
-  for (const CameraKey& key : keys)
-    list.push_back({{"frame", key.frame}, {"camera", Json::parse(camera_json(key.camera))}});
-  return Json{{"keys", list}}.dump(2) + "\n";
+  for (const CameraKey& key : keys) list.push_back({{"frame", key.frame}, {"camera", camera_object(key.camera)}});
+  return Json{{"keys", list}};
 }
+
+std::string camera_path_json(const std::vector<CameraKey>& keys) { return camera_path_object(keys).dump(2) + "\n"; }
 
 Camera turned(const Camera& camera, const glm::dvec3& pivot, const glm::dvec3& axis, double angle) {
   const glm::dmat3 turn = glm::mat3_cast(glm::angleAxis(angle, axis));

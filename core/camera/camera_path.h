@@ -36,6 +36,8 @@ CameraPath read_camera_path(const std::string& file);
 
 /// The inverse of parse_camera_path: every number survives exactly. Ends with a newline.
 std::string camera_path_json(const std::vector<CameraKey>& keys);
+/// The same as an object.
+nlohmann::ordered_json camera_path_object(const std::vector<CameraKey>& keys);
 
 /// The camera carried around the line through `pivot` along `axis` (of length 1) by `angle` (radians, right-handed).
 Camera turned(const Camera& camera, const glm::dvec3& pivot, const glm::dvec3& axis, double angle);

@@ -8,7 +8,7 @@
 
 namespace meniscus::blender {
 
-/// That of camera_json, and the size of the picture.
+/// That of a camera file, and the size of the picture.
 nlohmann::json camera_object(const Shot& shot);
 
 }  // namespace meniscus::blender

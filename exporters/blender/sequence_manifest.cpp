@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <zlib.h>
 
+#include "core/color/color_key_json.h"
 #include "core/base/shared_files.h"
 #include "exporters/blender/camera_object.h"
 
@@ -27,7 +28,7 @@ ordered_json shared_by_files(const SequenceManifest& manifest) {
                       {"probe_radius", manifest.probe_radius},
                       {"tolerance", manifest.tolerance},
                       {"origin", {manifest.origin.x, manifest.origin.y, manifest.origin.z}}};
-  if (!manifest.provenance.colors.empty()) result["colors"] = ordered_json::parse(manifest.provenance.colors);
+  if (manifest.provenance.colors) result["colors"] = color_key_json(*manifest.provenance.colors);
   result["frames"] = ordered_json::array();
   for (const std::uint64_t frame : manifest.frames)
     result["frames"].push_back({{"frame", frame}, {"file", frame_file(frame)}});

@@ -9,6 +9,7 @@
 #include "core/base/text.h"
 #include "exporters/blender/camera_object.h"
 #include "exporters/blender/mns_file.h"
+#include "core/color/color_key_json.h"
 #include "exporters/mesh/mesh_colors.h"
 
 namespace meniscus::blender {
@@ -201,7 +202,7 @@ json object_header(const MeshedObject& meshed, const std::string& prefix, const 
 }  // namespace
 
 nlohmann::json camera_object(const Shot& shot) {
-  json camera = json::parse(camera_json(shot.camera));
+  json camera = meniscus::camera_object(shot.camera);
   camera["size"] = {shot.width, shot.height};
   return camera;
 }
@@ -231,7 +232,7 @@ void write_objects(const std::string& path, Existing existing, std::span<const M
               {"device", provenance.device},
               {"unit", "angstrom"},
               {"objects", std::move(list)}};
-  if (!provenance.colors.empty()) header["colors"] = json::parse(provenance.colors);
+  if (provenance.colors) header["colors"] = color_key_json(*provenance.colors);
   if (shot) header["camera"] = camera_object(*shot);
   if (place) header["sequence"] = {{"run", place->run}, {"frame", place->frame}, {"scene_frame", place->scene_frame}};
   file.write(path, existing, std::move(header));

@@ -9,6 +9,7 @@
 
 #include "core/base/output_file.h"
 #include "core/camera/camera.h"
+#include "core/color/color_scale.h"
 #include "core/queries/surface_object.h"
 #include "exporters/mesh/triangle_mesh.h"
 
@@ -32,10 +33,10 @@ struct Shot {
 
 /// Where the surface came from; kept in the file and in Blender as custom properties.
 struct Provenance {
-  std::string source;     ///< the input file's name, without its folder
-  std::string radii_set;  ///< "bondi" or "file"
-  std::string device;     ///< what computed the surface
-  std::string colors;     ///< what the colours mean, as JSON; may be empty
+  std::string source;              ///< the input file's name, without its folder
+  std::string radii_set;           ///< "bondi" or "file"
+  std::string device;              ///< what computed the surface
+  std::optional<ColorKey> colors;  ///< what the colours mean
 };
 
 /// One object and its mesh.

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "core/color/color_key_json.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "exporters/povray/patch_objects.h"
@@ -135,7 +136,7 @@ void Geometry::write(OutputFile& file, std::string_view head) const {
   flush(file, out, 0);
 }
 
-std::string Geometry::names_json(const std::string& colors) const {
+std::string Geometry::names_json(const std::optional<ColorKey>& colors) const {
   using Json = nlohmann::ordered_json;
   Json list = Json::array();
   for (std::size_t n = 0; n < objects_.size(); ++n) {
@@ -145,7 +146,7 @@ std::string Geometry::names_json(const std::string& colors) const {
                     {"copies", objects_[n].copies.size()}});
   }
   Json result{{"objects", list}};
-  if (!colors.empty()) result["colors"] = Json::parse(colors);
+  if (colors) result["colors"] = color_key_json(*colors);
   return result.dump(1, ' ', true, Json::error_handler_t::replace) + "\n";
 }
 

@@ -3,12 +3,14 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include <glm/vec3.hpp>
 
+#include "core/color/color_scale.h"
 #include "core/base/output_file.h"
 #include "core/queries/surface_object.h"
 #include "exporters/povray/palette.h"
@@ -40,7 +42,7 @@ class Geometry {
   bool declares() const;
 
   /// {"objects": [{"object": "object_1", "name": ..., "primitives": ..., "copies": ...}], "colors": ...}
-  std::string names_json(const std::string& colors) const;
+  std::string names_json(const std::optional<ColorKey>& colors) const;
 
  private:
   void write_pieces(OutputFile& file, SceneText& out, std::size_t object) const;

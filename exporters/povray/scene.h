@@ -10,6 +10,7 @@
 
 #include <glm/vec3.hpp>
 
+#include "core/color/color_scale.h"
 #include "core/base/output_file.h"
 #include "core/camera/camera.h"
 #include "core/queries/surface_object.h"
@@ -30,7 +31,7 @@ struct SceneOptions {
   glm::vec3 background{1.0f};            ///< sRGB
   Existing existing = Existing::refuse;
   std::optional<glm::dvec3> origin;  ///< Å: where coordinates of the scene begin; nothing: the middle of all atoms
-  std::string colors;                ///< what the colours mean, as JSON, for <name>_objects.json; may be empty
+  std::optional<ColorKey> colors;    ///< what the colours mean, for <name>_objects.json
 };
 
 /// What was written and what was not.

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <zlib.h>
 
+#include "core/color/color_key_json.h"
 #include "core/base/error.h"
 #include "core/base/shared_files.h"
 #include "exporters/povray/geometry.h"
@@ -45,9 +46,9 @@ std::string palette_check(std::uint32_t palette) {
   return out.text();
 }
 
-std::string objects_text(const Run& run, const std::string& colors) {
+std::string objects_text(const Run& run, const std::optional<ColorKey>& colors) {
   nlohmann::ordered_json json{{"frames", run.frames}};
-  if (!colors.empty()) json["colors"] = nlohmann::ordered_json::parse(colors);
+  if (colors) json["colors"] = color_key_json(*colors);
   return json.dump(1, ' ', true, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 

@@ -17,7 +17,7 @@
 #include "app/farm/quote.h"
 #include "app/farm/timeless_png.h"
 #include "app/farm/worker.h"
-#include "app/program_error.h"
+#include "app/process/program_error.h"
 #include "tests/support/run_program.h"
 
 namespace meniscus::farm {

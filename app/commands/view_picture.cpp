@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Runs the view pipeline once and casts what it found.
+#include "app/commands/view_picture.h"
+
+#include <numeric>
+
+#include <fmt/format.h>
+
+#include "app/process/program_error.h"
+#include "core/scene/hidden_atoms.h"
+#include "app/reports/notes.h"
+#include "app/options/molecule_options.h"
+#include "core/base/text.h"
+
+namespace meniscus {
+namespace {
+
+double milliseconds(const std::vector<StageTime>& times, std::initializer_list<std::string_view> names) {
+  double sum = 0.0;
+  for (const StageTime& time : times)
+    if (std::ranges::find(names, time.name) != names.end()) sum += time.milliseconds;
+  return sum;
+}
+
+}  // namespace
+
+void check_view_options(const MoleculeOptions& options) {
+  const auto refuse = [](const char* option) {
+    throw UsageError(fmt::format("{} needs the complete surface; leave --extent away", option));
+  };
+  if (options.division.groups || options.division.components) refuse("--by");
+  if (options.division.cavities != Cavities::keep) refuse("--cavities");
+  if (options.division.instances != InstanceMode::none) refuse("--instances");
+  if (options.color.by == ColorScheme::By::component) refuse("--color component");
+  if (options.surface.verify) refuse("--verify");
+  if (options.surface.kind != SurfaceKind::ses) refuse("--surface sas or vdw");
+}
+
+ColoredAtoms load_atoms(const MoleculeOptions& options) { return colored_atoms(options, read_and_tell(options)); }
+
+ColoredAtoms colored_atoms(const MoleculeOptions& options, Structure molecule) {
+  ColoredAtoms atoms;
+  atoms.molecule.structure = std::move(molecule);
+  atoms.molecule.color = color_of(options);
+  const Structure& structure = atoms.molecule.structure;
+  atoms.balls = balls_of(structure);
+  std::vector<std::uint32_t> all(structure.atoms.size());
+  std::iota(all.begin(), all.end(), 0u);
+  atoms.coloring = color_object(structure, all, atoms.molecule.color, 0);
+  if (options.show) atoms.coloring.hidden = hidden_atoms(*options.show, structure);
+  return atoms;
+}
+
+ViewPicture ViewPainter::paint(const ColoredAtoms& atoms, const Camera& camera, double probe_radius, Extent extent,
+                               const RenderSettings& settings) {
+  validate_camera(camera, "camera");
+  pipeline_.set_atoms(atoms.balls);
+  upload_coloring(atoms.coloring, scene_);
+  const PictureFrame frame = make_picture_frame(atoms.balls, camera, settings.size);
+  pipeline_.run(frame, probe_radius, extent, scene_);
+  ViewPicture view;
+  view.picture = caster_.render(scene_, frame, settings);
+  view.times = pipeline_.times();
+  view.times.insert(view.times.end(), caster_.times().begin(), caster_.times().end());
+  view.stats = pipeline_.stats();
+  return view;
+}
+
+std::string stats_text(const ViewPicture& view) {
+  const ViewStats& n = view.stats;
+  const auto line = [](const char* name, double ms, const std::string& found) {
+    return fmt::format("  {:<34} {:>9.2f} ms   {}\n", name, ms, found);
+  };
+  return line("1 visible atoms", milliseconds(view.times, {"upload", "visible atoms"}),
+              fmt::format("{} of {} atoms can matter for a pixel", with_thousands(n.kept_atoms),
+                          with_thousands(n.atoms))) +
+         line("2 neighbours and potential arcs", milliseconds(view.times, {"neighbors", "circles", "doubtful circles"}),
+              fmt::format("{} circles, {} decided again in double, {} on the host; {} arcs (RS edges)",
+                          with_thousands(n.circles.pairs), with_thousands(n.circles.decided_in_double),
+                          with_thousands(n.circles.decided_on_host), with_thousands(n.arcs))) +
+         line("3 visible and cutting RS faces", milliseconds(view.times, {"fixed probes"}),
+              fmt::format("{} fixed probes", with_thousands(n.probes))) +
+         line("4 primitives and singularities", milliseconds(view.times, {"primitives"}),
+              fmt::format("{} patches", with_thousands(n.primitives))) +
+         line("ray casting", milliseconds(view.times, {"tile lists", "ray cast"}),
+              fmt::format("{}x{} pixels", view.picture.size.x, view.picture.size.y));
+}
+
+}  // namespace meniscus

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Declares the options of a run of frames.
+#include "app/options/frame_options.h"
+
+#include <cstdlib>
+#include <map>
+
+#include "app/options/molecule_options.h"
+
+namespace meniscus {
+namespace {
+
+void parse_whole(const std::string& word, WholeBy& whole) {
+  if (word.empty() || word == "bonds" || word == "true") {
+    whole = WholeBy::bonds;
+  } else if (word == "guess") {
+    whole = WholeBy::guess;
+  } else {
+    throw CLI::ValidationError("--whole", "is bonds (default) or guess");
+  }
+}
+
+void add_selection(CLI::App& command, const std::string& name, std::optional<Selection>& selection,
+                   const std::string& what) {
+  command
+      .add_option_function<std::string>(
+          name, [name, &selection](const std::string& text) { selection = parse_selection_option(name, text); }, what)
+      ->type_name("EXPR");
+}
+
+}  // namespace
+
+void add_frame_options(CLI::App& command, FrameOptions& options) {
+  const Heading heading(command, "Frames");
+  options.index_folder = frame_index_folder();
+  command
+      .add_option("--trajectory", options.trajectory,
+                  "Coordinates of the atoms of FILE, frame by frame (meniscus formats); without it the models of FILE "
+                  "are the frames")
+      ->type_name("PATH");
+  command.add_flag("--trust-atom-order", options.trust_atom_order,
+                   "Take the atoms of the trajectory for those of FILE, in its order, though bonds come out too long");
+  command
+      .add_option(
+          "--repeat", options.repeat,
+          "Each frame N times in a row [1]: slow motion, or a camera about a molecule that stands still; frames "
+          "are counted after that")
+      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000}).description(""))
+      ->type_name("N");
+  command.add_option("--frames", options.frames, "The run: all, or a list such as 0-99:10,250 (frames count from 0)")
+      ->type_name("LIST");
+  command.add_option("--stride", options.stride, "Of these every Nth [1]")
+      ->check(CLI::PositiveNumber.description(""))
+      ->type_name("N");
+  command.add_option("--begin", options.begin, "Leave out what is before this frame, or time: 300ps, 2.5ns")
+      ->type_name("WHEN");
+  command.add_option("--end", options.end, "Leave out what is behind this frame or time")->type_name("WHEN");
+  command
+      .add_option("--only", options.only,
+                  "Make only these frames of the run, as one share of many: camera, colours and scene stay those of "
+                  "the whole run")
+      ->type_name("LIST");
+  command
+      .add_option_function<std::string>(
+          "--whole", [&options](const std::string& word) { parse_whole(word, options.whole); },
+          "Make molecules whole that the periodic box cuts, and gather them: bonds (default: of FILE and of standard "
+          "residues) or guess (by distance)")
+      ->expected(0, 1)
+      ->type_name("WORD");
+  add_selection(command, "--superpose", options.superpose,
+                "Turn and move each frame so that these atoms fit the reference frame best");
+  add_selection(command, "--center", options.center,
+                "Move each frame so that the middle of these atoms stays in place");
+  command.add_option("--reference", options.reference, "Frame of the trajectory for --superpose and --center [0]")
+      ->type_name("N");
+  command
+      .add_option("--smooth", options.smooth,
+                  "Mean positions over N frames of the trajectory, an odd number, this one in the middle [1]")
+      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{9999}).description(""))
+      ->type_name("N");
+  add_progress_option(command, options.progress);
+}
+
+std::string frame_index_folder() {
+  if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache && *cache == '/')
+    return std::string(cache) + "/meniscus";
+  if (const char* home = std::getenv("HOME"); home && *home == '/') return std::string(home) + "/.cache/meniscus";
+  return {};
+}
+
+void add_progress_option(CLI::App& command, ProgressStyle& style) {
+  const std::map<std::string, ProgressStyle> words{{"auto", ProgressStyle::automatic}, {"bar", ProgressStyle::bar},
+                                                   {"plain", ProgressStyle::plain},    {"json", ProgressStyle::json},
+                                                   {"openjd", ProgressStyle::openjd},  {"none", ProgressStyle::none}};
+  command
+      .add_option("--progress", style,
+                  "Of the frames: auto (default: a bar on a terminal, else plain lines), bar, plain, json (a line a "
+                  "frame on stderr), openjd, none")
+      ->transform(CLI::CheckedTransformer(words).description(""))
+      ->type_name("WORD");
+}
+
+}  // namespace meniscus

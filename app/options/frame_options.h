@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The options that make a run of frames out of a command for one molecule.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "core/scene/frame_run.h"
+
+namespace meniscus {
+
+/// How a run of frames tells how far it is.
+enum class ProgressStyle {
+  automatic,  ///< a bar on a terminal, else plain lines
+  bar,
+  plain,   ///< a line at every tenth
+  json,    ///< a JSON object a line on standard error: start, each frame, end
+  openjd,  ///< openjd_progress and openjd_status lines on standard output, as OpenJD 2023-09 defines them
+  none
+};
+
+/// What the frame options say. Commands keep one of these alive as long as their CLI::App.
+struct FrameOptions : RunRequest {
+  ProgressStyle progress = ProgressStyle::automatic;
+};
+
+/// --trajectory, --trust-atom-order, --repeat, --frames, --stride, --begin, --end, --only, --whole, --superpose,
+/// --center, --reference, --smooth, --progress, under a heading of their own.
+void add_frame_options(CLI::App& command, FrameOptions& options);
+void add_progress_option(CLI::App& command, ProgressStyle& style);
+
+/// Where indices of frames are kept: beside other caches of the user, or nowhere.
+std::string frame_index_folder();
+
+}  // namespace meniscus

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The areas of atoms as columns of numbers: what tables, JSON and CSV print.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/scene/surface_computer.h"
+#include "core/structure/atom_groups.h"
+#include "core/structure/structure.h"
+#include "core/queries/surface_object.h"
+
+namespace meniscus {
+
+/// An area of each atom of a structure, Å².
+struct AreaColumn {
+  std::string name;  ///< "ses_area", "sas_area", "vdw_area"; a word of ours
+  std::vector<double> values;
+  double total = 0.0;  ///< of all copies of all atoms
+
+  /// Of one copy of these atoms.
+  double total_of(const AtomGroup& group) const;
+};
+
+/// For a solvent-excluded surface "ses_area" and "sas_area", else the area of the surface that was made. An atom in
+/// several objects has the sum, of one copy of each.
+std::vector<AreaColumn> area_columns(const Structure& structure, const std::vector<SurfaceObject>& objects,
+                                     SurfaceKind kind);
+
+}  // namespace meniscus

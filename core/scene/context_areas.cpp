@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Computes selection and context together and finds the selection's atoms again.
+#include "core/scene/context_areas.h"
+
+#include <unordered_map>
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+#include "core/scene/surface_objects.h"
+
+namespace meniscus {
+namespace {
+
+void check(const MoleculeRequest& request) {
+  if (!request.reading.selection)
+    throw RequestError("--context needs --select: of which atoms the area is wanted in the presence of others");
+  if (request.file == "-") throw RequestError("--context reads the file twice; standard input can be read only once");
+  if (!request.reading.assembly.empty()) throw RequestError("--context and --assembly cannot be combined");
+}
+
+}  // namespace
+
+ContextAreas context_areas(const MoleculeRequest& request, const Selection& context, const Molecule& molecule,
+                           const std::vector<AreaColumn>& alone) {
+  check(request);
+  MoleculeRequest together = request;
+  together.reading.selection =
+      parse_selection(fmt::format("({}) or ({})", request.reading.selection->text(), context.text()));
+  const Structure structure = read_molecule(together);
+  SurfaceComputer computer(request.surface);
+  const std::vector<SurfaceObject> objects =
+      surface_objects(structure, {.groups = {}, .components = false, .cavities = request.division.cavities}, computer);
+  const std::vector<AreaColumn> all = area_columns(structure, objects, request.surface.kind);
+
+  std::unordered_map<std::uint32_t, std::size_t> row;  // by place in the file
+  for (std::size_t a = 0; a < structure.atoms.size(); ++a) row[structure.atoms[a].index] = a;
+  ContextAreas result;
+  result.atoms = structure.atoms.size() - molecule.structure.atoms.size();
+  for (std::size_t c = 0; c < alone.size(); ++c) {
+    AreaColumn in_context{alone[c].name + "_in_context", {}, 0.0};
+    AreaColumn buried{alone[c].name + "_buried", {}, 0.0};
+    for (std::size_t a = 0; a < molecule.structure.atoms.size(); ++a) {
+      in_context.values.push_back(all[c].values[row.at(molecule.structure.atoms[a].index)]);
+      buried.values.push_back(alone[c].values[a] - in_context.values.back());
+      in_context.total += in_context.values.back();
+      buried.total += buried.values.back();
+    }
+    result.columns.push_back(std::move(in_context));
+    result.columns.push_back(std::move(buried));
+  }
+  return result;
+}
+
+}  // namespace meniscus

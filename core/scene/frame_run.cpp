@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// From request to prepared frames.
+#include "core/scene/frame_run.h"
+
+#include <algorithm>
+#include <charconv>
+#include <unordered_map>
+#include <unordered_set>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/scene/molecule.h"
+#include "core/base/text.h"
+#include "core/structure/formats/reader.h"
+#include "core/structure/usual_part.h"
+#include "core/trajectory/atom_order.h"
+#include "core/trajectory/found_bonds.h"
+#include "core/trajectory/frame_list.h"
+#include "core/base/error.h"
+#include "core/trajectory/repeated_frames.h"
+
+namespace meniscus {
+namespace {
+
+void check_options(const MoleculeRequest& molecule, const RunRequest& request) {
+  if (!molecule.reading.assembly.empty()) throw RequestError("--assembly: runs of frames are as the file has them");
+  if (molecule.division.instances != InstanceMode::none)
+    throw RequestError("--instances: runs of frames have no copies");
+  if (molecule.reading.model.all || molecule.reading.model.number != 1)
+    throw RequestError("--model and --frames: the models of a file are its frames, counted from 0; leave --model away");
+  if (request.trajectory.empty() && molecule.file == "-")
+    throw RequestError("standard input is read once, so it has no frames; save it as a file");
+  if (request.smooth % 2 == 0)
+    throw RequestError(fmt::format("--smooth {}: an odd number has a middle", request.smooth));
+}
+
+/// A bound in ps, if the text is one: a number and "ps", "ns" or "fs".
+std::optional<double> time_of(std::string_view text) {
+  constexpr std::pair<std::string_view, double> kUnits[] = {{"fs", 1e-3}, {"ps", 1.0}, {"ns", 1e3}, {"us", 1e6}};
+  for (const auto& [unit, ps] : kUnits) {
+    if (!text.ends_with(unit)) continue;
+    const std::string_view number = text.substr(0, text.size() - unit.size());
+    double value = 0.0;
+    const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), value);
+    if (error == std::errc() && end == number.data() + number.size()) return value * ps;
+  }
+  return {};
+}
+
+/// Is a frame inside a bound of --begin or --end?
+class Bound {
+ public:
+  Bound(const char* option, const std::string& text, Trajectory& trajectory)
+      : option_(option), text_(text), trajectory_(trajectory), time_(time_of(text)) {
+    if (time_) return;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), frame_);
+    if (error != std::errc() || end != text.data() + text.size())
+      throw RequestError(
+          fmt::format("{}: {} is neither a frame such as 100 nor a time such as 300ps", option, in_quotes(text)));
+  }
+
+  /// Less than 0: before it; 0: at it; more: behind.
+  double compare(std::uint64_t number) const {
+    if (!time_) return static_cast<double>(number) - static_cast<double>(frame_);
+    Frame frame;
+    trajectory_.read(number, frame);
+    if (!frame.time)
+      throw RequestError(
+          fmt::format("{} {}: the frames of {} have no times; give a frame", option_, text_, trajectory_.path()));
+    return *frame.time - *time_;
+  }
+
+ private:
+  const char* option_;
+  std::string text_;
+  Trajectory& trajectory_;
+  std::optional<double> time_;
+  std::uint64_t frame_ = 0;
+};
+
+std::vector<std::uint32_t> chosen(const Selection& selection, const std::vector<Atom>& atoms, const char* option,
+                                  std::size_t least) {
+  std::vector<std::uint32_t> indices;
+  const std::vector<bool> selected = selection.evaluate(atoms);
+  for (std::uint32_t n = 0; n < atoms.size(); ++n)
+    if (selected[n]) indices.push_back(n);
+  if (indices.size() < least) {
+    throw RequestError(fmt::format("{} {}: selects {} of {} atoms, and needs at least {}", option,
+                                   in_quotes(selection.text()), indices.size(), with_thousands(atoms.size()), least));
+  }
+  return indices;
+}
+
+/// Does the file place the atoms that it names? All formats do but one.
+bool has_positions(const Structure& structure) { return structure.format != kPsfReader.metadata.name; }
+
+}  // namespace
+
+bool RunRequest::asked() const {
+  return !trajectory.empty() || !frames.empty() || stride != 1 || repeat != 1 || !begin.empty() || !end.empty() ||
+         !only.empty();
+}
+
+FrameRun::FrameRun(const MoleculeRequest& molecule, const RunRequest& request, bool velocities)
+    : velocities_(velocities) {
+  check_options(molecule, request);
+  trajectory_ =
+      open_trajectory(request.trajectory.empty() ? molecule.file : request.trajectory, {request.index_folder});
+  if (request.repeat > 1) trajectory_ = std::make_unique<RepeatedFrames>(std::move(trajectory_), request.repeat);
+  choose_frames(request);
+  MoleculeRequest reading = molecule;
+  reading.reading.keep_topology = true;
+  Frame first;
+  if (!request.trajectory.empty()) {
+    trajectory_->read(run_.front(), first);
+    reading.reading.positions = first.positions;
+  }
+  structure_ = read_molecule(reading);
+  const std::size_t atoms = structure_.topology->atoms.size();
+  if (atoms != trajectory_->atom_count()) {
+    throw InputError(trajectory_->path(), 0,
+                     fmt::format("its frames have {} atoms, {} has {}: {}", with_thousands(trajectory_->atom_count()),
+                                 structure_.file, with_thousands(atoms),
+                                 advice_on_count(structure_.topology->atoms, trajectory_->atom_count())));
+  }
+  if (!request.trajectory.empty() && !request.trust_atom_order)
+    check_atom_order(*structure_.topology, structure_.atoms, first,
+                     {structure_.file, has_positions(structure_), trajectory_->path(), run_.front()});
+  prepare(molecule, request);
+  Frame frame;
+  frames_->read(run_.front(), frame);
+  place(frame.positions, structure_);
+}
+
+FrameRun::~FrameRun() = default;
+
+void FrameRun::choose_frames(const RunRequest& request) {
+  run_ = parse_frame_list("--frames", request.frames.empty() ? "all" : request.frames, trajectory_->frame_count());
+  const auto keep = [this](const char* option, const std::string& text, int side) {
+    if (text.empty()) return;
+    const Bound bound(option, text, *trajectory_);
+    std::erase_if(run_, [&](std::uint64_t number) { return side * bound.compare(number) < 0.0; });
+  };
+  keep("--begin", request.begin, 1);
+  keep("--end", request.end, -1);
+  if (run_.empty()) throw RequestError("no frame is left between --begin and --end");
+  for (std::size_t n = 0; n * request.stride < run_.size(); ++n) run_[n] = run_[n * request.stride];
+  run_.resize((run_.size() + request.stride - 1) / request.stride);
+  if (request.reference >= trajectory_->frame_count())
+    throw RequestError(fmt::format("--reference {}: the trajectory has frames 0 to {}", request.reference,
+                                   trajectory_->frame_count() - 1));
+  if (request.only.empty()) {
+    chunk_ = run_;
+    return;
+  }
+  const std::unordered_set<std::uint64_t> members(run_.begin(), run_.end());
+  chunk_ = parse_frame_list("--only", request.only, trajectory_->frame_count());
+  for (const std::uint64_t number : chunk_)
+    if (!members.contains(number)) throw RequestError(fmt::format("--only: frame {} is not in the run", number));
+}
+
+void FrameRun::prepare(const MoleculeRequest& molecule, const RunRequest& request) {
+  const Topology& topology = *structure_.topology;
+  Preparation preparation;
+  preparation.reference = request.reference;
+  preparation.smooth_half = request.smooth / 2;
+  if (request.superpose) preparation.superposed = chosen(*request.superpose, topology.atoms, "--superpose", 3);
+  if (request.center) preparation.centered = chosen(*request.center, topology.atoms, "--center", 1);
+  if (request.whole != WholeBy::nothing) {
+    Frame frame;
+    trajectory_->read(run_.front(), frame);
+    const std::optional<PeriodicCell> cell = frame.cell ? PeriodicCell::of(*frame.cell) : std::nullopt;
+    std::vector<Bond> bonds = request.whole == WholeBy::guess ? guessed_bonds(topology.atoms, frame.positions, cell)
+                                                              : template_bonds(topology.atoms, frame.positions, cell);
+    bonds.insert(bonds.end(), topology.bonds.begin(), topology.bonds.end());
+    std::vector<std::uint32_t> wanted = preparation.superposed;
+    wanted.insert(wanted.end(), preparation.centered.begin(), preparation.centered.end());
+    for (const Atom& atom : structure_.atoms) wanted.push_back(atom.index);
+    preparation.whole.emplace(topology.atoms, bonds, wanted, molecule.file);
+  }
+  frames_ = std::make_unique<PreparedFrames>(*trajectory_, std::move(preparation));
+}
+
+void FrameRun::place(const std::vector<glm::dvec3>& positions, Structure& structure) const {
+  for (Atom& atom : structure.atoms) atom.position = positions[atom.index];
+}
+
+std::vector<glm::dvec3> FrameRun::positions(std::uint64_t number) {
+  Frame frame;
+  frames_->read(number, frame);
+  std::vector<glm::dvec3> positions;
+  for (const Atom& atom : structure_.atoms) positions.push_back(frame.positions[atom.index]);
+  return positions;
+}
+
+void FrameRun::survey(const std::function<void(std::uint64_t, std::span<const Ball>)>& look) {
+  std::vector<Ball> balls = balls_of(structure_);
+  Frame frame;
+  for (std::uint64_t place = 0; place < run_.size(); ++place) {
+    try {
+      frames_->read(run_[place], frame);
+    } catch (const InputError&) {
+      continue;  // whoever makes this frame says what is wrong with it
+    }
+    for (std::size_t n = 0; n < balls.size(); ++n) balls[n].center = frame.positions[structure_.atoms[n].index];
+    look(place, balls);
+  }
+}
+
+std::optional<RunFrame> FrameRun::next() {
+  if (taken_ == chunk_.size()) return {};
+  if (!ahead_) {
+    ahead_ = std::make_unique<ReadAhead>(
+        [this](ReadFrame& read) {
+          frames_->read(read.number, read.frame);
+          if (velocities_) frames_->read_velocities(read.number, read.velocities);
+        },
+        chunk_);
+  }
+  std::optional<ReadFrame> read = ahead_->next();
+  ++taken_;
+  if (read->error) std::rethrow_exception(read->error);
+  RunFrame frame;
+  frame.number = read->number;
+  frame.place = static_cast<std::uint64_t>(std::ranges::find(run_, read->number) - run_.begin());
+  frame.time = read->frame.time;
+  frame.structure = structure_;
+  place(read->frame.positions, frame.structure);
+  if (velocities_)
+    for (const Atom& atom : frame.structure.atoms) frame.velocities.push_back(read->velocities[atom.index]);
+  return frame;
+}
+
+}  // namespace meniscus

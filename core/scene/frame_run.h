@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A run of frames of one molecule: which atoms and radii is decided once, positions come frame by frame.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/structure/structure.h"
+#include "core/trajectory/prepared_frames.h"
+#include "core/trajectory/read_ahead.h"
+#include "core/trajectory/trajectory.h"
+#include "core/scene/molecule.h"
+#include "core/structure/selection/selection.h"
+
+namespace meniscus {
+
+/// Where the bonds come from along which molecules are made whole.
+enum class WholeBy {
+  nothing,  ///< molecules stay as they are
+  bonds,    ///< those the file lists and those of standard residues
+  guess     ///< those the file lists and all that distances suggest
+};
+
+/// Which frames of which trajectory, and what is done to them.
+struct RunRequest {
+  std::string trajectory;         ///< empty: the models of the molecule's file are the frames
+  bool trust_atom_order = false;  ///< bonds of the first frame are not compared with those of the molecule's file
+  std::uint64_t repeat = 1;       ///< each frame this often in a row
+  std::string frames;             ///< as parse_frame_list reads it; empty: all
+  std::uint64_t stride = 1;
+  std::string begin, end;  ///< a frame ("100") or a time ("2.5ns", "300ps"); empty: no bound
+  std::string only;        ///< the share of the run that is made; empty: all of it
+  WholeBy whole = WholeBy::nothing;
+  std::optional<Selection> superpose, center;
+  std::uint64_t reference = 0;
+  std::uint64_t smooth = 1;  ///< frames that a mean is taken over; odd
+
+  std::string index_folder;  ///< where indices of frames are kept; empty: nowhere
+
+  /// Is a run asked for at all?
+  bool asked() const;
+};
+
+/// The molecule at one frame.
+struct RunFrame {
+  std::uint64_t number = 0;    ///< in the trajectory, from 0
+  std::uint64_t place = 0;     ///< in the run, from 0
+  std::optional<double> time;  ///< ps
+  Structure structure;
+  std::vector<glm::dvec3> velocities;  ///< per atom of the structure, Å per frame of the trajectory; only if asked for
+};
+
+class FrameRun {
+ public:
+  /// Opens and chooses the atoms. velocities: frames shall have them. Throws InputError, RequestError for what makes no
+  /// sense together; texts name the options of the program.
+  FrameRun(const MoleculeRequest& molecule, const RunRequest& request, bool velocities = false);
+  ~FrameRun();
+
+  /// At the first frame of the run.
+  const Structure& structure() const { return structure_; }
+  /// The frames of the run, and those of them that are to be made here, by their numbers in the trajectory.
+  const std::vector<std::uint64_t>& numbers() const { return run_; }
+  const std::vector<std::uint64_t>& chunk() const { return chunk_; }
+  const Trajectory& trajectory() const { return *trajectory_; }
+
+  /// Reads every frame of the run, without its surface, before any is made: place in the run, and the balls. What a
+  /// camera for all of them needs. A frame that cannot be read is passed over here.
+  void survey(const std::function<void(std::uint64_t place, std::span<const Ball> balls)>& look);
+
+  /// Where the atoms of the structure stand at any frame of the trajectory; not together with next(). Throws
+  /// InputError.
+  std::vector<glm::dvec3> positions(std::uint64_t number);
+
+  /// The next frame of the chunk; nothing behind the last. Throws what reading it threw: then next() can be called
+  /// again for the one behind it.
+  std::optional<RunFrame> next();
+  /// The number of the frame that next() gives or throws about.
+  std::uint64_t upcoming() const { return chunk_[taken_]; }
+
+ private:
+  void choose_frames(const RunRequest& request);
+  void prepare(const MoleculeRequest& molecule, const RunRequest& request);
+  void place(const std::vector<glm::dvec3>& positions, Structure& structure) const;
+
+  std::unique_ptr<Trajectory> trajectory_;
+  std::unique_ptr<PreparedFrames> frames_;
+  std::unique_ptr<ReadAhead> ahead_;
+  Structure structure_;
+  std::vector<std::uint64_t> run_, chunk_;
+  std::size_t taken_ = 0;
+  bool velocities_;
+};
+
+}  // namespace meniscus

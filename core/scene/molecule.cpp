@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Carries out what the common request say.
+#include "core/scene/molecule.h"
+
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/scene/hidden_atoms.h"
+#include "core/scene/surface_objects.h"
+#include "core/base/error.h"
+#include "core/trajectory/formats/formats.h"
+
+namespace meniscus {
+namespace {
+
+void refuse_trajectory(const std::string& path) {
+  const std::string_view format = binary_trajectory_format(path);
+  if (format.empty()) return;
+  throw InputError(path, 0,
+                   fmt::format("is a trajectory ({}) and holds no atoms; give their structure or topology as FILE, and "
+                               "this one with --trajectory",
+                               format));
+}
+
+}  // namespace
+
+Structure read_molecule(const MoleculeRequest& request) {
+  refuse_trajectory(request.file);
+  ReadOptions reading = request.reading;
+  if (request.division.instances != InstanceMode::none) reading.copy_mode = CopyMode::instances;
+  return read_structure(request.file, reading);
+}
+
+ColorScheme color_of(const MoleculeRequest& request) {
+  ColorScheme color = request.color;
+  if (color.by == ColorScheme::By::file) color.file = read_number_file(request.number_file);
+  return color;
+}
+
+ColorKey key_of(const Molecule& molecule) {
+  std::vector<std::string> names;
+  for (const SurfaceObject& object : molecule.objects) names.push_back(object.name);
+  return color_key(molecule.structure, molecule.color, names);
+}
+
+MoleculeBuilder::MoleculeBuilder(const MoleculeRequest& request, const EglContext* context)
+    : request_(request), color_(color_of(request)), division_(request.division), computer_(request.surface, context) {
+  if (color_.by == ColorScheme::By::component && !division_.groups) division_.components = true;
+}
+
+Molecule MoleculeBuilder::build(Structure structure) {
+  if (color_.by == ColorScheme::By::copy && !structure.instances.empty())
+    throw RequestError("--color copy needs copies with colours of their own; leave --instances away");
+  Molecule molecule;
+  molecule.structure = std::move(structure);
+  molecule.color = color_;
+  // What the request ask for that the molecule has not is said before the surfaces are computed.
+  if (color_.has_scale()) color_scale(molecule.structure, color_);
+  std::vector<bool> hidden;
+  if (request_.show) hidden = hidden_atoms(*request_.show, molecule.structure);
+  computer_.restart_clock();
+  molecule.objects = surface_objects(molecule.structure, division_, computer_);
+  for (std::size_t n = 0; n < molecule.objects.size(); ++n) {
+    SurfaceObject& object = molecule.objects[n];
+    object.coloring = color_object(molecule.structure, object.atom, molecule.color, n);
+  }
+  if (!hidden.empty()) hide(hidden, molecule.objects);
+  molecule.device = computer_.device();
+  molecule.stages = computer_.stages();
+  return molecule;
+}
+
+}  // namespace meniscus

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// From a file to a molecule with its surfaces and colours.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/stage_clock.h"
+#include "core/color/color_scale.h"
+#include "core/queries/surface_object.h"
+#include "core/scene/surface_computer.h"
+#include "core/scene/surface_objects.h"
+#include "core/scene/surface_request.h"
+#include "core/structure/formats/read_structure.h"
+#include "core/structure/selection/selection.h"
+#include "core/structure/structure.h"
+
+namespace meniscus {
+
+/// Which atoms, which surfaces of them, which colours.
+struct MoleculeRequest {
+  std::string file;  ///< "-": standard input
+  ReadOptions reading;
+  std::optional<Selection> show;  ///< of the atoms taken, those whose part of the surface is drawn and exported
+  SurfaceRequest surface;
+  Division division;
+  ColorScheme color;
+  std::string number_file;  ///< numbers to colour by, for ColorScheme::By::file
+};
+
+/// A molecule, ready to be drawn or exported.
+struct Molecule {
+  Structure structure;
+  ColorScheme color;                   ///< as asked for, with the numbers of its file
+  std::vector<SurfaceObject> objects;  ///< at least one
+  std::string device;                  ///< what computed them
+  std::vector<StageTime> stages;       ///< of all of them
+
+  const Surface& surface() const { return objects.front().surface; }
+  const Coloring& coloring() const { return objects.front().coloring; }
+};
+
+/// The atoms asked for; Structure::report says what was read and left out. Throws InputError, RequestError.
+Structure read_molecule(const MoleculeRequest& request);
+
+/// The colour scheme with the numbers of its file, if it has one. Throws InputError.
+ColorScheme color_of(const MoleculeRequest& request);
+
+/// What the colours of its objects mean.
+ColorKey key_of(const Molecule& molecule);
+
+/// Makes molecules of one structure after another: the frames of a trajectory.
+class MoleculeBuilder {
+ public:
+  /// `request` must live as long, and so must `context`, if surfaces on GL shall be made in it. Throws InputError for
+  /// the numbers to colour by, RequestError.
+  explicit MoleculeBuilder(const MoleculeRequest& request, const EglContext* context = nullptr);
+
+  /// Computes and colours. Throws what surface_objects and color_object throw, InputError if nothing is shown.
+  Molecule build(Structure structure);
+
+ private:
+  const MoleculeRequest& request_;
+  ColorScheme color_;
+  Division division_;
+  SurfaceComputer computer_;
+};
+
+}  // namespace meniscus

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The cameras of a run of frames: still, turning, along a path, or following atoms.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/scene/frame_run.h"
+#include "core/structure/selection/selection.h"
+#include "core/camera/camera_path.h"
+#include "core/camera/view_request.h"
+
+namespace meniscus {
+
+/// How the camera moves over a run.
+struct CameraMotionRequest {
+  std::string path_file;  ///< empty: one camera, of a file or framing all frames
+  double turns = 0.0;     ///< about the camera's up axis through the middle of the molecule, over the run
+  std::optional<Selection> follow;
+
+  bool moves() const { return !path_file.empty() || turns != 0.0 || follow.has_value(); }
+};
+
+/// The cameras that files give to a run.
+struct GivenCameras {
+  std::optional<Camera> still;
+  std::optional<CameraPath> path;
+
+  bool any() const { return still || path; }
+};
+
+/// Those of the files that are named. Ask for them before anything is read or computed. Throws InputError.
+GivenCameras given_cameras(const ViewRequest& view, const CameraMotionRequest& motion);
+
+/// A camera for each frame of the run, by its place. Without a camera from a file all frames are read once, so that all
+/// of every frame is seen. Throws InputError, RequestError.
+std::vector<Camera> run_cameras(const ViewRequest& view, const CameraMotionRequest& motion, const GivenCameras& given,
+                                FrameRun& frames);
+
+}  // namespace meniscus

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Looks at a whole run before its first frame is made.
+#include "core/scene/run_framing.h"
+
+#include <algorithm>
+
+#include <glm/common.hpp>
+
+#include "core/color/named_colors.h"
+
+namespace meniscus {
+
+glm::dvec3 RunFraming::origin() const { return glm::round((low + high) * 0.5e3) / 1e3; }
+
+RunFraming run_framing(const ViewRequest& view, const CameraMotionRequest& motion, const GivenCameras& given,
+                       FrameRun& frames) {
+  RunFraming framing;
+  framing.cameras = run_cameras(view, motion, given, frames);
+  if (!motion.moves()) framing.cameras.resize(1);
+  framing.low = glm::dvec3(1e300);
+  framing.high = glm::dvec3(-1e300);
+  frames.survey([&](std::uint64_t, std::span<const Ball> balls) {
+    for (const Ball& ball : balls) {
+      framing.low = glm::min(framing.low, ball.center - ball.radius);
+      framing.high = glm::max(framing.high, ball.center + ball.radius);
+    }
+  });
+  return framing;
+}
+
+std::vector<glm::vec3> run_colors(const Structure& structure, const ColorScheme& scheme) {
+  std::vector<glm::vec3> colors;
+  const auto add = [&](const glm::vec3& color) {
+    if (std::ranges::find(colors, color) == colors.end()) colors.push_back(color);
+  };
+  if (scheme.by == ColorScheme::By::component) {
+    for (std::size_t n = 0; n < kCategoricalCount; ++n) add(categorical_color(n));
+    return colors;
+  }
+  const Coloring coloring = color_atoms(structure, scheme);
+  if (coloring.kind) {
+    for (const glm::vec3& color : *coloring.kind) add(color);
+  } else {
+    for (const glm::vec3& color : coloring.atom) add(color);
+  }
+  return colors;
+}
+
+double pace(const std::vector<std::uint64_t>& run, std::size_t place) {
+  const std::size_t before = place > 0 ? place - 1 : place, behind = std::min(place + 1, run.size() - 1);
+  if (before == behind) return 1.0;
+  return (static_cast<double>(run[behind]) - static_cast<double>(run[before])) / static_cast<double>(behind - before);
+}
+
+}  // namespace meniscus

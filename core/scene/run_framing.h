@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What every frame of an exported run shares, whichever process makes it: cameras, extent, colours, pace.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "core/scene/run_cameras.h"
+#include "core/scene/frame_run.h"
+#include "core/color/color_schemes.h"
+#include "core/camera/camera.h"
+
+namespace meniscus {
+
+struct RunFraming {
+  std::vector<Camera> cameras;     ///< one, or one a frame if it moves
+  glm::dvec3 low{0.0}, high{0.0};  ///< Å: a box around all atoms at all frames
+
+  /// Where coordinates of scenes begin, Å, to three decimals.
+  glm::dvec3 origin() const;
+};
+
+/// Reads all frames of the run once or twice. Throws what run_cameras throws.
+RunFraming run_framing(const ViewRequest& view, const CameraMotionRequest& motion, const GivenCameras& given,
+                       FrameRun& frames);
+
+/// All colours that a frame of the run may have, in the order of the atoms; of components all there are.
+std::vector<glm::vec3> run_colors(const Structure& structure, const ColorScheme& scheme);
+
+/// Frames of the trajectory that go by in one frame of the scene: the mean over the steps to both neighbours in the
+/// run.
+double pace(const std::vector<std::uint64_t>& run, std::size_t place);
+
+}  // namespace meniscus

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// From balls to a surface on the device a user asked for, with the time every stage took.
+#pragma once
+
+#include <exception>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <tbb/global_control.h>
+
+#include "core/base/stage_clock.h"
+#include "core/scene/surface_request.h"
+#include "core/surface/primitives.h"
+
+namespace meniscus {
+
+class EglContext;
+
+/// A surface and how it came to be.
+struct ComputedSurface {
+  Surface surface;
+  std::string device;  ///< "cpu (16 threads)", or GL renderer and version
+  std::vector<StageTime> stages;
+};
+
+/// Computes any number of surfaces on the device that was asked for.
+class SurfaceComputer {
+ public:
+  /// Automatic takes a hardware GPU if there is one, else the CPU, which is faster than software GL. What runs on GL
+  /// runs in `context`, if there is one: it is current and lives longer; else in a context of its own. Throws
+  /// RequestError for a van der Waals surface with a probe.
+  explicit SurfaceComputer(const SurfaceRequest& request, const EglContext* context = nullptr);
+  ~SurfaceComputer();
+
+  /// balls: van der Waals. Sas and vdw surfaces are made of balls without a probe: of these grown, or of these.
+  /// With `verify` the surface is computed on the other device as well (software GL if need be) and checked further,
+  /// and every difference is an error. Look at its certificate. Throws OpenSurfaceError, CapacityError, GpuError.
+  Surface compute(std::span<const Ball> balls);
+
+  const std::string& device() const { return device_; }  ///< "cpu (16 threads)", or GL renderer and version
+  const std::vector<StageTime>& stages() const { return clock_.times(); }  ///< of all surfaces since the last restart
+  void restart_clock() { clock_.restart(); }
+
+ private:
+  struct GlPipeline;
+  /// Not when an exception passes: oneTBB that got no memory may hold a lock for ever, and would wait for it. The limit
+  /// stays in force then, as all computers of a program have the same.
+  struct EndOfThreadLimit {
+    void operator()(tbb::global_control* limit) const noexcept {
+      if (std::uncaught_exceptions() == 0) delete limit;
+    }
+  };
+
+  bool find_hardware();
+  Surface compute_on_cpu(std::span<const Ball> balls, double probe_radius, StageClock& clock);
+  Surface compute_on_gl(std::span<const Ball> balls, double probe_radius, const DeviceChoice& choice,
+                        StageClock& clock);
+
+  SurfaceRequest request_;
+  const EglContext* context_;
+  std::unique_ptr<tbb::global_control, EndOfThreadLimit> thread_limit_;
+  std::unique_ptr<GlPipeline> gl_;
+  bool on_cpu_;
+  std::string device_;
+  StageClock clock_;
+};
+
+/// One closed surface. Throws what SurfaceComputer::compute throws, and OpenSurfaceError if it is not closed.
+ComputedSurface compute_surface(std::span<const Ball> balls, const SurfaceRequest& request);
+
+/// The sum of all stages.
+double total_ms(const std::vector<StageTime>& stages);
+
+}  // namespace meniscus

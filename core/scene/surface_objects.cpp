@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Computes the surface of each group of atoms, and divides it into the parts that are wanted.
+#include "core/scene/surface_objects.h"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+#include "core/queries/copy_contact.h"
+#include "core/queries/part.h"
+
+namespace meniscus {
+namespace {
+
+std::vector<AtomGroup> groups_of(const Structure& structure, const Division& division) {
+  if (division.groups) return group_atoms(structure, *division.groups);
+  AtomGroup all{"surface", std::vector<std::uint32_t>(structure.atoms.size())};
+  std::iota(all.atoms.begin(), all.atoms.end(), 0u);
+  return {all};
+}
+
+void require_closed(const SurfaceObject& object, const Structure& structure) {
+  const Certificate& certificate = object.surface.certificate;
+  if (certificate.closed) return;
+  constexpr std::size_t kNamed = 8;
+  std::string atoms;
+  for (std::size_t n = 0; n < std::min(certificate.open_atoms.size(), kNamed); ++n)
+    atoms += (n ? ", " : "") + atom_place(structure.atoms[object.atom[certificate.open_atoms[n]]]);
+  if (certificate.open_atoms.size() > kNamed) atoms += ", ...";
+  throw OpenSurfaceError(
+      fmt::format("the surface is not closed at {} atoms ({}); nothing was written; please report "
+                  "this structure",
+                  certificate.open_atoms.size(), atoms));
+}
+
+/// A group of atoms and where it stands. Only atoms with the same motions can share a surface.
+struct PlacedGroup {
+  AtomGroup group;
+  std::vector<RigidMotion> copies{RigidMotion{}};
+};
+
+std::vector<PlacedGroup> placed_groups(const Structure& structure, const Division& division) {
+  std::vector<PlacedGroup> placed;
+  std::vector<std::uint32_t> instances_of(structure.atoms.size(), 0);
+  for (std::uint32_t n = 0; n < structure.instances.size(); ++n) {
+    for (const std::uint32_t a : structure.instances[n].atoms) instances_of[a] = n;
+  }
+  for (AtomGroup& group : groups_of(structure, division)) {
+    if (structure.instances.empty()) {
+      placed.push_back({std::move(group)});
+      continue;
+    }
+    std::map<std::uint32_t, AtomGroup> parts;
+    for (const std::uint32_t a : group.atoms) parts[instances_of[a]].atoms.push_back(a);
+    for (auto& [n, part] : parts) {
+      part.name = group.name;
+      placed.push_back({std::move(part), structure.instances[n].motions});
+    }
+  }
+  return placed;
+}
+
+SurfaceObject compute(const Structure& structure, PlacedGroup placed, SurfaceComputer& computer) {
+  AtomGroup& group = placed.group;
+  std::vector<Ball> balls;
+  for (const std::uint32_t a : group.atoms) balls.push_back({structure.atoms[a].position, structure.atoms[a].radius});
+  SurfaceObject object;
+  object.name = std::move(group.name);
+  object.surface = computer.compute(balls);
+  object.atom = std::move(group.atoms);
+  object.copies = std::move(placed.copies);
+  require_closed(object, structure);
+  return object;
+}
+
+/// Copies have to keep clear of each other, unless each is wanted as if it were alone: by --instances separate, or as
+/// copies of chains and residues are chains and residues of their own.
+void require_apart(const Structure& structure, const Division& division, std::span<const SurfaceObject> objects) {
+  if (division.instances != InstanceMode::exact) return;
+  if (division.groups == Grouping::chain || division.groups == Grouping::residue) return;
+  for (std::size_t first = 0, past = 0; first < objects.size(); first = past) {
+    std::vector<CopiedBalls> copied;
+    for (past = first; past < objects.size() && objects[past].name == objects[first].name; ++past)
+      copied.push_back({objects[past].surface.atoms, objects[past].copies});
+    const std::optional<CopyContact> contact = closest_contact(copied, objects[first].surface.probe_radius);
+    if (!contact) continue;
+    const auto place = [&](const CopiedBall& ball) {
+      return fmt::format("{} in copy {}", atom_place(structure.atoms[objects[first + ball.group].atom[ball.ball]]),
+                         ball.copy + 1);
+    };
+    throw InputError(
+        structure.file, 0,
+        fmt::format("{} and {} are {:.2f} Å apart, so near that copies of one surface are not the surface of the "
+                    "whole; leave --instances away, or take --instances separate",
+                    place(contact->ball[0]), place(contact->ball[1]), contact->distance));
+  }
+}
+
+// The object made of some of another one's components.
+SurfaceObject part_of(const SurfaceObject& whole, const std::vector<bool>& keep, std::string name) {
+  SurfacePart part = part_of(whole.surface, keep);
+  SurfaceObject object;
+  object.name = std::move(name);
+  object.surface = std::move(part.surface);
+  for (const std::uint32_t a : part.atom) object.atom.push_back(whole.atom[a]);
+  object.copies = whole.copies;
+  return object;
+}
+
+std::vector<bool> wanted_components(const Surface& surface, Cavities cavities) {
+  if (cavities == Cavities::keep) return std::vector<bool>(surface.components.size(), true);
+  std::vector<bool> wanted = reached_from_outside(surface);
+  if (cavities == Cavities::only) wanted.flip();
+  return wanted;
+}
+
+void divide(SurfaceObject object, const Division& division, std::vector<SurfaceObject>& objects) {
+  const std::vector<bool> wanted = wanted_components(object.surface, division.cavities);
+  const auto count = std::count(wanted.begin(), wanted.end(), true);
+  if (!division.components) {
+    if (count == 0) return;
+    const bool all = static_cast<std::size_t>(count) == wanted.size();
+    objects.push_back(all ? std::move(object) : part_of(object, wanted, object.name));
+    return;
+  }
+  for (std::size_t c = 0; c < wanted.size(); ++c) {
+    if (!wanted[c]) continue;
+    std::vector<bool> one(wanted.size(), false);
+    one[c] = true;
+    const bool cavity = object.surface.components[c].kind == ComponentKind::cavity;
+    objects.push_back(part_of(object, one, fmt::format("component {}{}", c, cavity ? " (cavity)" : "")));
+  }
+}
+
+}  // namespace
+
+std::vector<SurfaceObject> surface_objects(const Structure& structure, const Division& division,
+                                           SurfaceComputer& computer) {
+  std::vector<SurfaceObject> wholes, objects;
+  for (PlacedGroup& placed : placed_groups(structure, division))
+    wholes.push_back(compute(structure, std::move(placed), computer));
+  require_apart(structure, division, wholes);
+  for (SurfaceObject& whole : wholes) divide(std::move(whole), division, objects);
+  if (objects.empty())
+    throw InputError(structure.file, 0,
+                     division.cavities == Cavities::only ? "the surface has no cavities; nothing is left of it"
+                                                         : "the surface has no part; nothing is left of it");
+  return objects;
+}
+
+double largest_growth(const std::vector<SurfaceObject>& objects) {
+  double largest = 0.0;
+  for (const SurfaceObject& object : objects) largest = std::max(largest, object.surface.certificate.grown_by);
+  return largest;
+}
+
+}  // namespace meniscus

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// From the atoms of a structure to the surfaces of a molecule: one, or one a chain, model, class, residue, component.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/scene/surface_computer.h"
+#include "core/structure/atom_groups.h"
+#include "core/structure/structure.h"
+#include "core/queries/surface_object.h"
+
+namespace meniscus {
+
+/// Which closed parts of the surface are taken.
+enum class Cavities {
+  keep,  ///< all of them
+  drop,  ///< those that the outside reaches: no cavities, and nothing that lies in one
+  only   ///< the others
+};
+
+/// What becomes of the copies of an assembly.
+enum class InstanceMode {
+  none,     ///< they are atoms like all others, under one surface
+  exact,    ///< one copy is computed; refused unless that gives the surface of the whole
+  separate  ///< one copy is computed as if alone
+};
+
+/// What the surface is divided into.
+struct Division {
+  std::optional<Grouping> groups;  ///< each group of atoms has a surface of its own, as if it were alone
+  bool components = false;         ///< each closed part is an object
+  Cavities cavities = Cavities::keep;
+  InstanceMode instances = InstanceMode::none;
+};
+
+/// Closed surfaces with their names and atoms, not yet coloured. A group of atoms may have none: with --cavities only.
+/// Throws OpenSurfaceError, naming atoms by chain, residue and name; CapacityError, GpuError; Error when no part of the
+/// surface is left.
+std::vector<SurfaceObject> surface_objects(const Structure& structure, const Division& division,
+                                           SurfaceComputer& computer);
+
+/// By how many Å radii were grown at most to tell ties apart (core/surface/tie_ladder.h); 0 as a rule.
+double largest_growth(const std::vector<SurfaceObject>& objects);
+
+}  // namespace meniscus

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Words for kinds of surfaces, and the bounds of a probe.
+#include "core/scene/surface_request.h"
+
+#include <cstddef>
+
+#include <fmt/format.h>
+
+namespace meniscus {
+namespace {
+
+// Below 0.001 Å the patches between atoms are thinner than any file's coordinates are precise; above 100 Å the probe is
+// larger than most molecules and every atom neighbours every other.
+constexpr double kSmallestProbe = 1e-3;
+constexpr double kLargestProbe = 100.0;
+
+}  // namespace
+
+const char* kind_word(SurfaceKind kind) {
+  constexpr const char* kWords[] = {"ses", "sas", "vdw"};
+  return kWords[static_cast<std::size_t>(kind)];
+}
+
+std::string probe_fault(double radius) {
+  if (radius < 0.0) return fmt::format("{} Å is negative; 0 gives the van der Waals surface", radius);
+  if (radius > 0.0 && radius < kSmallestProbe) {
+    return fmt::format("{} Å is finer than any file's coordinates; use 0 (van der Waals surface) or at least {} Å",
+                       radius, kSmallestProbe);
+  }
+  if (radius > kLargestProbe)
+    return fmt::format("{} Å is larger than molecules are; use at most {} Å", radius, kLargestProbe);
+  return {};
+}
+
+}  // namespace meniscus

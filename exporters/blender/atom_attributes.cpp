@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Collects the attributes of atoms; missing B-factors are 0.
+#include "exporters/blender/atom_attributes.h"
+
+#include <cmath>
+#include <map>
+#include <string>
+
+namespace meniscus::blender {
+
+AtomAttributes atom_attributes(const Structure& structure, const std::vector<std::uint32_t>& atoms) {
+  AtomAttributes attributes;
+  std::map<std::string, std::int32_t> chains;
+  for (const std::uint32_t index : atoms) {
+    const Atom& atom = structure.atoms[index];
+    attributes.b_factor.push_back(std::isfinite(atom.b_factor) ? atom.b_factor : 0.0f);
+    attributes.atomic_number.push_back(atom.element);
+    attributes.residue_number.push_back(atom.residue_number);
+    const auto [at, fresh] = chains.try_emplace(atom.chain, static_cast<std::int32_t>(chains.size()));
+    if (fresh) attributes.chain_names.push_back(atom.chain);
+    attributes.chain.push_back(at->second);
+  }
+  return attributes;
+}
+
+}  // namespace meniscus::blender

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// An independent look at the areas and volumes of a surface: those of its triangles.
+#pragma once
+
+#include "core/surface/primitives.h"
+
+namespace meniscus {
+
+/// Meshes the surface, more finely where a face is thinner than its borders bend, and compares areas and volumes face
+/// by face and component by component. Throws OpenSurfaceError with every difference.
+void check_by_mesh(const Surface& surface);
+
+}  // namespace meniscus
