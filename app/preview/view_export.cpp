@@ -10,7 +10,7 @@
 
 #include "exporters/blender/atom_attributes.h"
 #include "core/scene/surface_computer.h"
-#include "app/options/mesh_options.h"
+#include "exporters/mesh/mesh_objects.h"
 #include "core/scene/molecule.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
