@@ -19,6 +19,7 @@
 #include "app/process/program_error.h"
 #include "app/process/stop_signals.h"
 #include "core/base/text.h"
+#include "app/farm/read_bundle.h"
 #include "core/trajectory/frame_list.h"
 
 namespace meniscus {

@@ -10,6 +10,7 @@
 #include "core/scene/hidden_atoms.h"
 #include "app/reports/notes.h"
 #include "app/options/molecule_options.h"
+#include "core/color/color_atoms.h"
 #include "core/base/text.h"
 
 namespace meniscus {

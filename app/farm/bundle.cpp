@@ -8,9 +8,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "app/farm/check_bundle.h"
 #include "app/farm/checksum.h"
-#include "app/farm/inner_path.h"
 #include "core/base/error.h"
 #include "core/base/json_depth.h"
 #include "core/base/text.h"
@@ -26,8 +24,7 @@ constexpr std::uint64_t kMostChunks = 1000;         // Slurm's MaxArraySize is 1
 constexpr std::uint64_t kMostFrames = 100'000'000;  // a manifest that asks for more is damaged
 constexpr std::uint64_t kLargestSide = 65'535;
 constexpr std::uint64_t kAnyNumber = ~std::uint64_t{0};
-constexpr std::size_t kLongestShown = 200;                 // bytes of a value in a message
-constexpr std::size_t kMostBytes = std::size_t{64} << 20;  // of a manifest
+constexpr std::size_t kLongestShown = 200;  // bytes of a value in a message
 constexpr const char* kMakers[] = {"meniscus", "povray", "blender"};
 
 std::string word_of(Maker maker) { return kMakers[static_cast<std::size_t>(maker)]; }
@@ -121,7 +118,6 @@ Bundle from_json(const Json& json) {
     bundle.film =
         Film{json.at("film").at("file").get<std::string>(), json.at("film").at("frames_per_second").get<double>()};
   bundle.chunking = read_chunking(json.at("chunks"));
-  check_bundle(bundle);
   return bundle;
 }
 
@@ -169,17 +165,12 @@ std::string frame_digits(std::uint64_t frame) { return fmt::format("{:05}", fram
 
 std::string bundle_json(const Bundle& bundle) { return whole_json(bundle, true).dump(2, ' ', true) + "\n"; }
 
-Bundle read_bundle(const std::filesystem::path& folder) {
-  const std::string path = (folder / "bundle.json").string();
-  const std::optional<std::string> text = inner_text(folder, "bundle.json", kMostBytes);
-  if (!text) throw InputError(path, 0, "cannot be opened; meniscus farm bundle makes it");
+Bundle parse_bundle(const std::string& text) {
   try {
-    if (is_nested_too_deep(*text)) throw RequestError("is damaged: it is nested too deep");
-    return from_json(Json::parse(*text));
+    if (is_nested_too_deep(text)) throw RequestError("is damaged: it is nested too deep");
+    return from_json(Json::parse(text));
   } catch (const nlohmann::json::exception& error) {
-    throw InputError(path, 0, "is damaged: " + shortened(error.what(), kLongestShown));
-  } catch (const RequestError& error) {
-    throw InputError(path, 0, error.what());
+    throw RequestError("is damaged: " + shortened(error.what(), kLongestShown));
   }
 }
 

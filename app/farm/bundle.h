@@ -83,9 +83,8 @@ std::string frame_digits(std::uint64_t frame);
 /// The text of bundle.json, with a line end.
 std::string bundle_json(const Bundle& bundle);
 
-/// Reads DIR/bundle.json. Throws InputError: missing, damaged, of another schema, or asking for anything that this
-/// program would not have bundled (check_bundle.h).
-Bundle read_bundle(const std::filesystem::path& folder);
+/// Understands that text. Throws RequestError: damaged, or of another schema.
+Bundle parse_bundle(const std::string& text);
 
 /// Whether both are the same but for what was measured.
 bool same_but_for_measurement(const Bundle& a, const Bundle& b);

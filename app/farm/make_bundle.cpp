@@ -25,6 +25,7 @@
 #include "core/scene/frame_run.h"
 #include "app/process/stop_signals.h"
 #include "core/base/output_file.h"
+#include "app/farm/read_bundle.h"
 #include "core/base/text.h"
 
 namespace meniscus::farm {

@@ -12,18 +12,6 @@
 
 namespace meniscus::farm {
 
-std::string shell_word(std::string_view text) {
-  std::string quoted = "'";
-  for (const char c : text) {
-    if (c == '\'') {
-      quoted += "'\\''";
-    } else {
-      quoted += c;
-    }
-  }
-  return quoted + "'";
-}
-
 std::string xml_text(std::string_view text) {
   std::string result;
   for (const char c : text) {

@@ -7,9 +7,6 @@
 
 namespace meniscus::farm {
 
-/// One word of a POSIX shell.
-std::string shell_word(std::string_view text);
-
 /// Character data or an attribute's value in XML.
 std::string xml_text(std::string_view text);
 

@@ -11,6 +11,7 @@
 #include "app/preview/camera_motion.h"
 #include "app/preview/look_json.h"
 #include "core/base/error.h"
+#include "core/color/color_atoms.h"
 #include "core/color/named_colors.h"
 
 namespace meniscus {

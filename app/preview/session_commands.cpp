@@ -14,6 +14,7 @@
 #include "core/scene/surface_request.h"
 #include "core/structure/selection/selection.h"
 #include "core/base/error.h"
+#include "core/color/color_atoms.h"
 #include "core/base/text.h"
 
 namespace meniscus {

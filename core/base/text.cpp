@@ -65,6 +65,18 @@ std::string with_thousands(std::uint64_t count) {
   return grouped;
 }
 
+std::string shell_word(std::string_view text) {
+  std::string quoted = "'";
+  for (const char c : text) {
+    if (c == '\'') {
+      quoted += "'\\''";
+    } else {
+      quoted += c;
+    }
+  }
+  return quoted + "'";
+}
+
 std::string pointed_at(std::string_view text, std::size_t position) {
   constexpr std::size_t kBefore = 50, kAfter = 30;
   const auto continues = [&](std::size_t n) { return n < text.size() && (text[n] & 0xc0) == 0x80; };  // inside UTF-8

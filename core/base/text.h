@@ -25,6 +25,9 @@ std::string wrapped(std::string_view text, std::size_t width, std::size_t indent
 /// 5469 -> "5,469".
 std::string with_thousands(std::uint64_t count);
 
+/// One word of a POSIX shell, whatever the text holds.
+std::string shell_word(std::string_view text);
+
 /// Two lines: the text, and a caret under byte `position` of it (at most its size). Of a long text only a window around
 /// the place is shown; control characters are escaped, and UTF-8 counts by character.
 std::string pointed_at(std::string_view text, std::size_t position);

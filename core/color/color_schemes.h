@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How atoms get their colours: by what they are, by a number they have, or one colour for all.
+// By what atoms are coloured: by what they are, by a number they have, or one colour for all.
 #pragma once
 
 #include <array>
@@ -14,7 +14,6 @@
 #include "core/structure/atom_numbers.h"
 #include "core/color/color_maps.h"
 #include "core/structure/structure.h"
-#include "core/color/coloring.h"
 
 namespace meniscus {
 
@@ -71,16 +70,5 @@ std::optional<std::array<double, 2>> parse_color_range(std::string_view text);
 
 /// The chain as the file names it: in an assembly copies of A are called, ... and keep its colour.
 std::string chain_of_file(const Atom& atom);
-
-/// One colour an atom of the structure, for a surface that is one object.
-/// Throws InputError when colours are by a number and no atom has one, when a file's numbers are not as many as there
-/// are atoms, and when the categorical map has fewer colours than there are different numbers.
-Coloring color_atoms(const Structure& structure, const ColorScheme& scheme);
-
-/// The same for one of several objects. atom: per atom of the object, its index into structure.atoms. object_number:
-/// its place in the list of objects, which By::component colours by. Ranges are those of the whole structure. Parts are
-/// chains.
-Coloring color_object(const Structure& structure, std::span<const std::uint32_t> atom, const ColorScheme& scheme,
-                      std::size_t object_number);
 
 }  // namespace meniscus

@@ -9,6 +9,7 @@
 #include "core/scene/hidden_atoms.h"
 #include "core/scene/surface_objects.h"
 #include "core/base/error.h"
+#include "core/color/color_atoms.h"
 #include "core/trajectory/formats/formats.h"
 
 namespace meniscus {

@@ -6,6 +6,7 @@
 
 #include <glm/common.hpp>
 
+#include "core/color/color_atoms.h"
 #include "core/color/named_colors.h"
 
 namespace meniscus {

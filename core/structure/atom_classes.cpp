@@ -225,13 +225,6 @@ class Classifier {
 
 }  // namespace
 
-bool is_water_name(const std::string& residue_name) {
-  static const std::set<std::string> kWaters{"HOH", "DOD",  "WAT",  "H2O",  "OH2",  "SOL",   "TIP",
-                                             "TP3", "TIP2", "TIP3", "TIP4", "TIP5", "T3P",   "T4P",
-                                             "T5P", "SPC",  "SPCE", "HHO",  "OHH",  "TIP3P", "TIP4P"};
-  return kWaters.contains(residue_name);
-}
-
 bool is_tabulated_residue(const std::string& residue_name) {
   return gemmi::find_tabulated_residue(residue_name).found();
 }

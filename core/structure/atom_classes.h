@@ -22,9 +22,6 @@ struct AtomHints {
       0;  ///< what the columns of the name suggest (PDB: " CA " is carbon, "CA  " calcium); 0: nothing
 };
 
-/// Water by the names of the wwPDB and of molecular dynamics programs.
-bool is_water_name(const std::string& residue_name);
-
 /// True for the residues and ligands common enough to stand in gemmi's table.
 bool is_tabulated_residue(const std::string& residue_name);
 

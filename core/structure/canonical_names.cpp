@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <map>
 
-#include "core/structure/atom_classes.h"
+#include "core/structure/residue_names.h"
 
 namespace meniscus {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "core/color/color_key_json.h"
 #include "core/base/shared_files.h"
-#include "exporters/blender/camera_object.h"
+#include "exporters/blender/shot.h"
 
 namespace meniscus::blender {
 namespace {
@@ -55,10 +55,10 @@ std::filesystem::path write_manifest(const std::filesystem::path& folder, Existi
   content["scale"] = manifest.scale;
   content["fps"] = manifest.fps;
   if (manifest.shots.size() == 1) {
-    content["camera"] = camera_object(manifest.shots[0]);
+    content["camera"] = shot_object(manifest.shots[0]);
   } else {
     for (std::size_t n = 0; n < manifest.frames.size(); ++n)
-      content["frames"][n]["camera"] = camera_object(manifest.shots[n]);
+      content["frames"][n]["camera"] = shot_object(manifest.shots[n]);
   }
   ordered_json frames = std::move(content["frames"]);  // the long list goes last
   content.erase("frames");

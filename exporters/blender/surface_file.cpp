@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/text.h"
-#include "exporters/blender/camera_object.h"
+#include "exporters/blender/shot.h"
 #include "exporters/blender/mns_file.h"
 #include "core/color/color_key_json.h"
 #include "exporters/mesh/mesh_colors.h"
@@ -201,12 +201,6 @@ json object_header(const MeshedObject& meshed, const std::string& prefix, const 
 
 }  // namespace
 
-nlohmann::json camera_object(const Shot& shot) {
-  json camera = meniscus::camera_object(shot.camera);
-  camera["size"] = {shot.width, shot.height};
-  return camera;
-}
-
 void write_objects(const std::string& path, Existing existing, std::span<const MeshedObject> objects,
                    const std::optional<Shot>& shot, const Provenance& provenance,
                    const std::optional<PlaceInRun>& place) {
@@ -233,7 +227,7 @@ void write_objects(const std::string& path, Existing existing, std::span<const M
               {"unit", "angstrom"},
               {"objects", std::move(list)}};
   if (provenance.colors) header["colors"] = color_key_json(*provenance.colors);
-  if (shot) header["camera"] = camera_object(*shot);
+  if (shot) header["camera"] = shot_object(*shot);
   if (place) header["sequence"] = {{"run", place->run}, {"frame", place->frame}, {"scene_frame", place->scene_frame}};
   file.write(path, existing, std::move(header));
 }

@@ -11,6 +11,7 @@
 #include "core/camera/camera.h"
 #include "core/color/color_scale.h"
 #include "core/queries/surface_object.h"
+#include "exporters/blender/shot.h"
 #include "exporters/mesh/triangle_mesh.h"
 
 namespace meniscus::blender {
@@ -23,12 +24,6 @@ struct AtomAttributes {
   std::vector<std::int32_t> residue_number;
   std::vector<std::int32_t> chain;  ///< into chain_names
   std::vector<std::string> chain_names;
-};
-
-/// A camera and the picture it is meant for.
-struct Shot {
-  Camera camera;
-  int width = 0, height = 0;  ///< pixels
 };
 
 /// Where the surface came from; kept in the file and in Blender as custom properties.

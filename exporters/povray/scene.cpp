@@ -6,6 +6,7 @@
 
 #include "exporters/povray/geometry.h"
 #include "exporters/povray/scene_files.h"
+#include "core/base/text.h"
 #include "exporters/povray/scene_report.h"
 
 namespace meniscus::povray {
@@ -34,7 +35,7 @@ SceneReport write_scene(std::span<const SurfaceObject> objects, const Camera& ca
   report.object_count = geometry.primitive_count();
   report.origin = origin;
   report.notes = notes(objects, geometry, camera);
-  report.command = fmt::format("cd {} && povray {}.ini", shell_quoted(folder.string()), options.name);
+  report.command = fmt::format("cd {} && povray {}.ini", shell_word(folder.string()), options.name);
   return report;
 }
 

@@ -11,14 +11,9 @@
 #include <glm/vec3.hpp>
 
 #include "core/camera/camera.h"
-#include "exporters/povray/scene.h"
+#include "exporters/povray/scene_options.h"
 
 namespace meniscus::povray {
-
-/// A box, Å.
-struct Extent {
-  glm::dvec3 low{1e300}, high{-1e300};
-};
 
 /// What a scene of several frames knows of them.
 struct SceneFrames {

@@ -66,11 +66,4 @@ std::vector<std::string> notes(std::span<const SurfaceObject> objects, const Geo
   return sentences;
 }
 
-// One word of a POSIX shell, whatever the text holds.
-std::string shell_quoted(const std::string& text) {
-  std::string quoted = "'";
-  for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
-}
-
 }  // namespace meniscus::povray

@@ -6,8 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "core/camera/camera.h"
 #include "exporters/povray/geometry.h"
-#include "exporters/povray/scene_files.h"
+#include "exporters/povray/scene_options.h"
 
 namespace meniscus::povray {
 
@@ -22,8 +23,5 @@ void check(std::span<const SurfaceObject> objects, const SceneOptions& options);
 
 /// Sentences: what the picture lacks, what will be slow.
 std::vector<std::string> notes(std::span<const SurfaceObject> objects, const Geometry& geometry, const Camera& camera);
-
-/// One word of a POSIX shell, whatever the text holds.
-std::string shell_quoted(const std::string& text);
 
 }  // namespace meniscus::povray

@@ -14,6 +14,7 @@
 #include "exporters/povray/geometry.h"
 #include "exporters/povray/scene_files.h"
 #include "exporters/povray/scene_report.h"
+#include "core/base/text.h"
 #include "exporters/povray/scene_text.h"
 
 namespace meniscus::povray {
@@ -74,7 +75,7 @@ SceneReport SequenceScene::write_shared() const {
   SceneReport report;
   for (const SharedFile& file : files) report.files.push_back(folder_ / file.name);
   report.origin = origin_;
-  report.command = fmt::format("cd {} && povray {}.ini", shell_quoted(folder_.string()), options_.name);
+  report.command = fmt::format("cd {} && povray {}.ini", shell_word(folder_.string()), options_.name);
   return report;
 }
 

@@ -18,6 +18,8 @@
 #include "app/farm/timeless_png.h"
 #include "app/farm/worker.h"
 #include "app/process/program_error.h"
+#include "core/base/text.h"
+#include "app/farm/read_bundle.h"
 #include "tests/support/run_program.h"
 
 namespace meniscus::farm {

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "app/farm/bundle.h"
+#include "app/farm/read_bundle.h"
 #include "tests/fuzz/target.h"
 
 namespace meniscus::fuzz {

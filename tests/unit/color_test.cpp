@@ -11,6 +11,7 @@
 #include "core/color/color_scale.h"
 #include "core/color/color_schemes.h"
 #include "core/color/named_colors.h"
+#include "core/color/color_atoms.h"
 #include "tests/support/run_program.h"
 
 namespace meniscus {

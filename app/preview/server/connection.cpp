@@ -14,8 +14,8 @@
 #include <fmt/format.h>
 
 #include "app/preview/server/access.h"
-#include "app/preview/server/network.h"
 #include "app/preview/server/page_files.h"
+#include "app/preview/server/limits.h"
 #include "app/preview/server/socket_client.h"
 
 namespace meniscus {
@@ -35,9 +35,9 @@ class Connection : public std::enable_shared_from_this<Connection> {
   ~Connection() { --clients_->connections; }
 
   void read() {
-    parser_.header_limit(Network::kLargestHeader);
+    parser_.header_limit(kLargestHeader);
     parser_.body_limit(0);
-    stream_.expires_after(std::chrono::seconds(Network::kPatience));
+    stream_.expires_after(std::chrono::seconds(kPatience));
     http::async_read(stream_, buffer_, parser_, [self = shared_from_this()](beast::error_code error, std::size_t) {
       if (!error) return self->answer();
       if (error == http::error::header_limit || error == http::error::body_limit)
@@ -83,7 +83,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
     set_policies();
     response_.body().assign(body);
     response_.prepare_payload();
-    stream_.expires_after(std::chrono::seconds(Network::kPatience));
+    stream_.expires_after(std::chrono::seconds(kPatience));
     http::async_write(stream_, response_, [self = shared_from_this()](beast::error_code, std::size_t) {
       beast::error_code ignored;
       self->stream_.socket().shutdown(boost::asio::ip::tcp::socket::shutdown_send, ignored);
@@ -104,7 +104,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   }
 
   beast::tcp_stream stream_;
-  beast::flat_buffer buffer_{2 * Network::kLargestHeader};
+  beast::flat_buffer buffer_{2 * kLargestHeader};
   http::request_parser<http::empty_body> parser_;
   http::response<http::string_body> response_;
   std::shared_ptr<Clients> clients_;

@@ -16,30 +16,12 @@
 #include "app/preview/server/access.h"
 #include "app/preview/server/clients.h"
 #include "app/preview/server/connection.h"
+#include "app/preview/server/limits.h"
 #include "core/base/error.h"
 
 namespace meniscus {
 
 namespace asio = boost::asio;
-
-bool Clients::full() const { return sockets.size() >= Network::kMostClients; }
-
-ClientNumber Clients::join(std::shared_ptr<Client> client) {
-  sockets.emplace(next_number, std::move(client));
-  return next_number++;
-}
-
-void Clients::leave(ClientNumber client) {
-  const bool controlled = controls(client);
-  if (sockets.erase(client) == 0) return;
-  mailbox.forget(client);
-  if (controlled && !sockets.empty())
-    sockets.begin()->second->send(text_message(json_line({{"event", "role"}, {"controls", true}})));
-}
-
-OutgoingMessage text_message(const std::string& text) {
-  return {std::make_shared<const std::vector<std::uint8_t>>(text.begin(), text.end()), true};
-}
 
 struct Network::State {
   State(std::uint16_t port, Mailbox& mailbox)
@@ -61,7 +43,7 @@ struct Network::State {
     acceptor.async_accept([this](boost::system::error_code error, asio::ip::tcp::socket socket) {
       if (error == asio::error::operation_aborted) return;
       if (error) return accept_later();
-      if (clients->connections < Network::kMostConnections) serve_connection(std::move(socket), clients);
+      if (clients->connections < kMostConnections) serve_connection(std::move(socket), clients);
       accept();
     });
   }

@@ -14,17 +14,11 @@
 namespace meniscus {
 
 /// Serves the page to browsers on this machine that know the token, and passes their commands to the mailbox. Limits:
-/// kMostClients sockets (the first of them controls, the others look), kLargestMessage bytes a message,
-/// kLargestHeader bytes of request header, kPatience seconds for a request. Foreign hosts, foreign origins and wrong
+/// server/limits.h; the first socket controls, the others
+/// look. Foreign hosts, foreign origins and wrong
 /// tokens are answered with 403. All functions may be called from any thread.
 class Network {
  public:
-  static constexpr std::size_t kMostClients = 4;
-  static constexpr std::size_t kMostConnections = 32;
-  static constexpr std::size_t kLargestMessage = 4096;
-  static constexpr std::size_t kLargestHeader = 8192;
-  static constexpr int kPatience = 10;
-
   /// port 0: any free one. Listens when this returns. Throws RequestError if the port cannot be had, Error.
   Network(std::uint16_t port, Mailbox& mailbox);
   /// Says goodbye to all clients, for a second at most.

@@ -12,7 +12,7 @@
 #include <boost/beast/websocket.hpp>
 
 #include "app/preview/command_json.h"
-#include "app/preview/server/network.h"
+#include "app/preview/server/limits.h"
 #include "core/base/json_depth.h"
 
 namespace meniscus {
@@ -36,11 +36,11 @@ class SocketClient : public Client, public std::enable_shared_from_this<SocketCl
   void accept(const beast::http::request<beast::http::empty_body>& request) {
     beast::get_lowest_layer(socket_).expires_never();  // the socket has timeouts of its own
     websocket::stream_base::timeout patience;
-    patience.handshake_timeout = std::chrono::seconds(Network::kPatience);
+    patience.handshake_timeout = std::chrono::seconds(kPatience);
     patience.idle_timeout = std::chrono::seconds(60);
     patience.keep_alive_pings = true;
     socket_.set_option(patience);
-    socket_.read_message_max(Network::kLargestMessage);
+    socket_.read_message_max(kLargestMessage);
     number_ = clients_->join(shared_from_this());
     socket_.async_accept(request, [self = shared_from_this()](beast::error_code error) {
       if (error) return self->leave();

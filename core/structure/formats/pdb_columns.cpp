@@ -9,6 +9,7 @@
 
 #include "core/structure/atom_classes.h"
 #include "core/text/parse_number.h"
+#include "core/structure/residue_names.h"
 #include "core/text/text_lines.h"
 
 namespace meniscus {

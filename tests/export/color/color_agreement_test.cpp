@@ -20,6 +20,7 @@
 #include "exporters/mesh/tessellate.h"
 #include "exporters/povray/scene.h"
 #include "tests/export/povray/povray_render.h"
+#include "core/color/color_atoms.h"
 #include "tests/support/run_program.h"
 
 namespace meniscus::testing {

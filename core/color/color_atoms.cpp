@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Colours atoms one by one, and numbers their chains.
+#include "core/color/color_atoms.h"
+
+#include <map>
+#include <numeric>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <vector>
+
+#include "core/color/color_scale.h"
+#include "core/color/named_colors.h"
+
+namespace meniscus {
+namespace {
+
+using By = ColorScheme::By;
+
+/// Chains in order of appearance, so that colours follow the file.
+std::vector<glm::vec3> by_chain(const Structure& structure) {
+  std::map<std::string, std::size_t> order;
+  std::vector<glm::vec3> colors;
+  for (const Atom& atom : structure.atoms)
+    colors.push_back(categorical_color(order.try_emplace(chain_of_file(atom), order.size()).first->second));
+  return colors;
+}
+
+std::vector<glm::vec3> colors_of(const Structure& structure, const ColorScheme& scheme) {
+  if (scheme.by == By::chain) return by_chain(structure);
+  std::vector<glm::vec3> colors;
+  colors.reserve(structure.atoms.size());
+  if (scheme.has_scale()) {
+    const ColorScale scale = color_scale(structure, scheme);
+    for (const double number : scale.value) colors.push_back(scale.color(number));
+    return colors;
+  }
+  for (const Atom& atom : structure.atoms) {
+    if (scheme.by == By::copy)
+      colors.push_back(categorical_color(atom.copy));
+    else if (scheme.by == By::element)
+      colors.push_back(element_color(atom.element));
+    else
+      colors.push_back(color_from_hex(residue_group(atom.residue_name).color));
+  }
+  return colors;
+}
+
+}  // namespace
+
+Coloring color_atoms(const Structure& structure, const ColorScheme& scheme) {
+  std::vector<std::uint32_t> all(structure.atoms.size());
+  std::iota(all.begin(), all.end(), 0u);
+  return color_object(structure, all, scheme, 0);
+}
+
+Coloring color_object(const Structure& structure, std::span<const std::uint32_t> atom, const ColorScheme& scheme,
+                      std::size_t object_number) {
+  Coloring coloring;
+  std::map<std::tuple<std::int32_t, std::uint32_t, std::string_view>, std::uint32_t> chains;
+  for (const std::uint32_t a : atom) {
+    const Atom& place = structure.atoms[a];
+    const auto next = static_cast<std::uint32_t>(chains.size());
+    coloring.part.push_back(chains.try_emplace({place.model, place.copy, place.chain}, next).first->second);
+  }
+  if (scheme.by == By::kind) {
+    coloring.atom.assign(atom.size(), default_missing_color(ColorMap::categorical));
+    coloring.kind = kPatchKindColors;
+  } else if (scheme.by == By::component) {
+    coloring.atom.assign(atom.size(), categorical_color(object_number));
+  } else if (scheme.by == By::fixed) {
+    coloring.atom.assign(atom.size(), scheme.fixed);
+  } else {
+    const std::vector<glm::vec3> colors = colors_of(structure, scheme);
+    for (const std::uint32_t a : atom) coloring.atom.push_back(colors[a]);
+  }
+  return coloring;
+}
+
+}  // namespace meniscus

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a scene shall be, and what was written of it.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "core/base/output_file.h"
+#include "core/color/color_scale.h"
+
+namespace meniscus::povray {
+
+enum class Material {
+  opaque,
+  ghost,  ///< see-through; only the sides that face the viewer are drawn
+  glass,  ///< refracts as one solid
+  wax     ///< light scatters below the surface
+};
+
+struct SceneOptions {
+  std::string name = "surface";    ///< of all files; letters, digits, '-' and '_' only, since it stands in the scene
+  int width = 1280, height = 960;  ///< pixels
+  Material material = Material::opaque;  ///< the scene's default; every scene holds all four
+  glm::vec3 background{1.0f};            ///< sRGB
+  Existing existing = Existing::refuse;
+  std::optional<glm::dvec3> origin;  ///< Å: where coordinates of the scene begin; nothing: the middle of all atoms
+  std::optional<ColorKey> colors;    ///< what the colours mean, for <name>_objects.json
+};
+
+/// What was written and what was not.
+struct SceneReport {
+  std::vector<std::filesystem::path> files;
+  std::size_t object_count = 0;    ///< primitives, copies not counted; atoms of several colours may share a patch
+  std::vector<std::string> notes;  ///< sentences: what was left out, what will be slow; empty when all is shown
+  glm::dvec3 origin{0.0};          ///< scene coordinates + origin = molecule coordinates
+  std::string command;             ///< for a POSIX shell: renders the picture from any folder
+};
+
+/// A box, Å.
+struct Extent {
+  glm::dvec3 low{1e300}, high{-1e300};
+};
+
+}  // namespace meniscus::povray
