@@ -8,10 +8,16 @@ std::string json_line(const nlohmann::json& json) {
   return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
+std::string command_word(const nlohmann::json& command) {
+  if (!command.is_object()) return "";
+  const auto found = command.find("command");
+  return found != command.end() && found->is_string() ? found->get<std::string>() : "";
+}
+
 bool is_question(const nlohmann::json& command) {
-  const std::string word = command.is_object() ? command.value("command", nlohmann::json()).dump() : "";
-  if (word == "\"pick\"") return command.value("wait", nlohmann::json()) == false;
-  return word == "\"state\"" || word == "\"stats\"" || word == "\"choices\"";
+  const std::string word = command_word(command);
+  if (word == "pick") return command.value("wait", nlohmann::json()) == false;
+  return word == "state" || word == "stats" || word == "choices";
 }
 
 }  // namespace meniscus

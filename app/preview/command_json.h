@@ -11,6 +11,9 @@ namespace meniscus {
 /// A command or a reply as one line of text, without a line end; bytes that are no UTF-8 are replaced.
 std::string json_line(const nlohmann::json& json);
 
+/// The text under "command"; empty if there is none.
+std::string command_word(const nlohmann::json& command);
+
 /// Does the command only ask: state, stats, choices, or a pick that does not wait? Anybody may, and nobody records it.
 bool is_question(const nlohmann::json& command);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Merging and handing over commands.
+// Handing over commands.
 #include "app/preview/server/mailbox.h"
 
 #include <algorithm>
@@ -11,51 +11,14 @@
 
 #include "app/preview/command_json.h"
 #include "core/base/error.h"
+#include "app/preview/merge_commands.h"
 
 namespace meniscus {
 namespace {
 
 constexpr std::size_t kMostWaiting = 256;
 
-bool is_one_of(std::span<const std::string_view> words, const std::string& word) {
-  return std::ranges::find(words, word) != words.end();
-}
-
-bool are_numbers(const nlohmann::json& a, const nlohmann::json& b, const char* key) {
-  return a.contains(key) && b.contains(key) && a[key].is_number() && b[key].is_number();
-}
-
 }  // namespace
-
-bool merge_commands(nlohmann::json& first, const nlohmann::json& second) {
-  constexpr std::array<std::string_view, 2> kDrags{"orbit", "pan"};
-  constexpr std::array<std::string_view, 6> kLatest{"probe", "frame", "resize", "pick", "samples", "look"};
-  if (!first.is_object() || !second.is_object() || first.size() != second.size()) return false;
-  if (!first.contains("command") || !first["command"].is_string() ||
-      first["command"] != second.value("command", nlohmann::json()))
-    return false;
-  const std::string word = first["command"];
-  if (is_one_of(kDrags, word) && first.size() == 3 && are_numbers(first, second, "dx") &&
-      are_numbers(first, second, "dy")) {
-    const auto sum = [&](const char* key) { return first[key].get<double>() + second[key].get<double>(); };
-    const double dx = sum("dx"), dy = sum("dy");
-    if (!std::isfinite(dx) || !std::isfinite(dy)) return false;  // no number of JSON
-    first["dx"] = dx;
-    first["dy"] = dy;
-    return true;
-  }
-  if (word == "zoom" && first.size() == 2 && are_numbers(first, second, "factor")) {
-    const double factor = first["factor"].get<double>() * second["factor"].get<double>();
-    if (std::isfinite(factor)) first["factor"] = factor;
-    return std::isfinite(factor);
-  }
-  // A pick that is waited for is a click, and each click counts.
-  const auto waits = [](const nlohmann::json& pick) { return !pick.contains("wait") || pick["wait"] != false; };
-  if (!is_one_of(kLatest, word) || (word == "pick" && (waits(first) || waits(second)))) return false;
-  if (std::ranges::any_of(first.items(), [&](const auto& item) { return !second.contains(item.key()); })) return false;
-  first = second;
-  return true;
-}
 
 bool Mailbox::put(ClientNumber client, const nlohmann::json& id, nlohmann::json command) {
   const std::lock_guard lock(mutex_);

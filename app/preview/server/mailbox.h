@@ -54,7 +54,4 @@ class Mailbox {
   std::string error_;
 };
 
-/// Makes one command of two that follow each other, `first` then `second`; false if both are needed.
-bool merge_commands(nlohmann::json& first, const nlohmann::json& second);
-
 }  // namespace meniscus

@@ -9,21 +9,18 @@
 #include <optional>
 #include <vector>
 
+#include "app/preview/live_view.h"
 #include "app/preview/server/mailbox.h"
 #include "app/preview/server/network.h"
 #include "app/preview/server/picture_encoder.h"
-#include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/gpu/context_description.h"
 
 namespace meniscus {
 namespace {
 
-using Clock = std::chrono::steady_clock;
+using Clock = LiveView::Clock;
 using Json = nlohmann::json;
 
-// Without a change for so long: time for a picture in full size, and later for the full one.
-constexpr std::chrono::milliseconds kPause{120}, kRest{250}, kLongestRest{1500};
 constexpr int kJpegQuality = 80;
 
 /// A picture as pages get it.
@@ -38,7 +35,7 @@ struct SentPicture {
 class ServedSession {
  public:
   ServedSession(PreviewSession& session, Network& network, Mailbox& mailbox)
-      : session_(session), network_(network), mailbox_(mailbox) {}
+      : session_(session), view_(session), network_(network), mailbox_(mailbox) {}
 
   void run() {
     while (!session_.wants_to_quit()) {
@@ -56,19 +53,11 @@ class ServedSession {
 
  private:
   void carry_out(const ClientCommand& command) {
-    Json reply = session_.apply(command.command);
+    Json reply = view_.apply(command.command);
     for (const Json& id : command.ids) {
       reply["id"] = id;
       network_.send(command.client, reply);
     }
-    note_change();
-  }
-
-  void note_change() {
-    if (session_.revision() == seen_revision_) return;
-    seen_revision_ = session_.revision();
-    last_change_ = Clock::now();
-    broken_ = false;
   }
 
   /// The next frame, when it is time and the pages have come along.
@@ -77,25 +66,13 @@ class ServedSession {
     const auto pace = std::chrono::duration<double>(1.0 / session_.frames_per_second());
     next_frame_ = std::max(next_frame_, Clock::now() - std::chrono::seconds(1)) +
                   std::chrono::duration_cast<Clock::duration>(pace);
-    session_.apply({{"command", "next_frame"}});
-    note_change();
-  }
-
-  /// A full picture is begun after a rest that is as long as it may take, for it stops between samples only.
-  Clock::time_point time_for(Quality quality) const {
-    if (quality == Quality::draft) return last_change_;
-    return last_change_ + (quality == Quality::plain ? kPause : rest_);
-  }
-  Quality wanted() const {
-    const Clock::time_point now = Clock::now();
-    return now < time_for(Quality::plain)  ? Quality::draft
-           : now < time_for(Quality::full) ? Quality::plain
-                                           : Quality::full;
+    view_.apply({{"command", "next_frame"}});
   }
 
   /// Is the latest picture good enough for now?
   bool is_current() const {
-    return picture_.number > 0 && picture_.revision == session_.revision() && picture_.quality >= wanted();
+    return picture_.number > 0 && picture_.revision == session_.revision() &&
+           picture_.quality >= view_.due(Clock::now());
   }
 
   bool somebody_lacks_the_picture() const {
@@ -107,7 +84,7 @@ class ServedSession {
   }
 
   void show() {
-    if (waiting_.empty() || broken_) return;
+    if (waiting_.empty() || !view_.fault().empty()) return;
     if (!is_current() && !draw()) return;
     if (!somebody_lacks_the_picture()) return;
     std::set<ClientNumber> still_waiting;
@@ -124,22 +101,12 @@ class ServedSession {
 
   /// False if there is nothing to show: it cannot be drawn, or a newer command stopped it.
   bool draw() {
-    const Quality quality = wanted();
-    const Clock::time_point begin = Clock::now();
-    try {
-      const bool whole = session_.render(quality, [this] { return mailbox_.has_changes(); });
-      require_living_context();
-      if (!whole) return false;
-    } catch (const GpuError&) {
-      throw;
-    } catch (const Error& error) {
-      broken_ = true;
-      network_.send_to_all({{"event", "error"}, {"error", escaped(error.what())}, {"state", question("state")}});
+    const Quality quality = view_.due(Clock::now());
+    if (!view_.draw(quality, [this] { return mailbox_.has_changes(); })) {
+      if (!view_.fault().empty())
+        network_.send_to_all({{"event", "error"}, {"error", escaped(view_.fault())}, {"state", question("state")}});
       return false;
     }
-    if (quality == Quality::full)
-      rest_ =
-          std::clamp(std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now() - begin), kRest, kLongestRest);
     encode(quality);
     return true;
   }
@@ -168,24 +135,23 @@ class ServedSession {
   std::optional<Clock::time_point> next_deadline() const {
     std::optional<Clock::time_point> deadline;
     if (waiting_.empty()) return deadline;
-    if (!broken_ && !is_current()) return Clock::now();
-    if (!broken_ && picture_.quality != Quality::full)
-      deadline = time_for(picture_.quality == Quality::draft ? Quality::plain : Quality::full);
+    const bool drawable = view_.fault().empty();
+    if (drawable && !is_current()) return Clock::now();
+    if (drawable && picture_.quality != Quality::full && !session_.playing())
+      deadline = view_.last_change() + view_.rest(picture_.quality == Quality::draft ? Quality::plain : Quality::full);
     if (session_.playing()) deadline = deadline ? std::min(*deadline, next_frame_) : next_frame_;
     return deadline;
   }
 
   PreviewSession& session_;
+  LiveView view_;
   Network& network_;
   Mailbox& mailbox_;
   JpegEncoder jpeg_;
   SentPicture picture_;
   std::set<ClientNumber> waiting_;               ///< for a picture they have not seen
   std::map<ClientNumber, std::uint64_t> shown_;  ///< number of the picture each was sent last
-  std::uint64_t seen_revision_ = 0;
-  Clock::time_point last_change_{}, next_frame_{};
-  std::chrono::milliseconds rest_ = kRest;
-  bool broken_ = false;  ///< what is asked for cannot be drawn; said once
+  Clock::time_point next_frame_{};
 };
 
 }  // namespace

@@ -3,10 +3,11 @@
 #include "app/preview/window/gestures.h"
 
 #include <cmath>
+#include <utility>
 
 #include <glm/geometric.hpp>
 
-#include "app/preview/window/command_word.h"
+#include "app/preview/merge_commands.h"
 
 namespace meniscus {
 namespace {
@@ -15,21 +16,8 @@ constexpr double kSlack = 3.0;                // pixels; a hand that clicks move
 constexpr double kDoubleClickSeconds = 0.35;  // between two clicks
 constexpr double kZoomPerNotch = 1.1;
 
-void add_movement(const char* word, glm::dvec2 drag, std::vector<nlohmann::json>& commands) {
-  if (!commands.empty() && command_word(commands.back()) == word) {
-    drag.x += commands.back()["dx"].get<double>();
-    drag.y += commands.back()["dy"].get<double>();
-    commands.pop_back();
-  }
-  commands.push_back({{"command", word}, {"dx", drag.x}, {"dy", drag.y}});
-}
-
-void add_zoom(double factor, std::vector<nlohmann::json>& commands) {
-  if (!commands.empty() && command_word(commands.back()) == "zoom") {
-    factor *= commands.back()["factor"].get<double>();
-    commands.pop_back();
-  }
-  commands.push_back({{"command", "zoom"}, {"factor", factor}});
+void add(nlohmann::json command, std::vector<nlohmann::json>& commands) {
+  if (commands.empty() || !merge_commands(commands.back(), command)) commands.push_back(std::move(command));
 }
 
 }  // namespace
@@ -47,7 +35,8 @@ void Gestures::take(const InputEvent& event, glm::ivec2 size, bool elsewhere, st
       if (held_) move(event, size, commands);
       break;
     case InputEvent::Kind::scroll:
-      if (!elsewhere && event.scroll != 0.0) add_zoom(std::pow(kZoomPerNotch, event.scroll), commands);
+      if (!elsewhere && event.scroll != 0.0)
+        add({{"command", "zoom"}, {"factor", std::pow(kZoomPerNotch, event.scroll)}}, commands);
       break;
     default:
       break;
@@ -72,7 +61,8 @@ void Gestures::release(const InputEvent& event) {
 void Gestures::move(const InputEvent& event, glm::ivec2 size, std::vector<nlohmann::json>& commands) {
   held_->moved |= glm::distance(event.position, held_->start) > kSlack;
   if (!held_->moved) return;
-  add_movement(held_->pan ? "pan" : "orbit", (event.position - held_->last) / static_cast<double>(size.y), commands);
+  const glm::dvec2 drag = (event.position - held_->last) / static_cast<double>(size.y);
+  add({{"command", held_->pan ? "pan" : "orbit"}, {"dx", drag.x}, {"dy", drag.y}}, commands);
   held_->last = event.position;
 }
 

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "app/preview/window/command_word.h"
+#include "app/preview/command_json.h"
 
 namespace meniscus {
 namespace {

@@ -12,7 +12,7 @@
 #include <imgui_stdlib.h>
 
 #include "app/preview/look_json.h"
-#include "app/preview/window/command_word.h"
+#include "app/preview/command_json.h"
 #include "app/preview/window/keys.h"
 #include "core/base/text.h"
 #include "core/color/color_maps.h"
@@ -307,11 +307,11 @@ void Panel::status() {
   constexpr double kPatience = 0.4;  // seconds; shorter work is not worth a word
   ImGui::Separator();
   const auto& busy = link_.news().busy_seconds;
-  const std::string& trouble = link_.news().trouble;
+  const std::string& reason = link_.news().fault;
   if (busy && *busy > kPatience)
     plain(fmt::format("{}working, {:.0f} s ...", link_.has_state() ? "" : "the first picture: ", std::floor(*busy)));
-  else if (!trouble.empty() || line_is_fault_)
-    fault(trouble.empty() ? line_ : trouble);
+  else if (!reason.empty() || line_is_fault_)
+    fault(reason.empty() ? line_ : reason);
   else if (!line_.empty())
     plain(line_);
   else

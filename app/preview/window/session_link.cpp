@@ -2,7 +2,7 @@
 // Foresight: a switch moves when it is clicked, though the picture may take a while.
 #include "app/preview/window/session_link.h"
 
-#include "app/preview/window/command_word.h"
+#include "app/preview/command_json.h"
 
 namespace meniscus {
 

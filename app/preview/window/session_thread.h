@@ -16,6 +16,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "app/preview/live_view.h"
 #include "app/preview/session.h"
 #include "app/preview/window/picture_exchange.h"
 #include "core/gpu/egl_context.h"
@@ -35,7 +36,7 @@ struct SessionNews {
   bool full = false;                   ///< and it is not a draft
   bool at_rest = false;                ///< every command is done, and the full picture is drawn
   nlohmann::json state, stats;         ///< replies of the session to these words; null when nothing changed
-  std::string trouble;                 ///< why there is no picture of this view; empty if there is
+  std::string fault;                   ///< why there is no picture of this view; empty if there is
   std::optional<double> busy_seconds;  ///< how long it has been working by now
   bool quit = false;
 };
@@ -60,16 +61,15 @@ class SessionThread {
   void presented(std::uint64_t number);
 
  private:
-  using Clock = std::chrono::steady_clock;
+  using Clock = LiveView::Clock;
 
   void run(const ForeignContext& sibling, const Make& make);
-  void work(PreviewSession& session);
-  std::deque<SessionReply> next_commands(const PreviewSession& session);
-  bool rests(std::unique_lock<std::mutex>& lock, Clock::duration pause);
-  void carry_out(PreviewSession& session, SessionReply& command);
+  void work(LiveView view);
+  std::deque<SessionReply> next_commands(const LiveView& view);
+  bool rests(std::unique_lock<std::mutex>& lock, const LiveView& view, Clock::duration pause);
   bool something_new_waits();
-  void draw(PreviewSession& session);
-  void tell(PreviewSession& session, bool full);
+  void draw(LiveView& view);
+  void tell(const LiveView& view);
 
   std::function<void()> wake_;
   PictureExchange pictures_;
@@ -84,10 +84,7 @@ class SessionThread {
   bool stop_ = false;
 
   std::uint64_t done_ = 0;  // of the thread alone
-  Clock::time_point last_change_;
-  Clock::duration rest_;
   Quality wanted_ = Quality::draft;
-  std::string trouble_;
   std::thread thread_;
 };
 

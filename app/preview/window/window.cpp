@@ -10,7 +10,7 @@
 #include <imgui.h>
 
 #include "app/preview/window/atom_question.h"
-#include "app/preview/window/command_word.h"
+#include "app/preview/command_json.h"
 #include "app/preview/window/desktop_window.h"
 #include "app/preview/window/gestures.h"
 #include "app/preview/window/gui.h"

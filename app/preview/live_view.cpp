@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The one schedule of drafts and full pictures.
+#include "app/preview/live_view.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/base/error.h"
+#include "core/gpu/context_description.h"
+
+namespace meniscus {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr auto kPause = 60ms;  // of the hand, until the draft gets its full size
+constexpr LiveView::Clock::duration kRest = 150ms, kLongestRest = 1500ms;
+
+}  // namespace
+
+LiveView::LiveView(PreviewSession& session)
+    : session_(session), seen_revision_(session.revision()), last_change_(Clock::now()), rest_(kRest) {}
+
+nlohmann::json LiveView::apply(const nlohmann::json& command) {
+  nlohmann::json reply = session_.apply(command);
+  note_change();
+  return reply;
+}
+
+void LiveView::note_change() {
+  if (session_.revision() == seen_revision_) return;
+  seen_revision_ = session_.revision();
+  last_change_ = Clock::now();
+  fault_.clear();
+}
+
+bool LiveView::draw(Quality quality, std::function<bool()> stop) {
+  const Clock::time_point begin = Clock::now();
+  try {
+    const bool whole = session_.render(quality, std::move(stop));
+    require_living_context();
+    if (!whole) return false;
+  } catch (const GpuError&) {
+    throw;
+  } catch (const Error& error) {
+    fault_ = error.what();
+    return false;
+  }
+  if (quality == Quality::full) rest_ = std::clamp(Clock::now() - begin, kRest, kLongestRest);
+  return true;
+}
+
+std::optional<Quality> LiveView::drawn() const {
+  for (const Quality quality : {Quality::full, Quality::plain, Quality::draft})
+    if (session_.is_drawn(quality)) return quality;
+  return {};
+}
+
+std::optional<Quality> LiveView::next() const {
+  const std::optional<Quality> best = drawn();
+  if (!fault_.empty() || best == Quality::full || (best && session_.playing())) return {};
+  if (!best) return Quality::draft;
+  return best == Quality::draft ? Quality::plain : Quality::full;
+}
+
+LiveView::Clock::duration LiveView::rest(Quality quality) const {
+  if (quality == Quality::draft) return Clock::duration::zero();
+  return quality == Quality::plain ? kPause : rest_;
+}
+
+Quality LiveView::due(Clock::time_point now) const {
+  const Clock::duration rested = now - last_change_;
+  if (session_.playing() || rested < rest(Quality::plain)) return Quality::draft;
+  return rested < rest(Quality::full) ? Quality::plain : Quality::full;
+}
+
+}  // namespace meniscus

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Adds drags, multiplies zooms, and lets the last of other movements count.
+#include "app/preview/merge_commands.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace meniscus {
+namespace {
+
+bool is_one_of(std::span<const std::string_view> words, const std::string& word) {
+  return std::ranges::find(words, word) != words.end();
+}
+
+bool are_numbers(const nlohmann::json& a, const nlohmann::json& b, const char* key) {
+  return a.contains(key) && b.contains(key) && a[key].is_number() && b[key].is_number();
+}
+
+}  // namespace
+
+bool merge_commands(nlohmann::json& first, const nlohmann::json& second) {
+  constexpr std::array<std::string_view, 2> kDrags{"orbit", "pan"};
+  constexpr std::array<std::string_view, 6> kLatest{"probe", "frame", "resize", "pick", "samples", "look"};
+  if (!first.is_object() || !second.is_object() || first.size() != second.size()) return false;
+  if (!first.contains("command") || !first["command"].is_string() ||
+      first["command"] != second.value("command", nlohmann::json()))
+    return false;
+  const std::string word = first["command"];
+  if (is_one_of(kDrags, word) && first.size() == 3 && are_numbers(first, second, "dx") &&
+      are_numbers(first, second, "dy")) {
+    const auto sum = [&](const char* key) { return first[key].get<double>() + second[key].get<double>(); };
+    const double dx = sum("dx"), dy = sum("dy");
+    if (!std::isfinite(dx) || !std::isfinite(dy)) return false;  // no number of JSON
+    first["dx"] = dx;
+    first["dy"] = dy;
+    return true;
+  }
+  if (word == "zoom" && first.size() == 2 && are_numbers(first, second, "factor")) {
+    const double factor = first["factor"].get<double>() * second["factor"].get<double>();
+    if (std::isfinite(factor)) first["factor"] = factor;
+    return std::isfinite(factor);
+  }
+  // A pick that is waited for is a click, and each click counts.
+  const auto waits = [](const nlohmann::json& pick) { return !pick.contains("wait") || pick["wait"] != false; };
+  if (!is_one_of(kLatest, word) || (word == "pick" && (waits(first) || waits(second)))) return false;
+  if (std::ranges::any_of(first.items(), [&](const auto& item) { return !second.contains(item.key()); })) return false;
+  first = second;
+  return true;
+}
+
+}  // namespace meniscus

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Two commands of a drag as one.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+namespace meniscus {
+
+/// Makes one command of two that follow each other, `first` then `second`; false if both are needed.
+bool merge_commands(nlohmann::json& first, const nlohmann::json& second);
+
+}  // namespace meniscus
