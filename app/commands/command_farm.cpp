@@ -20,6 +20,7 @@
 #include "app/process/program_error.h"
 #include "app/process/stop_signals.h"
 #include "app/farm/read_bundle.h"
+#include "core/base/text_template.h"
 #include "core/base/text.h"
 
 namespace meniscus {
@@ -85,7 +86,7 @@ void bundle(BundleCommand command) {
              chunking.memory() ? fmt::format(", {} MiB of memory", with_thousands(*chunking.memory())) : "");
   for (const farm::Engine& engine : options.engines)
     fmt::print(std::cout, "  {:<9} {}\n", engine.name,
-               escaped(farm::filled(engine.start, {{"DIR", shell_word(command.folder)}})));
+               escaped(filled(engine.start, {{"DIR", shell_word(command.folder)}})));
 }
 
 void add_bundle(CLI::App& command) {

@@ -23,19 +23,4 @@ bool needs_gpu(const Step& step) {
   return step.maker == Maker::meniscus && std::ranges::find(step.arguments, "--require-gpu") != step.arguments.end();
 }
 
-std::string filled(std::string_view text, const std::vector<Filling>& fillings) {
-  std::string result;
-  while (true) {
-    const std::size_t begin = text.find('@');
-    result.append(text.substr(0, begin));
-    if (begin == std::string_view::npos) return result;
-    text.remove_prefix(begin);
-    const auto filling =
-        std::ranges::find_if(fillings, [&](const Filling& f) { return text.starts_with("@" + f.name + "@"); });
-    const bool is_mark = filling != fillings.end();
-    result.append(is_mark ? filling->text : "@");
-    text.remove_prefix(is_mark ? filling->name.size() + 2 : 1);
-  }
-}
-
 }  // namespace meniscus::farm

@@ -41,10 +41,4 @@ std::vector<EngineFile> emit_opencue(const Emission& emission);   ///< a job spe
 /// Whether the frames of this step must be computed on a GPU.
 bool needs_gpu(const Step& step);
 
-/// A template with each "@NAME@" that has a filling replaced. Texts put in are not searched again.
-struct Filling {
-  std::string name, text;
-};
-std::string filled(std::string_view text, const std::vector<Filling>& fillings);
-
 }  // namespace meniscus::farm

@@ -4,51 +4,12 @@
 #include <nlohmann/json.hpp>
 
 #include "app/farm/emit.h"
+#include "app/farm/farm_templates.h"
 
 namespace meniscus::farm {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr const char* kJobType =
-    R"js(// A job type of Flamenco 3 for bundles of Meniscus. Copy it once into the manager's scripts folder and restart the
-// manager; each job then names its bundle. A worker of Flamenco does one task at a time, so a task may use all of its
-// machine unless "threads" says less; what memory it needs stands in the bundle's flamenco_job.json.
-const JOB_TYPE = {
-    label: "Meniscus Film",
-    description: "Frames of a molecular surface: a bundle made by meniscus farm bundle",
-    settings: [
-        { key: "bundle", type: "string", subtype: "dir_path", required: true,
-          description: "The bundle's folder, as the workers see it" },
-        { key: "tasks", type: "int32", required: true, default: 10,
-          description: "Tasks of nearly equal numbers of frames" },
-        { key: "threads", type: "int32", default: 0,
-          description: "Threads of a task; 0: all of the machine" },
-        { key: "meniscus", type: "string", required: true, default: "meniscus",
-          description: "The program, or its path on the workers" },
-    ]
-};
-
-function compileJob(job) {
-    const settings = job.settings;
-    const verify = author.Task("verify", "misc");
-    verify.addCommand(author.Command("exec", {
-        exe: settings.meniscus,
-        args: ["farm", "verify", settings.bundle],
-    }));
-    for (let k = 1; k <= settings.tasks; k++) {
-        const task = author.Task("frames-" + k, "misc");
-        const args = ["work", settings.bundle, "--chunk", k + "/" + settings.tasks, "--progress", "plain"];
-        task.addCommand(author.Command("exec", {
-            exe: settings.meniscus,
-            args: settings.threads > 0 ? args.concat(["--threads", String(settings.threads)]) : args,
-        }));
-        verify.addDependency(task);
-        job.addTask(task);
-    }
-    job.addTask(verify);
-}
-)js";
 
 // What the manager's API takes: POST /api/v3/jobs. The type is named after the script's file.
 std::string job_json(const Emission& emission) {
@@ -68,7 +29,8 @@ std::string job_json(const Emission& emission) {
 }  // namespace
 
 std::vector<EngineFile> emit_flamenco(const Emission& emission) {
-  return {{"meniscus_film.js", kJobType, false}, {"flamenco_job.json", job_json(emission), false}};
+  return {{"meniscus_film.js", std::string(farm_template("meniscus_film.js")), false},
+          {"flamenco_job.json", job_json(emission), false}};
 }
 
 }  // namespace meniscus::farm

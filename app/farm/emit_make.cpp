@@ -3,32 +3,9 @@
 #include <fmt/format.h>
 
 #include "app/farm/emit.h"
+#include "app/farm/farm_templates.h"
 
 namespace meniscus::farm {
-namespace {
-
-constexpr const char* kTemplate =
-    R"make(# The frames of this folder on one machine: make -j2 (-k goes on with other chunks after one that failed).
-# MENISCUS is the program; THREADS what each task may use: of the machine's cores as many as -j leaves to one.@MEMORY@
-MENISCUS ?= meniscus
-JOBS = $(or $(patsubst -j%,%,$(filter -j%,$(MAKEFLAGS))),$(if $(filter -j,$(MAKEFLAGS)),$(shell nproc),1))
-THREADS ?= $(shell threads=$$(($$(nproc) / $(JOBS))); echo $$((threads > 0 ? threads : 1)))
-WORK = $(MENISCUS) work . --progress plain --threads $(THREADS)
-CHUNKS := @CHUNKS@
-
-all: verify
-
-@RULES@verify: $(addprefix @LAST@-,$(CHUNKS))
-	$(MENISCUS) farm verify .
-
-status:
-	$(MENISCUS) farm status .
-
-.PHONY: all verify status @PHONY@
-)make";
-
-}  // namespace
-
 std::vector<EngineFile> emit_make(const Emission& emission) {
   const Bundle& bundle = emission.bundle;
   std::string chunks, rules, phony, before;
@@ -41,12 +18,13 @@ std::vector<EngineFile> emit_make(const Emission& emission) {
     before = step.name;
   }
   const std::optional<std::uint64_t> memory = bundle.chunking.memory();
-  const std::string text = filled(
-      kTemplate, {{"CHUNKS", chunks},
-                  {"RULES", rules},
-                  {"LAST", before},
-                  {"PHONY", phony},
-                  {"MEMORY", memory ? fmt::format("\n# Each task needs about {} MiB of memory.", *memory) : ""}});
+  const std::string text =
+      filled(farm_template("Makefile"),
+             {{"CHUNKS", chunks},
+              {"RULES", rules},
+              {"LAST", before},
+              {"PHONY", phony},
+              {"MEMORY", memory ? fmt::format("\n# Each task needs about {} MiB of memory.", *memory) : ""}});
   return {{"Makefile", text, false}};
 }
 

@@ -3,34 +3,13 @@
 #include <fmt/format.h>
 
 #include "app/farm/emit.h"
+#include "app/farm/farm_templates.h"
 #include "app/farm/quote.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 
 namespace meniscus::farm {
 namespace {
-
-constexpr const char* kTemplate = R"xml(<?xml version="1.0"?>
-<!DOCTYPE spec PUBLIC "SPI Cue Specification Language" "http://localhost:8080/spcue/dtd/cjsl-1.15.dtd">
-<!-- Show, shot and user are the site's: change them before launching. The frames of a layer are chunks of the run. -->
-<spec>
-  <facility>local</facility>
-  <show>testing</show>
-  <shot>meniscus</shot>
-  <user>meniscus</user>
-  <uid>1000</uid>
-  <job name="frames">
-    <paused>False</paused>
-    <maxretries>2</maxretries>
-    <autoeat>False</autoeat>
-    <env/>
-    <layers>
-@LAYERS@    </layers>
-  </job>
-  <depends>
-@DEPENDS@  </depends>
-</spec>
-)xml";
 
 struct Layer {
   std::string name, type, command, range, resources;
@@ -79,7 +58,7 @@ std::vector<EngineFile> emit_opencue(const Emission& emission) {
   }
   layers += layer_xml({"verify", "Util", fmt::format("meniscus farm verify {}", path), "1-1", ""});
   depends += depend_xml("LAYER_ON_LAYER", "verify", before);
-  return {{"opencue.xml", filled(kTemplate, {{"LAYERS", layers}, {"DEPENDS", depends}}), false}};
+  return {{"opencue.xml", filled(farm_template("opencue.xml"), {{"LAYERS", layers}, {"DEPENDS", depends}}), false}};
 }
 
 }  // namespace meniscus::farm

@@ -13,13 +13,7 @@
 namespace meniscus::povray {
 namespace {
 
-std::string filled(std::string_view text, std::initializer_list<std::pair<std::string_view, std::string_view>> marks) {
-  std::string result(text);
-  for (const auto& [mark, by] : marks)
-    for (std::size_t at = result.find(mark); at != std::string::npos; at = result.find(mark, at + by.size()))
-      result.replace(at, mark.size(), by);
-  return result;
-}
+std::string_view scene_template(std::string_view path) { return template_text(povray_templates(), path); }
 
 /// What the scene knows of one camera: vectors, and numbers.
 struct CameraNumbers {
@@ -93,7 +87,7 @@ void append_frames(SceneText& out, const SceneOptions& options, const SceneFrame
   out.literal("};\n#declare Meniscus_Palette = ")
       .count(frames.palette)
       .literal(";  // the includes must have the same\n");
-  out.literal(filled(kFrameTemplate, {{"@NAME@", options.name}}));
+  out.literal(filled(scene_template("frame.inc"), {{"NAME", options.name}}));
 }
 
 void append_color(SceneText& out, const glm::vec3& c) { out.literal("srgb ").direction(glm::dvec3(c)); }
@@ -124,8 +118,8 @@ std::string main_text(std::span<const Camera> cameras, const SceneOptions& optio
   if (frames) append_frames(out, options, *frames);
   append_camera(out, cameras, options, origin);
   const std::string include = frames ? std::string("Meniscus_Geometry") : "\"" + options.name + "_geometry.inc\"";
-  out.literal(filled(kMainTemplate,
-                     {{"@NAME@", options.name}, {"@GROUP@", single ? "object" : "union"}, {"@GEOMETRY@", include}}));
+  out.literal(filled(scene_template("main.pov"),
+                     {{"NAME", options.name}, {"GROUP", single ? "object" : "union"}, {"GEOMETRY", include}}));
   return out.text();
 }
 
@@ -142,7 +136,7 @@ std::string style_text(const std::vector<glm::vec3>& colors, const SceneOptions&
     append_color(out, colors[n]);
     out.literal(n + 1 < colors.size() ? ",\n" : "\n");
   }
-  out.literal("  }\n#end\n").literal(kStyleTemplate);
+  out.literal("  }\n#end\n").literal(scene_template("style.inc"));
   return out.text();
 }
 
@@ -154,7 +148,7 @@ std::string buffer_text(std::size_t color_count, const Extent& e, const glm::dve
   out.literal("// The surface as numbers instead of colours.\n#declare Meniscus_Low = ");
   out.full_vector(glm::floor((e.low - origin - 0.5) * 1e3) / 1e3).literal(";\n#declare Meniscus_Extent = ");
   out.full(extent).literal(";\n#declare Meniscus_Color_Count = ").count(color_count).literal(";\n");
-  out.literal(kBufferTemplate);
+  out.literal(scene_template("buffers.inc"));
   return out.text();
 }
 
@@ -171,7 +165,8 @@ std::string ini_text(const SceneOptions& options, std::size_t frame_count) {
     out.literal("Initial_Frame=1\nFinal_Frame=").count(frame_count).literal("\n");
   }
   // POV-Ray writes the number of the frame behind the name, if there are several.
-  out.literal(filled(kIniTemplate, {{"@NAME@", options.name}, {"@PICTURE@", frame_count > 1 ? "_" : ""}}));
+  out.literal(
+      filled(scene_template("settings.ini"), {{"NAME", options.name}, {"PICTURE", frame_count > 1 ? "_" : ""}}));
   return out.text();
 }
 

@@ -1,21 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The constant parts of every scene: materials, and the buffers that let users check the geometry.
+// The constant parts of every scene: the files of exporters/povray/templates.
 #pragma once
 
-#include <string_view>
+#include <span>
 
-namespace meniscus::povray {
+#include "core/base/text_template.h"
 
-/// The .pov after the camera: settings, lights and the surface; "@NAME@" stands for the scene's name, "@GROUP@" for
-/// union or object, "@GEOMETRY@" for the file to include.
-extern const std::string_view kMainTemplate;
-/// Of a run: from the scene's frame to the file to include, behind the list of frames.
-extern const std::string_view kFrameTemplate;
-/// The style include after the colours.
-extern const std::string_view kStyleTemplate;
-/// The buffer include; complete but for the extent of the molecule, which comes before.
-extern const std::string_view kBufferTemplate;
-/// The .ini after the sizes; "@NAME@" as above, "@PICTURE@" for what pictures of frames have between name and number.
-extern const std::string_view kIniTemplate;
+namespace meniscus {
 
-}  // namespace meniscus::povray
+/// main.pov: what is behind the camera: settings, lights and the surface; marks: NAME of the scene, GROUP (union or
+/// object), GEOMETRY (the file to include). frame.inc: of a run, from the scene's frame to the file to include, behind
+/// the list of frames; mark: NAME. style.inc: behind the colours. buffers.inc: all but the extent of the molecule,
+/// which comes before. settings.ini: behind the sizes; marks: NAME, and PICTURE, what pictures of frames have between
+/// name and number.
+std::span<const TemplateFile> povray_templates();
+
+}  // namespace meniscus

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What engines are told with few marks to be filled in: the files of app/farm/templates.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "core/base/text_template.h"
+
+namespace meniscus {
+
+std::span<const TemplateFile> farm_templates();
+
+namespace farm {
+
+/// The text of one of them.
+inline std::string_view farm_template(std::string_view path) { return template_text(farm_templates(), path); }
+
+}  // namespace farm
+}  // namespace meniscus
