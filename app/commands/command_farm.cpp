@@ -60,7 +60,7 @@ std::vector<farm::Engine> engines_of(const BundleCommand& command) {
 void check_film_name(const std::string& name) {
   if (name.find('/') != std::string::npos || name.starts_with('.') || name.starts_with('-') || !name.ends_with(".mp4"))
     throw UsageError(fmt::format("--film {} is no plain name that ends in .mp4", in_quotes(name)));
-  farm::refuse_unspeakable("--film", name);
+  farm::require_printable_path("--film", name);
 }
 
 void bundle(BundleCommand command) {
@@ -68,7 +68,7 @@ void bundle(BundleCommand command) {
   options.folder = command.folder;
   options.addon = command.addon;
   options.engines = engines_of(command);
-  if (command.link) options.bring = farm::Bring::link;
+  if (command.link) options.transfer = farm::InputTransfer::link;
   if (!command.film.empty()) {
     check_film_name(command.film);
     options.film = farm::Film{command.film, command.frames_per_second};

@@ -70,7 +70,7 @@ colours are decided once, with the coordinates of FILE or, where it has none (PS
 
 Which frames  they count from 0. --frames takes all, 7, 0-99, 0-99:10 (every tenth), 90- (to the last), and several of
               these with commas between; then --begin and --end (a frame, or a time such as 2.5ns) and --stride N.
-              --only LIST makes a share of this run: camera, colours and scene stay those of the whole.
+              --only LIST makes a chunk of this run: camera, colours and scene stay those of the whole.
 Prepared      in this order: --whole puts molecules together that the periodic box cuts, along the bonds of FILE and of
               standard residues (guess: by distance), and gathers them around the largest; --superpose EXPR fits atoms
               to where they are in the --reference frame (0), --center EXPR only moves; --smooth N takes means over N

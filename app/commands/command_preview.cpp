@@ -63,7 +63,7 @@ std::string host_name() {
 /// is named.
 struct Shown {
   Structure structure;
-  std::optional<Moments> moments;
+  std::optional<TrajectoryPositions> trajectory;
   std::optional<Camera> camera;
 };
 
@@ -74,7 +74,8 @@ Shown read_run(const PreviewCommand& command) {
   const auto frames = std::make_shared<FrameRun>(molecule, command.frames);
   tell_run(molecule, *frames);
   return {frames->structure(),
-          Moments{frames->chunk(), [frames](std::size_t frame) { return frames->positions(frames->chunk()[frame]); }},
+          TrajectoryPositions{frames->chunk(),
+                              [frames](std::size_t frame) { return frames->positions(frames->chunk()[frame]); }},
           {}};
 }
 
@@ -102,7 +103,7 @@ std::unique_ptr<PreviewSession> begin_session(const PreviewCommand& command, Sho
   view.size = {command.picture.width, command.picture.height};
   view.camera.projection = command.picture.projection;
   auto session = std::make_unique<PreviewSession>(std::move(shown.structure), view, shown.camera, command.output_folder,
-                                                  std::move(shown.moments));
+                                                  std::move(shown.trajectory));
   if (!command.record.empty()) {
     auto log = std::make_shared<CommandLog>(command.record, command.force ? Existing::replace : Existing::refuse);
     session->record([log](const nlohmann::json& line) { log->write(line); });

@@ -63,25 +63,25 @@ std::vector<std::uint64_t> listed_frames(const farm::Bundle& bundle, const std::
   return frames;
 }
 
-farm::Share share_of(const WorkCommand& command, const farm::Bundle& bundle) {
-  farm::Share share;
-  share.force = command.force;
-  share.alone = !command.chunk.empty();
-  share.lease_seconds = command.lease;
+farm::Assignment assignment_of(const WorkCommand& command, const farm::Bundle& bundle) {
+  farm::Assignment assignment;
+  assignment.force = command.force;
+  assignment.alone = !command.chunk.empty();
+  assignment.lease_seconds = command.lease;
   std::string names;
   for (const farm::Step& step : bundle.steps) {
     names += (names.empty() ? "" : ", ") + step.name;
-    if (command.step.empty() || command.step == step.name) share.steps.push_back(step.name);
+    if (command.step.empty() || command.step == step.name) assignment.steps.push_back(step.name);
   }
-  if (share.steps.empty())
+  if (assignment.steps.empty())
     throw UsageError(fmt::format("--step {} is none of this bundle's: {}", in_quotes(command.step), names));
   const std::optional<Chunk> chunk = command.chunk.empty() ? std::nullopt : std::optional(parse_chunk(command.chunk));
   // Workers of neighbouring shares on a machine of several GPUs take one each.
   if (chunk) ::setenv(kWorkerVariable, std::to_string(chunk->number - 1).c_str(), 0);
-  share.frames = chunk                     ? farm::chunk_of(bundle, chunk->number, chunk->count)
-                 : !command.frames.empty() ? listed_frames(bundle, command.frames)
-                                           : bundle.frames;
-  return share;
+  assignment.frames = chunk                     ? farm::chunk_of(bundle, chunk->number, chunk->count)
+                      : !command.frames.empty() ? listed_frames(bundle, command.frames)
+                                                : bundle.frames;
+  return assignment;
 }
 
 farm::Workplace workplace_of(const WorkCommand& command) {
@@ -95,7 +95,7 @@ farm::Workplace workplace_of(const WorkCommand& command) {
 
 void run(const WorkCommand& command) {
   const farm::Bundle bundle = farm::read_bundle(command.folder);
-  const farm::Share share = share_of(command, bundle);
+  const farm::Assignment assignment = assignment_of(command, bundle);
   const farm::Workplace place = workplace_of(command);
   // Software GL takes as many threads as the machine has cores unless told.
   if (command.threads > 0) ::setenv("LP_NUM_THREADS", std::to_string(command.threads).c_str(), 0);
@@ -106,14 +106,14 @@ void run(const WorkCommand& command) {
         farm::remove_own_leftovers(place.folder);
       },
       kExitStopped);
-  farm::work(bundle, place, share, command.progress);
+  farm::work(bundle, place, assignment, command.progress);
 }
 
 }  // namespace
 
 void add_work(CLI::App& command) {
   describe(
-      command, "Make the missing frames of a bundle, or a share of them (see meniscus farm)",
+      command, "Make the missing frames of a bundle, or a chunk of them (see meniscus farm)",
       "  meniscus work film                                all that is missing\n"
       "  meniscus work film --step render --chunk 3/10     the third of ten shares of one step\n"
       "  meniscus work film --frames 40-49 --force         these once more",

@@ -64,7 +64,7 @@ std::vector<glm::dvec3> velocities_of(const SurfaceObject& object, const Triangl
   return velocities;
 }
 
-// A file for each frame of the share; the manifest for all of the run, the same from every share.
+// A file for each frame of the chunk; the manifest for all of the run, the same from every chunk.
 void run_sequence(const BlenderCommand& command) {
   const GivenCameras cameras = given_cameras(command.picture, command.run_camera);
   FrameRun frames(command.molecule, command.frames, true);

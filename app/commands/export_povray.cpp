@@ -42,7 +42,7 @@ povray::SceneOptions scene_options(const PovrayCommand& command) {
   return options;
 }
 
-// An include for each frame of the share; the scene for all of the run, the same from every share.
+// An include for each frame of the chunk; the scene for all of the run, the same from every chunk.
 void run_sequence(const PovrayCommand& command) {
   const GivenCameras cameras = given_cameras(command.picture, command.run_camera);
   FrameRun frames(command.molecule, command.frames);

@@ -38,7 +38,7 @@ class PictureSink {
     const glm::ivec2 size{command.picture.width, command.picture.height};
     if (is_film_path(path)) {
       if (!command.frames.only.empty())
-        throw UsageError("--only: a film needs all frames; write the share as pictures: frame_#####.png");
+        throw UsageError("--only: a film needs all frames; write the chunk as pictures: frame_#####.png");
       film_ = std::make_unique<FilmWriter>(path, command.output.existing(), size, command.frames_per_second);
       return;
     }

@@ -71,7 +71,7 @@ std::vector<Input> BundleInputs::measured() const {
   return inputs;
 }
 
-void BundleInputs::bring(const fs::path& folder, Bring how) const {
+void BundleInputs::transfer(const fs::path& folder, InputTransfer how) const {
   for (const Item& item : items_) {
     const fs::path target = folder / item.inside;
     std::error_code error;
@@ -80,7 +80,7 @@ void BundleInputs::bring(const fs::path& folder, Bring how) const {
       OutputFile file(target, Existing::refuse);
       file.write(item.text);
       file.commit();
-    } else if (how == Bring::link) {
+    } else if (how == InputTransfer::link) {
       fs::create_hard_link(item.source, target, error);
       if (error)
         throw OutputError(target.string(), fmt::format("cannot be a link to {}: {}; leave --link out to copy",

@@ -12,7 +12,7 @@
 namespace meniscus::farm {
 
 /// How a file comes into the bundle.
-enum class Bring { copy, link };
+enum class InputTransfer { copy, link };
 
 /// Collects the inputs of a bundle. Names inside are plain: letters, digits, "._-" and nothing else, so that no engine
 /// has to quote them.
@@ -28,7 +28,7 @@ class BundleInputs {
   /// Sizes and checksums, in the order they were added. Reads every file. Throws InputError.
   std::vector<Input> measured() const;
   /// Puts them into the bundle. Throws OutputError, InputError.
-  void bring(const std::filesystem::path& folder, Bring how) const;
+  void transfer(const std::filesystem::path& folder, InputTransfer how) const;
 
  private:
   struct Item {

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "app/farm/inner_path.h"
-#include "app/farm/timeless_png.h"
+#include "app/farm/png_without_time.h"
 #include "app/farm/verify.h"
 #include "app/film/film.h"
 #include "core/base/error.h"

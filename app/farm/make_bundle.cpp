@@ -120,19 +120,19 @@ void make_trial(const Bundle& bundle, const Staging& staging, Chunking& measured
         staging.remove();
       },
       std::nullopt);
-  Share share;
-  for (const Step& step : bundle.steps) share.steps.push_back(step.name);
-  share.frames = {bundle.frames.front()};
-  share.alone = true;
+  Assignment assignment;
+  for (const Step& step : bundle.steps) assignment.steps.push_back(step.name);
+  assignment.frames = {bundle.frames.front()};
+  assignment.alone = true;
   try {
-    work(bundle, Workplace{staging.path(), {}, 0}, share, ProgressStyle::none);
+    work(bundle, Workplace{staging.path(), {}, 0}, assignment, ProgressStyle::none);
   } catch (const RunError& error) {
     throw RunError(error.code(), fmt::format("the trial frame: {}; with --chunk-frames N there is none", error.what()));
   }
   const FrameRecords records(staging.path(), bundle);
   double slowest = 0.0;
-  for (const std::string& step : share.steps)
-    slowest = std::max(slowest, records.read(step, share.frames.front()).value().seconds);
+  for (const std::string& step : assignment.steps)
+    slowest = std::max(slowest, records.read(step, assignment.frames.front()).value().seconds);
   for (const char* made : {"state", "images", "scene"}) fs::remove_all(staging.path() / made);
   measured.seconds_per_frame = std::max(slowest, 1e-3);
   measured.peak_memory = peak_memory_of_children();
@@ -209,8 +209,8 @@ MadeBundle make_bundle(const BundleOptions& given, const BundledCommand& command
   BundleOptions options = given;
   options.folder = fs::absolute(options.folder).lexically_normal();
   if (!options.folder.has_filename()) options.folder = options.folder.parent_path();
-  refuse_unspeakable("bundle folder", options.folder.string());
-  refuse_unspeakable("--farm-path", options.farm_path);
+  require_printable_path("bundle folder", options.folder.string());
+  require_printable_path("--farm-path", options.farm_path);
   MadeBundle made;
   BundleInputs inputs;
   made.bundle = described(options, command, inputs, made.notes);
@@ -221,7 +221,7 @@ MadeBundle make_bundle(const BundleOptions& given, const BundledCommand& command
     return made;
   }
   Staging staging(options.folder);
-  inputs.bring(staging.path(), options.bring);
+  inputs.transfer(staging.path(), options.transfer);
   Chunking& chunking = made.bundle.chunking;
   if (!chunking.asked_frames) make_trial(made.bundle, staging, chunking);
   chunking.decide(made.bundle.frames.size());

@@ -20,7 +20,7 @@ struct BundleOptions {
   std::optional<Film> film;
   Chunking chunking;
   bool cores_asked = false;  ///< else as many as --threads behind -- says, if it does
-  Bring bring = Bring::copy;
+  InputTransfer transfer = InputTransfer::copy;
   std::filesystem::path addon;  ///< folder of render_mns.py
   bool force = false;
 };

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/farm/child_process.h"
-#include "app/farm/last_words.h"
+#include "app/farm/error_line.h"
 #include "app/farm/makers.h"
 #include "app/process/program_error.h"
 #include "core/trajectory/frame_list.h"
@@ -49,9 +49,9 @@ void make_by_lines(const std::function<std::vector<std::string>(const std::vecto
   std::optional<std::uint64_t> tried;  // the frame that was given a second process
   while (!frames.empty()) {
     ChildProcess child(command_for(frames), folder);
-    LastWords last;
+    ErrorLine last;
     while (const std::optional<std::string> line = child.next_line())
-      if (!take_frame(*line, folder, frames, listener)) last.hear(*line);
+      if (!take_frame(*line, folder, frames, listener)) last.add(*line);
     const int code = child.wait();
     if (frames.empty()) return;
     if (code <= kSignalCode) {

@@ -10,9 +10,9 @@
 
 #include "app/farm/check_scene.h"
 #include "app/farm/child_process.h"
-#include "app/farm/last_words.h"
+#include "app/farm/error_line.h"
 #include "app/farm/makers.h"
-#include "app/farm/timeless_png.h"
+#include "app/farm/png_without_time.h"
 #include "app/process/program_error.h"
 
 namespace meniscus::farm {
@@ -49,9 +49,9 @@ struct Ended {
 };
 
 Ended run_povray(const std::vector<std::string>& command, const fs::path& folder) {
-  LastWords last;
+  ErrorLine last;
   ChildProcess child(command, folder);
-  while (const std::optional<std::string> line = child.next_line()) last.hear(*line);
+  while (const std::optional<std::string> line = child.next_line()) last.add(*line);
   const int code = child.wait();
   return {code, last.words()};
 }
@@ -89,7 +89,7 @@ void render(const Bundle& bundle, const Step& step, const Workplace& place, std:
   const fs::path made = picture_in(own);
   if (ended.code != 0 || made.empty())
     throw RunError(kExitInput, fmt::format("povray ended with code {}: {}", ended.code, ended.words));
-  make_timeless(made);
+  remove_png_time(made);
   fs::rename(made, place.folder / picture);
 }
 

@@ -9,7 +9,7 @@
 #include "app/farm/check_bundle.h"
 #include "app/farm/command_options.h"
 #include "app/farm/makers.h"
-#include "app/farm/timeless_png.h"
+#include "app/farm/png_without_time.h"
 #include "core/trajectory/frame_list.h"
 
 namespace meniscus::farm {
@@ -61,7 +61,7 @@ Arguments blender_command(const std::string& driver, const Step& step, const Wor
 FrameListener without_dates(const FrameListener& listener, const std::filesystem::path& folder) {
   FrameListener result = listener;
   result.done = [=](std::uint64_t frame, const std::vector<std::string>& files, double seconds) {
-    for (const std::string& file : files) make_timeless(folder / file);
+    for (const std::string& file : files) remove_png_time(folder / file);
     listener.done(frame, files, seconds);
   };
   return result;

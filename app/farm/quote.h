@@ -15,6 +15,6 @@ std::string json_text(std::string_view text);
 
 /// Throws RequestError, which begins with `what`, for a path with control characters or that is no UTF-8: there are
 /// engines that cannot be told of it.
-void refuse_unspeakable(const std::string& what, std::string_view path);
+void require_printable_path(const std::string& what, std::string_view path);
 
 }  // namespace meniscus::farm

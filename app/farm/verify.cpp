@@ -11,7 +11,7 @@
 
 #include "app/farm/frame_record.h"
 #include "app/farm/inner_path.h"
-#include "app/farm/timeless_png.h"
+#include "app/farm/png_without_time.h"
 #include "app/process/program_error.h"
 #include "core/base/error.h"
 #include "core/image/image_codec.h"

@@ -65,16 +65,16 @@ struct Task {
 
 class Worker {
  public:
-  Worker(const Bundle& bundle, const Workplace& place, const Share& share, ProgressStyle progress)
+  Worker(const Bundle& bundle, const Workplace& place, const Assignment& assignment, ProgressStyle progress)
       : bundle_(bundle),
         place_(place),
-        share_(share),
+        assignment_(assignment),
         style_(progress),
         records_(place.folder, bundle),
-        claims_(place.folder, share.lease_seconds) {}
+        claims_(place.folder, assignment.lease_seconds) {}
 
   void run() {
-    for (const std::string& name : share_.steps) {
+    for (const std::string& name : assignment_.steps) {
       const Step& step = *bundle_.step(name);
       tasks_.emplace_back(step, missing_of(step), style_);
       make(tasks_.back());
@@ -85,7 +85,7 @@ class Worker {
       throw RunError(
           static_cast<ExitCode>(failures_.code),
           fmt::format("{} of {} frames failed; the first, frame {}: {}", with_thousands(failures_.frames.size()),
-                      with_thousands(share_.frames.size()), failures_.first, failures_.message));
+                      with_thousands(assignment_.frames.size()), failures_.first, failures_.message));
   }
 
  private:
@@ -94,9 +94,9 @@ class Worker {
 
   std::vector<std::uint64_t> missing_of(const Step& step) const {
     std::vector<std::uint64_t> missing;
-    for (const std::uint64_t frame : share_.frames) {
+    for (const std::uint64_t frame : assignment_.frames) {
       const bool hopeless = failures_.frames.contains(frame);  // a step before failed just now
-      if (!hopeless && (share_.force || !is_good(records_.read(step.name, frame)))) missing.push_back(frame);
+      if (!hopeless && (assignment_.force || !is_good(records_.read(step.name, frame)))) missing.push_back(frame);
     }
     return missing;
   }
@@ -122,11 +122,11 @@ class Worker {
     }
   }
 
-  /// A share of engines is one worker's alone. Of the whole run each worker takes half of what would be fair, so that
-  /// all come to the end together (guided self-scheduling: Polychronopoulos & Kuck, IEEE Trans. Comput. 1987).
+  /// The chunk of an engine is one worker's alone. Of the whole run each worker takes half of what would be fair, so
+  /// that all come to the end together (guided self-scheduling: Polychronopoulos & Kuck, IEEE Trans. Comput. 1987).
   std::size_t batch_size(const Task& task) {
     const auto open = static_cast<double>(task.open.size());
-    if (share_.alone || open == 0.0) return task.open.size();
+    if (assignment_.alone || open == 0.0) return task.open.size();
     const double fair = open / static_cast<double>(claims_.others() + 1);
     return static_cast<std::size_t>(std::ceil(std::min(fair, std::max(fair / 2.0, task.pace.worthwhile()))));
   }
@@ -164,7 +164,7 @@ class Worker {
   bool is_settled(Task& task, std::uint64_t frame) {
     const std::optional<FrameRecord> record = records_.read(task.step.name, frame);
     if (!record) return false;
-    if (record->done()) return (!share_.force || is_recent(task.step, frame)) && is_good(record);
+    if (record->done()) return (!assignment_.force || is_recent(task.step, frame)) && is_good(record);
     if (!is_recent(task.step, frame)) return false;
     fail(task, frame, record->exit_code, record->error);
     return true;
@@ -243,7 +243,7 @@ class Worker {
 
   const Bundle& bundle_;
   const Workplace& place_;
-  const Share& share_;
+  const Assignment& assignment_;
   ProgressStyle style_;
   FrameRecords records_;
   Claims claims_;
@@ -267,7 +267,7 @@ void check_inputs(const Bundle& bundle, const std::filesystem::path& folder, boo
   }
 }
 
-void work(const Bundle& bundle, const Workplace& place, const Share& share, ProgressStyle progress) {
+void work(const Bundle& bundle, const Workplace& place, const Assignment& assignment, ProgressStyle progress) {
   // Frames of one film must not come from two programs.
   if (bundle.program_version != build_version())
     throw InputError((place.folder / "bundle.json").string(), 0,
@@ -275,7 +275,7 @@ void work(const Bundle& bundle, const Workplace& place, const Share& share, Prog
                                  in_quotes(bundle.program_version), build_version()));
   check_places(place.folder);
   check_inputs(bundle, place.folder, false);
-  Worker(bundle, place, share, progress).run();
+  Worker(bundle, place, assignment, progress).run();
 }
 
 }  // namespace meniscus::farm

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Makes what is missing of a share of a bundle: the one worker behind every engine.
+// Makes what is missing of a part of a bundle: the one worker behind every engine.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@
 namespace meniscus::farm {
 
 /// Which part of the work is done.
-struct Share {
+struct Assignment {
   std::vector<std::string> steps;        ///< in order
   std::vector<std::uint64_t> frames;     ///< in order
   bool force = false;                    ///< frames that are there are made again
@@ -25,11 +25,11 @@ struct Share {
 /// Sizes, and of files up to 256 MiB checksums, of the bundle's inputs; of all files if `thorough`. Throws InputError.
 void check_inputs(const Bundle& bundle, const std::filesystem::path& folder, bool thorough);
 
-/// Makes every frame of the share that has no record with good files and that no other worker makes (claims.h), step by
-/// step, and writes a record of each; then waits for what others make, and takes over what they leave. A frame that
-/// fails is recorded, too, and the others are made. Throws RunError with the code of the first frame that failed,
+/// Makes every frame of the assignment that has no record with good files and that no other worker makes (claims.h),
+/// step by step, and writes a record of each; then waits for what others make, and takes over what they leave. A frame
+/// that fails is recorded, too, and the others are made. Throws RunError with the code of the first frame that failed,
 /// whatever the step and the worker; InputError for a bundle of another version of the program; what check_inputs and
 /// make_frames throw.
-void work(const Bundle& bundle, const Workplace& place, const Share& share, ProgressStyle progress);
+void work(const Bundle& bundle, const Workplace& place, const Assignment& assignment, ProgressStyle progress);
 
 }  // namespace meniscus::farm

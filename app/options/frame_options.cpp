@@ -57,7 +57,7 @@ void add_frame_options(CLI::App& command, FrameOptions& options) {
   command.add_option("--end", options.end, "Leave out what is behind this frame or time")->type_name("WHEN");
   command
       .add_option("--only", options.only,
-                  "Make only these frames of the run, as one share of many: camera, colours and scene stay those of "
+                  "Make only these frames of the run, as one chunk of many: camera, colours and scene stay those of "
                   "the whole run")
       ->type_name("LIST");
   command

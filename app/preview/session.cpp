@@ -17,14 +17,14 @@
 namespace meniscus {
 
 PreviewSession::PreviewSession(Structure structure, PreviewView view, const std::optional<Camera>& camera,
-                               std::filesystem::path export_folder, std::optional<Moments> moments)
+                               std::filesystem::path export_folder, std::optional<TrajectoryPositions> trajectory)
     : structure_(std::move(structure)),
       frames_(group_atoms(structure_, Grouping::model)),
-      moments_(std::move(moments)),
+      trajectory_(std::move(trajectory)),
       view_(std::move(view)),
       export_folder_(std::move(export_folder)),
       coloring_(color_atoms(structure_, view_.color)) {
-  if (moments_) sample_moments();
+  if (trajectory_) sample_trajectory();
   show_frame(0);
   camera ? look_from(*camera) : look_at_all();
 }
@@ -36,17 +36,17 @@ void PreviewSession::look_from(const Camera& camera) {
 }
 
 void PreviewSession::look_at_all() {
-  look_from(overview(moments_ ? sampled_ : balls_, aspect(), view_.camera.projection));
+  look_from(overview(trajectory_ ? sampled_ : balls_, aspect(), view_.camera.projection));
   overview_ = true;
 }
 
-void PreviewSession::sample_moments() {
+void PreviewSession::sample_trajectory() {
   constexpr std::size_t kSamples = 16;  // few enough to begin at once, enough to see where the molecule goes
-  const std::size_t count = std::min(kSamples, moments_->numbers.size());
+  const std::size_t count = std::min(kSamples, trajectory_->numbers.size());
   for (std::size_t n = 0; n < count; ++n) {
-    const std::size_t frame = count == 1 ? 0 : n * (moments_->numbers.size() - 1) / (count - 1);
+    const std::size_t frame = count == 1 ? 0 : n * (trajectory_->numbers.size() - 1) / (count - 1);
     try {
-      const std::vector<glm::dvec3> positions = moments_->positions(frame);
+      const std::vector<glm::dvec3> positions = trajectory_->positions(frame);
       for (const std::uint32_t a : shown_atoms()) sampled_.push_back({positions[a], structure_.atoms[a].radius});
     } catch (const InputError&) {
       if (n == 0) throw;  // a later one is told when it is shown
@@ -55,8 +55,8 @@ void PreviewSession::sample_moments() {
 }
 
 void PreviewSession::show_frame(std::size_t frame) {
-  if (moments_) {  // read first: what cannot be read changes nothing
-    const std::vector<glm::dvec3> positions = moments_->positions(frame);
+  if (trajectory_) {  // read first: what cannot be read changes nothing
+    const std::vector<glm::dvec3> positions = trajectory_->positions(frame);
     for (std::size_t n = 0; n < positions.size(); ++n) structure_.atoms[n].position = positions[n];
   }
   view_.frame = frame;

@@ -16,7 +16,7 @@
 
 #include "app/preview/command_json.h"
 #include "app/preview/exposed_areas.h"
-#include "app/preview/moments.h"
+#include "app/preview/trajectory_positions.h"
 #include "core/structure/atom_groups.h"
 #include "core/color/color_schemes.h"
 #include "core/structure/structure.h"
@@ -57,11 +57,11 @@ enum class Quality {
 /// used by one thread.
 class PreviewSession {
  public:
-  /// Each model of the structure, which has atoms, is a frame; with `moments` these are the frames of its one model.
+  /// Each model of the structure, which has atoms, is a frame; with `trajectory` these are the frames of its one model.
   /// `view` says how it looks at first; without `camera` everything is shown. Throws InputError for a bad camera or
   /// first frame, and as color_atoms does.
   PreviewSession(Structure structure, PreviewView view, const std::optional<Camera>& camera,
-                 std::filesystem::path export_folder, std::optional<Moments> moments = {});
+                 std::filesystem::path export_folder, std::optional<TrajectoryPositions> trajectory = {});
 
   /// Carries out {"command": WORD, ...} and answers {"ok": true, ...} or {"ok": false, "error": "one clear line"};
   /// after an error nothing has changed. The commands: app/preview/commands.md. Throws GpuError only: then all is lost.
@@ -92,7 +92,7 @@ class PreviewSession {
 
   const PreviewView& view() const { return view_; }
   const Structure& structure() const { return structure_; }
-  std::size_t frame_count() const { return moments_ ? moments_->numbers.size() : frames_.size(); }
+  std::size_t frame_count() const { return trajectory_ ? trajectory_->numbers.size() : frames_.size(); }
 
  private:
   /// A row of the table of commands.
@@ -129,12 +129,12 @@ class PreviewSession {
   nlohmann::json carry_out(const nlohmann::json& command);
   void look_from(const Camera& camera);
   void look_at_all();
-  std::uint64_t number_of(std::size_t frame) const { return moments_ ? moments_->numbers[frame] : frame; }
+  std::uint64_t number_of(std::size_t frame) const { return trajectory_ ? trajectory_->numbers[frame] : frame; }
   std::vector<CameraKey> camera_keys() const;
-  void sample_moments();
+  void sample_trajectory();
   void show_frame(std::size_t frame);
   /// Of the frame that is shown, into structure_.atoms.
-  const std::vector<std::uint32_t>& shown_atoms() const { return frames_[moments_ ? 0 : view_.frame].atoms; }
+  const std::vector<std::uint32_t>& shown_atoms() const { return frames_[trajectory_ ? 0 : view_.frame].atoms; }
   Coloring frame_coloring() const;
   double aspect() const { return static_cast<double>(view_.size.x) / view_.size.y; }
   FrameRequest request(Quality quality) const;
@@ -147,8 +147,8 @@ class PreviewSession {
 
   Structure structure_;
   std::vector<AtomGroup> frames_;  ///< models
-  std::optional<Moments> moments_;
-  std::vector<Ball> sampled_;  ///< of frames all over the moments, for a view of all
+  std::optional<TrajectoryPositions> trajectory_;
+  std::vector<Ball> sampled_;  ///< of frames all over the trajectory, for a view of all
   PreviewView view_;
   std::filesystem::path export_folder_;
   std::vector<Ball> balls_;  ///< of the frame shown

@@ -18,7 +18,7 @@ struct MadeFrame {
   bool shows_nothing = false;      ///< it is a picture on which nothing is to be seen
 };
 
-/// Calls `make` for each frame of the share. A frame that throws, in reading or making, is
+/// Calls `make` for each frame of the chunk. A frame that throws, in reading or making, is
 /// told on stderr, and the run goes on; but OutputError and GpuError end it at once, as the next frame would meet them
 /// too. Pictures that show nothing are told in one line for all of them. At the end throws RunError: with the code of
 /// the first frame that failed, else with kExitIncomplete if the trajectory was cut short and the run reaches its last

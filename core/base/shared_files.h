@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Files that several processes, each with a share of one run, write with the same bytes.
+// Files that several processes, each with a chunk of one run, write with the same bytes.
 #pragma once
 
 #include <filesystem>

@@ -34,7 +34,7 @@ struct RunRequest {
   std::string frames;             ///< as parse_frame_list reads it; empty: all
   std::uint64_t stride = 1;
   std::string begin, end;  ///< a frame ("100") or a time ("2.5ns", "300ps"); empty: no bound
-  std::string only;        ///< the share of the run that is made; empty: all of it
+  std::string only;        ///< the chunk of the run that is made; empty: all of it
   WholeBy whole = WholeBy::nothing;
   std::optional<Selection> superpose, center;
   std::uint64_t reference = 0;

@@ -17,7 +17,7 @@
 
 #include "core/structure/canonical_names.h"
 #include "core/structure/chain_links.h"
-#include "core/structure/oddity.h"
+#include "core/structure/warning_collector.h"
 #include "core/structure/residue_names.h"
 
 namespace meniscus {
@@ -220,7 +220,7 @@ class Classifier {
   std::span<const Bond> bonds_;
   std::vector<std::size_t> begins_;          ///< of the residues in atoms_, and the end
   std::optional<std::vector<bool>> linked_;  ///< made when first asked for
-  Oddity impossible_;
+  WarningCollector impossible_;
 };
 
 }  // namespace

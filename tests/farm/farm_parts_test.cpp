@@ -15,7 +15,7 @@
 #include "app/farm/frame_record.h"
 #include "app/farm/inner_path.h"
 #include "app/farm/quote.h"
-#include "app/farm/timeless_png.h"
+#include "app/farm/png_without_time.h"
 #include "app/farm/worker.h"
 #include "app/process/program_error.h"
 #include "core/base/text.h"
@@ -252,8 +252,8 @@ TEST(Quotes, HoldAnything) {
   EXPECT_EQ(said.out, hostile);
   EXPECT_EQ(xml_text("<a b=\"c\" d='&'>"), "&lt;a b=&quot;c&quot; d=&apos;&amp;&apos;&gt;");
   EXPECT_EQ(json_text("\"\\\u2028"), "\"\\\"\\\\\\u2028\"");
-  EXPECT_NO_THROW(refuse_unspeakable("x", "/a b/é'\"$"));
-  for (const char* bad : {"a\nb", "a\x7f", "\xff\xfe"}) EXPECT_THROW(refuse_unspeakable("x", bad), RequestError);
+  EXPECT_NO_THROW(require_printable_path("x", "/a b/é'\"$"));
+  for (const char* bad : {"a\nb", "a\x7f", "\xff\xfe"}) EXPECT_THROW(require_printable_path("x", bad), RequestError);
 }
 
 TEST(Templates, AreFilledOnce) {
@@ -266,12 +266,12 @@ TEST(Pictures, LoseTheirDatesAndNothingElse) {
   };
   const std::string signature = "\x89PNG\r\n\x1a\n", header = chunk("IHDR", "header"), pixels = chunk("IDAT", "pixels"),
                     end = chunk("IEND", "");
-  EXPECT_EQ(timeless_png(signature + header + chunk("tIME", "1234567") + chunk("tEXt", "Date") + pixels +
-                         chunk("zTXt", "z") + chunk("gAMA", "gama") + chunk("iTXt", "") + end),
+  EXPECT_EQ(png_without_time(signature + header + chunk("tIME", "1234567") + chunk("tEXt", "Date") + pixels +
+                             chunk("zTXt", "z") + chunk("gAMA", "gama") + chunk("iTXt", "") + end),
             signature + header + pixels + chunk("gAMA", "gama") + end);
   for (const std::string& broken : {std::string(), std::string("GIF89a"), signature, signature + header + pixels,
                                     signature + header + pixels.substr(0, 10)})
-    EXPECT_THROW(timeless_png(broken), RunError);
+    EXPECT_THROW(png_without_time(broken), RunError);
 }
 
 TEST(Children, AreHeardAndWaitedFor) {

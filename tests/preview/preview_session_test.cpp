@@ -285,12 +285,12 @@ TEST(PreviewMoments, FramesOfATrajectory) {
   const Structure structure = read_structure(folder.file("one.pdb", kTwoModels));
   std::vector<glm::dvec3> start;
   for (const Atom& atom : structure.atoms) start.push_back(atom.position);
-  Moments moments{{10, 20, 30, 40}, [start](std::size_t frame) {
-                    if (frame == 2) throw InputError("walk.dcd", 0, "frame 2 is damaged");
-                    std::vector<glm::dvec3> positions = start;
-                    positions.back().x += 30.0 * static_cast<double>(frame);
-                    return positions;
-                  }};
+  TrajectoryPositions moments{{10, 20, 30, 40}, [start](std::size_t frame) {
+                                if (frame == 2) throw InputError("walk.dcd", 0, "frame 2 is damaged");
+                                std::vector<glm::dvec3> positions = start;
+                                positions.back().x += 30.0 * static_cast<double>(frame);
+                                return positions;
+                              }};
   PreviewView view;
   view.size = {80, 60};
   PreviewSession session(structure, view, std::nullopt, folder.path(), moments);
@@ -323,7 +323,7 @@ TEST(PreviewMoments, KeysOfTheCamera) {
   PreviewView view;
   view.size = {80, 60};
   PreviewSession session(structure, view, std::nullopt, folder.path(),
-                         Moments{{10, 20, 30, 40}, [positions](std::size_t) { return positions; }});
+                         TrajectoryPositions{{10, 20, 30, 40}, [positions](std::size_t) { return positions; }});
   const auto apply = [&](const char* command) { return session.apply(Json::parse(command)); };
   const char* kExport = R"({"command":"export","format":"camera_path","path":"path.json","force":true})";
   EXPECT_FALSE(apply(kExport)["ok"]);  // none yet

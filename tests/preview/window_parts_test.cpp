@@ -148,7 +148,7 @@ TEST(Keys, MeanWhatTheHelpSays) {
   EXPECT_EQ(typed(U' ', kState), Json({{"command", "play"}}));
   EXPECT_EQ(typed(U'x', kState), Json());
   Json shaded = kState;
-  foresee(typed(U'a', shaded), shaded);
+  predict(typed(U'a', shaded), shaded);
   EXPECT_EQ(shaded["look"]["ambient_occlusion"], 1.0);
   EXPECT_EQ(typed(U'a', shaded), Json({{"command", "look"}, {"ambient_occlusion", 0.0}}));
   EXPECT_EQ(typed(U's', shaded), Json({{"command", "look"}, {"silhouettes", 1.5}}));
@@ -162,22 +162,22 @@ TEST(Keys, MeanWhatTheHelpSays) {
 
 TEST(Keys, ProbeStepsStayOnTenths) {
   Json state = kState;
-  for (int n = 0; n < 30; ++n) foresee(typed(U'-', state), state);
+  for (int n = 0; n < 30; ++n) predict(typed(U'-', state), state);
   EXPECT_EQ(state["probe_radius"], 0.0);
   for (int n = 1; n <= 17; ++n) {
-    foresee(typed(U'+', state), state);
+    predict(typed(U'+', state), state);
     EXPECT_EQ(state["probe_radius"].get<double>(), n / 10.0);
   }
 }
 
 TEST(Foresight, TwoQuickKeysAreTwoSwitches) {
   Json state = kState;
-  foresee(typed(U'o', state), state);
-  foresee(typed(U'o', state), state);
+  predict(typed(U'o', state), state);
+  predict(typed(U'o', state), state);
   EXPECT_EQ(state, kState);
-  foresee({{"command", "look"}, {"background", "black"}}, state);
+  predict({{"command", "look"}, {"background", "black"}}, state);
   EXPECT_EQ(state["look"]["background"], "black");
-  foresee({{"command", "orbit"}, {"dx", 1}, {"dy", 1}}, state);
+  predict({{"command", "orbit"}, {"dx", 1}, {"dy", 1}}, state);
   EXPECT_EQ(state["camera"], kState["camera"]);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Foresight: a switch moves when it is clicked, though the picture may take a while.
+// Prediction: a switch moves when it is clicked, though the picture may take a while.
 #include "app/preview/window/session_link.h"
 
 #include "app/preview/command_json.h"
@@ -7,19 +7,19 @@
 namespace meniscus {
 
 std::uint64_t SessionLink::send(const nlohmann::json& command) {
-  if (has_state()) foresee(command, state_);
+  if (has_state()) predict(command, state_);
   return replay(command);
 }
 
 std::uint64_t SessionLink::replay(const nlohmann::json& command) {
   sent_ = thread_.post(command);
-  if (witness_) witness_(sent_, command);
+  if (observer_) observer_(sent_, command);
   return sent_;
 }
 
 bool SessionLink::update() {
   const std::uint64_t shown_before = news_.shown;
-  news_ = thread_.take_news();
+  news_ = thread_.take_update();
   const bool news = !news_.state.is_null() || !news_.replies.empty() || news_.shown != shown_before;
   if (!news_.stats.is_null()) stats_ = news_.stats;
   // A state from before the last command would move the slider under the user's hand.
@@ -27,7 +27,7 @@ bool SessionLink::update() {
   return news;
 }
 
-void foresee(const nlohmann::json& command, nlohmann::json& state) {
+void predict(const nlohmann::json& command, nlohmann::json& state) {
   const std::string word = command_word(command);
   if (word == "probe") state["probe_radius"] = command["radius"];
   if (word == "projection") state["camera"]["projection"] = command["projection"];

@@ -18,10 +18,10 @@ namespace meniscus {
 /// is no state.
 class SessionLink {
  public:
-  using Witness = std::function<void(std::uint64_t number, const nlohmann::json& command)>;
+  using Observer = std::function<void(std::uint64_t number, const nlohmann::json& command)>;
 
   /// sent: called with every command.
-  explicit SessionLink(SessionThread& thread, Witness sent = {}) : thread_(thread), witness_(std::move(sent)) {}
+  explicit SessionLink(SessionThread& thread, Observer sent = {}) : thread_(thread), observer_(std::move(sent)) {}
 
   /// The number of the command.
   std::uint64_t send(const nlohmann::json& command);
@@ -37,7 +37,7 @@ class SessionLink {
   const nlohmann::json& stats() const { return stats_; }
   /// Answers that came with the last update.
   const std::vector<SessionReply>& replies() const { return news_.replies; }
-  const SessionNews& news() const { return news_; }
+  const SessionUpdate& news() const { return news_; }
 
   /// True when all that was sent is done and drawn, if only as a draft.
   bool settled() const { return news_.shown >= sent_ && has_state(); }
@@ -48,13 +48,13 @@ class SessionLink {
 
  private:
   SessionThread& thread_;
-  Witness witness_;
-  SessionNews news_;
+  Observer observer_;
+  SessionUpdate news_;
   nlohmann::json state_, stats_;
   std::uint64_t sent_ = 0;
 };
 
 /// The state after a command that is right, as far as a window can tell: switches, sliders and frames.
-void foresee(const nlohmann::json& command, nlohmann::json& state);
+void predict(const nlohmann::json& command, nlohmann::json& state);
 
 }  // namespace meniscus

@@ -43,10 +43,10 @@ void SessionThread::presented(std::uint64_t number) {
   posted_.notify_one();
 }
 
-SessionNews SessionThread::take_news() {
+SessionUpdate SessionThread::take_update() {
   const std::scoped_lock lock(mutex_);
   if (failure_) std::rethrow_exception(failure_);
-  SessionNews news = news_;
+  SessionUpdate news = news_;
   news_.replies.clear();
   news_.state = news_.stats = nullptr;
   if (busy_since_) news.busy_seconds = std::chrono::duration<double>(Clock::now() - *busy_since_).count();

@@ -30,7 +30,7 @@ struct SessionReply {
 };
 
 /// What happened since the last look.
-struct SessionNews {
+struct SessionUpdate {
   std::vector<SessionReply> replies;
   std::uint64_t shown = 0;             ///< the picture to be had shows all commands up to this number
   bool full = false;                   ///< and it is not a draft
@@ -55,7 +55,7 @@ class SessionThread {
   /// Queues a command; its number.
   std::uint64_t post(nlohmann::json command);
   /// Throws what ended the thread, if something did.
-  SessionNews take_news();
+  SessionUpdate take_update();
   SharedPicture picture() { return pictures_.newest(); }
   /// The window now shows all commands up to this number. A full picture is made some time after its draft was seen.
   void presented(std::uint64_t number);
@@ -77,7 +77,7 @@ class SessionThread {
   std::condition_variable posted_;
   std::deque<SessionReply> queue_;
   std::uint64_t last_number_ = 0;
-  SessionNews news_;
+  SessionUpdate news_;
   std::exception_ptr failure_;
   std::optional<Clock::time_point> busy_since_;
   std::uint64_t presented_ = 0;  // number of the last command in the picture that is in the window

@@ -55,7 +55,7 @@ class PreviewWindow {
   void take_pointer(const InputEvent& event, bool elsewhere);
   void take_key(const InputEvent& event);
   void take_click(const Click& click);
-  void take_news();
+  void take_update();
   void take_reply(const SessionReply& reply);
   void go_on();
   void fit_picture();
@@ -90,7 +90,7 @@ WindowReport PreviewWindow::run() {
     else if (ticking)
       redraws_ = std::max(redraws_, 1);
     take_events();
-    take_news();
+    take_update();
     if (redraws_ > 0) draw();
     go_on();
   }
@@ -187,7 +187,7 @@ void PreviewWindow::take_click(const Click& click) {
   zoom_to_clicked_ = click.twice;
 }
 
-void PreviewWindow::take_news() {
+void PreviewWindow::take_update() {
   if (!link_.update()) return;
   redraws_ = std::max(redraws_, gestures_.dragging() || replaying() ? 1 : kSettlingFrames);
   for (const SessionReply& reply : link_.replies()) take_reply(reply);

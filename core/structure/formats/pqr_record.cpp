@@ -89,7 +89,7 @@ bool has_occupancy_and_b_factor(std::string_view line) {
 
 }  // namespace
 
-std::optional<PqrRecord> take_apart_pqr(std::string_view line) {
+std::optional<PqrRecord> parse_pqr_record(std::string_view line) {
   const std::optional<PqrRecord> blanks = by_blanks(line);
   if (blanks && !blanks->chain.empty()) return blanks;
   const std::optional<PqrRecord> columns = by_columns(line);
@@ -103,7 +103,7 @@ AtomRecordStyle style_of_atom_records(std::string_view text) {
   for (std::string_view line; records < kEnough && lines.next(line);) {
     if (!is_pdb_atom(line)) continue;
     ++records;
-    const std::optional<PqrRecord> record = take_apart_pqr(line);
+    const std::optional<PqrRecord> record = parse_pqr_record(line);
     pqr += record && std::all_of(record->numbers.begin(), record->numbers.end(), is_number);
     coordinates += has_pdb_coordinates(line);
     occupancies += has_occupancy_and_b_factor(line);

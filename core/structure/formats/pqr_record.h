@@ -20,7 +20,7 @@ struct PqrRecord {
 
 /// Takes a record apart between blanks or, where fields touch, at PDB's columns; nothing if neither gives all fields.
 /// Where both give the same coordinates and there is no chain between blanks, the columns are believed.
-std::optional<PqrRecord> take_apart_pqr(std::string_view line);
+std::optional<PqrRecord> parse_pqr_record(std::string_view line);
 
 /// What the atom records of a text may be, by the first hundred of them.
 struct AtomRecordStyle {

@@ -16,7 +16,7 @@
 #include "core/structure/assembly.h"
 #include "core/structure/atom_classes.h"
 #include "core/structure/formats/cif_document.h"
-#include "core/structure/oddity.h"
+#include "core/structure/warning_collector.h"
 #include "core/structure/formats/reader.h"
 #include "core/text/parse_number.h"
 #include "core/structure/residue_counter.h"
@@ -188,7 +188,7 @@ FileContents read(const TextFile& file, const ModelChoice& choice) {
   ResidueCounter residues(contents.atoms);
   std::map<std::string, std::int32_t> models;
   std::vector<AtomHints> hints;
-  Oddity without_symbol;
+  WarningCollector without_symbol;
   for (const cif::Table::Row row : table) {
     const std::int32_t next_model = static_cast<std::int32_t>(models.size()) + 1;
     const std::int32_t model = models.try_emplace(row.has(kModel) ? row[kModel] : "1", next_model).first->second;

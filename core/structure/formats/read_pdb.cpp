@@ -15,7 +15,7 @@
 #include "core/structure/assembly.h"
 #include "core/structure/atom_classes.h"
 #include "core/text/parse_number.h"
-#include "core/structure/oddity.h"
+#include "core/structure/warning_collector.h"
 #include "core/structure/formats/pdb_bonds.h"
 #include "core/structure/formats/pdb_columns.h"
 #include "core/structure/formats/pqr_record.h"
@@ -134,7 +134,7 @@ class PdbReader {
     if (contents_.atoms.front().model == model()) bonds_.add_atom(line);
   }
 
-  float optional_number(std::string_view line, std::size_t column, Oddity& oddity, std::size_t number) {
+  float optional_number(std::string_view line, std::size_t column, WarningCollector& oddity, std::size_t number) {
     float value = 0.0F;
     const std::string_view field = line.substr(std::min(line.size(), column), 6);
     if (parse_single(field, value)) return value;
@@ -169,7 +169,7 @@ class PdbReader {
   std::set<std::string> ended_chains_;
   bool open_ = false, ended_ = false, in_model_record_ = false;
   std::size_t unmarked_models_ = 0;
-  Oddity number_, occupancy_, b_factor_, element_, symbol_;
+  WarningCollector number_, occupancy_, b_factor_, element_, symbol_;
 };
 
 bool recognizes(std::string_view text) {

@@ -52,7 +52,7 @@ class PqrReader {
   }
 
   void take_atom(std::string_view line, std::size_t number, std::int32_t model) {
-    const std::optional<PqrRecord> record = take_apart_pqr(line);
+    const std::optional<PqrRecord> record = parse_pqr_record(line);
     if (!record) {
       throw InputError(
           file_.path, number,

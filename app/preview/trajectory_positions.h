@@ -11,7 +11,7 @@
 
 namespace meniscus {
 
-struct Moments {
+struct TrajectoryPositions {
   std::vector<std::uint64_t> numbers;  ///< of the frames in the trajectory; at least one
   /// Å, one per atom of the structure. Throws InputError for a frame that cannot be read.
   std::function<std::vector<glm::dvec3>(std::size_t frame)> positions;

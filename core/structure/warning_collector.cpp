@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Words for the oddities of a file.
-#include "core/structure/oddity.h"
+#include "core/structure/warning_collector.h"
 
 #include <utility>
 
@@ -10,11 +10,11 @@
 
 namespace meniscus {
 
-void Oddity::add(std::size_t line, std::string_view text) {
+void WarningCollector::add(std::size_t line, std::string_view text) {
   cases_.push_back(fmt::format("line {}, {}", line, in_quotes(text)));
 }
 
-void Oddity::warn(std::vector<Warning>& warnings, const char* what) {
+void WarningCollector::warn(std::vector<Warning>& warnings, const char* what) {
   if (cases_.empty()) return;
   std::string sentence = fmt::format("{} {} {} (first: {})", with_thousands(cases_.size()),
                                      cases_.size() == 1 ? "atom has" : "atoms have", what, cases_.front());

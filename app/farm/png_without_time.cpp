@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copies a PNG file chunk by chunk.
-#include "app/farm/timeless_png.h"
+#include "app/farm/png_without_time.h"
 
 #include <algorithm>
 #include <array>
@@ -26,7 +26,7 @@ std::size_t big_endian(std::string_view bytes) {
 
 }  // namespace
 
-std::string timeless_png(std::string_view file) {
+std::string png_without_time(std::string_view file) {
   if (!file.starts_with(kSignature)) throw RunError(kExitInput, "the picture is no PNG file");
   std::string result(kSignature);
   file.remove_prefix(kSignature.size());
@@ -47,11 +47,11 @@ bool is_png(const std::filesystem::path& path) {
   return file && std::string_view(begin.data(), begin.size()) == kSignature;
 }
 
-void make_timeless(const std::filesystem::path& path) {
+void remove_png_time(const std::filesystem::path& path) {
   std::ifstream written(path, std::ios::binary);
   const std::string bytes(std::istreambuf_iterator<char>(written), {});
   OutputFile file(path, Existing::replace);
-  file.write(timeless_png(bytes));
+  file.write(png_without_time(bytes));
   file.commit();
 }
 

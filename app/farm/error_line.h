@@ -7,9 +7,9 @@
 namespace meniscus::farm {
 
 /// The first line that speaks of an error, else the last that says anything.
-class LastWords {
+class ErrorLine {
  public:
-  void hear(const std::string& line) {
+  void add(const std::string& line) {
     const std::size_t begin = line.find_first_not_of(" =-\t\r");
     if (begin == std::string::npos || names_error_) return;
     names_error_ = line.find("rror") != std::string::npos;

@@ -12,7 +12,7 @@
 
 namespace meniscus {
 
-class Oddity {
+class WarningCollector {
  public:
   /// One more case: an atom in this line of the file and the text that is odd about it, or words for the two.
   void add(std::size_t line, std::string_view text);
