@@ -2,6 +2,7 @@
 // How mouse and keys move a camera about its target: pure functions, the same for window, page and recorded sessions.
 #pragma once
 
+#include <numbers>
 #include <span>
 
 #include <glm/vec2.hpp>
@@ -11,7 +12,7 @@
 namespace meniscus {
 
 /// A drag from edge to edge, over the height of the picture, turns by this angle (radian): the molecule half around.
-inline constexpr double kTurnPerHeight = 3.14159265358979323846;
+inline constexpr double kTurnPerHeight = std::numbers::pi;
 
 /// Distances from the target, and heights of a picture, that motions keep to; Å.
 inline constexpr double kSmallestReach = 1e-2;

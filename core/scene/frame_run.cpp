@@ -147,6 +147,7 @@ void FrameRun::choose_frames(const RunRequest& request) {
   if (run_.empty()) throw RequestError("no frame is left between --begin and --end");
   for (std::size_t n = 0; n * request.stride < run_.size(); ++n) run_[n] = run_[n * request.stride];
   run_.resize((run_.size() + request.stride - 1) / request.stride);
+  for (std::uint64_t place = 0; place < run_.size(); ++place) place_.try_emplace(run_[place], place);
   if (request.reference >= trajectory_->frame_count())
     throw RequestError(fmt::format("--reference {}: the trajectory has frames 0 to {}", request.reference,
                                    trajectory_->frame_count() - 1));
@@ -223,7 +224,7 @@ std::optional<RunFrame> FrameRun::next() {
   if (read->error) std::rethrow_exception(read->error);
   RunFrame frame;
   frame.number = read->number;
-  frame.place = static_cast<std::uint64_t>(std::ranges::find(run_, read->number) - run_.begin());
+  frame.place = place_.at(read->number);
   frame.time = read->frame.time;
   frame.structure = structure_;
   place(read->frame.positions, frame.structure);

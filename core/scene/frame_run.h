@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "core/structure/structure.h"
@@ -93,6 +94,7 @@ class FrameRun {
   std::unique_ptr<ReadAhead> ahead_;
   Structure structure_;
   std::vector<std::uint64_t> run_, chunk_;
+  std::unordered_map<std::uint64_t, std::uint64_t> place_;  ///< in the run, by number
   std::size_t taken_ = 0;
   bool velocities_;
 };

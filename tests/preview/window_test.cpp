@@ -142,6 +142,7 @@ TEST_F(WindowTest, ShowsThePictureItExports) {
     exported_once = happens([&] { return !recorded("export").empty(); }, 8);  // a late one may come twice
   }
   ASSERT_TRUE(exported_once);
+  ASSERT_EQ(recorded("export").front().value("path", std::string()), "view.png") << recorded("export").front().dump();
   const ScreenPicture exported = read_png(folder_.path() / "view.png");
   ASSERT_EQ(exported.size, picture_);
   EXPECT_GT(std::ranges::count_if(exported.pixels, [](const glm::u8vec3& p) { return p != glm::u8vec3(255); }), 50000);

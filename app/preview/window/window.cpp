@@ -138,7 +138,8 @@ void PreviewWindow::take_events() {
   };
   const bool list_open = Gui::list_open();
   for (const InputEvent& event : window_.take_events()) {
-    gui_.take(event);
+    // A letter that is a command must not turn up in the field that it opens.
+    if (event.kind != InputEvent::Kind::text || Gui::typing()) gui_.take(event);
     if (!link_.has_state() || replaying()) continue;
     const bool elsewhere = list_open || event.position.x >= picture_area().x;
     gestures_.take(event, picture_area(), elsewhere, movements);
