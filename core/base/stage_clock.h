@@ -17,6 +17,12 @@ struct StageTime {
   double milliseconds = 0.0;
 };
 
+/// Who pays for the times of work that another device does on the side.
+enum class StageTiming {
+  rough,  ///< nobody waits: what a stage has started may be paid by a later one that needs it; sums are right
+  exact   ///< that device is idle at both ends of each stage, which costs a round trip each
+};
+
 /// Adds up the times of stages by name, in the order in which they first ended.
 class StageClock {
  public:
@@ -40,6 +46,8 @@ class StageClock {
     std::chrono::steady_clock::time_point begin_;
   };
 
+  explicit StageClock(StageTiming timing = StageTiming::rough) : exact_(timing == StageTiming::exact) {}
+
   [[nodiscard]] Stage stage(const std::string& name) { return Stage(*this, name); }
 
   void add(std::string name, double milliseconds) {
@@ -48,6 +56,7 @@ class StageClock {
   }
 
   void restart() { times_.clear(); }
+  bool is_exact() const { return exact_; }
   const std::vector<StageTime>& times() const { return times_; }
 
  private:
@@ -66,6 +75,7 @@ class StageClock {
       known->milliseconds += time.milliseconds;
   }
 
+  bool exact_;
   std::vector<StageTime> times_;
   std::size_t open_ = 0;
 };

@@ -6,14 +6,14 @@
 
 namespace meniscus {
 
-GpuStage::GpuStage(StageClock& clock, const std::string& name) {
+GpuStage::GpuStage(StageClock& clock, const std::string& name) : waits_(clock.is_exact()) {
   glPushDebugGroup(GL_DEBUG_SOURCE_APPLICATION, 0, static_cast<GLsizei>(name.size()), name.data());
-  glFinish();
+  if (waits_) glFinish();
   stage_.emplace(clock, name);
 }
 
 GpuStage::~GpuStage() {
-  glFinish();
+  if (waits_) glFinish();
   stage_.reset();
   glPopDebugGroup();
 }

@@ -9,8 +9,8 @@
 
 namespace meniscus {
 
-/// Lasts as long as the stage. The GPU is idle at both ends, so the host's clock is right: GL's own timer queries stay
-/// at zero for compute work on llvmpipe (Mesa 22.3). Costs one round trip a stage. Needs a current context.
+/// Lasts as long as the stage. If the clock asks for exact times the GPU is idle at both ends, so that the host's clock
+/// is right: GL's own timer queries stay at zero for compute work on llvmpipe (Mesa 22.3). Needs a current context.
 class GpuStage {
  public:
   GpuStage(StageClock& clock, const std::string& name);
@@ -19,6 +19,7 @@ class GpuStage {
   GpuStage& operator=(const GpuStage&) = delete;
 
  private:
+  bool waits_;
   std::optional<StageClock::Stage> stage_;
 };
 

@@ -185,13 +185,13 @@ TEST_F(GpuCore, CacheCompilesOnce) {
   EXPECT_NE(&first, &cache.get("gpu_shaders/test_support/scale.comp"));
 }
 
-TEST_F(GpuCore, StagesWaitForTheGpu) {
+TEST_F(GpuCore, ExactStagesWaitForTheGpu) {
   const Program program("gpu_shaders/test_support/scale.comp", kFactor3);
   Buffer words(4000000), surplus(4);
   words.bind(0);
   surplus.bind(1);
   program.set(kernel::ScaleParameters{.count = 1000000, .offset = 0});
-  StageClock clock;
+  StageClock clock(StageTiming::exact);
   for (const char* name : {"scale", "idle", "scale"}) {
     const GpuStage stage(clock, name);
     if (std::string(name) == "scale") program.dispatch(15625);
