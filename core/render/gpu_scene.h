@@ -4,18 +4,33 @@
 
 #include <cstdint>
 
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include "core/gpu/append_list.h"
 #include "core/gpu/buffer.h"
 #include "core/color/coloring.h"
 
 namespace meniscus {
 
+/// Records shared with the shaders.
+namespace ray_cast {
+using glm::vec3;
+using glm::vec4;
+using uint = std::uint32_t;
+#include "gpu_shaders/ray_cast/records.glsl"
+#define GEOMETRY inline
+#include "gpu_shaders/ray_cast/tie_key.glsl"
+#undef GEOMETRY
+static_assert(sizeof(Primitive) == 48 && sizeof(Hit) == 32, "std430 has these sizes");
+}  // namespace ray_cast
+
 /// Records and rows are those of gpu_shaders/ray_cast/records.glsl. Positions are relative to the pivot of the picture
 /// (PictureFrame), so that a scene belongs to one camera. Primitives stand in any order; what the picture does not show
 /// may be there or not: the picture is the same to the bit.
 struct GpuScene {
-  Buffer primitives;  ///< ray_cast::Primitive each
-  Buffer rows;        ///< vec4 each
-  std::uint32_t primitive_count = 0;
+  AppendList primitives{sizeof(ray_cast::Primitive), 1 << 15};
+  AppendList rows{sizeof(glm::vec4), 1 << 17};
   float slack = 0.0f;         ///< Å by which patches overlap: a few roundings of the largest coordinate
   double probe_radius = 0.0;  ///< Å
 

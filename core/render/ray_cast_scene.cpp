@@ -206,7 +206,6 @@ RayCastScene pack_scene(const Surface& surface, const Coloring& coloring, const 
 void upload_scene(const RayCastScene& packed, const Surface& surface, const PictureFrame& frame, GpuScene& scene) {
   scene.primitives.upload(packed.primitives);
   scene.rows.upload(packed.rows);
-  scene.primitive_count = static_cast<std::uint32_t>(packed.primitives.size());
   scene.slack = packed.slack;
   scene.probe_radius = surface.probe_radius;
   double first = std::numeric_limits<double>::max(), last = 0.0;

@@ -18,18 +18,6 @@
 
 namespace meniscus {
 
-/// Records shared with the shaders.
-namespace ray_cast {
-using glm::vec3;
-using glm::vec4;
-using uint = std::uint32_t;
-#include "gpu_shaders/ray_cast/records.glsl"
-#define GEOMETRY inline
-#include "gpu_shaders/ray_cast/tie_key.glsl"
-#undef GEOMETRY
-static_assert(sizeof(Primitive) == 48 && sizeof(Hit) == 32, "std430 has these sizes");
-}  // namespace ray_cast
-
 /// The picture's geometry, in double. The pivot lies on the view axis, close to what the middle of the picture shows.
 struct PictureFrame {
   Camera camera;

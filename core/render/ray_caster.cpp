@@ -200,7 +200,7 @@ bool RayCaster::cast(const GpuScene& scene, const PictureFrame& frame, const Pic
     if (sample_count > 1) sample_hits_.resize(count * sizeof(ray_cast::Hit));
   }
   Parameters parameters{own_parameters(scene, look, lists_.tiles()), {}, depth_slices(scene)};
-  row_texels_.view(scene.rows);
+  row_texels_.view(scene.rows.buffer);
   const std::size_t invocations = 64 * static_cast<std::size_t>(lists_.tiles().x) * lists_.tiles().y;
   unfinished_.resize((2 + invocations) * sizeof(std::uint32_t));
   unfinished_.fill(0);

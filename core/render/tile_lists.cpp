@@ -31,7 +31,7 @@ void TileLists::build(const GpuScene& scene, const PictureFrame& frame, const Pi
   counts_.resize((slots + 1) * sizeof(std::uint32_t));
   counts_.fill(0);
   entries_.resize(0);
-  primitive_texels_.view(scene.primitives);
+  primitive_texels_.view(scene.primitives.buffer);
   run(0, scene, frame, block);
   scan_(counts_, slots);
   std::uint32_t entry_count = 0;
@@ -62,9 +62,9 @@ void TileLists::run(int pass, const GpuScene& scene, const PictureFrame& frame, 
                                  .first_tile = block.origin / kTileEdge,
                                  .picture_tile_columns = (frame.size.x + kTileEdge - 1) / kTileEdge,
                                  .bounded = bounded,
-                                 .primitive_count = scene.primitive_count});
+                                 .primitive_count = scene.primitives.count()});
   program.set(depth_slices(scene), kernel::kDepthSlicesBinding);
-  program.dispatch(group_count(scene.primitive_count));
+  program.dispatch(group_count(scene.primitives.count()));
 }
 
 void TileLists::split_tiles() {

@@ -61,7 +61,8 @@ std::optional<PickedPoint> FrameRenderer::pick(glm::ivec2 pixel) const {
   const ray_cast::Hit hit = hits().download<ray_cast::Hit>(1, at * sizeof(ray_cast::Hit)).front();
   if (hit.primitive == ray_cast::kNoPrimitive) return {};
   const auto primitive =
-      state_->scene.primitives.download<ray_cast::Primitive>(1, hit.primitive * sizeof(ray_cast::Primitive)).front();
+      state_->scene.primitives.buffer.download<ray_cast::Primitive>(1, hit.primitive * sizeof(ray_cast::Primitive))
+          .front();
   const Ray ray = pixel_ray(frame.camera, frame.size, glm::dvec2(pixel) + 0.5);
   // The kernel counts from the plane through the pivot.
   const double depth = hit.t + frame.eye_distance / glm::dot(ray.direction, frame.basis.forward);

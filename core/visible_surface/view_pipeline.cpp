@@ -3,6 +3,7 @@
 #include "core/visible_surface/view_pipeline.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <limits>
@@ -22,12 +23,6 @@ namespace meniscus {
 namespace {
 
 constexpr std::size_t kWord = sizeof(std::uint32_t);
-constexpr std::size_t kProbeRecordBytes = 64;  // gpu_shaders/shared/probe_record.glsl
-
-/// Room for what was counted, and some more.
-std::uint32_t grown(std::uint32_t capacity, std::uint32_t count) {
-  return count <= capacity ? capacity : count + count / 4;
-}
 
 }  // namespace
 
@@ -120,9 +115,9 @@ void ViewPipeline::find_arcs() {
   });
   listing.reset();
   stats_.circles = circles_.stats();
-  arc_count_ = circles_.arc_count();
+  arc_count_ = circles_.arcs.count();
   stats_.arcs = arc_count_;
-  arc_texels_.view(circles_.arcs);
+  arc_texels_.view(circles_.arcs.buffer);
 }
 
 // Group 3 (section 3.3): fixed probes are RS faces.
@@ -137,14 +132,10 @@ void ViewPipeline::find_fixed_probes(const PictureFrame& frame, Extent extent) {
 }
 
 void ViewPipeline::select_as_the_paper(const PictureFrame& frame) {
-  RollingBuffers rolling{&circles_.arcs,
-                         &probes_,
-                         &probe_neighbors_.balls,
-                         &probe_neighbors_.balls_low,
-                         arc_count_,
-                         static_cast<std::uint32_t>(stats_.probes)};
+  RollingBuffers rolling{&circles_.arcs.buffer,       &probes_.buffer, &probe_neighbors_.balls,
+                         &probe_neighbors_.balls_low, arc_count_,      static_cast<std::uint32_t>(stats_.probes)};
   paper_.select(frame, visible_, neighbors_.balls, atom_count(), probe_radius_, rolling);
-  arc_texels_.view(circles_.arcs);
+  arc_texels_.view(circles_.arcs.buffer);
   arc_count_ = rolling.arc_count;
   stats_.arcs = rolling.arc_count;
   stats_.probes = rolling.probe_count;
@@ -152,37 +143,32 @@ void ViewPipeline::select_as_the_paper(const PictureFrame& frame) {
 
 void ViewPipeline::place_probes() {
   const Program& program = programs_.get("gpu_shaders/reduced_surface/fixed_probes.comp", {{"LISTED", "1"}});
-  for (;;) {
-    probes_.resize(probe_capacity_ * kProbeRecordBytes);
-    probe_neighbors_.balls.resize(probe_capacity_ * sizeof(glm::vec4));
-    probe_neighbors_.balls_low.resize(probe_capacity_ * sizeof(glm::vec4));
-    counters_.resize(8 * kWord);
-    counters_.fill(0);
+  probes_.clear();
+  std::array<std::uint32_t, 7> counts{};  // probes, then sums over the ends of arcs
+  append_all({&probes_}, counters_, counts, [&] {
+    probe_neighbors_.balls.resize(probes_.capacity() * sizeof(glm::vec4));
+    probe_neighbors_.balls_low.resize(probes_.capacity() * sizeof(glm::vec4));
     circles_.atoms.bind(0);
     radii_.bind(1);
-    probes_.bind(2);
+    probes_.buffer.bind(2);
     probe_neighbors_.balls.bind(3);
     probe_neighbors_.balls_low.bind(4);
     counters_.bind(5);
     arc_texels_.bind(0);
     neighbors_.bind_listed();
     visible_.bind(program);
-    program.set(kernel::FixedProbeParameters{
-        .middle = middle_, .probe_radius = probe_radius_, .arc_count = arc_count_, .probe_capacity = probe_capacity_});
+    program.set(kernel::FixedProbeParameters{.middle = middle_,
+                                             .probe_radius = probe_radius_,
+                                             .arc_count = arc_count_,
+                                             .probe_capacity = probes_.capacity()});
     program.dispatch(group_count(arc_count_));
-    std::array<std::uint32_t, 7> counts{};
-    counters_.read(0, counts.data(), sizeof counts);
-    if (counts[0] <= probe_capacity_) {
-      stats_.probes = counts[0];
-      require_closed({counts[1], counts[2], counts[3], counts[4], counts[5], counts[6]});
-      return;
-    }
-    probe_capacity_ = grown(probe_capacity_, counts[0]);
-  }
+  });
+  stats_.probes = probes_.count();
+  require_closed(std::span(counts).subspan<1>());
 }
 
 // Theorem 3: three arcs end at every fixed probe, with each of its atoms once as the third.
-void ViewPipeline::require_closed(const std::array<std::uint32_t, 6>& end_sums) const {
+void ViewPipeline::require_closed(std::span<const std::uint32_t, 6> end_sums) const {
   if (end_sums[0] == end_sums[2] && end_sums[2] == end_sums[4] && end_sums[1] == end_sums[3] &&
       end_sums[3] == end_sums[5])
     return;
@@ -206,19 +192,14 @@ void ViewPipeline::make_primitives(const PictureFrame& frame, GpuScene& scene) {
   scene.slack = static_cast<float>(1e-5 + 2.5e-7 * extent);
   scene.first_depth = static_cast<float>(std::max(nearest, 0.0));
   scene.last_depth = static_cast<float>(farthest);
-  for (;;) {
-    append_primitives(frame, scene);
-    std::uint32_t counts[3];
-    counters_.read(0, counts, sizeof counts);
-    if (counts[2] != 0)
-      throw CapacityError(
-          "some patch is cut by more others than this driver's kernels can go through; use a smaller probe");
-    scene.primitive_count = counts[0];
-    stats_.primitives = counts[0];
-    if (counts[0] <= primitive_capacity_ && counts[1] <= row_capacity_) break;
-    primitive_capacity_ = grown(primitive_capacity_, counts[0]);
-    row_capacity_ = grown(row_capacity_, counts[1]);
-  }
+  scene.primitives.clear();
+  scene.rows.clear();
+  std::array<std::uint32_t, 3> counts{};  // primitives, rows, whether a loop was cut short
+  append_all({&scene.primitives, &scene.rows}, counters_, counts, [&] { append_primitives(frame, scene); });
+  if (counts[2] != 0)
+    throw CapacityError(
+        "some patch is cut by more others than this driver's kernels can go through; use a smaller probe");
+  stats_.primitives = scene.primitives.count();
 }
 
 void ViewPipeline::list_arcs_by_atom() {
@@ -242,9 +223,6 @@ void ViewPipeline::list_arcs_by_atom() {
 }
 
 void ViewPipeline::append_primitives(const PictureFrame& frame, GpuScene& scene) {
-  scene.primitives.resize(primitive_capacity_ * sizeof(ray_cast::Primitive));
-  scene.rows.resize(row_capacity_ * sizeof(glm::vec4));
-  counters_.fill(0);
   if (probe_radius_ > 0.0) {  // a probe of no size leaves tori and concave patches without area
     const Program& toroidal = primitive_kernel("toroidal", frame, scene);
     circles_.atoms.bind(0);
@@ -256,7 +234,7 @@ void ViewPipeline::append_primitives(const PictureFrame& frame, GpuScene& scene)
     probe_neighbors_.for_each_batch([&](const BallBatch& batch) {
       const Program& concave = primitive_kernel("concave", frame, scene);
       circles_.atoms.bind(0);
-      probes_.bind(1);
+      probes_.buffer.bind(1);
       probe_neighbors_.first.bind(5);
       probe_neighbors_.labels.bind(6);
       probe_neighbors_.relative.bind(7);
@@ -286,8 +264,8 @@ void ViewPipeline::append_primitives(const PictureFrame& frame, GpuScene& scene)
 const Program& ViewPipeline::primitive_kernel(const char* name, const PictureFrame& frame, GpuScene& scene,
                                               const ShaderDefines& defines) {
   const Program& program = programs_.get(std::string("gpu_shaders/primitives/") + name + ".comp", defines);
-  scene.primitives.bind(2);
-  scene.rows.bind(3);
+  scene.primitives.buffer.bind(2);
+  scene.rows.buffer.bind(3);
   counters_.bind(4);
   program.set(kernel::PrimitiveParameters{.pivot = frame.pivot,
                                           .eye_distance = frame.eye_distance,
@@ -296,8 +274,8 @@ const Program& ViewPipeline::primitive_kernel(const char* name, const PictureFra
                                           .camera_forward = frame.basis.forward,
                                           .slack = scene.slack,
                                           .orthographic = frame.camera.projection == Projection::orthographic,
-                                          .primitive_capacity = primitive_capacity_,
-                                          .row_capacity = row_capacity_},
+                                          .primitive_capacity = scene.primitives.capacity(),
+                                          .row_capacity = scene.rows.capacity()},
               kernel::kPrimitiveBinding);
   return program;
 }

@@ -3,12 +3,12 @@
 // GPU.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "core/base/stage_clock.h"
+#include "core/gpu/append_list.h"
 #include "core/gpu/buffer.h"
 #include "core/gpu/prefix_sum.h"
 #include "core/gpu/program.h"
@@ -58,6 +58,8 @@ class ViewPipeline {
   const ViewStats& stats() const { return stats_; }
 
  private:
+  static constexpr std::size_t kProbeRecordBytes = 64;  // gpu_shaders/shared/probe_record.glsl
+
   void run_once(const PictureFrame& frame, double probe_radius, Extent extent, GpuScene& scene);
   void upload_atoms(double probe_radius);
   void look(const PictureFrame& frame, Extent extent, GpuScene& scene);
@@ -68,7 +70,7 @@ class ViewPipeline {
 
   void place_probes();
   void select_as_the_paper(const PictureFrame& frame);
-  void require_closed(const std::array<std::uint32_t, 6>& end_sums) const;
+  void require_closed(std::span<const std::uint32_t, 6> end_sums) const;
   void list_arcs_by_atom();
   void append_primitives(const PictureFrame& frame, GpuScene& scene);
   const Program& primitive_kernel(const char* name, const PictureFrame& frame, GpuScene& scene,
@@ -94,16 +96,13 @@ class ViewPipeline {
   double probe_radius_ = -1.0;     // of what is on the GPU; negative: nothing is
   bool all_probes_found_ = false;  // arcs and probes on the GPU are those of the complete surface
   Buffer radii_;                   // double per atom: van der Waals
-  Buffer probes_;                  // ProbeRecord each
+  AppendList probes_{kProbeRecordBytes, 1 << 13};
   Buffer counters_;
   Buffer atom_arc_first_, atom_arc_rank_, atom_arcs_;
   TexelBuffer arc_texels_{TexelFormat::uint4}, atom_arc_first_texels_{TexelFormat::uint1},
       atom_arc_texels_{TexelFormat::uint4};
   std::uint32_t arc_count_ = 0;
   bool whole_spheres_ = false;  // drawn instead of convex patches
-  std::uint32_t probe_capacity_ = 1 << 13;
-  std::uint32_t primitive_capacity_ = 1 << 15;
-  std::uint32_t row_capacity_ = 1 << 17;
 };
 
 }  // namespace meniscus

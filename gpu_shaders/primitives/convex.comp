@@ -21,6 +21,7 @@ layout(binding = 0) uniform usamplerBuffer atom_arc_first;
 layout(binding = 1) uniform usamplerBuffer atom_arcs;  // partner, begin_by, end_by, 0
 layout(std430, binding = 5) readonly buffer NeighborFirst { uint neighbor_first[]; };
 layout(std430, binding = 6) readonly buffer NeighborLabels { uint neighbor_labels[]; };
+#include "gpu_shaders/reduced_surface/lone_atom.glsl"
 layout(std140, binding = 0) uniform Parameters { ConvexParameters params; };
 #ifdef WHOLE_SPHERES
 layout(std430, binding = 7) readonly buffer Drawn { uint drawn[]; };
@@ -64,17 +65,6 @@ bool shows_spurious_arc(uint a, uint b, uint first, uint last) {
   for (uint n = 0u; n < exposed_count; ++n)
     if (!known(first, last, uvec3(b, exposed_arcs[n].begin_by, exposed_arcs[n].end_by))) return true;
   return false;
-}
-
-// Neighbours are listed generously; only balls that really overlap keep an atom from being alone.
-bool alone(uint a, uint entry) {
-  for (uint n = neighbor_first[entry]; n < neighbor_first[entry + 1u]; ++n) {
-    dvec4 other = atoms[neighbor_labels[n]];
-    dvec3 d = other.xyz - atoms[a].xyz;
-    double sum = sqrt(atoms[a].w) + sqrt(other.w);
-    if (dot(d, d) < sum * sum) return false;
-  }
-  return true;
 }
 
 // The contact plane towards b, from the centre of a: unit normal, offset.

@@ -236,7 +236,6 @@ TEST_F(GpuScenes, NoTileMissesABound) {
     }
     GpuScene scene;
     scene.primitives.upload(primitives);
-    scene.primitive_count = static_cast<std::uint32_t>(primitives.size());
     scene.last_depth = 80.0f;
     const PictureBlock block{{n % 2 ? kTileEdge : 0, 0}, {100, 150}};
     lists.build(scene, frame, block);

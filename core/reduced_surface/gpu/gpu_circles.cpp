@@ -3,6 +3,8 @@
 #include "core/reduced_surface/gpu/gpu_circles.h"
 
 #include <algorithm>
+#include <array>
+#include <utility>
 
 #include <glm/vec4.hpp>
 
@@ -21,39 +23,36 @@ void GpuCircles::upload(std::span<const Ball> host_atoms, std::span<const double
 }
 
 void GpuCircles::restart() {
-  arc_count_ = 0;
+  arcs.clear();
+  arcs.make_room();
   stats_ = {};
-  arcs.resize(arc_capacity_ * sizeof(RsArc));
 }
 
 void GpuCircles::expose(const BallBatch& batch, StageClock& clock) {
   stats_.pairs += batch.pair_count;
   if (batch.pair_count == 0) return;
-  std::uint32_t doubtful_count = 0;
   {
     const GpuStage stage(clock, "circles");
     relative_texels_.view(neighbors_.relative);
-    doubtful_count = run(batch, false, neighbors_.pairs, batch.pair_count, doubtful_);
+    run(batch, false, neighbors_.pairs, batch.pair_count, doubtful_);
   }
-  if (doubtful_count == 0) return;
+  if (doubtful_.count() == 0) return;
   const GpuStage stage(clock, "doubtful circles");
-  stats_.decided_in_double += doubtful_count;
-  doubtful_count = run(batch, true, doubtful_, doubtful_count, still_doubtful_);
-  if (doubtful_count == 0) return;
-  stats_.decided_on_host += doubtful_count;
-  decide_on_host(batch, still_doubtful_.download<glm::uvec2>(doubtful_count));
+  stats_.decided_in_double += doubtful_.count();
+  run(batch, true, doubtful_.buffer, doubtful_.count(), still_doubtful_);
+  if (still_doubtful_.count() == 0) return;
+  stats_.decided_on_host += still_doubtful_.count();
+  decide_on_host(batch, still_doubtful_.buffer.download<glm::uvec2>(still_doubtful_.count()));
 }
 
-std::uint32_t GpuCircles::run(const BallBatch& batch, bool in_double, const Buffer& circles, std::uint32_t circle_count,
-                              Buffer& doubtful) {
+void GpuCircles::run(const BallBatch& batch, bool in_double, const Buffer& circles, std::uint32_t circle_count,
+                     AppendList& doubtful) {
   ShaderDefines defines = neighbors_.list_defines();
   if (in_double) defines.emplace_back("DOUBLE_PRECISION", "1");
   const Program& program = programs_.get("gpu_shaders/reduced_surface/circles.comp", defines);
-  for (;;) {
-    std::uint32_t counts[2] = {arc_count_, 0};  // arcs, doubtful circles
-    doubtful.resize(doubtful_capacity_ * sizeof(glm::uvec2));
-    counters_.resize(sizeof counts);
-    counters_.write(0, counts, sizeof counts);
+  doubtful.clear();
+  std::array<std::uint32_t, 2> counts{};  // arcs, doubtful circles
+  append_all({&arcs, &doubtful}, counters_, counts, [&] {
     circles.bind(0);
     neighbors_.first.bind(1);
     neighbors_.labels.bind(2);
@@ -61,52 +60,39 @@ std::uint32_t GpuCircles::run(const BallBatch& batch, bool in_double, const Buff
       atoms.bind(3);
     else
       relative_texels_.bind(0);
-    arcs.bind(4);
-    doubtful.bind(5);
+    arcs.buffer.bind(4);
+    doubtful.buffer.bind(5);
     counters_.bind(6);
     neighbors_.balls.bind(7);
     neighbors_.bind_listed();
     program.set(kernel::CircleParameters{.first_entry = batch.first,
                                          .circle_count = circle_count,
-                                         .arc_capacity = arc_capacity_,
-                                         .doubtful_capacity = doubtful_capacity_});
+                                         .arc_capacity = arcs.capacity(),
+                                         .doubtful_capacity = doubtful.capacity()});
     program.dispatch(group_count(circle_count));
-    counters_.read(0, counts, sizeof counts);
-    if (counts[0] <= arc_capacity_ && counts[1] <= doubtful_capacity_) {
-      arc_count_ = counts[0];
-      return counts[1];
-    }
-    if (counts[0] > arc_capacity_) {
-      arc_capacity_ = counts[0] + counts[0] / 4;
-      arcs.grow(arc_capacity_ * sizeof(RsArc));
-    }
-    doubtful_capacity_ = std::max(doubtful_capacity_, counts[1] + counts[1] / 4);
-  }
+  });
 }
 
 // Double left these in doubt (ties): Contour decides them in quadruple precision.
-void GpuCircles::decide_on_host(const BallBatch& batch, std::span<const glm::uvec2> circles) {
-  const auto first = neighbors_.first.download<std::uint32_t>(batch.count + 1);
-  const auto labels = neighbors_.labels.download<std::uint32_t>(batch.neighbor_count);
+void GpuCircles::decide_on_host(const BallBatch& batch, std::vector<glm::uvec2> circles) {
+  std::ranges::sort(circles, {}, [](const glm::uvec2& circle) { return std::pair(circle.x, circle.y); });
   std::vector<RsArc> found;
   Contour contour;
   Blockers blockers;
+  NeighborList near;
   for (const glm::uvec2& circle : circles) {
-    const std::uint32_t entry = circle.x - batch.first, i = neighbors_.ball_of(circle.x), j = labels[circle.y];
-    blockers.restart(weights_[i]);
-    for (std::uint32_t n = first[entry]; n < first[entry + 1]; ++n)
-      blockers.add(host_atoms_[labels[n]].center - host_atoms_[i].center, weights_[labels[n]], labels[n]);
-    contour.expose(host_atoms_[j].center - host_atoms_[i].center, weights_[j], blockers, circle.y - first[entry]);
+    if (near.labels.empty() || near.entry != circle.x) {
+      near = neighbors_.list_of(batch, circle.x);
+      blockers.restart(weights_[near.ball]);
+      for (const std::uint32_t n : near.labels)
+        blockers.add(host_atoms_[n].center - host_atoms_[near.ball].center, weights_[n], n);
+    }
+    const std::uint32_t i = near.ball, place = circle.y - near.first, j = near.labels[place];
+    contour.expose(host_atoms_[j].center - host_atoms_[i].center, weights_[j], blockers, place);
     if (contour.whole()) found.push_back({i, j, kNone, kNone});
     for (const ExposedArc& arc : contour.arcs()) found.push_back({i, j, arc.begin_by, arc.end_by});
   }
-  const std::size_t count = arc_count_ + found.size();
-  if (count > arc_capacity_) {
-    arc_capacity_ = static_cast<std::uint32_t>(count + count / 4);
-    arcs.grow(arc_capacity_ * sizeof(RsArc));
-  }
-  arcs.write(arc_count_ * sizeof(RsArc), found.data(), found.size() * sizeof(RsArc));
-  arc_count_ = static_cast<std::uint32_t>(count);
+  arcs.append(std::span<const RsArc>(found));
 }
 
 }  // namespace meniscus

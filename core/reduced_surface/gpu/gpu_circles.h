@@ -10,6 +10,7 @@
 #include <glm/vec2.hpp>
 
 #include "core/base/stage_clock.h"
+#include "core/gpu/append_list.h"
 #include "core/gpu/buffer.h"
 #include "core/gpu/program.h"
 #include "core/gpu/texel_buffer.h"
@@ -41,24 +42,21 @@ class GpuCircles {
   void expose(const BallBatch& batch, StageClock& clock);
 
   Buffer atoms;  ///< dvec4 per atom: centre in Å, decision weight
-  Buffer arcs;   ///< RsArc each
-  std::uint32_t arc_count() const { return arc_count_; }
+  AppendList arcs{sizeof(RsArc), 1 << 14};
   const CircleStats& stats() const { return stats_; }
 
  private:
-  std::uint32_t run(const BallBatch& batch, bool in_double, const Buffer& circles, std::uint32_t circle_count,
-                    Buffer& doubtful);
-  void decide_on_host(const BallBatch& batch, std::span<const glm::uvec2> circles);
+  void run(const BallBatch& batch, bool in_double, const Buffer& circles, std::uint32_t circle_count,
+           AppendList& doubtful);
+  void decide_on_host(const BallBatch& batch, std::vector<glm::uvec2> circles);
 
   ProgramCache& programs_;
   GpuNeighbors& neighbors_;
   std::span<const Ball> host_atoms_;
   std::span<const double> weights_;
   TexelBuffer relative_texels_{TexelFormat::uint4};  // of the neighbours, which circles fetch most
-  Buffer doubtful_, still_doubtful_, counters_;
-  std::uint32_t arc_count_ = 0;
-  std::uint32_t arc_capacity_ = 1 << 14;
-  std::uint32_t doubtful_capacity_ = 1 << 12;
+  AppendList doubtful_{sizeof(glm::uvec2), 1 << 12}, still_doubtful_{sizeof(glm::uvec2), 1 << 12};
+  Buffer counters_;
   CircleStats stats_;
 };
 

@@ -99,8 +99,14 @@ void GpuNeighbors::list_only(const Buffer& listed, const Buffer& before, std::ui
 
 ShaderDefines GpuNeighbors::list_defines() const { return listed_ ? ShaderDefines{{"LISTED", "1"}} : ShaderDefines{}; }
 
-std::uint32_t GpuNeighbors::ball_of(std::uint32_t entry) const {
-  return listed_ ? listed_->download<std::uint32_t>(1, entry * kWord).front() : entry;
+NeighborList GpuNeighbors::list_of(const BallBatch& batch, std::uint32_t entry) const {
+  NeighborList list;
+  list.entry = list.ball = entry;
+  if (listed_) listed_->read(entry * kWord, &list.ball, kWord);
+  const auto ends = first.download<std::uint32_t>(2, (entry - batch.first) * kWord);
+  list.first = ends[0];
+  list.labels = labels.download<std::uint32_t>(ends[1] - ends[0], ends[0] * kWord);
+  return list;
 }
 
 void GpuNeighbors::bind_listed() const {

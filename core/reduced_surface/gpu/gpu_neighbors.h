@@ -26,6 +26,14 @@ struct BallBatch {
   std::uint32_t pair_count = 0;
 };
 
+/// The neighbours of one ball, on the host.
+struct NeighborList {
+  std::uint32_t entry = 0;            ///< of the lists
+  std::uint32_t ball = 0;             ///< that the entry stands for
+  std::uint32_t first = 0;            ///< place of its first neighbour in the lists
+  std::vector<std::uint32_t> labels;  ///< indices of its neighbours
+};
+
 /// Where balls are and how large they get: a box around their centres, in the coordinates of the buffer `balls`, Å.
 struct BallExtent {
   glm::dvec3 low{0.0}, high{0.0};
@@ -52,8 +60,8 @@ class GpuNeighbors {
   ShaderDefines list_defines() const;
   void bind_listed() const;
 
-  /// The ball that an entry of the lists stands for. Reads it back from the GPU.
-  std::uint32_t ball_of(std::uint32_t entry) const;
+  /// Reads one entry of the batch at hand, and nothing else, back from the GPU.
+  NeighborList list_of(const BallBatch& batch, std::uint32_t entry) const;
 
   /// Calls work(batch) for consecutive batches with their lists in the buffers below; lists that are still there from
   /// the last time are not made again. Batches are as large as the driver's storage blocks allow. Throws CapacityError

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Cut lists and cusp arcs on the GPU: the kernels of gpu_shaders/singularities over neighbour lists of fixed probes.
 #include <algorithm>
+#include <array>
 
 #include <glm/geometric.hpp>
 #include <glm/vec4.hpp>
 
+#include "core/gpu/append_list.h"
 #include "core/gpu/kernel_parameters.h"
 #include "core/reduced_surface/contour/contour.h"
 #include "core/surface/gpu/pipeline.h"
@@ -68,10 +70,10 @@ class GpuCuspTracer final : public CuspTracer {
         circles.push_back({(*next)[0], static_cast<std::uint32_t>(place - labels.begin())});
       }
       if (circles.empty()) return;
-      const std::uint32_t doubtful_count = run_circles(batch, circles, found);
-      if (doubtful_count == 0) return;
+      run_circles(batch, circles, found);
+      if (doubtful_.count() == 0) return;
       PairTracer tracer(problem, cuts);
-      for (const glm::uvec2& circle : doubtful_.download<glm::uvec2>(doubtful_count))
+      for (const glm::uvec2& circle : doubtful_.buffer.download<glm::uvec2>(doubtful_.count()))
         trace_on_host(problem, batch, circle, first, labels, tracer, found);
     });
     return found;
@@ -113,39 +115,31 @@ class GpuCuspTracer final : public CuspTracer {
     }
   }
 
-  // Appends what the kernel finds; returns the number of circles left in doubt.
-  std::uint32_t run_circles(const BallBatch& batch, const std::vector<glm::uvec2>& circles,
-                            std::vector<TracedArc>& found) {
+  // Appends what the kernel finds; lists the circles left in doubt.
+  void run_circles(const BallBatch& batch, const std::vector<glm::uvec2>& circles, std::vector<TracedArc>& found) {
     circles_.upload(circles);
-    std::uint32_t counts[2] = {0, 0};  // arcs, doubtful circles
+    arcs_.clear();
+    doubtful_.clear();
     const Program& program = programs_.get("gpu_shaders/singularities/cusps.comp");
-    for (;;) {
-      arcs_.resize(kArcHeader + arc_capacity_ * sizeof(ArcRecord));
-      const std::uint32_t zero[4] = {};
-      arcs_.write(0, zero, sizeof zero);
-      doubtful_.resize(doubtful_capacity_ * sizeof(glm::uvec2));
+    std::array<std::uint32_t, 2> counts{};  // arcs, doubtful circles
+    append_all({&arcs_, &doubtful_}, arcs_.buffer, counts, [&] {
       circles_.bind(0);
       neighbors_.first.bind(1);
       neighbors_.labels.bind(2);
       neighbors_.relative.bind(3);
       heads_.bind(4);
       sides_.bind(5);
-      arcs_.bind(6);
-      doubtful_.bind(7);
+      arcs_.buffer.bind(6);
+      doubtful_.buffer.bind(7);
       program.set(kernel::CuspParameters{.first_probe = batch.first,
                                          .circle_count = static_cast<std::uint32_t>(circles.size()),
-                                         .arc_capacity = arc_capacity_,
-                                         .doubtful_capacity = doubtful_capacity_});
+                                         .arc_capacity = arcs_.capacity(),
+                                         .doubtful_capacity = doubtful_.capacity()});
       program.dispatch(group_count(circles.size()));
-      arcs_.read(0, counts, sizeof counts);
-      if (counts[0] <= arc_capacity_ && counts[1] <= doubtful_capacity_) break;
-      arc_capacity_ = std::max(arc_capacity_, counts[0] + counts[0] / 4);
-      doubtful_capacity_ = std::max(doubtful_capacity_, counts[1] + counts[1] / 4);
-    }
-    for (const ArcRecord& arc : arcs_.download<ArcRecord>(counts[0], kArcHeader))
+    });
+    for (const ArcRecord& arc : arcs_.buffer.download<ArcRecord>(arcs_.count(), kArcHeader))
       found.push_back(
           {{arc.names.x, arc.names.y}, {arc.names.z, arc.names.w}, glm::dvec3(arc.begin), glm::dvec3(arc.end)});
-    return counts[1];
   }
 
   static void trace_on_host(const CuspProblem& problem, const BallBatch& batch, const glm::uvec2& circle,
@@ -161,9 +155,8 @@ class GpuCuspTracer final : public CuspTracer {
 
   ProgramCache& programs_;
   GpuNeighbors neighbors_;
-  Buffer heads_, sides_, flags_, circles_, arcs_, doubtful_;
-  std::uint32_t arc_capacity_ = 1 << 12;
-  std::uint32_t doubtful_capacity_ = 1 << 12;
+  Buffer heads_, sides_, flags_, circles_;
+  AppendList arcs_{sizeof(ArcRecord), 1 << 12, kArcHeader}, doubtful_{sizeof(glm::uvec2), 1 << 12};
 };
 
 }  // namespace

@@ -3,14 +3,14 @@
 #include "core/surface/gpu/pipeline.h"
 
 #include <algorithm>
-#include <cmath>
+#include <array>
 #include <optional>
 
-#include <epoxy/gl.h>
-#include <glm/geometric.hpp>
 #include <tbb/parallel_sort.h>
 
 #include "core/base/error.h"
+#include "core/gpu/gpu_stage.h"
+#include "core/gpu/kernel_parameters.h"
 #include "core/surface/surface.h"
 
 namespace meniscus {
@@ -26,58 +26,61 @@ Surface SurfacePipeline::run(std::span<const Ball> atoms, double probe_radius) {
 
 ReducedSurface SurfacePipeline::reduce(std::span<const Ball> atoms, double probe_radius) {
   clock_.restart();
-  atoms_ = atoms;
   ReducedSurface rs;
   if (atoms.empty()) return rs;
   {
-    const auto stage = clock_.stage("grid");
-    weights_ = decision_weights(atoms, probe_radius);
-    swallowed_ = swallowed_atoms(atoms);
-    std::vector<glm::dvec3> centers(atoms.size());
-    std::vector<double> radii(atoms.size());
-    for (std::size_t a = 0; a < atoms.size(); ++a) {
-      centers[a] = atoms[a].center;
-      radii[a] = atoms[a].radius + probe_radius;
-    }
-    circles_.upload(atoms, weights_);
-    circles_.restart();
-    neighbors_.upload(centers, radii, swallowed_);
-    glFinish();
+    const GpuStage stage(clock_, "grid");
+    upload(atoms, probe_radius);
   }
-  std::optional<StageClock::Stage> listing(std::in_place, clock_, "neighbors");
+  std::optional<GpuStage> listing(std::in_place, clock_, "neighbors");
   neighbors_.for_each_batch([&](const BallBatch& batch) {
     neighbors_.list_pairs(batch);
-    glFinish();
+    list_lone_atoms(batch);
     listing.reset();
     circles_.expose(batch, clock_);
-    collect_lone_atoms(batch, rs);
     listing.emplace(clock_, "neighbors");
   });
   listing.reset();
   // Some atom is exposed, whatever the atoms: with arcs, or as a whole.
-  if (circles_.arc_count() == 0 && rs.lone_atoms.empty())
+  if (circles_.arcs.count() == 0 && lone_atoms_.count() == 0)
     throw GpuError("the GPU finds no surface at all, which cannot be; run again, or on another --device");
   const auto stage = clock_.stage("sort arcs");
-  rs.arcs.resize(circles_.arc_count());
-  circles_.arcs.download(std::span<RsArc>(rs.arcs));
+  rs.arcs = circles_.arcs.buffer.download<RsArc>(circles_.arcs.count());
   tbb::parallel_sort(rs.arcs.begin(), rs.arcs.end());
+  rs.lone_atoms = lone_atoms_.buffer.download<std::uint32_t>(lone_atoms_.count());
+  std::sort(rs.lone_atoms.begin(), rs.lone_atoms.end());
   return rs;
 }
 
-// The kernel lists neighbours generously; only balls that really overlap keep an atom from being alone.
-void SurfacePipeline::collect_lone_atoms(const BallBatch& batch, ReducedSurface& rs) {
-  const auto first = neighbors_.first.download<std::uint32_t>(batch.count + 1);
-  const auto labels = neighbors_.labels.download<std::uint32_t>(batch.neighbor_count);
-  for (std::uint32_t entry = 0; entry < batch.count; ++entry) {
-    const std::uint32_t a = batch.first + entry;
-    if (swallowed_[a]) continue;
-    const bool lone = std::none_of(labels.begin() + first[entry], labels.begin() + first[entry + 1], [&](auto n) {
-      const double sum = std::sqrt(weights_[a]) + std::sqrt(weights_[n]);
-      const glm::dvec3 d = atoms_[n].center - atoms_[a].center;
-      return glm::dot(d, d) < sum * sum;
-    });
-    if (lone) rs.lone_atoms.push_back(a);
+void SurfacePipeline::upload(std::span<const Ball> atoms, double probe_radius) {
+  weights_ = decision_weights(atoms, probe_radius);
+  std::vector<glm::dvec3> centers(atoms.size());
+  std::vector<double> radii(atoms.size());
+  for (std::size_t a = 0; a < atoms.size(); ++a) {
+    centers[a] = atoms[a].center;
+    radii[a] = atoms[a].radius + probe_radius;
   }
+  circles_.upload(atoms, weights_);
+  circles_.restart();
+  neighbors_.upload(centers, radii, swallowed_atoms(atoms));
+  lone_atoms_.clear();
+}
+
+void SurfacePipeline::list_lone_atoms(const BallBatch& batch) {
+  const Program& program = programs_.get("gpu_shaders/reduced_surface/lone_atoms.comp", neighbors_.list_defines());
+  std::array<std::uint32_t, 1> counts{};
+  append_all({&lone_atoms_}, counters_, counts, [&] {
+    circles_.atoms.bind(0);
+    neighbors_.balls_low.bind(1);
+    neighbors_.first.bind(2);
+    neighbors_.labels.bind(3);
+    lone_atoms_.buffer.bind(4);
+    counters_.bind(5);
+    neighbors_.bind_listed();
+    program.set(kernel::LoneAtomParameters{
+        .first_entry = batch.first, .entry_count = batch.count, .capacity = lone_atoms_.capacity()});
+    program.dispatch(group_count(batch.count));
+  });
 }
 
 }  // namespace meniscus

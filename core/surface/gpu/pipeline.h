@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/base/stage_clock.h"
+#include "core/gpu/append_list.h"
 #include "core/gpu/program.h"
 #include "core/surface/cusp_tracer.h"
 #include "core/reduced_surface/gpu/gpu_circles.h"
@@ -36,18 +37,17 @@ class SurfacePipeline {
   const CircleStats& stats() const { return circles_.stats(); }
 
  private:
-  void collect_lone_atoms(const BallBatch& batch, ReducedSurface& rs);
+  void upload(std::span<const Ball> atoms, double probe_radius);
+  void list_lone_atoms(const BallBatch& batch);
 
   ProgramCache programs_;
   GpuNeighbors neighbors_;
   GpuCircles circles_;
   std::unique_ptr<CuspTracer> cusp_tracer_;
   StageClock clock_;
-
-  // The frame at work.
-  std::span<const Ball> atoms_;
-  std::vector<double> weights_;
-  std::vector<bool> swallowed_;
+  std::vector<double> weights_;  // of the frame at work
+  AppendList lone_atoms_{sizeof(std::uint32_t), 1 << 12};
+  Buffer counters_;
 };
 
 /// Cuts and cusp arcs with compute shaders; doubtful ones are decided on the host. The context must be current.

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Growth by a quarter more than was counted.
+#include "core/gpu/append_list.h"
+
+#include <algorithm>
+#include <cassert>
+
+namespace meniscus {
+
+void AppendList::make_room() {
+  const std::size_t bytes = header_bytes_ + capacity_ * record_bytes_;
+  if (count_ > 0 && bytes > buffer.byte_count())
+    buffer.grow(bytes);
+  else
+    buffer.resize(bytes);
+}
+
+bool AppendList::fits(std::uint32_t counted) {
+  if (counted <= capacity_) return true;
+  capacity_ = counted + counted / 4;
+  return false;
+}
+
+void AppendList::append_bytes(std::span<const std::byte> bytes, std::uint32_t count) {
+  const std::size_t place = header_bytes_ + count_ * record_bytes_;
+  if (count_ + count > capacity_) {
+    capacity_ = count_ + count + (count_ + count) / 4;
+    make_room();
+  }
+  buffer.write(place, bytes.data(), bytes.size());
+  count_ += count;
+}
+
+void append_all(std::initializer_list<AppendList*> lists, Buffer& counters, std::span<std::uint32_t> counted,
+                const std::function<void()>& run) {
+  assert(lists.size() <= counted.size());
+  for (bool all_fit = false; !all_fit;) {
+    std::ranges::fill(counted, 0u);
+    std::ranges::transform(lists, counted.begin(), [](const AppendList* list) { return list->count(); });
+    for (AppendList* list : lists) list->make_room();
+    if (counters.byte_count() < counted.size_bytes()) counters.resize(counted.size_bytes());
+    counters.write(0, counted.data(), counted.size_bytes());
+    run();
+    counters.read(0, counted.data(), counted.size_bytes());
+    all_fit = true;
+    auto count = counted.begin();
+    for (AppendList* list : lists) all_fit &= list->fits(*count++);
+  }
+  // Not before all fit: what a list already has is not appended again.
+  auto count = counted.begin();
+  for (AppendList* list : lists) list->settle(*count++);
+}
+
+}  // namespace meniscus

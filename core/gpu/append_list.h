@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Lists that kernels append to, and the one loop that lets them grow.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <initializer_list>
+#include <span>
+#include <vector>
+
+#include "core/gpu/buffer.h"
+
+namespace meniscus {
+
+/// Records in a buffer with room for some more. A kernel counts every record that it would append, by an atomic counter
+/// that starts at count(), and writes those whose place is below capacity(). Needs a current GL context.
+class AppendList {
+ public:
+  /// header_bytes: in front of the records, the kernel's own.
+  AppendList(std::size_t record_bytes, std::uint32_t first_capacity, std::size_t header_bytes = 0)
+      : record_bytes_(record_bytes), header_bytes_(header_bytes), capacity_(first_capacity) {}
+
+  std::uint32_t count() const { return count_; }        ///< records
+  std::uint32_t capacity() const { return capacity_; }  ///< records that the buffer has room for, once make_room() ran
+  /// Forgets all records.
+  void clear() { count_ = 0; }
+  /// Makes the buffer as large as the capacity, and keeps the records. Throws CapacityError.
+  void make_room();
+  /// Whether so many records, which a kernel counted, all have a place. If not the capacity grows.
+  bool fits(std::uint32_t counted);
+  /// Takes the kernel's count, which fits.
+  void settle(std::uint32_t counted) { count_ = counted; }
+  /// Replaces all records by those that the host has; there is room for no others.
+  template <typename Record>
+  void upload(const std::vector<Record>& records) {
+    clear();
+    capacity_ = static_cast<std::uint32_t>(records.size());
+    make_room();
+    append(std::span<const Record>(records));
+  }
+  /// Appends records that the host has.
+  template <typename Record>
+  void append(std::span<const Record> records) {
+    append_bytes(std::as_bytes(records), static_cast<std::uint32_t>(records.size()));
+  }
+
+  Buffer buffer;  ///< header and records
+
+ private:
+  void append_bytes(std::span<const std::byte> bytes, std::uint32_t count);
+
+  std::size_t record_bytes_, header_bytes_;
+  std::uint32_t count_ = 0;
+  std::uint32_t capacity_;
+};
+
+/// Runs kernels that append to `lists`, again and again until every record has its place. Before each run the lists
+/// make room, and `counters` gets a word for each of `counted`: first what each list holds, then zeros. After the last
+/// one `counted` holds what the kernels made of them. Throws CapacityError, GpuError.
+void append_all(std::initializer_list<AppendList*> lists, Buffer& counters, std::span<std::uint32_t> counted,
+                const std::function<void()>& run);
+
+}  // namespace meniscus

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Whether an atom's SAS ball meets no other. To be included behind the buffers `atoms` (centre, decision weight),
+// `neighbor_first` and `neighbor_labels`.
+#ifndef MENISCUS_LONE_ATOM_GLSL
+#define MENISCUS_LONE_ATOM_GLSL
+
+// Neighbours are listed generously; only balls that really overlap keep an atom from being alone.
+bool alone(uint a, uint entry) {
+  for (uint n = neighbor_first[entry]; n < neighbor_first[entry + 1u]; ++n) {
+    dvec4 other = atoms[neighbor_labels[n]];
+    dvec3 d = other.xyz - atoms[a].xyz;
+    double sum = sqrt(atoms[a].w) + sqrt(other.w);
+    if (dot(d, d) < sum * sum) return false;
+  }
+  return true;
+}
+
+#endif
