@@ -158,6 +158,7 @@ void add_bench(CLI::App& command) {
       "the file is not part of them.");
   auto state = std::make_shared<BenchCommand>();
   command.add_option("FILES", state->files, "Molecules: " + format_names() + "; .gz too")->required();
+  state->molecule.surface.timing = StageTiming::exact;
   add_surface_options(command, state->molecule);
   command.add_option("--runs", state->runs, "Timed runs of each; the median is shown [5]")
       ->check(CLI::Range(1, 1000000).description(""))

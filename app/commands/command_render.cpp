@@ -69,17 +69,26 @@ void say_times(const RenderCommand& command, const EglContext& context, const st
                                     context.is_software() ? " (software)" : "", times));
 }
 
+// For a picture whose times are said.
+RenderSettings timed_settings(const RenderCommand& command, const PictureLayout& layout) {
+  RenderSettings settings = render_settings(command, layout);
+  if (command.stats || !command.molecule.quiet) settings.timing = StageTiming::exact;
+  return settings;
+}
+
 // Without the complete surface: from atoms to the picture on the GPU.
 void draw_view(const RenderCommand& command, const std::optional<Camera>& given) {
   const ColoredAtoms atoms = load_atoms(command.molecule);
   const PictureLayout layout(command, key_of(atoms.molecule));
   const Camera camera = view_camera(layout.size, given, atoms.balls);
   const EglContext context(gl_device(command));
-  ViewPicture view = ViewPainter().paint(atoms, camera, command.molecule.surface.probe_radius, *command.extent,
-                                         render_settings(command, layout));
-  if (command.stats) fmt::print(std::cerr, "{}", stats_text(view));
-  say_times(command, context, view.times);
-  finish(command, layout, std::move(view.picture), camera);
+  ViewPipeline view;
+  show(atoms, command.molecule.surface.probe_radius, *command.extent, view);
+  Renderer renderer;
+  Framebuffer picture = renderer.render(view, camera, timed_settings(command, layout));
+  if (command.stats) fmt::print(std::cerr, "{}", stats_text(view.stats(), renderer.times(), picture.size));
+  say_times(command, context, renderer.times());
+  finish(command, layout, std::move(picture), camera);
 }
 
 void run(const RenderCommand& command) {
@@ -106,10 +115,10 @@ void run(const RenderCommand& command) {
   const PictureLayout layout(command, key_of(molecule));
   const Camera camera = view_camera(layout.size, given, placed_balls(molecule.objects));
   const EglContext context(gl_device(command));
-  RayCaster caster;
-  Framebuffer picture = cast(caster, std::move(molecule.objects), camera, render_settings(command, layout));
+  Renderer renderer;
+  Framebuffer picture = render_objects(renderer, std::move(molecule.objects), camera, timed_settings(command, layout));
   finish(command, layout, std::move(picture), camera);
-  say_times(command, context, caster.times());
+  say_times(command, context, renderer.times());
 }
 
 }  // namespace
@@ -132,10 +141,10 @@ RenderSettings render_settings(const RenderCommand& command, const PictureLayout
 
 DeviceChoice gl_device(const RenderCommand& command) { return command.molecule.surface.gl; }
 
-Framebuffer cast(RayCaster& caster, std::vector<SurfaceObject> objects, const Camera& camera,
-                 const RenderSettings& settings) {
+Framebuffer render_objects(Renderer& renderer, std::vector<SurfaceObject> objects, const Camera& camera,
+                           const RenderSettings& settings) {
   const SurfaceObject whole = merged(std::move(objects));
-  Framebuffer picture = caster.render(whole.surface, whole.coloring, camera, settings);
+  Framebuffer picture = renderer.render(whole.surface, whole.coloring, camera, settings);
   for (std::uint32_t& atom : picture.atom)
     if (atom != kNone) atom = whole.atom[atom];
   return picture;

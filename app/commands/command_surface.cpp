@@ -118,6 +118,7 @@ void add_surface(CLI::App& command) {
       "surface is what has its colour in pictures: its contact patch, and of the patches around it what is nearer to\n"
       "its contact than to any other.");
   auto state = std::make_shared<SurfaceCommand>();
+  state->molecule.surface.timing = StageTiming::exact;  // each is printed
   add_atom_options(command, state->molecule);
   add_surface_options(command, state->molecule);
   add_division_options(command, state->molecule);

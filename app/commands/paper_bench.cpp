@@ -17,7 +17,8 @@
 
 #include "core/base/text.h"
 #include "core/gpu/egl_context.h"
-#include "core/visible_surface/frame_renderer.h"
+#include "core/render/renderer.h"
+#include "core/visible_surface/view_pipeline.h"
 
 namespace meniscus {
 namespace {
@@ -67,58 +68,60 @@ class MoleculeBench {
   MoleculeBench(const PaperBenchMolecule& molecule, const PaperBenchSettings& settings)
       : molecule_(molecule), settings_(settings) {
     const double aspect = static_cast<double>(settings.size.x) / settings.size.y;
-    request_.camera = frame_camera(molecule.balls, aspect);
-    request_.size = settings.size;
-    first_position_ = request_.camera.position;
-    renderer_.set_atoms(molecule.balls);
+    camera_ = frame_camera(molecule.balls, aspect);
+    first_position_ = camera_.position;
+    picture_.size = settings.size;
+    picture_.timing = StageTiming::exact;
+    view_.set_atoms(molecule.balls);
     Coloring coloring;
     coloring.atom.assign(molecule.balls.size(), glm::vec3(0.8f));
-    renderer_.set_coloring(std::move(coloring));
+    view_.set_coloring(coloring);
   }
 
   FrameTime measure(Extent extent, Change change) {
-    request_.extent = extent;
-    request_.probe_radius = settings_.probe_radius;
+    view_.set_surface(settings_.probe_radius, extent);
     draw();  // kernels are compiled and buffers sized once
     std::vector<FrameTime> times;
     for (int n = 1; n <= settings_.runs; ++n) {
       const double turn = 2.0 * std::numbers::pi * n / settings_.runs;
       std::vector<Ball> moved;
       if (change == Change::camera) turn_camera(turn);
-      if (change == Change::probe) request_.probe_radius = settings_.probe_radius * (1.0 + 1e-3 * n);
+      if (change == Change::probe) view_.set_surface(settings_.probe_radius * (1.0 + 1e-3 * n), extent);
       if (change == Change::atoms) {
         moved = molecule_.balls;
         for (std::size_t a = 0; a < moved.size(); ++a) moved[a].center.x += 1e-3 * n * std::sin(static_cast<double>(a));
       }
       const auto begin = std::chrono::steady_clock::now();
-      if (change == Change::atoms) renderer_.set_atoms(std::move(moved));
+      if (change == Change::atoms) view_.set_atoms(std::move(moved));
       draw();
       const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - begin;
       FrameTime time{elapsed.count(), {}};
       for (const StageTime& stage : renderer_.times()) time.groups[group_of(stage.name)] += stage.milliseconds;
       times.push_back(time);
     }
-    request_.camera.position = first_position_;
-    if (change == Change::atoms) renderer_.set_atoms(molecule_.balls);
+    camera_.position = first_position_;
+    if (change == Change::atoms) view_.set_atoms(molecule_.balls);
     return median(std::move(times));
   }
 
-  const ViewStats& stats() const { return renderer_.stats(); }
+  const ViewStats& stats() const { return view_.stats(); }
 
  private:
-  void draw() { renderer_.render(request_); }
+  void draw() { renderer_.draw(view_, camera_, picture_); }
 
   // About the vertical axis through the target.
   void turn_camera(double angle) {
-    const glm::dvec3 axis = glm::normalize(request_.camera.up), d = first_position_ - request_.camera.target;
-    request_.camera.position = request_.camera.target + d * std::cos(angle) + glm::cross(axis, d) * std::sin(angle) +
-                               axis * (glm::dot(axis, d) * (1.0 - std::cos(angle)));
+    const glm::dvec3 axis = glm::normalize(camera_.up), d = first_position_ - camera_.target;
+    camera_.position = camera_.target + d * std::cos(angle) + glm::cross(axis, d) * std::sin(angle) +
+                       axis * (glm::dot(axis, d) * (1.0 - std::cos(angle)));
   }
 
   const PaperBenchMolecule& molecule_;
   const PaperBenchSettings& settings_;
-  FrameRenderer renderer_;
-  FrameRequest request_;
+  ViewPipeline view_;
+  Renderer renderer_;
+  Camera camera_;
+  RenderSettings picture_;
   glm::dvec3 first_position_{0.0};
 };
 

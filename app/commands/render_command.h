@@ -12,7 +12,7 @@
 #include "app/options/frame_options.h"
 #include "core/render/legend.h"
 #include "core/render/look.h"
-#include "core/render/ray_caster.h"
+#include "core/render/renderer.h"
 #include "core/visible_surface/extent.h"
 
 namespace meniscus {
@@ -47,9 +47,9 @@ RenderSettings render_settings(const RenderCommand& command, const PictureLayout
 /// For pictures of what was computed on the CPU any GL will do.
 DeviceChoice gl_device(const RenderCommand& command);
 
-/// Casts the surface of all objects. atom of the AOVs: into Structure::atoms.
-Framebuffer cast(RayCaster& caster, std::vector<SurfaceObject> objects, const Camera& camera,
-                 const RenderSettings& settings);
+/// A picture of all objects. atom of the AOVs: into Structure::atoms.
+Framebuffer render_objects(Renderer& renderer, std::vector<SurfaceObject> objects, const Camera& camera,
+                           const RenderSettings& settings);
 
 /// Did no ray of the picture meet a part of the surface that is shown?
 bool shows_nothing(const Framebuffer& picture);

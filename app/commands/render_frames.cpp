@@ -85,21 +85,19 @@ class FramePainter {
   }
 
   Framebuffer paint(const RunFrame& frame, const Camera& camera, const RenderSettings& settings) {
-    if (!command_.extent) {
-      if (!caster_) caster_.emplace();
-      return cast(*caster_, builder_.build(frame.structure).objects, camera, settings);
-    }
+    if (!command_.extent) return render_objects(renderer_, builder_.build(frame.structure).objects, camera, settings);
     atoms_->balls = balls_of(frame.structure);
-    return painter_.paint(*atoms_, camera, command_.molecule.surface.probe_radius, *command_.extent, settings).picture;
+    show(*atoms_, command_.molecule.surface.probe_radius, *command_.extent, view_);
+    return renderer_.render(view_, camera, settings);
   }
 
  private:
   const RenderCommand& command_;
   EglContext context_;
   MoleculeBuilder builder_;
-  std::optional<RayCaster> caster_;
   std::optional<ColoredAtoms> atoms_;
-  ViewPainter painter_;
+  ViewPipeline view_;
+  Renderer renderer_;
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Runs the view pipeline once and casts what it found.
+// Atoms on their way to a view, and what a view says of itself.
 #include "app/commands/view_picture.h"
 
 #include <numeric>
@@ -52,39 +52,29 @@ ColoredAtoms colored_atoms(const MoleculeOptions& options, Structure molecule) {
   return atoms;
 }
 
-ViewPicture ViewPainter::paint(const ColoredAtoms& atoms, const Camera& camera, double probe_radius, Extent extent,
-                               const RenderSettings& settings) {
-  validate_camera(camera, "camera");
-  pipeline_.set_atoms(atoms.balls);
-  upload_coloring(atoms.coloring, scene_);
-  const PictureFrame frame = make_picture_frame(atoms.balls, camera, settings.size);
-  pipeline_.run(frame, probe_radius, extent, scene_);
-  ViewPicture view;
-  view.picture = caster_.render(scene_, frame, settings);
-  view.times = pipeline_.times();
-  view.times.insert(view.times.end(), caster_.times().begin(), caster_.times().end());
-  view.stats = pipeline_.stats();
-  return view;
+void show(const ColoredAtoms& atoms, double probe_radius, Extent extent, ViewPipeline& view) {
+  view.set_atoms(atoms.balls);
+  view.set_coloring(atoms.coloring);
+  view.set_surface(probe_radius, extent);
 }
 
-std::string stats_text(const ViewPicture& view) {
-  const ViewStats& n = view.stats;
+std::string stats_text(const ViewStats& n, const std::vector<StageTime>& times, glm::ivec2 picture_size) {
   const auto line = [](const char* name, double ms, const std::string& found) {
     return fmt::format("  {:<34} {:>9.2f} ms   {}\n", name, ms, found);
   };
-  return line("1 visible atoms", milliseconds(view.times, {"upload", "visible atoms"}),
+  return line("1 visible atoms", milliseconds(times, {"upload", "visible atoms"}),
               fmt::format("{} of {} atoms can matter for a pixel", with_thousands(n.kept_atoms),
                           with_thousands(n.atoms))) +
-         line("2 neighbours and potential arcs", milliseconds(view.times, {"neighbors", "circles", "doubtful circles"}),
+         line("2 neighbours and potential arcs", milliseconds(times, {"neighbors", "circles", "doubtful circles"}),
               fmt::format("{} circles, {} decided again in double, {} on the host; {} arcs (RS edges)",
                           with_thousands(n.circles.pairs), with_thousands(n.circles.decided_in_double),
-                          with_thousands(n.circles.decided_on_host), with_thousands(n.arcs))) +
-         line("3 visible and cutting RS faces", milliseconds(view.times, {"fixed probes"}),
+                          with_thousands(n.circles.decided_in_quadruple), with_thousands(n.arcs))) +
+         line("3 visible and cutting RS faces", milliseconds(times, {"fixed probes"}),
               fmt::format("{} fixed probes", with_thousands(n.probes))) +
-         line("4 primitives and singularities", milliseconds(view.times, {"primitives"}),
+         line("4 primitives and singularities", milliseconds(times, {"primitives"}),
               fmt::format("{} patches", with_thousands(n.primitives))) +
-         line("ray casting", milliseconds(view.times, {"tile lists", "ray cast"}),
-              fmt::format("{}x{} pixels", view.picture.size.x, view.picture.size.y));
+         line("ray casting", milliseconds(times, {"tile lists", "ray cast"}),
+              fmt::format("{}x{} pixels", picture_size.x, picture_size.y));
 }
 
 }  // namespace meniscus

@@ -65,8 +65,8 @@ void PreviewSession::show_frame(std::size_t frame) {
   balls_.clear();
   for (const std::uint32_t a : shown_atoms())
     balls_.push_back({structure_.atoms[a].position, structure_.atoms[a].radius});
-  renderer_.set_atoms(balls_);
-  renderer_.set_coloring(frame_coloring());
+  surface_.set_atoms(balls_);
+  surface_.set_coloring(frame_coloring());
 }
 
 std::vector<CameraKey> PreviewSession::camera_keys() const {
@@ -90,23 +90,22 @@ bool PreviewSession::is_drawn(Quality quality) const {
   return drawn_.revision == revision_ && drawn_.quality == quality;
 }
 
-FrameRequest PreviewSession::request(Quality quality) const {
-  FrameRequest request;
-  request.camera = view_.camera;
-  request.size = quality == Quality::draft ? glm::max(view_.size / 2, glm::ivec2(1)) : view_.size;
-  request.samples = quality == Quality::full ? view_.samples : 1;
-  request.probe_radius = view_.probe_radius;
-  request.look = quality == Quality::full ? view_.look : without_effects(view_.look);
-  return request;
+RenderSettings PreviewSession::settings(Quality quality) const {
+  RenderSettings settings;
+  settings.size = quality == Quality::draft ? glm::max(view_.size / 2, glm::ivec2(1)) : view_.size;
+  settings.samples = quality == Quality::full ? view_.samples : 1;
+  settings.look = quality == Quality::full ? view_.look : without_effects(view_.look);
+  settings.timing = quality == Quality::draft ? StageTiming::rough : StageTiming::exact;
+  return settings;
 }
 
-bool PreviewSession::render(Quality quality, std::function<bool()> stop) {
+bool PreviewSession::render(Quality quality, const std::function<bool()>& stop) {
   if (is_drawn(quality)) return true;
   drawn_ = {};
   const auto begin = std::chrono::steady_clock::now();
-  FrameRequest frame = request(quality);
-  frame.stop = std::move(stop);
-  if (!renderer_.render(frame)) return false;
+  surface_.set_surface(view_.probe_radius, Extent::visible);
+  if (!renderer_.draw(surface_, view_.camera, settings(quality), stop)) return false;
+  if (quality != Quality::draft || stages_.empty()) stages_ = renderer_.times();
   frame_ms_ = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
   drawn_ = {revision_, quality};
   return true;

@@ -23,7 +23,8 @@
 #include "core/camera/camera.h"
 #include "core/camera/camera_path.h"
 #include "core/render/look.h"
-#include "core/visible_surface/frame_renderer.h"
+#include "core/render/renderer.h"
+#include "core/visible_surface/view_pipeline.h"
 
 namespace meniscus {
 
@@ -73,11 +74,11 @@ class PreviewSession {
   /// Draws, unless this very picture is there already. stop: asked now and then; if true, the picture is given up:
   /// false, and the last one stays. Throws GpuError, CapacityError, OpenSurfaceError; but for the first of them the
   /// session can go on.
-  bool render(Quality quality, std::function<bool()> stop = {});
+  bool render(Quality quality, const std::function<bool()>& stop = {});
   /// Is the last picture what render(quality) would draw?
   bool is_drawn(Quality quality) const;
 
-  /// The last picture; see FrameRenderer. A new one may come with render and with apply (pick).
+  /// The last picture; see Renderer::draw(). A new one may come with render and with apply (pick).
   std::vector<std::uint8_t> rgba() const { return renderer_.rgba(); }
   std::uint32_t texture() const { return renderer_.texture(); }
   glm::ivec2 picture_size() const { return renderer_.size(); }
@@ -137,7 +138,7 @@ class PreviewSession {
   const std::vector<std::uint32_t>& shown_atoms() const { return frames_[trajectory_ ? 0 : view_.frame].atoms; }
   Coloring frame_coloring() const;
   double aspect() const { return static_cast<double>(view_.size.x) / view_.size.y; }
-  FrameRequest request(Quality quality) const;
+  RenderSettings settings(Quality quality) const;
 
   /// What of the session the last picture shows.
   struct Drawn {
@@ -153,12 +154,14 @@ class PreviewSession {
   std::filesystem::path export_folder_;
   std::vector<Ball> balls_;  ///< of the frame shown
   Coloring coloring_;        ///< of all atoms of the structure
-  FrameRenderer renderer_;
+  ViewPipeline surface_;     ///< of the frame shown
+  Renderer renderer_;
   ExposedAreas areas_;
   std::uint64_t revision_ = 1;  ///< grows with every change
   Drawn drawn_;
-  bool overview_ = true;   ///< all is shown, as long as nobody moved the camera
-  double frame_ms_ = 0.0;  ///< of the last picture
+  bool overview_ = true;           ///< all is shown, as long as nobody moved the camera
+  double frame_ms_ = 0.0;          ///< of the last picture
+  std::vector<StageTime> stages_;  ///< of the last picture that was no draft: nobody waits for the stages of those
   std::function<void(const nlohmann::json&)> sink_;
   bool quit_ = false;
 };

@@ -89,8 +89,7 @@ Json PreviewSession::export_view(const CommandReader& command) {
 
 Json PreviewSession::stats(const CommandReader&) {
   Json stages = Json::array();
-  for (const StageTime& stage : renderer_.times())
-    stages.push_back({{"name", stage.name}, {"milliseconds", stage.milliseconds}});
+  for (const StageTime& stage : stages_) stages.push_back({{"name", stage.name}, {"milliseconds", stage.milliseconds}});
   return {{"frame_milliseconds", frame_ms_},
           {"fps", frame_ms_ > 0.0 ? 1000.0 / frame_ms_ : 0.0},
           {"width", renderer_.size().x},

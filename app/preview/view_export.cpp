@@ -15,7 +15,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/render/image_output.h"
-#include "core/render/ray_caster.h"
+#include "core/render/renderer.h"
 #include "core/queries/surface_object.h"
 #include "exporters/blender/surface_file.h"
 #include "exporters/povray/scene.h"
@@ -48,12 +48,12 @@ void export_picture(const ExportedView& view, const ExportTarget& target) {
   check_image_path(target.path);
   OutputFile(target.path, target.existing);  // known to be possible before the work begins
   const SurfaceObject object = complete_surface(view).first;
-  RayCaster caster;
+  Renderer renderer;
   RenderSettings settings;
   settings.size = view.size;
   settings.samples = view.samples;
   settings.look = view.look;
-  const Framebuffer picture = caster.render(object.surface, object.coloring, view.camera, settings);
+  const Framebuffer picture = renderer.render(object.surface, object.coloring, view.camera, settings);
   write_image(target.path, picture, {view.look.background, target.existing});
 }
 

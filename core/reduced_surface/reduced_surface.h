@@ -32,6 +32,13 @@ struct ReducedSurface {
   bool operator==(const ReducedSurface&) const = default;
 };
 
+/// How the circles of one frame were decided.
+struct CircleStats {
+  std::size_t pairs = 0;                 ///< overlapping pairs of SAS balls, each one circle
+  std::size_t decided_in_double = 0;     ///< circles that single precision left in doubt; none on the CPU
+  std::size_t decided_in_quadruple = 0;  ///< circles that double left in doubt, decided on the host
+};
+
 /// The squared SAS radii in which every sign decision is taken: (r_i + p + g_i)^2, with g_i between 1e-9 and 1.5e-9 Å,
 /// different for each index. Touching thereby counts as overlapping, in any orientation; and n-fold contacts fall
 /// apart into consistent threefold ones (a perturbation that is the same for all predicates, so no two circles can

@@ -1,24 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The host's side of ray casting: pack, dispatch block by block, collect.
+// The host's side of ray casting a block: lists of tiles, a dispatch for each sample, and again for long lists.
 #include "core/render/ray_caster.h"
 
-#include <algorithm>
-#include <array>
-#include <cassert>
 #include <cmath>
-#include <limits>
-#include <optional>
-#include <utility>
 
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <tbb/parallel_for.h>
 
 #include "core/base/error.h"
 #include "core/gpu/gpu_stage.h"
-#include "core/gpu/limits.h"
-#include "core/render/component_lookup.h"
-#include "core/render/ray_cast_scene.h"
 
 namespace meniscus {
 namespace {
@@ -27,70 +16,6 @@ namespace {
 glm::vec2 sample_offset(int index) {
   const double x = 0.5 + index * 0.7548776662466927, y = 0.5 + index * 0.5698402909980532;
   return {static_cast<float>(x - std::floor(x) - 0.5), static_cast<float>(y - std::floor(y) - 0.5)};
-}
-
-/// The largest block whose buffers the driver can hold, in whole tiles.
-int usable_block_edge(int wanted) {
-  const std::size_t pixels = query_gpu_limits().storage_block_bytes / sizeof(ray_cast::Hit);
-  const int largest = static_cast<int>(std::min(std::sqrt(static_cast<double>(pixels)), 65536.0));
-  return std::max(std::min(wanted, largest) / kTileEdge * kTileEdge, kTileEdge);
-}
-
-/// The same pixels in two blocks of whole tiles; for blocks of more than one.
-std::array<PictureBlock, 2> halves(const PictureBlock& block) {
-  const int axis = block.size.x > block.size.y ? 0 : 1;
-  std::array<PictureBlock, 2> result{block, block};
-  const int first = (block.size[axis] / kTileEdge + 1) / 2 * kTileEdge;
-  result[0].size[axis] = first;
-  result[1].origin[axis] += first;
-  result[1].size[axis] -= first;
-  return result;
-}
-
-void resize(Framebuffer& picture, const RenderSettings& settings) {
-  const std::size_t count = static_cast<std::size_t>(settings.size.x) * settings.size.y;
-  picture.size = settings.size;
-  picture.color.resize(count);
-  if (!settings.aovs) return;
-  picture.z.assign(count, std::numeric_limits<float>::infinity());
-  picture.normal.assign(count, glm::vec3(0.0f));
-  picture.position.assign(count, glm::vec3(0.0f));
-  picture.atom.assign(count, kNone);
-  picture.kind.assign(count, kNone);
-  picture.component.assign(count, kNone);
-}
-
-/// `inner` and the neighbours that its colours depend on, as far as there are any.
-PictureBlock with_neighbors(const PictureBlock& inner, int reach, glm::ivec2 picture_size) {
-  const glm::ivec2 low = glm::max(inner.origin - reach, glm::ivec2(0));
-  return {low, glm::min(inner.origin + inner.size + reach, picture_size) - low};
-}
-
-/// Calls work(place in the block, place in the picture) for each pixel of `inner`, which is part of the block.
-template <typename Work>
-void for_each_pixel(const PictureBlock& inner, const PictureBlock& block, glm::ivec2 picture_size, const Work& work) {
-  tbb::parallel_for(inner.origin.y, inner.origin.y + inner.size.y, [&](int y) {
-    for (int x = inner.origin.x; x < inner.origin.x + inner.size.x; ++x)
-      work(static_cast<std::size_t>(y - block.origin.y) * block.size.x + (x - block.origin.x),
-           static_cast<std::size_t>(y) * picture_size.x + x);
-  });
-}
-
-void copy_hit(const ray_cast::Hit& hit, std::size_t at, const RayCastScene& scene, const PictureFrame& frame,
-              const ComponentLookup& components, Framebuffer& picture) {
-  if (hit.primitive == ray_cast::kNoPrimitive) return;
-  const glm::dvec2 pixel(static_cast<double>(at % frame.size.x) + 0.5, static_cast<double>(at / frame.size.x) + 0.5);
-  const Ray ray = pixel_ray(frame.camera, frame.size, pixel);
-  // The kernel counts from the plane through the pivot.
-  const double z = hit.t + frame.eye_distance / glm::dot(ray.direction, frame.basis.forward);
-  const glm::dvec3 point = ray.origin + ray.direction * z;
-  const ray_cast::Primitive& primitive = scene.primitives[hit.primitive];
-  picture.z[at] = static_cast<float>(z);
-  picture.normal[at] = hit.normal;
-  picture.position[at] = glm::vec3(point);
-  picture.atom[at] = hit.atom;
-  picture.kind[at] = primitive.kind;
-  picture.component[at] = components.at(static_cast<PatchKind>(primitive.kind), primitive.patch_index, point);
 }
 
 /// Of the first sample.
@@ -115,81 +40,13 @@ struct RayCaster::Parameters {
   kernel::DepthSlices slices;
 };
 
-/// What render() makes of each block.
-struct RayCaster::Collected {
-  const GpuScene& scene;
-  const PictureFrame& frame;
-  const RenderSettings& settings;
-  const RayCastScene* packed = nullptr;  // for AOVs
-  const ComponentLookup* components = nullptr;
-  Framebuffer picture{};
-};
-
-Framebuffer RayCaster::render(const Surface& surface, const Coloring& coloring, const Camera& camera,
-                              const RenderSettings& settings) {
-  assert(settings.size.x > 0 && settings.size.y > 0 && settings.samples > 0);
-  assert(coloring.atom.size() == surface.atoms.size());
-  validate_camera(camera, "camera");
-  clock_.restart();
-  const PictureFrame frame = make_picture_frame(surface.atoms, camera, settings.size);
-  RayCastScene packed;
+bool RayCaster::cast(const GpuScene& scene, const PictureFrame& frame, const PictureBlock& block,
+                     const CastSettings& settings) {
+  StageClock unused;
+  StageClock& clock = settings.clock ? *settings.clock : unused;
+  const Look& look = settings.look;
   {
-    const GpuStage stage(clock_, "pack");
-    packed = pack_scene(surface, coloring, frame);
-    upload_scene(packed, surface, frame, scene_);
-    upload_coloring(coloring, scene_);
-  }
-  std::optional<ComponentLookup> components;
-  if (settings.aovs) components.emplace(surface);
-  Collected collected{scene_, frame, settings, &packed, components ? &*components : nullptr};
-  render_blocks(collected);
-  return std::move(collected.picture);
-}
-
-Framebuffer RayCaster::render(const GpuScene& scene, const PictureFrame& frame, const RenderSettings& settings) {
-  assert(settings.size == frame.size && settings.samples > 0 && !settings.aovs);
-  clock_.restart();
-  Collected collected{scene, frame, settings};
-  render_blocks(collected);
-  return std::move(collected.picture);
-}
-
-void RayCaster::render_blocks(Collected& collected) {
-  const RenderSettings& settings = collected.settings;
-  resize(collected.picture, settings);
-  const int edge = usable_block_edge(settings.block_edge);
-  for (int top = 0; top < settings.size.y; top += edge)
-    for (int left = 0; left < settings.size.x; left += edge)
-      render_block({{left, top}, glm::min(glm::ivec2(edge), settings.size - glm::ivec2(left, top))}, collected);
-}
-
-void RayCaster::render_block(const PictureBlock& inner, Collected& collected) {
-  const RenderSettings& settings = collected.settings;
-  const PictureFrame& frame = collected.frame;
-  const PictureBlock block = with_neighbors(inner, look_reach(settings.look), frame.size);
-  try {
-    cast(collected.scene, frame, block, settings.samples, settings.look);
-  } catch (const CapacityError&) {
-    if (inner.size.x <= kTileEdge && inner.size.y <= kTileEdge) throw;
-    for (const PictureBlock& half : halves(inner)) render_block(half, collected);
-    return;
-  }
-  const std::size_t count = static_cast<std::size_t>(block.size.x) * block.size.y;
-  const auto sums = picture_.download<glm::vec4>(count);
-  const float scale = 1.0f / static_cast<float>(settings.samples);
-  for_each_pixel(inner, block, frame.size,
-                 [&](std::size_t from, std::size_t to) { collected.picture.color[to] = sums[from] * scale; });
-  if (!settings.aovs) return;
-  const auto hits = hits_.download<ray_cast::Hit>(count);
-  for_each_pixel(inner, block, frame.size, [&](std::size_t from, std::size_t to) {
-    copy_hit(hits[from], to, *collected.packed, frame, *collected.components, collected.picture);
-  });
-}
-
-bool RayCaster::cast(const GpuScene& scene, const PictureFrame& frame, const PictureBlock& block, int sample_count,
-                     const Look& look, const std::function<bool()>& stop) {
-  {
-    const GpuStage stage(clock_, "tile lists");
+    const GpuStage stage(clock, "tile lists");
     lists_.build(scene, frame, block);
   }
   const std::size_t count = static_cast<std::size_t>(block.size.x) * block.size.y;
@@ -197,20 +54,20 @@ bool RayCaster::cast(const GpuScene& scene, const PictureFrame& frame, const Pic
   hits_.resize(count * sizeof(ray_cast::Hit));
   if (look.has_effects()) {
     sample_colors_.resize(count * sizeof(glm::vec4));
-    if (sample_count > 1) sample_hits_.resize(count * sizeof(ray_cast::Hit));
+    if (settings.samples > 1) sample_hits_.resize(count * sizeof(ray_cast::Hit));
   }
   Parameters parameters{own_parameters(scene, look, lists_.tiles()), {}, depth_slices(scene)};
   row_texels_.view(scene.rows.buffer);
   const std::size_t invocations = 64 * static_cast<std::size_t>(lists_.tiles().x) * lists_.tiles().y;
   unfinished_.resize((2 + invocations) * sizeof(std::uint32_t));
   unfinished_.fill(0);
-  for (int n = 0; n < sample_count; ++n) {
-    if (n > 0 && stop && stop()) return false;
+  for (int n = 0; n < settings.samples; ++n) {
+    if (n > 0 && settings.stop && settings.stop()) return false;
     const CastSample sample{look.has_effects() ? sample_colors_ : picture_,
                             n && look.has_effects() ? sample_hits_ : hits_, static_cast<std::uint32_t>(n),
                             sample_offset(n)};
     {
-      const GpuStage stage(clock_, "ray cast");
+      const GpuStage stage(clock, "ray cast");
       const bool add = n > 0 && !look.has_effects();
       if (!add) lists_.clear_empty(block, sample.colors, sample.hits);
       parameters.own.add = add;
@@ -218,7 +75,7 @@ bool RayCaster::cast(const GpuScene& scene, const PictureFrame& frame, const Pic
       cast_sample(scene, sample, parameters);
     }
     if (!look.has_effects()) continue;
-    const GpuStage stage(clock_, "look");
+    const GpuStage stage(clock, "look");
     look_pass_.add(sample, look, scene, frame, block, picture_);
   }
   return true;

@@ -1,29 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Chooses the device and runs the stages one by one under a clock.
+// Chooses the engine; with `verify`, the one that checks it.
 #include "core/scene/surface_computer.h"
 
 #include <algorithm>
-#include <optional>
 
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 
 #include "core/base/error.h"
 #include "core/gpu/egl_context.h"
-#include "core/reduced_surface/cpu/exhaustive.h"
 #include "core/queries/compare.h"
-#include "core/surface/gpu/pipeline.h"
-#include "core/reduced_surface/reduced_surface.h"
+#include "core/surface/gpu/gpu_engine.h"
 #include "core/surface/surface.h"
-#include "core/surface/tie_ladder.h"
 
 namespace meniscus {
 namespace {
-
-std::string cpu_device() {
-  const auto threads = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
-  return fmt::format("cpu ({} {})", threads, threads == 1 ? "thread" : "threads");
-}
 
 /// Any GL will do, but hardware is better.
 DeviceChoice gl_for_verifying(const SurfaceRequest& request) {
@@ -42,19 +33,8 @@ void require_equal(const Surface& a, const std::string& device_a, const Surface&
 
 }  // namespace
 
-struct SurfaceComputer::GlPipeline {
-  GlPipeline(const EglContext* shared, const DeviceChoice& choice) {
-    if (!shared) own.emplace(choice);
-    const EglContext& context = shared ? *shared : *own;
-    device = context.renderer() + ", GL " + context.version();
-  }
-  std::optional<EglContext> own;
-  std::string device;
-  SurfacePipeline pipeline;
-};
-
 SurfaceComputer::SurfaceComputer(const SurfaceRequest& request, const EglContext* context)
-    : request_(request), context_(context), on_cpu_(request.cpu) {
+    : request_(request), context_(context), on_cpu_(request.cpu), clock_(request.timing) {
   if (request.kind == SurfaceKind::vdw && request.probe_named)
     throw RequestError("--probe: the van der Waals surface has no probe; leave --probe or --surface vdw away");
   if (request.threads > 0) {
@@ -70,7 +50,7 @@ bool SurfaceComputer::find_hardware() {
   DeviceChoice hardware = request_.gl;
   hardware.kind = DeviceChoice::Kind::gpu;
   try {
-    gl_ = std::make_unique<GlPipeline>(nullptr, hardware);
+    engine_ = make_gpu_engine(hardware);
     return true;
   } catch (const GpuError&) {
     return false;  // no EGL, no GPU, or none with GL 4.5
@@ -78,6 +58,11 @@ bool SurfaceComputer::find_hardware() {
 }
 
 SurfaceComputer::~SurfaceComputer() = default;
+
+std::unique_ptr<ReducedSurfaceEngine> SurfaceComputer::make_engine(bool on_cpu, const DeviceChoice& gl) const {
+  if (on_cpu) return make_cpu_engine();
+  return context_ ? make_gpu_engine(*context_) : make_gpu_engine(gl);
+}
 
 Surface SurfaceComputer::compute(std::span<const Ball> balls) {
   std::vector<Ball> grown;
@@ -87,42 +72,20 @@ Surface SurfaceComputer::compute(std::span<const Ball> balls) {
     balls = grown;
   }
   const double probe_radius = request_.kind == SurfaceKind::ses ? request_.probe_radius : 0.0;
-  Surface surface =
-      on_cpu_ ? compute_on_cpu(balls, probe_radius, clock_) : compute_on_gl(balls, probe_radius, request_.gl, clock_);
-  if (!request_.verify) {
-    device_ = on_cpu_ ? cpu_device() : gl_->device;
-    return surface;
-  }
-  // The other device's time is not this one's.
-  StageClock unused;
-  const Surface other = on_cpu_ ? compute_on_gl(balls, probe_radius, gl_for_verifying(request_), unused)
-                                : compute_on_cpu(balls, probe_radius, unused);
-  const std::string first = on_cpu_ ? cpu_device() : gl_->device, second = on_cpu_ ? gl_->device : cpu_device();
-  require_equal(surface, first, other, second);
-  if (surface.certificate.closed && request_.check) request_.check(surface);
-  device_ = fmt::format("{}, verified on {}", first, second);
+  if (!engine_) engine_ = make_engine(on_cpu_, request_.gl);
+  Surface surface = compute_surface(*engine_, balls, probe_radius, clock_);
+  device_ = engine_->device();
+  if (request_.verify) verify(surface, balls, probe_radius);
   return surface;
 }
 
-Surface SurfaceComputer::compute_on_cpu(std::span<const Ball> given, double probe_radius, StageClock& clock) {
-  return compute_through_ties(given, [&](std::span<const Ball> balls) {
-    ReducedSurface reduced;
-    {
-      const auto stage = clock.stage("reduced surface");
-      reduced = enumerate_reduced_surface(balls, probe_radius);
-    }
-    return assemble_surface(balls, probe_radius, reduced, &clock);
-  });
-}
-
-Surface SurfaceComputer::compute_on_gl(std::span<const Ball> given, double probe_radius, const DeviceChoice& choice,
-                                       StageClock& clock) {
-  if (!gl_) gl_ = std::make_unique<GlPipeline>(context_, choice);
-  return compute_through_ties(given, [&](std::span<const Ball> balls) {
-    Surface surface = gl_->pipeline.run(balls, probe_radius);
-    for (const StageTime& stage : gl_->pipeline.stage_times()) clock.add(stage.name, stage.milliseconds);
-    return surface;
-  });
+void SurfaceComputer::verify(const Surface& surface, std::span<const Ball> balls, double probe_radius) {
+  if (!verifier_) verifier_ = make_engine(!on_cpu_, gl_for_verifying(request_));
+  StageClock unused;  // the other device's time is not this one's
+  const Surface other = compute_surface(*verifier_, balls, probe_radius, unused);
+  require_equal(surface, engine_->device(), other, verifier_->device());
+  if (surface.certificate.closed && request_.check) request_.check(surface);
+  device_ = fmt::format("{}, verified on {}", engine_->device(), verifier_->device());
 }
 
 ComputedSurface compute_surface(std::span<const Ball> balls, const SurfaceRequest& request) {

@@ -17,6 +17,7 @@
 namespace meniscus {
 
 class EglContext;
+class ReducedSurfaceEngine;
 
 /// A surface and how it came to be.
 struct ComputedSurface {
@@ -44,7 +45,6 @@ class SurfaceComputer {
   void restart_clock() { clock_.restart(); }
 
  private:
-  struct GlPipeline;
   /// Not when an exception passes: oneTBB that got no memory may hold a lock for ever, and would wait for it. The limit
   /// stays in force then, as all computers of a program have the same.
   struct EndOfThreadLimit {
@@ -54,15 +54,14 @@ class SurfaceComputer {
   };
 
   bool find_hardware();
-  Surface compute_on_cpu(std::span<const Ball> balls, double probe_radius, StageClock& clock);
-  Surface compute_on_gl(std::span<const Ball> balls, double probe_radius, const DeviceChoice& choice,
-                        StageClock& clock);
+  std::unique_ptr<ReducedSurfaceEngine> make_engine(bool on_cpu, const DeviceChoice& gl) const;
+  void verify(const Surface& surface, std::span<const Ball> balls, double probe_radius);
 
   SurfaceRequest request_;
   const EglContext* context_;
   std::unique_ptr<tbb::global_control, EndOfThreadLimit> thread_limit_;
-  std::unique_ptr<GlPipeline> gl_;
   bool on_cpu_;
+  std::unique_ptr<ReducedSurfaceEngine> engine_, verifier_;  // verifier_: with --verify, on the other device
   std::string device_;
   StageClock clock_;
 };

@@ -5,6 +5,7 @@
 #include <functional>
 #include <string>
 
+#include "core/base/stage_clock.h"
 #include "core/gpu/device_choice.h"
 
 namespace meniscus {
@@ -34,7 +35,8 @@ struct SurfaceRequest {
   bool verify = false;        ///< compute on the other device too and compare
   /// With `verify`, a further look at each closed surface, such as by its mesh; throws OpenSurfaceError. May be empty.
   std::function<void(const Surface&)> check;
-  int threads = 0;  ///< CPU threads; 0: all
+  int threads = 0;                          ///< CPU threads; 0: all
+  StageTiming timing = StageTiming::rough;  ///< exact: somebody looks at the times of stages
 };
 
 }  // namespace meniscus

@@ -1,15 +1,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The surface on the CPU from end to end.
-#include "core/reduced_surface/cpu/exhaustive.h"
+// Reduced surface, then all that is made of it, in as many attempts as ties ask for.
+#include "core/surface/reduced_surface_engine.h"
 #include "core/surface/surface.h"
 #include "core/surface/tie_ladder.h"
 
 namespace meniscus {
 
+Surface attempt_surface(ReducedSurfaceEngine& engine, std::span<const Ball> atoms, double probe_radius,
+                        StageClock& clock) {
+  const ReducedSurface rs = engine.reduce(atoms, probe_radius, clock);
+  return assemble_surface(atoms, probe_radius, rs, &clock, &engine.cusp_tracer());
+}
+
+Surface compute_surface(ReducedSurfaceEngine& engine, std::span<const Ball> atoms, double probe_radius,
+                        StageClock& clock) {
+  return compute_through_ties(
+      atoms, [&](std::span<const Ball> balls) { return attempt_surface(engine, balls, probe_radius, clock); });
+}
+
 Surface compute_surface_cpu(std::span<const Ball> atoms, double probe_radius) {
-  Surface surface = compute_through_ties(atoms, [&](std::span<const Ball> balls) {
-    return assemble_surface(balls, probe_radius, enumerate_reduced_surface(balls, probe_radius));
-  });
+  const auto engine = make_cpu_engine();
+  StageClock unused;
+  Surface surface = compute_surface(*engine, atoms, probe_radius, unused);
   require_closed(surface);
   return surface;
 }

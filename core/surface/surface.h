@@ -10,6 +10,7 @@
 namespace meniscus {
 
 class CuspTracer;
+class ReducedSurfaceEngine;
 struct ReducedSurface;
 
 /// Builds all patches, their borders, faces and components, their areas and volumes (closed form) and the certificate.
@@ -21,6 +22,16 @@ Surface assemble_surface(std::span<const Ball> atoms, double probe_radius, const
 
 /// Throws OpenSurfaceError, naming atoms by their index, unless the certificate says the surface is closed.
 void require_closed(const Surface& surface);
+
+/// The reduced surface by `engine` and all that follows from it, for the balls as they are; look at its certificate.
+/// atoms: vdW balls in Å; probe_radius >= 0 in Å. Adds the time of each stage to `clock`. Throws GpuError,
+/// CapacityError.
+Surface attempt_surface(ReducedSurfaceEngine& engine, std::span<const Ball> atoms, double probe_radius,
+                        StageClock& clock);
+
+/// The same in as many attempts as ties ask for (tie_ladder.h).
+Surface compute_surface(ReducedSurfaceEngine& engine, std::span<const Ball> atoms, double probe_radius,
+                        StageClock& clock);
 
 /// The complete surface in double precision on the CPU, on all cores TBB may use.
 /// atoms: vdW balls in Å; probe_radius >= 0 in Å. Throws OpenSurfaceError, CapacityError.

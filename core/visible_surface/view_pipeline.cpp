@@ -7,7 +7,6 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <string>
 #include <utility>
 
@@ -26,8 +25,6 @@ constexpr std::size_t kWord = sizeof(std::uint32_t);
 
 }  // namespace
 
-ViewPipeline::ViewPipeline() = default;
-
 void ViewPipeline::set_atoms(std::vector<Ball> atoms) {
   assert(!atoms.empty());
   atoms_ = std::move(atoms);
@@ -41,13 +38,22 @@ void ViewPipeline::set_atoms(std::vector<Ball> atoms) {
   }
   middle_ = 0.5 * (low + high);  // as GpuNeighbors places it
   extent_of_atoms_ = {low - middle_, high - middle_, largest};
-  probe_radius_ = -1.0;
+  uploaded_ = false;
 }
 
-void ViewPipeline::run(const PictureFrame& frame, double probe_radius, Extent extent, GpuScene& scene) {
+void ViewPipeline::set_surface(double probe_radius, Extent extent) {
+  assert(probe_radius >= 0.0);
+  uploaded_ = uploaded_ && probe_radius == probe_radius_;
+  probe_radius_ = probe_radius;
+  extent_ = extent;
+}
+
+const GpuScene& ViewPipeline::prepare(const PictureFrame& frame, StageClock& clock) {
+  assert(scene_.atom_count == atoms_.size());
   for (int attempt = 1;; ++attempt) {
     try {
-      return run_once(frame, probe_radius, extent, scene);
+      prepare_once(frame, clock);
+      return scene_;
     } catch (const OpenSurfaceError&) {
       if (attempt == kTieAttempts) throw;
       set_atoms(grown_balls(atoms_, attempt));
@@ -55,76 +61,60 @@ void ViewPipeline::run(const PictureFrame& frame, double probe_radius, Extent ex
   }
 }
 
-void ViewPipeline::run_once(const PictureFrame& frame, double probe_radius, Extent extent, GpuScene& scene) {
-  assert(!atoms_.empty() && probe_radius >= 0.0);
-  clock_.restart();
-  if (probe_radius != probe_radius_) upload_atoms(probe_radius);
-  scene.probe_radius = probe_radius;
-  look(frame, extent, scene);
-  if (!all_probes_found_ || !visible_.keeps_all() || extent == Extent::paper) {
-    keep_atoms();
-    find_arcs();
-    find_fixed_probes(frame, extent);
-    all_probes_found_ = visible_.keeps_all() && extent != Extent::paper;
+void ViewPipeline::prepare_once(const PictureFrame& frame, StageClock& clock) {
+  if (!uploaded_) upload_atoms(clock);
+  scene_.probe_radius = probe_radius_;
+  look(frame, clock);
+  if (!all_probes_found_ || !visible_.keeps_all() || extent_ == Extent::paper) {
+    all_probes_found_ = false;
+    keep_atoms(clock);
+    find_arcs(clock);
+    find_fixed_probes(frame, clock);
+    all_probes_found_ = visible_.keeps_all() && extent_ != Extent::paper;
   }
-  make_primitives(frame, scene);
+  make_primitives(frame, clock);
 }
 
-void ViewPipeline::upload_atoms(double probe_radius) {
-  const GpuStage stage(clock_, "upload");
-  probe_radius_ = probe_radius;
+void ViewPipeline::upload_atoms(StageClock& clock) {
+  const GpuStage stage(clock, "upload");
   all_probes_found_ = false;
   stats_ = {};
   stats_.atoms = atoms_.size();
-  weights_ = decision_weights(atoms_, probe_radius);
-  std::vector<glm::dvec3> centers(atoms_.size());
-  std::vector<double> extended(atoms_.size()), radii(atoms_.size());
-  for (std::size_t a = 0; a < atoms_.size(); ++a) {
-    centers[a] = atoms_[a].center;
-    radii[a] = atoms_[a].radius;
-    extended[a] = atoms_[a].radius + probe_radius;
-  }
+  std::vector<double> radii(atoms_.size());
+  for (std::size_t a = 0; a < atoms_.size(); ++a) radii[a] = atoms_[a].radius;
   radii_.upload(radii);
-  circles_.upload(atoms_, weights_);
-  neighbors_.upload(centers, extended, swallowed_);
+  arcs_.upload(atoms_, swallowed_, probe_radius_);
+  uploaded_ = true;
 }
 
 // Group 1 (section 3.2 of the paper).
-void ViewPipeline::look(const PictureFrame& frame, Extent extent, GpuScene& scene) {
-  const GpuStage stage(clock_, "visible atoms");
-  visible_.look(atoms_, middle_, probe_radius_, frame, extent != Extent::visible || scene.some_hidden);
-  visible_.draw_occluders(neighbors_.balls, atom_count(), scene.tile_depths);
+void ViewPipeline::look(const PictureFrame& frame, StageClock& clock) {
+  const GpuStage stage(clock, "visible atoms");
+  visible_.look(atoms_, middle_, probe_radius_, frame, extent_ != Extent::visible || scene_.some_hidden);
+  visible_.draw_occluders(arcs_.neighbors.balls, atom_count(), scene_.tile_depths);
 }
 
-void ViewPipeline::keep_atoms() {
-  const GpuStage stage(clock_, "visible atoms");
-  const std::uint32_t count = visible_.keep(neighbors_.balls, neighbors_.balls_low, atom_count());
-  neighbors_.list_only(visible_.kept, visible_.before, count);
+void ViewPipeline::keep_atoms(StageClock& clock) {
+  const GpuStage stage(clock, "visible atoms");
+  const std::uint32_t count = visible_.keep(arcs_.neighbors.balls, arcs_.neighbors.balls_low, atom_count());
+  arcs_.neighbors.list_only(visible_.kept, visible_.before, count);
   stats_.kept_atoms = count;
 }
 
 // Group 2 (section 3.3): circles in place of atom triples.
-void ViewPipeline::find_arcs() {
-  circles_.restart();
-  std::optional<GpuStage> listing(std::in_place, clock_, "neighbors");
-  neighbors_.for_each_batch([&](const BallBatch& batch) {
-    neighbors_.list_pairs(batch);
-    listing.reset();
-    circles_.expose(batch, clock_);
-    listing.emplace(clock_, "neighbors");
-  });
-  listing.reset();
-  stats_.circles = circles_.stats();
-  arc_count_ = circles_.arcs.count();
+void ViewPipeline::find_arcs(StageClock& clock) {
+  arcs_.find(clock);
+  stats_.circles = arcs_.circles.stats();
+  arc_count_ = arcs_.circles.arcs.count();
   stats_.arcs = arc_count_;
-  arc_texels_.view(circles_.arcs.buffer);
+  arc_texels_.view(arcs_.circles.arcs.buffer);
 }
 
 // Group 3 (section 3.3): fixed probes are RS faces.
-void ViewPipeline::find_fixed_probes(const PictureFrame& frame, Extent extent) {
-  const GpuStage stage(clock_, "fixed probes");
+void ViewPipeline::find_fixed_probes(const PictureFrame& frame, StageClock& clock) {
+  const GpuStage stage(clock, "fixed probes");
   place_probes();
-  whole_spheres_ = extent == Extent::paper;
+  whole_spheres_ = extent_ == Extent::paper;
   if (whole_spheres_) select_as_the_paper(frame);
   const double reach = extent_of_atoms_.largest_radius + probe_radius_;
   probe_neighbors_.adopt(static_cast<std::uint32_t>(stats_.probes),
@@ -132,10 +122,10 @@ void ViewPipeline::find_fixed_probes(const PictureFrame& frame, Extent extent) {
 }
 
 void ViewPipeline::select_as_the_paper(const PictureFrame& frame) {
-  RollingBuffers rolling{&circles_.arcs.buffer,       &probes_.buffer, &probe_neighbors_.balls,
+  RollingBuffers rolling{&arcs_.circles.arcs.buffer,  &probes_.buffer, &probe_neighbors_.balls,
                          &probe_neighbors_.balls_low, arc_count_,      static_cast<std::uint32_t>(stats_.probes)};
-  paper_.select(frame, visible_, neighbors_.balls, atom_count(), probe_radius_, rolling);
-  arc_texels_.view(circles_.arcs.buffer);
+  paper_.select(frame, visible_, arcs_.neighbors.balls, atom_count(), probe_radius_, rolling);
+  arc_texels_.view(arcs_.circles.arcs.buffer);
   arc_count_ = rolling.arc_count;
   stats_.arcs = rolling.arc_count;
   stats_.probes = rolling.probe_count;
@@ -148,14 +138,14 @@ void ViewPipeline::place_probes() {
   append_all({&probes_}, counters_, counts, [&] {
     probe_neighbors_.balls.resize(probes_.capacity() * sizeof(glm::vec4));
     probe_neighbors_.balls_low.resize(probes_.capacity() * sizeof(glm::vec4));
-    circles_.atoms.bind(0);
+    arcs_.circles.atoms.bind(0);
     radii_.bind(1);
     probes_.buffer.bind(2);
     probe_neighbors_.balls.bind(3);
     probe_neighbors_.balls_low.bind(4);
     counters_.bind(5);
     arc_texels_.bind(0);
-    neighbors_.bind_listed();
+    arcs_.neighbors.bind_listed();
     visible_.bind(program);
     program.set(kernel::FixedProbeParameters{.middle = middle_,
                                              .probe_radius = probe_radius_,
@@ -178,8 +168,8 @@ void ViewPipeline::require_closed(std::span<const std::uint32_t, 6> end_sums) co
 }
 
 // Group 4 (section 3.4).
-void ViewPipeline::make_primitives(const PictureFrame& frame, GpuScene& scene) {
-  const GpuStage stage(clock_, "primitives");
+void ViewPipeline::make_primitives(const PictureFrame& frame, StageClock& clock) {
+  const GpuStage stage(clock, "primitives");
   list_arcs_by_atom();
   // As pack_scene does: centres are rounded to 2^-24 of the extent.
   double extent = 0.0, nearest = std::numeric_limits<double>::max(), farthest = 0.0;
@@ -189,17 +179,17 @@ void ViewPipeline::make_primitives(const PictureFrame& frame, GpuScene& scene) {
     nearest = std::min(nearest, depth - ball.radius);
     farthest = std::max(farthest, depth + ball.radius);
   }
-  scene.slack = static_cast<float>(1e-5 + 2.5e-7 * extent);
-  scene.first_depth = static_cast<float>(std::max(nearest, 0.0));
-  scene.last_depth = static_cast<float>(farthest);
-  scene.primitives.clear();
-  scene.rows.clear();
+  scene_.slack = static_cast<float>(1e-5 + 2.5e-7 * extent);
+  scene_.first_depth = static_cast<float>(std::max(nearest, 0.0));
+  scene_.last_depth = static_cast<float>(farthest);
+  scene_.primitives.clear();
+  scene_.rows.clear();
   std::array<std::uint32_t, 3> counts{};  // primitives, rows, whether a loop was cut short
-  append_all({&scene.primitives, &scene.rows}, counters_, counts, [&] { append_primitives(frame, scene); });
+  append_all({&scene_.primitives, &scene_.rows}, counters_, counts, [&] { append_primitives(frame); });
   if (counts[2] != 0)
     throw CapacityError(
         "some patch is cut by more others than this driver's kernels can go through; use a smaller probe");
-  stats_.primitives = scene.primitives.count();
+  stats_.primitives = scene_.primitives.count();
 }
 
 void ViewPipeline::list_arcs_by_atom() {
@@ -222,18 +212,18 @@ void ViewPipeline::list_arcs_by_atom() {
   atom_arc_texels_.view(atom_arcs_);
 }
 
-void ViewPipeline::append_primitives(const PictureFrame& frame, GpuScene& scene) {
+void ViewPipeline::append_primitives(const PictureFrame& frame) {
   if (probe_radius_ > 0.0) {  // a probe of no size leaves tori and concave patches without area
-    const Program& toroidal = primitive_kernel("toroidal", frame, scene);
-    circles_.atoms.bind(0);
+    const Program& toroidal = primitive_kernel("toroidal", frame);
+    arcs_.circles.atoms.bind(0);
     radii_.bind(1);
     arc_texels_.bind(0);
     toroidal.set(kernel::ArcParameters{.arc_count = arc_count_});
     toroidal.dispatch(group_count(arc_count_));
 
     probe_neighbors_.for_each_batch([&](const BallBatch& batch) {
-      const Program& concave = primitive_kernel("concave", frame, scene);
-      circles_.atoms.bind(0);
+      const Program& concave = primitive_kernel("concave", frame);
+      arcs_.circles.atoms.bind(0);
       probes_.buffer.bind(1);
       probe_neighbors_.first.bind(5);
       probe_neighbors_.labels.bind(6);
@@ -242,18 +232,18 @@ void ViewPipeline::append_primitives(const PictureFrame& frame, GpuScene& scene)
       concave.dispatch(group_count(batch.count));
     });
   }
-  neighbors_.for_each_batch([&](const BallBatch& batch) {
+  arcs_.neighbors.for_each_batch([&](const BallBatch& batch) {
     ShaderDefines defines{{"LISTED", "1"}};
     if (whole_spheres_) defines.emplace_back("WHOLE_SPHERES", "1");
-    const Program& convex = primitive_kernel("convex", frame, scene, defines);
+    const Program& convex = primitive_kernel("convex", frame, defines);
     if (whole_spheres_) paper_.drawn().bind(7);
-    circles_.atoms.bind(0);
+    arcs_.circles.atoms.bind(0);
     radii_.bind(1);
     atom_arc_first_texels_.bind(0);
     atom_arc_texels_.bind(1);
-    neighbors_.first.bind(5);
-    neighbors_.labels.bind(6);
-    neighbors_.bind_listed();
+    arcs_.neighbors.first.bind(5);
+    arcs_.neighbors.labels.bind(6);
+    arcs_.neighbors.bind_listed();
     visible_.bind(convex);
     convex.set(kernel::ConvexParameters{.middle = middle_, .first_entry = batch.first, .entry_count = batch.count});
     convex.dispatch(group_count(batch.count));
@@ -261,21 +251,21 @@ void ViewPipeline::append_primitives(const PictureFrame& frame, GpuScene& scene)
 }
 
 // The kernel with everything that append_primitive.glsl needs.
-const Program& ViewPipeline::primitive_kernel(const char* name, const PictureFrame& frame, GpuScene& scene,
+const Program& ViewPipeline::primitive_kernel(const char* name, const PictureFrame& frame,
                                               const ShaderDefines& defines) {
   const Program& program = programs_.get(std::string("gpu_shaders/primitives/") + name + ".comp", defines);
-  scene.primitives.buffer.bind(2);
-  scene.rows.buffer.bind(3);
+  scene_.primitives.buffer.bind(2);
+  scene_.rows.buffer.bind(3);
   counters_.bind(4);
   program.set(kernel::PrimitiveParameters{.pivot = frame.pivot,
                                           .eye_distance = frame.eye_distance,
                                           .camera_position = frame.camera.position,
                                           .probe_radius = probe_radius_,
                                           .camera_forward = frame.basis.forward,
-                                          .slack = scene.slack,
+                                          .slack = scene_.slack,
                                           .orthographic = frame.camera.projection == Projection::orthographic,
-                                          .primitive_capacity = scene.primitives.capacity(),
-                                          .row_capacity = scene.rows.capacity()},
+                                          .primitive_capacity = scene_.primitives.capacity(),
+                                          .row_capacity = scene_.rows.capacity()},
               kernel::kPrimitiveBinding);
   return program;
 }

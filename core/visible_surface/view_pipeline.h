@@ -13,9 +13,10 @@
 #include "core/gpu/prefix_sum.h"
 #include "core/gpu/program.h"
 #include "core/gpu/texel_buffer.h"
+#include "core/render/drawable.h"
 #include "core/render/gpu_scene.h"
 #include "core/render/ray_cast_scene.h"
-#include "core/reduced_surface/gpu/gpu_circles.h"
+#include "core/reduced_surface/gpu/gpu_arcs.h"
 #include "core/reduced_surface/gpu/gpu_neighbors.h"
 #include "core/surface/primitives.h"
 #include "core/visible_surface/extent.h"
@@ -34,66 +35,68 @@ struct ViewStats {
   CircleStats circles;
 };
 
-/// Finds the primitives of a view; nothing but counters comes back from the GPU between the stages, and the few circles
-/// that double precision cannot decide. Keeps kernels and buffers from frame to frame. Needs a current GL context.
+/// Draws atoms by the surface that one view needs; nothing but counters comes back from the GPU between the stages, and
+/// the few circles that double precision cannot decide. Keeps kernels and buffers from frame to frame. Needs a current
+/// GL context.
 ///
 /// Its four groups of stages are those of Krone, Dachsbacher & Ertl 2010, section 3: visible atoms; neighbours and
 /// potential RS faces and edges; the RS faces that are visible or cut what is visible; primitives and singularities.
 /// All atoms still act as blockers. The picture of what it finds equals that of the complete surface, pixel for pixel.
 /// A complete surface does not depend on the camera: for the same atoms and probe its arcs and RS faces are found once.
-class ViewPipeline {
+class ViewPipeline final : public Drawable {
  public:
-  ViewPipeline();
-
   /// Van der Waals balls, Å, of one frame; there must be one.
   void set_atoms(std::vector<Ball> atoms);
-  const std::vector<Ball>& atoms() const { return atoms_; }
+  /// One colour per atom; to be set after atoms of another number and before the next picture.
+  void set_coloring(const Coloring& coloring) { upload_coloring(coloring, scene_); }
+  /// What the next pictures are made of; probe_radius in Å, >= 0. At first 1.4 Å and visible.
+  void set_surface(double probe_radius, Extent extent);
 
-  /// Fills in all of the scene but its colours. Where the arcs around the view do not close for ties the radii grow by
-  /// a hair (tie_ladder.h). Throws OpenSurfaceError when that does not help, GpuError, CapacityError.
-  void run(const PictureFrame& frame, double probe_radius, Extent extent, GpuScene& scene);
+  std::span<const Ball> atoms() const override { return atoms_; }
 
-  /// Wall-clock times of the stages of the last run.
-  const std::vector<StageTime>& times() const { return clock_.times(); }
+  /// Where the arcs around the view do not close for ties the radii grow by a hair (tie_ladder.h). Throws
+  /// OpenSurfaceError when that does not help, GpuError, CapacityError.
+  const GpuScene& prepare(const PictureFrame& frame, StageClock& clock) override;
+
+  /// Of the last picture.
   const ViewStats& stats() const { return stats_; }
 
  private:
   static constexpr std::size_t kProbeRecordBytes = 64;  // gpu_shaders/shared/probe_record.glsl
 
-  void run_once(const PictureFrame& frame, double probe_radius, Extent extent, GpuScene& scene);
-  void upload_atoms(double probe_radius);
-  void look(const PictureFrame& frame, Extent extent, GpuScene& scene);
-  void keep_atoms();
-  void find_arcs();
-  void find_fixed_probes(const PictureFrame& frame, Extent extent);
-  void make_primitives(const PictureFrame& frame, GpuScene& scene);
+  void prepare_once(const PictureFrame& frame, StageClock& clock);
+  void upload_atoms(StageClock& clock);
+  void look(const PictureFrame& frame, StageClock& clock);
+  void keep_atoms(StageClock& clock);
+  void find_arcs(StageClock& clock);
+  void find_fixed_probes(const PictureFrame& frame, StageClock& clock);
+  void make_primitives(const PictureFrame& frame, StageClock& clock);
 
   void place_probes();
   void select_as_the_paper(const PictureFrame& frame);
   void require_closed(std::span<const std::uint32_t, 6> end_sums) const;
   void list_arcs_by_atom();
-  void append_primitives(const PictureFrame& frame, GpuScene& scene);
-  const Program& primitive_kernel(const char* name, const PictureFrame& frame, GpuScene& scene,
-                                  const ShaderDefines& defines = {});
+  void append_primitives(const PictureFrame& frame);
+  const Program& primitive_kernel(const char* name, const PictureFrame& frame, const ShaderDefines& defines = {});
   std::uint32_t atom_count() const { return static_cast<std::uint32_t>(atoms_.size()); }
 
   ProgramCache programs_;
   PrefixSum prefix_sum_{programs_};
-  GpuNeighbors neighbors_{programs_};        // of atoms
+  GpuArcs arcs_{programs_};
   GpuNeighbors probe_neighbors_{programs_};  // of fixed probes
-  GpuCircles circles_{programs_, neighbors_};
   VisibleAtoms visible_{programs_};
   PaperSelection paper_{programs_};
-  StageClock clock_;
   ViewStats stats_;
+  GpuScene scene_;
 
   // The frame at work.
   std::vector<Ball> atoms_;
   std::vector<bool> swallowed_;
-  std::vector<double> weights_;
   glm::dvec3 middle_{0.0};
-  BallExtent extent_of_atoms_;     // around their middle; radii without the probe
-  double probe_radius_ = -1.0;     // of what is on the GPU; negative: nothing is
+  BallExtent extent_of_atoms_;  // around their middle; radii without the probe
+  double probe_radius_ = 1.4;
+  Extent extent_ = Extent::visible;
+  bool uploaded_ = false;          // atoms with this probe
   bool all_probes_found_ = false;  // arcs and probes on the GPU are those of the complete surface
   Buffer radii_;                   // double per atom: van der Waals
   AppendList probes_{kProbeRecordBytes, 1 << 13};

@@ -13,7 +13,7 @@
 #include "core/gpu/egl_context.h"
 #include "core/structure/formats/read_structure.h"
 #include "core/reduced_surface/cpu/exhaustive.h"
-#include "core/surface/gpu/pipeline.h"
+#include "core/surface/gpu/gpu_engine.h"
 #include "core/reduced_surface/reduced_surface.h"
 #include "core/surface/surface.h"
 
@@ -80,9 +80,10 @@ void reduce_gl(benchmark::State& state) {
   const std::vector<Ball> balls = balls_of_size(state);
   try {
     const EglContext context;
-    SurfacePipeline pipeline;
+    const auto engine = make_gpu_engine(context);
+    StageClock clock;
     state.SetLabel(context.renderer());
-    for (auto _ : state) benchmark::DoNotOptimize(pipeline.reduce(balls, kProbeRadius));
+    for (auto _ : state) benchmark::DoNotOptimize(engine->reduce(balls, kProbeRadius, clock));
   } catch (const GpuError& error) {
     state.SkipWithError(error.what());
   }

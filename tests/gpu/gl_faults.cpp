@@ -14,7 +14,7 @@ namespace {
 using Kind = GlFault::Kind;
 
 GlFault planned;
-std::uint32_t dispatches = 0, questions = 0;
+std::uint32_t dispatches = 0, questions = 0, waits = 0;
 
 bool lost() { return planned.kind == Kind::reset && questions > planned.at; }
 
@@ -46,6 +46,11 @@ GLenum get_error() {
   return planned.kind == Kind::out_of_memory && n == planned.at ? GL_OUT_OF_MEMORY : error;
 }
 
+void finish() {
+  ++waits;
+  driver<epoxy_glFinish>("glFinish")();
+}
+
 GLenum reset_status() { return lost() ? GL_UNKNOWN_CONTEXT_RESET : GL_NO_ERROR; }
 
 void read_buffer(GLuint buffer, GLintptr offset, GLsizeiptr size, void* data) {
@@ -64,9 +69,10 @@ void make_storage(GLuint buffer, GLsizeiptr size, const void* data, GLbitfield f
 
 void plan(GlFault fault) {
   planned = fault;
-  dispatches = questions = 0;
+  dispatches = questions = waits = 0;
   epoxy_glDispatchCompute = dispatch;
   epoxy_glDispatchComputeIndirect = dispatch_indirect;
+  epoxy_glFinish = finish;
   epoxy_glGetError = get_error;
   epoxy_glGetGraphicsResetStatus = reset_status;
   epoxy_glGetNamedBufferSubData = read_buffer;
@@ -75,5 +81,6 @@ void plan(GlFault fault) {
 
 std::uint32_t dispatches_seen() { return dispatches; }
 std::uint32_t error_questions_seen() { return questions; }
+std::uint32_t waits_seen() { return waits; }
 
 }  // namespace meniscus::testing

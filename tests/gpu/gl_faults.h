@@ -27,5 +27,7 @@ void plan(GlFault fault);
 /// Calls since the last plan().
 std::uint32_t dispatches_seen();
 std::uint32_t error_questions_seen();
+/// Of glFinish.
+std::uint32_t waits_seen();
 
 }  // namespace meniscus::testing

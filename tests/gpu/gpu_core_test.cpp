@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Context, buffers, programs, folded dispatch and timers on whatever GL this machine has.
+#include <array>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <numeric>
+#include <span>
 #include <thread>
+#include <vector>
 
 #include <unistd.h>
 
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
+#include "core/gpu/append_list.h"
 #include "core/gpu/buffer.h"
 #include "core/gpu/egl_context.h"
 #include "core/gpu/embedded_shaders.h"
@@ -183,6 +187,50 @@ TEST_F(GpuCore, CacheCompilesOnce) {
   const Program& first = cache.get("gpu_shaders/test_support/scale.comp", kFactor3);
   EXPECT_EQ(&first, &cache.get("gpu_shaders/test_support/scale.comp", kFactor3));
   EXPECT_NE(&first, &cache.get("gpu_shaders/test_support/scale.comp"));
+}
+
+// What a kernel does, done by the host: counts all, and writes what has a place.
+TEST_F(GpuCore, AppendedRecordsAllFindTheirPlace) {
+  constexpr std::size_t kHeader = 16;
+  AppendList numbers(sizeof(std::uint32_t), 4, kHeader), others(sizeof(std::uint32_t), 2);
+  Buffer counters;
+  std::uint32_t next = 0;
+  int runs = 0;
+  const auto append = [&](std::uint32_t count, std::uint32_t other_count) {
+    const std::uint32_t first = numbers.count();
+    std::array<std::uint32_t, 3> counted{};  // the last one: a counter of no list
+    append_all({&numbers, &others}, counters, counted, [&] {
+      ++runs;
+      const auto before = counters.download<std::uint32_t>(3);
+      EXPECT_EQ(before, (std::vector<std::uint32_t>{first, others.count(), 0}));
+      EXPECT_GE(numbers.buffer.byte_count(), kHeader + numbers.capacity() * sizeof(std::uint32_t));
+      for (std::uint32_t n = 0; n < count && first + n < numbers.capacity(); ++n) {
+        const std::uint32_t number = next + n;
+        numbers.buffer.write(kHeader + (first + n) * sizeof number, &number, sizeof number);
+      }
+      const std::uint32_t after[] = {before[0] + count, before[1] + other_count, 7};
+      counters.write(0, after, sizeof after);
+    });
+    next += count;
+    EXPECT_EQ(counted[2], 7u);
+  };
+  append(3, 0);
+  EXPECT_EQ(runs, 1);
+  append(100, 1);  // too many for the first
+  EXPECT_EQ(runs, 3);
+  append(1, 50);  // too many for the second, which makes both run again
+  EXPECT_EQ(runs, 5);
+  append(0, 0);
+  EXPECT_EQ(runs, 6);
+  EXPECT_EQ(others.count(), 51u);
+  std::vector<std::uint32_t> by_host(1000);
+  std::iota(by_host.begin(), by_host.end(), next);
+  numbers.append(std::span<const std::uint32_t>(by_host));
+  ASSERT_EQ(numbers.count(), next + 1000);
+  const auto found = numbers.buffer.download<std::uint32_t>(numbers.count(), kHeader);
+  for (std::uint32_t n = 0; n < found.size(); ++n) ASSERT_EQ(found[n], n);
+  numbers.clear();
+  EXPECT_EQ(numbers.count(), 0u);
 }
 
 TEST_F(GpuCore, ExactStagesWaitForTheGpu) {

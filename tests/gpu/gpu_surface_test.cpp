@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The GPU finds the very primitives the CPU finds: degenerate molecules as they are and turned, gases with ties,
 // proteins.
+#include <memory>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -8,7 +9,7 @@
 #include "core/gpu/egl_context.h"
 #include "core/reduced_surface/cpu/exhaustive.h"
 #include "core/queries/compare.h"
-#include "core/surface/gpu/pipeline.h"
+#include "core/surface/gpu/gpu_engine.h"
 #include "core/surface/surface.h"
 #include "tests/support/molecules.h"
 
@@ -18,14 +19,19 @@ namespace {
 class GpuSurface : public ::testing::Test {
  protected:
   void expect_equal(const Balls& balls, double probe_radius) {
-    const Surface surface = pipeline_.run(balls, probe_radius);
+    const Surface surface = attempt(balls, probe_radius);
     EXPECT_TRUE(surface.certificate.closed);
     const std::vector<std::string> different = differences(compute_surface_cpu(balls, probe_radius), surface);
     EXPECT_TRUE(different.empty()) << different.size() << " differences, first: " << different.front();
   }
 
+  Surface attempt(const Balls& balls, double probe_radius) {
+    StageClock clock;
+    return attempt_surface(*engine_, balls, probe_radius, clock);
+  }
+
   EglContext context_;
-  SurfacePipeline pipeline_;
+  std::unique_ptr<ReducedSurfaceEngine> engine_ = make_gpu_engine(context_);
 };
 
 TEST_F(GpuSurface, DegenerateMolecules) {
@@ -63,7 +69,7 @@ TEST_F(GpuSurface, MoleculesInTurn) {
   }
 }
 
-TEST_F(GpuSurface, NoAtoms) { EXPECT_TRUE(pipeline_.run({}, kWater).components.empty()); }
+TEST_F(GpuSurface, NoAtoms) { EXPECT_TRUE(attempt({}, kWater).components.empty()); }
 
 }  // namespace
 }  // namespace meniscus::testing

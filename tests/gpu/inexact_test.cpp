@@ -9,7 +9,7 @@
 #include "core/gpu/egl_context.h"
 #include "core/reduced_surface/cpu/exhaustive.h"
 #include "core/queries/compare.h"
-#include "core/surface/gpu/pipeline.h"
+#include "core/surface/gpu/gpu_engine.h"
 #include "core/surface/surface.h"
 #include "tests/gpu/inexact_shaders.h"
 #include "tests/support/molecules.h"
@@ -22,13 +22,14 @@ class InexactGpu : public ::testing::Test {
   void TearDown() override { compile_exactly(); }
 
   /// Those whose surface is not the CPU's.
-  static std::vector<std::string> different(const std::vector<NamedBalls>& molecules) {
-    SurfacePipeline pipeline;
+  std::vector<std::string> different(const std::vector<NamedBalls>& molecules) {
+    const auto engine = make_gpu_engine(context_);
+    StageClock clock;
     std::vector<std::string> names;
     for (const auto& [name, balls, probe_radius] : molecules) {
       const Surface expected = assemble_surface(balls, probe_radius, enumerate_reduced_surface(balls, probe_radius));
       try {
-        const Surface found = pipeline.run(balls, probe_radius);
+        const Surface found = attempt_surface(*engine, balls, probe_radius, clock);
         if (!found.certificate.closed || !differences(expected, found).empty()) names.push_back(name);
       } catch (const Error&) {
         names.push_back(name);

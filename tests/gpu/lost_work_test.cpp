@@ -13,10 +13,11 @@
 #include "core/gpu/kernel_parameters.h"
 #include "core/gpu/program.h"
 #include "core/gpu/work_proof.h"
-#include "core/render/ray_caster.h"
+#include "core/render/renderer.h"
 #include "core/queries/compare.h"
-#include "core/surface/gpu/pipeline.h"
-#include "core/visible_surface/frame_renderer.h"
+#include "core/surface/gpu/gpu_engine.h"
+#include "core/surface/surface.h"
+#include "core/visible_surface/view_pipeline.h"
 #include "tests/gpu/gl_faults.h"
 #include "tests/support/molecules.h"
 
@@ -26,6 +27,12 @@ namespace {
 using Kind = GlFault::Kind;
 
 constexpr glm::ivec2 kSize{40, 30};
+
+/// Atoms and what draws them.
+struct View {
+  ViewPipeline surface;
+  Renderer renderer;
+};
 
 /// Some way to a result; empty: it is the one expected.
 using Job = std::function<std::string()>;
@@ -57,43 +64,46 @@ class LostWork : public ::testing::Test {
     atoms_ = gas_case(7).balls;
     for (const Ball& ball : translated(lattice(2, 2, 2, 3.0), {40, 0, 0})) atoms_.push_back(ball);
     coloring_.atom.assign(atoms_.size(), {0.9f, 0.5f, 0.1f});
-    request_.camera = frame_camera(atoms_, 4.0 / 3.0);
-    request_.size = kSize;
-    request_.samples = 2;
+    camera_ = frame_camera(atoms_, 4.0 / 3.0);
+    settings_.size = kSize;
+    settings_.samples = 2;
   }
   void TearDown() override { plan({}); }
 
+  Surface surface_by(ReducedSurfaceEngine& engine) {
+    StageClock clock;
+    return attempt_surface(engine, atoms_, kWater, clock);
+  }
+
   /// The reduced surface and all that is made of it.
-  Job surface_job(SurfacePipeline& pipeline) {
-    const Surface expected = pipeline.run(atoms_, kWater);
-    return [this, &pipeline, expected] {
-      const auto found = differences(expected, pipeline.run(atoms_, kWater));
+  Job surface_job(ReducedSurfaceEngine& engine) {
+    const Surface expected = surface_by(engine);
+    return [this, &engine, expected] {
+      const auto found = differences(expected, surface_by(engine));
       return found.empty() ? std::string() : found.front();
     };
   }
 
   /// The picture that the preview shows, made of what the view needs.
-  Job view_job(std::optional<FrameRenderer>& renderer, Extent extent, bool effects) {
-    request_.extent = extent;
-    request_.look.ambient_occlusion = effects ? 0.8f : 0.0f;
-    request_.look.silhouettes = effects ? 2.0f : 0.0f;
-    const auto draw = [this, &renderer, request = request_] {
-      renderer->set_atoms(atoms_);
-      renderer->set_coloring(coloring_);
-      renderer->render(request);
-      return renderer->rgba();
+  Job view_job(std::optional<View>& view, Extent extent, bool effects) {
+    settings_.look.ambient_occlusion = effects ? 0.8f : 0.0f;
+    settings_.look.silhouettes = effects ? 2.0f : 0.0f;
+    const auto draw = [this, &view, extent, settings = settings_] {
+      view->surface.set_atoms(atoms_);
+      view->surface.set_coloring(coloring_);
+      view->surface.set_surface(kWater, extent);
+      view->renderer.draw(view->surface, camera_, settings);
+      return view->renderer.rgba();
     };
     return [draw, expected = draw()] { return draw() == expected ? std::string() : std::string("another picture"); };
   }
 
   /// The picture of a surface that the host has, with all that is known about its pixels.
-  Job picture_job(RayCaster& caster, const Surface& surface) {
-    const auto draw = [this, &caster, &surface] {
-      RenderSettings settings;
-      settings.size = kSize;
-      settings.samples = 2;
+  Job picture_job(Renderer& renderer, const Surface& surface) {
+    const auto draw = [this, &renderer, &surface] {
+      RenderSettings settings = settings_;
       settings.aovs = true;
-      return caster.render(surface, coloring_, request_.camera, settings);
+      return renderer.render(surface, coloring_, camera_, settings);
     };
     return [draw, expected = draw()] {
       const Framebuffer found = draw();
@@ -129,36 +139,56 @@ class LostWork : public ::testing::Test {
 
   Balls atoms_;
   Coloring coloring_;
-  FrameRequest request_;
+  Camera camera_;
+  RenderSettings settings_;
   EglContext context_;
 };
 
 TEST_F(LostWork, Surface) {
-  SurfacePipeline pipeline;
-  survives(surface_job(pipeline));
-  EXPECT_GT(pipeline.stats().decided_in_double, 0u);
+  const auto engine = make_gpu_engine(context_);
+  survives(surface_job(*engine));
+  EXPECT_GT(engine->stats().decided_in_double, 0u);
 }
 
 TEST_F(LostWork, VisibleView) {
-  std::optional<FrameRenderer> renderer(std::in_place);
-  survives(view_job(renderer, Extent::visible, false));
+  std::optional<View> view(std::in_place);
+  survives(view_job(view, Extent::visible, false));
 }
 
 TEST_F(LostWork, CompleteViewWithEffects) {
-  std::optional<FrameRenderer> renderer(std::in_place);
-  survives(view_job(renderer, Extent::complete, true));
+  std::optional<View> view(std::in_place);
+  survives(view_job(view, Extent::complete, true));
 }
 
 TEST_F(LostWork, ViewOfThePaper) {
-  std::optional<FrameRenderer> renderer(std::in_place);
-  survives(view_job(renderer, Extent::paper, false));
+  std::optional<View> view(std::in_place);
+  survives(view_job(view, Extent::paper, false));
 }
 
 TEST_F(LostWork, PictureOfASurface) {
-  SurfacePipeline pipeline;
-  const Surface surface = pipeline.run(atoms_, kWater);
-  RayCaster caster;
-  survives(picture_job(caster, surface));
+  const Surface surface = surface_by(*make_gpu_engine(context_));
+  Renderer renderer;
+  survives(picture_job(renderer, surface));
+}
+
+// Only whoever asks for exact times waits for the GPU between stages; whatever is waited for, nothing is missed
+// (above).
+TEST_F(LostWork, NobodyWaitsButForExactTimes) {
+  const auto engine = make_gpu_engine(context_);
+  View view;
+  view.surface.set_atoms(atoms_);
+  view.surface.set_coloring(coloring_);
+  const auto waits = [&](StageTiming timing) {
+    plan({});
+    StageClock clock(timing);
+    const Surface surface = attempt_surface(*engine, atoms_, kWater, clock);
+    settings_.timing = timing;
+    view.renderer.draw(view.surface, camera_, settings_);
+    view.renderer.render(surface, coloring_, camera_, settings_);
+    return waits_seen();
+  };
+  EXPECT_EQ(waits(StageTiming::rough), 0u);
+  EXPECT_GT(waits(StageTiming::exact), 20u);
 }
 
 // Between two looks at the GPU nothing but dispatches whose groups the GPU counts, more of them than the account holds.
@@ -205,19 +235,17 @@ TEST_F(LostWork, AnAccountThatCannotBeReadProvesNothing) {
 }
 
 TEST_F(LostWork, FreshBuffersMayHoldAnything) {
-  SurfacePipeline clean;
-  const Surface expected = clean.run(atoms_, kWater);
-  std::optional<FrameRenderer> renderer(std::in_place);
-  std::vector<Job> views;
-  for (const Extent extent : {Extent::visible, Extent::paper}) views.push_back(view_job(renderer, extent, true));
+  const Surface expected = surface_by(*make_gpu_engine(context_));
+  std::optional<View> view(std::in_place);
+  std::vector<Job> jobs;
+  for (const Extent extent : {Extent::visible, Extent::paper}) jobs.push_back(view_job(view, extent, true));
   for (const std::uint32_t word : {0xffffffffu, 0xdeadbeefu, 0x7fc00000u, 0x3f800000u}) {  // third: NaN, last: 1.0f
     SCOPED_TRACE(word);
     plan({Kind::poison, word});
-    SurfacePipeline pipeline;
-    EXPECT_TRUE(differences(expected, pipeline.run(atoms_, kWater)).empty());
-    for (const Job& view : views) {
-      renderer.emplace();
-      EXPECT_EQ(view(), "");
+    EXPECT_TRUE(differences(expected, surface_by(*make_gpu_engine(context_))).empty());
+    for (const Job& job : jobs) {
+      view.emplace();
+      EXPECT_EQ(job(), "");
     }
   }
 }

@@ -15,7 +15,7 @@
 #include "core/base/error.h"
 #include "core/gpu/egl_context.h"
 #include "core/gpu/limits.h"
-#include "core/render/ray_caster.h"
+#include "core/render/renderer.h"
 #include "core/surface/surface.h"
 #include "tests/support/molecules.h"
 
@@ -81,7 +81,7 @@ class GpuScenes : public ::testing::Test {
     upload_scene(packed, view.surface, view.frame, scene);
     upload_coloring(view.coloring, scene);
     scene.tile_depths.upload(tile_depths);
-    caster_.cast(scene, view.frame, 1);
+    caster_.cast(scene, view.frame, {{0, 0}, view.frame.size});
     const std::size_t count = static_cast<std::size_t>(kSize.x) * kSize.y;
     Shown shown{caster_.picture().download<glm::vec4>(count), caster_.hits().download<Hit>(count)};
     for (Hit& hit : shown.hits)
@@ -95,6 +95,7 @@ class GpuScenes : public ::testing::Test {
   std::mt19937 random_{17};
   EglContext context_;
   RayCaster caster_;
+  Renderer renderer_;
 };
 
 TEST_F(GpuScenes, OrderDoesNotShow) {
@@ -276,15 +277,16 @@ TEST_F(GpuScenes, ListsTooLongForAKernelAreMadeOfSmallerBlocks) {
   const Camera camera{{0, 0, 10}, {0, 0, 0}, {0, 1, 0}, Projection::orthographic, 30.0, 0.5};
   RenderSettings settings;
   settings.size = {edge, edge};
-  const Framebuffer whole = caster_.render(surface, coloring, camera, settings);
+  const Framebuffer whole = renderer_.render(surface, coloring, camera, settings);
   EXPECT_EQ(whole.color[0].w, 1.0f);
   settings.block_edge = 128;
-  EXPECT_TRUE(whole.color == caster_.render(surface, coloring, camera, settings).color);
+  EXPECT_TRUE(whole.color == renderer_.render(surface, coloring, camera, settings).color);
   GpuScene scene;
   PictureFrame frame = make_picture_frame(surface.atoms, camera, settings.size);
   upload_scene(pack_scene(surface, coloring, frame), surface, frame, scene);
   upload_coloring(coloring, scene);
-  EXPECT_THROW(caster_.cast(scene, frame, 1), CapacityError) << "the test does not see what it is about";
+  EXPECT_THROW(caster_.cast(scene, frame, {{0, 0}, frame.size}), CapacityError)
+      << "the test does not see what it is about";
 }
 
 }  // namespace

@@ -12,7 +12,7 @@
 #include "core/gpu/egl_context.h"
 #include "core/image/color_space.h"
 #include "core/render/presenter.h"
-#include "core/render/ray_caster.h"
+#include "core/render/renderer.h"
 #include "core/surface/surface.h"
 #include "tests/support/molecules.h"
 
@@ -35,14 +35,14 @@ class Looks : public ::testing::Test {
     settings.aovs = true;
     settings.look = look;
     settings.block_edge = block_edge;
-    return caster_.render(surface, coloring, camera, settings);
+    return renderer_.render(surface, coloring, camera, settings);
   }
   Framebuffer render(const testing::Balls& balls, const Look& look, int samples = 1, int block_edge = 2048) {
     return render(balls, frame_camera(balls, 4.0 / 3.0), look, samples, block_edge);
   }
 
   EglContext context_;
-  RayCaster caster_;
+  Renderer renderer_;
 };
 
 const testing::Balls kOne{{{0, 0, 0}, 2.0}};
@@ -238,7 +238,7 @@ TEST_F(Looks, PresentedPicturesAreThePictureOverItsBackground) {
   const Framebuffer picture = render(testing::ubiquitin(), everything(), 3);
   const glm::vec3 background{0.2f, 0.5f, 1.0f};
   Presenter presenter;
-  presenter.present(caster_.picture(), picture.size, 3, background);
+  presenter.present(renderer_.samples(), picture.size, 3, background);
   const std::vector<std::uint8_t> rgba = presenter.rgba();
   ASSERT_EQ(rgba.size(), picture.color.size() * 4);
   for (std::size_t at = 0; at < picture.color.size(); ++at) {

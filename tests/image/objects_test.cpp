@@ -13,7 +13,7 @@
 #include <gtest/gtest.h>
 
 #include "core/gpu/egl_context.h"
-#include "core/render/ray_caster.h"
+#include "core/render/renderer.h"
 #include "core/queries/combine.h"
 #include "core/queries/part.h"
 #include "core/surface/surface.h"
@@ -45,11 +45,11 @@ class Pictures : public ::testing::Test {
     RenderSettings settings;
     settings.size = kSize;
     settings.aovs = true;
-    return caster_.render(surface, coloring, camera, settings);
+    return renderer_.render(surface, coloring, camera, settings);
   }
 
   EglContext context_;
-  RayCaster caster_;
+  Renderer renderer_;
 };
 
 // Pixels whose depth differs: silhouettes may, by the rounding of one ray.

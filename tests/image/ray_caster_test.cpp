@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Every pixel of the ray caster against exact depths: closed forms, the double twin, and the sphere-tracing oracle.
-#include "core/render/ray_caster.h"
+#include "core/render/renderer.h"
 
 #include <algorithm>
 #include <atomic>
@@ -84,7 +84,7 @@ class RayCasting : public ::testing::Test {
     RenderSettings settings;
     settings.size = size;
     settings.aovs = true;
-    return caster_.render(surface, gray(surface), camera, settings);
+    return renderer_.render(surface, gray(surface), camera, settings);
   }
 
   /// Both projections against the oracle and, where asked, the twin.
@@ -114,7 +114,7 @@ class RayCasting : public ::testing::Test {
   }
 
   EglContext context_;
-  RayCaster caster_;
+  Renderer renderer_;
 };
 
 TEST_F(RayCasting, OneSphereHasItsClosedForm) {
@@ -269,7 +269,7 @@ TEST_F(RayCasting, RaysGoOnThroughHiddenAtoms) {
   settings.aovs = true;
   for (const Projection projection : {Projection::perspective, Projection::orthographic}) {
     const Camera camera = frame_camera(surface.atoms, 4.0 / 3.0, projection);
-    const Framebuffer picture = caster_.render(surface, coloring, camera, settings);
+    const Framebuffer picture = renderer_.render(surface, coloring, camera, settings);
     const Agreement agreement = compare(picture, camera, [&](const Ray& ray) -> std::optional<double> {
       const auto hit = twin.trace(ray);
       return hit ? std::optional(hit->t) : std::nullopt;
@@ -290,7 +290,7 @@ TEST_F(RayCasting, RaysGoOnThroughHiddenAtoms) {
     EXPECT_GT(inside, 300);
   }
   coloring.hidden.assign(surface.atoms.size(), true);
-  const Framebuffer empty = caster_.render(surface, coloring, frame_camera(surface.atoms, 4.0 / 3.0), settings);
+  const Framebuffer empty = renderer_.render(surface, coloring, frame_camera(surface.atoms, 4.0 / 3.0), settings);
   EXPECT_TRUE(std::ranges::all_of(empty.color, [](const glm::vec4& c) { return c == glm::vec4(0.0f); }));
 }
 
@@ -301,14 +301,14 @@ TEST_F(RayCasting, BlocksAndSamplesDoNotChangeThePicture) {
   settings.size = {130, 101};
   settings.samples = 3;
   settings.aovs = true;
-  const Framebuffer whole = caster_.render(surface, gray(surface), camera, settings);
+  const Framebuffer whole = renderer_.render(surface, gray(surface), camera, settings);
   settings.block_edge = 33;
-  const Framebuffer blocks = caster_.render(surface, gray(surface), camera, settings);
+  const Framebuffer blocks = renderer_.render(surface, gray(surface), camera, settings);
   EXPECT_EQ(whole.z, blocks.z);
   EXPECT_EQ(whole.atom, blocks.atom);
   EXPECT_EQ(whole.color, blocks.color);
   settings.samples = 1;
-  const Framebuffer single = caster_.render(surface, gray(surface), camera, settings);
+  const Framebuffer single = renderer_.render(surface, gray(surface), camera, settings);
   EXPECT_EQ(whole.z, single.z);  // always the pixel's centre
   EXPECT_NE(whole.color, single.color);
 }

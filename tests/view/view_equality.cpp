@@ -15,7 +15,8 @@
 
 #include "core/gpu/egl_context.h"
 #include "core/structure/formats/read_structure.h"
-#include "core/visible_surface/frame_renderer.h"
+#include "core/render/renderer.h"
+#include "core/visible_surface/view_pipeline.h"
 #include "tests/view/view_cameras.h"
 
 namespace meniscus {
@@ -28,33 +29,36 @@ struct Options {
   std::string extent = "visible";
 };
 
-/// The same atoms through two renderers, so that the complete one keeps what does not depend on the camera.
+/// Atoms, seen to some extent, and what draws them.
+struct View {
+  ViewPipeline surface;
+  Renderer renderer;
+
+  std::vector<glm::vec4> samples(std::size_t count) const { return renderer.samples().download<glm::vec4>(count); }
+  std::vector<ray_cast::Hit> hits(std::size_t count) const { return renderer.hits().download<ray_cast::Hit>(count); }
+};
+
+/// The same atoms through two views, so that the complete one keeps what does not depend on the camera.
 class Comparison {
  public:
   Comparison(const std::vector<Ball>& atoms, const Options& options, double probe_radius) : atoms_(atoms) {
-    request_.size = {options.width, options.height};
-    request_.probe_radius = probe_radius;
-    extent_ = options.extent == "paper" ? Extent::paper : Extent::visible;
+    settings_.size = {options.width, options.height};
+    complete_.surface.set_surface(probe_radius, Extent::complete);
+    view_.surface.set_surface(probe_radius, options.extent == "paper" ? Extent::paper : Extent::visible);
     Coloring coloring;
     for (std::size_t a = 0; a < atoms.size(); ++a)
       coloring.atom.emplace_back(0.1f * static_cast<float>(a % 10), 0.2f * static_cast<float>(a % 5), 0.5f);
-    for (FrameRenderer* renderer : {&complete_, &view_}) {
-      renderer->set_atoms(atoms);
-      renderer->set_coloring(coloring);
+    for (View* view : {&complete_, &view_}) {
+      view->surface.set_atoms(atoms);
+      view->surface.set_coloring(coloring);
     }
   }
 
   void compare(const Camera& camera) {
-    request_.camera = camera;
-    request_.extent = Extent::complete;
-    complete_.render(request_);
-    request_.extent = extent_;
-    view_.render(request_);
-    const std::size_t count = static_cast<std::size_t>(request_.size.x) * request_.size.y;
-    const auto expected = complete_.samples().download<glm::vec4>(count);
-    const auto found = view_.samples().download<glm::vec4>(count);
-    const auto expected_hits = complete_.hits().download<ray_cast::Hit>(count);
-    const auto found_hits = view_.hits().download<ray_cast::Hit>(count);
+    for (View* view : {&complete_, &view_}) view->renderer.draw(view->surface, camera, settings_);
+    const std::size_t count = static_cast<std::size_t>(settings_.size.x) * settings_.size.y;
+    const auto expected = complete_.samples(count), found = view_.samples(count);
+    const auto expected_hits = complete_.hits(count), found_hits = view_.hits(count);
     int differing = 0;
     for (std::size_t at = 0; at < count; ++at) {
       const ray_cast::Hit &a = expected_hits[at], &b = found_hits[at];
@@ -66,8 +70,9 @@ class Comparison {
     differing_cameras += differing > 0;
     differing_pixels += differing;
     worst = std::max(worst, differing);
-    if (view_.stats().kept_atoms == atoms_.size()) ++whole;
-    kept_ += static_cast<double>(view_.stats().kept_atoms) / static_cast<double>(atoms_.size());
+    const std::size_t kept = view_.surface.stats().kept_atoms;
+    if (kept == atoms_.size()) ++whole;
+    kept_ += static_cast<double>(kept) / static_cast<double>(atoms_.size());
   }
 
   double kept() const { return cameras ? kept_ / cameras : 0.0; }
@@ -78,9 +83,8 @@ class Comparison {
 
  private:
   const std::vector<Ball>& atoms_;
-  FrameRenderer complete_, view_;
-  FrameRequest request_;
-  Extent extent_;
+  View complete_, view_;
+  RenderSettings settings_;
   double kept_ = 0.0;
   long shown_ = 0;
 };

@@ -10,9 +10,8 @@
 
 #include "core/gpu/egl_context.h"
 #include "core/reduced_surface/cpu/exhaustive.h"
-#include "core/render/ray_caster.h"
+#include "core/render/renderer.h"
 #include "core/surface/surface.h"
-#include "core/visible_surface/frame_renderer.h"
 #include "tests/support/molecules.h"
 #include "tests/view/view_cameras.h"
 
@@ -26,8 +25,8 @@ constexpr glm::ivec2 kSize{160, 120};
 class Views : public ::testing::Test {
  protected:
   void load(const Balls& atoms) {
-    renderer_.set_atoms(atoms);
-    renderer_.set_coloring(coloring_of(atoms.size()));
+    view_.set_atoms(atoms);
+    view_.set_coloring(coloring_of(atoms.size()));
   }
 
   static Coloring coloring_of(std::size_t atom_count) {
@@ -38,12 +37,10 @@ class Views : public ::testing::Test {
   }
 
   std::vector<glm::vec4> draw(const Camera& camera, double probe_radius, Extent extent) {
-    FrameRequest request;
-    request.camera = camera;
-    request.size = kSize;
-    request.probe_radius = probe_radius;
-    request.extent = extent;
-    renderer_.render(request);
+    view_.set_surface(probe_radius, extent);
+    RenderSettings settings;
+    settings.size = kSize;
+    renderer_.draw(view_, camera, settings);
     return renderer_.samples().download<glm::vec4>(static_cast<std::size_t>(kSize.x) * kSize.y);
   }
 
@@ -60,12 +57,11 @@ class Views : public ::testing::Test {
   int differing_from_host(const Surface& surface, bool some_hidden) {
     Coloring coloring = coloring_of(surface.atoms.size());
     for (std::size_t a = 0; some_hidden && a < surface.atoms.size(); ++a) coloring.hidden.push_back(a % 3 == 0);
-    renderer_.set_coloring(coloring);
+    view_.set_coloring(coloring);
     const Camera camera = frame_camera(surface.atoms, 4.0 / 3.0);
-    RayCaster caster;
     RenderSettings settings;
     settings.size = kSize;
-    const Framebuffer expected = caster.render(surface, coloring, camera, settings);
+    const Framebuffer expected = Renderer().render(surface, coloring, camera, settings);
     const auto found = draw(camera, surface.probe_radius, Extent::complete);
     int count = 0;
     for (std::size_t at = 0; at < found.size(); ++at) {
@@ -76,7 +72,8 @@ class Views : public ::testing::Test {
   }
 
   const EglContext context_{{DeviceChoice::Kind::software, 0}};
-  FrameRenderer renderer_;
+  ViewPipeline view_;
+  Renderer renderer_;
 };
 
 TEST_F(Views, CompleteEqualsTheSurfaceOfTheHost) {
@@ -85,8 +82,8 @@ TEST_F(Views, CompleteEqualsTheSurfaceOfTheHost) {
   const Surface surface = assemble_surface(atoms, 1.4, enumerate_reduced_surface(atoms, 1.4));
   EXPECT_EQ(differing_from_host(surface, true), 0);
   EXPECT_EQ(differing_from_host(surface, false), 0);
-  EXPECT_EQ(renderer_.stats().primitives, surface.convex.size() + surface.toroidal.size() + surface.concave.size());
-  EXPECT_EQ(renderer_.stats().probes, surface.counts().fixed_probes);
+  EXPECT_EQ(view_.stats().primitives, surface.convex.size() + surface.toroidal.size() + surface.concave.size());
+  EXPECT_EQ(view_.stats().probes, surface.counts().fixed_probes);
 }
 
 TEST_F(Views, DegenerateMoleculesLookAsOnTheHost) {
@@ -123,7 +120,7 @@ TEST_F(Views, WhatStandsBesideTheEyeHidesNothingAcross) {
   camera.target = {0.0, 0.0, -1.0};
   camera.vertical_fov = 120.0;
   EXPECT_EQ(differing_pixels(camera, 0.3), 0);
-  EXPECT_GT(renderer_.stats().arcs, 0u);
+  EXPECT_GT(view_.stats().arcs, 0u);
 }
 
 /// A probe under a roof, which rests on two atoms of the floor and on one far back: what it touches there lies, with
@@ -159,9 +156,9 @@ TEST_F(Views, ThePaperDrawsLessAndMissesSome) {
   load(atoms);
   const Camera camera = frame_camera(atoms, 4.0 / 3.0);
   const auto complete = draw(camera, 1.4, Extent::complete);
-  const ViewStats all = renderer_.stats();
+  const ViewStats all = view_.stats();
   const auto paper = draw(camera, 1.4, Extent::paper);
-  EXPECT_LT(renderer_.stats().probes, all.probes / 2);
+  EXPECT_LT(view_.stats().probes, all.probes / 2);
   int missed = 0, shown = 0;
   for (std::size_t at = 0; at < complete.size(); ++at) {
     missed += paper[at] != complete[at];

@@ -40,7 +40,7 @@ class Enumeration {
         neighbors_(atoms.size()),
         uncovered_(atoms.size()) {}
 
-  ReducedSurface run(EnumerationStats* stats) {
+  ReducedSurface run(CircleStats* stats) {
     tbb::enumerable_thread_specific<Worker> workers;
     const auto for_each_atom = [&](auto&& visit) {
       const auto& order = grid_.order();
@@ -64,7 +64,7 @@ class Enumeration {
       rs.lone_atoms.insert(rs.lone_atoms.end(), w.lone_atoms.begin(), w.lone_atoms.end());
       if (stats) {
         stats->pairs += w.pairs;
-        stats->doubtful += w.contour.doubtful_count();
+        stats->decided_in_quadruple += w.contour.doubtful_count();
       }
     }
     tbb::parallel_sort(rs.arcs.begin(), rs.arcs.end());
@@ -142,7 +142,7 @@ class Enumeration {
 
 }  // namespace
 
-ReducedSurface enumerate_reduced_surface(std::span<const Ball> atoms, double probe_radius, EnumerationStats* stats) {
+ReducedSurface enumerate_reduced_surface(std::span<const Ball> atoms, double probe_radius, CircleStats* stats) {
   return Enumeration(atoms, probe_radius).run(stats);
 }
 

@@ -2,21 +2,14 @@
 // The complete reduced surface by exhaustive enumeration on the CPU: every circle of every pair of overlapping atoms.
 #pragma once
 
-#include <cstddef>
 #include <span>
 
 #include "core/reduced_surface/reduced_surface.h"
 
 namespace meniscus {
 
-/// How much work the enumeration was, for `--stats` and tests.
-struct EnumerationStats {
-  std::size_t pairs = 0;     ///< overlapping pairs of SAS balls
-  std::size_t doubtful = 0;  ///< circles decided again in quadruple precision
-};
-
 /// atoms in Å, probe_radius >= 0 in Å. Works on all cores TBB may use; the result does not depend on their number.
 ReducedSurface enumerate_reduced_surface(std::span<const Ball> atoms, double probe_radius,
-                                         EnumerationStats* stats = nullptr);
+                                         CircleStats* stats = nullptr);
 
 }  // namespace meniscus

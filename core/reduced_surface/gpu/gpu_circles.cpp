@@ -41,7 +41,7 @@ void GpuCircles::expose(const BallBatch& batch, StageClock& clock) {
   stats_.decided_in_double += doubtful_.count();
   run(batch, true, doubtful_.buffer, doubtful_.count(), still_doubtful_);
   if (still_doubtful_.count() == 0) return;
-  stats_.decided_on_host += still_doubtful_.count();
+  stats_.decided_in_quadruple += still_doubtful_.count();
   decide_on_host(batch, still_doubtful_.buffer.download<glm::uvec2>(still_doubtful_.count()));
 }
 

@@ -20,13 +20,6 @@
 
 namespace meniscus {
 
-/// How the circles of one frame were decided.
-struct CircleStats {
-  std::size_t pairs = 0;              ///< overlapping pairs of SAS balls, each one circle
-  std::size_t decided_in_double = 0;  ///< circles that single precision left in doubt
-  std::size_t decided_on_host = 0;    ///< circles that double left in doubt, decided in quadruple precision
-};
-
 /// Kernel "circles" and its buffers. Needs a current GL context.
 class GpuCircles {
  public:

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Cut lists and cusp arcs on the GPU: the kernels of gpu_shaders/singularities over neighbour lists of fixed probes.
+#include "core/surface/gpu/gpu_cusp_tracer.h"
+
 #include <algorithm>
 #include <array>
 
@@ -9,7 +11,7 @@
 #include "core/gpu/append_list.h"
 #include "core/gpu/kernel_parameters.h"
 #include "core/reduced_surface/contour/contour.h"
-#include "core/surface/gpu/pipeline.h"
+#include "core/reduced_surface/gpu/gpu_neighbors.h"
 
 namespace meniscus {
 namespace {

@@ -13,7 +13,7 @@
 #include "core/color/color_schemes.h"
 #include "core/structure/formats/read_structure.h"
 #include "core/image/color_space.h"
-#include "core/render/ray_caster.h"
+#include "core/render/renderer.h"
 #include "core/queries/combine.h"
 #include "core/surface/surface.h"
 #include "exporters/blender/surface_file.h"
@@ -42,7 +42,7 @@ struct FlatPicture {
 /// Light is linear in the albedo, so the pictures in black and in white tell the albedo of the one in colour.
 FlatPicture cast(const std::vector<SurfaceObject>& objects, const Camera& camera) {
   static EglContext context;
-  RayCaster caster;
+  Renderer renderer;
   RenderSettings settings;
   settings.size = {kWidth, kHeight};
   settings.aovs = true;
@@ -53,7 +53,7 @@ FlatPicture cast(const std::vector<SurfaceObject>& objects, const Camera& camera
       coloring.kind.reset();
       std::ranges::fill(coloring.atom, *paint);
     }
-    return caster.render(whole.surface, coloring, camera, settings);
+    return renderer.render(whole.surface, coloring, camera, settings);
   };
   const Framebuffer color = picture_in({}), black = picture_in(glm::vec3(0.0f)), white = picture_in(glm::vec3(1.0f));
   FlatPicture picture;

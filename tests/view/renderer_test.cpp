@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Frames of the preview against pictures of the complete surface.
-#include "core/visible_surface/frame_renderer.h"
+// Pictures that are drawn to stay on the GPU against those of the complete surface.
+#include "core/render/renderer.h"
 
 #include <algorithm>
 
@@ -8,27 +8,29 @@
 #include <gtest/gtest.h>
 
 #include "core/gpu/egl_context.h"
-#include "core/render/ray_caster.h"
 #include "core/surface/surface.h"
+#include "core/visible_surface/view_pipeline.h"
 #include "tests/support/molecules.h"
 
 namespace meniscus {
 namespace {
 
-TEST(FrameRenderer, PicksWhatItDraws) {
+TEST(Renderer, PicksWhatItDraws) {
   const EglContext context({DeviceChoice::Kind::software, 0});
-  FrameRenderer renderer;
-  renderer.set_atoms({{{0, 0, 0}, 1.7}, {{3, 0, 0}, 1.5}});
+  ViewPipeline atoms;
+  atoms.set_atoms({{{0, 0, 0}, 1.7}, {{3, 0, 0}, 1.5}});
   Coloring coloring;
   coloring.atom = {{1, 0, 0}, {0, 0, 1}};
-  renderer.set_coloring(coloring);
-  FrameRequest request;
-  request.camera.position = {0, 0, 20};
-  request.camera.projection = Projection::orthographic;
-  request.camera.height = 8;
-  request.size = {64, 64};
-  request.look.background = {0, 1, 0};
-  renderer.render(request);
+  atoms.set_coloring(coloring);
+  Camera camera;
+  camera.position = {0, 0, 20};
+  camera.projection = Projection::orthographic;
+  camera.height = 8;
+  RenderSettings settings;
+  settings.size = {64, 64};
+  settings.look.background = {0, 1, 0};
+  Renderer renderer;
+  renderer.draw(atoms, camera, settings);
 
   const std::vector<std::uint8_t> rgba = renderer.rgba();
   ASSERT_EQ(rgba.size(), 64u * 64u * 4u);
@@ -46,29 +48,27 @@ TEST(FrameRenderer, PicksWhatItDraws) {
   EXPECT_FALSE(renderer.pick({64, 0}));
 }
 
-TEST(FrameRenderer, PicksTheAtomOfEveryPixelOfThePicture) {
+TEST(Renderer, PicksTheAtomOfEveryPixelOfThePicture) {
   const EglContext context({DeviceChoice::Kind::software, 0});
   const std::vector<Ball> balls{{{0, 0, 0}, 1.7}, {{3, 0.4, 0}, 1.5}, {{1.2, 2.6, -1}, 1.2}, {{-2, 2, 1}, 1.6}};
   Coloring coloring;
   coloring.atom.assign(balls.size(), glm::vec3(0.5f));
-  FrameRenderer renderer;
-  renderer.set_atoms(balls);
-  renderer.set_coloring(coloring);
-  RayCaster caster;
+  ViewPipeline atoms;
+  atoms.set_atoms(balls);
+  atoms.set_coloring(coloring);
+  Renderer renderer, other;
   // Wide and high pictures that the molecule overflows, so that all four borders show some of it.
   for (const glm::ivec2 size : {glm::ivec2{61, 34}, glm::ivec2{27, 50}}) {
-    FrameRequest request;
-    request.camera.position = {0.7, 1, 20};
-    request.camera.target = {0.7, 1, 0};
-    request.camera.projection = Projection::orthographic;
-    request.camera.height = size.x > size.y ? 3.0 : 5.0;
-    request.size = size;
-    renderer.render(request);
+    Camera camera;
+    camera.position = {0.7, 1, 20};
+    camera.target = {0.7, 1, 0};
+    camera.projection = Projection::orthographic;
+    camera.height = size.x > size.y ? 3.0 : 5.0;
     RenderSettings settings;
     settings.size = size;
-    settings.samples = 1;
+    renderer.draw(atoms, camera, settings);
     settings.aovs = true;
-    const Framebuffer picture = caster.render(compute_surface_cpu(balls, 1.4), coloring, request.camera, settings);
+    const Framebuffer picture = other.render(compute_surface_cpu(balls, 1.4), coloring, camera, settings);
     std::size_t at = 0, border = 0;
     for (int y = 0; y < size.y; ++y) {
       for (int x = 0; x < size.x; ++x, ++at) {

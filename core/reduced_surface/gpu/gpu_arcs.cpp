@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The one loop over batches of atoms.
+#include "core/reduced_surface/gpu/gpu_arcs.h"
+
+#include <optional>
+
+#include "core/gpu/gpu_stage.h"
+#include "core/reduced_surface/reduced_surface.h"
+
+namespace meniscus {
+
+void GpuArcs::upload(std::span<const Ball> atoms, const std::vector<bool>& swallowed, double probe_radius) {
+  weights_ = decision_weights(atoms, probe_radius);
+  std::vector<glm::dvec3> centers(atoms.size());
+  std::vector<double> radii(atoms.size());
+  for (std::size_t a = 0; a < atoms.size(); ++a) {
+    centers[a] = atoms[a].center;
+    radii[a] = atoms[a].radius + probe_radius;
+  }
+  circles.upload(atoms, weights_);
+  neighbors.upload(centers, radii, swallowed);
+}
+
+void GpuArcs::find(StageClock& clock, const std::function<void(const BallBatch&)>& visit) {
+  circles.restart();
+  std::optional<GpuStage> listing(std::in_place, clock, "neighbors");
+  neighbors.for_each_batch([&](const BallBatch& batch) {
+    neighbors.list_pairs(batch);
+    if (visit) visit(batch);
+    listing.reset();
+    circles.expose(batch, clock);
+    listing.emplace(clock, "neighbors");
+  });
+}
+
+}  // namespace meniscus

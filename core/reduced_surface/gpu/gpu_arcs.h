@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// RS edges on the GPU: the exposed arcs of all atoms, or of those that a view keeps.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "core/base/stage_clock.h"
+#include "core/gpu/program.h"
+#include "core/reduced_surface/gpu/gpu_circles.h"
+#include "core/reduced_surface/gpu/gpu_neighbors.h"
+
+namespace meniscus {
+
+/// Grid, neighbours, circles and arcs, batch by batch. Keeps kernels and buffers from frame to frame. Needs a current
+/// GL context.
+class GpuArcs {
+ public:
+  explicit GpuArcs(ProgramCache& programs) : neighbors(programs), circles(programs, neighbors) {}
+
+  /// Van der Waals balls, Å, which must stay until the last find(); `swallowed` says who has no patch and blocks
+  /// nothing. From now on all of them are listed.
+  void upload(std::span<const Ball> atoms, const std::vector<bool>& swallowed, double probe_radius);
+
+  /// Fills `circles.arcs`, in any order: the arcs of all circles of two atoms that are listed (neighbors.list_only()).
+  /// All atoms block. visit: called for every batch while its neighbour lists are there. Throws GpuError,
+  /// CapacityError.
+  void find(StageClock& clock, const std::function<void(const BallBatch&)>& visit = {});
+
+  GpuNeighbors neighbors;
+  GpuCircles circles;
+
+ private:
+  std::vector<double> weights_;
+};
+
+}  // namespace meniscus

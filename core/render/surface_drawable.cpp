@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Packs on the host, uploads.
+#include "core/render/surface_drawable.h"
+
+#include <cassert>
+
+#include "core/gpu/gpu_stage.h"
+
+namespace meniscus {
+
+void SurfaceDrawable::show(const Surface& surface, const Coloring& coloring) {
+  assert(coloring.atom.size() == surface.atoms.size());
+  surface_ = &surface;
+  coloring_ = &coloring;
+}
+
+const GpuScene& SurfaceDrawable::prepare(const PictureFrame& frame, StageClock& clock) {
+  const GpuStage stage(clock, "pack");
+  upload_scene(pack_scene(*surface_, *coloring_, frame), *surface_, frame, scene_);
+  upload_coloring(*coloring_, scene_);
+  return scene_;
+}
+
+}  // namespace meniscus

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The engine of compute shaders: grid, neighbours, circles and arcs of atoms, then cuts and cusps of fixed probes.
+#pragma once
+
+#include <memory>
+
+#include "core/gpu/device_choice.h"
+#include "core/surface/reduced_surface_engine.h"
+
+namespace meniscus {
+
+class EglContext;
+
+/// In this context, which is current and lives longer. Kernels and buffers stay from frame to frame. Results equal
+/// those of the CPU, arc by arc. Based on Krone, Dachsbacher & Ertl 2010, with circles (contour build-up) in place of
+/// their atom triples.
+std::unique_ptr<ReducedSurfaceEngine> make_gpu_engine(const EglContext& context);
+
+/// The same in a context of its own, which it leaves current. Throws GpuError if there is no such device.
+std::unique_ptr<ReducedSurfaceEngine> make_gpu_engine(const DeviceChoice& choice);
+
+}  // namespace meniscus
