@@ -29,11 +29,7 @@ class Packer {
   void pack() {
     const auto& s = surface_;
     scene_.primitives.reserve(s.convex.size() + s.toroidal.size() + s.concave.size());
-    double extent = 0.0;
-    for (const Ball& ball : s.atoms)
-      extent = std::max(extent, glm::length(ball.center - frame_.pivot) + ball.radius + s.probe_radius);
-    // Centres are rounded to 2^-24 of the extent; rays to a little more. A local coordinate is a few Å.
-    scene_.slack = static_cast<float>(1e-5 + 2.5e-7 * extent);
+    scene_.slack = patch_slack(s.atoms, s.probe_radius, frame_);
     for (std::uint32_t i = 0; i < s.convex.size(); ++i) pack(s.convex[i], i);
     if (s.probe_radius > 0.0) {  // a probe of no size leaves these patches without area
       for (std::uint32_t i = 0; i < s.toroidal.size(); ++i) pack(s.toroidal[i], i);
@@ -197,6 +193,27 @@ PictureFrame make_picture_frame(std::span<const Ball> atoms, const Camera& camer
   return frame;
 }
 
+float patch_slack(std::span<const Ball> atoms, double probe_radius, const PictureFrame& frame) {
+  double extent = 0.0;
+  for (const Ball& ball : atoms)
+    extent = std::max(extent, glm::length(ball.center - frame.pivot) + ball.radius + probe_radius);
+  // Centres are rounded to 2^-24 of the extent; rays to a little more. A local coordinate is a few Å.
+  return static_cast<float>(1e-5 + 2.5e-7 * extent);
+}
+
+void place_atoms(std::span<const Ball> atoms, double probe_radius, const PictureFrame& frame, GpuScene& scene) {
+  scene.probe_radius = probe_radius;
+  scene.slack = patch_slack(atoms, probe_radius, frame);
+  double first = std::numeric_limits<double>::max(), last = 0.0;
+  for (const Ball& ball : atoms) {
+    const double depth = glm::dot(ball.center - frame.camera.position, frame.basis.forward);
+    first = std::min(first, depth - ball.radius);
+    last = std::max(last, depth + ball.radius);
+  }
+  scene.first_depth = static_cast<float>(std::max(std::min(first, last), 0.0));
+  scene.last_depth = static_cast<float>(last);
+}
+
 RayCastScene pack_scene(const Surface& surface, const Coloring& coloring, const PictureFrame& frame) {
   RayCastScene scene;
   Packer(surface, coloring, frame, scene).pack();
@@ -206,16 +223,7 @@ RayCastScene pack_scene(const Surface& surface, const Coloring& coloring, const 
 void upload_scene(const RayCastScene& packed, const Surface& surface, const PictureFrame& frame, GpuScene& scene) {
   scene.primitives.upload(packed.primitives);
   scene.rows.upload(packed.rows);
-  scene.slack = packed.slack;
-  scene.probe_radius = surface.probe_radius;
-  double first = std::numeric_limits<double>::max(), last = 0.0;
-  for (const Ball& ball : surface.atoms) {
-    const double depth = glm::dot(ball.center - frame.camera.position, frame.basis.forward);
-    first = std::min(first, depth - ball.radius);
-    last = std::max(last, depth + ball.radius);
-  }
-  scene.first_depth = static_cast<float>(std::max(std::min(first, last), 0.0));
-  scene.last_depth = static_cast<float>(last);
+  place_atoms(surface.atoms, surface.probe_radius, frame, scene);
 }
 
 }  // namespace meniscus

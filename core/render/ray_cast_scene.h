@@ -31,11 +31,17 @@ struct PictureFrame {
 /// Throws nothing; the camera must be valid.
 PictureFrame make_picture_frame(std::span<const Ball> atoms, const Camera& camera, glm::ivec2 size);
 
+/// Å by which patches must overlap in this picture: a few roundings of the largest coordinate.
+float patch_slack(std::span<const Ball> atoms, double probe_radius, const PictureFrame& frame);
+
+/// What of the scene follows from atoms and camera alone: slack, range of depths; and the probe's radius.
+void place_atoms(std::span<const Ball> atoms, double probe_radius, const PictureFrame& frame, GpuScene& scene);
+
 /// What the kernel reads. Primitives stand by kind and index; those behind the camera are left out.
 struct RayCastScene {
   std::vector<ray_cast::Primitive> primitives;
   std::vector<glm::vec4> rows;
-  float slack = 0.0f;  ///< Å by which patches overlap: a few roundings of the largest coordinate
+  float slack = 0.0f;  ///< patch_slack()
 };
 
 /// Patches that touch hidden atoms only are left out.

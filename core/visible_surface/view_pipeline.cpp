@@ -5,13 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <cmath>
-#include <limits>
 #include <string>
 #include <utility>
 
 #include <glm/common.hpp>
-#include <glm/geometric.hpp>
 #include <glm/vec4.hpp>
 
 #include "core/base/error.h"
@@ -63,7 +60,6 @@ const GpuScene& ViewPipeline::prepare(const PictureFrame& frame, StageClock& clo
 
 void ViewPipeline::prepare_once(const PictureFrame& frame, StageClock& clock) {
   if (!uploaded_) upload_atoms(clock);
-  scene_.probe_radius = probe_radius_;
   look(frame, clock);
   if (!all_probes_found_ || !visible_.keeps_all() || extent_ == Extent::paper) {
     all_probes_found_ = false;
@@ -171,17 +167,7 @@ void ViewPipeline::require_closed(std::span<const std::uint32_t, 6> end_sums) co
 void ViewPipeline::make_primitives(const PictureFrame& frame, StageClock& clock) {
   const GpuStage stage(clock, "primitives");
   list_arcs_by_atom();
-  // As pack_scene does: centres are rounded to 2^-24 of the extent.
-  double extent = 0.0, nearest = std::numeric_limits<double>::max(), farthest = 0.0;
-  for (const Ball& ball : atoms_) {
-    extent = std::max(extent, glm::length(ball.center - frame.pivot) + ball.radius + probe_radius_);
-    const double depth = glm::dot(ball.center - frame.camera.position, frame.basis.forward);
-    nearest = std::min(nearest, depth - ball.radius);
-    farthest = std::max(farthest, depth + ball.radius);
-  }
-  scene_.slack = static_cast<float>(1e-5 + 2.5e-7 * extent);
-  scene_.first_depth = static_cast<float>(std::max(nearest, 0.0));
-  scene_.last_depth = static_cast<float>(farthest);
+  place_atoms(atoms_, probe_radius_, frame, scene_);
   scene_.primitives.clear();
   scene_.rows.clear();
   std::array<std::uint32_t, 3> counts{};  // primitives, rows, whether a loop was cut short
