@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
 
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
@@ -10,9 +11,11 @@
 
 #define GEOMETRY inline
 #define GEOMETRY_OUT(type) type&
+#define GEOMETRY_INOUT(type) type&
 
 namespace meniscus::geometry {
 
+using uint = std::uint32_t;
 using real = double;
 using real2 = glm::dvec2;
 using real3 = glm::dvec3;

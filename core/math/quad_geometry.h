@@ -3,13 +3,18 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
 
 #define GEOMETRY inline
 #define GEOMETRY_OUT(type) type&
+#define GEOMETRY_INOUT(type) type&
 
 namespace meniscus::quad_geometry {
 
+using uint = std::uint32_t;
 __extension__ typedef __float128 real;
+
+inline constexpr real kUnitRoundoff = 0x1p-113;
 
 struct real2 {
   real x, y;
@@ -34,6 +39,7 @@ inline real dot(real3 a, real3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 inline real3 cross(real3 a, real3 b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
 inline real abs(real a) { return a < 0 ? -a : a; }
 inline real min(real a, real b) { return b < a ? b : a; }
+inline real max(real a, real b) { return a < b ? b : a; }
 
 // Two Newton steps from the double root: 53 bits become more than the 113 there are.
 inline real sqrt(real a) {

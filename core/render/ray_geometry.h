@@ -6,8 +6,6 @@
 
 #include "core/math/geometry.h"
 
-#define GEOMETRY_INOUT(type) type&
-
 namespace meniscus::geometry {
 
 #include "gpu_shaders/geometry/patch_membership.glsl"

@@ -52,6 +52,25 @@ GEOMETRY Circle circle_of_two_spheres(real3 d, real w0, real w1) {
   return c;
 }
 
+// A ball as that which may cover parts of circles around a first ball.
+struct Blocker {
+  real3 center;  // relative to the first ball's
+  real weight;
+  real square;      // of the distance
+  real distance;
+  real half_power;  // (first weight + square - weight) / 2: covered points x of the first sphere have dot(x, center) above it
+};
+
+GEOMETRY Blocker blocking_ball(real3 center, real weight, real first_weight) {
+  Blocker ball;
+  ball.center = center;
+  ball.weight = weight;
+  ball.square = dot(center, center);
+  ball.distance = sqrt(ball.square);
+  ball.half_power = (first_weight + ball.square - weight) * real(0.5);
+  return ball;
+}
+
 // What a ball covers of the unit circle (x, y): the open half-plane dot(normal, (x, y)) > offset.
 struct HalfPlane {
   real2 normal;
@@ -167,6 +186,42 @@ GEOMETRY int clip_arc(real begin, real end, CoveredArc covered, GEOMETRY_OUT(rea
   }
   if (covered_begin >= arc_end) return kKeep;
   return covered_end < arc_end ? kSplit : kCutEnd;
+}
+
+// A part of a circle that no ball covers so far, counter-clockwise, and the labels of those that cover what lies before
+// its begin and behind its end.
+struct ExposedArc {
+  real begin;  // pseudo-angles
+  real end;
+  uint begin_by;
+  uint end_by;
+};
+
+GEOMETRY ExposedArc exposed_arc(real begin, real end, uint begin_by, uint end_by) {
+  ExposedArc arc;
+  arc.begin = begin;
+  arc.end = end;
+  arc.begin_by = begin_by;
+  arc.end_by = end_by;
+  return arc;
+}
+
+// Takes from an arc what the ball `label` covers; says how, as clip_arc() does. kSplit: `second` is what is left behind
+// the covered part.
+GEOMETRY int cut_arc(GEOMETRY_INOUT(ExposedArc) arc, CoveredArc covered, uint label,
+                     GEOMETRY_INOUT(ExposedArc) second, GEOMETRY_OUT(real) margin) {
+  int change = clip_arc(arc.begin, arc.end, covered, margin);
+  if (change == kComplement) arc = exposed_arc(covered.end, covered.begin, label, label);
+  if (change == kSplit) second = exposed_arc(covered.end, arc.end, label, arc.end_by);
+  if (change == kCutBegin) {
+    arc.begin = covered.end;
+    arc.begin_by = label;
+  }
+  if (change == kCutEnd || change == kSplit) {
+    arc.end = covered.begin;
+    arc.end_by = label;
+  }
+  return change;
 }
 
 // Point at distance sqrt(w) from three centres a, b, c (given relative to a: 0, b, c), on the side of cross(b, c) if

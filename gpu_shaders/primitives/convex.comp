@@ -10,7 +10,7 @@ layout(local_size_x = 64) in;
 #include "gpu_shaders/shared/linear_index.glsl"
 #include "gpu_shaders/shared/loop_guard.glsl"
 #include "gpu_shaders/reduced_surface/precision.glsl"
-#include "gpu_shaders/reduced_surface/contour.glsl"
+#include "gpu_shaders/reduced_surface/exposed_arcs.glsl"
 #include "gpu_shaders/reduced_surface/listed_balls.glsl"
 #include "gpu_shaders/primitives/append_primitive.glsl"
 #include "gpu_shaders/visibility/begins_in_front.glsl"
@@ -53,11 +53,11 @@ bool known(uint first, uint last, uvec3 border) {
 // Whether the circle (a, b) shows an arc among the partners that is none of the surface: then some other atom is needed.
 bool shows_spurious_arc(uint a, uint b, uint first, uint last) {
   Circle c = circle_of_two_spheres(atoms[b].xyz - atoms[a].xyz, atoms[a].w, atoms[b].w);
-  begin_contour();
+  begin_contour(c, atoms[a].w);
   for (uint n = 0u; n < partner_count; ++n) {
     uint q = partners[n];
     if (q == b) continue;
-    block(c, atoms[a].w, atoms[q].xyz - atoms[a].xyz, atoms[q].w, q);
+    block(blocking_ball(atoms[q].xyz - atoms[a].xyz, atoms[q].w, atoms[a].w), q);
     if (contour_ended()) break;
   }
   if (exposed_doubtful) return true;

@@ -8,7 +8,7 @@ layout(local_size_x = 64) in;
 #include "gpu_shaders/shared/linear_index.glsl"
 #include "gpu_shaders/shared/loop_guard.glsl"
 #include "gpu_shaders/reduced_surface/precision.glsl"
-#include "gpu_shaders/reduced_surface/contour.glsl"
+#include "gpu_shaders/reduced_surface/exposed_arcs.glsl"
 #include "gpu_shaders/reduced_surface/listed_balls.glsl"
 #include "gpu_shaders/reduced_surface/parameters.glsl"
 
@@ -61,7 +61,7 @@ void main() {
   real w1;
   neighbor(i, place, d, w1);
   Circle c = circle_of_two_spheres(d, w0, w1);
-  begin_contour();
+  begin_contour(c, w0);
   real unit = kUnitRoundoff * w0;
   if (c.radius_squared < real(-1024) * unit) return;  // the balls do not overlap after all
   if (c.radius_squared <= kSmallestCircle * unit) {
@@ -73,7 +73,7 @@ void main() {
       real3 q;
       real wq;
       neighbor(i, n, q, wq);
-      block(c, w0, q, wq, n);  // named by its place in the list until an arc needs the atom
+      block(blocking_ball(q, wq, w0), n);  // named by its place in the list until an arc needs the atom
       if (contour_ended()) break;
     }
     if (loops_cut_short()) exposed_doubtful = true;

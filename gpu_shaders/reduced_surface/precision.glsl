@@ -13,3 +13,4 @@ const float kUnitRoundoff = 5.9604645e-8;
 #endif
 #define GEOMETRY
 #define GEOMETRY_OUT(type) out type
+#define GEOMETRY_INOUT(type) inout type

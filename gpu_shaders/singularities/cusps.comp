@@ -9,7 +9,7 @@ layout(local_size_x = 64) in;
 #include "gpu_shaders/shared/loop_guard.glsl"
 #include "gpu_shaders/shared/cusp_side.glsl"
 #include "gpu_shaders/reduced_surface/precision.glsl"
-#include "gpu_shaders/reduced_surface/contour.glsl"
+#include "gpu_shaders/reduced_surface/exposed_arcs.glsl"
 #include "gpu_shaders/singularities/parameters.glsl"
 
 struct CuspArc {
@@ -92,10 +92,10 @@ void main() {
   uint place = circles[index].y;
   uint t = neighbor_labels[place];
   vec4 other = neighbor_balls[place];
-  begin_contour();
-  if (!find_pencils(s, t)) return;
   float w0 = other.w;  // all probes have one radius
   Circle c = circle_of_two_spheres(other.xyz, w0, w0);
+  begin_contour(c, w0);
+  if (!find_pencils(s, t)) return;
   if (c.radius_squared < kSmallestCircle * kUnitRoundoff * w0 || dot(other.xyz, other.xyz) < 1e-4 * w0) exposed_doubtful = true;
   if (!exposed_doubtful) cover_past_axes(c);
   uint last = neighbor_first[s - params.first_probe + 1u];
@@ -104,7 +104,7 @@ void main() {
     uint u = neighbor_labels[n];
     if (n == place || on_pencil(u)) continue;
     vec4 ball = neighbor_balls[n];
-    block(c, w0, ball.xyz, ball.w, u);
+    block(blocking_ball(ball.xyz, ball.w, w0), u);
   }
   if (loops_cut_short()) exposed_doubtful = true;
   if (exposed_doubtful) {

@@ -82,8 +82,10 @@ class Sloppy {
 
 #define GEOMETRY inline
 #define GEOMETRY_OUT(type) type&
+#define GEOMETRY_INOUT(type) type&
 
 namespace sloppy {
+using uint = unsigned;
 using real = Sloppy;
 using real2 = Vector2<real>;
 using real3 = Vector3<real>;
@@ -94,6 +96,7 @@ using std::min;
 #undef MENISCUS_GEOMETRY_CIRCLE_GLSL
 
 namespace sharp {
+using uint = unsigned;
 using real = long double;
 using real2 = Vector2<real>;
 using real3 = Vector3<real>;

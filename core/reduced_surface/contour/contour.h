@@ -15,6 +15,22 @@
 
 namespace meniscus {
 
+namespace geometry {
+
+/// What balls leave of one circle, in double precision.
+struct Remainder {
+  std::vector<ExposedArc> exposed_arcs;  ///< the first exposed_count count
+  bool hold_arcs(uint count) {
+    if (exposed_arcs.size() < count) exposed_arcs.resize(count);
+    return true;
+  }
+#include "gpu_shaders/geometry/contour.glsl"
+};
+
+}  // namespace geometry
+
+using geometry::ExposedArc;
+
 /// Balls that may cover parts of circles around one first ball.
 class Blockers {
  public:
@@ -26,12 +42,7 @@ class Blockers {
   /// Nearest first: near balls cover most, and a covered circle is done with.
   void sort();
 
-  struct Ball {
-    glm::dvec3 center;
-    double square;      ///< of the distance
-    double half_power;  ///< (first weight + square - weight) / 2: dot(x, center) beyond which x is covered
-    double distance;
-    double weight;
+  struct Ball : geometry::Blocker {
     std::uint32_t label;
   };
   std::size_t size() const { return balls_.size(); }
@@ -49,14 +60,6 @@ struct BlockedHalf {
   std::uint32_t label = 0;
 };
 
-/// An exposed arc in pseudo-angles of the circle's frame, and who covers the circle before and after.
-struct ExposedArc {
-  double begin = 0.0;
-  double end = 0.0;
-  std::uint32_t begin_by = 0;
-  std::uint32_t end_by = 0;
-};
-
 /// What is left of one circle. Reused from circle to circle to save allocations.
 class Contour {
  public:
@@ -65,25 +68,23 @@ class Contour {
   void expose(const glm::dvec3& d, double w1, const Blockers& blockers, std::size_t skip,
               std::span<const BlockedHalf> halves = {});
 
-  bool whole() const { return whole_; }
-  const std::vector<ExposedArc>& arcs() const { return arcs_; }
-  const geometry::Circle& circle() const { return circle_; }
+  bool whole() const { return left_.exposed_whole; }
+  std::span<const ExposedArc> arcs() const { return {left_.exposed_arcs.data(), left_.exposed_count}; }
+  const geometry::Circle& circle() const { return left_.contour_circle; }
   std::size_t doubtful_count() const { return doubtful_count_; }  ///< circles redone in quadruple precision so far
 
   /// Unit vector from the circle's centre at a pseudo-angle.
   glm::dvec3 direction(double pseudo) const {
     const glm::dvec2 e = geometry::direction_at(pseudo);
-    return e.x * circle_.u + e.y * circle_.v;
+    return e.x * circle().u + e.y * circle().v;
   }
 
  private:
-  bool expose_in_double(const Blockers& blockers, std::size_t skip, std::span<const BlockedHalf> halves);
+  void expose_in_double(const Blockers& blockers, std::size_t skip, std::span<const BlockedHalf> halves);
   void expose_in_quad(const glm::dvec3& d, double w1, const Blockers& blockers, std::size_t skip,
                       std::span<const BlockedHalf> halves);
 
-  geometry::Circle circle_;
-  bool whole_ = false;
-  std::vector<ExposedArc> arcs_;
+  geometry::Remainder left_;
   std::size_t doubtful_count_ = 0;
 };
 

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Contour build-up: what balls leave of the circle of two others, arc by arc.
+// Based on: Totrov & Abagyan 1996.
+//
+// Common subset of GLSL and C++, below circle.glsl. What is left of the circle are variables: globals of a kernel, members
+// of a struct in C++, which has this file as its body (core/reduced_surface/contour/contour.h). The includer defines kUnitRoundoff and
+//   exposed_arcs               a list of ExposedArc, indexed by uint
+//   bool hold_arcs(uint count) makes room for so many; false if there is none
+
+Circle contour_circle;
+real contour_weight;  // of the circle's first ball
+real contour_noise;   // half_plane_noise() of the circle
+uint exposed_count;
+bool exposed_whole;
+bool exposed_doubtful;  // rounding could have changed a decision; those that follow are taken all the same
+real exposed_error;     // of any end point so far
+
+GEOMETRY void begin_contour(Circle c, real first_weight) {
+  contour_circle = c;
+  contour_weight = first_weight;
+  contour_noise = half_plane_noise(c, kUnitRoundoff);
+  exposed_count = 0u;
+  exposed_whole = true;
+  exposed_doubtful = false;
+  exposed_error = real(0);
+}
+
+GEOMETRY void cover_everything() {
+  exposed_count = 0u;
+  exposed_whole = false;
+}
+
+GEOMETRY bool contour_is_covered() { return !exposed_whole && exposed_count == 0u; }
+
+GEOMETRY bool contour_ended() { return exposed_doubtful || contour_is_covered(); }
+
+GEOMETRY void expose_arc(ExposedArc arc) {
+  if (hold_arcs(exposed_count + 1u)) exposed_arcs[exposed_count++] = arc;
+  else exposed_doubtful = true;
+}
+
+// Takes away what a half-plane covers that cuts the circle.
+GEOMETRY void cover(HalfPlane h, uint label) {
+  CoveredArc covered = covered_arc(h);
+  exposed_error = max(exposed_error, covered.error);
+  if (exposed_whole) {
+    exposed_whole = false;
+    expose_arc(exposed_arc(covered.end, covered.begin, label, label));
+    return;
+  }
+  uint kept = 0u;
+  bool split = false;  // at most one arc is
+  ExposedArc second = exposed_arc(real(0), real(0), label, label);
+  for (uint n = 0u; n < exposed_count; ++n) {
+    ExposedArc arc = exposed_arcs[n];
+    real margin;
+    int change = cut_arc(arc, covered, label, second, margin);
+    if (!(margin > real(2) * exposed_error + real(16) * kUnitRoundoff)) exposed_doubtful = true;
+    if (change == kSplit) split = true;
+    if (change != kRemove) exposed_arcs[kept++] = arc;
+  }
+  exposed_count = kept;
+  if (split) expose_arc(second);
+}
+
+// One ball against what is left of the circle.
+GEOMETRY void block(Blocker ball, uint label) {
+  // Most balls miss the circle or cover all of it; that needs no half-plane.
+  real along = dot(contour_circle.axis, ball.center);
+  real offset = (ball.half_power - contour_circle.height * along) * contour_circle.inverse_radius;
+  real beyond = abs(offset) - contour_noise * (ball.square + contour_weight) *
+                                  (real(1) + ball.distance * contour_circle.inverse_radius);
+  if (beyond > real(0) &&
+      beyond * beyond > ball.square * (real(1) + real(90) * kUnitRoundoff) - along * along) {
+    if (offset < real(0)) cover_everything();
+    return;
+  }
+  HalfPlane h = covered_half_plane(contour_circle, contour_weight, ball.center, ball.distance, ball.weight, kUnitRoundoff);
+  real margin;
+  int meeting = meet_circle(h, margin);
+  if (!(margin > real(0))) exposed_doubtful = true;
+  if (meeting == kCovers) cover_everything();
+  else if (meeting == kCuts) cover(h, label);
+}
