@@ -16,6 +16,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/surface/parting.h"
+#include "core/surface/walks.h"
 
 namespace meniscus {
 namespace {
@@ -152,10 +153,9 @@ class PartBuilder {
 
   void take_loop(const Loop& loop, std::uint32_t face) {
     s_.loops.push_back({static_cast<std::uint32_t>(s_.half_borders.size()), loop.half_border_count});
-    for (std::uint32_t n = 0; n < loop.half_border_count; ++n) {
-      const HalfBorder half = w_.half_borders[loop.first_half_border + n];
-      const std::uint32_t border = border_(half / 2);
-      if (border == s_.borders.size()) s_.borders.push_back(w_.borders[half / 2]);
+    for (const HalfBorder half : half_borders_of(w_, loop)) {
+      const std::uint32_t border = border_(border_of(half));
+      if (border == s_.borders.size()) s_.borders.push_back(w_.borders[border_of(half)]);
       s_.borders[border].face[half & 1] = face;
       s_.half_borders.push_back(2 * border + (half & 1));
     }
@@ -262,21 +262,16 @@ double winding(const Surface& surface, std::span<const std::uint32_t> faces, con
       if (glm::distance(atom.center, point) < atom.radius) sum += 4 * std::numbers::pi;
     }
     std::optional<glm::dvec3> apex;
-    for (std::uint32_t l = face.first_loop; l < face.first_loop + face.loop_count; ++l)
-      for (std::uint32_t n = 0; n < surface.loops[l].half_border_count; ++n) {
-        const HalfBorder half = surface.half_borders[surface.loops[l].first_half_border + n];
-        const Border& border = surface.borders[half / 2];
-        const glm::dvec3 side = glm::cross(border.axis, border.start);
-        const auto at = [&](double t) {
-          return border.center + border.radius * (std::cos(t) * border.start + std::sin(t) * side) - point;
-        };
-        if (!apex) apex = at(0);
-        constexpr int kChords = 3;  // of a whole circle; an arc's own chord would do
-        for (int k = 0; k < kChords; ++k) {
-          const glm::dvec3 from = at(border.sweep * k / kChords), to = at(border.sweep * (k + 1) / kChords);
-          sum += half & 1 ? solid_angle(*apex, to, from) : solid_angle(*apex, from, to);
-        }
+    for_each_half_border(surface, face, [&](HalfBorder half) {
+      const Border& border = surface.borders[border_of(half)];
+      const auto at = [&](double t) { return arc_point(border, t) - point; };
+      if (!apex) apex = at(0);
+      constexpr int kChords = 3;  // of a whole circle; an arc's own chord would do
+      for (int k = 0; k < kChords; ++k) {
+        const glm::dvec3 from = at(border.sweep * k / kChords), to = at(border.sweep * (k + 1) / kChords);
+        sum += is_backwards(half) ? solid_angle(*apex, to, from) : solid_angle(*apex, from, to);
       }
+    });
   }
   return sum / (4 * std::numbers::pi);
 }

@@ -10,6 +10,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/surface/walks.h"
+
 namespace meniscus {
 namespace {
 
@@ -39,8 +41,8 @@ double squared_distance(const Border& border, const glm::dvec3& point) {
     const double across = std::hypot(x, y) - border.radius;
     return across * across + z * z;
   }
-  const glm::dvec3 end = border.start * std::cos(border.sweep) + side * std::sin(border.sweep);
-  return std::min(squared_length(v - border.start * border.radius), squared_length(v - end * border.radius));
+  return std::min(squared_length(v - border.radius * border.start),
+                  squared_length(v - border.radius * arc_direction(border, border.sweep)));
 }
 
 std::uint32_t ComponentLookup::at(PatchKind kind, std::uint32_t patch, const glm::dvec3& point) const {
@@ -63,11 +65,9 @@ std::uint32_t ComponentLookup::at(PatchKind kind, std::uint32_t patch, const glm
 
 double ComponentLookup::squared_distance(const Face& face, const glm::dvec3& point) const {
   double nearest = std::numeric_limits<double>::max();
-  for (std::uint32_t l = face.first_loop; l < face.first_loop + face.loop_count; ++l) {
-    const Loop& loop = surface_.loops[l];
-    for (std::uint32_t h = loop.first_half_border; h < loop.first_half_border + loop.half_border_count; ++h)
-      nearest = std::min(nearest, meniscus::squared_distance(surface_.borders[surface_.half_borders[h] / 2], point));
-  }
+  for_each_border(surface_, face, [&](const Border& border) {
+    nearest = std::min(nearest, meniscus::squared_distance(border, point));
+  });
   return nearest;
 }
 

@@ -16,6 +16,7 @@
 #include "core/base/error.h"
 #include "core/surface/measure.h"
 #include "core/surface/spherical.h"
+#include "core/surface/walks.h"
 
 namespace meniscus {
 namespace {
@@ -99,8 +100,7 @@ class AreaDivider {
     std::vector<glm::dvec3> contacts;
     for (std::uint32_t n = 0; n < patch.contact_count; ++n)
       contacts.push_back(glm::normalize(s_.atoms[s_.contacts[patch.first_contact + n]].center - patch.center));
-    for (std::uint32_t f = patch.first_face; f < patch.first_face + patch.face_count; ++f)
-      add_borders(s_.faces[f], patch.center, contacts, area);
+    for (const Face& face : faces_of(s_, patch)) add_borders(face, patch.center, contacts, area);
     const std::vector<std::uint32_t> planes = planes_of(patch, cuts);
     for (std::uint32_t k = 1; k < contacts.size(); ++k)
       for (std::uint32_t j = 0; j < k; ++j) add_bisector(patch, planes, contacts, j, k, area);
@@ -133,19 +133,17 @@ class AreaDivider {
 
   void add_borders(const Face& face, const glm::dvec3& center, const std::vector<glm::dvec3>& contacts,
                    std::vector<double>& area) const {
-    for (std::uint32_t l = face.first_loop; l < face.first_loop + face.loop_count; ++l)
-      for (std::uint32_t n = 0; n < s_.loops[l].half_border_count; ++n) {
-        const HalfBorder half = s_.half_borders[s_.loops[l].first_half_border + n];
-        // Seen from inside of the sphere the face is on the other side.
-        const SphereArc arc = sphere_arc(s_.borders[half / 2], (half & 1) == 0, center, s_.probe_radius);
-        const SphereCircle circle = circle_of(arc);
-        for (std::size_t k = 0; k < contacts.size(); ++k) {
-          Intervals cell(std::abs(arc.sweep));
-          for (std::size_t j = 0; j < contacts.size(); ++j)
-            if (j != k) cell.keep(circle, contacts[j] - contacts[k], 0.0);
-          for (const auto& [from, to] : cell.kept()) area[k] += area_swept_from(contacts[k], circle, from, to);
-        }
+    for_each_half_border(s_, face, [&](HalfBorder half) {
+      // Seen from inside of the sphere the face is on the other side.
+      const SphereArc arc = sphere_arc(s_.borders[border_of(half)], !is_backwards(half), center, s_.probe_radius);
+      const SphereCircle circle = circle_of(arc);
+      for (std::size_t k = 0; k < contacts.size(); ++k) {
+        Intervals cell(std::abs(arc.sweep));
+        for (std::size_t j = 0; j < contacts.size(); ++j)
+          if (j != k) cell.keep(circle, contacts[j] - contacts[k], 0.0);
+        for (const auto& [from, to] : cell.kept()) area[k] += area_swept_from(contacts[k], circle, from, to);
       }
+    });
   }
 
   // Whoever computed the faces: what is divided among the atoms is all of it.
@@ -179,14 +177,12 @@ class AreaDivider {
 
   std::vector<std::uint32_t> probes_beyond_cusps(const ConcavePatch& patch) const {
     std::vector<std::uint32_t> probes;
-    for (std::uint32_t f = patch.first_face; f < patch.first_face + patch.face_count; ++f)
-      for (std::uint32_t l = s_.faces[f].first_loop; l < s_.faces[f].first_loop + s_.faces[f].loop_count; ++l)
-        for (std::uint32_t n = 0; n < s_.loops[l].half_border_count; ++n) {
-          const Border& border = s_.borders[s_.half_borders[s_.loops[l].first_half_border + n] / 2];
-          if (border.kind != BorderKind::cusp) continue;
-          for (const std::uint32_t face : border.face)
-            if (face != kNone) probes.push_back(s_.faces[face].patch);
-        }
+    for (const Face& face : faces_of(s_, patch))
+      for_each_border(s_, face, [&](const Border& border) {
+        if (border.kind != BorderKind::cusp) return;
+        for (const std::uint32_t beyond : border.face)
+          if (beyond != kNone) probes.push_back(s_.faces[beyond].patch);
+      });
     return probes;
   }
 

@@ -11,6 +11,7 @@
 
 #include "core/surface/loops.h"
 #include "core/math/union_find.h"
+#include "core/surface/walks.h"
 
 namespace meniscus {
 namespace {
@@ -278,7 +279,7 @@ class BoundaryBuilder {
     s_.loops.push_back({static_cast<std::uint32_t>(s_.half_borders.size()), static_cast<std::uint32_t>(walk.size())});
     s_.half_borders.insert(s_.half_borders.end(), walk.begin(), walk.end());
     ++s_.faces[face].loop_count;
-    for (HalfBorder h : walk) s_.borders[h / 2].face[h & 1] = face;
+    for (const HalfBorder h : walk) s_.borders[border_of(h)].face[h & 1] = face;
   }
 
   void append_toroidal_faces(std::uint32_t t) {

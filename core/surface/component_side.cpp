@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/surface/spherical.h"
+#include "core/surface/walks.h"
 
 namespace meniscus {
 namespace {
@@ -31,9 +32,7 @@ double farthest_of(const Border& border) {
   double turn = std::atan2(glm::dot(side, across), glm::dot(border.start, across));
   if (turn < 0) turn += 2 * std::acos(-1.0);
   if (border.vertex[0] == kNone || turn <= border.sweep) return middle + border.radius * length;
-  const double at_end =
-      middle +
-      border.radius * glm::dot(std::cos(border.sweep) * border.start + std::sin(border.sweep) * side, kDirection);
+  const double at_end = middle + border.radius * glm::dot(arc_direction(border, border.sweep), kDirection);
   return std::max(at_start, at_end);
 }
 

@@ -7,12 +7,13 @@
 
 #include "core/surface/spherical.h"
 #include "core/math/union_find.h"
+#include "core/surface/walks.h"
 
 namespace meniscus {
 namespace {
 
 std::uint32_t vertex_at(std::span<const Border> borders, HalfBorder h, int end) {
-  return borders[h / 2].vertex[(h & 1) ? 1 - end : end];
+  return borders[border_of(h)].vertex[is_backwards(h) ? 1 - end : end];
 }
 
 void chain_loops(std::span<const Border> borders, std::span<const HalfBorder> walk, PatchFaces& faces) {
@@ -51,7 +52,7 @@ std::vector<std::vector<SphereArc>> arcs_of_loops(std::span<const Border> border
   for (std::size_t l = 0, h = 0; l < loops.size(); ++l) {
     for (std::uint32_t n = 0; n < faces.loop_sizes[l]; ++n, ++h) {
       const HalfBorder half = faces.half_borders[h];
-      loops[l].push_back(sphere_arc(borders[half / 2], (half & 1) != (seen_from_inside ? 1u : 0u), center, radius));
+      loops[l].push_back(sphere_arc(borders[border_of(half)], is_backwards(half) != seen_from_inside, center, radius));
     }
     if (seen_from_inside) std::reverse(loops[l].begin(), loops[l].end());
   }

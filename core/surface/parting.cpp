@@ -14,6 +14,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/base/error.h"
+#include "core/surface/walks.h"
 
 namespace meniscus {
 namespace {
@@ -25,10 +26,7 @@ class Hull {
  public:
   Hull(const Surface& surface, std::span<const std::uint32_t> faces) {
     for (const std::uint32_t f : faces)
-      for (std::uint32_t l = surface.faces[f].first_loop; l < surface.faces[f].first_loop + surface.faces[f].loop_count;
-           ++l)
-        for (std::uint32_t n = 0; n < surface.loops[l].half_border_count; ++n)
-          arcs_.push_back(&surface.borders[surface.half_borders[surface.loops[l].first_half_border + n] / 2]);
+      for_each_border(surface, surface.faces[f], [&](const Border& border) { arcs_.push_back(&border); });
   }
 
   bool empty() const { return arcs_.empty(); }
@@ -42,7 +40,7 @@ class Hull {
       double top = std::atan2(glm::dot(direction, side), glm::dot(direction, arc->start));
       if (top < 0) top += 2 * std::numbers::pi;
       for (const double t : {0.0, arc->sweep, std::min(top, arc->sweep)}) {
-        const glm::dvec3 point = arc->center + arc->radius * (std::cos(t) * arc->start + std::sin(t) * side);
+        const glm::dvec3 point = arc_point(*arc, t);
         if (const double reach = glm::dot(direction, point); reach > most) {
           most = reach;
           best = point;

@@ -9,6 +9,8 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "core/surface/walks.h"
+
 namespace meniscus {
 namespace {
 
@@ -51,9 +53,8 @@ SphereArc sphere_arc(const Border& border, bool backwards, const glm::dvec3& cen
   arc.height = glm::dot(border.center - center, border.axis) / radius;
   const double ratio = border.radius / radius;
   const glm::dvec3 along = arc.axis * arc.height;
-  const glm::dvec3 side = glm::cross(border.axis, border.start);
   const glm::dvec3 first = along + ratio * border.start;
-  const glm::dvec3 last = along + ratio * (std::cos(border.sweep) * border.start + std::sin(border.sweep) * side);
+  const glm::dvec3 last = along + ratio * arc_direction(border, border.sweep);
   arc.from = backwards ? last : first;
   arc.to = backwards ? first : last;
   arc.sweep = backwards ? -border.sweep : border.sweep;
@@ -64,10 +65,9 @@ SphereArc sphere_arc(const Border& border, bool backwards, const glm::dvec3& cen
 void walk_loop(const Surface& surface, const Loop& loop, const glm::dvec3& center, double radius, bool seen_from_inside,
                std::vector<SphereArc>& arcs) {
   arcs.clear();
-  for (std::uint32_t n = 0; n < loop.half_border_count; ++n) {
-    const HalfBorder h = surface.half_borders[loop.first_half_border + n];
-    arcs.push_back(sphere_arc(surface.borders[h / 2], ((h & 1) != 0) != seen_from_inside, center, radius));
-  }
+  for (const HalfBorder half : half_borders_of(surface, loop))
+    arcs.push_back(
+        sphere_arc(surface.borders[border_of(half)], is_backwards(half) != seen_from_inside, center, radius));
   if (seen_from_inside) std::reverse(arcs.begin(), arcs.end());
 }
 

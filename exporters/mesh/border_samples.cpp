@@ -9,6 +9,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/surface/walks.h"
 #include "exporters/mesh/contact_colors.h"
 
 namespace meniscus {
@@ -28,11 +29,6 @@ double edge_length(double radius, double tolerance) {
 
 double tube_radius(const Surface& surface, const Face& face) {
   return face.kind == PatchKind::convex ? surface.atoms[surface.convex[face.patch].atom].radius : surface.probe_radius;
-}
-
-glm::dvec3 border_point(const Border& border, double t) {
-  return border.center +
-         border.radius * (std::cos(t) * border.start + std::sin(t) * glm::cross(border.axis, border.start));
 }
 
 BorderSamples::BorderSamples(const Surface& surface, double tolerance, bool split_colors)
@@ -130,7 +126,7 @@ glm::dvec3 BorderSamples::position(std::uint32_t border, std::uint32_t k) const 
 
 glm::dvec3 BorderSamples::position(BorderPoint p) const {
   if (p.border == kNone) return surface_.vertices[p.index];
-  return border_point(surface_.borders[p.border], parameters_[p.border][p.index]);
+  return arc_point(surface_.borders[p.border], parameters_[p.border][p.index]);
 }
 
 void BorderSamples::split(std::uint32_t border, std::uint32_t segment) {

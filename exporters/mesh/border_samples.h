@@ -52,7 +52,4 @@ class BorderSamples {
   std::vector<std::vector<double>> parameters_;  ///< per border, ascending from 0; arcs end with their sweep
 };
 
-/// The point of a border at parameter t.
-glm::dvec3 border_point(const Border& border, double t);
-
 }  // namespace meniscus

@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include "core/surface/walks.h"
+
 namespace meniscus {
 namespace {
 
@@ -22,11 +24,7 @@ double curvature_radius(const Surface& surface, const Face& face) {
 
 double border_length(const Surface& surface, const Face& face) {
   double length = 0;
-  for (std::uint32_t l = face.first_loop; l < face.first_loop + face.loop_count; ++l)
-    for (std::uint32_t n = 0; n < surface.loops[l].half_border_count; ++n) {
-      const Border& border = surface.borders[surface.half_borders[surface.loops[l].first_half_border + n] / 2];
-      length += border.radius * border.sweep;
-    }
+  for_each_border(surface, face, [&](const Border& border) { length += border.radius * border.sweep; });
   return length;
 }
 

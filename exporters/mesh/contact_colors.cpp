@@ -8,6 +8,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/surface/walks.h"
 #include "exporters/mesh/border_samples.h"
 
 namespace meniscus {
@@ -50,7 +51,7 @@ std::vector<double> color_changes(const std::vector<ContactDirection>& contacts,
                                   const Border& border) {
   const glm::dvec3 third = glm::cross(border.axis, border.start);
   auto nearest = [&](double t) {
-    const glm::dvec3 x = border_point(border, t) - probe;
+    const glm::dvec3 x = arc_point(border, t) - probe;
     std::size_t best = 0;
     for (std::size_t i = 1; i < contacts.size(); ++i) {
       if (glm::dot(contacts[i].direction, x) > glm::dot(contacts[best].direction, x)) best = i;

@@ -7,6 +7,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/surface/walks.h"
+
 namespace meniscus {
 namespace {
 
@@ -72,7 +74,6 @@ glm::dvec3 SphereDomain::normal(const FacePoint& point) const {
 
 TorusDomain::TorusDomain(const ToroidalPatch& patch, double tube_radius, int piece)
     : patch_(patch),
-      side_(glm::cross(patch.axis, patch.start)),
       tube_radius_(tube_radius),
       piece_(piece),
       spindle_(patch.face_count == 2 || !patch.has_piece[0] || !patch.has_piece[1]) {
@@ -85,7 +86,7 @@ TorusDomain::TorusDomain(const ToroidalPatch& patch, double tube_radius, int pie
 double TorusDomain::axis_distance(double tube) const { return patch_.radius - tube_radius_ * std::cos(tube); }
 
 FacePoint TorusDomain::at(double theta, double tube) const {
-  const glm::dvec3 radial = std::cos(theta) * patch_.start + std::sin(theta) * side_;
+  const glm::dvec3 radial = arc_direction(patch_, theta);
   return {patch_.center + axis_distance(tube) * radial + tube_radius_ * std::sin(tube) * patch_.axis, {theta, tube}};
 }
 
@@ -142,7 +143,7 @@ double TorusDomain::deviation(const FacePoint& a, const FacePoint& b, const Face
 
 glm::dvec3 TorusDomain::normal(const FacePoint& point) const {
   const double theta = point.angles.x, tube = point.angles.y;
-  const glm::dvec3 radial = std::cos(theta) * patch_.start + std::sin(theta) * side_;
+  const glm::dvec3 radial = arc_direction(patch_, theta);
   return glm::normalize(std::cos(tube) * radial - std::sin(tube) * patch_.axis);
 }
 

@@ -79,7 +79,6 @@ class TorusDomain final : public FaceDomain {
 
  private:
   ToroidalPatch patch_;
-  glm::dvec3 side_;
   double tube_radius_;
   int piece_;
   bool spindle_;

@@ -7,6 +7,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/surface/walks.h"
+
 #include "exporters/mesh/face_mesh.h"
 
 namespace meniscus {
@@ -85,14 +87,12 @@ FaceOutline sphere_outline(const Surface& surface, const Face& face, const Borde
     }
     return at->second;
   };
-  for (std::uint32_t l = 0; l < face.loop_count; ++l) {
-    const Loop& loop = surface.loops[face.first_loop + l];
+  for (const Loop& loop : loops_of(surface, face)) {
     const std::size_t before = outline.edges.size();
-    for (std::uint32_t h = 0; h < loop.half_border_count; ++h) {
-      const HalfBorder half = surface.half_borders[loop.first_half_border + h];
-      const std::uint32_t border = half / 2, n = samples.segment_count(border);
+    for (const HalfBorder half : half_borders_of(surface, loop)) {
+      const std::uint32_t border = border_of(half), n = samples.segment_count(border);
       for (std::uint32_t k = 0; k < n; ++k) {
-        const std::uint32_t from = half % 2 ? n - k : k, to = half % 2 ? n - k - 1 : k + 1;
+        const std::uint32_t from = is_backwards(half) ? n - k : k, to = is_backwards(half) ? n - k - 1 : k + 1;
         outline.edges.push_back({rim_point(border, from), rim_point(border, to)});
         outline.segments.push_back({border, std::min(from, to)});
       }

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "exporters/mesh/contact_colors.h"
+#include "core/surface/walks.h"
 #include "exporters/mesh/face_mesh.h"
 
 namespace meniscus {
@@ -50,12 +51,9 @@ class TorusRim {
     bool backwards;
   };
   std::vector<Half> loop(std::uint32_t l) const {
-    const Loop& chain = surface_.loops[face_.first_loop + l];
     std::vector<Half> halves;
-    for (std::uint32_t h = 0; h < chain.half_border_count; ++h) {
-      const HalfBorder half = surface_.half_borders[chain.first_half_border + h];
-      halves.push_back({half / 2, half % 2 == 1});
-    }
+    for (const HalfBorder half : half_borders_of(surface_, loops_of(surface_, face_)[l]))
+      halves.push_back({border_of(half), is_backwards(half)});
     return halves;
   }
 
@@ -73,7 +71,7 @@ class TorusRim {
   bool with_axis(std::uint32_t border) const { return glm::dot(surface_.borders[border].axis, patch_.axis) > 0.0; }
   /// The tube angle of a contact circle: that of the nearer atom's contact.
   double contact_tube(std::uint32_t border) const {
-    const double tube = tube_angle(patch_, border_point(surface_.borders[border], 0.0));
+    const double tube = tube_angle(patch_, arc_point(surface_.borders[border], 0.0));
     return std::abs(tube - angles_[0]) < std::abs(tube - angles_[1]) ? angles_[0] : angles_[1];
   }
   /// Theta along a contact arc of a strip, which spans the whole sweep.

@@ -5,8 +5,9 @@
 #include <cmath>
 #include <numbers>
 
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+
+#include "core/surface/walks.h"
 
 namespace meniscus::povray {
 namespace {
@@ -15,36 +16,26 @@ namespace {
 constexpr double kGenerous = 1e-9;
 
 void include_face(Box& box, const Surface& surface, const Face& face) {
-  for (std::uint32_t l = 0; l < face.loop_count; ++l) {
-    const Loop& loop = surface.loops[face.first_loop + l];
-    for (std::uint32_t h = 0; h < loop.half_border_count; ++h) {
-      const HalfBorder half = surface.half_borders[loop.first_half_border + h];
-      const Box arc = arc_extent(surface.borders[half / 2]);
-      box.include(arc.low);
-      box.include(arc.high);
-    }
-  }
+  for_each_border(surface, face, [&](const Border& border) {
+    const Box arc = arc_extent(border);
+    box.include(arc.low);
+    box.include(arc.high);
+  });
   if (face.tip != kNone) box.include(surface.vertices[face.tip]);
 }
 
 }  // namespace
 
-void Box::include(const glm::dvec3& p) {
-  low = glm::min(low, p);
-  high = glm::max(high, p);
-}
-
 Box arc_extent(const Border& b) {
   const glm::dvec3 side = glm::cross(b.axis, b.start);
-  const auto at = [&](double t) { return b.center + b.radius * (std::cos(t) * b.start + std::sin(t) * side); };
   Box box;
-  box.include(at(0.0));
-  box.include(at(b.sweep));
+  box.include(arc_point(b, 0.0));
+  box.include(arc_point(b, b.sweep));
   for (int k = 0; k < 3; ++k) {
     const double turn = std::atan2(side[k], b.start[k]);  // the coordinate is largest here, least half a turn on
     for (const double t : {turn, turn + std::numbers::pi}) {
       const double from_start = t < -kGenerous ? t + 2.0 * std::numbers::pi : t;
-      if (from_start <= b.sweep + kGenerous) box.include(at(from_start));
+      if (from_start <= b.sweep + kGenerous) box.include(arc_point(b, from_start));
     }
   }
   return box;
@@ -52,13 +43,13 @@ Box arc_extent(const Border& b) {
 
 Box toroidal_extent(const Surface& surface, const ToroidalPatch& patch) {
   Box box;
-  for (std::uint32_t f = 0; f < patch.face_count; ++f) include_face(box, surface, surface.faces[patch.first_face + f]);
+  for (const Face& face : faces_of(surface, patch)) include_face(box, surface, face);
   return box;
 }
 
 Box concave_extent(const Surface& surface, const ConcavePatch& patch) {
   Box box;
-  for (std::uint32_t f = 0; f < patch.face_count; ++f) include_face(box, surface, surface.faces[patch.first_face + f]);
+  for (const Face& face : faces_of(surface, patch)) include_face(box, surface, face);
   for (int k = 0; k < 3; ++k)
     for (const double sign : {-1.0, 1.0}) {
       glm::dvec3 pole = patch.center;

@@ -2,18 +2,10 @@
 // Exact axis-aligned boxes of curved patches, from their borders and the points where a coordinate is extreme inside.
 #pragma once
 
-#include <glm/vec3.hpp>
-
+#include "core/math/box.h"
 #include "core/surface/primitives.h"
 
 namespace meniscus::povray {
-
-/// An axis-aligned box in Å.
-struct Box {
-  glm::dvec3 low{1e300};
-  glm::dvec3 high{-1e300};
-  void include(const glm::dvec3& p);
-};
 
 /// The box of one border arc: its ends and the points where a coordinate turns.
 Box arc_extent(const Border& border);

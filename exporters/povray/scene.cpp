@@ -14,7 +14,7 @@ namespace meniscus::povray {
 SceneReport write_scene(std::span<const SurfaceObject> objects, const Camera& camera, const SceneOptions& options,
                         const std::filesystem::path& folder) {
   check(objects, options);
-  const Extent extent = atom_extent(objects);
+  const Box extent = atom_extent(objects);
   const glm::dvec3 origin = options.origin ? *options.origin : middle(extent);
   const Geometry geometry(objects, origin);
 

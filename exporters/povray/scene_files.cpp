@@ -140,7 +140,7 @@ std::string style_text(const std::vector<glm::vec3>& colors, const SceneOptions&
   return out.text();
 }
 
-std::string buffer_text(std::size_t color_count, const Extent& e, const glm::dvec3& origin) {
+std::string buffer_text(std::size_t color_count, const Box& e, const glm::dvec3& origin) {
   const glm::dvec3 size = e.high - e.low;
   // One cube for all axes, wide enough that no gradient reaches its own end.
   const double extent = std::ceil(std::max({size.x, size.y, size.z}) + 1.0);

@@ -11,6 +11,7 @@
 #include <glm/vec3.hpp>
 
 #include "core/camera/camera.h"
+#include "core/math/box.h"
 #include "exporters/povray/scene_options.h"
 
 namespace meniscus::povray {
@@ -27,7 +28,7 @@ std::string main_text(std::span<const Camera> cameras, const SceneOptions& optio
 /// <name>_style.inc
 std::string style_text(const std::vector<glm::vec3>& colors, const SceneOptions& options);
 /// <name>_aov.inc
-std::string buffer_text(std::size_t color_count, const Extent& e, const glm::dvec3& origin);
+std::string buffer_text(std::size_t color_count, const Box& e, const glm::dvec3& origin);
 /// <name>.ini. frame_count: 0 for a single surface.
 std::string ini_text(const SceneOptions& options, std::size_t frame_count = 0);
 

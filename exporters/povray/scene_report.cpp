@@ -17,15 +17,15 @@ constexpr std::size_t kMemoryWarningObjects = 2'000'000;  // about 3.5 GB in POV
 
 }  // namespace
 
-Extent atom_extent(std::span<const SurfaceObject> objects) {
-  Extent e;
+Box atom_extent(std::span<const SurfaceObject> objects) {
+  Box box;
   for (const SurfaceObject& object : objects)
     for (const RigidMotion& copy : object.copies)
       for (const Ball& b : object.surface.atoms) {
-        e.low = glm::min(e.low, copy(b.center) - b.radius);
-        e.high = glm::max(e.high, copy(b.center) + b.radius);
+        box.include(copy(b.center) - b.radius);
+        box.include(copy(b.center) + b.radius);
       }
-  return e;
+  return box;
 }
 
 void check(std::span<const SurfaceObject> objects, const SceneOptions& options) {
@@ -40,7 +40,7 @@ void check(std::span<const SurfaceObject> objects, const SceneOptions& options) 
     if (object.surface.atoms.empty()) throw Error("POV-Ray export: there is no atom");
 }
 
-glm::dvec3 middle(const Extent& extent) { return glm::round((extent.low + extent.high) * 0.5e3) / 1e3; }
+glm::dvec3 middle(const Box& extent) { return glm::round((extent.low + extent.high) * 0.5e3) / 1e3; }
 
 std::vector<std::string> notes(std::span<const SurfaceObject> objects, const Geometry& geometry, const Camera& camera) {
   std::vector<std::string> sentences;

@@ -13,10 +13,10 @@
 namespace meniscus::povray {
 
 /// Of all atoms and copies.
-Extent atom_extent(std::span<const SurfaceObject> objects);
+Box atom_extent(std::span<const SurfaceObject> objects);
 
 /// Å, to three decimals.
-glm::dvec3 middle(const Extent& extent);
+glm::dvec3 middle(const Box& extent);
 
 /// Throws Error: a name that cannot stand in a scene, no pixels, no atom.
 void check(std::span<const SurfaceObject> objects, const SceneOptions& options);

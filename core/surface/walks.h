@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the tables of a surface are asked again and again: points on its arcs, pieces of a patch, borders of a face.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <span>
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include "core/surface/primitives.h"
+
+namespace meniscus {
+
+/// Of a Border, a ToroidalPatch, or whatever has `axis` and `start`: the unit vector from its circle's centre at angle
+/// t (radian) from the start, counter-clockwise about the axis.
+template <typename Arc>
+glm::dvec3 arc_direction(const Arc& arc, double t) {
+  return std::cos(t) * arc.start + std::sin(t) * glm::cross(arc.axis, arc.start);
+}
+
+/// The point there, Å; of a ToroidalPatch: where the probe's centre is.
+template <typename Arc>
+glm::dvec3 arc_point(const Arc& arc, double t) {
+  return arc.center + arc.radius * arc_direction(arc, t);
+}
+
+/// Index of the border that is walked.
+inline std::uint32_t border_of(HalfBorder half) { return half / 2; }
+inline bool is_backwards(HalfBorder half) { return (half & 1) != 0; }
+
+/// The pieces of a patch.
+template <typename Patch>
+std::span<const Face> faces_of(const Surface& surface, const Patch& patch) {
+  return {surface.faces.data() + patch.first_face, patch.face_count};
+}
+
+inline std::span<const Loop> loops_of(const Surface& surface, const Face& face) {
+  return {surface.loops.data() + face.first_loop, face.loop_count};
+}
+
+/// In the order in which they are walked.
+inline std::span<const HalfBorder> half_borders_of(const Surface& surface, const Loop& loop) {
+  return {surface.half_borders.data() + loop.first_half_border, loop.half_border_count};
+}
+
+/// Calls visit(half border) loop after loop.
+template <typename Visit>
+void for_each_half_border(const Surface& surface, const Face& face, const Visit& visit) {
+  for (const Loop& loop : loops_of(surface, face))
+    for (const HalfBorder half : half_borders_of(surface, loop)) visit(half);
+}
+
+/// Calls visit(border) loop after loop.
+template <typename Visit>
+void for_each_border(const Surface& surface, const Face& face, const Visit& visit) {
+  for_each_half_border(surface, face, [&](HalfBorder half) { visit(surface.borders[border_of(half)]); });
+}
+
+}  // namespace meniscus
