@@ -13,11 +13,11 @@
 #include <glm/vec3.hpp>
 
 #include "core/math/ball.h"
+#include "core/math/grid_spacing.h"
 
 namespace meniscus {
 
-/// Cells are sized by the wanted spacing, and made larger where the extent would need more cells than there are balls
-/// (a few atoms far apart must not cost memory).
+/// Cells are sized by grid_spacing().
 class BallGrid {
  public:
   BallGrid(std::span<const Ball> balls, double spacing) {
@@ -56,14 +56,8 @@ class BallGrid {
       high = n ? glm::max(high, center(n)) : center(n);
     }
     low_ = low;
-    spacing = std::max(spacing, 1e-6);
-    const double limit = 4.0 * static_cast<double>(count) + 64.0;
     const glm::dvec3 extent = high - low;
-    const auto cells = [&](double s) {
-      return (std::floor(extent.x / s) + 1) * (std::floor(extent.y / s) + 1) * (std::floor(extent.z / s) + 1);
-    };
-    while (cells(spacing) > limit) spacing *= 1.25;
-    inverse_spacing_ = 1.0 / spacing;
+    inverse_spacing_ = 1.0 / grid_spacing(extent, count, std::max(spacing, 1e-6));
     size_ = glm::ivec3(glm::floor(extent * inverse_spacing_)) + 1;
 
     first_.assign(static_cast<std::size_t>(size_.x) * size_.y * size_.z + 1, 0);

@@ -10,6 +10,7 @@
 
 #include "core/base/error.h"
 #include "core/gpu/limits.h"
+#include "core/math/grid_spacing.h"
 
 namespace meniscus {
 namespace {
@@ -57,12 +58,7 @@ void GpuNeighbors::adopt(std::uint32_t count, const BallExtent& extent_of_balls)
   if (count_ == 0) return;
   const glm::dvec3 extent = high - low;
   largest_radius_ = static_cast<float>(largest) * 1.00001f;
-  double spacing = std::max(1e-3, static_cast<double>(largest_radius_));
-  const auto cells = [&] {
-    return (std::floor(extent.x / spacing) + 1) * (std::floor(extent.y / spacing) + 1) *
-           (std::floor(extent.z / spacing) + 1);
-  };
-  while (cells() > 4.0 * count_ + 64) spacing *= 1.25;
+  const double spacing = grid_spacing(extent, count_, std::max(1e-3, static_cast<double>(largest_radius_)));
   grid_.low = glm::vec4(glm::vec3(low), static_cast<float>(1 / spacing));
   grid_.size = glm::vec4(glm::vec3(glm::floor(extent / spacing) + 1.0), 0.0f);
   cell_count_ = static_cast<std::uint32_t>(grid_.size.x * grid_.size.y * grid_.size.z);

@@ -7,6 +7,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/base/units.h"
 #include "core/structure/atom_classes.h"
 #include "core/structure/formats/reader.h"
 #include "core/text/parse_number.h"
@@ -17,7 +18,6 @@ namespace meniscus {
 namespace {
 
 constexpr std::size_t kNamesEnd = 20;  // residue number and name, atom name and number: five columns each
-constexpr double kAngstromPerNanometre = 10.0;
 
 /// The columns of a coordinate: the distance of the first two points, whatever the number of decimals. 0: no such line.
 std::size_t coordinate_width(std::string_view line) {

@@ -10,14 +10,13 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/base/units.h"
 #include "core/trajectory/formats/binary_file.h"
 #include "core/trajectory/formats/cell.h"
 #include "core/trajectory/formats/formats.h"
 
 namespace meniscus {
 namespace {
-
-constexpr double kAngstromPerNanometre = 10.0;
 
 /// An open object of the library, closed by the function that belongs to its kind.
 class Handle {

@@ -8,6 +8,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/base/units.h"
 #include "core/trajectory/formats/binary_file.h"
 #include "core/trajectory/formats/byte_order.h"
 #include "core/trajectory/formats/cell.h"
@@ -21,7 +22,6 @@ constexpr std::int32_t kMagic = 1993;
 constexpr std::size_t kTitle = 24;                      // magic, length twice, "GMX_trn_file"
 constexpr std::size_t kIntegers = 13;                   // ten sizes, atoms, step, one more
 constexpr std::size_t kSizes = kTitle + 4 * kIntegers;  // time and lambda follow
-constexpr double kAngstromPerNanometre = 10.0;
 
 template <typename Number>
 Number big_endian(const std::byte* bytes) {

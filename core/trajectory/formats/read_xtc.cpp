@@ -8,6 +8,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/base/units.h"
 #include "core/trajectory/formats/binary_file.h"
 #include "core/trajectory/formats/byte_order.h"
 #include "core/trajectory/formats/cell.h"
@@ -23,7 +24,6 @@ constexpr std::size_t kHeader = 56;        // magic, atoms, step, time, nine num
 constexpr std::size_t kPackedHeader = 32;  // precision, extent, class, bytes (four, or eight in large systems)
 constexpr std::size_t kLongestHeader = kHeader + kPackedHeader + 8;
 constexpr std::size_t kMostPlainAtoms = 9;  // so few are not packed
-constexpr double kAngstromPerNanometre = 10.0;
 
 template <typename Number>
 Number big_endian(const std::byte* bytes) {

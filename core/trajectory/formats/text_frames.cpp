@@ -9,6 +9,7 @@
 #include <span>
 #include <utility>
 
+#include "core/base/units.h"
 #include "core/structure/formats/pdb_columns.h"
 #include "core/text/parse_number.h"
 #include "core/text/text_lines.h"
@@ -19,7 +20,6 @@ namespace meniscus {
 namespace {
 
 constexpr std::size_t kBlock = std::size_t{1} << 20;
-constexpr double kAngstromPerNanometre = 10.0;
 
 /// The lines of a file, of which only a block is in memory.
 class FileLines {
