@@ -21,6 +21,8 @@ using real2 = glm::dvec2;
 using real3 = glm::dvec3;
 using glm::cross;
 using glm::dot;
+using glm::length;
+using glm::normalize;
 using std::abs;
 using std::max;
 using std::min;
@@ -32,5 +34,8 @@ inline constexpr double kUnitRoundoff = 0x1p-53;
 #include "gpu_shaders/geometry/fixed_probe.glsl"
 #include "gpu_shaders/geometry/patch_bounds.glsl"
 #include "gpu_shaders/geometry/polygon_reach.glsl"
+#include "gpu_shaders/geometry/rolling_arc.glsl"
+#include "gpu_shaders/geometry/tie_key.glsl"
+#include "gpu_shaders/geometry/triple.glsl"
 
 }  // namespace meniscus::geometry

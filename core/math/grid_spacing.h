@@ -9,8 +9,8 @@
 
 namespace meniscus {
 
-/// The wanted edge of a cell, or a larger one where the extent would need more cells than a few per point: some atoms far
-/// apart must not cost memory. All in Å.
+/// The wanted edge of a cell, or a larger one where the extent would need more cells than a few per point: some atoms
+/// far apart must not cost memory. All in Å.
 inline double grid_spacing(const glm::dvec3& extent, std::size_t point_count, double wanted) {
   const double limit = 4.0 * static_cast<double>(point_count) + 64.0;
   double spacing = wanted;

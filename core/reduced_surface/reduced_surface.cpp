@@ -10,13 +10,14 @@
 #include <tbb/parallel_for.h>
 
 #include "core/math/ball_grid.h"
+#include "core/math/geometry.h"
 
 namespace meniscus {
 namespace {
 
 // Atoms this little larger than the one that holds them count as inside: as near as two probe positions count as one.
 // The circle of two spheres nearer than this would be as blurred as their difference.
-constexpr double kSwallowTolerance = 1e-6;
+const double kSwallowTolerance = geometry::kMergeDistance;
 
 // Of two balls that nearly coincide the larger one stays; of equal ones that of the lower index.
 bool outranks(std::span<const Ball> atoms, std::uint32_t a, std::uint32_t b) {

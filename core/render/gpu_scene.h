@@ -19,9 +19,6 @@ using glm::vec3;
 using glm::vec4;
 using uint = std::uint32_t;
 #include "gpu_shaders/ray_cast/records.glsl"
-#define GEOMETRY inline
-#include "gpu_shaders/ray_cast/tie_key.glsl"
-#undef GEOMETRY
 static_assert(sizeof(Primitive) == 48 && sizeof(Hit) == 32, "std430 has these sizes");
 }  // namespace ray_cast
 

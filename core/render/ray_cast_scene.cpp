@@ -49,15 +49,12 @@ class Packer {
 
   /// False when nothing of the bound lies in front of the camera.
   bool begin(const PatchBound& bound, PatchKind kind, std::uint32_t index, Primitive& primitive) {
-    const double radius = bound.radius * (1.0 + 1e-6) + 4.0 * scene_.slack;
-    const glm::dvec3 center = bound.center - frame_.pivot;
-    const double depth = frame_.eye_distance + glm::dot(center, frame_.basis.forward);
-    if (depth + radius <= 0.0) return false;
-    const double distance = frame_.camera.projection == Projection::orthographic
-                                ? depth
-                                : glm::length(bound.center - frame_.camera.position);
-    primitive.bound = glm::vec4(glm::vec3(center), static_cast<float>(radius));
-    primitive.nearest = static_cast<float>((distance - radius) - 1e-6 * (std::abs(distance) + radius));
+    const geometry::SeenBound seen =
+        geometry::see_bound(bound, scene_.slack, frame_.pivot, frame_.camera.position, frame_.basis.forward,
+                            frame_.eye_distance, frame_.camera.projection == Projection::orthographic);
+    if (!seen.in_front) return false;
+    primitive.bound = glm::vec4(glm::vec3(seen.center), static_cast<float>(seen.radius));
+    primitive.nearest = static_cast<float>(seen.nearest);
     primitive.first_row = static_cast<std::uint32_t>(scene_.rows.size());
     primitive.kind = static_cast<std::uint32_t>(kind);
     primitive.patch_index = index;
@@ -72,13 +69,13 @@ class Packer {
     std::vector<std::uint32_t> contacts(surface_.contacts.begin() + patch.first_contact,
                                         surface_.contacts.begin() + patch.first_contact + patch.contact_count);
     std::rotate(contacts.begin(), std::ranges::min_element(contacts), contacts.end());
-    return std::accumulate(contacts.begin(), contacts.end(), 0u, ray_cast::add_to_key);
+    return std::accumulate(contacts.begin(), contacts.end(), 0u, geometry::add_to_key);
   }
 
   std::uint32_t tie_key(const ToroidalPatch& patch) const {
-    std::uint32_t key = ray_cast::add_to_key(ray_cast::add_to_key(0, patch.atom[0]), patch.atom[1]);
+    std::uint32_t key = geometry::add_to_key(geometry::add_to_key(0, patch.atom[0]), patch.atom[1]);
     if (!patch.free())
-      for (const std::uint32_t probe : patch.probe) key = ray_cast::add_to_key(key, tie_key(surface_.concave[probe]));
+      for (const std::uint32_t probe : patch.probe) key = geometry::add_to_key(key, tie_key(surface_.concave[probe]));
     return key;
   }
 
@@ -116,7 +113,9 @@ class Packer {
                                       {std::cos(0.5 * patch.sweep), std::sin(0.5 * patch.sweep)}, p),
                PatchKind::toroidal, index, primitive))
       return;
-    primitive.plane_count = patch.free() ? 0 : patch.sweep <= std::numbers::pi ? 1 : 2;
+    primitive.plane_count = patch.free()                      ? geometry::kWholeTurn
+                            : patch.sweep <= std::numbers::pi ? geometry::kUpToHalfTurn
+                                                              : geometry::kOverHalfTurn;
     primitive.atom = patch.atom[0];
     primitive.second_atom = patch.atom[1];
     primitive.tie_key = tie_key(patch);

@@ -6,6 +6,7 @@
 
 #include "core/gpu/buffer.h"
 #include "core/gpu/kernel_parameters.h"
+#include "core/gpu/kernel_records.h"
 #include "core/gpu/prefix_sum.h"
 #include "core/gpu/program.h"
 #include "core/gpu/texel_buffer.h"
@@ -14,7 +15,7 @@
 
 namespace meniscus {
 
-inline constexpr int kTileEdge = 16;
+using kernel::kTileEdge;
 inline constexpr std::uint32_t kSliceCount = 32;
 inline constexpr std::uint32_t kSlotsPerTile = 2 * kSliceCount;
 

@@ -4,17 +4,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include <glm/geometric.hpp>
 
 #include "core/surface/atom_areas.h"
+#include "core/surface/walks.h"
 
 namespace meniscus {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kSlack = 1e-9;   // relative, of areas and volumes that may be 0 or whole
+constexpr double kSlack = 1e-9;  // relative, of areas and volumes that may be 0 or whole
+constexpr double kUnbounded = std::numeric_limits<double>::max();
 constexpr double kBeside = 1e-5;  // Å for a probe of no size: what merging probes may turn a plane by
 constexpr double kClose = 1e-3;   // Å, half the distance of probes whose bisector rounding may turn
 
@@ -52,8 +55,8 @@ class Examination {
     for (std::size_t c = 0; c < bad.size(); ++c) {
       const Component& component = s_.components[c];
       const double slack = kSlack * (1 + component.area);
-      const double most = component.kind == ComponentKind::cavity ? -4 * kPi / 3 * p * p * p + slack : 1e300;
-      const double least = component.kind == ComponentKind::cavity ? -1e300 : -slack;
+      const double most = component.kind == ComponentKind::cavity ? -4 * kPi / 3 * p * p * p + slack : kUnbounded;
+      const double least = component.kind == ComponentKind::cavity ? -kUnbounded : -slack;
       const bool sided = component.volume >= least && component.volume <= most;
       bad[c] = component.euler % 2 != 0 || component.euler > 2 || !sided;
     }
@@ -121,11 +124,10 @@ class Examination {
   }
 
   bool has_cusp(const ConcavePatch& patch) const {
-    for (std::uint32_t f = patch.first_face; f < patch.first_face + patch.face_count; ++f)
-      for (std::uint32_t l = s_.faces[f].first_loop; l < s_.faces[f].first_loop + s_.faces[f].loop_count; ++l)
-        for (std::uint32_t n = 0; n < s_.loops[l].half_border_count; ++n)
-          if (s_.borders[s_.half_borders[s_.loops[l].first_half_border + n] / 2].kind == BorderKind::cusp) return true;
-    return false;
+    bool found = false;
+    for (const Face& face : faces_of(s_, patch))
+      for_each_border(s_, face, [&](const Border& border) { found = found || border.kind == BorderKind::cusp; });
+    return found;
   }
 
   // A re-entrant patch of several probes in one, cut from close by, cut to no avail, or with blurred corners: divided

@@ -28,16 +28,10 @@ bool reaches(const CuspProblem& problem, std::uint32_t s, const glm::dvec3& othe
   if (!(distance > 0)) return false;
   const glm::dvec3 d = toward / distance;
   const auto sides = problem.sides_of(s);
-  // Largest dot product of d with the points of the polygon: at d itself, on a side, or at a corner.
-  double best = -1;
-  bool inside = true;
-  for (std::size_t n = 0; n < sides.size(); ++n) {
-    double outside = 0;
-    const glm::dvec3& next = sides[n + 1 == sides.size() ? 0 : n + 1].contact;
-    best = std::max(best, geometry::reach_of_side(sides[n].contact, next, d, outside));
-    inside = inside && outside <= 0;
-  }
-  return (inside ? 1.0 : best) * 2 * problem.probe_radius >= distance * (1 - 1e-12);
+  geometry::PolygonReach reach = geometry::no_reach();
+  for (std::size_t n = 0; n < sides.size(); ++n)
+    geometry::add_side(reach, sides[n].contact, sides[n + 1 == sides.size() ? 0 : n + 1].contact, d);
+  return geometry::reaches_bisector(reach, problem.probe_radius, distance);
 }
 
 void settle_neighbors(const CuspProblem& problem, CutLists& cuts) {
@@ -70,10 +64,22 @@ std::vector<std::array<std::uint32_t, 2>> mutual_pairs(const CutLists& cuts) {
   return pairs;
 }
 
-// A spindle circle that both probes stand on, as neighbours across a covered gap.
-struct Pencil {
-  std::uint32_t side;  // of the lower probe
-  std::uint32_t circle;
+// The spindle circles that a pair shares.
+struct Pencils {
+  using uint = std::uint32_t;
+  const CuspProblem* problem = nullptr;
+  std::vector<uint> pencil_sides;
+
+  bool hold_pencils(uint count) {
+    if (pencil_sides.size() < count) pencil_sides.resize(count);
+    return true;
+  }
+  uint first_side(uint probe) const { return problem->first_side[probe]; }
+  uint circle_of(uint side) const { return problem->sides[side].circle; }
+  uint partner_of(uint side) const { return problem->sides[side].partner; }
+#include "gpu_shaders/geometry/pencil.glsl"
+
+  std::span<const uint> all() const { return {pencil_sides.data(), pencil_count}; }
 };
 
 // Where the pair's circle comes to the axis of a pencil, relative to the lower probe, and the direction in which it
@@ -84,7 +90,7 @@ struct AxisPoint {
 };
 
 struct PairTracer::Scratch {
-  std::vector<Pencil> pencils;
+  Pencils pencils;
   std::vector<AxisPoint> axis_points;
   Blockers others;
   std::vector<BlockedHalf> halves;
@@ -92,49 +98,29 @@ struct PairTracer::Scratch {
 };
 
 PairTracer::PairTracer(const CuspProblem& problem, const CutLists& cuts)
-    : problem_(&problem), cuts_(&cuts), scratch_(std::make_unique<Scratch>()) {}
+    : problem_(&problem), cuts_(&cuts), scratch_(std::make_unique<Scratch>()) {
+  scratch_->pencils.problem = &problem;
+}
 PairTracer::~PairTracer() = default;
 PairTracer::PairTracer(PairTracer&&) noexcept = default;
-
-// False if s and t stand on one spindle circle but are no neighbours there: then other probes of the circle are nearer
-// everywhere on their bisector.
-bool PairTracer::find_pencils(std::uint32_t s, std::uint32_t t) {
-  scratch_->pencils.clear();
-  for (std::uint32_t n = problem_->first_side[s]; n < problem_->first_side[s + 1]; ++n) {
-    const CuspSide& side = problem_->sides[n];
-    if (side.circle == kNone) continue;
-    for (const CuspSide& other : problem_->sides_of(t)) {
-      if (other.circle != side.circle) continue;
-      if (side.partner != t) return false;
-      scratch_->pencils.push_back({n, side.circle});
-    }
-  }
-  return true;
-}
-
-bool PairTracer::on_pencil(std::uint32_t u) const {
-  for (const Pencil& pencil : scratch_->pencils)
-    for (const CuspSide& side : problem_->sides_of(u))
-      if (side.circle == pencil.circle) return true;
-  return false;
-}
 
 // Past the axis of a shared spindle circle nothing of the pair's circle is left. False if that is all of it.
 bool PairTracer::set_halves(std::uint32_t s, std::uint32_t t) {
   scratch_->halves.clear();
   scratch_->axis_points.clear();
-  if (scratch_->pencils.empty()) return true;
+  if (scratch_->pencils.all().empty()) return true;
   const glm::dvec3 d = problem_->positions[t] - problem_->positions[s];
   const geometry::Circle circle = geometry::circle_of_two_spheres(d, problem_->weights[s], problem_->weights[t]);
-  for (const Pencil& pencil : scratch_->pencils) {
-    const CuspSide& side = problem_->sides[pencil.side];
+  for (const std::uint32_t pencil : scratch_->pencils.all()) {
+    const CuspSide& side = problem_->sides[pencil];
     BlockedHalf half;
-    half.label = kAxisLabel | pencil.side;
+    half.label = kAxisLabel | pencil;
     half.half_plane =
         geometry::half_plane_past_axis(circle, side.gap_direction, side.circle_center - problem_->positions[s]);
-    const double gap = half.half_plane.length_squared - half.half_plane.offset * half.half_plane.offset;
-    // As large as the probe: the pair's circle touches the axis, so it lies before it or past it as a whole.
-    if (gap > 0 && !side.touching) {
+    double margin = 0;
+    const int meeting = geometry::meet_axis(half.half_plane, side.touching, margin);
+    if (meeting == geometry::kCovers) return false;
+    if (meeting == geometry::kCuts) {
       scratch_->halves.push_back(half);
       const geometry::CoveredArc past = geometry::covered_arc(half.half_plane);
       for (const double sign : {1.0, -1.0}) {
@@ -143,8 +129,7 @@ bool PairTracer::set_halves(std::uint32_t s, std::uint32_t t) {
             {circle.axis * circle.height + circle.radius * (e.x * circle.u + e.y * circle.v),
              sign * (e.x * circle.v - e.y * circle.u)});
       }
-    } else if (half.half_plane.offset < 0)
-      return false;
+    }
   }
   return true;
 }
@@ -163,7 +148,7 @@ void PairTracer::list_others(std::uint32_t s, std::uint32_t t, const Blockers& n
   bool taken_over = false;
   for (std::size_t n = 0; n < near.size(); ++n) {
     const Blockers::Ball& b = near[n];
-    if (b.label == t || !cuts_both(b.label) || on_pencil(b.label)) continue;
+    if (b.label == t || !cuts_both(b.label) || scratch.pencils.on_pencil(b.label)) continue;
     bool beyond_axis = false;
     for (const AxisPoint& axis : scratch.axis_points) {
       const glm::dvec3 d = axis.point - b.center;
@@ -177,7 +162,7 @@ void PairTracer::list_others(std::uint32_t s, std::uint32_t t, const Blockers& n
 }
 
 void PairTracer::trace(std::uint32_t s, std::uint32_t t, const Blockers& near, std::vector<TracedArc>& found) {
-  if (!find_pencils(s, t) || !set_halves(s, t)) return;
+  if (!scratch_->pencils.find_pencils(s, t) || !set_halves(s, t)) return;
   list_others(s, t, near);
   Scratch& scratch = *scratch_;
   scratch.contour.expose(problem_->positions[t] - problem_->positions[s], problem_->weights[t], scratch.others,

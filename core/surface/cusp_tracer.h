@@ -11,6 +11,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include "core/gpu/kernel_records.h"
 #include "core/surface/primitives.h"
 
 namespace meniscus {
@@ -53,7 +54,8 @@ struct CutLists {
 
 /// Arc ends are named by the probe that covers the circle beyond, or, with this bit, by the side (of the lower probe)
 /// whose spindle axis ends it.
-inline constexpr std::uint32_t kAxisLabel = 0x80000000u;
+using kernel::kAxisLabel;
+static_assert(kNone == kernel::kNone);
 
 /// What is left of the circle of two probes among all others: from `begin` to `end` (unit vectors from its centre),
 /// counter-clockwise about the axis from the lower probe to the higher; `by` kNone twice: all of it.
@@ -104,8 +106,6 @@ class PairTracer {
 
  private:
   struct Scratch;
-  bool find_pencils(std::uint32_t s, std::uint32_t t);
-  bool on_pencil(std::uint32_t u) const;
   bool set_halves(std::uint32_t s, std::uint32_t t);
   void list_others(std::uint32_t s, std::uint32_t t, const Blockers& near);
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <tuple>
 
@@ -12,12 +13,15 @@
 
 #include "core/math/geometry.h"
 #include "core/reduced_surface/reduced_surface.h"
+#include "core/surface/walks.h"
 
 namespace meniscus {
 namespace {
 
 constexpr double kTwoPi = 2 * std::numbers::pi;
-constexpr double kBlur = 1e-6;  // Å for a probe of no size: what merging (fixed_probes.h) may move a point by
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
+// Å for a probe of no size: what merging (fixed_probes.h) may move a point by.
+const double kBlur = geometry::kMergeDistance;
 
 struct FoundArc {
   CuspArc arc;
@@ -106,8 +110,7 @@ class CuspSearch {
         const double begin = around[n].first + toroidal_[t].sweep;
         const double end = around[(n + 1) % around.size()].first + (n + 1 == around.size() ? kTwoPi : 0.0);
         const double middle = 0.5 * (begin + end);
-        const glm::dvec3 direction =
-            std::cos(middle) * lead.start + std::sin(middle) * glm::cross(lead.axis, lead.start);
+        const glm::dvec3 direction = arc_direction(lead, middle);
         CuspSide &last = problem_.sides[side_at[t][1]], &next = problem_.sides[side_at[u][0]];
         last.partner = toroidal_[u].probe[0];
         next.partner = toroidal_[t].probe[1];
@@ -149,8 +152,8 @@ class CuspSearch {
   }
 
   struct DepthRange {
-    double lowest = 1e300;
-    double highest = -1e300;
+    double lowest = kUnbounded;
+    double highest = -kUnbounded;
   };
 
   // How deep the circle's piece lies in the cones of both probes, Å. It lies on both patches all along, or nowhere, so
@@ -159,9 +162,7 @@ class CuspSearch {
   DepthRange depth_on_both_patches(const CuspArc& arc) const {
     DepthRange range;
     for (const double part : {0.5, 0.3, 0.7}) {
-      const double angle = part * arc.sweep;
-      const glm::dvec3 e = std::cos(angle) * arc.start + std::sin(angle) * glm::cross(arc.axis, arc.start);
-      const glm::dvec3 point = arc.center + arc.radius * e;
+      const glm::dvec3 point = arc_point(arc, part * arc.sweep);
       const double depth = std::min(depth_in_cone(arc.probe[0], point), depth_in_cone(arc.probe[1], point));
       range.lowest = std::min(range.lowest, depth);
       range.highest = std::max(range.highest, depth);
@@ -173,7 +174,7 @@ class CuspSearch {
 
   // Of the point of the piece that is farthest beyond a side of the probe's cone, where that is no end of the piece.
   double least_depth(const CuspArc& arc, std::uint32_t s) const {
-    double least = 1e300;
+    double least = kUnbounded;
     for_each_side(s, [&](const glm::dvec3& normal) {
       const double along = glm::dot(normal, arc.axis), across = std::sqrt(std::max(0.0, 1 - along * along));
       if (arc.sweep < kTwoPi && angle_between(arc.axis, arc.start, normal) > arc.sweep) return;
@@ -183,7 +184,7 @@ class CuspSearch {
   }
 
   double depth_in_cone(std::uint32_t s, const glm::dvec3& point) const {
-    double depth = 1e300;
+    double depth = kUnbounded;
     for_each_side(
         s, [&](const glm::dvec3& normal) { depth = std::min(depth, -glm::dot(normal, point - probes_.position[s])); });
     return depth;
@@ -205,15 +206,8 @@ class CuspSearch {
     for (std::uint32_t n = 0; n < found_.size(); ++n)
       for (std::uint32_t end = 0; end < 2; ++end) {
         if (found_[n].by[end] == kNone || found_[n].arc.on_axis[end]) continue;
-        std::uint32_t a = found_[n].arc.probe[0], b = found_[n].arc.probe[1], c = found_[n].by[end];
-        std::uint32_t side = end ? 0 : 1;
-        if (c < a) {
-          std::swap(b, c);
-          std::swap(a, b);
-        } else if (c < b) {
-          std::swap(b, c);
-          side ^= 1;
-        }
+        const auto [s, t] = found_[n].arc.probe;
+        const auto [a, b, c, side] = geometry::triple_at(s, t, found_[n].by[end], end != 0);
         ends.push_back({{a, b, c}, side, n * 2 + end});
       }
     std::sort(ends.begin(), ends.end(), [](const TripleEnd& x, const TripleEnd& y) {

@@ -20,13 +20,7 @@
 namespace meniscus {
 namespace {
 
-constexpr double kMergeDistance = 1e-6;
-constexpr double kSteep =
-    0.01;  // a lower probe moves so much more than its atoms that it must come nearer to be merged
-constexpr double kTouchDistance = 1e-9;
-constexpr double kLittle = 0.01;           // radian
-constexpr double kLargestGrowth = 1.5e-9;  // of decision weights
-constexpr double kFlat = 1e-7;             // squared height of a probe that growth may have moved by its square root
+constexpr double kLittle = 0.01;  // radian
 
 // One end of an exposed arc as the fixed probe that stands there: its atoms a < b < c and the side of their plane.
 struct ArcEnd {
@@ -80,17 +74,8 @@ class Placement {
     for (std::uint32_t n = 0; n < arcs_.size(); ++n) {
       const RsArc& arc = arcs_[n];
       if (arc.begin_by == kNone) continue;
-      // Where the covered part of a circle ends the probe stands on the side of cross(j - i, k - i), see
-      // covered_arc(); where it begins, on the other.
       for (std::uint32_t end = 0; end < 2; ++end) {
-        std::uint32_t a = arc.i, b = arc.j, c = end ? arc.end_by : arc.begin_by, side = end ? 0 : 1;
-        if (c < a) {
-          std::swap(b, c);
-          std::swap(a, b);
-        } else if (c < b) {
-          std::swap(b, c);
-          side ^= 1;
-        }
+        const auto [a, b, c, side] = geometry::triple_at(arc.i, arc.j, end ? arc.end_by : arc.begin_by, end != 0);
         ends[next[a]++] = {b, c, n * 2 + end, side};
       }
     }
@@ -128,13 +113,13 @@ class Placement {
     const auto& [a, b, c] = triples_[t].atom;
     const glm::dvec3 origin = atoms_[a].center;
     const glm::dvec3 db = atoms_[b].center - origin, dc = atoms_[c].center - origin;
-    const auto [position, height] = geometry::fixed_probe(db, dc, extended(a), extended(b), extended(c),
-                                                          triples_[t].side ? 1.0 : -1.0, kLargestGrowth, kFlat);
+    const auto [position, height] =
+        geometry::fixed_probe(db, dc, extended(a), extended(b), extended(c), triples_[t].side ? 1.0 : -1.0);
     position_[t] = origin + position;
     height_[t] = height;
   }
 
-  // True if the arc is the vanishing one of the two between its (coincident) ends, as the decisions saw it.
+  // Whether an arc with coincident ends is nothing, as the decisions saw it.
   bool vanishes(const RsArc& arc) const {
     namespace q = quad_geometry;
     const auto local = [&](std::uint32_t atom) {
@@ -144,23 +129,18 @@ class Placement {
     const q::real w = decision_weight(extended(arc.i), arc.i);
     const q::Circle circle = q::circle_of_two_spheres(local(arc.j), w, decision_weight(extended(arc.j), arc.j));
     const auto covered = [&](std::uint32_t k) {
-      return q::covered_arc(q::covered_half_plane(circle, w, local(k), 0, decision_weight(extended(k), k), 0));
+      return q::covered_by(circle, w, local(k), decision_weight(extended(k), k));
     };
-    return q::pseudo_sweep(covered(arc.begin_by).end, covered(arc.end_by).begin) < 1;
+    return q::arc_vanishes(covered(arc.begin_by), covered(arc.end_by));
   }
 
-  bool flat(std::uint32_t triple) const { return height_[triple] * height_[triple] < 2 * kFlat; }
-
-  // One position? A flat triple's own position is blurred: then the other's must touch the flat one's atoms.
   bool coincide(std::uint32_t s, std::uint32_t t) const {
     const glm::dvec3 d = position_[s] - position_[t];
-    const double near = kMergeDistance * std::min(1.0, std::min(height_[s], height_[t]) / kSteep);
-    if (glm::dot(d, d) < near * near) return true;
-    if (glm::dot(d, d) > 4 * kFlat || flat(s) == flat(t)) return false;
-    const glm::dvec3& sharp = position_[flat(s) ? t : s];
-    const auto& atoms = triples_[flat(s) ? s : t].atom;
-    return std::all_of(atoms.begin(), atoms.end(), [&](std::uint32_t a) {
-      return std::abs(glm::distance(sharp, atoms_[a].center) - extended(a)) < kMergeDistance;
+    if (geometry::stand_together(d, height_[s], height_[t])) return true;
+    if (!geometry::may_stand_together(d, height_[s], height_[t])) return false;
+    const auto [flat, sharp] = geometry::is_flat(height_[s]) ? std::pair(s, t) : std::pair(t, s);
+    return std::ranges::all_of(triples_[flat].atom, [&, at = position_[sharp]](std::uint32_t a) {
+      return geometry::touches_atom(at - atoms_[a].center, extended(a));
     });
   }
 
@@ -249,36 +229,25 @@ class Placement {
     const RsArc& arc = arcs_[n];
     const glm::dvec3 origin = atoms_[arc.i].center;
     const double ri = extended(arc.i), rj = extended(arc.j);
-    geometry::Circle circle = geometry::circle_of_two_spheres(atoms_[arc.j].center - origin, ri * ri, rj * rj);
-    if (circle.radius_squared < 1e-12)  // touching spheres: the circle that the decisions saw
-      circle = geometry::circle_of_two_spheres(atoms_[arc.j].center - origin, decision_weight(ri, arc.i),
-                                               decision_weight(rj, arc.j));
+    const geometry::RollingArc whole =
+        geometry::whole_turn(origin, atoms_[arc.j].center - origin, ri, rj, decision_weight(ri, arc.i),
+                             decision_weight(rj, arc.j), probe_radius_);
     ToroidalPatch patch;
     patch.atom = {arc.i, arc.j};
-    patch.center = origin + circle.axis * circle.height;
-    patch.axis = circle.axis;
-    patch.radius = circle.radius;
-    // A circle as large as the probe touches its axis in one point; rounding must not open a spindle there.
-    if (std::abs(patch.radius - probe_radius_) < kTouchDistance) patch.radius = probe_radius_;
-    if (arc.begin_by == kNone) {
-      patch.start = circle.u;
-      patch.sweep = 2 * std::numbers::pi;
-      return patch;
-    }
+    patch.center = whole.center;
+    patch.axis = whole.axis;
+    patch.radius = whole.radius;
+    patch.start = whole.start;
+    patch.sweep = 2 * std::numbers::pi;
+    if (arc.begin_by == kNone) return patch;
     const std::uint32_t begin = triple_at_[n * 2], end = triple_at_[n * 2 + 1];
     patch.probe = {probe_of_triple_[begin], probe_of_triple_[end]};
-    const auto direction = [&](std::uint32_t probe) {
-      const glm::dvec3 d = position_[members_[probe].first] - patch.center;
-      return glm::normalize(d - patch.axis * glm::dot(d, patch.axis));
-    };
-    patch.start = direction(patch.probe[0]);
-    const glm::dvec3 stop = direction(patch.probe[1]);
-    const double sine = glm::dot(patch.axis, glm::cross(patch.start, stop)), cosine = glm::dot(patch.start, stop);
-    patch.sweep = std::atan2(sine, cosine);
+    const auto position = [&](std::uint32_t probe) { return position_[members_[probe].first]; };
+    const geometry::RollingArc part = geometry::part_between(whole, position(patch.probe[0]), position(patch.probe[1]));
+    patch.start = part.start;
+    patch.sweep = std::atan2(part.sine, part.cosine);
     if (patch.sweep <= 0) patch.sweep += 2 * std::numbers::pi;
-    // Nothing or a whole turn? Positions cannot tell when the ends (nearly) coincide.
-    const glm::dvec3 gap = position_[begin] - position_[end];
-    if (glm::dot(gap, gap) < kMergeDistance * kMergeDistance) {
+    if (geometry::ends_coincide(position_[begin], position_[end])) {
       const bool tiny = vanishes(arc);
       if (!tiny && patch.sweep < std::numbers::pi) patch.sweep = 2 * std::numbers::pi;
       if (tiny && patch.sweep > std::numbers::pi) patch.sweep = 0;

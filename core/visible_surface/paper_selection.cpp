@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "core/gpu/kernel_records.h"
 #include "core/reduced_surface/gpu/gpu_neighbors.h"
 #include "core/reduced_surface/reduced_surface.h"
 
@@ -13,7 +14,6 @@ namespace meniscus {
 namespace {
 
 constexpr std::size_t kWord = sizeof(std::uint32_t);
-constexpr float kNothing = 3.0e38f;  // as in view.glsl
 
 }  // namespace
 
@@ -41,7 +41,7 @@ void PaperSelection::select(const PictureFrame& frame, const VisibleAtoms& view,
 void PaperSelection::draw(const char* kernel, const PictureFrame& frame, const VisibleAtoms& view, std::uint32_t count,
                           float probe_radius) {
   pixel_depths_.resize(static_cast<std::size_t>(frame.size.x) * frame.size.y * sizeof(float));
-  pixel_depths_.fill(std::bit_cast<std::uint32_t>(kNothing));
+  pixel_depths_.fill(std::bit_cast<std::uint32_t>(kernel::kNothing));
   pixel_depths_.bind(1);
   const Program& program = programs_.get("gpu_shaders/paper_selection/" + std::string(kernel) + ".comp");
   view.bind(program);

@@ -13,6 +13,7 @@
 
 #include "core/base/error.h"
 #include "core/gpu/gpu_stage.h"
+#include "core/gpu/kernel_records.h"
 #include "core/surface/tie_ladder.h"
 
 namespace meniscus {

@@ -10,6 +10,7 @@
 #include "core/base/stage_clock.h"
 #include "core/gpu/append_list.h"
 #include "core/gpu/buffer.h"
+#include "core/gpu/kernel_records.h"
 #include "core/gpu/prefix_sum.h"
 #include "core/gpu/program.h"
 #include "core/gpu/texel_buffer.h"
@@ -62,8 +63,6 @@ class ViewPipeline final : public Drawable {
   const ViewStats& stats() const { return stats_; }
 
  private:
-  static constexpr std::size_t kProbeRecordBytes = 64;  // gpu_shaders/shared/probe_record.glsl
-
   void prepare_once(const PictureFrame& frame, StageClock& clock);
   void upload_atoms(StageClock& clock);
   void look(const PictureFrame& frame, StageClock& clock);
@@ -99,7 +98,7 @@ class ViewPipeline final : public Drawable {
   bool uploaded_ = false;          // atoms with this probe
   bool all_probes_found_ = false;  // arcs and probes on the GPU are those of the complete surface
   Buffer radii_;                   // double per atom: van der Waals
-  AppendList probes_{kProbeRecordBytes, 1 << 13};
+  AppendList probes_{sizeof(kernel::ProbeRecord), 1 << 13};
   Buffer counters_;
   Buffer atom_arc_first_, atom_arc_rank_, atom_arcs_;
   TexelBuffer arc_texels_{TexelFormat::uint4}, atom_arc_first_texels_{TexelFormat::uint1},

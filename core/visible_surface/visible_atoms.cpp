@@ -8,14 +8,15 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/gpu/kernel_records.h"
 #include "core/reduced_surface/gpu/gpu_neighbors.h"
 #include "core/queries/solvent.h"
 
 namespace meniscus {
 namespace {
 
-constexpr int kTileEdge = 16;        // pixels, as in view.glsl
-constexpr float kNothing = 3.0e38f;  // likewise
+using kernel::kNothing;
+using kernel::kTileEdge;
 
 /// Blocks small enough that an atom of common size covers several of them whole.
 int suitable_block_edge(const PictureFrame& frame) {

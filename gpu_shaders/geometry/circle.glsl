@@ -100,6 +100,12 @@ GEOMETRY HalfPlane covered_half_plane(Circle c, real w0, real3 q, real q_length,
   return h;
 }
 
+// Whether two balls overlap; d: from one centre to the other.
+GEOMETRY bool balls_overlap(real3 d, real w0, real w1) {
+  real sum = sqrt(w0) + sqrt(w1);
+  return dot(d, d) < sum * sum;
+}
+
 // What lies past the axis of a spindle circle through both probes of a pair: not in the half-plane that `direction`
 // (unit, perpendicular to that axis) points into from the spindle circle's centre `axis_point`.
 GEOMETRY HalfPlane half_plane_past_axis(Circle c, real3 direction, real3 axis_point) {
@@ -123,6 +129,16 @@ GEOMETRY int meet_circle(HalfPlane h, GEOMETRY_OUT(real) margin) {
   margin = abs(gap) - real(2) * h.error * (abs(h.offset) + h.length_bound);
   if (gap < real(0)) return kCuts;
   return h.offset > real(0) ? kMisses : kCovers;
+}
+
+// How the axis of that spindle circle meets the pair's circle: kCuts: the half-plane covers a part of it. A spindle circle
+// as large as the probe touches its axis: then the pair's circle lies before the axis or past it as a whole.
+// margin: how far the squares that are compared are apart, over that of the circle's radius.
+GEOMETRY int meet_axis(HalfPlane past, bool touching, GEOMETRY_OUT(real) margin) {
+  real gap = past.length_squared - past.offset * past.offset;
+  margin = abs(gap);
+  if (gap > real(0) && !touching) return kCuts;
+  return past.offset < real(0) ? kCovers : kMisses;
 }
 
 // Monotone stand-in for the angle of a vector of any length, counter-clockwise from (1, 0), in [0, 4): one quotient,
@@ -163,6 +179,21 @@ GEOMETRY CoveredArc covered_arc(HalfPlane h) {
 GEOMETRY real pseudo_sweep(real a, real b) {
   real d = b - a;
   return d < real(0) ? d + real(4) : d;
+}
+
+// What a ball q of weight wq covers of a circle that it is known to cut.
+GEOMETRY CoveredArc covered_by(Circle c, real w0, real3 q, real wq) {
+  return covered_arc(covered_half_plane(c, w0, q, real(0), wq, real(0)));
+}
+
+// Of the two arcs between a point of a circle and (nearly) the same one: whether the exposed one, from the end of what
+// `before` covers to the begin of what `behind` does, is nothing rather than (nearly) a whole turn. It leaves out what
+// either covers: where it seems not to, rounding has changed the sign of nothing. So the answer holds in any precision,
+// unless the roots of both covered arcs are lost in rounding: in double, each is less than 1e-7 of the circle then.
+GEOMETRY bool arc_vanishes(CoveredArc before, CoveredArc behind) {
+  real exposed = pseudo_sweep(before.end, behind.begin);
+  real covered = max(pseudo_sweep(before.begin, before.end), pseudo_sweep(behind.begin, behind.end));
+  return exposed < real(1) || exposed > real(4) - real(0.5) * covered;
 }
 
 // What remains of an exposed arc (counter-clockwise from begin to end) once a ball has covered its share.

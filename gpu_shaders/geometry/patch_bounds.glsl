@@ -11,6 +11,28 @@ struct PatchBound {
   real radius;
 };
 
+// A bound as a camera sees it.
+struct SeenBound {
+  bool in_front;   // some of it is in front of the camera
+  real3 center;    // from the pivot
+  real radius;     // widened by the slack of pictures and by rounding to single precision
+  real nearest;    // no point of the bound is closer to the camera (orthographic: to its plane)
+};
+
+// slack, pivot, eye_distance: as in PrimitiveParameters.
+GEOMETRY SeenBound see_bound(PatchBound bound, real slack, real3 pivot, real3 camera_position, real3 forward,
+                             real eye_distance, bool orthographic) {
+  const real rounding = real(1) / real(1000000);
+  SeenBound seen;
+  seen.radius = bound.radius * (real(1) + rounding) + real(4) * slack;
+  seen.center = bound.center - pivot;
+  real depth = eye_distance + dot(seen.center, forward);
+  seen.in_front = depth + seen.radius > real(0);
+  real distance = orthographic ? depth : length(bound.center - camera_position);
+  seen.nearest = (distance - seen.radius) - rounding * (abs(distance) + seen.radius);
+  return seen;
+}
+
 // The part of a sphere that sees the unit vector `axis` at an angle whose cosine is at least `cosine`.
 GEOMETRY PatchBound cap_bound(real3 center, real radius, real3 axis, real cosine) {
   PatchBound bound;

@@ -20,4 +20,33 @@ GEOMETRY real reach_of_side(real3 a, real3 b, real3 d, GEOMETRY_OUT(real) outsid
   return best;
 }
 
+// What a polygon's sides say so far of a direction.
+struct PolygonReach {
+  real farthest;      // largest dot product of all
+  real most_outside;  // of all sides; positive if the direction is not in the polygon
+};
+
+GEOMETRY PolygonReach no_reach() {
+  PolygonReach reach;
+  reach.farthest = real(-1);
+  reach.most_outside = real(-1);
+  return reach;
+}
+
+GEOMETRY void add_side(GEOMETRY_INOUT(PolygonReach) reach, real3 a, real3 b, real3 d) {
+  real outside;
+  reach.farthest = max(reach.farthest, reach_of_side(a, b, d, outside));
+  reach.most_outside = max(reach.most_outside, outside);
+}
+
+// How far from a probe another one, in this direction, may stand for its bisector, at half of that, to cut the polygon.
+GEOMETRY real cut_reach(PolygonReach reach, real probe_radius) {
+  return (reach.most_outside <= real(0) ? real(1) : reach.farthest) * real(2) * probe_radius;
+}
+
+// When in doubt, yes: every bisector is true (theorem 1.3), it may only be one that cuts nothing.
+GEOMETRY bool reaches_bisector(PolygonReach reach, real probe_radius, real distance) {
+  return cut_reach(reach, probe_radius) >= distance * (real(1) - real(1) / (real(1000000) * real(1000000)));
+}
+
 #endif

@@ -4,14 +4,13 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 #include "gpu_shaders/look/view_space.glsl"
 #include "gpu_shaders/look/parameters.glsl"
+#include "gpu_shaders/ray_cast/records.glsl"
 
 layout(binding = 2) uniform usamplerBuffer atom_parts;  // there if has_parts
 layout(std430, binding = 0) writeonly buffer Depths { float depths[]; };
 layout(std430, binding = 1) writeonly buffer Parts { uint parts[]; };
 
 layout(std140, binding = 0) uniform Parameters { DepthParameters params; };
-
-const uint kNoPrimitive = 0xffffffffu;
 
 void main() {
   ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);

@@ -3,9 +3,8 @@
 // at 0.
 #ifndef MENISCUS_LOOK_VIEW_SPACE_GLSL
 #define MENISCUS_LOOK_VIEW_SPACE_GLSL
+#include "gpu_shaders/shared/constants.glsl"
 #include "gpu_shaders/ray_cast/parameters.glsl"
-
-const float kNothing = 3.0e38;  // depth where nothing is hit
 
 layout(binding = 0) uniform usamplerBuffer hit_texels;  // two texels each: struct Hit of ray_cast/records.glsl
 layout(binding = 1) uniform usamplerBuffer depth_texels;

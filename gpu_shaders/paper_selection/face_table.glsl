@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Finds the RS face of a triple of atoms: a hash table with linear probing.
 // To be included below probe_record.glsl and tie_key.glsl.
+#include "gpu_shaders/shared/constants.glsl"
 #include "gpu_shaders/paper_selection/parameters.glsl"
 
 layout(std430, binding = 2) buffer FaceTable { uint face_table[]; };  // face + 1; 0: nothing
 layout(std430, binding = 3) readonly buffer Probes { ProbeRecord probes[]; };
 layout(std140, binding = 0) uniform Parameters { FaceTableParameters params; };
-
-const uint kNoFace = 0xffffffffu;
 
 uint table_place(uvec4 triple) {
   return add_to_key(add_to_key(add_to_key(triple.w, triple.x), triple.y), triple.z) & (params.table_size - 1u);
@@ -21,5 +20,5 @@ void insert_face(uint face) {
 uint find_face(uvec4 triple) {
   for (uint place = table_place(triple); face_table[place] != 0u; place = (place + 1u) & (params.table_size - 1u))
     if (probes[face_table[place] - 1u].atoms == triple) return face_table[place] - 1u;
-  return kNoFace;
+  return kNone;
 }

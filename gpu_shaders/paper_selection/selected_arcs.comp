@@ -9,8 +9,10 @@
 layout(local_size_x = 64) in;
 #define DOUBLE_PRECISION
 #include "gpu_shaders/shared/linear_index.glsl"
+#include "gpu_shaders/shared/constants.glsl"
+#include "gpu_shaders/reduced_surface/precision.glsl"
 #include "gpu_shaders/shared/probe_record.glsl"
-#include "gpu_shaders/reduced_surface/triple.glsl"
+#include "gpu_shaders/geometry/tie_key.glsl"
 #include "gpu_shaders/paper_selection/face_table.glsl"
 
 layout(binding = 0) uniform usamplerBuffer arcs;  // i, j, begin_by, end_by

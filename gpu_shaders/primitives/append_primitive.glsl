@@ -25,13 +25,11 @@ void add_bits(dvec3 v, uint bits) {
 
 // False when nothing of the bound lies in front of the camera; else sets the record's bound, and room for its rows.
 bool begin_primitive(PatchBound bound, uint row_count_of_it, out Primitive primitive) {
-  double radius = bound.radius * (1.0LF + 1e-6LF) + 4.0LF * double(scene.slack);
-  dvec3 center = bound.center - scene.pivot;
-  double depth = scene.eye_distance + dot(center, scene.camera_forward);
-  if (depth + radius <= 0.0LF) return false;
-  double distance = scene.orthographic != 0u ? depth : length(bound.center - scene.camera_position);
-  primitive.bound = vec4(vec3(center), float(radius));
-  primitive.nearest = float((distance - radius) - 1e-6LF * (abs(distance) + radius));
+  SeenBound seen = see_bound(bound, double(scene.slack), scene.pivot, scene.camera_position, scene.camera_forward,
+                             scene.eye_distance, scene.orthographic != 0u);
+  if (!seen.in_front) return false;
+  primitive.bound = vec4(vec3(seen.center), float(seen.radius));
+  primitive.nearest = float(seen.nearest);
   next_row = atomicAdd(row_count, row_count_of_it);
   primitive.first_row = next_row;
   primitive.patch_index = 0u;

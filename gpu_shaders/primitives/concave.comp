@@ -10,6 +10,7 @@ layout(local_size_x = 64) in;
 #include "gpu_shaders/shared/loop_guard.glsl"
 #include "gpu_shaders/reduced_surface/precision.glsl"
 #include "gpu_shaders/geometry/circle.glsl"
+#include "gpu_shaders/geometry/fixed_probe.glsl"
 #include "gpu_shaders/geometry/polygon_reach.glsl"
 #include "gpu_shaders/shared/probe_record.glsl"
 #include "gpu_shaders/primitives/append_primitive.glsl"
@@ -21,49 +22,54 @@ layout(std430, binding = 6) readonly buffer NeighborLabels { uint neighbor_label
 layout(std430, binding = 7) readonly buffer NeighborBalls { vec4 neighbor_balls[]; };  // relative centre
 layout(std140, binding = 0) uniform Parameters { ConcaveParameters params; };
 
-// Probes this near are one probe with n contacts; there is no plane between them.
-const double kMergeDistance = 1e-6LF;
-
 dvec3 contact[3];  // unit vectors, counter-clockwise seen from the probe
 
-// Whether the bisector towards a probe at s + d reaches into the spherical polygon; when in doubt, yes: every bisector
-// is true (theorem 1.3), it may only be one that cuts nothing.
+// Whether the bisector towards a probe at s + d reaches into the spherical polygon.
 bool cuts(dvec3 d) {
   double distance = length(d);
-  if (distance < kMergeDistance || distance >= 2.0LF * scene.probe_radius) return false;
-  dvec3 toward = d / distance;
-  double best = -1.0LF;
-  double most_outside = -1.0LF;
-  for (int n = 0; n < 3; ++n) {
-    double outside;
-    best = max(best, reach_of_side(contact[n], contact[n == 2 ? 0 : n + 1], toward, outside));
-    most_outside = max(most_outside, outside);
-  }
-  if (most_outside <= 0.0LF) best = 1.0LF;
-  return best * 2.0LF * scene.probe_radius > distance - 1e-9LF;
+  if (!(distance > 0.0LF) || distance >= 2.0LF * scene.probe_radius) return false;
+  PolygonReach reach = no_reach();
+  for (int n = 0; n < 3; ++n) add_side(reach, contact[n], contact[n == 2 ? 0 : n + 1], d / distance);
+  return reaches_bisector(reach, scene.probe_radius, distance);
 }
 
 bool touches(uint probe, uint atom) { return any(equal(probes[probe].atoms.xyz, uvec3(atom))); }
 
-bool coincides(uint place, dvec3 s) {
+// The radii are those of decisions, larger by less than a hundredth of what is asked for.
+bool touches_all(dvec3 position, uvec3 of) {
+  return touches_atom(position - atoms[of.x].xyz, sqrt(atoms[of.x].w)) &&
+         touches_atom(position - atoms[of.y].xyz, sqrt(atoms[of.y].w)) &&
+         touches_atom(position - atoms[of.z].xyz, sqrt(atoms[of.z].w));
+}
+
+// Whether the probe listed at `place` is a member of the same n-fold probe: there is no plane between them. Unlike
+// core/surface/fixed_probes.cpp this does not ask for arcs that join them (docs/theory.md says why that may be).
+bool coincides(uint place, uint self) {
   vec3 coarse = neighbor_balls[place].xyz;
-  return dot(coarse, coarse) < 1e-6 && length(probes[neighbor_labels[place]].position - s) < kMergeDistance;
+  if (dot(coarse, coarse) > 1e-6) return false;  // more than may_stand_together() allows
+  ProbeRecord s = probes[self];
+  ProbeRecord t = probes[neighbor_labels[place]];
+  dvec3 d = t.position - s.position;
+  if (stand_together(d, s.height, t.height)) return true;
+  if (!may_stand_together(d, s.height, t.height)) return false;
+  return is_flat(s.height) ? touches_all(t.position, s.atoms.xyz) : touches_all(s.position, t.atoms.xyz);
 }
 
 // Contact n of the probe listed at `place`, a member of the same n-fold probe as the one at s: false if that one, or
 // a member listed before, touches this atom too.
-bool is_new_contact(uint self, uint first, uint place, int n, dvec3 s) {
+bool is_new_contact(uint self, uint first, uint place, int n) {
   uint atom = probes[neighbor_labels[place]].atoms[n];
   if (touches(self, atom)) return false;
   for (uint m = first; m < place; ++m)
-    if (coincides(m, s) && touches(neighbor_labels[m], atom)) return false;
+    if (coincides(m, self) && touches(neighbor_labels[m], atom)) return false;
   return true;
 }
 
 void main() {
   uint entry = linear_invocation_index();
   if (entry >= params.probe_count) return;
-  ProbeRecord probe = probes[params.first_probe + entry];
+  uint self = params.first_probe + entry;
+  ProbeRecord probe = probes[self];
   dvec3 s = probe.position;
   uvec3 atom = probe.atoms.w != 0u ? probe.atoms.xyz : probe.atoms.xzy;
   dvec3 sum = dvec3(0.0LF);
@@ -86,10 +92,10 @@ void main() {
   uint cut_count = 0u;
   uint contact_count = 3u;
   for (uint n = first; n < last; ++n) {
-    if (low && cuts(probes[neighbor_labels[n]].position - s)) ++cut_count;
-    if (!coincides(n, s)) continue;
-    for (int m = 0; m < 3; ++m)
-      if (is_new_contact(params.first_probe + entry, first, n, m, s)) ++contact_count;
+    bool same = coincides(n, self);
+    if (low && !same && cuts(probes[neighbor_labels[n]].position - s)) ++cut_count;
+    for (int m = 0; m < 3 && same; ++m)
+      if (is_new_contact(self, first, n, m)) ++contact_count;
   }
 
   Primitive primitive;
@@ -103,15 +109,15 @@ void main() {
     add_row(normalize(cross(atoms[atom[n]].xyz - s, atoms[atom[n == 2 ? 0 : n + 1]].xyz - s)), 0.0LF);
   for (uint n = first; n < last; ++n) {
     dvec3 d = probes[neighbor_labels[n]].position - s;
-    if (low && cuts(d)) add_row(normalize(d), 0.5LF * length(d));
+    if (low && !coincides(n, self) && cuts(d)) add_row(normalize(d), 0.5LF * length(d));
   }
   for (int n = 0; n < 3; ++n) add_bits(contact[n], atom[n]);
   // A point takes the colour of the nearest contact, and the other members of an n-fold probe have more of them.
   for (uint n = first; n < last && contact_count > 3u; ++n) {
-    if (!coincides(n, s)) continue;
+    if (!coincides(n, self)) continue;
     for (int m = 0; m < 3; ++m) {
       uint other = probes[neighbor_labels[n]].atoms[m];
-      if (is_new_contact(params.first_probe + entry, first, n, m, s)) add_bits(normalize(atoms[other].xyz - s), other);
+      if (is_new_contact(self, first, n, m)) add_bits(normalize(atoms[other].xyz - s), other);
     }
   }
   append_primitive(primitive);

@@ -9,6 +9,7 @@ layout(local_size_x = 64) in;
 #define DOUBLE_PRECISION
 #include "gpu_shaders/shared/linear_index.glsl"
 #include "gpu_shaders/shared/loop_guard.glsl"
+#include "gpu_shaders/shared/constants.glsl"
 #include "gpu_shaders/reduced_surface/precision.glsl"
 #include "gpu_shaders/reduced_surface/exposed_arcs.glsl"
 #include "gpu_shaders/reduced_surface/listed_balls.glsl"
@@ -26,8 +27,6 @@ layout(std140, binding = 0) uniform Parameters { ConvexParameters params; };
 #ifdef WHOLE_SPHERES
 layout(std430, binding = 7) readonly buffer Drawn { uint drawn[]; };
 #endif
-
-const uint kNone = 0xffffffffu;
 
 // The atoms whose contact circles clip the patch: those on arcs, unless they leave something spurious or are too many
 // for this list; then all neighbours (theorem 1.1).

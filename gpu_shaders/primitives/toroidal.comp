@@ -8,27 +8,37 @@ layout(local_size_x = 64) in;
 #define DOUBLE_PRECISION
 #include "gpu_shaders/shared/linear_index.glsl"
 #include "gpu_shaders/reduced_surface/precision.glsl"
-#include "gpu_shaders/geometry/circle.glsl"
-#include "gpu_shaders/geometry/fixed_probe.glsl"
 #include "gpu_shaders/reduced_surface/arc_ends.glsl"
+#include "gpu_shaders/geometry/rolling_arc.glsl"
+#include "gpu_shaders/geometry/patch_membership.glsl"
 #include "gpu_shaders/primitives/append_primitive.glsl"
 
 layout(std140, binding = 0) uniform Parameters { ArcParameters params; };
 
-// As in core/surface/fixed_probes.cpp.
-const double kMergeDistance = 1e-6LF;
-const double kTouchDistance = 1e-9LF;
-
-// The part of the circle (i, j) that k covers, as the decisions saw it.
-CoveredArc covered_by(uint k, uint i, Circle circle) {
-  dvec3 q = atoms[k].xyz - atoms[i].xyz;
-  return covered_arc(covered_half_plane(circle, atoms[i].w, q, length(q), atoms[k].w, kUnitRoundoff));
+// What the ball of k covers of the circle of atom i, as the decisions saw it.
+CoveredArc decided_arc(uint k, uint i, Circle circle) {
+  return covered_by(circle, atoms[i].w, atoms[k].xyz - atoms[i].xyz, atoms[k].w);
 }
 
-// Nothing or a whole turn? Positions cannot tell when the ends (nearly) coincide.
+// Nothing, where it is not (nearly) a whole turn? In double, where core/surface/fixed_probes.cpp asks in quadruple
+// precision; what may come of that, arc_vanishes() says.
 bool vanishes(uvec4 arc) {
   Circle decided = circle_of_two_spheres(atoms[arc.y].xyz - atoms[arc.x].xyz, atoms[arc.x].w, atoms[arc.y].w);
-  return pseudo_sweep(covered_by(arc.z, arc.x, decided).end, covered_by(arc.w, arc.x, decided).begin) < 1.0LF;
+  return arc_vanishes(decided_arc(arc.z, arc.x, decided), decided_arc(arc.w, arc.x, decided));
+}
+
+// Whether a probe touches all atoms of another one.
+bool touches_all(dvec3 position, Triple t) {
+  return touches_atom(position - atoms[t.a].xyz, extended(t.a, scene.probe_radius)) &&
+         touches_atom(position - atoms[t.b].xyz, extended(t.b, scene.probe_radius)) &&
+         touches_atom(position - atoms[t.c].xyz, extended(t.c, scene.probe_radius));
+}
+
+bool coincide(Triple s, FixedProbe at_s, Triple t, FixedProbe at_t) {
+  dvec3 d = at_s.position - at_t.position;
+  if (stand_together(d, at_s.height, at_t.height)) return true;
+  if (!may_stand_together(d, at_s.height, at_t.height)) return false;
+  return is_flat(at_s.height) ? touches_all(at_t.position, s) : touches_all(at_s.position, t);
 }
 
 void main() {
@@ -36,49 +46,33 @@ void main() {
   if (index >= params.arc_count) return;
   uvec4 arc = texelFetch(arcs, int(index));
   dvec3 origin = atoms[arc.x].xyz;
-  dvec3 d = atoms[arc.y].xyz - origin;
-  double ri = extended(arc.x, scene.probe_radius);
-  double rj = extended(arc.y, scene.probe_radius);
-  Circle circle = circle_of_two_spheres(d, ri * ri, rj * rj);
-  // Touching spheres: the circle that the decisions saw.
-  if (circle.radius_squared < 1e-12LF) circle = circle_of_two_spheres(d, atoms[arc.x].w, atoms[arc.y].w);
-  dvec3 center = origin + circle.axis * circle.height;
-  double major = circle.radius;
-  // A circle as large as the probe touches its axis in one point; rounding must not open a spindle there.
-  if (abs(major - scene.probe_radius) < kTouchDistance) major = scene.probe_radius;
-
-  dvec3 start = circle.u;
-  double cosine = 1.0LF;
-  double sine = 0.0LF;
-  dvec2 half_sweep = dvec2(-1.0LF, 0.0LF);  // a whole turn
-  uint range = 0u;
+  RollingArc rolling = whole_turn(origin, atoms[arc.y].xyz - origin, extended(arc.x, scene.probe_radius),
+                                extended(arc.y, scene.probe_radius), atoms[arc.x].w, atoms[arc.y].w, scene.probe_radius);
+  dvec2 half_sweep = dvec2(-1.0LF, 0.0LF);
+  uint range = uint(kWholeTurn);
   uint key = add_to_key(add_to_key(0u, arc.x), arc.y);
   if (arc.z != kNone) {
     Triple first = triple_at(arc.x, arc.y, arc.z, false);
     Triple last = triple_at(arc.x, arc.y, arc.w, true);
     key = add_to_key(add_to_key(key, triple_key(first, 0u)), triple_key(last, 0u));
-    dvec3 begin = place_probe(first, scene.probe_radius).position;
-    dvec3 end = place_probe(last, scene.probe_radius).position;
-    dvec3 to_begin = begin - center;
-    dvec3 to_end = end - center;
-    start = normalize(to_begin - circle.axis * dot(to_begin, circle.axis));
-    dvec3 stop = normalize(to_end - circle.axis * dot(to_end, circle.axis));
-    cosine = dot(start, stop);
-    sine = dot(circle.axis, cross(start, stop));
-    half_sweep = half_angle(cosine, sine);
-    range = sine > 0.0LF ? 1u : 2u;
-    if (dot(begin - end, begin - end) < kMergeDistance * kMergeDistance) {
-      if (vanishes(arc)) return;
-      cosine = 1.0LF;
-      sine = 0.0LF;
-      half_sweep = dvec2(-1.0LF, 0.0LF);
-      range = 0u;
+    FixedProbe begin = place_probe(first, scene.probe_radius);
+    FixedProbe end = place_probe(last, scene.probe_radius);
+    bool together = ends_coincide(begin.position, end.position);
+    if ((together || coincide(first, begin, last, end)) && vanishes(arc)) return;
+    rolling = part_between(rolling, begin.position, end.position);
+    if (together) {
+      rolling.cosine = 1.0LF;
+      rolling.sine = 0.0LF;
+    } else {
+      half_sweep = half_angle(rolling.cosine, rolling.sine);
+      range = uint(rolling.sine > 0.0LF ? kUpToHalfTurn : kOverHalfTurn);
     }
   }
 
-  SaddleShape shape = saddle_shape(dot(origin - center, circle.axis), dot(atoms[arc.y].xyz - center, circle.axis),
-                                   radii[arc.x], radii[arc.y], major, scene.probe_radius);
-  PatchBound bound = saddle_bound(shape, center, circle.axis, start, major, half_sweep, scene.probe_radius);
+  SaddleShape shape = saddle_shape(dot(origin - rolling.center, rolling.axis), dot(atoms[arc.y].xyz - rolling.center, rolling.axis),
+                                   radii[arc.x], radii[arc.y], rolling.radius, scene.probe_radius);
+  PatchBound bound = saddle_bound(shape, rolling.center, rolling.axis, rolling.start, rolling.radius, half_sweep,
+                                  scene.probe_radius);
   Primitive primitive;
   if (!begin_primitive(bound, 5u, primitive)) return;
   primitive.kind = kToroidal;
@@ -86,9 +80,9 @@ void main() {
   primitive.atom = arc.x;
   primitive.second_atom = arc.y;
   primitive.tie_key = key;
-  add_row(center - scene.pivot, major);
-  add_row(start, cosine);
-  add_row(circle.axis, sine);
+  add_row(rolling.center - scene.pivot, rolling.radius);
+  add_row(rolling.start, rolling.cosine);
+  add_row(rolling.axis, rolling.sine);
   add_row(dvec3(shape.contact_z[0], shape.contact_z[1], shape.clip_z), shape.clip_radius);
   add_row(dvec3(shape.height[0], shape.extended[0], shape.height[1]), shape.extended[1]);
   append_primitive(primitive);

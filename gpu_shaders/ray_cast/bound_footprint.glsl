@@ -3,14 +3,13 @@
 // To be included below the block of TileListParameters.
 #ifndef MENISCUS_RAY_CAST_BOUND_FOOTPRINT_GLSL
 #define MENISCUS_RAY_CAST_BOUND_FOOTPRINT_GLSL
+#include "gpu_shaders/shared/constants.glsl"
 #include "gpu_shaders/shared/tangent_slopes.glsl"
-
-const float kTileEdge = 16.0;  // pixels
 
 // Tiles [low, high) along one axis.
 ivec2 tile_range(vec2 pixels, int tile_count) {
   // A pixel's samples reach to its borders: half a pixel more on each side is plenty.
-  vec2 edge = floor((pixels + vec2(-0.5, 0.5)) / kTileEdge) + vec2(0.0, 1.0);
+  vec2 edge = floor((pixels + vec2(-0.5, 0.5)) / float(kTileEdge)) + vec2(0.0, 1.0);
   return ivec2(clamp(edge, vec2(0.0), vec2(float(tile_count))));
 }
 

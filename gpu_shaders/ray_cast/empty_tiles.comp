@@ -2,6 +2,7 @@
 // Writes what the rays of tiles see that list nothing.
 #version 450 core
 layout(local_size_x = 64) in;
+#include "gpu_shaders/shared/constants.glsl"
 #include "gpu_shaders/shared/linear_index.glsl"
 #include "gpu_shaders/ray_cast/records.glsl"
 #include "gpu_shaders/ray_cast/parameters.glsl"
@@ -17,9 +18,9 @@ void main() {
   int tile_count = params.tiles.x * params.tiles.y;
   if (group >= uint(tile_count)) return;
   int tile = int(texelFetch(tile_order, tile_count - 1 - int(group)).x);
-  for (int n = 0; n < 4; ++n) {
+  for (int n = 0; n < kTileEdge * kTileEdge / 64; ++n) {
     int i = 64 * n + int(gl_LocalInvocationIndex);
-    ivec2 pixel = 16 * ivec2(tile % params.tiles.x, tile / params.tiles.x) + ivec2(i & 15, i >> 4);
+    ivec2 pixel = kTileEdge * ivec2(tile % params.tiles.x, tile / params.tiles.x) + ivec2(i % kTileEdge, i / kTileEdge);
     if (pixel.x < params.size.x && pixel.y < params.size.y) {
       int at = pixel.y * params.size.x + pixel.x;
       picture[at] = vec4(0.0);

@@ -9,15 +9,11 @@
 #version 450 core
 layout(local_size_x = 8, local_size_y = 8) in;
 
+#include "gpu_shaders/shared/constants.glsl"
 #include "gpu_shaders/shared/linear_index.glsl"
 #include "gpu_shaders/shared/loop_guard.glsl"
 
-#define real float
-#define real2 vec2
-#define real3 vec3
-#define GEOMETRY
-#define GEOMETRY_OUT(type) out type
-#define GEOMETRY_INOUT(type) inout type
+#include "gpu_shaders/reduced_surface/precision.glsl"
 #include "gpu_shaders/geometry/ray_sphere.glsl"
 #include "gpu_shaders/geometry/ray_torus.glsl"
 #include "gpu_shaders/geometry/patch_membership.glsl"
@@ -236,7 +232,7 @@ void main() {
   uint group = linear_group_index();
   uint tile_count = uint(params.tiles.x * params.tiles.y);
   uint tile = texelFetch(tile_order, int(min(group, tile_count - 1u))).x;
-  tile_origin = 16 * ivec2(int(tile) % params.tiles.x, int(tile) / params.tiles.x);
+  tile_origin = kTileEdge * ivec2(int(tile) % params.tiles.x, int(tile) / params.tiles.x);
   if (group >= tile_count) return;
   uint place = 64u * tile + gl_LocalInvocationIndex;
 #ifdef RESUMED

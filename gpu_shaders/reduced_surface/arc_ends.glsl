@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The fixed probes at the ends of an arc, in double precision; every arc that ends at a probe finds it in one place.
-// To be included where real is double, below fixed_probe.glsl.
-#include "gpu_shaders/reduced_surface/triple.glsl"
+// To be included where real is double.
+#include "gpu_shaders/shared/constants.glsl"
+#include "gpu_shaders/geometry/circle.glsl"
+#include "gpu_shaders/geometry/fixed_probe.glsl"
+#include "gpu_shaders/geometry/tie_key.glsl"
 
 layout(std430, binding = 0) readonly buffer Atoms { dvec4 atoms[]; };   // centre, decision weight
 layout(std430, binding = 1) readonly buffer Radii { double radii[]; };  // van der Waals
 layout(binding = 0) uniform usamplerBuffer arcs;                        // i, j, begin_by, end_by
-
-const double kLargestGrowth = 1.5e-9LF;  // of decision weights
-const double kFlat = 1e-7LF;             // as in core/surface/fixed_probes.cpp
 
 double extended(uint atom, double probe_radius) { return radii[atom] + probe_radius; }
 
@@ -16,7 +16,7 @@ FixedProbe place_probe(Triple t, double probe_radius) {
   dvec3 origin = atoms[t.a].xyz;
   FixedProbe probe = fixed_probe(atoms[t.b].xyz - origin, atoms[t.c].xyz - origin, extended(t.a, probe_radius),
                                  extended(t.b, probe_radius), extended(t.c, probe_radius),
-                                 t.side != 0u ? 1.0LF : -1.0LF, kLargestGrowth, kFlat);
+                                 t.side != 0u ? 1.0LF : -1.0LF);
   probe.position += origin;
   return probe;
 }

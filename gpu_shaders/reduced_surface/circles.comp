@@ -7,6 +7,7 @@
 layout(local_size_x = 64) in;
 #include "gpu_shaders/shared/linear_index.glsl"
 #include "gpu_shaders/shared/loop_guard.glsl"
+#include "gpu_shaders/shared/constants.glsl"
 #include "gpu_shaders/reduced_surface/precision.glsl"
 #include "gpu_shaders/reduced_surface/exposed_arcs.glsl"
 #include "gpu_shaders/reduced_surface/listed_balls.glsl"
@@ -25,8 +26,6 @@ layout(std430, binding = 4) writeonly buffer Arcs { uvec4 arcs[]; };  // i, j, b
 layout(std430, binding = 5) writeonly buffer Doubtful { uvec2 doubtful[]; };
 layout(std430, binding = 6) buffer Counters { uint arc_count; uint doubtful_count; };
 layout(std140, binding = 0) uniform Parameters { CircleParameters params; };
-
-const uint kNone = 0xffffffffu;
 
 void append(uvec4 arc) {
   uint slot = atomicAdd(arc_count, 1u);

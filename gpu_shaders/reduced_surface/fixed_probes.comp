@@ -8,8 +8,6 @@ layout(local_size_x = 64) in;
 #define DOUBLE_PRECISION
 #include "gpu_shaders/shared/linear_index.glsl"
 #include "gpu_shaders/reduced_surface/precision.glsl"
-#include "gpu_shaders/geometry/circle.glsl"
-#include "gpu_shaders/geometry/fixed_probe.glsl"
 #include "gpu_shaders/reduced_surface/arc_ends.glsl"
 #include "gpu_shaders/reduced_surface/listed_balls.glsl"
 #include "gpu_shaders/shared/probe_record.glsl"
@@ -51,7 +49,7 @@ void main() {
     Triple t = triple_at(arc.x, arc.y, k, end == 1);
     // Three arcs end at every probe, with each of its atoms once as the third: the certificate of closure (theorem 3)
     // is that the keys of all three kinds of ends have equal sums.
-    uint role = k > arc.y ? 0u : k > arc.x ? 1u : 2u;
+    uint role = role_of_third(arc.x, arc.y, k);
     atomicAdd(end_sums[2u * role], triple_key(t, 0u));
     atomicAdd(end_sums[2u * role + 1u], triple_key(t, 0x9e6c63d0u));
     if (role == 0u) append(t);

@@ -4,9 +4,12 @@
 // Overflow: appends stop at the capacity but go on counting; the host grows and runs again.
 #version 450 core
 layout(local_size_x = 64) in;
+#define DOUBLE_PRECISION
 #include "gpu_shaders/shared/linear_index.glsl"
 #include "gpu_shaders/reduced_surface/listed_balls.glsl"
 #include "gpu_shaders/reduced_surface/parameters.glsl"
+#include "gpu_shaders/reduced_surface/precision.glsl"
+#include "gpu_shaders/geometry/circle.glsl"
 
 layout(std430, binding = 0) readonly buffer Atoms { dvec4 atoms[]; };        // centre, decision weight
 layout(std430, binding = 1) readonly buffer AtomsLow { vec4 atoms_low[]; };  // w: 1 if swallowed

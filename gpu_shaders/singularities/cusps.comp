@@ -7,73 +7,55 @@
 layout(local_size_x = 64) in;
 #include "gpu_shaders/shared/linear_index.glsl"
 #include "gpu_shaders/shared/loop_guard.glsl"
-#include "gpu_shaders/shared/cusp_side.glsl"
+#include "gpu_shaders/shared/constants.glsl"
+#include "gpu_shaders/singularities/records.glsl"
 #include "gpu_shaders/reduced_surface/precision.glsl"
 #include "gpu_shaders/reduced_surface/exposed_arcs.glsl"
 #include "gpu_shaders/singularities/parameters.glsl"
-
-struct CuspArc {
-  uvec4 names;  // lower probe, higher probe, who begins, who ends
-  vec4 begin;   // xyz: unit vector from the circle's centre
-  vec4 end;
-};
 
 layout(std430, binding = 0) readonly buffer Circles { uvec2 circles[]; };  // probe s, place of t in its list
 layout(std430, binding = 1) readonly buffer NeighborFirst { uint neighbor_first[]; };
 layout(std430, binding = 2) readonly buffer NeighborLabels { uint neighbor_labels[]; };
 layout(std430, binding = 3) readonly buffer NeighborBalls { vec4 neighbor_balls[]; };
 layout(std430, binding = 4) readonly buffer Heads { uvec2 heads[]; };  // per probe: first side, 1 if low
-layout(std430, binding = 5) readonly buffer Sides { CuspSide sides[]; };
+layout(std430, binding = 5) readonly buffer Sides { SideRecord sides[]; };
 layout(std430, binding = 6) buffer Arcs {
   uint arc_count;
   uint doubtful_count;
   uint spare0;
   uint spare1;
-  CuspArc arcs[];
+  CuspArcRecord arcs[];
 };
 layout(std430, binding = 7) writeonly buffer Doubtful { uvec2 doubtful[]; };
 layout(std140, binding = 0) uniform Parameters { CuspParameters params; };
 
-const uint kNone = 0xffffffffu;
-const uint kAxisLabel = 0x80000000u;
 const uint kPencilCapacity = 6u;  // spindle circles that one pair of probes shares; more: doubtful
-
 uint pencil_sides[kPencilCapacity];
-uint pencil_count;
 
-// False if s and t share a spindle circle without being neighbours on it: nothing of their circle is left.
-bool find_pencils(uint s, uint t) {
-  pencil_count = 0u;
-  for (uint n = heads[s].x; n < heads[s + 1u].x; ++n) {
-    if (sides[n].circle == kNone) continue;
-    for (uint m = heads[t].x; m < heads[t + 1u].x; ++m) {
-      if (sides[m].circle != sides[n].circle) continue;
-      if (sides[n].partner != t) return false;
-      if (pencil_count == kPencilCapacity) exposed_doubtful = true;
-      else pencil_sides[pencil_count++] = n;
-    }
-  }
-  return true;
-}
+bool hold_pencils(uint count) { return count <= kPencilCapacity; }
+uint first_side(uint probe) { return heads[probe].x; }
+uint circle_of(uint side) { return sides[side].circle; }
+uint partner_of(uint side) { return sides[side].partner; }
 
-bool on_pencil(uint u) {
-  for (uint k = 0u; k < pencil_count; ++k)
-    for (uint n = heads[u].x; n < heads[u + 1u].x; ++n)
-      if (sides[n].circle == sides[pencil_sides[k]].circle) return true;
-  return false;
-}
+#include "gpu_shaders/geometry/pencil.glsl"
 
-// Past the axes of shared spindle circles nothing of the pair's circle c is left.
-void cover_past_axes(Circle c) {
+// What single precision leaves in doubt of where a pair's circle meets the axis of a spindle, and the error of the points
+// where it does.
+const float kAxisDoubt = 1e-4;
+const float kAxisError = 1e-6;
+
+// Past the axes of shared spindle circles nothing of the pair's circle is left.
+void cover_past_axes() {
   for (uint k = 0u; k < pencil_count; ++k) {
-    CuspSide side = sides[pencil_sides[k]];
-    HalfPlane h = half_plane_past_axis(c, side.gap_direction.xyz, side.circle_center.xyz);
-    float gap = h.length_squared - h.offset * h.offset;
+    SideRecord side = sides[pencil_sides[k]];
+    HalfPlane h = half_plane_past_axis(contour_circle, side.gap_direction.xyz, side.circle_center.xyz);
     // The end points are named, but their place in single precision is not exact: other decisions must know.
-    h.error = 1e-6 * (1.0 + abs(h.offset));
-    if (side.touching == 1u || abs(gap) < 1e-4) exposed_doubtful = true;
-    else if (gap > 0.0) cover(h, kAxisLabel | pencil_sides[k]);
-    else if (h.offset < 0.0) cover_everything();
+    h.error = kAxisError * (1.0 + abs(h.offset));
+    float margin;
+    int meeting = meet_axis(h, side.touching == 1u, margin);
+    if (side.touching == 1u || margin < kAxisDoubt) exposed_doubtful = true;
+    else if (meeting == kCuts) cover(h, kAxisLabel | pencil_sides[k]);
+    else if (meeting == kCovers) cover_everything();
   }
 }
 
@@ -96,8 +78,9 @@ void main() {
   Circle c = circle_of_two_spheres(other.xyz, w0, w0);
   begin_contour(c, w0);
   if (!find_pencils(s, t)) return;
+  if (pencils_left_out) exposed_doubtful = true;
   if (c.radius_squared < kSmallestCircle * kUnitRoundoff * w0 || dot(other.xyz, other.xyz) < 1e-4 * w0) exposed_doubtful = true;
-  if (!exposed_doubtful) cover_past_axes(c);
+  if (!exposed_doubtful) cover_past_axes();
   uint last = neighbor_first[s - params.first_probe + 1u];
   for (uint n = neighbor_first[s - params.first_probe]; n < last; ++n) {
     if (contour_ended()) break;

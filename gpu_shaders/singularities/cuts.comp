@@ -6,7 +6,7 @@
 #version 450 core
 layout(local_size_x = 64) in;
 #include "gpu_shaders/shared/linear_index.glsl"
-#include "gpu_shaders/shared/cusp_side.glsl"
+#include "gpu_shaders/singularities/records.glsl"
 #include "gpu_shaders/reduced_surface/precision.glsl"
 #include "gpu_shaders/geometry/polygon_reach.glsl"
 #include "gpu_shaders/singularities/parameters.glsl"
@@ -14,12 +14,12 @@ layout(local_size_x = 64) in;
 layout(std430, binding = 0) readonly buffer NeighborFirst { uint neighbor_first[]; };
 layout(std430, binding = 1) readonly buffer NeighborBalls { vec4 neighbor_balls[]; };
 layout(std430, binding = 2) readonly buffer Heads { uvec2 heads[]; };  // per probe: first side, 1 if low
-layout(std430, binding = 3) readonly buffer Sides { CuspSide sides[]; };
+layout(std430, binding = 3) readonly buffer Sides { SideRecord sides[]; };
 layout(std430, binding = 4) writeonly buffer Flags { uint flags[]; };
 layout(std140, binding = 0) uniform Parameters { CutParameters params; };
 
-// What reaches() in core/surface/cusp_tracer.cpp decides; single precision leaves a margin in doubt: some 60 roundings
-// of a side's normal, twenty times magnified where the root below it is taken of a twentieth.
+// Single precision leaves a margin in doubt: some 60 roundings of a side's normal, twenty times magnified where the root
+// below it is taken of a twentieth.
 const float kDoubt = 1e-4;
 
 uint flag_of(uint first, uint past, vec3 toward) {
@@ -27,16 +27,11 @@ uint flag_of(uint first, uint past, vec3 toward) {
   // Close probes are decided by a root near zero, where single precision has nothing left.
   if (distance < 0.1 * params.probe_radius) return 2u;
   vec3 d = toward / distance;
-  float best = -1.0;
-  float most_outside = -1.0;
-  for (uint n = first; n < past; ++n) {
-    float outside;
-    best = max(best, reach_of_side(sides[n].contact.xyz, sides[n + 1u == past ? first : n + 1u].contact.xyz, d, outside));
-    most_outside = max(most_outside, outside);
-  }
-  if (most_outside <= 0.0) best = 1.0;
-  float margin = best * 2.0 * params.probe_radius - distance;
-  if (abs(margin) < kDoubt * params.probe_radius || abs(most_outside) < kDoubt) return 2u;
+  PolygonReach reach = no_reach();
+  for (uint n = first; n < past; ++n)
+    add_side(reach, sides[n].contact.xyz, sides[n + 1u == past ? first : n + 1u].contact.xyz, d);
+  float margin = cut_reach(reach, params.probe_radius) - distance;
+  if (abs(margin) < kDoubt * params.probe_radius || abs(reach.most_outside) < kDoubt) return 2u;
   return margin > 0.0 ? 1u : 0u;
 }
 

@@ -3,13 +3,11 @@
 //
 // View coordinates: origin at the eye, x right, y down, z forward, Å. A depth is the distance along a ray from the eye
 // (orthographic: from the plane through it). Pixels are counted from the middle of the picture.
+#include "gpu_shaders/shared/constants.glsl"
 #include "gpu_shaders/shared/tangent_slopes.glsl"
 #include "gpu_shaders/visibility/parameters.glsl"
 
 layout(std140, binding = kViewBinding) uniform ViewBlock { View view; };
-
-const int kTileEdge = 16;
-const float kNothing = 3.0e38;
 
 ivec2 tile_count() { return (view.picture_size + (kTileEdge - 1)) / kTileEdge; }
 

@@ -13,6 +13,7 @@
 #include "core/gpu/egl_context.h"
 #include "core/gpu/embedded_shaders.h"
 #include "core/gpu/kernel_parameters.h"
+#include "core/gpu/kernel_records.h"
 #include "core/gpu/program.h"
 #include "tests/gpu/kernel_variants.h"
 
@@ -218,6 +219,47 @@ TEST(KernelParameters, StandWhereTheDriverLooks) {
     }
   }
   for (const auto& [place, offset] : places_in_cpp()) EXPECT_TRUE(seen.contains(place)) << place << " is in no kernel";
+}
+
+struct RecordPlace {
+  const char* kernel;
+  const char* member;  // as the driver names it
+  std::size_t offset;
+  std::size_t size;  // of the record
+};
+
+TEST(KernelRecords, StandWhereTheDriverLooks) {
+  using kernel::CuspArcRecord, kernel::ProbeRecord, kernel::SideRecord;
+  constexpr std::size_t kBeforeArcs = 16;
+  constexpr const char *kCusps = "gpu_shaders/singularities/cusps.comp",
+                       *kProbes = "gpu_shaders/reduced_surface/fixed_probes.comp";
+  const RecordPlace places[] = {
+      {"gpu_shaders/singularities/cuts.comp", "sides[0].contact", offsetof(SideRecord, contact), sizeof(SideRecord)},
+      {kCusps, "sides[0].gap_direction", offsetof(SideRecord, gap_direction), sizeof(SideRecord)},
+      {kCusps, "sides[0].circle_center", offsetof(SideRecord, circle_center), sizeof(SideRecord)},
+      {kCusps, "sides[0].circle", offsetof(SideRecord, circle), sizeof(SideRecord)},
+      {kCusps, "sides[0].partner", offsetof(SideRecord, partner), sizeof(SideRecord)},
+      {kCusps, "sides[0].touching", offsetof(SideRecord, touching), sizeof(SideRecord)},
+      {kCusps, "arcs[0].names", kBeforeArcs + offsetof(CuspArcRecord, names), sizeof(CuspArcRecord)},
+      {kCusps, "arcs[0].begin", kBeforeArcs + offsetof(CuspArcRecord, begin), sizeof(CuspArcRecord)},
+      {kCusps, "arcs[0].end", kBeforeArcs + offsetof(CuspArcRecord, end), sizeof(CuspArcRecord)},
+      {kProbes, "probes[0].position", offsetof(ProbeRecord, position), sizeof(ProbeRecord)},
+      {kProbes, "probes[0].height", offsetof(ProbeRecord, height), sizeof(ProbeRecord)},
+      {kProbes, "probes[0].atoms", offsetof(ProbeRecord, atoms), sizeof(ProbeRecord)},
+      {kProbes, "probes[0].key", offsetof(ProbeRecord, key), sizeof(ProbeRecord)},
+  };
+  const EglContext context;
+  for (const RecordPlace& place : places) {
+    const GLuint program = linked(expand_embedded_shader(place.kernel));
+    const GLuint index = glGetProgramResourceIndex(program, GL_BUFFER_VARIABLE, place.member);
+    ASSERT_NE(index, GL_INVALID_INDEX) << place.member << " in " << place.kernel;
+    constexpr GLenum kAsked[] = {GL_OFFSET, GL_TOP_LEVEL_ARRAY_STRIDE};
+    GLint found[2] = {};
+    glGetProgramResourceiv(program, GL_BUFFER_VARIABLE, index, 2, kAsked, 2, nullptr, found);
+    EXPECT_EQ(static_cast<std::size_t>(found[0]), place.offset) << place.member;
+    EXPECT_EQ(static_cast<std::size_t>(found[1]), place.size) << place.member;
+    glDeleteProgram(program);
+  }
 }
 
 TEST(KernelParameters, AreNeitherForgottenNorMistaken) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The predicates of circle.glsl against sampling, and fixed probes against the distances they must have.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -127,7 +128,7 @@ PlacedProbe place(double off_line, Random& random) {
   }
   const double ra = glm::length(x), rb = glm::distance(x, b), rc = glm::distance(x, c);
   const double side = glm::dot(normal, x) > 0 ? 1.0 : -1.0;
-  const glm::dvec3 p = fixed_probe(b, c, ra, rb, rc, side, 1.5e-9, 1e-7).position;
+  const glm::dvec3 p = fixed_probe(b, c, ra, rb, rc, side).position;
   const double gap =
       std::max({std::abs(glm::length(p) - ra), std::abs(glm::distance(p, b) - rb), std::abs(glm::distance(p, c) - rc)});
   return {gap, glm::dot(normal, p) * side > 0};
@@ -141,6 +142,108 @@ TEST(FixedProbe, TouchesItsAtomsOnItsSideHoweverSlimTheirTriangle) {
       EXPECT_LT(probe.worst_gap, 3e-15) << off_line;
       EXPECT_TRUE(probe.on_its_side);
     }
+}
+
+TEST(Constants, AreTheDecimalsThatTheyStandFor) {
+  EXPECT_EQ(kLargestGrowth, 1.5e-9);
+  EXPECT_EQ(kFlat, 1e-7);
+  EXPECT_EQ(kMergeDistance, 1e-6);
+  EXPECT_EQ(kSteep, 0.01);
+  EXPECT_EQ(kTouchDistance, 1e-9);
+  EXPECT_EQ(kTouchingCircle, 1e-12);
+}
+
+TEST(ProbesInOnePlace, AreNearAndNotMirroredInThePlaneOfTheirAtoms) {
+  const glm::dvec3 apart(0, 0, 8e-7);
+  EXPECT_TRUE(stand_together(apart, 0.5, 0.02));
+  EXPECT_FALSE(stand_together(2.0 * apart, 0.5, 0.02));
+  EXPECT_FALSE(stand_together(apart, 4e-7, 4e-7)) << "one on either side of its atoms";
+  EXPECT_FALSE(may_stand_together(apart, 4e-7, 4e-7)) << "both flat";
+  EXPECT_TRUE(may_stand_together(500.0 * apart, 4e-7, 0.02));
+  EXPECT_FALSE(may_stand_together(1000.0 * apart, 4e-7, 0.02));
+  EXPECT_TRUE(touches_atom({0, 0, 3}, 3 + 9e-7));
+  EXPECT_FALSE(touches_atom({0, 0, 3}, 3 + 2e-6));
+}
+
+/// What the ball of `third` covers of the circle of two others, in pseudo-angles of the circle's frame.
+CoveredArc arc_covered(const std::array<glm::dvec3, 3>& centers, const std::array<double, 3>& radii, int i, int j,
+                       int k, Circle& circle) {
+  circle = circle_of_two_spheres(centers[j] - centers[i], radii[i] * radii[i], radii[j] * radii[j]);
+  return covered_by(circle, radii[i] * radii[i], centers[k] - centers[i], radii[k] * radii[k]);
+}
+
+TEST(Triple, IsNamedAlikeByThePointWhereverAnArcEndsThere) {
+  Random random(5);
+  for (int n = 0; n < 200; ++n) {
+    // Three spheres through one point.
+    const std::array<glm::dvec3, 3> centers{2.0 * random.vector(), 2.0 * random.vector(), 2.0 * random.vector()};
+    const glm::dvec3 point = random.vector();
+    std::array<double, 3> radii{};
+    for (int a = 0; a < 3; ++a) radii[a] = glm::distance(point, centers[a]);
+    const double over = glm::dot(glm::cross(centers[1] - centers[0], centers[2] - centers[0]), point - centers[0]);
+    if (std::abs(over) < 0.1) continue;
+    const int circles[3][3] = {{0, 1, 2}, {0, 2, 1}, {1, 2, 0}};
+    for (const auto& [i, j, k] : circles) {
+      Circle circle;
+      const CoveredArc covered = arc_covered(centers, radii, i, j, k, circle);
+      const auto at = [&](double pseudo) {
+        const glm::dvec2 e = direction_at(pseudo);
+        return centers[i] + circle.axis * circle.height + circle.radius * (e.x * circle.u + e.y * circle.v);
+      };
+      const bool at_end = glm::distance(at(covered.begin), point) < glm::distance(at(covered.end), point);
+      EXPECT_NEAR(glm::distance(at(at_end ? covered.begin : covered.end), point), 0, 1e-6);
+      const Triple t = triple_at(10 + i, 10 + j, 10 + k, at_end);
+      EXPECT_EQ(t.a, 10u);
+      EXPECT_EQ(t.b, 11u);
+      EXPECT_EQ(t.c, 12u);
+      EXPECT_EQ(t.side, over > 0 ? 1u : 0u) << "circle " << i << ' ' << j;
+      EXPECT_EQ(role_of_third(i, j, k), static_cast<uint>(2 - k));
+    }
+  }
+}
+
+TEST(VanishingArc, IsNoneThatLeavesOutWhatItsBallsCover) {
+  const double here = 2.0, before_here = std::nextafter(here, 0.0);
+  EXPECT_TRUE(arc_vanishes({1, here, 0}, {here + 1e-9, 3, 0}));
+  EXPECT_TRUE(arc_vanishes({1, here, 0}, {before_here, 3, 0})) << "rounding made it less than nothing";
+  EXPECT_TRUE(arc_vanishes({here - 1e-4, here, 0}, {before_here, here + 1e-4, 0}));
+  EXPECT_FALSE(arc_vanishes({here - 1e-4, here, 0}, {here - 1e-4, here - 1e-5, 0})) << "nearly a whole turn";
+}
+
+TEST(RollingArc, RunsFromProbeToProbeAboutTheAxis) {
+  Random random(6);
+  const glm::dvec3 origin(1, 2, 3), d(0.8, -1.1, 1.6);
+  const double r0 = 3.1, r1 = 2.9, p = 1.4;
+  const RollingArc whole = whole_turn(origin, d, r0, r1, r0 * r0, r1 * r1, p);
+  const glm::dvec3 side = glm::cross(whole.axis, whole.start);
+  const auto probe = [&](double t) {
+    return whole.center + whole.radius * (std::cos(t) * whole.start + std::sin(t) * side);
+  };
+  for (int n = 0; n < 100; ++n) {
+    const double begin = 6 * random.unit(), sweep = 6 * random.unit();
+    const RollingArc part = part_between(whole, probe(begin), probe(begin + sweep));
+    EXPECT_NEAR(glm::distance(probe(begin), origin), r0, 1e-14);
+    EXPECT_NEAR(glm::distance(probe(begin), origin + d), r1, 1e-14);
+    EXPECT_NEAR(glm::distance(part.center + part.radius * part.start, probe(begin)), 0, 1e-14);
+    EXPECT_NEAR(part.cosine, std::cos(sweep), 1e-13);
+    EXPECT_NEAR(part.sine, std::sin(sweep), 1e-13);
+  }
+  const double as_large = whole.radius + 5e-10;
+  EXPECT_EQ(whole_turn(origin, d, r0, r1, r0 * r0, r1 * r1, as_large).radius, as_large);
+}
+
+TEST(PolygonReach, IsTheWholeRadiusInsideAndLessBeside) {
+  const glm::dvec3 x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
+  const auto reach_towards = [&](const glm::dvec3& d) {
+    PolygonReach reach = no_reach();
+    add_side(reach, x, z, d);  // counter-clockwise seen from the probe
+    add_side(reach, z, y, d);
+    add_side(reach, y, x, d);
+    return cut_reach(reach, 1.4);
+  };
+  EXPECT_NEAR(reach_towards(glm::normalize(x + y + z)), 2.8, 1e-14);
+  EXPECT_NEAR(reach_towards(glm::normalize(x + y - z)), 2.8 * std::sqrt(2.0 / 3.0), 1e-14) << "the side from x to y";
+  EXPECT_NEAR(reach_towards(glm::normalize(3.0 * x - y - z)), 2.8 * 3 / std::sqrt(11.0), 1e-14) << "the corner x";
 }
 
 TEST(ContactHeight, IsWhereTheRollingProbeTouches) {

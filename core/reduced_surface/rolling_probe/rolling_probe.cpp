@@ -114,17 +114,9 @@ class RollingProbe {
 
   // The face at the end of an arc, filed if it is new, with the number of the arc's edge in it.
   FaceName face_at(const ArcEnd& end, int& edge, bool& is_new) {
-    std::uint32_t a = end.i;
-    RollingFace face{end.j, end.k, end.begins};
-    edge = 0;
-    if (end.k < end.i) {
-      a = end.k;
-      face = {end.i, end.j, end.begins};
-      edge = 2;
-    } else if (end.k < end.j) {
-      face = {end.k, end.j, !end.begins};
-      edge = 1;
-    }
+    const auto [a, b, c, side] = geometry::triple_at(end.i, end.j, end.k, !end.begins);
+    const RollingFace face{b, c, side != 0};
+    edge = static_cast<int>(geometry::role_of_third(end.i, end.j, end.k));
     std::vector<RollingFace>& filed = faces_[a];
     const auto same = [&](const RollingFace& f) { return f.b == face.b && f.c == face.c && f.side == face.side; };
     const auto found = std::find_if(filed.begin(), filed.end(), same);

@@ -10,24 +10,15 @@
 
 #include "core/gpu/append_list.h"
 #include "core/gpu/kernel_parameters.h"
+#include "core/gpu/kernel_records.h"
 #include "core/reduced_surface/contour/contour.h"
 #include "core/reduced_surface/gpu/gpu_neighbors.h"
 
 namespace meniscus {
 namespace {
 
-// The records of gpu_shaders/shared/cusp_side.glsl and cusps.comp.
-struct SideRecord {
-  glm::vec4 contact, gap_direction, circle_center;
-  std::uint32_t circle, partner, touching, spare;
-};
-static_assert(sizeof(SideRecord) == 64);
-
-struct ArcRecord {
-  glm::uvec4 names;
-  glm::vec4 begin, end;
-};
-static_assert(sizeof(ArcRecord) == 48);
+using kernel::CuspArcRecord;
+using kernel::SideRecord;
 
 constexpr std::size_t kArcHeader = 16;  // counters before the arcs
 
@@ -139,7 +130,7 @@ class GpuCuspTracer final : public CuspTracer {
                                          .doubtful_capacity = doubtful_.capacity()});
       program.dispatch(group_count(circles.size()));
     });
-    for (const ArcRecord& arc : arcs_.buffer.download<ArcRecord>(arcs_.count(), kArcHeader))
+    for (const CuspArcRecord& arc : arcs_.buffer.download<CuspArcRecord>(arcs_.count(), kArcHeader))
       found.push_back(
           {{arc.names.x, arc.names.y}, {arc.names.z, arc.names.w}, glm::dvec3(arc.begin), glm::dvec3(arc.end)});
   }
@@ -158,7 +149,7 @@ class GpuCuspTracer final : public CuspTracer {
   ProgramCache& programs_;
   GpuNeighbors neighbors_;
   Buffer heads_, sides_, flags_, circles_;
-  AppendList arcs_{sizeof(ArcRecord), 1 << 12, kArcHeader}, doubtful_{sizeof(glm::uvec2), 1 << 12};
+  AppendList arcs_{sizeof(CuspArcRecord), 1 << 12, kArcHeader}, doubtful_{sizeof(glm::uvec2), 1 << 12};
 };
 
 }  // namespace
