@@ -8,6 +8,7 @@
 
 #include "core/color/color_atoms.h"
 #include "core/color/named_colors.h"
+#include "core/math/box.h"
 
 namespace meniscus {
 
@@ -18,14 +19,15 @@ RunFraming run_framing(const ViewRequest& view, const CameraMotionRequest& motio
   RunFraming framing;
   framing.cameras = run_cameras(view, motion, given, frames);
   if (!motion.moves()) framing.cameras.resize(1);
-  framing.low = glm::dvec3(1e300);
-  framing.high = glm::dvec3(-1e300);
+  Box box;
   frames.survey([&](std::uint64_t, std::span<const Ball> balls) {
     for (const Ball& ball : balls) {
-      framing.low = glm::min(framing.low, ball.center - ball.radius);
-      framing.high = glm::max(framing.high, ball.center + ball.radius);
+      box.include(ball.center - ball.radius);
+      box.include(ball.center + ball.radius);
     }
   });
+  framing.low = box.low;
+  framing.high = box.high;
   return framing;
 }
 

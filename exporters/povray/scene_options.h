@@ -41,9 +41,4 @@ struct SceneReport {
   std::string command;             ///< for a POSIX shell: renders the picture from any folder
 };
 
-/// A box, Å.
-struct Extent {
-  glm::dvec3 low{1e300}, high{-1e300};
-};
-
 }  // namespace meniscus::povray

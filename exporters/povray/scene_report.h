@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/math/box.h"
 #include "core/camera/camera.h"
 #include "exporters/povray/geometry.h"
 #include "exporters/povray/scene_options.h"

@@ -89,6 +89,7 @@ using uint = unsigned;
 using real = Sloppy;
 using real2 = Vector2<real>;
 using real3 = Vector3<real>;
+using std::max;
 using std::min;
 #include "gpu_shaders/geometry/circle.glsl"
 }  // namespace sloppy
@@ -101,6 +102,7 @@ using real = long double;
 using real2 = Vector2<real>;
 using real3 = Vector3<real>;
 using std::abs;
+using std::max;
 using std::min;
 using std::sqrt;
 #include "gpu_shaders/geometry/circle.glsl"
