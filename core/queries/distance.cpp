@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Feet of perpendiculars on spheres, tori and circles, and which of them the surface has.
+#include "core/queries/distance.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include <glm/geometric.hpp>
+
+#include "core/math/ball_grid.h"
+#include "core/math/box_tree.h"
+#include "core/surface/measure.h"
+
+namespace meniscus {
+namespace {
+
+constexpr double kFar = std::numeric_limits<double>::infinity();
+
+struct Foot {
+  double distance = kFar;
+  glm::dvec3 point{0.0};
+
+  void take(double other, const glm::dvec3& at) {
+    if (other < distance) *this = {other, at};
+  }
+};
+
+Box box_of_ball(const glm::dvec3& center, double radius) { return {center - radius, center + radius}; }
+
+/// Of a circle, and of all that is within `margin` of it.
+Box box_of_circle(const glm::dvec3& center, const glm::dvec3& axis, double radius, double margin) {
+  const glm::dvec3 half = radius * glm::sqrt(glm::max(1.0 - axis * axis, glm::dvec3(0.0))) + margin;
+  return {center - half, center + half};
+}
+
+/// A point in the cylindrical coordinates of a circle: along its axis, and away from it.
+struct BesideAxis {
+  double along, away;
+  glm::dvec3 outward;  ///< unit; on the axis itself any direction does, and `start` is taken
+};
+
+BesideAxis beside_axis(const glm::dvec3& x, const glm::dvec3& center, const glm::dvec3& axis, const glm::dvec3& start) {
+  const glm::dvec3 from_center = x - center;
+  const double along = glm::dot(from_center, axis);
+  const glm::dvec3 across = from_center - along * axis;
+  const double away = glm::length(across);
+  return {along, away, away > 0.0 ? across / away : start};
+}
+
+/// Does the arc that begins at `start` and turns counter-clockwise by `sweep` pass the direction?
+bool passes(const glm::dvec3& direction, const glm::dvec3& axis, const glm::dvec3& start, double sweep) {
+  const double angle = std::atan2(glm::dot(direction, glm::cross(axis, start)), glm::dot(direction, start));
+  return (angle < 0.0 ? angle + 2 * std::numbers::pi : angle) <= sweep;
+}
+
+bool inside(const Surface& s, const glm::dvec3& x, std::uint32_t first, std::uint32_t count) {
+  return std::all_of(s.planes.begin() + first, s.planes.begin() + first + count,
+                     [&](const Plane& plane) { return glm::dot(plane.normal, x) <= plane.offset; });
+}
+
+/// On the sphere of a convex patch's atom with this radius: that of the atom, or its SAS radius. Seen from the atom
+/// both show the same part.
+Foot foot_on(const Surface& s, const ConvexPatch& patch, double radius, const glm::dvec3& x, double limit) {
+  const Ball& atom = s.atoms[patch.atom];
+  const glm::dvec3 out = x - atom.center;
+  const double length = glm::length(out), distance = std::abs(length - radius);
+  if (!(distance < limit)) return {};
+  // All directions are as good from the middle; borders answer where this one is covered.
+  const glm::dvec3 direction = length > 0.0 ? out / length : glm::dvec3(0.0, 0.0, 1.0);
+  if (!inside(s, atom.center + atom.radius * direction, patch.first_plane, patch.plane_count)) return {};
+  return {distance, atom.center + radius * direction};
+}
+
+/// Nothing from the probe's centre itself: the patch's borders are as near.
+Foot foot_on(const Surface& s, const ConcavePatch& patch, const glm::dvec3& x, double limit) {
+  const glm::dvec3 out = x - patch.center;
+  const double length = glm::length(out), distance = std::abs(length - s.probe_radius);
+  if (!(distance < limit) || !(length > 0.0)) return {};
+  const glm::dvec3 foot = patch.center + out * (s.probe_radius / length);
+  return inside(s, foot, patch.first_plane, patch.plane_count()) ? Foot{distance, foot} : Foot{};
+}
+
+/// In the half-plane of x, on its side of the torus' circle: what is left of the tube does not pass the axis, so along
+/// either circle through the foot other points are farther. From a place of the probe's centre all of the tube is
+/// equally far, and its borders are as near.
+Foot foot_on(const Surface& s, const ToroidalPatch& t, const glm::dvec3& x, double limit) {
+  const BesideAxis at = beside_axis(x, t.center, t.axis, t.start);
+  const double across = at.away - t.radius, length = std::sqrt(across * across + at.along * at.along);
+  const double distance = std::abs(length - s.probe_radius);
+  if (!(distance < limit) || !(length > 0.0) || (!t.free() && !passes(at.outward, t.axis, t.start, t.sweep))) return {};
+  const double angle = std::atan2(at.along, -across);
+  for (std::uint32_t n = 0; n < t.face_count; ++n) {
+    const auto [low, high] = tube_range(s, t, n);
+    if (!(angle >= low && angle <= high)) continue;
+    return {distance,
+            t.center + t.radius * at.outward + (s.probe_radius / length) * (across * at.outward + at.along * t.axis)};
+  }
+  return {};
+}
+
+/// On an arc, its ends not included; `turning` is a Border, or the path of a rolling probe.
+template <typename Turning>
+Foot foot_on_arc(const Turning& turning, bool whole, const glm::dvec3& x, double limit) {
+  const BesideAxis at = beside_axis(x, turning.center, turning.axis, turning.start);
+  const double across = at.away - turning.radius, distance = std::sqrt(across * across + at.along * at.along);
+  if (!(distance < limit)) return {};
+  if (!whole && !passes(at.outward, turning.axis, turning.start, turning.sweep)) return {};
+  return {distance, turning.center + turning.radius * at.outward};
+}
+
+/// Everything of one table, then of the next.
+template <std::size_t kTables>
+struct Tables {
+  std::array<std::uint32_t, kTables + 1> first{};
+  std::vector<Box> boxes;
+
+  void end(std::size_t table) { first[table + 1] = static_cast<std::uint32_t>(boxes.size()); }
+};
+
+}  // namespace
+
+struct SurfaceDistance::Index {
+  explicit Index(const Surface& surface)
+      : s(surface),
+        largest(largest_radius()),
+        balls(s.atoms, largest),
+        accessible(list_accessible()),
+        accessible_tree(accessible.boxes),
+        parts(list_parts()),
+        part_tree(parts.boxes) {}
+
+  double largest_radius() const {
+    double radius = 0.0;
+    for (const Ball& atom : s.atoms) radius = std::max(radius, atom.radius);
+    return radius + s.probe_radius;
+  }
+
+  // Where a probe may be that stands against an atom, two, or three.
+  Tables<3> list_accessible() const {
+    Tables<3> t;
+    for (const ConvexPatch& patch : s.convex)
+      t.boxes.push_back(box_of_ball(s.atoms[patch.atom].center, s.atoms[patch.atom].radius + s.probe_radius));
+    t.end(0);
+    for (const ToroidalPatch& patch : s.toroidal)
+      t.boxes.push_back(box_of_circle(patch.center, patch.axis, patch.radius, 0.0));
+    t.end(1);
+    for (const ConcavePatch& patch : s.concave) t.boxes.push_back({patch.center, patch.center});
+    t.end(2);
+    return t;
+  }
+
+  Tables<5> list_parts() const {
+    Tables<5> t;
+    for (const ConvexPatch& patch : s.convex)
+      t.boxes.push_back(box_of_ball(s.atoms[patch.atom].center, s.atoms[patch.atom].radius));
+    t.end(0);
+    for (const ToroidalPatch& patch : s.toroidal)
+      t.boxes.push_back(box_of_circle(patch.center, patch.axis, patch.radius, s.probe_radius));
+    t.end(1);
+    for (const ConcavePatch& patch : s.concave) t.boxes.push_back(box_of_ball(patch.center, s.probe_radius));
+    t.end(2);
+    for (const Border& border : s.borders)
+      t.boxes.push_back(box_of_circle(border.center, border.axis, border.radius, 0.0));
+    t.end(3);
+    for (const glm::dvec3& vertex : s.vertices) t.boxes.push_back({vertex, vertex});
+    t.end(4);
+    return t;
+  }
+
+  bool in_sas_ball(const glm::dvec3& x) const {
+    bool covered = false;
+    balls.for_each_near(x, largest, [&](std::uint32_t a) {
+      covered = covered || glm::distance(x, s.atoms[a].center) < s.atoms[a].radius + s.probe_radius;
+    });
+    return covered;
+  }
+
+  Foot nearest_accessible(const glm::dvec3& x) const {
+    Foot nearest;
+    accessible_tree.nearest(x, kFar, [&](std::uint32_t n, double limit) {
+      Foot foot;
+      if (n < accessible.first[1]) {
+        const ConvexPatch& patch = s.convex[n];
+        foot = foot_on(s, patch, s.atoms[patch.atom].radius + s.probe_radius, x, limit);
+      } else if (n < accessible.first[2]) {
+        const ToroidalPatch& patch = s.toroidal[n - accessible.first[1]];
+        foot = foot_on_arc(patch, patch.free(), x, limit);
+      } else {
+        const glm::dvec3& center = s.concave[n - accessible.first[2]].center;
+        foot = {glm::distance(x, center), center};
+      }
+      nearest.take(foot.distance, foot.point);
+      return nearest.distance;
+    });
+    return nearest;
+  }
+
+  Foot nearest_part(const glm::dvec3& x) const {
+    Foot nearest;
+    part_tree.nearest(x, kFar, [&](std::uint32_t n, double limit) {
+      Foot foot;
+      if (n < parts.first[1]) {
+        foot = foot_on(s, s.convex[n], s.atoms[s.convex[n].atom].radius, x, limit);
+      } else if (n < parts.first[2]) {
+        foot = foot_on(s, s.toroidal[n - parts.first[1]], x, limit);
+      } else if (n < parts.first[3]) {
+        const ConcavePatch& patch = s.concave[n - parts.first[2]];
+        if (patch.face_count > 0) foot = foot_on(s, patch, x, limit);
+      } else if (n < parts.first[4]) {
+        const Border& border = s.borders[n - parts.first[3]];
+        foot = foot_on_arc(border, border.vertex[0] == kNone, x, limit);
+      } else {
+        const glm::dvec3& vertex = s.vertices[n - parts.first[4]];
+        foot = {glm::distance(x, vertex), vertex};
+      }
+      nearest.take(foot.distance, foot.point);
+      return nearest.distance;
+    });
+    return nearest;
+  }
+
+  const Surface& s;
+  double largest;  // SAS radius
+  BallGrid balls;
+  Tables<3> accessible;
+  BoxTree accessible_tree;
+  Tables<5> parts;
+  BoxTree part_tree;
+};
+
+SurfaceDistance::SurfaceDistance(const Surface& surface) : index_(std::make_unique<const Index>(surface)) {}
+SurfaceDistance::~SurfaceDistance() = default;
+SurfaceDistance::SurfaceDistance(SurfaceDistance&&) noexcept = default;
+SurfaceDistance& SurfaceDistance::operator=(SurfaceDistance&&) noexcept = default;
+
+NearestPoint SurfaceDistance::operator()(const glm::dvec3& x) const {
+  const double probe_radius = index_->s.probe_radius;
+  if (index_->in_sas_ball(x)) {
+    const Foot place = index_->nearest_accessible(x);
+    if (place.distance == 0.0 && probe_radius == 0.0) return {0.0, place.point};
+    if (place.distance >= probe_radius)
+      return {probe_radius - place.distance, place.point + (x - place.point) * (probe_radius / place.distance)};
+  }
+  const Foot foot = index_->nearest_part(x);
+  return {foot.distance, foot.point};
+}
+
+}  // namespace meniscus

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Distances to the surface in closed form, and against the oracle that knows only the balls.
+#include "core/queries/distance.h"
+
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "core/surface/surface.h"
+#include "tests/support/molecules.h"
+#include "tests/support/sphere_tracer.h"
+
+namespace meniscus {
+namespace {
+
+glm::dvec3 random_direction(std::mt19937& random) {
+  std::normal_distribution<double> normal;
+  return glm::normalize(glm::dvec3(normal(random), normal(random), normal(random)));
+}
+
+TEST(SurfaceDistance, OfOneBallIsThatToItsSphere) {
+  for (const double probe_radius : {0.0, 1.4}) {
+    const Surface surface = compute_surface_cpu(testing::Balls{{{1.0, 2.0, 3.0}, 1.7}}, probe_radius);
+    const SurfaceDistance distance(surface);
+    std::mt19937 random(1);
+    for (const double from_center : {0.0, 1e-9, 0.5, 1.7, 1.8, 3.1, 40.0}) {
+      const glm::dvec3 center(1.0, 2.0, 3.0), point = center + from_center * random_direction(random);
+      const NearestPoint nearest = distance(point);
+      EXPECT_NEAR(nearest.distance, from_center - 1.7, 1e-14);
+      EXPECT_NEAR(glm::distance(nearest.point, center), 1.7, 1e-14);
+      EXPECT_NEAR(glm::distance(nearest.point, point), std::abs(from_center - 1.7), 1e-14);
+    }
+  }
+}
+
+// In the plane half-way between two balls: the probe goes round on a circle of radius T about the axis, on which the
+// neck has the radius T - p.
+TEST(SurfaceDistance, OfTwoBallsIsThatToTheNeck) {
+  const double r = testing::kCarbon, p = testing::kWater, d = 4.0, T = std::sqrt((r + p) * (r + p) - d * d / 4);
+  const Surface surface = compute_surface_cpu(testing::two_atoms(d), p);
+  const SurfaceDistance distance(surface);
+  const double middle = 0.5 * (surface.atoms[0].center.x + surface.atoms[1].center.x);
+  for (const double away : {0.0, 0.3, T - p, T - p + 0.5, T, T + p, 10.0}) {
+    const NearestPoint nearest = distance({middle, away, 0.0});
+    EXPECT_GT(T - p, 0.0);
+    if (away <= T) {
+      EXPECT_NEAR(nearest.distance, away - (T - p), 1e-14) << away;
+    }
+    EXPECT_NEAR(nearest.point.x, middle, away <= T - p + 0.5 ? 1e-12 : d) << away;
+  }
+  // Beyond the circle both contact circles are nearest, and far away the balls themselves.
+  EXPECT_NEAR(distance({middle, 10.0, 0.0}).distance, std::hypot(10.0, d / 2) - r, 1e-12);
+  EXPECT_NEAR(distance({middle + d / 2 + 5.0, 0.0, 0.0}).distance, 5.0 - r, 1e-14);
+}
+
+// A probe that touches its own torus' axis leaves two cusps there.
+TEST(SurfaceDistance, OfASpindleIsThatToItsTip) {
+  const double r = testing::kCarbon, p = testing::kWater, d = 5.8, half = d / 2;
+  const double T = std::sqrt((r + p) * (r + p) - half * half), tip = std::sqrt(p * p - T * T);
+  ASSERT_LT(T, p);
+  const Surface surface = compute_surface_cpu(testing::two_atoms(d), p);
+  const SurfaceDistance distance(surface);
+  const double middle = 0.5 * (surface.atoms[0].center.x + surface.atoms[1].center.x);
+  EXPECT_NEAR(distance({middle, 0.0, 0.0}).distance, tip, 1e-14);
+  EXPECT_NEAR(distance({middle + 0.5 * tip, 0.0, 0.0}).distance, 0.5 * tip, 1e-14);
+  EXPECT_LT(distance({middle + 1.5 * tip, 0.0, 0.0}).distance, 0.0);
+}
+
+/// What a distance must satisfy: its point is on the surface and that far away, and no part of the surface is nearer,
+/// for within the distance everything is on the point's own side.
+struct Tally {
+  int solid = 0, solvent = 0, accessible = 0;
+};
+
+Tally check(const testing::Balls& atoms, const testing::SphereTracer& oracle, double probe_radius, double tolerance,
+            int count, double spread, std::uint32_t seed) {
+  const Surface surface = compute_surface_cpu(atoms, probe_radius);
+  const SurfaceDistance distance(surface);
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> offset(-spread, spread);
+  Tally tally;
+  for (int n = 0; n < count; ++n) {
+    const glm::dvec3 point =
+        atoms[random() % atoms.size()].center + glm::dvec3(offset(random), offset(random), offset(random));
+    const NearestPoint nearest = distance(point);
+    const double to_probe = oracle.nearest(point).distance, far = std::abs(nearest.distance);
+    EXPECT_NEAR(glm::distance(nearest.point, point), far, 1e-9);
+    EXPECT_NEAR(oracle.nearest(nearest.point).distance, probe_radius, tolerance);
+    if (std::abs(to_probe - probe_radius) > tolerance) {
+      EXPECT_EQ(nearest.distance > 0.0, to_probe < probe_radius) << to_probe;
+    }
+    if (nearest.distance < 0.0 && to_probe < oracle.reach()) {
+      EXPECT_NEAR(nearest.distance, probe_radius - to_probe, tolerance);
+    }
+    const double within = far * (1 - 1e-6) - 1e-6;
+    for (int k = 0; k < 30 && within > 0.0; ++k) {
+      const double there = oracle.nearest(point + within * random_direction(random)).distance;
+      EXPECT_EQ(there<probe_radius, nearest.distance> 0.0) << n << ": something is nearer than " << far;
+    }
+    tally.solid += nearest.distance < 0.0;
+    tally.solvent += nearest.distance > 0.0;
+    tally.accessible += to_probe == 0.0;
+  }
+  return tally;
+}
+
+TEST(SurfaceDistance, OfAProteinIsWhatTheOracleSays) {
+  for (const double probe_radius : {0.7, 1.4, 3.0}) {
+    const testing::Balls atoms = testing::ubiquitin();
+    const testing::SphereTracer oracle(atoms, probe_radius, 1.0);
+    const Tally tally = check(atoms, oracle, probe_radius, 1e-11, 400, 6.0, 7);
+    EXPECT_GT(tally.solid, 50);
+    EXPECT_GT(tally.solvent, 50);
+    EXPECT_GT(tally.accessible, 20);
+  }
+}
+
+// Touching counts as overlapping: balls between which a probe just fits have no room for it. So the oracle's grow.
+TEST(SurfaceDistance, OfDegenerateMoleculesIsWhatTheOracleSays) {
+  for (const testing::NamedBalls& molecule : testing::degenerate_molecules()) {
+    SCOPED_TRACE(molecule.name);
+    if (molecule.probe_radius == 0.0) continue;
+    testing::Balls grown = molecule.balls;
+    for (Ball& ball : grown) ball.radius += 5e-9;
+    const testing::SphereTracer oracle(grown, molecule.probe_radius, 1.0);
+    check(molecule.balls, oracle, molecule.probe_radius, 1e-6, 25, 4.0, 11);
+  }
+}
+
+// Without a probe the solid is the union of the balls, and the distance in it that to what is left of their spheres.
+TEST(SurfaceDistance, OfBallsWithoutAProbe) {
+  const testing::Balls atoms = testing::ubiquitin();
+  const Surface surface = compute_surface_cpu(atoms, 0.0);
+  const SurfaceDistance distance(surface);
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> offset(-4.0, 4.0);
+  int solid = 0;
+  for (int n = 0; n < 400; ++n) {
+    const glm::dvec3 point =
+        atoms[random() % atoms.size()].center + glm::dvec3(offset(random), offset(random), offset(random));
+    double outside = 1e9;
+    for (const Ball& atom : atoms) outside = std::min(outside, glm::distance(point, atom.center) - atom.radius);
+    const double found = distance(point).distance;
+    if (outside > 0.0) {
+      EXPECT_NEAR(found, outside, 1e-9);
+    } else {
+      EXPECT_LE(found, outside + 1e-9);  // at least as deep as in one ball
+    }
+    solid += outside < 0.0;
+  }
+  EXPECT_GT(solid, 50);
+}
+
+}  // namespace
+}  // namespace meniscus
