@@ -16,7 +16,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/image/image_codec.h"
-#include "core/image/color_space.h"
+#include "core/image/display_color.h"
 #include "core/image/memory_file.h"
 
 namespace meniscus {
@@ -35,11 +35,6 @@ struct Channels {
   int alpha = -1;
 };
 
-glm::vec4 over(const glm::vec4& front, const std::optional<glm::vec3>& background) {
-  if (!background) return front;
-  return {glm::vec3(front) + (1.0f - front.w) * linear_from_srgb(*background), 1.0f};
-}
-
 /// sRGB, alpha not multiplied in, as PNG wants it.
 Channels display_channels(const Framebuffer& picture, const ImageSettings& settings) {
   Channels channels;
@@ -50,9 +45,8 @@ Channels display_channels(const Framebuffer& picture, const ImageSettings& setti
   }
   channels.values.reserve(picture.color.size() * channels.names.size());
   for (const glm::vec4& pixel : picture.color) {
-    const glm::vec4 c = over(pixel, settings.background);
-    const glm::vec3 srgb = srgb_from_linear(c.w > 0.0f ? glm::vec3(c) / c.w : glm::vec3(0.0f));
-    channels.values.insert(channels.values.end(), {srgb.x, srgb.y, srgb.z});
+    const glm::vec4 c = display_color(pixel, settings.background);
+    channels.values.insert(channels.values.end(), {c.x, c.y, c.z});
     if (!settings.background) channels.values.push_back(c.w);
   }
   return channels;
@@ -150,9 +144,7 @@ bool holds_aovs(const std::filesystem::path& path) { return extension_of(path) =
 std::vector<std::uint8_t> srgb_pixels(const Framebuffer& picture, const glm::vec3& background) {
   const Channels channels = display_channels(picture, {background, Existing::refuse});
   std::vector<std::uint8_t> pixels(channels.values.size());
-  std::ranges::transform(channels.values, pixels.begin(), [](float value) {
-    return static_cast<std::uint8_t>(std::clamp(value * 255.0f, 0.0f, 255.0f) + 0.5f);  // as PNG files have it
-  });
+  std::ranges::transform(channels.values, pixels.begin(), display_byte);
   return pixels;
 }
 

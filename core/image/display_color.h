@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// From the light that rays gathered to the colour of a pixel on a screen.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+namespace meniscus {
+
+/// A linear pixel with its alpha multiplied in, before an sRGB background if there is one (alpha 1 then).
+glm::vec4 over(const glm::vec4& front, const std::optional<glm::vec3>& background);
+
+/// The same in sRGB, alpha not multiplied in, as PNG has it.
+glm::vec4 display_color(const glm::vec4& pixel, const std::optional<glm::vec3>& background);
+
+/// A channel in [0, 1] as PNG files have it: 0 to 255, to the nearest.
+std::uint8_t display_byte(float channel);
+
+}  // namespace meniscus
