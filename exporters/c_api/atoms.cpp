@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Looks at every number before anything is computed from it.
+#include "exporters/c_api/atoms.h"
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+#include "core/text/parse_number.h"
+#include "exporters/c_api/guard.h"
+#include "exporters/c_api/sized_struct.h"
+
+namespace meniscus::c_api {
+namespace {
+
+/// Borders are counted in 31 bits, and an atom has up to a dozen.
+constexpr std::size_t kMostAtoms = std::size_t{1} << 27;
+
+/// Rows of `width` numbers, of either type, with a stride.
+class Numbers {
+ public:
+  Numbers(const void* data, std::size_t width, std::size_t stride, std::int32_t type, const char* name)
+      : data_(static_cast<const unsigned char*>(data)), single_(type == MENISCUS_FLOAT) {
+    require(data, name);
+    if (type != MENISCUS_FLOAT && type != MENISCUS_DOUBLE)
+      refuse(MENISCUS_USAGE, "{}_type is {}, neither MENISCUS_DOUBLE nor MENISCUS_FLOAT", name, type);
+    const std::size_t size = single_ ? sizeof(float) : sizeof(double);
+    stride_ = stride == 0 ? width * size : stride;
+    if (stride_ < width * size || stride_ % size != 0 || reinterpret_cast<std::uintptr_t>(data) % size != 0)
+      refuse(MENISCUS_USAGE, "{}_stride is {} bytes; rows of {} numbers of {} bytes need a multiple of {}, at least {}",
+             name, stride, width, size, size, width * size);
+  }
+
+  double at(std::size_t row, std::size_t column) const {
+    const unsigned char* const place = data_ + row * stride_;
+    return single_ ? static_cast<double>(reinterpret_cast<const float*>(place)[column])
+                   : reinterpret_cast<const double*>(place)[column];
+  }
+
+ private:
+  const unsigned char* data_;
+  std::size_t stride_ = 0;
+  bool single_;
+};
+
+void check_position(std::size_t atom, std::size_t axis, double value) {
+  const char letter = "xyz"[axis];
+  if (!std::isfinite(value)) refuse(MENISCUS_INPUT, "{} of atom {} is {}, not a finite number", letter, atom, value);
+  if (std::abs(value) > kLargestCoordinate)
+    refuse(MENISCUS_INPUT, "{} of atom {} is {} Å, beyond the {} Å that make sense; are these Å?", letter, atom, value,
+           kLargestCoordinate);
+}
+
+void check_radius(std::size_t atom, double value) {
+  if (!std::isfinite(value)) refuse(MENISCUS_INPUT, "the radius of atom {} is {}, not a finite number", atom, value);
+  if (value <= 0.0)
+    refuse(MENISCUS_INPUT, "the radius of atom {} is {} Å; it has to be above 0, or leave the atom out", atom, value);
+  if (value > kLargestRadius)
+    refuse(MENISCUS_INPUT, "the radius of atom {} is {} Å, beyond the {} Å that make sense", atom, value,
+           kLargestRadius);
+}
+
+}  // namespace
+
+std::vector<Ball> read_atoms(const meniscus_atoms* given) {
+  const meniscus_atoms atoms = read_struct(given, meniscus_atoms{}, "meniscus_atoms");
+  if (atoms.count == 0) refuse(MENISCUS_INPUT, "there are no atoms: meniscus_atoms.count is 0");
+  if (atoms.count > kMostAtoms)
+    refuse(MENISCUS_CAPACITY, "{} atoms are more than the {} that indices can count", atoms.count, kMostAtoms);
+  const Numbers positions(atoms.positions, 3, atoms.positions_stride, atoms.positions_type, "meniscus_atoms.positions");
+  const Numbers radii(atoms.radii, 1, atoms.radii_stride, atoms.radii_type, "meniscus_atoms.radii");
+  std::vector<Ball> balls(atoms.count);
+  for (std::size_t n = 0; n < balls.size(); ++n) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double value = positions.at(n, axis);
+      check_position(n, axis, value);
+      balls[n].center[static_cast<int>(axis)] = value;
+    }
+    balls[n].radius = radii.at(atoms.equal_radii ? 0 : n, 0);
+    check_radius(n, balls[n].radius);
+  }
+  return balls;
+}
+
+}  // namespace meniscus::c_api

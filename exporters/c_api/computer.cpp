@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// From arrays to a surface, on the thread that called or, where GL may be needed, on one that has a context.
+#include <cmath>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/scene/surface_computer.h"
+#include "core/surface/surface.h"
+#include "exporters/c_api/atoms.h"
+#include "exporters/c_api/cpu_threads.h"
+#include "exporters/c_api/device.h"
+#include "exporters/c_api/gl_thread.h"
+#include "exporters/c_api/sized_struct.h"
+#include "exporters/c_api/surface.h"
+#include "exporters/mesh/check_by_mesh.h"
+
+namespace meniscus::c_api {
+namespace {
+
+constexpr std::int32_t kMostThreads = 4096;
+
+const meniscus_options kDefaults{sizeof(meniscus_options), 1.4, MENISCUS_SES, MENISCUS_CPU, 0, 0};
+
+void check_probe(double radius) {
+  if (!std::isfinite(radius)) refuse(MENISCUS_INPUT, "probe_radius is {}, not a finite number", radius);
+  const std::string fault = probe_fault(radius);
+  if (!fault.empty()) refuse(MENISCUS_INPUT, "probe_radius: {}", fault);
+}
+
+meniscus_options checked(const meniscus_options* given) {
+  if (!given) return kDefaults;
+  const meniscus_options options = read_struct(given, kDefaults, "meniscus_options");
+  if (options.kind < MENISCUS_SES || options.kind > MENISCUS_VDW)
+    refuse(MENISCUS_USAGE, "kind is {}, none of MENISCUS_SES, _SAS, _VDW", options.kind);
+  check_device(options.device);
+  if (options.threads < 0 || options.threads > kMostThreads)
+    refuse(MENISCUS_USAGE, "threads is {}; 0 means all, otherwise up to {}", options.threads, kMostThreads);
+  if (options.kind != MENISCUS_VDW) check_probe(options.probe_radius);
+  return options;
+}
+
+SurfaceRequest request_of(const meniscus_options& options) {
+  SurfaceRequest result;
+  result.kind = options.kind == MENISCUS_SES   ? SurfaceKind::ses
+                : options.kind == MENISCUS_SAS ? SurfaceKind::sas
+                                               : SurfaceKind::vdw;
+  result.probe_radius = options.probe_radius;
+  result.cpu = options.device == MENISCUS_CPU;
+  result.gl = gl_of(options.device);
+  result.verify = options.verify != 0;
+  result.check = check_by_mesh;
+  return result;
+}
+
+}  // namespace
+}  // namespace meniscus::c_api
+
+struct meniscus_computer : meniscus::c_api::Counted {
+ public:
+  explicit meniscus_computer(const meniscus_options& options) : options_(options) {
+    const auto make = [&] { return std::make_unique<meniscus::SurfaceComputer>(meniscus::c_api::request_of(options)); };
+    if (options.device == MENISCUS_CPU && !options.verify)
+      here_ = make();
+    else
+      with_gl_.emplace(make);
+  }
+
+  std::unique_ptr<const meniscus::c_api::FinishedSurface> compute(const std::vector<meniscus::Ball>& balls) {
+    const std::lock_guard one_caller(calling_);
+    auto finished = std::make_unique<meniscus::c_api::FinishedSurface>();
+    const auto run = [&](meniscus::SurfaceComputer& computer) {
+      meniscus::c_api::run_on_threads(options_.threads, [&] { finished->surface = computer.compute(balls); });
+      finished->device = computer.device();
+    };
+    if (with_gl_)
+      with_gl_->run(run);
+    else
+      run(*here_);
+    require_closed(finished->surface);
+    finished->kind = options_.kind;
+    finished->probe_radius = options_.kind == MENISCUS_VDW ? 0.0 : options_.probe_radius;
+    finished->threads = options_.threads;
+    return finished;
+  }
+
+ private:
+  const meniscus_options options_;
+  std::mutex calling_;
+  std::unique_ptr<meniscus::SurfaceComputer> here_;
+  std::optional<meniscus::c_api::OnGlThread<meniscus::SurfaceComputer>> with_gl_;
+};
+
+meniscus_status meniscus_default_options(meniscus_options* options) {
+  using namespace meniscus::c_api;
+  return guarded([&] { write_struct(options, kDefaults, "meniscus_options"); });
+}
+
+meniscus_status meniscus_computer_new(const meniscus_options* options, meniscus_computer** computer) {
+  using namespace meniscus::c_api;
+  return guarded([&] {
+    require(computer, "computer");
+    *computer = new meniscus_computer(checked(options));
+  });
+}
+
+meniscus_computer* meniscus_computer_retain(meniscus_computer* computer) { return meniscus::c_api::retain(computer); }
+void meniscus_computer_release(meniscus_computer* computer) { meniscus::c_api::release(computer); }
+
+meniscus_status meniscus_compute(meniscus_computer* computer, const meniscus_atoms* atoms, meniscus_surface** surface) {
+  using namespace meniscus::c_api;
+  return guarded([&] {
+    require(computer, "computer");
+    require(surface, "surface");
+    auto finished = computer->compute(read_atoms(atoms));
+    if (*surface && (*surface)->held_by_one()) {
+      (*surface)->finished = std::move(finished);
+      return;
+    }
+    auto fresh = std::make_unique<meniscus_surface>();
+    fresh->finished = std::move(finished);
+    release(std::exchange(*surface, fresh.release()));
+  });
+}

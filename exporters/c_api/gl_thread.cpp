@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// One worker, one piece of work at a time.
+#include "exporters/c_api/gl_thread.h"
+
+#include <atomic>
+#include <condition_variable>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <utility>
+
+#include <unistd.h>
+
+#include "core/base/error.h"
+
+namespace meniscus::c_api {
+namespace {
+
+/// The process whose GL driver this is; 0: none yet. That a child has a dead one is a fact about the process.
+std::atomic<pid_t> process_of_driver{0};
+
+pid_t claim_driver() {
+  const pid_t self = ::getpid();
+  pid_t owner = 0;
+  if (!process_of_driver.compare_exchange_strong(owner, self) && owner != self)
+    throw GpuError(
+        "GL was used before fork(), and its driver does not survive that; use GL after fork() only, or the CPU");
+  return self;
+}
+
+}  // namespace
+
+struct GlThread::Worker {
+  Worker() : thread([this] { loop(); }) {}
+  ~Worker() {
+    {
+      const std::lock_guard lock(mutex);
+      ending = true;
+    }
+    changed.notify_all();
+    thread.join();
+  }
+
+  void run(const std::function<void()>& wanted) {
+    const std::lock_guard one_caller(callers);
+    std::unique_lock lock(mutex);
+    work = &wanted;
+    changed.notify_all();
+    changed.wait(lock, [&] { return !work; });
+    if (error) std::rethrow_exception(std::exchange(error, nullptr));
+  }
+
+  void loop() {
+    std::unique_lock lock(mutex);
+    for (;;) {
+      changed.wait(lock, [&] { return work || ending; });
+      if (!work) return;
+      lock.unlock();
+      std::exception_ptr thrown;
+      try {
+        (*work)();
+      } catch (...) {
+        thrown = std::current_exception();
+      }
+      lock.lock();
+      error = std::move(thrown);
+      work = nullptr;
+      changed.notify_all();
+    }
+  }
+
+  std::mutex callers;  // one at a time
+  std::mutex mutex;
+  std::condition_variable changed;
+  const std::function<void()>* work = nullptr;
+  std::exception_ptr error;
+  bool ending = false;
+  std::thread thread;
+};
+
+GlThread::GlThread() : process_(claim_driver()), worker_(std::make_unique<Worker>()) {}
+
+GlThread::~GlThread() {
+  // Whoever waits on the condition in the parent would be waited for here.
+  if (!alive()) static_cast<void>(worker_.release());
+}
+
+bool GlThread::alive() const { return ::getpid() == process_; }
+
+void GlThread::run(const std::function<void()>& work) {
+  if (!alive()) throw GpuError("made before fork(), which GL does not survive; make a new one, for the CPU");
+  worker_->run(work);
+}
+
+}  // namespace meniscus::c_api

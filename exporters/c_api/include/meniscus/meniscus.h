@@ -1,0 +1,388 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Exact solvent-excluded surfaces of molecules for other programs, in C99: arrays in, arrays out.
+ *
+ *   meniscus_computer* computer = NULL;
+ *   meniscus_surface* surface = NULL;
+ *   meniscus_summary summary = {.size = sizeof summary};
+ *   meniscus_atoms atoms = {.size = sizeof atoms, .count = count, .positions = xyz, .radii = radii};
+ *   if (meniscus_computer_new(NULL, &computer) || meniscus_compute(computer, &atoms, &surface) ||
+ *       meniscus_surface_summary(surface, &summary))
+ *     fprintf(stderr, "%s\n", meniscus_last_error());
+ *   else
+ *     printf("%.2f A^2, %.2f A^3\n", summary.area, summary.volume);
+ *   meniscus_surface_release(surface);
+ *   meniscus_computer_release(computer);
+ *
+ * Units. Lengths are in angstrom (Å), areas in Å^2, volumes in Å^3, angles in radian (a camera's in degrees). Indices
+ * count from 0; MENISCUS_NONE stands for none. Vectors are three doubles, x, y, z.
+ *
+ * Errors. A function that can fail returns a meniscus_status; after anything but MENISCUS_OK meniscus_last_error() has
+ * one sentence about it, and nothing that was passed to be filled in has changed. No exception, no signal, no output.
+ *
+ * Structs that are passed begin with their `size`: set it to sizeof. What a caller compiled against an older header
+ * does not know has its default; what it asks of a newer one that this library does not know is refused.
+ *
+ * Ownership. Objects begin with one reference; _retain adds one, _release takes one away (NULL is fine), and the last
+ * frees the object. Arrays that are passed in are read during the call only. Arrays of a surface or a mesh are its own
+ * memory, read-only, and live as long as it does; a surface that is computed anew in place (meniscus_compute) has new
+ * ones.
+ *
+ * Threads. All functions may be called from any number of threads at once, with the same objects, too: a computer and a
+ * painter serve one call after the other, surfaces and meshes all at once. Only meniscus_compute with a surface in
+ * place changes one: while it runs nobody else may use that variable. After fork() the child can go on with
+ * MENISCUS_CPU, as long as no other thread was in a call; what uses GL is refused there. */
+#ifndef MENISCUS_MENISCUS_H
+#define MENISCUS_MENISCUS_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#if defined(__GNUC__)
+#define MENISCUS_API __attribute__((visibility("default")))
+#else
+#define MENISCUS_API
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define MENISCUS_NONE UINT32_MAX
+
+/* ---- Errors -------------------------------------------------------------------------------------------------- */
+
+/* The numbers are those of the program's exit codes. */
+typedef enum meniscus_status {
+  MENISCUS_OK = 0,
+  MENISCUS_INTERNAL = 1,  /* a fault of this library: please report it */
+  MENISCUS_USAGE = 2,     /* a call that makes no sense: NULL, an unknown word, a struct without its size */
+  MENISCUS_INPUT = 3,     /* a position, radius, colour or camera that cannot be; the text has its index and value */
+  MENISCUS_NO_GPU = 4,    /* no usable GL or GPU, or one that left work undone */
+  MENISCUS_CAPACITY = 5,  /* out of memory or threads, or more than indices can count */
+  MENISCUS_NOT_CLOSED = 7 /* the surface or mesh is not closed, so there is none; the text names atoms */
+} meniscus_status;
+
+/* What went wrong in the last call of this thread that failed, one sentence in UTF-8; "" if none has. It stays until
+ * another call of this thread fails. */
+MENISCUS_API const char* meniscus_last_error(void);
+
+/* "0.1.0". */
+MENISCUS_API const char* meniscus_version(void);
+
+/* ---- Radii --------------------------------------------------------------------------------------------------- */
+
+/* The atomic number of "C", "zn", "CL", ... in any case, D and T as hydrogen; 0: none has this symbol. */
+MENISCUS_API meniscus_status meniscus_element_of_symbol(const char* symbol, int32_t* element);
+
+/* The van der Waals radius by Bondi (1964, 1966) or Mantina et al. (2009). source may be NULL; else it becomes their
+ * names, or "no published value": of element 0, and of metals that neither has, the radius is 2.0 then. Refuses
+ * elements below 0 and above 118. */
+MENISCUS_API meniscus_status meniscus_element_radius(int32_t element, double* radius, const char** source);
+
+/* ---- Computing ----------------------------------------------------------------------------------------------- */
+
+/* meniscus_options.kind: which surface. */
+enum {
+  MENISCUS_SES = 0, /* solvent-excluded: what the probe cannot reach */
+  MENISCUS_SAS = 1, /* solvent-accessible: where the probe's centre can be */
+  MENISCUS_VDW = 2  /* van der Waals: the balls themselves, without a probe */
+};
+
+/* Where surfaces are computed, and pictures drawn. */
+enum {
+  MENISCUS_CPU = 0,     /* on the CPU; pictures by software GL */
+  MENISCUS_AUTO = 1,    /* on a hardware GPU if one works, else as MENISCUS_CPU */
+  MENISCUS_GPU = 2,     /* on a hardware GPU, nothing else */
+  MENISCUS_SOFTWARE = 3 /* by software GL, nothing else: for tests of the GPU's way */
+};
+
+typedef struct meniscus_options {
+  size_t size;
+  double probe_radius; /* [1.4], 0 or 0.001 to 100; ignored by MENISCUS_VDW */
+  int32_t kind;        /* [MENISCUS_SES] */
+  int32_t device;      /* [MENISCUS_CPU] */
+  int32_t threads;     /* [0: all] CPU threads, the calling one included */
+  int32_t verify;      /* [0] else: compute on the other device, too, and mesh; every difference is an error */
+} meniscus_options;
+
+/* Fills in the defaults, as in brackets. options->size has to be set. */
+MENISCUS_API meniscus_status meniscus_default_options(meniscus_options* options);
+
+/* Keeps what is worth keeping from frame to frame: a GL context, its kernels and buffers. */
+typedef struct meniscus_computer meniscus_computer;
+
+/* options: NULL for the defaults. *computer is overwritten. */
+MENISCUS_API meniscus_status meniscus_computer_new(const meniscus_options* options, meniscus_computer** computer);
+MENISCUS_API meniscus_computer* meniscus_computer_retain(meniscus_computer* computer);
+MENISCUS_API void meniscus_computer_release(meniscus_computer* computer);
+
+enum { MENISCUS_DOUBLE = 0, MENISCUS_FLOAT = 1 };
+
+typedef struct meniscus_atoms {
+  size_t size;
+  size_t count;            /* at least 1 */
+  const void* positions;   /* x, y, z of each atom, next to each other; finite, within 100,000 Å of 0 */
+  const void* radii;       /* van der Waals radius of each atom, above 0, at most 1,000 */
+  size_t positions_stride; /* bytes from one atom to the next; [0: without a gap] */
+  size_t radii_stride;     /* likewise */
+  int32_t positions_type;  /* [MENISCUS_DOUBLE] or MENISCUS_FLOAT, aligned as such */
+  int32_t radii_type;      /* likewise */
+  int32_t equal_radii;     /* [0] else: all atoms have radii[0] */
+  int32_t reserved;        /* 0 */
+} meniscus_atoms;
+
+/* ---- Surfaces ------------------------------------------------------------------------------------------------ */
+
+/* A closed surface with its certificate: every border has two faces, areas and volumes are proved (see docs/theory.md).
+ */
+typedef struct meniscus_surface meniscus_surface;
+
+/* Computes one surface. *surface is NULL, or a surface whose reference is taken over: of the frame before, say. If
+ * nobody else holds it, it is computed anew in place, and its arrays end; else it is let go and a new one made. If the
+ * call fails *surface stays as it was. */
+MENISCUS_API meniscus_status meniscus_compute(meniscus_computer* computer, const meniscus_atoms* atoms,
+                                              meniscus_surface** surface);
+MENISCUS_API meniscus_surface* meniscus_surface_retain(meniscus_surface* surface);
+MENISCUS_API void meniscus_surface_release(meniscus_surface* surface);
+
+typedef struct meniscus_summary {
+  size_t size;
+  double area;           /* Å^2, of all components */
+  double volume;         /* Å^3 of the solid: outer components less cavities */
+  double probe_radius;   /* that of meniscus_options; 0 for MENISCUS_VDW */
+  double grown_by;       /* Å by which radii were grown at most to tell ties apart; 0 as a rule */
+  uint64_t atoms;        /* given, exposed or not */
+  uint64_t convex;       /* atoms with a contact patch */
+  uint64_t toroidal;     /* saddle patches: RS edges, free ones included */
+  uint64_t concave;      /* re-entrant patches: fixed probes of which something is left to see */
+  uint64_t free_edges;   /* whole circles */
+  uint64_t spindle;      /* saddle patches that cross their axis */
+  uint64_t fixed_probes; /* RS faces; closer than 1e-6 Å is one */
+  uint64_t arcs;         /* RS edges with two ends */
+  uint64_t faces;        /* connected pieces of patches */
+  uint64_t borders;
+  uint64_t vertices;
+  uint64_t components;
+  uint64_t cavities;  /* components that the probe cannot get out of */
+  const char* device; /* "cpu (16 threads)", the threads of the machine, or GL renderer and version; lives as long as
+                         the surface */
+} meniscus_summary;
+
+/* summary->size has to be set. */
+MENISCUS_API meniscus_status meniscus_surface_summary(const meniscus_surface* surface, meniscus_summary* summary);
+
+/* Rows in a row: row n begins at data + n * stride. The stride may be larger than the struct below: rows may grow in
+ * later versions. data may be NULL where count is 0. */
+typedef struct meniscus_array {
+  const void* data;
+  size_t count;
+  size_t stride;
+} meniscus_array;
+
+/* The tables of a surface, and what their rows are. */
+enum {
+  MENISCUS_COMPONENTS = 0,     /* meniscus_component: outer ones first, then cavities, each by falling area */
+  MENISCUS_ATOM_AREAS = 1,     /* double per atom, Å^2, 0 where buried: the part of the surface whose nearest contact
+                                  is with the atom; the sum is the area */
+  MENISCUS_ATOM_SAS_AREAS = 2, /* double per atom, Å^2: where the probe's centre can be; of MENISCUS_SES only */
+  MENISCUS_ATOMS = 3,          /* meniscus_ball per atom: what was computed, radii with the probe for MENISCUS_SAS */
+  MENISCUS_CONVEX = 4,         /* meniscus_convex */
+  MENISCUS_TOROIDAL = 5,       /* meniscus_toroidal */
+  MENISCUS_CONCAVE = 6,        /* meniscus_concave */
+  MENISCUS_PLANES = 7,         /* meniscus_plane */
+  MENISCUS_CONTACTS = 8,       /* uint32_t: atoms */
+  MENISCUS_CUTS = 9,           /* uint32_t: rows of MENISCUS_CONCAVE */
+  MENISCUS_VERTICES = 10,      /* double[3] */
+  MENISCUS_BORDERS = 11,       /* meniscus_border */
+  MENISCUS_HALF_BORDERS = 12,  /* uint32_t: 2 * border, and 1 more if walked backwards */
+  MENISCUS_LOOPS = 13,         /* meniscus_loop */
+  MENISCUS_FACES = 14          /* meniscus_face */
+};
+
+enum { MENISCUS_KIND_CONVEX = 0, MENISCUS_KIND_TOROIDAL = 1, MENISCUS_KIND_CONCAVE = 2 };
+enum { MENISCUS_BORDER_CONTACT = 0, MENISCUS_BORDER_EDGE = 1, MENISCUS_BORDER_CUSP = 2 };
+enum { MENISCUS_OUTER = 0, MENISCUS_CAVITY = 1 };
+
+/* One closed, connected part of the surface. */
+typedef struct meniscus_component {
+  uint8_t kind;  /* MENISCUS_OUTER or MENISCUS_CAVITY */
+  double area;   /* Å^2 */
+  double volume; /* Å^3, negative for cavities */
+  int32_t euler; /* Euler characteristic: 2 less twice the handles */
+} meniscus_component;
+
+typedef struct meniscus_ball {
+  double center[3];
+  double radius;
+} meniscus_ball;
+
+/* A half-space: x is inside where dot(normal, x) <= offset. */
+typedef struct meniscus_plane {
+  double normal[3]; /* unit */
+  double offset;
+} meniscus_plane;
+
+/* Contact patch: the sphere of one atom inside all its planes. */
+typedef struct meniscus_convex {
+  uint32_t atom;
+  uint32_t first_plane, plane_count;
+  uint32_t first_face, face_count; /* its connected pieces */
+} meniscus_convex;
+
+/* Saddle patch: a probe rolls about two atoms, its centre counter-clockwise about the axis from center + radius * start
+ * by the angle sweep. The torus' major radius is `radius`, its minor one the probe's. Where it crosses its axis
+ * (spindle), the part past the axis is cut off, and a piece on either side remains. */
+typedef struct meniscus_toroidal {
+  uint32_t atom[2];  /* atom[0] < atom[1] */
+  uint32_t probe[2]; /* rows of MENISCUS_CONCAVE at start and end; MENISCUS_NONE twice for a whole circle */
+  double center[3];
+  double axis[3]; /* unit, from atom[0] to atom[1] */
+  double radius;
+  double start[3]; /* unit */
+  double sweep;    /* in (0, 2 pi] */
+  uint32_t first_face, face_count;
+  uint8_t has_piece[2]; /* of a spindle */
+} meniscus_toroidal;
+
+/* Re-entrant patch: the sphere of one fixed probe inside all its planes. */
+typedef struct meniscus_concave {
+  double center[3];
+  uint32_t first_contact, contact_count; /* touched atoms, counter-clockwise seen from the probe; usually 3 */
+  uint32_t first_plane;                  /* side planes, then bisectors with the probes in cuts, then others */
+  uint32_t side_count, cut_count, other_count;
+  uint32_t first_cut;
+  uint32_t first_face, face_count; /* 0 where other probes cut everything away */
+} meniscus_concave;
+
+/* An arc of a circle, center + radius * (cos t * start + sin t * cross(axis, start)), t in [0, sweep], where two faces
+ * meet. */
+typedef struct meniscus_border {
+  uint8_t kind; /* MENISCUS_BORDER_... */
+  double center[3];
+  double axis[3]; /* unit */
+  double radius;
+  double start[3]; /* unit */
+  double sweep;
+  uint32_t vertex[2]; /* at start and end; MENISCUS_NONE twice for a whole circle */
+  uint32_t face[2];   /* left and right of it, seen from the solvent */
+} meniscus_border;
+
+/* A closed chain of half-borders with its face on the left, seen from the solvent. */
+typedef struct meniscus_loop {
+  uint32_t first_half_border, half_border_count;
+} meniscus_loop;
+
+/* A connected piece of a patch. */
+typedef struct meniscus_face {
+  uint8_t kind;   /* MENISCUS_KIND_... */
+  uint32_t patch; /* row of the table of its kind */
+  uint32_t first_loop, loop_count;
+  uint32_t component;
+  uint32_t tip; /* vertex inside of it, of whole spindles only; else MENISCUS_NONE */
+  double area;  /* Å^2 */
+} meniscus_face;
+
+/* The areas of atoms are found when they are first asked for, which takes about a third of the surface's time. */
+MENISCUS_API meniscus_status meniscus_surface_table(const meniscus_surface* surface, int32_t table,
+                                                    meniscus_array* array);
+
+/* Of each point the Euclidean distance to the nearest point of the surface: above 0 in the solvent, below 0 in the
+ * solid (the solid of MENISCUS_SES is what no probe reaches, cavities are solvent; that of the other kinds is the union
+ * of the balls). Exact but for rounding, also far away; where atoms touch in one point, within 1e-6 Å. points: count
+ * times x, y, z, finite. distances: room for count. nearest: NULL, or room for count points, of those of the surface
+ * that are nearest; where several are, for one of them. */
+MENISCUS_API meniscus_status meniscus_surface_distance(const meniscus_surface* surface, size_t count,
+                                                       const double* points, double* distances, double* nearest);
+
+/* ---- Meshes -------------------------------------------------------------------------------------------------- */
+
+typedef struct meniscus_mesh_options {
+  size_t size;
+  double tolerance;     /* [0.01] Å, 0.00001 to 1: no point of the mesh is farther from the surface */
+  int32_t split_colors; /* [1] cut triangles where the nearest atom changes, so that colours change along edges */
+  int32_t reserved;     /* 0 */
+} meniscus_mesh_options;
+
+MENISCUS_API meniscus_status meniscus_default_mesh_options(meniscus_mesh_options* options);
+
+/* A closed triangle mesh; all vertices lie on the exact surface. Seen from the solvent triangles are counter-clockwise.
+ */
+typedef struct meniscus_mesh meniscus_mesh;
+
+/* options: NULL for the defaults. *mesh is overwritten. */
+MENISCUS_API meniscus_status meniscus_surface_mesh(const meniscus_surface* surface,
+                                                   const meniscus_mesh_options* options, meniscus_mesh** mesh);
+MENISCUS_API meniscus_mesh* meniscus_mesh_retain(meniscus_mesh* mesh);
+MENISCUS_API void meniscus_mesh_release(meniscus_mesh* mesh);
+
+/* The tables of a mesh. */
+enum {
+  MENISCUS_MESH_POSITIONS = 0,           /* double[3] per vertex */
+  MENISCUS_MESH_NORMALS = 1,             /* double[3] per vertex, unit, exact; at cusps a mean */
+  MENISCUS_MESH_TRIANGLES = 2,           /* uint32_t[3] per triangle: vertices */
+  MENISCUS_MESH_TRIANGLE_ATOMS = 3,      /* uint32_t per triangle: the touched atom that is nearest */
+  MENISCUS_MESH_TRIANGLE_KINDS = 4,      /* uint8_t per triangle: MENISCUS_KIND_... */
+  MENISCUS_MESH_TRIANGLE_FACES = 5,      /* uint32_t per triangle: row of MENISCUS_FACES */
+  MENISCUS_MESH_TRIANGLE_PATCHES = 6,    /* uint32_t per triangle: row of the table of its kind */
+  MENISCUS_MESH_TRIANGLE_COMPONENTS = 7, /* uint32_t per triangle */
+  MENISCUS_MESH_SHARP_CORNERS = 8,       /* uint32_t, ascending: corners (3 * triangle + 0, 1, 2) at cusps, where */
+  MENISCUS_MESH_SHARP_NORMALS = 9        /* double[3]: these are the exact normals */
+};
+
+MENISCUS_API meniscus_status meniscus_mesh_table(const meniscus_mesh* mesh, int32_t table, meniscus_array* array);
+
+/* ---- Pictures ------------------------------------------------------------------------------------------------ */
+
+enum { MENISCUS_PERSPECTIVE = 0, MENISCUS_ORTHOGRAPHIC = 1 };
+
+typedef struct meniscus_camera {
+  size_t size;
+  double position[3], target[3];
+  double up[3];        /* not parallel to the view */
+  double vertical_fov; /* degrees between the picture's lower and upper edge; perspective only */
+  double height;       /* Å between them; orthographic only */
+  int32_t projection;  /* MENISCUS_PERSPECTIVE or MENISCUS_ORTHOGRAPHIC */
+  int32_t reserved;    /* 0 */
+} meniscus_camera;
+
+/* The camera that shows all atoms, their widest side across the picture. aspect: width / height. camera->size has to be
+ * set. */
+MENISCUS_API meniscus_status meniscus_surface_frame(const meniscus_surface* surface, double aspect, int32_t projection,
+                                                    meniscus_camera* camera);
+
+typedef struct meniscus_picture {
+  size_t size;
+  const meniscus_camera* camera; /* [NULL: meniscus_surface_frame] */
+  const float* atom_colors;      /* [NULL: all have `color`] sRGB in [0, 1], three per atom */
+  int32_t width, height;         /* [1024, 768] pixels, 1 to 65,535 */
+  int32_t samples;               /* [4] rays a pixel, 1 to 1,024 */
+  int32_t opaque;                /* [0] else: before the background */
+  float color[3];                /* [0.75, 0.82, 0.9] sRGB in [0, 1] */
+  float background[3];           /* [1, 1, 1] sRGB in [0, 1] */
+  float ambient_occlusion;       /* [0] strength in [0, 1] of the shade in clefts */
+  float silhouettes;             /* [0] width in pixels of black lines, up to 16 */
+  float depth_cue;               /* [0] share in [0, 1] by which the farthest fade into the background */
+  int32_t reserved;              /* 0 */
+} meniscus_picture;
+
+MENISCUS_API meniscus_status meniscus_default_picture(meniscus_picture* picture);
+
+/* A GL context of its own with its kernels, on a thread of its own: the caller's contexts are left alone. */
+typedef struct meniscus_painter meniscus_painter;
+
+/* device: MENISCUS_AUTO (a hardware GPU if one works, else software GL), MENISCUS_GPU, MENISCUS_SOFTWARE, MENISCUS_CPU
+ * (the same). *painter is overwritten. MENISCUS_NO_GPU where there is no GL 4.5. */
+MENISCUS_API meniscus_status meniscus_painter_new(int32_t device, meniscus_painter** painter);
+MENISCUS_API meniscus_painter* meniscus_painter_retain(meniscus_painter* painter);
+MENISCUS_API void meniscus_painter_release(meniscus_painter* painter);
+
+/* Ray casts the exact surface. picture: NULL for the defaults. rgba: width * height * 4 bytes, red, green, blue, alpha
+ * (not multiplied in), rows from the top; rgba_size: the room there. */
+MENISCUS_API meniscus_status meniscus_paint(meniscus_painter* painter, const meniscus_surface* surface,
+                                            const meniscus_picture* picture, uint8_t* rgba, size_t rgba_size);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Triangle meshes of a surface, table by table.
+#include <memory>
+#include <utility>
+
+#include "exporters/c_api/counted.h"
+#include "exporters/c_api/cpu_threads.h"
+#include "exporters/c_api/guard.h"
+#include "exporters/c_api/sized_struct.h"
+#include "exporters/c_api/surface.h"
+#include "exporters/c_api/table.h"
+#include "exporters/mesh/tessellate.h"
+
+struct meniscus_mesh : meniscus::c_api::Counted {
+  meniscus::TriangleMesh mesh;
+};
+
+namespace meniscus::c_api {
+namespace {
+
+constexpr double kSmallestTolerance = 1e-5, kLargestTolerance = 1.0;  // Å, as on the command line
+
+const meniscus_mesh_options kDefaults{sizeof(meniscus_mesh_options), 0.01, 1, 0};
+
+MeshOptions checked(const meniscus_mesh_options* given) {
+  const meniscus_mesh_options options = given ? read_struct(given, kDefaults, "meniscus_mesh_options") : kDefaults;
+  if (!(options.tolerance >= kSmallestTolerance && options.tolerance <= kLargestTolerance))
+    refuse(MENISCUS_INPUT, "tolerance is {} Å; it has to be {} to {}", options.tolerance, kSmallestTolerance,
+           kLargestTolerance);
+  return {options.tolerance, options.split_colors != 0};
+}
+
+meniscus_array find_table(const TriangleMesh& mesh, std::int32_t table) {
+  switch (table) {
+    case MENISCUS_MESH_POSITIONS:
+      return table_of(mesh.positions);
+    case MENISCUS_MESH_NORMALS:
+      return table_of(mesh.normals);
+    case MENISCUS_MESH_TRIANGLES:
+      return table_of(mesh.triangles);
+    case MENISCUS_MESH_TRIANGLE_ATOMS:
+      return table_of(mesh.atom);
+    case MENISCUS_MESH_TRIANGLE_KINDS:
+      return table_of(mesh.kind);
+    case MENISCUS_MESH_TRIANGLE_FACES:
+      return table_of(mesh.face);
+    case MENISCUS_MESH_TRIANGLE_PATCHES:
+      return table_of(mesh.patch);
+    case MENISCUS_MESH_TRIANGLE_COMPONENTS:
+      return table_of(mesh.component);
+    case MENISCUS_MESH_SHARP_CORNERS:
+      return table_of(mesh.sharp_corners);
+    case MENISCUS_MESH_SHARP_NORMALS:
+      return table_of(mesh.sharp_corner_normals);
+    default:
+      refuse(MENISCUS_USAGE, "a mesh has no table {}", table);
+  }
+}
+
+}  // namespace
+}  // namespace meniscus::c_api
+
+meniscus_status meniscus_default_mesh_options(meniscus_mesh_options* options) {
+  using namespace meniscus::c_api;
+  return guarded([&] { write_struct(options, kDefaults, "meniscus_mesh_options"); });
+}
+
+meniscus_status meniscus_surface_mesh(const meniscus_surface* surface, const meniscus_mesh_options* options,
+                                      meniscus_mesh** mesh) {
+  using namespace meniscus::c_api;
+  return guarded([&] {
+    require(surface, "surface");
+    require(mesh, "mesh");
+    const meniscus::MeshOptions wanted = checked(options);
+    auto made = std::make_unique<meniscus_mesh>();
+    const FinishedSurface& finished = *surface->finished;
+    run_on_threads(finished.threads, [&] { made->mesh = meniscus::tessellate(finished.surface, wanted); });
+    *mesh = made.release();
+  });
+}
+
+meniscus_mesh* meniscus_mesh_retain(meniscus_mesh* mesh) { return meniscus::c_api::retain(mesh); }
+void meniscus_mesh_release(meniscus_mesh* mesh) { meniscus::c_api::release(mesh); }
+
+meniscus_status meniscus_mesh_table(const meniscus_mesh* mesh, std::int32_t table, meniscus_array* array) {
+  using namespace meniscus::c_api;
+  return guarded([&] {
+    require(mesh, "mesh");
+    require(array, "array");
+    *array = find_table(mesh->mesh, table);
+  });
+}

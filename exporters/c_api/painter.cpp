@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Ray casts pictures in a context of their own.
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <memory>
+#include <optional>
+#include <span>
+
+#include "core/gpu/egl_context.h"
+#include "core/image/display_color.h"
+#include "core/render/ray_caster.h"
+#include "exporters/c_api/cpu_threads.h"
+#include "exporters/c_api/device.h"
+#include "exporters/c_api/gl_thread.h"
+#include "exporters/c_api/sized_struct.h"
+#include "exporters/c_api/surface.h"
+
+namespace meniscus::c_api {
+namespace {
+
+constexpr std::int32_t kLargestSide = 65535;  // pixels; what other programs can read
+constexpr std::int32_t kMostSamples = 1024;
+
+const meniscus_picture kDefaults{sizeof(meniscus_picture), nullptr, nullptr, 1024, 768, 4, 0, {0.75f, 0.82f, 0.9f},
+                                 {1.0f, 1.0f, 1.0f},       0.0f,    0.0f,    0.0f, 0};
+
+void check_range(const char* name, double value, double low, double high) {
+  if (!(value >= low && value <= high))
+    refuse(MENISCUS_INPUT, "{} is {}; it has to be {} to {}", name, value, low, high);
+}
+
+meniscus_picture checked(const meniscus_picture* given) {
+  const meniscus_picture picture = given ? read_struct(given, kDefaults, "meniscus_picture") : kDefaults;
+  check_range("width", picture.width, 1, kLargestSide);
+  check_range("height", picture.height, 1, kLargestSide);
+  check_range("samples", picture.samples, 1, kMostSamples);
+  for (const float channel : picture.color) check_range("color", channel, 0, 1);
+  for (const float channel : picture.background) check_range("background", channel, 0, 1);
+  check_range("ambient_occlusion", picture.ambient_occlusion, 0, 1);
+  check_range("silhouettes", picture.silhouettes, 0, kWidestSilhouette);
+  check_range("depth_cue", picture.depth_cue, 0, 1);
+  return picture;
+}
+
+glm::vec3 vector_of(const float (&from)[3]) { return {from[0], from[1], from[2]}; }
+glm::dvec3 vector_of(const double (&from)[3]) { return {from[0], from[1], from[2]}; }
+
+void copy(const glm::dvec3& from, double (&to)[3]) {
+  for (int axis = 0; axis < 3; ++axis) to[axis] = from[axis];
+}
+
+Projection projection_of(std::int32_t word) {
+  if (word != MENISCUS_PERSPECTIVE && word != MENISCUS_ORTHOGRAPHIC)
+    refuse(MENISCUS_USAGE, "projection is {}, neither MENISCUS_PERSPECTIVE nor MENISCUS_ORTHOGRAPHIC", word);
+  return word == MENISCUS_PERSPECTIVE ? Projection::perspective : Projection::orthographic;
+}
+
+Camera camera_of(const meniscus_camera* given) {
+  const meniscus_camera from = read_struct(given, meniscus_camera{}, "meniscus_camera");
+  Camera camera;
+  camera.position = vector_of(from.position);
+  camera.target = vector_of(from.target);
+  camera.up = vector_of(from.up);
+  camera.projection = projection_of(from.projection);
+  if (camera.projection == Projection::perspective)
+    camera.vertical_fov = from.vertical_fov;
+  else
+    camera.height = from.height;
+  validate_camera(camera, "camera");
+  return camera;
+}
+
+meniscus_camera struct_of(const Camera& camera) {
+  meniscus_camera result{};
+  copy(camera.position, result.position);
+  copy(camera.target, result.target);
+  copy(camera.up, result.up);
+  result.vertical_fov = camera.vertical_fov;
+  result.height = camera.height;
+  result.projection = camera.projection == Projection::perspective ? MENISCUS_PERSPECTIVE : MENISCUS_ORTHOGRAPHIC;
+  return result;
+}
+
+Coloring coloring_of(const meniscus_picture& picture, std::size_t atoms) {
+  Coloring coloring;
+  coloring.atom.assign(atoms, vector_of(picture.color));
+  if (!picture.atom_colors) return coloring;
+  for (std::size_t n = 0; n < 3 * atoms; ++n) {
+    const float channel = picture.atom_colors[n];
+    if (!(channel >= 0.0f && channel <= 1.0f))
+      refuse(MENISCUS_INPUT, "channel {} of the colour of atom {} is {}; it has to be 0 to 1", n % 3, n / 3, channel);
+    coloring.atom[n / 3][static_cast<int>(n % 3)] = channel;
+  }
+  return coloring;
+}
+
+RenderSettings settings_of(const meniscus_picture& picture) {
+  RenderSettings settings;
+  settings.size = {picture.width, picture.height};
+  settings.samples = picture.samples;
+  settings.look.background = vector_of(picture.background);
+  settings.look.ambient_occlusion = picture.ambient_occlusion;
+  settings.look.silhouettes = picture.silhouettes;
+  settings.look.depth_cue = picture.depth_cue;
+  return settings;
+}
+
+void write_pixels(const Framebuffer& drawn, const meniscus_picture& picture, std::uint8_t* rgba) {
+  std::optional<glm::vec3> background;
+  if (picture.opaque) background = vector_of(picture.background);
+  for (std::size_t n = 0; n < drawn.color.size(); ++n) {
+    const glm::vec4 color = display_color(drawn.color[n], background);
+    for (int channel = 0; channel < 4; ++channel) rgba[4 * n + channel] = display_byte(color[channel]);
+  }
+}
+
+/// A context and what draws in it.
+struct Studio {
+  explicit Studio(std::int32_t device) : context(gl_of(device)) {}
+  EglContext context;
+  RayCaster caster;
+};
+
+}  // namespace
+}  // namespace meniscus::c_api
+
+struct meniscus_painter : meniscus::c_api::Counted {
+  explicit meniscus_painter(std::int32_t device)
+      : studio([device] { return std::make_unique<meniscus::c_api::Studio>(device); }) {}
+  meniscus::c_api::OnGlThread<meniscus::c_api::Studio> studio;
+};
+
+meniscus_status meniscus_default_picture(meniscus_picture* picture) {
+  using namespace meniscus::c_api;
+  return guarded([&] { write_struct(picture, kDefaults, "meniscus_picture"); });
+}
+
+meniscus_status meniscus_surface_frame(const meniscus_surface* surface, double aspect, std::int32_t projection,
+                                       meniscus_camera* camera) {
+  using namespace meniscus::c_api;
+  return guarded([&] {
+    require(surface, "surface");
+    require(camera, "camera");
+    check_range("aspect", aspect, 1.0 / kLargestSide, kLargestSide);
+    const meniscus::Camera found =
+        meniscus::frame_camera(surface->finished->surface.atoms, aspect, projection_of(projection));
+    write_struct(camera, struct_of(found), "meniscus_camera");
+  });
+}
+
+meniscus_status meniscus_painter_new(std::int32_t device, meniscus_painter** painter) {
+  using namespace meniscus::c_api;
+  return guarded([&] {
+    require(painter, "painter");
+    check_device(device);
+    *painter = new meniscus_painter(device);
+  });
+}
+
+meniscus_painter* meniscus_painter_retain(meniscus_painter* painter) { return meniscus::c_api::retain(painter); }
+void meniscus_painter_release(meniscus_painter* painter) { meniscus::c_api::release(painter); }
+
+meniscus_status meniscus_paint(meniscus_painter* painter, const meniscus_surface* surface,
+                               const meniscus_picture* picture, std::uint8_t* rgba, std::size_t rgba_size) {
+  using namespace meniscus::c_api;
+  return guarded([&] {
+    require(painter, "painter");
+    require(surface, "surface");
+    require(rgba, "rgba");
+    const meniscus_picture wanted = checked(picture);
+    const std::size_t size = std::size_t{4} * wanted.width * wanted.height;
+    if (rgba_size < size)
+      refuse(MENISCUS_USAGE, "rgba has room for {} bytes; {}x{} pixels need {}", rgba_size, wanted.width, wanted.height,
+             size);
+    const FinishedSurface& finished = *surface->finished;
+    const double aspect = static_cast<double>(wanted.width) / wanted.height;
+    const meniscus::Camera camera =
+        wanted.camera ? camera_of(wanted.camera) : meniscus::frame_camera(finished.surface.atoms, aspect);
+    const meniscus::Coloring coloring = coloring_of(wanted, finished.surface.atoms.size());
+    meniscus::Framebuffer drawn;
+    painter->studio.run([&](Studio& studio) {
+      run_on_threads(finished.threads,
+                     [&] { drawn = studio.caster.render(finished.surface, coloring, camera, settings_of(wanted)); });
+    });
+    write_pixels(drawn, wanted, rgba);
+  });
+}

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Objects of the C interface that let go of themselves, for tests.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <meniscus/meniscus.h>
+
+#include "tests/support/molecules.h"
+
+namespace meniscus::test {
+
+struct Release {
+  void operator()(meniscus_computer* computer) const { meniscus_computer_release(computer); }
+  void operator()(meniscus_surface* surface) const { meniscus_surface_release(surface); }
+  void operator()(meniscus_mesh* mesh) const { meniscus_mesh_release(mesh); }
+  void operator()(meniscus_painter* painter) const { meniscus_painter_release(painter); }
+};
+using Computer = std::unique_ptr<meniscus_computer, Release>;
+using SurfaceOf = std::unique_ptr<meniscus_surface, Release>;
+using Mesh = std::unique_ptr<meniscus_mesh, Release>;
+using Painter = std::unique_ptr<meniscus_painter, Release>;
+
+inline meniscus_options default_options() {
+  meniscus_options options{};
+  options.size = sizeof options;
+  EXPECT_EQ(meniscus_default_options(&options), MENISCUS_OK);
+  return options;
+}
+
+inline Computer computer(const meniscus_options& options = default_options()) {
+  meniscus_computer* made = nullptr;
+  EXPECT_EQ(meniscus_computer_new(&options, &made), MENISCUS_OK) << meniscus_last_error();
+  return Computer(made);
+}
+
+/// The balls as they stand in memory: rows of x, y, z, radius.
+inline meniscus_atoms atoms_of(const testing::Balls& balls) {
+  meniscus_atoms atoms{};
+  atoms.size = sizeof atoms;
+  atoms.count = balls.size();
+  if (balls.empty()) return atoms;
+  atoms.positions = &balls[0].center;
+  atoms.radii = &balls[0].radius;
+  atoms.positions_stride = atoms.radii_stride = sizeof(Ball);
+  return atoms;
+}
+
+inline SurfaceOf computed(meniscus_computer* computer, const testing::Balls& balls) {
+  const meniscus_atoms atoms = atoms_of(balls);
+  meniscus_surface* surface = nullptr;
+  EXPECT_EQ(meniscus_compute(computer, &atoms, &surface), MENISCUS_OK) << meniscus_last_error();
+  return SurfaceOf(surface);
+}
+
+inline meniscus_summary summary_of(const SurfaceOf& surface) {
+  meniscus_summary summary{};
+  summary.size = sizeof summary;
+  EXPECT_EQ(meniscus_surface_summary(surface.get(), &summary), MENISCUS_OK) << meniscus_last_error();
+  return summary;
+}
+
+/// A table's rows, copied.
+template <typename Row>
+std::vector<Row> rows_of(const SurfaceOf& surface, std::int32_t table) {
+  meniscus_array array{};
+  EXPECT_EQ(meniscus_surface_table(surface.get(), table, &array), MENISCUS_OK) << meniscus_last_error();
+  EXPECT_EQ(array.stride, sizeof(Row));
+  const auto* const first = static_cast<const Row*>(array.data);
+  return {first, first + array.count};
+}
+
+}  // namespace meniscus::test

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Pictures through the C interface: as the library draws them, on a thread of their own, refused after fork().
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <thread>
+#include <vector>
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "tests/c_api/c_objects.h"
+
+namespace meniscus {
+namespace {
+
+using namespace test;
+
+Painter painter() {
+  meniscus_painter* made = nullptr;
+  EXPECT_EQ(meniscus_painter_new(MENISCUS_SOFTWARE, &made), MENISCUS_OK) << meniscus_last_error();
+  return Painter(made);
+}
+
+meniscus_picture picture_of(int width, int height) {
+  meniscus_picture picture{};
+  picture.size = sizeof picture;
+  EXPECT_EQ(meniscus_default_picture(&picture), MENISCUS_OK);
+  picture.width = width;
+  picture.height = height;
+  return picture;
+}
+
+std::array<int, 4> pixel_at(const std::vector<std::uint8_t>& rgba, int width, int x, int y) {
+  const auto* const p = &rgba[4 * (static_cast<std::size_t>(y) * width + x)];
+  return {p[0], p[1], p[2], p[3]};
+}
+
+TEST(CApiPictures, AnOrthographicSphereIsAsLargeAsItIs) {
+  const Computer made = computer();
+  const SurfaceOf surface = computed(made.get(), testing::Balls{{{5.0, 5.0, 5.0}, 2.0}});
+  const Painter draws = painter();
+  meniscus_camera camera{};
+  camera.size = sizeof camera;
+  ASSERT_EQ(meniscus_surface_frame(surface.get(), 1.0, MENISCUS_ORTHOGRAPHIC, &camera), MENISCUS_OK);
+  camera.height = 8.0;  // so the sphere is half as wide as the picture
+  meniscus_picture picture = picture_of(100, 100);
+  picture.camera = &camera;
+  const float green[3] = {0.0f, 1.0f, 0.0f};
+  picture.atom_colors = green;
+  std::vector<std::uint8_t> rgba(40000);
+  ASSERT_EQ(meniscus_paint(draws.get(), surface.get(), &picture, rgba.data(), rgba.size()), MENISCUS_OK)
+      << meniscus_last_error();
+  double covered = 0.0;
+  for (std::size_t n = 3; n < rgba.size(); n += 4) covered += rgba[n] / 255.0;
+  EXPECT_NEAR(covered, 3.14159 * 25 * 25, 20.0);
+  const auto middle = pixel_at(rgba, 100, 50, 50), corner = pixel_at(rgba, 100, 0, 0);
+  EXPECT_LT(middle[0], 30);  // but for the highlight
+  EXPECT_GT(middle[1], 100);
+  EXPECT_EQ(middle[3], 255);
+  EXPECT_EQ(corner[3], 0);
+
+  picture.opaque = 1;
+  picture.background[0] = 1.0f;
+  picture.background[1] = picture.background[2] = 0.0f;
+  ASSERT_EQ(meniscus_paint(draws.get(), surface.get(), &picture, rgba.data(), rgba.size()), MENISCUS_OK);
+  EXPECT_EQ(pixel_at(rgba, 100, 0, 0), (std::array<int, 4>{255, 0, 0, 255}));
+}
+
+TEST(CApiPictures, AreTheSameFromAnyThread) {
+  const Computer made = computer();
+  const SurfaceOf surface = computed(made.get(), testing::collinear(5, 1.5));
+  const Painter draws = painter();
+  const meniscus_picture picture = picture_of(64, 48);
+  std::vector<std::vector<std::uint8_t>> drawn(4, std::vector<std::uint8_t>(64 * 48 * 4));
+  std::vector<std::thread> threads;
+  for (auto& rgba : drawn)
+    threads.emplace_back([&] {
+      EXPECT_EQ(meniscus_paint(draws.get(), surface.get(), &picture, rgba.data(), rgba.size()), MENISCUS_OK)
+          << meniscus_last_error();
+    });
+  for (std::thread& thread : threads) thread.join();
+  for (const auto& rgba : drawn) EXPECT_EQ(rgba, drawn[0]);
+  EXPECT_GT(pixel_at(drawn[0], 64, 32, 24)[3], 0);
+}
+
+TEST(CApiPictures, RefuseWhatCannotBe) {
+  const Computer made = computer();
+  const SurfaceOf surface = computed(made.get(), testing::two_atoms(4.0));
+  const Painter draws = painter();
+  std::vector<std::uint8_t> rgba(64 * 48 * 4);
+  const auto refused = [&](auto change) {
+    meniscus_picture picture = picture_of(64, 48);
+    change(picture);
+    return meniscus_paint(draws.get(), surface.get(), &picture, rgba.data(), rgba.size());
+  };
+  const float colors[6] = {0.0f, 0.0f, 0.0f, 0.5f, std::nanf(""), 0.5f};
+  meniscus_camera camera{};
+  camera.size = sizeof camera;  // at its own target
+  EXPECT_EQ(refused([](auto& p) { p.width = 0; }), MENISCUS_INPUT);
+  EXPECT_EQ(refused([](auto& p) { p.height = 70000; }), MENISCUS_INPUT);
+  EXPECT_EQ(refused([](auto& p) { p.width = 65; }), MENISCUS_USAGE);  // no room
+  EXPECT_EQ(refused([](auto& p) { p.samples = 0; }), MENISCUS_INPUT);
+  EXPECT_EQ(refused([](auto& p) { p.color[1] = std::nanf(""); }), MENISCUS_INPUT);
+  EXPECT_EQ(refused([](auto& p) { p.silhouettes = 17.0f; }), MENISCUS_INPUT);
+  EXPECT_EQ(refused([&](auto& p) { p.camera = &camera; }), MENISCUS_INPUT);
+  EXPECT_EQ(refused([&](auto& p) { p.atom_colors = colors; }), MENISCUS_INPUT);
+  EXPECT_NE(std::strstr(meniscus_last_error(), "channel 1 of the colour of atom 1"), nullptr) << meniscus_last_error();
+  meniscus_painter* none = nullptr;
+  EXPECT_EQ(meniscus_painter_new(9, &none), MENISCUS_USAGE);
+}
+
+// Drivers keep threads that a child does not have; it would wait for them.
+TEST(CApiPictures, AreRefusedInAChildOfFork) {
+  const Computer made = computer();
+  const SurfaceOf surface = computed(made.get(), testing::two_atoms(4.0));
+  Painter draws = painter();
+  const pid_t child = ::fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    ::alarm(60);
+    std::vector<std::uint8_t> rgba(64 * 48 * 4);
+    const meniscus_picture picture = picture_of(64, 48);
+    meniscus_painter* fresh = nullptr;
+    bool right = meniscus_paint(draws.get(), surface.get(), &picture, rgba.data(), rgba.size()) == MENISCUS_NO_GPU;
+    right = right && std::strstr(meniscus_last_error(), "fork") != nullptr;
+    right = right && meniscus_painter_new(MENISCUS_SOFTWARE, &fresh) == MENISCUS_NO_GPU;
+    draws.reset();
+    ::_exit(right ? 0 : 1);
+  }
+  int status = -1;
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << status;
+}
+
+TEST(CApiPictures, SurfacesComputedBySoftwareGlAreThoseOfTheCpu) {
+  const testing::Balls balls = testing::collinear(6, 1.3);
+  meniscus_options options = default_options();
+  options.device = MENISCUS_SOFTWARE;
+  const Computer gl = computer(options), cpu = computer();
+  EXPECT_EQ(summary_of(computed(gl.get(), balls)).area, summary_of(computed(cpu.get(), balls)).area);
+  options.device = MENISCUS_CPU;
+  options.verify = 1;
+  const Computer both = computer(options);
+  const SurfaceOf surface = computed(both.get(), balls);
+  EXPECT_NE(std::strstr(summary_of(surface).device, "verified on"), nullptr);
+}
+
+}  // namespace
+}  // namespace meniscus
