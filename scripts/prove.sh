@@ -52,6 +52,7 @@ rows=(
   "poisoned|fresh buffers full of any word|ctest --test-dir build/test -R FreshBuffers"
   "inexact|less exact shader arithmetic, with a control that must fail|ctest --test-dir build/test -R InexactGpu"
   "zink|tests of GPU and pictures on a second GL driver|$zink ctest --test-dir build/test -L gpu|image -E SecondDriver --timeout 900 -j $jobs"
+  "python|the wheel in a fresh environment, with other packages from PyPI|bash scripts/test_wheel.sh"
   "faults|calls that fail, full disks, kills, other writers|ctest --test-dir build/test -L fault --timeout 1800 -j $jobs"
   "mutations|planted faults that the tests must find|/usr/bin/python3 scripts/mutate.py --jobs $jobs"
 )

@@ -1,0 +1,26 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Exact solvent-excluded surfaces of molecules: arrays in, arrays out.
+
+    import meniscus
+    s = meniscus.surface(xyz, radii, probe=1.4)       # Å
+    s.area, s.volume, s.atom_areas, s.distance(points), s.mesh().vertices, s.render()
+    s.update(next_xyz)                                # the next frame, same radii
+
+All numbers are in Å, Å² and Å³. Arrays that belong to a surface or a mesh are read-only views of the library's own
+memory, which lives as long as any view of it does, whatever becomes of the object that gave it.
+"""
+from __future__ import annotations
+
+from ._library import (CapacityError, Error, GpuError, InputError, InternalError, NotClosedError, UsageError,
+                       library_path, version)
+from ._mesh import Mesh
+from ._picture import Camera, png
+from ._radii import radii_of
+from ._surface import Surface, surface
+from ._adapters import frames, from_biotite, from_mdanalysis, from_mdtraj, from_prody
+
+__all__ = [
+    "Camera", "CapacityError", "Error", "GpuError", "InputError", "InternalError", "Mesh", "NotClosedError", "Surface",
+    "UsageError", "frames", "from_biotite", "from_mdanalysis", "from_mdtraj", "from_prody", "library_path", "png",
+    "radii_of", "surface", "version",
+]

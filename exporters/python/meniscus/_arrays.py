@@ -1,0 +1,61 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Arrays between numpy and the library, without copies where that can be."""
+from __future__ import annotations
+
+import ctypes
+from typing import Any
+
+import numpy as np
+
+from ._library import DOUBLE, FLOAT, Array, Handle, InputError, call
+
+
+class _Rows:
+    """What numpy needs to see rows of a table; the array that it makes holds this object, and this one its owner."""
+
+    def __init__(self, owner: Handle, array: Array, dtype: np.dtype, columns: tuple[int, ...]) -> None:
+        self.owner = owner
+        strides = (array.stride,) + (dtype.itemsize,) * len(columns)
+        self.__array_interface__ = {"version": 3, "shape": (array.count,) + columns, "typestr": dtype.str,
+                                    "data": (array.data, True), "strides": strides}
+
+
+def view(owner: Handle, function: str, table: int, row: Any, columns: int = 0) -> np.ndarray:
+    """A read-only view of a table whose rows are `row`, a ctypes struct, or numbers of that dtype."""
+    array = Array()
+    call(function, owner.pointer, table, ctypes.byref(array))
+    shape = (columns,) if columns else ()
+    dtype = np.dtype(row)
+    if array.count == 0:
+        empty = np.empty((0,) + shape, dtype)
+        empty.flags.writeable = False
+        return empty
+    if dtype.names is None:
+        return np.asarray(_Rows(owner, array, dtype, shape))
+    # Rows may be longer than the struct that is known here.
+    whole = np.dtype({"names": list(dtype.names), "formats": [dtype.fields[n][0] for n in dtype.names],
+                      "offsets": [dtype.fields[n][1] for n in dtype.names], "itemsize": array.stride})
+    return np.asarray(_Rows(owner, array, np.dtype((np.void, array.stride)), ())).view(whole)
+
+
+_TYPES = {np.dtype(np.float64): DOUBLE, np.dtype(np.float32): FLOAT}
+
+
+def numbers(values: Any, name: str, columns: int = 0) -> tuple[np.ndarray, int]:
+    """An array that the library can read as it is, and its type: the one given, if it has floats or doubles with whole
+    rows; else a copy in doubles."""
+    try:
+        array = np.asarray(values)
+        if array.dtype not in _TYPES:
+            array = array.astype(np.float64)
+    except (TypeError, ValueError) as error:
+        raise InputError(f"{name}: {error}") from None
+    if array.ndim != (2 if columns else 1) or (columns and array.shape[1] != columns):
+        wanted = f"(n, {columns})" if columns else "(n,)"
+        raise InputError(f"{name} has the shape {array.shape}; it has to be {wanted}")
+    size = array.itemsize
+    apart = array.strides[0] >= max(columns, 1) * size and array.strides[0] % size == 0
+    together = not columns or array.strides[1] == size
+    if not (apart and together and array.flags.aligned):
+        array = np.ascontiguousarray(array)
+    return array, _TYPES[array.dtype]

@@ -1,0 +1,265 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""libmeniscus by ctypes: where it is, its structs and functions as meniscus.h has them, its errors as exceptions."""
+from __future__ import annotations
+
+import ctypes
+import ctypes.util
+import os
+import pathlib
+import threading
+from ctypes import (POINTER, Structure, byref, c_char_p, c_double, c_float, c_int, c_int32, c_size_t, c_uint8, c_uint32,
+                    c_uint64, c_void_p)
+from typing import Any, Callable, Optional
+
+NONE = 0xFFFFFFFF
+SES, SAS, VDW = range(3)
+CPU, AUTO, GPU, SOFTWARE = range(4)
+DOUBLE, FLOAT = range(2)
+PERSPECTIVE, ORTHOGRAPHIC = range(2)
+(COMPONENTS, ATOM_AREAS, ATOM_SAS_AREAS, ATOMS, CONVEX, TOROIDAL, CONCAVE, PLANES, CONTACTS, CUTS, VERTICES, BORDERS,
+ HALF_BORDERS, LOOPS, FACES) = range(15)
+(MESH_POSITIONS, MESH_NORMALS, MESH_TRIANGLES, MESH_TRIANGLE_ATOMS, MESH_TRIANGLE_KINDS, MESH_TRIANGLE_FACES,
+ MESH_TRIANGLE_PATCHES, MESH_TRIANGLE_COMPONENTS, MESH_SHARP_CORNERS, MESH_SHARP_NORMALS) = range(10)
+
+
+class Error(Exception):
+    """What the library refused or could not do; its text is the library's own."""
+
+
+class InternalError(Error):
+    """A fault of the library: please report it."""
+
+
+class UsageError(Error, ValueError):
+    """A call that makes no sense."""
+
+
+class InputError(Error, ValueError):
+    """A position, radius, colour or camera that cannot be; the text has its index and value."""
+
+
+class GpuError(Error, RuntimeError):
+    """No usable GL or GPU, or one that left work undone."""
+
+
+class CapacityError(Error, MemoryError):
+    """Out of memory or threads, or more than indices can count."""
+
+
+class NotClosedError(Error):
+    """The surface or mesh is not closed, so there is none."""
+
+
+OK, INTERNAL, USAGE, INPUT, NO_GPU, CAPACITY, NOT_CLOSED = 0, 1, 2, 3, 4, 5, 7
+_EXCEPTIONS = {INTERNAL: InternalError, USAGE: UsageError, INPUT: InputError, NO_GPU: GpuError,
+               CAPACITY: CapacityError, NOT_CLOSED: NotClosedError}
+
+
+class Options(Structure):
+    _fields_ = [("size", c_size_t), ("probe_radius", c_double), ("kind", c_int32), ("device", c_int32),
+                ("threads", c_int32), ("verify", c_int32)]
+
+
+class Atoms(Structure):
+    _fields_ = [("size", c_size_t), ("count", c_size_t), ("positions", c_void_p), ("radii", c_void_p),
+                ("positions_stride", c_size_t), ("radii_stride", c_size_t), ("positions_type", c_int32),
+                ("radii_type", c_int32), ("equal_radii", c_int32), ("reserved", c_int32)]
+
+
+class Summary(Structure):
+    _fields_ = [("size", c_size_t), ("area", c_double), ("volume", c_double), ("probe_radius", c_double),
+                ("grown_by", c_double), ("atoms", c_uint64), ("convex", c_uint64), ("toroidal", c_uint64),
+                ("concave", c_uint64), ("free_edges", c_uint64), ("spindle", c_uint64), ("fixed_probes", c_uint64),
+                ("arcs", c_uint64), ("faces", c_uint64), ("borders", c_uint64), ("vertices", c_uint64),
+                ("components", c_uint64), ("cavities", c_uint64), ("device", c_char_p)]
+
+
+class Array(Structure):
+    _fields_ = [("data", c_void_p), ("count", c_size_t), ("stride", c_size_t)]
+
+
+class Component(Structure):
+    _fields_ = [("kind", c_uint8), ("area", c_double), ("volume", c_double), ("euler", c_int32)]
+
+
+class Ball(Structure):
+    _fields_ = [("center", c_double * 3), ("radius", c_double)]
+
+
+class Plane(Structure):
+    _fields_ = [("normal", c_double * 3), ("offset", c_double)]
+
+
+class Convex(Structure):
+    _fields_ = [(name, c_uint32) for name in ("atom", "first_plane", "plane_count", "first_face", "face_count")]
+
+
+class Toroidal(Structure):
+    _fields_ = [("atom", c_uint32 * 2), ("probe", c_uint32 * 2), ("center", c_double * 3), ("axis", c_double * 3),
+                ("radius", c_double), ("start", c_double * 3), ("sweep", c_double), ("first_face", c_uint32),
+                ("face_count", c_uint32), ("has_piece", c_uint8 * 2)]
+
+
+class Concave(Structure):
+    _fields_ = [("center", c_double * 3)] + [
+        (name, c_uint32) for name in ("first_contact", "contact_count", "first_plane", "side_count", "cut_count",
+                                      "other_count", "first_cut", "first_face", "face_count")]
+
+
+class Border(Structure):
+    _fields_ = [("kind", c_uint8), ("center", c_double * 3), ("axis", c_double * 3), ("radius", c_double),
+                ("start", c_double * 3), ("sweep", c_double), ("vertex", c_uint32 * 2), ("face", c_uint32 * 2)]
+
+
+class Loop(Structure):
+    _fields_ = [("first_half_border", c_uint32), ("half_border_count", c_uint32)]
+
+
+class Face(Structure):
+    _fields_ = [("kind", c_uint8), ("patch", c_uint32), ("first_loop", c_uint32), ("loop_count", c_uint32),
+                ("component", c_uint32), ("tip", c_uint32), ("area", c_double)]
+
+
+class MeshOptions(Structure):
+    _fields_ = [("size", c_size_t), ("tolerance", c_double), ("split_colors", c_int32), ("reserved", c_int32)]
+
+
+class CameraStruct(Structure):
+    _fields_ = [("size", c_size_t), ("position", c_double * 3), ("target", c_double * 3), ("up", c_double * 3),
+                ("vertical_fov", c_double), ("height", c_double), ("projection", c_int32), ("reserved", c_int32)]
+
+
+class Picture(Structure):
+    _fields_ = [("size", c_size_t), ("camera", POINTER(CameraStruct)), ("atom_colors", c_void_p), ("width", c_int32),
+                ("height", c_int32), ("samples", c_int32), ("opaque", c_int32), ("color", c_float * 3),
+                ("background", c_float * 3), ("ambient_occlusion", c_float), ("silhouettes", c_float),
+                ("depth_cue", c_float), ("reserved", c_int32)]
+
+
+# Functions that fail: their arguments. All return a status.
+_CALLS: dict[str, list[Any]] = {
+    "element_of_symbol": [c_char_p, POINTER(c_int32)],
+    "element_radius": [c_int32, POINTER(c_double), POINTER(c_char_p)],
+    "default_options": [POINTER(Options)],
+    "computer_new": [POINTER(Options), POINTER(c_void_p)],
+    "compute": [c_void_p, POINTER(Atoms), POINTER(c_void_p)],
+    "surface_summary": [c_void_p, POINTER(Summary)],
+    "surface_table": [c_void_p, c_int32, POINTER(Array)],
+    "surface_distance": [c_void_p, c_size_t, c_void_p, c_void_p, c_void_p],
+    "default_mesh_options": [POINTER(MeshOptions)],
+    "surface_mesh": [c_void_p, POINTER(MeshOptions), POINTER(c_void_p)],
+    "mesh_table": [c_void_p, c_int32, POINTER(Array)],
+    "surface_frame": [c_void_p, c_double, c_int32, POINTER(CameraStruct)],
+    "default_picture": [POINTER(Picture)],
+    "painter_new": [c_int32, POINTER(c_void_p)],
+    "paint": [c_void_p, c_void_p, POINTER(Picture), c_void_p, c_size_t],
+}
+_RELEASES = ("computer_release", "surface_release", "mesh_release", "painter_release")
+
+
+def _candidates() -> list[str]:
+    """Where the library may be, best first: what MENISCUS_LIBRARY names, and nothing else then; beside this file; where
+    the system has it."""
+    named = os.environ.get("MENISCUS_LIBRARY")
+    if named:
+        return [named]
+    beside = pathlib.Path(__file__).with_name("libmeniscus.so")
+    found = [str(beside)] if beside.exists() else []
+    system = ctypes.util.find_library("meniscus")
+    return found + [name for name in (system, "libmeniscus.so.0") if name]
+
+
+def _open() -> tuple[ctypes.CDLL, str]:
+    reasons = []
+    for name in _candidates():
+        try:
+            return ctypes.CDLL(name), name
+        except OSError as error:
+            reasons.append(str(error))
+    raise ImportError("libmeniscus cannot be loaded (" + "; ".join(reasons) +
+                      "); install it, or set MENISCUS_LIBRARY to its file")
+
+
+class _Library:
+    """The library with its prototypes, opened when it is first needed."""
+
+    def __init__(self) -> None:
+        self._lock = threading.Lock()
+        self._dll: Optional[ctypes.CDLL] = None
+        self.path = ""
+
+    def dll(self) -> ctypes.CDLL:
+        if self._dll is None:
+            with self._lock:
+                if self._dll is None:
+                    self._dll = self._prepared()
+        return self._dll
+
+    def _prepared(self) -> ctypes.CDLL:
+        dll, self.path = _open()
+        for name, arguments in _CALLS.items():
+            function = getattr(dll, "meniscus_" + name)
+            function.argtypes, function.restype = arguments, c_int
+        for name in _RELEASES:
+            function = getattr(dll, "meniscus_" + name)
+            function.argtypes, function.restype = [c_void_p], None
+        for name in ("version", "last_error"):
+            function = getattr(dll, "meniscus_" + name)
+            function.argtypes, function.restype = [], c_char_p
+        return dll
+
+
+_library = _Library()
+
+
+def call(name: str, *arguments: Any) -> None:
+    """Calls meniscus_NAME; other threads of Python go on meanwhile. Raises what its status means."""
+    dll = _library.dll()
+    status = getattr(dll, "meniscus_" + name)(*arguments)
+    if status != OK:
+        raise _EXCEPTIONS.get(status, Error)(dll.meniscus_last_error().decode("utf-8", "replace"))
+
+
+def default(name: str, struct: Any) -> Any:
+    """The struct with the library's defaults, by meniscus_default_NAME."""
+    struct.size = ctypes.sizeof(struct)
+    call("default_" + name, byref(struct))
+    return struct
+
+
+class Handle:
+    """One reference to an object of the library, let go when nobody in Python holds it any longer."""
+
+    def __init__(self, kind: str, make: str, *arguments: Any) -> None:
+        """The last argument of meniscus_MAKE takes the object."""
+        self.pointer = c_void_p()
+        self._release: Callable[[c_void_p], None] = getattr(_library.dll(), f"meniscus_{kind}_release")
+        call(make, *arguments, byref(self.pointer))
+
+    def __del__(self) -> None:
+        pointer, self.pointer = getattr(self, "pointer", None), c_void_p()
+        if pointer:
+            self._release(pointer)
+
+
+def version() -> str:
+    """That of the library."""
+    return _library.dll().meniscus_version().decode()
+
+
+def library_path() -> str:
+    """The file or name that was loaded."""
+    _library.dll()
+    return _library.path
+
+
+def word(name: str, given: str, words: dict[str, int]) -> int:
+    """The constant that a word means."""
+    if given not in words:
+        raise UsageError(f"{name} is {given!r}, none of {', '.join(words)}")
+    return words[given]
+
+
+KINDS = {"ses": SES, "sas": SAS, "vdw": VDW}
+DEVICES = {"cpu": CPU, "auto": AUTO, "gpu": GPU, "software": SOFTWARE}
+PROJECTIONS = {"perspective": PERSPECTIVE, "orthographic": ORTHOGRAPHIC}

@@ -1,0 +1,105 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Closed triangle meshes of a surface, and as other packages have them."""
+from __future__ import annotations
+
+import ctypes
+from typing import Any
+
+import numpy as np
+
+from . import _library as lib
+from ._arrays import view
+
+
+class Mesh:
+    """All vertices lie on the exact surface; seen from the solvent triangles are counter-clockwise."""
+
+    def __init__(self, surface: lib.Handle, tolerance: float, split_colors: bool) -> None:
+        options = lib.default("mesh_options", lib.MeshOptions())
+        options.tolerance, options.split_colors = tolerance, split_colors
+        self._handle = lib.Handle("mesh", "surface_mesh", surface.pointer, ctypes.byref(options))
+
+    def _table(self, table: int, dtype: Any, columns: int = 0) -> np.ndarray:
+        return view(self._handle, "mesh_table", table, dtype, columns)
+
+    @property
+    def vertices(self) -> np.ndarray:
+        """(n, 3) Å."""
+        return self._table(lib.MESH_POSITIONS, np.float64, 3)
+
+    @property
+    def normals(self) -> np.ndarray:
+        """(n, 3), unit, exact; at cusps a mean."""
+        return self._table(lib.MESH_NORMALS, np.float64, 3)
+
+    @property
+    def triangles(self) -> np.ndarray:
+        """(m, 3) indices of vertices."""
+        return self._table(lib.MESH_TRIANGLES, np.uint32, 3)
+
+    @property
+    def triangle_atoms(self) -> np.ndarray:
+        """(m,) the touched atom that is nearest."""
+        return self._table(lib.MESH_TRIANGLE_ATOMS, np.uint32)
+
+    @property
+    def triangle_kinds(self) -> np.ndarray:
+        """(m,) 0 convex, 1 toroidal, 2 concave."""
+        return self._table(lib.MESH_TRIANGLE_KINDS, np.uint8)
+
+    @property
+    def triangle_faces(self) -> np.ndarray:
+        """(m,) rows of Surface.faces."""
+        return self._table(lib.MESH_TRIANGLE_FACES, np.uint32)
+
+    @property
+    def triangle_patches(self) -> np.ndarray:
+        """(m,) rows of the patches of that kind."""
+        return self._table(lib.MESH_TRIANGLE_PATCHES, np.uint32)
+
+    @property
+    def triangle_components(self) -> np.ndarray:
+        """(m,) rows of Surface.components."""
+        return self._table(lib.MESH_TRIANGLE_COMPONENTS, np.uint32)
+
+    @property
+    def sharp_corners(self) -> np.ndarray:
+        """Corners (3 * triangle + 0, 1, 2) at cusps, ascending; their exact normals are sharp_normals."""
+        return self._table(lib.MESH_SHARP_CORNERS, np.uint32)
+
+    @property
+    def sharp_normals(self) -> np.ndarray:
+        return self._table(lib.MESH_SHARP_NORMALS, np.float64, 3)
+
+    def __repr__(self) -> str:
+        return f"<meniscus.Mesh: {len(self.vertices)} vertices, {len(self.triangles)} triangles>"
+
+    def to_trimesh(self) -> Any:
+        """A trimesh.Trimesh, with `atom`, `kind` and `component` in its face_attributes."""
+        import trimesh
+        return trimesh.Trimesh(np.array(self.vertices), np.array(self.triangles, dtype=np.int64),
+                               vertex_normals=np.array(self.normals), process=False,
+                               face_attributes={"atom": np.array(self.triangle_atoms),
+                                                "kind": np.array(self.triangle_kinds),
+                                                "component": np.array(self.triangle_components)})
+
+    def to_pyvista(self) -> Any:
+        """A pyvista.PolyData, with "Normals" of its points and "atom", "kind", "component" of its cells."""
+        import pyvista
+        triangles = self.triangles
+        faces = np.empty((len(triangles), 4), dtype=np.int64)
+        faces[:, 0], faces[:, 1:] = 3, triangles
+        mesh = pyvista.PolyData(np.array(self.vertices), faces.ravel())
+        mesh.point_data["Normals"] = np.array(self.normals)
+        mesh.cell_data["atom"] = np.array(self.triangle_atoms)
+        mesh.cell_data["kind"] = np.array(self.triangle_kinds)
+        mesh.cell_data["component"] = np.array(self.triangle_components)
+        return mesh
+
+    def to_open3d(self) -> Any:
+        """An open3d.geometry.TriangleMesh with vertex normals."""
+        import open3d
+        mesh = open3d.geometry.TriangleMesh(open3d.utility.Vector3dVector(np.array(self.vertices)),
+                                            open3d.utility.Vector3iVector(np.array(self.triangles, dtype=np.int32)))
+        mesh.vertex_normals = open3d.utility.Vector3dVector(np.array(self.normals))  # copies: it wants them writeable
+        return mesh

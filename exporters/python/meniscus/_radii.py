@@ -1,0 +1,36 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Van der Waals radii by element, from the library's own table."""
+from __future__ import annotations
+
+from ctypes import byref, c_double, c_int32
+from typing import Sequence, Union
+
+import numpy as np
+
+from ._library import InputError, call
+
+
+def _element(symbol: str) -> int:
+    number = c_int32()
+    call("element_of_symbol", symbol.strip().encode(), byref(number))
+    return number.value
+
+
+def _radius(element: int) -> float:
+    radius = c_double()
+    call("element_radius", element, byref(radius), None)
+    return radius.value
+
+
+def radii_of(elements: Sequence[Union[str, int]]) -> np.ndarray:
+    """Å, one per symbol or atomic number: Bondi (1964, 1966), then Mantina et al. (2009), 2.0 for metals that neither
+    has. Raises InputError where a symbol is no element's."""
+    known: dict[Union[str, int], float] = {}
+    for n, element in enumerate(elements):
+        if element in known:
+            continue
+        number = _element(element) if isinstance(element, str) else int(element)
+        if number == 0:
+            raise InputError(f"atom {n}: {str(element)!r} is no element; give radii")
+        known[element] = _radius(number)
+    return np.array([known[element] for element in elements], dtype=np.float64)

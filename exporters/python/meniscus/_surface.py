@@ -1,0 +1,216 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The surface of some atoms: its measures, patches, meshes, distances and pictures."""
+from __future__ import annotations
+
+import ctypes
+from typing import Any, NamedTuple, Optional, Union
+
+import numpy as np
+
+from . import _library as lib
+from ._arrays import numbers, view
+from ._mesh import Mesh
+from ._picture import Camera, framed, painted, png
+
+
+class Patches(NamedTuple):
+    """The analytic patches, as meniscus.h describes their rows: structured arrays, and what they index."""
+    convex: np.ndarray
+    toroidal: np.ndarray
+    concave: np.ndarray
+    planes: np.ndarray
+    contacts: np.ndarray
+    cuts: np.ndarray
+
+
+class Surface:
+    """Exact and closed. May be used by many threads at once; whoever calls update() replaces what the others get from
+    then on, never what they have."""
+
+    def __init__(self, xyz: Any, radii: Any, probe: float, kind: str, device: str, threads: int,
+                 verify: bool) -> None:
+        options = lib.default("options", lib.Options())
+        options.probe_radius, options.threads, options.verify = probe, threads, verify
+        options.kind = lib.word("kind", kind, lib.KINDS)
+        options.device = lib.word("device", device, lib.DEVICES)
+        self._kind = kind
+        self._computer = lib.Handle("computer", "computer_new", ctypes.byref(options))
+        self._radii = np.array(radii, dtype=np.float64) if np.ndim(radii) == 0 else np.array(numbers(radii, "radii")[0])
+        self._handle = self._computed(xyz, self._radii)
+
+    def _computed(self, xyz: Any, radii: np.ndarray) -> lib.Handle:
+        positions, positions_type = numbers(xyz, "xyz", 3)
+        if radii.ndim == 1 and len(radii) != len(positions):
+            raise lib.InputError(f"there are {len(positions)} positions and {len(radii)} radii")
+        radii_type = lib.FLOAT if radii.dtype == np.float32 else lib.DOUBLE
+        atoms = lib.Atoms(ctypes.sizeof(lib.Atoms), len(positions), positions.ctypes.data, radii.ctypes.data,
+                          positions.strides[0], 0, positions_type, radii_type, int(radii.ndim == 0), 0)
+        return lib.Handle("surface", "compute", self._computer.pointer, ctypes.byref(atoms))
+
+    def update(self, xyz: Any, radii: Optional[Any] = None) -> Surface:
+        """The next frame: other positions, and radii where they change too. Returns itself. Arrays that were taken
+        before keep the frame they belong to."""
+        if radii is not None:
+            radii = np.array(numbers(radii, "radii")[0] if np.ndim(radii) else float(radii))
+        wanted = self._radii if radii is None else radii
+        self._handle = self._computed(xyz, wanted)
+        self._radii = wanted
+        return self
+
+    # ---- measures
+
+    def _summary(self) -> lib.Summary:
+        summary = lib.Summary(ctypes.sizeof(lib.Summary))
+        handle = self._handle
+        lib.call("surface_summary", handle.pointer, ctypes.byref(summary))
+        summary.owner = handle  # of its text
+        return summary
+
+    @property
+    def area(self) -> float:
+        """Å², of all components."""
+        return self._summary().area
+
+    @property
+    def volume(self) -> float:
+        """Å³ of the solid: outer components less cavities."""
+        return self._summary().volume
+
+    @property
+    def probe(self) -> float:
+        return self._summary().probe_radius
+
+    @property
+    def kind(self) -> str:
+        """"ses", "sas" or "vdw"."""
+        return self._kind
+
+    @property
+    def device(self) -> str:
+        """What computed it: "cpu (16 threads)", or GL renderer and version."""
+        return self._summary().device.decode()
+
+    @property
+    def grown_by(self) -> float:
+        """Å by which radii were grown at most to tell ties apart; 0 as a rule."""
+        return self._summary().grown_by
+
+    @property
+    def counts(self) -> dict[str, int]:
+        """How many atoms, patches of each kind, faces, borders, vertices, components, cavities."""
+        summary = self._summary()
+        return {name: getattr(summary, name) for name, kind in lib.Summary._fields_ if kind is lib.c_uint64}
+
+    def __len__(self) -> int:
+        return int(self._summary().atoms)
+
+    # ---- tables
+
+    def _table(self, table: int, row: Any, columns: int = 0) -> np.ndarray:
+        return view(self._handle, "surface_table", table, row, columns)
+
+    @property
+    def components(self) -> np.ndarray:
+        """Rows of kind (0 outer, 1 cavity), area, volume (negative for cavities), euler; outer ones first."""
+        return self._table(lib.COMPONENTS, lib.Component)
+
+    @property
+    def atom_areas(self) -> np.ndarray:
+        """Å² per atom: what of the surface is nearest to its contact; the sum is the area."""
+        return self._table(lib.ATOM_AREAS, np.float64)
+
+    @property
+    def atom_sas_areas(self) -> np.ndarray:
+        """Å² per atom of the solvent-accessible surface; of kind "ses" only."""
+        return self._table(lib.ATOM_SAS_AREAS, np.float64)
+
+    @property
+    def patches(self) -> Patches:
+        handle = self._handle
+        tables = ((lib.CONVEX, lib.Convex), (lib.TOROIDAL, lib.Toroidal), (lib.CONCAVE, lib.Concave),
+                  (lib.PLANES, lib.Plane), (lib.CONTACTS, np.uint32), (lib.CUTS, np.uint32))
+        return Patches(*(view(handle, "surface_table", table, row) for table, row in tables))
+
+    @property
+    def balls(self) -> np.ndarray:
+        """Rows of center, radius: what was computed."""
+        return self._table(lib.ATOMS, lib.Ball)
+
+    @property
+    def faces(self) -> np.ndarray:
+        return self._table(lib.FACES, lib.Face)
+
+    @property
+    def borders(self) -> np.ndarray:
+        return self._table(lib.BORDERS, lib.Border)
+
+    @property
+    def half_borders(self) -> np.ndarray:
+        return self._table(lib.HALF_BORDERS, np.uint32)
+
+    @property
+    def loops(self) -> np.ndarray:
+        return self._table(lib.LOOPS, lib.Loop)
+
+    @property
+    def vertices(self) -> np.ndarray:
+        """(n, 3) Å, where borders end."""
+        return self._table(lib.VERTICES, np.float64, 3)
+
+    # ---- what is made of it
+
+    def mesh(self, tolerance: float = 0.01, *, split_colors: bool = True) -> Mesh:
+        """Triangles that are nowhere farther than `tolerance` (Å) from the surface; with split_colors cut where the
+        nearest atom changes."""
+        return Mesh(self._handle, tolerance, split_colors)
+
+    def distance(self, points: Any, *, nearest: bool = False) -> Union[np.ndarray, tuple[np.ndarray, np.ndarray]]:
+        """Å to the nearest point of the surface, above 0 in the solvent, below 0 in the solid; exact everywhere. With
+        `nearest` these points, too, as (n, 3)."""
+        given = np.ascontiguousarray(points, dtype=np.float64)
+        if given.ndim != 2 or given.shape[1] != 3:
+            raise lib.InputError(f"points has the shape {given.shape}; it has to be (n, 3)")
+        distances = np.empty(len(given))
+        feet = np.empty((len(given), 3)) if nearest else None
+        handle = self._handle
+        lib.call("surface_distance", handle.pointer, len(given), given.ctypes.data, distances.ctypes.data,
+                 None if feet is None else feet.ctypes.data)
+        return distances if feet is None else (distances, feet)
+
+    def camera(self, aspect: float = 4 / 3, projection: str = "perspective") -> Camera:
+        """The camera that shows everything. aspect: width / height."""
+        return framed(self._handle, aspect, projection)
+
+    def render(self, width: int = 1024, height: int = 768, *, colors: Optional[Any] = None,
+               camera: Optional[Camera] = None, background: Optional[Any] = None, samples: int = 4,
+               ambient_occlusion: float = 0.0, silhouettes: float = 0.0, depth_cue: float = 0.0,
+               device: str = "auto") -> np.ndarray:
+        """A picture, (height, width, 4) bytes in sRGB with alpha. colors: one (3,), or one per atom (n, 3), in [0, 1];
+        background: (3,), or None for a transparent one. GpuError where there is no GL."""
+        handle = self._handle
+        look = {"samples": samples, "ambient_occlusion": ambient_occlusion, "silhouettes": silhouettes,
+                "depth_cue": depth_cue}
+        summary = lib.Summary(ctypes.sizeof(lib.Summary))
+        lib.call("surface_summary", handle.pointer, ctypes.byref(summary))
+        return painted(handle, summary.atoms, width, height, colors, camera, background, device, look)
+
+    def _repr_png_(self) -> Optional[bytes]:
+        try:
+            return png(self.render(640, 480, ambient_occlusion=0.7, silhouettes=1.0))
+        except lib.GpuError:
+            return None  # the text below will do
+
+    def __repr__(self) -> str:
+        s = self._summary()
+        return (f"<meniscus.Surface: {self._kind} of {s.atoms} atoms, {s.area:.2f} Å², {s.volume:.2f} Å³, "
+                f"{s.components} components>")
+
+
+def surface(xyz: Any, radii: Any, probe: float = 1.4, *, kind: str = "ses", device: str = "cpu", threads: int = 0,
+            verify: bool = False) -> Surface:
+    """The surface of atoms at xyz, (n, 3) Å, with van der Waals radii, (n,) or one for all.
+
+    kind: "ses", solvent-excluded; "sas", solvent-accessible; "vdw", without a probe. device: "cpu"; "gpu"; "auto", a
+    hardware GPU if one works, else the CPU; "software", GL on the CPU. threads: of the CPU, 0 for all. verify: compute
+    on the other device, too, and compare everything."""
+    return Surface(xyz, radii, probe, kind, device, threads, verify)

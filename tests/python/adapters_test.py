@@ -1,0 +1,151 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""adapters_test.py PACKAGE...: frames of MDAnalysis, MDTraj, ProDy and Biotite go in, trimesh, PyVista and Open3D meshes
+come out. The packages named must be there; without names those that are installed are tried, one at least."""
+import importlib
+import importlib.metadata
+import os
+import sys
+import tempfile
+import unittest
+
+if "MENISCUS_PACKAGE" in os.environ:
+    sys.path.insert(0, os.environ["MENISCUS_PACKAGE"])
+
+import numpy as np
+
+import meniscus
+
+ALL = ("MDAnalysis", "mdtraj", "prody", "biotite", "trimesh", "pyvista", "open3d")
+NAMED = sys.argv[1:]
+
+# Two residues, three models.
+NAMES = (("N", "N"), ("CA", "C"), ("C", "C"), ("O", "O"), ("CB", "C"), ("SG", "S"))
+
+
+def models():
+    random = np.random.default_rng(5)
+    first = np.round(np.cumsum(random.normal(0, 0.8, (12, 3)), axis=0), 3)
+    return [np.round(first + 0.2 * n * random.normal(0, 1, (12, 3)), 3) for n in range(3)]
+
+
+def pdb(frames):
+    text = ""
+    for m, xyz in enumerate(frames):
+        text += f"MODEL     {m + 1:4d}\n"
+        for n, (x, y, z) in enumerate(xyz):
+            name, element = NAMES[n % 6]
+            text += (f"ATOM  {n + 1:5d}  {name:<3s} CYS A{1 + n // 6:4d}    {x:8.3f}{y:8.3f}{z:8.3f}  1.00  0.00"
+                     f"          {element:>2s}\n")
+        text += "ENDMDL\n"
+    return text + "END\n"
+
+
+def module(name):
+    if NAMED and name not in NAMED:
+        raise unittest.SkipTest(f"{name} was not named")
+    try:
+        return importlib.import_module(name)
+    except ImportError as error:
+        if NAMED:
+            raise
+        raise unittest.SkipTest(f"{name} is not installed: {error}") from None
+
+
+class Frames(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.frames = models()
+        radii = meniscus.radii_of([element for _, element in NAMES] * 2)
+        cls.areas = [meniscus.surface(xyz, radii, probe=1.3).area for xyz in cls.frames]
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.file = os.path.join(cls.folder.name, "models.pdb")
+        with open(cls.file, "w") as file:
+            file.write(pdb(cls.frames))
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.folder.cleanup()
+
+    def check(self, first, every, relative):
+        self.assertAlmostEqual(first.area / self.areas[0], 1.0, delta=relative)
+        found = [s.area for s in every]
+        np.testing.assert_allclose(found, self.areas, rtol=relative)
+
+    def test_mdanalysis(self):
+        atoms = module("MDAnalysis").Universe(self.file).atoms
+        self.check(meniscus.from_mdanalysis(atoms, probe=1.3), meniscus.frames(atoms, probe=1.3), 1e-5)  # floats
+        part = meniscus.from_mdanalysis(atoms[:6], probe=1.3)
+        self.assertEqual(len(part), 6)
+
+    def test_mdtraj(self):
+        trajectory = module("mdtraj").load(self.file)
+        self.check(meniscus.from_mdtraj(trajectory, probe=1.3), meniscus.frames(trajectory, probe=1.3), 1e-5)
+
+    def test_prody(self):
+        prody = module("prody")
+        prody.confProDy(verbosity="none")
+        atoms = prody.parsePDB(self.file)
+        self.check(meniscus.from_prody(atoms, probe=1.3), meniscus.frames(atoms, probe=1.3), 1e-12)
+        self.assertEqual(len(meniscus.from_prody(atoms.select("resnum 1"))), 6)
+
+    def test_biotite(self):
+        module("biotite")
+        pdb_io = importlib.import_module("biotite.structure.io.pdb")
+        stack = pdb_io.PDBFile.read(self.file).get_structure()
+        self.check(meniscus.from_biotite(stack, probe=1.3), meniscus.frames(stack, probe=1.3), 1e-5)
+        self.assertAlmostEqual(meniscus.from_biotite(stack[1], probe=1.3).area / self.areas[1], 1.0, delta=1e-5)
+
+    def test_atoms_without_elements_need_radii(self):
+        class Atoms:
+            __module__ = "prody.fake"
+            def getElements(self): return None
+            def getCoords(self): return np.zeros((1, 3))
+        with self.assertRaisesRegex(meniscus.InputError, "no element; give radii"):
+            meniscus.from_prody(Atoms())
+        self.assertAlmostEqual(meniscus.from_prody(Atoms(), radii=1.0).area, 4 * np.pi)
+
+    def test_what_is_no_source_is_named(self):
+        with self.assertRaisesRegex(meniscus.InputError, "a builtins.dict is nothing that frames"):
+            meniscus.frames({})
+
+
+class Meshes(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.surface = meniscus.surface(models()[0], 1.7)
+        cls.mesh = cls.surface.mesh(0.05)
+
+    def test_trimesh(self):
+        module("trimesh")
+        mesh = self.mesh.to_trimesh()
+        self.assertTrue(mesh.is_watertight)
+        self.assertAlmostEqual(mesh.area / self.surface.area, 1.0, delta=0.02)
+        self.assertAlmostEqual(mesh.volume / self.surface.volume, 1.0, delta=0.02)
+        self.assertEqual(len(mesh.face_attributes["atom"]), len(mesh.faces))
+
+    def test_pyvista(self):
+        module("pyvista")
+        mesh = self.mesh.to_pyvista()
+        self.assertEqual(mesh.n_points, len(self.mesh.vertices))
+        self.assertEqual(mesh.n_open_edges, 0)
+        self.assertAlmostEqual(mesh.area / self.surface.area, 1.0, delta=0.02)
+        self.assertEqual(len(mesh.cell_data["atom"]), mesh.n_cells)
+
+    def test_open3d(self):
+        module("open3d")
+        mesh = self.mesh.to_open3d()
+        self.assertTrue(mesh.is_watertight())
+        self.assertAlmostEqual(mesh.get_surface_area() / self.surface.area, 1.0, delta=0.02)
+        self.assertEqual(len(mesh.vertex_normals), len(self.mesh.vertices))
+
+
+if __name__ == "__main__":
+    result = unittest.main(argv=["adapters_test"], exit=False, verbosity=2).result
+    for name in ALL:
+        try:
+            print(name, importlib.metadata.version(name))
+        except importlib.metadata.PackageNotFoundError:
+            pass
+    failed = len(result.failures) + len(result.errors)
+    print(f"cases {result.testsRun - len(result.skipped)} failures {failed}")
+    sys.exit(1 if failed else 0)

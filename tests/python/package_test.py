@@ -1,0 +1,275 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The Python package over libmeniscus; runs in any interpreter that has numpy, Blender's included (blender -b --python
+package_test.py). MENISCUS_LIBRARY names the library, MENISCUS_PACKAGE the folder with the package unless it is installed."""
+import ctypes
+import gc
+import math
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import threading
+import unittest
+import zlib
+
+if "MENISCUS_PACKAGE" in os.environ:
+    sys.path.insert(0, os.environ["MENISCUS_PACKAGE"])
+
+import numpy as np
+
+import meniscus
+from meniscus import _library
+
+HEADER = os.environ.get("MENISCUS_HEADER")
+PROGRAM = os.environ.get("MENISCUS_PROGRAM")
+
+
+def chain(count):
+    n = np.arange(count)
+    return np.stack([1.5 * n, 0.3 * (n % 3), 0.1 * n], axis=1), 1.7 - 0.05 * (n % 4)
+
+
+def cloud(count, seed):
+    random = np.random.default_rng(seed)
+    return random.uniform(0.0, 2.2 * count ** (1 / 3), (count, 3)), random.uniform(1.2, 1.9, count)
+
+
+class Numbers(unittest.TestCase):
+    def test_one_sphere(self):
+        for kind, radius in (("ses", 1.7), ("sas", 3.1), ("vdw", 1.7)):
+            s = meniscus.surface([[1, 2, 3]], 1.7, kind=kind)
+            self.assertAlmostEqual(s.area, 4 * math.pi * radius**2, 10)
+            self.assertAlmostEqual(s.volume, 4 / 3 * math.pi * radius**3, 10)
+            self.assertEqual(s.kind, kind)
+        self.assertEqual(len(s), 1)
+
+    @unittest.skipUnless(PROGRAM, "MENISCUS_PROGRAM is not set")
+    def test_the_program_says_the_same_to_the_last_digit(self):
+        import json
+        xyz, radii = cloud(200, 1)
+        lines = "".join(f"{x!r} {y!r} {z!r} {r!r}\n" for (x, y, z), r in zip(xyz.tolist(), radii.tolist()))
+        told = json.loads(subprocess.run([PROGRAM, "surface", "-q", "--device", "cpu", "--json", "-"], input=lines,
+                                         text=True, check=True, capture_output=True).stdout)
+        s = meniscus.surface(xyz, radii)
+        self.assertEqual((s.area, s.volume), (told["area"], told["volume"]))
+
+    def test_sums(self):
+        xyz, radii = cloud(150, 2)
+        s = meniscus.surface(xyz, radii, probe=1.2)
+        self.assertAlmostEqual(s.atom_areas.sum(), s.area, 6)
+        self.assertAlmostEqual(s.components["area"].sum(), s.area, 6)
+        self.assertAlmostEqual(s.components["volume"].sum(), s.volume, 6)
+        self.assertAlmostEqual(s.faces["area"].sum(), s.area, 6)
+        self.assertAlmostEqual(s.atom_sas_areas.sum(), meniscus.surface(xyz, radii, 1.2, kind="sas").area, 5)
+        self.assertEqual(s.counts["components"], len(s.components))
+        self.assertEqual(s.counts["cavities"], int((s.components["kind"] == 1).sum()))
+        patches = s.patches
+        self.assertEqual(len(patches.toroidal), s.counts["toroidal"])
+        self.assertTrue((patches.contacts < 150).all())
+        axes = patches.toroidal["axis"]
+        np.testing.assert_allclose(np.linalg.norm(axes, axis=1), 1.0, atol=1e-12)
+
+    def test_types_and_strides_of_arrays(self):
+        xyz, radii = chain(20)
+        xyz = np.round(xyz * 16) / 16  # as floats have them
+        expected = meniscus.surface(xyz, radii).area
+        wide = np.zeros((20, 5))
+        wide[:, 1:4] = xyz
+        for given in (xyz.tolist(), xyz.astype(np.float32), wide[:, 1:4], np.asfortranarray(xyz),
+                      np.repeat(xyz, 2, axis=0)[::2], xyz[::-1][::-1]):
+            self.assertEqual(meniscus.surface(given, radii).area, expected)
+
+    def test_distance(self):
+        xyz, radii = chain(12)
+        s = meniscus.surface(xyz, radii)
+        mesh = s.mesh(0.05)
+        np.testing.assert_allclose(s.distance(mesh.vertices), 0.0, atol=1e-12)
+        self.assertTrue((s.distance(xyz) < 0).all())
+        out, feet = s.distance(xyz + [0, 30, 0], nearest=True)
+        self.assertTrue((out > 0).all())
+        np.testing.assert_allclose(np.linalg.norm(xyz + [0, 30, 0] - feet, axis=1), out, atol=1e-12)
+        self.assertEqual(s.distance(np.empty((0, 3))).shape, (0,))
+
+    def test_radii(self):
+        np.testing.assert_array_equal(meniscus.radii_of(["C", "zn", "D", 8]), [1.7, 1.39, 1.2, 1.52])
+        with self.assertRaisesRegex(meniscus.InputError, "atom 1: 'Qq' is no element"):
+            meniscus.radii_of(["C", "Qq"])
+
+
+class Views(unittest.TestCase):
+    def test_keep_their_owner_and_their_frame(self):
+        xyz, radii = cloud(80, 3)
+        s = meniscus.surface(xyz, radii)
+        areas, planes, total = s.atom_areas, s.patches.planes, s.area
+        copy, planes_copy = areas.copy(), planes.copy()
+        s.update(xyz * 1.05)
+        self.assertNotEqual(s.area, total)
+        del s
+        gc.collect()
+        for n in range(5):
+            meniscus.surface(xyz * (1 + 0.01 * n), radii)
+        np.testing.assert_array_equal(areas, copy)
+        np.testing.assert_array_equal(planes, planes_copy)
+
+    def test_are_views_and_read_only(self):
+        s = meniscus.surface(*chain(10))
+        self.assertEqual(s.atom_areas.ctypes.data, s.atom_areas.ctypes.data)
+        for array in (s.atom_areas, s.components, s.patches.convex, s.mesh(0.1).vertices, s.half_borders):
+            self.assertFalse(array.flags.writeable)
+            self.assertFalse(array.flags.owndata)
+        with self.assertRaises(ValueError):
+            s.atom_areas[0] = 1.0
+
+    def test_memory_comes_back(self):
+        xyz, radii = cloud(200, 4)
+        s = meniscus.surface(xyz, radii)
+
+        def resident():
+            return int(pathlib.Path("/proc/self/statm").read_text().split()[1]) * 4096 / 2**20
+
+        for _ in range(10):
+            s.update(xyz).mesh(0.3)
+        before = resident()
+        for _ in range(60):
+            s.update(xyz).mesh(0.3)
+        self.assertLess(resident() - before, 10.0)
+
+    def test_mesh(self):
+        mesh = meniscus.surface(*chain(10)).mesh(0.05)
+        triangles = mesh.triangles
+        self.assertEqual(len(triangles), 2 * len(mesh.vertices) - 4)
+        a, b, c = (mesh.vertices[triangles[:, n]] for n in range(3))
+        volume = np.einsum("ij,ij->i", a, np.cross(b, c)).sum() / 6
+        self.assertAlmostEqual(volume / meniscus.surface(*chain(10)).volume, 1.0, delta=0.03)
+        self.assertEqual(len(mesh.triangle_atoms), len(triangles))
+        self.assertLess(mesh.triangle_kinds.max(), 3)
+        np.testing.assert_allclose(np.linalg.norm(mesh.normals, axis=1), 1.0, atol=1e-12)
+
+
+class Errors(unittest.TestCase):
+    def test_have_the_texts_of_the_library(self):
+        xyz, radii = chain(5)
+        xyz[3, 1] = np.nan
+        with self.assertRaisesRegex(meniscus.InputError, "y of atom 3 is nan"):
+            meniscus.surface(xyz, radii)
+        with self.assertRaisesRegex(ValueError, "radius of atom 0 is -1.7"):
+            meniscus.surface(chain(5)[0], -radii)
+        with self.assertRaisesRegex(meniscus.InputError, "probe_radius: -1 Å is negative"):
+            meniscus.surface(*chain(5), probe=-1.0)
+        with self.assertRaisesRegex(meniscus.UsageError, "kind is 'lee', none of ses, sas, vdw"):
+            meniscus.surface(*chain(5), kind="lee")
+        with self.assertRaisesRegex(meniscus.InputError, "tolerance is 9"):
+            meniscus.surface(*chain(5)).mesh(9)
+
+    def test_shapes_are_looked_at_before_the_library_is(self):
+        for xyz, radii in ((np.zeros((3, 2)), 1.7), (np.zeros(3), 1.7), (np.zeros((3, 3)), [1.7, 1.7]),
+                           ([["a", "b", "c"]], 1.7), (np.zeros((0, 3)), 1.7), (np.zeros((2, 3)), [[1.7, 1.7]])):
+            with self.assertRaises(meniscus.InputError):
+                meniscus.surface(xyz, radii)
+
+    def test_an_update_that_is_refused_changes_nothing(self):
+        xyz, radii = chain(5)
+        s = meniscus.surface(xyz, radii)
+        area = s.area
+        with self.assertRaises(meniscus.InputError):
+            s.update(np.full_like(xyz, np.inf))
+        with self.assertRaises(meniscus.InputError):
+            s.update(xyz[:3])
+        self.assertEqual(s.area, area)
+        self.assertEqual(s.update(xyz).area, area)
+
+
+class Threads(unittest.TestCase):
+    def test_eight_at_once_agree(self):
+        clouds = [cloud(120, seed) for seed in range(8)]
+        expected = [meniscus.surface(*c).area for c in clouds]
+        shared = meniscus.surface(*clouds[0])
+        found, faults = [[] for _ in clouds], []
+
+        def work(n):
+            try:
+                for _ in range(4):
+                    found[n].append(meniscus.surface(*clouds[n], threads=1 + n % 2).area)
+                    shared.update(*clouds[n])
+                    self.assertTrue(np.isfinite(shared.atom_areas).all())
+            except Exception as error:  # told by the thread that began them
+                faults.append(error)
+
+        threads = [threading.Thread(target=work, args=(n,)) for n in range(8)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertEqual(faults, [])
+        self.assertEqual(found, [[area] * 4 for area in expected])
+
+
+class Pictures(unittest.TestCase):
+    def test_render_and_png(self):
+        s = meniscus.surface([[0, 0, 0]], 2.0)
+        camera = s.camera(1.0, "orthographic")
+        camera.height = 8.0
+        pixels = s.render(100, 100, camera=camera, colors=(1, 0, 0), device="software")
+        self.assertEqual(pixels.shape, (100, 100, 4))
+        self.assertAlmostEqual(pixels[..., 3].sum() / 255, math.pi * 25**2, delta=20)
+        self.assertLess(pixels[50, 50, 1], 30)  # but for the highlight
+        opaque = s.render(100, 100, camera=camera, colors=[[0, 1, 0]], background=(0, 0, 1), device="software")
+        self.assertEqual(opaque[0, 0].tolist(), [0, 0, 255, 255])
+        file = meniscus.png(pixels)
+        self.assertTrue(file.startswith(b"\x89PNG\r\n\x1a\n"))
+        rows = np.frombuffer(zlib.decompress(file[file.index(b"IDAT") + 4:-16]), np.uint8).reshape(100, 401)
+        np.testing.assert_array_equal(rows[:, 1:].reshape(100, 100, 4), pixels)
+        with self.assertRaisesRegex(meniscus.InputError, "colors has the shape"):
+            s.render(10, 10, colors=np.zeros((2, 3)), device="software")
+
+    def test_notebooks_show_it(self):
+        self.assertTrue(meniscus.surface(*chain(6))._repr_png_().startswith(b"\x89PNG"))
+        self.assertIn("6 atoms", repr(meniscus.surface(*chain(6))))
+
+
+@unittest.skipUnless(HEADER, "MENISCUS_HEADER is not set")
+class Header(unittest.TestCase):
+    """The structs and constants that are written a second time are those of the header."""
+
+    def setUp(self):
+        self.text = re.sub(r"/\*.*?\*/", "", pathlib.Path(HEADER).read_text(), flags=re.S)
+
+    def test_constants(self):
+        names = {name: int(value) for name, value in re.findall(r"\bMENISCUS_(\w+) = (\d+)", self.text)}
+        checked = 0
+        for name, value in names.items():
+            if hasattr(_library, name):
+                checked += 1
+                self.assertEqual(getattr(_library, name), value, name)
+        self.assertGreaterEqual(checked, 40)
+
+    def test_structs(self):
+        c_names = {"double": ctypes.c_double, "float": ctypes.c_float, "size_t": ctypes.c_size_t,
+                   "int32_t": ctypes.c_int32, "uint32_t": ctypes.c_uint32, "uint64_t": ctypes.c_uint64,
+                   "uint8_t": ctypes.c_uint8}
+        found = re.findall(r"typedef struct meniscus_\w+ \{(.*?)\} meniscus_(\w+);", self.text, re.S)
+        self.assertGreaterEqual(len(found), 15)
+        for body, name in found:
+            python = {"mesh_options": "MeshOptions", "camera": "CameraStruct"}.get(name, name.capitalize())
+            fields = []
+            for kind, members in re.findall(r"((?:const )?\w+\*?) ([^;]+);", body):
+                self.assertTrue(kind in c_names or "*" in kind, f"{name}: {kind}")
+                for member in members.split(","):
+                    field, size = re.match(r"\s*(\w+)(?:\[(\d+)\])?", member).groups()
+                    wanted = c_names.get(kind)
+                    fields.append((field, wanted * int(size) if size else wanted))
+            mine = getattr(_library, python)._fields_
+            self.assertEqual([f for f, _ in fields], [f for f, _ in mine], name)
+            for (field, wanted), (_, kind) in zip(fields, mine):
+                if wanted:
+                    self.assertEqual(ctypes.sizeof(kind), ctypes.sizeof(wanted), f"{name}.{field}")
+                    self.assertIs(kind, wanted, f"{name}.{field}")
+
+
+if __name__ == "__main__":
+    # Blender hands its own arguments on.
+    result = unittest.main(argv=["package_test"], exit=False, verbosity=1).result
+    sys.stdout.flush()
+    os._exit(0 if result.wasSuccessful() and result.testsRun > 15 else 1) if "bpy" in sys.modules else sys.exit(
+        0 if result.wasSuccessful() else 1)
