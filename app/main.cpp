@@ -15,6 +15,7 @@
 #include "app/process/program_error.h"
 #include "app/process/standard_streams.h"
 #include "app/process/stop_signals.h"
+#include "app/reports/version_report.h"
 #include "core/base/text.h"
 
 namespace meniscus {
@@ -23,7 +24,8 @@ namespace {
 constexpr Command kCommands[] = {
     {"surface", add_surface}, {"render", add_render}, {"preview", add_preview}, {"export", add_export},
     {"farm", add_farm},       {"work", add_work},     {"info", add_info},       {"formats", add_formats},
-    {"colors", add_colors},   {"bench", add_bench},   {"help", add_help},
+    {"colors", add_colors},   {"bench", add_bench},   {"completion", add_completion},
+    {"help", add_help},
 };
 
 constexpr const char* kExamples = R"(  meniscus info 1tii.pdb                          what the file holds
@@ -88,7 +90,10 @@ void run(int argc, char** argv) {
   program.get_formatter()->label("REQUIRED", "(required)");
   program.get_formatter()->label("Positionals", "Arguments");
   program.get_formatter()->label("SUBCOMMAND", "COMMAND");
-  program.set_version_flag("--version", std::string("meniscus ") + build_version(), "Show version and commit");
+  bool verbose = false;
+  program.add_flag("--verbose", verbose, "With --version: also compiler, libraries and GL driver, for reports of faults");
+  program.set_version_flag(
+      "--version", [&verbose] { return verbose ? version_report() : version_line(); }, "Show version and commit");
   program.set_help_flag("-h,--help", "Show this help");
   program.require_subcommand(1);
   program.footer(kExamples);

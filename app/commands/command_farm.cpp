@@ -17,6 +17,8 @@
 #include "app/farm/status.h"
 #include "app/farm/verify.h"
 #include "app/farm/worker.h"
+#include "app/process/installed_files.h"
+#include "app/options/value_words.h"
 #include "app/process/program_error.h"
 #include "app/process/stop_signals.h"
 #include "app/farm/read_bundle.h"
@@ -31,7 +33,7 @@ constexpr std::size_t kFaultsShown = 10;
 struct BundleCommand {
   std::vector<std::string> words;  // behind --
   farm::BundleOptions options;
-  std::string folder, engines = "make,slurm,openjd,flamenco", film, addon = MENISCUS_ADDON;
+  std::string folder, engines = "make,slurm,openjd,flamenco", film, addon = addon_folder();
   double frames_per_second = 25.0;
   bool link = false;
 };
@@ -106,6 +108,7 @@ void add_bundle(CLI::App& command) {
   command
       .add_option("--engine", state->engines,
                   "Whose files to write, commas between: make, slurm, openjd, flamenco, opencue, all [all but opencue]")
+      ->check(proposes({"make", "slurm", "openjd", "flamenco", "opencue", "all"}))
       ->type_name("WORDS");
   CLI::Option* const minutes = command.add_option("--chunk-minutes", state->options.chunking.asked_minutes,
                                                   "Time that a task shall take, by the trial frame [5]");

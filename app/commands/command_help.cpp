@@ -6,8 +6,13 @@
 #include <fmt/format.h>
 #include <fmt/ostream.h>
 
+#include "app/process/build_version.h"
 #include "app/commands/commands.h"
+#include "app/options/command_tree.h"
+#include "app/options/value_words.h"
 #include "app/process/program_error.h"
+#include "app/reports/man_page.h"
+#include "core/base/output_file.h"
 #include "core/base/text.h"
 #include "core/structure/selection/selection_words.h"
 
@@ -123,17 +128,44 @@ void show(const CLI::App& program, const std::string& name) {
   throw UsageError(fmt::format("{} is no topic; there are {} and the commands", in_quotes(name), names));
 }
 
+/// A page of section 1 for every command, and of section 7 for every topic.
+void write_man_pages(const CLI::App& program, const std::string& folder) {
+  const CommandEntry tree = command_tree(program);
+  const ManMargins margins{build_date(), std::string("meniscus ") + MENISCUS_VERSION};
+  OutputFolder pages(folder, Existing::replace);
+  for (const CommandEntry* command : all_commands(tree))
+    pages.file(man_page_name(*command) + ".1").write(command_man_page(*command, tree, kExitCodes, margins));
+  for (const Topic& topic : kTopics)
+    pages.file(man_page_name(topic.name) + ".7")
+        .write(topic_man_page(topic.name, topic.summary, topic.page(), margins));
+  pages.commit();
+}
+
+/// Topics and commands.
+std::vector<std::string> page_names(const CLI::App& program) {
+  std::vector<std::string> names;
+  for (const Topic& topic : kTopics) names.emplace_back(topic.name);
+  for (const CLI::App* command : program.get_subcommands({})) names.push_back(command->get_name());
+  return names;
+}
+
 }  // namespace
 
 void add_help(CLI::App& command) {
   describe(command, "Show a page of the manual: selections, assemblies, frames, exit-codes, or a command",
            "  meniscus help\n"
-           "  meniscus help selections");
-  auto topic = std::make_shared<std::string>();
-  command.add_option("TOPIC", *topic, "The page; none: what pages there are")->type_name("");
-  command.callback([topic, &command] {
+           "  meniscus help selections\n"
+           "  meniscus help --man man            a manual page of every command and topic, into the folder man");
+  auto topic = std::make_shared<std::string>(), folder = std::make_shared<std::string>();
+  command.add_option("TOPIC", *topic, "The page; none: what pages there are")
+      ->check(proposes(page_names(*command.get_parent())))
+      ->type_name("");
+  command.add_option("--man", *folder, "Write all pages as manual pages into this folder")->type_name("FOLDER");
+  command.callback([topic, folder, &command] {
     const CLI::App& program = *command.get_parent();
-    if (topic->empty()) {
+    if (!folder->empty()) {
+      write_man_pages(program, *folder);
+    } else if (topic->empty()) {
       list_topics(program);
     } else {
       show(program, *topic);

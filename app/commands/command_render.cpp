@@ -12,8 +12,9 @@
 
 #include "app/commands/commands.h"
 #include "app/options/look_options.h"
-#include "core/scene/molecule.h"
+#include "app/options/value_words.h"
 #include "app/process/program_error.h"
+#include "core/scene/molecule.h"
 #include "app/commands/render_command.h"
 #include "app/commands/view_picture.h"
 #include "core/base/text.h"
@@ -180,6 +181,7 @@ void add_render(CLI::App& command) {
       .add_option_function<std::string>(
           "--background", [state](const std::string& text) { parse_background(text, state->background); },
           "transparent (default), white, black or #rrggbb")
+      ->check(proposes({"transparent", "white", "black"}))
       ->type_name("COLOR");
   command.add_flag(
       "--legend", state->legend,
@@ -191,6 +193,7 @@ void add_render(CLI::App& command) {
           "--extent", [state](const std::string& text) { parse_extent(text, state->extent); },
           "Compute on the GPU only what this view needs: visible (the same picture, pixel for pixel); complete "
           "(everything, the same way); paper (as Krone et al. 2010 select it: deep clefts may have holes)")
+      ->check(proposes({"visible", "complete", "paper"}))
       ->type_name("WORD");
   command.add_flag("--stats", state->stats, "With --extent: what each group of stages found, and its time, on stderr");
   command.add_option("--save-camera", state->save_camera, "Write the camera used, as JSON for --camera")

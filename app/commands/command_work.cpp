@@ -16,6 +16,7 @@
 #include "app/farm/claims.h"
 #include "app/farm/worker.h"
 #include "app/options/molecule_options.h"
+#include "app/options/value_words.h"
 #include "app/process/program_error.h"
 #include "app/process/stop_signals.h"
 #include "core/base/text.h"
@@ -125,6 +126,7 @@ void add_work(CLI::App& command) {
   auto state = std::make_shared<WorkCommand>();
   command.add_option("BUNDLE", state->folder, "The bundle's folder")->required()->type_name("");
   command.add_option("--step", state->step, "Only this step of the work: surface or render [all, in order]")
+      ->check(proposes({"surface", "render"}))
       ->type_name("STEP");
   CLI::Option* const frames =
       command.add_option("--frames", state->frames, "Only these frames of the run, such as 0-99:10,250");
@@ -143,6 +145,7 @@ void add_work(CLI::App& command) {
       .add_option("--device", state->device,
                   "Where surfaces and pictures are computed, instead of what the bundle says: auto, gpu, gpu:N, "
                   "software, cpu")
+      ->check(proposes({"auto", "gpu", "software", "cpu"}))
       ->type_name("DEVICE");
   command.add_flag("--require-gpu", state->require_gpu, "Refuse (exit code 4) the CPU and software GL for these");
   command.add_option("--threads", state->threads, "CPU threads of each process [all]")

@@ -17,6 +17,7 @@ struct Command {
 
 void add_bench(CLI::App& command);
 void add_colors(CLI::App& command);
+void add_completion(CLI::App& command);
 void add_export(CLI::App& command);
 void add_export_blender(CLI::App& command);
 void add_export_ply(CLI::App& command);

@@ -10,6 +10,7 @@
 #include "app/reports/run_frames.h"
 #include "core/scene/molecule.h"
 #include "app/options/picture_options.h"
+#include "app/options/value_words.h"
 #include "app/process/program_error.h"
 #include "core/scene/run_framing.h"
 #include "core/base/text.h"
@@ -111,7 +112,7 @@ void add_export_povray(CLI::App& command) {
                                                       {"glass", povray::Material::glass},
                                                       {"wax", povray::Material::wax}};
   command.add_option("--material", state->material, "Default material: opaque, ghost, glass, wax; the scene holds all")
-      ->transform(CLI::CheckedTransformer(words).description(""))
+      ->transform(one_of(words))
       ->type_name("WORD");
   command.callback([state] { run(*state); });
 }

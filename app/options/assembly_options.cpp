@@ -3,6 +3,7 @@
 #include <map>
 
 #include "app/options/molecule_options.h"
+#include "app/options/value_words.h"
 
 namespace meniscus {
 
@@ -17,7 +18,7 @@ void add_assembly_options(CLI::App& command, MoleculeOptions& options) {
       .add_option("--instances", options.division.instances,
                   "Compute one copy, draw it many times. exact: refused where copies come close enough for one probe "
                   "to touch two; separate: each copy has a surface of its own, as if alone")
-      ->transform(CLI::CheckedTransformer(words).description(""))
+      ->transform(one_of(words))
       ->type_name("WORD")
       ->needs(command.get_option("--assembly"));
 }

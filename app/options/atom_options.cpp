@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "app/options/molecule_options.h"
+#include "app/options/value_words.h"
 #include "app/process/program_error.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
@@ -45,6 +46,7 @@ void add_atom_options(CLI::App& command, MoleculeOptions& options) {
       .add_option_function<std::string>(
           "--altloc", [&options](const std::string& text) { options.reading.altloc = altloc_choice(text); },
           "Alternate location to keep in a residue: best (default: the most occupied), first, a letter, all")
+      ->check(proposes({"best", "first", "all"}))
       ->type_name("WORD");
   command
       .add_option_function<std::string>(
@@ -64,7 +66,7 @@ void add_atom_options(CLI::App& command, MoleculeOptions& options) {
   command
       .add_option("--unknown-element", options.reading.unknown_element,
                   "Atoms of unknown element: halt (default), guess (radius 2.0 Å), skip")
-      ->transform(CLI::CheckedTransformer(words).description(""))
+      ->transform(one_of(words))
       ->type_name("WORD");
   add_radii_options(command, options.reading);
   add_warning_options(command, options);
@@ -91,7 +93,7 @@ void add_warning_options(CLI::App& command, MoleculeOptions& options) {
   command
       .add_option("--warnings", options.warnings,
                   "Oddities of the file: summary (default), full (a line an atom), none")
-      ->transform(CLI::CheckedTransformer(words).description(""))
+      ->transform(one_of(words))
       ->type_name("WORD");
   command.add_flag("-q,--quiet", options.quiet, "No notes on stderr; errors only");
 }

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "app/options/molecule_options.h"
+#include "app/options/value_words.h"
 #include "core/base/text.h"
 
 namespace meniscus {
@@ -62,12 +63,16 @@ void add_color_options(CLI::App& command, MoleculeOptions& options) {
         name, [&color, parse](const std::string& text) { parse(text, color); }, help);
     return option->type_name(type);
   };
+  std::vector<std::string> schemes, maps;
+  for (const ColorSchemeMetadata& known : color_schemes()) schemes.emplace_back(known.word);
+  for (const ColorMapMetadata& known : color_maps()) maps.emplace_back(known.name);
   CLI::Option* const scheme =
       add("--color", parse_color,
           "element (default), chain, copy (of an assembly), residue (type), kind (of patch), component, #rrggbb; or by "
           "number: bfactor, occupancy, charge, hydrophobicity (Kyte & Doolittle 1982), index; meniscus colors explains "
           "them",
-          "SCHEME");
+          "SCHEME")
+          ->check(proposes(schemes));
   CLI::Option* const file = command.add_option(
       "--color-by-file", options.number_file,
       "Colour by numbers from a file, one an atom of FILE or one an atom used; nan, ? or -: missing");
@@ -75,7 +80,8 @@ void add_color_options(CLI::App& command, MoleculeOptions& options) {
   add("--map", parse_map,
       "Of numbers: viridis (default), cividis, magma, blue-white-red (default of hydrophobicity), red-white-blue (of "
       "charge: negative is red), categorical (each number a colour of its own)",
-      "MAP");
+      "MAP")
+      ->check(proposes(maps));
   add("--color-range", parse_range,
       "Numbers at the ends of the map, or auto (default: smallest and largest; charge symmetric about 0; "
       "hydrophobicity -4.5:4.5)",

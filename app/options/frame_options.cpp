@@ -6,6 +6,7 @@
 #include <map>
 
 #include "app/options/molecule_options.h"
+#include "app/options/value_words.h"
 
 namespace meniscus {
 namespace {
@@ -66,6 +67,7 @@ void add_frame_options(CLI::App& command, FrameOptions& options) {
           "Make molecules whole that the periodic box cuts, and gather them: bonds (default: of FILE and of standard "
           "residues) or guess (by distance)")
       ->expected(0, 1)
+      ->check(proposes({"bonds", "guess"}))
       ->type_name("WORD");
   add_selection(command, "--superpose", options.superpose,
                 "Turn and move each frame so that these atoms fit the reference frame best");
@@ -96,7 +98,7 @@ void add_progress_option(CLI::App& command, ProgressStyle& style) {
       .add_option("--progress", style,
                   "Of the frames: auto (default: a bar on a terminal, else plain lines), bar, plain, json (a line a "
                   "frame on stderr), openjd, none")
-      ->transform(CLI::CheckedTransformer(words).description(""))
+      ->transform(one_of(words))
       ->type_name("WORD");
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Declares the picture request.
 #include "app/options/picture_options.h"
+#include "app/options/value_words.h"
 
 #include <charconv>
 #include <map>
@@ -48,7 +49,7 @@ void add_picture_options(CLI::App& command, ViewRequest& request) {
   const std::map<std::string, Projection> words{{"perspective", Projection::perspective},
                                                 {"orthographic", Projection::orthographic}};
   command.add_option("--projection", request.projection, "Of the default camera: perspective (default), orthographic")
-      ->transform(CLI::CheckedTransformer(words).description(""))
+      ->transform(one_of(words))
       ->type_name("WORD")
       ->excludes(camera);
 }

@@ -3,6 +3,7 @@
 #include <map>
 
 #include "app/options/molecule_options.h"
+#include "app/options/value_words.h"
 #include "core/base/error.h"
 
 namespace meniscus {
@@ -24,7 +25,7 @@ void add_radii_options(CLI::App& command, ReadOptions& reading) {
   command
       .add_option("--hydrogens", reading.hydrogens,
                   "Hydrogens: keep, drop, or auto (default: dropped where the radii contain them)")
-      ->transform(CLI::CheckedTransformer(words).description(""))
+      ->transform(one_of(words))
       ->type_name("WORD");
   std::vector<std::string> sets{"file"};
   for (const RadiiSet* set : radii_sets()) sets.emplace_back(set->name);
@@ -33,7 +34,7 @@ void add_radii_options(CLI::App& command, ReadOptions& reading) {
                   "Van der Waals radii: bondi (by element), united (Chothia 1976) and protor (Tsai et al. 1999) for "
                   "atoms that contain their hydrogens, file (the molecule file's own). Default: file if it has "
                   "radii, else bondi")
-      ->check(CLI::IsMember(sets).description(""))
+      ->check(one_of(sets))
       ->type_name("SET");
   command
       .add_option("--radii-file", reading.radii.files,

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "app/options/molecule_options.h"
+#include "app/options/value_words.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/text/parse_number.h"
@@ -92,6 +93,7 @@ void add_device_option(CLI::App& command, SurfaceRequest& surface) {
           "--device", [&surface](const std::string& text) { parse_device(text, surface); },
           "auto (default: a GPU if there is one, else cpu), gpu, gpu:N (or UUID, PCI address), software (GL "
           "without a GPU), cpu")
+      ->check(proposes({"auto", "gpu", "software", "cpu"}))
       ->type_name("DEVICE");
   command.add_flag_callback(
       "--require-gpu", [&surface] { require_gpu(surface); },
@@ -106,7 +108,7 @@ void add_surface_options(CLI::App& command, MoleculeOptions& options) {
   command
       .add_option("--surface", surface.kind,
                   "ses: solvent-excluded (default); sas: solvent-accessible; vdw: van der Waals, without a probe")
-      ->transform(CLI::CheckedTransformer(kinds).description(""))
+      ->transform(one_of(kinds))
       ->type_name("KIND");
   add_probe_option(command, surface);
   add_device_option(command, surface);
@@ -125,13 +127,14 @@ void add_division_options(CLI::App& command, MoleculeOptions& options) {
           "--by", [&division](const std::string& text) { parse_division(text, division); },
           "Several objects: chain, model, class (polymer, ligand, ...), residue: each a surface of its own, as if it "
           "were alone; component: each closed part of the one surface")
+      ->check(proposes({"chain", "model", "class", "residue", "component"}))
       ->type_name("WORD");
   const std::map<std::string, Cavities> words{
       {"keep", Cavities::keep}, {"drop", Cavities::drop}, {"only", Cavities::only}};
   command
       .add_option("--cavities", division.cavities,
                   "keep (default); drop: only what the outside reaches; only: cavities and what lies in them")
-      ->transform(CLI::CheckedTransformer(words).description(""))
+      ->transform(one_of(words))
       ->type_name("WORD");
 }
 

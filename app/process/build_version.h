@@ -9,4 +9,7 @@ namespace meniscus {
 /// the same sources.
 const char* build_version();
 
+/// "2026-11-22": when the commit was made; without a repository, when CHANGELOG.md was last changed.
+const char* build_date();
+
 }  // namespace meniscus

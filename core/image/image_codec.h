@@ -47,13 +47,15 @@ struct DecodedImage {
 /// The size in bytes of the pixels alone, not compressed.
 std::size_t pixel_bytes(const ImageToEncode& image);
 
-/// What the module gives. Both throw std::runtime_error with OpenImageIO's words.
+/// What the module gives. Reading and writing throw std::runtime_error with OpenImageIO's words.
 class ImageCodec {
  public:
   virtual ~ImageCodec() = default;
   /// The bytes of the file; of TIFF none, they are in ImageToEncode::file.
   virtual std::vector<std::uint8_t> encode(const ImageToEncode& image) const = 0;
   virtual DecodedImage decode(const std::string& path) const = 0;
+  /// "OpenImageIO 2.4.7", as it is loaded.
+  virtual std::string library() const = 0;
 };
 
 /// Loads the module at the first call; from any thread. Throws Error where it is missing or of another build,

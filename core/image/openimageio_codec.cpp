@@ -67,6 +67,12 @@ class OpenImageIOCodec final : public ImageCodec {
       throw std::runtime_error(picture.geterror());
     return decoded;
   }
+
+  std::string library() const override {
+    const int version = OIIO::openimageio_version();
+    return "OpenImageIO " + std::to_string(version / 10000) + "." + std::to_string(version / 100 % 100) + "." +
+           std::to_string(version % 100);
+  }
 };
 
 }  // namespace

@@ -1,5 +1,6 @@
-# Writes one C++ file that tells which sources the program is made of: version and commit, and a checksum of what differs
-# from the commit; without git, as from a tarball, a checksum of all sources. The file changes only when the answer does.
+# Writes one C++ file that tells which sources the program is made of: version, commit and its date, and a checksum of
+# what differs from the commit; without git, as from a tarball, a checksum of all sources. The file changes only when the
+# answer does.
 # Run as: cmake -DSOURCE=<root of the tree> -DVERSION=<number> -DOUTPUT=<file.cpp> -P build_version.cmake
 cmake_minimum_required(VERSION 3.25)
 set(compiled app core exporters gpu_shaders scripts/cmake CMakeLists.txt)
@@ -29,8 +30,10 @@ endfunction()
 git(root rev-parse --show-toplevel)
 file(REAL_PATH "${SOURCE}" real_source)
 git(commit describe --always --abbrev=12 --exclude=*)
+file(TIMESTAMP "${SOURCE}/CHANGELOG.md" date "%Y-%m-%d" UTC)
 if(commit AND root STREQUAL real_source)
   set(build "g${commit}")
+  git(date log -1 --format=%cs)
   git(changed diff HEAD --binary --no-ext-diff -- ${compiled})
   git(added ls-files --others --exclude-standard -- ${compiled})
   if(NOT "${changed}${added}" STREQUAL "")
@@ -62,6 +65,7 @@ file(CONFIGURE OUTPUT "${OUTPUT}" CONTENT "// SPDX-License-Identifier: BSD-3-Cla
 namespace meniscus {
 
 const char* build_version() { return \"${VERSION}+${build}\"; }
+const char* build_date() { return \"${date}\"; }
 
 }  // namespace meniscus
 ")

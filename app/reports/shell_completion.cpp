@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Writes the completion of each shell from the tree of commands. In all of them the words before the cursor are followed
+// down the tree; what may stand there is the options of that command, its commands, the words of an option, or a path.
+#include "app/reports/shell_completion.h"
+
+#include <algorithm>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+
+namespace meniscus {
+namespace {
+
+std::string joined(const std::vector<std::string>& words, std::string_view between) {
+  return fmt::format("{}", fmt::join(words, between));
+}
+
+std::string replaced(std::string text, std::string_view what, std::string_view with) {
+  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + with.size()))
+    text.replace(at, what.size(), with);
+  return text;
+}
+
+/// In single quotes, as bash and zsh read them.
+std::string shell_quoted(const std::string& text) { return "'" + replaced(text, "'", R"('\'')") + "'"; }
+
+/// In single quotes, as fish reads them.
+std::string fish_quoted(const std::string& text) {
+  return "'" + replaced(replaced(text, "\\", "\\\\"), "'", "\\'") + "'";
+}
+
+/// "meniscus/export/povray"
+std::string slashed(const CommandEntry& command) { return replaced(command.path, " ", "/"); }
+
+std::vector<OptionEntry> options_of(const CommandEntry& command) {
+  std::vector<OptionEntry> all;
+  for (const OptionSection& section : command.sections)
+    all.insert(all.end(), section.options.begin(), section.options.end());
+  return all;
+}
+
+/// The words with which a case statement goes one command down: "meniscus/export|meniscus/export/ply".
+std::vector<std::string> commands_below(const CommandEntry& program) {
+  std::vector<std::string> all;
+  for (const CommandEntry* command : all_commands(program))
+    if (command != &program) all.push_back(slashed(*command));
+  return all;
+}
+
+std::vector<std::string> command_names(const CommandEntry& command) {
+  std::vector<std::string> names;
+  for (const CommandEntry& below : command.commands) names.push_back(below.name);
+  return names;
+}
+
+// bash
+
+/// The lines of a case statement for the values of a command's options.
+std::string bash_values(const CommandEntry& command) {
+  std::string lines;
+  for (const OptionEntry& option : options_of(command)) {
+    if (option.value.empty()) continue;
+    std::vector<std::string> patterns;
+    for (const std::string& name : option.names) patterns.push_back(shell_quoted(slashed(command) + " " + name));
+    const std::string action = !option.words.empty()  ? "words=" + shell_quoted(joined(option.words, " "))
+                               : option.takes_path() ? "paths=yes"
+                                                     : "";
+    if (option.value_optional && action.empty()) continue;
+    lines += fmt::format("    {}) value=yes {} ;;\n", joined(patterns, " | "), action);
+  }
+  return lines;
+}
+
+/// What may stand where no value is due.
+std::string bash_words(const CommandEntry& command) {
+  std::vector<std::string> options, words = command_names(command);
+  for (const OptionEntry& option : options_of(command))
+    options.insert(options.end(), option.names.begin(), option.names.end());
+  std::string paths;
+  for (const OptionEntry& argument : command.arguments) {
+    words.insert(words.end(), argument.words.begin(), argument.words.end());
+    if (argument.takes_path()) paths = " paths=yes";
+  }
+  return fmt::format("    {}) options={} words={}{} ;;\n", shell_quoted(slashed(command)),
+                     shell_quoted(joined(options, " ")), shell_quoted(joined(words, " ")), paths);
+}
+
+// zsh
+
+/// A text within a specification of _arguments.
+std::string zsh_text(const std::string& text) {
+  std::string safe = replaced(text, "\\", "\\\\");
+  for (const std::string_view special : {"[", "]", ":"}) safe = replaced(safe, special, "\\" + std::string(special));
+  return safe;
+}
+
+std::string zsh_value(const OptionEntry& option, const std::string& name) {
+  const std::string action = !option.words.empty()  ? "(" + joined(option.words, " ") + ")"
+                             : option.takes_path() ? "_files"
+                                                   : "";
+  return fmt::format(":{}:{}", zsh_text(name), action);
+}
+
+std::string zsh_options(const CommandEntry& command) {
+  std::string lines;
+  for (const OptionEntry& option : options_of(command))
+    for (const std::string& name : option.names) {
+      std::string spec = "*" + name + "[" + zsh_text(option.description) + "]";
+      if (!option.value.empty()) spec += (option.value_optional ? ":" : "") + zsh_value(option, option.value);
+      lines += " \\\n    " + shell_quoted(spec);
+    }
+  return lines;
+}
+
+std::string zsh_function_name(const CommandEntry& command) { return "_" + replaced(command.path, " ", "_"); }
+
+std::string zsh_function(const CommandEntry& command) {
+  std::string text = zsh_function_name(command) + "() {\n";
+  if (command.commands.empty()) {
+    text += "  _arguments -s" + zsh_options(command);
+    for (const OptionEntry& argument : command.arguments)
+      text += " \\\n    " + shell_quoted("*" + zsh_value(argument, argument.names.front()));
+    return text + "\n}\n";
+  }
+  text += "  local context state line\n  typeset -A opt_args\n  local -a commands\n";
+  text += "  _arguments -C" + zsh_options(command) + " \\\n    '1:command:->command' '*::argument:->argument'\n";
+  text += "  case $state in\n    command)\n      commands=(\n";
+  for (const CommandEntry& below : command.commands)
+    text += "        " + shell_quoted(below.name + ":" + below.summary) + "\n";
+  text += "      )\n      _describe -t commands command commands\n      ;;\n    argument)\n      case $line[1] in\n";
+  for (const CommandEntry& below : command.commands)
+    text += fmt::format("        {}) {} ;;\n", below.name, zsh_function_name(below));
+  return text + "      esac\n      ;;\n  esac\n}\n";
+}
+
+// fish
+
+std::string fish_options(const CommandEntry& command) {
+  const std::string here = "complete -c meniscus -n '__meniscus_at " + slashed(command) + "'";
+  std::string lines;
+  for (const OptionEntry& option : options_of(command)) {
+    lines += here;
+    for (const std::string& name : option.names)
+      lines += name.starts_with("--") ? " -l " + name.substr(2) : " -s " + name.substr(1);
+    if (!option.words.empty()) {
+      lines += " -x -a " + fish_quoted(joined(option.words, " "));
+    } else if (option.takes_path()) {
+      lines += " -r -F";
+    } else if (!option.value.empty() && !option.value_optional) {
+      lines += " -x";
+    }
+    lines += " -d " + fish_quoted(option.description) + "\n";
+  }
+  for (const CommandEntry& below : command.commands)
+    lines += fmt::format("{} -a {} -d {}\n", here, below.name, fish_quoted(below.summary));
+  for (const OptionEntry& argument : command.arguments) {
+    if (!argument.words.empty()) lines += here + " -a " + fish_quoted(joined(argument.words, " ")) + "\n";
+    if (argument.takes_path()) lines += here + " -F\n";
+  }
+  return lines;
+}
+
+}  // namespace
+
+std::string bash_completion(const CommandEntry& program) {
+  std::string values, words;
+  for (const CommandEntry* command : all_commands(program)) {
+    values += bash_values(*command);
+    words += bash_words(*command);
+  }
+  return fmt::format(R"(# Completion of {0} for bash; written by: {0} completion bash
+_{0}() {{
+  local current=${{COMP_WORDS[COMP_CWORD]}} previous=${{COMP_WORDS[COMP_CWORD - 1]}}
+  local command={0} word value= words= options= paths=
+  for word in "${{COMP_WORDS[@]:1:COMP_CWORD-1}}"; do
+    case $command/$word in
+      {1}) command+=/$word ;;
+    esac
+  done
+  case "$command $previous" in
+{2}  esac
+  [[ $value ]] || case $command in
+{3}  esac
+  if [[ $current == -* && $options ]]; then
+    words=$options paths=
+  fi
+  mapfile -t COMPREPLY < <(compgen -W "$words" -- "$current")
+  if [[ $paths && ${{#COMPREPLY[@]}} == 0 ]]; then
+    compopt -o default 2>/dev/null
+  fi
+}}
+complete -F _{0} {0}
+)",
+                     program.name, joined(commands_below(program), " | "), values, words);
+}
+
+std::string zsh_completion(const CommandEntry& program) {
+  std::string text = fmt::format("#compdef {0}\n# Completion of {0} for zsh; written by: {0} completion zsh\n",
+                                 program.name);
+  for (const CommandEntry* command : all_commands(program)) text += "\n" + zsh_function(*command);
+  // Loaded by its name it is called at once; sourced it only says what it completes.
+  return text + fmt::format(R"(
+if [[ $funcstack[1] == _{0} ]]; then
+  _{0} "$@"
+else
+  compdef _{0} {0}
+fi
+)",
+                            program.name);
+}
+
+std::string fish_completion(const CommandEntry& program) {
+  std::string text = fmt::format(R"(# Completion of {0} for fish; written by: {0} completion fish
+function __{0}_at
+    set -l command {0}
+    for word in (commandline -opc)[2..-1]
+        switch $command/$word
+            case {1}
+                set command $command/$word
+        end
+    end
+    test $command = $argv[1]
+end
+complete -c {0} -f
+)",
+                                 program.name, joined(commands_below(program), " "));
+  for (const CommandEntry* command : all_commands(program)) text += fish_options(*command);
+  return text;
+}
+
+}  // namespace meniscus

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Asks compiler, libraries and GL for their versions.
+#include "app/reports/version_report.h"
+
+#include <cstdlib>
+#include <exception>
+#include <string_view>
+
+#include <gnu/libc-version.h>
+#include <sys/utsname.h>
+
+#include <CLI/Version.hpp>
+#include <fmt/format.h>
+#include <glm/detail/setup.hpp>
+#include <nlohmann/detail/abi_macros.hpp>
+#include <openssl/crypto.h>
+#include <tbb/version.h>
+#include <zlib.h>
+
+#include "app/process/build_version.h"
+#include "core/gpu/egl_context.h"
+#include "core/image/image_codec.h"
+
+namespace meniscus {
+namespace {
+
+#if defined(__clang__)
+constexpr const char* kCompiler = __VERSION__;
+#else
+constexpr const char* kCompiler = "GCC " __VERSION__;
+#endif
+
+std::string row(std::string_view what, std::string_view answer) { return fmt::format("\n{:<12}{}", what, answer); }
+
+/// What `ask` says, or why it cannot.
+template <class Ask>
+std::string answer_of(Ask ask) {
+  try {
+    return ask();
+  } catch (const std::exception& error) {
+    return fmt::format("none: {}", error.what());
+  }
+}
+
+std::string system_line() {
+  utsname system{};
+  ::uname(&system);
+  return fmt::format("{} {} {}, glibc {}", system.sysname, system.release, system.machine, ::gnu_get_libc_version());
+}
+
+std::string libraries_line() {
+  return fmt::format("oneTBB {}, fmt {}.{}.{}, zlib {}, OpenSSL {}, GLM {}.{}.{}, CLI11 {}, JSON for Modern C++ {}.{}.{}",
+                     TBB_runtime_version(), FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100,
+                     ::zlibVersion(), ::OpenSSL_version(OPENSSL_VERSION_STRING), GLM_VERSION_MAJOR, GLM_VERSION_MINOR,
+                     GLM_VERSION_PATCH, CLI11_VERSION, NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR,
+                     NLOHMANN_JSON_VERSION_PATCH);
+}
+
+std::string gl_line() {
+  DeviceChoice choice;
+  if (const char* visible = std::getenv("CUDA_VISIBLE_DEVICES")) choice.cuda_visible = visible;
+  const EglContext context(choice);
+  return fmt::format("{}, {}; {}", context.version(), context.renderer(), context.vendor());
+}
+
+}  // namespace
+
+std::string version_line() { return std::string("meniscus ") + build_version(); }
+
+std::string version_report() {
+  return version_line() + row("sources", build_date()) +
+         row("compiler", fmt::format("{}, {}", kCompiler, MENISCUS_BUILD_TYPE)) + row("system", system_line()) +
+         row("libraries", libraries_line()) + row("pictures", answer_of([] { return image_codec().library(); })) +
+         row("GL", answer_of(gl_line));
+}
+
+}  // namespace meniscus

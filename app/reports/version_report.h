@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Which program this is, and of what it is made: for reports of faults.
+#pragma once
+
+#include <string>
+
+namespace meniscus {
+
+/// "meniscus 0.1.0+g2b6bb4a4c1d2"
+std::string version_line();
+
+/// That, and lines about compiler, system, libraries as they are loaded, and the GL driver that auto would take. What
+/// cannot be found is told in its line. Reads CUDA_VISIBLE_DEVICES like --device.
+std::string version_report();
+
+}  // namespace meniscus

@@ -1,0 +1,24 @@
+# What `cmake --install` brings, once everything is built, and what a Debian package holds. The program finds its module
+# in ../lib/meniscus and the Blender add-on in ../share/meniscus, so that the whole may stand anywhere.
+find_program(GZIP gzip REQUIRED)
+set(share ${CMAKE_BINARY_DIR}/share_of_program)
+add_custom_command(
+  OUTPUT ${share}/man/man1/meniscus.1.gz
+  COMMAND ${CMAKE_COMMAND} -DPROGRAM=$<TARGET_FILE:meniscus> -DFOLDER=${share} -DGZIP=${GZIP}
+          -P ${CMAKE_CURRENT_LIST_DIR}/make_share.cmake
+  DEPENDS meniscus ${CMAKE_CURRENT_LIST_DIR}/make_share.cmake
+  COMMENT "Writing manual and completion" VERBATIM)
+add_custom_target(meniscus_share ALL DEPENDS ${share}/man/man1/meniscus.1.gz)
+
+install(TARGETS meniscus RUNTIME DESTINATION bin COMPONENT program)
+install(TARGETS meniscus_openimageio LIBRARY DESTINATION lib/meniscus COMPONENT program
+        PERMISSIONS OWNER_READ OWNER_WRITE GROUP_READ WORLD_READ)
+install(DIRECTORY ${CMAKE_SOURCE_DIR}/exporters/blender/addon DESTINATION share/meniscus COMPONENT program
+        PATTERN __pycache__ EXCLUDE)
+install(DIRECTORY ${share}/ DESTINATION share COMPONENT program)
+install(DIRECTORY ${CMAKE_SOURCE_DIR}/docs DESTINATION share/doc/meniscus COMPONENT program)
+install(FILES ${CMAKE_SOURCE_DIR}/README.md ${CMAKE_SOURCE_DIR}/SECURITY.md DESTINATION share/doc/meniscus
+        COMPONENT program)
+install(FILES ${CMAKE_SOURCE_DIR}/LICENSE DESTINATION share/doc/meniscus RENAME copyright COMPONENT program)
+
+include(${CMAKE_CURRENT_LIST_DIR}/debian.cmake)

@@ -1,0 +1,25 @@
+# Writes what the program itself tells into a folder as it will stand below share/: manual pages, compressed, and the
+# completion of shells.
+# Run as: cmake -DPROGRAM=<meniscus> -DFOLDER=<folder> -DGZIP=<gzip> -P make_share.cmake
+cmake_minimum_required(VERSION 3.25)
+file(REMOVE_RECURSE "${FOLDER}")
+file(MAKE_DIRECTORY "${FOLDER}/man/man1" "${FOLDER}/man/man7")
+
+execute_process(COMMAND "${PROGRAM}" help --man "${FOLDER}/man" COMMAND_ERROR_IS_FATAL ANY)
+foreach(section 1 7)
+  file(GLOB pages "${FOLDER}/man/*.${section}")
+  execute_process(COMMAND "${GZIP}" -9n ${pages} COMMAND_ERROR_IS_FATAL ANY)
+  file(GLOB pages "${FOLDER}/man/*.${section}.gz")
+  file(COPY ${pages} DESTINATION "${FOLDER}/man/man${section}")
+  file(REMOVE ${pages})
+endforeach()
+
+# Where Debian's shells look.
+foreach(completion bash:bash-completion/completions/meniscus zsh:zsh/vendor-completions/_meniscus
+                   fish:fish/vendor_completions.d/meniscus.fish)
+  string(REPLACE ":" ";" completion ${completion})
+  list(GET completion 0 shell)
+  list(GET completion 1 path)
+  execute_process(COMMAND "${PROGRAM}" completion ${shell} OUTPUT_VARIABLE text COMMAND_ERROR_IS_FATAL ANY)
+  file(WRITE "${FOLDER}/${path}" "${text}")
+endforeach()
