@@ -1,0 +1,107 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The order of folders: no file includes one of a folder that comes later, and no files include each other in a ring."""
+
+import pathlib
+import re
+import sys
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+
+# From what needs nothing to what needs everything. Folders of one line know nothing of each other; a file belongs to
+# the longest name that its path begins with.
+ORDER = [
+    ["core/base", "gpu_shaders"],
+    ["core/text"],
+    ["core/math"],
+    ["core/structure"],
+    ["core/color", "core/trajectory"],
+    ["core/camera"],
+    ["core/gpu", "core/image"],
+    ["core/reduced_surface"],
+    ["core/surface"],
+    ["core/queries"],
+    ["core/render"],
+    ["core/visible_surface"],
+    ["core/scene"],
+    ["exporters/mesh"],
+    ["exporters/povray", "exporters/blender", "exporters/c_api"],
+    ["app"],
+]
+INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.M)
+
+
+def sources(root=ROOT, folders=("core", "gpu_shaders", "exporters", "app")):
+    """Path of each file, and those of ours that it includes."""
+    graph = {}
+    for folder in folders:
+        for path in sorted((root / folder).rglob("*")):
+            if path.suffix in {".cpp", ".h", ".glsl", ".comp"}:
+                included = [name for name in INCLUDE.findall(path.read_text()) if (root / name).is_file()]
+                graph[str(path.relative_to(root))] = included
+    return graph
+
+
+def place(path, order):
+    """The line of the table and the folder in it; None for a file of no folder there."""
+    found = [(row, folder) for row, folders in enumerate(order) for folder in folders if path.startswith(folder + "/")]
+    return max(found, key=lambda entry: len(entry[1]), default=None)
+
+
+def arrows_back(graph, order):
+    """Each include that runs to a later folder, or to another one of the same line."""
+    wrong = []
+    for path, included in graph.items():
+        here = place(path, order)
+        for name in included:
+            there = place(name, order)
+            if here and there and here[1] != there[1] and there[0] >= here[0]:
+                wrong.append(f"{path} ({here[1]}) includes {name} ({there[1]})")
+    return wrong
+
+
+def rings(graph):
+    """A path through each set of files that include each other in a ring."""
+    found, state, stack = [], {}, []
+
+    def walk(path):
+        state[path] = "open"
+        stack.append(path)
+        for name in graph.get(path, []):
+            if state.get(name) == "open":
+                found.append(" -> ".join([*stack[stack.index(name):], name]))
+            elif name not in state:
+                walk(name)
+        stack.pop()
+        state[path] = "done"
+
+    for path in graph:
+        if path not in state:
+            walk(path)
+    return found
+
+
+class IncludeGraph(unittest.TestCase):
+    def test_every_file_has_its_place(self):
+        graph = sources()
+        self.assertGreater(len(graph), 300)
+        self.assertEqual([path for path in graph if not place(path, ORDER)], [])
+
+    def test_no_arrow_runs_back(self):
+        self.assertEqual(arrows_back(sources(), ORDER), [])
+
+    def test_no_files_include_each_other(self):
+        self.assertEqual(rings(sources()), [])
+
+    def test_what_is_wrong_is_found(self):
+        order = [["a"], ["b", "c"], ["b/inner"]]
+        graph = {"a/x.h": ["b/x.h"], "b/x.h": ["a/x.h", "c/x.h"], "c/x.h": [], "b/inner/x.h": ["b/x.h"]}
+        self.assertEqual(arrows_back(graph, order), ["a/x.h (a) includes b/x.h (b)", "b/x.h (b) includes c/x.h (c)"])
+        self.assertEqual(rings(graph), ["a/x.h -> b/x.h -> a/x.h"])
+
+
+if __name__ == "__main__":
+    if sys.argv[1:] == ["--list"]:
+        print("\n".join(arrows_back(sources(), ORDER) + rings(sources())))
+    else:
+        unittest.main()
