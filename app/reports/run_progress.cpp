@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Writes progress in the style that was asked for.
-#include "app/options/value_words.h"
 #include "app/reports/run_progress.h"
 
 #include <iostream>
