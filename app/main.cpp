@@ -22,9 +22,17 @@ namespace meniscus {
 namespace {
 
 constexpr Command kCommands[] = {
-    {"surface", add_surface}, {"render", add_render}, {"preview", add_preview}, {"export", add_export},
-    {"farm", add_farm},       {"work", add_work},     {"info", add_info},       {"formats", add_formats},
-    {"colors", add_colors},   {"bench", add_bench},   {"completion", add_completion},
+    {"surface", add_surface},
+    {"render", add_render},
+    {"preview", add_preview},
+    {"export", add_export},
+    {"farm", add_farm},
+    {"work", add_work},
+    {"info", add_info},
+    {"formats", add_formats},
+    {"colors", add_colors},
+    {"bench", add_bench},
+    {"completion", add_completion},
     {"help", add_help},
 };
 
@@ -91,7 +99,8 @@ void run(int argc, char** argv) {
   program.get_formatter()->label("Positionals", "Arguments");
   program.get_formatter()->label("SUBCOMMAND", "COMMAND");
   bool verbose = false;
-  program.add_flag("--verbose", verbose, "With --version: also compiler, libraries and GL driver, for reports of faults");
+  program.add_flag("--verbose", verbose,
+                   "With --version: also compiler, libraries and GL driver, for reports of faults");
   program.set_version_flag(
       "--version", [&verbose] { return verbose ? version_report() : version_line(); }, "Show version and commit");
   program.set_help_flag("-h,--help", "Show this help");

@@ -17,7 +17,7 @@ struct OptionEntry {
   std::string value;               ///< the word for its value; empty if it takes none
   std::string description;
   bool required = false;
-  bool value_optional = false;      ///< may stand without its value
+  bool value_optional = false;     ///< may stand without its value
   std::vector<std::string> words;  ///< values to propose; empty if they are not words
 
   /// Whether the value is a path.
@@ -32,10 +32,10 @@ struct OptionSection {
 
 /// A command, and those below it.
 struct CommandEntry {
-  std::string name;      ///< the word that was typed: "meniscus", "export", "povray"
-  std::string path;      ///< all words: "meniscus export povray"
-  std::string summary;   ///< one line
-  std::string footer;    ///< examples, and what else a reader should know
+  std::string name;     ///< the word that was typed: "meniscus", "export", "povray"
+  std::string path;     ///< all words: "meniscus export povray"
+  std::string summary;  ///< one line
+  std::string footer;   ///< examples, and what else a reader should know
   std::vector<OptionEntry> arguments;
   std::vector<OptionSection> sections;
   std::vector<CommandEntry> commands;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes the completion of each shell from the tree of commands. In all of them the words before the cursor are followed
-// down the tree; what may stand there is the options of that command, its commands, the words of an option, or a path.
+// Writes the completion of each shell from the tree of commands. In all of them the words before the cursor are
+// followed down the tree; what may stand there is the options of that command, its commands, the words of an option, or
+// a path.
 #include "app/reports/shell_completion.h"
 
 #include <algorithm>
@@ -63,7 +64,7 @@ std::string bash_values(const CommandEntry& command) {
     if (option.value.empty()) continue;
     std::vector<std::string> patterns;
     for (const std::string& name : option.names) patterns.push_back(shell_quoted(slashed(command) + " " + name));
-    const std::string action = !option.words.empty()  ? "words=" + shell_quoted(joined(option.words, " "))
+    const std::string action = !option.words.empty() ? "words=" + shell_quoted(joined(option.words, " "))
                                : option.takes_path() ? "paths=yes"
                                                      : "";
     if (option.value_optional && action.empty()) continue;
@@ -96,7 +97,7 @@ std::string zsh_text(const std::string& text) {
 }
 
 std::string zsh_value(const OptionEntry& option, const std::string& name) {
-  const std::string action = !option.words.empty()  ? "(" + joined(option.words, " ") + ")"
+  const std::string action = !option.words.empty() ? "(" + joined(option.words, " ") + ")"
                              : option.takes_path() ? "_files"
                                                    : "";
   return fmt::format(":{}:{}", zsh_text(name), action);
@@ -196,8 +197,8 @@ complete -F _{0} {0}
 }
 
 std::string zsh_completion(const CommandEntry& program) {
-  std::string text = fmt::format("#compdef {0}\n# Completion of {0} for zsh; written by: {0} completion zsh\n",
-                                 program.name);
+  std::string text =
+      fmt::format("#compdef {0}\n# Completion of {0} for zsh; written by: {0} completion zsh\n", program.name);
   for (const CommandEntry* command : all_commands(program)) text += "\n" + zsh_function(*command);
   // Loaded by its name it is called at once; sourced it only says what it completes.
   return text + fmt::format(R"(

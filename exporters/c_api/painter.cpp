@@ -9,7 +9,7 @@
 
 #include "core/gpu/egl_context.h"
 #include "core/image/display_color.h"
-#include "core/render/ray_caster.h"
+#include "core/render/renderer.h"
 #include "exporters/c_api/cpu_threads.h"
 #include "exporters/c_api/device.h"
 #include "exporters/c_api/gl_thread.h"
@@ -119,7 +119,7 @@ void write_pixels(const Framebuffer& drawn, const meniscus_picture& picture, std
 struct Studio {
   explicit Studio(std::int32_t device) : context(gl_of(device)) {}
   EglContext context;
-  RayCaster caster;
+  Renderer renderer;
 };
 
 }  // namespace
@@ -181,7 +181,7 @@ meniscus_status meniscus_paint(meniscus_painter* painter, const meniscus_surface
     meniscus::Framebuffer drawn;
     painter->studio.run([&](Studio& studio) {
       run_on_threads(finished.threads,
-                     [&] { drawn = studio.caster.render(finished.surface, coloring, camera, settings_of(wanted)); });
+                     [&] { drawn = studio.renderer.render(finished.surface, coloring, camera, settings_of(wanted)); });
     });
     write_pixels(drawn, wanted, rgba);
   });

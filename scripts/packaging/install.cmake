@@ -11,7 +11,7 @@ add_custom_command(
 add_custom_target(meniscus_share ALL DEPENDS ${share}/man/man1/meniscus.1.gz)
 
 install(TARGETS meniscus RUNTIME DESTINATION bin COMPONENT program)
-install(TARGETS meniscus_openimageio LIBRARY DESTINATION lib/meniscus COMPONENT program
+install(TARGETS meniscus_openimageio meniscus_hdf5 LIBRARY DESTINATION lib/meniscus COMPONENT program
         PERMISSIONS OWNER_READ OWNER_WRITE GROUP_READ WORLD_READ)
 install(DIRECTORY ${CMAKE_SOURCE_DIR}/exporters/blender/addon DESTINATION share/meniscus COMPONENT program
         PATTERN __pycache__ EXCLUDE)

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads H5MD through the HDF5 library.
+// Reads H5MD through the HDF5 library: a module of its own, see h5md_format.cpp.
+#include "core/trajectory/formats/read_h5md.h"
+
 #include <hdf5.h>
 
 #include <algorithm>
@@ -13,7 +15,6 @@
 #include "core/base/units.h"
 #include "core/trajectory/formats/binary_file.h"
 #include "core/trajectory/formats/cell.h"
-#include "core/trajectory/formats/formats.h"
 
 namespace meniscus {
 namespace {
@@ -299,17 +300,14 @@ class H5md final : public Trajectory {
   std::vector<double> numbers_;
 };
 
-bool recognizes(std::string_view start) { return start.starts_with("\x89HDF\r\n\x1a\n"); }
+std::unique_ptr<Trajectory> open_h5md(const std::string& path) { return std::make_unique<H5md>(path); }
 
 }  // namespace
-
-const TrajectoryFormat kH5mdFormat{
-    {"H5MD", ".h5md .h5", "trajectories in HDF5, as MDAnalysis, LAMMPS and ESPResSo write them",
-     "P. de Buyl, P. H. Colberg and F. Höfling, Comput. Phys. Commun. 185, 1546 (2014)",
-     "positions of the first group of particles, with their unit; boxes (edges or vectors), steps and times"},
-    recognizes,
-    [](const std::string& path, const TrajectoryOptions&) {
-      return std::unique_ptr<Trajectory>(std::make_unique<H5md>(path));
-    }};
-
 }  // namespace meniscus
+
+// Nothing for a program that was built with another idea of what passes between them.
+extern "C" __attribute__((visibility("default"))) meniscus::OpenH5md* meniscus_open_h5md(const char* version,
+                                                                                         std::size_t frame_size) {
+  return version == std::string_view(MENISCUS_VERSION) && frame_size == sizeof(meniscus::Frame) ? meniscus::open_h5md
+                                                                                                : nullptr;
+}

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Finds and loads modules.
+#include "core/base/module_file.h"
+
+#include <filesystem>
+#include <string>
+#include <system_error>
+
+#include <dlfcn.h>
+#include <sys/mman.h>
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+
+namespace meniscus {
+namespace {
+
+namespace fs = std::filesystem;
+
+void require_room(const ModuleFile& module) {
+  void* const room = ::mmap(nullptr, module.room, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  if (room == MAP_FAILED)
+    throw CapacityError(
+        fmt::format("{} need {} MiB of address space more (ulimit -v)", module.purpose, module.room >> 20));
+  ::munmap(room, module.room);
+}
+
+fs::path path_of(const ModuleFile& module) {
+  std::error_code none;
+  const fs::path program = fs::read_symlink("/proc/self/exe", none).parent_path();
+  for (const fs::path& path :
+       {program / module.name, program / "../lib/meniscus" / module.name, fs::path(module.built)})
+    if (fs::exists(path, none)) return path;
+  throw Error(fmt::format("{} need {} beside the program, and it is not there", module.purpose, module.name));
+}
+
+}  // namespace
+
+void* load_from_module(const ModuleFile& module, const char* function) {
+  const fs::path path = path_of(module);
+  require_room(module);
+  void* const handle = ::dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
+  void* const address = handle ? ::dlsym(handle, function) : nullptr;
+  if (address) return address;
+  const char* const why = ::dlerror();
+  throw CapacityError(
+      fmt::format("{} need {}, and it cannot be loaded: {}", module.purpose, module.name, why ? why : path.c_str()));
+}
+
+void refuse_module(const ModuleFile& module) {
+  throw Error(fmt::format("{} belongs to another build; install it together with the program", module.name));
+}
+
+}  // namespace meniscus

@@ -1,0 +1,53 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Installs what was built into a temporary folder, and runs the program from there."""
+
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+BUILD = pathlib.Path(sys.argv.pop(1)).resolve()
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+
+
+def run(*words, **options):
+    """Of a command: exit code, output and messages, as text."""
+    return subprocess.run([str(word) for word in words], capture_output=True, text=True, check=False, **options)
+
+
+class Installation(unittest.TestCase):
+    """`prefix` has what cmake --install brings."""
+
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.folder = pathlib.Path(folder.name)
+        cls.prefix = cls.folder / "anywhere"
+        done = run("cmake", "--install", BUILD, "--prefix", cls.prefix)
+        assert done.returncode == 0, done.stderr
+        cls.program = cls.prefix / "bin/meniscus"
+
+    def good(self, *words, **options):
+        done = run(*words, **options)
+        self.assertEqual(done.returncode, 0, f"{words}: {done.stderr}")
+        return done
+
+    def commands(self):
+        """The words of every command, and of the program itself: [], ["surface"], ["export", "povray"]..."""
+        found = [[]]
+        for words in found:
+            lines = self.good(self.program, *words, "--help").stdout.split("\nCommands:\n")[1:]
+            for line in (lines or [""])[0].splitlines():
+                if line.startswith("  ") and line[2] != " ":
+                    found.append([*words, line.split()[0]])
+        return found
+
+    def options(self, words):
+        """The names of a command's options, as its help has them."""
+        names = []
+        for line in self.good(self.program, *words, "--help").stdout.splitlines():
+            if line.startswith("  -"):
+                names += [name for name in line.split()[0].split(",") if name.startswith("-")]
+        return names

@@ -1,0 +1,51 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The manual pages that are installed: one a command and a topic, without warnings, with every option of the help."""
+
+import gzip
+import shutil
+import unittest
+
+from installation import Installation
+
+
+class Manual(Installation):
+    def pages(self, section):
+        pages = sorted((self.prefix / f"share/man/man{section}").glob(f"*.{section}.gz"))
+        self.assertTrue(pages)
+        return pages
+
+    def test_every_command_has_its_page(self):
+        names = {"-".join(["meniscus", *words]) + ".1.gz" for words in self.commands()}
+        self.assertEqual(names, {page.name for page in self.pages(1)})
+
+    def test_every_topic_has_its_page(self):
+        listed = self.good(self.program, "help").stdout.split("\n\n")[1]
+        self.assertEqual({f"meniscus-{line.split()[0]}.7.gz" for line in listed.splitlines()},
+                         {page.name for page in self.pages(7)})
+
+    def test_every_option_of_the_help_is_in_the_page(self):
+        for words in self.commands():
+            page = self.prefix / "share/man/man1" / ("-".join(["meniscus", *words]) + ".1.gz")
+            text = gzip.decompress(page.read_bytes()).decode().replace("\\-", "-")
+            options = self.options(words)
+            self.assertIn("--help", options)
+            for name in options:
+                self.assertIn(f"\\fB{name}\\fR", text, page.name)
+
+    @unittest.skipUnless(shutil.which("man"), "man is not installed")
+    def test_man_has_no_warning(self):
+        for page in self.pages(1) + self.pages(7):
+            done = self.good("man", "--warnings", "-E", "UTF-8", "-Tutf8", "-Z", "-l", page,
+                             env={"LC_ALL": "C.UTF-8", "MANROFFSEQ": "", "MANWIDTH": "80", "PATH": "/usr/bin:/bin"})
+            self.assertEqual(done.stderr, "", page.name)
+
+    @unittest.skipUnless(shutil.which("mandoc"), "mandoc is not installed")
+    def test_mandoc_has_no_warning(self):
+        for page in self.pages(1) + self.pages(7):
+            plain = self.folder / page.stem
+            plain.write_bytes(gzip.decompress(page.read_bytes()))
+            self.assertEqual(self.good("mandoc", "-Tlint", "-Wwarning", plain).stdout, "", page.name)
+
+
+if __name__ == "__main__":
+    unittest.main()
