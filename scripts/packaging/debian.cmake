@@ -28,6 +28,7 @@ set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
 set(CPACK_PACKAGE_CONTACT ${MENISCUS_MAINTAINER})
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
+set(CPACK_POST_BUILD_SCRIPTS ${CMAKE_CURRENT_LIST_DIR}/ldconfig_by_trigger.cmake)
 set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
     OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
@@ -37,8 +38,7 @@ set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME meniscus)
-set(CPACK_DEBIAN_PROGRAM_DESCRIPTION "exact, analytic solvent-excluded surfaces of molecules
-Meniscus computes the solvent-excluded surface of a molecule exactly: as
+set(CPACK_DEBIAN_PROGRAM_DESCRIPTION "Meniscus computes the solvent-excluded surface of a molecule exactly: as
 spheres, tori and clipped spheres, closed and certified, never as a mesh that
 approximates them. It does so on the GPU or the CPU, shows the surface while it
 changes, ray casts it to pictures and films, and hands the same patches to

@@ -15,7 +15,7 @@ ASK = {
                compopt() { [[ $* == '-o default' ]] && echo FILES; }
                COMP_WORDS=("$@") COMP_CWORD=$(($# - 1))
                _meniscus; printf '%s\\n' "${COMPREPLY[@]}" """,
-    "fish": """source $argv[1]; cd (mktemp -d); complete -C (string join ' ' $argv[2..-1]) | string split -f 1 \\t""",
+    "fish": """source $argv[1]; cd (mktemp -d); complete -C (string join -- ' ' $argv[2..-1]) | string split -f 1 \\t; true""",
 }
 
 

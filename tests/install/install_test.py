@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """An installed program works in any folder: it finds its module and the Blender add-on from its own place."""
 
+import json
+import os
 import re
 import shutil
 import unittest
@@ -22,18 +24,19 @@ class Installed(Installation):
     def test_it_is_the_program_that_was_built(self):
         built = self.good(BUILD / "meniscus", "--version").stdout
         self.assertEqual(self.good(self.program, "--version").stdout, built)
-        here, there = (self.good(program, "surface", self.molecule, "--device", "cpu", "--json", "--quiet").stdout
+        here, there = (json.loads(self.good(program, "surface", self.molecule, "--device", "cpu", "--json").stdout)
                        for program in (BUILD / "meniscus", self.program))
-        without_times = [re.sub(r'"[a-z_]*(seconds|milliseconds)":[0-9.e+-]+', "", text) for text in (here, there)]
-        self.assertEqual(*without_times)
+        for surface in (here, there):
+            del surface["stages"]  # their times
+        self.assertEqual(here, there)
 
     def test_pictures_come_by_the_module_that_was_installed(self):
         picture = self.folder / "two.png"
         loads = self.good(self.program, "render", self.molecule, "-o", picture, "--size", "40x30", "--device", "software",
                           "--force", env={"LD_DEBUG": "files", "PATH": "/usr/bin:/bin"}).stderr
         modules = set(re.findall(r"file=(\S*meniscus_openimageio\.so)", loads))
-        self.assertEqual({str((self.program.parent / name).resolve()) if name.startswith("..") else re.sub(
-            "/bin/../", "/", name) for name in modules}, {str(self.prefix / "lib/meniscus/meniscus_openimageio.so")})
+        self.assertEqual({os.path.normpath(name) for name in modules},
+                         {str(self.prefix / "lib/meniscus/meniscus_openimageio.so")})
         self.assertEqual(picture.read_bytes()[:4], b"\x89PNG")
 
     def test_bundles_for_blender_get_the_add_on_that_was_installed(self):
@@ -44,7 +47,7 @@ class Installed(Installation):
         command = [elsewhere / "bin/meniscus", "farm", "bundle", self.folder / "job", "--chunk-frames", "1", "--",
                    "export", "blender", self.molecule, "--frames", "all"]
         self.good(*command)
-        self.assertTrue((self.folder / "job/blender/render_mns.py").exists())
+        self.assertTrue((self.folder / "job/inputs/blender/render_mns.py").exists())
         driver.unlink()
         refused = run(*command[:4], "--force", *command[4:])
         self.assertEqual(refused.returncode, 3)

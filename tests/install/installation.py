@@ -2,6 +2,7 @@
 """Installs what was built into a temporary folder, and runs the program from there."""
 
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -38,8 +39,8 @@ class Installation(unittest.TestCase):
         """The words of every command, and of the program itself: [], ["surface"], ["export", "povray"]..."""
         found = [[]]
         for words in found:
-            lines = self.good(self.program, *words, "--help").stdout.split("\nCommands:\n")[1:]
-            for line in (lines or [""])[0].splitlines():
+            lines = re.split(r"\n(?:Commands|Formats):\n", self.good(self.program, *words, "--help").stdout)[1:]
+            for line in (lines or [""])[0].split("\n\n")[0].splitlines():
                 if line.startswith("  ") and line[2] != " ":
                     found.append([*words, line.split()[0]])
         return found
