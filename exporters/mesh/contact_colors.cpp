@@ -9,7 +9,6 @@
 #include <glm/geometric.hpp>
 
 #include "core/surface/walks.h"
-#include "exporters/mesh/border_samples.h"
 
 namespace meniscus {
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The order of folders: no file includes one of a folder that comes later, and no headers with their sources include each other in a ring."""
+"""The order of folders: no file includes one of a folder that comes later; headers with their sources make no ring."""
 
 import pathlib
 import re
@@ -15,6 +15,9 @@ ORDER = [
     ["core/text"],
     ["core/math"],
     ["core/structure"],
+    ["core/structure/selection"],
+    ["core/structure/radii"],
+    ["core/structure/formats"],
     ["core/color", "core/trajectory"],
     ["core/camera"],
     ["core/gpu", "core/image"],
@@ -26,6 +29,14 @@ ORDER = [
     ["core/scene"],
     ["exporters/mesh"],
     ["exporters/povray", "exporters/blender", "exporters/c_api"],
+    ["app/process"],
+    ["app/film"],
+    ["app/options"],
+    ["app/reports"],
+    ["app/preview"],
+    ["app/preview/window", "app/preview/server"],
+    ["app/farm"],
+    ["app/commands"],
     ["app"],
 ]
 INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.M)
