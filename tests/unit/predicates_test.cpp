@@ -183,7 +183,8 @@ TEST(Triple, IsNamedAlikeByThePointWhereverAnArcEndsThere) {
     const double over = glm::dot(glm::cross(centers[1] - centers[0], centers[2] - centers[0]), point - centers[0]);
     if (std::abs(over) < 0.1) continue;
     const int circles[3][3] = {{0, 1, 2}, {0, 2, 1}, {1, 2, 0}};
-    for (const auto& [i, j, k] : circles) {
+    for (const auto& names : circles) {
+      const int i = names[0], j = names[1], k = names[2];
       Circle circle;
       const CoveredArc covered = arc_covered(centers, radii, i, j, k, circle);
       const auto at = [&](double pseudo) {
