@@ -20,11 +20,14 @@ glm::dvec3 any_perpendicular(const glm::dvec3& n) {
   return glm::normalize(glm::cross(n, a));
 }
 
-// The point of a circle nearest to x.
+// The point of a circle nearest to x. On the axis all are, but for rounding.
 glm::dvec3 nearest_on_circle(const glm::dvec3& x, const glm::dvec3& center, const glm::dvec3& axis, double radius) {
-  const glm::dvec3 in_plane = (x - center) - glm::dot(x - center, axis) * axis;
-  const double length = glm::length(in_plane);
-  return center + radius * (length > 0.0 ? in_plane / length : any_perpendicular(axis));
+  constexpr double kOnAxis = 1e-12;  // Å
+  glm::dvec3 across = x - center;
+  // Twice: near the axis what the first time leaves along it is not small beside what is across.
+  for (int n = 0; n < 2; ++n) across -= glm::dot(across, axis) * axis;
+  const double length = glm::length(across);
+  return center + radius * (length > kOnAxis ? across / length : any_perpendicular(axis));
 }
 
 }  // namespace

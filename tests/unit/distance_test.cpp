@@ -81,8 +81,10 @@ Tally check(const testing::Balls& atoms, const testing::SphereTracer& oracle, do
   std::uniform_real_distribution<double> offset(-spread, spread);
   Tally tally;
   for (int n = 0; n < count; ++n) {
-    const glm::dvec3 point =
-        atoms[random() % atoms.size()].center + glm::dvec3(offset(random), offset(random), offset(random));
+    // One after another, for arguments are evaluated in an order of the compiler's.
+    const glm::dvec3 middle = atoms[random() % atoms.size()].center;
+    const double x = offset(random), y = offset(random), z = offset(random);
+    const glm::dvec3 point = middle + glm::dvec3(x, y, z);
     const NearestPoint nearest = distance(point);
     const double to_probe = oracle.nearest(point).distance, far = std::abs(nearest.distance);
     EXPECT_NEAR(glm::distance(nearest.point, point), far, 1e-9);
