@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Adds up runs of ctest and names every test that could not run, from their JUnit files.
+"""Adds up runs of ctest, names every test that failed with the end of its output, and every one that could not run,
+from their JUnit files.
 
 Usage: test_summary.py [--strict] [--expected FILE] RUN=JUNIT.xml ...
 
@@ -19,6 +20,7 @@ import xml.etree.ElementTree as ElementTree
 
 GTEST_REASON = re.compile(r": Skipped\n(.*?)\n\s*\n?\[  SKIPPED \]", re.DOTALL)
 UNITTEST_REASON = re.compile(r"^(\S+).*\.\.\. skipped '(.*)'$", re.MULTILINE)
+LINES_OF_A_FAILURE = 40
 NOT_FOUND = "Unable to find executable"  # ctest calls this skipped; it is a failure
 
 
@@ -31,9 +33,15 @@ class Skip:
 
 
 @dataclasses.dataclass
+class Failure:
+    name: str
+    output: str
+
+
+@dataclasses.dataclass
 class Run:
     passed: int = 0
-    failed: int = 0
+    failures: list = dataclasses.field(default_factory=list)
     skips: list = dataclasses.field(default_factory=list)
 
 
@@ -59,7 +67,7 @@ def read_run(name, path):
         elif status == "disabled":
             run.skips.append(Skip(case.get("name"), name, "disabled"))
         elif status != "run":
-            run.failed += 1
+            run.failures.append(Failure(case.get("name"), output))
         else:
             run.passed += 1
             for method, reason in UNITTEST_REASON.findall(output):
@@ -88,7 +96,7 @@ def main():
         runs[name] = read_run(name, path)
     skips = [skip for run in runs.values() for skip in run.skips]
     surprises = [skip for skip in skips if not any(fnmatch.fnmatchcase(skip.name, known) for known in expected)]
-    empty = [name for name, run in runs.items() if run.passed + run.failed + len(run.skips) == 0]
+    empty = [name for name, run in runs.items() if run.passed + len(run.failures) + len(run.skips) == 0]
 
     print(f"could not run: {len(skips)}" + ("" if skips else ", nothing was skipped"))
     for skip in skips:
@@ -96,10 +104,15 @@ def main():
     for name in empty:
         print(f"  {name}: no test at all")
     for name, run in runs.items():
-        print(f"{name}: {run.passed} passed, {run.failed} failed, {sum(skip.whole for skip in run.skips)} skipped")
+        for failure in run.failures:
+            print(f"failed: {failure.name} ({name}), which ended with")
+            for line in failure.output.rstrip().splitlines()[-LINES_OF_A_FAILURE:]:
+                print(f"  | {line}")
+    for name, run in runs.items():
+        print(f"{name}: {run.passed} passed, {len(run.failures)} failed, {sum(skip.whole for skip in run.skips)} skipped")
     if surprises and arguments.strict:
         print(f"{len(surprises)} skipped that {arguments.expected} does not name: install what is missing, or name it there")
-    failed = sum(run.failed for run in runs.values())
+    failed = sum(len(run.failures) for run in runs.values())
     return 1 if failed or (arguments.strict and (empty or surprises)) else 0
 
 

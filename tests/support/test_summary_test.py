@@ -55,8 +55,11 @@ class Summary(unittest.TestCase):
         self.assertEqual(self.summarize(PASSED, BY_CODE, expected="A.c*: no Blender there\n")[0], 0)
         self.assertEqual(self.summarize(PASSED, BY_CODE, BY_GTEST, expected="A.code: no Blender there\n")[0], 1)
 
-    def test_failures_fail(self):
-        self.assertEqual(self.summarize(PASSED, FAILED, strict=False)[0], 1)
+    def test_failures_fail_and_are_named_with_what_they_said(self):
+        code, out = self.summarize(PASSED, FAILED, strict=False)
+        self.assertEqual(code, 1)
+        self.assertIn("failed: A.fails (run), which ended with\n  | bad\n", out)
+        self.assertIn("run: 1 passed, 1 failed, 0 skipped\n", out)
         self.assertEqual(self.summarize(PASSED, MISSING, strict=False)[0], 1)
 
     def test_no_tests_is_no_success(self):
