@@ -112,6 +112,8 @@ Foot foot_on_arc(const Turning& turning, bool whole, const glm::dvec3& x, double
   return {distance, turning.center + turning.radius * at.outward};
 }
 
+Foot at_point(const glm::dvec3& point, const glm::dvec3& x) { return {glm::distance(x, point), point}; }
+
 /// Everything of one table, then of the next.
 template <std::size_t kTables>
 struct Tables {
@@ -120,6 +122,27 @@ struct Tables {
 
   void end(std::size_t table) { first[table + 1] = static_cast<std::uint32_t>(boxes.size()); }
 };
+
+/// The nearest of all feet of x on what a tree's boxes hold. `foot_of` has one rule for each table: of an index into
+/// the table, and of the distance beyond which no foot is wanted.
+template <typename... FootOf>
+Foot nearest_foot(const glm::dvec3& x, const BoxTree& tree, const Tables<sizeof...(FootOf)>& tables,
+                  const FootOf&... foot_of) {
+  Foot nearest;
+  tree.nearest(x, kFar, [&](std::uint32_t n, double limit) {
+    std::size_t table = 0;
+    const auto ask = [&](const auto& foot_of_table) {
+      if (n >= tables.first[table] && n < tables.first[table + 1]) {
+        const Foot foot = foot_of_table(n - tables.first[table], limit);
+        nearest.take(foot.distance, foot.point);
+      }
+      ++table;
+    };
+    (ask(foot_of), ...);
+    return nearest.distance;
+  });
+  return nearest;
+}
 
 }  // namespace
 
@@ -180,47 +203,29 @@ struct SurfaceDistance::Index {
   }
 
   Foot nearest_accessible(const glm::dvec3& x) const {
-    Foot nearest;
-    accessible_tree.nearest(x, kFar, [&](std::uint32_t n, double limit) {
-      Foot foot;
-      if (n < accessible.first[1]) {
-        const ConvexPatch& patch = s.convex[n];
-        foot = foot_on(s, patch, s.atoms[patch.atom].radius + s.probe_radius, x, limit);
-      } else if (n < accessible.first[2]) {
-        const ToroidalPatch& patch = s.toroidal[n - accessible.first[1]];
-        foot = foot_on_arc(patch, patch.free(), x, limit);
-      } else {
-        const glm::dvec3& center = s.concave[n - accessible.first[2]].center;
-        foot = {glm::distance(x, center), center};
-      }
-      nearest.take(foot.distance, foot.point);
-      return nearest.distance;
-    });
-    return nearest;
+    return nearest_foot(
+        x, accessible_tree, accessible,
+        [&](std::uint32_t n, double limit) {
+          return foot_on(s, s.convex[n], s.atoms[s.convex[n].atom].radius + s.probe_radius, x, limit);
+        },
+        [&](std::uint32_t n, double limit) { return foot_on_arc(s.toroidal[n], s.toroidal[n].free(), x, limit); },
+        [&](std::uint32_t n, double) { return at_point(s.concave[n].center, x); });
   }
 
   Foot nearest_part(const glm::dvec3& x) const {
-    Foot nearest;
-    part_tree.nearest(x, kFar, [&](std::uint32_t n, double limit) {
-      Foot foot;
-      if (n < parts.first[1]) {
-        foot = foot_on(s, s.convex[n], s.atoms[s.convex[n].atom].radius, x, limit);
-      } else if (n < parts.first[2]) {
-        foot = foot_on(s, s.toroidal[n - parts.first[1]], x, limit);
-      } else if (n < parts.first[3]) {
-        const ConcavePatch& patch = s.concave[n - parts.first[2]];
-        if (patch.face_count > 0) foot = foot_on(s, patch, x, limit);
-      } else if (n < parts.first[4]) {
-        const Border& border = s.borders[n - parts.first[3]];
-        foot = foot_on_arc(border, border.vertex[0] == kNone, x, limit);
-      } else {
-        const glm::dvec3& vertex = s.vertices[n - parts.first[4]];
-        foot = {glm::distance(x, vertex), vertex};
-      }
-      nearest.take(foot.distance, foot.point);
-      return nearest.distance;
-    });
-    return nearest;
+    return nearest_foot(
+        x, part_tree, parts,
+        [&](std::uint32_t n, double limit) {
+          return foot_on(s, s.convex[n], s.atoms[s.convex[n].atom].radius, x, limit);
+        },
+        [&](std::uint32_t n, double limit) { return foot_on(s, s.toroidal[n], x, limit); },
+        [&](std::uint32_t n, double limit) {
+          return s.concave[n].face_count > 0 ? foot_on(s, s.concave[n], x, limit) : Foot{};
+        },
+        [&](std::uint32_t n, double limit) {
+          return foot_on_arc(s.borders[n], s.borders[n].vertex[0] == kNone, x, limit);
+        },
+        [&](std::uint32_t n, double) { return at_point(s.vertices[n], x); });
   }
 
   const Surface& s;
