@@ -1,0 +1,46 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Configuring once is enough: a second run writes the same build and the same installation, so that nothing depends on
+what an earlier one left in the cache."""
+
+import pathlib
+import tempfile
+import unittest
+
+from installation import ROOT, run
+
+
+HOW_IT_IS_BUILT = ("DEFINES", "FLAGS", "INCLUDES", "COMMAND", "LINK_FLAGS", "LINK_LIBRARIES", "LINK_PATH")
+
+
+def written(build):
+    """By path: how everything is built, the scripts of the installation, the exported targets, the packages. What else
+    a first run of CMake writes into build.ninja (where symbols of other systems go, what it depends on) is its own."""
+    patterns = ("**/cmake_install.cmake", "CPackConfig.cmake", "**/Export/**/*.cmake")
+    states = {str(path.relative_to(build)): path.read_text() for pattern in patterns for path in build.glob(pattern)}
+    lines = (build / "build.ninja").read_text().splitlines(keepends=True)
+    states["build.ninja"] = "".join(line for line in lines if line.startswith("build ") and "RERUN_CMAKE" not in line
+                                    and "VerifyGlobs" not in line or line.strip().startswith(HOW_IT_IS_BUILT))
+    return states
+
+
+class Configuration(unittest.TestCase):
+    def test_a_second_one_changes_nothing(self):
+        with tempfile.TemporaryDirectory() as folder:
+            build = pathlib.Path(folder)
+            states = []
+            for _ in range(2):
+                done = run("cmake", "-S", ROOT, "-B", build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
+                           "-DMENISCUS_TESTS=OFF")
+                self.assertEqual(done.returncode, 0, done.stderr)
+                states.append(written(build))
+        first, second = states
+        self.assertIn("build.ninja", first)
+        self.assertTrue(any("Export" in path for path in first))
+        self.assertEqual(sorted(first), sorted(second))
+        for path, text in first.items():
+            changed = [pair for pair in zip(text.splitlines(), second[path].splitlines()) if pair[0] != pair[1]]
+            self.assertEqual((changed[:3], len(text)), ([], len(second[path])), path)
+
+
+if __name__ == "__main__":
+    unittest.main()
