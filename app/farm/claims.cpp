@@ -194,15 +194,19 @@ bool Claims::lives(const std::string& worker) {
 bool Claims::take(const std::string& step, std::uint64_t frame) {
   for (int generation = 1; generation <= kMostGenerations; ++generation) {
     const fs::path path = claim_path(step, frame, generation);
-    if (make_claim(path)) {
-      // One that was given back below a later one.
-      if (holder(claim_path(step, frame, generation + 1)).lives) {
-        ::unlink((folder_ / path).c_str());
-        return false;
-      }
+    {
+      // Whoever gives all back sees a claim with its entry, or neither, and nothing is claimed after that.
       const std::lock_guard lock(mutex_);
-      held_[{step, frame}] = generation;
-      return true;
+      if (over_) return false;
+      if (make_claim(path)) {
+        // One that was given back below a later one.
+        if (holder(claim_path(step, frame, generation + 1)).lives) {
+          ::unlink((folder_ / path).c_str());
+          return false;
+        }
+        held_[{step, frame}] = generation;
+        return true;
+      }
     }
     const Holder found = holder(path);
     if (found.lives) return found.is_self;
@@ -211,14 +215,14 @@ bool Claims::take(const std::string& step, std::uint64_t frame) {
 }
 
 void Claims::give_back(const std::string& step, std::uint64_t frame) {
-  int generation = 0;
-  {
-    const std::lock_guard lock(mutex_);
-    const auto found = held_.find({step, frame});
-    if (found == held_.end()) return;
-    generation = found->second;
-    held_.erase(found);
-  }
+  const std::lock_guard lock(mutex_);
+  const auto found = held_.find({step, frame});
+  if (found == held_.end()) return;
+  remove_claims(step, frame, found->second);
+  held_.erase(found);
+}
+
+void Claims::remove_claims(const std::string& step, std::uint64_t frame, int generation) const {
   std::error_code ignored;
   // Another took over meanwhile: what lies below its claim stays until it is done.
   if (fs::exists(folder_ / claim_path(step, frame, generation + 1), ignored)) return;
@@ -247,15 +251,14 @@ std::size_t Claims::others() {
 }
 
 void Claims::give_all_back() {
-  std::vector<std::pair<std::string, std::uint64_t>> frames;
   {
     const std::lock_guard lock(mutex_);
     over_ = true;
-    for (const auto& [frame, generation] : held_) frames.push_back(frame);
+    for (const auto& [frame, generation] : held_) remove_claims(frame.first, frame.second, generation);
+    held_.clear();
+    ::unlink(life_.c_str());
   }
   stop_.notify_all();
-  for (const auto& [step, frame] : frames) give_back(step, frame);
-  ::unlink(life_.c_str());
 }
 
 void give_back_all_claims() {

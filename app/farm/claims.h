@@ -40,7 +40,7 @@ class Claims {
   Claims(const Claims&) = delete;
   Claims& operator=(const Claims&) = delete;
 
-  /// Whether the frame is this worker's now. False: another that lives has it. Look at its record again when you have
+  /// Whether the frame is this worker's now. False: another that lives has it, or all was given back. Look at its record again when you have
   /// it: another may have made it just before. Throws OutputError.
   bool take(const std::string& step, std::uint64_t frame);
   /// When its record is written, or when it shall not be made.
@@ -62,6 +62,7 @@ class Claims {
 
   std::filesystem::path claim_path(const std::string& step, std::uint64_t frame, int generation) const;
   bool make_claim(const std::filesystem::path& path) const;
+  void remove_claims(const std::string& step, std::uint64_t frame, int generation) const;
   Holder holder(const std::filesystem::path& claim);
   bool lives(const std::string& worker);
   std::string own_life() const;
@@ -73,14 +74,14 @@ class Claims {
   std::string name_;
   double lease_;
   FileTime begin_ = 0;
-  std::mutex mutex_;
+  std::mutex mutex_;  ///< of what is held, and of the files that say so
   std::map<std::pair<std::string, std::uint64_t>, int> held_;  ///< generations
   std::atomic<bool> over_ = false;
   std::condition_variable stop_;
   std::thread heart_;
 };
 
-/// Gives back what this process has, for the thread that ends the program.
+/// Gives back what this process has, for the thread that ends the program; afterwards its worker gets nothing more.
 void give_back_all_claims();
 
 }  // namespace meniscus::farm

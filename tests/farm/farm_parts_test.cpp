@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The small parts of a farm, each alone: checksums, chunks, quotes, children, pictures without dates.
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <filesystem>
+#include <thread>
 
 #include <gtest/gtest.h>
 
@@ -10,6 +12,7 @@
 #include "app/farm/check_scene.h"
 #include "app/farm/checksum.h"
 #include "app/farm/child_process.h"
+#include "app/farm/claims.h"
 #include "app/farm/command_options.h"
 #include "app/farm/emit.h"
 #include "app/farm/frame_record.h"
@@ -244,6 +247,34 @@ TEST(Records, CountForTheirBundleAndTheirFrameAndTheFilesTheyName) {
   EXPECT_EQ(again->error, failed.error);
   folder.file("state/render/frame_00003.json", "{\"frame\": 3, \"state\"");
   EXPECT_EQ(records.read("render", 3), std::nullopt) << "damaged";
+}
+
+std::size_t claims_in(const std::filesystem::path& folder) {
+  std::size_t count = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+    count += entry.path().filename().string().find(".claim") != std::string::npos;
+  return count;
+}
+
+// As when a signal comes at any moment of a worker that takes and gives back.
+TEST(Claims, AreLeftByNobodyWhoGaveAllBack) {
+  for (int round = 0; round < 20; ++round) {
+    const TemporaryFolder folder;
+    Claims claims(folder.path());
+    std::atomic<std::uint64_t> taken = 0;
+    std::thread worker([&] {
+      for (std::uint64_t frame = 0; frame < 5000 && claims.take("render", frame); ++frame) {
+        if (frame % 3 == 0) claims.give_back("render", frame);
+        ++taken;
+      }
+    });
+    while (taken < 5) std::this_thread::yield();
+    give_back_all_claims();
+    worker.join();
+    EXPECT_EQ(claims_in(folder.path()), 0u) << "round " << round << ", " << taken << " taken";
+    EXPECT_FALSE(claims.take("render", 1'000'000));
+    if (HasFailure()) return;
+  }
 }
 
 TEST(Quotes, HoldAnything) {
