@@ -40,8 +40,8 @@ class Claims {
   Claims(const Claims&) = delete;
   Claims& operator=(const Claims&) = delete;
 
-  /// Whether the frame is this worker's now. False: another that lives has it, or all was given back. Look at its record again when you have
-  /// it: another may have made it just before. Throws OutputError.
+  /// Whether the frame is this worker's now. False: another that lives has it, or all was given back. Look at its
+  /// record again when you have it: another may have made it just before. Throws OutputError.
   bool take(const std::string& step, std::uint64_t frame);
   /// When its record is written, or when it shall not be made.
   void give_back(const std::string& step, std::uint64_t frame);
@@ -74,7 +74,7 @@ class Claims {
   std::string name_;
   double lease_;
   FileTime begin_ = 0;
-  std::mutex mutex_;  ///< of what is held, and of the files that say so
+  std::mutex mutex_;                                           ///< of what is held, and of the files that say so
   std::map<std::pair<std::string, std::uint64_t>, int> held_;  ///< generations
   std::atomic<bool> over_ = false;
   std::condition_variable stop_;
