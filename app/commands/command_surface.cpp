@@ -61,20 +61,26 @@ void run_sequence(const SurfaceCommand& command) {
     throw UsageError("--csv: not in a run of frames; --json has the areas of chains");
   FrameRun frames(command.molecule, command.frames);
   tell_run(command.molecule, frames);
-  MoleculeBuilder builder(command.molecule);
   if (!command.json) std::cout << report_row_header(command.molecule);
   FrameOptions options = command.frames;
   // On a terminal the rows themselves tell how far it is; a bar would run into them.
   if (options.progress == ProgressStyle::automatic && ::isatty(STDOUT_FILENO)) options.progress = ProgressStyle::none;
-  run_frames(frames, command.molecule, options, [&](const RunFrame& frame) {
-    const Molecule molecule = builder.build(frame.structure);
+  const auto text_of = [&command](const Molecule& molecule, const FrameNote& note) {
     const auto columns = area_columns(molecule.structure, molecule.objects, command.molecule.surface.kind);
     const SurfaceReport report{molecule, command.molecule, columns, std::nullopt};
-    const FrameNote note{frame.number, frame.time};
-    std::cout << (command.json ? report_json_line(report, note) : report_row(report, note)) << std::flush;
-    if (!std::cout) throw OutputError("standard output", "cannot be written");
-    return MadeFrame{};
-  });
+    return command.json ? report_json_line(report, note) : report_row(report, note);
+  };
+  std::vector<FrameWorker> workers;
+  for (const auto& builder : frame_builders(frames, command.molecule, options, kSurfaceBytesPerAtom))
+    workers.push_back([&text_of, builder](RunFrame frame) -> FinishFrame {
+      const std::string text = text_of(builder->build(std::move(frame.structure)), {frame.number, frame.time});
+      return [text] {
+        std::cout << text << std::flush;
+        if (!std::cout) throw OutputError("standard output", "cannot be written");
+        return MadeFrame{};
+      };
+    });
+  run_frames(frames, command.molecule, options, std::move(workers));
 }
 
 void run(const SurfaceCommand& command) {

@@ -69,29 +69,32 @@ void run_sequence(const BlenderCommand& command) {
   const GivenCameras cameras = given_cameras(command.picture, command.run_camera);
   FrameRun frames(command.molecule, command.frames, true);
   tell_run(command.molecule, frames);
-  MoleculeBuilder builder(command.molecule);
   const blender::SequenceManifest manifest = manifest_of(command, cameras, frames);
   const std::string run = run_name(manifest);
   const std::filesystem::path folder = command.output.path;
   const std::filesystem::path written = write_manifest(folder, command.output.existing(), manifest);
-  run_frames(frames, command.molecule, command.frames, [&](const RunFrame& frame) {
-    const Molecule molecule = builder.build(frame.structure);
-    std::vector<TriangleMesh> meshes = mesh_objects(molecule.objects, manifest.tolerance);
-    std::vector<blender::MeshedObject> objects;
-    for (std::size_t n = 0; n < meshes.size(); ++n) {
-      const SurfaceObject& object = molecule.objects[n];
-      std::vector<glm::dvec3> velocities = velocities_of(object, meshes[n], frame, pace(frames.numbers(), frame.place));
-      objects.push_back({object, std::move(meshes[n]), blender::atom_attributes(molecule.structure, object.atom),
-                         std::move(velocities)});
-    }
-    blender::Provenance provenance = manifest.provenance;
-    provenance.device = molecule.device;
-    provenance.colors = key_of(molecule);
-    const std::string path = (folder / blender::frame_file(frame.number)).string();
-    write_objects(path, command.output.existing(), objects, manifest.shot(frame.place), provenance,
-                  blender::PlaceInRun{run, frame.number, frame.place + 1});
-    return MadeFrame{{path}};
-  });
+  std::vector<FrameWorker> workers;
+  for (const auto& builder : frame_builders(frames, command.molecule, command.frames, kMeshBytesPerAtom))
+    workers.push_back([&, builder](const RunFrame& frame) -> FinishFrame {
+      const Molecule molecule = builder->build(frame.structure);
+      std::vector<TriangleMesh> meshes = mesh_objects(molecule.objects, manifest.tolerance);
+      std::vector<blender::MeshedObject> objects;
+      for (std::size_t n = 0; n < meshes.size(); ++n) {
+        const SurfaceObject& object = molecule.objects[n];
+        std::vector<glm::dvec3> velocities =
+            velocities_of(object, meshes[n], frame, pace(frames.numbers(), frame.place));
+        objects.push_back({object, std::move(meshes[n]), blender::atom_attributes(molecule.structure, object.atom),
+                           std::move(velocities)});
+      }
+      blender::Provenance provenance = manifest.provenance;
+      provenance.device = molecule.device;
+      provenance.colors = key_of(molecule);
+      const std::string path = (folder / blender::frame_file(frame.number)).string();
+      write_objects(path, command.output.existing(), objects, manifest.shot(frame.place), provenance,
+                    blender::PlaceInRun{run, frame.number, frame.place + 1});
+      return [path] { return MadeFrame{{path}}; };
+    });
+  run_frames(frames, command.molecule, command.frames, std::move(workers));
   std::cout << escaped(written.string()) << "\n";
 }
 

@@ -48,7 +48,6 @@ void run_sequence(const PovrayCommand& command) {
   const GivenCameras cameras = given_cameras(command.picture, command.run_camera);
   FrameRun frames(command.molecule, command.frames);
   tell_run(command.molecule, frames);
-  MoleculeBuilder builder(command.molecule);
   const RunFraming framing = run_framing(command.picture, command.run_camera, cameras, frames);
   const ColorScheme scheme = color_of(command.molecule);
   povray::SceneOptions options = scene_options(command);
@@ -59,19 +58,24 @@ void run_sequence(const PovrayCommand& command) {
       command.output.path);
   const povray::SceneReport shared = scene.write_shared();
   bool noted = false;
-  const auto make = [&](const RunFrame& frame) {
-    const Molecule molecule = builder.build(frame.structure);
-    const povray::SceneReport report = scene.write_frame(molecule.objects, frame.place);
+  const auto finish = [&](const povray::SceneReport& report, std::uint64_t number) {
     // Notes of later frames would differ in their numbers only.
     if (!noted)
       for (const std::string& note : report.notes)
-        say(command.molecule, fmt::format("note: frame {}: {}", frame.number, note));
+        say(command.molecule, fmt::format("note: frame {}: {}", number, note));
     noted = noted || !report.notes.empty();
     std::vector<std::string> files;
     for (const std::filesystem::path& file : report.files) files.push_back(file.string());
     return MadeFrame{std::move(files)};
   };
-  run_frames(frames, command.molecule, command.frames, make);
+  std::vector<FrameWorker> workers;
+  for (const auto& builder : frame_builders(frames, command.molecule, command.frames, kSurfaceBytesPerAtom))
+    workers.push_back([&, builder](RunFrame frame) -> FinishFrame {
+      const Molecule molecule = builder->build(std::move(frame.structure));
+      const povray::SceneReport report = scene.write_frame(molecule.objects, frame.place);
+      return [&finish, report, number = frame.number] { return finish(report, number); };
+    });
+  run_frames(frames, command.molecule, command.frames, std::move(workers));
   std::cout << escaped(shared.command) << "\n";
 }
 

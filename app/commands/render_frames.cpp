@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `meniscus render --frames`: numbered pictures, or a film.
 #include <filesystem>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -76,26 +79,44 @@ class PictureSink {
   std::unique_ptr<FilmWriter> film_;
 };
 
-/// Makes the picture of a frame: by way of the complete surface, or of what the view needs.
+/// Makes the pictures of frames, by way of the complete surface or of what the view needs.
 class FramePainter {
  public:
-  FramePainter(const RenderCommand& command, const FrameRun& frames)
-      : command_(command), context_(gl_device(command)), builder_(command.molecule, &context_) {
-    if (command.extent) atoms_ = colored_atoms(command.molecule, frames.structure());
+  FramePainter(const RenderCommand& command, const FrameRun& frames) : command_(command), context_(gl_device(command)) {
+    if (command.extent)
+      atoms_ = colored_atoms(command.molecule, frames.structure());
+    else
+      builders_ = frame_builders(frames, command.molecule, command.frames, kSurfaceBytesPerAtom, &context_);
   }
 
-  Framebuffer paint(const RunFrame& frame, const Camera& camera, const RenderSettings& settings) {
-    if (!command_.extent) return render_objects(renderer_, builder_.build(frame.structure).objects, camera, settings);
-    atoms_->balls = balls_of(frame.structure);
-    show(*atoms_, command_.molecule.surface.probe_radius, *command_.extent, view_);
-    return renderer_.render(view_, camera, settings);
+  /// `finish` takes a picture of a frame to where it belongs. Surfaces on the CPU are made at the same time as others,
+  /// all else is one picture after another.
+  std::vector<FrameWorker> workers(const std::vector<Camera>& cameras, const RenderSettings& settings,
+                                   const std::function<MadeFrame(std::uint64_t number, Framebuffer picture)>& finish) {
+    if (command_.extent)
+      return {[this, &cameras, &settings, &finish](const RunFrame& frame) -> FinishFrame {
+        atoms_->balls = balls_of(frame.structure);
+        return [this, &finish, &camera = cameras[frame.place], &settings, number = frame.number] {
+          show(*atoms_, command_.molecule.surface.probe_radius, *command_.extent, view_);
+          return finish(number, renderer_.render(view_, camera, settings));
+        };
+      }};
+    std::vector<FrameWorker> workers;
+    for (const auto& builder : builders_)
+      workers.push_back([this, builder, &cameras, &settings, &finish](RunFrame frame) -> FinishFrame {
+        auto molecule = std::make_shared<const Molecule>(builder->build(std::move(frame.structure)));
+        return [this, molecule, &finish, &camera = cameras[frame.place], &settings, number = frame.number] {
+          return finish(number, render_objects(renderer_, molecule->objects, camera, settings));
+        };
+      });
+    return workers;
   }
 
  private:
   const RenderCommand& command_;
   EglContext context_;
-  MoleculeBuilder builder_;
-  std::optional<ColoredAtoms> atoms_;
+  std::vector<std::shared_ptr<MoleculeBuilder>> builders_;  ///< of complete surfaces
+  std::optional<ColoredAtoms> atoms_;                       ///< of what the view needs
   ViewPipeline view_;
   Renderer renderer_;
 };
@@ -120,12 +141,12 @@ void render_frames(const RenderCommand& command) {
   }
   FramePainter painter(command, frames);
   const RenderSettings settings = render_settings(command, layout);
-  run_frames(frames, command.molecule, command.frames, [&](const RunFrame& frame) {
-    Framebuffer picture = painter.paint(frame, cameras[frame.place], settings);
+  const auto finish = [&](std::uint64_t number, Framebuffer picture) {
     const bool empty = shows_nothing(picture);
     if (layout.legend) picture = layout.legend->add_to(picture, command.background);
-    return MadeFrame{sink.add(frame.number, picture), empty};
-  });
+    return MadeFrame{sink.add(number, picture), empty};
+  };
+  run_frames(frames, command.molecule, command.frames, painter.workers(cameras, settings, finish));
   sink.finish();
 }
 

@@ -80,6 +80,11 @@ void add_frame_options(CLI::App& command, FrameOptions& options) {
                   "Mean positions over N frames of the trajectory, an odd number, this one in the middle [1]")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{9999}).description(""))
       ->type_name("N");
+  command
+      .add_option("--jobs", options.jobs,
+                  "Frames that are made at once, in their order in every output [as cores and memory allow]")
+      ->check(CLI::Range(std::size_t{1}, std::size_t{1024}).description(""))
+      ->type_name("N");
   add_progress_option(command, options.progress);
 }
 

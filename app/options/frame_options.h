@@ -24,10 +24,11 @@ enum class ProgressStyle {
 /// What the frame options say. Commands keep one of these alive as long as their CLI::App.
 struct FrameOptions : RunRequest {
   ProgressStyle progress = ProgressStyle::automatic;
+  std::size_t jobs = 0;  ///< frames that are made at once; 0: as cores and memory allow
 };
 
 /// --trajectory, --trust-atom-order, --repeat, --frames, --stride, --begin, --end, --only, --whole, --superpose,
-/// --center, --reference, --smooth, --progress, under a heading of their own.
+/// --center, --reference, --smooth, --jobs, --progress, under a heading of their own.
 void add_frame_options(CLI::App& command, FrameOptions& options);
 void add_progress_option(CLI::App& command, ProgressStyle& style);
 

@@ -4,14 +4,23 @@
 
 #include <algorithm>
 #include <chrono>
+#include <exception>
+#include <memory>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
+#include <tbb/global_control.h>
+#include <tbb/info.h>
+#include <tbb/task_arena.h>
 
+#include "app/process/memory_limit.h"
+#include "app/process/memory_size.h"
 #include "app/process/program_error.h"
 #include "app/reports/run_progress.h"
 #include "app/reports/notes.h"
 #include "app/options/molecule_options.h"
+#include "core/base/ordered_jobs.h"
 #include "core/base/text.h"
 
 namespace meniscus {
@@ -41,21 +50,96 @@ struct EmptyPictures {
   }
 };
 
+using Clock = std::chrono::steady_clock;
+
+double milliseconds_since(Clock::time_point begin) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+}
+
+/// A frame as it was read, or why it could not be.
+struct Read {
+  std::optional<RunFrame> frame;
+  std::exception_ptr error;
+  Clock::time_point begin;
+};
+
+/// A frame to finish, and what it took up to here.
+struct Prepared {
+  FinishFrame finish;
+  double milliseconds;
+};
+
+using Jobs = OrderedJobs<Read, Prepared>;
+
+Read read_next(FrameRun& frames) {
+  Read read{std::nullopt, nullptr, Clock::now()};
+  try {
+    read.frame = frames.next();
+  } catch (...) {
+    read.error = std::current_exception();
+  }
+  return read;
+}
+
+/// Works within a part of the cores.
+Jobs::Worker job_of(FrameWorker worker, std::shared_ptr<tbb::task_arena> cores) {
+  return [worker = std::move(worker), cores = std::move(cores)](Read read) {
+    if (read.error) std::rethrow_exception(read.error);
+    FinishFrame finish = cores->execute([&] { return worker(std::move(*read.frame)); });
+    return Prepared{std::move(finish), milliseconds_since(read.begin)};
+  };
+}
+
+std::vector<Jobs::Worker> jobs_of(std::vector<FrameWorker> workers) {
+  const auto cores = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
+  const int each = std::max(1, static_cast<int>(cores / workers.size()));
+  std::vector<Jobs::Worker> jobs;
+  for (FrameWorker& worker : workers)
+    jobs.push_back(job_of(std::move(worker), std::make_shared<tbb::task_arena>(each)));
+  return jobs;
+}
+
+std::size_t frames_at_once(const FrameRun& frames, const MoleculeOptions& molecule, const FrameOptions& options,
+                           std::uint64_t bytes_per_atom) {
+  if (options.jobs > 0) return options.jobs;
+  // Each thread takes far more addresses than memory.
+  if (memory_is_limited()) return 1;
+  const auto cores = static_cast<std::uint64_t>(molecule.surface.threads > 0 ? molecule.surface.threads
+                                                                             : tbb::info::default_concurrency());
+  constexpr std::uint64_t kPartOfMemory = 4;  // the rest is for what else runs, and for the files read
+  const std::uint64_t frame_bytes = std::max<std::uint64_t>(1, bytes_per_atom * frames.structure().atoms.size());
+  const std::uint64_t fit = memory_size() / kPartOfMemory / frame_bytes;
+  return std::max<std::uint64_t>(1, std::min({cores, fit, std::uint64_t{frames.chunk().size()}}));
+}
+
 }  // namespace
 
+std::vector<std::shared_ptr<MoleculeBuilder>> frame_builders(const FrameRun& frames, const MoleculeOptions& molecule,
+                                                             const FrameOptions& options, std::uint64_t bytes_per_atom,
+                                                             const EglContext* context) {
+  std::vector<std::shared_ptr<MoleculeBuilder>> builders{std::make_shared<MoleculeBuilder>(molecule, context)};
+  if (!builders.front()->is_on_cpu()) return builders;
+  const std::size_t count = frames_at_once(frames, molecule, options, bytes_per_atom);
+  while (builders.size() < count) builders.push_back(std::make_shared<MoleculeBuilder>(molecule, context));
+  return builders;
+}
+
 void run_frames(FrameRun& frames, const MoleculeOptions& molecule, const FrameOptions& options,
-                const std::function<MadeFrame(const RunFrame&)>& make) {
+                std::vector<FrameWorker> workers) {
   RunProgress progress(options.progress, molecule.quiet, frames.chunk().size());
   Failures failures;
   EmptyPictures empty;
-  for (std::size_t n = 0; n < frames.chunk().size(); ++n) {
-    const std::uint64_t number = frames.upcoming();
-    const auto begin = std::chrono::steady_clock::now();
+  // One more than are worked on waits to be, and one to be finished.
+  const std::size_t most_pending = workers.size() == 1 ? 1 : workers.size() + 2;
+  Jobs jobs(jobs_of(std::move(workers)));
+  std::size_t begun = 0;
+  for (const std::uint64_t number : frames.chunk()) {
+    for (; begun < frames.chunk().size() && jobs.pending() < most_pending; ++begun) jobs.begin(read_next(frames));
     try {
-      const std::optional<RunFrame> frame = frames.next();
-      const MadeFrame made = make(*frame);
-      const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - begin;
-      progress.done(number, made.files, elapsed.count(), made.shows_nothing);
+      const Prepared prepared = jobs.take();
+      const Clock::time_point begin = Clock::now();
+      const MadeFrame made = prepared.finish();
+      progress.done(number, made.files, prepared.milliseconds + milliseconds_since(begin), made.shows_nothing);
       if (made.shows_nothing && empty.count++ == 0) empty.first = number;
     } catch (const std::exception& error) {
       if (ends_the_run(error)) throw;

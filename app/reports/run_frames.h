@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Makes the frames of a run one after another, goes on after one that fails, and tells it all.
+// Makes the frames of a run, several at once, goes on after one that fails, and tells it all in their order.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "app/options/frame_options.h"
 #include "app/options/molecule_options.h"
 #include "core/scene/frame_run.h"
+#include "core/scene/molecule.h"
 
 namespace meniscus {
 
@@ -18,12 +22,28 @@ struct MadeFrame {
   bool shows_nothing = false;      ///< it is a picture on which nothing is to be seen
 };
 
-/// Calls `make` for each frame of the chunk. A frame that throws, in reading or making, is
-/// told on stderr, and the run goes on; but OutputError and GpuError end it at once, as the next frame would meet them
-/// too. Pictures that show nothing are told in one line for all of them. At the end throws RunError: with the code of
-/// the first frame that failed, else with kExitIncomplete if the trajectory was cut short and the run reaches its last
-/// whole frame.
+/// What is left to do with a frame when those before it are done: on the thread that called run_frames.
+using FinishFrame = std::function<MadeFrame()>;
+/// Does what can be done with a frame while others are worked on, perhaps on a thread of its own.
+using FrameWorker = std::function<FinishFrame(RunFrame frame)>;
+
+/// Builders for as many frames as are worked on at once: as many as asked for (--jobs), else as the processor, the
+/// frames and the memory allow. `bytes_per_atom`: what a frame takes until it is finished. One alone where surfaces are
+/// made by GL, in `context` if there is one. Throws what MoleculeBuilder throws.
+std::vector<std::shared_ptr<MoleculeBuilder>> frame_builders(const FrameRun& frames, const MoleculeOptions& molecule,
+                                                             const FrameOptions& options, std::uint64_t bytes_per_atom,
+                                                             const EglContext* context = nullptr);
+
+/// What a frame takes until it is finished, about: its surface and areas; and a mesh of half a pixel, with its file.
+constexpr std::uint64_t kSurfaceBytesPerAtom = 8'000, kMeshBytesPerAtom = 150'000;
+
+/// Has the frames of the chunk made by the workers, each by one of them, and finishes them in their order. The workers
+/// share the cores; one that is alone works on the calling thread, with all of them. A frame that throws, in reading or
+/// making, is told on stderr, and the run goes on; but OutputError and GpuError end it at once, as the next frame would
+/// meet them too. Pictures that show nothing are told in one line for all of them. At the end throws RunError: with the
+/// code of the first frame that failed, else with kExitIncomplete if the trajectory was cut short and the run reaches
+/// its last whole frame.
 void run_frames(FrameRun& frames, const MoleculeOptions& molecule, const FrameOptions& options,
-                const std::function<MadeFrame(const RunFrame& frame)>& make);
+                std::vector<FrameWorker> workers);
 
 }  // namespace meniscus

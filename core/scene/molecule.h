@@ -60,6 +60,9 @@ class MoleculeBuilder {
   /// Computes and colours. Throws what surface_objects and color_object throw, InputError if nothing is shown.
   Molecule build(Structure structure);
 
+  /// Whether it computes on the CPU: then it may be used on any thread, by one at a time.
+  bool is_on_cpu() const { return computer_.is_on_cpu(); }
+
  private:
   const MoleculeRequest& request_;
   ColorScheme color_;

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -191,6 +194,61 @@ TEST_F(Frames, GoOnAfterABadOne) {
   EXPECT_EQ(progress[3]["frame"], 2);
   EXPECT_EQ(progress[3]["exit"], 3);
   EXPECT_EQ(progress[6]["done"], 4);
+}
+
+/// Everything below a folder: paths and contents.
+std::map<std::string, std::string> contents(const std::filesystem::path& folder) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+    if (entry.is_regular_file()) {
+      std::ifstream file(entry.path(), std::ios::binary);
+      files[std::filesystem::relative(entry.path(), folder).string()] = {std::istreambuf_iterator<char>(file), {}};
+    }
+  return files;
+}
+
+TEST_F(Frames, AreTheSameHoweverManyAreMadeAtOnce) {
+  const auto numbers_of = [&](const char* jobs) {
+    std::vector<Json> lines = surface({"--frames", "all", "--jobs", jobs});
+    for (Json& line : lines) line.erase("stages");
+    return lines;
+  };
+  ASSERT_EQ(numbers_of("1").size(), 8u);
+  EXPECT_EQ(numbers_of("1"), numbers_of("3"));
+  for (const std::vector<std::string>& command :
+       {std::vector<std::string>{"export", "povray"}, {"export", "blender"}, {"render", "--size", "60x40"}}) {
+    std::map<std::string, std::string> first;
+    for (const std::string jobs : {"1", "3"}) {
+      const std::filesystem::path out = folder_.path() / (command.back() + jobs);
+      std::filesystem::create_directory(out);
+      std::vector<std::string> words = command;
+      const std::string output = command.front() == "render" ? (out / "f_##.png").string() : (out / "run").string();
+      words.insert(words.end(), {file_, "-q", "--frames", "all", "--jobs", jobs, "-o", output});
+      const ProgramResult result = meniscus(words);
+      ASSERT_EQ(result.exit_code, 0) << result.err;
+      const auto files = contents(out);
+      EXPECT_GE(files.size(), 8u) << command.back();
+      if (jobs == "1") first = files;
+      EXPECT_TRUE(files == first) << command.back();
+    }
+  }
+}
+
+TEST_F(Frames, FailInTheirOrderHoweverManyAreMadeAtOnce) {
+  const std::string bad = folder_.file("bad.pdb", walk(8, 3));
+  for (const char* jobs : {"1", "4"}) {
+    const ProgramResult result =
+        meniscus({"surface", bad, "--frames", "all", "--json", "--progress", "json", "--jobs", jobs});
+    EXPECT_EQ(result.exit_code, 3) << result.err;
+    std::vector<int> said;
+    for (const Json& line : lines_of(result.err))
+      if (line["event"] == "frame") said.push_back(line["frame"]);
+    EXPECT_EQ(said, (std::vector<int>{0, 1, 2, 3, 4, 5, 6, 7})) << result.err;
+    EXPECT_EQ(lines_of(result.out).size(), 7u) << result.out;
+    EXPECT_NE(result.err.find("1 of 8 frames failed; the first, frame 3"), std::string::npos) << result.err;
+  }
+  const ProgramResult none = meniscus({"surface", file_, "--frames", "all", "--jobs", "0"});
+  EXPECT_EQ(none.exit_code, 2);
 }
 
 TEST_F(Frames, OpenjdLinesAreOnStandardOutput) {
