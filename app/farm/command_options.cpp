@@ -98,7 +98,8 @@ const Options& command_table() {
 }
 
 const Options& device_table() {
-  static const Options table{{"--device", Value::text}, {"--threads", Value::text}, {"--require-gpu", Value::none}};
+  static const Options table{
+      {"--device", Value::text}, {"--threads", Value::text}, {"--require-gpu", Value::none}, {"--jobs", Value::text}};
   return table;
 }
 

@@ -25,7 +25,8 @@ std::vector<CommandOption> read_command_options(const std::vector<std::string>& 
 /// One word an option, "--name=value": the same to every parser.
 std::vector<std::string> as_words(const std::vector<CommandOption>& options);
 
-/// Options that say where this program computes: --device, --threads, --require-gpu. Throws RequestError for others.
+/// Options that say where and with how much this program computes: --device, --threads, --require-gpu, --jobs. Throws
+/// RequestError for others.
 std::vector<CommandOption> read_device_options(const std::vector<std::string>& words);
 
 /// Throws RequestError unless all are options of POV-Ray that change how the scene of the bundle looks, and nothing

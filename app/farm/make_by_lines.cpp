@@ -43,12 +43,12 @@ bool take_frame(const std::string& line, const std::filesystem::path& folder, st
 
 }  // namespace
 
-void make_by_lines(const std::function<std::vector<std::string>(const std::vector<std::uint64_t>&)>& command_for,
-                   const std::filesystem::path& folder, std::vector<std::uint64_t> frames,
-                   const FrameListener& listener) {
+void make_by_lines(
+    const std::function<std::vector<std::string>(const std::vector<std::uint64_t>& frames, bool alone)>& command_for,
+    const std::filesystem::path& folder, std::vector<std::uint64_t> frames, const FrameListener& listener) {
   std::optional<std::uint64_t> tried;  // the frame that was given a second process
   while (!frames.empty()) {
-    ChildProcess child(command_for(frames), folder);
+    ChildProcess child(command_for(frames, tried.has_value()), folder);
     ErrorLine last;
     while (const std::optional<std::string> line = child.next_line())
       if (!take_frame(*line, folder, frames, listener)) last.add(*line);

@@ -20,24 +20,26 @@ using Arguments = std::vector<std::string>;
 // This very program, whatever PATH says: the frames of a run must come from one version.
 std::string this_program() { return std::filesystem::read_symlink("/proc/self/exe").string(); }
 
-// What the worker was told replaces what the bundle says.
-Arguments device_words(const Step& step, const Workplace& place) {
+// What the worker was told replaces what the bundle says. alone: one frame after another.
+Arguments device_words(const Step& step, const Workplace& place, bool alone) {
   std::vector<CommandOption> options = read_device_options(step.arguments);
   std::erase_if(options, [&](const CommandOption& option) {
+    if (option.name == "--jobs") return alone;
     return option.name == "--threads" ? place.threads > 0 : !place.device_options.empty();
   });
   Arguments words = as_words(options);
   words.insert(words.end(), place.device_options.begin(), place.device_options.end());
   if (place.threads > 0) words.push_back(fmt::format("--threads={}", place.threads));
+  if (alone) words.emplace_back("--jobs=1");
   return words;
 }
 
 Arguments meniscus_command(const Bundle& bundle, const Step& step, const Workplace& place,
-                           const std::vector<std::uint64_t>& frames) {
+                           const std::vector<std::uint64_t>& frames, bool alone) {
   Arguments command{this_program()};
   const Arguments checked = checked_command(bundle);
   command.insert(command.end(), checked.begin(), checked.end());
-  const Arguments device = device_words(step, place);
+  const Arguments device = device_words(step, place, alone);
   command.insert(command.end(), device.begin(), device.end());
   const bool pictures = bundle.command.front() == "render";
   for (const char* word : {"--force", "-q", "--progress", "json", "-o", pictures ? "images/frame_#####.png" : "scene"})
@@ -77,9 +79,9 @@ void make_frames(const Bundle& bundle, const Step& step, const Workplace& place,
   std::optional<DriverCopy> driver;
   if (blender) driver.emplace(place.folder);
   make_by_lines(
-      [&](const std::vector<std::uint64_t>& left) {
+      [&](const std::vector<std::uint64_t>& left, bool alone) {
         return blender ? blender_command(driver->script(), step, place, left)
-                       : meniscus_command(bundle, step, place, left);
+                       : meniscus_command(bundle, step, place, left, alone);
       },
       place.folder, frames, blender ? without_dates(listener, place.folder) : listener);
 }

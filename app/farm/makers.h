@@ -34,12 +34,13 @@ void make_frames(const Bundle& bundle, const Step& step, const Workplace& place,
                  const std::vector<std::uint64_t>& frames, const FrameListener& listener);
 
 /// The same by a program that tells each frame by a line of JSON, {"frame":42,"state":"done","files":[...],"ms":1.5} or
-/// {"frame":42,"state":"failed","exit":7,"error":"..."}, and makes the frames in the order of the list. `command_for`
-/// gives its arguments for a list of frames. If a signal ends it, another process goes on with the frame it was
-/// at; if that ends so, too, the frame has failed, and a third makes the others.
-void make_by_lines(const std::function<std::vector<std::string>(const std::vector<std::uint64_t>&)>& command_for,
-                   const std::filesystem::path& folder, std::vector<std::uint64_t> frames,
-                   const FrameListener& listener);
+/// {"frame":42,"state":"failed","exit":7,"error":"..."}, in the order of the list. `command_for` gives its arguments
+/// for a list of frames; `alone`: that it makes one after another, not several at once. If a signal ends it, another
+/// process goes on behind the last frame told, with one frame after another, so that it is known which one it was at;
+/// if that ends so, too, and at the same frame, the frame has failed, and a third makes the others.
+void make_by_lines(
+    const std::function<std::vector<std::string>(const std::vector<std::uint64_t>& frames, bool alone)>& command_for,
+    const std::filesystem::path& folder, std::vector<std::uint64_t> frames, const FrameListener& listener);
 
 /// The same by POV-Ray, one process a frame, from scene/ into images/; a second one if a signal ends the first.
 void make_by_povray(const Bundle& bundle, const Step& step, const Workplace& place,

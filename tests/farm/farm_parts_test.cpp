@@ -17,6 +17,7 @@
 #include "app/farm/emit.h"
 #include "app/farm/frame_record.h"
 #include "app/farm/inner_path.h"
+#include "app/farm/makers.h"
 #include "app/farm/quote.h"
 #include "app/farm/png_without_time.h"
 #include "app/farm/worker.h"
@@ -303,6 +304,34 @@ TEST(Pictures, LoseTheirDatesAndNothingElse) {
   for (const std::string& broken : {std::string(), std::string("GIF89a"), signature, signature + header + pixels,
                                     signature + header + pixels.substr(0, 10)})
     EXPECT_THROW(png_without_time(broken), RunError);
+}
+
+// A program that makes several frames at once dies of one of them before it has told the earlier ones.
+TEST(Makers, FindTheFrameThatKillsAProgramWhichMakesSeveralAtOnce) {
+  const TemporaryFolder folder;
+  const std::string script = folder.file("program", R"(alone=$1; shift
+for frame in "$@"; do
+  [ $frame = 7 ] && kill -SEGV $$
+  [ $alone = no ] && case " $* " in *" 7 "*) kill -SEGV $$;; esac
+  echo "{\"frame\":$frame,\"state\":\"done\",\"files\":[]}"
+done
+)");
+  std::vector<std::uint64_t> done, failed;
+  FrameListener listener;
+  listener.done = [&](std::uint64_t frame, const std::vector<std::string>&, double) { done.push_back(frame); };
+  listener.failed = [&](std::uint64_t frame, int, const std::string& error) {
+    failed.push_back(frame);
+    EXPECT_NE(error.find("signal 11"), std::string::npos) << error;
+  };
+  listener.tried_again = [](std::uint64_t, const std::string&) {};
+  const auto command_for = [&](const std::vector<std::uint64_t>& frames, bool alone) {
+    std::vector<std::string> words{"/bin/sh", script, alone ? "yes" : "no"};
+    for (const std::uint64_t frame : frames) words.push_back(std::to_string(frame));
+    return words;
+  };
+  make_by_lines(command_for, folder.path(), {1, 3, 5, 7, 9}, listener);
+  EXPECT_EQ(done, (std::vector<std::uint64_t>{1, 3, 5, 9}));
+  EXPECT_EQ(failed, (std::vector<std::uint64_t>{7}));
 }
 
 TEST(Children, AreHeardAndWaitedFor) {
