@@ -1,0 +1,450 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Exact solvent-excluded surfaces of molecules for other programs, in C++20: meniscus.h with spans and exceptions.
+//
+//   meniscus::Computer computer;
+//   const std::vector<double> xyz = {0, 0, 0, 1.5, 0, 0}, radii = {1.7, 1.52};
+//   const meniscus::Surface surface = computer.compute({xyz, radii});
+//   std::cout << surface.area() << " Å^2\n";
+//
+// All of it is inline and calls the C functions, so what a program is linked to is the C interface alone: a program
+// that was compiled with one compiler, C++ library and version of this header runs with libmeniscus of another. Structs
+// are those of meniscus.h, where their fields, units and ranges stand: lengths in Å, areas in Å^2, volumes in Å^3,
+// angles in radian (a camera's in degrees). Option structs have their defaults from the beginning.
+//
+// Errors. Whatever fails throws an Error with the library's sentence; what was to be changed is as before.
+//
+// Ownership. Computer, Surface, Mesh and Painter own one object each, and move; of what was moved from only assignment
+// and the end are left. Spans and rows of a surface or a mesh are its own memory, seen without a copy: they end with
+// it, and with Computer::compute(atoms, surface), which computes it anew.
+//
+// Threads. As in meniscus.h: const functions of one object from any number of threads at once; a Computer and a Painter
+// serve one call after the other.
+#ifndef MENISCUS_MENISCUS_HPP
+#define MENISCUS_MENISCUS_HPP
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
+#include <memory>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <meniscus/meniscus.h>
+
+namespace meniscus {
+// Parts of one program may be compiled with different versions of this header.
+inline namespace v0 {
+
+// ---- Errors ----
+
+// What the library refused or could not do.
+class Error : public std::runtime_error {
+ public:
+  Error(meniscus_status status, const std::string& text) : std::runtime_error(text), status_(status) {}
+  // Never MENISCUS_OK.
+  meniscus_status status() const noexcept { return status_; }
+
+ private:
+  meniscus_status status_;
+};
+
+// One class a status, to be caught by itself.
+template <meniscus_status Status>
+class ErrorOf : public Error {
+ public:
+  explicit ErrorOf(const std::string& text) : Error(Status, text) {}
+};
+using InternalError = ErrorOf<MENISCUS_INTERNAL>;     // a fault of the library: please report it
+using UsageError = ErrorOf<MENISCUS_USAGE>;           // a call that makes no sense
+using InputError = ErrorOf<MENISCUS_INPUT>;           // a position, radius, colour or camera that cannot be
+using GpuError = ErrorOf<MENISCUS_NO_GPU>;            // no usable GL or GPU, or one that left work undone
+using CapacityError = ErrorOf<MENISCUS_CAPACITY>;     // out of memory or threads, or more than indices can count
+using NotClosedError = ErrorOf<MENISCUS_NOT_CLOSED>;  // the surface or mesh is not closed, so there is none
+
+// Throws what a C function's status says; returns if it is MENISCUS_OK.
+inline void check(meniscus_status status) {
+  switch (status) {
+    case MENISCUS_OK:
+      return;
+    case MENISCUS_INTERNAL:
+      throw InternalError(meniscus_last_error());
+    case MENISCUS_USAGE:
+      throw UsageError(meniscus_last_error());
+    case MENISCUS_INPUT:
+      throw InputError(meniscus_last_error());
+    case MENISCUS_NO_GPU:
+      throw GpuError(meniscus_last_error());
+    case MENISCUS_CAPACITY:
+      throw CapacityError(meniscus_last_error());
+    case MENISCUS_NOT_CLOSED:
+      throw NotClosedError(meniscus_last_error());
+  }
+  throw Error(status, meniscus_last_error());  // of a newer library
+}
+
+// "0.1.0": of the library that runs, not of this header.
+inline std::string version() { return meniscus_version(); }
+
+// ---- Radii ----
+
+// The atomic number of "C", "zn", "CL", ... in any case, D and T as hydrogen; 0: none has this symbol.
+inline std::int32_t element_of(const std::string& symbol) {
+  std::int32_t element = 0;
+  check(meniscus_element_of_symbol(symbol.c_str(), &element));
+  return element;
+}
+
+struct ElementRadius {
+  double radius;       // Å, van der Waals
+  const char* source;  // who published it, or "no published value": then it is 2.0
+};
+
+// By Bondi (1964, 1966) or Mantina et al. (2009). InputError below 0 and above 118.
+inline ElementRadius radius_of(std::int32_t element) {
+  ElementRadius found{};
+  check(meniscus_element_radius(element, &found.radius, &found.source));
+  return found;
+}
+
+// ---- Options ----
+
+// A struct of meniscus.h with its size and its defaults.
+template <typename Struct, meniscus_status (*Defaults)(Struct*)>
+struct WithDefaults : Struct {
+  WithDefaults() : Struct{} {
+    this->size = sizeof(Struct);
+    check(Defaults(this));
+  }
+};
+using Options = WithDefaults<meniscus_options, meniscus_default_options>;
+using MeshOptions = WithDefaults<meniscus_mesh_options, meniscus_default_mesh_options>;
+using Picture = WithDefaults<meniscus_picture, meniscus_default_picture>;
+using Camera = meniscus_camera;  // as Surface::frame gives it
+using Ball = meniscus_ball;
+
+// The atoms of one call: arrays of the caller's, read during the call only. Positions are x, y, z of each atom, next to
+// each other, in Å, within 100,000 of 0; radii are above 0 and at most 1,000, one per atom, or one for all. In a call:
+// compute({positions, radii}), compute({balls}).
+class Atoms {
+ public:
+  Atoms(std::span<const double> positions, std::span<const double> radii) : Atoms(positions, radii, MENISCUS_DOUBLE) {}
+  Atoms(std::span<const float> positions, std::span<const float> radii) : Atoms(positions, radii, MENISCUS_FLOAT) {}
+  Atoms(std::span<const Ball> balls) : Atoms() {
+    atoms_.count = balls.size();
+    if (balls.empty()) return;
+    atoms_.positions = balls.front().center;
+    atoms_.radii = &balls.front().radius;
+    atoms_.positions_stride = atoms_.radii_stride = sizeof(Ball);
+  }
+  const meniscus_atoms& get() const noexcept { return atoms_; }
+
+ private:
+  Atoms() { atoms_.size = sizeof atoms_; }
+  template <typename Number>
+  Atoms(std::span<const Number> positions, std::span<const Number> radii, std::int32_t type) : Atoms() {
+    atoms_.count = positions.size() / 3;
+    const bool equal_radii = radii.size() == 1;
+    if (positions.size() % 3 != 0 || (!equal_radii && radii.size() != atoms_.count))
+      throw UsageError("coordinates are " + std::to_string(positions.size()) + ", radii " +
+                       std::to_string(radii.size()) + "; give three coordinates an atom, and a radius for each or one");
+    atoms_.positions = positions.data();
+    atoms_.radii = radii.data();
+    atoms_.positions_type = atoms_.radii_type = type;
+    atoms_.equal_radii = equal_radii ? 1 : 0;
+  }
+
+  meniscus_atoms atoms_{};
+};
+
+// ---- Tables ----
+
+// Rows of a table, which in a newer library may be longer than Row.
+template <typename Row>
+class Rows {
+ public:
+  class iterator {
+   public:
+    using iterator_category = std::forward_iterator_tag;
+    using value_type = Row;
+    using difference_type = std::ptrdiff_t;
+    using pointer = const Row*;
+    using reference = const Row&;
+
+    iterator() = default;
+    iterator(const std::byte* row, std::size_t stride) : row_(row), stride_(stride) {}
+    reference operator*() const { return *operator->(); }
+    pointer operator->() const { return reinterpret_cast<pointer>(row_); }
+    iterator& operator++() {
+      row_ += stride_;
+      return *this;
+    }
+    iterator operator++(int) {
+      iterator before = *this;
+      ++*this;
+      return before;
+    }
+    bool operator==(const iterator& other) const { return row_ == other.row_; }
+
+   private:
+    const std::byte* row_ = nullptr;
+    std::size_t stride_ = 0;
+  };
+
+  explicit Rows(const meniscus_array& array) : array_(array) {}
+  std::size_t size() const noexcept { return array_.count; }
+  bool empty() const noexcept { return array_.count == 0; }
+  // n is below size().
+  const Row& operator[](std::size_t n) const { return *at(n); }
+  iterator begin() const { return at(0); }
+  iterator end() const { return at(array_.count); }
+
+ private:
+  iterator at(std::size_t n) const {
+    return {static_cast<const std::byte*>(array_.data) + n * array_.stride, array_.stride};
+  }
+  meniscus_array array_;
+};
+
+// x, y, z in Å (of a normal: of length 1).
+using Vector = std::array<double, 3>;
+
+// How the classes below hold a C object.
+namespace detail {
+
+template <auto Function>
+struct Calls {
+  template <typename Object>
+  void operator()(Object* object) const noexcept {
+    Function(object);
+  }
+};
+
+template <typename Object, auto Release>
+using Handle = std::unique_ptr<Object, Calls<Release>>;
+
+// A table whose rows are numbers, or arrays of them: these never grow.
+template <typename Row>
+std::span<const Row> numbers(const meniscus_array& array) {
+  return {static_cast<const Row*>(array.data), array.count};
+}
+
+}  // namespace detail
+
+// ---- Meshes ----
+
+// A closed triangle mesh; all vertices lie on the exact surface, no point of it is farther than the tolerance. It may
+// outlive its surface.
+class Mesh {
+ public:
+  explicit Mesh(meniscus_mesh* owned) : mesh_(owned) {}
+
+  std::span<const Vector> positions() const { return table<Vector>(MENISCUS_MESH_POSITIONS); }
+  std::span<const Vector> normals() const { return table<Vector>(MENISCUS_MESH_NORMALS); }
+  // Vertices, counter-clockwise seen from the solvent.
+  std::span<const std::array<std::uint32_t, 3>> triangles() const {
+    return table<std::array<std::uint32_t, 3>>(MENISCUS_MESH_TRIANGLES);
+  }
+  // Of each triangle the touched atom that is nearest.
+  std::span<const std::uint32_t> triangle_atoms() const { return table<std::uint32_t>(MENISCUS_MESH_TRIANGLE_ATOMS); }
+  // MENISCUS_KIND_... of each triangle.
+  std::span<const std::uint8_t> triangle_kinds() const { return table<std::uint8_t>(MENISCUS_MESH_TRIANGLE_KINDS); }
+  // Rows of Surface::faces().
+  std::span<const std::uint32_t> triangle_faces() const { return table<std::uint32_t>(MENISCUS_MESH_TRIANGLE_FACES); }
+  // Rows of the table of its kind.
+  std::span<const std::uint32_t> triangle_patches() const {
+    return table<std::uint32_t>(MENISCUS_MESH_TRIANGLE_PATCHES);
+  }
+  // Rows of Surface::components().
+  std::span<const std::uint32_t> triangle_components() const {
+    return table<std::uint32_t>(MENISCUS_MESH_TRIANGLE_COMPONENTS);
+  }
+  // Corners (3 * triangle + 0, 1, 2) at cusps, ascending, and the exact normals there.
+  std::span<const std::uint32_t> sharp_corners() const { return table<std::uint32_t>(MENISCUS_MESH_SHARP_CORNERS); }
+  std::span<const Vector> sharp_normals() const { return table<Vector>(MENISCUS_MESH_SHARP_NORMALS); }
+
+  // For the functions of meniscus.h; owned by this.
+  meniscus_mesh* get() const noexcept { return mesh_.get(); }
+
+ private:
+  template <typename Row>
+  std::span<const Row> table(std::int32_t which) const {
+    meniscus_array array{};
+    check(meniscus_mesh_table(mesh_.get(), which, &array));
+    return detail::numbers<Row>(array);
+  }
+  detail::Handle<meniscus_mesh, meniscus_mesh_release> mesh_;
+};
+
+// ---- Surfaces ----
+
+// A closed surface with its certificate: every border has two faces, areas and volumes are proved.
+class Surface {
+ public:
+  explicit Surface(meniscus_surface* owned) : surface_(owned) {}
+
+  // Everything that is one number.
+  meniscus_summary summary() const {
+    meniscus_summary summary{};
+    summary.size = sizeof summary;
+    check(meniscus_surface_summary(surface_.get(), &summary));
+    return summary;
+  }
+  // Å^2, of all components.
+  double area() const { return summary().area; }
+  // Å^3 of the solid: outer components less cavities.
+  double volume() const { return summary().volume; }
+
+  // Outer ones first, then cavities, each by falling area.
+  Rows<meniscus_component> components() const { return rows<meniscus_component>(MENISCUS_COMPONENTS); }
+  // Å^2 of each atom, 0 where buried; the sum is the area. Found when they are first asked for.
+  std::span<const double> atom_areas() const { return numbers<double>(MENISCUS_ATOM_AREAS); }
+  // Å^2 of each atom: where the probe's centre can be. UsageError but for MENISCUS_SES.
+  std::span<const double> atom_sas_areas() const { return numbers<double>(MENISCUS_ATOM_SAS_AREAS); }
+  // What was computed: radii with the probe for MENISCUS_SAS.
+  std::span<const Ball> atoms() const { return numbers<Ball>(MENISCUS_ATOMS); }
+
+  // The analytic patches and how they hang together, as meniscus.h describes their rows.
+  Rows<meniscus_convex> convex() const { return rows<meniscus_convex>(MENISCUS_CONVEX); }
+  Rows<meniscus_toroidal> toroidal() const { return rows<meniscus_toroidal>(MENISCUS_TOROIDAL); }
+  Rows<meniscus_concave> concave() const { return rows<meniscus_concave>(MENISCUS_CONCAVE); }
+  Rows<meniscus_plane> planes() const { return rows<meniscus_plane>(MENISCUS_PLANES); }
+  Rows<meniscus_border> borders() const { return rows<meniscus_border>(MENISCUS_BORDERS); }
+  Rows<meniscus_loop> loops() const { return rows<meniscus_loop>(MENISCUS_LOOPS); }
+  Rows<meniscus_face> faces() const { return rows<meniscus_face>(MENISCUS_FACES); }
+  std::span<const std::uint32_t> contacts() const { return numbers<std::uint32_t>(MENISCUS_CONTACTS); }
+  std::span<const std::uint32_t> cuts() const { return numbers<std::uint32_t>(MENISCUS_CUTS); }
+  std::span<const std::uint32_t> half_borders() const { return numbers<std::uint32_t>(MENISCUS_HALF_BORDERS); }
+  std::span<const Vector> vertices() const { return numbers<Vector>(MENISCUS_VERTICES); }
+
+  // Of each point (finite, in Å) the Euclidean distance to the nearest point of the surface: above 0 in the solvent,
+  // below 0 in the solid.
+  std::vector<double> distance(std::span<const Vector> points) const {
+    std::vector<double> distances(points.size());
+    check(meniscus_surface_distance(surface_.get(), points.size(), coordinates(points), distances.data(), nullptr));
+    return distances;
+  }
+
+  struct Nearest {
+    std::vector<double> distances;
+    std::vector<Vector> feet;  // of the surface
+  };
+  // The nearest points, too; where several are as near, one of them.
+  Nearest nearest(std::span<const Vector> points) const {
+    Nearest found{std::vector<double>(points.size()), std::vector<Vector>(points.size())};
+    check(meniscus_surface_distance(surface_.get(), points.size(), coordinates(points), found.distances.data(),
+                                    found.feet.empty() ? nullptr : found.feet.front().data()));
+    return found;
+  }
+
+  Mesh mesh(const MeshOptions& options = {}) const {
+    meniscus_mesh* mesh = nullptr;
+    check(meniscus_surface_mesh(surface_.get(), &options, &mesh));
+    return Mesh(mesh);
+  }
+
+  // The camera that shows all atoms in a picture of this width / height.
+  Camera frame(double aspect, std::int32_t projection = MENISCUS_PERSPECTIVE) const {
+    Camera camera{};
+    camera.size = sizeof camera;
+    check(meniscus_surface_frame(surface_.get(), aspect, projection, &camera));
+    return camera;
+  }
+
+  // For the functions of meniscus.h; owned by this.
+  meniscus_surface* get() const noexcept { return surface_.get(); }
+
+ private:
+  friend class Computer;
+
+  meniscus_array table(std::int32_t which) const {
+    meniscus_array array{};
+    check(meniscus_surface_table(surface_.get(), which, &array));
+    return array;
+  }
+  template <typename Row>
+  Rows<Row> rows(std::int32_t which) const {
+    return Rows<Row>(table(which));
+  }
+  template <typename Row>
+  std::span<const Row> numbers(std::int32_t which) const {
+    return detail::numbers<Row>(table(which));
+  }
+  static const double* coordinates(std::span<const Vector> points) {
+    return points.empty() ? nullptr : points.front().data();
+  }
+  detail::Handle<meniscus_surface, meniscus_surface_release> surface_;
+};
+
+// ---- Computing ----
+
+// Keeps what is worth keeping from frame to frame: a GL context, its kernels and buffers.
+class Computer {
+ public:
+  explicit Computer(const Options& options = {}) {
+    meniscus_computer* computer = nullptr;
+    check(meniscus_computer_new(&options, &computer));
+    computer_.reset(computer);
+  }
+
+  // InputError for an atom that cannot be, with its index and value; NotClosedError names atoms.
+  Surface compute(const Atoms& atoms) const {
+    Surface surface(nullptr);
+    compute(atoms, surface);
+    return surface;
+  }
+  // The next frame, in the memory of the one before. If it throws the surface stays as it was.
+  void compute(const Atoms& atoms, Surface& surface) const {
+    meniscus_surface* in_place = surface.surface_.release();
+    const meniscus_status status = meniscus_compute(computer_.get(), &atoms.get(), &in_place);
+    surface.surface_.reset(in_place);
+    check(status);
+  }
+
+  // For the functions of meniscus.h; owned by this.
+  meniscus_computer* get() const noexcept { return computer_.get(); }
+
+ private:
+  detail::Handle<meniscus_computer, meniscus_computer_release> computer_;
+};
+
+// ---- Pictures ----
+
+// A GL context of its own with its kernels, on a thread of its own.
+class Painter {
+ public:
+  // MENISCUS_AUTO, MENISCUS_GPU, MENISCUS_SOFTWARE or MENISCUS_CPU (the same). GpuError where there is no GL 4.5.
+  explicit Painter(std::int32_t device = MENISCUS_AUTO) {
+    meniscus_painter* painter = nullptr;
+    check(meniscus_painter_new(device, &painter));
+    painter_.reset(painter);
+  }
+
+  // Ray casts the exact surface: width * height * 4 bytes, red, green, blue, alpha (not multiplied in), rows from the
+  // top.
+  std::vector<std::uint8_t> paint(const Surface& surface, const Picture& picture = {}) const {
+    if (picture.width < 0 || picture.height < 0) throw UsageError("a picture has no negative width or height");
+    std::vector<std::uint8_t> rgba(std::size_t{4} * static_cast<std::size_t>(picture.width) *
+                                   static_cast<std::size_t>(picture.height));
+    paint(surface, picture, rgba);
+    return rgba;
+  }
+  // Into memory of the caller's, of that size at least.
+  void paint(const Surface& surface, const Picture& picture, std::span<std::uint8_t> rgba) const {
+    check(meniscus_paint(painter_.get(), surface.get(), &picture, rgba.data(), rgba.size()));
+  }
+
+  // For the functions of meniscus.h; owned by this.
+  meniscus_painter* get() const noexcept { return painter_.get(); }
+
+ private:
+  detail::Handle<meniscus_painter, meniscus_painter_release> painter_;
+};
+
+}  // namespace v0
+}  // namespace meniscus
+
+#endif
