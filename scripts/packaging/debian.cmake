@@ -1,6 +1,8 @@
-# `cpack` makes a Debian package of what is installed; its dependencies are found by dpkg-shlibdeps.
+# `cpack` makes Debian packages: the program; the shared library, named after its soname; what programs that use it are
+# compiled with; the Python package. Of what is linked to dpkg-shlibdeps finds the packages.
 set(MENISCUS_MAINTAINER "Meniscus developers <maintainers@meniscus.invalid>" CACHE STRING
     "Whom a Debian package names as its maintainer")
+set(generated ${CMAKE_BINARY_DIR}/generated/debian)
 
 # Debian wants a changelog of its own form, with the date of the release.
 execute_process(COMMAND git -C ${CMAKE_SOURCE_DIR} log -1 --format=%cD OUTPUT_VARIABLE date ERROR_QUIET
@@ -8,44 +10,108 @@ execute_process(COMMAND git -C ${CMAKE_SOURCE_DIR} log -1 --format=%cD OUTPUT_VA
 if(NOT date)
   file(TIMESTAMP ${CMAKE_SOURCE_DIR}/CHANGELOG.md date "%a, %d %b %Y %H:%M:%S +0000" UTC)
 endif()
-set(changelog ${CMAKE_BINARY_DIR}/generated/debian/changelog)
-file(CONFIGURE OUTPUT ${changelog} CONTENT [[
+file(CONFIGURE OUTPUT ${generated}/changelog CONTENT [[
 meniscus (@PROJECT_VERSION@) unstable; urgency=medium
 
   * Release @PROJECT_VERSION@; CHANGELOG.md tells what is new.
 
  -- @MENISCUS_MAINTAINER@  @date@
 ]] @ONLY)
-add_custom_command(OUTPUT ${changelog}.gz COMMAND ${GZIP} -9nkf ${changelog} DEPENDS ${changelog} VERBATIM
-                   COMMENT "")
-add_custom_target(meniscus_debian_changelog ALL DEPENDS ${changelog}.gz)
-install(FILES ${changelog}.gz ${CMAKE_SOURCE_DIR}/CHANGELOG.md DESTINATION share/doc/meniscus COMPONENT program)
+execute_process(COMMAND ${GZIP} -9nkf ${generated}/changelog COMMAND_ERROR_IS_FATAL ANY)
+install(FILES ${CMAKE_SOURCE_DIR}/CHANGELOG.md DESTINATION share/doc/meniscus COMPONENT program)
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_VERBATIM_VARIABLES ON)
 set(CPACK_PACKAGE_NAME meniscus)
 set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
 set(CPACK_PACKAGE_CONTACT ${MENISCUS_MAINTAINER})
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "")  # each package has its own
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
-set(CPACK_POST_BUILD_SCRIPTS ${CMAKE_CURRENT_LIST_DIR}/ldconfig_by_trigger.cmake)
-set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
-    OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
+set(CPACK_POST_BUILD_SCRIPTS ${CMAKE_CURRENT_LIST_DIR}/debian_rules.cmake)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
-set(CPACK_COMPONENTS_ALL program)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
-set(CPACK_DEBIAN_PACKAGE_SECTION science)
 
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME meniscus)
-set(CPACK_DEBIAN_PROGRAM_DESCRIPTION "Meniscus computes the solvent-excluded surface of a molecule exactly: as
+# debian_package(COMPONENT NAME SECTION section DESCRIPTION text...): what is installed as this component, with the
+# papers that Debian asks for. The description's first line is its title.
+set(CPACK_COMPONENTS_ALL "")
+macro(debian_package component name)
+  cmake_parse_arguments(P "" "SECTION;DESCRIPTION;DEPENDS;RECOMMENDS;ARCHITECTURE" "CONTROL" ${ARGN})
+  list(APPEND CPACK_COMPONENTS_ALL ${component})
+  install(FILES ${generated}/changelog.gz DESTINATION share/doc/${name} COMPONENT ${component} EXCLUDE_FROM_ALL)
+  install(FILES ${CMAKE_SOURCE_DIR}/LICENSE DESTINATION share/doc/${name} RENAME copyright COMPONENT ${component}
+          EXCLUDE_FROM_ALL)
+  string(TOUPPER CPACK_DEBIAN_${component} variable)
+  set(${variable}_PACKAGE_NAME ${name})
+  set(${variable}_PACKAGE_SECTION ${P_SECTION})
+  set(${variable}_DESCRIPTION ${P_DESCRIPTION})
+  set(${variable}_PACKAGE_DEPENDS ${P_DEPENDS})
+  set(${variable}_PACKAGE_RECOMMENDS ${P_RECOMMENDS})
+  set(${variable}_PACKAGE_CONTROL_EXTRA ${P_CONTROL})
+  set(${variable}_PACKAGE_CONTROL_STRICT_PERMISSION ON)
+  if(P_ARCHITECTURE)
+    set(${variable}_PACKAGE_ARCHITECTURE ${P_ARCHITECTURE})
+  else()
+    set(${variable}_PACKAGE_SHLIBDEPS ON)
+  endif()
+endmacro()
+
+# GL is loaded by name, by epoxy. What draws, films and renders may be missing where only areas are wanted.
+debian_package(program meniscus
+  SECTION science
+  DEPENDS "libegl1, libgl1"
+  RECOMMENDS "libegl-mesa0, libgl1-mesa-dri, fonts-dejavu-core, ffmpeg, povray, povray-includes, blender"
+  DESCRIPTION "Exact, analytic solvent-excluded surfaces of molecules on the GPU
+Meniscus computes the solvent-excluded surface of a molecule exactly: as
 spheres, tori and clipped spheres, closed and certified, never as a mesh that
 approximates them. It does so on the GPU or the CPU, shows the surface while it
 changes, ray casts it to pictures and films, and hands the same patches to
 POV-Ray and, with a closed mesh, to Blender.")
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
-# Loaded by name: GL by epoxy. What draws, films and renders may be missing where only areas are wanted.
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "libegl1, libgl1")
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS
-    "libegl-mesa0, libgl1-mesa-dri, fonts-dejavu-core, ffmpeg, povray, povray-includes, blender")
+
+set(about "The library computes the solvent-excluded surface of a molecule exactly, with
+areas, volumes, components, areas of atoms, the analytic patches, closed
+meshes, distances to the surface, and ray-cast pictures of it.")
+set(library libmeniscus${PROJECT_VERSION_MAJOR})
+file(WRITE ${generated}/shlibs "libmeniscus ${PROJECT_VERSION_MAJOR} ${library} (>= ${PROJECT_VERSION})\n")
+debian_package(libmeniscus ${library}
+  SECTION libs
+  RECOMMENDS "libegl1, libgl1, libegl-mesa0, libgl1-mesa-dri"
+  CONTROL ${generated}/shlibs
+  DESCRIPTION "Exact solvent-excluded surfaces of molecules - shared library
+${about}
+.
+This package has the shared library.")
+
+debian_package(libmeniscus-dev libmeniscus-dev
+  SECTION libdevel
+  DEPENDS "${library} (= ${PROJECT_VERSION})"
+  DESCRIPTION "Exact solvent-excluded surfaces of molecules - headers
+${about}
+.
+This package has the headers for C99 and C++20, and what CMake and pkg-config
+need to compile a program that uses the library.")
+
+install(DIRECTORY ${CMAKE_SOURCE_DIR}/exporters/python/meniscus DESTINATION lib/python3/dist-packages
+        COMPONENT python3-meniscus EXCLUDE_FROM_ALL PATTERN __pycache__ EXCLUDE)
+file(CONFIGURE OUTPUT ${generated}/METADATA CONTENT [[
+Metadata-Version: 2.1
+Name: meniscus
+Version: @PROJECT_VERSION@
+Summary: Exact solvent-excluded surfaces of molecules: areas, volumes, patches, meshes, distances, pictures
+License: BSD-3-Clause
+Requires-Python: >=3.9
+Requires-Dist: numpy>=1.21
+]] @ONLY)
+install(FILES ${generated}/METADATA DESTINATION lib/python3/dist-packages/meniscus-${PROJECT_VERSION}.dist-info
+        COMPONENT python3-meniscus EXCLUDE_FROM_ALL)
+debian_package(python3-meniscus python3-meniscus
+  SECTION python
+  ARCHITECTURE all
+  DEPENDS "python3:any (>= 3.9~), python3-numpy, ${library} (>= ${PROJECT_VERSION})"
+  CONTROL ${CMAKE_CURRENT_LIST_DIR}/python/postinst ${CMAKE_CURRENT_LIST_DIR}/python/prerm
+  DESCRIPTION "Exact solvent-excluded surfaces of molecules - Python 3
+${about}
+.
+This package has the Python 3 package: arrays of numpy in, arrays of numpy out.")
 include(CPack)

@@ -1,14 +1,23 @@
-# Run by cpack behind the packages: what CPack makes of a shared library are scripts that call ldconfig, for modules of a
-# program too. Debian wants a trigger instead, and only where the library is one for others.
+# Run by cpack behind the packages, for what it does otherwise than Debian's policy: of a shared library it makes scripts
+# that call ldconfig, for modules of a program too, where a trigger is wanted, and only where the library is one for
+# others; and folders have the modes of whoever made the packages.
 foreach(package ${CPACK_PACKAGE_FILES})
   set(tree ${package}.tree)
   file(REMOVE_RECURSE ${tree})
   execute_process(COMMAND dpkg-deb --raw-extract ${package} ${tree} COMMAND_ERROR_IS_FATAL ANY)
-  file(REMOVE ${tree}/DEBIAN/postinst ${tree}/DEBIAN/postrm)
+  foreach(script ${tree}/DEBIAN/postinst ${tree}/DEBIAN/postrm)
+    if(EXISTS ${script})
+      file(STRINGS ${script} calls REGEX ldconfig)
+      if(calls)
+        file(REMOVE ${script})
+      endif()
+    endif()
+  endforeach()
   file(GLOB libraries ${tree}/usr/lib/*.so.* ${tree}/usr/lib/*-linux-*/*.so.*)
   if(libraries)
     file(WRITE ${tree}/DEBIAN/triggers "activate-noawait ldconfig\n")
   endif()
+  execute_process(COMMAND chmod -R u=rwX,go=rX ${tree} COMMAND_ERROR_IS_FATAL ANY)
   execute_process(COMMAND dpkg-deb --build --root-owner-group ${tree} ${package} OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
   file(REMOVE_RECURSE ${tree})
 endforeach()

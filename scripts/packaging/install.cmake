@@ -1,5 +1,5 @@
-# What `cmake --install` brings, once everything is built, and what a Debian package holds. The program finds its module
-# in ../lib/meniscus and the Blender add-on in ../share/meniscus, so that the whole may stand anywhere.
+# What `cmake --install` brings, once everything is built, and what the Debian packages hold. The program finds its
+# module in ../lib/meniscus and the Blender add-on in ../share/meniscus, so that the whole may stand anywhere.
 find_program(GZIP gzip REQUIRED)
 set(share ${CMAKE_BINARY_DIR}/share_of_program)
 add_custom_command(

@@ -1,47 +1,103 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The Debian package: lintian has nothing to say, it depends on what the program loads, and holds what belongs to it."""
+"""The Debian packages: lintian has nothing to say, they depend on what they load, and hold what belongs to them, with
+modes that do not depend on who made them."""
 
 import pathlib
+import re
 import shutil
+import sysconfig
 import tempfile
 import unittest
 
-from installation import BUILD, run
+from installation import BUILD, ROOT, run
+
+LIBRARIES = f"usr/lib/{sysconfig.get_config_var('MULTIARCH')}"
+HOLDS = {
+    "meniscus": {"usr/bin/meniscus", "usr/lib/meniscus/meniscus_openimageio.so", "usr/lib/meniscus/meniscus_hdf5.so",
+                 "usr/share/man/man1/meniscus.1.gz", "usr/share/meniscus/addon/render_mns.py"},
+    "libmeniscus0": {f"{LIBRARIES}/libmeniscus.so.0", f"{LIBRARIES}/libmeniscus.so.{{version}}"},
+    "libmeniscus-dev": {"usr/include/meniscus/meniscus.h", "usr/include/meniscus/meniscus.hpp",
+                        f"{LIBRARIES}/libmeniscus.so", f"{LIBRARIES}/pkgconfig/meniscus.pc",
+                        f"{LIBRARIES}/cmake/Meniscus/MeniscusConfig.cmake"},
+    "python3-meniscus": {f"usr/lib/python3/dist-packages/meniscus/{path.name}"
+                         for path in (ROOT / "exporters/python/meniscus").iterdir() if path.is_file()}
+                        | {"usr/lib/python3/dist-packages/meniscus-{version}.dist-info/METADATA"},
+}
+
+
+def fields(package):
+    lines = run("dpkg-deb", "-f", package).stdout.splitlines()
+    return dict(line.split(": ", 1) for line in lines if line[:1] != " " and ": " in line)
+
+
+def listed(package):
+    """Path of each file and folder, to its mode and owner."""
+    rows = (line.split(None, 5) for line in run("dpkg-deb", "-c", package).stdout.splitlines())
+    return {path.split(" -> ")[0].removeprefix("./").rstrip("/"): (mode, owner) for mode, owner, _, _, _, path in rows}
 
 
 @unittest.skipUnless(shutil.which("dpkg-shlibdeps"), "dpkg-dev is not installed")
-class DebianPackage(unittest.TestCase):
+class DebianPackages(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         folder = tempfile.TemporaryDirectory()
         cls.addClassCleanup(folder.cleanup)
-        done = run("cpack", "--config", BUILD / "CPackConfig.cmake", "-B", folder.name)
+        done = run("cpack", "--config", BUILD / "CPackConfig.cmake", "-B", folder.name, umask=0o077)
         assert done.returncode == 0, done.stdout + done.stderr
-        cls.packages = sorted(pathlib.Path(folder.name).glob("*.deb"))
+        cls.packages = {path.name.split("_")[0]: path for path in pathlib.Path(folder.name).glob("*.deb")}
+        cls.version = fields(cls.packages["meniscus"])["Version"]
 
-    def test_the_program_has_its_package(self):
-        self.assertEqual([package.name.split("_")[0] for package in self.packages], ["meniscus"])
+    def test_program_library_headers_and_python_have_their_packages(self):
+        self.assertEqual(set(self.packages), set(HOLDS))
 
-    def test_it_depends_on_libraries_and_only_recommends_other_programs(self):
-        fields = dict(line.split(": ", 1) for line in run("dpkg-deb", "-f", self.packages[0]).stdout.splitlines()
-                      if line[:1] != " " and ": " in line)
+    def test_the_program_depends_on_libraries_and_only_recommends_other_programs(self):
+        told = fields(self.packages["meniscus"])
         for name in ("libtbb12", "libopenimageio2.4", "libegl1", "libepoxy0"):
-            self.assertRegex(fields["Depends"], rf"\b{name}\b")
-        self.assertNotIn("blender", fields["Depends"])
+            self.assertRegex(told["Depends"], rf"\b{name}\b")
+        self.assertNotIn("blender", told["Depends"])
         for name in ("ffmpeg", "povray", "blender"):
-            self.assertIn(name, fields["Recommends"])
+            self.assertIn(name, told["Recommends"])
 
-    def test_it_holds_what_belongs_to_the_program(self):
-        listed = run("dpkg-deb", "-c", self.packages[0]).stdout
-        for path in ("usr/bin/meniscus", "usr/lib/meniscus/meniscus_openimageio.so", "usr/share/man/man1/meniscus.1.gz",
-                     "usr/share/meniscus/addon/render_mns.py", "usr/share/doc/meniscus/copyright"):
-            self.assertIn(f" ./{path}\n", listed)
+    def test_the_library_depends_on_little_and_works_without_gl(self):
+        needed = {entry.split()[0] for entry in fields(self.packages["libmeniscus0"])["Depends"].split(", ")}
+        self.assertEqual(needed, {"libc6", "libepoxy0", "libfmt9", "libgcc-s1", "libstdc++6", "libtbb12"})
+
+    def test_what_uses_the_library_depends_on_it(self):
+        self.assertEqual(fields(self.packages["libmeniscus-dev"])["Depends"], f"libmeniscus0 (= {self.version})")
+        told = fields(self.packages["python3-meniscus"])
+        self.assertEqual(told["Architecture"], "all")
+        self.assertRegex(told["Depends"], rf"\bpython3-numpy, libmeniscus0 \(>= {re.escape(self.version)}\)")
+
+    def test_packages_of_programs_that_are_linked_to_the_library_will_depend_on_it(self):
+        shlibs = run("dpkg-deb", "-I", self.packages["libmeniscus0"], "shlibs").stdout
+        self.assertEqual(shlibs, f"libmeniscus 0 libmeniscus0 (>= {self.version})\n")
+        triggers = run("dpkg-deb", "-I", self.packages["libmeniscus0"], "triggers").stdout
+        self.assertEqual(triggers, "activate-noawait ldconfig\n")
+
+    def test_each_holds_what_belongs_to_it(self):
+        owners = {}
+        for name, expected in HOLDS.items():
+            files = {path for path, (mode, _) in listed(self.packages[name]).items() if mode[0] != "d"}
+            expected = {path.format(version=self.version) for path in expected}
+            papers = {f"usr/share/doc/{name}/copyright", f"usr/share/doc/{name}/changelog.gz"}
+            self.assertLessEqual(expected | papers, files, name)
+            if name != "meniscus":  # which also has pages, documents, completions
+                extra = {path for path in files - expected - papers if "/cmake/Meniscus/" not in path}
+                self.assertEqual(extra, set(), name)
+            for path in files:
+                self.assertEqual(owners.setdefault(path, name), name, path)
+
+    def test_modes_do_not_depend_on_who_made_them(self):
+        for name, package in self.packages.items():
+            for path, (mode, owner) in listed(package).items():
+                executable = path == "usr/bin/meniscus"
+                expected = {"d": "drwxr-xr-x", "l": "lrwxrwxrwx", "-": "-rwxr-xr-x" if executable else "-rw-r--r--"}
+                self.assertEqual((mode, owner), (expected[mode[0]], "root/root"), f"{name}: {path}")
 
     @unittest.skipUnless(shutil.which("lintian"), "lintian is not installed")
     def test_lintian_has_nothing_to_say(self):
-        for package in self.packages:
-            checked = run("lintian", "--allow-root", "--fail-on", "error,warning", package)
-            self.assertEqual((checked.returncode, checked.stdout), (0, ""), checked.stderr)
+        checked = run("lintian", "--allow-root", "--fail-on", "error,warning", *self.packages.values())
+        self.assertEqual((checked.returncode, checked.stdout), (0, ""), checked.stderr)
 
 
 if __name__ == "__main__":
