@@ -54,7 +54,8 @@ rows=(
   "zink|tests of GPU and pictures on a second GL driver|$zink ctest --test-dir build/test -L gpu|image -E SecondDriver --timeout 900 -j $jobs"
   "python|the wheel in a fresh environment, with other packages from PyPI|bash scripts/test_wheel.sh"
   "faults|calls that fail, full disks, kills, other writers|ctest --test-dir build/test -L fault --timeout 1800 -j $jobs"
-  "package|the Debian package in a bare Debian 12: installed, run, taken away|bash scripts/packaging/try_package.sh"
+  "packages|the Debian packages in a bare Debian 12: installed, used, taken away|bash scripts/packaging/try_package.sh"
+  "image|the image of a farm node, built and at work on a film|bash scripts/packaging/try_image.sh"
   "includes|every file without precompiled headers|bash scripts/includes.sh"
   "mutations|planted faults that the tests must find|/usr/bin/python3 scripts/mutate.py --jobs $jobs"
 )

@@ -3,6 +3,10 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -192,25 +196,6 @@ TEST(CppApi, RadiiByElement) {
   EXPECT_EQ(meniscus::radius_of(6).radius, 1.70);
   EXPECT_EQ(std::string(meniscus::radius_of(0).source), "no published value");
   EXPECT_EQ(meniscus::version(), MENISCUS_VERSION);
-}
-
-TEST(CppApi, PaintsWhatTheCameraSees) {
-  const Surface surface = Computer().compute({kOneBall});
-  const meniscus::Painter painter(MENISCUS_SOFTWARE);
-  meniscus::Camera camera = surface.frame(1.0, MENISCUS_ORTHOGRAPHIC);
-  camera.height = 8.0;  // so the sphere is half as wide as the picture
-  meniscus::Picture picture;
-  picture.camera = &camera;
-  picture.width = picture.height = 64;
-  const std::vector<std::uint8_t> rgba = painter.paint(surface, picture);
-  ASSERT_EQ(rgba.size(), 4U * 64 * 64);
-  double covered = 0.0;
-  for (std::size_t n = 3; n < rgba.size(); n += 4) covered += rgba[n] / 255.0;
-  EXPECT_NEAR(covered, pi * 16 * 16, 12.0);
-  std::vector<std::uint8_t> small(100);
-  EXPECT_THROW(painter.paint(surface, picture, small), meniscus::UsageError);
-  picture.width = -1;
-  EXPECT_THROW(painter.paint(surface, picture), meniscus::UsageError);
 }
 
 }  // namespace

@@ -30,7 +30,6 @@
 #include <span>
 #include <stdexcept>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <meniscus/meniscus.h>
