@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/molecules.h"
+#include "tests/support/sanitized.h"
 
 namespace meniscus::testing {
 namespace {
@@ -135,7 +136,7 @@ TEST_P(CameraMotion, ZoomToFramesWhatIsShown) {
   EXPECT_LT(nearest_edge, 0.1 * kSize.y) << "a margin, but no more";
 }
 
-INSTANTIATE_TEST_SUITE_P(Random, CameraMotion, ::testing::Range(0, 20));
+INSTANTIATE_TEST_SUITE_P(Random, CameraMotion, ::testing::Range(0, test::samples(20)));
 
 }  // namespace
 }  // namespace meniscus::testing

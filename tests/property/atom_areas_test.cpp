@@ -15,6 +15,7 @@
 #include "core/surface/surface.h"
 #include "tests/support/molecules.h"
 #include "tests/support/patch_samples.h"
+#include "tests/support/sanitized.h"
 
 namespace meniscus::testing {
 namespace {
@@ -143,13 +144,13 @@ void expect_sampled(const Surface& s, int samples, std::mt19937& random) {
 
 TEST(AtomAreas, RandomPointsOfEveryPatchAgree) {
   std::mt19937 random(11);
-  expect_sampled(compute_surface_cpu(ubiquitin(), kWater), 3000, random);
+  expect_sampled(compute_surface_cpu(ubiquitin(), kWater), test::samples(3000), random);
   for (const NamedBalls& molecule : degenerate_molecules()) {  // probes with four and more contacts
     if (molecule.probe_radius == 0) continue;
     SCOPED_TRACE(molecule.name);
-    expect_sampled(compute_surface_cpu(molecule.balls, molecule.probe_radius), 3000, random);
+    expect_sampled(compute_surface_cpu(molecule.balls, molecule.probe_radius), test::samples(3000), random);
   }
-  for (std::uint32_t n = 0; n < 30; ++n) {
+  for (int n = 0; n < test::samples(30); ++n) {
     const GasCase gas = gas_case(n);
     if (gas.probe_radius == 0) continue;
     SCOPED_TRACE("gas " + std::to_string(n));

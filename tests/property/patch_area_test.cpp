@@ -14,6 +14,7 @@
 #include "core/math/union_find.h"
 #include "tests/support/molecules.h"
 #include "tests/support/patch_samples.h"
+#include "tests/support/sanitized.h"
 
 namespace meniscus::testing {
 namespace {
@@ -42,7 +43,7 @@ void expect_areas_agree(const Surface& s, int samples, std::mt19937& random) {
 
 TEST(PatchArea, Ubiquitin) {
   std::mt19937 random(1);
-  expect_areas_agree(compute_surface_cpu(ubiquitin(), kWater), 2000, random);
+  expect_areas_agree(compute_surface_cpu(ubiquitin(), kWater), test::samples(2000), random);
 }
 
 TEST(PatchArea, DegenerateMolecules) {
@@ -50,7 +51,7 @@ TEST(PatchArea, DegenerateMolecules) {
   for (const NamedBalls& molecule : degenerate_molecules()) {
     if (molecule.probe_radius == 0) continue;
     SCOPED_TRACE(molecule.name);
-    expect_areas_agree(compute_surface_cpu(molecule.balls, molecule.probe_radius), 2000, random);
+    expect_areas_agree(compute_surface_cpu(molecule.balls, molecule.probe_radius), test::samples(2000), random);
   }
 }
 
@@ -60,7 +61,7 @@ TEST(PatchArea, Gases) {
     const GasCase gas = gas_case(n);
     if (gas.probe_radius == 0) continue;
     SCOPED_TRACE("gas " + std::to_string(n));
-    expect_areas_agree(compute_surface_cpu(gas.balls, gas.probe_radius), 300, random);
+    expect_areas_agree(compute_surface_cpu(gas.balls, gas.probe_radius), test::samples(300), random);
   }
 }
 

@@ -13,6 +13,7 @@
 #include "exporters/mesh/tessellate.h"
 #include "tests/prove/families.h"
 #include "tests/prove/surface_check.h"
+#include "tests/support/sanitized.h"
 #include "tests/support/topology.h"
 
 namespace meniscus::testing {
@@ -69,7 +70,7 @@ TEST_P(Corpus, IsClosedAndRight) {
   ASSERT_GE(entry.balls.size(), 2u);
   expect_right(entry.balls, entry.probe_radius, 1, 2);
   std::mt19937 random(7);
-  for (int turn = 0; turn < 4; ++turn)
+  for (int turn = 0; turn < test::samples(4); ++turn)
     expect_right(rotated(entry.balls, random_rotation(random)), entry.probe_radius, 2, 1);
 }
 

@@ -156,7 +156,9 @@ GasCase gas_case(std::uint32_t n) {
           step > 0 ? std::round(2 * probe_radius) / 2 : probe_radius, step > 0};
 }
 
-std::vector<NamedBalls> degenerate_molecules() {
+namespace {
+
+std::vector<NamedBalls> make_degenerate_molecules() {
   const double p = kWater, r = kCarbon, extended = r + p;
   std::vector<NamedBalls> all = {
       {"single", {{{0, 0, 0}, r}}},
@@ -212,6 +214,13 @@ std::vector<NamedBalls> degenerate_molecules() {
   for (int copy = 0; copy < 16; ++copy) thrice.push_back(thrice[copy]);
   all.push_back({"cube three times", thrice});
   return all;
+}
+
+}  // namespace
+
+const std::vector<NamedBalls>& degenerate_molecules() {
+  static const std::vector<NamedBalls> molecules = make_degenerate_molecules();
+  return molecules;
 }
 
 Balls ubiquitin() { return balls_of(read_structure("/usr/share/freesasa/test-data/1ubq.pdb")); }

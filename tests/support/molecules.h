@@ -57,8 +57,8 @@ struct NamedBalls {
   Balls balls;
   double probe_radius = kWater;
 };
-/// Every degenerate molecule worth trying, small enough for hundreds of surfaces.
-std::vector<NamedBalls> degenerate_molecules();
+/// Every degenerate molecule worth trying, small enough for hundreds of surfaces. Made once: names of tests ask often.
+const std::vector<NamedBalls>& degenerate_molecules();
 
 /// 1UBQ of Debian's freesasa (602 atoms) and 1TII of its pymol-data (5,469), without water, Bondi radii.
 Balls ubiquitin();

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/molecules.h"
+#include "tests/support/sanitized.h"
 #include "tests/support/sphere_tracer.h"
 
 namespace meniscus {
@@ -20,7 +21,8 @@ TEST(Solvent, EveryPointIsOnTheSideTheOracleSays) {
     std::mt19937 random(3);
     std::uniform_real_distribution<double> offset(-5.0, 5.0);
     int in_solvent_count = 0, near_count = 0;
-    for (int n = 0; n < 1500; ++n) {
+    const int count = test::samples(1500);
+    for (int n = 0; n < count; ++n) {
       const glm::dvec3 point =
           atoms[random() % atoms.size()].center + glm::dvec3(offset(random), offset(random), offset(random));
       const double distance = oracle.nearest(point).distance;
@@ -29,8 +31,8 @@ TEST(Solvent, EveryPointIsOnTheSideTheOracleSays) {
       in_solvent_count += distance < probe_radius;
       near_count += distance > 0.0 && distance < probe_radius;
     }
-    EXPECT_GT(in_solvent_count, 200);
-    EXPECT_GT(near_count, 50);  // under SAS balls and yet outside the solid
+    EXPECT_GT(in_solvent_count, 2 * count / 15);
+    EXPECT_GT(near_count, count / 30);  // under SAS balls and yet outside the solid
   }
 }
 
