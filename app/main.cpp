@@ -44,7 +44,7 @@ constexpr const char* kExamples = R"(  meniscus info 1tii.pdb                   
   meniscus surface 1tii.pdb --select 'chain A'    only some atoms; meniscus help selections
   meniscus COMMAND --help                         everything about one command)";
 
-constexpr const char* kExitCodes = R"(Exit codes:
+constexpr const char* kExitCodesInShort = R"(Exit codes:
   0 done  1 internal error  2 wrong usage  3 bad input  4 no usable GPU  5 too large
   6 output not written  7 surface not closed  8 trajectory cut short  9 stopped, to be resumed
 )";
@@ -60,7 +60,7 @@ class ManualFormatter : public CLI::Formatter {
     if (!app->get_footer().empty()) help += "\nExamples:\n" + app->get_footer() + "\n";
     help += "\n" + make_usage(app, std::move(name)) + make_positionals(app) + make_groups(app, mode) +
             make_subcommands(app, mode);
-    return help + (app->get_parent() ? "" : std::string("\n") + kExitCodes);
+    return help + (app->get_parent() ? "" : std::string("\n") + kExitCodesInShort);
   }
 
   std::string make_option_desc(const CLI::Option* option) const override {

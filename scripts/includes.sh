@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
-# Does every file include what it needs? Compiles them without precompiled headers, as far as their syntax: all of app
-# and tests, where headers are precompiled, or those that are named. The last line says how many were tried and failed.
+# Does every file include what it needs? Compiles each by itself and without precompiled headers, as far as its syntax:
+# all of them, or those that are named. The last line says how many were tried and failed.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 build=build/plain
-cmake -S . -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DMENISCUS_PRECOMPILED=OFF >/dev/null
+cmake -S . -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DMENISCUS_PRECOMPILED=OFF \
+  -DMENISCUS_UNITY=OFF >/dev/null
 
 # A line of tab-separated words: the file, and how it is compiled.
 commands() {
@@ -13,7 +14,7 @@ import json, shlex, sys
 database, root, wanted = sys.argv[1], sys.argv[2], sys.argv[3:]
 for entry in json.load(open(database)):
     name = entry["file"].removeprefix(root + "/")
-    if name in wanted if wanted else name.startswith(("app/", "tests/")):
+    if name in wanted if wanted else name.startswith(("core/", "exporters/", "app/", "tests/")):
         words = shlex.split(entry["command"])
         print(name, *words[:words.index("-o")], "-fsyntax-only", entry["file"], sep="\t")
 PYTHON

@@ -16,9 +16,9 @@ fi
 files=("$@")
 if ((${#files[@]} == 0)); then mapfile -t files < <(find "${folders[@]}" -name '*.cpp' | sort); fi
 
-# How clang compiles each file.
-build=build/asan
-[[ -f $build/compile_commands.json ]] || cmake --preset asan >/dev/null
+# How clang compiles each file, by itself and without precompiled headers: so nothing has to be built before.
+build=build/lint
+cmake --preset asan -B "$build" -DMENISCUS_PRECOMPILED=OFF -DMENISCUS_UNITY=OFF >/dev/null
 
 printf '%s\0' "${files[@]}" |
   xargs -0 -P "${MENISCUS_JOBS:-$(nproc)}" -n 1 bash -c \

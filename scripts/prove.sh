@@ -94,8 +94,10 @@ mkdir -p "$logs"
 build() { "$@" >"$logs/build.log" 2>&1 || { tail -n 30 "$logs/build.log" >&2; echo "failed: $*" >&2; exit 1; }; }
 build cmake -S . -B build/test -G Ninja -DCMAKE_BUILD_TYPE=Release -DMENISCUS_TESTS=ON
 build cmake --build build/test --target all view_equality
-if chosen sanitizers || chosen tidy; then build cmake --preset asan; fi
-if chosen sanitizers; then build cmake --build --preset asan-all; fi
+if chosen sanitizers; then
+  build cmake --preset asan
+  build cmake --build --preset asan-all
+fi
 
 # counted LOG: "CASES FAILURES" of its last line that tells them; nothing if there is none.
 counted() {

@@ -18,7 +18,7 @@ void print_row(std::string_view word, std::string_view description, std::string_
   if (!source.empty()) fmt::print(std::cout, "  {:<{}}  {}\n", "", kColumn, source);
 }
 
-void run() {
+void list_colors() {
   fmt::print(std::cout, "--color SCHEME\n");
   for (const ColorSchemeMetadata& scheme : color_schemes()) print_row(scheme.word, scheme.description, scheme.source);
   print_row("#rrggbb", "one colour for all", "");
@@ -35,7 +35,7 @@ void run() {
 
 void add_colors(CLI::App& command) {
   describe(command, "List colour schemes and colour maps with their sources", "  meniscus colors");
-  command.callback(run);
+  command.callback(list_colors);
 }
 
 }  // namespace meniscus

@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kInside = "inputs/blender/";
-constexpr std::size_t kMostBytes = std::size_t{4} << 20;
+constexpr std::size_t kLargestDriverFile = std::size_t{4} << 20;
 
 }  // namespace
 
@@ -55,7 +55,7 @@ DriverCopy::DriverCopy(const fs::path& bundle_folder)
   std::error_code error;
   fs::remove_all(path_, error);  // of a process that had this number before
   for (const DriverFile& file : driver_files()) {
-    const std::optional<std::string> text = inner_text(bundle_folder, kInside + file.path, kMostBytes);
+    const std::optional<std::string> text = inner_text(bundle_folder, kInside + file.path, kLargestDriverFile);
     if (!text || sha256(*text) != file.sha256)
       throw InputError((bundle_folder / kInside / file.path).string(), 0, "is not what was bundled");
     fs::create_directories((path_ / file.path).parent_path(), error);

@@ -22,7 +22,6 @@ using Json = nlohmann::ordered_json;
 constexpr int kSchemaVersion = 1;
 constexpr std::uint64_t kMostChunks = 1000;         // Slurm's MaxArraySize is 1001 unless a site says otherwise
 constexpr std::uint64_t kMostFrames = 100'000'000;  // a manifest that asks for more is damaged
-constexpr std::uint64_t kLargestSide = 65'535;
 constexpr std::uint64_t kAnyNumber = ~std::uint64_t{0};
 constexpr std::size_t kLongestShown = 200;  // bytes of a value in a message
 constexpr const char* kMakers[] = {"meniscus", "povray", "blender"};
@@ -96,7 +95,7 @@ Chunking read_chunking(const Json& json) {
   return chunking;
 }
 
-Bundle from_json(const Json& json) {
+Bundle bundle_from_json(const Json& json) {
   if (json.at("schema") != "meniscus-farm-bundle") throw RequestError("is no bundle of a farm");
   if (json.at("schema_version") != kSchemaVersion)
     throw RequestError(fmt::format("has schema version {}; this program reads {}: use the program of version {}",
@@ -168,7 +167,7 @@ std::string bundle_json(const Bundle& bundle) { return whole_json(bundle, true).
 Bundle parse_bundle(const std::string& text) {
   try {
     if (is_nested_too_deep(text)) throw RequestError("is damaged: it is nested too deep");
-    return from_json(Json::parse(text));
+    return bundle_from_json(Json::parse(text));
   } catch (const nlohmann::json::exception& error) {
     throw RequestError("is damaged: " + shortened(error.what(), kLongestShown));
   }

@@ -10,6 +10,8 @@
 
 namespace meniscus::farm {
 
+inline constexpr int kLargestSide = 65'535;  ///< of a picture, in pixels
+
 /// What makes the frames of a step.
 enum class Maker {
   meniscus,  ///< this program: pictures, scenes, geometry

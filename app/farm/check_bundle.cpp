@@ -20,7 +20,6 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-constexpr int kLargestSide = 65535;
 constexpr std::uint64_t kMostTasks = 1000, kMostCores = 4096, kMostMemory = std::uint64_t{1} << 30;  // MiB
 
 Words command_words(const Words& command) {

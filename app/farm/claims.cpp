@@ -29,14 +29,14 @@ namespace {
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostBytes = 4096;  // of a claim, and of a sign of life
-constexpr int kMostGenerations = 1000;    // so many workers died of one frame
+constexpr std::size_t kLargestClaim = 4096;  // of a claim, and of a sign of life
+constexpr int kMostGenerations = 1000;       // so many workers died of one frame
 
 Claims* current = nullptr;
 std::mutex current_mutex;
 
 /// The letters that names in a bundle have.
-std::string plain(std::string text) {
+std::string plain_name(std::string text) {
   std::erase_if(text, [](unsigned char c) { return !std::isalnum(c) && c != '-'; });
   return text.empty() || text.front() == '-' ? "host" + text : text.substr(0, 60);
 }
@@ -44,7 +44,7 @@ std::string plain(std::string text) {
 std::string host_name() {
   char name[256] = {};
   ::gethostname(name, sizeof name - 1);
-  return plain(name);
+  return plain_name(name);
 }
 
 std::string first_line(const fs::path& path) {
@@ -162,7 +162,7 @@ bool Claims::make_claim(const fs::path& path) const {
 }
 
 Claims::Holder Claims::holder(const fs::path& claim) {
-  const std::optional<std::string> text = inner_text(folder_, claim, kMostBytes);
+  const std::optional<std::string> text = inner_text(folder_, claim, kLargestClaim);
   if (!text) return {};
   const std::string worker = text->substr(0, text->find('\n'));
   if (worker == name_) return {true, true};
@@ -175,7 +175,7 @@ Claims::Holder Claims::holder(const fs::path& claim) {
 bool Claims::lives(const std::string& worker) {
   const fs::path file = fs::path("state") / "workers" / (worker + ".json");
   const std::optional<FileTime> when = modified(folder_ / file);
-  const std::optional<std::string> text = inner_text(folder_, file, kMostBytes);
+  const std::optional<std::string> text = inner_text(folder_, file, kLargestClaim);
   if (!when || !text) return false;
   const Json life = Json::parse(*text, nullptr, false);
   double lease = kDefaultLease;

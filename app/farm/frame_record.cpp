@@ -19,7 +19,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostBytes = std::size_t{1} << 20;  // of a record
+constexpr std::size_t kLargestRecord = std::size_t{1} << 20;
 
 // Frames are made of files in these two folders.
 bool is_made_path(const std::string& path) {
@@ -48,7 +48,7 @@ std::uint64_t whole_number(const Json& json) {
   return json.get<std::uint64_t>();
 }
 
-FrameRecord from_json(const Json& json) {
+FrameRecord record_from_json(const Json& json) {
   FrameRecord record;
   record.frame = whole_number(json.at("frame"));
   if (json.at("state") != "done") {
@@ -78,13 +78,13 @@ fs::path FrameRecords::path_of(const std::string& step, std::uint64_t frame) con
 }
 
 std::optional<FrameRecord> FrameRecords::read(const std::string& step, std::uint64_t frame) const {
-  const std::optional<std::string> text = inner_text(folder_, path_of(step, frame), kMostBytes);
+  const std::optional<std::string> text = inner_text(folder_, path_of(step, frame), kLargestRecord);
   if (!text) return {};
   if (is_nested_too_deep(*text)) return {};
   try {
     const Json json = Json::parse(*text);
     if (json.at("bundle") != fingerprint_) return {};
-    FrameRecord record = from_json(json);
+    FrameRecord record = record_from_json(json);
     if (record.frame != frame || !is_sound(record)) return {};
     return record;
   } catch (const nlohmann::json::exception&) {

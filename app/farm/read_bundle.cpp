@@ -12,13 +12,13 @@
 namespace meniscus::farm {
 namespace {
 
-constexpr std::size_t kMostBytes = std::size_t{64} << 20;  // of a manifest
+constexpr std::size_t kLargestManifest = std::size_t{64} << 20;
 
 }  // namespace
 
 Bundle read_bundle(const std::filesystem::path& folder) {
   const std::string path = (folder / "bundle.json").string();
-  const std::optional<std::string> text = inner_text(folder, "bundle.json", kMostBytes);
+  const std::optional<std::string> text = inner_text(folder, "bundle.json", kLargestManifest);
   if (!text) throw InputError(path, 0, "cannot be opened; meniscus farm bundle makes it");
   try {
     Bundle bundle = parse_bundle(*text);

@@ -1,5 +1,5 @@
-# The large headers of other libraries are compiled once for a folder of programs, not once a file. Nothing else is
-# among them, and no file relies on it: a build with MENISCUS_PRECOMPILED=OFF shows that each includes what it needs.
+# The large headers of other libraries are compiled once for some folders, not once a file. Nothing else is among them,
+# and no file relies on it: a build with MENISCUS_PRECOMPILED=OFF shows that each includes what it needs.
 option(MENISCUS_PRECOMPILED "Compile the large headers of other libraries once" ON)
 
 # For ccache gcc has to say that it read a precompiled header, and clang has to leave the time out of it.
@@ -9,25 +9,27 @@ else()
   set(precompiled_options "SHELL:-Xclang -fno-pch-timestamp")
 endif()
 
-# meniscus_precompile(HOLDER HEADERS headers... LINK targets...): compiles the headers, with the options that a program
-# has which links to these targets. A precompiled header fits only where these options are the same.
+# meniscus_precompile(HOLDER [SHARED] HEADERS headers... LINK targets... OPTIONS options...): compiles the headers, with
+# the options that a program has which links to these targets; SHARED for what goes into shared libraries, too. A
+# precompiled header fits only where these options are the same.
 function(meniscus_precompile holder)
-  cmake_parse_arguments(P "" "" "HEADERS;LINK" ${ARGN})
+  cmake_parse_arguments(P "SHARED" "" "HEADERS;LINK;OPTIONS" ${ARGN})
   file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/generated/${holder}.cpp CONTENT "// Holds precompiled headers.\n")
   add_library(${holder} OBJECT EXCLUDE_FROM_ALL ${CMAKE_BINARY_DIR}/generated/${holder}.cpp)
-  set_target_properties(${holder} PROPERTIES POSITION_INDEPENDENT_CODE OFF)
-  target_compile_options(${holder} PRIVATE ${precompiled_options})
+  set_target_properties(${holder} PROPERTIES POSITION_INDEPENDENT_CODE ${P_SHARED})
+  target_compile_options(${holder} PRIVATE ${precompiled_options} ${P_OPTIONS})
   target_link_libraries(${holder} PRIVATE meniscus_options ${P_LINK})
   target_precompile_headers(${holder} PRIVATE ${P_HEADERS})
 endfunction()
 
-# Programs, and libraries that go into programs only, take what is precompiled.
+# These targets take what is precompiled; where it is not SHARED, they are programs or go into programs only.
 function(meniscus_take_precompiled holder)
   if(NOT MENISCUS_PRECOMPILED)
     return()
   endif()
+  get_target_property(shared ${holder} POSITION_INDEPENDENT_CODE)
   foreach(target ${ARGN})
-    set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE OFF)
+    set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ${shared})
     target_compile_options(${target} PRIVATE ${precompiled_options})
     target_precompile_headers(${target} REUSE_FROM ${holder})
   endforeach()
