@@ -200,7 +200,8 @@ float patch_slack(std::span<const Ball> atoms, double probe_radius, const Pictur
   return static_cast<float>(1e-5 + 2.5e-7 * extent);
 }
 
-void place_atoms(std::span<const Ball> atoms, double probe_radius, const PictureFrame& frame, GpuScene& scene) {
+ScenePlacement place_atoms(std::span<const Ball> atoms, double probe_radius, const PictureFrame& frame) {
+  ScenePlacement scene;
   scene.probe_radius = probe_radius;
   scene.slack = patch_slack(atoms, probe_radius, frame);
   double first = std::numeric_limits<double>::max(), last = 0.0;
@@ -211,6 +212,7 @@ void place_atoms(std::span<const Ball> atoms, double probe_radius, const Picture
   }
   scene.first_depth = static_cast<float>(std::max(std::min(first, last), 0.0));
   scene.last_depth = static_cast<float>(last);
+  return scene;
 }
 
 RayCastScene pack_scene(const Surface& surface, const Coloring& coloring, const PictureFrame& frame) {
@@ -222,7 +224,7 @@ RayCastScene pack_scene(const Surface& surface, const Coloring& coloring, const 
 void upload_scene(const RayCastScene& packed, const Surface& surface, const PictureFrame& frame, GpuScene& scene) {
   scene.primitives.upload(packed.primitives);
   scene.rows.upload(packed.rows);
-  place_atoms(surface.atoms, surface.probe_radius, frame, scene);
+  static_cast<ScenePlacement&>(scene) = place_atoms(surface.atoms, surface.probe_radius, frame);
 }
 
 }  // namespace meniscus

@@ -11,7 +11,7 @@ layout(local_size_x = 64) in;
 #define GEOMETRY_OUT(type) out type
 #define GEOMETRY_INOUT(type) inout type
 #include "gpu_shaders/geometry/ray_sphere.glsl"
-#include "gpu_shaders/geometry/ray_torus.glsl"
+#include "gpu_shaders/geometry/torus_hits.glsl"
 #include "gpu_shaders/geometry/patch_membership.glsl"
 #include "gpu_shaders/test_support/parameters.glsl"
 

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Packets of four: what every processor has.
+#include "core/render/cpu/lane_kernels.h"
+
+#define MENISCUS_LANES 4
+#define MENISCUS_LANE_NAMESPACE lanes_4
+#include "core/render/cpu/tile_caster.h"
+
+namespace meniscus {
+
+const LaneKernels* kernels_of_4_lanes() {
+  static constexpr LaneKernels kernels{4, lanes_4::cast_tile};
+  return &kernels;
+}
+
+}  // namespace meniscus
