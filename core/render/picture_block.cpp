@@ -53,4 +53,20 @@ kernel::RayCastParameters cast_parameters(const ScenePlacement& scene, const Loo
   return own;
 }
 
+kernel::OcclusionParameters occlusion_parameters(const Look& look, int sample) {
+  return {.radius = look.ambient_occlusion_radius,
+          .longest_reach = static_cast<float>(kLongestShade),
+          .sample_index = static_cast<std::uint32_t>(sample)};
+}
+
+kernel::FinishParameters finish_parameters(const Look& look, const ScenePlacement& scene, int sample, bool has_parts) {
+  return {.ambient_occlusion = look.ambient_occlusion,
+          .silhouettes = look.silhouettes,
+          .depth_cue = look.depth_cue,
+          .first_depth = scene.first_depth,
+          .last_depth = scene.last_depth,
+          .sample_index = static_cast<std::uint32_t>(sample),
+          .has_parts = has_parts};
+}
+
 }  // namespace meniscus

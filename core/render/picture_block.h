@@ -38,4 +38,8 @@ kernel::TileListParameters tile_list_parameters(const PictureFrame& frame, const
 kernel::RayCastParameters cast_parameters(const ScenePlacement& scene, const Look& look, std::uint32_t atom_count,
                                           bool color_by_kind);
 
+/// Of sample `sample` of each pixel.
+kernel::OcclusionParameters occlusion_parameters(const Look& look, int sample);
+kernel::FinishParameters finish_parameters(const Look& look, const ScenePlacement& scene, int sample, bool has_parts);
+
 }  // namespace meniscus

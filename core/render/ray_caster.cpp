@@ -39,8 +39,7 @@ bool RayCaster::cast(const GpuScene& scene, const PictureFrame& frame, const Pic
   for (int n = 0; n < settings.samples; ++n) {
     if (n > 0 && settings.stop && settings.stop()) return false;
     const CastSample sample{look.has_effects() ? sample_colors_ : picture_,
-                            n && look.has_effects() ? sample_hits_ : hits_, static_cast<std::uint32_t>(n),
-                            sample_offset(n)};
+                            n && look.has_effects() ? sample_hits_ : hits_, n, sample_offset(n)};
     {
       const GpuStage stage(clock, "ray cast");
       const bool add = n > 0 && !look.has_effects();

@@ -25,6 +25,7 @@ struct LaneScene {
   const ray_cast::Primitive* primitives = nullptr;
   const glm::vec4* rows = nullptr;
   const glm::vec4* colors = nullptr;  ///< linear, alpha 0: hidden; of atoms, then of kinds
+  const float* parts = nullptr;       ///< of atoms, or nullptr
   bool some_hidden = false;
   kernel::RayCastParameters params{};
   kernel::BlockView view{};  ///< but for its sample_offset
@@ -47,7 +48,7 @@ struct LaneSamples {
   glm::vec4* color = nullptr;  ///< linear, premultiplied
   float* depth = nullptr;      ///< along the view axis, Å; kernel::kNothing where nothing is met
   float* normal[3] = {};       ///< towards the solvent, in the molecule's axes
-  std::uint32_t* atom = nullptr;
+  float* part = nullptr;  ///< LaneScene::parts of what is met, else 0; nullptr if there are none
 };
 
 /// Some samples of a tile's pixels.
@@ -63,10 +64,23 @@ struct LaneTile {
   LaneSamples samples;            ///< of the block, for one sample; its pointers may be nullptr all together
 };
 
+/// What a look makes of one sample of each pixel of a block. Arrays of pixels, those of `samples` too, have one more
+/// behind the last: it stands for whatever lies outside.
+struct LaneLook {
+  kernel::BlockView view{};
+  kernel::OcclusionParameters occlusion{};
+  kernel::FinishParameters finish{};
+  LaneSamples samples;
+  float* visibility = nullptr;
+  glm::vec4* sums = nullptr;  ///< gets the finished colours added
+};
+
 /// The kernels for one width.
 struct LaneKernels {
   int lanes;
   void (*cast_tile)(const LaneScene& scene, const LaneTile& tile);
+  void (*occlude_row)(const LaneLook& look, int y);  ///< what hits see of the sky, into visibility
+  void (*finish_row)(const LaneLook& look, int y);   ///< needs the visibility of two rows around
 };
 
 /// For 4, 8 (AVX2) and 16 (AVX-512) lanes; nullptr where this processor cannot run them.

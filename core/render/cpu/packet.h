@@ -17,6 +17,10 @@
 #endif
 
 
+#define GEOMETRY inline
+#define GEOMETRY_OUT(type) type&
+#define GEOMETRY_INOUT(type) type&
+
 namespace meniscus::MENISCUS_LANE_NAMESPACE {
 
 inline constexpr int kLanes = MENISCUS_LANES;
@@ -26,6 +30,8 @@ using Floats [[gnu::vector_size(4 * MENISCUS_LANES)]] = float;
 using Ints [[gnu::vector_size(4 * MENISCUS_LANES)]] = std::int32_t;
 using Uints [[gnu::vector_size(4 * MENISCUS_LANES)]] = std::uint32_t;
 
+struct whole;
+
 struct real {
   Floats v;
   real() = default;
@@ -33,6 +39,7 @@ struct real {
   real(float all) : v(all - Floats{}) {}  // minus 0 keeps all values, -0 too
   real(double all) : real(static_cast<float>(all)) {}
   real(int all) : real(static_cast<float>(all)) {}
+  explicit real(whole lanes);
 };
 
 /// A mask: all bits of a lane are alike.
@@ -56,6 +63,8 @@ struct natural {
   natural(Uints lanes) : v(lanes) {}
   natural(std::uint32_t all) : v(Uints{} + all) {}
 };
+
+inline real::real(whole lanes) : v(__builtin_convertvector(lanes.v, Floats)) {}
 
 inline real operator+(real a, real b) { return a.v + b.v; }
 inline real operator-(real a, real b) { return a.v - b.v; }
@@ -83,6 +92,10 @@ inline whole operator*(whole a, whole b) { return a.v * b.v; }
 inline whole operator&(whole a, whole b) { return a.v & b.v; }
 inline whole operator|(whole a, whole b) { return a.v | b.v; }
 inline whole operator~(whole a) { return ~a.v; }
+inline whole operator^(whole a, whole b) { return a.v ^ b.v; }
+inline whole operator<<(whole a, int b) { return a.v << b; }
+inline whole operator>>(whole a, int b) { return a.v >> b; }
+inline truth operator>=(whole a, whole b) { return Ints(a.v >= b.v); }
 inline truth operator<(whole a, whole b) { return Ints(a.v < b.v); }
 inline truth operator==(whole a, whole b) { return Ints(a.v == b.v); }
 inline truth operator!=(whole a, whole b) { return Ints(a.v != b.v); }
@@ -132,7 +145,6 @@ inline real min(real a, real b) { return b.v < a.v ? b.v : a.v; }
 inline real max(real a, real b) { return a.v < b.v ? b.v : a.v; }
 inline real clamp(real a, real low, real high) { return min(max(a, low), high); }
 inline real mix(real a, real b, real share) { return a * (1.0f - share) + b * share; }
-inline real to_real(whole a) { return __builtin_convertvector(a.v, Floats); }
 /// To the nearest, of two the even one; |a| < 2^22.
 inline real round(real a) {
   const float shift = 12582912.0f;  // 1.5 * 2^23: no digit is left behind the point
@@ -167,7 +179,7 @@ inline real log2(real a) {
                         2.0000714765e-1f, -2.4999993993e-1f, 3.3333331174e-1f})
     y = y * m + c;
   y = y * m * z - 0.5f * z;
-  return (m + y) * 1.44269504f + to_real(exponent);
+  return (m + y) * 1.44269504f + real(whole(exponent));
 }
 
 inline real exp2(real a) {
@@ -221,6 +233,7 @@ struct real2 {
   real2() = default;
   real2(real x_, real y_) : x(x_), y(y_) {}
   real2(const glm::vec2& all) : x(all.x), y(all.y) {}
+  explicit real2(const struct whole2& lanes);
 };
 inline real2 operator+(real2 a, real2 b) { return {a.x + b.x, a.y + b.y}; }
 inline real2 operator-(real2 a, real2 b) { return {a.x - b.x, a.y - b.y}; }
@@ -258,6 +271,33 @@ inline real3 cross(const real3& a, const real3& b) {
 
 struct whole2 {
   whole x, y;
+  whole2() = default;
+  whole2(whole x_, whole y_) : x(x_), y(y_) {}
+  explicit whole2(real2 lanes) : x(to_whole(lanes.x)), y(to_whole(lanes.y)) {}
 };
+inline whole2 operator+(whole2 a, whole2 b) { return {a.x + b.x, a.y + b.y}; }
+inline whole2 operator-(whole2 a, whole2 b) { return {a.x - b.x, a.y - b.y}; }
+inline real2::real2(const whole2& lanes) : x(lanes.x), y(lanes.y) {}
+inline real2 round(real2 a) { return {round(a.x), round(a.y)}; }
+
+/// values[at] of each lane.
+inline real gather(const float* values, whole at) {
+#if MENISCUS_LANES == 8 && defined(__x86_64__)
+  return __builtin_bit_cast(Floats, _mm256_i32gather_ps(values, __builtin_bit_cast(__m256i, at.v), 4));
+#elif MENISCUS_LANES == 16 && defined(__x86_64__)
+  const __m512i places = __builtin_bit_cast(__m512i, at.v);
+  return __builtin_bit_cast(Floats, _mm512_mask_i32gather_ps(_mm512_setzero_ps(), 0xffff, places, values, 4));
+#else
+  Floats result;
+  for (int n = 0; n < kLanes; ++n) result[n] = values[at.v[n]];
+  return result;
+#endif
+}
+
+inline real load(const float* values) {
+  Floats lanes;
+  __builtin_memcpy(&lanes, values, sizeof lanes);
+  return lanes;
+}
 
 }  // namespace meniscus::MENISCUS_LANE_NAMESPACE

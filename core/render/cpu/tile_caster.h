@@ -8,10 +8,6 @@
 #include "core/render/cpu/lane_kernels.h"
 #include "core/render/cpu/packet.h"
 
-#define GEOMETRY inline
-#define GEOMETRY_OUT(type) type&
-#define GEOMETRY_INOUT(type) type&
-
 namespace meniscus::MENISCUS_LANE_NAMESPACE {
 
 using glm::vec2;
@@ -78,10 +74,10 @@ class Bundle : TracedScene {
     for (int first = 0; first < list.count; first += kLanes) {
       const float farthest = farthest_distance();
       if (list.nearest[first] > farthest) return;  // as do all that follow
-      const real3 center(lanes_at(list.x + first), lanes_at(list.y + first), lanes_at(list.z + first));
-      const truth missed = misses_bound(center, lanes_at(list.radius + first), real3(middle_), real3(middle_direction_),
+      const real3 center(load(list.x + first), load(list.y + first), load(list.z + first));
+      const truth missed = misses_bound(center, load(list.radius + first), real3(middle_), real3(middle_direction_),
                                         middle_eye_, spread_, farthest_t());
-      for (uint left = bits(!(missed || lanes_at(list.nearest + first) > farthest)); left != 0; left &= left - 1)
+      for (uint left = bits(!(missed || load(list.nearest + first) > farthest)); left != 0; left &= left - 1)
         meet(list.primitive[first + std::countr_zero(left)]);
     }
   }
@@ -117,12 +113,6 @@ class Bundle : TracedScene {
     real3 color, normal;
     natural atom;
   };
-
-  static real lanes_at(const float* values) {
-    Floats v;
-    __builtin_memcpy(&v, values, sizeof v);
-    return v;
-  }
 
   real2 place(int v) const {
     Floats x, y;
@@ -304,7 +294,7 @@ class Bundle : TracedScene {
       samples.normal[0][at] = lane(shaded.normal.x, n);
       samples.normal[1][at] = lane(shaded.normal.y, n);
       samples.normal[2][at] = lane(shaded.normal.z, n);
-      samples.atom[at] = lane(shaded.atom, n);
+      if (samples.part) samples.part[at] = lane(alpha, n) > 0.0f ? scene_.parts[lane(shaded.atom, n)] : 0.0f;
     }
   }
 

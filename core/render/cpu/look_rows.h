@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Shade, air and ink on rows of pixels in packets; included by lanes_*.cpp alone.
+#pragma once
+
+#include "core/render/cpu/lane_kernels.h"
+#include "core/render/cpu/packet.h"
+
+namespace meniscus::MENISCUS_LANE_NAMESPACE {
+
+using kernel::kNothing;
+
+/// A cast block as the shared sources want to see it.
+struct LookedAtBlock {
+  explicit LookedAtBlock(const LaneLook& look)
+      : look_(look), view(look.view), occlusion(look.occlusion), params(look.finish) {}
+
+  /// Of pixels that lie in a row behind each other, as many of a packet as there are.
+  whole2 pixels_from(int x, int y) const {
+    Ints lanes;
+    for (int n = 0; n < kLanes; ++n) lanes[n] = x + n;
+    return {whole(lanes), whole(y)};
+  }
+
+  /// A pixel's place in the arrays; outside of the block that behind the last.
+  whole index_of(whole2 pixel) {
+    return select(in_block(pixel), pixel.y * whole(view.size.x) + pixel.x, whole(view.size.x * view.size.y));
+  }
+  real depth_or_nothing(whole2 pixel) { return gather(look_.samples.depth, index_of(pixel)); }
+  real visibility_at(whole2 pixel) { return gather(look_.visibility, index_of(pixel)); }
+  real part_at(whole2 pixel) { return gather(look_.samples.part, index_of(pixel)); }
+  real3 hit_normal_at(whole2 pixel) {
+    const whole at = index_of(pixel);
+    return {gather(look_.samples.normal[0], at), gather(look_.samples.normal[1], at),
+            gather(look_.samples.normal[2], at)};
+  }
+
+  const LaneLook& look_;
+  const kernel::BlockView& view;
+  const kernel::OcclusionParameters& occlusion;
+  const kernel::FinishParameters& params;
+
+#include "gpu_shaders/look/view_space.glsl"
+#include "gpu_shaders/look/occlusion.glsl"
+#include "gpu_shaders/look/finish.glsl"
+
+  /// Share of a pixel that lines cover, and the depth of what they outline.
+  struct Ink {
+    real covered, depth;
+  };
+
+  Ink ink_on(whole2 pixel, real depth) {
+    const int reach = farthest_neighbor();
+    const truth met = depth != real(kNothing);
+    Ink ink{0.0f, depth};
+    for (int y = -reach; y <= reach; ++y)
+      for (int x = -reach; x <= reach; ++x) {
+        const whole2 offset(x, y), other = pixel + offset;
+        const real share = covered_share(offset), other_depth = depth_or_nothing(other);
+        const truth counts = share > ink.covered && in_block(other);
+        const truth step = counts && may_step(depth, other_depth);
+        truth seam = false;
+        if (params.has_parts != 0u)
+          seam = counts && met && other_depth != real(kNothing) && part_at(pixel) != part_at(other);
+        if (!some(step || seam)) continue;
+        const real strength =
+            select(seam, real(1.0f), select(step, step_ink(pixel, depth, other, other_depth), real(0.0f)));
+        const truth wins = share * strength > ink.covered;
+        ink.covered = select(wins, share * strength, ink.covered);
+        ink.depth = select(wins, min(depth, other_depth), ink.depth);
+      }
+    return ink;
+  }
+
+  void finish(int x, int y) {
+    const whole2 pixel = pixels_from(x, y);
+    const real depth = depth_or_nothing(pixel);
+    const truth met = depth != real(kNothing);
+    const int count = view.size.x - x < kLanes ? view.size.x - x : kLanes;
+    const std::size_t first = static_cast<std::size_t>(y) * static_cast<std::size_t>(view.size.x) + x;
+    real3 color(0.0f);
+    real alpha = select(met, real(1.0f), real(0.0f));
+    if (some(met)) {
+      for (int n = 0; n < count; ++n) {
+        color.x.v[n] = look_.samples.color[first + n].x;
+        color.y.v[n] = look_.samples.color[first + n].y;
+        color.z.v[n] = look_.samples.color[first + n].z;
+      }
+      if (params.ambient_occlusion > 0.0f)
+        color = color * select(met, mix(1.0f, mean_visibility(pixel, depth), params.ambient_occlusion), real(1.0f));
+      const real left = select(met, clarity(depth), real(1.0f));
+      color = color * left;
+      alpha = alpha * left;
+    }
+    if (params.silhouettes > 0.0f) {
+      const Ink ink = ink_on(pixel, depth);
+      const real covered = ink.covered * clarity(ink.depth);
+      color = color * (1.0f - covered);
+      alpha = mix(alpha, 1.0f, covered);
+    }
+    for (int n = 0; n < count; ++n)
+      look_.sums[first + n] += glm::vec4(lane(color.x, n), lane(color.y, n), lane(color.z, n), lane(alpha, n));
+  }
+
+  void occlude(int x, int y) {
+    const whole2 pixel = pixels_from(x, y);
+    const real depth = depth_or_nothing(pixel);
+    if (!some(depth != real(kNothing))) return;
+    const real visibility = sky_visibility(pixel, depth);
+    const std::size_t first = static_cast<std::size_t>(y) * static_cast<std::size_t>(view.size.x) + x;
+    for (int n = 0; n < kLanes && x + n < view.size.x; ++n) look_.visibility[first + n] = lane(visibility, n);
+  }
+};
+
+inline void occlude_row(const LaneLook& look, int y) {
+  LookedAtBlock block(look);
+  for (int x = 0; x < look.view.size.x; x += kLanes) block.occlude(x, y);
+}
+
+inline void finish_row(const LaneLook& look, int y) {
+  LookedAtBlock block(look);
+  for (int x = 0; x < look.view.size.x; x += kLanes) block.finish(x, y);
+}
+
+}  // namespace meniscus::MENISCUS_LANE_NAMESPACE
