@@ -66,6 +66,8 @@ struct BlockSamples {
 
 class CpuRenderer final : public SurfaceRenderer {
  public:
+  explicit CpuRenderer(int most_lanes) : kernels_(widest_kernels(most_lanes)) {}
+
   Framebuffer render(const Surface& surface, const Coloring& coloring, const Camera& camera,
                      const RenderSettings& settings) override {
     validate_camera(camera, "camera");
@@ -147,7 +149,7 @@ class CpuRenderer final : public SurfaceRenderer {
     tbb::parallel_for(0, task.view.size.y, [&](int y) { kernels_.finish_row(task, y); });
   }
 
-  const LaneKernels& kernels_ = widest_kernels();
+  const LaneKernels& kernels_;
   StageClock clock_;
   CpuTileLists lists_;
   tbb::enumerable_thread_specific<SortedList> sorted_;
@@ -158,11 +160,13 @@ class CpuRenderer final : public SurfaceRenderer {
 
 }  // namespace
 
-std::unique_ptr<SurfaceRenderer> make_cpu_renderer() { return std::make_unique<CpuRenderer>(); }
+std::unique_ptr<SurfaceRenderer> make_cpu_renderer(int most_lanes) {
+  return std::make_unique<CpuRenderer>(most_lanes);
+}
 
-const LaneKernels& widest_kernels() {
+const LaneKernels& widest_kernels(int most_lanes) {
   for (const LaneKernels* kernels : {kernels_of_16_lanes(), kernels_of_8_lanes()})
-    if (kernels) return *kernels;
+    if (kernels && kernels->lanes <= most_lanes) return *kernels;
   return *kernels_of_4_lanes();
 }
 

@@ -88,7 +88,7 @@ const LaneKernels* kernels_of_4_lanes();
 const LaneKernels* kernels_of_8_lanes();
 const LaneKernels* kernels_of_16_lanes();
 
-/// The widest that this processor can run.
-const LaneKernels& widest_kernels();
+/// The widest that this processor can run, of those with at most so many lanes.
+const LaneKernels& widest_kernels(int most_lanes);
 
 }  // namespace meniscus

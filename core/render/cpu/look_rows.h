@@ -14,24 +14,25 @@ struct LookedAtBlock {
   explicit LookedAtBlock(const LaneLook& look)
       : look_(look), view(look.view), occlusion(look.occlusion), params(look.finish) {}
 
-  /// Of pixels that lie in a row behind each other, as many of a packet as there are.
-  whole2 pixels_from(int x, int y) const {
-    Ints lanes;
-    for (int n = 0; n < kLanes; ++n) lanes[n] = x + n;
-    return {whole(lanes), whole(y)};
-  }
+  /// Pixels that lie in a row behind each other.
+  static whole2 pixels_from(int x, int y) { return {whole(x) + lane_numbers(), whole(y)}; }
 
   /// A pixel's place in the arrays; outside of the block that behind the last.
   whole index_of(whole2 pixel) {
     return select(in_block(pixel), pixel.y * whole(view.size.x) + pixel.x, whole(view.size.x * view.size.y));
   }
-  real depth_or_nothing(whole2 pixel) { return gather(look_.samples.depth, index_of(pixel)); }
-  real visibility_at(whole2 pixel) { return gather(look_.visibility, index_of(pixel)); }
-  real part_at(whole2 pixel) { return gather(look_.samples.part, index_of(pixel)); }
-  real3 hit_normal_at(whole2 pixel) {
+  /// What an array holds for these pixels; most packets lie in a row.
+  real fetch(const float* values, whole2 pixel) {
     const whole at = index_of(pixel);
-    return {gather(look_.samples.normal[0], at), gather(look_.samples.normal[1], at),
-            gather(look_.samples.normal[2], at)};
+    if (!some(at != whole(at.v[0]) + lane_numbers())) return load(values + at.v[0]);
+    return gather(values, at);
+  }
+  real depth_or_nothing(whole2 pixel) { return fetch(look_.samples.depth, pixel); }
+  real visibility_at(whole2 pixel) { return fetch(look_.visibility, pixel); }
+  real part_at(whole2 pixel) { return fetch(look_.samples.part, pixel); }
+  real3 hit_normal_at(whole2 pixel) {
+    return {fetch(look_.samples.normal[0], pixel), fetch(look_.samples.normal[1], pixel),
+            fetch(look_.samples.normal[2], pixel)};
   }
 
   const LaneLook& look_;
@@ -55,8 +56,10 @@ struct LookedAtBlock {
     for (int y = -reach; y <= reach; ++y)
       for (int x = -reach; x <= reach; ++x) {
         const whole2 offset(x, y), other = pixel + offset;
-        const real share = covered_share(offset), other_depth = depth_or_nothing(other);
+        const real share = covered_share(offset);
         const truth counts = share > ink.covered && in_block(other);
+        if (!some(counts)) continue;
+        const real other_depth = depth_or_nothing(other);
         const truth step = counts && may_step(depth, other_depth);
         truth seam = false;
         if (params.has_parts != 0u)

@@ -108,6 +108,13 @@ inline real select(truth c, real a, real b) { return c.v ? a.v : b.v; }
 inline whole select(truth c, whole a, whole b) { return c.v ? a.v : b.v; }
 inline natural select(truth c, natural a, natural b) { return c.v ? a.v : b.v; }
 
+/// 0, 1, 2, ...
+inline whole lane_numbers() {
+  Ints lanes;
+  for (int n = 0; n < kLanes; ++n) lanes[n] = n;
+  return lanes;
+}
+
 /// Bit n for lane n.
 inline uint bits(truth a) {
 #if MENISCUS_LANES == 4 && defined(__x86_64__)
