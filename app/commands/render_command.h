@@ -44,7 +44,7 @@ struct PictureLayout {
 
 RenderSettings render_settings(const RenderCommand& command, const PictureLayout& layout);
 
-/// For pictures of what was computed on the CPU any GL will do.
+/// Of --extent.
 DeviceChoice gl_device(const RenderCommand& command);
 
 /// A picture of all objects. atom of the AOVs: into Structure::atoms.

@@ -8,13 +8,15 @@
 #include "core/gpu/egl_context.h"
 #include "core/render/surface_renderer.h"
 #include "core/scene/surface_request.h"
+#include "core/scene/thread_limit.h"
 
 namespace meniscus {
 
-/// Makes pictures of computed surfaces: on the CPU if that was asked for, else on GL, in a context of its own.
+/// Makes pictures of computed surfaces: on the CPU or, in a context of its own, on GL.
 class PictureDevice {
  public:
-  /// Throws GpuError.
+  /// Automatic takes a hardware GPU if there is one, else the CPU, which is faster than software GL. Throws GpuError
+  /// where GL is asked for by name.
   explicit PictureDevice(const SurfaceRequest& request);
 
   SurfaceRenderer& renderer() { return *renderer_; }
@@ -22,6 +24,9 @@ class PictureDevice {
   const EglContext* context() const { return context_ ? &*context_ : nullptr; }
 
  private:
+  void find_gl(DeviceChoice choice);
+
+  ThreadLimit thread_limit_;
   std::optional<EglContext> context_;
   std::unique_ptr<SurfaceRenderer> renderer_;
 };

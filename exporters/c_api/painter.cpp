@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 
+#include "core/base/error.h"
 #include "core/gpu/egl_context.h"
 #include "core/image/display_color.h"
 #include "core/render/surface_renderer.h"
@@ -128,10 +129,8 @@ struct Studio {
 
 struct meniscus_painter : meniscus::c_api::Counted {
   explicit meniscus_painter(std::int32_t device) {
-    if (device == MENISCUS_CPU)
-      here_ = meniscus::make_cpu_renderer();
-    else
-      with_gl_.emplace([device] { return std::make_unique<meniscus::c_api::Studio>(device); });
+    if (device != MENISCUS_CPU) find_gl(device);
+    if (!with_gl_) here_ = meniscus::make_cpu_renderer();
   }
 
   /// use(renderer), where it lives; one caller after the other.
@@ -143,6 +142,18 @@ struct meniscus_painter : meniscus::c_api::Counted {
   }
 
  private:
+  /// Automatic takes a hardware GPU or nothing: the CPU is faster than software GL.
+  void find_gl(std::int32_t device) {
+    const bool automatic = device == MENISCUS_AUTO;
+    try {
+      with_gl_.emplace(
+          [&] { return std::make_unique<meniscus::c_api::Studio>(automatic ? MENISCUS_GPU : device); });
+    } catch (const meniscus::GpuError&) {
+      if (!automatic) throw;
+      with_gl_.reset();
+    }
+  }
+
   std::mutex calling_;
   std::unique_ptr<meniscus::SurfaceRenderer> here_;
   std::optional<meniscus::c_api::OnGlThread<meniscus::c_api::Studio>> with_gl_;

@@ -62,7 +62,7 @@ TEST_F(StoppingGpu, PicturesAreRefused) {
   for (const char* extent : {"visible", "complete"}) {
     ends_with_code_4({"render", molecule_, "--extent", extent, "--size", "64x48", "-q", "-o", picture}, picture);
   }
-  ends_with_code_4({"render", molecule_, "--device", "cpu", "--color", "element", "--legend", "--size", "640x480",
+  ends_with_code_4({"render", molecule_, "--device", "software", "--color", "element", "--legend", "--size", "640x480",
                     "--ambient-occlusion", "0.8", "-q", "-o", picture},
                    picture);
 }

@@ -73,6 +73,7 @@ std::vector<Picture> pictures() {
 /// How many pixels are not alike.
 struct Difference {
   int color = 0;        ///< in 8 bits
+  int by_more = 0;      ///< than 1 of 255
   int worst_color = 0;  ///< of a channel, in 8 bits
   int atom = 0, depth = 0;
 };
@@ -88,6 +89,7 @@ Difference difference(const Framebuffer& a, const Framebuffer& b) {
       worst = std::max(worst, std::abs(byte(a) - byte(b)));
     }
     result.color += worst > 0;
+    result.by_more += worst > 1;
     result.worst_color = std::max(result.worst_color, worst);
     result.atom += a.atom[n] != b.atom[n];
     result.depth += a.z[n] != b.z[n] && !(std::abs(a.z[n] - b.z[n]) < 1e-3f);
@@ -104,6 +106,7 @@ TEST(CpuPicture, IsThatOfGlButForRounding) {
     const auto pixels = static_cast<int>(by_gl.color.size());
     // A ray that touches a silhouette, or the border of two atoms, may be taken for one side or the other.
     EXPECT_LE(found.color, pixels / 500) << picture.name;
+    EXPECT_LE(found.by_more, pixels / 5000) << picture.name;
     EXPECT_LE(found.worst_color, picture.settings.samples == 6 ? 43 : 130) << picture.name;  // one sample of a pixel
     EXPECT_LE(found.atom, pixels / 5000) << picture.name;
     EXPECT_LE(found.depth, pixels / 5000) << picture.name;

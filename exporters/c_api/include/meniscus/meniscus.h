@@ -370,7 +370,7 @@ MENISCUS_API meniscus_status meniscus_default_picture(meniscus_picture* picture)
 /* On GL a context of its own with its kernels, on a thread of its own: the caller's contexts are left alone. */
 typedef struct meniscus_painter meniscus_painter;
 
-/* device: MENISCUS_AUTO (a hardware GPU if one works, else software GL), MENISCUS_GPU, MENISCUS_SOFTWARE, MENISCUS_CPU
+/* device: MENISCUS_AUTO (a hardware GPU if one works, else as MENISCUS_CPU), MENISCUS_GPU, MENISCUS_SOFTWARE, MENISCUS_CPU
  * (without GL: the same picture to the bit on every CPU). *painter is overwritten. MENISCUS_NO_GPU where GL is asked for
  * and there is no GL 4.5. */
 MENISCUS_API meniscus_status meniscus_painter_new(int32_t device, meniscus_painter** painter);
