@@ -10,7 +10,7 @@ namespace meniscus::geometry {
 
 // The words of gpu_shaders/shared/lane.glsl, for one ray at a time.
 using truth = bool;
-using whole = int;
+using integer = int;
 template <typename T>
 T select(bool condition, T yes, T no) {
   return condition ? yes : no;

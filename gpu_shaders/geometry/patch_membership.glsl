@@ -2,11 +2,12 @@
 // Which part of a sphere or torus belongs to the surface, and whose atom's colour a point takes.
 //
 // Common subset of GLSL and C++ with GLM; the includer defines real, real2, real3, GEOMETRY, GEOMETRY_OUT and
-// GEOMETRY_INOUT, and the words of shared/lane.glsl: in C++ they may be packets.
+// GEOMETRY_INOUT; with the words of shared/lane.glsl, which in C++ may be packets.
 // `slack` (Å, >= 0) widens a patch past its borders: neighbours then overlap by that much and no ray slips between them.
 // Across contact circles and edges the surface is smooth, so the overlap is slack^2 / radius high: nothing.
 #ifndef MENISCUS_GEOMETRY_PATCH_MEMBERSHIP_GLSL
 #define MENISCUS_GEOMETRY_PATCH_MEMBERSHIP_GLSL
+#include "gpu_shaders/shared/lane.glsl"
 
 // x: relative to the plane's own origin.
 GEOMETRY truth in_half_space(real3 x, real3 normal, real offset, real slack) {

@@ -6,6 +6,7 @@
 // Precision: give a ray that starts near the sphere (a few radii); then the error is a few roundings of the radius.
 #ifndef MENISCUS_GEOMETRY_RAY_SPHERE_GLSL
 #define MENISCUS_GEOMETRY_RAY_SPHERE_GLSL
+#include "gpu_shaders/shared/lane.glsl"
 
 struct SphereHits {
   truth found;

@@ -2,11 +2,12 @@
 // Where a ray meets a torus around the z axis: Newton's method on pieces of the ray where it cannot fail.
 //
 // Common subset of GLSL and C++ with GLM; the includer defines real, real2, real3, GEOMETRY, GEOMETRY_OUT and
-// GEOMETRY_INOUT, and the words of shared/lane.glsl: in C++ they may be packets.
+// GEOMETRY_INOUT; with the words of shared/lane.glsl, which in C++ may be packets.
 // A quartic in single precision loses roots when solved by radicals. Here no quartic is formed: it has the torus as a
 // factor, |x|^2 + R^2 - p^2 - 2 R rho, which keeps all digits and whose turns along the ray are known.
 #ifndef MENISCUS_GEOMETRY_RAY_TORUS_GLSL
 #define MENISCUS_GEOMETRY_RAY_TORUS_GLSL
+#include "gpu_shaders/shared/lane.glsl"
 
 // Points x with |x|^2 + R^2 - p^2 = 2 R rho, rho = distance from the z axis. For R < p (spindle) this is the outer,
 // apple part only: the lemon inside is the other factor of the quartic.
@@ -32,8 +33,8 @@ GEOMETRY TorusFactors torus_factors(real3 o, real3 d, real major, real offset, r
 // is positive, Newton's method walks towards a root without ever stepping over it, and sees when there is none.
 struct TorusRuns {
   real knot[4];   // the three pieces: convex, concave, convex
-  whole sure;     // bits: the run ends at a root
-  whole waiting;  // bits: runs to be done, two for each piece: from its lower end up, then from its upper end down
+  integer sure;     // bits: the run ends at a root
+  integer waiting;  // bits: runs to be done, two for each piece: from its lower end up, then from its upper end down
 };
 
 GEOMETRY TorusRuns torus_runs(real3 o, real3 d, real major, real minor, real low, real high) {
@@ -51,8 +52,8 @@ GEOMETRY TorusRuns torus_runs(real3 o, real3 d, real major, real minor, real low
   runs.knot[1] = min(max(middle - width, low), high);
   runs.knot[2] = min(max(middle + width, low), high);
   runs.knot[3] = high;
-  runs.sure = whole(0);
-  runs.waiting = whole(0);
+  runs.sure = integer(0);
+  runs.waiting = integer(0);
   TorusFactors at_low = torus_factors(o, d, major, offset, low, real(1));
   for (int piece = 0; piece < 3; ++piece) {
     TorusFactors at_high = torus_factors(o, d, major, offset, runs.knot[piece + 1], real(1));
@@ -64,8 +65,8 @@ GEOMETRY TorusRuns torus_runs(real3 o, real3 d, real major, real minor, real low
     truth goes_up = there && low_above && (descends || !high_above);
     truth goes_down = there && high_above && (!low_above || goes_up);
     int up_run = 1 << (2 * piece);
-    runs.sure = runs.sure | select(goes_up && !high_above, whole(up_run), whole(0));
-    runs.waiting = runs.waiting | select(goes_up, whole(up_run), whole(0)) | select(goes_down, whole(2 * up_run), whole(0));
+    runs.sure = runs.sure | select(goes_up && !high_above, integer(up_run), integer(0));
+    runs.waiting = runs.waiting | select(goes_up, integer(up_run), integer(0)) | select(goes_down, integer(2 * up_run), integer(0));
     at_low = at_high;
   }
   return runs;
@@ -75,7 +76,7 @@ GEOMETRY TorusRuns torus_runs(real3 o, real3 d, real major, real minor, real low
 GEOMETRY real torus_run(real3 o, real3 d, real major, real minor, real tolerance, real none,
                         GEOMETRY_INOUT(TorusRuns) runs) {
   real offset = (major - minor) * (major + minor);
-  whole bit = runs.waiting & -runs.waiting;
+  integer bit = runs.waiting & -runs.waiting;
   runs.waiting = runs.waiting - bit;
   truth down = (bit & 42) != 0;
   real low = select(bit < 4, runs.knot[0], select(bit < 16, runs.knot[1], runs.knot[2]));

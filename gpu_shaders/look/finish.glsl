@@ -5,7 +5,7 @@
 // visibility_at() of a pixel that met something.
 
 // Mean over 4 x 4 pixels, as a square of 5 x 5 whose rim counts half; pixels of other surfaces do not count.
-GEOMETRY real mean_visibility(whole2 pixel, real depth) {
+GEOMETRY real mean_visibility(integer2 pixel, real depth) {
   real3 p = position_at(pixel, depth);
   real3 normal = facing(hit_normal_at(pixel), to_viewer_at(p));
   real tolerance = 0.3 + 2.0 * pixel_size_at(depth);
@@ -13,7 +13,7 @@ GEOMETRY real mean_visibility(whole2 pixel, real depth) {
   real weights = real(1e-6);
   for (int y = -2; y <= 2; ++y)
     for (int x = -2; x <= 2; ++x) {
-      whole2 other = pixel + whole2(x, y);
+      integer2 other = pixel + integer2(x, y);
       real other_depth = depth_or_nothing(other);
       truth counts = other_depth != real(kNothing);
       real off_plane = abs(dot(normal, position_at(other, other_depth) - p));
@@ -36,7 +36,7 @@ GEOMETRY truth may_step(real depth_a, real depth_b) {
 }
 
 // How strong that line is: from none at a small step to full at a large one.
-GEOMETRY real step_ink(whole2 a, real depth_a, whole2 b, real depth_b) {
+GEOMETRY real step_ink(integer2 a, real depth_a, integer2 b, real depth_b) {
   real nearer = min(depth_a, depth_b);
   real least = least_step(nearer);
   // What the slope of the flatter one explains is no step.
@@ -55,7 +55,7 @@ GEOMETRY real step_ink(whole2 a, real depth_a, whole2 b, real depth_b) {
 
 // How much of a pixel a line covers, at most, that belongs to the border towards the neighbour at this offset: it is
 // `silhouettes` wide, half on each side.
-GEOMETRY real covered_share(whole2 offset) {
+GEOMETRY real covered_share(integer2 offset) {
   return clamp(0.5 * params.silhouettes + 1.0 - length(real2(offset)), 0.0, 1.0);
 }
 

@@ -11,19 +11,19 @@ const int kStepCount = 6;
 const float kPi = 3.14159265;
 
 // Places of 0 to 15 in a block such that each row, column and quarter has small and large ones (Bayer 1973).
-GEOMETRY whole pattern(whole2 pixel) {
-  whole x = (pixel.x ^ pixel.y) & 3;
+GEOMETRY integer pattern(integer2 pixel) {
+  integer x = (pixel.x ^ pixel.y) & 3;
   return (x & 1) << 3 | (pixel.y & 1) << 2 | (x & 2) | (pixel.y & 2) >> 1;
 }
 
 // Cosine of the horizon, seen from p, on the way along `direction`, at least `lowest`.
-GEOMETRY real horizon(whole2 pixel, real3 p, real3 to_viewer, real2 direction, real reach, real offset, real lowest) {
+GEOMETRY real horizon(integer2 pixel, real3 p, real3 to_viewer, real2 direction, real reach, real offset, real lowest) {
   real range = reach * pixel_size_at(-p.z);
   real highest = lowest;
   for (int k = 0; k < kStepCount; ++k) {
     // Closer steps near by, where small clefts are.
     real share = (float(k) + offset) / float(kStepCount);
-    whole2 other = pixel + whole2(round(direction * max(share * share * reach, float(k) + 1.0)));
+    integer2 other = pixel + integer2(round(direction * max(share * share * reach, float(k) + 1.0)));
     real depth = depth_or_nothing(other);
     real3 to_other = position_at(other, depth) - p;
     real distance = length(to_other);
@@ -40,12 +40,12 @@ GEOMETRY real horizon(whole2 pixel, real3 p, real3 to_viewer, real2 direction, r
 GEOMETRY real arc(real h, real n) { return 0.25 * (cos(n) + 2.0 * h * sin(n) - cos(2.0 * h - n)); }
 
 // Of a pixel whose ray met something, at this depth.
-GEOMETRY real sky_visibility(whole2 pixel, real depth) {
+GEOMETRY real sky_visibility(integer2 pixel, real depth) {
   real3 p = position_at(pixel, depth);
   real3 to_viewer = to_viewer_at(p);
   real3 normal = facing(hit_normal_at(pixel), to_viewer);
   real reach = min(occlusion.radius / pixel_size_at(depth), occlusion.longest_reach);
-  whole place = (pattern(pixel) + 5 * int(occlusion.sample_index)) & 15;
+  integer place = (pattern(pixel) + 5 * int(occlusion.sample_index)) & 15;
   real seen = real(0.0);
   real open = real(0.0);  // what it would see alone
   for (int s = 0; s < kSliceCount; ++s) {

@@ -6,7 +6,7 @@
 // shared/lane.glsl. The sources that use it ask the includer for depth_or_nothing() of a pixel, which may lie outside of
 // the block, and hit_normal_at() of one that met something.
 
-GEOMETRY truth in_block(whole2 pixel) {
+GEOMETRY truth in_block(integer2 pixel) {
   return pixel.x >= 0 && pixel.y >= 0 && pixel.x < view.size.x && pixel.y < view.size.y;
 }
 
@@ -16,7 +16,7 @@ GEOMETRY real pixel_size_at(real depth) {
   return view.pixel_size * (depth / view.eye_distance);
 }
 
-GEOMETRY real3 position_at(whole2 pixel, real depth) {
+GEOMETRY real3 position_at(integer2 pixel, real depth) {
   real2 offset = (view.first_offset + real2(pixel) + view.sample_offset) * pixel_size_at(depth);
   return real3(offset.x, -offset.y, -depth);
 }

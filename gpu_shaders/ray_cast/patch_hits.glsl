@@ -124,7 +124,7 @@ GEOMETRY real hit_torus(TorusPatch saddle, LocalRay ray) {
                                   int(saddle.primitive.plane_count), params.slack) &&
                 shows_torus_point(saddle.primitive, x, saddle.major);
     t = select(hit, root, t);
-    runs.waiting = select(hit, whole(0), runs.waiting);
+    runs.waiting = select(hit, integer(0), runs.waiting);
   } while (some(runs.waiting != 0));
   return select(t < real(kMiss), t + ray.shift, t);
 }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The arithmetic a kernel variant decides in: single precision first, double where that leaves doubt.
-#include "gpu_shaders/shared/lane.glsl"
 #ifdef DOUBLE_PRECISION
 #define real double
 #define real2 dvec2

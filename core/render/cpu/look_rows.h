@@ -15,22 +15,22 @@ struct LookedAtBlock {
       : look_(look), view(look.view), occlusion(look.occlusion), params(look.finish) {}
 
   /// Pixels that lie in a row behind each other.
-  static whole2 pixels_from(int x, int y) { return {whole(x) + lane_numbers(), whole(y)}; }
+  static integer2 pixels_from(int x, int y) { return {integer(x) + lane_numbers(), integer(y)}; }
 
   /// A pixel's place in the arrays; outside of the block that behind the last.
-  whole index_of(whole2 pixel) {
-    return select(in_block(pixel), pixel.y * whole(view.size.x) + pixel.x, whole(view.size.x * view.size.y));
+  integer index_of(integer2 pixel) {
+    return select(in_block(pixel), pixel.y * integer(view.size.x) + pixel.x, integer(view.size.x * view.size.y));
   }
   /// What an array holds for these pixels; most packets lie in a row.
-  real fetch(const float* values, whole2 pixel) {
-    const whole at = index_of(pixel);
-    if (!some(at != whole(at.v[0]) + lane_numbers())) return load(values + at.v[0]);
+  real fetch(const float* values, integer2 pixel) {
+    const integer at = index_of(pixel);
+    if (!some(at != integer(at.v[0]) + lane_numbers())) return load(values + at.v[0]);
     return gather(values, at);
   }
-  real depth_or_nothing(whole2 pixel) { return fetch(look_.samples.depth, pixel); }
-  real visibility_at(whole2 pixel) { return fetch(look_.visibility, pixel); }
-  real part_at(whole2 pixel) { return fetch(look_.samples.part, pixel); }
-  real3 hit_normal_at(whole2 pixel) {
+  real depth_or_nothing(integer2 pixel) { return fetch(look_.samples.depth, pixel); }
+  real visibility_at(integer2 pixel) { return fetch(look_.visibility, pixel); }
+  real part_at(integer2 pixel) { return fetch(look_.samples.part, pixel); }
+  real3 hit_normal_at(integer2 pixel) {
     return {fetch(look_.samples.normal[0], pixel), fetch(look_.samples.normal[1], pixel),
             fetch(look_.samples.normal[2], pixel)};
   }
@@ -49,13 +49,13 @@ struct LookedAtBlock {
     real covered, depth;
   };
 
-  Ink ink_on(whole2 pixel, real depth) {
+  Ink ink_on(integer2 pixel, real depth) {
     const int reach = farthest_neighbor();
     const truth met = depth != real(kNothing);
     Ink ink{0.0f, depth};
     for (int y = -reach; y <= reach; ++y)
       for (int x = -reach; x <= reach; ++x) {
-        const whole2 offset(x, y), other = pixel + offset;
+        const integer2 offset(x, y), other = pixel + offset;
         const real share = covered_share(offset);
         const truth counts = share > ink.covered && in_block(other);
         if (!some(counts)) continue;
@@ -75,7 +75,7 @@ struct LookedAtBlock {
   }
 
   void finish(int x, int y) {
-    const whole2 pixel = pixels_from(x, y);
+    const integer2 pixel = pixels_from(x, y);
     const real depth = depth_or_nothing(pixel);
     const truth met = depth != real(kNothing);
     const int count = view.size.x - x < kLanes ? view.size.x - x : kLanes;
@@ -105,7 +105,7 @@ struct LookedAtBlock {
   }
 
   void occlude(int x, int y) {
-    const whole2 pixel = pixels_from(x, y);
+    const integer2 pixel = pixels_from(x, y);
     const real depth = depth_or_nothing(pixel);
     if (!some(depth != real(kNothing))) return;
     const real visibility = sky_visibility(pixel, depth);

@@ -30,7 +30,7 @@ using Floats [[gnu::vector_size(4 * MENISCUS_LANES)]] = float;
 using Ints [[gnu::vector_size(4 * MENISCUS_LANES)]] = std::int32_t;
 using Uints [[gnu::vector_size(4 * MENISCUS_LANES)]] = std::uint32_t;
 
-struct whole;
+struct integer;
 
 struct real {
   Floats v;
@@ -39,7 +39,7 @@ struct real {
   real(float all) : v(all - Floats{}) {}  // minus 0 keeps all values, -0 too
   real(double all) : real(static_cast<float>(all)) {}
   real(int all) : real(static_cast<float>(all)) {}
-  explicit real(whole lanes);
+  explicit real(integer lanes);
 };
 
 /// A mask: all bits of a lane are alike.
@@ -50,11 +50,11 @@ struct truth {
   truth(bool all) : v(Ints{} - static_cast<std::int32_t>(all)) {}
 };
 
-struct whole {
+struct integer {
   Ints v;
-  whole() = default;
-  whole(Ints lanes) : v(lanes) {}
-  whole(std::int32_t all) : v(Ints{} + all) {}
+  integer() = default;
+  integer(Ints lanes) : v(lanes) {}
+  integer(std::int32_t all) : v(Ints{} + all) {}
 };
 
 struct natural {
@@ -64,7 +64,7 @@ struct natural {
   natural(std::uint32_t all) : v(Uints{} + all) {}
 };
 
-inline real::real(whole lanes) : v(__builtin_convertvector(lanes.v, Floats)) {}
+inline real::real(integer lanes) : v(__builtin_convertvector(lanes.v, Floats)) {}
 
 inline real operator+(real a, real b) { return a.v + b.v; }
 inline real operator-(real a, real b) { return a.v - b.v; }
@@ -85,31 +85,31 @@ inline truth operator||(truth a, truth b) { return a.v | b.v; }
 inline truth operator!(truth a) { return ~a.v; }
 inline truth operator!=(truth a, truth b) { return a.v ^ b.v; }
 
-inline whole operator+(whole a, whole b) { return a.v + b.v; }
-inline whole operator-(whole a, whole b) { return a.v - b.v; }
-inline whole operator-(whole a) { return -a.v; }
-inline whole operator*(whole a, whole b) { return a.v * b.v; }
-inline whole operator&(whole a, whole b) { return a.v & b.v; }
-inline whole operator|(whole a, whole b) { return a.v | b.v; }
-inline whole operator~(whole a) { return ~a.v; }
-inline whole operator^(whole a, whole b) { return a.v ^ b.v; }
-inline whole operator<<(whole a, int b) { return a.v << b; }
-inline whole operator>>(whole a, int b) { return a.v >> b; }
-inline truth operator>=(whole a, whole b) { return Ints(a.v >= b.v); }
-inline truth operator<(whole a, whole b) { return Ints(a.v < b.v); }
-inline truth operator==(whole a, whole b) { return Ints(a.v == b.v); }
-inline truth operator!=(whole a, whole b) { return Ints(a.v != b.v); }
+inline integer operator+(integer a, integer b) { return a.v + b.v; }
+inline integer operator-(integer a, integer b) { return a.v - b.v; }
+inline integer operator-(integer a) { return -a.v; }
+inline integer operator*(integer a, integer b) { return a.v * b.v; }
+inline integer operator&(integer a, integer b) { return a.v & b.v; }
+inline integer operator|(integer a, integer b) { return a.v | b.v; }
+inline integer operator~(integer a) { return ~a.v; }
+inline integer operator^(integer a, integer b) { return a.v ^ b.v; }
+inline integer operator<<(integer a, int b) { return a.v << b; }
+inline integer operator>>(integer a, int b) { return a.v >> b; }
+inline truth operator>=(integer a, integer b) { return Ints(a.v >= b.v); }
+inline truth operator<(integer a, integer b) { return Ints(a.v < b.v); }
+inline truth operator==(integer a, integer b) { return Ints(a.v == b.v); }
+inline truth operator!=(integer a, integer b) { return Ints(a.v != b.v); }
 
 inline truth operator<(natural a, natural b) { return Ints(a.v < b.v); }
 inline truth operator==(natural a, natural b) { return Ints(a.v == b.v); }
 inline truth operator!=(natural a, natural b) { return Ints(a.v != b.v); }
 
 inline real select(truth c, real a, real b) { return c.v ? a.v : b.v; }
-inline whole select(truth c, whole a, whole b) { return c.v ? a.v : b.v; }
+inline integer select(truth c, integer a, integer b) { return c.v ? a.v : b.v; }
 inline natural select(truth c, natural a, natural b) { return c.v ? a.v : b.v; }
 
 /// 0, 1, 2, ...
-inline whole lane_numbers() {
+inline integer lane_numbers() {
   Ints lanes;
   for (int n = 0; n < kLanes; ++n) lanes[n] = n;
   return lanes;
@@ -157,7 +157,7 @@ inline real round(real a) {
   const float shift = 12582912.0f;  // 1.5 * 2^23: no digit is left behind the point
   return (a + shift) - shift;
 }
-inline whole to_whole(real a) { return __builtin_convertvector(a.v, Ints); }
+inline integer to_whole(real a) { return __builtin_convertvector(a.v, Ints); }
 inline real smoothstep(real low, real high, real a) {
   const real x = clamp((a - low) / (high - low), 0.0f, 1.0f);
   return x * x * (3.0f - 2.0f * x);
@@ -186,7 +186,7 @@ inline real log2(real a) {
                         2.0000714765e-1f, -2.4999993993e-1f, 3.3333331174e-1f})
     y = y * m + c;
   y = y * m * z - 0.5f * z;
-  return (m + y) * 1.44269504f + real(whole(exponent));
+  return (m + y) * 1.44269504f + real(integer(exponent));
 }
 
 inline real exp2(real a) {
@@ -240,7 +240,7 @@ struct real2 {
   real2() = default;
   real2(real x_, real y_) : x(x_), y(y_) {}
   real2(const glm::vec2& all) : x(all.x), y(all.y) {}
-  explicit real2(const struct whole2& lanes);
+  explicit real2(const struct integer2& lanes);
 };
 inline real2 operator+(real2 a, real2 b) { return {a.x + b.x, a.y + b.y}; }
 inline real2 operator-(real2 a, real2 b) { return {a.x - b.x, a.y - b.y}; }
@@ -276,19 +276,19 @@ inline real3 cross(const real3& a, const real3& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-struct whole2 {
-  whole x, y;
-  whole2() = default;
-  whole2(whole x_, whole y_) : x(x_), y(y_) {}
-  explicit whole2(real2 lanes) : x(to_whole(lanes.x)), y(to_whole(lanes.y)) {}
+struct integer2 {
+  integer x, y;
+  integer2() = default;
+  integer2(integer x_, integer y_) : x(x_), y(y_) {}
+  explicit integer2(real2 lanes) : x(to_whole(lanes.x)), y(to_whole(lanes.y)) {}
 };
-inline whole2 operator+(whole2 a, whole2 b) { return {a.x + b.x, a.y + b.y}; }
-inline whole2 operator-(whole2 a, whole2 b) { return {a.x - b.x, a.y - b.y}; }
-inline real2::real2(const whole2& lanes) : x(lanes.x), y(lanes.y) {}
+inline integer2 operator+(integer2 a, integer2 b) { return {a.x + b.x, a.y + b.y}; }
+inline integer2 operator-(integer2 a, integer2 b) { return {a.x - b.x, a.y - b.y}; }
+inline real2::real2(const integer2& lanes) : x(lanes.x), y(lanes.y) {}
 inline real2 round(real2 a) { return {round(a.x), round(a.y)}; }
 
 /// values[at] of each lane.
-inline real gather(const float* values, whole at) {
+inline real gather(const float* values, integer at) {
 #if MENISCUS_LANES == 8 && defined(__x86_64__)
   return __builtin_bit_cast(Floats, _mm256_i32gather_ps(values, __builtin_bit_cast(__m256i, at.v), 4));
 #elif MENISCUS_LANES == 16 && defined(__x86_64__)
