@@ -18,9 +18,7 @@ class GlRenderer final : public SurfaceRenderer {
     return renderer_.render(surface, coloring, camera, settings);
   }
   const std::vector<StageTime>& times() const override { return renderer_.times(); }
-  std::string device() const override {
-    return gl_words(context_);
-  }
+  std::string device() const override { return gl_words(context_); }
 
  private:
   const EglContext& context_;

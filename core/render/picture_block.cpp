@@ -28,17 +28,17 @@ kernel::BlockView block_view(const PictureFrame& frame, const PictureBlock& bloc
 kernel::TileListParameters tile_list_parameters(const PictureFrame& frame, const PictureBlock& block,
                                                 std::uint32_t primitive_count) {
   return {.right = glm::vec3(frame.basis.right),
-                                 .eye_distance = static_cast<float>(frame.eye_distance),
-                                 .up = glm::vec3(frame.basis.up),
-                                 .pixels_per_angstrom = static_cast<float>(1.0 / frame.pixel_size),
-                                 .forward = glm::vec3(frame.basis.forward),
-                                 .orthographic = frame.camera.projection == Projection::orthographic,
-                                 .block_center = glm::vec2(0.5 * glm::dvec2(frame.size) - glm::dvec2(block.origin)),
-                                 .tiles = tile_counts(block),
-                                 .first_tile = block.origin / kTileEdge,
-                                 .picture_tile_columns = (frame.size.x + kTileEdge - 1) / kTileEdge,
-                                 .bounded = false,
-                                 .primitive_count = primitive_count};
+          .eye_distance = static_cast<float>(frame.eye_distance),
+          .up = glm::vec3(frame.basis.up),
+          .pixels_per_angstrom = static_cast<float>(1.0 / frame.pixel_size),
+          .forward = glm::vec3(frame.basis.forward),
+          .orthographic = frame.camera.projection == Projection::orthographic,
+          .block_center = glm::vec2(0.5 * glm::dvec2(frame.size) - glm::dvec2(block.origin)),
+          .tiles = tile_counts(block),
+          .first_tile = block.origin / kTileEdge,
+          .picture_tile_columns = (frame.size.x + kTileEdge - 1) / kTileEdge,
+          .bounded = false,
+          .primitive_count = primitive_count};
 }
 
 kernel::RayCastParameters cast_parameters(const ScenePlacement& scene, const Look& look, std::uint32_t atom_count,

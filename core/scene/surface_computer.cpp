@@ -33,7 +33,11 @@ void require_equal(const Surface& a, const std::string& device_a, const Surface&
 }  // namespace
 
 SurfaceComputer::SurfaceComputer(const SurfaceRequest& request, const EglContext* context)
-    : request_(request), context_(context), thread_limit_(request.threads), on_cpu_(request.cpu), clock_(request.timing) {
+    : request_(request),
+      context_(context),
+      thread_limit_(request.threads),
+      on_cpu_(request.cpu),
+      clock_(request.timing) {
   if (request.kind == SurfaceKind::vdw && request.probe_named)
     throw RequestError("--probe: the van der Waals surface has no probe; leave --probe or --surface vdw away");
   if (!request.cpu && request.gl.kind == DeviceChoice::Kind::automatic) on_cpu_ = !find_hardware();

@@ -15,8 +15,8 @@ class ThreadLimit {
  public:
   explicit ThreadLimit(int threads) {
     if (threads > 0)
-      limit_.reset(new tbb::global_control(tbb::global_control::max_allowed_parallelism,
-                                           static_cast<std::size_t>(threads)));
+      limit_.reset(
+          new tbb::global_control(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads)));
   }
 
  private:

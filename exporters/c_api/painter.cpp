@@ -146,8 +146,7 @@ struct meniscus_painter : meniscus::c_api::Counted {
   void find_gl(std::int32_t device) {
     const bool automatic = device == MENISCUS_AUTO;
     try {
-      with_gl_.emplace(
-          [&] { return std::make_unique<meniscus::c_api::Studio>(automatic ? MENISCUS_GPU : device); });
+      with_gl_.emplace([&] { return std::make_unique<meniscus::c_api::Studio>(automatic ? MENISCUS_GPU : device); });
     } catch (const meniscus::GpuError&) {
       if (!automatic) throw;
       with_gl_.reset();

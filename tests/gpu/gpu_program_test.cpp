@@ -74,8 +74,8 @@ TEST_F(StoppingGpu, PicturesOnTheCpuDoNotNotice) {
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_NE(result.err.find("picture on cpu"), std::string::npos) << result.err;
   EXPECT_TRUE(std::filesystem::exists(picture));
-  const std::vector<std::string> frames{"render", run_,     "--frames", "all", "--device", "cpu",
-                                        "--size", "64x48",  "-q",       "-o",  path("frame_#.png")};
+  const std::vector<std::string> frames{"render", run_,    "--frames", "all", "--device",         "cpu",
+                                        "--size", "64x48", "-q",       "-o",  path("frame_#.png")};
   EXPECT_EQ(with_fault("drop_from 0", frames).exit_code, 0);
   EXPECT_TRUE(std::filesystem::exists(path("frame_1.png")));
 }

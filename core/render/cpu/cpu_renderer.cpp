@@ -37,8 +37,8 @@ struct CpuScene {
     lanes.colors = colors.data();
     lanes.parts = parts.data();
     lanes.some_hidden = std::ranges::find(coloring.hidden, true) != coloring.hidden.end();
-    lanes.params = cast_parameters(placement, look, static_cast<std::uint32_t>(coloring.atom.size()),
-                                   coloring.kind.has_value());
+    lanes.params =
+        cast_parameters(placement, look, static_cast<std::uint32_t>(coloring.atom.size()), coloring.kind.has_value());
   }
 };
 
@@ -59,7 +59,9 @@ struct BlockSamples {
   }
 
   LaneSamples lanes() {
-    return {color.data(), depth.data(), {normal[0].data(), normal[1].data(), normal[2].data()},
+    return {color.data(),
+            depth.data(),
+            {normal[0].data(), normal[1].data(), normal[2].data()},
             part.empty() ? nullptr : part.data()};
   }
 };
@@ -160,9 +162,7 @@ class CpuRenderer final : public SurfaceRenderer {
 
 }  // namespace
 
-std::unique_ptr<SurfaceRenderer> make_cpu_renderer(int most_lanes) {
-  return std::make_unique<CpuRenderer>(most_lanes);
-}
+std::unique_ptr<SurfaceRenderer> make_cpu_renderer(int most_lanes) { return std::make_unique<CpuRenderer>(most_lanes); }
 
 const LaneKernels& widest_kernels(int most_lanes) {
   for (const LaneKernels* kernels : {kernels_of_16_lanes(), kernels_of_8_lanes()})

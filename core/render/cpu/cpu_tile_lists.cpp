@@ -83,8 +83,13 @@ LaneList SortedList::sort(std::span<const std::uint32_t> entries, std::span<cons
     numbers_[4][n] = primitive.nearest;
     primitives_[n] = entry;
   }
-  return {static_cast<int>(entries.size()), numbers_[0].data(), numbers_[1].data(), numbers_[2].data(),
-          numbers_[3].data(), numbers_[4].data(), primitives_.data()};
+  return {static_cast<int>(entries.size()),
+          numbers_[0].data(),
+          numbers_[1].data(),
+          numbers_[2].data(),
+          numbers_[3].data(),
+          numbers_[4].data(),
+          primitives_.data()};
 }
 
 }  // namespace meniscus

@@ -48,14 +48,14 @@ struct LaneSamples {
   glm::vec4* color = nullptr;  ///< linear, premultiplied
   float* depth = nullptr;      ///< along the view axis, Å; kernel::kNothing where nothing is met
   float* normal[3] = {};       ///< towards the solvent, in the molecule's axes
-  float* part = nullptr;  ///< LaneScene::parts of what is met, else 0; nullptr if there are none
+  float* part = nullptr;       ///< LaneScene::parts of what is met, else 0; nullptr if there are none
 };
 
 /// Some samples of a tile's pixels.
 struct LaneTile {
   static constexpr int kMostSamples = 4;
-  glm::ivec2 origin{0};             ///< in the block, pixels
-  int sample_count = 1;             ///< 1 to kMostSamples
+  glm::ivec2 origin{0};              ///< in the block, pixels
+  int sample_count = 1;              ///< 1 to kMostSamples
   glm::vec2 offset[kMostSamples]{};  ///< of the samples from the pixels' centres
   LaneList list;
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Packets of sixteen: processors with AVX-512. Headers with code of their own come first: it stays fit for every processor.
+// Packets of sixteen: processors with AVX-512. Headers with code of their own come first: it stays fit for every
+// processor.
 #include "core/render/cpu/lane_kernels.h"
 
 #if defined(__x86_64__)
@@ -24,7 +25,10 @@ namespace meniscus {
 
 const LaneKernels* kernels_of_16_lanes() {
   static constexpr LaneKernels kernels{16, lanes_16::cast_tile, lanes_16::occlude_row, lanes_16::finish_row};
-  return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw") ? &kernels : nullptr;
+  return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+                 __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw")
+             ? &kernels
+             : nullptr;
 }
 
 }  // namespace meniscus

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Packets of numbers, one for each of MENISCUS_LANES rays: the words of gpu_shaders/shared/lane.glsl for C++.
 //
-// Only operations that IEEE 754 rounds correctly, one lane like another, and functions made of them: so a picture is the
-// same to the bit whatever the width of the machine's vectors. What the shared sources call is here under GLSL's names.
-// Included by lanes_*.cpp alone, each with lanes and instructions of its own.
+// Only operations that IEEE 754 rounds correctly, one lane like another, and functions made of them: so a picture is
+// the same to the bit whatever the width of the machine's vectors. What the shared sources call is here under GLSL's
+// names. Included by lanes_*.cpp alone, each with lanes and instructions of its own.
 #pragma once
 
 #include <cmath>
@@ -15,7 +15,6 @@
 #if defined(__x86_64__)
 #include <immintrin.h>
 #endif
-
 
 #define GEOMETRY inline
 #define GEOMETRY_OUT(type) type&
@@ -214,12 +213,11 @@ inline SineCosine sine_cosine(real a) {
   const real x = ((a - quarter * 1.5703125f) - quarter * 4.837512969970703e-4f) - quarter * 7.549789948768648e-8f;
   const real z = x * x;
   const real s = ((-1.9515295891e-4f * z + 8.3321608736e-3f) * z - 1.6666654611e-1f) * z * x + x;
-  const real c = ((2.443315711809948e-5f * z - 1.388731625493765e-3f) * z + 4.166664568298827e-2f) * z * z -
-                 0.5f * z + 1.0f;
+  const real c =
+      ((2.443315711809948e-5f * z - 1.388731625493765e-3f) * z + 4.166664568298827e-2f) * z * z - 0.5f * z + 1.0f;
   const truth swapped = Ints((quadrant & 1) != 0);
   const real sine = select(swapped, c, s), cosine = select(swapped, s, c);
-  return {from_bits(bits_of(sine) ^ ((quadrant & 2) << 30)),
-          from_bits(bits_of(cosine) ^ (((quadrant + 1) & 2) << 30))};
+  return {from_bits(bits_of(sine) ^ ((quadrant & 2) << 30)), from_bits(bits_of(cosine) ^ (((quadrant + 1) & 2) << 30))};
 }
 inline real sin(real a) { return sine_cosine(a).sine; }
 inline real cos(real a) { return sine_cosine(a).cosine; }
@@ -228,8 +226,8 @@ inline real cos(real a) { return sine_cosine(a).cosine; }
 inline real acos(real a) {
   const real x = abs(a);
   real y = -0.0012624911f;
-  for (const float c : {0.0066700901f, -0.0170881256f, 0.0308918810f, -0.0501743046f, 0.0889789874f, -0.2145988016f,
-                        1.5707963050f})
+  for (const float c :
+       {0.0066700901f, -0.0170881256f, 0.0308918810f, -0.0501743046f, 0.0889789874f, -0.2145988016f, 1.5707963050f})
     y = y * x + c;
   y = y * sqrt(1.0f - x);
   return select(a < 0.0f, 3.14159265f - y, y);

@@ -14,11 +14,11 @@ using glm::vec2;
 using glm::vec3;
 using glm::vec4;
 using ray_cast::Hit;
-using ray_cast::Primitive;
 using ray_cast::kConcave;
 using ray_cast::kConvex;
 using ray_cast::kNoPrimitive;
 using ray_cast::kToroidal;
+using ray_cast::Primitive;
 
 inline uint floatBitsToUint(float a) { return std::bit_cast<uint>(a); }
 
@@ -236,8 +236,8 @@ class Bundle : TracedScene {
     real3 result(0.0f);
     for (uint left = bits(shaded.met); left != 0; left &= left - 1) {
       const int n = std::countr_zero(left);
-      const vec4& color = scene_.colors[params.color_by_kind != 0u ? params.atom_count + lane(rays.kind, n)
-                                                                   : lane(shaded.atom, n)];
+      const vec4& color =
+          scene_.colors[params.color_by_kind != 0u ? params.atom_count + lane(rays.kind, n) : lane(shaded.atom, n)];
       result.x.v[n] = color.x;
       result.y.v[n] = color.y;
       result.z.v[n] = color.z;
@@ -275,8 +275,8 @@ class Bundle : TracedScene {
   void write_hits(const Pixels& to, const Rays& rays, const Shaded& shaded) const {
     for (int i = 0; i < to.count; ++i) {
       const int n = to.lane[i];
-      tile_.hits[to.at[i]] = {lane_of(shaded.normal, n), lane(rays.t, n), lane(rays.primitive, n), lane(shaded.atom, n),
-                              0u, 0u};
+      tile_.hits[to.at[i]] = {
+          lane_of(shaded.normal, n), lane(rays.t, n), lane(rays.primitive, n), lane(shaded.atom, n), 0u, 0u};
     }
   }
 
@@ -307,10 +307,9 @@ class Bundle : TracedScene {
 };
 
 inline void cast_tile(const LaneScene& scene, const LaneTile& tile) {
-  const glm::ivec2 end = {scene.view.size.x < tile.origin.x + kernel::kTileEdge ? scene.view.size.x
-                                                                                : tile.origin.x + kernel::kTileEdge,
-                          scene.view.size.y < tile.origin.y + kernel::kTileEdge ? scene.view.size.y
-                                                                                : tile.origin.y + kernel::kTileEdge};
+  const glm::ivec2 end = {
+      scene.view.size.x < tile.origin.x + kernel::kTileEdge ? scene.view.size.x : tile.origin.x + kernel::kTileEdge,
+      scene.view.size.y < tile.origin.y + kernel::kTileEdge ? scene.view.size.y : tile.origin.y + kernel::kTileEdge};
   for (int y = tile.origin.y; y < end.y; y += kBundleEdge)
     for (int x = tile.origin.x; x < end.x; x += kBundleEdge) {
       Bundle bundle(scene, tile, {x, y});
