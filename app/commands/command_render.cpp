@@ -20,6 +20,8 @@
 #include "core/base/text.h"
 #include "core/gpu/egl_context.h"
 #include "core/render/image_output.h"
+#include "core/render/renderer.h"
+#include "core/scene/picture_device.h"
 #include "app/reports/notes.h"
 #include "app/options/run_camera_options.h"
 #include "core/queries/combine.h"
@@ -62,12 +64,11 @@ void finish(const RenderCommand& command, const PictureLayout& layout, Framebuff
   if (!command.save_camera.empty()) save_camera(command, camera);
 }
 
-void say_times(const RenderCommand& command, const EglContext& context, const std::vector<StageTime>& stages) {
+void say_times(const RenderCommand& command, const std::string& device, const std::vector<StageTime>& stages) {
   std::string times;
   for (const StageTime& stage : stages)
     times += fmt::format("{}{} {:.1f} ms", times.empty() ? "" : ", ", stage.name, stage.milliseconds);
-  say(command.molecule, fmt::format("picture on {}, GL {}{}: {}", context.renderer(), context.version(),
-                                    context.is_software() ? " (software)" : "", times));
+  say(command.molecule, fmt::format("picture on {}: {}", device, times));
 }
 
 // For a picture whose times are said.
@@ -88,7 +89,7 @@ void draw_view(const RenderCommand& command, const std::optional<Camera>& given)
   Renderer renderer;
   Framebuffer picture = renderer.render(view, camera, timed_settings(command, layout));
   if (command.stats) fmt::print(std::cerr, "{}", stats_text(view.stats(), renderer.times(), picture.size));
-  say_times(command, context, renderer.times());
+  say_times(command, gl_words(context), renderer.times());
   finish(command, layout, std::move(picture), camera);
 }
 
@@ -115,11 +116,11 @@ void run(const RenderCommand& command) {
   Molecule molecule = load_molecule(command.molecule);
   const PictureLayout layout(command, key_of(molecule));
   const Camera camera = view_camera(layout.size, given, placed_balls(molecule.objects));
-  const EglContext context(gl_device(command));
-  Renderer renderer;
+  PictureDevice device(command.molecule.surface);
+  SurfaceRenderer& renderer = device.renderer();
   Framebuffer picture = render_objects(renderer, std::move(molecule.objects), camera, timed_settings(command, layout));
   finish(command, layout, std::move(picture), camera);
-  say_times(command, context, renderer.times());
+  say_times(command, renderer.device(), renderer.times());
 }
 
 }  // namespace
@@ -142,7 +143,7 @@ RenderSettings render_settings(const RenderCommand& command, const PictureLayout
 
 DeviceChoice gl_device(const RenderCommand& command) { return command.molecule.surface.gl; }
 
-Framebuffer render_objects(Renderer& renderer, std::vector<SurfaceObject> objects, const Camera& camera,
+Framebuffer render_objects(SurfaceRenderer& renderer, std::vector<SurfaceObject> objects, const Camera& camera,
                            const RenderSettings& settings) {
   const SurfaceObject whole = merged(std::move(objects));
   Framebuffer picture = renderer.render(whole.surface, whole.coloring, camera, settings);

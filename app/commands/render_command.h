@@ -12,7 +12,7 @@
 #include "app/options/frame_options.h"
 #include "core/render/legend.h"
 #include "core/render/look.h"
-#include "core/render/renderer.h"
+#include "core/render/surface_renderer.h"
 #include "core/visible_surface/extent.h"
 
 namespace meniscus {
@@ -44,11 +44,11 @@ struct PictureLayout {
 
 RenderSettings render_settings(const RenderCommand& command, const PictureLayout& layout);
 
-/// For pictures of what was computed on the CPU any GL will do.
+/// Of --extent.
 DeviceChoice gl_device(const RenderCommand& command);
 
 /// A picture of all objects. atom of the AOVs: into Structure::atoms.
-Framebuffer render_objects(Renderer& renderer, std::vector<SurfaceObject> objects, const Camera& camera,
+Framebuffer render_objects(SurfaceRenderer& renderer, std::vector<SurfaceObject> objects, const Camera& camera,
                            const RenderSettings& settings);
 
 /// Did no ray of the picture meet a part of the surface that is shown?

@@ -17,9 +17,11 @@
 #include "app/commands/render_command.h"
 #include "app/commands/view_picture.h"
 #include "core/base/text.h"
-#include "core/gpu/egl_context.h"
 #include "app/reports/notes.h"
+#include "core/gpu/egl_context.h"
 #include "core/render/image_output.h"
+#include "core/render/renderer.h"
+#include "core/scene/picture_device.h"
 
 namespace meniscus {
 namespace {
@@ -82,31 +84,31 @@ class PictureSink {
 /// Makes the pictures of frames, by way of the complete surface or of what the view needs.
 class FramePainter {
  public:
-  FramePainter(const RenderCommand& command, const FrameRun& frames) : command_(command), context_(gl_device(command)) {
+  FramePainter(const RenderCommand& command, const FrameRun& frames) : command_(command) {
     if (command.extent)
-      atoms_ = colored_atoms(command.molecule, frames.structure());
+      view_.emplace(command, frames.structure());
     else
-      builders_ = frame_builders(frames, command.molecule, command.frames, kSurfaceBytesPerAtom, &context_);
+      complete_.emplace(command, frames);
   }
 
   /// `finish` takes a picture of a frame to where it belongs. Surfaces on the CPU are made at the same time as others,
   /// all else is one picture after another.
   std::vector<FrameWorker> workers(const std::vector<Camera>& cameras, const RenderSettings& settings,
                                    const std::function<MadeFrame(std::uint64_t number, Framebuffer picture)>& finish) {
-    if (command_.extent)
+    if (view_)
       return {[this, &cameras, &settings, &finish](const RunFrame& frame) -> FinishFrame {
-        atoms_->balls = balls_of(frame.structure);
+        view_->atoms.balls = balls_of(frame.structure);
         return [this, &finish, &camera = cameras[frame.place], &settings, number = frame.number] {
-          show(*atoms_, command_.molecule.surface.probe_radius, *command_.extent, view_);
-          return finish(number, renderer_.render(view_, camera, settings));
+          show(view_->atoms, command_.molecule.surface.probe_radius, *command_.extent, view_->pipeline);
+          return finish(number, view_->renderer.render(view_->pipeline, camera, settings));
         };
       }};
     std::vector<FrameWorker> workers;
-    for (const auto& builder : builders_)
+    for (const auto& builder : complete_->builders)
       workers.push_back([this, builder, &cameras, &settings, &finish](RunFrame frame) -> FinishFrame {
         auto molecule = std::make_shared<const Molecule>(builder->build(std::move(frame.structure)));
         return [this, molecule, &finish, &camera = cameras[frame.place], &settings, number = frame.number] {
-          return finish(number, render_objects(renderer_, molecule->objects, camera, settings));
+          return finish(number, render_objects(complete_->device.renderer(), molecule->objects, camera, settings));
         };
       });
     return workers;
@@ -114,11 +116,26 @@ class FramePainter {
 
  private:
   const RenderCommand& command_;
-  EglContext context_;
-  std::vector<std::shared_ptr<MoleculeBuilder>> builders_;  ///< of complete surfaces
-  std::optional<ColoredAtoms> atoms_;                       ///< of what the view needs
-  ViewPipeline view_;
-  Renderer renderer_;
+  struct Complete {
+    Complete(const RenderCommand& command, const FrameRun& frames)
+        : device(command.molecule.surface),
+          builders(frame_builders(frames, command.molecule, command.frames, kSurfaceBytesPerAtom, device.context())) {}
+    PictureDevice device;
+    std::vector<std::shared_ptr<MoleculeBuilder>> builders;
+  };
+
+  /// What --extent needs.
+  struct View {
+    View(const RenderCommand& command, const Structure& structure)
+        : context(gl_device(command)), atoms(colored_atoms(command.molecule, structure)) {}
+    EglContext context;
+    ColoredAtoms atoms;
+    ViewPipeline pipeline;
+    Renderer renderer;
+  };
+
+  std::optional<Complete> complete_;  // one of the two
+  std::optional<View> view_;
 };
 
 }  // namespace

@@ -29,6 +29,9 @@ void check_view_options(const MoleculeOptions& options) {
   const auto refuse = [](const char* option) {
     throw UsageError(fmt::format("{} needs the complete surface; leave --extent away", option));
   };
+  if (options.surface.cpu)
+    throw UsageError(
+        "--extent finds on GL what the view needs; leave --device cpu away, or --extent: the picture is the same");
   if (options.division.groups || options.division.components) refuse("--by");
   if (options.division.cavities != Cavities::keep) refuse("--cavities");
   if (options.division.instances != InstanceMode::none) refuse("--instances");

@@ -12,7 +12,7 @@
 namespace meniscus {
 
 /// Throws UsageError for options that only a complete surface can serve: --by, --cavities, --instances, --verify,
-/// --color component, another --surface.
+/// --color component, another --surface, and for --device cpu.
 void check_view_options(const MoleculeOptions& options);
 
 /// The atoms of a structure with their colours, and no surface yet. Throws InputError.

@@ -13,7 +13,7 @@ namespace meniscus {
 /// A wish such as "auto", "gpu", "gpu:1", "gpu:GPU-8a2d1c5e" or "software".
 struct DeviceChoice {
   enum class Kind {
-    automatic,  ///< hardware if any works, else software GL
+    automatic,  ///< hardware if any works, else software GL; what can do without GL takes the CPU then
     gpu,        ///< hardware, nothing else
     software    ///< software GL, nothing else
   };

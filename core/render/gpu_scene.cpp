@@ -3,25 +3,27 @@
 #include "core/render/gpu_scene.h"
 
 #include <algorithm>
-#include <vector>
-
-#include <glm/vec4.hpp>
 
 #include "core/image/color_space.h"
 
 namespace meniscus {
 
+std::vector<glm::vec4> linear_colors(const Coloring& coloring) {
+  const auto atom_count = static_cast<std::uint32_t>(coloring.atom.size());
+  std::vector<glm::vec4> colors;
+  colors.reserve(atom_count + 3);
+  for (std::uint32_t a = 0; a < atom_count; ++a)
+    colors.emplace_back(linear_from_srgb(coloring.atom[a]), coloring.shows(a) ? 1.0f : 0.0f);
+  if (coloring.kind)
+    for (const glm::vec3& color : *coloring.kind) colors.emplace_back(linear_from_srgb(color), 1.0f);
+  return colors;
+}
+
 void upload_coloring(const Coloring& coloring, GpuScene& scene) {
   scene.atom_count = static_cast<std::uint32_t>(coloring.atom.size());
   scene.color_by_kind = coloring.kind.has_value();
   scene.some_hidden = std::ranges::find(coloring.hidden, true) != coloring.hidden.end();
-  std::vector<glm::vec4> colors;
-  colors.reserve(coloring.atom.size() + 3);
-  for (std::uint32_t a = 0; a < scene.atom_count; ++a)
-    colors.emplace_back(linear_from_srgb(coloring.atom[a]), coloring.shows(a) ? 1.0f : 0.0f);
-  if (coloring.kind)
-    for (const glm::vec3& color : *coloring.kind) colors.emplace_back(linear_from_srgb(color), 1.0f);
-  scene.colors.upload(colors);
+  scene.colors.upload(linear_colors(coloring));
   scene.parts.upload(coloring.part);
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
@@ -22,18 +23,21 @@ using uint = std::uint32_t;
 static_assert(sizeof(Primitive) == 48 && sizeof(Hit) == 32, "std430 has these sizes");
 }  // namespace ray_cast
 
+/// What of a scene follows from atoms, probe and camera alone.
+struct ScenePlacement {
+  float slack = 0.0f;         ///< Å by which patches overlap: a few roundings of the largest coordinate
+  double probe_radius = 0.0;  ///< Å
+  /// The atoms lie between these depths along the view axis, Å: all atoms, shown or not, so that depth cues do not
+  /// depend on which primitives are here. The GPU's tile lists are made of 32 slices of this range.
+  float first_depth = 0.0f, last_depth = 0.0f;
+};
+
 /// Records and rows are those of gpu_shaders/ray_cast/records.glsl. Positions are relative to the pivot of the picture
 /// (PictureFrame), so that a scene belongs to one camera. Primitives stand in any order; what the picture does not show
 /// may be there or not: the picture is the same to the bit.
-struct GpuScene {
+struct GpuScene : ScenePlacement {
   AppendList primitives{sizeof(ray_cast::Primitive), 1 << 15};
   AppendList rows{sizeof(glm::vec4), 1 << 17};
-  float slack = 0.0f;         ///< Å by which patches overlap: a few roundings of the largest coordinate
-  double probe_radius = 0.0;  ///< Å
-
-  /// The atoms lie between these depths along the view axis, Å: all atoms, shown or not, so that depth cues do not
-  /// depend on which primitives are here. Tile lists are made of 32 slices of this range.
-  float first_depth = 0.0f, last_depth = 0.0f;
   /// Empty, or one float for each tile of 16 x 16 pixels of the picture, row by row: a distance from the camera
   /// (orthographic: from its plane), in Å, beyond which nothing that begins there can show in the tile.
   Buffer tile_depths;
@@ -44,6 +48,9 @@ struct GpuScene {
   bool some_hidden = false;
   Buffer parts;  ///< uint32 per atom, or empty: Coloring::part
 };
+
+/// Those of GpuScene::colors.
+std::vector<glm::vec4> linear_colors(const Coloring& coloring);
 
 /// Sets the last five members.
 void upload_coloring(const Coloring& coloring, GpuScene& scene);

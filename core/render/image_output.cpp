@@ -16,6 +16,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/image/image_codec.h"
+#include "core/image/png_encoder.h"
 #include "core/image/display_color.h"
 #include "core/image/memory_file.h"
 
@@ -97,6 +98,7 @@ ImageToEncode described(const Framebuffer& picture, const Channels& channels, co
 }
 
 std::vector<std::uint8_t> encode(const std::filesystem::path& path, const ImageToEncode& image) {
+  if (image.format == "png") return encode_png(image);
   try {
     return image_codec().encode(image);
   } catch (const Error&) {
@@ -152,7 +154,7 @@ void check_image_path(const std::filesystem::path& path) {
   constexpr std::array<std::string_view, 4> kExtensions{".png", ".tif", ".tiff", ".exr"};
   if (std::ranges::find(kExtensions, extension_of(path)) == kExtensions.end())
     throw OutputError(path.string(), "a picture's name must end in .png, .tif, .tiff or .exr");
-  image_codec();  // what is missing is missed before anything is computed
+  if (extension_of(path) != ".png") image_codec();  // what is missing is missed before anything is computed
 }
 
 void write_image(const std::filesystem::path& path, const Framebuffer& picture, const ImageSettings& settings) {

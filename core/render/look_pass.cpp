@@ -29,10 +29,7 @@ void LookPass::add(const CastSample& sample, const Look& look, const GpuScene& s
   depth_texels_.bind(1);
   if (look.ambient_occlusion > 0.0f) {
     visibility_.bind(0);
-    run(programs_.get("gpu_shaders/look/occlusion.comp"),
-        kernel::OcclusionParameters{.radius = look.ambient_occlusion_radius,
-                                    .longest_reach = static_cast<float>(kLongestShade),
-                                    .sample_index = sample.index});
+    run(programs_.get("gpu_shaders/look/occlusion.comp"), occlusion_parameters(look, sample.index));
   }
   ShaderDefines effects;
   if (look.ambient_occlusion > 0.0f) effects.emplace_back("AMBIENT_OCCLUSION", "1");
@@ -43,14 +40,7 @@ void LookPass::add(const CastSample& sample, const Look& look, const GpuScene& s
   part_texels_.bind(3);
   sample.colors.bind(0);
   picture.bind(1);
-  run(programs_.get("gpu_shaders/look/finish.comp", effects),
-      kernel::FinishParameters{.ambient_occlusion = look.ambient_occlusion,
-                               .silhouettes = look.silhouettes,
-                               .depth_cue = look.depth_cue,
-                               .first_depth = scene.first_depth,
-                               .last_depth = scene.last_depth,
-                               .sample_index = sample.index,
-                               .has_parts = has_parts});
+  run(programs_.get("gpu_shaders/look/finish.comp", effects), finish_parameters(look, scene, sample.index, has_parts));
 }
 
 }  // namespace meniscus

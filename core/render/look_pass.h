@@ -12,7 +12,7 @@
 #include "core/render/gpu_scene.h"
 #include "core/render/look.h"
 #include "core/render/ray_cast_scene.h"
-#include "core/render/tile_lists.h"
+#include "core/render/picture_block.h"
 
 namespace meniscus {
 
@@ -20,7 +20,7 @@ namespace meniscus {
 struct CastSample {
   const Buffer& colors;  ///< vec4 each
   const Buffer& hits;    ///< ray_cast::Hit each
-  std::uint32_t index;
+  int index;
   glm::vec2 offset;  ///< from the pixels' centres, pixels
 };
 

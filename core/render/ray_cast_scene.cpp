@@ -9,8 +9,10 @@
 #include <numbers>
 #include <numeric>
 #include <span>
+#include <utility>
 
 #include <glm/geometric.hpp>
+#include <tbb/parallel_for.h>
 
 #include "core/render/ray_geometry.h"
 
@@ -21,19 +23,40 @@ using ray_cast::Primitive;
 
 using geometry::PatchBound;
 
+/// Patches of one kind that are packed together.
+struct PatchRange {
+  PatchKind kind;
+  std::uint32_t first, end;
+};
+
+/// All patches, by kind and index.
+std::vector<PatchRange> ranges_of(const Surface& surface) {
+  constexpr std::size_t kTogether = 2048;
+  std::vector<PatchRange> ranges;
+  const auto add = [&](PatchKind kind, std::size_t count) {
+    for (std::size_t first = 0; first < count; first += kTogether)
+      ranges.push_back(
+          {kind, static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(std::min(first + kTogether, count))});
+  };
+  add(PatchKind::convex, surface.convex.size());
+  if (surface.probe_radius > 0.0) {  // a probe of no size leaves these patches without area
+    add(PatchKind::toroidal, surface.toroidal.size());
+    add(PatchKind::concave, surface.concave.size());
+  }
+  return ranges;
+}
+
 class Packer {
  public:
+  /// scene: with its slack.
   Packer(const Surface& surface, const Coloring& coloring, const PictureFrame& frame, RayCastScene& scene)
       : surface_(surface), coloring_(coloring), frame_(frame), scene_(scene) {}
 
-  void pack() {
-    const auto& s = surface_;
-    scene_.primitives.reserve(s.convex.size() + s.toroidal.size() + s.concave.size());
-    scene_.slack = patch_slack(s.atoms, s.probe_radius, frame_);
-    for (std::uint32_t i = 0; i < s.convex.size(); ++i) pack(s.convex[i], i);
-    if (s.probe_radius > 0.0) {  // a probe of no size leaves these patches without area
-      for (std::uint32_t i = 0; i < s.toroidal.size(); ++i) pack(s.toroidal[i], i);
-      for (std::uint32_t i = 0; i < s.concave.size(); ++i) pack(s.concave[i], i);
+  void pack(const PatchRange& range) {
+    for (std::uint32_t i = range.first; i < range.end; ++i) {
+      if (range.kind == PatchKind::convex) pack(surface_.convex[i], i);
+      if (range.kind == PatchKind::toroidal) pack(surface_.toroidal[i], i);
+      if (range.kind == PatchKind::concave) pack(surface_.concave[i], i);
     }
   }
 
@@ -166,6 +189,15 @@ class Packer {
   RayCastScene& scene_;
 };
 
+void append(const RayCastScene& part, RayCastScene& scene) {
+  const auto first_row = static_cast<std::uint32_t>(scene.rows.size());
+  scene.rows.insert(scene.rows.end(), part.rows.begin(), part.rows.end());
+  for (Primitive primitive : part.primitives) {
+    primitive.first_row += first_row;
+    scene.primitives.push_back(primitive);
+  }
+}
+
 }  // namespace
 
 PictureFrame make_picture_frame(std::span<const Ball> atoms, const Camera& camera, glm::ivec2 size) {
@@ -200,7 +232,8 @@ float patch_slack(std::span<const Ball> atoms, double probe_radius, const Pictur
   return static_cast<float>(1e-5 + 2.5e-7 * extent);
 }
 
-void place_atoms(std::span<const Ball> atoms, double probe_radius, const PictureFrame& frame, GpuScene& scene) {
+ScenePlacement place_atoms(std::span<const Ball> atoms, double probe_radius, const PictureFrame& frame) {
+  ScenePlacement scene;
   scene.probe_radius = probe_radius;
   scene.slack = patch_slack(atoms, probe_radius, frame);
   double first = std::numeric_limits<double>::max(), last = 0.0;
@@ -211,18 +244,33 @@ void place_atoms(std::span<const Ball> atoms, double probe_radius, const Picture
   }
   scene.first_depth = static_cast<float>(std::max(std::min(first, last), 0.0));
   scene.last_depth = static_cast<float>(last);
+  return scene;
 }
 
 RayCastScene pack_scene(const Surface& surface, const Coloring& coloring, const PictureFrame& frame) {
   RayCastScene scene;
-  Packer(surface, coloring, frame, scene).pack();
+  scene.slack = patch_slack(surface.atoms, surface.probe_radius, frame);
+  const std::vector<PatchRange> ranges = ranges_of(surface);
+  std::vector<RayCastScene> parts(ranges.size());
+  tbb::parallel_for(std::size_t{0}, ranges.size(), [&](std::size_t n) {
+    parts[n].slack = scene.slack;
+    Packer(surface, coloring, frame, parts[n]).pack(ranges[n]);
+  });
+  std::size_t primitive_count = 0, row_count = 0;
+  for (const RayCastScene& part : parts) {
+    primitive_count += part.primitives.size();
+    row_count += part.rows.size();
+  }
+  scene.primitives.reserve(primitive_count);
+  scene.rows.reserve(row_count);
+  for (RayCastScene& part : parts) append(std::exchange(part, {}), scene);
   return scene;
 }
 
 void upload_scene(const RayCastScene& packed, const Surface& surface, const PictureFrame& frame, GpuScene& scene) {
   scene.primitives.upload(packed.primitives);
   scene.rows.upload(packed.rows);
-  place_atoms(surface.atoms, surface.probe_radius, frame, scene);
+  static_cast<ScenePlacement&>(scene) = place_atoms(surface.atoms, surface.probe_radius, frame);
 }
 
 }  // namespace meniscus

@@ -34,8 +34,7 @@ PictureFrame make_picture_frame(std::span<const Ball> atoms, const Camera& camer
 /// Å by which patches must overlap in this picture: a few roundings of the largest coordinate.
 float patch_slack(std::span<const Ball> atoms, double probe_radius, const PictureFrame& frame);
 
-/// What of the scene follows from atoms and camera alone: slack, range of depths; and the probe's radius.
-void place_atoms(std::span<const Ball> atoms, double probe_radius, const PictureFrame& frame, GpuScene& scene);
+ScenePlacement place_atoms(std::span<const Ball> atoms, double probe_radius, const PictureFrame& frame);
 
 /// What the kernel reads. Primitives stand by kind and index; those behind the camera are left out.
 struct RayCastScene {

@@ -2,36 +2,10 @@
 // The host's side of ray casting a block: lists of tiles, a dispatch for each sample, and again for long lists.
 #include "core/render/ray_caster.h"
 
-#include <cmath>
-
-#include <glm/geometric.hpp>
-
 #include "core/base/error.h"
 #include "core/gpu/gpu_stage.h"
 
 namespace meniscus {
-namespace {
-
-/// Where sample `index` lies in its pixel, in pixels from the centre: the R2 sequence (Roberts 2018), centre first.
-glm::vec2 sample_offset(int index) {
-  const double x = 0.5 + index * 0.7548776662466927, y = 0.5 + index * 0.5698402909980532;
-  return {static_cast<float>(x - std::floor(x) - 0.5), static_cast<float>(y - std::floor(y) - 0.5)};
-}
-
-/// Of the first sample.
-kernel::RayCastParameters own_parameters(const GpuScene& scene, const Look& look, glm::ivec2 tiles) {
-  kernel::RayCastParameters own{};
-  own.key_direction = glm::normalize(look.light_direction);
-  own.key_strength = look.light_strength;
-  own.tiles = tiles;
-  own.probe_radius = static_cast<float>(scene.probe_radius);
-  own.slack = scene.slack;
-  own.color_by_kind = scene.color_by_kind;
-  own.atom_count = scene.atom_count;
-  return own;
-}
-
-}  // namespace
 
 /// What the kernel is told.
 struct RayCaster::Parameters {
@@ -56,7 +30,8 @@ bool RayCaster::cast(const GpuScene& scene, const PictureFrame& frame, const Pic
     sample_colors_.resize(count * sizeof(glm::vec4));
     if (settings.samples > 1) sample_hits_.resize(count * sizeof(ray_cast::Hit));
   }
-  Parameters parameters{own_parameters(scene, look, lists_.tiles()), {}, depth_slices(scene)};
+  Parameters parameters{cast_parameters(scene, look, scene.atom_count, scene.color_by_kind), {}, depth_slices(scene)};
+  parameters.own.tiles = lists_.tiles();
   row_texels_.view(scene.rows.buffer);
   const std::size_t invocations = 64 * static_cast<std::size_t>(lists_.tiles().x) * lists_.tiles().y;
   unfinished_.resize((2 + invocations) * sizeof(std::uint32_t));
@@ -64,8 +39,7 @@ bool RayCaster::cast(const GpuScene& scene, const PictureFrame& frame, const Pic
   for (int n = 0; n < settings.samples; ++n) {
     if (n > 0 && settings.stop && settings.stop()) return false;
     const CastSample sample{look.has_effects() ? sample_colors_ : picture_,
-                            n && look.has_effects() ? sample_hits_ : hits_, static_cast<std::uint32_t>(n),
-                            sample_offset(n)};
+                            n && look.has_effects() ? sample_hits_ : hits_, n, sample_offset(n)};
     {
       const GpuStage stage(clock, "ray cast");
       const bool add = n > 0 && !look.has_effects();

@@ -8,8 +8,17 @@
 
 namespace meniscus::geometry {
 
+// The words of gpu_shaders/shared/lane.glsl, for one ray at a time.
+using truth = bool;
+using integer = int;
+template <typename T>
+T select(bool condition, T yes, T no) {
+  return condition ? yes : no;
+}
+inline bool some(bool condition) { return condition; }
+
 #include "gpu_shaders/geometry/patch_membership.glsl"
 #include "gpu_shaders/geometry/ray_sphere.glsl"
-#include "gpu_shaders/geometry/ray_torus.glsl"
+#include "gpu_shaders/geometry/torus_hits.glsl"
 
 }  // namespace meniscus::geometry

@@ -6,18 +6,13 @@
 #include <array>
 #include <cassert>
 #include <cmath>
-#include <limits>
-#include <span>
-#include <utility>
 
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <tbb/parallel_for.h>
 
 #include "core/base/error.h"
 #include "core/gpu/gpu_stage.h"
 #include "core/gpu/limits.h"
-#include "core/render/component_lookup.h"
+#include "core/render/picture_collector.h"
 
 namespace meniscus {
 namespace {
@@ -40,61 +35,7 @@ std::array<PictureBlock, 2> halves(const PictureBlock& block) {
   return result;
 }
 
-void resize(Framebuffer& picture, const RenderSettings& settings) {
-  const std::size_t count = static_cast<std::size_t>(settings.size.x) * settings.size.y;
-  picture.size = settings.size;
-  picture.color.resize(count);
-  if (!settings.aovs) return;
-  picture.z.assign(count, std::numeric_limits<float>::infinity());
-  picture.normal.assign(count, glm::vec3(0.0f));
-  picture.position.assign(count, glm::vec3(0.0f));
-  picture.atom.assign(count, kNone);
-  picture.kind.assign(count, kNone);
-  picture.component.assign(count, kNone);
-}
-
-/// `inner` and the neighbours that its colours depend on, as far as there are any.
-PictureBlock with_neighbors(const PictureBlock& inner, int reach, glm::ivec2 picture_size) {
-  const glm::ivec2 low = glm::max(inner.origin - reach, glm::ivec2(0));
-  return {low, glm::min(inner.origin + inner.size + reach, picture_size) - low};
-}
-
-/// Calls work(place in the block, place in the picture) for each pixel of `inner`, which is part of the block.
-template <typename Work>
-void for_each_pixel(const PictureBlock& inner, const PictureBlock& block, glm::ivec2 picture_size, const Work& work) {
-  tbb::parallel_for(inner.origin.y, inner.origin.y + inner.size.y, [&](int y) {
-    for (int x = inner.origin.x; x < inner.origin.x + inner.size.x; ++x)
-      work(static_cast<std::size_t>(y - block.origin.y) * block.size.x + (x - block.origin.x),
-           static_cast<std::size_t>(y) * picture_size.x + x);
-  });
-}
-
-void copy_hit(const ray_cast::Hit& hit, std::size_t at, std::span<const ray_cast::Primitive> primitives,
-              const PictureFrame& frame, const ComponentLookup& components, Framebuffer& picture) {
-  if (hit.primitive == ray_cast::kNoPrimitive) return;
-  const glm::dvec2 pixel(static_cast<double>(at % frame.size.x) + 0.5, static_cast<double>(at / frame.size.x) + 0.5);
-  const Ray ray = pixel_ray(frame.camera, frame.size, pixel);
-  // The kernel counts from the plane through the pivot.
-  const double z = hit.t + frame.eye_distance / glm::dot(ray.direction, frame.basis.forward);
-  const glm::dvec3 point = ray.origin + ray.direction * z;
-  const ray_cast::Primitive& primitive = primitives[hit.primitive];
-  picture.z[at] = static_cast<float>(z);
-  picture.normal[at] = hit.normal;
-  picture.position[at] = glm::vec3(point);
-  picture.atom[at] = hit.atom;
-  picture.kind[at] = primitive.kind;
-  picture.component[at] = components.at(static_cast<PatchKind>(primitive.kind), primitive.patch_index, point);
-}
-
 }  // namespace
-
-/// What render() makes of each block.
-struct Renderer::Collected {
-  const RenderSettings& settings;
-  std::vector<ray_cast::Primitive> primitives{};  // for AOVs, as are components
-  std::optional<ComponentLookup> components{};
-  Framebuffer picture{};
-};
 
 void Renderer::begin(Drawable& drawable, const Camera& camera, const RenderSettings& settings) {
   assert(settings.size.x > 0 && settings.size.y > 0 && settings.samples > 0);
@@ -115,40 +56,29 @@ Framebuffer Renderer::render(const Surface& surface, const Coloring& coloring, c
 
 Framebuffer Renderer::render(Drawable& drawable, const Camera& camera, const RenderSettings& settings) {
   begin(drawable, camera, settings);
-  Collected collected{settings};
+  std::vector<ray_cast::Primitive> primitives;
   if (settings.aovs) {
     assert(drawable.surface());
-    collected.primitives = scene_->primitives.buffer.download<ray_cast::Primitive>(scene_->primitives.count());
-    collected.components.emplace(*drawable.surface());
+    primitives = scene_->primitives.buffer.download<ray_cast::Primitive>(scene_->primitives.count());
   }
-  resize(collected.picture, settings);
-  const int edge = usable_block_edge(settings.block_edge);
-  for (int top = 0; top < settings.size.y; top += edge)
-    for (int left = 0; left < settings.size.x; left += edge)
-      render_block({{left, top}, glm::min(glm::ivec2(edge), settings.size - glm::ivec2(left, top))}, collected);
-  return std::move(collected.picture);
+  PictureCollector collector(frame_, settings, drawable.surface(), primitives);
+  for (const PictureBlock& block : picture_blocks(settings.size, usable_block_edge(settings.block_edge)))
+    render_block(block, settings, collector);
+  return collector.take();
 }
 
-void Renderer::render_block(const PictureBlock& inner, Collected& collected) {
-  const RenderSettings& settings = collected.settings;
+void Renderer::render_block(const PictureBlock& inner, const RenderSettings& settings, PictureCollector& collector) {
   const PictureBlock block = with_neighbors(inner, look_reach(settings.look), frame_.size);
   try {
     caster_.cast(*scene_, frame_, block, {settings.samples, settings.look, {}, &clock_});
   } catch (const CapacityError&) {
     if (inner.size.x <= kTileEdge && inner.size.y <= kTileEdge) throw;
-    for (const PictureBlock& half : halves(inner)) render_block(half, collected);
+    for (const PictureBlock& half : halves(inner)) render_block(half, settings, collector);
     return;
   }
   const std::size_t count = static_cast<std::size_t>(block.size.x) * block.size.y;
-  const auto sums = samples().download<glm::vec4>(count);
-  const float scale = 1.0f / static_cast<float>(settings.samples);
-  for_each_pixel(inner, block, frame_.size,
-                 [&](std::size_t from, std::size_t to) { collected.picture.color[to] = sums[from] * scale; });
-  if (!settings.aovs) return;
-  const auto found = hits().download<ray_cast::Hit>(count);
-  for_each_pixel(inner, block, frame_.size, [&](std::size_t from, std::size_t to) {
-    copy_hit(found[from], to, collected.primitives, frame_, *collected.components, collected.picture);
-  });
+  collector.add_colors(inner, block, samples().download<glm::vec4>(count));
+  if (settings.aovs) collector.add_hits(inner, block, hits().download<ray_cast::Hit>(count));
 }
 
 bool Renderer::draw(Drawable& drawable, const Camera& camera, const RenderSettings& settings,

@@ -15,23 +15,15 @@
 #include "core/color/coloring.h"
 #include "core/render/drawable.h"
 #include "core/render/framebuffer.h"
-#include "core/render/look.h"
 #include "core/render/presenter.h"
 #include "core/render/ray_caster.h"
+#include "core/render/render_settings.h"
 #include "core/render/surface_drawable.h"
 #include "core/surface/primitives.h"
 
 namespace meniscus {
 
-/// How a picture is made.
-struct RenderSettings {
-  glm::ivec2 size{1024, 768};  ///< pixels
-  int samples = 1;             ///< rays per pixel, the first through its centre
-  bool aovs = false;           ///< of render(): fill the AOV arrays too; for drawables with a surface()
-  int block_edge = 2048;       ///< of render(): larger pictures are cast in blocks of at most this edge, in pixels
-  Look look;                   ///< its background is that of draw(); render() leaves it transparent
-  StageTiming timing = StageTiming::rough;
-};
+class PictureCollector;
 
 /// What the ray through the centre of a pixel hits.
 struct PickedPoint {
@@ -72,10 +64,8 @@ class Renderer {
   const Buffer& hits() const { return caster_.hits(); }
 
  private:
-  struct Collected;
-
   void begin(Drawable& drawable, const Camera& camera, const RenderSettings& settings);
-  void render_block(const PictureBlock& inner, Collected& collected);
+  void render_block(const PictureBlock& inner, const RenderSettings& settings, PictureCollector& collector);
 
   RayCaster caster_;
   SurfaceDrawable surface_;  // of render() for computed surfaces

@@ -7,18 +7,6 @@
 
 namespace meniscus {
 
-kernel::BlockView block_view(const PictureFrame& frame, const PictureBlock& block, const glm::vec2& sample_offset) {
-  return {.right = glm::vec3(frame.basis.right),
-          .eye_distance = static_cast<float>(frame.eye_distance),
-          .up = glm::vec3(frame.basis.up),
-          .pixel_size = static_cast<float>(frame.pixel_size),
-          .forward = glm::vec3(frame.basis.forward),
-          .orthographic = frame.camera.projection == Projection::orthographic,
-          .first_offset = glm::vec2(glm::dvec2(block.origin) + 0.5 - 0.5 * glm::dvec2(frame.size)),
-          .sample_offset = sample_offset,
-          .size = block.size};
-}
-
 kernel::DepthSlices depth_slices(const GpuScene& scene) {
   const float thickness = (scene.last_depth - scene.first_depth) / static_cast<float>(kSliceCount);
   return {.first_depth = scene.first_depth, .slices_per_angstrom = thickness > 0.0f ? 1.0f / thickness : 0.0f};
@@ -50,19 +38,9 @@ void TileLists::run(int pass, const GpuScene& scene, const PictureFrame& frame, 
   entries_.bind(1);
   const bool bounded = scene.tile_depths.byte_count() > 0;
   (bounded ? scene.tile_depths : counts_).bind(2);  // something must be there
-  program.set(
-      kernel::TileListParameters{.right = glm::vec3(frame.basis.right),
-                                 .eye_distance = static_cast<float>(frame.eye_distance),
-                                 .up = glm::vec3(frame.basis.up),
-                                 .pixels_per_angstrom = static_cast<float>(1.0 / frame.pixel_size),
-                                 .forward = glm::vec3(frame.basis.forward),
-                                 .orthographic = frame.camera.projection == Projection::orthographic,
-                                 .block_center = glm::vec2(0.5 * glm::dvec2(frame.size) - glm::dvec2(block.origin)),
-                                 .tiles = tiles_,
-                                 .first_tile = block.origin / kTileEdge,
-                                 .picture_tile_columns = (frame.size.x + kTileEdge - 1) / kTileEdge,
-                                 .bounded = bounded,
-                                 .primitive_count = scene.primitives.count()});
+  kernel::TileListParameters parameters = tile_list_parameters(frame, block, scene.primitives.count());
+  parameters.bounded = bounded;
+  program.set(parameters);
   program.set(depth_slices(scene), kernel::kDepthSlicesBinding);
   program.dispatch(group_count(scene.primitives.count()));
 }

@@ -11,18 +11,13 @@
 #include "core/gpu/program.h"
 #include "core/gpu/texel_buffer.h"
 #include "core/render/gpu_scene.h"
+#include "core/render/picture_block.h"
 #include "core/render/ray_cast_scene.h"
 
 namespace meniscus {
 
-using kernel::kTileEdge;
 inline constexpr std::uint32_t kSliceCount = 32;
 inline constexpr std::uint32_t kSlotsPerTile = 2 * kSliceCount;
-
-/// A part of a picture, in pixels; the origin is a multiple of kTileEdge.
-struct PictureBlock {
-  glm::ivec2 origin{0}, size{0};
-};
 
 /// For each tile of 16 x 16 pixels two lists of primitives, spheres and tori, each by slices of depth, nearest slice
 /// first, in any order within a slice. A list covers all rays through any place of its tile's pixels. Needs a current
@@ -57,9 +52,6 @@ class TileLists {
   TexelBuffer primitive_texels_{TexelFormat::uint4}, slot_texels_{TexelFormat::uint1},
       entry_texels_{TexelFormat::uint1}, order_texels_{TexelFormat::uint1};
 };
-
-/// The block as a sample of each of its pixels sees it.
-kernel::BlockView block_view(const PictureFrame& frame, const PictureBlock& block, const glm::vec2& sample_offset);
 
 /// Where the scene's depths are cut into slices.
 kernel::DepthSlices depth_slices(const GpuScene& scene);

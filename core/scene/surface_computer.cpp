@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include <fmt/format.h>
-#include <tbb/global_control.h>
 
 #include "core/base/error.h"
 #include "core/gpu/egl_context.h"
@@ -34,13 +33,13 @@ void require_equal(const Surface& a, const std::string& device_a, const Surface&
 }  // namespace
 
 SurfaceComputer::SurfaceComputer(const SurfaceRequest& request, const EglContext* context)
-    : request_(request), context_(context), on_cpu_(request.cpu), clock_(request.timing) {
+    : request_(request),
+      context_(context),
+      thread_limit_(request.threads),
+      on_cpu_(request.cpu),
+      clock_(request.timing) {
   if (request.kind == SurfaceKind::vdw && request.probe_named)
     throw RequestError("--probe: the van der Waals surface has no probe; leave --probe or --surface vdw away");
-  if (request.threads > 0) {
-    thread_limit_.reset(new tbb::global_control(tbb::global_control::max_allowed_parallelism,
-                                                static_cast<std::size_t>(request.threads)));
-  }
   if (!request.cpu && request.gl.kind == DeviceChoice::Kind::automatic) on_cpu_ = !find_hardware();
 }
 

@@ -2,16 +2,14 @@
 // From balls to a surface on the device a user asked for, with the time every stage took.
 #pragma once
 
-#include <exception>
 #include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
-#include <tbb/global_control.h>
-
 #include "core/base/stage_clock.h"
 #include "core/scene/surface_request.h"
+#include "core/scene/thread_limit.h"
 #include "core/surface/primitives.h"
 
 namespace meniscus {
@@ -47,21 +45,13 @@ class SurfaceComputer {
   void restart_clock() { clock_.restart(); }
 
  private:
-  /// Not when an exception passes: oneTBB that got no memory may hold a lock for ever, and would wait for it. The limit
-  /// stays in force then, as all computers of a program have the same.
-  struct EndOfThreadLimit {
-    void operator()(tbb::global_control* limit) const noexcept {
-      if (std::uncaught_exceptions() == 0) delete limit;
-    }
-  };
-
   bool find_hardware();
   std::unique_ptr<ReducedSurfaceEngine> make_engine(bool on_cpu, const DeviceChoice& gl) const;
   void verify(const Surface& surface, std::span<const Ball> balls, double probe_radius);
 
   SurfaceRequest request_;
   const EglContext* context_;
-  std::unique_ptr<tbb::global_control, EndOfThreadLimit> thread_limit_;
+  ThreadLimit thread_limit_;
   bool on_cpu_;
   std::unique_ptr<ReducedSurfaceEngine> engine_, verifier_;  // verifier_: with --verify, on the other device
   std::string device_;

@@ -168,7 +168,7 @@ void ViewPipeline::require_closed(std::span<const std::uint32_t, 6> end_sums) co
 void ViewPipeline::make_primitives(const PictureFrame& frame, StageClock& clock) {
   const GpuStage stage(clock, "primitives");
   list_arcs_by_atom();
-  place_atoms(atoms_, probe_radius_, frame, scene_);
+  static_cast<ScenePlacement&>(scene_) = place_atoms(atoms_, probe_radius_, frame);
   scene_.primitives.clear();
   scene_.rows.clear();
   std::array<std::uint32_t, 3> counts{};  // primitives, rows, whether a loop was cut short

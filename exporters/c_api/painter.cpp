@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Ray casts pictures in a context of their own.
+// Ray casts pictures on the CPU, or on GL in a context of their own.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <span>
 
+#include "core/base/error.h"
 #include "core/gpu/egl_context.h"
 #include "core/image/display_color.h"
-#include "core/render/renderer.h"
+#include "core/render/surface_renderer.h"
 #include "exporters/c_api/cpu_threads.h"
 #include "exporters/c_api/device.h"
 #include "exporters/c_api/gl_thread.h"
@@ -117,18 +119,43 @@ void write_pixels(const Framebuffer& drawn, const meniscus_picture& picture, std
 
 /// A context and what draws in it.
 struct Studio {
-  explicit Studio(std::int32_t device) : context(gl_of(device)) {}
+  explicit Studio(std::int32_t device) : context(gl_of(device)), renderer(make_gl_renderer(context)) {}
   EglContext context;
-  Renderer renderer;
+  std::unique_ptr<SurfaceRenderer> renderer;
 };
 
 }  // namespace
 }  // namespace meniscus::c_api
 
 struct meniscus_painter : meniscus::c_api::Counted {
-  explicit meniscus_painter(std::int32_t device)
-      : studio([device] { return std::make_unique<meniscus::c_api::Studio>(device); }) {}
-  meniscus::c_api::OnGlThread<meniscus::c_api::Studio> studio;
+  explicit meniscus_painter(std::int32_t device) {
+    if (device != MENISCUS_CPU) find_gl(device);
+    if (!with_gl_) here_ = meniscus::make_cpu_renderer();
+  }
+
+  /// use(renderer), where it lives; one caller after the other.
+  template <typename Use>
+  void run(const Use& use) {
+    if (with_gl_) return with_gl_->run([&](meniscus::c_api::Studio& studio) { use(*studio.renderer); });
+    const std::lock_guard one_caller(calling_);
+    use(*here_);
+  }
+
+ private:
+  /// Automatic takes a hardware GPU or nothing: the CPU is faster than software GL.
+  void find_gl(std::int32_t device) {
+    const bool automatic = device == MENISCUS_AUTO;
+    try {
+      with_gl_.emplace([&] { return std::make_unique<meniscus::c_api::Studio>(automatic ? MENISCUS_GPU : device); });
+    } catch (const meniscus::GpuError&) {
+      if (!automatic) throw;
+      with_gl_.reset();
+    }
+  }
+
+  std::mutex calling_;
+  std::unique_ptr<meniscus::SurfaceRenderer> here_;
+  std::optional<meniscus::c_api::OnGlThread<meniscus::c_api::Studio>> with_gl_;
 };
 
 meniscus_status meniscus_default_picture(meniscus_picture* picture) {
@@ -179,9 +206,9 @@ meniscus_status meniscus_paint(meniscus_painter* painter, const meniscus_surface
         wanted.camera ? camera_of(wanted.camera) : meniscus::frame_camera(finished.surface.atoms, aspect);
     const meniscus::Coloring coloring = coloring_of(wanted, finished.surface.atoms.size());
     meniscus::Framebuffer drawn;
-    painter->studio.run([&](Studio& studio) {
+    painter->run([&](meniscus::SurfaceRenderer& renderer) {
       run_on_threads(finished.threads,
-                     [&] { drawn = studio.renderer.render(finished.surface, coloring, camera, settings_of(wanted)); });
+                     [&] { drawn = renderer.render(finished.surface, coloring, camera, settings_of(wanted)); });
     });
     write_pixels(drawn, wanted, rgba);
   });

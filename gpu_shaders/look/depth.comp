@@ -2,7 +2,7 @@
 // Depths of the hits of a block along the view axis, and their parts, packed for the many fetches that follow.
 #version 450 core
 layout(local_size_x = 8, local_size_y = 8) in;
-#include "gpu_shaders/look/view_space.glsl"
+#include "gpu_shaders/look/block_texels.glsl"
 #include "gpu_shaders/look/parameters.glsl"
 #include "gpu_shaders/ray_cast/records.glsl"
 

@@ -1,40 +1,33 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Points of a cast block in the camera's axes: x right, y up, z towards the viewer, the eye (orthographic: its plane)
 // at 0.
-#ifndef MENISCUS_LOOK_VIEW_SPACE_GLSL
-#define MENISCUS_LOOK_VIEW_SPACE_GLSL
-#include "gpu_shaders/shared/constants.glsl"
-#include "gpu_shaders/ray_cast/parameters.glsl"
+//
+// GLSL and, as the body of a struct, C++ (core/render/cpu); to be included below the block `view` of BlockView. Words of
+// shared/lane.glsl. The sources that use it ask the includer for depth_or_nothing() of a pixel, which may lie outside of
+// the block, and hit_normal_at() of one that met something.
 
-layout(binding = 0) uniform usamplerBuffer hit_texels;  // two texels each: struct Hit of ray_cast/records.glsl
-layout(binding = 1) uniform usamplerBuffer depth_texels;
-
-layout(std140, binding = kBlockViewBinding) uniform ViewBlock { BlockView view; };
-
-int index_of(ivec2 pixel) { return pixel.y * view.size.x + pixel.x; }
-
-bool in_block(ivec2 pixel) { return all(greaterThanEqual(pixel, ivec2(0))) && all(lessThan(pixel, view.size)); }
-
-// Along the view axis, in Å.
-float depth_at(ivec2 pixel) { return uintBitsToFloat(texelFetch(depth_texels, index_of(pixel)).x); }
+GEOMETRY truth in_block(integer2 pixel) {
+  return pixel.x >= 0 && pixel.y >= 0 && pixel.x < view.size.x && pixel.y < view.size.y;
+}
 
 // Å across one pixel at this depth.
-float pixel_size_at(float depth) {
-  return view.orthographic != 0u ? view.pixel_size : view.pixel_size * (depth / view.eye_distance);
+GEOMETRY real pixel_size_at(real depth) {
+  if (view.orthographic != 0u) return real(view.pixel_size);
+  return view.pixel_size * (depth / view.eye_distance);
 }
 
-vec3 position_at(ivec2 pixel, float depth) {
-  vec2 offset = (view.first_offset + vec2(pixel) + view.sample_offset) * pixel_size_at(depth);
-  return vec3(offset.x, -offset.y, -depth);
+GEOMETRY real3 position_at(integer2 pixel, real depth) {
+  real2 offset = (view.first_offset + real2(pixel) + view.sample_offset) * pixel_size_at(depth);
+  return real3(offset.x, -offset.y, -depth);
 }
 
-// Towards the viewer's side, whichever side of the surface that is.
-vec3 normal_at(ivec2 pixel, vec3 to_viewer) {
-  vec3 normal = uintBitsToFloat(texelFetch(hit_texels, 2 * index_of(pixel)).xyz);
-  vec3 n = vec3(dot(normal, view.right), dot(normal, view.up), -dot(normal, view.forward));
-  return dot(n, to_viewer) < 0.0 ? -n : n;
+GEOMETRY real3 to_viewer_at(real3 position) {
+  if (view.orthographic != 0u) return real3(0.0, 0.0, 1.0);
+  return -normalize(position);
 }
 
-vec3 to_viewer_at(vec3 position) { return view.orthographic != 0u ? vec3(0.0, 0.0, 1.0) : -normalize(position); }
-
-#endif
+// A hit's normal towards the viewer's side, whichever side of the surface that is.
+GEOMETRY real3 facing(real3 normal, real3 to_viewer) {
+  real3 n = real3(dot(normal, view.right), dot(normal, view.up), -dot(normal, view.forward));
+  return select(dot(n, to_viewer) < 0.0, -n, n);
+}

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The rectangle of tiles that a bounding sphere may touch; a little too large rather than too small.
-// To be included below the block of TileListParameters.
+// GLSL and, as the body of a struct, C++ (core/render/cpu); to be included below the block `params` of TileListParameters.
 #ifndef MENISCUS_RAY_CAST_BOUND_FOOTPRINT_GLSL
 #define MENISCUS_RAY_CAST_BOUND_FOOTPRINT_GLSL
 #include "gpu_shaders/shared/constants.glsl"
@@ -15,10 +15,10 @@ ivec2 tile_range(vec2 pixels, int tile_count) {
 
 // x and y of the rectangle [low, high) as (x_low, x_high, y_low, y_high); empty if nothing is in front of the camera.
 ivec4 bound_footprint(vec4 bound) {
-  float x = dot(bound.xyz, params.right);
-  float y = -dot(bound.xyz, params.up);
-  float z = params.eye_distance + dot(bound.xyz, params.forward);
-  float radius = bound.w + 1e-6 * (bound.w + length(bound.xyz));
+  float x = dot(vec3(bound), params.right);
+  float y = -dot(vec3(bound), params.up);
+  float z = params.eye_distance + dot(vec3(bound), params.forward);
+  float radius = bound.w + 1e-6 * (bound.w + length(vec3(bound)));
   if (z + radius + 1e-6 * params.eye_distance < 0.0) return ivec4(0);
   vec2 slopes_x = vec2(x - radius, x + radius);
   vec2 slopes_y = vec2(y - radius, y + radius);

@@ -61,23 +61,20 @@ ivec2 pixel_of(int k) {
   return tile_origin + 2 * quad + ivec2(k & 1, k >> 1);
 }
 
+#include "gpu_shaders/ray_cast/pixel_rays.glsl"
+
 // Rays are cheaper to make again than to keep where an index can reach them.
-vec3 ray_point(int k) {
-  ivec2 pixel = pixel_of(k);
-  vec2 offset = (view.first_offset + vec2(pixel) + view.sample_offset) * view.pixel_size;
-  return view.right * offset.x - view.up * offset.y;
-}
+vec3 ray_point(int k) { return ray_point_at(vec2(pixel_of(k))); }
 
-vec3 ray_direction(vec3 p) {
-  return view.orthographic != 0u ? view.forward : normalize(view.forward + p / view.eye_distance);
-}
-
-// Parameter of the camera's position (orthographic: of the plane through it).
-float eye_parameter(vec3 d) {
-  return view.orthographic != 0u ? -view.eye_distance : -view.eye_distance / dot(d, view.forward);
-}
+#ifdef SOME_HIDDEN
+const bool some_hidden = true;
+#else
+const bool some_hidden = false;
+#endif
+truth shows(uint atom) { return atom_color[atom].a > 0.0; }
 
 #include "gpu_shaders/ray_cast/touched_atom.glsl"
+#include "gpu_shaders/ray_cast/patch_hits.glsl"
 #include "gpu_shaders/ray_cast/intersect.glsl"
 #include "gpu_shaders/ray_cast/shade.glsl"
 
@@ -91,6 +88,10 @@ struct Walk {
   float spread;  // Å from the middle ray to the others
 };
 
+bool misses(vec4 bound, Walk walk, float farthest) {
+  return misses_bound(bound.xyz, bound.w, walk.p, walk.d, walk.eye_t, walk.spread, farthest);
+}
+
 // The place of the next primitive after `i` that one of the four rays may meet, or the end.
 int next_candidate(Walk walk, int i, Nearest nearest) {
   float farthest = max(max(nearest.t.x, nearest.t.y), max(nearest.t.z, nearest.t.w));
@@ -102,7 +103,7 @@ int next_candidate(Walk walk, int i, Nearest nearest) {
     if (i < walk.end && ((i - walk.first) & 7) == 0 &&
         slice_begin(slices, slice_of(slices, nearest_of(index))) + walk.eye_t - walk.spread > farthest)
       i = walk.end;
-    found = i >= walk.end || !misses_bound(bound_of(index), walk.p, walk.d, walk.eye_t, walk.spread, farthest);
+    found = i >= walk.end || !misses(bound_of(index), walk, farthest);
   } while (!found);
   return min(i, walk.end);
 }
@@ -213,11 +214,8 @@ void write_pixel(ivec2 pixel, vec3 p, float t, uint index) {
     Primitive primitive = load_primitive(index);
     SurfacePoint point = surface_point(primitive, p + d * t);
     hit = Hit(point.normal, t, index, point.atom, 0u, 0u);
-    vec3 n = vec3(dot(point.normal, view.right), dot(point.normal, view.up), -dot(point.normal, view.forward));
-    vec3 to_camera = -vec3(dot(d, view.right), dot(d, view.up), -dot(d, view.forward));
-    if (dot(n, to_camera) < 0.0) n = -n;  // seen from inside the solid, or through what is hidden
     vec3 albedo = atom_color[params.color_by_kind != 0u ? params.atom_count + primitive.kind : point.atom].rgb;
-    color = vec4(studio_light(albedo, n, to_camera), 1.0);
+    color = vec4(lit(albedo, point.normal, d), 1.0);
   }
   uint at = uint(pixel.y * view.size.x + pixel.x);
   if (params.add == 0u) {

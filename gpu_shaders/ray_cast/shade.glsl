@@ -1,27 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a hit looks like: its normal, its atom, and studio light on its colour.
+//
+// GLSL and, as the body of a struct, C++ (core/render/cpu): points may be packets, the primitive is the same for all.
+// The includer provides what touched_atom.glsl asks for, `view` and `params`.
 
 struct SurfacePoint {
-  vec3 normal;  // towards the solvent
-  uint atom;
+  real3 normal;  // towards the solvent
+  natural atom;
 };
 
-SurfacePoint surface_point(Primitive primitive, vec3 p) {
+GEOMETRY SurfacePoint surface_point(Primitive primitive, real3 p) {
   SurfacePoint point;
   vec4 place = row(primitive.first_row);
-  vec3 x = p - place.xyz;
-  point.atom = primitive.atom;
+  real3 x = p - vec3(place);
+  point.atom = natural(primitive.atom);
   if (primitive.kind == kConvex) {
     point.normal = x / place.w;
   } else if (primitive.kind == kConcave) {
     point.normal = -x / place.w;
     point.atom = concave_atom(primitive, x, place.w);
   } else {
-    vec3 x_axis = row(primitive.first_row + 1u).xyz;
-    vec3 z_axis = row(primitive.first_row + 2u).xyz;
+    vec3 x_axis = vec3(row(primitive.first_row + 1u));
+    vec3 z_axis = vec3(row(primitive.first_row + 2u));
     vec3 y_axis = cross(z_axis, x_axis);
-    vec3 local = vec3(dot(x, x_axis), dot(x, y_axis), dot(x, z_axis));
-    vec3 normal = torus_normal(local, place.w, params.probe_radius);
+    real3 local = real3(dot(x, x_axis), dot(x, y_axis), dot(x, z_axis));
+    real3 normal = torus_normal(local, place.w, params.probe_radius);
     point.normal = x_axis * normal.x + y_axis * normal.y + z_axis * normal.z;
     point.atom = toroidal_atom(primitive, local, place.w);
   }
@@ -32,18 +35,26 @@ SurfacePoint surface_point(Primitive primitive, vec3 p) {
 // Key light (unless told otherwise from the upper left behind the camera), a dim fill from the right, a sky that is
 // brighter above, and a little sheen. All directions are in the camera's axes (x right, y up, z towards the camera);
 // colours are linear.
-vec3 studio_light(vec3 albedo, vec3 n, vec3 to_camera) {
+GEOMETRY real3 studio_light(real3 albedo, real3 n, real3 to_camera) {
   vec3 key = params.key_direction;
-  const vec3 fill = normalize(vec3(0.85, -0.05, 0.45));
+  vec3 fill = normalize(vec3(0.85, -0.05, 0.45));
   // Wrapped diffuse light: a soft terminator, as from a large lamp.
-  float key_light = max((dot(n, key) + 0.25) / 1.25, 0.0);
-  float fill_light = max((dot(n, fill) + 0.3) / 1.3, 0.0);
-  float sky = 0.5 + 0.5 * n.y;
-  float facing = max(dot(n, to_camera), 0.0);
-  vec3 light = params.key_strength * (vec3(1.0, 0.97, 0.92) * (0.78 * key_light * key_light)) +
-               vec3(0.75, 0.85, 1.0) * (0.20 * fill_light) +
-               mix(vec3(0.10, 0.09, 0.09), vec3(0.24, 0.26, 0.29), sky) * (0.35 + 0.65 * facing);
-  vec3 half_way = normalize(key + to_camera);
-  float sheen = params.key_strength * (0.10 * pow(max(dot(n, half_way), 0.0), 40.0));
-  return albedo * light + vec3(sheen);
+  real key_light = max((dot(n, key) + 0.25) / 1.25, 0.0);
+  real fill_light = max((dot(n, fill) + 0.3) / 1.3, 0.0);
+  real sky = 0.5 + 0.5 * n.y;
+  real facing = max(dot(n, to_camera), 0.0);
+  real3 light = params.key_strength * (vec3(1.0, 0.97, 0.92) * (0.78 * key_light * key_light)) +
+                vec3(0.75, 0.85, 1.0) * (0.20 * fill_light) +
+                mix(real3(0.10, 0.09, 0.09), real3(0.24, 0.26, 0.29), sky) * (0.35 + 0.65 * facing);
+  real3 half_way = normalize(key + to_camera);
+  real sheen = params.key_strength * (0.10 * pow(max(dot(n, half_way), 0.0), 40.0));
+  return albedo * light + real3(sheen);
+}
+
+// A colour in that light where a ray of direction d meets a surface with this normal.
+GEOMETRY real3 lit(real3 albedo, real3 normal, real3 d) {
+  real3 n = real3(dot(normal, view.right), dot(normal, view.up), -dot(normal, view.forward));
+  real3 to_camera = -real3(dot(d, view.right), dot(d, view.up), -dot(d, view.forward));
+  // Seen from inside the solid, or through what is hidden.
+  return studio_light(albedo, select(dot(n, to_camera) < 0.0, -n, n), to_camera);
 }

@@ -1,46 +1,41 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Which atom a point takes its colour from, and whether that atom is shown: points of hidden atoms are no hits.
-
-bool shows(uint atom) { return atom_color[atom].a > 0.0; }
+//
+// GLSL and, as the body of a struct, C++ (core/render/cpu): points may be packets, the primitive is the same for all.
+// The includer provides row(), shows() of an atom, and `some_hidden`, without which nobody asks.
 
 // On a concave patch; x: from the probe's centre. The nearest contact wins; of two, the smaller atom, in whatever order
 // they stand.
-uint concave_atom(Primitive primitive, vec3 x, float radius) {
+GEOMETRY natural concave_atom(Primitive primitive, real3 x, float radius) {
   uint first_contact = primitive.first_row + 1u + primitive.plane_count;
-  uint atom = kNoPrimitive;
-  float best = -2.0 * radius;
+  natural atom = natural(kNoPrimitive);
+  real best = real(-2.0 * radius);
   for (uint i = 0u; i < primitive.atom; ++i) {
     vec4 contact = row(first_contact + i);
-    float nearness = dot(contact.xyz, x);
+    real nearness = dot(vec3(contact), x);
     uint candidate = floatBitsToUint(contact.w);
-    if (nearness > best || (nearness == best && candidate < atom)) {
-      best = nearness;
-      atom = candidate;
-    }
+    truth wins = nearness > best || (nearness == best && natural(candidate) < atom);
+    best = select(wins, nearness, best);
+    atom = select(wins, natural(candidate), atom);
   }
   return atom;
 }
 
 // On a toroidal patch; x: in the torus's own frame.
-uint toroidal_atom(Primitive primitive, vec3 x, float major) {
+GEOMETRY natural toroidal_atom(Primitive primitive, real3 x, float major) {
   vec4 atoms = row(primitive.first_row + 4u);
-  return toroidal_second_atom(x, major, atoms.x, atoms.y, atoms.z, atoms.w) ? primitive.second_atom : primitive.atom;
+  return select(toroidal_second_atom(x, major, atoms.x, atoms.y, atoms.z, atoms.w), natural(primitive.second_atom),
+                natural(primitive.atom));
 }
-
-// Not asked where nothing is hidden: software GL would pay for the answer all the same.
-#ifdef SOME_HIDDEN
 
 // x: from the centre of a convex or concave patch.
-bool shows_sphere_point(Primitive primitive, vec3 x, float radius) {
-  return shows(primitive.kind == kConvex ? primitive.atom : concave_atom(primitive, x, radius));
+GEOMETRY truth shows_sphere_point(Primitive primitive, real3 x, float radius) {
+  if (!some_hidden) return truth(true);
+  if (primitive.kind == kConvex) return shows(natural(primitive.atom));
+  return shows(concave_atom(primitive, x, radius));
 }
 
-bool shows_torus_point(Primitive primitive, vec3 x, float major) { return shows(toroidal_atom(primitive, x, major)); }
-
-#else
-
-bool shows_sphere_point(Primitive primitive, vec3 x, float radius) { return true; }
-
-bool shows_torus_point(Primitive primitive, vec3 x, float major) { return true; }
-
-#endif
+GEOMETRY truth shows_torus_point(Primitive primitive, real3 x, float major) {
+  if (!some_hidden) return truth(true);
+  return shows(toroidal_atom(primitive, x, major));
+}

@@ -4,14 +4,9 @@
 layout(local_size_x = 64) in;
 #include "gpu_shaders/shared/linear_index.glsl"
 
-#define real float
-#define real2 vec2
-#define real3 vec3
-#define GEOMETRY
-#define GEOMETRY_OUT(type) out type
-#define GEOMETRY_INOUT(type) inout type
+#include "gpu_shaders/reduced_surface/precision.glsl"
 #include "gpu_shaders/geometry/ray_sphere.glsl"
-#include "gpu_shaders/geometry/ray_torus.glsl"
+#include "gpu_shaders/geometry/torus_hits.glsl"
 #include "gpu_shaders/geometry/patch_membership.glsl"
 #include "gpu_shaders/test_support/parameters.glsl"
 

@@ -16,9 +16,9 @@ namespace {
 
 using namespace test;
 
-Painter painter() {
+Painter painter(std::int32_t device = MENISCUS_SOFTWARE) {
   meniscus_painter* made = nullptr;
-  EXPECT_EQ(meniscus_painter_new(MENISCUS_SOFTWARE, &made), MENISCUS_OK) << meniscus_last_error();
+  EXPECT_EQ(meniscus_painter_new(device, &made), MENISCUS_OK) << meniscus_last_error();
   return Painter(made);
 }
 
@@ -82,6 +82,22 @@ TEST(CApiPictures, AreTheSameFromAnyThread) {
   for (std::thread& thread : threads) thread.join();
   for (const auto& rgba : drawn) EXPECT_EQ(rgba, drawn[0]);
   EXPECT_GT(pixel_at(drawn[0], 64, 32, 24)[3], 0);
+}
+
+TEST(CApiPictures, OfTheCpuAreThoseOfGlButForRounding) {
+  const Computer made = computer();
+  const SurfaceOf surface = computed(made.get(), testing::tetrahedron(3.5));
+  meniscus_picture picture = picture_of(120, 90);
+  picture.ambient_occlusion = 0.8f;
+  picture.silhouettes = 2.0f;
+  std::vector<std::uint8_t> by_gl(120 * 90 * 4), by_cpu(by_gl.size());
+  const Painter gl = painter(), cpu = painter(MENISCUS_CPU);
+  ASSERT_EQ(meniscus_paint(gl.get(), surface.get(), &picture, by_gl.data(), by_gl.size()), MENISCUS_OK);
+  ASSERT_EQ(meniscus_paint(cpu.get(), surface.get(), &picture, by_cpu.data(), by_cpu.size()), MENISCUS_OK);
+  std::size_t different = 0;
+  for (std::size_t n = 0; n < by_gl.size(); ++n) different += std::abs(by_gl[n] - by_cpu[n]) > 1;
+  EXPECT_LE(different, by_gl.size() / 1000);
+  EXPECT_EQ(pixel_at(by_cpu, 120, 60, 45)[3], 255);
 }
 
 TEST(CApiPictures, RefuseWhatCannotBe) {

@@ -81,7 +81,8 @@ TEST_F(RenderCommand, OptionsChangeThePicture) {
 
 TEST_F(RenderCommand, WhatAViewNeedsMakesTheSamePicture) {
   for (const char* projection : {"perspective", "orthographic"}) {
-    EXPECT_EQ(render({"-o", path("a.png"), "--force", "--projection", projection}).exit_code, 0);
+    EXPECT_EQ(render({"-o", path("a.png"), "--force", "--projection", projection, "--device", "software"}).exit_code,
+              0);
     for (const char* extent : {"visible", "complete"}) {
       const ProgramResult result =
           render({"-o", path("b.png"), "--force", "--projection", projection, "--extent", extent});
@@ -109,6 +110,7 @@ TEST_F(RenderCommand, AViewRefusesWhatOnlyACompleteSurfaceKnows) {
     EXPECT_NE(result.err.find("complete surface"), std::string::npos) << result.err;
   }
   EXPECT_EQ(render({"-o", path("a.png"), "--extent", "some"}).exit_code, 2);
+  EXPECT_EQ(render({"-o", path("a.png"), "--extent", "visible", "--device", "cpu"}).exit_code, 2);
   EXPECT_EQ(render({"-o", path("a.png"), "--stats"}).exit_code, 2);
 }
 

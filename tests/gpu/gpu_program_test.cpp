@@ -62,9 +62,22 @@ TEST_F(StoppingGpu, PicturesAreRefused) {
   for (const char* extent : {"visible", "complete"}) {
     ends_with_code_4({"render", molecule_, "--extent", extent, "--size", "64x48", "-q", "-o", picture}, picture);
   }
-  ends_with_code_4({"render", molecule_, "--device", "cpu", "--color", "element", "--legend", "--size", "640x480",
+  ends_with_code_4({"render", molecule_, "--device", "software", "--color", "element", "--legend", "--size", "640x480",
                     "--ambient-occlusion", "0.8", "-q", "-o", picture},
                    picture);
+}
+
+TEST_F(StoppingGpu, PicturesOnTheCpuDoNotNotice) {
+  const std::string picture = path("picture.png");
+  const auto result = with_fault("drop_from 0", {"render", molecule_, "--device", "cpu", "--color", "element", "--size",
+                                                 "64x48", "--ambient-occlusion", "0.8", "-o", picture});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.err.find("picture on cpu"), std::string::npos) << result.err;
+  EXPECT_TRUE(std::filesystem::exists(picture));
+  const std::vector<std::string> frames{"render", run_,    "--frames", "all", "--device",         "cpu",
+                                        "--size", "64x48", "-q",       "-o",  path("frame_#.png")};
+  EXPECT_EQ(with_fault("drop_from 0", frames).exit_code, 0);
+  EXPECT_TRUE(std::filesystem::exists(path("frame_1.png")));
 }
 
 TEST_F(StoppingGpu, WithoutMemoryIsAnotherError) {

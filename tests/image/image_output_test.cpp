@@ -15,6 +15,8 @@
 
 #include "core/base/error.h"
 #include "core/image/color_space.h"
+#include "core/image/image_codec.h"
+#include "core/image/png_encoder.h"
 
 namespace meniscus {
 namespace {
@@ -157,6 +159,30 @@ TEST_F(ImageFile, PixelsOfFilmsAreThoseOfPng) {
   ASSERT_EQ(input->spec().nchannels, 3);
   ASSERT_TRUE(input->read_image(0, 0, 0, -1, OIIO::TypeDesc::UINT8, stored.data()));
   EXPECT_EQ(pixels, stored);
+}
+
+TEST(PngEncoder, MakesTheBytesOfOpenImageIO) {
+  const std::vector<glm::ivec2> sizes{{1, 1},   {1, 30},  {30, 1},  {2, 2},    {9, 10},
+                                      {40, 41}, {63, 64}, {66, 65}, {300, 200}};
+  for (const glm::ivec2 size : sizes)
+    for (const std::size_t channels : {3u, 4u}) {
+      std::vector<float> values;
+      for (int n = 0; n < size.x * size.y * static_cast<int>(channels); ++n)
+        values.push_back(n % 7 ? 0.5f + 0.6f * std::sin(0.1f * static_cast<float>(n)) : 1.0f);
+      ImageToEncode image;
+      image.format = "png";
+      image.width = size.x;
+      image.height = size.y;
+      image.channels = {"R", "G", "B", "A"};
+      image.channels.resize(channels);
+      image.alpha_channel = channels == 4 ? 3 : -1;
+      image.color_space = "sRGB";
+      image.unassociated_alpha = true;
+      image.compression = "zip";
+      image.software = "Meniscus";
+      image.floats = values;
+      EXPECT_EQ(encode_png(image), image_codec().encode(image)) << size.x << "x" << size.y << " " << channels;
+    }
 }
 
 }  // namespace

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Every pixel of the ray caster against exact depths: closed forms, the double twin, and the sphere-tracing oracle.
-#include "core/render/renderer.h"
+#include "core/render/surface_renderer.h"
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <functional>
+#include <memory>
 #include <random>
+#include <string_view>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -78,13 +80,14 @@ Coloring gray(const Surface& surface) {
   return coloring;
 }
 
-class RayCasting : public ::testing::Test {
+/// By GL and by the CPU.
+class RayCasting : public ::testing::TestWithParam<const char*> {
  protected:
   Framebuffer cast(const Surface& surface, const Camera& camera, glm::ivec2 size) {
     RenderSettings settings;
     settings.size = size;
     settings.aovs = true;
-    return renderer_.render(surface, gray(surface), camera, settings);
+    return renderer_->render(surface, gray(surface), camera, settings);
   }
 
   /// Both projections against the oracle and, where asked, the twin.
@@ -114,10 +117,14 @@ class RayCasting : public ::testing::Test {
   }
 
   EglContext context_;
-  Renderer renderer_;
+  std::unique_ptr<SurfaceRenderer> renderer_ =
+      std::string_view(GetParam()) == "cpu" ? make_cpu_renderer() : make_gl_renderer(context_);
 };
 
-TEST_F(RayCasting, OneSphereHasItsClosedForm) {
+INSTANTIATE_TEST_SUITE_P(Devices, RayCasting, ::testing::Values("gl", "cpu"),
+                         [](const auto& device) { return std::string(device.param); });
+
+TEST_P(RayCasting, OneSphereHasItsClosedForm) {
   const Surface surface = compute_surface_cpu(Balls{{{100.0, -40.0, 7.0}, 1.7}}, 1.4);
   for (const Projection projection : {Projection::perspective, Projection::orthographic}) {
     const Camera camera = frame_camera(surface.atoms, 1.25, projection);
@@ -135,14 +142,14 @@ TEST_F(RayCasting, OneSphereHasItsClosedForm) {
   }
 }
 
-TEST_F(RayCasting, TwoAtomsFreeAndSpindle) {
+TEST_P(RayCasting, TwoAtomsFreeAndSpindle) {
   expect_exact(testing::two_atoms(2.5), 1.4, "free torus", {160, 120}, true);
   expect_exact(testing::two_atoms(5.4), 1.4, "spindle", {160, 120}, true);
   expect_exact(testing::two_atoms(4.0, 1.7, 1.2), 3.0, "large probe", {160, 120}, true);
   expect_exact(testing::two_atoms(2.5), 0.0, "no probe", {160, 120}, true);
 }
 
-TEST_F(RayCasting, RaysThatRunAlongSeamsFindNoHole) {
+TEST_P(RayCasting, RaysThatRunAlongSeamsFindNoHole) {
   // A column of pixels lies on the plane of a contact circle, seen edge on: every rounding may go either way.
   std::mt19937 random(3);
   std::uniform_real_distribution<double> uniform(2.0, 5.4);
@@ -170,24 +177,24 @@ TEST_F(RayCasting, RaysThatRunAlongSeamsFindNoHole) {
   }
 }
 
-TEST_F(RayCasting, DegenerateMolecules) {
+TEST_P(RayCasting, DegenerateMolecules) {
   for (const auto& molecule : testing::degenerate_molecules())
     expect_exact(molecule.balls, molecule.probe_radius, molecule.name, {48, 48}, false);
 }
 
-TEST_F(RayCasting, RandomGases) {
+TEST_P(RayCasting, RandomGases) {
   for (std::uint32_t n = 0; n < 24; ++n) {
     const testing::GasCase gas = testing::gas_case(n);
     expect_exact(gas.balls, gas.probe_radius, "gas " + std::to_string(n), {40, 40}, false);
   }
 }
 
-TEST_F(RayCasting, Proteins) {
+TEST_P(RayCasting, Proteins) {
   expect_exact(testing::ubiquitin(), 1.4, "1UBQ", {160, 120}, true);
   expect_exact(testing::enterotoxin(), 1.4, "1TII", {160, 120}, false);
 }
 
-TEST_F(RayCasting, ManyAtomsInAFewTiles) {
+TEST_P(RayCasting, ManyAtomsInAFewTiles) {
   // Lists of 77,000 patches a tile: software GL cuts loops short after 65,535 steps, and nothing of that may show.
   Balls many;
   for (int n = 0; n < 4; ++n) {
@@ -197,12 +204,12 @@ TEST_F(RayCasting, ManyAtomsInAFewTiles) {
   expect_exact(many, 1.4, "four times 1TII", {24, 18}, false);
 }
 
-TEST_F(RayCasting, FarFromTheOrigin) {
+TEST_P(RayCasting, FarFromTheOrigin) {
   expect_exact(testing::translated(testing::ubiquitin(), {1000.0, -1000.0, 500.0}), 1.4, "1UBQ far away", {96, 72},
                false);
 }
 
-TEST_F(RayCasting, AnyZoom) {
+TEST_P(RayCasting, AnyZoom) {
   const Balls balls = testing::ubiquitin();
   const Surface surface = compute_surface_cpu(balls, 1.4);
   const testing::RayCasterTwin twin(surface);
@@ -225,7 +232,7 @@ TEST_F(RayCasting, AnyZoom) {
   }
 }
 
-TEST_F(RayCasting, AovsDescribeThePointOfThePixelCentre) {
+TEST_P(RayCasting, AovsDescribeThePointOfThePixelCentre) {
   const Surface surface = compute_surface_cpu(testing::ubiquitin(), 1.4);
   const testing::RayCasterTwin twin(surface);
   const Camera camera = frame_camera(surface.atoms, 4.0 / 3.0);
@@ -259,7 +266,7 @@ TEST_F(RayCasting, AovsDescribeThePointOfThePixelCentre) {
   EXPECT_LE(other_atom, 4);
 }
 
-TEST_F(RayCasting, RaysGoOnThroughHiddenAtoms) {
+TEST_P(RayCasting, RaysGoOnThroughHiddenAtoms) {
   const Surface surface = compute_surface_cpu(testing::ubiquitin(), 1.4);
   Coloring coloring = gray(surface);
   for (std::uint32_t a = 0; a < surface.atoms.size(); ++a) coloring.hidden.push_back(a % 5 < 2);
@@ -269,7 +276,7 @@ TEST_F(RayCasting, RaysGoOnThroughHiddenAtoms) {
   settings.aovs = true;
   for (const Projection projection : {Projection::perspective, Projection::orthographic}) {
     const Camera camera = frame_camera(surface.atoms, 4.0 / 3.0, projection);
-    const Framebuffer picture = renderer_.render(surface, coloring, camera, settings);
+    const Framebuffer picture = renderer_->render(surface, coloring, camera, settings);
     const Agreement agreement = compare(picture, camera, [&](const Ray& ray) -> std::optional<double> {
       const auto hit = twin.trace(ray);
       return hit ? std::optional(hit->t) : std::nullopt;
@@ -290,30 +297,30 @@ TEST_F(RayCasting, RaysGoOnThroughHiddenAtoms) {
     EXPECT_GT(inside, 300);
   }
   coloring.hidden.assign(surface.atoms.size(), true);
-  const Framebuffer empty = renderer_.render(surface, coloring, frame_camera(surface.atoms, 4.0 / 3.0), settings);
+  const Framebuffer empty = renderer_->render(surface, coloring, frame_camera(surface.atoms, 4.0 / 3.0), settings);
   EXPECT_TRUE(std::ranges::all_of(empty.color, [](const glm::vec4& c) { return c == glm::vec4(0.0f); }));
 }
 
-TEST_F(RayCasting, BlocksAndSamplesDoNotChangeThePicture) {
+TEST_P(RayCasting, BlocksAndSamplesDoNotChangeThePicture) {
   const Surface surface = compute_surface_cpu(testing::ubiquitin(), 1.4);
   const Camera camera = frame_camera(surface.atoms, 1.3);
   RenderSettings settings;
   settings.size = {130, 101};
   settings.samples = 3;
   settings.aovs = true;
-  const Framebuffer whole = renderer_.render(surface, gray(surface), camera, settings);
+  const Framebuffer whole = renderer_->render(surface, gray(surface), camera, settings);
   settings.block_edge = 33;
-  const Framebuffer blocks = renderer_.render(surface, gray(surface), camera, settings);
+  const Framebuffer blocks = renderer_->render(surface, gray(surface), camera, settings);
   EXPECT_EQ(whole.z, blocks.z);
   EXPECT_EQ(whole.atom, blocks.atom);
   EXPECT_EQ(whole.color, blocks.color);
   settings.samples = 1;
-  const Framebuffer single = renderer_.render(surface, gray(surface), camera, settings);
+  const Framebuffer single = renderer_->render(surface, gray(surface), camera, settings);
   EXPECT_EQ(whole.z, single.z);  // always the pixel's centre
   EXPECT_NE(whole.color, single.color);
 }
 
-TEST_F(RayCasting, ACavityIsAComponentOfItsOwn) {
+TEST_P(RayCasting, ACavityIsAComponentOfItsOwn) {
   const Surface surface = compute_surface_cpu(testing::c60(), 0.5);
   ASSERT_EQ(surface.components.size(), 2u);
   // From the middle of the cage only the cavity is visible; from outside only the outer component.

@@ -31,13 +31,13 @@ class Installed(Installation):
         self.assertEqual(here, there)
 
     def test_pictures_come_by_the_module_that_was_installed(self):
-        picture = self.folder / "two.png"
+        picture = self.folder / "two.exr"
         loads = self.good(self.program, "render", self.molecule, "-o", picture, "--size", "40x30", "--device", "software",
                           "--force", env={"LD_DEBUG": "files", "PATH": "/usr/bin:/bin"}).stderr
         modules = set(re.findall(r"file=(\S*meniscus_openimageio\.so)", loads))
         self.assertEqual({os.path.normpath(name) for name in modules},
                          {str(self.prefix / "lib/meniscus/meniscus_openimageio.so")})
-        self.assertEqual(picture.read_bytes()[:4], b"\x89PNG")
+        self.assertEqual(picture.read_bytes()[:4], b"\x76\x2f\x31\x01")
 
     def test_bundles_for_blender_get_the_add_on_that_was_installed(self):
         elsewhere = self.folder / "elsewhere"

@@ -186,7 +186,8 @@ class Surface:
                ambient_occlusion: float = 0.0, silhouettes: float = 0.0, depth_cue: float = 0.0,
                device: str = "auto") -> np.ndarray:
         """A picture, (height, width, 4) bytes in sRGB with alpha. colors: one (3,), or one per atom (n, 3), in [0, 1];
-        background: (3,), or None for a transparent one. GpuError where there is no GL."""
+        background: (3,), or None for a transparent one. device: "auto", a hardware GPU if there is one, else "cpu";
+        GpuError where "gpu" or "software" is asked for and there is no GL."""
         handle = self._handle
         look = {"samples": samples, "ambient_occlusion": ambient_occlusion, "silhouettes": silhouettes,
                 "depth_cue": depth_cue}

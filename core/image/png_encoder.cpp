@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Chunks around one stream of zlib.
+#include "core/image/png_encoder.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdlib>
+#include <limits>
+#include <span>
+#include <string_view>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <zlib.h>
+
+#include "core/base/error.h"
+#include "core/image/display_color.h"
+
+namespace meniscus {
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+
+void add_word(Bytes& bytes, std::uint32_t word) {
+  for (const int shift : {24, 16, 8, 0}) bytes.push_back(static_cast<std::uint8_t>(word >> shift));
+}
+
+void add_text(Bytes& bytes, std::string_view text) { bytes.insert(bytes.end(), text.begin(), text.end()); }
+
+void add_chunk(Bytes& file, std::string_view type, const std::uint8_t* content, std::size_t size) {
+  add_word(file, static_cast<std::uint32_t>(size));
+  const std::size_t first = file.size();
+  add_text(file, type);
+  file.insert(file.end(), content, content + size);
+  add_word(file, static_cast<std::uint32_t>(::crc32(0, &file[first], static_cast<uInt>(file.size() - first))));
+}
+
+void add_chunk(Bytes& file, std::string_view type, const Bytes& content) {
+  add_chunk(file, type, content.data(), content.size());
+}
+
+void add_note(Bytes& file, std::string_view key, std::string_view text) {
+  Bytes content;
+  add_text(content, key);
+  content.push_back(0);
+  add_text(content, text);
+  add_chunk(file, "tEXt", content);
+}
+
+/// Sizes, then what sRGB means: its gamma, its primaries.
+void add_header(Bytes& file, const ImageToEncode& image) {
+  constexpr std::array<std::uint8_t, 5> kColorType{0, 0, 4, 2, 6};  // by channels
+  Bytes header;
+  add_word(header, static_cast<std::uint32_t>(image.width));
+  add_word(header, static_cast<std::uint32_t>(image.height));
+  for (const std::uint8_t byte :
+       {std::uint8_t{8}, kColorType[image.channels.size()], std::uint8_t{0}, std::uint8_t{0}, std::uint8_t{0}})
+    header.push_back(byte);
+  add_chunk(file, "IHDR", header);
+  Bytes gamma, primaries;
+  add_word(gamma, 45455);
+  for (const std::uint32_t word : {31270u, 32900u, 64000u, 33000u, 30000u, 60000u, 15000u, 6000u})
+    add_word(primaries, word);
+  add_chunk(file, "gAMA", gamma);
+  add_chunk(file, "sRGB", {3});  // absolute colorimetric
+  add_chunk(file, "cHRM", primaries);
+  add_chunk(file, "oFFs", Bytes(9, 0));
+}
+
+/// What a filter predicts of a byte by those at the left, above, and above at the left (section 9.2).
+int predicted(int filter, int left, int above, int corner) {
+  if (filter < 4) return filter == 0 ? 0 : filter == 1 ? left : filter == 2 ? above : (left + above) / 2;
+  const int to_left = std::abs(above - corner), to_above = std::abs(left - corner);
+  const int to_corner = std::abs(left + above - 2 * corner);
+  if (to_left <= to_above && to_left <= to_corner) return left;
+  return to_above <= to_corner ? above : corner;
+}
+
+/// One row of a picture and the one above it.
+struct Row {
+  const std::uint8_t* bytes;
+  const std::uint8_t* above;  // nullptr: zeros
+  std::size_t size, pixel;    // bytes
+
+  template <int filter>
+  void write(std::uint8_t* out) const {
+    for (std::size_t n = 0; n < size; ++n) {
+      const int left = n < pixel ? 0 : bytes[n - pixel], up = above ? above[n] : 0;
+      const int corner = n < pixel || !above ? 0 : above[n - pixel];
+      out[n] = static_cast<std::uint8_t>(bytes[n] - predicted(filter, left, up, corner));
+    }
+  }
+
+  /// Behind its number the filter that leaves the smallest sum of absolute differences (section 12.8).
+  void write_best(std::uint8_t* out, Bytes& trial, bool averages) const {
+    constexpr std::array kFilters{&Row::write<0>, &Row::write<1>, &Row::write<2>, &Row::write<3>, &Row::write<4>};
+    std::size_t least = std::numeric_limits<std::size_t>::max();
+    for (std::size_t filter = 0; filter < kFilters.size(); ++filter) {
+      if (filter == 3 && !averages) continue;
+      (this->*kFilters[filter])(trial.data());
+      std::size_t sum = 0;
+      for (const std::uint8_t byte : trial) sum += byte < 128u ? byte : 256u - byte;
+      if (sum >= least) continue;
+      least = sum;
+      out[0] = static_cast<std::uint8_t>(filter);
+      std::ranges::copy(trial, out + 1);
+    }
+  }
+};
+
+Bytes bytes_of(std::span<const float> values) {
+  Bytes bytes(values.size());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, values.size(), 1 << 14), [&](const auto& range) {
+    for (std::size_t n = range.begin(); n < range.end(); ++n) bytes[n] = display_byte(values[n]);
+  });
+  return bytes;
+}
+
+Bytes filtered_rows(const ImageToEncode& image) {
+  const Bytes bytes = bytes_of(image.floats);
+  const std::size_t pixel = image.channels.size(), size = static_cast<std::size_t>(image.width) * pixel;
+  const auto height = static_cast<std::size_t>(image.height);
+  const bool averages = image.width > 1 && image.height > 1;  // libpng takes none of single rows and columns
+  Bytes rows((size + 1) * height);
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, height), [&](const auto& range) {
+    Bytes trial(size);
+    for (std::size_t y = range.begin(); y < range.end(); ++y) {
+      const std::uint8_t* const first = &bytes[y * size];
+      Row{first, y > 0 ? first - size : nullptr, size, pixel}.write_best(&rows[y * (size + 1)], trial, averages);
+    }
+  });
+  return rows;
+}
+
+/// As libpng does, small pictures are compressed in a window no larger than they need.
+int window_bits(std::size_t size) {
+  constexpr std::size_t kSmall = 16384, kLookahead = 262;
+  int bits = 15;
+  if (size <= kSmall)
+    while (bits > 8 && size + kLookahead <= std::size_t{1} << (bits - 1)) --bits;
+  return bits;
+}
+
+/// Also in the first two bytes of the stream, which say how large a window is needed to read it.
+void narrow_window(Bytes& stream, std::size_t size) {
+  constexpr std::size_t kSmall = 16384;
+  if (size > kSmall) return;
+  unsigned window = stream[0] >> 4;
+  while (window > 0 && size <= std::size_t{1} << (window + 7)) --window;
+  stream[0] = static_cast<std::uint8_t>((stream[0] & 0x0fu) | window << 4);
+  const unsigned level = stream[1] & 0xe0u;
+  stream[1] = static_cast<std::uint8_t>(level + 31u - ((static_cast<unsigned>(stream[0]) << 8) + level) % 31u);
+}
+
+Bytes compressed(const Bytes& rows, int level) {
+  constexpr int kUsualLevel = 6, kUsualMemory = 8;
+  z_stream stream{};
+  if (::deflateInit2(&stream, level < 0 ? kUsualLevel : level, Z_DEFLATED, window_bits(rows.size()), kUsualMemory,
+                     Z_DEFAULT_STRATEGY) != Z_OK)
+    throw CapacityError("no memory to compress a picture");
+  Bytes result(::deflateBound(&stream, static_cast<uLong>(rows.size())));
+  std::size_t read = 0;
+  int state = Z_OK;
+  while (state != Z_STREAM_END) {  // zlib counts what is there in 32 bits
+    constexpr std::size_t kMost = std::size_t{1} << 30;
+    stream.next_in = const_cast<Bytef*>(rows.data() + read);
+    stream.avail_in = static_cast<uInt>(std::min(rows.size() - read, kMost));
+    const std::size_t written = stream.total_out;
+    if (written == result.size()) result.resize(result.size() + kMost);
+    stream.next_out = result.data() + written;
+    stream.avail_out = static_cast<uInt>(std::min(result.size() - written, kMost));
+    state = ::deflate(&stream, read + stream.avail_in == rows.size() ? Z_FINISH : Z_NO_FLUSH);
+    read = stream.total_in;
+  }
+  result.resize(stream.total_out);
+  ::deflateEnd(&stream);
+  narrow_window(result, rows.size());
+  return result;
+}
+
+}  // namespace
+
+Bytes encode_png(const ImageToEncode& image) {
+  constexpr std::size_t kPart = 8192;
+  Bytes file{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
+  add_header(file, image);
+  add_note(file, "oiio:ColorSpace", image.color_space);
+  if (!image.software.empty()) add_note(file, "Software", image.software);
+  const Bytes stream = compressed(filtered_rows(image), image.png_level);
+  for (std::size_t first = 0; first < stream.size(); first += kPart)
+    add_chunk(file, "IDAT", &stream[first], std::min(kPart, stream.size() - first));
+  add_chunk(file, "IEND", Bytes{});
+  return file;
+}
+
+}  // namespace meniscus

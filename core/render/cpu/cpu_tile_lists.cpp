@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Counts, places and sorts.
+#include "core/render/cpu/cpu_tile_lists.h"
+
+#include <algorithm>
+#include <atomic>
+#include <bit>
+#include <limits>
+#include <numeric>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vec4.hpp>
+#include <tbb/parallel_for.h>
+
+namespace meniscus {
+namespace {
+
+using glm::ivec2;
+using glm::ivec4;
+using glm::vec2;
+using glm::vec3;
+using glm::vec4;
+
+/// The shared source that says which tiles a bound touches.
+struct Footprints {
+  kernel::TileListParameters params;
+#include "gpu_shaders/ray_cast/bound_footprint.glsl"
+};
+
+template <typename Work>
+void for_each_tile(const ivec4& footprint, int columns, const Work& work) {
+  for (int y = footprint.z; y < footprint.w; ++y)
+    for (int x = footprint.x; x < footprint.y; ++x) work(static_cast<std::size_t>(y) * columns + x);
+}
+
+/// In the order of floats.
+std::uint32_t ordered_bits(float value) {
+  const auto bits = std::bit_cast<std::uint32_t>(value);
+  return bits & 0x80000000u ? ~bits : bits | 0x80000000u;
+}
+
+}  // namespace
+
+void CpuTileLists::build(std::span<const ray_cast::Primitive> primitives, const PictureFrame& frame,
+                         const PictureBlock& block) {
+  tiles_ = tile_counts(block);
+  const auto tile_count = static_cast<std::size_t>(tiles_.x) * tiles_.y;
+  Footprints footprints{tile_list_parameters(frame, block, static_cast<std::uint32_t>(primitives.size()))};
+  std::vector<ivec4> touched(primitives.size());
+  std::vector<std::atomic<std::uint32_t>> next(tile_count);
+  tbb::parallel_for(std::size_t{0}, primitives.size(), [&](std::size_t n) {
+    touched[n] = footprints.bound_footprint(primitives[n].bound);
+    for_each_tile(touched[n], tiles_.x, [&](std::size_t tile) { next[tile].fetch_add(1, std::memory_order_relaxed); });
+  });
+  starts_.assign(tile_count + 1, 0);
+  for (std::size_t tile = 0; tile < tile_count; ++tile) {
+    starts_[tile + 1] = starts_[tile] + next[tile];
+    next[tile] = starts_[tile];
+  }
+  entries_.resize(starts_.back());
+  tbb::parallel_for(std::size_t{0}, primitives.size(), [&](std::size_t n) {
+    for_each_tile(touched[n], tiles_.x, [&](std::size_t tile) {
+      entries_[next[tile].fetch_add(1, std::memory_order_relaxed)] = static_cast<std::uint32_t>(n);
+    });
+  });
+}
+
+LaneList SortedList::sort(std::span<const std::uint32_t> entries, std::span<const ray_cast::Primitive> primitives) {
+  keys_.clear();
+  for (const std::uint32_t entry : entries)
+    keys_.push_back(static_cast<std::uint64_t>(ordered_bits(primitives[entry].nearest)) << 32 | entry);
+  std::ranges::sort(keys_);
+  const std::size_t size = entries.size() + LaneList::kListPadding;
+  for (std::vector<float>& numbers : numbers_) numbers.assign(size, 0.0f);
+  std::fill(numbers_[4].begin() + static_cast<std::ptrdiff_t>(entries.size()), numbers_[4].end(),
+            std::numeric_limits<float>::infinity());
+  primitives_.assign(size, 0);
+  for (std::size_t n = 0; n < entries.size(); ++n) {
+    const auto entry = static_cast<std::uint32_t>(keys_[n]);
+    const ray_cast::Primitive& primitive = primitives[entry];
+    for (int axis = 0; axis < 4; ++axis) numbers_[axis][n] = primitive.bound[axis];
+    numbers_[4][n] = primitive.nearest;
+    primitives_[n] = entry;
+  }
+  return {static_cast<int>(entries.size()),
+          numbers_[0].data(),
+          numbers_[1].data(),
+          numbers_[2].data(),
+          numbers_[3].data(),
+          numbers_[4].data(),
+          primitives_.data()};
+}
+
+}  // namespace meniscus

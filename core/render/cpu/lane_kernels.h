@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The inner loops of pictures on the CPU, compiled for vectors of several widths; what they read and write.
+#pragma once
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#if defined(__x86_64__)
+#include <immintrin.h>
+#endif
+
+#include "core/gpu/kernel_parameters.h"
+#include "core/gpu/kernel_records.h"
+#include "core/render/gpu_scene.h"
+
+namespace meniscus {
+
+/// What a tile's rays are traced through; see gpu_shaders/ray_cast/records.glsl.
+struct LaneScene {
+  const ray_cast::Primitive* primitives = nullptr;
+  const glm::vec4* rows = nullptr;
+  const glm::vec4* colors = nullptr;  ///< linear, alpha 0: hidden; of atoms, then of kinds
+  const float* parts = nullptr;       ///< of atoms, or nullptr
+  bool some_hidden = false;
+  kernel::RayCastParameters params{};
+  kernel::BlockView view{};  ///< but for its sample_offset
+};
+
+/// A tile's primitives by rising Primitive::nearest; each array goes on for kListPadding entries that no ray meets.
+struct LaneList {
+  static constexpr int kListPadding = 16;
+  int count = 0;
+  const float* x = nullptr;  ///< of their bounds
+  const float* y = nullptr;
+  const float* z = nullptr;
+  const float* radius = nullptr;
+  const float* nearest = nullptr;
+  const std::uint32_t* primitive = nullptr;
+};
+
+/// What is known of one sample of each pixel of a block, row by row.
+struct LaneSamples {
+  glm::vec4* color = nullptr;  ///< linear, premultiplied
+  float* depth = nullptr;      ///< along the view axis, Å; kernel::kNothing where nothing is met
+  float* normal[3] = {};       ///< towards the solvent, in the molecule's axes
+  float* part = nullptr;       ///< LaneScene::parts of what is met, else 0; nullptr if there are none
+};
+
+/// Some samples of a tile's pixels.
+struct LaneTile {
+  static constexpr int kMostSamples = 4;
+  glm::ivec2 origin{0};              ///< in the block, pixels
+  int sample_count = 1;              ///< 1 to kMostSamples
+  glm::vec2 offset[kMostSamples]{};  ///< of the samples from the pixels' centres
+  LaneList list;
+
+  glm::vec4* sums = nullptr;      ///< of the block: gets the samples' sum added; or nullptr
+  ray_cast::Hit* hits = nullptr;  ///< of the block: gets those of the first sample; or nullptr
+  LaneSamples samples;            ///< of the block, for one sample; its pointers may be nullptr all together
+};
+
+/// What a look makes of one sample of each pixel of a block. Arrays of pixels, those of `samples` too, have one more
+/// behind the last: it stands for whatever lies outside.
+struct LaneLook {
+  kernel::BlockView view{};
+  kernel::OcclusionParameters occlusion{};
+  kernel::FinishParameters finish{};
+  LaneSamples samples;
+  float* visibility = nullptr;
+  glm::vec4* sums = nullptr;  ///< gets the finished colours added
+};
+
+/// The kernels for one width.
+struct LaneKernels {
+  int lanes;
+  void (*cast_tile)(const LaneScene& scene, const LaneTile& tile);
+  void (*occlude_row)(const LaneLook& look, int y);  ///< what hits see of the sky, into visibility
+  void (*finish_row)(const LaneLook& look, int y);   ///< needs the visibility of two rows around
+};
+
+/// For 4, 8 (AVX2) and 16 (AVX-512) lanes; nullptr where this processor cannot run them.
+const LaneKernels* kernels_of_4_lanes();
+const LaneKernels* kernels_of_8_lanes();
+const LaneKernels* kernels_of_16_lanes();
+
+/// The widest that this processor can run, of those with at most so many lanes.
+const LaneKernels& widest_kernels(int most_lanes);
+
+}  // namespace meniscus

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Packets of sixteen: processors with AVX-512. Headers with code of their own come first: it stays fit for every
+// processor.
+#include "core/render/cpu/lane_kernels.h"
+
+#if defined(__x86_64__)
+
+#if defined(__clang__)
+#pragma clang attribute push(__attribute__((target("avx512f,avx512dq,avx512vl,avx512bw"))), apply_to = function)
+#else
+#pragma GCC push_options
+#pragma GCC target("avx512f,avx512dq,avx512vl,avx512bw")
+#endif
+#define MENISCUS_LANES 16
+#define MENISCUS_LANE_NAMESPACE lanes_16
+#include "core/render/cpu/look_rows.h"
+#include "core/render/cpu/tile_caster.h"
+#if defined(__clang__)
+#pragma clang attribute pop
+#else
+#pragma GCC pop_options
+#endif
+
+namespace meniscus {
+
+const LaneKernels* kernels_of_16_lanes() {
+  static constexpr LaneKernels kernels{16, lanes_16::cast_tile, lanes_16::occlude_row, lanes_16::finish_row};
+  return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+                 __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw")
+             ? &kernels
+             : nullptr;
+}
+
+}  // namespace meniscus
+
+#else
+
+namespace meniscus {
+
+const LaneKernels* kernels_of_16_lanes() { return nullptr; }
+
+}  // namespace meniscus
+
+#endif

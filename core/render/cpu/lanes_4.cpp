@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Packets of four: what every processor has.
+#include "core/render/cpu/lane_kernels.h"
+
+#define MENISCUS_LANES 4
+#define MENISCUS_LANE_NAMESPACE lanes_4
+#include "core/render/cpu/look_rows.h"
+#include "core/render/cpu/tile_caster.h"
+
+namespace meniscus {
+
+const LaneKernels* kernels_of_4_lanes() {
+  static constexpr LaneKernels kernels{4, lanes_4::cast_tile, lanes_4::occlude_row, lanes_4::finish_row};
+  return &kernels;
+}
+
+}  // namespace meniscus

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Packets of eight: processors with AVX2. Headers with code of their own come first: it stays fit for every processor.
+#include "core/render/cpu/lane_kernels.h"
+
+#if defined(__x86_64__)
+
+#if defined(__clang__)
+#pragma clang attribute push(__attribute__((target("avx2"))), apply_to = function)
+#else
+#pragma GCC push_options
+#pragma GCC target("avx2")
+#endif
+#define MENISCUS_LANES 8
+#define MENISCUS_LANE_NAMESPACE lanes_8
+#include "core/render/cpu/look_rows.h"
+#include "core/render/cpu/tile_caster.h"
+#if defined(__clang__)
+#pragma clang attribute pop
+#else
+#pragma GCC pop_options
+#endif
+
+namespace meniscus {
+
+const LaneKernels* kernels_of_8_lanes() {
+  static constexpr LaneKernels kernels{8, lanes_8::cast_tile, lanes_8::occlude_row, lanes_8::finish_row};
+  return __builtin_cpu_supports("avx2") ? &kernels : nullptr;
+}
+
+}  // namespace meniscus
+
+#else
+
+namespace meniscus {
+
+const LaneKernels* kernels_of_8_lanes() { return nullptr; }
+
+}  // namespace meniscus
+
+#endif

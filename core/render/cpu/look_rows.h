@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Shade, air and ink on rows of pixels in packets; included by lanes_*.cpp alone.
+#pragma once
+
+#include "core/render/cpu/lane_kernels.h"
+#include "core/render/cpu/packet.h"
+
+namespace meniscus::MENISCUS_LANE_NAMESPACE {
+
+using kernel::kNothing;
+
+/// A cast block as the shared sources want to see it.
+struct LookedAtBlock {
+  explicit LookedAtBlock(const LaneLook& look)
+      : look_(look), view(look.view), occlusion(look.occlusion), params(look.finish) {}
+
+  /// Pixels that lie in a row behind each other.
+  static integer2 pixels_from(int x, int y) { return {integer(x) + lane_numbers(), integer(y)}; }
+
+  /// A pixel's place in the arrays; outside of the block that behind the last.
+  integer index_of(integer2 pixel) {
+    return select(in_block(pixel), pixel.y * integer(view.size.x) + pixel.x, integer(view.size.x * view.size.y));
+  }
+  /// What an array holds for these pixels; most packets lie in a row.
+  real fetch(const float* values, integer2 pixel) {
+    const integer at = index_of(pixel);
+    if (!some(at != integer(at.v[0]) + lane_numbers())) return load(values + at.v[0]);
+    return gather(values, at);
+  }
+  real depth_or_nothing(integer2 pixel) { return fetch(look_.samples.depth, pixel); }
+  real visibility_at(integer2 pixel) { return fetch(look_.visibility, pixel); }
+  real part_at(integer2 pixel) { return fetch(look_.samples.part, pixel); }
+  real3 hit_normal_at(integer2 pixel) {
+    return {fetch(look_.samples.normal[0], pixel), fetch(look_.samples.normal[1], pixel),
+            fetch(look_.samples.normal[2], pixel)};
+  }
+
+  const LaneLook& look_;
+  const kernel::BlockView& view;
+  const kernel::OcclusionParameters& occlusion;
+  const kernel::FinishParameters& params;
+
+#include "gpu_shaders/look/view_space.glsl"
+#include "gpu_shaders/look/occlusion.glsl"
+#include "gpu_shaders/look/finish.glsl"
+
+  /// Share of a pixel that lines cover, and the depth of what they outline.
+  struct Ink {
+    real covered, depth;
+  };
+
+  Ink ink_on(integer2 pixel, real depth) {
+    const int reach = farthest_neighbor();
+    const truth met = depth != real(kNothing);
+    Ink ink{0.0f, depth};
+    for (int y = -reach; y <= reach; ++y)
+      for (int x = -reach; x <= reach; ++x) {
+        const integer2 offset(x, y), other = pixel + offset;
+        const real share = covered_share(offset);
+        const truth counts = share > ink.covered && in_block(other);
+        if (!some(counts)) continue;
+        const real other_depth = depth_or_nothing(other);
+        const truth step = counts && may_step(depth, other_depth);
+        truth seam = false;
+        if (params.has_parts != 0u)
+          seam = counts && met && other_depth != real(kNothing) && part_at(pixel) != part_at(other);
+        if (!some(step || seam)) continue;
+        const real strength =
+            select(seam, real(1.0f), select(step, step_ink(pixel, depth, other, other_depth), real(0.0f)));
+        const truth wins = share * strength > ink.covered;
+        ink.covered = select(wins, share * strength, ink.covered);
+        ink.depth = select(wins, min(depth, other_depth), ink.depth);
+      }
+    return ink;
+  }
+
+  void finish(int x, int y) {
+    const integer2 pixel = pixels_from(x, y);
+    const real depth = depth_or_nothing(pixel);
+    const truth met = depth != real(kNothing);
+    const int count = view.size.x - x < kLanes ? view.size.x - x : kLanes;
+    const std::size_t first = static_cast<std::size_t>(y) * static_cast<std::size_t>(view.size.x) + x;
+    real3 color(0.0f);
+    real alpha = select(met, real(1.0f), real(0.0f));
+    if (some(met)) {
+      for (int n = 0; n < count; ++n) {
+        color.x.v[n] = look_.samples.color[first + n].x;
+        color.y.v[n] = look_.samples.color[first + n].y;
+        color.z.v[n] = look_.samples.color[first + n].z;
+      }
+      if (params.ambient_occlusion > 0.0f)
+        color = color * select(met, mix(1.0f, mean_visibility(pixel, depth), params.ambient_occlusion), real(1.0f));
+      const real left = select(met, clarity(depth), real(1.0f));
+      color = color * left;
+      alpha = alpha * left;
+    }
+    if (params.silhouettes > 0.0f) {
+      const Ink ink = ink_on(pixel, depth);
+      const real covered = ink.covered * clarity(ink.depth);
+      color = color * (1.0f - covered);
+      alpha = mix(alpha, 1.0f, covered);
+    }
+    for (int n = 0; n < count; ++n)
+      look_.sums[first + n] += glm::vec4(lane(color.x, n), lane(color.y, n), lane(color.z, n), lane(alpha, n));
+  }
+
+  void occlude(int x, int y) {
+    const integer2 pixel = pixels_from(x, y);
+    const real depth = depth_or_nothing(pixel);
+    if (!some(depth != real(kNothing))) return;
+    const real visibility = sky_visibility(pixel, depth);
+    const std::size_t first = static_cast<std::size_t>(y) * static_cast<std::size_t>(view.size.x) + x;
+    for (int n = 0; n < kLanes && x + n < view.size.x; ++n) look_.visibility[first + n] = lane(visibility, n);
+  }
+};
+
+inline void occlude_row(const LaneLook& look, int y) {
+  LookedAtBlock block(look);
+  for (int x = 0; x < look.view.size.x; x += kLanes) block.occlude(x, y);
+}
+
+inline void finish_row(const LaneLook& look, int y) {
+  LookedAtBlock block(look);
+  for (int x = 0; x < look.view.size.x; x += kLanes) block.finish(x, y);
+}
+
+}  // namespace meniscus::MENISCUS_LANE_NAMESPACE

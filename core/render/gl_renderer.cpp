@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Renderer as one of the ways to pictures of computed surfaces.
+#include <fmt/format.h>
+
+#include "core/gpu/egl_context.h"
+#include "core/render/renderer.h"
+#include "core/render/surface_renderer.h"
+
+namespace meniscus {
+namespace {
+
+class GlRenderer final : public SurfaceRenderer {
+ public:
+  explicit GlRenderer(const EglContext& context) : context_(context) {}
+
+  Framebuffer render(const Surface& surface, const Coloring& coloring, const Camera& camera,
+                     const RenderSettings& settings) override {
+    return renderer_.render(surface, coloring, camera, settings);
+  }
+  const std::vector<StageTime>& times() const override { return renderer_.times(); }
+  std::string device() const override { return gl_words(context_); }
+
+ private:
+  const EglContext& context_;
+  Renderer renderer_;
+};
+
+}  // namespace
+
+std::string gl_words(const EglContext& context) {
+  return fmt::format("{}, GL {}{}", context.renderer(), context.version(), context.is_software() ? " (software)" : "");
+}
+
+std::unique_ptr<SurfaceRenderer> make_gl_renderer(const EglContext& context) {
+  return std::make_unique<GlRenderer>(context);
+}
+
+}  // namespace meniscus

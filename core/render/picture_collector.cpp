@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copies blocks to their places.
+#include "core/render/picture_collector.h"
+
+#include <algorithm>
+#include <limits>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <tbb/parallel_for.h>
+
+namespace meniscus {
+namespace {
+
+/// Calls work(place in the block, place in the picture) for each pixel of `inner`, which is part of the block.
+template <typename Work>
+void for_each_pixel(const PictureBlock& inner, const PictureBlock& block, glm::ivec2 picture_size, const Work& work) {
+  tbb::parallel_for(inner.origin.y, inner.origin.y + inner.size.y, [&](int y) {
+    for (int x = inner.origin.x; x < inner.origin.x + inner.size.x; ++x)
+      work(static_cast<std::size_t>(y - block.origin.y) * block.size.x + (x - block.origin.x),
+           static_cast<std::size_t>(y) * picture_size.x + x);
+  });
+}
+
+}  // namespace
+
+std::vector<PictureBlock> picture_blocks(glm::ivec2 size, int edge) {
+  std::vector<PictureBlock> blocks;
+  for (int top = 0; top < size.y; top += edge)
+    for (int left = 0; left < size.x; left += edge)
+      blocks.push_back({{left, top}, glm::min(glm::ivec2(edge), size - glm::ivec2(left, top))});
+  return blocks;
+}
+
+PictureBlock with_neighbors(const PictureBlock& inner, int reach, glm::ivec2 picture_size) {
+  const glm::ivec2 low = glm::max(inner.origin - reach, glm::ivec2(0));
+  return {low, glm::min(inner.origin + inner.size + reach, picture_size) - low};
+}
+
+PictureCollector::PictureCollector(const PictureFrame& frame, const RenderSettings& settings, const Surface* surface,
+                                   std::span<const ray_cast::Primitive> primitives)
+    : frame_(frame), per_sample_(1.0f / static_cast<float>(settings.samples)), primitives_(primitives) {
+  const std::size_t count = static_cast<std::size_t>(settings.size.x) * settings.size.y;
+  picture_.size = settings.size;
+  picture_.color.resize(count);
+  if (!settings.aovs) return;
+  components_.emplace(*surface);
+  picture_.z.assign(count, std::numeric_limits<float>::infinity());
+  picture_.normal.assign(count, glm::vec3(0.0f));
+  picture_.position.assign(count, glm::vec3(0.0f));
+  picture_.atom.assign(count, kNone);
+  picture_.kind.assign(count, kNone);
+  picture_.component.assign(count, kNone);
+}
+
+void PictureCollector::add_colors(const PictureBlock& inner, const PictureBlock& block,
+                                  std::span<const glm::vec4> sums) {
+  for_each_pixel(inner, block, picture_.size,
+                 [&](std::size_t from, std::size_t to) { picture_.color[to] = sums[from] * per_sample_; });
+}
+
+void PictureCollector::add_hits(const PictureBlock& inner, const PictureBlock& block,
+                                std::span<const ray_cast::Hit> hits) {
+  for_each_pixel(inner, block, picture_.size, [&](std::size_t from, std::size_t to) { copy_hit(hits[from], to); });
+}
+
+void PictureCollector::copy_hit(const ray_cast::Hit& hit, std::size_t at) {
+  if (hit.primitive == ray_cast::kNoPrimitive) return;
+  const glm::dvec2 pixel(static_cast<double>(at % frame_.size.x) + 0.5, static_cast<double>(at / frame_.size.x) + 0.5);
+  const Ray ray = pixel_ray(frame_.camera, frame_.size, pixel);
+  // The kernel counts from the plane through the pivot.
+  const double z = hit.t + frame_.eye_distance / glm::dot(ray.direction, frame_.basis.forward);
+  const glm::dvec3 point = ray.origin + ray.direction * z;
+  const ray_cast::Primitive& primitive = primitives_[hit.primitive];
+  picture_.z[at] = static_cast<float>(z);
+  picture_.normal[at] = hit.normal;
+  picture_.position[at] = glm::vec3(point);
+  picture_.atom[at] = hit.atom;
+  picture_.kind[at] = primitive.kind;
+  picture_.component[at] = components_->at(static_cast<PatchKind>(primitive.kind), primitive.patch_index, point);
+}
+
+}  // namespace meniscus

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A finished picture put together from cast blocks, on the host.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
+
+#include "core/render/component_lookup.h"
+#include "core/render/framebuffer.h"
+#include "core/render/picture_block.h"
+#include "core/render/render_settings.h"
+
+namespace meniscus {
+
+/// A picture in blocks of at most `edge` pixels, which is a multiple of kTileEdge.
+std::vector<PictureBlock> picture_blocks(glm::ivec2 size, int edge);
+
+/// `inner` and the neighbours that its colours depend on, as far as there are any.
+PictureBlock with_neighbors(const PictureBlock& inner, int reach, glm::ivec2 picture_size);
+
+/// Takes the inner parts of blocks. What it is made of must stay until the picture is taken.
+class PictureCollector {
+ public:
+  /// surface, primitives: for settings.aovs, the surface whose patches they are; else not looked at.
+  PictureCollector(const PictureFrame& frame, const RenderSettings& settings, const Surface* surface,
+                   std::span<const ray_cast::Primitive> primitives);
+
+  /// sums: of the samples of each of the block's pixels, linear and premultiplied; hits: through their centres.
+  void add_colors(const PictureBlock& inner, const PictureBlock& block, std::span<const glm::vec4> sums);
+  void add_hits(const PictureBlock& inner, const PictureBlock& block, std::span<const ray_cast::Hit> hits);
+
+  Framebuffer take() { return std::move(picture_); }
+
+ private:
+  void copy_hit(const ray_cast::Hit& hit, std::size_t at);
+
+  const PictureFrame& frame_;
+  const float per_sample_;
+  std::span<const ray_cast::Primitive> primitives_;
+  std::optional<ComponentLookup> components_;
+  Framebuffer picture_;
+};
+
+}  // namespace meniscus

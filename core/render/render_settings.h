@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What is wanted of a picture, whatever makes it.
+#pragma once
+
+#include <glm/vec2.hpp>
+
+#include "core/base/stage_clock.h"
+#include "core/render/look.h"
+
+namespace meniscus {
+
+/// How a picture is made.
+struct RenderSettings {
+  glm::ivec2 size{1024, 768};  ///< pixels
+  int samples = 1;             ///< rays per pixel, the first through its centre
+  bool aovs = false;           ///< of render(): fill the AOV arrays too; for drawables with a surface()
+  int block_edge = 2048;       ///< of render(): larger pictures are cast in blocks of at most this edge, in pixels
+  Look look;                   ///< its background is that of draw(); render() leaves it transparent
+  StageTiming timing = StageTiming::rough;
+};
+
+}  // namespace meniscus

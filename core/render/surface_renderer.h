@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Pictures of computed surfaces, whatever makes them: the CPU or GL.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/base/stage_clock.h"
+#include "core/camera/camera.h"
+#include "core/color/coloring.h"
+#include "core/render/framebuffer.h"
+#include "core/render/render_settings.h"
+#include "core/surface/primitives.h"
+
+namespace meniscus {
+
+class EglContext;
+
+/// Makes one picture after another.
+class SurfaceRenderer {
+ public:
+  virtual ~SurfaceRenderer() = default;
+
+  /// A picture on the host, of any size; the same for any block_edge. coloring.atom has one colour per surface.atoms.
+  /// Throws InputError for a bad camera; GpuError and CapacityError where GL makes it.
+  virtual Framebuffer render(const Surface& surface, const Coloring& coloring, const Camera& camera,
+                             const RenderSettings& settings) = 0;
+
+  /// Of the stages of the last picture.
+  virtual const std::vector<StageTime>& times() const = 0;
+  /// "cpu (2 threads)", or renderer and version of GL.
+  virtual std::string device() const = 0;
+};
+
+/// On all threads of the CPU, without GL: the same picture to the bit on every CPU and for any number of threads, and
+/// the picture that GL makes but for the rounding of its arithmetic.
+/// most_lanes: vectors no longer than that, of 4, 8, 16 numbers; the machine has them or shorter ones.
+std::unique_ptr<SurfaceRenderer> make_cpu_renderer(int most_lanes = 16);
+
+/// In a context that is current and lives longer.
+std::unique_ptr<SurfaceRenderer> make_gl_renderer(const EglContext& context);
+
+/// Renderer and version.
+std::string gl_words(const EglContext& context);
+
+}  // namespace meniscus

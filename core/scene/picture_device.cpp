@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Chooses between CPU and GL.
+#include "core/scene/picture_device.h"
+
+#include "core/base/error.h"
+
+namespace meniscus {
+
+PictureDevice::PictureDevice(const SurfaceRequest& request) : thread_limit_(request.threads) {
+  if (!request.cpu) find_gl(request.gl);
+  renderer_ = context_ ? make_gl_renderer(*context_) : make_cpu_renderer();
+}
+
+// Automatic never lands on software GL. A list of devices does not tell: only a context knows its renderer.
+void PictureDevice::find_gl(DeviceChoice choice) {
+  if (choice.kind != DeviceChoice::Kind::automatic) {
+    context_.emplace(choice);
+    return;
+  }
+  choice.kind = DeviceChoice::Kind::gpu;
+  try {
+    context_.emplace(choice);
+  } catch (const GpuError&) {
+    context_.reset();  // no EGL, no GPU, or none with GL 4.5
+  }
+}
+
+}  // namespace meniscus

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// From the device a user asked for to what makes pictures there.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "core/gpu/egl_context.h"
+#include "core/render/surface_renderer.h"
+#include "core/scene/surface_request.h"
+#include "core/scene/thread_limit.h"
+
+namespace meniscus {
+
+/// Makes pictures of computed surfaces: on the CPU or, in a context of its own, on GL.
+class PictureDevice {
+ public:
+  /// Automatic takes a hardware GPU if there is one, else the CPU, which is faster than software GL. Throws GpuError
+  /// where GL is asked for by name.
+  explicit PictureDevice(const SurfaceRequest& request);
+
+  SurfaceRenderer& renderer() { return *renderer_; }
+  /// Current on this thread; nullptr where the CPU makes the pictures.
+  const EglContext* context() const { return context_ ? &*context_ : nullptr; }
+
+ private:
+  void find_gl(DeviceChoice choice);
+
+  ThreadLimit thread_limit_;
+  std::optional<EglContext> context_;
+  std::unique_ptr<SurfaceRenderer> renderer_;
+};
+
+}  // namespace meniscus

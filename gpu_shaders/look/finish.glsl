@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Shade, air and ink: how they change the colour of a sample.
+//
+// GLSL and, as the body of a struct, C++: see view_space.glsl. The includer provides `params` of FinishParameters and
+// visibility_at() of a pixel that met something.
+
+// Mean over 4 x 4 pixels, as a square of 5 x 5 whose rim counts half; pixels of other surfaces do not count.
+GEOMETRY real mean_visibility(integer2 pixel, real depth) {
+  real3 p = position_at(pixel, depth);
+  real3 normal = facing(hit_normal_at(pixel), to_viewer_at(p));
+  real tolerance = 0.3 + 2.0 * pixel_size_at(depth);
+  real sum = real(0.0);
+  real weights = real(1e-6);
+  for (int y = -2; y <= 2; ++y)
+    for (int x = -2; x <= 2; ++x) {
+      integer2 other = pixel + integer2(x, y);
+      real other_depth = depth_or_nothing(other);
+      truth counts = other_depth != real(kNothing);
+      real off_plane = abs(dot(normal, position_at(other, other_depth) - p));
+      float in_square = (x * x == 4 ? 0.5 : 1.0) * (y * y == 4 ? 0.5 : 1.0);
+      real weight = in_square * max(1.0 - off_plane / tolerance, 0.0);
+      sum += select(counts, weight * visibility_at(other), real(0.0));
+      weights += select(counts, weight, real(0.0));
+    }
+  return sum / weights;
+}
+
+// The least difference of depths that is a step, Å.
+GEOMETRY real least_step(real depth) { return 0.5 + 2.0 * pixel_size_at(depth); }
+
+// False if no line is drawn between two pixels for their depths.
+GEOMETRY truth may_step(real depth_a, real depth_b) {
+  truth open = depth_a == real(kNothing) || depth_b == real(kNothing);
+  truth steps = abs(depth_a - depth_b) > least_step(min(depth_a, depth_b));
+  return (open && depth_a != depth_b) || (!open && steps);
+}
+
+// How strong that line is: from none at a small step to full at a large one.
+GEOMETRY real step_ink(integer2 a, real depth_a, integer2 b, real depth_b) {
+  real nearer = min(depth_a, depth_b);
+  real least = least_step(nearer);
+  // What the slope of the flatter one explains is no step.
+  real3 viewer_a = to_viewer_at(position_at(a, depth_a));
+  real3 viewer_b = to_viewer_at(position_at(b, depth_b));
+  real facing_a = dot(facing(hit_normal_at(a), viewer_a), viewer_a);
+  real facing_b = dot(facing(hit_normal_at(b), viewer_b), viewer_b);
+  real flatter = max(facing_a, facing_b);
+  real slope = sqrt(max(1.0 - flatter * flatter, 0.0)) / max(flatter, 0.01);
+  real jump = abs(depth_a - depth_b) - length(real2(a - b)) * pixel_size_at(nearer) * slope;
+  real missing = 1.0 - smoothstep(least, least + 3.0, jump);
+  real ink = 1.0 - missing * missing;  // as the eye sees it, about
+  ink = select(depth_a == real(kNothing) || depth_b == real(kNothing), real(1.0), ink);
+  return select(depth_a == real(kNothing) && depth_b == real(kNothing), real(0.0), ink);
+}
+
+// How much of a pixel a line covers, at most, that belongs to the border towards the neighbour at this offset: it is
+// `silhouettes` wide, half on each side.
+GEOMETRY real covered_share(integer2 offset) {
+  return clamp(0.5 * params.silhouettes + 1.0 - length(real2(offset)), 0.0, 1.0);
+}
+
+GEOMETRY int farthest_neighbor() { return int(ceil(0.5 * params.silhouettes + 0.5)); }
+
+// What is left of a colour at this depth.
+GEOMETRY real clarity(real depth) {
+  real range = max(real(params.last_depth - params.first_depth), 1e-3);
+  return 1.0 - params.depth_cue * clamp((depth - params.first_depth) / range, 0.0, 1.0);
+}

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How much of the sky each hit sees over what else the picture shows: ground-truth ambient occlusion (Jimenez, Wu,
+// Pesce & Jarabo 2016), the visible arc of each slice in closed form.
+//
+// Each pixel looks along a few directions only, which differ within blocks of 4 x 4 pixels in a fixed pattern
+// (interleaved sampling, Keller & Heidrich 2001); finish.glsl averages over such blocks, and nothing of it stays.
+// GLSL and, as the body of a struct, C++: see view_space.glsl. The includer provides `occlusion` of OcclusionParameters.
+
+const int kSliceCount = 2;
+const int kStepCount = 6;
+const float kPi = 3.14159265;
+
+// Places of 0 to 15 in a block such that each row, column and quarter has small and large ones (Bayer 1973).
+GEOMETRY integer pattern(integer2 pixel) {
+  integer x = (pixel.x ^ pixel.y) & 3;
+  return (x & 1) << 3 | (pixel.y & 1) << 2 | (x & 2) | (pixel.y & 2) >> 1;
+}
+
+// Cosine of the horizon, seen from p, on the way along `direction`, at least `lowest`.
+GEOMETRY real horizon(integer2 pixel, real3 p, real3 to_viewer, real2 direction, real reach, real offset, real lowest) {
+  real range = reach * pixel_size_at(-p.z);
+  real highest = lowest;
+  for (int k = 0; k < kStepCount; ++k) {
+    // Closer steps near by, where small clefts are.
+    real share = (float(k) + offset) / float(kStepCount);
+    integer2 other = pixel + integer2(round(direction * max(share * share * reach, float(k) + 1.0)));
+    real depth = depth_or_nothing(other);
+    real3 to_other = position_at(other, depth) - p;
+    real distance = length(to_other);
+    // What is far away shades less and less; a step at the radius would show as a rim.
+    real weight = clamp((1.0 - distance / range) / 0.6, 0.0, 1.0);
+    real cosine = mix(lowest, dot(to_other, to_viewer) / max(distance, 1e-6), weight);
+    highest = select(depth != real(kNothing), max(highest, cosine), highest);
+  }
+  return highest;
+}
+
+// The cosine-weighted arc between the viewer's direction and the horizon at angle h, both in a slice where the normal
+// is at angle n.
+GEOMETRY real arc(real h, real n) { return 0.25 * (cos(n) + 2.0 * h * sin(n) - cos(2.0 * h - n)); }
+
+// Of a pixel whose ray met something, at this depth.
+GEOMETRY real sky_visibility(integer2 pixel, real depth) {
+  real3 p = position_at(pixel, depth);
+  real3 to_viewer = to_viewer_at(p);
+  real3 normal = facing(hit_normal_at(pixel), to_viewer);
+  real reach = min(occlusion.radius / pixel_size_at(depth), occlusion.longest_reach);
+  integer place = (pattern(pixel) + 5 * int(occlusion.sample_index)) & 15;
+  real seen = real(0.0);
+  real open = real(0.0);  // what it would see alone
+  for (int s = 0; s < kSliceCount; ++s) {
+    real angle = (float(s) + (real(place) + 0.5) / 16.0) * (kPi / float(kSliceCount));
+    real3 direction = real3(cos(angle), sin(angle), 0.0);
+    real3 in_slice = direction - to_viewer * dot(direction, to_viewer);
+    real3 axis = normalize(cross(in_slice, to_viewer));
+    real3 projected = normal - axis * dot(normal, axis);
+    real length_projected = length(projected);
+    real n = acos(clamp(dot(projected, to_viewer) / length_projected, -1.0, 1.0));
+    n = select(dot(in_slice, projected) < 0.0, -n, n);
+    real offset = (real((place * 7 + s * 5) & 15) + 0.5) / 16.0;
+    real2 on_picture = real2(direction.x, -direction.y);
+    real ahead = horizon(pixel, p, to_viewer, on_picture, reach, offset, cos(n + 0.5 * kPi));
+    real behind = horizon(pixel, p, to_viewer, -on_picture, reach, offset, cos(n - 0.5 * kPi));
+    real slice_seen = length_projected * (arc(acos(clamp(ahead, -1.0, 1.0)), n) + arc(-acos(clamp(behind, -1.0, 1.0)), n));
+    real slice_open = length_projected * (cos(n) + n * sin(n));
+    truth counts = length_projected >= 1e-4;
+    seen = select(counts, seen + slice_seen, seen);
+    open = select(counts, open + slice_open, open);
+  }
+  return select(reach < 1.0, real(1.0), clamp(seen / max(open, 1e-6), 0.0, 1.0));
+}

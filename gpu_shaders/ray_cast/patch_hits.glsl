@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Where a ray meets a patch.
+//
+// GLSL and, as the body of a struct, C++ (core/render/cpu): rays may be packets, patches are the same for all of a packet.
+// The includer provides row(), load_primitive(), `view`, `params` and `some_hidden`, and touched_atom.glsl.
+// Each ray is moved to its closest approach first: there the numbers are as small as the primitive, and single precision
+// is good to about 1e-6 Å. What a ray hits of a primitive depends on nothing but the two, to the bit: not on the hits so
+// far, nor on the order in which primitives come. Pictures of more or fewer hidden primitives are therefore the same.
+
+const float kMiss = 3.0e38;
+
+// True if no point p + t*d with t < high of any ray within `spread` (Å, at the pivot, growing as the rays spread) of
+// this one is in the sphere. This is where most candidates end. Here packets may be of spheres, too.
+GEOMETRY truth misses_bound(real3 center, real radius, real3 p, real3 d, real eye_t, real spread, real high) {
+  real3 to_bound = p - center;
+  real bound_t = -dot(to_bound, d);
+  real3 closest = to_bound + d * bound_t;
+  // At the far end of the sphere neighbouring rays are farthest from this one.
+  real widest = spread;
+  if (view.orthographic == 0u) widest = spread * max((bound_t + radius - eye_t) / -eye_t, real(0.0));
+  real reach = radius + widest;
+  real room = reach * reach - dot(closest, closest);
+  return room < real(0.0) || bound_t - sqrt(room) > high;
+}
+
+// Where a ray enters and leaves the sphere of a patch; points are relative to its centre.
+struct SphereMeeting {
+  truth found;
+  real near_t;
+  real far_t;
+  real3 near_point;
+  real3 far_point;
+};
+
+GEOMETRY SphereMeeting meet_sphere(vec4 place, real3 p, real3 d) {
+  SphereMeeting meeting;
+  real3 o = p - vec3(place);
+  real shift = -dot(o, d);
+  o = o + d * shift;
+  SphereHits hits = ray_sphere(o, d, place.w);
+  meeting.found = hits.found;
+  meeting.near_point = o + d * hits.near_t;
+  meeting.far_point = o + d * hits.far_t;
+  meeting.near_t = hits.near_t + shift;
+  meeting.far_t = hits.far_t + shift;
+  return meeting;
+}
+
+// A toroidal patch, as its rows say.
+struct TorusPatch {
+  Primitive primitive;
+  vec3 center;
+  vec3 x_axis;
+  vec3 y_axis;
+  vec3 z_axis;
+  float major;
+  float cos_sweep;
+  float sin_sweep;
+  vec4 shape;  // z_low, z_high, clip z, clip radius
+};
+
+GEOMETRY TorusPatch load_torus(uint index) {
+  TorusPatch saddle;
+  saddle.primitive = load_primitive(index);
+  vec4 place = row(saddle.primitive.first_row);
+  vec4 x_axis = row(saddle.primitive.first_row + 1u);
+  vec4 z_axis = row(saddle.primitive.first_row + 2u);
+  saddle.shape = row(saddle.primitive.first_row + 3u);
+  saddle.center = vec3(place);
+  saddle.major = place.w;
+  saddle.x_axis = vec3(x_axis);
+  saddle.cos_sweep = x_axis.w;
+  saddle.z_axis = vec3(z_axis);
+  saddle.sin_sweep = z_axis.w;
+  saddle.y_axis = cross(saddle.z_axis, saddle.x_axis);
+  return saddle;
+}
+
+// A ray in a torus's own frame, from its closest approach on, which is `shift` along it; the patch may only be met from
+// `low` to `high`, and not at all if low >= high.
+struct LocalRay {
+  real3 o;
+  real3 d;
+  real shift;
+  real low;
+  real high;
+};
+
+GEOMETRY LocalRay to_torus(TorusPatch saddle, real3 p, real3 d) {
+  LocalRay ray;
+  real3 o = p - saddle.center;
+  ray.shift = -dot(o, d);
+  o = o + d * ray.shift;
+  ray.o = real3(dot(o, saddle.x_axis), dot(o, saddle.y_axis), dot(o, saddle.z_axis));
+  ray.d = real3(dot(d, saddle.x_axis), dot(d, saddle.y_axis), dot(d, saddle.z_axis));
+  // The sphere through both contact circles holds the whole patch and nothing of the outer half of the torus.
+  SphereHits chord = ray_sphere(ray.o - vec3(0.0, 0.0, saddle.shape.z), ray.d, saddle.shape.w + params.slack);
+  ray.low = max(eye_parameter(d) - ray.shift, chord.near_t - params.slack);
+  ray.high = chord.far_t + params.slack;
+  if (saddle.primitive.plane_count == uint(kUpToHalfTurn)) {
+    clip_to_half_space(-ray.o.y - params.slack, -ray.d.y, ray.low, ray.high);
+    clip_to_half_space(ray.o.y * saddle.cos_sweep - ray.o.x * saddle.sin_sweep - params.slack,
+                       ray.d.y * saddle.cos_sweep - ray.d.x * saddle.sin_sweep, ray.low, ray.high);
+  }
+  ray.high = select(chord.found, ray.high, ray.low);
+  return ray;
+}
+
+// Whether the ray may meet the patch before `nearest_t`: a little more than that, for the rounding of the sum in
+// hit_torus.
+GEOMETRY truth goes_towards_torus(LocalRay ray, real nearest_t) {
+  return ray.low < ray.high && ray.low <= nearest_t - ray.shift + params.slack;
+}
+
+// Where, or kMiss. Roots are looked for by the patch alone: hits so far would leave their mark on the last bits.
+GEOMETRY real hit_torus(TorusPatch saddle, LocalRay ray) {
+  TorusRuns runs = torus_runs(ray.o, ray.d, saddle.major, params.probe_radius, ray.low, ray.high);
+  real t = real(kMiss);
+  do {
+    real root = torus_run(ray.o, ray.d, saddle.major, params.probe_radius, 2e-7, kMiss, runs);
+    real3 x = ray.o + ray.d * root;
+    truth hit = t == real(kMiss) && root < real(kMiss) &&
+                in_toroidal_patch(x, saddle.major, saddle.shape.x, saddle.shape.y, saddle.cos_sweep, saddle.sin_sweep,
+                                  int(saddle.primitive.plane_count), params.slack) &&
+                shows_torus_point(saddle.primitive, x, saddle.major);
+    t = select(hit, root, t);
+    runs.waiting = select(hit, integer(0), runs.waiting);
+  } while (some(runs.waiting != 0));
+  return select(t < real(kMiss), t + ray.shift, t);
+}

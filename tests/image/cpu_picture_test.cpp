@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Pictures that the CPU makes: those of GL but for rounding, and the same bits for any vectors, threads and blocks.
+#include <cmath>
+#include <functional>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include "core/gpu/egl_context.h"
+#include "core/image/display_color.h"
+#include "core/render/surface_renderer.h"
+#include "core/surface/surface.h"
+#include "tests/support/molecules.h"
+
+namespace meniscus {
+namespace {
+
+using testing::Balls;
+
+/// A surface in two colours, and how its picture is wanted.
+struct Picture {
+  std::string name;
+  Surface surface;
+  Coloring coloring;
+  Camera camera;
+  RenderSettings settings;
+
+  Picture(std::string name_, const Balls& balls, double probe_radius, Projection projection = Projection::perspective)
+      : name(std::move(name_)), surface(compute_surface_cpu(balls, probe_radius)) {
+    for (std::size_t n = 0; n < surface.atoms.size(); ++n)
+      coloring.atom.push_back(n % 2 ? glm::vec3(0.8f, 0.25f, 0.2f) : glm::vec3(0.3f, 0.5f, 0.9f));
+    settings.size = {230, 170};  // no whole number of tiles
+    settings.samples = 2;
+    settings.aovs = true;
+    camera = frame_camera(surface.atoms, 230.0 / 170.0, projection);
+  }
+
+  Framebuffer by(SurfaceRenderer& renderer) const { return renderer.render(surface, coloring, camera, settings); }
+};
+
+Look all_effects() {
+  Look look;
+  look.ambient_occlusion = 0.9f;
+  look.silhouettes = 2.5f;
+  look.depth_cue = 0.5f;
+  return look;
+}
+
+std::vector<Picture> pictures() {
+  std::vector<Picture> all;
+  all.emplace_back("spindle torus", testing::two_atoms(5.2, 1.7, 1.3), 1.4, Projection::orthographic);
+  all.emplace_back("free torus", testing::two_atoms(2.5), 1.4);
+  all.emplace_back("tied lattice", testing::lattice(3, 3, 2, 4.0), 1.4);
+  all.emplace_back("no probe", testing::ubiquitin(), 0.0);
+  all.emplace_back("1UBQ", testing::ubiquitin(), 1.4, Projection::orthographic);
+  all.back().coloring.kind = {{{0.2f, 0.6f, 0.4f}, {0.4f, 0.6f, 0.9f}, {0.8f, 0.4f, 0.2f}}};
+  all.emplace_back("1TII", testing::enterotoxin(), 1.4);
+  all.back().settings.look = all_effects();
+  all.back().settings.samples = 6;
+  for (std::size_t n = 0; n < all.back().surface.atoms.size(); ++n)
+    all.back().coloring.part.push_back(static_cast<std::uint32_t>(n / 1000));
+  all.emplace_back("1UBQ in part", testing::ubiquitin(), 1.4);
+  for (std::size_t n = 0; n < all.back().surface.atoms.size(); ++n) all.back().coloring.hidden.push_back(n % 5 < 2);
+  all.back().settings.look = all_effects();
+  all.emplace_back("cavity from inside", testing::c60(), 0.5);
+  glm::dvec3 middle(0.0);
+  for (const Ball& ball : all.back().surface.atoms) middle += ball.center / 60.0;
+  all.back().camera = {middle, middle + glm::dvec3(0.3, 0.2, 1.0), {0, 1, 0}, Projection::perspective, 60.0, 1.0};
+  return all;
+}
+
+/// How many pixels are not alike.
+struct Difference {
+  int color = 0;        ///< in 8 bits
+  int by_more = 0;      ///< than 1 of 255
+  int worst_color = 0;  ///< of a channel, in 8 bits
+  int atom = 0, depth = 0;
+};
+
+Difference difference(const Framebuffer& a, const Framebuffer& b) {
+  Difference result;
+  for (std::size_t n = 0; n < a.color.size(); ++n) {
+    int worst = 0;
+    for (int channel = 0; channel < 4; ++channel) {
+      const auto byte = [&](const Framebuffer& of) {
+        return static_cast<int>(display_byte(display_color(of.color[n], {})[channel]));
+      };
+      worst = std::max(worst, std::abs(byte(a) - byte(b)));
+    }
+    result.color += worst > 0;
+    result.by_more += worst > 1;
+    result.worst_color = std::max(result.worst_color, worst);
+    result.atom += a.atom[n] != b.atom[n];
+    result.depth += a.z[n] != b.z[n] && !(std::abs(a.z[n] - b.z[n]) < 1e-3f);
+  }
+  return result;
+}
+
+TEST(CpuPicture, IsThatOfGlButForRounding) {
+  const EglContext context;
+  const auto gl = make_gl_renderer(context), cpu = make_cpu_renderer();
+  for (const Picture& picture : pictures()) {
+    const Framebuffer by_gl = picture.by(*gl), by_cpu = picture.by(*cpu);
+    const Difference found = difference(by_gl, by_cpu);
+    const auto pixels = static_cast<int>(by_gl.color.size());
+    // A ray that touches a silhouette, or the border of two atoms, may be taken for one side or the other.
+    EXPECT_LE(found.color, pixels / 500) << picture.name;
+    EXPECT_LE(found.by_more, pixels / 5000) << picture.name;
+    EXPECT_LE(found.worst_color, picture.settings.samples == 6 ? 43 : 130) << picture.name;  // one sample of a pixel
+    EXPECT_LE(found.atom, pixels / 5000) << picture.name;
+    EXPECT_LE(found.depth, pixels / 5000) << picture.name;
+    RecordProperty(picture.name + " pixels", found.color);
+    RecordProperty(picture.name + " worst", found.worst_color);
+  }
+}
+
+void expect_same_bits(const Framebuffer& a, const Framebuffer& b, const std::string& name) {
+  EXPECT_EQ(a.color, b.color) << name;
+  EXPECT_EQ(a.z, b.z) << name;
+  EXPECT_EQ(a.normal, b.normal) << name;
+  EXPECT_EQ(a.position, b.position) << name;
+  EXPECT_EQ(a.atom, b.atom) << name;
+  EXPECT_EQ(a.kind, b.kind) << name;
+  EXPECT_EQ(a.component, b.component) << name;
+}
+
+TEST(CpuPicture, IsTheSameWhateverTheVectorWidth) {
+  // Where the machine has no longer vectors the shorter ones are compared with themselves.
+  const auto longest = make_cpu_renderer();
+  for (const int lanes : {4, 8}) {
+    const auto other = make_cpu_renderer(lanes);
+    for (const Picture& picture : pictures())
+      expect_same_bits(picture.by(*longest), picture.by(*other), picture.name + " " + std::to_string(lanes));
+  }
+}
+
+TEST(CpuPicture, IsTheSameForAnyThreadsAndBlocks) {
+  const auto renderer = make_cpu_renderer();
+  for (Picture& picture : pictures()) {
+    const Framebuffer whole = picture.by(*renderer);
+    {
+      const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+      expect_same_bits(whole, picture.by(*renderer), picture.name + " on one thread");
+    }
+    picture.settings.block_edge = 48;
+    expect_same_bits(whole, picture.by(*renderer), picture.name + " in blocks");
+  }
+}
+
+}  // namespace
+}  // namespace meniscus
