@@ -105,13 +105,14 @@ class ConvexTrimmer {
     w.neighbors.clear();
     for (const BorderArc& arc : arcs_of(a))
       if (std::find(w.kept.begin(), w.kept.end(), arc.partner) == w.kept.end()) keep(a, arc.partner, w);
-    for (std::size_t n = 0; n < w.blockers.size();) {
+    for (std::size_t n = 0; n < w.blockers.size(); ++n) {
       w.contour.expose(w.blockers[n].center, w.blockers[n].weight, w.blockers, n);
-      const std::uint32_t missing = missing_on_circle(a, w.blockers[n].label, grid, w);
-      if (missing == kNone)
-        ++n;
-      else
+      for (;;) {
+        const std::uint32_t missing = missing_on_circle(a, w.blockers[n].label, grid, w);
+        if (missing == kNone) break;
         keep(a, missing, w);
+        w.contour.expose_further(w.blockers[n].center, w.blockers[n].weight, w.blockers, n);
+      }
     }
   }
 
