@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Marks a function whose loops are compiled for wider vector units, too, and chosen when the program starts.
+// Marks functions whose loops are compiled for wider vector units, too, and chosen when the program starts.
 #pragma once
 
 // Wider units change nothing in the results: products and sums are never fused (-ffp-contract=off), and a quotient or a
@@ -8,4 +8,13 @@
 #define MENISCUS_VECTOR_CLONES __attribute__((target_clones("avx512f", "avx2", "default"), flatten))
 #else
 #define MENISCUS_VECTOR_CLONES
+#endif
+
+// Before a loop of which no step writes what another one reads.
+#if defined(__clang__)
+#define MENISCUS_INDEPENDENT_STEPS _Pragma("clang loop vectorize(assume_safety)")
+#elif defined(__GNUC__)
+#define MENISCUS_INDEPENDENT_STEPS _Pragma("GCC ivdep")
+#else
+#define MENISCUS_INDEPENDENT_STEPS
 #endif

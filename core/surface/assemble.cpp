@@ -51,8 +51,7 @@ Surface assemble_surface(std::span<const Ball> atoms, double probe_radius, const
     std::call_once(asked, [&] { trimmer.emplace(surface, rs); });
     return trimmer->planes_of(c, choice);
   };
-  const ConvexPlanes convex =
-      planes == ClipPlanes::left_out ? ConvexPlanes(find_planes) : listed_planes(surface);
+  const ConvexPlanes convex = planes == ClipPlanes::left_out ? ConvexPlanes(find_planes) : listed_planes(surface);
   certify(surface, measure_surface(surface, convex), convex);
   return surface;
 }

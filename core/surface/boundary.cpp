@@ -263,12 +263,10 @@ class BoundaryBuilder {
     tbb::parallel_for(std::size_t{0}, s_.convex.size(), [&](std::size_t c) {
       list_faces(convex_faces_[c], PatchKind::convex, s_.convex[c], static_cast<std::uint32_t>(c), first_convex[c]);
     });
-    tbb::parallel_for(std::size_t{0}, s_.toroidal.size(), [&](std::size_t t) {
-      list_toroidal_faces(static_cast<std::uint32_t>(t), first_toroidal[t]);
-    });
+    tbb::parallel_for(std::size_t{0}, s_.toroidal.size(),
+                      [&](std::size_t t) { list_toroidal_faces(static_cast<std::uint32_t>(t), first_toroidal[t]); });
     tbb::parallel_for(std::size_t{0}, concave_faces_.size(), [&](std::size_t n) {
-      list_faces(concave_faces_[n], PatchKind::concave, s_.concave[n], static_cast<std::uint32_t>(n),
-                 first_concave[n]);
+      list_faces(concave_faces_[n], PatchKind::concave, s_.concave[n], static_cast<std::uint32_t>(n), first_concave[n]);
     });
     for (std::uint32_t c = 0; c < s_.convex.size(); ++c)
       if (!convex_faces_[c].closed) s_.certificate.open_atoms.push_back(s_.convex[c].atom);

@@ -121,7 +121,8 @@ class Examination {
       const double z = (2 * n + 1.0) / kPoints - 1, turn = 2 * kPi * std::numbers::phi * n,
                    across = std::sqrt(1 - z * z);
       const glm::dvec3 x = atom.center + atom.radius * glm::dvec3(across * std::cos(turn), across * std::sin(turn), z);
-      left += std::ranges::all_of(planes, [&](const Plane& plane) { return glm::dot(plane.normal, x) <= plane.offset; });
+      left +=
+          std::ranges::all_of(planes, [&](const Plane& plane) { return glm::dot(plane.normal, x) <= plane.offset; });
     }
     return 2 * left > kPoints;
   }

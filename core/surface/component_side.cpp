@@ -46,12 +46,14 @@ class SideTest {
     for (const Border& border : s_.borders) look_at(border);
     for (std::uint32_t c = 0; c < s_.convex.size(); ++c) {
       const Ball& atom = s_.atoms[s_.convex[c].atom];
-      look_at(s_.convex[c], [&] { return planes_(c, PlaneChoice::all); }, atom.center, atom.radius, &Farthest::convex);
+      look_at(
+          s_.convex[c], [&] { return planes_(c, PlaneChoice::all); }, atom.center, atom.radius, &Farthest::convex);
     }
     if (s_.probe_radius > 0)
       for (const ConcavePatch& patch : s_.concave)
-        look_at(patch, [&] { return std::span(s_.planes).subspan(patch.first_plane, patch.plane_count()); },
-                patch.center, s_.probe_radius, &Farthest::concave);
+        look_at(
+            patch, [&] { return std::span(s_.planes).subspan(patch.first_plane, patch.plane_count()); }, patch.center,
+            s_.probe_radius, &Farthest::concave);
     std::vector<ComponentKind> kinds;
     for (const Farthest& f : farthest_) {
       const bool cavity = s_.probe_radius > 0 ? f.concave > std::max(f.convex, f.border) : !(f.convex > f.border);

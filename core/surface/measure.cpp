@@ -121,9 +121,8 @@ class Measurement {
   // is known to lie in the face or beside it.
   double area_about_pole(const Face& face, const glm::dvec3& center, double radius, bool seen_from_inside,
                          std::vector<SphereArc>& loop) const {
-    const Antipode antipode = face.kind == PatchKind::concave
-                                  ? beside_concave(s_.concave[face.patch])
-                                  : farthest_known(face, center, radius, loop);
+    const Antipode antipode = face.kind == PatchKind::concave ? beside_concave(s_.concave[face.patch])
+                                                              : farthest_known(face, center, radius, loop);
     double area = antipode.inside ? 4 * kPi : 0;
     for (std::uint32_t l = face.first_loop; l < face.first_loop + face.loop_count; ++l) {
       walk_loop(s_, s_.loops[l], center, radius, seen_from_inside, loop);

@@ -179,7 +179,8 @@ std::vector<std::vector<Plane>> ConvexTrimmer::all_planes() const {
   tbb::enumerable_thread_specific<Search::Worker> workers;
   tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, search_->patch_count(), 32), [&](const auto& range) {
     Search::Worker& worker = workers.local();
-    for (std::uint32_t c = range.begin(); c != range.end(); ++c) planes[c] = search_->planes_of(c, PlaneChoice::all, worker);
+    for (std::uint32_t c = range.begin(); c != range.end(); ++c)
+      planes[c] = search_->planes_of(c, PlaneChoice::all, worker);
   });
   return planes;
 }

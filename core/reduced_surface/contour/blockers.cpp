@@ -25,14 +25,14 @@ void meet_all(const geometry::Circle& circle, double first_weight, double noise,
   const geometry::Circle c = circle;
   const Blockers::Columns b = balls;
   const MeetingColumns o = out;
-#pragma GCC ivdep
+  MENISCUS_INDEPENDENT_STEPS
   for (std::size_t n = 0; n < count; ++n) {
     const glm::dvec3 center(b.x[n], b.y[n], b.z[n]);
     double offset, margin;
     const bool apart = geometry::surely_apart(c, first_weight, noise, center, b.square[n], b.distance[n],
                                               b.half_power[n], geometry::kUnitRoundoff, offset);
-    const geometry::HalfPlane h = geometry::covered_half_plane(c, first_weight, center, b.distance[n], b.weight[n],
-                                                               geometry::kUnitRoundoff);
+    const geometry::HalfPlane h =
+        geometry::covered_half_plane(c, first_weight, center, b.distance[n], b.weight[n], geometry::kUnitRoundoff);
     const double meeting = geometry::meet_circle(h, margin);
     const double sure = offset < 0 ? geometry::kCovers : geometry::kMisses;
     const double close = margin > 0 ? meeting : kInDoubt;
@@ -49,7 +49,7 @@ MENISCUS_VECTOR_CLONES
 void measure_all(const Blockers::Columns& balls, std::size_t count, double first_weight, double* square,
                  double* distance, double* half_power) {
   const Blockers::Columns b = balls;
-#pragma GCC ivdep
+  MENISCUS_INDEPENDENT_STEPS
   for (std::size_t n = 0; n < count; ++n) {
     const geometry::Blocker ball =
         geometry::blocking_ball(glm::dvec3(b.x[n], b.y[n], b.z[n]), b.weight[n], first_weight);
@@ -62,7 +62,7 @@ void measure_all(const Blockers::Columns& balls, std::size_t count, double first
 MENISCUS_VECTOR_CLONES
 void cover_arcs(const double* normal_x, const double* normal_y, const double* offset, const double* length_squared,
                 const double* error, std::size_t count, double* begin, double* end, double* arc_error) {
-#pragma GCC ivdep
+  MENISCUS_INDEPENDENT_STEPS
   for (std::size_t n = 0; n < count; ++n) {
     const geometry::CoveredArc arc =
         geometry::covered_arc({{normal_x[n], normal_y[n]}, offset[n], length_squared[n], 0, error[n]});
@@ -126,13 +126,14 @@ void CircleMeetings::find(const geometry::Circle& circle, double noise, const Bl
 }
 
 std::size_t CircleMeetings::widest() const {
+  const double *begin = arcs_.column(kBegin), *end = arcs_.column(kEnd);
+  const std::size_t all = count();
   std::size_t widest = 0;
   double most = -1;
-  for (std::size_t n = 0; n < count(); ++n) {
-    const double sweep = geometry::pseudo_sweep(arcs_.column(kBegin)[n], arcs_.column(kEnd)[n]);
-    if (!(sweep > most)) continue;
-    most = sweep;
-    widest = n;
+  for (std::size_t n = 0; n < all; ++n) {
+    const double sweep = geometry::pseudo_sweep(begin[n], end[n]);
+    widest = sweep > most ? n : widest;
+    most = std::max(most, sweep);
   }
   return widest;
 }

@@ -73,7 +73,6 @@ class Blockers {
   std::uint32_t label(std::size_t n) const { return labels_[n]; }
   double first_weight() const { return first_weight_; }
 
-
   /// The same number of ball after ball, up to whole vectors: beyond size() anything may stand.
   struct Columns {
     const double *x, *y, *z, *weight, *square, *distance, *half_power;

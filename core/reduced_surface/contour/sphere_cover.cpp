@@ -21,7 +21,7 @@ constexpr std::size_t kDirections = 162;
 constexpr std::size_t kBlock = 16;    // directions that are looked at together
 constexpr std::size_t kPadded = 176;  // whole blocks
 static_assert(kPadded % kBlock == 0);
-constexpr double kRoom = 1e-4;        // radian, for single precision
+constexpr double kRoom = 1e-4;  // radian, for single precision
 
 // Directions, and the largest angle from any point of the sphere to the nearest of them: the largest circumradius of a
 // triangle of the subdivision.
@@ -105,6 +105,16 @@ struct Caps {
     for (std::vector<float>& column : columns)
       if (column.size() < count) column.resize(count);
   }
+  // The widest ones, some six around an atom of a protein, cover most: nothing need be known of the others then.
+  void widest_first(std::size_t count) {
+    constexpr float kWide = 0.45f;
+    std::size_t wide = 0;
+    for (std::size_t n = 0; n < count; ++n) {
+      if (!(columns[3][n] < kWide)) continue;
+      for (std::vector<float>& column : columns) std::swap(column[wide], column[n]);
+      ++wide;
+    }
+  }
 };
 
 constexpr float kNowhere = 4;  // no cosine is as large: an empty cap
@@ -114,7 +124,7 @@ MENISCUS_VECTOR_CLONES
 void narrow_caps(const Blockers::Columns& balls, std::size_t count, double inverse_radius, double cos_angle,
                  double sin_angle, float* x, float* y, float* z, float* cosine) {
   const Blockers::Columns b = balls;
-#pragma GCC ivdep
+  MENISCUS_INDEPENDENT_STEPS
   for (std::size_t n = 0; n < count; ++n) {
     const double inverse = 1 / b.distance[n], c = b.half_power[n] * inverse * inverse_radius;
     const double narrowed = c * cos_angle + std::sqrt(1 - c * c) * sin_angle;
@@ -136,8 +146,8 @@ bool any_negative(const Bits& bits) {
   return (all & 0x8000000080000000u) != 0;
 }
 
-// Of each direction a number that is negative if no cap holds it: the sign bits of dot(axis, direction) - cosine, all in
-// one. For want of anything but sums, products and bits the loop needs no comparison of vectors.
+// Of each direction a number that is negative if no cap holds it: the sign bits of dot(axis, direction) - cosine, all
+// in one. For want of anything but sums, products and bits the loop needs no comparison of vectors.
 MENISCUS_VECTOR_CLONES
 void sign_outside(const WatchedDirections& w, const Caps& caps, std::size_t count, std::int32_t* sign) {
   typedef float Floats __attribute__((vector_size(kBlock * sizeof(float))));
@@ -194,11 +204,11 @@ UncoveredDirections uncovered_directions(const Blockers& blockers) {
   narrow_caps(blockers.columns(), whole_vectors(blockers.size()), 1 / std::sqrt(blockers.first_weight()), w.cos_angle,
               w.sin_angle, caps.columns[0].data(), caps.columns[1].data(), caps.columns[2].data(),
               caps.columns[3].data());
+  caps.widest_first(blockers.size());
   std::array<std::int32_t, kPadded> sign;
   sign_outside(w, caps, blockers.size(), sign.data());
   UncoveredDirections uncovered;
-  for (std::size_t n = 0; n < kDirections; ++n)
-    uncovered.bits[n / 64] |= std::uint64_t{sign[n] < 0} << (n % 64);
+  for (std::size_t n = 0; n < kDirections; ++n) uncovered.bits[n / 64] |= std::uint64_t{sign[n] < 0} << (n % 64);
   return uncovered;
 }
 

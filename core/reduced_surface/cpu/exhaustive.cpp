@@ -121,11 +121,10 @@ class Enumeration {
     if (beyond.none()) return true;
     const Blockers::Ball b = w.blockers[n];
     if (!(b.distance > 1e-6)) return false;
-    const double height = b.half_power / b.distance;
-    const double ri = std::sqrt(w.blockers.first_weight()), rj = std::sqrt(b.weight);
-    const glm::dvec3 axis = b.center / b.distance;
-    return !w.uncovered.may_be_exposed(axis, height / ri) ||
-           !may_be_exposed(beyond, -axis, (b.distance - height) / rj);
+    const double inverse = 1 / b.distance, height = b.half_power * inverse;
+    const glm::dvec3 axis = b.center * inverse;
+    return !w.uncovered.may_be_exposed(axis, height / std::sqrt(w.blockers.first_weight())) ||
+           !may_be_exposed(beyond, -axis, (b.distance - height) / std::sqrt(b.weight));
   }
 
   // A circle that double leaves in doubt: nearest balls first, whatever order the grid gave.

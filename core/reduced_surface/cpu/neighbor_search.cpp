@@ -37,12 +37,11 @@ struct BallColumns {
   const double *x, *y, *z, *radius;
 };
 
-// Lists the balls of some rows that overlap a ball around (x, y, z) of this (SAS) radius, but not `self`; returns the end
-// of the list.
+// Lists the balls of some rows that overlap a ball around (x, y, z) of this (SAS) radius, but not `self`; returns the
+// end of the list.
 MENISCUS_VECTOR_CLONES
 std::uint32_t* list_overlapping(const BallColumns& balls, const NeighborSearch::Rows& rows, std::uint32_t self,
-                                double x, double y, double z, double radius, double probe_radius,
-                                std::uint32_t* list) {
+                                double x, double y, double z, double radius, double probe_radius, std::uint32_t* list) {
   constexpr std::uint32_t kMost = 64;  // of a row at once
   double gap[kMost];
   for (const auto& [row_first, last] : rows)
