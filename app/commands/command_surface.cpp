@@ -140,7 +140,12 @@ void add_surface(CLI::App& command) {
           "Also the areas of --select in the presence of these atoms, and the difference: what is buried")
       ->type_name("EXPR");
   command.add_flag("--force", state->force, "Replace files that exist");
-  command.callback([state] { run(*state); });
+  command.callback([state] {
+    // Parts of surfaces are cut out by planes.
+    const Division& division = state->molecule.division;
+    state->molecule.surface.drawn = division.components || division.cavities != Cavities::keep;
+    run(*state);
+  });
 }
 
 }  // namespace meniscus

@@ -30,17 +30,25 @@ class BallGrid {
   /// Calls visit(index) for every ball whose centre is within `reach` of `point`, boundary cases included.
   template <typename Visit>
   void for_each_near(const glm::dvec3& point, double reach, Visit&& visit) const {
+    const double reach_squared = reach * reach * (1.0 + 1e-12);
+    for_each_row_near(point, reach, [&](std::uint32_t first, std::uint32_t last) {
+      for (std::uint32_t n = first; n < last; ++n) {
+        const glm::dvec3 d = centers_[n] - point;
+        if (glm::dot(d, d) <= reach_squared) visit(order_[n]);
+      }
+    });
+  }
+
+  /// Calls visit(first, last) for the rows of cells around a point: among the balls that stand in order() from `first`
+  /// to before `last`, taken together, are all whose centres are within `reach`.
+  template <typename Visit>
+  void for_each_row_near(const glm::dvec3& point, double reach, Visit&& visit) const {
     const glm::ivec3 low = cell_of(point - reach);
     const glm::ivec3 high = cell_of(point + reach);
-    const double reach_squared = reach * reach * (1.0 + 1e-12);
     for (int z = low.z; z <= high.z; ++z)
       for (int y = low.y; y <= high.y; ++y) {
         const std::size_t row = (static_cast<std::size_t>(z) * size_.y + y) * size_.x;
-        const std::uint32_t last = first_[row + high.x + 1];
-        for (std::uint32_t n = first_[row + low.x]; n < last; ++n) {
-          const glm::dvec3 d = centers_[n] - point;
-          if (glm::dot(d, d) <= reach_squared) visit(order_[n]);
-        }
+        visit(first_[row + low.x], first_[row + high.x + 1]);
       }
   }
 

@@ -72,7 +72,8 @@ Surface SurfaceComputer::compute(std::span<const Ball> balls) {
   }
   const double probe_radius = request_.kind == SurfaceKind::ses ? request_.probe_radius : 0.0;
   if (!engine_) engine_ = make_engine(on_cpu_, request_.gl);
-  Surface surface = compute_surface(*engine_, balls, probe_radius, clock_);
+  Surface surface = compute_surface(*engine_, balls, probe_radius, clock_,
+                                    request_.drawn || request_.verify ? ClipPlanes::listed : ClipPlanes::left_out);
   device_ = engine_->device();
   if (request_.verify) verify(surface, balls, probe_radius);
   return surface;

@@ -35,6 +35,7 @@ struct SurfaceRequest {
   bool verify = false;        ///< compute on the other device too and compare
   /// With `verify`, a further look at each closed surface, such as by its mesh; throws OpenSurfaceError. May be empty.
   std::function<void(const Surface&)> check;
+  bool drawn = true;                        ///< false: for numbers only, see ClipPlanes::left_out
   int threads = 0;                          ///< CPU threads; 0: all
   StageTiming timing = StageTiming::rough;  ///< exact: somebody looks at the times of stages
 };

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The second half of the pipeline as a list of its stages: place, cut, bound, trim, measure, certify.
+#include <mutex>
+#include <optional>
 #include <string>
 
 #include "core/base/error.h"
@@ -14,7 +16,7 @@
 
 namespace meniscus {
 Surface assemble_surface(std::span<const Ball> atoms, double probe_radius, const ReducedSurface& rs, StageClock* clock,
-                         CuspTracer* tracer) {
+                         CuspTracer* tracer, ClipPlanes planes) {
   StageClock unused;
   StageClock& stages = clock ? *clock : unused;
   Surface surface;
@@ -39,10 +41,18 @@ Surface assemble_surface(std::span<const Ball> atoms, double probe_radius, const
     const auto stage = stages.stage("primitives");
     list_concave_patches(surface, rolling.probes, cusps);
     build_boundary(surface, rolling.probes, cusps, rs);
-    trim_convex_patches(surface, rs);
+    if (planes == ClipPlanes::listed) trim_convex_patches(surface, rs);
   }
   const auto stage = stages.stage("area and volume");
-  certify(surface, measure_surface(surface));
+  // Where patches have no planes the few that the checks ask for are found for them alone.
+  std::optional<ConvexTrimmer> trimmer;
+  std::once_flag asked;
+  const auto find_planes = [&](std::uint32_t c, PlaneChoice choice) {
+    std::call_once(asked, [&] { trimmer.emplace(surface, rs); });
+    return trimmer->planes_of(c, choice);
+  };
+  const ConvexPlanes convex = planes == ClipPlanes::left_out ? ConvexPlanes(find_planes) : listed_planes(surface);
+  certify(surface, measure_surface(surface, convex), convex);
   return surface;
 }
 

@@ -221,35 +221,57 @@ class BoundaryBuilder {
     });
   }
 
-  // Large surfaces have millions of half-borders: growing the lists step by step would copy them several times.
-  void reserve_faces() {
-    std::size_t faces = 2 * s_.toroidal.size(), loops = faces, half_borders = 6 * s_.toroidal.size();
-    for (const auto* patches : {&convex_faces_, &concave_faces_})
-      for (const PatchFaces& patch : *patches) {
-        faces += patch.face_count;
-        loops += patch.loop_sizes.size();
-        half_borders += patch.half_borders.size();
-      }
-    s_.faces.reserve(faces);
-    s_.loops.reserve(loops);
-    s_.half_borders.reserve(half_borders);
+  // How many faces, loops and half-borders there are, or how many stand before those of a patch.
+  struct Numbers {
+    std::uint32_t face = 0, loop = 0, half_border = 0;
+    Numbers& operator+=(const Numbers& more) {
+      face += more.face;
+      loop += more.loop;
+      half_border += more.half_border;
+      return *this;
+    }
+  };
+
+  static Numbers numbers_of(const PatchFaces& faces) {
+    return {faces.face_count, static_cast<std::uint32_t>(faces.loop_sizes.size()),
+            static_cast<std::uint32_t>(faces.half_borders.size())};
   }
 
+  Numbers numbers_of(const PatchBorders& borders) const {
+    if (flat_) return {};
+    if (borders.spindle) return {2, 2, borders.free ? 2u : 6u};
+    return borders.free ? Numbers{1, 2, 2} : Numbers{1, 1, 4};
+  }
+
+  // Faces are numbered in the order of convex, toroidal and concave patches; then each patch lists its own.
   void number_faces() {
-    reserve_faces();
-    for (std::uint32_t c = 0; c < s_.convex.size(); ++c) {
-      s_.convex[c].first_face = static_cast<std::uint32_t>(s_.faces.size());
-      s_.convex[c].face_count = convex_faces_[c].face_count;
-      append_faces(convex_faces_[c], PatchKind::convex, c);
+    Numbers all;
+    const auto before = [&](const auto& patches) {
+      std::vector<Numbers> first;
+      first.reserve(patches.size());
+      for (const auto& patch : patches) {
+        first.push_back(all);
+        all += numbers_of(patch);
+      }
+      return first;
+    };
+    const auto first_convex = before(convex_faces_), first_toroidal = before(patch_borders_),
+               first_concave = before(concave_faces_);
+    s_.faces.resize(all.face);
+    s_.loops.resize(all.loop);
+    s_.half_borders.resize(all.half_border);
+    tbb::parallel_for(std::size_t{0}, s_.convex.size(), [&](std::size_t c) {
+      list_faces(convex_faces_[c], PatchKind::convex, s_.convex[c], static_cast<std::uint32_t>(c), first_convex[c]);
+    });
+    tbb::parallel_for(std::size_t{0}, s_.toroidal.size(),
+                      [&](std::size_t t) { list_toroidal_faces(static_cast<std::uint32_t>(t), first_toroidal[t]); });
+    tbb::parallel_for(std::size_t{0}, concave_faces_.size(), [&](std::size_t n) {
+      list_faces(concave_faces_[n], PatchKind::concave, s_.concave[n], static_cast<std::uint32_t>(n), first_concave[n]);
+    });
+    for (std::uint32_t c = 0; c < s_.convex.size(); ++c)
       if (!convex_faces_[c].closed) s_.certificate.open_atoms.push_back(s_.convex[c].atom);
-    }
-    for (std::uint32_t t = 0; t < s_.toroidal.size(); ++t) append_toroidal_faces(t);
-    for (std::uint32_t s = 0; s < concave_faces_.size(); ++s) {
-      s_.concave[s].first_face = static_cast<std::uint32_t>(s_.faces.size());
-      s_.concave[s].face_count = concave_faces_[s].face_count;
-      append_faces(concave_faces_[s], PatchKind::concave, s);
+    for (std::uint32_t s = 0; s < concave_faces_.size(); ++s)
       if (!concave_faces_[s].closed) add_open_probe(s);
-    }
     for (std::uint32_t s : cusps_.open_probes) add_open_probe(s);
   }
 
@@ -257,58 +279,65 @@ class BoundaryBuilder {
     for (const ProbeSide& side : probes_.sides_of(s)) s_.certificate.open_atoms.push_back(side.from);
   }
 
-  void append_faces(const PatchFaces& faces, PatchKind kind, std::uint32_t patch) {
+  // Of a spherical patch; what it was chained from is not needed again.
+  template <typename Patch>
+  void list_faces(PatchFaces& faces, PatchKind kind, Patch& patch, std::uint32_t index, Numbers next) {
+    patch.first_face = next.face;
+    patch.face_count = faces.face_count;
     for (std::uint32_t f = 0; f < faces.face_count; ++f) {
-      const std::uint32_t face = open_face(kind, patch);
+      const std::uint32_t face = open_face(kind, index, next);
       for (std::size_t l = 0, h = 0; l < faces.loop_sizes.size(); h += faces.loop_sizes[l], ++l)
         if (faces.loop_face[l] == f)
-          append_loop(face, {faces.half_borders.data() + h, faces.half_borders.data() + h + faces.loop_sizes[l]});
+          add_loop(face, {faces.half_borders.data() + h, faces.half_borders.data() + h + faces.loop_sizes[l]}, next);
     }
+    const bool closed = faces.closed;
+    faces = {};
+    faces.closed = closed;
   }
 
-  std::uint32_t open_face(PatchKind kind, std::uint32_t patch) {
-    Face face;
+  std::uint32_t open_face(PatchKind kind, std::uint32_t patch, Numbers& next) {
+    Face& face = s_.faces[next.face];
     face.kind = kind;
     face.patch = patch;
-    face.first_loop = static_cast<std::uint32_t>(s_.loops.size());
-    s_.faces.push_back(face);
-    return static_cast<std::uint32_t>(s_.faces.size() - 1);
+    face.first_loop = next.loop;
+    return next.face++;
   }
 
-  void append_loop(std::uint32_t face, std::span<const HalfBorder> walk) {
-    s_.loops.push_back({static_cast<std::uint32_t>(s_.half_borders.size()), static_cast<std::uint32_t>(walk.size())});
-    s_.half_borders.insert(s_.half_borders.end(), walk.begin(), walk.end());
+  void add_loop(std::uint32_t face, std::span<const HalfBorder> walk, Numbers& next) {
+    s_.loops[next.loop++] = {next.half_border, static_cast<std::uint32_t>(walk.size())};
+    std::ranges::copy(walk, s_.half_borders.begin() + next.half_border);
+    next.half_border += static_cast<std::uint32_t>(walk.size());
     ++s_.faces[face].loop_count;
     for (const HalfBorder h : walk) s_.borders[border_of(h)].face[h & 1] = face;
   }
 
-  void append_toroidal_faces(std::uint32_t t) {
+  void list_toroidal_faces(std::uint32_t t, Numbers next) {
     ToroidalPatch& patch = s_.toroidal[t];
-    patch.first_face = static_cast<std::uint32_t>(s_.faces.size());
-    patch.face_count = flat_ ? 0 : s_.spindle(patch) ? 2 : 1;
-    if (flat_) return;
     const PatchBorders& b = patch_borders_[t];
+    patch.first_face = next.face;
+    patch.face_count = numbers_of(b).face;
+    if (flat_) return;
     const HalfBorder bottom = b.contact(0) * 2, top = b.contact(1) * 2 + 1;
     if (!b.spindle) {
-      const std::uint32_t face = open_face(PatchKind::toroidal, t);
+      const std::uint32_t face = open_face(PatchKind::toroidal, t, next);
       if (b.free) {
-        append_loop(face, std::array{bottom});
-        append_loop(face, std::array{top});
+        add_loop(face, std::array{bottom}, next);
+        add_loop(face, std::array{top}, next);
       } else {
-        append_loop(face, std::array{bottom, b.edge(1) * 2, top, b.edge(0) * 2 + 1});
+        add_loop(face, std::array{bottom, b.edge(1) * 2, top, b.edge(0) * 2 + 1}, next);
       }
       return;
     }
     for (int side = 0; side < 2; ++side) {
-      const std::uint32_t face = open_face(PatchKind::toroidal, t);
+      const std::uint32_t face = open_face(PatchKind::toroidal, t, next);
       const HalfBorder contact = side ? top : bottom;
       if (b.free) {
-        append_loop(face, std::array{contact});
+        add_loop(face, std::array{contact}, next);
         s_.faces[face].tip = axis_vertex_[first_on_circle_[t]] + side;
       } else if (side == 0) {
-        append_loop(face, std::array{contact, b.half_edge(1, 0) * 2, b.half_edge(0, 0) * 2 + 1});
+        add_loop(face, std::array{contact, b.half_edge(1, 0) * 2, b.half_edge(0, 0) * 2 + 1}, next);
       } else {
-        append_loop(face, std::array{contact, b.half_edge(0, 1) * 2 + 1, b.half_edge(1, 1) * 2});
+        add_loop(face, std::array{contact, b.half_edge(0, 1) * 2 + 1, b.half_edge(1, 1) * 2}, next);
       }
     }
   }

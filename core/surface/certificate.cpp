@@ -8,6 +8,9 @@
 #include <numbers>
 
 #include <glm/geometric.hpp>
+#include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
 
 #include "core/surface/atom_areas.h"
 #include "core/surface/walks.h"
@@ -23,24 +26,35 @@ constexpr double kClose = 1e-3;   // Å, half the distance of probes whose bisec
 
 class Examination {
  public:
-  Examination(Surface& surface, const MeasurementDoubts& doubts) : s_(surface), doubts_(doubts) {}
+  Examination(Surface& surface, const MeasurementDoubts& doubts, const ConvexPlanes& planes)
+      : s_(surface), doubts_(doubts), planes_(planes) {}
 
   void run() {
     check_components();
     check_faces();
-    for (const ConvexPatch& patch : s_.convex) check_atom(patch);
+    for_each(s_.convex, [&](std::size_t c) { check_atom(static_cast<std::uint32_t>(c)); });
     for (const std::uint32_t f : doubts_.disputed) add_atoms_of(s_.faces[f]);
-    for (const ConcavePatch& patch : s_.concave) {
-      check_contacts(patch);
-      check_planes(patch);
-    }
-    std::sort(open().begin(), open().end());
-    open().erase(std::unique(open().begin(), open().end()), open().end());
-    s_.certificate.closed = open().empty();
+    for_each(s_.concave, [&](std::size_t n) {
+      check_contacts(s_.concave[n]);
+      check_planes(s_.concave[n]);
+    });
+    std::vector<std::uint32_t>& all = s_.certificate.open_atoms;
+    for (const std::vector<std::uint32_t>& found : open_) all.insert(all.end(), found.begin(), found.end());
+    std::sort(all.begin(), all.end());
+    all.erase(std::unique(all.begin(), all.end()), all.end());
+    s_.certificate.closed = all.empty();
   }
 
  private:
-  std::vector<std::uint32_t>& open() { return s_.certificate.open_atoms; }
+  template <typename Row, typename Check>
+  static void for_each(const std::vector<Row>& table, const Check& check) {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, table.size(), 256), [&](const auto& range) {
+      for (std::size_t n = range.begin(); n != range.end(); ++n) check(n);
+    });
+  }
+
+  // What this thread has found.
+  std::vector<std::uint32_t>& open() { return open_.local(); }
 
   void add_atoms_of(const Face& face) {
     if (face.kind == PatchKind::convex) open().push_back(s_.convex[face.patch].atom);
@@ -74,24 +88,33 @@ class Examination {
   }
 
   void check_faces() {
-    for (const Face& face : s_.faces) {
+    for_each(s_.faces, [&](std::size_t f) {
+      const Face& face = s_.faces[f];
       const double most = largest_area(face), slack = kSlack * (1 + most);
       if (!(face.area >= -slack && face.area <= most + slack)) add_atoms_of(face);
-    }
+    });
   }
 
-  void check_atom(const ConvexPatch& patch) {
+  void check_atom(std::uint32_t convex) {
+    const ConvexPatch& patch = s_.convex[convex];
     const Ball& atom = s_.atoms[patch.atom];
     double sum = 0;
     for (std::uint32_t f = patch.first_face; f < patch.first_face + patch.face_count; ++f) sum += s_.faces[f].area;
     const double whole = 4 * kPi * atom.radius * atom.radius, share = whole > 0 ? sum / whole : 0;
     const bool little = share<1e-3, much = share> 1 - 1e-3;
-    if (!(sum <= whole * (1 + kSlack)) || ((little || much) && much != most_is_left(patch, atom)))
+    if (!(sum <= whole * (1 + kSlack)) || (little && leaves_most(convex)) || (much && !leaves_most(convex)))
       open().push_back(patch.atom);
   }
 
+  // If the bordering circles leave little, all planes do, and nobody need find them.
+  bool leaves_most(std::uint32_t convex) const {
+    const Ball& atom = s_.atoms[s_.convex[convex].atom];
+    return most_is_left(planes_(convex, PlaneChoice::bordering), atom) &&
+           most_is_left(planes_(convex, PlaneChoice::all), atom);
+  }
+
   // Whether the clip planes leave most of an atom's sphere, judged by points spread evenly (Fibonacci's spiral).
-  bool most_is_left(const ConvexPatch& patch, const Ball& atom) const {
+  static bool most_is_left(const std::vector<Plane>& planes, const Ball& atom) {
     constexpr int kPoints = 32;
     int left = 0;
     for (int n = 0; n < kPoints; ++n) {
@@ -99,8 +122,7 @@ class Examination {
                    across = std::sqrt(1 - z * z);
       const glm::dvec3 x = atom.center + atom.radius * glm::dvec3(across * std::cos(turn), across * std::sin(turn), z);
       left +=
-          std::all_of(s_.planes.begin() + patch.first_plane, s_.planes.begin() + patch.first_plane + patch.plane_count,
-                      [&](const Plane& plane) { return glm::dot(plane.normal, x) <= plane.offset; });
+          std::ranges::all_of(planes, [&](const Plane& plane) { return glm::dot(plane.normal, x) <= plane.offset; });
     }
     return 2 * left > kPoints;
   }
@@ -149,10 +171,16 @@ class Examination {
 
   Surface& s_;
   const MeasurementDoubts& doubts_;
+  const ConvexPlanes& planes_;
+  tbb::enumerable_thread_specific<std::vector<std::uint32_t>> open_;
 };
 
 }  // namespace
 
-void certify(Surface& surface, const MeasurementDoubts& doubts) { Examination(surface, doubts).run(); }
+void certify(Surface& surface, const MeasurementDoubts& doubts, const ConvexPlanes& planes) {
+  Examination(surface, doubts, planes).run();
+}
+
+void certify(Surface& surface, const MeasurementDoubts& doubts) { certify(surface, doubts, listed_planes(surface)); }
 
 }  // namespace meniscus

@@ -19,6 +19,7 @@ namespace meniscus {
 ///  * every re-entrant patch with such a face, with more than three contacts, cut from close by, or cut without a cusp:
 ///  its
 ///    planes and its borders give one area (divided_area()).
-void certify(Surface& surface, const MeasurementDoubts& doubts);
+void certify(Surface& surface, const MeasurementDoubts& doubts, const ConvexPlanes& planes);
+void certify(Surface& surface, const MeasurementDoubts& doubts);  ///< by the planes that its tables list
 
 }  // namespace meniscus

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include <glm/geometric.hpp>
 
@@ -38,17 +39,21 @@ double farthest_of(const Border& border) {
 
 class SideTest {
  public:
-  explicit SideTest(const Surface& surface) : s_(surface), farthest_(surface.components.size()) {}
+  SideTest(const Surface& surface, const ConvexPlanes& planes)
+      : s_(surface), planes_(planes), farthest_(surface.components.size()) {}
 
   std::vector<ComponentKind> run() {
     for (const Border& border : s_.borders) look_at(border);
-    for (const ConvexPatch& patch : s_.convex) {
-      const Ball& atom = s_.atoms[patch.atom];
-      look_at(patch, patch.plane_count, atom.center, atom.radius, &Farthest::convex);
+    for (std::uint32_t c = 0; c < s_.convex.size(); ++c) {
+      const Ball& atom = s_.atoms[s_.convex[c].atom];
+      look_at(
+          s_.convex[c], [&] { return planes_(c, PlaneChoice::all); }, atom.center, atom.radius, &Farthest::convex);
     }
     if (s_.probe_radius > 0)
       for (const ConcavePatch& patch : s_.concave)
-        look_at(patch, patch.plane_count(), patch.center, s_.probe_radius, &Farthest::concave);
+        look_at(
+            patch, [&] { return std::span(s_.planes).subspan(patch.first_plane, patch.plane_count()); }, patch.center,
+            s_.probe_radius, &Farthest::concave);
     std::vector<ComponentKind> kinds;
     for (const Farthest& f : farthest_) {
       const bool cavity = s_.probe_radius > 0 ? f.concave > std::max(f.convex, f.border) : !(f.convex > f.border);
@@ -65,8 +70,8 @@ class SideTest {
     if (glm::dot(border.center, kDirection) + border.radius > best) best = std::max(best, farthest_of(border));
   }
 
-  template <typename Patch>
-  void look_at(const Patch& patch, std::uint32_t plane_count, const glm::dvec3& center, double radius,
+  template <typename Patch, typename Planes>
+  void look_at(const Patch& patch, const Planes& planes, const glm::dvec3& center, double radius,
                double Farthest::*which) {
     const glm::dvec3 pole = center + radius * kDirection;
     const double reached = glm::dot(pole, kDirection);
@@ -74,8 +79,8 @@ class SideTest {
     for (std::uint32_t f = patch.first_face; f < patch.first_face + patch.face_count; ++f)
       new_for_some = new_for_some || reached > farthest_[s_.faces[f].component].*which;
     if (!new_for_some) return;
-    for (std::uint32_t n = patch.first_plane; n < patch.first_plane + plane_count; ++n)
-      if (glm::dot(s_.planes[n].normal, pole) > s_.planes[n].offset) return;
+    for (const Plane& plane : planes())
+      if (glm::dot(plane.normal, pole) > plane.offset) return;
     double& best = farthest_[s_.faces[face_at_pole(patch, center, radius)].component].*which;
     best = std::max(best, reached);
   }
@@ -99,12 +104,15 @@ class SideTest {
   }
 
   const Surface& s_;
+  const ConvexPlanes& planes_;
   std::vector<Farthest> farthest_;
   std::vector<SphereArc> loop_;
 };
 
 }  // namespace
 
-std::vector<ComponentKind> side_of_components(const Surface& surface) { return SideTest(surface).run(); }
+std::vector<ComponentKind> side_of_components(const Surface& surface, const ConvexPlanes& planes) {
+  return SideTest(surface, planes).run();
+}
 
 }  // namespace meniscus

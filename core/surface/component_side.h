@@ -14,6 +14,6 @@ namespace meniscus {
 /// begins; so x is the pole of a convex patch, or lies on a border. With a probe of radius 0 there are no concave
 /// patches, and x is the pole of a convex patch exactly where the component is an outer one.
 /// Returns one kind per component. Needs Face::component, the patches' planes and the borders.
-std::vector<ComponentKind> side_of_components(const Surface& surface);
+std::vector<ComponentKind> side_of_components(const Surface& surface, const ConvexPlanes& planes);
 
 }  // namespace meniscus

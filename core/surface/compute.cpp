@@ -7,15 +7,15 @@
 namespace meniscus {
 
 Surface attempt_surface(ReducedSurfaceEngine& engine, std::span<const Ball> atoms, double probe_radius,
-                        StageClock& clock) {
+                        StageClock& clock, ClipPlanes planes) {
   const ReducedSurface rs = engine.reduce(atoms, probe_radius, clock);
-  return assemble_surface(atoms, probe_radius, rs, &clock, &engine.cusp_tracer());
+  return assemble_surface(atoms, probe_radius, rs, &clock, &engine.cusp_tracer(), planes);
 }
 
 Surface compute_surface(ReducedSurfaceEngine& engine, std::span<const Ball> atoms, double probe_radius,
-                        StageClock& clock) {
+                        StageClock& clock, ClipPlanes planes) {
   return compute_through_ties(
-      atoms, [&](std::span<const Ball> balls) { return attempt_surface(engine, balls, probe_radius, clock); });
+      atoms, [&](std::span<const Ball> balls) { return attempt_surface(engine, balls, probe_radius, clock, planes); });
 }
 
 Surface compute_surface_cpu(std::span<const Ball> atoms, double probe_radius) {

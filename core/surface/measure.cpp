@@ -34,7 +34,7 @@ struct FaceIntegrals {
 
 class Measurement {
  public:
-  explicit Measurement(Surface& surface) : s_(surface) {
+  Measurement(Surface& surface, const ConvexPlanes& planes) : s_(surface), planes_(planes) {
     glm::dvec3 low(0.0), high(0.0);
     for (std::size_t a = 0; a < s_.atoms.size(); ++a) {
       low = a ? glm::min(low, s_.atoms[a].center) : s_.atoms[a].center;
@@ -60,7 +60,7 @@ class Measurement {
       if (measured[f].doubtful) doubts.doubtful.push_back(f);
       if (measured[f].disputed) doubts.disputed.push_back(f);
     }
-    const std::vector<ComponentKind> sides = side_of_components(s_);
+    const std::vector<ComponentKind> sides = side_of_components(s_, planes_);
     for (std::size_t c = 0; c < s_.components.size(); ++c) {
       Component& component = s_.components[c];
       component.kind = sides[c];
@@ -121,9 +121,8 @@ class Measurement {
   // is known to lie in the face or beside it.
   double area_about_pole(const Face& face, const glm::dvec3& center, double radius, bool seen_from_inside,
                          std::vector<SphereArc>& loop) const {
-    const Antipode antipode = face.kind == PatchKind::concave
-                                  ? beside_concave(s_.concave[face.patch])
-                                  : farthest_known(face, s_.convex[face.patch], center, radius, loop);
+    const Antipode antipode = face.kind == PatchKind::concave ? beside_concave(s_.concave[face.patch])
+                                                              : farthest_known(face, center, radius, loop);
     double area = antipode.inside ? 4 * kPi : 0;
     for (std::uint32_t l = face.first_loop; l < face.first_loop + face.loop_count; ++l) {
       walk_loop(s_, s_.loops[l], center, radius, seen_from_inside, loop);
@@ -148,13 +147,13 @@ class Measurement {
 
   // Of the middles of the caps that neighbours cover, none of which is in the patch, and, if the patch is one piece, of
   // some fixed directions whose side all planes know: the one farthest from the face's loops.
-  Antipode farthest_known(const Face& face, const ConvexPatch& patch, const glm::dvec3& center, double radius,
+  Antipode farthest_known(const Face& face, const glm::dvec3& center, double radius,
                           std::vector<SphereArc>& loop) const {
     std::vector<Antipode> candidates;
-    const std::span<const Plane> planes(s_.planes.data() + patch.first_plane, patch.plane_count);
+    const std::vector<Plane> planes = planes_(face.patch, PlaneChoice::all);
     for (const Plane& plane : planes)
       if (plane.offset - glm::dot(plane.normal, center) < radius) candidates.push_back({plane.normal, false});
-    if (patch.face_count == 1)
+    if (s_.convex[face.patch].face_count == 1)
       for (int n = 0; n < 27; ++n) {
         if (n == 13) continue;
         const glm::dvec3 direction = glm::normalize(glm::dvec3(n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1));
@@ -213,12 +212,17 @@ class Measurement {
   }
 
   Surface& s_;
+  const ConvexPlanes& planes_;
   glm::dvec3 origin_{0.0};
 };
 
 }  // namespace
 
-MeasurementDoubts measure_surface(Surface& surface) { return Measurement(surface).run(); }
+MeasurementDoubts measure_surface(Surface& surface, const ConvexPlanes& planes) {
+  return Measurement(surface, planes).run();
+}
+
+MeasurementDoubts measure_surface(Surface& surface) { return measure_surface(surface, listed_planes(surface)); }
 
 std::array<double, 2> contact_tube_angles(const Surface& surface, const ToroidalPatch& patch) {
   const Ball &a = surface.atoms[patch.atom[0]], &b = surface.atoms[patch.atom[1]];

@@ -20,7 +20,8 @@ struct MeasurementDoubts {
 /// first, then cavities, each by falling area. Areas by Gauss-Bonnet, volumes by the divergence theorem; both are
 /// sums of closed forms over borders, so the error is rounding only. Where ties have left a face with corners beside
 /// its circles its area is integrated about a pole instead, which needs no tangents.
-MeasurementDoubts measure_surface(Surface& surface);
+MeasurementDoubts measure_surface(Surface& surface, const ConvexPlanes& planes);
+MeasurementDoubts measure_surface(Surface& surface);  ///< by the planes that its tables list
 
 /// Tube angles of a torus: the latitude on the probe, from the direction to the axis towards atom[1].
 /// Those of the contacts with atom[0] and atom[1].

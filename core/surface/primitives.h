@@ -14,6 +14,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -188,5 +189,21 @@ struct Surface {
   SurfaceCounts counts() const;
   bool spindle(const ToroidalPatch& t) const { return crosses_axis(t, atoms, probe_radius); }
 };
+
+/// Where the clip planes of convex patches (by their index) come from: the tables of a surface, or whoever finds them
+/// for the few that are asked for.
+enum class PlaneChoice {
+  bordering,  ///< at least the contact circles that border the patch: what they leave holds all of it
+  all         ///< those that leave the patch and nothing else
+};
+using ConvexPlanes = std::function<std::vector<Plane>(std::uint32_t, PlaneChoice)>;
+
+/// Those that the tables list.
+inline ConvexPlanes listed_planes(const Surface& surface) {
+  return [&surface](std::uint32_t convex, PlaneChoice) {
+    const Plane* first = surface.planes.data() + surface.convex[convex].first_plane;
+    return std::vector<Plane>(first, first + surface.convex[convex].plane_count);
+  };
+}
 
 }  // namespace meniscus

@@ -158,11 +158,9 @@ double distance_left_of(const glm::dvec3& point, std::span<const SphereArc> loop
   for (std::size_t n = 0; n < loop.size(); ++n) {
     const SphereArc& arc = loop[n];
     const glm::dvec3 on_arc = nearest_of_circle(arc, point);
-    if (arc.whole || on_sweep(arc, on_arc)) {
-      if (const double cosine = glm::dot(on_arc, point); cosine > nearest) {
-        nearest = cosine;
-        left = (glm::dot(arc.axis, point) > arc.height) == !arc.clockwise();
-      }
+    if (const double cosine = glm::dot(on_arc, point); cosine > nearest && (arc.whole || on_sweep(arc, on_arc))) {
+      nearest = cosine;
+      left = (glm::dot(arc.axis, point) > arc.height) == !arc.clockwise();
     }
     if (arc.whole) continue;
     if (const double cosine = glm::dot(arc.to, point); cosine > nearest) {

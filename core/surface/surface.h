@@ -13,12 +13,19 @@ class CuspTracer;
 class ReducedSurfaceEngine;
 struct ReducedSurface;
 
+/// Whether a surface gets the clip planes of its convex patches (ConvexPatch::planes), a fifth of the work.
+enum class ClipPlanes {
+  listed,   ///< it can be drawn, exported and divided
+  left_out  ///< no convex patch has any: for numbers, borders and areas. The certificate is as strict
+};
+
 /// Builds all patches, their borders, faces and components, their areas and volumes (closed form) and the certificate.
 /// `rs` must have been computed for the same `atoms` and `probe_radius`.
 /// Look at the result's certificate, or call require_closed(), before using it.
 /// Adds the time of each stage to `clock` if there is one. Singularities are traced by `tracer`, by default on the CPU.
 Surface assemble_surface(std::span<const Ball> atoms, double probe_radius, const ReducedSurface& rs,
-                         StageClock* clock = nullptr, CuspTracer* tracer = nullptr);
+                         StageClock* clock = nullptr, CuspTracer* tracer = nullptr,
+                         ClipPlanes planes = ClipPlanes::listed);
 
 /// Throws OpenSurfaceError, naming atoms by their index, unless the certificate says the surface is closed.
 void require_closed(const Surface& surface);
@@ -27,11 +34,11 @@ void require_closed(const Surface& surface);
 /// atoms: vdW balls in Å; probe_radius >= 0 in Å. Adds the time of each stage to `clock`. Throws GpuError,
 /// CapacityError.
 Surface attempt_surface(ReducedSurfaceEngine& engine, std::span<const Ball> atoms, double probe_radius,
-                        StageClock& clock);
+                        StageClock& clock, ClipPlanes planes = ClipPlanes::listed);
 
 /// The same in as many attempts as ties ask for (tie_ladder.h).
 Surface compute_surface(ReducedSurfaceEngine& engine, std::span<const Ball> atoms, double probe_radius,
-                        StageClock& clock);
+                        StageClock& clock, ClipPlanes planes = ClipPlanes::listed);
 
 /// The complete surface in double precision on the CPU, on all cores TBB may use.
 /// atoms: vdW balls in Å; probe_radius >= 0 in Å. Throws OpenSurfaceError, CapacityError.

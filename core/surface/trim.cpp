@@ -36,42 +36,45 @@ struct BorderArc {
   auto operator<=>(const BorderArc&) const = default;
 };
 
-struct Worker {
-  std::vector<std::uint32_t> kept;
-  Blockers blockers;
-  std::vector<std::uint32_t> neighbors;
-  Contour contour;
-};
+}  // namespace
 
-class ConvexTrimmer {
+class ConvexTrimmer::Search {
  public:
-  ConvexTrimmer(Surface& surface, const ReducedSurface& rs)
-      : s_(surface), largest_(0), weights_(decision_weights(surface.atoms, surface.probe_radius)) {
-    for (const Ball& b : s_.atoms) largest_ = std::max(largest_, b.radius + s_.probe_radius + 2e-9);
+  Search(const Surface& surface, const ReducedSurface& rs)
+      : s_(surface),
+        largest_(largest_radius(surface)),
+        grid_(surface.atoms, largest_),
+        weights_(decision_weights(surface.atoms, surface.probe_radius)) {
     list_arcs(rs);
   }
 
-  void run() {
-    const BallGrid grid(s_.atoms, largest_);
-    std::vector<std::vector<std::uint32_t>> kept(s_.convex.size());
-    tbb::enumerable_thread_specific<Worker> workers;
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, s_.convex.size(), 32), [&](const auto& range) {
-      Worker& w = workers.local();
-      for (std::size_t c = range.begin(); c != range.end(); ++c) {
-        choose(s_.convex[c].atom, grid, w);
-        kept[c] = w.kept;
-      }
-    });
-    for (std::size_t c = 0; c < kept.size(); ++c) {
-      ConvexPatch& patch = s_.convex[c];
-      patch.first_plane = static_cast<std::uint32_t>(s_.planes.size());
-      patch.plane_count = static_cast<std::uint32_t>(kept[c].size());
-      for (std::uint32_t b : kept[c])
-        s_.planes.push_back(contact_plane(s_.atoms[patch.atom], s_.atoms[b], s_.probe_radius));
-    }
+  std::uint32_t patch_count() const { return static_cast<std::uint32_t>(s_.convex.size()); }
+
+  // One thread's lists.
+  struct Worker {
+    std::vector<std::uint32_t> kept;
+    Blockers blockers;
+    std::vector<std::uint32_t> neighbors;
+    Contour contour;
+  };
+
+  std::vector<Plane> planes_of(std::uint32_t convex, PlaneChoice choice, Worker& w) const {
+    const std::uint32_t a = s_.convex[convex].atom;
+    keep_bordering(a, w);
+    if (choice == PlaneChoice::all) keep_covering(a, w);
+    std::vector<Plane> planes;
+    planes.reserve(w.kept.size());
+    for (const std::uint32_t b : w.kept) planes.push_back(contact_plane(s_.atoms[a], s_.atoms[b], s_.probe_radius));
+    return planes;
   }
 
  private:
+  static double largest_radius(const Surface& surface) {
+    double largest = 0;
+    for (const Ball& b : surface.atoms) largest = std::max(largest, b.radius + surface.probe_radius + 2e-9);
+    return largest;
+  }
+
   // The true borders of every atom's patch, sorted by partner. From the far atom an arc runs the other way.
   void list_arcs(const ReducedSurface& rs) {
     first_.assign(s_.atoms.size() + 1, 0);
@@ -97,42 +100,46 @@ class ConvexTrimmer {
     w.blockers.add(s_.atoms[b].center - s_.atoms[a].center, weights_[b], b);
   }
 
-  // While some kept circle shows an arc that another atom covers, that atom's circle is needed as well. When none
-  // does, the kept circles bound the patch: a spurious piece would have a spurious border on one of them.
-  void choose(std::uint32_t a, const BallGrid& grid, Worker& w) const {
+  void keep_bordering(std::uint32_t a, Worker& w) const {
     w.kept.clear();
     w.blockers.restart(weights_[a]);
     w.neighbors.clear();
     for (const BorderArc& arc : arcs_of(a))
       if (std::find(w.kept.begin(), w.kept.end(), arc.partner) == w.kept.end()) keep(a, arc.partner, w);
-    for (std::size_t n = 0; n < w.blockers.size();) {
+  }
+
+  // While some kept circle shows an arc that another atom covers, that atom's circle is needed as well. When none
+  // does, the kept circles bound the patch: a spurious piece would have a spurious border on one of them.
+  void keep_covering(std::uint32_t a, Worker& w) const {
+    for (std::size_t n = 0; n < w.blockers.size(); ++n) {
       w.contour.expose(w.blockers[n].center, w.blockers[n].weight, w.blockers, n);
-      const std::uint32_t missing = missing_on_circle(a, w.blockers[n].label, grid, w);
-      if (missing == kNone)
-        ++n;
-      else
+      for (;;) {
+        const std::uint32_t missing = missing_on_circle(a, w.blockers[n].label, w);
+        if (missing == kNone) break;
         keep(a, missing, w);
+        w.contour.expose_further(w.blockers[n].center, w.blockers[n].weight, w.blockers, n);
+      }
     }
   }
 
   // An atom that covers part of what the contour shows of the circle (a, b), or kNone if the contour is right.
-  std::uint32_t missing_on_circle(std::uint32_t a, std::uint32_t b, const BallGrid& grid, Worker& w) const {
+  std::uint32_t missing_on_circle(std::uint32_t a, std::uint32_t b, Worker& w) const {
     const auto arcs = arcs_of(a);
     const auto known = [&](const BorderArc& arc) { return std::find(arcs.begin(), arcs.end(), arc) != arcs.end(); };
-    if (w.contour.whole()) return known({b, kNone, kNone}) ? kNone : covering(a, 0.0, grid, w);
+    if (w.contour.whole()) return known({b, kNone, kNone}) ? kNone : covering(a, 0.0, w);
     for (const ExposedArc& arc : w.contour.arcs()) {
       if (known({b, arc.begin_by, arc.end_by})) continue;
       const double middle = arc.begin + 0.5 * geometry::pseudo_sweep(arc.begin, arc.end);
-      const std::uint32_t missing = covering(a, middle < 4 ? middle : middle - 4, grid, w);
+      const std::uint32_t missing = covering(a, middle < 4 ? middle : middle - 4, w);
       if (missing != kNone) return missing;
     }
     return kNone;
   }
 
   // The atom that covers the point of the contour's circle at this pseudo-angle deepest, or kNone.
-  std::uint32_t covering(std::uint32_t a, double pseudo, const BallGrid& grid, Worker& w) const {
+  std::uint32_t covering(std::uint32_t a, double pseudo, Worker& w) const {
     if (w.neighbors.empty())
-      grid.for_each_near(s_.atoms[a].center, s_.atoms[a].radius + s_.probe_radius + largest_, [&](std::uint32_t b) {
+      grid_.for_each_near(s_.atoms[a].center, s_.atoms[a].radius + s_.probe_radius + largest_, [&](std::uint32_t b) {
         if (b != a) w.neighbors.push_back(b);
       });
     const geometry::Circle& c = w.contour.circle();
@@ -150,14 +157,33 @@ class ConvexTrimmer {
     return deepest;
   }
 
-  Surface& s_;
+  const Surface& s_;
   double largest_;
+  BallGrid grid_;
   std::vector<double> weights_;
   std::vector<std::uint32_t> first_;
   std::vector<BorderArc> arcs_;
 };
 
-}  // namespace
+ConvexTrimmer::ConvexTrimmer(const Surface& surface, const ReducedSurface& rs)
+    : search_(std::make_unique<Search>(surface, rs)) {}
+ConvexTrimmer::~ConvexTrimmer() = default;
+
+std::vector<Plane> ConvexTrimmer::planes_of(std::uint32_t convex, PlaneChoice choice) const {
+  Search::Worker worker;
+  return search_->planes_of(convex, choice, worker);
+}
+
+std::vector<std::vector<Plane>> ConvexTrimmer::all_planes() const {
+  std::vector<std::vector<Plane>> planes(search_->patch_count());
+  tbb::enumerable_thread_specific<Search::Worker> workers;
+  tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, search_->patch_count(), 32), [&](const auto& range) {
+    Search::Worker& worker = workers.local();
+    for (std::uint32_t c = range.begin(); c != range.end(); ++c)
+      planes[c] = search_->planes_of(c, PlaneChoice::all, worker);
+  });
+  return planes;
+}
 
 void list_concave_patches(Surface& surface, const FixedProbes& probes, const CuspParts& cusps) {
   surface.cuts = cusps.cuts;
@@ -190,6 +216,18 @@ void list_concave_patches(Surface& surface, const FixedProbes& probes, const Cus
   });
 }
 
-void trim_convex_patches(Surface& surface, const ReducedSurface& rs) { ConvexTrimmer(surface, rs).run(); }
+void trim_convex_patches(Surface& surface, const ReducedSurface& rs) {
+  const std::vector<std::vector<Plane>> planes = ConvexTrimmer(surface, rs).all_planes();
+  std::size_t count = surface.planes.size();
+  for (std::size_t c = 0; c < planes.size(); ++c) {
+    surface.convex[c].first_plane = static_cast<std::uint32_t>(count);
+    surface.convex[c].plane_count = static_cast<std::uint32_t>(planes[c].size());
+    count += planes[c].size();
+  }
+  surface.planes.resize(count);
+  tbb::parallel_for(std::size_t{0}, planes.size(), [&](std::size_t c) {
+    std::ranges::copy(planes[c], surface.planes.begin() + surface.convex[c].first_plane);
+  });
+}
 
 }  // namespace meniscus

@@ -2,6 +2,10 @@
 // The clip planes of spherical patches: as few as bound exactly the patch and nothing else.
 #pragma once
 
+#include <cstdint>
+#include <memory>
+#include <vector>
+
 #include "core/surface/cusps.h"
 #include "core/surface/fixed_probes.h"
 #include "core/surface/primitives.h"
@@ -13,8 +17,26 @@ namespace meniscus {
 /// towards every probe that reaches into it.
 void list_concave_patches(Surface& surface, const FixedProbes& probes, const CuspParts& cusps);
 
-/// Fills in the planes of the convex patches: the contact circles that border the patch, and further ones until the
-/// bordering circles bound no spurious piece of sphere any more.
+/// Finds the planes of convex patches: the contact circles that border the patch, and further ones until the bordering
+/// circles bound no spurious piece of sphere any more.
+class ConvexTrimmer {
+ public:
+  /// Both live longer.
+  ConvexTrimmer(const Surface& surface, const ReducedSurface& rs);
+  ~ConvexTrimmer();
+
+  /// Those of one convex patch. Several threads may ask.
+  std::vector<Plane> planes_of(std::uint32_t convex, PlaneChoice choice) const;
+
+  /// Those of all convex patches, one list for each.
+  std::vector<std::vector<Plane>> all_planes() const;
+
+ private:
+  class Search;
+  std::unique_ptr<const Search> search_;
+};
+
+/// Fills in the planes of the convex patches.
 void trim_convex_patches(Surface& surface, const ReducedSurface& rs);
 
 }  // namespace meniscus

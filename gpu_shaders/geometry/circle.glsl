@@ -118,6 +118,18 @@ GEOMETRY HalfPlane half_plane_past_axis(Circle c, real3 direction, real3 axis_po
   return h;
 }
 
+// Most balls miss a circle or cover all of it, and surely so; telling that needs no half-plane. offset: negative if the ball
+// covers the circle. w0: weight of the circle's first ball; noise: half_plane_noise(); the numbers of the ball as in Blocker;
+// epsilon: unit roundoff of `real`.
+GEOMETRY bool surely_apart(Circle c, real w0, real noise, real3 center, real square, real distance, real half_power,
+                           real epsilon, GEOMETRY_OUT(real) offset) {
+  real along = dot(c.axis, center);
+  offset = (half_power - c.height * along) * c.inverse_radius;
+  real beyond = abs(offset) - noise * (square + w0) * (real(1) + distance * c.inverse_radius);
+  // The right side is never below zero.
+  return beyond * abs(beyond) > square * (real(1) + real(90) * epsilon) - along * along;
+}
+
 // How a ball meets the whole circle.
 const int kMisses = 0;
 const int kCuts = 1;

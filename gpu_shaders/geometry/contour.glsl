@@ -39,9 +39,8 @@ GEOMETRY void expose_arc(ExposedArc arc) {
   else exposed_doubtful = true;
 }
 
-// Takes away what a half-plane covers that cuts the circle.
-GEOMETRY void cover(HalfPlane h, uint label) {
-  CoveredArc covered = covered_arc(h);
+// Takes an arc away from what is left of the circle.
+GEOMETRY void cover_arc(CoveredArc covered, uint label) {
   exposed_error = max(exposed_error, covered.error);
   if (exposed_whole) {
     exposed_whole = false;
@@ -63,15 +62,14 @@ GEOMETRY void cover(HalfPlane h, uint label) {
   if (split) expose_arc(second);
 }
 
+// Takes away what a half-plane covers that cuts the circle.
+GEOMETRY void cover(HalfPlane h, uint label) { cover_arc(covered_arc(h), label); }
+
 // One ball against what is left of the circle.
 GEOMETRY void block(Blocker ball, uint label) {
-  // Most balls miss the circle or cover all of it; that needs no half-plane.
-  real along = dot(contour_circle.axis, ball.center);
-  real offset = (ball.half_power - contour_circle.height * along) * contour_circle.inverse_radius;
-  real beyond = abs(offset) - contour_noise * (ball.square + contour_weight) *
-                                  (real(1) + ball.distance * contour_circle.inverse_radius);
-  if (beyond > real(0) &&
-      beyond * beyond > ball.square * (real(1) + real(90) * kUnitRoundoff) - along * along) {
+  real offset;
+  if (surely_apart(contour_circle, contour_weight, contour_noise, ball.center, ball.square, ball.distance, ball.half_power,
+                   kUnitRoundoff, offset)) {
     if (offset < real(0)) cover_everything();
     return;
   }

@@ -217,7 +217,7 @@ TEST(SideOfComponents, AgreesWithTheSignOfTheVolume) {
   std::mt19937 random(3);
   std::size_t cavities = 0;
   const auto expect_agreement = [&](const Surface& surface) {
-    const std::vector<ComponentKind> sides = side_of_components(surface);
+    const std::vector<ComponentKind> sides = side_of_components(surface, listed_planes(surface));
     ASSERT_EQ(sides.size(), surface.components.size());
     for (std::size_t c = 0; c < sides.size(); ++c) {
       if (std::abs(surface.components[c].volume) < 1e-6) continue;

@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "core/reduced_surface/cpu/exhaustive.h"
 #include "core/surface/surface.h"
 #include "tests/support/molecules.h"
 #include "tests/support/patch_samples.h"
@@ -125,6 +126,25 @@ TEST(Merging, IsOfProbesWithinAMillionthOfAnAngstrom) {
     const Surface s = compute_surface_cpu(opened_square(distance / apart), kWater);
     EXPECT_EQ(s.counts().fixed_probes, 2u) << distance;
     EXPECT_EQ(s.counts().arcs, 4u) << distance;
+  }
+}
+
+// What needs no planes is the same without them, whatever the certificate says; the few that it asks for are found.
+TEST(Trim, NumbersNeedNoPlanes) {
+  std::vector<Balls> cases{gap_behind_three(2 * kPi / 180)};
+  for (const unsigned seed : {1u, 2u, 3u}) cases.push_back(gas(seed, 400, 25, 1.2, 2.0));
+  for (const Balls& balls : cases) {
+    const ReducedSurface rs = enumerate_reduced_surface(balls, kWater);
+    const Surface drawn = assemble_surface(balls, kWater, rs);
+    const Surface numbers = assemble_surface(balls, kWater, rs, nullptr, nullptr, ClipPlanes::left_out);
+    EXPECT_EQ(numbers.certificate.closed, drawn.certificate.closed);
+    EXPECT_EQ(numbers.certificate.open_atoms, drawn.certificate.open_atoms);
+    EXPECT_EQ(numbers.area, drawn.area);
+    EXPECT_EQ(numbers.volume, drawn.volume);
+    ASSERT_EQ(numbers.faces.size(), drawn.faces.size());
+    for (std::size_t f = 0; f < drawn.faces.size(); ++f) EXPECT_EQ(numbers.faces[f].area, drawn.faces[f].area);
+    EXPECT_LT(numbers.planes.size(), drawn.planes.size());
+    for (const ConvexPatch& patch : numbers.convex) EXPECT_EQ(patch.plane_count, 0u);
   }
 }
 

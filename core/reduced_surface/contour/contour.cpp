@@ -29,38 +29,49 @@ quad_geometry::real3 quad(const glm::dvec3& a) { return {a.x, a.y, a.z}; }
 
 }  // namespace
 
-void Blockers::restart(double first_weight) {
-  first_weight_ = first_weight;
-  balls_.clear();
-}
-
-void Blockers::add(const glm::dvec3& center, double weight, std::uint32_t label) {
-  balls_.push_back({geometry::blocking_ball(center, weight, first_weight_), label});
-}
-
-void Blockers::sort() {
-  std::sort(balls_.begin(), balls_.end(), [](const Ball& a, const Ball& b) { return a.square < b.square; });
-}
-
 void Contour::expose(const glm::dvec3& d, double w1, const Blockers& blockers, std::size_t skip,
                      std::span<const BlockedHalf> halves) {
-  const double w0 = blockers.first_weight();
-  left_.begin_contour(geometry::circle_of_two_spheres(d, w0, w1), w0);
-  const double barely = 1024 * geometry::kUnitRoundoff * w0;
-  if (circle().radius_squared < -barely) return left_.cover_everything();
-  // Where the spheres barely meet, if they do, the sign itself needs the better arithmetic.
-  const bool sure = circle().radius_squared > barely;
-  if (sure) expose_in_double(blockers, skip, halves);
-  if (sure && !left_.exposed_doubtful) return;
+  if (expose_surely(d, w1, blockers, skip, halves, CoverOrder::given)) return;
   ++doubtful_count_;
   expose_in_quad(d, w1, blockers, skip, halves);
 }
 
-void Contour::expose_in_double(const Blockers& blockers, std::size_t skip, std::span<const BlockedHalf> halves) {
+bool Contour::expose_surely(const glm::dvec3& d, double w1, const Blockers& blockers, std::size_t skip,
+                            std::span<const BlockedHalf> halves, CoverOrder order) {
+  const double w0 = blockers.first_weight();
+  left_.begin_contour(geometry::circle_of_two_spheres(d, w0, w1), w0);
+  const double barely = 1024 * geometry::kUnitRoundoff * w0;
+  const bool apart = circle().radius_squared < -barely;
+  if (apart) left_.cover_everything();
+  // Where the spheres barely meet, if they do, the sign itself needs the better arithmetic.
+  sure_ = apart || circle().radius_squared > barely;
+  if (apart || !sure_) return sure_;
   for (std::size_t n = 0; n < halves.size() && !left_.contour_ended(); ++n)
     left_.cover(halves[n].half_plane, halves[n].label);
-  for (std::size_t n = 0; n < blockers.size() && !left_.contour_ended(); ++n)
-    if (n != skip) left_.block(blockers[n], blockers[n].label);
+  if (!left_.contour_ended()) {
+    meetings_.find(circle(), left_.contour_noise, blockers, skip);
+    cover_in_turn(blockers, order);
+  }
+  return sure_ = !left_.exposed_doubtful;
+}
+
+void Contour::cover_in_turn(const Blockers& blockers, CoverOrder order) {
+  if (meetings_.covered()) return left_.cover_everything();
+  const auto cover = [&](std::size_t n) {
+    if (meetings_.doubtful(n)) left_.exposed_doubtful = true;
+    left_.cover_arc(meetings_.arc(n), blockers.label(meetings_.blocker(n)));
+  };
+  const std::size_t first = order == CoverOrder::widest_first ? meetings_.widest() : meetings_.count();
+  if (first < meetings_.count()) cover(first);
+  for (std::size_t n = 0; n < meetings_.count() && !left_.contour_ended(); ++n)
+    if (n != first) cover(n);
+}
+
+void Contour::expose_further(const glm::dvec3& d, double w1, const Blockers& blockers, std::size_t skip) {
+  if (!sure_) return expose(d, w1, blockers, skip);
+  const Blockers::Ball ball = blockers[blockers.size() - 1];
+  if (!left_.contour_ended()) left_.block(ball, ball.label);
+  if (left_.exposed_doubtful) expose(d, w1, blockers, skip);
 }
 
 void Contour::expose_in_quad(const glm::dvec3& d, double w1, const Blockers& blockers, std::size_t skip,

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/math/geometry.h"
+#include "core/reduced_surface/contour/blockers.h"
 
 namespace meniscus {
 
@@ -31,42 +32,33 @@ struct Remainder {
 
 using geometry::ExposedArc;
 
-/// Balls that may cover parts of circles around one first ball.
-class Blockers {
- public:
-  /// Starts anew for circles of a first ball with this weight.
-  void restart(double first_weight);
-  /// center: relative to the first ball's.
-  void add(const glm::dvec3& center, double weight, std::uint32_t label);
-
-  /// Nearest first: near balls cover most, and a covered circle is done with.
-  void sort();
-
-  struct Ball : geometry::Blocker {
-    std::uint32_t label;
-  };
-  std::size_t size() const { return balls_.size(); }
-  const Ball& operator[](std::size_t n) const { return balls_[n]; }
-  double first_weight() const { return first_weight_; }
-
- private:
-  double first_weight_ = 0;
-  std::vector<Ball> balls_;
-};
-
 /// A part of the circle that is covered whatever the balls say: dot(normal, (x, y)) > offset in the circle's frame.
 struct BlockedHalf {
   geometry::HalfPlane half_plane;
   std::uint32_t label = 0;
 };
 
+/// In which order balls take from a circle what they cover of it. Which arcs are left does not depend on it, but their
+/// order does.
+enum class CoverOrder {
+  given,        ///< as the blockers stand
+  widest_first  ///< first the one that covers most: a circle of which nothing is left is soon done with
+};
+
 /// What is left of one circle. Reused from circle to circle to save allocations.
 class Contour {
  public:
   /// The circle of the blockers' first ball and the ball (d, w1) among them; the blocker at index `skip` is ignored.
-  /// Afterwards: whole() = nothing covers any of it; else arcs() (possibly none), in no particular order.
+  /// Afterwards: whole() = nothing covers any of it; else arcs() (possibly none).
   void expose(const glm::dvec3& d, double w1, const Blockers& blockers, std::size_t skip,
               std::span<const BlockedHalf> halves = {});
+
+  /// The same in double precision only, in any order. False if that leaves doubt: then nothing is known of the circle.
+  bool expose_surely(const glm::dvec3& d, double w1, const Blockers& blockers, std::size_t skip,
+                     std::span<const BlockedHalf> halves = {}, CoverOrder order = CoverOrder::widest_first);
+
+  /// What another ball leaves of the circle that expose() was last asked for. blockers: as then, and one more.
+  void expose_further(const glm::dvec3& d, double w1, const Blockers& blockers, std::size_t skip);
 
   bool whole() const { return left_.exposed_whole; }
   std::span<const ExposedArc> arcs() const { return {left_.exposed_arcs.data(), left_.exposed_count}; }
@@ -80,11 +72,13 @@ class Contour {
   }
 
  private:
-  void expose_in_double(const Blockers& blockers, std::size_t skip, std::span<const BlockedHalf> halves);
+  void cover_in_turn(const Blockers& blockers, CoverOrder order);
   void expose_in_quad(const glm::dvec3& d, double w1, const Blockers& blockers, std::size_t skip,
                       std::span<const BlockedHalf> halves);
 
   geometry::Remainder left_;
+  CircleMeetings meetings_;
+  bool sure_ = true;  // the last circle was decided in double precision
   std::size_t doubtful_count_ = 0;
 };
 

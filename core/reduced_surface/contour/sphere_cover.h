@@ -28,4 +28,17 @@ UncoveredDirections uncovered_directions(const Blockers& blockers);
 /// direction: then all of the circle is covered.
 bool may_be_exposed(const UncoveredDirections& uncovered, const glm::dvec3& axis, double cosine);
 
+/// Uncovered directions written out, for the many circles of one ball.
+class WatchedList {
+ public:
+  void assign(const UncoveredDirections& uncovered);
+  /// As the function of that name.
+  bool may_be_exposed(const glm::dvec3& axis, double cosine) const;
+
+ private:
+  static constexpr std::size_t kMost = 176;
+  std::size_t count_ = 0;  // up to whole vectors of 16
+  alignas(64) std::array<float, kMost> x_{}, y_{}, z_{};
+};
+
 }  // namespace meniscus

@@ -4,140 +4,176 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
-#include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
-#include <tbb/parallel_sort.h>
 
-#include "core/math/ball_grid.h"
 #include "core/reduced_surface/contour/contour.h"
 #include "core/reduced_surface/contour/sphere_cover.h"
+#include "core/reduced_surface/cpu/neighbor_search.h"
 
 namespace meniscus {
 namespace {
 
-// One worker's findings and its reusable lists.
-struct Worker {
-  std::vector<RsArc> arcs;
+// Atoms are named by their places in NeighborSearch, and go through the stages in groups of this size.
+constexpr std::size_t kGroup = 64;
+
+// What is known of the atoms of one group.
+struct Group {
+  std::vector<std::uint32_t> neighbors;  // atom after atom; none of buried atoms
+  std::vector<std::uint32_t> first;      // per atom, into neighbors; one past the last closes the list
+  std::vector<RsArc> arcs;               // atom after atom, those of each sorted
   std::vector<std::uint32_t> lone_atoms;
-  std::vector<std::pair<double, std::uint32_t>> near;  // squared distance, atom
-  Blockers blockers;
-  Contour contour;
   std::size_t pairs = 0;
+};
+
+// One worker's reusable lists.
+struct Worker {
+  NeighborSearch::Rows rows;
+  Blockers blockers;
+  Blockers nearest_first;  // sorted, of the atom nearest_of
+  std::size_t nearest_of = kNone;
+  WatchedList uncovered;
+  Contour contour;
 };
 
 class Enumeration {
  public:
   Enumeration(std::span<const Ball> atoms, double probe_radius)
-      : atoms_(atoms),
-        probe_radius_(probe_radius),
-        weights_(decision_weights(atoms, probe_radius)),
-        swallowed_(swallowed_atoms(atoms)),
-        largest_radius_(largest_radius(probe_radius)),
-        grid_(atoms, largest_radius_),
-        neighbors_(atoms.size()),
-        uncovered_(atoms.size()) {}
+      : atom_count_(atoms.size()),
+        search_(atoms, probe_radius, decision_weights(atoms, probe_radius), swallowed_atoms(atoms)),
+        uncovered_(search_.size()),
+        groups_((search_.size() + kGroup - 1) / kGroup) {}
 
   ReducedSurface run(CircleStats* stats) {
-    tbb::enumerable_thread_specific<Worker> workers;
-    const auto for_each_atom = [&](auto&& visit) {
-      const auto& order = grid_.order();
-      tbb::parallel_for(tbb::blocked_range<std::size_t>(0, order.size(), 64), [&](const auto& range) {
-        Worker& worker = workers.local();
-        for (std::size_t n = range.begin(); n != range.end(); ++n)
-          if (!swallowed_[order[n]]) visit(order[n], worker);
-      });
-    };
     // Nearly half of all atoms are buried, which is quickly told; their circles need no look.
-    for_each_atom([&](std::uint32_t i, Worker& worker) {
-      find_neighbors(i, worker);
-      list_blockers(i, worker.blockers);
-      uncovered_[i] = uncovered_directions(worker.blockers);
-      if (uncovered_[i].none()) neighbors_[i] = {};
-    });
-    for_each_atom([&](std::uint32_t i, Worker& worker) { visit_atom(i, worker); });
-    ReducedSurface rs;
-    for (const Worker& w : workers) {
-      rs.arcs.insert(rs.arcs.end(), w.arcs.begin(), w.arcs.end());
-      rs.lone_atoms.insert(rs.lone_atoms.end(), w.lone_atoms.begin(), w.lone_atoms.end());
-      if (stats) {
-        stats->pairs += w.pairs;
-        stats->decided_in_quadruple += w.contour.doubtful_count();
-      }
+    for_each_group([&](std::size_t group, Worker& worker) { look_around(group, worker); });
+    for_each_group([&](std::size_t group, Worker& worker) { list_arcs(group, worker); });
+    if (stats) {
+      for (const Group& group : groups_) stats->pairs += group.pairs / 2;
+      for (const Worker& worker : workers_) stats->decided_in_quadruple += worker.contour.doubtful_count();
     }
-    tbb::parallel_sort(rs.arcs.begin(), rs.arcs.end());
-    std::sort(rs.lone_atoms.begin(), rs.lone_atoms.end());
-    return rs;
+    return {sorted_arcs(), sorted_lone_atoms()};
   }
 
  private:
-  double largest_radius(double probe_radius) const {
-    double largest = 0;
-    for (const Ball& b : atoms_) largest = std::max(largest, b.radius + probe_radius);
-    return largest + 2e-9;
+  template <typename Visit>
+  void for_each_group(const Visit& visit) {
+    tbb::parallel_for(std::size_t{0}, groups_.size(), [&](std::size_t group) { visit(group, workers_.local()); });
   }
 
-  void visit_atom(std::uint32_t i, Worker& w) const {
-    if (uncovered_[i].none()) return;
-    list_blockers(i, w.blockers);
-    if (w.blockers.size() == 0) {
-      w.lone_atoms.push_back(i);
-      return;
+  std::size_t past_last(std::size_t group) const { return std::min((group + 1) * kGroup, search_.size()); }
+
+  std::span<const std::uint32_t> neighbors_of(std::size_t place) const {
+    const Group& group = groups_[place / kGroup];
+    const std::uint32_t* first = group.first.data() + place % kGroup;
+    return {group.neighbors.data() + first[0], group.neighbors.data() + first[1]};
+  }
+
+  void look_around(std::size_t number, Worker& w) {
+    Group& group = groups_[number];
+    group.first.assign(1, 0);
+    for (std::size_t place = number * kGroup; place < past_last(number); ++place) {
+      const std::size_t known = group.neighbors.size();
+      search_.append_neighbors(place, w.rows, group.neighbors);
+      group.pairs += group.neighbors.size() - known;
+      search_.list_blockers(place, std::span(group.neighbors).subspan(known), w.blockers);
+      uncovered_[place] = uncovered_directions(w.blockers);
+      if (uncovered_[place].none()) group.neighbors.resize(known);
+      group.first.push_back(static_cast<std::uint32_t>(group.neighbors.size()));
     }
-    for (std::size_t n = 0; n < w.blockers.size(); ++n) {
-      const std::uint32_t j = w.blockers[n].label;
-      if (j < i) continue;
-      if (surely_covered(i, w.blockers[n])) continue;
-      w.contour.expose(w.blockers[n].center, weights_[j], w.blockers, n);
-      if (w.contour.whole()) w.arcs.push_back({i, j, kNone, kNone});
-      for (const ExposedArc& arc : w.contour.arcs()) w.arcs.push_back({i, j, arc.begin_by, arc.end_by});
+    group.neighbors.shrink_to_fit();
+  }
+
+  void list_arcs(std::size_t number, Worker& w) {
+    Group& group = groups_[number];
+    for (std::size_t place = number * kGroup; place < past_last(number); ++place) {
+      if (uncovered_[place].none()) continue;
+      const auto neighbors = neighbors_of(place);
+      if (neighbors.empty()) group.lone_atoms.push_back(search_.atom(place));
+      const std::size_t known = group.arcs.size();
+      list_arcs_of(place, neighbors, w, group.arcs);
+      std::sort(group.arcs.begin() + static_cast<std::ptrdiff_t>(known), group.arcs.end());
+    }
+  }
+
+  // The circles of an atom and those with a higher index.
+  void list_arcs_of(std::size_t place, std::span<const std::uint32_t> neighbors, Worker& w, std::vector<RsArc>& arcs) {
+    search_.list_blockers(place, neighbors, w.blockers);
+    w.uncovered.assign(uncovered_[place]);
+    const std::uint32_t i = search_.atom(place);
+    for (std::size_t n = 0; n < neighbors.size(); ++n) {
+      const std::uint32_t j = search_.atom(neighbors[n]);
+      if (j < i || surely_covered(w, n)) continue;
+      const Blockers::Ball b = w.blockers[n];
+      if (!w.contour.expose_surely(b.center, b.weight, w.blockers, n)) expose_nearest_first(place, b, neighbors, w);
+      if (w.contour.whole()) arcs.push_back({i, j, kNone, kNone});
+      for (const ExposedArc& arc : w.contour.arcs())
+        arcs.push_back({i, j, search_.atom(arc.begin_by), search_.atom(arc.end_by)});
     }
   }
 
   // Seen from either atom, the circle must pass near a direction that is not surely covered.
-  bool surely_covered(std::uint32_t i, const Blockers::Ball& b) const {
-    if (uncovered_[b.label].none()) return true;
+  bool surely_covered(const Worker& w, std::size_t n) const {
+    const UncoveredDirections& beyond = uncovered_[w.blockers.label(n)];
+    if (beyond.none()) return true;
+    const Blockers::Ball b = w.blockers[n];
     if (!(b.distance > 1e-6)) return false;
-    const double height = b.half_power / b.distance, ri = std::sqrt(weights_[i]), rj = std::sqrt(b.weight);
-    const glm::dvec3 axis = b.center / b.distance;
-    return !may_be_exposed(uncovered_[i], axis, height / ri) ||
-           !may_be_exposed(uncovered_[b.label], -axis, (b.distance - height) / rj);
+    const double inverse = 1 / b.distance, height = b.half_power * inverse;
+    const glm::dvec3 axis = b.center * inverse;
+    return !w.uncovered.may_be_exposed(axis, height / std::sqrt(w.blockers.first_weight())) ||
+           !may_be_exposed(beyond, -axis, (b.distance - height) / std::sqrt(b.weight));
   }
 
-  // The balls that overlap ball i, nearest first: near balls cover most, and a covered circle is done with.
-  void find_neighbors(std::uint32_t i, Worker& w) {
-    w.near.clear();
-    const double radius = std::sqrt(weights_[i]);
-    grid_.for_each_near(atoms_[i].center, radius + largest_radius_, [&](std::uint32_t j) {
-      if (j == i || swallowed_[j]) return;
-      const glm::dvec3 d = atoms_[j].center - atoms_[i].center;
-      const double square = glm::dot(d, d);
-      const double reach = radius + atoms_[j].radius + probe_radius_ + 2e-9;  // not below the sum of the grown radii
-      if (square < reach * reach) w.near.emplace_back(square, j);
-    });
-    std::sort(w.near.begin(), w.near.end());
-    neighbors_[i].reserve(w.near.size());
-    for (const auto& [square, j] : w.near) {
-      neighbors_[i].push_back(j);
-      w.pairs += j > i;
+  // A circle that double leaves in doubt: nearest balls first, whatever order the grid gave.
+  void expose_nearest_first(std::size_t place, const Blockers::Ball& b, std::span<const std::uint32_t> neighbors,
+                            Worker& w) const {
+    if (w.nearest_of != place) {
+      std::vector<std::size_t> order(neighbors.size());
+      std::iota(order.begin(), order.end(), std::size_t{0});
+      const auto rank = [&](std::size_t n) { return std::pair(w.blockers[n].square, search_.atom(neighbors[n])); };
+      std::ranges::sort(order, {}, rank);
+      std::vector<std::uint32_t> sorted;
+      for (const std::size_t n : order) sorted.push_back(neighbors[n]);
+      search_.list_blockers(place, sorted, w.nearest_first);
+      w.nearest_of = place;
     }
+    std::size_t skip = 0;
+    while (w.nearest_first.label(skip) != b.label) ++skip;
+    w.contour.expose(b.center, b.weight, w.nearest_first, skip);
   }
 
-  void list_blockers(std::uint32_t i, Blockers& blockers) const {
-    blockers.restart(weights_[i]);
-    for (const std::uint32_t j : neighbors_[i]) blockers.add(atoms_[j].center - atoms_[i].center, weights_[j], j);
+  // By atoms: those of each stand together and are sorted already.
+  std::vector<RsArc> sorted_arcs() {
+    std::vector<std::uint32_t> first(atom_count_ + 1, 0);
+    for (const Group& group : groups_)
+      for (const RsArc& arc : group.arcs) ++first[arc.i + 1];
+    std::partial_sum(first.begin(), first.end(), first.begin());
+    std::vector<RsArc> arcs(first.back());
+    tbb::parallel_for(std::size_t{0}, groups_.size(), [&](std::size_t number) {
+      const std::vector<RsArc>& found = groups_[number].arcs;
+      for (std::size_t n = 0, of_atom = 0; n < found.size(); ++n) {
+        of_atom = n > 0 && found[n].i == found[n - 1].i ? of_atom + 1 : 0;
+        arcs[first[found[n].i] + of_atom] = found[n];
+      }
+    });
+    return arcs;
   }
 
-  std::span<const Ball> atoms_;
-  double probe_radius_;
-  std::vector<double> weights_;
-  std::vector<bool> swallowed_;
-  double largest_radius_;
-  BallGrid grid_;
-  std::vector<std::vector<std::uint32_t>> neighbors_;  // empty for buried atoms once that is known
+  std::vector<std::uint32_t> sorted_lone_atoms() const {
+    std::vector<std::uint32_t> lone;
+    for (const Group& group : groups_) lone.insert(lone.end(), group.lone_atoms.begin(), group.lone_atoms.end());
+    std::sort(lone.begin(), lone.end());
+    return lone;
+  }
+
+  std::size_t atom_count_;
+  NeighborSearch search_;
   std::vector<UncoveredDirections> uncovered_;
+  std::vector<Group> groups_;
+  tbb::enumerable_thread_specific<Worker> workers_;
 };
 
 }  // namespace

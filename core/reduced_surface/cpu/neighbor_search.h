@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Which balls overlap a ball: those of a grid's cells around it, tested many at once.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "core/math/ball_grid.h"
+#include "core/reduced_surface/contour/blockers.h"
+
+namespace meniscus {
+
+/// The SAS balls of atoms in the order of a grid's cells, where neighbours are near each other in the cache, too. Their
+/// places in this order name them here.
+class NeighborSearch {
+ public:
+  /// atoms: van der Waals balls; weights: decision weights; those left out are no neighbours, and have none.
+  NeighborSearch(std::span<const Ball> atoms, double probe_radius, std::span<const double> weights,
+                 const std::vector<bool>& left_out);
+
+  std::size_t size() const { return atom_.size(); }
+  std::uint32_t atom(std::size_t place) const { return atom_[place]; }
+  double weight(std::size_t place) const { return table_.column(kWeight)[place]; }
+
+  /// Of cells: places from the first to before the last.
+  using Rows = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
+
+  /// Appends the places of all balls that overlap that at `place`, or come within rounding of it; `rows` is scratch.
+  void append_neighbors(std::size_t place, Rows& rows, std::vector<std::uint32_t>& neighbors) const;
+
+  /// Lists these balls as blockers around the one at `place`; their labels are their places.
+  void list_blockers(std::size_t place, std::span<const std::uint32_t> neighbors, Blockers& blockers) const;
+
+ private:
+  enum Column : std::size_t { kX, kY, kZ, kRadius, kWeight, kColumnCount };
+
+  glm::dvec3 center(std::size_t place) const {
+    return {table_.column(kX)[place], table_.column(kY)[place], table_.column(kZ)[place]};
+  }
+
+  double probe_radius_;
+  double largest_radius_;  // SAS
+  BallGrid grid_;
+  std::vector<std::uint32_t> atom_;
+  ColumnTable<kColumnCount> table_;
+};
+
+}  // namespace meniscus

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// All balls at once leave of a circle what one ball after the other does, to the last bit, in any number and order; and
+// a circle that watched directions rule out is covered.
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <utility>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include "core/reduced_surface/contour/contour.h"
+#include "core/reduced_surface/contour/sphere_cover.h"
+
+namespace meniscus {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+class Random {
+ public:
+  explicit Random(unsigned seed) : engine_(seed) {}
+  double between(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine_); }
+  glm::dvec3 direction() {
+    std::normal_distribution<double> normal;
+    const double x = normal(engine_), y = normal(engine_), z = normal(engine_);
+    return glm::normalize(glm::dvec3(x, y, z));
+  }
+
+ private:
+  std::mt19937 engine_;
+};
+
+/// Up to 70 balls that overlap a first one of radius 3, as SAS balls of a protein do.
+Blockers surroundings(Random& random, int most) {
+  Blockers blockers;
+  blockers.restart(9);
+  const int count = 1 + static_cast<int>(random.between(0, most));
+  for (int n = 0; n < count; ++n) {
+    const double radius = random.between(2.6, 3.4);
+    blockers.add(random.between(1.2, 3 + radius - 0.01) * random.direction(), radius * radius, 100u + n);
+  }
+  return blockers;
+}
+
+/// The arcs of a circle by one ball after the other, in double precision.
+geometry::Remainder one_after_the_other(const Blockers& blockers, std::size_t circle) {
+  geometry::Remainder left;
+  const double w0 = blockers.first_weight();
+  left.begin_contour(geometry::circle_of_two_spheres(blockers[circle].center, w0, blockers[circle].weight), w0);
+  for (std::size_t n = 0; n < blockers.size() && !left.contour_ended(); ++n)
+    if (n != circle) left.block(blockers[n], blockers.label(n));
+  return left;
+}
+
+std::vector<std::pair<std::uint32_t, std::uint32_t>> sorted_ends(const Contour& contour) {
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> ends;
+  for (const ExposedArc& arc : contour.arcs()) ends.emplace_back(arc.begin_by, arc.end_by);
+  std::sort(ends.begin(), ends.end());
+  return ends;
+}
+
+TEST(Contour, AllBallsAtOnceLeaveWhatOneAfterTheOtherDoes) {
+  Random random(1);
+  Contour contour, any_order;
+  int whole = 0, partly = 0, covered = 0;
+  for (int n = 0; n < 3000; ++n) {
+    const Blockers blockers = surroundings(random, n % 3 == 0 ? 70 : 12);
+    const std::size_t circle = static_cast<std::size_t>(random.between(0, static_cast<double>(blockers.size())));
+    const geometry::Remainder expected = one_after_the_other(blockers, circle);
+    ASSERT_FALSE(expected.exposed_doubtful);
+    contour.expose(blockers[circle].center, blockers[circle].weight, blockers, circle);
+    ASSERT_EQ(contour.whole(), expected.exposed_whole) << n;
+    ASSERT_EQ(contour.arcs().size(), expected.exposed_count) << n;
+    for (std::size_t a = 0; a < expected.exposed_count; ++a) {
+      EXPECT_EQ(contour.arcs()[a].begin, expected.exposed_arcs[a].begin);
+      EXPECT_EQ(contour.arcs()[a].end, expected.exposed_arcs[a].end);
+      EXPECT_EQ(contour.arcs()[a].begin_by, expected.exposed_arcs[a].begin_by);
+      EXPECT_EQ(contour.arcs()[a].end_by, expected.exposed_arcs[a].end_by);
+    }
+    ASSERT_TRUE(any_order.expose_surely(blockers[circle].center, blockers[circle].weight, blockers, circle));
+    EXPECT_EQ(any_order.whole(), contour.whole());
+    EXPECT_EQ(sorted_ends(any_order), sorted_ends(contour)) << n;
+    ++(contour.whole() ? whole : contour.arcs().empty() ? covered : partly);
+  }
+  EXPECT_GT(whole, 50);
+  EXPECT_GT(partly, 500);
+  EXPECT_GT(covered, 500);
+}
+
+TEST(Contour, OneMoreBallLeavesWhatAllOfThemDo) {
+  Random random(2);
+  Contour step_by_step, at_once;
+  for (int n = 0; n < 500; ++n) {
+    const Blockers all = surroundings(random, 12);
+    Blockers some;
+    some.restart(all.first_weight());
+    some.add(all[0].center, all[0].weight, all.label(0));
+    step_by_step.expose(all[0].center, all[0].weight, some, 0);
+    for (std::size_t k = 1; k < all.size(); ++k) {
+      some.add(all[k].center, all[k].weight, all.label(k));
+      step_by_step.expose_further(all[0].center, all[0].weight, some, 0);
+      at_once.expose(all[0].center, all[0].weight, some, 0);
+      ASSERT_EQ(step_by_step.whole(), at_once.whole());
+      ASSERT_EQ(step_by_step.arcs().size(), at_once.arcs().size());
+      for (std::size_t a = 0; a < at_once.arcs().size(); ++a)
+        EXPECT_EQ(step_by_step.arcs()[a].begin, at_once.arcs()[a].begin);
+    }
+  }
+}
+
+TEST(Contour, ACircleWhoseSpheresBarelyMeetIsDecidedInQuadruplePrecision) {
+  Blockers blockers;
+  blockers.restart(9);
+  blockers.add({0, 0, 6 - 1e-15}, 9, 1);
+  Contour contour;
+  EXPECT_FALSE(contour.expose_surely(blockers[0].center, blockers[0].weight, blockers, 0));
+  contour.expose(blockers[0].center, blockers[0].weight, blockers, 0);
+  EXPECT_EQ(contour.doubtful_count(), 1u);
+}
+
+TEST(SphereCover, CirclesThatAreRuledOutAreCovered) {
+  Random random(3);
+  int ruled_out = 0, kept = 0;
+  for (int n = 0; n < 300; ++n) {
+    const Blockers blockers = surroundings(random, 70);
+    const UncoveredDirections uncovered = uncovered_directions(blockers);
+    WatchedList list;
+    list.assign(uncovered);
+    for (int k = 0; k < 20; ++k) {
+      const glm::dvec3 axis = random.direction();
+      const double cosine = random.between(-1, 1), sine = std::sqrt(1 - cosine * cosine);
+      const bool may_be = may_be_exposed(uncovered, axis, cosine);
+      EXPECT_EQ(list.may_be_exposed(axis, cosine), may_be);
+      ++(may_be ? kept : ruled_out);
+      if (may_be) continue;
+      const glm::dvec3 u = glm::normalize(glm::cross(axis, random.direction())), v = glm::cross(axis, u);
+      for (int s = 0; s < 60; ++s) {
+        const double t = 2 * kPi * s / 60;
+        const glm::dvec3 x = 3.0 * (cosine * axis + sine * (std::cos(t) * u + std::sin(t) * v));
+        bool inside = false;
+        for (std::size_t b = 0; b < blockers.size() && !inside; ++b)
+          inside = glm::dot(x - blockers[b].center, x - blockers[b].center) < blockers[b].weight;
+        EXPECT_TRUE(inside) << n << ' ' << k << ' ' << s;
+      }
+    }
+  }
+  EXPECT_GT(ruled_out, 500);
+  EXPECT_GT(kept, 500);
+}
+
+}  // namespace
+}  // namespace meniscus
