@@ -85,7 +85,8 @@ Shown read_inputs(PreviewCommand& command) {
   const std::optional<Camera> camera = given_camera(command.picture);
   Shown shown = read_run(command);
   shown.camera = camera;
-  if (command.molecule.surface.cpu) throw UsageError("--device cpu: the preview draws on GL; use auto, gpu or software");
+  if (command.molecule.surface.cpu)
+    throw UsageError("--device cpu: the preview draws on GL; use auto, gpu or software");
   if (!shown.structure.instances.empty())
     throw UsageError("--instances is for render and export; the preview draws atoms");
   ColorScheme& color = command.molecule.color;

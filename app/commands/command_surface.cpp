@@ -71,7 +71,8 @@ void run_sequence(const SurfaceCommand& command) {
     return command.json ? report_json_line(report, note) : report_row(report, note);
   };
   std::vector<FrameWorker> workers;
-  for (const auto& builder : frame_builders(frames, command.molecule, options, kSurfaceBytesPerAtom))
+  for (const auto& builder :
+       frame_builders(frames, command.molecule, options, kSurfaceBytesPerAtom * frames.structure().atoms.size()))
     workers.push_back([&text_of, builder](RunFrame frame) -> FinishFrame {
       const std::string text = text_of(builder->build(std::move(frame.structure)), {frame.number, frame.time});
       return [text] {

@@ -74,7 +74,8 @@ void run_sequence(const BlenderCommand& command) {
   const std::filesystem::path folder = command.output.path;
   const std::filesystem::path written = write_manifest(folder, command.output.existing(), manifest);
   std::vector<FrameWorker> workers;
-  for (const auto& builder : frame_builders(frames, command.molecule, command.frames, kMeshBytesPerAtom))
+  for (const auto& builder :
+       frame_builders(frames, command.molecule, command.frames, kMeshBytesPerAtom * frames.structure().atoms.size()))
     workers.push_back([&, builder](const RunFrame& frame) -> FinishFrame {
       const Molecule molecule = builder->build(frame.structure);
       std::vector<TriangleMesh> meshes = mesh_objects(molecule.objects, manifest.tolerance);

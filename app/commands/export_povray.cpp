@@ -69,7 +69,8 @@ void run_sequence(const PovrayCommand& command) {
     return MadeFrame{std::move(files)};
   };
   std::vector<FrameWorker> workers;
-  for (const auto& builder : frame_builders(frames, command.molecule, command.frames, kSurfaceBytesPerAtom))
+  for (const auto& builder :
+       frame_builders(frames, command.molecule, command.frames, kSurfaceBytesPerAtom * frames.structure().atoms.size()))
     workers.push_back([&, builder](RunFrame frame) -> FinishFrame {
       const Molecule molecule = builder->build(std::move(frame.structure));
       const povray::SceneReport report = scene.write_frame(molecule.objects, frame.place);

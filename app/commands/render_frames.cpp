@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -61,14 +62,19 @@ class PictureSink {
     check_image_path(path);
   }
 
-  std::vector<std::string> add(std::uint64_t number, const Framebuffer& picture) {
+  /// On any thread: writes the picture, or leaves to its turn that it is added to the film.
+  FinishFrame keep(std::uint64_t number, const Framebuffer& picture, bool shows_nothing) {
     if (film_) {
-      film_->add(srgb_pixels(picture, command_.background.value_or(glm::vec3(1.0f))));
-      return {};
+      auto pixels = std::make_shared<const std::vector<std::uint8_t>>(
+          srgb_pixels(picture, command_.background.value_or(glm::vec3(1.0f))));
+      return [this, pixels, shows_nothing] {
+        film_->add(*pixels);
+        return MadeFrame{{}, shows_nothing};
+      };
     }
     const std::string path = numbered_->at(number);
     write_image(path, picture, {command_.background, command_.output.existing()});
-    return {path};
+    return [path, shows_nothing] { return MadeFrame{{path}, shows_nothing}; };
   }
 
   void finish() {
@@ -81,61 +87,84 @@ class PictureSink {
   std::unique_ptr<FilmWriter> film_;
 };
 
-/// Makes the pictures of frames, by way of the complete surface or of what the view needs.
-class FramePainter {
- public:
-  FramePainter(const RenderCommand& command, const FrameRun& frames) : command_(command) {
-    if (command.extent)
-      view_.emplace(command, frames.structure());
-    else
-      complete_.emplace(command, frames);
-  }
+/// Takes a picture of a frame to where it belongs, on any thread.
+using KeepPicture = std::function<FinishFrame(std::uint64_t number, Framebuffer picture)>;
 
-  /// `finish` takes a picture of a frame to where it belongs. Surfaces on the CPU are made at the same time as others,
-  /// all else is one picture after another.
-  std::vector<FrameWorker> workers(const std::vector<Camera>& cameras, const RenderSettings& settings,
-                                   const std::function<MadeFrame(std::uint64_t number, Framebuffer picture)>& finish) {
-    if (view_)
-      return {[this, &cameras, &settings, &finish](const RunFrame& frame) -> FinishFrame {
-        view_->atoms.balls = balls_of(frame.structure);
-        return [this, &finish, &camera = cameras[frame.place], &settings, number = frame.number] {
-          show(view_->atoms, command_.molecule.surface.probe_radius, *command_.extent, view_->pipeline);
-          return finish(number, view_->renderer.render(view_->pipeline, camera, settings));
-        };
-      }};
+/// What the pictures of a run have in common.
+struct RunPictures {
+  const RenderCommand& command;
+  const std::vector<Camera>& cameras;  ///< of the places in the run
+  const RenderSettings& settings;
+  KeepPicture keep;
+};
+
+/// Pictures of complete surfaces. On the CPU all of a frame is made while others are; by GL the surfaces, if they come
+/// from the CPU, and one picture after another.
+class CompletePainter {
+ public:
+  CompletePainter(const RunPictures& run, const FrameRun& frames)
+      : run_(run),
+        device_(run.command.molecule.surface),
+        builders_(frame_builders(frames, run.command.molecule, run.command.frames, bytes_of_frame(run, frames),
+                                 device_.context())) {}
+
+  std::vector<FrameWorker> workers() {
     std::vector<FrameWorker> workers;
-    for (const auto& builder : complete_->builders)
-      workers.push_back([this, builder, &cameras, &settings, &finish](RunFrame frame) -> FinishFrame {
-        auto molecule = std::make_shared<const Molecule>(builder->build(std::move(frame.structure)));
-        return [this, molecule, &finish, &camera = cameras[frame.place], &settings, number = frame.number] {
-          return finish(number, render_objects(complete_->device.renderer(), molecule->objects, camera, settings));
-        };
-      });
+    for (const auto& builder : builders_) workers.push_back(device_.context() ? by_gl(builder) : on_cpu(builder));
     return workers;
   }
 
  private:
-  const RenderCommand& command_;
-  struct Complete {
-    Complete(const RenderCommand& command, const FrameRun& frames)
-        : device(command.molecule.surface),
-          builders(frame_builders(frames, command.molecule, command.frames, kSurfaceBytesPerAtom, device.context())) {}
-    PictureDevice device;
-    std::vector<std::shared_ptr<MoleculeBuilder>> builders;
-  };
+  static std::uint64_t bytes_of_frame(const RunPictures& run, const FrameRun& frames) {
+    constexpr std::uint64_t kBytesPerPixel = 100;  // sums, samples and what a look needs of them, files
+    const glm::u64vec2 size(run.settings.size);
+    return kSurfaceBytesPerAtom * frames.structure().atoms.size() + kBytesPerPixel * size.x * size.y;
+  }
 
-  /// What --extent needs.
-  struct View {
-    View(const RenderCommand& command, const Structure& structure)
-        : context(gl_device(command)), atoms(colored_atoms(command.molecule, structure)) {}
-    EglContext context;
-    ColoredAtoms atoms;
-    ViewPipeline pipeline;
-    Renderer renderer;
-  };
+  FrameWorker on_cpu(const std::shared_ptr<MoleculeBuilder>& builder) const {
+    std::shared_ptr<SurfaceRenderer> renderer = make_cpu_renderer();
+    return [this, builder, renderer](RunFrame frame) {
+      Molecule molecule = builder->build(std::move(frame.structure));
+      return run_.keep(frame.number, render_objects(*renderer, std::move(molecule.objects), run_.cameras[frame.place],
+                                                    run_.settings));
+    };
+  }
 
-  std::optional<Complete> complete_;  // one of the two
-  std::optional<View> view_;
+  FrameWorker by_gl(const std::shared_ptr<MoleculeBuilder>& builder) {
+    return [this, builder](RunFrame frame) -> FinishFrame {
+      auto molecule = std::make_shared<const Molecule>(builder->build(std::move(frame.structure)));
+      return [this, molecule, place = frame.place, number = frame.number] {
+        return run_.keep(number,
+                         render_objects(device_.renderer(), molecule->objects, run_.cameras[place], run_.settings))();
+      };
+    };
+  }
+
+  const RunPictures& run_;
+  PictureDevice device_;
+  std::vector<std::shared_ptr<MoleculeBuilder>> builders_;
+};
+
+/// Pictures of what the view needs (--extent), one after another.
+class ViewPainter {
+ public:
+  ViewPainter(const RunPictures& run, const Structure& structure)
+      : run_(run), context_(gl_device(run.command)), atoms_(colored_atoms(run.command.molecule, structure)) {}
+
+  FrameWorker worker() {
+    return [this](const RunFrame& frame) -> FinishFrame {
+      atoms_.balls = balls_of(frame.structure);
+      show(atoms_, run_.command.molecule.surface.probe_radius, *run_.command.extent, pipeline_);
+      return run_.keep(frame.number, renderer_.render(pipeline_, run_.cameras[frame.place], run_.settings));
+    };
+  }
+
+ private:
+  const RunPictures& run_;
+  EglContext context_;
+  ColoredAtoms atoms_;
+  ViewPipeline pipeline_;
+  Renderer renderer_;
 };
 
 }  // namespace
@@ -156,14 +185,24 @@ void render_frames(const RenderCommand& command) {
     file.write(camera_json(cameras.front()));
     file.commit();
   }
-  FramePainter painter(command, frames);
   const RenderSettings settings = render_settings(command, layout);
-  const auto finish = [&](std::uint64_t number, Framebuffer picture) {
+  std::mutex legend;  // its letters come from one font, which is one thread's at a time
+  const auto keep = [&](std::uint64_t number, Framebuffer picture) {
     const bool empty = shows_nothing(picture);
-    if (layout.legend) picture = layout.legend->add_to(picture, command.background);
-    return MadeFrame{sink.add(number, picture), empty};
+    if (layout.legend) {
+      const std::lock_guard lock(legend);
+      picture = layout.legend->add_to(picture, command.background);
+    }
+    return sink.keep(number, picture, empty);
   };
-  run_frames(frames, command.molecule, command.frames, painter.workers(cameras, settings, finish));
+  const RunPictures run{command, cameras, settings, keep};
+  if (command.extent) {
+    ViewPainter painter(run, frames.structure());
+    run_frames(frames, command.molecule, command.frames, {painter.worker()});
+  } else {
+    CompletePainter painter(run, frames);
+    run_frames(frames, command.molecule, command.frames, painter.workers());
+  }
   sink.finish();
 }
 

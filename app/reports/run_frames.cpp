@@ -100,26 +100,25 @@ std::vector<Jobs::Worker> jobs_of(std::vector<FrameWorker> workers) {
 }
 
 std::size_t frames_at_once(const FrameRun& frames, const MoleculeOptions& molecule, const FrameOptions& options,
-                           std::uint64_t bytes_per_atom) {
+                           std::uint64_t frame_bytes) {
   if (options.jobs > 0) return options.jobs;
   // Each thread takes far more addresses than memory.
   if (memory_is_limited()) return 1;
   const auto cores = static_cast<std::uint64_t>(molecule.surface.threads > 0 ? molecule.surface.threads
                                                                              : tbb::info::default_concurrency());
   constexpr std::uint64_t kPartOfMemory = 4;  // the rest is for what else runs, and for the files read
-  const std::uint64_t frame_bytes = std::max<std::uint64_t>(1, bytes_per_atom * frames.structure().atoms.size());
-  const std::uint64_t fit = memory_size() / kPartOfMemory / frame_bytes;
+  const std::uint64_t fit = memory_size() / kPartOfMemory / std::max<std::uint64_t>(1, frame_bytes);
   return std::max<std::uint64_t>(1, std::min({cores, fit, std::uint64_t{frames.chunk().size()}}));
 }
 
 }  // namespace
 
 std::vector<std::shared_ptr<MoleculeBuilder>> frame_builders(const FrameRun& frames, const MoleculeOptions& molecule,
-                                                             const FrameOptions& options, std::uint64_t bytes_per_atom,
+                                                             const FrameOptions& options, std::uint64_t frame_bytes,
                                                              const EglContext* context) {
   std::vector<std::shared_ptr<MoleculeBuilder>> builders{std::make_shared<MoleculeBuilder>(molecule, context)};
   if (!builders.front()->is_on_cpu()) return builders;
-  const std::size_t count = frames_at_once(frames, molecule, options, bytes_per_atom);
+  const std::size_t count = frames_at_once(frames, molecule, options, frame_bytes);
   while (builders.size() < count) builders.push_back(std::make_shared<MoleculeBuilder>(molecule, context));
   return builders;
 }

@@ -28,10 +28,10 @@ using FinishFrame = std::function<MadeFrame()>;
 using FrameWorker = std::function<FinishFrame(RunFrame frame)>;
 
 /// Builders for as many frames as are worked on at once: as many as asked for (--jobs), else as the processor, the
-/// frames and the memory allow. `bytes_per_atom`: what a frame takes until it is finished. One alone where surfaces are
+/// frames and the memory allow. `frame_bytes`: what a frame takes until it is finished. One alone where surfaces are
 /// made by GL, in `context` if there is one. Throws what MoleculeBuilder throws.
 std::vector<std::shared_ptr<MoleculeBuilder>> frame_builders(const FrameRun& frames, const MoleculeOptions& molecule,
-                                                             const FrameOptions& options, std::uint64_t bytes_per_atom,
+                                                             const FrameOptions& options, std::uint64_t frame_bytes,
                                                              const EglContext* context = nullptr);
 
 /// What a frame takes until it is finished, about: its surface and areas; and a mesh of half a pixel, with its file.
