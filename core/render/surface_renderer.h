@@ -33,9 +33,9 @@ class SurfaceRenderer {
   virtual std::string device() const = 0;
 };
 
-/// On all threads of the CPU, without GL: the same picture to the bit on every CPU and for any number of threads, and
-/// the picture that GL makes but for the rounding of its arithmetic.
-/// most_lanes: vectors no longer than that, of 4, 8, 16 numbers; the machine has them or shorter ones.
+/// On all threads of the CPU, without GL: the same picture to the bit for vectors of any width and for any number of
+/// threads, and the picture that GL makes but for the rounding of its arithmetic. most_lanes: vectors no longer than
+/// that, of 4, 8, 16 numbers; the machine has them or shorter ones.
 std::unique_ptr<SurfaceRenderer> make_cpu_renderer(int most_lanes = 16);
 
 /// In a context that is current and lives longer.

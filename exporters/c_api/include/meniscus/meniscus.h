@@ -370,9 +370,9 @@ MENISCUS_API meniscus_status meniscus_default_picture(meniscus_picture* picture)
 /* On GL a context of its own with its kernels, on a thread of its own: the caller's contexts are left alone. */
 typedef struct meniscus_painter meniscus_painter;
 
-/* device: MENISCUS_AUTO (a hardware GPU if one works, else as MENISCUS_CPU), MENISCUS_GPU, MENISCUS_SOFTWARE, MENISCUS_CPU
- * (without GL: the same picture to the bit on every CPU). *painter is overwritten. MENISCUS_NO_GPU where GL is asked for
- * and there is no GL 4.5. */
+/* device: MENISCUS_AUTO (a hardware GPU if one works, else as MENISCUS_CPU), MENISCUS_GPU, MENISCUS_SOFTWARE,
+ * MENISCUS_CPU (without GL: the same picture for any vector width and number of threads). *painter is overwritten.
+ * MENISCUS_NO_GPU where GL is asked for and there is no GL 4.5. */
 MENISCUS_API meniscus_status meniscus_painter_new(int32_t device, meniscus_painter** painter);
 MENISCUS_API meniscus_painter* meniscus_painter_retain(meniscus_painter* painter);
 MENISCUS_API void meniscus_painter_release(meniscus_painter* painter);

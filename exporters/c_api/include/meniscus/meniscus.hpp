@@ -415,8 +415,8 @@ class Computer {
 // On the CPU, or on GL in a context of its own with its kernels, on a thread of its own.
 class Painter {
  public:
-  // MENISCUS_AUTO (a hardware GPU if one works, else the CPU), MENISCUS_CPU, MENISCUS_GPU or MENISCUS_SOFTWARE. GpuError
-  // where GL is asked for and there is no GL 4.5.
+  // MENISCUS_AUTO (a hardware GPU if one works, else the CPU), MENISCUS_CPU, MENISCUS_GPU or MENISCUS_SOFTWARE.
+  // GpuError where GL is asked for and there is no GL 4.5.
   explicit Painter(std::int32_t device = MENISCUS_AUTO) {
     meniscus_painter* painter = nullptr;
     check(meniscus_painter_new(device, &painter));
