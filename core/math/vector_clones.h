@@ -10,10 +10,9 @@
 #define MENISCUS_VECTOR_CLONES
 #endif
 
-// Before a loop of which no step writes what another one reads.
-#if defined(__clang__)
-#define MENISCUS_INDEPENDENT_STEPS _Pragma("clang loop vectorize(assume_safety)")
-#elif defined(__GNUC__)
+// Before a loop of which no step writes what another one reads. clang finds out by itself, and warns of such words where
+// sanitizers keep it from making vectors.
+#if defined(__GNUC__) && !defined(__clang__)
 #define MENISCUS_INDEPENDENT_STEPS _Pragma("GCC ivdep")
 #else
 #define MENISCUS_INDEPENDENT_STEPS

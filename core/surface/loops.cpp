@@ -18,12 +18,11 @@ std::uint32_t vertex_at(std::span<const Border> borders, HalfBorder h, int end) 
 
 void chain_loops(std::span<const Border> borders, std::span<const HalfBorder> walk, PatchFaces& faces) {
   // By begin, so that the next one is found quickly on atoms with thousands of borders, too.
-  static thread_local std::vector<std::pair<std::uint32_t, HalfBorder>> open;
-  static thread_local std::vector<char> taken;
-  open.clear();
+  std::vector<std::pair<std::uint32_t, HalfBorder>> open;
+  open.reserve(walk.size());
   for (const HalfBorder h : walk) open.emplace_back(vertex_at(borders, h, 0), h);
   std::sort(open.begin(), open.end());
-  taken.assign(open.size(), 0);
+  std::vector<char> taken(open.size(), 0);
   faces.half_borders.reserve(open.size());
   for (std::size_t start = 0; start < open.size(); ++start) {
     if (taken[start]) continue;

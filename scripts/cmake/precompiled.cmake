@@ -5,7 +5,7 @@ option(MENISCUS_PRECOMPILED "Compile the large headers of other libraries once" 
 # For ccache gcc has to say that it read a precompiled header, and clang has to leave the time out of it. Where std::string
 # is precompiled gcc 12 no longer knows it for a system header, and warns of copies that never happen.
 if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
-  set(precompiled_options -fpch-preprocess -Wno-array-bounds -Wno-stringop-overflow)
+  set(precompiled_options -fpch-preprocess -Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread -Wno-restrict)
 else()
   set(precompiled_options "SHELL:-Xclang -fno-pch-timestamp")
 endif()

@@ -229,7 +229,7 @@ class Hostile(FarmCase):
     def test_every_option_is_known_to_the_list_or_refused_on_purpose(self):
         """A new option of a command that can be bundled is looked at before it gets into bundles."""
         refused = {"--output", "--force", "--only", "--progress", "--save-camera", "--device", "--threads",
-                   "--require-gpu", "--help", "--aovs", "--stats"}
+                   "--require-gpu", "--jobs", "--help", "--aovs", "--stats"}
         manifest = json.loads((self.render / "bundle.json").read_text())
         names = set()
         for command in (("render",), ("export", "povray"), ("export", "blender")):

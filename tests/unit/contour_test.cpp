@@ -125,7 +125,8 @@ TEST(SphereCover, CirclesThatAreRuledOutAreCovered) {
   int ruled_out = 0, kept = 0;
   for (int n = 0; n < 300; ++n) {
     const Blockers blockers = surroundings(random, 70);
-    const UncoveredDirections uncovered = uncovered_directions(blockers);
+    Caps caps;
+    const UncoveredDirections uncovered = uncovered_directions(blockers, caps);
     WatchedList list;
     list.assign(uncovered);
     for (int k = 0; k < 20; ++k) {

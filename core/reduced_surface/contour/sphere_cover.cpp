@@ -97,26 +97,6 @@ const WatchedDirections& watched() {
   return directions;
 }
 
-// What balls surely cover of all that lies within the watched angle of a direction: dot(axis, direction) >= cosine.
-struct Caps {
-  std::array<std::vector<float>, 4> columns;  // axis, then cosine
-  const float* column(std::size_t c) const { return columns[c].data(); }
-  void make_room(std::size_t count) {
-    for (std::vector<float>& column : columns)
-      if (column.size() < count) column.resize(count);
-  }
-  // The widest ones, some six around an atom of a protein, cover most: nothing need be known of the others then.
-  void widest_first(std::size_t count) {
-    constexpr float kWide = 0.45f;
-    std::size_t wide = 0;
-    for (std::size_t n = 0; n < count; ++n) {
-      if (!(columns[3][n] < kWide)) continue;
-      for (std::vector<float>& column : columns) std::swap(column[wide], column[n]);
-      ++wide;
-    }
-  }
-};
-
 constexpr float kNowhere = 4;  // no cosine is as large: an empty cap
 
 // A ball covers the cap of angle a, cos a = cosine; narrowed by the watched angle: cos(a - angle).
@@ -197,9 +177,23 @@ bool any_in_band(const float* x, const float* y, const float* z, std::size_t cou
 
 }  // namespace
 
-UncoveredDirections uncovered_directions(const Blockers& blockers) {
+void Caps::make_room(std::size_t count) {
+  for (std::vector<float>& column : columns)
+    if (column.size() < count) column.resize(count);
+}
+
+void Caps::widest_first(std::size_t count) {
+  constexpr float kWide = 0.45f;
+  std::size_t wide = 0;
+  for (std::size_t n = 0; n < count; ++n) {
+    if (!(columns[3][n] < kWide)) continue;
+    for (std::vector<float>& column : columns) std::swap(column[wide], column[n]);
+    ++wide;
+  }
+}
+
+UncoveredDirections uncovered_directions(const Blockers& blockers, Caps& caps) {
   const WatchedDirections& w = watched();
-  static thread_local Caps caps;
   caps.make_room(whole_vectors(blockers.size()));
   narrow_caps(blockers.columns(), whole_vectors(blockers.size()), 1 / std::sqrt(blockers.first_weight()), w.cos_angle,
               w.sin_angle, caps.columns[0].data(), caps.columns[1].data(), caps.columns[2].data(),

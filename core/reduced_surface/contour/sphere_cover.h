@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstdint>
+#include <vector>
 
 #include <glm/vec3.hpp>
 
@@ -21,8 +22,19 @@ struct UncoveredDirections {
   bool none() const { return (bits[0] | bits[1] | bits[2]) == 0; }
 };
 
-/// Which surroundings of the watched directions of the blockers' first ball no single blocker surely covers.
-UncoveredDirections uncovered_directions(const Blockers& blockers);
+/// What balls surely cover of all that lies within the watched angle of a direction: dot(axis, direction) >= cosine.
+struct Caps {
+  std::array<std::vector<float>, 4> columns;  ///< axis, then cosine
+
+  const float* column(std::size_t c) const { return columns[c].data(); }
+  void make_room(std::size_t count);
+  /// The widest ones, some six around an atom of a protein, cover most: nothing need be known of the others then.
+  void widest_first(std::size_t count);
+};
+
+/// Which surroundings of the watched directions of the blockers' first ball no single blocker surely covers. caps: kept
+/// from call to call for its memory; what it holds does not matter.
+UncoveredDirections uncovered_directions(const Blockers& blockers, Caps& caps);
 
 /// False if no point of the circle around `axis` (unit) at angular radius acos(`cosine`) lies near an uncovered
 /// direction: then all of the circle is covered.

@@ -35,6 +35,7 @@ struct Worker {
   Blockers blockers;
   Blockers nearest_first;  // sorted, of the atom nearest_of
   std::size_t nearest_of = kNone;
+  Caps caps;
   WatchedList uncovered;
   Contour contour;
 };
@@ -80,7 +81,7 @@ class Enumeration {
       search_.append_neighbors(place, w.rows, group.neighbors);
       group.pairs += group.neighbors.size() - known;
       search_.list_blockers(place, std::span(group.neighbors).subspan(known), w.blockers);
-      uncovered_[place] = uncovered_directions(w.blockers);
+      uncovered_[place] = uncovered_directions(w.blockers, w.caps);
       if (uncovered_[place].none()) group.neighbors.resize(known);
       group.first.push_back(static_cast<std::uint32_t>(group.neighbors.size()));
     }
