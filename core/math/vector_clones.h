@@ -10,8 +10,8 @@
 #define MENISCUS_VECTOR_CLONES
 #endif
 
-// Before a loop of which no step writes what another one reads. clang finds out by itself, and warns of such words where
-// sanitizers keep it from making vectors.
+// Before a loop of which no step writes what another one reads. clang finds out by itself, and warns of such words
+// where sanitizers keep it from making vectors.
 #if defined(__GNUC__) && !defined(__clang__)
 #define MENISCUS_INDEPENDENT_STEPS _Pragma("GCC ivdep")
 #else
