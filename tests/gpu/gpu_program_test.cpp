@@ -95,7 +95,7 @@ TEST_F(StoppingGpu, FarmLeavesTheFrameUndone) {
   const std::string bundle = path("bundle");
   const auto made =
       test::run_program(MENISCUS_PROGRAM, {"farm", "bundle", bundle, "--chunk-frames", "2", "--", "render", run_,
-                                           "--frames", "all", "--size", "64x48", "--", "--device", "software"});
+                                           "--frames", "all", "--size", "64x48", "--device", "software"});
   ASSERT_EQ(made.exit_code, 0) << made.err;
   const auto worked = with_fault("drop_from 4", {"work", bundle});
   EXPECT_EQ(worked.exit_code, 4) << worked.err;
