@@ -21,7 +21,8 @@ using Words = std::vector<std::string>;
 
 const std::set<std::string> kDecidedByBundle{"-o", "--output", "--force", "--only", "--progress", "--save-camera"};
 // How many words the value has.
-const std::map<std::string, std::size_t> kDeviceOptions{{"--device", 1}, {"--threads", 1}, {"--require-gpu", 0}};
+const std::map<std::string, std::size_t> kDeviceOptions{
+    {"--device", 1}, {"--threads", 1}, {"--require-gpu", 0}, {"--jobs", 1}};
 
 std::string option_name(const std::string& word) { return word.substr(0, word.find('=')); }
 

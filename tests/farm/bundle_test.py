@@ -40,6 +40,16 @@ class Bundle(FarmCase):
         listed = {entry["path"].split("/")[1]: entry["sha256"] for entry in manifest["inputs"]}
         self.assertEqual(listed, sums(self.folder / "manifest" / "inputs", "*"))
 
+    def test_where_and_with_how_much_is_the_workers_default_and_no_part_of_the_command(self):
+        words = ("--device", "cpu", "--threads", "2", "--jobs", "3")
+        folder = self.bundle("device", "render", sample_run(self.folder / "device.pdb", 2), "--frames", "all", "--size",
+                             "64x48", *words)
+        manifest = json.loads((folder / "bundle.json").read_text())
+        self.assertEqual(manifest["steps"][0]["arguments"], list(words))
+        self.assertFalse(set(words) & {"--device", "--threads", "--jobs"} & set(manifest["command"]))
+        self.meniscus("work", folder)
+        self.meniscus("farm", "verify", folder)
+
     def test_another_bundle_is_kept_unless_forced(self):
         folder = self.bundle("kept", *self.render())
         self.meniscus("work", folder, "--frames", "0", "--progress", "none")
