@@ -137,6 +137,7 @@ class Enumeration {
       const auto rank = [&](std::size_t n) { return std::pair(w.blockers[n].square, search_.atom(neighbors[n])); };
       std::ranges::sort(order, {}, rank);
       std::vector<std::uint32_t> sorted;
+      sorted.reserve(order.size());
       for (const std::size_t n : order) sorted.push_back(neighbors[n]);
       search_.list_blockers(place, sorted, w.nearest_first);
       w.nearest_of = place;
