@@ -60,7 +60,7 @@ class MoleculeBuilder {
   /// Computes and colours. Throws what surface_objects and color_object throw, InputError if nothing is shown.
   Molecule build(Structure structure);
 
-  /// Whether it computes on the CPU: then it may be used on any thread, by one at a time.
+  /// Whether it computes on the CPU alone: then it may be used on any thread, by one at a time.
   bool is_on_cpu() const { return computer_.is_on_cpu(); }
 
  private:

@@ -38,8 +38,8 @@ class SurfaceComputer {
   /// and every difference is an error. Look at its certificate. Throws OpenSurfaceError, CapacityError, GpuError.
   Surface compute(std::span<const Ball> balls);
 
-  /// Whether surfaces are made on the CPU; then, and only then, on any thread.
-  bool is_on_cpu() const { return on_cpu_; }
+  /// Whether surfaces are made on the CPU alone, so not verified by GL; then, and only then, on any thread.
+  bool is_on_cpu() const { return on_cpu_ && !request_.verify; }
   const std::string& device() const { return device_; }  ///< "cpu (16 threads)", or GL renderer and version
   const std::vector<StageTime>& stages() const { return clock_.times(); }  ///< of all surfaces since the last restart
   void restart_clock() { clock_.restart(); }

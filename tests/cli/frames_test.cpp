@@ -234,6 +234,11 @@ TEST_F(Frames, AreTheSameHoweverManyAreMadeAtOnce) {
   }
 }
 
+// GL belongs to one thread, so what is verified by it is made one after another.
+TEST_F(Frames, AreVerifiedHoweverManyAreAskedFor) {
+  EXPECT_EQ(surface({"--frames", "all", "--verify", "--jobs", "3"}).size(), 8u);
+}
+
 TEST_F(Frames, FailInTheirOrderHoweverManyAreMadeAtOnce) {
   const std::string bad = folder_.file("bad.pdb", walk(8, 3));
   for (const char* jobs : {"1", "4"}) {
