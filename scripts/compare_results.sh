@@ -14,6 +14,18 @@ cases=0 failures=0
 # What a JSON report says of the surface: all but the device, times, and the version.
 results_only() { grep -v -E '"(ms|name|device|version)":' "$1" || true; }
 
+# The pixels of PNG files, in the order of their names: other compressors make other bytes of the same picture.
+pixels_of() {
+  /usr/bin/python3 - "$@" <<'PYTHON'
+import sys
+import OpenImageIO
+for path in sorted(sys.argv[1:]):
+    picture = OpenImageIO.ImageInput.open(path)
+    sys.stdout.buffer.write(f"{path.rsplit('/')[-1]} {picture.spec().width}x{picture.spec().height}\n".encode())
+    sys.stdout.buffer.write(picture.read_image("uint8").tobytes())
+PYTHON
+}
+
 # compare NAME OUTPUT ARGUMENTS...: the file OUTPUT that both builds make, or their standard output if it is "-".
 compare() {
   local name=$1 output=$2 build
@@ -22,7 +34,11 @@ compare() {
     mkdir -p "$work/$build"
     (cd "$work/$build" && "${!build}" "$@" >standard_output 2>standard_error) || echo "exit $?" >>"$work/$build/standard_output"
     [[ $output == - ]] && results_only "$work/$build/standard_output" >"$work/$build/result" || true
-    [[ $output != - ]] && cat "$work/$build"/$output >"$work/$build/result" 2>/dev/null || true
+    if [[ $output == *.png ]]; then
+      pixels_of "$work/$build"/$output >"$work/$build/result" || true
+    elif [[ $output != - ]]; then
+      cat "$work/$build"/$output >"$work/$build/result" 2>/dev/null || true
+    fi
   done
   cases=$((cases + 1))
   if [[ -s $work/old/result ]] && cmp -s "$work/old/result" "$work/new/result"; then

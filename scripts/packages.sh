@@ -4,7 +4,7 @@
 build_packages=(
   g++ cmake ninja-build pkg-config ccache
   libepoxy-dev libegl-dev libglm-dev libopenimageio-dev libfreetype-dev gemmi-dev tao-pegtl-dev libcli11-dev libfmt-dev
-  nlohmann-json3-dev libtbb-dev zlib1g-dev libglfw3-dev libimgui-dev
+  nlohmann-json3-dev libtbb-dev zlib1g-dev libdeflate-dev libglfw3-dev libimgui-dev
   libboost-dev libturbojpeg0-dev libhdf5-dev libssl-dev
 )
 # EGL and software GL, the preview's window, letters

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
@@ -18,5 +19,8 @@ glm::vec4 display_color(const glm::vec4& pixel, const std::optional<glm::vec3>& 
 
 /// A channel in [0, 1] as PNG files have it: 0 to 255, to the nearest.
 std::uint8_t display_byte(float channel);
+
+/// The bytes of display_color(), 3 a pixel before a background, 4 without, from a table instead of a power for each.
+void display_bytes(std::span<const glm::vec4> pixels, const std::optional<glm::vec3>& background, std::uint8_t* bytes);
 
 }  // namespace meniscus

@@ -30,7 +30,8 @@ struct ImageToEncode {
   int png_level = -1;               ///< of 9; -1 for the usual
   std::string software;             ///< written into the file; "" for nothing
 
-  /// One of these has the pixels: floats in [0, 1] (EXR: any), or bytes with `byte_stride` from pixel to pixel.
+  /// One of these has the pixels: floats in [0, 1] (EXR: any), or, of PNG, bytes with `byte_stride` from pixel to
+  /// pixel.
   std::span<const float> floats;
   std::span<const std::uint8_t> bytes;
   int byte_stride = 0;

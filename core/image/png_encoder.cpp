@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Chunks around one stream of zlib.
+// Chunks around one stream of libdeflate, which takes a third of the time of zlib.
 #include "core/image/png_encoder.h"
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cstddef>
 #include <cstdlib>
 #include <limits>
-#include <span>
+#include <memory>
 #include <string_view>
 
+#include <libdeflate.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
-#include <zlib.h>
 
 #include "core/base/error.h"
-#include "core/image/display_color.h"
 
 namespace meniscus {
 namespace {
@@ -33,7 +33,7 @@ void add_chunk(Bytes& file, std::string_view type, const std::uint8_t* content, 
   const std::size_t first = file.size();
   add_text(file, type);
   file.insert(file.end(), content, content + size);
-  add_word(file, static_cast<std::uint32_t>(::crc32(0, &file[first], static_cast<uInt>(file.size() - first))));
+  add_word(file, ::libdeflate_crc32(0, &file[first], file.size() - first));
 }
 
 void add_chunk(Bytes& file, std::string_view type, const Bytes& content) {
@@ -109,79 +109,51 @@ struct Row {
   }
 };
 
-Bytes bytes_of(std::span<const float> values) {
-  Bytes bytes(values.size());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, values.size(), 1 << 14), [&](const auto& range) {
-    for (std::size_t n = range.begin(); n < range.end(); ++n) bytes[n] = display_byte(values[n]);
-  });
-  return bytes;
+/// The picture's channels without what lies between its pixels.
+Bytes packed_bytes(const ImageToEncode& image) {
+  const std::size_t channels = image.channels.size(), stride = static_cast<std::size_t>(image.byte_stride);
+  Bytes packed(static_cast<std::size_t>(image.width) * image.height * channels);
+  for (std::size_t from = 0, to = 0; to < packed.size(); from += stride, to += channels)
+    std::copy_n(&image.bytes[from], channels, &packed[to]);
+  return packed;
 }
 
 Bytes filtered_rows(const ImageToEncode& image) {
-  const Bytes bytes = bytes_of(image.floats);
   const std::size_t pixel = image.channels.size(), size = static_cast<std::size_t>(image.width) * pixel;
   const auto height = static_cast<std::size_t>(image.height);
   const bool averages = image.width > 1 && image.height > 1;  // libpng takes none of single rows and columns
+  Bytes packed;
+  if (image.byte_stride != static_cast<int>(pixel)) packed = packed_bytes(image);
+  const std::uint8_t* const bytes = packed.empty() ? image.bytes.data() : packed.data();
   Bytes rows((size + 1) * height);
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, height), [&](const auto& range) {
     Bytes trial(size);
     for (std::size_t y = range.begin(); y < range.end(); ++y) {
-      const std::uint8_t* const first = &bytes[y * size];
+      const std::uint8_t* const first = bytes + y * size;
       Row{first, y > 0 ? first - size : nullptr, size, pixel}.write_best(&rows[y * (size + 1)], trial, averages);
     }
   });
   return rows;
 }
 
-/// As libpng does, small pictures are compressed in a window no larger than they need.
-int window_bits(std::size_t size) {
-  constexpr std::size_t kSmall = 16384, kLookahead = 262;
-  int bits = 15;
-  if (size <= kSmall)
-    while (bits > 8 && size + kLookahead <= std::size_t{1} << (bits - 1)) --bits;
-  return bits;
-}
-
-/// Also in the first two bytes of the stream, which say how large a window is needed to read it.
-void narrow_window(Bytes& stream, std::size_t size) {
-  constexpr std::size_t kSmall = 16384;
-  if (size > kSmall) return;
-  unsigned window = stream[0] >> 4;
-  while (window > 0 && size <= std::size_t{1} << (window + 7)) --window;
-  stream[0] = static_cast<std::uint8_t>((stream[0] & 0x0fu) | window << 4);
-  const unsigned level = stream[1] & 0xe0u;
-  stream[1] = static_cast<std::uint8_t>(level + 31u - ((static_cast<unsigned>(stream[0]) << 8) + level) % 31u);
-}
+struct CompressorDeleter {
+  void operator()(libdeflate_compressor* compressor) const { ::libdeflate_free_compressor(compressor); }
+};
 
 Bytes compressed(const Bytes& rows, int level) {
-  constexpr int kUsualLevel = 6, kUsualMemory = 8;
-  z_stream stream{};
-  if (::deflateInit2(&stream, level < 0 ? kUsualLevel : level, Z_DEFLATED, window_bits(rows.size()), kUsualMemory,
-                     Z_DEFAULT_STRATEGY) != Z_OK)
-    throw CapacityError("no memory to compress a picture");
-  Bytes result(::deflateBound(&stream, static_cast<uLong>(rows.size())));
-  std::size_t read = 0;
-  int state = Z_OK;
-  while (state != Z_STREAM_END) {  // zlib counts what is there in 32 bits
-    constexpr std::size_t kMost = std::size_t{1} << 30;
-    stream.next_in = const_cast<Bytef*>(rows.data() + read);
-    stream.avail_in = static_cast<uInt>(std::min(rows.size() - read, kMost));
-    const std::size_t written = stream.total_out;
-    if (written == result.size()) result.resize(result.size() + kMost);
-    stream.next_out = result.data() + written;
-    stream.avail_out = static_cast<uInt>(std::min(result.size() - written, kMost));
-    state = ::deflate(&stream, read + stream.avail_in == rows.size() ? Z_FINISH : Z_NO_FLUSH);
-    read = stream.total_in;
-  }
-  result.resize(stream.total_out);
-  ::deflateEnd(&stream);
-  narrow_window(result, rows.size());
+  constexpr int kUsualLevel = 6;
+  const std::unique_ptr<libdeflate_compressor, CompressorDeleter> compressor(
+      ::libdeflate_alloc_compressor(level < 0 ? kUsualLevel : level));
+  if (!compressor) throw CapacityError("no memory to compress a picture");
+  Bytes result(::libdeflate_zlib_compress_bound(compressor.get(), rows.size()));
+  result.resize(::libdeflate_zlib_compress(compressor.get(), rows.data(), rows.size(), result.data(), result.size()));
   return result;
 }
 
 }  // namespace
 
 Bytes encode_png(const ImageToEncode& image) {
+  assert(image.bytes.size() >= pixel_bytes(image));
   constexpr std::size_t kPart = 8192;
   Bytes file{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
   add_header(file, image);

@@ -9,8 +9,8 @@
 
 namespace meniscus {
 
-/// The bytes of the file, those that OpenImageIO makes of the same picture (W3C, Portable Network Graphics, 2nd
-/// edition: 8 bits a channel). Throws CapacityError where there is no memory to compress.
+/// The bytes of the file (W3C, Portable Network Graphics, 2nd edition: 8 bits a channel), with the pixels and the notes
+/// that OpenImageIO would write. image.bytes has the pixels. Throws CapacityError where there is no memory to compress.
 std::vector<std::uint8_t> encode_png(const ImageToEncode& image);
 
 }  // namespace meniscus

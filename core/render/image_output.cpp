@@ -12,6 +12,8 @@
 
 #include <fmt/format.h>
 #include <sys/resource.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
@@ -29,27 +31,44 @@ std::string extension_of(const std::filesystem::path& path) {
   return extension;
 }
 
-/// A picture as rows of floats, ready to be encoded.
+/// A picture's channels, pixel after pixel: floats, or bytes for PNG.
 struct Channels {
   std::vector<std::string> names;
-  std::vector<float> values;  ///< pixel after pixel
+  std::vector<float> values;
+  std::vector<std::uint8_t> bytes;
   int alpha = -1;
 };
 
-/// sRGB, alpha not multiplied in, as PNG wants it.
-Channels display_channels(const Framebuffer& picture, const ImageSettings& settings) {
+Channels display_names(const std::optional<glm::vec3>& background) {
   Channels channels;
   channels.names = {"R", "G", "B"};
-  if (!settings.background) {
-    channels.names.push_back("A");
-    channels.alpha = 3;
-  }
+  if (background) return channels;
+  channels.names.push_back("A");
+  channels.alpha = 3;
+  return channels;
+}
+
+/// sRGB, alpha not multiplied in, as TIFF has it.
+Channels display_channels(const Framebuffer& picture, const std::optional<glm::vec3>& background) {
+  Channels channels = display_names(background);
   channels.values.reserve(picture.color.size() * channels.names.size());
   for (const glm::vec4& pixel : picture.color) {
-    const glm::vec4 c = display_color(pixel, settings.background);
+    const glm::vec4 c = display_color(pixel, background);
     channels.values.insert(channels.values.end(), {c.x, c.y, c.z});
-    if (!settings.background) channels.values.push_back(c.w);
+    if (!background) channels.values.push_back(c.w);
   }
+  return channels;
+}
+
+/// The same in 8 bits, as PNG has it.
+Channels byte_channels(const Framebuffer& picture, const std::optional<glm::vec3>& background) {
+  Channels channels = display_names(background);
+  const std::size_t count = channels.names.size();
+  channels.bytes.resize(picture.color.size() * count);
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, picture.color.size(), 1 << 14), [&](const auto& range) {
+    display_bytes(std::span(picture.color).subspan(range.begin(), range.size()), background,
+                  &channels.bytes[range.begin() * count]);
+  });
   return channels;
 }
 
@@ -94,6 +113,8 @@ ImageToEncode described(const Framebuffer& picture, const Channels& channels, co
   image.compression = "zip";
   image.software = "Meniscus " MENISCUS_VERSION;
   image.floats = channels.values;
+  image.bytes = channels.bytes;
+  image.byte_stride = static_cast<int>(channels.names.size());
   return image;
 }
 
@@ -133,8 +154,9 @@ std::vector<std::uint8_t> encoded_tiff(const std::filesystem::path& path, ImageT
 std::vector<std::uint8_t> encoded(const std::filesystem::path& path, const Framebuffer& picture,
                                   const ImageSettings& settings) {
   const std::string extension = extension_of(path);
-  const Channels channels =
-      extension == ".exr" ? scene_channels(picture, settings) : display_channels(picture, settings);
+  const Channels channels = extension == ".exr"   ? scene_channels(picture, settings)
+                            : extension == ".png" ? byte_channels(picture, settings.background)
+                                                  : display_channels(picture, settings.background);
   const ImageToEncode image = described(picture, channels, extension);
   return image.format == "tiff" ? encoded_tiff(path, image) : encode(path, image);
 }
@@ -144,10 +166,7 @@ std::vector<std::uint8_t> encoded(const std::filesystem::path& path, const Frame
 bool holds_aovs(const std::filesystem::path& path) { return extension_of(path) == ".exr"; }
 
 std::vector<std::uint8_t> srgb_pixels(const Framebuffer& picture, const glm::vec3& background) {
-  const Channels channels = display_channels(picture, {background, Existing::refuse});
-  std::vector<std::uint8_t> pixels(channels.values.size());
-  std::ranges::transform(channels.values, pixels.begin(), display_byte);
-  return pixels;
+  return byte_channels(picture, background).bytes;
 }
 
 void check_image_path(const std::filesystem::path& path) {

@@ -6,15 +6,19 @@
 #include <cmath>
 #include <csignal>
 #include <filesystem>
+#include <fstream>
 #include <limits>
+#include <string_view>
 
 #include <OpenImageIO/imageio.h>
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
 #include "core/base/error.h"
 #include "core/image/color_space.h"
+#include "core/image/display_color.h"
 #include "core/image/image_codec.h"
 #include "core/image/png_encoder.h"
 
@@ -161,14 +165,21 @@ TEST_F(ImageFile, PixelsOfFilmsAreThoseOfPng) {
   EXPECT_EQ(pixels, stored);
 }
 
-TEST(PngEncoder, MakesTheBytesOfOpenImageIO) {
+/// Up to the length of the first chunk of pixels: sizes, colours, notes.
+std::vector<std::uint8_t> before_pixels(const std::vector<std::uint8_t>& png) {
+  constexpr std::string_view kPixels = "IDAT";
+  return {png.begin(), std::ranges::search(png, kPixels).begin() - 4};
+}
+
+TEST_F(ImageFile, PngIsThatOfOpenImageIO) {
   const std::vector<glm::ivec2> sizes{{1, 1},   {1, 30},  {30, 1},  {2, 2},    {9, 10},
                                       {40, 41}, {63, 64}, {66, 65}, {300, 200}};
   for (const glm::ivec2 size : sizes)
     for (const std::size_t channels : {3u, 4u}) {
-      std::vector<float> values;
-      for (int n = 0; n < size.x * size.y * static_cast<int>(channels); ++n)
-        values.push_back(n % 7 ? 0.5f + 0.6f * std::sin(0.1f * static_cast<float>(n)) : 1.0f);
+      SCOPED_TRACE(fmt::format("{}x{}, {} channels", size.x, size.y, channels));
+      std::vector<std::uint8_t> pixels;
+      for (int n = 0; n < size.x * size.y * 4; ++n)
+        pixels.push_back(n % 7 ? static_cast<std::uint8_t>(127 + 120 * std::sin(0.1 * n)) : 255);
       ImageToEncode image;
       image.format = "png";
       image.width = size.x;
@@ -178,11 +189,45 @@ TEST(PngEncoder, MakesTheBytesOfOpenImageIO) {
       image.alpha_channel = channels == 4 ? 3 : -1;
       image.color_space = "sRGB";
       image.unassociated_alpha = true;
-      image.compression = "zip";
       image.software = "Meniscus";
-      image.floats = values;
-      EXPECT_EQ(encode_png(image), image_codec().encode(image)) << size.x << "x" << size.y << " " << channels;
+      image.bytes = pixels;
+      image.byte_stride = 4;  // of three channels the fourth byte is none of the picture's
+      const std::vector<std::uint8_t> ours = encode_png(image), theirs = image_codec().encode(image);
+      EXPECT_EQ(before_pixels(ours), before_pixels(theirs));
+      EXPECT_LT(ours.size(), theirs.size() + theirs.size() / 10 + 100);
+      const std::string file = (folder_ / "p.png").string();
+      std::ofstream(file, std::ios::binary).write(reinterpret_cast<const char*>(ours.data()), std::ssize(ours));
+      std::vector<std::uint8_t> stored, wanted;
+      for (const float value : read(file).values) stored.push_back(display_byte(value));
+      for (std::size_t n = 0; n < pixels.size(); ++n)
+        if (n % 4 < channels) wanted.push_back(pixels[n]);
+      EXPECT_EQ(stored, wanted);
     }
+}
+
+TEST(DisplayColor, BytesOfATableAreThoseOfTheFormula) {
+  std::vector<glm::vec4> pixels;
+  const auto add = [&](float light) { pixels.emplace_back(light, 0.5f * light, 1.25f * light, 1.0f); };
+  for (int n = 0; n <= 100000; ++n) add(static_cast<float>(n) / 100000.0f);
+  for (int byte = 1; byte < 256; ++byte) {  // on both sides of each step
+    float light = linear_from_srgb((static_cast<float>(byte) - 0.5f) / 255.0f);
+    for (int n = 0; n < 200; ++n) light = std::nextafter(light, 0.0f);
+    for (int n = 0; n < 400; ++n) add(light = std::nextafter(light, 1.0f));
+  }
+  for (std::size_t n = 0; n < pixels.size(); n += 3) pixels[n] *= 0.3f;  // alpha is multiplied in
+  pixels.emplace_back(0.0f);
+  for (const std::optional<glm::vec3>& background :
+       {std::optional<glm::vec3>(), std::optional(glm::vec3(0.2f, 0.9f, 1.0f))}) {
+    const std::size_t channels = background ? 3 : 4;
+    std::vector<std::uint8_t> bytes(pixels.size() * channels), wanted;
+    display_bytes(pixels, background, bytes.data());
+    for (const glm::vec4& pixel : pixels) {
+      const glm::vec4 color = display_color(pixel, background);
+      for (std::size_t channel = 0; channel < channels; ++channel)
+        wanted.push_back(display_byte(color[static_cast<int>(channel)]));
+    }
+    EXPECT_EQ(bytes, wanted);
+  }
 }
 
 }  // namespace
