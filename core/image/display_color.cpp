@@ -68,7 +68,8 @@ std::uint8_t display_byte(float channel) {
   return static_cast<std::uint8_t>(std::clamp(channel * 255.0f, 0.0f, 255.0f) + 0.5f);
 }
 
-void display_bytes(std::span<const glm::vec4> pixels, const std::optional<glm::vec3>& background, std::uint8_t* bytes) {
+void display_bytes(std::span<const glm::vec4> pixels, const std::optional<glm::vec3>& background, std::size_t channels,
+                   std::uint8_t* bytes) {
   static const ByteSteps steps;
   std::optional<glm::vec3> behind;
   if (background) behind = linear_from_srgb(*background);
@@ -76,7 +77,7 @@ void display_bytes(std::span<const glm::vec4> pixels, const std::optional<glm::v
     const glm::vec3 light = behind ? glm::vec3(pixel) + (1.0f - pixel.w) * *behind
                                    : (pixel.w > 0.0f ? glm::vec3(pixel) / pixel.w : glm::vec3(0.0f));
     for (int channel = 0; channel < 3; ++channel) *bytes++ = steps.byte_of(light[channel]);
-    if (!behind) *bytes++ = display_byte(pixel.w);
+    if (channels == 4) *bytes++ = behind ? 255 : display_byte(pixel.w);
   }
 }
 

@@ -2,6 +2,7 @@
 // From the light that rays gathered to the colour of a pixel on a screen.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -20,7 +21,8 @@ glm::vec4 display_color(const glm::vec4& pixel, const std::optional<glm::vec3>& 
 /// A channel in [0, 1] as PNG files have it: 0 to 255, to the nearest.
 std::uint8_t display_byte(float channel);
 
-/// The bytes of display_color(), 3 a pixel before a background, 4 without, from a table instead of a power for each.
-void display_bytes(std::span<const glm::vec4> pixels, const std::optional<glm::vec3>& background, std::uint8_t* bytes);
+/// The bytes of display_color() of pixels, with or without the alpha: 3 or 4 channels. By a table instead of powers.
+void display_bytes(std::span<const glm::vec4> pixels, const std::optional<glm::vec3>& background, std::size_t channels,
+                   std::uint8_t* bytes);
 
 }  // namespace meniscus

@@ -66,7 +66,7 @@ Channels byte_channels(const Framebuffer& picture, const std::optional<glm::vec3
   const std::size_t count = channels.names.size();
   channels.bytes.resize(picture.color.size() * count);
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, picture.color.size(), 1 << 14), [&](const auto& range) {
-    display_bytes(std::span(picture.color).subspan(range.begin(), range.size()), background,
+    display_bytes(std::span(picture.color).subspan(range.begin(), range.size()), background, count,
                   &channels.bytes[range.begin() * count]);
   });
   return channels;

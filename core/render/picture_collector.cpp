@@ -6,8 +6,9 @@
 #include <limits>
 
 #include <glm/common.hpp>
-#include <glm/geometric.hpp>
 #include <tbb/parallel_for.h>
+
+#include "core/render/hit_point.h"
 
 namespace meniscus {
 namespace {
@@ -66,18 +67,16 @@ void PictureCollector::add_hits(const PictureBlock& inner, const PictureBlock& b
 
 void PictureCollector::copy_hit(const ray_cast::Hit& hit, std::size_t at) {
   if (hit.primitive == ray_cast::kNoPrimitive) return;
-  const glm::dvec2 pixel(static_cast<double>(at % frame_.size.x) + 0.5, static_cast<double>(at / frame_.size.x) + 0.5);
-  const Ray ray = pixel_ray(frame_.camera, frame_.size, pixel);
-  // The kernel counts from the plane through the pivot.
-  const double z = hit.t + frame_.eye_distance / glm::dot(ray.direction, frame_.basis.forward);
-  const glm::dvec3 point = ray.origin + ray.direction * z;
+  const auto width = static_cast<std::size_t>(frame_.size.x);
+  const HitPoint point = hit_point(frame_, {static_cast<int>(at % width), static_cast<int>(at / width)}, hit.t);
   const ray_cast::Primitive& primitive = primitives_[hit.primitive];
-  picture_.z[at] = static_cast<float>(z);
+  picture_.z[at] = static_cast<float>(point.z);
   picture_.normal[at] = hit.normal;
-  picture_.position[at] = glm::vec3(point);
+  picture_.position[at] = glm::vec3(point.position);
   picture_.atom[at] = hit.atom;
   picture_.kind[at] = primitive.kind;
-  picture_.component[at] = components_->at(static_cast<PatchKind>(primitive.kind), primitive.patch_index, point);
+  picture_.component[at] =
+      components_->at(static_cast<PatchKind>(primitive.kind), primitive.patch_index, point.position);
 }
 
 }  // namespace meniscus

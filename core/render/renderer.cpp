@@ -7,8 +7,6 @@
 #include <cassert>
 #include <cmath>
 
-#include <glm/geometric.hpp>
-
 #include "core/base/error.h"
 #include "core/gpu/gpu_stage.h"
 #include "core/gpu/limits.h"
@@ -98,10 +96,7 @@ std::optional<PickedPoint> Renderer::pick(glm::ivec2 pixel) const {
   if (hit.primitive == ray_cast::kNoPrimitive) return {};
   const auto primitive =
       scene_->primitives.buffer.download<ray_cast::Primitive>(1, hit.primitive * sizeof(ray_cast::Primitive)).front();
-  const Ray ray = pixel_ray(frame_.camera, frame_.size, glm::dvec2(pixel) + 0.5);
-  // The kernel counts from the plane through the pivot.
-  const double depth = hit.t + frame_.eye_distance / glm::dot(ray.direction, frame_.basis.forward);
-  return PickedPoint{hit.atom, static_cast<PatchKind>(primitive.kind), ray.origin + ray.direction * depth};
+  return PickedPoint{hit.atom, static_cast<PatchKind>(primitive.kind), hit_point(frame_, pixel, hit.t).position};
 }
 
 }  // namespace meniscus

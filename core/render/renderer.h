@@ -8,13 +8,13 @@
 #include <vector>
 
 #include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
 
 #include "core/base/stage_clock.h"
 #include "core/camera/camera.h"
 #include "core/color/coloring.h"
 #include "core/render/drawable.h"
 #include "core/render/framebuffer.h"
+#include "core/render/hit_point.h"
 #include "core/render/presenter.h"
 #include "core/render/ray_caster.h"
 #include "core/render/render_settings.h"
@@ -24,13 +24,6 @@
 namespace meniscus {
 
 class PictureCollector;
-
-/// What the ray through the centre of a pixel hits.
-struct PickedPoint {
-  std::uint32_t atom = kNone;  ///< index into Drawable::atoms()
-  PatchKind kind = PatchKind::convex;
-  glm::dvec3 position{0.0};  ///< Å
-};
 
 /// Makes one picture after another. Needs a current GL context for its whole life.
 class Renderer {

@@ -111,10 +111,7 @@ RenderSettings settings_of(const meniscus_picture& picture) {
 void write_pixels(const Framebuffer& drawn, const meniscus_picture& picture, std::uint8_t* rgba) {
   std::optional<glm::vec3> background;
   if (picture.opaque) background = vector_of(picture.background);
-  for (std::size_t n = 0; n < drawn.color.size(); ++n) {
-    const glm::vec4 color = display_color(drawn.color[n], background);
-    for (int channel = 0; channel < 4; ++channel) rgba[4 * n + channel] = display_byte(color[channel]);
-  }
+  display_bytes(drawn.color, background, 4, rgba);
 }
 
 /// A context and what draws in it.

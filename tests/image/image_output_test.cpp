@@ -216,11 +216,14 @@ TEST(DisplayColor, BytesOfATableAreThoseOfTheFormula) {
   }
   for (std::size_t n = 0; n < pixels.size(); n += 3) pixels[n] *= 0.3f;  // alpha is multiplied in
   pixels.emplace_back(0.0f);
-  for (const std::optional<glm::vec3>& background :
-       {std::optional<glm::vec3>(), std::optional(glm::vec3(0.2f, 0.9f, 1.0f))}) {
-    const std::size_t channels = background ? 3 : 4;
+  struct Case {
+    std::optional<glm::vec3> background;
+    std::size_t channels;
+  };
+  for (const auto& [background, channels] :
+       {Case{{}, 4}, Case{glm::vec3(0.2f, 0.9f, 1.0f), 3}, Case{glm::vec3(1.0f), 4}}) {
     std::vector<std::uint8_t> bytes(pixels.size() * channels), wanted;
-    display_bytes(pixels, background, bytes.data());
+    display_bytes(pixels, background, channels, bytes.data());
     for (const glm::vec4& pixel : pixels) {
       const glm::vec4 color = display_color(pixel, background);
       for (std::size_t channel = 0; channel < channels; ++channel)

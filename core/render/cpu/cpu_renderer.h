@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Pictures of computed surfaces made by the CPU alone, for files and for faces that ask what a pixel shows.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
+#include <tbb/enumerable_thread_specific.h>
+
+#include "core/render/cpu/cpu_tile_lists.h"
+#include "core/render/cpu/lane_kernels.h"
+#include "core/render/hit_point.h"
+#include "core/render/ray_cast_scene.h"
+#include "core/render/surface_renderer.h"
+
+namespace meniscus {
+
+class Interruption;
+
+/// Makes one picture after another; see make_cpu_renderer().
+class CpuRenderer final : public SurfaceRenderer {
+ public:
+  explicit CpuRenderer(int most_lanes = 16) : kernels_(widest_kernels(most_lanes)) {}
+
+  Framebuffer render(const Surface& surface, const Coloring& coloring, const Camera& camera,
+                     const RenderSettings& settings) override;
+
+  /// A finished picture over the look's background, which stays as rgba(). stop: asked now and then on this thread; if
+  /// true, the picture is given up: false, rgba() is the one before, and there is nothing to pick. Throws as render().
+  bool draw(const Surface& surface, const Coloring& coloring, const Camera& camera, const RenderSettings& settings,
+            const std::function<bool()>& stop = {});
+
+  /// The last drawn picture, 8 bit sRGB and alpha (255) per pixel, rows from the top.
+  const std::vector<std::uint8_t>& rgba() const { return rgba_; }
+  glm::ivec2 size() const { return size_; }
+  /// pixel of the last drawn picture: column, row from the top. Nothing where nothing is hit.
+  std::optional<PickedPoint> pick(glm::ivec2 pixel) const;
+
+  const std::vector<StageTime>& times() const override { return clock_.times(); }
+  std::string device() const override;
+
+ private:
+  /// A picture's scene on the host.
+  struct Scene {
+    RayCastScene packed;
+    ScenePlacement placement;
+    std::vector<glm::vec4> colors;
+    std::vector<float> parts;  // whole numbers that a float holds exactly: only their difference counts
+    LaneScene lanes;
+  };
+
+  /// One sample of each pixel of a block and, behind the last, of what lies outside. Tiles that list nothing are never
+  /// written, so that one beginning does for all samples.
+  struct BlockSamples {
+    std::vector<glm::vec4> color;
+    std::vector<float> depth, normal[3], part, visibility;
+
+    void resize(std::size_t pixel_count, bool has_parts);
+    LaneSamples lanes();
+  };
+
+  /// What is made of a block.
+  struct BlockTask {
+    PictureBlock block;
+    const RenderSettings& settings;
+    bool hits;  ///< wanted too
+  };
+
+  void begin(const Surface& surface, const Coloring& coloring, const Camera& camera, const RenderSettings& settings);
+  void cast(const BlockTask& task, Interruption& interruption);
+  void cast_samples(int first, int count, const BlockTask& task, Interruption& interruption);
+  void cast_tile(std::size_t tile, LaneTile task);
+  void look_at(int sample, const Look& look, Interruption& interruption);
+  void present(const RenderSettings& settings);
+
+  const LaneKernels& kernels_;
+  StageClock clock_;
+  PictureFrame frame_;  // of the picture at work, and when it is drawn, of that
+  Scene scene_;         // likewise
+  CpuTileLists lists_;
+  tbb::enumerable_thread_specific<SortedList> sorted_;
+  std::vector<glm::vec4> sums_;
+  std::vector<ray_cast::Hit> hits_;
+  BlockSamples samples_;
+  std::vector<std::uint8_t> rgba_;
+  glm::ivec2 size_{0};  // of rgba_
+  bool drawn_ = false;  // scene_ and hits_ are those of rgba_
+};
+
+}  // namespace meniscus
