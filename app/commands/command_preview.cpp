@@ -30,6 +30,8 @@
 #include "app/reports/notes.h"
 #include "app/options/molecule_options.h"
 #include "core/gpu/egl_context.h"
+#include "core/scene/picture_device.h"
+#include "core/scene/view_renderer.h"
 
 namespace meniscus {
 namespace {
@@ -85,8 +87,6 @@ Shown read_inputs(PreviewCommand& command) {
   const std::optional<Camera> camera = given_camera(command.picture);
   Shown shown = read_run(command);
   shown.camera = camera;
-  if (command.molecule.surface.cpu)
-    throw UsageError("--device cpu: the preview draws on GL; use auto, gpu or software");
   if (!shown.structure.instances.empty())
     throw UsageError("--instances is for render and export; the preview draws atoms");
   ColorScheme& color = command.molecule.color;
@@ -94,8 +94,9 @@ Shown read_inputs(PreviewCommand& command) {
   return shown;
 }
 
-/// A session as the options say. Needs a current GL context.
-std::unique_ptr<PreviewSession> begin_session(const PreviewCommand& command, Shown shown) {
+/// A session as the options say.
+std::unique_ptr<PreviewSession> begin_session(const PreviewCommand& command, std::unique_ptr<ViewRenderer> renderer,
+                                              Shown shown) {
   PreviewView view;
   view.color = command.molecule.color;
   if (command.molecule.show) view.hidden = hidden_atoms(*command.molecule.show, shown.structure);
@@ -103,8 +104,8 @@ std::unique_ptr<PreviewSession> begin_session(const PreviewCommand& command, Sho
   view.look = command.look;
   view.size = {command.picture.width, command.picture.height};
   view.camera.projection = command.picture.projection;
-  auto session = std::make_unique<PreviewSession>(std::move(shown.structure), view, shown.camera, command.output_folder,
-                                                  std::move(shown.trajectory));
+  auto session = std::make_unique<PreviewSession>(std::move(renderer), std::move(shown.structure), view, shown.camera,
+                                                  command.output_folder, std::move(shown.trajectory));
   if (!command.record.empty()) {
     auto log = std::make_shared<CommandLog>(command.record, command.force ? Existing::replace : Existing::refuse);
     session->record([log](const nlohmann::json& line) { log->write(line); });
@@ -127,8 +128,9 @@ void serve(PreviewCommand& command) {
   std::signal(SIGPIPE, SIG_IGN);  // whoever stops reading must not end the server
   const std::vector<WrittenCommand> commands = written_commands(command);
   Shown shown = read_inputs(command);
-  const EglContext context(command.molecule.surface.gl);
-  const std::unique_ptr<PreviewSession> session = begin_session(command, std::move(shown));
+  const PictureDevice device(command.molecule.surface);
+  const std::unique_ptr<PreviewSession> session =
+      begin_session(command, device.context() ? make_gl_view_renderer() : make_cpu_view_renderer(), std::move(shown));
   replay_commands(command.commands, commands, *session, std::cout);
   if (session->wants_to_quit()) return;
   serve_session(*session, *command.port,
@@ -143,9 +145,23 @@ void say_report(const PreviewCommand& command, const WindowReport& report) {
                                       report.latency.median_ms, report.latency.p95_ms, report.latency.pictures));
 }
 
+/// What draws for a window. GL is that of its display; where that is software the CPU draws faster by itself.
+std::unique_ptr<ViewRenderer> window_renderer(const SurfaceRequest& surface, const EglContext& context) {
+  using Kind = DeviceChoice::Kind;
+  if (surface.gl.kind == Kind::gpu && context.is_software())
+    throw GpuError(fmt::format("the display draws by software ({}); use --device auto, cpu or software, or --serve",
+                               context.renderer()));
+  if (surface.gl.kind == Kind::software && !context.is_software())
+    throw GpuError(
+        fmt::format("the display draws on {}; use --device auto, gpu or cpu, or --serve", context.renderer()));
+  const bool on_cpu = surface.cpu || (surface.gl.kind == Kind::automatic && context.is_software());
+  return on_cpu ? make_cpu_view_renderer() : make_gl_view_renderer();
+}
+
 void open_window(PreviewCommand& command) {
-  if (command.molecule.surface.gl.kind != DeviceChoice::Kind::automatic)
-    throw UsageError("--device and --require-gpu are for --serve; a window draws on the device of its display");
+  const SurfaceRequest& surface = command.molecule.surface;
+  if (surface.gl.index || !surface.gl.name.empty())
+    throw UsageError("--device gpu:N is for --serve; a window draws on the device of its display, or on the CPU");
   const std::vector<WrittenCommand> commands = written_commands(command);
   Shown shown = read_inputs(command);
   WindowOptions options;
@@ -155,7 +171,10 @@ void open_window(PreviewCommand& command) {
   options.replied = [&](std::size_t index, const nlohmann::json& reply) {
     print_reply(command.commands, commands[index].line, reply, std::cout);
   };
-  say_report(command, run_window(options, [&] { return begin_session(command, std::move(shown)); }));
+  const auto make = [&](const EglContext& context) {
+    return begin_session(command, window_renderer(surface, context), std::move(shown));
+  };
+  say_report(command, run_window(options, make));
 }
 
 void run(PreviewCommand& command) { command.port ? serve(command) : open_window(command); }
@@ -197,7 +216,6 @@ void add_preview(CLI::App& command) {
     const Heading heading(command, "Surface");
     add_probe_option(command, state->molecule.surface);
     add_device_option(command, state->molecule.surface);
-    command.get_option("--device")->description("auto (default: a GPU if there is one), gpu, gpu:N, software");
   }
   add_color_options(command, state->molecule);
   add_frame_options(command, state->frames);

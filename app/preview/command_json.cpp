@@ -20,4 +20,10 @@ bool is_question(const nlohmann::json& command) {
   return word == "state" || word == "stats" || word == "choices";
 }
 
+Change change_of(const nlohmann::json& command) {
+  const std::string word = command_word(command);
+  if (is_question(command) || word == "export") return Change::none;
+  return word == "probe" || word == "frame" || word == "next_frame" || word == "quit" ? Change::surface : Change::view;
+}
+
 }  // namespace meniscus

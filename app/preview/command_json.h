@@ -17,4 +17,12 @@ std::string command_word(const nlohmann::json& command);
 /// Does the command only ask: state, stats, choices, or a pick that does not wait? Anybody may, and nobody records it.
 bool is_question(const nlohmann::json& command);
 
+/// What a command will change, from the least to the most.
+enum class Change {
+  none,    ///< it asks, or exports
+  view,    ///< the same surface will be seen otherwise
+  surface  ///< there will be another surface, or an end
+};
+Change change_of(const nlohmann::json& command);
+
 }  // namespace meniscus

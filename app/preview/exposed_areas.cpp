@@ -18,19 +18,25 @@ std::vector<double> exposed_areas(const std::vector<Ball>& balls, double probe_r
   return atom_areas(compute_surface_cpu(balls, probe_radius)).surface;
 }
 
+std::future<std::vector<double>> begin_areas(const ShownAtoms& atoms) {
+  if (atoms.surface)
+    return std::async(std::launch::async, [surface = atoms.surface] { return atom_areas(*surface).surface; });
+  return std::async(std::launch::async,
+                    [balls = atoms.balls, radius = atoms.probe_radius] { return exposed_areas(balls, radius); });
+}
+
 bool is_ready(const std::future<std::vector<double>>& pending) {
   return pending.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
 }
 
 }  // namespace
 
-std::optional<double> ExposedAreas::of(std::size_t frame, double probe_radius, const std::vector<Ball>& balls,
-                                       std::size_t atom, bool wait) {
-  const Key key{frame, probe_radius};
+std::optional<double> ExposedAreas::of(const ShownAtoms& atoms, std::size_t atom, bool wait) {
+  const Key key{atoms.frame, atoms.probe_radius};
   if (pending_.valid() && pending_key_ != key && (wait || is_ready(pending_))) forget_or_keep();
   if (pending_.valid() && pending_key_ == key && (wait || is_ready(pending_))) finish();
   if (!known_.contains(key) && !pending_.valid()) {
-    begin(key, balls);
+    begin(key, atoms);
     if (wait) finish();
   }
   const auto found = known_.find(key);
@@ -38,9 +44,9 @@ std::optional<double> ExposedAreas::of(std::size_t frame, double probe_radius, c
   return found->second[atom];
 }
 
-void ExposedAreas::begin(const Key& key, const std::vector<Ball>& balls) {
+void ExposedAreas::begin(const Key& key, const ShownAtoms& atoms) {
   pending_key_ = key;
-  pending_ = std::async(std::launch::async, [balls, radius = key.second] { return exposed_areas(balls, radius); });
+  pending_ = begin_areas(atoms);
 }
 
 void ExposedAreas::forget_or_keep() {

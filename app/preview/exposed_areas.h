@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <future>
 #include <map>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -13,6 +14,14 @@
 
 namespace meniscus {
 
+/// Whose areas are asked for.
+struct ShownAtoms {
+  std::size_t frame = 0;
+  double probe_radius = 0.0;  ///< Å
+  const std::vector<Ball>& balls;
+  std::shared_ptr<const Surface> surface;  ///< theirs, complete, if somebody has it already
+};
+
 /// Exact areas per frame and probe radius, from the complete surface on the CPU in a thread of its own. One is computed
 /// at a time; the latest few are kept.
 class ExposedAreas {
@@ -20,14 +29,13 @@ class ExposedAreas {
   /// Area of the points that take the atom's colour, Å² (AtomAreas::surface). If it is not known yet it is computed:
   /// with `wait` before this returns, else nothing comes back and a later call finds it.
   /// Throws OpenSurfaceError, CapacityError.
-  std::optional<double> of(std::size_t frame, double probe_radius, const std::vector<Ball>& balls, std::size_t atom,
-                           bool wait);
+  std::optional<double> of(const ShownAtoms& atoms, std::size_t atom, bool wait);
 
  private:
   using Key = std::pair<std::size_t, double>;
   using Areas = std::vector<double>;
 
-  void begin(const Key& key, const std::vector<Ball>& balls);
+  void begin(const Key& key, const ShownAtoms& atoms);
   void finish();
   void forget_or_keep();
 

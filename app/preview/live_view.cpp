@@ -3,17 +3,16 @@
 #include "app/preview/live_view.h"
 
 #include <algorithm>
-#include <utility>
 
 #include "core/base/error.h"
-#include "core/gpu/context_description.h"
 
 namespace meniscus {
 namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto kPause = 60ms;  // of the hand, until the draft gets its full size
+constexpr auto kPause = 60ms;      // of the hand, until the draft gets its full size
+constexpr auto kPatience = 400ms;  // with drafts of a surface that nobody wants any more
 constexpr LiveView::Clock::duration kRest = 150ms, kLongestRest = 1500ms;
 
 }  // namespace
@@ -34,11 +33,14 @@ void LiveView::note_change() {
   fault_.clear();
 }
 
-bool LiveView::draw(Quality quality, std::function<bool()> stop) {
+bool LiveView::draw(Quality quality, const std::function<Change()>& waiting) {
   const Clock::time_point begin = Clock::now();
+  const auto stop = [&] {
+    if (quality != Quality::draft) return waiting() != Change::none;
+    return Clock::now() - begin > kPatience && waiting() == Change::surface;
+  };
   try {
-    const bool whole = session_.render(quality, std::move(stop));
-    require_living_context();
+    const bool whole = session_.render(quality, stop);
     if (!whole) return false;
   } catch (const GpuError&) {
     throw;

@@ -26,8 +26,10 @@ class LiveView {
   /// Carries a command out; its reply.
   nlohmann::json apply(const nlohmann::json& command);
 
-  /// Draws the view in this quality. False: `stop` said so, or it cannot be drawn (fault). Throws GpuError.
-  bool draw(Quality quality, std::function<bool()> stop);
+  /// Draws the view in this quality. waiting: the most that a command which waits will change. A draft goes on whatever
+  /// moves, or nothing would be seen of a long drag, and is given up late, for another surface only; better pictures
+  /// for any change. False: it was given up, or it cannot be drawn (fault). Throws GpuError.
+  bool draw(Quality quality, const std::function<Change()>& waiting);
 
   /// The best picture that there is of the view; nothing: none yet.
   std::optional<Quality> drawn() const;

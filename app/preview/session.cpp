@@ -16,14 +16,16 @@
 
 namespace meniscus {
 
-PreviewSession::PreviewSession(Structure structure, PreviewView view, const std::optional<Camera>& camera,
-                               std::filesystem::path export_folder, std::optional<TrajectoryPositions> trajectory)
+PreviewSession::PreviewSession(std::unique_ptr<ViewRenderer> renderer, Structure structure, PreviewView view,
+                               const std::optional<Camera>& camera, std::filesystem::path export_folder,
+                               std::optional<TrajectoryPositions> trajectory)
     : structure_(std::move(structure)),
       frames_(group_atoms(structure_, Grouping::model)),
       trajectory_(std::move(trajectory)),
       view_(std::move(view)),
       export_folder_(std::move(export_folder)),
-      coloring_(color_atoms(structure_, view_.color)) {
+      coloring_(color_atoms(structure_, view_.color)),
+      renderer_(std::move(renderer)) {
   if (trajectory_) sample_trajectory();
   show_frame(0);
   camera ? look_from(*camera) : look_at_all();
@@ -65,8 +67,8 @@ void PreviewSession::show_frame(std::size_t frame) {
   balls_.clear();
   for (const std::uint32_t a : shown_atoms())
     balls_.push_back({structure_.atoms[a].position, structure_.atoms[a].radius});
-  surface_.set_atoms(balls_);
-  surface_.set_coloring(frame_coloring());
+  renderer_->set_atoms(balls_);
+  renderer_->set_coloring(frame_coloring());
 }
 
 std::vector<CameraKey> PreviewSession::camera_keys() const {
@@ -103,9 +105,8 @@ bool PreviewSession::render(Quality quality, const std::function<bool()>& stop) 
   if (is_drawn(quality)) return true;
   drawn_ = {};
   const auto begin = std::chrono::steady_clock::now();
-  surface_.set_surface(view_.probe_radius, Extent::visible);
-  if (!renderer_.draw(surface_, view_.camera, settings(quality), stop)) return false;
-  if (quality != Quality::draft || stages_.empty()) stages_ = renderer_.times();
+  if (!renderer_->draw(view_.probe_radius, view_.camera, settings(quality), stop)) return false;
+  if (quality != Quality::draft || stages_.empty()) stages_ = renderer_->times();
   frame_ms_ = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
   drawn_ = {revision_, quality};
   return true;

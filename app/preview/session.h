@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -23,8 +24,7 @@
 #include "core/camera/camera.h"
 #include "core/camera/camera_path.h"
 #include "core/render/look.h"
-#include "core/render/renderer.h"
-#include "core/visible_surface/view_pipeline.h"
+#include "core/scene/view_renderer.h"
 
 namespace meniscus {
 
@@ -54,15 +54,15 @@ enum class Quality {
   full    ///< as exported
 };
 
-/// A molecule, how it is seen, and the renderer that draws it. Needs a current GL context for its whole life, and is
-/// used by one thread.
+/// A molecule, how it is seen, and the renderer that draws it. Used by one thread.
 class PreviewSession {
  public:
   /// Each model of the structure, which has atoms, is a frame; with `trajectory` these are the frames of its one model.
   /// `view` says how it looks at first; without `camera` everything is shown. Throws InputError for a bad camera or
   /// first frame, and as color_atoms does.
-  PreviewSession(Structure structure, PreviewView view, const std::optional<Camera>& camera,
-                 std::filesystem::path export_folder, std::optional<TrajectoryPositions> trajectory = {});
+  PreviewSession(std::unique_ptr<ViewRenderer> renderer, Structure structure, PreviewView view,
+                 const std::optional<Camera>& camera, std::filesystem::path export_folder,
+                 std::optional<TrajectoryPositions> trajectory = {});
 
   /// Carries out {"command": WORD, ...} and answers {"ok": true, ...} or {"ok": false, "error": "one clear line"};
   /// after an error nothing has changed. The commands: app/preview/commands.md. Throws GpuError only: then all is lost.
@@ -78,10 +78,10 @@ class PreviewSession {
   /// Is the last picture what render(quality) would draw?
   bool is_drawn(Quality quality) const;
 
-  /// The last picture; see Renderer::draw(). A new one may come with render and with apply (pick).
-  std::vector<std::uint8_t> rgba() const { return renderer_.rgba(); }
-  std::uint32_t texture() const { return renderer_.texture(); }
-  glm::ivec2 picture_size() const { return renderer_.size(); }
+  /// The last picture; see ViewRenderer::draw(). A new one may come with render and with apply (pick).
+  std::vector<std::uint8_t> rgba() const { return renderer_->rgba(); }
+  std::uint32_t texture() const { return renderer_->texture(); }  ///< of GL; 0: the picture is rgba() alone
+  glm::ivec2 picture_size() const { return renderer_->size(); }
 
   /// While playing, a face sends {"command":"next_frame"} at this pace.
   bool playing() const { return view_.playing; }
@@ -154,8 +154,7 @@ class PreviewSession {
   std::filesystem::path export_folder_;
   std::vector<Ball> balls_;  ///< of the frame shown
   Coloring coloring_;        ///< of all atoms of the structure
-  ViewPipeline surface_;     ///< of the frame shown
-  Renderer renderer_;
+  std::unique_ptr<ViewRenderer> renderer_;
   ExposedAreas areas_;
   std::uint64_t revision_ = 1;  ///< grows with every change
   Drawn drawn_;

@@ -182,13 +182,13 @@ Json PreviewSession::set_color(const CommandReader& command) {
   const ColorScheme color = color_of(command, view_.color.file);
   coloring_ = color_atoms(structure_, color);
   view_.color = color;
-  surface_.set_coloring(frame_coloring());
+  renderer_->set_coloring(frame_coloring());
   return Json::object();
 }
 
 Json PreviewSession::set_patch_kinds(const CommandReader& command) {
   view_.patch_kinds = command.flag("on");
-  surface_.set_coloring(frame_coloring());
+  renderer_->set_coloring(frame_coloring());
   return Json::object();
 }
 

@@ -47,13 +47,14 @@ Json PreviewSession::pick(const CommandReader& command) {
   const glm::ivec2 pixel{command.integer("x", 0, view_.size.x - 1), command.integer("y", 0, view_.size.y - 1)};
   const bool wait = command.flag_or(true, "wait");
   if (drawn_.revision != revision_ || drawn_.quality == Quality::draft) render(Quality::plain);
-  const std::optional<PickedPoint> point = renderer_.pick(pixel);
+  const std::optional<PickedPoint> point = renderer_->pick(pixel);
   if (!point) return {{"hit", false}};
   Json reply = atom_json(structure_.atoms[shown_atoms()[point->atom]]);
   reply["hit"] = true;
   reply["kind"] = kind_word(point->kind);
   reply["position"] = {point->position.x, point->position.y, point->position.z};
-  const std::optional<double> area = areas_.of(view_.frame, view_.probe_radius, balls_, point->atom, wait);
+  const std::optional<double> area =
+      areas_.of({view_.frame, view_.probe_radius, balls_, renderer_->surface()}, point->atom, wait);
   reply["exposed_area"] = area ? Json(*area) : Json(nullptr);
   return reply;
 }
@@ -79,7 +80,7 @@ Json PreviewSession::export_view(const CommandReader& command) {
                            command.integer_or(view_.size.y, "height", 16, kLongestExportedSide)},
                           command.integer_or(view_.samples, "samples", 1, 1024)};
   Json reply{{"path", target.path.string()}};
-  if (format == 0) export_picture(view, target);
+  if (format == 0) export_picture(view, *renderer_, target);
   if (format == 1) reply["render_with"] = export_povray(view, target);
   if (format == 2) export_blender(view, target);
   if (format == 3) export_camera(view, target);
@@ -92,8 +93,8 @@ Json PreviewSession::stats(const CommandReader&) {
   for (const StageTime& stage : stages_) stages.push_back({{"name", stage.name}, {"milliseconds", stage.milliseconds}});
   return {{"frame_milliseconds", frame_ms_},
           {"fps", frame_ms_ > 0.0 ? 1000.0 / frame_ms_ : 0.0},
-          {"width", renderer_.size().x},
-          {"height", renderer_.size().y},
+          {"width", renderer_->size().x},
+          {"height", renderer_->size().y},
           {"stages", stages}};
 }
 

@@ -15,7 +15,6 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/render/image_output.h"
-#include "core/render/renderer.h"
 #include "core/queries/surface_object.h"
 #include "exporters/blender/surface_file.h"
 #include "exporters/povray/scene.h"
@@ -44,11 +43,10 @@ ColorKey colors_of(const ExportedView& view) {
 
 }  // namespace
 
-void export_picture(const ExportedView& view, const ExportTarget& target) {
+void export_picture(const ExportedView& view, ViewRenderer& renderer, const ExportTarget& target) {
   check_image_path(target.path);
   OutputFile(target.path, target.existing);  // known to be possible before the work begins
   const SurfaceObject object = complete_surface(view).first;
-  Renderer renderer;
   RenderSettings settings;
   settings.size = view.size;
   settings.samples = view.samples;

@@ -15,6 +15,7 @@
 #include "core/camera/camera_path.h"
 #include "core/render/look.h"
 #include "core/color/coloring.h"
+#include "core/scene/view_renderer.h"
 
 namespace meniscus {
 
@@ -38,9 +39,9 @@ struct ExportTarget {
   Existing existing = Existing::refuse;
 };
 
-/// As `meniscus render`: the complete surface, ray cast; .png, .tif or .exr. Needs a current GL context.
+/// As `meniscus render`: the complete surface, ray cast by `renderer`; .png, .tif or .exr.
 /// Throws OutputError, OpenSurfaceError, CapacityError, GpuError; so do the others, but for the last.
-void export_picture(const ExportedView& view, const ExportTarget& target);
+void export_picture(const ExportedView& view, ViewRenderer& renderer, const ExportTarget& target);
 
 /// As `meniscus export povray`; returns the command that renders it.
 std::string export_povray(const ExportedView& view, const ExportTarget& target);

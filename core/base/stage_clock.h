@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -48,7 +49,13 @@ class StageClock {
 
   explicit StageClock(StageTiming timing = StageTiming::rough) : exact_(timing == StageTiming::exact) {}
 
-  [[nodiscard]] Stage stage(const std::string& name) { return Stage(*this, name); }
+  [[nodiscard]] Stage stage(const std::string& name) {
+    if (look_) look_();
+    return Stage(*this, name);
+  }
+
+  /// look: called before each stage; what it throws ends the work.
+  void before_stages(std::function<void()> look) { look_ = std::move(look); }
 
   void add(std::string name, double milliseconds) {
     keep_room();
@@ -76,6 +83,7 @@ class StageClock {
   }
 
   bool exact_;
+  std::function<void()> look_;
   std::vector<StageTime> times_;
   std::size_t open_ = 0;
 };

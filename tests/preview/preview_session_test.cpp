@@ -38,17 +38,20 @@ ENDMDL
 END
 )";
 
-class PreviewSessionTest : public ::testing::Test {
+/// On the CPU and on GL.
+class PreviewSessionTest : public ::testing::TestWithParam<const char*> {
  protected:
   PreviewSessionTest() {
     ReadOptions reading;
     reading.model.all = true;
     PreviewView view;
     view.size = {80, 60};
-    session_ = std::make_unique<PreviewSession>(read_structure(folder_.file("two.pdb", kTwoModels), reading), view,
-                                                std::nullopt, folder_.path());
+    if (std::string(GetParam()) == "gl") context_.emplace();
+    session_ = std::make_unique<PreviewSession>(
+        renderer(), read_structure(folder_.file("two.pdb", kTwoModels), reading), view, std::nullopt, folder_.path());
   }
 
+  std::unique_ptr<ViewRenderer> renderer() { return context_ ? make_gl_view_renderer() : make_cpu_view_renderer(); }
   Json apply(const std::string& command) { return session_->apply(Json::parse(command)); }
   Json state() { return apply(R"({"command":"state"})"); }
   void expect_ok(const std::string& command) {
@@ -57,11 +60,11 @@ class PreviewSessionTest : public ::testing::Test {
   }
 
   TemporaryFolder folder_;
-  EglContext context_;
+  std::optional<EglContext> context_;
   std::unique_ptr<PreviewSession> session_;
 };
 
-TEST_F(PreviewSessionTest, BadCommandsAreAnsweredAndChangeNothing) {
+TEST_P(PreviewSessionTest, BadCommandsAreAnsweredAndChangeNothing) {
   const Json before = state();
   for (const char* command : {
            R"(7)",
@@ -119,7 +122,7 @@ TEST_F(PreviewSessionTest, BadCommandsAreAnsweredAndChangeNothing) {
   EXPECT_EQ(folder_.entries(), std::vector<std::string>{"two.pdb"});
 }
 
-TEST_F(PreviewSessionTest, EveryModelIsAFrame) {
+TEST_P(PreviewSessionTest, EveryModelIsAFrame) {
   EXPECT_EQ(state()["frames"], 2);
   session_->render(Quality::full);
   const auto first = session_->rgba();
@@ -132,7 +135,7 @@ TEST_F(PreviewSessionTest, EveryModelIsAFrame) {
   EXPECT_EQ(session_->rgba(), first);
 }
 
-TEST_F(PreviewSessionTest, PicturesCanBeGivenUpBetweenSamples) {
+TEST_P(PreviewSessionTest, PicturesCanBeGivenUpBetweenSamples) {
   ASSERT_TRUE(session_->render(Quality::draft));
   const auto draft = session_->rgba();
   expect_ok(R"({"command":"samples","count":4})");
@@ -148,7 +151,7 @@ TEST_F(PreviewSessionTest, PicturesCanBeGivenUpBetweenSamples) {
   EXPECT_EQ(session_->rgba(), full);
 }
 
-TEST_F(PreviewSessionTest, DraftsAreHalfTheSize) {
+TEST_P(PreviewSessionTest, DraftsAreHalfTheSize) {
   session_->render(Quality::draft);
   EXPECT_EQ(session_->picture_size(), glm::ivec2(40, 30));
   EXPECT_TRUE(session_->is_drawn(Quality::draft));
@@ -159,7 +162,7 @@ TEST_F(PreviewSessionTest, DraftsAreHalfTheSize) {
   EXPECT_GT(apply(R"({"command":"stats"})")["fps"], 0.0);
 }
 
-TEST_F(PreviewSessionTest, APickNamesTheAtomAndItsExactArea) {
+TEST_P(PreviewSessionTest, APickNamesTheAtomAndItsExactArea) {
   expect_ok(R"({"command":"zoom_to","selection":"name O"})");
   const Json reply = apply(R"({"command":"pick","x":40,"y":30})");
   ASSERT_TRUE(reply["hit"]) << reply;
@@ -177,7 +180,7 @@ TEST_F(PreviewSessionTest, APickNamesTheAtomAndItsExactArea) {
   EXPECT_FALSE(apply(R"({"command":"pick","x":0,"y":0})")["hit"]);
 }
 
-TEST_F(PreviewSessionTest, APickDoesNotPassForTheFullPicture) {
+TEST_P(PreviewSessionTest, APickDoesNotPassForTheFullPicture) {
   session_->render(Quality::full);
   const auto picture = session_->rgba();
   expect_ok(R"({"command":"pick","x":40,"y":30})");
@@ -192,7 +195,7 @@ TEST_F(PreviewSessionTest, APickDoesNotPassForTheFullPicture) {
   EXPECT_EQ(session_->rgba(), picture);
 }
 
-TEST_F(PreviewSessionTest, EverythingStaysInViewUntilTheCameraMoves) {
+TEST_P(PreviewSessionTest, EverythingStaysInViewUntilTheCameraMoves) {
   expect_ok(R"({"command":"resize","width":40,"height":120})");
   const Json narrow = state()["camera"];
   expect_ok(R"({"command":"resize","width":80,"height":60})");
@@ -205,7 +208,7 @@ TEST_F(PreviewSessionTest, EverythingStaysInViewUntilTheCameraMoves) {
   EXPECT_EQ(state()["camera"], narrow);
 }
 
-TEST_F(PreviewSessionTest, AnAreaThatIsNotWaitedForComesLater) {
+TEST_P(PreviewSessionTest, AnAreaThatIsNotWaitedForComesLater) {
   const Json first = apply(R"({"command":"pick","x":40,"y":30,"wait":false})");
   ASSERT_TRUE(first["hit"]);
   EXPECT_TRUE(first["exposed_area"].is_null());
@@ -214,7 +217,7 @@ TEST_F(PreviewSessionTest, AnAreaThatIsNotWaitedForComesLater) {
   EXPECT_EQ(apply(R"({"command":"pick","x":40,"y":30,"wait":false})"), later);
 }
 
-TEST_F(PreviewSessionTest, PatchKindsColourWhateverTheSchemeIs) {
+TEST_P(PreviewSessionTest, PatchKindsColourWhateverTheSchemeIs) {
   expect_ok(R"({"command":"color","scheme":"#ff0000"})");
   expect_ok(R"({"command":"patch_kinds","on":true})");
   session_->render(Quality::full);
@@ -227,7 +230,7 @@ TEST_F(PreviewSessionTest, PatchKindsColourWhateverTheSchemeIs) {
   EXPECT_EQ(state()["color"], Json::parse(R"({"scheme":"bfactor","map":"magma"})"));
 }
 
-TEST_F(PreviewSessionTest, TheLookIsForPicturesAtRest) {
+TEST_P(PreviewSessionTest, TheLookIsForPicturesAtRest) {
   session_->render(Quality::draft);
   const auto draft = session_->rgba();
   session_->render(Quality::full);
@@ -244,7 +247,7 @@ TEST_F(PreviewSessionTest, TheLookIsForPicturesAtRest) {
   EXPECT_NE(session_->rgba(), draft);
 }
 
-TEST_F(PreviewSessionTest, ACameraComesBackAsItWas) {
+TEST_P(PreviewSessionTest, ACameraComesBackAsItWas) {
   expect_ok(R"({"command":"orbit","dx":0.123,"dy":0.0456})");
   const Json camera = state()["camera"];
   expect_ok(R"({"command":"reset_view"})");
@@ -253,7 +256,7 @@ TEST_F(PreviewSessionTest, ACameraComesBackAsItWas) {
   EXPECT_EQ(state()["camera"], camera);
 }
 
-TEST_F(PreviewSessionTest, ExportsAreWholeAndReplaceNothing) {
+TEST_P(PreviewSessionTest, ExportsAreWholeAndReplaceNothing) {
   const std::string png = R"({"command":"export","format":"png","path":"view.png","width":50,"height":40)";
   expect_ok(png + "}");
   EXPECT_EQ(apply(png + "}")["ok"], false);
@@ -267,7 +270,7 @@ TEST_F(PreviewSessionTest, ExportsAreWholeAndReplaceNothing) {
   EXPECT_EQ(Json::parse(read_bytes(folder_.path() / "view.json")), state()["camera"]);
 }
 
-TEST_F(PreviewSessionTest, PlaysOnlyWhatHasFrames) {
+TEST_P(PreviewSessionTest, PlaysOnlyWhatHasFrames) {
   EXPECT_EQ(apply(R"({"command":"play","fps":25})")["playing"], true);
   EXPECT_TRUE(session_->playing());
   EXPECT_EQ(session_->frames_per_second(), 25.0);
@@ -278,9 +281,40 @@ TEST_F(PreviewSessionTest, PlaysOnlyWhatHasFrames) {
   EXPECT_TRUE(session_->wants_to_quit());
 }
 
+INSTANTIATE_TEST_SUITE_P(On, PreviewSessionTest, ::testing::Values("cpu", "gl"),
+                         [](const auto& device) { return std::string(device.param); });
+
+// A surface takes stages, and none is begun for somebody who does not want it any more.
+TEST(PreviewView, SurfacesCanBeGivenUpBetweenStages) {
+  const std::unique_ptr<ViewRenderer> renderer = make_cpu_view_renderer();
+  renderer->set_atoms({{{0, 0, 0}, 1.7}, {{3, 0, 0}, 1.5}});
+  Coloring coloring;
+  coloring.atom.assign(2, glm::vec3(0.5f));
+  renderer->set_coloring(coloring);
+  Camera camera;
+  camera.position = {0, 0, 20};
+  RenderSettings settings;
+  settings.size = {40, 30};
+  ASSERT_TRUE(renderer->draw(1.4, camera, settings));
+  ASSERT_TRUE(renderer->surface());
+  const std::vector<std::uint8_t> before = renderer->rgba();
+  const std::size_t stages = renderer->times().size();
+  int asked = 0;
+  EXPECT_FALSE(renderer->draw(2.0, camera, settings, [&] { return ++asked == 3; }));
+  EXPECT_EQ(asked, 3);
+  EXPECT_FALSE(renderer->surface());
+  EXPECT_EQ(renderer->rgba(), before);
+  ASSERT_TRUE(renderer->draw(2.0, camera, settings, [] { return false; }));
+  EXPECT_EQ(renderer->surface()->probe_radius, 2.0);
+  EXPECT_NE(renderer->rgba(), before);
+  // Another view of the same surface computes none.
+  camera.position = {0, 0, 30};
+  ASSERT_TRUE(renderer->draw(2.0, camera, settings));
+  EXPECT_LT(renderer->times().size(), stages);
+}
+
 // One atom walks along x; its third step cannot be read.
 TEST(PreviewMoments, FramesOfATrajectory) {
-  const EglContext context;
   const TemporaryFolder folder;
   const Structure structure = read_structure(folder.file("one.pdb", kTwoModels));
   std::vector<glm::dvec3> start;
@@ -293,7 +327,7 @@ TEST(PreviewMoments, FramesOfATrajectory) {
                               }};
   PreviewView view;
   view.size = {80, 60};
-  PreviewSession session(structure, view, std::nullopt, folder.path(), moments);
+  PreviewSession session(make_cpu_view_renderer(), structure, view, std::nullopt, folder.path(), moments);
   const auto apply = [&](const char* command) { return session.apply(Json::parse(command)); };
   EXPECT_EQ(apply(R"({"command":"state"})")["frames"], 4);
   // The first view holds all of the walk: the last place of the atom is in the picture.
@@ -315,14 +349,13 @@ TEST(PreviewMoments, FramesOfATrajectory) {
 }
 
 TEST(PreviewMoments, KeysOfTheCamera) {
-  const EglContext context;
   const TemporaryFolder folder;
   const Structure structure = read_structure(folder.file("one.pdb", kTwoModels));
   std::vector<glm::dvec3> positions;
   for (const Atom& atom : structure.atoms) positions.push_back(atom.position);
   PreviewView view;
   view.size = {80, 60};
-  PreviewSession session(structure, view, std::nullopt, folder.path(),
+  PreviewSession session(make_cpu_view_renderer(), structure, view, std::nullopt, folder.path(),
                          TrajectoryPositions{{10, 20, 30, 40}, [positions](std::size_t) { return positions; }});
   const auto apply = [&](const char* command) { return session.apply(Json::parse(command)); };
   const char* kExport = R"({"command":"export","format":"camera_path","path":"path.json","force":true})";

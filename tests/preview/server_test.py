@@ -237,7 +237,6 @@ class Server(unittest.IsolatedAsyncioTestCase):
         fails(2, "--serve", "70000")
         fails(2, "--serve", "--instances", "exact")
         fails(3, "--serve", "--show", "chain Z")
-        fails(2, "--serve", "--device", "cpu")
         fails(6, "--serve", "--output-dir", self.path("nowhere"))
         fails(6, "--serve", "--record", self.file)
         with open(self.path("bad.jsonl"), "w") as file:

@@ -203,9 +203,15 @@ TEST(Window, SaysThatThereIsNoDisplay) {
 }
 
 TEST(Window, RefusesADeviceThatItCannotChoose) {
-  const ProgramResult result = run_program(kProgram, with({"--device", "software"}));
+  const ProgramResult result = run_program(kProgram, with({"--device", "gpu:1"}));
   EXPECT_EQ(result.exit_code, 2);
-  EXPECT_NE(result.err.find("are for --serve"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("is for --serve"), std::string::npos) << result.err;
+}
+
+TEST_F(WindowTest, SaysThatItsDisplayIsSoftware) {
+  const ProgramResult result = run_program(kProgram, with({"--device", "gpu"}));
+  EXPECT_EQ(result.exit_code, 4);
+  EXPECT_NE(result.err.find("the display draws by software"), std::string::npos) << result.err;
 }
 
 TEST_F(WindowTest, ARefusedCommandOfAReplayIsNamedByItsLine) {

@@ -9,7 +9,6 @@
 #include <string_view>
 #include <utility>
 
-#include "app/preview/command_json.h"
 #include "core/base/error.h"
 #include "app/preview/merge_commands.h"
 
@@ -35,9 +34,11 @@ bool Mailbox::put(ClientNumber client, const nlohmann::json& id, nlohmann::json 
   return true;
 }
 
-bool Mailbox::has_changes() {
+Change Mailbox::waiting_change() {
   const std::lock_guard lock(mutex_);
-  return !std::ranges::all_of(content_.commands, is_question, &ClientCommand::command);
+  Change most = Change::none;
+  for (const ClientCommand& waiting : content_.commands) most = std::max(most, change_of(waiting.command));
+  return most;
 }
 
 void Mailbox::want_picture(ClientNumber client) {

@@ -12,6 +12,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "app/preview/command_json.h"
+
 namespace meniscus {
 
 using ClientNumber = std::uint64_t;
@@ -29,8 +31,8 @@ class Mailbox {
  public:
   /// False, and nothing happens, if too many commands wait already.
   bool put(ClientNumber client, const nlohmann::json& id, nlohmann::json command);
-  /// Does a command wait that may change something?
-  bool has_changes();
+  /// The most that a waiting command will change.
+  Change waiting_change();
   /// The client has shown its last picture and is ready for another.
   void want_picture(ClientNumber client);
   /// The client has gone; its commands are still carried out.

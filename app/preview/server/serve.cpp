@@ -102,7 +102,7 @@ class ServedSession {
   /// False if there is nothing to show: it cannot be drawn, or a newer command stopped it.
   bool draw() {
     const Quality quality = view_.due(Clock::now());
-    if (!view_.draw(quality, [this] { return mailbox_.has_changes(); })) {
+    if (!view_.draw(quality, [this] { return mailbox_.waiting_change(); })) {
       if (!view_.fault().empty())
         network_.send_to_all({{"event", "error"}, {"error", escaped(view_.fault())}, {"state", question("state")}});
       return false;

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Hands pictures from the thread that draws them to the thread that shows them, without a copy through the CPU.
+// Hands pictures from the thread that draws them to the thread that shows them, without a copy through the CPU
+// where the GPU draws them.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <mutex>
+#include <span>
 
 #include <glm/vec2.hpp>
 
@@ -24,10 +26,15 @@ class PictureExchange {
 
   /// On the drawing thread: copies a texture and offers the copy in place of the last one offered.
   void offer(std::uint32_t texture, glm::ivec2 size);
+  /// The same with a picture on the host, RGBA in 8 bits.
+  void offer(std::span<const std::uint8_t> rgba, glm::ivec2 size);
   /// On the showing thread: the newest picture, which stays as it is until the next call.
   SharedPicture newest();
 
  private:
+  SharedPicture& free_slot(glm::ivec2 size);
+  void offer_free_slot();
+
   std::array<SharedPicture, 3> slots_;
   int shown_ = 0, ready_ = 1, free_ = 2;
   bool fresh_ = false;  ///< slot ready_ is newer than slot shown_

@@ -61,7 +61,7 @@ void SessionThread::run(const ForeignContext& sibling, const Make& make) {
   }
   try {
     const EglContext context(sibling);
-    const std::unique_ptr<PreviewSession> session = make();
+    const std::unique_ptr<PreviewSession> session = make(context);
     work(LiveView(*session));
   } catch (...) {
     const std::scoped_lock lock(mutex_);
@@ -108,23 +108,30 @@ bool SessionThread::rests(std::unique_lock<std::mutex>& lock, const LiveView& vi
   return !posted_.wait_until(lock, Clock::now() + pause, called);
 }
 
-/// Does a command wait that will change the view, or is it all over?
-bool SessionThread::something_new_waits() {
+/// The most that a waiting command will change; the end is one too.
+Change SessionThread::waiting_change() {
   const std::scoped_lock lock(mutex_);
-  return stop_ || std::ranges::any_of(queue_, [](const SessionReply& waiting) {
-           return !is_question(waiting.command) && command_word(waiting.command) != "export";
-         });
+  Change most = stop_ ? Change::surface : Change::none;
+  for (const SessionReply& waiting : queue_) most = std::max(most, change_of(waiting.command));
+  return most;
 }
 
 void SessionThread::draw(LiveView& view) {
   const std::optional<Quality> drawn = view.drawn();
   if (view.fault().empty() && (!drawn || *drawn < wanted_)) {
-    if (view.draw(wanted_, [this] { return something_new_waits(); }))
-      pictures_.offer(view.session().texture(), view.session().picture_size());
+    if (view.draw(wanted_, [this] { return waiting_change(); }))
+      offer(view.session());
     else if (view.fault().empty())
       return;  // given up for what is new
   }
   tell(view);
+}
+
+void SessionThread::offer(const PreviewSession& session) {
+  if (session.texture())
+    pictures_.offer(session.texture(), session.picture_size());
+  else
+    pictures_.offer(session.rgba(), session.picture_size());
 }
 
 void SessionThread::tell(const LiveView& view) {

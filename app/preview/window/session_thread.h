@@ -44,10 +44,10 @@ struct SessionUpdate {
 /// Commands go in, replies and pictures come out. All functions are for one other thread, the one of the window.
 class SessionThread {
  public:
-  using Make = std::function<std::unique_ptr<PreviewSession>()>;
+  using Make = std::function<std::unique_ptr<PreviewSession>(const EglContext& context)>;
 
-  /// make: called on the thread, a context beside `sibling` being current. wake: called from the thread when there are
-  /// news.
+  /// make: called on the thread with the context that is current there, which is beside `sibling` and stays. wake:
+  /// called from the thread when there are news.
   SessionThread(const ForeignContext& sibling, Make make, std::function<void()> wake);
   /// Waits for the frame at hand, and for commands that were posted.
   ~SessionThread();
@@ -67,8 +67,9 @@ class SessionThread {
   void work(LiveView view);
   std::deque<SessionReply> next_commands(const LiveView& view);
   bool rests(std::unique_lock<std::mutex>& lock, const LiveView& view, Clock::duration pause);
-  bool something_new_waits();
+  Change waiting_change();
   void draw(LiveView& view);
+  void offer(const PreviewSession& session);
   void tell(const LiveView& view);
 
   std::function<void()> wake_;

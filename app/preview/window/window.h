@@ -28,8 +28,9 @@ struct WindowReport {
   FrameLatency latency;  ///< of the pictures that followed a movement
 };
 
-/// Runs until the user leaves or a command says quit; on the main thread. make: called on another one, with a context
-/// current. Throws GpuError without a display, EGL or GL 4.5, or when the context is lost, and what `make` throws.
+/// Runs until the user leaves or a command says quit; on the main thread. make: called on another one, with the context
+/// that is current there. Throws GpuError without a display, EGL or GL 4.5, or when the context is lost, and what
+/// `make` throws.
 WindowReport run_window(const WindowOptions& options, SessionThread::Make make);
 
 }  // namespace meniscus

@@ -62,7 +62,7 @@ void check_mailbox(const std::vector<WrittenCommand>& commands) {
   std::size_t put = 0, taken = 0;
   for (const WrittenCommand& written : commands)
     put += mailbox.put(1 + written.line % 2, written.line, written.command);
-  mailbox.has_changes();
+  mailbox.waiting_change();
   if (put == 0) return;
   for (const ClientCommand& command : mailbox.take(std::nullopt).commands) {
     taken += command.ids.size();

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// One complete surface for many cameras.
+#include <algorithm>
+#include <utility>
+
+#include "core/render/cpu/cpu_renderer.h"
+#include "core/scene/view_renderer.h"
+#include "core/surface/reduced_surface_engine.h"
+#include "core/surface/surface.h"
+
+namespace meniscus {
+namespace {
+
+/// Ends the computation of a surface that nobody wants any more.
+struct GivenUp {};
+
+class CpuViewRenderer final : public ViewRenderer {
+ public:
+  void set_atoms(std::vector<Ball> atoms) override {
+    atoms_ = std::move(atoms);
+    surface_.reset();
+  }
+  void set_coloring(const Coloring& coloring) override { coloring_ = coloring; }
+
+  bool draw(double probe_radius, const Camera& camera, const RenderSettings& settings,
+            const std::function<bool()>& stop) override {
+    validate_camera(camera, "camera");
+    times_.clear();
+    if (!surface_ || surface_->probe_radius != probe_radius)
+      if (!compute(probe_radius, stop)) return false;
+    const bool whole = renderer_.draw(*surface_, coloring_, camera, settings, stop);
+    times_.insert(times_.end(), renderer_.times().begin(), renderer_.times().end());
+    return whole;
+  }
+
+  Framebuffer render(const Surface& surface, const Coloring& coloring, const Camera& camera,
+                     const RenderSettings& settings) override {
+    return CpuRenderer().render(surface, coloring, camera, settings);  // the picture that is drawn stays
+  }
+
+  std::vector<std::uint8_t> rgba() const override { return renderer_.rgba(); }
+  std::uint32_t texture() const override { return 0; }
+  glm::ivec2 size() const override { return renderer_.size(); }
+  std::optional<PickedPoint> pick(glm::ivec2 pixel) const override { return renderer_.pick(pixel); }
+  std::shared_ptr<const Surface> surface() const override { return surface_; }
+  const std::vector<StageTime>& times() const override { return times_; }
+
+ private:
+  /// False if it was given up.
+  bool compute(double probe_radius, const std::function<bool()>& stop) {
+    surface_.reset();
+    StageClock clock;
+    clock.before_stages([&stop] {
+      if (stop && stop()) throw GivenUp();
+    });
+    try {
+      auto surface = std::make_shared<Surface>(compute_surface(*engine_, atoms_, probe_radius, clock));
+      require_closed(*surface);
+      surface_ = std::move(surface);
+    } catch (const GivenUp&) {
+      return false;
+    }
+    times_ = clock.times();
+    return true;
+  }
+
+  std::vector<Ball> atoms_;
+  Coloring coloring_;
+  std::unique_ptr<ReducedSurfaceEngine> engine_ = make_cpu_engine();
+  std::shared_ptr<const Surface> surface_;  // of atoms_; none: not yet, or given up
+  CpuRenderer renderer_;
+  std::vector<StageTime> times_;
+};
+
+}  // namespace
+
+std::unique_ptr<ViewRenderer> make_cpu_view_renderer() { return std::make_unique<CpuViewRenderer>(); }
+
+}  // namespace meniscus

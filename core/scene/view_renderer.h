@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Atoms drawn as one view after another shows them, by whatever device: the pictures of a preview.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include <glm/vec2.hpp>
+
+#include "core/base/stage_clock.h"
+#include "core/camera/camera.h"
+#include "core/color/coloring.h"
+#include "core/render/framebuffer.h"
+#include "core/render/hit_point.h"
+#include "core/render/render_settings.h"
+#include "core/surface/primitives.h"
+
+namespace meniscus {
+
+/// Finds what a view needs of the solvent-excluded surface, draws it, and keeps the last picture. Used by one thread.
+class ViewRenderer {
+ public:
+  virtual ~ViewRenderer() = default;
+
+  /// Van der Waals balls, Å, of one frame; there must be one.
+  virtual void set_atoms(std::vector<Ball> atoms) = 0;
+  /// One colour per atom; to be set after atoms of another number and before the next picture.
+  virtual void set_coloring(const Coloring& coloring) = 0;
+
+  /// A finished picture over the look's background. probe_radius: Å, >= 0. stop: asked now and then on this thread,
+  /// also between the stages of a surface; if true, the picture is given up: false, the one before stays, and there is
+  /// nothing to pick. Throws GpuError, CapacityError, OpenSurfaceError, InputError for a bad camera.
+  virtual bool draw(double probe_radius, const Camera& camera, const RenderSettings& settings,
+                    const std::function<bool()>& stop = {}) = 0;
+
+  /// A picture of a complete surface, for a file; see SurfaceRenderer::render().
+  virtual Framebuffer render(const Surface& surface, const Coloring& coloring, const Camera& camera,
+                             const RenderSettings& settings) = 0;
+
+  /// The last drawn picture, 8 bit sRGB and alpha (255) per pixel, rows from the top.
+  virtual std::vector<std::uint8_t> rgba() const = 0;
+  /// The same as a GL texture (GL_RGBA8, sRGB values, first row on top) that lives until the next draw; 0: none.
+  virtual std::uint32_t texture() const = 0;
+  virtual glm::ivec2 size() const = 0;
+  /// pixel of the last drawn picture: column, row from the top. Nothing where nothing is hit.
+  virtual std::optional<PickedPoint> pick(glm::ivec2 pixel) const = 0;
+
+  /// The complete surface of the atoms, if that is what is drawn; else nullptr.
+  virtual std::shared_ptr<const Surface> surface() const = 0;
+  /// Of the stages of the last picture.
+  virtual const std::vector<StageTime>& times() const = 0;
+};
+
+/// By the part of the surface that each view shows, which GL finds for every picture (ViewPipeline). Needs a current GL
+/// context for its whole life.
+std::unique_ptr<ViewRenderer> make_gl_view_renderer();
+
+/// By the complete surface, which the CPU computes once for all views of the same atoms and probe. Needs no GL.
+std::unique_ptr<ViewRenderer> make_cpu_view_renderer();
+
+}  // namespace meniscus
