@@ -61,6 +61,8 @@ for sample in "${samples[@]}"; do
     compare "$base mesh" mesh.ply export ply "$sample" -o mesh.ply --tolerance 0.05 --device cpu
     compare "$base scene" 'scene/*.inc' export povray "$sample" -o scene --device cpu
     compare "$base picture" picture.png render "$sample" -o picture.png --size 320x240 --color chain --device software
+    compare "$base picture by the CPU" picture.png render "$sample" -o picture.png --size 320x240 --samples 3 --ambient-occlusion 0.8 \
+      --silhouettes 2 --device cpu
     compare "$base chains" - surface "$sample" --by chain --json --device cpu
     compare "$base accessible" - surface "$sample" --surface sas --json --device cpu
     compare "$base Blender" surface.mns export blender "$sample" -o surface.mns --tolerance 0.05 --color chain --device cpu

@@ -31,6 +31,9 @@ void LiveView::note_change() {
   seen_revision_ = session_.revision();
   last_change_ = Clock::now();
   fault_.clear();
+  if (session_.playing()) return;
+  draft_cost_.reset();
+  plain_cost_.reset();
 }
 
 bool LiveView::draw(Quality quality, const std::function<Change()>& waiting) {
@@ -48,7 +51,10 @@ bool LiveView::draw(Quality quality, const std::function<Change()>& waiting) {
     fault_ = error.what();
     return false;
   }
-  if (quality == Quality::full) rest_ = std::clamp(Clock::now() - begin, kRest, kLongestRest);
+  const Clock::duration cost = Clock::now() - begin;
+  if (quality == Quality::draft) draft_cost_ = cost;
+  if (quality == Quality::plain) plain_cost_ = cost;
+  if (quality == Quality::full) rest_ = std::clamp(cost, kRest, kLongestRest);
   return true;
 }
 
@@ -70,9 +76,17 @@ LiveView::Clock::duration LiveView::rest(Quality quality) const {
   return quality == Quality::plain ? kPause : rest_;
 }
 
+Quality LiveView::at_once() const {
+  if (!session_.playing() || !draft_cost_) return Quality::draft;
+  constexpr int kMostLikely = 3;  // drafts of a quarter of the pixels that a plain picture takes
+  const std::chrono::duration<double> frame(0.8 / session_.frames_per_second());
+  return plain_cost_.value_or(kMostLikely * *draft_cost_) < frame ? Quality::plain : Quality::draft;
+}
+
 Quality LiveView::due(Clock::time_point now) const {
   const Clock::duration rested = now - last_change_;
-  if (session_.playing() || rested < rest(Quality::plain)) return Quality::draft;
+  if (session_.playing()) return at_once();
+  if (rested < rest(Quality::plain)) return Quality::draft;
   return rested < rest(Quality::full) ? Quality::plain : Quality::full;
 }
 

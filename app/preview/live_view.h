@@ -39,6 +39,9 @@ class LiveView {
   /// Without a change for so long a picture of this quality is begun. A full one is rested for as long as it may take,
   /// for it stops between samples only.
   Clock::duration rest(Quality quality) const;
+  /// The quality of the first picture after a change: a draft, but of a trajectory that plays the full size once a
+  /// picture of it has turned out to be made before the next frame is due.
+  Quality at_once() const;
   /// The quality that is due at this time, as the view has rested since its last change.
   Quality due(Clock::time_point now) const;
   Clock::time_point last_change() const { return last_change_; }
@@ -53,6 +56,7 @@ class LiveView {
   std::uint64_t seen_revision_;
   Clock::time_point last_change_;
   Clock::duration rest_;
+  std::optional<Clock::duration> draft_cost_, plain_cost_;  ///< of the last picture since the trajectory plays
   std::string fault_;
 };
 

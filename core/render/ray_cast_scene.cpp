@@ -89,10 +89,10 @@ class Packer {
   }
 
   std::uint32_t tie_key(const ConcavePatch& patch) const {
-    std::vector<std::uint32_t> contacts(surface_.contacts.begin() + patch.first_contact,
-                                        surface_.contacts.begin() + patch.first_contact + patch.contact_count);
-    std::rotate(contacts.begin(), std::ranges::min_element(contacts), contacts.end());
-    return std::accumulate(contacts.begin(), contacts.end(), 0u, geometry::add_to_key);
+    const std::span contacts(&surface_.contacts[patch.first_contact], patch.contact_count);
+    const auto least = std::ranges::min_element(contacts);  // the first of the key, and then around
+    return std::accumulate(contacts.begin(), least, std::accumulate(least, contacts.end(), 0u, geometry::add_to_key),
+                           geometry::add_to_key);
   }
 
   std::uint32_t tie_key(const ToroidalPatch& patch) const {
@@ -156,18 +156,19 @@ class Packer {
   void pack(const ConcavePatch& patch, std::uint32_t index) {
     if (patch.face_count == 0 || shows_none({&surface_.contacts[patch.first_contact], patch.contact_count})) return;
     const double p = surface_.probe_radius;
-    std::vector<glm::dvec3> directions(patch.contact_count);
     glm::dvec3 sum(0.0);
+    directions_.clear();
     for (std::uint32_t i = 0; i < patch.contact_count; ++i) {
-      directions[i] = glm::normalize(surface_.atoms[surface_.contacts[patch.first_contact + i]].center - patch.center);
-      sum += directions[i];
+      directions_.push_back(
+          glm::normalize(surface_.atoms[surface_.contacts[patch.first_contact + i]].center - patch.center));
+      sum += directions_.back();
     }
     // A cap of at most half a sphere is convex on the sphere: it holds the patch if it holds the contacts.
     PatchBound bound{patch.center, p};
     if (glm::length(sum) > 1e-6) {
       const glm::dvec3 axis = glm::normalize(sum);
       double cosine = 1.0;
-      for (const glm::dvec3& direction : directions) cosine = std::min(cosine, glm::dot(direction, axis));
+      for (const glm::dvec3& direction : directions_) cosine = std::min(cosine, glm::dot(direction, axis));
       bound = geometry::cap_bound(patch.center, p, axis, cosine);
     }
     Primitive primitive{};
@@ -178,7 +179,7 @@ class Packer {
     add_row(patch.center - frame_.pivot, p);
     add_planes(patch.first_plane, primitive.plane_count, patch.center);
     for (std::uint32_t i = 0; i < patch.contact_count; ++i)
-      scene_.rows.emplace_back(glm::vec3(directions[i]),
+      scene_.rows.emplace_back(glm::vec3(directions_[i]),
                                std::bit_cast<float>(surface_.contacts[patch.first_contact + i]));
     scene_.primitives.push_back(primitive);
   }
@@ -187,15 +188,21 @@ class Packer {
   const Coloring& coloring_;
   const PictureFrame& frame_;
   RayCastScene& scene_;
+  std::vector<glm::dvec3> directions_;  // of a probe's contacts; kept for its memory
 };
 
-void append(const RayCastScene& part, RayCastScene& scene) {
-  const auto first_row = static_cast<std::uint32_t>(scene.rows.size());
-  scene.rows.insert(scene.rows.end(), part.rows.begin(), part.rows.end());
-  for (Primitive primitive : part.primitives) {
-    primitive.first_row += first_row;
-    scene.primitives.push_back(primitive);
-  }
+/// Where a part of a scene stands in the whole.
+struct PartPlace {
+  std::size_t primitive = 0, row = 0;
+};
+
+void copy_part(const RayCastScene& part, const PartPlace& place, RayCastScene& scene) {
+  std::ranges::copy(part.rows, scene.rows.begin() + static_cast<std::ptrdiff_t>(place.row));
+  std::ranges::transform(part.primitives, scene.primitives.begin() + static_cast<std::ptrdiff_t>(place.primitive),
+                         [&](Primitive primitive) {
+                           primitive.first_row += static_cast<std::uint32_t>(place.row);
+                           return primitive;
+                         });
 }
 
 }  // namespace
@@ -247,8 +254,7 @@ ScenePlacement place_atoms(std::span<const Ball> atoms, double probe_radius, con
   return scene;
 }
 
-RayCastScene pack_scene(const Surface& surface, const Coloring& coloring, const PictureFrame& frame) {
-  RayCastScene scene;
+void pack_scene(const Surface& surface, const Coloring& coloring, const PictureFrame& frame, RayCastScene& scene) {
   scene.slack = patch_slack(surface.atoms, surface.probe_radius, frame);
   const std::vector<PatchRange> ranges = ranges_of(surface);
   std::vector<RayCastScene> parts(ranges.size());
@@ -256,14 +262,18 @@ RayCastScene pack_scene(const Surface& surface, const Coloring& coloring, const 
     parts[n].slack = scene.slack;
     Packer(surface, coloring, frame, parts[n]).pack(ranges[n]);
   });
-  std::size_t primitive_count = 0, row_count = 0;
-  for (const RayCastScene& part : parts) {
-    primitive_count += part.primitives.size();
-    row_count += part.rows.size();
-  }
-  scene.primitives.reserve(primitive_count);
-  scene.rows.reserve(row_count);
-  for (RayCastScene& part : parts) append(std::exchange(part, {}), scene);
+  std::vector<PartPlace> places(parts.size() + 1);
+  for (std::size_t n = 0; n < parts.size(); ++n)
+    places[n + 1] = {places[n].primitive + parts[n].primitives.size(), places[n].row + parts[n].rows.size()};
+  scene.primitives.resize(places.back().primitive);
+  scene.rows.resize(places.back().row);
+  tbb::parallel_for(std::size_t{0}, parts.size(),
+                    [&](std::size_t n) { copy_part(std::exchange(parts[n], {}), places[n], scene); });
+}
+
+RayCastScene pack_scene(const Surface& surface, const Coloring& coloring, const PictureFrame& frame) {
+  RayCastScene scene;
+  pack_scene(surface, coloring, frame, scene);
   return scene;
 }
 

@@ -43,7 +43,8 @@ struct RayCastScene {
   float slack = 0.0f;  ///< patch_slack()
 };
 
-/// Patches that touch hidden atoms only are left out.
+/// Patches that touch hidden atoms only are left out. scene: gets all, and keeps its memory from picture to picture.
+void pack_scene(const Surface& surface, const Coloring& coloring, const PictureFrame& frame, RayCastScene& scene);
 RayCastScene pack_scene(const Surface& surface, const Coloring& coloring, const PictureFrame& frame);
 
 /// Everything of `scene` on the GPU but the colours.

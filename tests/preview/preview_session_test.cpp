@@ -5,10 +5,12 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <thread>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "app/preview/live_view.h"
 #include "core/base/error.h"
 #include "core/gpu/egl_context.h"
 #include "core/structure/formats/read_structure.h"
@@ -311,6 +313,56 @@ TEST(PreviewView, SurfacesCanBeGivenUpBetweenStages) {
   camera.position = {0, 0, 30};
   ASSERT_TRUE(renderer->draw(2.0, camera, settings));
   EXPECT_LT(renderer->times().size(), stages);
+}
+
+TEST(PreviewView, FramesPlayInFullSizeWhenThereIsTime) {
+  const TemporaryFolder folder;
+  PreviewView view;
+  view.size = {80, 60};
+  ReadOptions reading;
+  reading.model.all = true;
+  PreviewSession session(make_cpu_view_renderer(), read_structure(folder.file("two.pdb", kTwoModels), reading), view,
+                         std::nullopt, folder.path());
+  LiveView live(session);
+  const auto nothing_waits = [] { return Change::none; };
+  ASSERT_TRUE(live.draw(Quality::draft, nothing_waits));
+  ASSERT_TRUE(live.apply({{"command", "orbit"}, {"dx", 0.1}, {"dy", 0.0}})["ok"]);
+  EXPECT_EQ(live.at_once(), Quality::draft);
+  ASSERT_TRUE(live.apply({{"command", "play"}, {"fps", 0.1}})["ok"]);
+  EXPECT_EQ(live.at_once(), Quality::draft);  // nobody knows yet how long one takes
+  ASSERT_TRUE(live.apply({{"command", "next_frame"}})["ok"]);
+  ASSERT_TRUE(live.draw(live.at_once(), nothing_waits));
+  EXPECT_EQ(live.at_once(), Quality::plain);
+  EXPECT_EQ(live.due(LiveView::Clock::now()), Quality::plain);
+  // 240 frames a second of pictures that take as long as a slow machine's.
+  ASSERT_TRUE(live.apply({{"command", "play"}, {"fps", 240.0}})["ok"]);
+  ASSERT_TRUE(live.apply({{"command", "next_frame"}})["ok"]);
+  ASSERT_TRUE(live.draw(Quality::plain, [] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    return Change::none;
+  }));
+  EXPECT_EQ(live.at_once(), Quality::draft);
+  ASSERT_TRUE(live.apply({{"command", "pause"}})["ok"]);
+  EXPECT_EQ(live.at_once(), Quality::draft);
+}
+
+// What moves never costs a draft; what makes it worthless does, when it takes long.
+TEST(PreviewView, DraftsAreGivenUpForOtherSurfacesOnly) {
+  const TemporaryFolder folder;
+  PreviewView view;
+  view.size = {80, 60};
+  PreviewSession session(make_cpu_view_renderer(), read_structure(folder.file("one.pdb", kTwoModels)), view,
+                         std::nullopt, folder.path());
+  LiveView live(session);
+  EXPECT_FALSE(live.draw(Quality::plain, [] { return Change::view; }));
+  EXPECT_TRUE(live.fault().empty());
+  ASSERT_TRUE(live.draw(Quality::draft, [] { return Change::view; }));
+  ASSERT_TRUE(live.apply({{"command", "probe"}, {"radius", 2.0}})["ok"]);
+  ASSERT_TRUE(live.draw(Quality::draft, [] { return Change::surface; }));  // at once, so it is shown
+  EXPECT_EQ(change_of({{"command", "probe"}, {"radius", 2.0}}), Change::surface);
+  EXPECT_EQ(change_of({{"command", "orbit"}}), Change::view);
+  EXPECT_EQ(change_of({{"command", "export"}}), Change::none);
+  EXPECT_EQ(change_of({{"command", "state"}}), Change::none);
 }
 
 // One atom walks along x; its third step cannot be read.

@@ -118,8 +118,9 @@ Change SessionThread::waiting_change() {
 
 void SessionThread::draw(LiveView& view) {
   const std::optional<Quality> drawn = view.drawn();
-  if (view.fault().empty() && (!drawn || *drawn < wanted_)) {
-    if (view.draw(wanted_, [this] { return waiting_change(); }))
+  const Quality wanted = std::max(wanted_, view.at_once());
+  if (view.fault().empty() && (!drawn || *drawn < wanted)) {
+    if (view.draw(wanted, [this] { return waiting_change(); }))
       offer(view.session());
     else if (view.fault().empty())
       return;  // given up for what is new

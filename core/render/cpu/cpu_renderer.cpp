@@ -71,7 +71,7 @@ void CpuRenderer::begin(const Surface& surface, const Coloring& coloring, const 
   clock_ = StageClock(settings.timing);
   const auto stage = clock_.stage("pack");
   frame_ = make_picture_frame(surface.atoms, camera, settings.size);
-  scene_.packed = pack_scene(surface, coloring, frame_);
+  pack_scene(surface, coloring, frame_, scene_.packed);
   scene_.placement = place_atoms(surface.atoms, surface.probe_radius, frame_);
   scene_.colors = linear_colors(coloring);
   scene_.parts.assign(coloring.part.begin(), coloring.part.end());
