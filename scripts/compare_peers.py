@@ -1,0 +1,185 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What compare_peers.sh runs: areas and pictures of one molecule by several programs, as tables.
+
+Every program gets the same heavy atoms with the same radii (Bondi 1964, by element), so that areas differ by method alone. The
+exact solvent-accessible area is that of Meniscus in closed form; an error is a program's whole area beside it. Times are
+medians of whole processes, reading the file included; those of Python libraries are of the call alone, which favours them.
+"""
+
+import json
+import os
+import re
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+
+import mdtraj
+from mdtraj.geometry import sasa
+
+RADII = {"C": 1.70, "N": 1.55, "O": 1.52, "S": 1.80, "P": 1.80}  # Å
+PROBE = 1.4
+LIMIT = 0.03  # an area further off is not of the same atoms and radii
+RUNS = 5
+
+
+class Molecule:
+    """The heavy atoms of a PDB file's first model, in the forms that the programs read."""
+
+    def __init__(self, path, folder):
+        self.name = os.path.basename(path)
+        self.pdb, self.xyzr = os.path.join(folder, "atoms.pdb"), os.path.join(folder, "atoms.xyzr")
+        lines = []
+        with open(path, encoding="ascii", errors="replace") as file:
+            for line in file:
+                if line.startswith("ENDMDL"):
+                    break
+                if line.startswith(("ATOM", "HETATM")) and line[76:78].strip() in RADII and line[16] in " A" and line[17:20] != "HOH":
+                    lines.append(line.rstrip("\n").ljust(80))
+        if not lines:
+            sys.exit(f"compare_peers: error: {path}: no heavy atoms of the elements {', '.join(RADII)}")
+        self.count = len(lines)
+        with open(self.pdb, "w", encoding="ascii") as pdb, open(self.xyzr, "w", encoding="ascii") as xyzr:
+            for line in lines:
+                radius = RADII[line[76:78].strip()]
+                pdb.write(f"ATOM  {line[6:16]} {line[17:54]}{radius:6.2f}{line[60:]}\n")  # the radius as occupancy
+                xyzr.write(f"{line[30:38]} {line[38:46]} {line[46:54]} {radius}\n")
+            pdb.write("END\n")
+        # Names of atoms begin with their element; GROMACS reads this table from the folder it works in, in nm.
+        with open(os.path.join(folder, "vdwradii.dat"), "w", encoding="ascii") as table:
+            table.writelines(f"???  {element}  {radius / 10}\n" for element, radius in RADII.items())
+
+
+def measured(command, folder, **environment):
+    """Median of the wall clock and of CPU seconds, largest memory (MB), and the last output of a process."""
+    walls, busy, peak = [], [], 0
+    for _ in range(RUNS):
+        begin = time.perf_counter()
+        process = subprocess.Popen(command, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True,
+                                   env={**os.environ, **environment})
+        output = process.stdout.read()
+        _, status, usage = os.wait4(process.pid, 0)
+        walls.append(time.perf_counter() - begin)
+        if status:
+            sys.exit(f"compare_peers: error: {' '.join(command)} ended with {os.waitstatus_to_exitcode(status)}")
+        busy.append(usage.ru_utime + usage.ru_stime)
+        peak = max(peak, usage.ru_maxrss / 1024)
+    return statistics.median(walls), statistics.median(busy), peak, output
+
+
+def called(work):
+    """Median of the wall clock of a call, and its last result."""
+    walls = []
+    for _ in range(RUNS):
+        begin = time.perf_counter()
+        result = work()
+        walls.append(time.perf_counter() - begin)
+    return statistics.median(walls), result
+
+
+def areas(program, molecule, folder):
+    """Rows: program, setting, area (Å²), seconds."""
+    surface = [program, "surface", molecule.xyzr, "--surface", "sas", "--json"]
+    wall, _, _, output = measured(surface, folder)
+    yield "Meniscus", "closed form", json.loads(output)["area"], wall
+    for method, points in (("lee-richards", 20), ("lee-richards", 200), ("shrake-rupley", 100), ("shrake-rupley", 2000)):
+        wall, _, _, output = measured(["freesasa", f"--{method}", f"--resolution={points}", "--n-threads=2", "--hetatm",
+                                       "--radius-from-occupancy", f"--probe-radius={PROBE}", molecule.pdb], folder)
+        kind = "slices" if method == "lee-richards" else "points"
+        yield "FreeSASA", f"{method}, {points} {kind}", float(re.search(r"Total\s*:\s*([\d.]+)", output)[1]), wall
+    for points in (24, 960):
+        wall, _, _, _ = measured(["gmx", "sasa", "-quiet", "-s", molecule.pdb, "-f", molecule.pdb, "-surface", "all",
+                                  "-probe", str(PROBE / 10), "-ndots", str(points), "-xvg", "none", "-o", "area.xvg"],
+                                 folder, OMP_NUM_THREADS="2", GMX_MAXBACKUP="-1")
+        with open(os.path.join(folder, "area.xvg"), encoding="ascii") as file:
+            yield "gmx sasa", f"{points} points", 100 * float(file.read().split()[1]), wall
+    sasa._ATOMIC_RADII.update({element: radius / 10 for element, radius in RADII.items()})  # it takes no list of radii
+    trajectory = mdtraj.load_pdb(molecule.pdb, standard_names=False)
+    for points in (100, 960):
+        wall, result = called(lambda: mdtraj.shrake_rupley(trajectory, PROBE / 10, n_sphere_points=points))
+        yield "MDTraj", f"{points} points, the call alone", 100 * float(result.sum()), wall
+    for density in (2, 4):
+        wall, area = pymol_area(molecule, folder, density)
+        yield "PyMOL", f"get_area, dot_density {density}, the call alone", area, wall
+
+
+def pymol_area(molecule, folder, density):
+    """Seconds of get_area, and its answer."""
+    script = os.path.join(folder, "area.py")
+    with open(script, "w", encoding="ascii") as file:
+        file.write(f"""
+import time
+from pymol import cmd
+cmd.load({molecule.pdb!r})
+cmd.alter("all", "vdw=q")
+cmd.rebuild()
+cmd.set("dot_solvent", 1)
+cmd.set("solvent_radius", {PROBE})
+cmd.set("dot_density", {density})
+times = []
+for run in range({RUNS}):
+    begin = time.perf_counter()
+    area = cmd.get_area("all")
+    times.append(time.perf_counter() - begin)
+print("AREA", area, sorted(times)[{RUNS // 2}])
+""")
+    output = measured(["pymol", "-cqr", script], folder)[3]
+    _, area, seconds = re.search(r"AREA .*", output)[0].split()
+    return float(seconds), float(area)
+
+
+def pictures(program, molecule, folder):
+    """Rows: program, what of, wall, CPU seconds, MB; each with shade or shadows and smooth edges, 1280×960."""
+    render = [program, "render", molecule.pdb, "-o", "meniscus.png", "--size", "1280x960", "--force", "--color", "chain"]
+    yield "Meniscus", "4 samples", *measured([*render, "--samples", "4"], folder)[:3]
+    effects = ["--ambient-occlusion", "0.8", "--silhouettes", "1"]
+    yield "Meniscus", "4 samples, shade and lines", *measured([*render, "--samples", "4", *effects], folder)[:3]
+    for quality in (0, 1):
+        script = os.path.join(folder, "picture.py")
+        with open(script, "w", encoding="ascii") as file:
+            file.write(f"""
+from pymol import cmd, util
+cmd.load({molecule.pdb!r})
+cmd.alter("all", "vdw=q")
+cmd.set("max_threads", 2)
+cmd.set("surface_quality", {quality})
+cmd.set("antialias", 1)
+cmd.hide()
+cmd.show("surface")
+util.cbc()
+cmd.ray(1280, 960)
+cmd.png("pymol.png")
+""")
+        figures = measured(["pymol", "-cqr", script], folder)[:3]
+        if not os.path.exists(os.path.join(folder, "pymol.png")):
+            sys.exit("compare_peers: error: PyMOL made no picture")
+        os.remove(os.path.join(folder, "pymol.png"))
+        yield "PyMOL", f"ray, surface_quality {quality}", *figures
+
+
+def main(program, files):
+    program = os.path.abspath(program)
+    cases = failures = 0
+    for path in files:
+        with tempfile.TemporaryDirectory() as folder:
+            molecule = Molecule(path, folder)
+            print(f"\n{molecule.name}, {molecule.count} heavy atoms: solvent-accessible area\n")
+            print("| program | method | area Å² | error | ms |\n|---|---|---|---|---|")
+            exact = None
+            for name, setting, area, wall in areas(program, molecule, folder):
+                exact = exact or area
+                cases += 1
+                failures += abs(area / exact - 1) > LIMIT
+                error = "exact" if area == exact else f"{100 * (area / exact - 1):+.3f} %"
+                print(f"| {name} | {setting} | {area:,.2f} | {error} | {1000 * wall:,.0f} |", flush=True)
+            print(f"\n{molecule.name}: picture of the solvent-excluded surface\n")
+            print("| program | picture | s | CPU s | MB |\n|---|---|---|---|---|")
+            for name, what, wall, busy, peak in pictures(program, molecule, folder):
+                print(f"| {name} | {what} | {wall:.2f} | {busy:.2f} | {peak:,.0f} |", flush=True)
+    print(f"\ncases {cases} failures {failures}")
+    return failures > 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1], sys.argv[2:]))
