@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdlib>
 #include <functional>
+#include <regex>
+#include <string>
 #include <thread>
 
 #include <OpenImageIO/imageio.h>
@@ -166,6 +168,29 @@ TEST_F(WindowTest, MouseMovesTheCamera) {
   double zoomed = 1.0;
   for (const Json& command : recorded("zoom")) zoomed *= command["factor"].get<double>();
   EXPECT_NEAR(zoomed, 1.1, 1e-9);
+}
+
+// The mouse speaks a hundred times a second; a slow picture is shown once, not once for each word.
+TEST_F(WindowTest, IsRedrawnForNewsAndNotForEveryMovement) {
+  program_.emplace(kProgram, std::vector<std::string>{"preview", "/usr/share/pymol/data/demo/1tii.pdb", "--size",
+                                                      "800x600", "--device", "software"});
+  ASSERT_TRUE(happens([&] { return is_drawn(); })) << program_->err();
+  screen_.act({"mousemove", "400", "400", "mousedown", "1"});
+  std::vector<std::string> moves;
+  for (int n = 0; n < 200; ++n) {
+    const std::string x = std::to_string(400 + n), pause = "0.01";
+    moves.insert(moves.end(), {"mousemove", x, "400", "sleep", pause});
+  }
+  screen_.act(moves);
+  screen_.act({"mouseup", "1", "type", "q"});
+  const ProgramResult result = program_->finish();
+  const std::string line = result.err.substr(std::min(result.err.find("from movement"), result.err.size()));
+  std::smatch found;
+  ASSERT_TRUE(std::regex_search(line, found, std::regex(R"((\d+) pictures; window redrawn (\d+) times)")))
+      << result.err;
+  const int pictures = std::stoi(found[1]), redraws = std::stoi(found[2]);
+  EXPECT_GE(pictures, 3) << line;
+  EXPECT_LE(redraws, pictures + 60) << line;
 }
 
 TEST_F(WindowTest, KeysAndPanelSendCommands) {

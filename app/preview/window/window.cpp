@@ -49,6 +49,7 @@ class PreviewWindow {
   bool replaying() const { return !replay_done_; }
   glm::ivec2 picture_area() const;
   Json resize_command() const;
+  void tick();
   double patience();
   void note(std::uint64_t number, const Json& command);
   void take_events();
@@ -78,17 +79,16 @@ class PreviewWindow {
   std::size_t next_ = 0;  // of options_.commands
   std::uint64_t first_number_ = 0;
   bool replay_done_ = false;
-  double next_frame_due_ = 0.0;
+  double next_frame_due_ = 0.0, next_tick_ = 0.0;
 };
 
 WindowReport PreviewWindow::run() {
   report_.context = window_.context();
   while (!window_.closing()) {
-    const bool ticking = link_.news().busy_seconds || Gui::typing();  // something changes by itself
-    if (window_.wait(redraws_ > 0 ? 0.0 : patience()) && !gestures_.dragging())
-      redraws_ = kSettlingFrames;
-    else if (ticking)
-      redraws_ = std::max(redraws_, 1);
+    const bool happened = window_.wait(redraws_ > 0 ? 0.0 : patience());
+    // While the mouse drags, only what comes of it is news.
+    if (happened && !gestures_.dragging()) redraws_ = kSettlingFrames;
+    tick();
     take_events();
     take_update();
     if (redraws_ > 0) draw();
@@ -108,6 +108,14 @@ glm::ivec2 PreviewWindow::picture_area() const {
 Json PreviewWindow::resize_command() const {
   const glm::ivec2 area = picture_area();
   return {{"command", "resize"}, {"width", area.x}, {"height", area.y}};
+}
+
+/// Redraws what changes by itself, at its own pace, however much the mouse moves meanwhile.
+void PreviewWindow::tick() {
+  const bool changing = link_.news().busy_seconds || Gui::typing();
+  if (!changing || window_.seconds() < next_tick_) return;
+  next_tick_ = window_.seconds() + kBusyLook;
+  redraws_ = std::max(redraws_, 1);
 }
 
 /// Asks what is due to be asked; seconds for which there is nothing else to do by itself.
@@ -243,6 +251,7 @@ void PreviewWindow::draw() {
   if (picture.texture) view_.show(picture.texture, picture.size, picture_area(), window_.pixels());
   if (gui_.end()) redraws_ = std::max(redraws_, 1);
   window_.swap();
+  ++report_.redraws;
   link_.presented(shown);
   latency_.shown(shown, window_.seconds());
 }
