@@ -6,7 +6,6 @@
 #include <array>
 #include <cassert>
 #include <cstddef>
-#include <cstdlib>
 #include <limits>
 #include <memory>
 #include <string_view>
@@ -69,27 +68,46 @@ void add_header(Bytes& file, const ImageToEncode& image) {
 }
 
 /// What a filter predicts of a byte by those at the left, above, and above at the left (section 9.2).
-int predicted(int filter, int left, int above, int corner) {
-  if (filter < 4) return filter == 0 ? 0 : filter == 1 ? left : filter == 2 ? above : (left + above) / 2;
-  const int to_left = std::abs(above - corner), to_above = std::abs(left - corner);
-  const int to_corner = std::abs(left + above - 2 * corner);
-  if (to_left <= to_above && to_left <= to_corner) return left;
-  return to_above <= to_corner ? above : corner;
+/// In 16 bits and without branches, so that compilers make loops over vectors of it.
+template <int filter>
+std::int16_t predicted(std::int16_t left, std::int16_t above, std::int16_t corner) {
+  if constexpr (filter == 0) return 0;
+  if constexpr (filter == 1) return left;
+  if constexpr (filter == 2) return above;
+  if constexpr (filter == 3) return static_cast<std::int16_t>((left + above) / 2);
+  const auto size = [](int difference) { return static_cast<std::int16_t>(difference < 0 ? -difference : difference); };
+  const std::int16_t to_left = size(above - corner), to_above = size(left - corner);
+  const std::int16_t to_corner = size(left + above - 2 * corner);
+  const std::int16_t other = to_above <= to_corner ? above : corner;
+  return (to_left <= to_above) & (to_left <= to_corner) ? left : other;
+}
+
+/// Of bytes that stand for -128 to 127, without their signs.
+std::size_t sum_of_differences(const Bytes& bytes) {
+  constexpr std::size_t kTogether = 1 << 16;  // a sum of so many has 32 bits
+  std::size_t sum = 0;
+  for (std::size_t first = 0; first < bytes.size(); first += kTogether) {
+    std::uint32_t part = 0;
+    const std::size_t end = std::min(first + kTogether, bytes.size());
+    for (std::size_t n = first; n < end; ++n)
+      part += std::min(bytes[n], static_cast<std::uint8_t>(256u - bytes[n]));  // 0 wraps to 0
+    sum += part;
+  }
+  return sum;
 }
 
 /// One row of a picture and the one above it.
 struct Row {
   const std::uint8_t* bytes;
-  const std::uint8_t* above;  // nullptr: zeros
-  std::size_t size, pixel;    // bytes
+  const std::uint8_t* above;
+  std::size_t size, pixel;  // bytes
 
   template <int filter>
   void write(std::uint8_t* out) const {
-    for (std::size_t n = 0; n < size; ++n) {
-      const int left = n < pixel ? 0 : bytes[n - pixel], up = above ? above[n] : 0;
-      const int corner = n < pixel || !above ? 0 : above[n - pixel];
-      out[n] = static_cast<std::uint8_t>(bytes[n] - predicted(filter, left, up, corner));
-    }
+    for (std::size_t n = 0; n < pixel; ++n)
+      out[n] = static_cast<std::uint8_t>(bytes[n] - predicted<filter>(0, above[n], 0));
+    for (std::size_t n = pixel; n < size; ++n)
+      out[n] = static_cast<std::uint8_t>(bytes[n] - predicted<filter>(bytes[n - pixel], above[n], above[n - pixel]));
   }
 
   /// Behind its number the filter that leaves the smallest sum of absolute differences (section 12.8).
@@ -99,8 +117,7 @@ struct Row {
     for (std::size_t filter = 0; filter < kFilters.size(); ++filter) {
       if (filter == 3 && !averages) continue;
       (this->*kFilters[filter])(trial.data());
-      std::size_t sum = 0;
-      for (const std::uint8_t byte : trial) sum += byte < 128u ? byte : 256u - byte;
+      const std::size_t sum = sum_of_differences(trial);
       if (sum >= least) continue;
       least = sum;
       out[0] = static_cast<std::uint8_t>(filter);
@@ -125,12 +142,13 @@ Bytes filtered_rows(const ImageToEncode& image) {
   Bytes packed;
   if (image.byte_stride != static_cast<int>(pixel)) packed = packed_bytes(image);
   const std::uint8_t* const bytes = packed.empty() ? image.bytes.data() : packed.data();
+  const Bytes nothing(size);  // above the first row
   Bytes rows((size + 1) * height);
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, height), [&](const auto& range) {
     Bytes trial(size);
     for (std::size_t y = range.begin(); y < range.end(); ++y) {
       const std::uint8_t* const first = bytes + y * size;
-      Row{first, y > 0 ? first - size : nullptr, size, pixel}.write_best(&rows[y * (size + 1)], trial, averages);
+      Row{first, y > 0 ? first - size : nothing.data(), size, pixel}.write_best(&rows[y * (size + 1)], trial, averages);
     }
   });
   return rows;
