@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Balls that may cover parts of circles around one first ball, and how all of them meet one circle.
+// Balls that may cover parts of circles around one first ball.
 #pragma once
 
 #include <algorithm>
@@ -95,39 +95,6 @@ class Blockers {
   double first_weight_ = 0;
   ColumnTable<kColumnCount> table_;
   std::vector<std::uint32_t> labels_;
-};
-
-/// How balls meet one circle, all at once, by the same arithmetic as one ball after the other (contour.glsl, block()).
-class CircleMeetings {
- public:
-  /// The blocker at index `skip` is ignored. noise: half_plane_noise() of the circle.
-  void find(const geometry::Circle& circle, double noise, const Blockers& blockers, std::size_t skip);
-
-  /// Some ball surely covers all of the circle; nothing else is known then.
-  bool covered() const { return covered_; }
-
-  /// The balls that neither surely miss the circle nor surely cover it, in their order.
-  std::size_t count() const { return members_.size(); }
-  std::uint32_t blocker(std::size_t n) const { return members_[n]; }  ///< index into the blockers
-  /// Rounding may hide how it meets the circle.
-  bool doubtful(std::size_t n) const { return cutting_.column(kMeeting)[n] != geometry::kCuts; }
-  /// That which covers most of the circle, the first one if there is none.
-  std::size_t widest() const;
-  geometry::CoveredArc arc(std::size_t n) const {
-    return {arcs_.column(kBegin)[n], arcs_.column(kEnd)[n], arcs_.column(kArcError)[n]};
-  }
-
- private:
-  void list_members(std::span<const double> meeting);
-
-  enum MeetingColumn : std::size_t { kMeeting, kNormalX, kNormalY, kOffset, kLengthSquared, kError, kMeetingColumns };
-  enum ArcColumn : std::size_t { kBegin, kEnd, kArcError, kArcColumns };
-
-  bool covered_ = false;
-  ColumnTable<kMeetingColumns> meetings_;  // per blocker
-  ColumnTable<kMeetingColumns> cutting_;   // per member
-  ColumnTable<kArcColumns> arcs_;          // per member
-  std::vector<std::uint32_t> members_;
 };
 
 }  // namespace meniscus

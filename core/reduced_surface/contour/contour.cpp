@@ -31,40 +31,50 @@ quad_geometry::real3 quad(const glm::dvec3& a) { return {a.x, a.y, a.z}; }
 
 void Contour::expose(const glm::dvec3& d, double w1, const Blockers& blockers, std::size_t skip,
                      std::span<const BlockedHalf> halves) {
-  if (expose_surely(d, w1, blockers, skip, halves, CoverOrder::given)) return;
+  if (expose_surely(d, w1, blockers, skip, halves)) return;
   ++doubtful_count_;
   expose_in_quad(d, w1, blockers, skip, halves);
 }
 
-bool Contour::expose_surely(const glm::dvec3& d, double w1, const Blockers& blockers, std::size_t skip,
-                            std::span<const BlockedHalf> halves, CoverOrder order) {
-  const double w0 = blockers.first_weight();
+// Begins with the whole circle. False if what is left is known already, or doubtful: sure_ says which.
+bool Contour::begin_surely(const glm::dvec3& d, double w0, double w1) {
   left_.begin_contour(geometry::circle_of_two_spheres(d, w0, w1), w0);
   const double barely = 1024 * geometry::kUnitRoundoff * w0;
   const bool apart = circle().radius_squared < -barely;
   if (apart) left_.cover_everything();
   // Where the spheres barely meet, if they do, the sign itself needs the better arithmetic.
   sure_ = apart || circle().radius_squared > barely;
-  if (apart || !sure_) return sure_;
+  return sure_ && !apart;
+}
+
+bool Contour::expose_surely(const glm::dvec3& d, double w1, const Blockers& blockers, std::size_t skip,
+                            std::span<const BlockedHalf> halves) {
+  if (!begin_surely(d, blockers.first_weight(), w1)) return sure_;
   for (std::size_t n = 0; n < halves.size() && !left_.contour_ended(); ++n)
     left_.cover(halves[n].half_plane, halves[n].label);
   if (!left_.contour_ended()) {
     meetings_.find(circle(), left_.contour_noise, blockers, skip);
-    cover_in_turn(blockers, order);
+    cover_in_turn(blockers);
   }
   return sure_ = !left_.exposed_doubtful;
 }
 
-void Contour::cover_in_turn(const Blockers& blockers, CoverOrder order) {
+bool Contour::expose_at_once(const glm::dvec3& d, double w1, const Blockers& blockers, std::size_t skip) {
+  if (!begin_surely(d, blockers.first_weight(), w1)) return sure_;
+  meetings_.find(circle(), left_.contour_noise, blockers, skip);
+  const CircleSweep::Outcome outcome = sweep_.find(meetings_, blockers);
+  if (outcome != CircleSweep::Outcome::whole) left_.cover_everything();
+  if (outcome == CircleSweep::Outcome::one_arc) left_.expose_arc(sweep_.arc());
+  return sure_ = outcome != CircleSweep::Outcome::unknown;
+}
+
+void Contour::cover_in_turn(const Blockers& blockers) {
   if (meetings_.covered()) return left_.cover_everything();
-  const auto cover = [&](std::size_t n) {
+  for (std::size_t n = 0; n < meetings_.count() && !left_.contour_ended(); ++n) {
+    if (!meetings_.meets(n)) continue;
     if (meetings_.doubtful(n)) left_.exposed_doubtful = true;
-    left_.cover_arc(meetings_.arc(n), blockers.label(meetings_.blocker(n)));
-  };
-  const std::size_t first = order == CoverOrder::widest_first ? meetings_.widest() : meetings_.count();
-  if (first < meetings_.count()) cover(first);
-  for (std::size_t n = 0; n < meetings_.count() && !left_.contour_ended(); ++n)
-    if (n != first) cover(n);
+    left_.cover_arc(meetings_.arc(n), blockers.label(n));
+  }
 }
 
 void Contour::expose_further(const glm::dvec3& d, double w1, const Blockers& blockers, std::size_t skip) {

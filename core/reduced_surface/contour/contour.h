@@ -13,6 +13,8 @@
 
 #include "core/math/geometry.h"
 #include "core/reduced_surface/contour/blockers.h"
+#include "core/reduced_surface/contour/circle_meetings.h"
+#include "core/reduced_surface/contour/circle_sweep.h"
 
 namespace meniscus {
 
@@ -38,13 +40,6 @@ struct BlockedHalf {
   std::uint32_t label = 0;
 };
 
-/// In which order balls take from a circle what they cover of it. Which arcs are left does not depend on it, but their
-/// order does.
-enum class CoverOrder {
-  given,        ///< as the blockers stand
-  widest_first  ///< first the one that covers most: a circle of which nothing is left is soon done with
-};
-
 /// What is left of one circle. Reused from circle to circle to save allocations.
 class Contour {
  public:
@@ -53,9 +48,12 @@ class Contour {
   void expose(const glm::dvec3& d, double w1, const Blockers& blockers, std::size_t skip,
               std::span<const BlockedHalf> halves = {});
 
-  /// The same in double precision only, in any order. False if that leaves doubt: then nothing is known of the circle.
+  /// The same in double precision only. False if that leaves doubt: then nothing is known of the circle.
   bool expose_surely(const glm::dvec3& d, double w1, const Blockers& blockers, std::size_t skip,
-                     std::span<const BlockedHalf> halves = {}, CoverOrder order = CoverOrder::widest_first);
+                     std::span<const BlockedHalf> halves = {});
+
+  /// The same, quickly, for circles of which nothing is left or one arc. False for others, and if there is doubt.
+  bool expose_at_once(const glm::dvec3& d, double w1, const Blockers& blockers, std::size_t skip);
 
   /// What another ball leaves of the circle that expose() was last asked for. blockers: as then, and one more.
   void expose_further(const glm::dvec3& d, double w1, const Blockers& blockers, std::size_t skip);
@@ -72,12 +70,14 @@ class Contour {
   }
 
  private:
-  void cover_in_turn(const Blockers& blockers, CoverOrder order);
+  bool begin_surely(const glm::dvec3& d, double w0, double w1);
+  void cover_in_turn(const Blockers& blockers);
   void expose_in_quad(const glm::dvec3& d, double w1, const Blockers& blockers, std::size_t skip,
                       std::span<const BlockedHalf> halves);
 
   geometry::Remainder left_;
   CircleMeetings meetings_;
+  CircleSweep sweep_;
   bool sure_ = true;  // the last circle was decided in double precision
   std::size_t doubtful_count_ = 0;
 };
