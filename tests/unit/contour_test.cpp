@@ -142,35 +142,46 @@ TEST(Contour, ACircleWhoseSpheresBarelyMeetIsDecidedInQuadruplePrecision) {
   EXPECT_EQ(contour.doubtful_count(), 1u);
 }
 
+/// Whether a ball other than that of the circle holds a point.
+bool held_by_another(const Blockers& blockers, std::size_t circle, const glm::dvec3& x) {
+  for (std::size_t b = 0; b < blockers.size(); ++b)
+    if (b != circle && glm::dot(x - blockers[b].center, x - blockers[b].center) < blockers[b].weight) return true;
+  return false;
+}
+
+void expect_covered(const Blockers& blockers, std::size_t n) {
+  const geometry::Circle c =
+      geometry::circle_of_two_spheres(blockers[n].center, blockers.first_weight(), blockers[n].weight);
+  for (int s = 0; s < 60; ++s) {
+    const double t = 2 * kPi * s / 60;
+    const glm::dvec3 x = c.height * c.axis + c.radius * (std::cos(t) * c.u + std::sin(t) * c.v);
+    EXPECT_TRUE(held_by_another(blockers, n, x)) << n << ' ' << s;
+  }
+}
+
 TEST(SphereCover, CirclesThatAreRuledOutAreCovered) {
   Random random(3);
-  int ruled_out = 0, kept = 0;
+  SphereCover cover;
+  int spheres = 0, ruled_out = 0, kept = 0;
   for (int n = 0; n < 300; ++n) {
     const Blockers blockers = surroundings(random, 70);
-    Caps caps;
-    const UncoveredDirections uncovered = uncovered_directions(blockers, caps);
-    WatchedList list;
-    list.assign(uncovered);
-    for (int k = 0; k < 20; ++k) {
-      const glm::dvec3 axis = random.direction();
-      const double cosine = random.between(-1, 1), sine = std::sqrt(1 - cosine * cosine);
-      const bool may_be = may_be_exposed(uncovered, axis, cosine);
-      EXPECT_EQ(list.may_be_exposed(axis, cosine), may_be);
+    const bool exposed = cover.look(blockers);
+    if (!exposed) ++spheres;
+    for (std::size_t circle = 0; circle < blockers.size(); ++circle) {
+      const bool may_be = exposed && cover.circle_may_be_exposed(circle);
       ++(may_be ? kept : ruled_out);
-      if (may_be) continue;
-      const glm::dvec3 u = glm::normalize(glm::cross(axis, random.direction())), v = glm::cross(axis, u);
-      for (int s = 0; s < 60; ++s) {
-        const double t = 2 * kPi * s / 60;
-        const glm::dvec3 x = 3.0 * (cosine * axis + sine * (std::cos(t) * u + std::sin(t) * v));
-        bool inside = false;
-        for (std::size_t b = 0; b < blockers.size() && !inside; ++b)
-          inside = glm::dot(x - blockers[b].center, x - blockers[b].center) < blockers[b].weight;
-        EXPECT_TRUE(inside) << n << ' ' << k << ' ' << s;
-      }
+      if (!may_be) expect_covered(blockers, circle);
     }
   }
-  EXPECT_GT(ruled_out, 500);
+  EXPECT_GT(spheres, 30);
+  EXPECT_GT(ruled_out, 3000);
   EXPECT_GT(kept, 500);
+}
+
+TEST(SphereCover, ASphereWithoutNeighborsIsNotCovered) {
+  Blockers blockers;
+  blockers.restart(9);
+  EXPECT_TRUE(SphereCover().look(blockers));
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 #include "core/reduced_surface/contour/sphere_cover.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstring>
 #include <map>
@@ -97,28 +96,46 @@ const WatchedDirections& watched() {
   return directions;
 }
 
-constexpr float kNowhere = 4;  // no cosine is as large: an empty cap
+constexpr float kNowhere = 4;   // no cosine is as large: an empty cap
+constexpr float kWide = 0.45f;  // caps of smaller cosine, some six around an atom of a protein, cover most
 
-// A ball covers the cap of angle a, cos a = cosine; narrowed by the watched angle: cos(a - angle).
+typedef float Floats __attribute__((vector_size(kBlock * sizeof(float))));
+typedef std::int32_t Bits __attribute__((vector_size(kBlock * sizeof(std::int32_t))));
+
+struct Points {
+  const float *x, *y, *z;
+};
+struct CapColumns {
+  const float *x, *y, *z, *cosine;
+};
+struct CircleColumns {
+  float *x, *y, *z, *cosine, *low, *high;
+};
+
+// A ball covers the cap of angle a, cos a = c; narrowed by the watched angle: cos(a - angle). Directions within the
+// watched angle of its rim have cos(a + angle) <= dot(axis, direction) <= cos(a - angle).
 MENISCUS_VECTOR_CLONES
 void narrow_caps(const Blockers::Columns& balls, std::size_t count, double inverse_radius, double cos_angle,
-                 double sin_angle, float* x, float* y, float* z, float* cosine) {
+                 double sin_angle, const CircleColumns& out) {
   const Blockers::Columns b = balls;
+  const CircleColumns o = out;
   MENISCUS_INDEPENDENT_STEPS
   for (std::size_t n = 0; n < count; ++n) {
     const double inverse = 1 / b.distance[n], c = b.half_power[n] * inverse * inverse_radius;
-    const double narrowed = c * cos_angle + std::sqrt(1 - c * c) * sin_angle;
-    const double open = c < cos_angle ? narrowed : kNowhere;
+    const double along = c * cos_angle, across = std::sqrt(1 - c * c) * sin_angle;
+    const double open = c < cos_angle ? along + across : kNowhere;
     const double known = c < -1 ? kNowhere : open;
-    const bool has_axis = b.distance[n] > 1e-6;
-    x[n] = static_cast<float>(has_axis ? b.x[n] * inverse : 0.0);
-    y[n] = static_cast<float>(has_axis ? b.y[n] * inverse : 0.0);
-    z[n] = static_cast<float>(has_axis ? b.z[n] * inverse : 0.0);
-    cosine[n] = static_cast<float>(has_axis ? known : kNowhere);
+    const double low = c >= -cos_angle ? along - across : -2.0, high = c <= cos_angle ? along + across : 2.0;
+    const bool has_axis = b.distance[n] > 1e-6, has_rim = has_axis & (c > -1) & (c < 1);
+    o.x[n] = static_cast<float>(has_axis ? b.x[n] * inverse : 0.0);
+    o.y[n] = static_cast<float>(has_axis ? b.y[n] * inverse : 0.0);
+    o.z[n] = static_cast<float>(has_axis ? b.z[n] * inverse : 0.0);
+    o.cosine[n] = static_cast<float>(has_axis ? known : kNowhere);
+    o.low[n] = static_cast<float>(has_rim ? low : -2.0);
+    o.high[n] = static_cast<float>(has_rim ? high : 2.0);
   }
 }
 
-template <typename Bits>
 bool any_negative(const Bits& bits) {
   std::uint64_t pairs[sizeof(Bits) / 8], all = 0;
   std::memcpy(pairs, &bits, sizeof bits);
@@ -126,123 +143,122 @@ bool any_negative(const Bits& bits) {
   return (all & 0x8000000080000000u) != 0;
 }
 
-// Of each direction a number that is negative if no cap holds it: the sign bits of dot(axis, direction) - cosine, all
-// in one. For want of anything but sums, products and bits the loop needs no comparison of vectors.
+// Of each direction, in whole blocks, a number that is negative if no cap holds it: the sign bits of
+// dot(axis, direction) - cosine, all in one. For want of anything but sums, products and bits the loop needs no
+// comparison of vectors.
 MENISCUS_VECTOR_CLONES
-void sign_outside(const WatchedDirections& w, const Caps& caps, std::size_t count, std::int32_t* sign) {
-  typedef float Floats __attribute__((vector_size(kBlock * sizeof(float))));
-  typedef std::int32_t Bits __attribute__((vector_size(kBlock * sizeof(std::int32_t))));
-  const float *ax = caps.column(0), *ay = caps.column(1), *az = caps.column(2), *cosine = caps.column(3);
-  for (std::size_t first = 0; first < kPadded; first += kBlock) {
+void sign_outside(const Points& directions, std::size_t count, const CapColumns& caps, std::size_t cap_count,
+                  std::int32_t* sign) {
+  const CapColumns c = caps;
+  for (std::size_t first = 0; first < count; first += kBlock) {
     Floats x, y, z;
-    std::memcpy(&x, w.x.data() + first, sizeof x);
-    std::memcpy(&y, w.y.data() + first, sizeof y);
-    std::memcpy(&z, w.z.data() + first, sizeof z);
+    std::memcpy(&x, directions.x + first, sizeof x);
+    std::memcpy(&y, directions.y + first, sizeof y);
+    std::memcpy(&z, directions.z + first, sizeof z);
     Bits outside = ~Bits{};
-    for (std::size_t n = 0; n < count; ++n) {
-      outside &= reinterpret_cast<Bits>(ax[n] * x + ay[n] * y + az[n] * z - cosine[n]);
+    for (std::size_t n = 0; n < cap_count; ++n) {
+      outside &= reinterpret_cast<Bits>(c.x[n] * x + c.y[n] * y + c.z[n] * z - c.cosine[n]);
       if (n % 4 == 3 && !any_negative(outside)) break;
     }
     std::memcpy(sign + first, &outside, sizeof outside);
   }
 }
 
-// Dot products with the axis of a circle of the directions within the watched angle of it.
-struct Band {
-  float low, high;
-};
-
-Band band_around(double cosine) {
-  // cos(a + angle) <= dot <= cos(a - angle), a = acos(cosine).
-  const WatchedDirections& w = watched();
-  const double along = cosine * w.cos_angle, across = std::sqrt(1 - cosine * cosine) * w.sin_angle;
-  return {cosine < -w.cos_angle ? -2.0f : static_cast<float>(along - across),
-          cosine > w.cos_angle ? 2.0f : static_cast<float>(along + across)};
-}
-
+// Of each circle, in whole blocks, a number that is negative if no direction is near it.
 MENISCUS_VECTOR_CLONES
-bool any_in_band(const float* x, const float* y, const float* z, std::size_t count, float ax, float ay, float az,
-                 Band band) {
+void sign_far(const CircleColumns& circles, std::size_t count, const Points& directions, std::size_t direction_count,
+              std::int32_t* sign) {
+  const Points d = directions;
   for (std::size_t first = 0; first < count; first += kBlock) {
-    std::uint32_t any = 0;
-    for (std::size_t n = first; n < first + kBlock; ++n) {
-      const float dot = ax * x[n] + ay * y[n] + az * z[n];
-      const std::uint32_t above = dot >= band.low ? 1 : 0, below = dot <= band.high ? 1 : 0;
-      any |= above & below;
+    Floats x, y, z, low, high;
+    std::memcpy(&x, circles.x + first, sizeof x);
+    std::memcpy(&y, circles.y + first, sizeof y);
+    std::memcpy(&z, circles.z + first, sizeof z);
+    std::memcpy(&low, circles.low + first, sizeof low);
+    std::memcpy(&high, circles.high + first, sizeof high);
+    Bits far = ~Bits{};
+    for (std::size_t n = 0; n < direction_count; ++n) {
+      const Floats dot = x * d.x[n] + y * d.y[n] + z * d.z[n];
+      far &= reinterpret_cast<Bits>(dot - low) | reinterpret_cast<Bits>(high - dot);
+      if (n % 8 == 7 && !any_negative(far)) break;
     }
-    if (any) return true;
+    std::memcpy(sign + first, &far, sizeof far);
   }
-  return false;
 }
+
+constexpr std::size_t whole_blocks(std::size_t count) { return (count + kBlock - 1) / kBlock * kBlock; }
 
 }  // namespace
 
-void Caps::make_room(std::size_t count) {
-  for (std::vector<float>& column : columns)
-    if (column.size() < count) column.resize(count);
+template <std::size_t kColumns>
+void SphereCover::Rows<kColumns>::make_room(std::size_t count) {
+  if (count <= columns[0].size()) return;
+  for (std::vector<float>& column : columns) column.resize(2 * count);
 }
 
-void Caps::widest_first(std::size_t count) {
-  constexpr float kWide = 0.45f;
-  std::size_t wide = 0;
-  for (std::size_t n = 0; n < count; ++n) {
-    if (!(columns[3][n] < kWide)) continue;
-    for (std::vector<float>& column : columns) std::swap(column[wide], column[n]);
-    ++wide;
-  }
-}
-
-UncoveredDirections uncovered_directions(const Blockers& blockers, Caps& caps) {
-  const WatchedDirections& w = watched();
-  caps.make_room(whole_vectors(blockers.size()));
-  narrow_caps(blockers.columns(), whole_vectors(blockers.size()), 1 / std::sqrt(blockers.first_weight()), w.cos_angle,
-              w.sin_angle, caps.columns[0].data(), caps.columns[1].data(), caps.columns[2].data(),
-              caps.columns[3].data());
-  caps.widest_first(blockers.size());
-  std::array<std::int32_t, kPadded> sign;
-  sign_outside(w, caps, blockers.size(), sign.data());
-  UncoveredDirections uncovered;
-  for (std::size_t n = 0; n < kDirections; ++n) uncovered.bits[n / 64] |= std::uint64_t{sign[n] < 0} << (n % 64);
-  return uncovered;
-}
-
-bool may_be_exposed(const UncoveredDirections& uncovered, const glm::dvec3& axis, double cosine) {
-  if (!(std::abs(cosine) < 1)) return true;
-  const WatchedDirections& w = watched();
-  const Band band = band_around(cosine);
-  const glm::vec3 n(axis);
-  for (std::size_t word = 0; word < uncovered.bits.size(); ++word)
-    for (std::uint64_t bits = uncovered.bits[word]; bits; bits &= bits - 1) {
-      const std::size_t d = word * 64 + static_cast<std::size_t>(std::countr_zero(bits));
-      const float dot = n.x * w.x[d] + n.y * w.y[d] + n.z * w.z[d];
-      if (dot >= band.low && dot <= band.high) return true;
+// Those that cover something, the wide ones first: nothing need be known of the others where they cover all. No step
+// branches: what belongs in a list would not be foreseen.
+void SphereCover::list_caps(std::size_t count) {
+  caps_.make_room(count + 1);
+  const float *x = circles_.column(0), *y = circles_.column(1), *z = circles_.column(2), *cosine = circles_.column(3);
+  float *to_x = caps_.column(0), *to_y = caps_.column(1), *to_z = caps_.column(2), *to_cosine = caps_.column(3);
+  std::size_t kept = 0;
+  const auto append_between = [&](float low, float high) {
+    for (std::size_t n = 0; n < count; ++n) {
+      to_x[kept] = x[n];
+      to_y[kept] = y[n];
+      to_z[kept] = z[n];
+      to_cosine[kept] = cosine[n];
+      kept += (cosine[n] >= low) & (cosine[n] < high);
     }
-  return false;
+  };
+  append_between(-2, kWide);
+  wide_count_ = kept;
+  append_between(kWide, kNowhere);
+  cap_count_ = kept;
 }
 
-void WatchedList::assign(const UncoveredDirections& uncovered) {
-  static_assert(kMost == kPadded);
-  const WatchedDirections& w = watched();
-  std::size_t count = 0;
-  for (std::size_t word = 0; word < uncovered.bits.size(); ++word)
-    for (std::uint64_t bits = uncovered.bits[word]; bits; bits &= bits - 1) {
-      const std::size_t d = word * 64 + static_cast<std::size_t>(std::countr_zero(bits));
-      x_[count] = w.x[d];
-      y_[count] = w.y[d];
-      z_[count++] = w.z[d];
+// Keeps the directions of negative sign. They may stand in the list already: none moves behind its place.
+void SphereCover::list_uncovered(const float* x, const float* y, const float* z, std::size_t count) {
+  float *to_x = uncovered_.column(0), *to_y = uncovered_.column(1), *to_z = uncovered_.column(2);
+  std::size_t kept = 0;
+  for (std::size_t first = 0; first < count; first += kBlock) {
+    Bits signs;
+    std::memcpy(&signs, signs_.data() + first, sizeof signs);
+    if (!any_negative(signs)) continue;
+    for (std::size_t n = first; n < std::min(first + kBlock, count); ++n) {
+      to_x[kept] = x[n];
+      to_y[kept] = y[n];
+      to_z[kept] = z[n];
+      kept += signs_[n] < 0;
     }
-  // Whole vectors of what is in the list anyhow.
-  for (count_ = count; count_ % kBlock != 0; ++count_) {
-    x_[count_] = x_[count - 1];
-    y_[count_] = y_[count - 1];
-    z_[count_] = z_[count - 1];
   }
+  uncovered_count_ = kept;
 }
 
-bool WatchedList::may_be_exposed(const glm::dvec3& axis, double cosine) const {
-  if (!(std::abs(cosine) < 1)) return true;
-  const glm::vec3 n(axis);
-  return any_in_band(x_.data(), y_.data(), z_.data(), count_, n.x, n.y, n.z, band_around(cosine));
+bool SphereCover::look(const Blockers& blockers) {
+  const WatchedDirections& w = watched();
+  const std::size_t count = blockers.size(), room = whole_blocks(count);
+  circles_.make_room(room);
+  uncovered_.make_room(kPadded);
+  if (signs_.size() < std::max(room, kPadded)) signs_.resize(2 * std::max(room, kPadded));
+  const auto of = [&](std::size_t c) { return circles_.column(c); };
+  const CircleColumns circles{of(0), of(1), of(2), of(3), of(4), of(5)};
+  narrow_caps(blockers.columns(), whole_vectors(count), 1 / std::sqrt(blockers.first_weight()), w.cos_angle,
+              w.sin_angle, circles);
+  list_caps(count);
+  const auto cap = [&](std::size_t c) { return caps_.column(c); };
+  sign_outside({w.x.data(), w.y.data(), w.z.data()}, kPadded, {cap(0), cap(1), cap(2), cap(3)}, wide_count_,
+               signs_.data());
+  list_uncovered(w.x.data(), w.y.data(), w.z.data(), kDirections);
+  const Points left{uncovered_.column(0), uncovered_.column(1), uncovered_.column(2)};
+  sign_outside(left, whole_blocks(uncovered_count_),
+               {cap(0) + wide_count_, cap(1) + wide_count_, cap(2) + wide_count_, cap(3) + wide_count_},
+               cap_count_ - wide_count_, signs_.data());
+  list_uncovered(left.x, left.y, left.z, uncovered_count_);
+  if (uncovered_count_ == 0) return false;
+  sign_far(circles, room, left, uncovered_count_, signs_.data());
+  return true;
 }
 
 }  // namespace meniscus

@@ -7,50 +7,41 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
-#include <glm/vec3.hpp>
-
-#include "core/reduced_surface/contour/contour.h"
+#include "core/reduced_surface/contour/blockers.h"
 
 namespace meniscus {
 
-/// Directions that are not surely covered, one bit each.
-struct UncoveredDirections {
-  std::array<std::uint64_t, 3> bits{};
-  bool none() const { return (bits[0] | bits[1] | bits[2]) == 0; }
-};
-
-/// What balls surely cover of all that lies within the watched angle of a direction: dot(axis, direction) >= cosine.
-struct Caps {
-  std::array<std::vector<float>, 4> columns;  ///< axis, then cosine
-
-  const float* column(std::size_t c) const { return columns[c].data(); }
-  void make_room(std::size_t count);
-  /// The widest ones, some six around an atom of a protein, cover most: nothing need be known of the others then.
-  void widest_first(std::size_t count);
-};
-
-/// Which surroundings of the watched directions of the blockers' first ball no single blocker surely covers. caps: kept
-/// from call to call for its memory; what it holds does not matter.
-UncoveredDirections uncovered_directions(const Blockers& blockers, Caps& caps);
-
-/// False if no point of the circle around `axis` (unit) at angular radius acos(`cosine`) lies near an uncovered
-/// direction: then all of the circle is covered.
-bool may_be_exposed(const UncoveredDirections& uncovered, const glm::dvec3& axis, double cosine);
-
-/// Uncovered directions written out, for the many circles of one ball.
-class WatchedList {
+/// What the balls around a first one surely cover of its sphere. Reused from sphere to sphere to save allocations.
+class SphereCover {
  public:
-  void assign(const UncoveredDirections& uncovered);
-  /// As the function of that name.
-  bool may_be_exposed(const glm::dvec3& axis, double cosine) const;
+  /// Looks at the sphere of the blockers' first ball. False if all of it is surely covered: nothing else is known then.
+  bool look(const Blockers& blockers);
+
+  /// After look() was true: false if no point of the circle of the sphere and the n-th blocker lies near an uncovered
+  /// direction: then all of the circle is covered.
+  bool circle_may_be_exposed(std::size_t n) const { return signs_[n] >= 0; }
 
  private:
-  static constexpr std::size_t kMost = 176;
-  std::size_t count_ = 0;  // up to whole vectors of 16
-  alignas(64) std::array<float, kMost> x_{}, y_{}, z_{};
+  // Columns of numbers of circles, caps, or directions; up to whole vectors anything may stand behind them.
+  template <std::size_t kColumns>
+  struct Rows {
+    std::array<std::vector<float>, kColumns> columns;
+    float* column(std::size_t c) { return columns[c].data(); }
+    void make_room(std::size_t count);
+  };
+
+  void list_caps(std::size_t count);
+  void list_uncovered(const float* x, const float* y, const float* z, std::size_t count);
+
+  Rows<6> circles_;  // per blocker: axis, cosine of its cap, dot products with the axis of directions near its circle
+  Rows<4> caps_;     // axis, cosine
+  Rows<3> uncovered_;
+  std::size_t cap_count_ = 0, wide_count_ = 0, uncovered_count_ = 0;
+  std::vector<std::int32_t> signs_;
 };
 
 }  // namespace meniscus

@@ -22,8 +22,9 @@ constexpr std::size_t kGroup = 64;
 
 // What is known of the atoms of one group.
 struct Group {
-  std::vector<std::uint32_t> neighbors;  // atom after atom; none of buried atoms
+  std::vector<std::uint32_t> neighbors;  // atom after atom, those of open circles first; none of buried atoms
   std::vector<std::uint32_t> first;      // per atom, into neighbors; one past the last closes the list
+  std::vector<std::uint32_t> open;       // per atom: how many of its circles are open
   std::vector<RsArc> arcs;               // atom after atom, those of each sorted
   std::vector<std::uint32_t> lone_atoms;
   std::size_t pairs = 0;
@@ -35,8 +36,7 @@ struct Worker {
   Blockers blockers;
   Blockers nearest_first;  // sorted, of the atom nearest_of
   std::size_t nearest_of = kNone;
-  Caps caps;
-  WatchedList uncovered;
+  SphereCover cover;
   Contour contour;
 };
 
@@ -45,7 +45,6 @@ class Enumeration {
   Enumeration(std::span<const Ball> atoms, double probe_radius)
       : atom_count_(atoms.size()),
         search_(atoms, probe_radius, decision_weights(atoms, probe_radius), swallowed_atoms(atoms)),
-        uncovered_(search_.size()),
         groups_((search_.size() + kGroup - 1) / kGroup) {}
 
   ReducedSurface run(CircleStats* stats) {
@@ -73,29 +72,42 @@ class Enumeration {
     return {group.neighbors.data() + first[0], group.neighbors.data() + first[1]};
   }
 
+  // The neighbours with which an atom has open circles: seen from it, they are not surely covered.
+  std::span<const std::uint32_t> open_neighbors_of(std::size_t place) const {
+    return neighbors_of(place).first(groups_[place / kGroup].open[place % kGroup]);
+  }
+
   void look_around(std::size_t number, Worker& w) {
     Group& group = groups_[number];
     group.first.assign(1, 0);
     for (std::size_t place = number * kGroup; place < past_last(number); ++place) {
       const std::size_t known = group.neighbors.size();
       search_.append_neighbors(place, w.rows, group.neighbors);
-      group.pairs += group.neighbors.size() - known;
+      const std::size_t count = group.neighbors.size() - known;
+      group.pairs += count;
+      if (count == 0) group.lone_atoms.push_back(search_.atom(place));
       search_.list_blockers(place, std::span(group.neighbors).subspan(known), w.blockers);
-      uncovered_[place] = uncovered_directions(w.blockers, w.caps);
-      if (uncovered_[place].none()) group.neighbors.resize(known);
+      if (!w.cover.look(w.blockers)) group.neighbors.resize(known);
+      group.open.push_back(open_first(std::span(group.neighbors).subspan(known), w.cover));
       group.first.push_back(static_cast<std::uint32_t>(group.neighbors.size()));
     }
     group.neighbors.shrink_to_fit();
   }
 
+  // Puts the neighbours first with which there are open circles; returns how many.
+  static std::uint32_t open_first(std::span<std::uint32_t> neighbors, const SphereCover& cover) {
+    std::uint32_t open = 0;
+    for (std::size_t n = 0; n < neighbors.size(); ++n)
+      if (cover.circle_may_be_exposed(n)) std::swap(neighbors[open++], neighbors[n]);
+    return open;
+  }
+
   void list_arcs(std::size_t number, Worker& w) {
     Group& group = groups_[number];
     for (std::size_t place = number * kGroup; place < past_last(number); ++place) {
-      if (uncovered_[place].none()) continue;
-      const auto neighbors = neighbors_of(place);
-      if (neighbors.empty()) group.lone_atoms.push_back(search_.atom(place));
+      if (open_neighbors_of(place).empty()) continue;
       const std::size_t known = group.arcs.size();
-      list_arcs_of(place, neighbors, w, group.arcs);
+      list_arcs_of(place, neighbors_of(place), w, group.arcs);
       std::sort(group.arcs.begin() + static_cast<std::ptrdiff_t>(known), group.arcs.end());
     }
   }
@@ -103,11 +115,11 @@ class Enumeration {
   // The circles of an atom and those with a higher index.
   void list_arcs_of(std::size_t place, std::span<const std::uint32_t> neighbors, Worker& w, std::vector<RsArc>& arcs) {
     search_.list_blockers(place, neighbors, w.blockers);
-    w.uncovered.assign(uncovered_[place]);
     const std::uint32_t i = search_.atom(place);
-    for (std::size_t n = 0; n < neighbors.size(); ++n) {
+    const std::size_t open = open_neighbors_of(place).size();
+    for (std::size_t n = 0; n < open; ++n) {
       const std::uint32_t j = search_.atom(neighbors[n]);
-      if (j < i || surely_covered(w, n)) continue;
+      if (j < i || !is_open(neighbors[n], place)) continue;
       const Blockers::Ball b = w.blockers[n];
       if (!w.contour.expose_at_once(b.center, b.weight, w.blockers, n) &&
           !w.contour.expose_surely(b.center, b.weight, w.blockers, n))
@@ -118,16 +130,9 @@ class Enumeration {
     }
   }
 
-  // Seen from either atom, the circle must pass near a direction that is not surely covered.
-  bool surely_covered(const Worker& w, std::size_t n) const {
-    const UncoveredDirections& beyond = uncovered_[w.blockers.label(n)];
-    if (beyond.none()) return true;
-    const Blockers::Ball b = w.blockers[n];
-    if (!(b.distance > 1e-6)) return false;
-    const double inverse = 1 / b.distance, height = b.half_power * inverse;
-    const glm::dvec3 axis = b.center * inverse;
-    return !w.uncovered.may_be_exposed(axis, height / std::sqrt(w.blockers.first_weight())) ||
-           !may_be_exposed(beyond, -axis, (b.distance - height) / std::sqrt(b.weight));
+  bool is_open(std::size_t place, std::size_t neighbor) const {
+    const auto open = open_neighbors_of(place);
+    return std::find(open.begin(), open.end(), neighbor) != open.end();
   }
 
   // A circle that double leaves in doubt: nearest balls first, whatever order the grid gave.
@@ -175,7 +180,6 @@ class Enumeration {
 
   std::size_t atom_count_;
   NeighborSearch search_;
-  std::vector<UncoveredDirections> uncovered_;
   std::vector<Group> groups_;
   tbb::enumerable_thread_specific<Worker> workers_;
 };

@@ -42,13 +42,13 @@ struct BallColumns {
 MENISCUS_VECTOR_CLONES
 std::uint32_t* list_overlapping(const BallColumns& balls, const NeighborSearch::Rows& rows, std::uint32_t self,
                                 double x, double y, double z, double radius, double probe_radius, std::uint32_t* list) {
-  constexpr std::uint32_t kMost = 64;  // of a row at once
+  constexpr std::uint32_t kMost = 64;  // of a row at once, up to whole vectors
   double gap[kMost];
   for (const auto& [row_first, last] : rows)
     for (std::uint32_t first = row_first; first < last; first += kMost) {
       const double *bx = balls.x + first, *by = balls.y + first, *bz = balls.z + first, *br = balls.radius + first;
       const std::uint32_t count = std::min(kMost, last - first);
-      for (std::uint32_t n = 0; n < count; ++n) {
+      for (std::size_t n = 0; n < whole_vectors(count); ++n) {
         const double dx = bx[n] - x, dy = by[n] - y, dz = bz[n] - z;
         const double reach = radius + br[n] + probe_radius + kGrowth;
         gap[n] = dx * dx + dy * dy + dz * dz - reach * reach;
@@ -73,7 +73,7 @@ NeighborSearch::NeighborSearch(std::span<const Ball> atoms, double probe_radius,
   in_order.reserve(atom_.size());
   for (const std::uint32_t n : grid_.order()) in_order.push_back(atom_[n]);
   atom_ = std::move(in_order);
-  table_.make_room(atom_.size());
+  table_.make_room(atom_.size() + kLanes);  // whole vectors from any place on
   for (std::size_t place = 0; place < atom_.size(); ++place) {
     const Ball& ball = atoms[atom_[place]];
     table_.column(kX)[place] = ball.center.x;
