@@ -96,8 +96,8 @@ const WatchedDirections& watched() {
   return directions;
 }
 
-constexpr float kNowhere = 4;   // no cosine is as large: an empty cap
-constexpr float kWide = 0.45f;  // caps of smaller cosine, some six around an atom of a protein, cover most
+constexpr float kNowhere = 4;  // no cosine is as large: an empty cap
+constexpr float kWide = 0.6f;  // caps of smaller cosine, some ten around an atom of a protein, cover most
 
 typedef float Floats __attribute__((vector_size(kBlock * sizeof(float))));
 typedef std::int32_t Bits __attribute__((vector_size(kBlock * sizeof(std::int32_t))));

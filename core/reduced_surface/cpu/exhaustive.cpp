@@ -94,11 +94,14 @@ class Enumeration {
     group.neighbors.shrink_to_fit();
   }
 
-  // Puts the neighbours first with which there are open circles; returns how many.
+  // Puts the neighbours first with which there are open circles; returns how many. Each is exchanged with the first of
+  // the others in any case: a branch would not be foreseen.
   static std::uint32_t open_first(std::span<std::uint32_t> neighbors, const SphereCover& cover) {
     std::uint32_t open = 0;
-    for (std::size_t n = 0; n < neighbors.size(); ++n)
-      if (cover.circle_may_be_exposed(n)) std::swap(neighbors[open++], neighbors[n]);
+    for (std::size_t n = 0; n < neighbors.size(); ++n) {
+      std::swap(neighbors[open], neighbors[n]);
+      open += cover.circle_may_be_exposed(n) ? 1 : 0;
+    }
     return open;
   }
 

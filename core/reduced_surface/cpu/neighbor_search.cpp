@@ -4,6 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 
 #include "core/math/vector_clones.h"
 
@@ -26,10 +30,17 @@ std::vector<std::uint32_t> all_but(std::size_t count, const std::vector<bool>& l
   return kept;
 }
 
+// For work so small that many steps make one task.
+template <typename Visit>
+void for_each(std::size_t count, const Visit& visit) {
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 4096), [&](const auto& range) {
+    for (std::size_t n = range.begin(); n != range.end(); ++n) visit(n);
+  });
+}
+
 std::vector<glm::dvec3> centers_of(std::span<const Ball> atoms, std::span<const std::uint32_t> kept) {
-  std::vector<glm::dvec3> centers;
-  centers.reserve(kept.size());
-  for (const std::uint32_t a : kept) centers.push_back(atoms[a].center);
+  std::vector<glm::dvec3> centers(kept.size());
+  for_each(kept.size(), [&](std::size_t n) { centers[n] = atoms[kept[n]].center; });
   return centers;
 }
 
@@ -67,21 +78,21 @@ NeighborSearch::NeighborSearch(std::span<const Ball> atoms, double probe_radius,
                                const std::vector<bool>& left_out)
     : probe_radius_(probe_radius),
       largest_radius_(largest_radius(atoms, probe_radius)),
-      grid_(centers_of(atoms, all_but(atoms.size(), left_out)), largest_radius_),
-      atom_(all_but(atoms.size(), left_out)) {
-  std::vector<std::uint32_t> in_order;
-  in_order.reserve(atom_.size());
-  for (const std::uint32_t n : grid_.order()) in_order.push_back(atom_[n]);
-  atom_ = std::move(in_order);
+      atom_(all_but(atoms.size(), left_out)),
+      grid_(centers_of(atoms, atom_), largest_radius_) {
+  const std::vector<std::uint32_t> kept = std::move(atom_);
+  atom_.resize(kept.size());
   table_.make_room(atom_.size() + kLanes);  // whole vectors from any place on
-  for (std::size_t place = 0; place < atom_.size(); ++place) {
-    const Ball& ball = atoms[atom_[place]];
-    table_.column(kX)[place] = ball.center.x;
-    table_.column(kY)[place] = ball.center.y;
-    table_.column(kZ)[place] = ball.center.z;
-    table_.column(kRadius)[place] = ball.radius;
-    table_.column(kWeight)[place] = weights[atom_[place]];
-  }
+  double *x = table_.column(kX), *y = table_.column(kY), *z = table_.column(kZ);
+  double *radius = table_.column(kRadius), *weight = table_.column(kWeight);
+  for_each(atom_.size(), [&](std::size_t place) {
+    const std::uint32_t a = atom_[place] = kept[grid_.order()[place]];
+    x[place] = atoms[a].center.x;
+    y[place] = atoms[a].center.y;
+    z[place] = atoms[a].center.z;
+    radius[place] = atoms[a].radius;
+    weight[place] = weights[a];
+  });
 }
 
 void NeighborSearch::append_neighbors(std::size_t place, Rows& rows, std::vector<std::uint32_t>& neighbors) const {

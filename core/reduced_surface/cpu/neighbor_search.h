@@ -43,8 +43,8 @@ class NeighborSearch {
 
   double probe_radius_;
   double largest_radius_;  // SAS
-  BallGrid grid_;
   std::vector<std::uint32_t> atom_;
+  BallGrid grid_;
   ColumnTable<kColumnCount> table_;
 };
 
