@@ -52,7 +52,7 @@ class Contour {
   bool expose_surely(const glm::dvec3& d, double w1, const Blockers& blockers, std::size_t skip,
                      std::span<const BlockedHalf> halves = {});
 
-  /// The same, quickly, for circles of which nothing is left or one arc. False for others, and if there is doubt.
+  /// The same, more quickly where nothing is left or one arc.
   bool expose_at_once(const glm::dvec3& d, double w1, const Blockers& blockers, std::size_t skip);
 
   /// What another ball leaves of the circle that expose() was last asked for. blockers: as then, and one more.
@@ -72,6 +72,7 @@ class Contour {
  private:
   bool begin_surely(const glm::dvec3& d, double w0, double w1);
   void cover_in_turn(const Blockers& blockers);
+  bool settle();
   void expose_in_quad(const glm::dvec3& d, double w1, const Blockers& blockers, std::size_t skip,
                       std::span<const BlockedHalf> halves);
 

@@ -124,9 +124,7 @@ class Enumeration {
       const std::uint32_t j = search_.atom(neighbors[n]);
       if (j < i || !is_open(neighbors[n], place)) continue;
       const Blockers::Ball b = w.blockers[n];
-      if (!w.contour.expose_at_once(b.center, b.weight, w.blockers, n) &&
-          !w.contour.expose_surely(b.center, b.weight, w.blockers, n))
-        expose_nearest_first(place, b, neighbors, w);
+      if (!w.contour.expose_at_once(b.center, b.weight, w.blockers, n)) expose_nearest_first(place, b, neighbors, w);
       if (w.contour.whole()) arcs.push_back({i, j, kNone, kNone});
       for (const ExposedArc& arc : w.contour.arcs())
         arcs.push_back({i, j, search_.atom(arc.begin_by), search_.atom(arc.end_by)});
