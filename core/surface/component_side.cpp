@@ -8,6 +8,9 @@
 #include <span>
 
 #include <glm/geometric.hpp>
+#include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
 
 #include "core/surface/spherical.h"
 #include "core/surface/walks.h"
@@ -43,17 +46,19 @@ class SideTest {
       : s_(surface), planes_(planes), farthest_(surface.components.size()) {}
 
   std::vector<ComponentKind> run() {
-    for (const Border& border : s_.borders) look_at(border);
+    look_at_borders();
     for (std::uint32_t c = 0; c < s_.convex.size(); ++c) {
       const Ball& atom = s_.atoms[s_.convex[c].atom];
       look_at(
-          s_.convex[c], [&] { return planes_(c, PlaneChoice::all); }, atom.center, atom.radius, &Farthest::convex);
+          s_.convex[c], [&](PlaneChoice choice) { return planes_(c, choice); }, atom.center, atom.radius,
+          &Farthest::convex);
     }
     if (s_.probe_radius > 0)
       for (const ConcavePatch& patch : s_.concave)
         look_at(
-            patch, [&] { return std::span(s_.planes).subspan(patch.first_plane, patch.plane_count()); }, patch.center,
-            s_.probe_radius, &Farthest::concave);
+            patch,
+            [&](PlaneChoice) { return std::span(s_.planes).subspan(patch.first_plane, patch.plane_count()); },
+            patch.center, s_.probe_radius, &Farthest::concave);
     std::vector<ComponentKind> kinds;
     for (const Farthest& f : farthest_) {
       const bool cavity = s_.probe_radius > 0 ? f.concave > std::max(f.convex, f.border) : !(f.convex > f.border);
@@ -63,11 +68,29 @@ class SideTest {
   }
 
  private:
-  void look_at(const Border& border) {
+  // Each thread has its own list: of numbers that are only compared the largest is the same in any order.
+  void look_at_borders() {
+    tbb::enumerable_thread_specific<std::vector<double>> lists(
+        [&] { return std::vector<double>(farthest_.size(), -std::numeric_limits<double>::infinity()); });
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, s_.borders.size(), 1024), [&](const auto& range) {
+      std::vector<double>& farthest = lists.local();
+      for (std::size_t n = range.begin(); n != range.end(); ++n) look_at(s_.borders[n], farthest);
+    });
+    for (const std::vector<double>& list : lists)
+      for (std::size_t c = 0; c < list.size(); ++c) farthest_[c].border = std::max(farthest_[c].border, list[c]);
+  }
+
+  void look_at(const Border& border, std::vector<double>& farthest) const {
     const std::uint32_t face = border.face[0] != kNone ? border.face[0] : border.face[1];
     if (face == kNone) return;
-    double& best = farthest_[s_.faces[face].component].border;
+    double& best = farthest[s_.faces[face].component];
     if (glm::dot(border.center, kDirection) + border.radius > best) best = std::max(best, farthest_of(border));
+  }
+
+  // What a pole has to be beyond to change anything: a convex one beyond the borders, a concave one beyond those too.
+  static double threshold(const Farthest& farthest, double Farthest::*which) {
+    const double beside = which == &Farthest::concave ? std::max(farthest.convex, farthest.border) : farthest.border;
+    return std::max(farthest.*which, beside);
   }
 
   template <typename Patch, typename Planes>
@@ -77,10 +100,12 @@ class SideTest {
     const double reached = glm::dot(pole, kDirection);
     bool new_for_some = false;
     for (std::uint32_t f = patch.first_face; f < patch.first_face + patch.face_count; ++f)
-      new_for_some = new_for_some || reached > farthest_[s_.faces[f].component].*which;
+      new_for_some = new_for_some || reached > threshold(farthest_[s_.faces[f].component], which);
     if (!new_for_some) return;
-    for (const Plane& plane : planes())
-      if (glm::dot(plane.normal, pole) > plane.offset) return;
+    // As a rule those that border the patch leave the pole out already, and they are found with less work.
+    for (const PlaneChoice choice : {PlaneChoice::bordering, PlaneChoice::all})
+      for (const Plane& plane : planes(choice))
+        if (glm::dot(plane.normal, pole) > plane.offset) return;
     double& best = farthest_[s_.faces[face_at_pole(patch, center, radius)].component].*which;
     best = std::max(best, reached);
   }
