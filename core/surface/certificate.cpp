@@ -3,6 +3,7 @@
 #include "core/surface/certificate.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -23,6 +24,18 @@ constexpr double kSlack = 1e-9;  // relative, of areas and volumes that may be 0
 constexpr double kUnbounded = std::numeric_limits<double>::max();
 constexpr double kBeside = 1e-5;  // Å for a probe of no size: what merging probes may turn a plane by
 constexpr double kClose = 1e-3;   // Å, half the distance of probes whose bisector rounding may turn
+
+// Directions spread evenly: Fibonacci's spiral.
+std::array<glm::dvec3, 32> spread_directions() {
+  std::array<glm::dvec3, 32> directions;
+  for (std::size_t n = 0; n < directions.size(); ++n) {
+    const auto k = static_cast<double>(n);
+    const double z = (2 * k + 1.0) / static_cast<double>(directions.size()) - 1, turn = 2 * kPi * std::numbers::phi * k,
+                 across = std::sqrt(1 - z * z);
+    directions[n] = {across * std::cos(turn), across * std::sin(turn), z};
+  }
+  return directions;
+}
 
 class Examination {
  public:
@@ -113,18 +126,15 @@ class Examination {
            most_is_left(planes_(convex, PlaneChoice::all), atom);
   }
 
-  // Whether the clip planes leave most of an atom's sphere, judged by points spread evenly (Fibonacci's spiral).
-  static bool most_is_left(const std::vector<Plane>& planes, const Ball& atom) {
-    constexpr int kPoints = 32;
-    int left = 0;
-    for (int n = 0; n < kPoints; ++n) {
-      const double z = (2 * n + 1.0) / kPoints - 1, turn = 2 * kPi * std::numbers::phi * n,
-                   across = std::sqrt(1 - z * z);
-      const glm::dvec3 x = atom.center + atom.radius * glm::dvec3(across * std::cos(turn), across * std::sin(turn), z);
+  // Whether the clip planes leave most of an atom's sphere, judged by points spread evenly.
+  bool most_is_left(const std::vector<Plane>& planes, const Ball& atom) const {
+    std::size_t left = 0;
+    for (const glm::dvec3& direction : spread_) {
+      const glm::dvec3 x = atom.center + atom.radius * direction;
       left +=
           std::ranges::all_of(planes, [&](const Plane& plane) { return glm::dot(plane.normal, x) <= plane.offset; });
     }
-    return 2 * left > kPoints;
+    return 2 * left > spread_.size();
   }
 
   void add_atoms_of(const ConcavePatch& patch) {
@@ -172,6 +182,7 @@ class Examination {
   Surface& s_;
   const MeasurementDoubts& doubts_;
   const ConvexPlanes& planes_;
+  const std::array<glm::dvec3, 32> spread_ = spread_directions();
   tbb::enumerable_thread_specific<std::vector<std::uint32_t>> open_;
 };
 

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <compare>
+#include <mutex>
+#include <optional>
 #include <span>
 
 #include <glm/geometric.hpp>
@@ -41,10 +43,7 @@ struct BorderArc {
 class ConvexTrimmer::Search {
  public:
   Search(const Surface& surface, const ReducedSurface& rs)
-      : s_(surface),
-        largest_(largest_radius(surface)),
-        grid_(surface.atoms, largest_),
-        weights_(decision_weights(surface.atoms, surface.probe_radius)) {
+      : s_(surface), largest_(largest_radius(surface)) {
     list_arcs(rs);
   }
 
@@ -97,12 +96,12 @@ class ConvexTrimmer::Search {
 
   void keep(std::uint32_t a, std::uint32_t b, Worker& w) const {
     w.kept.push_back(b);
-    w.blockers.add(s_.atoms[b].center - s_.atoms[a].center, weights_[b], b);
+    w.blockers.add(s_.atoms[b].center - s_.atoms[a].center, weight(b), b);
   }
 
   void keep_bordering(std::uint32_t a, Worker& w) const {
     w.kept.clear();
-    w.blockers.restart(weights_[a]);
+    w.blockers.restart(weight(a));
     w.neighbors.clear();
     for (const BorderArc& arc : arcs_of(a))
       if (std::find(w.kept.begin(), w.kept.end(), arc.partner) == w.kept.end()) keep(a, arc.partner, w);
@@ -139,7 +138,7 @@ class ConvexTrimmer::Search {
   // The atom that covers the point of the contour's circle at this pseudo-angle deepest, or kNone.
   std::uint32_t covering(std::uint32_t a, double pseudo, Worker& w) const {
     if (w.neighbors.empty())
-      grid_.for_each_near(s_.atoms[a].center, s_.atoms[a].radius + s_.probe_radius + largest_, [&](std::uint32_t b) {
+      grid().for_each_near(s_.atoms[a].center, s_.atoms[a].radius + s_.probe_radius + largest_, [&](std::uint32_t b) {
         if (b != a) w.neighbors.push_back(b);
       });
     const geometry::Circle& c = w.contour.circle();
@@ -148,7 +147,7 @@ class ConvexTrimmer::Search {
     double depth = 1e-8;  // decision weights blur the surface of a ball by 1e-8 Å² at most
     for (const std::uint32_t b : w.neighbors) {
       const glm::dvec3 d = point - s_.atoms[b].center;
-      const double inside = weights_[b] - glm::dot(d, d);
+      const double inside = weight(b) - glm::dot(d, d);
       if (inside > depth && std::find(w.kept.begin(), w.kept.end(), b) == w.kept.end()) {
         depth = inside;
         deepest = b;
@@ -157,10 +156,18 @@ class ConvexTrimmer::Search {
     return deepest;
   }
 
+  double weight(std::uint32_t a) const { return decision_weight(s_.atoms[a].radius + s_.probe_radius, a); }
+
+  // Who asks for bordering circles alone needs no neighbours.
+  const BallGrid& grid() const {
+    std::call_once(grid_asked_, [&] { grid_.emplace(s_.atoms, largest_); });
+    return *grid_;
+  }
+
   const Surface& s_;
   double largest_;
-  BallGrid grid_;
-  std::vector<double> weights_;
+  mutable std::once_flag grid_asked_;
+  mutable std::optional<BallGrid> grid_;
   std::vector<std::uint32_t> first_;
   std::vector<BorderArc> arcs_;
 };
