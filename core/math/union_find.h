@@ -2,7 +2,10 @@
 // Disjoint sets of indices; the representative is always the smallest index.
 #pragma once
 
+#include <atomic>
+#include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -28,6 +31,41 @@ class UnionFind {
 
  private:
   std::vector<std::uint32_t> parent_;
+};
+
+/// The same for threads that unite at once: the sets do not depend on who comes first (Anderson & Woll 1991). A
+/// representative is what it says once all have united.
+class SharedUnionFind {
+ public:
+  explicit SharedUnionFind(std::size_t count)
+      : parent_(std::make_unique_for_overwrite<std::atomic<std::uint32_t>[]>(count)) {
+    for (std::size_t n = 0; n < count; ++n) parent_[n].store(static_cast<std::uint32_t>(n), std::memory_order_relaxed);
+  }
+
+  std::uint32_t find(std::uint32_t n) {
+    for (;;) {
+      std::uint32_t parent = parent_[n].load(std::memory_order_relaxed);
+      if (parent == n) return n;
+      const std::uint32_t above = parent_[parent].load(std::memory_order_relaxed);
+      // Parents only ever become smaller, so a path that another thread shortens meanwhile stays a path.
+      if (above != parent) parent_[n].compare_exchange_weak(parent, above, std::memory_order_relaxed);
+      n = above;
+    }
+  }
+
+  void unite(std::uint32_t a, std::uint32_t b) {
+    for (;;) {
+      a = find(a);
+      b = find(b);
+      if (a == b) return;
+      if (a < b) std::swap(a, b);
+      std::uint32_t root = a;
+      if (parent_[a].compare_exchange_strong(root, b, std::memory_order_relaxed)) return;
+    }
+  }
+
+ private:
+  std::unique_ptr<std::atomic<std::uint32_t>[]> parent_;
 };
 
 }  // namespace meniscus

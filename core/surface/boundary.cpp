@@ -4,13 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <memory>
 
 #include <glm/geometric.hpp>
+#include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
+#include "core/surface/components.h"
 #include "core/surface/loops.h"
-#include "core/math/union_find.h"
+#include "core/surface/numbering.h"
 #include "core/surface/walks.h"
 
 namespace meniscus {
@@ -26,40 +29,67 @@ struct PatchBorders {
   std::uint32_t half_edge(int end, int side) const { return first + 2 + 2 * end + side; }  // spindle
 };
 
+// What the chained half-borders of a spherical patch come to.
+struct PatchNumbers {
+  std::uint32_t loops = 0;
+  std::uint32_t faces = 0;
+  bool closed = true;
+};
+
 class BoundaryBuilder {
  public:
   BoundaryBuilder(Surface& surface, const FixedProbes& probes, const CuspParts& cusps, const ReducedSurface& rs)
-      : s_(surface),
-        probes_(probes),
-        cusps_(cusps),
-        rs_(rs),
-        flat_(surface.probe_radius == 0),
-        first_on_circle_(first_on_circle(surface.toroidal)) {}
+      : s_(surface), probes_(probes), cusps_(cusps), rs_(rs), flat_(surface.probe_radius == 0) {}
 
   void run() {
+    number_borders();
     place_vertices();
     place_borders();
+    list_walks();
     chain_loops();
     number_faces();
-    connect_components();
+    if (!connect_components(s_)) add_open_borders();
   }
 
  private:
   double p() const { return s_.probe_radius; }
 
+  // How many borders of toroidal patches there are and vertices on their axes, or how many stand before those of one.
+  struct BorderNumbers {
+    std::uint32_t border = 0, vertex = 0;
+    BorderNumbers& operator+=(const BorderNumbers& more) {
+      border += more.border;
+      vertex += more.vertex;
+      return *this;
+    }
+  };
+
   // Vertices: one per contact of each probe (the probe itself when its radius is 0), two per spindle circle, one per
   // point where three probes meet.
-  void place_vertices() {
+  void number_borders() {
+    const auto first_on_circle = [&](std::size_t t) {
+      return t == 0 || s_.toroidal[t].atom != s_.toroidal[t - 1].atom;
+    };
+    const auto count = [&](std::size_t t) {
+      const bool free = s_.toroidal[t].free(), spindle = s_.spindle(s_.toroidal[t]);
+      return BorderNumbers{flat_ ? 1u : free ? 2u : spindle ? 6u : 4u, spindle && first_on_circle(t) ? 2u : 0u};
+    };
     const std::size_t contact_count = flat_ ? probes_.count() : probes_.sides.size();
-    axis_vertex_.assign(s_.toroidal.size(), kNone);
-    std::uint32_t count = static_cast<std::uint32_t>(contact_count);
-    for (std::uint32_t t = 0; t < s_.toroidal.size(); ++t) {
-      if (first_on_circle_[t] != t || !s_.spindle(s_.toroidal[t])) continue;
-      axis_vertex_[t] = count;
-      count += 2;
-    }
-    triple_vertex_ = count;
-    s_.vertices.resize(count + cusps_.triple.size());
+    const RowNumbers<BorderNumbers> numbers(s_.toroidal.size(), {0, static_cast<std::uint32_t>(contact_count)}, count);
+    patch_borders_.resize(s_.toroidal.size());
+    axis_vertex_.resize(s_.toroidal.size());
+    numbers.for_each([&](std::size_t t, BorderNumbers& next) {
+      const bool spindle = s_.spindle(s_.toroidal[t]);
+      patch_borders_[t] = {next.border, s_.toroidal[t].free(), spindle};
+      next += count(t);
+      axis_vertex_[t] = spindle ? next.vertex - 2 : kNone;
+    });
+    first_cusp_border_ = numbers.past().border;
+    triple_vertex_ = numbers.past().vertex;
+  }
+
+  void place_vertices() {
+    s_.vertices.resize(triple_vertex_ + cusps_.triple.size());
     tbb::parallel_for(std::size_t{0}, probes_.count(), [&](std::size_t probe) {
       if (flat_) {
         s_.vertices[probe] = probes_.position[probe];
@@ -70,27 +100,23 @@ class BoundaryBuilder {
         s_.vertices[n] = atom.center + glm::normalize(probes_.position[probe] - atom.center) * atom.radius;
       }
     });
-    for (std::uint32_t t = 0; t < s_.toroidal.size(); ++t)
-      if (axis_vertex_[t] != kNone)
-        for (int side = 0; side < 2; ++side) s_.vertices[axis_vertex_[t] + side] = axis_cusp(s_.toroidal[t], p(), side);
+    // All patches of a spindle circle say the same.
+    tbb::parallel_for(std::size_t{0}, s_.toroidal.size(), [&](std::size_t t) {
+      if (axis_vertex_[t] == kNone || (t > 0 && axis_vertex_[t] == axis_vertex_[t - 1])) return;
+      for (int side = 0; side < 2; ++side) s_.vertices[axis_vertex_[t] + side] = axis_cusp(s_.toroidal[t], p(), side);
+    });
     std::copy(cusps_.triple.begin(), cusps_.triple.end(), s_.vertices.begin() + triple_vertex_);
   }
 
   void place_borders() {
     side_at_.resize(s_.toroidal.size());
-    for (std::uint32_t n = 0; n < probes_.sides.size(); ++n)
-      side_at_[probes_.sides[n].toroidal][probes_.sides[n].at_end] = n;
-    patch_borders_.resize(s_.toroidal.size());
-    std::uint32_t count = 0;
-    for (std::uint32_t t = 0; t < s_.toroidal.size(); ++t) {
-      const bool free = s_.toroidal[t].free(), spindle = s_.spindle(s_.toroidal[t]);
-      patch_borders_[t] = {count, free, spindle};
-      count += flat_ ? 1 : free ? 2 : spindle ? 6 : 4;
-    }
-    first_cusp_border_ = count;
-    s_.borders.resize(count + cusps_.arcs.size());
+    tbb::parallel_for(std::size_t{0}, probes_.count(), [&](std::size_t probe) {
+      for (std::uint32_t n = probes_.first_side[probe]; n < probes_.first_side[probe + 1]; ++n)
+        side_at_[probes_.sides[n].toroidal][probes_.sides[n].at_end] = n;
+    });
+    s_.borders.resize(first_cusp_border_ + cusps_.arcs.size());
     tbb::parallel_for(std::size_t{0}, s_.toroidal.size(), [&](std::size_t t) { place_patch_borders(t); });
-    for (std::size_t n = 0; n < cusps_.arcs.size(); ++n) place_cusp_border(n);
+    tbb::parallel_for(std::size_t{0}, cusps_.arcs.size(), [&](std::size_t n) { place_cusp_border(n); });
   }
 
   // The vertex of the probe at `end` of patch t on atom `side` of the patch.
@@ -125,7 +151,7 @@ class BoundaryBuilder {
       if (!b.spindle) {
         s_.borders[b.edge(end)] = edge_border(probe, patch, contact[0], contact[1]);
       } else {
-        const std::uint32_t cusp = axis_vertex_[first_on_circle_[t]];
+        const std::uint32_t cusp = axis_vertex_[t];
         s_.borders[b.half_edge(end, 0)] = edge_border(probe, patch, contact[0], cusp);
         s_.borders[b.half_edge(end, 1)] = edge_border(probe, patch, cusp + 1, contact[1]);
       }
@@ -165,60 +191,138 @@ class BoundaryBuilder {
     }
   }
 
-  // Half-borders by atom, then by probe; each patch chains its own.
-  void chain_loops() {
-    std::vector<std::uint32_t> first(s_.atoms.size() + 1, 0);
+  // Half-borders by atom, those that toroidal patches have between them, then by probe: where each patch chains its
+  // own.
+  void list_walks() {
+    list_convex_patches();
+    const auto count = [&](std::size_t t) { return numbers_of(patch_borders_[t]); };
+    const std::uint32_t first_of_concave =
+        RowNumbers<Numbers>(s_.toroidal.size(), {0, 0, first_of_atom_.back()}, count).past().half_border;
+    list_cusps_of_probes();
+    const auto walk_size = [&](std::size_t s) {
+      std::uint32_t size = first_cusp_[s + 1] - first_cusp_[s];
+      for (const ProbeSide& side : probes_.sides_of(static_cast<std::uint32_t>(s)))
+        size += patch_borders_[side.toroidal].spindle ? 2 : 1;
+      return size;
+    };
+    const RowNumbers<std::uint32_t> walks(concave_count(), first_of_concave, walk_size);
+    first_of_probe_.resize(concave_count() + 1);
+    first_of_probe_.back() = walks.past();
+    walks.for_each([&](std::size_t s, std::uint32_t& next) {
+      first_of_probe_[s] = next;
+      next += walk_size(s);
+    });
+    s_.half_borders.resize(walks.past());
+    list_walks_of_atoms();
+    tbb::parallel_for(std::size_t{0}, concave_count(), [&](std::size_t s) { list_walk_of_probe(s); });
+  }
+
+  // With a probe of radius 0 concave patches have no borders.
+  std::size_t concave_count() const { return flat_ ? 0 : s_.concave.size(); }
+
+  void list_convex_patches() {
+    first_of_atom_.assign(s_.atoms.size() + 1, 0);
     for (const ToroidalPatch& t : s_.toroidal)
-      for (std::uint32_t a : t.atom) ++first[a + 1];
-    for (std::size_t a = 1; a < first.size(); ++a) first[a] += first[a - 1];
-    std::vector<HalfBorder> of_atom(first.back());
-    std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
+      for (std::uint32_t a : t.atom) ++first_of_atom_[a + 1];
+    std::size_t exposed = rs_.lone_atoms.size();
+    for (std::size_t a = 1; a < first_of_atom_.size(); ++a) {
+      exposed += first_of_atom_[a] > 0;
+      first_of_atom_[a] += first_of_atom_[a - 1];
+    }
+    s_.convex.reserve(exposed);
+    for (std::uint32_t a = 0, lone = 0; a < s_.atoms.size(); ++a) {
+      const bool is_lone = lone < rs_.lone_atoms.size() && rs_.lone_atoms[lone] == a;
+      if (is_lone) ++lone;
+      if (first_of_atom_[a + 1] > first_of_atom_[a] || is_lone) s_.convex.push_back({a, 0, 0, 0, 0});
+    }
+  }
+
+  void list_walks_of_atoms() {
+    std::vector<std::uint32_t> next(first_of_atom_.begin(), first_of_atom_.end() - 1);
+    std::vector<HalfBorder>& of_atom = s_.half_borders;
     for (std::uint32_t t = 0; t < s_.toroidal.size(); ++t) {
       // Counter-clockwise about the axis the convex patch of atom[0] lies on the right, that of atom[1] on the left.
       of_atom[next[s_.toroidal[t].atom[0]]++] = patch_borders_[t].contact(0) * 2 + 1;
       of_atom[next[s_.toroidal[t].atom[1]]++] = patch_borders_[t].contact(flat_ ? 0 : 1) * 2;
     }
-    for (std::uint32_t a = 0, lone = 0; a < s_.atoms.size(); ++a) {
-      const bool is_lone = lone < rs_.lone_atoms.size() && rs_.lone_atoms[lone] == a;
-      if (is_lone) ++lone;
-      if (first[a + 1] > first[a] || is_lone) s_.convex.push_back({a, 0, 0, 0, 0});
-    }
-    convex_faces_.resize(s_.convex.size());
-    tbb::parallel_for(std::size_t{0}, s_.convex.size(), [&](std::size_t c) {
-      const std::uint32_t a = s_.convex[c].atom;
-      const Ball& atom = s_.atoms[a];
-      convex_faces_[c] = chain_faces(s_.borders, {of_atom.data() + first[a], of_atom.data() + first[a + 1]},
-                                     atom.center, atom.radius, false);
-    });
+  }
 
-    if (flat_) return;
-    std::vector<std::uint32_t> first_cusp(probes_.count() + 1, 0);
+  void list_cusps_of_probes() {
+    first_cusp_.assign(probes_.count() + 1, 0);
     for (const CuspArc& arc : cusps_.arcs)
-      for (std::uint32_t s : arc.probe) ++first_cusp[s + 1];
-    for (std::size_t s = 1; s < first_cusp.size(); ++s) first_cusp[s] += first_cusp[s - 1];
-    std::vector<HalfBorder> of_probe(first_cusp.back());
-    next.assign(first_cusp.begin(), first_cusp.end() - 1);
+      for (std::uint32_t s : arc.probe) ++first_cusp_[s + 1];
+    for (std::size_t s = 1; s < first_cusp_.size(); ++s) first_cusp_[s] += first_cusp_[s - 1];
+    cusp_of_probe_.resize(first_cusp_.back());
+    std::vector<std::uint32_t> next(first_cusp_.begin(), first_cusp_.end() - 1);
     for (std::uint32_t n = 0; n < cusps_.arcs.size(); ++n) {
       // Counter-clockwise about the axis from the first probe to the second, the first one's patch lies on the left.
-      of_probe[next[cusps_.arcs[n].probe[0]]++] = (first_cusp_border_ + n) * 2;
-      of_probe[next[cusps_.arcs[n].probe[1]]++] = (first_cusp_border_ + n) * 2 + 1;
+      cusp_of_probe_[next[cusps_.arcs[n].probe[0]]++] = (first_cusp_border_ + n) * 2;
+      cusp_of_probe_[next[cusps_.arcs[n].probe[1]]++] = (first_cusp_border_ + n) * 2 + 1;
     }
-    concave_faces_.resize(s_.concave.size());
-    tbb::parallel_for(std::size_t{0}, s_.concave.size(), [&](std::size_t s) {
-      std::vector<HalfBorder> walk(of_probe.begin() + first_cusp[s], of_probe.begin() + first_cusp[s + 1]);
-      for (const ProbeSide& side : probes_.sides_of(static_cast<std::uint32_t>(s))) {
-        // At the start of a toroidal patch the concave patch lies on the left of its edge, at the end on the right.
-        const PatchBorders& b = patch_borders_[side.toroidal];
-        const std::uint32_t backwards = side.at_end ? 1 : 0;
-        if (!b.spindle) {
-          walk.push_back(b.edge(side.at_end) * 2 + backwards);
-        } else {
-          walk.push_back(b.half_edge(side.at_end, 0) * 2 + backwards);
-          walk.push_back(b.half_edge(side.at_end, 1) * 2 + backwards);
-        }
+  }
+
+  void list_walk_of_probe(std::size_t s) {
+    auto next = std::copy(cusp_of_probe_.begin() + first_cusp_[s], cusp_of_probe_.begin() + first_cusp_[s + 1],
+                          s_.half_borders.begin() + first_of_probe_[s]);
+    for (const ProbeSide& side : probes_.sides_of(static_cast<std::uint32_t>(s))) {
+      // At the start of a toroidal patch the concave patch lies on the left of its edge, at the end on the right.
+      const PatchBorders& b = patch_borders_[side.toroidal];
+      const std::uint32_t backwards = side.at_end ? 1 : 0;
+      if (!b.spindle) {
+        *next++ = b.edge(side.at_end) * 2 + backwards;
+      } else {
+        *next++ = b.half_edge(side.at_end, 0) * 2 + backwards;
+        *next++ = b.half_edge(side.at_end, 1) * 2 + backwards;
       }
-      concave_faces_[s] = chain_faces(s_.borders, walk, s_.concave[s].center, p(), true);
+    }
+  }
+
+  void chain_loops() {
+    loop_size_ = std::make_unique_for_overwrite<std::uint32_t[]>(s_.half_borders.size());
+    convex_numbers_.resize(s_.convex.size());
+    concave_numbers_.resize(concave_count());
+    tbb::enumerable_thread_specific<LoopChainer> chainers;
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, s_.convex.size(), 64), [&](const auto& range) {
+      LoopChainer& chainer = chainers.local();
+      for (std::size_t c = range.begin(); c != range.end(); ++c) {
+        const Ball& atom = s_.atoms[s_.convex[c].atom];
+        convex_numbers_[c] = put_in_order(
+            walk_of_convex(c), chainer.chain(s_.borders, walk_of_convex(c), atom.center, atom.radius, false));
+      }
     });
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, concave_count(), 64), [&](const auto& range) {
+      LoopChainer& chainer = chainers.local();
+      for (std::size_t s = range.begin(); s != range.end(); ++s)
+        concave_numbers_[s] = put_in_order(
+            walk_of_concave(s), chainer.chain(s_.borders, walk_of_concave(s), s_.concave[s].center, p(), true));
+    });
+  }
+
+  std::span<HalfBorder> walk_of_convex(std::size_t c) {
+    const std::uint32_t a = s_.convex[c].atom;
+    return {s_.half_borders.data() + first_of_atom_[a], s_.half_borders.data() + first_of_atom_[a + 1]};
+  }
+
+  std::span<HalfBorder> walk_of_concave(std::size_t s) {
+    return {s_.half_borders.data() + first_of_probe_[s], s_.half_borders.data() + first_of_probe_[s + 1]};
+  }
+
+  // Puts a patch's half-borders into the order of its faces, and of their loops. Where a loop begins stands how long it
+  // is, twice, and 1 more if it is its face's first.
+  PatchNumbers put_in_order(std::span<HalfBorder> walk, const PatchFaces& faces) {
+    auto next = walk.begin();
+    for (std::uint32_t f = 0; f < faces.face_count; ++f) {
+      bool first_of_face = true;
+      auto loop = faces.half_borders.begin();
+      for (std::size_t l = 0; l < faces.loop_sizes.size(); loop += faces.loop_sizes[l], ++l) {
+        if (faces.loop_face[l] != f) continue;
+        loop_size_[static_cast<std::size_t>(&*next - s_.half_borders.data())] =
+            faces.loop_sizes[l] * 2 + (first_of_face ? 1 : 0);
+        first_of_face = false;
+        next = std::copy(loop, loop + faces.loop_sizes[l], next);
+      }
+    }
+    return {static_cast<std::uint32_t>(faces.loop_sizes.size()), faces.face_count, faces.closed};
   }
 
   // How many faces, loops and half-borders there are, or how many stand before those of a patch.
@@ -232,11 +336,6 @@ class BoundaryBuilder {
     }
   };
 
-  static Numbers numbers_of(const PatchFaces& faces) {
-    return {faces.face_count, static_cast<std::uint32_t>(faces.loop_sizes.size()),
-            static_cast<std::uint32_t>(faces.half_borders.size())};
-  }
-
   Numbers numbers_of(const PatchBorders& borders) const {
     if (flat_) return {};
     if (borders.spindle) return {2, 2, borders.free ? 2u : 6u};
@@ -245,54 +344,52 @@ class BoundaryBuilder {
 
   // Faces are numbered in the order of convex, toroidal and concave patches; then each patch lists its own.
   void number_faces() {
-    Numbers all;
-    const auto before = [&](const auto& patches) {
-      std::vector<Numbers> first;
-      first.reserve(patches.size());
-      for (const auto& patch : patches) {
-        first.push_back(all);
-        all += numbers_of(patch);
-      }
-      return first;
+    const auto of_convex = [&](std::size_t c) {
+      return Numbers{convex_numbers_[c].faces, convex_numbers_[c].loops, index(walk_of_convex(c).size())};
     };
-    const auto first_convex = before(convex_faces_), first_toroidal = before(patch_borders_),
-               first_concave = before(concave_faces_);
-    s_.faces.resize(all.face);
-    s_.loops.resize(all.loop);
-    s_.half_borders.resize(all.half_border);
-    tbb::parallel_for(std::size_t{0}, s_.convex.size(), [&](std::size_t c) {
-      list_faces(convex_faces_[c], PatchKind::convex, s_.convex[c], static_cast<std::uint32_t>(c), first_convex[c]);
+    const auto of_toroidal = [&](std::size_t t) { return numbers_of(patch_borders_[t]); };
+    const auto of_concave = [&](std::size_t s) {
+      return Numbers{concave_numbers_[s].faces, concave_numbers_[s].loops, index(walk_of_concave(s).size())};
+    };
+    const RowNumbers<Numbers> convex(s_.convex.size(), {}, of_convex);
+    const Numbers past_convex{convex.past().face, convex.past().loop, first_of_atom_.back()};
+    const RowNumbers<Numbers> toroidal(s_.toroidal.size(), past_convex, of_toroidal);
+    const RowNumbers<Numbers> concave(concave_count(), toroidal.past(), of_concave);
+    s_.faces.resize(concave.past().face);
+    s_.loops.resize(concave.past().loop);
+    convex.for_each([&](std::size_t c, Numbers& next) {
+      next.half_border = first_of_atom_[s_.convex[c].atom];
+      list_faces(of_convex(c), PatchKind::convex, s_.convex[c], index(c), next);
     });
-    tbb::parallel_for(std::size_t{0}, s_.toroidal.size(),
-                      [&](std::size_t t) { list_toroidal_faces(static_cast<std::uint32_t>(t), first_toroidal[t]); });
-    tbb::parallel_for(std::size_t{0}, concave_faces_.size(), [&](std::size_t n) {
-      list_faces(concave_faces_[n], PatchKind::concave, s_.concave[n], static_cast<std::uint32_t>(n), first_concave[n]);
+    toroidal.for_each([&](std::size_t t, Numbers& next) { list_toroidal_faces(index(t), next); });
+    concave.for_each([&](std::size_t s, Numbers& next) {
+      list_faces(of_concave(s), PatchKind::concave, s_.concave[s], index(s), next);
     });
     for (std::uint32_t c = 0; c < s_.convex.size(); ++c)
-      if (!convex_faces_[c].closed) s_.certificate.open_atoms.push_back(s_.convex[c].atom);
-    for (std::uint32_t s = 0; s < concave_faces_.size(); ++s)
-      if (!concave_faces_[s].closed) add_open_probe(s);
+      if (!convex_numbers_[c].closed) s_.certificate.open_atoms.push_back(s_.convex[c].atom);
+    for (std::uint32_t s = 0; s < concave_count(); ++s)
+      if (!concave_numbers_[s].closed) add_open_probe(s);
     for (std::uint32_t s : cusps_.open_probes) add_open_probe(s);
   }
+
+  static std::uint32_t index(std::size_t n) { return static_cast<std::uint32_t>(n); }
 
   void add_open_probe(std::uint32_t s) {
     for (const ProbeSide& side : probes_.sides_of(s)) s_.certificate.open_atoms.push_back(side.from);
   }
 
-  // Of a spherical patch; what it was chained from is not needed again.
+  // Of a spherical patch.
   template <typename Patch>
-  void list_faces(PatchFaces& faces, PatchKind kind, Patch& patch, std::uint32_t index, Numbers next) {
+  void list_faces(const Numbers& own, PatchKind kind, Patch& patch, std::uint32_t number, Numbers& next) {
     patch.first_face = next.face;
-    patch.face_count = faces.face_count;
-    for (std::uint32_t f = 0; f < faces.face_count; ++f) {
-      const std::uint32_t face = open_face(kind, index, next);
-      for (std::size_t l = 0, h = 0; l < faces.loop_sizes.size(); h += faces.loop_sizes[l], ++l)
-        if (faces.loop_face[l] == f)
-          add_loop(face, {faces.half_borders.data() + h, faces.half_borders.data() + h + faces.loop_sizes[l]}, next);
+    patch.face_count = own.face;
+    if (own.half_border == 0 && own.face > 0) open_face(kind, number, next);
+    const std::uint32_t past = next.half_border + own.half_border;
+    while (next.half_border < past) {
+      const std::uint32_t size = loop_size_[next.half_border];
+      if (size & 1) open_face(kind, number, next);
+      close_loop(next.face - 1, size / 2, next);
     }
-    const bool closed = faces.closed;
-    faces = {};
-    faces.closed = closed;
   }
 
   std::uint32_t open_face(PatchKind kind, std::uint32_t patch, Numbers& next) {
@@ -303,15 +400,22 @@ class BoundaryBuilder {
     return next.face++;
   }
 
-  void add_loop(std::uint32_t face, std::span<const HalfBorder> walk, Numbers& next) {
-    s_.loops[next.loop++] = {next.half_border, static_cast<std::uint32_t>(walk.size())};
-    std::ranges::copy(walk, s_.half_borders.begin() + next.half_border);
-    next.half_border += static_cast<std::uint32_t>(walk.size());
+  // Of the half-borders that come next.
+  void close_loop(std::uint32_t face, std::uint32_t size, Numbers& next) {
+    s_.loops[next.loop++] = {next.half_border, size};
     ++s_.faces[face].loop_count;
-    for (const HalfBorder h : walk) s_.borders[border_of(h)].face[h & 1] = face;
+    for (const std::uint32_t past = next.half_border + size; next.half_border < past; ++next.half_border) {
+      const HalfBorder h = s_.half_borders[next.half_border];
+      s_.borders[border_of(h)].face[h & 1] = face;
+    }
   }
 
-  void list_toroidal_faces(std::uint32_t t, Numbers next) {
+  void add_loop(std::uint32_t face, std::span<const HalfBorder> walk, Numbers& next) {
+    std::ranges::copy(walk, s_.half_borders.begin() + next.half_border);
+    close_loop(face, index(walk.size()), next);
+  }
+
+  void list_toroidal_faces(std::uint32_t t, Numbers& next) {
     ToroidalPatch& patch = s_.toroidal[t];
     const PatchBorders& b = patch_borders_[t];
     patch.first_face = next.face;
@@ -333,7 +437,7 @@ class BoundaryBuilder {
       const HalfBorder contact = side ? top : bottom;
       if (b.free) {
         add_loop(face, std::array{contact}, next);
-        s_.faces[face].tip = axis_vertex_[first_on_circle_[t]] + side;
+        s_.faces[face].tip = axis_vertex_[t] + side;
       } else if (side == 0) {
         add_loop(face, std::array{contact, b.half_edge(1, 0) * 2, b.half_edge(0, 0) * 2 + 1}, next);
       } else {
@@ -342,38 +446,12 @@ class BoundaryBuilder {
     }
   }
 
-  // Euler characteristic: vertices - borders with ends + sum over faces of (2 - loops); whole circles count nothing.
-  void connect_components() {
-    UnionFind joined(s_.faces.size());
+  // The faces at borders that have no second one.
+  void add_open_borders() {
     for (const Border& border : s_.borders) {
-      if (border.face[0] == kNone || border.face[1] == kNone) {
-        for (const std::uint32_t f : border.face)
-          if (f != kNone) add_open_face(f);
-        continue;
-      }
-      joined.unite(border.face[0], border.face[1]);
-    }
-    std::vector<std::uint32_t> number(s_.faces.size(), kNone);
-    for (std::uint32_t f = 0; f < s_.faces.size(); ++f) {
-      const std::uint32_t root = joined.find(f);
-      if (number[root] == kNone) {
-        number[root] = static_cast<std::uint32_t>(s_.components.size());
-        s_.components.push_back({});
-        s_.components.back().euler = 0;
-      }
-      Face& face = s_.faces[f];
-      face.component = number[root];
-      s_.components[face.component].euler += 2 - static_cast<int>(face.loop_count);
-    }
-    std::vector<std::uint32_t> component_of_vertex(s_.vertices.size(), kNone);
-    for (const Border& border : s_.borders) {
-      if (border.vertex[0] == kNone || border.face[0] == kNone) continue;
-      const std::uint32_t component = s_.faces[border.face[0]].component;
-      --s_.components[component].euler;
-      for (const std::uint32_t v : border.vertex) {
-        if (component_of_vertex[v] == kNone) ++s_.components[component].euler;
-        component_of_vertex[v] = component;
-      }
+      if (border.face[0] != kNone && border.face[1] != kNone) continue;
+      for (const std::uint32_t f : border.face)
+        if (f != kNone) add_open_face(f);
     }
   }
 
@@ -390,14 +468,18 @@ class BoundaryBuilder {
   const CuspParts& cusps_;
   const ReducedSurface& rs_;
   const bool flat_;  // probe radius 0: toroidal and concave patches have no area, convex patches meet directly
-  std::vector<std::uint32_t> first_on_circle_;
-  std::vector<std::uint32_t> axis_vertex_;  // per toroidal patch that is first on a spindle circle
+  std::vector<PatchBorders> patch_borders_;
+  std::vector<std::uint32_t> axis_vertex_;  // per toroidal patch: the first of the two on its axis if it is a spindle
   std::uint32_t triple_vertex_ = 0;
   std::uint32_t first_cusp_border_ = 0;
   std::vector<std::array<std::uint32_t, 2>> side_at_;  // toroidal patch, end -> side of the probe there
-  std::vector<PatchBorders> patch_borders_;
-  std::vector<PatchFaces> convex_faces_;
-  std::vector<PatchFaces> concave_faces_;
+  std::vector<std::uint32_t> first_of_atom_;           // per atom, and one more: its half-borders begin there
+  std::vector<std::uint32_t> first_of_probe_;          // the same per probe
+  std::vector<std::uint32_t> first_cusp_;              // per probe, and one more, into cusp_of_probe_
+  std::vector<HalfBorder> cusp_of_probe_;
+  std::unique_ptr<std::uint32_t[]> loop_size_;  // per half-border of a spherical patch that begins a loop
+  std::vector<PatchNumbers> convex_numbers_;
+  std::vector<PatchNumbers> concave_numbers_;
 };
 
 }  // namespace

@@ -56,8 +56,7 @@ class SideTest {
     if (s_.probe_radius > 0)
       for (const ConcavePatch& patch : s_.concave)
         look_at(
-            patch,
-            [&](PlaneChoice) { return std::span(s_.planes).subspan(patch.first_plane, patch.plane_count()); },
+            patch, [&](PlaneChoice) { return std::span(s_.planes).subspan(patch.first_plane, patch.plane_count()); },
             patch.center, s_.probe_radius, &Farthest::concave);
     std::vector<ComponentKind> kinds;
     for (const Farthest& f : farthest_) {

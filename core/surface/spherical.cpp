@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include <glm/common.hpp>
@@ -37,12 +38,52 @@ glm::dvec3 nearest_of_circle(const SphereArc& arc, const glm::dvec3& point) {
   return arc.axis * arc.height + flat * (std::sqrt(std::max(0.0, 1 - arc.height * arc.height)) / length);
 }
 
+// Whether a point of the arc's whole circle comes before the arc's end. The signs of two areas tell, unless one is
+// nearly nothing: then the angle does.
 bool on_sweep(const SphereArc& arc, const glm::dvec3& point) {
+  constexpr double kClear = 1e-9;         // of the squared radius
+  constexpr double kLargeEnough = 1e-10;  // squared radius that rounding cannot turn by as much
   const glm::dvec3 e = arc.from - arc.axis * arc.height, f = point - arc.axis * arc.height;
-  double angle = std::atan2(glm::dot(arc.axis, glm::cross(e, f)), glm::dot(e, f));
-  if (arc.clockwise()) angle = -angle;
+  const double turn = arc.clockwise() ? -1 : 1;
+  const double past_begin = turn * glm::dot(arc.axis, glm::cross(e, f));
+  if (const double squared = glm::dot(e, e); squared > kLargeEnough) {
+    const glm::dvec3 g = arc.to - arc.axis * arc.height;
+    const double before_end = turn * glm::dot(arc.axis, glm::cross(f, g)), clear = kClear * squared;
+    if (std::abs(past_begin) > clear && std::abs(before_end) > clear) {
+      const bool past = past_begin > 0, before = before_end > 0;
+      return std::abs(arc.sweep) < kPi ? past && before : past || before;
+    }
+  }
+  double angle = std::atan2(past_begin, glm::dot(e, f));
   if (angle < 0) angle += 2 * kPi;
   return angle < std::abs(arc.sweep);
+}
+
+// What distance_left_of() is made of: the cosine of the distance, and the side.
+struct Side {
+  double nearest;
+  bool left;
+  double distance() const { return std::sqrt(std::max(0.0, 2 - 2 * nearest)); }
+};
+
+Side side_of_loop(const glm::dvec3& point, std::span<const SphereArc> loop) {
+  // The great circle from the point to the loop's nearest point meets the loop nowhere before, so it arrives on the
+  // side the point is on. No path has to dodge corners, so symmetry cannot spoil it.
+  Side side{-2, false};
+  for (std::size_t n = 0; n < loop.size(); ++n) {
+    const SphereArc& arc = loop[n];
+    const glm::dvec3 on_arc = nearest_of_circle(arc, point);
+    if (const double cosine = glm::dot(on_arc, point); cosine > side.nearest && (arc.whole || on_sweep(arc, on_arc)))
+      side = {cosine, (glm::dot(arc.axis, point) > arc.height) == !arc.clockwise()};
+    if (arc.whole) continue;
+    if (const double cosine = glm::dot(arc.to, point); cosine > side.nearest) {
+      const glm::dvec3 in = tangent(arc, arc.to), out = tangent(loop[n + 1 == loop.size() ? 0 : n + 1], arc.to);
+      // Half-way into the corner, for any interior angle from 0 to pi.
+      const glm::dvec3 inwards = out - in + glm::cross(arc.to, out + in);
+      side = {cosine, glm::dot(inwards, point - arc.to) > 0};
+    }
+  }
+  return side;
 }
 
 }  // namespace
@@ -143,36 +184,30 @@ glm::dvec3 moment_left_of(std::span<const SphereArc> loop) {
 
 bool lies_left_of(std::span<const SphereArc> inner, std::span<const SphereArc> loop) {
   double clearest = 0;
+  double nearest = std::numeric_limits<double>::infinity();  // cosine of that distance
+  bool left = false;
+  // A point as near to a corner of the loop as the clearest one is to all of it is not clearer.
+  const auto beside_corner = [&](const glm::dvec3& point) {
+    return std::ranges::any_of(loop,
+                               [&](const SphereArc& arc) { return !arc.whole && glm::dot(arc.to, point) >= nearest; });
+  };
   for (const SphereArc& arc : inner)
-    for (const double part : {0.5, 0.2, 0.8})
-      if (const double d = distance_left_of(rotated(arc, part * arc.sweep), loop); std::abs(d) > std::abs(clearest))
-        clearest = d;
-  return clearest > 0;
+    for (const double part : {0.5, 0.2, 0.8}) {
+      const glm::dvec3 point = rotated(arc, part * arc.sweep);
+      if (beside_corner(point)) continue;
+      const Side side = side_of_loop(point, loop);
+      if (const double distance = side.distance(); distance > clearest) {
+        clearest = distance;
+        nearest = side.nearest;
+        left = side.left;
+      }
+    }
+  return left;
 }
 
 double distance_left_of(const glm::dvec3& point, std::span<const SphereArc> loop) {
-  // The great circle from the point to the loop's nearest point meets the loop nowhere before, so it arrives on the
-  // side the point is on. No path has to dodge corners, so symmetry cannot spoil it.
-  double nearest = -2;  // cosine of the distance
-  bool left = false;
-  for (std::size_t n = 0; n < loop.size(); ++n) {
-    const SphereArc& arc = loop[n];
-    const glm::dvec3 on_arc = nearest_of_circle(arc, point);
-    if (const double cosine = glm::dot(on_arc, point); cosine > nearest && (arc.whole || on_sweep(arc, on_arc))) {
-      nearest = cosine;
-      left = (glm::dot(arc.axis, point) > arc.height) == !arc.clockwise();
-    }
-    if (arc.whole) continue;
-    if (const double cosine = glm::dot(arc.to, point); cosine > nearest) {
-      nearest = cosine;
-      const glm::dvec3 in = tangent(arc, arc.to), out = tangent(loop[n + 1 == loop.size() ? 0 : n + 1], arc.to);
-      // Half-way into the corner, for any interior angle from 0 to pi.
-      const glm::dvec3 inwards = out - in + glm::cross(arc.to, out + in);
-      left = glm::dot(inwards, point - arc.to) > 0;
-    }
-  }
-  const double distance = std::sqrt(std::max(0.0, 2 - 2 * nearest));
-  return left ? distance : -distance;
+  const Side side = side_of_loop(point, loop);
+  return side.left ? side.distance() : -side.distance();
 }
 
 }  // namespace meniscus

@@ -42,8 +42,7 @@ struct BorderArc {
 
 class ConvexTrimmer::Search {
  public:
-  Search(const Surface& surface, const ReducedSurface& rs)
-      : s_(surface), largest_(largest_radius(surface)) {
+  Search(const Surface& surface, const ReducedSurface& rs) : s_(surface), largest_(largest_radius(surface)) {
     list_arcs(rs);
   }
 

@@ -36,7 +36,7 @@ constexpr HalfBorder north_of(std::uint32_t border) { return 2 * border; }
 constexpr HalfBorder south_of(std::uint32_t border) { return 2 * border + 1; }
 
 PatchFaces faces_of(const std::vector<Border>& borders, const std::vector<HalfBorder>& walk) {
-  return chain_faces(borders, walk, glm::dvec3(0.0), 1.0, false);
+  return LoopChainer().chain(borders, walk, glm::dvec3(0.0), 1.0, false);
 }
 
 TEST(Loops, WholeCirclesBoundBandsAndCaps) {
@@ -77,8 +77,24 @@ TEST(Loops, AWalkThatDoesNotReturnIsOpen) {
 }
 
 TEST(Loops, NoBordersAreAWholeSphereOrNothing) {
-  EXPECT_EQ(chain_faces({}, {}, glm::dvec3(0.0), 1.0, false).face_count, 1u);
-  EXPECT_EQ(chain_faces({}, {}, glm::dvec3(0.0), 1.0, true).face_count, 0u);
+  LoopChainer chainer;
+  EXPECT_EQ(chainer.chain({}, {}, glm::dvec3(0.0), 1.0, false).face_count, 1u);
+  EXPECT_EQ(chainer.chain({}, {}, glm::dvec3(0.0), 1.0, true).face_count, 0u);
+}
+
+TEST(Loops, NothingOfOnePatchStaysForTheNext) {
+  LoopChainer chainer;
+  const std::vector<Border> four = latitudes({0.8, 0.3, -0.3, -0.8});
+  const std::vector<HalfBorder> bands{south_of(0), north_of(1), south_of(2), north_of(3)}, cap{north_of(0)};
+  std::vector<Border> open = latitudes({0.2});
+  open[0].vertex = {0, 1};
+  EXPECT_EQ(chainer.chain(four, bands, glm::dvec3(0.0), 1.0, false).face_count, 2u);
+  EXPECT_FALSE(chainer.chain(open, cap, glm::dvec3(0.0), 1.0, false).closed);
+  const PatchFaces& alone = chainer.chain(four, cap, glm::dvec3(0.0), 1.0, false);
+  EXPECT_TRUE(alone.closed);
+  EXPECT_EQ(alone.face_count, 1u);
+  EXPECT_EQ(alone.half_borders, cap);
+  EXPECT_EQ(alone.loop_sizes, std::vector<std::uint32_t>{1});
 }
 
 // Where a loop turns back on itself the turn is half a turn to the left, whatever sign rounding gives it.
