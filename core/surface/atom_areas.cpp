@@ -10,7 +10,9 @@
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 #include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
 #include "core/base/error.h"
@@ -22,6 +24,8 @@ namespace meniscus {
 namespace {
 
 constexpr double kTurn = 2 * std::numbers::pi;
+constexpr double kShort = 3;            // radian: of arcs that are told without trigonometry
+constexpr double kClear = 1e-9;         // of the probe radius: rounding is a millionth of it
 constexpr double kTouching = 1 - 5e-9;  // of the probe radius; the cap beyond such a plane is 1e-4 radian wide
 
 /// The great circle around a unit axis.
@@ -34,7 +38,7 @@ SphereCircle great_circle(const glm::dvec3& axis) {
 /// The parameters of a circle that are left after half-spaces have been cut away.
 class Intervals {
  public:
-  explicit Intervals(double length) : kept_{{0.0, length}} {}
+  void restart(double length) { kept_.assign(1, {0.0, length}); }
 
   /// Keeps the points p of the circle with dot(normal, p) <= offset.
   void keep(const SphereCircle& circle, const glm::dvec3& normal, double offset) {
@@ -53,6 +57,7 @@ class Intervals {
 
  private:
   void remove(double low, double high) {
+    if (kept_.empty() || low >= kept_.back().second || high <= kept_.front().first) return;
     rest_.clear();
     for (const auto& [from, to] : kept_) {
       if (low >= to || high <= from) {
@@ -68,6 +73,48 @@ class Intervals {
   std::vector<std::pair<double, double>> kept_, rest_;
 };
 
+/// A linear function along a circle: from `least` to `most`.
+struct Range {
+  double least, most;
+};
+
+/// What a linear function does along a short arc, by its values and slopes at both ends: most planes clearly leave all
+/// of an arc or nothing, and that is told without trigonometry. `middle` is its value at the circle's centre; the arc
+/// is shorter than half a turn, so there is one extremum inside at most.
+Range range_along(const std::array<double, 2>& value, const std::array<double, 2>& slope, double middle) {
+  Range range{std::min(value[0], value[1]), std::max(value[0], value[1])};
+  if (slope[0] * slope[1] < 0) {
+    const double swing = std::sqrt((value[0] - middle) * (value[0] - middle) + slope[0] * slope[0]);
+    (slope[0] > 0 ? range.most : range.least) = slope[0] > 0 ? middle + swing : middle - swing;
+  }
+  return range;
+}
+
+/// The three points of a short arc that ranges are told by: begin, middle and end, and the way onwards there.
+struct ArcPoints {
+  std::array<glm::dvec3, 3> point, onwards;
+
+  ArcPoints(const SphereCircle& circle, const glm::dvec3& begin, const glm::dvec3& end) {
+    const glm::dvec3 center = circle.height * circle.axis, both = begin + end - 2.0 * center;
+    point = {begin, center + both * (glm::length(circle.x) / glm::length(both)), end};
+    for (std::size_t n = 0; n < 3; ++n) onwards[n] = glm::cross(circle.axis, point[n] - center);
+  }
+};
+
+/// One thread's lists.
+struct DividerScratch {
+  std::vector<glm::dvec3> contacts;
+  std::vector<double> area;  // Å² by contact
+  std::vector<std::uint32_t> planes;
+  Intervals cell;
+  std::vector<glm::dvec2> ends;  // of what is kept of a bisector, begin and end of each part; fewer if one is not short
+  struct Course {                // of the cosine of the distance to a contact along an arc
+    std::array<double, 3> value, slope;
+    double middle;
+  };
+  std::vector<Course> courses;  // by contact
+};
+
 class AreaDivider {
  public:
   explicit AreaDivider(const Surface& surface) : s_(surface) {}
@@ -76,11 +123,14 @@ class AreaDivider {
     areas_.surface.assign(s_.atoms.size(), 0.0);
     areas_.accessible.assign(s_.atoms.size(), 0.0);
     for (const ConvexPatch& patch : s_.convex) add(patch);
-    for (const ToroidalPatch& patch : s_.toroidal) add(patch);
+    add_toroidal();
     std::vector<double> share(s_.contacts.size(), 0.0);
+    tbb::enumerable_thread_specific<DividerScratch> lists;
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, s_.concave.size(), 64), [&](const auto& range) {
+      DividerScratch& scratch = lists.local();
       for (std::size_t n = range.begin(); n != range.end(); ++n)
-        std::ranges::copy(divide(s_.concave[n], Cuts::beyond_touching), share.begin() + s_.concave[n].first_contact);
+        std::ranges::copy(divide(s_.concave[n], Cuts::beyond_touching, scratch),
+                          share.begin() + s_.concave[n].first_contact);
     });
     for (std::size_t n = 0; n < share.size(); ++n) areas_.surface[s_.contacts[n]] += share[n];
     require_sum();
@@ -94,18 +144,18 @@ class AreaDivider {
   // may take a hair from a bisector, which no border makes up for: such planes are left out. What planes and borders
   // disagree about is asked with all of them.
   enum class Cuts { beyond_touching, all };
-  std::vector<double> divide(const ConcavePatch& patch, Cuts cuts) const {
-    std::vector<double> area(patch.contact_count, 0.0);
-    if (patch.face_count == 0) return area;
-    std::vector<glm::dvec3> contacts;
+  const std::vector<double>& divide(const ConcavePatch& patch, Cuts cuts, DividerScratch& w) const {
+    w.area.assign(patch.contact_count, 0.0);
+    if (patch.face_count == 0) return w.area;
+    w.contacts.clear();
     for (std::uint32_t n = 0; n < patch.contact_count; ++n)
-      contacts.push_back(glm::normalize(s_.atoms[s_.contacts[patch.first_contact + n]].center - patch.center));
-    for (const Face& face : faces_of(s_, patch)) add_borders(face, patch.center, contacts, area);
-    const std::vector<std::uint32_t> planes = planes_of(patch, cuts);
-    for (std::uint32_t k = 1; k < contacts.size(); ++k)
-      for (std::uint32_t j = 0; j < k; ++j) add_bisector(patch, planes, contacts, j, k, area);
-    for (double& share : area) share = share * s_.probe_radius * s_.probe_radius;
-    return area;
+      w.contacts.push_back(glm::normalize(s_.atoms[s_.contacts[patch.first_contact + n]].center - patch.center));
+    for (const Face& face : faces_of(s_, patch)) add_borders(face, patch.center, w);
+    list_planes(patch, cuts, w.planes);
+    for (std::uint32_t k = 1; k < w.contacts.size(); ++k)
+      for (std::uint32_t j = 0; j < k; ++j) add_bisector(patch, j, k, w);
+    for (double& share : w.area) share = share * s_.probe_radius * s_.probe_radius;
+    return w.area;
   }
 
  private:
@@ -119,31 +169,80 @@ class AreaDivider {
     }
   }
 
-  // The contacts are the two ends of the tube's arc: half-way in angle the nearest one changes.
-  void add(const ToroidalPatch& patch) {
-    const std::array<double, 2> contact = contact_tube_angles(s_, patch);
-    const double middle = 0.5 * (contact[0] + contact[1]);
-    for (std::uint32_t n = 0; n < patch.face_count; ++n) {
-      const auto [low, high] = tube_range(s_, patch, n);
-      const double cut = std::clamp(middle, low, high);
-      areas_.surface[patch.atom[0]] += toroidal_area(s_, patch, low, cut);
-      areas_.surface[patch.atom[1]] += toroidal_area(s_, patch, cut, high);
-    }
+  // The contacts are the two ends of the tube's arc: half-way in angle the nearest one changes. A patch has two faces
+  // at most, and each of them two shares, which are added in the order of the patches.
+  void add_toroidal() {
+    std::vector<std::array<double, 4>> shares(s_.toroidal.size());
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, s_.toroidal.size(), 128), [&](const auto& range) {
+      for (std::size_t t = range.begin(); t != range.end(); ++t) {
+        const ToroidalPatch& patch = s_.toroidal[t];
+        if (patch.face_count == 0) continue;
+        const std::array<double, 2> contact = contact_tube_angles(s_, patch);
+        const double middle = 0.5 * (contact[0] + contact[1]);
+        for (std::uint32_t n = 0; n < patch.face_count; ++n) {
+          const auto [low, high] = tube_range(s_, patch, n);
+          const double cut = std::clamp(middle, low, high);
+          shares[t][2 * n] = toroidal_area(s_, patch, low, cut);
+          shares[t][2 * n + 1] = toroidal_area(s_, patch, cut, high);
+        }
+      }
+    });
+    for (std::size_t t = 0; t < shares.size(); ++t)
+      for (std::uint32_t n = 0; n < s_.toroidal[t].face_count; ++n)
+        for (std::size_t side = 0; side < 2; ++side)
+          areas_.surface[s_.toroidal[t].atom[side]] += shares[t][2 * n + side];
   }
 
-  void add_borders(const Face& face, const glm::dvec3& center, const std::vector<glm::dvec3>& contacts,
-                   std::vector<double>& area) const {
+  void add_borders(const Face& face, const glm::dvec3& center, DividerScratch& w) const {
     for_each_half_border(s_, face, [&](HalfBorder half) {
       // Seen from inside of the sphere the face is on the other side.
       const SphereArc arc = sphere_arc(s_.borders[border_of(half)], !is_backwards(half), center, s_.probe_radius);
       const SphereCircle circle = circle_of(arc);
-      for (std::size_t k = 0; k < contacts.size(); ++k) {
-        Intervals cell(std::abs(arc.sweep));
-        for (std::size_t j = 0; j < contacts.size(); ++j)
-          if (j != k) cell.keep(circle, contacts[j] - contacts[k], 0.0);
-        for (const auto& [from, to] : cell.kept()) area[k] += area_swept_from(contacts[k], circle, from, to);
+      const bool is_short = std::abs(arc.sweep) < kShort && std::abs(arc.sweep) > kClear;
+      if (is_short) follow_contacts(circle, arc, w);
+      for (std::size_t k = 0; k < w.contacts.size(); ++k) {
+        if (is_short && surely_elsewhere(k, w)) continue;
+        w.cell.restart(std::abs(arc.sweep));
+        for (std::size_t j = 0; j < w.contacts.size(); ++j)
+          if (j != k && !(is_short && surely_farther(j, k, w))) w.cell.keep(circle, w.contacts[j] - w.contacts[k], 0.0);
+        for (const auto& [from, to] : w.cell.kept()) w.area[k] += area_swept_from(w.contacts[k], circle, from, to);
       }
     });
+  }
+
+  static void follow_contacts(const SphereCircle& circle, const SphereArc& arc, DividerScratch& w) {
+    const ArcPoints points(circle, arc.from, arc.to);
+    w.courses.clear();
+    for (const glm::dvec3& contact : w.contacts) {
+      DividerScratch::Course& course = w.courses.emplace_back();
+      for (std::size_t n = 0; n < 3; ++n) {
+        course.value[n] = glm::dot(contact, points.point[n]);
+        course.slope[n] = glm::dot(contact, points.onwards[n]);
+      }
+      course.middle = circle.height * glm::dot(contact, circle.axis);
+    }
+  }
+
+  // How much nearer contact j is than contact k, along one half of the arc.
+  static Range nearer(std::size_t j, std::size_t k, std::size_t half, const DividerScratch& w) {
+    const DividerScratch::Course &a = w.courses[j], &b = w.courses[k];
+    return range_along({a.value[half] - b.value[half], a.value[half + 1] - b.value[half + 1]},
+                       {a.slope[half] - b.slope[half], a.slope[half + 1] - b.slope[half + 1]}, a.middle - b.middle);
+  }
+
+  // Whether contact j takes nothing of the arc from contact k, whatever rounding may say of its ends.
+  static bool surely_farther(std::size_t j, std::size_t k, const DividerScratch& w) {
+    return nearer(j, k, 0, w).most < -kClear && nearer(j, k, 1, w).most < -kClear;
+  }
+
+  // Whether other contacts take all of the arc from contact k: to either half there is a nearer one all along.
+  static bool surely_elsewhere(std::size_t k, const DividerScratch& w) {
+    const auto taken = [&](std::size_t half) {
+      for (std::size_t j = 0; j < w.courses.size(); ++j)
+        if (j != k && nearer(j, k, half, w).least > kClear) return true;
+      return false;
+    };
+    return taken(0) && taken(1);
   }
 
   // Whoever computed the faces: what is divided among the atoms is all of it.
@@ -159,10 +258,10 @@ class AreaDivider {
                     sum, *least, s_.area));
   }
 
-  std::vector<std::uint32_t> planes_of(const ConcavePatch& patch, Cuts cuts) const {
-    std::vector<std::uint32_t> planes(patch.plane_count());
+  void list_planes(const ConcavePatch& patch, Cuts cuts, std::vector<std::uint32_t>& planes) const {
+    planes.resize(patch.plane_count());
     std::iota(planes.begin(), planes.end(), patch.first_plane);
-    if (cuts == Cuts::all || patch.cut_count == 0) return planes;
+    if (cuts == Cuts::all || patch.cut_count == 0) return;
     const std::vector<std::uint32_t> beyond = probes_beyond_cusps(patch);
     std::erase_if(planes, [&](std::uint32_t plane) {
       const std::uint32_t n = plane - patch.first_plane;
@@ -172,7 +271,6 @@ class AreaDivider {
       const std::uint32_t cut = s_.cuts[patch.first_cut + n - patch.side_count];
       return cut != kNone && std::ranges::find(beyond, cut) == beyond.end();
     });
-    return planes;
   }
 
   std::vector<std::uint32_t> probes_beyond_cusps(const ConcavePatch& patch) const {
@@ -186,22 +284,52 @@ class AreaDivider {
     return probes;
   }
 
-  // Counter-clockwise about its axis the bisector has the cell of k on its left, that of j on its right.
-  void add_bisector(const ConcavePatch& patch, const std::vector<std::uint32_t>& planes,
-                    const std::vector<glm::dvec3>& contacts, std::size_t j, std::size_t k,
-                    std::vector<double>& area) const {
-    const SphereCircle circle = great_circle(glm::normalize(contacts[k] - contacts[j]));
-    Intervals common(kTurn);
-    for (std::size_t other = 0; other < contacts.size(); ++other)
-      if (other != j && other != k) common.keep(circle, contacts[other] - contacts[k], 0.0);
-    for (const std::uint32_t n : planes) {
-      const Plane& plane = s_.planes[n];
-      common.keep(circle, plane.normal, (plane.offset - glm::dot(plane.normal, patch.center)) / s_.probe_radius);
-    }
+  // Counter-clockwise about its axis the bisector has the cell of k on its left, that of j on its right. The side
+  // between the two contacts cuts it first, as a rule, and what is left needs no other plane: in whatever order they
+  // come, the same is left.
+  void add_bisector(const ConcavePatch& patch, std::uint32_t j, std::uint32_t k, DividerScratch& w) const {
+    const SphereCircle circle = great_circle(glm::normalize(w.contacts[k] - w.contacts[j]));
+    Intervals& common = w.cell;
+    common.restart(kTurn);
+    for (std::size_t other = 0; other < w.contacts.size(); ++other)
+      if (other != j && other != k) common.keep(circle, w.contacts[other] - w.contacts[k], 0.0);
+    const std::uint32_t between = patch.first_plane + (j + 1 == k ? j : k);
+    keep_within(circle, s_.planes[between], patch.center, w);
+    for (const std::uint32_t n : w.planes)
+      if (n != between && !surely_within(circle, s_.planes[n], patch.center, w))
+        keep_within(circle, s_.planes[n], patch.center, w);
     for (const auto& [from, to] : common.kept()) {
-      area[k] += area_swept_from(contacts[k], circle, from, to);
-      area[j] -= area_swept_from(contacts[j], circle, from, to);
+      w.area[k] += area_swept_from(w.contacts[k], circle, from, to);
+      w.area[j] -= area_swept_from(w.contacts[j], circle, from, to);
     }
+  }
+
+  void keep_within(const SphereCircle& circle, const Plane& plane, const glm::dvec3& center, DividerScratch& w) const {
+    w.cell.keep(circle, plane.normal, (plane.offset - glm::dot(plane.normal, center)) / s_.probe_radius);
+    w.ends.clear();
+    for (const auto& [from, to] : w.cell.kept()) {
+      if (to - from > kShort) return;
+      for (const double t : {from, to}) w.ends.emplace_back(std::cos(t), std::sin(t));
+    }
+  }
+
+  // Whether the plane takes nothing of what is kept, whatever rounding may say of its ends.
+  bool surely_within(const SphereCircle& circle, const Plane& plane, const glm::dvec3& center,
+                     const DividerScratch& w) const {
+    if (w.ends.size() != 2 * w.cell.kept().size()) return false;
+    const double along = glm::dot(plane.normal, circle.x), across = glm::dot(plane.normal, circle.y);
+    const double middle = circle.height * glm::dot(plane.normal, circle.axis) -
+                          (plane.offset - glm::dot(plane.normal, center)) / s_.probe_radius;
+    for (std::size_t n = 0; n < w.ends.size(); n += 2) {
+      std::array<double, 2> value, slope;
+      for (std::size_t end = 0; end < 2; ++end) {
+        const glm::dvec2 e = w.ends[n + end];
+        value[end] = middle + along * e.x + across * e.y;
+        slope[end] = across * e.x - along * e.y;
+      }
+      if (!(range_along(value, slope, middle).most < -kClear)) return false;
+    }
+    return true;
   }
 
   const Surface& s_;
@@ -213,7 +341,8 @@ class AreaDivider {
 AtomAreas atom_areas(const Surface& surface) { return AreaDivider(surface).run(); }
 
 double divided_area(const Surface& surface, const ConcavePatch& patch) {
-  const std::vector<double> shares = AreaDivider(surface).divide(patch, AreaDivider::Cuts::all);
+  DividerScratch scratch;
+  const std::vector<double>& shares = AreaDivider(surface).divide(patch, AreaDivider::Cuts::all, scratch);
   return std::accumulate(shares.begin(), shares.end(), 0.0);
 }
 

@@ -106,9 +106,12 @@ SphereArc sphere_arc(const Border& border, bool backwards, const glm::dvec3& cen
 void walk_loop(const Surface& surface, const Loop& loop, const glm::dvec3& center, double radius, bool seen_from_inside,
                std::vector<SphereArc>& arcs) {
   arcs.clear();
-  for (const HalfBorder half : half_borders_of(surface, loop))
+  for (std::size_t n = loop.first_half_border, past = n + loop.half_border_count; n < past; ++n) {
+    prefetch_border(surface, n + kPrefetchAhead);
+    const HalfBorder half = surface.half_borders[n];
     arcs.push_back(
         sphere_arc(surface.borders[border_of(half)], is_backwards(half) != seen_from_inside, center, radius));
+  }
   if (seen_from_inside) std::reverse(arcs.begin(), arcs.end());
 }
 
@@ -163,7 +166,8 @@ double area_swept_from(const glm::dvec3& pole, const SphereCircle& circle, doubl
   const auto angle = [&](double t) {
     const double half = 0.5 * (t - t0);
     // The same quadrant as `half`, and as many turns.
-    return half + std::remainder(std::atan2(slope * std::sin(half), (a + b) * std::cos(half)) - half, 2 * kPi);
+    const double beyond = std::atan2(slope * std::sin(half), (a + b) * std::cos(half)) - half;
+    return half + (std::abs(beyond) < 3 ? beyond : std::remainder(beyond, 2 * kPi));
   };
   return -circle.height * (to - from) + std::copysign(2.0, circle.height + alpha) * (angle(to) - angle(from));
 }

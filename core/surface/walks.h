@@ -45,11 +45,26 @@ inline std::span<const HalfBorder> half_borders_of(const Surface& surface, const
   return {surface.half_borders.data() + loop.first_half_border, loop.half_border_count};
 }
 
+/// Asks the memory for a border that will soon be walked: neighbours around a face lie far apart in the table of
+/// borders. `half_border` is an index into Surface::half_borders, or past its end.
+inline void prefetch_border(const Surface& surface, std::size_t half_border) {
+  if (half_border >= surface.half_borders.size()) return;
+  const auto* border = reinterpret_cast<const char*>(&surface.borders[border_of(surface.half_borders[half_border])]);
+  __builtin_prefetch(border);
+  __builtin_prefetch(border + sizeof(Border) - 1);
+}
+
+/// How many half-borders ahead that is worth its while.
+inline constexpr std::size_t kPrefetchAhead = 12;
+
 /// Calls visit(half border) loop after loop.
 template <typename Visit>
 void for_each_half_border(const Surface& surface, const Face& face, const Visit& visit) {
   for (const Loop& loop : loops_of(surface, face))
-    for (const HalfBorder half : half_borders_of(surface, loop)) visit(half);
+    for (std::size_t n = 0; n < loop.half_border_count; ++n) {
+      prefetch_border(surface, loop.first_half_border + n + kPrefetchAhead);
+      visit(surface.half_borders[loop.first_half_border + n]);
+    }
 }
 
 /// Calls visit(border) loop after loop.
