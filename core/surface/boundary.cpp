@@ -286,16 +286,24 @@ class BoundaryBuilder {
       LoopChainer& chainer = chainers.local();
       for (std::size_t c = range.begin(); c != range.end(); ++c) {
         const Ball& atom = s_.atoms[s_.convex[c].atom];
+        prefetch_walk(first_of_atom_[s_.convex[std::min(c + 1, s_.convex.size() - 1)].atom], walk_of_convex(c).size());
         convex_numbers_[c] = put_in_order(
             walk_of_convex(c), chainer.chain(s_.borders, walk_of_convex(c), atom.center, atom.radius, false));
       }
     });
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, concave_count(), 64), [&](const auto& range) {
       LoopChainer& chainer = chainers.local();
-      for (std::size_t s = range.begin(); s != range.end(); ++s)
+      for (std::size_t s = range.begin(); s != range.end(); ++s) {
+        prefetch_walk(first_of_probe_[s + 1] + kPrefetchAhead, walk_of_concave(s).size());
         concave_numbers_[s] = put_in_order(
             walk_of_concave(s), chainer.chain(s_.borders, walk_of_concave(s), s_.concave[s].center, p(), true));
+      }
     });
+  }
+
+  // As many half-borders as a patch has, those behind them: of the patches that come next.
+  void prefetch_walk(std::size_t half_border, std::size_t count) const {
+    for (std::size_t n = 0; n < count; ++n) prefetch_border(s_, half_border + n);
   }
 
   std::span<HalfBorder> walk_of_convex(std::size_t c) {
