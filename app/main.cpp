@@ -11,6 +11,7 @@
 #include "app/commands/commands.h"
 #include "app/reports/error_report.h"
 #include "app/process/failed_allocation.h"
+#include "app/process/freed_memory.h"
 #include "app/process/memory_limit.h"
 #include "app/process/program_error.h"
 #include "app/process/standard_streams.h"
@@ -129,6 +130,7 @@ void describe(CLI::App& command, const std::string& summary, const std::string& 
 int main(int argc, char** argv) {
   using namespace meniscus;
   libraries_are_loaded();
+  keep_freed_memory();
   ExitCode code = kExitOk;
   try {
     remember_failed_allocations();

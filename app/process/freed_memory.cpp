@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Thresholds of the GNU C library's malloc, which adapt themselves to less than a frame unless they are set.
+#include "app/process/freed_memory.h"
+
+#include <climits>
+#include <cstdlib>
+
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
+namespace meniscus {
+
+void keep_freed_memory() {
+#ifdef __GLIBC__
+  constexpr int kOwnMapping = 4 << 20;  // bytes
+  ::mallopt(M_MMAP_THRESHOLD, kOwnMapping);
+  ::mallopt(M_TRIM_THRESHOLD, INT_MAX);
+#endif
+}
+
+}  // namespace meniscus
