@@ -47,17 +47,19 @@ class SideTest {
 
   std::vector<ComponentKind> run() {
     look_at_borders();
-    for (std::uint32_t c = 0; c < s_.convex.size(); ++c) {
-      const Ball& atom = s_.atoms[s_.convex[c].atom];
-      look_at(
-          s_.convex[c], [&](PlaneChoice choice) { return planes_(c, choice); }, atom.center, atom.radius,
-          &Farthest::convex);
-    }
+    look_at_poles(
+        s_.convex, [&](const ConvexPatch& patch) { return s_.atoms[patch.atom]; },
+        [&](std::uint32_t c, PlaneChoice choice) { return planes_(c, choice); }, &Farthest::convex);
     if (s_.probe_radius > 0)
-      for (const ConcavePatch& patch : s_.concave)
-        look_at(
-            patch, [&](PlaneChoice) { return std::span(s_.planes).subspan(patch.first_plane, patch.plane_count()); },
-            patch.center, s_.probe_radius, &Farthest::concave);
+      look_at_poles(
+          s_.concave,
+          [&](const ConcavePatch& patch) {
+            return Ball{patch.center, s_.probe_radius};
+          },
+          [&](std::uint32_t n, PlaneChoice) {
+            return std::span(s_.planes).subspan(s_.concave[n].first_plane, s_.concave[n].plane_count());
+          },
+          &Farthest::concave);
     std::vector<ComponentKind> kinds;
     for (const Farthest& f : farthest_) {
       const bool cavity = s_.probe_radius > 0 ? f.concave > std::max(f.convex, f.border) : !(f.convex > f.border);
@@ -92,32 +94,56 @@ class SideTest {
     return std::max(farthest.*which, beside);
   }
 
-  template <typename Patch, typename Planes>
-  void look_at(const Patch& patch, const Planes& planes, const glm::dvec3& center, double radius,
-               double Farthest::*which) {
-    const glm::dvec3 pole = center + radius * kDirection;
-    const double reached = glm::dot(pole, kDirection);
-    bool new_for_some = false;
-    for (std::uint32_t f = patch.first_face; f < patch.first_face + patch.face_count; ++f)
-      new_for_some = new_for_some || reached > threshold(farthest_[s_.faces[f].component], which);
-    if (!new_for_some) return;
-    // As a rule those that border the patch leave the pole out already, and they are found with less work.
+  // Of the patches of one table; `ball_of` says on which sphere a patch lies, `planes_of` within which planes.
+  template <typename Patch, typename BallOf, typename PlanesOf>
+  void look_at_poles(const std::vector<Patch>& patches, const BallOf& ball_of, const PlanesOf& planes_of,
+                     double Farthest::*which) {
+    tbb::enumerable_thread_specific<std::vector<std::uint32_t>> lists;  // patches that hold their pole
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, patches.size(), 64), [&](const auto& range) {
+      for (std::size_t n = range.begin(); n != range.end(); ++n) {
+        const Ball ball = ball_of(patches[n]);
+        if (!may_be_farthest(patches[n], ball, which)) continue;
+        const auto patch = static_cast<std::uint32_t>(n);
+        if (holds_pole(ball, [&](PlaneChoice choice) { return planes_of(patch, choice); }))
+          lists.local().push_back(patch);
+      }
+    });
+    for (const std::vector<std::uint32_t>& list : lists)
+      for (const std::uint32_t patch : list) {
+        const Ball ball = ball_of(patches[patch]);
+        double& best = farthest_[s_.faces[face_at_pole(patches[patch], ball)].component].*which;
+        best = std::max(best, glm::dot(pole_of(ball), kDirection));
+      }
+  }
+
+  static glm::dvec3 pole_of(const Ball& ball) { return ball.center + ball.radius * kDirection; }
+
+  template <typename Patch>
+  bool may_be_farthest(const Patch& patch, const Ball& ball, double Farthest::*which) const {
+    const double reached = glm::dot(pole_of(ball), kDirection);
+    return std::ranges::any_of(faces_of(s_, patch),
+                               [&](const Face& face) { return reached > threshold(farthest_[face.component], which); });
+  }
+
+  // As a rule those that border the patch leave the pole out already, and they are found with less work.
+  template <typename Planes>
+  static bool holds_pole(const Ball& ball, const Planes& planes) {
+    const glm::dvec3 pole = pole_of(ball);
     for (const PlaneChoice choice : {PlaneChoice::bordering, PlaneChoice::all})
       for (const Plane& plane : planes(choice))
-        if (glm::dot(plane.normal, pole) > plane.offset) return;
-    double& best = farthest_[s_.faces[face_at_pole(patch, center, radius)].component].*which;
-    best = std::max(best, reached);
+        if (glm::dot(plane.normal, pole) > plane.offset) return false;
+    return true;
   }
 
   // The face of the patch that holds the pole: the one whose loops have it farthest on their left.
   template <typename Patch>
-  std::uint32_t face_at_pole(const Patch& patch, const glm::dvec3& center, double radius) {
+  std::uint32_t face_at_pole(const Patch& patch, const Ball& ball) {
     std::uint32_t best = patch.first_face;
     double clearest = -3;
     for (std::uint32_t f = patch.first_face; f < patch.first_face + patch.face_count && patch.face_count > 1; ++f) {
       double least = 3;
       for (std::uint32_t l = s_.faces[f].first_loop; l < s_.faces[f].first_loop + s_.faces[f].loop_count; ++l) {
-        walk_loop(s_, s_.loops[l], center, radius, s_.faces[f].kind == PatchKind::concave, loop_);
+        walk_loop(s_, s_.loops[l], ball.center, ball.radius, s_.faces[f].kind == PatchKind::concave, loop_);
         least = std::min(least, distance_left_of(kDirection, loop_));
       }
       if (least <= clearest) continue;

@@ -179,22 +179,27 @@ class CpuCuspTracer final : public CuspTracer {
  public:
   CutLists list_cuts(const CuspProblem& problem) override {
     grid_ = std::make_unique<BallGrid>(problem.positions, problem.probe_radius);
-    std::vector<std::vector<std::uint32_t>> cuts(problem.count());
-    tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, problem.count(), 64), [&](const auto& range) {
-      for (std::uint32_t s = range.begin(); s != range.end(); ++s) {
+    // Each chunk of probes has one list, and each probe's part of it is put into order at once.
+    constexpr std::uint32_t kChunk = 64;
+    const std::uint32_t count = problem.count(), chunks = (count + kChunk - 1) / kChunk;
+    std::vector<std::vector<std::uint32_t>> cuts(chunks);
+    CutLists lists;
+    lists.first.assign(count + 1, 0);
+    tbb::parallel_for(std::uint32_t{0}, chunks, [&](std::uint32_t chunk) {
+      std::vector<std::uint32_t>& list = cuts[chunk];
+      for (std::uint32_t s = chunk * kChunk; s < std::min(count, (chunk + 1) * kChunk); ++s) {
         if (!problem.low(s)) continue;
+        const std::ptrdiff_t before = std::ssize(list);
         grid_->for_each_near(problem.positions[s], 2 * problem.probe_radius, [&](std::uint32_t t) {
-          if (t != s && reaches(problem, s, problem.positions[t])) cuts[s].push_back(t);
+          if (t != s && reaches(problem, s, problem.positions[t])) list.push_back(t);
         });
-        std::sort(cuts[s].begin(), cuts[s].end());
+        std::sort(list.begin() + before, list.end());
+        lists.first[s + 1] = static_cast<std::uint32_t>(std::ssize(list) - before);
       }
     });
-    CutLists lists;
-    lists.first.assign(problem.count() + 1, 0);
-    for (std::uint32_t s = 0; s < problem.count(); ++s) {
-      lists.probe.insert(lists.probe.end(), cuts[s].begin(), cuts[s].end());
-      lists.first[s + 1] = static_cast<std::uint32_t>(lists.probe.size());
-    }
+    for (std::uint32_t s = 0; s < count; ++s) lists.first[s + 1] += lists.first[s];
+    lists.probe.reserve(lists.first.back());
+    for (const std::vector<std::uint32_t>& list : cuts) lists.probe.insert(lists.probe.end(), list.begin(), list.end());
     return lists;
   }
 

@@ -56,7 +56,7 @@ class CuspSearch {
     find_gaps();
     CutLists cuts = tracer.list_cuts(problem_);
     settle_neighbors(problem_, cuts);
-    for (const TracedArc& arc : tracer.trace(problem_, cuts)) adopt(arc);
+    adopt_all(tracer.trace(problem_, cuts));
     std::sort(found_.begin(), found_.end(), [](const FoundArc& a, const FoundArc& b) {
       return std::tie(a.arc.probe, a.by) < std::tie(b.arc.probe, b.by);
     });
@@ -119,8 +119,25 @@ class CuspSearch {
     }
   }
 
-  // Takes a traced arc over if it lies on the patches, and places it.
-  void adopt(const TracedArc& traced) {
+  // Takes traced arcs over that lie on the patches, and places them.
+  void adopt_all(const std::vector<TracedArc>& traced) {
+    std::vector<FoundArc> arcs(traced.size());
+    std::vector<DepthRange> depths(traced.size());
+    tbb::parallel_for(std::size_t{0}, traced.size(), [&](std::size_t n) {
+      arcs[n] = place(traced[n]);
+      depths[n] = depth_on_both_patches(arcs[n].arc);
+    });
+    for (std::size_t n = 0; n < arcs.size(); ++n) {
+      const auto& [lowest, highest] = depths[n];
+      if (std::min(highest, -lowest) > kBlur * (1 + p_))
+        parts_.open_probes.insert(parts_.open_probes.end(), traced[n].probe.begin(), traced[n].probe.end());
+      // At the axis both patches have a corner, so the arc lies on them however short it is.
+      const bool from_axis = arcs[n].arc.on_axis[0] || arcs[n].arc.on_axis[1];
+      if (from_axis || highest > -lowest) found_.push_back(arcs[n]);
+    }
+  }
+
+  FoundArc place(const TracedArc& traced) const {
     const auto [s, t] = traced.probe;
     const glm::dvec3 d = probes_.position[t] - probes_.position[s];
     FoundArc found;
@@ -131,16 +148,10 @@ class CuspSearch {
     found.arc.start = glm::normalize(traced.begin - found.arc.axis * glm::dot(found.arc.axis, traced.begin));
     found.arc.sweep = traced.by[0] == kNone ? kTwoPi : angle_between(found.arc.axis, found.arc.start, traced.end);
     found.by = traced.by;
-    bool from_axis = false;  // there both patches have a corner, so the arc lies on them however short it is
-    for (int end = 0; end < 2; ++end) {
-      if (traced.by[end] == kNone || !(traced.by[end] & kAxisLabel)) continue;
-      name_axis_cusp(found, end, end ? traced.end : traced.begin);
-      from_axis = true;
-    }
-    const DepthRange depth = depth_on_both_patches(found.arc);
-    if (std::min(depth.highest, -depth.lowest) > kBlur * (1 + p_))
-      parts_.open_probes.insert(parts_.open_probes.end(), traced.probe.begin(), traced.probe.end());
-    if (from_axis || depth.highest > -depth.lowest) found_.push_back(found);
+    for (int end = 0; end < 2; ++end)
+      if (traced.by[end] != kNone && (traced.by[end] & kAxisLabel))
+        name_axis_cusp(found, end, end ? traced.end : traced.begin);
+    return found;
   }
 
   void name_axis_cusp(FoundArc& found, int end, const glm::dvec3& direction) const {
@@ -225,10 +236,8 @@ class CuspSearch {
       n = past;
     }
     parts_.arcs.reserve(found_.size());
-    for (FoundArc& found : found_) {
-      refine(found.arc);
-      parts_.arcs.push_back(found.arc);
-    }
+    for (const FoundArc& found : found_) parts_.arcs.push_back(found.arc);
+    tbb::parallel_for(std::size_t{0}, parts_.arcs.size(), [&](std::size_t n) { refine(parts_.arcs[n]); });
   }
 
   glm::dvec3 triple_point(const TripleEnd& end) const {
