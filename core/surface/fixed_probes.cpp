@@ -11,6 +11,7 @@
 #include <utility>
 
 #include <glm/geometric.hpp>
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include "core/math/geometry.h"
@@ -147,19 +148,19 @@ class Placement {
   void merge_coincident() {
     vanished_.assign(arcs_.size(), false);
     UnionFind clusters(triples_.size());
-    bool any = false;
-    for (std::uint32_t n = 0; n < arcs_.size(); ++n) {
-      if (arcs_[n].begin_by == kNone) continue;
-      const std::uint32_t begin = triple_at_[n * 2], end = triple_at_[n * 2 + 1];
-      if (!coincide(begin, end) || !vanishes(arcs_[n])) continue;
-      vanished_[n] = true;
-      clusters.unite(begin, end);
-      any = true;
-    }
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, arcs_.size(), 256), [&](const auto& range) {
+      for (std::size_t n = range.begin(); n != range.end(); ++n)
+        vanished_[n] =
+            arcs_[n].begin_by != kNone && coincide(triple_at_[n * 2], triple_at_[n * 2 + 1]) && vanishes(arcs_[n]);
+    });
+    const bool any = std::ranges::find(vanished_, 1) != vanished_.end();
+    for (std::uint32_t n = 0; n < arcs_.size() && any; ++n)
+      if (vanished_[n]) clusters.unite(triple_at_[n * 2], triple_at_[n * 2 + 1]);
     toroidal_of_arc_.assign(arcs_.size(), kNone);
     if (any) split_cavities(clusters);
     probe_of_triple_.resize(triples_.size());
     members_.clear();
+    members_.reserve(triples_.size());
     for (std::uint32_t t = 0; t < triples_.size(); ++t) {
       const std::uint32_t root = any ? clusters.find(t) : t;
       if (root == t) {
