@@ -71,6 +71,13 @@ std::vector<Ball> before_camera(std::span<const Ball> balls, const glm::dvec3& s
   return seen;
 }
 
+void include(std::span<const Ball> balls, Box& box) {
+  for (const Ball& ball : balls) {
+    box.include(ball.center - ball.radius);
+    box.include(ball.center + ball.radius);
+  }
+}
+
 }  // namespace
 
 GivenCameras given_cameras(const ViewRequest& view, const CameraMotionRequest& motion) {
@@ -81,7 +88,7 @@ GivenCameras given_cameras(const ViewRequest& view, const CameraMotionRequest& m
 }
 
 std::vector<Camera> run_cameras(const ViewRequest& view, const CameraMotionRequest& motion, const GivenCameras& given,
-                                FrameRun& frames) {
+                                FrameRun& frames, Box* extent) {
   const double aspect = static_cast<double>(view.width) / view.height;
   const std::vector<Ball> first = balls_of(frames.structure());
   const CameraCourse course(motion, frames);
@@ -92,8 +99,9 @@ std::vector<Camera> run_cameras(const ViewRequest& view, const CameraMotionReque
   DecisiveBalls decisive(basis, aspect, lens);
   decisive.add(first);
   std::vector<glm::dvec3> shifts(frames.numbers().size(), glm::dvec3(0.0));
-  if (!given.any() || course.follows()) {
+  if (!given.any() || course.follows() || extent) {
     frames.survey([&](std::uint64_t place, std::span<const Ball> balls) {
+      if (extent) include(balls, *extent);
       shifts[place] = course.shift(balls);
       if (given.any()) return;
       decisive.add(motion.moves() ? before_camera(balls, shifts[place], course.pivot(), basis.up, course.angle(place))

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/math/box.h"
 #include "core/scene/frame_run.h"
 #include "core/structure/selection/selection.h"
 #include "core/camera/camera_path.h"
@@ -34,8 +35,9 @@ struct GivenCameras {
 GivenCameras given_cameras(const ViewRequest& view, const CameraMotionRequest& motion);
 
 /// A camera for each frame of the run, by its place. Without a camera from a file all frames are read once, so that all
-/// of every frame is seen. Throws InputError, RequestError.
+/// of every frame is seen. extent: gets all atoms at all frames included, in the same pass; nullptr: not asked for.
+/// Throws InputError, RequestError.
 std::vector<Camera> run_cameras(const ViewRequest& view, const CameraMotionRequest& motion, const GivenCameras& given,
-                                FrameRun& frames);
+                                FrameRun& frames, Box* extent = nullptr);
 
 }  // namespace meniscus

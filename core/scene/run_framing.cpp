@@ -17,15 +17,9 @@ glm::dvec3 RunFraming::origin() const { return glm::round((low + high) * 0.5e3) 
 RunFraming run_framing(const ViewRequest& view, const CameraMotionRequest& motion, const GivenCameras& given,
                        FrameRun& frames) {
   RunFraming framing;
-  framing.cameras = run_cameras(view, motion, given, frames);
-  if (!motion.moves()) framing.cameras.resize(1);
   Box box;
-  frames.survey([&](std::uint64_t, std::span<const Ball> balls) {
-    for (const Ball& ball : balls) {
-      box.include(ball.center - ball.radius);
-      box.include(ball.center + ball.radius);
-    }
-  });
+  framing.cameras = run_cameras(view, motion, given, frames, &box);
+  if (!motion.moves()) framing.cameras.resize(1);
   framing.low = box.low;
   framing.high = box.high;
   return framing;

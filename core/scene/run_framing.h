@@ -22,7 +22,7 @@ struct RunFraming {
   glm::dvec3 origin() const;
 };
 
-/// Reads all frames of the run once or twice. Throws what run_cameras throws.
+/// Reads all frames of the run once. Throws what run_cameras throws.
 RunFraming run_framing(const ViewRequest& view, const CameraMotionRequest& motion, const GivenCameras& given,
                        FrameRun& frames);
 

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What an exported run shares is found in one pass over its frames.
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "core/scene/run_framing.h"
+#include "tests/support/run_program.h"
+#include "tests/trajectory/samples.h"
+
+namespace meniscus {
+namespace {
+
+constexpr std::uint32_t kFrames = 2000;
+
+// Of this process, by whatever system call.
+std::uint64_t bytes_read() {
+  std::ifstream counts("/proc/self/io");
+  std::string name;
+  std::uint64_t count = 0;
+  counts >> name >> count;
+  EXPECT_EQ(name, "rchar:");
+  return count;
+}
+
+class RunFramings : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    molecule_.file = folder_.file("atoms.xyzr", "0 0 0 1.5\n3 0 0 1.5\n0 3 0 1.5\n0 0 3 1.5\n");
+    request_.trajectory = folder_.file("run.dcd", test::dcd({.promised = kFrames, .frames = kFrames}));
+    request_.trust_atom_order = true;
+  }
+
+  test::TemporaryFolder folder_;
+  MoleculeRequest molecule_;
+  RunRequest request_;
+};
+
+TEST_F(RunFramings, ReadEachFrameOnce) {
+  FrameRun frames(molecule_, request_);
+  ASSERT_EQ(frames.numbers().size(), kFrames);
+  const std::uint64_t before = bytes_read();
+  const RunFraming framing = run_framing({}, {}, {}, frames);
+  const std::uint64_t read = bytes_read() - before, size = std::filesystem::file_size(request_.trajectory);
+  EXPECT_GT(read, size * 9 / 10);
+  EXPECT_LT(read, size * 3 / 2);
+  EXPECT_EQ(framing.cameras.size(), 1u);
+  // Atom a of frame f stands at f + a / 8 - 10 times the axis.
+  EXPECT_EQ(framing.low, glm::dvec3(-1.5, -11.5, -21.5));
+  EXPECT_EQ(framing.high, glm::dvec3(0.375 + 1.5 + kFrames - 1) - glm::dvec3(0, 10, 20));
+}
+
+// A camera of a file asks for no pass, but the box of all atoms does.
+TEST_F(RunFramings, HaveTheBoxBesideACameraOfTheirOwn) {
+  FrameRun frames(molecule_, request_);
+  const Camera camera{.position = {0, 0, 50}};
+  const RunFraming framing = run_framing({}, {}, {.still = camera, .path = {}}, frames);
+  EXPECT_EQ(framing.cameras.front().position, camera.position);
+  EXPECT_EQ(framing.low.z, -21.5);
+  EXPECT_EQ(framing.high.x, 0.375 + 1.5 + kFrames - 1);
+}
+
+}  // namespace
+}  // namespace meniscus
