@@ -71,6 +71,17 @@ void say_times(const RenderCommand& command, const std::string& device, const st
   say(command.molecule, fmt::format("picture on {}: {}", device, times));
 }
 
+/// Of copies with more atoms than this a picture is made without having all of them in memory: with fewer it would
+/// not pay.
+constexpr std::size_t kMostMergedAtoms = 1'000'000;
+
+std::size_t placed_atoms(std::span<const SurfaceObject> objects) {
+  std::size_t count = 0;
+  for (const SurfaceObject& object : objects)
+    if (object.copies.size() > 1) count += object.copies.size() * object.surface.atoms.size();
+  return count;
+}
+
 // For a picture whose times are said.
 RenderSettings timed_settings(const RenderCommand& command, const PictureLayout& layout) {
   RenderSettings settings = render_settings(command, layout);
@@ -145,6 +156,8 @@ DeviceChoice gl_device(const RenderCommand& command) { return command.molecule.s
 
 Framebuffer render_objects(SurfaceRenderer& renderer, std::vector<SurfaceObject> objects, const Camera& camera,
                            const RenderSettings& settings) {
+  if (!settings.aovs && placed_atoms(objects) > kMostMergedAtoms)
+    return renderer.render_copies(objects, camera, settings);
   const SurfaceObject whole = merged(std::move(objects));
   Framebuffer picture = renderer.render(whole.surface, whole.coloring, camera, settings);
   for (std::uint32_t& atom : picture.atom)

@@ -48,27 +48,6 @@ class Appender {
     whole_.volume += part_.volume;
   }
 
- private:
-  template <typename Row>
-  static std::uint32_t size(const std::vector<Row>& rows) {
-    return static_cast<std::uint32_t>(rows.size());
-  }
-
-  template <typename Row, typename Move>
-  static void add(std::vector<Row>& rows, const std::vector<Row>& more, Move&& move) {
-    std::transform(more.begin(), more.end(), std::back_inserter(rows), [&](Row row) {
-      move(row);
-      return row;
-    });
-  }
-
-  static void shift(std::uint32_t& index, std::uint32_t by) {
-    if (index != kNone) index += by;
-  }
-
-  void move(glm::dvec3& point) const { point = motion_(point); }
-  void turn(glm::dvec3& direction) const { direction = motion_.rotation * direction; }
-
   void append_patches() {
     const std::uint32_t contact = size(whole_.contacts), cut = size(whole_.cuts);
     add(whole_.convex, part_.convex, [&](ConvexPatch& patch) {
@@ -99,6 +78,27 @@ class Appender {
     add(whole_.contacts, part_.contacts, [&](std::uint32_t& atom) { atom += atom_; });
     add(whole_.cuts, part_.cuts, [&](std::uint32_t& probe) { shift(probe, concave_); });
   }
+
+ private:
+  template <typename Row>
+  static std::uint32_t size(const std::vector<Row>& rows) {
+    return static_cast<std::uint32_t>(rows.size());
+  }
+
+  template <typename Row, typename Move>
+  static void add(std::vector<Row>& rows, const std::vector<Row>& more, Move&& move) {
+    std::transform(more.begin(), more.end(), std::back_inserter(rows), [&](Row row) {
+      move(row);
+      return row;
+    });
+  }
+
+  static void shift(std::uint32_t& index, std::uint32_t by) {
+    if (index != kNone) index += by;
+  }
+
+  void move(glm::dvec3& point) const { point = motion_(point); }
+  void turn(glm::dvec3& direction) const { direction = motion_.rotation * direction; }
 
   void append_boundary() {
     const std::uint32_t half_border = size(whole_.half_borders), loop = size(whole_.loops);
@@ -158,6 +158,13 @@ void append(Surface& whole, const Surface& part, const RigidMotion& motion) {
   whole.certificate.closed = whole.certificate.closed && part.certificate.closed;
 }
 
+Surface moved_patches(const Surface& part, const RigidMotion& motion) {
+  Surface copy;
+  copy.probe_radius = part.probe_radius;
+  Appender(copy, part, motion).append_patches();
+  return copy;
+}
+
 SurfaceObject merged(std::vector<SurfaceObject> objects) {
   if (objects.size() == 1 && objects[0].copies.size() == 1 && is_identity(objects[0].copies[0]))
     return std::move(objects[0]);
@@ -177,8 +184,11 @@ SurfaceObject merged(std::vector<SurfaceObject> objects) {
   return whole;
 }
 
-std::vector<Ball> placed_balls(const std::vector<SurfaceObject>& objects) {
+std::vector<Ball> placed_balls(std::span<const SurfaceObject> objects) {
+  std::size_t count = 0;
+  for (const SurfaceObject& object : objects) count += object.copies.size() * object.surface.atoms.size();
   std::vector<Ball> balls;
+  balls.reserve(count);
   for (const SurfaceObject& object : objects)
     for (const RigidMotion& copy : object.copies)
       for (const Ball& ball : object.surface.atoms) balls.push_back({copy(ball.center), ball.radius});

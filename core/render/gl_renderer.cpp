@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/gpu/egl_context.h"
+#include "core/queries/combine.h"
 #include "core/render/renderer.h"
 #include "core/render/surface_renderer.h"
 
@@ -16,6 +17,11 @@ class GlRenderer final : public SurfaceRenderer {
   Framebuffer render(const Surface& surface, const Coloring& coloring, const Camera& camera,
                      const RenderSettings& settings) override {
     return renderer_.render(surface, coloring, camera, settings);
+  }
+  Framebuffer render_copies(std::span<const SurfaceObject> objects, const Camera& camera,
+                            const RenderSettings& settings) override {
+    const SurfaceObject whole = merged({objects.begin(), objects.end()});
+    return renderer_.render(whole.surface, whole.coloring, camera, settings);
   }
   const std::vector<StageTime>& times() const override { return renderer_.times(); }
   std::string device() const override { return gl_words(context_); }

@@ -49,8 +49,9 @@ std::vector<PatchRange> ranges_of(const Surface& surface) {
 class Packer {
  public:
   /// scene: with its slack.
-  Packer(const Surface& surface, const Coloring& coloring, const PictureFrame& frame, RayCastScene& scene)
-      : surface_(surface), coloring_(coloring), frame_(frame), scene_(scene) {}
+  Packer(const Surface& surface, const Coloring& coloring, const PictureFrame& frame, std::uint32_t first_atom,
+         RayCastScene& scene)
+      : surface_(surface), coloring_(coloring), frame_(frame), first_atom_(first_atom), scene_(scene) {}
 
   void pack(const PatchRange& range) {
     for (std::uint32_t i = range.first; i < range.end; ++i) {
@@ -91,12 +92,15 @@ class Packer {
   std::uint32_t tie_key(const ConcavePatch& patch) const {
     const std::span contacts(&surface_.contacts[patch.first_contact], patch.contact_count);
     const auto least = std::ranges::min_element(contacts);  // the first of the key, and then around
-    return std::accumulate(contacts.begin(), least, std::accumulate(least, contacts.end(), 0u, geometry::add_to_key),
-                           geometry::add_to_key);
+    const auto add = [this](std::uint32_t key, std::uint32_t atom) {
+      return geometry::add_to_key(key, first_atom_ + atom);
+    };
+    return std::accumulate(contacts.begin(), least, std::accumulate(least, contacts.end(), 0u, add), add);
   }
 
   std::uint32_t tie_key(const ToroidalPatch& patch) const {
-    std::uint32_t key = geometry::add_to_key(geometry::add_to_key(0, patch.atom[0]), patch.atom[1]);
+    std::uint32_t key =
+        geometry::add_to_key(geometry::add_to_key(0, first_atom_ + patch.atom[0]), first_atom_ + patch.atom[1]);
     if (!patch.free())
       for (const std::uint32_t probe : patch.probe) key = geometry::add_to_key(key, tie_key(surface_.concave[probe]));
     return key;
@@ -115,7 +119,8 @@ class Packer {
     Primitive primitive{};
     if (!begin(bound, PatchKind::convex, index, primitive)) return;
     primitive.plane_count = patch.plane_count;
-    primitive.atom = primitive.tie_key = patch.atom;
+    primitive.atom = patch.atom;
+    primitive.tie_key = first_atom_ + patch.atom;
     add_row(ball.center - frame_.pivot, ball.radius);
     add_planes(patch.first_plane, patch.plane_count, ball.center);
     scene_.primitives.push_back(primitive);
@@ -187,6 +192,7 @@ class Packer {
   const Surface& surface_;
   const Coloring& coloring_;
   const PictureFrame& frame_;
+  const std::uint32_t first_atom_;
   RayCastScene& scene_;
   std::vector<glm::dvec3> directions_;  // of a probe's contacts; kept for its memory
 };
@@ -260,7 +266,7 @@ void pack_scene(const Surface& surface, const Coloring& coloring, const PictureF
   std::vector<RayCastScene> parts(ranges.size());
   tbb::parallel_for(std::size_t{0}, ranges.size(), [&](std::size_t n) {
     parts[n].slack = scene.slack;
-    Packer(surface, coloring, frame, parts[n]).pack(ranges[n]);
+    Packer(surface, coloring, frame, 0, parts[n]).pack(ranges[n]);
   });
   std::vector<PartPlace> places(parts.size() + 1);
   for (std::size_t n = 0; n < parts.size(); ++n)
@@ -275,6 +281,21 @@ RayCastScene pack_scene(const Surface& surface, const Coloring& coloring, const 
   RayCastScene scene;
   pack_scene(surface, coloring, frame, scene);
   return scene;
+}
+
+RayCastScene pack_part(const Surface& surface, const Coloring& coloring, const PictureFrame& frame, float slack,
+                       std::uint32_t first_atom) {
+  RayCastScene scene;
+  scene.slack = slack;
+  Packer packer(surface, coloring, frame, first_atom, scene);
+  for (const PatchRange& range : ranges_of(surface)) packer.pack(range);
+  return scene;
+}
+
+std::uint32_t row_count(const Primitive& primitive) {
+  constexpr std::uint32_t kToroidalRows = 5;
+  if (primitive.kind == ray_cast::kToroidal) return kToroidalRows;
+  return 1 + primitive.plane_count + (primitive.kind == ray_cast::kConcave ? primitive.atom : 0);
 }
 
 void upload_scene(const RayCastScene& packed, const Surface& surface, const PictureFrame& frame, GpuScene& scene) {

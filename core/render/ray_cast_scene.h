@@ -47,6 +47,14 @@ struct RayCastScene {
 void pack_scene(const Surface& surface, const Coloring& coloring, const PictureFrame& frame, RayCastScene& scene);
 RayCastScene pack_scene(const Surface& surface, const Coloring& coloring, const PictureFrame& frame);
 
+/// The same on one thread, for one of several surfaces of a picture. slack: of all of them; first_atom: its first
+/// atom's number among those of all. Only tie keys count from there, indices of atoms stay the surface's own.
+RayCastScene pack_part(const Surface& surface, const Coloring& coloring, const PictureFrame& frame, float slack,
+                       std::uint32_t first_atom);
+
+/// Rows that a primitive has from its first one on.
+std::uint32_t row_count(const ray_cast::Primitive& primitive);
+
 /// Everything of `scene` on the GPU but the colours.
 void upload_scene(const RayCastScene& packed, const Surface& surface, const PictureFrame& frame, GpuScene& scene);
 

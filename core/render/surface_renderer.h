@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "core/camera/camera.h"
 #include "core/color/coloring.h"
 #include "core/render/framebuffer.h"
+#include "core/queries/surface_object.h"
 #include "core/render/render_settings.h"
 #include "core/surface/primitives.h"
 
@@ -26,6 +28,12 @@ class SurfaceRenderer {
   /// Throws InputError for a bad camera; GpuError and CapacityError where GL makes it.
   virtual Framebuffer render(const Surface& surface, const Coloring& coloring, const Camera& camera,
                              const RenderSettings& settings) = 0;
+
+  /// The same picture as of merged(objects), to the bit, where copies need not be in memory all at once: on the CPU,
+  /// which keeps what its pixels show. No AOVs. objects: at least one, as merged() wants them. Throws as render(), and
+  /// CapacityError where all copies are too much for GL.
+  virtual Framebuffer render_copies(std::span<const SurfaceObject> objects, const Camera& camera,
+                                    const RenderSettings& settings) = 0;
 
   /// Of the stages of the last picture.
   virtual const std::vector<StageTime>& times() const = 0;

@@ -14,6 +14,7 @@
 #include <tbb/task_arena.h>
 
 #include "core/image/display_color.h"
+#include "core/queries/combine.h"
 #include "core/render/picture_collector.h"
 
 namespace meniscus {
@@ -37,6 +38,11 @@ class Interruption {
 namespace {
 
 constexpr ray_cast::Hit kNoHit{glm::vec3(0.0f), 0.0f, ray_cast::kNoPrimitive, ray_cast::kNoPrimitive, 0, 0};
+
+/// In whole tiles.
+int block_edge(const RenderSettings& settings) {
+  return std::max(settings.block_edge / kTileEdge * kTileEdge, kTileEdge);
+}
 
 /// Calls work(n) for n < count on all threads until an interruption comes.
 template <typename Work>
@@ -63,35 +69,33 @@ LaneSamples CpuRenderer::BlockSamples::lanes() {
           part.empty() ? nullptr : part.data()};
 }
 
-void CpuRenderer::begin(const Surface& surface, const Coloring& coloring, const Camera& camera,
-                        const RenderSettings& settings) {
+void CpuRenderer::begin(const Camera& camera, const RenderSettings& settings) {
   assert(settings.size.x > 0 && settings.size.y > 0 && settings.samples > 0);
   validate_camera(camera, "camera");
   drawn_ = false;
   clock_ = StageClock(settings.timing);
+}
+
+void CpuRenderer::pack(const Surface& surface, const Coloring& coloring, const Camera& camera,
+                       const RenderSettings& settings) {
+  begin(camera, settings);
   const auto stage = clock_.stage("pack");
   frame_ = make_picture_frame(surface.atoms, camera, settings.size);
   pack_scene(surface, coloring, frame_, scene_.packed);
   scene_.placement = place_atoms(surface.atoms, surface.probe_radius, frame_);
   scene_.colors = linear_colors(coloring);
   scene_.parts.assign(coloring.part.begin(), coloring.part.end());
-  scene_.lanes.primitives = scene_.packed.primitives.data();
-  scene_.lanes.rows = scene_.packed.rows.data();
-  scene_.lanes.colors = scene_.colors.data();
-  scene_.lanes.parts = scene_.parts.data();
-  scene_.lanes.some_hidden = std::ranges::find(coloring.hidden, true) != coloring.hidden.end();
-  scene_.lanes.params = cast_parameters(scene_.placement, settings.look,
-                                        static_cast<std::uint32_t>(coloring.atom.size()), coloring.kind.has_value());
+  scene_.connect(settings.look, coloring.kind.has_value(),
+                 std::ranges::find(coloring.hidden, true) != coloring.hidden.end());
 }
 
 Framebuffer CpuRenderer::render(const Surface& surface, const Coloring& coloring, const Camera& camera,
                                 const RenderSettings& settings) {
-  begin(surface, coloring, camera, settings);
+  pack(surface, coloring, camera, settings);
   PictureCollector collector(frame_, settings, &surface, scene_.packed.primitives);
   const std::function<bool()> never;
   Interruption interruption(never);
-  const int edge = std::max(settings.block_edge / kTileEdge * kTileEdge, kTileEdge);
-  for (const PictureBlock& inner : picture_blocks(settings.size, edge)) {
+  for (const PictureBlock& inner : picture_blocks(settings.size, block_edge(settings))) {
     const PictureBlock block = with_neighbors(inner, look_reach(settings.look), settings.size);
     cast({block, settings, settings.aovs}, interruption);
     collector.add_colors(inner, block, sums_);
@@ -100,9 +104,36 @@ Framebuffer CpuRenderer::render(const Surface& surface, const Coloring& coloring
   return collector.take();
 }
 
+Framebuffer CpuRenderer::render_copies(std::span<const SurfaceObject> objects, const Camera& camera,
+                                       const RenderSettings& settings) {
+  assert(!objects.empty() && !settings.aovs);
+  begin(camera, settings);
+  ScenePlacement placement;
+  {
+    const auto stage = clock_.stage("frame");
+    const std::vector<Ball> balls = placed_balls(objects);
+    frame_ = make_picture_frame(balls, camera, settings.size);
+    placement = place_atoms(balls, objects.front().surface.probe_radius, frame_);
+  }
+  VisibleCopies copies(objects, frame_, placement, kernels_, patches_together_);
+  PictureCollector collector(frame_, settings, nullptr, {});
+  const std::function<bool()> never;
+  Interruption interruption(never);
+  for (const PictureBlock& inner : picture_blocks(settings.size, block_edge(settings))) {
+    const PictureBlock block = with_neighbors(inner, look_reach(settings.look), settings.size);
+    {
+      const auto stage = clock_.stage("visible copies");
+      copies.find(block, settings.samples, settings.look, scene_);
+    }
+    cast({block, settings, false}, interruption);
+    collector.add_colors(inner, block, sums_);
+  }
+  return collector.take();
+}
+
 bool CpuRenderer::draw(const Surface& surface, const Coloring& coloring, const Camera& camera,
                        const RenderSettings& settings, const std::function<bool()>& stop) {
-  begin(surface, coloring, camera, settings);
+  pack(surface, coloring, camera, settings);
   Interruption interruption(stop);
   cast({{{0, 0}, settings.size}, settings, true}, interruption);
   if (interruption.came()) return false;

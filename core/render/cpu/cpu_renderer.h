@@ -2,9 +2,11 @@
 // Pictures of computed surfaces made by the CPU alone, for files and for faces that ask what a pixel shows.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -13,9 +15,10 @@
 #include <tbb/enumerable_thread_specific.h>
 
 #include "core/render/cpu/cpu_tile_lists.h"
+#include "core/render/cpu/host_scene.h"
 #include "core/render/cpu/lane_kernels.h"
+#include "core/render/cpu/visible_copies.h"
 #include "core/render/hit_point.h"
-#include "core/render/ray_cast_scene.h"
 #include "core/render/surface_renderer.h"
 
 namespace meniscus {
@@ -25,10 +28,14 @@ class Interruption;
 /// Makes one picture after another; see make_cpu_renderer().
 class CpuRenderer final : public SurfaceRenderer {
  public:
-  explicit CpuRenderer(int most_lanes = 16) : kernels_(widest_kernels(most_lanes)) {}
+  /// patches_together: of VisibleCopies.
+  explicit CpuRenderer(int most_lanes = 16, std::size_t patches_together = VisibleCopies::kPatchesTogether)
+      : kernels_(widest_kernels(most_lanes)), patches_together_(patches_together) {}
 
   Framebuffer render(const Surface& surface, const Coloring& coloring, const Camera& camera,
                      const RenderSettings& settings) override;
+  Framebuffer render_copies(std::span<const SurfaceObject> objects, const Camera& camera,
+                            const RenderSettings& settings) override;
 
   /// A finished picture over the look's background, which stays as rgba(). stop: asked now and then on this thread; if
   /// true, the picture is given up: false, rgba() is the one before, and there is nothing to pick. Throws as render().
@@ -45,15 +52,6 @@ class CpuRenderer final : public SurfaceRenderer {
   std::string device() const override;
 
  private:
-  /// A picture's scene on the host.
-  struct Scene {
-    RayCastScene packed;
-    ScenePlacement placement;
-    std::vector<glm::vec4> colors;
-    std::vector<float> parts;  // whole numbers that a float holds exactly: only their difference counts
-    LaneScene lanes;
-  };
-
   /// One sample of each pixel of a block and, behind the last, of what lies outside. Tiles that list nothing are never
   /// written, so that one beginning does for all samples.
   struct BlockSamples {
@@ -71,7 +69,8 @@ class CpuRenderer final : public SurfaceRenderer {
     bool hits;  ///< wanted too
   };
 
-  void begin(const Surface& surface, const Coloring& coloring, const Camera& camera, const RenderSettings& settings);
+  void begin(const Camera& camera, const RenderSettings& settings);
+  void pack(const Surface& surface, const Coloring& coloring, const Camera& camera, const RenderSettings& settings);
   void cast(const BlockTask& task, Interruption& interruption);
   void cast_samples(int first, int count, const BlockTask& task, Interruption& interruption);
   void cast_tile(std::size_t tile, LaneTile task);
@@ -79,9 +78,10 @@ class CpuRenderer final : public SurfaceRenderer {
   void present(const RenderSettings& settings);
 
   const LaneKernels& kernels_;
+  const std::size_t patches_together_;
   StageClock clock_;
   PictureFrame frame_;  // of the picture at work, and when it is drawn, of that
-  Scene scene_;         // likewise
+  HostScene scene_;     // likewise; of copies, what its last block shows
   CpuTileLists lists_;
   tbb::enumerable_thread_specific<SortedList> sorted_;
   std::vector<glm::vec4> sums_;

@@ -24,7 +24,7 @@ using glm::vec4;
 
 /// The shared source that says which tiles a bound touches.
 struct Footprints {
-  kernel::TileListParameters params;
+  const kernel::TileListParameters& params;
 #include "gpu_shaders/ray_cast/bound_footprint.glsl"
 };
 
@@ -42,15 +42,17 @@ std::uint32_t ordered_bits(float value) {
 
 }  // namespace
 
+glm::ivec4 TileFootprints::of(const glm::vec4& bound) const { return Footprints{params_}.bound_footprint(bound); }
+
 void CpuTileLists::build(std::span<const ray_cast::Primitive> primitives, const PictureFrame& frame,
                          const PictureBlock& block) {
   tiles_ = tile_counts(block);
   const auto tile_count = static_cast<std::size_t>(tiles_.x) * tiles_.y;
-  Footprints footprints{tile_list_parameters(frame, block, static_cast<std::uint32_t>(primitives.size()))};
+  const TileFootprints footprints(frame, block);
   std::vector<ivec4> touched(primitives.size());
   std::vector<std::atomic<std::uint32_t>> next(tile_count);
   tbb::parallel_for(std::size_t{0}, primitives.size(), [&](std::size_t n) {
-    touched[n] = footprints.bound_footprint(primitives[n].bound);
+    touched[n] = footprints.of(primitives[n].bound);
     for_each_tile(touched[n], tiles_.x, [&](std::size_t tile) { next[tile].fetch_add(1, std::memory_order_relaxed); });
   });
   starts_.assign(tile_count + 1, 0);

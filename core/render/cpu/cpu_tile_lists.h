@@ -8,11 +8,25 @@
 #include <vector>
 
 #include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
 
 #include "core/render/cpu/lane_kernels.h"
 #include "core/render/picture_block.h"
 
 namespace meniscus {
+
+/// Tiles that a bound may touch: columns from x to before y, rows from z to before w.
+class TileFootprints {
+ public:
+  TileFootprints(const PictureFrame& frame, const PictureBlock& block)
+      : params_(tile_list_parameters(frame, block, 0)) {}
+
+  /// bound: Primitive::bound.
+  glm::ivec4 of(const glm::vec4& bound) const;
+
+ private:
+  kernel::TileListParameters params_;
+};
 
 /// For each tile the primitives whose bounds it may touch: the same lists as the GPU's (tile_lists.h), each in order.
 class CpuTileLists {

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a block of a picture shows of many copies of surfaces, found without ever having all of them in memory.
+//
+// Copies are moved and packed from front to back, some at a time, and cast against what is there already. Whatever no
+// ray shows is dropped again, and copies that begin behind all that the rays of their tiles have met are never moved.
+// A picture does not depend on primitives that it does not show, so it is that of all copies, to the bit.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <glm/vec4.hpp>
+#include <tbb/enumerable_thread_specific.h>
+
+#include "core/queries/surface_object.h"
+#include "core/render/cpu/cpu_tile_lists.h"
+#include "core/render/cpu/host_scene.h"
+
+namespace meniscus {
+
+class VisibleCopies {
+ public:
+  /// Patches that are packed before they are cast, unless one copy has more.
+  static constexpr std::size_t kPatchesTogether = std::size_t{1} << 21;
+
+  /// objects: of one probe radius, all coloured by kind, alike, or none; they and the kernels must live as long.
+  /// placement: of all copies.
+  VisibleCopies(std::span<const SurfaceObject> objects, const PictureFrame& frame, const ScenePlacement& placement,
+                const LaneKernels& kernels, std::size_t patches_together = kPatchesTogether);
+
+  /// Puts into `scene` what the first `samples` samples of the block's pixels show, and perhaps a little more, and
+  /// connects it.
+  void find(const PictureBlock& block, int samples, const Look& look, HostScene& scene);
+
+  /// Copies that the last find() moved.
+  std::size_t moved() const { return moved_; }
+
+ private:
+  /// A copy, and what of it does not depend on a block.
+  struct Copy {
+    std::uint32_t object = 0;
+    std::uint32_t motion = 0;
+    std::uint32_t first_atom = 0;  // among those of all copies
+    std::uint32_t first_part = 0;  // likewise
+    glm::vec4 bound{0.0f};         // as Primitive::bound
+    float nearest = 0.0f;          // as Primitive::nearest
+  };
+
+  void add_copies(std::uint32_t object, std::uint32_t& first_atom, std::uint32_t& first_part);
+  std::size_t patch_count(const Copy& copy) const;
+  bool is_hidden(const glm::vec4& bound, float nearest) const;
+  std::vector<const Copy*> next_batch(std::size_t& next) const;
+  RayCastScene seen_part(const Copy& copy) const;
+  void add(const Copy& copy, RayCastScene part, HostScene& scene) const;
+  void cast_from(std::size_t first_new, int samples, HostScene& scene);
+  void cast_tile(std::size_t tile, int samples, const HostScene& scene);
+  float farthest_of(const LaneTile& tile, const kernel::BlockView& view);
+
+  std::span<const SurfaceObject> objects_;
+  const PictureFrame& frame_;
+  const ScenePlacement placement_;
+  const LaneKernels& kernels_;
+  const std::size_t patches_together_;
+  std::vector<std::vector<glm::vec4>> colors_;  // of objects
+  std::vector<Copy> copies_;                    // from front to back
+  bool some_hidden_ = false;
+  std::size_t moved_ = 0;
+
+  // Of the block at work.
+  PictureBlock block_;
+  CpuTileLists lists_;
+  tbb::enumerable_thread_specific<SortedList> sorted_;
+  std::vector<ray_cast::Hit> hits_;               // of one sample
+  std::vector<float> depths_;                     // of tiles: no ray of them sees farther, Å from the camera
+  std::vector<std::atomic<std::uint8_t>> shown_;  // primitives that stay
+};
+
+}  // namespace meniscus

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Pictures of copies that are never in memory all at once are those of the merged surface, bit for bit.
+#include <random>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/queries/combine.h"
+#include "core/render/cpu/cpu_renderer.h"
+#include "core/render/cpu/visible_copies.h"
+#include "core/surface/surface.h"
+#include "tests/support/molecules.h"
+
+namespace meniscus {
+namespace {
+
+using testing::Balls;
+using testing::kWater;
+
+SurfaceObject object_of(const Balls& balls) {
+  SurfaceObject object;
+  object.surface = compute_surface_cpu(balls, kWater);
+  for (std::size_t n = 0; n < balls.size(); ++n)
+    object.coloring.atom.push_back(n % 2 ? glm::vec3(0.8f, 0.25f, 0.2f) : glm::vec3(0.3f, 0.5f, 0.9f));
+  return object;
+}
+
+/// Turned copies at the places of a lattice of so many columns, rows and layers.
+std::vector<RigidMotion> lattice(glm::ivec3 counts, double step) {
+  std::mt19937 random(3);
+  std::vector<RigidMotion> motions;
+  for (int x = 0; x < counts.x; ++x)
+    for (int y = 0; y < counts.y; ++y)
+      for (int z = 0; z < counts.z; ++z)
+        motions.push_back({testing::random_rotation(random), step * glm::dvec3(x, y, z)});
+  return motions;
+}
+
+/// Two molecules, whose copies stand among each other and into each other.
+std::vector<SurfaceObject> crowd() {
+  std::vector<SurfaceObject> objects{object_of(testing::ubiquitin()), object_of(testing::c60())};
+  objects[0].copies = lattice({4, 3, 3}, 34.0);
+  objects[1].copies = lattice({5, 4, 3}, 29.0);
+  return objects;
+}
+
+void expect_same_bits(const std::vector<SurfaceObject>& objects, const Camera& camera, RenderSettings settings,
+                      const std::string& name) {
+  settings.size = {230, 170};  // no whole number of tiles
+  CpuRenderer whole, together, one_by_one(16, 1);
+  const SurfaceObject all = merged(objects);
+  const Framebuffer expected = whole.render(all.surface, all.coloring, camera, settings);
+  EXPECT_EQ(together.render_copies(objects, camera, settings).color, expected.color) << name;
+  EXPECT_EQ(one_by_one.render_copies(objects, camera, settings).color, expected.color) << name;
+}
+
+Camera framed(const std::vector<SurfaceObject>& objects, Projection projection) {
+  return frame_camera(placed_balls(objects), 230.0 / 170.0, projection);
+}
+
+TEST(Copies, LookLikeTheMergedSurface) {
+  const std::vector<SurfaceObject> objects = crowd();
+  RenderSettings settings;
+  settings.samples = 5;
+  for (const Projection projection : {Projection::perspective, Projection::orthographic})
+    expect_same_bits(objects, framed(objects, projection), settings, "from outside");
+  settings.block_edge = 64;
+  expect_same_bits(objects, framed(objects, Projection::perspective), settings, "in blocks");
+  const glm::dvec3 inside(51.0, 36.0, 34.0);
+  expect_same_bits(objects, {inside, inside + glm::dvec3(1.0, 0.3, 0.2), {0, 1, 0}, Projection::perspective, 80.0, 1.0},
+                   settings, "from inside");
+}
+
+TEST(Copies, KeepPartsKindsAndHiddenAtomsApart) {
+  std::vector<SurfaceObject> objects = crowd();
+  RenderSettings settings;
+  settings.samples = 2;
+  settings.look.ambient_occlusion = 0.9f;
+  settings.look.silhouettes = 2.5f;
+  settings.look.depth_cue = 0.5f;
+  for (SurfaceObject& object : objects)
+    for (std::size_t n = 0; n < object.surface.atoms.size(); ++n)
+      object.coloring.part.push_back(static_cast<std::uint32_t>(n / 200));
+  expect_same_bits(objects, framed(objects, Projection::perspective), settings, "parts");
+  for (std::size_t n = 0; n < objects[0].surface.atoms.size(); ++n) objects[0].coloring.hidden.push_back(n % 5 < 2);
+  expect_same_bits(objects, framed(objects, Projection::orthographic), settings, "hidden atoms");
+  for (SurfaceObject& object : objects)
+    object.coloring.kind = {{{0.2f, 0.6f, 0.4f}, {0.4f, 0.6f, 0.9f}, {0.8f, 0.4f, 0.2f}}};
+  expect_same_bits(objects, framed(objects, Projection::perspective), settings, "kinds");
+}
+
+// What begins behind all that is seen is neither moved nor packed.
+TEST(Copies, BehindOthersAreLeftWhereTheyAre) {
+  std::vector<SurfaceObject> objects{object_of(testing::ubiquitin())};
+  const std::vector<Ball>& atoms = objects[0].surface.atoms;
+  const ViewBasis basis = broad_side(atoms);
+  Camera camera = frame_camera(atoms, 1.0, Projection::orthographic);
+  camera.height = 4.0;  // nothing but the middle of the molecule
+  for (int n = 1; n < 50; ++n) objects[0].copies.push_back({glm::dmat3(1.0), 60.0 * n * basis.forward});
+  const PictureFrame frame = make_picture_frame(placed_balls(objects), camera, {64, 64});
+  const ScenePlacement placement = place_atoms(placed_balls(objects), kWater, frame);
+  VisibleCopies copies(objects, frame, placement, widest_kernels(16), 1);
+  HostScene scene;
+  copies.find({{0, 0}, frame.size}, 4, {}, scene);
+  EXPECT_EQ(copies.moved(), 1u);
+  EXPECT_GT(scene.packed.primitives.size(), 0u);
+  EXPECT_LT(scene.packed.primitives.size(), 100u);  // of some 4,000
+  EXPECT_EQ(scene.colors.size(), atoms.size());
+}
+
+}  // namespace
+}  // namespace meniscus
