@@ -157,6 +157,15 @@ void OutputFile::write(std::span<const std::byte> bytes) {
   }
 }
 
+void OutputFile::rewrite_beginning(std::span<const std::byte> bytes) {
+  for (off_t at = 0; !bytes.empty();) {
+    const ssize_t written = uninterrupted([&] { return ::pwrite(descriptor_, bytes.data(), bytes.size(), at); });
+    if (written <= 0) fail("cannot be written: " + reason(written < 0 ? errno : ENOSPC));
+    bytes = bytes.subspan(static_cast<std::size_t>(written));
+    at += written;
+  }
+}
+
 void OutputFile::sync() {
   // A descriptor is closed even where that is interrupted, and what matters is the sync.
   if (descriptor_ >= 0 && ::close(std::exchange(descriptor_, -1)) != 0 && errno != EINTR)

@@ -27,6 +27,8 @@ class OutputFile {
   /// Appends bytes.
   void write(std::string_view text);
   void write(std::span<const std::byte> bytes);
+  /// Replaces bytes at the beginning, of which so many must have been written: for what is known at the end only.
+  void rewrite_beginning(std::span<const std::byte> bytes);
 
   /// For programs that open files by name: write here instead of calling write(). Ends in the target's extension.
   const std::filesystem::path& temporary_path() const { return temporary_; }

@@ -36,7 +36,7 @@ void put(std::vector<std::byte>& bytes, std::size_t at, T value) {
 
 void MnsWriter::add_bytes(const std::string& name, const char* type, std::span<const std::byte> bytes, std::size_t rows,
                           int columns) {
-  arrays_.push_back({prefix_ + name, type, rows, columns, {bytes.begin(), bytes.end()}});
+  arrays_.push_back({prefix_ + name, type, rows, columns, bytes.size(), {bytes.begin(), bytes.end()}, {}});
 }
 void MnsWriter::add(const std::string& name, std::span<const float> values, int columns) {
   add_bytes(name, "<f4", std::as_bytes(values), values.size() / columns, columns);
@@ -64,34 +64,45 @@ void MnsWriter::write(const std::string& path, Existing existing, nlohmann::json
                      {"rows", array.rows},
                      {"columns", array.columns},
                      {"offset", offset}});
-    offset = aligned(offset + array.bytes.size());
+    offset = aligned(offset + array.byte_count);
   }
   header["arrays"] = std::move(table);
   std::string text = header.dump(1, ' ', true, nlohmann::json::error_handler_t::replace);
   text.resize(aligned(text.size() + 1), ' ');
   text.back() = '\n';
 
-  std::uint32_t crc = checksum(0, std::as_bytes(std::span(text)));
-  const std::vector<std::byte> padding(kAlignment);
-  auto pad_of = [&](const Array& array) {
-    return std::span(padding).first(aligned(array.bytes.size()) - array.bytes.size());
-  };
-  for (const Array& array : arrays_) crc = checksum(checksum(crc, array.bytes), pad_of(array));
-
+  // The prologue holds the checksum of all that follows; zeros keep its place.
   std::vector<std::byte> prologue(kPrologue);
+  OutputFile file(path, existing);
+  file.write(std::span<const std::byte>(prologue));
+  std::uint32_t crc = 0;
+  const auto write = [&](std::span<const std::byte> bytes) {
+    crc = checksum(crc, bytes);
+    file.write(bytes);
+  };
+  write(std::as_bytes(std::span(text)));
+  const std::vector<std::byte> padding(kAlignment);
+  for (const Array& array : arrays_) {
+    std::size_t count = array.bytes.size();
+    if (array.make) {
+      ArraySink sink([&](std::span<const std::byte> bytes) {
+        count += bytes.size();
+        write(bytes);
+      });
+      array.make(sink);
+      sink.flush();
+    } else {
+      write(array.bytes);
+    }
+    assert(count == array.byte_count);
+    write(std::span(padding).first(aligned(count) - count));
+  }
   std::memcpy(prologue.data(), kMagic, sizeof kMagic);
   put(prologue, 8, kMnsVersion);
   put(prologue, 12, crc);
   put(prologue, 16, static_cast<std::uint64_t>(text.size()));
   put(prologue, 24, static_cast<std::uint64_t>(kPrologue + text.size() + offset));
-
-  OutputFile file(path, existing);
-  file.write(std::span<const std::byte>(prologue));
-  file.write(text);
-  for (const Array& array : arrays_) {
-    file.write(std::span<const std::byte>(array.bytes));
-    file.write(pad_of(array));
-  }
+  file.rewrite_beginning(prologue);
   file.commit();
 }
 

@@ -4,8 +4,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <nlohmann/json_fwd.hpp>
@@ -15,6 +17,29 @@
 namespace meniscus::blender {
 
 inline constexpr std::uint32_t kMnsVersion = 2;
+
+/// Takes the values of one array in order and passes them on in large pieces.
+class ArraySink {
+ public:
+  explicit ArraySink(std::function<void(std::span<const std::byte>)> write) : write_(std::move(write)) {}
+
+  template <class T>
+  void push(T value) {
+    const auto bytes = std::as_bytes(std::span(&value, 1));
+    buffer_.insert(buffer_.end(), bytes.begin(), bytes.end());
+    if (buffer_.size() >= kPiece) flush();
+  }
+  void flush() {
+    write_(buffer_);
+    buffer_.clear();
+  }
+
+ private:
+  static constexpr std::size_t kPiece = 1 << 18;
+
+  std::function<void(std::span<const std::byte>)> write_;
+  std::vector<std::byte> buffer_;
+};
 
 /// Collects named arrays, then writes them behind their header.
 class MnsWriter {
@@ -28,6 +53,13 @@ class MnsWriter {
   void add(const std::string& name, std::span<const std::int32_t> values, int columns = 1);
   void add(const std::string& name, std::span<const std::uint8_t> values, int columns = 1);
 
+  /// An array of so many rows that is made while the file is written: `make` pushes `columns` values of type T a row.
+  /// What it refers to must live until then.
+  template <class T>
+  void add_streamed(const std::string& name, std::size_t rows, int columns, std::function<void(ArraySink&)> make) {
+    arrays_.push_back({prefix_ + name, type_of(T{}), rows, columns, sizeof(T) * rows * columns, {}, std::move(make)});
+  }
+
   /// Writes the whole file under `path`, or throws OutputError and leaves none. `header` must be an object; the key
   /// "arrays" is added to it.
   void write(const std::string& path, Existing existing, nlohmann::json header) const;
@@ -38,8 +70,13 @@ class MnsWriter {
     std::string type;  ///< as numpy writes it: "<f4", "<f8", "<u4", "<i4", "|u1"
     std::size_t rows = 0;
     int columns = 1;
-    std::vector<std::byte> bytes;
+    std::size_t byte_count = 0;
+    std::vector<std::byte> bytes;  ///< or, where they are streamed:
+    std::function<void(ArraySink&)> make;
   };
+  static const char* type_of(float) { return "<f4"; }
+  static const char* type_of(std::uint32_t) { return "<u4"; }
+  static const char* type_of(std::uint8_t) { return "|u1"; }
   void add_bytes(const std::string& name, const char* type, std::span<const std::byte> bytes, std::size_t rows,
                  int columns);
   std::string prefix_;

@@ -2,6 +2,7 @@
 // Turns the tables of surfaces and their meshes into the arrays of a .mns file.
 #include "exporters/blender/surface_file.h"
 
+#include <array>
 #include <cassert>
 
 #include <nlohmann/json.hpp>
@@ -34,36 +35,50 @@ using Doubles = Column<double>;
 using Floats = Column<float>;
 using Indices = Column<std::uint32_t>;
 
+/// Rows of vectors in single precision, each less `origin`.
+void stream_vectors(MnsWriter& file, const std::string& name, const std::vector<glm::dvec3>& vectors,
+                    const glm::dvec3& origin = glm::dvec3(0.0)) {
+  file.add_streamed<float>(name, vectors.size(), 3, [&vectors, origin](ArraySink& out) {
+    for (const glm::dvec3& vector : vectors) {
+      const glm::dvec3 v = vector - origin;
+      for (int axis = 0; axis < 3; ++axis) out.push(static_cast<float>(v[axis]));
+    }
+  });
+}
+
+template <std::size_t columns>
+void stream_rows(MnsWriter& file, const std::string& name,
+                 const std::vector<std::array<std::uint32_t, columns>>& rows) {
+  file.add_streamed<std::uint32_t>(name, rows.size(), columns, [&rows](ArraySink& out) {
+    for (const auto& row : rows)
+      for (const std::uint32_t index : row) out.push(index);
+  });
+}
+
+void stream_column(MnsWriter& file, const std::string& name, const std::vector<std::uint32_t>& column) {
+  file.add_streamed<std::uint32_t>(name, column.size(), 1, [&column](ArraySink& out) {
+    for (const std::uint32_t value : column) out.push(value);
+  });
+}
+
+/// The mesh, which is larger than all the rest, is turned into arrays while they are written.
 void add_mesh(MnsWriter& file, const TriangleMesh& mesh, const glm::dvec3& origin) {
-  Floats position, normal, corner_normal;
-  Indices triangle, sharp_edge;
-  std::vector<std::uint8_t> kinds;
-  for (const auto& x : mesh.positions) position.push(x - origin);
-  for (const auto& n : mesh.normals) normal.push(n);
-  for (const auto& n : mesh.sharp_corner_normals) corner_normal.push(n);
-  for (const auto& t : mesh.triangles) {
-    for (const std::uint32_t v : t) triangle.push(v);
-  }
-  for (const auto& e : mesh.sharp_edges) {
-    for (const std::uint32_t v : e) sharp_edge.push(v);
-  }
-  for (const PatchKind k : mesh.kind) kinds.push_back(static_cast<std::uint8_t>(k));
-  file.add("mesh.position", position.values(), 3);
-  file.add("mesh.normal", normal.values(), 3);
-  file.add("mesh.triangle", triangle.values(), 3);
-  file.add("mesh.kind", std::span<const std::uint8_t>(kinds));
-  file.add("mesh.patch", std::span(mesh.patch));
-  file.add("mesh.component", std::span(mesh.component));
-  file.add("mesh.atom", std::span(mesh.atom));
-  file.add("mesh.sharp_corner", std::span(mesh.sharp_corners));
-  file.add("mesh.sharp_corner_normal", corner_normal.values(), 3);
-  file.add("mesh.sharp_edge", sharp_edge.values(), 2);
+  stream_vectors(file, "mesh.position", mesh.positions, origin);
+  stream_vectors(file, "mesh.normal", mesh.normals);
+  stream_rows(file, "mesh.triangle", mesh.triangles);
+  file.add_streamed<std::uint8_t>("mesh.kind", mesh.kind.size(), 1, [&mesh](ArraySink& out) {
+    for (const PatchKind kind : mesh.kind) out.push(static_cast<std::uint8_t>(kind));
+  });
+  stream_column(file, "mesh.patch", mesh.patch);
+  stream_column(file, "mesh.component", mesh.component);
+  stream_column(file, "mesh.atom", mesh.atom);
+  stream_column(file, "mesh.sharp_corner", mesh.sharp_corners);
+  stream_vectors(file, "mesh.sharp_corner_normal", mesh.sharp_corner_normals);
+  stream_rows(file, "mesh.sharp_edge", mesh.sharp_edges);
 }
 
 void add_velocities(MnsWriter& file, const std::vector<glm::dvec3>& velocities) {
-  Floats velocity;
-  for (const glm::dvec3& v : velocities) velocity.push(v);
-  if (!velocities.empty()) file.add("mesh.velocity", velocity.values(), 3);
+  if (!velocities.empty()) stream_vectors(file, "mesh.velocity", velocities);
 }
 
 void add_atoms(MnsWriter& file, const SurfaceObject& object, const AtomAttributes& atoms) {
@@ -146,9 +161,10 @@ void add_concave(MnsWriter& file, const Surface& surface) {
 
 json component_list(const Surface& surface, const TriangleMesh& mesh) {
   json list = json::array();
+  const std::vector<MeshSums> sums = component_sums(mesh, surface.components.size());
   for (std::uint32_t c = 0; c < surface.components.size(); ++c) {
     const Component& component = surface.components[c];
-    const MeshMeasure m = measure(mesh, c);
+    const MeshSums& m = sums[c];
     list.push_back({{"kind", component.kind == ComponentKind::outer ? "outer" : "cavity"},
                     {"area", component.area},
                     {"volume", component.volume},
@@ -173,7 +189,7 @@ json matrix(const RigidMotion& motion) {
 json object_header(const MeshedObject& meshed, const std::string& prefix, const glm::dvec3& origin) {
   const Surface& surface = meshed.object.surface;
   const TriangleMesh& mesh = meshed.mesh;
-  const MeshMeasure m = measure(mesh);
+  const MeshSums m = sums_of(mesh);
   json header{{"name", escaped(meshed.object.name)},
               {"prefix", prefix},
               {"copies", json::array()},

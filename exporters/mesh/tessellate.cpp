@@ -7,6 +7,9 @@
 #include <map>
 #include <set>
 #include <tuple>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -27,6 +30,15 @@ constexpr int kUntanglingRounds = 24;
 constexpr std::uint32_t kSeamNames = 1024;
 /// Normals of neighbouring faces that differ by more than this (radian) make a sharp vertex.
 constexpr double kSharpAngle = 1e-4;
+/// Faces whose rows are made at the same time.
+constexpr std::uint32_t kFacesTogether = 1 << 14;
+
+/// Memory of many small blocks stays with the process after they are freed, unless the allocator is asked.
+void return_free_memory() {
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
+}
 
 class Tessellation {
  public:
@@ -43,11 +55,13 @@ class Tessellation {
     part_shared_edges();
     tbb::parallel_for(std::size_t{0}, faces_.size(), [&](std::size_t f) {
       color_face(surface_, surface_.faces[f], faces_[f], options_.split_colors);
+      give_back_room(faces_[f]);
     });
     number_vertices();
-    for (std::uint32_t f = 0; f < faces_.size(); ++f) append_face(f);
-    add_sharp_edges();
+    for_each_chunk([&](std::uint32_t first, std::uint32_t last) { note_normals(first, last); });
     finish_normals();
+    for_each_chunk([&](std::uint32_t first, std::uint32_t last) { append_faces(first, last); });
+    add_sharp_edges();
     mesh_.tolerance = options_.tolerance;
     return std::move(mesh_);
   }
@@ -75,7 +89,16 @@ class Tessellation {
     if (face.loop_count == 0) return whole_sphere(surface_, face, lattices_.at(face_frequency(face)));
     FaceOutline rim = outline(f);
     if (rim.edges.size() < 3) return {};  // shrunk to a point or to one line
-    return fill_outline(std::move(rim), options_.tolerance);
+    FaceMesh mesh = fill_outline(std::move(rim), options_.tolerance);
+    give_back_room(mesh);
+    return mesh;
+  }
+  /// Lists that grew row by row have room for half as much again.
+  static void give_back_room(FaceMesh& mesh) {
+    mesh.points.shrink_to_fit();
+    mesh.triangles.shrink_to_fit();
+    mesh.atom.shrink_to_fit();
+    mesh.bridges.shrink_to_fit();
   }
 
   void fill_faces() {
@@ -106,6 +129,19 @@ class Tessellation {
     });
   }
 
+  bool on_seam(const FaceMesh& mesh, const std::array<int, 2>& edge) const {
+    return mesh.rim[edge[0]].border == kSeam || mesh.rim[edge[1]].border == kSeam;
+  }
+  std::size_t bridge_count() const {
+    std::size_t count = 0;
+    for (const FaceMesh& mesh : faces_) {
+      count += mesh.bridges.size();
+      for (const auto& edge : mesh.rim_edges) count += on_seam(mesh, edge);
+    }
+    for (std::uint32_t b = 0; b < surface_.borders.size(); ++b) count += samples_.segment_count(b);
+    return count;
+  }
+
   /// Two faces may each draw an inner edge between the same two rim points; all such edges get a vertex of their own.
   void part_shared_edges() {
     struct Bridge {
@@ -115,6 +151,7 @@ class Tessellation {
       auto key() const { return std::tie(a, b); }
     };
     std::vector<Bridge> bridges;
+    bridges.reserve(bridge_count());
     auto add = [&](std::uint32_t f, int u, int w, std::uint32_t face, std::uint32_t index) {
       BorderPoint a = faces_[f].rim[u], b = faces_[f].rim[w];
       for (BorderPoint* p : {&a, &b}) {
@@ -127,8 +164,8 @@ class Tessellation {
         const auto [u, w] = faces_[f].bridges[i];
         add(f, u, w, f, i);
       }
-      for (const auto& [u, w] : faces_[f].rim_edges) {
-        if (faces_[f].rim[u].border == kSeam || faces_[f].rim[w].border == kSeam) add(f, u, w, kNone, 0);
+      for (const auto& edge : faces_[f].rim_edges) {
+        if (on_seam(faces_[f], edge)) add(f, edge[0], edge[1], kNone, 0);
       }
     }
     for (std::uint32_t b = 0; b < surface_.borders.size(); ++b) {
@@ -172,22 +209,151 @@ class Tessellation {
     normal_.resize(mesh_.positions.size(), glm::dvec3(0.0));
     first_normal_ = normal_;
     sharp_.resize(mesh_.positions.size(), false);
+    make_room();
+  }
+
+  /// Vertices that no other face has.
+  static std::uint32_t own_vertex_count(const FaceMesh& mesh) {
+    std::set<std::uint32_t> seam;
+    for (const BorderPoint& name : mesh.rim)
+      if (name.border == kSeam) seam.insert(name.index);
+    return static_cast<std::uint32_t>(mesh.points.size() - mesh.rim.size() + seam.size());
+  }
+  void make_room() {
+    std::size_t vertices = mesh_.positions.size(), triangles = 0;
+    for (const FaceMesh& mesh : faces_) {
+      vertices += own_vertex_count(mesh);
+      triangles += mesh.triangles.size();
+    }
+    mesh_.positions.reserve(vertices);
+    mesh_.normals.reserve(vertices);
+    mesh_.triangles.reserve(triangles);
+    mesh_.kind.reserve(triangles);
+    for (std::vector<std::uint32_t>* column : {&mesh_.face, &mesh_.patch, &mesh_.component, &mesh_.atom})
+      column->reserve(triangles);
+  }
+  template <typename Work>
+  void for_each_chunk(const Work& work) const {
+    const auto count = static_cast<std::uint32_t>(faces_.size());
+    for (std::uint32_t first = 0; first < count; first += kFacesTogether)
+      work(first, std::min(first + kFacesTogether, count));
   }
   std::uint32_t number(const BorderPoint& name) const {
     return name.border == kNone ? vertex_number_[name.index] : border_number_[name.border] + name.index;
   }
 
-  void append_face(std::uint32_t f) {
+  /// Is corner v of a face's triangle a vertex that other faces have, too?
+  static bool is_shared(const FaceMesh& part, std::uint32_t v) {
+    return v < part.rim.size() && part.rim[v].border != kSeam;
+  }
+  static glm::dvec3 corner_normal(const FaceMesh& part, std::size_t triangle, int k) {
+    const auto& v = part.triangles[triangle];
+    return part.domain->corner_normal(part.points[v[k]], part.points[v[(k + 1) % 3]], part.points[v[(k + 2) % 3]]);
+  }
+
+  /// Calls look(triangle, corner, vertex) for the corners of a face's triangles at shared vertices.
+  template <typename Look>
+  void for_each_shared_corner(const FaceMesh& part, const Look& look) const {
+    for (std::size_t t = 0; t < part.triangles.size(); ++t)
+      for (int k = 0; k < 3; ++k) {
+        const std::uint32_t v = part.triangles[t][k];
+        if (is_shared(part, v)) look(t, k, number(part.rim[v]));
+      }
+  }
+
+  /// The normals of shared vertices add up in the order of the faces.
+  void note_normals(std::uint32_t first, std::uint32_t last) {
+    std::vector<std::vector<glm::dvec3>> normals(last - first);
+    tbb::parallel_for(first, last, [&](std::uint32_t f) {
+      for_each_shared_corner(faces_[f], [&](std::size_t t, int k, std::uint32_t) {
+        normals[f - first].push_back(corner_normal(faces_[f], t, k));
+      });
+    });
+    for (std::uint32_t f = first; f < last; ++f) {
+      auto normal = normals[f - first].begin();
+      for_each_shared_corner(faces_[f],
+                             [&](std::size_t, int, std::uint32_t vertex) { note_normal(vertex, *normal++); });
+    }
+  }
+  void note_normal(std::uint32_t vertex, const glm::dvec3& n) {
+    if (first_normal_[vertex] == glm::dvec3(0.0)) first_normal_[vertex] = n;
+    if (glm::distance(first_normal_[vertex], n) > kSharpAngle) sharp_[vertex] = true;
+    normal_[vertex] += n;
+  }
+  void finish_normals() {
+    for (std::size_t i = 0; i < normal_.size(); ++i) {
+      const double size = glm::length(normal_[i]);
+      mesh_.normals.push_back(sharp_[i] && size > 1e-6 ? normal_[i] / size : first_normal_[i]);
+    }
+    normal_ = {};
+    first_normal_ = {};
+  }
+
+  /// Where the rows of a face begin.
+  struct FacePlace {
+    std::uint32_t vertex = 0, triangle = 0;
+  };
+  /// Corners without a single normal.
+  struct SharpCorners {
+    std::vector<std::uint32_t> corners;
+    std::vector<glm::dvec3> normals;
+  };
+
+  /// Moves what faces have into the mesh. Of a large molecule both together would need twice the memory.
+  void append_faces(std::uint32_t first, std::uint32_t last) {
+    std::vector<FacePlace> places;
+    FacePlace next{static_cast<std::uint32_t>(mesh_.positions.size()),
+                   static_cast<std::uint32_t>(mesh_.triangles.size())};
+    for (std::uint32_t f = first; f < last; ++f) {
+      places.push_back(next);
+      next.vertex += own_vertex_count(faces_[f]);
+      next.triangle += static_cast<std::uint32_t>(faces_[f].triangles.size());
+    }
+    mesh_.positions.resize(next.vertex);
+    mesh_.normals.resize(next.vertex);
+    mesh_.triangles.resize(next.triangle);
+    mesh_.kind.resize(next.triangle);
+    for (std::vector<std::uint32_t>* column : {&mesh_.face, &mesh_.patch, &mesh_.component, &mesh_.atom})
+      column->resize(next.triangle);
+    std::vector<SharpCorners> sharp(last - first);
+    tbb::parallel_for(first, last, [&](std::uint32_t f) {
+      put_face(f, places[f - first], sharp[f - first]);
+      faces_[f] = {};
+    });
+    for (const SharpCorners& some : sharp) {
+      mesh_.sharp_corners.insert(mesh_.sharp_corners.end(), some.corners.begin(), some.corners.end());
+      mesh_.sharp_corner_normals.insert(mesh_.sharp_corner_normals.end(), some.normals.begin(), some.normals.end());
+    }
+    return_free_memory();
+  }
+  void put_face(std::uint32_t f, const FacePlace& place, SharpCorners& sharp) {
     const FaceMesh& part = faces_[f];
     const Face& face = surface_.faces[f];
+    const std::vector<std::uint32_t> index = put_vertices(part, place.vertex);
+    for (std::size_t t = 0; t < part.triangles.size(); ++t) {
+      const auto& v = part.triangles[t];
+      const std::size_t row = place.triangle + t;
+      mesh_.triangles[row] = {index[v[0]], index[v[1]], index[v[2]]};
+      mesh_.face[row] = f;
+      mesh_.kind[row] = face.kind;
+      mesh_.patch[row] = face.patch;
+      mesh_.component[row] = face.component;
+      mesh_.atom[row] = part.atom[t];
+    }
+    for_each_shared_corner(part, [&](std::size_t t, int k, std::uint32_t vertex) {
+      if (!sharp_[vertex]) return;
+      sharp.corners.push_back(static_cast<std::uint32_t>(3 * (place.triangle + t) + k));
+      sharp.normals.push_back(corner_normal(part, t, k));
+    });
+  }
+  /// The face's own vertices; returns the number of each of its points.
+  std::vector<std::uint32_t> put_vertices(const FaceMesh& part, std::uint32_t next) {
     std::vector<std::uint32_t> index(part.points.size());
     std::map<std::uint32_t, std::uint32_t> seam;
     auto own = [&](std::size_t i) {
-      mesh_.positions.push_back(part.points[i].position);
-      normal_.push_back(part.domain->normal(part.points[i]));
-      first_normal_.push_back(normal_.back());
-      sharp_.push_back(false);
-      return static_cast<std::uint32_t>(mesh_.positions.size() - 1);
+      mesh_.positions[next] = part.points[i].position;
+      mesh_.normals[next] = part.domain->normal(part.points[i]);
+      return next++;
     };
     for (std::size_t i = 0; i < index.size(); ++i) {
       if (i >= part.rim.size()) {
@@ -200,26 +366,7 @@ class Tessellation {
         index[i] = number(part.rim[i]);
       }
     }
-    for (std::size_t t = 0; t < part.triangles.size(); ++t) {
-      const auto& v = part.triangles[t];
-      for (int k = 0; k < 3; ++k) {
-        if (v[k] >= part.rim.size() || part.rim[v[k]].border == kSeam) continue;
-        note_normal(index[v[k]], part.domain->corner_normal(part.points[v[k]], part.points[v[(k + 1) % 3]],
-                                                            part.points[v[(k + 2) % 3]]));
-      }
-      mesh_.triangles.push_back({index[v[0]], index[v[1]], index[v[2]]});
-      mesh_.face.push_back(f);
-      mesh_.kind.push_back(face.kind);
-      mesh_.patch.push_back(face.patch);
-      mesh_.component.push_back(face.component);
-      mesh_.atom.push_back(part.atom[t]);
-      local_.push_back(static_cast<std::uint32_t>(t));
-    }
-  }
-  void note_normal(std::uint32_t vertex, const glm::dvec3& n) {
-    if (first_normal_[vertex] == glm::dvec3(0.0)) first_normal_[vertex] = n;
-    if (glm::distance(first_normal_[vertex], n) > kSharpAngle) sharp_[vertex] = true;
-    normal_[vertex] += n;
+    return index;
   }
 
   void add_sharp_edges() {
@@ -230,23 +377,6 @@ class Tessellation {
       }
     }
   }
-  void finish_normals() {
-    mesh_.normals.resize(mesh_.positions.size());
-    for (std::size_t i = 0; i < normal_.size(); ++i) {
-      const double size = glm::length(normal_[i]);
-      mesh_.normals[i] = sharp_[i] && size > 1e-6 ? normal_[i] / size : first_normal_[i];
-    }
-    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
-      const FaceMesh& part = faces_[mesh_.face[t]];
-      const auto& v = part.triangles[local_[t]];
-      for (int k = 0; k < 3; ++k) {
-        if (!sharp_[mesh_.triangles[t][k]]) continue;
-        mesh_.sharp_corners.push_back(static_cast<std::uint32_t>(3 * t + k));
-        mesh_.sharp_corner_normals.push_back(
-            part.domain->corner_normal(part.points[v[k]], part.points[v[(k + 1) % 3]], part.points[v[(k + 2) % 3]]));
-      }
-    }
-  }
 
   const Surface& surface_;
   const MeshOptions& options_;
@@ -254,8 +384,8 @@ class Tessellation {
   std::map<int, SphereLattice> lattices_;
   std::vector<FaceMesh> faces_;
   TriangleMesh mesh_;
-  std::vector<std::uint32_t> vertex_number_, border_number_, local_;
-  std::vector<glm::dvec3> normal_, first_normal_;
+  std::vector<std::uint32_t> vertex_number_, border_number_;
+  std::vector<glm::dvec3> normal_, first_normal_;  // of vertices that faces share
   std::vector<bool> sharp_;
 };
 

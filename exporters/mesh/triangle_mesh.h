@@ -55,6 +55,16 @@ struct MeshMeasure {
 /// been split at colours, so that it ends where shown and hidden atoms are equally near.
 TriangleMesh shown_part(TriangleMesh mesh, const Coloring& coloring);
 
+/// What triangles add up to, in their order.
+struct MeshSums {
+  std::size_t triangle_count = 0;
+  double area = 0.0;    ///< Å²
+  double volume = 0.0;  ///< Å³, signed as in MeshMeasure
+};
+MeshSums sums_of(const TriangleMesh& mesh);
+/// One for each of the surface's components.
+std::vector<MeshSums> component_sums(const TriangleMesh& mesh, std::size_t component_count);
+
 /// Measures the triangles of one component, or of all when `component` is kNone.
 MeshMeasure measure(const TriangleMesh& mesh, std::uint32_t component = kNone);
 
