@@ -75,6 +75,7 @@ class MnsWriter {
     std::function<void(ArraySink&)> make;
   };
   static const char* type_of(float) { return "<f4"; }
+  static const char* type_of(double) { return "<f8"; }
   static const char* type_of(std::uint32_t) { return "<u4"; }
   static const char* type_of(std::uint8_t) { return "|u1"; }
   void add_bytes(const std::string& name, const char* type, std::span<const std::byte> bytes, std::size_t rows,

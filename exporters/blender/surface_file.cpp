@@ -33,7 +33,6 @@ class Column {
 };
 using Doubles = Column<double>;
 using Floats = Column<float>;
-using Indices = Column<std::uint32_t>;
 
 /// Rows of vectors in single precision, each less `origin`.
 void stream_vectors(MnsWriter& file, const std::string& name, const std::vector<glm::dvec3>& vectors,
@@ -99,64 +98,76 @@ void add_atoms(MnsWriter& file, const SurfaceObject& object, const AtomAttribute
   if (!atoms.chain.empty()) file.add("atom.chain_id", std::span(atoms.chain));
 }
 
+/// A column for each of some fields of a table's rows; push: (sink, row) -> `columns` values.
+template <class T, class Row, class Push>
+void stream_fields(MnsWriter& file, const std::string& name, const std::vector<Row>& table, int columns,
+                   const Push& push) {
+  file.add_streamed<T>(name, table.size(), columns, [&table, push](ArraySink& out) {
+    for (const Row& row : table) push(out, row);
+  });
+}
+
+void push(ArraySink& out, const glm::dvec3& v) {
+  for (int axis = 0; axis < 3; ++axis) out.push(v[axis]);
+}
+
 void add_convex(MnsWriter& file, const Surface& surface) {
-  Indices atom, plane_range;
-  for (const ConvexPatch& patch : surface.convex) {
-    atom.push(patch.atom);
-    plane_range.push(patch.first_plane);
-    plane_range.push(patch.plane_count);
-  }
-  file.add("convex.atom", atom.values());
-  file.add("convex.planes", plane_range.values(), 2);
+  using Out = ArraySink;
+  using Patch = ConvexPatch;
+  stream_fields<std::uint32_t>(file, "convex.atom", surface.convex, 1,
+                               [](Out& out, const Patch& p) { out.push(p.atom); });
+  stream_fields<std::uint32_t>(file, "convex.planes", surface.convex, 2, [](Out& out, const Patch& p) {
+    out.push(p.first_plane);
+    out.push(std::uint32_t{p.plane_count});
+  });
 }
 
 void add_toroidal(MnsWriter& file, const Surface& surface) {
-  Indices atom, probe, pieces;
-  Doubles center, axis, start, circle;
-  for (const ToroidalPatch& patch : surface.toroidal) {
-    for (const bool has_piece : patch.has_piece) pieces.push(has_piece ? 1 : 0);
-    for (const std::uint32_t a : patch.atom) atom.push(a);
-    for (const std::uint32_t p : patch.probe) probe.push(p);
-    center.push(patch.center);
-    axis.push(patch.axis);
-    start.push(patch.start);
-    circle.push(patch.radius);
-    circle.push(patch.sweep);
-  }
-  file.add("toroidal.atoms", atom.values(), 2);
-  file.add("toroidal.probes", probe.values(), 2);
-  file.add("toroidal.pieces", pieces.values(), 2);
-  file.add("toroidal.center", center.values(), 3);
-  file.add("toroidal.axis", axis.values(), 3);
-  file.add("toroidal.start", start.values(), 3);
-  file.add("toroidal.radius_sweep", circle.values(), 2);
+  using Out = ArraySink;
+  using Patch = ToroidalPatch;
+  const std::vector<Patch>& table = surface.toroidal;
+  stream_fields<std::uint32_t>(file, "toroidal.atoms", table, 2, [](Out& out, const Patch& p) {
+    for (const std::uint32_t a : p.atom) out.push(a);
+  });
+  stream_fields<std::uint32_t>(file, "toroidal.probes", table, 2, [](Out& out, const Patch& p) {
+    for (const std::uint32_t probe : p.probe) out.push(probe);
+  });
+  stream_fields<std::uint32_t>(file, "toroidal.pieces", table, 2, [](Out& out, const Patch& p) {
+    for (const bool has_piece : p.has_piece) out.push(std::uint32_t{has_piece});
+  });
+  stream_fields<double>(file, "toroidal.center", table, 3, [](Out& out, const Patch& p) { push(out, p.center); });
+  stream_fields<double>(file, "toroidal.axis", table, 3, [](Out& out, const Patch& p) { push(out, p.axis); });
+  stream_fields<double>(file, "toroidal.start", table, 3, [](Out& out, const Patch& p) { push(out, p.start); });
+  stream_fields<double>(file, "toroidal.radius_sweep", table, 2, [](Out& out, const Patch& p) {
+    out.push(double{p.radius});
+    out.push(double{p.sweep});
+  });
 }
 
 void add_concave(MnsWriter& file, const Surface& surface) {
-  Doubles center;
-  Indices contacts, planes, cuts;
-  for (const ConcavePatch& patch : surface.concave) {
-    center.push(patch.center);
-    contacts.push(patch.first_contact);
-    contacts.push(patch.contact_count);
-    planes.push(patch.first_plane);
-    planes.push(patch.side_count);
-    planes.push(patch.cut_count + patch.parting_count);
-    cuts.push(patch.first_cut);
-    cuts.push(patch.cut_count);
-  }
-  file.add("concave.center", center.values(), 3);
-  file.add("concave.contacts", contacts.values(), 2);
-  file.add("concave.planes", planes.values(), 3);
-  file.add("concave.cuts", cuts.values(), 2);
-  file.add("contact.atom", std::span(surface.contacts));
-  file.add("cut.probe", std::span(surface.cuts));
-  Doubles plane;
-  for (const Plane& p : surface.planes) {
-    plane.push(p.normal);
-    plane.push(p.offset);
-  }
-  file.add("plane", plane.values(), 4);
+  using Out = ArraySink;
+  using Patch = ConcavePatch;
+  const std::vector<Patch>& table = surface.concave;
+  stream_fields<double>(file, "concave.center", table, 3, [](Out& out, const Patch& p) { push(out, p.center); });
+  stream_fields<std::uint32_t>(file, "concave.contacts", table, 2, [](Out& out, const Patch& p) {
+    out.push(p.first_contact);
+    out.push(std::uint32_t{p.contact_count});
+  });
+  stream_fields<std::uint32_t>(file, "concave.planes", table, 3, [](Out& out, const Patch& p) {
+    out.push(p.first_plane);
+    out.push(std::uint32_t{p.side_count});
+    out.push(static_cast<std::uint32_t>(p.cut_count + p.parting_count));
+  });
+  stream_fields<std::uint32_t>(file, "concave.cuts", table, 2, [](Out& out, const Patch& p) {
+    out.push(p.first_cut);
+    out.push(std::uint32_t{p.cut_count});
+  });
+  stream_column(file, "contact.atom", surface.contacts);
+  stream_column(file, "cut.probe", surface.cuts);
+  stream_fields<double>(file, "plane", surface.planes, 4, [](Out& out, const Plane& plane) {
+    push(out, plane.normal);
+    out.push(plane.offset);
+  });
 }
 
 json component_list(const Surface& surface, const TriangleMesh& mesh) {

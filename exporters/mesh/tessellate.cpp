@@ -5,8 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 #include <tuple>
+#include <unordered_map>
+#include <utility>
 #ifdef __GLIBC__
 #include <malloc.h>
 #endif
@@ -31,7 +34,9 @@ constexpr std::uint32_t kSeamNames = 1024;
 /// Normals of neighbouring faces that differ by more than this (radian) make a sharp vertex.
 constexpr double kSharpAngle = 1e-4;
 /// Faces whose rows are made at the same time.
-constexpr std::uint32_t kFacesTogether = 1 << 14;
+constexpr std::uint32_t kFacesTogether = 1 << 12;
+/// After so many faces their memory goes back: to ask for that after each piece of them would take its time.
+constexpr std::uint32_t kFacesFreed = 1 << 14;
 
 /// Memory of many small blocks stays with the process after they are freed, unless the allocator is asked.
 void return_free_memory() {
@@ -45,7 +50,7 @@ class Tessellation {
   Tessellation(const Surface& surface, const MeshOptions& options)
       : surface_(surface),
         options_(options),
-        samples_(surface, options.tolerance, options.split_colors),
+        samples_(std::in_place, surface, options.tolerance, options.split_colors),
         faces_(surface.faces.size()) {}
 
   TriangleMesh run() {
@@ -55,13 +60,16 @@ class Tessellation {
     part_shared_edges();
     tbb::parallel_for(std::size_t{0}, faces_.size(), [&](std::size_t f) {
       color_face(surface_, surface_.faces[f], faces_[f], options_.split_colors);
+      faces_[f].rim_edges = {};
+      faces_[f].bridges = {};
       give_back_room(faces_[f]);
     });
     number_vertices();
-    for_each_chunk([&](std::uint32_t first, std::uint32_t last) { note_normals(first, last); });
-    finish_normals();
-    for_each_chunk([&](std::uint32_t first, std::uint32_t last) { append_faces(first, last); });
     add_sharp_edges();
+    samples_.reset();
+    return_free_memory();
+    find_shared_normals();
+    for_each_chunk([&](std::uint32_t first, std::uint32_t last) { append_faces(first, last); });
     mesh_.tolerance = options_.tolerance;
     return std::move(mesh_);
   }
@@ -81,8 +89,8 @@ class Tessellation {
 
   FaceOutline outline(std::uint32_t f) const {
     const Face& face = surface_.faces[f];
-    if (face.kind == PatchKind::toroidal) return torus_outline(surface_, face, samples_, options_.tolerance);
-    return sphere_outline(surface_, face, samples_, lattices_.at(face_frequency(face)), face_edge(face));
+    if (face.kind == PatchKind::toroidal) return torus_outline(surface_, face, *samples_, options_.tolerance);
+    return sphere_outline(surface_, face, *samples_, lattices_.at(face_frequency(face)), face_edge(face));
   }
   FaceMesh fill(std::uint32_t f) const {
     const Face& face = surface_.faces[f];
@@ -112,7 +120,7 @@ class Tessellation {
       }
       std::set<std::uint32_t> dirty;
       for (auto s = segments.rbegin(); s != segments.rend(); ++s) {  // from the back, so that indices stay true
-        samples_.split(s->first, s->second);
+        samples_->split(s->first, s->second);
         for (std::uint32_t f : surface_.borders[s->first].face) dirty.insert(f);
       }
       todo.assign(dirty.begin(), dirty.end());
@@ -138,7 +146,7 @@ class Tessellation {
       count += mesh.bridges.size();
       for (const auto& edge : mesh.rim_edges) count += on_seam(mesh, edge);
     }
-    for (std::uint32_t b = 0; b < surface_.borders.size(); ++b) count += samples_.segment_count(b);
+    for (std::uint32_t b = 0; b < surface_.borders.size(); ++b) count += samples_->segment_count(b);
     return count;
   }
 
@@ -169,8 +177,8 @@ class Tessellation {
       }
     }
     for (std::uint32_t b = 0; b < surface_.borders.size(); ++b) {
-      for (std::uint32_t k = 0; k < samples_.segment_count(b); ++k) {
-        const auto p = samples_.point(b, k), q = samples_.point(b, k + 1);
+      for (std::uint32_t k = 0; k < samples_->segment_count(b); ++k) {
+        const auto p = samples_->point(b, k), q = samples_->point(b, k + 1);
         bridges.push_back({std::min(p, q), std::max(p, q), kNone, 0});
       }
     }
@@ -201,14 +209,11 @@ class Tessellation {
     }
     border_number_.resize(surface_.borders.size());
     for (std::uint32_t b = 0; b < surface_.borders.size(); ++b) {
-      const std::uint32_t n = samples_.segment_count(b);
+      const std::uint32_t n = samples_->segment_count(b);
       const bool ring = surface_.borders[b].vertex[0] == kNone;
       border_number_[b] = ring ? next : next - 1;  // sample 1 of an arc is its first inner point
-      for (std::uint32_t k = ring ? 0 : 1; k < n; ++k, ++next) mesh_.positions.push_back(samples_.position(b, k));
+      for (std::uint32_t k = ring ? 0 : 1; k < n; ++k, ++next) mesh_.positions.push_back(samples_->position(b, k));
     }
-    normal_.resize(mesh_.positions.size(), glm::dvec3(0.0));
-    first_normal_ = normal_;
-    sharp_.resize(mesh_.positions.size(), false);
     make_room();
   }
 
@@ -261,32 +266,38 @@ class Tessellation {
       }
   }
 
-  /// The normals of shared vertices add up in the order of the faces.
-  void note_normals(std::uint32_t first, std::uint32_t last) {
-    std::vector<std::vector<glm::dvec3>> normals(last - first);
-    tbb::parallel_for(first, last, [&](std::uint32_t f) {
-      for_each_shared_corner(faces_[f], [&](std::size_t t, int k, std::uint32_t) {
-        normals[f - first].push_back(corner_normal(faces_[f], t, k));
+  /// Calls note(vertex, normal) for the corners at shared vertices that are wanted, face after face.
+  template <typename Wanted, typename Note>
+  void for_each_shared_normal(const Wanted& wanted, const Note& note) const {
+    for_each_chunk([&](std::uint32_t first, std::uint32_t last) {
+      std::vector<std::vector<std::pair<std::uint32_t, glm::dvec3>>> normals(last - first);
+      tbb::parallel_for(first, last, [&](std::uint32_t f) {
+        for_each_shared_corner(faces_[f], [&](std::size_t t, int k, std::uint32_t vertex) {
+          if (wanted(vertex)) normals[f - first].emplace_back(vertex, corner_normal(faces_[f], t, k));
+        });
       });
+      for (const auto& of_face : normals)
+        for (const auto& [vertex, normal] : of_face) note(vertex, normal);
     });
-    for (std::uint32_t f = first; f < last; ++f) {
-      auto normal = normals[f - first].begin();
-      for_each_shared_corner(faces_[f],
-                             [&](std::size_t, int, std::uint32_t vertex) { note_normal(vertex, *normal++); });
-    }
   }
-  void note_normal(std::uint32_t vertex, const glm::dvec3& n) {
-    if (first_normal_[vertex] == glm::dvec3(0.0)) first_normal_[vertex] = n;
-    if (glm::distance(first_normal_[vertex], n) > kSharpAngle) sharp_[vertex] = true;
-    normal_[vertex] += n;
-  }
-  void finish_normals() {
-    for (std::size_t i = 0; i < normal_.size(); ++i) {
-      const double size = glm::length(normal_[i]);
-      mesh_.normals.push_back(sharp_[i] && size > 1e-6 ? normal_[i] / size : first_normal_[i]);
-    }
-    normal_ = {};
-    first_normal_ = {};
+
+  /// That of the first corner or, where faces do not agree, the mean of all. Few vertices are sharp, so the sums of
+  /// these alone are worth a second walk.
+  void find_shared_normals() {
+    std::vector<glm::dvec3>& normals = mesh_.normals;
+    normals.resize(mesh_.positions.size(), glm::dvec3(0.0));
+    sharp_.resize(normals.size(), false);
+    for_each_shared_normal([](std::uint32_t) { return true; },
+                           [&](std::uint32_t vertex, const glm::dvec3& n) {
+                             if (normals[vertex] == glm::dvec3(0.0)) normals[vertex] = n;
+                             if (glm::distance(normals[vertex], n) > kSharpAngle) sharp_[vertex] = true;
+                           });
+    std::unordered_map<std::uint32_t, glm::dvec3> sums;
+    for_each_shared_normal(
+        [&](std::uint32_t vertex) { return sharp_[vertex]; },
+        [&](std::uint32_t vertex, const glm::dvec3& n) { sums.try_emplace(vertex, 0.0).first->second += n; });
+    for (const auto& [vertex, sum] : sums)
+      if (const double size = glm::length(sum); size > 1e-6) normals[vertex] = sum / size;
   }
 
   /// Where the rows of a face begin.
@@ -324,7 +335,7 @@ class Tessellation {
       mesh_.sharp_corners.insert(mesh_.sharp_corners.end(), some.corners.begin(), some.corners.end());
       mesh_.sharp_corner_normals.insert(mesh_.sharp_corner_normals.end(), some.normals.begin(), some.normals.end());
     }
-    return_free_memory();
+    if (last % kFacesFreed == 0) return_free_memory();
   }
   void put_face(std::uint32_t f, const FacePlace& place, SharpCorners& sharp) {
     const FaceMesh& part = faces_[f];
@@ -372,20 +383,19 @@ class Tessellation {
   void add_sharp_edges() {
     for (std::uint32_t b = 0; b < surface_.borders.size(); ++b) {
       if (surface_.borders[b].kind != BorderKind::cusp) continue;
-      for (std::uint32_t k = 0; k < samples_.segment_count(b); ++k) {
-        mesh_.sharp_edges.push_back({number(samples_.point(b, k)), number(samples_.point(b, k + 1))});
+      for (std::uint32_t k = 0; k < samples_->segment_count(b); ++k) {
+        mesh_.sharp_edges.push_back({number(samples_->point(b, k)), number(samples_->point(b, k + 1))});
       }
     }
   }
 
   const Surface& surface_;
   const MeshOptions& options_;
-  BorderSamples samples_;
+  std::optional<BorderSamples> samples_;  // until vertices are numbered
   std::map<int, SphereLattice> lattices_;
   std::vector<FaceMesh> faces_;
   TriangleMesh mesh_;
   std::vector<std::uint32_t> vertex_number_, border_number_;
-  std::vector<glm::dvec3> normal_, first_normal_;  // of vertices that faces share
   std::vector<bool> sharp_;
 };
 
@@ -396,6 +406,7 @@ TriangleMesh tessellate(const Surface& surface, const MeshOptions& options) {
     throw Error(fmt::format("mesh tolerance: {} Å, give a number above 0", options.tolerance));
   }
   TriangleMesh mesh = Tessellation(surface, options).run();
+  return_free_memory();
   if (!mesh.triangles.empty() && !measure(mesh).closed) {
     throw OpenSurfaceError(fmt::format("the mesh at {} Å is not closed; give another tolerance", options.tolerance));
   }

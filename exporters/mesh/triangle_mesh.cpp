@@ -3,6 +3,7 @@
 #include "exporters/mesh/triangle_mesh.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include <glm/geometric.hpp>
 
@@ -28,39 +29,40 @@ void add(double area, double volume, MeshSums& sums) {
   sums.volume += volume;
 }
 
-/// Directed edges, listed by their lower vertex: a mesh has three times as many as triangles.
+/// The directed edges whose lower vertex lies in a range; all of a large mesh would take as much memory as the mesh.
 class EdgeLists {
  public:
-  EdgeLists(const TriangleMesh& mesh, std::uint32_t component) : starts_(mesh.positions.size() + 1, 0) {
-    for_each_edge(mesh, component, [&](std::uint32_t from, std::uint32_t to) { ++starts_[std::min(from, to) + 1]; });
-    for (std::size_t v = 1; v < starts_.size(); ++v) starts_[v] += starts_[v - 1];
+  static constexpr std::uint32_t kVertices = 1u << 21;
+
+  /// Of the vertices [first, first + kVertices).
+  EdgeLists(const TriangleMesh& mesh, std::uint32_t component, std::uint32_t first) : first_(first) {
+    const auto last = std::min(std::size_t{first} + kVertices, mesh.positions.size());
+    starts_.assign(last - first + 1, 0);
+    for_each_edge(mesh, component, [&](std::uint32_t lower, const End&) { ++starts_[lower]; });
+    std::partial_sum(starts_.begin(), starts_.end(), starts_.begin());
     ends_.resize(starts_.back());
-    std::vector<std::size_t> next(starts_.begin(), starts_.end() - 1);
-    for_each_edge(mesh, component, [&](std::uint32_t from, std::uint32_t to) {
-      has_loop_ = has_loop_ || from == to;
-      ends_[next[std::min(from, to)]++] = {std::max(from, to), from < to};
-    });
+    for_each_edge(mesh, component, [&](std::uint32_t lower, const End& end) { ends_[--starts_[lower]] = end; });
     for (std::size_t v = 0; v + 1 < starts_.size(); ++v)
-      std::sort(ends_.begin() + std::ptrdiff_t(starts_[v]), ends_.begin() + std::ptrdiff_t(starts_[v + 1]));
+      std::sort(ends_.begin() + starts_[v], ends_.begin() + starts_[v + 1]);
   }
 
   std::size_t size() const { return ends_.size(); }
 
-  /// Every edge is there once in each direction.
-  bool closed() const {
-    if (ends_.empty() || has_loop_) return false;
+  /// Each edge is there once in each direction, and none ends where it begins.
+  bool paired() const {
     for (std::size_t v = 0; v + 1 < starts_.size(); ++v) {
       if ((starts_[v + 1] - starts_[v]) % 2 != 0) return false;
       for (std::size_t i = starts_[v]; i < starts_[v + 1]; i += 2) {
         const bool pair = ends_[i].vertex == ends_[i + 1].vertex && ends_[i].upwards != ends_[i + 1].upwards;
         const bool again = i + 2 < starts_[v + 1] && ends_[i + 2].vertex == ends_[i].vertex;
-        if (!pair || again) return false;
+        if (!pair || again || ends_[i].vertex == first_ + v) return false;
       }
     }
     return true;
   }
 
  private:
+  /// The higher vertex, and whether the edge goes there.
   struct End {
     std::uint32_t vertex : 31, upwards : 1;
     bool operator<(const End& other) const {
@@ -69,17 +71,21 @@ class EdgeLists {
   };
 
   template <typename Look>
-  static void for_each_edge(const TriangleMesh& mesh, std::uint32_t component, const Look& look) {
+  void for_each_edge(const TriangleMesh& mesh, std::uint32_t component, const Look& look) const {
+    const std::size_t count = starts_.size() - 1;
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
       if (component != kNone && mesh.component[i] != component) continue;
       const auto& t = mesh.triangles[i];
-      for (int k = 0; k < 3; ++k) look(t[k], t[(k + 1) % 3]);
+      for (int k = 0; k < 3; ++k) {
+        const std::uint32_t from = t[k], to = t[(k + 1) % 3], lower = std::min(from, to);
+        if (lower >= first_ && lower - first_ < count) look(lower - first_, {std::max(from, to), from < to});
+      }
     }
   }
 
-  std::vector<std::size_t> starts_;
+  std::uint32_t first_;
+  std::vector<std::uint32_t> starts_;  // where the list of each vertex begins, and where the last one ends
   std::vector<End> ends_;
-  bool has_loop_ = false;
 };
 
 }  // namespace
@@ -108,9 +114,15 @@ MeshMeasure measure(const TriangleMesh& mesh, std::uint32_t component) {
     for (const std::uint32_t v : mesh.triangles[i]) used[v] = true;
   });
   m.vertex_count = static_cast<std::size_t>(std::count(used.begin(), used.end(), true));
-  const EdgeLists edges(mesh, component);
-  m.closed = edges.closed();
-  m.edge_count = edges.size() / 2;
+  std::size_t directed = 0;
+  m.closed = true;
+  for (std::size_t first = 0; first < mesh.positions.size(); first += EdgeLists::kVertices) {
+    const EdgeLists edges(mesh, component, static_cast<std::uint32_t>(first));
+    m.closed = m.closed && edges.paired();
+    directed += edges.size();
+  }
+  m.closed = m.closed && directed > 0;
+  m.edge_count = directed / 2;
   return m;
 }
 
