@@ -19,6 +19,7 @@ __attribute__((constructor)) void plan_what_was_asked_for() {
   if (kind == "drop_from") fault.kind = GlFault::Kind::drop_from;
   if (kind == "drop_one") fault.kind = GlFault::Kind::drop_one;
   if (kind == "out_of_memory") fault.kind = GlFault::Kind::out_of_memory;
+  if (kind == "idle") fault.kind = GlFault::Kind::idle;
   if (kind == "reset") fault.kind = GlFault::Kind::reset;
   if (fault.kind == GlFault::Kind::none) std::abort();
   meniscus::testing::plan(fault);

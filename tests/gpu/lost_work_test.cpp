@@ -115,7 +115,7 @@ class LostWork : public ::testing::Test {
   /// Runs the job as it is, then with the fault at every call that it makes.
   void survives(const Job& job) {
     EXPECT_EQ(outcome_of(job, {}).different, "");
-    const std::uint32_t dispatches = dispatches_seen(), questions = error_questions_seen();
+    const std::uint32_t dispatches = calls_seen().dispatches, questions = calls_seen().error_questions;
     EXPECT_GT(dispatches, 5u);
     int found_out = 0;
     for (const auto& [kind, count] : {std::pair{Kind::drop_from, dispatches},
@@ -126,7 +126,7 @@ class LostWork : public ::testing::Test {
         const Outcome outcome = outcome_of(job, {kind, n});
         EXPECT_EQ(outcome.different, "") << static_cast<int>(kind) << " at " << n << " of " << count;
         EXPECT_EQ(outcome.capacity_error && kind != Kind::out_of_memory, false) << "a misleading error at " << n;
-        const bool lost = kind == Kind::reset && error_questions_seen() > n;
+        const bool lost = kind == Kind::reset && calls_seen().error_questions > n;
         EXPECT_LE(lost, outcome.gpu_error) << "a lost context unnoticed at " << n;
         found_out += outcome.gpu_error;
         plan({});
@@ -185,7 +185,7 @@ TEST_F(LostWork, NobodyWaitsButForExactTimes) {
     settings_.timing = timing;
     view.renderer.draw(view.surface, camera_, settings_);
     view.renderer.render(surface, coloring_, camera_, settings_);
-    return waits_seen();
+    return calls_seen().finishes;
   };
   EXPECT_EQ(waits(StageTiming::rough), 0u);
   EXPECT_GT(waits(StageTiming::exact), 20u);
