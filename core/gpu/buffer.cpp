@@ -3,6 +3,7 @@
 #include "core/gpu/buffer.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cassert>
 #include <utility>
 
@@ -14,6 +15,14 @@
 #include "core/gpu/work_proof.h"
 
 namespace meniscus {
+namespace {
+
+/// An empty buffer still gets memory, so that it can be bound; whole 16-byte rows suit fill() and vec4 arrays.
+std::size_t in_rows(std::size_t byte_count) { return byte_count < 16 ? 16 : (byte_count + 15) / 16 * 16; }
+
+std::atomic<std::uint64_t> allocations = 0;
+
+}  // namespace
 
 Buffer::~Buffer() {
   if (name_) glDeleteBuffers(1, &name_);
@@ -23,28 +32,32 @@ Buffer::Buffer(Buffer&& other) noexcept { *this = std::move(other); }
 
 Buffer& Buffer::operator=(Buffer&& other) noexcept {
   std::swap(name_, other.name_);
+  std::swap(memory_, other.memory_);
   std::swap(byte_count_, other.byte_count_);
   std::swap(capacity_, other.capacity_);
   return *this;
 }
 
 void Buffer::resize(std::size_t byte_count) {
-  // An empty buffer still gets memory, so that it can be bound; whole 16-byte rows suit fill() and vec4 arrays.
-  const std::size_t needed = byte_count < 16 ? 16 : (byte_count + 15) / 16 * 16;
-  if (needed > capacity_) {
+  if (in_rows(byte_count) > capacity_) {
+    const std::size_t room = capacity_ > 0 ? byte_count / 8 : 0;
+    const std::size_t needed = in_rows(byte_count + room);
     if (name_) glDeleteBuffers(1, &name_);
     name_ = 0;
-    capacity_ = byte_count_ = 0;
+    capacity_ = byte_count_ = memory_ = 0;
     glCreateBuffers(1, &name_);
     glNamedBufferStorage(name_, static_cast<GLsizeiptr>(needed), nullptr, GL_DYNAMIC_STORAGE_BIT);
     check_gl("allocating a buffer");
     capacity_ = needed;
+    memory_ = ++allocations;
   }
   byte_count_ = byte_count;
 }
 
 void Buffer::grow(std::size_t byte_count) {
+  if (in_rows(byte_count) <= capacity_) return resize(byte_count);
   Buffer old = std::move(*this);
+  resize(byte_count + byte_count / 8);
   resize(byte_count);
   if (old.byte_count_ == 0) return;
   glCopyNamedBufferSubData(old.name_, name_, 0, 0, static_cast<GLsizeiptr>(std::min(old.byte_count_, byte_count)));

@@ -24,7 +24,8 @@ class Buffer {
   Buffer(Buffer&& other) noexcept;
   Buffer& operator=(Buffer&& other) noexcept;
 
-  /// Makes room for `byte_count` bytes; keeps the memory it has if that is enough, and loses the content if not.
+  /// Makes room for `byte_count` bytes; keeps the memory it has if that is enough, and loses the content if not. A
+  /// buffer that had memory gets some more than it asks for, so that sizes that sway from frame to frame settle.
   void resize(std::size_t byte_count);
   /// Makes room like resize, but keeps the content.
   void grow(std::size_t byte_count);
@@ -62,12 +63,15 @@ class Buffer {
   void bind(std::uint32_t binding) const;
   /// For dispatch_indirect.
   std::uint32_t gl_name() const { return name_; }
+  /// Names the memory it has: another one after each allocation of any buffer, 0 for none. GL uses its names again.
+  std::uint64_t memory() const { return memory_; }
 
   void write(std::size_t byte_offset, const void* bytes, std::size_t byte_count);
   void read(std::size_t byte_offset, void* bytes, std::size_t byte_count) const;
 
  private:
   std::uint32_t name_ = 0;
+  std::uint64_t memory_ = 0;
   std::size_t byte_count_ = 0;  ///< what was asked for
   std::size_t capacity_ = 0;
 };

@@ -31,11 +31,13 @@ void TexelBuffer::attach(const Buffer& storage) {
   const std::size_t texels = storage.byte_count() / (format_ == TexelFormat::uint1 ? 4 : 16);
   if (texels > static_cast<std::size_t>(limit))
     throw CapacityError(fmt::format("{} texels are needed; this driver's limit is {}", texels, limit));
-  // Made anew each time: the buffer may have moved, and its end has.
-  if (texture_) glDeleteTextures(1, &texture_);
-  glCreateTextures(GL_TEXTURE_BUFFER, 1, &texture_);
+  // It shows all of the buffer's memory, so nothing changes as long as that stays.
+  if (shown_ == storage.memory()) return;
+  if (!texture_) glCreateTextures(GL_TEXTURE_BUFFER, 1, &texture_);
   glTextureBuffer(texture_, format_ == TexelFormat::uint1 ? GL_R32UI : GL_RGBA32UI, storage.gl_name());
+  shown_ = 0;
   check_gl("making a buffer texture");
+  shown_ = storage.memory();
 }
 
 void TexelBuffer::bind(std::uint32_t unit) const { glBindTextureUnit(unit, texture_); }

@@ -43,6 +43,7 @@ class TexelBuffer {
   TexelFormat format_;
   Buffer buffer_;
   std::uint32_t texture_ = 0;
+  std::uint64_t shown_ = 0;  ///< Buffer::memory()
 };
 
 }  // namespace meniscus

@@ -18,8 +18,9 @@ void LookPass::add(const CastSample& sample, const Look& look, const GpuScene& s
     program.dispatch_2d((static_cast<std::uint32_t>(block.size.x) + 7) / 8,
                         (static_cast<std::uint32_t>(block.size.y) + 7) / 8);
   };
-  hit_texels_.view(sample.hits);
-  hit_texels_.bind(0);
+  TexelBuffer& hit_texels = sample.index == 0 ? first_hit_texels_ : hit_texels_;
+  hit_texels.view(sample.hits);
+  hit_texels.bind(0);
   atom_part_texels_.view(scene.parts);
   atom_part_texels_.bind(2);
   depths_.bind(0);

@@ -36,8 +36,9 @@ class LookPass {
  private:
   ProgramCache& programs_;
   Buffer depths_, parts_, visibility_;
-  TexelBuffer hit_texels_{TexelFormat::uint4}, depth_texels_{TexelFormat::uint1},
-      visibility_texels_{TexelFormat::uint1}, part_texels_{TexelFormat::uint1}, atom_part_texels_{TexelFormat::uint1};
+  TexelBuffer first_hit_texels_{TexelFormat::uint4}, hit_texels_{TexelFormat::uint4};  // of sample 0, of the others
+  TexelBuffer depth_texels_{TexelFormat::uint1}, visibility_texels_{TexelFormat::uint1},
+      part_texels_{TexelFormat::uint1}, atom_part_texels_{TexelFormat::uint1};
 };
 
 }  // namespace meniscus
