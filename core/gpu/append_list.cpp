@@ -51,4 +51,31 @@ void append_all(std::initializer_list<AppendList*> lists, Buffer& counters, std:
   for (AppendList* list : lists) list->settle(*count++);
 }
 
+void append_later(std::initializer_list<AppendList*> lists, Buffer& counters, std::span<std::uint32_t> counted,
+                  const std::function<void()>& run) {
+  std::ranges::fill(counted, 0u);
+  for (AppendList* list : lists) {
+    list->clear();
+    list->leave_open();
+    list->make_room();
+  }
+  if (counters.byte_count() < counted.size_bytes()) counters.resize(counted.size_bytes());
+  counters.write(0, counted.data(), counted.size_bytes());
+  run();
+}
+
+bool settle_all(std::initializer_list<AppendList*> lists, std::span<const std::uint32_t> counted) {
+  assert(lists.size() <= counted.size());
+  bool all_fit = true;
+  auto count = counted.begin();
+  for (AppendList* list : lists) {
+    if (list->fits(*count))
+      list->settle(*count);
+    else
+      list->clear(), all_fit = false;
+    ++count;
+  }
+  return all_fit;
+}
+
 }  // namespace meniscus

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/gpu/buffer.h"
+#include "core/gpu/readback.h"
 
 namespace meniscus {
 
@@ -21,16 +22,23 @@ class AppendList {
   AppendList(std::size_t record_bytes, std::uint32_t first_capacity, std::size_t header_bytes = 0)
       : record_bytes_(record_bytes), header_bytes_(header_bytes), capacity_(first_capacity) {}
 
-  std::uint32_t count() const { return count_; }        ///< records
+  std::uint32_t count() const { return count_; }  ///< records; while their number is open, as it was before
+  /// No more records than that are here: their count, or, while that is open, the capacity.
+  std::uint32_t most() const { return open_ ? capacity_ : count_; }
   std::uint32_t capacity() const { return capacity_; }  ///< records that the buffer has room for, once make_room() ran
   /// Forgets all records.
-  void clear() { count_ = 0; }
+  void clear() { count_ = 0, open_ = false; }
   /// Makes the buffer as large as the capacity, and keeps the records. Throws CapacityError.
   void make_room();
   /// Whether so many records, which a kernel counted, all have a place. If not the capacity grows.
   bool fits(std::uint32_t counted);
   /// Takes the kernel's count, which fits.
-  void settle(std::uint32_t counted) { count_ = counted; }
+  void settle(std::uint32_t counted) { last_ = count_ = counted, open_ = false; }
+  /// A kernel appends whose count the host learns later, no more records than it last had and some room.
+  void leave_open() {
+    capacity_ = last_ + last_ / 8 + 64;
+    open_ = true;
+  }
   /// Replaces all records by those that the host has; there is room for no others.
   template <typename Record>
   void upload(const std::vector<Record>& records) {
@@ -53,6 +61,8 @@ class AppendList {
   std::size_t record_bytes_, header_bytes_;
   std::uint32_t count_ = 0;
   std::uint32_t capacity_;
+  std::uint32_t last_ = 0;  ///< count when it was settled last
+  bool open_ = false;
 };
 
 /// Runs kernels that append to `lists`, again and again until every record has its place. Before each run the lists
@@ -60,5 +70,13 @@ class AppendList {
 /// one `counted` holds what the kernels made of them. Throws CapacityError, GpuError.
 void append_all(std::initializer_list<AppendList*> lists, Buffer& counters, std::span<std::uint32_t> counted,
                 const std::function<void()>& run);
+
+/// Runs them once, on empty lists that have the room that they needed last time and some more. The counts are open
+/// until settle_all(). Throws CapacityError, GpuError.
+void append_later(std::initializer_list<AppendList*> lists, Buffer& counters, std::span<std::uint32_t> counted,
+                  const std::function<void()>& run);
+
+/// Takes the words of `counters` once they have been read back; false if some record had no place.
+bool settle_all(std::initializer_list<AppendList*> lists, std::span<const std::uint32_t> counted);
 
 }  // namespace meniscus

@@ -56,6 +56,8 @@ class Buffer {
   void download(std::span<T> values, std::size_t byte_offset = 0) const {
     read(byte_offset, values.data(), values.size_bytes());
   }
+  /// Copies bytes of `source` from `byte_offset` on to the place `to`, on the GPU.
+  void copy(const Buffer& source, std::size_t byte_offset, std::size_t to, std::size_t byte_count);
   /// Sets every 4-byte word.
   void fill(std::uint32_t word);
 

@@ -15,8 +15,8 @@ class PrefixSum {
   explicit PrefixSum(ProgramCache& programs) : programs_(programs) {}
 
   /// Replaces each of the first `count` words by the sum of those before it; words[count] becomes the sum of all.
-  /// `words` holds count + 1 words.
-  void operator()(const Buffer& words, std::uint32_t count);
+  /// `words` holds count + 1 words. No sum gets larger than `limit`: places in a list that has no more room.
+  void operator()(const Buffer& words, std::uint32_t count, std::uint32_t limit = ~0u);
 
  private:
   ProgramCache& programs_;

@@ -2,7 +2,9 @@
 // An atomic counter, copies of indirect group counts, and their comparison with what the host started.
 #include "core/gpu/work_proof.h"
 
+#include <algorithm>
 #include <array>
+#include <cassert>
 
 #include <epoxy/gl.h>
 #include <fmt/format.h>
@@ -20,7 +22,7 @@ constexpr std::uint32_t kMostIndirect = 64;  // dispatches between two proofs; a
 /// The GL buffer as the host reads it.
 struct Account {
   std::uint32_t finished = 0;
-  std::array<std::uint32_t, 3 * kMostIndirect> indirect{};
+  std::array<std::uint32_t, 3 * kMostIndirect + WorkProof::kMostPieceWords> indirect_and_pieces{};
 };
 
 thread_local WorkProof* current_proof = nullptr;
@@ -53,9 +55,9 @@ void WorkProof::started_indirect(std::uint32_t buffer, std::size_t byte_offset) 
   glCopyNamedBufferSubData(buffer, name_, static_cast<GLintptr>(byte_offset), static_cast<GLintptr>(place), 3 * kWord);
 }
 
-void WorkProof::verify() {
-  if (expected_ != proven_ || indirect_ > 0) {
-    const Groups groups = settle();
+void WorkProof::verify(std::span<const Piece> pieces) {
+  if (expected_ != proven_ || indirect_ > 0 || !pieces.empty()) {
+    const Groups groups = settle(pieces);
     if (groups.started != groups.finished) {
       require_living_context();
       throw GpuError(
@@ -68,14 +70,28 @@ void WorkProof::verify() {
   require_living_context();
 }
 
-WorkProof::Groups WorkProof::settle() {
+WorkProof::Groups WorkProof::settle(std::span<const Piece> pieces) {
   Account account{proven_, {}};
-  account.indirect.fill(~0u);  // with the line above: a read that does nothing proves nothing
+  auto& words = account.indirect_and_pieces;
+  words.fill(~0u);  // with the line above: a read that does nothing proves nothing
   glMemoryBarrier(GL_ATOMIC_COUNTER_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
-  glGetNamedBufferSubData(name_, 0, static_cast<GLsizeiptr>(kWord * (1 + 3 * indirect_)), &account);
+  const std::size_t first_piece = 3 * std::size_t{indirect_};
+  std::size_t end = first_piece;
+  for (const Piece& piece : pieces) {
+    assert(end + piece.words.size() <= first_piece + kMostPieceWords);
+    glCopyNamedBufferSubData(piece.buffer, name_, static_cast<GLintptr>(piece.byte_offset),
+                             static_cast<GLintptr>(kWord * (1 + end)),
+                             static_cast<GLsizeiptr>(piece.words.size_bytes()));
+    end += piece.words.size();
+  }
+  glGetNamedBufferSubData(name_, 0, static_cast<GLsizeiptr>(kWord * (1 + end)), &account);
   check_gl("counting finished groups");
-  for (std::size_t n = 0; n < 3 * std::size_t{indirect_}; n += 3)
-    expected_ += account.indirect[n] * account.indirect[n + 1] * account.indirect[n + 2];
+  for (std::size_t n = 0; n < first_piece; n += 3) expected_ += words[n] * words[n + 1] * words[n + 2];
+  auto next = words.begin() + static_cast<std::ptrdiff_t>(first_piece);
+  for (const Piece& piece : pieces) {
+    std::copy_n(next, piece.words.size(), piece.words.begin());
+    next += static_cast<std::ptrdiff_t>(piece.words.size());
+  }
   const Groups groups{expected_ - proven_, account.finished - proven_};
   expected_ = proven_ = account.finished;
   indirect_ = 0;

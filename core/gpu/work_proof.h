@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 namespace meniscus {
 
@@ -30,18 +31,27 @@ class WorkProof {
   /// needed, and may be overwritten before.
   void started_indirect(std::uint32_t buffer, std::size_t byte_offset);
 
-  /// Waits for the GPU. Throws GpuError if a group that was started has not come to its end, or if the driver has reset
-  /// the context; CapacityError if it ran out of memory. Afterwards the account is even.
-  void verify();
+  /// Words of a buffer that come to the host in the same read as the account.
+  struct Piece {
+    std::uint32_t buffer = 0;  ///< GL name
+    std::size_t byte_offset = 0;
+    std::span<std::uint32_t> words;
+  };
+  static constexpr std::size_t kMostPieceWords = 128;  ///< of all pieces together
+
+  /// Waits for the GPU, and fills in the pieces. Throws GpuError if a group that was started has not come to its end,
+  /// or if the driver has reset the context; CapacityError if it ran out of memory. Afterwards the account is even.
+  void verify(std::span<const Piece> pieces = {});
 
   /// Groups started and finished since the account was even, modulo 2^32.
   struct Groups {
     std::uint32_t started = 0, finished = 0;
   };
   /// Evens the account without a judgement, as after a dispatch that GL refused: it may have run or not.
-  Groups settle();
+  Groups settle() { return settle({}); }
 
  private:
+  Groups settle(std::span<const Piece> pieces);
   std::uint32_t name_ = 0;      // of the GL buffer: the counter, then the indirect group counts
   std::uint32_t expected_ = 0;  // groups of direct dispatches ever, modulo 2^32 as the counter
   std::uint32_t proven_ = 0;    // the counter's value when it was last verified

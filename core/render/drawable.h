@@ -5,6 +5,7 @@
 #include <span>
 
 #include "core/base/stage_clock.h"
+#include "core/gpu/readback.h"
 #include "core/render/gpu_scene.h"
 #include "core/render/ray_cast_scene.h"
 #include "core/surface/primitives.h"
@@ -22,6 +23,12 @@ class Drawable {
   /// Puts on the GPU what this picture shows, colours too; stays until the next call. Adds the time of each stage to
   /// `clock`. Throws GpuError, CapacityError, OpenSurfaceError.
   virtual const GpuScene& prepare(const PictureFrame& frame, StageClock& clock) = 0;
+
+  /// prepare() may trust that a frame needs no more room than the one before. This asks for the counts that tell, and
+  /// settle(), once they have been read back, says whether it was so. If not there is no picture, and the next
+  /// prepare() trusts in nothing. Throws as prepare().
+  virtual void ask(Readback&) {}
+  virtual bool settle() { return true; }
 
   /// The surface whose patches the primitives of the scene are, if the host has it; else nullptr.
   virtual const Surface* surface() const { return nullptr; }

@@ -36,6 +36,7 @@ struct ScenePlacement {
 /// (PictureFrame), so that a scene belongs to one camera. Primitives stand in any order; what the picture does not show
 /// may be there or not: the picture is the same to the bit.
 struct GpuScene : ScenePlacement {
+  Buffer counters;  ///< uint32 each; word 0: how many primitives there are, which kernels may know before the host
   AppendList primitives{sizeof(ray_cast::Primitive), 1 << 15};
   AppendList rows{sizeof(glm::vec4), 1 << 17};
   /// Empty, or one float for each tile of 16 x 16 pixels of the picture, row by row: a distance from the camera

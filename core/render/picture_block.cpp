@@ -38,7 +38,8 @@ kernel::TileListParameters tile_list_parameters(const PictureFrame& frame, const
           .first_tile = block.origin / kTileEdge,
           .picture_tile_columns = (frame.size.x + kTileEdge - 1) / kTileEdge,
           .bounded = false,
-          .primitive_count = primitive_count};
+          .primitive_count = primitive_count,
+          .entry_capacity = 0};  // of no lists yet
 }
 
 kernel::RayCastParameters cast_parameters(const ScenePlacement& scene, const Look& look, std::uint32_t atom_count,

@@ -21,7 +21,8 @@ class Presenter {
   Presenter(const Presenter&) = delete;
   Presenter& operator=(const Presenter&) = delete;
 
-  /// picture: sums of `sample_count` samples, as RayCaster::picture(); background: sRGB. Throws GpuError.
+  /// picture: sums of `sample_count` samples, as RayCaster::picture(); background: sRGB. Others show the texture
+  /// without another look at it: the GPU's work has to be proven before they may. Throws GpuError.
   void present(const Buffer& picture, glm::ivec2 size, int sample_count, const glm::vec3& background);
 
   /// GL_RGBA8, sRGB values, alpha 255, first row on top; lives until a picture of another size is presented.

@@ -21,8 +21,11 @@ bool RayCaster::cast(const GpuScene& scene, const PictureFrame& frame, const Pic
   const Look& look = settings.look;
   {
     const GpuStage stage(clock, "tile lists");
-    lists_.build(scene, frame, block);
+    lists_.build(scene, frame, block, settings.counting);
   }
+  known_size_ = glm::ivec2(0);
+  long_lists_ = false;
+  size_ = block.size;
   const std::size_t count = static_cast<std::size_t>(block.size.x) * block.size.y;
   picture_.resize(count * sizeof(glm::vec4));
   hits_.resize(count * sizeof(ray_cast::Hit));
@@ -46,12 +49,24 @@ bool RayCaster::cast(const GpuScene& scene, const PictureFrame& frame, const Pic
       if (!add) lists_.clear_empty(block, sample.colors, sample.hits);
       parameters.own.add = add;
       parameters.view = block_view(frame, block, sample.offset);
-      cast_sample(scene, sample, parameters);
+      cast_sample(scene, sample, parameters, settings.counting);
     }
     if (!look.has_effects()) continue;
     const GpuStage stage(clock, "look");
     look_pass_.add(sample, look, scene, frame, block, picture_);
   }
+  if (settings.counting == Counting::now && !long_lists_) known_size_ = size_;
+  return true;
+}
+
+void RayCaster::ask(Readback& readback) {
+  lists_.ask(readback);
+  readback.ask(unfinished_, 0, {&longest_, 1});
+}
+
+bool RayCaster::settle() {
+  if (!lists_.settle() || longest_ > 0) return false;
+  known_size_ = size_;
   return true;
 }
 
@@ -62,10 +77,13 @@ const Program& RayCaster::program(const GpuScene& scene, bool resumed) {
   return programs_.get("gpu_shaders/ray_cast/ray_cast.comp", defines);
 }
 
-void RayCaster::cast_sample(const GpuScene& scene, const CastSample& sample, const Parameters& parameters) {
+void RayCaster::cast_sample(const GpuScene& scene, const CastSample& sample, const Parameters& parameters,
+                            Counting counting) {
   start(program(scene, false), scene, sample, parameters);
-  const auto longest = unfinished_.download<std::uint32_t>(1).front();
-  if (longest > 0) finish_long_lists(longest, scene, sample, parameters);
+  if (counting == Counting::later) return;
+  unfinished_.read(0, &longest_, sizeof longest_);
+  long_lists_ |= longest_ > 0;
+  if (longest_ > 0) finish_long_lists(longest_, scene, sample, parameters);
 }
 
 void RayCaster::start(const Program& program, const GpuScene& scene, const CastSample& sample,

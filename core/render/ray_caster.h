@@ -17,8 +17,9 @@ namespace meniscus {
 
 /// How a block is cast.
 struct CastSettings {
-  int samples = 1;               ///< rays per pixel, the first through its centre
-  Look look{};                   ///< but for its background; effects see nothing of what lies outside the block
+  int samples = 1;  ///< rays per pixel, the first through its centre
+  Look look{};      ///< but for its background; effects see nothing of what lies outside the block
+  Counting counting = Counting::now;
   std::function<bool()> stop{};  ///< asked between samples; if true, the block is given up
   StageClock* clock = nullptr;   ///< gets the time of each stage
 };
@@ -32,6 +33,13 @@ class RayCaster {
   bool cast(const GpuScene& scene, const PictureFrame& frame, const PictureBlock& block,
             const CastSettings& settings = {});
 
+  /// Whether the next block, of so many pixels, may be cast with Counting::later: the last one was no other, and its
+  /// kernels' loops went to their ends. Such a block is good only if settle() says so, once what ask() asks for has
+  /// been read back.
+  bool can_trust(const PictureBlock& block) const { return known_size_ == block.size; }
+  void ask(Readback& readback);
+  bool settle();
+
   /// Of the last block, row by row from the top: vec4 per pixel, the sum of its samples, linear and premultiplied.
   const Buffer& picture() const { return picture_; }
   /// Likewise ray_cast::Hit, of the ray through the pixel's centre.
@@ -40,7 +48,7 @@ class RayCaster {
  private:
   struct Parameters;
 
-  void cast_sample(const GpuScene& scene, const CastSample& sample, const Parameters& parameters);
+  void cast_sample(const GpuScene& scene, const CastSample& sample, const Parameters& parameters, Counting counting);
   void start(const Program& program, const GpuScene& scene, const CastSample& sample, const Parameters& parameters);
   void finish_long_lists(std::uint32_t longest, const GpuScene& scene, const CastSample& sample, Parameters parameters);
   const Program& program(const GpuScene& scene, bool resumed);
@@ -50,6 +58,10 @@ class RayCaster {
   TexelBuffer row_texels_{TexelFormat::uint4};
   LookPass look_pass_{programs_};
   Buffer picture_, hits_;
+  glm::ivec2 known_size_{0};            // of the last block, if nothing went wrong
+  glm::ivec2 size_{0};                  // of the block at work
+  std::uint32_t longest_ = 0;           // list of an unfinished invocation
+  bool long_lists_ = false;             // some sample had one
   Buffer unfinished_, states_;          // of invocations whose loops the driver cut short
   Buffer sample_colors_, sample_hits_;  // where a look has effects
 };

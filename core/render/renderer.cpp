@@ -43,7 +43,16 @@ void Renderer::begin(Drawable& drawable, const Camera& camera, const RenderSetti
     const auto stage = clock_.stage("frame");
     frame_ = make_picture_frame(drawable.atoms(), camera, settings.size);
   }
-  scene_ = &drawable.prepare(frame_, clock_);
+}
+
+// Until it is certain.
+void Renderer::prepare(Drawable& drawable) {
+  do {
+    scene_ = &drawable.prepare(frame_, clock_);
+    Readback readback;
+    drawable.ask(readback);
+    readback.read();
+  } while (!drawable.settle());
 }
 
 Framebuffer Renderer::render(const Surface& surface, const Coloring& coloring, const Camera& camera,
@@ -54,6 +63,7 @@ Framebuffer Renderer::render(const Surface& surface, const Coloring& coloring, c
 
 Framebuffer Renderer::render(Drawable& drawable, const Camera& camera, const RenderSettings& settings) {
   begin(drawable, camera, settings);
+  prepare(drawable);
   std::vector<ray_cast::Primitive> primitives;
   if (settings.aovs) {
     assert(drawable.surface());
@@ -68,7 +78,7 @@ Framebuffer Renderer::render(Drawable& drawable, const Camera& camera, const Ren
 void Renderer::render_block(const PictureBlock& inner, const RenderSettings& settings, PictureCollector& collector) {
   const PictureBlock block = with_neighbors(inner, look_reach(settings.look), frame_.size);
   try {
-    caster_.cast(*scene_, frame_, block, {settings.samples, settings.look, {}, &clock_});
+    caster_.cast(*scene_, frame_, block, {.samples = settings.samples, .look = settings.look, .clock = &clock_});
   } catch (const CapacityError&) {
     if (inner.size.x <= kTileEdge && inner.size.y <= kTileEdge) throw;
     for (const PictureBlock& half : halves(inner)) render_block(half, settings, collector);
@@ -82,10 +92,34 @@ void Renderer::render_block(const PictureBlock& inner, const RenderSettings& set
 bool Renderer::draw(Drawable& drawable, const Camera& camera, const RenderSettings& settings,
                     const std::function<bool()>& stop) {
   begin(drawable, camera, settings);
-  if (!caster_.cast(*scene_, frame_, {{0, 0}, frame_.size}, {settings.samples, settings.look, stop, &clock_}))
+  for (bool settled = false; !settled;)
+    if (!draw_once(drawable, settings, stop, settled)) return false;
+  return true;
+}
+
+bool Renderer::draw_once(Drawable& drawable, const RenderSettings& settings, const std::function<bool()>& stop,
+                         bool& settled) {
+  const PictureBlock block{{0, 0}, frame_.size};
+  // Whoever may give the picture up between samples wants to hear of each when it is there.
+  const bool trusts = caster_.can_trust(block) && !(stop && settings.samples > 1);
+  if (trusts)
+    scene_ = &drawable.prepare(frame_, clock_);
+  else
+    prepare(drawable);
+  if (!caster_.cast(*scene_, frame_, block,
+                    {settings.samples, settings.look, trusts ? Counting::later : Counting::now, stop, &clock_}))
     return false;
   const GpuStage stage(clock_, "finish");
   presenter_.present(samples(), frame_.size, settings.samples, settings.look.background);
+  Readback readback;
+  if (trusts) {
+    drawable.ask(readback);
+    caster_.ask(readback);
+  }
+  readback.read();
+  if (!trusts) return settled = true;
+  const bool drawable_settled = drawable.settle(), caster_settled = caster_.settle();
+  settled = drawable_settled && caster_settled;
   return true;
 }
 

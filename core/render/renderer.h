@@ -58,6 +58,8 @@ class Renderer {
 
  private:
   void begin(Drawable& drawable, const Camera& camera, const RenderSettings& settings);
+  void prepare(Drawable& drawable);
+  bool draw_once(Drawable& drawable, const RenderSettings& settings, const std::function<bool()>& stop, bool& settled);
   void render_block(const PictureBlock& inner, const RenderSettings& settings, PictureCollector& collector);
 
   RayCaster caster_;

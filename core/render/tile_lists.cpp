@@ -12,23 +12,40 @@ kernel::DepthSlices depth_slices(const GpuScene& scene) {
   return {.first_depth = scene.first_depth, .slices_per_angstrom = thickness > 0.0f ? 1.0f / thickness : 0.0f};
 }
 
-void TileLists::build(const GpuScene& scene, const PictureFrame& frame, const PictureBlock& block) {
+std::uint32_t TileLists::slot_count() const {
+  return static_cast<std::uint32_t>(tiles_.x) * static_cast<std::uint32_t>(tiles_.y) * kSlotsPerTile;
+}
+
+void TileLists::build(const GpuScene& scene, const PictureFrame& frame, const PictureBlock& block, Counting counting) {
   tiles_ = (block.size + (kTileEdge - 1)) / kTileEdge;
-  const std::uint32_t slots =
-      static_cast<std::uint32_t>(tiles_.x) * static_cast<std::uint32_t>(tiles_.y) * kSlotsPerTile;
-  counts_.resize((slots + 1) * sizeof(std::uint32_t));
+  counts_.resize((slot_count() + 1) * sizeof(std::uint32_t));
   counts_.fill(0);
   entries_.resize(0);
   primitive_texels_.view(scene.primitives.buffer);
   run(0, scene, frame, block);
-  scan_(counts_, slots);
-  std::uint32_t entry_count = 0;
-  counts_.read(slots * sizeof(std::uint32_t), &entry_count, sizeof(entry_count));
-  entries_.resize(entry_count * sizeof(std::uint32_t));
+  if (counting == Counting::later) {
+    trusted_ = known_ + known_ / 8 + 64;
+    scan_(counts_, slot_count(), trusted_);
+  } else {
+    scan_(counts_, slot_count());
+    Readback readback;
+    ask(readback);
+    readback.read();
+    trusted_ = known_ = counted_;
+  }
+  entries_.resize(trusted_ * sizeof(std::uint32_t));
   run(1, scene, frame, block);
   slot_texels_.view(counts_);
   entry_texels_.view(entries_);
   split_tiles();
+}
+
+void TileLists::ask(Readback& readback) { readback.ask(counts_, slot_count() * sizeof(std::uint32_t), {&counted_, 1}); }
+
+bool TileLists::settle() {
+  if (counted_ >= trusted_) return false;
+  known_ = counted_;
+  return true;
 }
 
 void TileLists::run(int pass, const GpuScene& scene, const PictureFrame& frame, const PictureBlock& block) {
@@ -38,11 +55,13 @@ void TileLists::run(int pass, const GpuScene& scene, const PictureFrame& frame, 
   entries_.bind(1);
   const bool bounded = scene.tile_depths.byte_count() > 0;
   (bounded ? scene.tile_depths : counts_).bind(2);  // something must be there
-  kernel::TileListParameters parameters = tile_list_parameters(frame, block, scene.primitives.count());
+  kernel::TileListParameters parameters = tile_list_parameters(frame, block, scene.primitives.most());
   parameters.bounded = bounded;
+  parameters.entry_capacity = trusted_;
+  scene.counters.bind(3);
   program.set(parameters);
   program.set(depth_slices(scene), kernel::kDepthSlicesBinding);
-  program.dispatch(group_count(scene.primitives.count()));
+  program.dispatch(group_count(scene.primitives.most()));
 }
 
 void TileLists::split_tiles() {

@@ -9,6 +9,7 @@
 #include "core/gpu/kernel_records.h"
 #include "core/gpu/prefix_sum.h"
 #include "core/gpu/program.h"
+#include "core/gpu/readback.h"
 #include "core/gpu/texel_buffer.h"
 #include "core/render/gpu_scene.h"
 #include "core/render/picture_block.h"
@@ -26,8 +27,13 @@ class TileLists {
  public:
   explicit TileLists(ProgramCache& programs) : programs_(programs), scan_(programs) {}
 
-  /// Throws CapacityError when the lists are larger than a kernel can see; smaller blocks help.
-  void build(const GpuScene& scene, const PictureFrame& frame, const PictureBlock& block);
+  /// Throws CapacityError when the lists are larger than a kernel can see; smaller blocks help. With Counting::later
+  /// they get the room that they needed last time and some more.
+  void build(const GpuScene& scene, const PictureFrame& frame, const PictureBlock& block,
+             Counting counting = Counting::now);
+  /// For Counting::later: what the host has to know, and, once that has been read back, whether there was room.
+  void ask(Readback& readback);
+  bool settle();
 
   glm::ivec2 tiles() const { return tiles_; }  ///< columns, rows
   /// uint32 for each slice of spheres and of tori of each tile, row by row: where its primitives end in entries(); they
@@ -43,12 +49,14 @@ class TileLists {
  private:
   void split_tiles();
   void run(int pass, const GpuScene& scene, const PictureFrame& frame, const PictureBlock& block);
+  std::uint32_t slot_count() const;
 
   ProgramCache& programs_;
   PrefixSum scan_;
   glm::ivec2 tiles_{0};
   Buffer counts_, entries_;
-  Buffer tile_order_, dispatches_;  // of split_tiles.comp
+  std::uint32_t counted_ = 0, known_ = 0, trusted_ = 0;  // entries: read back, as last counted, with room
+  Buffer tile_order_, dispatches_;                       // of split_tiles.comp
   TexelBuffer primitive_texels_{TexelFormat::uint4}, slot_texels_{TexelFormat::uint1},
       entry_texels_{TexelFormat::uint1}, order_texels_{TexelFormat::uint1};
 };

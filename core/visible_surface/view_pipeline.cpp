@@ -20,11 +20,13 @@ namespace meniscus {
 namespace {
 
 constexpr std::size_t kWord = sizeof(std::uint32_t);
+constexpr std::size_t kProbeWord = 3 * kWord;  // of GpuScene::counters, as append_primitive.glsl has it
 
 }  // namespace
 
 void ViewPipeline::set_atoms(std::vector<Ball> atoms) {
   assert(!atoms.empty());
+  trusted_ = trusted_ && atoms.size() == atoms_.size();
   atoms_ = std::move(atoms);
   swallowed_ = swallowed_atoms(atoms_);
   glm::dvec3 low = atoms_[0].center, high = low;
@@ -42,6 +44,7 @@ void ViewPipeline::set_atoms(std::vector<Ball> atoms) {
 void ViewPipeline::set_surface(double probe_radius, Extent extent) {
   assert(probe_radius >= 0.0);
   uploaded_ = uploaded_ && probe_radius == probe_radius_;
+  trusted_ = trusted_ && probe_radius == probe_radius_ && extent == extent_;
   probe_radius_ = probe_radius;
   extent_ = extent;
 }
@@ -53,6 +56,7 @@ const GpuScene& ViewPipeline::prepare(const PictureFrame& frame, StageClock& clo
       prepare_once(frame, clock);
       return scene_;
     } catch (const OpenSurfaceError&) {
+      trusted_ = false;
       if (attempt == kTieAttempts) throw;
       set_atoms(grown_balls(atoms_, attempt));
     }
@@ -64,12 +68,57 @@ void ViewPipeline::prepare_once(const PictureFrame& frame, StageClock& clock) {
   look(frame, clock);
   if (!all_probes_found_ || !visible_.keeps_all() || extent_ == Extent::paper) {
     all_probes_found_ = false;
+    arcs_open_ = can_trust();
     keep_atoms(clock);
     find_arcs(clock);
     find_fixed_probes(frame, clock);
-    all_probes_found_ = visible_.keeps_all() && extent_ != Extent::paper;
+    all_probes_found_ = !arcs_open_ && visible_.keeps_all() && extent_ != Extent::paper;
   }
+  primitives_open_ = trusted_;
   make_primitives(frame, clock);
+  trusted_ = !primitives_open_ && arcs_.neighbors.known().count > 0 && probe_neighbors_.known().count > 0 &&
+             arcs_.circles.stats().decided_in_quadruple == 0 && extent_ != Extent::paper;
+}
+
+// A frame that was given up leaves open what it needed, and its successor trusts in nothing.
+bool ViewPipeline::can_trust() const {
+  return trusted_ && arcs_.neighbors.can_trust(visible_.most_kept(atom_count())) &&
+         probe_neighbors_.can_trust(probes_.capacity());
+}
+
+void ViewPipeline::ask(Readback& readback) {
+  if (arcs_open_) {
+    visible_.ask(readback);
+    arcs_.ask(readback);
+    readback.ask(probe_counters_, 0, probe_counts_);
+    probe_neighbors_.ask(readback);
+  }
+  if (primitives_open_) readback.ask(scene_.counters, 0, primitive_counts_);
+}
+
+bool ViewPipeline::settle() {
+  if (!arcs_open_ && !primitives_open_) return true;
+  bool had_room = !arcs_open_ || settle_arcs_and_probes();
+  if (primitives_open_)
+    had_room =
+        settle_all({&scene_.primitives, &scene_.rows}, primitive_counts_) && primitive_counts_[2] == 0 && had_room;
+  stats_.primitives = scene_.primitives.count();
+  all_probes_found_ = had_room && (all_probes_found_ || visible_.keeps_all());
+  arcs_open_ = primitives_open_ = false;
+  trusted_ = had_room;
+  return had_room;
+}
+
+// Whatever is not as it was, so that the host has to look at it, fails here; made again it comes to light.
+bool ViewPipeline::settle_arcs_and_probes() {
+  if (!visible_.settle() || !arcs_.settle() || !settle_all({&probes_}, probe_counts_) || !is_closed() ||
+      !probe_neighbors_.settle())
+    return false;
+  stats_.kept_atoms = visible_.known();
+  stats_.circles = arcs_.circles.stats();
+  stats_.arcs = arc_count_ = arcs_.circles.arcs.count();
+  stats_.probes = probes_.count();
+  return true;
 }
 
 void ViewPipeline::upload_atoms(StageClock& clock) {
@@ -93,16 +142,20 @@ void ViewPipeline::look(const PictureFrame& frame, StageClock& clock) {
 
 void ViewPipeline::keep_atoms(StageClock& clock) {
   const GpuStage stage(clock, "visible atoms");
-  const std::uint32_t count = visible_.keep(arcs_.neighbors.balls, arcs_.neighbors.balls_low, atom_count());
+  const std::uint32_t count = visible_.keep(arcs_.neighbors.balls, arcs_.neighbors.balls_low, atom_count(),
+                                            arcs_open_ ? Counting::later : Counting::now);
   arcs_.neighbors.list_only(visible_.kept, visible_.before, count);
   stats_.kept_atoms = count;
 }
 
 // Group 2 (section 3.3): circles in place of atom triples.
 void ViewPipeline::find_arcs(StageClock& clock) {
-  arcs_.find(clock);
+  if (arcs_open_)
+    arcs_.find_later(clock);
+  else
+    arcs_.find(clock);
   stats_.circles = arcs_.circles.stats();
-  arc_count_ = arcs_.circles.arcs.count();
+  arc_count_ = arcs_.circles.arcs.most();
   stats_.arcs = arc_count_;
   arc_texels_.view(arcs_.circles.arcs.buffer);
 }
@@ -114,8 +167,12 @@ void ViewPipeline::find_fixed_probes(const PictureFrame& frame, StageClock& cloc
   whole_spheres_ = extent_ == Extent::paper;
   if (whole_spheres_) select_as_the_paper(frame);
   const double reach = extent_of_atoms_.largest_radius + probe_radius_;
-  probe_neighbors_.adopt(static_cast<std::uint32_t>(stats_.probes),
-                         {extent_of_atoms_.low - reach, extent_of_atoms_.high + reach, probe_radius_});
+  const BallExtent extent{extent_of_atoms_.low - reach, extent_of_atoms_.high + reach, probe_radius_};
+  probe_neighbors_.count_lists(arcs_open_ ? Counting::later : Counting::now);
+  if (arcs_open_)
+    probe_neighbors_.adopt(probes_.most(), extent, probe_counters_, 0);
+  else
+    probe_neighbors_.adopt(static_cast<std::uint32_t>(stats_.probes), extent);
 }
 
 void ViewPipeline::select_as_the_paper(const PictureFrame& frame) {
@@ -130,9 +187,7 @@ void ViewPipeline::select_as_the_paper(const PictureFrame& frame) {
 
 void ViewPipeline::place_probes() {
   const Program& program = programs_.get("gpu_shaders/reduced_surface/fixed_probes.comp", {{"LISTED", "1"}});
-  probes_.clear();
-  std::array<std::uint32_t, 7> counts{};  // probes, then sums over the ends of arcs
-  append_all({&probes_}, counters_, counts, [&] {
+  const auto run = [&] {
     probe_neighbors_.balls.resize(probes_.capacity() * sizeof(glm::vec4));
     probe_neighbors_.balls_low.resize(probes_.capacity() * sizeof(glm::vec4));
     arcs_.circles.atoms.bind(0);
@@ -140,7 +195,8 @@ void ViewPipeline::place_probes() {
     probes_.buffer.bind(2);
     probe_neighbors_.balls.bind(3);
     probe_neighbors_.balls_low.bind(4);
-    counters_.bind(5);
+    probe_counters_.bind(5);
+    arcs_.circles.counters().bind(6);
     arc_texels_.bind(0);
     arcs_.neighbors.bind_listed();
     visible_.bind(program);
@@ -149,19 +205,22 @@ void ViewPipeline::place_probes() {
                                              .arc_count = arc_count_,
                                              .probe_capacity = probes_.capacity()});
     program.dispatch(group_count(arc_count_));
-  });
+  };
+  if (arcs_open_) return append_later({&probes_}, probe_counters_, probe_counts_, run);
+  probes_.clear();
+  append_all({&probes_}, probe_counters_, probe_counts_, run);
   stats_.probes = probes_.count();
-  require_closed(std::span(counts).subspan<1>());
+  if (!is_closed())
+    throw OpenSurfaceError(
+        "the part of the surface that this view needs is not closed; nothing was drawn; "
+        "please report this structure");
 }
 
 // Theorem 3: three arcs end at every fixed probe, with each of its atoms once as the third.
-void ViewPipeline::require_closed(std::span<const std::uint32_t, 6> end_sums) const {
-  if (end_sums[0] == end_sums[2] && end_sums[2] == end_sums[4] && end_sums[1] == end_sums[3] &&
-      end_sums[3] == end_sums[5])
-    return;
-  throw OpenSurfaceError(
-      "the part of the surface that this view needs is not closed; nothing was drawn; "
-      "please report this structure");
+bool ViewPipeline::is_closed() const {
+  const auto end_sums = std::span(probe_counts_).subspan<1>();
+  return end_sums[0] == end_sums[2] && end_sums[2] == end_sums[4] && end_sums[1] == end_sums[3] &&
+         end_sums[3] == end_sums[5];
 }
 
 // Group 4 (section 3.4).
@@ -169,11 +228,15 @@ void ViewPipeline::make_primitives(const PictureFrame& frame, StageClock& clock)
   const GpuStage stage(clock, "primitives");
   list_arcs_by_atom();
   static_cast<ScenePlacement&>(scene_) = place_atoms(atoms_, probe_radius_, frame);
+  scene_.counters.resize(kProbeWord + kWord);
+  scene_.counters.copy(probe_counters_, 0, kProbeWord, kWord);
+  const auto run = [&] { append_primitives(frame); };
+  if (primitives_open_)
+    return append_later({&scene_.primitives, &scene_.rows}, scene_.counters, primitive_counts_, run);
   scene_.primitives.clear();
   scene_.rows.clear();
-  std::array<std::uint32_t, 3> counts{};  // primitives, rows, whether a loop was cut short
-  append_all({&scene_.primitives, &scene_.rows}, counters_, counts, [&] { append_primitives(frame); });
-  if (counts[2] != 0)
+  append_all({&scene_.primitives, &scene_.rows}, scene_.counters, primitive_counts_, run);
+  if (primitive_counts_[2] != 0)
     throw CapacityError(
         "some patch is cut by more others than this driver's kernels can go through; use a smaller probe");
   stats_.primitives = scene_.primitives.count();
@@ -191,6 +254,7 @@ void ViewPipeline::list_arcs_by_atom() {
     atom_arc_first_.bind(0);
     atom_arc_rank_.bind(1);
     atom_arcs_.bind(2);
+    arcs_.circles.counters().bind(3);
     program.set(kernel::ArcParameters{.arc_count = arc_count});
     program.dispatch(group_count(arc_count));
     if (pass == 0) prefix_sum_(atom_arc_first_, atom_count());
@@ -204,6 +268,7 @@ void ViewPipeline::append_primitives(const PictureFrame& frame) {
     const Program& toroidal = primitive_kernel("toroidal", frame);
     arcs_.circles.atoms.bind(0);
     radii_.bind(1);
+    arcs_.circles.counters().bind(5);
     arc_texels_.bind(0);
     toroidal.set(kernel::ArcParameters{.arc_count = arc_count_});
     toroidal.dispatch(group_count(arc_count_));
@@ -232,7 +297,8 @@ void ViewPipeline::append_primitives(const PictureFrame& frame) {
     arcs_.neighbors.labels.bind(6);
     arcs_.neighbors.bind_listed();
     visible_.bind(convex);
-    convex.set(kernel::ConvexParameters{.middle = middle_, .first_entry = batch.first, .entry_count = batch.count});
+    convex.set(kernel::ConvexParameters{
+        .middle = middle_, .first_entry = batch.first, .entry_count = batch.count, .atom_count = atom_count()});
     convex.dispatch(group_count(batch.count));
   });
 }
@@ -243,7 +309,7 @@ const Program& ViewPipeline::primitive_kernel(const char* name, const PictureFra
   const Program& program = programs_.get(std::string("gpu_shaders/primitives/") + name + ".comp", defines);
   scene_.primitives.buffer.bind(2);
   scene_.rows.buffer.bind(3);
-  counters_.bind(4);
+  scene_.counters.bind(4);
   program.set(kernel::PrimitiveParameters{.pivot = frame.pivot,
                                           .eye_distance = frame.eye_distance,
                                           .camera_position = frame.camera.position,

@@ -3,6 +3,7 @@
 // GPU.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -58,12 +59,16 @@ class ViewPipeline final : public Drawable {
   /// Where the arcs around the view do not close for ties the radii grow by a hair (tie_ladder.h). Throws
   /// OpenSurfaceError when that does not help, GpuError, CapacityError.
   const GpuScene& prepare(const PictureFrame& frame, StageClock& clock) override;
+  void ask(Readback& readback) override;
+  bool settle() override;
 
   /// Of the last picture.
   const ViewStats& stats() const { return stats_; }
 
  private:
   void prepare_once(const PictureFrame& frame, StageClock& clock);
+  bool can_trust() const;
+  bool settle_arcs_and_probes();
   void upload_atoms(StageClock& clock);
   void look(const PictureFrame& frame, StageClock& clock);
   void keep_atoms(StageClock& clock);
@@ -73,7 +78,7 @@ class ViewPipeline final : public Drawable {
 
   void place_probes();
   void select_as_the_paper(const PictureFrame& frame);
-  void require_closed(std::span<const std::uint32_t, 6> end_sums) const;
+  bool is_closed() const;
   void list_arcs_by_atom();
   void append_primitives(const PictureFrame& frame);
   const Program& primitive_kernel(const char* name, const PictureFrame& frame, const ShaderDefines& defines = {});
@@ -99,12 +104,16 @@ class ViewPipeline final : public Drawable {
   bool all_probes_found_ = false;  // arcs and probes on the GPU are those of the complete surface
   Buffer radii_;                   // double per atom: van der Waals
   AppendList probes_{sizeof(kernel::ProbeRecord), 1 << 13};
-  Buffer counters_;
+  Buffer probe_counters_;
+  std::array<std::uint32_t, 7> probe_counts_{};       // probes, then sums over the ends of arcs
+  std::array<std::uint32_t, 3> primitive_counts_{};   // primitives, rows, whether a loop was cut short
+  bool trusted_ = false;                              // sizes of the last frame are known, and atoms as many
+  bool arcs_open_ = false, primitives_open_ = false;  // what the host has to know of the frame at work
   Buffer atom_arc_first_, atom_arc_rank_, atom_arcs_;
   TexelBuffer arc_texels_{TexelFormat::uint4}, atom_arc_first_texels_{TexelFormat::uint1},
       atom_arc_texels_{TexelFormat::uint4};
-  std::uint32_t arc_count_ = 0;
-  bool whole_spheres_ = false;  // drawn instead of convex patches
+  std::uint32_t arc_count_ = 0;  // at most
+  bool whole_spheres_ = false;   // drawn instead of convex patches
 };
 
 }  // namespace meniscus

@@ -86,7 +86,8 @@ void VisibleAtoms::draw_occluders(const Buffer& balls, std::uint32_t atom_count,
   tiles.dispatch(group_count(tile_count));
 }
 
-std::uint32_t VisibleAtoms::keep(const Buffer& balls, const Buffer& balls_low, std::uint32_t atom_count) {
+std::uint32_t VisibleAtoms::keep(const Buffer& balls, const Buffer& balls_low, std::uint32_t atom_count,
+                                 Counting counting) {
   before.resize((atom_count + 1) * sizeof(std::uint32_t));
   kept.resize(atom_count * sizeof(std::uint32_t));
   for (int pass = 0; pass < 2; ++pass) {
@@ -100,7 +101,22 @@ std::uint32_t VisibleAtoms::keep(const Buffer& balls, const Buffer& balls_low, s
     program.dispatch(group_count(atom_count));
     if (pass == 0) prefix_sum_(before, atom_count);
   }
-  return before.download<std::uint32_t>(1, atom_count * sizeof(std::uint32_t)).front();
+  trusted_ = counting == Counting::later ? most_kept(atom_count) : atom_count;
+  if (counting == Counting::later) return trusted_;
+  Readback readback;
+  ask(readback);
+  readback.read();
+  return known_ = counted_;
+}
+
+void VisibleAtoms::ask(Readback& readback) {
+  readback.ask(before, before.byte_count() - sizeof counted_, {&counted_, 1});
+}
+
+bool VisibleAtoms::settle() {
+  if (counted_ > trusted_) return false;
+  known_ = counted_;
+  return true;
 }
 
 }  // namespace meniscus

@@ -2,6 +2,7 @@
 // The atoms that can matter for a pixel of one view, found on the GPU (theorem 2).
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 
@@ -9,6 +10,7 @@
 #include "core/gpu/kernel_parameters.h"
 #include "core/gpu/prefix_sum.h"
 #include "core/gpu/program.h"
+#include "core/gpu/readback.h"
 #include "core/gpu/texel_buffer.h"
 #include "core/render/ray_cast_scene.h"
 #include "core/surface/primitives.h"
@@ -39,8 +41,16 @@ class VisibleAtoms {
   /// GpuScene wants it; that buffer must stay.
   void draw_occluders(const Buffer& balls, std::uint32_t atom_count, Buffer& tile_depths);
 
-  /// Lists the atoms to keep; returns how many. balls_low: w is 1 for swallowed atoms, which are not kept.
-  std::uint32_t keep(const Buffer& balls, const Buffer& balls_low, std::uint32_t atom_count);
+  /// Lists the atoms to keep; returns how many, or, with Counting::later, how many there may be if they are as many as
+  /// they last were and some more. balls_low: w is 1 for swallowed atoms, which are not kept.
+  std::uint32_t keep(const Buffer& balls, const Buffer& balls_low, std::uint32_t atom_count, Counting counting);
+  /// That number, for so many atoms.
+  std::uint32_t most_kept(std::uint32_t atom_count) const { return std::min(atom_count, known_ + known_ / 8 + 64); }
+  /// For Counting::later: what the host has to know, and, once that has been read back, whether there were no more.
+  void ask(Readback& readback);
+  bool settle();
+  /// As counted last.
+  std::uint32_t known() const { return known_; }
 
   /// For kernels that include begins_in_front.glsl: its parameters, and its textures at units 4 and 5.
   void bind(const Program& program) const;
@@ -58,6 +68,8 @@ class VisibleAtoms {
   float probe_radius_ = 0.0f;
   glm::ivec2 tiles_{0};
   kernel::View view_{};
+  std::uint32_t known_ = 0, counted_ = 0;
+  std::uint32_t trusted_ = 0;  // no more than that in the frame at work
 };
 
 }  // namespace meniscus

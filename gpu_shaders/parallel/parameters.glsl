@@ -7,6 +7,7 @@
 struct ScanParameters {
   uint count;         // words
   uint chunk_length;  // words per invocation
+  uint limit;         // no sum is larger
 };
 
 #endif

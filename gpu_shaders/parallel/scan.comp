@@ -24,7 +24,7 @@ void main() {
     totals[n] = sum;
     sum += total;
   }
-  words[params.count] = sum;
+  words[params.count] = min(sum, params.limit);
 #else
   uint begin = chunk * params.chunk_length;
   if (begin >= params.count) return;
@@ -37,7 +37,7 @@ void main() {
   uint sum = totals[chunk];
   for (uint n = begin; n < end; ++n) {
     uint word = words[n];
-    words[n] = sum;
+    words[n] = min(sum, params.limit);
     sum += word;
   }
 #endif

@@ -8,7 +8,12 @@
 
 layout(std430, binding = 2) writeonly buffer Primitives { Primitive primitives[]; };
 layout(std430, binding = 3) writeonly buffer Rows { vec4 rows[]; };
-layout(std430, binding = 4) buffer Counters { uint primitive_count; uint row_count; uint cut_short; };  // cut_short: loop_guard.glsl
+layout(std430, binding = 4) buffer Counters {
+  uint primitive_count;
+  uint row_count;
+  uint cut_short;    // loop_guard.glsl
+  uint probe_count;  // read only
+};
 layout(std140, binding = kPrimitiveBinding) uniform PrimitiveBlock { PrimitiveParameters scene; };
 
 uint next_row;

@@ -10,11 +10,12 @@ layout(binding = 0) uniform usamplerBuffer arcs;  // i, j, begin_by, end_by
 layout(std430, binding = 0) buffer AtomArcFirst { uint atom_arc_first[]; };
 layout(std430, binding = 1) buffer Rank { uvec2 rank[]; };  // of an arc in the lists of i and j
 layout(std430, binding = 2) writeonly buffer AtomArcs { uvec4 atom_arcs[]; };  // partner, begin_by, end_by, 0
+layout(std430, binding = 3) readonly buffer ArcCount { uint arc_count; };
 layout(std140, binding = 0) uniform Parameters { ArcParameters params; };
 
 void main() {
   uint index = linear_invocation_index();
-  if (index >= params.arc_count) return;
+  if (index >= min(arc_count, params.arc_count)) return;
   uvec4 arc = texelFetch(arcs, int(index));
 #if PASS == 0
   rank[index] = uvec2(atomicAdd(atom_arc_first[arc.x], 1u), atomicAdd(atom_arc_first[arc.y], 1u));

@@ -69,6 +69,7 @@ void main() {
   uint entry = linear_invocation_index();
   if (entry >= params.probe_count) return;
   uint self = params.first_probe + entry;
+  if (self >= probe_count) return;
   ProbeRecord probe = probes[self];
   dvec3 s = probe.position;
   uvec3 atom = probe.atoms.w != 0u ? probe.atoms.xyz : probe.atoms.xzy;

@@ -77,6 +77,7 @@ dvec4 contact_plane(uint a, uint b) {
 void main() {
   uint entry = linear_invocation_index();
   if (entry >= params.entry_count) return;
+  if (params.first_entry + entry >= entries_of(params.atom_count)) return;
   uint a = ball_of(params.first_entry + entry);
 #ifdef WHOLE_SPHERES
   // As in the paper: all of the vdW sphere, most of it inside the solid.

@@ -19,18 +19,19 @@ struct PrimitiveParameters {
 const int kPrimitiveBinding = 1;
 
 struct ArcParameters {
-  uint arc_count;
+  uint arc_count;  // at most; the GPU knows how many
 };
 
 struct ConcaveParameters {
   uint first_probe;  // of the batch
-  uint probe_count;  // in the batch
+  uint probe_count;  // in the batch, at most
 };
 
 struct ConvexParameters {
   dvec3 middle;      // of the atoms
   uint first_entry;  // of the batch
-  uint entry_count;  // in the batch
+  uint entry_count;  // in the batch, at most
+  uint atom_count;
 };
 
 #endif

@@ -13,6 +13,7 @@ layout(local_size_x = 64) in;
 #include "gpu_shaders/geometry/patch_membership.glsl"
 #include "gpu_shaders/primitives/append_primitive.glsl"
 
+layout(std430, binding = 5) readonly buffer ArcCount { uint arc_count; };
 layout(std140, binding = 0) uniform Parameters { ArcParameters params; };
 
 // What the ball of k covers of the circle of atom i, as the decisions saw it.
@@ -43,7 +44,7 @@ bool coincide(Triple s, FixedProbe at_s, Triple t, FixedProbe at_t) {
 
 void main() {
   uint index = linear_invocation_index();
-  if (index >= params.arc_count) return;
+  if (index >= min(arc_count, params.arc_count)) return;
   uvec4 arc = texelFetch(arcs, int(index));
   dvec3 origin = atoms[arc.x].xyz;
   RollingArc rolling = whole_turn(origin, atoms[arc.y].xyz - origin, extended(arc.x, scene.probe_radius),

@@ -36,7 +36,8 @@ struct TileListParameters {
   ivec2 first_tile;   // of the block, in the picture
   int picture_tile_columns;
   uint bounded;  // 1: tile_depth holds, for each tile of the picture, how deep its rays see
-  uint primitive_count;
+  uint primitive_count;  // at most; the GPU knows how many
+  uint entry_capacity;   // of the lists
 };
 
 struct SplitTilesParameters {

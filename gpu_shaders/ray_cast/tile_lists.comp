@@ -2,7 +2,8 @@
 // Which primitives may show in which tile, by slices of depth. Order within a slice is left to chance.
 // Pass 0: counts[slot of tile, kind and slice] += 1 for each tile that a primitive's bound touches.
 // Pass 1: counts hold their prefix sums; each primitive takes the next place of its slot, so that in the end each
-//         count is where its slot ends and the next one begins.
+//         count is where its slot ends and the next one begins. Overflow: the scan and pass 1 stop at the capacity; the
+//         host makes the frame again.
 #version 450 core
 layout(local_size_x = 64) in;
 #include "gpu_shaders/shared/linear_index.glsl"
@@ -17,6 +18,7 @@ layout(binding = 0) uniform usamplerBuffer primitive_texels;  // three texels ea
 layout(std430, binding = 0) buffer Counts { uint counts[]; };
 layout(std430, binding = 1) writeonly buffer Entries { uint entries[]; };
 layout(std430, binding = 2) readonly buffer TileDepths { float tile_depth[]; };
+layout(std430, binding = 3) readonly buffer PrimitiveCount { uint primitive_count; };
 
 // Footprints too large for one invocation; the whole group shares them.
 const int kNarrow = 64;
@@ -29,7 +31,7 @@ void add_to_tile(uint primitive, float nearest, uint slot_in_tile, ivec2 tile) {
   if (params.bounded != 0u && nearest > tile_depth[of_picture.y * params.picture_tile_columns + of_picture.x]) return;
   uint place = atomicAdd(counts[kSlotsPerTile * uint(tile.y * params.tiles.x + tile.x) + slot_in_tile], 1u);
 #if PASS == 1
-  entries[place] = primitive;
+  if (place < params.entry_capacity) entries[place] = primitive;
 #endif
 }
 
@@ -46,7 +48,7 @@ void main() {
   if (gl_LocalInvocationIndex == 0u) wide_count = 0u;
   barrier();
   uint primitive = linear_invocation_index();
-  if (primitive < params.primitive_count) {
+  if (primitive < min(primitive_count, params.primitive_count)) {
     ivec4 footprint = bound_footprint(uintBitsToFloat(texelFetch(primitive_texels, int(3u * primitive))));
     float nearest = nearest_of(primitive);
     uint slot = slot_of(primitive);

@@ -19,13 +19,29 @@ layout(std430, binding = 2) readonly buffer NeighborLabels { uint neighbor_label
 #ifdef DOUBLE_PRECISION
 layout(std430, binding = 3) readonly buffer Atoms { dvec4 atoms[]; };  // centre, decision weight
 #else
+layout(std430, binding = 3) readonly buffer PairFirst { uint pair_first[]; };
 layout(binding = 0) uniform usamplerBuffer neighbor_balls;  // floats: relative centre, SAS radius²
 layout(std430, binding = 7) readonly buffer AtomsLow { vec4 atoms[]; };  // w: SAS radius
 #endif
 layout(std430, binding = 4) writeonly buffer Arcs { uvec4 arcs[]; };  // i, j, begin_by, end_by
 layout(std430, binding = 5) writeonly buffer Doubtful { uvec2 doubtful[]; };
-layout(std430, binding = 6) buffer Counters { uint arc_count; uint doubtful_count; };
+layout(std430, binding = 6) buffer Counters {
+  uint arc_count;
+  uint doubtful_counts[2];  // in single precision, in double
+};
 layout(std140, binding = 0) uniform Parameters { CircleParameters params; };
+
+#ifdef DOUBLE_PRECISION
+const uint kPrecision = 1u;
+uint circle_count() { return min(doubtful_counts[0], params.circle_count); }
+#else
+const uint kPrecision = 0u;
+// Without room for all neighbours there are not all the pairs that were counted.
+uint circle_count() {
+  bool complete = neighbor_first[params.entry_count] < params.list_limit;
+  return complete ? min(pair_first[params.entry_count], params.circle_count) : 0u;
+}
+#endif
 
 void append(uvec4 arc) {
   uint slot = atomicAdd(arc_count, 1u);
@@ -47,7 +63,7 @@ void neighbor(uint i, uint n, out real3 center, out real weight) {
 
 void main() {
   uint index = linear_invocation_index();
-  if (index >= params.circle_count) return;
+  if (index >= circle_count()) return;
   uint entry = circles[index].x;
   uint i = ball_of(entry);
   uint place = circles[index].y;
@@ -78,7 +94,7 @@ void main() {
     if (loops_cut_short()) exposed_doubtful = true;
   }
   if (exposed_doubtful) {
-    uint slot = atomicAdd(doubtful_count, 1u);
+    uint slot = atomicAdd(doubtful_counts[kPrecision], 1u);
     if (slot < params.doubtful_capacity) doubtful[slot] = circles[index];
     return;
   }

@@ -21,6 +21,7 @@ layout(std430, binding = 5) buffer Counters {
   uint probe_count;
   uint end_sums[6];  // over the ends of arcs, by the place of the third atom among the sorted three: two keys each
 };
+layout(std430, binding = 6) readonly buffer ArcCount { uint arc_count; };
 layout(std140, binding = 0) uniform Parameters { FixedProbeParameters params; };
 
 void append(Triple t) {
@@ -39,7 +40,7 @@ void append(Triple t) {
 
 void main() {
   uint index = linear_invocation_index();
-  if (index >= params.arc_count) return;
+  if (index >= min(arc_count, params.arc_count)) return;
   uvec4 arc = texelFetch(arcs, int(index));
   if (arc.z == kNone) return;
   for (int end = 0; end < 2; ++end) {

@@ -11,11 +11,12 @@ layout(std430, binding = 0) readonly buffer Atoms { vec4 atoms[]; };  // xyz fro
 layout(std430, binding = 1) buffer CellFirst { uint cell_first[]; };
 layout(std430, binding = 2) buffer Rank { uint rank[]; };
 layout(std430, binding = 3) writeonly buffer CellAtoms { uint cell_atoms[]; };
+layout(std430, binding = 4) readonly buffer BallCount { uint cut_short; uint ball_count; };
 layout(std140, binding = 0) uniform Parameters { GridParameters params; };
 
 void main() {
   uint a = linear_invocation_index();
-  if (a >= params.atom_count) return;
+  if (a >= min(ball_count, params.atom_count)) return;
   uint cell = cell_index(cell_of(atoms[a].xyz));
 #if PASS == 0
   rank[a] = atomicAdd(cell_first[cell], 1u);

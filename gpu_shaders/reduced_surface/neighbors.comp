@@ -2,8 +2,8 @@
 // Stage "neighbors": lists the atoms whose SAS balls overlap, roughly nearest first, as seen from each atom.
 // Pass 0 counts neighbours and pairs (i < j, both listed); pass 1 (after scans) writes them.
 // Reads: atoms, atoms_low, cells. Writes: class_counts, neighbor_first, pair_first (counts, then scanned), neighbor_balls,
-// neighbor_labels, pairs. One invocation per atom of the batch. Overflow: none, pass 0 counts
-// exactly what pass 1 writes.
+// neighbor_labels, pairs. One invocation per atom of the batch; entries behind the last one have empty lists. Overflow:
+// scans stop at the capacity, and so does pass 1; the host makes the frame again.
 // Based on: Krone, Dachsbacher & Ertl 2010, section 3.3 (neighbourhood grid).
 #version 450 core
 layout(local_size_x = 64) in;
@@ -17,7 +17,10 @@ layout(std430, binding = 0) buffer ClassCounts { uint class_counts[]; };  // per
 layout(std430, binding = 1) readonly buffer AtomsLow { vec4 atoms_low[]; };  // lo part, w: 1 if swallowed
 layout(std430, binding = 2) readonly buffer CellFirst { uint cell_first[]; };
 layout(binding = 1) uniform usamplerBuffer cell_atoms;
-layout(std430, binding = 3) buffer Trouble { uint cut_short; };  // 1: some ball has too many balls about it
+layout(std430, binding = 3) buffer BallCount {
+  uint cut_short;  // 1: some ball has too many balls about it
+  uint ball_count;
+};
 layout(std430, binding = 4) buffer NeighborFirst { uint neighbor_first[]; };
 layout(std430, binding = 5) buffer PairFirst { uint pair_first[]; };
 layout(std430, binding = 6) writeonly buffer NeighborBalls { vec4 neighbor_balls[]; };  // relative centre, SAS radius²
@@ -32,6 +35,13 @@ const uint kClasses = 6u;
 void main() {
   uint entry = linear_invocation_index();
   if (entry >= params.entry_count) return;
+  if (params.first_entry + entry >= entries_of(ball_count)) {
+#if PASS == 0
+    neighbor_first[entry] = 0u;
+    pair_first[entry] = 0u;
+#endif
+    return;
+  }
   uint i = ball_of(params.first_entry + entry);
   vec4 self = atom(i);
   vec4 self_low = atoms_low[i];
@@ -74,8 +84,10 @@ void main() {
           if (j > i && is_listed(j)) ++pair_count;
 #else
           vec3 d = coarse + (other_low.xyz - self_low.xyz);
-          neighbor_balls[class_next[c]] = vec4(d, other.w * other.w);
-          neighbor_labels[class_next[c]] = j;
+          if (class_next[c] < params.capacity) {
+            neighbor_balls[class_next[c]] = vec4(d, other.w * other.w);
+            neighbor_labels[class_next[c]] = j;
+          }
           ++class_next[c];
 #endif
         }

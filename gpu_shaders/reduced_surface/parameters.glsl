@@ -12,13 +12,14 @@ struct CellGrid {
 const int kCellGridBinding = 1;
 
 struct GridParameters {
-  uint atom_count;
+  uint atom_count;  // at most; the GPU knows how many
 };
 
 struct NeighborParameters {
   uint first_entry;  // of the batch
-  uint entry_count;  // in the batch
+  uint entry_count;  // in the batch, at most
   float largest_radius;
+  uint capacity;  // of the lists
 };
 
 struct PairParameters {
@@ -27,8 +28,10 @@ struct PairParameters {
 };
 
 struct CircleParameters {
-  uint first_entry;  // of the batch, which the neighbour lists count from
-  uint circle_count;
+  uint first_entry;   // of the batch, which the neighbour lists count from
+  uint entry_count;   // in the batch
+  uint circle_count;  // at most; the GPU knows how many
+  uint list_limit;    // neighbour lists that have come to it had no room
   uint arc_capacity;
   uint doubtful_capacity;
 };
@@ -42,7 +45,7 @@ struct LoneAtomParameters {
 struct FixedProbeParameters {
   dvec3 middle;  // of the atoms
   double probe_radius;
-  uint arc_count;
+  uint arc_count;  // at most; the GPU knows how many
   uint probe_capacity;
 };
 

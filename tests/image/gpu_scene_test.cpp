@@ -237,6 +237,7 @@ TEST_F(GpuScenes, NoTileMissesABound) {
     }
     GpuScene scene;
     scene.primitives.upload(primitives);
+    scene.counters.upload(std::vector<std::uint32_t>{scene.primitives.count()});
     scene.last_depth = 80.0f;
     const PictureBlock block{{n % 2 ? kTileEdge : 0, 0}, {100, 150}};
     lists.build(scene, frame, block);

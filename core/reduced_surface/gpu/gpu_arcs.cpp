@@ -22,6 +22,7 @@ void GpuArcs::upload(std::span<const Ball> atoms, const std::vector<bool>& swall
 }
 
 void GpuArcs::find(StageClock& clock, const std::function<void(const BallBatch&)>& visit) {
+  neighbors.count_lists(Counting::now);
   circles.restart();
   std::optional<GpuStage> listing(std::in_place, clock, "neighbors");
   neighbors.for_each_batch([&](const BallBatch& batch) {
@@ -31,6 +32,22 @@ void GpuArcs::find(StageClock& clock, const std::function<void(const BallBatch&)
     circles.expose(batch, clock);
     listing.emplace(clock, "neighbors");
   });
+  circles.tell_count();
 }
+
+void GpuArcs::find_later(StageClock& clock) {
+  neighbors.count_lists(Counting::later);
+  neighbors.for_each_batch([&](const BallBatch& batch) {
+    neighbors.list_pairs(batch);
+    circles.expose_later(batch, clock);
+  });
+}
+
+void GpuArcs::ask(Readback& readback) {
+  neighbors.ask(readback);
+  circles.ask(readback);
+}
+
+bool GpuArcs::settle() { return neighbors.settle() && circles.settle(neighbors.known()); }
 
 }  // namespace meniscus

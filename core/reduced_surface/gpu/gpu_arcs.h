@@ -28,6 +28,11 @@ class GpuArcs {
   /// CapacityError.
   void find(StageClock& clock, const std::function<void(const BallBatch&)>& visit = {});
 
+  /// The same without asking for any count, where neighbors.can_trust(): see GpuCircles::expose_later().
+  void find_later(StageClock& clock);
+  void ask(Readback& readback);
+  bool settle();
+
   GpuNeighbors neighbors;
   GpuCircles circles;
 

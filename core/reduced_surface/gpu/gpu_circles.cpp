@@ -31,46 +31,80 @@ void GpuCircles::restart() {
 void GpuCircles::expose(const BallBatch& batch, StageClock& clock) {
   stats_.pairs += batch.pair_count;
   if (batch.pair_count == 0) return;
+  doubtful_.clear();
+  still_doubtful_.clear();
   {
     const GpuStage stage(clock, "circles");
-    relative_texels_.view(neighbors_.relative);
-    run(batch, false, neighbors_.pairs, batch.pair_count, doubtful_);
+    run(batch, false, batch.pair_count);
   }
   if (doubtful_.count() == 0) return;
   const GpuStage stage(clock, "doubtful circles");
   stats_.decided_in_double += doubtful_.count();
-  run(batch, true, doubtful_.buffer, doubtful_.count(), still_doubtful_);
+  run(batch, true, doubtful_.count());
   if (still_doubtful_.count() == 0) return;
   stats_.decided_in_quadruple += still_doubtful_.count();
   decide_on_host(batch, still_doubtful_.buffer.download<glm::uvec2>(still_doubtful_.count()));
 }
 
-void GpuCircles::run(const BallBatch& batch, bool in_double, const Buffer& circles, std::uint32_t circle_count,
-                     AppendList& doubtful) {
+void GpuCircles::expose_later(const BallBatch& batch, StageClock& clock) {
+  still_doubtful_.clear();
+  still_doubtful_.make_room();
+  append_later({&arcs, &doubtful_}, counters_, counts_, [&] {
+    const GpuStage stage(clock, "circles");
+    start(batch, false, batch.pair_count);
+  });
+  const GpuStage stage(clock, "doubtful circles");
+  start(batch, true, doubtful_.capacity());
+}
+
+void GpuCircles::ask(Readback& readback) { readback.ask(counters_, 0, counts_); }
+
+bool GpuCircles::settle(const BallBatch& batch) {
+  stats_ = {batch.pair_count, counts_[1], counts_[2]};
+  return settle_all({&arcs, &doubtful_}, counts_) && counts_[2] == 0;
+}
+
+void GpuCircles::tell_count() {
+  const std::uint32_t count = arcs.count();
+  counters_.resize(sizeof counts_);
+  counters_.write(0, &count, sizeof count);
+}
+
+void GpuCircles::run(const BallBatch& batch, bool in_double, std::uint32_t circle_count) {
+  const auto start_it = [&] { start(batch, in_double, circle_count); };
+  if (in_double)
+    append_all({&arcs, &doubtful_, &still_doubtful_}, counters_, counts_, start_it);
+  else
+    append_all({&arcs, &doubtful_}, counters_, counts_, start_it);
+}
+
+void GpuCircles::start(const BallBatch& batch, bool in_double, std::uint32_t circle_count) {
   ShaderDefines defines = neighbors_.list_defines();
   if (in_double) defines.emplace_back("DOUBLE_PRECISION", "1");
   const Program& program = programs_.get("gpu_shaders/reduced_surface/circles.comp", defines);
-  doubtful.clear();
-  std::array<std::uint32_t, 2> counts{};  // arcs, doubtful circles
-  append_all({&arcs, &doubtful}, counters_, counts, [&] {
-    circles.bind(0);
-    neighbors_.first.bind(1);
-    neighbors_.labels.bind(2);
-    if (in_double)
-      atoms.bind(3);
-    else
-      relative_texels_.bind(0);
-    arcs.buffer.bind(4);
-    doubtful.buffer.bind(5);
-    counters_.bind(6);
-    neighbors_.balls.bind(7);
-    neighbors_.bind_listed();
-    program.set(kernel::CircleParameters{.first_entry = batch.first,
-                                         .circle_count = circle_count,
-                                         .arc_capacity = arcs.capacity(),
-                                         .doubtful_capacity = doubtful.capacity()});
-    program.dispatch(group_count(circle_count));
-  });
+  const AppendList& doubtful = in_double ? still_doubtful_ : doubtful_;
+  (in_double ? doubtful_.buffer : neighbors_.pairs).bind(0);
+  neighbors_.first.bind(1);
+  neighbors_.labels.bind(2);
+  if (in_double) {
+    atoms.bind(3);
+  } else {
+    neighbors_.pair_first.bind(3);
+    relative_texels_.view(neighbors_.relative);
+    relative_texels_.bind(0);
+  }
+  arcs.buffer.bind(4);
+  doubtful.buffer.bind(5);
+  counters_.bind(6);
+  neighbors_.balls.bind(7);
+  neighbors_.bind_listed();
+  program.set(kernel::CircleParameters{.first_entry = batch.first,
+                                       .entry_count = batch.count,
+                                       .circle_count = circle_count,
+                                       .list_limit = neighbors_.list_limit(),
+                                       .arc_capacity = arcs.capacity(),
+                                       .doubtful_capacity = doubtful.capacity()});
+  program.dispatch(group_count(circle_count));
 }
 
 // Double left these in doubt (ties): Contour decides them in quadruple precision.

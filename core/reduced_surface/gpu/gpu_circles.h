@@ -3,6 +3,7 @@
 // host.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -34,13 +35,24 @@ class GpuCircles {
   /// Appends the arcs of the batch's circles, in any order. Its pairs must have been listed. Times go to `clock`.
   void expose(const BallBatch& batch, StageClock& clock);
 
+  /// The same for the only batch, without asking how many arcs there are: none may be left to the host, and lists must
+  /// have had room. What the host has to know comes back with the frame; settle() says whether it was so.
+  void expose_later(const BallBatch& batch, StageClock& clock);
+  void ask(Readback& readback);
+  bool settle(const BallBatch& batch);
+  /// Puts the number of arcs that the host knows where kernels find it.
+  void tell_count();
+
+  /// For kernels: word 0 is the number of arcs, which may be more than have room.
+  const Buffer& counters() const { return counters_; }
+
   Buffer atoms;  ///< dvec4 per atom: centre in Å, decision weight
   AppendList arcs{sizeof(RsArc), 1 << 14};
   const CircleStats& stats() const { return stats_; }
 
  private:
-  void run(const BallBatch& batch, bool in_double, const Buffer& circles, std::uint32_t circle_count,
-           AppendList& doubtful);
+  void run(const BallBatch& batch, bool in_double, std::uint32_t circle_count);
+  void start(const BallBatch& batch, bool in_double, std::uint32_t circle_count);
   void decide_on_host(const BallBatch& batch, std::vector<glm::uvec2> circles);
 
   ProgramCache& programs_;
@@ -50,6 +62,7 @@ class GpuCircles {
   TexelBuffer relative_texels_{TexelFormat::uint4};  // of the neighbours, which circles fetch most
   AppendList doubtful_{sizeof(glm::uvec2), 1 << 12}, still_doubtful_{sizeof(glm::uvec2), 1 << 12};
   Buffer counters_;
+  std::array<std::uint32_t, 3> counts_{};  // arcs, doubtful circles in single precision and in double
   CircleStats stats_;
 };
 

@@ -50,9 +50,21 @@ void GpuNeighbors::upload(std::span<const glm::dvec3> centers, std::span<const d
   adopt(count_, {low - middle, high - middle, largest});
 }
 
-void GpuNeighbors::adopt(std::uint32_t count, const BallExtent& extent_of_balls) {
-  const auto& [low, high, largest] = extent_of_balls;
+void GpuNeighbors::adopt(std::uint32_t count, const BallExtent& extent) {
   count_ = entry_count_ = count;
+  ball_count_.upload(std::vector<std::uint32_t>{0, count});
+  adopt_extent(extent);
+}
+
+void GpuNeighbors::adopt(std::uint32_t most, const BallExtent& extent, const Buffer& counts, std::size_t byte_offset) {
+  count_ = entry_count_ = most;
+  ball_count_.upload(std::vector<std::uint32_t>{0, 0});
+  ball_count_.copy(counts, byte_offset, kWord, kWord);
+  adopt_extent(extent);
+}
+
+void GpuNeighbors::adopt_extent(const BallExtent& extent_of_balls) {
+  const auto& [low, high, largest] = extent_of_balls;
   listed_ = nullptr;
   resident_ = {};
   if (count_ == 0) return;
@@ -75,6 +87,7 @@ void GpuNeighbors::build_grid() {
     cell_first_.bind(1);
     rank_.bind(2);
     cell_atoms_.bind(3);
+    ball_count_.bind(4);
     const Program& program = kernel("reduced_surface/grid", pass);
     program.set(kernel::GridParameters{.atom_count = count_});
     program.set(grid_, kernel::kCellGridBinding);
@@ -118,14 +131,16 @@ void GpuNeighbors::run_neighbors(const BallBatch& batch, int pass) {
   class_counts_.bind(0);
   balls_low.bind(1);
   cell_first_.bind(2);
-  cut_short_.bind(3);
+  ball_count_.bind(3);
   first.bind(4);
-  pair_first_.bind(5);
+  pair_first.bind(5);
   relative.bind(6);
   labels.bind(7);
   const Program& program = kernel("reduced_surface/neighbors", pass);
-  program.set(kernel::NeighborParameters{
-      .first_entry = batch.first, .entry_count = batch.count, .largest_radius = largest_radius_});
+  program.set(kernel::NeighborParameters{.first_entry = batch.first,
+                                         .entry_count = batch.count,
+                                         .largest_radius = largest_radius_,
+                                         .capacity = static_cast<std::uint32_t>(labels.byte_count() / kWord)});
   program.set(grid_, kernel::kCellGridBinding);
   program.dispatch(group_count(batch.count));
 }
@@ -133,22 +148,14 @@ void GpuNeighbors::run_neighbors(const BallBatch& batch, int pass) {
 bool GpuNeighbors::count_neighbors(BallBatch& batch) {
   resident_ = {};
   first.resize((batch.count + 1) * kWord);
-  pair_first_.resize((batch.count + 1) * kWord);
+  pair_first.resize((batch.count + 1) * kWord);
   class_counts_.resize(batch.count * kClasses * kWord);
   relative.resize(sizeof(glm::vec4));
   labels.resize(kWord);
-  cut_short_.resize(kWord);
-  cut_short_.fill(0);
   run_neighbors(batch, 0);
-  if (cut_short_.download<std::uint32_t>(1).front() != 0)
-    throw CapacityError(
-        "there are more balls about each ball than this driver's kernels can go through; use --device cpu, or a "
-        "smaller "
-        "probe");
-  scan_(first, batch.count);
-  scan_(pair_first_, batch.count);
-  first.read(batch.count * kWord, &batch.neighbor_count, kWord);
-  pair_first_.read(batch.count * kWord, &batch.pair_count, kWord);
+  scan_counts(batch);
+  if (counting_ == Counting::later) return true;
+  read_counts(batch);
   const std::size_t limit = query_gpu_limits().storage_block_bytes;
   if (batch.neighbor_count * sizeof(glm::vec4) <= limit) return true;
   if (batch.count == 1)
@@ -156,6 +163,50 @@ bool GpuNeighbors::count_neighbors(BallBatch& batch) {
                         std::to_string(batch.neighbor_count) + " others, more than this driver's storage blocks of " +
                         std::to_string(limit >> 20) + " MiB hold; use --device cpu");
   return false;
+}
+
+// Places stop at the room that there is where the host does not ask before it hands them out.
+void GpuNeighbors::scan_counts(BallBatch& batch) {
+  if (counting_ == Counting::now) {
+    scan_(first, batch.count);
+    scan_(pair_first, batch.count);
+    return;
+  }
+  const auto with_room = [](std::uint32_t count) { return count + count / 8 + 64; };
+  trusted_ = batch;
+  trusted_.neighbor_count = batch.neighbor_count = with_room(known_.neighbor_count);
+  trusted_.pair_count = batch.pair_count = with_room(known_.pair_count);
+  scan_(first, batch.count, batch.neighbor_count);
+  scan_(pair_first, batch.count, batch.pair_count);
+}
+
+void GpuNeighbors::ask(Readback& readback) {
+  readback.ask(ball_count_, 0, {&counted_.cut_short, 1});
+  readback.ask(first, trusted_.count * kWord, {&counted_.neighbors, 1});
+  readback.ask(pair_first, trusted_.count * kWord, {&counted_.pairs, 1});
+}
+
+bool GpuNeighbors::settle() {
+  known_ = {};
+  if (counted_.cut_short != 0 || counted_.neighbors >= trusted_.neighbor_count || counted_.pairs >= trusted_.pair_count)
+    return false;
+  known_ = {0, trusted_.count, counted_.neighbors, counted_.pairs};
+  return true;
+}
+
+void GpuNeighbors::read_counts(BallBatch& batch) {
+  trusted_ = batch;
+  Readback readback;
+  ask(readback);
+  readback.read();
+  if (counted_.cut_short != 0)
+    throw CapacityError(
+        "there are more balls about each ball than this driver's kernels can go through; use --device cpu, or a "
+        "smaller "
+        "probe");
+  batch.neighbor_count = counted_.neighbors;
+  batch.pair_count = counted_.pairs;
+  known_ = batch.count == entry_count_ ? batch : BallBatch{};
 }
 
 void GpuNeighbors::list_neighbors(const BallBatch& batch) {
@@ -168,7 +219,7 @@ void GpuNeighbors::list_pairs(const BallBatch& batch) {
   pairs.resize(std::max(1u, batch.pair_count) * sizeof(glm::uvec2));
   first.bind(0);
   labels.bind(1);
-  pair_first_.bind(2);
+  pair_first.bind(2);
   pairs.bind(3);
   bind_listed();
   const Program& program = kernel("reduced_surface/pairs");

@@ -14,6 +14,7 @@
 #include "core/gpu/kernel_parameters.h"
 #include "core/gpu/prefix_sum.h"
 #include "core/gpu/program.h"
+#include "core/gpu/readback.h"
 #include "core/gpu/texel_buffer.h"
 
 namespace meniscus {
@@ -50,11 +51,27 @@ class GpuNeighbors {
 
   /// Takes balls that a kernel has written to `balls` and `balls_low`.
   void adopt(std::uint32_t count, const BallExtent& extent);
+  /// The same for no more than `most` balls, whose number is a word of `counts`.
+  void adopt(std::uint32_t most, const BallExtent& extent, const Buffer& counts, std::size_t byte_offset);
 
   /// From now on lists are made for these balls only, and pairs of two of them; all are still listed as neighbours.
   /// listed: `count` ascending indices; before: per ball and one more, how many listed ones come before it. Batches
-  /// count entries of `listed`. Both buffers must stay. upload() and adopt() list all again.
+  /// count entries of `listed`. Both buffers must stay. upload() and adopt() list all again. The count may be larger
+  /// than it is: behind the last one lists are empty.
   void list_only(const Buffer& listed, const Buffer& before, std::uint32_t count);
+
+  /// With Counting::later lists get the room that they needed last time and some more, in one batch, which must suffice
+  /// for all: can_trust(). Holds until it is called again.
+  void count_lists(Counting counting) { counting_ = counting; }
+  /// Whether so many balls fit into one batch, and the sizes of such a batch are known.
+  bool can_trust(std::uint32_t entry_count) const { return entry_count <= kLargestBatch && known_.count > 0; }
+  /// For Counting::later: what the host has to know, and, once that has been read back, whether there was room.
+  void ask(Readback& readback);
+  bool settle();
+  /// For kernels: lists that have come so far had no room for all.
+  std::uint32_t list_limit() const { return counting_ == Counting::later ? trusted_.neighbor_count : ~0u; }
+  /// Sizes of the lists as they were counted last.
+  const BallBatch& known() const { return known_; }
 
   /// What kernels that include listed_balls.glsl need: their define, and their two textures bound to units 2 and 3.
   ShaderDefines list_defines() const;
@@ -88,18 +105,22 @@ class GpuNeighbors {
   /// Lists each overlapping pair i < j of the batch once, in `pairs`.
   void list_pairs(const BallBatch& batch);
 
-  Buffer balls;      ///< vec4 per ball: centre from the middle (high part), radius
-  Buffer balls_low;  ///< vec4 per ball: low part of the centre; w: 1 for balls left out
-  Buffer first;      ///< uint per ball of the batch + 1: into the two lists
-  Buffer relative;   ///< vec4 per neighbour: centre from the ball's, radius²; roughly nearest first
-  Buffer labels;     ///< uint per neighbour: its index
-  Buffer pairs;      ///< uvec2 per pair: entry of the ball, place of the other in the lists
+  Buffer balls;       ///< vec4 per ball: centre from the middle (high part), radius
+  Buffer balls_low;   ///< vec4 per ball: low part of the centre; w: 1 for balls left out
+  Buffer first;       ///< uint per ball of the batch + 1: into the two lists
+  Buffer relative;    ///< vec4 per neighbour: centre from the ball's, radius²; roughly nearest first
+  Buffer labels;      ///< uint per neighbour: its index
+  Buffer pair_first;  ///< uint per ball of the batch + 1: into the pairs
+  Buffer pairs;       ///< uvec2 per pair: entry of the ball, place of the other in the lists
 
  private:
   static constexpr std::size_t kClasses = 6;               // distance classes of the kernel
   static constexpr std::uint32_t kLargestBatch = 1 << 16;  // lists of some 50 MB: within limits and not far from caches
 
   bool count_neighbors(BallBatch& batch);
+  void scan_counts(BallBatch& batch);
+  void read_counts(BallBatch& batch);
+  void adopt_extent(const BallExtent& extent_of_balls);
   void list_neighbors(const BallBatch& batch);
   void run_neighbors(const BallBatch& batch, int pass);
   void build_grid();
@@ -109,8 +130,14 @@ class GpuNeighbors {
   PrefixSum scan_;
   TexelBuffer ball_texels_{TexelFormat::uint4}, cell_texels_{TexelFormat::uint1};  // of balls and cell_atoms_
   TexelBuffer listed_texels_{TexelFormat::uint1}, before_texels_{TexelFormat::uint1};
-  Buffer cell_first_, rank_, cell_atoms_, pair_first_, class_counts_, cut_short_;
+  Buffer cell_first_, rank_, cell_atoms_, class_counts_;
+  Buffer ball_count_;   // uint, whether loops were cut short; uint, how many balls there are
   BallBatch resident_;  // whose lists the buffers hold; count 0: nobody's
+  Counting counting_ = Counting::now;
+  BallBatch known_, trusted_;  // of one batch: as last counted, with room
+  struct Counted {
+    std::uint32_t cut_short = 0, neighbors = 0, pairs = 0;
+  } counted_;
   std::uint32_t count_ = 0;
   std::uint32_t entry_count_ = 0;  // of the lists: count_, or that of list_only()
   const Buffer* listed_ = nullptr;
