@@ -6,7 +6,7 @@
 
 struct ScanParameters {
   uint count;         // words
-  uint chunk_length;  // words per invocation
+  uint chunk_length;  // words per invocation, or per group
   uint limit;         // no sum is larger
 };
 

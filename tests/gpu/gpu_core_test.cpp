@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Context, buffers, programs, folded dispatch and timers on whatever GL this machine has.
+#include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <numeric>
+#include <random>
 #include <span>
 #include <thread>
 #include <vector>
@@ -21,6 +23,7 @@
 #include "core/gpu/gpu_stage.h"
 #include "core/gpu/kernel_parameters.h"
 #include "core/gpu/limits.h"
+#include "core/gpu/prefix_sum.h"
 #include "core/gpu/program.h"
 #include "tests/gpu/kernel_variants.h"
 
@@ -231,6 +234,27 @@ TEST_F(GpuCore, AppendedRecordsAllFindTheirPlace) {
   for (std::uint32_t n = 0; n < found.size(); ++n) ASSERT_EQ(found[n], n);
   numbers.clear();
   EXPECT_EQ(numbers.count(), 0u);
+}
+
+// Both ways of scanning, around the lengths of their chunks and rows of chunks.
+TEST_F(GpuCore, ScansOfAllKindsAgree) {
+  ProgramCache programs;
+  PrefixSum serial(programs, ScanKind::serial), parallel(programs, ScanKind::parallel);
+  std::mt19937 random(7);
+  for (const std::uint32_t count :
+       {0u, 1u, 3u, 4u, 5u, 255u, 511u, 512u, 513u, 1023u, 1024u, 1025u, 70000u, 262143u, 262144u, 262145u, 700001u})
+    for (const std::uint32_t limit : {~0u, count / 2 * 3, 0u}) {
+      std::vector<std::uint32_t> words(count + 1), expected(count + 1);
+      std::generate(words.begin(), words.end(), [&] { return random() % 7; });
+      std::exclusive_scan(words.begin(), words.end(), expected.begin(), 0u);
+      for (std::uint32_t& sum : expected) sum = std::min(sum, limit);
+      for (PrefixSum* scan : {&serial, &parallel}) {
+        Buffer buffer{std::span<const std::uint32_t>(words)};
+        (*scan)(buffer, count, limit);
+        ASSERT_EQ(buffer.download<std::uint32_t>(count + 1), expected)
+            << count << " words, limit " << limit << (scan == &serial ? ", serial" : ", parallel");
+      }
+    }
 }
 
 TEST_F(GpuCore, ExactStagesWaitForTheGpu) {
