@@ -143,7 +143,7 @@ void run(const MoleculeOptions& options, const std::string& trajectory_path) {
   const bool alone = trajectory_path.empty() && !binary_trajectory_format(options.file).empty();
   std::unique_ptr<Trajectory> trajectory;
   if (alone || !trajectory_path.empty())
-    trajectory = open_trajectory(alone ? options.file : trajectory_path, {frame_index_folder()});
+    trajectory = open_trajectory(alone ? options.file : trajectory_path, {cache_folder()});
   if (!alone) print_structure(options, trajectory.get());
   if (!alone && trajectory) fmt::print(std::cout, "\n");
   if (trajectory) print_trajectory(*trajectory);

@@ -170,6 +170,7 @@ void open_window(PreviewCommand& command) {
   options.title = fmt::format("{} - Meniscus", std::filesystem::path(command.molecule.file).filename().string());
   for (const WrittenCommand& written : commands) options.commands.push_back(written.command);
   options.size = {command.picture.width, command.picture.height};
+  options.kernel_folder = command.molecule.surface.gl.kernel_folder;
   options.replied = [&](std::size_t index, const nlohmann::json& reply) {
     print_reply(command.commands, commands[index].line, reply, std::cout);
   };

@@ -33,7 +33,7 @@ void add_selection(CLI::App& command, const std::string& name, std::optional<Sel
 
 void add_frame_options(CLI::App& command, FrameOptions& options) {
   const Heading heading(command, "Frames");
-  options.index_folder = frame_index_folder();
+  options.index_folder = cache_folder();
   command
       .add_option("--trajectory", options.trajectory,
                   "Coordinates of the atoms of FILE, frame by frame (meniscus formats); without it the models of FILE "
@@ -88,7 +88,7 @@ void add_frame_options(CLI::App& command, FrameOptions& options) {
   add_progress_option(command, options.progress);
 }
 
-std::string frame_index_folder() {
+std::string cache_folder() {
   if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache && *cache == '/')
     return std::string(cache) + "/meniscus";
   if (const char* home = std::getenv("HOME"); home && *home == '/') return std::string(home) + "/.cache/meniscus";

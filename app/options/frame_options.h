@@ -32,7 +32,7 @@ struct FrameOptions : RunRequest {
 void add_frame_options(CLI::App& command, FrameOptions& options);
 void add_progress_option(CLI::App& command, ProgressStyle& style);
 
-/// Where indices of frames are kept: beside other caches of the user, or nowhere.
-std::string frame_index_folder();
+/// Where indices of frames and compiled kernels are kept: beside other caches of the user, or nowhere.
+std::string cache_folder();
 
 }  // namespace meniscus

@@ -46,10 +46,13 @@ void add_radii_options(CLI::App& command, ReadOptions& reading);
 /// --verify, --threads.
 void add_surface_options(CLI::App& command, MoleculeOptions& options);
 void add_probe_option(CLI::App& command, SurfaceRequest& surface);
-/// Reads CUDA_VISIBLE_DEVICES, and the number of this worker in kWorkerVariable or SLURM_LOCALID: see DeviceChoice.
+/// Reads CUDA_VISIBLE_DEVICES, the number of this worker in kWorkerVariable or SLURM_LOCALID, and kKernelVariable: see
+/// DeviceChoice.
 void add_device_option(CLI::App& command, SurfaceRequest& surface);
 /// What `meniscus work` tells the programs it starts: from 0, which of the workers on this machine they belong to.
 inline constexpr const char* kWorkerVariable = "MENISCUS_WORKER";
+/// "off": compiled kernels are not kept beside other caches of the user.
+inline constexpr const char* kKernelVariable = "MENISCUS_KERNEL_CACHE";
 /// Into which objects it is divided (surface_options.cpp): --by, --cavities.
 void add_division_options(CLI::App& command, MoleculeOptions& options);
 /// How it is coloured (color_options.cpp): --color, --color-by-file, --map, --color-range, --missing-color.

@@ -5,9 +5,11 @@
 #include <cstring>
 #include <map>
 #include <optional>
+#include <string_view>
 
 #include <fmt/format.h>
 
+#include "app/options/frame_options.h"
 #include "app/options/molecule_options.h"
 #include "app/options/value_words.h"
 #include "core/base/error.h"
@@ -47,8 +49,11 @@ void require_gpu(SurfaceRequest& options) {
   if (options.gl.kind == DeviceChoice::Kind::automatic) options.gl.kind = DeviceChoice::Kind::gpu;
 }
 
-/// Which GPUs this process is meant to see, and which of several it takes.
+/// Which GPUs this process is meant to see, which of several it takes, and where their kernels are kept.
 void read_environment(DeviceChoice& choice) {
+  const char* const kept = std::getenv(kKernelVariable);
+  if (const std::string cache = cache_folder(); !cache.empty() && !(kept && std::string_view(kept) == "off"))
+    choice.kernel_folder = cache + "/kernels";
   if (const char* const visible = std::getenv("CUDA_VISIBLE_DEVICES")) choice.cuda_visible = visible;
   for (const char* const variable : {"SLURM_LOCALID", kWorkerVariable}) {
     const char* const text = std::getenv(variable);

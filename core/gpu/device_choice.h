@@ -24,6 +24,8 @@ struct DeviceChoice {
   /// CUDA_VISIBLE_DEVICES, if the caller has it: the NVIDIA GPUs that count, in this order, by CUDA's index or by UUID;
   /// what follows an entry that names none does not count either, as CUDA has it. Other makers' GPUs come behind.
   std::optional<std::string> cuda_visible{};
+  /// Where kernels are kept as the driver has compiled them (kernel_files.h); empty: nowhere.
+  std::string kernel_folder{};
   /// Of several GPUs that would do, worker k takes number k first, counted around.
   int worker = 0;
 };

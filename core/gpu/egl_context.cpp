@@ -111,7 +111,7 @@ std::optional<ForeignContext> current_egl_context() {
   if (!epoxy_has_egl() || eglGetCurrentContext() == EGL_NO_CONTEXT) return {};
   GLint strategy = GL_NO_RESET_NOTIFICATION;
   glGetIntegerv(GL_RESET_NOTIFICATION_STRATEGY, &strategy);
-  return ForeignContext{eglGetCurrentDisplay(), eglGetCurrentContext(), strategy == GL_LOSE_CONTEXT_ON_RESET};
+  return ForeignContext{eglGetCurrentDisplay(), eglGetCurrentContext(), strategy == GL_LOSE_CONTEXT_ON_RESET, {}};
 }
 
 EglContext::EglContext(const DeviceChoice& choice) {
@@ -124,14 +124,14 @@ EglContext::EglContext(const DeviceChoice& choice) {
   std::string reasons;
   for (const DeviceAttempt& attempt : attempts) {
     std::string why_not;
-    if (try_device(attempt, why_not)) return;
+    if (try_device(attempt, choice.kernel_folder, why_not)) return;
     reasons += fmt::format("{}device {} ({}): {}", reasons.empty() ? "" : "; ", attempt.device.egl_index,
                            attempt.device.name, why_not);
   }
   throw GpuError(fmt::format("no usable GL 4.5 device for '{}': {}", to_string(choice), reasons));
 }
 
-bool EglContext::try_device(const DeviceAttempt& attempt, std::string& why_not) {
+bool EglContext::try_device(const DeviceAttempt& attempt, const std::string& kernel_folder, std::string& why_not) {
   const GlDevice& device = attempt.device;
   const auto devices = query_devices();
   if (static_cast<std::size_t>(device.egl_index) >= devices.size()) return why_not = "it went away", false;
@@ -151,7 +151,7 @@ bool EglContext::try_device(const DeviceAttempt& attempt, std::string& why_not) 
   if (context == EGL_NO_CONTEXT) context = create_context(display, config, EGL_NO_CONTEXT, false);
   if (context == EGL_NO_CONTEXT)
     return why_not = fmt::format("no GL 4.5 core (EGL error 0x{:x})", eglGetError()), false;
-  if (!adopt_context(display, context, why_not)) {
+  if (!adopt_context(display, context, kernel_folder, why_not)) {
     eglDestroyContext(display, context);
     return false;
   }
@@ -162,13 +162,16 @@ bool EglContext::try_device(const DeviceAttempt& attempt, std::string& why_not) 
   return false;
 }
 
-bool EglContext::adopt_context(void* display, void* context, std::string& why_not) {
+bool EglContext::adopt_context(void* display, void* context, const std::string& kernel_folder, std::string& why_not) {
   if (!eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context))
     return why_not = fmt::format("its context cannot be made current (EGL error 0x{:x})", eglGetError()), false;
   display_ = display;
   context_ = context;
   description_ = describe_current_context();
   proof_.emplace();
+  kernel_files_.reset();
+  KernelFiles::make_current(nullptr);
+  if (!kernel_folder.empty()) kernel_files_.emplace(kernel_folder);
   return true;
 }
 
@@ -179,7 +182,7 @@ EglContext::EglContext(const ForeignContext& sibling) {
                                             sibling.context, sibling.tells_resets);
   if (context == EGL_NO_CONTEXT)
     throw GpuError(fmt::format("no GL context beside the window's (EGL error 0x{:x})", eglGetError()));
-  if (std::string why_not; !adopt_context(sibling.display, context, why_not)) {
+  if (std::string why_not; !adopt_context(sibling.display, context, sibling.kernel_folder, why_not)) {
     eglDestroyContext(sibling.display, context);
     throw GpuError("the GL context beside the window's: " + why_not);
   }
@@ -189,6 +192,7 @@ EglContext::~EglContext() { abandon(); }
 
 void EglContext::abandon() {
   proof_.reset();
+  kernel_files_.reset();
   // The display stays initialised: EGL gives all contexts of a device the same one, and terminating it would end them.
   if (eglGetCurrentContext() == context_) eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
   eglDestroyContext(display_, context_);
@@ -200,6 +204,7 @@ void EglContext::make_current() {
   if (!eglBindAPI(EGL_OPENGL_API) || !eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_))
     throw GpuError(fmt::format("the GL context cannot be made current (EGL error 0x{:x})", eglGetError()));
   proof_->make_current();
+  KernelFiles::make_current(kernel_files_ ? &*kernel_files_ : nullptr);
 }
 
 }  // namespace meniscus

@@ -8,6 +8,7 @@
 
 #include "core/gpu/context_description.h"
 #include "core/gpu/device_choice.h"
+#include "core/gpu/kernel_files.h"
 #include "core/gpu/work_proof.h"
 
 namespace meniscus {
@@ -19,7 +20,8 @@ std::vector<GlDevice> list_gl_devices();
 struct ForeignContext {
   void* display = nullptr;
   void* context = nullptr;
-  bool tells_resets = false;  ///< GL_LOSE_CONTEXT_ON_RESET
+  bool tells_resets = false;    ///< GL_LOSE_CONTEXT_ON_RESET
+  std::string kernel_folder{};  ///< as DeviceChoice has it; for what is made beside it
 };
 
 /// The context current on this thread; nothing if there is none, or not through EGL.
@@ -47,14 +49,15 @@ class EglContext {
   const std::string& version() const { return description_.version; }
 
  private:
-  bool try_device(const DeviceAttempt& attempt, std::string& why_not);
+  bool try_device(const DeviceAttempt& attempt, const std::string& kernel_folder, std::string& why_not);
   void abandon();
-  bool adopt_context(void* display, void* context, std::string& why_not);
+  bool adopt_context(void* display, void* context, const std::string& kernel_folder, std::string& why_not);
 
   void* display_ = nullptr;
   void* context_ = nullptr;
   ContextDescription description_;
   std::optional<WorkProof> proof_;
+  std::optional<KernelFiles> kernel_files_;
 };
 
 }  // namespace meniscus

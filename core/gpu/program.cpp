@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/gpu/kernel_files.h"
 #include "core/gpu/limits.h"
 #include "core/gpu/work_proof.h"
 
@@ -34,12 +35,33 @@ std::string program_log(GLuint program) {
 /// Uniform blocks are whole rows of 16 bytes, and some drivers count the last one whole.
 std::size_t in_rows(std::size_t byte_count) { return (byte_count + 15) / 16 * 16; }
 
+/// Names a kernel in one of its forms.
+std::string form_of(std::string_view path, const ShaderDefines& defines) {
+  std::string name(path);
+  for (const auto& [word, value] : defines) name += fmt::format(" {}={}", word, value);
+  return name;
+}
+
 }  // namespace
 
-Program::Program(std::string_view path, const ShaderDefines& defines)
-    : Program(path, expand_embedded_shader(path, defines)) {}
+Program::Program(std::string_view path, const ShaderDefines& defines) : path_(path), name_(glCreateProgram()) {
+  const KernelFiles* const files = KernelFiles::current();
+  const ShaderSource source = expand_embedded_shader(path, defines);
+  if (!files || !files->load(name_, form_of(path, defines), source.text)) {
+    if (files) glProgramParameteri(name_, GL_PROGRAM_BINARY_RETRIEVABLE_HINT, GL_TRUE);
+    compile(source);
+    if (files) files->save(name_, form_of(path, defines), source.text);
+  }
+  find_blocks();
+}
 
-Program::Program(std::string_view path, const ShaderSource& source) : path_(path) {
+Program::Program(std::string_view path, const ShaderSource& source) : path_(path), name_(glCreateProgram()) {
+  compile(source);
+  find_blocks();
+}
+
+// Leaves nothing behind where it throws: a constructor's object has no destructor then.
+void Program::compile(const ShaderSource& source) {
   const GLuint shader = glCreateShader(GL_COMPUTE_SHADER);
   const char* text = source.text.c_str();
   glShaderSource(shader, 1, &text, nullptr);
@@ -49,9 +71,9 @@ Program::Program(std::string_view path, const ShaderSource& source) : path_(path
   if (!ok) {
     const std::string log = translate_shader_log(shader_log(shader), source.files);
     glDeleteShader(shader);
+    glDeleteProgram(name_);
     throw GpuError(fmt::format("{} does not compile:\n{}", path_, log));
   }
-  name_ = glCreateProgram();
   glAttachShader(name_, shader);
   glLinkProgram(name_);
   glDeleteShader(shader);
@@ -61,7 +83,6 @@ Program::Program(std::string_view path, const ShaderSource& source) : path_(path
     glDeleteProgram(name_);
     throw GpuError(fmt::format("{} does not link:\n{}", path_, log));
   }
-  find_blocks();
 }
 
 Program::~Program() {

@@ -53,6 +53,7 @@ class Program {
     std::vector<std::byte> content;  ///< as many bytes as the kernel sees
   };
 
+  void compile(const ShaderSource& source);
   void find_blocks();
   void set_block(int binding, const void* bytes, std::size_t byte_count) const;
   void start() const;

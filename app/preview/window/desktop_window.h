@@ -40,7 +40,9 @@ class DesktopWindow {
   double scale() const;    ///< how much larger than on an ordinary screen letters should be
   double seconds() const;  ///< since the start of the program
   const ContextDescription& context() const { return context_; }
-  ForeignContext gl() const { return gl_; }
+  ForeignContext gl(const std::string& kernel_folder) const {
+    return {gl_.display, gl_.context, gl_.tells_resets, kernel_folder};
+  }
   GLFWwindow* glfw() { return window_; }
 
  private:

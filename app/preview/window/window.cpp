@@ -36,7 +36,7 @@ class PreviewWindow {
       : options_(options),
         window_(options.title, options.size + glm::ivec2(static_cast<int>(Panel::width(Gui::kLetterHeight)), 0)),
         gui_(window_),
-        thread_(window_.gl(), std::move(make), DesktopWindow::wake),
+        thread_(window_.gl(options.kernel_folder), std::move(make), DesktopWindow::wake),
         link_(thread_, [this](std::uint64_t number, const Json& command) { note(number, command); }),
         panel_(link_) {
     replay_done_ = options_.commands.empty();

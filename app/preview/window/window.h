@@ -17,6 +17,7 @@ namespace meniscus {
 struct WindowOptions {
   std::string title = "Meniscus";
   glm::ivec2 size{1280, 960};            ///< of the picture at first, units of the desktop; smaller on a small screen
+  std::string kernel_folder{};           ///< as DeviceChoice has it
   std::vector<nlohmann::json> commands;  ///< carried out first, each until its picture is in the window
   /// Gets the reply to each of them; what it throws ends the window.
   std::function<void(std::size_t index, const nlohmann::json& reply)> replied;
