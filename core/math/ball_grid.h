@@ -87,8 +87,9 @@ class BallGrid {
   }
 
   glm::ivec3 cell_of(const glm::dvec3& point) const {
+    // Clamped before it is cut off: what is left is positive, and needs no floor().
     const glm::dvec3 scaled = (point - low_) * inverse_spacing_;
-    return glm::ivec3(glm::clamp(glm::floor(scaled), glm::dvec3(0.0), glm::dvec3(size_ - 1)));
+    return glm::ivec3(glm::clamp(scaled, glm::dvec3(0.0), glm::dvec3(size_ - 1)));
   }
 
   glm::dvec3 low_{0.0};

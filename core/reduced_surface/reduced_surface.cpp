@@ -7,6 +7,7 @@
 
 #include <glm/geometric.hpp>
 #include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
 #include "core/math/ball_grid.h"
@@ -57,23 +58,30 @@ std::vector<bool> swallowed_atoms(std::span<const Ball> atoms) {
       std::minmax_element(atoms.begin(), atoms.end(), [](auto& a, auto& b) { return a.radius < b.radius; });
   const double reach = largest->radius - smallest->radius + kSwallowTolerance;
   const BallGrid grid(atoms, std::max(reach, 2.0));
-  // Who could swallow whom, and nobody else: exact containment hands on from ball to ball, nearness does not.
-  std::vector<std::vector<std::uint32_t>> holders(atoms.size());
+  // Who could swallow whom, and nobody else: exact containment hands on from ball to ball, nearness does not. Cell by
+  // cell, for the cache; hardly any pair is found in a molecule.
+  struct Holder {
+    std::uint32_t held, by;
+  };
+  tbb::enumerable_thread_specific<std::vector<Holder>> found;
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, atoms.size(), 256), [&](const auto& range) {
-    for (std::size_t a = range.begin(); a != range.end(); ++a)
+    std::vector<Holder>& holders = found.local();
+    for (std::size_t n = range.begin(); n != range.end(); ++n) {
+      const std::uint32_t a = grid.order()[n];
       grid.for_each_near(atoms[a].center, reach, [&](std::uint32_t b) {
         const double slack = atoms[b].radius - atoms[a].radius - glm::distance(atoms[a].center, atoms[b].center);
-        if (b != a && outranks(atoms, b, static_cast<std::uint32_t>(a)) && slack + kSwallowTolerance >= 0)
-          holders[a].push_back(b);
+        if (b != a && outranks(atoms, b, a) && slack + kSwallowTolerance >= 0) holders.push_back({a, b});
       });
+    }
   });
-  std::vector<std::uint32_t> held;
-  for (std::uint32_t a = 0; a < atoms.size(); ++a)
-    if (!holders[a].empty()) held.push_back(a);
-  std::sort(held.begin(), held.end(), [&](std::uint32_t a, std::uint32_t b) { return outranks(atoms, a, b); });
+  std::vector<Holder> holders;
+  for (const std::vector<Holder>& part : found) holders.insert(holders.end(), part.begin(), part.end());
+  // The highest first: whether one is swallowed has been decided before it can swallow.
+  std::sort(holders.begin(), holders.end(),
+            [&](const Holder& x, const Holder& y) { return x.held != y.held && outranks(atoms, x.held, y.held); });
   std::vector<bool> swallowed(atoms.size(), false);
-  for (const std::uint32_t a : held)
-    swallowed[a] = std::ranges::any_of(holders[a], [&](std::uint32_t b) { return !swallowed[b]; });
+  for (const auto& [held, by] : holders)
+    if (!swallowed[by]) swallowed[held] = true;
   return swallowed;
 }
 

@@ -219,16 +219,19 @@ PictureFrame make_picture_frame(std::span<const Ball> atoms, const Camera& camer
   frame.basis = view_basis(camera);
   frame.size = size;
   // The pivot: the first ball on the view axis, else as deep as the balls are on average.
-  double first = std::numeric_limits<double>::max(), mean = 0.0;
+  double first = std::numeric_limits<double>::max();
   for (const Ball& ball : atoms) {
     const glm::dvec3 v = ball.center - camera.position;
     const double along = glm::dot(v, frame.basis.forward);
-    mean += along / static_cast<double>(atoms.size());
     const glm::dvec3 across = v - frame.basis.forward * along;
     const double room = ball.radius * ball.radius - glm::dot(across, across);
     if (room > 0.0 && along + std::sqrt(room) > 0.0) first = std::min(first, along - std::sqrt(room));
   }
-  if (first == std::numeric_limits<double>::max()) first = mean;
+  if (first == std::numeric_limits<double>::max()) {
+    first = 0.0;
+    for (const Ball& ball : atoms)
+      first += glm::dot(ball.center - camera.position, frame.basis.forward) / static_cast<double>(atoms.size());
+  }
   frame.eye_distance = std::max(first, 1.0);  // a perspective camera needs some distance; 1 Å does inside an atom too
   frame.pivot = camera.position + frame.basis.forward * frame.eye_distance;
   const double half_height = half_extent(camera, 1.0).y;

@@ -29,15 +29,9 @@ void ViewPipeline::set_atoms(std::vector<Ball> atoms) {
   trusted_ = trusted_ && atoms.size() == atoms_.size();
   atoms_ = std::move(atoms);
   swallowed_ = swallowed_atoms(atoms_);
-  glm::dvec3 low = atoms_[0].center, high = low;
-  double largest = 0.0;
-  for (const Ball& ball : atoms_) {
-    low = glm::min(low, ball.center);
-    high = glm::max(high, ball.center);
-    largest = std::max(largest, ball.radius);
-  }
-  middle_ = 0.5 * (low + high);  // as GpuNeighbors places it
-  extent_of_atoms_ = {low - middle_, high - middle_, largest};
+  const BallExtent box = extent_of(atoms_);
+  middle_ = 0.5 * (box.low + box.high);  // as GpuNeighbors places it
+  extent_of_atoms_ = {box.low - middle_, box.high - middle_, box.largest_radius};
   uploaded_ = false;
 }
 
@@ -127,8 +121,11 @@ void ViewPipeline::upload_atoms(StageClock& clock) {
   stats_ = {};
   stats_.atoms = atoms_.size();
   std::vector<double> radii(atoms_.size());
-  for (std::size_t a = 0; a < atoms_.size(); ++a) radii[a] = atoms_[a].radius;
-  radii_.upload(radii);
+  std::ranges::transform(atoms_, radii.begin(), &Ball::radius);
+  if (radii != uploaded_radii_) {  // atoms move more often than they change
+    radii_.upload(radii);
+    uploaded_radii_ = std::move(radii);
+  }
   arcs_.upload(atoms_, swallowed_, probe_radius_);
   uploaded_ = true;
 }

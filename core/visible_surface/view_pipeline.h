@@ -103,6 +103,7 @@ class ViewPipeline final : public Drawable {
   bool uploaded_ = false;          // atoms with this probe
   bool all_probes_found_ = false;  // arcs and probes on the GPU are those of the complete surface
   Buffer radii_;                   // double per atom: van der Waals
+  std::vector<double> uploaded_radii_;
   AppendList probes_{sizeof(kernel::ProbeRecord), 1 << 13};
   Buffer probe_counters_;
   std::array<std::uint32_t, 7> probe_counts_{};       // probes, then sums over the ends of arcs

@@ -11,14 +11,13 @@ namespace meniscus {
 
 void GpuArcs::upload(std::span<const Ball> atoms, const std::vector<bool>& swallowed, double probe_radius) {
   weights_ = decision_weights(atoms, probe_radius);
-  std::vector<glm::dvec3> centers(atoms.size());
-  std::vector<double> radii(atoms.size());
-  for (std::size_t a = 0; a < atoms.size(); ++a) {
-    centers[a] = atoms[a].center;
-    radii[a] = atoms[a].radius + probe_radius;
-  }
   circles.upload(atoms, weights_);
-  neighbors.upload(centers, radii, swallowed);
+  if (atoms.empty()) return neighbors.adopt(0, {});
+  BallExtent box = extent_of(atoms);
+  box.largest_radius += probe_radius;
+  neighbors.upload(static_cast<std::uint32_t>(atoms.size()), box, swallowed, [&](std::uint32_t a) {
+    return Ball{atoms[a].center, atoms[a].radius + probe_radius};
+  });
 }
 
 void GpuArcs::find(StageClock& clock, const std::function<void(const BallBatch&)>& visit) {

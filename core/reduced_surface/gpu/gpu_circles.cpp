@@ -7,6 +7,8 @@
 #include <utility>
 
 #include <glm/vec4.hpp>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 
 #include "core/gpu/gpu_stage.h"
 #include "core/gpu/kernel_parameters.h"
@@ -17,9 +19,11 @@ namespace meniscus {
 void GpuCircles::upload(std::span<const Ball> host_atoms, std::span<const double> weights) {
   host_atoms_ = host_atoms;
   weights_ = weights;
-  std::vector<glm::dvec4> exact(host_atoms.size());
-  for (std::size_t a = 0; a < host_atoms.size(); ++a) exact[a] = glm::dvec4(host_atoms[a].center, weights[a]);
-  atoms.upload(exact);
+  exact_.resize(host_atoms.size());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, exact_.size(), 4096), [&](const auto& range) {
+    for (std::size_t a = range.begin(); a != range.end(); ++a) exact_[a] = glm::dvec4(host_atoms[a].center, weights[a]);
+  });
+  atoms.upload(exact_);
 }
 
 void GpuCircles::restart() {

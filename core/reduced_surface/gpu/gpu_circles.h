@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
 
 #include "core/base/stage_clock.h"
 #include "core/gpu/append_list.h"
@@ -59,6 +60,7 @@ class GpuCircles {
   GpuNeighbors& neighbors_;
   std::span<const Ball> host_atoms_;
   std::span<const double> weights_;
+  std::vector<glm::dvec4> exact_;                    // of upload(), kept for its memory
   TexelBuffer relative_texels_{TexelFormat::uint4};  // of the neighbours, which circles fetch most
   AppendList doubtful_{sizeof(glm::uvec2), 1 << 12}, still_doubtful_{sizeof(glm::uvec2), 1 << 12};
   Buffer counters_;

@@ -7,6 +7,7 @@
 #include <string>
 
 #include <glm/common.hpp>
+#include <tbb/parallel_reduce.h>
 
 #include "core/base/error.h"
 #include "core/gpu/limits.h"
@@ -19,35 +20,43 @@ constexpr std::size_t kWord = sizeof(std::uint32_t);
 
 }  // namespace
 
+BallExtent extent_of(std::span<const Ball> balls) {
+  if (balls.empty()) return {};
+  // Least and largest are the same in any order.
+  return tbb::parallel_reduce(
+      tbb::blocked_range<std::size_t>(0, balls.size(), 4096), BallExtent{balls[0].center, balls[0].center, 0.0},
+      [&](const auto& range, BallExtent extent) {
+        for (std::size_t n = range.begin(); n != range.end(); ++n) {
+          extent.low = glm::min(extent.low, balls[n].center);
+          extent.high = glm::max(extent.high, balls[n].center);
+          extent.largest_radius = std::max(extent.largest_radius, balls[n].radius);
+        }
+        return extent;
+      },
+      [](const BallExtent& a, const BallExtent& b) {
+        return BallExtent{glm::min(a.low, b.low), glm::max(a.high, b.high),
+                          std::max(a.largest_radius, b.largest_radius)};
+      });
+}
+
 const Program& GpuNeighbors::kernel(const char* name, int pass) {
   ShaderDefines defines = list_defines();
   if (pass >= 0) defines.emplace_back("PASS", std::to_string(pass));
   return programs_.get(std::string("gpu_shaders/") + name + ".comp", defines);
 }
 
-// A centre goes up as two floats each from the middle of all; their difference is good to single precision anywhere.
 void GpuNeighbors::upload(std::span<const glm::dvec3> centers, std::span<const double> radii,
                           const std::vector<bool>& left_out) {
-  count_ = static_cast<std::uint32_t>(centers.size());
-  if (count_ == 0) return adopt(0, {});
-  glm::dvec3 low = centers[0], high = low;
-  double largest = 0;
-  for (std::size_t n = 0; n < count_; ++n) {
-    low = glm::min(low, centers[n]);
-    high = glm::max(high, centers[n]);
-    largest = std::max(largest, radii[n]);
+  if (centers.empty()) return adopt(0, {});
+  BallExtent box{centers[0], centers[0], 0.0};
+  for (std::size_t n = 0; n < centers.size(); ++n) {
+    box.low = glm::min(box.low, centers[n]);
+    box.high = glm::max(box.high, centers[n]);
+    box.largest_radius = std::max(box.largest_radius, radii[n]);
   }
-  const glm::dvec3 middle = 0.5 * (low + high);
-  std::vector<glm::vec4> coarse(count_), fine(count_);
-  for (std::size_t n = 0; n < count_; ++n) {
-    const glm::dvec3 d = centers[n] - middle;
-    coarse[n] = glm::vec4(glm::vec3(d), static_cast<float>(radii[n]));
-    fine[n] =
-        glm::vec4(glm::vec3(d - glm::dvec3(glm::vec3(coarse[n]))), !left_out.empty() && left_out[n] ? 1.0f : 0.0f);
-  }
-  balls.upload(coarse);
-  balls_low.upload(fine);
-  adopt(count_, {low - middle, high - middle, largest});
+  upload(static_cast<std::uint32_t>(centers.size()), box, left_out, [&](std::uint32_t n) {
+    return Ball{centers[n], radii[n]};
+  });
 }
 
 void GpuNeighbors::adopt(std::uint32_t count, const BallExtent& extent) {

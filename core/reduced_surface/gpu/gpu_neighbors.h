@@ -9,6 +9,8 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 
 #include "core/gpu/buffer.h"
 #include "core/gpu/kernel_parameters.h"
@@ -16,6 +18,7 @@
 #include "core/gpu/program.h"
 #include "core/gpu/readback.h"
 #include "core/gpu/texel_buffer.h"
+#include "core/math/ball.h"
 
 namespace meniscus {
 
@@ -41,6 +44,9 @@ struct BallExtent {
   double largest_radius = 0.0;
 };
 
+/// That of balls as they are; nothing but zeros for none.
+BallExtent extent_of(std::span<const Ball> balls);
+
 /// Kernels "grid", "neighbors", "pairs" and their buffers. Needs a current GL context.
 class GpuNeighbors {
  public:
@@ -48,6 +54,10 @@ class GpuNeighbors {
 
   /// Puts balls into a grid: centres and radii in Å; `left_out` may be empty or say who neither has nor is a neighbour.
   void upload(std::span<const glm::dvec3> centers, std::span<const double> radii, const std::vector<bool>& left_out);
+  /// The same for a box around the centres, as they are, that is known already; the centre and the radius of ball n are
+  /// made by ball_at(n).
+  template <typename BallAt>
+  void upload(std::uint32_t count, const BallExtent& box, const std::vector<bool>& left_out, const BallAt& ball_at);
 
   /// Takes balls that a kernel has written to `balls` and `balls_low`.
   void adopt(std::uint32_t count, const BallExtent& extent);
@@ -144,6 +154,28 @@ class GpuNeighbors {
   std::uint32_t cell_count_ = 0;
   float largest_radius_ = 0;
   kernel::CellGrid grid_{};
+  std::vector<glm::vec4> coarse_, fine_;  // of upload(), kept for their memory
 };
+
+// A centre goes up as two floats each from the middle of all; their difference is good to single precision anywhere.
+template <typename BallAt>
+void GpuNeighbors::upload(std::uint32_t count, const BallExtent& box, const std::vector<bool>& left_out,
+                          const BallAt& ball_at) {
+  const glm::dvec3 middle = 0.5 * (box.low + box.high);
+  coarse_.resize(count);
+  fine_.resize(count);
+  tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, count, 4096), [&](const auto& range) {
+    for (std::uint32_t n = range.begin(); n != range.end(); ++n) {
+      const Ball ball = ball_at(n);
+      const glm::dvec3 d = ball.center - middle;
+      coarse_[n] = glm::vec4(glm::vec3(d), static_cast<float>(ball.radius));
+      fine_[n] =
+          glm::vec4(glm::vec3(d - glm::dvec3(glm::vec3(coarse_[n]))), !left_out.empty() && left_out[n] ? 1.0f : 0.0f);
+    }
+  });
+  balls.upload(coarse_);
+  balls_low.upload(fine_);
+  adopt(count, {box.low - middle, box.high - middle, box.largest_radius});
+}
 
 }  // namespace meniscus
