@@ -18,6 +18,10 @@ enum class Counting {
   later  ///< at the end of a frame, which trusts in the sizes of the last one, and is made again if they were too small
 };
 
+/// What suits the device of the current context: a GPU should not wait between stages; software GL runs each kernel at
+/// once, waits for nothing, and is better off with exact sizes than with room.
+Counting suitable_counting();
+
 /// Counts of a frame, asked for by those who made them and read together. Needs a current EglContext.
 class Readback {
  public:

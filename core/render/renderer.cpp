@@ -101,7 +101,7 @@ bool Renderer::draw_once(Drawable& drawable, const RenderSettings& settings, con
                          bool& settled) {
   const PictureBlock block{{0, 0}, frame_.size};
   // Whoever may give the picture up between samples wants to hear of each when it is there.
-  const bool trusts = caster_.can_trust(block) && !(stop && settings.samples > 1);
+  const bool trusts = counting_ == Counting::later && caster_.can_trust(block) && !(stop && settings.samples > 1);
   if (trusts)
     scene_ = &drawable.prepare(frame_, clock_);
   else

@@ -41,6 +41,9 @@ class Renderer {
   bool draw(Drawable& drawable, const Camera& camera, const RenderSettings& settings,
             const std::function<bool()>& stop = {});
 
+  /// Whether draw() asks the GPU what a picture needs before or after it is made; at first as suits the device.
+  void set_counting(Counting counting) { counting_ = counting; }
+
   /// The last drawn picture, 8 bit sRGB and alpha (255) per pixel, rows from the top.
   std::vector<std::uint8_t> rgba() const { return presenter_.rgba(); }
   /// The last drawn picture as a GL texture (GL_RGBA8, sRGB values, first row on top) that lives until the next draw.
@@ -62,6 +65,7 @@ class Renderer {
   bool draw_once(Drawable& drawable, const RenderSettings& settings, const std::function<bool()>& stop, bool& settled);
   void render_block(const PictureBlock& inner, const RenderSettings& settings, PictureCollector& collector);
 
+  Counting counting_ = suitable_counting();
   RayCaster caster_;
   SurfaceDrawable surface_;  // of render() for computed surfaces
   Presenter presenter_;

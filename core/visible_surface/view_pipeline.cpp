@@ -70,8 +70,9 @@ void ViewPipeline::prepare_once(const PictureFrame& frame, StageClock& clock) {
   }
   primitives_open_ = trusted_;
   make_primitives(frame, clock);
-  trusted_ = !primitives_open_ && arcs_.neighbors.known().count > 0 && probe_neighbors_.known().count > 0 &&
-             arcs_.circles.stats().decided_in_quadruple == 0 && extent_ != Extent::paper;
+  trusted_ = counting_ == Counting::later && !primitives_open_ && arcs_.neighbors.known().count > 0 &&
+             probe_neighbors_.known().count > 0 && arcs_.circles.stats().decided_in_quadruple == 0 &&
+             extent_ != Extent::paper;
 }
 
 // A frame that was given up leaves open what it needed, and its successor trusts in nothing.

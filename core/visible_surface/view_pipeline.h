@@ -54,6 +54,10 @@ class ViewPipeline final : public Drawable {
   /// What the next pictures are made of; probe_radius in Å, >= 0. At first 1.4 Å and visible.
   void set_surface(double probe_radius, Extent extent);
 
+  /// Whether prepare() asks the GPU what a view needs between its stages, or trusts in the last one's sizes; at first
+  /// as suits the device.
+  void set_counting(Counting counting) { counting_ = counting; }
+
   std::span<const Ball> atoms() const override { return atoms_; }
 
   /// Where the arcs around the view do not close for ties the radii grow by a hair (tie_ladder.h). Throws
@@ -84,6 +88,7 @@ class ViewPipeline final : public Drawable {
   const Program& primitive_kernel(const char* name, const PictureFrame& frame, const ShaderDefines& defines = {});
   std::uint32_t atom_count() const { return static_cast<std::uint32_t>(atoms_.size()); }
 
+  Counting counting_ = suitable_counting();
   ProgramCache programs_;
   PrefixSum prefix_sum_{programs_};
   GpuArcs arcs_{programs_};

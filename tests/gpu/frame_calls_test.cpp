@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "core/gpu/egl_context.h"
+#include "core/gpu/work_proof.h"
 #include "core/render/renderer.h"
 #include "core/surface/gpu/gpu_engine.h"
 #include "core/visible_surface/view_pipeline.h"
@@ -65,6 +66,8 @@ class FrameCalls : public ::testing::Test {
   GlCalls steady_view(const std::string& name, Extent extent) {
     ViewPipeline view;
     Renderer renderer;
+    view.set_counting(Counting::later);
+    renderer.set_counting(Counting::later);
     view.set_atoms(moved(0));
     view.set_coloring(coloring_);
     view.set_surface(kWater, extent);
@@ -111,6 +114,8 @@ TEST_F(FrameCalls, TrustChangesNoPicture) {
   for (const Extent extent : {Extent::visible, Extent::complete}) {
     ViewPipeline view;
     Renderer renderer;
+    view.set_counting(Counting::later);
+    renderer.set_counting(Counting::later);
     std::uint32_t repeated = 0, dispatches = 0;
     for (int n = 0; n < 12; ++n) {
       Balls balls = moved(n);
@@ -168,6 +173,8 @@ TEST_F(FrameCalls, HostsPartOfAFrame) {
     camera_ = frame_camera(crowd, 4.0 / 3.0);
     ViewPipeline view;
     Renderer renderer;
+    view.set_counting(Counting::later);
+    renderer.set_counting(Counting::later);
     view.set_atoms(crowd);
     view.set_coloring(coloring);
     plan({});
@@ -185,7 +192,11 @@ TEST_F(FrameCalls, HostsPartOfAFrame) {
     });
     std::cout << fmt::format("{} atoms: host {:.3f} ms where they stay, {:.3f} ms where they move\n", crowd.size(),
                              still, moving);
+    const auto count = static_cast<double>(crowd.size());
+    EXPECT_LT(still, 2.0 + 1e-4 * count);
+    EXPECT_LT(moving, 5.0 + 6e-4 * count);
     plan({});
+    WorkProof::current().settle();
   }
 }
 

@@ -107,6 +107,7 @@ void plan(GlFault fault) {
   planned = fault;
   calls = {};
   waits = false;
+  unmade = 0;
   epoxy_glDispatchCompute = dispatch;
   epoxy_glDispatchComputeIndirect = dispatch_indirect;
   epoxy_glGetError = get_error;

@@ -14,7 +14,8 @@ struct GlFault {
     drop_one,       ///< dispatches: this one only
     out_of_memory,  ///< questions for errors: this one is answered by GL_OUT_OF_MEMORY
     reset,          ///< questions for errors: at this one the context is lost, and nothing happens any more
-    idle,           ///< dispatches: none does anything, and the GPU says that all came to their end
+    idle,           ///< dispatches: none does anything, and the GPU says that all came to their end; the account of
+                    ///< work has to be settled behind it
     no_reads,       ///< of buffers: the host keeps what it had
     poison          ///< every fresh buffer is full of the word `at`
   };

@@ -168,6 +168,8 @@ TEST_F(LostWork, SteadyView) {
   coloring_.atom.resize(atoms_.size());
   for (const Extent extent : {Extent::visible, Extent::complete}) {
     std::optional<View> view(std::in_place);
+    view->surface.set_counting(Counting::later);
+    view->renderer.set_counting(Counting::later);
     const Job job = view_job(view, extent, extent == Extent::complete);
     job();
     plan({});
