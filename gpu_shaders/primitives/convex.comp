@@ -76,8 +76,8 @@ dvec4 contact_plane(uint a, uint b) {
 
 void main() {
   uint entry = linear_invocation_index();
-  if (entry >= params.entry_count) return;
-  if (params.first_entry + entry >= entries_of(params.atom_count)) return;
+  // One condition: behind a second return lavapipe of Mesa 22.3, which zink draws by, ends with a segmentation fault.
+  if (entry >= min(params.entry_count, entries_of(params.atom_count) - params.first_entry)) return;
   uint a = ball_of(params.first_entry + entry);
 #ifdef WHOLE_SPHERES
   // As in the paper: all of the vdW sphere, most of it inside the solid.
