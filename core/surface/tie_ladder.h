@@ -27,14 +27,17 @@ std::vector<Ball> grown_balls(std::span<const Ball> balls, int attempt);
 /// the result of attempt 0.
 template <typename Compute>
 Surface compute_through_ties(std::span<const Ball> balls, const Compute& compute) {
-  Surface first = compute(balls);
-  for (int attempt = 1; attempt < kTieAttempts && !first.certificate.closed; ++attempt) {
-    Surface surface = compute(std::span<const Ball>(grown_balls(balls, attempt)));
+  Surface surface = compute(balls);
+  if (surface.certificate.closed) return surface;
+  for (int attempt = 1; attempt < kTieAttempts; ++attempt) {
+    surface = {};  // before the next one takes as much memory
+    surface = compute(std::span<const Ball>(grown_balls(balls, attempt)));
     if (!surface.certificate.closed) continue;
     surface.certificate.grown_by = tie_growth(attempt);
     return surface;
   }
-  return first;
+  surface = {};
+  return compute(balls);
 }
 
 }  // namespace meniscus

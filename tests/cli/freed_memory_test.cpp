@@ -25,13 +25,6 @@ void compute_frame() {
 }
 
 TEST(FreedMemory, ServesTheNextFrame) {
-#if !defined(__GLIBC__) || defined(__SANITIZE_ADDRESS__)
-  GTEST_SKIP() << "this malloc has no such setting";
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer)
-  GTEST_SKIP() << "this malloc has no such setting";
-#endif
-#endif
   keep_freed_memory();
   compute_frame();
   const long before = page_faults();
