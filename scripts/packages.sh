@@ -12,7 +12,7 @@ run_packages=(libegl1 libegl-mesa0 libgl1 libgl1-mesa-dri libglfw3 fonts-dejavu-
 film_packages=(blender povray povray-includes openimageio-tools ffmpeg)
 sample_packages=(pymol-data)
 compare_packages=(python3 python3-numpy python3-openimageio)
-test_packages=(libgtest-dev libbenchmark-dev glslang-tools spirv-tools mesa-vulkan-drivers freesasa python3-prody-tests python3 python3-numpy
+test_packages=(libgtest-dev libbenchmark-dev glslang-tools spirv-tools mesa-vulkan-drivers libvulkan-dev freesasa python3-prody-tests python3 python3-numpy
   python3-openimageio xvfb xdotool chromium python3-websockets
   python3-mdanalysis python3-mdtraj python3-h5py
   slurmctld slurmd slurm-client munge python3-jsonschema libxml2-utils nodejs make git
