@@ -54,11 +54,11 @@ glm::dmat3 reduced(glm::dmat3 v) {
 std::optional<PeriodicCell> PeriodicCell::of(const glm::dmat3& vectors) {
   const double volume = std::abs(glm::determinant(vectors));
   // Beyond these no box means anything, and squares of its edges have no place in double precision.
-  constexpr double kShortest = 1e-6, kLongest = 1e9;
+  constexpr double kShortestEdge = 1e-6, kLongestEdge = 1e9;
   double lengths = 1.0;
   for (int axis = 0; axis < 3; ++axis) {
     const double length = glm::length(vectors[axis]);
-    if (!(length >= kShortest && length <= kLongest)) return {};
+    if (!(length >= kShortestEdge && length <= kLongestEdge)) return {};
     lengths *= length;
   }
   if (!std::isfinite(volume) || !(volume > 1e-6 * lengths)) return {};
