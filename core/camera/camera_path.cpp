@@ -104,14 +104,13 @@ Camera CameraPath::at(double frame) const {
 }
 
 CameraPath parse_camera_path(std::string_view text, const std::string& file) {
-  using Json = nlohmann::json;
   const auto fail = [&](const std::string& what) { throw InputError(file, 0, "camera path: " + what); };
   if (is_nested_too_deep(text)) fail("is nested too deep to be one");
-  const Json json = Json::parse(text, nullptr, false);
+  const nlohmann::json json = nlohmann::json::parse(text, nullptr, false);
   if (!json.is_object() || !json.contains("keys") || !json["keys"].is_array() || json["keys"].empty())
     fail(R"(must be {"keys":[{"frame":0,"camera":{...}},...]})");
   std::vector<CameraKey> keys;
-  for (const Json& entry : json["keys"]) {
+  for (const nlohmann::json& entry : json["keys"]) {
     const std::string where = fmt::format("key {}", keys.size() + 1);
     if (!entry.is_object() || !entry.contains("frame") || !entry["frame"].is_number() || !entry.contains("camera"))
       fail(where + " must have a \"frame\", a number, and a \"camera\"");
@@ -133,10 +132,9 @@ CameraPath read_camera_path(const std::string& file) {
 }
 
 nlohmann::ordered_json camera_path_object(const std::vector<CameraKey>& keys) {
-  using Json = nlohmann::ordered_json;
-  Json list = Json::array();
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const CameraKey& key : keys) list.push_back({{"frame", key.frame}, {"camera", camera_object(key.camera)}});
-  return Json{{"keys", list}};
+  return nlohmann::ordered_json{{"keys", list}};
 }
 
 std::string camera_path_json(const std::vector<CameraKey>& keys) { return camera_path_object(keys).dump(2) + "\n"; }

@@ -79,7 +79,7 @@ std::int16_t predicted(std::int16_t left, std::int16_t above, std::int16_t corne
   const std::int16_t to_left = size(above - corner), to_above = size(left - corner);
   const std::int16_t to_corner = size(left + above - 2 * corner);
   const std::int16_t other = to_above <= to_corner ? above : corner;
-  return (to_left <= to_above) & (to_left <= to_corner) ? left : other;
+  return ((to_left <= to_above) & (to_left <= to_corner)) ? left : other;
 }
 
 /// Of bytes that stand for -128 to 127, without their signs.
