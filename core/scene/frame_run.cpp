@@ -15,7 +15,7 @@
 #include "core/structure/formats/reader.h"
 #include "core/structure/usual_part.h"
 #include "core/trajectory/atom_order.h"
-#include "core/trajectory/found_bonds.h"
+#include "core/structure/found_bonds.h"
 #include "core/trajectory/frame_list.h"
 #include "core/base/error.h"
 #include "core/trajectory/repeated_frames.h"

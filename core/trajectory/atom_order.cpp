@@ -14,7 +14,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/trajectory/found_bonds.h"
+#include "core/structure/found_bonds.h"
 
 namespace meniscus {
 namespace {

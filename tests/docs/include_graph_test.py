@@ -18,7 +18,7 @@ ORDER = [
     ["core/structure/selection"],
     ["core/structure/radii"],
     ["core/structure/formats"],
-    ["core/color", "core/trajectory"],
+    ["core/color", "core/trajectory", "core/shapes"],
     ["core/camera"],
     ["core/gpu", "core/image"],
     ["core/reduced_surface"],

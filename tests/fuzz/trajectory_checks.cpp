@@ -10,7 +10,7 @@
 
 #include "core/text/parse_number.h"
 #include "core/base/error.h"
-#include "core/trajectory/periodic_cell.h"
+#include "core/structure/periodic_cell.h"
 
 namespace meniscus::fuzz {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Templates as paths of atom names, and distances to the nearest image.
-#include "core/trajectory/found_bonds.h"
+#include "core/structure/found_bonds.h"
 
 #include <cstddef>
 #include <string>
@@ -15,12 +15,12 @@
 namespace meniscus {
 namespace {
 
-constexpr std::string_view kBackbone =
+constexpr std::string_view kBackboneBonds =
     "N-CA-C-O C-OXT C-O1 C-O2 C-OC1 C-OC2";  // the last four: ends of chains by GROMACS
-constexpr std::string_view kSugar = "OP1-P-OP2 P-OP3 P-O5'-C5'-C4'-C3'-C2'-C1'-O4'-C4' C3'-O3' C2'-O2'";
+constexpr std::string_view kSugarBonds = "OP1-P-OP2 P-OP3 P-O5'-C5'-C4'-C3'-C2'-C1'-O4'-C4' C3'-O3' C2'-O2'";
 
 /// Heavy atoms of a residue beyond its backbone or sugar: paths of bonded atoms, names of wwPDB's components.
-constexpr std::pair<std::string_view, std::string_view> kSideChains[] = {
+constexpr std::pair<std::string_view, std::string_view> kSideChainBonds[] = {
     {"ALA", "CA-CB"},
     {"ARG", "CA-CB-CG-CD-NE-CZ-NH1 CZ-NH2"},
     {"ASN", "CA-CB-CG-OD1 CG-ND2"},
@@ -71,10 +71,10 @@ class BondFinder {
     for (std::size_t r = 0; r + 1 < begins_.size(); ++r) {
       const std::string residue = canonical_residue(atoms_[begins_[r]].residue_name);
       const Names names = names_of(r, residue);
-      for (const auto& [name, side_chain] : kSideChains) {
+      for (const auto& [name, side_chain] : kSideChainBonds) {
         if (name != residue) continue;
-        join_path(names, kBackbone);
-        join_path(names, kSugar);
+        join_path(names, kBackboneBonds);
+        join_path(names, kSugarBonds);
         join_path(names, side_chain);
       }
       join_hydrogens(r);
@@ -134,11 +134,11 @@ class BondFinder {
   }
 
   void join_hydrogens(std::size_t r) {
-    constexpr double kLongest = 1.6;
+    constexpr double kLongestToHydrogen = 1.6;
     for (std::uint32_t h = begins_[r]; h < begins_[r + 1]; ++h) {
       if (atoms_[h].element > 1) continue;  // and sites without an element, such as the fourth of water models
       std::uint32_t nearest = h;
-      double least = kLongest * kLongest;
+      double least = kLongestToHydrogen * kLongestToHydrogen;
       for (std::uint32_t n = begins_[r]; n < begins_[r + 1]; ++n) {
         if (atoms_[n].element <= 1 || squared_distance(h, n) > least) continue;
         nearest = n;
@@ -149,10 +149,10 @@ class BondFinder {
   }
 
   void join(const Names& first, const char* first_name, const Names& second, const char* second_name) {
-    constexpr double kLongest = 2.2;
+    constexpr double kLongestLink = 2.2;
     const auto a = first.find(first_name), b = second.find(second_name);
     if (a == first.end() || b == second.end()) return;
-    if (squared_distance(a->second, b->second) <= kLongest * kLongest) bonds_.push_back({a->second, b->second});
+    if (squared_distance(a->second, b->second) <= kLongestLink * kLongestLink) bonds_.push_back({a->second, b->second});
   }
 
   std::span<const Atom> atoms_;

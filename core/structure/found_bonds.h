@@ -9,7 +9,7 @@
 #include <glm/vec3.hpp>
 
 #include "core/structure/structure.h"
-#include "core/trajectory/periodic_cell.h"
+#include "core/structure/periodic_cell.h"
 
 namespace meniscus {
 

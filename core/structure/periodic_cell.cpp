@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Lattice reduction in three dimensions, and the nearest image in a reduced lattice.
-#include "core/trajectory/periodic_cell.h"
+#include "core/structure/periodic_cell.h"
 
 #include <cmath>
 #include <utility>

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Bonds as cylinders, atoms as the spheres at their ends.
+#include "core/shapes/shapes.h"
+
+#include <algorithm>
+
+namespace meniscus {
+namespace {
+
+/// Cylinders of the bonds between selected atoms that stand apart; marks the atoms that have one.
+std::vector<CylinderShape> cylinders_of(const Structure& structure, const std::vector<bool>& selected,
+                                        std::span<const Bond> bonds, double radius, std::vector<bool>& bonded) {
+  std::vector<CylinderShape> cylinders;
+  for (const auto& [a, b] : bonds) {
+    const glm::dvec3 &from = structure.atoms[a].position, &to = structure.atoms[b].position;
+    if (!selected[a] || !selected[b] || from == to) continue;
+    cylinders.push_back({from, to, radius, a, b});
+    bonded[a] = bonded[b] = true;
+  }
+  return cylinders;
+}
+
+}  // namespace
+
+Shapes sticks(const Structure& structure, const std::vector<bool>& selected, std::span<const Bond> bonds,
+              double radius) {
+  std::vector<bool> bonded(structure.atoms.size());
+  Shapes shapes;
+  shapes.cylinders = cylinders_of(structure, selected, bonds, radius, bonded);
+  for (std::uint32_t n = 0; n < structure.atoms.size(); ++n) {
+    const Atom& atom = structure.atoms[n];
+    if (!selected[n]) continue;
+    shapes.spheres.push_back({atom.position, bonded[n] ? radius : std::max(radius, kBallShare * atom.radius), n});
+  }
+  return shapes;
+}
+
+Shapes balls_and_sticks(const Structure& structure, const std::vector<bool>& selected, std::span<const Bond> bonds,
+                        double ball_share, double stick_radius) {
+  std::vector<bool> bonded(structure.atoms.size());
+  Shapes shapes = spheres(structure, selected, ball_share);
+  shapes.cylinders = cylinders_of(structure, selected, bonds, stick_radius, bonded);
+  for (SphereShape& ball : shapes.spheres) ball.radius = std::max(ball.radius, stick_radius);
+  return shapes;
+}
+
+Shapes spheres(const Structure& structure, const std::vector<bool>& selected, double share) {
+  Shapes shapes;
+  for (std::uint32_t n = 0; n < structure.atoms.size(); ++n)
+    if (selected[n]) shapes.spheres.push_back({structure.atoms[n].position, share * structure.atoms[n].radius, n});
+  return shapes;
+}
+
+void append(Shapes& shapes, const Shapes& more) {
+  shapes.spheres.insert(shapes.spheres.end(), more.spheres.begin(), more.spheres.end());
+  shapes.cylinders.insert(shapes.cylinders.end(), more.cylinders.begin(), more.cylinders.end());
+  MeshShape& mesh = shapes.mesh;
+  const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+  mesh.positions.insert(mesh.positions.end(), more.mesh.positions.begin(), more.mesh.positions.end());
+  mesh.normals.insert(mesh.normals.end(), more.mesh.normals.begin(), more.mesh.normals.end());
+  mesh.atoms.insert(mesh.atoms.end(), more.mesh.atoms.begin(), more.mesh.atoms.end());
+  for (const auto& [a, b, c] : more.mesh.triangles) mesh.triangles.push_back({first + a, first + b, first + c});
+}
+
+}  // namespace meniscus
