@@ -10,25 +10,42 @@
 
 namespace meniscus {
 
+namespace {
+
+// How a ball meets a circle as far as that can be told without a half-plane.
+constexpr std::int64_t kSurelyMisses = 0, kSurelyCovers = 1, kClose = 2;
+
 MENISCUS_VECTOR_CLONES
-void CircleMeetings::meet_all(const geometry::Circle& circle, double first_weight, double noise,
-                              const Blockers::Columns& balls, std::size_t count, const Columns& out) {
+void tell_apart(const geometry::Circle& circle, double first_weight, double noise, const Blockers::Columns& balls,
+                std::size_t count, std::int64_t* out) {
   const geometry::Circle c = circle;
   const Blockers::Columns b = balls;
+  MENISCUS_INDEPENDENT_STEPS
+  for (std::size_t n = 0; n < count; ++n) {
+    double offset;
+    const bool apart = geometry::surely_apart(c, first_weight, noise, {b.x[n], b.y[n], b.z[n]}, b.square[n],
+                                              b.distance[n], b.half_power[n], geometry::kUnitRoundoff, offset);
+    const std::int64_t sure = offset < 0 ? kSurelyCovers : kSurelyMisses;
+    out[n] = apart ? sure : kClose;
+  }
+}
+
+}  // namespace
+
+MENISCUS_VECTOR_CLONES
+void CircleMeetings::meet_all(const geometry::Circle& circle, double first_weight, const CloseBalls& balls,
+                              std::size_t count, const Columns& out) {
+  const geometry::Circle c = circle;
+  const CloseBalls b = balls;
   const Columns o = out;
   MENISCUS_INDEPENDENT_STEPS
   for (std::size_t n = 0; n < count; ++n) {
-    const glm::dvec3 center(b.x[n], b.y[n], b.z[n]);
-    double offset, margin;
-    const bool apart = geometry::surely_apart(c, first_weight, noise, center, b.square[n], b.distance[n],
-                                              b.half_power[n], geometry::kUnitRoundoff, offset);
-    const geometry::HalfPlane h =
-        geometry::covered_half_plane(c, first_weight, center, b.distance[n], b.weight[n], geometry::kUnitRoundoff);
+    double margin;
+    const geometry::HalfPlane h = geometry::covered_half_plane(c, first_weight, {b.x[n], b.y[n], b.z[n]}, b.distance[n],
+                                                               b.weight[n], geometry::kUnitRoundoff);
     const double meeting = geometry::meet_circle(h, margin);
     const geometry::CoveredArc arc = geometry::covered_arc(h);
-    const double sure = offset < 0 ? geometry::kCovers : geometry::kMisses;
-    const double close = margin > 0 ? meeting : kInDoubt;
-    o.meeting[n] = apart ? sure : close;
+    o.meeting[n] = margin > 0 ? meeting : kInDoubt;
     o.begin[n] = arc.begin;
     o.end[n] = arc.end;
     o.error[n] = arc.error;
@@ -52,14 +69,50 @@ CircleMeetings::Most CircleMeetings::find_most(const Columns& columns, std::size
   return {from_ordered_bits(meeting), from_ordered_bits(error), from_ordered_bits(widest)};
 }
 
+// Appends the numbers of those in question without a branch: it would not be foreseen.
+bool CircleMeetings::list_close(const geometry::Circle& circle, double noise, const Blockers& blockers,
+                                std::size_t skip) {
+  const std::size_t size = blockers.size(), room = whole_vectors(size);
+  if (near_.size() < room) {
+    near_.resize(room);
+    ball_.resize(room);
+  }
+  tell_apart(circle, blockers.first_weight(), noise, blockers.columns(), room, near_.data());
+  if (skip < size) near_[skip] = kSurelyMisses;
+  std::size_t kept = 0;
+  std::int64_t all = 0;
+  for (std::size_t n = 0; n < size; ++n) {
+    ball_[kept] = static_cast<std::uint32_t>(n);
+    kept += near_[n] == kClose ? 1 : 0;
+    all |= near_[n];
+  }
+  count_ = kept;
+  return (all & kSurelyCovers) == 0;
+}
+
 void CircleMeetings::find(const geometry::Circle& circle, double noise, const Blockers& blockers, std::size_t skip) {
-  count_ = whole_vectors(blockers.size());
+  if (!list_close(circle, noise, blockers, skip)) {
+    count_ = 0;
+    most_ = {geometry::kCovers, 0, 0};
+    return;
+  }
+  const std::size_t close = count_;
+  count_ = whole_vectors(close);
   table_.make_room(count_);
   const auto of = [&](Column c) { return table_.column(c); };
+  const Blockers::Columns from = blockers.columns();
+  double *x = of(kX), *y = of(kY), *z = of(kZ), *weight = of(kWeight), *distance = of(kDistance);
+  for (std::size_t n = 0; n < count_; ++n) {
+    const std::size_t ball = n < close ? ball_[n] : 0;
+    x[n] = from.x[ball];
+    y[n] = from.y[ball];
+    z[n] = from.z[ball];
+    weight[n] = from.weight[ball];
+    distance[n] = from.distance[ball];
+  }
   const Columns columns{of(kMeeting), of(kBegin), of(kEnd), of(kError), of(kSweep)};
-  meet_all(circle, blockers.first_weight(), noise, blockers.columns(), count_, columns);
-  if (skip < count_) columns.meeting[skip] = geometry::kMisses;
-  std::fill(columns.meeting + blockers.size(), columns.meeting + count_, geometry::kMisses);
+  meet_all(circle, blockers.first_weight(), {x, y, z, weight, distance}, count_, columns);
+  std::fill(columns.meeting + close, columns.meeting + count_, geometry::kMisses);
   most_ = find_most(columns, count_);
 }
 

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <vector>
 
 #include "core/math/geometry.h"
 #include "core/reduced_surface/contour/blockers.h"
@@ -10,7 +12,7 @@
 namespace meniscus {
 
 /// How balls meet one circle, all at once, by the same arithmetic as one ball after the other (contour.glsl, block()).
-/// Reused from circle to circle to save allocations.
+/// Most surely miss it, and are not listed. Reused from circle to circle to save allocations.
 class CircleMeetings {
  public:
   /// The blocker at index `skip` is ignored. noise: half_plane_noise() of the circle.
@@ -23,9 +25,12 @@ class CircleMeetings {
   /// All balls miss the circle.
   bool none() const { return most_.meeting < geometry::kCuts; }
 
-  /// As many as there are blockers, up to whole vectors: those behind them miss the circle, too.
+  /// How many balls are listed, in the order of the blockers and up to whole vectors: those behind them miss the
+  /// circle.
   std::size_t count() const { return count_; }
-  /// The ball at index n cuts the circle, or may do so.
+  /// Which blocker the n-th is.
+  std::size_t blocker(std::size_t n) const { return ball_[n]; }
+  /// It cuts the circle, or may do so.
   bool meets(std::size_t n) const { return table_.column(kMeeting)[n] > geometry::kMisses; }
   /// Rounding may hide how it meets the circle.
   bool doubtful(std::size_t n) const { return table_.column(kMeeting)[n] > geometry::kCuts; }
@@ -40,7 +45,7 @@ class CircleMeetings {
   ArcColumns arcs() const { return {table_.column(kMeeting), table_.column(kBegin), table_.column(kEnd)}; }
   /// Bound on the error of all ends of arcs of balls that surely cut the circle.
   double error() const { return most_.error; }
-  /// The index of that which covers most of the circle; some ball surely cuts it.
+  /// The place of that which covers most of the circle; some ball surely cuts it.
   std::size_t widest() const;
 
  private:
@@ -48,7 +53,7 @@ class CircleMeetings {
   static constexpr double kInDoubt = 1.5;
   static_assert(geometry::kMisses < geometry::kCuts && geometry::kCuts < kInDoubt && kInDoubt < geometry::kCovers);
 
-  enum Column : std::size_t { kMeeting, kBegin, kEnd, kError, kSweep, kColumnCount };
+  enum Column : std::size_t { kX, kY, kZ, kWeight, kDistance, kMeeting, kBegin, kEnd, kError, kSweep, kColumnCount };
 
   // The largest of each number. Arcs count whose balls surely cut the circle.
   struct Most {
@@ -57,11 +62,17 @@ class CircleMeetings {
   struct Columns {
     double *meeting, *begin, *end, *error, *sweep;
   };
-  static void meet_all(const geometry::Circle& circle, double first_weight, double noise,
-                       const Blockers::Columns& balls, std::size_t count, const Columns& out);
+  struct CloseBalls {
+    const double *x, *y, *z, *weight, *distance;
+  };
+  bool list_close(const geometry::Circle& circle, double noise, const Blockers& blockers, std::size_t skip);
+  static void meet_all(const geometry::Circle& circle, double first_weight, const CloseBalls& balls, std::size_t count,
+                       const Columns& out);
   static Most find_most(const Columns& columns, std::size_t count);
 
   std::size_t count_ = 0;
+  std::vector<std::int64_t> near_;   // per blocker
+  std::vector<std::uint32_t> ball_;  // which blocker is the n-th in the table
   ColumnTable<kColumnCount> table_;
   Most most_{};
 };

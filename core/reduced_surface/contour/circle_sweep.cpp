@@ -108,7 +108,8 @@ CircleSweep::Outcome CircleSweep::close_in(const CircleMeetings& meetings, const
     }
     if (next.inside > 0 || next.near_low != 1 || next.near_high != 1 || !(high - low > blur)) return Outcome::unknown;
     const auto before = static_cast<std::size_t>(next.low_arc), behind = static_cast<std::size_t>(next.high_arc);
-    arc_ = {meetings.arc(before).end, meetings.arc(behind).begin, blockers.label(before), blockers.label(behind)};
+    arc_ = {meetings.arc(before).end, meetings.arc(behind).begin, blockers.label(meetings.blocker(before)),
+            blockers.label(meetings.blocker(behind))};
     return Outcome::one_arc;
   }
   return low > high + blur ? Outcome::covered : Outcome::unknown;

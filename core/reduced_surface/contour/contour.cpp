@@ -79,7 +79,7 @@ void Contour::cover_in_turn(const Blockers& blockers) {
   for (std::size_t n = 0; n < meetings_.count() && !left_.contour_ended(); ++n) {
     if (!meetings_.meets(n)) continue;
     if (meetings_.doubtful(n)) left_.exposed_doubtful = true;
-    left_.cover_arc(meetings_.arc(n), blockers.label(n));
+    left_.cover_arc(meetings_.arc(n), blockers.label(meetings_.blocker(n)));
   }
 }
 
