@@ -3,8 +3,8 @@
 #include "core/reduced_surface/contour/sphere_cover.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
-#include <cstring>
 #include <map>
 #include <utility>
 #include <vector>
@@ -99,8 +99,9 @@ const WatchedDirections& watched() {
 constexpr float kNowhere = 4;  // no cosine is as large: an empty cap
 constexpr float kWide = 0.6f;  // caps of smaller cosine, some ten around an atom of a protein, cover most
 
-typedef float Floats __attribute__((vector_size(kBlock * sizeof(float))));
-typedef std::int32_t Bits __attribute__((vector_size(kBlock * sizeof(std::int32_t))));
+// How many caps, or directions, one step looks at. Lists end in as many that change nothing.
+constexpr std::size_t kStep = 4;
+constexpr std::size_t whole_steps(std::size_t count) { return (count + kStep - 1) / kStep * kStep; }
 
 struct Points {
   const float *x, *y, *z;
@@ -136,31 +137,41 @@ void narrow_caps(const Blockers::Columns& balls, std::size_t count, double inver
   }
 }
 
-bool any_negative(const Bits& bits) {
-  std::uint64_t pairs[sizeof(Bits) / 8], all = 0;
-  std::memcpy(pairs, &bits, sizeof bits);
-  for (const std::uint64_t pair : pairs) all |= pair;
-  return (all & 0x8000000080000000u) != 0;
+std::int32_t sign_bits(float number) { return std::bit_cast<std::int32_t>(number); }
+
+bool any_negative(const std::int32_t* signs) {
+  std::int32_t all = 0;
+  for (std::size_t n = 0; n < kBlock; ++n) all |= signs[n];
+  return all < 0;
 }
 
 // Of each direction, in whole blocks, a number that is negative if no cap holds it: the sign bits of
-// dot(axis, direction) - cosine, all in one. For want of anything but sums, products and bits the loop needs no
-// comparison of vectors.
+// dot(axis, direction) - cosine, all in one. Several caps a step, for what is known of a block goes through memory.
 MENISCUS_VECTOR_CLONES
 void sign_outside(const Points& directions, std::size_t count, const CapColumns& caps, std::size_t cap_count,
                   std::int32_t* sign) {
   const CapColumns c = caps;
   for (std::size_t first = 0; first < count; first += kBlock) {
-    Floats x, y, z;
-    std::memcpy(&x, directions.x + first, sizeof x);
-    std::memcpy(&y, directions.y + first, sizeof y);
-    std::memcpy(&z, directions.z + first, sizeof z);
-    Bits outside = ~Bits{};
-    for (std::size_t n = 0; n < cap_count; ++n) {
-      outside &= reinterpret_cast<Bits>(c.x[n] * x + c.y[n] * y + c.z[n] * z - c.cosine[n]);
-      if (n % 4 == 3 && !any_negative(outside)) break;
+    const float *x = directions.x + first, *y = directions.y + first, *z = directions.z + first;
+    std::int32_t* outside = sign + first;
+    for (std::size_t l = 0; l < kBlock; ++l) outside[l] = -1;
+    for (std::size_t n = 0; n < cap_count; n += kStep) {
+      const float x0 = c.x[n], y0 = c.y[n], z0 = c.z[n], cosine0 = c.cosine[n];
+      const float x1 = c.x[n + 1], y1 = c.y[n + 1], z1 = c.z[n + 1], cosine1 = c.cosine[n + 1];
+      const float x2 = c.x[n + 2], y2 = c.y[n + 2], z2 = c.z[n + 2], cosine2 = c.cosine[n + 2];
+      const float x3 = c.x[n + 3], y3 = c.y[n + 3], z3 = c.z[n + 3], cosine3 = c.cosine[n + 3];
+      std::int32_t any = 0;
+      MENISCUS_INDEPENDENT_STEPS
+      for (std::size_t l = 0; l < kBlock; ++l) {
+        const std::int32_t outside0 = sign_bits(x0 * x[l] + y0 * y[l] + z0 * z[l] - cosine0);
+        const std::int32_t outside1 = sign_bits(x1 * x[l] + y1 * y[l] + z1 * z[l] - cosine1);
+        const std::int32_t outside2 = sign_bits(x2 * x[l] + y2 * y[l] + z2 * z[l] - cosine2);
+        const std::int32_t outside3 = sign_bits(x3 * x[l] + y3 * y[l] + z3 * z[l] - cosine3);
+        outside[l] &= outside0 & outside1 & (outside2 & outside3);
+        any |= outside[l];
+      }
+      if (any >= 0) break;
     }
-    std::memcpy(sign + first, &outside, sizeof outside);
   }
 }
 
@@ -170,19 +181,27 @@ void sign_far(const CircleColumns& circles, std::size_t count, const Points& dir
               std::int32_t* sign) {
   const Points d = directions;
   for (std::size_t first = 0; first < count; first += kBlock) {
-    Floats x, y, z, low, high;
-    std::memcpy(&x, circles.x + first, sizeof x);
-    std::memcpy(&y, circles.y + first, sizeof y);
-    std::memcpy(&z, circles.z + first, sizeof z);
-    std::memcpy(&low, circles.low + first, sizeof low);
-    std::memcpy(&high, circles.high + first, sizeof high);
-    Bits far = ~Bits{};
-    for (std::size_t n = 0; n < direction_count; ++n) {
-      const Floats dot = x * d.x[n] + y * d.y[n] + z * d.z[n];
-      far &= reinterpret_cast<Bits>(dot - low) | reinterpret_cast<Bits>(high - dot);
-      if (n % 8 == 7 && !any_negative(far)) break;
+    const float *x = circles.x + first, *y = circles.y + first, *z = circles.z + first;
+    const float *low = circles.low + first, *high = circles.high + first;
+    std::int32_t* far = sign + first;
+    for (std::size_t l = 0; l < kBlock; ++l) far[l] = -1;
+    for (std::size_t n = 0; n < direction_count; n += kStep) {
+      const float x0 = d.x[n], y0 = d.y[n], z0 = d.z[n], x1 = d.x[n + 1], y1 = d.y[n + 1], z1 = d.z[n + 1];
+      const float x2 = d.x[n + 2], y2 = d.y[n + 2], z2 = d.z[n + 2], x3 = d.x[n + 3], y3 = d.y[n + 3], z3 = d.z[n + 3];
+      std::int32_t any = 0;
+      MENISCUS_INDEPENDENT_STEPS
+      for (std::size_t l = 0; l < kBlock; ++l) {
+        const float dot0 = x[l] * x0 + y[l] * y0 + z[l] * z0, dot1 = x[l] * x1 + y[l] * y1 + z[l] * z1;
+        const float dot2 = x[l] * x2 + y[l] * y2 + z[l] * z2, dot3 = x[l] * x3 + y[l] * y3 + z[l] * z3;
+        const std::int32_t far0 = sign_bits(dot0 - low[l]) | sign_bits(high[l] - dot0);
+        const std::int32_t far1 = sign_bits(dot1 - low[l]) | sign_bits(high[l] - dot1);
+        const std::int32_t far2 = sign_bits(dot2 - low[l]) | sign_bits(high[l] - dot2);
+        const std::int32_t far3 = sign_bits(dot3 - low[l]) | sign_bits(high[l] - dot3);
+        far[l] &= far0 & far1 & (far2 & far3);
+        any |= far[l];
+      }
+      if (any >= 0) break;
     }
-    std::memcpy(sign + first, &far, sizeof far);
   }
 }
 
@@ -199,7 +218,7 @@ void SphereCover::Rows<kColumns>::make_room(std::size_t count) {
 // Those that cover something, the wide ones first: nothing need be known of the others where they cover all. No step
 // branches: what belongs in a list would not be foreseen.
 void SphereCover::list_caps(std::size_t count) {
-  caps_.make_room(count + 1);
+  caps_.make_room(count + kStep);
   const float *x = circles_.column(0), *y = circles_.column(1), *z = circles_.column(2), *cosine = circles_.column(3);
   float *to_x = caps_.column(0), *to_y = caps_.column(1), *to_z = caps_.column(2), *to_cosine = caps_.column(3);
   std::size_t kept = 0;
@@ -215,7 +234,9 @@ void SphereCover::list_caps(std::size_t count) {
   append_between(-2, kWide);
   wide_count_ = kept;
   append_between(kWide, kNowhere);
-  cap_count_ = kept;
+  cap_count_ = whole_steps(kept);
+  std::fill(to_cosine + kept, to_cosine + cap_count_, kNowhere);
+  wide_count_ = std::min(whole_steps(wide_count_), cap_count_);
 }
 
 // Keeps the directions of negative sign. They may stand in the list already: none moves behind its place.
@@ -223,9 +244,7 @@ void SphereCover::list_uncovered(const float* x, const float* y, const float* z,
   float *to_x = uncovered_.column(0), *to_y = uncovered_.column(1), *to_z = uncovered_.column(2);
   std::size_t kept = 0;
   for (std::size_t first = 0; first < count; first += kBlock) {
-    Bits signs;
-    std::memcpy(&signs, signs_.data() + first, sizeof signs);
-    if (!any_negative(signs)) continue;
+    if (!any_negative(signs_.data() + first)) continue;
     for (std::size_t n = first; n < std::min(first + kBlock, count); ++n) {
       to_x[kept] = x[n];
       to_y[kept] = y[n];
@@ -234,6 +253,12 @@ void SphereCover::list_uncovered(const float* x, const float* y, const float* z,
     }
   }
   uncovered_count_ = kept;
+}
+
+template <std::size_t kColumns>
+void SphereCover::Rows<kColumns>::repeat_last(std::size_t count, std::size_t past) {
+  for (std::vector<float>& column : columns)
+    for (std::size_t n = count; n < past; ++n) column[n] = column[count - 1];
 }
 
 bool SphereCover::look(const Blockers& blockers) {
@@ -257,7 +282,8 @@ bool SphereCover::look(const Blockers& blockers) {
                cap_count_ - wide_count_, signs_.data());
   list_uncovered(left.x, left.y, left.z, uncovered_count_);
   if (uncovered_count_ == 0) return false;
-  sign_far(circles, room, left, uncovered_count_, signs_.data());
+  uncovered_.repeat_last(uncovered_count_, whole_steps(uncovered_count_));
+  sign_far(circles, room, left, whole_steps(uncovered_count_), signs_.data());
   return true;
 }
 

@@ -32,6 +32,7 @@ class SphereCover {
     std::array<std::vector<float>, kColumns> columns;
     float* column(std::size_t c) { return columns[c].data(); }
     void make_room(std::size_t count);
+    void repeat_last(std::size_t count, std::size_t past);
   };
 
   void list_caps(std::size_t count);
@@ -40,7 +41,8 @@ class SphereCover {
   Rows<6> circles_;  // per blocker: axis, cosine of its cap, dot products with the axis of directions near its circle
   Rows<4> caps_;     // axis, cosine
   Rows<3> uncovered_;
-  std::size_t cap_count_ = 0, wide_count_ = 0, uncovered_count_ = 0;
+  std::size_t cap_count_ = 0, wide_count_ = 0;  // of caps: whole steps
+  std::size_t uncovered_count_ = 0;
   std::vector<std::int32_t> signs_;
 };
 
