@@ -15,6 +15,7 @@
 #include <tbb/parallel_for.h>
 
 #include "core/math/ball_grid.h"
+#include "core/math/vector_clones.h"
 #include "core/reduced_surface/contour/contour.h"
 #include "core/reduced_surface/reduced_surface.h"
 
@@ -38,9 +39,27 @@ struct BorderArc {
   auto operator<=>(const BorderArc&) const = default;
 };
 
+struct BallColumns {
+  const double *x, *y, *z, *weight;
+};
+
+// The power of a point to each ball, with the sign that is positive inside.
+MENISCUS_VECTOR_CLONES
+void measure_inside(const glm::dvec3& point, const BallColumns& balls, std::size_t count, double* inside) {
+  const double px = point.x, py = point.y, pz = point.z;
+  const BallColumns b = balls;
+  MENISCUS_INDEPENDENT_STEPS
+  for (std::size_t n = 0; n < count; ++n) {
+    const double dx = px - b.x[n], dy = py - b.y[n], dz = pz - b.z[n];
+    inside[n] = b.weight[n] - (dx * dx + dy * dy + dz * dz);
+  }
+}
+
 }  // namespace
 
 class ConvexTrimmer::Search {
+  enum Column : std::size_t { kX, kY, kZ, kWeight, kInside, kColumnCount };
+
  public:
   Search(const Surface& surface, const ReducedSurface& rs) : s_(surface), largest_(largest_radius(surface)) {
     list_arcs(rs);
@@ -52,7 +71,8 @@ class ConvexTrimmer::Search {
   struct Worker {
     std::vector<std::uint32_t> kept;
     Blockers blockers;
-    std::vector<std::uint32_t> neighbors;
+    std::vector<std::uint32_t> neighbors;  // of the atom in hand, once somebody has asked for them
+    ColumnTable<kColumnCount> balls;       // of the neighbours
     Contour contour;
   };
 
@@ -136,23 +156,36 @@ class ConvexTrimmer::Search {
 
   // The atom that covers the point of the contour's circle at this pseudo-angle deepest, or kNone.
   std::uint32_t covering(std::uint32_t a, double pseudo, Worker& w) const {
-    if (w.neighbors.empty())
-      grid().for_each_near(s_.atoms[a].center, s_.atoms[a].radius + s_.probe_radius + largest_, [&](std::uint32_t b) {
-        if (b != a) w.neighbors.push_back(b);
-      });
+    if (w.neighbors.empty()) list_neighbors(a, w);
     const geometry::Circle& c = w.contour.circle();
     const glm::dvec3 point = s_.atoms[a].center + c.axis * c.height + c.radius * w.contour.direction(pseudo);
+    const auto of = [&](Column column) { return w.balls.column(column); };
+    double* inside = of(kInside);
+    measure_inside(point, {of(kX), of(kY), of(kZ), of(kWeight)}, whole_vectors(w.neighbors.size()), inside);
     std::uint32_t deepest = kNone;
     double depth = 1e-8;  // decision weights blur the surface of a ball by 1e-8 Å² at most
-    for (const std::uint32_t b : w.neighbors) {
-      const glm::dvec3 d = point - s_.atoms[b].center;
-      const double inside = weight(b) - glm::dot(d, d);
-      if (inside > depth && std::find(w.kept.begin(), w.kept.end(), b) == w.kept.end()) {
-        depth = inside;
-        deepest = b;
-      }
+    for (std::size_t n = 0; n < w.neighbors.size(); ++n) {
+      if (!(inside[n] > depth)) continue;  // as a rule
+      if (std::find(w.kept.begin(), w.kept.end(), w.neighbors[n]) != w.kept.end()) continue;
+      depth = inside[n];
+      deepest = w.neighbors[n];
     }
     return deepest;
+  }
+
+  void list_neighbors(std::uint32_t a, Worker& w) const {
+    grid().for_each_near(s_.atoms[a].center, s_.atoms[a].radius + s_.probe_radius + largest_, [&](std::uint32_t b) {
+      if (b != a) w.neighbors.push_back(b);
+    });
+    w.balls.make_room(w.neighbors.size());
+    double *x = w.balls.column(kX), *y = w.balls.column(kY), *z = w.balls.column(kZ), *wb = w.balls.column(kWeight);
+    for (std::size_t n = 0; n < w.neighbors.size(); ++n) {
+      const std::uint32_t b = w.neighbors[n];
+      x[n] = s_.atoms[b].center.x;
+      y[n] = s_.atoms[b].center.y;
+      z[n] = s_.atoms[b].center.z;
+      wb[n] = weight(b);
+    }
   }
 
   double weight(std::uint32_t a) const { return decision_weight(s_.atoms[a].radius + s_.probe_radius, a); }
