@@ -31,6 +31,7 @@
 #include "app/options/molecule_options.h"
 #include "core/gpu/egl_context.h"
 #include "core/scene/picture_device.h"
+#include "core/scene/view_aim.h"
 #include "core/scene/view_renderer.h"
 
 namespace meniscus {
@@ -87,6 +88,10 @@ Shown read_inputs(PreviewCommand& command) {
   const std::optional<Camera> camera = given_camera(command.picture);
   Shown shown = read_run(command);
   shown.camera = camera;
+  const ViewRequest& picture = command.picture;
+  if (picture.direction || picture.zoom_to || !picture.turns.empty())
+    shown.camera =
+        ViewAim(picture, command.molecule.show, shown.structure).camera(picture, camera, balls_of(shown.structure));
   if (!shown.structure.instances.empty())
     throw UsageError("--instances is for render and export; the preview draws atoms");
   ColorScheme& color = command.molecule.color;

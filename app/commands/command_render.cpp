@@ -22,6 +22,7 @@
 #include "core/render/image_output.h"
 #include "core/render/renderer.h"
 #include "core/scene/picture_device.h"
+#include "core/scene/view_aim.h"
 #include "app/reports/notes.h"
 #include "app/options/run_camera_options.h"
 #include "core/queries/combine.h"
@@ -93,7 +94,8 @@ RenderSettings timed_settings(const RenderCommand& command, const PictureLayout&
 void draw_view(const RenderCommand& command, const std::optional<Camera>& given) {
   const ColoredAtoms atoms = load_atoms(command.molecule);
   const PictureLayout layout(command, key_of(atoms.molecule));
-  const Camera camera = view_camera(layout.size, given, atoms.balls);
+  const ViewAim aim(command.picture, command.molecule.show, atoms.molecule.structure);
+  const Camera camera = aim.camera(layout.size, given, atoms.balls);
   const EglContext context(gl_device(command));
   ViewPipeline view;
   show(atoms, command.molecule.surface.probe_radius, *command.extent, view);
@@ -124,9 +126,9 @@ void run(const RenderCommand& command) {
   if (!command.save_camera.empty()) OutputFile(command.save_camera, command.output.existing());
   const std::optional<Camera> given = given_camera(command.picture);
   if (command.extent) return draw_view(command, given);
-  Molecule molecule = load_molecule(command.molecule);
+  auto [molecule, aim] = load_aimed_molecule(command.molecule, command.picture, given);
   const PictureLayout layout(command, key_of(molecule));
-  const Camera camera = view_camera(layout.size, given, placed_balls(molecule.objects));
+  const Camera camera = aim.camera(layout.size, given, molecule.objects);
   PictureDevice device(command.molecule.surface);
   SurfaceRenderer& renderer = device.renderer();
   Framebuffer picture = render_objects(renderer, std::move(molecule.objects), camera, timed_settings(command, layout));

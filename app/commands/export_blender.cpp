@@ -37,7 +37,7 @@ struct BlenderCommand {
 std::string file_name(const std::string& path) { return std::filesystem::path(path).filename().string(); }
 
 blender::SequenceManifest manifest_of(const BlenderCommand& command, const GivenCameras& cameras, FrameRun& frames) {
-  const RunFraming framing = run_framing(command.picture, command.run_camera, cameras, frames);
+  const RunFraming framing = run_framing(command.picture, command.molecule.show, command.run_camera, cameras, frames);
   const ColorKey key = color_key(frames.structure(), color_of(command.molecule), {});
   blender::SequenceManifest manifest;
   manifest.provenance = {file_name(frames.structure().file), frames.structure().radii_set, {}, key};
@@ -103,9 +103,9 @@ void run(const BlenderCommand& command) {
   if (command.frames.asked()) return run_sequence(command);
   if (command.run_camera.moves()) throw UsageError(kMovesWithoutFrames);
   const std::optional<Camera> given = given_camera(command.picture);
-  const Molecule molecule = load_molecule(command.molecule);
+  const auto [molecule, aim] = load_aimed_molecule(command.molecule, command.picture, given);
   const std::vector<Ball> balls = placed_balls(molecule.objects);
-  const Camera camera = view_camera(command.picture, given, balls);
+  const Camera camera = aim.camera(command.picture, given, molecule.objects);
   const double tolerance = tolerance_of(command.mesh, command.picture.size(), camera, balls);
   std::vector<TriangleMesh> meshes = mesh_and_tell(command.molecule, molecule.objects, tolerance);
   std::vector<blender::MeshedObject> objects;

@@ -41,9 +41,9 @@ std::vector<AtomScalar> scalars_of(const Structure& structure, const std::vector
 
 void run(const PlyCommand& command) {
   const std::optional<Camera> given = given_camera(command.picture);
-  Molecule molecule = load_molecule(command.molecule);
+  auto [molecule, aim] = load_aimed_molecule(command.molecule, command.picture, given);
+  const Camera camera = aim.camera(command.picture, given, molecule.objects);
   const SurfaceObject whole = merged(std::move(molecule.objects));
-  const Camera camera = view_camera(command.picture, given, whole.surface.atoms);
   const double tolerance = tolerance_of(command.mesh, command.picture.size(), camera, whole.surface.atoms);
   const TriangleMesh mesh = std::move(mesh_and_tell(command.molecule, {&whole, 1}, tolerance).front());
   write_ply(command.output.path, command.output.existing(), mesh, whole.coloring,

@@ -48,7 +48,7 @@ void run_sequence(const PovrayCommand& command) {
   const GivenCameras cameras = given_cameras(command.picture, command.run_camera);
   FrameRun frames(command.molecule, command.frames);
   tell_run(command.molecule, frames);
-  const RunFraming framing = run_framing(command.picture, command.run_camera, cameras, frames);
+  const RunFraming framing = run_framing(command.picture, command.molecule.show, command.run_camera, cameras, frames);
   const ColorScheme scheme = color_of(command.molecule);
   povray::SceneOptions options = scene_options(command);
   options.origin = framing.origin();
@@ -84,10 +84,10 @@ void run(const PovrayCommand& command) {
   if (command.frames.asked()) return run_sequence(command);
   if (command.run_camera.moves()) throw UsageError(kMovesWithoutFrames);
   const std::optional<Camera> given = given_camera(command.picture);
-  const Molecule molecule = load_molecule(command.molecule);
+  const auto [molecule, aim] = load_aimed_molecule(command.molecule, command.picture, given);
   povray::SceneOptions options = scene_options(command);
   options.colors = key_of(molecule);
-  const Camera camera = view_camera(command.picture, given, placed_balls(molecule.objects));
+  const Camera camera = aim.camera(command.picture, given, molecule.objects);
   const povray::SceneReport report = write_scene(molecule.objects, camera, options, command.output.path);
   say(command.molecule,
       fmt::format("{} primitives in {} files", with_thousands(report.object_count), report.files.size()));

@@ -179,7 +179,8 @@ void render_frames(const RenderCommand& command) {
   first.color = color_of(command.molecule);
   const PictureLayout layout(command, key_of(first));
   PictureSink sink(command);
-  const std::vector<Camera> cameras = run_cameras(layout.size, command.run_camera, given, frames);
+  const std::vector<Camera> cameras =
+      run_cameras(layout.size, command.molecule.show, command.run_camera, given, frames);
   if (!command.save_camera.empty()) {
     OutputFile file(command.save_camera, command.output.existing());
     file.write(camera_json(cameras.front()));

@@ -48,13 +48,24 @@ bool has(const BundledCommand& command, const std::string& option) {
 /// has its own, or frames the molecule beside a legend.
 std::optional<std::string> default_camera(const BundledCommand& command, const GivenCameras& given, FrameRun& frames) {
   if (given.any() || has(command, "--legend")) return {};
-  return camera_json(run_cameras(command.picture, command.camera_motion, given, frames).front());
+  return camera_json(run_cameras(command.picture, command.molecule.show, command.camera_motion, given, frames).front());
 }
 
 void add_addon(const fs::path& addon, BundleInputs& inputs) {
   if (!fs::exists(addon / "render_mns.py"))
     throw InputError(addon.string(), 0, "has no render_mns.py, Blender's driver; name its folder by --addon");
   for (const DriverFile& file : driver_files()) inputs.add_file_as("blender/" + file.path, addon / file.path);
+}
+
+/// Takes an option and its value out, as often as it is there.
+void take_out(std::string_view name, std::vector<std::string>& arguments) {
+  for (auto word = arguments.begin(); word != arguments.end();) {
+    const std::size_t equals = word->find('=');
+    if (std::string_view(*word).substr(0, equals) == name)
+      word = arguments.erase(word, word + (equals == std::string::npos ? 2 : 1));
+    else
+      ++word;
+  }
 }
 
 /// The arguments with paths in the bundle, and with the camera.
@@ -64,9 +75,8 @@ std::vector<std::string> bundled_command(const BundledCommand& command, const st
   for (const BundledCommand::File& file : command.files)
     arguments[file.place] = file.prefix + inputs.add_file(file.path);
   if (camera) {
-    // The default camera's projection is in the file now, and the two options exclude each other.
-    const auto option = std::ranges::find_if(arguments, [](const auto& a) { return a.starts_with("--projection"); });
-    if (option != arguments.end()) arguments.erase(option, option + (option->find('=') == std::string::npos ? 2 : 1));
+    // All that the options of the default camera said is in the file now, and some of them exclude it.
+    for (const std::string_view name : {"--projection", "--view", "--turn", "--zoom-to"}) take_out(name, arguments);
     arguments.insert(arguments.end(), {"--camera", inputs.add_text("camera.json", *camera)});
   }
   std::vector<std::string> all = command.words;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Declares the picture request.
 #include "app/options/picture_options.h"
+#include "app/options/molecule_options.h"
 #include "app/options/value_words.h"
 
 #include <charconv>
@@ -32,6 +33,51 @@ void parse_size(const std::string& text, ViewRequest& request) {
   }
 }
 
+void parse_view(const std::string& text, ViewRequest& request) {
+  request.direction = parse_view_direction(text);
+  if (!request.direction)
+    throw CLI::ValidationError(
+        "--view", fmt::format("{} is none of {}", in_quotes(text), CLI::detail::join(view_direction_words(), ", ")));
+}
+
+void parse_turns(const std::vector<std::string>& texts, ViewRequest& request) {
+  for (const std::string& text : texts) {
+    const std::optional<Turn> turn = parse_turn(text);
+    if (!turn)
+      throw CLI::ValidationError(
+          "--turn",
+          in_quotes(text) + " is no axis of the picture (x, y, z) with degrees behind it, such as y90 or x-30");
+    request.turns.push_back(*turn);
+  }
+}
+
+void add_aim_options(CLI::App& command, ViewRequest& request, CLI::Option* camera) {
+  command
+      .add_option_function<std::string>(
+          "--view", [&request](const std::string& text) { parse_view(text, request); },
+          "Side that faces the viewer: front (default: the broad side), back, top, bottom, right, left; x, y, z: axes "
+          "of "
+          "the file; 1, 2, 3: of inertia, longest first; symmetry: along the axis of --assembly, symmetry-side: with "
+          "it "
+          "upright; - before these: from the other side")
+      ->check(proposes(view_direction_words()))
+      ->type_name("SIDE")
+      ->excludes(camera);
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--turn", [&request](const std::vector<std::string>& texts) { parse_turns(texts, request); },
+          "Turn the molecule about an axis of the picture, in degrees: y90, x-30, z45 (x to the right, y up, z to the "
+          "viewer); repeatable, in this order")
+      ->allow_extra_args(false)
+      ->type_name("AXISANGLE");
+  command
+      .add_option_function<std::string>(
+          "--zoom-to",
+          [&request](const std::string& text) { request.zoom_to = parse_selection_option("--zoom-to", text); },
+          "Fill the picture with these atoms [all that --show leaves]")
+      ->type_name("EXPR");
+}
+
 }  // namespace
 
 void add_size_option(CLI::App& command, ViewRequest& request, const std::string& what) {
@@ -44,7 +90,9 @@ void add_size_option(CLI::App& command, ViewRequest& request, const std::string&
 
 void add_picture_options(CLI::App& command, ViewRequest& request) {
   add_size_option(command, request, "Picture");
-  CLI::Option* const camera = command.add_option("--camera", request.camera_file, "Camera as JSON [shows everything]");
+  CLI::Option* const camera = command.add_option("--camera", request.camera_file,
+                                                 "Camera as JSON, PyMOL's get_view or ChimeraX's view matrix [shows "
+                                                 "everything]");
   camera->type_name("FILE");
   const std::map<std::string, Projection> words{{"perspective", Projection::perspective},
                                                 {"orthographic", Projection::orthographic}};
@@ -52,6 +100,7 @@ void add_picture_options(CLI::App& command, ViewRequest& request) {
       ->transform(one_of(words))
       ->type_name("WORD")
       ->excludes(camera);
+  add_aim_options(command, request, camera);
 }
 
 }  // namespace meniscus

@@ -10,7 +10,8 @@ void add_run_camera_options(CLI::App& command, CameraMotionRequest& motion) {
   const Heading heading(command, "Frames");
   CLI::Option* const path =
       command.add_option("--camera-path", motion.path_file, "Key frames of the camera as JSON: frame, camera");
-  path->type_name("FILE")->excludes(command.get_option("--camera"));
+  path->type_name("FILE");
+  for (const char* name : {"--camera", "--view", "--turn", "--zoom-to"}) path->excludes(command.get_option(name));
   command
       .add_option("--turntable", motion.turns,
                   "Turns of the camera about the molecule's middle over the run; negative: the other way round")

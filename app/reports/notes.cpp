@@ -22,6 +22,15 @@ void tell_structure(const MoleculeOptions& options, const Structure& structure) 
   say_warnings(options, structure);
 }
 
+Molecule built_and_told(const MoleculeOptions& options, Structure structure) {
+  Molecule molecule = MoleculeBuilder(options).build(std::move(structure));
+  say(options, fmt::format("surface on {} in {:.1f} ms", molecule.device, total_ms(molecule.stages)));
+  if (const double grown_by = largest_growth(molecule.objects); grown_by > 0)
+    say(options,
+        fmt::format("spheres that meet in one point were told apart by radii grown by up to {:.2g} Å", grown_by));
+  return molecule;
+}
+
 }  // namespace
 
 void say(const MoleculeOptions& options, const std::string& line) {
@@ -81,14 +90,18 @@ std::vector<TriangleMesh> mesh_and_tell(const MoleculeOptions& options, std::spa
   return meshes;
 }
 
-Molecule load_molecule(const MoleculeOptions& options) {
+Molecule load_molecule(const MoleculeOptions& options) { return built_and_told(options, read_and_tell(options)); }
+
+AimedMolecule load_aimed_molecule(const MoleculeOptions& options, const ViewRequest& picture,
+                                  const std::optional<Camera>& given) {
   Structure structure = read_and_tell(options);
-  Molecule molecule = MoleculeBuilder(options).build(std::move(structure));
-  say(options, fmt::format("surface on {} in {:.1f} ms", molecule.device, total_ms(molecule.stages)));
-  if (const double grown_by = largest_growth(molecule.objects); grown_by > 0)
-    say(options,
-        fmt::format("spheres that meet in one point were told apart by radii grown by up to {:.2g} Å", grown_by));
-  return molecule;
+  ViewAim aim(picture, options.show, structure);
+  if (given && !picture.zoom_to && picture.turns.empty() &&
+      sees_nothing(*given, picture.aspect(), structure, options.surface.probe_radius))
+    say(options, fmt::format("warning: {}: this camera sees nothing of the molecule: all atoms are behind it or beside "
+                             "the picture; --zoom-to EXPR turns to them",
+                             picture.camera_file));
+  return {built_and_told(options, std::move(structure)), std::move(aim)};
 }
 
 }  // namespace meniscus

@@ -2,6 +2,7 @@
 // What a command says on stderr while it works.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "app/options/molecule_options.h"
 #include "core/base/progress.h"
 #include "core/scene/frame_run.h"
+#include "core/scene/view_aim.h"
 #include "exporters/mesh/triangle_mesh.h"
 
 namespace meniscus {
@@ -35,5 +37,16 @@ std::vector<TriangleMesh> mesh_and_tell(const MoleculeOptions& options, std::spa
 
 /// Reads, computes and colours, in that order; says what was read and on which device it ran.
 Molecule load_molecule(const MoleculeOptions& options);
+
+/// A molecule, and how a picture of it is aimed.
+struct AimedMolecule {
+  Molecule molecule;
+  ViewAim aim;
+};
+
+/// The same. Between reading and computing it refuses what the picture asks for and the molecule has not, and warns if
+/// the camera given is certain to see nothing.
+AimedMolecule load_aimed_molecule(const MoleculeOptions& options, const ViewRequest& picture,
+                                  const std::optional<Camera>& given);
 
 }  // namespace meniscus

@@ -9,6 +9,7 @@
 
 #include "core/base/text.h"
 #include "core/base/error.h"
+#include "core/scene/view_aim.h"
 
 namespace meniscus {
 namespace {
@@ -22,10 +23,11 @@ glm::dvec3 middle_of(std::span<const Ball> balls) {
 /// How the camera of each frame differs from the one it starts with.
 class CameraCourse {
  public:
-  CameraCourse(const CameraMotionRequest& motion, const FrameRun& frames) : motion_(motion) {
+  /// pivot: what the camera turns about, Å.
+  CameraCourse(const CameraMotionRequest& motion, const FrameRun& frames, const glm::dvec3& pivot)
+      : motion_(motion), pivot_(pivot) {
     const std::vector<Atom>& atoms = frames.structure().atoms;
     const std::vector<Ball> balls = balls_of(frames.structure());
-    pivot_ = middle_of(balls);
     count_ = static_cast<double>(frames.numbers().size());
     if (!motion.follow) return;
     const std::vector<bool> selected = motion.follow->evaluate(atoms);
@@ -87,28 +89,33 @@ GivenCameras given_cameras(const ViewRequest& view, const CameraMotionRequest& m
   return given;
 }
 
-std::vector<Camera> run_cameras(const ViewRequest& view, const CameraMotionRequest& motion, const GivenCameras& given,
-                                FrameRun& frames, Box* extent) {
-  const double aspect = static_cast<double>(view.width) / view.height;
+std::vector<Camera> run_cameras(const ViewRequest& view, const std::optional<Selection>& show,
+                                const CameraMotionRequest& motion, const GivenCameras& given, FrameRun& frames,
+                                Box* extent) {
   const std::vector<Ball> first = balls_of(frames.structure());
-  const CameraCourse course(motion, frames);
+  const ViewAim aim(view, show, frames.structure());
+  const std::vector<Ball> shown = aim.shown(first), framed = aim.framed(first);
+  const ViewedBalls seen{shown, framed, aim.symmetry()};
+  const CameraCourse course(motion, frames, middle_of(framed));
 
-  const ViewBasis basis = broad_side(first);
+  const ViewBasis basis = aimed_basis(view, given.still, seen);
   Camera lens;
   lens.projection = view.projection;
-  DecisiveBalls decisive(basis, aspect, lens);
-  decisive.add(first);
+  DecisiveBalls decisive(basis, view.aspect(), given.still.value_or(lens));
+  decisive.add(framed);
   std::vector<glm::dvec3> shifts(frames.numbers().size(), glm::dvec3(0.0));
-  if (!given.any() || course.follows() || extent) {
+  const bool frames_all = !given.path && (!given.still || view.zoom_to);
+  if (frames_all || course.follows() || extent) {
     frames.survey([&](std::uint64_t place, std::span<const Ball> balls) {
       if (extent) include(balls, *extent);
       shifts[place] = course.shift(balls);
-      if (given.any()) return;
-      decisive.add(motion.moves() ? before_camera(balls, shifts[place], course.pivot(), basis.up, course.angle(place))
-                                  : std::vector<Ball>(balls.begin(), balls.end()));
+      if (!frames_all) return;
+      const std::vector<Ball> filling = aim.framed(balls);
+      decisive.add(motion.moves() ? before_camera(filling, shifts[place], course.pivot(), basis.up, course.angle(place))
+                                  : filling);
     });
   }
-  const Camera still = given.path ? Camera{} : given.still ? *given.still : decisive.frame();
+  const Camera still = given.path ? Camera{} : frames_all ? decisive.frame() : view_camera(view, given.still, seen);
   std::vector<Camera> cameras;
   for (std::uint64_t place = 0; place < frames.numbers().size(); ++place) {
     Camera camera = given.path ? given.path->at(static_cast<double>(frames.numbers()[place])) : still;

@@ -17,7 +17,7 @@ namespace meniscus {
 /// How the camera moves over a run.
 struct CameraMotionRequest {
   std::string path_file;  ///< empty: one camera, of a file or framing all frames
-  double turns = 0.0;     ///< about the camera's up axis through the middle of the molecule, over the run
+  double turns = 0.0;     ///< about the camera's up axis through the middle of what is framed, over the run
   std::optional<Selection> follow;
 
   bool moves() const { return !path_file.empty() || turns != 0.0 || follow.has_value(); }
@@ -34,10 +34,12 @@ struct GivenCameras {
 /// Those of the files that are named. Ask for them before anything is read or computed. Throws InputError.
 GivenCameras given_cameras(const ViewRequest& view, const CameraMotionRequest& motion);
 
-/// A camera for each frame of the run, by its place. Without a camera from a file all frames are read once, so that all
-/// of every frame is seen. extent: gets all atoms at all frames included, in the same pass; nullptr: not asked for.
-/// Throws InputError, RequestError.
-std::vector<Camera> run_cameras(const ViewRequest& view, const CameraMotionRequest& motion, const GivenCameras& given,
-                                FrameRun& frames, Box* extent = nullptr);
+/// A camera for each frame of the run, by its place. Without a camera from a file, and where it is asked to fill the
+/// picture with some atoms, all frames are read once, so that these are seen in every frame. show: the atoms whose part
+/// of the surface is shown; nothing: all. extent: gets all atoms at all frames included, in the same pass; nullptr: not
+/// asked for. Throws InputError, RequestError.
+std::vector<Camera> run_cameras(const ViewRequest& view, const std::optional<Selection>& show,
+                                const CameraMotionRequest& motion, const GivenCameras& given, FrameRun& frames,
+                                Box* extent = nullptr);
 
 }  // namespace meniscus

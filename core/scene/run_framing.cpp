@@ -14,11 +14,11 @@ namespace meniscus {
 
 glm::dvec3 RunFraming::origin() const { return glm::round((low + high) * 0.5e3) / 1e3; }
 
-RunFraming run_framing(const ViewRequest& view, const CameraMotionRequest& motion, const GivenCameras& given,
-                       FrameRun& frames) {
+RunFraming run_framing(const ViewRequest& view, const std::optional<Selection>& show, const CameraMotionRequest& motion,
+                       const GivenCameras& given, FrameRun& frames) {
   RunFraming framing;
   Box box;
-  framing.cameras = run_cameras(view, motion, given, frames, &box);
+  framing.cameras = run_cameras(view, show, motion, given, frames, &box);
   if (!motion.moves()) framing.cameras.resize(1);
   framing.low = box.low;
   framing.high = box.high;

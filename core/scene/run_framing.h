@@ -23,8 +23,8 @@ struct RunFraming {
 };
 
 /// Reads all frames of the run once. Throws what run_cameras throws.
-RunFraming run_framing(const ViewRequest& view, const CameraMotionRequest& motion, const GivenCameras& given,
-                       FrameRun& frames);
+RunFraming run_framing(const ViewRequest& view, const std::optional<Selection>& show, const CameraMotionRequest& motion,
+                       const GivenCameras& given, FrameRun& frames);
 
 /// All colours that a frame of the run may have, in the order of the atoms; of components all there are.
 std::vector<glm::vec3> run_colors(const Structure& structure, const ColorScheme& scheme);

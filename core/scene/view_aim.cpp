@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Picks the balls that a camera is aimed at.
+#include "core/scene/view_aim.h"
+
+#include <algorithm>
+#include <map>
+#include <unordered_map>
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/queries/combine.h"
+#include "core/scene/hidden_atoms.h"
+#include "core/trajectory/superpose.h"
+
+namespace meniscus {
+namespace {
+
+std::vector<Ball> picked(std::span<const Ball> balls, const std::vector<bool>& of_atom) {
+  if (of_atom.empty()) return {balls.begin(), balls.end()};
+  std::vector<Ball> result;
+  for (std::size_t n = 0; n < balls.size(); ++n)
+    if (of_atom[n]) result.push_back(balls[n]);
+  return result;
+}
+
+/// Of every copy of every object.
+std::vector<Ball> picked(std::span<const SurfaceObject> objects, const std::vector<bool>& of_atom) {
+  std::vector<Ball> result;
+  for (const SurfaceObject& object : objects)
+    for (const RigidMotion& copy : object.copies)
+      for (std::size_t n = 0; n < object.surface.atoms.size(); ++n)
+        if (of_atom.empty() || of_atom[object.atom[n]])
+          result.push_back({copy(object.surface.atoms[n].center), object.surface.atoms[n].radius});
+  return result;
+}
+
+/// Where the copies of an assembly stand, by what they have in common with the first.
+std::vector<RigidMotion> copy_motions(const Structure& structure) {
+  std::vector<RigidMotion> motions;
+  for (const Instances& instances : structure.instances)
+    if (instances.motions.size() > motions.size()) motions = instances.motions;
+  std::unordered_map<std::uint32_t, glm::dvec3> first;  // by place in the file
+  std::map<std::uint32_t, std::vector<const Atom*>> copies;
+  for (const Atom& atom : structure.atoms) {
+    if (atom.copy == 0) first.emplace(atom.index, atom.position);
+    copies[atom.copy].push_back(&atom);
+  }
+  if (copies.size() < 2) return motions;
+  for (const auto& [copy, atoms] : copies) {
+    std::vector<glm::dvec3> here, there;
+    std::vector<std::uint32_t> all;
+    for (const Atom* atom : atoms) {
+      const auto same = first.find(atom->index);
+      if (same == first.end()) continue;
+      all.push_back(static_cast<std::uint32_t>(here.size()));
+      here.push_back(same->second);
+      there.push_back(atom->position);
+    }
+    if (all.size() >= 3) motions.push_back(superposition(there, here, all));
+  }
+  return motions;
+}
+
+}  // namespace
+
+ViewAim::ViewAim(const ViewRequest& request, const std::optional<Selection>& show, const Structure& structure) {
+  if (show) {
+    shown_ = hidden_atoms(*show, structure);
+    shown_.flip();
+  }
+  framed_ = shown_;
+  if (request.zoom_to) {
+    framed_ = request.zoom_to->evaluate(structure.atoms);
+    if (std::ranges::find(framed_, true) == framed_.end())
+      throw RequestError(fmt::format("--zoom-to {}: selects none of the {} atoms of the surface",
+                                     in_quotes(request.zoom_to->text()), with_thousands(structure.atoms.size())));
+  }
+  using Frame = ViewDirection::Frame;
+  if (!request.direction || (request.direction->frame != Frame::symmetry && request.direction->frame != Frame::beside))
+    return;
+  symmetry_ = symmetry_axis(copy_motions(structure));
+  if (!symmetry_)
+    throw RequestError(
+        "--view symmetry: there is no axis: build an assembly whose copies are turned (--assembly), or name another "
+        "side");
+}
+
+Camera ViewAim::camera(const ViewRequest& layout, const std::optional<Camera>& given,
+                       std::span<const SurfaceObject> objects) const {
+  const std::vector<Ball> all = placed_balls(objects);
+  if (shown_.empty() && framed_.empty()) return view_camera(layout, given, {all, all, symmetry_});
+  std::vector<Ball> shown = picked(objects, shown_), framed = picked(objects, framed_);
+  // Atoms may belong to a part of the surface that was dropped (--cavities).
+  if (shown.empty()) shown = all;
+  if (framed.empty()) framed = shown;
+  return view_camera(layout, given, {shown, framed, symmetry_});
+}
+
+Camera ViewAim::camera(const ViewRequest& layout, const std::optional<Camera>& given,
+                       std::span<const Ball> balls) const {
+  return view_camera(layout, given, {shown(balls), framed(balls), symmetry_});
+}
+
+std::vector<Ball> ViewAim::shown(std::span<const Ball> balls) const { return picked(balls, shown_); }
+
+std::vector<Ball> ViewAim::framed(std::span<const Ball> balls) const { return picked(balls, framed_); }
+
+bool sees_nothing(const Camera& camera, double aspect, const Structure& structure, double probe) {
+  const std::vector<Ball> balls = balls_of(structure);
+  if (structure.instances.empty()) return sees_nothing(camera, aspect, balls, probe);
+  for (const Instances& instances : structure.instances) {
+    for (const RigidMotion& motion : instances.motions) {
+      std::vector<Ball> copy;
+      for (const std::uint32_t atom : instances.atoms) copy.push_back({motion(balls[atom].center), balls[atom].radius});
+      if (!sees_nothing(camera, aspect, copy, probe)) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace meniscus

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Aims the camera of a picture at the atoms it is about.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "core/camera/view_request.h"
+#include "core/queries/surface_object.h"
+#include "core/structure/selection/selection.h"
+#include "core/structure/structure.h"
+
+namespace meniscus {
+
+/// Of the atoms of a structure those that are shown and those that shall fill the picture, and where copies stand.
+class ViewAim {
+ public:
+  /// show: the atoms whose part of the surface is shown; nothing: all. Throws RequestError if request.zoom_to selects
+  /// none of the atoms or request.direction is that of an axis which is not there, InputError if `show` selects none.
+  ViewAim(const ViewRequest& request, const std::optional<Selection>& show, const Structure& structure);
+
+  /// Of a picture of these objects of the structure, with their copies. layout: the request with the size of the part
+  /// of the picture that the molecule has.
+  Camera camera(const ViewRequest& layout, const std::optional<Camera>& given,
+                std::span<const SurfaceObject> objects) const;
+  /// Of a picture of the atoms, one ball each.
+  Camera camera(const ViewRequest& layout, const std::optional<Camera>& given, std::span<const Ball> balls) const;
+
+  /// Balls of the atoms, one each, that are shown, and that fill the picture.
+  std::vector<Ball> shown(std::span<const Ball> balls) const;
+  std::vector<Ball> framed(std::span<const Ball> balls) const;
+  const std::optional<glm::dvec3>& symmetry() const { return symmetry_; }
+
+ private:
+  std::vector<bool> shown_, framed_;  ///< per atom of the structure; empty: all
+  std::optional<glm::dvec3> symmetry_;
+};
+
+/// Is it certain, before any surface is computed, that a picture by this camera shows nothing of the structure? probe:
+/// Å, the farthest that a surface is from its atoms.
+bool sees_nothing(const Camera& camera, double aspect, const Structure& structure, double probe);
+
+}  // namespace meniscus

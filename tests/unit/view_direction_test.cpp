@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Sides, turns, axes of assemblies, cameras of other programs, and what a camera is certain not to see.
+#include <cmath>
+#include <numbers>
+
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <gtest/gtest.h>
+
+#include "core/base/error.h"
+#include "core/camera/camera_file.h"
+#include "core/camera/view_request.h"
+
+namespace meniscus {
+namespace {
+
+// Longest along x + y, then z, shortest along x - y.
+const std::vector<Ball> kLong{{{-8, -8, 0}, 1}, {{8, 8, 0}, 1},  {{0, 0, 4}, 1}, {{0, 0, -4}, 1},
+                              {{1, -1, 0}, 1},  {{-1, 1, 0}, 1}, {{3, 3, 1}, 1}};
+
+glm::dmat3 rotation(const glm::dvec3& axis, double degrees) {
+  const double angle = degrees * std::numbers::pi / 180.0, c = std::cos(angle), s = std::sin(angle);
+  const glm::dvec3 a = glm::normalize(axis);
+  const glm::dmat3 cross({0, a.z, -a.y}, {-a.z, 0, a.x}, {a.y, -a.x, 0});
+  return c * glm::dmat3(1.0) + s * cross + (1.0 - c) * glm::outerProduct(a, a);
+}
+
+void expect_near(const glm::dvec3& a, const glm::dvec3& b, double tolerance = 1e-12) {
+  EXPECT_LT(glm::length(a - b), tolerance) << a.x << " " << a.y << " " << a.z;
+}
+
+ViewBasis side(const char* name, const std::optional<glm::dvec3>& symmetry = {}) {
+  return view_basis(parse_view_direction(name).value(), kLong, symmetry);
+}
+
+TEST(ViewDirection, FacesWhatItNames) {
+  for (const std::string& word : view_direction_words()) {
+    const ViewBasis basis = side(word.c_str(), glm::dvec3(0.6, 0.0, 0.8));
+    expect_near(glm::cross(basis.right, basis.up), -basis.forward);
+    EXPECT_NEAR(glm::length(basis.up), 1.0, 1e-12) << word;
+    EXPECT_NEAR(glm::dot(basis.up, basis.forward), 0.0, 1e-12) << word;
+  }
+  expect_near(side("z").forward, {0, 0, -1});
+  expect_near(side("z").right, {1, 0, 0});
+  expect_near(side("-z").forward, {0, 0, 1});
+  expect_near(side("-z").up, {0, 1, 0});
+  expect_near(side("x").forward, {-1, 0, 0});
+  expect_near(side("x").up, {0, 1, 0});
+  expect_near(side("y").forward, {0, -1, 0});
+  expect_near(side("y").right, {1, 0, 0});
+  const glm::dvec3 long_axis = glm::normalize(glm::dvec3(1, 1, 0));
+  EXPECT_NEAR(std::abs(glm::dot(side("1").forward, long_axis)), 1.0, 1e-3);
+  EXPECT_NEAR(std::abs(glm::dot(side("2").right, long_axis)), 1.0, 1e-3);
+  EXPECT_NEAR(std::abs(glm::dot(side("3").right, long_axis)), 1.0, 1e-3);
+  const ViewBasis usual = broad_side(kLong);
+  for (const auto& [word, other] :
+       {std::pair{"front", "3"}, {"back", "-3"}, {"top", "2"}, {"bottom", "-2"}, {"right", "1"}, {"left", "-1"}})
+    expect_near(side(word).forward, side(other).forward);
+  expect_near(side("front").forward, usual.forward);
+  expect_near(side("front").up, usual.up);
+  expect_near(side("back").forward, -usual.forward);
+  // What was up, right and below faces the viewer.
+  expect_near(side("top").forward, -usual.up);
+  expect_near(side("right").forward, -usual.right);
+  expect_near(side("bottom").forward, usual.up);
+  expect_near(side("symmetry", glm::dvec3(0, 0, 1)).forward, {0, 0, -1});
+  expect_near(side("symmetry-side", glm::dvec3(0, 0.6, 0.8)).up, {0, 0.6, 0.8});
+}
+
+TEST(ViewDirection, KnowsNoOtherWords) {
+  for (const char* word : {"", "-", "w", "--x", "-front", "4", "X", "xy", "top ", "+z"})
+    EXPECT_FALSE(parse_view_direction(word)) << word;
+}
+
+TEST(Turns, AreRightHandedAboutThePicturesAxes) {
+  const ViewBasis usual{{1, 0, 0}, {0, 1, 0}, {0, 0, -1}};
+  const auto after = [&](std::vector<Turn> turns) { return turned(usual, turns); };
+  // y90 brings to the right what was in front: z.
+  expect_near(after({{1, 90.0}}).right, {0, 0, 1});
+  // x90 brings to the front what was above: y.
+  expect_near(after({{0, 90.0}}).forward, {0, -1, 0});
+  // z90 brings upwards what was at the right: x.
+  expect_near(after({{2, 90.0}}).up, {1, 0, 0});
+  // One after another: Rx(-30) Ry(90), whose transpose has the axes of the picture as columns.
+  const glm::dmat3 both = glm::transpose(rotation({1, 0, 0}, -30.0) * rotation({0, 1, 0}, 90.0));
+  const ViewBasis turns = after({{1, 90.0}, {0, -30.0}});
+  expect_near(turns.right, both[0]);
+  expect_near(turns.up, both[1]);
+  expect_near(-turns.forward, both[2]);
+  EXPECT_EQ(parse_turn("x-30.5")->degrees, -30.5);
+  EXPECT_EQ(parse_turn("z45")->axis, 2);
+  for (const char* text : {"", "y", "90", "w90", "y 90", "y90x", "ynan", "y1e9", "90y"}) EXPECT_FALSE(parse_turn(text));
+}
+
+TEST(SymmetryAxis, IsWhatMostCopiesTurnAbout) {
+  const auto motions = [](std::vector<glm::dmat3> rotations) {
+    std::vector<RigidMotion> result;
+    for (const glm::dmat3& r : rotations) result.push_back({r, r * glm::dvec3(10, 2, 3)});
+    return result;
+  };
+  const glm::dvec3 axis = glm::normalize(glm::dvec3(1, 2, -2)), two = glm::normalize(glm::dvec3(2, -1, 0));
+  std::vector<glm::dmat3> ring, dihedral;
+  for (int n = 0; n < 7; ++n) ring.push_back(rotation(axis, n * 360.0 / 7.0));
+  for (const glm::dmat3& r : ring) dihedral.push_back(r);
+  for (const glm::dmat3& r : ring) dihedral.push_back(r * rotation(two, 180.0));
+  expect_near(symmetry_axis(motions(ring)).value(), -axis, 1e-9);
+  expect_near(symmetry_axis(motions(dihedral)).value(), -axis, 1e-9);
+  // A deposited frame that is turned itself changes nothing.
+  for (glm::dmat3& r : ring) r = r * rotation({3, 1, 1}, 40.0);
+  expect_near(symmetry_axis(motions(ring)).value(), -axis, 1e-9);
+  EXPECT_FALSE(symmetry_axis({}));
+  EXPECT_FALSE(symmetry_axis(motions({glm::dmat3(1.0), glm::dmat3(1.0)})));
+  expect_near(symmetry_axis(motions({glm::dmat3(1.0), rotation({0, 0, 1}, 180.0)})).value(), {0, 0, 1}, 1e-9);
+}
+
+std::string fault_of(const std::string& text) {
+  try {
+    parse_any_camera(text, "v", 1.5);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+const std::string kChimeraX = "view matrix camera 0,0,1,40, 1,0,0,5, 0,1,0,6";
+
+TEST(CameraFiles, AreToldApartByContent) {
+  const Camera own = parse_any_camera(
+      R"( {"position":[1,2,30],"target":[1,2,3],"up":[0,1,0],"projection":"orthographic","height":40})", "v", 1.5);
+  EXPECT_EQ(own.height, 40.0);
+  const Camera pymol = parse_any_camera("1 0 0 0 1 0 0 0 1  1 2 -50  3 4 5  10 90 0", "v", 1.5);
+  EXPECT_EQ(pymol.position, glm::dvec3(2, 2, 55));
+  EXPECT_EQ(pymol.target, glm::dvec3(2, 2, 5));
+  EXPECT_EQ(pymol.vertical_fov, 20.0);
+  EXPECT_EQ(parse_any_camera("1 0 0 0 1 0 0 0 1  0 0 -50  0 0 0  10 90 1", "v", 1.5).projection,
+            Projection::orthographic);
+  const Camera chimerax = parse_any_camera(kChimeraX, "v", 1.5);
+  EXPECT_EQ(chimerax.position, glm::dvec3(40, 5, 6));
+  expect_near(view_basis(chimerax).right, {0, 1, 0});
+  expect_near(view_basis(chimerax).up, {0, 0, 1});
+  expect_near(view_basis(chimerax).forward, {-1, 0, 0});
+  // 30 degrees across.
+  EXPECT_NEAR(half_extent(chimerax, 1.5).x, std::tan(std::numbers::pi / 12.0), 1e-12);
+  // Models that were all carried along: the camera belongs to where their files have them.
+  const Camera carried =
+      parse_any_camera(kChimeraX + " models #1,1,0,0,7,0,1,0,0,0,0,1,0,#2,1,0,0,7,0,1,0,0,0,0,1,0", "v", 1.5);
+  EXPECT_EQ(carried.position, glm::dvec3(33, 5, 6));
+}
+
+TEST(CameraFiles, SayWhatIsWrong) {
+  EXPECT_EQ(
+      fault_of("1 2 3"),
+      "v: camera: this is neither JSON, nor the 18 numbers of PyMOL's get_view (there are 3 words), nor ChimeraX's "
+      "`view matrix`");
+  EXPECT_EQ(fault_of("1 0 0 0 1 0 0 0 x  1 2 -50  3 4 5  10 90 0"),
+            "v: camera: 'x' is no finite number of PyMOL's get_view");
+  EXPECT_EQ(fault_of("2 0 0 0 1 0 0 0 1  1 2 -50  3 4 5  10 90 0"),
+            "v: camera: the matrix of PyMOL's get_view is no rotation");
+  EXPECT_EQ(fault_of("1 0 0 0 1 0 0 0 1  1 2 50  3 4 5  10 90 0"),
+            "v: camera: PyMOL's get_view has the molecule behind the camera");
+  EXPECT_EQ(fault_of("view matrix camera 1,0,0"), "v: camera: ChimeraX's camera has less than its 12 numbers");
+  EXPECT_EQ(fault_of("view matrix camera 1,0,0,0,1,0,0,0,1,2,3,4"),
+            "v: camera: the matrix of ChimeraX's camera is no rotation");
+  EXPECT_EQ(fault_of(kChimeraX + " shapes"), "v: camera: 'shapes' is no part of ChimeraX's `view matrix`");
+  EXPECT_EQ(
+      fault_of(kChimeraX + " models #1,1,0,0,7,0,1,0,0,0,0,1,0,#2,1,0,0,8,0,1,0,0,0,0,1,0"),
+      "v: camera: ChimeraX has moved its models apart; one camera cannot stand for all: reset their places first");
+  EXPECT_EQ(fault_of("{"), "v:1: camera: this is not JSON");
+}
+
+TEST(ViewRequests, FrameWhatIsAskedFor) {
+  const std::vector<Ball> pocket{{{3, 3, 1}, 1}};
+  ViewRequest request;
+  const Camera all = view_camera(request, {}, {kLong, kLong, {}});
+  expect_near(all.position, frame_camera(kLong, request.aspect()).position, 1e-15);
+  request.turns = {{1, 40.0}};
+  const Camera turned_camera = view_camera(request, {}, {kLong, kLong, {}});
+  EXPECT_FALSE(sees_nothing(turned_camera, request.aspect(), kLong, 0.0));
+  EXPECT_GT(glm::length(view_basis(turned_camera).forward - view_basis(all).forward), 0.5);
+  // Near the pocket, from the given side.
+  Camera given;
+  given.position = {0, 0, 100};
+  request.turns.clear();
+  EXPECT_EQ(view_camera(request, given, {kLong, kLong, {}}).position, given.position);
+  request.zoom_to = parse_selection("all");
+  const Camera near = view_camera(request, given, {kLong, pocket, {}});
+  expect_near(view_basis(near).forward, {0, 0, -1});
+  EXPECT_NEAR(near.position.x, 3.0, 1e-9);
+  EXPECT_LT(near.position.z, 10.0);
+  EXPECT_FALSE(sees_nothing(near, request.aspect(), pocket, 0.0));
+  // Turned by hand: about the middle of what is shown, which stays where it was in the picture.
+  request.zoom_to.reset();
+  request.turns = {{0, 180.0}};
+  const std::vector<Ball> pair{{{-1, 0, 5}, 1}, {{1, 0, 5}, 1}};
+  expect_near(view_camera(request, given, {pair, pair, {}}).position, {0, 0, -90}, 1e-9);
+}
+
+TEST(SeesNothing, OnlyWhereThatIsCertain) {
+  Camera camera;
+  camera.position = {0, 0, 10};
+  camera.vertical_fov = 90.0;
+  const auto blind = [&](const glm::dvec3& center, double radius, double reach = 0.0) {
+    const std::vector<Ball> balls{{center, radius}};
+    return sees_nothing(camera, 2.0, balls, reach);
+  };
+  for (const Projection projection : {Projection::perspective, Projection::orthographic}) {
+    camera.projection = projection;
+    camera.height = 20.0;
+    EXPECT_FALSE(blind({0, 0, 0}, 1));
+    EXPECT_TRUE(blind({0, 0, 20}, 1));
+    EXPECT_FALSE(blind({0, 0, 20}, 11));
+    EXPECT_TRUE(blind({0, 12, 0}, 1));
+    EXPECT_FALSE(blind({0, 12, 0}, 1, 1.5));
+    EXPECT_FALSE(blind({12, 0, 0}, 1));  // the picture is wide
+    EXPECT_TRUE(blind({25, 0, 0}, 1));
+    // The nearest of the four sides is met under an angle.
+    EXPECT_EQ(blind({0, 11.2, 0}, 1), projection == Projection::orthographic);
+  }
+  const std::vector<Ball> one_of_two{{{0, 50, 0}, 1}, {{0, 0, 0}, 1}};
+  EXPECT_FALSE(sees_nothing(camera, 2.0, one_of_two, 0.0));
+}
+
+}  // namespace
+}  // namespace meniscus
