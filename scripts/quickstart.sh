@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Installs what Meniscus needs, builds it, and makes one picture of 1TII three times: by ray casting, by POV-Ray and by
-# Blender from our exports. Safe to run again. Results are in quickstart/ below the current folder.
+# Installs what Meniscus needs, builds it, makes a picture of 1TII, and then one more three times: by ray casting, by
+# POV-Ray and by Blender from our exports, compared. Safe to run again. Results are in quickstart/ below the current folder.
 set -euo pipefail
 here=$(cd "$(dirname "$0")/.." && pwd)
 source "$here/scripts/packages.sh"
@@ -9,14 +9,23 @@ size=${MENISCUS_QUICKSTART_SIZE:-800x640}
 out=$PWD/quickstart
 step() { printf '\n== %s (%s s)\n' "$1" "$SECONDS"; }
 
-step "1/6 packages"
+step "1/5 packages"
 install_packages "${build_packages[@]}" "${run_packages[@]}" "${film_packages[@]}" "${sample_packages[@]}" \
   "${compare_packages[@]}"
 
-step "2/6 build"
+step "2/5 build"
 build=${MENISCUS_BUILD:-$here/build/release}
-cmake -S "$here" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DMENISCUS_TESTS=OFF >/dev/null
-cmake --build "$build" --target meniscus
+log=$out/build.log
+mkdir -p "$out"
+echo "this takes minutes; its words go to $log"
+{
+  cmake -S "$here" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DMENISCUS_TESTS=OFF &&
+    cmake --build "$build" --target meniscus
+} >"$log" 2>&1 || {
+  tail -n 20 "$log" >&2
+  echo "the build failed; its whole log: $log" >&2
+  exit 1
+}
 meniscus=$build/meniscus
 
 molecule=$(dpkg -L pymol-data | awk '/\/1tii\.pdb$/ && !n++')
@@ -24,14 +33,17 @@ molecule=$(dpkg -L pymol-data | awk '/\/1tii\.pdb$/ && !n++')
   echo "the package pymol-data has no 1tii.pdb; give another file to $meniscus" >&2
   exit 1
 }
-mkdir -p "$out"
 
-step "3/6 surface and ray-cast picture"
+step "3/5 a picture"
+"$meniscus" render "$molecule" -o "$out/1tii_chains.png" --size "$size" --color chain --ambient-occlusion 1 \
+  --ambient-occlusion-radius 20 --depth-cue 0.35 --silhouettes 1.5 --light-strength 1.3 --samples 9 --background white --force
+echo "look at it: $out/1tii_chains.png"
+
+step "4/5 the same surface here, in POV-Ray and in Blender"
 "$meniscus" surface "$molecule" --json >"$out/1tii.json"
 "$meniscus" render "$molecule" -o "$out/1tii.png" --size "$size" --background white --save-camera "$out/camera.json" --force
 "$meniscus" render "$molecule" -o "$out/1tii.exr" --size "$size" --samples 1 --aovs --camera "$out/camera.json" --force --quiet
 
-step "4/6 POV-Ray"
 "$meniscus" export povray "$molecule" -o "$out/povray" --size "$size" --camera "$out/camera.json" --force
 (cd "$out/povray" && povray surface.ini -GA && povray "surface.ini[normal]" -GA) 2>"$out/povray.log" || {
   tail -n 20 "$out/povray.log" >&2
@@ -39,7 +51,6 @@ step "4/6 POV-Ray"
   exit 1
 }
 
-step "5/6 Blender"
 "$meniscus" export blender "$molecule" -o "$out/1tii.mns" --size "$size" --camera "$out/camera.json" --force
 blender -b --factory-startup --python-exit-code 3 --python "$here/exporters/blender/addon/render_mns.py" -- \
   "$out/1tii.mns" --output "$out/1tii_blender.png" --passes "$out/1tii_blender.exr" --size "$size" --samples 16 --transparent \
@@ -49,7 +60,15 @@ blender -b --factory-startup --python-exit-code 3 --python "$here/exporters/blen
   exit 1
 }
 
-step "6/6 compare"
+step "5/5 compare the three"
 /usr/bin/python3 "$here/scripts/compare_pictures.py" "$out/1tii.exr" "$out/povray/surface_normal.png" \
   "$out/1tii_blender.exr"
-echo "pictures: $out/1tii.png $out/povray/surface.png $out/1tii_blender.png"
+echo "pictures: $out/1tii_chains.png $out/1tii.png $out/povray/surface.png $out/1tii_blender.png"
+
+cat <<EOF
+
+Now your own molecule:
+  $meniscus render my.pdb -o my.png --color chain --ambient-occlusion 1 --background white
+  $meniscus preview my.pdb                                   # a window; --serve: a page for a browser
+  $meniscus render my.pdb -o pocket.png --zoom-to ligand     # meniscus render --help has all
+EOF
