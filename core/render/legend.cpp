@@ -58,25 +58,6 @@ void draw_box(Framebuffer& picture, const LegendBox& box, const glm::vec3& frame
   });
 }
 
-/// The mask, each pixel as covered as the most covered one within `radius`.
-std::vector<float> thickened(const std::vector<float>& mask, glm::ivec2 size, int radius) {
-  const auto pass = [&](const std::vector<float>& from, glm::ivec2 step) {
-    std::vector<float> to(from.size());
-    for (int y = 0; y < size.y; ++y)
-      for (int x = 0; x < size.x; ++x) {
-        float most = 0.0f;
-        for (int k = -radius; k <= radius; ++k) {
-          const glm::ivec2 at = glm::ivec2(x, y) + k * step;
-          if (at.x >= 0 && at.y >= 0 && at.x < size.x && at.y < size.y)
-            most = std::max(most, from[static_cast<std::size_t>(at.y) * size.x + at.x]);
-        }
-        to[static_cast<std::size_t>(y) * size.x + x] = most;
-      }
-    return to;
-  };
-  return pass(pass(mask, {1, 0}), {0, 1});
-}
-
 /// Relative luminance (IEC 61966-2-1) of an sRGB colour.
 float luminance(const glm::vec3& srgb) {
   return glm::dot(linear_from_srgb(srgb), glm::vec3(0.2126f, 0.7152f, 0.0722f));
@@ -103,9 +84,32 @@ Framebuffer Legend::add_to(const Framebuffer& molecule, const std::optional<glm:
         cover(picture.color[static_cast<std::size_t>(corner.y + y) * picture_size_.x + corner.x + x], color,
               shares[static_cast<std::size_t>(y) * size.x + x]);
   };
-  if (!background) lay_over(thickened(mask, size, std::max(1, font_.height() / 10)), glm::vec3(1.0f));
   lay_over(mask, ink);
   return picture;
+}
+
+Framebuffer Legend::alone(const std::optional<glm::vec3>& background) const {
+  Framebuffer nothing;
+  nothing.size = molecule_size_;
+  nothing.color.assign(static_cast<std::size_t>(molecule_size_.x) * molecule_size_.y, glm::vec4(0.0f));
+  const Framebuffer whole = add_to(nothing, background);
+  const auto at = [&](int x, int y) { return whole.color[static_cast<std::size_t>(y) * whole.size.x + x]; };
+  glm::ivec2 low = whole.size, high(0);
+  for (int y = 0; y < whole.size.y; ++y)
+    for (int x = 0; x < whole.size.x; ++x) {
+      if (at(x, y).w == 0.0f) continue;
+      low = glm::min(low, glm::ivec2(x, y));
+      high = glm::max(high, glm::ivec2(x + 1, y + 1));
+    }
+  Framebuffer legend;
+  if (high.x == 0) return legend;
+  const int margin = std::max(1, font_.height() / 2);
+  legend.size = high - low + 2 * margin;
+  legend.color.assign(static_cast<std::size_t>(legend.size.x) * legend.size.y, glm::vec4(0.0f));
+  for (int y = low.y; y < high.y; ++y)
+    for (int x = low.x; x < high.x; ++x)
+      legend.color[static_cast<std::size_t>(y - low.y + margin) * legend.size.x + (x - low.x + margin)] = at(x, y);
+  return legend;
 }
 
 }  // namespace meniscus

@@ -27,19 +27,31 @@ struct LegendBox {
   std::vector<glm::vec3> colors;  ///< sRGB; from the left, or from the bottom
 };
 
-/// The legend takes a strip at the right of a picture, at the bottom of one higher than wide; the molecule is framed in
-/// the rest, so nothing of it is covered. Letters are a thirtieth of the picture's shorter side, at least 9 pixels.
+/// What is asked of a legend beyond what the colours mean.
+struct LegendStyle {
+  enum class Place { automatic, right, below };
+  std::optional<std::string> title;  ///< instead of the key's title and unit; may be empty
+  std::optional<int> letters;        ///< their height, pixels
+  Place place = Place::automatic;    ///< automatic: below in pictures higher than wide
+};
+
+/// The legend takes a strip at the right of a picture or at its bottom; the molecule is framed in the rest, so nothing
+/// of it is covered. Letters are a thirtieth of the picture's shorter side, at least 9 pixels, unless told otherwise.
 class Legend {
  public:
   /// Throws RequestError when the picture is too small for it, or when there is no font.
-  Legend(const ColorKey& key, glm::ivec2 picture_size);
+  Legend(const ColorKey& key, glm::ivec2 picture_size, const LegendStyle& style = {});
 
   /// Pixels left for the molecule, at the top left.
   glm::ivec2 molecule_size() const { return molecule_size_; }
 
   /// The whole picture: `molecule`, of molecule_size(), and the legend. On a background letters are dark or light,
-  /// whichever it needs; on none (transparent) they are dark with a light rim. AOVs of the strip are those of a miss.
+  /// whichever it needs; on none (transparent) they are dark, as for paper. AOVs of the strip are those of a miss.
   Framebuffer add_to(const Framebuffer& molecule, const std::optional<glm::vec3>& background) const;
+
+  /// The legend as a picture of its own, with a margin half as wide as its letters are high. Empty if there is nothing
+  /// to say.
+  Framebuffer alone(const std::optional<glm::vec3>& background) const;
 
  private:
   struct Entry {

@@ -19,6 +19,23 @@ int letter_height(glm::ivec2 size) { return std::max(kSmallestLetters, std::min(
 
 std::string number_text(double number) { return fmt::format("{:.4g}", number == 0.0 ? 0.0 : number); }
 
+/// Whether a name stands before another one: numbers in them count as numbers, so that chain 2 stands before chain 10.
+bool by_name(std::string_view a, std::string_view b) {
+  const auto digits = [](std::string_view text) { return std::min(text.find_first_not_of("0123456789"), text.size()); };
+  while (!a.empty() && !b.empty()) {
+    const std::size_t in_a = digits(a), in_b = digits(b);
+    if (in_a > 0 && in_b > 0) {
+      if (in_a != in_b) return in_a < in_b;
+      if (const int order = a.substr(0, in_a).compare(b.substr(0, in_b)); order != 0) return order < 0;
+    } else if (a.front() != b.front()) {
+      return a.front() < b.front();
+    }
+    a.remove_prefix(std::max<std::size_t>(in_a, 1));
+    b.remove_prefix(std::max<std::size_t>(in_b, 1));
+  }
+  return a.size() < b.size();
+}
+
 /// The text of a tick; at an end of a fixed range beyond which there are numbers, it says so.
 std::string tick_text(const ColorScale& scale, double number) {
   const auto beyond = [&](auto is_beyond) { return std::ranges::any_of(scale.value, is_beyond); };
@@ -26,6 +43,26 @@ std::string tick_text(const ColorScale& scale, double number) {
   if (number == scale.range[0] && beyond([&](double v) { return v < number; })) return "≤ " + text;
   if (number == scale.range[1] && beyond([&](double v) { return v > number; })) return "≥ " + text;
   return text;
+}
+
+/// Where a bar has ticks: at round numbers, at most so many. Ends that are not round go without, for they say no more
+/// than that some number was the least, unless numbers lie beyond them or the round ones are too few to read the bar
+/// by.
+std::vector<double> tick_numbers(const ColorScale& scale, int most) {
+  const double low = scale.range[0], high = scale.range[1];
+  if (low == high) return {low};
+  const std::vector<double> round = round_numbers(low, high, most);
+  const auto is_round = [&](double end) {
+    if (round.size() < 2) return true;
+    const double steps = (end - round[0]) / (round[1] - round[0]);
+    return std::abs(steps - std::round(steps)) < 1e-6;
+  };
+  std::vector<double> numbers;
+  const auto beyond = [&](auto is_beyond) { return std::ranges::any_of(scale.value, is_beyond); };
+  if (is_round(low) || beyond([&](double v) { return v < low; })) numbers.push_back(low);
+  if (is_round(high) || beyond([&](double v) { return v > high; })) numbers.push_back(high);
+  numbers.insert(numbers.end(), round.begin(), round.end());
+  return numbers;
 }
 
 /// Words in lines no wider than `width`, if the words allow it.
@@ -64,10 +101,14 @@ std::vector<double> round_numbers(double low, double high, int most) {
   return numbers;
 }
 
-Legend::Legend(const ColorKey& key, glm::ivec2 picture_size)
-    : font_(letter_height(picture_size)), picture_size_(picture_size), molecule_size_(picture_size) {
+Legend::Legend(const ColorKey& key, glm::ivec2 picture_size, const LegendStyle& style)
+    : font_(style.letters.value_or(letter_height(picture_size))),
+      picture_size_(picture_size),
+      molecule_size_(picture_size) {
   std::string title = key.title;
   for (const ColorClass& entry : key.classes) entries_.push_back({drawable(entry.name), entry.color});
+  if (key.title == "chain")
+    std::ranges::stable_sort(entries_, [](const Entry& a, const Entry& b) { return by_name(a.name, b.name); });
   if (key.scale) {
     title = key.scale->title + (key.scale->unit.empty() ? "" : " (" + key.scale->unit + ")");
     for (const double number : key.scale->classes) entries_.push_back({number_text(number), key.scale->color(number)});
@@ -77,7 +118,9 @@ Legend::Legend(const ColorKey& key, glm::ivec2 picture_size)
           {fmt::format("none ({} atoms)", with_thousands(key.scale->missing)), key.scale->missing_color});
   }
   if (entries_.empty() && !bar_) return;  // one colour for all needs no words
-  if (picture_size.y > picture_size.x)
+  if (style.title) title = *style.title;
+  const bool is_high = picture_size.y > picture_size.x;
+  if (style.place == LegendStyle::Place::below || (style.place == LegendStyle::Place::automatic && is_high))
     lay_out_bottom(title);
   else
     lay_out_right(title);
@@ -105,10 +148,7 @@ void Legend::add_bar(glm::ivec2 low, glm::ivec2 high, bool upright) {
   LegendBox box{low, high, {}};
   for (int n = 0; n < length; ++n) box.colors.push_back(bar_->color(bar_->range[0] + width * (n + 0.5) / length));
   boxes_.push_back(std::move(box));
-  // Both ends, and round numbers where they have room.
-  std::vector<double> numbers = round_numbers(bar_->range[0], bar_->range[1], std::min(5, length / line() / 2));
-  numbers.insert(numbers.begin(), {bar_->range[0], bar_->range[1]});
-  if (width == 0.0) numbers.resize(1);
+  const std::vector<double> numbers = tick_numbers(*bar_, std::min(5, length / line() / 2));
   std::vector<glm::ivec2> taken;  // along the bar
   for (const double number : numbers) {
     const std::string text = tick_text(*bar_, number);
@@ -133,7 +173,8 @@ void Legend::shift_to(glm::ivec2 place) {
 
 void Legend::lay_out_right(const std::string& title) {
   const int em = font_.height(), room = picture_size_.y - 2 * em;
-  const std::vector<std::string> lines = wrapped(title, font_, picture_size_.x / 4);
+  std::vector<std::string> lines = wrapped(title, font_, picture_size_.x / 4);
+  if (title.empty()) lines.clear();
   const int title_height = static_cast<int>(lines.size()) * line() + em / 2;
   const int least_bar = bar_ ? 5 * line() : 0;
   if (room < title_height + least_bar + line()) too_small(picture_size_);
@@ -163,7 +204,9 @@ void Legend::lay_out_right(const std::string& title) {
 void Legend::lay_out_bottom(const std::string& title) {
   const int em = font_.height(), room = picture_size_.x - 2 * em;
   int y = line() / 2;
+  if (title.empty()) y = 0;
   for (const std::string& text : wrapped(title, font_, room)) {
+    if (title.empty()) break;
     texts_.push_back({text, {0, y}});
     y += line();
   }

@@ -127,10 +127,10 @@ TEST(Legend, LettersSuitTheBackground) {
     EXPECT_GT(pixels(deep, light), 200u);
     EXPECT_EQ(pixels(deep, dark), 0u);
   }
-  // Transparent: dark letters, a light rim around them, clear elsewhere; premultiplied throughout.
+  // Transparent: dark letters and nothing around them, clear elsewhere; premultiplied throughout.
   const Framebuffer clear = with_legend(key, {800, 600}, std::nullopt);
   EXPECT_GT(count(clear, dark), 200u);
-  EXPECT_GT(count(clear, glm::vec4(1.0f)), 200u);
+  EXPECT_EQ(count(clear, glm::vec4(1.0f)), 0u);
   EXPECT_GT(count(clear, glm::vec4(0.0f)), 800u * 600u / 20u);
   for (const glm::vec4& pixel : clear.color) {
     EXPECT_LE(std::max({pixel.x, pixel.y, pixel.z}), pixel.w + 1e-5f);
@@ -180,6 +180,69 @@ TEST(Legend, RoundNumbers) {
     EXPECT_GE(found.size(), 2u);
     EXPECT_LE(found.size(), 5u);
   }
+}
+
+/// What is drawn, in pixels: low x, low y, high x, high y.
+glm::ivec4 extent(const Framebuffer& picture) {
+  glm::ivec4 found(picture.size, 0, 0);
+  for (int n = 0; n < static_cast<int>(picture.color.size()); ++n) {
+    if (picture.color[n].w == 0.0f) continue;
+    const int x = n % picture.size.x, y = n / picture.size.x;
+    found = {std::min(found.x, x), std::min(found.y, y), std::max(found.z, x + 1), std::max(found.w, y + 1)};
+  }
+  return found;
+}
+
+TEST(Legend, TitleSizeAndPlaceAreAsAsked) {
+  const ColorKey key = classes(3);
+  using Place = LegendStyle::Place;
+  const Legend usual(key, {800, 600}), large(key, {800, 600}, {{}, 40, Place::automatic});
+  EXPECT_LT(large.molecule_size().x, usual.molecule_size().x);
+  const Legend below(key, {800, 600}, {{}, {}, Place::below}), right(key, {600, 800}, {{}, {}, Place::right});
+  EXPECT_EQ(below.molecule_size().x, 800);
+  EXPECT_LT(below.molecule_size().y, 600);
+  EXPECT_LT(right.molecule_size().x, 600);
+  EXPECT_EQ(right.molecule_size().y, 800);
+  const Framebuffer titled = Legend(key, {800, 600}, {"of one's own", {}, Place::right}).alone({});
+  const Framebuffer untitled = Legend(key, {800, 600}, {"", {}, Place::right}).alone({});
+  EXPECT_GT(titled.size.y, untitled.size.y + 20);
+}
+
+TEST(Legend, AloneItIsAsLargeAsWhatItSays) {
+  for (const ColorKey& key : {numbers(-1.5, 97.25, 12), classes(2)}) {
+    const Framebuffer alone = Legend(key, {800, 600}).alone({});
+    const glm::ivec4 drawn = extent(alone);
+    EXPECT_EQ(glm::ivec2(drawn.x, drawn.y), glm::ivec2(10));  // half of the letters' 20 pixels
+    EXPECT_EQ(alone.size - glm::ivec2(drawn.z, drawn.w), glm::ivec2(10));
+    EXPECT_LT(alone.size.x, 400);
+  }
+  EXPECT_TRUE(Legend({"", {}, {}}, {800, 600}).alone({}).color.empty());
+}
+
+TEST(Legend, ChainsStandByName) {
+  ColorKey key{"chain", {}, {}};
+  const glm::vec3 red(1.0f, 0.0f, 0.0f), green(0.0f, 1.0f, 0.0f), blue(0.0f, 0.0f, 1.0f);
+  key.classes = {{"B10", red}, {"B2", green}, {"A", blue}};
+  const Framebuffer picture = with_legend(key, {800, 600}, glm::vec3(1.0f));
+  const auto row_of = [&](const glm::vec3& color) {
+    for (std::size_t n = 0; n < picture.color.size(); ++n)
+      if (same(picture.color[n], glm::vec4(color, 1.0f))) return static_cast<int>(n) / 800;
+    return -1;
+  };
+  EXPECT_LT(row_of(blue), row_of(green));
+  EXPECT_LT(row_of(green), row_of(red));
+  EXPECT_GE(row_of(blue), 0);
+}
+
+TEST(Legend, EndsThatAreNotRoundHaveNoNumber) {
+  const auto ticks = [](double low, double high, std::vector<double> values) {
+    ColorKey key = numbers(low, high);
+    key.scale->value = std::move(values);
+    return with_legend(key, {800, 600}, glm::vec3(1.0f));
+  };
+  const Framebuffer plain = ticks(4.0, 114.9, {4.0, 114.9});
+  EXPECT_FALSE(plain.color == ticks(4.0, 114.9, {4.0, 200.0}).color) << "beyond the end, which then has its number";
+  EXPECT_FALSE(ticks(0.0, 100.0, {}).color == ticks(0.5, 100.5, {}).color);
 }
 
 TEST(Legend, LettersOfEveryAlphabetDiffer) {
