@@ -64,6 +64,16 @@ glm::vec4 display_color(const glm::vec4& pixel, const std::optional<glm::vec3>& 
   return {srgb_from_linear(c.w > 0.0f ? glm::vec3(c) / c.w : glm::vec3(0.0f)), c.w};
 }
 
+glm::vec4 layout_color(const glm::vec4& pixel) {
+  if (pixel.w <= 0.0f || pixel.w >= 1.0f) return display_color(pixel, {});
+  const glm::vec3 on_white = srgb_from_linear(glm::vec3(pixel) + (1.0f - pixel.w));
+  const glm::vec3 on_black = srgb_from_linear(glm::vec3(pixel));
+  // Of the backgrounds' difference this is left; where channels disagree, the least, which keeps colours in range.
+  const glm::vec3 left = on_white - on_black;
+  const float alpha = std::clamp(1.0f - std::min({left.x, left.y, left.z}), 0.0f, 1.0f);
+  return {alpha > 0.0f ? (on_white - (1.0f - alpha)) / alpha : glm::vec3(0.0f), alpha};
+}
+
 std::uint8_t display_byte(float channel) {
   return static_cast<std::uint8_t>(std::clamp(channel * 255.0f, 0.0f, 255.0f) + 0.5f);
 }
@@ -78,6 +88,18 @@ void display_bytes(std::span<const glm::vec4> pixels, const std::optional<glm::v
                                    : (pixel.w > 0.0f ? glm::vec3(pixel) / pixel.w : glm::vec3(0.0f));
     for (int channel = 0; channel < 3; ++channel) *bytes++ = steps.byte_of(light[channel]);
     if (channels == 4) *bytes++ = behind ? 255 : display_byte(pixel.w);
+  }
+}
+
+void layout_bytes(std::span<const glm::vec4> pixels, std::uint8_t* bytes) {
+  for (const glm::vec4& pixel : pixels) {
+    if (pixel.w <= 0.0f || pixel.w >= 1.0f) {  // most are
+      display_bytes({&pixel, 1}, {}, 4, bytes);
+    } else {
+      const glm::vec4 color = layout_color(pixel);
+      for (int channel = 0; channel < 4; ++channel) bytes[channel] = display_byte(color[channel]);
+    }
+    bytes += 4;
   }
 }
 

@@ -18,11 +18,18 @@ glm::vec4 over(const glm::vec4& front, const std::optional<glm::vec3>& backgroun
 /// The same in sRGB, alpha not multiplied in, as PNG has it.
 glm::vec4 display_color(const glm::vec4& pixel, const std::optional<glm::vec3>& background);
 
+/// What a transparent pixel is stored as so that programs that blend in sRGB, as nearly all do that lay out pages, get
+/// of it what display_color() has over white, and over black too if it is grey; on other backgrounds something between.
+glm::vec4 layout_color(const glm::vec4& pixel);
+
 /// A channel in [0, 1] as PNG files have it: 0 to 255, to the nearest.
 std::uint8_t display_byte(float channel);
 
 /// The bytes of display_color() of pixels, with or without the alpha: 3 or 4 channels. By a table instead of powers.
 void display_bytes(std::span<const glm::vec4> pixels, const std::optional<glm::vec3>& background, std::size_t channels,
                    std::uint8_t* bytes);
+
+/// The four bytes of layout_color() of each pixel.
+void layout_bytes(std::span<const glm::vec4> pixels, std::uint8_t* bytes);
 
 }  // namespace meniscus

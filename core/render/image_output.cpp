@@ -49,11 +49,13 @@ Channels display_names(const std::optional<glm::vec3>& background) {
 }
 
 /// sRGB, alpha not multiplied in, as TIFF has it.
-Channels display_channels(const Framebuffer& picture, const std::optional<glm::vec3>& background) {
+Channels display_channels(const Framebuffer& picture, const ImageSettings& settings) {
+  const std::optional<glm::vec3>& background = settings.background;
+  const bool for_layout = !background && !settings.linear_alpha;
   Channels channels = display_names(background);
   channels.values.reserve(picture.color.size() * channels.names.size());
   for (const glm::vec4& pixel : picture.color) {
-    const glm::vec4 c = display_color(pixel, background);
+    const glm::vec4 c = for_layout ? layout_color(pixel) : display_color(pixel, background);
     channels.values.insert(channels.values.end(), {c.x, c.y, c.z});
     if (!background) channels.values.push_back(c.w);
   }
@@ -61,13 +63,17 @@ Channels display_channels(const Framebuffer& picture, const std::optional<glm::v
 }
 
 /// The same in 8 bits, as PNG has it.
-Channels byte_channels(const Framebuffer& picture, const std::optional<glm::vec3>& background) {
+Channels byte_channels(const Framebuffer& picture, const std::optional<glm::vec3>& background,
+                       bool linear_alpha = true) {
   Channels channels = display_names(background);
   const std::size_t count = channels.names.size();
   channels.bytes.resize(picture.color.size() * count);
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, picture.color.size(), 1 << 14), [&](const auto& range) {
-    display_bytes(std::span(picture.color).subspan(range.begin(), range.size()), background, count,
-                  &channels.bytes[range.begin() * count]);
+    std::uint8_t* const bytes = &channels.bytes[range.begin() * count];
+    if (background || linear_alpha)
+      display_bytes(std::span(picture.color).subspan(range.begin(), range.size()), background, count, bytes);
+    else
+      layout_bytes(std::span(picture.color).subspan(range.begin(), range.size()), bytes);
   });
   return channels;
 }
@@ -155,8 +161,8 @@ std::vector<std::uint8_t> encoded(const std::filesystem::path& path, const Frame
                                   const ImageSettings& settings) {
   const std::string extension = extension_of(path);
   const Channels channels = extension == ".exr"   ? scene_channels(picture, settings)
-                            : extension == ".png" ? byte_channels(picture, settings.background)
-                                                  : display_channels(picture, settings.background);
+                            : extension == ".png" ? byte_channels(picture, settings.background, settings.linear_alpha)
+                                                  : display_channels(picture, settings);
   const ImageToEncode image = described(picture, channels, extension);
   return image.format == "tiff" ? encoded_tiff(path, image) : encode(path, image);
 }

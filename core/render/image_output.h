@@ -16,6 +16,9 @@ namespace meniscus {
 struct ImageSettings {
   std::optional<glm::vec3> background;  ///< sRGB in [0, 1] behind the surface; nothing: transparent
   Existing existing = Existing::refuse;
+  /// Of PNG and TIFF without a background. True: alpha is the share of a pixel that is covered, for programs that blend
+  /// in linear light. False: that by which blending in sRGB makes the same edges as on white (layout_color()).
+  bool linear_alpha = true;
 };
 
 /// True if the extension names a format that can hold AOVs (.exr).

@@ -2,9 +2,21 @@
 // How a picture looks, apart from what it shows.
 #pragma once
 
+#include <algorithm>
+#include <optional>
+
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include "core/render/material.h"
+
 namespace meniscus {
+
+/// Which lamps and how much sky there are beside the key light.
+enum class Lamps {
+  studio,  ///< a warm key, a cool fill, a dim bluish sky
+  white    ///< all white, so bright together that a surface that faces the key light is of the colour given
+};
 
 /// Light, air and ink of a finished picture. The same picture comes out again each time: no effect draws lots.
 struct Look {
@@ -14,29 +26,59 @@ struct Look {
   glm::vec3 light_direction{-0.45f, 0.65f, 0.75f};
   float light_strength = 1.0f;  ///< of the key light, >= 0
 
+  Lamps lamps = Lamps::studio;
+  Material material;
+
   /// Strength in [0, 1] of the shade in pockets and clefts. From the picture alone (ground-truth ambient occlusion,
   /// Jimenez et al. 2016): what the picture does not show casts no shade.
   float ambient_occlusion = 0.0f;
-  /// How far shade is cast, Å; in the picture it reaches no farther than 256 pixels.
+  /// How far shade is cast, Å.
   float ambient_occlusion_radius = 8.0f;
 
   /// Width in pixels, at most 16, of black lines where something stands in front of something else, the stronger the
   /// farther, and where parts meet (Coloring::part). 0: none.
   float silhouettes = 0.0f;
+  /// The same of single kinds of lines: around all, around what stands in front of something else, where parts meet.
+  /// Nothing: silhouettes.
+  std::optional<float> outer_lines, inner_lines, part_lines;
+  /// How far something must stand in front of something else for a line between them, as a share of what the picture's
+  /// shorter side shows, and half an Å: so that atoms are outlined close by, and domains from afar. 0: of two pixels.
+  float line_step = 0.0f;
 
   /// Share in [0, 1] by which the farthest atoms fade into the background; the nearest do not.
   float depth_cue = 0.0f;
+  /// True: they take the background's colour, and stay as opaque as they are. False: they get transparent.
+  bool depth_cue_keeps_alpha = false;
 
   /// True if colours change after they are cast.
-  bool has_effects() const { return ambient_occlusion > 0.0f || silhouettes > 0.0f || depth_cue > 0.0f; }
+  bool has_effects() const { return ambient_occlusion > 0.0f || widest_line() > 0.0f || depth_cue > 0.0f; }
+
+  float widest_line() const {
+    return std::max(
+        {outer_lines.value_or(silhouettes), inner_lines.value_or(silhouettes), part_lines.value_or(silhouettes)});
+  }
 };
 
 inline constexpr float kWidestSilhouette = 16.0f;  ///< pixels
-inline constexpr int kLongestShade = 256;          ///< pixels
 
-/// How far around a pixel its colour depends on what is shown, in whole tiles of 16 pixels; in pixels.
-inline int look_reach(const Look& look) {
-  return look.ambient_occlusion > 0.0f ? kLongestShade + 16 : look.silhouettes > 0.0f ? 16 : 0;
+/// Pixels across a texel of the map of depths that shade is found from: a pixel each, up to pictures so large that a
+/// map of kShadeMapSide says the same.
+inline float shade_texel_edge(glm::ivec2 picture_size) {
+  constexpr int kLargestOwnMap = 2048, kShadeMapSide = 1024;
+  const int side = picture_size.x > picture_size.y ? picture_size.x : picture_size.y;
+  return side <= kLargestOwnMap ? 1.0f : static_cast<float>(side) / kShadeMapSide;
+}
+
+/// How far around a pixel shade depends on the picture's own pixels instead of that map: some texels.
+inline int near_shade_reach(glm::ivec2 picture_size) {
+  const float edge = shade_texel_edge(picture_size);
+  return edge == 1.0f ? 0 : static_cast<int>(8.0f * edge);
+}
+
+/// How far around a pixel its colour depends on pixels of its own size, in whole tiles of 16; in pixels.
+inline int look_reach(const Look& look, glm::ivec2 picture_size) {
+  if (look.ambient_occlusion > 0.0f) return (near_shade_reach(picture_size) + 15) / 16 * 16 + 16;
+  return look.widest_line() > 0.0f ? 16 : 0;
 }
 
 }  // namespace meniscus

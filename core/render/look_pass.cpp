@@ -7,7 +7,10 @@ namespace meniscus {
 void LookPass::add(const CastSample& sample, const Look& look, const GpuScene& scene, const PictureFrame& frame,
                    const PictureBlock& block, const Buffer& picture) {
   const std::size_t count = static_cast<std::size_t>(block.size.x) * block.size.y;
-  depths_.resize(count * sizeof(float));
+  const bool is_map = look.ambient_occlusion > 0.0f && sample.index == 0 && holds_shade_map(block, frame.size);
+  Buffer& depths = is_map ? shade_map_ : depths_;
+  TexelBuffer& depth_texels = is_map ? map_texels_ : depth_texels_;
+  depths.resize(count * sizeof(float));
   visibility_.resize(count * sizeof(float));
   const bool has_parts = scene.parts.byte_count() > 0;
   parts_.resize(has_parts ? count * sizeof(std::uint32_t) : 0);
@@ -23,25 +26,46 @@ void LookPass::add(const CastSample& sample, const Look& look, const GpuScene& s
   hit_texels.bind(0);
   atom_part_texels_.view(scene.parts);
   atom_part_texels_.bind(2);
-  depths_.bind(0);
+  depths.bind(0);
   parts_.bind(1);
   run(programs_.get("gpu_shaders/look/depth.comp"), kernel::DepthParameters{.has_parts = has_parts});
-  depth_texels_.view(depths_);
-  depth_texels_.bind(1);
+  depth_texels.view(depths);
+  depth_texels.bind(1);
   if (look.ambient_occlusion > 0.0f) {
+    map_texels_.bind(2);
     visibility_.bind(0);
-    run(programs_.get("gpu_shaders/look/occlusion.comp"), occlusion_parameters(look, sample.index));
+    run(programs_.get("gpu_shaders/look/occlusion.comp"), occlusion_parameters(look, frame.size, sample.index));
   }
   ShaderDefines effects;
   if (look.ambient_occlusion > 0.0f) effects.emplace_back("AMBIENT_OCCLUSION", "1");
-  if (look.silhouettes > 0.0f) effects.emplace_back("SILHOUETTES", "1");
+  if (look.widest_line() > 0.0f) effects.emplace_back("SILHOUETTES", "1");
   visibility_texels_.view(visibility_);
   visibility_texels_.bind(2);
   part_texels_.view(parts_);
   part_texels_.bind(3);
   sample.colors.bind(0);
   picture.bind(1);
-  run(programs_.get("gpu_shaders/look/finish.comp", effects), finish_parameters(look, scene, sample.index, has_parts));
+  run(programs_.get("gpu_shaders/look/finish.comp", effects),
+      finish_parameters(look, scene, frame.size, sample.index, has_parts));
+}
+
+std::vector<float> LookPass::depths(const Buffer& hits, const PictureFrame& frame, const PictureBlock& block) {
+  const std::size_t count = static_cast<std::size_t>(block.size.x) * block.size.y;
+  depths_.resize(count * sizeof(float));
+  first_hit_texels_.view(hits);
+  first_hit_texels_.bind(0);
+  depths_.bind(0);
+  const Program& program = programs_.get("gpu_shaders/look/depth.comp");
+  program.set(kernel::DepthParameters{.has_parts = false});
+  program.set(block_view(frame, block, glm::vec2(0.0f)), kernel::kBlockViewBinding);
+  program.dispatch_2d((static_cast<std::uint32_t>(block.size.x) + 7) / 8,
+                      (static_cast<std::uint32_t>(block.size.y) + 7) / 8);
+  return depths_.download<float>(count);
+}
+
+void LookPass::set_shade_map(const std::vector<float>& depths) {
+  shade_map_.upload(depths);
+  map_texels_.view(shade_map_);
 }
 
 }  // namespace meniscus

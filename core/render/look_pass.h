@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include <glm/vec2.hpp>
 
@@ -33,12 +34,18 @@ class LookPass {
   void add(const CastSample& sample, const Look& look, const GpuScene& scene, const PictureFrame& frame,
            const PictureBlock& block, const Buffer& picture);
 
+  /// Along the view axis, of the first sample's hits of a block; kernel::kNothing where nothing is met.
+  std::vector<float> depths(const Buffer& hits, const PictureFrame& frame, const PictureBlock& block);
+
+  /// Those of all pixels of shade_map_frame(): for pictures whose blocks do not hold the map.
+  void set_shade_map(const std::vector<float>& depths);
+
  private:
   ProgramCache& programs_;
-  Buffer depths_, parts_, visibility_;
+  Buffer depths_, shade_map_, parts_, visibility_;
   TexelBuffer first_hit_texels_{TexelFormat::uint4}, hit_texels_{TexelFormat::uint4};  // of sample 0, of the others
-  TexelBuffer depth_texels_{TexelFormat::uint1}, visibility_texels_{TexelFormat::uint1},
-      part_texels_{TexelFormat::uint1}, atom_part_texels_{TexelFormat::uint1};
+  TexelBuffer depth_texels_{TexelFormat::uint1}, map_texels_{TexelFormat::uint1},
+      visibility_texels_{TexelFormat::uint1}, part_texels_{TexelFormat::uint1}, atom_part_texels_{TexelFormat::uint1};
 };
 
 }  // namespace meniscus

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <vector>
 
 #include "core/base/stage_clock.h"
 #include "core/gpu/program.h"
@@ -32,6 +33,15 @@ class RayCaster {
   /// large for this GPU.
   bool cast(const GpuScene& scene, const PictureFrame& frame, const PictureBlock& block,
             const CastSettings& settings = {});
+
+  /// The depths of a block of shade_map_frame(), row by row; picture() and hits() are then those of the map. Throws as
+  /// cast().
+  std::vector<float> cast_depths(const GpuScene& scene, const PictureFrame& map, const PictureBlock& block) {
+    cast(scene, map, block);
+    return look_pass_.depths(hits_, map, block);
+  }
+  /// For the shade of blocks that do not hold it: depths of the whole map.
+  void set_shade_map(const std::vector<float>& depths) { look_pass_.set_shade_map(depths); }
 
   /// Whether the next block, of so many pixels, may be cast with Counting::later: the last one was no other, and its
   /// kernels' loops went to their ends. Such a block is good only if settle() says so, once what ask() asks for has

@@ -53,7 +53,10 @@ void TileLists::run(int pass, const GpuScene& scene, const PictureFrame& frame, 
   primitive_texels_.bind(0);
   counts_.bind(0);
   entries_.bind(1);
-  const bool bounded = scene.tile_depths.byte_count() > 0;
+  // Those of the picture's tiles say nothing of its map of shade, which has fewer.
+  const glm::ivec2 all_tiles = tile_counts({{0, 0}, frame.size});
+  const bool bounded =
+      scene.tile_depths.byte_count() == sizeof(float) * static_cast<std::size_t>(all_tiles.x) * all_tiles.y;
   (bounded ? scene.tile_depths : counts_).bind(2);  // something must be there
   kernel::TileListParameters parameters = tile_list_parameters(frame, block, scene.primitives.most());
   parameters.bounded = bounded;

@@ -15,6 +15,7 @@ layout(std140, binding = 0) uniform Parameters { FinishParameters params; };
 
 float visibility_at(ivec2 pixel) { return uintBitsToFloat(texelFetch(visibility_texels, index_of(pixel)).x); }
 
+#include "gpu_shaders/ray_cast/sheen.glsl"
 #include "gpu_shaders/look/finish.glsl"
 
 bool parts_differ(ivec2 a, ivec2 b) {
@@ -43,13 +44,14 @@ Ink ink_on(ivec2 pixel, float depth) {
       if (offset.x > reach) offset = ivec2(-reach, offset.y + 1);
       other = pixel + offset;
       other_depth = depth_at(other);
-      share = covered_share(offset);
+      share = covered_share(offset, params.widest_line);
       bool counts = offset.y <= reach && share > ink.covered && in_block(other);
       step = counts && may_step(depth, other_depth);
       seam = counts && depth != kNothing && other_depth != kNothing && parts_differ(pixel, other);
     } while (!step && !seam && offset.y <= reach);
-    float strength = seam ? 1.0 : step ? step_ink(pixel, depth, other, other_depth) : 0.0;
-    if (share * strength > ink.covered) ink = Ink(share * strength, min(depth, other_depth));
+    float strength = step ? step_ink(pixel, depth, other, other_depth) : 0.0;
+    float covered = covered_by_border(offset, strength, seam, depth == kNothing || other_depth == kNothing);
+    if ((step || seam) && covered > ink.covered) ink = Ink(covered, min(depth, other_depth));
   } while (offset.y <= reach);
   return ink;
 }
@@ -61,9 +63,12 @@ void main() {
   vec4 color = samples[at];
   float depth = depth_at(pixel);
 #ifdef AMBIENT_OCCLUSION
-  if (depth != kNothing) color.rgb *= mix(1.0, mean_visibility(pixel, depth), params.ambient_occlusion);
+  if (depth != kNothing) color.rgb = shaded(color.rgb, color.a, pixel, depth);
 #endif
-  if (depth != kNothing) color *= clarity(depth);
+  if (depth != kNothing) {
+    float clear = clarity(depth);
+    color = params.keeps_alpha != 0u ? vec4(mix(params.air * color.a, color.rgb, clear), color.a) : color * clear;
+  }
 #ifdef SILHOUETTES
   Ink ink = ink_on(pixel, depth);
   float covered = ink.covered * clarity(ink.depth);

@@ -25,8 +25,23 @@ GEOMETRY real mean_visibility(integer2 pixel, real depth) {
   return sum / weights;
 }
 
+// A sample's colour in the shade: its light, and its highlight, which needs more of the sky to be open.
+GEOMETRY real3 shaded(real3 color, real alpha, integer2 pixel, real depth) {
+  real visible = mix(real(1.0), mean_visibility(pixel, depth), real(params.ambient_occlusion));
+  real3 lit = color * visible;
+  if (params.specular == 0.0) return lit;
+  real3 to_viewer = to_viewer_at(position_at(pixel, depth));
+  real3 normal = facing(hit_normal_at(pixel), to_viewer);
+  real open = clamp((visible - 0.5) / 0.45, 0.0, 1.0);
+  real highlight = sheen(normal, to_viewer, params.key_direction, params.key_strength, params.specular, params.shininess);
+  return lit + real3(alpha * (open * open) * highlight);
+}
+
 // The least difference of depths that is a step, Å.
-GEOMETRY real least_step(real depth) { return 0.5 + 2.0 * pixel_size_at(depth); }
+GEOMETRY real least_step(real depth) { return 0.5 + params.step_pixels * pixel_size_at(depth); }
+
+// How much more it takes until the line is black, Å.
+GEOMETRY real step_range(real depth) { return 3.0 + params.fade_pixels * pixel_size_at(depth); }
 
 // False if no line is drawn between two pixels for their depths.
 GEOMETRY truth may_step(real depth_a, real depth_b) {
@@ -47,19 +62,27 @@ GEOMETRY real step_ink(integer2 a, real depth_a, integer2 b, real depth_b) {
   real flatter = max(facing_a, facing_b);
   real slope = sqrt(max(1.0 - flatter * flatter, 0.0)) / max(flatter, 0.01);
   real jump = abs(depth_a - depth_b) - length(real2(a - b)) * pixel_size_at(nearer) * slope;
-  real missing = 1.0 - smoothstep(least, least + 3.0, jump);
+  real missing = 1.0 - smoothstep(least, least + step_range(nearer), jump);
   real ink = 1.0 - missing * missing;  // as the eye sees it, about
   ink = select(depth_a == real(kNothing) || depth_b == real(kNothing), real(1.0), ink);
   return select(depth_a == real(kNothing) && depth_b == real(kNothing), real(0.0), ink);
 }
 
-// How much of a pixel a line covers, at most, that belongs to the border towards the neighbour at this offset: it is
-// `silhouettes` wide, half on each side.
-GEOMETRY real covered_share(integer2 offset) {
-  return clamp(0.5 * params.silhouettes + 1.0 - length(real2(offset)), 0.0, 1.0);
+// How much of a pixel a line of this width covers, at most, that belongs to the border towards the neighbour at this
+// offset: half of it lies on each side.
+GEOMETRY real covered_share(integer2 offset, float width) {
+  return clamp(0.5 * width + 1.0 - length(real2(offset)), 0.0, 1.0);
 }
 
-GEOMETRY int farthest_neighbor() { return int(ceil(0.5 * params.silhouettes + 0.5)); }
+GEOMETRY int farthest_neighbor() { return int(ceil(0.5 * params.widest_line + 0.5)); }
+
+// How much of a pixel is covered by what parts it from the neighbour at this offset: a step of some strength, and a seam
+// of two parts or not. Where either is open, it is the outer line.
+GEOMETRY real covered_by_border(integer2 offset, real step, truth seam, truth open) {
+  real seam_ink = select(seam, covered_share(offset, params.part_lines), real(0.0));
+  real inner_ink = max(covered_share(offset, params.inner_lines) * step, seam_ink);
+  return select(open, covered_share(offset, params.outer_lines) * step, inner_ink);
+}
 
 // What is left of a colour at this depth.
 GEOMETRY real clarity(real depth) {

@@ -5,9 +5,16 @@ layout(local_size_x = 8, local_size_y = 8) in;
 #include "gpu_shaders/look/block_texels.glsl"
 #include "gpu_shaders/look/parameters.glsl"
 
+layout(binding = 2) uniform usamplerBuffer map_texels;
 layout(std430, binding = 0) writeonly buffer Visibility { float visibility[]; };
 
 layout(std140, binding = 0) uniform Parameters { OcclusionParameters occlusion; };
+
+// Outside of the map there is nothing.
+float map_depth_or_nothing(ivec2 texel) {
+  if (any(lessThan(texel, ivec2(0))) || any(greaterThanEqual(texel, occlusion.map_size))) return kNothing;
+  return uintBitsToFloat(texelFetch(map_texels, texel.y * occlusion.map_size.x + texel.x).x);
+}
 
 #include "gpu_shaders/look/occlusion.glsl"
 

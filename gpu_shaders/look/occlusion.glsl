@@ -4,7 +4,10 @@
 //
 // Each pixel looks along a few directions only, which differ within blocks of 4 x 4 pixels in a fixed pattern
 // (interleaved sampling, Keller & Heidrich 2001); finish.glsl averages over such blocks, and nothing of it stays.
-// GLSL and, as the body of a struct, C++: see view_space.glsl. The includer provides `occlusion` of OcclusionParameters.
+// Horizons are those of the whole picture: one map of its depths serves all blocks, and shade reaches as far in a large
+// picture as in a small one at the same cost.
+// GLSL and, as the body of a struct, C++: see view_space.glsl. The includer provides `occlusion` of OcclusionParameters
+// and map_depth_or_nothing() of a texel of the map, which may lie outside.
 
 const int kSliceCount = 2;
 const int kStepCount = 6;
@@ -16,6 +19,28 @@ GEOMETRY integer pattern(integer2 pixel) {
   return (x & 1) << 3 | (pixel.y & 1) << 2 | (x & 2) | (pixel.y & 2) >> 1;
 }
 
+// What stands some pixels on from a pixel.
+struct Occluder {
+  truth met;
+  real3 position;
+};
+
+GEOMETRY Occluder occluder_at(integer2 pixel, real2 way) {
+  integer2 texel = integer2(round((place_of(pixel) + way) * (1.0 / occlusion.texel_edge) + occlusion.map_middle));
+  real depth = map_depth_or_nothing(texel);
+  Occluder occluder;
+  occluder.met = depth != real(kNothing);
+  occluder.position = position_seen_at((real2(texel) - occlusion.map_middle) * occlusion.texel_edge, depth);
+  if (occlusion.texel_edge == 1.0) return occluder;
+  truth is_near = length(way) < occlusion.near_reach;
+  if (!some(is_near)) return occluder;
+  integer2 other = pixel + integer2(round(way));
+  real near_depth = depth_or_nothing(other);
+  occluder.met = (is_near && near_depth != real(kNothing)) || (!is_near && occluder.met);
+  occluder.position = select(is_near, position_at(other, near_depth), occluder.position);
+  return occluder;
+}
+
 // Cosine of the horizon, seen from p, on the way along `direction`, at least `lowest`.
 GEOMETRY real horizon(integer2 pixel, real3 p, real3 to_viewer, real2 direction, real reach, real offset, real lowest) {
   real range = reach * pixel_size_at(-p.z);
@@ -23,14 +48,13 @@ GEOMETRY real horizon(integer2 pixel, real3 p, real3 to_viewer, real2 direction,
   for (int k = 0; k < kStepCount; ++k) {
     // Closer steps near by, where small clefts are.
     real share = (float(k) + offset) / float(kStepCount);
-    integer2 other = pixel + integer2(round(direction * max(share * share * reach, float(k) + 1.0)));
-    real depth = depth_or_nothing(other);
-    real3 to_other = position_at(other, depth) - p;
+    Occluder occluder = occluder_at(pixel, direction * max(share * share * reach, float(k) + 1.0));
+    real3 to_other = occluder.position - p;
     real distance = length(to_other);
     // What is far away shades less and less; a step at the radius would show as a rim.
     real weight = clamp((1.0 - distance / range) / 0.6, 0.0, 1.0);
     real cosine = mix(lowest, dot(to_other, to_viewer) / max(distance, 1e-6), weight);
-    highest = select(depth != real(kNothing), max(highest, cosine), highest);
+    highest = select(occluder.met, max(highest, cosine), highest);
   }
   return highest;
 }

@@ -8,15 +8,31 @@ struct DepthParameters {
   uint has_parts;
 };
 
+// The whole picture's depths, in texels of one or more pixels; its middle is the picture's.
 struct OcclusionParameters {
+  vec2 map_middle;      // texels from the middle of the first
+  ivec2 map_size;       // texels
+  float texel_edge;     // pixels
+  float near_reach;     // pixels; as far the block's own depths are looked at, which are finer where texels are larger
   float radius;         // Å
   float longest_reach;  // pixels
   uint sample_index;    // other samples take other places of the pattern
 };
 
 struct FinishParameters {
+  vec3 key_direction;
+  float key_strength;
+  vec3 air;          // linear: what the farthest fades into,
+  uint keeps_alpha;  // or into nothing
+  float specular;  // of highlights in the shade
+  float shininess;
   float ambient_occlusion;
-  float silhouettes;  // pixels
+  float outer_lines;  // widths in pixels: around all,
+  float inner_lines;  // around what stands in front of something else,
+  float part_lines;   // and between parts
+  float widest_line;
+  float step_pixels;  // half an Å and so many pixels further back a line begins;
+  float fade_pixels;  // three Å and so many pixels later it is black
   float depth_cue;
   float first_depth;
   float last_depth;

@@ -16,10 +16,16 @@ GEOMETRY real pixel_size_at(real depth) {
   return view.pixel_size * (depth / view.eye_distance);
 }
 
-GEOMETRY real3 position_at(integer2 pixel, real depth) {
-  real2 offset = (view.first_offset + real2(pixel) + view.sample_offset) * pixel_size_at(depth);
+// Of what is seen so many pixels right of and below the picture's middle.
+GEOMETRY real3 position_seen_at(real2 place, real depth) {
+  real2 offset = place * pixel_size_at(depth);
   return real3(offset.x, -offset.y, -depth);
 }
+
+// From the picture's middle, in pixels.
+GEOMETRY real2 place_of(integer2 pixel) { return view.first_offset + real2(pixel) + view.sample_offset; }
+
+GEOMETRY real3 position_at(integer2 pixel, real depth) { return position_seen_at(place_of(pixel), depth); }
 
 GEOMETRY real3 to_viewer_at(real3 position) {
   if (view.orthographic != 0u) return real3(0.0, 0.0, 1.0);

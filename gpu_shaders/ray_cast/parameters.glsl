@@ -50,11 +50,22 @@ struct EmptyTilesParameters {
 };
 
 struct RayCastParameters {
-  vec3 key_direction;  // of studio_light
+  vec3 key_direction;  // this and the next numbers: of studio_light
   float key_strength;
+  vec3 key_color;
+  float key_share;
+  vec3 fill_direction;
+  float fill_share;
+  vec3 fill_color;
+  float specular;  // 0 where highlights are added behind shade
+  vec3 sky;
+  float ambient;
+  vec3 ground;
+  float roughness;
   ivec2 tiles;  // columns and rows
   float probe_radius;
   float slack;
+  float shininess;
   uint add;  // 0: the first sample, which also writes hits; 1: adds to the picture
   uint color_by_kind;
   uint atom_count;

@@ -76,6 +76,7 @@ truth shows(uint atom) { return atom_color[atom].a > 0.0; }
 #include "gpu_shaders/ray_cast/touched_atom.glsl"
 #include "gpu_shaders/ray_cast/patch_hits.glsl"
 #include "gpu_shaders/ray_cast/intersect.glsl"
+#include "gpu_shaders/ray_cast/sheen.glsl"
 #include "gpu_shaders/ray_cast/shade.glsl"
 
 // What an invocation walks through: a part of its tile's list, with the ray in the middle of its four.

@@ -2,7 +2,7 @@
 // What a hit looks like: its normal, its atom, and studio light on its colour.
 //
 // GLSL and, as the body of a struct, C++ (core/render/cpu): points may be packets, the primitive is the same for all.
-// The includer provides what touched_atom.glsl asks for, `view` and `params`.
+// The includer provides what touched_atom.glsl asks for, sheen.glsl, `view` and `params`.
 
 struct SurfacePoint {
   real3 normal;  // towards the solvent
@@ -36,19 +36,19 @@ GEOMETRY SurfacePoint surface_point(Primitive primitive, real3 p) {
 // brighter above, and a little sheen. All directions are in the camera's axes (x right, y up, z towards the camera);
 // colours are linear.
 GEOMETRY real3 studio_light(real3 albedo, real3 n, real3 to_camera) {
-  vec3 key = params.key_direction;
-  vec3 fill = normalize(vec3(0.85, -0.05, 0.45));
   // Wrapped diffuse light: a soft terminator, as from a large lamp.
-  real key_light = max((dot(n, key) + 0.25) / 1.25, 0.0);
-  real fill_light = max((dot(n, fill) + 0.3) / 1.3, 0.0);
+  real key_light = max((dot(n, params.key_direction) + 0.25) / 1.25, 0.0);
+  real fill_light = max((dot(n, params.fill_direction) + 0.3) / 1.3, 0.0);
   real sky = 0.5 + 0.5 * n.y;
   real facing = max(dot(n, to_camera), 0.0);
-  real3 light = params.key_strength * (vec3(1.0, 0.97, 0.92) * (0.78 * key_light * key_light)) +
-                vec3(0.75, 0.85, 1.0) * (0.20 * fill_light) +
-                mix(real3(0.10, 0.09, 0.09), real3(0.24, 0.26, 0.29), sky) * (0.35 + 0.65 * facing);
-  real3 half_way = normalize(key + to_camera);
-  real sheen = params.key_strength * (0.10 * pow(max(dot(n, half_way), 0.0), 40.0));
-  return albedo * light + real3(sheen);
+  real falloff = mix(key_light, real(1.0), real(params.roughness));
+  real3 light = params.key_strength * (params.key_color * (params.key_share * key_light * falloff)) +
+                params.fill_color * (params.fill_share * fill_light) +
+                mix(real3(params.ground), real3(params.sky), sky) * (0.35 + 0.65 * facing);
+  if (params.ambient > 0.0) light = mix(light, real3(1.0), real(params.ambient));
+  if (params.specular == 0.0) return albedo * light;
+  return albedo * light + real3(sheen(n, to_camera, params.key_direction, params.key_strength, params.specular,
+                                      params.shininess));
 }
 
 // A colour in that light where a ray of direction d meets a surface with this normal.

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Pictures that the CPU makes: those of GL but for rounding, and the same bits for any vectors, threads and blocks.
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
@@ -146,6 +148,64 @@ TEST(CpuPicture, IsTheSameForAnyThreadsAndBlocks) {
     picture.settings.block_edge = 48;
     expect_same_bits(whole, picture.by(*renderer), picture.name + " in blocks");
   }
+}
+
+/// What is left of the light where shade falls, in 8 bits: of squares of `edge` pixels wholly covered, else -1.
+std::vector<int> shaded_grays(const Framebuffer& picture, int edge) {
+  const glm::ivec2 size = picture.size / edge;
+  std::vector<int> grays(static_cast<std::size_t>(size.x) * size.y, -1);
+  for (int y = 0; y < size.y; ++y)
+    for (int x = 0; x < size.x; ++x) {
+      glm::vec4 sum(0.0f);
+      for (int v = 0; v < edge * edge; ++v)
+        sum += picture.color[static_cast<std::size_t>(y * edge + v / edge) * picture.size.x + x * edge + v % edge];
+      sum /= static_cast<float>(edge * edge);
+      if (sum.w > 0.9999f) grays[static_cast<std::size_t>(y) * size.x + x] = display_byte(display_color(sum, {}).x);
+    }
+  return grays;
+}
+
+TEST(CpuPicture, ShadeIsThatOfTheMoleculeAtAnyResolution) {
+  const auto renderer = make_cpu_renderer();
+  Picture picture("1UBQ", testing::ubiquitin(), 1.4);
+  picture.coloring.atom.assign(picture.coloring.atom.size(), glm::vec3(0.7f));
+  picture.settings.aovs = false;
+  picture.settings.look.ambient_occlusion = 1.0f;
+  picture.settings.look.ambient_occlusion_radius = 15.0f;  // some 150 and 750 pixels
+  picture.settings.samples = 9;
+  picture.settings.size = {480, 360};
+  const std::vector<int> small = shaded_grays(picture.by(*renderer), 1);
+  picture.settings.samples = 1;
+  picture.settings.size = {5 * 480, 5 * 360};  // more than its map of depths has
+  const std::vector<int> large = shaded_grays(picture.by(*renderer), 5);
+  std::vector<int> differences;
+  for (std::size_t n = 0; n < small.size(); ++n)
+    if (small[n] >= 0 && large[n] >= 0) differences.push_back(std::abs(small[n] - large[n]));
+  ASSERT_GT(differences.size(), 10'000u);
+  std::ranges::sort(differences);
+  EXPECT_LE(differences[differences.size() * 95 / 100], 2);
+  EXPECT_LE(differences[differences.size() / 2], 1);
+}
+
+TEST(CpuPicture, ShadeOfLargePicturesIsTheSameInBlocksAndByGl) {
+  const EglContext context;
+  const auto gl = make_gl_renderer(context), cpu = make_cpu_renderer();
+  Picture picture("a wide one", testing::ubiquitin(), 1.4);
+  picture.settings.size = {2208, 96};
+  picture.settings.samples = 2;
+  picture.settings.look.ambient_occlusion = 1.0f;
+  picture.settings.look.ambient_occlusion_radius = 20.0f;
+  picture.camera = {{0, 0, 0}, {0, 0, 0}, {0, 1, 0}, Projection::orthographic, 30.0, 1.6};
+  for (const Ball& ball : picture.surface.atoms) picture.camera.target += ball.center / 602.0;
+  picture.camera.position = picture.camera.target + glm::dvec3(0, 0, 60);
+  const Framebuffer whole = picture.by(*cpu), by_gl = picture.by(*gl);
+  const Difference found = difference(by_gl, whole);
+  const auto pixels = static_cast<int>(whole.color.size());
+  EXPECT_LE(found.color, pixels / 500);
+  EXPECT_LE(found.by_more, pixels / 5000);
+  picture.settings.block_edge = 400;
+  expect_same_bits(whole, picture.by(*cpu), "in blocks on the CPU");
+  expect_same_bits(by_gl, picture.by(*gl), "in blocks by GL");
 }
 
 }  // namespace

@@ -233,5 +233,34 @@ TEST(DisplayColor, BytesOfATableAreThoseOfTheFormula) {
   }
 }
 
+TEST(DisplayColor, EdgesForLayoutAreOnAPageWhatTheyAreOnWhite) {
+  std::vector<glm::vec4> pixels{{0.0f, 0.0f, 0.0f, 0.0f}, {0.2f, 0.5f, 0.9f, 1.0f}};
+  for (int n = 1; n < 20; ++n) {
+    const float alpha = static_cast<float>(n) / 20.0f;
+    for (const glm::vec3& color : {glm::vec3(0.0f), glm::vec3(1.0f), glm::vec3(0.3f), glm::vec3(0.9f, 0.05f, 0.2f)})
+      pixels.emplace_back(color * alpha, alpha);
+  }
+  std::vector<std::uint8_t> bytes(4 * pixels.size());
+  layout_bytes(pixels, bytes.data());
+  float before = 0.0f;
+  for (std::size_t n = 0; n < pixels.size(); ++n) {
+    const glm::vec4 stored = layout_color(pixels[n]), linear = display_color(pixels[n], {});
+    const glm::vec4 white = display_color(pixels[n], glm::vec3(1.0f)),
+                    black = display_color(pixels[n], glm::vec3(0.0f));
+    for (int c = 0; c < 3; ++c) {
+      EXPECT_GE(stored[c], -1e-5f);
+      EXPECT_LE(stored[c], 1.0f + 1e-5f);
+      // As a program lays it out that blends what files hold.
+      EXPECT_NEAR(stored[c] * stored.w + 1.0f - stored.w, white[c], 1e-5f);
+      if (pixels[n].x == pixels[n].y && pixels[n].y == pixels[n].z) {
+        EXPECT_NEAR(stored[c] * stored.w, black[c], 1e-5f);
+      }
+      before = std::max(before, std::abs(linear[c] * linear.w + 1.0f - linear.w - white[c]));
+    }
+    for (int c = 0; c < 4; ++c) EXPECT_EQ(bytes[4 * n + c], display_byte(stored[c]));
+  }
+  EXPECT_GT(before, 0.2f) << "what linear alpha does there";
+}
+
 }  // namespace
 }  // namespace meniscus

@@ -176,6 +176,108 @@ TEST_F(Looks, LinesAreAsWideAsAsked) {
   }
 }
 
+TEST_F(Looks, LinesOfEachKindHaveTheirOwnWidth) {
+  // Two parts that touch, and a ball far behind both.
+  const testing::Balls three{{{-1, 0, 0}, 2.0}, {{1, 0, 0}, 2.0}, {{0, 1.6, -30}, 2.0}};
+  const std::vector<std::uint32_t> part{4, 2, 4};
+  const Framebuffer bare = render(three, kFront, {});
+  const auto ink = [&](const Look& look, int y, int begin, int end) {
+    return ink_along(bare, render(three, kFront, look, 1, 2048, part), y, begin, end);
+  };
+  Look look;
+  look.outer_lines = 4.0f;
+  look.inner_lines = 0.0f;
+  look.part_lines = 2.0f;
+  EXPECT_NEAR(ink(look, 75, 0, 60), 4.0f, 0.1f);
+  EXPECT_NEAR(ink(look, 75, 80, 120), 2.0f, 0.2f);
+  Look inner;
+  inner.outer_lines = inner.part_lines = 0.0f;
+  inner.inner_lines = 3.0f;
+  EXPECT_NEAR(ink(inner, 75, 0, 60), 0.0f, 0.01f);
+  EXPECT_NEAR(ink(inner, 75, 80, 120), 0.0f, 0.01f);
+  float behind = 0.0f, none = 0.0f;  // along the middle column, where the far ball stands out above
+  const Framebuffer lined = render(three, kFront, inner, 1, 2048, part),
+                    other = render(three, kFront, look, 1, 2048, part);
+  for (int y = 20; y < 60; ++y) {
+    const std::size_t at = static_cast<std::size_t>(y) * 200 + 88;
+    if (bare.color[at].w < 1.0f) continue;
+    behind += 1.0f - brightness(lined.color[at]) / brightness(bare.color[at]);
+    none += y > 30 ? 1.0f - brightness(other.color[at]) / brightness(bare.color[at]) : 0.0f;
+  }
+  EXPECT_GT(behind, 2.0f);
+  EXPECT_LT(none, 0.6f * behind);
+}
+
+TEST_F(Looks, LinesFromAfarAreOfWhatIsLarge) {
+  // A ball 3 Å in front of another: a line between them where they fill the picture, none where 300 Å do.
+  const testing::Balls two{{{0, 0, 0}, 2.0}, {{1.0, 0, -3}, 2.0}};
+  Look look;
+  look.outer_lines = 0.0f;
+  look.inner_lines = 2.0f;
+  look.line_step = 0.012f;
+  const Framebuffer bare = render(two, kFront, {}), lined = render(two, kFront, look);
+  EXPECT_FALSE(bare.color == lined.color);
+  Camera far = kFront;
+  far.height = 300.0;
+  EXPECT_TRUE(render(two, far, {}).color == render(two, far, look).color);
+  look.line_step = 0.0f;
+  far.height = 60.0;
+  EXPECT_FALSE(render(two, far, {}).color == render(two, far, look).color) << "two pixels are nothing then";
+}
+
+TEST_F(Looks, FlatIsExactlyTheColourGiven) {
+  Look look;
+  look.material = {.ambient = 1.0f, .roughness = 0.0f, .specular = 0.0f, .shininess = 40.0f};
+  const Framebuffer flat = render(testing::ubiquitin(), look);
+  const glm::vec3 gray = linear_from_srgb(kGray);
+  std::size_t covered = 0;
+  for (const glm::vec4& pixel : flat.color) {
+    if (pixel.w == 0.0f) continue;
+    ++covered;
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(pixel[c], gray[c], 1e-6f);
+  }
+  EXPECT_GT(covered, 1000u);
+}
+
+TEST_F(Looks, WhiteLampsShowTheColourGivenWhereItFacesThem) {
+  Look look;
+  look.lamps = Lamps::white;
+  look.material.specular = 0.0f;
+  for (const glm::vec3& light :
+       {glm::vec3(-0.45f, 0.65f, 0.75f), glm::vec3(0.0f, 0.0f, 1.0f), glm::vec3(0.6f, -0.2f, 0.5f)}) {
+    look.light_direction = light;
+    const glm::vec3 to = glm::normalize(light);
+    const Framebuffer picture = render(kOne, kFront, look);
+    // The ball of 2 Å stands in the middle; 0.04 Å a pixel.
+    const auto x = static_cast<int>(99.5f + 50.0f * to.x), y = static_cast<int>(74.5f - 50.0f * to.y);
+    const glm::vec4& pixel = picture.color[static_cast<std::size_t>(y) * 200 + x];
+    const float expected = linear_from_srgb(kGray.x);
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(pixel[c], expected, 0.01f * expected) << light.x;
+    EXPECT_NEAR(pixel.x, pixel.z, 1e-5f) << "white is white";
+  }
+}
+
+TEST_F(Looks, HighlightsDoNotShineInTheShade) {
+  // What they add at the bottom of a well that faces camera and lamp, and to a ball that stands alone.
+  testing::Balls well = testing::ring(10, 3.0);
+  for (const Ball& ball : testing::ring(10, 3.0)) well.push_back({ball.center - glm::dvec3(0, 0, 2.5), ball.radius});
+  well.push_back({{0, 0, -5}, 1.7});
+  const Camera camera{{0, 0, 30}, {0, 0, 0}, {0, 1, 0}, Projection::perspective, 30.0, 1.0};
+  const auto added = [&](const testing::Balls& balls, const Camera& from, float shade) {
+    Look look;
+    look.light_direction = {0, 0, 1};
+    look.ambient_occlusion = shade;
+    look.ambient_occlusion_radius = 20.0f;
+    look.material.specular = 0.5f;
+    const float bright = brightness(render(balls, from, look).color[75 * 200 + 100]);
+    look.material.specular = 0.0f;
+    return bright - brightness(render(balls, from, look).color[75 * 200 + 100]);
+  };
+  EXPECT_GT(added(kOne, kFront, 1.0f), 1.2f);
+  EXPECT_GT(added(well, camera, 0.0f), 1.2f);
+  EXPECT_LT(added(well, camera, 1.0f), 0.5f);
+}
+
 TEST_F(Looks, LinesPartChains) {
   const testing::Balls two{{{-1, 0, 0}, 2.0}, {{1, 0, 0}, 2.0}};
   Look look;
@@ -199,6 +301,26 @@ TEST_F(Looks, DepthCuesFadeTheFarthestByTheShareAsked) {
   // Depth ends at the back of the second ball, 42 Å later; its front is at 40.
   EXPECT_NEAR(faded.color[far].w, 1.0f - 0.5f * 40.0f / 42.0f, 0.001f);
   EXPECT_NEAR(faded.color[far].x, bare.color[far].x * faded.color[far].w, 1e-5f);
+}
+
+TEST_F(Looks, DepthCuesThatKeepAlphaEndInTheBackground) {
+  const testing::Balls two{{{-1.5, 0, 0}, 1.0}, {{1.5, 0, -40}, 1.0}};
+  const Camera camera{{0, 0, 10}, {0, 0, 0}, {0, 1, 0}, Projection::orthographic, 30.0, 6.0};
+  Look look;
+  look.depth_cue = 0.5f;
+  look.background = {0.2f, 0.6f, 1.0f};
+  const Framebuffer fading = render(two, camera, look);
+  look.depth_cue_keeps_alpha = true;
+  const Framebuffer picture = render(two, camera, look);
+  const glm::vec3 air = linear_from_srgb(look.background);
+  for (std::size_t at = 0; at < picture.color.size(); ++at) {
+    const glm::vec4& pixel = picture.color[at];
+    EXPECT_EQ(pixel.w, fading.color[at].w > 0.0f ? 1.0f : 0.0f);
+    if (pixel.w == 0.0f) continue;
+    // Over its background it is what the other is.
+    for (int c = 0; c < 3; ++c)
+      EXPECT_NEAR(pixel[c], fading.color[at][c] + (1.0f - fading.color[at].w) * air[c], 1e-5f);
+  }
 }
 
 TEST_F(Looks, DepthIsThatAlongTheViewAxis) {

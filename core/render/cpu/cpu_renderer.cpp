@@ -95,9 +95,11 @@ Framebuffer CpuRenderer::render(const Surface& surface, const Coloring& coloring
   PictureCollector collector(frame_, settings, &surface, scene_.packed.primitives);
   const std::function<bool()> never;
   Interruption interruption(never);
-  for (const PictureBlock& inner : picture_blocks(settings.size, block_edge(settings))) {
-    const PictureBlock block = with_neighbors(inner, look_reach(settings.look), settings.size);
-    cast({block, settings, settings.aovs}, interruption);
+  const std::vector<PictureBlock> blocks = picture_blocks(settings.size, block_edge(settings));
+  if (needs_shade_map(blocks.front(), settings)) cast_shade_map(shade_map_frame(frame_), settings, interruption);
+  for (const PictureBlock& inner : blocks) {
+    const PictureBlock block = with_neighbors(inner, look_reach(settings.look, settings.size), settings.size);
+    cast({frame_, block, settings, settings.aovs}, interruption);
     collector.add_colors(inner, block, sums_);
     if (settings.aovs) collector.add_hits(inner, block, hits_);
   }
@@ -119,13 +121,23 @@ Framebuffer CpuRenderer::render_copies(std::span<const SurfaceObject> objects, c
   PictureCollector collector(frame_, settings, nullptr, {});
   const std::function<bool()> never;
   Interruption interruption(never);
-  for (const PictureBlock& inner : picture_blocks(settings.size, block_edge(settings))) {
-    const PictureBlock block = with_neighbors(inner, look_reach(settings.look), settings.size);
+  const std::vector<PictureBlock> blocks = picture_blocks(settings.size, block_edge(settings));
+  if (needs_shade_map(blocks.front(), settings)) {
+    const PictureFrame map = shade_map_frame(frame_);
+    {
+      const auto stage = clock_.stage("visible copies");
+      VisibleCopies(objects, map, placement, kernels_, patches_together_)
+          .find({{0, 0}, map.size}, 1, settings.look, scene_);
+    }
+    cast_shade_map(map, settings, interruption);
+  }
+  for (const PictureBlock& inner : blocks) {
+    const PictureBlock block = with_neighbors(inner, look_reach(settings.look, settings.size), settings.size);
     {
       const auto stage = clock_.stage("visible copies");
       copies.find(block, settings.samples, settings.look, scene_);
     }
-    cast({block, settings, false}, interruption);
+    cast({frame_, block, settings, false}, interruption);
     collector.add_colors(inner, block, sums_);
   }
   return collector.take();
@@ -135,7 +147,9 @@ bool CpuRenderer::draw(const Surface& surface, const Coloring& coloring, const C
                        const RenderSettings& settings, const std::function<bool()>& stop) {
   pack(surface, coloring, camera, settings);
   Interruption interruption(stop);
-  cast({{{0, 0}, settings.size}, settings, true}, interruption);
+  const PictureBlock whole{{0, 0}, settings.size};
+  if (needs_shade_map(whole, settings)) cast_shade_map(shade_map_frame(frame_), settings, interruption);
+  cast({frame_, whole, settings, true}, interruption);
   if (interruption.came()) return false;
   present(settings);
   drawn_ = true;
@@ -167,21 +181,34 @@ std::string CpuRenderer::device() const {
   return fmt::format("cpu ({} threads)", tbb::this_task_arena::max_concurrency());
 }
 
+void CpuRenderer::start_block(const PictureFrame& frame, const PictureBlock& block) {
+  const auto stage = clock_.stage("tile lists");
+  lists_.build(scene_.packed.primitives, frame, block);
+  scene_.lanes.view = block_view(frame, block, glm::vec2(0.0f));
+}
+
+void CpuRenderer::cast_shade_map(const PictureFrame& map, const RenderSettings& settings, Interruption& interruption) {
+  const PictureBlock whole{{0, 0}, map.size};
+  start_block(map, whole);
+  samples_.resize(static_cast<std::size_t>(map.size.x) * map.size.y, !scene_.parts.empty());
+  cast_samples(0, 1, {map, whole, settings, false}, interruption);
+  shade_map_.swap(samples_.depth);
+}
+
 void CpuRenderer::cast(const BlockTask& task, Interruption& interruption) {
-  {
-    const auto stage = clock_.stage("tile lists");
-    lists_.build(scene_.packed.primitives, frame_, task.block);
-  }
+  start_block(task.frame, task.block);
   const auto pixel_count = static_cast<std::size_t>(task.block.size.x) * task.block.size.y;
   const Look& look = task.settings.look;
   sums_.assign(pixel_count, glm::vec4(0.0f));
   if (task.hits) hits_.assign(pixel_count, kNoHit);
-  scene_.lanes.view = block_view(frame_, task.block, glm::vec2(0.0f));
   const int step = look.has_effects() ? 1 : LaneTile::kMostSamples;
   if (look.has_effects()) samples_.resize(pixel_count, !scene_.parts.empty());
   for (int first = 0; first < task.settings.samples && !interruption.came(); first += step) {
     cast_samples(first, std::min(step, task.settings.samples - first), task, interruption);
-    if (look.has_effects()) look_at(first, look, interruption);
+    if (!look.has_effects()) continue;
+    if (look.ambient_occlusion > 0.0f && first == 0 && holds_shade_map(task.block, task.settings.size))
+      shade_map_ = samples_.depth;
+    look_at(first, task.settings, interruption);
   }
 }
 
@@ -208,14 +235,16 @@ void CpuRenderer::cast_tile(std::size_t tile, LaneTile task) {
   kernels_.cast_tile(scene_.lanes, task);
 }
 
-void CpuRenderer::look_at(int sample, const Look& look, Interruption& interruption) {
+void CpuRenderer::look_at(int sample, const RenderSettings& settings, Interruption& interruption) {
   const auto stage = clock_.stage("look");
+  const Look& look = settings.look;
   LaneLook task;
   task.view = scene_.lanes.view;
   task.view.sample_offset = sample_offset(sample);
-  task.occlusion = occlusion_parameters(look, sample);
-  task.finish = finish_parameters(look, scene_.placement, sample, !scene_.parts.empty());
+  task.occlusion = occlusion_parameters(look, settings.size, sample);
+  task.finish = finish_parameters(look, scene_.placement, settings.size, sample, !scene_.parts.empty());
   task.samples = samples_.lanes();
+  task.shade_map = shade_map_.data();
   task.visibility = samples_.visibility.data();
   task.sums = sums_.data();
   if (look.ambient_occlusion > 0.0f)

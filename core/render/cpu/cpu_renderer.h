@@ -64,6 +64,7 @@ class CpuRenderer final : public SurfaceRenderer {
 
   /// What is made of a block.
   struct BlockTask {
+    const PictureFrame& frame;
     PictureBlock block;
     const RenderSettings& settings;
     bool hits;  ///< wanted too
@@ -71,10 +72,12 @@ class CpuRenderer final : public SurfaceRenderer {
 
   void begin(const Camera& camera, const RenderSettings& settings);
   void pack(const Surface& surface, const Coloring& coloring, const Camera& camera, const RenderSettings& settings);
+  void start_block(const PictureFrame& frame, const PictureBlock& block);
+  void cast_shade_map(const PictureFrame& map, const RenderSettings& settings, Interruption& interruption);
   void cast(const BlockTask& task, Interruption& interruption);
   void cast_samples(int first, int count, const BlockTask& task, Interruption& interruption);
   void cast_tile(std::size_t tile, LaneTile task);
-  void look_at(int sample, const Look& look, Interruption& interruption);
+  void look_at(int sample, const RenderSettings& settings, Interruption& interruption);
   void present(const RenderSettings& settings);
 
   const LaneKernels& kernels_;
@@ -87,6 +90,7 @@ class CpuRenderer final : public SurfaceRenderer {
   std::vector<glm::vec4> sums_;
   std::vector<ray_cast::Hit> hits_;
   BlockSamples samples_;
+  std::vector<float> shade_map_;  // depths of the whole picture, and behind the last that of nothing
   std::vector<std::uint8_t> rgba_;
   glm::ivec2 size_{0};  // of rgba_
   bool drawn_ = false;  // scene_ and hits_ are those of rgba_

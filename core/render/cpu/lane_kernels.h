@@ -71,6 +71,7 @@ struct LaneLook {
   kernel::OcclusionParameters occlusion{};
   kernel::FinishParameters finish{};
   LaneSamples samples;
+  const float* shade_map = nullptr;  ///< depths of the whole picture, for occlude_row
   float* visibility = nullptr;
   glm::vec4* sums = nullptr;  ///< gets the finished colours added
 };

@@ -7,6 +7,7 @@
 
 namespace meniscus::MENISCUS_LANE_NAMESPACE {
 
+using glm::vec3;
 using kernel::kNothing;
 
 /// A cast block as the shared sources want to see it.
@@ -28,6 +29,13 @@ struct LookedAtBlock {
     return gather(values, at);
   }
   real depth_or_nothing(integer2 pixel) { return fetch(look_.samples.depth, pixel); }
+  /// Outside of the map the entry behind its last says that there is nothing.
+  real map_depth_or_nothing(integer2 texel) {
+    const glm::ivec2 size = occlusion.map_size;
+    const truth inside =
+        texel.x >= integer(0) && texel.y >= integer(0) && texel.x < integer(size.x) && texel.y < integer(size.y);
+    return gather(look_.shade_map, select(inside, texel.y * integer(size.x) + texel.x, integer(size.x * size.y)));
+  }
   real visibility_at(integer2 pixel) { return fetch(look_.visibility, pixel); }
   real part_at(integer2 pixel) { return fetch(look_.samples.part, pixel); }
   real3 hit_normal_at(integer2 pixel) {
@@ -42,6 +50,7 @@ struct LookedAtBlock {
 
 #include "gpu_shaders/look/view_space.glsl"
 #include "gpu_shaders/look/occlusion.glsl"
+#include "gpu_shaders/ray_cast/sheen.glsl"
 #include "gpu_shaders/look/finish.glsl"
 
   /// Share of a pixel that lines cover, and the depth of what they outline.
@@ -56,8 +65,7 @@ struct LookedAtBlock {
     for (int y = -reach; y <= reach; ++y)
       for (int x = -reach; x <= reach; ++x) {
         const integer2 offset(x, y), other = pixel + offset;
-        const real share = covered_share(offset);
-        const truth counts = share > ink.covered && in_block(other);
+        const truth counts = covered_share(offset, params.widest_line) > ink.covered && in_block(other);
         if (!some(counts)) continue;
         const real other_depth = depth_or_nothing(other);
         const truth step = counts && may_step(depth, other_depth);
@@ -65,10 +73,11 @@ struct LookedAtBlock {
         if (params.has_parts != 0u)
           seam = counts && met && other_depth != real(kNothing) && part_at(pixel) != part_at(other);
         if (!some(step || seam)) continue;
-        const real strength =
-            select(seam, real(1.0f), select(step, step_ink(pixel, depth, other, other_depth), real(0.0f)));
-        const truth wins = share * strength > ink.covered;
-        ink.covered = select(wins, share * strength, ink.covered);
+        const real strength = select(step, step_ink(pixel, depth, other, other_depth), real(0.0f));
+        const truth open = !met || other_depth == real(kNothing);
+        const real covered = select(counts, covered_by_border(offset, strength, seam, open), real(0.0f));
+        const truth wins = covered > ink.covered;
+        ink.covered = select(wins, covered, ink.covered);
         ink.depth = select(wins, min(depth, other_depth), ink.depth);
       }
     return ink;
@@ -88,13 +97,16 @@ struct LookedAtBlock {
         color.y.v[n] = look_.samples.color[first + n].y;
         color.z.v[n] = look_.samples.color[first + n].z;
       }
-      if (params.ambient_occlusion > 0.0f)
-        color = color * select(met, mix(1.0f, mean_visibility(pixel, depth), params.ambient_occlusion), real(1.0f));
+      if (params.ambient_occlusion > 0.0f) color = select(met, shaded(color, alpha, pixel, depth), color);
       const real left = select(met, clarity(depth), real(1.0f));
-      color = color * left;
-      alpha = alpha * left;
+      if (params.keeps_alpha != 0u) {
+        color = mix(real3(params.air) * alpha, color, left);
+      } else {
+        color = color * left;
+        alpha = alpha * left;
+      }
     }
-    if (params.silhouettes > 0.0f) {
+    if (params.widest_line > 0.0f) {
       const Ink ink = ink_on(pixel, depth);
       const real covered = ink.covered * clarity(ink.depth);
       color = color * (1.0f - covered);

@@ -58,6 +58,7 @@ struct TracedScene {
 #include "gpu_shaders/ray_cast/pixel_rays.glsl"
 #include "gpu_shaders/ray_cast/touched_atom.glsl"
 #include "gpu_shaders/ray_cast/patch_hits.glsl"
+#include "gpu_shaders/ray_cast/sheen.glsl"
 #include "gpu_shaders/ray_cast/shade.glsl"
 };
 
