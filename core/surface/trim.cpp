@@ -58,7 +58,7 @@ void measure_inside(const glm::dvec3& point, const BallColumns& balls, std::size
 }  // namespace
 
 class ConvexTrimmer::Search {
-  enum Column : std::size_t { kX, kY, kZ, kWeight, kInside, kColumnCount };
+  enum Column : std::size_t { kX, kY, kZ, kWeight, kColumnCount };
 
  public:
   Search(const Surface& surface, const ReducedSurface& rs) : s_(surface), largest_(largest_radius(surface)) {
@@ -71,8 +71,7 @@ class ConvexTrimmer::Search {
   struct Worker {
     std::vector<std::uint32_t> kept;
     Blockers blockers;
-    std::vector<std::uint32_t> neighbors;  // of the atom in hand, once somebody has asked for them
-    ColumnTable<kColumnCount> balls;       // of the neighbours
+    std::vector<double> inside;
     Contour contour;
   };
 
@@ -121,7 +120,6 @@ class ConvexTrimmer::Search {
   void keep_bordering(std::uint32_t a, Worker& w) const {
     w.kept.clear();
     w.blockers.restart(weight(a));
-    w.neighbors.clear();
     for (const BorderArc& arc : arcs_of(a))
       if (std::find(w.kept.begin(), w.kept.end(), arc.partner) == w.kept.end()) keep(a, arc.partner, w);
   }
@@ -156,50 +154,57 @@ class ConvexTrimmer::Search {
 
   // The atom that covers the point of the contour's circle at this pseudo-angle deepest, or kNone.
   std::uint32_t covering(std::uint32_t a, double pseudo, Worker& w) const {
-    if (w.neighbors.empty()) list_neighbors(a, w);
     const geometry::Circle& c = w.contour.circle();
     const glm::dvec3 point = s_.atoms[a].center + c.axis * c.height + c.radius * w.contour.direction(pseudo);
-    const auto of = [&](Column column) { return w.balls.column(column); };
-    double* inside = of(kInside);
-    measure_inside(point, {of(kX), of(kY), of(kZ), of(kWeight)}, whole_vectors(w.neighbors.size()), inside);
+    const Balls& balls = this->balls();
     std::uint32_t deepest = kNone;
     double depth = 1e-8;  // decision weights blur the surface of a ball by 1e-8 Å² at most
-    for (std::size_t n = 0; n < w.neighbors.size(); ++n) {
-      if (!(inside[n] > depth)) continue;  // as a rule
-      if (std::find(w.kept.begin(), w.kept.end(), w.neighbors[n]) != w.kept.end()) continue;
-      depth = inside[n];
-      deepest = w.neighbors[n];
-    }
-    return deepest;
-  }
-
-  void list_neighbors(std::uint32_t a, Worker& w) const {
-    grid().for_each_near(s_.atoms[a].center, s_.atoms[a].radius + s_.probe_radius + largest_, [&](std::uint32_t b) {
-      if (b != a) w.neighbors.push_back(b);
+    balls.grid.for_each_row_near(point, largest_, [&](std::uint32_t first, std::uint32_t past) {
+      const std::size_t count = past - first;
+      if (w.inside.size() < count) w.inside.resize(2 * count);
+      const auto of = [&](Column column) { return balls.table.column(column) + first; };
+      measure_inside(point, {of(kX), of(kY), of(kZ), of(kWeight)}, count, w.inside.data());
+      for (std::size_t n = 0; n < count; ++n) {
+        if (!(w.inside[n] > depth)) continue;  // as a rule
+        const std::uint32_t b = balls.grid.order()[first + n];
+        if (b == a || std::find(w.kept.begin(), w.kept.end(), b) != w.kept.end()) continue;
+        depth = w.inside[n];
+        deepest = b;
+      }
     });
-    w.balls.make_room(w.neighbors.size());
-    double *x = w.balls.column(kX), *y = w.balls.column(kY), *z = w.balls.column(kZ), *wb = w.balls.column(kWeight);
-    for (std::size_t n = 0; n < w.neighbors.size(); ++n) {
-      const std::uint32_t b = w.neighbors[n];
-      x[n] = s_.atoms[b].center.x;
-      y[n] = s_.atoms[b].center.y;
-      z[n] = s_.atoms[b].center.z;
-      wb[n] = weight(b);
-    }
+    return deepest;
   }
 
   double weight(std::uint32_t a) const { return decision_weight(s_.atoms[a].radius + s_.probe_radius, a); }
 
-  // Who asks for bordering circles alone needs no neighbours.
-  const BallGrid& grid() const {
-    std::call_once(grid_asked_, [&] { grid_.emplace(s_.atoms, largest_); });
-    return *grid_;
+  // All balls, cell by cell.
+  struct Balls {
+    explicit Balls(const Search& search) : grid(search.s_.atoms, search.largest_) {
+      const std::size_t count = grid.order().size();
+      table.make_room(count);
+      double *x = table.column(kX), *y = table.column(kY), *z = table.column(kZ), *weight = table.column(kWeight);
+      for (std::size_t n = 0; n < count; ++n) {
+        const std::uint32_t b = grid.order()[n];
+        x[n] = search.s_.atoms[b].center.x;
+        y[n] = search.s_.atoms[b].center.y;
+        z[n] = search.s_.atoms[b].center.z;
+        weight[n] = search.weight(b);
+      }
+    }
+    BallGrid grid;
+    ColumnTable<kColumnCount> table;
+  };
+
+  // Who asks for bordering circles alone needs none.
+  const Balls& balls() const {
+    std::call_once(balls_asked_, [&] { balls_.emplace(*this); });
+    return *balls_;
   }
 
   const Surface& s_;
   double largest_;
-  mutable std::once_flag grid_asked_;
-  mutable std::optional<BallGrid> grid_;
+  mutable std::once_flag balls_asked_;
+  mutable std::optional<Balls> balls_;
   std::vector<std::uint32_t> first_;
   std::vector<BorderArc> arcs_;
 };
