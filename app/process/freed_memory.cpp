@@ -13,7 +13,7 @@ namespace meniscus {
 
 void keep_freed_memory() {
 #ifdef __GLIBC__
-  constexpr int kOwnMapping = 4 << 20;  // bytes
+  constexpr int kOwnMapping = 32 << 20;  // bytes, the most that malloc takes
   ::mallopt(M_MMAP_THRESHOLD, kOwnMapping);
   ::mallopt(M_TRIM_THRESHOLD, INT_MAX);
 #endif
