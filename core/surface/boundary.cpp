@@ -12,6 +12,7 @@
 #include <tbb/parallel_for.h>
 
 #include "core/surface/components.h"
+#include "core/surface/large_tables.h"
 #include "core/surface/loops.h"
 #include "core/surface/numbering.h"
 #include "core/surface/walks.h"
@@ -89,7 +90,7 @@ class BoundaryBuilder {
   }
 
   void place_vertices() {
-    s_.vertices.resize(triple_vertex_ + cusps_.triple.size());
+    resize_large(s_.vertices, triple_vertex_ + cusps_.triple.size());
     tbb::parallel_for(std::size_t{0}, probes_.count(), [&](std::size_t probe) {
       if (flat_) {
         s_.vertices[probe] = probes_.position[probe];
@@ -114,7 +115,7 @@ class BoundaryBuilder {
       for (std::uint32_t n = probes_.first_side[probe]; n < probes_.first_side[probe + 1]; ++n)
         side_at_[probes_.sides[n].toroidal][probes_.sides[n].at_end] = n;
     });
-    s_.borders.resize(first_cusp_border_ + cusps_.arcs.size());
+    resize_large(s_.borders, first_cusp_border_ + cusps_.arcs.size());
     tbb::parallel_for(std::size_t{0}, s_.toroidal.size(), [&](std::size_t t) { place_patch_borders(t); });
     tbb::parallel_for(std::size_t{0}, cusps_.arcs.size(), [&](std::size_t n) { place_cusp_border(n); });
   }
@@ -212,7 +213,7 @@ class BoundaryBuilder {
       first_of_probe_[s] = next;
       next += walk_size(s);
     });
-    s_.half_borders.resize(walks.past());
+    resize_large(s_.half_borders, walks.past());
     list_walks_of_atoms();
     tbb::parallel_for(std::size_t{0}, concave_count(), [&](std::size_t s) { list_walk_of_probe(s); });
   }
@@ -363,8 +364,8 @@ class BoundaryBuilder {
     const Numbers past_convex{convex.past().face, convex.past().loop, first_of_atom_.back()};
     const RowNumbers<Numbers> toroidal(s_.toroidal.size(), past_convex, of_toroidal);
     const RowNumbers<Numbers> concave(concave_count(), toroidal.past(), of_concave);
-    s_.faces.resize(concave.past().face);
-    s_.loops.resize(concave.past().loop);
+    resize_large(s_.faces, concave.past().face);
+    resize_large(s_.loops, concave.past().loop);
     convex.for_each([&](std::size_t c, Numbers& next) {
       next.half_border = first_of_atom_[s_.convex[c].atom];
       list_faces(of_convex(c), PatchKind::convex, s_.convex[c], index(c), next);

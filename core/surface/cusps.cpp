@@ -9,10 +9,12 @@
 #include <tuple>
 
 #include <glm/geometric.hpp>
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include "core/math/geometry.h"
 #include "core/reduced_surface/reduced_surface.h"
+#include "core/surface/large_tables.h"
 #include "core/surface/walks.h"
 
 namespace meniscus {
@@ -73,7 +75,7 @@ class CuspSearch {
     problem_.heights = probes_.height;
     problem_.first_side = probes_.first_side;
     problem_.weights.resize(probes_.count());
-    problem_.sides.resize(probes_.sides.size());
+    resize_large(problem_.sides, probes_.sides.size());
     tbb::parallel_for(std::size_t{0}, probes_.count(), [&](std::size_t s) {
       problem_.weights[s] = probe_decision_weight(p_, s);
       for (std::uint32_t n = probes_.first_side[s]; n < probes_.first_side[s + 1]; ++n) {
@@ -93,29 +95,36 @@ class CuspSearch {
   // For each end of an arc of a spindle circle: which probe ends the covered gap beyond it?
   void find_gaps() {
     std::vector<std::array<std::uint32_t, 2>> side_at(toroidal_.size());  // patch, end -> side
-    for (std::uint32_t n = 0; n < probes_.sides.size(); ++n)
-      side_at[probes_.sides[n].toroidal][probes_.sides[n].at_end] = n;
-    std::vector<std::pair<double, std::uint32_t>> around;
-    for (std::uint32_t first = 0, past = 0; first < toroidal_.size(); first = past) {
-      for (past = first + 1; past < toroidal_.size() && first_on_circle_[past] == first; ++past) {
-      }
-      const ToroidalPatch& lead = toroidal_[first];
-      if (lead.free() || !touches_axis(lead, atoms_, p_)) continue;
-      around.clear();
-      for (std::uint32_t t = first; t < past; ++t)
-        around.emplace_back(t == first ? 0.0 : angle_between(lead.axis, lead.start, toroidal_[t].start), t);
-      std::sort(around.begin(), around.end());
-      for (std::size_t n = 0; n < around.size(); ++n) {
-        const std::uint32_t t = around[n].second, u = around[(n + 1) % around.size()].second;
-        const double begin = around[n].first + toroidal_[t].sweep;
-        const double end = around[(n + 1) % around.size()].first + (n + 1 == around.size() ? kTwoPi : 0.0);
-        const double middle = 0.5 * (begin + end);
-        const glm::dvec3 direction = arc_direction(lead, middle);
-        CuspSide &last = problem_.sides[side_at[t][1]], &next = problem_.sides[side_at[u][0]];
-        last.partner = toroidal_[u].probe[0];
-        next.partner = toroidal_[t].probe[1];
-        last.gap_direction = next.gap_direction = direction;
-      }
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, probes_.sides.size(), 1024), [&](const auto& range) {
+      for (std::size_t n = range.begin(); n != range.end(); ++n)
+        side_at[probes_.sides[n].toroidal][probes_.sides[n].at_end] = static_cast<std::uint32_t>(n);
+    });
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, toroidal_.size(), 1024), [&](const auto& range) {
+      std::vector<std::pair<double, std::uint32_t>> around;
+      for (std::size_t t = range.begin(); t != range.end(); ++t)
+        if (first_on_circle_[t] == t) find_gaps_of(static_cast<std::uint32_t>(t), side_at, around);
+    });
+  }
+
+  // Of the circle whose first arc is `first`; `around` is scratch.
+  void find_gaps_of(std::uint32_t first, std::span<const std::array<std::uint32_t, 2>> side_at,
+                    std::vector<std::pair<double, std::uint32_t>>& around) {
+    const ToroidalPatch& lead = toroidal_[first];
+    if (lead.free() || !touches_axis(lead, atoms_, p_)) return;
+    around.clear();
+    for (std::uint32_t t = first; t < toroidal_.size() && first_on_circle_[t] == first; ++t)
+      around.emplace_back(t == first ? 0.0 : angle_between(lead.axis, lead.start, toroidal_[t].start), t);
+    std::sort(around.begin(), around.end());
+    for (std::size_t n = 0; n < around.size(); ++n) {
+      const std::uint32_t t = around[n].second, u = around[(n + 1) % around.size()].second;
+      const double begin = around[n].first + toroidal_[t].sweep;
+      const double end = around[(n + 1) % around.size()].first + (n + 1 == around.size() ? kTwoPi : 0.0);
+      const double middle = 0.5 * (begin + end);
+      const glm::dvec3 direction = arc_direction(lead, middle);
+      CuspSide &last = problem_.sides[side_at[t][1]], &next = problem_.sides[side_at[u][0]];
+      last.partner = toroidal_[u].probe[0];
+      next.partner = toroidal_[t].probe[1];
+      last.gap_direction = next.gap_direction = direction;
     }
   }
 

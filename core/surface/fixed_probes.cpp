@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <numbers>
 #include <utility>
@@ -17,6 +19,8 @@
 #include "core/math/geometry.h"
 #include "core/math/quad_geometry.h"
 #include "core/math/union_find.h"
+#include "core/surface/large_tables.h"
+#include "core/surface/numbering.h"
 
 namespace meniscus {
 namespace {
@@ -61,41 +65,63 @@ class Placement {
 
   double extended(std::uint32_t atom) const { return atoms_[atom].radius + probe_radius_; }
 
-  // Buckets arc ends by their smallest atom, then sorts the small buckets: cheaper than one large sort.
+  // Buckets arc ends by their smallest atom, then sorts the small buckets: cheaper than one large sort. In a bucket
+  // they first stand as threads come; sorted, no two are equal.
   void collect_triples() {
     std::vector<std::uint32_t> first(atoms_.size() + 1, 0);
-    for (const RsArc& arc : arcs_) {
-      if (arc.begin_by == kNone) continue;
-      ++first[std::min(arc.i, arc.begin_by) + 1];
-      ++first[std::min(arc.i, arc.end_by) + 1];
-    }
+    const auto for_each_end = [&](const auto& visit) {
+      tbb::parallel_for(tbb::blocked_range<std::size_t>(0, arcs_.size(), 1024), [&](const auto& range) {
+        for (std::size_t n = range.begin(); n != range.end(); ++n) {
+          const RsArc& arc = arcs_[n];
+          if (arc.begin_by == kNone) continue;
+          visit(n, arc.begin_by, 0u);
+          visit(n, arc.end_by, 1u);
+        }
+      });
+    };
+    const auto take = [](std::uint32_t& number) {
+      return std::atomic_ref<std::uint32_t>(number).fetch_add(1, std::memory_order_relaxed);
+    };
+    for_each_end([&](std::size_t n, std::uint32_t by, std::uint32_t) { take(first[std::min(arcs_[n].i, by) + 1]); });
     for (std::size_t a = 1; a < first.size(); ++a) first[a] += first[a - 1];
     std::vector<ArcEnd> ends(first.back());
     std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
-    for (std::uint32_t n = 0; n < arcs_.size(); ++n) {
-      const RsArc& arc = arcs_[n];
-      if (arc.begin_by == kNone) continue;
-      for (std::uint32_t end = 0; end < 2; ++end) {
-        const auto [a, b, c, side] = geometry::triple_at(arc.i, arc.j, end ? arc.end_by : arc.begin_by, end != 0);
-        ends[next[a]++] = {b, c, n * 2 + end, side};
-      }
-    }
-    triples_.reserve(ends.size() / 3);
-    for (std::uint32_t a = 0; a + 1 < first.size(); ++a) {
-      const auto begin = ends.begin() + first[a], end = ends.begin() + first[a + 1];
-      std::sort(begin, end, [](const ArcEnd& x, const ArcEnd& y) {
-        return std::tie(x.b, x.c, x.side, x.arc_and_end) < std::tie(y.b, y.c, y.side, y.arc_and_end);
-      });
-      for (auto e = begin; e != end;) {
+    for_each_end([&](std::size_t n, std::uint32_t by, std::uint32_t end) {
+      const auto [a, b, c, side] = geometry::triple_at(arcs_[n].i, arcs_[n].j, by, end != 0);
+      ends[take(next[a])] = {b, c, static_cast<std::uint32_t>(n) * 2 + end, side};
+    });
+    // Calls visit(first, past) for what stands at one triple of which `a` is the smallest atom.
+    const auto for_each_triple = [&](std::size_t a, const auto& visit) {
+      const auto end = ends.begin() + first[a + 1];
+      for (auto e = ends.begin() + first[a]; e != end;) {
         auto past = e;
         while (past != end && past->b == e->b && past->c == e->c && past->side == e->side) ++past;
-        if (past - e == 3)
-          triples_.push_back({{a, e->b, e->c}, e->side, {e->arc_and_end, e[1].arc_and_end, e[2].arc_and_end}});
-        else
-          parts_.open_atoms.insert(parts_.open_atoms.end(), {a, e->b, e->c});
+        visit(e, past);
         e = past;
       }
-    }
+    };
+    const RowNumbers<std::uint32_t> numbers(atoms_.size(), 0, [&](std::size_t a) {
+      std::sort(ends.begin() + first[a], ends.begin() + first[a + 1], [](const ArcEnd& x, const ArcEnd& y) {
+        return std::tie(x.b, x.c, x.side, x.arc_and_end) < std::tie(y.b, y.c, y.side, y.arc_and_end);
+      });
+      std::uint32_t count = 0;
+      for_each_triple(a, [&](auto e, auto past) { count += past - e == 3 ? 1 : 0; });
+      return count;
+    });
+    triples_.resize(numbers.past());
+    numbers.for_each([&](std::size_t a, std::uint32_t& t) {
+      for_each_triple(a, [&](auto e, auto past) {
+        if (past - e == 3)
+          triples_[t++] = {{static_cast<std::uint32_t>(a), e->b, e->c},
+                           e->side,
+                           {e->arc_and_end, e[1].arc_and_end, e[2].arc_and_end}};
+      });
+    });
+    if (triples_.size() * 3 == ends.size()) return;
+    for (std::uint32_t a = 0; a < atoms_.size(); ++a)
+      for_each_triple(a, [&](auto e, auto past) {
+        if (past - e != 3) parts_.open_atoms.insert(parts_.open_atoms.end(), {a, e->b, e->c});
+      });
     std::sort(parts_.open_atoms.begin(), parts_.open_atoms.end());
     parts_.open_atoms.erase(std::unique(parts_.open_atoms.begin(), parts_.open_atoms.end()), parts_.open_atoms.end());
   }
@@ -171,7 +197,8 @@ class Placement {
         members_[probe_of_triple_[t]].more.push_back(t);
       }
     }
-    for (const Members& cluster : members_) settle(cluster);
+    for (const Members& cluster : members_)
+      if (!cluster.more.empty()) settle(cluster);
   }
 
   // A cluster whose remaining sides are not one ring is a cavity too small for the probe to move in: all its arcs are
@@ -181,10 +208,10 @@ class Placement {
     for (std::uint32_t t = 0; t < triples_.size(); ++t)
       if (clusters.find(t) != t) sides[clusters.find(t)];
     for (std::uint32_t t = 0; t < triples_.size(); ++t)
-      if (const auto cluster = sides.find(clusters.find(t)); cluster != sides.end()) append_sides(t, cluster->second);
-    std::vector<ProbeSide> ring;
+      if (const auto cluster = sides.find(clusters.find(t)); cluster != sides.end())
+        list_sides_of(t, std::back_inserter(cluster->second));
     for (auto cluster = sides.begin(); cluster != sides.end();)
-      cluster = chain(cluster->second, ring) ? sides.erase(cluster) : std::next(cluster);
+      cluster = chain(cluster->second) ? sides.erase(cluster) : std::next(cluster);
     if (sides.empty()) return;
     UnionFind kept(triples_.size());
     for (std::uint32_t n = 0; n < arcs_.size(); ++n) {
@@ -208,7 +235,7 @@ class Placement {
     std::uint32_t count = 0;
     for (std::uint32_t n = 0; n < arcs_.size(); ++n)
       if (!vanished_[n]) toroidal_of_arc_[n] = count++;
-    parts_.toroidal.resize(count);
+    resize_large(parts_.toroidal, count);
     std::vector<char> contradicted(arcs_.size(), 0);
     tbb::parallel_for(std::size_t{0}, arcs_.size(), [&](std::size_t n) {
       if (vanished_[n]) return;
@@ -260,46 +287,65 @@ class Placement {
     FixedProbes& probes = parts_.probes;
     probes.position.resize(members_.size());
     probes.height.resize(members_.size());
-    probes.first_side.assign(members_.size() + 1, 0);
-    probes.sides.reserve(triples_.size() * 3);
-    std::vector<ProbeSide> loose;
-    for (std::uint32_t s = 0; s < members_.size(); ++s) {
+    probes.first_side.resize(members_.size() + 1);
+    const auto side_count = [&](std::size_t s) {
+      std::uint32_t count = sides_left(members_[s].first);
+      for (const std::uint32_t t : members_[s].more) count += sides_left(t);
+      return count;
+    };
+    const RowNumbers<std::uint32_t> numbers(members_.size(), 0, side_count);
+    probes.first_side.back() = numbers.past();
+    resize_large(probes.sides, numbers.past());
+    std::vector<char> open(members_.size(), 0);
+    numbers.for_each([&](std::size_t s, std::uint32_t& next) {
+      probes.first_side[s] = next;
       probes.position[s] = position_[members_[s].first];
-      loose.clear();
-      append_sides(members_[s].first, loose);
       probes.height[s] = height_[members_[s].first];
-      for (std::uint32_t t : members_[s].more) {
-        append_sides(t, loose);
+      const auto begin = probes.sides.begin() + next;
+      auto past = list_sides_of(members_[s].first, begin);
+      for (const std::uint32_t t : members_[s].more) {
+        past = list_sides_of(t, past);
         probes.height[s] = std::min(probes.height[s], height_[t]);
       }
-      if (!chain(loose, probes.sides))
+      open[s] = !chain({begin, past});
+      next += static_cast<std::uint32_t>(past - begin);
+    });
+    for (std::uint32_t s = 0; s < members_.size(); ++s)
+      if (open[s])
         for (std::uint32_t a : triples_[members_[s].first].atom) parts_.open_atoms.push_back(a);
-      probes.first_side[s + 1] = static_cast<std::uint32_t>(probes.sides.size());
-    }
   }
 
-  void append_sides(std::uint32_t triple, std::vector<ProbeSide>& sides) const {
-    for (std::uint32_t end : triples_[triple].arc_and_end) {
+  // How many sides of a triple belong to arcs that have not vanished.
+  std::uint32_t sides_left(std::uint32_t triple) const {
+    std::uint32_t count = 0;
+    for (const std::uint32_t end : triples_[triple].arc_and_end) count += vanished_[end / 2] ? 0 : 1;
+    return count;
+  }
+
+  // Writes them; returns what comes behind them.
+  template <typename Out>
+  Out list_sides_of(std::uint32_t triple, Out side) const {
+    for (const std::uint32_t end : triples_[triple].arc_and_end) {
       if (vanished_[end / 2]) continue;
       const RsArc& arc = arcs_[end / 2];
       const bool at_end = end & 1;
-      sides.push_back({at_end ? arc.j : arc.i, at_end ? arc.i : arc.j, toroidal_of_arc_[end / 2], at_end});
+      *side++ = {at_end ? arc.j : arc.i, at_end ? arc.i : arc.j, toroidal_of_arc_[end / 2], at_end};
     }
+    return side;
   }
 
-  // Orders sides head to tail, starting at the smallest atom, and appends them. False if they are not one ring.
-  static bool chain(std::vector<ProbeSide>& loose, std::vector<ProbeSide>& ring) {
-    if (loose.size() < 3) return false;
-    auto first = std::min_element(loose.begin(), loose.end(), [](auto& x, auto& y) { return x.from < y.from; });
-    std::iter_swap(loose.begin(), first);
-    for (std::size_t n = 1; n < loose.size(); ++n) {
-      auto next = std::find_if(loose.begin() + n, loose.end(), [&](auto& x) { return x.from == loose[n - 1].to; });
-      if (next == loose.end()) return false;
-      std::iter_swap(loose.begin() + n, next);
+  // Orders sides head to tail, starting at the smallest atom. False if they are not one ring.
+  static bool chain(std::span<ProbeSide> sides) {
+    if (sides.size() < 3) return false;
+    auto first = std::min_element(sides.begin(), sides.end(), [](auto& x, auto& y) { return x.from < y.from; });
+    std::iter_swap(sides.begin(), first);
+    for (std::size_t n = 1; n < sides.size(); ++n) {
+      auto next = std::find_if(sides.begin() + static_cast<std::ptrdiff_t>(n), sides.end(),
+                               [&](auto& x) { return x.from == sides[n - 1].to; });
+      if (next == sides.end()) return false;
+      std::iter_swap(sides.begin() + static_cast<std::ptrdiff_t>(n), next);
     }
-    if (loose.back().to != loose.front().from) return false;
-    ring.insert(ring.end(), loose.begin(), loose.end());
-    return true;
+    return sides.back().to == sides.front().from;
   }
 
   std::span<const Ball> atoms_;

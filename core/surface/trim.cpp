@@ -18,6 +18,7 @@
 #include "core/math/vector_clones.h"
 #include "core/reduced_surface/contour/contour.h"
 #include "core/reduced_surface/reduced_surface.h"
+#include "core/surface/large_tables.h"
 
 namespace meniscus {
 namespace {
@@ -75,14 +76,13 @@ class ConvexTrimmer::Search {
     Contour contour;
   };
 
-  std::vector<Plane> planes_of(std::uint32_t convex, PlaneChoice choice, Worker& w) const {
+  // Appends them; returns how many there are.
+  std::uint32_t append_planes(std::uint32_t convex, PlaneChoice choice, Worker& w, std::vector<Plane>& planes) const {
     const std::uint32_t a = s_.convex[convex].atom;
     keep_bordering(a, w);
     if (choice == PlaneChoice::all) keep_covering(a, w);
-    std::vector<Plane> planes;
-    planes.reserve(w.kept.size());
     for (const std::uint32_t b : w.kept) planes.push_back(contact_plane(s_.atoms[a], s_.atoms[b], s_.probe_radius));
-    return planes;
+    return static_cast<std::uint32_t>(w.kept.size());
   }
 
  private:
@@ -215,26 +215,38 @@ ConvexTrimmer::~ConvexTrimmer() = default;
 
 std::vector<Plane> ConvexTrimmer::planes_of(std::uint32_t convex, PlaneChoice choice) const {
   Search::Worker worker;
-  return search_->planes_of(convex, choice, worker);
+  std::vector<Plane> planes;
+  search_->append_planes(convex, choice, worker, planes);
+  return planes;
 }
 
-std::vector<std::vector<Plane>> ConvexTrimmer::all_planes() const {
-  std::vector<std::vector<Plane>> planes(search_->patch_count());
+void ConvexTrimmer::list_all(Surface& surface) const {
+  constexpr std::uint32_t kChunk = 64;  // patches that share a list
+  const std::uint32_t count = search_->patch_count(), chunks = (count + kChunk - 1) / kChunk;
+  std::vector<std::vector<Plane>> planes(chunks);
   tbb::enumerable_thread_specific<Search::Worker> workers;
-  tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, search_->patch_count(), 32), [&](const auto& range) {
+  tbb::parallel_for(std::uint32_t{0}, chunks, [&](std::uint32_t chunk) {
     Search::Worker& worker = workers.local();
-    for (std::uint32_t c = range.begin(); c != range.end(); ++c)
-      planes[c] = search_->planes_of(c, PlaneChoice::all, worker);
+    for (std::uint32_t c = chunk * kChunk; c < std::min(count, (chunk + 1) * kChunk); ++c)
+      surface.convex[c].plane_count = search_->append_planes(c, PlaneChoice::all, worker, planes[chunk]);
   });
-  return planes;
+  std::size_t past = surface.planes.size();
+  for (ConvexPatch& patch : surface.convex) {
+    patch.first_plane = static_cast<std::uint32_t>(past);
+    past += patch.plane_count;
+  }
+  surface.planes.resize(past);
+  tbb::parallel_for(std::uint32_t{0}, chunks, [&](std::uint32_t chunk) {
+    std::ranges::copy(planes[chunk], surface.planes.begin() + surface.convex[chunk * kChunk].first_plane);
+  });
 }
 
 void list_concave_patches(Surface& surface, const FixedProbes& probes, const CuspParts& cusps) {
   surface.cuts = cusps.cuts;
-  surface.concave.resize(probes.count());
+  resize_large(surface.concave, probes.count());
   surface.contacts.reserve(probes.sides.size());
   for (const ProbeSide& side : probes.sides) surface.contacts.push_back(side.from);
-  surface.planes.resize(probes.sides.size() + surface.cuts.size());
+  resize_large(surface.planes, probes.sides.size() + surface.cuts.size());
   tbb::parallel_for(std::size_t{0}, probes.count(), [&](std::size_t n) {
     const glm::dvec3 s = probes.position[n];
     ConcavePatch& patch = surface.concave[n];
@@ -260,18 +272,6 @@ void list_concave_patches(Surface& surface, const FixedProbes& probes, const Cus
   });
 }
 
-void trim_convex_patches(Surface& surface, const ReducedSurface& rs) {
-  const std::vector<std::vector<Plane>> planes = ConvexTrimmer(surface, rs).all_planes();
-  std::size_t count = surface.planes.size();
-  for (std::size_t c = 0; c < planes.size(); ++c) {
-    surface.convex[c].first_plane = static_cast<std::uint32_t>(count);
-    surface.convex[c].plane_count = static_cast<std::uint32_t>(planes[c].size());
-    count += planes[c].size();
-  }
-  surface.planes.resize(count);
-  tbb::parallel_for(std::size_t{0}, planes.size(), [&](std::size_t c) {
-    std::ranges::copy(planes[c], surface.planes.begin() + surface.convex[c].first_plane);
-  });
-}
+void trim_convex_patches(Surface& surface, const ReducedSurface& rs) { ConvexTrimmer(surface, rs).list_all(surface); }
 
 }  // namespace meniscus

@@ -28,8 +28,8 @@ class ConvexTrimmer {
   /// Those of one convex patch. Several threads may ask.
   std::vector<Plane> planes_of(std::uint32_t convex, PlaneChoice choice) const;
 
-  /// Those of all convex patches, one list for each.
-  std::vector<std::vector<Plane>> all_planes() const;
+  /// Appends those of all convex patches to the planes of the surface that it was made for.
+  void list_all(Surface& surface) const;
 
  private:
   class Search;
