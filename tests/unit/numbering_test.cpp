@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Numbers and sets that many threads find together are those that one thread finds alone.
+// Numbers, sets and tables that many threads make together are those that one thread makes alone.
+#include <algorithm>
 #include <cstdint>
 #include <random>
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <sys/mman.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include "core/math/union_find.h"
+#include "core/surface/large_tables.h"
 #include "core/surface/numbering.h"
 
 namespace meniscus::testing {
@@ -47,6 +50,40 @@ TEST(SharedUnionFind, JoinsWhatOneThreadJoins) {
     });
     for (std::uint32_t n = 0; n < kCount; ++n) ASSERT_EQ(shared.find(n), alone.find(n)) << pair_count << " pairs";
   }
+}
+
+struct TableRow {
+  std::uint32_t number = 7;
+  double rest[3] = {};
+};
+
+// Short ones, and one that all threads ask for memory.
+TEST(LargeTables, HaveTheRowsOfAnyTable) {
+  for (const std::size_t size : {0u, 1u, 1000u, 1500000u}) {
+    std::vector<TableRow> table;
+    resize_large(table, size);
+    ASSERT_EQ(table.size(), size);
+    EXPECT_TRUE(std::ranges::all_of(table, [](const TableRow& row) { return row.number == 7 && row.rest[2] == 0; }));
+  }
+}
+
+// The system is asked for all whole pages between two that are partly somebody else's, and for no others.
+TEST(LargeTables, GetTheirMemoryBeforeItIsWritten) {
+  constexpr std::size_t kPage = 4096, kPages = 10000;
+  void* const memory = ::mmap(nullptr, kPages * kPage, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  ASSERT_NE(memory, MAP_FAILED);
+  char* const begin = static_cast<char*>(memory);
+  populate(begin + kPage / 2, (kPages - 3) * kPage);
+  std::vector<unsigned char> there(kPages);
+  ASSERT_EQ(::mincore(memory, kPages * kPage, there.data()), 0);
+  const auto count = std::ranges::count_if(there, [](unsigned char page) { return (page & 1) != 0; });
+#ifdef MADV_POPULATE_WRITE
+  const bool known = ::madvise(memory, kPage, MADV_POPULATE_WRITE) == 0;
+#else
+  const bool known = false;
+#endif
+  EXPECT_EQ(count, known ? static_cast<std::ptrdiff_t>(kPages - 4) : 0) << "pages";
+  ::munmap(memory, kPages * kPage);
 }
 
 }  // namespace
