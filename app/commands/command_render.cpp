@@ -183,6 +183,7 @@ void add_render(CLI::App& command) {
       "  meniscus render adk.psf --trajectory adk.dcd --frames all --superpose 'name CA' -o adk.mp4");
   auto state = std::make_shared<RenderCommand>();
   add_molecule_options(command, state->molecule);
+  add_opacity_option(command, state->molecule);
   add_picture_options(command, state->picture);
   add_frame_options(command, state->frames);
   add_run_camera_options(command, state->run_camera);

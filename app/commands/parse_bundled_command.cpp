@@ -107,6 +107,7 @@ void parse_shared_options(BundledCommand& result) {
   command.set_help_flag();
   command.allow_extras();
   add_molecule_options(command, result.molecule);
+  add_opacity_option(command, result.molecule);
   add_frame_options(command, result.frames);
   add_picture_options(command, result.picture);
   add_run_camera_options(command, result.camera_motion);

@@ -61,6 +61,7 @@ const Options& command_table() {
       {"--map", Value::text},
       {"--color-range", Value::text},
       {"--missing-color", Value::text},
+      {"--opacity", Value::text},
       {"--light", Value::text},
       {"--light-strength", Value::text},
       {"--ambient-occlusion", Value::text},

@@ -38,6 +38,17 @@ void parse_missing(const std::string& text, ColorScheme& color) {
   if (!color.missing) throw CLI::ValidationError("--missing-color", in_quotes(text) + " is not #rrggbb");
 }
 
+/// Errors name the option.
+OpacityRule opacity_rule(const std::string& text) {
+  try {
+    return parse_opacity_rule(text);
+  } catch (const SelectionError& error) {
+    throw SelectionError("--opacity: " + error.sentence(), error.picture());
+  } catch (const RequestError& error) {
+    throw CLI::ValidationError("--opacity", error.what());
+  }
+}
+
 /// What can only be said once all colour options are known, whatever their order.
 void check_together(const ColorScheme& color, const CLI::Option& scheme, const CLI::Option& file) {
   if (color.by == By::file && file.empty()) throw CLI::ValidationError("--color", "file needs --color-by-file FILE");
@@ -91,6 +102,19 @@ void add_color_options(CLI::App& command, MoleculeOptions& options) {
     if (scheme->empty() && !file->empty()) options.color.by = By::file;
     check_together(options.color, *scheme, *file);
   });
+}
+
+void add_opacity_option(CLI::App& command, MoleculeOptions& options) {
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--opacity",
+          [&options](const std::vector<std::string>& texts) {
+            for (const std::string& text : texts) options.color.opacities.push_back(opacity_rule(text));
+          },
+          "Of atoms, from 0 (hidden) to 1: EXPR=0.4, or a number alone for all of them; repeatable, the last counts")
+      ->allow_extra_args(false)
+      ->type_name("EXPR=N")
+      ->group("");
 }
 
 }  // namespace meniscus

@@ -57,7 +57,9 @@ inline constexpr const char* kKernelVariable = "MENISCUS_KERNEL_CACHE";
 void add_division_options(CLI::App& command, MoleculeOptions& options);
 /// How it is coloured (color_options.cpp): --color, --color-by-file, --map, --color-range, --missing-color.
 void add_color_options(CLI::App& command, MoleculeOptions& options);
-/// All of the above.
+/// How much of what lies behind it is seen through it (color_options.cpp): --opacity.
+void add_opacity_option(CLI::App& command, MoleculeOptions& options);
+/// All of the above but the last.
 void add_molecule_options(CLI::App& command, MoleculeOptions& options);
 /// -o/--output (required, described by `what`) and --force.
 void add_output_options(CLI::App& command, OutputOptions& options, const std::string& what);

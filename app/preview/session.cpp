@@ -83,6 +83,7 @@ Coloring PreviewSession::frame_coloring() const {
   for (const std::uint32_t a : shown_atoms()) {
     coloring.atom.push_back(coloring_.atom[a]);
     if (!coloring_.part.empty()) coloring.part.push_back(coloring_.part[a]);
+    if (!coloring_.opacity.empty()) coloring.opacity.push_back(coloring_.opacity[a]);
     if (!view_.hidden.empty()) coloring.hidden.push_back(view_.hidden[a]);
   }
   return coloring;

@@ -2,6 +2,7 @@
 // Colours atoms one by one, and numbers their chains.
 #include "core/color/color_atoms.h"
 
+#include <algorithm>
 #include <map>
 #include <numeric>
 #include <string>
@@ -46,6 +47,20 @@ std::vector<glm::vec3> colors_of(const Structure& structure, const ColorScheme& 
   return colors;
 }
 
+/// One an atom; empty without rules.
+std::vector<float> opacities_of(const Structure& structure, const std::vector<OpacityRule>& rules) {
+  std::vector<float> opacities;
+  for (const OpacityRule& rule : rules) {
+    opacities.resize(structure.atoms.size(), 1.0f);
+    if (!rule.atoms) std::ranges::fill(opacities, rule.opacity);
+    if (!rule.atoms) continue;
+    const std::vector<bool> meant = rule.atoms->evaluate(structure.atoms);
+    for (std::size_t a = 0; a < opacities.size(); ++a)
+      if (meant[a]) opacities[a] = rule.opacity;
+  }
+  return opacities;
+}
+
 }  // namespace
 
 Coloring color_atoms(const Structure& structure, const ColorScheme& scheme) {
@@ -74,6 +89,9 @@ Coloring color_object(const Structure& structure, std::span<const std::uint32_t>
     const std::vector<glm::vec3> colors = colors_of(structure, scheme);
     for (const std::uint32_t a : atom) coloring.atom.push_back(colors[a]);
   }
+  const std::vector<float> opacities = opacities_of(structure, scheme.opacities);
+  if (!opacities.empty())
+    for (const std::uint32_t a : atom) coloring.opacity.push_back(opacities[a]);
   return coloring;
 }
 

@@ -11,6 +11,10 @@
 #include <tuple>
 #include <vector>
 
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+#include "core/base/text.h"
 #include "core/color/named_colors.h"
 #include "core/text/parse_number.h"
 
@@ -74,6 +78,20 @@ std::string color_scheme_words() {
   std::string words;
   for (const ColorSchemeMetadata& scheme : kSchemes) words.append(scheme.word).append(", ");
   return words + "#rrggbb";
+}
+
+OpacityRule parse_opacity_rule(std::string_view text) {
+  const std::size_t equals = text.rfind('=');
+  const std::string_view number = equals == std::string_view::npos ? text : text.substr(equals + 1);
+  double opacity = 0.0;
+  if (!parse_number(number, opacity) || !(opacity >= 0.0 && opacity <= 1.0)) {
+    throw RequestError(fmt::format("{} is no opacity from 0 (hidden) to 1 (covers all), as in 'chain A=0.4' or 0.4",
+                                   in_quotes(number)));
+  }
+  OpacityRule rule;
+  rule.opacity = static_cast<float>(opacity);
+  if (equals != std::string_view::npos) rule.atoms = parse_selection(text.substr(0, equals));
+  return rule;
 }
 
 std::optional<std::array<double, 2>> parse_color_range(std::string_view text) {

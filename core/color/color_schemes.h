@@ -8,14 +8,22 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <glm/vec3.hpp>
 
 #include "core/structure/atom_numbers.h"
 #include "core/color/color_maps.h"
+#include "core/structure/selection/selection.h"
 #include "core/structure/structure.h"
 
 namespace meniscus {
+
+/// How much of what lies behind them some atoms cover.
+struct OpacityRule {
+  std::optional<Selection> atoms;  ///< nothing: all
+  float opacity = 1.0f;            ///< in [0, 1]
+};
 
 /// A wish such as "chain" or "#e69f00".
 struct ColorScheme {
@@ -40,6 +48,7 @@ struct ColorScheme {
   std::optional<std::array<double, 2>> range;  ///< numbers at both ends of the map; nothing: automatic (color_scale)
   std::optional<glm::vec3> missing;            ///< of atoms without a number; nothing: default_missing_color
   NumberFile file;                             ///< for By::file
+  std::vector<OpacityRule> opacities;          ///< of several that speak of an atom the last counts
 
   /// True for schemes that colour by a number.
   bool has_scale() const { return by >= By::bfactor; }
@@ -64,6 +73,10 @@ std::string color_scheme_words();
 
 /// Reads "#rrggbb"; nothing for any other text.
 std::optional<glm::vec3> parse_hex_color(std::string_view text);
+
+/// Reads "EXPR=0.4", split at the last "=", or "0.4" for all atoms. Throws RequestError for a number outside [0, 1],
+/// SelectionError.
+OpacityRule parse_opacity_rule(std::string_view text);
 
 /// Reads "lo:hi" with lo < hi and a finite difference; nothing for any other text.
 std::optional<std::array<double, 2>> parse_color_range(std::string_view text);

@@ -21,11 +21,19 @@ struct Coloring {
   /// not drawn, in pictures and in exports, whatever colours are by.
   std::vector<bool> hidden;
 
+  /// Empty: everything is opaque. Else one per Surface::atoms, in [0, 1]: how much of what lies behind the points of
+  /// this atom they cover. 0 is the same as hidden.
+  std::vector<float> opacity;
+
   /// Empty, or the part of each of Surface::atoms, such as its chain: pictures with silhouettes have lines where parts
   /// meet.
   std::vector<std::uint32_t> part;
 
-  bool shows(std::uint32_t a) const { return hidden.empty() || !hidden[a]; }
+  bool shows(std::uint32_t a) const { return (hidden.empty() || !hidden[a]) && opacity_of(a) > 0.0f; }
+  float opacity_of(std::uint32_t a) const { return opacity.empty() ? 1.0f : opacity[a]; }
+  /// Whether points of some atom are not drawn, or let through what lies behind them.
+  bool hides_some() const;
+  bool is_translucent() const;
 };
 
 }  // namespace meniscus

@@ -133,16 +133,24 @@ class Appender {
   std::uint32_t atom_, concave_, plane_, vertex_, border_, face_;
 };
 
+/// A column of atoms that stays empty where all have the usual value.
+template <typename Value>
+void append_column(std::vector<Value>& whole, const std::vector<Value>& part, std::size_t atoms_before,
+                   std::size_t atoms, Value usual) {
+  if (part.empty() && whole.empty()) return;
+  whole.resize(atoms_before, usual);
+  whole.insert(whole.end(), part.begin(), part.end());
+  whole.resize(atoms_before + atoms, usual);
+}
+
 void append_coloring(Coloring& whole, const Coloring& part, std::size_t atoms_before, std::size_t atoms) {
   whole.atom.insert(whole.atom.end(), part.atom.begin(), part.atom.end());
   if (!part.part.empty()) {  // copies and objects are parts of their own
     const std::uint32_t before = whole.part.empty() ? 0 : *std::ranges::max_element(whole.part) + 1;
     std::ranges::transform(part.part, std::back_inserter(whole.part), [&](std::uint32_t n) { return before + n; });
   }
-  if (part.hidden.empty() && whole.hidden.empty()) return;
-  whole.hidden.resize(atoms_before, false);
-  whole.hidden.insert(whole.hidden.end(), part.hidden.begin(), part.hidden.end());
-  whole.hidden.resize(atoms_before + atoms, false);
+  append_column(whole.hidden, part.hidden, atoms_before, atoms, false);
+  append_column(whole.opacity, part.opacity, atoms_before, atoms, 1.0f);
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ std::vector<glm::vec4> linear_colors(const Coloring& coloring) {
   std::vector<glm::vec4> colors;
   colors.reserve(atom_count + 3);
   for (std::uint32_t a = 0; a < atom_count; ++a)
-    colors.emplace_back(linear_from_srgb(coloring.atom[a]), coloring.shows(a) ? 1.0f : 0.0f);
+    colors.emplace_back(linear_from_srgb(coloring.atom[a]), coloring.shows(a) ? coloring.opacity_of(a) : 0.0f);
   if (coloring.kind)
     for (const glm::vec3& color : *coloring.kind) colors.emplace_back(linear_from_srgb(color), 1.0f);
   return colors;
@@ -22,7 +22,7 @@ std::vector<glm::vec4> linear_colors(const Coloring& coloring) {
 void upload_coloring(const Coloring& coloring, GpuScene& scene) {
   scene.atom_count = static_cast<std::uint32_t>(coloring.atom.size());
   scene.color_by_kind = coloring.kind.has_value();
-  scene.some_hidden = std::ranges::find(coloring.hidden, true) != coloring.hidden.end();
+  scene.some_hidden = coloring.hides_some();
   scene.colors.upload(linear_colors(coloring));
   scene.parts.upload(coloring.part);
 }

@@ -56,6 +56,14 @@ TEST_F(ColorCommand, NumbersFromAFileAreThoseOfTheAtoms) {
   EXPECT_NE(picture({"--color", "bfactor", "--map", "magma"}), by_b);
 }
 
+TEST_F(ColorCommand, OpacityZeroHidesAsShowDoes) {
+  const std::string part = picture({"--show", "not chain B"});
+  EXPECT_EQ(picture({"--opacity", "chain B=0"}), part);
+  EXPECT_EQ(picture({"--opacity", "0", "--opacity", "not chain B=1"}), part);
+  EXPECT_EQ(picture({"--opacity", "chain B=0", "--by", "chain"}), picture({"--show", "not chain B", "--by", "chain"}));
+  EXPECT_EQ(picture({"--opacity", "chain B=0", "--opacity", "1"}), picture({}));
+}
+
 TEST_F(ColorCommand, WhatCannotBeIsRefusedWithItsReason) {
   const std::string five = folder_.file("five", "1 2 3 4 5"), words = folder_.file("words", "1\n2\nred\n"),
                     gone = folder_.file("gone", "nan ? -");
@@ -81,6 +89,8 @@ TEST_F(ColorCommand, WhatCannotBeIsRefusedWithItsReason) {
       {{"--color-by-file", gone}, 3, "all numbers are missing"},
       {{"--color-by-file", path("nowhere")}, 3, "cannot be read"},
       {{"--color", "#102030", "--legend"}, 2, "nothing to explain"},
+      {{"--opacity", "chain A=1.5"}, 2, "'1.5' is no opacity from 0"},
+      {{"--opacity", "chian A=0.5"}, 2, "--opacity: "},
   };
   for (const auto& c : cases) {
     const ProgramResult result = render("refused.png", c.arguments);

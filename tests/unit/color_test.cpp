@@ -131,6 +131,30 @@ TEST(Colors, BFactorsSpanTheMapAndMissingOnesAreGrey) {
   EXPECT_EQ(ranged.atom[3], glm::vec3(0.0f, 1.0f, 0.0f));
 }
 
+TEST(Colors, OpacitiesGoToTheAtomsMeantAndTheLastCounts) {
+  EXPECT_TRUE(colored("chain").opacity.empty());
+  ColorScheme wish = scheme("chain");
+  for (const char* rule : {"0.5", "chain A=0.25", "resname LYS or b >= 30=1", "index 3=0"})
+    wish.opacities.push_back(parse_opacity_rule(rule));
+  const Coloring coloring = color_atoms(four_atoms(), wish);
+  EXPECT_EQ(coloring.opacity, (std::vector<float>{0.25f, 1.0f, 1.0f, 0.0f}));
+  EXPECT_TRUE(coloring.shows(0) && coloring.shows(1) && !coloring.shows(3));
+  EXPECT_TRUE(coloring.hides_some() && coloring.is_translucent());
+  const std::vector<std::uint32_t> last_first{3, 0};
+  EXPECT_EQ(color_object(four_atoms(), last_first, wish, 0).opacity, (std::vector<float>{0.0f, 0.25f}));
+  wish.opacities = {parse_opacity_rule("chain B=0.5"), parse_opacity_rule("1")};
+  const Coloring opaque = color_atoms(four_atoms(), wish);
+  EXPECT_FALSE(opaque.hides_some() || opaque.is_translucent());
+}
+
+TEST(Colors, OpacitiesOutsideZeroToOneAreRefused) {
+  for (const char* bad : {"", "=", "1.1", "chain A=-0.1", "chain A=nan", "chain A=0.5x", "chain A"})
+    EXPECT_NE(complaint([&] { parse_opacity_rule(bad); }).find("is no opacity from 0 (hidden) to 1"), std::string::npos)
+        << bad;
+  EXPECT_THROW(parse_opacity_rule("=0.5"), SelectionError);
+  EXPECT_THROW(parse_opacity_rule("b>=0.5"), SelectionError);
+}
+
 TEST(Colors, WithoutAnyNumberTheReasonIsNamed) {
   Structure none = four_atoms();
   for (Atom& atom : none.atoms) {

@@ -120,8 +120,10 @@ TEST(Combine, MergedObjectsKeepColorsAtomsAndWhatIsHidden) {
   objects[0].copies.push_back(some_motion());
   objects[1].copies = {{glm::dmat3(1.0), {0.0, 50.0, 0.0}}};
   objects[1].coloring.hidden = {false, true, false};
+  objects[0].coloring.opacity = {0.5f, 1.0f};
   const std::vector<Ball> balls = placed_balls(objects);
   const SurfaceObject whole = merged(objects);
+  EXPECT_EQ(whole.coloring.opacity, (std::vector<float>{0.5f, 1.0f, 0.5f, 1.0f, 1.0f, 1.0f, 1.0f}));
   EXPECT_EQ(whole.atom, (std::vector<std::uint32_t>{0, 1, 0, 1, 2, 3, 4}));
   EXPECT_EQ(whole.coloring.hidden, (std::vector<bool>{false, false, false, false, false, true, false}));
   EXPECT_EQ(whole.coloring.atom[3], glm::vec3(1, 0, 0));

@@ -85,8 +85,7 @@ void CpuRenderer::pack(const Surface& surface, const Coloring& coloring, const C
   scene_.placement = place_atoms(surface.atoms, surface.probe_radius, frame_);
   scene_.colors = linear_colors(coloring);
   scene_.parts.assign(coloring.part.begin(), coloring.part.end());
-  scene_.connect(settings.look, coloring.kind.has_value(),
-                 std::ranges::find(coloring.hidden, true) != coloring.hidden.end());
+  scene_.connect(settings.look, coloring.kind.has_value(), coloring.hides_some());
 }
 
 Framebuffer CpuRenderer::render(const Surface& surface, const Coloring& coloring, const Camera& camera,

@@ -24,7 +24,7 @@ namespace meniscus {
 struct LaneScene {
   const ray_cast::Primitive* primitives = nullptr;
   const glm::vec4* rows = nullptr;
-  const glm::vec4* colors = nullptr;  ///< linear, alpha 0: hidden; of atoms, then of kinds
+  const glm::vec4* colors = nullptr;  ///< linear, alpha: opacity, 0 if hidden; of atoms, then of kinds
   const float* parts = nullptr;       ///< of atoms, or nullptr
   bool some_hidden = false;
   kernel::RayCastParameters params{};

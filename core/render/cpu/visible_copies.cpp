@@ -75,7 +75,7 @@ void VisibleCopies::add_copies(std::uint32_t object, std::uint32_t& first_atom, 
   const Surface& surface = objects_[object].surface;
   const Coloring& coloring = objects_[object].coloring;
   colors_.push_back(linear_colors(coloring));
-  some_hidden_ = some_hidden_ || std::ranges::find(coloring.hidden, true) != coloring.hidden.end();
+  some_hidden_ = some_hidden_ || coloring.hides_some();
   const geometry::PatchBound own = bound_of(surface);
   const std::uint32_t part_count = coloring.part.empty() ? 0 : *std::ranges::max_element(coloring.part) + 1;
   for (std::uint32_t n = 0; n < objects_[object].copies.size(); ++n) {
