@@ -21,7 +21,8 @@ void print_row(std::string_view word, std::string_view description, std::string_
 void list_colors() {
   fmt::print(std::cout, "--color SCHEME\n");
   for (const ColorSchemeMetadata& scheme : color_schemes()) print_row(scheme.word, scheme.description, scheme.source);
-  print_row("#rrggbb", "one colour for all", "");
+  print_row("red, #rrggbb", "one colour for all: a name of CSS, #rrggbb or #rgb", "CSS Color Module Level 4, W3C");
+  print_row("EXPR=COLOR", "any of these but kind and component, for the atoms of an expression", "");
   fmt::print(std::cout, "\n--map MAP, for numbers\n");
   for (const ColorMapMetadata& map : color_maps()) print_row(map.name, map.source, "");
   fmt::print(

@@ -95,7 +95,7 @@ Shown read_inputs(PreviewCommand& command) {
   if (!shown.structure.instances.empty())
     throw UsageError("--instances is for render and export; the preview draws atoms");
   ColorScheme& color = command.molecule.color;
-  if (color.by == ColorScheme::By::file) color.file = read_number_file(command.molecule.number_file);
+  if (color.uses_file()) color.set_numbers(read_number_file(command.molecule.number_file));
   return shown;
 }
 

@@ -119,7 +119,7 @@ void run(const RenderCommand& command) {
   } else if (command.stats) {
     throw UsageError("--stats tells the stages of a view; add --extent");
   }
-  if (command.legend && command.molecule.color.by == ColorScheme::By::fixed)
+  if (command.legend && command.molecule.color.by == ColorScheme::By::fixed && command.molecule.color.rules.empty())
     throw UsageError("--legend has nothing to explain where all is of one colour; choose another --color");
   // Whether the outputs can be written is known before the work begins; these vanish again.
   OutputFile(command.output.path, command.output.existing());

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Declares the options that say how a surface is coloured.
+#include <algorithm>
 #include <optional>
+
+#include <fmt/format.h>
 
 #include "app/options/molecule_options.h"
 #include "app/options/value_words.h"
+#include "core/base/error.h"
 #include "core/base/text.h"
 
 namespace meniscus {
@@ -11,11 +15,30 @@ namespace {
 
 using By = ColorScheme::By;
 
-void parse_color(const std::string& text, ColorScheme& color) {
-  const std::optional<ColorScheme> scheme = parse_color_scheme(text);
-  if (!scheme) throw CLI::ValidationError("--color", in_quotes(text) + " is none of " + color_scheme_words());
-  color.by = scheme->by;
-  color.fixed = scheme->fixed;
+/// Runs what throws SelectionError or RequestError, so that both name the option.
+template <typename Parse>
+auto naming(const char* option, const Parse& parse) {
+  try {
+    return parse();
+  } catch (const SelectionError& error) {
+    throw SelectionError(fmt::format("{}: {}", option, error.sentence()), error.picture());
+  } catch (const RequestError& error) {
+    throw CLI::ValidationError(option, error.what());
+  }
+}
+
+/// A scheme for all, or a rule for some.
+void parse_colors(const std::vector<std::string>& texts, ColorScheme& color) {
+  for (const std::string& text : texts) {
+    if (text.find('=') != std::string::npos) {
+      color.rules.push_back(naming("--color", [&] { return parse_color_rule(text); }));
+      continue;
+    }
+    const std::optional<ColorScheme> scheme = parse_color_scheme(text);
+    if (!scheme) throw CLI::ValidationError("--color", in_quotes(text) + " is none of " + color_scheme_words());
+    color.by = scheme->by;
+    color.fixed = scheme->fixed;
+  }
 }
 
 void parse_map(const std::string& text, ColorScheme& color) {
@@ -34,27 +57,26 @@ void parse_range(const std::string& text, ColorScheme& color) {
 }
 
 void parse_missing(const std::string& text, ColorScheme& color) {
-  color.missing = parse_hex_color(text);
-  if (!color.missing) throw CLI::ValidationError("--missing-color", in_quotes(text) + " is not #rrggbb");
+  color.missing = parse_color(text);
+  if (!color.missing)
+    throw CLI::ValidationError("--missing-color",
+                               in_quotes(text) + " is neither a colour's name such as red nor #rrggbb");
 }
 
-/// Errors name the option.
-OpacityRule opacity_rule(const std::string& text) {
-  try {
-    return parse_opacity_rule(text);
-  } catch (const SelectionError& error) {
-    throw SelectionError("--opacity: " + error.sentence(), error.picture());
-  } catch (const RequestError& error) {
-    throw CLI::ValidationError("--opacity", error.what());
-  }
+/// Whether some --color is for all atoms.
+bool has_base(const CLI::Option& scheme) {
+  return std::ranges::any_of(scheme.results(),
+                             [](const std::string& text) { return text.find('=') == std::string::npos; });
 }
 
 /// What can only be said once all colour options are known, whatever their order.
 void check_together(const ColorScheme& color, const CLI::Option& scheme, const CLI::Option& file) {
-  if (color.by == By::file && file.empty()) throw CLI::ValidationError("--color", "file needs --color-by-file FILE");
-  if (!file.empty() && !scheme.empty() && color.by != By::file)
+  if (color.uses_file() && file.empty()) throw CLI::ValidationError("--color", "file needs --color-by-file FILE");
+  if (!file.empty() && !scheme.empty() && !color.uses_file())
     throw CLI::ValidationError("--color-by-file", "is itself a --color; leave the other one out");
-  if (color.has_scale()) return;
+  if (color.by == By::kind && !color.rules.empty())
+    throw CLI::ValidationError("--color", "kind colours patches, EXPR=COLOR atoms; choose another scheme beside it");
+  if (color.uses_scale()) return;
   if (color.map || color.range || color.missing) {
     throw CLI::ValidationError(color.map     ? "--map"
                                : color.range ? "--color-range"
@@ -78,11 +100,15 @@ void add_color_options(CLI::App& command, MoleculeOptions& options) {
   for (const ColorSchemeMetadata& known : color_schemes()) schemes.emplace_back(known.word);
   for (const ColorMapMetadata& known : color_maps()) maps.emplace_back(known.name);
   CLI::Option* const scheme =
-      add("--color", parse_color,
-          "element (default), chain, copy (of an assembly), residue (type), kind (of patch), component, #rrggbb; or by "
-          "number: bfactor, occupancy, charge, hydrophobicity (Kyte & Doolittle 1982), index; meniscus colors explains "
-          "them",
-          "SCHEME")
+      command
+          .add_option_function<std::vector<std::string>>(
+              "--color", [&color](const std::vector<std::string>& texts) { parse_colors(texts, color); },
+              "element (default), chain, copy (of an assembly), residue (type), kind (of patch), component, a colour "
+              "(red, #rrggbb); or by number: bfactor, occupancy, charge, hydrophobicity (Kyte & Doolittle 1982), "
+              "index; meniscus colors explains them. Or EXPR=COLOR for some atoms, as in 'ligand=orange'; repeatable, "
+              "the last counts")
+          ->allow_extra_args(false)
+          ->type_name("SCHEME")
           ->check(proposes(schemes));
   CLI::Option* const file = command.add_option(
       "--color-by-file", options.number_file,
@@ -97,9 +123,11 @@ void add_color_options(CLI::App& command, MoleculeOptions& options) {
       "Numbers at the ends of the map, or auto (default: smallest and largest; charge symmetric about 0; "
       "hydrophobicity -4.5:4.5)",
       "LO:HI");
-  add("--missing-color", parse_missing, "Of atoms without a number [#808080; with cividis #cc79a7]", "#rrggbb");
+  add("--missing-color", parse_missing, "Of atoms without a number [#808080; with cividis #cc79a7]", "COLOR");
   command.parse_complete_callback([&options, scheme, file] {
-    if (scheme->empty() && !file->empty()) options.color.by = By::file;
+    // Numbers that no --color speaks of are for all atoms.
+    if (!file->empty() && !has_base(*scheme) && !options.color.uses_file()) options.color.by = By::file;
+    options.color.share_scale();
     check_together(options.color, *scheme, *file);
   });
 }
@@ -109,7 +137,8 @@ void add_opacity_option(CLI::App& command, MoleculeOptions& options) {
       .add_option_function<std::vector<std::string>>(
           "--opacity",
           [&options](const std::vector<std::string>& texts) {
-            for (const std::string& text : texts) options.color.opacities.push_back(opacity_rule(text));
+            for (const std::string& text : texts)
+              options.color.opacities.push_back(naming("--opacity", [&] { return parse_opacity_rule(text); }));
           },
           "Of atoms, from 0 (hidden) to 1: EXPR=0.4, or a number alone for all of them; repeatable, the last counts")
       ->allow_extra_args(false)

@@ -25,21 +25,46 @@ using Json = nlohmann::json;
 constexpr double kLongestDrag = 100.0;  // heights of the picture
 constexpr int kLongestSide = 8192;      // pixels; a GL texture holds it on all hardware of GL 4.5
 constexpr int kMostSamples = 64;
+constexpr std::size_t kMostRules = 100;
 
 glm::dvec2 drag_of(const CommandReader& command) {
   return {command.number("dx", -kLongestDrag, kLongestDrag), command.number("dy", -kLongestDrag, kLongestDrag)};
 }
 
-ColorScheme color_of(const CommandReader& command, const NumberFile& file) {
+/// "rules": a list of texts, as --color reads them.
+std::vector<ColorRule> rules_of(const CommandReader& command) {
+  std::vector<ColorRule> rules;
+  const Json& texts = command.value("rules");
+  if (!texts.is_array() || texts.size() > kMostRules)
+    throw RequestError(
+        fmt::format("color: \"rules\" is a list of at most {} texts such as \"ligand=red\"", kMostRules));
+  for (const Json& text : texts) {
+    if (!text.is_string()) throw RequestError("color: each of \"rules\" is a text such as \"ligand=red\"");
+    try {
+      rules.push_back(parse_color_rule(text.get<std::string>()));
+    } catch (const RequestError& error) {
+      throw RequestError(std::string("color: ") + error.what());
+    }
+  }
+  return rules;
+}
+
+/// Rules and opacities of before stay unless the command has others.
+ColorScheme color_of(const CommandReader& command, const ColorScheme& before) {
+  const NumberFile& file = before.file;
   const std::string word = command.text("scheme");
   const std::optional<ColorScheme> scheme = parse_color_scheme(word);
   if (!scheme) throw RequestError("color: " + in_quotes(word) + " is none of " + color_scheme_words());
   ColorScheme color = *scheme;
   if (color.by == ColorScheme::By::component)
     throw RequestError("color: parts of the surface have no atoms of their own; use meniscus render --color component");
-  if (color.by == ColorScheme::By::file && file.numbers.empty())
+  color.rules = command.has("rules") ? rules_of(command) : before.rules;
+  if (color.by == ColorScheme::By::kind && !color.rules.empty())
+    throw RequestError("color: \"kind\" colours patches, rules colour atoms; send \"rules\": [] with it");
+  color.opacities = before.opacities;
+  if (color.uses_file() && file.numbers.empty())
     throw RequestError("color: \"file\" needs numbers; begin the preview with --color-by-file FILE");
-  color.file = file;
+  color.set_numbers(file);
   if (!command.has("map")) return color;
   color.map = parse_color_map(command.text("map"));
   if (!color.map) throw RequestError("color: " + in_quotes(command.text("map")) + " is no map; see meniscus colors");
@@ -69,7 +94,7 @@ const std::vector<PreviewSession::Command>& PreviewSession::commands() {
       {"camera", {"camera"}, &S::set_camera, true},
       {"projection", {"projection"}, &S::set_projection, true},
       {"probe", {"radius"}, &S::set_probe, true},
-      {"color", {"scheme", "map"}, &S::set_color, true},
+      {"color", {"scheme", "map", "rules"}, &S::set_color, true},
       {"patch_kinds", {"on"}, &S::set_patch_kinds, true},
       {"look", {look.begin(), look.end()}, &S::set_look, true},
       {"frame", {"index"}, &S::set_frame, true},
@@ -179,7 +204,7 @@ Json PreviewSession::set_probe(const CommandReader& command) {
 }
 
 Json PreviewSession::set_color(const CommandReader& command) {
-  const ColorScheme color = color_of(command, view_.color.file);
+  const ColorScheme color = color_of(command, view_.color);
   coloring_ = color_atoms(structure_, color);
   view_.color = color;
   renderer_->set_coloring(frame_coloring());

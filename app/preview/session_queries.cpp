@@ -114,6 +114,8 @@ Json PreviewSession::choices(const CommandReader&) {
 Json PreviewSession::state(const CommandReader&) {
   Json color{{"scheme", scheme_word(view_.color)}};
   if (view_.color.map) color["map"] = map_name(*view_.color.map);
+  for (const ColorRule& rule : view_.color.rules)
+    color["rules"].push_back(escaped(rule.atoms.text()) + "=" + scheme_word(rule.paint));
   return {{"file", escaped(structure_.file)},
           {"atoms", balls_.size()},
           {"revision", revision_},

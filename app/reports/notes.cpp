@@ -20,6 +20,9 @@ namespace {
 void tell_structure(const MoleculeOptions& options, const Structure& structure) {
   say(options, fmt::format("{}: {}", structure.file, structure.report.sentence()));
   say_warnings(options, structure);
+  for (const std::string& rule : rules_without_atoms(structure, options.color))
+    say(options, fmt::format("warning: {}: no atom used is meant by {}; chains and names are case-sensitive",
+                             structure.file, in_quotes(rule)));
 }
 
 Molecule built_and_told(const MoleculeOptions& options, Structure structure) {

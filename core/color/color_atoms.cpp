@@ -3,6 +3,7 @@
 #include "core/color/color_atoms.h"
 
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <numeric>
 #include <string>
@@ -37,7 +38,9 @@ std::vector<glm::vec3> colors_of(const Structure& structure, const ColorScheme& 
     return colors;
   }
   for (const Atom& atom : structure.atoms) {
-    if (scheme.by == By::copy)
+    if (scheme.by == By::fixed)
+      colors.push_back(scheme.fixed);
+    else if (scheme.by == By::copy)
       colors.push_back(categorical_color(atom.copy));
     else if (scheme.by == By::element)
       colors.push_back(element_color(atom.element));
@@ -45,6 +48,18 @@ std::vector<glm::vec3> colors_of(const Structure& structure, const ColorScheme& 
       colors.push_back(color_from_hex(residue_group(atom.residue_name).color));
   }
   return colors;
+}
+
+/// Gives the atoms of an object what rules say of them.
+void paint(const Structure& structure, std::span<const std::uint32_t> atom, const std::vector<ColorRule>& rules,
+           Coloring& coloring) {
+  for (const ColorRule& rule : rules) {
+    const std::vector<bool> meant = rule.atoms.evaluate(structure.atoms);
+    if (std::ranges::none_of(meant, std::identity())) continue;
+    const std::vector<glm::vec3> colors = colors_of(structure, rule.paint);
+    for (std::size_t n = 0; n < atom.size(); ++n)
+      if (meant[atom[n]]) coloring.atom[n] = colors[atom[n]];
+  }
 }
 
 /// One an atom; empty without rules.
@@ -89,6 +104,7 @@ Coloring color_object(const Structure& structure, std::span<const std::uint32_t>
     const std::vector<glm::vec3> colors = colors_of(structure, scheme);
     for (const std::uint32_t a : atom) coloring.atom.push_back(colors[a]);
   }
+  paint(structure, atom, scheme.rules, coloring);
   const std::vector<float> opacities = opacities_of(structure, scheme.opacities);
   if (!opacities.empty())
     for (const std::uint32_t a : atom) coloring.opacity.push_back(opacities[a]);

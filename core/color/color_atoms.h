@@ -12,7 +12,8 @@
 
 namespace meniscus {
 
-/// One colour an atom of the structure, for a surface that is one object.
+/// One colour an atom of the structure, for a surface that is one object; rules over the scheme, but where that
+/// colours by kind of patch.
 /// Throws InputError when colours are by a number and no atom has one, when a file's numbers are not as many as there
 /// are atoms, and when the categorical map has fewer colours than there are different numbers.
 Coloring color_atoms(const Structure& structure, const ColorScheme& scheme);

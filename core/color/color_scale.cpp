@@ -196,6 +196,8 @@ ColorKey color_key(const Structure& structure, const ColorScheme& scheme, std::s
                     color_from_hex(residue_group(atom.residue_name).color));
     }
   }
+  for (const ColorRule& rule : scheme.rules)
+    if (rule.paint.by == By::fixed) key.classes.push_back({rule.atoms.text(), rule.paint.fixed});
   return key;
 }
 

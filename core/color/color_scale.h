@@ -42,11 +42,13 @@ struct ColorClass {
   glm::vec3 color{0.0f};
 };
 
-/// What a legend says: either a scale, or classes, or neither for one fixed colour.
+/// What a legend says: a scale, or classes, or both where rules stand beside a scale, or neither for one fixed colour.
 struct ColorKey {
   std::string title;  ///< "chain", "element", ...; the scale has its own
   std::optional<ColorScale> scale;
-  std::vector<ColorClass> classes;  ///< those that occur, in order of first appearance
+  /// Those that occur, in order of first appearance; then those of rules that paint atoms in one colour, by their
+  /// expressions.
+  std::vector<ColorClass> classes;
 };
 
 /// object_names: for ColorScheme::By::component. Throws as color_atoms does.

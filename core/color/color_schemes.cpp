@@ -3,7 +3,8 @@
 #include "core/color/color_schemes.h"
 
 #include <algorithm>
-#include <charconv>
+#include <cmath>
+#include <functional>
 #include <iterator>
 #include <map>
 #include <numeric>
@@ -52,17 +53,32 @@ std::string chain_of_file(const Atom& atom) {
 
 std::span<const ColorSchemeMetadata> color_schemes() { return kSchemes; }
 
-std::optional<glm::vec3> parse_hex_color(std::string_view text) {
-  std::uint32_t hex = 0;
-  if (text.size() != 7 || text[0] != '#') return std::nullopt;
-  const auto [end, error] = std::from_chars(text.data() + 1, text.data() + 7, hex, 16);
-  if (error != std::errc() || end != text.data() + 7) return std::nullopt;
-  return color_from_hex(hex);
+bool ColorScheme::uses_scale() const {
+  return has_scale() || std::ranges::any_of(rules, [](const ColorRule& rule) { return rule.paint.has_scale(); });
+}
+
+bool ColorScheme::uses_file() const {
+  return by == By::file || std::ranges::any_of(rules, [](const ColorRule& rule) { return rule.paint.by == By::file; });
+}
+
+void ColorScheme::set_numbers(const NumberFile& numbers) {
+  file = numbers;
+  for (ColorRule& rule : rules)
+    if (rule.paint.by == By::file) rule.paint.file = numbers;
+}
+
+void ColorScheme::share_scale() {
+  for (ColorRule& rule : rules) {
+    if (!rule.paint.has_scale()) continue;
+    rule.paint.map = map;
+    rule.paint.range = range;
+    rule.paint.missing = missing;
+  }
 }
 
 std::optional<ColorScheme> parse_color_scheme(std::string_view text) {
   ColorScheme scheme;
-  if (const std::optional<glm::vec3> color = parse_hex_color(text)) {
+  if (const std::optional<glm::vec3> color = parse_color(text)) {
     scheme.by = By::fixed;
     scheme.fixed = *color;
     return scheme;
@@ -77,7 +93,30 @@ std::optional<ColorScheme> parse_color_scheme(std::string_view text) {
 std::string color_scheme_words() {
   std::string words;
   for (const ColorSchemeMetadata& scheme : kSchemes) words.append(scheme.word).append(", ");
-  return words + "#rrggbb";
+  return words + "a name such as red, or #rrggbb";
+}
+
+ColorRule parse_color_rule(std::string_view text) {
+  const std::size_t equals = text.rfind('=');
+  const std::string_view word = equals == std::string_view::npos ? text : text.substr(equals + 1);
+  std::optional<ColorScheme> paint = parse_color_scheme(word);
+  if (equals == std::string_view::npos || !paint)
+    throw RequestError(fmt::format("{} is none of {}", in_quotes(word), color_scheme_words()));
+  if (paint->by == By::kind || paint->by == By::component)
+    throw RequestError(
+        fmt::format("{} is nothing that single atoms have; it colours the whole surface", in_quotes(word)));
+  return {parse_selection(text.substr(0, equals)), *std::move(paint)};
+}
+
+std::vector<std::string> rules_without_atoms(const Structure& structure, const ColorScheme& scheme) {
+  std::vector<std::string> texts;
+  const auto look = [&](const Selection& atoms) {
+    if (std::ranges::none_of(atoms.evaluate(structure.atoms), std::identity())) texts.push_back(atoms.text());
+  };
+  for (const ColorRule& rule : scheme.rules) look(rule.atoms);
+  for (const OpacityRule& rule : scheme.opacities)
+    if (rule.atoms) look(*rule.atoms);
+  return texts;
 }
 
 OpacityRule parse_opacity_rule(std::string_view text) {

@@ -14,6 +14,7 @@
 
 #include "core/structure/atom_numbers.h"
 #include "core/color/color_maps.h"
+#include "core/color/css_colors.h"
 #include "core/structure/selection/selection.h"
 #include "core/structure/structure.h"
 
@@ -25,7 +26,9 @@ struct OpacityRule {
   float opacity = 1.0f;            ///< in [0, 1]
 };
 
-/// A wish such as "chain" or "#e69f00".
+struct ColorRule;
+
+/// A wish such as "chain" or "#e69f00", and what some atoms get instead.
 struct ColorScheme {
   enum class By : std::uint8_t {
     element,
@@ -48,10 +51,25 @@ struct ColorScheme {
   std::optional<std::array<double, 2>> range;  ///< numbers at both ends of the map; nothing: automatic (color_scale)
   std::optional<glm::vec3> missing;            ///< of atoms without a number; nothing: default_missing_color
   NumberFile file;                             ///< for By::file
-  std::vector<OpacityRule> opacities;          ///< of several that speak of an atom the last counts
+  std::vector<ColorRule> rules;                ///< over all this; of several that speak of an atom the last counts
+  std::vector<OpacityRule> opacities;          ///< and so here
 
   /// True for schemes that colour by a number.
   bool has_scale() const { return by >= By::bfactor; }
+  /// The same, or that some rule colours by a number.
+  bool uses_scale() const;
+  /// Whether this or a rule colours by the numbers of a file.
+  bool uses_file() const;
+  /// Numbers, for this and for all rules.
+  void set_numbers(const NumberFile& numbers);
+  /// Of what rules colour by a number this map, range and colour of missing ones hold, too.
+  void share_scale();
+};
+
+/// The colours of some atoms: of a scheme that neither has rules nor needs more than atoms (no patches, no parts).
+struct ColorRule {
+  Selection atoms;
+  ColorScheme paint;
 };
 
 /// What a scheme is, in words users can look up.
@@ -65,14 +83,18 @@ struct ColorSchemeMetadata {
 /// All schemes but the fixed colour, in the order the help names them.
 std::span<const ColorSchemeMetadata> color_schemes();
 
-/// Reads "element", ..., "file", "atom" (the same as "index") or "#rrggbb"; nothing for any other text.
+/// Reads "element", ..., "file", "atom" (the same as "index") or what parse_color reads; nothing for any other text.
 std::optional<ColorScheme> parse_color_scheme(std::string_view text);
 
-/// All words parse_color_scheme reads, for messages: "element, chain, ..., #rrggbb".
+/// All words parse_color_scheme reads, for messages: "element, chain, ..., a name such as red, or #rrggbb".
 std::string color_scheme_words();
 
-/// Reads "#rrggbb"; nothing for any other text.
-std::optional<glm::vec3> parse_hex_color(std::string_view text);
+/// Reads "EXPR=red": split at the last "=", and what stands behind it is read as parse_color_scheme does. Throws
+/// RequestError for what is no colour or cannot be a rule's, SelectionError.
+ColorRule parse_color_rule(std::string_view text);
+
+/// The rules' expressions that mean none of these atoms, so that someone may be told.
+std::vector<std::string> rules_without_atoms(const Structure& structure, const ColorScheme& scheme);
 
 /// Reads "EXPR=0.4", split at the last "=", or "0.4" for all atoms. Throws RequestError for a number outside [0, 1],
 /// SelectionError.

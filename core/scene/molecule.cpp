@@ -35,7 +35,7 @@ Structure read_molecule(const MoleculeRequest& request) {
 
 ColorScheme color_of(const MoleculeRequest& request) {
   ColorScheme color = request.color;
-  if (color.by == ColorScheme::By::file) color.file = read_number_file(request.number_file);
+  if (color.uses_file()) color.set_numbers(read_number_file(request.number_file));
   return color;
 }
 
@@ -58,6 +58,8 @@ Molecule MoleculeBuilder::build(Structure structure) {
   molecule.color = color_;
   // What the request ask for that the molecule has not is said before the surfaces are computed.
   if (color_.has_scale()) color_scale(molecule.structure, color_);
+  for (const ColorRule& rule : color_.rules)
+    if (rule.paint.has_scale()) color_scale(molecule.structure, rule.paint);
   std::vector<bool> hidden;
   if (request_.show) hidden = hidden_atoms(*request_.show, molecule.structure);
   computer_.restart_clock();

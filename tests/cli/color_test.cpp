@@ -56,6 +56,23 @@ TEST_F(ColorCommand, NumbersFromAFileAreThoseOfTheAtoms) {
   EXPECT_NE(picture({"--color", "bfactor", "--map", "magma"}), by_b);
 }
 
+TEST_F(ColorCommand, RulesPaintOverTheSchemeWhateverTheOrder) {
+  const std::string painted = picture({"--color", "chain", "--color", "chain B=red"});
+  EXPECT_NE(painted, picture({"--color", "chain"}));
+  EXPECT_EQ(picture({"--color", "chain B=#ff0000", "--color", "chain"}), painted);
+  EXPECT_EQ(picture({"--color", "element", "--color", "chain", "--color", "chain B=blue", "--color", "chain B=red"}),
+            painted);
+  EXPECT_EQ(picture({"--color", "grey", "--color", "chain A=red", "--color", "all=bfactor"}),
+            picture({"--color", "bfactor"}));
+  EXPECT_EQ(picture({"--color", "all=file", "--color-by-file", folder_.file("numbers", "10 20 30")}),
+            picture({"--color", "bfactor"}));
+  EXPECT_NE(picture({"--color", "grey", "--color", "chain B=red", "--legend"}),
+            picture({"--color", "grey", "--color", "chain B=red"}));
+  const ProgramResult typo = meniscus({"render", file_, "-o", path("t.png"), "--color", "chain b=red"});
+  EXPECT_EQ(typo.exit_code, 0);
+  EXPECT_NE(typo.err.find("no atom used is meant by 'chain b'"), std::string::npos) << typo.err;
+}
+
 TEST_F(ColorCommand, OpacityZeroHidesAsShowDoes) {
   const std::string part = picture({"--show", "not chain B"});
   EXPECT_EQ(picture({"--opacity", "chain B=0"}), part);
@@ -72,7 +89,7 @@ TEST_F(ColorCommand, WhatCannotBeIsRefusedWithItsReason) {
     int exit_code;
     std::string reason;
   } cases[] = {
-      {{"--color", "blue"}, 2, "'blue' is none of element"},
+      {{"--color", "bleu"}, 2, "'bleu' is none of element"},
       {{"--color", "file"}, 2, "needs --color-by-file"},
       {{"--color", "chain", "--color-by-file", five}, 2, "leave the other one out"},
       {{"--map", "magma"}, 2, "is for colours by a number"},
@@ -80,7 +97,7 @@ TEST_F(ColorCommand, WhatCannotBeIsRefusedWithItsReason) {
       {{"--missing-color", "#102030"}, 2, "is for colours by a number"},
       {{"--color", "bfactor", "--map", "jet"}, 2, "'jet' is none of viridis"},
       {{"--color", "bfactor", "--color-range", "2:1"}, 2, "lo < hi"},
-      {{"--color", "bfactor", "--missing-color", "grey"}, 2, "is not #rrggbb"},
+      {{"--color", "bfactor", "--missing-color", "gery"}, 2, "is neither a colour's name"},
       {{"--color", "charge"}, 3, "no partial charges"},
       {{"--color", "occupancy"}, 3, "no occupancies"},
       {{"--color-by-file", five}, 3, "holds 5 numbers"},
@@ -88,6 +105,10 @@ TEST_F(ColorCommand, WhatCannotBeIsRefusedWithItsReason) {
       {{"--color-by-file", words}, 3, "words:3: 'red' is not a finite number"},
       {{"--color-by-file", gone}, 3, "all numbers are missing"},
       {{"--color-by-file", path("nowhere")}, 3, "cannot be read"},
+      {{"--color", "chain A=bleu"}, 2, "--color: 'bleu' is none of element"},
+      {{"--color", "chain A and=red"}, 2, "--color: "},
+      {{"--color", "kind", "--color", "chain A=red"}, 2, "kind colours patches"},
+      {{"--color", "chain A=file"}, 2, "needs --color-by-file"},
       {{"--color", "#102030", "--legend"}, 2, "nothing to explain"},
       {{"--opacity", "chain A=1.5"}, 2, "'1.5' is no opacity from 0"},
       {{"--opacity", "chian A=0.5"}, 2, "--opacity: "},

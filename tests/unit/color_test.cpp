@@ -60,10 +60,10 @@ std::string complaint(const Run& run) {
 
 TEST(Colors, WordsAreReadStrictly) {
   for (const char* good : {"element", "chain", "residue", "bfactor", "occupancy", "charge", "hydrophobicity", "kind",
-                           "component", "index", "atom", "file", "#00ff7F"}) {
+                           "component", "index", "atom", "file", "#00ff7F", "#0f7", "red"}) {
     EXPECT_TRUE(parse_color_scheme(good)) << good;
   }
-  for (const char* bad : {"", "Element", "#fff", "#00ff7g", "#-0ff7f", "#00ff7f0", "red"}) {
+  for (const char* bad : {"", "Element", "#ff", "#-ff", "#00ff7g", "#-0ff7f", "#00ff7f0", "Red", "reddish", "#"}) {
     EXPECT_FALSE(parse_color_scheme(bad)) << bad;
   }
   EXPECT_EQ((parse_color_range("-1:2.5")), (std::array<double, 2>{-1.0, 2.5}));
@@ -129,6 +129,66 @@ TEST(Colors, BFactorsSpanTheMapAndMissingOnesAreGrey) {
   EXPECT_EQ(ranged.atom[0], mapped_color(ColorMap::magma, 0.0));  // below the range: its end
   EXPECT_EQ(ranged.atom[2], mapped_color(ColorMap::magma, 0.5));
   EXPECT_EQ(ranged.atom[3], glm::vec3(0.0f, 1.0f, 0.0f));
+}
+
+TEST(Colors, NamesAreThoseOfCss) {
+  const std::pair<const char*, std::uint32_t> known[] = {
+      {"aliceblue", 0xf0f8ff},     {"black", 0x000000},
+      {"darkslategrey", 0x2f4f4f}, {"lightgoldenrodyellow", 0xfafad2},
+      {"rebeccapurple", 0x663399}, {"yellowgreen", 0x9acd32},
+      {"#00ff7F", 0x00ff7f},       {"#0f7", 0x00ff77}};
+  for (const auto& [name, hex] : known) EXPECT_EQ(parse_color(name), color_from_hex(hex)) << name;
+  EXPECT_EQ(parse_color("gray"), parse_color("grey"));
+  EXPECT_FALSE(parse_color("transparent"));
+  EXPECT_FALSE(parse_hex_color("red"));
+}
+
+TEST(Colors, RulesPaintTheAtomsMeantAndTheLastCounts) {
+  ColorScheme wish = scheme("chain");
+  for (const char* rule : {"chain A=red", "b >= 15=#00f", "resname XXX=element"})
+    wish.rules.push_back(parse_color_rule(rule));
+  const Coloring coloring = color_atoms(four_atoms(), wish);
+  const glm::vec3 red(1, 0, 0), blue(0, 0, 1);
+  EXPECT_EQ(coloring.atom, (std::vector<glm::vec3>{red, blue, blue, element_color(6)}));
+  EXPECT_EQ(coloring.part, colored("chain").part);
+  const std::vector<std::uint32_t> two{2, 0};
+  EXPECT_EQ(color_object(four_atoms(), two, wish, 0).atom, (std::vector<glm::vec3>{blue, red}));
+  const ColorKey key = color_key(four_atoms(), wish, {});
+  ASSERT_EQ(key.classes.size(), 4u);  // two chains, then rules of one colour
+  EXPECT_EQ(key.classes[2].name, "chain A");
+  EXPECT_EQ(key.classes[3].name, "b >= 15");
+  EXPECT_EQ(key.classes[3].color, blue);
+  EXPECT_TRUE(rules_without_atoms(four_atoms(), wish).empty());
+  wish.rules.push_back(parse_color_rule("chain Z=red"));
+  EXPECT_EQ(rules_without_atoms(four_atoms(), wish), std::vector<std::string>{"chain Z"});
+  EXPECT_EQ(color_atoms(four_atoms(), wish).atom, coloring.atom);
+}
+
+TEST(Colors, RulesByANumberTakeTheMapAndTheRange) {
+  ColorScheme wish = scheme("grey");
+  wish.rules.push_back(parse_color_rule("chain A=bfactor"));
+  wish.range = {{0.0, 20.0}};
+  wish.map = ColorMap::magma;
+  EXPECT_TRUE(wish.uses_scale() && !wish.has_scale() && !wish.uses_file());
+  wish.share_scale();
+  const Coloring coloring = color_atoms(four_atoms(), wish);
+  EXPECT_EQ(coloring.atom[0], mapped_color(ColorMap::magma, 0.5));
+  EXPECT_EQ(coloring.atom[1], mapped_color(ColorMap::magma, 1.0));
+  EXPECT_EQ(coloring.atom[2], color_from_hex(0x808080));
+  EXPECT_EQ(coloring.atom[3], default_missing_color(ColorMap::magma));
+}
+
+TEST(Colors, RulesOfWhatAtomsHaveNotAreRefused) {
+  const std::pair<const char*, const char*> reasons[] = {{"chain A=crimsom", "'crimsom' is none of element"},
+                                                         {"chain A=", "'' is none of element"},
+                                                         {"b>=20", "'20' is none of element"},
+                                                         {"chain A=kind", "is nothing that single atoms have"},
+                                                         {"chain A=component", "is nothing that single atoms have"},
+                                                         {"chian A=red", "chian"}};
+  for (const auto& [rule, reason] : reasons) {
+    const std::string said = complaint([&, rule = rule] { parse_color_rule(rule); });
+    EXPECT_NE(said.find(reason), std::string::npos) << rule << ": " << said;
+  }
 }
 
 TEST(Colors, OpacitiesGoToTheAtomsMeantAndTheLastCounts) {

@@ -28,7 +28,16 @@ void check_colors(const ColorScheme& scheme) {
 
 /// Words as they stand behind options.
 void check_words(std::string_view text) {
-  if (const auto color = parse_hex_color(text)) require_color(*color);
+  if (const auto color = parse_color(text)) require_color(*color);
+  try {
+    ColorScheme scheme;
+    scheme.rules.push_back(parse_color_rule(text));
+    check_colors(scheme);
+  } catch (const RequestError& error) {
+    require_clear(error);
+  } catch (const SelectionError& error) {
+    require_clear(error);
+  }
   if (const auto range = parse_color_range(text))
     require(std::isfinite((*range)[0]) && std::isfinite((*range)[1]) && (*range)[0] < (*range)[1], "ranges rise");
   parse_color_map(text);
