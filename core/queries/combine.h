@@ -21,8 +21,8 @@ void append(Surface& whole, const Surface& part, const RigidMotion& motion = {})
 Surface moved_patches(const Surface& part, const RigidMotion& motion);
 
 /// One object with every copy of every given one, in order, standing where they stand. A single object with a single
-/// copy that is not moved passes through as it is. Colours and atoms follow, hidden atoms stay hidden, opacities as they are; either all
-/// objects are coloured by patch kind, alike, or none is. No objects: an empty one. Throws CapacityError.
+/// copy that is not moved passes through as it is. Colours, opacities and atoms follow, the hidden stay hidden;
+/// either all objects are coloured by patch kind, alike, or none is. No objects: an empty one. Throws CapacityError.
 SurfaceObject merged(std::vector<SurfaceObject> objects);
 
 /// The balls of every copy of every object, in the order of merged().surface.atoms.

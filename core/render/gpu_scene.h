@@ -43,7 +43,7 @@ struct GpuScene : ScenePlacement {
   /// (orthographic: from its plane), in Å, beyond which nothing that begins there can show in the tile.
   Buffer tile_depths;
 
-  Buffer colors;  ///< vec4 per atom, linear, alpha: opacity, 0 if hidden; then, if by kind, three for convex, toroidal, concave
+  Buffer colors;  ///< vec4 per atom, linear, alpha: opacity (0: hidden); then, if by kind, three for these
   std::uint32_t atom_count = 0;
   bool color_by_kind = false;
   bool some_hidden = false;
