@@ -178,6 +178,7 @@ void FrameRun::prepare(const MoleculeRequest& molecule, const RunRequest& reques
     std::vector<std::uint32_t> wanted = preparation.superposed;
     wanted.insert(wanted.end(), preparation.centered.begin(), preparation.centered.end());
     for (const Atom& atom : structure_.atoms) wanted.push_back(atom.index);
+    for (const Atom& atom : structure_.beside) wanted.push_back(atom.index);
     preparation.whole.emplace(topology.atoms, bonds, wanted, molecule.file);
   }
   frames_ = std::make_unique<PreparedFrames>(*trajectory_, std::move(preparation));
@@ -185,6 +186,7 @@ void FrameRun::prepare(const MoleculeRequest& molecule, const RunRequest& reques
 
 void FrameRun::place(const std::vector<glm::dvec3>& positions, Structure& structure) const {
   for (Atom& atom : structure.atoms) atom.position = positions[atom.index];
+  for (Atom& atom : structure.beside) atom.position = positions[atom.index];
 }
 
 std::vector<glm::dvec3> FrameRun::positions(std::uint64_t number) {

@@ -30,6 +30,7 @@ Structure read_molecule(const MoleculeRequest& request) {
   refuse_trajectory(request.file);
   ReadOptions reading = request.reading;
   if (request.division.instances != InstanceMode::none) reading.copy_mode = CopyMode::instances;
+  request.representations.ask_for(reading);
   return read_structure(request.file, reading);
 }
 
@@ -69,6 +70,7 @@ Molecule MoleculeBuilder::build(Structure structure) {
     object.coloring = color_object(molecule.structure, object.atom, molecule.color, n);
   }
   if (!hidden.empty()) hide(hidden, molecule.objects);
+  molecule.beside = shown_shapes(molecule.structure, request_.representations, molecule.color);
   molecule.device = computer_.device();
   molecule.stages = computer_.stages();
   return molecule;

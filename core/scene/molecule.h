@@ -9,6 +9,7 @@
 #include "core/base/stage_clock.h"
 #include "core/color/color_scale.h"
 #include "core/queries/surface_object.h"
+#include "core/scene/representations.h"
 #include "core/scene/surface_computer.h"
 #include "core/scene/surface_objects.h"
 #include "core/scene/surface_request.h"
@@ -26,7 +27,8 @@ struct MoleculeRequest {
   SurfaceRequest surface;
   Division division;
   ColorScheme color;
-  std::string number_file;  ///< numbers to colour by, for ColorScheme::By::file
+  Representations representations;  ///< what is drawn beside the surface, of whatever atoms of the file
+  std::string number_file;          ///< numbers to colour by, for ColorScheme::By::file
 };
 
 /// A molecule, ready to be drawn or exported.
@@ -34,6 +36,7 @@ struct Molecule {
   Structure structure;
   ColorScheme color;                   ///< as asked for, with the numbers of its file
   std::vector<SurfaceObject> objects;  ///< at least one
+  ShownShapes beside;                  ///< what is drawn beside them
   std::string device;                  ///< what computed them
   std::vector<StageTime> stages;       ///< of all of them
 

@@ -80,17 +80,18 @@ std::vector<std::string> operator_list(std::string_view list, std::string_view e
 }
 
 /// The motions of each atom: those of all parts that name its chain.
+bool names_chain_of(const AssemblyPart& part, const Atom& atom) {
+  return part.chains.empty() || std::find(part.chains.begin(), part.chains.end(), atom.subchain) != part.chains.end();
+}
+
 std::vector<Instances> group_by_motions(const std::vector<Atom>& atoms, const Assembly& assembly) {
   std::map<std::string, std::vector<std::size_t>> parts_of_chain;
   std::map<std::vector<std::size_t>, std::size_t> place;
   std::vector<Instances> groups;
   for (std::uint32_t n = 0; n < atoms.size(); ++n) {
     const auto [known, fresh] = parts_of_chain.try_emplace(atoms[n].subchain);
-    for (std::size_t p = 0; fresh && p < assembly.parts.size(); ++p) {
-      const auto& chains = assembly.parts[p].chains;
-      if (chains.empty() || std::find(chains.begin(), chains.end(), atoms[n].subchain) != chains.end())
-        known->second.push_back(p);
-    }
+    for (std::size_t p = 0; fresh && p < assembly.parts.size(); ++p)
+      if (names_chain_of(assembly.parts[p], atoms[n])) known->second.push_back(p);
     if (known->second.empty()) continue;
     const auto [group, added] = place.try_emplace(known->second, groups.size());
     if (added) {
@@ -217,6 +218,11 @@ const Assembly& find_assembly(std::span<const Assembly> assemblies, const std::s
   std::vector<std::string> ids;
   for (const Assembly& assembly : assemblies) ids.push_back(escaped(assembly.id));
   throw InputError(file, 0, fmt::format("has no assembly {}; it has {}", in_quotes(id), fmt::join(ids, ", ")));
+}
+
+bool names_chain_of(const Assembly& assembly, const Atom& atom) {
+  return std::any_of(assembly.parts.begin(), assembly.parts.end(),
+                     [&](const AssemblyPart& part) { return names_chain_of(part, atom); });
 }
 
 void assemble(Structure& structure, const Assembly& assembly, CopyMode mode) {

@@ -25,6 +25,9 @@ enum class AtomClass : std::uint8_t { polymer, ligand, water, ion, unclassified 
 /// "polymer", "ligand", "water", "ion" or "unclassified".
 const char* class_name(AtomClass kind);
 
+/// What the backbone of a residue forms. `unknown`: nobody has looked; `coil`: neither of the others.
+enum class SecondaryStructure : std::uint8_t { unknown, coil, helix, strand };
+
 /// One atom. Text fields come from the file as they are: never paste them into the source code of another program.
 struct Atom {
   glm::dvec3 position{0.0};  ///< Å
@@ -43,9 +46,11 @@ struct Atom {
   std::string name;
   std::string residue_name;
   std::string chain;
-  std::string subchain;    ///< label_asym_id of mmCIF, which assemblies name; else the chain
-  std::string segment;     ///< segment identifier of PDB (columns 73 to 76), which molecular dynamics programs write
-  std::uint32_t copy = 0;  ///< in an assembly: which copy, from 0
+  std::string subchain;     ///< label_asym_id of mmCIF, which assemblies name; else the chain
+  std::string segment;      ///< segment identifier of PDB (columns 73 to 76), which molecular dynamics programs write
+  std::uint32_t copy = 0;   ///< in an assembly: which copy, from 0
+  std::uint16_t shown = 0;  ///< bit n: the n-th of ReadOptions::shown selects it
+  SecondaryStructure secondary = SecondaryStructure::unknown;  ///< of its residue
 };
 
 /// "'CA' in ALA A12", for messages; "'C' (atom 5)" where the format knows no residues. Nothing is escaped but the name.
@@ -128,6 +133,8 @@ struct Structure {
   std::string radii_set;  ///< "bondi", "united", "protor", "file", or the files of radii
   std::vector<RadiusClass> radius_classes;
   std::vector<Atom> atoms;
+  std::vector<Atom> beside;  ///< those that are shown beside the surface, which is not made of them
+  std::shared_ptr<const std::vector<Bond>> shown_bonds;  ///< of shown atoms: places in atoms with beside behind them
   std::vector<Instances> instances;          ///< each atom belongs to one; empty: all stand where their positions say
   std::vector<Assembly> assemblies;          ///< those the file describes, if they were asked for
   std::shared_ptr<const Topology> topology;  ///< if it was asked for

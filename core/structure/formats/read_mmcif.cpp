@@ -20,6 +20,7 @@
 #include "core/structure/formats/reader.h"
 #include "core/text/parse_number.h"
 #include "core/structure/residue_counter.h"
+#include "core/structure/secondary_structure.h"
 #include "core/text/text_lines.h"
 
 namespace meniscus {
@@ -180,6 +181,32 @@ std::map<std::string, ResidueStatement> entities_of(cif::Document& document) {
   return entities;
 }
 
+/// Helices of _struct_conf and strands of _struct_sheet_range, by the author's names.
+std::vector<SecondaryRange> secondary_ranges(cif::Document& document) {
+  std::vector<SecondaryRange> ranges;
+  const std::vector<std::string> columns{"beg_auth_asym_id",       "beg_auth_seq_id",        "end_auth_seq_id",
+                                         "?pdbx_beg_PDB_ins_code", "?pdbx_end_PDB_ins_code", "?conf_type_id"};
+  const auto take = [&](cif::Table table, bool helices) {
+    for (const cif::Table::Row row : table) {
+      if (helices && !(row.has2(5) && cif::as_string(row[5]).starts_with("HELX"))) continue;
+      const auto residue = [&](std::size_t number, std::size_t insertion, SecondaryRange::Residue& end) {
+        const std::string& digits = row[number];
+        end.second = row.has2(insertion) ? first_letter(row[insertion]) : ' ';
+        const auto [rest, error] = std::from_chars(digits.data(), digits.data() + digits.size(), end.first);
+        return error == std::errc() && rest == digits.data() + digits.size();
+      };
+      SecondaryRange range{
+          cif::as_string(row[0]), {}, {}, helices ? SecondaryStructure::helix : SecondaryStructure::strand};
+      if (residue(1, 3, range.first) && residue(2, 4, range.last)) ranges.push_back(std::move(range));
+    }
+  };
+  for (cif::Block& block : document.blocks) {
+    take(block.find("_struct_conf.", columns), true);
+    take(block.find("_struct_sheet_range.", columns), false);
+  }
+  return ranges;
+}
+
 FileContents read(const TextFile& file, const ModelChoice& choice) {
   cif::Document document = parse_cif(file);
   FileContents contents;
@@ -208,6 +235,7 @@ FileContents read(const TextFile& file, const ModelChoice& choice) {
   contents.models = models.size();
   without_symbol.warn(contents.warnings, "no element symbol; elements were guessed from the names");
   classify_atoms(contents.atoms, contents.warnings, hints);
+  mark_secondary_structure(contents.atoms, secondary_ranges(document));
   return contents;
 }
 
@@ -226,7 +254,8 @@ bool recognizes(std::string_view text) {
 
 const Reader kMmcifReader{
     {"mmCIF", ".cif .mmcif .mcif", "macromolecular CIF of the wwPDB", "PDBx/mmCIF dictionary; Hall, Allen & Brown 1991",
-     "_atom_site (author's names where given, label_asym_id too), _entity and _entity_poly"},
+     "_atom_site (author's names where given, label_asym_id too), _entity and _entity_poly, _struct_conf and "
+     "_struct_sheet_range"},
     recognizes,
     read,
     read_mmcif_assemblies};

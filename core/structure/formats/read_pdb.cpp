@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <charconv>
 #include <set>
 #include <utility>
 
@@ -21,6 +22,7 @@
 #include "core/structure/formats/pqr_record.h"
 #include "core/structure/formats/reader.h"
 #include "core/structure/residue_counter.h"
+#include "core/structure/secondary_structure.h"
 #include "core/text/text_lines.h"
 
 namespace meniscus {
@@ -52,6 +54,7 @@ class PdbReader {
     std::vector<Warning>& warnings = contents_.warnings;
     classify_atoms(contents_.atoms, warnings, hints_);
     contents_.bonds = bonds_.bonds();
+    mark_secondary_structure(contents_.atoms, secondary_);
     number_.warn(warnings, "no readable residue number; counted on from the residue before");
     occupancy_.warn(warnings, "no readable occupancy; treated as missing");
     b_factor_.warn(warnings, "no readable B-factor; treated as missing");
@@ -83,7 +86,26 @@ class PdbReader {
       ended_ = true;
     } else if (is_pdb_record(line, "CONECT")) {
       bonds_.add_record(line);
+    } else if (is_pdb_record(line, "HELIX")) {
+      take_range(line, SecondaryStructure::helix, 19, 31);
+    } else if (is_pdb_record(line, "SHEET")) {
+      take_range(line, SecondaryStructure::strand, 21, 32);
     }
+  }
+
+  /// chain, number and insertion code of the first residue and of the last stand in columns from these on, but for a
+  /// blank between chain and number in HELIX. Records that cannot be read are passed over: they colour nothing.
+  void take_range(std::string_view line, SecondaryStructure kind, std::size_t first, std::size_t last) {
+    const std::size_t gap = kind == SecondaryStructure::helix ? 2 : 1;
+    if (line.size() < last + gap + 4) return;
+    SecondaryRange range{std::string(trimmed(line.substr(first, 1))), {}, {}, kind};
+    const auto residue = [&](std::size_t column, SecondaryRange::Residue& end) {
+      const std::string_view digits = trimmed(line.substr(column + gap, 4));
+      const auto [rest, error] = std::from_chars(digits.data(), digits.data() + digits.size(), end.first);
+      end.second = column + gap + 4 < line.size() ? line[column + gap + 4] : ' ';
+      return error == std::errc() && rest == digits.data() + digits.size();
+    };
+    if (residue(first, range.first) && residue(last, range.last)) secondary_.push_back(std::move(range));
   }
 
   /// Atoms after END belong to a further model, as molecular dynamics programs write them.
@@ -165,6 +187,7 @@ class PdbReader {
   std::vector<AtomHints> hints_;
   ResidueCounter residues_{contents_.atoms};
   PdbBonds bonds_;
+  std::vector<SecondaryRange> secondary_;
   PdbResidueNumbers residue_numbers_;
   std::set<std::string> ended_chains_;
   bool open_ = false, ended_ = false, in_model_record_ = false;
@@ -207,7 +230,7 @@ bool positions(std::string_view model, std::vector<glm::dvec3>& positions) {
 const Reader kPdbReader{
     {"PDB", ".pdb .ent .pdb1 .brk", "Protein Data Bank format, in fixed columns",
      "wwPDB file format 3.3 (2012); hybrid-36 numbers by R. W. Grosse-Kunstleve",
-     "ATOM, HETATM, TER, MODEL, ENDMDL, END, CONECT; serial numbers (decimal, hybrid-36, hexadecimal, "
+     "ATOM, HETATM, TER, MODEL, ENDMDL, END, CONECT, HELIX, SHEET; serial numbers (decimal, hybrid-36, hexadecimal, "
      "stars) only name the atoms of CONECT, residue numbers (decimal, hybrid-36, hexadecimal) kept; chain names of "
      "two letters, residue names of four, segments"},
     recognizes,

@@ -4,12 +4,15 @@
 
 #include <algorithm>
 #include <set>
+#include <span>
 
 #include <fmt/format.h>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/structure/molecule_bonds.h"
 #include "core/structure/plausibility.h"
+#include "core/structure/secondary_structure.h"
 #include "core/structure/usual_part.h"
 
 namespace meniscus {
@@ -29,13 +32,15 @@ bool is_virtual_site(const Atom& atom) {
 
 bool is_hydrogen(const Atom& atom) { return atom.element == 1; }
 
-/// Moves the atoms without a reason to be left out to the front of `atoms`, drops the others and counts their reasons.
+/// Moves the atoms without a reason to be left out to the front of `atoms`, counts the reasons of the others, and moves
+/// those of them that are shown to `beside`.
 template <typename Reason>
-void leave_out(std::vector<Atom>& atoms, ReadReport& report, Reason&& reason_of) {
+void leave_out(std::vector<Atom>& atoms, std::vector<Atom>& beside, ReadReport& report, Reason&& reason_of) {
   std::size_t kept = 0;
   for (std::size_t n = 0; n < atoms.size(); ++n) {
     if (const char* reason = reason_of(n)) {
       ++report.excluded[reason];
+      if (atoms[n].shown != 0) beside.push_back(std::move(atoms[n]));
     } else {
       if (kept != n) atoms[kept] = std::move(atoms[n]);
       ++kept;
@@ -63,34 +68,118 @@ bool keeps_hydrogens(const std::vector<Atom>& atoms, const ReadOptions& options,
   return !radii.united(std::any_of(atoms.begin(), atoms.end(), [](const Atom& atom) { return is_hydrogen(atom); }));
 }
 
+/// Why the atoms of a file that are of the right model and alternate location are not taken.
+class Choice {
+ public:
+  Choice(const std::vector<Atom>& atoms, const ReadOptions& options, const RadiiChoice& radii)
+      : options_(options), from_file_(radii.from_molecule_file()), hydrogens_(keeps_hydrogens(atoms, options, radii)) {}
+
+  /// Null: it is. named: does the selection speak of it?
+  const char* reason(const Atom& atom, bool selected, bool named) const {
+    if (!selected) return kExcludedSelection;
+    if (from_file_) {
+      if (atom.radius == 0.0) return kExcludedRadius;
+    } else if (atom.element == 0 && options_.unknown_element == UnknownElement::skip) {
+      return kExcludedElement;
+    }
+    if (!hydrogens_ && is_hydrogen(atom)) return kExcludedHydrogen;
+    if (atom.kind == AtomClass::water && !options_.keep_water && !named) return kExcludedWater;
+    if (atom.kind == AtomClass::ion && !options_.keep_ions && !named) return kExcludedIon;
+    return nullptr;
+  }
+
+ private:
+  const ReadOptions& options_;
+  bool from_file_, hydrogens_;
+};
+
+/// Sets Atom::shown.
+void mark_shown(std::vector<Atom>& atoms, std::span<const ShownAtoms> shown, const Choice& choice,
+                const RadiiChoice& radii, const std::string& path) {
+  if (shown.size() > kMostShown)
+    throw CapacityError(
+        fmt::format("{} sets of atoms are to be shown beside the surface; the most is {}", shown.size(), kMostShown));
+  for (std::size_t bit = 0; bit < shown.size(); ++bit) {
+    const Selection& selection = shown[bit].atoms;
+    if (selection.uses_radius() && !radii.from_molecule_file())
+      throw InputError(path, 0, fmt::format("has no radii yet for {} to select by", shown[bit].option));
+    const std::vector<bool> selected = selection.evaluate(atoms), named = selection.names(atoms);
+    bool any = false;
+    for (std::size_t n = 0; n < atoms.size(); ++n) {
+      if (choice.reason(atoms[n], selected[n], named[n])) continue;
+      atoms[n].shown = static_cast<std::uint16_t>(atoms[n].shown | (1u << bit));
+      any = true;
+    }
+    if (any) continue;
+    throw InputError(path, 0,
+                     fmt::format("none of its {} atoms is shown by {} {}; chains and names are case-sensitive, water "
+                                 "and free ions are shown where the expression names them",
+                                 with_thousands(atoms.size()), shown[bit].option, in_quotes(selection.text())));
+  }
+}
+
 /// What each atom is left out for, in the order of the reasons in structure.h.
-void choose_atoms(std::vector<Atom>& atoms, const ReadOptions& options, const RadiiChoice& radii, ReadReport& report,
-                  const std::string& path) {
+void choose_atoms(std::vector<Atom>& atoms, std::vector<Atom>& beside, const ReadOptions& options,
+                  const RadiiChoice& radii, ReadReport& report, const std::string& path) {
   const std::vector<char> altlocs = kept_altlocs(atoms, options.altloc);
   const bool all_altlocs = options.altloc.rule == AltlocChoice::Rule::all;
-  leave_out(atoms, report, [&](std::size_t n) -> const char* {
+  leave_out(atoms, beside, report, [&](std::size_t n) -> const char* {
     if (atoms[n].altloc != ' ' && atoms[n].altloc != altlocs[atoms[n].residue] && !all_altlocs) return kExcludedAltloc;
     return !radii.from_molecule_file() && is_virtual_site(atoms[n]) ? kExcludedVirtual : nullptr;
   });
+  if (options.secondary_structure) assign_secondary_structure(atoms);
   std::vector<bool> selected(atoms.size(), true), named(atoms.size());
   if (options.selection) {
     selected = evaluate(*options.selection, atoms, radii, path);
     named = options.selection->names(atoms);
   }
-  const bool hydrogens = keeps_hydrogens(atoms, options, radii);
-  leave_out(atoms, report, [&](std::size_t n) -> const char* {
-    const Atom& atom = atoms[n];
-    if (!selected[n]) return kExcludedSelection;
-    if (radii.from_molecule_file()) {
-      if (atom.radius == 0.0) return kExcludedRadius;
-    } else if (atom.element == 0 && options.unknown_element == UnknownElement::skip) {
-      return kExcludedElement;
-    }
-    if (!hydrogens && is_hydrogen(atom)) return kExcludedHydrogen;
-    if (atom.kind == AtomClass::water && !options.keep_water && !named[n]) return kExcludedWater;
-    if (atom.kind == AtomClass::ion && !options.keep_ions && !named[n]) return kExcludedIon;
-    return nullptr;
+  const Choice choice(atoms, options, radii);
+  mark_shown(atoms, options.shown, choice, radii, path);
+  leave_out(atoms, beside, report, [&](std::size_t n) { return choice.reason(atoms[n], selected[n], named[n]); });
+}
+
+/// Gives radii to the atoms beside the surface; returns the labels of those whose element nobody knows.
+std::vector<std::string> assign_beside(Structure& structure, const RadiiChoice& radii) {
+  if (structure.beside.empty()) return {};
+  Structure beside;
+  beside.atoms = std::move(structure.beside);
+  std::vector<std::string> unknown = radii.assign(beside);
+  structure.beside = std::move(beside.atoms);
+  return unknown;
+}
+
+/// Copies the atoms beside the surface as those of the surface are.
+void assemble_beside(Structure& structure, const Assembly& assembly) {
+  std::erase_if(structure.beside, [&](const Atom& atom) { return !names_chain_of(assembly, atom); });
+  if (structure.beside.empty()) return;
+  Structure beside;
+  beside.file = structure.file;
+  beside.atoms = std::move(structure.beside);
+  assemble(beside, assembly, CopyMode::atoms);
+  structure.beside = std::move(beside.atoms);
+}
+
+/// The bonds of all shown atoms, which stand in atoms and, behind them, in beside.
+std::vector<Bond> bonds_of_shown(const Structure& structure, std::span<const Bond> listed) {
+  const std::size_t own = structure.atoms.size();
+  const auto atom = [&](std::uint32_t n) -> const Atom& {
+    return n < own ? structure.atoms[n] : structure.beside[n - own];
+  };
+  std::vector<std::uint32_t> places;
+  for (std::uint32_t n = 0; n < own + structure.beside.size(); ++n)
+    if (atom(n).shown != 0) places.push_back(n);
+  // Residues come as the file has them.
+  std::stable_sort(places.begin(), places.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return std::pair(atom(a).copy, atom(a).index) < std::pair(atom(b).copy, atom(b).index);
   });
+  std::vector<Atom> shown;
+  for (const std::uint32_t n : places) shown.push_back(atom(n));
+  std::vector<Bond> bonds = molecule_bonds(shown, listed);
+  for (auto& [a, b] : bonds) {
+    a = places[a];
+    b = places[b];
+  }
+  return bonds;
 }
 
 void refuse_no_atoms(const Structure& structure) {
@@ -160,7 +249,9 @@ void use_assemblies(Structure& structure, const TextFile& file, const Reader& re
                      fmt::format("is {}, which describes no assemblies; leave --assembly away", reader.metadata.name));
   }
   const std::vector<Assembly> assemblies = reader.assemblies(file);
-  assemble(structure, find_assembly(assemblies, options.assembly, structure.file), options.copy_mode);
+  const Assembly& assembly = find_assembly(assemblies, options.assembly, structure.file);
+  assemble(structure, assembly, options.copy_mode);
+  assemble_beside(structure, assembly);
 }
 
 }  // namespace
@@ -181,20 +272,25 @@ Structure read_structure(const std::string& path, const ReadOptions& options) {
   if (contents.other_model_atoms > 0) report.excluded[kExcludedModel] = contents.other_model_atoms;
   place_atoms(contents, options, file);
   if (options.keep_topology)
-    structure.topology = std::make_shared<const Topology>(Topology{contents.atoms, std::move(contents.bonds)});
+    structure.topology = std::make_shared<const Topology>(
+        Topology{contents.atoms, options.shown.empty() ? std::move(contents.bonds) : contents.bonds});
 
   warn_of_missing_altloc(structure, contents.atoms, options.altloc);
   const RadiiChoice radii(options.radii, file.path, contents.radii_from_file);
-  choose_atoms(contents.atoms, options, radii, report, file.path);
+  choose_atoms(contents.atoms, structure.beside, options, radii, report, file.path);
   structure.atoms = std::move(contents.atoms);
   report.used = structure.atoms.size();
   refuse_no_atoms(structure);
-  const std::vector<std::string> unknown = radii.assign(structure);
+  std::vector<std::string> unknown = radii.assign(structure);
+  const std::vector<std::string> beside = assign_beside(structure, radii);
+  unknown.insert(unknown.end(), beside.begin(), beside.end());
   if (options.unknown_element == UnknownElement::halt) halt_on_unknown_elements(structure, unknown);
   refuse_no_atoms(structure);
   warn_of_coincident_atoms(structure);
   if (!contents.radii_from_file) warn_of_wrong_unit(structure);
   use_assemblies(structure, file, reader, options);
+  if (!options.shown.empty())
+    structure.shown_bonds = std::make_shared<const std::vector<Bond>>(bonds_of_shown(structure, contents.bonds));
   return structure;
 }
 

@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/structure/altloc.h"
 #include "core/structure/assembly.h"
@@ -19,6 +20,15 @@ enum class UnknownElement { halt, guess, skip };
 
 /// What to do with hydrogens. `automatic`: kept with radii for explicit hydrogens, left out with united atoms.
 enum class Hydrogens { automatic, keep, drop };
+
+/// Atoms that something else than a surface shows, such as sticks.
+struct ShownAtoms {
+  std::string option;  ///< that asks for them, for messages: "--sticks"
+  Selection atoms;     ///< of the same atoms as ReadOptions::selection, with the same rule for water and ions
+};
+
+/// As many as Atom::shown has bits.
+inline constexpr std::size_t kMostShown = 16;
 
 struct ReadOptions {
   ModelChoice model{};
@@ -37,6 +47,9 @@ struct ReadOptions {
   bool keep_topology = false;  ///< fill in Structure::topology
   /// Where the atoms of a file without positions (PSF) stand, Å, one each in the order of the file.
   std::vector<glm::dvec3> positions{};
+  /// Fills in Atom::shown, Structure::beside and, of all shown atoms, shown_bonds. At most kMostShown.
+  std::vector<ShownAtoms> shown{};
+  bool secondary_structure = false;  ///< fill in Atom::secondary of all atoms (secondary_structure.h)
 };
 
 /// Reads a file of any format in formats.h, plain or gzipped; "-" is standard input. Default: polymer and ligands in,

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "core/structure/residue_names.h"
+#include "core/structure/secondary_structure.h"
 
 namespace meniscus {
 namespace {
@@ -86,6 +87,15 @@ bool needs_residues(AtomFlag flag) {
 
 std::vector<bool> atoms_with(AtomFlag flag, std::span<const Atom> atoms) {
   std::vector<bool> result(atoms.size());
+  if (flag == AtomFlag::helix || flag == AtomFlag::strand || flag == AtomFlag::coil) {
+    const std::vector<SecondaryStructure> kinds = secondary_structure(atoms);
+    const std::vector<bool> protein = atoms_with(AtomFlag::protein, atoms);
+    const SecondaryStructure wanted = flag == AtomFlag::helix    ? SecondaryStructure::helix
+                                      : flag == AtomFlag::strand ? SecondaryStructure::strand
+                                                                 : SecondaryStructure::coil;
+    for (std::size_t n = 0; n < atoms.size(); ++n) result[n] = protein[n] && kinds[n] == wanted;
+    return result;
+  }
   if (!needs_residues(flag)) {
     for (std::size_t n = 0; n < atoms.size(); ++n) result[n] = answers(flag, atoms[n]);
     return result;

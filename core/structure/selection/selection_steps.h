@@ -23,7 +23,10 @@ enum class AtomFlag : std::uint8_t {
   ion,
   hydrogen,
   backbone,
-  sidechain
+  sidechain,
+  helix,
+  strand,
+  coil
 };
 
 /// What of an atom is compared with values.

@@ -53,6 +53,9 @@ constexpr SelectionWord kWords[] = {
      "N CA C O of protein; phosphate and sugar chain P to O3' of nucleic"},
     {"sidechain", WordKind::flag, of(AtomFlag::sidechain), "sidechain",
      "protein without its main chain (with its hydrogens and ends); bases of nucleic"},
+    {"helix", WordKind::flag, of(AtomFlag::helix), "helix", "residues in helices: as the file says, else by DSSP"},
+    {"sheet strand", WordKind::flag, of(AtomFlag::strand), "sheet", "residues in strands of sheets, found alike"},
+    {"coil loop", WordKind::flag, of(AtomFlag::coil), "coil", "residues of protein in neither"},
 
     {"within", WordKind::distance, 1, "within 5 of (EXPR)", "at most 5 Å from an atom of EXPR; EXPR itself too"},
     {"exwithin around", WordKind::distance, 0, "exwithin 5 of (EXPR)", "the same without EXPR itself"},

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// From marked atoms to shapes, and from the scheme of a surface to their colours.
+#include "core/scene/representations.h"
+
+#include <cmath>
+#include <limits>
+
+#include "core/base/error.h"
+#include "core/color/color_atoms.h"
+#include "core/color/color_scale.h"
+
+namespace meniscus {
+namespace {
+
+using Kind = RepresentationRequest::Kind;
+using By = ColorScheme::By;
+
+Shapes shapes_of(const Structure& all, const RepresentationRequest& request, const std::vector<bool>& selected,
+                 const std::vector<Bond>& bonds, const std::optional<double>& stick_radius) {
+  switch (request.kind) {
+    case Kind::sticks:
+      return sticks(all, selected, bonds, stick_radius.value_or(kStickRadius));
+    case Kind::balls_and_sticks:
+      return balls_and_sticks(all, selected, bonds, kBallShare, stick_radius.value_or(kThinStickRadius));
+    case Kind::spheres:
+      break;
+  }
+  return spheres(all, selected);
+}
+
+/// The scheme by which all shown atoms get the colours that those of the surface have.
+ColorScheme scheme_of_shown(const Structure& structure, std::size_t shown, ColorScheme scheme) {
+  if (scheme.by == By::kind || scheme.by == By::component) scheme.by = By::element;
+  if (!scheme.has_scale()) return scheme;
+  scheme.range = color_scale(structure, scheme).range;
+  std::vector<double>& numbers = scheme.file.numbers;  // either of each atom of the file, or of each of the surface
+  if (scheme.by == By::file && numbers.size() == structure.atoms.size())
+    numbers.resize(shown, std::numeric_limits<double>::quiet_NaN());
+  return scheme;
+}
+
+}  // namespace
+
+const char* option_word(Kind kind) {
+  switch (kind) {
+    case Kind::sticks:
+      return "--sticks";
+    case Kind::balls_and_sticks:
+      return "--balls";
+    case Kind::spheres:
+      break;
+  }
+  return "--spheres";
+}
+
+void Representations::ask_for(ReadOptions& reading) const {
+  if (!empty() && reading.copy_mode == CopyMode::instances)
+    throw RequestError("--instances: copies of a surface have no sticks, balls or spheres; leave it away");
+  for (const RepresentationRequest& request : requests)
+    reading.shown.push_back({option_word(request.kind), request.atoms});
+}
+
+std::vector<Atom> shown_atoms(const Structure& structure) {
+  std::vector<Atom> atoms = structure.atoms;
+  atoms.insert(atoms.end(), structure.beside.begin(), structure.beside.end());
+  return atoms;
+}
+
+ShownShapes shown_shapes(const Structure& structure, const Representations& representations,
+                         const ColorScheme& scheme) {
+  ShownShapes shown;
+  if (representations.empty()) return shown;
+  Structure all;
+  all.file = structure.file;
+  all.report = structure.report;
+  all.atoms = shown_atoms(structure);
+  std::vector<bool> selected(all.atoms.size());
+  for (std::size_t bit = 0; bit < representations.requests.size(); ++bit) {
+    for (std::size_t n = 0; n < all.atoms.size(); ++n) selected[n] = ((all.atoms[n].shown >> bit) & 1u) != 0;
+    append(shown.shapes, shapes_of(all, representations.requests[bit], selected, *structure.shown_bonds,
+                                   representations.stick_radius));
+  }
+  shown.coloring = color_atoms(all, scheme_of_shown(structure, all.atoms.size(), scheme));
+  return shown;
+}
+
+std::vector<Ball> balls_around(const Shapes& shapes) {
+  std::vector<Ball> balls;
+  for (const SphereShape& sphere : shapes.spheres) balls.push_back({sphere.center, sphere.radius});
+  for (const CylinderShape& cylinder : shapes.cylinders) {
+    balls.push_back({cylinder.from, cylinder.radius});
+    balls.push_back({cylinder.to, cylinder.radius});
+  }
+  for (const glm::dvec3& position : shapes.mesh.positions) balls.push_back({position, 0.0});
+  return balls;
+}
+
+}  // namespace meniscus

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What is drawn beside a surface: which atoms of the file as sticks, balls, spheres or a backbone, and their colours.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/color/color_schemes.h"
+#include "core/color/coloring.h"
+#include "core/math/ball.h"
+#include "core/shapes/shapes.h"
+#include "core/structure/formats/read_structure.h"
+#include "core/structure/selection/selection.h"
+#include "core/structure/structure.h"
+
+namespace meniscus {
+
+/// Some atoms, drawn in one way. They need not be atoms of the surface.
+struct RepresentationRequest {
+  enum class Kind { sticks, balls_and_sticks, spheres };
+  Kind kind = Kind::sticks;
+  Selection atoms;
+};
+
+/// "--sticks", "--balls" or "--spheres".
+const char* option_word(RepresentationRequest::Kind kind);
+
+/// All that are asked for, and what they have in common.
+struct Representations {
+  std::vector<RepresentationRequest> requests;
+  std::optional<double> stick_radius;  ///< Å; nothing: kStickRadius, kThinStickRadius with balls
+
+  bool empty() const { return requests.empty(); }
+  /// Makes read_structure mark the atoms, keep those that the surface leaves out, and find their bonds: once, at the
+  /// positions that it reads, so that they are the same in all frames of a run.
+  void ask_for(ReadOptions& reading) const;
+};
+
+/// The structure's atoms, and behind them those beside the surface: what `atom` of shapes is a place in.
+std::vector<Atom> shown_atoms(const Structure& structure);
+
+/// Shapes with their colours.
+struct ShownShapes {
+  Shapes shapes;
+  Coloring coloring;  ///< one colour and part per shown_atoms(); empty without shapes
+
+  bool empty() const { return shapes.empty(); }
+};
+
+/// The shapes where the atoms of the structure stand, coloured as the surface is: chains have the colours they have
+/// there, numbers the same scale; where the scheme is of surfaces only (patch kinds, components), by element.
+/// Structure: as read with ask_for(). Throws as color_object does; RequestError for an assembly of instances.
+ShownShapes shown_shapes(const Structure& structure, const Representations& representations, const ColorScheme& scheme);
+
+/// Balls that hold all shapes, for framing and for tolerances.
+std::vector<Ball> balls_around(const Shapes& shapes);
+
+}  // namespace meniscus
