@@ -11,6 +11,7 @@
 #include <fmt/ostream.h>
 
 #include "app/commands/commands.h"
+#include "app/options/figure_options.h"
 #include "app/options/look_options.h"
 #include "app/options/value_words.h"
 #include "app/process/program_error.h"
@@ -25,7 +26,6 @@
 #include "core/scene/view_aim.h"
 #include "app/reports/notes.h"
 #include "app/options/run_camera_options.h"
-#include "core/queries/combine.h"
 
 namespace meniscus {
 namespace {
@@ -72,17 +72,6 @@ void say_times(const RenderCommand& command, const std::string& device, const st
   say(command.molecule, fmt::format("picture on {}: {}", device, times));
 }
 
-/// Of copies with more atoms than this a picture is made without having all of them in memory: with fewer it would
-/// not pay.
-constexpr std::size_t kMostMergedAtoms = 1'000'000;
-
-std::size_t placed_atoms(std::span<const SurfaceObject> objects) {
-  std::size_t count = 0;
-  for (const SurfaceObject& object : objects)
-    if (object.copies.size() > 1) count += object.copies.size() * object.surface.atoms.size();
-  return count;
-}
-
 // For a picture whose times are said.
 RenderSettings timed_settings(const RenderCommand& command, const PictureLayout& layout) {
   RenderSettings settings = render_settings(command, layout);
@@ -116,6 +105,9 @@ void run(const RenderCommand& command) {
   if (command.extent) {
     check_view_options(command.molecule);
     if (command.aovs) throw UsageError("--aovs needs the complete surface; leave --extent away");
+    if (!command.figure.plain() || !command.molecule.color.opacities.empty())
+      throw UsageError(
+          "--extent draws the surface alone, whole and opaque; leave --extent away, or --opacity, --clip and the like");
   } else if (command.stats) {
     throw UsageError("--stats tells the stages of a view; add --extent");
   }
@@ -127,11 +119,12 @@ void run(const RenderCommand& command) {
   const std::optional<Camera> given = given_camera(command.picture);
   if (command.extent) return draw_view(command, given);
   auto [molecule, aim] = load_aimed_molecule(command.molecule, command.picture, given);
-  const PictureLayout layout(command, key_of(molecule));
-  const Camera camera = aim.camera(layout.size, given, molecule.objects);
+  Figure figure = make_figure(std::move(molecule), command.figure);
+  const PictureLayout layout(command, key_of(figure.molecule));
+  const Camera camera = aim.camera(layout.size, given, figure.molecule.objects);
   PictureDevice device(command.molecule.surface);
   SurfaceRenderer& renderer = device.renderer();
-  Framebuffer picture = render_objects(renderer, std::move(molecule.objects), camera, timed_settings(command, layout));
+  Framebuffer picture = draw(renderer, std::move(figure), command.figure, camera, timed_settings(command, layout));
   finish(command, layout, std::move(picture), camera);
   say_times(command, renderer.device(), renderer.times());
 }
@@ -156,17 +149,6 @@ RenderSettings render_settings(const RenderCommand& command, const PictureLayout
 
 DeviceChoice gl_device(const RenderCommand& command) { return command.molecule.surface.gl; }
 
-Framebuffer render_objects(SurfaceRenderer& renderer, std::vector<SurfaceObject> objects, const Camera& camera,
-                           const RenderSettings& settings) {
-  if (!settings.aovs && placed_atoms(objects) > kMostMergedAtoms)
-    return renderer.render_copies(objects, camera, settings);
-  const SurfaceObject whole = merged(std::move(objects));
-  Framebuffer picture = renderer.render(whole.surface, whole.coloring, camera, settings);
-  for (std::uint32_t& atom : picture.atom)
-    if (atom != kNone) atom = whole.atom[atom];
-  return picture;
-}
-
 bool shows_nothing(const Framebuffer& picture) {
   return std::ranges::none_of(picture.color, [](const glm::vec4& pixel) { return pixel.w > 0.0f; });
 }
@@ -183,7 +165,7 @@ void add_render(CLI::App& command) {
       "  meniscus render adk.psf --trajectory adk.dcd --frames all --superpose 'name CA' -o adk.mp4");
   auto state = std::make_shared<RenderCommand>();
   add_molecule_options(command, state->molecule);
-  add_opacity_option(command, state->molecule);
+  add_figure_options(command, state->molecule, state->figure);
   add_picture_options(command, state->picture);
   add_frame_options(command, state->frames);
   add_run_camera_options(command, state->run_camera);
@@ -218,7 +200,10 @@ void add_render(CLI::App& command) {
   command.add_option("--fps", state->frames_per_second, "Frames per second of a film [25]")
       ->check(CLI::Range(0.1, 240.0).description(""))
       ->type_name("N");
-  command.callback([state] { run(*state); });
+  command.callback([state] {
+    state->figure.representations.ask_for(state->molecule.reading);
+    run(*state);
+  });
 }
 
 }  // namespace meniscus

@@ -11,6 +11,7 @@
 #include "app/commands/commands.h"
 #include "app/farm/command_options.h"
 #include "app/process/program_error.h"
+#include "app/options/figure_options.h"
 #include "app/options/run_camera_options.h"
 #include "core/base/text.h"
 
@@ -107,7 +108,8 @@ void parse_shared_options(BundledCommand& result) {
   command.set_help_flag();
   command.allow_extras();
   add_molecule_options(command, result.molecule);
-  add_opacity_option(command, result.molecule);
+  FigureRequest figure;  // of render; the bundle needs to know what it reads, which is the same
+  if (result.words.front() == "render") add_figure_options(command, result.molecule, figure);
   add_frame_options(command, result.frames);
   add_picture_options(command, result.picture);
   add_run_camera_options(command, result.camera_motion);

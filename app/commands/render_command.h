@@ -8,6 +8,7 @@
 
 #include "app/options/molecule_options.h"
 #include "app/options/picture_options.h"
+#include "core/scene/figure.h"
 #include "core/scene/run_cameras.h"
 #include "app/options/frame_options.h"
 #include "core/render/legend.h"
@@ -22,6 +23,7 @@ struct RenderCommand {
   FrameOptions frames;
   ViewRequest picture;
   CameraMotionRequest run_camera;
+  FigureRequest figure;
   Look look;  // but for the background, which may be transparent
   OutputOptions output;
   std::string save_camera;
@@ -46,10 +48,6 @@ RenderSettings render_settings(const RenderCommand& command, const PictureLayout
 
 /// Of --extent.
 DeviceChoice gl_device(const RenderCommand& command);
-
-/// A picture of all objects. atom of the AOVs: into Structure::atoms.
-Framebuffer render_objects(SurfaceRenderer& renderer, std::vector<SurfaceObject> objects, const Camera& camera,
-                           const RenderSettings& settings);
 
 /// Did no ray of the picture meet a part of the surface that is shown?
 bool shows_nothing(const Framebuffer& picture);

@@ -124,18 +124,19 @@ class CompletePainter {
   FrameWorker on_cpu(const std::shared_ptr<MoleculeBuilder>& builder) const {
     std::shared_ptr<SurfaceRenderer> renderer = make_cpu_renderer();
     return [this, builder, renderer](RunFrame frame) {
-      Molecule molecule = builder->build(std::move(frame.structure));
-      return run_.keep(frame.number, render_objects(*renderer, std::move(molecule.objects), run_.cameras[frame.place],
-                                                    run_.settings));
+      Figure figure = make_figure(builder->build(std::move(frame.structure)), run_.command.figure);
+      return run_.keep(frame.number, draw(*renderer, std::move(figure), run_.command.figure, run_.cameras[frame.place],
+                                          run_.settings));
     };
   }
 
   FrameWorker by_gl(const std::shared_ptr<MoleculeBuilder>& builder) {
     return [this, builder](RunFrame frame) -> FinishFrame {
-      auto molecule = std::make_shared<const Molecule>(builder->build(std::move(frame.structure)));
-      return [this, molecule, place = frame.place, number = frame.number] {
-        return run_.keep(number,
-                         render_objects(device_.renderer(), molecule->objects, run_.cameras[place], run_.settings))();
+      auto figure =
+          std::make_shared<Figure>(make_figure(builder->build(std::move(frame.structure)), run_.command.figure));
+      return [this, figure, place = frame.place, number = frame.number] {
+        return run_.keep(number, draw(device_.renderer(), std::move(*figure), run_.command.figure, run_.cameras[place],
+                                      run_.settings))();
       };
     };
   }

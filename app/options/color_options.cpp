@@ -142,8 +142,7 @@ void add_opacity_option(CLI::App& command, MoleculeOptions& options) {
           },
           "Of atoms, from 0 (hidden) to 1: EXPR=0.4, or a number alone for all of them; repeatable, the last counts")
       ->allow_extra_args(false)
-      ->type_name("EXPR=N")
-      ->group("");
+      ->type_name("EXPR=N");
 }
 
 }  // namespace meniscus

@@ -18,7 +18,7 @@ std::vector<double> exposed_areas(const std::vector<Ball>& balls, double probe_r
   return atom_areas(compute_surface_cpu(balls, probe_radius)).surface;
 }
 
-std::future<std::vector<double>> begin_areas(const ShownAtoms& atoms) {
+std::future<std::vector<double>> begin_areas(const AtomsInView& atoms) {
   if (atoms.surface)
     return std::async(std::launch::async, [surface = atoms.surface] { return atom_areas(*surface).surface; });
   return std::async(std::launch::async,
@@ -31,7 +31,7 @@ bool is_ready(const std::future<std::vector<double>>& pending) {
 
 }  // namespace
 
-std::optional<double> ExposedAreas::of(const ShownAtoms& atoms, std::size_t atom, bool wait) {
+std::optional<double> ExposedAreas::of(const AtomsInView& atoms, std::size_t atom, bool wait) {
   const Key key{atoms.frame, atoms.probe_radius};
   if (pending_.valid() && pending_key_ != key && (wait || is_ready(pending_))) forget_or_keep();
   if (pending_.valid() && pending_key_ == key && (wait || is_ready(pending_))) finish();
@@ -44,7 +44,7 @@ std::optional<double> ExposedAreas::of(const ShownAtoms& atoms, std::size_t atom
   return found->second[atom];
 }
 
-void ExposedAreas::begin(const Key& key, const ShownAtoms& atoms) {
+void ExposedAreas::begin(const Key& key, const AtomsInView& atoms) {
   pending_key_ = key;
   pending_ = begin_areas(atoms);
 }

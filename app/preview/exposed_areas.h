@@ -15,7 +15,7 @@
 namespace meniscus {
 
 /// Whose areas are asked for.
-struct ShownAtoms {
+struct AtomsInView {
   std::size_t frame = 0;
   double probe_radius = 0.0;  ///< Å
   const std::vector<Ball>& balls;
@@ -29,13 +29,13 @@ class ExposedAreas {
   /// Area of the points that take the atom's colour, Å² (AtomAreas::surface). If it is not known yet it is computed:
   /// with `wait` before this returns, else nothing comes back and a later call finds it.
   /// Throws OpenSurfaceError, CapacityError.
-  std::optional<double> of(const ShownAtoms& atoms, std::size_t atom, bool wait);
+  std::optional<double> of(const AtomsInView& atoms, std::size_t atom, bool wait);
 
  private:
   using Key = std::pair<std::size_t, double>;
   using Areas = std::vector<double>;
 
-  void begin(const Key& key, const ShownAtoms& atoms);
+  void begin(const Key& key, const AtomsInView& atoms);
   void finish();
   void forget_or_keep();
 

@@ -23,8 +23,12 @@ struct Framebuffer {
   std::vector<glm::vec3> normal;         ///< towards the solvent; 0 where nothing is hit
   std::vector<glm::vec3> position;       ///< Å; 0 where nothing is hit
   std::vector<std::uint32_t> atom;       ///< index into Surface::atoms, or kNone
-  std::vector<std::uint32_t> kind;       ///< PatchKind, or kNone
+  std::vector<std::uint32_t> kind;       ///< PatchKind, kShape, kCap, or kNone
   std::vector<std::uint32_t> component;  ///< index into Surface::components, or kNone
+  std::vector<std::uint32_t> object;     ///< of several: which one; empty for one
+
+  /// Beyond PatchKind: on a shape beside a surface, on a plane that cuts one.
+  static constexpr std::uint32_t kShape = 3, kCap = 4;
 };
 
 }  // namespace meniscus

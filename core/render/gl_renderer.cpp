@@ -18,17 +18,26 @@ class GlRenderer final : public SurfaceRenderer {
                      const RenderSettings& settings) override {
     return renderer_.render(surface, coloring, camera, settings);
   }
+  Framebuffer render(std::span<const PictureObject> objects, const Camera& camera,
+                     const RenderSettings& settings) override {
+    layered_.reset();
+    if (objects.size() == 1 && !needs_layers(objects.front()))
+      return renderer_.render(*objects.front().surface, *objects.front().coloring, camera, settings);
+    layered_ = make_cpu_renderer();
+    return layered_->render(objects, camera, settings);
+  }
   Framebuffer render_copies(std::span<const SurfaceObject> objects, const Camera& camera,
                             const RenderSettings& settings) override {
     const SurfaceObject whole = merged({objects.begin(), objects.end()});
     return renderer_.render(whole.surface, whole.coloring, camera, settings);
   }
-  const std::vector<StageTime>& times() const override { return renderer_.times(); }
-  std::string device() const override { return gl_words(context_); }
+  const std::vector<StageTime>& times() const override { return layered_ ? layered_->times() : renderer_.times(); }
+  std::string device() const override { return layered_ ? layered_->device() : gl_words(context_); }
 
  private:
   const EglContext& context_;
   Renderer renderer_;
+  std::unique_ptr<SurfaceRenderer> layered_;  // of the last picture, if it needed layers
 };
 
 }  // namespace

@@ -38,20 +38,25 @@ PictureBlock with_neighbors(const PictureBlock& inner, int reach, glm::ivec2 pic
   return {low, glm::min(inner.origin + inner.size + reach, picture_size) - low};
 }
 
-PictureCollector::PictureCollector(const PictureFrame& frame, const RenderSettings& settings, const Surface* surface,
-                                   std::span<const ray_cast::Primitive> primitives)
-    : frame_(frame), per_sample_(1.0f / static_cast<float>(settings.samples)), primitives_(primitives) {
+PictureCollector::PictureCollector(const PictureFrame& frame, const RenderSettings& settings,
+                                   std::span<const HitSource> sources)
+    : frame_(frame), per_sample_(1.0f / static_cast<float>(settings.samples)) {
   const std::size_t count = static_cast<std::size_t>(settings.size.x) * settings.size.y;
   picture_.size = settings.size;
   picture_.color.resize(count);
   if (!settings.aovs) return;
-  components_.emplace(*surface);
+  for (const HitSource& source : sources) {
+    primitives_.push_back(source.primitives);
+    components_.emplace_back();
+    if (source.surface) components_.back().emplace(*source.surface);
+  }
   picture_.z.assign(count, std::numeric_limits<float>::infinity());
   picture_.normal.assign(count, glm::vec3(0.0f));
   picture_.position.assign(count, glm::vec3(0.0f));
   picture_.atom.assign(count, kNone);
   picture_.kind.assign(count, kNone);
   picture_.component.assign(count, kNone);
+  if (sources.size() > 1) picture_.object.assign(count, kNone);
 }
 
 void PictureCollector::add_colors(const PictureBlock& inner, const PictureBlock& block,
@@ -69,14 +74,20 @@ void PictureCollector::copy_hit(const ray_cast::Hit& hit, std::size_t at) {
   if (hit.primitive == ray_cast::kNoPrimitive) return;
   const auto width = static_cast<std::size_t>(frame_.size.x);
   const HitPoint point = hit_point(frame_, {static_cast<int>(at % width), static_cast<int>(at / width)}, hit.t);
-  const ray_cast::Primitive& primitive = primitives_[hit.primitive];
   picture_.z[at] = static_cast<float>(point.z);
   picture_.normal[at] = hit.normal;
   picture_.position[at] = glm::vec3(point.position);
   picture_.atom[at] = hit.atom;
-  picture_.kind[at] = primitive.kind;
-  picture_.component[at] =
-      components_->at(static_cast<PatchKind>(primitive.kind), primitive.patch_index, point.position);
+  if (!picture_.object.empty()) picture_.object[at] = hit.object;
+  if (hit.primitive == ray_cast::kOnPlane) {
+    picture_.kind[at] = Framebuffer::kCap;
+    return;
+  }
+  const ray_cast::Primitive& primitive = primitives_[hit.object][hit.primitive];
+  picture_.kind[at] = components_[hit.object] ? primitive.kind : Framebuffer::kShape;
+  if (components_[hit.object])
+    picture_.component[at] =
+        components_[hit.object]->at(static_cast<PatchKind>(primitive.kind), primitive.patch_index, point.position);
 }
 
 }  // namespace meniscus

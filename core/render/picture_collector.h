@@ -22,12 +22,17 @@ std::vector<PictureBlock> picture_blocks(glm::ivec2 size, int edge);
 /// `inner` and the neighbours that its colours depend on, as far as there are any.
 PictureBlock with_neighbors(const PictureBlock& inner, int reach, glm::ivec2 picture_size);
 
+/// What Hit::primitive counts.
+struct HitSource {
+  const Surface* surface = nullptr;  ///< whose patches they are; nullptr: shapes
+  std::span<const ray_cast::Primitive> primitives;
+};
+
 /// Takes the inner parts of blocks. What it is made of must stay until the picture is taken.
 class PictureCollector {
  public:
-  /// surface, primitives: for settings.aovs, the surface whose patches they are; else not looked at.
-  PictureCollector(const PictureFrame& frame, const RenderSettings& settings, const Surface* surface,
-                   std::span<const ray_cast::Primitive> primitives);
+  /// sources: for settings.aovs, one for each Hit::object; else not looked at.
+  PictureCollector(const PictureFrame& frame, const RenderSettings& settings, std::span<const HitSource> sources);
 
   /// sums: of the samples of each of the block's pixels, linear and premultiplied; hits: through their centres.
   void add_colors(const PictureBlock& inner, const PictureBlock& block, std::span<const glm::vec4> sums);
@@ -40,8 +45,8 @@ class PictureCollector {
 
   const PictureFrame& frame_;
   const float per_sample_;
-  std::span<const ray_cast::Primitive> primitives_;
-  std::optional<ComponentLookup> components_;
+  std::vector<std::span<const ray_cast::Primitive>> primitives_;
+  std::vector<std::optional<ComponentLookup>> components_;  // of surfaces
   Framebuffer picture_;
 };
 

@@ -69,7 +69,8 @@ Framebuffer Renderer::render(Drawable& drawable, const Camera& camera, const Ren
     assert(drawable.surface());
     primitives = scene_->primitives.buffer.download<ray_cast::Primitive>(scene_->primitives.count());
   }
-  PictureCollector collector(frame_, settings, drawable.surface(), primitives);
+  const HitSource source{drawable.surface(), primitives};
+  PictureCollector collector(frame_, settings, {&source, 1});
   const std::vector<PictureBlock> blocks = picture_blocks(settings.size, usable_block_edge(settings.block_edge));
   if (needs_shade_map(blocks.front(), settings)) make_shade_map();
   for (const PictureBlock& block : blocks) render_block(block, settings, collector);

@@ -11,6 +11,7 @@
 #include "core/camera/camera.h"
 #include "core/color/coloring.h"
 #include "core/render/framebuffer.h"
+#include "core/render/picture_object.h"
 #include "core/queries/surface_object.h"
 #include "core/render/render_settings.h"
 #include "core/surface/primitives.h"
@@ -27,6 +28,11 @@ class SurfaceRenderer {
   /// A picture on the host, of any size; the same for any block_edge. coloring.atom has one colour per surface.atoms.
   /// Throws InputError for a bad camera; GpuError and CapacityError where GL makes it.
   virtual Framebuffer render(const Surface& surface, const Coloring& coloring, const Camera& camera,
+                             const RenderSettings& settings) = 0;
+
+  /// A picture of any objects, cut and seen through as they say; made on the CPU wherever it needs layers. Atoms of the
+  /// AOVs are places in the colouring of their object. objects: at least one. Throws as render().
+  virtual Framebuffer render(std::span<const PictureObject> objects, const Camera& camera,
                              const RenderSettings& settings) = 0;
 
   /// The same picture as of merged(objects), to the bit, where copies need not be in memory all at once: on the CPU,

@@ -12,6 +12,7 @@
 #include "core/base/text.h"
 #include "core/queries/combine.h"
 #include "core/scene/hidden_atoms.h"
+#include "core/scene/representations.h"
 #include "core/trajectory/superpose.h"
 
 namespace meniscus {
@@ -71,14 +72,21 @@ ViewAim::ViewAim(const ViewRequest& request, const std::optional<Selection>& sho
     shown_.flip();
   }
   framed_ = shown_;
+  std::vector<bool> beside(structure.beside.size(), true);
   if (request.zoom_to) {
-    framed_ = request.zoom_to->evaluate(structure.atoms);
+    const std::vector<Atom> atoms = shown_atoms(structure);
+    framed_ = request.zoom_to->evaluate(atoms);
     if (std::ranges::find(framed_, true) == framed_.end())
-      throw RequestError(fmt::format("--zoom-to {}: selects none of the {} atoms of the surface",
-                                     in_quotes(request.zoom_to->text()), with_thousands(structure.atoms.size())));
+      throw RequestError(fmt::format("--zoom-to {}: selects none of the {} atoms that are shown",
+                                     in_quotes(request.zoom_to->text()), with_thousands(atoms.size())));
+    const auto first_beside = framed_.begin() + static_cast<std::ptrdiff_t>(structure.atoms.size());
+    beside.assign(first_beside, framed_.end());
+    framed_.erase(first_beside, framed_.end());
   }
-  using Frame = ViewDirection::Frame;
-  if (!request.direction || (request.direction->frame != Frame::symmetry && request.direction->frame != Frame::beside))
+  for (std::size_t n = 0; n < beside.size(); ++n)
+    if (beside[n]) beside_.push_back({structure.beside[n].position, structure.beside[n].radius});
+  using Axes = ViewDirection::Frame;
+  if (!request.direction || (request.direction->frame != Axes::symmetry && request.direction->frame != Axes::beside))
     return;
   symmetry_ = symmetry_axis(copy_motions(structure));
   if (!symmetry_)
@@ -90,10 +98,11 @@ ViewAim::ViewAim(const ViewRequest& request, const std::optional<Selection>& sho
 Camera ViewAim::camera(const ViewRequest& layout, const std::optional<Camera>& given,
                        std::span<const SurfaceObject> objects) const {
   const std::vector<Ball> all = placed_balls(objects);
-  if (shown_.empty() && framed_.empty()) return view_camera(layout, given, {all, all, symmetry_});
+  if (shown_.empty() && framed_.empty() && beside_.empty()) return view_camera(layout, given, {all, all, symmetry_});
   std::vector<Ball> shown = picked(objects, shown_), framed = picked(objects, framed_);
   // Atoms may belong to a part of the surface that was dropped (--cavities).
   if (shown.empty()) shown = all;
+  for (std::vector<Ball>* const balls : {&shown, &framed}) balls->insert(balls->end(), beside_.begin(), beside_.end());
   if (framed.empty()) framed = shown;
   return view_camera(layout, given, {shown, framed, symmetry_});
 }

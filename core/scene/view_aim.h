@@ -18,8 +18,9 @@ namespace meniscus {
 /// Of the atoms of a structure those that are shown and those that shall fill the picture, and where copies stand.
 class ViewAim {
  public:
-  /// show: the atoms whose part of the surface is shown; nothing: all. Throws RequestError if request.zoom_to selects
-  /// none of the atoms or request.direction is that of an axis which is not there, InputError if `show` selects none.
+  /// show: the atoms whose part of the surface is shown; nothing: all. Atoms beside the surface are shown, too, and can
+  /// be zoomed to. Throws RequestError if request.zoom_to selects none of them all or request.direction is that of an
+  /// axis which is not there, InputError if `show` selects none.
   ViewAim(const ViewRequest& request, const std::optional<Selection>& show, const Structure& structure);
 
   /// Of a picture of these objects of the structure, with their copies. layout: the request with the size of the part
@@ -36,6 +37,7 @@ class ViewAim {
 
  private:
   std::vector<bool> shown_, framed_;  ///< per atom of the structure; empty: all
+  std::vector<Ball> beside_;          ///< of Structure::beside, those that fill the picture
   std::optional<glm::dvec3> symmetry_;
 };
 

@@ -112,6 +112,13 @@ GEOMETRY truth goes_towards_torus(LocalRay ray, real nearest_t) {
   return ray.low < ray.high && ray.low <= nearest_t - ray.shift + params.slack;
 }
 
+// x: on the torus, in its own frame.
+GEOMETRY truth on_toroidal_patch(TorusPatch saddle, real3 x) {
+  return in_toroidal_patch(x, saddle.major, saddle.shape.x, saddle.shape.y, saddle.cos_sweep, saddle.sin_sweep,
+                           int(saddle.primitive.plane_count), params.slack) &&
+         shows_torus_point(saddle.primitive, x, saddle.major);
+}
+
 // Where, or kMiss. Roots are looked for by the patch alone: hits so far would leave their mark on the last bits.
 GEOMETRY real hit_torus(TorusPatch saddle, LocalRay ray) {
   TorusRuns runs = torus_runs(ray.o, ray.d, saddle.major, params.probe_radius, ray.low, ray.high);
@@ -119,10 +126,7 @@ GEOMETRY real hit_torus(TorusPatch saddle, LocalRay ray) {
   do {
     real root = torus_run(ray.o, ray.d, saddle.major, params.probe_radius, 2e-7, kMiss, runs);
     real3 x = ray.o + ray.d * root;
-    truth hit = t == real(kMiss) && root < real(kMiss) &&
-                in_toroidal_patch(x, saddle.major, saddle.shape.x, saddle.shape.y, saddle.cos_sweep, saddle.sin_sweep,
-                                  int(saddle.primitive.plane_count), params.slack) &&
-                shows_torus_point(saddle.primitive, x, saddle.major);
+    truth hit = t == real(kMiss) && root < real(kMiss) && on_toroidal_patch(saddle, x);
     t = select(hit, root, t);
     runs.waiting = select(hit, integer(0), runs.waiting);
   } while (some(runs.waiting != 0));

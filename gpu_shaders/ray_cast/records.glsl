@@ -9,6 +9,8 @@
 // Rows of a toroidal patch:  centre, R | start, cos sweep | axis, sin sweep | z_low, z_high, clip z, clip radius |
 //                            z of atom 0, its extended radius, z of atom 1, its extended radius
 // Rows of a concave patch:   centre, p | plane_count x (normal, offset) | contact_count x (direction, atom as bits)
+// Rows of a cylinder:        middle, radius | axis, half its length
+// Rows of a triangle:        corner a, - | b - a, - | c - a, - | normals at a, b, c, their atoms as bits
 
 struct Primitive {
   vec4 bound;         // sphere around the patch: centre, radius
@@ -17,8 +19,8 @@ struct Primitive {
   uint plane_count;   // toroidal: range of patch_membership.glsl
   uint kind;          // PatchKind
   uint patch_index;   // into the table of its kind
-  uint atom;          // convex: the atom; toroidal: the first; concave: contact_count
-  uint second_atom;   // toroidal
+  uint atom;          // convex: the atom; toroidal, cylinder: the first; concave: contact_count
+  uint second_atom;   // toroidal; cylinder: the one that the axis points to
   uint tie_key;       // tie_key.glsl: which of two patches of a kind a ray shows that meets both at once
 };
 
@@ -28,11 +30,14 @@ struct Hit {
   float t;         // from the ray's point on the plane through the pivot, in Å
   uint primitive;  // kNoPrimitive: nothing is hit
   uint atom;
-  uint unused;     // these two fill the record
-  uint unused_too;
+  uint object;     // in pictures of several: which of them
+  uint unused;     // fills the record
 };
 
 const uint kConvex = 0u;
 const uint kToroidal = 1u;
 const uint kConcave = 2u;
+const uint kCylinder = 3u;  // this one and the next are no patches: sticks and ribbons beside a surface
+const uint kTriangle = 4u;
 const uint kNoPrimitive = 0xffffffffu;
+const uint kOnPlane = 0xfffffffeu;  // of a hit: where a plane cuts a solid

@@ -54,11 +54,12 @@ void for_each_until(Interruption& interruption, int count, const Work& work) {
 
 }  // namespace
 
-void CpuRenderer::BlockSamples::resize(std::size_t pixel_count, bool has_parts) {
+void CpuRenderer::BlockSamples::resize(std::size_t pixel_count, bool has_parts, bool has_layers) {
   color.assign(pixel_count + 1, glm::vec4(0.0f));
   depth.assign(pixel_count + 1, kernel::kNothing);
   for (std::vector<float>& axis : normal) axis.assign(pixel_count + 1, 0.0f);
   part.assign(has_parts ? pixel_count + 1 : 0, 0.0f);
+  over.assign(has_layers ? pixel_count + 1 : 0, glm::vec4(0.0f));
   visibility.assign(pixel_count + 1, 1.0f);
 }
 
@@ -66,7 +67,8 @@ LaneSamples CpuRenderer::BlockSamples::lanes() {
   return {color.data(),
           depth.data(),
           {normal[0].data(), normal[1].data(), normal[2].data()},
-          part.empty() ? nullptr : part.data()};
+          part.empty() ? nullptr : part.data(),
+          over.empty() ? nullptr : over.data()};
 }
 
 void CpuRenderer::begin(const Camera& camera, const RenderSettings& settings) {
@@ -91,7 +93,8 @@ void CpuRenderer::pack(const Surface& surface, const Coloring& coloring, const C
 Framebuffer CpuRenderer::render(const Surface& surface, const Coloring& coloring, const Camera& camera,
                                 const RenderSettings& settings) {
   pack(surface, coloring, camera, settings);
-  PictureCollector collector(frame_, settings, &surface, scene_.packed.primitives);
+  const HitSource source{&surface, scene_.packed.primitives};
+  PictureCollector collector(frame_, settings, {&source, 1});
   const std::function<bool()> never;
   Interruption interruption(never);
   const std::vector<PictureBlock> blocks = picture_blocks(settings.size, block_edge(settings));
@@ -117,7 +120,7 @@ Framebuffer CpuRenderer::render_copies(std::span<const SurfaceObject> objects, c
     placement = place_atoms(balls, objects.front().surface.probe_radius, frame_);
   }
   VisibleCopies copies(objects, frame_, placement, kernels_, patches_together_);
-  PictureCollector collector(frame_, settings, nullptr, {});
+  PictureCollector collector(frame_, settings, {});
   const std::function<bool()> never;
   Interruption interruption(never);
   const std::vector<PictureBlock> blocks = picture_blocks(settings.size, block_edge(settings));
@@ -138,6 +141,45 @@ Framebuffer CpuRenderer::render_copies(std::span<const SurfaceObject> objects, c
     }
     cast({frame_, block, settings, false}, interruption);
     collector.add_colors(inner, block, sums_);
+  }
+  return collector.take();
+}
+
+ScenePlacement CpuRenderer::place(std::span<const PictureObject> objects, const Camera& camera,
+                                  const RenderSettings& settings) {
+  begin(camera, settings);
+  const std::vector<Ball> balls = enclosing_balls(objects);
+  double probe_radius = 0.0;
+  for (const PictureObject& object : objects)
+    if (object.surface) probe_radius = std::max(probe_radius, object.surface->probe_radius);
+  frame_ = make_picture_frame(balls, camera, settings.size);
+  return place_atoms(balls, probe_radius, frame_);
+}
+
+Framebuffer CpuRenderer::render(std::span<const PictureObject> objects, const Camera& camera,
+                                const RenderSettings& settings) {
+  assert(!objects.empty());
+  if (objects.size() == 1 && !needs_layers(objects.front()))
+    return render(*objects.front().surface, *objects.front().coloring, camera, settings);
+  scene_.placement = place(objects, camera, settings);
+  std::optional<LayeredScene> layers;
+  {
+    const auto stage = clock_.stage("pack");
+    layers.emplace(objects, frame_, scene_.placement, settings.look);
+  }
+  std::vector<HitSource> sources;
+  for (std::size_t n = 0; n < objects.size(); ++n) sources.push_back(layers->source(n));
+  PictureCollector collector(frame_, settings, sources);
+  const std::function<bool()> never;
+  Interruption interruption(never);
+  const std::vector<PictureBlock> blocks = picture_blocks(settings.size, block_edge(settings));
+  if (needs_shade_map(blocks.front(), settings))
+    cast_shade_map(shade_map_frame(frame_), settings, interruption, &*layers);
+  for (const PictureBlock& inner : blocks) {
+    const PictureBlock block = with_neighbors(inner, look_reach(settings.look, settings.size), settings.size);
+    cast({frame_, block, settings, settings.aovs, &*layers}, interruption);
+    collector.add_colors(inner, block, sums_);
+    if (settings.aovs) collector.add_hits(inner, block, hits_);
   }
   return collector.take();
 }
@@ -180,34 +222,40 @@ std::string CpuRenderer::device() const {
   return fmt::format("cpu ({} threads)", tbb::this_task_arena::max_concurrency());
 }
 
-void CpuRenderer::start_block(const PictureFrame& frame, const PictureBlock& block) {
+void CpuRenderer::start_block(const PictureFrame& frame, const PictureBlock& block, LayeredScene* layers) {
   const auto stage = clock_.stage("tile lists");
-  lists_.build(scene_.packed.primitives, frame, block);
+  if (layers)
+    layers->begin_block(frame, block);
+  else
+    lists_.build(scene_.packed.primitives, frame, block);
   scene_.lanes.view = block_view(frame, block, glm::vec2(0.0f));
 }
 
-void CpuRenderer::cast_shade_map(const PictureFrame& map, const RenderSettings& settings, Interruption& interruption) {
+void CpuRenderer::cast_shade_map(const PictureFrame& map, const RenderSettings& settings, Interruption& interruption,
+                                 LayeredScene* layers) {
   const PictureBlock whole{{0, 0}, map.size};
-  start_block(map, whole);
-  samples_.resize(static_cast<std::size_t>(map.size.x) * map.size.y, !scene_.parts.empty());
-  cast_samples(0, 1, {map, whole, settings, false}, interruption);
+  start_block(map, whole, layers);
+  const bool has_parts = layers ? layers->has_parts() : !scene_.parts.empty();
+  samples_.resize(static_cast<std::size_t>(map.size.x) * map.size.y, has_parts, layers != nullptr);
+  cast_samples(0, 1, {map, whole, settings, false, layers}, interruption);
   shade_map_.swap(samples_.depth);
 }
 
 void CpuRenderer::cast(const BlockTask& task, Interruption& interruption) {
-  start_block(task.frame, task.block);
+  start_block(task.frame, task.block, task.layers);
   const auto pixel_count = static_cast<std::size_t>(task.block.size.x) * task.block.size.y;
   const Look& look = task.settings.look;
   sums_.assign(pixel_count, glm::vec4(0.0f));
   if (task.hits) hits_.assign(pixel_count, kNoHit);
   const int step = look.has_effects() ? 1 : LaneTile::kMostSamples;
-  if (look.has_effects()) samples_.resize(pixel_count, !scene_.parts.empty());
+  const bool has_parts = task.layers ? task.layers->has_parts() : !scene_.parts.empty();
+  if (look.has_effects()) samples_.resize(pixel_count, has_parts, task.layers != nullptr);
   for (int first = 0; first < task.settings.samples && !interruption.came(); first += step) {
     cast_samples(first, std::min(step, task.settings.samples - first), task, interruption);
     if (!look.has_effects()) continue;
     if (look.ambient_occlusion > 0.0f && first == 0 && holds_shade_map(task.block, task.settings.size))
       shade_map_ = samples_.depth;
-    look_at(first, task.settings, interruption);
+    look_at(first, task.settings, has_parts, interruption);
   }
 }
 
@@ -221,8 +269,13 @@ void CpuRenderer::cast_samples(int first, int count, const BlockTask& task, Inte
     samples.samples = samples_.lanes();
   else
     samples.sums = sums_.data();
-  for_each_until(interruption, lists_.tiles().x * lists_.tiles().y,
-                 [&](int tile) { cast_tile(static_cast<std::size_t>(tile), samples); });
+  const glm::ivec2 tiles = tile_counts(task.block);
+  for_each_until(interruption, tiles.x * tiles.y, [&](int tile) {
+    if (task.layers)
+      task.layers->cast_tile(static_cast<std::size_t>(tile), samples, kernels_);
+    else
+      cast_tile(static_cast<std::size_t>(tile), samples);
+  });
 }
 
 void CpuRenderer::cast_tile(std::size_t tile, LaneTile task) {
@@ -234,14 +287,14 @@ void CpuRenderer::cast_tile(std::size_t tile, LaneTile task) {
   kernels_.cast_tile(scene_.lanes, task);
 }
 
-void CpuRenderer::look_at(int sample, const RenderSettings& settings, Interruption& interruption) {
+void CpuRenderer::look_at(int sample, const RenderSettings& settings, bool has_parts, Interruption& interruption) {
   const auto stage = clock_.stage("look");
   const Look& look = settings.look;
   LaneLook task;
   task.view = scene_.lanes.view;
   task.view.sample_offset = sample_offset(sample);
   task.occlusion = occlusion_parameters(look, settings.size, sample);
-  task.finish = finish_parameters(look, scene_.placement, settings.size, sample, !scene_.parts.empty());
+  task.finish = finish_parameters(look, scene_.placement, settings.size, sample, has_parts);
   task.samples = samples_.lanes();
   task.shade_map = shade_map_.data();
   task.visibility = samples_.visibility.data();

@@ -17,6 +17,7 @@
 #include "core/render/cpu/cpu_tile_lists.h"
 #include "core/render/cpu/host_scene.h"
 #include "core/render/cpu/lane_kernels.h"
+#include "core/render/cpu/layered_scene.h"
 #include "core/render/cpu/visible_copies.h"
 #include "core/render/hit_point.h"
 #include "core/render/surface_renderer.h"
@@ -33,6 +34,8 @@ class CpuRenderer final : public SurfaceRenderer {
       : kernels_(widest_kernels(most_lanes)), patches_together_(patches_together) {}
 
   Framebuffer render(const Surface& surface, const Coloring& coloring, const Camera& camera,
+                     const RenderSettings& settings) override;
+  Framebuffer render(std::span<const PictureObject> objects, const Camera& camera,
                      const RenderSettings& settings) override;
   Framebuffer render_copies(std::span<const SurfaceObject> objects, const Camera& camera,
                             const RenderSettings& settings) override;
@@ -55,10 +58,10 @@ class CpuRenderer final : public SurfaceRenderer {
   /// One sample of each pixel of a block and, behind the last, of what lies outside. Tiles that list nothing are never
   /// written, so that one beginning does for all samples.
   struct BlockSamples {
-    std::vector<glm::vec4> color;
+    std::vector<glm::vec4> color, over;
     std::vector<float> depth, normal[3], part, visibility;
 
-    void resize(std::size_t pixel_count, bool has_parts);
+    void resize(std::size_t pixel_count, bool has_parts, bool has_layers);
     LaneSamples lanes();
   };
 
@@ -67,17 +70,20 @@ class CpuRenderer final : public SurfaceRenderer {
     const PictureFrame& frame;
     PictureBlock block;
     const RenderSettings& settings;
-    bool hits;  ///< wanted too
+    bool hits;                       ///< wanted too
+    LayeredScene* layers = nullptr;  ///< what it shows; nullptr: scene_
   };
 
   void begin(const Camera& camera, const RenderSettings& settings);
+  ScenePlacement place(std::span<const PictureObject> objects, const Camera& camera, const RenderSettings& settings);
   void pack(const Surface& surface, const Coloring& coloring, const Camera& camera, const RenderSettings& settings);
-  void start_block(const PictureFrame& frame, const PictureBlock& block);
-  void cast_shade_map(const PictureFrame& map, const RenderSettings& settings, Interruption& interruption);
+  void start_block(const PictureFrame& frame, const PictureBlock& block, LayeredScene* layers);
+  void cast_shade_map(const PictureFrame& map, const RenderSettings& settings, Interruption& interruption,
+                      LayeredScene* layers = nullptr);
   void cast(const BlockTask& task, Interruption& interruption);
   void cast_samples(int first, int count, const BlockTask& task, Interruption& interruption);
   void cast_tile(std::size_t tile, LaneTile task);
-  void look_at(int sample, const RenderSettings& settings, Interruption& interruption);
+  void look_at(int sample, const RenderSettings& settings, bool has_parts, Interruption& interruption);
   void present(const RenderSettings& settings);
 
   const LaneKernels& kernels_;

@@ -49,11 +49,17 @@ struct LaneSamples {
   float* depth = nullptr;      ///< along the view axis, Å; kernel::kNothing where nothing is met
   float* normal[3] = {};       ///< towards the solvent, in the molecule's axes
   float* part = nullptr;       ///< LaneScene::parts of what is met, else 0; nullptr if there are none
+  glm::vec4* over = nullptr;   ///< what is seen through before all of this, premultiplied; nullptr: nothing
 };
 
 /// Some samples of a tile's pixels.
 struct LaneTile {
   static constexpr int kMostSamples = 4;
+  static constexpr int kMostRays = kMostSamples * kernel::kTileEdge * kernel::kTileEdge;
+  /// Of a pixel's sample.
+  static constexpr std::uint32_t ray_number(int sample, int x, int y) {
+    return static_cast<std::uint32_t>((sample * kernel::kTileEdge + y) * kernel::kTileEdge + x);
+  }
   glm::ivec2 origin{0};              ///< in the block, pixels
   int sample_count = 1;              ///< 1 to kMostSamples
   glm::vec2 offset[kMostSamples]{};  ///< of the samples from the pixels' centres
@@ -62,6 +68,43 @@ struct LaneTile {
   glm::vec4* sums = nullptr;      ///< of the block: gets the samples' sum added; or nullptr
   ray_cast::Hit* hits = nullptr;  ///< of the block: gets those of the first sample; or nullptr
   LaneSamples samples;            ///< of the block, for one sample; its pointers may be nullptr all together
+};
+
+/// A point where a ray meets something: what layers are made of.
+struct LayerHit {
+  float t = 0.0f;
+  std::uint32_t ray = 0;        ///< of the tile: LaneTile::ray_number()
+  std::uint32_t layer = 0;      ///< for the host, which sets it
+  std::uint32_t primitive = 0;  ///< kOnPlane where a plane cuts the layer
+  std::uint32_t atom = 0;
+  float facing = 0.0f;     ///< normal . direction of the ray: it goes into the solid where this is negative
+  float depth = 0.0f;      ///< along the view axis, Å
+  glm::vec4 color{0.0f};   ///< lit, linear, not premultiplied; alpha: opacity
+  glm::vec3 normal{0.0f};  ///< towards the solvent
+};
+
+/// Room for hits; the kernels ask for more of it.
+struct LayerHits {
+  LayerHit* hits = nullptr;
+  std::uint32_t count = 0, capacity = 0;
+  void (*grow)(LayerHits& full) = nullptr;
+};
+
+/// Where a ray of a tile goes into the half-spaces of its layer and out of them; `out` <= `in`: it stays outside.
+struct ClippedRay {
+  float in = 0.0f, out = 0.0f;
+  std::uint32_t in_plane = kNoPlane, out_plane = kNoPlane;  ///< of LayerTask::planes
+  static constexpr std::uint32_t kNoPlane = ~0u;            ///< the camera; far away
+};
+
+/// How a layer is cast: a scene whose solids are cut by planes, or seen through.
+struct LayerTask {
+  const glm::vec4* planes = nullptr;  ///< kept is where dot(xyz, x) < w, relative to the pivot
+  int plane_count = 0;
+  bool all = false;                 ///< every hit; else the nearest of each ray
+  bool thickens = false;            ///< opacity grows where a ray goes along the surface, as in a thin film
+  const float* farthest = nullptr;  ///< for each ray of the tile, what may still be seen; nullptr: everything
+  ClippedRay* clipped = nullptr;    ///< gets, for each ray of the tile, where its planes cut it
 };
 
 /// What a look makes of one sample of each pixel of a block. Arrays of pixels, those of `samples` too, have one more
@@ -80,6 +123,10 @@ struct LaneLook {
 struct LaneKernels {
   int lanes;
   void (*cast_tile)(const LaneScene& scene, const LaneTile& tile);
+  /// Adds what the tile's rays meet to `hits`, in any order; the tile's own arrays are left alone.
+  void (*cast_layer)(const LaneScene& scene, const LaneTile& tile, const LayerTask& task, LayerHits& hits);
+  /// Lights points on planes, whose t, ray, normal and colour are given; sets their depth.
+  void (*light_points)(const LaneScene& scene, const LaneTile& tile, LayerHit* points, std::uint32_t count);
   void (*occlude_row)(const LaneLook& look, int y);  ///< what hits see of the sky, into visibility
   void (*finish_row)(const LaneLook& look, int y);   ///< needs the visibility of two rows around
 };

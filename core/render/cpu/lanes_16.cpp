@@ -13,8 +13,8 @@
 #endif
 #define MENISCUS_LANES 16
 #define MENISCUS_LANE_NAMESPACE lanes_16
+#include "core/render/cpu/layer_caster.h"
 #include "core/render/cpu/look_rows.h"
-#include "core/render/cpu/tile_caster.h"
 #if defined(__clang__)
 #pragma clang attribute pop
 #else
@@ -24,7 +24,12 @@
 namespace meniscus {
 
 const LaneKernels* kernels_of_16_lanes() {
-  static constexpr LaneKernels kernels{16, lanes_16::cast_tile, lanes_16::occlude_row, lanes_16::finish_row};
+  static constexpr LaneKernels kernels{16,
+                                       lanes_16::cast_tile,
+                                       lanes_16::cast_layer,
+                                       lanes_16::light_points,
+                                       lanes_16::occlude_row,
+                                       lanes_16::finish_row};
   return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
                  __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw")
              ? &kernels

@@ -12,8 +12,8 @@
 #endif
 #define MENISCUS_LANES 8
 #define MENISCUS_LANE_NAMESPACE lanes_8
+#include "core/render/cpu/layer_caster.h"
 #include "core/render/cpu/look_rows.h"
-#include "core/render/cpu/tile_caster.h"
 #if defined(__clang__)
 #pragma clang attribute pop
 #else
@@ -23,7 +23,8 @@
 namespace meniscus {
 
 const LaneKernels* kernels_of_8_lanes() {
-  static constexpr LaneKernels kernels{8, lanes_8::cast_tile, lanes_8::occlude_row, lanes_8::finish_row};
+  static constexpr LaneKernels kernels{
+      8, lanes_8::cast_tile, lanes_8::cast_layer, lanes_8::light_points, lanes_8::occlude_row, lanes_8::finish_row};
   return __builtin_cpu_supports("avx2") ? &kernels : nullptr;
 }
 

@@ -112,8 +112,11 @@ struct LookedAtBlock {
       color = color * (1.0f - covered);
       alpha = mix(alpha, 1.0f, covered);
     }
-    for (int n = 0; n < count; ++n)
-      look_.sums[first + n] += glm::vec4(lane(color.x, n), lane(color.y, n), lane(color.z, n), lane(alpha, n));
+    for (int n = 0; n < count; ++n) {
+      const glm::vec4 finished(lane(color.x, n), lane(color.y, n), lane(color.z, n), lane(alpha, n));
+      const glm::vec4* const over = look_.samples.over ? &look_.samples.over[first + n] : nullptr;
+      look_.sums[first + n] += over ? *over + finished * (1.0f - over->w) : finished;
+    }
   }
 
   void occlude(int x, int y) {

@@ -16,15 +16,19 @@ using glm::vec4;
 using ray_cast::Hit;
 using ray_cast::kConcave;
 using ray_cast::kConvex;
+using ray_cast::kCylinder;
 using ray_cast::kNoPrimitive;
 using ray_cast::kToroidal;
+using ray_cast::kTriangle;
 using ray_cast::Primitive;
 
 inline uint floatBitsToUint(float a) { return std::bit_cast<uint>(a); }
 
 #include "gpu_shaders/geometry/patch_membership.glsl"
+#include "gpu_shaders/geometry/ray_cylinder.glsl"
 #include "gpu_shaders/geometry/ray_sphere.glsl"
 #include "gpu_shaders/geometry/ray_torus.glsl"
+#include "gpu_shaders/geometry/ray_triangle.glsl"
 
 inline constexpr int kBundleEdge = 4;  // pixels
 inline constexpr int kPixelPackets = kBundleEdge * kBundleEdge / kLanes;
@@ -60,10 +64,25 @@ struct TracedScene {
 #include "gpu_shaders/ray_cast/patch_hits.glsl"
 #include "gpu_shaders/ray_cast/sheen.glsl"
 #include "gpu_shaders/ray_cast/shade.glsl"
+#include "gpu_shaders/ray_cast/shape_hits.glsl"
+
+  /// Of a patch or a shape.
+  SurfacePoint point_of(const Primitive& primitive, const real3& p) {
+    if (primitive.kind == kCylinder) return cylinder_point(primitive, p);
+    if (primitive.kind == kTriangle) return triangle_point(primitive, p);
+    return surface_point(primitive, p);
+  }
+
+  /// Along the view axis, Å. Rays count from the pivot's plane; a perspective one is longer than its part along the
+  /// axis.
+  real depth_at(const real3& d, real t) const {
+    const real along = view.orthographic != 0u ? t : t * dot(d, view.forward);
+    return view.eye_distance + along;
+  }
 };
 
 /// The rays of a bundle and their nearest hits so far.
-class Bundle : TracedScene {
+class Bundle : protected TracedScene {
  public:
   Bundle(const LaneScene& scene, const LaneTile& tile, glm::ivec2 origin)
       : TracedScene(scene), tile_(tile), origin_(origin), packet_count_(kPixelPackets * tile.sample_count) {
@@ -71,16 +90,7 @@ class Bundle : TracedScene {
   }
 
   void trace() {
-    const LaneList& list = tile_.list;
-    for (int first = 0; first < list.count; first += kLanes) {
-      const float farthest = farthest_distance();
-      if (list.nearest[first] > farthest) return;  // as do all that follow
-      const real3 center(load(list.x + first), load(list.y + first), load(list.z + first));
-      const truth missed = misses_bound(center, load(list.radius + first), real3(middle_), real3(middle_direction_),
-                                        middle_eye_, spread_, farthest_t());
-      for (uint left = bits(!(missed || load(list.nearest + first) > farthest)); left != 0; left &= left - 1)
-        meet(list.primitive[first + std::countr_zero(left)]);
-    }
+    trace([this](uint index) { meet(index); });
   }
 
   void write() {
@@ -101,10 +111,11 @@ class Bundle : TracedScene {
     }
   }
 
- private:
+ protected:
   struct Rays {
     real3 p, d;
     real eye_t;
+    real from;  // hits lie beyond it
     real t;
     natural primitive, kind, tie_key;
   };
@@ -131,7 +142,7 @@ class Bundle : TracedScene {
         Rays& rays = rays_[s * kPixelPackets + v];
         rays.p = ray_point_at(place(v));
         rays.d = ray_direction(rays.p);
-        rays.eye_t = eye_parameter(rays.d);
+        rays.eye_t = rays.from = eye_parameter(rays.d);
         rays.t = kMiss;
         rays.primitive = rays.kind = rays.tie_key = kNoPrimitive;
       }
@@ -158,11 +169,30 @@ class Bundle : TracedScene {
     return greatest(farthest);
   }
 
+  /// Calls meet_primitive(index) for what may lie nearer than some ray's `t`.
+  template <typename Meet>
+  void trace(const Meet& meet_primitive) {
+    const LaneList& list = tile_.list;
+    for (int first = 0; first < list.count; first += kLanes) {
+      const float farthest = farthest_distance();
+      if (list.nearest[first] > farthest) return;  // as do all that follow
+      const real3 center(load(list.x + first), load(list.y + first), load(list.z + first));
+      const truth missed = misses_bound(center, load(list.radius + first), real3(middle_), real3(middle_direction_),
+                                        middle_eye_, spread_, farthest_t());
+      for (uint left = bits(!(missed || load(list.nearest + first) > farthest)); left != 0; left &= left - 1)
+        meet_primitive(list.primitive[first + std::countr_zero(left)]);
+    }
+  }
+
   void meet(uint index) {
     const Primitive& primitive = load_primitive(index);
     if (primitive.kind == kToroidal) {
       const TorusPatch saddle = load_torus(index);
       for (int n = 0; n < packet_count_; ++n) meet_torus(index, saddle, rays_[n]);
+    } else if (primitive.kind == kCylinder) {
+      for (int n = 0; n < packet_count_; ++n) meet_stick(index, primitive, rays_[n]);
+    } else if (primitive.kind == kTriangle) {
+      for (int n = 0; n < packet_count_; ++n) meet_facet(index, primitive, rays_[n]);
     } else {
       const vec4 center = row(primitive.first_row);
       for (int n = 0; n < packet_count_; ++n) meet_clipped_sphere(index, primitive, center, rays_[n]);
@@ -194,12 +224,12 @@ class Bundle : TracedScene {
   void meet_clipped_sphere(uint index, const Primitive& primitive, const vec4& center, Rays& rays) {
     const SphereMeeting meeting = meet_sphere(center, rays.p, rays.d);
     if (!some(meeting.found)) return;
-    truth found = meeting.found && meeting.near_t > rays.eye_t && meeting.near_t <= rays.t;
+    truth found = meeting.found && meeting.near_t > rays.from && meeting.near_t <= rays.t;
     if (some(found)) {
       found = on_patch(primitive, meeting.near_point, center.w, found);
       keep_nearest(index, primitive, found, meeting.near_t, rays);
     }
-    truth far_found = meeting.found && meeting.far_t > rays.eye_t && !found && meeting.far_t <= rays.t;
+    truth far_found = meeting.found && meeting.far_t > rays.from && !found && meeting.far_t <= rays.t;
     if (!some(far_found)) return;
     far_found = on_patch(primitive, meeting.far_point, center.w, far_found);
     keep_nearest(index, primitive, far_found, meeting.far_t, rays);
@@ -207,11 +237,27 @@ class Bundle : TracedScene {
 
   void meet_torus(uint index, const TorusPatch& saddle, Rays& rays) {
     LocalRay ray = to_torus(saddle, rays.p, rays.d);
+    ray.low = max(ray.low, rays.from - ray.shift);
     const truth towards = goes_towards_torus(ray, rays.t);
     if (!some(towards)) return;
     ray.high = select(towards, ray.high, ray.low);
     const real t = hit_torus(saddle, ray);
     keep_nearest(index, saddle.primitive, t < real(kMiss), t, rays);
+  }
+
+  static void meet_at(uint index, const Primitive& primitive, truth found, real t, Rays& rays) {
+    keep_nearest(index, primitive, found && t > rays.from && t <= rays.t, t, rays);
+  }
+
+  void meet_stick(uint index, const Primitive& primitive, Rays& rays) {
+    const CylinderMeeting meeting = meet_cylinder(primitive, rays.p, rays.d);
+    meet_at(index, primitive, meeting.near_found, meeting.near_t, rays);
+    meet_at(index, primitive, meeting.far_found, meeting.far_t, rays);
+  }
+
+  void meet_facet(uint index, const Primitive& primitive, Rays& rays) {
+    const TriangleHit hit = meet_triangle(primitive, rays.p, rays.d);
+    meet_at(index, primitive, hit.found, hit.t, rays);
   }
 
   Shaded shade(int n) {
@@ -224,21 +270,21 @@ class Bundle : TracedScene {
     for (uint left = bits(shaded.met); left != 0;) {
       const uint index = lane(rays.primitive, std::countr_zero(left));
       const truth here = rays.primitive == natural(index);
-      const SurfacePoint point = surface_point(load_primitive(index), x);
+      const SurfacePoint point = point_of(load_primitive(index), x);
       shaded.normal = select(here, point.normal, shaded.normal);
       shaded.atom = select(here, point.atom, shaded.atom);
       left &= ~bits(here);
     }
-    shaded.color = select(shaded.met, lit(albedo(rays, shaded), shaded.normal, rays.d), real3(0.0f));
+    shaded.color =
+        select(shaded.met, lit(albedo(shaded.met, rays.kind, shaded.atom), shaded.normal, rays.d), real3(0.0f));
     return shaded;
   }
 
-  real3 albedo(const Rays& rays, const Shaded& shaded) const {
+  real3 albedo(truth met, natural kind, natural atom) const {
     real3 result(0.0f);
-    for (uint left = bits(shaded.met); left != 0; left &= left - 1) {
+    for (uint left = bits(met); left != 0; left &= left - 1) {
       const int n = std::countr_zero(left);
-      const vec4& color =
-          scene_.colors[params.color_by_kind != 0u ? params.atom_count + lane(rays.kind, n) : lane(shaded.atom, n)];
+      const vec4& color = scene_.colors[params.color_by_kind != 0u ? params.atom_count + lane(kind, n) : lane(atom, n)];
       result.x.v[n] = color.x;
       result.y.v[n] = color.y;
       result.z.v[n] = color.z;
@@ -282,9 +328,7 @@ class Bundle : TracedScene {
   }
 
   void write_sample(const Pixels& to, const Rays& rays, const Shaded& shaded) const {
-    // Rays count from the pivot's plane; a perspective one is longer than its part along the axis.
-    const real along = view.orthographic != 0u ? rays.t : rays.t * dot(rays.d, view.forward);
-    const real depth = select(shaded.met, view.eye_distance + along, real(kernel::kNothing));
+    const real depth = select(shaded.met, depth_at(rays.d, rays.t), real(kernel::kNothing));
     const real alpha = select(shaded.met, real(1.0f), real(0.0f));
     const LaneSamples& samples = tile_.samples;
     for (int i = 0; i < to.count; ++i) {
@@ -307,16 +351,22 @@ class Bundle : TracedScene {
   Rays rays_[kMostPackets];
 };
 
-inline void cast_tile(const LaneScene& scene, const LaneTile& tile) {
+/// Calls work(origin) for each bundle of a tile.
+template <typename Work>
+void for_each_bundle(const LaneScene& scene, const LaneTile& tile, const Work& work) {
   const glm::ivec2 end = {
       scene.view.size.x < tile.origin.x + kernel::kTileEdge ? scene.view.size.x : tile.origin.x + kernel::kTileEdge,
       scene.view.size.y < tile.origin.y + kernel::kTileEdge ? scene.view.size.y : tile.origin.y + kernel::kTileEdge};
   for (int y = tile.origin.y; y < end.y; y += kBundleEdge)
-    for (int x = tile.origin.x; x < end.x; x += kBundleEdge) {
-      Bundle bundle(scene, tile, {x, y});
-      bundle.trace();
-      bundle.write();
-    }
+    for (int x = tile.origin.x; x < end.x; x += kBundleEdge) work(glm::ivec2(x, y));
+}
+
+inline void cast_tile(const LaneScene& scene, const LaneTile& tile) {
+  for_each_bundle(scene, tile, [&](glm::ivec2 origin) {
+    Bundle bundle(scene, tile, origin);
+    bundle.trace();
+    bundle.write();
+  });
 }
 
 }  // namespace meniscus::MENISCUS_LANE_NAMESPACE

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Declares the options of figures and checks what they say.
+#include "app/options/figure_options.h"
+
+#include <string>
+#include <vector>
+
+#include "app/options/representation_options.h"
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/color/color_schemes.h"
+
+namespace meniscus {
+namespace {
+
+Cut cut_of(const std::string& text) {
+  try {
+    return parse_cut(text);
+  } catch (const RequestError& error) {
+    throw CLI::ValidationError("--clip", error.what());
+  }
+}
+
+void parse_cap_color(const std::string& text, CapStyle& cap) {
+  cap.color.reset();
+  if (text == "atom") return;
+  cap.color = parse_hex_color(text);
+  if (!cap.color) throw CLI::ValidationError("--cap-color", in_quotes(text) + " is neither atom nor #rrggbb");
+}
+
+}  // namespace
+
+void add_figure_options(CLI::App& command, MoleculeOptions& molecule, FigureRequest& figure) {
+  const Heading heading(command, "Figure");
+  add_representation_options(command, figure.representations);
+  add_opacity_option(command, molecule);
+  command.add_flag("--film-opacity", figure.thickens,
+                   "A surface that is seen through is denser where the view grazes it, as a thin film is");
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--clip",
+          [&figure](const std::vector<std::string>& texts) {
+            figure.cuts.clear();
+            for (const std::string& text : texts) figure.cuts.push_back(cut_of(text));
+          },
+          "Show of the surface what lies where this holds, with exact caps: x<20, 1,1,0>35 (a direction), or depth>0.5 "
+          "along the view (0 nearest, 1 farthest); repeatable, all count")
+      ->allow_extra_args(false)
+      ->type_name("PLANE");
+  command
+      .add_option_function<std::string>(
+          "--cap-color", [&figure](const std::string& text) { parse_cap_color(text, figure.cap); },
+          "Of caps: atom (default: that of the nearest atom) or #rrggbb")
+      ->type_name("COLOR");
+  command.add_option("--cap-hatching", figure.cap.hatching, "Dark lines on caps, so many Å apart [0: none]")
+      ->check(CLI::Range(0.0, 1000.0).description(""))
+      ->type_name("Å");
+}
+
+}  // namespace meniscus

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The options that say what a figure shows beside the whole surface: cuts, opacity, sticks and the like.
+#pragma once
+
+#include "app/options/molecule_options.h"
+#include "core/scene/figure.h"
+
+namespace meniscus {
+
+/// --opacity, --film-opacity, --clip, --cap-color, --cap-hatching, and those of representation_options.h. Both must
+/// live as long as the command.
+void add_figure_options(CLI::App& command, MoleculeOptions& molecule, FigureRequest& figure);
+
+}  // namespace meniscus

@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Casts opaque layers first: they tell how far others are seen. Then sorts and puts together.
+#include "core/render/cpu/layered_scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <tuple>
+
+#include <glm/geometric.hpp>
+
+#include "core/image/color_space.h"
+#include "core/render/shape_packing.h"
+
+namespace meniscus {
+namespace {
+
+using ray_cast::kOnPlane;
+
+constexpr float kFar = 3.0e38f;  // beyond every hit
+/// Of what was seen through, what is left of a ray that has met enough.
+constexpr float kLeastLeft = 1.0f / 1024.0f;
+
+glm::ivec2 pixel_of(const LaneTile& task, std::uint32_t ray) {
+  const int in_tile = static_cast<int>(ray % (kTileEdge * kTileEdge));
+  return task.origin + glm::ivec2(in_tile % kTileEdge, in_tile / kTileEdge);
+}
+
+std::uint32_t sample_of(std::uint32_t ray) { return ray / (kTileEdge * kTileEdge); }
+
+/// Patches overlap by a few roundings: along a border a ray meets two of them where there is one surface.
+bool is_repeated(const LayerHit& hit, const LayerHit& before, float slack) {
+  if (hit.primitive == kOnPlane || before.primitive == kOnPlane || hit.layer != before.layer ||
+      (hit.facing < 0.0f) != (before.facing < 0.0f))
+    return false;
+  return hit.t - before.t <= 8.0f * slack / std::max(std::abs(hit.facing), 0.01f);
+}
+
+/// Where a plane cuts, hidden atoms are seen through: their points tell what is solid.
+bool is_translucent(const PictureObject& object) {
+  return object.coloring->is_translucent() || (!object.clip.empty() && object.coloring->hides_some());
+}
+
+/// Darker in stripes across a plane.
+float hatched(const glm::dvec3& point, const glm::dvec3& normal, double distance) {
+  const glm::dvec3 axis = std::abs(normal.z) < 0.9 ? glm::dvec3(0.0, 0.0, 1.0) : glm::dvec3(1.0, 0.0, 0.0);
+  const glm::dvec3 u = glm::normalize(glm::cross(normal, axis)), v = glm::cross(normal, u);
+  const double stripe = glm::dot(point, u + v) / (std::sqrt(2.0) * distance);
+  return stripe - std::floor(stripe) < 0.3 ? 0.35f : 1.0f;
+}
+
+}  // namespace
+
+LayeredScene::LayeredScene(std::span<const PictureObject> objects, const PictureFrame& frame,
+                           const ScenePlacement& placement, const Look& look)
+    : frame_(frame) {
+  layers_.reserve(objects.size());
+  for (const bool translucent : {false, true})
+    for (const PictureObject& object : objects)
+      if (is_translucent(object) == translucent) {
+        Layer& layer = layers_.emplace_back();
+        layer.object = &object;
+        layer.number = static_cast<std::uint32_t>(&object - objects.data());
+        layer.translucent = translucent;
+        pack(layer, placement, look);
+        has_parts_ = has_parts_ || !object.coloring->part.empty();
+      }
+}
+
+void LayeredScene::pack(Layer& layer, const ScenePlacement& placement, const Look& look) const {
+  const PictureObject& object = *layer.object;
+  const Coloring& coloring = *object.coloring;
+  const bool cut = !object.clip.empty();
+  layer.scene.placement = placement;
+  const Coloring shows_all;
+  if (object.surface) {
+    layer.scene.placement.probe_radius = object.surface->probe_radius;
+    pack_scene(*object.surface, cut ? shows_all : coloring, frame_, layer.scene.packed);
+    layer.scene.packed.slack = placement.slack;
+  } else {
+    pack_shapes(*object.shapes, coloring, frame_, placement.slack, layer.scene.packed);
+  }
+  layer.scene.colors = linear_colors(coloring);
+  layer.scene.parts.assign(coloring.part.begin(), coloring.part.end());
+  const bool by_kind = object.surface && coloring.kind;
+  if (!by_kind) layer.scene.colors.resize(coloring.atom.size());
+  layer.scene.connect(look, by_kind, !cut && coloring.hides_some());
+  for (const ClipPlane& plane : object.clip)
+    layer.planes.emplace_back(glm::vec3(plane.normal),
+                              static_cast<float>(plane.offset - glm::dot(plane.normal, frame_.pivot)));
+  if (!object.surface || !cut) return;
+  // A point of the solid lies in the ball of some atom, grown by the probe.
+  double largest = 0.0;
+  for (const Ball& ball : object.surface->atoms) largest = std::max(largest, ball.radius);
+  layer.farthest_atom = largest + object.surface->probe_radius;
+  layer.atoms.emplace(object.surface->atoms, layer.farthest_atom);
+}
+
+HitSource LayeredScene::source(std::size_t object) const {
+  const auto layer = std::ranges::find(layers_, object, &Layer::number);
+  return {layer->object->surface, layer->scene.packed.primitives};
+}
+
+void LayeredScene::begin_block(const PictureFrame& frame, const PictureBlock& block) {
+  frame_ = frame;
+  block_ = block;
+  for (Layer& layer : layers_) {
+    layer.lists.build(layer.scene.packed.primitives, frame_, block);
+    layer.scene.lanes.view = block_view(frame_, block, glm::vec2(0.0f));
+  }
+}
+
+void LayeredScene::cast_tile(std::size_t tile, LaneTile task, const LaneKernels& kernels) {
+  Workplace& place = workplaces_.local();
+  const int number = static_cast<int>(tile), columns = tile_counts(block_).x;
+  task.origin = kTileEdge * glm::ivec2(number % columns, number / columns);
+  place.hits.clear();
+  place.farthest.assign(LaneTile::kMostRays, kFar);
+  place.clipped.assign(LaneTile::kMostRays, {});
+  const TileWork work{task, kernels, place};
+  for (std::uint32_t n = 0; n < layers_.size(); ++n) cast_layer(n, tile, work);
+  order_hits(place);
+  put_together(work);
+}
+
+void LayeredScene::cast_layer(std::uint32_t number, std::size_t tile, const TileWork& work) {
+  Layer& layer = layers_[number];
+  Workplace& place = work.place;
+  const std::span<const std::uint32_t> entries = layer.lists.entries(tile);
+  if (entries.empty()) return;
+  LaneTile task = work.task;
+  task.list = place.sorted.sort(entries, layer.scene.packed.primitives);
+  const bool cut_by_planes = !layer.planes.empty();
+  const LayerTask wanted{.planes = layer.planes.data(),
+                         .plane_count = static_cast<int>(layer.planes.size()),
+                         .all = layer.translucent,
+                         .thickens = layer.object->thickens,
+                         // What lies behind a plane, however far, tells whether there is a cap.
+                         .farthest = cut_by_planes ? nullptr : place.farthest.data(),
+                         .clipped = place.clipped.data()};
+  const std::size_t first = place.hits.size();
+  place.hits.resize(std::max(place.hits.capacity(), first + LaneTile::kMostRays));
+  struct Room : LayerHits {
+    std::vector<LayerHit>* all;
+  } room;
+  room.all = &place.hits;
+  room.hits = place.hits.data();
+  room.count = static_cast<std::uint32_t>(first);
+  room.capacity = static_cast<std::uint32_t>(place.hits.size());
+  room.grow = [](LayerHits& full) {
+    auto& hits = *static_cast<Room&>(full).all;
+    hits.resize(2 * hits.size());
+    full.hits = hits.data();
+    full.capacity = static_cast<std::uint32_t>(hits.size());
+  };
+  work.kernels.cast_layer(layer.scene.lanes, task, wanted, room);
+  place.hits.resize(room.count);
+  for (std::size_t n = first; n < place.hits.size(); ++n) place.hits[n].layer = number;
+  if (cut_by_planes) cut(number, first, work);
+  if (layer.translucent) return;
+  for (std::size_t n = first; n < place.hits.size(); ++n) {
+    float& farthest = place.farthest[place.hits[n].ray];
+    farthest = std::min(farthest, place.hits[n].t);
+  }
+}
+
+void LayeredScene::cut(std::uint32_t number, std::size_t first_hit, const TileWork& work) const {
+  const Layer& layer = layers_[number];
+  std::vector<LayerHit>& hits = work.place.hits;
+  const auto begin = hits.begin() + static_cast<std::ptrdiff_t>(first_hit);
+  std::sort(begin, hits.end(), [](const LayerHit& a, const LayerHit& b) {
+    return std::tie(a.ray, a.t, a.primitive) < std::tie(b.ray, b.t, b.primitive);
+  });
+  std::vector<LayerHit> caps;
+  const auto add_cap = [&](std::uint32_t ray, float t, std::uint32_t plane, float facing) {
+    LayerHit cap;
+    cap.t = t;
+    cap.ray = ray;
+    cap.layer = number;
+    cap.primitive = kOnPlane;
+    cap.facing = facing;
+    color_cap(layer, plane, work.task, cap);
+    caps.push_back(cap);
+  };
+  const bool has_caps = layer.object->surface != nullptr;
+  for (std::size_t n = first_hit; n < hits.size();) {
+    const std::uint32_t ray = hits[n].ray;
+    const ClippedRay& clipped = work.place.clipped[ray];
+    bool hidden = false;  // by a cap
+    if (has_caps && clipped.in_plane != ClippedRay::kNoPlane && hits[n].facing > 0.0f) {
+      add_cap(ray, clipped.in, clipped.in_plane, -1.0f);
+      hidden = !layer.translucent;
+    }
+    while (!hidden && n < hits.size() && hits[n].ray == ray && hits[n].t < clipped.out) ++n;
+    if (n < hits.size() && hits[n].ray == ray && has_caps && layer.translucent && hits[n].facing > 0.0f)
+      add_cap(ray, clipped.out, clipped.out_plane, 1.0f);
+    for (; n < hits.size() && hits[n].ray == ray; ++n) hits[n].t = kFar;  // cut away
+  }
+  std::erase_if(hits, [](const LayerHit& hit) { return hit.t == kFar; });
+  work.kernels.light_points(layer.scene.lanes, work.task, caps.data(), static_cast<std::uint32_t>(caps.size()));
+  hits.insert(hits.end(), caps.begin(), caps.end());
+}
+
+void LayeredScene::color_cap(const Layer& layer, std::uint32_t plane, const LaneTile& task, LayerHit& cap) const {
+  const glm::dvec2 pixel =
+      glm::dvec2(block_.origin + pixel_of(task, cap.ray)) + 0.5 + glm::dvec2(task.offset[sample_of(cap.ray)]);
+  const Ray ray = pixel_ray(frame_.camera, frame_.size, pixel);
+  const glm::dvec3 point =
+      ray.origin + ray.direction * (cap.t + frame_.eye_distance / glm::dot(ray.direction, frame_.basis.forward));
+  const ClipPlane& cut = layer.object->clip[plane];
+  cap.normal = glm::vec3(cut.normal);
+  double nearest = std::numeric_limits<double>::infinity();
+  layer.atoms->for_each_near(point, layer.farthest_atom + 1e-3, [&](std::uint32_t a) {
+    const Ball& ball = layer.object->surface->atoms[a];
+    const double distance = glm::length(point - ball.center) - ball.radius;
+    if (std::tie(distance, a) >= std::tie(nearest, cap.atom)) return;
+    nearest = distance;
+    cap.atom = a;
+  });
+  cap.color = layer.scene.colors[cap.atom];
+  const CapStyle& style = layer.object->cap;
+  if (style.color) cap.color = glm::vec4(linear_from_srgb(*style.color), cap.color.w);
+  if (style.hatching > 0.0)
+    cap.color = glm::vec4(glm::vec3(cap.color) * hatched(point, cut.normal, style.hatching), cap.color.w);
+}
+
+void LayeredScene::order_hits(Workplace& place) const {
+  place.starts.assign(LaneTile::kMostRays + 1, 0);
+  for (const LayerHit& hit : place.hits) ++place.starts[hit.ray + 1];
+  std::partial_sum(place.starts.begin(), place.starts.end(), place.starts.begin());
+  std::vector<std::uint32_t> next(place.starts.begin(), place.starts.end() - 1);
+  place.order.resize(place.hits.size());
+  for (std::uint32_t n = 0; n < place.hits.size(); ++n) place.order[next[place.hits[n].ray]++] = n;
+  for (std::size_t ray = 0; ray < LaneTile::kMostRays; ++ray)
+    std::sort(place.order.begin() + place.starts[ray], place.order.begin() + place.starts[ray + 1],
+              [&](std::uint32_t a, std::uint32_t b) {
+                const LayerHit &left = place.hits[a], &right = place.hits[b];
+                return std::tie(left.t, left.layer, left.primitive) < std::tie(right.t, right.layer, right.primitive);
+              });
+}
+
+void LayeredScene::put_together(const TileWork& work) const {
+  const Workplace& place = work.place;
+  const LaneTile& task = work.task;
+  const auto width = static_cast<std::size_t>(block_.size.x);
+  const auto ray_count = static_cast<std::uint32_t>(task.sample_count * kTileEdge * kTileEdge);
+  for (std::uint32_t ray = 0; ray < ray_count; ++ray) {
+    const std::span<const std::uint32_t> order =
+        std::span(place.order).subspan(place.starts[ray], place.starts[ray + 1] - place.starts[ray]);
+    const glm::ivec2 pixel = pixel_of(task, ray);
+    if (pixel.x >= block_.size.x || pixel.y >= block_.size.y) continue;
+    const std::size_t at = static_cast<std::size_t>(pixel.y) * width + static_cast<std::size_t>(pixel.x);
+    glm::vec4 over(0.0f);
+    const LayerHit *opaque = nullptr, *before = nullptr, *first = nullptr;
+    for (const std::uint32_t n : order) {
+      const LayerHit& hit = place.hits[n];
+      const bool again = before && is_repeated(hit, *before, layers_[hit.layer].scene.placement.slack);
+      before = &hit;
+      if (again || hit.color.w <= 0.0f) continue;
+      if (!first) first = &hit;
+      if (hit.color.w >= 1.0f) {
+        opaque = &hit;
+        break;
+      }
+      const float share = (1.0f - over.w) * hit.color.w;
+      over += share * glm::vec4(glm::vec3(hit.color), 1.0f);
+      if (1.0f - over.w < kLeastLeft) break;
+    }
+    const glm::vec4 behind = opaque ? glm::vec4(glm::vec3(opaque->color), 1.0f) : glm::vec4(0.0f);
+    if (task.sums) task.sums[at] += over + (1.0f - over.w) * behind;
+    if (task.hits && first && sample_of(ray) == 0)
+      task.hits[at] = {first->normal, first->t, first->primitive, first->atom, layers_[first->layer].number, 0u};
+    const LaneSamples& samples = task.samples;
+    if (!samples.color) continue;
+    samples.over[at] = over;
+    samples.color[at] = behind;
+    samples.depth[at] = opaque ? opaque->depth : kernel::kNothing;
+    for (int axis = 0; axis < 3; ++axis) samples.normal[axis][at] = opaque ? opaque->normal[axis] : 0.0f;
+    if (!samples.part) continue;
+    const std::vector<float>* const parts = opaque ? &layers_[opaque->layer].scene.parts : nullptr;
+    samples.part[at] = parts && !parts->empty() ? (*parts)[opaque->atom] : 0.0f;
+  }
+}
+
+}  // namespace meniscus

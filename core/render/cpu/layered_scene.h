@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Several objects in one picture, each a layer that is cast by itself: put together along each ray.
+//
+// A closed surface that a plane cuts needs no geometry for its cap: the next point behind the plane tells whether the
+// ray is inside the solid there, for then it goes out of it at that point.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <glm/vec4.hpp>
+#include <tbb/enumerable_thread_specific.h>
+
+#include "core/math/ball_grid.h"
+#include "core/render/cpu/cpu_tile_lists.h"
+#include "core/render/cpu/host_scene.h"
+#include "core/render/picture_collector.h"
+#include "core/render/picture_object.h"
+
+namespace meniscus {
+
+/// The objects of one picture, packed.
+class LayeredScene {
+ public:
+  /// placement: of all objects. What the objects point to must stay.
+  LayeredScene(std::span<const PictureObject> objects, const PictureFrame& frame, const ScenePlacement& placement,
+               const Look& look);
+
+  /// A block of a picture that is seen as that of the constructor, but may have other pixels.
+  void begin_block(const PictureFrame& frame, const PictureBlock& block);
+  bool has_parts() const { return has_parts_; }
+
+  /// Casts a tile of the block: adds to task.sums, or writes task.samples, and task.hits. On several threads at once.
+  void cast_tile(std::size_t tile, LaneTile task, const LaneKernels& kernels);
+
+  /// What the hits of an object mean.
+  HitSource source(std::size_t object) const;
+
+ private:
+  struct Layer {
+    const PictureObject* object = nullptr;
+    std::uint32_t number = 0;  // of the object
+    bool translucent = false;
+    HostScene scene;
+    std::vector<glm::vec4> planes;  // relative to the pivot
+    CpuTileLists lists;
+    std::optional<BallGrid> atoms;  // of surfaces that are cut
+    double farthest_atom = 0.0;     // Å: a point of the solid has the surface of an atom's sphere within this reach
+  };
+
+  /// What a thread works with.
+  struct Workplace {
+    SortedList sorted;
+    std::vector<LayerHit> hits;
+    std::vector<float> farthest;
+    std::vector<ClippedRay> clipped;
+    std::vector<std::uint32_t> starts, order;
+  };
+
+  /// A tile at work.
+  struct TileWork {
+    const LaneTile& task;
+    const LaneKernels& kernels;
+    Workplace& place;
+  };
+
+  void pack(Layer& layer, const ScenePlacement& placement, const Look& look) const;
+  void cast_layer(std::uint32_t number, std::size_t tile, const TileWork& work);
+  void cut(std::uint32_t number, std::size_t first_hit, const TileWork& work) const;
+  void color_cap(const Layer& layer, std::uint32_t plane, const LaneTile& task, LayerHit& cap) const;
+  void order_hits(Workplace& place) const;
+  void put_together(const TileWork& work) const;
+
+  PictureFrame frame_;
+  PictureBlock block_;
+  std::vector<Layer> layers_;  // opaque ones first
+  bool has_parts_ = false;
+  tbb::enumerable_thread_specific<Workplace> workplaces_;
+};
+
+}  // namespace meniscus

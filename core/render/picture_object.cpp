@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Looks through colours and tables.
+#include "core/render/picture_object.h"
+
+#include <algorithm>
+
+namespace meniscus {
+
+bool needs_layers(const PictureObject& object) {
+  return object.shapes || !object.clip.empty() ||
+         std::ranges::any_of(object.coloring->opacity, [](float a) { return a > 0.0f && a < 1.0f; });
+}
+
+std::vector<Ball> enclosing_balls(std::span<const PictureObject> objects) {
+  std::vector<Ball> balls;
+  for (const PictureObject& object : objects) {
+    if (object.surface) balls.insert(balls.end(), object.surface->atoms.begin(), object.surface->atoms.end());
+    if (!object.shapes) continue;
+    for (const SphereShape& sphere : object.shapes->spheres) balls.push_back({sphere.center, sphere.radius});
+    for (const CylinderShape& cylinder : object.shapes->cylinders)
+      for (const glm::dvec3& end : {cylinder.from, cylinder.to}) balls.push_back({end, cylinder.radius});
+    for (const glm::dvec3& corner : object.shapes->mesh.positions) balls.push_back({corner, 0.0});
+  }
+  return balls;
+}
+
+}  // namespace meniscus

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The things that a picture shows: surfaces and shapes, whole or cut by planes, opaque or seen through.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "core/color/coloring.h"
+#include "core/math/ball.h"
+#include "core/shapes/shapes.h"
+#include "core/surface/primitives.h"
+
+namespace meniscus {
+
+/// What lies behind this plane is cut away: points with dot(normal, x) >= offset.
+struct ClipPlane {
+  glm::dvec3 normal{0.0, 0.0, 1.0};  ///< of length 1
+  double offset = 0.0;               ///< Å
+};
+
+/// How the solid looks where a plane cuts it.
+struct CapStyle {
+  std::optional<glm::vec3> color;  ///< sRGB; nothing: that of the atom whose van der Waals sphere is nearest
+  double hatching = 0.0;           ///< Å between dark lines on the cap; 0: none
+};
+
+/// A surface or shapes with their colours. What it points to must stay until the picture is made.
+struct PictureObject {
+  const Surface* surface = nullptr;  ///< this one,
+  const Shapes* shapes = nullptr;    ///< or this
+  /// One colour for each of Surface::atoms; for shapes, for each of Structure::atoms.
+  const Coloring* coloring = nullptr;
+  /// Kept is what lies before all of them. A surface has caps there, which are sections of its solid; shapes have none.
+  std::vector<ClipPlane> clip;
+  CapStyle cap;
+  /// Where a ray goes along a surface that is seen through, it sees more of it: opacity is that of a thin film.
+  bool thickens = false;
+};
+
+/// True if only layers show it as it is: cut, seen through, or shapes.
+bool needs_layers(const PictureObject& object);
+
+/// What encloses them: atoms of surfaces, spheres and ends of cylinders, corners of meshes as balls without size.
+std::vector<Ball> enclosing_balls(std::span<const PictureObject> objects);
+
+}  // namespace meniscus

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A plane that cuts what a picture shows, as a user says it: in the molecule's coordinates, or along the view.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+#include <glm/vec3.hpp>
+
+#include "core/camera/camera.h"
+#include "core/math/ball.h"
+#include "core/render/picture_object.h"
+
+namespace meniscus {
+
+/// Kept is where the expression holds.
+struct Cut {
+  glm::dvec3 direction{0.0};  ///< 0: along the view
+  bool keeps_less = true;     ///< points with dot(direction, x) < bound, else with more
+  double bound = 0.0;         ///< Å; along the view from 0 (the nearest atom) to 1 (the farthest)
+};
+
+/// "x<20", "1,0.5,0>-3" or "depth>0.5"; blanks do not count. Throws RequestError.
+Cut parse_cut(std::string_view text);
+
+/// The plane in a picture of these atoms, of which there must be one.
+ClipPlane clip_plane(const Cut& cut, const Camera& camera, std::span<const Ball> atoms);
+
+}  // namespace meniscus

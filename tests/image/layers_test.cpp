@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Pictures of several objects, cut by planes and seen through: counted layers, caps by the oracle of the solid, shapes.
+#include <cmath>
+#include <cstring>
+#include <numbers>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/base/error.h"
+#include "core/queries/solvent.h"
+#include "core/render/cpu/cpu_renderer.h"
+#include "core/scene/cut.h"
+#include "core/surface/surface.h"
+#include "tests/support/molecules.h"
+
+namespace meniscus {
+namespace {
+
+using testing::Balls;
+
+constexpr float kOpacity = 0.5f;
+
+/// A surface in one colour, and a picture of it through the centres of pixels.
+struct Subject {
+  Surface surface;
+  Coloring coloring;
+  Camera camera;
+  RenderSettings settings;
+  PictureObject object;
+
+  explicit Subject(const Balls& balls, double probe_radius = 1.4)
+      : surface(compute_surface_cpu(balls, probe_radius)), camera(frame_camera(surface.atoms, 4.0 / 3.0)) {
+    coloring.atom.assign(surface.atoms.size(), glm::vec3(0.8f));
+    settings.size = {320, 240};
+    settings.aovs = true;
+    object.surface = &surface;
+    object.coloring = &coloring;
+  }
+  Subject(const Subject&) = delete;
+  Subject& operator=(const Subject&) = delete;
+
+  void see_through() { coloring.opacity.assign(surface.atoms.size(), kOpacity); }
+  void cut(const char* text) { object.clip.push_back(clip_plane(parse_cut(text), camera, surface.atoms)); }
+  Framebuffer picture() const { return CpuRenderer().render({&object, 1}, camera, settings); }
+};
+
+bool same_bits(const Framebuffer& a, const Framebuffer& b) {
+  return a.color.size() == b.color.size() &&
+         std::memcmp(a.color.data(), b.color.data(), a.color.size() * sizeof a.color[0]) == 0;
+}
+
+/// How many layers of kOpacity a pixel of one sample shows; fractions tell that it is no whole number.
+double layers(const glm::vec4& pixel) { return std::log(1.0 - pixel.w) / std::log(1.0 - kOpacity); }
+
+/// Pixels whose layers are no even number, though every ray that goes into a solid comes out of it. Beyond ten layers
+/// rays end.
+int odd_pixels(const Framebuffer& picture) {
+  int odd = 0;
+  for (const glm::vec4& pixel : picture.color) {
+    const double count = layers(pixel);
+    odd += count < 9.5 && std::abs(count / 2.0 - std::round(count / 2.0)) > 1e-3;
+  }
+  return odd;
+}
+
+TEST(Layers, ABallHasTwo) {
+  Subject ball({{{0.0, 0.0, 0.0}, 1.7}});
+  ball.see_through();
+  const Framebuffer picture = ball.picture();
+  EXPECT_FLOAT_EQ(picture.color[120 * 320 + 160].w, 1.0f - (1.0f - kOpacity) * (1.0f - kOpacity));
+  EXPECT_EQ(odd_pixels(picture), 0);
+}
+
+TEST(Layers, ComeInPairsOnClosedSurfaces) {
+  for (const testing::NamedBalls& molecule :
+       {testing::NamedBalls{"1UBQ", testing::ubiquitin()}, testing::NamedBalls{"1TII", testing::enterotoxin()},
+        testing::NamedBalls{"no probe", testing::ubiquitin(), 0.0}, testing::NamedBalls{"C60", testing::c60(), 0.5}}) {
+    Subject subject(molecule.balls, molecule.probe_radius);
+    subject.see_through();
+    EXPECT_LE(odd_pixels(subject.picture()), 2) << molecule.name;  // a ray that touches a border counts once, or thrice
+  }
+}
+
+TEST(Layers, ComeInPairsOnSlabsToo) {
+  Subject subject(testing::enterotoxin());
+  subject.see_through();
+  subject.cut("depth>0.35");
+  subject.cut("depth<0.6");
+  subject.cut("1,0.2,0.1<35");
+  const Framebuffer picture = subject.picture();
+  EXPECT_LE(odd_pixels(picture), 2);
+  EXPECT_GT(std::ranges::count(picture.kind, Framebuffer::kCap), 1000);
+}
+
+TEST(Layers, CapsAreWhereThePlaneIsInTheSolid) {
+  Subject subject(testing::enterotoxin());
+  subject.cut("depth>0.5");
+  const Framebuffer picture = subject.picture();
+  const ClipPlane plane = subject.object.clip[0];
+  int caps = 0, wrong = 0;
+  for (int y = 0; y < 240; y += 3)
+    for (int x = 0; x < 320; x += 3) {
+      const Ray ray = pixel_ray(subject.camera, subject.settings.size, glm::dvec2(x, y) + 0.5);
+      const double t = (plane.offset - glm::dot(plane.normal, ray.origin)) / glm::dot(plane.normal, ray.direction);
+      const bool solid = !in_solvent(subject.surface.atoms, 1.4, ray.origin + t * ray.direction);
+      const std::size_t at = static_cast<std::size_t>(y) * 320 + x;
+      caps += solid;
+      wrong += solid != (picture.kind[at] == Framebuffer::kCap);
+      if (solid) {
+        EXPECT_NEAR(picture.z[at], t, 1e-3);
+      }
+    }
+  EXPECT_GT(caps, 1000);
+  EXPECT_EQ(wrong, 0);
+}
+
+TEST(Layers, ACapOfABallIsADisk) {
+  Subject ball({{{0.0, 0.0, 0.0}, 2.0}});
+  ball.camera = {{0, 0, 20}, {0, 0, 0}, {0, 1, 0}, Projection::orthographic, 30.0, 6.0};
+  ball.cut("z<1");
+  const Framebuffer picture = ball.picture();
+  const double pixel = 6.0 / 240.0;
+  EXPECT_NEAR(static_cast<double>(std::ranges::count(picture.kind, Framebuffer::kCap)) * pixel * pixel,
+              std::numbers::pi * 3.0, 0.02);
+  EXPECT_FLOAT_EQ(picture.position[120 * 320 + 160].z, 1.0f);
+  EXPECT_FLOAT_EQ(picture.normal[120 * 320 + 160].z, 1.0f);
+}
+
+TEST(Layers, HiddenAtomsAreSolidButNotSeenWhereAPlaneCuts) {
+  Subject subject(testing::ubiquitin());
+  subject.cut("depth>0.5");
+  const auto whole = std::ranges::count(subject.picture().kind, Framebuffer::kCap);
+  for (std::size_t n = 0; n < subject.surface.atoms.size(); ++n) subject.coloring.hidden.push_back(n % 2 == 0);
+  const Framebuffer picture = subject.picture();
+  const auto shown = std::ranges::count(picture.kind, Framebuffer::kCap);
+  EXPECT_NEAR(static_cast<double>(shown) / static_cast<double>(whole), 0.5, 0.1);
+  for (const std::uint32_t atom : picture.atom) EXPECT_TRUE(atom == kNone || atom % 2 == 1);
+}
+
+TEST(Layers, AFilmIsDenserWhereTheViewGrazesIt) {
+  Subject ball({{{0.0, 0.0, 0.0}, 2.0}});
+  ball.camera = {{0, 0, 20}, {0, 0, 0}, {0, 1, 0}, Projection::orthographic, 30.0, 6.0};
+  ball.see_through();
+  ball.object.thickens = true;
+  const Framebuffer picture = ball.picture();
+  for (const int x : {160, 200, 220}) {
+    const double across = (x + 0.5 - 160.0) * 6.0 / 240.0, down = 0.5 * 6.0 / 240.0;
+    const double cosine = std::sqrt(1.0 - (across * across + down * down) / 4.0);
+    EXPECT_NEAR(1.0 - picture.color[120 * 320 + x].w, std::pow(1.0 - kOpacity, 2.0 / cosine), 2e-5);
+  }
+}
+
+TEST(Layers, OfOneOpaqueObjectMakeThePictureOfItAlone) {
+  Subject subject(testing::ubiquitin());
+  for (std::size_t n = 0; n < subject.surface.atoms.size(); ++n)
+    subject.coloring.part.push_back(static_cast<std::uint32_t>(n / 200));
+  const Shapes nothing;
+  std::vector<PictureObject> both{subject.object, {}};
+  both[1].shapes = &nothing;
+  both[1].coloring = &subject.coloring;
+  for (const bool effects : {false, true}) {
+    subject.settings.samples = 3;
+    if (effects) {
+      subject.settings.look.ambient_occlusion = 0.9f;
+      subject.settings.look.silhouettes = 2.0f;
+    }
+    EXPECT_TRUE(same_bits(CpuRenderer().render(both, subject.camera, subject.settings), subject.picture()));
+  }
+}
+
+TEST(Layers, AreTheSameForAllVectorsAndBlocks) {
+  Subject subject(testing::ubiquitin());
+  subject.see_through();
+  subject.cut("depth>0.3");
+  subject.settings.samples = 5;
+  subject.settings.look.ambient_occlusion = 0.5f;
+  const Framebuffer widest = subject.picture();
+  for (const int lanes : {4, 8})
+    EXPECT_TRUE(same_bits(CpuRenderer(lanes).render({&subject.object, 1}, subject.camera, subject.settings), widest));
+  subject.settings.block_edge = 96;
+  EXPECT_TRUE(same_bits(subject.picture(), widest));
+}
+
+/// One atom at the origin and another at (4, 0, 0) as shapes.
+struct ShapeSubject {
+  Shapes shapes;
+  Coloring coloring;
+  Camera camera{{0, 0, 20}, {0, 0, 0}, {0, 1, 0}, Projection::orthographic, 30.0, 6.0};
+  RenderSettings settings;
+
+  ShapeSubject() {
+    coloring.atom = {{0.8f, 0.2f, 0.2f}, {0.2f, 0.2f, 0.8f}};
+    settings.size = {320, 240};
+    settings.aovs = true;
+  }
+  Framebuffer picture() const {
+    PictureObject object;
+    object.shapes = &shapes;
+    object.coloring = &coloring;
+    return CpuRenderer().render({&object, 1}, camera, settings);
+  }
+};
+
+TEST(Layers, ASphereIsTheBallThatItIs) {
+  Subject ball({{{0.0, 0.0, 0.0}, 2.0}});
+  ShapeSubject shape;
+  shape.shapes.spheres.push_back({{0.0, 0.0, 0.0}, 2.0, 0});
+  shape.coloring.atom[0] = ball.coloring.atom[0];
+  ball.camera = shape.camera;
+  EXPECT_TRUE(same_bits(shape.picture(), ball.picture()));
+}
+
+TEST(Layers, ACylinderIsRoundAndOfTwoColors) {
+  ShapeSubject shape;
+  shape.shapes.cylinders.push_back({{-2.0, 0.0, 0.0}, {2.0, 0.0, 0.0}, 0.5, 0, 1});
+  const Framebuffer picture = shape.picture();
+  for (int y = 0; y < 240; ++y)
+    for (int x = 0; x < 320; ++x) {
+      const double across = (x + 0.5 - 160.0) * 6.0 / 240.0, up = (119.5 - y) * 6.0 / 240.0;
+      const std::size_t at = static_cast<std::size_t>(y) * 320 + x;
+      const bool on = std::abs(across) < 2.0 && std::abs(up) < 0.5;
+      ASSERT_EQ(picture.kind[at], on ? Framebuffer::kShape : kNone) << x << ' ' << y;
+      if (!on) continue;
+      EXPECT_NEAR(picture.z[at], 20.0 - std::sqrt(0.25 - up * up), 2e-5);
+      EXPECT_EQ(picture.atom[at], across < 0.0 ? 0u : 1u);
+      EXPECT_NEAR(picture.normal[at].y, up / 0.5, 1e-5);
+    }
+}
+
+TEST(Layers, ATriangleHasTheNormalsOfItsCorners) {
+  ShapeSubject shape;
+  shape.shapes.mesh.positions = {{-2.0, -2.0, 1.0}, {2.0, -2.0, 1.0}, {-2.0, 2.0, 3.0}};
+  const glm::vec3 tilted = glm::normalize(glm::vec3(1.0f, 0.0f, 1.0f));
+  shape.shapes.mesh.normals = {{0.0f, 0.0f, 1.0f}, tilted, {0.0f, 0.0f, 1.0f}};
+  shape.shapes.mesh.atoms = {0, 1, 0};
+  shape.shapes.mesh.triangles = {{0, 1, 2}};
+  const Framebuffer picture = shape.picture();
+  for (int y = 0; y < 240; ++y)
+    for (int x = 0; x < 320; ++x) {
+      const double across = (x + 0.5 - 160.0) * 6.0 / 240.0, up = (119.5 - y) * 6.0 / 240.0;
+      const double u = (across + 2.0) / 4.0, v = (up + 2.0) / 4.0;
+      const std::size_t at = static_cast<std::size_t>(y) * 320 + x;
+      if (std::abs(1.0 - u - v) < 1e-3) continue;
+      ASSERT_EQ(picture.kind[at] != kNone, u > 0.0 && v > 0.0 && u + v < 1.0) << x << ' ' << y;
+      if (picture.kind[at] == kNone) continue;
+      EXPECT_NEAR(picture.z[at], 20.0 - (1.0 + 2.0 * v), 1e-5);
+      const glm::dvec3 normal = glm::normalize((1.0 - u) * glm::dvec3(0.0, 0.0, 1.0) + u * glm::dvec3(tilted));
+      EXPECT_NEAR(picture.normal[at].x, normal.x, 1e-5);
+      const double others = std::max(v, 1.0 - u - v);
+      if (std::abs(u - others) > 1e-5) {
+        EXPECT_EQ(picture.atom[at], u > others ? 1u : 0u);
+      }
+    }
+}
+
+TEST(Cut, SaysWhatIsWrong) {
+  const auto message = [](const char* text) -> std::string {
+    try {
+      parse_cut(text);
+    } catch (const RequestError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(message("x=3"), "'x=3' is no plane: there is no < or >; such as x<20, 1,1,0>35 or depth>0.5");
+  EXPECT_NE(message("w<3").find("a direction of three numbers"), std::string::npos);
+  EXPECT_NE(message("0,0,0<3").find("a direction of three numbers"), std::string::npos);
+  EXPECT_NE(message("1,2<3").find("a direction of three numbers"), std::string::npos);
+  EXPECT_NE(message("x<").find("one number"), std::string::npos);
+  EXPECT_NE(message("x<nan").find("one number"), std::string::npos);
+  EXPECT_NE(message("x<1e999").find("one number"), std::string::npos);
+  EXPECT_NE(message("x<1<2").find("one number"), std::string::npos);
+  EXPECT_EQ(message(" x < +3.5 "), "");
+}
+
+TEST(Cut, KeepsTheSideThatItNames) {
+  const Balls balls = testing::two_atoms(6.0);
+  const Camera camera = frame_camera(balls, 1.0);
+  const auto keeps = [&](const char* text, const glm::dvec3& point) {
+    const ClipPlane plane = clip_plane(parse_cut(text), camera, balls);
+    EXPECT_NEAR(glm::length(plane.normal), 1.0, 1e-12);
+    return glm::dot(plane.normal, point) < plane.offset;
+  };
+  EXPECT_TRUE(keeps("x<3", {2.9, 0, 0}));
+  EXPECT_FALSE(keeps("x<3", {3.1, 0, 0}));
+  EXPECT_TRUE(keeps("0,2,0>4", {0, 2.1, 0}));
+  EXPECT_FALSE(keeps("0,2,0>4", {0, 1.9, 0}));
+  const glm::dvec3 forward = view_basis(camera).forward, middle(3.0, 0.0, 0.0);
+  EXPECT_TRUE(keeps("depth>0.5", middle + 0.1 * forward));
+  EXPECT_FALSE(keeps("depth>0.5", middle - 0.1 * forward));
+}
+
+}  // namespace
+}  // namespace meniscus
