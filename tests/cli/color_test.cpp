@@ -74,11 +74,18 @@ TEST_F(ColorCommand, RulesPaintOverTheSchemeWhateverTheOrder) {
 }
 
 TEST_F(ColorCommand, OpacityZeroHidesAsShowDoes) {
-  const std::string part = picture({"--show", "not chain B"});
-  EXPECT_EQ(picture({"--opacity", "chain B=0"}), part);
-  EXPECT_EQ(picture({"--opacity", "0", "--opacity", "not chain B=1"}), part);
-  EXPECT_EQ(picture({"--opacity", "chain B=0", "--by", "chain"}), picture({"--show", "not chain B", "--by", "chain"}));
-  EXPECT_EQ(picture({"--opacity", "chain B=0", "--opacity", "1"}), picture({}));
+  // --show frames what is shown, so that all look through one camera.
+  ASSERT_EQ(render("all.png", {"--save-camera", path("camera.json")}).exit_code, 0);
+  const auto seen = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.end(), {"--camera", path("camera.json")});
+    return picture(arguments);
+  };
+  const std::string part = seen({"--show", "not chain B"});
+  EXPECT_NE(seen({}), part);
+  EXPECT_EQ(seen({"--opacity", "chain B=0"}), part);
+  EXPECT_EQ(seen({"--opacity", "0", "--opacity", "not chain B=1"}), part);
+  EXPECT_EQ(seen({"--opacity", "chain B=0", "--by", "chain"}), seen({"--show", "not chain B", "--by", "chain"}));
+  EXPECT_EQ(seen({"--opacity", "chain B=0", "--opacity", "1"}), seen({}));
 }
 
 TEST_F(ColorCommand, WhatCannotBeIsRefusedWithItsReason) {
