@@ -131,7 +131,8 @@ print("AREA", area, sorted(times)[{RUNS // 2}])
 
 def pictures(program, molecule, folder):
     """Rows: program, what of, wall, CPU seconds, MB; each with shade or shadows and smooth edges, 1280×960."""
-    render = [program, "render", molecule.pdb, "-o", "meniscus.png", "--size", "1280x960", "--force", "--color", "chain"]
+    render = [program, "render", molecule.pdb, "-o", "meniscus.png", "--size", "1280x960", "--force", "--color", "chain",
+              "--preset", "classic"]
     yield "Meniscus", "4 samples", *measured([*render, "--samples", "4"], folder)[:3]
     effects = ["--ambient-occlusion", "0.8", "--silhouettes", "1"]
     yield "Meniscus", "4 samples, shade and lines", *measured([*render, "--samples", "4", *effects], folder)[:3]

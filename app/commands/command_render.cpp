@@ -61,7 +61,7 @@ void finish(const RenderCommand& command, const PictureLayout& layout, Framebuff
         "warning: the picture shows nothing: no ray meets a part of the surface that --show leaves; where does the "
         "camera look?");
   if (layout.legend) picture = layout.legend->add_to(picture, command.background);
-  write_image(command.output.path, picture, {command.background, command.output.existing()});
+  write_image(command.output.path, picture, image_settings(command));
   if (!command.save_camera.empty()) save_camera(command, camera);
 }
 
@@ -143,8 +143,12 @@ RenderSettings render_settings(const RenderCommand& command, const PictureLayout
   settings.size = {layout.size.width, layout.size.height};
   settings.samples = command.samples;
   settings.aovs = command.aovs;
-  settings.look = command.look;
+  settings.look = look_of(command.look, {command.picture.width, command.picture.height}, command.background);
   return settings;
+}
+
+ImageSettings image_settings(const RenderCommand& command) {
+  return {command.background, command.output.existing(), command.look.has_linear_alpha()};
 }
 
 DeviceChoice gl_device(const RenderCommand& command) { return command.molecule.surface.gl; }
@@ -159,8 +163,7 @@ void add_render(CLI::App& command) {
       "  meniscus render 1tii.pdb -o 1tii.png\n"
       "  meniscus render 1tii.pdb -o 1tii.png --size 3840x2160 --samples 16 --color chain --background white\n"
       "  meniscus render 1tii.pdb -o 1tii.png --color hydrophobicity --legend --background white\n"
-      "  meniscus render 1tii.pdb -o 1tii.png --color chain --ambient-occlusion 0.8 --silhouettes 2 --background "
-      "white\n"
+      "  meniscus render 1tii.pdb -o 1tii.png --color chain --preset flat --background white\n"
       "  meniscus render 1tii.pdb -o 1tii.exr --aovs --camera camera.json   depth, normals, atoms for compositing\n"
       "  meniscus render adk.psf --trajectory adk.dcd --frames all --superpose 'name CA' -o adk.mp4");
   auto state = std::make_shared<RenderCommand>();
@@ -173,7 +176,7 @@ void add_render(CLI::App& command) {
   add_output_options(
       command, state->output,
       "Picture to write: .png, .tif, .tiff or .exr; of frames: frame_#####.png, or a film: .mp4, .mkv, .mov");
-  command.add_option("--samples", state->samples, "Rays per pixel, the first through its centre [4]")
+  command.add_option("--samples", state->samples, "Rays per pixel, the first through its centre [9]")
       ->check(CLI::Range(1, 1024).description(""))
       ->type_name("N");
   command

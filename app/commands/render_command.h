@@ -11,8 +11,9 @@
 #include "core/scene/figure.h"
 #include "core/scene/run_cameras.h"
 #include "app/options/frame_options.h"
+#include "core/render/image_output.h"
 #include "core/render/legend.h"
-#include "core/render/look.h"
+#include "core/render/look_presets.h"
 #include "core/render/surface_renderer.h"
 #include "core/visible_surface/extent.h"
 
@@ -24,10 +25,10 @@ struct RenderCommand {
   ViewRequest picture;
   CameraMotionRequest run_camera;
   FigureRequest figure;
-  Look look;  // but for the background, which may be transparent
+  LookRequest look;
   OutputOptions output;
   std::string save_camera;
-  int samples = 4;
+  int samples = 9;
   bool aovs = false;
   bool legend = false;
   std::optional<glm::vec3> background;
@@ -45,6 +46,8 @@ struct PictureLayout {
 };
 
 RenderSettings render_settings(const RenderCommand& command, const PictureLayout& layout);
+
+ImageSettings image_settings(const RenderCommand& command);
 
 /// Of --extent.
 DeviceChoice gl_device(const RenderCommand& command);

@@ -73,7 +73,7 @@ class PictureSink {
       };
     }
     const std::string path = numbered_->at(number);
-    write_image(path, picture, {command_.background, command_.output.existing()});
+    write_image(path, picture, image_settings(command_));
     return [path, shows_nothing] { return MadeFrame{{path}, shows_nothing}; };
   }
 

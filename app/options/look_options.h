@@ -4,12 +4,13 @@
 
 #include <CLI/CLI.hpp>
 
-#include "core/render/look.h"
+#include "core/render/look_presets.h"
 
 namespace meniscus {
 
-/// --light, --light-strength, --ambient-occlusion, --ambient-occlusion-radius, --silhouettes, --depth-cue. The look
-/// must live as long as the command; its background is not touched.
-void add_look_options(CLI::App& command, Look& look);
+/// --preset, --light, --light-strength, --ambient, --roughness, --specular, --shininess, --ambient-occlusion,
+/// --ambient-occlusion-radius, --silhouettes, --outer-lines, --inner-lines, --part-lines, --depth-cue, --linear-alpha.
+/// The request must live as long as the command.
+void add_look_options(CLI::App& command, LookRequest& look);
 
 }  // namespace meniscus

@@ -70,6 +70,7 @@ std::span<const std::string_view> look_keys() { return kKeys; }
 Look changed_look(Look look, const CommandReader& command) {
   if (command.has("background")) look.background = background_of(command.text("background"));
   if (command.has("light_direction")) look.light_direction = direction_of(command.value("light_direction"));
+  if (command.has("silhouettes")) look.outer_lines = look.inner_lines = look.part_lines = {};
   for (const auto& [key, value, lowest, highest] : kStrengths)
     look.*value = static_cast<float>(command.number_or(look.*value, key, lowest, highest));
   return look;
@@ -85,6 +86,7 @@ nlohmann::json look_json(const Look& look) {
 
 Look without_effects(Look look) {
   look.ambient_occlusion = look.silhouettes = 0.0f;
+  look.outer_lines = look.inner_lines = look.part_lines = {};
   return look;
 }
 

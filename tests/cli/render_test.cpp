@@ -54,29 +54,45 @@ TEST_F(RenderCommand, LooksAreChecked) {
                                       {"--ambient-occlusion", "1.5"},
                                       {"--ambient-occlusion-radius", "0"},
                                       {"--silhouettes", "17"},
+                                      {"--outer-lines", "-1"},
+                                      {"--shininess", "0"},
+                                      {"--preset", "pretty"},
                                       {"--depth-cue", "x"}}) {
     const ProgramResult result = render({"-o", path("c.png"), option, value});
     EXPECT_EQ(result.exit_code, 2) << option << " " << value;
     EXPECT_NE(result.err.find(option), std::string::npos) << result.err;
   }
   // Without shade its radius does nothing.
-  EXPECT_EQ(render({"-o", path("a.png"), "--silhouettes", "0"}).exit_code, 0);
-  EXPECT_EQ(render({"-o", path("b.png"), "--ambient-occlusion-radius", "3"}).exit_code, 0);
+  EXPECT_EQ(render({"-o", path("a.png"), "--ambient-occlusion", "0"}).exit_code, 0);
+  EXPECT_EQ(render({"-o", path("b.png"), "--ambient-occlusion-radius", "3", "--ambient-occlusion", "0"}).exit_code, 0);
   EXPECT_EQ(test::read_bytes(path("a.png")), test::read_bytes(path("b.png")));
 }
 
 TEST_F(RenderCommand, OptionsChangeThePicture) {
   EXPECT_EQ(render({"-o", path("a.png")}).exit_code, 0);
   const std::vector<std::vector<std::string>> changes{
-      {"--color", "kind"},          {"--background", "#204060"}, {"--samples", "1"},
-      {"--probe", "0.5"},           {"--light", "1,0,0.5"},      {"--light-strength", "2"},
-      {"--ambient-occlusion", "1"}, {"--silhouettes", "2"},      {"--depth-cue", "0.5"}};
+      {"--color", "kind"},    {"--background", "#204060"}, {"--samples", "1"},           {"--probe", "0.5"},
+      {"--light", "1,0,0.5"}, {"--light-strength", "2"},   {"--ambient-occlusion", "0"}, {"--silhouettes", "2"},
+      {"--depth-cue", "0.5"}, {"--ambient", "0.5"},        {"--roughness", "1"},         {"--specular", "0.8"},
+      {"--shininess", "3"},   {"--outer-lines", "4"},      {"--linear-alpha"},           {"--preset", "flat"},
+      {"--preset", "classic"}};
   for (const auto& change : changes) {
     std::vector<std::string> arguments{"-o", path("b.png"), "--force"};
     arguments.insert(arguments.end(), change.begin(), change.end());
     EXPECT_EQ(render(arguments).exit_code, 0);
     EXPECT_NE(test::read_bytes(path("a.png")), test::read_bytes(path("b.png"))) << change[0];
   }
+}
+
+TEST_F(RenderCommand, OptionsChangeAPresetWhateverTheirOrder) {
+  EXPECT_EQ(render({"-o", path("a.png"), "--preset", "flat", "--silhouettes", "3", "--ambient", "0.5"}).exit_code, 0);
+  EXPECT_EQ(render({"-o", path("b.png"), "--ambient", "0.5", "--silhouettes", "3", "--preset", "flat"}).exit_code, 0);
+  EXPECT_EQ(test::read_bytes(path("a.png")), test::read_bytes(path("b.png")));
+  EXPECT_EQ(render({"-o", path("c.png"), "--preset", "flat"}).exit_code, 0);
+  EXPECT_NE(test::read_bytes(path("a.png")), test::read_bytes(path("c.png")));
+  EXPECT_EQ(render({"-o", path("d.png")}).exit_code, 0);
+  EXPECT_EQ(render({"-o", path("e.png"), "--preset", "publication", "--samples", "9"}).exit_code, 0);
+  EXPECT_EQ(test::read_bytes(path("d.png")), test::read_bytes(path("e.png"))) << "what is not asked for";
 }
 
 TEST_F(RenderCommand, WhatAViewNeedsMakesTheSamePicture) {

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What each preset is made of.
+#include "core/render/look_presets.h"
+
+#include <algorithm>
+
+namespace meniscus {
+namespace {
+
+/// In pixels, of what is `width` pixels wide in a picture of 960.
+float line_width(float width, glm::ivec2 picture_size) {
+  constexpr float kUsualSide = 960.0f, kThinnest = 0.75f;
+  const auto side = static_cast<float>(std::min(picture_size.x, picture_size.y));
+  return std::clamp(width * side / kUsualSide, kThinnest, kWidestSilhouette);
+}
+
+/// What all but classic have in common.
+Look modern() {
+  Look look;
+  look.lamps = Lamps::white;
+  look.line_step = 0.012f;
+  look.depth_cue_keeps_alpha = true;
+  return look;
+}
+
+Look publication(glm::ivec2 size) {
+  Look look = modern();
+  look.material = {.ambient = 0.0f, .roughness = 0.35f, .specular = 0.06f, .shininess = 60.0f};
+  look.ambient_occlusion = 0.9f;
+  look.ambient_occlusion_radius = 25.0f;
+  look.outer_lines = line_width(1.8f, size);
+  look.inner_lines = line_width(1.2f, size);
+  look.part_lines = line_width(1.4f, size);
+  look.depth_cue = 0.35f;
+  return look;
+}
+
+Look cover() {
+  Look look = modern();
+  look.lamps = Lamps::studio;
+  look.light_strength = 1.4f;
+  look.material = {.ambient = 0.0f, .roughness = 0.15f, .specular = 0.25f, .shininess = 80.0f};
+  look.ambient_occlusion = 1.0f;
+  look.ambient_occlusion_radius = 30.0f;
+  look.depth_cue = 0.25f;
+  return look;
+}
+
+Look flat(glm::ivec2 size) {
+  Look look = modern();
+  look.material = {.ambient = 1.0f, .roughness = 0.0f, .specular = 0.0f, .shininess = 40.0f};
+  look.line_step = 0.006f;  // with no shade to help, lines tell more
+  look.outer_lines = line_width(3.0f, size);
+  look.inner_lines = line_width(1.2f, size);
+  look.part_lines = line_width(2.0f, size);
+  return look;
+}
+
+Look soft() {
+  Look look = modern();
+  look.material = {.ambient = 0.0f, .roughness = 1.0f, .specular = 0.0f, .shininess = 40.0f};
+  look.ambient_occlusion = 1.0f;
+  look.ambient_occlusion_radius = 30.0f;
+  look.depth_cue = 0.3f;
+  return look;
+}
+
+template <typename T, typename U>
+void take(const std::optional<T>& asked, U& value) {
+  if (asked) value = *asked;
+}
+
+}  // namespace
+
+Look preset_look(LookPreset preset, glm::ivec2 picture_size) {
+  switch (preset) {
+    case LookPreset::publication:
+      return publication(picture_size);
+    case LookPreset::cover:
+      return cover();
+    case LookPreset::flat:
+      return flat(picture_size);
+    case LookPreset::soft:
+      return soft();
+    case LookPreset::classic:
+      break;
+  }
+  return {};
+}
+
+Look look_of(const LookRequest& request, glm::ivec2 picture_size, const std::optional<glm::vec3>& background) {
+  Look look = preset_look(request.preset, picture_size);
+  look.background = background.value_or(glm::vec3(1.0f));
+  take(request.light_direction, look.light_direction);
+  take(request.light_strength, look.light_strength);
+  take(request.ambient, look.material.ambient);
+  take(request.roughness, look.material.roughness);
+  take(request.specular, look.material.specular);
+  take(request.shininess, look.material.shininess);
+  take(request.ambient_occlusion, look.ambient_occlusion);
+  take(request.ambient_occlusion_radius, look.ambient_occlusion_radius);
+  if (request.silhouettes) {
+    look.silhouettes = *request.silhouettes;
+    look.outer_lines = look.inner_lines = look.part_lines = {};
+  }
+  take(request.outer_lines, look.outer_lines);
+  take(request.inner_lines, look.inner_lines);
+  take(request.part_lines, look.part_lines);
+  take(request.depth_cue, look.depth_cue);
+  return look;
+}
+
+}  // namespace meniscus
