@@ -14,9 +14,10 @@ namespace meniscus {
 std::vector<bool> hidden_atoms(const Selection& shown, const Structure& structure) {
   std::vector<bool> visible = shown.evaluate(structure.atoms);
   if (std::find(visible.begin(), visible.end(), true) == visible.end()) {
-    throw InputError(structure.file, 0,
-                     fmt::format("none of the {} atoms used is to be shown by {}; chains and names are case-sensitive",
-                                 with_thousands(structure.atoms.size()), in_quotes(shown.text())));
+    throw InputError(
+        structure.file, 0,
+        fmt::format("none of the {} atoms used is to be shown by {}; {}", with_thousands(structure.atoms.size()),
+                    in_quotes(shown.text()), shown.why_none(structure.atoms)));
   }
   visible.flip();
   return visible;

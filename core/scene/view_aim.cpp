@@ -77,8 +77,9 @@ ViewAim::ViewAim(const ViewRequest& request, const std::optional<Selection>& sho
     const std::vector<Atom> atoms = shown_atoms(structure);
     framed_ = request.zoom_to->evaluate(atoms);
     if (std::ranges::find(framed_, true) == framed_.end())
-      throw RequestError(fmt::format("--zoom-to {}: selects none of the {} atoms that are shown",
-                                     in_quotes(request.zoom_to->text()), with_thousands(atoms.size())));
+      throw RequestError(fmt::format("--zoom-to {}: selects none of the {} atoms that are shown; {}",
+                                     in_quotes(request.zoom_to->text()), with_thousands(atoms.size()),
+                                     request.zoom_to->why_none(atoms)));
     const auto first_beside = framed_.begin() + static_cast<std::ptrdiff_t>(structure.atoms.size());
     beside.assign(first_beside, framed_.end());
     framed_.erase(first_beside, framed_.end());

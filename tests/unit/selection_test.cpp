@@ -152,6 +152,22 @@ TEST(Selection, WordsMeanWhatTheHelpSays) {
       {"water or chain B and ion", "14 15 16"},
       {"(water or chain B) and ion", "15 16"},
       {"not chain A and not chain B", "14"},
+      {"polymer.protein", "0 1 2 3 4 5 6 7 8"},
+      {"polymer.nucleic and name P", "9"},
+      {"organic", "13"},
+      {"inorganic", "15 16"},
+      {"hetatm", "13 14 15 16"},
+      {"noh and resid -1", "0 1 2 3 4"},
+      {"protein within 1 of index 3", "2 3 4"},
+      {"name CA within 1.5 of name CB", ""},
+      {"name CA C within 2.5 of name CB", "2 6"},
+      {"(resid -1 within 1 of index 3) and name C", "2"},
+      {"chain A exwithin 1 of index 3", "2 4"},
+      {"byres all within 1 of name CB", "0 1 2 3 4 5"},
+      {"not (all within 14 of index 0)", "15 16"},
+      {"index 3 around 1", "2 4"},
+      {"(index 3) expand 1", "2 3 4"},
+      {"index 3 around 1 expand 1", "1 2 3 4 5"},
   };
   for (const auto& [expression, expected] : cases) EXPECT_EQ(selected(expression), expected) << expression;
 }

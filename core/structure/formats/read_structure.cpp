@@ -57,8 +57,8 @@ std::vector<bool> evaluate(const Selection& selection, const std::vector<Atom>& 
   std::vector<bool> selected = selection.evaluate(atoms);
   if (std::find(selected.begin(), selected.end(), true) == selected.end()) {
     throw InputError(path, 0,
-                     fmt::format("none of its {} atoms is selected by {}; chains and names are case-sensitive",
-                                 with_thousands(atoms.size()), in_quotes(selection.text())));
+                     fmt::format("none of its {} atoms is selected by {}; {}", with_thousands(atoms.size()),
+                                 in_quotes(selection.text()), selection.why_none(atoms)));
   }
   return selected;
 }

@@ -5,9 +5,14 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <string_view>
 #include <tuple>
 #include <unordered_set>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/base/text.h"
 #include "core/structure/point_tree.h"
 #include "core/structure/selection/selection_classes.h"
 #include "core/structure/selection/selection_steps.h"
@@ -186,7 +191,7 @@ class Evaluation {
 bool names_by(const SelectionStep& step, const Atom& atom, const std::set<std::string>& names_of_others) {
   if (const auto* test = std::get_if<FlagTest>(&step)) {
     return (test->flag == AtomFlag::water && atom.kind == AtomClass::water) ||
-           (test->flag == AtomFlag::ion && atom.kind == AtomClass::ion);
+           ((test->flag == AtomFlag::ion || test->flag == AtomFlag::inorganic) && atom.kind == AtomClass::ion);
   }
   const bool ion = atom.kind == AtomClass::ion;
   if (const auto* test = std::get_if<NumberTest>(&step)) {
@@ -241,6 +246,27 @@ std::vector<bool> Selection::names(std::span<const Atom> atoms) const {
            std::any_of(steps_->steps.begin(), steps_->steps.end(),
                        [&](const SelectionStep& step) { return names_by(step, atom, names_of_others); });
   });
+}
+
+std::string Selection::why_none(std::span<const Atom> atoms) const {
+  std::vector<std::string> chains;  // in the file's order
+  std::set<std::string_view> seen;
+  for (const Atom& atom : atoms)
+    if (seen.insert(atom.chain).second) chains.push_back(atom.chain.empty() ? "''" : escaped(atom.chain));
+  for (const SelectionStep& step : steps_->steps) {
+    const auto* test = std::get_if<TextTest>(&step);
+    if (!test || test->field != AtomField::chain) continue;
+    for (const TextPattern& wanted : test->values) {
+      if (std::ranges::any_of(seen, [&](std::string_view chain) { return matches(wanted, std::string(chain)); }))
+        continue;
+      constexpr std::size_t kNamed = 30;
+      const bool more = chains.size() > kNamed;
+      if (more) chains.resize(kNamed);
+      return fmt::format("there is no chain {}, only {}{}", in_quotes(wanted.text), fmt::join(chains, ", "),
+                         more ? fmt::format(" and {} more", seen.size() - kNamed) : "");
+    }
+  }
+  return "chains and names are case-sensitive";
 }
 
 bool Selection::uses_radius() const {

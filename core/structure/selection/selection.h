@@ -27,6 +27,9 @@ class Selection {
   /// `atoms` (so that `name CA` does not mean calcium where there are alpha carbons).
   std::vector<bool> names(std::span<const Atom> atoms) const;
 
+  /// For an expression that selects none of these atoms: what of it is not there, as the end of a sentence.
+  std::string why_none(std::span<const Atom> atoms) const;
+
   /// Does it ask for radii, which not every moment knows?
   bool uses_radius() const;
 

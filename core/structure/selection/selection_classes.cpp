@@ -26,6 +26,11 @@ constexpr std::string_view kProteinMainChain =
 constexpr std::string_view kNucleicBackbone = " P OP1 OP2 OP3 O1P O2P O3P O5' C5' C4' C3' O3' O5* C5* C4* C3* O3* ";
 constexpr std::string_view kPhosphateHydrogens = " HOP2 HOP3 HO5 HO3 H5T H3T ";
 
+// What the wwPDB writes as ATOM where it is part of a chain.
+constexpr std::string_view kStandardResidues =
+    " ALA ARG ASN ASP CYS GLN GLU GLY HIS ILE LEU LYS MET PHE PRO SER THR TRP TYR VAL ASX GLX UNK SEC PYL"
+    " A C G I N U DA DC DG DI DN DT DU ";
+
 /// Names of nucleotide atoms carry a prime (or an asterisk) in the sugar, and begin with P or say P in the phosphate.
 bool is_base_atom(const std::string& name) {
   return name.find_first_of("'*P") == std::string::npos && !among(kPhosphateHydrogens, name);
@@ -59,6 +64,14 @@ bool answers(AtomFlag flag, Chemistry chemistry, const Atom& atom) {
   }
 }
 
+/// Of residues that are told apart by all their atoms.
+bool answers(AtomFlag flag, std::span<const Atom> residue) {
+  const bool carbon = std::any_of(residue.begin(), residue.end(), [](const Atom& atom) { return atom.element == 6; });
+  const bool ligand = residue.front().kind == AtomClass::ligand;
+  if (flag == AtomFlag::organic) return ligand && carbon;
+  return (ligand && !carbon) || residue.front().kind == AtomClass::ion;
+}
+
 bool answers(AtomFlag flag, const Atom& atom) {
   switch (flag) {
     case AtomFlag::all:
@@ -71,8 +84,13 @@ bool answers(AtomFlag flag, const Atom& atom) {
       return atom.kind == AtomClass::water;
     case AtomFlag::ion:
       return atom.kind == AtomClass::ion;
+    case AtomFlag::heteroatom:
+      return atom.kind != AtomClass::unclassified &&
+             (atom.kind != AtomClass::polymer || !among(kStandardResidues, atom.residue_name));
     case AtomFlag::hydrogen:
       return atom.element == 1;
+    case AtomFlag::heavy:
+      return atom.element != 1;
     default:
       return false;
   }
@@ -80,7 +98,7 @@ bool answers(AtomFlag flag, const Atom& atom) {
 
 bool needs_residues(AtomFlag flag) {
   return flag == AtomFlag::protein || flag == AtomFlag::nucleic || flag == AtomFlag::backbone ||
-         flag == AtomFlag::sidechain;
+         flag == AtomFlag::sidechain || flag == AtomFlag::organic || flag == AtomFlag::inorganic;
 }
 
 }  // namespace
@@ -105,7 +123,13 @@ std::vector<bool> atoms_with(AtomFlag flag, std::span<const Atom> atoms) {
     const Atom& head = atoms[first];
     while (last < atoms.size() && atoms[last].residue == head.residue && atoms[last].residue_name == head.residue_name)
       ++last;
-    const Chemistry chemistry = chemistry_of(atoms.subspan(first, last - first));
+    const std::span<const Atom> residue = atoms.subspan(first, last - first);
+    if (flag == AtomFlag::organic || flag == AtomFlag::inorganic) {
+      const bool yes = answers(flag, residue);
+      for (std::size_t n = first; n < last; ++n) result[n] = yes;
+      continue;
+    }
+    const Chemistry chemistry = chemistry_of(residue);
     for (std::size_t n = first; n < last; ++n) result[n] = answers(flag, chemistry, atoms[n]);
   }
   return result;

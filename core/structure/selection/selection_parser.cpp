@@ -74,10 +74,29 @@ class Parser {
       steps_.push_back(NotStep{});
     } else if (token().kind == TokenKind::open) {
       parse_brackets();
+      parse_nearness();
     } else {
       parse_word();
+      parse_nearness();
     }
     --depth_;
+  }
+
+  /// Behind a set: `SET within 5 of SET` is what of the first is near the second, `SET around 5` what is near the set.
+  void parse_nearness() {
+    while (word() && word()->kind == WordKind::distance) {
+      const bool with_the_set = word()->which == 1;
+      const Token keyword = take();
+      const double distance = parse_limit();
+      if (token().kind != TokenKind::word || lower(token().text) != "of") {
+        steps_.push_back(WithinStep{distance, with_the_set});
+        continue;
+      }
+      take();
+      parse_operand(keyword);
+      steps_.push_back(WithinStep{distance, with_the_set});
+      steps_.push_back(AndStep{});
+    }
   }
 
   void parse_brackets() {
@@ -145,7 +164,8 @@ class Parser {
       }
       if (next.kind != TokenKind::word && next.kind != TokenKind::quoted) break;
       const SelectionWord* known = word();
-      if (known && known->kind == WordKind::operation) break;
+      if (known && (known->kind == WordKind::operation || (known->kind == WordKind::distance && !values.empty())))
+        break;
       if (known && next.text.size() > 1) {
         fail(fmt::format("{} is a keyword; put 'and' or 'or' before it, or quotes around it if it is a value",
                          in_quotes(next.text)));
@@ -180,11 +200,17 @@ class Parser {
     return sign == "!=" ? Comparison::not_equal : Comparison::equal;
   }
 
-  void parse_distance(const Token& keyword, bool with_the_set) {
+  /// A distance in Å.
+  double parse_limit() {
     const Token value = take();
     if (value.kind != TokenKind::word) fail_at(value.position, "a distance in Å is missing here");
     const double distance = read_number(text_, {value.text, value.position}, false);
     if (distance < 0.0) fail_at(value.position, "a distance cannot be negative");
+    return distance;
+  }
+
+  void parse_distance(const Token& keyword, bool with_the_set) {
+    const double distance = parse_limit();
     if (token().kind == TokenKind::word && lower(token().text) == "of") take();
     parse_operand(keyword);
     steps_.push_back(WithinStep{distance, with_the_set});

@@ -3,12 +3,12 @@
 #include "core/structure/selection/selection_words.h"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "core/base/similar_words.h"
 #include "core/structure/selection/selection_steps.h"
 
 namespace meniscus {
@@ -42,13 +42,18 @@ constexpr SelectionWord kWords[] = {
 
     {"all", WordKind::flag, of(AtomFlag::all), "all", "every atom"},
     {"none", WordKind::flag, of(AtomFlag::none), "none", "no atom"},
-    {"protein", WordKind::flag, of(AtomFlag::protein), "protein", "amino acids and their caps"},
-    {"nucleic", WordKind::flag, of(AtomFlag::nucleic), "nucleic", "DNA and RNA"},
+    {"protein polymer.protein", WordKind::flag, of(AtomFlag::protein), "protein", "amino acids and their caps"},
+    {"nucleic polymer.nucleic", WordKind::flag, of(AtomFlag::nucleic), "nucleic", "DNA and RNA"},
     {"polymer", WordKind::flag, of(AtomFlag::polymer), "polymer", "all chains of residues"},
     {"ligand", WordKind::flag, of(AtomFlag::ligand), "ligand", "what is no polymer, water or ion"},
     {"water waters solvent", WordKind::flag, of(AtomFlag::water), "water", "water molecules"},
     {"ion ions", WordKind::flag, of(AtomFlag::ion), "ion", "free ions: lone metal and halogen atoms"},
+    {"organic", WordKind::flag, of(AtomFlag::organic), "organic", "ligands that have carbon"},
+    {"inorganic", WordKind::flag, of(AtomFlag::inorganic), "inorganic", "ligands without carbon, and free ions"},
+    {"hetatm hetero", WordKind::flag, of(AtomFlag::heteroatom), "hetatm",
+     "all but standard residues of chains, by the wwPDB's rule"},
     {"hydrogen hydrogens hydro", WordKind::flag, of(AtomFlag::hydrogen), "hydrogen", "hydrogen and deuterium"},
+    {"noh heavy", WordKind::flag, of(AtomFlag::heavy), "noh", "all but hydrogen and deuterium"},
     {"backbone bb", WordKind::flag, of(AtomFlag::backbone), "backbone",
      "N CA C O of protein; phosphate and sugar chain P to O3' of nucleic"},
     {"sidechain", WordKind::flag, of(AtomFlag::sidechain), "sidechain",
@@ -57,7 +62,7 @@ constexpr SelectionWord kWords[] = {
     {"sheet strand", WordKind::flag, of(AtomFlag::strand), "sheet", "residues in strands of sheets, found alike"},
     {"coil loop", WordKind::flag, of(AtomFlag::coil), "coil", "residues of protein in neither"},
 
-    {"within", WordKind::distance, 1, "within 5 of (EXPR)", "at most 5 Å from an atom of EXPR; EXPR itself too"},
+    {"within expand", WordKind::distance, 1, "within 5 of (EXPR)", "at most 5 Å from an atom of EXPR; EXPR itself too"},
     {"exwithin around", WordKind::distance, 0, "exwithin 5 of (EXPR)", "the same without EXPR itself"},
     {"byres byresidue", WordKind::group, 0, "byres (EXPR)", "whole residues that have an atom in EXPR"},
     {"bychain", WordKind::group, 1, "bychain (EXPR)", "whole chains that have an atom in EXPR"},
@@ -87,26 +92,11 @@ void for_each_word(Visit&& visit) {
   }
 }
 
-/// Letters to change, insert or drop to get from one word to the other (Levenshtein 1966).
-std::size_t letters_apart(std::string_view from, std::string_view to) {
-  std::vector<std::size_t> row(to.size() + 1);
-  for (std::size_t j = 0; j <= to.size(); ++j) row[j] = j;
-  for (std::size_t i = 1; i <= from.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
-    for (std::size_t j = 1; j <= to.size(); ++j) {
-      const std::size_t changed = diagonal + (from[i - 1] == to[j - 1] ? 0 : 1);
-      diagonal = row[j];
-      row[j] = std::min({changed, row[j] + 1, row[j - 1] + 1});
-    }
-  }
-  return row[to.size()];
-}
-
 constexpr std::string_view kExamples = R"(Examples:
   chain A and resid 10-50
   protein and not hydrogen
   byres (within 5 of resname ATP)
+  byres all within 5 of organic
   (chain A or chain B) and bfactor < 40
   name CA CB "C1*" and not resname GLY
 )";
@@ -118,6 +108,7 @@ Rules:
   '...') take a value as it is, and are needed for a value that is also a keyword.
   Ranges of residues follow number and insertion code: 52 < 52A < 53.
   A set after within, around, byres, bychain or same ... as stands in parentheses where and/or follows.
+  SET within 5 of (EXPR) is what of SET is near it. (EXPR) around 5 and (EXPR) expand 5 work as in PyMOL.
   Distances are exact and between the atoms of the file, without periodic images.
   Values that an atom lacks (B-factor, charge) meet no comparison.
 
@@ -142,19 +133,9 @@ const SelectionWord* find_selection_word(std::string_view word) {
 }
 
 std::string_view nearest_selection_word(std::string_view word) {
-  constexpr std::size_t kLongestWord = 20;
-  if (word.size() > kLongestWord) return {};
-  const std::string lower = lower_case(word);
-  std::size_t fewest = std::min<std::size_t>(3, (word.size() + 1) / 2);
-  std::string_view nearest;
-  for_each_word([&](const SelectionWord&, std::string_view known) {
-    const std::size_t apart = letters_apart(lower, known);
-    if (known.size() > 2 && apart < fewest) {
-      fewest = apart;
-      nearest = known;
-    }
-  });
-  return nearest;
+  std::vector<std::string_view> known;
+  for_each_word([&](const SelectionWord&, std::string_view other) { known.push_back(other); });
+  return nearest_word(lower_case(word), known);
 }
 
 std::string selection_help() {
