@@ -225,6 +225,7 @@ bool ViewPipeline::is_closed() const {
 void ViewPipeline::make_primitives(const PictureFrame& frame, StageClock& clock) {
   const GpuStage stage(clock, "primitives");
   list_arcs_by_atom();
+  if (!whole_spheres_) find_clips();
   static_cast<ScenePlacement&>(scene_) = place_atoms(atoms_, probe_radius_, frame);
   scene_.counters.resize(kProbeWord + kWord);
   scene_.counters.copy(probe_counters_, 0, kProbeWord, kWord);
@@ -261,6 +262,42 @@ void ViewPipeline::list_arcs_by_atom() {
   atom_arc_texels_.view(atom_arcs_);
 }
 
+// Many invocations share an atom's arcs: how many there are of them differs from atom to atom.
+void ViewPipeline::find_clips() {
+  convex_clips_.resize(atom_count() * kWord);
+  convex_clips_.fill(0);
+  const Program& shown = programs_.get("gpu_shaders/primitives/shown_atoms.comp", {{"LISTED", "1"}});
+  arcs_.circles.atoms.bind(0);
+  radii_.bind(1);
+  convex_clips_.bind(2);
+  arcs_.neighbors.bind_listed();
+  visible_.bind(shown);
+  shown.set(convex_parameters({.first = 0, .count = arcs_.neighbors.entry_count()}));
+  shown.dispatch(group_count(arcs_.neighbors.entry_count()));
+
+  marked_arcs_.resize(atom_arcs_.byte_count());
+  const auto run = [&](const char* name, const Buffer& first, const TexelBuffer& lists, const ShaderDefines& defines) {
+    const Program& program = programs_.get(std::string("gpu_shaders/primitives/") + name + ".comp", defines);
+    first.bind(0);
+    atom_arc_rank_.bind(1);
+    convex_clips_.bind(2);
+    arcs_.circles.counters().bind(3);
+    atom_arc_first_texels_.bind(0);
+    lists.bind(1);
+    arc_texels_.bind(2);
+    program.set(kernel::ArcParameters{.arc_count = arc_count_});
+    program.dispatch(group_count(2 * std::size_t{arc_count_}));
+  };
+  run("partners", marked_arcs_, atom_arc_texels_, {});
+  marked_arc_texels_.view(marked_arcs_);
+  run("spurious_arcs", arcs_.circles.atoms, marked_arc_texels_, {});
+  run("spurious_arcs", arcs_.circles.atoms, marked_arc_texels_, {{"DOUBLE_PRECISION", "1"}});
+}
+
+kernel::ConvexParameters ViewPipeline::convex_parameters(const BallBatch& batch) const {
+  return {.middle = middle_, .first_entry = batch.first, .entry_count = batch.count, .atom_count = atom_count()};
+}
+
 void ViewPipeline::append_primitives(const PictureFrame& frame) {
   if (probe_radius_ > 0.0) {  // a probe of no size leaves tori and concave patches without area
     const Program& toroidal = primitive_kernel("toroidal", frame);
@@ -286,17 +323,15 @@ void ViewPipeline::append_primitives(const PictureFrame& frame) {
     ShaderDefines defines{{"LISTED", "1"}};
     if (whole_spheres_) defines.emplace_back("WHOLE_SPHERES", "1");
     const Program& convex = primitive_kernel("convex", frame, defines);
-    if (whole_spheres_) paper_.drawn().bind(7);
+    (whole_spheres_ ? paper_.drawn() : convex_clips_).bind(7);
     arcs_.circles.atoms.bind(0);
     radii_.bind(1);
     atom_arc_first_texels_.bind(0);
-    atom_arc_texels_.bind(1);
+    marked_arc_texels_.bind(1);
     arcs_.neighbors.first.bind(5);
     arcs_.neighbors.labels.bind(6);
     arcs_.neighbors.bind_listed();
-    visible_.bind(convex);
-    convex.set(kernel::ConvexParameters{
-        .middle = middle_, .first_entry = batch.first, .entry_count = batch.count, .atom_count = atom_count()});
+    convex.set(convex_parameters(batch));
     convex.dispatch(group_count(batch.count));
   });
 }

@@ -11,6 +11,7 @@
 #include "core/base/stage_clock.h"
 #include "core/gpu/append_list.h"
 #include "core/gpu/buffer.h"
+#include "core/gpu/kernel_parameters.h"
 #include "core/gpu/kernel_records.h"
 #include "core/gpu/prefix_sum.h"
 #include "core/gpu/program.h"
@@ -84,6 +85,8 @@ class ViewPipeline final : public Drawable {
   void select_as_the_paper(const PictureFrame& frame);
   bool is_closed() const;
   void list_arcs_by_atom();
+  void find_clips();
+  kernel::ConvexParameters convex_parameters(const BallBatch& batch) const;
   void append_primitives(const PictureFrame& frame);
   const Program& primitive_kernel(const char* name, const PictureFrame& frame, const ShaderDefines& defines = {});
   std::uint32_t atom_count() const { return static_cast<std::uint32_t>(atoms_.size()); }
@@ -115,9 +118,10 @@ class ViewPipeline final : public Drawable {
   std::array<std::uint32_t, 3> primitive_counts_{};   // primitives, rows, whether a loop was cut short
   bool trusted_ = false;                              // sizes of the last frame are known, and atoms as many
   bool arcs_open_ = false, primitives_open_ = false;  // what the host has to know of the frame at work
-  Buffer atom_arc_first_, atom_arc_rank_, atom_arcs_;
+  Buffer atom_arc_first_, atom_arc_rank_, atom_arcs_, marked_arcs_;
+  Buffer convex_clips_;  // uint per atom, as convex_clips.glsl has it
   TexelBuffer arc_texels_{TexelFormat::uint4}, atom_arc_first_texels_{TexelFormat::uint1},
-      atom_arc_texels_{TexelFormat::uint4};
+      atom_arc_texels_{TexelFormat::uint4}, marked_arc_texels_{TexelFormat::uint4};
   std::uint32_t arc_count_ = 0;  // at most
   bool whole_spheres_ = false;   // drawn instead of convex patches
 };

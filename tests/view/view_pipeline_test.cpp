@@ -3,9 +3,12 @@
 #include "core/visible_surface/view_pipeline.h"
 
 #include <algorithm>
+#include <cmath>
 #include <random>
+#include <set>
 
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 #include "core/gpu/egl_context.h"
@@ -102,6 +105,47 @@ TEST_F(Views, GasesLookAsOnTheHost) {
     load(atoms);
     for (const bool some_hidden : {false, true}) EXPECT_LE(differing_from_host(surface, some_hidden), 0) << n;
   }
+}
+
+/// A large atom between so many others, each over a small one that meets the large one as well, but only inside the
+/// solid.
+Balls crowded_atom(int count) {
+  constexpr double kRadius = 20.0;
+  Balls atoms{{{0.0, 0.0, 0.0}, kRadius}};
+  for (int n = 0; n < count; ++n) {
+    const double z = 1.0 - (2.0 * n + 1.0) / count, longitude = 2.399963229728653 * n;  // a spiral of golden angles
+    const glm::dvec3 up(std::sqrt(1.0 - z * z) * glm::dvec3(std::cos(longitude), std::sin(longitude), 0.0) +
+                        glm::dvec3(0.0, 0.0, z));
+    const glm::dvec3 across = glm::normalize(glm::cross(up, glm::dvec3(0.3, 0.5, 0.8)));
+    atoms.push_back({(kRadius + 0.5) * up, 1.0});
+    atoms.push_back({kRadius * up + 0.6 * across, 0.3});
+  }
+  return atoms;
+}
+
+// On llvmpipe all loops of an invocation together end after 65,535 steps: with each partner against each, the kernels
+// would have to take all neighbours, which ask more of every ray.
+TEST_F(Views, ManyPartnersAreNoMoreThanOneInvocationCanGoThrough) {
+  const Balls atoms = crowded_atom(380);
+  const ReducedSurface reduced = enumerate_reduced_surface(atoms, 1.4);
+  std::set<std::uint32_t> partners;
+  for (const RsArc& arc : reduced.arcs)
+    if (arc.i == 0) partners.insert(arc.j);
+  ASSERT_GT(partners.size() * partners.size(), 2u * 65'535u);
+  ASSERT_LT(partners.size(), 400u) << "no small atom is a partner";
+  const Surface surface = assemble_surface(atoms, 1.4, reduced);
+  load(atoms);
+  EXPECT_EQ(differing_from_host(surface, false), 0);
+  StageClock clock;
+  const GpuScene& scene = view_.prepare(make_picture_frame(atoms, frame_camera(atoms, 4.0 / 3.0), kSize), clock);
+  std::size_t of_the_large_one = 0;
+  for (const ray_cast::Primitive& primitive :
+       scene.primitives.buffer.download<ray_cast::Primitive>(scene.primitives.count()))
+    if (primitive.kind == ray_cast::kConvex && primitive.atom == 0) {
+      ++of_the_large_one;
+      EXPECT_EQ(primitive.plane_count, partners.size());
+    }
+  EXPECT_EQ(of_the_large_one, 1u);
 }
 
 TEST_F(Views, VisibleEqualsCompleteFromOutside) {

@@ -70,6 +70,9 @@ class GpuNeighbors {
   /// than it is: behind the last one lists are empty.
   void list_only(const Buffer& listed, const Buffer& before, std::uint32_t count);
 
+  /// Of the lists; with list_only() perhaps more than there are.
+  std::uint32_t entry_count() const { return entry_count_; }
+
   /// With Counting::later lists get the room that they needed last time and some more, in one batch, which must suffice
   /// for all: can_trust(). Holds until it is called again.
   void count_lists(Counting counting) { counting_ = counting; }

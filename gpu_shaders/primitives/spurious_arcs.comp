@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Stage "primitives", 6: whether the atoms on arcs around an atom clip its patch to what it is.
+// Reads: arcs, lists of arcs by atom with marks, atoms. Writes: clips. One invocation per arc and side, for one of each circle;
+// it goes through the atom's partners once. At first in single precision, then in double for atoms in doubt.
+// Overflow: none; where loops are cut short, all neighbours clip.
+// Based on: Krone, Dachsbacher & Ertl 2010, section 3.4.
+#version 450 core
+layout(local_size_x = 64) in;
+#include "gpu_shaders/shared/constants.glsl"
+#include "gpu_shaders/shared/loop_guard.glsl"
+#include "gpu_shaders/reduced_surface/precision.glsl"
+#include "gpu_shaders/reduced_surface/exposed_arcs.glsl"
+#include "gpu_shaders/primitives/listed_arc.glsl"
+
+layout(std430, binding = 0) readonly buffer Atoms { dvec4 atoms[]; };  // centre, decision weight
+
+#ifdef DOUBLE_PRECISION
+const uint kOfThese = kInDoubt;
+const uint kWhereDoubtful = kByNeighbors;
+bool too_small(Circle c, real w0) { return false; }
+#else
+const uint kOfThese = kByPartners;
+const uint kWhereDoubtful = kInDoubt;
+bool too_small(Circle c, real w0) { return c.radius_squared <= kSmallestCircle * kUnitRoundoff * w0; }
+#endif
+
+bool known(ListedArc listed, uvec3 border) {
+  for (uint n = listed.first; n < listed.last; ++n)
+    if (texelFetch(atom_arcs, int(n)).xyz == border) return true;
+  return false;
+}
+
+// What the partners leave of the circle (a, b).
+void expose_among_partners(ListedArc listed, uint b) {
+  dvec4 ball = atoms[listed.atom];
+  real w0 = real(ball.w);
+  dvec4 other = atoms[b];
+  Circle c = circle_of_two_spheres(real3(other.xyz - ball.xyz), w0, real(other.w));
+  begin_contour(c, w0);
+  exposed_doubtful = too_small(c, w0);
+  for (uint n = listed.first; n < listed.last && !contour_ended(); ++n) {
+    uvec4 arc = texelFetch(atom_arcs, int(n));
+    for (uint mark = arc.w; mark != 0u; mark &= mark - 1u) {
+      uint q = arc[findLSB(mark)];
+      if (q == b) continue;
+      other = atoms[q];
+      block(blocking_ball(real3(other.xyz - ball.xyz), real(other.w), w0), q);
+    }
+  }
+}
+
+// Whether an arc that is left is none of the surface: then some other atom is needed.
+bool is_spurious(ListedArc listed, uint b) {
+  bool spurious = exposed_whole && !known(listed, uvec3(b, kNone, kNone));
+  for (uint n = 0u; n < exposed_count && !spurious; ++n)
+    spurious = !known(listed, uvec3(b, exposed_arcs[n].begin_by, exposed_arcs[n].end_by));
+  return spurious;
+}
+
+void main() {
+  ListedArc listed;
+  if (!find_listed_arc(kOfThese, listed)) return;
+  uvec4 arc = texelFetch(atom_arcs, int(listed.place));
+  if ((arc.w & kOnCircle) == 0u) return;
+  expose_among_partners(listed, arc.x);
+  if (exposed_doubtful) atomicMax(clips[listed.atom], kWhereDoubtful);
+  else if (is_spurious(listed, arc.x)) clips[listed.atom] = kByNeighbors;
+  if (loops_cut_short()) clips[listed.atom] = kByNeighbors;
+}
