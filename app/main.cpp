@@ -1,13 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The program `meniscus`: a table of commands.
+#include <algorithm>
+#include <array>
+#include <filesystem>
 #include <iostream>
 #include <sstream>
+#include <system_error>
+#include <vector>
 
 #include <unistd.h>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include "app/options/usage_faults.h"
 #include "app/process/build_version.h"
+#include "app/process/command_line.h"
 #include "app/commands/commands.h"
 #include "app/reports/error_report.h"
 #include "app/process/failed_allocation.h"
@@ -17,6 +25,7 @@
 #include "app/process/standard_streams.h"
 #include "app/process/stop_signals.h"
 #include "app/reports/version_report.h"
+#include "core/base/similar_words.h"
 #include "core/base/text.h"
 
 namespace meniscus {
@@ -52,6 +61,11 @@ constexpr const char* kExitCodesInShort = R"(Exit codes:
 
 constexpr std::size_t kHelpWidth = 100;
 
+/// Headings of the help: what most people need first, what few need last, and that only on --help-all.
+constexpr std::array<std::string_view, 8> kFirstHeadings{"Output", "Picture", "Figure", "Look",
+                                                         "Colour", "Options", "Input",  "Surface"};
+constexpr std::array<std::string_view, 3> kRareHeadings{"Radii", "Assembly", "Frames"};
+
 /// Help in the order people read: what it is, examples, usage, options.
 class ManualFormatter : public CLI::Formatter {
  public:
@@ -59,9 +73,25 @@ class ManualFormatter : public CLI::Formatter {
     if (mode == CLI::AppFormatMode::Sub) return make_expanded(app);
     std::string help = make_description(app);
     if (!app->get_footer().empty()) help += "\nExamples:\n" + app->get_footer() + "\n";
-    help += "\n" + make_usage(app, std::move(name)) + make_positionals(app) + make_groups(app, mode) +
-            make_subcommands(app, mode);
+    help += "\n" + make_usage(app, std::move(name)) + make_positionals(app) + ordered_groups(app, mode) +
+            make_subcommands(app, CLI::AppFormatMode::Normal);
     return help + (app->get_parent() ? "" : std::string("\n") + kExitCodesInShort);
+  }
+
+  std::string ordered_groups(const CLI::App* app, CLI::AppFormatMode mode) const {
+    std::vector<std::string> headings = app->get_groups();
+    std::ranges::stable_sort(headings, {}, place_of);
+    std::string text, rare;
+    for (const std::string& heading : headings) {
+      const std::vector<const CLI::Option*> options = app->get_options(
+          [&](const CLI::Option* option) { return option->get_group() == heading && option->nonpositional(); });
+      if (heading.empty() || options.empty()) continue;
+      if (mode == CLI::AppFormatMode::All || place_of(heading) < kRarePlace)
+        text += make_group(heading, false, options);
+      else
+        rare += fmt::format("{}{} ({} options)", rare.empty() ? "" : ", ", heading, options.size());
+    }
+    return rare.empty() ? text : text + fmt::format("\nMore on --help-all: {}\n", rare);
   }
 
   std::string make_option_desc(const CLI::Option* option) const override {
@@ -80,19 +110,44 @@ class ManualFormatter : public CLI::Formatter {
     const std::string& type = option->get_type_name();
     return (type.empty() ? "" : " " + type) + (option->get_required() ? " (required)" : "");
   }
+
+ private:
+  static constexpr std::size_t kRarePlace = 100;
+
+  /// Of a heading; those that no list has stand between.
+  static std::size_t place_of(const std::string& heading) {
+    const auto first = std::ranges::find(kFirstHeadings, heading), rare = std::ranges::find(kRareHeadings, heading);
+    if (rare != kRareHeadings.end()) return kRarePlace + static_cast<std::size_t>(rare - kRareHeadings.begin());
+    return static_cast<std::size_t>(first - kFirstHeadings.begin());
+  }
 };
 
-void refuse_unknown_command(std::string_view word) {
-  std::string names;
-  for (const Command& command : kCommands) {
-    if (word == command.name) return;
-    names += fmt::format("{}{}", names.empty() ? "" : ", ", command.name);
-  }
-  throw UsageError(fmt::format("{} is no command; there are {}; see meniscus --help", in_quotes(word), names));
+bool is_command(std::string_view word) {
+  return std::ranges::any_of(kCommands, [&](const Command& command) { return word == command.name; });
+}
+
+[[noreturn]] void refuse_unknown_command(std::string_view word) {
+  std::vector<std::string_view> names;
+  for (const Command& command : kCommands) names.emplace_back(command.name);
+  const std::string_view nearest = nearest_word(word, names);
+  throw UsageError(fmt::format("{} is no command{}; there are {}; see meniscus --help", in_quotes(word),
+                               nearest.empty() ? "" : fmt::format(" (did you mean {}?) and no file", nearest),
+                               fmt::join(names, ", ")));
+}
+
+/// The words as they were typed; `meniscus my.pdb` means `meniscus render my.pdb`.
+std::vector<const char*> words_of(int argc, char** argv) {
+  std::vector<const char*> words(argv, argv + argc);
+  if (argc < 2 || argv[1][0] == '-' || is_command(argv[1])) return words;
+  std::error_code unreadable;
+  if (!std::filesystem::is_regular_file(argv[1], unreadable)) refuse_unknown_command(argv[1]);
+  words.insert(words.begin() + 1, "render");
+  return words;
 }
 
 void run(int argc, char** argv) {
-  if (argc > 1 && argv[1][0] != '-') refuse_unknown_command(argv[1]);
+  const std::vector<const char*> words = words_of(argc, argv);
+  remember_command_line(words);
   CLI::App program("Meniscus computes the exact, complete solvent-excluded surface of a molecule.", "meniscus");
   program.formatter(std::make_shared<ManualFormatter>());
   program.get_formatter()->column_width(30);
@@ -105,15 +160,19 @@ void run(int argc, char** argv) {
   program.set_version_flag(
       "--version", [&verbose] { return verbose ? version_report() : version_line(); }, "Show version and commit");
   program.set_help_flag("-h,--help", "Show this help");
+  program.set_help_all_flag("--help-all", "Show it with the options that few need");
   program.require_subcommand(1);
+  let_the_last_count(program);
   program.footer(kExamples);
   for (const Command& command : kCommands) command.add(*program.add_subcommand(command.name)->group("Commands"));
   try {
-    program.parse(argc, argv);
+    program.parse(static_cast<int>(words.size()), words.data());
   } catch (const CLI::Success& success) {
     program.exit(success);
   } catch (const CLI::ParseError& error) {
-    throw UsageError(std::string(error.what()) + "; see meniscus --help");
+    const std::string fault = dynamic_cast<const CLI::ExtrasError*>(&error) ? unknown_option_fault(program, words)
+                                                                            : std::string(error.what());
+    throw UsageError(fmt::format("{}; see {} --help", fault, command_path(named_command(program))));
   }
   finish_standard_output();
 }

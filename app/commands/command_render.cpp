@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `meniscus render`: a picture of the surface by ray casting its analytic patches.
 #include <algorithm>
+#include <filesystem>
 #include <iostream>
 #include <map>
 #include <memory>
@@ -14,6 +15,7 @@
 #include "app/options/figure_options.h"
 #include "app/options/look_options.h"
 #include "app/options/value_words.h"
+#include "app/process/command_line.h"
 #include "app/process/program_error.h"
 #include "core/scene/molecule.h"
 #include "app/commands/render_command.h"
@@ -95,6 +97,20 @@ void draw_view(const RenderCommand& command, const std::optional<Camera>& given)
   finish(command, layout, std::move(picture), camera);
 }
 
+/// Without -o the picture has the molecule's name, in the current folder.
+void name_output(RenderCommand& command) {
+  if (!command.output.path.empty()) return;
+  if (command.frames.asked())
+    throw UsageError(
+        "-o is missing: name the pictures of the frames, such as frame_#####.png, or a film, such as a.mp4");
+  std::filesystem::path name = std::filesystem::path(command.molecule.file).filename();
+  if (name.extension() == ".gz") name = name.stem();
+  name = name.stem();
+  if (name.empty() || name == "-") throw UsageError("-o is missing: what shall the picture be called?");
+  command.output.path = name.string() + ".png";
+  say(command.molecule, "the picture goes to " + command.output.path + "; -o PATH sends it elsewhere");
+}
+
 void run(const RenderCommand& command) {
   if (command.frames.asked()) return render_frames(command);
   if (command.run_camera.moves())
@@ -138,6 +154,14 @@ PictureLayout::PictureLayout(const RenderCommand& command, const ColorKey& key) 
   size.height = legend->molecule_size().y;
 }
 
+ImageSettings image_settings(const RenderCommand& command) {
+  ImageSettings settings{command.background, command.output.existing(), command.look.has_linear_alpha()};
+  settings.dots_per_inch = command.picture.dots_per_inch;
+  settings.names_program = command.names_program;
+  if (command.provenance) settings.command = command_line();
+  return settings;
+}
+
 RenderSettings render_settings(const RenderCommand& command, const PictureLayout& layout) {
   RenderSettings settings;
   settings.size = {layout.size.width, layout.size.height};
@@ -145,10 +169,6 @@ RenderSettings render_settings(const RenderCommand& command, const PictureLayout
   settings.aovs = command.aovs;
   settings.look = look_of(command.look, {command.picture.width, command.picture.height}, command.background);
   return settings;
-}
-
-ImageSettings image_settings(const RenderCommand& command) {
-  return {command.background, command.output.existing(), command.look.has_linear_alpha()};
 }
 
 DeviceChoice gl_device(const RenderCommand& command) { return command.molecule.surface.gl; }
@@ -175,7 +195,9 @@ void add_render(CLI::App& command) {
   add_look_options(command, state->look);
   add_output_options(
       command, state->output,
-      "Picture to write: .png, .tif, .tiff or .exr; of frames: frame_#####.png, or a film: .mp4, .mkv, .mov");
+      "Picture to write: .png, .jpg, .webp, .tif, .exr [FILE's name here, as .png]; of frames: frame_#####.png, or a "
+      "film: .mp4, .mkv, .mov",
+      OutputName::optional);
   command.add_option("--samples", state->samples, "Rays per pixel, the first through its centre [9]")
       ->check(CLI::Range(1, 1024).description(""))
       ->type_name("N");
@@ -198,6 +220,13 @@ void add_render(CLI::App& command) {
       ->check(proposes({"visible", "complete", "paper"}))
       ->type_name("WORD");
   command.add_flag("--stats", state->stats, "With --extent: what each group of stages found, and its time, on stderr");
+  CLI::Option* const provenance =
+      command.add_flag("--provenance", state->provenance,
+                       "Write this command line into .png, .tif, .jpg and .exr, so that it can be made again");
+  command
+      .add_flag_callback(
+          "--no-provenance", [state] { state->names_program = false; }, "Leave the program's version out of them, too")
+      ->excludes(provenance);
   command.add_option("--save-camera", state->save_camera, "Write the camera used, as JSON for --camera")
       ->type_name("FILE");
   command.add_option("--fps", state->frames_per_second, "Frames per second of a film [25]")
@@ -205,6 +234,7 @@ void add_render(CLI::App& command) {
       ->type_name("N");
   command.callback([state] {
     state->figure.representations.ask_for(state->molecule.reading);
+    name_output(*state);
     run(*state);
   });
 }

@@ -13,6 +13,7 @@
 #include "app/process/program_error.h"
 #include "app/options/figure_options.h"
 #include "app/options/run_camera_options.h"
+#include "app/options/usage_faults.h"
 #include "core/base/text.h"
 
 namespace meniscus::farm {
@@ -80,6 +81,7 @@ void add_command(CLI::App& program, const Words& words) {
 void check_by_own_options(BundledCommand& result) {
   CLI::App program("", "meniscus");
   program.set_help_flag();
+  let_the_last_count(program);
   // Thrown when all options are understood, before the command itself is called.
   program.parse_complete_callback([] { throw CLI::Success(); });
   add_command(program, result.words);
@@ -106,6 +108,7 @@ void find_files(BundledCommand& result) {
 void parse_shared_options(BundledCommand& result) {
   CLI::App command("", "meniscus");
   command.set_help_flag();
+  let_the_last_count(command);
   command.allow_extras();
   add_molecule_options(command, result.molecule);
   FigureRequest figure;  // of render; the bundle needs to know what it reads, which is the same

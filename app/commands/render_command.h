@@ -31,6 +31,8 @@ struct RenderCommand {
   int samples = 9;
   bool aovs = false;
   bool legend = false;
+  bool provenance = false;    ///< the command line is in the picture
+  bool names_program = true;  ///< the program's version is
   std::optional<glm::vec3> background;
   std::optional<Extent> extent;  ///< nothing: the complete surface, computed and certified before the picture
   bool stats = false;
@@ -47,6 +49,7 @@ struct PictureLayout {
 
 RenderSettings render_settings(const RenderCommand& command, const PictureLayout& layout);
 
+/// How the pictures are written.
 ImageSettings image_settings(const RenderCommand& command);
 
 /// Of --extent.

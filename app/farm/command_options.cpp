@@ -88,6 +88,11 @@ const Options& command_table() {
       {"--material", Value::text},
       // picture
       {"--size", Value::text},
+      {"--dpi", Value::text},
+      {"--width", Value::text},
+      {"--height", Value::text},
+      {"--provenance", Value::none},
+      {"--no-provenance", Value::none},
       {"--camera", Value::file},
       {"--projection", Value::text},
       {"--view", Value::text},

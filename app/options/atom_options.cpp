@@ -32,9 +32,8 @@ AltlocChoice altloc_choice(const std::string& text) {
   return *choice;
 }
 
-}  // namespace
-
-void add_atom_options(CLI::App& command, MoleculeOptions& options) {
+/// What is taken of which file, and what is said about it.
+void add_input_options(CLI::App& command, MoleculeOptions& options) {
   const Heading heading(command, "Input");
   add_file_argument(command, options);
   command
@@ -68,8 +67,14 @@ void add_atom_options(CLI::App& command, MoleculeOptions& options) {
                   "Atoms of unknown element: halt (default), guess (radius 2.0 Å), skip")
       ->transform(one_of(words))
       ->type_name("WORD");
-  add_radii_options(command, options.reading);
   add_warning_options(command, options);
+}
+
+}  // namespace
+
+void add_atom_options(CLI::App& command, MoleculeOptions& options) {
+  add_input_options(command, options);
+  add_radii_options(command, options.reading);
   add_assembly_options(command, options);
 }
 

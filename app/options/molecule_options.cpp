@@ -15,9 +15,9 @@ void add_molecule_options(CLI::App& command, MoleculeOptions& options) {
   add_color_options(command, options);
 }
 
-void add_output_options(CLI::App& command, OutputOptions& options, const std::string& what) {
+void add_output_options(CLI::App& command, OutputOptions& options, const std::string& what, OutputName name) {
   const Heading heading(command, "Output");
-  command.add_option("-o,--output", options.path, what)->required()->type_name("PATH");
+  command.add_option("-o,--output", options.path, what)->required(name == OutputName::required)->type_name("PATH");
   command.add_flag("--force", options.force, "Replace what exists at the output path");
 }
 

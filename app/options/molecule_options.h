@@ -61,8 +61,11 @@ void add_color_options(CLI::App& command, MoleculeOptions& options);
 void add_opacity_option(CLI::App& command, MoleculeOptions& options);
 /// All of the above but the last.
 void add_molecule_options(CLI::App& command, MoleculeOptions& options);
-/// -o/--output (required, described by `what`) and --force.
-void add_output_options(CLI::App& command, OutputOptions& options, const std::string& what);
+/// Must an output be named?
+enum class OutputName { required, optional };
+/// -o/--output (described by `what`) and --force.
+void add_output_options(CLI::App& command, OutputOptions& options, const std::string& what,
+                        OutputName name = OutputName::required);
 
 /// Options added while this lives stand under a heading of their own in the help.
 class Heading {

@@ -4,13 +4,16 @@
 #include "app/options/molecule_options.h"
 #include "app/options/value_words.h"
 
+#include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <map>
 #include <string_view>
 
 #include <fmt/format.h>
 
 #include "core/base/text.h"
+#include "core/text/parse_number.h"
 
 namespace meniscus {
 namespace {
@@ -31,6 +34,58 @@ void parse_size(const std::string& text, ViewRequest& request) {
         "--size", fmt::format("{} is not WIDTHxHEIGHT in pixels, 1 to {} each, such as 1920x1080", in_quotes(text),
                               kLargestSide));
   }
+}
+
+constexpr double kUsualResolution = 300.0, kMillimetersPerInch = 25.4;
+
+/// "85mm", "3.5in", "8.5cm", "1000px" or "1000" in pixels. Lengths take 300 dots an inch where nothing else was said.
+int parse_length(const char* option, const std::string& text, ViewRequest& request) {
+  const std::size_t end = std::min(text.find_first_not_of("0123456789.+-eE"), text.size());
+  const std::string unit = text.substr(end);
+  const std::map<std::string, double> per_inch{
+      {"in", 1.0}, {"cm", kMillimetersPerInch / 10.0}, {"mm", kMillimetersPerInch}};
+  const auto length = per_inch.find(unit);
+  double value = 0.0;
+  if (!parse_number(text.substr(0, end), value) || (length == per_inch.end() && !unit.empty() && unit != "px"))
+    throw CLI::ValidationError(option, in_quotes(text) + " is no length, such as 85mm, 8.5cm, 3.5in or 1000px");
+  if (length != per_inch.end()) {
+    if (request.dots_per_inch == 0.0) request.dots_per_inch = kUsualResolution;
+    value *= request.dots_per_inch / length->second;
+  }
+  const double pixels = std::round(value);
+  if (!(pixels >= 1.0 && pixels <= kLargestSide))
+    throw CLI::ValidationError(
+        option, fmt::format("{} makes {:.0f} pixels; a side has 1 to {}", in_quotes(text), pixels, kLargestSide));
+  return static_cast<int>(pixels);
+}
+
+/// One side alone keeps the shape of the picture.
+void add_length_options(CLI::App& command, ViewRequest& request, CLI::Option* size) {
+  command
+      .add_option("--dpi", request.dots_per_inch,
+                  "Dots an inch, for lengths and for programs that print [300 for lengths]")
+      ->check(CLI::Range(1.0, 100'000.0).description(""))
+      ->type_name("N");
+  const double shape = request.aspect();
+  CLI::Option* const width = command.add_option_function<std::string>(
+      "--width",
+      [&request, shape](const std::string& text) {
+        request.width = parse_length("--width", text, request);
+        request.height = std::clamp(static_cast<int>(std::lround(request.width / shape)), 1, kLargestSide);
+      },
+      "Width of the picture: 85mm, 8.5cm, 3.5in, 1000px; the height follows");
+  width->type_name("LENGTH")->excludes(size);
+  command
+      .add_option_function<std::string>(
+          "--height",
+          [&request, shape, width](const std::string& text) {
+            request.height = parse_length("--height", text, request);
+            if (width->empty())
+              request.width = std::clamp(static_cast<int>(std::lround(request.height * shape)), 1, kLargestSide);
+          },
+          "Height of the picture, likewise; with --width both")
+      ->type_name("LENGTH")
+      ->excludes(size);
 }
 
 void parse_view(const std::string& text, ViewRequest& request) {
@@ -90,6 +145,7 @@ void add_size_option(CLI::App& command, ViewRequest& request, const std::string&
 
 void add_picture_options(CLI::App& command, ViewRequest& request) {
   add_size_option(command, request, "Picture");
+  add_length_options(command, request, command.get_option("--size"));
   CLI::Option* const camera = command.add_option("--camera", request.camera_file,
                                                  "Camera as JSON, PyMOL's get_view or ChimeraX's view matrix [shows "
                                                  "everything]");

@@ -13,7 +13,7 @@ namespace meniscus {
 /// --size alone; `what` has it. The request must live as long as the command.
 void add_size_option(CLI::App& command, ViewRequest& request, const std::string& what);
 
-/// --size, --camera, --projection, --view, --turn, --zoom-to.
+/// --size, --dpi, --width, --height, --camera, --projection, --view, --turn, --zoom-to.
 void add_picture_options(CLI::App& command, ViewRequest& request);
 
 }  // namespace meniscus

@@ -20,6 +20,7 @@ RadiusOverride radius_override_of(const std::string& text) {
 }  // namespace
 
 void add_radii_options(CLI::App& command, ReadOptions& reading) {
+  const Heading heading(command, "Radii");
   const std::map<std::string, Hydrogens> words{
       {"keep", Hydrogens::keep}, {"drop", Hydrogens::drop}, {"auto", Hydrogens::automatic}};
   command

@@ -18,6 +18,7 @@ namespace meniscus {
 /// A size and a camera.
 struct ViewRequest {
   int width = 1280, height = 960;                   ///< pixels
+  double dots_per_inch = 0.0;                       ///< of the printed picture; 0: not said
   std::string camera_file;                          ///< empty: a camera that shows all of the surface
   Projection projection = Projection::perspective;  ///< of that default camera
   std::optional<ViewDirection> direction;           ///< of it; nothing: the broad side

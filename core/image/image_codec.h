@@ -16,19 +16,22 @@ enum class SampleType : std::uint8_t { uint8, uint16, float32 };
 
 /// A picture as a file will hold it. Rows from the top, channels of a pixel together.
 struct ImageToEncode {
-  std::string format;  ///< "png", "tiff" or "exr"
+  std::string format;  ///< "png", "jpeg", "webp", "tiff" or "exr"
   std::string file;    ///< TIFF: written under this name, for OpenImageIO 2.4 cannot write it to memory
   int width = 0;
   int height = 0;
   std::vector<std::string> channels;
   SampleType sample = SampleType::uint8;
-  int alpha_channel = -1;           ///< -1: none
-  int depth_channel = -1;           ///< likewise
-  std::string color_space;          ///< "sRGB" or "Linear"
-  bool unassociated_alpha = false;  ///< colours are not multiplied by alpha
-  std::string compression;          ///< "" for the format's own
-  int png_level = -1;               ///< of 9; -1 for the usual
-  std::string software;             ///< written into the file; "" for nothing
+  int alpha_channel = -1;                       ///< -1: none
+  int depth_channel = -1;                       ///< likewise
+  std::string color_space;                      ///< "sRGB" or "Linear"
+  bool unassociated_alpha = false;              ///< colours are not multiplied by alpha
+  std::string compression;                      ///< "" for the format's own
+  int png_level = -1;                           ///< of 9; -1 for the usual
+  std::string software;                         ///< written into the file; "" for nothing
+  std::string command;                          ///< how it was made, likewise
+  double dots_per_inch = 0.0;                   ///< likewise; 0 for nothing
+  std::span<const std::uint8_t> color_profile;  ///< ICC; empty for none
 
   /// One of these has the pixels: floats in [0, 1] (EXR: any), or, of PNG, bytes with `byte_stride` from pixel to
   /// pixel.

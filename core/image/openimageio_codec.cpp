@@ -24,8 +24,18 @@ OIIO::ImageSpec spec_of(const ImageToEncode& image) {
   spec.attribute("oiio:ColorSpace", image.color_space);
   if (image.unassociated_alpha) spec.attribute("oiio:UnassociatedAlpha", 1);
   if (!image.compression.empty()) spec.attribute("compression", image.compression);
+  if (image.format == "jpeg") spec.attribute("jpeg:subsampling", "4:4:4");
   if (image.png_level >= 0) spec.attribute("png:compressionLevel", image.png_level);
   if (!image.software.empty()) spec.attribute("Software", image.software);
+  if (!image.color_profile.empty())
+    spec.attribute("ICCProfile", OIIO::TypeDesc(OIIO::TypeDesc::UINT8, static_cast<int>(image.color_profile.size())),
+                   image.color_profile.data());
+  if (!image.command.empty()) spec.attribute("ImageDescription", image.command);
+  if (image.dots_per_inch > 0.0) {
+    spec.attribute("XResolution", static_cast<float>(image.dots_per_inch));
+    spec.attribute("YResolution", static_cast<float>(image.dots_per_inch));
+    spec.attribute("ResolutionUnit", "in");
+  }
   return spec;
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <memory>
@@ -45,6 +46,26 @@ void add_note(Bytes& file, std::string_view key, std::string_view text) {
   content.push_back(0);
   add_text(content, text);
   add_chunk(file, "tEXt", content);
+}
+
+/// Text of any letters (iTXt, section 11.3.4.5), not compressed, in no language.
+void add_unicode_note(Bytes& file, std::string_view key, std::string_view text) {
+  Bytes content;
+  add_text(content, key);
+  content.insert(content.end(), 5, 0);  // end of the key, no compression, its method, no language, no translated key
+  add_text(content, text);
+  add_chunk(file, "iTXt", content);
+}
+
+/// How large a pixel is printed.
+void add_resolution(Bytes& file, double dots_per_inch) {
+  constexpr double kMetersPerInch = 0.0254;
+  const auto per_meter = static_cast<std::uint32_t>(std::lround(dots_per_inch / kMetersPerInch));
+  Bytes content;
+  add_word(content, per_meter);
+  add_word(content, per_meter);
+  content.push_back(1);  // the unit is the metre
+  add_chunk(file, "pHYs", content);
 }
 
 /// Sizes, then what sRGB means: its gamma, its primaries.
@@ -176,7 +197,9 @@ Bytes encode_png(const ImageToEncode& image) {
   Bytes file{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
   add_header(file, image);
   add_note(file, "oiio:ColorSpace", image.color_space);
+  if (image.dots_per_inch > 0.0) add_resolution(file, image.dots_per_inch);
   if (!image.software.empty()) add_note(file, "Software", image.software);
+  if (!image.command.empty()) add_unicode_note(file, "Description", image.command);
   const Bytes stream = compressed(filtered_rows(image), image.png_level);
   for (std::size_t first = 0; first < stream.size(); first += kPart)
     add_chunk(file, "IDAT", &stream[first], std::min(kPart, stream.size() - first));

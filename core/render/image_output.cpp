@@ -21,6 +21,7 @@
 #include "core/image/png_encoder.h"
 #include "core/image/display_color.h"
 #include "core/image/memory_file.h"
+#include "core/image/srgb_profile.h"
 
 namespace meniscus {
 namespace {
@@ -29,6 +30,14 @@ std::string extension_of(const std::filesystem::path& path) {
   std::string extension = path.extension().string();
   std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
   return extension;
+}
+
+bool is_jpeg(const std::string& extension) { return extension == ".jpg" || extension == ".jpeg"; }
+
+/// What OpenImageIO calls it.
+std::string format_of(const std::string& extension) {
+  if (is_jpeg(extension)) return "jpeg";
+  return extension == ".tif" ? "tiff" : extension.substr(1);
 }
 
 /// A picture's channels, pixel after pixel: floats, or bytes for PNG.
@@ -103,21 +112,26 @@ Channels scene_channels(const Framebuffer& picture, const ImageSettings& setting
   return channels;
 }
 
-ImageToEncode described(const Framebuffer& picture, const Channels& channels, const std::string& extension) {
-  const bool exr = extension == ".exr", png = extension == ".png";
+ImageToEncode described(const Framebuffer& picture, const Channels& channels, const ImageSettings& settings,
+                        const std::string& extension) {
   ImageToEncode image;
-  image.format = exr ? "exr" : png ? "png" : "tiff";
+  image.format = format_of(extension);
+  const bool exr = image.format == "exr", tiff = image.format == "tiff";
   image.width = picture.size.x;
   image.height = picture.size.y;
   image.channels = channels.names;
-  image.sample = exr ? SampleType::float32 : png ? SampleType::uint8 : SampleType::uint16;
+  image.sample = exr ? SampleType::float32 : tiff ? SampleType::uint16 : SampleType::uint8;
   image.alpha_channel = channels.alpha;
   const auto z = std::ranges::find(channels.names, "Z");
   if (z != channels.names.end()) image.depth_channel = static_cast<int>(z - channels.names.begin());
   image.color_space = exr ? "Linear" : "sRGB";
   image.unassociated_alpha = !exr;
-  image.compression = "zip";
-  image.software = "Meniscus " MENISCUS_VERSION;
+  if (tiff || is_jpeg(extension)) image.color_profile = srgb_profile();
+  // Of JPEG and WebP the quality: nobody sees the loss, and text stays sharp.
+  image.compression = is_jpeg(extension) ? "jpeg:95" : extension == ".webp" ? "webp:95" : "zip";
+  if (settings.names_program) image.software = "Meniscus " MENISCUS_VERSION;
+  image.command = settings.command;
+  image.dots_per_inch = settings.dots_per_inch;
   image.floats = channels.values;
   image.bytes = channels.bytes;
   image.byte_stride = static_cast<int>(channels.names.size());
@@ -160,10 +174,13 @@ std::vector<std::uint8_t> encoded_tiff(const std::filesystem::path& path, ImageT
 std::vector<std::uint8_t> encoded(const std::filesystem::path& path, const Framebuffer& picture,
                                   const ImageSettings& settings) {
   const std::string extension = extension_of(path);
-  const Channels channels = extension == ".exr"   ? scene_channels(picture, settings)
-                            : extension == ".png" ? byte_channels(picture, settings.background, settings.linear_alpha)
-                                                  : display_channels(picture, settings);
-  const ImageToEncode image = described(picture, channels, extension);
+  // JPEG knows no transparency.
+  ImageSettings shown = settings;
+  if (is_jpeg(extension) && !shown.background) shown.background = glm::vec3(1.0f);
+  const Channels channels = extension == ".exr"   ? scene_channels(picture, shown)
+                            : extension == ".png" ? byte_channels(picture, shown.background, shown.linear_alpha)
+                                                  : display_channels(picture, shown);
+  const ImageToEncode image = described(picture, channels, settings, extension);
   return image.format == "tiff" ? encoded_tiff(path, image) : encode(path, image);
 }
 
@@ -176,9 +193,9 @@ std::vector<std::uint8_t> srgb_pixels(const Framebuffer& picture, const glm::vec
 }
 
 void check_image_path(const std::filesystem::path& path) {
-  constexpr std::array<std::string_view, 4> kExtensions{".png", ".tif", ".tiff", ".exr"};
+  constexpr std::array<std::string_view, 7> kExtensions{".png", ".jpg", ".jpeg", ".webp", ".tif", ".tiff", ".exr"};
   if (std::ranges::find(kExtensions, extension_of(path)) == kExtensions.end())
-    throw OutputError(path.string(), "a picture's name must end in .png, .tif, .tiff or .exr");
+    throw OutputError(path.string(), "a picture's name must end in .png, .jpg, .webp, .tif, .tiff or .exr");
   if (extension_of(path) != ".png") image_codec();  // what is missing is missed before anything is computed
 }
 

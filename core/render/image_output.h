@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pictures as files: PNG and TIFF for eyes, EXR for compositing, whole or not at all.
+// Pictures as files: PNG, JPEG, WebP and TIFF for eyes, EXR for compositing, whole or not at all.
 #pragma once
 
 #include <cstdint>
@@ -19,6 +19,9 @@ struct ImageSettings {
   /// Of PNG and TIFF without a background. True: alpha is the share of a pixel that is covered, for programs that blend
   /// in linear light. False: that by which blending in sRGB makes the same edges as on white (layout_color()).
   bool linear_alpha = true;
+  double dots_per_inch = 0.0;  ///< for programs that print; 0: not said
+  bool names_program = true;   ///< the program's version is in the file
+  std::string command = {};    ///< how it was made, in words; empty: not said. Not in WebP.
 };
 
 /// True if the extension names a format that can hold AOVs (.exr).
@@ -27,13 +30,15 @@ bool holds_aovs(const std::filesystem::path& path);
 /// The picture on an opaque background, as PNG would have it: 8 bit sRGB, 3 bytes a pixel, rows from the top.
 std::vector<std::uint8_t> srgb_pixels(const Framebuffer& picture, const glm::vec3& background);
 
-/// Throws OutputError unless the extension is .png, .tif, .tiff or .exr, Error if this installation writes no pictures.
+/// Throws OutputError unless the extension is .png, .jpg, .jpeg, .webp, .tif, .tiff or .exr, Error if this installation
+/// writes no pictures.
 void check_image_path(const std::filesystem::path& path);
 
-/// By extension: .png 8 bit, .tif and .tiff 16 bit, both sRGB with unassociated alpha; .exr float, linear, associated
-/// alpha, plus the channels Z, N.x N.y N.z, P.x P.y P.z, atom, kind, component when the picture has them (atom, kind
-/// and component are -1 where nothing is hit; Z is +inf). An opaque background leaves no alpha in PNG and TIFF, and
-/// alpha 1 in EXR. Throws OutputError.
+/// By extension: .png and .webp (quality 95) 8 bit, .tif and .tiff 16 bit, all sRGB with unassociated alpha; .jpg and
+/// .jpeg (quality 95, colours not subsampled) 8 bit sRGB before white where no background is given; .exr float, linear,
+/// associated alpha, plus the channels Z, N.x N.y N.z, P.x P.y P.z, atom, kind, component when the picture has them
+/// (atom, kind and component are -1 where nothing is hit; Z is +inf). An opaque background leaves no alpha, in EXR
+/// alpha 1. Throws OutputError.
 void write_image(const std::filesystem::path& path, const Framebuffer& picture, const ImageSettings& settings);
 
 }  // namespace meniscus

@@ -25,7 +25,7 @@ class RenderCommand : public ::testing::Test {
 };
 
 TEST_F(RenderCommand, WritesEveryFormatAndNamesTheDevice) {
-  for (const char* name : {"a.png", "a.tif", "a.exr"}) {
+  for (const char* name : {"a.png", "a.jpg", "a.webp", "a.tif", "a.exr"}) {
     const ProgramResult result = render({"-o", path(name)});
     EXPECT_EQ(result.exit_code, 0) << result.err;
     EXPECT_EQ(result.out, "");
@@ -153,7 +153,7 @@ TEST_F(RenderCommand, RefusesWithTheRightExitCode) {
       {3, {"-o", path("a.png"), "--camera", camera}},
       {3, {"-o", path("a.png"), "--camera", path("missing.json")}},
       {4, {"-o", path("a.png"), "--device", "gpu:77"}},
-      {6, {"-o", path("a.jpg")}},
+      {6, {"-o", path("a.gif")}},
       {6, {"-o", path("none/a.png")}}};
   for (const auto& [code, arguments] : cases) {
     const ProgramResult result = render(arguments);

@@ -40,6 +40,16 @@ class Bundle(FarmCase):
         listed = {entry["path"].split("/")[1]: entry["sha256"] for entry in manifest["inputs"]}
         self.assertEqual(listed, sums(self.folder / "manifest" / "inputs", "*"))
 
+    def test_what_aims_the_default_camera_is_in_its_file(self):
+        cameras = []
+        for number, words in enumerate([(), ("--view", "-x", "--turn", "y30", "--turn=x-10"), ("--zoom-to=index 0",)]):
+            folder = self.bundle(f"aimed{number}", *self.render(*words))
+            command = json.loads((folder / "bundle.json").read_text())["command"]
+            self.assertEqual(command[-2:], ["--camera", "inputs/camera.json"])
+            self.assertFalse([word for word in command if word.startswith(("--view", "--turn", "--zoom-to", "-x"))])
+            cameras.append((folder / "inputs" / "camera.json").read_text())
+        self.assertEqual(len(set(cameras)), 3)
+
     def test_where_and_with_how_much_is_the_workers_default_and_no_part_of_the_command(self):
         words = ("--device", "cpu", "--threads", "2", "--jobs", "3")
         folder = self.bundle("device", "render", sample_run(self.folder / "device.pdb", 2), "--frames", "all", "--size",

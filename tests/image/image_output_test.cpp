@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Picture files read back: channels, alpha, colour space; and what is refused.
 #include "core/render/image_output.h"
+#include "core/image/srgb_profile.h"
 
 #include <algorithm>
 #include <cmath>
@@ -97,6 +98,88 @@ TEST_F(ImageFile, PngAndTiffAreSrgbWithUnassociatedAlpha) {
   }
 }
 
+TEST_F(ImageFile, JpegHasWhiteBehindAndWebPItsAlpha) {
+  Framebuffer large = picture();  // blocks of JPEG and WebP blur what is smaller than they are
+  large.size = {64, 32};
+  large.color.clear();
+  for (int n = 0; n < 64 * 32; ++n)
+    large.color.push_back(n % 64 < 32 ? glm::vec4(0.0f) : glm::vec4(0.5f, 0.2f, 0.1f, 1.0f));
+  constexpr int kEmpty = 16 * 64 + 8, kFull = 16 * 64 + 50;
+  for (const char* name : {"a.jpg", "a.JPEG"}) {
+    write_image(folder_ / name, large, {});
+    const File file = read(folder_ / name);
+    ASSERT_EQ(file.spec.nchannels, 3) << name;
+    EXPECT_NEAR(file.at(kEmpty, "G"), 1.0, 0.01);
+    EXPECT_NEAR(file.at(kFull, "R"), srgb_from_linear(0.5f), 0.02);
+    EXPECT_EQ(file.spec.get_string_attribute("jpeg:subsampling"), "4:4:4");
+  }
+  write_image(folder_ / "a.webp", large, {});
+  const File file = read(folder_ / "a.webp");
+  ASSERT_EQ(file.spec.nchannels, 4);
+  EXPECT_NEAR(file.at(kEmpty, "A"), 0.0, 0.01);
+  EXPECT_NEAR(file.at(kFull, "A"), 1.0, 0.01);
+  EXPECT_NEAR(file.at(kFull, "G"), srgb_from_linear(0.2f), 0.02);
+}
+
+TEST_F(ImageFile, TiffAndJpegHaveAProfile) {
+  for (const char* name : {"a.tif", "a.jpg"}) {
+    write_image(folder_ / name, picture(), {});
+    const File file = read(folder_ / name);
+    const OIIO::ParamValue* profile = file.spec.find_attribute("ICCProfile");
+    ASSERT_TRUE(profile) << name;
+    const auto* const bytes = static_cast<const std::uint8_t*>(profile->data());
+    EXPECT_EQ(std::vector<std::uint8_t>(bytes, bytes + profile->type().size()), srgb_profile()) << name;
+  }
+}
+
+// The curve and the matrix say what core/image/color_space.h computes.
+TEST(SrgbProfile, IsThatOfTheFunctions) {
+  const std::vector<std::uint8_t>& profile = srgb_profile();
+  const auto word = [&](std::size_t at) {
+    return profile[at] << 24 | profile[at + 1] << 16 | profile[at + 2] << 8 | profile[at + 3];
+  };
+  const auto place_of = [&](const std::string& name) {
+    for (int n = 0; n < word(128); ++n)
+      if (std::equal(name.begin(), name.end(), profile.begin() + 132 + 12 * n)) return word(132 + 12 * n + 4);
+    return 0;
+  };
+  const auto fixed = [&](int at) { return word(static_cast<std::size_t>(at)) / 65536.0; };
+  EXPECT_EQ(static_cast<std::size_t>(word(0)), profile.size());
+  const int curve = place_of("gTRC") + 12;
+  for (const float value : {0.01f, 0.04f, 0.05f, 0.5f, 1.0f}) {
+    const double linear = value >= fixed(curve + 16)
+                              ? std::pow(value * fixed(curve + 4) + fixed(curve + 8), fixed(curve))
+                              : value * fixed(curve + 12);
+    EXPECT_NEAR(linear, linear_from_srgb(value), 5e-5) << value;
+  }
+  // White is the illuminant of profiles, D50.
+  for (int axis = 0; axis < 3; ++axis) {
+    const double sum = fixed(place_of("rXYZ") + 8 + 4 * axis) + fixed(place_of("gXYZ") + 8 + 4 * axis) +
+                       fixed(place_of("bXYZ") + 8 + 4 * axis);
+    EXPECT_NEAR(sum, fixed(68 + 4 * axis), 3e-4);
+  }
+}
+
+TEST_F(ImageFile, ResolutionAndCommandSurvive) {
+  ImageSettings settings;
+  settings.dots_per_inch = 300.0;
+  settings.command = "meniscus render 'Å.pdb'";
+  for (const char* name : {"a.png", "a.jpg", "a.tif", "a.exr"}) {
+    write_image(folder_ / name, picture(), settings);
+    const OIIO::ImageSpec spec = read(folder_ / name).spec;
+    EXPECT_NEAR(
+        spec.get_float_attribute("XResolution") * (spec.get_string_attribute("ResolutionUnit") == "m" ? 0.0254f : 1.0f),
+        300.0f, 0.01f)
+        << name << " " << spec.get_string_attribute("ResolutionUnit");
+    EXPECT_EQ(spec.get_string_attribute("ImageDescription"), settings.command) << name;
+    EXPECT_TRUE(std::string(spec.get_string_attribute("Software")).starts_with("Meniscus ")) << name;
+  }
+  settings.names_program = false;
+  settings.existing = Existing::replace;
+  write_image(folder_ / "a.png", picture(), settings);
+  EXPECT_EQ(read(folder_ / "a.png").spec.get_string_attribute("Software"), "");
+}
+
 TEST_F(ImageFile, BackgroundIsMixedInLinearLight) {
   write_image(folder_ / "a.png", picture(), {glm::vec3(1.0f), Existing::refuse});
   const File file = read(folder_ / "a.png");
@@ -115,7 +198,7 @@ TEST_F(ImageFile, BackgroundIsMixedInLinearLight) {
 }
 
 TEST_F(ImageFile, RefusesWhatItCannotDo) {
-  EXPECT_THROW(write_image(folder_ / "a.jpg", picture(), {}), OutputError);
+  EXPECT_THROW(write_image(folder_ / "a.gif", picture(), {}), OutputError);
   EXPECT_THROW(write_image(folder_ / "png", picture(), {}), OutputError);
   EXPECT_THROW(write_image(folder_ / "none" / "a.png", picture(), {}), OutputError);
   write_image(folder_ / "a.png", picture(), {});

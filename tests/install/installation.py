@@ -39,7 +39,7 @@ class Installation(unittest.TestCase):
         """The words of every command, and of the program itself: [], ["surface"], ["export", "povray"]..."""
         found = [[]]
         for words in found:
-            lines = re.split(r"\n(?:Commands|Formats):\n", self.good(self.program, *words, "--help").stdout)[1:]
+            lines = re.split(r"\n(?:Commands|Formats):\n", self.good(self.program, *words, "--help-all").stdout)[1:]
             for line in (lines or [""])[0].split("\n\n")[0].splitlines():
                 if line.startswith("  ") and line[2] != " ":
                     found.append([*words, line.split()[0]])

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the program says of words it does not know, and what it takes for granted.
+#include <filesystem>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/run_program.h"
+
+namespace meniscus {
+namespace {
+
+using test::ProgramResult;
+using test::TemporaryFolder;
+
+class Words : public ::testing::Test {
+ protected:
+  ProgramResult says(const std::vector<std::string>& words) { return test::run_program(MENISCUS_PROGRAM, words); }
+  std::string fault(std::vector<std::string> options) {
+    options.insert(options.begin(), {"render", molecule_, "-o", (folder_.path() / "a.png").string()});
+    const ProgramResult result = says(options);
+    EXPECT_EQ(result.exit_code, 2) << result.err;
+    return result.err;
+  }
+
+  TemporaryFolder folder_;
+  std::string molecule_ = folder_.file("two.xyzr", "0 0 0 1.7\n2.5 0.3 0.1 1.5\n");
+};
+
+TEST_F(Words, UnknownOptionsAreNamedInTheirOrderWithTheOneThatWasMeant) {
+  const std::pair<std::vector<std::string>, std::string> cases[] = {
+      {{"--colour", "red"}, "'--colour' is no option of meniscus render; did you mean --color?"},
+      {{"--colour=red"}, "'--colour' is no option of meniscus render; did you mean --color?"},
+      {{"--bg", "white"}, "'--bg' is no option of meniscus render; did you mean --background?"},
+      {{"--ao", "1"}, "'--ao' is no option of meniscus render; did you mean --ambient-occlusion?"},
+      {{"--zoom", "ligand"}, "'--zoom' is no option of meniscus render; did you mean --zoom-to?"},
+      {{"--rotate", "y90"}, "'--rotate' is no option of meniscus render; did you mean --turn?"},
+      {{"--backgroud", "white"}, "'--backgroud' is no option of meniscus render; did you mean --background?"},
+      {{"--quite"}, "'--quite' is no option of meniscus render; did you mean --quiet?"},
+      {{"--turnt", "1"}, "'--turnt' is no option of meniscus render; did you mean --turntable?"},
+      {{"--first", "--second"}, "'--first' is no option of meniscus render; see"},
+      {{"--wholly-other", "x"}, "'--wholly-other' is no option of meniscus render; see"},
+      {{"b.pdb"}, "'b.pdb' is one argument too many for meniscus render; see"},
+      {{"--samples", "0"}, "--samples"},
+  };
+  for (const auto& [options, sentence] : cases) {
+    const std::string said = fault(options);
+    EXPECT_NE(said.find(sentence), std::string::npos) << said;
+    EXPECT_TRUE(said.ends_with("; see meniscus render --help\n")) << said;
+  }
+  const std::string below = says({"export", "ply", molecule_, "-o", "a.ply", "--colour", "chain"}).err;
+  EXPECT_EQ(
+      below,
+      "meniscus: error: '--colour' is no option of meniscus export ply; did you mean --color?; see meniscus export "
+      "ply --help\n");
+}
+
+TEST_F(Words, UnknownCommandsAndMissingFilesAreToldApart) {
+  EXPECT_EQ(says({"rendr", molecule_}).exit_code, 2);
+  EXPECT_NE(says({"rendr", molecule_}).err.find("'rendr' is no command (did you mean render?) and no file"),
+            std::string::npos);
+  EXPECT_NE(says({"nowhere.pdb"}).err.find("'nowhere.pdb' is no command; there are surface, render"),
+            std::string::npos);
+}
+
+TEST_F(Words, TheLastOfARepeatedOptionCounts) {
+  const auto picture = [&](std::vector<std::string> options) {
+    const std::string path = (folder_.path() / "p.png").string();
+    options.insert(options.begin(), {"render", molecule_, "-o", path, "--force", "-q", "--size", "40x30"});
+    const ProgramResult result = says(options);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return test::read_bytes(path);
+  };
+  const std::string kind = picture({"--color", "kind", "--light", "1,0,0.5"});
+  EXPECT_EQ(picture({"--color", "#ff0000", "--light", "0,1,0", "--color", "kind", "--light", "1,0,0.5"}), kind);
+  EXPECT_NE(picture({"--color", "kind", "--light", "1,0,0.5", "--color", "#ff0000"}), kind);
+  // Those that add up still do.
+  EXPECT_NE(picture({"--turn", "y40", "--turn", "x30"}), picture({"--turn", "x30"}));
+}
+
+TEST_F(Words, APictureNeedsNoNameAndNoCommand) {
+  const std::filesystem::path here = std::filesystem::current_path();
+  std::filesystem::current_path(folder_.path());
+  const ProgramResult first = says({"two.xyzr", "--size", "40x30"});
+  EXPECT_EQ(first.exit_code, 0) << first.err;
+  EXPECT_NE(first.err.find("the picture goes to two.png"), std::string::npos) << first.err;
+  const std::string bytes = test::read_bytes((folder_.path() / "two.png").string());
+  EXPECT_EQ(says({"render", "two.xyzr", "--size", "40x30"}).exit_code, 6);  // it is there
+  EXPECT_EQ(says({"render", "two.xyzr", "--size", "40x30", "--force"}).exit_code, 0);
+  EXPECT_EQ(test::read_bytes((folder_.path() / "two.png").string()), bytes);
+  EXPECT_EQ(says({"render", "two.xyzr", "--frames", "all"}).exit_code, 2);
+  EXPECT_EQ(says({"render", "-"}).exit_code, 2);
+  std::filesystem::current_path(here);
+}
+
+TEST_F(Words, HelpBeginsWithThePictureAndKeepsRareOptionsForLater) {
+  const std::string help = says({"render", "--help"}).out, all = says({"render", "--help-all"}).out;
+  EXPECT_LT(help.find("--output"), help.find("--select"));
+  EXPECT_LT(help.find("--color "), help.find("--select"));
+  EXPECT_LT(help.find("--size"), help.find("--probe"));
+  EXPECT_EQ(help.find("--trajectory FILE"), std::string::npos);
+  EXPECT_EQ(help.find("--superpose EXPR"), std::string::npos);
+  EXPECT_NE(help.find("More on --help-all: Radii ("), std::string::npos) << help;
+  for (const char* option : {"--superpose", "--radii-file", "--assembly", "--size", "--output"})
+    EXPECT_NE(all.find(option), std::string::npos) << option;
+}
+
+TEST_F(Words, AWrongChainIsToldWithThoseThatAreThere) {
+  const std::string chains =
+      folder_.file("ab.pdb",
+                   "ATOM      1  C   ALA A   1       0.000   0.000   0.000  1.00  0.00           C\n"
+                   "ATOM      2  C   ALA B   1       9.000   0.000   0.000  1.00  0.00           C\n");
+  const auto said = [&](const std::string& option, const std::string& expression) {
+    const ProgramResult result =
+        says({"render", chains, "-o", (folder_.path() / "c.png").string(), option, expression});
+    EXPECT_NE(result.exit_code, 0);
+    return result.err;
+  };
+  EXPECT_NE(said("--select", "chain a").find("there is no chain 'a', only A, B"), std::string::npos);
+  EXPECT_NE(said("--show", "chain b").find("there is no chain 'b', only A, B"), std::string::npos);
+  EXPECT_NE(said("--zoom-to", "chain C and name C").find("there is no chain 'C', only A, B"), std::string::npos);
+  EXPECT_NE(said("--select", "chain A and name CA").find("case-sensitive"), std::string::npos);
+  EXPECT_NE(said("--zoom-to", "chain A and name CA").find("--zoom-to 'chain A and name CA': selects none"),
+            std::string::npos);
+}
+
+TEST_F(Words, ACameraThatSeesNothingIsToldBeforeTheSurfaceIsComputed) {
+  const std::string camera = folder_.file(
+      "away.json",
+      R"({"position":[0,0,50],"target":[0,0,90],"up":[0,1,0],"projection":"perspective","vertical_fov":30})");
+  const ProgramResult result =
+      says({"render", molecule_, "-o", (folder_.path() / "d.png").string(), "--camera", camera});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  const std::size_t warning = result.err.find("this camera sees nothing of the molecule");
+  ASSERT_NE(warning, std::string::npos) << result.err;
+  EXPECT_LT(warning, result.err.find("surface on"));
+}
+
+/// Width and height of a PNG, and what is behind the name of a chunk or a key.
+std::string behind(const std::string& png, const std::string& name, std::size_t count) {
+  const std::size_t at = png.find(name);
+  return at == std::string::npos ? "" : png.substr(at + name.size(), count);
+}
+
+std::uint32_t word_at(const std::string& bytes, std::size_t place) {
+  std::uint32_t word = 0;
+  for (std::size_t n = 0; n < 4; ++n) word = word << 8 | static_cast<unsigned char>(bytes.at(place + n));
+  return word;
+}
+
+TEST_F(Words, SizesMayBeLengths) {
+  const std::string path = (folder_.path() / "s.png").string();
+  const auto header = [&](std::vector<std::string> options) {
+    options.insert(options.begin(), {"render", molecule_, "-o", path, "--force", "-q", "--samples", "1"});
+    const ProgramResult result = says(options);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    const std::string bytes = test::read_bytes(path), size = behind(bytes, "IHDR", 8), scale = behind(bytes, "pHYs", 9);
+    std::vector<std::uint32_t> numbers{word_at(size, 0), word_at(size, 4)};
+    if (!scale.empty()) numbers.push_back(word_at(scale, 0));
+    return numbers;
+  };
+  using Numbers = std::vector<std::uint32_t>;
+  EXPECT_EQ(header({"--size", "40x30"}), (Numbers{40, 30}));
+  EXPECT_EQ(header({"--size", "40x30", "--dpi", "100"}), (Numbers{40, 30, 3937}));
+  EXPECT_EQ(header({"--width", "25.4mm"}), (Numbers{300, 225, 11811}));
+  EXPECT_EQ(header({"--width", "1in", "--dpi", "72"}), (Numbers{72, 54, 2835}));
+  EXPECT_EQ(header({"--dpi", "72", "--height", "2.54cm"}), (Numbers{96, 72, 2835}));
+  EXPECT_EQ(header({"--width", "64px", "--height", "64"}), (Numbers{64, 64}));
+  EXPECT_NE(fault({"--width", "9ft"}).find("'9ft' is no length, such as 85mm"), std::string::npos);
+  EXPECT_NE(fault({"--width", "0.01mm"}).find("makes 0 pixels"), std::string::npos);
+  EXPECT_NE(fault({"--width", "9in", "--size", "3x3"}).find("excludes"), std::string::npos);
+}
+
+TEST_F(Words, PicturesTellHowTheyWereMadeIfAsked) {
+  const std::string path = (folder_.path() / "my picture.png").string();
+  const auto bytes = [&](std::vector<std::string> options) {
+    options.insert(options.begin(), {"render", molecule_, "-o", path, "--force", "-q", "--size", "8x8"});
+    EXPECT_EQ(says(options).exit_code, 0);
+    return test::read_bytes(path);
+  };
+  EXPECT_NE(bytes({}).find("Software"), std::string::npos);
+  EXPECT_EQ(bytes({}).find("my picture"), std::string::npos);
+  EXPECT_EQ(bytes({"--no-provenance"}).find("Software"), std::string::npos);
+  const std::string told = bytes({"--provenance", "--color", "#ff0000"});
+  EXPECT_NE(told.find("iTXtDescription"), std::string::npos);
+  EXPECT_NE(told.find("meniscus 'render' '" + molecule_ + "' '-o' '" + path + "' '--force'"), std::string::npos);
+}
+
+TEST_F(Words, SidesAndTurnsAreChecked) {
+  EXPECT_NE(fault({"--view", "up"}).find("'up' is none of front, back"), std::string::npos);
+  EXPECT_NE(fault({"--turn", "90"}).find("'90' is no axis of the picture"), std::string::npos);
+  EXPECT_NE(fault({"--view", "symmetry"}).find("there is no axis"), std::string::npos);
+  EXPECT_EQ(fault({"--camera", "x.json", "--view", "x"}).find("internal"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace meniscus
