@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `meniscus render` as a user runs it: files, cameras, and what is refused.
+#include <filesystem>
+#include <set>
+#include <tuple>
+
 #include <gtest/gtest.h>
 
 #include "tests/support/run_program.h"
@@ -44,6 +48,43 @@ TEST_F(RenderCommand, ASavedCameraTakesTheSamePicture) {
     EXPECT_EQ(render({"-o", path("b.png"), "--force", "--camera", camera}).exit_code, 0);
     EXPECT_EQ(test::read_bytes(path("a.png")), test::read_bytes(path("b.png")));
   }
+}
+
+TEST_F(RenderCommand, FiguresAreChecked) {
+  for (const auto& [option, value, why] :
+       {std::tuple{"--clip", "x=3", "there is no < or >"}, {"--clip", "q<3", "three numbers"},
+        {"--clip", "x<1<2", "one number"}, {"--cap-color", "crimsonish", "neither atom nor #rrggbb"},
+        {"--cap-hatching", "-1", "--cap-hatching"}, {"--opacity", "2", "--opacity"}, {"--sticks", "resid", "--sticks"},
+        {"--stick-radius", "0", "--stick-radius"}}) {
+    const ProgramResult result = render({"-o", path("c.png"), option, value});
+    EXPECT_EQ(result.exit_code, 2) << option << " " << value;
+    EXPECT_NE(result.err.find(option), std::string::npos) << result.err;
+    EXPECT_NE(result.err.find(why), std::string::npos) << result.err;
+  }
+  for (const char* option : {"--clip=x<3", "--opacity=0.5", "--film-opacity", "--sticks=all"}) {
+    const ProgramResult result = render({"-o", path("c.png"), "--extent", "visible", "--device", "software", option});
+    EXPECT_EQ(result.exit_code, 2) << option;
+    EXPECT_NE(result.err.find("leave --extent away"), std::string::npos) << result.err;
+  }
+  EXPECT_FALSE(std::filesystem::exists(path("c.png")));
+}
+
+TEST_F(RenderCommand, FiguresAreOtherPicturesOfTheSameSize) {
+  std::set<std::string> pictures;
+  const std::vector<std::vector<std::string>> figures{{},
+                                                      {"--clip", "depth>0.5"},
+                                                      {"--clip", "x<1", "--cap-color", "#ff0000"},
+                                                      {"--opacity", "0.4"},
+                                                      {"--opacity", "0.4", "--film-opacity"},
+                                                      {"--opacity", "0.4", "--spheres", "all"}};
+  for (const std::vector<std::string>& figure : figures) {
+    std::vector<std::string> arguments{"-o", path("f.png"), "--force"};
+    arguments.insert(arguments.end(), figure.begin(), figure.end());
+    const ProgramResult result = render(arguments);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    pictures.insert(test::read_bytes(path("f.png")));
+  }
+  EXPECT_EQ(pictures.size(), figures.size());
 }
 
 TEST_F(RenderCommand, LooksAreChecked) {
