@@ -19,6 +19,9 @@
 #include "app/options/molecule_options.h"
 #include "app/options/frame_options.h"
 #include "app/options/picture_options.h"
+#include "app/options/representation_options.h"
+#include "exporters/mesh/mesh_colors.h"
+#include "exporters/mesh/shape_mesh.h"
 #include "exporters/mesh/velocity.h"
 
 namespace meniscus {
@@ -64,6 +67,25 @@ std::vector<glm::dvec3> velocities_of(const SurfaceObject& object, const Triangl
   return velocities;
 }
 
+// An object more for what is drawn beside the surface, kept in `made`.
+void add_beside(const Molecule& molecule, double tolerance, std::optional<ShapeObject>& made,
+                std::vector<blender::MeshedObject>& objects) {
+  if (molecule.beside.empty()) return;
+  Structure shown;
+  shown.atoms = shown_atoms(molecule.structure);
+  made = shape_object(shown.atoms, molecule.beside, tolerance);
+  objects.push_back({made->object, made->mesh, blender::atom_attributes(shown, made->object.atom), {}});
+}
+
+// Vertices beside the surface move with the atom of their triangles.
+std::vector<glm::dvec3> velocities_of(const ShapeObject& beside, const TriangleMesh& mesh, const RunFrame& frame,
+                                      double frames_passed) {
+  std::vector<glm::dvec3> velocities;
+  for (const std::uint32_t atom : vertex_atoms(mesh))
+    velocities.push_back(frames_passed * frame.velocities[beside.object.atom[atom]]);
+  return velocities;
+}
+
 // A file for each frame of the chunk; the manifest for all of the run, the same from every chunk.
 void run_sequence(const BlenderCommand& command) {
   const GivenCameras cameras = given_cameras(command.picture, command.run_camera);
@@ -87,6 +109,11 @@ void run_sequence(const BlenderCommand& command) {
         objects.push_back({object, std::move(meshes[n]), blender::atom_attributes(molecule.structure, object.atom),
                            std::move(velocities)});
       }
+      std::optional<ShapeObject> beside;
+      add_beside(molecule, manifest.tolerance, beside, objects);
+      if (beside)
+        objects.back().velocities =
+            velocities_of(*beside, objects.back().mesh, frame, pace(frames.numbers(), frame.place));
       blender::Provenance provenance = manifest.provenance;
       provenance.device = molecule.device;
       provenance.colors = key_of(molecule);
@@ -104,7 +131,7 @@ void run(const BlenderCommand& command) {
   if (command.run_camera.moves()) throw UsageError(kMovesWithoutFrames);
   const std::optional<Camera> given = given_camera(command.picture);
   const auto [molecule, aim] = load_aimed_molecule(command.molecule, command.picture, given);
-  const std::vector<Ball> balls = placed_balls(molecule.objects);
+  const std::vector<Ball> balls = shown_balls(molecule);
   const Camera camera = aim.camera(command.picture, given, molecule.objects);
   const double tolerance = tolerance_of(command.mesh, command.picture.size(), camera, balls);
   std::vector<TriangleMesh> meshes = mesh_and_tell(command.molecule, molecule.objects, tolerance);
@@ -113,6 +140,8 @@ void run(const BlenderCommand& command) {
     const SurfaceObject& object = molecule.objects[n];
     objects.push_back({object, std::move(meshes[n]), blender::atom_attributes(molecule.structure, object.atom), {}});
   }
+  std::optional<ShapeObject> beside;
+  add_beside(molecule, tolerance, beside, objects);
   const blender::Provenance provenance{file_name(molecule.structure.file), molecule.structure.radii_set,
                                        molecule.device, key_of(molecule)};
   write_objects(command.output.path, command.output.existing(), objects,
@@ -131,6 +160,7 @@ void add_export_blender(CLI::App& command) {
       "  meniscus export blender adk.psf --trajectory adk.dcd --frames all -o adk   a file a frame, and a manifest");
   auto state = std::make_shared<BlenderCommand>();
   add_molecule_options(command, state->molecule);
+  add_representation_options(command, state->molecule.representations);
   add_mesh_options(command, state->mesh);
   add_picture_options(command, state->picture);
   add_frame_options(command, state->frames);

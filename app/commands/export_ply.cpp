@@ -12,7 +12,9 @@
 #include "app/reports/notes.h"
 #include "app/options/molecule_options.h"
 #include "app/options/picture_options.h"
+#include "app/options/representation_options.h"
 #include "exporters/mesh/ply.h"
+#include "exporters/mesh/shape_mesh.h"
 
 namespace meniscus {
 namespace {
@@ -25,11 +27,11 @@ struct PlyCommand {
 };
 
 // One row for each atom of the surface.
-std::vector<AtomScalar> scalars_of(const Structure& structure, const std::vector<std::uint32_t>& atoms) {
+std::vector<AtomScalar> scalars_of(const std::vector<Atom>& shown, const std::vector<std::uint32_t>& atoms) {
   AtomScalar b_factor{"b_factor", {}}, number{"atomic_number", {}}, residue{"res_id", {}}, radius{"vdw_radii", {}},
       place{"atom_index", {}};
   for (const std::uint32_t index : atoms) {
-    const Atom& atom = structure.atoms[index];
+    const Atom& atom = shown[index];
     b_factor.values.push_back(std::isfinite(atom.b_factor) ? atom.b_factor : 0.0f);
     number.values.push_back(atom.element);
     residue.values.push_back(static_cast<float>(atom.residue_number));
@@ -42,12 +44,16 @@ std::vector<AtomScalar> scalars_of(const Structure& structure, const std::vector
 void run(const PlyCommand& command) {
   const std::optional<Camera> given = given_camera(command.picture);
   auto [molecule, aim] = load_aimed_molecule(command.molecule, command.picture, given);
+  const std::vector<Ball> balls = shown_balls(molecule);
   const Camera camera = aim.camera(command.picture, given, molecule.objects);
-  const SurfaceObject whole = merged(std::move(molecule.objects));
-  const double tolerance = tolerance_of(command.mesh, command.picture.size(), camera, whole.surface.atoms);
-  const TriangleMesh mesh = std::move(mesh_and_tell(command.molecule, {&whole, 1}, tolerance).front());
-  write_ply(command.output.path, command.output.existing(), mesh, whole.coloring,
-            scalars_of(molecule.structure, whole.atom));
+  ShapeObject whole{merged(std::move(molecule.objects)), {}};
+  const double tolerance = tolerance_of(command.mesh, command.picture.size(), camera, balls);
+  whole.mesh = std::move(mesh_and_tell(command.molecule, {&whole.object, 1}, tolerance).front());
+  const std::vector<Atom> atoms = shown_atoms(molecule.structure);
+  if (!molecule.beside.empty())
+    whole = joined(whole.object, std::move(whole.mesh), shape_object(atoms, molecule.beside, tolerance));
+  write_ply(command.output.path, command.output.existing(), whole.mesh, whole.object.coloring,
+            scalars_of(atoms, whole.object.atom));
   std::cout << escaped(command.output.path) << "\n";
 }
 
@@ -59,6 +65,7 @@ void add_export_ply(CLI::App& command) {
            "  meniscus export ply 1tii.pdb -o fine.ply --tolerance 0.002 --color chain");
   auto state = std::make_shared<PlyCommand>();
   add_molecule_options(command, state->molecule);
+  add_representation_options(command, state->molecule.representations);
   add_mesh_options(command, state->mesh);
   add_picture_options(command, state->picture);
   add_output_options(command, state->output, "PLY file to write");

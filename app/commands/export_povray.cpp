@@ -10,6 +10,7 @@
 #include "app/reports/run_frames.h"
 #include "core/scene/molecule.h"
 #include "app/options/picture_options.h"
+#include "app/options/representation_options.h"
 #include "app/options/value_words.h"
 #include "app/process/program_error.h"
 #include "core/scene/run_framing.h"
@@ -53,9 +54,11 @@ void run_sequence(const PovrayCommand& command) {
   povray::SceneOptions options = scene_options(command);
   options.origin = framing.origin();
   options.colors = color_key(frames.structure(), scheme, {});
+  const ColoredShapes beside = shown_shapes(frames.structure(), command.molecule.representations, scheme);
   const povray::SequenceScene scene(
-      {frames.numbers(), framing.cameras, run_colors(frames.structure(), scheme), framing.low, framing.high}, options,
-      command.output.path);
+      {frames.numbers(), framing.cameras, run_colors(frames.structure(), scheme, beside.coloring), framing.low,
+       framing.high, !beside.empty()},
+      options, command.output.path);
   const povray::SceneReport shared = scene.write_shared();
   bool noted = false;
   const auto finish = [&](const povray::SceneReport& report, std::uint64_t number) {
@@ -73,7 +76,7 @@ void run_sequence(const PovrayCommand& command) {
        frame_builders(frames, command.molecule, command.frames, kSurfaceBytesPerAtom * frames.structure().atoms.size()))
     workers.push_back([&, builder](RunFrame frame) -> FinishFrame {
       const Molecule molecule = builder->build(std::move(frame.structure));
-      const povray::SceneReport report = scene.write_frame(molecule.objects, frame.place);
+      const povray::SceneReport report = scene.write_frame(molecule.objects, frame.place, molecule.beside);
       return [&finish, report, number = frame.number] { return finish(report, number); };
     });
   run_frames(frames, command.molecule, command.frames, std::move(workers));
@@ -88,6 +91,7 @@ void run(const PovrayCommand& command) {
   povray::SceneOptions options = scene_options(command);
   options.colors = key_of(molecule);
   const Camera camera = aim.camera(command.picture, given, molecule.objects);
+  options.shapes = &molecule.beside;
   const povray::SceneReport report = write_scene(molecule.objects, camera, options, command.output.path);
   say(command.molecule,
       fmt::format("{} primitives in {} files", with_thousands(report.object_count), report.files.size()));
@@ -108,6 +112,7 @@ void add_export_povray(CLI::App& command) {
       "Machines that share the work give the same options and --only, and render with +SF and +EF.");
   auto state = std::make_shared<PovrayCommand>();
   add_molecule_options(command, state->molecule);
+  add_representation_options(command, state->molecule.representations);
   add_picture_options(command, state->picture);
   add_frame_options(command, state->frames);
   add_run_camera_options(command, state->run_camera);

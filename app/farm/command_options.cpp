@@ -71,6 +71,8 @@ const Options& command_table() {
       {"--spheres", Value::text},
       {"--stick-radius", Value::text},
       {"--preset", Value::text},
+      {"--tube", Value::text},
+      {"--tube-radius", Value::text},
       {"--light", Value::text},
       {"--light-strength", Value::text},
       {"--ambient-occlusion", Value::text},

@@ -31,7 +31,11 @@ void add_representation_options(CLI::App& command, Representations& representati
   add(Kind::sticks, "Draw the bonds of these atoms as sticks; may be repeated, and name atoms outside --select");
   add(Kind::balls_and_sticks, "Draw them as balls and sticks");
   add(Kind::spheres, "Draw them as spheres of their van der Waals radii");
+  add(Kind::backbone, "Draw their backbone as a tube, with helices as ribbons and strands as arrows");
   command.add_option("--stick-radius", representations.stick_radius, "Of sticks, in Å [0.25; 0.15 between balls]")
+      ->check(CLI::Range(0.001, 10.0).description(""))
+      ->type_name("Å");
+  command.add_option("--tube-radius", representations.tube_radius, "Of tubes, in Å [0.3]; ribbons are in proportion")
       ->check(CLI::Range(0.001, 10.0).description(""))
       ->type_name("Å");
 }

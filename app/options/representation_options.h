@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The options that draw atoms beside the surface: --sticks, --balls, --spheres, --stick-radius.
+// The options that draw atoms beside the surface: --sticks, --balls, --spheres, --tube and their radii.
 #pragma once
 
 #include <CLI/CLI.hpp>

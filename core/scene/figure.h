@@ -28,7 +28,7 @@ struct FigureRequest {
 /// Everything of a figure, ready to be drawn.
 struct Figure {
   Molecule molecule;
-  ShownShapes shapes;
+  ColoredShapes shapes;
 
   /// For framing: atoms of the surface at all places, and what stands beside it.
   std::vector<Ball> balls() const;

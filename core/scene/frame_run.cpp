@@ -231,7 +231,7 @@ std::optional<RunFrame> FrameRun::next() {
   frame.structure = structure_;
   place(read->frame.positions, frame.structure);
   if (velocities_)
-    for (const Atom& atom : frame.structure.atoms) frame.velocities.push_back(read->velocities[atom.index]);
+    for (const Atom& atom : shown_atoms(frame.structure)) frame.velocities.push_back(read->velocities[atom.index]);
   return frame;
 }
 

@@ -53,7 +53,8 @@ struct RunFrame {
   std::uint64_t place = 0;     ///< in the run, from 0
   std::optional<double> time;  ///< ps
   Structure structure;
-  std::vector<glm::dvec3> velocities;  ///< per atom of the structure, Å per frame of the trajectory; only if asked for
+  std::vector<glm::dvec3>
+      velocities;  ///< per shown_atoms() of the structure, Å per frame of the trajectory; only if asked for
 };
 
 class FrameRun {

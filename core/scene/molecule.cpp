@@ -9,6 +9,7 @@
 #include "core/scene/hidden_atoms.h"
 #include "core/scene/surface_objects.h"
 #include "core/base/error.h"
+#include "core/queries/combine.h"
 #include "core/color/color_atoms.h"
 #include "core/trajectory/formats/formats.h"
 
@@ -38,6 +39,13 @@ ColorScheme color_of(const MoleculeRequest& request) {
   ColorScheme color = request.color;
   if (color.uses_file()) color.set_numbers(read_number_file(request.number_file));
   return color;
+}
+
+std::vector<Ball> shown_balls(const Molecule& molecule) {
+  std::vector<Ball> balls = placed_balls(molecule.objects);
+  const std::vector<Ball> beside = balls_around(molecule.beside.shapes);
+  balls.insert(balls.end(), beside.begin(), beside.end());
+  return balls;
 }
 
 ColorKey key_of(const Molecule& molecule) {

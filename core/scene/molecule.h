@@ -36,7 +36,7 @@ struct Molecule {
   Structure structure;
   ColorScheme color;                   ///< as asked for, with the numbers of its file
   std::vector<SurfaceObject> objects;  ///< at least one
-  ShownShapes beside;                  ///< what is drawn beside them
+  ColoredShapes beside;                ///< what is drawn beside them
   std::string device;                  ///< what computed them
   std::vector<StageTime> stages;       ///< of all of them
 
@@ -49,6 +49,9 @@ Structure read_molecule(const MoleculeRequest& request);
 
 /// The colour scheme with the numbers of its file, if it has one. Throws InputError.
 ColorScheme color_of(const MoleculeRequest& request);
+
+/// Balls of its objects, wherever these stand, and around what is drawn beside them: what a camera shall show.
+std::vector<Ball> shown_balls(const Molecule& molecule);
 
 /// What the colours of its objects mean.
 ColorKey key_of(const Molecule& molecule);

@@ -8,6 +8,7 @@
 #include "core/base/error.h"
 #include "core/color/color_atoms.h"
 #include "core/color/color_scale.h"
+#include "core/shapes/backbone.h"
 
 namespace meniscus {
 namespace {
@@ -16,12 +17,15 @@ using Kind = RepresentationRequest::Kind;
 using By = ColorScheme::By;
 
 Shapes shapes_of(const Structure& all, const RepresentationRequest& request, const std::vector<bool>& selected,
-                 const std::vector<Bond>& bonds, const std::optional<double>& stick_radius) {
+                 const std::vector<Bond>& bonds, const Representations& representations) {
+  const std::optional<double>& stick_radius = representations.stick_radius;
   switch (request.kind) {
     case Kind::sticks:
       return sticks(all, selected, bonds, stick_radius.value_or(kStickRadius));
     case Kind::balls_and_sticks:
       return balls_and_sticks(all, selected, bonds, kBallShare, stick_radius.value_or(kThinStickRadius));
+    case Kind::backbone:
+      return backbone(all, selected, representations.tube_radius.value_or(kTubeRadius));
     case Kind::spheres:
       break;
   }
@@ -47,6 +51,8 @@ const char* option_word(Kind kind) {
       return "--sticks";
     case Kind::balls_and_sticks:
       return "--balls";
+    case Kind::backbone:
+      return "--tube";
     case Kind::spheres:
       break;
   }
@@ -56,8 +62,11 @@ const char* option_word(Kind kind) {
 void Representations::ask_for(ReadOptions& reading) const {
   if (!empty() && reading.copy_mode == CopyMode::instances)
     throw RequestError("--instances: copies of a surface have no sticks, balls or spheres; leave it away");
-  for (const RepresentationRequest& request : requests)
+  for (const RepresentationRequest& request : requests) {
     reading.shown.push_back({option_word(request.kind), request.atoms});
+    // Of all atoms of the file, for hydrogen bonds lead to residues that are not shown.
+    if (request.kind == Kind::backbone) reading.secondary_structure = true;
+  }
 }
 
 std::vector<Atom> shown_atoms(const Structure& structure) {
@@ -66,9 +75,9 @@ std::vector<Atom> shown_atoms(const Structure& structure) {
   return atoms;
 }
 
-ShownShapes shown_shapes(const Structure& structure, const Representations& representations,
-                         const ColorScheme& scheme) {
-  ShownShapes shown;
+ColoredShapes shown_shapes(const Structure& structure, const Representations& representations,
+                           const ColorScheme& scheme) {
+  ColoredShapes shown;
   if (representations.empty()) return shown;
   Structure all;
   all.file = structure.file;
@@ -77,22 +86,11 @@ ShownShapes shown_shapes(const Structure& structure, const Representations& repr
   std::vector<bool> selected(all.atoms.size());
   for (std::size_t bit = 0; bit < representations.requests.size(); ++bit) {
     for (std::size_t n = 0; n < all.atoms.size(); ++n) selected[n] = ((all.atoms[n].shown >> bit) & 1u) != 0;
-    append(shown.shapes, shapes_of(all, representations.requests[bit], selected, *structure.shown_bonds,
-                                   representations.stick_radius));
+    append(shown.shapes,
+           shapes_of(all, representations.requests[bit], selected, *structure.shown_bonds, representations));
   }
   shown.coloring = color_atoms(all, scheme_of_shown(structure, all.atoms.size(), scheme));
   return shown;
-}
-
-std::vector<Ball> balls_around(const Shapes& shapes) {
-  std::vector<Ball> balls;
-  for (const SphereShape& sphere : shapes.spheres) balls.push_back({sphere.center, sphere.radius});
-  for (const CylinderShape& cylinder : shapes.cylinders) {
-    balls.push_back({cylinder.from, cylinder.radius});
-    balls.push_back({cylinder.to, cylinder.radius});
-  }
-  for (const glm::dvec3& position : shapes.mesh.positions) balls.push_back({position, 0.0});
-  return balls;
 }
 
 }  // namespace meniscus

@@ -7,9 +7,7 @@
 #include <vector>
 
 #include "core/color/color_schemes.h"
-#include "core/color/coloring.h"
-#include "core/math/ball.h"
-#include "core/shapes/shapes.h"
+#include "core/queries/colored_shapes.h"
 #include "core/structure/formats/read_structure.h"
 #include "core/structure/selection/selection.h"
 #include "core/structure/structure.h"
@@ -18,18 +16,19 @@ namespace meniscus {
 
 /// Some atoms, drawn in one way. They need not be atoms of the surface.
 struct RepresentationRequest {
-  enum class Kind { sticks, balls_and_sticks, spheres };
+  enum class Kind { sticks, balls_and_sticks, spheres, backbone };
   Kind kind = Kind::sticks;
   Selection atoms;
 };
 
-/// "--sticks", "--balls" or "--spheres".
+/// "--sticks", "--balls", "--spheres" or "--tube".
 const char* option_word(RepresentationRequest::Kind kind);
 
 /// All that are asked for, and what they have in common.
 struct Representations {
   std::vector<RepresentationRequest> requests;
   std::optional<double> stick_radius;  ///< Å; nothing: kStickRadius, kThinStickRadius with balls
+  std::optional<double> tube_radius;   ///< Å; nothing: kTubeRadius
 
   bool empty() const { return requests.empty(); }
   /// Makes read_structure mark the atoms, keep those that the surface leaves out, and find their bonds: once, at the
@@ -40,20 +39,10 @@ struct Representations {
 /// The structure's atoms, and behind them those beside the surface: what `atom` of shapes is a place in.
 std::vector<Atom> shown_atoms(const Structure& structure);
 
-/// Shapes with their colours.
-struct ShownShapes {
-  Shapes shapes;
-  Coloring coloring;  ///< one colour and part per shown_atoms(); empty without shapes
-
-  bool empty() const { return shapes.empty(); }
-};
-
-/// The shapes where the atoms of the structure stand, coloured as the surface is: chains have the colours they have
-/// there, numbers the same scale; where the scheme is of surfaces only (patch kinds, components), by element.
-/// Structure: as read with ask_for(). Throws as color_object does; RequestError for an assembly of instances.
-ShownShapes shown_shapes(const Structure& structure, const Representations& representations, const ColorScheme& scheme);
-
-/// Balls that hold all shapes, for framing and for tolerances.
-std::vector<Ball> balls_around(const Shapes& shapes);
+/// The shapes of shown_atoms(), where the atoms of the structure stand, coloured as the surface is: chains have the
+/// colours they have there, numbers the same scale; where the scheme is of surfaces only (patch kinds, components), by
+/// element. Structure: as read with ask_for(). Throws as color_object does; RequestError for an assembly of instances.
+ColoredShapes shown_shapes(const Structure& structure, const Representations& representations,
+                           const ColorScheme& scheme);
 
 }  // namespace meniscus

@@ -25,7 +25,7 @@ RunFraming run_framing(const ViewRequest& view, const std::optional<Selection>& 
   return framing;
 }
 
-std::vector<glm::vec3> run_colors(const Structure& structure, const ColorScheme& scheme) {
+std::vector<glm::vec3> run_colors(const Structure& structure, const ColorScheme& scheme, const Coloring& beside) {
   std::vector<glm::vec3> colors;
   const auto add = [&](const glm::vec3& color) {
     if (std::ranges::find(colors, color) == colors.end()) colors.push_back(color);
@@ -34,14 +34,15 @@ std::vector<glm::vec3> run_colors(const Structure& structure, const ColorScheme&
     for (const glm::vec3& color : run_colors(structure, rule.paint)) add(color);
   if (scheme.by == ColorScheme::By::component) {
     for (std::size_t n = 0; n < kCategoricalCount; ++n) add(categorical_color(n));
-    return colors;
-  }
-  const Coloring coloring = color_atoms(structure, scheme);
-  if (coloring.kind) {
-    for (const glm::vec3& color : *coloring.kind) add(color);
   } else {
-    for (const glm::vec3& color : coloring.atom) add(color);
+    const Coloring coloring = color_atoms(structure, scheme);
+    if (coloring.kind) {
+      for (const glm::vec3& color : *coloring.kind) add(color);
+    } else {
+      for (const glm::vec3& color : coloring.atom) add(color);
+    }
   }
+  for (const glm::vec3& color : beside.atom) add(color);
   return colors;
 }
 

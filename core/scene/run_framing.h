@@ -27,7 +27,7 @@ RunFraming run_framing(const ViewRequest& view, const std::optional<Selection>& 
                        const GivenCameras& given, FrameRun& frames);
 
 /// All colours that a frame of the run may have, in the order of the atoms; of components all there are.
-std::vector<glm::vec3> run_colors(const Structure& structure, const ColorScheme& scheme);
+std::vector<glm::vec3> run_colors(const Structure& structure, const ColorScheme& scheme, const Coloring& beside = {});
 
 /// Frames of the trajectory that go by in one frame of the scene: the mean over the steps to both neighbours in the
 /// run.

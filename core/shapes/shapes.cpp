@@ -62,4 +62,15 @@ void append(Shapes& shapes, const Shapes& more) {
   for (const auto& [a, b, c] : more.mesh.triangles) mesh.triangles.push_back({first + a, first + b, first + c});
 }
 
+std::vector<Ball> balls_around(const Shapes& shapes) {
+  std::vector<Ball> balls;
+  for (const SphereShape& sphere : shapes.spheres) balls.push_back({sphere.center, sphere.radius});
+  for (const CylinderShape& cylinder : shapes.cylinders) {
+    balls.push_back({cylinder.from, cylinder.radius});
+    balls.push_back({cylinder.to, cylinder.radius});
+  }
+  for (const glm::dvec3& position : shapes.mesh.positions) balls.push_back({position, 0.0});
+  return balls;
+}
+
 }  // namespace meniscus

@@ -9,6 +9,7 @@
 
 #include <glm/vec3.hpp>
 
+#include "core/math/ball.h"
 #include "core/structure/structure.h"
 
 namespace meniscus {
@@ -66,5 +67,8 @@ Shapes spheres(const Structure& structure, const std::vector<bool>& selected, do
 
 /// Adds the second to the first.
 void append(Shapes& shapes, const Shapes& more);
+
+/// Balls that hold all shapes together, for framing.
+std::vector<Ball> balls_around(const Shapes& shapes);
 
 }  // namespace meniscus

@@ -9,6 +9,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "exporters/povray/patch_objects.h"
+#include "exporters/povray/shape_objects.h"
 
 namespace meniscus::povray {
 namespace {
@@ -53,11 +54,13 @@ void append_textures(SceneText& out, const ColoredPiece& piece) {
 
 }  // namespace
 
-Geometry::Geometry(std::span<const SurfaceObject> objects, const glm::dvec3& origin, std::span<const glm::vec3> colors)
-    : objects_(objects), origin_(origin) {
+Geometry::Geometry(std::span<const SurfaceObject> objects, const glm::dvec3& origin, std::span<const glm::vec3> colors,
+                   const ColoredShapes* shapes)
+    : objects_(objects), shapes_(shapes && !shapes->empty() ? shapes : nullptr), origin_(origin) {
   for (const glm::vec3& color : colors) table_.number(color);
   for (const SurfaceObject& object : objects)
     palettes_.push_back(make_palette(object.surface, object.coloring, table_));
+  if (shapes_) add_colors(*shapes_, table_);
   if (primitive_count() == 0) throw RequestError("nothing of the surface is shown, so there is no scene to write");
 }
 
@@ -135,6 +138,8 @@ void Geometry::write(OutputFile& file, std::string_view head) const {
   }
   flush(file, out, 0);
 }
+
+void Geometry::write_shapes(OutputFile& file) { povray::write_shapes(file, *shapes_, origin_, table_); }
 
 std::string Geometry::names_json(const std::optional<ColorKey>& colors) const {
   using Json = nlohmann::ordered_json;

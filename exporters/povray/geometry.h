@@ -12,6 +12,7 @@
 
 #include "core/color/color_scale.h"
 #include "core/base/output_file.h"
+#include "core/queries/colored_shapes.h"
 #include "core/queries/surface_object.h"
 #include "exporters/povray/palette.h"
 #include "exporters/povray/scene_text.h"
@@ -23,7 +24,9 @@ class Geometry {
  public:
   /// Throws RequestError when nothing is shown. origin: Å, of the scene's coordinates.
   /// colors: those that come first in colors(), whether they occur or not.
-  Geometry(std::span<const SurfaceObject> objects, const glm::dvec3& origin, std::span<const glm::vec3> colors = {});
+  /// shapes: beside the surface, or nothing; they add their colours.
+  Geometry(std::span<const SurfaceObject> objects, const glm::dvec3& origin, std::span<const glm::vec3> colors = {},
+           const ColoredShapes* shapes = nullptr);
 
   const std::vector<glm::vec3>& colors() const { return table_.colors(); }
   /// Primitives written.
@@ -38,6 +41,10 @@ class Geometry {
   /// head: scene text behind the comments at the top.
   void write(OutputFile& file, std::string_view head = {}) const;
 
+  bool has_shapes() const { return shapes_ != nullptr; }
+  /// Writes the file of the shapes.
+  void write_shapes(OutputFile& file);
+
   /// Are there names of objects to tell?
   bool declares() const;
 
@@ -49,6 +56,7 @@ class Geometry {
   void append_copy(SceneText& out, std::size_t object, const RigidMotion& motion) const;
 
   std::span<const SurfaceObject> objects_;
+  const ColoredShapes* shapes_;  ///< nothing where there are none
   glm::dvec3 origin_;
   ColorTable table_;
   std::vector<Palette> palettes_;  ///< one an object

@@ -14,9 +14,15 @@ namespace meniscus::povray {
 SceneReport write_scene(std::span<const SurfaceObject> objects, const Camera& camera, const SceneOptions& options,
                         const std::filesystem::path& folder) {
   check(objects, options);
-  const Box extent = atom_extent(objects);
+  Box extent = atom_extent(objects);
   const glm::dvec3 origin = options.origin ? *options.origin : middle(extent);
-  const Geometry geometry(objects, origin);
+  Geometry geometry(objects, origin, {}, options.shapes);
+  if (geometry.has_shapes()) {
+    for (const Ball& ball : balls_around(options.shapes->shapes)) {
+      extent.include(ball.center - ball.radius);
+      extent.include(ball.center + ball.radius);
+    }
+  }
 
   OutputFolder output(folder, options.existing);
   SceneReport report;
@@ -25,9 +31,10 @@ SceneReport write_scene(std::span<const SurfaceObject> objects, const Camera& ca
     return output.file(options.name + ending);
   };
   geometry.write(begin_file("_geometry.inc"));
+  if (geometry.has_shapes()) geometry.write_shapes(begin_file("_shapes.inc"));
   begin_file("_aov.inc").write(buffer_text(geometry.colors().size(), extent, origin));
   begin_file("_style.inc").write(style_text(geometry.colors(), options));
-  begin_file(".pov").write(main_text({&camera, 1}, options, origin, geometry.is_one_item()));
+  begin_file(".pov").write(main_text({&camera, 1}, options, origin, geometry.is_one_item(), geometry.has_shapes()));
   begin_file(".ini").write(ini_text(options));
   begin_file("_objects.json").write(geometry.names_json(options.colors));
   output.commit();

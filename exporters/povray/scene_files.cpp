@@ -95,7 +95,7 @@ void append_color(SceneText& out, const glm::vec3& c) { out.literal("srgb ").dir
 }  // namespace
 
 std::string main_text(std::span<const Camera> cameras, const SceneOptions& options, const glm::dvec3& origin,
-                      bool single, const SceneFrames* frames) {
+                      bool single, bool shapes, const SceneFrames* frames) {
   SceneText out;
   out.literal("// A solvent-excluded surface, written by Meniscus " MENISCUS_VERSION
               " for POV-Ray 3.7. One unit is 1 Å.\n");
@@ -120,6 +120,10 @@ std::string main_text(std::span<const Camera> cameras, const SceneOptions& optio
   const std::string include = frames ? std::string("Meniscus_Geometry") : "\"" + options.name + "_geometry.inc\"";
   out.literal(filled(scene_template("main.pov"),
                      {{"NAME", options.name}, {"GROUP", single ? "object" : "union"}, {"GEOMETRY", include}}));
+  if (shapes && frames)
+    out.literal("\n#include concat(\"").literal(options.name).literal("_shapes_\", Meniscus_Frame_Name, \".inc\")\n");
+  else if (shapes)
+    out.literal("\n#include \"").literal(options.name).literal("_shapes.inc\"\n");
   return out.text();
 }
 

@@ -22,9 +22,10 @@ struct SceneFrames {
   std::uint32_t palette = 0;           ///< tells colours and origin from those of other runs
 };
 
-/// <name>.pov. cameras: one, or one a frame. single: the geometry is one item. frames: nothing for a single surface.
+/// <name>.pov. cameras: one, or one a frame. single: the geometry is one item. shapes: there is a file of them, or one
+/// a frame. frames: nothing for a single surface.
 std::string main_text(std::span<const Camera> cameras, const SceneOptions& options, const glm::dvec3& origin,
-                      bool single, const SceneFrames* frames = nullptr);
+                      bool single, bool shapes, const SceneFrames* frames = nullptr);
 /// <name>_style.inc
 std::string style_text(const std::vector<glm::vec3>& colors, const SceneOptions& options);
 /// <name>_aov.inc

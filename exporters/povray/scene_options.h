@@ -12,6 +12,7 @@
 
 #include "core/base/output_file.h"
 #include "core/color/color_scale.h"
+#include "core/queries/colored_shapes.h"
 
 namespace meniscus::povray {
 
@@ -29,7 +30,8 @@ struct SceneOptions {
   glm::vec3 background{1.0f};            ///< sRGB
   Existing existing = Existing::refuse;
   std::optional<glm::dvec3> origin;  ///< Å: where coordinates of the scene begin; nothing: the middle of all atoms
-  std::optional<ColorKey> colors;    ///< what the colours mean, for <name>_objects.json
+  const ColoredShapes* shapes = nullptr;  ///< beside the surface; nothing, or none: no file of them
+  std::optional<ColorKey> colors;         ///< what the colours mean, for <name>_objects.json
 };
 
 /// What was written and what was not.

@@ -69,7 +69,7 @@ SceneReport SequenceScene::write_shared() const {
   const SharedFile files[] = {{name + "_aov.inc", buffer_text(run_.colors.size(), {run_.low, run_.high}, origin_)},
                               {name + "_style.inc", style_text(run_.colors, options_)},
                               {name + "_objects.json", objects_text(run_, options_.colors)},
-                              {name + ".pov", main_text(run_.cameras, options_, origin_, false, &frames)},
+                              {name + ".pov", main_text(run_.cameras, options_, origin_, false, run_.shapes, &frames)},
                               {name + ".ini", ini_text(options_, run_.frames.size())}};
   write_shared_files(folder_, options_.existing, files);
   SceneReport report;
@@ -79,9 +79,10 @@ SceneReport SequenceScene::write_shared() const {
   return report;
 }
 
-SceneReport SequenceScene::write_frame(std::span<const SurfaceObject> objects, std::size_t place) const {
+SceneReport SequenceScene::write_frame(std::span<const SurfaceObject> objects, std::size_t place,
+                                       const ColoredShapes& shapes) const {
   check(objects, options_);
-  const Geometry geometry(objects, origin_, run_.colors);
+  Geometry geometry(objects, origin_, run_.colors, &shapes);
   if (geometry.colors().size() > run_.colors.size())
     throw Error(fmt::format("frame {} has a colour that the run does not have", run_.frames[place]));
   OutputFolder output(folder_, options_.existing);
@@ -93,6 +94,7 @@ SceneReport SequenceScene::write_frame(std::span<const SurfaceObject> objects, s
   };
   if (geometry.declares()) begin_file("objects", ".json").write(geometry.names_json({}));
   geometry.write(begin_file("geometry", ".inc"), palette_check(palette_));
+  if (run_.shapes) geometry.write_shapes(begin_file("shapes", ".inc"));
   output.commit();
   report.object_count = geometry.primitive_count();
   report.origin = origin_;

@@ -20,6 +20,7 @@ struct Run {
   std::vector<Camera> cameras;        ///< one for all, or one a frame; of one projection
   std::vector<glm::vec3> colors;      ///< sRGB: all that may occur, in the order of the style file
   glm::dvec3 low{0.0}, high{0.0};     ///< Å: a box around all atoms at all frames
+  bool shapes = false;                ///< every frame has some beside the surface
 };
 
 class SequenceScene {
@@ -34,9 +35,10 @@ class SequenceScene {
   SceneReport write_shared() const;
 
   /// Writes <name>_geometry_#####.inc, numbered by the frame of the trajectory, and where there are several objects
-  /// <name>_objects_#####.json. place: in the run, from 0. Throws what write_scene throws, and Error for a colour that
-  /// is not the run's.
-  SceneReport write_frame(std::span<const SurfaceObject> objects, std::size_t place) const;
+  /// <name>_objects_#####.json; with shapes <name>_shapes_#####.inc. place: in the run, from 0. Throws what write_scene
+  /// throws, and Error for a colour that is not the run's.
+  SceneReport write_frame(std::span<const SurfaceObject> objects, std::size_t place,
+                          const ColoredShapes& shapes = {}) const;
 
  private:
   Run run_;

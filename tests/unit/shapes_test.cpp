@@ -11,8 +11,11 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "core/base/error.h"
+#include "core/shapes/backbone.h"
 #include "core/structure/formats/read_structure.h"
 #include "core/structure/molecule_bonds.h"
+#include "exporters/mesh/shape_mesh.h"
 #include "tests/support/run_program.h"
 #include "tests/unit/pdb_line.h"
 
@@ -198,6 +201,161 @@ TEST_F(ShapesOfThree, AppendedMeshesKeepTheirCorners) {
   EXPECT_EQ(both.mesh.atoms.size(), 6u);
   EXPECT_EQ(both.mesh.normals.size(), 6u);
   EXPECT_EQ(both.cylinders.size(), 2u);
+}
+
+TEST(ShownAtoms, NeedNotBeAtomsOfTheSurface) {
+  ReadOptions options;
+  options.selection = parse_selection("chain A and resid 5 to 40");
+  options.shown = {{"--sticks", parse_selection("chain A and resid 40 41")}, {"--balls", parse_selection("chain C")}};
+  const Structure structure = read_structure(kToxin, options);
+  ReadOptions without = options;
+  without.shown.clear();
+  const Structure plain = read_structure(kToxin, without);
+  ASSERT_EQ(structure.atoms.size(), plain.atoms.size());
+  EXPECT_EQ(structure.report.sentence(), plain.report.sentence());
+  EXPECT_TRUE(plain.beside.empty());
+  EXPECT_EQ(plain.shown_bonds, nullptr);
+  std::set<std::int32_t> residues_of_sticks;
+  for (const Atom& one : structure.atoms) {
+    EXPECT_EQ(one.shown, one.residue_number == 40 ? 1 : 0);
+    if (one.shown) residues_of_sticks.insert(one.residue_number);
+  }
+  ASSERT_FALSE(structure.beside.empty());
+  for (const Atom& one : structure.beside) {
+    EXPECT_GT(one.radius, 1.0);
+    EXPECT_EQ(one.shown, one.chain == "C" ? 2 : 1);
+    if (one.chain == "A") residues_of_sticks.insert(one.residue_number);
+  }
+  EXPECT_EQ(residues_of_sticks, (std::set<std::int32_t>{40, 41}));
+  // A peptide bond between the surface's last residue and the first beside it.
+  const auto own = static_cast<std::uint32_t>(structure.atoms.size());
+  std::size_t across = 0;
+  for (const auto& [a, b] : *structure.shown_bonds)
+    if (a < own && b >= own) {
+      ++across;
+      EXPECT_EQ(structure.atoms[a].name, "C");
+      EXPECT_EQ(structure.beside[b - own].name, "N");
+    }
+  EXPECT_EQ(across, 1u);
+}
+
+TEST(ShownAtoms, ThatAreNoneAreAnError) {
+  ReadOptions options;
+  options.shown = {{"--sticks", parse_selection("chain Q")}};
+  try {
+    read_structure(kToxin, options);
+    FAIL() << "nothing is shown";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("is shown by --sticks 'chain Q'"), std::string::npos) << error.what();
+  }
+  options.shown = {{"--spheres", parse_selection("(within 6 of resid 40) and not polymer")}};
+  EXPECT_THROW(read_structure(kUbiquitin, options), InputError);  // it is water, which the expression does not name
+  options.shown = {{"--spheres", parse_selection("water and within 6 of (resid 40)")}};
+  const Structure water = read_structure(kUbiquitin, options);
+  ASSERT_FALSE(water.beside.empty());
+  for (const Atom& one : water.beside) EXPECT_EQ(one.kind, AtomClass::water);
+}
+
+/// Every edge once in each direction, no triangle without area, normals of length 1 that look where triangles do.
+void expect_closed_and_outward(const MeshShape& mesh, int bodies) {
+  std::set<std::pair<std::uint32_t, std::uint32_t>> edges;
+  double volume = 0.0;
+  std::size_t against = 0;
+  for (const auto& t : mesh.triangles) {
+    const glm::dvec3 &a = mesh.positions[t[0]], &b = mesh.positions[t[1]], &c = mesh.positions[t[2]];
+    const glm::dvec3 area = glm::cross(b - a, c - a);
+    EXPECT_GT(glm::length(area), 1e-7);
+    volume += glm::dot(a - mesh.positions[0], glm::cross(b - mesh.positions[0], c - mesh.positions[0])) / 6.0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      EXPECT_TRUE(edges.insert({t[k], t[(k + 1) % 3]}).second);
+      if (glm::dot(area, glm::dvec3(mesh.normals[t[k]])) < 0.0) ++against;
+    }
+  }
+  for (const auto& [a, b] : edges) EXPECT_TRUE(edges.contains({b, a}));
+  EXPECT_EQ(static_cast<int>(mesh.positions.size()) - static_cast<int>(edges.size() / 2) +
+                static_cast<int>(mesh.triangles.size()),
+            2 * bodies);
+  EXPECT_GT(volume, 0.0);
+  EXPECT_LT(static_cast<double>(against), 0.02 * static_cast<double>(mesh.triangles.size()));
+  for (const glm::vec3& normal : mesh.normals) EXPECT_NEAR(glm::length(normal), 1.0f, 1e-5f);
+}
+
+TEST(Backbone, IsOneClosedBodyForAChain) {
+  const Structure protein = read_structure(kUbiquitin, {});
+  const Shapes shapes = backbone(protein, std::vector<bool>(protein.atoms.size(), true));
+  EXPECT_TRUE(shapes.cylinders.empty());
+  expect_closed_and_outward(shapes.mesh, 1);
+  ASSERT_EQ(shapes.mesh.atoms.size(), shapes.mesh.positions.size());
+  for (std::size_t v = 0; v < shapes.mesh.atoms.size(); ++v) {
+    const Atom& guide = protein.atoms[shapes.mesh.atoms[v]];
+    EXPECT_EQ(guide.name, "CA");
+    EXPECT_LT(glm::distance(guide.position, shapes.mesh.positions[v]), 4.0);
+  }
+}
+
+TEST(Backbone, OfAStraightChainIsATubeWithRoundEnds) {
+  Structure structure;
+  for (std::uint32_t n = 0; n < 5; ++n) {
+    Atom one;
+    one.name = "CA";
+    one.element = 6;
+    one.kind = AtomClass::polymer;
+    one.position = {3.8 * n, 0.0, 0.0};
+    one.residue = one.index = n;
+    structure.atoms.push_back(one);
+  }
+  const Shapes tube = backbone(structure, {true, true, true, true, true}, 0.5);
+  expect_closed_and_outward(tube.mesh, 1);
+  for (const glm::dvec3& p : tube.mesh.positions) {
+    const double x = std::clamp(p.x, 0.0, 15.2);
+    EXPECT_NEAR(glm::distance(p, glm::dvec3(x, 0.0, 0.0)), 0.5, 1e-9);
+  }
+  const Shapes parts = backbone(structure, {true, true, false, true, false}, 0.5);
+  expect_closed_and_outward(parts.mesh, 1);
+  ASSERT_EQ(parts.spheres.size(), 1u);
+  EXPECT_EQ(parts.spheres[0].atom, 3u);
+  EXPECT_TRUE(backbone(structure, std::vector<bool>(5, false)).empty());
+}
+
+/// Has the mesh no edge without a partner in the other direction, and is no corner off its sphere by the tolerance?
+TEST(ShapeMesh, IsClosedAndWithinTheTolerance) {
+  Structure structure;
+  for (std::uint32_t n = 0; n < 2; ++n) {
+    Atom one;
+    one.position = {1.0 + n, 0.5 * n, 7.0};
+    one.radius = 1.7;
+    one.index = n;
+    structure.atoms.push_back(one);
+  }
+  ColoredShapes shapes;
+  shapes.shapes.spheres = {{structure.atoms[0].position, 0.4, 0}};
+  shapes.coloring.atom = {{1.0f, 0.0f, 0.0f}, {0.0f, 1.0f, 0.0f}};
+  constexpr double kTolerance = 0.003;
+  const ShapeObject ball = shape_object(structure.atoms, shapes, kTolerance);
+  double farthest = 0.0;
+  for (const auto& [a, b, c] : ball.mesh.triangles) {
+    const std::vector<glm::dvec3>& p = ball.mesh.positions;
+    const glm::dvec3 middle = (p[a] + p[b] + p[c]) / 3.0;
+    for (const glm::dvec3& point : {middle, 0.5 * (p[a] + p[b]), 0.5 * (p[b] + p[c]), 0.5 * (p[c] + p[a])})
+      farthest = std::max(farthest, 0.4 - glm::distance(point, shapes.shapes.spheres[0].center));
+  }
+  EXPECT_LE(farthest, kTolerance);
+  EXPECT_GT(farthest, 0.3 * kTolerance);
+  MeshMeasure sphere = measure(ball.mesh);
+  EXPECT_TRUE(sphere.closed);
+  EXPECT_EQ(sphere.euler(), 2);
+  EXPECT_NEAR(sphere.volume, 4.0 / 3.0 * 3.14159265 * 0.064, 0.02 * 0.268);
+
+  shapes.shapes.spheres.clear();
+  shapes.shapes.cylinders = {{structure.atoms[0].position, structure.atoms[1].position, 0.2, 0, 1}};
+  const ShapeObject stick = shape_object(structure.atoms, shapes, kTolerance);
+  MeshMeasure cylinder = measure(stick.mesh);
+  EXPECT_TRUE(cylinder.closed);
+  EXPECT_EQ(cylinder.euler(), 2);
+  const double length = glm::distance(structure.atoms[0].position, structure.atoms[1].position);
+  EXPECT_NEAR(cylinder.volume, 3.14159265 * 0.04 * length, 0.04 * 0.1257 * length);
+  EXPECT_EQ(std::count(stick.mesh.atom.begin(), stick.mesh.atom.end(), 0u),
+            std::count(stick.mesh.atom.begin(), stick.mesh.atom.end(), 1u));
 }
 
 }  // namespace

@@ -36,11 +36,12 @@ TEST(PovrayCommand, TextOfAMoleculeNeverReachesTheScene) {
     for (const auto& [file, scene] : {std::pair(plain, "a"), std::pair(hostile, "b")}) {
       const test::ProgramResult run =
           test::run_program(MENISCUS_PROGRAM, {"export", "povray", file, "--device", "cpu", "--color", color, "--force",
-                                               "-o", (folder.path() / scene).string()});
+                                               "--sticks", "all", "-o", (folder.path() / scene).string()});
       ASSERT_EQ(run.exit_code, 0) << run.err;
     }
     for (const char* const file :
-         {"surface.ini", "surface.pov", "surface_style.inc", "surface_aov.inc", "surface_geometry.inc"}) {
+         {"surface.ini", "surface.pov", "surface_style.inc", "surface_aov.inc", "surface_geometry.inc",
+          "surface_shapes.inc"}) {
       const std::string text = test::read_bytes(folder.path() / "b" / file);
       for (const char* const word : {"#fopen", "passwd", "#error", "write //"})
         EXPECT_EQ(text.find(word), std::string::npos) << word << " in " << file;

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Shapes beside a surface with their colours, as pictures and exporters take them.
+#pragma once
+
+#include "core/color/coloring.h"
+#include "core/shapes/shapes.h"
+
+namespace meniscus {
+
+struct ColoredShapes {
+  Shapes shapes;
+  Coloring coloring;  ///< one colour and part for each atom that shapes name; empty without shapes
+
+  bool empty() const { return shapes.empty(); }
+};
+
+}  // namespace meniscus

@@ -1,0 +1,287 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Guide points by residue, a spline through them, and an ellipse swept along it.
+#include "core/shapes/backbone.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <string_view>
+
+#include <glm/geometric.hpp>
+
+#include "core/structure/secondary_structure.h"
+
+namespace meniscus {
+namespace {
+
+constexpr int kSteps = 8;             // sections between two residues
+constexpr std::uint32_t kSides = 16;  // points of a section
+constexpr int kCapRings = 3;
+constexpr double kLongestStep = 4.5, kLongestPhosphateStep = 8.5;  // Å; those of bonded residues are 3.8 and 5 to 7.5
+constexpr double kShortestStep = 0.5;                              // nearer ones are duplicates
+constexpr double kHelixWidth = 4.0, kStrandWidth = 3.5, kArrowWidth = 6.0;  // half of it, in radii
+constexpr double kArrowStep = 0.05;                                         // Å that its shoulder takes
+
+/// A residue that the middle line goes through.
+struct Guide {
+  std::uint32_t atom;
+  glm::dvec3 position;
+  std::optional<glm::dvec3> oxygen;
+  bool nucleic;
+  SecondaryStructure kind;
+  glm::dvec3 side{0.0};  ///< unit, along the width; zero: not known
+};
+
+bool is_any(std::string_view name, std::initializer_list<std::string_view> names) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+std::vector<Guide> guides_of(std::span<const Atom> atoms, const std::vector<bool>& selected) {
+  std::vector<std::uint32_t> order(atoms.size());
+  for (std::uint32_t n = 0; n < order.size(); ++n) order[n] = n;
+  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return std::pair(atoms[a].copy, atoms[a].index) < std::pair(atoms[b].copy, atoms[b].index);
+  });
+  std::vector<Atom> sorted;
+  for (const std::uint32_t n : order) sorted.push_back(atoms[n]);
+  const std::vector<SecondaryStructure> kinds = secondary_structure(sorted);
+  std::vector<Guide> guides;
+  for (std::size_t first = 0, last = 0; first < order.size(); first = last) {
+    const Atom& head = sorted[first];
+    std::optional<std::size_t> alpha, phosphorus, sugar, oxygen;
+    for (; last < order.size() && sorted[last].residue == head.residue && sorted[last].copy == head.copy; ++last) {
+      const Atom& atom = sorted[last];
+      if (is_any(atom.name, {"O", "O1", "OT1", "OC1"}) && !oxygen) oxygen = last;
+      if (!selected[order[last]] || atom.kind == AtomClass::ion || atom.kind == AtomClass::water) continue;
+      if (atom.name == "CA" && atom.element == 6 && !alpha) alpha = last;
+      if (atom.name == "P" && !phosphorus) phosphorus = last;
+      if (is_any(atom.name, {"C4'", "C4*"}) && !sugar) sugar = last;
+    }
+    const std::optional<std::size_t> guide = alpha ? alpha : sugar && phosphorus ? phosphorus : sugar;
+    if (!guide) continue;
+    guides.push_back({order[*guide], sorted[*guide].position, {}, !alpha, kinds[*guide]});
+    if (alpha && oxygen) guides.back().oxygen = sorted[*oxygen].position;
+  }
+  return guides;
+}
+
+/// Unbroken pieces, without duplicates.
+std::vector<std::vector<Guide>> pieces_of(std::span<const Atom> atoms, const std::vector<Guide>& guides) {
+  std::vector<std::vector<Guide>> pieces;
+  for (const Guide& guide : guides) {
+    const Atom& atom = atoms[guide.atom];
+    if (!pieces.empty()) {
+      const Guide& before = pieces.back().back();
+      const Atom& last = atoms[before.atom];
+      const double step = glm::distance(before.position, guide.position);
+      const bool same = atom.chain == last.chain && atom.model == last.model && atom.copy == last.copy;
+      if (same && step < kShortestStep) continue;
+      if (same && guide.nucleic == before.nucleic && step <= (guide.nucleic ? kLongestPhosphateStep : kLongestStep)) {
+        pieces.back().push_back(guide);
+        continue;
+      }
+    }
+    pieces.push_back({guide});
+  }
+  return pieces;
+}
+
+glm::dvec3 any_normal_to(const glm::dvec3& v) {
+  const glm::dvec3 helper = std::abs(v.x) < 0.6 * glm::length(v) ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+  return glm::normalize(glm::cross(v, helper));
+}
+
+/// Directions along the width: in the peptide planes, else across the curve; never turned around from one to the next.
+void find_sides(std::vector<Guide>& piece) {
+  glm::dvec3 last(0.0);
+  for (std::size_t n = 0; n < piece.size(); ++n) {
+    const glm::dvec3 &before = piece[n > 0 ? n - 1 : n].position, &here = piece[n].position,
+                     &behind = piece[n + 1 < piece.size() ? n + 1 : n].position;
+    glm::dvec3 side(0.0);
+    if (piece[n].oxygen) {
+      const glm::dvec3 along = n + 1 < piece.size() ? behind - here : here - before;
+      side = glm::cross(glm::cross(along, *piece[n].oxygen - here), along);
+    } else {
+      side = glm::cross(behind - before, before + behind - 2.0 * here);
+    }
+    const double length = glm::length(side);
+    if (length < 1e-6) continue;
+    side /= length;
+    if (glm::dot(side, last) < 0.0) side = -side;
+    last = piece[n].side = side;
+  }
+}
+
+/// Strands zigzag from residue to residue; a ribbon goes through the middle.
+void smooth_strands(std::vector<Guide>& piece) {
+  const std::vector<Guide> given = piece;
+  for (std::size_t n = 1; n + 1 < piece.size(); ++n) {
+    if (given[n].kind != SecondaryStructure::strand) continue;
+    piece[n].position = 0.25 * (given[n - 1].position + 2.0 * given[n].position + given[n + 1].position);
+    const glm::dvec3 side = given[n - 1].side + 2.0 * given[n].side + given[n + 1].side;
+    if (glm::length(side) > 1e-6) piece[n].side = glm::normalize(side);
+  }
+}
+
+/// Where an ellipse stands: W x H = T.
+struct Section {
+  glm::dvec3 center, tangent, side;
+  double half_width, half_height;
+  std::uint32_t atom;
+};
+
+class Sweep {
+ public:
+  Sweep(const std::vector<Guide>& piece, double radius) : piece_(piece), radius_(radius) { place(); }
+
+  /// Appends a body with round ends.
+  void add_to(MeshShape& mesh) const {
+    const Section &first = sections_.front(), &last = sections_.back();
+    std::uint32_t ring = cap(mesh, first, -1.0);
+    for (std::size_t n = 0; n < sections_.size(); ++n) {
+      const std::uint32_t next = add_ring(mesh, sections_[n], 1.0, 0.0);
+      band(mesh, ring, next);
+      ring = next;
+    }
+    cap_end(mesh, last, ring);
+  }
+
+ private:
+  double half_width(std::size_t n) const {
+    if (piece_[n].kind == SecondaryStructure::helix) return kHelixWidth * radius_;
+    return piece_[n].kind == SecondaryStructure::strand ? kStrandWidth * radius_ : radius_;
+  }
+
+  /// The last residue of a strand before another kind or the end: an arrow leads to it.
+  bool ends_strand(std::size_t n) const {
+    return piece_[n].kind == SecondaryStructure::strand && n > 0 && piece_[n - 1].kind == SecondaryStructure::strand &&
+           (n + 1 == piece_.size() || piece_[n + 1].kind != SecondaryStructure::strand);
+  }
+
+  void place() {
+    const std::size_t last = piece_.size() - 1;
+    for (std::size_t n = 0; n < last; ++n) {
+      const bool arrow = ends_strand(n + 1);
+      if (arrow) add_section(n, -kArrowStep / glm::distance(piece_[n].position, piece_[n + 1].position), half_width(n));
+      for (int step = 0; step < kSteps; ++step) {
+        const double t = double(step) / kSteps;
+        const double smooth = t * t * (3.0 - 2.0 * t);
+        double width = half_width(n) + smooth * (half_width(n + 1) - half_width(n));
+        if (ends_strand(n)) width = radius_ + smooth * (half_width(n + 1) - radius_);
+        if (arrow) width = radius_ * (kArrowWidth + t * (1.0 - kArrowWidth));
+        add_section(n, t, width);
+      }
+    }
+    add_section(last - 1, 1.0, ends_strand(last) ? radius_ : half_width(last));
+  }
+
+  /// At the share t of the way from residue n to the next; a little less than 0 is allowed.
+  void add_section(std::size_t n, double t, double width) {
+    const auto point = [&](std::ptrdiff_t k) {
+      const auto count = static_cast<std::ptrdiff_t>(piece_.size());
+      if (k < 0) return 2.0 * piece_[0].position - piece_[1].position;
+      if (k >= count) return 2.0 * piece_[count - 1].position - piece_[count - 2].position;
+      return piece_[k].position;
+    };
+    const auto k = static_cast<std::ptrdiff_t>(n);
+    const glm::dvec3 a = point(k - 1), b = point(k), c = point(k + 1), d = point(k + 2);
+    const glm::dvec3 p1 = 0.5 * (c - a), p2 = a - 2.5 * b + 2.0 * c - 0.5 * d, p3 = 0.5 * (d - a) + 1.5 * (b - c);
+    Section section{};
+    section.center = b + t * (p1 + t * (p2 + t * p3));
+    glm::dvec3 tangent = p1 + t * (2.0 * p2 + t * 3.0 * p3);
+    if (glm::length(tangent) < 1e-6) tangent = c - b;
+    section.tangent = glm::normalize(tangent);
+    const double share = std::clamp(t, 0.0, 1.0);
+    glm::dvec3 side = (1.0 - share) * piece_[n].side + share * piece_[n + 1].side;
+    side -= glm::dot(side, section.tangent) * section.tangent;
+    if (glm::length(side) < 0.1 && !sections_.empty()) {
+      side = sections_.back().side;
+      side -= glm::dot(side, section.tangent) * section.tangent;
+    }
+    section.side = glm::length(side) < 1e-3 ? any_normal_to(section.tangent) : glm::normalize(side);
+    section.half_width = width;
+    section.half_height = radius_;
+    section.atom = piece_[t < 0.5 ? n : n + 1].atom;
+    sections_.push_back(section);
+  }
+
+  /// The ellipse, shrunk by `share` and moved by `shift` half heights along the tangent.
+  std::uint32_t add_ring(MeshShape& mesh, const Section& s, double share, double shift) const {
+    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    const glm::dvec3 up = glm::cross(s.tangent, s.side);
+    for (std::uint32_t k = 0; k < kSides; ++k) {
+      const double angle = 2.0 * std::numbers::pi * k / kSides, x = std::cos(angle), y = std::sin(angle);
+      add_vertex(
+          mesh,
+          s.center + share * (s.half_width * x * s.side + s.half_height * y * up) + shift * s.half_height * s.tangent,
+          share * (x / s.half_width * s.side + y / s.half_height * up) + shift / s.half_height * s.tangent, s.atom);
+    }
+    return first;
+  }
+
+  static void add_vertex(MeshShape& mesh, const glm::dvec3& position, const glm::dvec3& normal, std::uint32_t atom) {
+    mesh.positions.push_back(position);
+    mesh.normals.emplace_back(glm::normalize(normal));
+    mesh.atoms.push_back(atom);
+  }
+
+  static void band(MeshShape& mesh, std::uint32_t low, std::uint32_t high) {
+    for (std::uint32_t k = 0; k < kSides; ++k) {
+      const std::uint32_t after = (k + 1) % kSides;
+      mesh.triangles.push_back({low + k, low + after, high + after});
+      mesh.triangles.push_back({low + k, high + after, high + k});
+    }
+  }
+
+  /// A round end before the first section; returns its last ring.
+  std::uint32_t cap(MeshShape& mesh, const Section& s, double direction) const {
+    const auto tip = static_cast<std::uint32_t>(mesh.positions.size());
+    add_vertex(mesh, s.center + direction * s.half_height * s.tangent, direction * s.tangent, s.atom);
+    std::uint32_t ring = 0;
+    for (int n = kCapRings; n > 0; --n) {
+      const double angle = 0.5 * std::numbers::pi * n / (kCapRings + 1);
+      const std::uint32_t next = add_ring(mesh, s, std::cos(angle), direction * std::sin(angle));
+      if (n == kCapRings)
+        for (std::uint32_t k = 0; k < kSides; ++k) mesh.triangles.push_back({tip, next + (k + 1) % kSides, next + k});
+      else
+        band(mesh, ring, next);
+      ring = next;
+    }
+    return ring;
+  }
+
+  void cap_end(MeshShape& mesh, const Section& s, std::uint32_t ring) const {
+    for (int n = 1; n <= kCapRings; ++n) {
+      const double angle = 0.5 * std::numbers::pi * n / (kCapRings + 1);
+      const std::uint32_t next = add_ring(mesh, s, std::cos(angle), std::sin(angle));
+      band(mesh, ring, next);
+      ring = next;
+    }
+    const auto tip = static_cast<std::uint32_t>(mesh.positions.size());
+    add_vertex(mesh, s.center + s.half_height * s.tangent, s.tangent, s.atom);
+    for (std::uint32_t k = 0; k < kSides; ++k) mesh.triangles.push_back({tip, ring + k, ring + (k + 1) % kSides});
+  }
+
+  const std::vector<Guide>& piece_;
+  double radius_;
+  std::vector<Section> sections_;
+};
+
+}  // namespace
+
+Shapes backbone(const Structure& structure, const std::vector<bool>& selected, double radius) {
+  Shapes shapes;
+  for (std::vector<Guide>& piece : pieces_of(structure.atoms, guides_of(structure.atoms, selected))) {
+    if (piece.size() == 1) {
+      shapes.spheres.push_back({piece[0].position, radius, piece[0].atom});
+      continue;
+    }
+    find_sides(piece);
+    smooth_strands(piece);
+    Sweep(piece, radius).add_to(shapes.mesh);
+  }
+  return shapes;
+}
+
+}  // namespace meniscus
