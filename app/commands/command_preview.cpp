@@ -94,8 +94,7 @@ Shown read_inputs(PreviewCommand& command) {
         ViewAim(picture, command.molecule.show, shown.structure).camera(picture, camera, balls_of(shown.structure));
   if (!shown.structure.instances.empty())
     throw UsageError("--instances is for render and export; the preview draws atoms");
-  ColorScheme& color = command.molecule.color;
-  if (color.uses_file()) color.set_numbers(read_number_file(command.molecule.number_file));
+  command.molecule.color = color_of(command.molecule);
   return shown;
 }
 

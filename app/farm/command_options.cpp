@@ -58,7 +58,9 @@ const Options& command_table() {
       // colour and look
       {"--color", Value::text},
       {"--color-by-file", Value::file},
+      {"--color-column", Value::text},
       {"--map", Value::text},
+      {"--map-file", Value::file},
       {"--color-range", Value::text},
       {"--missing-color", Value::text},
       {"--opacity", Value::text},

@@ -69,19 +69,21 @@ bool has_base(const CLI::Option& scheme) {
                              [](const std::string& text) { return text.find('=') == std::string::npos; });
 }
 
+constexpr const char* kForNumbers =
+    "is for colours by a number: bfactor, occupancy, charge, hydrophobicity, index, radial, file";
+
 /// What can only be said once all colour options are known, whatever their order.
-void check_together(const ColorScheme& color, const CLI::Option& scheme, const CLI::Option& file) {
+void check_together(const MoleculeOptions& options, const CLI::Option& scheme, const CLI::Option& file) {
+  const ColorScheme& color = options.color;
   if (color.uses_file() && file.empty()) throw CLI::ValidationError("--color", "file needs --color-by-file FILE");
   if (!file.empty() && !scheme.empty() && !color.uses_file())
     throw CLI::ValidationError("--color-by-file", "is itself a --color; leave the other one out");
   if (color.by == By::kind && !color.rules.empty())
     throw CLI::ValidationError("--color", "kind colours patches, EXPR=COLOR atoms; choose another scheme beside it");
   if (color.uses_scale()) return;
+  if (!options.map_file.empty()) throw CLI::ValidationError("--map-file", kForNumbers);
   if (color.map || color.range || color.missing) {
-    throw CLI::ValidationError(color.map     ? "--map"
-                               : color.range ? "--color-range"
-                                             : "--missing-color",
-                               "is for colours by a number: bfactor, occupancy, charge, hydrophobicity, index, file");
+    throw CLI::ValidationError(color.map ? "--map" : color.range ? "--color-range" : "--missing-color", kForNumbers);
   }
 }
 
@@ -104,21 +106,31 @@ void add_color_options(CLI::App& command, MoleculeOptions& options) {
           .add_option_function<std::vector<std::string>>(
               "--color", [&color](const std::vector<std::string>& texts) { parse_colors(texts, color); },
               "element (default), chain, copy (of an assembly), residue (type), kind (of patch), component, a colour "
-              "(red, #rrggbb); or by number: bfactor, occupancy, charge, hydrophobicity (Kyte & Doolittle 1982), "
-              "index; meniscus colors explains them. Or EXPR=COLOR for some atoms, as in 'ligand=orange'; repeatable, "
+              "(red, #rrggbb), element-cpk (darker); or by number: bfactor, occupancy, charge, hydrophobicity (Kyte & "
+              "Doolittle 1982), "
+              "index, radial (capsids); meniscus colors explains them. Or EXPR=COLOR for some atoms, as in "
+              "'ligand=orange'; repeatable, "
               "the last counts")
           ->allow_extra_args(false)
           ->type_name("SCHEME")
           ->check(proposes(schemes));
   CLI::Option* const file = command.add_option(
       "--color-by-file", options.number_file,
-      "Colour by numbers from a file, one an atom of FILE or one an atom used; nan, ? or -: missing");
+      "Colour by numbers from a file: one an atom of FILE or one an atom used; lines of chain, residue and number; or "
+      "a CSV table, such as meniscus surface --csv-residues writes; nan, ? or -: missing");
   file->type_name("NUMBERS");
+  command.add_option("--color-column", options.number_column, "Column of that table")->needs(file)->type_name("NAME");
   add("--map", parse_map,
       "Of numbers: viridis (default), cividis, magma, blue-white-red (default of hydrophobicity), red-white-blue (of "
-      "charge: negative is red), categorical (each number a colour of its own)",
+      "charge: negative is red), blues and ylorrd (light), consurf (grades 1 to 9), categorical (each number a colour "
+      "of "
+      "its own)",
       "MAP")
       ->check(proposes(maps));
+  command
+      .add_option("--map-file", options.map_file,
+                  "A map of your own: a colour a line, or a place and a colour; or a JSON list of them")
+      ->type_name("FILE");
   add("--color-range", parse_range,
       "Numbers at the ends of the map, or auto (default: smallest and largest; charge symmetric about 0; "
       "hydrophobicity -4.5:4.5)",
@@ -127,8 +139,7 @@ void add_color_options(CLI::App& command, MoleculeOptions& options) {
   command.parse_complete_callback([&options, scheme, file] {
     // Numbers that no --color speaks of are for all atoms.
     if (!file->empty() && !has_base(*scheme) && !options.color.uses_file()) options.color.by = By::file;
-    options.color.share_scale();
-    check_together(options.color, *scheme, *file);
+    check_together(options, *scheme, *file);
   });
 }
 

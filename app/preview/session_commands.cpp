@@ -62,7 +62,7 @@ ColorScheme color_of(const CommandReader& command, const ColorScheme& before) {
   if (color.by == ColorScheme::By::kind && !color.rules.empty())
     throw RequestError("color: \"kind\" colours patches, rules colour atoms; send \"rules\": [] with it");
   color.opacities = before.opacities;
-  if (color.uses_file() && file.numbers.empty())
+  if (color.uses_file() && file.empty())
     throw RequestError("color: \"file\" needs numbers; begin the preview with --color-by-file FILE");
   color.set_numbers(file);
   if (!command.has("map")) return color;

@@ -102,7 +102,7 @@ Json PreviewSession::choices(const CommandReader&) {
   Json schemes = Json::array(), maps = Json::array();
   for (const ColorSchemeMetadata& scheme : color_schemes()) {
     if (scheme.by == ColorScheme::By::component) continue;
-    if (scheme.by == ColorScheme::By::file && view_.color.file.numbers.empty()) continue;
+    if (scheme.by == ColorScheme::By::file && view_.color.file.empty()) continue;
     ColorScheme color;
     color.by = scheme.by;
     schemes.push_back({{"word", scheme.word}, {"has_map", color.has_scale()}, {"description", scheme.description}});

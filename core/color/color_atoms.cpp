@@ -44,6 +44,8 @@ std::vector<glm::vec3> colors_of(const Structure& structure, const ColorScheme& 
       colors.push_back(categorical_color(atom.copy));
     else if (scheme.by == By::element)
       colors.push_back(element_color(atom.element));
+    else if (scheme.by == By::element_cpk)
+      colors.push_back(cpk_color(atom.element));
     else
       colors.push_back(color_from_hex(residue_group(atom.residue_name).color));
   }

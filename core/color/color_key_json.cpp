@@ -14,7 +14,7 @@ nlohmann::ordered_json color_key_json(const ColorKey& key) {
   Json json{{"title", key.title}};
   if (key.scale) {
     const ColorScale& scale = *key.scale;
-    json = {{"title", scale.title}, {"unit", scale.unit},       {"map", map_name(scale.map)},
+    json = {{"title", scale.title}, {"unit", scale.unit},       {"map", scale.own_map ? "own" : map_name(scale.map)},
             {"range", scale.range}, {"missing", scale.missing}, {"missing_color", triple(scale.missing_color)}};
   }
   if (!key.classes.empty()) json["classes"] = Json::array();

@@ -41,6 +41,15 @@ constexpr Table kMagma{0x000004, 0x02020b, 0x050416, 0x090720, 0x0e0b2b, 0x140e3
 constexpr std::array<std::uint32_t, 3> kBlueWhiteRed{0x2a4fd7, 0xffffff, 0xd2322a};
 constexpr std::array<std::uint32_t, 3> kRedWhiteBlue{0xd2322a, 0xffffff, 0x2a4fd7};
 
+// Each from light to dark; the first of nine is left out, for on white it ends nowhere, and the last two, which hide
+// shade.
+constexpr std::array<std::uint32_t, 6> kBlues{0xdeebf7, 0xc6dbef, 0x9ecae1, 0x6baed6, 0x4292c6, 0x2171b5};
+constexpr std::array<std::uint32_t, 6> kYlOrRd{0xffeda0, 0xfed976, 0xfeb24c, 0xfd8d3c, 0xfc4e2a, 0xe31a1c};
+
+// Grades 1 (variable) to 9 (conserved).
+constexpr std::array<std::uint32_t, 9> kConsurf{0x10c8d1, 0x8cffff, 0xd7ffff, 0xeaffff, 0xffffff,
+                                                0xfcedf4, 0xfac9de, 0xf07dab, 0xa02560};
+
 constexpr ColorMapMetadata kMaps[] = {
     {ColorMap::viridis, "viridis", "N. J. Smith, S. van der Walt and E. Firing, matplotlib 1.5 (2015), CC0 1.0"},
     {ColorMap::cividis, "cividis",
@@ -48,6 +57,12 @@ constexpr ColorMapMetadata kMaps[] = {
     {ColorMap::magma, "magma", "N. J. Smith and S. van der Walt, matplotlib 1.5 (2015), CC0 1.0"},
     {ColorMap::blue_white_red, "blue-white-red", "linear between its three colours"},
     {ColorMap::red_white_blue, "red-white-blue", "the same, turned: red is negative, as electrostatics is drawn"},
+    {ColorMap::blues, "blues",
+     "C. A. Brewer, ColorBrewer 2.0 (2013), Apache 2.0; light, without its palest and darkest"},
+    {ColorMap::ylorrd, "ylorrd",
+     "C. A. Brewer, ColorBrewer 2.0 (2013), Apache 2.0; light, without its palest and darkest"},
+    {ColorMap::consurf, "consurf",
+     "grades 1 to 9: H. Ashkenazy et al., Nucleic Acids Res. 44, W344 (2016); --color-range 1:9"},
     {ColorMap::categorical, "categorical", "M. Okabe and K. Ito, Color Universal Design (2008)"},
 };
 
@@ -82,6 +97,12 @@ glm::vec3 mapped_color(ColorMap map, double t) {
       return between(kBlueWhiteRed, t);
     case ColorMap::red_white_blue:
       return between(kRedWhiteBlue, t);
+    case ColorMap::blues:
+      return between(kBlues, t);
+    case ColorMap::ylorrd:
+      return between(kYlOrRd, t);
+    case ColorMap::consurf:
+      return between(kConsurf, t);
     default:
       return between(kViridis, t);
   }
@@ -89,7 +110,7 @@ glm::vec3 mapped_color(ColorMap map, double t) {
 
 glm::vec3 default_missing_color(ColorMap map) {
   // The middle of cividis is grey itself.
-  return color_from_hex(map == ColorMap::cividis ? 0xcc79a7 : 0x808080);
+  return color_from_hex(map == ColorMap::cividis ? 0xcc79a7 : map == ColorMap::consurf ? 0xffff96 : 0x808080);
 }
 
 }  // namespace meniscus

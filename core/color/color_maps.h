@@ -11,7 +11,17 @@
 
 namespace meniscus {
 
-enum class ColorMap : std::uint8_t { viridis, cividis, magma, blue_white_red, red_white_blue, categorical };
+enum class ColorMap : std::uint8_t {
+  viridis,
+  cividis,
+  magma,
+  blue_white_red,
+  red_white_blue,
+  blues,
+  ylorrd,
+  consurf,
+  categorical
+};
 
 /// What a map is, in words users can look up.
 struct ColorMapMetadata {
@@ -33,7 +43,7 @@ std::optional<ColorMap> parse_color_map(std::string_view text);
 glm::vec3 mapped_color(ColorMap map, double t);
 
 /// What atoms without a number get unless told otherwise: a grey #808080, which no map comes near, but #cc79a7 with
-/// cividis, which goes through grey.
+/// cividis, which goes through grey, and ConSurf's own yellow for grades of too few data.
 glm::vec3 default_missing_color(ColorMap map);
 
 }  // namespace meniscus

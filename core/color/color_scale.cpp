@@ -8,6 +8,7 @@
 #include <set>
 
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
@@ -19,8 +20,38 @@ namespace {
 
 using By = ColorScheme::By;
 
-/// The numbers of a file for the atoms in use: given for each of these, or for each atom of the molecule's file.
+[[noreturn]] void no_atom_named(const Structure& structure, const NumberFile& file, const char* what,
+                                std::size_t count) {
+  throw InputError(file.path, 0,
+                   fmt::format("names {} {}, none of which is among the atoms used of {}", with_thousands(count), what,
+                               structure.file));
+}
+
+std::vector<double> numbers_by_name(const Structure& structure, const NumberFile& file) {
+  std::vector<double> numbers(structure.atoms.size(), std::numeric_limits<double>::quiet_NaN());
+  bool found = false;
+  const auto take = [&](const auto& table, const auto& key, double& number) {
+    const auto entry = table.find(key);
+    if (entry == table.end()) return;
+    number = entry->second;
+    found = true;
+  };
+  for (std::size_t a = 0; a < numbers.size(); ++a) {
+    const Atom& atom = structure.atoms[a];
+    if (!file.by_atom.empty())
+      take(file.by_atom, atom.index, numbers[a]);
+    else
+      take(file.by_residue, ResidueName{chain_of_file(atom), atom.residue_number, atom.insertion_code}, numbers[a]);
+  }
+  if (!found && !file.by_atom.empty()) no_atom_named(structure, file, "atoms", file.by_atom.size());
+  if (!found) no_atom_named(structure, file, "residues", file.by_residue.size());
+  return numbers;
+}
+
+/// The numbers of a file for the atoms in use: by name, or given for each of these, or for each atom of the molecule's
+/// file.
 std::vector<double> numbers_of_file(const Structure& structure, const NumberFile& file) {
+  if (file.numbers.empty() && !file.empty()) return numbers_by_name(structure, file);
   const auto other_models = structure.report.excluded.find(kExcludedModel);
   const std::size_t read =
       structure.report.read - (other_models == structure.report.excluded.end() ? 0 : other_models->second);
@@ -38,9 +69,20 @@ std::vector<double> numbers_of_file(const Structure& structure, const NumberFile
   return numbers;
 }
 
+/// Å from the mean of all atoms' centres.
+std::vector<double> distances_from_middle(const Structure& structure) {
+  glm::dvec3 middle(0.0);
+  for (const Atom& atom : structure.atoms) middle += atom.position / static_cast<double>(structure.atoms.size());
+  std::vector<double> distances;
+  distances.reserve(structure.atoms.size());
+  for (const Atom& atom : structure.atoms) distances.push_back(glm::distance(atom.position, middle));
+  return distances;
+}
+
 /// One number an atom, NaN where there is none.
 std::vector<double> numbers_of(const Structure& structure, const ColorScheme& scheme) {
   if (scheme.by == By::file) return numbers_of_file(structure, scheme.file);
+  if (scheme.by == By::radial) return distances_from_middle(structure);
   const auto number = [&](const Atom& atom) -> double {
     switch (scheme.by) {
       case By::bfactor:
@@ -77,6 +119,8 @@ ScaleWords words_of(By by) {
       return {"hydrophobicity (Kyte & Doolittle 1982)", ""};
     case By::index:
       return {"place in the file", ""};
+    case By::radial:
+      return {"distance from the middle", "Å"};
     default:
       return {"number from file", ""};
   }
@@ -123,7 +167,10 @@ void count_classes(ColorScale& scale, const std::vector<double>& defined, const 
 }
 
 std::string class_title(By by) {
-  return by == By::element ? "element" : by == By::chain ? "chain" : by == By::copy ? "copy" : "residue type";
+  return by == By::element || by == By::element_cpk ? "element"
+         : by == By::chain                          ? "chain"
+         : by == By::copy                           ? "copy"
+                                                    : "residue type";
 }
 
 /// Adds a class unless it is there already.
@@ -149,15 +196,17 @@ glm::vec3 ColorScale::color(double number) const {
     return categorical_color(static_cast<std::size_t>(std::ranges::lower_bound(classes, number) - classes.begin()));
   }
   const double width = range[1] - range[0];
-  return mapped_color(map, width > 0.0 ? (number - range[0]) / width : 0.5);
+  const double t = width > 0.0 ? (number - range[0]) / width : 0.5;
+  return own_map ? own_map->color(t) : mapped_color(map, t);
 }
 
 ColorScale color_scale(const Structure& structure, const ColorScheme& scheme) {
   ColorScale scale;
   const ScaleWords words = words_of(scheme.by);
-  scale.title = std::string(words.title);
+  scale.title = scheme.by == By::file && !scheme.file.column.empty() ? scheme.file.column : std::string(words.title);
   scale.unit = std::string(words.unit);
   scale.map = scheme.map.value_or(default_map(scheme.by));
+  scale.own_map = scheme.own_map;
   scale.missing_color = scheme.missing.value_or(default_missing_color(scale.map));
   scale.value = numbers_of(structure, scheme);
   std::vector<double> defined;
@@ -185,8 +234,9 @@ ColorKey color_key(const Structure& structure, const ColorScheme& scheme, std::s
   } else if (scheme.by != By::fixed) {
     key.title = class_title(scheme.by);
     for (const Atom& atom : structure.atoms) {
-      if (scheme.by == By::element)
-        classes.add(atom.element == 0 ? "unknown" : element_symbol(atom.element), element_color(atom.element));
+      if (scheme.by == By::element || scheme.by == By::element_cpk)
+        classes.add(atom.element == 0 ? "unknown" : element_symbol(atom.element),
+                    scheme.by == By::element ? element_color(atom.element) : cpk_color(atom.element));
       else if (scheme.by == By::chain)
         classes.add(chain_of_file(atom), classes.next_color());
       else if (scheme.by == By::copy)

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -21,8 +22,9 @@ struct ColorScale {
   std::string title;  ///< "B-factor", "hydrophobicity (Kyte & Doolittle 1982)", ...
   std::string unit;   ///< "Å²", "e", or empty
   ColorMap map = ColorMap::viridis;
-  std::array<double, 2> range{0.0, 1.0};  ///< at the ends of the map; equal if all numbers are
-  std::vector<double> classes;            ///< categorical map only: the different numbers, ascending
+  std::shared_ptr<const ColorRamp> own_map;  ///< instead of `map`, if there is one
+  std::array<double, 2> range{0.0, 1.0};     ///< at the ends of the map; equal if all numbers are
+  std::vector<double> classes;               ///< categorical map only: the different numbers, ascending
   glm::vec3 missing_color{0.5f};
   std::size_t missing = 0;    ///< atoms without a number
   std::vector<double> value;  ///< per atom of the structure; NaN: missing

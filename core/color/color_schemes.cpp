@@ -25,7 +25,9 @@ namespace {
 using By = ColorScheme::By;
 
 constexpr ColorSchemeMetadata kSchemes[] = {
-    {"element", By::element, "chemical element, the default",
+    {"element", By::element, "chemical element in pale colours, the default",
+     "hues of element-cpk with white, so that carbon is #c8c8c8"},
+    {"element-cpk", By::element_cpk, "chemical element in the colours of models",
      "after the models of R. B. Corey, L. Pauling and W. L. Koltun; metals and tones are our own"},
     {"chain", By::chain, "chains in order of appearance, 21 colours in turn",
      "M. Okabe and K. Ito, Color Universal Design (2008)"},
@@ -41,6 +43,7 @@ constexpr ColorSchemeMetadata kSchemes[] = {
      "hydropathy of the amino acid; blue-white-red, -4.5 (arginine, blue) to 4.5 (isoleucine, red)",
      "J. Kyte and R. F. Doolittle, J. Mol. Biol. 157, 105 (1982)"},
     {"index", By::index, "place in the file, from 0; viridis", ""},
+    {"radial", By::radial, "distance from the middle of all atoms in Å, for capsids; viridis", ""},
     {"file", By::file, "numbers of --color-by-file; viridis, smallest to largest", ""}};
 
 }  // namespace
@@ -71,6 +74,7 @@ void ColorScheme::share_scale() {
   for (ColorRule& rule : rules) {
     if (!rule.paint.has_scale()) continue;
     rule.paint.map = map;
+    rule.paint.own_map = own_map;
     rule.paint.range = range;
     rule.paint.missing = missing;
   }

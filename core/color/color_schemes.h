@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -14,6 +15,7 @@
 
 #include "core/structure/atom_numbers.h"
 #include "core/color/color_maps.h"
+#include "core/color/color_ramp.h"
 #include "core/color/css_colors.h"
 #include "core/structure/selection/selection.h"
 #include "core/structure/structure.h"
@@ -32,6 +34,7 @@ struct ColorRule;
 struct ColorScheme {
   enum class By : std::uint8_t {
     element,
+    element_cpk,
     chain,
     residue,    ///< type of residue, by chemistry
     copy,       ///< of an assembly made of atoms
@@ -43,11 +46,13 @@ struct ColorScheme {
     charge,
     hydrophobicity,  ///< Kyte & Doolittle 1982
     index,           ///< place in the file
+    radial,          ///< distance from the middle of all atoms
     file             ///< numbers of a file of the user's own
   };
   By by = By::element;
   glm::vec3 fixed{0.8f};                       ///< sRGB in [0, 1], for By::fixed
   std::optional<ColorMap> map;                 ///< nothing: that of the scheme (color_scale)
+  std::shared_ptr<const ColorRamp> own_map;    ///< instead of `map`, if there is one
   std::optional<std::array<double, 2>> range;  ///< numbers at both ends of the map; nothing: automatic (color_scale)
   std::optional<glm::vec3> missing;            ///< of atoms without a number; nothing: default_missing_color
   NumberFile file;                             ///< for By::file

@@ -48,10 +48,15 @@ glm::vec3 categorical_color(std::size_t n) {
   }
 }
 
-glm::vec3 element_color(std::uint8_t element) {
+glm::vec3 cpk_color(std::uint8_t element) {
   const auto found = kElements.find(element);
   if (element == 0) return color_from_hex(kUnknownElement);
   return color_from_hex(found == kElements.end() ? kOtherElement : found->second);
+}
+
+glm::vec3 element_color(std::uint8_t element) {
+  constexpr float kWhite = 0.456f;  // makes #c8c8c8 of carbon's #9a9a9a
+  return (1.0f - kWhite) * cpk_color(element) + glm::vec3(kWhite);
 }
 
 const ResidueGroup& residue_group(const std::string& residue_name) {

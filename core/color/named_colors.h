@@ -26,6 +26,9 @@ inline constexpr std::size_t kCategoricalCount = 21;
 glm::vec3 categorical_color(std::size_t n);
 
 /// After the space-filling models of R. B. Corey, L. Pauling and W. L. Koltun, by atomic number; 0: unknown.
+glm::vec3 cpk_color(std::uint8_t element);
+
+/// The same hues paler, carbon #c8c8c8: dark on white they would hide shade and lines.
 glm::vec3 element_color(std::uint8_t element);
 
 /// One group of residue types: "acidic", ..., "adenine", ..., "other".

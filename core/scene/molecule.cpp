@@ -2,6 +2,7 @@
 // Carries out what the common request say.
 #include "core/scene/molecule.h"
 
+#include <memory>
 #include <utility>
 
 #include <fmt/format.h>
@@ -37,7 +38,9 @@ Structure read_molecule(const MoleculeRequest& request) {
 
 ColorScheme color_of(const MoleculeRequest& request) {
   ColorScheme color = request.color;
-  if (color.uses_file()) color.set_numbers(read_number_file(request.number_file));
+  if (color.uses_file()) color.set_numbers(read_number_file(request.number_file, request.number_column));
+  if (!request.map_file.empty()) color.own_map = std::make_shared<ColorRamp>(read_color_ramp(request.map_file));
+  color.share_scale();
   return color;
 }
 

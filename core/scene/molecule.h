@@ -29,6 +29,8 @@ struct MoleculeRequest {
   ColorScheme color;
   Representations representations;  ///< what is drawn beside the surface, of whatever atoms of the file
   std::string number_file;          ///< numbers to colour by, for ColorScheme::By::file
+  std::string number_column;        ///< of a number file that is a table
+  std::string map_file;             ///< a colour map of the user's own; empty: none
 };
 
 /// A molecule, ready to be drawn or exported.

@@ -2,8 +2,11 @@
 // Parsing of number files, and the hydropathy table.
 #include "core/structure/atom_numbers.h"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -11,6 +14,7 @@
 #include "core/base/text.h"
 #include "core/text/parse_number.h"
 #include "core/text/text_file.h"
+#include "core/text/text_lines.h"
 
 namespace meniscus {
 namespace {
@@ -36,8 +40,10 @@ constexpr Hydropathy kKyteDoolittle[] = {{4.5, " ILE "},         {4.2, " VAL "},
                                          {-3.5, " ASP ASH "},    {-3.5, " ASN "},
                                          {-3.9, " LYS LYN "},    {-4.5, " ARG "}};
 
+bool is_missing(std::string_view word) { return word == "nan" || word == "NaN" || word == "?" || word == "-"; }
+
 double parse_word(const std::string& path, std::size_t line, std::string_view word) {
-  if (word == "nan" || word == "NaN" || word == "?" || word == "-") return kMissing;
+  if (is_missing(word)) return kMissing;
   double number = 0.0;
   if (!parse_number(word, number) || std::abs(number) > kLargestNumber) {
     throw InputError(path, line,
@@ -47,29 +53,181 @@ double parse_word(const std::string& path, std::size_t line, std::string_view wo
   return number;
 }
 
-}  // namespace
+/// The cells of a line of CSV; quotes around one may hold commas, two of them stand for one.
+std::vector<std::string> cells_of(std::string_view line) {
+  std::vector<std::string> cells(1);
+  bool quoted = false;
+  for (std::size_t n = 0; n < line.size(); ++n) {
+    const bool twice = quoted && line[n] == '"' && n + 1 < line.size() && line[n + 1] == '"';
+    if (line[n] == '"' && !twice)
+      quoted = !quoted;
+    else if (line[n] == ',' && !quoted)
+      cells.emplace_back();
+    else
+      cells.back() += line[n];
+    n += twice ? 1 : 0;
+  }
+  for (std::string& cell : cells) cell = std::string(trimmed(cell));
+  return cells;
+}
 
-NumberFile read_number_file(const std::string& path) {
-  constexpr std::string_view kBetween = " \t\r,;";
-  const TextFile file = read_text_file(path);
-  NumberFile result{path, {}};
-  std::size_t line = 0;
-  for (std::string_view rest = file.text; !rest.empty();) {
-    ++line;
-    const std::size_t end = rest.find('\n');
-    std::string_view text = rest.substr(0, end);
-    rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
-    text = text.substr(0, text.find('#'));
+class NumberReader {
+ public:
+  NumberReader(const TextFile& file, const std::string& column)
+      : column_(column), lines_(file.text), result_{file.path, {}, {}, {}, {}} {}
+
+  NumberFile read() {
+    std::string_view line;
+    bool first = true;
+    while (lines_.next(line)) {
+      const std::string_view text = trimmed(line.substr(0, line.find('#')));
+      if (text.empty()) continue;
+      if (first && begins_table(text)) {
+        read_table(cells_of(text));
+        return std::move(result_);
+      }
+      if (!column_.empty())
+        fail(fmt::format("is not the header of a table, in which --color-column {} could be", in_quotes(column_)));
+      const std::vector<std::string_view> fields = fields_of(text);
+      if (first && names_residues(fields)) {
+        by_residue_ = true;
+        first = false;
+        if (fields[2] == "value") continue;
+      }
+      first = false;
+      if (by_residue_)
+        add_residue(fields);
+      else
+        add_numbers(text);
+    }
+    return std::move(result_);
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& what) const { throw InputError(result_.path, lines_.number(), what); }
+
+  static bool is_number(std::string_view word) {
+    double number = 0.0;
+    return is_missing(word) || parse_number(word, number);
+  }
+
+  /// Commas and no number.
+  static bool begins_table(std::string_view text) {
+    if (text.find(',') == std::string_view::npos) return false;
+    for (const std::string& cell : cells_of(text))
+      if (is_number(cell)) return false;
+    return true;
+  }
+
+  /// "A 12 0.5", or the header "chain resid value".
+  static bool names_residues(const std::vector<std::string_view>& fields) {
+    if (fields.size() != 3) return false;
+    ResidueName residue;
+    return !is_number(fields[0]) && (fields[2] == "value" || (parse_place(fields[1], residue) && is_number(fields[2])));
+  }
+
+  /// "12", "-3", "52A".
+  static bool parse_place(std::string_view word, ResidueName& residue) {
+    residue.insertion_code = ' ';
+    const char last = word.empty() ? ' ' : word.back();
+    if ((last >= 'A' && last <= 'Z') || (last >= 'a' && last <= 'z')) {
+      residue.insertion_code = last;
+      word.remove_suffix(1);
+    }
+    std::int64_t number = 0;
+    if (!parse_whole_number(word, number) || number != static_cast<std::int32_t>(number)) return false;
+    residue.number = static_cast<std::int32_t>(number);
+    return true;
+  }
+
+  void add(const ResidueName& residue, double number) {
+    if (!result_.by_residue.emplace(residue, number).second)
+      fail(fmt::format("gives residue {} of chain {} a second number", residue.number, in_quotes(residue.chain)));
+  }
+
+  void add_residue(const std::vector<std::string_view>& fields) {
+    ResidueName residue;
+    if (fields.size() != 3 || !parse_place(fields[1], residue))
+      fail("should be a chain, the number of a residue and a value, as in A 12 0.5");
+    residue.chain = std::string(fields[0]);
+    add(residue, parse_word(result_.path, lines_.number(), fields[2]));
+  }
+
+  void add_numbers(std::string_view text) {
+    constexpr std::string_view kBetween = " \t,;";
     while (true) {
       const std::size_t first = text.find_first_not_of(kBetween);
-      if (first == std::string_view::npos) break;
+      if (first == std::string_view::npos) return;
       text.remove_prefix(first);
       const std::string_view word = text.substr(0, text.find_first_of(kBetween));
-      result.numbers.push_back(parse_word(path, line, word));
+      result_.numbers.push_back(parse_word(result_.path, lines_.number(), word));
       text.remove_prefix(word.size());
     }
   }
-  if (result.numbers.empty()) throw InputError(path, 0, "holds no numbers; write one an atom");
+
+  /// The column of the numbers: the one asked for, or the only one that is no name of an atom or residue.
+  std::size_t value_column(const std::vector<std::string>& header) const {
+    constexpr std::string_view kNames[] = {"index", "model", "chain",   "residue", "resname", "number", "resid",
+                                           "icode", "name",  "element", "class",   "radius",  "atoms"};
+    std::vector<std::string> others;
+    for (const std::string& cell : header)
+      if (std::ranges::find(kNames, cell) == std::end(kNames)) others.push_back(cell);
+    if (column_.empty() && others.size() == 1)
+      return static_cast<std::size_t>(std::ranges::find(header, others[0]) - header.begin());
+    const auto found = std::ranges::find(header, column_);
+    if (!column_.empty() && found != header.end()) return static_cast<std::size_t>(found - header.begin());
+    std::string list;
+    for (const std::string& name : others) list += (list.empty() ? "" : ", ") + escaped(name);
+    fail(column_.empty() ? fmt::format("is a table; choose one of its columns by --color-column: {}", list)
+                         : fmt::format("has no column {}; it has {}", in_quotes(column_), list));
+  }
+
+  void read_table(const std::vector<std::string>& header) {
+    constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+    const auto place = [&](std::string_view name) {
+      const auto found = std::ranges::find(header, name);
+      return found == header.end() ? kNone : static_cast<std::size_t>(found - header.begin());
+    };
+    const std::size_t value = value_column(header), index = place("index"), chain = place("chain"),
+                      icode = place("icode"), resid = place("number") == kNone ? place("resid") : place("number");
+    result_.column = header[value];
+    if (index == kNone && (chain == kNone || resid == kNone))
+      fail("is the header of a table without a column index, or chain and number, to know its atoms by");
+    std::string_view line;
+    while (lines_.next(line)) {
+      if (trimmed(line).empty()) continue;
+      const std::vector<std::string> cells = cells_of(line);
+      if (cells.size() != header.size()) fail(fmt::format("has {} cells, the header {}", cells.size(), header.size()));
+      const double number = parse_word(result_.path, lines_.number(), cells[value]);
+      if (index != kNone) {
+        std::int64_t atom = -1;
+        if (!parse_whole_number(cells[index], atom) || atom != static_cast<std::uint32_t>(atom))
+          fail(fmt::format("{} is no index of an atom", in_quotes(cells[index])));
+        if (!result_.by_atom.emplace(static_cast<std::uint32_t>(atom), number).second)
+          fail(fmt::format("gives atom {} a second number", atom));
+        continue;
+      }
+      ResidueName residue;
+      if (!parse_place(cells[resid], residue))
+        fail(fmt::format("{} is no number of a residue", in_quotes(cells[resid])));
+      residue.chain = cells[chain];
+      if (icode != kNone && cells[icode].size() == 1) residue.insertion_code = cells[icode][0];
+      add(residue, number);
+    }
+  }
+
+  const std::string& column_;
+  LineReader lines_;
+  NumberFile result_;
+  bool by_residue_ = false;
+};
+
+}  // namespace
+
+NumberFile read_number_file(const std::string& path, const std::string& column) {
+  const TextFile file = read_text_file(path);
+  NumberFile result = NumberReader(file, column).read();
+  if (result.empty()) throw InputError(path, 0, "holds no numbers; write one an atom, or chain, residue and number");
   return result;
 }
 

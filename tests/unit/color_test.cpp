@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -188,6 +189,99 @@ TEST(Colors, RulesOfWhatAtomsHaveNotAreRefused) {
   for (const auto& [rule, reason] : reasons) {
     const std::string said = complaint([&, rule = rule] { parse_color_rule(rule); });
     EXPECT_NE(said.find(reason), std::string::npos) << rule << ": " << said;
+  }
+}
+
+TEST(Colors, ElementsArePalerThanModels) {
+  EXPECT_EQ(colored("element-cpk").atom[0], color_from_hex(0x9a9a9a));
+  const glm::vec3 carbon = colored("element").atom[0];
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(carbon[c], 0xc8 / 255.0f, 0.5f / 255.0f);
+  EXPECT_EQ(color_key(four_atoms(), scheme("element-cpk"), {}).title, "element");
+}
+
+TEST(Colors, RadialIsTheDistanceFromTheMiddle) {
+  Structure structure = four_atoms();
+  const double x[] = {-3.0, -1.0, 1.0, 3.0};
+  for (std::size_t a = 0; a < 4; ++a) structure.atoms[a].position = {5.0 + x[a], 7.0, -2.0};
+  const ColorScale scale = color_scale(structure, scheme("radial"));
+  for (std::size_t a = 0; a < 4; ++a) EXPECT_NEAR(scale.value[a], std::abs(x[a]), 1e-12);
+  EXPECT_EQ(scale.unit, "Å");
+}
+
+TEST(Colors, ConsurfHasItsNineColors) {
+  const std::uint32_t grades[] = {0x10c8d1, 0x8cffff, 0xd7ffff, 0xeaffff, 0xffffff,
+                                  0xfcedf4, 0xfac9de, 0xf07dab, 0xa02560};
+  for (int n = 0; n < 9; ++n) EXPECT_EQ(mapped_color(ColorMap::consurf, n / 8.0), color_from_hex(grades[n]));
+}
+
+TEST(Colors, MapsOfOnesOwn) {
+  const test::TemporaryFolder folder;
+  const glm::vec3 red(1, 0, 0), white(1), blue(0, 0, 1);
+  for (const char* text : {"red\nwhite # half way\n#00f\n", "-1 red\n0 #fff\n1 blue\n", "-1,red\n0,white\n1,blue\n",
+                           "[\"red\", \"#ffffff\", \"blue\"]", "[[0, \"red\"], [2, \"white\"], [4, \"blue\"]]"}) {
+    const ColorRamp ramp = read_color_ramp(folder.file("ramp", text));
+    EXPECT_EQ(ramp.color(-1.0), red) << text;
+    EXPECT_EQ(ramp.color(0.25), 0.5f * (red + white)) << text;
+    EXPECT_EQ(ramp.color(0.5), white) << text;
+    EXPECT_EQ(ramp.color(1.0), blue) << text;
+  }
+  EXPECT_EQ(read_color_ramp(folder.file("ramp", "0 red\n1 white\n4 blue\n")).color(0.25), white);
+  const std::pair<const char*, const char*> faults[] = {{"red\nbleu\n", "ramp:2: 'bleu' is no colour"},
+                                                        {"red\n", "holds 1 colours"},
+                                                        {"0 red\nblue\n", "ramp:2: some colours have a place"},
+                                                        {"1 red\n1 blue\n", "ramp:2: the place 1 does not lie"},
+                                                        {"[\"red\", 7]", "entry 2 is neither"},
+                                                        {"[\"red\"", "is not valid JSON"},
+                                                        {"a red blue\n", "ramp:1: "}};
+  for (const auto& [text, reason] : faults) {
+    const std::string said = complaint([&, text = text] { read_color_ramp(folder.file("ramp", text)); });
+    EXPECT_NE(said.find(reason), std::string::npos) << text << ": " << said;
+  }
+  ColorScheme wish = scheme("bfactor");
+  wish.own_map = std::make_shared<ColorRamp>(ColorRamp{{0.0, 1.0}, {red, blue}});
+  EXPECT_EQ(color_atoms(four_atoms(), wish).atom[1], 0.5f * (red + blue));
+}
+
+TEST(Colors, NumbersByResidueAndOfTables) {
+  const test::TemporaryFolder folder;
+  Structure structure = four_atoms();
+  for (std::size_t a = 0; a < 4; ++a) structure.atoms[a].residue_number = static_cast<std::int32_t>(a) - 1;
+  structure.atoms[1].insertion_code = 'B';
+  const auto numbers = [&](const char* text, const char* column = "") {
+    ColorScheme wish = scheme("file");
+    wish.file = read_number_file(folder.file("n", text), column);
+    return color_scale(structure, wish);
+  };
+  const char* const layouts[] = {
+      "A -1 1.5\nA 0B 2\nB 1 ?\nA 2 4e0\n", "chain resid value\nA -1 1.5\nA 0B 2\nA 2 4\nZ 9 9\n",
+      "chain,number,icode,sas\nA,-1,,1.5\nA,0,B,2\n\"A\",2,,4\n", "index,sas\n0,1.5\n1,2\n3,4\n2,-\n"};
+  for (const char* text : layouts) {
+    const std::vector<double> value = numbers(text).value;
+    ASSERT_EQ(value.size(), 4u);
+    EXPECT_EQ(value[0], 1.5) << text;
+    EXPECT_EQ(value[1], 2.0) << text;
+    EXPECT_TRUE(std::isnan(value[2])) << text;
+    EXPECT_EQ(value[3], 4.0) << text;
+  }
+  const char* const table = "chain,number,ses,sas\nA,-1,1,10\nB,1,2,20\n";
+  EXPECT_EQ(numbers(table, "sas").value[2], 20.0);
+  EXPECT_EQ(numbers(table, "sas").title, "sas");
+  const std::tuple<const char*, const char*, const char*> faults[] = {
+      {table, "", "n:1: is a table; choose one of its columns by --color-column: ses, sas"},
+      {table, "vdw", "n:1: has no column 'vdw'; it has ses, sas"},
+      {"a,b\n1,2\n", "b", "n:1: is the header of a table without a column index"},
+      {"chain,number,x\nA,1\n", "", "n:2: has 2 cells, the header 3"},
+      {"chain,number,x\nA,1x9,2\n", "", "n:2: '1x9' is no number of a residue"},
+      {"chain,number,x\nA,1,red\n", "", "n:2: 'red' is not a finite number"},
+      {"index,x\n-1,2\n", "", "n:2: '-1' is no index of an atom"},
+      {"index,x\n1,2\n1,3\n", "", "n:3: gives atom 1 a second number"},
+      {"A 1 2\nA 1 3\n", "", "n:2: gives residue 1 of chain 'A' a second number"},
+      {"A 1 2\nB 2\n", "", "n:2: should be a chain, the number of a residue and a value"},
+      {"1 2 3\n", "x", "n:1: is not the header of a table"},
+      {"Q 1 2\n", "", "names 1 residues, none of which is among the atoms used of four"}};
+  for (const auto& [text, column, reason] : faults) {
+    const std::string said = complaint([&, text = text, column = column] { numbers(text, column); });
+    EXPECT_NE(said.find(reason), std::string::npos) << text << ": " << said;
   }
 }
 
