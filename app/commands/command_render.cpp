@@ -51,19 +51,29 @@ void parse_extent(const std::string& text, std::optional<Extent>& extent) {
   extent = word->second;
 }
 
+// Before the work begins.
+void check_legend_file(const RenderCommand& command) {
+  if (command.legend.file.empty()) return;
+  check_image_path(command.legend.file);
+  OutputFile(command.legend.file, command.output.existing());
+}
+
 void save_camera(const RenderCommand& command, const Camera& camera) {
   OutputFile file(command.save_camera, command.output.existing());
   file.write(camera_json(camera));
   file.commit();
 }
 
-void finish(const RenderCommand& command, const PictureLayout& layout, Framebuffer picture, const Camera& camera) {
+void finish(const RenderCommand& command, const PictureLayout& layout, const Annotations& annotations,
+            Framebuffer picture, const Camera& camera) {
   if (shows_nothing(picture))
     say(command.molecule,
         "warning: the picture shows nothing: no ray meets a part of the surface that --show leaves; where does the "
         "camera look?");
+  annotate(picture, annotations, camera, command.background);
   if (layout.legend) picture = layout.legend->add_to(picture, command.background);
   write_image(command.output.path, picture, image_settings(command));
+  if (layout.legend_alone) write_image(command.legend.file, *layout.legend_alone, image_settings(command));
   if (!command.save_camera.empty()) save_camera(command, camera);
 }
 
@@ -85,6 +95,7 @@ RenderSettings timed_settings(const RenderCommand& command, const PictureLayout&
 void draw_view(const RenderCommand& command, const std::optional<Camera>& given) {
   const ColoredAtoms atoms = load_atoms(command.molecule);
   const PictureLayout layout(command, key_of(atoms.molecule));
+  const Annotations annotations = annotations_of(command.annotations, atoms.molecule.structure);
   const ViewAim aim(command.picture, command.molecule.show, atoms.molecule.structure);
   const Camera camera = aim.camera(layout.size, given, atoms.balls);
   const EglContext context(gl_device(command));
@@ -94,7 +105,7 @@ void draw_view(const RenderCommand& command, const std::optional<Camera>& given)
   Framebuffer picture = renderer.render(view, camera, timed_settings(command, layout));
   if (command.stats) fmt::print(std::cerr, "{}", stats_text(view.stats(), renderer.times(), picture.size));
   say_times(command, gl_words(context), renderer.times());
-  finish(command, layout, std::move(picture), camera);
+  finish(command, layout, annotations, std::move(picture), camera);
 }
 
 /// Without -o the picture has the molecule's name, in the current folder.
@@ -127,29 +138,35 @@ void run(const RenderCommand& command) {
   } else if (command.stats) {
     throw UsageError("--stats tells the stages of a view; add --extent");
   }
-  if (command.legend && command.molecule.color.by == ColorScheme::By::fixed && command.molecule.color.rules.empty())
+  if (command.annotations.time_stamp) throw UsageError("--time-stamp is for a run of frames; add --frames");
+  if (command.legend.asked() && command.molecule.color.by == ColorScheme::By::fixed &&
+      command.molecule.color.rules.empty())
     throw UsageError("--legend has nothing to explain where all is of one colour; choose another --color");
   // Whether the outputs can be written is known before the work begins; these vanish again.
   OutputFile(command.output.path, command.output.existing());
+  check_legend_file(command);
   if (!command.save_camera.empty()) OutputFile(command.save_camera, command.output.existing());
   const std::optional<Camera> given = given_camera(command.picture);
   if (command.extent) return draw_view(command, given);
   auto [molecule, aim] = load_aimed_molecule(command.molecule, command.picture, given);
   Figure figure = make_figure(std::move(molecule), command.figure);
   const PictureLayout layout(command, key_of(figure.molecule));
+  const Annotations annotations = annotations_of(command.annotations, figure.molecule.structure);
   const Camera camera = aim.camera(layout.size, given, figure.molecule.objects);
   PictureDevice device(command.molecule.surface);
   SurfaceRenderer& renderer = device.renderer();
   Framebuffer picture = draw(renderer, std::move(figure), command.figure, camera, timed_settings(command, layout));
-  finish(command, layout, std::move(picture), camera);
+  finish(command, layout, annotations, std::move(picture), camera);
   say_times(command, renderer.device(), renderer.times());
 }
 
 }  // namespace
 
 PictureLayout::PictureLayout(const RenderCommand& command, const ColorKey& key) : size(command.picture) {
-  if (!command.legend) return;
-  legend.emplace(key, glm::ivec2(size.width, size.height));
+  const glm::ivec2 whole(size.width, size.height);
+  if (!command.legend.file.empty()) legend_alone = Legend(key, whole, command.legend.style).alone(command.background);
+  if (!command.legend.within) return;
+  legend.emplace(key, whole, command.legend.style);
   size.width = legend->molecule_size().x;
   size.height = legend->molecule_size().y;
 }
@@ -207,9 +224,8 @@ void add_render(CLI::App& command) {
           "transparent (default), white, black or #rrggbb")
       ->check(proposes({"transparent", "white", "black"}))
       ->type_name("COLOR");
-  command.add_flag(
-      "--legend", state->legend,
-      "Write what the colours mean at the right (of high pictures: below); the molecule is framed beside it");
+  add_legend_options(command, state->legend);
+  add_annotation_options(command, state->annotations);
   command.add_flag("--aovs", state->aovs,
                    "Add Z, N.xyz, P.xyz, atom, kind and component of each pixel's centre to an .exr");
   command

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/options/molecule_options.h"
+#include "app/options/annotation_options.h"
 #include "app/options/picture_options.h"
 #include "core/scene/figure.h"
 #include "core/scene/run_cameras.h"
@@ -30,9 +31,10 @@ struct RenderCommand {
   std::string save_camera;
   int samples = 9;
   bool aovs = false;
-  bool legend = false;
   bool provenance = false;    ///< the command line is in the picture
   bool names_program = true;  ///< the program's version is
+  LegendRequest legend;
+  AnnotationRequest annotations;
   std::optional<glm::vec3> background;
   std::optional<Extent> extent;  ///< nothing: the complete surface, computed and certified before the picture
   bool stats = false;
@@ -43,6 +45,7 @@ struct RenderCommand {
 struct PictureLayout {
   ViewRequest size;
   std::optional<Legend> legend;
+  std::optional<Framebuffer> legend_alone;  ///< of --legend-file
 
   PictureLayout(const RenderCommand& command, const ColorKey& key);
 };

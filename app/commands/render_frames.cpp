@@ -34,6 +34,9 @@ void check_options(const RenderCommand& command) {
   if (!command.save_camera.empty() && command.run_camera.moves())
     throw UsageError("--save-camera: a camera that moves is no single one");
   if (command.extent) check_view_options(command.molecule);
+  if (!command.annotations.labels.empty())
+    throw UsageError("--label: of one picture only, for the atoms move; leave --frames away");
+  if (!command.legend.file.empty()) check_image_path(command.legend.file);
 }
 
 /// Pictures with numbers in their names, or a film.
@@ -87,8 +90,16 @@ class PictureSink {
   std::unique_ptr<FilmWriter> film_;
 };
 
+/// Which frame a picture shows.
+struct FrameShown {
+  std::uint64_t number, place;
+  std::optional<double> time;
+
+  explicit FrameShown(const RunFrame& frame) : number(frame.number), place(frame.place), time(frame.time) {}
+};
+
 /// Takes a picture of a frame to where it belongs, on any thread.
-using KeepPicture = std::function<FinishFrame(std::uint64_t number, Framebuffer picture)>;
+using KeepPicture = std::function<FinishFrame(const FrameShown& frame, Framebuffer picture)>;
 
 /// What the pictures of a run have in common.
 struct RunPictures {
@@ -124,19 +135,21 @@ class CompletePainter {
   FrameWorker on_cpu(const std::shared_ptr<MoleculeBuilder>& builder) const {
     std::shared_ptr<SurfaceRenderer> renderer = make_cpu_renderer();
     return [this, builder, renderer](RunFrame frame) {
+      const FrameShown shown(frame);
       Figure figure = make_figure(builder->build(std::move(frame.structure)), run_.command.figure);
-      return run_.keep(frame.number, draw(*renderer, std::move(figure), run_.command.figure, run_.cameras[frame.place],
-                                          run_.settings));
+      return run_.keep(shown, draw(*renderer, std::move(figure), run_.command.figure, run_.cameras[shown.place],
+                                   run_.settings));
     };
   }
 
   FrameWorker by_gl(const std::shared_ptr<MoleculeBuilder>& builder) {
     return [this, builder](RunFrame frame) -> FinishFrame {
+      const FrameShown shown(frame);
       auto figure =
           std::make_shared<Figure>(make_figure(builder->build(std::move(frame.structure)), run_.command.figure));
-      return [this, figure, place = frame.place, number = frame.number] {
-        return run_.keep(number, draw(device_.renderer(), std::move(*figure), run_.command.figure, run_.cameras[place],
-                                      run_.settings))();
+      return [this, figure, shown] {
+        return run_.keep(shown, draw(device_.renderer(), std::move(*figure), run_.command.figure,
+                                     run_.cameras[shown.place], run_.settings))();
       };
     };
   }
@@ -156,7 +169,7 @@ class ViewPainter {
     return [this](const RunFrame& frame) -> FinishFrame {
       atoms_.balls = balls_of(frame.structure);
       show(atoms_, run_.command.molecule.surface.probe_radius, *run_.command.extent, pipeline_);
-      return run_.keep(frame.number, renderer_.render(pipeline_, run_.cameras[frame.place], run_.settings));
+      return run_.keep(FrameShown(frame), renderer_.render(pipeline_, run_.cameras[frame.place], run_.settings));
     };
   }
 
@@ -188,14 +201,19 @@ void render_frames(const RenderCommand& command) {
     file.commit();
   }
   const RenderSettings settings = render_settings(command, layout);
+  if (layout.legend_alone) write_image(command.legend.file, *layout.legend_alone, image_settings(command));
+  const Annotations annotations = annotations_of(command.annotations, frames.structure());
   std::mutex legend;  // its letters come from one font, which is one thread's at a time
-  const auto keep = [&](std::uint64_t number, Framebuffer picture) {
+  const auto keep = [&](const FrameShown& frame, Framebuffer picture) {
     const bool empty = shows_nothing(picture);
+    Annotations written = annotations;
+    if (command.annotations.time_stamp) written.time = time_text(frame.time, frame.number);
+    annotate(picture, written, cameras[frame.place], command.background);
     if (layout.legend) {
       const std::lock_guard lock(legend);
       picture = layout.legend->add_to(picture, command.background);
     }
-    return sink.keep(number, picture, empty);
+    return sink.keep(frame.number, picture, empty);
   };
   const RunPictures run{command, cameras, settings, keep};
   if (command.extent) {

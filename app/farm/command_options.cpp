@@ -105,6 +105,13 @@ const Options& command_table() {
       {"--samples", Value::text},
       {"--background", Value::text},
       {"--legend", Value::none},
+      {"--legend-title", Value::text},
+      {"--legend-size", Value::text},
+      {"--legend-place", Value::text},
+      {"--panel", Value::text},
+      {"--scale-bar", Value::maybe_text},
+      {"--label", Value::text},
+      {"--time-stamp", Value::none},
       {"--extent", Value::text},
       // frames
       {"--trajectory", Value::file},

@@ -10,6 +10,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/image/color_space.h"
+#include "core/render/ink.h"
 
 namespace meniscus {
 namespace {
@@ -58,19 +59,12 @@ void draw_box(Framebuffer& picture, const LegendBox& box, const glm::vec3& frame
   });
 }
 
-/// Relative luminance (IEC 61966-2-1) of an sRGB colour.
-float luminance(const glm::vec3& srgb) {
-  return glm::dot(linear_from_srgb(srgb), glm::vec3(0.2126f, 0.7152f, 0.0722f));
-}
-
 }  // namespace
 
 Framebuffer Legend::add_to(const Framebuffer& molecule, const std::optional<glm::vec3>& background) const {
   assert(molecule.size == molecule_size_);
   Framebuffer picture = with_margin(molecule, picture_size_);
-  // At this luminance black and white letters have the same contrast ratio (WCAG 2.1).
-  const bool dark = !background || luminance(*background) > 0.179f;
-  const glm::vec3 ink = linear_from_srgb(glm::vec3(dark ? 0.07f : 0.95f));
+  const glm::vec3 ink = linear_from_srgb(ink_on(background));
   for (const LegendBox& box : boxes_) draw_box(picture, box, ink, std::max(1, font_.height() / 16));
 
   const glm::ivec2 corner =

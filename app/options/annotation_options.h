@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The options that write into a picture: its legend, a panel's letter, a scale bar, labels, the time.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "core/render/annotation.h"
+#include "core/render/legend.h"
+#include "core/structure/selection/selection.h"
+#include "core/structure/structure.h"
+
+namespace meniscus {
+
+/// Text beside the middle of some atoms.
+struct LabelRequest {
+  Selection atoms;
+  std::string text;
+};
+
+struct LegendRequest {
+  bool within = false;  ///< the picture
+  std::string file;     ///< alone, there; or empty
+  LegendStyle style;
+
+  bool asked() const { return within || !file.empty(); }
+};
+
+struct AnnotationRequest {
+  std::string panel;
+  bool scale_bar = false, time_stamp = false;
+  std::optional<double> bar_length;  ///< Å
+  std::vector<LabelRequest> labels;
+};
+
+/// --legend, --legend-file, --legend-title, --legend-size, --legend-place.
+void add_legend_options(CLI::App& command, LegendRequest& request);
+
+/// --panel, --scale-bar, --label, --time-stamp.
+void add_annotation_options(CLI::App& command, AnnotationRequest& request);
+
+/// What is written into a picture of the structure; no time. Throws InputError for a label of no atoms.
+Annotations annotations_of(const AnnotationRequest& request, const Structure& structure);
+
+/// Of a frame: its time in ns, or its number where the trajectory has no times.
+std::string time_text(const std::optional<double>& picoseconds, std::uint64_t frame);
+
+}  // namespace meniscus

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Places texts and lines, and draws them as shares of pixels.
+#include "core/render/annotation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "core/base/error.h"
+#include "core/image/color_space.h"
+#include "core/render/ink.h"
+#include "core/render/text_raster.h"
+
+namespace meniscus {
+namespace {
+
+/// Shares of pixels that ink covers.
+class InkMask {
+ public:
+  explicit InkMask(glm::ivec2 size)
+      : size_(size), shares_(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y), 0.0f) {}
+
+  void text(const Font& font, const std::string& text, glm::ivec2 place) { font.draw(text, place, shares_, size_); }
+
+  void line(const glm::dvec2& from, const glm::dvec2& to, double width) {
+    const double margin = 0.5 * width + 1.0;
+    const glm::ivec2 low = glm::max(glm::ivec2(glm::floor(glm::min(from, to) - margin)), glm::ivec2(0));
+    const glm::ivec2 high = glm::min(glm::ivec2(glm::ceil(glm::max(from, to) + margin)), size_ - 1);
+    const glm::dvec2 along = to - from;
+    const double square = std::max(glm::dot(along, along), 1e-12);
+    for (int y = low.y; y <= high.y; ++y)
+      for (int x = low.x; x <= high.x; ++x) {
+        const glm::dvec2 here = glm::dvec2(x, y) + 0.5 - from;
+        const double t = std::clamp(glm::dot(here, along) / square, 0.0, 1.0);
+        cover(x, y, static_cast<float>(0.5 * width + 0.5 - glm::length(here - t * along)));
+      }
+  }
+
+  void box(glm::ivec2 low, glm::ivec2 high) {
+    for (int y = std::max(low.y, 0); y < std::min(high.y, size_.y); ++y)
+      for (int x = std::max(low.x, 0); x < std::min(high.x, size_.x); ++x) cover(x, y, 1.0f);
+  }
+
+  /// Lays ink over the picture, and a rim of another colour around it where the picture is covered already.
+  void lay_over(Framebuffer& picture, const glm::vec3& ink, const glm::vec3& rim, int rim_width) const {
+    const std::vector<float> rims = thickened(rim_width);
+    for (std::size_t n = 0; n < shares_.size(); ++n) {
+      if (rims[n] == 0.0f) continue;
+      glm::vec4& pixel = picture.color[n];
+      const float share = rims[n] * pixel.w;
+      pixel = glm::vec4(rim * share, share) + (1.0f - share) * pixel;
+      pixel = glm::vec4(ink * shares_[n], shares_[n]) + (1.0f - shares_[n]) * pixel;
+    }
+  }
+
+ private:
+  std::size_t index(int x, int y) const { return static_cast<std::size_t>(y) * size_.x + x; }
+
+  void cover(int x, int y, float share) {
+    float& covered = shares_[index(x, y)];
+    covered = std::max(covered, std::clamp(share, 0.0f, 1.0f));
+  }
+
+  /// Each pixel as covered as the most covered one around, less towards the rim's width.
+  std::vector<float> thickened(int width) const {
+    std::vector<float> result = shares_;
+    for (int y = 0; y < size_.y; ++y)
+      for (int x = 0; x < size_.x; ++x) {
+        const float share = shares_[index(x, y)];
+        if (share == 0.0f) continue;
+        for (int v = std::max(y - width, 0); v <= std::min(y + width, size_.y - 1); ++v)
+          for (int u = std::max(x - width, 0); u <= std::min(x + width, size_.x - 1); ++u) {
+            const float distance = std::hypot(static_cast<float>(u - x), static_cast<float>(v - y));
+            float& there = result[index(u, v)];
+            there = std::max(there, share * std::clamp(static_cast<float>(width) + 0.5f - distance, 0.0f, 1.0f));
+          }
+      }
+    return result;
+  }
+
+  glm::ivec2 size_;
+  std::vector<float> shares_;
+};
+
+/// A text's box in the picture.
+struct TextBox {
+  glm::ivec2 low{0}, high{0};
+
+  bool meets(const TextBox& other) const {
+    return low.x < other.high.x && other.low.x < high.x && low.y < other.high.y && other.low.y < high.y;
+  }
+};
+
+/// Puts things into the corners and beside the places they name.
+class Writer {
+ public:
+  Writer(const Framebuffer& picture, const Camera& camera)
+      : camera_(camera),
+        size_(picture.size),
+        side_(std::min(size_.x, size_.y)),
+        font_(std::max(9, side_ / 25)),
+        large_(std::max(12, side_ / 16)),
+        mask_(size_) {}
+
+  const InkMask& mask() const { return mask_; }
+  int rim_width() const { return std::max(1, font_.height() / 9); }
+
+  void panel(const std::string& text) {
+    const int half = large_.height() / 2;
+    write(large_, text, {half, 2 * half}, 2 * half);
+  }
+
+  void time(const std::string& text) {
+    const int em = font_.height();
+    write(font_, text, {size_.x - em - font_.width(text), em}, em);
+  }
+
+  void scale_bar(const std::optional<double>& asked) {
+    const double unit = angstroms_per_pixel(camera_, size_);
+    const double length = asked.value_or(round_length(0.25 * size_.x * unit));
+    const int em = font_.height(), thickness = std::max(2, em / 5),
+              pixels = static_cast<int>(std::lround(length / unit));
+    if (pixels < 1 || pixels > size_.x - 2 * em)
+      throw RequestError(
+          fmt::format("--scale-bar: {:g} Å are {} pixels of {}; give another length", length, pixels, size_.x));
+    const glm::ivec2 low(em, size_.y - em - thickness), high(em + pixels, size_.y - em);
+    mask_.box(low, high);
+    const std::string text = fmt::format("{:g} Å", length);
+    const int left = std::max(em, em + (pixels - font_.width(text)) / 2);
+    write(font_, text, {left, low.y - em}, em);
+    taken_.push_back({low, high});
+  }
+
+  void label(const PlaceLabel& label) {
+    const std::optional<glm::dvec2> seen = place_in_picture(camera_, size_, label.position);
+    if (!seen || seen->x < 0.0 || seen->y < 0.0 || seen->x > size_.x || seen->y > size_.y) return;
+    // Away from the middle, where there is room.
+    const glm::dvec2 middle = 0.5 * glm::dvec2(size_), out = *seen - middle;
+    const double distance = glm::length(out);
+    const glm::dvec2 direction = distance > 1.0 ? out / distance : glm::normalize(glm::dvec2(1.0, -1.0));
+    const TextBox box = free_box(label.text, *seen + direction * (0.14 * side_));
+    taken_.push_back(box);
+    mask_.text(font_, label.text, {box.low.x, (box.low.y + box.high.y) / 2});
+    const double gap = 0.25 * font_.height(), width = std::max(1.0, font_.height() / 14.0);
+    const glm::dvec2 near = glm::clamp(*seen, glm::dvec2(box.low) - gap, glm::dvec2(box.high) + gap);
+    mask_.line(near, *seen, width);
+    mask_.line(*seen, *seen, 4.0 * width);
+  }
+
+ private:
+  void write(const Font& font, const std::string& text, glm::ivec2 place, int height) {
+    mask_.text(font, text, place);
+    taken_.push_back({{place.x, place.y - height / 2}, {place.x + font.width(text), place.y + height / 2}});
+  }
+
+  /// A box for the text as close to `wanted` as the picture and the boxes there allow, in steps up and down.
+  TextBox free_box(const std::string& text, const glm::dvec2& wanted) const {
+    const int em = font_.height();
+    const glm::ivec2 extent(font_.width(text), em + em / 4);
+    const glm::ivec2 margin(em / 2), last = glm::max(size_ - extent - margin, margin);
+    TextBox first;
+    for (int n = 0; n < 2 * size_.y / extent.y; ++n) {
+      const int step = (n + 1) / 2 * extent.y * (n % 2 ? 1 : -1);
+      const glm::ivec2 low = glm::clamp(glm::ivec2(wanted) - extent / 2 + glm::ivec2(0, step), margin, last);
+      const TextBox box{low, low + extent};
+      if (n == 0) first = box;
+      if (std::ranges::none_of(taken_, [&](const TextBox& other) { return other.meets(box); })) return box;
+    }
+    return first;
+  }
+
+  const Camera& camera_;
+  glm::ivec2 size_;
+  int side_;
+  Font font_, large_;
+  InkMask mask_;
+  std::vector<TextBox> taken_;
+};
+
+}  // namespace
+
+double angstroms_per_pixel(const Camera& camera, glm::ivec2 size) {
+  if (camera.projection == Projection::orthographic) return camera.height / size.y;
+  const double angle = camera.vertical_fov * std::numbers::pi / 180.0;
+  return 2.0 * std::tan(0.5 * angle) * glm::distance(camera.position, camera.target) / size.y;
+}
+
+std::optional<glm::dvec2> place_in_picture(const Camera& camera, glm::ivec2 size, const glm::dvec3& point) {
+  const ViewBasis basis = view_basis(camera);
+  const glm::dvec3 to = point - camera.position;
+  const double depth = glm::dot(to, basis.forward);
+  double unit = angstroms_per_pixel(camera, size);
+  if (camera.projection == Projection::perspective) {
+    if (depth <= 1e-9) return {};
+    unit *= depth / glm::distance(camera.position, camera.target);
+  }
+  return 0.5 * glm::dvec2(size) + glm::dvec2(glm::dot(to, basis.right), -glm::dot(to, basis.up)) / unit;
+}
+
+double round_length(double most) {
+  const double power = std::pow(10.0, std::floor(std::log10(most)));
+  for (const double factor : {5.0, 2.0})
+    if (factor * power <= most) return factor * power;
+  return power;
+}
+
+void annotate(Framebuffer& picture, const Annotations& annotations, const Camera& camera,
+              const std::optional<glm::vec3>& background) {
+  if (!annotations.any()) return;
+  Writer writer(picture, camera);
+  if (!annotations.panel.empty()) writer.panel(annotations.panel);
+  if (!annotations.time.empty()) writer.time(annotations.time);
+  if (annotations.scale_bar) writer.scale_bar(annotations.bar_length);
+  for (const PlaceLabel& label : annotations.labels) writer.label(label);
+  writer.mask().lay_over(picture, linear_from_srgb(ink_on(background)), linear_from_srgb(rim_on(background)),
+                         writer.rim_width());
+}
+
+}  // namespace meniscus

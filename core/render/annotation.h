@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What is written into a finished picture: the panel's letter, a scale bar, names of places, the time of a frame.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "core/camera/camera.h"
+#include "core/render/framebuffer.h"
+
+namespace meniscus {
+
+/// A name, beside the place that a line leads to.
+struct PlaceLabel {
+  std::string text;
+  glm::dvec3 position{0.0};  ///< Å
+};
+
+/// Texts are drawn as they are given, so they are the user's and never a molecule file's; empty ones are not drawn.
+struct Annotations {
+  std::string panel;                 ///< at the top left
+  std::string time;                  ///< at the top right
+  bool scale_bar = false;            ///< at the bottom left
+  std::optional<double> bar_length;  ///< Å, > 0; nothing: a round number, at most a quarter of what the picture shows
+  std::vector<PlaceLabel> labels;
+
+  bool any() const { return !panel.empty() || !time.empty() || scale_bar || !labels.empty(); }
+};
+
+/// Å between two pixels of a picture: of an orthographic camera everywhere, of a perspective one where it looks at.
+double angstroms_per_pixel(const Camera& camera, glm::ivec2 size);
+
+/// The pixel that shows a point, from the top left of the picture; nothing if it is not before a perspective camera.
+std::optional<glm::dvec2> place_in_picture(const Camera& camera, glm::ivec2 size, const glm::dvec3& point);
+
+/// The largest of 1, 2 and 5 times a power of ten that is not above `most`, > 0.
+double round_length(double most);
+
+/// Writes into `picture`, which `camera` made, the molecule alone; letters are a twenty-fifth of its shorter side high,
+/// that of the panel more. They are dark or light as the background needs, dark where there is none, and have a rim
+/// where the molecule is behind them. Throws RequestError when there is no font, or the bar is longer than the picture.
+void annotate(Framebuffer& picture, const Annotations& annotations, const Camera& camera,
+              const std::optional<glm::vec3>& background);
+
+}  // namespace meniscus

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What is written into pictures stands where it belongs, and a bar is as long as it says.
+#include "core/render/annotation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <gtest/gtest.h>
+
+#include "core/base/error.h"
+
+namespace meniscus {
+namespace {
+
+constexpr glm::ivec2 kSize(400, 300);
+const Camera kOrthographic{{0, 0, 50}, {0, 0, 0}, {0, 1, 0}, Projection::orthographic, 30.0, 30.0};  // 0.1 Å a pixel
+const Camera kPerspective{{0, 0, 50}, {0, 0, 0}, {0, 1, 0}, Projection::perspective, 30.0, 1.0};
+
+Framebuffer empty_picture() {
+  Framebuffer picture;
+  picture.size = kSize;
+  picture.color.assign(static_cast<std::size_t>(kSize.x) * kSize.y, glm::vec4(0.0f));
+  return picture;
+}
+
+Framebuffer written(const Annotations& annotations, const Camera& camera = kOrthographic) {
+  Framebuffer picture = empty_picture();
+  annotate(picture, annotations, camera, glm::vec3(1.0f));
+  return picture;
+}
+
+/// Low and high corner of what is drawn within a part of the picture; nothing drawn: high is 0.
+glm::ivec4 extent(const Framebuffer& picture, glm::ivec2 low = glm::ivec2(0), glm::ivec2 high = kSize) {
+  glm::ivec4 found(kSize, 0, 0);
+  for (int y = low.y; y < high.y; ++y)
+    for (int x = low.x; x < high.x; ++x)
+      if (picture.color[static_cast<std::size_t>(y) * kSize.x + x].w > 0.5f)
+        found = {std::min(found.x, x), std::min(found.y, y), std::max(found.z, x + 1), std::max(found.w, y + 1)};
+  return found;
+}
+
+TEST(Annotations, NothingAskedIsNothingDrawn) {
+  EXPECT_EQ(extent(written({})).z, 0);
+  EXPECT_FALSE(Annotations{}.any());
+}
+
+TEST(Annotations, PlacesAreThoseThatTheCameraShows) {
+  for (const Camera& camera : {kOrthographic, kPerspective}) {
+    const glm::dvec2 middle = *place_in_picture(camera, kSize, {0, 0, 0});
+    EXPECT_NEAR(middle.x, 200.0, 1e-9);
+    EXPECT_NEAR(middle.y, 150.0, 1e-9);
+    const double unit = angstroms_per_pixel(camera, kSize);
+    const glm::dvec2 place = *place_in_picture(camera, kSize, {100.0 * unit, 40.0 * unit, 0});
+    EXPECT_NEAR(place.x, 300.0, 1e-9);
+    EXPECT_NEAR(place.y, 110.0, 1e-9);
+  }
+  EXPECT_DOUBLE_EQ(angstroms_per_pixel(kOrthographic, kSize), 0.1);
+  // The upper edge of a perspective picture is half its angle above the middle; what is nearer is larger.
+  const double half = 50.0 * std::tan(15.0 * 3.14159265358979 / 180.0);
+  EXPECT_NEAR(place_in_picture(kPerspective, kSize, {0, half, 0})->y, 0.0, 1e-9);
+  EXPECT_NEAR(place_in_picture(kPerspective, kSize, {0, 0.5 * half, 25})->y, 0.0, 1e-9);
+  EXPECT_FALSE(place_in_picture(kPerspective, kSize, {0, 0, 51}));
+}
+
+TEST(Annotations, LengthsOfBarsAreRound) {
+  for (const auto& [most, expected] :
+       {std::pair{1.0, 1.0}, {1.99, 1.0}, {2.0, 2.0}, {4.9, 2.0}, {5.0, 5.0}, {9.99, 5.0}, {37.0, 20.0}, {0.3, 0.2}})
+    EXPECT_NEAR(round_length(most), expected, 1e-12) << most;
+}
+
+TEST(Annotations, ABarIsAsLongAsItSays) {
+  for (const double length : {5.0, 12.0}) {
+    Annotations bar;
+    bar.scale_bar = true;
+    bar.bar_length = length;
+    const glm::ivec4 found = extent(written(bar), {0, 283}, kSize);  // below its text
+    EXPECT_NEAR(found.z - found.x, 10.0 * length, 1.0);
+    EXPECT_LT(found.x, 20);
+    EXPECT_LT(found.w, 300);
+  }
+  Annotations bar;
+  bar.scale_bar = true;  // a quarter of 40 Å
+  const glm::ivec4 found = extent(written(bar), {0, 283}, kSize);
+  EXPECT_NEAR(found.z - found.x, 100.0, 1.0);
+  for (const double length : {1000.0, 0.01}) {
+    bar.bar_length = length;
+    EXPECT_THROW(written(bar), RequestError);
+  }
+}
+
+TEST(Annotations, PanelAndTimeStandInTheirCorners) {
+  Annotations panel, time;
+  panel.panel = "A";
+  time.time = "1.250 ns";
+  const glm::ivec4 letter = extent(written(panel)), clock = extent(written(time));
+  EXPECT_LT(letter.z, 60);
+  EXPECT_LT(letter.w, 60);
+  EXPECT_GT(letter.w, 10);
+  EXPECT_GT(clock.x, 250);
+  EXPECT_LT(clock.z, 400);
+  EXPECT_LT(clock.w, 40);
+}
+
+TEST(Annotations, LabelsLeadToTheirPlacesAndDoNotMeet) {
+  Annotations one;
+  one.labels = {{"Ser 48", {5.0, 5.0, 0.0}}};
+  const Framebuffer picture = written(one);
+  EXPECT_GT(picture.color[static_cast<std::size_t>(100) * kSize.x + 250].w, 0.9f) << "a dot where it points";
+  const glm::ivec4 found = extent(picture);
+  EXPECT_GT(found.z, 255) << "its text is farther out";
+  EXPECT_LT(found.y, 95);
+  // Two at one place: both are written, so that more is covered.
+  const auto covered = [](const Framebuffer& of) {
+    double sum = 0.0;
+    for (const glm::vec4& pixel : of.color) sum += pixel.w;
+    return sum;
+  };
+  Annotations two = one;
+  two.labels.push_back(one.labels.front());
+  EXPECT_GT(covered(written(two)), 1.7 * covered(picture));
+  // One that the picture does not show is left out.
+  one.labels = {{"far", {500.0, 0.0, 0.0}}};
+  EXPECT_EQ(extent(written(one)).z, 0);
+}
+
+TEST(Annotations, LettersHaveARimBeforeTheMoleculeOnly) {
+  Annotations panel;
+  panel.panel = "A";
+  Framebuffer covered = empty_picture(), clear = empty_picture();
+  for (glm::vec4& pixel : covered.color) pixel = {0.2f, 0.0f, 0.0f, 1.0f};
+  annotate(covered, panel, kOrthographic, std::nullopt);
+  annotate(clear, panel, kOrthographic, std::nullopt);
+  int white = 0;
+  for (std::size_t n = 0; n < covered.color.size(); ++n) {
+    white += covered.color[n].y > 0.9f;
+    EXPECT_NEAR(covered.color[n].w, 1.0f, 1e-5f);
+    EXPECT_LE(clear.color[n].x, 0.02f) << "dark alone";
+  }
+  EXPECT_GT(white, 10);
+}
+
+}  // namespace
+}  // namespace meniscus
