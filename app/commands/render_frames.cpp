@@ -137,8 +137,8 @@ class CompletePainter {
     return [this, builder, renderer](RunFrame frame) {
       const FrameShown shown(frame);
       Figure figure = make_figure(builder->build(std::move(frame.structure)), run_.command.figure);
-      return run_.keep(shown, draw(*renderer, std::move(figure), run_.command.figure, run_.cameras[shown.place],
-                                   run_.settings));
+      return run_.keep(
+          shown, draw(*renderer, std::move(figure), run_.command.figure, run_.cameras[shown.place], run_.settings));
     };
   }
 

@@ -16,7 +16,8 @@ namespace meniscus {
 namespace {
 
 glm::vec3 direction_of(const std::vector<float>& values) {
-  const glm::vec3 given(values[0], values[1], values[2]);
+  const bool complete = values.size() == 3;
+  const glm::vec3 given = complete ? glm::vec3(values[0], values[1], values[2]) : glm::vec3(0.0f);
   const float length = std::hypot(given.x, given.y, given.z);
   if (!std::isfinite(length) || length < 1e-6f)
     throw CLI::ValidationError("--light", "is no direction: give three numbers that are not all 0, such as -1,1,1");

@@ -21,7 +21,7 @@ struct ForeignWord {
 };
 
 // Of PyMOL, ChimeraX, VMD, POV-Ray, Blender, ffmpeg and ImageMagick.
-constexpr std::array<ForeignWord, 44> kForeignWords{{
+constexpr std::array<ForeignWord, 43> kForeignWords{{
     {"--colour", {"--color"}},
     {"--colors", {"--color"}},
     {"--color-by", {"--color"}},
@@ -58,7 +58,6 @@ constexpr std::array<ForeignWord, 44> kForeignWords{{
     {"--cartoon", {"--tube"}},
     {"--ribbon", {"--tube"}},
     {"--licorice", {"--sticks"}},
-    {"--spheres", {"--balls"}},
     {"--probe-radius", {"--probe"}},
     {"--solvent-radius", {"--probe"}},
     {"--palette", {"--map"}},

@@ -27,8 +27,6 @@ using By = ColorScheme::By;
 constexpr ColorSchemeMetadata kSchemes[] = {
     {"element", By::element, "chemical element in pale colours, the default",
      "hues of element-cpk with white, so that carbon is #c8c8c8"},
-    {"element-cpk", By::element_cpk, "chemical element in the colours of models",
-     "after the models of R. B. Corey, L. Pauling and W. L. Koltun; metals and tones are our own"},
     {"chain", By::chain, "chains in order of appearance, 21 colours in turn",
      "M. Okabe and K. Ito, Color Universal Design (2008)"},
     {"copy", By::copy, "copies of an --assembly made of atoms, 21 colours in turn", "colours of Okabe and Ito"},
@@ -42,6 +40,8 @@ constexpr ColorSchemeMetadata kSchemes[] = {
     {"hydrophobicity", By::hydrophobicity,
      "hydropathy of the amino acid; blue-white-red, -4.5 (arginine, blue) to 4.5 (isoleucine, red)",
      "J. Kyte and R. F. Doolittle, J. Mol. Biol. 157, 105 (1982)"},
+    {"element-cpk", By::element_cpk, "chemical element in the colours of models",
+     "after the models of R. B. Corey, L. Pauling and W. L. Koltun; metals and tones are our own"},
     {"index", By::index, "place in the file, from 0; viridis", ""},
     {"radial", By::radial, "distance from the middle of all atoms in Å, for capsids; viridis", ""},
     {"file", By::file, "numbers of --color-by-file; viridis, smallest to largest", ""}};

@@ -22,12 +22,12 @@ enum class LookPreset {
 /// A preset and what differs from it. Nothing: as the preset has it.
 struct LookRequest {
   LookPreset preset = LookPreset::publication;
-  std::optional<glm::vec3> light_direction;
-  std::optional<float> light_strength, ambient, roughness, specular, shininess;
-  std::optional<float> ambient_occlusion, ambient_occlusion_radius;
-  std::optional<float> silhouettes;  ///< pixels; of all lines but those named next
-  std::optional<float> outer_lines, inner_lines, part_lines;
-  std::optional<float> depth_cue;
+  std::optional<glm::vec3> light_direction{};
+  std::optional<float> light_strength{}, ambient{}, roughness{}, specular{}, shininess{};
+  std::optional<float> ambient_occlusion{}, ambient_occlusion_radius{};
+  std::optional<float> silhouettes{};  ///< pixels; of all lines but those named next
+  std::optional<float> outer_lines{}, inner_lines{}, part_lines{};
+  std::optional<float> depth_cue{};
   bool linear_alpha = false;  ///< transparent edges for programs that blend in linear light
 
   /// classic keeps what its pictures always were.

@@ -35,6 +35,7 @@ Shapes shapes_of(const Structure& all, const RepresentationRequest& request, con
 /// The scheme by which all shown atoms get the colours that those of the surface have.
 ColorScheme scheme_of_shown(const Structure& structure, std::size_t shown, ColorScheme scheme) {
   if (scheme.by == By::kind || scheme.by == By::component) scheme.by = By::element;
+  scheme.opacities.clear();  // those of the surface, which is seen through to show what is in it
   if (!scheme.has_scale()) return scheme;
   scheme.range = color_scale(structure, scheme).range;
   std::vector<double>& numbers = scheme.file.numbers;  // either of each atom of the file, or of each of the surface

@@ -22,10 +22,10 @@ struct ResidueName {
 /// A file of numbers: one an atom in order, or by atom, or by residue; only one of the three is filled. NaN: missing.
 struct NumberFile {
   std::string path;
-  std::vector<double> numbers;              ///< in the order of atoms
-  std::map<std::uint32_t, double> by_atom;  ///< by place in the molecule's file, from 0
-  std::map<ResidueName, double> by_residue;
-  std::string column;  ///< whose numbers these are; empty if columns have no names
+  std::vector<double> numbers{};              ///< in the order of atoms
+  std::map<std::uint32_t, double> by_atom{};  ///< by place in the molecule's file, from 0
+  std::map<ResidueName, double> by_residue{};
+  std::string column{};  ///< whose numbers these are; empty if columns have no names
 
   bool empty() const { return numbers.empty() && by_atom.empty() && by_residue.empty(); }
 };

@@ -230,8 +230,8 @@ class HydrogenBondPatterns {
     std::fill(kinds_.begin() + first, kinds_.begin() + last + 1, kind);
   }
 
-  /// A turn is a bond from i + length back to i; two in a row begin a helix. Those of 4 go before strands, strands
-  /// before those of 3 and 5.
+  /// A turn is a bond from i + length back to i; two in a row begin a helix. Those of 4 go before strands, and both
+  /// before those of 3 and 5, which need all their residues for themselves.
   void mark_helices() {
     const auto count = static_cast<std::uint32_t>(residues_.size());
     const auto turn = [&](std::uint32_t i, std::uint32_t length) {
@@ -242,7 +242,7 @@ class HydrogenBondPatterns {
       for (std::uint32_t i = 1; i + length < count; ++i) {
         if (!turn(i, length) || !turn(i - 1, length)) continue;
         const bool taken = std::any_of(kinds_.begin() + i, kinds_.begin() + i + length,
-                                       [&](SecondaryStructure kind) { return kind == SecondaryStructure::strand; });
+                                       [&](SecondaryStructure kind) { return kind != SecondaryStructure::coil; });
         if (length == 4 || !taken) begins.push_back(i);
       }
       for (const std::uint32_t i : begins) mark(i, i + length - 1, SecondaryStructure::helix);

@@ -51,11 +51,14 @@ TEST_F(RenderCommand, ASavedCameraTakesTheSamePicture) {
 }
 
 TEST_F(RenderCommand, FiguresAreChecked) {
-  for (const auto& [option, value, why] :
-       {std::tuple{"--clip", "x=3", "there is no < or >"}, {"--clip", "q<3", "three numbers"},
-        {"--clip", "x<1<2", "one number"}, {"--cap-color", "crimsonish", "neither atom nor #rrggbb"},
-        {"--cap-hatching", "-1", "--cap-hatching"}, {"--opacity", "2", "--opacity"}, {"--sticks", "resid", "--sticks"},
-        {"--stick-radius", "0", "--stick-radius"}}) {
+  for (const auto& [option, value, why] : {std::tuple{"--clip", "x=3", "there is no < or >"},
+                                           {"--clip", "q<3", "three numbers"},
+                                           {"--clip", "x<1<2", "one number"},
+                                           {"--cap-color", "crimsonish", "neither atom nor #rrggbb"},
+                                           {"--cap-hatching", "-1", "--cap-hatching"},
+                                           {"--opacity", "2", "--opacity"},
+                                           {"--sticks", "resid", "--sticks"},
+                                           {"--stick-radius", "0", "--stick-radius"}}) {
     const ProgramResult result = render({"-o", path("c.png"), option, value});
     EXPECT_EQ(result.exit_code, 2) << option << " " << value;
     EXPECT_NE(result.err.find(option), std::string::npos) << result.err;
@@ -85,6 +88,14 @@ TEST_F(RenderCommand, FiguresAreOtherPicturesOfTheSameSize) {
     pictures.insert(test::read_bytes(path("f.png")));
   }
   EXPECT_EQ(pictures.size(), figures.size());
+}
+
+TEST_F(RenderCommand, OpacityIsOfTheSurfaceAndNotOfWhatStandsBesideIt) {
+  const std::string nothing = "the picture shows nothing";
+  EXPECT_NE(render({"-o", path("a.png"), "--opacity", "0"}).err.find(nothing), std::string::npos);
+  const ProgramResult beside = render({"-o", path("b.png"), "--opacity", "0", "--spheres", "all"});
+  EXPECT_EQ(beside.exit_code, 0) << beside.err;
+  EXPECT_EQ(beside.err.find(nothing), std::string::npos) << beside.err;
 }
 
 TEST_F(RenderCommand, LooksAreChecked) {
@@ -186,7 +197,6 @@ TEST_F(RenderCommand, KeepsWhatExists) {
 TEST_F(RenderCommand, RefusesWithTheRightExitCode) {
   const std::string camera = folder_.file("bad.json", "{\"position\":[0,0,0]");
   const std::vector<std::pair<int, std::vector<std::string>>> cases{
-      {2, {}},
       {2, {"-o", path("a.png"), "--aovs"}},
       {2, {"-o", path("a.png"), "--background", "plaid"}},
       {2, {"-o", path("a.png"), "--samples", "0"}},

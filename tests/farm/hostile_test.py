@@ -229,11 +229,11 @@ class Hostile(FarmCase):
     def test_every_option_is_known_to_the_list_or_refused_on_purpose(self):
         """A new option of a command that can be bundled is looked at before it gets into bundles."""
         refused = {"--output", "--force", "--only", "--progress", "--save-camera", "--device", "--threads",
-                   "--require-gpu", "--jobs", "--help", "--aovs", "--stats"}
+                   "--require-gpu", "--jobs", "--help", "--help-all", "--aovs", "--stats", "--legend-file"}
         manifest = json.loads((self.render / "bundle.json").read_text())
         names = set()
         for command in (("render",), ("export", "povray"), ("export", "blender")):
-            text = self.meniscus(*command, "--help").stdout
+            text = self.meniscus(*command, "--help-all").stdout
             names |= {name for line in text.splitlines() if line.startswith("  -")
                       for name in line.split()[0].split(",") if name.startswith("--")}
         self.assertTrue(names >= refused and len(names) > 60, names)

@@ -48,7 +48,7 @@ class Installation(unittest.TestCase):
     def options(self, words):
         """The names of a command's options, as its help has them."""
         names = []
-        for line in self.good(self.program, *words, "--help").stdout.splitlines():
+        for line in self.good(self.program, *words, "--help-all").stdout.splitlines():
             if line.startswith("  -"):
                 names += [name for name in line.split()[0].split(",") if name.startswith("-")]
         return names

@@ -39,9 +39,8 @@ TEST(PovrayCommand, TextOfAMoleculeNeverReachesTheScene) {
                                                "--sticks", "all", "-o", (folder.path() / scene).string()});
       ASSERT_EQ(run.exit_code, 0) << run.err;
     }
-    for (const char* const file :
-         {"surface.ini", "surface.pov", "surface_style.inc", "surface_aov.inc", "surface_geometry.inc",
-          "surface_shapes.inc"}) {
+    for (const char* const file : {"surface.ini", "surface.pov", "surface_style.inc", "surface_aov.inc",
+                                   "surface_geometry.inc", "surface_shapes.inc"}) {
       const std::string text = test::read_bytes(folder.path() / "b" / file);
       for (const char* const word : {"#fopen", "passwd", "#error", "write //"})
         EXPECT_EQ(text.find(word), std::string::npos) << word << " in " << file;
