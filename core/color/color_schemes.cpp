@@ -114,12 +114,15 @@ ColorRule parse_color_rule(std::string_view text) {
 
 std::vector<std::string> rules_without_atoms(const Structure& structure, const ColorScheme& scheme) {
   std::vector<std::string> texts;
-  const auto look = [&](const Selection& atoms) {
-    if (std::ranges::none_of(atoms.evaluate(structure.atoms), std::identity())) texts.push_back(atoms.text());
+  const auto means_some = [](const Selection& atoms, std::span<const Atom> among) {
+    return std::ranges::any_of(atoms.evaluate(among), std::identity());
   };
-  for (const ColorRule& rule : scheme.rules) look(rule.atoms);
+  // Opacity is of the surface alone; sticks and the like beside it have colours, too.
+  for (const ColorRule& rule : scheme.rules)
+    if (!means_some(rule.atoms, structure.atoms) && !means_some(rule.atoms, structure.beside))
+      texts.push_back(rule.atoms.text());
   for (const OpacityRule& rule : scheme.opacities)
-    if (rule.atoms) look(*rule.atoms);
+    if (rule.atoms && !means_some(*rule.atoms, structure.atoms)) texts.push_back(rule.atoms->text());
   return texts;
 }
 
