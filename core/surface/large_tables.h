@@ -18,11 +18,12 @@ inline void populate(void* begin, std::size_t bytes) {
 #ifdef MADV_POPULATE_WRITE
   constexpr std::size_t kPage = 4096, kChunk = 1 << 20, kWorthIt = 32 << 20;
   if (bytes < kWorthIt) return;
-  const std::size_t first = (reinterpret_cast<std::uintptr_t>(begin) + kPage - 1) / kPage * kPage;
-  const std::size_t past = (reinterpret_cast<std::uintptr_t>(begin) + bytes) / kPage * kPage;
+  const auto address = reinterpret_cast<std::uintptr_t>(begin);
+  const std::size_t first = (address + kPage - 1) / kPage * kPage - address;  // of whole pages, from `begin`
+  const std::size_t past = (address + bytes) / kPage * kPage - address;
   tbb::parallel_for(std::size_t{0}, (past - first + kChunk - 1) / kChunk, [&](std::size_t chunk) {
     const std::size_t from = first + chunk * kChunk, size = past - from < kChunk ? past - from : kChunk;
-    ::madvise(reinterpret_cast<void*>(from), size, MADV_POPULATE_WRITE);
+    ::madvise(static_cast<std::byte*>(begin) + from, size, MADV_POPULATE_WRITE);
   });
 #else
   static_cast<void>(begin);
