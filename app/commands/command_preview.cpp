@@ -94,6 +94,8 @@ Shown read_inputs(PreviewCommand& command) {
         ViewAim(picture, command.molecule.show, shown.structure).camera(picture, camera, balls_of(shown.structure));
   if (!shown.structure.instances.empty())
     throw UsageError("--instances is for render and export; the preview draws atoms");
+  if (command.molecule.color.by == ColorScheme::By::volume)
+    throw UsageError("--color-map-file is for render and export ply; leave it out");
   command.molecule.color = color_of(command.molecule);
   return shown;
 }

@@ -153,7 +153,7 @@ void run(const RenderCommand& command) {
   const PictureLayout layout(command, key_of(figure.molecule));
   const Annotations annotations = annotations_of(command.annotations, figure.molecule.structure);
   const Camera camera = aim.camera(layout.size, given, figure.molecule.objects);
-  PictureDevice device(command.molecule.surface);
+  PictureDevice device(picture_request(command));
   SurfaceRenderer& renderer = device.renderer();
   Framebuffer picture = draw(renderer, std::move(figure), command.figure, camera, timed_settings(command, layout));
   finish(command, layout, annotations, std::move(picture), camera);
@@ -177,6 +177,13 @@ ImageSettings image_settings(const RenderCommand& command) {
   settings.names_program = command.names_program;
   if (command.provenance) settings.command = command_line();
   return settings;
+}
+
+SurfaceRequest picture_request(const RenderCommand& command) {
+  SurfaceRequest request = command.molecule.surface;
+  // Volume maps are looked up point by point on the CPU.
+  request.cpu = request.cpu || command.molecule.color.by == ColorScheme::By::volume;
+  return request;
 }
 
 RenderSettings render_settings(const RenderCommand& command, const PictureLayout& layout) {

@@ -84,6 +84,8 @@ void run_sequence(const PovrayCommand& command) {
 }
 
 void run(const PovrayCommand& command) {
+  if (command.molecule.color.by == ColorScheme::By::volume)
+    throw UsageError("--color-map-file: a POV-Ray scene has colours of atoms only; use render, or export ply");
   if (command.frames.asked()) return run_sequence(command);
   if (command.run_camera.moves()) throw UsageError(kMovesWithoutFrames);
   const std::optional<Camera> given = given_camera(command.picture);

@@ -50,6 +50,8 @@ struct PictureLayout {
   PictureLayout(const RenderCommand& command, const ColorKey& key);
 };
 
+/// On what pictures are made.
+SurfaceRequest picture_request(const RenderCommand& command);
 RenderSettings render_settings(const RenderCommand& command, const PictureLayout& layout);
 
 /// How the pictures are written.

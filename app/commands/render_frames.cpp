@@ -115,7 +115,7 @@ class CompletePainter {
  public:
   CompletePainter(const RunPictures& run, const FrameRun& frames)
       : run_(run),
-        device_(run.command.molecule.surface),
+        device_(picture_request(run.command)),
         builders_(frame_builders(frames, run.command.molecule, run.command.frames, bytes_of_frame(run, frames),
                                  device_.context())) {}
 

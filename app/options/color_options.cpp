@@ -70,7 +70,7 @@ bool has_base(const CLI::Option& scheme) {
 }
 
 constexpr const char* kForNumbers =
-    "is for colours by a number: bfactor, occupancy, charge, hydrophobicity, index, radial, file";
+    "is for colours by a number: bfactor, occupancy, charge, hydrophobicity, index, radial, file, a volume map";
 
 /// What can only be said once all colour options are known, whatever their order.
 void check_together(const MoleculeOptions& options, const CLI::Option& scheme, const CLI::Option& file) {
@@ -135,10 +135,35 @@ void add_color_options(CLI::App& command, MoleculeOptions& options) {
       "Numbers at the ends of the map, or auto (default: smallest and largest; charge symmetric about 0; "
       "hydrophobicity -4.5:4.5)",
       "LO:HI");
-  add("--missing-color", parse_missing, "Of atoms without a number [#808080; with cividis #cc79a7]", "COLOR");
-  command.parse_complete_callback([&options, scheme, file] {
+  CLI::Option* const volume =
+      command
+          .add_option("--color-map-file", options.volume_file,
+                      "Colour each point of the surface by a volume map, such as a potential of APBS: OpenDX (.dx), "
+                      "Gaussian cube, CCP4/MRC; needs --color-range; map red-white-blue unless told otherwise")
+          ->excludes(file)
+          ->type_name("FILE");
+  command
+      .add_option(
+          "--map-offset", options.volume_offset,
+          "Sample that map so many Å outside of the surface, along its normal; 1.4 is where solvent's centres are [0]")
+      ->check(CLI::Range(-20.0, 20.0).description(""))
+      ->needs(volume)
+      ->type_name("Å");
+  command.add_option("--color-title", color.title, "Title of the legend's scale")->type_name("TEXT");
+  command.add_option("--color-unit", color.unit, "Its unit, such as kT/e")->type_name("TEXT");
+  add("--missing-color", parse_missing,
+      "Of atoms without a number, and points outside of a volume map [#808080; cividis #cc79a7; consurf #ffff96]",
+      "COLOR");
+  command.parse_complete_callback([&options, scheme, file, volume] {
     // Numbers that no --color speaks of are for all atoms.
     if (!file->empty() && !has_base(*scheme) && !options.color.uses_file()) options.color.by = By::file;
+    if (!volume->empty()) {
+      if (has_base(*scheme))
+        throw CLI::ValidationError("--color-map-file", "is itself a --color; leave the other one out, but EXPR=COLOR");
+      if (!options.color.range)
+        throw CLI::ValidationError("--color-map-file", "needs --color-range LO:HI, such as -5:5 for kT/e");
+      options.color.by = By::volume;
+    }
     check_together(options, *scheme, *file);
   });
 }

@@ -11,8 +11,9 @@
 #include <tuple>
 #include <vector>
 
-#include "core/color/color_scale.h"
+#include "core/color/color_key.h"
 #include "core/color/named_colors.h"
+#include "core/color/volume_paint.h"
 
 namespace meniscus {
 namespace {
@@ -61,6 +62,10 @@ void paint(const Structure& structure, std::span<const std::uint32_t> atom, cons
     const std::vector<glm::vec3> colors = colors_of(structure, rule.paint);
     for (std::size_t n = 0; n < atom.size(); ++n)
       if (meant[atom[n]]) coloring.atom[n] = colors[atom[n]];
+    if (!coloring.volume) continue;
+    coloring.own_color.resize(atom.size(), false);
+    for (std::size_t n = 0; n < atom.size(); ++n)
+      if (meant[atom[n]]) coloring.own_color[n] = true;
   }
 }
 
@@ -100,6 +105,9 @@ Coloring color_object(const Structure& structure, std::span<const std::uint32_t>
     coloring.kind = kPatchKindColors;
   } else if (scheme.by == By::component) {
     coloring.atom.assign(atom.size(), categorical_color(object_number));
+  } else if (scheme.by == By::volume) {
+    coloring.atom.assign(atom.size(), scheme.volume->scale.missing_color);
+    coloring.volume = scheme.volume;
   } else if (scheme.by == By::fixed) {
     coloring.atom.assign(atom.size(), scheme.fixed);
   } else {

@@ -4,7 +4,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "core/color/color_scale.h"
+#include "core/color/color_key.h"
 
 namespace meniscus {
 

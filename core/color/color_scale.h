@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What colours mean: the scale of a scheme of numbers, the names of a scheme of classes. Legends, JSON and exporters
-// all take it from here.
+// The numbers atoms are coloured by, and the colours that they have.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <memory>
-#include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -32,28 +29,5 @@ struct ColorScale {
   /// sRGB. Beyond the range: the colour of its end. All numbers equal: the middle of the map. NaN: missing_color.
   glm::vec3 color(double number) const;
 };
-
-/// The scale of a scheme that has one. Automatic ranges are the smallest and the largest number; for charges symmetric
-/// about 0; for hydrophobicity the ends of its scale, -4.5 and 4.5. Default maps: charge red-white-blue (negative is
-/// red), hydrophobicity blue-white-red, others viridis. Throws as color_atoms does.
-ColorScale color_scale(const Structure& structure, const ColorScheme& scheme);
-
-/// A name and its colour.
-struct ColorClass {
-  std::string name;  ///< may come from a molecule file
-  glm::vec3 color{0.0f};
-};
-
-/// What a legend says: a scale, or classes, or both where rules stand beside a scale, or neither for one fixed colour.
-struct ColorKey {
-  std::string title;  ///< "chain", "element", ...; the scale has its own
-  std::optional<ColorScale> scale;
-  /// Those that occur, in order of first appearance; then those of rules that paint atoms in one colour, by their
-  /// expressions.
-  std::vector<ColorClass> classes;
-};
-
-/// object_names: for ColorScheme::By::component. Throws as color_atoms does.
-ColorKey color_key(const Structure& structure, const ColorScheme& scheme, std::span<const std::string> object_names);
 
 }  // namespace meniscus

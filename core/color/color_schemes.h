@@ -29,6 +29,7 @@ struct OpacityRule {
 };
 
 struct ColorRule;
+struct VolumePaint;
 
 /// A wish such as "chain" or "#e69f00", and what some atoms get instead.
 struct ColorScheme {
@@ -47,7 +48,8 @@ struct ColorScheme {
     hydrophobicity,  ///< Kyte & Doolittle 1982
     index,           ///< place in the file
     radial,          ///< distance from the middle of all atoms
-    file             ///< numbers of a file of the user's own
+    file,            ///< numbers of a file of the user's own
+    volume           ///< a volume map, at each point of the surface
   };
   By by = By::element;
   glm::vec3 fixed{0.8f};                       ///< sRGB in [0, 1], for By::fixed
@@ -56,6 +58,8 @@ struct ColorScheme {
   std::optional<std::array<double, 2>> range;  ///< numbers at both ends of the map; nothing: automatic (color_scale)
   std::optional<glm::vec3> missing;            ///< of atoms without a number; nothing: default_missing_color
   NumberFile file;                             ///< for By::file
+  std::shared_ptr<const VolumePaint> volume;   ///< for By::volume
+  std::string title, unit;                     ///< of the scale; empty: its own
   std::vector<ColorRule> rules;                ///< over all this; of several that speak of an atom the last counts
   std::vector<OpacityRule> opacities;          ///< and so here
 

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -11,12 +12,18 @@
 
 namespace meniscus {
 
+struct VolumePaint;
+
 /// Colours in sRGB, each channel in [0, 1].
 /// A point on a toroidal or concave patch takes the colour of the touched atom a whose contact direction
 /// (c_a - s)/|c_a - s|, seen from the probe centre s, is nearest to (x - s)/p: borders of colour are planes through s.
 struct Coloring {
   std::vector<glm::vec3> atom;                   ///< one per Surface::atoms
   std::optional<std::array<glm::vec3, 3>> kind;  ///< if set, this by PatchKind (convex, toroidal, concave) instead
+  /// If set, points take their colours from this map instead, but those of atoms with own_color.
+  std::shared_ptr<const VolumePaint> volume;
+  std::vector<bool> own_color;  ///< empty: none; else one per Surface::atoms
+
   /// Empty: everything is drawn. Else one per Surface::atoms: points that take the colour of an atom marked here are
   /// not drawn, in pictures and in exports, whatever colours are by.
   std::vector<bool> hidden;
@@ -29,6 +36,8 @@ struct Coloring {
   /// meet.
   std::vector<std::uint32_t> part;
 
+  /// Whether the map colours the points of this atom.
+  bool by_volume(std::uint32_t a) const { return volume && (own_color.empty() || !own_color[a]); }
   bool shows(std::uint32_t a) const { return (hidden.empty() || !hidden[a]) && opacity_of(a) > 0.0f; }
   float opacity_of(std::uint32_t a) const { return opacity.empty() ? 1.0f : opacity[a]; }
   /// Whether points of some atom are not drawn, or let through what lies behind them.

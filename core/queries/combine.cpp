@@ -149,6 +149,7 @@ void append_coloring(Coloring& whole, const Coloring& part, std::size_t atoms_be
     const std::uint32_t before = whole.part.empty() ? 0 : *std::ranges::max_element(whole.part) + 1;
     std::ranges::transform(part.part, std::back_inserter(whole.part), [&](std::uint32_t n) { return before + n; });
   }
+  append_column(whole.own_color, part.own_color, atoms_before, atoms, false);
   append_column(whole.hidden, part.hidden, atoms_before, atoms, false);
   append_column(whole.opacity, part.opacity, atoms_before, atoms, 1.0f);
 }
@@ -180,6 +181,7 @@ SurfaceObject merged(std::vector<SurfaceObject> objects) {
   if (objects.empty()) return whole;
   whole.name = objects.front().name;
   whole.coloring.kind = objects.front().coloring.kind;
+  whole.coloring.volume = objects.front().coloring.volume;
   for (SurfaceObject& object : objects) {
     assert(object.coloring.kind == whole.coloring.kind);
     for (const RigidMotion& copy : object.copies) {

@@ -9,7 +9,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-#include "core/color/color_scale.h"
+#include "core/color/color_key.h"
 #include "core/render/framebuffer.h"
 #include "core/render/text_raster.h"
 

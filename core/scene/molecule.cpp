@@ -12,6 +12,8 @@
 #include "core/base/error.h"
 #include "core/queries/combine.h"
 #include "core/color/color_atoms.h"
+#include "core/color/volume_paint.h"
+#include "core/volume/read_volume.h"
 #include "core/trajectory/formats/formats.h"
 
 namespace meniscus {
@@ -24,6 +26,21 @@ void refuse_trajectory(const std::string& path) {
                    fmt::format("is a trajectory ({}) and holds no atoms; give their structure or topology as FILE, and "
                                "this one with --trajectory",
                                format));
+}
+
+/// Potentials inside a molecule are huge, so that no range of the whole map says anything about its surface.
+std::shared_ptr<const VolumePaint> volume_paint(const MoleculeRequest& request, const ColorScheme& color) {
+  if (!color.range)
+    throw RequestError("--color-map-file needs --color-range LO:HI, the values at the ends of the map, such as -5:5");
+  VolumeGrid grid = read_volume(request.volume_file);
+  ColorScale scale;
+  scale.title = !color.title.empty() ? color.title : !grid.title.empty() ? grid.title : "volume map";
+  scale.unit = !color.unit.empty() ? color.unit : grid.unit;
+  scale.map = color.map.value_or(ColorMap::red_white_blue);
+  scale.own_map = color.own_map;
+  scale.range = *color.range;
+  scale.missing_color = color.missing.value_or(default_missing_color(scale.map));
+  return std::make_shared<VolumePaint>(VolumePaint{std::move(grid), std::move(scale), request.volume_offset});
 }
 
 }  // namespace
@@ -41,6 +58,7 @@ ColorScheme color_of(const MoleculeRequest& request) {
   if (color.uses_file()) color.set_numbers(read_number_file(request.number_file, request.number_column));
   if (!request.map_file.empty()) color.own_map = std::make_shared<ColorRamp>(read_color_ramp(request.map_file));
   color.share_scale();
+  if (color.by == ColorScheme::By::volume) color.volume = volume_paint(request, color);
   return color;
 }
 

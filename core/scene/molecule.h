@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/base/stage_clock.h"
-#include "core/color/color_scale.h"
+#include "core/color/color_key.h"
 #include "core/queries/surface_object.h"
 #include "core/scene/representations.h"
 #include "core/scene/surface_computer.h"
@@ -30,6 +30,8 @@ struct MoleculeRequest {
   Representations representations;  ///< what is drawn beside the surface, of whatever atoms of the file
   std::string number_file;          ///< numbers to colour by, for ColorScheme::By::file
   std::string number_column;        ///< of a number file that is a table
+  std::string volume_file;          ///< a volume map to colour by, for ColorScheme::By::volume
+  double volume_offset = 0.0;       ///< Å outside of the surface where it is sampled
   std::string map_file;             ///< a colour map of the user's own; empty: none
 };
 

@@ -7,7 +7,7 @@
 
 #include "core/base/error.h"
 #include "core/color/color_atoms.h"
-#include "core/color/color_scale.h"
+#include "core/color/color_key.h"
 #include "core/shapes/backbone.h"
 
 namespace meniscus {
@@ -34,7 +34,7 @@ Shapes shapes_of(const Structure& all, const RepresentationRequest& request, con
 
 /// The scheme by which all shown atoms get the colours that those of the surface have.
 ColorScheme scheme_of_shown(const Structure& structure, std::size_t shown, ColorScheme scheme) {
-  if (scheme.by == By::kind || scheme.by == By::component) scheme.by = By::element;
+  if (scheme.by == By::kind || scheme.by == By::component || scheme.by == By::volume) scheme.by = By::element;
   scheme.opacities.clear();  // those of the surface, which is seen through to show what is in it
   if (!scheme.has_scale()) return scheme;
   scheme.range = color_scale(structure, scheme).range;

@@ -12,6 +12,7 @@
 #include <cstring>
 #include <memory>
 #include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -192,12 +193,21 @@ void refuse_long_lines(const std::string& path, std::string_view text) {
 
 }  // namespace
 
-TextFile read_text_file(const std::string& given, std::size_t largest) {
+std::string read_file_bytes(const std::string& given, std::size_t largest) {
   const bool standard_input = given == "-";
   const std::string path = standard_input ? "standard input" : given;
-  TextFile file{path, standard_input ? read_standard_input(path, largest) : read_bytes(path, largest)};
+  std::string bytes = standard_input ? read_standard_input(path, largest) : read_bytes(path, largest);
+  if (bytes.starts_with("\x1f\x8b")) bytes = unpack_gzip(path, bytes, largest);
+  return bytes;
+}
+
+TextFile read_text_file(const std::string& path, std::size_t largest) {
+  return text_of_bytes(path == "-" ? "standard input" : path, read_file_bytes(path, largest));
+}
+
+TextFile text_of_bytes(const std::string& path, std::string bytes) {
+  TextFile file{path, std::move(bytes)};
   std::string& text = file.text;
-  if (text.starts_with("\x1f\x8b")) text = unpack_gzip(path, text, largest);
   if (text.starts_with("\xef\xbb\xbf")) text.erase(0, 3);
   refuse_other_containers(path, text);
   if (const std::size_t nul = text.find('\0'); nul != std::string::npos) {

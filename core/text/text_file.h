@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <string>
+#include <string_view>
 
 namespace meniscus {
 
@@ -18,5 +19,11 @@ struct TextFile {
 /// or changed while it was read, other than by appending, of which nothing is seen; CapacityError: more than `largest`
 /// bytes after unpacking, or a line above 1 MiB.
 TextFile read_text_file(const std::string& path, std::size_t largest = std::size_t{2} << 30);
+
+/// The text of bytes that were read already, vetted as read_text_file does; path: for messages.
+TextFile text_of_bytes(const std::string& path, std::string bytes);
+
+/// The same for a file that may be binary: its bytes, unpacked, with nothing changed or looked at.
+std::string read_file_bytes(const std::string& path, std::size_t largest = std::size_t{2} << 30);
 
 }  // namespace meniscus

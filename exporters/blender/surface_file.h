@@ -9,7 +9,7 @@
 
 #include "core/base/output_file.h"
 #include "core/camera/camera.h"
-#include "core/color/color_scale.h"
+#include "core/color/color_key.h"
 #include "core/queries/surface_object.h"
 #include "exporters/blender/shot.h"
 #include "exporters/mesh/triangle_mesh.h"

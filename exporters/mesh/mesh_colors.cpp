@@ -6,6 +6,8 @@
 
 #include <glm/common.hpp>
 
+#include "core/color/volume_paint.h"
+
 namespace meniscus {
 
 glm::vec3 triangle_color(const TriangleMesh& mesh, const Coloring& coloring, std::size_t triangle) {
@@ -24,7 +26,20 @@ std::vector<glm::vec3> vertex_colors(const TriangleMesh& mesh, const Coloring& c
     }
   }
   for (std::size_t v = 0; v < sum.size(); ++v) sum[v] /= std::max(count[v], 1.0f);
+  if (!coloring.volume) return sum;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    if (coloring.by_volume(mesh.atom[t]))
+      for (const std::uint32_t v : mesh.triangles[t])
+        sum[v] = coloring.volume->color(mesh.positions[v], mesh.normals[v]);
   return sum;
+}
+
+std::vector<float> vertex_map_values(const TriangleMesh& mesh, const VolumePaint& volume) {
+  std::vector<float> values;
+  values.reserve(mesh.positions.size());
+  for (std::size_t v = 0; v < mesh.positions.size(); ++v)
+    values.push_back(static_cast<float>(volume.value(mesh.positions[v], mesh.normals[v])));
+  return values;
 }
 
 std::vector<std::uint32_t> vertex_atoms(const TriangleMesh& mesh) {

@@ -14,8 +14,12 @@ namespace meniscus {
 /// sRGB of a triangle: that of its patch kind or of its atom.
 glm::vec3 triangle_color(const TriangleMesh& mesh, const Coloring& coloring, std::size_t triangle);
 
-/// sRGB per vertex: the mean of the triangles around it, which blends colours over one triangle.
+/// sRGB per vertex: the mean of the triangles around it, which blends colours over one triangle; with a volume map its
+/// colour there.
 std::vector<glm::vec3> vertex_colors(const TriangleMesh& mesh, const Coloring& coloring);
+
+/// Per vertex what the map says there; NaN outside of it.
+std::vector<float> vertex_map_values(const TriangleMesh& mesh, const VolumePaint& volume);
 
 /// Per vertex the atom of one of its triangles (the one with the lowest index), for scalars of atoms.
 std::vector<std::uint32_t> vertex_atoms(const TriangleMesh& mesh);

@@ -41,6 +41,7 @@ void write_ply(const std::string& path, Existing existing, const TriangleMesh& m
   for (const char* name : {"x", "y", "z", "nx", "ny", "nz"}) header += fmt::format("property float {}\n", name);
   for (const char* name : {"red", "green", "blue"}) header += fmt::format("property uchar {}\n", name);
   for (const AtomScalar& scalar : scalars) header += fmt::format("property float {}\n", scalar.name);
+  if (coloring.volume) header += "property float map_value\n";
   for (const char* name : {"ses_kind", "ses_component"}) {
     header += fmt::format("property float {}\n", name);
   }
@@ -48,6 +49,7 @@ void write_ply(const std::string& path, Existing existing, const TriangleMesh& m
 
   const auto colors = vertex_colors(mesh, coloring);
   const auto atoms = vertex_atoms(mesh);
+  const auto map_values = coloring.volume ? vertex_map_values(mesh, *coloring.volume) : std::vector<float>();
   std::vector<std::size_t> triangle_of(mesh.positions.size(), 0);
   for (std::size_t t = mesh.triangles.size(); t-- > 0;) {
     for (const std::uint32_t v : mesh.triangles[t]) triangle_of[v] = t;
@@ -58,6 +60,7 @@ void write_ply(const std::string& path, Existing existing, const TriangleMesh& m
     for (int k = 0; k < 3; ++k) rows.put(static_cast<float>(mesh.normals[v][k]));
     for (int k = 0; k < 3; ++k) rows.put(byte_of(colors[v][k]));
     for (const AtomScalar& scalar : scalars) rows.put(scalar.values[atoms[v]]);
+    if (coloring.volume) rows.put(map_values[v]);
     rows.put(static_cast<float>(mesh.kind[triangle_of[v]]));
     rows.put(static_cast<float>(mesh.component[triangle_of[v]]));
   }

@@ -10,7 +10,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "core/color/color_scale.h"
+#include "core/color/color_key.h"
 #include "core/base/output_file.h"
 #include "core/queries/colored_shapes.h"
 #include "core/queries/surface_object.h"

@@ -11,7 +11,7 @@
 #include <glm/vec3.hpp>
 
 #include "core/base/output_file.h"
-#include "core/color/color_scale.h"
+#include "core/color/color_key.h"
 #include "core/queries/colored_shapes.h"
 
 namespace meniscus::povray {

@@ -73,6 +73,60 @@ TEST_F(ColorCommand, RulesPaintOverTheSchemeWhateverTheOrder) {
   EXPECT_NE(typo.err.find("no atom used is meant by 'chain b'"), std::string::npos) << typo.err;
 }
 
+/// A map from -1 at x = -5 to 1 at x = 5, 20 Å wide along y and z.
+std::string linear_map() {
+  return "object 1 class gridpositions counts 2 2 2\norigin -5 -10 -10\ndelta 10 0 0\ndelta 0 20 0\ndelta 0 0 20\n"
+         "object 2 class gridconnections counts 2 2 2\nobject 3 class array type double rank 0 items 8 data follows\n"
+         "-1 -1 -1\n-1 1 1\n1 1\n";
+}
+
+TEST_F(ColorCommand, VolumeMapsColorThePointsOfTheSurface) {
+  const std::string map = folder_.file("linear.dx", linear_map());
+  const std::vector<std::string> plain{"--color-map-file", map, "--color-range", "-1:1"};
+  const auto with = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> all = plain;
+    all.insert(all.end(), more.begin(), more.end());
+    return picture(all);
+  };
+  const std::string shown = with({});
+  EXPECT_EQ(with({"--device", "software"}), shown);
+  EXPECT_NE(with({"--map-offset", "1.4"}), shown);
+  EXPECT_NE(with({"--color", "chain B=green"}), shown);
+  EXPECT_EQ(with({"--color", "all=green"}), picture({"--color", "green"}));
+  EXPECT_NE(with({"--legend", "--color-title", "potential", "--color-unit", "kT/e"}), with({"--legend"}));
+  EXPECT_EQ(with({"--map-offset", "20", "--missing-color", "green"}), picture({"--color", "green"}));
+  const std::pair<std::vector<std::string>, std::string> refused[] = {
+      {{"--color-map-file", map}, "needs --color-range"},
+      {{"--color-map-file", map, "--color-range", "-1:1", "--color", "chain"}, "leave the other one out"},
+      {{"--color-map-file", path("nowhere"), "--color-range", "-1:1"}, "cannot be read"},
+      {{"--color-map-file", file_, "--color-range", "-1:1"}, "is none of the volume maps"},
+      {{"--map-offset", "1"}, "--color-map-file"},
+      {{"--color-map-file", map, "--color-range", "-1:1", "--extent", "visible"}, "--color-map-file"}};
+  for (const auto& [arguments, reason] : refused) {
+    const ProgramResult result = render("refused.png", arguments);
+    EXPECT_NE(result.exit_code, 0) << reason;
+    EXPECT_NE(result.err.find(reason), std::string::npos) << result.err;
+  }
+  for (const char* format : {"povray", "blender"})
+    EXPECT_EQ(meniscus({"export", format, file_, "-o", path("e"), "--color-map-file", map, "--color-range", "-1:1"})
+                  .exit_code,
+              2);
+  const ProgramResult mesh =
+      meniscus({"export", "ply", file_, "-o", path("m.ply"), "--color-map-file", map, "--color-range", "-1:1", "-q"});
+  EXPECT_EQ(mesh.exit_code, 0) << mesh.err;
+  EXPECT_NE(test::read_bytes(path("m.ply")).find("property float map_value\n"), std::string::npos);
+}
+
+TEST_F(ColorCommand, OurOwnTablesOfAreasColor) {
+  ASSERT_EQ(meniscus({"surface", file_, "--csv-residues", path("r.csv"), "--csv", path("a.csv"), "-q"}).exit_code, 0);
+  const std::string by_residue = picture({"--color-by-file", path("r.csv"), "--color-column", "sas_area"});
+  EXPECT_NE(by_residue, picture({}));
+  EXPECT_EQ(picture({"--color-by-file", path("a.csv"), "--color-column", "sas_area"}), by_residue);  // one atom each
+  EXPECT_NE(picture({"--color-by-file", path("r.csv"), "--color-column", "sas_area", "--map-file",
+                     folder_.file("ramp", "red\nblue\n")}),
+            by_residue);
+}
+
 TEST_F(ColorCommand, OpacityZeroHidesAsShowDoes) {
   // --show frames what is shown, so that all look through one camera.
   ASSERT_EQ(render("all.png", {"--save-camera", path("camera.json")}).exit_code, 0);

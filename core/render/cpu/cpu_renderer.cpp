@@ -87,6 +87,9 @@ void CpuRenderer::pack(const Surface& surface, const Coloring& coloring, const C
   scene_.placement = place_atoms(surface.atoms, surface.probe_radius, frame_);
   scene_.colors = linear_colors(coloring);
   scene_.parts.assign(coloring.part.begin(), coloring.part.end());
+  scene_.lanes.paint = {};
+  scene_.keeps_color.clear();
+  scene_.add_paint(coloring, frame_.pivot);
   scene_.connect(settings.look, coloring.kind.has_value(), coloring.hides_some());
 }
 

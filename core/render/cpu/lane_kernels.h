@@ -20,6 +20,19 @@
 
 namespace meniscus {
 
+struct VolumePaint;
+
+/// Colours of points by a volume map, from outside of the kernels: what is seen only is asked.
+struct PointPaint {
+  const VolumePaint* map = nullptr;           ///< nullptr: colours are those of atoms
+  glm::dvec3 pivot{0.0};                      ///< Å: where positions count from
+  const std::uint8_t* keeps_color = nullptr;  ///< of atoms: whether they have their own
+};
+
+/// Linear, for a point of this atom. x: Å from the pivot; normal: towards the solvent.
+glm::vec3 painted(const PointPaint& paint, std::uint32_t atom, const glm::vec4& atom_color, const glm::vec3& x,
+                  const glm::vec3& normal);
+
 /// What a tile's rays are traced through; see gpu_shaders/ray_cast/records.glsl.
 struct LaneScene {
   const ray_cast::Primitive* primitives = nullptr;
@@ -27,6 +40,7 @@ struct LaneScene {
   const glm::vec4* colors = nullptr;  ///< linear, alpha: opacity, 0 if hidden; of atoms, then of kinds
   const float* parts = nullptr;       ///< of atoms, or nullptr
   bool some_hidden = false;
+  PointPaint paint;
   kernel::RayCastParameters params{};
   kernel::BlockView view{};  ///< but for its sample_offset
 };

@@ -126,8 +126,9 @@ class LayerBundle : Bundle {
     found = found && in_reach(rays, t);
     if (!some(found)) return;
     const Primitive& primitive = load_primitive(index);
-    const SurfacePoint point = point_of(primitive, rays.p + rays.d * t);
-    const real3 color = lit(albedo(found, natural(primitive.kind), point.atom), point.normal, rays.d);
+    const real3 x = rays.p + rays.d * t;
+    const SurfacePoint point = point_of(primitive, x);
+    const real3 color = lit(albedo(found, natural(primitive.kind), x, point), point.normal, rays.d);
     add(packet, found, t, natural(index), point, color);
   }
 

@@ -10,6 +10,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/color/volume_paint.h"
 #include "core/image/color_space.h"
 #include "core/render/shape_packing.h"
 
@@ -83,6 +84,7 @@ void LayeredScene::pack(Layer& layer, const ScenePlacement& placement, const Loo
   }
   layer.scene.colors = linear_colors(coloring);
   layer.scene.parts.assign(coloring.part.begin(), coloring.part.end());
+  if (object.surface) layer.scene.add_paint(coloring, frame_.pivot);
   const bool by_kind = object.surface && coloring.kind;
   if (!by_kind) layer.scene.colors.resize(coloring.atom.size());
   layer.scene.connect(look, by_kind, !cut && coloring.hides_some());
@@ -219,6 +221,11 @@ void LayeredScene::color_cap(const Layer& layer, std::uint32_t plane, const Lane
     cap.atom = a;
   });
   cap.color = layer.scene.colors[cap.atom];
+  const Coloring& coloring = *layer.object->coloring;
+  if (coloring.by_volume(cap.atom)) {
+    const VolumePaint& paint = *coloring.volume;
+    cap.color = glm::vec4(linear_from_srgb(paint.scale.color(paint.grid.sample(point))), cap.color.w);
+  }
   const CapStyle& style = layer.object->cap;
   if (style.color) cap.color = glm::vec4(linear_from_srgb(*style.color), cap.color.w);
   if (style.hatching > 0.0)

@@ -276,11 +276,31 @@ class Bundle : protected TracedScene {
       left &= ~bits(here);
     }
     shaded.color =
-        select(shaded.met, lit(albedo(shaded.met, rays.kind, shaded.atom), shaded.normal, rays.d), real3(0.0f));
+        select(shaded.met, lit(albedo(shaded.met, rays.kind, x, {shaded.normal, shaded.atom}), shaded.normal, rays.d),
+               real3(0.0f));
     return shaded;
   }
 
-  real3 albedo(truth met, natural kind, natural atom) const {
+  /// Of points on patches of these kinds.
+  real3 albedo(truth met, natural kind, const real3& x, const SurfacePoint& point) const {
+    return scene_.paint.map ? painted_albedo(met, x, point) : atom_albedo(met, kind, point.atom);
+  }
+
+  /// Where a volume map colours points.
+  real3 painted_albedo(truth met, const real3& x, const SurfacePoint& point) const {
+    real3 result(0.0f);
+    for (uint left = bits(met); left != 0; left &= left - 1) {
+      const int n = std::countr_zero(left);
+      const uint atom = lane(point.atom, n);
+      const vec3 seen = painted(scene_.paint, atom, scene_.colors[atom], lane_of(x, n), lane_of(point.normal, n));
+      result.x.v[n] = seen.x;
+      result.y.v[n] = seen.y;
+      result.z.v[n] = seen.z;
+    }
+    return result;
+  }
+
+  real3 atom_albedo(truth met, natural kind, natural atom) const {
     real3 result(0.0f);
     for (uint left = bits(met); left != 0; left &= left - 1) {
       const int n = std::countr_zero(left);

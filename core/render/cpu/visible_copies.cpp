@@ -136,6 +136,7 @@ void VisibleCopies::add(const Copy& copy, RayCastScene part, HostScene& scene) c
   const std::vector<glm::vec4>& colors = colors_[copy.object];
   if (coloring.kind && !scene.colors.empty()) scene.colors.resize(scene.colors.size() - coloring.kind->size());
   shift_atoms(part, static_cast<std::uint32_t>(scene.colors.size()));
+  scene.add_paint(coloring, frame_.pivot);
   scene.colors.insert(scene.colors.end(), colors.begin(), colors.end());
   for (const std::uint32_t n : coloring.part) scene.parts.push_back(static_cast<float>(copy.first_part + n));
   append_kept(

@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Finds numbers, ranges and names of what a structure is coloured by.
+#include "core/color/color_key.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/color/named_colors.h"
+#include "core/color/volume_paint.h"
+#include "core/structure/radii.h"
+
+namespace meniscus {
+namespace {
+
+using By = ColorScheme::By;
+
+[[noreturn]] void no_atom_named(const Structure& structure, const NumberFile& file, const char* what,
+                                std::size_t count) {
+  throw InputError(file.path, 0,
+                   fmt::format("names {} {}, none of which is among the atoms used of {}", with_thousands(count), what,
+                               structure.file));
+}
+
+std::vector<double> numbers_by_name(const Structure& structure, const NumberFile& file) {
+  std::vector<double> numbers(structure.atoms.size(), std::numeric_limits<double>::quiet_NaN());
+  bool found = false;
+  const auto take = [&](const auto& table, const auto& key, double& number) {
+    const auto entry = table.find(key);
+    if (entry == table.end()) return;
+    number = entry->second;
+    found = true;
+  };
+  for (std::size_t a = 0; a < numbers.size(); ++a) {
+    const Atom& atom = structure.atoms[a];
+    if (!file.by_atom.empty())
+      take(file.by_atom, atom.index, numbers[a]);
+    else
+      take(file.by_residue, ResidueName{chain_of_file(atom), atom.residue_number, atom.insertion_code}, numbers[a]);
+  }
+  if (!found && !file.by_atom.empty()) no_atom_named(structure, file, "atoms", file.by_atom.size());
+  if (!found) no_atom_named(structure, file, "residues", file.by_residue.size());
+  return numbers;
+}
+
+/// The numbers of a file for the atoms in use: by name, or given for each of these, or for each atom of the molecule's
+/// file.
+std::vector<double> numbers_of_file(const Structure& structure, const NumberFile& file) {
+  if (file.numbers.empty() && !file.empty()) return numbers_by_name(structure, file);
+  const auto other_models = structure.report.excluded.find(kExcludedModel);
+  const std::size_t read =
+      structure.report.read - (other_models == structure.report.excluded.end() ? 0 : other_models->second);
+  const std::size_t used = structure.atoms.size(), given = file.numbers.size();
+  if (given == used) return file.numbers;
+  std::vector<double> numbers;
+  for (const Atom& atom : structure.atoms) {
+    if (given == read && atom.index < given) numbers.push_back(file.numbers[atom.index]);
+  }
+  if (numbers.size() != used) {
+    throw InputError(file.path, 0,
+                     fmt::format("holds {} numbers; {} holds {} atoms, of which {} are used; give as many as either",
+                                 with_thousands(given), structure.file, with_thousands(read), with_thousands(used)));
+  }
+  return numbers;
+}
+
+/// Å from the mean of all atoms' centres.
+std::vector<double> distances_from_middle(const Structure& structure) {
+  glm::dvec3 middle(0.0);
+  for (const Atom& atom : structure.atoms) middle += atom.position / static_cast<double>(structure.atoms.size());
+  std::vector<double> distances;
+  distances.reserve(structure.atoms.size());
+  for (const Atom& atom : structure.atoms) distances.push_back(glm::distance(atom.position, middle));
+  return distances;
+}
+
+/// One number an atom, NaN where there is none.
+std::vector<double> numbers_of(const Structure& structure, const ColorScheme& scheme) {
+  if (scheme.by == By::file) return numbers_of_file(structure, scheme.file);
+  if (scheme.by == By::radial) return distances_from_middle(structure);
+  const auto number = [&](const Atom& atom) -> double {
+    switch (scheme.by) {
+      case By::bfactor:
+        return atom.b_factor;
+      case By::occupancy:
+        return atom.occupancy;
+      case By::charge:
+        return atom.charge;
+      case By::hydrophobicity:
+        return hydropathy(atom.residue_name);
+      default:
+        return atom.index;
+    }
+  };
+  std::vector<double> numbers;
+  numbers.reserve(structure.atoms.size());
+  for (const Atom& atom : structure.atoms) numbers.push_back(number(atom));
+  return numbers;
+}
+
+struct ScaleWords {
+  std::string_view title, unit;
+};
+
+ScaleWords words_of(By by) {
+  switch (by) {
+    case By::bfactor:
+      return {"B-factor", "Å²"};
+    case By::occupancy:
+      return {"occupancy", ""};
+    case By::charge:
+      return {"partial charge", "e"};
+    case By::hydrophobicity:
+      return {"hydrophobicity (Kyte & Doolittle 1982)", ""};
+    case By::index:
+      return {"place in the file", ""};
+    case By::radial:
+      return {"distance from the middle", "Å"};
+    default:
+      return {"number from file", ""};
+  }
+}
+
+[[noreturn]] void no_numbers(const Structure& structure, const ColorScheme& scheme) {
+  switch (scheme.by) {
+    case By::bfactor:
+      throw InputError(structure.file, 0, "has no B-factors to colour by; choose another --color");
+    case By::occupancy:
+      throw InputError(structure.file, 0, "has no occupancies to colour by; choose another --color");
+    case By::charge:
+      throw InputError(structure.file, 0, "has no partial charges to colour by; PQR files have them");
+    case By::hydrophobicity:
+      throw InputError(structure.file, 0,
+                       "has no amino acids, which the hydrophobicity scale is for; choose another --color");
+    default:
+      throw InputError(scheme.file.path, 0, "all numbers are missing; there is nothing to colour by");
+  }
+}
+
+ColorMap default_map(By by) {
+  if (by == By::charge) return ColorMap::red_white_blue;
+  return by == By::hydrophobicity ? ColorMap::blue_white_red : ColorMap::viridis;
+}
+
+std::array<double, 2> automatic_range(const std::vector<double>& defined, By by) {
+  if (by == By::hydrophobicity) return {-4.5, 4.5};
+  const auto [low, high] = std::ranges::minmax(defined);
+  if (by != By::charge) return {low, high};
+  const double largest = std::max(std::abs(low), std::abs(high));
+  return {-largest, largest};
+}
+
+void count_classes(ColorScale& scale, const std::vector<double>& defined, const std::string& file) {
+  const std::set<double> different(defined.begin(), defined.end());
+  if (different.size() > kCategoricalCount) {
+    throw InputError(file, 0,
+                     fmt::format("has {} different numbers to colour by, the categorical map {} colours; choose "
+                                 "another --map",
+                                 with_thousands(different.size()), kCategoricalCount));
+  }
+  scale.classes.assign(different.begin(), different.end());
+}
+
+std::string class_title(By by) {
+  return by == By::element || by == By::element_cpk ? "element"
+         : by == By::chain                          ? "chain"
+         : by == By::copy                           ? "copy"
+                                                    : "residue type";
+}
+
+/// Adds a class unless it is there already.
+class ClassList {
+ public:
+  explicit ClassList(ColorKey& key) : key_(key) {}
+  void add(const std::string& name, const glm::vec3& color) {
+    if (seen_.insert(name).second) key_.classes.push_back({name, color});
+  }
+  /// The colour of the next new class.
+  glm::vec3 next_color() const { return categorical_color(seen_.size()); }
+
+ private:
+  ColorKey& key_;
+  std::set<std::string> seen_;
+};
+
+}  // namespace
+
+ColorScale color_scale(const Structure& structure, const ColorScheme& scheme) {
+  if (scheme.by == By::volume) return scheme.volume->scale;
+  ColorScale scale;
+  const ScaleWords words = words_of(scheme.by);
+  scale.title = scheme.by == By::file && !scheme.file.column.empty() ? scheme.file.column : std::string(words.title);
+  scale.unit = std::string(words.unit);
+  if (!scheme.title.empty()) scale.title = scheme.title;
+  if (!scheme.unit.empty()) scale.unit = scheme.unit;
+  scale.map = scheme.map.value_or(default_map(scheme.by));
+  scale.own_map = scheme.own_map;
+  scale.missing_color = scheme.missing.value_or(default_missing_color(scale.map));
+  scale.value = numbers_of(structure, scheme);
+  std::vector<double> defined;
+  std::ranges::copy_if(scale.value, std::back_inserter(defined), [](double number) { return !std::isnan(number); });
+  if (defined.empty()) no_numbers(structure, scheme);
+  scale.missing = scale.value.size() - defined.size();
+  scale.range = scheme.range ? *scheme.range : automatic_range(defined, scheme.by);
+  if (scale.map == ColorMap::categorical) count_classes(scale, defined, structure.file);
+  return scale;
+}
+
+ColorKey color_key(const Structure& structure, const ColorScheme& scheme, std::span<const std::string> object_names) {
+  ColorKey key;
+  ClassList classes(key);
+  if (scheme.has_scale()) {
+    key.scale = color_scale(structure, scheme);
+  } else if (scheme.by == By::kind) {
+    key.title = "kind of patch";
+    constexpr std::array<const char*, 3> kNames{"convex", "toroidal", "concave"};
+    for (std::size_t n = 0; n < kNames.size(); ++n) classes.add(kNames[n], kPatchKindColors[n]);
+  } else if (scheme.by == By::component) {
+    key.title = "component";
+    for (std::size_t n = 0; n < object_names.size(); ++n)
+      key.classes.push_back({object_names[n], categorical_color(n)});
+  } else if (scheme.by != By::fixed) {
+    key.title = class_title(scheme.by);
+    for (const Atom& atom : structure.atoms) {
+      if (scheme.by == By::element || scheme.by == By::element_cpk)
+        classes.add(atom.element == 0 ? "unknown" : element_symbol(atom.element),
+                    scheme.by == By::element ? element_color(atom.element) : cpk_color(atom.element));
+      else if (scheme.by == By::chain)
+        classes.add(chain_of_file(atom), classes.next_color());
+      else if (scheme.by == By::copy)
+        classes.add(fmt::format("copy {}", atom.copy + 1), categorical_color(atom.copy));
+      else
+        classes.add(std::string(residue_group(atom.residue_name).name),
+                    color_from_hex(residue_group(atom.residue_name).color));
+    }
+  }
+  for (const ColorRule& rule : scheme.rules)
+    if (rule.paint.by == By::fixed) key.classes.push_back({rule.atoms.text(), rule.paint.fixed});
+  return key;
+}
+
+}  // namespace meniscus

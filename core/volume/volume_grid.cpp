@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Checks and samples grids.
+#include "core/volume/volume_grid.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include "core/base/error.h"
+#include "core/base/text.h"
+
+namespace meniscus {
+namespace {
+
+constexpr double kLargestPlace = 1e6;  // Å
+constexpr double kFlattest = 1e-6;     // volume of a cell by that of a box of the same edges
+
+void check_frame(const std::string& path, const VolumeFrame& frame) {
+  double edges = 1.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double length = glm::length(frame.step[axis]);
+    edges *= length;
+    if (!(length > 0.0 && length * static_cast<double>(frame.size[axis]) < kLargestPlace))
+      throw InputError(path, 0, fmt::format("steps by {:.6g} Å along axis {}; is the unit right?", length, axis + 1));
+    if (!(std::abs(frame.origin[axis]) < kLargestPlace))
+      throw InputError(path, 0, fmt::format("begins at {:.6g} Å; is the unit right?", frame.origin[axis]));
+  }
+  if (!(std::abs(glm::determinant(frame.step)) > kFlattest * edges))
+    throw InputError(path, 0, "has axes that lie in one plane; correct its steps");
+}
+
+}  // namespace
+
+VolumeGrid::VolumeGrid(const std::string& path, const VolumeFrame& frame, std::vector<float> values)
+    : frame_(frame), to_index_(1.0), values_(std::move(values)) {
+  assert(values_.size() == frame_.count());
+  check_frame(path, frame_);
+  to_index_ = glm::inverse(frame_.step);
+  const auto wrong = std::ranges::find_if_not(values_, [](float value) { return std::isfinite(value); });
+  if (wrong != values_.end())
+    throw InputError(path, 0,
+                     fmt::format("holds {} as value {}, which is not finite; compute the map again", *wrong,
+                                 with_thousands(static_cast<std::size_t>(wrong - values_.begin()) + 1)));
+}
+
+double VolumeGrid::sample(const glm::dvec3& point) const {
+  const glm::dvec3 place = to_index_ * (point - frame_.origin);
+  std::array<std::size_t, 3> low{};
+  std::array<double, 3> share{};
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto last = static_cast<double>(frame_.size[axis] - 1);
+    if (!(place[axis] >= 0.0 && place[axis] <= last)) return std::numeric_limits<double>::quiet_NaN();
+    low[axis] = std::min(static_cast<std::size_t>(place[axis]), frame_.size[axis] - 2);
+    share[axis] = place[axis] - static_cast<double>(low[axis]);
+  }
+  double sum = 0.0;
+  for (std::size_t corner = 0; corner < 8; ++corner) {
+    double weight = 1.0;
+    std::size_t at = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const std::size_t step = corner >> axis & 1;
+      weight *= step ? share[axis] : 1.0 - share[axis];
+      at = at * frame_.size[axis] + low[axis] + step;
+    }
+    sum += weight * static_cast<double>(values_[at]);
+  }
+  return sum;
+}
+
+void check_volume_size(const std::string& path, std::size_t line, const std::array<std::int64_t, 3>& size) {
+  std::size_t count = 1;
+  for (const std::int64_t points : size) {
+    if (points < 2)
+      throw InputError(
+          path, line,
+          fmt::format("says {} x {} x {} points; a grid has at least two along each axis", size[0], size[1], size[2]));
+    if (static_cast<std::size_t>(points) > kMostVolumeValues / count)
+      throw CapacityError(
+          fmt::format("{}: says {} x {} x {} points, more than this program reads; cut the map or make it "
+                      "coarser",
+                      path, size[0], size[1], size[2]));
+    count *= static_cast<std::size_t>(points);
+  }
+}
+
+}  // namespace meniscus
