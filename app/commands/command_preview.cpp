@@ -24,6 +24,7 @@
 #include "app/preview/window/window.h"
 #include "app/process/program_error.h"
 #include "core/scene/frame_run.h"
+#include "core/scene/copied_atoms.h"
 #include "core/scene/hidden_atoms.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
@@ -70,8 +71,13 @@ struct Shown {
   std::optional<Camera> camera;
 };
 
-Shown read_run(const PreviewCommand& command) {
-  if (!command.frames.asked()) return {read_and_tell(command.molecule), {}, {}};
+Shown read_run(PreviewCommand& command) {
+  if (!command.frames.asked()) {
+    // Copies have no frames: of several models the first is shown.
+    if (command.molecule.division.instances != InstanceMode::none && command.molecule.reading.model.all)
+      command.molecule.reading.model = {};
+    return {read_and_tell(command.molecule), {}, {}};
+  }
   MoleculeOptions molecule = command.molecule;
   if (molecule.reading.model.all) molecule.reading.model = {};  // the preview's default; a run has frames instead
   const auto frames = std::make_shared<FrameRun>(molecule, command.frames);
@@ -92,24 +98,39 @@ Shown read_inputs(PreviewCommand& command) {
   if (picture.direction || picture.zoom_to || !picture.turns.empty())
     shown.camera =
         ViewAim(picture, command.molecule.show, shown.structure).camera(picture, camera, balls_of(shown.structure));
-  if (!shown.structure.instances.empty())
-    throw UsageError("--instances is for render and export; the preview draws atoms");
   if (command.molecule.color.by == ColorScheme::By::volume)
     throw UsageError("--color-map-file is for render and export ply; leave it out");
   command.molecule.color = color_of(command.molecule);
   return shown;
 }
 
+/// Copies are drawn as atoms like all others where that is the same picture and GL may have room for them, else by the
+/// CPU, which needs memory for one.
+std::unique_ptr<ViewRenderer> make_renderer(const PreviewCommand& command, const Structure& structure, bool on_gl) {
+  constexpr std::size_t kMostOnGl = 500'000;  // atoms
+  const std::vector<Instances>& copies = structure.instances;
+  if (copies.empty()) return on_gl ? make_gl_view_renderer() : make_cpu_view_renderer();
+  const bool apart = command.molecule.division.instances == InstanceMode::exact;
+  if (on_gl && apart && placed_count(copies) <= kMostOnGl)
+    return make_placed_atoms_renderer(copies, make_gl_view_renderer());
+  if (on_gl)
+    say(command.molecule, fmt::format("the CPU draws the copies: {}",
+                                      apart ? with_thousands(placed_count(copies)) + " atoms are too many for GL"
+                                            : "each has a surface of its own"));
+  return make_cpu_copies_renderer(copies);
+}
+
 /// A session as the options say.
-std::unique_ptr<PreviewSession> begin_session(const PreviewCommand& command, std::unique_ptr<ViewRenderer> renderer,
-                                              Shown shown) {
+std::unique_ptr<PreviewSession> begin_session(const PreviewCommand& command, bool on_gl, Shown shown) {
   PreviewView view;
   view.color = command.molecule.color;
   if (command.molecule.show) view.hidden = hidden_atoms(*command.molecule.show, shown.structure);
   view.probe_radius = command.molecule.surface.probe_radius;
+  view.copies_apart = command.molecule.division.instances == InstanceMode::exact;
   view.look = look_of(command.look, command.picture.size(), {});
   view.size = {command.picture.width, command.picture.height};
   view.camera.projection = command.picture.projection;
+  std::unique_ptr<ViewRenderer> renderer = make_renderer(command, shown.structure, on_gl);
   auto session = std::make_unique<PreviewSession>(std::move(renderer), std::move(shown.structure), view, shown.camera,
                                                   command.output_folder, std::move(shown.trajectory));
   if (!command.record.empty()) {
@@ -135,8 +156,7 @@ void serve(PreviewCommand& command) {
   const std::vector<WrittenCommand> commands = written_commands(command);
   Shown shown = read_inputs(command);
   const PictureDevice device(command.molecule.surface);
-  const std::unique_ptr<PreviewSession> session =
-      begin_session(command, device.context() ? make_gl_view_renderer() : make_cpu_view_renderer(), std::move(shown));
+  const std::unique_ptr<PreviewSession> session = begin_session(command, device.context() != nullptr, std::move(shown));
   replay_commands(command.commands, commands, *session, std::cout);
   if (session->wants_to_quit()) return;
   serve_session(*session, *command.port,
@@ -153,8 +173,8 @@ void say_report(const PreviewCommand& command, const WindowReport& report) {
             report.latency.median_ms, report.latency.p95_ms, report.latency.pictures, report.redraws));
 }
 
-/// What draws for a window. GL is that of its display; where that is software the CPU draws faster by itself.
-std::unique_ptr<ViewRenderer> window_renderer(const SurfaceRequest& surface, const EglContext& context) {
+/// Whether GL draws for a window. It is that of its display; where that is software the CPU draws faster by itself.
+bool draws_on_gl(const SurfaceRequest& surface, const EglContext& context) {
   using Kind = DeviceChoice::Kind;
   if (surface.gl.kind == Kind::gpu && context.is_software())
     throw GpuError(fmt::format("the display draws by software ({}); use --device auto, cpu or software, or --serve",
@@ -162,8 +182,7 @@ std::unique_ptr<ViewRenderer> window_renderer(const SurfaceRequest& surface, con
   if (surface.gl.kind == Kind::software && !context.is_software())
     throw GpuError(
         fmt::format("the display draws on {}; use --device auto, gpu or cpu, or --serve", context.renderer()));
-  const bool on_cpu = surface.cpu || (surface.gl.kind == Kind::automatic && context.is_software());
-  return on_cpu ? make_cpu_view_renderer() : make_gl_view_renderer();
+  return !surface.cpu && (surface.gl.kind != Kind::automatic || !context.is_software());
 }
 
 void open_window(PreviewCommand& command) {
@@ -181,7 +200,7 @@ void open_window(PreviewCommand& command) {
     print_reply(command.commands, commands[index].line, reply, std::cout);
   };
   const auto make = [&](const EglContext& context) {
-    return begin_session(command, window_renderer(surface, context), std::move(shown));
+    return begin_session(command, draws_on_gl(surface, context), std::move(shown));
   };
   say_report(command, run_window(options, make));
 }
@@ -220,7 +239,6 @@ void add_preview(CLI::App& command) {
   state->molecule.reading.model.all = true;
   add_atom_options(command, state->molecule);
   command.get_option("--model")->description("Model to show; default: all of them, each a frame");
-  command.remove_option(command.get_option("--instances"));  // the preview draws atoms
   {
     const Heading heading(command, "Surface");
     add_probe_option(command, state->molecule.surface);

@@ -32,7 +32,7 @@ bool is_ready(const std::future<std::vector<double>>& pending) {
 }  // namespace
 
 std::optional<double> ExposedAreas::of(const AtomsInView& atoms, std::size_t atom, bool wait) {
-  const Key key{atoms.frame, atoms.probe_radius};
+  const Key key{atoms.frame, atoms.group, atoms.probe_radius};
   if (pending_.valid() && pending_key_ != key && (wait || is_ready(pending_))) forget_or_keep();
   if (pending_.valid() && pending_key_ == key && (wait || is_ready(pending_))) finish();
   if (!known_.contains(key) && !pending_.valid()) {

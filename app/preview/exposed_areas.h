@@ -7,7 +7,7 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <utility>
+#include <tuple>
 #include <vector>
 
 #include "core/surface/primitives.h"
@@ -17,6 +17,7 @@ namespace meniscus {
 /// Whose areas are asked for.
 struct AtomsInView {
   std::size_t frame = 0;
+  std::size_t group = 0;      ///< of several that have surfaces of their own
   double probe_radius = 0.0;  ///< Å
   const std::vector<Ball>& balls;
   std::shared_ptr<const Surface> surface;  ///< theirs, complete, if somebody has it already
@@ -32,7 +33,7 @@ class ExposedAreas {
   std::optional<double> of(const AtomsInView& atoms, std::size_t atom, bool wait);
 
  private:
-  using Key = std::pair<std::size_t, double>;
+  using Key = std::tuple<std::size_t, std::size_t, double>;
   using Areas = std::vector<double>;
 
   void begin(const Key& key, const AtomsInView& atoms);

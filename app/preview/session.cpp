@@ -13,6 +13,9 @@
 #include "core/base/error.h"
 #include "core/color/color_atoms.h"
 #include "core/color/named_colors.h"
+#include "core/scene/copied_atoms.h"
+#include "core/scene/molecule.h"
+#include "core/scene/surface_objects.h"
 
 namespace meniscus {
 
@@ -26,6 +29,8 @@ PreviewSession::PreviewSession(std::unique_ptr<ViewRenderer> renderer, Structure
       export_folder_(std::move(export_folder)),
       coloring_(color_atoms(structure_, view_.color)),
       renderer_(std::move(renderer)) {
+  require_colors_shared(structure_, view_.color);
+  if (view_.copies_apart) require_apart(structure_, view_.probe_radius);
   if (trajectory_) sample_trajectory();
   show_frame(0);
   camera ? look_from(*camera) : look_at_all();
@@ -38,7 +43,7 @@ void PreviewSession::look_from(const Camera& camera) {
 }
 
 void PreviewSession::look_at_all() {
-  look_from(overview(trajectory_ ? sampled_ : balls_, aspect(), view_.camera.projection));
+  look_from(overview(trajectory_ ? sampled_ : reach(), aspect(), view_.camera.projection));
   overview_ = true;
 }
 
@@ -67,6 +72,8 @@ void PreviewSession::show_frame(std::size_t frame) {
   balls_.clear();
   for (const std::uint32_t a : shown_atoms())
     balls_.push_back({structure_.atoms[a].position, structure_.atoms[a].radius});
+  reach_.clear();
+  if (!structure_.instances.empty()) reach_ = reaching_balls(balls_, structure_.instances);
   renderer_->set_atoms(balls_);
   renderer_->set_coloring(frame_coloring());
 }

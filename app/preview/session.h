@@ -45,6 +45,7 @@ struct PreviewView {
   double frames_per_second = 10.0;  ///< while playing
   glm::ivec2 size{1024, 768};       ///< of the full picture, in pixels
   int samples = 4;                  ///< rays per pixel of the full picture
+  bool copies_apart = false;        ///< no probe may touch two copies of the structure (Structure::instances)
 };
 
 /// A picture while something moves, or at rest.
@@ -58,6 +59,7 @@ enum class Quality {
 class PreviewSession {
  public:
   /// Each model of the structure, which has atoms, is a frame; with `trajectory` these are the frames of its one model.
+  /// A structure with instances has one model, and the renderer draws its copies.
   /// `view` says how it looks at first; without `camera` everything is shown. Throws InputError for a bad camera or
   /// first frame, and as color_atoms does.
   PreviewSession(std::unique_ptr<ViewRenderer> renderer, Structure structure, PreviewView view,
@@ -132,11 +134,13 @@ class PreviewSession {
   void look_at_all();
   std::uint64_t number_of(std::size_t frame) const { return trajectory_ ? trajectory_->numbers[frame] : frame; }
   std::vector<CameraKey> camera_keys() const;
+  std::optional<double> exposed_area(std::uint32_t atom, bool wait);
   void sample_trajectory();
   void show_frame(std::size_t frame);
   /// Of the frame that is shown, into structure_.atoms.
   const std::vector<std::uint32_t>& shown_atoms() const { return frames_[trajectory_ ? 0 : view_.frame].atoms; }
   Coloring frame_coloring() const;
+  const std::vector<Ball>& reach() const { return reach_.empty() ? balls_ : reach_; }
   double aspect() const { return static_cast<double>(view_.size.x) / view_.size.y; }
   RenderSettings settings(Quality quality) const;
 
@@ -153,6 +157,7 @@ class PreviewSession {
   PreviewView view_;
   std::filesystem::path export_folder_;
   std::vector<Ball> balls_;  ///< of the frame shown
+  std::vector<Ball> reach_;  ///< what cameras see of the copies; without any: empty
   Coloring coloring_;        ///< of all atoms of the structure
   std::unique_ptr<ViewRenderer> renderer_;
   ExposedAreas areas_;

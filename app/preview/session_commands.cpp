@@ -11,6 +11,9 @@
 #include "app/preview/command_reader.h"
 #include "app/preview/look_json.h"
 #include "app/preview/session.h"
+#include "core/scene/copied_atoms.h"
+#include "core/scene/molecule.h"
+#include "core/scene/surface_objects.h"
 #include "core/scene/surface_request.h"
 #include "core/structure/selection/selection.h"
 #include "core/base/error.h"
@@ -29,6 +32,16 @@ constexpr std::size_t kMostRules = 100;
 
 glm::dvec2 drag_of(const CommandReader& command) {
   return {command.number("dx", -kLongestDrag, kLongestDrag), command.number("dy", -kLongestDrag, kLongestDrag)};
+}
+
+/// Of the chosen atoms; none of groups that have none.
+std::vector<Instances> copies_of(const std::vector<Instances>& copies, const std::vector<bool>& chosen) {
+  std::vector<Instances> kept;
+  for (Instances group : copies) {
+    std::erase_if(group.atoms, [&](std::uint32_t atom) { return !chosen[atom]; });
+    if (!group.atoms.empty()) kept.push_back(std::move(group));
+  }
+  return kept;
 }
 
 /// "rules": a list of texts, as --color reads them.
@@ -174,9 +187,11 @@ Json PreviewSession::zoom_to(const CommandReader& command) {
   std::vector<Ball> shown;
   for (std::size_t n = 0; n < atoms.size(); ++n)
     if (chosen[n]) shown.push_back(balls_[n]);
+  const std::size_t count = shown.size();
+  if (!structure_.instances.empty()) shown = reaching_balls(balls_, copies_of(structure_.instances, chosen));
   if (shown.empty()) throw RequestError("zoom_to: no atom of this frame is " + in_quotes(selection.text()));
-  look_from(zoomed_to(view_.camera, shown, balls_, aspect()));
-  return {{"atoms", shown.size()}};
+  look_from(zoomed_to(view_.camera, shown, reach(), aspect()));
+  return {{"atoms", count}};
 }
 
 Json PreviewSession::reset_view(const CommandReader&) {
@@ -191,7 +206,7 @@ Json PreviewSession::set_camera(const CommandReader& command) {
 
 Json PreviewSession::set_projection(const CommandReader& command) {
   const std::size_t word = command.choice("projection", {"perspective", "orthographic"});
-  look_from(projected(view_.camera, word == 0 ? Projection::perspective : Projection::orthographic, balls_));
+  look_from(projected(view_.camera, word == 0 ? Projection::perspective : Projection::orthographic, reach()));
   return Json::object();
 }
 
@@ -199,12 +214,14 @@ Json PreviewSession::set_probe(const CommandReader& command) {
   const double radius = command.number("radius", 0.0, 1e6);
   const std::string fault = probe_fault(radius);
   if (!fault.empty()) throw RequestError("probe: " + fault);
+  if (view_.copies_apart && radius > view_.probe_radius) require_apart(structure_, radius);
   view_.probe_radius = radius;
   return Json::object();
 }
 
 Json PreviewSession::set_color(const CommandReader& command) {
   const ColorScheme color = color_of(command, view_.color);
+  require_colors_shared(structure_, color);
   coloring_ = color_atoms(structure_, color);
   view_.color = color;
   renderer_->set_coloring(frame_coloring());

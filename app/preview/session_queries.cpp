@@ -9,6 +9,7 @@
 #include "app/preview/view_export.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/scene/copied_atoms.h"
 #include "core/structure/radii.h"
 
 namespace meniscus {
@@ -53,10 +54,23 @@ Json PreviewSession::pick(const CommandReader& command) {
   reply["hit"] = true;
   reply["kind"] = kind_word(point->kind);
   reply["position"] = {point->position.x, point->position.y, point->position.z};
-  const std::optional<double> area =
-      areas_.of({view_.frame, view_.probe_radius, balls_, renderer_->surface()}, point->atom, wait);
+  if (!structure_.instances.empty()) reply["copy"] = point->copy + 1;
+  const std::optional<double> area = exposed_area(point->atom, wait);
   reply["exposed_area"] = area ? Json(*area) : Json(nullptr);
   return reply;
+}
+
+std::optional<double> PreviewSession::exposed_area(std::uint32_t atom, bool wait) {
+  if (structure_.instances.empty())
+    return areas_.of({view_.frame, 0, view_.probe_radius, balls_, renderer_->surface()}, atom, wait);
+  // Copies of a group are as if it were alone.
+  std::size_t group = 0;
+  while (!std::ranges::binary_search(structure_.instances[group].atoms, atom)) ++group;
+  const std::vector<std::uint32_t>& atoms = structure_.instances[group].atoms;
+  std::vector<Ball> balls;
+  for (const std::uint32_t a : atoms) balls.push_back(balls_[a]);
+  const auto place = static_cast<std::size_t>(std::ranges::lower_bound(atoms, atom) - atoms.begin());
+  return areas_.of({view_.frame, group, view_.probe_radius, balls, nullptr}, place, wait);
 }
 
 Json PreviewSession::export_view(const CommandReader& command) {
@@ -116,8 +130,12 @@ Json PreviewSession::state(const CommandReader&) {
   if (view_.color.map) color["map"] = map_name(*view_.color.map);
   for (const ColorRule& rule : view_.color.rules)
     color["rules"].push_back(escaped(rule.atoms.text()) + "=" + scheme_word(rule.paint));
+  std::size_t copies = 1;
+  for (const Instances& group : structure_.instances) copies = std::max(copies, group.motions.size());
   return {{"file", escaped(structure_.file)},
           {"atoms", balls_.size()},
+          {"copies", copies},
+          {"placed_atoms", structure_.instances.empty() ? balls_.size() : placed_count(structure_.instances)},
           {"revision", revision_},
           {"frame", view_.frame},
           {"frame_number", number_of(view_.frame)},

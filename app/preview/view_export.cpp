@@ -9,8 +9,10 @@
 #include <fmt/format.h>
 
 #include "exporters/blender/atom_attributes.h"
+#include "core/scene/copied_atoms.h"
 #include "core/scene/surface_computer.h"
 #include "exporters/mesh/mesh_objects.h"
+#include "core/scene/figure.h"
 #include "core/scene/molecule.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
@@ -22,18 +24,35 @@
 namespace meniscus {
 namespace {
 
-/// The complete surface, and what computed it.
-std::pair<SurfaceObject, std::string> complete_surface(const ExportedView& view) {
+/// The complete surface, of copies one for each group of atoms that stand together, and what computed it.
+std::pair<std::vector<SurfaceObject>, std::string> complete_surfaces(const ExportedView& view) {
   SurfaceRequest request;
   request.probe_radius = view.probe_radius;
   request.cpu = true;
-  ComputedSurface computed = compute_surface(view.balls, request);
-  SurfaceObject object;
-  object.name = "surface";
-  object.surface = std::move(computed.surface);
-  object.coloring = view.coloring;
-  object.atom = view.atoms;
-  return {std::move(object), std::move(computed.device)};
+  std::string device;
+  std::vector<SurfaceObject> objects;
+  const auto add = [&](std::span<const Ball> balls) -> SurfaceObject& {
+    ComputedSurface computed = compute_surface(balls, request);
+    SurfaceObject& object = objects.emplace_back();
+    object.name = "surface";
+    object.surface = std::move(computed.surface);
+    device = std::move(computed.device);
+    return object;
+  };
+  for (const Instances& group : view.structure.instances) {
+    std::vector<Ball> balls;
+    for (const std::uint32_t atom : group.atoms) balls.push_back(view.balls[atom]);
+    SurfaceObject& object = add(balls);
+    object.coloring = coloring_of(view.coloring, group.atoms);
+    object.atom = group.atoms;
+    object.copies = group.motions;
+  }
+  if (objects.empty()) {
+    SurfaceObject& object = add(view.balls);
+    object.coloring = view.coloring;
+    object.atom = view.atoms;
+  }
+  return {std::move(objects), std::move(device)};
 }
 
 ColorKey colors_of(const ExportedView& view) {
@@ -46,12 +65,19 @@ ColorKey colors_of(const ExportedView& view) {
 void export_picture(const ExportedView& view, ViewRenderer& renderer, const ExportTarget& target) {
   check_image_path(target.path);
   OutputFile(target.path, target.existing);  // known to be possible before the work begins
-  const SurfaceObject object = complete_surface(view).first;
+  std::vector<SurfaceObject> objects = complete_surfaces(view).first;
   RenderSettings settings;
   settings.size = view.size;
   settings.samples = view.samples;
   settings.look = view.look;
-  const Framebuffer picture = renderer.render(object.surface, object.coloring, view.camera, settings);
+  Framebuffer picture;
+  if (view.structure.instances.empty()) {
+    picture = renderer.render(objects[0].surface, objects[0].coloring, view.camera, settings);
+  } else {
+    Figure figure;
+    figure.molecule.objects = std::move(objects);
+    picture = draw(*make_cpu_renderer(), std::move(figure), {}, view.camera, settings);
+  }
   write_image(target.path, picture, {view.look.background, target.existing});
 }
 
@@ -62,16 +88,17 @@ std::string export_povray(const ExportedView& view, const ExportTarget& target) 
   options.background = view.look.background;
   options.existing = target.existing;
   options.colors = colors_of(view);
-  const SurfaceObject objects[] = {complete_surface(view).first};
-  return write_scene(objects, view.camera, options, target.path).command;
+  return write_scene(complete_surfaces(view).first, view.camera, options, target.path).command;
 }
 
 void export_blender(const ExportedView& view, const ExportTarget& target) {
   OutputFile(target.path, target.existing);
-  const auto [object, device] = complete_surface(view);
-  std::vector<TriangleMesh> meshes = mesh_objects(std::span(&object, 1), MeshRequest{}.tolerance);
-  const blender::MeshedObject objects[] = {
-      {object, std::move(meshes.front()), blender::atom_attributes(view.structure, object.atom), {}}};
+  const auto [surfaces, device] = complete_surfaces(view);
+  std::vector<TriangleMesh> meshes = mesh_objects(surfaces, MeshRequest{}.tolerance);
+  std::vector<blender::MeshedObject> objects;
+  for (std::size_t n = 0; n < surfaces.size(); ++n)
+    objects.push_back(
+        {surfaces[n], std::move(meshes[n]), blender::atom_attributes(view.structure, surfaces[n].atom), {}});
   const blender::Provenance provenance{std::filesystem::path(view.structure.file).filename().string(),
                                        view.structure.radii_set, device, colors_of(view)};
   write_objects(target.path.string(), target.existing, objects, blender::Shot{view.camera, view.size.x, view.size.y},

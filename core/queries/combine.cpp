@@ -194,6 +194,16 @@ SurfaceObject merged(std::vector<SurfaceObject> objects) {
   return whole;
 }
 
+std::uint32_t merged_atom(std::span<const SurfaceObject> objects, std::size_t atom) {
+  for (const SurfaceObject& object : objects) {
+    const std::size_t count = object.copies.size() * object.atom.size();
+    if (atom < count) return object.atom[atom % object.atom.size()];
+    atom -= count;
+  }
+  assert(false);
+  return kNone;
+}
+
 std::vector<Ball> placed_balls(std::span<const SurfaceObject> objects) {
   std::size_t count = 0;
   for (const SurfaceObject& object : objects) count += object.copies.size() * object.surface.atoms.size();

@@ -2,6 +2,8 @@
 // Several surfaces, and copies of them, as one: for pictures and formats that know a single surface only.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -24,6 +26,9 @@ Surface moved_patches(const Surface& part, const RigidMotion& motion);
 /// copy that is not moved passes through as it is. Colours, opacities and atoms follow, the hidden stay hidden;
 /// either all objects are coloured by patch kind, alike, or none is. No objects: an empty one. Throws CapacityError.
 SurfaceObject merged(std::vector<SurfaceObject> objects);
+
+/// SurfaceObject::atom of an atom of merged(objects), without merging them.
+std::uint32_t merged_atom(std::span<const SurfaceObject> objects, std::size_t atom);
 
 /// The balls of every copy of every object, in the order of merged().surface.atoms.
 std::vector<Ball> placed_balls(std::span<const SurfaceObject> objects);

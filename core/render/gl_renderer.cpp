@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "core/gpu/egl_context.h"
-#include "core/queries/combine.h"
 #include "core/render/renderer.h"
 #include "core/render/surface_renderer.h"
 
@@ -16,28 +15,29 @@ class GlRenderer final : public SurfaceRenderer {
 
   Framebuffer render(const Surface& surface, const Coloring& coloring, const Camera& camera,
                      const RenderSettings& settings) override {
+    by_cpu_.reset();
     return renderer_.render(surface, coloring, camera, settings);
   }
   Framebuffer render(std::span<const PictureObject> objects, const Camera& camera,
                      const RenderSettings& settings) override {
-    layered_.reset();
+    by_cpu_.reset();
     if (objects.size() == 1 && !needs_layers(objects.front()))
       return renderer_.render(*objects.front().surface, *objects.front().coloring, camera, settings);
-    layered_ = make_cpu_renderer();
-    return layered_->render(objects, camera, settings);
+    by_cpu_ = make_cpu_renderer();
+    return by_cpu_->render(objects, camera, settings);
   }
   Framebuffer render_copies(std::span<const SurfaceObject> objects, const Camera& camera,
                             const RenderSettings& settings) override {
-    const SurfaceObject whole = merged({objects.begin(), objects.end()});
-    return renderer_.render(whole.surface, whole.coloring, camera, settings);
+    by_cpu_ = make_cpu_renderer();
+    return by_cpu_->render_copies(objects, camera, settings);
   }
-  const std::vector<StageTime>& times() const override { return layered_ ? layered_->times() : renderer_.times(); }
-  std::string device() const override { return layered_ ? layered_->device() : gl_words(context_); }
+  const std::vector<StageTime>& times() const override { return by_cpu_ ? by_cpu_->times() : renderer_.times(); }
+  std::string device() const override { return by_cpu_ ? by_cpu_->device() : gl_words(context_); }
 
  private:
   const EglContext& context_;
   Renderer renderer_;
-  std::unique_ptr<SurfaceRenderer> layered_;  // of the last picture, if it needed layers
+  std::unique_ptr<SurfaceRenderer> by_cpu_;  // of the last picture, if GL did not make it
 };
 
 }  // namespace

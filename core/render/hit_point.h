@@ -25,9 +25,10 @@ HitPoint hit_point(const PictureFrame& frame, glm::ivec2 pixel, float t);
 
 /// What the ray through the centre of a pixel hits.
 struct PickedPoint {
-  std::uint32_t atom = kNone;  ///< index into the atoms that are drawn
+  std::uint32_t atom = kNone;  ///< index into the atoms that are drawn; of copies, into those of their object
   PatchKind kind = PatchKind::convex;
-  glm::dvec3 position{0.0};  ///< Å
+  glm::dvec3 position{0.0};            ///< Å
+  std::uint32_t object = 0, copy = 0;  ///< of copies: whose, and which of them
 };
 
 }  // namespace meniscus

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include <glm/common.hpp>
 #include <tbb/parallel_for.h>
 
+#include "core/render/component_lookup.h"
 #include "core/render/hit_point.h"
 
 namespace meniscus {
@@ -38,25 +40,33 @@ PictureBlock with_neighbors(const PictureBlock& inner, int reach, glm::ivec2 pic
   return {low, glm::min(inner.origin + inner.size + reach, picture_size) - low};
 }
 
-PictureCollector::PictureCollector(const PictureFrame& frame, const RenderSettings& settings,
-                                   std::span<const HitSource> sources)
-    : frame_(frame), per_sample_(1.0f / static_cast<float>(settings.samples)) {
+NameHit names_of(std::span<const HitSource> sources) {
+  return [sources = std::vector<HitSource>(sources.begin(), sources.end())](const ray_cast::Hit& hit,
+                                                                            const glm::dvec3& point) {
+    if (hit.primitive == ray_cast::kOnPlane) return HitNames{hit.atom, kNone, Framebuffer::kCap};
+    const HitSource& source = sources[hit.object];
+    if (!source.surface) return HitNames{hit.atom, kNone, Framebuffer::kShape};
+    const ray_cast::Primitive& primitive = source.primitives[hit.primitive];
+    const ComponentLookup components(*source.surface);
+    return HitNames{hit.atom, components.at(static_cast<PatchKind>(primitive.kind), primitive.patch_index, point),
+                    primitive.kind};
+  };
+}
+
+PictureCollector::PictureCollector(const PictureFrame& frame, const RenderSettings& settings, NameHit names,
+                                   bool several)
+    : frame_(frame), per_sample_(1.0f / static_cast<float>(settings.samples)), names_(std::move(names)) {
   const std::size_t count = static_cast<std::size_t>(settings.size.x) * settings.size.y;
   picture_.size = settings.size;
   picture_.color.resize(count);
   if (!settings.aovs) return;
-  for (const HitSource& source : sources) {
-    primitives_.push_back(source.primitives);
-    components_.emplace_back();
-    if (source.surface) components_.back().emplace(*source.surface);
-  }
   picture_.z.assign(count, std::numeric_limits<float>::infinity());
   picture_.normal.assign(count, glm::vec3(0.0f));
   picture_.position.assign(count, glm::vec3(0.0f));
   picture_.atom.assign(count, kNone);
   picture_.kind.assign(count, kNone);
   picture_.component.assign(count, kNone);
-  if (sources.size() > 1) picture_.object.assign(count, kNone);
+  if (several) picture_.object.assign(count, kNone);
 }
 
 void PictureCollector::add_colors(const PictureBlock& inner, const PictureBlock& block,
@@ -77,17 +87,11 @@ void PictureCollector::copy_hit(const ray_cast::Hit& hit, std::size_t at) {
   picture_.z[at] = static_cast<float>(point.z);
   picture_.normal[at] = hit.normal;
   picture_.position[at] = glm::vec3(point.position);
-  picture_.atom[at] = hit.atom;
   if (!picture_.object.empty()) picture_.object[at] = hit.object;
-  if (hit.primitive == ray_cast::kOnPlane) {
-    picture_.kind[at] = Framebuffer::kCap;
-    return;
-  }
-  const ray_cast::Primitive& primitive = primitives_[hit.object][hit.primitive];
-  picture_.kind[at] = components_[hit.object] ? primitive.kind : Framebuffer::kShape;
-  if (components_[hit.object])
-    picture_.component[at] =
-        components_[hit.object]->at(static_cast<PatchKind>(primitive.kind), primitive.patch_index, point.position);
+  const HitNames names = names_(hit, point.position);
+  picture_.atom[at] = names.atom;
+  picture_.kind[at] = names.kind;
+  picture_.component[at] = names.component;
 }
 
 }  // namespace meniscus

@@ -2,14 +2,16 @@
 // A finished picture put together from cast blocks, on the host.
 #pragma once
 
-#include <optional>
+#include <cstdint>
+#include <functional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 
-#include "core/render/component_lookup.h"
+#include "core/base/index.h"
 #include "core/render/framebuffer.h"
 #include "core/render/picture_block.h"
 #include "core/render/render_settings.h"
@@ -28,11 +30,23 @@ struct HitSource {
   std::span<const ray_cast::Primitive> primitives;
 };
 
+/// Indices of what a ray has met.
+struct HitNames {
+  std::uint32_t atom = kNone, component = kNone;  ///< into the tables of what Hit::object says
+  std::uint32_t kind = kNone;                     ///< as Framebuffer::kind
+};
+
+/// Tells them for a hit of some primitive, at a point, Å; on any thread.
+using NameHit = std::function<HitNames(const ray_cast::Hit& hit, const glm::dvec3& point)>;
+
+/// sources: one for each Hit::object; what they point to must stay.
+NameHit names_of(std::span<const HitSource> sources);
+
 /// Takes the inner parts of blocks. What it is made of must stay until the picture is taken.
 class PictureCollector {
  public:
-  /// sources: for settings.aovs, one for each Hit::object; else not looked at.
-  PictureCollector(const PictureFrame& frame, const RenderSettings& settings, std::span<const HitSource> sources);
+  /// names: for settings.aovs; else not asked. several: there is more than one Hit::object.
+  PictureCollector(const PictureFrame& frame, const RenderSettings& settings, NameHit names, bool several = false);
 
   /// sums: of the samples of each of the block's pixels, linear and premultiplied; hits: through their centres.
   void add_colors(const PictureBlock& inner, const PictureBlock& block, std::span<const glm::vec4> sums);
@@ -45,8 +59,7 @@ class PictureCollector {
 
   const PictureFrame& frame_;
   const float per_sample_;
-  std::vector<std::span<const ray_cast::Primitive>> primitives_;
-  std::vector<std::optional<ComponentLookup>> components_;  // of surfaces
+  const NameHit names_;
   Framebuffer picture_;
 };
 

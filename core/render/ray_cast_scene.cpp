@@ -211,26 +211,63 @@ void copy_part(const RayCastScene& part, const PartPlace& place, RayCastScene& s
                          });
 }
 
+constexpr double kBoundRoom = 1e-6;  // Å, for the rounding of a bound and of what is compared with it
+
+template <typename Visit>
+void for_each_ball(const BallGroup& group, const Visit& visit) {
+  if (!group.motion)
+    for (const Ball& ball : group.balls) visit(ball);
+  else
+    for (const Ball& ball : group.balls) visit(Ball{(*group.motion)(ball.center), ball.radius});
+}
+
+float slack_of(std::span<const BallGroup> groups, double probe_radius, const PictureFrame& frame) {
+  double extent = 0.0;
+  for (const BallGroup& group : groups) {
+    if (glm::length(group.center - frame.pivot) + group.radius + probe_radius + kBoundRoom < extent) continue;
+    for_each_ball(group, [&](const Ball& ball) {
+      extent = std::max(extent, glm::length(ball.center - frame.pivot) + ball.radius + probe_radius);
+    });
+  }
+  // Centres are rounded to 2^-24 of the extent; rays to a little more. A local coordinate is a few Å.
+  return static_cast<float>(1e-5 + 2.5e-7 * extent);
+}
+
 }  // namespace
 
 PictureFrame make_picture_frame(std::span<const Ball> atoms, const Camera& camera, glm::ivec2 size) {
+  const BallGroup all{.balls = atoms};
+  return make_picture_frame({&all, 1}, camera, size);
+}
+
+PictureFrame make_picture_frame(std::span<const BallGroup> groups, const Camera& camera, glm::ivec2 size) {
   PictureFrame frame;
   frame.camera = camera;
   frame.basis = view_basis(camera);
   frame.size = size;
   // The pivot: the first ball on the view axis, else as deep as the balls are on average.
   double first = std::numeric_limits<double>::max();
-  for (const Ball& ball : atoms) {
-    const glm::dvec3 v = ball.center - camera.position;
-    const double along = glm::dot(v, frame.basis.forward);
-    const glm::dvec3 across = v - frame.basis.forward * along;
-    const double room = ball.radius * ball.radius - glm::dot(across, across);
-    if (room > 0.0 && along + std::sqrt(room) > 0.0) first = std::min(first, along - std::sqrt(room));
+  for (const BallGroup& group : groups) {
+    const glm::dvec3 from = group.center - camera.position;
+    const double depth = glm::dot(from, frame.basis.forward);
+    if (glm::length(from - frame.basis.forward * depth) > group.radius + kBoundRoom) continue;
+    if (depth - group.radius - kBoundRoom > first) continue;
+    for_each_ball(group, [&](const Ball& ball) {
+      const glm::dvec3 v = ball.center - camera.position;
+      const double along = glm::dot(v, frame.basis.forward);
+      const glm::dvec3 across = v - frame.basis.forward * along;
+      const double room = ball.radius * ball.radius - glm::dot(across, across);
+      if (room > 0.0 && along + std::sqrt(room) > 0.0) first = std::min(first, along - std::sqrt(room));
+    });
   }
   if (first == std::numeric_limits<double>::max()) {
     first = 0.0;
-    for (const Ball& ball : atoms)
-      first += glm::dot(ball.center - camera.position, frame.basis.forward) / static_cast<double>(atoms.size());
+    std::size_t count = 0;
+    for (const BallGroup& group : groups) count += group.balls.size();
+    for (const BallGroup& group : groups)
+      for_each_ball(group, [&](const Ball& ball) {
+        first += glm::dot(ball.center - camera.position, frame.basis.forward) / static_cast<double>(count);
+      });
   }
   frame.eye_distance = std::max(first, 1.0);  // a perspective camera needs some distance; 1 Å does inside an atom too
   frame.pivot = camera.position + frame.basis.forward * frame.eye_distance;
@@ -241,22 +278,29 @@ PictureFrame make_picture_frame(std::span<const Ball> atoms, const Camera& camer
 }
 
 float patch_slack(std::span<const Ball> atoms, double probe_radius, const PictureFrame& frame) {
-  double extent = 0.0;
-  for (const Ball& ball : atoms)
-    extent = std::max(extent, glm::length(ball.center - frame.pivot) + ball.radius + probe_radius);
-  // Centres are rounded to 2^-24 of the extent; rays to a little more. A local coordinate is a few Å.
-  return static_cast<float>(1e-5 + 2.5e-7 * extent);
+  const BallGroup all{.balls = atoms};
+  return slack_of({&all, 1}, probe_radius, frame);
 }
 
 ScenePlacement place_atoms(std::span<const Ball> atoms, double probe_radius, const PictureFrame& frame) {
+  const BallGroup all{.balls = atoms};
+  return place_atoms({&all, 1}, probe_radius, frame);
+}
+
+ScenePlacement place_atoms(std::span<const BallGroup> groups, double probe_radius, const PictureFrame& frame) {
   ScenePlacement scene;
   scene.probe_radius = probe_radius;
-  scene.slack = patch_slack(atoms, probe_radius, frame);
+  scene.slack = slack_of(groups, probe_radius, frame);
   double first = std::numeric_limits<double>::max(), last = 0.0;
-  for (const Ball& ball : atoms) {
-    const double depth = glm::dot(ball.center - frame.camera.position, frame.basis.forward);
-    first = std::min(first, depth - ball.radius);
-    last = std::max(last, depth + ball.radius);
+  for (const BallGroup& group : groups) {
+    const double middle = glm::dot(group.center - frame.camera.position, frame.basis.forward);
+    const double reach = group.radius + kBoundRoom;
+    if (middle - reach > first && middle + reach < last) continue;
+    for_each_ball(group, [&](const Ball& ball) {
+      const double depth = glm::dot(ball.center - frame.camera.position, frame.basis.forward);
+      first = std::min(first, depth - ball.radius);
+      last = std::max(last, depth + ball.radius);
+    });
   }
   scene.first_depth = static_cast<float>(std::max(std::min(first, last), 0.0));
   scene.last_depth = static_cast<float>(last);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -14,6 +15,7 @@
 #include "core/camera/camera.h"
 #include "core/render/gpu_scene.h"
 #include "core/color/coloring.h"
+#include "core/math/rigid_motion.h"
 #include "core/surface/primitives.h"
 
 namespace meniscus {
@@ -28,13 +30,23 @@ struct PictureFrame {
   double pixel_size = 0.0;    ///< on the plane through the pivot, Å
 };
 
-/// Throws nothing; the camera must be valid.
+/// Balls that stand together, as they are or moved: so that copies need not be in memory all at once.
+struct BallGroup {
+  std::span<const Ball> balls;
+  const RigidMotion* motion = nullptr;  ///< nullptr: as they are
+  glm::dvec3 center{0.0};               ///< of a ball around all of them where they stand, Å
+  double radius = std::numeric_limits<double>::infinity();
+};
+
+/// Throws nothing; the camera must be valid. The groups together give what a list of all their balls gives, to the bit.
 PictureFrame make_picture_frame(std::span<const Ball> atoms, const Camera& camera, glm::ivec2 size);
+PictureFrame make_picture_frame(std::span<const BallGroup> groups, const Camera& camera, glm::ivec2 size);
 
 /// Å by which patches must overlap in this picture: a few roundings of the largest coordinate.
 float patch_slack(std::span<const Ball> atoms, double probe_radius, const PictureFrame& frame);
 
 ScenePlacement place_atoms(std::span<const Ball> atoms, double probe_radius, const PictureFrame& frame);
+ScenePlacement place_atoms(std::span<const BallGroup> groups, double probe_radius, const PictureFrame& frame);
 
 /// What the kernel reads. Primitives stand by kind and index; those behind the camera are left out.
 struct RayCastScene {

@@ -70,7 +70,7 @@ Framebuffer Renderer::render(Drawable& drawable, const Camera& camera, const Ren
     primitives = scene_->primitives.buffer.download<ray_cast::Primitive>(scene_->primitives.count());
   }
   const HitSource source{drawable.surface(), primitives};
-  PictureCollector collector(frame_, settings, {&source, 1});
+  PictureCollector collector(frame_, settings, names_of({&source, 1}));
   const std::vector<PictureBlock> blocks = picture_blocks(settings.size, usable_block_edge(settings.block_edge));
   if (needs_shade_map(blocks.front(), settings)) make_shade_map();
   for (const PictureBlock& block : blocks) render_block(block, settings, collector);

@@ -36,8 +36,8 @@ class SurfaceRenderer {
                              const RenderSettings& settings) = 0;
 
   /// The same picture as of merged(objects), to the bit, where copies need not be in memory all at once: on the CPU,
-  /// which keeps what its pixels show. No AOVs. objects: at least one, as merged() wants them. Throws as render(), and
-  /// CapacityError where all copies are too much for GL.
+  /// which keeps what its pixels show, also for GL. Atoms and components of the AOVs are those of merged(). objects: at
+  /// least one, as merged() wants them. Throws as render().
   virtual Framebuffer render_copies(std::span<const SurfaceObject> objects, const Camera& camera,
                                     const RenderSettings& settings) = 0;
 

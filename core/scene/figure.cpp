@@ -2,6 +2,7 @@
 // Merges what can be merged, and gives the renderer the rest as objects.
 #include "core/scene/figure.h"
 
+#include <algorithm>
 #include <span>
 #include <utility>
 
@@ -48,8 +49,13 @@ Figure make_figure(Molecule molecule, const FigureRequest& request) {
 Framebuffer draw(SurfaceRenderer& renderer, Figure figure, const FigureRequest& request, const Camera& camera,
                  const RenderSettings& settings) {
   std::vector<SurfaceObject>& objects = figure.molecule.objects;
-  if (request.plain() && !settings.aovs && placed_atoms(objects) > kMostMergedAtoms)
-    return renderer.render_copies(objects, camera, settings);
+  const bool opaque = std::ranges::none_of(objects, [](const SurfaceObject& o) { return o.coloring.is_translucent(); });
+  if (request.plain() && opaque && placed_atoms(objects) > kMostMergedAtoms) {
+    Framebuffer picture = renderer.render_copies(objects, camera, settings);
+    for (std::uint32_t& atom : picture.atom)
+      if (atom != kNone) atom = merged_atom(objects, atom);
+    return picture;
+  }
   const std::vector<Ball> balls = request.cuts.empty() ? std::vector<Ball>{} : placed_balls(objects);
   const SurfaceObject whole = merged(std::move(objects));
   std::vector<PictureObject> shown(1);

@@ -75,14 +75,18 @@ ColorKey key_of(const Molecule& molecule) {
   return color_key(molecule.structure, molecule.color, names);
 }
 
+void require_colors_shared(const Structure& structure, const ColorScheme& color) {
+  if (color.by == ColorScheme::By::copy && !structure.instances.empty())
+    throw RequestError("--color copy needs copies with colours of their own; leave --instances away");
+}
+
 MoleculeBuilder::MoleculeBuilder(const MoleculeRequest& request, const EglContext* context)
     : request_(request), color_(color_of(request)), division_(request.division), computer_(request.surface, context) {
   if (color_.by == ColorScheme::By::component && !division_.groups) division_.components = true;
 }
 
 Molecule MoleculeBuilder::build(Structure structure) {
-  if (color_.by == ColorScheme::By::copy && !structure.instances.empty())
-    throw RequestError("--color copy needs copies with colours of their own; leave --instances away");
+  require_colors_shared(structure, color_);
   Molecule molecule;
   molecule.structure = std::move(structure);
   molecule.color = color_;

@@ -60,6 +60,9 @@ std::vector<Ball> shown_balls(const Molecule& molecule);
 /// What the colours of its objects mean.
 ColorKey key_of(const Molecule& molecule);
 
+/// Throws RequestError for colours by copy where copies share one surface.
+void require_colors_shared(const Structure& structure, const ColorScheme& color);
+
 /// Makes molecules of one structure after another: the frames of a trajectory.
 class MoleculeBuilder {
  public:

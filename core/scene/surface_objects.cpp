@@ -80,6 +80,21 @@ SurfaceObject compute(const Structure& structure, PlacedGroup placed, SurfaceCom
   return object;
 }
 
+/// atoms: of each group, those of the structure.
+void require_apart(const Structure& structure, std::span<const CopiedBalls> groups,
+                   std::span<const std::span<const std::uint32_t>> atoms, double probe_radius) {
+  const std::optional<CopyContact> contact = closest_contact(groups, probe_radius);
+  if (!contact) return;
+  const auto place = [&](const CopiedBall& ball) {
+    return fmt::format("{} in copy {}", atom_place(structure.atoms[atoms[ball.group][ball.ball]]), ball.copy + 1);
+  };
+  throw InputError(
+      structure.file, 0,
+      fmt::format("{} and {} are {:.2f} Å apart, so near that copies of one surface are not the surface of the "
+                  "whole; leave --instances away, or take --instances separate",
+                  place(contact->ball[0]), place(contact->ball[1]), contact->distance));
+}
+
 /// Copies have to keep clear of each other, unless each is wanted as if it were alone: by --instances separate, or as
 /// copies of chains and residues are chains and residues of their own.
 void require_apart(const Structure& structure, const Division& division, std::span<const SurfaceObject> objects) {
@@ -87,19 +102,12 @@ void require_apart(const Structure& structure, const Division& division, std::sp
   if (division.groups == Grouping::chain || division.groups == Grouping::residue) return;
   for (std::size_t first = 0, past = 0; first < objects.size(); first = past) {
     std::vector<CopiedBalls> copied;
-    for (past = first; past < objects.size() && objects[past].name == objects[first].name; ++past)
+    std::vector<std::span<const std::uint32_t>> atoms;
+    for (past = first; past < objects.size() && objects[past].name == objects[first].name; ++past) {
       copied.push_back({objects[past].surface.atoms, objects[past].copies});
-    const std::optional<CopyContact> contact = closest_contact(copied, objects[first].surface.probe_radius);
-    if (!contact) continue;
-    const auto place = [&](const CopiedBall& ball) {
-      return fmt::format("{} in copy {}", atom_place(structure.atoms[objects[first + ball.group].atom[ball.ball]]),
-                         ball.copy + 1);
-    };
-    throw InputError(
-        structure.file, 0,
-        fmt::format("{} and {} are {:.2f} Å apart, so near that copies of one surface are not the surface of the "
-                    "whole; leave --instances away, or take --instances separate",
-                    place(contact->ball[0]), place(contact->ball[1]), contact->distance));
+      atoms.emplace_back(objects[past].atom);
+    }
+    require_apart(structure, copied, atoms, objects[first].surface.probe_radius);
   }
 }
 
@@ -153,6 +161,22 @@ std::vector<SurfaceObject> surface_objects(const Structure& structure, const Div
                      division.cavities == Cavities::only ? "the surface has no cavities; nothing is left of it"
                                                          : "the surface has no part; nothing is left of it");
   return objects;
+}
+
+void require_apart(const Structure& structure, double probe_radius) {
+  std::vector<std::vector<Ball>> balls;
+  std::vector<CopiedBalls> copied;
+  std::vector<std::span<const std::uint32_t>> atoms;
+  for (const Instances& group : structure.instances) {
+    balls.emplace_back();
+    for (const std::uint32_t a : group.atoms)
+      balls.back().push_back({structure.atoms[a].position, structure.atoms[a].radius});
+  }
+  for (std::size_t n = 0; n < balls.size(); ++n) {
+    copied.push_back({balls[n], structure.instances[n].motions});
+    atoms.emplace_back(structure.instances[n].atoms);
+  }
+  require_apart(structure, copied, atoms, probe_radius);
 }
 
 double largest_growth(const std::vector<SurfaceObject>& objects) {

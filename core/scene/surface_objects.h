@@ -40,6 +40,10 @@ struct Division {
 std::vector<SurfaceObject> surface_objects(const Structure& structure, const Division& division,
                                            SurfaceComputer& computer);
 
+/// Throws InputError, naming two atoms, where one probe can touch two copies of the structure at once: then copies of
+/// one surface are not the surface of the whole.
+void require_apart(const Structure& structure, double probe_radius);
+
 /// By how many Å radii were grown at most to tell ties apart (core/surface/tie_ladder.h); 0 as a rule.
 double largest_growth(const std::vector<SurfaceObject>& objects);
 

@@ -16,6 +16,7 @@
 #include "core/render/framebuffer.h"
 #include "core/render/hit_point.h"
 #include "core/render/render_settings.h"
+#include "core/structure/structure.h"
 #include "core/surface/primitives.h"
 
 namespace meniscus {
@@ -60,5 +61,14 @@ std::unique_ptr<ViewRenderer> make_gl_view_renderer();
 
 /// By the complete surface, which the CPU computes once for all views of the same atoms and probe. Needs no GL.
 std::unique_ptr<ViewRenderer> make_cpu_view_renderer();
+
+/// By one surface for each group of atoms, as if it were alone, wherever its copies stand; the CPU never has all copies
+/// in memory. set_atoms(), set_coloring() and pick() are about the atoms of one copy; copies name them by index.
+std::unique_ptr<ViewRenderer> make_cpu_copies_renderer(std::vector<Instances> copies);
+
+/// The same by another renderer of atoms, which gets those of all copies as atoms like all others. No probe may touch
+/// two copies at once (closest_contact); then there is no difference.
+std::unique_ptr<ViewRenderer> make_placed_atoms_renderer(std::vector<Instances> copies,
+                                                         std::unique_ptr<ViewRenderer> renderer);
 
 }  // namespace meniscus

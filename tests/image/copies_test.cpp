@@ -90,6 +90,84 @@ TEST(Copies, KeepPartsKindsAndHiddenAtomsApart) {
   expect_same_bits(objects, framed(objects, Projection::perspective), settings, "kinds");
 }
 
+TEST(Copies, NameTheAtomsAndComponentsOfTheMergedSurface) {
+  std::vector<SurfaceObject> objects = crowd();
+  for (SurfaceObject& object : objects)
+    for (std::uint32_t n = 0; n < object.surface.atoms.size(); ++n) object.atom.push_back(7 * n + 1);
+  const SurfaceObject all = merged(objects);
+  ASSERT_GT(all.surface.components.size(), 90u) << "cavities of copies are components, too";
+  RenderSettings settings;
+  settings.size = {230, 170};
+  settings.aovs = true;
+  settings.samples = 1;
+  for (const int block_edge : {RenderSettings{}.block_edge, 64}) {
+    settings.block_edge = block_edge;
+    const Camera camera = framed(objects, Projection::perspective);
+    const Framebuffer expected = CpuRenderer().render(all.surface, all.coloring, camera, settings);
+    const Framebuffer found = CpuRenderer(16, 1).render_copies(objects, camera, settings);
+    EXPECT_EQ(found.color, expected.color);
+    EXPECT_EQ(found.z, expected.z);
+    EXPECT_EQ(found.normal, expected.normal);
+    EXPECT_EQ(found.position, expected.position);
+    EXPECT_EQ(found.atom, expected.atom);
+    EXPECT_EQ(found.kind, expected.kind);
+    EXPECT_EQ(found.component, expected.component);
+  }
+  for (std::size_t atom = 0; atom < all.atom.size(); ++atom) ASSERT_EQ(merged_atom(objects, atom), all.atom[atom]);
+}
+
+TEST(Copies, AreDrawnAndPickedAsTheMergedSurface) {
+  const std::vector<SurfaceObject> objects = crowd();
+  const SurfaceObject all = merged(objects);
+  const Camera camera = framed(objects, Projection::perspective);
+  RenderSettings settings;
+  settings.size = {230, 170};
+  settings.samples = 2;
+  settings.look.ambient_occlusion = 0.5f;
+  CpuRenderer whole, copies;
+  ASSERT_TRUE(whole.draw(all.surface, all.coloring, camera, settings));
+  ASSERT_TRUE(copies.draw_copies(objects, camera, settings));
+  EXPECT_EQ(copies.rgba(), whole.rgba());
+  std::size_t picked = 0;
+  for (int y = 0; y < settings.size.y; y += 3) {
+    for (int x = 0; x < settings.size.x; x += 3) {
+      const std::optional<PickedPoint> expected = whole.pick({x, y}), found = copies.pick({x, y});
+      ASSERT_EQ(found.has_value(), expected.has_value());
+      if (!found) continue;
+      ++picked;
+      std::size_t atom = found->atom;
+      for (std::size_t n = 0; n < found->object; ++n)
+        atom += objects[n].copies.size() * objects[n].surface.atoms.size();
+      atom += found->copy * objects[found->object].surface.atoms.size();
+      EXPECT_EQ(atom, expected->atom);
+      EXPECT_EQ(found->kind, expected->kind);
+      EXPECT_EQ(found->position, expected->position);
+    }
+  }
+  EXPECT_GT(picked, 500u);
+}
+
+// At whichever question it is told to stop; the picture of before stays.
+TEST(Copies, AreGivenUp) {
+  const std::vector<SurfaceObject> objects = crowd();
+  const Camera camera = framed(objects, Projection::perspective);
+  RenderSettings settings;
+  settings.size = {96, 64};
+  CpuRenderer renderer(16, 1);
+  ASSERT_TRUE(renderer.draw_copies(objects, camera, settings));
+  const std::vector<std::uint8_t> before = renderer.rgba();
+  ASSERT_FALSE(renderer.draw_copies(objects, framed(objects, Projection::orthographic), settings, [] { return true; }));
+  EXPECT_EQ(renderer.rgba(), before);
+  EXPECT_FALSE(renderer.pick({48, 32}));
+  int questions = 0;
+  ASSERT_TRUE(renderer.draw_copies(objects, camera, settings, [&] { return ++questions < 0; }));
+  EXPECT_GT(questions, 10);
+  const int last = questions / 2;
+  questions = 0;
+  EXPECT_FALSE(renderer.draw_copies(objects, camera, settings, [&] { return ++questions > last; }));
+  EXPECT_LT(questions, last + 50) << "what has begun comes to its end, and no more";
+}
+
 // What begins behind all that is seen is neither moved nor packed.
 TEST(Copies, BehindOthersAreLeftWhereTheyAre) {
   std::vector<SurfaceObject> objects{object_of(testing::ubiquitin())};

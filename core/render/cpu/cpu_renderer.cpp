@@ -75,6 +75,7 @@ void CpuRenderer::begin(const Camera& camera, const RenderSettings& settings) {
   assert(settings.size.x > 0 && settings.size.y > 0 && settings.samples > 0);
   validate_camera(camera, "camera");
   drawn_ = false;
+  places_.clear();
   clock_ = StageClock(settings.timing);
 }
 
@@ -97,7 +98,7 @@ Framebuffer CpuRenderer::render(const Surface& surface, const Coloring& coloring
                                 const RenderSettings& settings) {
   pack(surface, coloring, camera, settings);
   const HitSource source{&surface, scene_.packed.primitives};
-  PictureCollector collector(frame_, settings, {&source, 1});
+  PictureCollector collector(frame_, settings, names_of({&source, 1}));
   const std::function<bool()> never;
   Interruption interruption(never);
   const std::vector<PictureBlock> blocks = picture_blocks(settings.size, block_edge(settings));
@@ -111,39 +112,47 @@ Framebuffer CpuRenderer::render(const Surface& surface, const Coloring& coloring
   return collector.take();
 }
 
+ScenePlacement CpuRenderer::place_copies(std::span<const SurfaceObject> objects, const Camera& camera,
+                                         const RenderSettings& settings) {
+  begin(camera, settings);
+  const auto stage = clock_.stage("frame");
+  const std::vector<BallGroup> groups = ball_groups(objects);
+  frame_ = make_picture_frame(groups, camera, settings.size);
+  return place_atoms(groups, objects.front().surface.probe_radius, frame_);
+}
+
+void CpuRenderer::cast_shade_map_of_copies(std::span<const SurfaceObject> objects, const ScenePlacement& placement,
+                                           const RenderSettings& settings, Interruption& interruption) {
+  const PictureFrame map = shade_map_frame(frame_);
+  {
+    const auto stage = clock_.stage("visible copies");
+    VisibleCopies(objects, map, placement, kernels_, patches_together_)
+        .find({{0, 0}, map.size}, 1, settings.look, scene_, [&] { return interruption.came(); });
+  }
+  cast_shade_map(map, settings, interruption);
+}
+
 Framebuffer CpuRenderer::render_copies(std::span<const SurfaceObject> objects, const Camera& camera,
                                        const RenderSettings& settings) {
-  assert(!objects.empty() && !settings.aovs);
-  begin(camera, settings);
-  ScenePlacement placement;
-  {
-    const auto stage = clock_.stage("frame");
-    const std::vector<Ball> balls = placed_balls(objects);
-    frame_ = make_picture_frame(balls, camera, settings.size);
-    placement = place_atoms(balls, objects.front().surface.probe_radius, frame_);
-  }
+  assert(!objects.empty());
+  const ScenePlacement placement = place_copies(objects, camera, settings);
   VisibleCopies copies(objects, frame_, placement, kernels_, patches_together_);
-  PictureCollector collector(frame_, settings, {});
+  PictureCollector collector(frame_, settings, [&](const ray_cast::Hit& hit, const glm::dvec3& point) {
+    return copies.names_of(hit, scene_.packed.primitives[hit.primitive], point);
+  });
   const std::function<bool()> never;
   Interruption interruption(never);
   const std::vector<PictureBlock> blocks = picture_blocks(settings.size, block_edge(settings));
-  if (needs_shade_map(blocks.front(), settings)) {
-    const PictureFrame map = shade_map_frame(frame_);
-    {
-      const auto stage = clock_.stage("visible copies");
-      VisibleCopies(objects, map, placement, kernels_, patches_together_)
-          .find({{0, 0}, map.size}, 1, settings.look, scene_);
-    }
-    cast_shade_map(map, settings, interruption);
-  }
+  if (needs_shade_map(blocks.front(), settings)) cast_shade_map_of_copies(objects, placement, settings, interruption);
   for (const PictureBlock& inner : blocks) {
     const PictureBlock block = with_neighbors(inner, look_reach(settings.look, settings.size), settings.size);
     {
       const auto stage = clock_.stage("visible copies");
       copies.find(block, settings.samples, settings.look, scene_);
     }
-    cast({frame_, block, settings, false}, interruption);
+    cast({frame_, block, settings, settings.aovs}, interruption);
     collector.add_colors(inner, block, sums_);
+    if (settings.aovs) collector.add_hits(inner, block, hits_);
   }
   return collector.take();
 }
@@ -172,7 +181,7 @@ Framebuffer CpuRenderer::render(std::span<const PictureObject> objects, const Ca
   }
   std::vector<HitSource> sources;
   for (std::size_t n = 0; n < objects.size(); ++n) sources.push_back(layers->source(n));
-  PictureCollector collector(frame_, settings, sources);
+  PictureCollector collector(frame_, settings, names_of(sources), sources.size() > 1);
   const std::function<bool()> never;
   Interruption interruption(never);
   const std::vector<PictureBlock> blocks = picture_blocks(settings.size, block_edge(settings));
@@ -200,6 +209,28 @@ bool CpuRenderer::draw(const Surface& surface, const Coloring& coloring, const C
   return true;
 }
 
+bool CpuRenderer::draw_copies(std::span<const SurfaceObject> objects, const Camera& camera,
+                              const RenderSettings& settings, const std::function<bool()>& stop) {
+  assert(!objects.empty());
+  Interruption interruption(stop);
+  const ScenePlacement placement = place_copies(objects, camera, settings);
+  const PictureBlock whole{{0, 0}, settings.size};
+  if (needs_shade_map(whole, settings)) cast_shade_map_of_copies(objects, placement, settings, interruption);
+  if (interruption.came()) return false;
+  VisibleCopies copies(objects, frame_, placement, kernels_, patches_together_);
+  {
+    const auto stage = clock_.stage("visible copies");
+    copies.find(whole, settings.samples, settings.look, scene_, [&] { return interruption.came(); });
+  }
+  if (interruption.came()) return false;
+  cast({frame_, whole, settings, true}, interruption);
+  if (interruption.came()) return false;
+  present(settings);
+  places_ = copies.places();
+  drawn_ = true;
+  return true;
+}
+
 void CpuRenderer::present(const RenderSettings& settings) {
   const auto stage = clock_.stage("finish");
   const float per_sample = 1.0f / static_cast<float>(settings.samples);
@@ -218,7 +249,13 @@ std::optional<PickedPoint> CpuRenderer::pick(glm::ivec2 pixel) const {
   const ray_cast::Hit& hit = hits_[static_cast<std::size_t>(pixel.y) * size_.x + pixel.x];
   if (hit.primitive == ray_cast::kNoPrimitive) return {};
   const ray_cast::Primitive& primitive = scene_.packed.primitives[hit.primitive];
-  return PickedPoint{hit.atom, static_cast<PatchKind>(primitive.kind), hit_point(frame_, pixel, hit.t).position};
+  PickedPoint point{hit.atom, static_cast<PatchKind>(primitive.kind), hit_point(frame_, pixel, hit.t).position};
+  if (places_.empty()) return point;
+  const CopyPlace& place = places_[place_of(places_, hit.atom)];
+  point.atom -= place.first_atom;
+  point.object = place.object;
+  point.copy = place.copy;
+  return point;
 }
 
 std::string CpuRenderer::device() const {

@@ -45,6 +45,10 @@ class CpuRenderer final : public SurfaceRenderer {
   bool draw(const Surface& surface, const Coloring& coloring, const Camera& camera, const RenderSettings& settings,
             const std::function<bool()>& stop = {});
 
+  /// The same of copies, as render_copies() makes them. What is picked tells its object, copy and atom.
+  bool draw_copies(std::span<const SurfaceObject> objects, const Camera& camera, const RenderSettings& settings,
+                   const std::function<bool()>& stop = {});
+
   /// The last drawn picture, 8 bit sRGB and alpha (255) per pixel, rows from the top.
   const std::vector<std::uint8_t>& rgba() const { return rgba_; }
   glm::ivec2 size() const { return size_; }
@@ -77,6 +81,10 @@ class CpuRenderer final : public SurfaceRenderer {
   void begin(const Camera& camera, const RenderSettings& settings);
   ScenePlacement place(std::span<const PictureObject> objects, const Camera& camera, const RenderSettings& settings);
   void pack(const Surface& surface, const Coloring& coloring, const Camera& camera, const RenderSettings& settings);
+  ScenePlacement place_copies(std::span<const SurfaceObject> objects, const Camera& camera,
+                              const RenderSettings& settings);
+  void cast_shade_map_of_copies(std::span<const SurfaceObject> objects, const ScenePlacement& placement,
+                                const RenderSettings& settings, Interruption& interruption);
   void start_block(const PictureFrame& frame, const PictureBlock& block, LayeredScene* layers);
   void cast_shade_map(const PictureFrame& map, const RenderSettings& settings, Interruption& interruption,
                       LayeredScene* layers = nullptr);
@@ -98,8 +106,9 @@ class CpuRenderer final : public SurfaceRenderer {
   BlockSamples samples_;
   std::vector<float> shade_map_;  // depths of the whole picture, and behind the last that of nothing
   std::vector<std::uint8_t> rgba_;
-  glm::ivec2 size_{0};  // of rgba_
-  bool drawn_ = false;  // scene_ and hits_ are those of rgba_
+  glm::ivec2 size_{0};             // of rgba_
+  bool drawn_ = false;             // scene_ and hits_ are those of rgba_
+  std::vector<CopyPlace> places_;  // in scene_, if copies are drawn; else empty
 };
 
 }  // namespace meniscus

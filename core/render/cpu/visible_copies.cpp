@@ -5,15 +5,18 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <utility>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 #include <tbb/parallel_for.h>
 
 #include "core/math/box.h"
 #include "core/queries/combine.h"
+#include "core/render/component_lookup.h"
 #include "core/render/ray_geometry.h"
 
 namespace meniscus {
@@ -63,15 +66,31 @@ void shift_atoms(RayCastScene& scene, std::uint32_t by) {
 
 }  // namespace
 
+std::size_t place_of(std::span<const CopyPlace> places, std::uint32_t atom) {
+  const auto after = std::ranges::upper_bound(places, atom, {}, &CopyPlace::first_atom);
+  return static_cast<std::size_t>(std::distance(places.begin(), after)) - 1;
+}
+
+std::vector<BallGroup> ball_groups(std::span<const SurfaceObject> objects) {
+  std::vector<BallGroup> groups;
+  for (const SurfaceObject& object : objects) {
+    const geometry::PatchBound bound = bound_of(object.surface);
+    for (const RigidMotion& copy : object.copies)
+      groups.push_back({object.surface.atoms, &copy, copy(bound.center), bound.radius});
+  }
+  return groups;
+}
+
 VisibleCopies::VisibleCopies(std::span<const SurfaceObject> objects, const PictureFrame& frame,
                              const ScenePlacement& placement, const LaneKernels& kernels, std::size_t patches_together)
     : objects_(objects), frame_(frame), placement_(placement), kernels_(kernels), patches_together_(patches_together) {
-  std::uint32_t first_atom = 0, first_part = 0;
-  for (std::uint32_t n = 0; n < objects.size(); ++n) add_copies(n, first_atom, first_part);
+  Copy next;
+  for (std::uint32_t n = 0; n < objects.size(); ++n) add_copies(n, next);
   std::ranges::stable_sort(copies_, {}, &Copy::nearest);
 }
 
-void VisibleCopies::add_copies(std::uint32_t object, std::uint32_t& first_atom, std::uint32_t& first_part) {
+/// next: the copy after those that are there, but for what it is a copy of.
+void VisibleCopies::add_copies(std::uint32_t object, Copy& next) {
   const Surface& surface = objects_[object].surface;
   const Coloring& coloring = objects_[object].coloring;
   colors_.push_back(linear_colors(coloring));
@@ -83,12 +102,14 @@ void VisibleCopies::add_copies(std::uint32_t object, std::uint32_t& first_atom, 
     const geometry::SeenBound seen =
         geometry::see_bound(bound, placement_.slack, frame_.pivot, frame_.camera.position, frame_.basis.forward,
                             frame_.eye_distance, frame_.camera.projection == Projection::orthographic);
-    if (seen.in_front)
-      copies_.push_back({object, n, first_atom, first_part,
-                         glm::vec4(glm::vec3(seen.center), static_cast<float>(seen.radius)),
-                         static_cast<float>(seen.nearest)});
-    first_atom += static_cast<std::uint32_t>(surface.atoms.size());
-    first_part += part_count;
+    next.object = object;
+    next.copy = n;
+    next.bound = glm::vec4(glm::vec3(seen.center), static_cast<float>(seen.radius));
+    next.nearest = static_cast<float>(seen.nearest);
+    if (seen.in_front) copies_.push_back(next);
+    next.first_atom += static_cast<std::uint32_t>(surface.atoms.size());
+    next.first_part += part_count;
+    next.first_component += static_cast<std::uint32_t>(surface.components.size());
   }
 }
 
@@ -122,7 +143,7 @@ std::vector<const VisibleCopies::Copy*> VisibleCopies::next_batch(std::size_t& n
 
 RayCastScene VisibleCopies::seen_part(const Copy& copy) const {
   const SurfaceObject& object = objects_[copy.object];
-  const RayCastScene all = pack_part(moved_patches(object.surface, object.copies[copy.motion]), object.coloring, frame_,
+  const RayCastScene all = pack_part(moved_patches(object.surface, object.copies[copy.copy]), object.coloring, frame_,
                                      placement_.slack, copy.first_atom);
   RayCastScene seen;
   append_kept(
@@ -130,12 +151,14 @@ RayCastScene VisibleCopies::seen_part(const Copy& copy) const {
   return seen;
 }
 
-void VisibleCopies::add(const Copy& copy, RayCastScene part, HostScene& scene) const {
+void VisibleCopies::add(const Copy& copy, RayCastScene part, HostScene& scene) {
   if (part.primitives.empty()) return;
   const Coloring& coloring = objects_[copy.object].coloring;
   const std::vector<glm::vec4>& colors = colors_[copy.object];
   if (coloring.kind && !scene.colors.empty()) scene.colors.resize(scene.colors.size() - coloring.kind->size());
-  shift_atoms(part, static_cast<std::uint32_t>(scene.colors.size()));
+  places_.push_back({copy.object, copy.copy, static_cast<std::uint32_t>(scene.colors.size())});
+  placed_.push_back(&copy);
+  shift_atoms(part, places_.back().first_atom);
   scene.add_paint(coloring, frame_.pivot);
   scene.colors.insert(scene.colors.end(), colors.begin(), colors.end());
   for (const std::uint32_t n : coloring.part) scene.parts.push_back(static_cast<float>(copy.first_part + n));
@@ -143,9 +166,12 @@ void VisibleCopies::add(const Copy& copy, RayCastScene part, HostScene& scene) c
       part, [](std::size_t) { return true; }, scene.packed);
 }
 
-void VisibleCopies::find(const PictureBlock& block, int samples, const Look& look, HostScene& scene) {
+void VisibleCopies::find(const PictureBlock& block, int samples, const Look& look, HostScene& scene,
+                         const std::function<bool()>& stop) {
   block_ = block;
   moved_ = 0;
+  places_.clear();
+  placed_.clear();
   const glm::ivec2 tiles = tile_counts(block);
   depths_.assign(static_cast<std::size_t>(tiles.x) * tiles.y, kNothingMet);
   hits_.resize(static_cast<std::size_t>(block.size.x) * block.size.y);
@@ -156,7 +182,10 @@ void VisibleCopies::find(const PictureBlock& block, int samples, const Look& loo
   for (std::size_t next = 0; next < copies_.size();) {
     const std::vector<const Copy*> batch = next_batch(next);
     std::vector<RayCastScene> parts(batch.size());
-    tbb::parallel_for(std::size_t{0}, batch.size(), [&](std::size_t n) { parts[n] = seen_part(*batch[n]); });
+    tbb::parallel_for(std::size_t{0}, batch.size(), [&](std::size_t n) {
+      if (!stop || !stop()) parts[n] = seen_part(*batch[n]);
+    });
+    if (stop && stop()) return;
     const std::size_t first_new = scene.packed.primitives.size();
     for (std::size_t n = 0; n < batch.size(); ++n) add(*batch[n], std::exchange(parts[n], {}), scene);
     moved_ += batch.size();
@@ -166,6 +195,19 @@ void VisibleCopies::find(const PictureBlock& block, int samples, const Look& loo
     cast_from(first_new, samples, scene);
   }
   scene.connect(look, by_kind, some_hidden_);
+}
+
+HitNames VisibleCopies::names_of(const ray_cast::Hit& hit, const ray_cast::Primitive& primitive,
+                                 const glm::dvec3& point) const {
+  const std::size_t n = place_of(places_, hit.atom);
+  const Copy& copy = *placed_[n];
+  const SurfaceObject& object = objects_[copy.object];
+  const RigidMotion& motion = object.copies[copy.copy];
+  const glm::dvec3 at_home = glm::transpose(motion.rotation) * (point - motion.translation);
+  const std::uint32_t component =
+      ComponentLookup(object.surface).at(static_cast<PatchKind>(primitive.kind), primitive.patch_index, at_home);
+  return {copy.first_atom + (hit.atom - places_[n].first_atom),
+          component == kNone ? kNone : copy.first_component + component, primitive.kind};
 }
 
 /// Casts tiles that list one of the new primitives, and leaves of the scene what rays may show.

@@ -9,6 +9,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -18,8 +19,22 @@
 #include "core/queries/surface_object.h"
 #include "core/render/cpu/cpu_tile_lists.h"
 #include "core/render/cpu/host_scene.h"
+#include "core/render/picture_collector.h"
 
 namespace meniscus {
+
+/// The balls of every copy, in the order of merged(); of `objects`, which must stay as long as they.
+std::vector<BallGroup> ball_groups(std::span<const SurfaceObject> objects);
+
+/// A copy, and where its atoms stand among those of a scene or of all copies.
+struct CopyPlace {
+  std::uint32_t object = 0;  ///< which of the objects
+  std::uint32_t copy = 0;    ///< which of SurfaceObject::copies
+  std::uint32_t first_atom = 0;
+};
+
+/// Which of them has the atom of a scene; they stand by first_atom, and the first has 0.
+std::size_t place_of(std::span<const CopyPlace> places, std::uint32_t atom);
 
 class VisibleCopies {
  public:
@@ -32,29 +47,34 @@ class VisibleCopies {
                 const LaneKernels& kernels, std::size_t patches_together = kPatchesTogether);
 
   /// Puts into `scene` what the first `samples` samples of the block's pixels show, and perhaps a little more, and
-  /// connects it.
-  void find(const PictureBlock& block, int samples, const Look& look, HostScene& scene);
+  /// connects it. stop: asked now and then, on all threads; if true, the scene is of no use.
+  void find(const PictureBlock& block, int samples, const Look& look, HostScene& scene,
+            const std::function<bool()>& stop = {});
+
+  /// What a hit in the scene that the last find() made stands for, in the tables of merged(). point: Å.
+  HitNames names_of(const ray_cast::Hit& hit, const ray_cast::Primitive& primitive, const glm::dvec3& point) const;
+
+  /// The copies in that scene, in its order.
+  const std::vector<CopyPlace>& places() const { return places_; }
 
   /// Copies that the last find() moved.
   std::size_t moved() const { return moved_; }
 
  private:
   /// A copy, and what of it does not depend on a block.
-  struct Copy {
-    std::uint32_t object = 0;
-    std::uint32_t motion = 0;
-    std::uint32_t first_atom = 0;  // among those of all copies
+  struct Copy : CopyPlace {        // first_atom: among those of all copies
     std::uint32_t first_part = 0;  // likewise
-    glm::vec4 bound{0.0f};         // as Primitive::bound
-    float nearest = 0.0f;          // as Primitive::nearest
+    std::uint32_t first_component = 0;
+    glm::vec4 bound{0.0f};  // as Primitive::bound
+    float nearest = 0.0f;   // as Primitive::nearest
   };
 
-  void add_copies(std::uint32_t object, std::uint32_t& first_atom, std::uint32_t& first_part);
+  void add_copies(std::uint32_t object, Copy& next);
   std::size_t patch_count(const Copy& copy) const;
   bool is_hidden(const glm::vec4& bound, float nearest) const;
   std::vector<const Copy*> next_batch(std::size_t& next) const;
   RayCastScene seen_part(const Copy& copy) const;
-  void add(const Copy& copy, RayCastScene part, HostScene& scene) const;
+  void add(const Copy& copy, RayCastScene part, HostScene& scene);
   void cast_from(std::size_t first_new, int samples, HostScene& scene);
   void cast_tile(std::size_t tile, int samples, const HostScene& scene);
   float farthest_of(const LaneTile& tile, const kernel::BlockView& view);
@@ -76,6 +96,8 @@ class VisibleCopies {
   std::vector<ray_cast::Hit> hits_;               // of one sample
   std::vector<float> depths_;                     // of tiles: no ray of them sees farther, Å from the camera
   std::vector<std::atomic<std::uint8_t>> shown_;  // primitives that stay
+  std::vector<CopyPlace> places_;                 // of the scene
+  std::vector<const Copy*> placed_;               // likewise
 };
 
 }  // namespace meniscus

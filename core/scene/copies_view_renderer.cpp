@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copies drawn from one surface each by the CPU, or as atoms like all others by GL.
+#include <span>
+#include <utility>
+
+#include "core/queries/surface_object.h"
+#include "core/render/cpu/cpu_renderer.h"
+#include "core/scene/copied_atoms.h"
+#include "core/scene/view_renderer.h"
+#include "core/surface/reduced_surface_engine.h"
+#include "core/surface/surface.h"
+
+namespace meniscus {
+namespace {
+
+/// Ends the computation of a surface that nobody wants any more.
+struct StoppedSurface {};
+
+class CpuCopiesRenderer final : public ViewRenderer {
+ public:
+  explicit CpuCopiesRenderer(std::vector<Instances> copies) : copies_(std::move(copies)) {}
+
+  void set_atoms(std::vector<Ball> atoms) override {
+    atoms_ = std::move(atoms);
+    objects_.clear();
+  }
+  void set_coloring(const Coloring& coloring) override {
+    coloring_ = coloring;
+    color_objects();
+  }
+
+  bool draw(double probe_radius, const Camera& camera, const RenderSettings& settings,
+            const std::function<bool()>& stop) override {
+    validate_camera(camera, "camera");
+    times_.clear();
+    if (objects_.empty() || objects_.front().surface.probe_radius != probe_radius)
+      if (!compute(probe_radius, stop)) return false;
+    const bool whole = renderer_.draw_copies(objects_, camera, settings, stop);
+    times_.insert(times_.end(), renderer_.times().begin(), renderer_.times().end());
+    return whole;
+  }
+
+  Framebuffer render(const Surface& surface, const Coloring& coloring, const Camera& camera,
+                     const RenderSettings& settings) override {
+    return CpuRenderer().render(surface, coloring, camera, settings);
+  }
+
+  std::vector<std::uint8_t> rgba() const override { return renderer_.rgba(); }
+  std::uint32_t texture() const override { return 0; }
+  glm::ivec2 size() const override { return renderer_.size(); }
+  std::optional<PickedPoint> pick(glm::ivec2 pixel) const override {
+    std::optional<PickedPoint> point = renderer_.pick(pixel);
+    if (point) point->atom = copies_[point->object].atoms[point->atom];
+    return point;
+  }
+  std::shared_ptr<const Surface> surface() const override { return nullptr; }
+  const std::vector<StageTime>& times() const override { return times_; }
+
+ private:
+  /// False if it was given up.
+  bool compute(double probe_radius, const std::function<bool()>& stop) {
+    objects_.clear();
+    StageClock clock;
+    clock.before_stages([&stop] {
+      if (stop && stop()) throw StoppedSurface();
+    });
+    std::vector<SurfaceObject> objects;
+    try {
+      for (const Instances& group : copies_) {
+        std::vector<Ball> balls;
+        for (const std::uint32_t atom : group.atoms) balls.push_back(atoms_[atom]);
+        SurfaceObject& object = objects.emplace_back();
+        object.surface = compute_surface(*engine_, balls, probe_radius, clock);
+        require_closed(object.surface);
+        object.atom = group.atoms;
+        object.copies = group.motions;
+      }
+    } catch (const StoppedSurface&) {
+      return false;
+    }
+    objects_ = std::move(objects);
+    color_objects();
+    times_ = clock.times();
+    return true;
+  }
+
+  void color_objects() {
+    for (SurfaceObject& object : objects_) object.coloring = coloring_of(coloring_, object.atom);
+  }
+
+  const std::vector<Instances> copies_;
+  std::vector<Ball> atoms_;
+  Coloring coloring_;
+  std::unique_ptr<ReducedSurfaceEngine> engine_ = make_cpu_engine();
+  std::vector<SurfaceObject> objects_;  // of copies_ and atoms_; none: not yet, or given up
+  CpuRenderer renderer_;
+  std::vector<StageTime> times_;
+};
+
+/// Whatever draws atoms draws all copies, as they keep apart.
+class PlacedAtomsRenderer final : public ViewRenderer {
+ public:
+  PlacedAtomsRenderer(std::vector<Instances> copies, std::unique_ptr<ViewRenderer> renderer)
+      : copies_(std::move(copies)), placed_(placed_atoms(copies_)), renderer_(std::move(renderer)) {}
+
+  void set_atoms(std::vector<Ball> atoms) override { renderer_->set_atoms(placed_balls(atoms, copies_)); }
+  void set_coloring(const Coloring& coloring) override {
+    std::vector<std::uint32_t> atoms;
+    for (const CopiedAtom& atom : placed_) atoms.push_back(atom.atom);
+    Coloring all = coloring_of(coloring, atoms);
+    keep_parts_apart(all);
+    renderer_->set_coloring(all);
+  }
+
+  bool draw(double probe_radius, const Camera& camera, const RenderSettings& settings,
+            const std::function<bool()>& stop) override {
+    return renderer_->draw(probe_radius, camera, settings, stop);
+  }
+  Framebuffer render(const Surface& surface, const Coloring& coloring, const Camera& camera,
+                     const RenderSettings& settings) override {
+    return renderer_->render(surface, coloring, camera, settings);
+  }
+
+  std::vector<std::uint8_t> rgba() const override { return renderer_->rgba(); }
+  std::uint32_t texture() const override { return renderer_->texture(); }
+  glm::ivec2 size() const override { return renderer_->size(); }
+  std::optional<PickedPoint> pick(glm::ivec2 pixel) const override {
+    std::optional<PickedPoint> point = renderer_->pick(pixel);
+    if (!point) return point;
+    const CopiedAtom& atom = placed_[point->atom];
+    point->atom = atom.atom;
+    point->copy = atom.copy;
+    return point;
+  }
+  std::shared_ptr<const Surface> surface() const override { return nullptr; }
+  const std::vector<StageTime>& times() const override { return renderer_->times(); }
+
+ private:
+  /// Those of copies and groups, which merged() keeps apart, too.
+  void keep_parts_apart(Coloring& all) const {
+    if (all.part.empty()) return;
+    std::size_t place = 0;
+    std::uint32_t first = 0, next = 0;
+    for (const Instances& group : copies_)
+      for (std::size_t copy = 0; copy < group.motions.size(); ++copy, first = next)
+        for (std::size_t n = 0; n < group.atoms.size(); ++n, ++place) {
+          all.part[place] += first;
+          next = std::max(next, all.part[place] + 1);
+        }
+  }
+
+  const std::vector<Instances> copies_;
+  const std::vector<CopiedAtom> placed_;
+  std::unique_ptr<ViewRenderer> renderer_;
+};
+
+}  // namespace
+
+std::unique_ptr<ViewRenderer> make_cpu_copies_renderer(std::vector<Instances> copies) {
+  return std::make_unique<CpuCopiesRenderer>(std::move(copies));
+}
+
+std::unique_ptr<ViewRenderer> make_placed_atoms_renderer(std::vector<Instances> copies,
+                                                         std::unique_ptr<ViewRenderer> renderer) {
+  return std::make_unique<PlacedAtomsRenderer>(std::move(copies), std::move(renderer));
+}
+
+}  // namespace meniscus
