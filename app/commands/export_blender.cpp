@@ -17,6 +17,7 @@
 #include "app/reports/notes.h"
 #include "app/options/run_camera_options.h"
 #include "app/options/molecule_options.h"
+#include "app/options/figure_options.h"
 #include "app/options/frame_options.h"
 #include "app/options/picture_options.h"
 #include "app/options/representation_options.h"
@@ -35,6 +36,7 @@ struct BlenderCommand {
   ViewRequest picture;
   OutputOptions output;
   double fps = 24.0;
+  bool film_opacity = false;  // PictureObject::thickens
 };
 
 std::string file_name(const std::string& path) { return std::filesystem::path(path).filename().string(); }
@@ -100,14 +102,14 @@ void run_sequence(const BlenderCommand& command) {
        frame_builders(frames, command.molecule, command.frames, kMeshBytesPerAtom * frames.structure().atoms.size()))
     workers.push_back([&, builder](const RunFrame& frame) -> FinishFrame {
       const Molecule molecule = builder->build(frame.structure);
-      std::vector<TriangleMesh> meshes = mesh_objects(molecule.objects, manifest.tolerance);
+      std::vector<TriangleMesh> meshes = mesh_objects(molecule.objects, manifest.tolerance, !molecule.beside.empty());
       std::vector<blender::MeshedObject> objects;
       for (std::size_t n = 0; n < meshes.size(); ++n) {
         const SurfaceObject& object = molecule.objects[n];
         std::vector<glm::dvec3> velocities =
             velocities_of(object, meshes[n], frame, pace(frames.numbers(), frame.place));
         objects.push_back({object, std::move(meshes[n]), blender::atom_attributes(molecule.structure, object.atom),
-                           std::move(velocities)});
+                           std::move(velocities), command.film_opacity});
       }
       std::optional<ShapeObject> beside;
       add_beside(molecule, manifest.tolerance, beside, objects);
@@ -136,11 +138,16 @@ void run(const BlenderCommand& command) {
   const std::vector<Ball> balls = shown_balls(molecule);
   const Camera camera = aim.camera(command.picture, given, molecule.objects);
   const double tolerance = tolerance_of(command.mesh, command.picture.size(), camera, balls);
-  std::vector<TriangleMesh> meshes = mesh_and_tell(command.molecule, molecule.objects, tolerance);
+  std::vector<TriangleMesh> meshes =
+      mesh_and_tell(command.molecule, molecule.objects, tolerance, !molecule.beside.empty());
   std::vector<blender::MeshedObject> objects;
   for (std::size_t n = 0; n < meshes.size(); ++n) {
     const SurfaceObject& object = molecule.objects[n];
-    objects.push_back({object, std::move(meshes[n]), blender::atom_attributes(molecule.structure, object.atom), {}});
+    objects.push_back({object,
+                       std::move(meshes[n]),
+                       blender::atom_attributes(molecule.structure, object.atom),
+                       {},
+                       command.film_opacity});
   }
   std::optional<ShapeObject> beside;
   add_beside(molecule, tolerance, beside, objects);
@@ -163,6 +170,7 @@ void add_export_blender(CLI::App& command) {
   auto state = std::make_shared<BlenderCommand>();
   add_molecule_options(command, state->molecule);
   add_representation_options(command, state->molecule.representations);
+  add_opacity_options(command, state->molecule, state->film_opacity);
   add_mesh_options(command, state->mesh);
   add_picture_options(command, state->picture);
   add_frame_options(command, state->frames);

@@ -30,12 +30,17 @@ void parse_cap_color(const std::string& text, CapStyle& cap) {
 
 }  // namespace
 
+void add_opacity_options(CLI::App& command, MoleculeOptions& molecule, bool& thickens) {
+  const Heading heading(command, "Figure");
+  add_opacity_option(command, molecule);
+  command.add_flag("--film-opacity", thickens,
+                   "A surface that is seen through is denser where the view grazes it, as a thin film is");
+}
+
 void add_figure_options(CLI::App& command, MoleculeOptions& molecule, FigureRequest& figure) {
   const Heading heading(command, "Figure");
   add_representation_options(command, figure.representations);
-  add_opacity_option(command, molecule);
-  command.add_flag("--film-opacity", figure.thickens,
-                   "A surface that is seen through is denser where the view grazes it, as a thin film is");
+  add_opacity_options(command, molecule, figure.thickens);
   command
       .add_option_function<std::vector<std::string>>(
           "--clip",

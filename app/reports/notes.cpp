@@ -86,8 +86,8 @@ void tell_run(const MoleculeOptions& options, const FrameRun& frames) {
 }
 
 std::vector<TriangleMesh> mesh_and_tell(const MoleculeOptions& options, std::span<const SurfaceObject> objects,
-                                        double tolerance) {
-  std::vector<TriangleMesh> meshes = mesh_objects(objects, tolerance);
+                                        double tolerance, bool may_be_empty) {
+  std::vector<TriangleMesh> meshes = mesh_objects(objects, tolerance, may_be_empty);
   say(options,
       fmt::format("{} triangles within {:.4g} Å of the surface", with_thousands(triangle_count(meshes)), tolerance));
   return meshes;

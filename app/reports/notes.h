@@ -33,7 +33,7 @@ void tell_run(const MoleculeOptions& options, const FrameRun& frames);
 
 /// Meshes what is shown of each object, and says how many triangles came out.
 std::vector<TriangleMesh> mesh_and_tell(const MoleculeOptions& options, std::span<const SurfaceObject> objects,
-                                        double tolerance);
+                                        double tolerance, bool may_be_empty = false);
 
 /// Reads, computes and colours, in that order; says what was read and on which device it ran.
 Molecule load_molecule(const MoleculeOptions& options);

@@ -92,6 +92,7 @@ void add_atoms(MnsWriter& file, const SurfaceObject& object, const AtomAttribute
   file.add("atom.radius", radius.values());
   file.add("atom.color", color.values(), 3);
   file.add("atom.index", std::span(object.atom));
+  if (object.coloring.is_translucent()) file.add("atom.opacity", std::span(object.coloring.opacity));
   if (!atoms.b_factor.empty()) file.add("atom.b_factor", std::span(atoms.b_factor));
   if (!atoms.atomic_number.empty()) file.add("atom.atomic_number", std::span(atoms.atomic_number));
   if (!atoms.residue_number.empty()) file.add("atom.res_id", std::span(atoms.residue_number));
@@ -218,6 +219,7 @@ json object_header(const MeshedObject& meshed, const std::string& prefix, const 
               {"components", component_list(surface, mesh)},
               {"chain_names", meshed.atoms.chain_names}};
   for (const RigidMotion& copy : meshed.object.copies) header["copies"].push_back(matrix(copy));
+  if (meshed.thickens && meshed.object.coloring.is_translucent()) header["film_opacity"] = true;
   if (const auto& kinds = meshed.object.coloring.kind) {
     json colors = json::array();
     for (const glm::vec3& c : *kinds) colors.push_back(numbers(glm::dvec3(c)));

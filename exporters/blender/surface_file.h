@@ -40,6 +40,7 @@ struct MeshedObject {
   TriangleMesh mesh;  ///< without triangles: the object is left out
   AtomAttributes atoms;
   std::vector<glm::dvec3> velocities;  ///< per vertex, Å per scene frame; empty: the file has none
+  bool thickens = false;               ///< PictureObject::thickens, for colours with opacities
 };
 
 /// Which frame of a run a file is: it must say so, since files of several runs may get into one folder.

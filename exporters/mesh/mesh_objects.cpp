@@ -26,14 +26,14 @@ double tolerance_of(const MeshRequest& request, glm::ivec2 size, const Camera& c
   return std::clamp(request.tolerance_pixels * pixel, kSmallestTolerance, kLargestTolerance);
 }
 
-std::vector<TriangleMesh> mesh_objects(std::span<const SurfaceObject> objects, double tolerance) {
+std::vector<TriangleMesh> mesh_objects(std::span<const SurfaceObject> objects, double tolerance, bool may_be_empty) {
   std::vector<TriangleMesh> meshes;
   bool any = false;
   for (const SurfaceObject& object : objects) {
     meshes.push_back(shown_part(tessellate(object.surface, {tolerance, true}), object.coloring));
     any = any || !meshes.back().triangles.empty();
   }
-  if (!any) throw RequestError("nothing of the surface is shown, so there is no mesh to write");
+  if (!any && !may_be_empty) throw RequestError("nothing of the surface is shown, so there is no mesh to write");
   return meshes;
 }
 

@@ -28,7 +28,8 @@ struct MeshRequest {
 double tolerance_of(const MeshRequest& request, glm::ivec2 size, const Camera& camera, std::span<const Ball> balls);
 
 /// Meshes what is shown of each object. Throws RequestError when no triangle came out.
-std::vector<TriangleMesh> mesh_objects(std::span<const SurfaceObject> objects, double tolerance);
+std::vector<TriangleMesh> mesh_objects(std::span<const SurfaceObject> objects, double tolerance,
+                                       bool may_be_empty = false);
 
 /// Of all of them.
 std::size_t triangle_count(std::span<const TriangleMesh> meshes);

@@ -29,7 +29,7 @@ import bpy
 import mathutils
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from meniscus_import import build, mns_reader, sequence, sequence_reader  # noqa: E402
+from meniscus_import import build, compat, materials, mns_reader, sequence, sequence_reader  # noqa: E402
 
 #: Direction towards the light in the camera's axes (right, up, back), its colour; strengths are what a white, matt
 #: surface that faces the light sends to the camera. As in the POV-Ray scenes of Meniscus.
@@ -44,6 +44,7 @@ FILM = (
     ((-0.55, 0.65, 0.75), (0.90, 0.87, 0.82), 12.0),
     ((0.8, 0.1, 0.5), (0.13, 0.15, 0.18), 30.0),
 )
+LIGHTS = {"studio": STUDIO, "film": FILM, "flat": ()}
 
 
 class Parser(argparse.ArgumentParser):
@@ -64,8 +65,9 @@ def parse(arguments):
     parser.add_argument("--size", help="WIDTHxHEIGHT in pixels; default: that of the file")
     parser.add_argument("--scale", type=float, default=1.0, help="Blender units per Å")
     parser.add_argument("--samples", type=int, default=32)
-    parser.add_argument("--style", choices=("studio", "film"), default="studio",
-                        help="studio: matt, no shadows, as the POV-Ray scenes; film: soft shadows and sky light")
+    parser.add_argument("--style", choices=tuple(LIGHTS), default="studio",
+                        help="studio: matt, no shadows, as the POV-Ray scenes; film: soft shadows and sky light; "
+                        "flat: colours as they are, no light")
     parser.add_argument("--blend", help="save the scene here, too")
     parser.add_argument("--transparent", action="store_true", help="no background")
     options = parser.parse_args(arguments)
@@ -104,30 +106,42 @@ def empty_scene():
 
 
 def add_lights(scene, camera, style):
-    for index, (direction, color, *angle) in enumerate(FILM if style == "film" else STUDIO):
+    for index, (direction, color, *angle) in enumerate(LIGHTS[style]):
         light = bpy.data.lights.new(f"Meniscus light {index + 1}", "SUN")
         light.color, light.energy = color, math.pi
         light.angle = math.radians(angle[0]) if angle else 0.0
-        light.cycles.cast_shadow = bool(angle)
+        compat.cast_shadows(light, bool(angle))
         item = bpy.data.objects.new(light.name, light)
         item.parent = camera
         item.rotation_euler = mathutils.Vector(direction).to_track_quat("Z", "Y").to_euler()
         scene.collection.objects.link(item)
     world = bpy.data.worlds.new("Meniscus world")
-    world.use_nodes = True
-    background = world.node_tree.nodes["Background"]
+    tree = compat.node_tree(world)
+    background = compat.find_or_add(tree, "BACKGROUND", "ShaderNodeBackground")
+    tree.links.new(background.outputs[0], compat.find_or_add(tree, "OUTPUT_WORLD", "ShaderNodeOutputWorld").inputs["Surface"])
     background.inputs["Color"].default_value = (0.85, 0.92, 1.0, 1.0)
     background.inputs["Strength"].default_value = 0.35 if style == "film" else 0.0
     scene.world = world
 
 
-def make_matt():
-    """Nothing but diffuse colour, as in the studio style of the other renderers."""
-    for material in (bpy.data.materials[name] for name in build.MATERIALS):
-        shader = next(node for node in material.node_tree.nodes if node.type == "BSDF_PRINCIPLED")
-        for name in ("Specular", "Specular IOR Level"):
-            if name in shader.inputs:
-                shader.inputs[name].default_value = 0.0
+def our_materials():
+    return [material for material in bpy.data.materials if materials.MARK in material]
+
+
+def apply_style(style):
+    """studio: nothing but diffuse colour, as in the studio style of the other renderers. flat: colours as they are."""
+    for material in our_materials() if style != "film" else ():
+        shader = materials.shader_of(material)
+        specular = compat.principled_input(shader, "Specular IOR Level", "Specular")
+        specular.default_value = 0.0
+        if style == "flat":
+            color = next(link.from_socket for link in material.node_tree.links if link.to_node == shader
+                         and link.to_socket.name in ("Base Color", "Emission Color", "Emission"))
+            for link in list(shader.inputs["Base Color"].links):
+                material.node_tree.links.remove(link)
+            shader.inputs["Base Color"].default_value = (0.0, 0.0, 0.0, 1.0)
+            material.node_tree.links.new(color, compat.principled_input(shader, "Emission Color", "Emission"))
+            shader.inputs["Emission Strength"].default_value = 1.0
 
 
 def set_up_cycles(scene, samples):
@@ -137,13 +151,14 @@ def set_up_cycles(scene, samples):
     scene.cycles.use_adaptive_sampling = False
     scene.cycles.use_denoising = False
     scene.cycles.seed = 1
+    scene.cycles.transparent_max_bounces = build.MOST_LAYERS
     scene.view_settings.view_transform = "Standard"
     scene.render.use_overwrite = True
 
 
 def render_to(scene, path, file_format, depth):
     settings = scene.render.image_settings
-    settings.file_format = file_format
+    compat.set_format(settings, file_format)
     settings.color_depth = depth
     if file_format == "PNG":
         settings.color_mode = "RGBA" if scene.render.film_transparent else "RGB"
@@ -157,6 +172,7 @@ def render_to(scene, path, file_format, depth):
 
 
 def render_picture(scene, options, path):
+    apply_style(options.style)  # the first frame of a sequence brings its materials
     set_up_cycles(scene, options.samples)
     scene.cycles.pixel_filter_type = "BLACKMAN_HARRIS"
     scene.cycles.filter_width = 1.5
@@ -189,8 +205,8 @@ def dress(scene, camera, options):
     if options.size:
         scene.render.resolution_x, scene.render.resolution_y = options.size
     add_lights(scene, camera, options.style)
-    if options.style == "studio":
-        make_matt()
+    apply_style(options.style)
+    if options.style != "film":
         scene.cycles.max_bounces = 0
     if options.motion_blur:
         scene.render.use_motion_blur = True
@@ -230,10 +246,12 @@ class Stage:
             self.item = sequence.stream(options.file, context, scale=options.scale)
         else:
             self.placement = sequence.Placement(frames, options.scale)
-            self.item = bpy.data.objects.new(frames.stem, sequence.new_mesh(frames.stem))
+            self.item = bpy.data.objects.new(frames.stem, bpy.data.meshes.new(frames.stem))
             scene.collection.objects.link(self.item)
-            sequence.add_camera(scene, scene.collection, self.placement)
-            sequence.set_up_scene(scene, frames)
+            camera = sequence.add_camera(scene.collection, self.placement)
+            sequence.set_up_scene(scene, frames, self.placement.timing)
+            if camera is not None:
+                sequence.use_camera(scene, camera, frames)
         self.camera = scene.camera
 
     def show(self, scene_frame):
@@ -343,6 +361,8 @@ def main():
         code = run_sequence(options) if options.is_sequence else run_file(options)
     except (mns_reader.MnsError, OSError, RuntimeError) as error:
         fail(exit_code(error), error)
+    finally:
+        sequence.unregister()
     sys.exit(code)
 
 

@@ -2,6 +2,7 @@
 """The import as Blender sees it: counts, closedness, measures, attributes, normals, faults, undo of failures, pictures."""
 
 import os
+import shutil
 import subprocess
 import sys
 import unittest
@@ -12,11 +13,11 @@ import bpy
 import mathutils
 import numpy as np
 
-FOLDER, ADDON, HERE, BLENDER = sys.argv[sys.argv.index("--") + 1:]
+FOLDER, ADDON, HERE, BLENDER, PROGRAM = sys.argv[sys.argv.index("--") + 1:]
 sys.path.insert(0, HERE)
 import samples  # noqa: E402
 
-from meniscus_import import build, compat, mns_reader  # noqa: E402
+from meniscus_import import build, compat, materials, mns_reader  # noqa: E402
 
 STORES = ("objects", "meshes", "cameras", "collections", "materials", "lights", "images", "node_groups")
 
@@ -107,8 +108,10 @@ class Import(unittest.TestCase):
         surface = mns_reader.read(path_of("cage")).objects[0]
         mesh = imported("cage").data
         found = {a.name: (a.data_type, a.domain) for a in mesh.attributes}
-        for name in ("ses_kind", "ses_patch", "ses_component", "atom_index", "atomic_number", "res_id", "chain_id"):
+        for name in ("ses_kind", "ses_patch", "ses_component", "atom_index"):
             self.assertEqual(found[name], ("INT", "FACE"), name)
+        for name in ("atomic_number", "res_id", "chain_id"):
+            self.assertEqual(found[name], ("INT", "POINT"), name)
         for name in ("b_factor", "vdw_radii"):
             self.assertEqual(found[name], ("FLOAT", "POINT"), name)
         self.assertEqual(found["Color"], ("BYTE_COLOR", "CORNER"))
@@ -128,6 +131,178 @@ class Import(unittest.TestCase):
         smooth = imported("cage", crisp_colors=False).data
         self.assertEqual((smooth.attributes["Color"].data_type, smooth.attributes["Color"].domain),
                          ("FLOAT_COLOR", "POINT"))
+
+    def test_numbers_of_atoms_are_those_of_molecular_nodes(self):
+        """Units of the scene, on points, and chains by their sorted names."""
+        with open(path_of("triple"), "rb") as file:
+            data = file.read()
+        header, _ = samples.header_of(data)
+        header["objects"][0]["chain_names"] = ["Z", "A"]
+        for row, chain in enumerate((0, 1, 1)):
+            data = samples.patched(data, "atom.chain_id", "i", chain, row)
+        with open(path_of("chains"), "wb") as file:
+            file.write(samples.with_header(data, header))
+        item = imported("chains", scale=0.5)
+        self.assertEqual(list(item["chain_ids"]), ["A", "Z"])
+        surface, mesh = mns_reader.read(path_of("chains")).objects[0], item.data
+        radii, chains = np.empty(len(mesh.vertices), dtype=np.float32), np.empty(len(mesh.vertices), dtype=np.int32)
+        mesh.attributes["vdw_radii"].data.foreach_get("value", radii)
+        mesh.attributes["chain_id"].data.foreach_get("value", chains)
+        np.testing.assert_allclose(np.unique(radii), [0.76, 0.775, 0.85], rtol=1e-6)
+        atom, corner = surface["mesh.atom"], surface["mesh.triangle"]
+        inner = [v for v in range(len(mesh.vertices)) if v % 41 == 0 and len(set(atom[(corner == v).any(axis=1)])) == 1]
+        self.assertGreater(len(inner), 10)
+        for vertex in inner:
+            of = atom[(corner == vertex).any(axis=1)][0]
+            self.assertAlmostEqual(radii[vertex], 0.5 * surface["atom.radius"][of], places=5)
+            self.assertEqual(chains[vertex], (1, 0, 0)[of])
+
+    def test_opacity(self):
+        with open(path_of("triple"), "rb") as file:
+            data = file.read()
+        for film in (False, True):
+            with open(path_of("clear"), "wb") as file:
+                file.write(samples.seen_through(data, [0.25, 1.0, 0.5], film))
+            surface, mesh = mns_reader.read(path_of("clear")).objects[0], imported("clear").data
+            self.assertEqual((mesh.attributes["opacity"].data_type, mesh.attributes["opacity"].domain), ("FLOAT", "FACE"))
+            values = np.empty(len(mesh.polygons), dtype=np.float32)
+            mesh.attributes["opacity"].data.foreach_get("value", values)
+            np.testing.assert_array_equal(values, np.float32([0.25, 1.0, 0.5])[surface["mesh.atom"]])
+            for material in mesh.materials:
+                shader = materials.shader_of(material)
+                self.assertTrue(shader.inputs["Alpha"].is_linked)
+                self.assertEqual(any(node.type == "NEW_GEOMETRY" for node in material.node_tree.nodes), film)
+        plain = imported("triple").data  # whose materials cost nothing more than before
+        self.assertNotIn("opacity", plain.attributes)
+        self.assertFalse(any(materials.shader_of(material).inputs["Alpha"].is_linked for material in plain.materials))
+        for wrong in ([0.25, 1.0], [0.5, 0.5, float("nan")], [0.5, 0.5, 1.5]):
+            with open(path_of("clear"), "wb") as file:
+                file.write(samples.seen_through(data, wrong, False))
+            with self.assertRaises(RuntimeError) as caught:
+                imported("clear")
+            self.assertIn("atom.opacity", str(caught.exception))
+
+    def test_a_scene_keeps_its_camera_and_size_when_asked(self):
+        scene = bpy.context.scene
+        own = bpy.data.objects.new("own", bpy.data.cameras.new("own"))
+        scene.collection.objects.link(own)
+        scene.camera, scene.render.resolution_x = own, 1234
+        imported("pair", use_camera=False)
+        self.assertEqual((scene.camera, scene.render.resolution_x), (own, 1234))
+        self.assertEqual(len(bpy.data.cameras), 2)
+        imported("pair", import_camera=False)
+        self.assertEqual((scene.camera, scene.render.resolution_x, len(bpy.data.cameras)), (own, 1234, 2))
+        imported("pair")
+        self.assertNotEqual(scene.camera, own)
+        self.assertEqual(scene.render.resolution_x, 160)
+
+    def test_what_is_imported_is_selected_and_shows_its_colours(self):
+        bpy.ops.wm.read_factory_settings()
+        addon_utils.enable("meniscus_import")
+        item = imported("pair")
+        self.assertEqual([other for other in bpy.context.view_layer.objects if other.select_get()], [item])
+        self.assertEqual(bpy.context.view_layer.objects.active, item)
+        self.assertEqual(item.data.color_attributes.active_color.name, "Color")
+        self.assertEqual({space.shading.color_type for space in build.views_of(bpy.context)} - {"VERTEX"}, set())
+
+    def test_colours_as_they_are_on_request(self):
+        view = bpy.context.scene.view_settings
+        before = view.view_transform
+        imported("pair")
+        self.assertEqual(view.view_transform, before)
+        imported("pair", standard_view=True)
+        self.assertEqual(view.view_transform, "Standard")
+
+    def test_centred_surfaces_stay_together(self):
+        items = [imported("triple", center=True, scale=0.5), imported("pair", center=True, scale=0.5)]
+        centers = mns_reader.read(path_of("triple")).objects[0]["atom.center"]
+        middle = 0.5 * (centers.min(axis=0) + centers.max(axis=0))
+        for item, name in zip(items, ("triple", "pair")):
+            surface = mns_reader.read(path_of(name)).objects[0]
+            world = np.array([item.matrix_world @ vertex.co for vertex in item.data.vertices])
+            there = 0.5 * (surface["mesh.position"] + np.array(surface.header["mesh"]["origin"]) - middle)
+            np.testing.assert_allclose(world, there, atol=1e-5)
+
+    def test_a_material_of_the_user_is_not_taken_for_ours(self):
+        theirs = bpy.data.materials.new("Meniscus outer")
+        mesh = imported("pair").data
+        self.assertNotEqual(mesh.materials[0], theirs)
+        shader = materials.shader_of(mesh.materials[0])
+        self.assertTrue(shader.inputs["Base Color"].is_linked)
+        # One of an earlier version of the add-on, which was not marked, is.
+        del mesh.materials[0]["meniscus_material"]
+        bpy.data.materials.remove(theirs)
+        mesh.materials[0].name = "Meniscus outer"
+        self.assertEqual(imported("pair").data.materials[0], mesh.materials[0])
+
+    def test_an_import_has_materials_of_its_own_on_request(self):
+        shared = imported("pair").data.materials[0]
+        own = [imported("pair", own_materials=True).data.materials[0] for _ in range(2)]
+        self.assertEqual(len({shared, *own}), 3)
+        self.assertEqual(imported("pair").data.materials[0], shared)
+
+    def test_a_new_material_shows_its_colour(self):
+        material = imported("pair").data.materials[0]
+        output = next(node for node in material.node_tree.nodes if node.type == "OUTPUT_MATERIAL")
+        shader = output.inputs["Surface"].links[0].from_node
+        self.assertEqual(shader.type, "BSDF_PRINCIPLED")
+        self.assertEqual(shader.inputs["Base Color"].links[0].from_node.attribute_name, "Color")
+
+    def test_cavities_apart(self):
+        whole = imported("cage", scale=1.0).data
+        before = set(bpy.data.objects)
+        self.assertEqual(bpy.ops.import_scene.meniscus(filepath=path_of("cage"), scale=1.0, parts=True), {"FINISHED"})
+        items = {item["meniscus_part"]: item for item in set(bpy.data.objects) - before if item.type == "MESH"}
+        self.assertEqual(set(items), {"outer", "cavities"})
+        self.assertEqual(sum(len(item.data.polygons) for item in items.values()), len(whole.polygons))
+        volumes = {}
+        for role, item in items.items():
+            mesh = item.data
+            self.assertTrue(mns_reader.is_closed(triangles(mesh)))
+            volumes[role] = mns_reader.signed_volume(positions(mesh), triangles(mesh))
+            self.assertAlmostEqual(volumes[role] / item["meniscus_volume"], 1.0, delta=0.01)
+        self.assertGreater(volumes["outer"], 0.0)
+        self.assertLess(volumes["cavities"], 0.0)
+        self.assertAlmostEqual(sum(volumes.values()), mns_reader.signed_volume(positions(whole), triangles(whole)), places=2)
+        normals = {role: compat.corner_normals(item.data) for role, item in items.items()}
+        together = compat.corner_normals(whole)
+        outer = np.repeat(np.array([p.material_index == 0 for p in whole.polygons]), 3)
+        np.testing.assert_allclose(normals["outer"], together[outer], atol=2e-3)
+        np.testing.assert_allclose(normals["cavities"], together[~outer], atol=2e-3)
+
+    def test_reload_in_place(self):
+        shutil.copy(path_of("triple"), path_of("changing"))
+        item = imported("changing", scale=0.5, center=True)
+        twin = item.copy()
+        bpy.context.scene.collection.objects.link(twin)
+        place, material = item.matrix_world.copy(), bpy.data.materials.new("mine")
+        item.data.materials[0] = material
+        item.modifiers.new("mine", "DECIMATE")
+        mask = item.data.attributes.new("mask", "FLOAT", "FACE")
+        values = np.empty(len(item.data.polygons), dtype=np.int32)
+        item.data.attributes["atom_index"].data.foreach_get("value", values)
+        mask.data.foreach_set("value", values.astype(np.float32) + 1.0)
+        shutil.copy(samples.export(PROGRAM, FOLDER, "triple", "--size", "160x120", "--tolerance", "0.05"), path_of("changing"))
+        count, name = len(item.data.polygons), item.data.name
+        try:
+            bpy.context.view_layer.objects.active = item
+            self.assertEqual(bpy.ops.object.meniscus_reload(), {"FINISHED"})
+            self.assertLess(len(item.data.polygons), 0.5 * count)
+            self.assertEqual((item.data, item.data.name, item.matrix_world), (twin.data, name, place))
+            self.assertEqual((item.data.materials[0], list(item.modifiers.keys())), (material, ["mine"]))
+            kept, atoms = (np.empty(len(item.data.polygons), dtype=kind) for kind in (np.float32, np.int32))
+            item.data.attributes["mask"].data.foreach_get("value", kept)
+            item.data.attributes["atom_index"].data.foreach_get("value", atoms)
+            np.testing.assert_array_equal(kept, atoms + 1.0)
+            before = everything()
+            with open(path_of("changing"), "r+b") as file:
+                file.truncate(1000)
+            with self.assertRaises(RuntimeError):
+                bpy.ops.object.meniscus_reload()
+            self.assertEqual(everything(), before)
+            self.assertGreater(len(item.data.polygons), 100)
+        finally:
+            samples.export(PROGRAM, FOLDER, "triple", "--size", "160x120", "--tolerance", "0.004")
 
     def test_normals_are_exact_where_smooth_and_at_cusps(self):
         for name in ("triple", "drops", "cage"):

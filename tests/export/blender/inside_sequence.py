@@ -12,11 +12,11 @@ import addon_utils
 import bpy
 import numpy as np
 
-FOLDER, ADDON, HERE, BLENDER = sys.argv[sys.argv.index("--") + 1:]
+FOLDER, ADDON, HERE, BLENDER = sys.argv[sys.argv.index("--") + 1:][:4]
 sys.path.insert(0, HERE)
 import samples  # noqa: E402
 
-from meniscus_import import build, compat, joined, mns_reader, sequence, sequence_reader  # noqa: E402
+from meniscus_import import build, compat, frame_picker, joined, mns_reader, sequence, sequence_reader  # noqa: E402
 
 RUN = os.path.join(FOLDER, "run")
 MANIFEST = os.path.join(RUN, "surface_sequence.json")
@@ -164,7 +164,7 @@ class Sequence(unittest.TestCase):
         for mode in ("BAKE", "STREAM"):
             bpy.ops.wm.read_factory_settings(use_empty=True)
             addon_utils.enable("meniscus_import")
-            self.assertEqual(bpy.ops.import_scene.meniscus_sequence(filepath=MANIFEST, mode=mode), {"FINISHED"})
+            self.assertEqual(bpy.ops.import_scene.meniscus_sequence(filepath=MANIFEST, mode=mode, center=True), {"FINISHED"})
             scene = bpy.context.scene
             self.assertEqual((scene.frame_start, scene.frame_end), (1, 3))
             item = next(each for each in bpy.data.objects if "meniscus_sequence" in each)
@@ -177,6 +177,167 @@ class Sequence(unittest.TestCase):
                 instances = [each for each in graph.object_instances if each.is_instance]
                 self.assertFalse(instances, mode)
                 self.assertEqual(len(item.evaluated_get(graph).data.vertices), 0, mode)
+
+    def test_timing_of_a_bake_is_that_of_a_stream(self):
+        """Start, speed, what is outside, and a frame by hand, each at whole and broken times."""
+        cases = ({"start": 4.0}, {"speed": 0.5, "outside": "HOLD"}, {"outside": "LOOP"}, {"outside": "PINGPONG", "speed": 0.5})
+        for case in cases:
+            timing = sequence_reader.Timing(**case)
+            for mode in ("BAKE", "STREAM"):
+                bpy.ops.wm.read_factory_settings(use_empty=True)
+                addon_utils.enable("meniscus_import")
+                bpy.ops.import_scene.meniscus_sequence(filepath=MANIFEST, mode=mode, center=True, **case)
+                scene = bpy.context.scene
+                self.assertEqual(scene.frame_start, timing.start)
+                self.assertEqual(scene.frame_end, timing.scene_time(3))
+                item = next(each for each in bpy.data.objects if "meniscus_sequence" in each)
+                for frame, part in ((-2, 0.0), (0, 0.0), (1, 0.0), (2, 0.25), (3, 0.75), (4, 0.0), (5, 0.0), (6, 0.25), (9, 0.0)):
+                    scene.frame_set(frame, subframe=part)
+                    place = timing.place(frame + part, 3)
+                    text = f"{mode} {case} {frame + part}"
+                    if place is None:
+                        graph = bpy.context.evaluated_depsgraph_get()
+                        self.assertFalse([each for each in graph.object_instances if each.is_instance], text)
+                        self.assertEqual(len(item.evaluated_get(graph).data.vertices), 0, text)
+                    else:
+                        np.testing.assert_allclose(shown(item), expected(place), atol=1e-5, err_msg=text)
+
+    def test_the_frame_can_be_keyed(self):
+        for mode in ("BAKE", "STREAM"):
+            bpy.ops.wm.read_factory_settings(use_empty=True)
+            addon_utils.enable("meniscus_import")
+            bpy.ops.import_scene.meniscus_sequence(filepath=MANIFEST, mode=mode, center=True)
+            scene = bpy.context.scene
+            item = next(each for each in bpy.data.objects if "meniscus_sequence" in each)
+            if mode == "BAKE":
+                modifier = item.modifiers["Frame"]
+                keys = {name: compat.input_identifier(modifier.node_group, name)
+                        for name in (frame_picker.BY_HAND, frame_picker.FRAME)}
+                owner, hand, frame = modifier, keys[frame_picker.BY_HAND], keys[frame_picker.FRAME]
+                path = f'modifiers["Frame"]["{frame}"]'
+            else:
+                owner, hand, frame, path = item, "meniscus_by_hand", "meniscus_frame", '["meniscus_frame"]'
+            owner[hand] = True
+            for time, place in ((10, 3.0), (20, 1.0)):
+                owner[frame] = place
+                item.keyframe_insert(path, frame=time)
+            for curve in compat.action_curves(item):
+                for key in curve.keyframe_points:
+                    key.interpolation = "LINEAR"
+            for time, place in ((10, 3), (14, 2), (16, 2), (20, 1), (40, 1)):
+                scene.frame_set(time)
+                np.testing.assert_allclose(shown(item), expected(place), atol=1e-5, err_msg=f"{mode} {time}")
+
+    def test_velocity_follows_speed_and_frame_rate(self):
+        scene = bpy.context.scene
+        scene.render.fps, scene.render.fps_base = 50, 1.0
+        timing = sequence_reader.Timing(speed=0.25)
+        item = sequence.stream(MANIFEST, timing=timing, set_time=False)
+        values = np.empty(3 * len(item.data.vertices), dtype=np.float32)
+        item.data.attributes["velocity"].data.foreach_get("vector", values)
+        wanted = sequence_reader.read(MANIFEST).read(1).objects[0]["mesh.velocity"] * (0.1 * 0.25 * 50.0)
+        np.testing.assert_allclose(values.reshape(-1, 3), wanted, atol=1e-5)
+
+    def test_a_dressed_scene_stays_as_it_is(self):
+        scene = bpy.context.scene
+        own = bpy.data.objects.new("own", bpy.data.cameras.new("own"))
+        scene.collection.objects.link(own)
+
+        def state():
+            render = scene.render
+            return (scene.camera, scene.frame_start, scene.frame_end, render.fps, render.fps_base, render.resolution_x,
+                    render.resolution_y, scene.view_settings.view_transform)
+
+        scene.camera, scene.frame_end, scene.render.fps = own, 77, 30
+        before = state()
+        for mode in ("BAKE", "STREAM"):
+            bpy.ops.import_scene.meniscus_sequence(filepath=MANIFEST, mode=mode, use_camera=False, set_time=False)
+            self.assertEqual(state(), before)
+        bpy.ops.import_scene.meniscus_sequence(filepath=MANIFEST, mode="STREAM")
+        self.assertEqual((scene.frame_start, scene.frame_end, scene.render.fps, scene.render.resolution_x), (1, 3, 25, 120))
+        self.assertNotEqual(scene.camera, own)
+
+    def test_a_still_surface_overlays_its_trajectory(self):
+        still = os.path.join(RUN, "surface_00001.mns")
+        for center in (False, True):
+            for sequence_first in (False, True):
+                bpy.ops.wm.read_factory_settings(use_empty=True)
+                addon_utils.enable("meniscus_import")
+                for step in (sequence_first, not sequence_first):
+                    if step:
+                        bpy.ops.import_scene.meniscus_sequence(filepath=MANIFEST, mode="STREAM", center=center, scale=0.1)
+                    else:
+                        bpy.ops.import_scene.meniscus(filepath=still, center=center)
+                bpy.context.scene.frame_set(1)
+                run, alone = (next(each for each in bpy.data.objects if key in each) for key in ("meniscus_sequence", "meniscus_file"))
+                world = [np.array([item.matrix_world @ vertex.co for vertex in item.data.vertices]) for item in (run, alone)]
+                np.testing.assert_allclose(*world, atol=1e-4)
+
+    def test_attributes_of_the_user_go_with_their_atoms(self):
+        item = sequence.stream(MANIFEST)
+        mesh, scene = item.data, bpy.context.scene
+
+        def atoms():
+            values = np.empty(len(mesh.polygons), dtype=np.int32)
+            mesh.attributes["atom_index"].data.foreach_get("value", values)
+            return values
+
+        first = atoms()
+        for name, kind, domain in (("on_faces", "INT", "FACE"), ("on_corners", "FLOAT", "CORNER"), ("colour", "FLOAT_COLOR", "FACE"),
+                                   ("marked", "BOOLEAN", "FACE"), ("on_points", "FLOAT_VECTOR", "POINT")):
+            mesh.attributes.new(name, kind, domain)
+        mesh.attributes["on_faces"].data.foreach_set("value", first + 7)
+        mesh.attributes["on_corners"].data.foreach_set("value", np.repeat(first, 3).astype(np.float32))
+        mesh.attributes["colour"].data.foreach_set("color", np.repeat(first, 4).astype(np.float32))
+        mesh.attributes["marked"].data.foreach_set("value", first % 2 == 1)
+        known = set(first)
+        for frame in (2, 3, 5, 1, 3):  # 5: outside of the run, where there is nothing
+            scene.frame_set(frame)
+        now = atoms()
+        wanted = np.where(np.isin(now, list(known)), now + 7, 0)
+        found = np.empty(len(now), dtype=np.int32)
+        mesh.attributes["on_faces"].data.foreach_get("value", found)
+        np.testing.assert_array_equal(found, wanted)
+        self.assertGreater((found > 0).mean(), 0.9)
+        corners = np.empty(3 * len(now), dtype=np.float32)
+        mesh.attributes["on_corners"].data.foreach_get("value", corners)
+        np.testing.assert_array_equal(corners, np.repeat(np.where(wanted > 0, now, 0), 3))
+        colors = np.empty(4 * len(now), dtype=np.float32)
+        mesh.attributes["colour"].data.foreach_get("color", colors)
+        np.testing.assert_array_equal(colors, np.repeat(np.where(wanted > 0, now, 0), 4))
+        marked = np.empty(len(now), dtype=bool)
+        mesh.attributes["marked"].data.foreach_get("value", marked)
+        np.testing.assert_array_equal(marked, (now % 2 == 1) & (wanted > 0))
+        self.assertEqual(len(mesh.attributes["on_points"].data), len(mesh.vertices))
+
+    def test_scrubbing_while_the_mesh_is_edited_changes_and_says_nothing(self):
+        item = sequence.stream(MANIFEST)
+        scene = bpy.context.scene
+        bpy.context.view_layer.objects.active = item
+        count = len(item.data.vertices)
+        bpy.ops.object.mode_set(mode="EDIT")
+        scene.frame_set(3)
+        self.assertEqual(item["meniscus_error"] if "meniscus_error" in item else "", "")
+        bpy.ops.object.mode_set(mode="OBJECT")
+        self.assertEqual(len(item.data.vertices), count)
+        scene.frame_set(2)
+        np.testing.assert_allclose(shown(item), expected(2), atol=1e-5)
+
+    def test_the_next_frame_is_read_ahead_and_no_stale_one_is_shown(self):
+        folder = self.copy_of_run()
+        sequence.stream(os.path.join(folder, "surface_sequence.json"))
+        scene = bpy.context.scene
+        scene.frame_set(2)
+        waiting = list(sequence._ahead.waiting.values())
+        self.assertEqual(len(waiting), 1)
+        waiting[0].result()
+        bad = os.path.join(folder, "surface_00005.mns")
+        with open(bad, "r+b") as file:  # after it has been read ahead
+            file.truncate(os.path.getsize(bad) - 64)
+        scene.frame_set(3)
+        item = next(each for each in bpy.data.objects if each.get("meniscus_stream"))
+        self.assertIn("incomplete", item["meniscus_error"])
+        self.assertEqual(len(shown(item)), 0)
 
     def test_one_origin_for_all_frames_or_that_of_the_trajectory(self):
         item = sequence.stream(MANIFEST, center=False, scale=0.5)
@@ -313,7 +474,7 @@ class Sequence(unittest.TestCase):
         turned = np.stack([-base[:, 1] + 10.0, base[:, 0] + 20.0, base[:, 2] + 30.0], axis=1)
         np.testing.assert_allclose(surface["mesh.position"][rows:2 * rows], turned - [1, 2, 3], atol=1e-5)
         np.testing.assert_allclose(surface["mesh.normal"][rows:2 * rows, 0], -alone["mesh.normal"][:, 1], atol=1e-6)
-        mesh = build.build_mesh(surface, "joined", 1.0, True, [], 24.0)
+        mesh = build.build_mesh(surface, "joined", build.Options(scale=1.0), [], 24.0, surface.header["chain_names"])
         self.assertEqual(len(mesh.polygons), 3 * count)
         corners = compat.corner_normals(mesh)
         np.testing.assert_allclose(corners[3 * count:6 * count, 0], -corners[:3 * count, 1], atol=2e-3)

@@ -20,6 +20,6 @@ with tempfile.TemporaryDirectory() as folder:
     os.symlink(os.path.join(addon, "meniscus_import"), os.path.join(scripts, "addons", "meniscus_import"))
     done = subprocess.run(
         [blender, "-b", "--factory-startup", "--addons", "meniscus_import", "--python-exit-code", "3", "--python", script,
-         "--", folder, addon, os.path.dirname(os.path.abspath(__file__)), blender],
+         "--", folder, addon, os.path.dirname(os.path.abspath(__file__)), blender, program],
         env={**os.environ, "BLENDER_USER_SCRIPTS": scripts, "PYTHONDONTWRITEBYTECODE": "1"}, check=False)
     sys.exit(done.returncode)

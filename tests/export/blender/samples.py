@@ -88,6 +88,17 @@ def as_version_1(data):
     return with_header(data, {**header, **first}, 1)
 
 
+def seen_through(data, opacities, film):
+    """The file with an opacity for each atom."""
+    header, size = header_of(data)
+    values = struct.pack(f"<{len(opacities)}f", *opacities)
+    header["arrays"].append({"name": "0/atom.opacity", "type": "<f4", "rows": len(opacities), "columns": 1,
+                             "offset": len(data) - 64 - size})
+    if film:
+        header["objects"][0]["film_opacity"] = True
+    return with_header(bytes(data) + values.ljust(64, b"\0"), header)
+
+
 #: A quarter turn about z and a shift in Å.
 QUARTER_TURN = [0, -1, 0, 10, 1, 0, 0, 20, 0, 0, 1, 30]
 

@@ -37,8 +37,26 @@ class SequenceReader(unittest.TestCase):
         self.assertEqual([found.scene_frame(number) for number in (1, 2, 3, 5)], [1, None, 2, 3])
         for place in (1, 2, 3):
             self.assertEqual(found.read(place).header["sequence"]["scene_frame"], place)
-        self.assertEqual([found.resolve(time) for time in (0.4, 0.5, 1.25, 1.5, 3.4, 3.5)], [None, 1, 1, 2, 3, None])
         self.assertFalse(found.camera_moves)
+
+    def test_times_show_the_nearest_frame(self):
+        def places(times, count=3, **options):
+            timing = sequence_reader.Timing(**options)
+            return [timing.place(time, count) for time in times]
+
+        self.assertEqual(places((0.4, 0.5, 1.25, 1.5, 3.4, 3.5)), [None, 1, 1, 2, 3, None])
+        self.assertEqual(places((-9, 0.4, 3.5, 99), outside="HOLD"), [1, 1, 3, 3])
+        self.assertEqual(places(range(-3, 8), outside="LOOP"), [3, 1, 2, 3, 1, 2, 3, 1, 2, 3, 1])
+        self.assertEqual(places(range(-3, 8), outside="PINGPONG"), [1, 2, 3, 2, 1, 2, 3, 2, 1, 2, 3])
+        self.assertEqual(places((5, 6), count=1, outside="PINGPONG"), [1, 1])
+        self.assertEqual(places((8, 9, 10, 11, 12, 13, 14, 15), start=10, speed=0.5), [None, 1, 1, 2, 2, 3, 3, None])
+        self.assertEqual(places((10, 11, 12), start=10, speed=2.0), [1, 3, None])
+        timing = sequence_reader.Timing(10, 0.5)
+        self.assertEqual([timing.place(timing.scene_time(place), 3) for place in (1, 2, 3)], [1, 2, 3])
+        self.assertEqual([timing.within(place, 3) for place in (0.4, 1.0, 2.5, 3.5)], [None, 1, 3, None])
+        for wrong in ({"speed": 0.0}, {"speed": float("nan")}, {"start": float("inf")}, {"outside": "BOUNCE"}):
+            with self.assertRaises(mns_reader.MnsError):
+                sequence_reader.Timing(**wrong)
 
     def test_shares_write_the_same_bytes(self):
         shares = os.path.join(self.folder.name, "shares")

@@ -16,10 +16,37 @@ import os
 import bpy
 from bpy_extras.io_utils import ImportHelper
 
-from . import build, compat, mns_reader, sequence
+from . import build, compat, mns_reader, sequence, sequence_reader
 
 
-class IMPORT_SCENE_OT_meniscus(bpy.types.Operator, ImportHelper):
+class Looks:
+    """The properties that both imports share."""
+
+    crisp_colors: bpy.props.BoolProperty(
+        name="Crisp colours", description="Colours change at edges; otherwise they blend between vertices",
+        default=True)
+    own_materials: bpy.props.BoolProperty(
+        name="Own materials", description="New materials for this import; otherwise those that all imports share", default=False)
+    center: bpy.props.BoolProperty(
+        name="Centre", description="Puts the middle of the molecule to the origin, or where an earlier import put it, so that a "
+        "surface and its trajectory overlay; otherwise coordinates are those of the molecule's file", default=False)
+    import_camera: bpy.props.BoolProperty(
+        name="Camera", description="Import the camera of the file", default=True)
+    use_camera: bpy.props.BoolProperty(
+        name="Use camera", description="Make it the camera of the scene, and take the size of its picture", default=True)
+    standard_view: bpy.props.BoolProperty(
+        name="Standard view transform", description="Show colours as they are; Filmic and AgX make them paler", default=False)
+
+    def tell(self, context):
+        """Says what makes colours look different."""
+        view = context.scene.view_settings
+        if self.standard_view:
+            view.view_transform = "Standard"
+        elif view.view_transform not in ("Standard", "Raw"):
+            self.report({"INFO"}, f"The view transform {view.view_transform} changes colours; Standard shows them as they are")
+
+
+class IMPORT_SCENE_OT_meniscus(Looks, bpy.types.Operator, ImportHelper):
     """Import solvent-excluded surfaces that Meniscus exported"""
 
     bl_idname = "import_scene.meniscus"
@@ -34,25 +61,33 @@ class IMPORT_SCENE_OT_meniscus(bpy.types.Operator, ImportHelper):
     scale: bpy.props.FloatProperty(
         name="Scale", description="Blender units per ångström; 0.1 makes a nanometre one unit", default=0.1,
         min=1e-6, soft_min=0.01, soft_max=1.0, precision=4)
-    crisp_colors: bpy.props.BoolProperty(
-        name="Crisp colours", description="Colours change at edges; otherwise they blend between vertices",
-        default=True)
-    import_camera: bpy.props.BoolProperty(
-        name="Camera", description="Import the camera and the picture size of the file", default=True)
+    parts: bpy.props.BoolProperty(
+        name="Cavities apart", description="One object for the outer surface and one for the cavities, whose faces look into "
+        "them: Recalculate Outside would turn these", default=False)
+
+    def invoke(self, context, event):
+        if self.filepath and hasattr(self, "invoke_popup"):  # a file that was dropped
+            return self.invoke_popup(context)
+        return ImportHelper.invoke(self, context, event)
 
     def execute(self, context):
         paths = [os.path.join(self.directory, file.name) for file in self.files if file.name] or [self.filepath]
+        options = {name: getattr(self, name) for name in ("scale", "crisp_colors", "own_materials", "parts", "center",
+                                                          "import_camera", "use_camera")}
         imported = 0
         for path in paths:
             try:
-                build.import_file(path, context, self.scale, self.crisp_colors, self.import_camera)
+                build.import_file(path, context, **options)
                 imported += 1
             except (mns_reader.MnsError, OSError) as error:
                 self.report({"ERROR"}, str(error))
-        return {"FINISHED"} if imported else {"CANCELLED"}
+        if not imported:
+            return {"CANCELLED"}
+        self.tell(context)
+        return {"FINISHED"}
 
 
-class IMPORT_SCENE_OT_meniscus_sequence(bpy.types.Operator, ImportHelper):
+class IMPORT_SCENE_OT_meniscus_sequence(Looks, bpy.types.Operator, ImportHelper):
     """Import a sequence of surfaces, one a frame, that Meniscus exported"""
 
     bl_idname = "import_scene.meniscus_sequence"
@@ -69,18 +104,24 @@ class IMPORT_SCENE_OT_meniscus_sequence(bpy.types.Operator, ImportHelper):
     scale: bpy.props.FloatProperty(
         name="Scale", description="Blender units per ångström; 0 takes that of the sequence", default=0.0, min=0.0,
         soft_max=1.0, precision=4)
-    center: bpy.props.BoolProperty(
-        name="Centre", description="Puts the middle of the run, the same for all frames, to the origin; otherwise "
-        "coordinates are those of the trajectory", default=True)
-    crisp_colors: bpy.props.BoolProperty(
-        name="Crisp colours", description="Colours change at edges; otherwise they blend between vertices",
-        default=True)
+    start: bpy.props.FloatProperty(name="Start", description="The frame of the scene that shows the first of the run", default=1.0)
+    speed: bpy.props.FloatProperty(
+        name="Speed", description="Frames of the run in a frame of the scene", default=1.0, min=1e-4, soft_max=10.0)
+    outside: bpy.props.EnumProperty(
+        name="Outside", description="What shows before and behind the run", default="EMPTY",
+        items=(("EMPTY", "Nothing", "Nothing shows"), ("HOLD", "Hold", "The first and the last frame stay"),
+               ("LOOP", "Loop", "The run begins anew"), ("PINGPONG", "To and fro", "The run goes back and forth")))
+    set_time: bpy.props.BoolProperty(
+        name="Set frame range and rate", description="The scene gets the range and the rate of the run", default=True)
 
     def execute(self, context):
-        options = {"scale": self.scale or None, "center": self.center, "crisp_colors": self.crisp_colors}
+        options = {name: getattr(self, name) for name in ("crisp_colors", "own_materials", "center", "import_camera",
+                                                          "use_camera", "set_time")}
         window = context.window_manager
         window.progress_begin(0, 1)
         try:
+            options["timing"] = sequence_reader.Timing(self.start, self.speed, self.outside)
+            options["scale"] = self.scale or None
             if self.mode == "BAKE":
                 sequence.bake(self.filepath, context, lambda done, all_of_it: window.progress_update(done / all_of_it),
                               **options)
@@ -91,6 +132,28 @@ class IMPORT_SCENE_OT_meniscus_sequence(bpy.types.Operator, ImportHelper):
             return {"CANCELLED"}
         finally:
             window.progress_end()
+        self.tell(context)
+        return {"FINISHED"}
+
+
+class OBJECT_OT_meniscus_reload(bpy.types.Operator):
+    """Read the file of the active Meniscus surface again; its materials, modifiers and place remain"""
+
+    bl_idname = "object.meniscus_reload"
+    bl_label = "Reload Meniscus surface"
+    bl_options = {"UNDO"}
+
+    @classmethod
+    def poll(cls, context):
+        item = context.active_object
+        return item is not None and item.mode == "OBJECT" and "meniscus_file" in item
+
+    def execute(self, context):
+        try:
+            build.reload(context.active_object, context)
+        except (mns_reader.MnsError, OSError) as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
         return {"FINISHED"}
 
 
@@ -99,7 +162,12 @@ def menu_entry(self, _context):
     self.layout.operator(IMPORT_SCENE_OT_meniscus_sequence.bl_idname, text="Meniscus sequence (.json)")
 
 
-CLASSES = [IMPORT_SCENE_OT_meniscus, IMPORT_SCENE_OT_meniscus_sequence]
+def object_menu_entry(self, context):
+    if OBJECT_OT_meniscus_reload.poll(context):
+        self.layout.operator(OBJECT_OT_meniscus_reload.bl_idname)
+
+
+CLASSES = [IMPORT_SCENE_OT_meniscus, IMPORT_SCENE_OT_meniscus_sequence, OBJECT_OT_meniscus_reload]
 
 if compat.can_drop_files(bpy):
 
@@ -120,11 +188,13 @@ def register():
     for item in CLASSES:
         bpy.utils.register_class(item)
     bpy.types.TOPBAR_MT_file_import.append(menu_entry)
+    bpy.types.VIEW3D_MT_object.append(object_menu_entry)
     sequence.register()
 
 
 def unregister():
     sequence.unregister()
+    bpy.types.VIEW3D_MT_object.remove(object_menu_entry)
     bpy.types.TOPBAR_MT_file_import.remove(menu_entry)
     for item in reversed(CLASSES):
         bpy.utils.unregister_class(item)

@@ -8,18 +8,36 @@ import bpy
 import mathutils
 import numpy as np
 
-from . import compat, mns_reader
+from . import attributes, compat, joined, materials, mns_reader
 
-#: Slots by role; triangles of cavities take the second.
-MATERIALS = ("Meniscus outer", "Meniscus cavity")
-FACE_INTEGERS = {  # attribute -> array; on faces, where they stay whole numbers
-    "ses_kind": "mesh.kind", "ses_patch": "mesh.patch", "ses_component": "mesh.component",
+#: Of a surface that is seen through, along one ray.
+MOST_LAYERS = 256
+#: Attribute -> array; on faces, where they stay whole numbers. ses_object: only of joined objects.
+FACE_INTEGERS = {
+    "ses_kind": "mesh.kind", "ses_patch": "mesh.patch", "ses_component": "mesh.component", "ses_object": "mesh.object",
 }
-OBJECT_INTEGER = {"ses_object": "mesh.object"}  # only of joined objects
-ATOM_INTEGERS = {
-    "atom_index": "atom.index", "atomic_number": "atom.atomic_number", "res_id": "atom.res_id", "chain_id": "atom.chain_id",
+#: The attributes of Molecular Nodes, on points as there: the array of the atoms, the type. vdw_radii in Blender units, chain_id
+#: the place of the chain's name among the sorted ones.
+POINT_NUMBERS = {
+    "atomic_number": ("atom.atomic_number", "INT"), "res_id": ("atom.res_id", "INT"), "chain_id": ("atom.chain_id", "INT"),
+    "b_factor": ("atom.b_factor", "FLOAT"), "vdw_radii": ("atom.radius", "FLOAT"),
 }
-ATOM_FLOATS = {"b_factor": "atom.b_factor", "vdw_radii": "atom.radius"}
+#: All that an import makes.
+OURS = {"atom_index", "opacity", "velocity", "Color", *FACE_INTEGERS, *POINT_NUMBERS}
+
+
+class Options:
+    """How surfaces come into a scene. scale: Blender units per Å. crisp_colors: they change at edges, not between vertices.
+    own_materials: not those that all imports share. parts: an object for what is outside and one for the cavities.
+    center: moved by the origin of the scene (scene_origin). import_camera: the file's; use_camera: as the scene's, with the
+    size of its picture."""
+
+    def __init__(self, scale=0.1, crisp_colors=True, own_materials=False, parts=False, center=False, import_camera=True,
+                 use_camera=True):
+        if not (math.isfinite(scale) and scale > 0.0):
+            raise mns_reader.MnsError(f"scale {scale} is not a positive number")
+        self.scale, self.crisp_colors, self.own_materials, self.parts = scale, crisp_colors, own_materials, parts
+        self.center, self.import_camera, self.use_camera = center, import_camera, use_camera
 
 
 class Import:
@@ -31,31 +49,36 @@ class Import:
         self.camera = None
 
 
-def import_file(path, context=None, scale=0.1, crisp_colors=True, import_camera=True, set_size=True):
-    """Reads a .mns file into a new collection. Raises mns_reader.MnsError or OSError and then leaves nothing behind."""
+def import_file(path, context=None, **options):
+    """Reads a .mns file into a new collection; options: of Options. Raises mns_reader.MnsError or OSError and then leaves
+    nothing behind."""
     context = context or bpy.context
     file = mns_reader.read(path)
-    if not (math.isfinite(scale) and scale > 0.0):
-        raise mns_reader.MnsError(f"scale {scale} is not a positive number")
+    options = Options(**options)
+    origin = scene_origin(context.scene, lambda: middle_of(file)) if options.center else np.zeros(3)
     stem = os.path.splitext(os.path.basename(path))[0]
     made = Import()
     camera = None
     meshes, new_materials = [], []
     try:
         made.collection = bpy.data.collections.new(stem)
-        for surface in file.objects:
-            name = f"{stem}.{surface.name if len(file.objects) > 1 else 'surface'}"
-            meshes.append(build_mesh(surface, name, scale, crisp_colors, new_materials, fps_of(context.scene)))
+        chains = sorted({str(name) for surface in file.objects for name in surface.header.get("chain_names", [])})
+        for key, surface in parts_of(file, options.parts):
+            name = f"{stem}.{key if len(file.objects) > 1 or options.parts else 'surface'}"
+            meshes.append(build_mesh(surface, name, options, new_materials, fps_of(context.scene), chains))
             for copy in surface.copies:  # linked: all copies share one mesh
                 made.surfaces.append(bpy.data.objects.new(name, meshes[-1]))
-                made.surfaces[-1].matrix_world = placement(copy, scale)
-                set_provenance(made.surfaces[-1], surface, scale)
+                made.surfaces[-1].matrix_world = placement(copy, options.scale, origin)
+                set_provenance(made.surfaces[-1], surface, options, chains)
+                made.surfaces[-1]["meniscus_file"] = remembered_path(path)
+                made.surfaces[-1]["meniscus_part"] = key
+                made.surfaces[-1]["meniscus_origin"] = [float(value) for value in origin]
                 made.collection.objects.link(made.surfaces[-1])
-        if import_camera and "camera" in file.header:
+        if options.import_camera and "camera" in file.header:
             camera = bpy.data.cameras.new(stem + ".camera")
             made.camera = bpy.data.objects.new(camera.name, camera)
-            place_camera(made.camera, file.header["camera"], scale)
-            reach_all(made.camera, file, scale)
+            place_camera(made.camera, file.header["camera"], options.scale, origin)
+            reach_all(made.camera, file, options.scale, origin)
             made.collection.objects.link(made.camera)
         context.scene.collection.children.link(made.collection)
     except BaseException:
@@ -66,19 +89,103 @@ def import_file(path, context=None, scale=0.1, crisp_colors=True, import_camera=
                 if item is not None:
                     store.remove(item)
         raise
-    if made.camera is not None:
+    if made.camera is not None and options.use_camera:
         context.scene.camera = made.camera
-        if set_size:
-            use_picture_size(context.scene, file.header["camera"])
-    for item in made.surfaces:
-        show_all_in_viewports(context, item)
+        use_picture_size(context.scene, file.header["camera"])
+    let_rays_through(context.scene, meshes)
+    present(context, made.surfaces)
     return made
 
 
-def placement(copy, scale):
-    """The object's matrix: mesh coordinates are already scaled, so only the translation is."""
+def parts_of(file, apart):
+    """Pairs: a name that tells a mesh from the others of its file, and its surface. apart: cavities by themselves."""
+    for surface in file.objects:
+        name = surface.name if len(file.objects) > 1 else "surface"
+        if not apart:
+            yield name, surface
+            continue
+        for role, part in joined.by_role(surface):
+            yield (f"{name}.{role}" if len(file.objects) > 1 else role), part
+
+
+def reload(item, context=None):
+    """Reads the file of an imported object again into its mesh: materials, modifiers, attributes of the user and where the
+    object stands remain. Raises mns_reader.MnsError or OSError and then changes nothing."""
+    context = context or bpy.context
+    if item is None or "meniscus_file" not in item:
+        raise mns_reader.MnsError("the active object was not imported from a .mns file")
+    path = bpy.path.abspath(item["meniscus_file"])
+    file = mns_reader.read(path)
+    options = Options(scale=item["meniscus_scale"], crisp_colors=bool(item["meniscus_crisp"]), parts=bool(item["meniscus_parts"]))
+    surface = dict(parts_of(file, options.parts)).get(item["meniscus_part"])
+    if surface is None:
+        raise mns_reader.MnsError(f"{path}: it has no surface {item['meniscus_part']} any more")
+    chains = sorted({str(name) for each in file.objects for name in each.header.get("chain_names", [])})
+    old = item.data
+    kept = attributes.keep(old, OURS)
+    fresh = bpy.data.meshes.new(old.name)
+    try:
+        for material in old.materials:
+            fresh.materials.append(material)
+        fill_mesh(fresh, surface, options.scale, options.crisp_colors, fps_of(context.scene), chains)
+        attributes.give_back(fresh, kept)
+    except BaseException:
+        bpy.data.meshes.remove(fresh)
+        raise
+    users = [other for other in bpy.data.objects if other.data == old]
+    old.user_remap(fresh)
+    name = old.name
+    bpy.data.meshes.remove(old)
+    fresh.name = name
+    for other in users:
+        set_provenance(other, surface, options, chains)
+    let_rays_through(context.scene, [fresh])
+
+
+def remembered_path(path):
+    path = os.path.abspath(path)
+    return bpy.path.relpath(path) if bpy.data.filepath else path
+
+
+def middle_of(file):
+    """Å: the middle of all atoms in all places."""
+    points = np.concatenate([surface["atom.center"] @ copy[:, :3].T + copy[:, 3]
+                             for surface in file.objects for copy in surface.copies])
+    return 0.5 * (points.min(axis=0) + points.max(axis=0))
+
+
+def scene_origin(scene, otherwise):
+    """Å: what an earlier import took from all coordinates, so that things of one molecule stay together; else otherwise()."""
+    for item in scene.objects:
+        if "meniscus_origin" in item and any(item["meniscus_origin"]):
+            return np.array(item["meniscus_origin"][:], dtype=np.float64)
+    return np.asarray(otherwise(), dtype=np.float64)
+
+
+def present(context, items):
+    """Selects them, the first as the active one, and shows their colours in solid views that show those of materials."""
+    context.view_layer.update()  # without objects that have just been removed
+    for other in context.view_layer.objects:
+        other.select_set(False)
+    for item in items:
+        item.select_set(True)
+        show_all_in_viewports(context, item)
+    context.view_layer.objects.active = items[0]
+    for space in views_of(context):
+        if space.shading.color_type == "MATERIAL":
+            space.shading.color_type = "VERTEX"
+
+
+def let_rays_through(scene, meshes):
+    """Cycles shows black behind more layers than the scene allows, eight by default; never fewer than it had."""
+    if any("opacity" in mesh.attributes for mesh in meshes) and hasattr(scene, "cycles"):
+        scene.cycles.transparent_max_bounces = max(scene.cycles.transparent_max_bounces, MOST_LAYERS)
+
+
+def placement(copy, scale, origin):
+    """The object's matrix: mesh coordinates are already scaled, so only the translation is. origin: Å, taken away."""
     matrix = mathutils.Matrix([[float(value) for value in row] for row in copy] + [[0.0, 0.0, 0.0, 1.0]])
-    matrix.translation *= scale
+    matrix.translation = (matrix.translation - mathutils.Vector(origin)) * scale
     return matrix
 
 
@@ -92,28 +199,28 @@ def fps_of(scene):
     return scene.render.fps / scene.render.fps_base
 
 
-def build_mesh(surface, name, scale, crisp_colors, new_materials, fps):
+def build_mesh(surface, name, options, new_materials, fps, chains):
     mesh = bpy.data.meshes.new(name)
     try:
-        add_materials(mesh, new_materials)
-        fill_mesh(mesh, surface, scale, crisp_colors, fps)
+        add_materials(mesh, materials.kind_of(surface), new_materials, options.own_materials)
+        fill_mesh(mesh, surface, options.scale, options.crisp_colors, fps, chains)
     except BaseException:
         bpy.data.meshes.remove(mesh)
         raise
     return mesh
 
 
-def fill_mesh(mesh, surface, scale, crisp_colors, fps):
-    """Puts a surface into a mesh without geometry. Materials stay. On an error the mesh is half filled."""
+def fill_mesh(mesh, surface, scale, crisp_colors, fps, chains):
+    """Puts a surface into a mesh without geometry. Materials stay. fps: scene frames a second, for velocities. chains: sorted
+    names, whose places are chain_id. On an error the mesh is half filled."""
+    surface.check_closed()
     positions = positions_of(surface, scale)
     triangles = surface["mesh.triangle"]
-    if surface.header["mesh"].get("closed", True) and not mns_reader.is_closed(triangles):
-        raise mns_reader.MnsError(f"{surface.path}: the mesh is not closed")
     mesh.vertices.add(len(positions))
     mesh.vertices.foreach_set("co", positions.ravel())
     compat.set_triangles(mesh, triangles)
     mesh.update(calc_edges=True)
-    add_attributes(mesh, surface, crisp_colors)
+    add_attributes(mesh, surface, scale, crisp_colors, chains)
     if surface.get("mesh.velocity") is not None:  # Cycles blurs by the attribute of this name: units per second
         add_attribute(mesh, "velocity", "FLOAT_VECTOR", "POINT",
                       (surface["mesh.velocity"] * (scale * fps)).astype(np.float32), "vector")
@@ -123,6 +230,7 @@ def fill_mesh(mesh, surface, scale, crisp_colors, fps):
     if mesh.validate(clean_customdata=False):
         raise mns_reader.MnsError(f"{surface.path}: Blender found faults in the mesh")
     add_normals(mesh, surface)
+    compat.set_active_color(mesh, "Color")
 
 
 def add_attribute(mesh, name, kind, domain, values, field="value"):
@@ -130,37 +238,52 @@ def add_attribute(mesh, name, kind, domain, values, field="value"):
     attribute.data.foreach_set(field, np.ascontiguousarray(values).ravel())
 
 
-def add_attributes(mesh, surface, crisp_colors):
+def add_attributes(mesh, surface, scale, crisp_colors, chains):
     atom = surface["mesh.atom"]
     triangles = surface["mesh.triangle"]
-    for name, array in {**FACE_INTEGERS, **OBJECT_INTEGER}.items():  # INT, not INT8: Cycles 3.4 reads INT8 as 0
+    for name, array in FACE_INTEGERS.items():  # INT, not INT8: Cycles 3.4 reads INT8 as 0
         if surface.get(array) is not None:
             add_attribute(mesh, name, "INT", "FACE", surface[array].astype(np.int32))
-    if surface.get("atom.index") is None:  # version 1: one object, whose atoms are those of the molecule in order
-        add_attribute(mesh, "atom_index", "INT", "FACE", atom.astype(np.int32))
-    for name, array in ATOM_INTEGERS.items():
-        if surface.get(array) is not None:
-            add_attribute(mesh, name, "INT", "FACE", surface[array][atom].astype(np.int32))
-    corners = np.bincount(triangles.ravel(), minlength=len(mesh.vertices)).astype(np.float64)
-
-    def mean_at_vertices(values):
-        total = np.bincount(triangles.ravel(), np.repeat(values, 3), len(mesh.vertices))
-        return total / np.maximum(corners, 1.0)
-
-    for name, array in ATOM_FLOATS.items():
-        if surface.get(array) is not None:
-            values = mean_at_vertices(surface[array][atom].astype(np.float64))
-            add_attribute(mesh, name, "FLOAT", "POINT", values.astype(np.float32))
-    colors = face_colors(surface)
+    index = surface.get("atom.index")  # before version 2 one object, whose atoms are those of the molecule in order
+    add_attribute(mesh, "atom_index", "INT", "FACE", (atom if index is None else index[atom]).astype(np.int32))
+    if surface.get("atom.opacity") is not None:  # on faces, as colours: it changes at edges
+        add_attribute(mesh, "opacity", "FLOAT", "FACE", surface["atom.opacity"][atom].astype(np.float32))
+    of_vertex = vertex_atoms(triangles, atom, len(mesh.vertices))
+    for name, (array, kind) in POINT_NUMBERS.items():
+        if surface.get(array) is None:
+            continue
+        values = surface[array]
+        if name == "vdw_radii":
+            values = values * scale
+        elif name == "chain_id":
+            values = chain_places(surface, chains)[values]
+        add_attribute(mesh, name, kind, "POINT", values[of_vertex].astype(np.int32 if kind == "INT" else np.float32))
+    colors = linear(face_colors(surface))
     if crisp_colors:
         rgba = np.ones((len(triangles), 3, 4), dtype=np.float32)
-        rgba[:, :, :3] = linear(colors)[:, None, :]
+        rgba[:, :, :3] = colors[:, None, :]
         add_attribute(mesh, "Color", "BYTE_COLOR", "CORNER", rgba, "color")
     else:
+        around = np.maximum(np.bincount(triangles.ravel(), minlength=len(mesh.vertices)), 1)
         rgba = np.ones((len(mesh.vertices), 4), dtype=np.float32)
         for channel in range(3):
-            rgba[:, channel] = mean_at_vertices(linear(colors)[:, channel])
+            rgba[:, channel] = np.bincount(triangles.ravel(), np.repeat(colors[:, channel], 3), len(mesh.vertices)) / around
         add_attribute(mesh, "Color", "FLOAT_COLOR", "POINT", rgba, "color")
+
+
+def vertex_atoms(triangles, atom, count):
+    """Of each vertex the atom of one of its triangles, that with the lowest index."""
+    found = np.zeros(count, dtype=np.int64)
+    found[triangles[::-1].ravel()] = np.repeat(atom[::-1], 3)
+    return found
+
+
+def chain_places(surface, chains):
+    """From chain numbers of the file to places in `chains`."""
+    names, ids = surface.header.get("chain_names", []), surface["atom.chain_id"]
+    if len(ids) and not 0 <= ids.min() <= ids.max() < len(names):
+        raise mns_reader.MnsError(f"{surface.path}: array atom.chain_id points to no chain name")
+    return np.array([chains.index(str(name)) for name in names] or [0], dtype=np.int32)
 
 
 def face_colors(surface):
@@ -176,29 +299,10 @@ def linear(srgb):
     return np.where(srgb <= 0.04045, srgb / 12.92, ((srgb + 0.055) / 1.055) ** 2.4).astype(np.float32)
 
 
-def add_materials(mesh, new_materials):
-    for name in MATERIALS:
-        material = bpy.data.materials.get(name)  # one that a user has edited stays as it is
-        if material is None:
-            material = bpy.data.materials.new(name)
-            new_materials.append(material)
-            fill_material(material)
-        mesh.materials.append(material)
-
-
-def fill_material(material):
-    compat.use_nodes(material)
-    tree = material.node_tree
-    shader = next((node for node in tree.nodes if node.type == "BSDF_PRINCIPLED"), None)
-    if shader is None:
-        shader = tree.nodes.new("ShaderNodeBsdfPrincipled")
-    attribute = tree.nodes.new("ShaderNodeAttribute")
-    attribute.attribute_name = "Color"
-    attribute.location = (shader.location[0] - 220, shader.location[1])
-    tree.links.new(attribute.outputs["Color"], shader.inputs["Base Color"])
-    roughness = compat.principled_input(shader, "Roughness")
-    if roughness is not None:
-        roughness.default_value = 0.45
+def add_materials(mesh, kind, new_materials, own=False):
+    """kind: of opacity, as materials.kind_of tells it. own: not those that all imports share."""
+    for role in materials.ROLES:
+        mesh.materials.append(materials.find_or_make(role, kind, new_materials, own))
 
 
 def add_sharp_edges(mesh, surface):
@@ -218,13 +322,16 @@ def add_normals(mesh, surface):
     compat.set_smooth_with_normals(mesh, corners)
 
 
-def set_provenance(item, surface, scale):
+def set_provenance(item, surface, options, chains):
     header = surface.header
     item["meniscus_generator"] = str(header.get("generator", ""))
     item["meniscus_source"] = str(header.get("source", {}).get("file", ""))
     item["meniscus_probe_radius"] = float(header.get("probe_radius", 0.0))
     item["meniscus_tolerance"] = float(header["mesh"].get("tolerance", 0.0))
-    item["meniscus_scale"] = float(scale)
+    item["meniscus_scale"] = float(options.scale)
+    item["meniscus_crisp"] = int(options.crisp_colors)
+    item["meniscus_parts"] = int(options.parts)
+    item["chain_ids"] = chains  # as Molecular Nodes has them
     item["meniscus_area"] = float(header.get("area", 0.0))
     item["meniscus_volume"] = float(header.get("volume", 0.0))
 
@@ -264,12 +371,18 @@ def use_picture_size(scene, shot):
         scene.render.pixel_aspect_x = scene.render.pixel_aspect_y = 1.0
 
 
+def views_of(context):
+    """The 3-D views of all windows."""
+    for window in getattr(context.window_manager, "windows", ()):
+        for area in window.screen.areas:
+            for space in area.spaces:
+                if space.type == "VIEW_3D":
+                    yield space
+
+
 def show_all_in_viewports(context, item):
     """Raises clip_end of 3-D views only if the body would be cut off."""
     corners = (item.matrix_world @ mathutils.Vector(corner) for corner in item.bound_box)
     reach = 4.0 * max((corner.length for corner in corners), default=0.0)
-    for window in getattr(context.window_manager, "windows", ()):
-        for area in window.screen.areas:
-            for space in area.spaces:
-                if space.type == "VIEW_3D" and space.clip_end < reach:
-                    space.clip_end = reach
+    for space in views_of(context):
+        space.clip_end = max(space.clip_end, reach)

@@ -68,10 +68,26 @@ def corner_normals(mesh):
     return normals.reshape(-1, 3)
 
 
-def use_nodes(material):
-    """Node trees are always there from 5.0 on."""
-    if not material.use_nodes or material.node_tree is None:
-        material.use_nodes = True
+def node_tree(owner):
+    """Of a new material or world; it is there by itself from 5.0 on."""
+    if owner.node_tree is None:
+        owner.use_nodes = True
+    return owner.node_tree
+
+
+def find_or_add(tree, kind, name):
+    """The node of a type, by kind as nodes have it ("BACKGROUND") or made by name ("ShaderNodeBackground"): a new tree of 5.x
+    may lack it, and names of nodes are translated."""
+    return next((node for node in tree.nodes if node.type == kind), None) or tree.nodes.new(name)
+
+
+def set_format(settings, file_format):
+    """The kind of pictures that a scene renders; 5.0 asks first whether they have layers."""
+    if hasattr(settings, "media_type"):
+        settings.media_type = "MULTI_LAYER_IMAGE" if file_format == "OPEN_EXR_MULTILAYER" else "IMAGE"
+    settings.file_format = file_format
+    if hasattr(settings, "use_exr_interleave"):  # all passes in one part of the file, as before 5.0
+        settings.use_exr_interleave = True
 
 
 def principled_input(node, *names):
@@ -80,6 +96,38 @@ def principled_input(node, *names):
         if name in node.inputs:
             return node.inputs[name]
     return None
+
+
+def let_through(material):
+    """Makes Eevee show Alpha, in whatever order the faces come. 4.2 does so by itself and has these settings no more."""
+    if not hasattr(material, "surface_render_method"):
+        material.blend_method = "HASHED"
+        material.shadow_method = "HASHED"
+
+
+def cast_shadows(light, wanted):
+    """Cycles had a setting of its own before 4.2."""
+    light.use_shadow = wanted
+    if hasattr(getattr(light, "cycles", None), "cast_shadow"):
+        light.cycles.cast_shadow = wanted
+
+
+def set_active_color(mesh, name):
+    """What solid views and paint modes show of a mesh."""
+    colors = mesh.color_attributes
+    colors.active_color_index = colors.render_color_index = colors.find(name)
+
+
+def math_node(tree, operation, *operands):
+    """The output of a node that computes with numbers and sockets."""
+    node = tree.nodes.new("ShaderNodeMath")
+    node.operation = operation
+    for socket, value in zip(node.inputs, operands):
+        if isinstance(value, (int, float)):
+            socket.default_value = value
+        else:
+            tree.links.new(value, socket)
+    return node.outputs[0]
 
 
 def can_drop_files(bpy):
@@ -97,6 +145,40 @@ def add_geometry_sockets(tree):
         tree.outputs.new("NodeSocketGeometry", "Geometry")
     if hasattr(tree, "is_modifier"):  # 4.0 and later offer only such trees to modifiers
         tree.is_modifier = True
+
+
+def add_input(tree, name, kind, value):
+    """One input more of a node group; kind: "NodeSocketFloat" and the like."""
+    if hasattr(tree, "interface"):
+        socket = tree.interface.new_socket(name, in_out="INPUT", socket_type=kind)
+    else:
+        socket = tree.inputs.new(kind, name)
+    socket.default_value = value
+
+
+def input_identifier(tree, name):
+    """The key of an input in a modifier."""
+    sockets = tree.interface.items_tree if hasattr(tree, "interface") else tree.inputs
+    return next(socket.identifier for socket in sockets if socket.name == name)
+
+
+def value_at(item, name, time):
+    """A custom property at a moment of the scene: keyed by the object's action, or as it is."""
+    found = next((curve for curve in action_curves(item) if curve.data_path == f'["{name}"]'), None)
+    return item[name] if found is None else found.evaluate(time)
+
+
+def action_curves(item):
+    """The curves that animate an object: in a bag for each of what it animates from 5.0 on."""
+    animation = item.animation_data
+    if animation is None or animation.action is None:
+        return []
+    if hasattr(animation.action, "fcurves"):
+        return animation.action.fcurves
+    from bpy_extras import anim_utils  # only there has it what is asked of it
+
+    bag = anim_utils.action_get_channelbag_for_slot(animation.action, animation.action_slot)
+    return [] if bag is None else bag.fcurves
 
 
 def frame_rate(fps):

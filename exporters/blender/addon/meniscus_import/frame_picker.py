@@ -3,25 +3,35 @@
 
 import bpy
 
-from . import compat
+from . import compat, sequence_reader
+
+#: Inputs of the node group, which stand in the modifier and can be keyed, behind the geometry.
+START, SPEED, OUTSIDE, BY_HAND, FRAME = "Start", "Speed", "Outside: empty, hold, loop, ping-pong", "Frame by hand", "Frame"
+TYPES = {START: "NodeSocketFloat", SPEED: "NodeSocketFloat", OUTSIDE: "NodeSocketInt", BY_HAND: "NodeSocketBool",
+         FRAME: "NodeSocketFloat"}
 
 
-def add(name, collection, count):
-    """An object that shows the n-th object of `collection`, by name, at the times nearest to scene frame n = 1 ... count, and
-    nothing at other times."""
+def add(name, collection, count, timing):
+    """An object that shows the n-th object of `collection`, by name, when a sequence_reader.Timing has place n of `count`."""
     tree = bpy.data.node_groups.new(name + " by frame", "GeometryNodeTree")
-    mesh = bpy.data.meshes.new(name)
-    item = bpy.data.objects.new(name, mesh)
+    values = {START: timing.start, SPEED: timing.speed, OUTSIDE: sequence_reader.OUTSIDE.index(timing.outside),
+              BY_HAND: False, FRAME: 1.0}
+    _fill(tree, collection, count, values)
+    item = bpy.data.objects.new(name, bpy.data.meshes.new(name))
     modifier = item.modifiers.new("Frame", "NODES")
     modifier.node_group = tree
-    _fill(tree, collection, count)
+    for socket, value in values.items():
+        modifier[compat.input_identifier(tree, socket)] = value
     return item
 
 
-def _fill(tree, collection, count):
+def _fill(tree, collection, count, values):
     compat.add_geometry_sockets(tree)
+    for socket, kind in TYPES.items():
+        compat.add_input(tree, socket, kind, values[socket])
+    group_input = tree.nodes.new("NodeGroupInput")
     group_output = tree.nodes.new("NodeGroupOutput")
-    index, inside = _index(tree, count)
+    index, inside = _index(tree, group_input.outputs, count)
 
     frames = tree.nodes.new("GeometryNodeCollectionInfo")
     frames.inputs["Collection"].default_value = collection
@@ -36,23 +46,27 @@ def _fill(tree, collection, count):
     tree.links.new(index, show.inputs["Instance Index"])
     tree.links.new(show.outputs[0], group_output.inputs[0])
     for column, node in enumerate(tree.nodes):
-        node.location = (180 * column, -60 * (column % 3))
+        node.location = (180 * (column // 3), -200 * (column % 3))
 
 
-def _index(tree, count):
-    """Sockets: the scene frame nearest to the time, from 0; and whether there is such a frame."""
+def _index(tree, given, count):
+    """Sockets: the frame that shows, from 0, and whether one does: sequence_reader.Timing in nodes."""
 
-    def math(operation, first, second):
-        node = tree.nodes.new("ShaderNodeMath")
-        node.operation = operation
-        for socket, value in zip(node.inputs, (first, second)):
-            if isinstance(value, (int, float)):
-                socket.default_value = value
-            else:
-                tree.links.new(value, socket)
-        return node.outputs[0]
+    def math(operation, *operands):
+        return compat.math_node(tree, operation, *operands)
 
-    time = tree.nodes.new("GeometryNodeInputSceneTime")
-    index = math("SUBTRACT", math("FLOOR", math("ADD", time.outputs["Frame"], 0.5), 0.0), 1.0)
-    inside = math("MULTIPLY", math("GREATER_THAN", index, -0.5), math("LESS_THAN", index, count - 0.5))
-    return index, inside
+    def choose(condition, if_true, otherwise):  # condition: 0 or 1
+        return math("ADD", otherwise, math("MULTIPLY", condition, math("SUBTRACT", if_true, otherwise)))
+
+    time = tree.nodes.new("GeometryNodeInputSceneTime").outputs["Frame"]
+    by_time = math("MULTIPLY", math("SUBTRACT", time, given[START]), given[SPEED])
+    at = math("FLOOR", math("ADD", choose(given[BY_HAND], math("SUBTRACT", given[FRAME], 1.0), by_time), 0.5))
+
+    held = math("MINIMUM", math("MAXIMUM", at, 0.0), count - 1.0)
+    looped = math("SUBTRACT", at, math("MULTIPLY", float(count), math("FLOOR", math("DIVIDE", at, float(count)))))
+    to_and_fro = math("PINGPONG", at, count - 1.0)
+    loops, turns = (math("COMPARE", given[OUTSIDE], float(sequence_reader.OUTSIDE.index(word)), 0.5) for word in ("LOOP", "PINGPONG"))
+    index = math("FLOOR", math("ADD", choose(turns, to_and_fro, choose(loops, looped, held)), 0.5))
+
+    within = math("COMPARE", at, held, 0.5)
+    return index, math("MAXIMUM", within, math("GREATER_THAN", given[OUTSIDE], 0.5))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Joins the objects of a .mns file and their copies into one surface: frames of a sequence differ in what they hold."""
+"""Joins the objects of a .mns file and their copies into one surface, or parts what is outside from cavities."""
 
 import numpy as np
 
@@ -10,18 +10,25 @@ INDICES = {"mesh.triangle": "mesh.position", "mesh.sharp_edge": "mesh.position",
 TURNED = ("mesh.normal", "mesh.sharp_corner_normal", "mesh.velocity")
 PLAIN = ("mesh.kind", "mesh.patch", "atom.radius", "atom.color", "atom.index", "atom.b_factor", "atom.atomic_number",
          "atom.res_id")
+#: Arrays that some objects may lack, and what stands for them.
+STAND_INS = {"atom.opacity": 1.0}
 
 
 def joined(file, origin):
     """One mns_reader.Surface of all objects and copies, with mesh.position in Å relative to `origin` as float64, and
     mesh.object: the object of each triangle."""
     columns = {}
+    optional = {name: value for name, value in STAND_INS.items()
+                if any(surface.get(name) is not None for surface in file.objects)}
     rows = {"mesh.position": 0, "mesh.triangle": 0, "atom.center": 0, "components": 0}
     chains = {}
     for number, surface in enumerate(file.objects):
         for copy in surface.copies:
             part = _placed(surface, copy, origin, rows, chains)
             part["mesh.object"] = np.full(surface.triangle_count, number, dtype=np.int32)
+            for name, value in optional.items():
+                found = surface.get(name)
+                part[name] = np.full(len(surface["atom.center"]), value, dtype=np.float32) if found is None else found
             for name, values in part.items():
                 columns.setdefault(name, []).append(values)
             for name in ("mesh.position", "mesh.triangle", "atom.center"):
@@ -66,7 +73,44 @@ def _header(file, arrays, chains):
                       "closed": all(mesh.get("closed", True) for mesh, _ in meshes)}
     header["components"] = [part for surface in file.objects for _ in surface.copies
                             for part in surface.header["components"]]
+    if any(surface.header.get("film_opacity") is True for surface in file.objects):
+        header["film_opacity"] = True
     for key in ("area", "volume"):
         header[key] = sum(surface.header.get(key, 0.0) * len(surface.copies) for surface in file.objects)
     header["chain_names"] = chains
     return header
+
+
+def by_role(surface):
+    """Pairs "outer" or "cavities", and the part of the surface that is so; none that is empty."""
+    cavity = np.array([part["kind"] == "cavity" for part in surface.header["components"]], dtype=bool)
+    for role, wanted in (("outer", ~cavity), ("cavities", cavity)):
+        shown = wanted[surface["mesh.component"]]
+        if shown.any():
+            yield role, _part(surface, shown, wanted)
+
+
+def _part(surface, shown, wanted):
+    """Some triangles with their vertices and the whole components they make up."""
+    triangles = surface["mesh.triangle"][shown]
+    used = np.zeros(len(surface["mesh.position"]), dtype=bool)
+    used[triangles] = True
+    vertex = np.cumsum(used) - 1
+    arrays = dict(surface.arrays)
+    for name in ("mesh.position", "mesh.normal", "mesh.velocity"):
+        if name in arrays:
+            arrays[name] = arrays[name][used]
+    for name in ("mesh.kind", "mesh.patch", "mesh.component", "mesh.atom"):
+        arrays[name] = arrays[name][shown]
+    arrays["mesh.triangle"] = vertex[triangles].astype(np.uint32)
+    corner = (np.cumsum(np.repeat(shown, 3)) - 1).astype(np.uint32)
+    sharp = surface["mesh.sharp_corner"]
+    stays = np.repeat(shown, 3)[sharp]
+    arrays["mesh.sharp_corner"] = corner[sharp[stays]]
+    arrays["mesh.sharp_corner_normal"] = surface["mesh.sharp_corner_normal"][stays]
+    edges = surface["mesh.sharp_edge"].reshape(-1, 2)
+    arrays["mesh.sharp_edge"] = vertex[edges[used[edges].all(axis=1)]].astype(np.uint32)
+    mesh = {**surface.header["mesh"], "vertices": int(used.sum()), "triangles": int(shown.sum())}
+    kept = [part for part, is_kept in zip(surface.header["components"], wanted) if is_kept]
+    measures = {key: sum(part.get(key, 0.0) for part in kept) for key in ("area", "volume")}
+    return mns_reader.Surface(surface.path, {**surface.header, **measures, "mesh": mesh}, arrays)

@@ -19,7 +19,7 @@ NEEDED = {
     "atom.center": 3, "atom.radius": 1, "atom.color": 3,
 }
 #: Arrays a mesh may have, and their columns.
-OPTIONAL = {"mesh.velocity": 3}
+OPTIONAL = {"mesh.velocity": 3, "atom.opacity": 1}
 
 
 class MnsError(Exception):
@@ -49,6 +49,7 @@ class Surface:
         self.path = path
         self.header = header
         self.arrays = arrays
+        self.known_closed = False
         self.name = str(header.get("name", ""))
         self.copies = [np.array(copy, dtype=np.float64).reshape(3, 4) for copy in header.get("copies", [IDENTITY])]
 
@@ -57,6 +58,12 @@ class Surface:
 
     def get(self, name):
         return self.arrays.get(name)
+
+    def check_closed(self):
+        """Raises MnsError if the mesh shall be closed and is not; looks once."""
+        if not self.known_closed and self.header["mesh"].get("closed", True) and not is_closed(self["mesh.triangle"]):
+            raise MnsError(f"{self.path}: the mesh is not closed")
+        self.known_closed = True
 
     @property
     def triangle_count(self):
@@ -181,6 +188,9 @@ def _check(surface):
     vertices, triangles, atoms = (len(arrays[n]) for n in ("mesh.position", "mesh.triangle", "atom.center"))
     if vertices == 0 or triangles == 0:
         raise MnsError(f"{path}: the mesh is empty")
+    opacity = arrays.get("atom.opacity")
+    if opacity is not None and len(opacity) and not 0.0 <= opacity.min() <= opacity.max() <= 1.0:
+        raise MnsError(f"{path}: array atom.opacity holds a number outside of 0 to 1")
     mesh = surface.header.get("mesh")
     if not isinstance(mesh, dict) or mesh.get("vertices") != vertices or mesh.get("triangles") != triangles:
         raise MnsError(f"{path}: header and arrays disagree on the number of vertices or triangles")
@@ -195,7 +205,7 @@ def _check(surface):
     lengths = {
         "mesh.normal": vertices, "mesh.velocity": vertices, "mesh.kind": triangles, "mesh.patch": triangles,
         "mesh.component": triangles,
-        "mesh.atom": triangles, "atom.radius": atoms, "atom.color": atoms, "atom.b_factor": atoms,
+        "mesh.atom": triangles, "atom.radius": atoms, "atom.color": atoms, "atom.opacity": atoms, "atom.b_factor": atoms,
         "atom.atomic_number": atoms, "atom.index": atoms, "atom.res_id": atoms, "atom.chain_id": atoms,
         "mesh.sharp_corner_normal": len(arrays["mesh.sharp_corner"]),
     }

@@ -1,30 +1,43 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A sequence of surfaces in a scene: all frames baked into the file, or one frame at a time by a handler."""
 
+import concurrent.futures
+import math
 import os
 import sys
 
 import bpy
 from bpy.app.handlers import persistent
 
-from . import build, compat, frame_picker, joined, mns_reader, sequence_reader
+from . import attributes, build, compat, frame_picker, joined, materials, mns_reader, sequence_reader
 
 
 class Placement:
-    """How the surfaces of a sequence come into a scene. origin: Å, of the scene's coordinates, for all frames."""
+    """How the surfaces of a sequence come into a scene. origin: Å, of the scene's coordinates, for all frames. scene: whose
+    frame rate counts for velocities; None: that of the sequence."""
 
-    def __init__(self, sequence, scale=None, center=True, crisp_colors=True):
+    def __init__(self, sequence, scale=None, center=True, crisp_colors=True, timing=None, scene=None, origin=None,
+                 own_materials=False):
         self.sequence = sequence
         self.scale = sequence.scale if scale is None else scale
-        self.origin = sequence.origin if center else sequence.origin * 0.0
+        self.origin = origin if origin is not None else sequence.origin if center else sequence.origin * 0.0
         self.crisp_colors = crisp_colors
+        self.timing = timing or sequence_reader.Timing()
+        self.scene = scene
+        self.own_materials = own_materials
+        self.new_materials = []
 
     def refill(self, mesh, scene_frame):
-        """Puts one frame into the mesh. On an error the mesh is left without geometry: no other frame stands for it."""
+        """Puts the frame in this place of the run into the mesh. On an error the mesh is left without geometry: no other
+        frame stands for it."""
         try:
             mesh.clear_geometry()
-            file = self.sequence.read(scene_frame)
-            build.fill_mesh(mesh, joined.joined(file, self.origin), self.scale, self.crisp_colors, self.sequence.fps)
+            file, surface = _ahead.take(self, scene_frame)
+            if not mesh.materials:
+                build.add_materials(mesh, materials.kind_of(surface), self.new_materials, self.own_materials)
+            fps = self.sequence.fps if self.scene is None else build.fps_of(self.scene)
+            build.fill_mesh(mesh, surface, self.scale, self.crisp_colors, fps * self.timing.speed,
+                            sorted(surface.header["chain_names"]))
         except BaseException:
             mesh.clear_geometry()
             raise
@@ -36,22 +49,65 @@ class Placement:
         return file
 
 
-def set_up_scene(scene, sequence):
-    """Scene frames count from 1; velocities are for this frame rate."""
-    scene.frame_start, scene.frame_end = 1, len(sequence.frames)
+def prepare(sequence, scene_frame, origin):
+    """The file of a frame and its one surface, checked; knows nothing of Blender's data, so any thread may do it."""
+    file = sequence.read(scene_frame)
+    surface = joined.joined(file, origin)
+    surface.check_closed()
+    return file, surface
+
+
+class Ahead:
+    """Frames that a thread reads before they are asked for: the disk, checksums and checks are half of the time."""
+
+    MOST = 2
+
+    def __init__(self):
+        self.executor = None
+        self.waiting = {}  # key -> future, the oldest first
+
+    @staticmethod
+    def key(placement, scene_frame):
+        path = placement.sequence.frames[scene_frame - 1].path
+        stamp = os.stat(path) if os.path.exists(path) else None
+        return (path, placement.sequence.run, tuple(placement.origin), stamp and (stamp.st_mtime_ns, stamp.st_size, stamp.st_ino))
+
+    def take(self, placement, scene_frame):
+        future = self.waiting.pop(self.key(placement, scene_frame), None)
+        if future is not None:
+            return future.result()
+        return prepare(placement.sequence, scene_frame, placement.origin)
+
+    def ask(self, placement, scene_frame):
+        key = self.key(placement, scene_frame)
+        if key in self.waiting:
+            return
+        if self.executor is None:
+            self.executor = concurrent.futures.ThreadPoolExecutor(1, "meniscus")
+        self.waiting[key] = self.executor.submit(prepare, placement.sequence, scene_frame, placement.origin)
+        while len(self.waiting) > self.MOST:
+            self.waiting.pop(next(iter(self.waiting))).cancel()
+
+    def forget(self):
+        for future in self.waiting.values():
+            future.cancel()
+        self.waiting.clear()
+        if self.executor is not None:
+            self.executor.shutdown(wait=True)
+            self.executor = None
+
+
+_ahead = Ahead()
+
+
+def set_up_scene(scene, sequence, timing):
+    """The range of frames, and the rate that velocities are for."""
+    scene.frame_start = math.floor(timing.start)
+    scene.frame_end = max(scene.frame_start, math.ceil(timing.scene_time(len(sequence.frames)) - 1e-6))
     scene.render.fps, scene.render.fps_base = compat.frame_rate(sequence.fps)
-    shot = sequence.frames[0].camera
-    if shot is not None:
-        build.use_picture_size(scene, shot)
 
 
-def new_mesh(name):
-    mesh = bpy.data.meshes.new(name)
-    build.add_materials(mesh, [])
-    return mesh
-
-
-def add_camera(scene, collection, placement):
+def add_camera(collection, placement):
     """The camera of the run, with key frames if it moves; None when the manifest has none. It shows only what is near
     until build.reach_all is called for frames."""
     sequence = placement.sequence
@@ -64,8 +120,12 @@ def add_camera(scene, collection, placement):
     if sequence.camera_moves:
         set_key_frames(item, placement)
     collection.objects.link(item)
-    scene.camera = item
     return item
+
+
+def use_camera(scene, item, sequence):
+    scene.camera = item
+    build.use_picture_size(scene, sequence.frames[0].camera)
 
 
 def set_key_frames(item, placement):
@@ -76,80 +136,111 @@ def set_key_frames(item, placement):
         if before is not None:
             turn.make_compatible(before)  # the short way round
         item.location, item.rotation_quaternion, before = location, turn, turn
+        time = placement.timing.scene_time(scene_frame)
         for path in ("location", "rotation_quaternion"):
-            item.keyframe_insert(path, frame=scene_frame)
+            item.keyframe_insert(path, frame=time)
         for path in ("lens", "ortho_scale"):
-            item.data.keyframe_insert(path, frame=scene_frame)
+            item.data.keyframe_insert(path, frame=time)
 
 
 def remember(item, placement):
     """Plain custom properties: they survive saving and need no registration."""
     sequence = placement.sequence
-    path = os.path.abspath(sequence.path)
-    item["meniscus_sequence"] = bpy.path.relpath(path) if bpy.data.filepath else path
+    item["meniscus_sequence"] = build.remembered_path(sequence.path)
     item["meniscus_run"] = sequence.run
     item["meniscus_scale"] = placement.scale
     item["meniscus_origin"] = [float(value) for value in placement.origin]
     item["meniscus_crisp"] = int(placement.crisp_colors)
+    item["meniscus_own_rate"] = int(placement.scene is None)
+
+
+class Run:
+    """What is asked of a sequence that comes into a scene. import_camera: that of the run; use_camera: as the scene's, with
+    its picture size. set_time: the scene gets the run's range of frames and frame rate. Others: as of Placement."""
+
+    def __init__(self, path, context, center=True, import_camera=True, use_camera=True, set_time=True, **options):
+        self.sequence = sequence_reader.read(path)
+        scene = context.scene
+        origin = build.scene_origin(scene, lambda: self.sequence.origin) if center else self.sequence.origin * 0.0
+        self.placement = Placement(self.sequence, origin=origin, scene=None if set_time else scene, **options)
+        self.import_camera, self.use_camera, self.set_time = import_camera, use_camera, set_time
+
+    def finish(self, context, item, camera, meshes):
+        if self.set_time:
+            set_up_scene(context.scene, self.sequence, self.placement.timing)
+        if camera is not None and self.use_camera:
+            use_camera(context.scene, camera, self.sequence)
+        build.let_rays_through(context.scene, meshes)
+        build.present(context, [item])
 
 
 def bake(path, context=None, progress=None, **options):
     """Reads all frames into the file: an object whose Geometry Nodes pick that of the scene's time. Renders anywhere,
-    without this add-on. Raises MnsError or OSError and then leaves nothing behind."""
+    without this add-on; options: of Run. Raises MnsError or OSError and then leaves nothing behind."""
     context = context or bpy.context
-    sequence = sequence_reader.read(path)
-    placement = Placement(sequence, **options)
+    run = Run(path, context, **options)
+    sequence, placement = run.sequence, run.placement
     store = bpy.data.collections.new(sequence.stem + ".frames")
     collection = bpy.data.collections.new(sequence.stem)
     camera = item = None
     try:
-        camera = add_camera(context.scene, collection, placement)
+        if run.import_camera:
+            camera = add_camera(collection, placement)
         for scene_frame in range(1, len(sequence.frames) + 1):
             # Geometry Nodes sort a collection by name; short names, since Blender cuts long ones.
-            mesh = new_mesh(f"{sequence.stem[:40]}.{scene_frame:07d}")
+            mesh = bpy.data.meshes.new(f"{sequence.stem[:40]}.{scene_frame:07d}")
             store.objects.link(bpy.data.objects.new(mesh.name, mesh))
+            if scene_frame < len(sequence.frames):
+                _ahead.ask(placement, scene_frame + 1)
             file = placement.refill(mesh, scene_frame)
             if camera is not None:
                 build.reach_all(camera, file, placement.scale, placement.origin)
             if progress:
                 progress(scene_frame, len(sequence.frames))
-        item = frame_picker.add(sequence.stem + ".surface", store, len(sequence.frames))
+        item = frame_picker.add(sequence.stem + ".surface", store, len(sequence.frames), placement.timing)
         remember(item, placement)
         collection.objects.link(item)
     except BaseException:
-        remove([item, camera, *store.objects], [store, collection])
+        remove([item, camera, *store.objects], [store, collection], placement.new_materials)
         raise
+    finally:
+        _ahead.forget()
     context.scene.collection.children.link(collection)
     collection.children.link(store)
     exclude(context.view_layer.layer_collection, store)
-    set_up_scene(context.scene, sequence)
+    run.finish(context, item, camera, [each.data for each in store.objects])
     return item
 
 
 def stream(path, context=None, **options):
-    """An object that a handler fills with the frame of the scene's time: one frame in memory. Needs this add-on."""
+    """An object that a handler fills with the frame of the scene's time: one frame in memory. Needs this add-on. options: of
+    Run."""
     context = context or bpy.context
-    sequence = sequence_reader.read(path)
-    placement = Placement(sequence, **options)
+    run = Run(path, context, **options)
+    sequence, placement = run.sequence, run.placement
     collection = bpy.data.collections.new(sequence.stem)
-    mesh = new_mesh(sequence.stem + ".surface")
+    mesh = bpy.data.meshes.new(sequence.stem + ".surface")
     item = bpy.data.objects.new(mesh.name, mesh)
     camera = None
     try:
         collection.objects.link(item)
         file = placement.refill(mesh, 1)
         mesh["meniscus_shown"] = shown_key(sequence, 1)
-        camera = add_camera(context.scene, collection, placement)
+        if run.import_camera:
+            camera = add_camera(collection, placement)
         if camera is not None:
             build.reach_all(camera, file, placement.scale, placement.origin)
         remember(item, placement)
         item["meniscus_stream"] = 1
+        item["meniscus_start"], item["meniscus_speed"] = placement.timing.start, placement.timing.speed
+        item["meniscus_outside"] = placement.timing.outside
+        item["meniscus_by_hand"], item["meniscus_frame"] = False, 1.0
     except BaseException:
-        remove([item, camera], [collection])
+        remove([item, camera], [collection], placement.new_materials)
         raise
     context.scene.collection.children.link(collection)
     context.scene.render.use_lock_interface = True  # the window must not read a mesh that a render refills
-    set_up_scene(context.scene, sequence)
+    run.finish(context, item, camera, [mesh])
     show_frame(context.scene)
     return item
 
@@ -161,7 +252,7 @@ def exclude(layer, collection):
         exclude(child, collection)
 
 
-def remove(items, collections):
+def remove(items, collections, new_materials):
     for item in items:
         if item is not None:
             data = item.data
@@ -169,22 +260,35 @@ def remove(items, collections):
             (bpy.data.cameras if isinstance(data, bpy.types.Camera) else bpy.data.meshes).remove(data)
     for collection in collections:
         bpy.data.collections.remove(collection)
+    for material in new_materials:
+        bpy.data.materials.remove(material)
 
 
-_manifests = {}  # path -> (modification time, size, Placement)
+_manifests = {}  # path -> ((modification time, size), sequence)
+_kept = {}  # name of a mesh -> (run, attributes of the user by atom)
 
 
-def placement_of(item):
+def placement_of(item, scene):
     """The manifest is read again when its file has changed."""
     path = bpy.path.abspath(item["meniscus_sequence"])
     stamp = os.stat(path)
-    key = (stamp.st_mtime_ns, stamp.st_size, item["meniscus_scale"], tuple(item["meniscus_origin"]),
-           item["meniscus_crisp"])
+    key = (stamp.st_mtime_ns, stamp.st_size)
     if _manifests.get(path, (None,))[0] != key:
-        placement = Placement(sequence_reader.read(path), item["meniscus_scale"], True, bool(item["meniscus_crisp"]))
-        placement.origin = placement.origin * 0.0 + list(item["meniscus_origin"])
-        _manifests[path] = (key, placement)
-    return _manifests[path][1]
+        _manifests[path] = (key, sequence_reader.read(path))
+    timing = sequence_reader.Timing(item.get("meniscus_start", 1.0), item.get("meniscus_speed", 1.0),
+                                    item.get("meniscus_outside", "EMPTY"))
+    sequence = _manifests[path][1]
+    return Placement(sequence, item["meniscus_scale"], True, bool(item["meniscus_crisp"]), timing,
+                     None if item.get("meniscus_own_rate", 1) else scene,
+                     sequence.origin * 0.0 + list(item["meniscus_origin"]))
+
+
+def place_at(item, placement, time):
+    """Which frame of the run an object shows at a moment of the scene; None: nothing."""
+    count = len(placement.sequence.frames)
+    if item.get("meniscus_by_hand") and "meniscus_frame" in item:
+        return placement.timing.within(compat.value_at(item, "meniscus_frame", time), count)
+    return placement.timing.place(time, count)
 
 
 def shown_key(sequence, scene_frame):
@@ -193,25 +297,33 @@ def shown_key(sequence, scene_frame):
 
 def show_frame(scene):
     """Fills every streamed object of the scene with its frame, unless it holds it already: with motion blur Blender
-    asks for moments between frames, whose nearest frame is the same."""
+    asks for moments between frames, whose nearest frame is the same. While a mesh is edited it stays as it is."""
     for item in list(scene.objects):
-        if item.type == "MESH" and item.get("meniscus_stream"):
-            refresh(item, scene.frame_current_final)
+        if item.type == "MESH" and item.get("meniscus_stream") and not item.data.is_editmode:
+            refresh(item, scene)
 
 
-def refresh(item, time):
+def refresh(item, scene):
     mesh = item.data
     try:
-        placement = placement_of(item)
-        scene_frame = placement.sequence.resolve(time)
+        placement = placement_of(item, scene)
+        time = scene.frame_current_final
+        scene_frame = place_at(item, placement, time)
         key = shown_key(placement.sequence, scene_frame)
         if mesh.get("meniscus_shown") == key:
             return
         mesh["meniscus_shown"] = ""
+        run, older = _kept.get(mesh.name, ("", ()))
+        kept = attributes.keep(mesh, build.OURS, older if run == placement.sequence.run else ())
+        _kept[mesh.name] = (placement.sequence.run, kept)
         if scene_frame is None:  # outside of the run there is nothing to see
             mesh.clear_geometry()
         else:
             placement.refill(mesh, scene_frame)
+            attributes.give_back(mesh, kept)
+            after = place_at(item, placement, time + 1.0)
+            if after not in (None, scene_frame):
+                _ahead.ask(placement, after)
         mesh["meniscus_shown"] = key
         item["meniscus_error"] = ""
     except Exception as error:  # a handler that raises changes nothing: Blender goes on and renders
@@ -237,3 +349,5 @@ def unregister():
     if on_frame_change in bpy.app.handlers.frame_change_pre:
         bpy.app.handlers.frame_change_pre.remove(on_frame_change)
     _manifests.clear()
+    _kept.clear()
+    _ahead.forget()

@@ -18,6 +18,40 @@ VERSION = 1
 MOST_FRAMES = 10_000_000
 
 
+#: What shows before and behind a run.
+OUTSIDE = ("EMPTY", "HOLD", "LOOP", "PINGPONG")
+
+
+class Timing:
+    """When a run shows. start: the scene frame of its first frame. speed: frames of the run a scene frame, above 0.
+    outside: one of OUTSIDE."""
+
+    def __init__(self, start=1.0, speed=1.0, outside="EMPTY"):
+        if not (math.isfinite(start) and math.isfinite(speed) and speed > 0.0 and outside in OUTSIDE):
+            raise mns_reader.MnsError(f"start {start}, speed {speed} or {outside} outside of the run makes no sense")
+        self.start, self.speed, self.outside = start, speed, outside
+
+    def scene_time(self, place):
+        """When the frame in this place of the run, from 1, shows."""
+        return self.start + (place - 1) / self.speed
+
+    def place(self, time, count):
+        """The place in a run of `count` frames that stands for a moment of the scene: the nearest; None: nothing shows."""
+        return self.within((time - self.start) * self.speed + 1.0, count)
+
+    def within(self, place, count):
+        """The same for a place that may lie between two or outside of the run."""
+        index = math.floor(place + 0.5) - 1
+        if self.outside == "LOOP":
+            index %= count
+        elif self.outside == "PINGPONG":
+            index %= max(2 * count - 2, 1)
+            index = min(index, 2 * count - 2 - index)
+        elif self.outside == "HOLD":
+            index = min(max(index, 0), count - 1)
+        return index + 1 if 0 <= index < count else None
+
+
 class Frame:
     """number: of the trajectory. path: its .mns file. camera: dict as in a .mns header, or None."""
 
@@ -51,11 +85,6 @@ class Sequence:
     def scene_frame(self, number):
         """Of a frame of the trajectory; None if it is not in the run."""
         return self._scene_frame.get(number)
-
-    def resolve(self, time):
-        """The scene frame that stands for a moment, which may lie between frames: the nearest; None outside the run."""
-        nearest = math.floor(time + 0.5)
-        return nearest if 1 <= nearest <= len(self.frames) else None
 
     def read(self, scene_frame):
         """The .mns file of one scene frame. Raises MnsError or OSError: missing, damaged, of another run."""

@@ -1,0 +1,87 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Attributes that a user gave to a mesh, carried over to other triangles of the same atoms."""
+
+import numpy as np
+
+#: Types that can be carried: the field of a value, its columns, its numpy type.
+TYPES = {
+    "FLOAT": ("value", 1, np.float32), "INT": ("value", 1, np.int32), "BOOLEAN": ("value", 1, bool),
+    "FLOAT_VECTOR": ("vector", 3, np.float32), "FLOAT2": ("vector", 2, np.float32), "FLOAT_COLOR": ("color", 4, np.float32),
+    "BYTE_COLOR": ("color", 4, np.float32),
+}
+DOMAINS = ("POINT", "FACE", "CORNER")
+#: What Blender itself, or the import, keeps in attributes.
+BLENDERS = {"position", "material_index", "sharp_edge", "sharp_face", "custom_normal", "crease_edge", "crease_vert"}
+
+
+class Kept:
+    """An attribute by atom: values, and for which atoms they are known."""
+
+    def __init__(self, name, kind, domain, values, known):
+        self.name, self.kind, self.domain, self.values, self.known = name, kind, domain, values, known
+
+    def with_older(self, older):
+        """Atoms that the surface did not show keep the values they had."""
+        if older is None or (older.kind, older.domain) != (self.kind, self.domain):
+            return self
+        count = max(len(self.known), len(older.known))
+        for kept in (self, older):
+            kept.values = np.concatenate([kept.values, np.zeros((count - len(kept.values), kept.values.shape[1]), kept.values.dtype)])
+            kept.known = np.concatenate([kept.known, np.zeros(count - len(kept.known), dtype=bool)])
+        self.values[~self.known] = older.values[~self.known]
+        self.known |= older.known
+        return self
+
+
+def keep(mesh, ours, older=()):
+    """The attributes of a mesh, but Blender's and those named in `ours`, as a list of Kept. older: of an earlier call."""
+    before = {kept.name: kept for kept in older}
+    if "atom_index" not in mesh.attributes or not len(mesh.polygons):
+        return list(older)
+    atom = _read(mesh, "atom_index", "INT")[:, 0]
+    vertices = np.empty(len(mesh.loops), dtype=np.int32)
+    mesh.loops.foreach_get("vertex_index", vertices)
+    names = [attribute.name for attribute in mesh.attributes
+             if attribute.name not in ours and attribute.name not in BLENDERS and not attribute.name.startswith(".")
+             and attribute.data_type in TYPES and attribute.domain in DOMAINS]
+    result = []
+    for name in names:
+        kind, domain = mesh.attributes[name].data_type, mesh.attributes[name].domain
+        values = _read(mesh, name, kind)
+        of_faces = {"FACE": slice(None), "POINT": vertices[::3], "CORNER": slice(0, None, 3)}[domain]
+        by_atom = np.zeros((atom.max() + 1, values.shape[1]), dtype=values.dtype)
+        by_atom[atom] = values[of_faces]
+        known = np.zeros(len(by_atom), dtype=bool)
+        known[atom] = True
+        result.append(Kept(name, kind, domain, by_atom, known).with_older(before.get(name)))
+    return result
+
+
+def give_back(mesh, kept):
+    """Adds them to a mesh that has been filled anew; atoms without a value get zero."""
+    if not kept or "atom_index" not in mesh.attributes:
+        return
+    atom = _read(mesh, "atom_index", "INT")[:, 0]
+    vertices = np.empty(len(mesh.loops), dtype=np.int32)
+    mesh.loops.foreach_get("vertex_index", vertices)
+    for each in kept:
+        table = np.zeros((max(len(each.values), atom.max() + 1), each.values.shape[1]), dtype=each.values.dtype)
+        table[:len(each.values)] = each.values
+        of_faces = table[atom]
+        if each.domain == "FACE":
+            values = of_faces
+        elif each.domain == "CORNER":
+            values = np.repeat(of_faces, 3, axis=0)
+        else:
+            values = np.zeros((len(mesh.vertices), of_faces.shape[1]), dtype=of_faces.dtype)
+            values[vertices] = np.repeat(of_faces, 3, axis=0)
+        attribute = mesh.attributes.new(each.name, each.kind, each.domain)
+        attribute.data.foreach_set(TYPES[each.kind][0], np.ascontiguousarray(values).ravel())
+
+
+def _read(mesh, name, kind):
+    field, columns, dtype = TYPES[kind]
+    data = mesh.attributes[name].data
+    values = np.empty(len(data) * columns, dtype=dtype)
+    data.foreach_get(field, values)
+    return values.reshape(-1, columns)

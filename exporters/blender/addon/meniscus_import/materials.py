@@ -1,0 +1,85 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The materials of imported surfaces: known by what they are for, shared by all imports, kept as they were edited."""
+
+import bpy
+
+from . import compat
+
+#: The slots of a mesh in order; triangles of cavities take the second.
+ROLES = ("outer", "cavity")
+#: How a surface lets through what lies behind it, and what the names of its materials end with.
+OPAQUE, TRANSLUCENT, FILM = "opaque", "translucent", "film"
+ENDINGS = {OPAQUE: "", TRANSLUCENT: " seen through", FILM: " film"}
+#: The custom property that tells our materials from others of the same name.
+MARK = "meniscus_material"
+#: Where a film is seen along itself it does not get thicker than this cosine makes it, as in Meniscus.
+LEAST_COSINE = 0.05
+
+
+def find_or_make(role, kind, new_materials, own=False):
+    """The material of a role, one of ROLES, for a kind of opacity; own: of one import alone. Those that are made are added
+    to new_materials."""
+    mark = f"{role} {kind}" + (" own" if own else "")
+    for material in new_materials if own else bpy.data.materials:
+        if material.get(MARK) == mark or (kind == OPAQUE and not own and _is_of_an_old_import(material, role)):
+            return material
+    material = bpy.data.materials.new(f"Meniscus {role}{ENDINGS[kind]}")
+    new_materials.append(material)
+    material[MARK] = mark
+    _fill(material, kind)
+    return material
+
+
+def kind_of(surface):
+    """OPAQUE, TRANSLUCENT or FILM: what the materials of a mns_reader.Surface have to show."""
+    if surface.get("atom.opacity") is None:
+        return OPAQUE
+    return FILM if surface.header.get("film_opacity") is True else TRANSLUCENT
+
+
+def shader_of(material):
+    return next((node for node in material.node_tree.nodes if node.type == "BSDF_PRINCIPLED"), None)
+
+
+def _is_of_an_old_import(material, role):
+    """Before materials were marked."""
+    return (material.name == f"Meniscus {role}" and MARK not in material and material.node_tree is not None and
+            any(node.type == "ATTRIBUTE" and node.attribute_name == "Color" for node in material.node_tree.nodes))
+
+
+def _fill(material, kind):
+    tree = compat.node_tree(material)
+    shader = compat.find_or_add(tree, "BSDF_PRINCIPLED", "ShaderNodeBsdfPrincipled")
+    output = compat.find_or_add(tree, "OUTPUT_MATERIAL", "ShaderNodeOutputMaterial")
+    output.location = (shader.location[0] + 300, shader.location[1])
+    if not output.inputs["Surface"].is_linked:
+        tree.links.new(shader.outputs[0], output.inputs["Surface"])
+    color = _attribute(tree, "Color", shader, 0)
+    tree.links.new(color.outputs["Color"], shader.inputs["Base Color"])
+    shader.inputs["Roughness"].default_value = 0.45
+    if kind != OPAQUE:
+        opacity = _attribute(tree, "opacity", shader, -320).outputs["Fac"]
+        if kind == FILM:
+            opacity = _through_a_film(tree, opacity)
+        tree.links.new(opacity, shader.inputs["Alpha"])
+        compat.let_through(material)
+
+
+def _attribute(tree, name, beside, down):
+    node = tree.nodes.new("ShaderNodeAttribute")
+    node.attribute_name = name
+    node.location = (beside.location[0] - 220, beside.location[1] + down)
+    return node
+
+
+def _through_a_film(tree, opacity):
+    """Bouguer's law: 1 - (1 - opacity)^(1 / c), c the cosine between the line of sight and the normal."""
+    geometry = tree.nodes.new("ShaderNodeNewGeometry")
+    facing = tree.nodes.new("ShaderNodeVectorMath")
+    facing.operation = "DOT_PRODUCT"
+    tree.links.new(geometry.outputs["Normal"], facing.inputs[0])
+    tree.links.new(geometry.outputs["Incoming"], facing.inputs[1])
+    cosine = compat.math_node(tree, "MAXIMUM", compat.math_node(tree, "ABSOLUTE", facing.outputs["Value"]), LEAST_COSINE)
+    through = compat.math_node(tree, "SUBTRACT", 1.0, opacity)
+    return compat.math_node(tree, "SUBTRACT", 1.0,
+                            compat.math_node(tree, "POWER", through, compat.math_node(tree, "DIVIDE", 1.0, cosine)))

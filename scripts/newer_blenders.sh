@@ -1,0 +1,39 @@
+#!/usr/bin/env bash
+# Runs the tests of the Blender add-on in newer Blenders than Debian's: the module bpy of PyPI, each version in a virtual
+# environment below build/blenders (1.2 GB each, kept). The last line says "cases N failures M".
+#
+#   scripts/newer_blenders.sh PROGRAM [VERSION...]     versions: 4.2, 4.5, 5.0 by default; newer ones need another Python
+set -euo pipefail
+cd "$(dirname "$0")/.."
+program=$(realpath "${1:?usage: scripts/newer_blenders.sh PROGRAM [VERSION...]}")
+shift
+versions=("${@:-4.2}")
+(($#)) || versions=(4.2 4.5 5.0)
+tests=$PWD/tests/export/blender
+addon=$PWD/exporters/blender/addon
+cases=0
+failures=0
+
+for version in "${versions[@]}"; do
+  home=$PWD/build/blenders/$version
+  if [[ ! -x $home/blender ]]; then
+    rm -rf "$home"
+    /usr/bin/python3 -m venv "$home"
+    "$home/bin/pip" install --quiet --disable-pip-version-check "bpy==$version.*"
+    printf '#!/bin/sh\nexec "%s/bin/python" "%s/bpy_as_blender.py" "$@"\n' "$home" "$tests" >"$home/blender"
+    chmod +x "$home/blender"
+  fi
+  for script in inside_blender inside_sequence; do
+    log=$home/$script.log
+    /usr/bin/python3 "$tests/run_blender.py" "$home/blender" "$program" "$addon" "$tests/$script.py" >"$log" 2>&1 || true
+    ran=$(sed -nE 's/^Ran ([0-9]+) tests? in .*/\1/p' "$log" | tail -n 1)
+    failed=$(sed -nE 's/^FAILED \((.*)\)$/\1/p' "$log" | tail -n 1 | { grep -oE '(failures|errors)=[0-9]+' || true; } | cut -d= -f2 | paste -sd+)
+    failed=$((${failed:-0}))
+    [[ $ran ]] || { ran=1 failed=1; tail -n 20 "$log" >&2; }
+    echo "Blender $version, $script: $ran tests, $failed failed; $log"
+    cases=$((cases + ran))
+    failures=$((failures + failed))
+  done
+done
+echo "cases $cases failures $failures"
+((failures == 0))

@@ -1,0 +1,93 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Figures are the same pictures from Blender as from the ray caster: PROGRAM ADDON_FOLDER BLENDER."""
+
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import numpy as np
+import OpenImageIO
+
+PROGRAM, ADDON, BLENDER = sys.argv[1:4]
+UBIQUITIN = "/usr/share/freesasa/test-data/1ubq.pdb"
+WIDTH, HEIGHT = 160, 120
+VIEW = ["--size", f"{WIDTH}x{HEIGHT}", "--device", "cpu", "-q", "--force"]
+#: A pixel differs if a channel does by more, seen before white: two standard deviations of 256 samples that each see a
+#: layer or not.
+LIMIT = 16 / 255
+
+
+def pixels(path):
+    """Linear RGBA, premultiplied: (rows, columns, 4)."""
+    asked = OpenImageIO.ImageSpec()
+    asked.attribute("oiio:UnassociatedAlpha", 1)
+    image = OpenImageIO.ImageBuf(path, 0, 0, asked)
+    values = np.asarray(image.get_pixels(OpenImageIO.FLOAT), dtype=np.float64)[:, :, :4]
+    if path.endswith(".png"):  # straight, sRGB
+        color = values[:, :, :3]
+        values[:, :, :3] = np.where(color <= 0.04045, color / 12.92, ((color + 0.055) / 1.055) ** 2.4) * values[:, :, 3:]
+    return values
+
+
+def before_white(values):
+    """What a screen shows, sRGB in [0, 1]."""
+    linear = np.clip(values[:, :, :3] + (1.0 - values[:, :, 3:]), 0.0, 1.0)
+    return np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)
+
+
+class Figure(unittest.TestCase):
+    def setUp(self):
+        self.holder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.holder.cleanup)
+
+    def path(self, name):
+        return os.path.join(os.environ.get("MENISCUS_KEEP_PICTURES", self.holder.name), name)
+
+    def pair(self, name, molecule, *options, samples=256):
+        """The picture of the ray caster, and that of Blender from the export with the same options."""
+        def run(*command):
+            done = subprocess.run(command, capture_output=True, text=True, check=False)
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+
+        camera, ours, mns, theirs = (self.path(name + end) for end in (".json", ".exr", ".mns", ".png"))
+        run(PROGRAM, "render", molecule, "-o", ours, *VIEW, *options, "--preset", "classic", "--ambient", "1", "--specular", "0", "--samples", "64",
+            "--background", "transparent", "--save-camera", camera)
+        run(PROGRAM, "export", "blender", molecule, "-o", mns, *VIEW, *options, "--tolerance", "0.02", "--camera", camera)
+        run(BLENDER, "-b", "--factory-startup", "--python-exit-code", "3", "--python", os.path.join(ADDON, "render_mns.py"), "--",
+            mns, "--output", theirs, "--samples", str(samples), "--style", "flat", "--transparent")
+        return pixels(ours), pixels(theirs)
+
+    def difference(self, name, ours, theirs):
+        """The share of differing pixels among those that show something, and the mean difference of coverage there."""
+        shown = (ours[:, :, 3] > 0.0) | (theirs[:, :, 3] > 0.0)
+        self.assertGreater(shown.sum(), 3000)
+        far = np.abs(before_white(ours) - before_white(theirs)).max(axis=2)[shown]
+        share, bias = float((far > LIMIT).mean()), float((theirs - ours)[:, :, 3][shown].mean())
+        print(f"{name}: {shown.sum()} pixels, {100 * share:.3f} % differ, coverage by {bias:+.5f}")
+        return share, bias
+
+    def check(self, name, molecule, *options, at_most=0.02):
+        """The same figure from both, and a comparison that can fail: one pixel aside."""
+        ours, theirs = self.pair(name, molecule, *options)
+        share, bias = self.difference(name, ours, theirs)
+        self.assertLess(share, at_most, name)
+        self.assertLess(abs(bias), 0.005, name)
+        self.assertGreater(self.difference(name + ", one pixel aside", ours, np.roll(theirs, 1, axis=1))[0], 0.05)
+        return ours, theirs
+
+    def test_opacity(self):
+        self.check("opacity", UBIQUITIN, "--opacity", "0.4", "--color", "residue")
+        thin, _ = self.check("opacity of parts", UBIQUITIN, "--opacity", "0.25", "--opacity", "resi 1-30=1", "--opacity",
+                             "resi 40-50=0", "--color", "residue", at_most=0.05)  # edges: Blender's filter is wider
+        _, film = self.check("film", UBIQUITIN, "--opacity", "0.25", "--film-opacity", "--color", "residue")
+        self.assertGreater(self.difference("a film and parts of none", thin, film)[0], 0.05)
+
+    def test_shapes(self):
+        self.check("shapes alone", UBIQUITIN, "--opacity", "0", "--sticks", "sidechain", "--spheres", "resi 1", "--balls", "resi 20-30",
+                   "--tube", "all", "--color", "element")
+        self.check("shapes within", UBIQUITIN, "--opacity", "0.3", "--sticks", "sidechain", "--tube", "all", "--color", "element")
+
+
+unittest.main(argv=["figure_test"])
