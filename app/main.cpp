@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "app/options/scene_file.h"
 #include "app/options/usage_faults.h"
 #include "app/process/build_version.h"
 #include "app/process/command_line.h"
@@ -135,12 +136,14 @@ bool is_command(std::string_view word) {
                                fmt::join(names, ", ")));
 }
 
-/// The words as they were typed; `meniscus my.pdb` means `meniscus render my.pdb`.
+/// The words as they were typed; `meniscus my.pdb` means `meniscus render my.pdb`, and `meniscus my.json`
+/// `meniscus render --scene my.json`.
 std::vector<const char*> words_of(int argc, char** argv) {
   std::vector<const char*> words(argv, argv + argc);
   if (argc < 2 || argv[1][0] == '-' || is_command(argv[1])) return words;
   std::error_code unreadable;
   if (!std::filesystem::is_regular_file(argv[1], unreadable)) refuse_unknown_command(argv[1]);
+  if (std::filesystem::path(argv[1]).extension() == ".json") words.insert(words.begin() + 1, "--scene");
   words.insert(words.begin() + 1, "render");
   return words;
 }
@@ -165,13 +168,17 @@ void run(int argc, char** argv) {
   let_the_last_count(program);
   program.footer(kExamples);
   for (const Command& command : kCommands) command.add(*program.add_subcommand(command.name)->group("Commands"));
+  SceneWords scene = with_scene(program, {words.begin() + 1, words.end()});
+  std::ranges::reverse(scene.words);
   try {
-    program.parse(static_cast<int>(words.size()), words.data());
+    program.parse(scene.words);
+  } catch (const SelectionError& error) {
+    throw SelectionError(scene.name_key(error.sentence()), error.picture());
   } catch (const CLI::Success& success) {
     program.exit(success);
   } catch (const CLI::ParseError& error) {
     const std::string fault = dynamic_cast<const CLI::ExtrasError*>(&error) ? unknown_option_fault(program, words)
-                                                                            : std::string(error.what());
+                                                                            : scene.name_key(error.what());
     throw UsageError(fmt::format("{}; see {} --help", fault, command_path(named_command(program))));
   }
   finish_standard_output();

@@ -9,6 +9,7 @@
 #include "app/process/build_version.h"
 #include "app/commands/commands.h"
 #include "app/options/command_tree.h"
+#include "app/options/scene_schema.h"
 #include "app/options/value_words.h"
 #include "app/process/program_error.h"
 #include "app/reports/man_page.h"
@@ -94,11 +95,13 @@ std::string frames_page() { return kFrames; }
 std::string selection_page() { return selection_help(); }
 std::string assembly_page() { return kAssemblies; }
 std::string exit_page() { return kExitCodes; }
+std::string scenes_page() { return scene_help(); }
 
 constexpr Topic kTopics[] = {
     {"selections", "the language of --select, --show and --context", selection_page},
     {"assemblies", "biological assemblies, and copies drawn as instances", assembly_page},
     {"frames", "trajectories, films, and the cameras that move through them", frames_page},
+    {"scenes", "scene files, and the option that each of their keys is", scenes_page},
     {"exit-codes", "what the program returns, and what is left behind", exit_page},
 };
 
@@ -157,13 +160,17 @@ void add_help(CLI::App& command) {
            "  meniscus help selections\n"
            "  meniscus help --man man            a manual page of every command and topic, into the folder man");
   auto topic = std::make_shared<std::string>(), folder = std::make_shared<std::string>();
+  auto schema = std::make_shared<bool>(false);
   command.add_option("TOPIC", *topic, "The page; none: what pages there are")
       ->check(proposes(page_names(*command.get_parent())))
       ->type_name("");
   command.add_option("--man", *folder, "Write all pages as manual pages into this folder")->type_name("FOLDER");
-  command.callback([topic, folder, &command] {
+  command.add_flag("--scene-schema", *schema, "Print the JSON schema of scene files");
+  command.callback([topic, folder, schema, &command] {
     const CLI::App& program = *command.get_parent();
-    if (!folder->empty()) {
+    if (*schema) {
+      std::cout << scene_schema();
+    } else if (!folder->empty()) {
       write_man_pages(program, *folder);
     } else if (topic->empty()) {
       list_topics(program);

@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include "app/commands/commands.h"
+#include "app/options/scene_file.h"
 #include "app/options/frame_options.h"
 #include "app/options/picture_options.h"
 #include "app/options/look_options.h"
@@ -251,6 +252,7 @@ void add_preview(CLI::App& command) {
   add_look_options(command, state->look);
   command.remove_option(command.get_option("--linear-alpha"));  // its pictures are opaque
   add_session_options(command, *state);
+  add_scene_options(command);
   command.callback([state] { run(*state); });
 }
 

@@ -14,6 +14,7 @@
 #include "app/commands/commands.h"
 #include "app/options/figure_options.h"
 #include "app/options/look_options.h"
+#include "app/options/scene_file.h"
 #include "app/options/value_words.h"
 #include "app/process/command_line.h"
 #include "app/process/program_error.h"
@@ -176,6 +177,7 @@ ImageSettings image_settings(const RenderCommand& command) {
   settings.dots_per_inch = command.picture.dots_per_inch;
   settings.names_program = command.names_program;
   if (command.provenance) settings.command = command_line();
+  if (command.names_program && !command.frames.asked()) settings.scene = command.scene;
   return settings;
 }
 
@@ -217,6 +219,7 @@ void add_render(CLI::App& command) {
   add_frame_options(command, state->frames);
   add_run_camera_options(command, state->run_camera);
   add_look_options(command, state->look);
+  add_scene_options(command, &state->save_scene);
   add_output_options(
       command, state->output,
       "Picture to write: .png, .jpg, .webp, .tif, .exr [FILE's name here, as .png]; of frames: frame_#####.png, or a "
@@ -248,17 +251,21 @@ void add_render(CLI::App& command) {
                        "Write this command line into .png, .tif, .jpg and .exr, so that it can be made again");
   command
       .add_flag_callback(
-          "--no-provenance", [state] { state->names_program = false; }, "Leave the program's version out of them, too")
+          "--no-provenance", [state] { state->names_program = false; },
+          "Leave the program's version out of them, and the scene (all of these options, without folders)")
       ->excludes(provenance);
   command.add_option("--save-camera", state->save_camera, "Write the camera used, as JSON for --camera")
       ->type_name("FILE");
   command.add_option("--fps", state->frames_per_second, "Frames per second of a film [25]")
       ->check(CLI::Range(0.1, 240.0).description(""))
       ->type_name("N");
-  command.callback([state] {
-    state->figure.representations.ask_for(state->molecule.reading);
+  command.callback([state, &command] {
+    state->figure.ask_for(state->molecule.reading);
     name_output(*state);
+    state->scene = scene_text(command, "");
+    SceneOutput scene(command, state->save_scene, state->output.existing());
     run(*state);
+    scene.commit();
   });
 }
 

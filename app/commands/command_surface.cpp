@@ -15,6 +15,7 @@
 #include "core/scene/molecule.h"
 #include "app/process/program_error.h"
 #include "app/reports/notes.h"
+#include "app/options/scene_file.h"
 #include "app/options/molecule_options.h"
 #include "app/options/frame_options.h"
 #include "app/reports/surface_report.h"
@@ -141,6 +142,7 @@ void add_surface(CLI::App& command) {
           "Also the areas of --select in the presence of these atoms, and the difference: what is buried")
       ->type_name("EXPR");
   command.add_flag("--force", state->force, "Replace files that exist");
+  add_scene_options(command);
   command.callback([state] {
     // Parts of surfaces are cut out by planes.
     const Division& division = state->molecule.division;

@@ -7,6 +7,7 @@
 #include "exporters/blender/atom_attributes.h"
 #include "app/commands/commands.h"
 #include "app/reports/run_frames.h"
+#include "app/options/scene_file.h"
 #include "app/options/mesh_options.h"
 #include "app/process/program_error.h"
 #include "core/scene/run_framing.h"
@@ -178,6 +179,7 @@ void add_export_blender(CLI::App& command) {
   command.add_option("--fps", state->fps, "Frames of a run a second [24]")
       ->type_name("N")
       ->check(CLI::Range(0.01, 1000.0));
+  add_scene_options(command);
   add_output_options(command, state->output, ".mns file to write; of a run, the folder");
   command.callback([state] { run(*state); });
 }

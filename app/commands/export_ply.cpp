@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "app/commands/commands.h"
+#include "app/options/scene_file.h"
 #include "app/options/mesh_options.h"
 #include "core/base/text.h"
 #include "core/queries/combine.h"
@@ -68,6 +69,7 @@ void add_export_ply(CLI::App& command) {
   add_representation_options(command, state->molecule.representations);
   add_mesh_options(command, state->mesh);
   add_picture_options(command, state->picture);
+  add_scene_options(command);
   add_output_options(command, state->output, "PLY file to write");
   command.callback([state] { run(*state); });
 }

@@ -9,6 +9,7 @@
 #include "app/commands/commands.h"
 #include "app/reports/run_frames.h"
 #include "core/scene/molecule.h"
+#include "app/options/scene_file.h"
 #include "app/options/picture_options.h"
 #include "app/options/representation_options.h"
 #include "app/options/value_words.h"
@@ -118,6 +119,7 @@ void add_export_povray(CLI::App& command) {
   add_picture_options(command, state->picture);
   add_frame_options(command, state->frames);
   add_run_camera_options(command, state->run_camera);
+  add_scene_options(command);
   add_output_options(command, state->output, "Folder to write; made when missing");
   const std::map<std::string, povray::Material> words{{"opaque", povray::Material::opaque},
                                                       {"ghost", povray::Material::ghost},

@@ -13,6 +13,7 @@
 #include "app/process/program_error.h"
 #include "app/options/figure_options.h"
 #include "app/options/run_camera_options.h"
+#include "app/options/scene_file.h"
 #include "app/options/usage_faults.h"
 #include "core/base/text.h"
 
@@ -78,6 +79,16 @@ void add_command(CLI::App& program, const Words& words) {
   entry->add(command);
 }
 
+/// What a scene says in its place, but for where the output goes.
+Words without_scene(const Words& typed) {
+  CLI::App program("", "meniscus");
+  const Command table[] = {{"render", add_render}, {"export", add_export}};
+  for (const Command& command : table) command.add(*program.add_subcommand(command.name));
+  Words words = with_scene(program, typed).words;
+  if (words != typed) std::erase_if(words, [](const std::string& word) { return word.starts_with("--output="); });
+  return words;
+}
+
 void check_by_own_options(BundledCommand& result) {
   CLI::App program("", "meniscus");
   program.set_help_flag();
@@ -123,7 +134,8 @@ void parse_shared_options(BundledCommand& result) {
 
 }  // namespace
 
-void parse_bundled_command(const Words& words, BundledCommand& result) {
+void parse_bundled_command(const Words& typed, BundledCommand& result) {
+  const Words words = without_scene(typed);
   split(words, result);
   for (const std::string& word : result.arguments)
     if (kDecidedByBundle.contains(option_name(word)))

@@ -32,7 +32,9 @@ struct RenderCommand {
   int samples = 9;
   bool aovs = false;
   bool provenance = false;    ///< the command line is in the picture
-  bool names_program = true;  ///< the program's version is
+  bool names_program = true;  ///< the program's version is, and of single pictures the scene
+  std::string scene;          ///< scene_text() of the options, for pictures
+  std::string save_scene;     ///< path; empty: it is not saved
   LegendRequest legend;
   AnnotationRequest annotations;
   std::optional<glm::vec3> background;

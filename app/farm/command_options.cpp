@@ -69,6 +69,8 @@ const Options& command_table() {
       {"--missing-color", Value::text},
       {"--opacity", Value::text},
       {"--film-opacity", Value::none},
+      {"--object", Value::text},
+      {"--hide-surface", Value::none},
       {"--clip", Value::text},
       {"--cap-color", Value::text},
       {"--cap-hatching", Value::text},
@@ -182,6 +184,7 @@ class Reader {
     } else {
       take_value(known->second, option);
     }
+    if (option.name == "--camera" && option.value && option.value->starts_with('{')) option.reads_file = false;
     if (option.value && option.value->empty()) throw RequestError(fmt::format("{} has an empty value", option.name));
     return option;
   }

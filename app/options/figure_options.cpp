@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "app/options/object_option.h"
 #include "app/options/representation_options.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
@@ -24,8 +25,9 @@ Cut cut_of(const std::string& text) {
 void parse_cap_color(const std::string& text, CapStyle& cap) {
   cap.color.reset();
   if (text == "atom") return;
-  cap.color = parse_hex_color(text);
-  if (!cap.color) throw CLI::ValidationError("--cap-color", in_quotes(text) + " is neither atom nor #rrggbb");
+  cap.color = parse_color(text);
+  if (!cap.color)
+    throw CLI::ValidationError("--cap-color", in_quotes(text) + " is neither atom nor a colour (red, #rrggbb)");
 }
 
 }  // namespace
@@ -40,6 +42,18 @@ void add_opacity_options(CLI::App& command, MoleculeOptions& molecule, bool& thi
 void add_figure_options(CLI::App& command, MoleculeOptions& molecule, FigureRequest& figure) {
   const Heading heading(command, "Figure");
   add_representation_options(command, figure.representations);
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--object",
+          [&figure](const std::vector<std::string>& texts) {
+            figure.objects.clear();
+            for (const std::string& text : texts) figure.objects.push_back(parse_figure_object(text));
+          },
+          "Draw something more, with colour, opacity, material and cuts of its own, as in a scene file: "
+          "'{\"representation\": \"surface\", \"selection\": \"chain B\", \"color\": \"red\"}'; repeatable")
+      ->allow_extra_args(false)
+      ->type_name("JSON");
+  command.add_flag("--hide-surface", figure.hides_surface, "Draw only what stands beside the surface");
   add_opacity_options(command, molecule, figure.thickens);
   command
       .add_option_function<std::vector<std::string>>(
@@ -55,7 +69,7 @@ void add_figure_options(CLI::App& command, MoleculeOptions& molecule, FigureRequ
   command
       .add_option_function<std::string>(
           "--cap-color", [&figure](const std::string& text) { parse_cap_color(text, figure.cap); },
-          "Of caps: atom (default: that of the nearest atom) or #rrggbb")
+          "Of caps: atom (default: that of the nearest atom) or a colour (red, #rrggbb)")
       ->type_name("COLOR");
   command.add_option("--cap-hatching", figure.cap.hatching, "Dark lines on caps, so many Å apart [0: none]")
       ->check(CLI::Range(0.0, 1000.0).description(""))

@@ -173,6 +173,7 @@ Camera parse_any_camera(std::string_view text, const std::string& file, double a
 }
 
 Camera read_any_camera(const std::string& file, double aspect) {
+  if (file.starts_with('{')) return parse_any_camera(file, "--camera", aspect);
   std::ifstream stream(file, std::ios::binary);
   if (!stream) throw InputError(file, 0, "camera: the file cannot be opened");
   const std::string text{std::istreambuf_iterator<char>(stream), {}};

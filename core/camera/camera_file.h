@@ -17,7 +17,7 @@ namespace meniscus {
 /// Throws InputError naming `file`.
 Camera parse_any_camera(std::string_view text, const std::string& file, double aspect);
 
-/// parse_any_camera on the content of a file. Throws InputError.
+/// parse_any_camera on the content of a file, or on `file` itself where it begins with a brace. Throws InputError.
 Camera read_any_camera(const std::string& file, double aspect);
 
 }  // namespace meniscus

@@ -30,6 +30,7 @@ struct ImageToEncode {
   int png_level = -1;                           ///< of 9; -1 for the usual
   std::string software;                         ///< written into the file; "" for nothing
   std::string command;                          ///< how it was made, likewise
+  std::string scene;                            ///< what it was made of (JSON), likewise
   double dots_per_inch = 0.0;                   ///< likewise; 0 for nothing
   std::span<const std::uint8_t> color_profile;  ///< ICC; empty for none
 

@@ -30,7 +30,10 @@ OIIO::ImageSpec spec_of(const ImageToEncode& image) {
   if (!image.color_profile.empty())
     spec.attribute("ICCProfile", OIIO::TypeDesc(OIIO::TypeDesc::UINT8, static_cast<int>(image.color_profile.size())),
                    image.color_profile.data());
-  if (!image.command.empty()) spec.attribute("ImageDescription", image.command);
+  // TIFF and JPEG have no other place for a text.
+  const std::string& told = image.command.empty() && image.format != "openexr" ? image.scene : image.command;
+  if (!told.empty()) spec.attribute("ImageDescription", told);
+  if (!image.scene.empty() && image.format == "openexr") spec.attribute("meniscus:scene", image.scene);
   if (image.dots_per_inch > 0.0) {
     spec.attribute("XResolution", static_cast<float>(image.dots_per_inch));
     spec.attribute("YResolution", static_cast<float>(image.dots_per_inch));

@@ -16,6 +16,7 @@
 #include <tbb/parallel_for.h>
 
 #include "core/base/error.h"
+#include "core/image/png_note.h"
 
 namespace meniscus {
 namespace {
@@ -200,6 +201,7 @@ Bytes encode_png(const ImageToEncode& image) {
   if (image.dots_per_inch > 0.0) add_resolution(file, image.dots_per_inch);
   if (!image.software.empty()) add_note(file, "Software", image.software);
   if (!image.command.empty()) add_unicode_note(file, "Description", image.command);
+  if (!image.scene.empty()) add_unicode_note(file, kSceneNote, image.scene);
   const Bytes stream = compressed(filtered_rows(image), image.png_level);
   for (std::size_t first = 0; first < stream.size(); first += kPart)
     add_chunk(file, "IDAT", &stream[first], std::min(kPart, stream.size() - first));

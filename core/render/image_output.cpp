@@ -131,6 +131,7 @@ ImageToEncode described(const Framebuffer& picture, const Channels& channels, co
   image.compression = is_jpeg(extension) ? "jpeg:95" : extension == ".webp" ? "webp:95" : "zip";
   if (settings.names_program) image.software = "Meniscus " MENISCUS_VERSION;
   image.command = settings.command;
+  image.scene = settings.scene;
   image.dots_per_inch = settings.dots_per_inch;
   image.floats = channels.values;
   image.bytes = channels.bytes;

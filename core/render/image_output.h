@@ -22,6 +22,7 @@ struct ImageSettings {
   double dots_per_inch = 0.0;  ///< for programs that print; 0: not said
   bool names_program = true;   ///< the program's version is in the file
   std::string command = {};    ///< how it was made, in words; empty: not said. Not in WebP.
+  std::string scene = {};      ///< what it was made of, JSON; likewise
 };
 
 /// True if the extension names a format that can hold AOVs (.exr).

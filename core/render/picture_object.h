@@ -11,6 +11,7 @@
 
 #include "core/color/coloring.h"
 #include "core/math/ball.h"
+#include "core/render/material.h"
 #include "core/shapes/shapes.h"
 #include "core/surface/primitives.h"
 
@@ -39,6 +40,7 @@ struct PictureObject {
   CapStyle cap;
   /// Where a ray goes along a surface that is seen through, it sees more of it: opacity is that of a thin film.
   bool thickens = false;
+  MaterialRequest material;  ///< what differs from the look's
 };
 
 /// True if only layers show it as it is: cut, seen through, or shapes.

@@ -6,6 +6,7 @@
 #include <span>
 #include <utility>
 
+#include "core/base/error.h"
 #include "core/queries/combine.h"
 
 namespace meniscus {
@@ -22,11 +23,14 @@ std::size_t placed_atoms(std::span<const SurfaceObject> objects) {
   return count;
 }
 
-/// From places in the surface's tables to those in the structure.
-void name_atoms(const SurfaceObject& whole, Framebuffer& picture) {
-  for (std::size_t n = 0; n < picture.atom.size(); ++n)
-    if (picture.atom[n] != kNone && (picture.object.empty() || picture.object[n] == 0))
-      picture.atom[n] = whole.atom[picture.atom[n]];
+/// From places in the surfaces' tables to those in the structure. surfaces: of the objects in the picture, nullptr for
+/// shapes.
+void name_atoms(std::span<const SurfaceObject* const> surfaces, Framebuffer& picture) {
+  for (std::size_t n = 0; n < picture.atom.size(); ++n) {
+    if (picture.atom[n] == kNone) continue;
+    const SurfaceObject* const surface = surfaces[picture.object.empty() ? 0 : picture.object[n]];
+    if (surface) picture.atom[n] = surface->atom[picture.atom[n]];
+  }
 }
 
 }  // namespace
@@ -35,13 +39,24 @@ std::vector<Ball> Figure::balls() const {
   std::vector<Ball> balls = placed_balls(molecule.objects);
   const std::vector<Ball> more = balls_around(shapes.shapes);
   balls.insert(balls.end(), more.begin(), more.end());
+  for (const FigureObject& object : objects) {
+    const std::vector<Ball> own = balls_of(object);
+    balls.insert(balls.end(), own.begin(), own.end());
+  }
   return balls;
+}
+
+void FigureRequest::ask_for(ReadOptions& reading) const {
+  representations.ask_for(reading);
+  meniscus::ask_for(objects, reading);
 }
 
 Figure make_figure(Molecule molecule, const FigureRequest& request) {
   Figure figure;
   if (!request.representations.empty())
     figure.shapes = shown_shapes(molecule.structure, request.representations, molecule.color);
+  figure.objects =
+      make_objects(request.objects, molecule.structure, request.representations.requests.size(), molecule.color);
   figure.molecule = std::move(molecule);
   return figure;
 }
@@ -56,21 +71,35 @@ Framebuffer draw(SurfaceRenderer& renderer, Figure figure, const FigureRequest& 
       if (atom != kNone) atom = merged_atom(objects, atom);
     return picture;
   }
-  const std::vector<Ball> balls = request.cuts.empty() ? std::vector<Ball>{} : placed_balls(objects);
+  // Planes along the view cut between the nearest atom of the molecule and its farthest.
+  const std::vector<Ball> balls = request.plain() ? std::vector<Ball>{} : placed_balls(objects);
   const SurfaceObject whole = merged(std::move(objects));
-  std::vector<PictureObject> shown(1);
-  shown[0].surface = &whole.surface;
-  shown[0].coloring = &whole.coloring;
-  shown[0].cap = request.cap;
-  shown[0].thickens = request.thickens;
-  for (const Cut& cut : request.cuts) shown[0].clip.push_back(clip_plane(cut, camera, balls));
+  std::vector<PictureObject> shown;
+  std::vector<const SurfaceObject*> surfaces;
+  if (!request.hides_surface) {
+    PictureObject& surface = shown.emplace_back();
+    surfaces.push_back(&whole);
+    surface.surface = &whole.surface;
+    surface.coloring = &whole.coloring;
+    surface.cap = request.cap;
+    surface.thickens = request.thickens;
+    for (const Cut& cut : request.cuts) surface.clip.push_back(clip_plane(cut, camera, balls));
+  }
   if (!figure.shapes.empty()) {
     PictureObject& beside = shown.emplace_back();
+    surfaces.push_back(nullptr);
     beside.shapes = &figure.shapes.shapes;
     beside.coloring = &figure.shapes.coloring;
   }
+  for (std::size_t n = 0; n < figure.objects.size(); ++n) {
+    const FigureObject& object = figure.objects[n];
+    if (!object.surface && object.shapes.empty()) continue;
+    shown.push_back(picture_object(object, request.objects[n], camera, balls));
+    surfaces.push_back(object.surface ? &*object.surface : nullptr);
+  }
+  if (shown.empty()) throw RequestError("the surface is not shown, and there is nothing beside it");
   Framebuffer picture = renderer.render(shown, camera, settings);
-  name_atoms(whole, picture);
+  name_atoms(surfaces, picture);
   return picture;
 }
 

@@ -9,6 +9,7 @@
 #include "core/render/picture_object.h"
 #include "core/render/surface_renderer.h"
 #include "core/scene/cut.h"
+#include "core/scene/figure_object.h"
 #include "core/scene/molecule.h"
 #include "core/scene/representations.h"
 
@@ -19,16 +20,24 @@ struct FigureRequest {
   std::vector<Cut> cuts;            ///< of the surface
   CapStyle cap;                     ///< where they cut
   bool thickens = false;            ///< PictureObject::thickens
+  bool hides_surface = false;       ///< it is not drawn, only what stands beside it
   Representations representations;  ///< beside the surface; not cut
+  std::vector<FigureObjectRequest> objects;
+
+  /// Makes read_structure mark and keep the atoms of all that stands beside the surface.
+  void ask_for(ReadOptions& reading) const;
 
   /// Whether it is a surface and no more.
-  bool plain() const { return cuts.empty() && !thickens && representations.empty(); }
+  bool plain() const {
+    return cuts.empty() && !thickens && !hides_surface && representations.empty() && objects.empty();
+  }
 };
 
 /// Everything of a figure, ready to be drawn.
 struct Figure {
   Molecule molecule;
   ColoredShapes shapes;
+  std::vector<FigureObject> objects;
 
   /// For framing: atoms of the surface at all places, and what stands beside it.
   std::vector<Ball> balls() const;

@@ -16,34 +16,6 @@ namespace {
 using Kind = RepresentationRequest::Kind;
 using By = ColorScheme::By;
 
-Shapes shapes_of(const Structure& all, const RepresentationRequest& request, const std::vector<bool>& selected,
-                 const std::vector<Bond>& bonds, const Representations& representations) {
-  const std::optional<double>& stick_radius = representations.stick_radius;
-  switch (request.kind) {
-    case Kind::sticks:
-      return sticks(all, selected, bonds, stick_radius.value_or(kStickRadius));
-    case Kind::balls_and_sticks:
-      return balls_and_sticks(all, selected, bonds, kBallShare, stick_radius.value_or(kThinStickRadius));
-    case Kind::backbone:
-      return backbone(all, selected, representations.tube_radius.value_or(kTubeRadius));
-    case Kind::spheres:
-      break;
-  }
-  return spheres(all, selected);
-}
-
-/// The scheme by which all shown atoms get the colours that those of the surface have.
-ColorScheme scheme_of_shown(const Structure& structure, std::size_t shown, ColorScheme scheme) {
-  if (scheme.by == By::kind || scheme.by == By::component || scheme.by == By::volume) scheme.by = By::element;
-  scheme.opacities.clear();  // those of the surface, which is seen through to show what is in it
-  if (!scheme.has_scale()) return scheme;
-  scheme.range = color_scale(structure, scheme).range;
-  std::vector<double>& numbers = scheme.file.numbers;  // either of each atom of the file, or of each of the surface
-  if (scheme.by == By::file && numbers.size() == structure.atoms.size())
-    numbers.resize(shown, std::numeric_limits<double>::quiet_NaN());
-  return scheme;
-}
-
 }  // namespace
 
 const char* option_word(Kind kind) {
@@ -70,27 +42,61 @@ void Representations::ask_for(ReadOptions& reading) const {
   }
 }
 
+Shapes shapes_of_atoms(const Structure& all, Kind kind, const std::vector<bool>& selected,
+                       const std::vector<Bond>& bonds, const ShapeRadii& radii) {
+  switch (kind) {
+    case Kind::sticks:
+      return sticks(all, selected, bonds, radii.stick_radius.value_or(kStickRadius));
+    case Kind::balls_and_sticks:
+      return balls_and_sticks(all, selected, bonds, kBallShare, radii.stick_radius.value_or(kThinStickRadius));
+    case Kind::backbone:
+      return backbone(all, selected, radii.tube_radius.value_or(kTubeRadius));
+    case Kind::spheres:
+      break;
+  }
+  return spheres(all, selected);
+}
+
+ColorScheme scheme_beside(const Structure& structure, std::size_t shown, ColorScheme scheme) {
+  if (scheme.by == By::kind || scheme.by == By::component || scheme.by == By::volume) scheme.by = By::element;
+  scheme.opacities.clear();  // those of the surface, which is seen through to show what is in it
+  if (!scheme.has_scale()) return scheme;
+  scheme.range = color_scale(structure, scheme).range;
+  std::vector<double>& numbers = scheme.file.numbers;  // either of each atom of the file, or of each of the surface
+  if (scheme.by == By::file && numbers.size() == structure.atoms.size())
+    numbers.resize(shown, std::numeric_limits<double>::quiet_NaN());
+  return scheme;
+}
+
 std::vector<Atom> shown_atoms(const Structure& structure) {
   std::vector<Atom> atoms = structure.atoms;
   atoms.insert(atoms.end(), structure.beside.begin(), structure.beside.end());
   return atoms;
 }
 
-ColoredShapes shown_shapes(const Structure& structure, const Representations& representations,
-                           const ColorScheme& scheme) {
-  ColoredShapes shown;
-  if (representations.empty()) return shown;
+Structure structure_of_shown(const Structure& structure) {
   Structure all;
   all.file = structure.file;
   all.report = structure.report;
   all.atoms = shown_atoms(structure);
-  std::vector<bool> selected(all.atoms.size());
-  for (std::size_t bit = 0; bit < representations.requests.size(); ++bit) {
-    for (std::size_t n = 0; n < all.atoms.size(); ++n) selected[n] = ((all.atoms[n].shown >> bit) & 1u) != 0;
-    append(shown.shapes,
-           shapes_of(all, representations.requests[bit], selected, *structure.shown_bonds, representations));
-  }
-  shown.coloring = color_atoms(all, scheme_of_shown(structure, all.atoms.size(), scheme));
+  return all;
+}
+
+std::vector<bool> marked_atoms(const Structure& all, std::size_t mark) {
+  std::vector<bool> marked(all.atoms.size());
+  for (std::size_t n = 0; n < marked.size(); ++n) marked[n] = ((all.atoms[n].shown >> mark) & 1u) != 0;
+  return marked;
+}
+
+ColoredShapes shown_shapes(const Structure& structure, const Representations& representations,
+                           const ColorScheme& scheme) {
+  ColoredShapes shown;
+  if (representations.empty()) return shown;
+  const Structure all = structure_of_shown(structure);
+  for (std::size_t bit = 0; bit < representations.requests.size(); ++bit)
+    append(shown.shapes, shapes_of_atoms(all, representations.requests[bit].kind, marked_atoms(all, bit),
+                                         *structure.shown_bonds, representations));
+  shown.coloring = color_atoms(all, scheme_beside(structure, all.atoms.size(), scheme));
   return shown;
 }
 

@@ -24,11 +24,15 @@ struct RepresentationRequest {
 /// "--sticks", "--balls", "--spheres" or "--tube".
 const char* option_word(RepresentationRequest::Kind kind);
 
+/// Å; nothing: the usual ones.
+struct ShapeRadii {
+  std::optional<double> stick_radius;  ///< kStickRadius, kThinStickRadius with balls
+  std::optional<double> tube_radius;   ///< kTubeRadius
+};
+
 /// All that are asked for, and what they have in common.
-struct Representations {
+struct Representations : ShapeRadii {
   std::vector<RepresentationRequest> requests;
-  std::optional<double> stick_radius;  ///< Å; nothing: kStickRadius, kThinStickRadius with balls
-  std::optional<double> tube_radius;   ///< Å; nothing: kTubeRadius
 
   bool empty() const { return requests.empty(); }
   /// Makes read_structure mark the atoms, keep those that the surface leaves out, and find their bonds: once, at the
@@ -38,6 +42,17 @@ struct Representations {
 
 /// The structure's atoms, and behind them those beside the surface: what `atom` of shapes is a place in.
 std::vector<Atom> shown_atoms(const Structure& structure);
+/// The same as a structure of its own.
+Structure structure_of_shown(const Structure& structure);
+/// Of its atoms, those that the n-th of ReadOptions::shown selects.
+std::vector<bool> marked_atoms(const Structure& all, std::size_t mark);
+
+/// Some atoms of structure_of_shown(). bonds: Structure::shown_bonds.
+Shapes shapes_of_atoms(const Structure& all, RepresentationRequest::Kind kind, const std::vector<bool>& selected,
+                       const std::vector<Bond>& bonds, const ShapeRadii& radii);
+
+/// The scheme by which all shown atoms, so many, get the colours that those of the surface have; opaque.
+ColorScheme scheme_beside(const Structure& structure, std::size_t shown, ColorScheme scheme);
 
 /// The shapes of shown_atoms(), where the atoms of the structure stand, coloured as the surface is: chains have the
 /// colours they have there, numbers the same scale; where the scheme is of surfaces only (patch kinds, components), by

@@ -179,17 +179,18 @@ Framebuffer CpuRenderer::render(std::span<const PictureObject> objects, const Ca
     const auto stage = clock_.stage("pack");
     layers.emplace(objects, frame_, scene_.placement, settings.look);
   }
+  RenderSettings finish = settings;
+  if (layers->casts_highlights()) finish.look.material.specular = 0.0f;
   std::vector<HitSource> sources;
   for (std::size_t n = 0; n < objects.size(); ++n) sources.push_back(layers->source(n));
   PictureCollector collector(frame_, settings, names_of(sources), sources.size() > 1);
   const std::function<bool()> never;
   Interruption interruption(never);
   const std::vector<PictureBlock> blocks = picture_blocks(settings.size, block_edge(settings));
-  if (needs_shade_map(blocks.front(), settings))
-    cast_shade_map(shade_map_frame(frame_), settings, interruption, &*layers);
+  if (needs_shade_map(blocks.front(), finish)) cast_shade_map(shade_map_frame(frame_), finish, interruption, &*layers);
   for (const PictureBlock& inner : blocks) {
     const PictureBlock block = with_neighbors(inner, look_reach(settings.look, settings.size), settings.size);
-    cast({frame_, block, settings, settings.aovs, &*layers}, interruption);
+    cast({frame_, block, finish, settings.aovs, &*layers}, interruption);
     collector.add_colors(inner, block, sums_);
     if (settings.aovs) collector.add_hits(inner, block, hits_);
   }

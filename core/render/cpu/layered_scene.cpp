@@ -55,7 +55,9 @@ float hatched(const glm::dvec3& point, const glm::dvec3& normal, double distance
 
 LayeredScene::LayeredScene(std::span<const PictureObject> objects, const PictureFrame& frame,
                            const ScenePlacement& placement, const Look& look)
-    : frame_(frame) {
+    : frame_(frame),
+      casts_highlights_(
+          std::ranges::any_of(objects, [](const PictureObject& object) { return !object.material.empty(); })) {
   layers_.reserve(objects.size());
   for (const bool translucent : {false, true})
     for (const PictureObject& object : objects)
@@ -87,7 +89,11 @@ void LayeredScene::pack(Layer& layer, const ScenePlacement& placement, const Loo
   if (object.surface) layer.scene.add_paint(coloring, frame_.pivot);
   const bool by_kind = object.surface && coloring.kind;
   if (!by_kind) layer.scene.colors.resize(coloring.atom.size());
-  layer.scene.connect(look, by_kind, !cut && coloring.hides_some());
+  Look own = look;
+  own.material = object.material.over(look.material);
+  layer.scene.connect(own, by_kind, !cut && coloring.hides_some());
+  // What is seen through is not finished.
+  if (layer.translucent || casts_highlights_) layer.scene.lanes.params.specular = own.material.specular;
   for (const ClipPlane& plane : object.clip)
     layer.planes.emplace_back(glm::vec3(plane.normal),
                               static_cast<float>(plane.offset - glm::dot(plane.normal, frame_.pivot)));

@@ -32,6 +32,8 @@ class LayeredScene {
   /// A block of a picture that is seen as that of the constructor, but may have other pixels.
   void begin_block(const PictureFrame& frame, const PictureBlock& block);
   bool has_parts() const { return has_parts_; }
+  /// Whether highlights are cast with everything else, for the finish knows one material alone.
+  bool casts_highlights() const { return casts_highlights_; }
 
   /// Casts a tile of the block: adds to task.sums, or writes task.samples, and task.hits. On several threads at once.
   void cast_tile(std::size_t tile, LaneTile task, const LaneKernels& kernels);
@@ -77,7 +79,7 @@ class LayeredScene {
   PictureFrame frame_;
   PictureBlock block_;
   std::vector<Layer> layers_;  // opaque ones first
-  bool has_parts_ = false;
+  bool has_parts_ = false, casts_highlights_ = false;
   tbb::enumerable_thread_specific<Workplace> workplaces_;
 };
 

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// One object of a figure as JSON: of --object, and of the list in a scene file.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "app/options/scene_keys.h"
+#include "core/scene/figure_object.h"
+
+namespace meniscus {
+
+/// A key of such an object.
+struct ObjectKey {
+  std::string_view key, description;
+  SceneValue value;
+};
+
+std::span<const ObjectKey> object_keys();
+
+/// Reads {"representation": "surface" | "sticks" | "balls" | "spheres" | "tube", "selection": EXPR, ...};
+/// docs/scenes.md has all keys. Throws RequestError that names the key, SelectionError.
+FigureObjectRequest parse_figure_object(std::string_view json);
+
+}  // namespace meniscus

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Writes the table of keys in two ways.
+#include "app/options/scene_schema.h"
+
+#include <algorithm>
+#include <string_view>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "app/options/object_option.h"
+#include "app/options/scene_keys.h"
+
+namespace meniscus {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json type_of(SceneValue value) {
+  const Json text{{"type", {"string", "number"}}};
+  const Json path{{"type", "string"}, {"minLength", 1}};
+  const auto one_or_more = [](const Json& one) { return Json{{"anyOf", {one, {{"type", "array"}, {"items", one}}}}}; };
+  switch (value) {
+    case SceneValue::flag:
+    case SceneValue::negated:
+      return {{"type", "boolean"}};
+    case SceneValue::list:
+      return one_or_more(text);
+    case SceneValue::path:
+      return path;
+    case SceneValue::paths:
+      return one_or_more(path);
+    case SceneValue::text_or_flag:
+      return {{"type", {"string", "number", "boolean"}}};
+    case SceneValue::camera:
+      return {{"anyOf", {path, {{"type", "object"}}}}};
+    case SceneValue::text:
+      break;
+  }
+  return text;
+}
+
+Json described(const SceneKey& key) {
+  Json type = type_of(key.value);
+  type["description"] = key.option == "FILE" ? std::string("the molecule") : std::string(key.option);
+  return type;
+}
+
+Json strict(Json properties) {
+  return {{"type", "object"}, {"properties", std::move(properties)}, {"additionalProperties", false}};
+}
+
+}  // namespace
+
+std::string scene_help() {
+  std::string page = R"(Examples:
+  meniscus render 1tii.pdb --color chain --sticks ligand -o fig.png --save-scene fig.json
+  meniscus render --scene fig.json                     the same picture
+  meniscus fig.json                                    likewise
+  meniscus render --scene fig.json --size 3840x2160    options count before the scene
+  meniscus render --scene fig.png                      of a picture (.png), next to its molecule
+  meniscus export povray --scene fig.json -o fig       what POV-Ray can show of it, or a message
+
+A scene is a JSON file: {"meniscus_scene": 1, SECTION: {KEY: VALUE, ...}, ..., "objects": [...]}. Paths are seen from
+its folder. What an option says once counts before the scene; what may be repeated is added to it. The keys, and the
+options whose values they take:
+
+)";
+  std::string_view section;
+  for (const SceneKey& key : scene_keys()) {
+    if (key.section == "surface") continue;
+    if (key.section != section) page += fmt::format("{:<12}\n", section = key.section);
+    page += fmt::format("  {:<26}{}\n", key.key, key.option);
+  }
+  page += R"(
+objects is a list. Each has a "representation" (surface, sticks, balls, spheres, tube) and a "selection". The first
+surface is that of the molecule:
+
+)";
+  for (const SceneKey& key : scene_keys())
+    if (key.section == "surface") page += fmt::format("  {:<26}{}\n", key.key, key.option);
+  page += R"(
+All others are made of their own atoms alone, which need not be among those of molecule.select; as --object:
+
+)";
+  for (const ObjectKey& key : object_keys()) page += fmt::format("  {:<26}{}\n", key.key, key.description);
+  return page;
+}
+
+std::string scene_schema() {
+  Json sections;
+  sections["meniscus_scene"] = {{"const", 1}};
+  Json own, surface;
+  for (const SceneKey& key : scene_keys()) {
+    const std::string name(key.key);
+    if (key.section == "surface")
+      surface[name] = described(key);
+    else
+      own[std::string(key.section)][name] = described(key);
+  }
+  for (const auto& [section, keys] : own.items()) sections[section] = strict(keys);
+  Json object = surface;
+  for (const ObjectKey& key : object_keys()) {
+    const std::string name(key.key);
+    if (!object.contains(name)) object[name] = type_of(key.value);
+    object[name]["description"] = std::string(key.description);
+  }
+  object["representation"] = {{"enum", {"surface", "sticks", "balls", "spheres", "tube"}}};
+  sections["objects"] = {{"type", "array"}, {"items", strict(object)}};
+  Json schema{{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", "Meniscus scene"}};
+  const Json body = strict(sections);
+  for (const auto& [key, value] : body.items()) schema[key] = value;
+  schema["required"] = {"meniscus_scene"};
+  return schema.dump(2) + "\n";
+}
+
+}  // namespace meniscus

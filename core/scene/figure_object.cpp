@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Takes the atoms of each object by their marks, and computes surfaces of theirs as if they were alone.
+#include "core/scene/figure_object.h"
+
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/color/color_atoms.h"
+#include "core/queries/combine.h"
+#include "core/scene/hidden_atoms.h"
+#include "core/scene/surface_computer.h"
+#include "core/scene/surface_objects.h"
+
+namespace meniscus {
+namespace {
+
+/// The atoms of one object, from all that are shown.
+Structure structure_of(const Structure& all, const std::vector<bool>& selected, std::vector<std::uint32_t>& places) {
+  Structure own;
+  own.file = all.file;
+  own.report = all.report;
+  for (std::uint32_t a = 0; a < all.atoms.size(); ++a) {
+    if (!selected[a]) continue;
+    own.atoms.push_back(all.atoms[a]);
+    places.push_back(a);
+  }
+  return own;
+}
+
+SurfaceObject surface_of(const FigureObjectRequest& request, const Structure& all, const std::vector<bool>& selected,
+                         const ColorScheme& scheme) {
+  std::vector<std::uint32_t> places;
+  const Structure own = structure_of(all, selected, places);
+  SurfaceRequest wanted;
+  wanted.cpu = true;
+  wanted.kind = request.kind;
+  wanted.probe_radius = request.kind == SurfaceKind::vdw ? 0.0 : request.probe_radius;
+  SurfaceComputer computer(wanted);
+  SurfaceObject object = std::move(surface_objects(own, {}, computer).front());
+  std::vector<bool> hidden;
+  if (request.show) hidden = hidden_atoms(*request.show, own);
+  std::vector<bool> hidden_of_all(all.atoms.size(), false);
+  for (std::size_t n = 0; n < hidden.size(); ++n) hidden_of_all[places[n]] = hidden[n];
+  for (std::uint32_t& atom : object.atom) atom = places[atom];
+  object.coloring = color_object(all, object.atom, scheme, 0);
+  if (request.show) {
+    std::vector<SurfaceObject> one;
+    one.push_back(std::move(object));
+    hide(hidden_of_all, one);
+    object = std::move(one.front());
+  }
+  return object;
+}
+
+}  // namespace
+
+void ask_for(std::span<const FigureObjectRequest> objects, ReadOptions& reading) {
+  if (!objects.empty() && reading.copy_mode == CopyMode::instances)
+    throw RequestError("--instances: copies of a surface have no other objects beside them; leave it away");
+  if (reading.shown.size() + objects.size() > kMostShown)
+    throw RequestError(fmt::format("--object: at most {} sets of atoms are drawn beside a surface", kMostShown));
+  for (const FigureObjectRequest& object : objects) {
+    reading.shown.push_back({"--object", object.atoms});
+    if (object.shapes == RepresentationRequest::Kind::backbone) reading.secondary_structure = true;
+  }
+}
+
+std::vector<FigureObject> make_objects(std::span<const FigureObjectRequest> objects, const Structure& structure,
+                                       std::size_t first_mark, const ColorScheme& scheme) {
+  std::vector<FigureObject> made;
+  if (objects.empty()) return made;
+  const Structure all = structure_of_shown(structure);
+  for (std::size_t n = 0; n < objects.size(); ++n) {
+    const FigureObjectRequest& request = objects[n];
+    const std::vector<bool> selected = marked_atoms(all, first_mark + n);
+    ColorScheme own = request.color ? *request.color : scheme;
+    if (request.color && own.uses_file()) own.set_numbers(scheme.file);
+    if (!request.color && request.shapes) own = scheme_beside(structure, all.atoms.size(), own);
+    own.opacities = request.opacities;
+    FigureObject& object = made.emplace_back();
+    if (request.shapes) {
+      object.shapes.shapes =
+          shapes_of_atoms(all, *request.shapes, selected, *structure.shown_bonds, {request.radius, request.radius});
+      object.shapes.coloring = color_atoms(all, own);
+    } else {
+      object.surface = surface_of(request, all, selected, own);
+    }
+  }
+  return made;
+}
+
+std::vector<Ball> balls_of(const FigureObject& object) {
+  return object.surface ? object.surface->surface.atoms : balls_around(object.shapes.shapes);
+}
+
+PictureObject picture_object(const FigureObject& object, const FigureObjectRequest& request, const Camera& camera,
+                             std::span<const Ball> balls) {
+  PictureObject shown;
+  shown.material = request.material;
+  if (!object.surface) {
+    shown.shapes = &object.shapes.shapes;
+    shown.coloring = &object.shapes.coloring;
+    return shown;
+  }
+  shown.surface = &object.surface->surface;
+  shown.coloring = &object.surface->coloring;
+  shown.cap = request.cap;
+  shown.thickens = request.thickens;
+  for (const Cut& cut : request.cuts) shown.clip.push_back(clip_plane(cut, camera, balls));
+  return shown;
+}
+
+}  // namespace meniscus

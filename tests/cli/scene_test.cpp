@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Scene files: what is saved makes the same picture again, options count before them, and faults are named.
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <set>
+#include <tuple>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/support/run_program.h"
+
+namespace meniscus {
+namespace {
+
+using test::ProgramResult;
+using test::TemporaryFolder;
+
+constexpr const char* kTwoAtoms = "-4 0 0 1.7\n4 0 0 1.7\n";
+constexpr const char* kCamera =
+    R"({"position":[0,0,30],"target":[0,0,0],"up":[0,1,0],"projection":"orthographic","height":12})";
+
+class SceneFile : public ::testing::Test {
+ protected:
+  ProgramResult run(const std::vector<std::string>& arguments) {
+    return test::run_program(MENISCUS_PROGRAM, arguments);
+  }
+  ProgramResult render(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "render");
+    arguments.insert(arguments.end(), {"--no-provenance", "-q"});
+    return run(arguments);
+  }
+  std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
+  std::string bytes(const std::string& name) const { return test::read_bytes(path(name)); }
+
+  TemporaryFolder folder_;
+  std::string molecule_ = folder_.file("two.xyzr", kTwoAtoms);
+};
+
+TEST_F(SceneFile, WhatIsSavedMakesTheSamePictureAgain) {
+  const std::vector<std::string> options{
+      molecule_,
+      "--size=64x48",
+      "--samples=2",
+      "--color=red",
+      "--color=index 1=blue",
+      "--opacity=0.5",
+      "--clip=y<1",
+      "--clip=x>-5",
+      "--film-opacity",
+      "--turn=y30",
+      "--turn=x-10",
+      "--light=-1,2,3",
+      "--preset=cover",
+      "--background=white",
+      "--scale-bar=2",
+      "--label=all=it",
+      "--cap-color=red",
+      "--probe=1.2",
+      "--spheres=index 0",
+      "--object",
+      R"({"representation":"surface","selection":"index 1","color":"gold","specular":0.9,"probe":0.5})"};
+  std::vector<std::string> first = options;
+  first.insert(first.end(), {"-o", path("a.png"), "--save-scene", path("a.json")});
+  const ProgramResult made = render(first);
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  const ProgramResult again = render({"--scene", path("a.json"), "-o", path("b.png")});
+  ASSERT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_EQ(bytes("a.png"), bytes("b.png"));
+  // And saved again it is the same, but for the picture's name.
+  ASSERT_EQ(
+      render({"--scene", path("a.json"), "-o", path("a.png"), "--force", "--save-scene", path("a2.json")}).exit_code,
+      0);
+  EXPECT_EQ(bytes("a.json"), bytes("a2.json"));
+  const nlohmann::json scene = nlohmann::json::parse(bytes("a.json"));
+  EXPECT_EQ(scene["molecule"]["file"], "two.xyzr");
+  EXPECT_EQ(scene["objects"].size(), 3u);
+  EXPECT_EQ(scene["look"]["light"], "-1,2,3");
+  // Without words, and from elsewhere.
+  std::filesystem::remove(path("a.png"));
+  ASSERT_EQ(run({path("a.json"), "--no-provenance", "-q"}).exit_code, 0);
+  EXPECT_EQ(bytes("a.png"), bytes("b.png"));
+}
+
+TEST_F(SceneFile, OptionsCountBeforeIt) {
+  folder_.file("s.json", R"({"meniscus_scene":1,"molecule":{"file":"two.xyzr"},"image":{"size":"64x48","samples":1},
+                             "surface_is_no_section":{}})");
+  EXPECT_NE(render({"--scene", path("s.json"), "-o", path("x.png")}).err.find("surface_is_no_section"),
+            std::string::npos);
+  folder_.file("t.json", R"({"meniscus_scene":1,"molecule":{"file":"two.xyzr"},"image":{"size":"64x48","samples":1}})");
+  ASSERT_EQ(render({"--scene", path("t.json"), "--size", "32x24", "-o", path("small.png")}).exit_code, 0);
+  ASSERT_EQ(render({molecule_, "--size", "32x24", "--samples", "1", "-o", path("same.png")}).exit_code, 0);
+  EXPECT_EQ(bytes("small.png"), bytes("same.png"));
+  // Another molecule with the same scene.
+  const std::string one = folder_.file("one.xyzr", "0 0 0 1.5\n");
+  ASSERT_EQ(render({one, "--scene", path("t.json"), "-o", path("one.png")}).exit_code, 0);
+  ASSERT_EQ(render({one, "--size", "64x48", "--samples", "1", "-o", path("one2.png")}).exit_code, 0);
+  EXPECT_EQ(bytes("one.png"), bytes("one2.png"));
+  const ProgramResult areas = run({"surface", "--scene", path("t.json"), "--json"});
+  EXPECT_EQ(areas.exit_code, 0) << areas.err;
+  EXPECT_EQ(areas.out, run({"surface", molecule_, "--json"}).out);
+}
+
+TEST_F(SceneFile, PicturesCarryTheirs) {
+  ASSERT_EQ(run({"render", molecule_, "--size", "40x30", "--color", "red", "-o", path("a.png"), "-q"}).exit_code, 0);
+  EXPECT_NE(bytes("a.png").find("Meniscus scene"), std::string::npos);
+  EXPECT_EQ(bytes("a.png").find(folder_.path().string()), std::string::npos);
+  ASSERT_EQ(run({"render", "--scene", path("a.png"), "-o", path("b.png"), "-q"}).exit_code, 0);
+  EXPECT_EQ(bytes("a.png"), bytes("b.png"));
+  ASSERT_EQ(run({"render", molecule_, "--size", "40x30", "-o", path("c.png"), "--no-provenance", "-q"}).exit_code, 0);
+  EXPECT_EQ(bytes("c.png").find("Meniscus"), std::string::npos);
+  for (const char* name : {"d.tif", "d.exr"}) {
+    ASSERT_EQ(run({"render", molecule_, "--size", "40x30", "-o", path(name), "-q"}).exit_code, 0);
+    EXPECT_NE(bytes(name).find("\"meniscus_scene\": 1"), std::string::npos) << name;
+  }
+}
+
+TEST_F(SceneFile, AFurtherSurfaceStandsWhereTheWholeHadIt) {
+  const std::string camera = folder_.file("camera.json", kCamera);
+  const std::vector<std::string> common{"--camera", camera,     "--size",  "96x72",   "--samples",
+                                        "1",        "--preset", "classic", "--color", "orange"};
+  const auto with = [&](std::vector<std::string> own) {
+    own.insert(own.begin(), molecule_);
+    own.insert(own.end(), common.begin(), common.end());
+    return own;
+  };
+  ASSERT_EQ(render(with({"-o", path("both.png")})).exit_code, 0);
+  const ProgramResult parted =
+      render(with({"--select", "index 0", "--object", R"({"selection":"index 1"})", "-o", path("parted.png")}));
+  ASSERT_EQ(parted.exit_code, 0) << parted.err;
+  EXPECT_EQ(bytes("both.png"), bytes("parted.png"));
+  // Each of these is seen.
+  for (const char* own : {R"({"selection":"index 1","color":"blue"})", R"({"selection":"index 1","opacity":0.5})",
+                          R"({"selection":"index 1","specular":1,"shininess":5})",
+                          R"({"selection":"index 1","kind":"sas"})", R"({"selection":"index 1","clip":"y<0"})",
+                          R"({"selection":"index 1","representation":"spheres","color":"blue"})"}) {
+    const ProgramResult result =
+        render(with({"--select", "index 0", "--object", own, "-o", path("own.png"), "--force"}));
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_NE(bytes("both.png"), bytes("own.png")) << own;
+  }
+  // Nothing but it.
+  ASSERT_EQ(render(with({"--hide-surface", "--object", R"({"selection":"index 1"})", "-o", path("one.png")})).exit_code,
+            0);
+  ASSERT_EQ(render(with({"--select", "index 1", "-o", path("alone.png")})).exit_code, 0);
+  EXPECT_EQ(bytes("one.png"), bytes("alone.png"));
+}
+
+TEST_F(SceneFile, FaultsAreNamed) {
+  int n = 0;
+  for (
+      const auto& [text, why, code] :
+      {std::tuple{"{", "not JSON", 3},
+       {"[]", "is no scene", 3},
+       {R"({"molecule":{"file":"two.xyzr"}})", "is no scene", 3},
+       {R"({"meniscus_scene":2})", "reads version 1", 3},
+       {R"({"meniscus_scene":1})", "molecule.file is missing", 3},
+       {R"({"meniscus_scene":1,"molecule":{"file":"two.xyzr","selcet":"all"}})", "did you mean select", 3},
+       {R"({"meniscus_scene":1,"molecule":{"file":"two.xyzr"},"imgae":{}})", "did you mean image", 3},
+       {R"({"meniscus_scene":1,"molecule":{"file":"two.xyzr","keep_water":"yes"}})", "neither true nor false", 3},
+       {R"({"meniscus_scene":1,"molecule":{"file":7}})", "molecule.file is no path", 3},
+       {R"({"meniscus_scene":1,"molecule":{"file":"two.xyzr"},"image":{"size":"big"}})", "image.size: --size", 2},
+       {R"({"meniscus_scene":1,"molecule":{"file":"two.xyzr","select":"chain"}})", "molecule.select: --select", 2},
+       {R"({"meniscus_scene":1,"molecule":{"file":"two.xyzr"},"objects":{}})", "no JSON list", 3},
+       {R"({"meniscus_scene":1,"molecule":{"file":"two.xyzr"},"objects":[{"clip":"q<1"}]})", "objects[0].clip: --clip",
+        2},
+       {R"({"meniscus_scene":1,"molecule":{"file":"two.xyzr"},"objects":[{"representation":"cartoon","selection":"all"}]})",
+        "none of surface, sticks", 2},
+       {R"({"meniscus_scene":1,"molecule":{"file":"two.xyzr"},"objects":[{"representation":"sticks","selection":"all","clip":"x<1"}]})",
+        "is no key of sticks", 2},
+       {R"({"meniscus_scene":1,"molecule":{"file":"gone.xyzr"}})", "gone.xyzr", 3}}) {
+    const std::string scene = folder_.file("bad" + std::to_string(n++) + ".json", text);
+    const ProgramResult result = render({"--scene", scene, "-o", path("bad.png")});
+    EXPECT_EQ(result.exit_code, code) << text << result.err;
+    EXPECT_NE(result.err.find(why), std::string::npos) << text << result.err;
+    EXPECT_FALSE(std::filesystem::exists(path("bad.png")));
+  }
+  EXPECT_NE(run({"info", "--scene", path("bad0.json")}).err.find("takes no --scene"), std::string::npos);
+  const std::string cut =
+      folder_.file("cut.json", R"({"meniscus_scene":1,"molecule":{"file":"two.xyzr"},"objects":[{"clip":"x<1"}]})");
+  const ProgramResult refused = run({"export", "ply", "--scene", cut, "-o", path("cut.ply")});
+  EXPECT_EQ(refused.exit_code, 2) << refused.err;
+  EXPECT_NE(refused.err.find("objects[0].clip"), std::string::npos) << refused.err;
+}
+
+// An option that is in neither list would be lost when a scene is saved.
+TEST_F(SceneFile, EveryOptionOfAPictureIsInScenesOrNamedAsLeftOut) {
+  const std::set<std::string> beside{"--device",      "--force",      "--help",         "--help-all", "--jobs",
+                                     "--only",        "--progress",   "--provenance",   "--quiet",    "--require-gpu",
+                                     "--save-camera", "--save-scene", "--scene",        "--stats",    "--threads",
+                                     "--verify",      "--warnings",   "--no-provenance"};
+  const std::string scenes = run({"help", "scenes"}).out;
+  for (const std::vector<std::string>& command : std::vector<std::vector<std::string>>{
+           {"render", "--help-all"}, {"export", "povray", "--help-all"}, {"export", "blender", "--help-all"}}) {
+    const std::string help = run(command).out;
+    const std::regex option(R"(\n  (?:-\w,)?(--[a-z-]+))");
+    int count = 0;
+    for (std::sregex_iterator found(help.begin(), help.end(), option), end; found != end; ++found, ++count) {
+      const std::string name = (*found)[1];
+      if (beside.contains(name) || name == "--output" || name == "--object") continue;
+      const bool shape = name == "--sticks" || name == "--balls" || name == "--spheres" || name == "--tube";
+      EXPECT_TRUE(shape || std::regex_search(scenes, std::regex(" " + name + "\n"))) << name;
+    }
+    EXPECT_GT(count, 40);
+  }
+}
+
+TEST_F(SceneFile, TheSchemaInTheTreeIsTheProgramsOwn) {
+  EXPECT_EQ(run({"help", "--scene-schema"}).out, test::read_bytes(MENISCUS_SCENE_SCHEMA));
+}
+
+}  // namespace
+}  // namespace meniscus
