@@ -215,6 +215,7 @@ void add_render(CLI::App& command) {
   auto state = std::make_shared<RenderCommand>();
   add_molecule_options(command, state->molecule);
   add_figure_options(command, state->molecule, state->figure);
+  add_interface_option(command, state->molecule);
   add_picture_options(command, state->picture);
   add_frame_options(command, state->frames);
   add_run_camera_options(command, state->run_camera);
@@ -261,6 +262,7 @@ void add_render(CLI::App& command) {
       ->type_name("N");
   command.callback([state, &command] {
     state->figure.ask_for(state->molecule.reading);
+    take_interface(command, state->molecule, state->picture);
     name_output(*state);
     state->scene = scene_text(command, "");
     SceneOutput scene(command, state->save_scene, state->output.existing());

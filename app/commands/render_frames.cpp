@@ -34,6 +34,7 @@ void check_options(const RenderCommand& command) {
   if (!command.save_camera.empty() && command.run_camera.moves())
     throw UsageError("--save-camera: a camera that moves is no single one");
   if (command.extent) check_view_options(command.molecule);
+  if (command.molecule.interface) throw UsageError("--interface: of one picture only; leave --frames away");
   if (!command.annotations.labels.empty())
     throw UsageError("--label: of one picture only, for the atoms move; leave --frames away");
   if (!command.legend.file.empty()) check_image_path(command.legend.file);
@@ -183,11 +184,14 @@ class ViewPainter {
 
 }  // namespace
 
-void render_frames(const RenderCommand& command) {
-  check_options(command);
+void render_frames(const RenderCommand& asked) {
+  check_options(asked);
+  RenderCommand command = asked;
   const GivenCameras given = given_cameras(command.picture, command.run_camera);
   FrameRun frames(command.molecule, command.frames);
   tell_run(command.molecule, frames);
+  if (command.molecule.color.by == ColorScheme::By::rmsf)
+    command.molecule.color.file = {.path = frames.structure().file, .numbers = fluctuations(frames)};
   Molecule first;  // what the colours mean does not change with the frames
   first.structure = frames.structure();
   first.color = color_of(command.molecule);

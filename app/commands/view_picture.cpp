@@ -36,6 +36,7 @@ void check_view_options(const MoleculeOptions& options) {
   if (options.division.cavities != Cavities::keep) refuse("--cavities");
   if (options.division.instances != InstanceMode::none) refuse("--instances");
   if (options.color.by == ColorScheme::By::component) refuse("--color component");
+  if (options.color.by == ColorScheme::By::buried || options.interface) refuse("--color buried");
   if (options.color.by == ColorScheme::By::volume) refuse("--color-map-file");
   if (options.surface.verify) refuse("--verify");
   if (options.surface.kind != SurfaceKind::ses) refuse("--surface sas or vdw");

@@ -52,6 +52,7 @@ const Options& command_table() {
       {"--probe", Value::text},
       {"--verify", Value::none},
       {"--by", Value::text},
+      {"--interface", Value::text},
       {"--cavities", Value::text},
       {"--tolerance", Value::text},
       {"--tolerance-pixels", Value::text},

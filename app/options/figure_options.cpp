@@ -76,4 +76,33 @@ void add_figure_options(CLI::App& command, MoleculeOptions& molecule, FigureRequ
       ->type_name("Å");
 }
 
+void add_interface_option(CLI::App& command, MoleculeOptions& molecule) {
+  command
+      .add_option_function<std::string>(
+          "--interface",
+          [&molecule](const std::string& text) {
+            try {
+              molecule.interface = parse_interface(text);
+            } catch (const SelectionError& error) {
+              throw SelectionError("--interface: " + error.sentence(), error.picture());
+            } catch (const RequestError& error) {
+              throw CLI::ValidationError("--interface", error.what());
+            }
+          },
+          "Open the contact of two groups like a book, both sides to the viewer, coloured by buried area: chains (A:B, "
+          "A,C:B) or EXPR:EXPR")
+      ->type_name("A:B");
+}
+
+void take_interface(const CLI::App& command, MoleculeOptions& molecule, ViewRequest& picture) {
+  if (!molecule.interface) return;
+  if (!molecule.reading.shown.empty())
+    throw CLI::ValidationError("--interface", "moves the atoms of both sides; nothing can stand beside them");
+  std::string atoms = "(" + molecule.interface->left.text() + ") or (" + molecule.interface->right.text() + ")";
+  if (molecule.reading.selection) atoms = "(" + molecule.reading.selection->text() + ") and (" + atoms + ")";
+  molecule.reading.selection = parse_selection(atoms);
+  if (command.count("--color") + command.count("--color-by-file") == 0) molecule.color.by = ColorScheme::By::buried;
+  if (!picture.direction && picture.camera_file.empty()) picture.direction = parse_view_direction("z");
+}
+
 }  // namespace meniscus

@@ -430,8 +430,13 @@ std::string scene_text(const CLI::App& command, const std::string& folder) {
         objects.push_back({{"representation", word}, {"selection", selection}});
   if (const CLI::Option* const option = option_of(command, "--object"))
     for (const std::string& json : option->results()) objects.push_back(Json::parse(json, nullptr, false));
-  scene["objects"] = std::move(objects);
-  return scene.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  Json ordered;  // what is drawn stands before how
+  for (const char* section : {kVersionKey, "molecule", "frames"})
+    if (scene.contains(section)) ordered[section] = scene[section];
+  ordered["objects"] = std::move(objects);
+  for (const auto& [section, keys] : scene.items())
+    if (!ordered.contains(section)) ordered[section] = keys;
+  return ordered.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace meniscus

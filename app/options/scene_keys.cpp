@@ -39,6 +39,7 @@ constexpr auto kSceneKeys = std::to_array<SceneKey>({
     {"frames", "fps", "--fps", V::text},
 
     {"surface", "shown", "--hide-surface", V::negated, true},
+    {"surface", "interface", "--interface", V::text, true},
     {"surface", "kind", "--surface", V::text},
     {"surface", "probe", "--probe", V::text},
     {"surface", "show", "--show", V::text},

@@ -69,7 +69,7 @@ options whose values they take:
   std::string_view section;
   for (const SceneKey& key : scene_keys()) {
     if (key.section == "surface") continue;
-    if (key.section != section) page += fmt::format("{:<12}\n", section = key.section);
+    if (key.section != section) page += fmt::format("{}\n", section = key.section);
     page += fmt::format("  {:<26}{}\n", key.key, key.option);
   }
   page += R"(

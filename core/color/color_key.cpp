@@ -84,6 +84,7 @@ std::vector<double> distances_from_middle(const Structure& structure) {
 std::vector<double> numbers_of(const Structure& structure, const ColorScheme& scheme) {
   if (scheme.by == By::file) return numbers_of_file(structure, scheme.file);
   if (scheme.by == By::radial) return distances_from_middle(structure);
+  if (scheme.by == By::buried || scheme.by == By::rmsf) return numbers_of_file(structure, scheme.file);
   const auto number = [&](const Atom& atom) -> double {
     switch (scheme.by) {
       case By::bfactor:
@@ -122,6 +123,10 @@ ScaleWords words_of(By by) {
       return {"place in the file", ""};
     case By::radial:
       return {"distance from the middle", "Å"};
+    case By::buried:
+      return {"buried area", "Å²"};
+    case By::rmsf:
+      return {"fluctuation (RMSF)", "Å"};
     default:
       return {"number from file", ""};
   }
@@ -135,6 +140,10 @@ ScaleWords words_of(By by) {
       throw InputError(structure.file, 0, "has no occupancies to colour by; choose another --color");
     case By::charge:
       throw InputError(structure.file, 0, "has no partial charges to colour by; PQR files have them");
+    case By::rmsf:
+      throw RequestError("--color rmsf needs a run of frames to take the fluctuations from: add --frames all");
+    case By::buried:
+      throw RequestError("--color buried is for single pictures and exports; of frames the areas change");
     case By::hydrophobicity:
       throw InputError(structure.file, 0,
                        "has no amino acids, which the hydrophobicity scale is for; choose another --color");
@@ -145,12 +154,14 @@ ScaleWords words_of(By by) {
 
 ColorMap default_map(By by) {
   if (by == By::charge) return ColorMap::red_white_blue;
+  if (by == By::buried || by == By::rmsf) return ColorMap::ylorrd;
   return by == By::hydrophobicity ? ColorMap::blue_white_red : ColorMap::viridis;
 }
 
 std::array<double, 2> automatic_range(const std::vector<double>& defined, By by) {
   if (by == By::hydrophobicity) return {-4.5, 4.5};
   const auto [low, high] = std::ranges::minmax(defined);
+  if (by == By::buried || by == By::rmsf) return {0.0, high};
   if (by != By::charge) return {low, high};
   const double largest = std::max(std::abs(low), std::abs(high));
   return {-largest, largest};
@@ -202,6 +213,7 @@ ColorScale color_scale(const Structure& structure, const ColorScheme& scheme) {
   scale.map = scheme.map.value_or(default_map(scheme.by));
   scale.own_map = scheme.own_map;
   scale.missing_color = scheme.missing.value_or(default_missing_color(scale.map));
+  if ((scheme.by == By::buried || scheme.by == By::rmsf) && scheme.file.numbers.empty()) no_numbers(structure, scheme);
   scale.value = numbers_of(structure, scheme);
   std::vector<double> defined;
   std::ranges::copy_if(scale.value, std::back_inserter(defined), [](double number) { return !std::isnan(number); });

@@ -44,6 +44,10 @@ constexpr ColorSchemeMetadata kSchemes[] = {
      "after the models of R. B. Corey, L. Pauling and W. L. Koltun; metals and tones are our own"},
     {"index", By::index, "place in the file, from 0; viridis", ""},
     {"radial", By::radial, "distance from the middle of all atoms in Å, for capsids; viridis", ""},
+    {"buried", By::buried,
+     "accessible area in Å² that is buried between chains, or the groups of --by or --interface; ylorrd, from 0",
+     "B. Lee and F. M. Richards, J. Mol. Biol. 55, 379 (1971)"},
+    {"rmsf", By::rmsf, "root mean square fluctuation in Å over the frames of a run; ylorrd, from 0", ""},
     {"file", By::file, "numbers of --color-by-file; viridis, smallest to largest", ""}};
 
 }  // namespace

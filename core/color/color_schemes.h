@@ -48,6 +48,8 @@ struct ColorScheme {
     hydrophobicity,  ///< Kyte & Doolittle 1982
     index,           ///< place in the file
     radial,          ///< distance from the middle of all atoms
+    buried,          ///< accessible area that is buried between groups of atoms; numbers come with the surface
+    rmsf,            ///< fluctuation over the frames of a run, likewise
     file,            ///< numbers of a file of the user's own
     volume           ///< a volume map, at each point of the surface
   };
@@ -57,7 +59,7 @@ struct ColorScheme {
   std::shared_ptr<const ColorRamp> own_map;    ///< instead of `map`, if there is one
   std::optional<std::array<double, 2>> range;  ///< numbers at both ends of the map; nothing: automatic (color_scale)
   std::optional<glm::vec3> missing;            ///< of atoms without a number; nothing: default_missing_color
-  NumberFile file;                             ///< for By::file
+  NumberFile file;                             ///< for By::file; for buried and rmsf the numbers of the atoms
   std::shared_ptr<const VolumePaint> volume;   ///< for By::volume
   std::string title, unit;                     ///< of the scale; empty: its own
   std::vector<ColorRule> rules;                ///< over all this; of several that speak of an atom the last counts

@@ -3,12 +3,14 @@
 #include "core/scene/frame_run.h"
 
 #include <algorithm>
+#include <cmath>
 #include <charconv>
 #include <unordered_map>
 #include <unordered_set>
 #include <utility>
 
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 
 #include "core/scene/molecule.h"
 #include "core/base/text.h"
@@ -233,6 +235,24 @@ std::optional<RunFrame> FrameRun::next() {
   if (velocities_)
     for (const Atom& atom : shown_atoms(frame.structure)) frame.velocities.push_back(read->velocities[atom.index]);
   return frame;
+}
+
+std::vector<double> fluctuations(FrameRun& run) {
+  const std::size_t count = run.structure().atoms.size();
+  std::vector<glm::dvec3> mean(count, glm::dvec3(0.0));
+  std::vector<double> squares(count, 0.0);  // of distances from the mean so far (Welford 1962)
+  double frames = 0.0;
+  run.survey([&](std::uint64_t, std::span<const Ball> balls) {
+    frames += 1.0;
+    for (std::size_t a = 0; a < count; ++a) {
+      const glm::dvec3 step = balls[a].center - mean[a];
+      mean[a] += step / frames;
+      squares[a] += glm::dot(step, balls[a].center - mean[a]);
+    }
+  });
+  if (frames == 0.0) throw InputError(run.structure().file, 0, "no frame of the run can be read");
+  for (double& square : squares) square = std::sqrt(square / frames);
+  return squares;
 }
 
 }  // namespace meniscus

@@ -100,4 +100,8 @@ class FrameRun {
   bool velocities_;
 };
 
+/// Of each atom of the structure the root mean square distance from its mean place over the frames of the run, Å; they
+/// are as --superpose and the like leave them. Throws InputError if no frame can be read.
+std::vector<double> fluctuations(FrameRun& run);
+
 }  // namespace meniscus

@@ -85,13 +85,27 @@ MoleculeBuilder::MoleculeBuilder(const MoleculeRequest& request, const EglContex
   if (color_.by == ColorScheme::By::component && !division_.groups) division_.components = true;
 }
 
+/// Numbers for By::buried, and both sides of an interface where they can be seen.
+void MoleculeBuilder::measure_burial(Molecule& molecule) {
+  Structure& structure = molecule.structure;
+  if (!structure.instances.empty())
+    throw RequestError("areas buried between copies need copies made of atoms; leave --instances away");
+  const std::vector<AtomGroup> groups =
+      request_.interface ? interface_groups(structure, *request_.interface)
+                         : group_atoms(structure, division_.groups.value_or(Grouping::chain));
+  const std::vector<double> buried = buried_areas(structure, groups, computer_, request_.surface.kind);
+  if (color_.by == ColorScheme::By::buried) molecule.color.file = {.path = structure.file, .numbers = buried};
+  if (request_.interface) open_book(structure, groups, buried);
+}
+
 Molecule MoleculeBuilder::build(Structure structure) {
   require_colors_shared(structure, color_);
   Molecule molecule;
   molecule.structure = std::move(structure);
   molecule.color = color_;
+  if (request_.interface || color_.by == ColorScheme::By::buried) measure_burial(molecule);
   // What the request ask for that the molecule has not is said before the surfaces are computed.
-  if (color_.has_scale()) color_scale(molecule.structure, color_);
+  if (color_.has_scale()) color_scale(molecule.structure, molecule.color);
   for (const ColorRule& rule : color_.rules)
     if (rule.paint.has_scale()) color_scale(molecule.structure, rule.paint);
   std::vector<bool> hidden;

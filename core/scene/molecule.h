@@ -9,6 +9,7 @@
 #include "core/base/stage_clock.h"
 #include "core/color/color_key.h"
 #include "core/queries/surface_object.h"
+#include "core/scene/open_book.h"
 #include "core/scene/representations.h"
 #include "core/scene/surface_computer.h"
 #include "core/scene/surface_objects.h"
@@ -27,12 +28,13 @@ struct MoleculeRequest {
   SurfaceRequest surface;
   Division division;
   ColorScheme color;
-  Representations representations;  ///< what is drawn beside the surface, of whatever atoms of the file
-  std::string number_file;          ///< numbers to colour by, for ColorScheme::By::file
-  std::string number_column;        ///< of a number file that is a table
-  std::string volume_file;          ///< a volume map to colour by, for ColorScheme::By::volume
-  double volume_offset = 0.0;       ///< Å outside of the surface where it is sampled
-  std::string map_file;             ///< a colour map of the user's own; empty: none
+  Representations representations;            ///< what is drawn beside the surface, of whatever atoms of the file
+  std::optional<InterfaceRequest> interface;  ///< opened like a book
+  std::string number_file;                    ///< numbers to colour by, for ColorScheme::By::file
+  std::string number_column;                  ///< of a number file that is a table
+  std::string volume_file;                    ///< a volume map to colour by, for ColorScheme::By::volume
+  double volume_offset = 0.0;                 ///< Å outside of the surface where it is sampled
+  std::string map_file;                       ///< a colour map of the user's own; empty: none
 };
 
 /// A molecule, ready to be drawn or exported.
@@ -77,6 +79,8 @@ class MoleculeBuilder {
   bool is_on_cpu() const { return computer_.is_on_cpu(); }
 
  private:
+  void measure_burial(Molecule& molecule);
+
   const MoleculeRequest& request_;
   ColorScheme color_;
   Division division_;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What an exported run shares is found in one pass over its frames.
+#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
@@ -61,6 +62,17 @@ TEST_F(RunFramings, HaveTheBoxBesideACameraOfTheirOwn) {
   EXPECT_EQ(framing.cameras.front().position, camera.position);
   EXPECT_EQ(framing.low.z, -21.5);
   EXPECT_EQ(framing.high.x, 0.375 + 1.5 + kFrames - 1);
+}
+
+// Atom a of frame f stands at f + a / 8 - 10 times the axis: each coordinate takes N values, 1 Å apart.
+TEST_F(RunFramings, FluctuationsAreThoseOfEvenSteps) {
+  FrameRun frames(molecule_, request_);
+  const double expected = std::sqrt(3.0 * (double{kFrames} * kFrames - 1.0) / 12.0);
+  for (const double fluctuation : fluctuations(frames)) EXPECT_NEAR(fluctuation, expected, 1e-9 * expected);
+  // Fitted to the reference, a body that only moves has none.
+  request_.center = parse_selection("all");
+  FrameRun still(molecule_, request_);
+  for (const double fluctuation : fluctuations(still)) EXPECT_NEAR(fluctuation, 0.0, 1e-4);
 }
 
 }  // namespace

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Finds the page by the atoms that are buried, and turns either side about it.
+#include "core/scene/open_book.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <string>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/camera/camera.h"
+#include "core/scene/area_columns.h"
+#include "core/scene/surface_objects.h"
+
+namespace meniscus {
+namespace {
+
+constexpr double kLeastBuried = 0.01;  // Å²: less is rounding
+constexpr double kGap = 6.0;           // Å between the pages
+
+Selection side_of(std::string_view text) {
+  std::string expression(text);
+  if (expression.find(' ') == std::string::npos) {
+    std::ranges::replace(expression, ',', ' ');
+    expression = "chain " + expression;
+  }
+  return parse_selection(expression);
+}
+
+/// The accessible areas of all atoms in some surfaces.
+std::vector<double> areas(const Structure& structure, const Division& division, SurfaceComputer& computer,
+                          SurfaceKind kind) {
+  return area_columns(structure, surface_objects(structure, division, computer), kind).back().values;
+}
+
+/// The atoms of one group as a structure of its own.
+Structure part_of(const Structure& structure, const AtomGroup& group) {
+  Structure part;
+  part.file = structure.file;
+  part.report = structure.report;
+  for (const std::uint32_t a : group.atoms) part.atoms.push_back(structure.atoms[a]);
+  return part;
+}
+
+/// Rotates so that `normal` points to the viewer and `up` upright; both of length 1, at right angles.
+glm::dmat3 page_rotation(const glm::dvec3& normal, const glm::dvec3& up) {
+  return glm::transpose(glm::dmat3(glm::cross(up, normal), up, normal));
+}
+
+}  // namespace
+
+InterfaceRequest parse_interface(std::string_view text) {
+  const std::size_t colon = text.find(':');
+  if (colon == std::string_view::npos || colon == 0 || colon + 1 == text.size() ||
+      text.find(':', colon + 1) != std::string_view::npos)
+    throw RequestError(in_quotes(text) + " is not A:B (chains) or EXPR:EXPR");
+  return {side_of(text.substr(0, colon)), side_of(text.substr(colon + 1))};
+}
+
+std::vector<double> buried_areas(const Structure& structure, std::span<const AtomGroup> groups,
+                                 SurfaceComputer& computer, SurfaceKind kind) {
+  std::vector<double> buried = areas(structure, {}, computer, kind);
+  for (double& area : buried) area = -area;
+  for (const AtomGroup& group : groups) {
+    const std::vector<double> alone = areas(part_of(structure, group), {}, computer, kind);
+    for (std::size_t n = 0; n < group.atoms.size(); ++n) buried[group.atoms[n]] += alone[n];
+  }
+  for (double& area : buried)
+    if (area < kLeastBuried) area = 0.0;
+  return buried;
+}
+
+std::vector<AtomGroup> interface_groups(const Structure& structure, const InterfaceRequest& interface) {
+  std::vector<AtomGroup> groups;
+  std::vector<bool> taken(structure.atoms.size(), false);
+  for (const Selection* side : {&interface.left, &interface.right}) {
+    AtomGroup& group = groups.emplace_back();
+    group.name = side->text();
+    const std::vector<bool> selected = side->evaluate(structure.atoms);
+    for (std::uint32_t a = 0; a < selected.size(); ++a) {
+      if (!selected[a]) continue;
+      if (taken[a])
+        throw InputError(structure.file, 0,
+                         fmt::format("--interface: {} is on both sides", atom_place(structure.atoms[a])));
+      taken[a] = true;
+      group.atoms.push_back(a);
+    }
+    if (group.atoms.empty())
+      throw InputError(structure.file, 0,
+                       fmt::format("--interface: {} selects none of the {} atoms used; {}", in_quotes(group.name),
+                                   with_thousands(structure.atoms.size()), side->why_none(structure.atoms)));
+  }
+  return groups;
+}
+
+void open_book(Structure& structure, std::span<const AtomGroup> groups, std::span<const double> buried) {
+  std::vector<Ball> page;
+  std::array<glm::dvec3, 2> middle{};
+  for (std::size_t side = 0; side < 2; ++side)
+    for (const std::uint32_t a : groups[side].atoms) {
+      const Atom& atom = structure.atoms[a];
+      middle[side] += atom.position / static_cast<double>(groups[side].atoms.size());
+      if (buried[a] > 0.0) page.push_back({atom.position, atom.radius});
+    }
+  if (page.empty()) throw RequestError("--interface: these atoms do not touch: nothing is buried between them");
+  const ViewBasis flat = broad_side(page);
+  glm::dvec3 center(0.0);
+  for (const Ball& ball : page) center += ball.center / static_cast<double>(page.size());
+  const glm::dvec3 across = glm::dot(middle[1] - middle[0], flat.forward) < 0.0 ? -flat.forward : flat.forward;
+  const std::array<glm::dmat3, 2> turn{page_rotation(across, flat.right), page_rotation(-across, flat.right)};
+  // The left page ends where the gap begins, the right one begins where it ends.
+  for (std::size_t side = 0; side < 2; ++side) {
+    double inner = -std::numeric_limits<double>::infinity();
+    const double towards = side == 0 ? 1.0 : -1.0;
+    for (const std::uint32_t a : groups[side].atoms) {
+      Atom& atom = structure.atoms[a];
+      atom.position = turn[side] * (atom.position - center);
+      inner = std::max(inner, towards * atom.position.x + atom.radius);
+    }
+    for (const std::uint32_t a : groups[side].atoms) structure.atoms[a].position.x -= towards * (inner + 0.5 * kGap);
+  }
+}
+
+}  // namespace meniscus
