@@ -29,7 +29,8 @@ class ColorCommand : public ::testing::Test {
  protected:
   ProgramResult meniscus(std::vector<std::string> arguments) { return test::run_program(MENISCUS_PROGRAM, arguments); }
   ProgramResult render(const std::string& name, std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), {"render", file_, "-o", path(name), "--size", "300x200", "-q", "--force", "--no-provenance"});
+    arguments.insert(arguments.begin(),
+                     {"render", file_, "-o", path(name), "--size", "300x200", "-q", "--force", "--no-provenance"});
     return meniscus(arguments);
   }
   std::string path(const std::string& name) const { return (folder_.path() / name).string(); }

@@ -65,7 +65,8 @@ TEST_F(Words, UnknownCommandsAndMissingFilesAreToldApart) {
 TEST_F(Words, TheLastOfARepeatedOptionCounts) {
   const auto picture = [&](std::vector<std::string> options) {
     const std::string path = (folder_.path() / "p.png").string();
-    options.insert(options.begin(), {"render", molecule_, "-o", path, "--force", "-q", "--size", "40x30", "--no-provenance"});
+    options.insert(options.begin(),
+                   {"render", molecule_, "-o", path, "--force", "-q", "--size", "40x30", "--no-provenance"});
     const ProgramResult result = says(options);
     EXPECT_EQ(result.exit_code, 0) << result.err;
     return test::read_bytes(path);
