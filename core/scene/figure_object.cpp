@@ -40,16 +40,12 @@ SurfaceObject surface_of(const FigureObjectRequest& request, const Structure& al
   wanted.probe_radius = request.kind == SurfaceKind::vdw ? 0.0 : request.probe_radius;
   SurfaceComputer computer(wanted);
   SurfaceObject object = std::move(surface_objects(own, {}, computer).front());
-  std::vector<bool> hidden;
-  if (request.show) hidden = hidden_atoms(*request.show, own);
-  std::vector<bool> hidden_of_all(all.atoms.size(), false);
-  for (std::size_t n = 0; n < hidden.size(); ++n) hidden_of_all[places[n]] = hidden[n];
   for (std::uint32_t& atom : object.atom) atom = places[atom];
   object.coloring = color_object(all, object.atom, scheme, 0);
   if (request.show) {
     std::vector<SurfaceObject> one;
     one.push_back(std::move(object));
-    hide(hidden_of_all, one);
+    hide(hidden_atoms(*request.show, all), one);
     object = std::move(one.front());
   }
   return object;

@@ -8,11 +8,15 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/scene/representations.h"
 
 namespace meniscus {
 
 std::vector<bool> hidden_atoms(const Selection& shown, const Structure& structure) {
-  std::vector<bool> visible = shown.evaluate(structure.atoms);
+  // What is near a ligand can be asked for where the ligand is drawn beside the surface alone.
+  std::vector<bool> visible =
+      structure.beside.empty() ? shown.evaluate(structure.atoms) : shown.evaluate(shown_atoms(structure));
+  visible.resize(structure.atoms.size());
   if (std::find(visible.begin(), visible.end(), true) == visible.end()) {
     throw InputError(
         structure.file, 0,

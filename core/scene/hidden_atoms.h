@@ -10,7 +10,8 @@
 
 namespace meniscus {
 
-/// Per atom of the structure, whether it is not selected. Throws InputError if nothing would be seen.
+/// Per atom of the structure, whether it is not selected; the expression may speak of atoms beside it. Throws
+/// InputError if nothing would be seen.
 std::vector<bool> hidden_atoms(const Selection& shown, const Structure& structure);
 
 /// Hides the points of these atoms in every object. hidden: per atom of the structure.

@@ -148,6 +148,22 @@ TEST_F(SceneFile, AFurtherSurfaceStandsWhereTheWholeHadIt) {
   EXPECT_EQ(bytes("one.png"), bytes("alone.png"));
 }
 
+// A pocket without its ligand's surface: what lies near it is asked for by an atom that the surface is not made of.
+TEST_F(SceneFile, WhatIsShownMayBeNearWhatStandsBeside) {
+  const std::string three = folder_.file("three.xyzr", "0 0 0 1.7\n3 0 0 1.7\n9 0 0 1.7\n");
+  const auto picture = [&](const char* name, const std::vector<std::string>& own) {
+    std::vector<std::string> all{
+        three, "--select", "index 0 1", "--size", "64x48", "--camera", folder_.file("camera.json", kCamera),
+        "-o",  path(name), "--force"};
+    all.insert(all.end(), own.begin(), own.end());
+    const ProgramResult result = render(all);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return result.exit_code == 0 ? bytes(name) : std::string();
+  };
+  EXPECT_EQ(picture("a.png", {"--spheres", "index 2", "--show", "within 7 of index 2"}),
+            picture("b.png", {"--spheres", "index 2", "--show", "index 1"}));
+}
+
 TEST_F(SceneFile, FaultsAreNamed) {
   int n = 0;
   for (
