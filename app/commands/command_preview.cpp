@@ -249,7 +249,7 @@ void add_preview(CLI::App& command) {
   add_frame_options(command, state->frames);
   for (const char* option : {"--only", "--progress"}) command.remove_option(command.get_option(option));
   add_picture_options(command, state->picture);
-  add_look_options(command, state->look);
+  add_look_options(command, state->look, state->picture);
   command.remove_option(command.get_option("--linear-alpha"));  // its pictures are opaque
   add_session_options(command, *state);
   add_scene_options(command);

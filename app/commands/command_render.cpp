@@ -219,7 +219,7 @@ void add_render(CLI::App& command) {
   add_picture_options(command, state->picture);
   add_frame_options(command, state->frames);
   add_run_camera_options(command, state->run_camera);
-  add_look_options(command, state->look);
+  add_look_options(command, state->look, state->picture);
   add_scene_options(command, &state->save_scene);
   add_output_options(
       command, state->output,
@@ -235,7 +235,7 @@ void add_render(CLI::App& command) {
           "transparent (default), white, black or #rrggbb")
       ->check(proposes({"transparent", "white", "black"}))
       ->type_name("COLOR");
-  add_legend_options(command, state->legend);
+  add_legend_options(command, state->legend, state->picture);
   add_annotation_options(command, state->annotations);
   command.add_flag("--aovs", state->aovs,
                    "Add Z, N.xyz, P.xyz, atom, kind and component of each pixel's centre to an .exr");

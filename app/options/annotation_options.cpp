@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "app/options/molecule_options.h"
+#include "app/options/picture_options.h"
 #include "app/options/value_words.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
@@ -54,15 +55,25 @@ glm::dvec3 middle_of(const Selection& selection, const Structure& structure) {
 
 }  // namespace
 
-void add_legend_options(CLI::App& command, LegendRequest& request) {
+void add_legend_options(CLI::App& command, LegendRequest& request, ViewRequest& picture) {
   command.add_flag("--legend", request.within,
                    "Write what the colours mean at the right (of high pictures: below); the molecule is framed beside "
                    "it");
   command.add_option("--legend-file", request.file, "Write the legend as a picture of its own")->type_name("FILE");
   command.add_option("--legend-title", request.style.title, "Instead of the usual one; '' for none")->type_name("TEXT");
-  command.add_option("--legend-size", request.style.letters, "Height of its letters [a thirtieth of the shorter side]")
-      ->check(CLI::Range(6, 1000).description(""))
-      ->type_name("PX");
+  command
+      .add_option_function<std::string>(
+          "--legend-size",
+          [&request, &picture](const std::string& text) {
+            constexpr double kLeast = 6.0, kMost = 1000.0;
+            const double pixels = std::round(pixels_of("--legend-size", text, picture));
+            if (!(pixels >= kLeast && pixels <= kMost))
+              throw CLI::ValidationError("--legend-size", fmt::format("{} makes {:.4g} pixels; letters have {} to {}",
+                                                                      in_quotes(text), pixels, kLeast, kMost));
+            request.style.letters = static_cast<int>(pixels);
+          },
+          "Height of its letters: pixels, or 8pt, 3mm [a thirtieth of the shorter side]")
+      ->type_name("SIZE");
   const std::map<std::string, LegendStyle::Place> places{{"auto", LegendStyle::Place::automatic},
                                                          {"right", LegendStyle::Place::right},
                                                          {"below", LegendStyle::Place::below}};

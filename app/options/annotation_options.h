@@ -8,6 +8,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "core/camera/view_request.h"
 #include "core/render/annotation.h"
 #include "core/render/legend.h"
 #include "core/structure/selection/selection.h"
@@ -36,8 +37,8 @@ struct AnnotationRequest {
   std::vector<LabelRequest> labels;
 };
 
-/// --legend, --legend-file, --legend-title, --legend-size, --legend-place.
-void add_legend_options(CLI::App& command, LegendRequest& request);
+/// --legend, --legend-file, --legend-title, --legend-size, --legend-place. picture: as for add_look_options.
+void add_legend_options(CLI::App& command, LegendRequest& request, ViewRequest& picture);
 
 /// --panel, --scale-bar, --label, --time-stamp.
 void add_annotation_options(CLI::App& command, AnnotationRequest& request);

@@ -10,7 +10,9 @@
 
 #include <fmt/format.h>
 
+#include "app/options/picture_options.h"
 #include "app/options/value_words.h"
+#include "core/base/text.h"
 
 namespace meniscus {
 namespace {
@@ -26,7 +28,7 @@ glm::vec3 direction_of(const std::vector<float>& values) {
 
 }  // namespace
 
-void add_look_options(CLI::App& command, LookRequest& look) {
+void add_look_options(CLI::App& command, LookRequest& look, ViewRequest& picture) {
   const std::map<std::string, LookPreset> presets{{"publication", LookPreset::publication},
                                                   {"cover", LookPreset::cover},
                                                   {"flat", LookPreset::flat},
@@ -61,11 +63,25 @@ void add_look_options(CLI::App& command, LookRequest& look) {
   number("--ambient-occlusion", look.ambient_occlusion, 0.0f, 1.0f,
          "Shade in pockets and clefts, 0 (none) to 1, by what the picture shows around them", "F");
   number("--ambient-occlusion-radius", look.ambient_occlusion_radius, 0.1f, 1000.0f, "How far shade is cast", "Å");
-  number("--silhouettes", look.silhouettes, 0.0f, kWidestSilhouette,
-         "Width in pixels of black lines around what stands in front, and between chains; 0: none", "PX");
-  number("--outer-lines", look.outer_lines, 0.0f, kWidestSilhouette, "Of those around the whole, if not as all", "PX");
-  number("--inner-lines", look.inner_lines, 0.0f, kWidestSilhouette, "Of those where something stands in front", "PX");
-  number("--part-lines", look.part_lines, 0.0f, kWidestSilhouette, "Of those where chains meet", "PX");
+  const auto width = [&](const char* name, std::optional<float>& value, const char* what) {
+    command
+        .add_option_function<std::string>(
+            name,
+            [name, &value, &picture](const std::string& text) {
+              const double pixels = pixels_of(name, text, picture);
+              if (!(pixels >= 0.0 && pixels <= kWidestSilhouette))
+                throw CLI::ValidationError(name, fmt::format("{} makes {:.4g} pixels; a line has 0 to {}",
+                                                             in_quotes(text), pixels, kWidestSilhouette));
+              value = static_cast<float>(pixels);
+            },
+            what)
+        ->type_name("WIDTH");
+  };
+  width("--silhouettes", look.silhouettes,
+        "Width of black lines around what stands in front, and between chains: pixels, or 0.5pt, 0.2mm; 0: none");
+  width("--outer-lines", look.outer_lines, "Of those around the whole, if not as all");
+  width("--inner-lines", look.inner_lines, "Of those where something stands in front");
+  width("--part-lines", look.part_lines, "Of those where chains meet");
   number("--depth-cue", look.depth_cue, 0.0f, 1.0f,
          "How far the farthest fades into the background, or into white if that is transparent, 0 to 1", "F");
   command.add_flag(

@@ -40,19 +40,7 @@ constexpr double kUsualResolution = 300.0, kMillimetersPerInch = 25.4;
 
 /// "85mm", "3.5in", "8.5cm", "1000px" or "1000" in pixels. Lengths take 300 dots an inch where nothing else was said.
 int parse_length(const char* option, const std::string& text, ViewRequest& request) {
-  const std::size_t end = std::min(text.find_first_not_of("0123456789.+-eE"), text.size());
-  const std::string unit = text.substr(end);
-  const std::map<std::string, double> per_inch{
-      {"in", 1.0}, {"cm", kMillimetersPerInch / 10.0}, {"mm", kMillimetersPerInch}};
-  const auto length = per_inch.find(unit);
-  double value = 0.0;
-  if (!parse_number(text.substr(0, end), value) || (length == per_inch.end() && !unit.empty() && unit != "px"))
-    throw CLI::ValidationError(option, in_quotes(text) + " is no length, such as 85mm, 8.5cm, 3.5in or 1000px");
-  if (length != per_inch.end()) {
-    if (request.dots_per_inch == 0.0) request.dots_per_inch = kUsualResolution;
-    value *= request.dots_per_inch / length->second;
-  }
-  const double pixels = std::round(value);
+  const double pixels = std::round(pixels_of(option, text, request));
   if (!(pixels >= 1.0 && pixels <= kLargestSide))
     throw CLI::ValidationError(
         option, fmt::format("{} makes {:.0f} pixels; a side has 1 to {}", in_quotes(text), pixels, kLargestSide));
@@ -134,6 +122,21 @@ void add_aim_options(CLI::App& command, ViewRequest& request, CLI::Option* camer
 }
 
 }  // namespace
+
+double pixels_of(const char* option, const std::string& text, ViewRequest& request) {
+  constexpr double kPointsPerInch = 72.0;
+  const std::size_t end = std::min(text.find_first_not_of("0123456789.+-eE"), text.size());
+  const std::string unit = text.substr(end);
+  const std::map<std::string, double> per_inch{
+      {"in", 1.0}, {"cm", kMillimetersPerInch / 10.0}, {"mm", kMillimetersPerInch}, {"pt", kPointsPerInch}};
+  const auto length = per_inch.find(unit);
+  double value = 0.0;
+  if (!parse_number(text.substr(0, end), value) || (length == per_inch.end() && !unit.empty() && unit != "px"))
+    throw CLI::ValidationError(option, in_quotes(text) + " is no length, such as 85mm, 8.5cm, 3.5in, 8pt or 1000px");
+  if (length == per_inch.end()) return value;
+  if (request.dots_per_inch == 0.0) request.dots_per_inch = kUsualResolution;
+  return value * request.dots_per_inch / length->second;
+}
 
 void add_size_option(CLI::App& command, ViewRequest& request, const std::string& what) {
   command

@@ -13,6 +13,11 @@ namespace meniscus {
 /// --size alone; `what` has it. The request must live as long as the command.
 void add_size_option(CLI::App& command, ViewRequest& request, const std::string& what);
 
+/// "1.5pt", "0.5mm", "3px" or "3" as pixels of a picture, whose --dpi must have been declared before the option;
+/// lengths take 300 dots an inch where nothing else was said, and then the picture has them. Throws
+/// CLI::ValidationError.
+double pixels_of(const char* option, const std::string& text, ViewRequest& request);
+
 /// --size, --dpi, --width, --height, --camera, --projection, --view, --turn, --zoom-to.
 void add_picture_options(CLI::App& command, ViewRequest& request);
 

@@ -109,6 +109,9 @@ TEST_F(RenderCommand, LooksAreChecked) {
                                       {"--ambient-occlusion", "1.5"},
                                       {"--ambient-occlusion-radius", "0"},
                                       {"--silhouettes", "17"},
+                                      {"--silhouettes", "1furlong"},
+                                      {"--silhouettes", "6pt"},
+                                      {"--legend-size", "1pt"},
                                       {"--outer-lines", "-1"},
                                       {"--shininess", "0"},
                                       {"--preset", "pretty"},
@@ -117,6 +120,10 @@ TEST_F(RenderCommand, LooksAreChecked) {
     EXPECT_EQ(result.exit_code, 2) << option << " " << value;
     EXPECT_NE(result.err.find(option), std::string::npos) << result.err;
   }
+  // A point is a 72nd of an inch.
+  EXPECT_EQ(render({"-o", path("pt.png"), "--silhouettes", "1.5pt", "--dpi", "144"}).exit_code, 0);
+  EXPECT_EQ(render({"-o", path("px.png"), "--silhouettes", "3", "--dpi", "144"}).exit_code, 0);
+  EXPECT_EQ(test::read_bytes(path("pt.png")), test::read_bytes(path("px.png")));
   // Without shade its radius does nothing.
   EXPECT_EQ(render({"-o", path("a.png"), "--ambient-occlusion", "0"}).exit_code, 0);
   EXPECT_EQ(render({"-o", path("b.png"), "--ambient-occlusion-radius", "3", "--ambient-occlusion", "0"}).exit_code, 0);
