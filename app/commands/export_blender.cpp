@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `meniscus export blender`: mesh, analytic patches, atoms and camera as one .mns file.
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <memory>
 
 #include "exporters/blender/atom_attributes.h"
+#include "exporters/blender/capped_mesh.h"
 #include "app/commands/commands.h"
 #include "app/reports/run_frames.h"
 #include "app/options/scene_file.h"
@@ -37,7 +39,7 @@ struct BlenderCommand {
   ViewRequest picture;
   OutputOptions output;
   double fps = 24.0;
-  bool film_opacity = false;  // PictureObject::thickens
+  FigureRequest figure;  // but its representations, which the molecule has
 };
 
 std::string file_name(const std::string& path) { return std::filesystem::path(path).filename().string(); }
@@ -58,6 +60,41 @@ blender::SequenceManifest manifest_of(const BlenderCommand& command, const Given
       tolerance_of(command.mesh, command.picture.size(), framing.cameras[0], balls_of(frames.structure()));
   manifest.atom_count = frames.structure().atoms.size();
   return manifest;
+}
+
+blender::CutFile cut_file(const BlenderCommand& command, const Camera& camera, std::span<const SurfaceObject> objects) {
+  blender::CutFile cut{{}, command.figure.cap};
+  const std::vector<Ball> balls = command.figure.cuts.empty() ? std::vector<Ball>{} : placed_balls(objects);
+  for (const Cut& each : command.figure.cuts) cut.planes.push_back(clip_plane(each, camera, balls));
+  return cut;
+}
+
+// Where they stand, a copy is cut as no other is: copies become one object.
+void settle(std::vector<SurfaceObject>& objects) {
+  if (std::ranges::all_of(objects, [](const SurfaceObject& object) { return object.copies.size() == 1; })) return;
+  SurfaceObject whole = merged(std::move(objects));
+  objects.clear();
+  objects.push_back(std::move(whole));
+}
+
+// Cut, with caps. Throws RequestError if nothing is left.
+std::vector<blender::MeshedObject> cut_objects(const BlenderCommand& command, Molecule& molecule,
+                                               const blender::CutFile& cut, double tolerance) {
+  settle(molecule.objects);
+  std::vector<blender::MeshedObject> objects;
+  bool any = !molecule.beside.empty();
+  for (const SurfaceObject& object : molecule.objects) {
+    blender::CappedMesh made = blender::capped_mesh(object, cut.planes, cut.style.color.has_value(), tolerance);
+    any = any || !made.mesh.triangles.empty();
+    objects.push_back({object,
+                       std::move(made.mesh),
+                       blender::atom_attributes(molecule.structure, object.atom),
+                       {},
+                       command.figure.thickens,
+                       std::move(made.cap_plane)});
+  }
+  if (!any) throw RequestError("nothing of the surface is shown, so there is no mesh to write");
+  return objects;
 }
 
 // How the vertices of one object move in a frame of the scene, while so many frames of the trajectory pass.
@@ -89,6 +126,20 @@ std::vector<glm::dvec3> velocities_of(const ShapeObject& beside, const TriangleM
   return velocities;
 }
 
+// Whole, with velocities.
+std::vector<blender::MeshedObject> moving_objects(const BlenderCommand& command, const Molecule& molecule,
+                                                  const RunFrame& frame, double frames_passed, double tolerance) {
+  std::vector<TriangleMesh> meshes = mesh_objects(molecule.objects, tolerance, !molecule.beside.empty());
+  std::vector<blender::MeshedObject> objects;
+  for (std::size_t n = 0; n < meshes.size(); ++n) {
+    const SurfaceObject& object = molecule.objects[n];
+    std::vector<glm::dvec3> velocities = velocities_of(object, meshes[n], frame, frames_passed);
+    objects.push_back({object, std::move(meshes[n]), blender::atom_attributes(molecule.structure, object.atom),
+                       std::move(velocities), command.figure.thickens});
+  }
+  return objects;
+}
+
 // A file for each frame of the chunk; the manifest for all of the run, the same from every chunk.
 void run_sequence(const BlenderCommand& command) {
   const GivenCameras cameras = given_cameras(command.picture, command.run_camera);
@@ -102,19 +153,15 @@ void run_sequence(const BlenderCommand& command) {
   for (const auto& builder :
        frame_builders(frames, command.molecule, command.frames, kMeshBytesPerAtom * frames.structure().atoms.size()))
     workers.push_back([&, builder](const RunFrame& frame) -> FinishFrame {
-      const Molecule molecule = builder->build(frame.structure);
-      std::vector<TriangleMesh> meshes = mesh_objects(molecule.objects, manifest.tolerance, !molecule.beside.empty());
-      std::vector<blender::MeshedObject> objects;
-      for (std::size_t n = 0; n < meshes.size(); ++n) {
-        const SurfaceObject& object = molecule.objects[n];
-        std::vector<glm::dvec3> velocities =
-            velocities_of(object, meshes[n], frame, pace(frames.numbers(), frame.place));
-        objects.push_back({object, std::move(meshes[n]), blender::atom_attributes(molecule.structure, object.atom),
-                           std::move(velocities), command.film_opacity});
-      }
+      Molecule molecule = builder->build(frame.structure);
+      const blender::CutFile cut = cut_file(command, manifest.shot(frame.place).camera, molecule.objects);
+      std::vector<blender::MeshedObject> objects =
+          cut.planes.empty()
+              ? moving_objects(command, molecule, frame, pace(frames.numbers(), frame.place), manifest.tolerance)
+              : cut_objects(command, molecule, cut, manifest.tolerance);
       std::optional<ShapeObject> beside;
       add_beside(molecule, manifest.tolerance, beside, objects);
-      if (beside)
+      if (beside && cut.planes.empty())
         objects.back().velocities =
             velocities_of(*beside, objects.back().mesh, frame, pace(frames.numbers(), frame.place));
       blender::Provenance provenance = manifest.provenance;
@@ -122,23 +169,15 @@ void run_sequence(const BlenderCommand& command) {
       provenance.colors = key_of(molecule);
       const std::string path = (folder / blender::frame_file(frame.number)).string();
       write_objects(path, command.output.existing(), objects, manifest.shot(frame.place), provenance,
-                    blender::PlaceInRun{run, frame.number, frame.place + 1});
+                    blender::PlaceInRun{run, frame.number, frame.place + 1}, cut);
       return [path] { return MadeFrame{{path}}; };
     });
   run_frames(frames, command.molecule, command.frames, std::move(workers));
   std::cout << escaped(written.string()) << "\n";
 }
 
-void run(const BlenderCommand& command) {
-  if (command.molecule.color.by == ColorScheme::By::volume)
-    throw UsageError("--color-map-file: a .mns file has colours of atoms only; use render, or export ply");
-  if (command.frames.asked()) return run_sequence(command);
-  if (command.run_camera.moves()) throw UsageError(kMovesWithoutFrames);
-  const std::optional<Camera> given = given_camera(command.picture);
-  const auto [molecule, aim] = load_aimed_molecule(command.molecule, command.picture, given);
-  const std::vector<Ball> balls = shown_balls(molecule);
-  const Camera camera = aim.camera(command.picture, given, molecule.objects);
-  const double tolerance = tolerance_of(command.mesh, command.picture.size(), camera, balls);
+std::vector<blender::MeshedObject> whole_objects(const BlenderCommand& command, const Molecule& molecule,
+                                                 double tolerance) {
   std::vector<TriangleMesh> meshes =
       mesh_and_tell(command.molecule, molecule.objects, tolerance, !molecule.beside.empty());
   std::vector<blender::MeshedObject> objects;
@@ -148,14 +187,30 @@ void run(const BlenderCommand& command) {
                        std::move(meshes[n]),
                        blender::atom_attributes(molecule.structure, object.atom),
                        {},
-                       command.film_opacity});
+                       command.figure.thickens});
   }
+  return objects;
+}
+
+void run(const BlenderCommand& command) {
+  if (command.molecule.color.by == ColorScheme::By::volume && !command.figure.cuts.empty() && !command.figure.cap.color)
+    throw UsageError("--color-map-file with --clip needs --cap-color: a .mns file has no values of the map on caps");
+  if (command.frames.asked()) return run_sequence(command);
+  if (command.run_camera.moves()) throw UsageError(kMovesWithoutFrames);
+  const std::optional<Camera> given = given_camera(command.picture);
+  auto [molecule, aim] = load_aimed_molecule(command.molecule, command.picture, given);
+  const std::vector<Ball> balls = shown_balls(molecule);
+  const Camera camera = aim.camera(command.picture, given, molecule.objects);
+  const double tolerance = tolerance_of(command.mesh, command.picture.size(), camera, balls);
+  const blender::CutFile cut = cut_file(command, camera, molecule.objects);
+  std::vector<blender::MeshedObject> objects =
+      cut.planes.empty() ? whole_objects(command, molecule, tolerance) : cut_objects(command, molecule, cut, tolerance);
   std::optional<ShapeObject> beside;
   add_beside(molecule, tolerance, beside, objects);
   const blender::Provenance provenance{file_name(molecule.structure.file), molecule.structure.radii_set,
                                        molecule.device, key_of(molecule)};
   write_objects(command.output.path, command.output.existing(), objects,
-                blender::Shot{camera, command.picture.width, command.picture.height}, provenance);
+                blender::Shot{camera, command.picture.width, command.picture.height}, provenance, {}, cut);
   std::cout << escaped(command.output.path) << "\n";
 }
 
@@ -171,7 +226,8 @@ void add_export_blender(CLI::App& command) {
   auto state = std::make_shared<BlenderCommand>();
   add_molecule_options(command, state->molecule);
   add_representation_options(command, state->molecule.representations);
-  add_opacity_options(command, state->molecule, state->film_opacity);
+  add_opacity_options(command, state->molecule, state->figure.thickens);
+  add_cut_options(command, state->figure);
   add_mesh_options(command, state->mesh);
   add_picture_options(command, state->picture);
   add_frame_options(command, state->frames);

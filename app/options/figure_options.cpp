@@ -39,22 +39,8 @@ void add_opacity_options(CLI::App& command, MoleculeOptions& molecule, bool& thi
                    "A surface that is seen through is denser where the view grazes it, as a thin film is");
 }
 
-void add_figure_options(CLI::App& command, MoleculeOptions& molecule, FigureRequest& figure) {
+void add_cut_options(CLI::App& command, FigureRequest& figure) {
   const Heading heading(command, "Figure");
-  add_representation_options(command, figure.representations);
-  command
-      .add_option_function<std::vector<std::string>>(
-          "--object",
-          [&figure](const std::vector<std::string>& texts) {
-            figure.objects.clear();
-            for (const std::string& text : texts) figure.objects.push_back(parse_figure_object(text));
-          },
-          "Draw something more, with colour, opacity, material and cuts of its own, as in a scene file: "
-          "'{\"representation\": \"surface\", \"selection\": \"chain B\", \"color\": \"red\"}'; repeatable")
-      ->allow_extra_args(false)
-      ->type_name("JSON");
-  command.add_flag("--hide-surface", figure.hides_surface, "Draw only what stands beside the surface");
-  add_opacity_options(command, molecule, figure.thickens);
   command
       .add_option_function<std::vector<std::string>>(
           "--clip",
@@ -74,6 +60,25 @@ void add_figure_options(CLI::App& command, MoleculeOptions& molecule, FigureRequ
   command.add_option("--cap-hatching", figure.cap.hatching, "Dark lines on caps, so many Å apart [0: none]")
       ->check(CLI::Range(0.0, 1000.0).description(""))
       ->type_name("Å");
+}
+
+void add_figure_options(CLI::App& command, MoleculeOptions& molecule, FigureRequest& figure) {
+  const Heading heading(command, "Figure");
+  add_representation_options(command, figure.representations);
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--object",
+          [&figure](const std::vector<std::string>& texts) {
+            figure.objects.clear();
+            for (const std::string& text : texts) figure.objects.push_back(parse_figure_object(text));
+          },
+          "Draw something more, with colour, opacity, material and cuts of its own, as in a scene file: "
+          "'{\"representation\": \"surface\", \"selection\": \"chain B\", \"color\": \"red\"}'; repeatable")
+      ->allow_extra_args(false)
+      ->type_name("JSON");
+  command.add_flag("--hide-surface", figure.hides_surface, "Draw only what stands beside the surface");
+  add_opacity_options(command, molecule, figure.thickens);
+  add_cut_options(command, figure);
 }
 
 void add_interface_option(CLI::App& command, MoleculeOptions& molecule) {

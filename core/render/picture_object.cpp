@@ -3,8 +3,17 @@
 #include "core/render/picture_object.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
 
 namespace meniscus {
+
+glm::dvec3 hatching_direction(const glm::dvec3& normal) {
+  const glm::dvec3 axis = std::abs(normal.z) < 0.9 ? glm::dvec3(0.0, 0.0, 1.0) : glm::dvec3(1.0, 0.0, 0.0);
+  const glm::dvec3 u = glm::normalize(glm::cross(normal, axis)), v = glm::cross(normal, u);
+  return u + v;
+}
 
 bool needs_layers(const PictureObject& object) {
   return object.shapes || !object.clip.empty() ||

@@ -29,6 +29,12 @@ struct CapStyle {
   double hatching = 0.0;           ///< Å between dark lines on the cap; 0: none
 };
 
+/// Across the lines of hatching, of length √2. With the distance along it in units of CapStyle::hatching, a line begins
+/// at each whole number and is kHatchedShare wide; there linear light is kHatchedLight of what it is beside them.
+glm::dvec3 hatching_direction(const glm::dvec3& normal);
+inline constexpr double kHatchedShare = 0.3;
+inline constexpr float kHatchedLight = 0.35f;
+
 /// A surface or shapes with their colours. What it points to must stay until the picture is made.
 struct PictureObject {
   const Surface* surface = nullptr;  ///< this one,

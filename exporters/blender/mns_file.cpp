@@ -98,7 +98,7 @@ void MnsWriter::write(const std::string& path, Existing existing, nlohmann::json
     write(std::span(padding).first(aligned(count) - count));
   }
   std::memcpy(prologue.data(), kMagic, sizeof kMagic);
-  put(prologue, 8, kMnsVersion);
+  put(prologue, 8, version_);
   put(prologue, 12, crc);
   put(prologue, 16, static_cast<std::uint64_t>(text.size()));
   put(prologue, 24, static_cast<std::uint64_t>(kPrologue + text.size() + offset));

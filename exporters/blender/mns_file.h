@@ -16,7 +16,8 @@
 
 namespace meniscus::blender {
 
-inline constexpr std::uint32_t kMnsVersion = 2;
+/// Of a file without caps, and with them: a reader of the first would take these for the surface.
+inline constexpr std::uint32_t kMnsVersion = 2, kMnsVersionOfCaps = 3;
 
 /// Takes the values of one array in order and passes them on in large pieces.
 class ArraySink {
@@ -44,6 +45,8 @@ class ArraySink {
 /// Collects named arrays, then writes them behind their header.
 class MnsWriter {
  public:
+  /// That of the file; kMnsVersion by itself.
+  void set_version(std::uint32_t version) { version_ = version; }
   /// Names of arrays that are added from now on begin with this.
   void set_prefix(const std::string& prefix) { prefix_ = prefix; }
   /// `columns` numbers a row. Names must differ; the values are copied.
@@ -80,6 +83,7 @@ class MnsWriter {
   static const char* type_of(std::uint8_t) { return "|u1"; }
   void add_bytes(const std::string& name, const char* type, std::span<const std::byte> bytes, std::size_t rows,
                  int columns);
+  std::uint32_t version_ = kMnsVersion;
   std::string prefix_;
   std::vector<Array> arrays_;
 };

@@ -2,8 +2,11 @@
 // Turns the tables of surfaces and their meshes into the arrays of a .mns file.
 #include "exporters/blender/surface_file.h"
 
+#include <algorithm>
 #include <array>
 #include <cassert>
+#include <cmath>
+#include <numbers>
 
 #include <nlohmann/json.hpp>
 
@@ -11,6 +14,7 @@
 #include "exporters/blender/shot.h"
 #include "exporters/blender/mns_file.h"
 #include "core/color/color_key_json.h"
+#include "core/color/volume_paint.h"
 #include "exporters/mesh/mesh_colors.h"
 
 namespace meniscus::blender {
@@ -60,13 +64,17 @@ void stream_column(MnsWriter& file, const std::string& name, const std::vector<s
   });
 }
 
+/// mesh.kind of caps, as in the AOVs of pictures.
+constexpr std::uint8_t kCap = 4;
+
 /// The mesh, which is larger than all the rest, is turned into arrays while they are written.
-void add_mesh(MnsWriter& file, const TriangleMesh& mesh, const glm::dvec3& origin) {
+void add_mesh(MnsWriter& file, const TriangleMesh& mesh, std::size_t first_cap, const glm::dvec3& origin) {
   stream_vectors(file, "mesh.position", mesh.positions, origin);
   stream_vectors(file, "mesh.normal", mesh.normals);
   stream_rows(file, "mesh.triangle", mesh.triangles);
-  file.add_streamed<std::uint8_t>("mesh.kind", mesh.kind.size(), 1, [&mesh](ArraySink& out) {
-    for (const PatchKind kind : mesh.kind) out.push(static_cast<std::uint8_t>(kind));
+  file.add_streamed<std::uint8_t>("mesh.kind", mesh.kind.size(), 1, [&mesh, first_cap](ArraySink& out) {
+    for (std::size_t t = 0; t < mesh.kind.size(); ++t)
+      out.push(t < first_cap ? static_cast<std::uint8_t>(mesh.kind[t]) : kCap);
   });
   stream_column(file, "mesh.patch", mesh.patch);
   stream_column(file, "mesh.component", mesh.component);
@@ -74,6 +82,34 @@ void add_mesh(MnsWriter& file, const TriangleMesh& mesh, const glm::dvec3& origi
   stream_column(file, "mesh.sharp_corner", mesh.sharp_corners);
   stream_vectors(file, "mesh.sharp_corner_normal", mesh.sharp_corner_normals);
   stream_rows(file, "mesh.sharp_edge", mesh.sharp_edges);
+}
+
+void add_caps(MnsWriter& file, const MeshedObject& meshed) {
+  const std::size_t first_cap = meshed.mesh.triangles.size() - meshed.cap_plane.size();
+  file.add_streamed<std::uint32_t>("mesh.cap_plane", meshed.mesh.triangles.size(), 1,
+                                   [&meshed, first_cap](ArraySink& out) {
+                                     for (std::size_t t = 0; t < first_cap; ++t) out.push(kNone);
+                                     for (const std::uint32_t plane : meshed.cap_plane) out.push(plane);
+                                   });
+}
+
+/// A volume map's values and colours at vertices. Values that it does not have are 0, and marked.
+void add_map(MnsWriter& file, const TriangleMesh& mesh, const Coloring& coloring) {
+  if (!coloring.volume) return;
+  std::vector<float> values = vertex_map_values(mesh, *coloring.volume);
+  std::vector<std::uint8_t> known;
+  Floats colors;
+  for (float& value : values) {
+    colors.push(glm::dvec3(coloring.volume->scale.color(value)));
+    known.push_back(!std::isnan(value));
+    if (!known.back()) value = 0.0f;
+  }
+  file.add("mesh.map_value", std::span<const float>(values));
+  file.add("mesh.map_color", colors.values(), 3);
+  if (std::ranges::find(known, 0) != known.end()) file.add("mesh.map_known", std::span<const std::uint8_t>(known));
+  if (coloring.own_color.empty()) return;
+  std::vector<std::uint8_t> own(coloring.own_color.begin(), coloring.own_color.end());
+  file.add("atom.own_color", std::span<const std::uint8_t>(own));
 }
 
 void add_velocities(MnsWriter& file, const std::vector<glm::dvec3>& velocities) {
@@ -171,9 +207,21 @@ void add_concave(MnsWriter& file, const Surface& surface) {
   });
 }
 
-json component_list(const Surface& surface, const TriangleMesh& mesh) {
+/// Sums for each component without caps, which are of none.
+std::vector<MeshSums> component_sums_of(const MeshedObject& meshed, std::size_t component_count) {
+  if (meshed.cap_plane.empty()) return component_sums(meshed.mesh, component_count);
+  TriangleMesh mesh;
+  mesh.positions = meshed.mesh.positions;
+  mesh.triangles = meshed.mesh.triangles;
+  mesh.triangles.resize(mesh.triangles.size() - meshed.cap_plane.size());
+  mesh.component = meshed.mesh.component;
+  return component_sums(mesh, component_count);
+}
+
+json component_list(const MeshedObject& meshed) {
+  const Surface& surface = meshed.object.surface;
   json list = json::array();
-  const std::vector<MeshSums> sums = component_sums(mesh, surface.components.size());
+  const std::vector<MeshSums> sums = component_sums_of(meshed, surface.components.size());
   for (std::uint32_t c = 0; c < surface.components.size(); ++c) {
     const Component& component = surface.components[c];
     const MeshSums& m = sums[c];
@@ -216,7 +264,7 @@ json object_header(const MeshedObject& meshed, const std::string& prefix, const 
                 {"closed", !mesh.partly_hidden},
                 {"area", m.area},
                 {"volume", m.volume}}},
-              {"components", component_list(surface, mesh)},
+              {"components", component_list(meshed)},
               {"chain_names", meshed.atoms.chain_names}};
   for (const RigidMotion& copy : meshed.object.copies) header["copies"].push_back(matrix(copy));
   if (meshed.thickens && meshed.object.coloring.is_translucent()) header["film_opacity"] = true;
@@ -228,11 +276,24 @@ json object_header(const MeshedObject& meshed, const std::string& prefix, const 
   return header;
 }
 
+json caps_header(const CutFile& cut) {
+  json caps{{"planes", json::array()}};
+  for (const ClipPlane& plane : cut.planes)
+    caps["planes"].push_back({plane.normal.x, plane.normal.y, plane.normal.z, plane.offset});
+  if (cut.style.color) caps["color"] = numbers(glm::dvec3(*cut.style.color));
+  if (cut.style.hatching > 0.0) {
+    caps["hatching"] = {{"distance", cut.style.hatching}, {"share", kHatchedShare}, {"light", kHatchedLight}};
+    for (const ClipPlane& plane : cut.planes)
+      caps["hatching"]["across"].push_back(numbers(hatching_direction(plane.normal) / std::numbers::sqrt2));
+  }
+  return caps;
+}
+
 }  // namespace
 
 void write_objects(const std::string& path, Existing existing, std::span<const MeshedObject> objects,
                    const std::optional<Shot>& shot, const Provenance& provenance,
-                   const std::optional<PlaceInRun>& place) {
+                   const std::optional<PlaceInRun>& place, const CutFile& cut) {
   MnsWriter file;
   json list = json::array();
   for (const MeshedObject& meshed : objects) {
@@ -240,7 +301,9 @@ void write_objects(const std::string& path, Existing existing, std::span<const M
     const std::string prefix = std::to_string(list.size()) + "/";
     const glm::dvec3 origin = mesh_origin(meshed.mesh);
     file.set_prefix(prefix);
-    add_mesh(file, meshed.mesh, origin);
+    add_mesh(file, meshed.mesh, meshed.mesh.triangles.size() - meshed.cap_plane.size(), origin);
+    if (!cut.planes.empty()) add_caps(file, meshed);
+    add_map(file, meshed.mesh, meshed.object.coloring);
     add_velocities(file, meshed.velocities);
     add_atoms(file, meshed.object, meshed.atoms);
     add_convex(file, meshed.object.surface);
@@ -256,6 +319,10 @@ void write_objects(const std::string& path, Existing existing, std::span<const M
               {"unit", "angstrom"},
               {"objects", std::move(list)}};
   if (provenance.colors) header["colors"] = color_key_json(*provenance.colors);
+  if (!cut.planes.empty()) {
+    file.set_version(kMnsVersionOfCaps);
+    header["caps"] = caps_header(cut);
+  }
   if (shot) header["camera"] = shot_object(*shot);
   if (place) header["sequence"] = {{"run", place->run}, {"frame", place->frame}, {"scene_frame", place->scene_frame}};
   file.write(path, existing, std::move(header));

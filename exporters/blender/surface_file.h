@@ -11,6 +11,7 @@
 #include "core/camera/camera.h"
 #include "core/color/color_key.h"
 #include "core/queries/surface_object.h"
+#include "core/render/picture_object.h"
 #include "exporters/blender/shot.h"
 #include "exporters/mesh/triangle_mesh.h"
 
@@ -39,8 +40,15 @@ struct MeshedObject {
   const SurfaceObject& object;
   TriangleMesh mesh;  ///< without triangles: the object is left out
   AtomAttributes atoms;
-  std::vector<glm::dvec3> velocities;  ///< per vertex, Å per scene frame; empty: the file has none
-  bool thickens = false;               ///< PictureObject::thickens, for colours with opacities
+  std::vector<glm::dvec3> velocities;         ///< per vertex, Å per scene frame; empty: the file has none
+  bool thickens = false;                      ///< PictureObject::thickens, for colours with opacities
+  std::vector<std::uint32_t> cap_plane = {};  ///< of the last triangles, which are caps (CappedMesh)
+};
+
+/// Of the planes that cut the objects of a file.
+struct CutFile {
+  std::vector<ClipPlane> planes;
+  CapStyle style;
 };
 
 /// Which frame of a run a file is: it must say so, since files of several runs may get into one folder.
@@ -53,6 +61,6 @@ struct PlaceInRun {
 /// Writes the file as FORMAT.md describes. At least one mesh has triangles. Throws OutputError.
 void write_objects(const std::string& path, Existing existing, std::span<const MeshedObject> objects,
                    const std::optional<Shot>& shot, const Provenance& provenance,
-                   const std::optional<PlaceInRun>& place = {});
+                   const std::optional<PlaceInRun>& place = {}, const CutFile& cut = {});
 
 }  // namespace meniscus::blender

@@ -45,10 +45,8 @@ bool is_translucent(const PictureObject& object) {
 
 /// Darker in stripes across a plane.
 float hatched(const glm::dvec3& point, const glm::dvec3& normal, double distance) {
-  const glm::dvec3 axis = std::abs(normal.z) < 0.9 ? glm::dvec3(0.0, 0.0, 1.0) : glm::dvec3(1.0, 0.0, 0.0);
-  const glm::dvec3 u = glm::normalize(glm::cross(normal, axis)), v = glm::cross(normal, u);
-  const double stripe = glm::dot(point, u + v) / (std::sqrt(2.0) * distance);
-  return stripe - std::floor(stripe) < 0.3 ? 0.35f : 1.0f;
+  const double stripe = glm::dot(point, hatching_direction(normal)) / (std::sqrt(2.0) * distance);
+  return stripe - std::floor(stripe) < kHatchedShare ? kHatchedLight : 1.0f;
 }
 
 }  // namespace

@@ -174,8 +174,10 @@ def render_to(scene, path, file_format, depth):
 def render_picture(scene, options, path):
     apply_style(options.style)  # the first frame of a sequence brings its materials
     set_up_cycles(scene, options.samples)
-    scene.cycles.pixel_filter_type = "BLACKMAN_HARRIS"
-    scene.cycles.filter_width = 1.5
+    if options.style == "flat":  # a pixel is the mean of what lies in it, as in the ray caster
+        scene.cycles.pixel_filter_type, scene.cycles.filter_width = "BOX", 1.0
+    else:
+        scene.cycles.pixel_filter_type, scene.cycles.filter_width = "BLACKMAN_HARRIS", 1.5
     scene.render.film_transparent = options.transparent
     scene.render.use_motion_blur = bool(options.motion_blur)
     scene.render.motion_blur_shutter = options.motion_blur or 0.5

@@ -182,6 +182,34 @@ class Import(unittest.TestCase):
                 imported("clear")
             self.assertIn("atom.opacity", str(caught.exception))
 
+    def test_caps_have_a_material_and_colours_of_their_own(self):
+        folder = os.path.join(FOLDER, "cut")
+        os.makedirs(folder, exist_ok=True)
+        path = samples.export(PROGRAM, folder, "cage", "--clip", "z<0.3", "--cap-color", "#ff0000", "--cap-hatching", "0.5",
+                              "--opacity", "0.5", "--film-opacity")
+        bpy.ops.import_scene.meniscus(filepath=path, scale=1.0)
+        mesh = bpy.context.view_layer.objects.active.data
+        self.assertEqual([material["meniscus_material"].split()[:2] for material in mesh.materials],
+                         [["outer", "film"], ["cavity", "film"], ["cap", "translucent"]])
+        surface = mns_reader.read(path).objects[0]
+        cap = surface["mesh.kind"] == mns_reader.CAP
+        slots, planes = np.empty(len(cap), dtype=np.int32), np.empty(len(cap), dtype=np.int32)
+        mesh.polygons.foreach_get("material_index", slots)
+        mesh.attributes["ses_cap"].data.foreach_get("value", planes)
+        np.testing.assert_array_equal(slots == 2, cap)
+        np.testing.assert_array_equal(planes, np.where(cap, 0, -1))
+        color = np.empty(4 * len(mesh.loops), dtype=np.float32)
+        mesh.attributes["Color"].data.foreach_get("color_srgb", color)
+        red = (np.abs(color.reshape(-1, 3, 4) - [1, 0, 0, 1]).max(axis=2) < 0.01).all(axis=1)
+        np.testing.assert_array_equal(red, cap)
+        normals = compat.corner_normals(mesh).reshape(-1, 3, 3)[cap]
+        np.testing.assert_allclose(normals, np.broadcast_to([0, 0, 1], normals.shape), atol=2e-3)
+        stripe = np.empty(len(mesh.loops), dtype=np.float32)
+        mesh.attributes["cap_stripe"].data.foreach_get("value", stripe)
+        across = surface.header["caps"]["hatching"]["across"][0]
+        points = positions(mesh)[triangles(mesh)[cap]]
+        np.testing.assert_allclose(stripe.reshape(-1, 3)[cap], points @ across / 0.5, atol=1e-4)
+
     def test_a_scene_keeps_its_camera_and_size_when_asked(self):
         scene = bpy.context.scene
         own = bpy.data.objects.new("own", bpy.data.cameras.new("own"))

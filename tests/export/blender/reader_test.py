@@ -2,6 +2,7 @@
 """The .mns reader of the Blender add-on under plain Python: arguments PROGRAM ADDON_FOLDER."""
 
 import os
+import struct
 import sys
 import tempfile
 import unittest
@@ -46,6 +47,64 @@ class Reader(unittest.TestCase):
         self.assertEqual(kinds["pair"], ["outer"])
         self.assertEqual(kinds["drops"], ["outer", "outer"])
         self.assertEqual(kinds["cage"], ["outer", "cavity"])
+
+    def test_caps_close_what_is_cut(self):
+        """Half of a shell around a cavity, which is open in the cap; and a slab of a ring's three atoms."""
+        cases = {"cage": (["z<0.3"], 2), "triple": (["y<2.0", "y>0.5"], 4)}
+        for name, (planes, borders) in cases.items():
+            whole = mns_reader.read(self.files[name]).objects[0]
+            with tempfile.TemporaryDirectory() as folder:
+                path = samples.export(PROGRAM, folder, name, *(word for plane in planes for word in ("--clip", plane)),
+                                      "--cap-hatching", "0.5", "--cap-color", "#102030")
+                surface = mns_reader.read(path).objects[0]
+                with open(path, "rb") as file:
+                    self.assertEqual(struct.unpack_from("<I", file.read(), 8)[0], 3)
+            self.assertTrue(mns_reader.is_closed(surface["mesh.triangle"]))
+            cap = surface["mesh.kind"] == mns_reader.CAP
+            points = surface["mesh.position"].astype(np.float64) + surface.header["mesh"]["origin"]
+            given = np.array(surface.header["caps"]["planes"])
+            self.assertEqual(len(given), len(planes))
+            for normal in given:
+                self.assertLess((points @ normal[:3] - normal[3]).max(), 1e-4)
+            normals = np.cross(*(points[surface["mesh.triangle"][cap][:, k]] - points[surface["mesh.triangle"][cap][:, 0]] for k in (1, 2)))
+            areas = np.linalg.norm(normals, axis=1)
+            planes_of = given[surface["mesh.cap_plane"][cap]]
+            self.assertGreater(areas.sum(), 2.0)
+            large = areas > 1e-6
+            np.testing.assert_allclose(normals[large] / areas[large, None], planes_of[large, :3], atol=1e-3)
+            volume = mns_reader.signed_volume(surface["mesh.position"], surface["mesh.triangle"])
+            self.assertAlmostEqual(volume / surface.header["mesh"]["volume"], 1.0, places=5)
+            self.assertTrue(0.2 * whole.header["volume"] < volume < 0.9 * whole.header["volume"])
+            # The rim: edges between cap and surface.
+            t = surface["mesh.triangle"]
+            edges = {}
+            for triangle, is_cap in zip(t, cap):
+                for k in range(3):
+                    edges.setdefault(frozenset((triangle[k], triangle[(k + 1) % 3])), set()).add(bool(is_cap))
+            self.assertGreater(sum(kinds == {True, False} for kinds in edges.values()), 10 * borders)
+            np.testing.assert_allclose(surface.header["caps"]["color"], np.array([16, 32, 48]) / 255, atol=1e-6)
+            self.assertEqual(surface.header["caps"]["hatching"]["distance"], 0.5)
+            for axis, plane in zip(surface.header["caps"]["hatching"]["across"], given):
+                self.assertAlmostEqual(np.dot(axis, plane[:3]), 0.0, places=9)
+                self.assertAlmostEqual(np.linalg.norm(axis), 1.0, places=9)
+
+    def test_what_is_said_of_caps_must_make_sense(self):
+        with tempfile.TemporaryDirectory() as folder:
+            with open(samples.export(PROGRAM, folder, "cage", "--clip", "z<0.3", "--cap-hatching", "2"), "rb") as file:
+                data = file.read()
+            header, _ = samples.header_of(data)
+            path = os.path.join(folder, "bad.mns")
+            for name, caps in (("no planes", {"planes": []}), ("text", {"planes": ["z"]}), ("color", {**header["caps"], "color": [1]}),
+                               ("hatching", {**header["caps"], "hatching": {"distance": 0}}), ("nothing", None), ("few", {"planes": [[0, 0, 1]]})):
+                with open(path, "wb") as file:
+                    file.write(samples.with_header(data, {**header, "caps": caps}, 3))
+                with self.assertRaises(mns_reader.MnsError, msg=name):
+                    mns_reader.read(path)
+            last = next(array for array in header["arrays"] if array["name"] == "0/mesh.cap_plane")["rows"] - 1
+            with open(path, "wb") as file:
+                file.write(samples.patched(data, "mesh.cap_plane", "I", 7, last))
+            with self.assertRaises(mns_reader.MnsError):
+                mns_reader.read(path)
 
     def test_arrays_are_aligned(self):
         for path in self.files.values():
@@ -160,73 +219,4 @@ class Reader(unittest.TestCase):
         self.assertIn("b_factor", vertices.dtype.names)
 
 
-class FakeItems(list):
-    def foreach_set(self, name, values):
-        self.set = {**getattr(self, "set", {}), name: values}
-
-
-class NewMesh:
-    """What compat touches of a mesh of Blender 4.1 and later: no auto smooth."""
-
-    def __init__(self):
-        self.polygons, self.calls = FakeItems([0, 0]), []
-
-    def shade_smooth(self):
-        self.calls.append("smooth")
-
-    def normals_split_custom_set(self, normals):
-        self.calls.append(("corners", len(normals)))
-
-    def normals_split_custom_set_from_vertices(self, normals):
-        self.calls.append(("vertices", len(normals)))
-
-
-class OldMesh(NewMesh):
-    use_auto_smooth, auto_smooth_angle = False, 0.5
-
-
-class Compat(unittest.TestCase):
-    """The branches for other versions than the installed one, on stand-ins."""
-
-    def test_normals_come_last_and_smoothing_before_them(self):
-        import compat
-        mesh = NewMesh()
-        compat.set_smooth_with_normals(mesh, np.zeros((6, 3)))
-        compat.set_smooth_with_vertex_normals(mesh, np.zeros((4, 3)))
-        self.assertEqual(mesh.calls, ["smooth", ("corners", 6), "smooth", ("vertices", 4)])
-        mesh = OldMesh()
-        compat.set_smooth_with_normals(mesh, np.zeros((6, 3)))
-        self.assertEqual(mesh.calls, [("corners", 6)])
-        self.assertTrue(mesh.use_auto_smooth)
-        self.assertGreater(mesh.auto_smooth_angle, 3.14)
-
-    def test_renamed_sockets_are_found(self):
-        import compat
-
-        class Node:
-            inputs = {"Specular IOR Level": 1}
-
-        self.assertEqual(compat.principled_input(Node, "Specular", "Specular IOR Level"), 1)
-        self.assertIsNone(compat.principled_input(Node, "Sheen Tint"))
-
-    def test_triangles_when_loop_total_is_read_only(self):
-        import compat
-
-        class ReadOnly(FakeItems):
-            def add(self, count):
-                self.count = count
-
-            def foreach_set(self, name, values):
-                if name == "loop_total":
-                    raise AttributeError(name)
-                super().foreach_set(name, values)
-
-        mesh = NewMesh()
-        mesh.loops, mesh.polygons = ReadOnly(), ReadOnly()
-        compat.set_triangles(mesh, np.array([[0, 1, 2], [2, 1, 3]], dtype=np.uint32))
-        self.assertEqual((mesh.loops.count, mesh.polygons.count), (6, 2))
-        self.assertEqual(list(mesh.polygons.set["loop_start"]), [0, 3])
-
-
-if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1])
+unittest.main(argv=sys.argv[:1])

@@ -23,7 +23,7 @@ POINT_NUMBERS = {
     "b_factor": ("atom.b_factor", "FLOAT"), "vdw_radii": ("atom.radius", "FLOAT"),
 }
 #: All that an import makes.
-OURS = {"atom_index", "opacity", "velocity", "Color", *FACE_INTEGERS, *POINT_NUMBERS}
+OURS = {"atom_index", "opacity", "velocity", "Color", "ses_cap", "cap_stripe", "map_value", "map_known", *FACE_INTEGERS, *POINT_NUMBERS}
 
 
 class Options:
@@ -202,7 +202,7 @@ def fps_of(scene):
 def build_mesh(surface, name, options, new_materials, fps, chains):
     mesh = bpy.data.meshes.new(name)
     try:
-        add_materials(mesh, materials.kind_of(surface), new_materials, options.own_materials)
+        add_materials(mesh, surface, new_materials, options.own_materials)
         fill_mesh(mesh, surface, options.scale, options.crisp_colors, fps, chains)
     except BaseException:
         bpy.data.meshes.remove(mesh)
@@ -225,7 +225,8 @@ def fill_mesh(mesh, surface, scale, crisp_colors, fps, chains):
         add_attribute(mesh, "velocity", "FLOAT_VECTOR", "POINT",
                       (surface["mesh.velocity"] * (scale * fps)).astype(np.float32), "vector")
     cavity = np.array([part["kind"] == "cavity" for part in surface.header["components"]], dtype=np.int32)
-    mesh.polygons.foreach_set("material_index", cavity[surface["mesh.component"]])
+    slots = np.where(caps_of(surface), materials.SLOTS.index("cap"), cavity[surface["mesh.component"]])
+    mesh.polygons.foreach_set("material_index", slots.astype(np.int32))
     add_sharp_edges(mesh, surface)
     if mesh.validate(clean_customdata=False):
         raise mns_reader.MnsError(f"{surface.path}: Blender found faults in the mesh")
@@ -258,17 +259,52 @@ def add_attributes(mesh, surface, scale, crisp_colors, chains):
         elif name == "chain_id":
             values = chain_places(surface, chains)[values]
         add_attribute(mesh, name, kind, "POINT", values[of_vertex].astype(np.int32 if kind == "INT" else np.float32))
-    colors = linear(face_colors(surface))
+    if surface.get("mesh.map_value") is not None:
+        add_attribute(mesh, "map_value", "FLOAT", "POINT", surface["mesh.map_value"])
+        if surface.get("mesh.map_known") is not None:
+            add_attribute(mesh, "map_known", "BOOLEAN", "POINT", surface["mesh.map_known"].astype(bool))
+    if surface.get("mesh.cap_plane") is not None:
+        add_attribute(mesh, "ses_cap", "INT", "FACE", np.where(caps_of(surface), surface["mesh.cap_plane"], -1).astype(np.int32))
+        if "hatching" in surface.header["caps"]:
+            add_attribute(mesh, "cap_stripe", "FLOAT", "CORNER", stripes(surface))
+    colors = linear(corner_colors(surface))
     if crisp_colors:
         rgba = np.ones((len(triangles), 3, 4), dtype=np.float32)
-        rgba[:, :, :3] = colors[:, None, :]
+        rgba[:, :, :3] = colors
         add_attribute(mesh, "Color", "BYTE_COLOR", "CORNER", rgba, "color")
     else:
         around = np.maximum(np.bincount(triangles.ravel(), minlength=len(mesh.vertices)), 1)
         rgba = np.ones((len(mesh.vertices), 4), dtype=np.float32)
         for channel in range(3):
-            rgba[:, channel] = np.bincount(triangles.ravel(), np.repeat(colors[:, channel], 3), len(mesh.vertices)) / around
+            rgba[:, channel] = np.bincount(triangles.ravel(), colors[:, :, channel].ravel(), len(mesh.vertices)) / around
         add_attribute(mesh, "Color", "FLOAT_COLOR", "POINT", rgba, "color")
+
+
+def caps_of(surface):
+    """Which triangles are caps."""
+    return surface["mesh.kind"] == mns_reader.CAP
+
+
+def stripes(surface):
+    """Of each corner of a cap how many lines of hatching lie before it; elsewhere between two of them."""
+    hatching, cap = surface.header["caps"]["hatching"], caps_of(surface)
+    origin = np.array(surface.header["mesh"]["origin"])
+    across = np.array(hatching["across"], dtype=np.float64)[surface["mesh.cap_plane"][cap]]
+    points = surface["mesh.position"][surface["mesh.triangle"][cap]].astype(np.float64) + origin + surface.header.get("moved_by", 0.0)
+    values = np.full((len(cap), 3), 0.5 + 0.5 * hatching["share"], dtype=np.float32)
+    values[cap] = np.einsum("tkx,tx->tk", points, across) / hatching["distance"]
+    return values
+
+
+def corner_colors(surface):
+    """sRGB per corner of each triangle: (triangles, 3, 3)."""
+    colors = np.repeat(face_colors(surface)[:, None, :], 3, axis=1).astype(np.float64)
+    of_map = surface.get("mesh.map_color")
+    if of_map is not None:
+        own = surface.get("atom.own_color")
+        by_map = ~caps_of(surface) if own is None else ~caps_of(surface) & (own[surface["mesh.atom"]] == 0)
+        colors[by_map] = of_map[surface["mesh.triangle"][by_map]]
+    return colors
 
 
 def vertex_atoms(triangles, atom, count):
@@ -287,11 +323,14 @@ def chain_places(surface, chains):
 
 
 def face_colors(surface):
-    """sRGB per triangle."""
-    kinds = surface.header.get("kind_colors")
+    """sRGB per triangle, but of volume maps."""
+    kinds, cap = surface.header.get("kind_colors"), caps_of(surface)
+    colors = surface["atom.color"][surface["mesh.atom"]]
     if kinds is not None:
-        return np.array(kinds, dtype=np.float32)[surface["mesh.kind"]]
-    return surface["atom.color"][surface["mesh.atom"]]
+        colors = np.where(cap[:, None], colors, np.array(kinds, dtype=np.float32)[np.where(cap, 0, surface["mesh.kind"])])
+    if "color" in surface.header.get("caps", {}):
+        colors = np.where(cap[:, None], np.array(surface.header["caps"]["color"], dtype=np.float32), colors)
+    return colors
 
 
 def linear(srgb):
@@ -299,10 +338,10 @@ def linear(srgb):
     return np.where(srgb <= 0.04045, srgb / 12.92, ((srgb + 0.055) / 1.055) ** 2.4).astype(np.float32)
 
 
-def add_materials(mesh, kind, new_materials, own=False):
-    """kind: of opacity, as materials.kind_of tells it. own: not those that all imports share."""
-    for role in materials.ROLES:
-        mesh.materials.append(materials.find_or_make(role, kind, new_materials, own))
+def add_materials(mesh, surface, new_materials, own=False):
+    """own: not those that all imports share."""
+    for role, kind in materials.wanted(surface):
+        mesh.materials.append(materials.find_or_make(role, kind, new_materials, own, materials.hatching_of(surface, role)))
 
 
 def add_sharp_edges(mesh, surface):

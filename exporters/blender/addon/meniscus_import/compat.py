@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Everything that differs between Blender 3.4 and 5.x. Run here on 3.4.1; the other branches follow the API's change logs."""
+"""Everything that differs between Blender 3.4 and 5.x; run on 3.4.1, and by scripts/newer_blenders.sh on 4.2, 4.5 and 5.0."""
 
 import math
 

@@ -10,25 +10,30 @@ INDICES = {"mesh.triangle": "mesh.position", "mesh.sharp_edge": "mesh.position",
 TURNED = ("mesh.normal", "mesh.sharp_corner_normal", "mesh.velocity")
 PLAIN = ("mesh.kind", "mesh.patch", "atom.radius", "atom.color", "atom.index", "atom.b_factor", "atom.atomic_number",
          "atom.res_id")
-#: Arrays that some objects may lack, and what stands for them.
-STAND_INS = {"atom.opacity": 1.0}
+#: Arrays that some objects may lack, and what stands for them: values, their columns, their type.
+STAND_INS = {
+    "atom.opacity": (1.0, 1, np.float32), "mesh.cap_plane": (0xffffffff, 1, np.uint32), "mesh.map_value": (0.0, 1, np.float32),
+    "mesh.map_color": (0.0, 3, np.float32), "mesh.map_known": (1, 1, np.uint8), "atom.own_color": (0, 1, np.uint8),
+}
+ROWS = {"mesh.cap_plane": "mesh.triangle", "mesh.map_value": "mesh.position", "mesh.map_color": "mesh.position",
+        "mesh.map_known": "mesh.position", "atom.opacity": "atom.center", "atom.own_color": "atom.center"}
 
 
 def joined(file, origin):
     """One mns_reader.Surface of all objects and copies, with mesh.position in Å relative to `origin` as float64, and
     mesh.object: the object of each triangle."""
     columns = {}
-    optional = {name: value for name, value in STAND_INS.items()
-                if any(surface.get(name) is not None for surface in file.objects)}
+    optional = [name for name in STAND_INS if any(surface.get(name) is not None for surface in file.objects)]
+    if "mesh.map_color" in optional and not all(surface.get("mesh.map_color") is not None for surface in file.objects):
+        optional.append("atom.own_color")
     rows = {"mesh.position": 0, "mesh.triangle": 0, "atom.center": 0, "components": 0}
     chains = {}
     for number, surface in enumerate(file.objects):
         for copy in surface.copies:
             part = _placed(surface, copy, origin, rows, chains)
             part["mesh.object"] = np.full(surface.triangle_count, number, dtype=np.int32)
-            for name, value in optional.items():
-                found = surface.get(name)
-                part[name] = np.full(len(surface["atom.center"]), value, dtype=np.float32) if found is None else found
+            for name in optional:
+                part[name] = _or_stand_in(surface, name)
             for name, values in part.items():
                 columns.setdefault(name, []).append(values)
             for name in ("mesh.position", "mesh.triangle", "atom.center"):
@@ -36,7 +41,18 @@ def joined(file, origin):
             rows["components"] += len(surface.header["components"])
     total = sum(len(surface.copies) for surface in file.objects)
     arrays = {name: np.concatenate(parts) for name, parts in columns.items() if len(parts) == total}
-    return mns_reader.Surface(file.objects[0].path, _header(file, arrays, list(chains)), arrays)
+    return mns_reader.Surface(file.objects[0].path, _header(file, arrays, list(chains), origin), arrays)
+
+
+def _or_stand_in(surface, name):
+    found = surface.get(name)
+    if found is not None:
+        return found
+    value, columns, kind = STAND_INS[name]
+    if name == "atom.own_color" and surface.get("mesh.map_color") is None:  # what no map colours keeps its colours
+        value = 1
+    rows = len(surface[ROWS[name]])
+    return np.full(rows if columns == 1 else (rows, columns), value, dtype=kind)
 
 
 def _placed(surface, copy, origin, rows, chains):
@@ -64,10 +80,11 @@ def _placed(surface, copy, origin, rows, chains):
     return part
 
 
-def _header(file, arrays, chains):
+def _header(file, arrays, chains, origin):
     first = file.objects[0].header
     meshes = [(surface.header["mesh"], len(surface.copies)) for surface in file.objects]
     header = {key: value for key, value in first.items() if key not in ("name", "prefix", "copies", "objects")}
+    header["moved_by"] = [float(value) for value in origin]  # taken from all positions
     header["mesh"] = {"origin": [0.0, 0.0, 0.0], "tolerance": max(mesh.get("tolerance", 0.0) for mesh, _ in meshes),
                       "vertices": len(arrays["mesh.position"]), "triangles": len(arrays["mesh.triangle"]),
                       "closed": all(mesh.get("closed", True) for mesh, _ in meshes)}
@@ -97,11 +114,12 @@ def _part(surface, shown, wanted):
     used[triangles] = True
     vertex = np.cumsum(used) - 1
     arrays = dict(surface.arrays)
-    for name in ("mesh.position", "mesh.normal", "mesh.velocity"):
+    for name in ("mesh.position", "mesh.normal", "mesh.velocity", "mesh.map_value", "mesh.map_color", "mesh.map_known"):
         if name in arrays:
             arrays[name] = arrays[name][used]
-    for name in ("mesh.kind", "mesh.patch", "mesh.component", "mesh.atom"):
-        arrays[name] = arrays[name][shown]
+    for name in ("mesh.kind", "mesh.patch", "mesh.component", "mesh.atom", "mesh.cap_plane"):
+        if name in arrays:
+            arrays[name] = arrays[name][shown]
     arrays["mesh.triangle"] = vertex[triangles].astype(np.uint32)
     corner = (np.cumsum(np.repeat(shown, 3)) - 1).astype(np.uint32)
     sharp = surface["mesh.sharp_corner"]

@@ -5,8 +5,8 @@ import bpy
 
 from . import compat
 
-#: The slots of a mesh in order; triangles of cavities take the second.
-ROLES = ("outer", "cavity")
+#: What materials are for, and the slots of a mesh in order; a mesh without caps lacks the third.
+SLOTS = ("outer", "cavity", "cap")
 #: How a surface lets through what lies behind it, and what the names of its materials end with.
 OPAQUE, TRANSLUCENT, FILM = "opaque", "translucent", "film"
 ENDINGS = {OPAQUE: "", TRANSLUCENT: " seen through", FILM: " film"}
@@ -16,17 +16,31 @@ MARK = "meniscus_material"
 LEAST_COSINE = 0.05
 
 
-def find_or_make(role, kind, new_materials, own=False):
-    """The material of a role, one of ROLES, for a kind of opacity; own: of one import alone. Those that are made are added
-    to new_materials."""
-    mark = f"{role} {kind}" + (" own" if own else "")
+def wanted(surface):
+    """Pairs of role and kind for the slots of a surface. Caps are no film: they are as opaque along a slant."""
+    kind = kind_of(surface)
+    yield from ((role, kind) for role in SLOTS[:2])
+    if surface.get("mesh.cap_plane") is not None:
+        yield SLOTS[2], OPAQUE if kind == OPAQUE else TRANSLUCENT
+
+
+def hatching_of(surface, role):
+    """share of the dark lines and what light is left there, or None."""
+    hatching = surface.header["caps"].get("hatching") if role == "cap" else None
+    return None if hatching is None else (float(hatching["share"]), float(hatching["light"]))
+
+
+def find_or_make(role, kind, new_materials, own=False, hatching=None):
+    """The material of a role, one of SLOTS, for a kind of opacity; own: of one import alone. hatching: as hatching_of. Those
+    that are made are added to new_materials."""
+    mark = f"{role} {kind}" + (" own" if own else "") + ("" if hatching is None else " hatched {:g} {:g}".format(*hatching))
     for material in new_materials if own else bpy.data.materials:
         if material.get(MARK) == mark or (kind == OPAQUE and not own and _is_of_an_old_import(material, role)):
             return material
-    material = bpy.data.materials.new(f"Meniscus {role}{ENDINGS[kind]}")
+    material = bpy.data.materials.new(f"Meniscus {role}{ENDINGS[kind]}{'' if hatching is None else ' hatched'}")
     new_materials.append(material)
     material[MARK] = mark
-    _fill(material, kind)
+    _fill(material, kind, hatching)
     return material
 
 
@@ -47,15 +61,17 @@ def _is_of_an_old_import(material, role):
             any(node.type == "ATTRIBUTE" and node.attribute_name == "Color" for node in material.node_tree.nodes))
 
 
-def _fill(material, kind):
+def _fill(material, kind, hatching):
     tree = compat.node_tree(material)
     shader = compat.find_or_add(tree, "BSDF_PRINCIPLED", "ShaderNodeBsdfPrincipled")
     output = compat.find_or_add(tree, "OUTPUT_MATERIAL", "ShaderNodeOutputMaterial")
     output.location = (shader.location[0] + 300, shader.location[1])
     if not output.inputs["Surface"].is_linked:
         tree.links.new(shader.outputs[0], output.inputs["Surface"])
-    color = _attribute(tree, "Color", shader, 0)
-    tree.links.new(color.outputs["Color"], shader.inputs["Base Color"])
+    color = _attribute(tree, "Color", shader, 0).outputs["Color"]
+    if hatching is not None:
+        color = _hatched(tree, color, shader, *hatching)
+    tree.links.new(color, shader.inputs["Base Color"])
     shader.inputs["Roughness"].default_value = 0.45
     if kind != OPAQUE:
         opacity = _attribute(tree, "opacity", shader, -320).outputs["Fac"]
@@ -70,6 +86,18 @@ def _attribute(tree, name, beside, down):
     node.attribute_name = name
     node.location = (beside.location[0] - 220, beside.location[1] + down)
     return node
+
+
+def _hatched(tree, color, shader, share, light):
+    """Darker where the fraction of cap_stripe is less than the share of the lines."""
+    stripe = compat.math_node(tree, "FRACT", _attribute(tree, "cap_stripe", shader, -520).outputs["Fac"])
+    dark = compat.math_node(tree, "LESS_THAN", stripe, share)
+    factor = compat.math_node(tree, "SUBTRACT", 1.0, compat.math_node(tree, "MULTIPLY", dark, 1.0 - light))
+    scaled = tree.nodes.new("ShaderNodeVectorMath")
+    scaled.operation = "SCALE"
+    tree.links.new(color, scaled.inputs[0])
+    tree.links.new(factor, scaled.inputs["Scale"])
+    return scaled.outputs["Vector"]
 
 
 def _through_a_film(tree, opacity):

@@ -9,7 +9,7 @@ import zlib
 import numpy as np
 
 MAGIC = b"\x89MNS\r\n\x1a\n"
-VERSION = 2
+VERSION = 3
 PROLOGUE = 64
 TYPES = ("<f4", "<f8", "<u4", "<i4", "|u1")
 #: Arrays a mesh cannot do without, and their columns.
@@ -19,7 +19,10 @@ NEEDED = {
     "atom.center": 3, "atom.radius": 1, "atom.color": 3,
 }
 #: Arrays a mesh may have, and their columns.
-OPTIONAL = {"mesh.velocity": 3, "atom.opacity": 1}
+OPTIONAL = {"mesh.velocity": 3, "mesh.cap_plane": 1, "mesh.map_value": 1, "mesh.map_color": 3, "mesh.map_known": 1,
+            "atom.opacity": 1, "atom.own_color": 1}
+#: mesh.kind of caps.
+CAP = 4
 
 
 class MnsError(Exception):
@@ -188,6 +191,10 @@ def _check(surface):
     vertices, triangles, atoms = (len(arrays[n]) for n in ("mesh.position", "mesh.triangle", "atom.center"))
     if vertices == 0 or triangles == 0:
         raise MnsError(f"{path}: the mesh is empty")
+    if "caps" in surface.header:
+        _check_caps(path, surface)
+    if ("mesh.map_value" in arrays) != ("mesh.map_color" in arrays):
+        raise MnsError(f"{path}: of mesh.map_value and mesh.map_color one is missing")
     opacity = arrays.get("atom.opacity")
     if opacity is not None and len(opacity) and not 0.0 <= opacity.min() <= opacity.max() <= 1.0:
         raise MnsError(f"{path}: array atom.opacity holds a number outside of 0 to 1")
@@ -205,7 +212,8 @@ def _check(surface):
     lengths = {
         "mesh.normal": vertices, "mesh.velocity": vertices, "mesh.kind": triangles, "mesh.patch": triangles,
         "mesh.component": triangles,
-        "mesh.atom": triangles, "atom.radius": atoms, "atom.color": atoms, "atom.opacity": atoms, "atom.b_factor": atoms,
+        "mesh.atom": triangles, "atom.radius": atoms, "atom.color": atoms, "atom.opacity": atoms, "atom.own_color": atoms, "mesh.cap_plane": triangles,
+        "mesh.map_value": vertices, "mesh.map_color": vertices, "mesh.map_known": vertices, "atom.b_factor": atoms,
         "atom.atomic_number": atoms, "atom.index": atoms, "atom.res_id": atoms, "atom.chain_id": atoms,
         "mesh.sharp_corner_normal": len(arrays["mesh.sharp_corner"]),
     }
@@ -213,7 +221,7 @@ def _check(surface):
         if name in arrays and len(arrays[name]) != rows:
             raise MnsError(f"{path}: array {name} has {len(arrays[name])} rows instead of {rows}")
     limits = {
-        "mesh.triangle": vertices, "mesh.sharp_edge": vertices, "mesh.sharp_corner": 3 * triangles, "mesh.kind": 3,
+        "mesh.triangle": vertices, "mesh.sharp_edge": vertices, "mesh.sharp_corner": 3 * triangles, "mesh.kind": CAP + 1 if "caps" in surface.header else 3,
         "mesh.component": components, "mesh.atom": atoms,
     }
     for name, limit in limits.items():
@@ -221,6 +229,27 @@ def _check(surface):
             raise MnsError(f"{path}: array {name} does not hold indices")
         if arrays[name].size and int(arrays[name].max()) >= limit:
             raise MnsError(f"{path}: array {name} holds the index {int(arrays[name].max())}, the limit is {limit - 1}")
+
+
+def _check_caps(path, surface):
+    """Planes, and of hatching what its lines need; each cap lies on a plane."""
+    caps = surface.header["caps"]
+    try:
+        planes, hatching = caps["planes"], caps.get("hatching")
+        good = isinstance(planes, list) and planes and all(_are_numbers(plane, 4) for plane in planes)
+        good = good and ("color" not in caps or _are_numbers(caps["color"], 3))
+        if hatching is not None:
+            good = good and len(hatching["across"]) == len(planes) and all(_are_numbers(axis, 3) for axis in hatching["across"])
+            good = good and _are_numbers([hatching["distance"], hatching["share"], hatching["light"]], 3) and hatching["distance"] > 0
+    except (KeyError, TypeError, AttributeError):
+        good = False
+    if not good:
+        raise MnsError(f"{path}: what the header says of caps makes no sense")
+    cap, plane = surface["mesh.kind"] == CAP, surface.get("mesh.cap_plane")
+    if cap.any() and (plane is None or plane.dtype.kind not in "iu" or int(plane[cap].max()) >= len(planes)):
+        raise MnsError(f"{path}: a cap lies on no plane")
+    if (surface["mesh.kind"] == 3).any():
+        raise MnsError(f"{path}: array mesh.kind holds the kind 3, which no triangle has")
 
 
 def is_closed(triangles):

@@ -9,7 +9,7 @@ import sys
 import bpy
 from bpy.app.handlers import persistent
 
-from . import attributes, build, compat, frame_picker, joined, materials, mns_reader, sequence_reader
+from . import attributes, build, compat, frame_picker, joined, mns_reader, sequence_reader
 
 
 class Placement:
@@ -34,7 +34,7 @@ class Placement:
             mesh.clear_geometry()
             file, surface = _ahead.take(self, scene_frame)
             if not mesh.materials:
-                build.add_materials(mesh, materials.kind_of(surface), self.new_materials, self.own_materials)
+                build.add_materials(mesh, surface, self.new_materials, self.own_materials)
             fps = self.sequence.fps if self.scene is None else build.fps_of(self.scene)
             build.fill_mesh(mesh, surface, self.scale, self.crisp_colors, fps * self.timing.speed,
                             sorted(surface.header["chain_names"]))
