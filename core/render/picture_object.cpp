@@ -7,6 +7,8 @@
 
 #include <glm/geometric.hpp>
 
+#include <glm/geometric.hpp>
+
 namespace meniscus {
 
 glm::dvec3 hatching_direction(const glm::dvec3& normal) {
@@ -31,6 +33,17 @@ std::vector<Ball> enclosing_balls(std::span<const PictureObject> objects) {
     for (const glm::dvec3& corner : object.shapes->mesh.positions) balls.push_back({corner, 0.0});
   }
   return balls;
+}
+
+std::vector<Ball> kept_balls(std::span<const PictureObject> objects) {
+  std::vector<Ball> kept;
+  for (const PictureObject& object : objects)
+    for (const Ball& ball : enclosing_balls({&object, 1}))
+      if (std::ranges::none_of(object.clip, [&](const ClipPlane& plane) {
+            return glm::dot(plane.normal, ball.center) - ball.radius >= plane.offset;
+          }))
+        kept.push_back(ball);
+  return kept;
 }
 
 }  // namespace meniscus

@@ -55,4 +55,7 @@ bool needs_layers(const PictureObject& object);
 /// What encloses them: atoms of surfaces, spheres and ends of cylinders, corners of meshes as balls without size.
 std::vector<Ball> enclosing_balls(std::span<const PictureObject> objects);
 
+/// The same without what planes cut away as a whole.
+std::vector<Ball> kept_balls(std::span<const PictureObject> objects);
+
 }  // namespace meniscus

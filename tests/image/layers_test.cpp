@@ -127,6 +127,24 @@ TEST(Layers, ACapOfABallIsADisk) {
   EXPECT_FLOAT_EQ(picture.normal[120 * 320 + 160].z, 1.0f);
 }
 
+// Of a row along the view only the farthest ball is left: then it is the nearest, and as bright as it is alone.
+TEST(Layers, AirBeginsWhereACutPictureDoes) {
+  const Camera camera{.position = {0, 0, 60}, .projection = Projection::orthographic, .height = 10.0};
+  const auto middle = [&](Subject& subject) {
+    subject.camera = camera;
+    subject.settings.look.depth_cue = 0.8f;
+    subject.settings.look.depth_cue_keeps_alpha = true;
+    return subject.picture().color[120 * 320 + 160].x;
+  };
+  Subject alone({{{0.0, 0.0, 0.0}, 1.7}}), row({{{0.0, 0.0, 0.0}, 1.7}, {{0.0, 0.0, 20.0}, 1.7}});
+  row.camera = camera;
+  row.cut("z<10");
+  EXPECT_NEAR(middle(row), middle(alone), 1e-3f);
+  row.object.clip.clear();
+  row.coloring.hidden = {false, true};
+  EXPECT_GT(std::abs(middle(row) - middle(alone)), 0.05f);
+}
+
 TEST(Layers, HiddenAtomsAreSolidButNotSeenWhereAPlaneCuts) {
   Subject subject(testing::ubiquitin());
   subject.cut("depth>0.5");

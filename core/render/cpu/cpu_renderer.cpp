@@ -165,7 +165,14 @@ ScenePlacement CpuRenderer::place(std::span<const PictureObject> objects, const 
   for (const PictureObject& object : objects)
     if (object.surface) probe_radius = std::max(probe_radius, object.surface->probe_radius);
   frame_ = make_picture_frame(balls, camera, settings.size);
-  return place_atoms(balls, probe_radius, frame_);
+  ScenePlacement placement = place_atoms(balls, probe_radius, frame_);
+  const std::vector<Ball> kept = kept_balls(objects);
+  if (kept.empty() || kept.size() == balls.size()) return placement;
+  // Air begins where a cut picture does.
+  const ScenePlacement seen = place_atoms(kept, probe_radius, frame_);
+  placement.first_depth = seen.first_depth;
+  placement.last_depth = seen.last_depth;
+  return placement;
 }
 
 Framebuffer CpuRenderer::render(std::span<const PictureObject> objects, const Camera& camera,
