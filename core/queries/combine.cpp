@@ -13,6 +13,7 @@
 #include <glm/mat3x3.hpp>
 
 #include "core/base/error.h"
+#include "core/queries/moved.h"
 
 namespace meniscus {
 namespace {
@@ -58,23 +59,18 @@ class Appender {
     add(whole_.toroidal, part_.toroidal, [&](ToroidalPatch& patch) {
       for (std::uint32_t& atom : patch.atom) atom += atom_;
       for (std::uint32_t& probe : patch.probe) shift(probe, concave_);
-      move(patch.center);
-      turn(patch.axis);
-      turn(patch.start);
+      patch = moved(patch, motion_);
       patch.first_face += face_;
     });
     add(whole_.concave, part_.concave, [&](ConcavePatch& patch) {
-      move(patch.center);
+      patch = moved(patch, motion_);
       patch.first_contact += contact;
       patch.first_plane += plane_;
       patch.first_cut += cut;
       patch.first_face += face_;
     });
-    add(whole_.atoms, part_.atoms, [&](Ball& ball) { move(ball.center); });
-    add(whole_.planes, part_.planes, [&](Plane& plane) {
-      turn(plane.normal);
-      plane.offset += glm::dot(plane.normal, motion_.translation);
-    });
+    add(whole_.atoms, part_.atoms, [&](Ball& ball) { ball = moved(ball, motion_); });
+    add(whole_.planes, part_.planes, [&](Plane& plane) { plane = moved(plane, motion_); });
     add(whole_.contacts, part_.contacts, [&](std::uint32_t& atom) { atom += atom_; });
     add(whole_.cuts, part_.cuts, [&](std::uint32_t& probe) { shift(probe, concave_); });
   }
@@ -165,13 +161,6 @@ void append(Surface& whole, const Surface& part, const RigidMotion& motion) {
   check_capacity(whole, part);
   Appender(whole, part, motion).run();
   whole.certificate.closed = whole.certificate.closed && part.certificate.closed;
-}
-
-Surface moved_patches(const Surface& part, const RigidMotion& motion) {
-  Surface copy;
-  copy.probe_radius = part.probe_radius;
-  Appender(copy, part, motion).append_patches();
-  return copy;
 }
 
 SurfaceObject merged(std::vector<SurfaceObject> objects) {

@@ -18,10 +18,6 @@ namespace meniscus {
 /// is still empty. Throws CapacityError when a table gets more rows than an index can count.
 void append(Surface& whole, const Surface& part, const RigidMotion& motion = {});
 
-/// The copy's patches with the atoms, planes and contacts they name, which is all that a picture needs: no borders, no
-/// faces, no components. The same numbers that append() gives an empty surface.
-Surface moved_patches(const Surface& part, const RigidMotion& motion);
-
 /// One object with every copy of every given one, in order, standing where they stand. A single object with a single
 /// copy that is not moved passes through as it is. Colours, opacities and atoms follow, the hidden stay hidden;
 /// either all objects are coloured by patch kind, alike, or none is. No objects: an empty one. Throws CapacityError.

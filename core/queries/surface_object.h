@@ -20,6 +20,7 @@ struct SurfaceObject {
   std::vector<std::uint32_t> atom;  ///< per surface.atoms: index into Structure::atoms
   /// Where the surface stands; the first is usually the identity. Copies share everything else.
   std::vector<RigidMotion> copies{RigidMotion{}};
+  bool whole = true;  ///< no part of the surface of its atoms is left out
 };
 
 }  // namespace meniscus

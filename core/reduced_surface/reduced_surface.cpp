@@ -3,6 +3,7 @@
 #include "core/reduced_surface/reduced_surface.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 #include <glm/geometric.hpp>
@@ -23,6 +24,53 @@ const double kSwallowTolerance = geometry::kMergeDistance;
 // Of two balls that nearly coincide the larger one stays; of equal ones that of the lower index.
 bool outranks(std::span<const Ball> atoms, std::uint32_t a, std::uint32_t b) {
   return atoms[a].radius != atoms[b].radius ? atoms[a].radius > atoms[b].radius : a < b;
+}
+
+constexpr double kWay = 0.7;  // Å, that an atom may go; both may come, so that bonded atoms are pairs, and few others
+
+struct Holder {
+  std::uint32_t held, by;
+};
+
+/// An atom that holds another has a centre closer than the largest radius difference.
+double farthest_holder(std::span<const Ball> atoms) {
+  const auto [smallest, largest] =
+      std::minmax_element(atoms.begin(), atoms.end(), [](auto& a, auto& b) { return a.radius < b.radius; });
+  return largest->radius - smallest->radius + kSwallowTolerance;
+}
+
+/// Calls visit(a, b), a < b, once for each pair of centres within `reach`, on all threads. Cell by cell, for the cache.
+template <typename Visit>
+void for_each_pair_near(std::span<const Ball> atoms, double reach, const Visit& visit) {
+  const BallGrid grid(atoms, std::max(reach, 2.0));
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, atoms.size(), 256), [&](const auto& range) {
+    for (std::size_t n = range.begin(); n != range.end(); ++n) {
+      const std::uint32_t a = grid.order()[n];
+      grid.for_each_near(atoms[a].center, reach, [&](std::uint32_t b) {
+        if (a < b) visit(a, b);
+      });
+    }
+  });
+}
+
+/// If the higher of two could swallow the other, but for others who swallow it.
+void add_holder(std::span<const Ball> atoms, std::uint32_t a, std::uint32_t b, std::vector<Holder>& holders) {
+  const std::uint32_t by = outranks(atoms, a, b) ? a : b, held = by == a ? b : a;
+  const double slack = atoms[by].radius - atoms[held].radius - glm::distance(atoms[held].center, atoms[by].center);
+  if (slack + kSwallowTolerance >= 0) holders.push_back({held, by});
+}
+
+std::vector<bool> swallowed_by(std::span<const Ball> atoms,
+                               const tbb::enumerable_thread_specific<std::vector<Holder>>& found) {
+  std::vector<Holder> holders;  // hardly any in a molecule
+  for (const std::vector<Holder>& part : found) holders.insert(holders.end(), part.begin(), part.end());
+  // The highest first: whether one is swallowed has been decided before it can swallow.
+  std::sort(holders.begin(), holders.end(),
+            [&](const Holder& x, const Holder& y) { return x.held != y.held && outranks(atoms, x.held, y.held); });
+  std::vector<bool> swallowed(atoms.size(), false);
+  for (const auto& [held, by] : holders)
+    if (!swallowed[by]) swallowed[held] = true;
+  return swallowed;
 }
 
 }  // namespace
@@ -47,42 +95,63 @@ double probe_decision_weight(double probe_radius, std::size_t index) {
 
 std::vector<double> decision_weights(std::span<const Ball> atoms, double probe_radius) {
   std::vector<double> weights(atoms.size());
-  for (std::size_t a = 0; a < atoms.size(); ++a) weights[a] = decision_weight(atoms[a].radius + probe_radius, a);
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, atoms.size(), 4096), [&](const auto& range) {
+    for (std::size_t a = range.begin(); a != range.end(); ++a)
+      weights[a] = decision_weight(atoms[a].radius + probe_radius, a);
+  });
   return weights;
 }
 
 std::vector<bool> swallowed_atoms(std::span<const Ball> atoms) {
-  // An atom that holds another has a centre closer than the largest radius difference.
   if (atoms.empty()) return {};
-  const auto [smallest, largest] =
-      std::minmax_element(atoms.begin(), atoms.end(), [](auto& a, auto& b) { return a.radius < b.radius; });
-  const double reach = largest->radius - smallest->radius + kSwallowTolerance;
-  const BallGrid grid(atoms, std::max(reach, 2.0));
-  // Who could swallow whom, and nobody else: exact containment hands on from ball to ball, nearness does not. Cell by
-  // cell, for the cache; hardly any pair is found in a molecule.
-  struct Holder {
-    std::uint32_t held, by;
-  };
   tbb::enumerable_thread_specific<std::vector<Holder>> found;
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, atoms.size(), 256), [&](const auto& range) {
+  // Exact containment hands on from ball to ball, nearness does not: hence all who could swallow whom.
+  for_each_pair_near(atoms, farthest_holder(atoms),
+                     [&](std::uint32_t a, std::uint32_t b) { add_holder(atoms, a, b, found.local()); });
+  return swallowed_by(atoms, found);
+}
+
+std::vector<bool> SwallowedAtoms::of(std::span<const Ball> atoms) {
+  if (!still_near(atoms)) {  // pairs pay for atoms that stay where they are for some frames
+    found_at_.assign(atoms.begin(), atoms.end());
+    has_pairs_ = false;
+    return swallowed_atoms(atoms);
+  }
+  if (!has_pairs_) find_pairs(atoms);
+  tbb::enumerable_thread_specific<std::vector<Holder>> found;
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, pairs_.size(), 4096), [&](const auto& range) {
     std::vector<Holder>& holders = found.local();
-    for (std::size_t n = range.begin(); n != range.end(); ++n) {
-      const std::uint32_t a = grid.order()[n];
-      grid.for_each_near(atoms[a].center, reach, [&](std::uint32_t b) {
-        const double slack = atoms[b].radius - atoms[a].radius - glm::distance(atoms[a].center, atoms[b].center);
-        if (b != a && outranks(atoms, b, a) && slack + kSwallowTolerance >= 0) holders.push_back({a, b});
-      });
-    }
+    for (std::size_t n = range.begin(); n != range.end(); ++n) add_holder(atoms, pairs_[n][0], pairs_[n][1], holders);
   });
-  std::vector<Holder> holders;
-  for (const std::vector<Holder>& part : found) holders.insert(holders.end(), part.begin(), part.end());
-  // The highest first: whether one is swallowed has been decided before it can swallow.
-  std::sort(holders.begin(), holders.end(),
-            [&](const Holder& x, const Holder& y) { return x.held != y.held && outranks(atoms, x.held, y.held); });
-  std::vector<bool> swallowed(atoms.size(), false);
-  for (const auto& [held, by] : holders)
-    if (!swallowed[by]) swallowed[held] = true;
-  return swallowed;
+  return swallowed_by(atoms, found);
+}
+
+bool SwallowedAtoms::still_near(std::span<const Ball> atoms) const {
+  if (atoms.size() != found_at_.size()) return false;
+  std::atomic<bool> near = true;
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, atoms.size(), 8192), [&](const auto& range) {
+    if (!near.load(std::memory_order_relaxed)) return;
+    bool these = true;
+    for (std::size_t n = range.begin(); n != range.end(); ++n) {
+      const glm::dvec3 d = atoms[n].center - found_at_[n].center;
+      these = these && glm::dot(d, d) <= kWay * kWay && atoms[n].radius == found_at_[n].radius;
+    }
+    if (!these) near.store(false, std::memory_order_relaxed);
+  });
+  return near;
+}
+
+void SwallowedAtoms::find_pairs(std::span<const Ball> atoms) {
+  constexpr double kRounding = 1e-6;  // Å: more than what differences of coordinates have
+  found_at_.assign(atoms.begin(), atoms.end());
+  has_pairs_ = true;
+  pairs_.clear();
+  if (atoms.empty()) return;
+  tbb::enumerable_thread_specific<std::vector<std::array<std::uint32_t, 2>>> found;
+  for_each_pair_near(atoms, farthest_holder(atoms) + 2.0 * (kWay + kRounding), [&](std::uint32_t a, std::uint32_t b) {
+    found.local().push_back({a, b});
+  });
+  for (const auto& part : found) pairs_.insert(pairs_.end(), part.begin(), part.end());
 }
 
 }  // namespace meniscus

@@ -4,6 +4,7 @@
 
 #include <compare>
 #include <cstddef>
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -60,5 +61,21 @@ double probe_decision_weight(double probe_radius, std::size_t index);
 /// Atoms whose SAS ball lies in that of an atom that is not swallowed itself, but for 1e-6 Å (ties: the lower index
 /// wins). They have no patch and block nothing more.
 std::vector<bool> swallowed_atoms(std::span<const Ball> atoms);
+
+/// swallowed_atoms() of one frame after another: whoever could swallow whom is found once, with room for a way that all
+/// atoms may go. As long as none has gone farther, and radii are the same, only those pairs are asked again; where
+/// atoms go farther from frame to frame all is found anew.
+class SwallowedAtoms {
+ public:
+  std::vector<bool> of(std::span<const Ball> atoms);
+
+ private:
+  bool still_near(std::span<const Ball> atoms) const;
+  void find_pairs(std::span<const Ball> atoms);
+
+  std::vector<Ball> found_at_;  ///< the atoms when pairs_ was found, or was not
+  bool has_pairs_ = false;
+  std::vector<std::array<std::uint32_t, 2>> pairs_;  ///< the lower index first
+};
 
 }  // namespace meniscus

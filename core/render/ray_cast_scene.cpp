@@ -13,7 +13,9 @@
 
 #include <glm/geometric.hpp>
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_reduce.h>
 
+#include "core/queries/moved.h"
 #include "core/render/ray_geometry.h"
 
 namespace meniscus {
@@ -48,17 +50,39 @@ std::vector<PatchRange> ranges_of(const Surface& surface) {
 
 class Packer {
  public:
-  /// scene: with its slack.
-  Packer(const Surface& surface, const Coloring& coloring, const PictureFrame& frame, std::uint32_t first_atom,
-         RayCastScene& scene)
-      : surface_(surface), coloring_(coloring), frame_(frame), first_atom_(first_atom), scene_(scene) {}
+  /// scene: with its slack. motion: where the surface stands; nullptr: as it is.
+  Packer(const Surface& surface, const Coloring& coloring, const PictureFrame& frame, RayCastScene& scene,
+         const RigidMotion* motion = nullptr, std::uint32_t first_atom = 0)
+      : surface_(surface),
+        coloring_(coloring),
+        frame_(frame),
+        motion_(motion),
+        first_atom_(first_atom),
+        scene_(scene) {}
 
   void pack(const PatchRange& range) {
-    for (std::uint32_t i = range.first; i < range.end; ++i) {
-      if (range.kind == PatchKind::convex) pack(surface_.convex[i], i);
-      if (range.kind == PatchKind::toroidal) pack(surface_.toroidal[i], i);
-      if (range.kind == PatchKind::concave) pack(surface_.concave[i], i);
-    }
+    for (std::uint32_t i = range.first; i < range.end; ++i) pack(range.kind, i);
+  }
+
+  void pack(PatchKind kind, std::uint32_t i) {
+    if (!may_show(kind, i)) return;
+    if (kind == PatchKind::convex) pack(surface_.convex[i], i);
+    if (kind == PatchKind::toroidal) pack(placed(surface_.toroidal[i]), i);
+    if (kind == PatchKind::concave) pack(placed(surface_.concave[i]), i);
+  }
+
+  bool may_show(PatchKind kind, std::uint32_t i) const {
+    if (kind == PatchKind::convex) return coloring_.shows(surface_.convex[i].atom);
+    if (kind == PatchKind::toroidal) return shows_some(surface_.toroidal[i].atom);
+    const ConcavePatch& patch = surface_.concave[i];
+    return patch.face_count > 0 && shows_some({&surface_.contacts[patch.first_contact], patch.contact_count});
+  }
+
+  PatchBound bound(PatchKind kind, std::uint32_t i) {
+    if (kind == PatchKind::convex) return bound(surface_.convex[i]);
+    if (kind == PatchKind::concave) return bound(placed(surface_.concave[i]));
+    const ToroidalPatch patch = placed(surface_.toroidal[i]);
+    return bound(patch, shape(patch));
   }
 
  private:
@@ -66,7 +90,7 @@ class Packer {
 
   void add_planes(std::uint32_t first, std::uint32_t count, const glm::dvec3& center) {
     for (std::uint32_t i = first; i < first + count; ++i) {
-      const Plane& plane = surface_.planes[i];
+      const Plane plane = placed(surface_.planes[i]);
       add_row(plane.normal, plane.offset - glm::dot(plane.normal, center));
     }
   }
@@ -85,8 +109,13 @@ class Packer {
     return true;
   }
 
-  bool shows_none(std::span<const std::uint32_t> atoms) const {
-    return std::ranges::none_of(atoms, [&](std::uint32_t a) { return coloring_.shows(a); });
+  template <typename Row>
+  Row placed(const Row& row) const {
+    return motion_ ? moved(row, *motion_) : row;
+  }
+
+  bool shows_some(std::span<const std::uint32_t> atoms) const {
+    return std::ranges::any_of(atoms, [&](std::uint32_t a) { return coloring_.shows(a); });
   }
 
   std::uint32_t tie_key(const ConcavePatch& patch) const {
@@ -106,18 +135,22 @@ class Packer {
     return key;
   }
 
-  void pack(const ConvexPatch& patch, std::uint32_t index) {
-    if (!coloring_.shows(patch.atom)) return;
-    const Ball& ball = surface_.atoms[patch.atom];
+  PatchBound bound(const ConvexPatch& patch) const {
+    const Ball ball = placed(surface_.atoms[patch.atom]);
     PatchBound bound{ball.center, ball.radius};
     for (std::uint32_t i = patch.first_plane; i < patch.first_plane + patch.plane_count; ++i) {
-      const Plane& plane = surface_.planes[i];
+      const Plane plane = placed(surface_.planes[i]);
       const double cosine = (glm::dot(plane.normal, ball.center) - plane.offset) / ball.radius;
       const PatchBound cap = geometry::cap_bound(ball.center, ball.radius, -plane.normal, std::min(cosine, 1.0));
       if (cap.radius < bound.radius) bound = cap;
     }
+    return bound;
+  }
+
+  void pack(const ConvexPatch& patch, std::uint32_t index) {
     Primitive primitive{};
-    if (!begin(bound, PatchKind::convex, index, primitive)) return;
+    if (!begin(bound(patch), PatchKind::convex, index, primitive)) return;
+    const Ball ball = placed(surface_.atoms[patch.atom]);
     primitive.plane_count = patch.plane_count;
     primitive.atom = patch.atom;
     primitive.tie_key = first_atom_ + patch.atom;
@@ -126,21 +159,26 @@ class Packer {
     scene_.primitives.push_back(primitive);
   }
 
-  void pack(const ToroidalPatch& patch, std::uint32_t index) {
-    if (shows_none(patch.atom)) return;
-    const double p = surface_.probe_radius;
+  /// The patch stands where it is placed; likewise below.
+  geometry::SaddleShape shape(const ToroidalPatch& patch) const {
     const auto height = [&](int i) {
-      return glm::dot(surface_.atoms[patch.atom[i]].center - patch.center, patch.axis);
+      return glm::dot(placed(surface_.atoms[patch.atom[i]]).center - patch.center, patch.axis);
     };
-    const geometry::SaddleShape shape =
-        geometry::saddle_shape(height(0), height(1), surface_.atoms[patch.atom[0]].radius,
-                               surface_.atoms[patch.atom[1]].radius, patch.radius, p);
+    return geometry::saddle_shape(height(0), height(1), surface_.atoms[patch.atom[0]].radius,
+                                  surface_.atoms[patch.atom[1]].radius, patch.radius, surface_.probe_radius);
+  }
+
+  PatchBound bound(const ToroidalPatch& patch, const geometry::SaddleShape& shape) const {
+    return geometry::saddle_bound(shape, patch.center, patch.axis, patch.start, patch.radius,
+                                  {std::cos(0.5 * patch.sweep), std::sin(0.5 * patch.sweep)}, surface_.probe_radius);
+  }
+
+  void pack(const ToroidalPatch& patch, std::uint32_t index) {
+    const double p = surface_.probe_radius;
+    const geometry::SaddleShape shape = this->shape(patch);
     const double cosine = std::cos(patch.sweep), sine = std::sin(patch.sweep);
     Primitive primitive{};
-    if (!begin(geometry::saddle_bound(shape, patch.center, patch.axis, patch.start, patch.radius,
-                                      {std::cos(0.5 * patch.sweep), std::sin(0.5 * patch.sweep)}, p),
-               PatchKind::toroidal, index, primitive))
-      return;
+    if (!begin(bound(patch, shape), PatchKind::toroidal, index, primitive)) return;
     primitive.plane_count = patch.free()                      ? geometry::kWholeTurn
                             : patch.sweep <= std::numbers::pi ? geometry::kUpToHalfTurn
                                                               : geometry::kOverHalfTurn;
@@ -158,14 +196,14 @@ class Packer {
     scene_.primitives.push_back(primitive);
   }
 
-  void pack(const ConcavePatch& patch, std::uint32_t index) {
-    if (patch.face_count == 0 || shows_none({&surface_.contacts[patch.first_contact], patch.contact_count})) return;
+  /// Leaves the directions of its contacts in directions_.
+  PatchBound bound(const ConcavePatch& patch) {
     const double p = surface_.probe_radius;
     glm::dvec3 sum(0.0);
     directions_.clear();
     for (std::uint32_t i = 0; i < patch.contact_count; ++i) {
       directions_.push_back(
-          glm::normalize(surface_.atoms[surface_.contacts[patch.first_contact + i]].center - patch.center));
+          glm::normalize(placed(surface_.atoms[surface_.contacts[patch.first_contact + i]]).center - patch.center));
       sum += directions_.back();
     }
     // A cap of at most half a sphere is convex on the sphere: it holds the patch if it holds the contacts.
@@ -176,8 +214,13 @@ class Packer {
       for (const glm::dvec3& direction : directions_) cosine = std::min(cosine, glm::dot(direction, axis));
       bound = geometry::cap_bound(patch.center, p, axis, cosine);
     }
+    return bound;
+  }
+
+  void pack(const ConcavePatch& patch, std::uint32_t index) {
+    const double p = surface_.probe_radius;
     Primitive primitive{};
-    if (!begin(bound, PatchKind::concave, index, primitive)) return;
+    if (!begin(bound(patch), PatchKind::concave, index, primitive)) return;
     primitive.plane_count = patch.plane_count();
     primitive.atom = patch.contact_count;
     primitive.tie_key = tie_key(patch);
@@ -192,6 +235,7 @@ class Packer {
   const Surface& surface_;
   const Coloring& coloring_;
   const PictureFrame& frame_;
+  const RigidMotion* const motion_;
   const std::uint32_t first_atom_;
   RayCastScene& scene_;
   std::vector<glm::dvec3> directions_;  // of a probe's contacts; kept for its memory
@@ -214,23 +258,43 @@ void copy_part(const RayCastScene& part, const PartPlace& place, RayCastScene& s
 constexpr double kBoundRoom = 1e-6;  // Å, for the rounding of a bound and of what is compared with it
 
 template <typename Visit>
-void for_each_ball(const BallGroup& group, const Visit& visit) {
+void for_each_ball(const BallGroup& group, std::size_t first, std::size_t past, const Visit& visit) {
+  const std::span<const Ball> balls = group.balls.subspan(first, past - first);
   if (!group.motion)
-    for (const Ball& ball : group.balls) visit(ball);
+    for (const Ball& ball : balls) visit(ball);
   else
-    for (const Ball& ball : group.balls) visit(Ball{(*group.motion)(ball.center), ball.radius});
+    for (const Ball& ball : balls) visit(moved(ball, *group.motion));
+}
+
+/// The least and the largest of some numbers.
+struct Range {
+  double least = std::numeric_limits<double>::max(), largest = 0.0;
+};
+
+/// Calls note(ball, range) for each, of which the range comes to be that of all, in any order.
+template <typename Note>
+void note_balls(const BallGroup& group, Range& noted_so_far, const Note& note) {
+  noted_so_far = tbb::parallel_reduce(
+      tbb::blocked_range<std::size_t>(0, group.balls.size(), 8192), noted_so_far,
+      [&](const auto& range, Range noted) {
+        for_each_ball(group, range.begin(), range.end(), [&](const Ball& ball) { note(ball, noted); });
+        return noted;
+      },
+      [](const Range& a, const Range& b) {
+        return Range{std::min(a.least, b.least), std::max(a.largest, b.largest)};
+      });
 }
 
 float slack_of(std::span<const BallGroup> groups, double probe_radius, const PictureFrame& frame) {
-  double extent = 0.0;
+  Range extent;
   for (const BallGroup& group : groups) {
-    if (glm::length(group.center - frame.pivot) + group.radius + probe_radius + kBoundRoom < extent) continue;
-    for_each_ball(group, [&](const Ball& ball) {
-      extent = std::max(extent, glm::length(ball.center - frame.pivot) + ball.radius + probe_radius);
+    if (glm::length(group.center - frame.pivot) + group.radius + probe_radius + kBoundRoom < extent.largest) continue;
+    note_balls(group, extent, [&](const Ball& ball, Range& noted) {
+      noted.largest = std::max(noted.largest, glm::length(ball.center - frame.pivot) + ball.radius + probe_radius);
     });
   }
   // Centres are rounded to 2^-24 of the extent; rays to a little more. A local coordinate is a few Å.
-  return static_cast<float>(1e-5 + 2.5e-7 * extent);
+  return static_cast<float>(1e-5 + 2.5e-7 * extent.largest);
 }
 
 }  // namespace
@@ -246,26 +310,27 @@ PictureFrame make_picture_frame(std::span<const BallGroup> groups, const Camera&
   frame.basis = view_basis(camera);
   frame.size = size;
   // The pivot: the first ball on the view axis, else as deep as the balls are on average.
-  double first = std::numeric_limits<double>::max();
+  Range depths;
   for (const BallGroup& group : groups) {
     const glm::dvec3 from = group.center - camera.position;
     const double depth = glm::dot(from, frame.basis.forward);
     if (glm::length(from - frame.basis.forward * depth) > group.radius + kBoundRoom) continue;
-    if (depth - group.radius - kBoundRoom > first) continue;
-    for_each_ball(group, [&](const Ball& ball) {
+    if (depth - group.radius - kBoundRoom > depths.least) continue;
+    note_balls(group, depths, [&](const Ball& ball, Range& noted) {
       const glm::dvec3 v = ball.center - camera.position;
       const double along = glm::dot(v, frame.basis.forward);
       const glm::dvec3 across = v - frame.basis.forward * along;
       const double room = ball.radius * ball.radius - glm::dot(across, across);
-      if (room > 0.0 && along + std::sqrt(room) > 0.0) first = std::min(first, along - std::sqrt(room));
+      if (room > 0.0 && along + std::sqrt(room) > 0.0) noted.least = std::min(noted.least, along - std::sqrt(room));
     });
   }
+  double first = depths.least;
   if (first == std::numeric_limits<double>::max()) {
     first = 0.0;
     std::size_t count = 0;
     for (const BallGroup& group : groups) count += group.balls.size();
     for (const BallGroup& group : groups)
-      for_each_ball(group, [&](const Ball& ball) {
+      for_each_ball(group, 0, group.balls.size(), [&](const Ball& ball) {
         first += glm::dot(ball.center - camera.position, frame.basis.forward) / static_cast<double>(count);
       });
   }
@@ -291,19 +356,19 @@ ScenePlacement place_atoms(std::span<const BallGroup> groups, double probe_radiu
   ScenePlacement scene;
   scene.probe_radius = probe_radius;
   scene.slack = slack_of(groups, probe_radius, frame);
-  double first = std::numeric_limits<double>::max(), last = 0.0;
+  Range depths;
   for (const BallGroup& group : groups) {
     const double middle = glm::dot(group.center - frame.camera.position, frame.basis.forward);
     const double reach = group.radius + kBoundRoom;
-    if (middle - reach > first && middle + reach < last) continue;
-    for_each_ball(group, [&](const Ball& ball) {
+    if (middle - reach > depths.least && middle + reach < depths.largest) continue;
+    note_balls(group, depths, [&](const Ball& ball, Range& noted) {
       const double depth = glm::dot(ball.center - frame.camera.position, frame.basis.forward);
-      first = std::min(first, depth - ball.radius);
-      last = std::max(last, depth + ball.radius);
+      noted.least = std::min(noted.least, depth - ball.radius);
+      noted.largest = std::max(noted.largest, depth + ball.radius);
     });
   }
-  scene.first_depth = static_cast<float>(std::max(std::min(first, last), 0.0));
-  scene.last_depth = static_cast<float>(last);
+  scene.first_depth = static_cast<float>(std::max(std::min(depths.least, depths.largest), 0.0));
+  scene.last_depth = static_cast<float>(depths.largest);
   return scene;
 }
 
@@ -313,7 +378,7 @@ void pack_scene(const Surface& surface, const Coloring& coloring, const PictureF
   std::vector<RayCastScene> parts(ranges.size());
   tbb::parallel_for(std::size_t{0}, ranges.size(), [&](std::size_t n) {
     parts[n].slack = scene.slack;
-    Packer(surface, coloring, frame, 0, parts[n]).pack(ranges[n]);
+    Packer(surface, coloring, frame, parts[n]).pack(ranges[n]);
   });
   std::vector<PartPlace> places(parts.size() + 1);
   for (std::size_t n = 0; n < parts.size(); ++n)
@@ -330,12 +395,30 @@ RayCastScene pack_scene(const Surface& surface, const Coloring& coloring, const 
   return scene;
 }
 
-RayCastScene pack_part(const Surface& surface, const Coloring& coloring, const PictureFrame& frame, float slack,
-                       std::uint32_t first_atom) {
+std::vector<BoundedPatch> bounded_patches(const Surface& surface, const Coloring& coloring) {
+  const std::vector<PatchRange> ranges = ranges_of(surface);
+  std::vector<std::vector<BoundedPatch>> parts(ranges.size());
+  tbb::parallel_for(std::size_t{0}, ranges.size(), [&](std::size_t n) {
+    const PictureFrame frame{};  // of no picture: bounds do not depend on one
+    RayCastScene scene;
+    Packer packer(surface, coloring, frame, scene);
+    const PatchKind kind = ranges[n].kind;
+    for (std::uint32_t i = ranges[n].first; i < ranges[n].end; ++i) {
+      if (!packer.may_show(kind, i)) continue;
+      const PatchBound bound = packer.bound(kind, i);
+      parts[n].push_back({kind, i, bound.center, bound.radius});
+    }
+  });
+  std::vector<BoundedPatch> patches;
+  for (const std::vector<BoundedPatch>& part : parts) patches.insert(patches.end(), part.begin(), part.end());
+  return patches;
+}
+
+RayCastScene pack_patches(const PackedCopy& copy, std::span<const BoundedPatch> patches, const PictureFrame& frame) {
   RayCastScene scene;
-  scene.slack = slack;
-  Packer packer(surface, coloring, frame, first_atom, scene);
-  for (const PatchRange& range : ranges_of(surface)) packer.pack(range);
+  scene.slack = copy.slack;
+  Packer packer(copy.surface, copy.coloring, frame, scene, &copy.motion, copy.first_atom);
+  for (const BoundedPatch& patch : patches) packer.pack(patch.kind, patch.index);
   return scene;
 }
 

@@ -59,10 +59,29 @@ struct RayCastScene {
 void pack_scene(const Surface& surface, const Coloring& coloring, const PictureFrame& frame, RayCastScene& scene);
 RayCastScene pack_scene(const Surface& surface, const Coloring& coloring, const PictureFrame& frame);
 
-/// The same on one thread, for one of several surfaces of a picture. slack: of all of them; first_atom: its first
-/// atom's number among those of all. Only tie keys count from there, indices of atoms stay the surface's own.
-RayCastScene pack_part(const Surface& surface, const Coloring& coloring, const PictureFrame& frame, float slack,
-                       std::uint32_t first_atom);
+/// A patch that may show, and a ball around it.
+struct BoundedPatch {
+  PatchKind kind = PatchKind::convex;
+  std::uint32_t index = 0;
+  glm::dvec3 center{0.0};  ///< Å
+  double radius = 0.0;
+};
+
+/// Those that pack_scene() takes, by kind and index.
+std::vector<BoundedPatch> bounded_patches(const Surface& surface, const Coloring& coloring);
+
+/// A copy of a surface as one of several in a picture.
+struct PackedCopy {
+  const Surface& surface;
+  const Coloring& coloring;
+  const RigidMotion& motion;
+  float slack;               ///< of all of them
+  std::uint32_t first_atom;  ///< its first atom's number among those of all
+};
+
+/// Some of its patches, as pack_scene() packs the surface where it stands, on one thread. Only tie keys count from
+/// first_atom, indices of atoms stay the surface's own.
+RayCastScene pack_patches(const PackedCopy& copy, std::span<const BoundedPatch> patches, const PictureFrame& frame);
 
 /// Rows that a primitive has from its first one on.
 std::uint32_t row_count(const ray_cast::Primitive& primitive);

@@ -119,6 +119,7 @@ SurfaceObject part_of(const SurfaceObject& whole, const std::vector<bool>& keep,
   object.surface = std::move(part.surface);
   for (const std::uint32_t a : part.atom) object.atom.push_back(whole.atom[a]);
   object.copies = whole.copies;
+  object.whole = false;
   return object;
 }
 

@@ -28,7 +28,7 @@ void ViewPipeline::set_atoms(std::vector<Ball> atoms) {
   assert(!atoms.empty());
   trusted_ = trusted_ && atoms.size() == atoms_.size();
   atoms_ = std::move(atoms);
-  swallowed_ = swallowed_atoms(atoms_);
+  swallowed_ = swallowing_.of(atoms_);
   const BallExtent box = extent_of(atoms_);
   middle_ = 0.5 * (box.low + box.high);  // as GpuNeighbors places it
   extent_of_atoms_ = {box.low - middle_, box.high - middle_, box.largest_radius};
@@ -121,11 +121,10 @@ void ViewPipeline::upload_atoms(StageClock& clock) {
   all_probes_found_ = false;
   stats_ = {};
   stats_.atoms = atoms_.size();
-  std::vector<double> radii(atoms_.size());
-  std::ranges::transform(atoms_, radii.begin(), &Ball::radius);
-  if (radii != uploaded_radii_) {  // atoms move more often than they change
-    radii_.upload(radii);
-    uploaded_radii_ = std::move(radii);
+  if (!std::ranges::equal(atoms_, uploaded_radii_, {}, &Ball::radius)) {  // atoms move more often than they change
+    uploaded_radii_.resize(atoms_.size());
+    std::ranges::transform(atoms_, uploaded_radii_.begin(), &Ball::radius);
+    radii_.upload(uploaded_radii_);
   }
   arcs_.upload(atoms_, swallowed_, probe_radius_);
   uploaded_ = true;

@@ -21,6 +21,7 @@
 #include "core/render/ray_cast_scene.h"
 #include "core/reduced_surface/gpu/gpu_arcs.h"
 #include "core/reduced_surface/gpu/gpu_neighbors.h"
+#include "core/reduced_surface/reduced_surface.h"
 #include "core/surface/primitives.h"
 #include "core/visible_surface/extent.h"
 #include "core/visible_surface/paper_selection.h"
@@ -103,6 +104,7 @@ class ViewPipeline final : public Drawable {
 
   // The frame at work.
   std::vector<Ball> atoms_;
+  SwallowedAtoms swallowing_;
   std::vector<bool> swallowed_;
   glm::dvec3 middle_{0.0};
   BallExtent extent_of_atoms_;  // around their middle; radii without the probe

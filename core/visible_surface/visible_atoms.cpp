@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include <glm/geometric.hpp>
+#include <tbb/parallel_reduce.h>
 
 #include "core/gpu/kernel_records.h"
 #include "core/reduced_surface/gpu/gpu_neighbors.h"
@@ -38,8 +39,14 @@ void VisibleAtoms::look(std::span<const Ball> atoms, const glm::dvec3& middle, d
                         const PictureFrame& frame, bool keep_all) {
   probe_radius_ = static_cast<float>(probe_radius);
   const glm::dvec3 eye = frame.camera.position - middle;
-  double farthest = glm::length(eye);
-  for (const Ball& ball : atoms) farthest = std::max(farthest, glm::distance(ball.center, frame.camera.position));
+  const double farthest = tbb::parallel_reduce(
+      tbb::blocked_range<std::size_t>(0, atoms.size(), 8192), glm::length(eye),
+      [&](const auto& range, double so_far) {
+        for (std::size_t n = range.begin(); n != range.end(); ++n)
+          so_far = std::max(so_far, glm::distance(atoms[n].center, frame.camera.position));
+        return so_far;
+      },
+      [](double a, double b) { return std::max(a, b); });
   tiles_ = (frame.size + (kTileEdge - 1)) / kTileEdge;
   const bool orthographic = frame.camera.projection == Projection::orthographic;
   view_ = {.eye = glm::vec3(eye),

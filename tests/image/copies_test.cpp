@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Pictures of copies that are never in memory all at once are those of the merged surface, bit for bit.
+#include <algorithm>
 #include <random>
 #include <string>
 #include <vector>
@@ -7,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "core/queries/combine.h"
+#include "core/queries/part.h"
 #include "core/render/cpu/cpu_renderer.h"
 #include "core/render/cpu/visible_copies.h"
 #include "core/surface/surface.h"
@@ -70,6 +72,30 @@ TEST(Copies, LookLikeTheMergedSurface) {
   const glm::dvec3 inside(51.0, 36.0, 34.0);
   expect_same_bits(objects, {inside, inside + glm::dvec3(1.0, 0.3, 0.2), {0, 1, 0}, Projection::perspective, 80.0, 1.0},
                    settings, "from inside");
+  expect_same_bits(objects,
+                   {inside, inside + glm::dvec3(1.0, 0.3, 0.2), {0, 1, 0}, Projection::orthographic, 0.0, 60.0},
+                   settings, "on a plane among them");
+  const glm::dvec3 atom = objects[0].copies[7](objects[0].surface.atoms[100].center);
+  expect_same_bits(objects, {atom, atom + glm::dvec3(-0.2, 1.0, 0.4), {0, 0, 1}, Projection::perspective, 70.0, 1.0},
+                   settings, "from within an atom");
+}
+
+// An atom at a cavity has no surface around it when the cavity is all that is drawn.
+TEST(Copies, AtomsOfPartsHideNothing) {
+  std::vector<SurfaceObject> objects{object_of(testing::c60())};
+  const SurfaceObject whole = objects[0];
+  std::vector<bool> cavities;
+  for (const Component& component : whole.surface.components)
+    cavities.push_back(component.kind == ComponentKind::cavity);
+  ASSERT_EQ(std::ranges::count(cavities, true), 1);
+  SurfacePart part = part_of(whole.surface, cavities);
+  objects[0].surface = std::move(part.surface);
+  objects[0].coloring.atom.resize(part.atom.size());
+  objects[0].whole = false;
+  objects[0].copies = lattice({4, 3, 3}, 16.0);
+  RenderSettings settings;
+  settings.samples = 3;
+  expect_same_bits(objects, framed(objects, Projection::perspective), settings, "cavities");
 }
 
 TEST(Copies, KeepPartsKindsAndHiddenAtomsApart) {

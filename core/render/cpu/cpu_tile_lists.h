@@ -19,7 +19,8 @@ namespace meniscus {
 class TileFootprints {
  public:
   TileFootprints(const PictureFrame& frame, const PictureBlock& block)
-      : params_(tile_list_parameters(frame, block, 0)) {}
+      : TileFootprints(tile_list_parameters(frame, block, 0)) {}
+  explicit TileFootprints(const kernel::TileListParameters& params) : params_(params) {}
 
   /// bound: Primitive::bound.
   glm::ivec4 of(const glm::vec4& bound) const;

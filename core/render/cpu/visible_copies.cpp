@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Moves, packs, casts and sieves copies, batch after batch.
+// Looks at clusters of patches, then at patches, of one copy after another.
 #include "core/render/cpu/visible_copies.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <iterator>
@@ -13,9 +14,10 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_sort.h>
 
 #include "core/math/box.h"
-#include "core/queries/combine.h"
+#include "core/queries/moved.h"
 #include "core/render/component_lookup.h"
 #include "core/render/ray_geometry.h"
 
@@ -24,7 +26,9 @@ namespace {
 
 using ray_cast::Primitive;
 
-constexpr float kNothingMet = std::numeric_limits<float>::infinity();
+constexpr double kNothingMet = std::numeric_limits<double>::infinity();
+constexpr double kClusterEdge = 8.0;  // Å
+constexpr double kRoom = 1e-6;        // Å, for the rounding of what is moved
 
 /// A ball around all of a surface: no patch is farther from the atoms than a probe's diameter.
 geometry::PatchBound bound_of(const Surface& surface) {
@@ -83,7 +87,12 @@ std::vector<BallGroup> ball_groups(std::span<const SurfaceObject> objects) {
 
 VisibleCopies::VisibleCopies(std::span<const SurfaceObject> objects, const PictureFrame& frame,
                              const ScenePlacement& placement, const LaneKernels& kernels, std::size_t patches_together)
-    : objects_(objects), frame_(frame), placement_(placement), kernels_(kernels), patches_together_(patches_together) {
+    : objects_(objects),
+      frame_(frame),
+      placement_(placement),
+      kernels_(kernels),
+      patches_together_(patches_together),
+      depths_(frame) {
   Copy next;
   for (std::uint32_t n = 0; n < objects.size(); ++n) add_copies(n, next);
   std::ranges::stable_sort(copies_, {}, &Copy::nearest);
@@ -95,15 +104,12 @@ void VisibleCopies::add_copies(std::uint32_t object, Copy& next) {
   const Coloring& coloring = objects_[object].coloring;
   colors_.push_back(linear_colors(coloring));
   some_hidden_ = some_hidden_ || coloring.hides_some();
-  const geometry::PatchBound own = bound_of(surface);
+  homes_.push_back(home_of(objects_[object]));
   const std::uint32_t part_count = coloring.part.empty() ? 0 : *std::ranges::max_element(coloring.part) + 1;
   for (std::uint32_t n = 0; n < objects_[object].copies.size(); ++n) {
-    const geometry::PatchBound bound{objects_[object].copies[n](own.center), own.radius};
-    const geometry::SeenBound seen =
-        geometry::see_bound(bound, placement_.slack, frame_.pivot, frame_.camera.position, frame_.basis.forward,
-                            frame_.eye_distance, frame_.camera.projection == Projection::orthographic);
     next.object = object;
     next.copy = n;
+    const geometry::SeenBound seen = see(next, homes_.back().bound);
     next.bound = glm::vec4(glm::vec3(seen.center), static_cast<float>(seen.radius));
     next.nearest = static_cast<float>(seen.nearest);
     if (seen.in_front) copies_.push_back(next);
@@ -118,14 +124,68 @@ std::size_t VisibleCopies::patch_count(const Copy& copy) const {
   return surface.convex.size() + surface.toroidal.size() + surface.concave.size();
 }
 
-/// True, too, where no tile is touched.
-bool VisibleCopies::is_hidden(const glm::vec4& bound, float nearest) const {
-  const glm::ivec4 tiles = TileFootprints(frame_, block_).of(bound);
-  const int columns = tile_counts(block_).x;
-  for (int y = tiles.z; y < tiles.w; ++y)
-    for (int x = tiles.x; x < tiles.y; ++x)
-      if (!(nearest > depths_[static_cast<std::size_t>(y) * columns + x])) return false;
-  return true;
+VisibleCopies::Home VisibleCopies::home_of(const SurfaceObject& object) {
+  Home home;
+  home.bound = bound_of(object.surface);
+  home.opaque = object.whole && !object.coloring.hides_some();
+  home.patches = bounded_patches(object.surface, object.coloring);
+  const auto cell = [](const BoundedPatch& patch) {
+    const glm::ivec3 place(glm::floor(patch.center / kClusterEdge));
+    return std::array{place.z, place.y, place.x};
+  };
+  std::vector<std::pair<std::array<int, 3>, std::size_t>> order(home.patches.size());
+  for (std::size_t n = 0; n < order.size(); ++n) order[n] = {cell(home.patches[n]), n};
+  tbb::parallel_sort(order.begin(), order.end());
+  std::vector<BoundedPatch> sorted;
+  sorted.reserve(order.size());
+  for (std::size_t first = 0, past = 0; first < order.size(); first = past) {
+    Box box;
+    for (past = first; past < order.size() && order[past].first == order[first].first; ++past) {
+      sorted.push_back(home.patches[order[past].second]);
+      box.include(sorted.back().center);
+    }
+    Cluster cluster{first, past - first, {0.5 * (box.low + box.high), 0.0}};
+    for (std::size_t n = first; n < past; ++n)
+      cluster.bound.radius =
+          std::max(cluster.bound.radius, glm::length(sorted[n].center - cluster.bound.center) + sorted[n].radius);
+    home.clusters.push_back(cluster);
+  }
+  home.patches = std::move(sorted);
+  return home;
+}
+
+geometry::SeenBound VisibleCopies::see(const Copy& copy, const geometry::PatchBound& at_home) const {
+  const RigidMotion& motion = objects_[copy.object].copies[copy.copy];
+  return geometry::see_bound({motion(at_home.center), at_home.radius + kRoom}, placement_.slack, frame_.pivot,
+                             frame_.camera.position, frame_.basis.forward, frame_.eye_distance,
+                             frame_.camera.projection == Projection::orthographic);
+}
+
+bool VisibleCopies::may_show(const geometry::SeenBound& seen) const {
+  return seen.in_front && depths_.may_show(glm::vec4(glm::vec3(seen.center), static_cast<float>(seen.radius)),
+                                           static_cast<float>(seen.nearest));
+}
+
+/// From within a solid its surface is seen behind its atoms.
+bool VisibleCopies::hides_others(const Copy& copy) const {
+  return homes_[copy.object].opaque && copy.nearest > 0.0f && depths_.may_show(copy.bound, copy.nearest);
+}
+
+void VisibleCopies::draw_atoms(const std::function<bool()>& stop) {
+  constexpr std::size_t kTogether = 64;
+  for (std::size_t first = 0; first < copies_.size(); first += kTogether) {
+    if (stop && stop()) return;
+    std::vector<const Copy*> drawn;
+    for (std::size_t n = first; n < std::min(first + kTogether, copies_.size()); ++n)
+      if (hides_others(copies_[n])) drawn.push_back(&copies_[n]);
+    if (drawn.empty()) continue;
+    tbb::parallel_for(std::size_t{0}, drawn.size(), [&](std::size_t n) {
+      const SurfaceObject& object = objects_[drawn[n]->object];
+      const RigidMotion& motion = object.copies[drawn[n]->copy];
+      for (const Ball& ball : object.surface.atoms) depths_.add_ball(meniscus::moved(ball, motion));
+    });
+    depths_.gather();
+  }
 }
 
 std::vector<const VisibleCopies::Copy*> VisibleCopies::next_batch(std::size_t& next) const {
@@ -133,7 +193,7 @@ std::vector<const VisibleCopies::Copy*> VisibleCopies::next_batch(std::size_t& n
   std::size_t patches = 0;
   for (; next < copies_.size(); ++next) {
     const Copy& copy = copies_[next];
-    if (is_hidden(copy.bound, copy.nearest)) continue;
+    if (!depths_.may_show(copy.bound, copy.nearest)) continue;
     patches += patch_count(copy);
     if (!batch.empty() && patches > patches_together_) break;
     batch.push_back(&copy);
@@ -143,12 +203,15 @@ std::vector<const VisibleCopies::Copy*> VisibleCopies::next_batch(std::size_t& n
 
 RayCastScene VisibleCopies::seen_part(const Copy& copy) const {
   const SurfaceObject& object = objects_[copy.object];
-  const RayCastScene all = pack_part(moved_patches(object.surface, object.copies[copy.copy]), object.coloring, frame_,
-                                     placement_.slack, copy.first_atom);
-  RayCastScene seen;
-  append_kept(
-      all, [&](std::size_t n) { return !is_hidden(all.primitives[n].bound, all.primitives[n].nearest); }, seen);
-  return seen;
+  const Home& home = homes_[copy.object];
+  std::vector<BoundedPatch> seen;
+  for (const Cluster& cluster : home.clusters) {
+    if (!may_show(see(copy, cluster.bound))) continue;
+    for (const BoundedPatch& patch : std::span(home.patches).subspan(cluster.first, cluster.count))
+      if (may_show(see(copy, {patch.center, patch.radius}))) seen.push_back(patch);
+  }
+  return pack_patches({object.surface, object.coloring, object.copies[copy.copy], placement_.slack, copy.first_atom},
+                      seen, frame_);
 }
 
 void VisibleCopies::add(const Copy& copy, RayCastScene part, HostScene& scene) {
@@ -172,13 +235,14 @@ void VisibleCopies::find(const PictureBlock& block, int samples, const Look& loo
   moved_ = 0;
   places_.clear();
   placed_.clear();
-  const glm::ivec2 tiles = tile_counts(block);
-  depths_.assign(static_cast<std::size_t>(tiles.x) * tiles.y, kNothingMet);
+  depths_.begin(block, samples);
   hits_.resize(static_cast<std::size_t>(block.size.x) * block.size.y);
   scene = {};
   scene.placement = placement_;
   scene.packed.slack = placement_.slack;
   const bool by_kind = !objects_.empty() && objects_.front().coloring.kind;
+  draw_atoms(stop);
+  std::size_t first_new = 0;
   for (std::size_t next = 0; next < copies_.size();) {
     const std::vector<const Copy*> batch = next_batch(next);
     std::vector<RayCastScene> parts(batch.size());
@@ -186,13 +250,13 @@ void VisibleCopies::find(const PictureBlock& block, int samples, const Look& loo
       if (!stop || !stop()) parts[n] = seen_part(*batch[n]);
     });
     if (stop && stop()) return;
-    const std::size_t first_new = scene.packed.primitives.size();
     for (std::size_t n = 0; n < batch.size(); ++n) add(*batch[n], std::exchange(parts[n], {}), scene);
     moved_ += batch.size();
-    if (scene.packed.primitives.size() == first_new) continue;
+    if (scene.packed.primitives.size() - first_new <= patches_together_ / 8) continue;
     scene.connect(look, by_kind, some_hidden_);
     scene.lanes.view = block_view(frame_, block, glm::vec2(0.0f));
     cast_from(first_new, samples, scene);
+    first_new = scene.packed.primitives.size();
   }
   scene.connect(look, by_kind, some_hidden_);
 }
@@ -214,7 +278,8 @@ HitNames VisibleCopies::names_of(const ray_cast::Hit& hit, const ray_cast::Primi
 void VisibleCopies::cast_from(std::size_t first_new, int samples, HostScene& scene) {
   lists_.build(scene.packed.primitives, frame_, block_);
   shown_ = std::vector<std::atomic<std::uint8_t>>(scene.packed.primitives.size());
-  tbb::parallel_for(std::size_t{0}, depths_.size(), [&](std::size_t tile) {
+  const glm::ivec2 tiles = tile_counts(block_);
+  tbb::parallel_for(std::size_t{0}, static_cast<std::size_t>(tiles.x) * tiles.y, [&](std::size_t tile) {
     const std::span<const std::uint32_t> entries = lists_.entries(tile);
     if (std::ranges::any_of(entries, [&](std::uint32_t entry) { return entry >= first_new; })) {
       cast_tile(tile, samples, scene);
@@ -222,6 +287,7 @@ void VisibleCopies::cast_from(std::size_t first_new, int samples, HostScene& sce
       for (const std::uint32_t entry : entries) shown_[entry].store(1, std::memory_order_relaxed);
     }
   });
+  depths_.gather();
   RayCastScene kept;
   kept.slack = scene.packed.slack;
   append_kept(
@@ -235,25 +301,30 @@ void VisibleCopies::cast_tile(std::size_t tile, int samples, const HostScene& sc
   task.origin = kTileEdge * glm::ivec2(number % lists_.tiles().x, number / lists_.tiles().x);
   task.list = sorted_.local().sort(lists_.entries(tile), scene.packed.primitives);
   task.hits = hits_.data();
-  float farthest = 0.0f;
+  std::array<double, kTileEdge * kTileEdge> farthest{};
   for (int n = 0; n < samples; ++n) {
     task.offset[0] = sample_offset(n);
     kernels_.cast_tile(scene.lanes, task);
-    farthest = std::max(farthest, farthest_of(task, scene.lanes.view));
+    note_hits(task, scene.lanes.view, farthest);
   }
-  depths_[tile] = farthest;
+  for (int y = 0; y < kTileEdge; ++y)
+    for (int x = 0; x < kTileEdge; ++x) {
+      const glm::ivec2 pixel = task.origin + glm::ivec2(x, y);
+      if (pixel.x < block_.size.x && pixel.y < block_.size.y) depths_.limit(pixel, farthest[y * kTileEdge + x]);
+    }
 }
 
-/// How far from the camera (orthographic: from its plane) the rays of one sample end, rounded up; marks what they show.
-float VisibleCopies::farthest_of(const LaneTile& tile, const kernel::BlockView& view) {
+/// How far from the camera (orthographic: from its plane) the rays of one sample end, more than rounding makes of it;
+/// marks what they show.
+void VisibleCopies::note_hits(const LaneTile& tile, const kernel::BlockView& view, std::span<double> farthest) {
   constexpr double kRounding = 1e-5;  // more than rays and bounds have in single precision
-  double farthest = 0.0;
   const glm::ivec2 end = glm::min(tile.origin + kTileEdge, view.size);
   for (int y = tile.origin.y; y < end.y; ++y) {
     for (int x = tile.origin.x; x < end.x; ++x) {
       const ray_cast::Hit& hit = hits_[static_cast<std::size_t>(y) * view.size.x + x];
+      double& known = farthest[static_cast<std::size_t>(y - tile.origin.y) * kTileEdge + (x - tile.origin.x)];
       if (hit.primitive == ray_cast::kNoPrimitive) {
-        farthest = kNothingMet;
+        known = kNothingMet;
         continue;
       }
       shown_[hit.primitive].store(1, std::memory_order_relaxed);
@@ -261,10 +332,9 @@ float VisibleCopies::farthest_of(const LaneTile& tile, const kernel::BlockView& 
       const double to_plane = view.orthographic != 0u
                                   ? frame_.eye_distance
                                   : std::sqrt(frame_.eye_distance * frame_.eye_distance + glm::dot(aside, aside));
-      farthest = std::max(farthest, to_plane + hit.t + kRounding * (to_plane + std::abs(hit.t)));
+      known = std::max(known, to_plane + hit.t + kRounding * (to_plane + std::abs(hit.t)));
     }
   }
-  return static_cast<float>(farthest);
 }
 
 }  // namespace meniscus

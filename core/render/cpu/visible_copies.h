@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a block of a picture shows of many copies of surfaces, found without ever having all of them in memory.
 //
-// Copies are moved and packed from front to back, some at a time, and cast against what is there already. Whatever no
-// ray shows is dropped again, and copies that begin behind all that the rays of their tiles have met are never moved.
-// A picture does not depend on primitives that it does not show, so it is that of all copies, to the bit.
+// First the atoms are drawn, as balls that no ray goes through. Then patches that may show in front of them are moved
+// and packed, copy after copy from front to back; when there are many they are cast, and whatever no ray shows is
+// dropped again. A picture does not depend on primitives that it does not show, so it is that of all copies, to the
+// bit.
 #pragma once
 
 #include <atomic>
@@ -16,9 +17,11 @@
 #include <glm/vec4.hpp>
 #include <tbb/enumerable_thread_specific.h>
 
+#include "core/math/geometry.h"
 #include "core/queries/surface_object.h"
 #include "core/render/cpu/cpu_tile_lists.h"
 #include "core/render/cpu/host_scene.h"
+#include "core/render/cpu/ray_depths.h"
 #include "core/render/picture_collector.h"
 
 namespace meniscus {
@@ -38,7 +41,8 @@ std::size_t place_of(std::span<const CopyPlace> places, std::uint32_t atom);
 
 class VisibleCopies {
  public:
-  /// Patches that are packed before they are cast, unless one copy has more.
+  /// Patches of the copies that are looked at together, unless one has more. An eighth of that is packed before it is
+  /// cast.
   static constexpr std::size_t kPatchesTogether = std::size_t{1} << 21;
 
   /// objects: of one probe radius, all coloured by kind, alike, or none; they and the kernels must live as long.
@@ -57,7 +61,7 @@ class VisibleCopies {
   /// The copies in that scene, in its order.
   const std::vector<CopyPlace>& places() const { return places_; }
 
-  /// Copies that the last find() moved.
+  /// Copies that the last find() looked at patch by patch.
   std::size_t moved() const { return moved_; }
 
  private:
@@ -69,15 +73,33 @@ class VisibleCopies {
     float nearest = 0.0f;   // as Primitive::nearest
   };
 
+  /// Patches that stand together, and a ball around them at home.
+  struct Cluster {
+    std::size_t first = 0, count = 0;  // of Home::patches
+    geometry::PatchBound bound{};
+  };
+
+  /// What all copies of an object have in common.
+  struct Home {
+    geometry::PatchBound bound{};
+    std::vector<BoundedPatch> patches;  // cluster by cluster
+    std::vector<Cluster> clusters;
+    bool opaque = false;  // and whole: what is in an atom's ball is behind the surface
+  };
+
+  static Home home_of(const SurfaceObject& object);
+  geometry::SeenBound see(const Copy& copy, const geometry::PatchBound& at_home) const;
+  bool may_show(const geometry::SeenBound& seen) const;
+  bool hides_others(const Copy& copy) const;
+  void draw_atoms(const std::function<bool()>& stop);
   void add_copies(std::uint32_t object, Copy& next);
   std::size_t patch_count(const Copy& copy) const;
-  bool is_hidden(const glm::vec4& bound, float nearest) const;
   std::vector<const Copy*> next_batch(std::size_t& next) const;
   RayCastScene seen_part(const Copy& copy) const;
   void add(const Copy& copy, RayCastScene part, HostScene& scene);
   void cast_from(std::size_t first_new, int samples, HostScene& scene);
   void cast_tile(std::size_t tile, int samples, const HostScene& scene);
-  float farthest_of(const LaneTile& tile, const kernel::BlockView& view);
+  void note_hits(const LaneTile& tile, const kernel::BlockView& view, std::span<double> farthest);
 
   std::span<const SurfaceObject> objects_;
   const PictureFrame& frame_;
@@ -85,6 +107,7 @@ class VisibleCopies {
   const LaneKernels& kernels_;
   const std::size_t patches_together_;
   std::vector<std::vector<glm::vec4>> colors_;  // of objects
+  std::vector<Home> homes_;                     // likewise
   std::vector<Copy> copies_;                    // from front to back
   bool some_hidden_ = false;
   std::size_t moved_ = 0;
@@ -93,8 +116,8 @@ class VisibleCopies {
   PictureBlock block_;
   CpuTileLists lists_;
   tbb::enumerable_thread_specific<SortedList> sorted_;
-  std::vector<ray_cast::Hit> hits_;               // of one sample
-  std::vector<float> depths_;                     // of tiles: no ray of them sees farther, Å from the camera
+  std::vector<ray_cast::Hit> hits_;  // of one sample
+  RayDepths depths_;
   std::vector<std::atomic<std::uint8_t>> shown_;  // primitives that stay
   std::vector<CopyPlace> places_;                 // of the scene
   std::vector<const Copy*> placed_;               // likewise
