@@ -1,24 +1,29 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `meniscus preview`: look at the surface while it changes.
+#include <algorithm>
 #include <charconv>
 #include <csignal>
 #include <filesystem>
 #include <iostream>
+#include <iterator>
 #include <memory>
 #include <optional>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include <unistd.h>
 
 #include <fmt/format.h>
 
 #include "app/commands/commands.h"
-#include "app/options/scene_file.h"
+#include "app/options/annotation_options.h"
+#include "app/options/figure_options.h"
 #include "app/options/frame_options.h"
-#include "app/options/picture_options.h"
 #include "app/options/look_options.h"
-#include "core/scene/molecule.h"
 #include "app/options/picture_options.h"
+#include "app/options/scene_file.h"
+#include "core/scene/molecule.h"
 #include "app/preview/command_log.h"
 #include "app/preview/server/serve.h"
 #include "app/preview/session.h"
@@ -26,7 +31,6 @@
 #include "app/process/program_error.h"
 #include "core/scene/frame_run.h"
 #include "core/scene/copied_atoms.h"
-#include "core/scene/hidden_atoms.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "app/reports/notes.h"
@@ -43,7 +47,10 @@ struct PreviewCommand {
   MoleculeOptions molecule;
   FrameOptions frames;
   ViewRequest picture;
+  FigureRequest figure;
+  LegendRequest legend;
   LookRequest look{.preset = LookPreset::classic};
+  RenderInput input;
   std::optional<std::uint16_t> port;  ///< of --serve
   std::string record, commands, output_folder = ".";
   bool force = false;
@@ -63,6 +70,37 @@ std::string host_name() {
   char name[256] = {};
   return ::gethostname(name, sizeof name - 1) == 0 && name[0] ? escaped(name) : "HOST";
 }
+
+/// The molecule again, at a frame, with the atoms that representations show. Files are read anew when these change.
+class ShownReader {
+ public:
+  ShownReader(const PreviewCommand& command, bool models) : molecule_(command.molecule), frames_(command.frames) {
+    if (!frames_.asked()) models_ = models;
+  }
+
+  Structure operator()(const Representations& representations, std::size_t frame) {
+    if (molecule_.file == "-")
+      throw RequestError(
+          "a molecule from standard input cannot be read again; give FILE to draw atoms beside a surface");
+    MoleculeOptions wanted = molecule_;
+    representations.ask_for(wanted.reading);
+    if (!frames_.asked()) {
+      if (models_) {
+        wanted.reading.model = {};
+        wanted.reading.model.number = static_cast<int>(frame) + 1;
+      }
+      return read_molecule(wanted);
+    }
+    if (wanted.reading.model.all) wanted.reading.model = {};
+    FrameRun run(wanted, frames_);
+    return run.at(run.chunk()[frame]);
+  }
+
+ private:
+  MoleculeOptions molecule_;
+  FrameOptions frames_;
+  bool models_ = false;
+};
 
 /// A molecule, where its atoms stand at the frames of a trajectory, if there is one, and the camera of a file, if one
 /// is named.
@@ -89,6 +127,15 @@ Shown read_run(PreviewCommand& command) {
           {}};
 }
 
+/// As render aims it: what stands beside the surface counts.
+Camera aimed_camera(const PreviewCommand& command, const std::optional<Camera>& given, const Structure& structure) {
+  const auto aimed = [&](const Structure& at) {
+    return ViewAim(command.picture, command.molecule.show, at).camera(command.picture, given, balls_of(at));
+  };
+  if (command.figure.representations.empty()) return aimed(structure);
+  return aimed(ShownReader(command, command.molecule.reading.model.all)(command.figure.representations, 0));
+}
+
 Shown read_inputs(PreviewCommand& command) {
   if (!std::filesystem::is_directory(command.output_folder))
     throw OutputError(command.output_folder, "--output-dir is no folder");
@@ -97,8 +144,7 @@ Shown read_inputs(PreviewCommand& command) {
   shown.camera = camera;
   const ViewRequest& picture = command.picture;
   if (picture.direction || picture.zoom_to || !picture.turns.empty())
-    shown.camera =
-        ViewAim(picture, command.molecule.show, shown.structure).camera(picture, camera, balls_of(shown.structure));
+    shown.camera = aimed_camera(command, camera, shown.structure);
   if (command.molecule.color.by == ColorScheme::By::volume)
     throw UsageError("--color-map-file is for render and export ply; leave it out");
   command.molecule.color = color_of(command.molecule);
@@ -125,15 +171,21 @@ std::unique_ptr<ViewRenderer> make_renderer(const PreviewCommand& command, const
 std::unique_ptr<PreviewSession> begin_session(const PreviewCommand& command, bool on_gl, Shown shown) {
   PreviewView view;
   view.color = command.molecule.color;
-  if (command.molecule.show) view.hidden = hidden_atoms(*command.molecule.show, shown.structure);
+  view.show = command.molecule.show;
   view.probe_radius = command.molecule.surface.probe_radius;
   view.copies_apart = command.molecule.division.instances == InstanceMode::exact;
-  view.look = look_of(command.look, command.picture.size(), {});
+  view.figure = command.figure;
+  view.look = command.look;
+  view.legend = command.legend.within;
+  view.legend_style = command.legend.style;
   view.size = {command.picture.width, command.picture.height};
   view.camera.projection = command.picture.projection;
+  SessionContext context;
+  context.input = command.input;
+  context.read_shown = ShownReader(command, command.molecule.reading.model.all);
   std::unique_ptr<ViewRenderer> renderer = make_renderer(command, shown.structure, on_gl);
   auto session = std::make_unique<PreviewSession>(std::move(renderer), std::move(shown.structure), view, shown.camera,
-                                                  command.output_folder, std::move(shown.trajectory));
+                                                  command.output_folder, std::move(shown.trajectory), context);
   if (!command.record.empty()) {
     auto log = std::make_shared<CommandLog>(command.record, command.force ? Existing::replace : Existing::refuse);
     session->record([log](const nlohmann::json& line) { log->write(line); });
@@ -208,6 +260,87 @@ void open_window(PreviewCommand& command) {
 
 void run(PreviewCommand& command) { command.port ? serve(command) : open_window(command); }
 
+/// Options that the preview changes while it runs, or that render has not.
+constexpr std::string_view kOwnOptions[] = {"--help",
+                                            "--camera",
+                                            "--projection",
+                                            "--view",
+                                            "--turn",
+                                            "--zoom-to",
+                                            "--size",
+                                            "--width",
+                                            "--height",
+                                            "--dpi",
+                                            "--probe",
+                                            "--show",
+                                            "--color",
+                                            "--map",
+                                            "--map-file",
+                                            "--color-range",
+                                            "--missing-color",
+                                            "--color-by-file",
+                                            "--color-column",
+                                            "--sticks",
+                                            "--balls",
+                                            "--spheres",
+                                            "--tube",
+                                            "--stick-radius",
+                                            "--tube-radius",
+                                            "--opacity",
+                                            "--film-opacity",
+                                            "--clip",
+                                            "--cap-color",
+                                            "--cap-hatching",
+                                            "--preset",
+                                            "--light",
+                                            "--light-strength",
+                                            "--ambient",
+                                            "--roughness",
+                                            "--specular",
+                                            "--shininess",
+                                            "--ambient-occlusion",
+                                            "--ambient-occlusion-radius",
+                                            "--silhouettes",
+                                            "--outer-lines",
+                                            "--inner-lines",
+                                            "--part-lines",
+                                            "--depth-cue",
+                                            "--legend",
+                                            "--legend-title",
+                                            "--legend-size",
+                                            "--legend-place",
+                                            "--serve",
+                                            "--commands",
+                                            "--record",
+                                            "--output-dir",
+                                            "--force"};
+
+/// As they were said.
+void add_words(const CLI::Option& option, std::vector<std::string>& words) {
+  if (option.empty()) return;
+  const std::string name = option.get_positional() ? "" : option.get_name();
+  if (option.get_expected_max() == 0) return words.push_back(name);
+  for (const std::string& value : option.results()) {
+    if (name.empty() || value.starts_with('-')) {
+      words.push_back(name.empty() ? value : name + "=" + value);
+      continue;
+    }
+    words.push_back(name);
+    words.push_back(value);
+  }
+}
+
+RenderInput render_input(const CLI::App& command) {
+  RenderInput input;
+  for (const CLI::Option* option : command.get_options()) {
+    const std::string name = option->get_positional() ? "" : option->get_name();
+    if (name == "--color-by-file" || name == "--color-column") add_words(*option, input.number_words);
+    if (name == "--map-file") add_words(*option, input.map_words);
+    if (std::ranges::find(kOwnOptions, name) == std::end(kOwnOptions)) add_words(*option, input.words);
+  }
+  return input;
+}
+
 void add_session_options(CLI::App& command, PreviewCommand& state) {
   command
       .add_option_function<std::string>(
@@ -230,6 +363,7 @@ void add_preview(CLI::App& command) {
            "  meniscus preview 1tii.pdb                           a window; h shows its keys\n"
            "  meniscus preview 1tii.pdb --serve                   prints an address to open in a browser\n"
            "  meniscus preview 1tii.pdb --serve 8080 --color chain\n"
+           "  meniscus preview 1tii.pdb --color chain --tube polymer --opacity 0.3 --preset publication\n"
            "  meniscus preview 1tii.pdb --record session.jsonl    what is done, for --commands\n"
            "  meniscus preview adk.psf --trajectory adk.dcd --superpose 'name CA'   blank plays it",
            "Each model of FILE is a frame, or each frame of --trajectory. A window needs a display with OpenGL 4.5 "
@@ -246,14 +380,21 @@ void add_preview(CLI::App& command) {
     add_device_option(command, state->molecule.surface);
   }
   add_color_options(command, state->molecule);
+  add_figure_options(command, state->molecule, state->figure);
+  for (const char* option : {"--object", "--hide-surface"}) command.remove_option(command.get_option(option));
   add_frame_options(command, state->frames);
   for (const char* option : {"--only", "--progress"}) command.remove_option(command.get_option(option));
   add_picture_options(command, state->picture);
   add_look_options(command, state->look, state->picture);
   command.remove_option(command.get_option("--linear-alpha"));  // its pictures are opaque
+  add_legend_options(command, state->legend, state->picture);
+  command.remove_option(command.get_option("--legend-file"));
   add_session_options(command, *state);
   add_scene_options(command);
-  command.callback([state] { run(*state); });
+  command.callback([state, &command] {
+    state->input = render_input(command);
+    run(*state);
+  });
 }
 
 }  // namespace meniscus

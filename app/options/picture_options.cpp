@@ -150,8 +150,8 @@ void add_picture_options(CLI::App& command, ViewRequest& request) {
   add_size_option(command, request, "Picture");
   add_length_options(command, request, command.get_option("--size"));
   CLI::Option* const camera = command.add_option("--camera", request.camera_file,
-                                                 "Camera as JSON, PyMOL's get_view or ChimeraX's view matrix [shows "
-                                                 "everything]");
+                                                 "Camera as JSON, in a file or said here; or PyMOL's get_view or "
+                                                 "ChimeraX's view matrix [shows everything]");
   camera->type_name("FILE");
   const std::map<std::string, Projection> words{{"perspective", Projection::perspective},
                                                 {"orthographic", Projection::orthographic}};

@@ -77,6 +77,18 @@ Camera zoomed(const Camera& camera, double factor) {
   return moved;
 }
 
+Camera zoomed_at(const Camera& camera, double factor, glm::dvec2 place) {
+  const Camera moved = zoomed(camera, factor);
+  return panned(moved, place * (1.0 - height_at_target(camera) / height_at_target(moved)));
+}
+
+Camera centered(const Camera& camera, const glm::dvec3& point, std::span<const Ball> balls) {
+  Camera moved = camera;
+  moved.position += point - camera.target;
+  moved.target = point;
+  return outside(moved, balls);
+}
+
 Camera rolled(const Camera& camera, double angle) {
   const ViewBasis basis = view_basis(camera);
   return looking(camera, basis.forward, turned(basis.up, basis.forward, -angle));

@@ -33,6 +33,13 @@ Camera panned(const Camera& camera, glm::dvec2 drag);
 /// a lower picture without. Stops at kSmallestReach and kLargestReach.
 Camera zoomed(const Camera& camera, double factor);
 
+/// The same about a place of the picture: what is there, in the plane of the target, stays. place: from the middle, in
+/// heights of the picture, to the right and down.
+Camera zoomed_at(const Camera& camera, double factor, glm::dvec2 place);
+
+/// Looks the same way at this point, from as far; from outside of all `balls` if orthographic. There must be one.
+Camera centered(const Camera& camera, const glm::dvec3& point, std::span<const Ball> balls);
+
 /// Turns the picture clockwise by an angle in radian.
 Camera rolled(const Camera& camera, double angle);
 

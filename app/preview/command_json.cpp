@@ -2,6 +2,10 @@
 // Lines of JSON.
 #include "app/preview/command_json.h"
 
+#include <algorithm>
+#include <iterator>
+#include <string_view>
+
 namespace meniscus {
 
 std::string json_line(const nlohmann::json& json) {
@@ -17,13 +21,14 @@ std::string command_word(const nlohmann::json& command) {
 bool is_question(const nlohmann::json& command) {
   const std::string word = command_word(command);
   if (word == "pick") return command.value("wait", nlohmann::json()) == false;
-  return word == "state" || word == "stats" || word == "choices";
+  return word == "state" || word == "stats" || word == "choices" || word == "render_command";
 }
 
 Change change_of(const nlohmann::json& command) {
   const std::string word = command_word(command);
-  if (is_question(command) || word == "export") return Change::none;
-  return word == "probe" || word == "frame" || word == "next_frame" || word == "quit" ? Change::surface : Change::view;
+  if (is_question(command) || word == "export" || word == "end_step") return Change::none;
+  constexpr std::string_view kSurfaces[] = {"probe", "frame", "next_frame", "undo", "redo", "quit"};
+  return std::ranges::find(kSurfaces, word) != std::end(kSurfaces) ? Change::surface : Change::view;
 }
 
 }  // namespace meniscus

@@ -44,6 +44,13 @@ std::optional<double> ExposedAreas::of(const AtomsInView& atoms, std::size_t ato
   return found->second[atom];
 }
 
+std::optional<double> ExposedAreas::if_cheap(const AtomsInView& atoms, std::size_t atom) {
+  const Key key{atoms.frame, atoms.group, atoms.probe_radius};
+  const bool begun = pending_.valid() && pending_key_ == key;
+  if (!atoms.surface && !begun && !known_.contains(key)) return {};
+  return of(atoms, atom, false);
+}
+
 void ExposedAreas::begin(const Key& key, const AtomsInView& atoms) {
   pending_key_ = key;
   pending_ = begin_areas(atoms);

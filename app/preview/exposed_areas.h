@@ -31,6 +31,8 @@ class ExposedAreas {
   /// with `wait` before this returns, else nothing comes back and a later call finds it.
   /// Throws OpenSurfaceError, CapacityError.
   std::optional<double> of(const AtomsInView& atoms, std::size_t atom, bool wait);
+  /// The same if it is known, or cheap because the surface is there; else nothing, and nothing is begun.
+  std::optional<double> if_cheap(const AtomsInView& atoms, std::size_t atom);
 
  private:
   using Key = std::tuple<std::size_t, std::size_t, double>;

@@ -24,14 +24,17 @@ constexpr std::array<std::string_view, 7> kKeys{"background",        "light_dire
 /// A number of the look, as the options of `meniscus render` bound it.
 struct Strength {
   const char* key;
+  std::optional<float> LookRequest::*asked;
   float Look::*value;
   double lowest, highest;
 };
-constexpr Strength kStrengths[] = {{"light_strength", &Look::light_strength, 0.0, 10.0},
-                                   {"ambient_occlusion", &Look::ambient_occlusion, 0.0, 1.0},
-                                   {"ambient_occlusion_radius", &Look::ambient_occlusion_radius, 0.1, 1000.0},
-                                   {"silhouettes", &Look::silhouettes, 0.0, kWidestSilhouette},
-                                   {"depth_cue", &Look::depth_cue, 0.0, 1.0}};
+using Asked = LookRequest;
+constexpr Strength kStrengths[] = {
+    {"light_strength", &Asked::light_strength, &Look::light_strength, 0.0, 10.0},
+    {"ambient_occlusion", &Asked::ambient_occlusion, &Look::ambient_occlusion, 0.0, 1.0},
+    {"ambient_occlusion_radius", &Asked::ambient_occlusion_radius, &Look::ambient_occlusion_radius, 0.1, 1000.0},
+    {"silhouettes", &Asked::silhouettes, &Look::silhouettes, 0.0, kWidestSilhouette},
+    {"depth_cue", &Asked::depth_cue, &Look::depth_cue, 0.0, 1.0}};
 
 glm::vec3 background_of(const std::string& text) {
   if (text == "white") return glm::vec3(1.0f);
@@ -67,13 +70,17 @@ std::string hex_color(const glm::vec3& color) {
 
 std::span<const std::string_view> look_keys() { return kKeys; }
 
-Look changed_look(Look look, const CommandReader& command) {
-  if (command.has("background")) look.background = background_of(command.text("background"));
+LookRequest changed_look(LookRequest look, const CommandReader& command) {
   if (command.has("light_direction")) look.light_direction = direction_of(command.value("light_direction"));
   if (command.has("silhouettes")) look.outer_lines = look.inner_lines = look.part_lines = {};
-  for (const auto& [key, value, lowest, highest] : kStrengths)
-    look.*value = static_cast<float>(command.number_or(look.*value, key, lowest, highest));
+  for (const Strength& strength : kStrengths)
+    if (command.has(strength.key))
+      look.*strength.asked = static_cast<float>(command.number(strength.key, strength.lowest, strength.highest));
   return look;
+}
+
+glm::vec3 changed_background(const glm::vec3& background, const CommandReader& command) {
+  return command.has("background") ? background_of(command.text("background")) : background;
 }
 
 nlohmann::json look_json(const Look& look) {
@@ -81,6 +88,7 @@ nlohmann::json look_json(const Look& look) {
   nlohmann::json json{{"background", hex_color(look.background)},
                       {"light_direction", {shortest(light.x), shortest(light.y), shortest(light.z)}}};
   for (const Strength& strength : kStrengths) json[strength.key] = shortest(look.*strength.value);
+  json["silhouettes"] = shortest(look.widest_line());
   return json;
 }
 

@@ -9,15 +9,18 @@
 #include <nlohmann/json.hpp>
 
 #include "app/preview/command_reader.h"
-#include "core/render/look.h"
+#include "core/render/look_presets.h"
 
 namespace meniscus {
 
 /// The keys of the command "look".
 std::span<const std::string_view> look_keys();
 
-/// `look` with what the command says changed. Throws RequestError.
-Look changed_look(Look look, const CommandReader& command);
+/// `look` with what the command says changed; the background is not part of it. Throws RequestError.
+LookRequest changed_look(LookRequest look, const CommandReader& command);
+
+/// "background" of the command, if it has one. Throws RequestError.
+glm::vec3 changed_background(const glm::vec3& background, const CommandReader& command);
 
 /// "#rrggbb" of an sRGB colour in [0, 1].
 std::string hex_color(const glm::vec3& color);

@@ -39,7 +39,10 @@ bool merge_commands(nlohmann::json& first, const nlohmann::json& second) {
     first["dy"] = dy;
     return true;
   }
-  if (word == "zoom" && first.size() == 2 && are_numbers(first, second, "factor")) {
+  const auto same = [&](const char* key) {
+    return first.value(key, nlohmann::json()) == second.value(key, nlohmann::json());
+  };
+  if (word == "zoom" && same("x") && same("y") && are_numbers(first, second, "factor")) {
     const double factor = first["factor"].get<double>() * second["factor"].get<double>();
     if (std::isfinite(factor)) first["factor"] = factor;
     return std::isfinite(factor);

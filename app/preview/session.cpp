@@ -16,35 +16,40 @@
 #include "core/scene/copied_atoms.h"
 #include "core/scene/molecule.h"
 #include "core/scene/surface_objects.h"
+#include "core/scene/hidden_atoms.h"
 
 namespace meniscus {
 
 PreviewSession::PreviewSession(std::unique_ptr<ViewRenderer> renderer, Structure structure, PreviewView view,
                                const std::optional<Camera>& camera, std::filesystem::path export_folder,
-                               std::optional<TrajectoryPositions> trajectory)
+                               std::optional<TrajectoryPositions> trajectory, SessionContext context)
     : structure_(std::move(structure)),
       frames_(group_atoms(structure_, Grouping::model)),
       trajectory_(std::move(trajectory)),
       view_(std::move(view)),
       export_folder_(std::move(export_folder)),
+      context_(std::move(context)),
       coloring_(color_atoms(structure_, view_.color)),
       renderer_(std::move(renderer)) {
-  require_colors_shared(structure_, view_.color);
   if (view_.copies_apart) require_apart(structure_, view_.probe_radius);
+  if (view_.show) hidden_atoms(*view_.show, structure_);  // that some are shown
   if (trajectory_) sample_trajectory();
   show_frame(0);
   camera ? look_from(*camera) : look_at_all();
+  first_color_ = view_.color;
+  first_camera_ = view_.camera;
+  first_overview_ = view_.overview;
 }
 
 void PreviewSession::look_from(const Camera& camera) {
   validate_camera(camera, "the view");
   view_.camera = camera;
-  overview_ = false;
+  view_.overview = false;
 }
 
 void PreviewSession::look_at_all() {
-  look_from(overview(trajectory_ ? sampled_ : reach(), aspect(), view_.camera.projection));
-  overview_ = true;
+  look_from(overview(trajectory_ ? sampled_ : balls_in_view(), aspect(), view_.camera.projection));
+  view_.overview = true;
 }
 
 void PreviewSession::sample_trajectory() {
@@ -62,11 +67,14 @@ void PreviewSession::sample_trajectory() {
 }
 
 void PreviewSession::show_frame(std::size_t frame) {
-  if (trajectory_) {  // read first: what cannot be read changes nothing
-    const std::vector<glm::dvec3> positions = trajectory_->positions(frame);
-    for (std::size_t n = 0; n < positions.size(); ++n) structure_.atoms[n].position = positions[n];
-  }
+  // Read first: what cannot be read changes nothing.
+  std::vector<glm::dvec3> positions;
+  if (trajectory_) positions = trajectory_->positions(frame);
+  Derived made = derived(view_, Changed::shapes, frame);
+  for (std::size_t n = 0; n < positions.size(); ++n) structure_.atoms[n].position = positions[n];
   view_.frame = frame;
+  marked_ = std::move(made.marked);
+  shapes_ = std::move(made.shapes);
   if (view_.follows_keys && !view_.keys.empty())
     look_from(CameraPath(camera_keys()).at(static_cast<double>(number_of(frame))));
   balls_.clear();
@@ -76,12 +84,83 @@ void PreviewSession::show_frame(std::size_t frame) {
   if (!structure_.instances.empty()) reach_ = reaching_balls(balls_, structure_.instances);
   renderer_->set_atoms(balls_);
   renderer_->set_coloring(frame_coloring());
+  renderer_->set_figure(view_.figure, shapes_);
+  update_legend();
+}
+
+PreviewSession::Derived PreviewSession::derived(const PreviewFigure& figure, Changed changed, std::size_t frame) const {
+  if (!structure_.instances.empty() && !(figure.figure.plain() && figure.color.opacities.empty()))
+    throw RequestError("copies of one surface (--instances) are shown whole and opaque; leave --instances away");
+  Derived made{{}, marked_, shapes_};
+  require_colors_shared(structure_, figure.color);
+  if (changed >= Changed::colors) made.coloring = color_atoms(structure_, figure.color);
+  if (changed >= Changed::shapes) {
+    made.marked.reset();
+    if (!figure.figure.representations.empty()) {
+      if (!context_.read_shown)
+        throw RequestError("this molecule cannot be read again, so nothing can be drawn beside its surface");
+      made.marked = std::make_shared<const Structure>(context_.read_shown(figure.figure.representations, frame));
+      if (made.marked->atoms.size() != frames_[trajectory_ ? 0 : frame].atoms.size())
+        throw InputError(structure_.file, 0, "has other atoms than when the preview began; begin it anew");
+    }
+  }
+  if (changed >= Changed::colors) made.shapes = shapes_of(figure, made.marked.get());
+  return made;
+}
+
+std::shared_ptr<const ColoredShapes> PreviewSession::shapes_of(const PreviewFigure& figure,
+                                                               const Structure* marked) const {
+  if (!marked) return nullptr;
+  return std::make_shared<const ColoredShapes>(
+      shown_shapes(*marked, figure.figure.representations, figure.told_scheme()));
+}
+
+void PreviewSession::become(PreviewFigure next, Changed changed) {
+  validate_camera(next.camera, "the view");
+  Derived made = derived(next, changed, view_.frame);
+  static_cast<PreviewFigure&>(view_) = std::move(next);
+  if (made.coloring) coloring_ = std::move(*made.coloring);
+  marked_ = std::move(made.marked);
+  shapes_ = std::move(made.shapes);
+  if (changed >= Changed::colors) renderer_->set_coloring(frame_coloring());
+  if (changed >= Changed::cuts) renderer_->set_figure(view_.figure, shapes_);
+  update_legend();
+  if (changed == Changed::shapes && view_.overview) look_at_all();
+}
+
+void PreviewSession::update_legend() {
+  legend_.reset();
+  legend_fault_.clear();
+  const ColorScheme color = view_.told_scheme();
+  if (!view_.legend || (color.by == ColorScheme::By::fixed && color.rules.empty())) return;
+  const std::string names[] = {"surface"};
+  try {
+    legend_ = std::make_shared<const LegendStrip>(color_key(structure_, color, names), view_.size, view_.legend_style,
+                                                  view_.background);
+  } catch (const RequestError& error) {  // no room for it in this size
+    legend_fault_ = error.what();
+  }
 }
 
 std::vector<CameraKey> PreviewSession::camera_keys() const {
   std::vector<CameraKey> keys;
   for (const auto& [frame, camera] : view_.keys) keys.push_back({static_cast<double>(number_of(frame)), camera});
   return keys;
+}
+
+std::vector<Atom> PreviewSession::atoms_in_view() const {
+  std::vector<Atom> atoms;
+  for (const std::uint32_t a : shown_atoms()) atoms.push_back(structure_.atoms[a]);
+  if (marked_) atoms.insert(atoms.end(), marked_->beside.begin(), marked_->beside.end());
+  return atoms;
+}
+
+std::vector<Ball> PreviewSession::balls_in_view() const {
+  std::vector<Ball> balls = reach();
+  if (!shapes_) return balls;
+  const std::vector<Ball> beside = balls_around(shapes_->shapes);
+  balls.insert(balls.end(), beside.begin(), beside.end());
+  return balls;
 }
 
 Coloring PreviewSession::frame_coloring() const {
@@ -91,7 +170,12 @@ Coloring PreviewSession::frame_coloring() const {
     coloring.atom.push_back(coloring_.atom[a]);
     if (!coloring_.part.empty()) coloring.part.push_back(coloring_.part[a]);
     if (!coloring_.opacity.empty()) coloring.opacity.push_back(coloring_.opacity[a]);
-    if (!view_.hidden.empty()) coloring.hidden.push_back(view_.hidden[a]);
+  }
+  if (view_.show) {
+    std::vector<Atom> atoms;
+    for (const std::uint32_t a : shown_atoms()) atoms.push_back(structure_.atoms[a]);
+    coloring.hidden = view_.show->evaluate(atoms);
+    coloring.hidden.flip();
   }
   return coloring;
 }
@@ -102,9 +186,9 @@ bool PreviewSession::is_drawn(Quality quality) const {
 
 RenderSettings PreviewSession::settings(Quality quality) const {
   RenderSettings settings;
-  settings.size = quality == Quality::draft ? glm::max(view_.size / 2, glm::ivec2(1)) : view_.size;
+  settings.size = quality == Quality::draft ? glm::max(molecule_size() / 2, glm::ivec2(1)) : molecule_size();
   settings.samples = quality == Quality::full ? view_.samples : 1;
-  settings.look = quality == Quality::full ? view_.look : without_effects(view_.look);
+  settings.look = quality == Quality::full ? look() : without_effects(look());
   settings.timing = quality == Quality::draft ? StageTiming::rough : StageTiming::exact;
   return settings;
 }
@@ -116,8 +200,18 @@ bool PreviewSession::render(Quality quality, const std::function<bool()>& stop) 
   if (!renderer_->draw(view_.probe_radius, view_.camera, settings(quality), stop)) return false;
   if (quality != Quality::draft || stages_.empty()) stages_ = renderer_->times();
   frame_ms_ = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+  drawn_legend_ = legend_;
   drawn_ = {revision_, quality};
   return true;
+}
+
+std::vector<std::uint8_t> PreviewSession::rgba() const {
+  std::vector<std::uint8_t> molecule = renderer_->rgba();
+  return drawn_legend_ ? drawn_legend_->around(molecule, renderer_->size()) : molecule;
+}
+
+glm::ivec2 PreviewSession::picture_size() const {
+  return drawn_legend_ ? drawn_legend_->whole_size(renderer_->size()) : renderer_->size();
 }
 
 }  // namespace meniscus

@@ -18,41 +18,34 @@
 #include "app/preview/command_json.h"
 #include "app/preview/exposed_areas.h"
 #include "app/preview/trajectory_positions.h"
-#include "core/structure/atom_groups.h"
-#include "core/color/color_schemes.h"
-#include "core/structure/structure.h"
+#include "app/preview/edit_history.h"
+#include "app/preview/legend_strip.h"
+#include "app/preview/preview_view.h"
+#include "app/preview/render_words.h"
 #include "core/camera/camera.h"
 #include "core/camera/camera_path.h"
 #include "core/render/look.h"
 #include "core/scene/view_renderer.h"
+#include "core/structure/atom_groups.h"
+#include "core/structure/structure.h"
 
 namespace meniscus {
 
 class CommandReader;
-
-/// What is seen, and how; all but `hidden` changes by commands.
-struct PreviewView {
-  Camera camera;
-  double probe_radius = 1.4;  ///< Å
-  ColorScheme color;
-  std::vector<bool> hidden;  ///< per atom of the structure: its part of the surface is not drawn; empty: all is
-  bool patch_kinds = false;  ///< coloured by kind of patch, whatever the scheme (figure 2 of Krone et al. 2010)
-  Look look;
-  std::size_t frame = 0;               ///< from 0
-  std::map<std::size_t, Camera> keys;  ///< of the camera, by frame; all of one projection
-  bool follows_keys = false;           ///< showing a frame moves the camera along its keys
-  bool playing = false;
-  double frames_per_second = 10.0;  ///< while playing
-  glm::ivec2 size{1024, 768};       ///< of the full picture, in pixels
-  int samples = 4;                  ///< rays per pixel of the full picture
-  bool copies_apart = false;        ///< no probe may touch two copies of the structure (Structure::instances)
-};
 
 /// A picture while something moves, or at rest.
 enum class Quality {
   draft,  ///< half the size, one ray a pixel, no effects
   plain,  ///< the same in full size
   full    ///< as exported
+};
+
+/// What a session needs of the program around it; all of it may be missing.
+struct SessionContext {
+  /// Reads the molecule again as it is at a frame, with the atoms that are drawn beside its surface
+  /// (Representations::ask_for); so they are those that `meniscus render` would draw. Throws InputError.
+  std::function<Structure(const Representations& representations, std::size_t frame)> read_shown;
+  RenderInput input;  ///< for the command that makes the picture again
 };
 
 /// A molecule, how it is seen, and the renderer that draws it. Used by one thread.
@@ -64,7 +57,7 @@ class PreviewSession {
   /// first frame, and as color_atoms does.
   PreviewSession(std::unique_ptr<ViewRenderer> renderer, Structure structure, PreviewView view,
                  const std::optional<Camera>& camera, std::filesystem::path export_folder,
-                 std::optional<TrajectoryPositions> trajectory = {});
+                 std::optional<TrajectoryPositions> trajectory = {}, SessionContext context = {});
 
   /// Carries out {"command": WORD, ...} and answers {"ok": true, ...} or {"ok": false, "error": "one clear line"};
   /// after an error nothing has changed. The commands: app/preview/commands.md. Throws GpuError only: then all is lost.
@@ -80,10 +73,11 @@ class PreviewSession {
   /// Is the last picture what render(quality) would draw?
   bool is_drawn(Quality quality) const;
 
-  /// The last picture; see ViewRenderer::draw(). A new one may come with render and with apply (pick).
-  std::vector<std::uint8_t> rgba() const { return renderer_->rgba(); }
-  std::uint32_t texture() const { return renderer_->texture(); }  ///< of GL; 0: the picture is rgba() alone
-  glm::ivec2 picture_size() const { return renderer_->size(); }
+  /// The last picture with its legend; see ViewRenderer::draw(). A new one may come with render and with apply (pick).
+  std::vector<std::uint8_t> rgba() const;
+  /// Of GL; 0: the picture is rgba() alone.
+  std::uint32_t texture() const { return drawn_legend_ ? 0 : renderer_->texture(); }
+  glm::ivec2 picture_size() const;
 
   /// While playing, a face sends {"command":"next_frame"} at this pace.
   bool playing() const { return view_.playing; }
@@ -107,6 +101,10 @@ class PreviewSession {
   nlohmann::json zoom(const CommandReader& command);
   nlohmann::json roll(const CommandReader& command);
   nlohmann::json zoom_to(const CommandReader& command);
+  nlohmann::json center(const CommandReader& command);
+  nlohmann::json save_view(const CommandReader& command);
+  nlohmann::json recall_view(const CommandReader& command);
+  nlohmann::json forget_view(const CommandReader& command);
   nlohmann::json reset_view(const CommandReader& command);
   nlohmann::json set_camera(const CommandReader& command);
   nlohmann::json set_projection(const CommandReader& command);
@@ -114,6 +112,22 @@ class PreviewSession {
   nlohmann::json set_color(const CommandReader& command);
   nlohmann::json set_patch_kinds(const CommandReader& command);
   nlohmann::json set_look(const CommandReader& command);
+  nlohmann::json set_preset(const CommandReader& command);
+  nlohmann::json show(const CommandReader& command);
+  nlohmann::json hide(const CommandReader& command);
+  nlohmann::json represent(const CommandReader& command);
+  nlohmann::json set_radii(const CommandReader& command);
+  nlohmann::json paint(const CommandReader& command);
+  nlohmann::json set_opacity(const CommandReader& command);
+  nlohmann::json set_film_opacity(const CommandReader& command);
+  nlohmann::json set_cut(const CommandReader& command);
+  nlohmann::json set_cap(const CommandReader& command);
+  nlohmann::json remove(const CommandReader& command);
+  nlohmann::json set_legend(const CommandReader& command);
+  nlohmann::json undo(const CommandReader& command);
+  nlohmann::json redo(const CommandReader& command);
+  nlohmann::json end_step(const CommandReader& command);
+  nlohmann::json render_command(const CommandReader& command);
   nlohmann::json set_frame(const CommandReader& command);
   nlohmann::json next_frame(const CommandReader& command);
   nlohmann::json set_key(const CommandReader& command);
@@ -122,6 +136,7 @@ class PreviewSession {
   nlohmann::json pause(const CommandReader& command);
   nlohmann::json resize(const CommandReader& command);
   nlohmann::json set_samples(const CommandReader& command);
+  nlohmann::json press(const CommandReader& command);
   nlohmann::json pick(const CommandReader& command);
   nlohmann::json export_view(const CommandReader& command);
   nlohmann::json stats(const CommandReader& command);
@@ -130,19 +145,46 @@ class PreviewSession {
   nlohmann::json quit(const CommandReader& command);
 
   nlohmann::json carry_out(const nlohmann::json& command);
+  /// Rules of colour, representations, cuts and the like.
+  void tell_figure(nlohmann::json& state) const;
+  /// What of a figure is made of its molecule.
+  struct Derived {
+    std::optional<Coloring> coloring;         ///< of all atoms of the structure; nothing: as it is
+    std::shared_ptr<const Structure> marked;  ///< the frame with the atoms beside its surface; nullptr: none are drawn
+    std::shared_ptr<const ColoredShapes> shapes;
+  };
+  /// What of it a command has changed, from the least to the most.
+  enum class Changed { view, cuts, colors, shapes };
+
   void look_from(const Camera& camera);
   void look_at_all();
+  void become(PreviewFigure next, Changed changed);
+  Derived derived(const PreviewFigure& figure, Changed changed, std::size_t frame) const;
+  std::shared_ptr<const ColoredShapes> shapes_of(const PreviewFigure& figure, const Structure* marked) const;
+  void restore(const std::optional<PreviewFigure>& figure, const char* none);
+  std::size_t count_shown(const PreviewFigure& figure, const CommandReader& command) const;
+  void update_legend();
   std::uint64_t number_of(std::size_t frame) const { return trajectory_ ? trajectory_->numbers[frame] : frame; }
   std::vector<CameraKey> camera_keys() const;
-  std::optional<double> exposed_area(std::uint32_t atom, bool wait);
+  /// area_wanted: else only if it is known or cheap.
+  std::optional<double> exposed_area(std::uint32_t atom, bool wait, bool area_wanted);
   void sample_trajectory();
   void show_frame(std::size_t frame);
   /// Of the frame that is shown, into structure_.atoms.
   const std::vector<std::uint32_t>& shown_atoms() const { return frames_[trajectory_ ? 0 : view_.frame].atoms; }
+  /// The same and behind them those that are drawn beside the surface.
+  std::vector<Atom> atoms_in_view() const;
+  /// Van der Waals balls of the surface's atoms, and around what is drawn beside them.
+  std::vector<Ball> balls_in_view() const;
   Coloring frame_coloring() const;
   const std::vector<Ball>& reach() const { return reach_.empty() ? balls_ : reach_; }
-  double aspect() const { return static_cast<double>(view_.size.x) / view_.size.y; }
+  /// Of the part of the picture that the molecule has.
+  glm::ivec2 molecule_size() const { return legend_ ? legend_->molecule_size() : view_.size; }
+  double aspect() const { return static_cast<double>(molecule_size().x) / molecule_size().y; }
+  Look look() const { return look_of(view_.look, view_.size, view_.background); }
   RenderSettings settings(Quality quality) const;
+  /// What the pixel shows, drawn anew if need be. Throws RequestError outside of the picture.
+  std::optional<PickedPoint> point_at(const CommandReader& command);
 
   /// What of the session the last picture shows.
   struct Drawn {
@@ -156,14 +198,24 @@ class PreviewSession {
   std::vector<Ball> sampled_;  ///< of frames all over the trajectory, for a view of all
   PreviewView view_;
   std::filesystem::path export_folder_;
-  std::vector<Ball> balls_;  ///< of the frame shown
-  std::vector<Ball> reach_;  ///< what cameras see of the copies; without any: empty
-  Coloring coloring_;        ///< of all atoms of the structure
+  SessionContext context_;
+  Camera first_camera_;  ///< what reset_view brings back
+  bool first_overview_ = true;
+  ColorScheme first_color_;  ///< with what files said
+  EditHistory history_;
+  std::map<std::string, Camera> named_views_;
+  std::vector<Ball> balls_;                          ///< of the frame shown
+  std::vector<Ball> reach_;                          ///< what cameras see of the copies; without any: empty
+  Coloring coloring_;                                ///< of all atoms of the structure
+  std::shared_ptr<const Structure> marked_;          ///< see Derived
+  std::shared_ptr<const ColoredShapes> shapes_;      ///< beside the surface; nullptr: none
+  std::shared_ptr<const LegendStrip> legend_;        ///< of the view; nullptr: none
+  std::string legend_fault_;                         ///< why there is none though it is wanted
+  std::shared_ptr<const LegendStrip> drawn_legend_;  ///< of the last picture
   std::unique_ptr<ViewRenderer> renderer_;
   ExposedAreas areas_;
   std::uint64_t revision_ = 1;  ///< grows with every change
   Drawn drawn_;
-  bool overview_ = true;           ///< all is shown, as long as nobody moved the camera
   double frame_ms_ = 0.0;          ///< of the last picture
   std::vector<StageTime> stages_;  ///< of the last picture that was no draft: nobody waits for the stages of those
   std::function<void(const nlohmann::json&)> sink_;

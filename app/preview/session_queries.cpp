@@ -1,15 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The commands that ask: what is under the cursor, how fast it is, what the state is; and exports.
 #include <algorithm>
-#include <cmath>
+#include <limits>
+#include <string>
+
+#include <fmt/format.h>
+#include <glm/common.hpp>
 
 #include "app/preview/command_reader.h"
+#include "app/preview/key_table.h"
 #include "app/preview/look_json.h"
 #include "app/preview/session.h"
 #include "app/preview/view_export.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/scene/copied_atoms.h"
+#include "core/color/color_scale.h"
 #include "core/structure/radii.h"
 
 namespace meniscus {
@@ -36,33 +42,73 @@ Json atom_json(const Atom& atom) {
           {"place", escaped(atom_place(atom))}};
 }
 
-std::string scheme_word(const ColorScheme& color) {
-  for (const ColorSchemeMetadata& scheme : color_schemes())
-    if (scheme.by == color.by) return std::string(scheme.word);
-  return hex_color(color.fixed);
+/// Rules as --color has them: expressions of a user, not of a file.
+Json rule_json(const ColorRule& rule) { return escaped(rule.atoms.text()) + "=" + scheme_word(rule.paint); }
+
+const char* word_of(RepresentationRequest::Kind kind) { return option_word(kind) + 2; }  // without the dashes
+
+const char* word_of(LegendStyle::Place place) {
+  constexpr const char* kWords[] = {"auto", "right", "below"};
+  return kWords[static_cast<std::size_t>(place)];
+}
+
+Json color_json(const ColorScheme& scheme) {
+  Json color{{"scheme", scheme_word(scheme)}};
+  if (scheme.map) color["map"] = map_name(*scheme.map);
+  if (scheme.own_map) color["own_map"] = true;
+  if (scheme.range) color["range"] = fmt::format("{}:{}", (*scheme.range)[0], (*scheme.range)[1]);
+  if (scheme.missing) color["missing"] = hex_color(*scheme.missing);
+  for (const ColorRule& rule : scheme.rules) color["rules"].push_back(rule_json(rule));
+  return color;
+}
+
+/// What is asked of an exported picture beside the view.
+struct PictureWishes {
+  glm::ivec2 size;
+  int samples;
+  bool transparent;
+};
+
+PictureWishes wishes_of(const CommandReader& command, const PreviewView& view) {
+  return {{command.integer_or(view.size.x, "width", 16, kLongestExportedSide),
+           command.integer_or(view.size.y, "height", 16, kLongestExportedSide)},
+          command.integer_or(view.samples, "samples", 1, 1024),
+          command.flag_or(false, "transparent")};
 }
 
 }  // namespace
 
-Json PreviewSession::pick(const CommandReader& command) {
+std::optional<PickedPoint> PreviewSession::point_at(const CommandReader& command) {
   const glm::ivec2 pixel{command.integer("x", 0, view_.size.x - 1), command.integer("y", 0, view_.size.y - 1)};
-  const bool wait = command.flag_or(true, "wait");
   if (drawn_.revision != revision_ || drawn_.quality == Quality::draft) render(Quality::plain);
-  const std::optional<PickedPoint> point = renderer_->pick(pixel);
+  const glm::ivec2 shown = renderer_->size();
+  return pixel.x < shown.x && pixel.y < shown.y ? renderer_->pick(pixel) : std::nullopt;
+}
+
+Json PreviewSession::pick(const CommandReader& command) {
+  const bool wait = command.flag_or(true, "wait"), area_wanted = command.flag_or(true, "area");
+  const std::optional<PickedPoint> point = point_at(command);
   if (!point) return {{"hit", false}};
-  Json reply = atom_json(structure_.atoms[shown_atoms()[point->atom]]);
+  const bool of_surface = point->object == 0 || !structure_.instances.empty();
+  const std::size_t own = shown_atoms().size();
+  Json reply = atom_json(point->atom < own ? structure_.atoms[shown_atoms()[point->atom]]
+                                           : marked_->beside.at(point->atom - own));
   reply["hit"] = true;
-  reply["kind"] = kind_word(point->kind);
+  reply["kind"] = point->kind ? kind_word(*point->kind) : of_surface ? "cap" : "shape";
   reply["position"] = {point->position.x, point->position.y, point->position.z};
   if (!structure_.instances.empty()) reply["copy"] = point->copy + 1;
-  const std::optional<double> area = exposed_area(point->atom, wait);
-  reply["exposed_area"] = area ? Json(*area) : Json(nullptr);
+  reply["exposed_area"] = nullptr;
+  if (point->atom >= own) return reply;  // it has no part of the surface
+  if (const std::optional<double> area = exposed_area(point->atom, wait, area_wanted)) reply["exposed_area"] = *area;
   return reply;
 }
 
-std::optional<double> PreviewSession::exposed_area(std::uint32_t atom, bool wait) {
+std::optional<double> PreviewSession::exposed_area(std::uint32_t atom, bool wait, bool area_wanted) {
+  const auto area = [&](const AtomsInView& atoms, std::size_t place) {
+    return area_wanted ? areas_.of(atoms, place, wait) : areas_.if_cheap(atoms, place);
+  };
   if (structure_.instances.empty())
-    return areas_.of({view_.frame, 0, view_.probe_radius, balls_, renderer_->surface()}, atom, wait);
+    return area({view_.frame, 0, view_.probe_radius, balls_, renderer_->surface()}, atom);
   // Copies of a group are as if it were alone.
   std::size_t group = 0;
   while (!std::ranges::binary_search(structure_.instances[group].atoms, atom)) ++group;
@@ -70,36 +116,54 @@ std::optional<double> PreviewSession::exposed_area(std::uint32_t atom, bool wait
   std::vector<Ball> balls;
   for (const std::uint32_t a : atoms) balls.push_back(balls_[a]);
   const auto place = static_cast<std::size_t>(std::ranges::lower_bound(atoms, atom) - atoms.begin());
-  return areas_.of({view_.frame, group, view_.probe_radius, balls, nullptr}, place, wait);
+  return area({view_.frame, group, view_.probe_radius, balls, nullptr}, place);
 }
 
 Json PreviewSession::export_view(const CommandReader& command) {
   const std::size_t format = command.choice("format", {"png", "povray", "blender", "camera", "camera_path"});
-  const ExportTarget target{export_path(export_folder_, command.text("path")),
+  constexpr std::string_view kEndings[] = {"", "", ".mns", ".json", ".json"};
+  const std::string name = command.text("path");
+  // A scene is a folder; so no file of another kind is replaced.
+  if (format == 1 ? name.find('.') != std::string::npos : !name.ends_with(kEndings[format]))
+    throw RequestError(fmt::format("export: \"path\" is {}; {}", in_quotes(name),
+                                   format == 1 ? "a scene is a folder, whose name has no dot"
+                                               : fmt::format("its name must end in {}", kEndings[format])));
+  const ExportTarget target{export_path(export_folder_, name),
                             command.flag_or(false, "force") ? Existing::replace : Existing::refuse};
   if (target.existing == Existing::refuse && std::filesystem::exists(target.path))
     throw RequestError(target.path.string() + " exists already; say that it may be replaced (force), or another name");
-  ColorScheme color = view_.color;
-  if (view_.patch_kinds) color.by = ColorScheme::By::kind;
+  const PictureWishes wishes = wishes_of(command, view_);
+  const ColorScheme color = view_.told_scheme();
   const Coloring coloring = frame_coloring();
-  const ExportedView view{structure_,
-                          shown_atoms(),
-                          balls_,
-                          coloring,
-                          color,
-                          view_.probe_radius,
-                          view_.camera,
-                          view_.look,
-                          {command.integer_or(view_.size.x, "width", 16, kLongestExportedSide),
-                           command.integer_or(view_.size.y, "height", 16, kLongestExportedSide)},
-                          command.integer_or(view_.samples, "samples", 1, 1024)};
+  const ExportedView view{structure_, shown_atoms(), balls_,      coloring,       color,
+                          view_,      shapes_.get(), wishes.size, wishes.samples, wishes.transparent};
   Json reply{{"path", target.path.string()}};
+  if ((format == 1 || format == 2) && !view_.figure.plain())
+    reply["note"] = "without cuts and what stands beside the surface; meniscus export has options for these";
   if (format == 0) export_picture(view, *renderer_, target);
   if (format == 1) reply["render_with"] = export_povray(view, target);
   if (format == 2) export_blender(view, target);
   if (format == 3) export_camera(view, target);
   if (format == 4) export_camera_path(camera_keys(), target);
   return reply;
+}
+
+Json PreviewSession::render_command(const CommandReader& command) {
+  const PictureWishes wishes = wishes_of(command, view_);
+  RenderedView view{view_, wishes.size, wishes.samples, wishes.transparent, {}, {}, {}};
+  if (trajectory_) view.frame = number_of(view_.frame);
+  if (frames_.size() > 1) {
+    using By = ColorScheme::By;
+    if (!view_.patch_kinds && (view_.color.by == By::index || view_.color.by == By::radial))
+      throw RequestError("render_command: " + in_quotes(scheme_word(view_.color)) +
+                         " counts the atoms of all models here, and those of one in a picture by render; choose "
+                         "another scheme");
+    view.model = structure_.atoms[shown_atoms().front()].model;
+    // A model alone would have a scale of its own.
+    if (view_.color.has_scale()) view.range = color_scale(structure_, view_.color).range;
+  }
+  const std::vector<std::string> words = render_words(context_.input, view);
+  return {{"words", words}, {"text", shell_line(words)}};
 }
 
 Json PreviewSession::stats(const CommandReader&) {
@@ -115,43 +179,84 @@ Json PreviewSession::stats(const CommandReader&) {
 Json PreviewSession::choices(const CommandReader&) {
   Json schemes = Json::array(), maps = Json::array();
   for (const ColorSchemeMetadata& scheme : color_schemes()) {
-    if (scheme.by == ColorScheme::By::component) continue;
-    if (scheme.by == ColorScheme::By::file && view_.color.file.empty()) continue;
+    if (scheme.by == ColorScheme::By::component || scheme.by == ColorScheme::By::volume) continue;
+    if (scheme.by == ColorScheme::By::file && first_color_.file.empty()) continue;
+    const auto is_copy = [](const Atom& atom) { return atom.copy > 0; };
+    if (scheme.by == ColorScheme::By::copy && std::ranges::none_of(structure_.atoms, is_copy)) continue;
     ColorScheme color;
     color.by = scheme.by;
     schemes.push_back({{"word", scheme.word}, {"has_map", color.has_scale()}, {"description", scheme.description}});
   }
   for (const ColorMapMetadata& map : color_maps()) maps.push_back(map.name);
-  return {{"schemes", schemes}, {"maps", maps}};
+  Json keys = Json::array();
+  for (const KeyHelp& row : key_help()) keys.push_back({{"keys", row.keys}, {"what", row.what}});
+  return {{"schemes", schemes},
+          {"maps", maps},
+          {"keys", keys},
+          {"presets", {"publication", "cover", "flat", "soft", "classic"}},
+          {"representations", {"sticks", "balls", "spheres", "tube"}}};
+}
+
+void PreviewSession::tell_figure(Json& state) const {
+  Json& representations = state["representations"] = Json::array();
+  for (const RepresentationRequest& request : view_.figure.representations.requests)
+    representations.push_back({{"as", word_of(request.kind)}, {"selection", escaped(request.atoms.text())}});
+  Json& opacities = state["opacities"] = Json::array();
+  for (const OpacityRule& rule : view_.color.opacities) {
+    opacities.push_back({{"opacity", std::stod(fmt::format("{}", rule.opacity))}});
+    if (rule.atoms) opacities.back()["selection"] = escaped(rule.atoms->text());
+  }
+  Json& cuts = state["cuts"] = Json::array();
+  for (const Cut& cut : view_.figure.cuts) cuts.push_back(cut_text(cut));
+  state["cap"] = {{"color", view_.figure.cap.color ? hex_color(*view_.figure.cap.color) : "atom"},
+                  {"hatching", view_.figure.cap.hatching}};
+  state["film_opacity"] = view_.figure.thickens;
+  state["show"] = view_.show ? Json(escaped(view_.show->text())) : Json(nullptr);
+  state["legend"] = {{"on", view_.legend},
+                     {"title", view_.legend_style.title ? Json(escaped(*view_.legend_style.title)) : Json(nullptr)},
+                     {"letters", view_.legend_style.letters ? Json(*view_.legend_style.letters) : Json(nullptr)},
+                     {"place", word_of(view_.legend_style.place)}};
+  if (!legend_fault_.empty()) state["legend"]["fault"] = legend_fault_;
+  Json& views = state["views"] = Json::array();
+  for (const auto& [name, camera] : named_views_) views.push_back(escaped(name));
+  state["undo"] = history_.undo_steps();
+  state["redo"] = history_.redo_steps();
 }
 
 Json PreviewSession::state(const CommandReader&) {
-  Json color{{"scheme", scheme_word(view_.color)}};
-  if (view_.color.map) color["map"] = map_name(*view_.color.map);
-  for (const ColorRule& rule : view_.color.rules)
-    color["rules"].push_back(escaped(rule.atoms.text()) + "=" + scheme_word(rule.paint));
   std::size_t copies = 1;
   for (const Instances& group : structure_.instances) copies = std::max(copies, group.motions.size());
-  return {{"file", escaped(structure_.file)},
-          {"atoms", balls_.size()},
-          {"copies", copies},
-          {"placed_atoms", structure_.instances.empty() ? balls_.size() : placed_count(structure_.instances)},
-          {"revision", revision_},
-          {"frame", view_.frame},
-          {"frame_number", number_of(view_.frame)},
-          {"frames", frame_count()},
-          {"keys", Json(camera_path_object(camera_keys()))["keys"]},
-          {"follow_keys", view_.follows_keys},
-          {"playing", view_.playing},
-          {"fps", view_.frames_per_second},
-          {"camera", Json(camera_object(view_.camera))},
-          {"probe_radius", view_.probe_radius},
-          {"color", color},
-          {"patch_kinds", view_.patch_kinds},
-          {"look", look_json(view_.look)},
-          {"width", view_.size.x},
-          {"height", view_.size.y},
-          {"samples", view_.samples}};
+  glm::dvec3 low(std::numeric_limits<double>::max()), high(-low);
+  for (const Ball& ball : balls_) {
+    low = glm::min(low, ball.center - ball.radius);
+    high = glm::max(high, ball.center + ball.radius);
+  }
+  Json state{{"file", escaped(structure_.file)},
+             {"atoms", balls_.size()},
+             {"copies", copies},
+             {"placed_atoms", structure_.instances.empty() ? balls_.size() : placed_count(structure_.instances)},
+             {"low", {low.x, low.y, low.z}},
+             {"high", {high.x, high.y, high.z}},
+             {"revision", revision_},
+             {"frame", view_.frame},
+             {"frame_number", number_of(view_.frame)},
+             {"frames", frame_count()},
+             {"keys", Json(camera_path_object(camera_keys()))["keys"]},
+             {"follow_keys", view_.follows_keys},
+             {"playing", view_.playing},
+             {"fps", view_.frames_per_second},
+             {"camera", Json(camera_object(view_.camera))},
+             {"probe_radius", view_.probe_radius},
+             {"color", color_json(view_.color)},
+             {"patch_kinds", view_.patch_kinds},
+             {"preset", preset_word(view_.look.preset)},
+             {"look", look_json(look())},
+             {"width", view_.size.x},
+             {"height", view_.size.y},
+             {"samples", view_.samples},
+             {"drawn_by", renderer_->draws_on_cpu() ? "cpu" : "gl"}};
+  tell_figure(state);
+  return state;
 }
 
 }  // namespace meniscus

@@ -17,6 +17,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/render/image_output.h"
+#include "core/render/legend.h"
 #include "core/queries/surface_object.h"
 #include "exporters/blender/surface_file.h"
 #include "exporters/povray/scene.h"
@@ -27,7 +28,7 @@ namespace {
 /// The complete surface, of copies one for each group of atoms that stand together, and what computed it.
 std::pair<std::vector<SurfaceObject>, std::string> complete_surfaces(const ExportedView& view) {
   SurfaceRequest request;
-  request.probe_radius = view.probe_radius;
+  request.probe_radius = view.figure.probe_radius;
   request.cpu = true;
   std::string device;
   std::vector<SurfaceObject> objects;
@@ -65,30 +66,40 @@ ColorKey colors_of(const ExportedView& view) {
 void export_picture(const ExportedView& view, ViewRenderer& renderer, const ExportTarget& target) {
   check_image_path(target.path);
   OutputFile(target.path, target.existing);  // known to be possible before the work begins
+  const PreviewFigure& figure = view.figure;
+  std::optional<glm::vec3> background = figure.background;
+  if (view.transparent) background.reset();
+  std::optional<Legend> legend;
+  if (figure.legend && (view.color.by != ColorScheme::By::fixed || !view.color.rules.empty()))
+    legend.emplace(colors_of(view), view.size, figure.legend_style);
   std::vector<SurfaceObject> objects = complete_surfaces(view).first;
   RenderSettings settings;
-  settings.size = view.size;
+  settings.size = legend ? legend->molecule_size() : view.size;
   settings.samples = view.samples;
-  settings.look = view.look;
+  settings.look = look_of(figure.look, view.size, background);
   Framebuffer picture;
   if (view.structure.instances.empty()) {
-    picture = renderer.render(objects[0].surface, objects[0].coloring, view.camera, settings);
+    const SurfaceObject& object = objects.front();
+    picture = renderer.render(picture_objects(object.surface, object.coloring, figure.figure, view.beside,
+                                              figure.camera, object.surface.atoms),
+                              figure.camera, settings);
   } else {
-    Figure figure;
-    figure.molecule.objects = std::move(objects);
-    picture = draw(*make_cpu_renderer(), std::move(figure), {}, view.camera, settings);
+    Figure copies;
+    copies.molecule.objects = std::move(objects);
+    picture = draw(*make_cpu_renderer(), std::move(copies), {}, figure.camera, settings);
   }
-  write_image(target.path, picture, {view.look.background, target.existing});
+  if (legend) picture = legend->add_to(picture, background);
+  write_image(target.path, picture, {background, target.existing, figure.look.has_linear_alpha()});
 }
 
 std::string export_povray(const ExportedView& view, const ExportTarget& target) {
   povray::SceneOptions options;
   options.width = view.size.x;
   options.height = view.size.y;
-  options.background = view.look.background;
+  options.background = view.figure.background;
   options.existing = target.existing;
   options.colors = colors_of(view);
-  return write_scene(complete_surfaces(view).first, view.camera, options, target.path).command;
+  return write_scene(complete_surfaces(view).first, view.figure.camera, options, target.path).command;
 }
 
 void export_blender(const ExportedView& view, const ExportTarget& target) {
@@ -101,13 +112,13 @@ void export_blender(const ExportedView& view, const ExportTarget& target) {
         {surfaces[n], std::move(meshes[n]), blender::atom_attributes(view.structure, surfaces[n].atom), {}});
   const blender::Provenance provenance{std::filesystem::path(view.structure.file).filename().string(),
                                        view.structure.radii_set, device, colors_of(view)};
-  write_objects(target.path.string(), target.existing, objects, blender::Shot{view.camera, view.size.x, view.size.y},
-                provenance);
+  write_objects(target.path.string(), target.existing, objects,
+                blender::Shot{view.figure.camera, view.size.x, view.size.y}, provenance);
 }
 
 void export_camera(const ExportedView& view, const ExportTarget& target) {
   OutputFile file(target.path, target.existing);
-  file.write(camera_json(view.camera));
+  file.write(camera_json(view.figure.camera));
   file.commit();
 }
 

@@ -13,7 +13,7 @@
 #include "core/structure/structure.h"
 #include "core/camera/camera.h"
 #include "core/camera/camera_path.h"
-#include "core/render/look.h"
+#include "app/preview/preview_view.h"
 #include "core/color/coloring.h"
 #include "core/scene/view_renderer.h"
 
@@ -26,11 +26,11 @@ struct ExportedView {
   const std::vector<Ball>& balls;           ///< theirs
   const Coloring& coloring;                 ///< theirs
   const ColorScheme& color;                 ///< what the colours mean
-  double probe_radius;                      ///< Å
-  const Camera& camera;
-  const Look& look;
-  glm::ivec2 size;  ///< pixels
-  int samples;      ///< rays per pixel
+  const PreviewFigure& figure;
+  const ColoredShapes* beside;  ///< the surface; nullptr: nothing
+  glm::ivec2 size;              ///< pixels, with the legend
+  int samples;                  ///< rays per pixel
+  bool transparent;             ///< pictures have no background
 };
 
 /// Where it goes.
@@ -39,8 +39,9 @@ struct ExportTarget {
   Existing existing = Existing::refuse;
 };
 
-/// As `meniscus render`: the complete surface, ray cast by `renderer`; .png, .tif or .exr.
-/// Throws OutputError, OpenSurfaceError, CapacityError, GpuError; so do the others, but for the last.
+/// As `meniscus render`: the complete surface and what stands beside it, with its legend, ray cast by `renderer`; what
+/// write_image() writes. Throws RequestError where there is no room for the legend, OutputError, OpenSurfaceError,
+/// CapacityError, GpuError; so do the others, but for the last.
 void export_picture(const ExportedView& view, ViewRenderer& renderer, const ExportTarget& target);
 
 /// As `meniscus export povray`; returns the command that renders it.

@@ -37,6 +37,7 @@ Camera swung(const Camera& camera, const ViewBasis& basis, const glm::dvec3& piv
 
 std::optional<Camera> given_camera(const ViewRequest& request) {
   if (request.camera_file.empty()) return {};
+  if (request.camera_file.starts_with('{')) return parse_camera(request.camera_file, "--camera");
   return read_any_camera(request.camera_file, request.aspect());
 }
 

@@ -19,7 +19,7 @@ namespace meniscus {
 struct ViewRequest {
   int width = 1280, height = 960;                   ///< pixels
   double dots_per_inch = 0.0;                       ///< of the printed picture; 0: not said
-  std::string camera_file;                          ///< empty: a camera that shows all of the surface
+  std::string camera_file;                          ///< or a camera's JSON; empty: one that shows all of the surface
   Projection projection = Projection::perspective;  ///< of that default camera
   std::optional<ViewDirection> direction;           ///< of it; nothing: the broad side
   std::vector<Turn> turns;                          ///< of what either camera sees, about the middle of it

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copies drawn from one surface each by the CPU, or as atoms like all others by GL.
+#include <cassert>
 #include <span>
 #include <utility>
 
@@ -28,6 +29,10 @@ class CpuCopiesRenderer final : public ViewRenderer {
     coloring_ = coloring;
     color_objects();
   }
+  void set_figure([[maybe_unused]] const FigureRequest& request,
+                  [[maybe_unused]] std::shared_ptr<const ColoredShapes> beside) override {
+    assert(request.plain() && !beside);  // copies are shown whole
+  }
 
   bool draw(double probe_radius, const Camera& camera, const RenderSettings& settings,
             const std::function<bool()>& stop) override {
@@ -40,9 +45,9 @@ class CpuCopiesRenderer final : public ViewRenderer {
     return whole;
   }
 
-  Framebuffer render(const Surface& surface, const Coloring& coloring, const Camera& camera,
+  Framebuffer render(std::span<const PictureObject> objects, const Camera& camera,
                      const RenderSettings& settings) override {
-    return CpuRenderer().render(surface, coloring, camera, settings);
+    return CpuRenderer().render(objects, camera, settings);
   }
 
   std::vector<std::uint8_t> rgba() const override { return renderer_.rgba(); }
@@ -54,6 +59,7 @@ class CpuCopiesRenderer final : public ViewRenderer {
     return point;
   }
   std::shared_ptr<const Surface> surface() const override { return nullptr; }
+  bool draws_on_cpu() const override { return true; }
   const std::vector<StageTime>& times() const override { return times_; }
 
  private:
@@ -111,14 +117,17 @@ class PlacedAtomsRenderer final : public ViewRenderer {
     keep_parts_apart(all);
     renderer_->set_coloring(all);
   }
+  void set_figure(const FigureRequest& request, std::shared_ptr<const ColoredShapes> beside) override {
+    renderer_->set_figure(request, std::move(beside));
+  }
 
   bool draw(double probe_radius, const Camera& camera, const RenderSettings& settings,
             const std::function<bool()>& stop) override {
     return renderer_->draw(probe_radius, camera, settings, stop);
   }
-  Framebuffer render(const Surface& surface, const Coloring& coloring, const Camera& camera,
+  Framebuffer render(std::span<const PictureObject> objects, const Camera& camera,
                      const RenderSettings& settings) override {
-    return renderer_->render(surface, coloring, camera, settings);
+    return renderer_->render(objects, camera, settings);
   }
 
   std::vector<std::uint8_t> rgba() const override { return renderer_->rgba(); }
@@ -133,6 +142,7 @@ class PlacedAtomsRenderer final : public ViewRenderer {
     return point;
   }
   std::shared_ptr<const Surface> surface() const override { return nullptr; }
+  bool draws_on_cpu() const override { return renderer_->draws_on_cpu(); }
   const std::vector<StageTime>& times() const override { return renderer_->times(); }
 
  private:

@@ -20,7 +20,11 @@ class CpuViewRenderer final : public ViewRenderer {
     atoms_ = std::move(atoms);
     surface_.reset();
   }
-  void set_coloring(const Coloring& coloring) override { coloring_ = coloring; }
+  void set_coloring(const Coloring& coloring) override { coloring_ = std::make_shared<const Coloring>(coloring); }
+  void set_figure(const FigureRequest& request, std::shared_ptr<const ColoredShapes> beside) override {
+    request_ = request;
+    beside_ = std::move(beside);
+  }
 
   bool draw(double probe_radius, const Camera& camera, const RenderSettings& settings,
             const std::function<bool()>& stop) override {
@@ -28,14 +32,16 @@ class CpuViewRenderer final : public ViewRenderer {
     times_.clear();
     if (!surface_ || surface_->probe_radius != probe_radius)
       if (!compute(probe_radius, stop)) return false;
-    const bool whole = renderer_.draw(*surface_, coloring_, camera, settings, stop);
+    drawn_ = {surface_, coloring_, beside_, {}};
+    drawn_.objects = picture_objects(*surface_, *coloring_, request_, drawn_.beside.get(), camera, surface_->atoms);
+    const bool whole = renderer_.draw(drawn_.objects, camera, settings, stop);
     times_.insert(times_.end(), renderer_.times().begin(), renderer_.times().end());
     return whole;
   }
 
-  Framebuffer render(const Surface& surface, const Coloring& coloring, const Camera& camera,
+  Framebuffer render(std::span<const PictureObject> objects, const Camera& camera,
                      const RenderSettings& settings) override {
-    return CpuRenderer().render(surface, coloring, camera, settings);  // the picture that is drawn stays
+    return CpuRenderer().render(objects, camera, settings);  // the picture that is drawn stays
   }
 
   std::vector<std::uint8_t> rgba() const override { return renderer_.rgba(); }
@@ -43,6 +49,7 @@ class CpuViewRenderer final : public ViewRenderer {
   glm::ivec2 size() const override { return renderer_.size(); }
   std::optional<PickedPoint> pick(glm::ivec2 pixel) const override { return renderer_.pick(pixel); }
   std::shared_ptr<const Surface> surface() const override { return surface_; }
+  bool draws_on_cpu() const override { return true; }
   const std::vector<StageTime>& times() const override { return times_; }
 
  private:
@@ -64,8 +71,19 @@ class CpuViewRenderer final : public ViewRenderer {
     return true;
   }
 
+  /// What the last picture was made of, for what it shows is asked later.
+  struct Drawn {
+    std::shared_ptr<const Surface> surface;
+    std::shared_ptr<const Coloring> coloring;
+    std::shared_ptr<const ColoredShapes> beside;
+    std::vector<PictureObject> objects;
+  };
+
   std::vector<Ball> atoms_;
-  Coloring coloring_;
+  std::shared_ptr<const Coloring> coloring_;
+  FigureRequest request_;
+  std::shared_ptr<const ColoredShapes> beside_;
+  Drawn drawn_;
   std::unique_ptr<ReducedSurfaceEngine> engine_ = make_cpu_engine();
   std::shared_ptr<const Surface> surface_;  // of atoms_; none: not yet, or given up
   CpuRenderer renderer_;

@@ -61,6 +61,18 @@ Cut parse_cut(std::string_view text) {
   return {*direction, tight[sign] == '<', *bound};
 }
 
+std::string cut_text(const Cut& cut) {
+  const glm::dvec3& d = cut.direction;
+  std::string axis = fmt::format("{},{},{}", d.x, d.y, d.z);
+  if (d == glm::dvec3(0.0)) axis = "depth";
+  for (int c = 0; c < 3; ++c) {
+    glm::dvec3 unit(0.0);
+    unit[c] = 1.0;
+    if (d == unit) axis = std::string(1, static_cast<char>('x' + c));
+  }
+  return fmt::format("{}{}{}", axis, cut.keeps_less ? '<' : '>', cut.bound);
+}
+
 ClipPlane clip_plane(const Cut& cut, const Camera& camera, std::span<const Ball> atoms) {
   glm::dvec3 normal = cut.direction;
   double offset = cut.bound;

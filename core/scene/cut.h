@@ -24,6 +24,9 @@ struct Cut {
 /// "x<20", "1,0.5,0>-3" or "depth>0.5"; blanks do not count. Throws RequestError.
 Cut parse_cut(std::string_view text);
 
+/// What parse_cut reads as this cut, exactly.
+std::string cut_text(const Cut& cut);
+
 /// The plane in a picture of these atoms, of which there must be one.
 ClipPlane clip_plane(const Cut& cut, const Camera& camera, std::span<const Ball> atoms);
 

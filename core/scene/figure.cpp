@@ -61,6 +61,26 @@ Figure make_figure(Molecule molecule, const FigureRequest& request) {
   return figure;
 }
 
+std::vector<PictureObject> picture_objects(const Surface& surface, const Coloring& coloring,
+                                           const FigureRequest& request, const ColoredShapes* beside,
+                                           const Camera& camera, std::span<const Ball> atoms) {
+  std::vector<PictureObject> shown;
+  if (!request.hides_surface) {
+    PictureObject& whole = shown.emplace_back();
+    whole.surface = &surface;
+    whole.coloring = &coloring;
+    whole.cap = request.cap;
+    whole.thickens = request.thickens;
+    for (const Cut& cut : request.cuts) whole.clip.push_back(clip_plane(cut, camera, atoms));
+  }
+  if (beside && !beside->empty()) {
+    PictureObject& shapes = shown.emplace_back();
+    shapes.shapes = &beside->shapes;
+    shapes.coloring = &beside->coloring;
+  }
+  return shown;
+}
+
 Framebuffer draw(SurfaceRenderer& renderer, Figure figure, const FigureRequest& request, const Camera& camera,
                  const RenderSettings& settings) {
   std::vector<SurfaceObject>& objects = figure.molecule.objects;
@@ -74,23 +94,10 @@ Framebuffer draw(SurfaceRenderer& renderer, Figure figure, const FigureRequest& 
   // Planes along the view cut between the nearest atom of the molecule and its farthest.
   const std::vector<Ball> balls = request.plain() ? std::vector<Ball>{} : placed_balls(objects);
   const SurfaceObject whole = merged(std::move(objects));
-  std::vector<PictureObject> shown;
+  std::vector<PictureObject> shown =
+      picture_objects(whole.surface, whole.coloring, request, &figure.shapes, camera, balls);
   std::vector<const SurfaceObject*> surfaces;
-  if (!request.hides_surface) {
-    PictureObject& surface = shown.emplace_back();
-    surfaces.push_back(&whole);
-    surface.surface = &whole.surface;
-    surface.coloring = &whole.coloring;
-    surface.cap = request.cap;
-    surface.thickens = request.thickens;
-    for (const Cut& cut : request.cuts) surface.clip.push_back(clip_plane(cut, camera, balls));
-  }
-  if (!figure.shapes.empty()) {
-    PictureObject& beside = shown.emplace_back();
-    surfaces.push_back(nullptr);
-    beside.shapes = &figure.shapes.shapes;
-    beside.coloring = &figure.shapes.coloring;
-  }
+  for (const PictureObject& object : shown) surfaces.push_back(object.surface ? &whole : nullptr);
   for (std::size_t n = 0; n < figure.objects.size(); ++n) {
     const FigureObject& object = figure.objects[n];
     if (!object.surface && object.shapes.empty()) continue;

@@ -2,6 +2,7 @@
 // A molecule as a figure shows it: its surface, cut or seen through, and what stands beside it.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "core/camera/camera.h"
@@ -45,6 +46,12 @@ struct Figure {
 
 /// The shapes beside a molecule, of its structure. Throws as shown_shapes does.
 Figure make_figure(Molecule molecule, const FigureRequest& request);
+
+/// What a picture shows of one surface: cut and seen through as asked, and what stands beside it (nullptr: nothing).
+/// atoms: of all that the picture shows, for cuts along the view. All must stay.
+std::vector<PictureObject> picture_objects(const Surface& surface, const Coloring& coloring,
+                                           const FigureRequest& request, const ColoredShapes* beside,
+                                           const Camera& camera, std::span<const Ball> atoms);
 
 /// Its picture. atom of the AOVs: into shown_atoms(); without shapes into Structure::atoms. Throws as
 /// SurfaceRenderer::render() does.

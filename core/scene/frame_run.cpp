@@ -199,6 +199,14 @@ std::vector<glm::dvec3> FrameRun::positions(std::uint64_t number) {
   return positions;
 }
 
+Structure FrameRun::at(std::uint64_t number) {
+  Frame frame;
+  frames_->read(number, frame);
+  Structure structure = structure_;
+  place(frame.positions, structure);
+  return structure;
+}
+
 void FrameRun::survey(const std::function<void(std::uint64_t, std::span<const Ball>)>& look) {
   std::vector<Ball> balls = balls_of(structure_);
   Frame frame;

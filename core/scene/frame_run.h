@@ -79,6 +79,9 @@ class FrameRun {
   /// InputError.
   std::vector<glm::dvec3> positions(std::uint64_t number);
 
+  /// The structure there, with what is shown beside the surface. Likewise.
+  Structure at(std::uint64_t number);
+
   /// The next frame of the chunk; nothing behind the last. Throws what reading it threw: then next() can be called
   /// again for the one behind it.
   std::optional<RunFrame> next();

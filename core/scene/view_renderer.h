@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include <glm/vec2.hpp>
@@ -15,8 +16,10 @@
 #include "core/color/coloring.h"
 #include "core/render/framebuffer.h"
 #include "core/render/hit_point.h"
+#include "core/render/picture_object.h"
 #include "core/render/render_settings.h"
 #include "core/structure/structure.h"
+#include "core/scene/figure.h"
 #include "core/surface/primitives.h"
 
 namespace meniscus {
@@ -31,14 +34,17 @@ class ViewRenderer {
   /// One colour per atom; to be set after atoms of another number and before the next picture.
   virtual void set_coloring(const Coloring& coloring) = 0;
 
+  /// What is cut, seen through and shown beside the surface. Such views are cast on the CPU whatever draws the others.
+  virtual void set_figure(const FigureRequest& request, std::shared_ptr<const ColoredShapes> beside) = 0;
+
   /// A finished picture over the look's background. probe_radius: Å, >= 0. stop: asked now and then on this thread,
   /// also between the stages of a surface; if true, the picture is given up: false, the one before stays, and there is
   /// nothing to pick. Throws GpuError, CapacityError, OpenSurfaceError, InputError for a bad camera.
   virtual bool draw(double probe_radius, const Camera& camera, const RenderSettings& settings,
                     const std::function<bool()>& stop = {}) = 0;
 
-  /// A picture of a complete surface, for a file; see SurfaceRenderer::render().
-  virtual Framebuffer render(const Surface& surface, const Coloring& coloring, const Camera& camera,
+  /// A picture for a file; see SurfaceRenderer::render().
+  virtual Framebuffer render(std::span<const PictureObject> objects, const Camera& camera,
                              const RenderSettings& settings) = 0;
 
   /// The last drawn picture, 8 bit sRGB and alpha (255) per pixel, rows from the top.
@@ -46,11 +52,14 @@ class ViewRenderer {
   /// The same as a GL texture (GL_RGBA8, sRGB values, first row on top) that lives until the next draw; 0: none.
   virtual std::uint32_t texture() const = 0;
   virtual glm::ivec2 size() const = 0;
-  /// pixel of the last drawn picture: column, row from the top. Nothing where nothing is hit.
+  /// pixel of the last drawn picture: column, row from the top. Nothing where nothing is hit. object: 1 beside the
+  /// surface.
   virtual std::optional<PickedPoint> pick(glm::ivec2 pixel) const = 0;
 
   /// The complete surface of the atoms, if that is what is drawn; else nullptr.
   virtual std::shared_ptr<const Surface> surface() const = 0;
+  /// Is the picture that the next draw makes cast on the CPU?
+  virtual bool draws_on_cpu() const = 0;
   /// Of the stages of the last picture.
   virtual const std::vector<StageTime>& times() const = 0;
 };

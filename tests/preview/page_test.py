@@ -104,7 +104,7 @@ class Page(unittest.IsolatedAsyncioTestCase):
             self.assertTrue(await page.evaluate("document.getElementById('controls').disabled"))
         with open(self.path("recorded.jsonl")) as file:
             words = {json.loads(line)["command"] for line in file}
-        self.assertLessEqual({"resize", "orbit", "pan", "zoom", "probe", "pick", "color", "patch_kinds",
+        self.assertLessEqual({"resize", "orbit", "pan", "zoom", "probe", "color", "patch_kinds",
                               "look", "export"}, words)
 
     async def state(self, page):
@@ -235,12 +235,93 @@ class Page(unittest.IsolatedAsyncioTestCase):
             self.assertEqual(state["keys"][0]["camera"], state["camera"])
             self.assertEqual(page.complaints, [])
 
+    async def act(self, page, atoms, button):
+        await page.evaluate(f"""document.getElementById('atoms').value = {json.dumps(atoms)};
+            document.querySelector('#figure-form button[value="{button}"]').click(); 0""")
+
+    async def chips(self, page, count):
+        await page.until(f"document.querySelectorAll('#chips li').length === {count}")
+        await page.at_rest()
+        return await page.evaluate("[...document.querySelectorAll('#chips span')].map((chip) => chip.textContent)")
+
+    async def test_a_figure_is_made_in_the_page(self):
+        preview = self.serve(MOLECULE, "--select", "polymer", "--color", "chain")
+        async with Browser(CHROMIUM, (1100, 900)) as page:
+            await page.open(preview.url)
+            await self.act(page, "chain C", "tube")
+            await self.act(page, "resid 10-20 and (", "sticks")
+            await page.until("!document.getElementById('atoms-fault').hidden")
+            self.assertIn("represent", await page.evaluate("document.getElementById('atoms-fault').textContent"))
+            await self.act(page, "chain A", "fade")
+            await self.act(page, "resid 1-20", "paint")
+            await page.click("#cut-depth")
+            self.assertEqual(await self.chips(page, 4), ["tube: chain C", "#e69f00: resid 1-20", "see through: chain A",
+                                                         "cut depth >"])
+            await page.evaluate("""const cut = document.querySelector('#chips li:last-child input'); cut.value = 0.3;
+                cut.dispatchEvent(new Event('input')); document.getElementById('legend').click();
+                const preset = document.getElementById('preset'); preset.value = 'publication';
+                preset.dispatchEvent(new Event('change')); 0""")
+            await page.until("JSON.parse(document.getElementById('picture').dataset.state).preset === 'publication'")
+            state = await self.state(page)
+            self.assertEqual(state["cuts"], ["depth>0.3"])
+            self.assertTrue(state["legend"]["on"])
+            await self.shoot(page, "figure.png")
+            # What is shown, what is written, and what the command makes are one picture.
+            await page.click("#copy-command")
+            words = await page.until("document.getElementById('command-text').value")
+            await page.click("#save-png")
+            saved = await self.downloaded(page, "1tii.png")
+            subprocess.run(["sh", "-c", words.replace("meniscus", PROGRAM, 1) + " -o made.png"], check=True,
+                           capture_output=True, cwd=self.folder.name)
+            self.assertTrue(same_pixels(self.path("made.png"), saved))
+            # A chip takes its thing away, and undo brings it back.
+            await page.click("#chips li:first-child .remove")
+            self.assertEqual(len(await self.chips(page, 3)), 3)
+            await page.click("#undo")
+            self.assertEqual((await self.chips(page, 4))[0], "tube: chain C")
+            # A double click centres, a kept view comes back.
+            await page.evaluate("document.getElementById('view-name').value = 'front'; "
+                                "document.getElementById('view-form').requestSubmit(); 0")
+            await page.until("document.querySelector('#views .recall')?.textContent === 'front'")
+            before = (await self.state(page))["camera"]
+            for count in (1, 2):
+                for kind in ("mousePressed", "mouseReleased"):
+                    await page.mouse(kind, 380, 450, button="left", clickCount=count)
+            await page.until("JSON.stringify(JSON.parse(document.getElementById('picture').dataset.state).camera.target)"
+                             f" !== {json.dumps(json.dumps(before['target'], separators=(',', ':')))}")
+            await page.click("#views .recall")
+            await page.until("JSON.stringify(JSON.parse(document.getElementById('picture').dataset.state).camera.target)"
+                             f" === {json.dumps(json.dumps(before['target'], separators=(',', ':')))}")
+            self.assertEqual(page.complaints, [])
+
+    async def test_a_finger_that_stays_behind_a_pinch_turns_nothing(self):
+        preview = self.serve(MOLECULE, "--select", "chain D")
+        async with Browser(CHROMIUM, SIZE) as page:
+            await page.open(preview.url)
+
+            async def touch(kind, *points):
+                await page.send("Input.dispatchTouchEvent", type=kind,
+                                touchPoints=[{"x": x, "y": y, "id": n} for n, x, y in points])
+
+            await touch("touchStart", (0, 100, 200))
+            await touch("touchStart", (0, 100, 200), (1, 200, 200))
+            await touch("touchMove", (0, 80, 200), (1, 260, 200))
+            await touch("touchEnd", (1, 260, 200))
+            pinched = (await self.state(page))["camera"]
+            await touch("touchMove", (1, 261, 200))
+            await touch("touchEnd")
+            camera = (await self.state(page))["camera"]
+            for a, b in zip(camera["position"], pinched["position"]):
+                self.assertAlmostEqual(a, b, delta=3.0)  # one pixel, not 180
+            self.assertEqual(page.complaints, [])
+
     async def test_keys_do_what_the_page_says(self):
         preview = self.serve(MOLECULE, "--select", "chain D")
         async with Browser(CHROMIUM, SIZE) as page:
             await page.open(preview.url)
             for key, changed in (("ArrowLeft", "camera"), ("-", "camera"), ("k", "patch_kinds"), ("]", "probe_radius"),
-                                 ("p", "camera"), ("r", "camera")):
+                                 ("o", "camera"), ("r", "camera"), ("z", "camera"), ("y", "camera"), ("g", "legend"),
+                                 ("2", "color"), ("l", "look")):
                 before = (await self.state(page))[changed]
                 await page.send("Input.dispatchKeyEvent", type="keyDown", key=key, text=key if len(key) == 1 else "")
                 await page.send("Input.dispatchKeyEvent", type="keyUp", key=key)

@@ -155,6 +155,25 @@ class Server(unittest.IsolatedAsyncioTestCase):
         for client in clients:
             await client.close()
 
+    async def test_control_can_be_taken(self):
+        async with self.preview.socket() as first, self.preview.socket() as second:
+            await second.send('{"request":"control"}')
+            self.assertTrue((await receive(second, lambda m: m.get("event") == "role"))["controls"])
+            self.assertFalse((await receive(first, lambda m: m.get("event") == "role"))["controls"])
+            self.assertTrue((await ask(second, {"command": "reset_view"}))["ok"])
+            self.assertFalse((await ask(first, {"command": "reset_view"}))["ok"])
+        await self.still_serves()
+
+    async def test_a_crowd_of_strangers_shuts_nobody_out(self):
+        crowd = [socket.create_connection(("127.0.0.1", self.preview.port)) for _ in range(40)]
+        await asyncio.sleep(0.3)
+        begin = time.monotonic()
+        self.assertEqual(self.get()[0], 200)
+        await self.still_serves()
+        self.assertLess(time.monotonic() - begin, 5)
+        for connection in crowd:
+            connection.close()
+
     async def test_a_client_that_vanishes_harms_nobody(self):
         for _ in range(5):
             client = await self.preview.socket()

@@ -129,14 +129,14 @@ Json typed(char32_t letter, const Json& state) {
   InputEvent event;
   event.kind = Kind::text;
   event.letter = letter;
-  return key_meaning(event, state).command.value_or(Json());
+  return event_meaning(event, state).command.value_or(Json());
 }
 
 Json pressed(int key, const Json& state) {
   InputEvent event;
   event.kind = Kind::key;
   event.key = key;
-  return key_meaning(event, state).command.value_or(Json());
+  return event_meaning(event, state).command.value_or(Json());
 }
 
 TEST(Keys, MeanWhatTheHelpSays) {
@@ -151,21 +151,30 @@ TEST(Keys, MeanWhatTheHelpSays) {
   predict(typed(U'a', shaded), shaded);
   EXPECT_EQ(shaded["look"]["ambient_occlusion"], 1.0);
   EXPECT_EQ(typed(U'a', shaded), Json({{"command", "look"}, {"ambient_occlusion", 0.0}}));
-  EXPECT_EQ(typed(U's', shaded), Json({{"command", "look"}, {"silhouettes", 1.5}}));
-  EXPECT_EQ(pressed(GLFW_KEY_RIGHT, kState), Json({{"command", "frame"}, {"index", 1}}));
-  EXPECT_EQ(pressed(GLFW_KEY_LEFT, kState), Json({{"command", "frame"}, {"index", 2}}));
+  EXPECT_EQ(typed(U'l', shaded), Json({{"command", "look"}, {"silhouettes", 1.5}}));
+  EXPECT_EQ(typed(U'.', kState), Json({{"command", "frame"}, {"index", 1}}));
+  EXPECT_EQ(typed(U',', kState), Json({{"command", "frame"}, {"index", 2}}));
+  EXPECT_GT(pressed(GLFW_KEY_RIGHT, kState)["dx"], 0.0);
+  EXPECT_LT(pressed(GLFW_KEY_LEFT, kState)["dx"], 0.0);
+  EXPECT_LT(pressed(GLFW_KEY_UP, kState)["dy"], 0.0);
+  EXPECT_GT(typed(U'+', kState)["factor"], 1.0);
+  EXPECT_EQ(typed(U'z', kState), Json()) << "there is nothing to undo";
+  Json changed = kState;
+  changed["undo"] = changed["redo"] = 1;
+  EXPECT_EQ(typed(U'z', changed), Json({{"command", "undo"}}));
+  EXPECT_EQ(typed(U'y', changed), Json({{"command", "redo"}}));
   Json single = kState;
   single["frames"] = 1;
-  EXPECT_EQ(pressed(GLFW_KEY_LEFT, single), Json());
+  EXPECT_EQ(typed(U',', single), Json());
   EXPECT_EQ(typed(U' ', single), Json());
 }
 
 TEST(Keys, ProbeStepsStayOnTenths) {
   Json state = kState;
-  for (int n = 0; n < 30; ++n) predict(typed(U'-', state), state);
+  for (int n = 0; n < 30; ++n) predict(typed(U'[', state), state);
   EXPECT_EQ(state["probe_radius"], 0.0);
   for (int n = 1; n <= 17; ++n) {
-    predict(typed(U'+', state), state);
+    predict(typed(U']', state), state);
     EXPECT_EQ(state["probe_radius"].get<double>(), n / 10.0);
   }
 }

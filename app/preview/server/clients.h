@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -38,8 +39,14 @@ struct Clients {
   std::map<ClientNumber, std::shared_ptr<Client>> sockets;
   ClientNumber next_number = 1;
 
-  /// The first of them controls.
-  bool controls(ClientNumber client) const { return !sockets.empty() && sockets.begin()->first == client; }
+  /// Connections that have not shown the token yet, oldest first, each by a function that ends it.
+  std::map<std::uint64_t, std::function<void()>> strangers;
+  std::uint64_t next_stranger = 1;
+  ClientNumber controller = 0;  ///< 0: nobody
+
+  bool controls(ClientNumber client) const { return client == controller; }
+  /// This client controls from now on; both are told.
+  void give_control(ClientNumber client);
   bool full() const;
   ClientNumber join(std::shared_ptr<Client> client);
   void leave(ClientNumber client);

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdint>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -32,9 +34,16 @@ class Connection : public std::enable_shared_from_this<Connection> {
       : stream_(std::move(socket)), clients_(std::move(clients)) {
     ++clients_->connections;
   }
-  ~Connection() { --clients_->connections; }
+  ~Connection() {
+    clients_->strangers.erase(stranger_);
+    --clients_->connections;
+  }
 
   void read() {
+    stranger_ = clients_->next_stranger++;
+    clients_->strangers[stranger_] = [weak = weak_from_this()] {
+      if (const auto self = weak.lock()) self->stream_.close();
+    };
     parser_.header_limit(kLargestHeader);
     parser_.body_limit(0);
     stream_.expires_after(std::chrono::seconds(kPatience));
@@ -53,6 +62,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
     const Admission admission = admit(target, clients_->token);
     if (!admission.admitted)
       return refuse(http::status::forbidden, "the address lacks the token that meniscus printed");
+    clients_->strangers.erase(stranger_);
     if (request.method() != http::verb::get) return refuse(http::status::method_not_allowed, "only GET is known");
     if (admission.path == "socket") return open_socket();
     const std::string_view name = admission.path.empty() ? "index.html" : admission.path;
@@ -108,6 +118,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   http::request_parser<http::empty_body> parser_;
   http::response<http::string_body> response_;
   std::shared_ptr<Clients> clients_;
+  std::uint64_t stranger_ = 0;  // number in Clients::strangers
 };
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include "app/preview/server/network.h"
 
 #include <chrono>
+#include <functional>
 #include <thread>
 #include <utility>
 
@@ -43,7 +44,16 @@ struct Network::State {
     acceptor.async_accept([this](boost::system::error_code error, asio::ip::tcp::socket socket) {
       if (error == asio::error::operation_aborted) return;
       if (error) return accept_later();
-      if (clients->connections < kMostConnections) serve_connection(std::move(socket), clients);
+      // Whoever says nothing makes room for whoever may know the token.
+      if (clients->connections >= kMostConnections && !clients->strangers.empty()) {
+        const auto oldest = clients->strangers.begin();
+        const std::function<void()> end = oldest->second;
+        clients->strangers.erase(oldest);
+        end();
+        serve_connection(std::move(socket), clients);
+      } else if (clients->connections < kMostConnections) {
+        serve_connection(std::move(socket), clients);
+      }
       accept();
     });
   }

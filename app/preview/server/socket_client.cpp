@@ -82,6 +82,7 @@ class SocketClient : public Client, public std::enable_shared_from_this<SocketCl
       message.erase(found);
     }
     if (message == Json{{"request", "picture"}}) return clients_->mailbox.want_picture(number_);
+    if (message == Json{{"request", "control"}}) return clients_->give_control(number_);
     if (!clients_->controls(number_) && !is_question(message)) return reply(id, "another page controls this preview");
     if (!clients_->mailbox.put(number_, id, std::move(message))) reply(id, "too many commands wait; send fewer");
   }

@@ -30,8 +30,11 @@ std::optional<double> AtomQuestion::advance(SessionLink& link, double time) {
   const auto pixel = [&](double x, const char* side) {
     return std::clamp(static_cast<int>(std::floor(x)), 0, link.state()[side].get<int>() - 1);
   };
-  number_ = link.send(
-      {{"command", "pick"}, {"x", pixel(place_->x, "width")}, {"y", pixel(place_->y, "height")}, {"wait", false}});
+  number_ = link.send({{"command", "pick"},
+                       {"x", pixel(place_->x, "width")},
+                       {"y", pixel(place_->y, "height")},
+                       {"wait", false},
+                       {"area", with_area_}});
   return {};
 }
 
@@ -39,7 +42,8 @@ bool AtomQuestion::take(const SessionReply& reply, double time) {
   if (number_ == 0 || reply.number != number_) return false;
   number_ = 0;
   answer_ = reply.reply;
-  const bool whole = !answer_.value("hit", false) || answer_["exposed_area"].is_number();
+  const bool whole =
+      !with_area_ || !answer_.value("hit", false) || answer_["exposed_area"].is_number() || answer_["kind"] == "shape";
   if (whole) place_.reset();
   due_ = time + kAskAgain;
   return true;

@@ -15,6 +15,9 @@ namespace meniscus {
 /// Exposed areas take a while; the rest of the answer comes at once. Times: seconds on any one clock.
 class AtomQuestion {
  public:
+  /// with_area: until the atom's exposed area is known; else only once, and with the area if it is known anyway.
+  explicit AtomQuestion(bool with_area) : with_area_(with_area) {}
+
   /// To be asked at `time`, in place of any question before. place: pixels of the picture.
   void ask_at(glm::dvec2 place, double time);
   /// Asks no more; what is known stays.
@@ -30,6 +33,7 @@ class AtomQuestion {
   const nlohmann::json& answer() const { return answer_; }
 
  private:
+  const bool with_area_;
   std::optional<glm::dvec2> place_;
   double due_ = 0.0;
   std::uint64_t number_ = 0;  // of the question on its way; 0: none

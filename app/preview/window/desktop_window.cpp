@@ -66,7 +66,10 @@ GLFWwindow* create_window(const std::string& title, glm::ivec2 size, bool tell_r
   glfwWindowHint(GLFW_DEPTH_BITS, 0);
   glfwWindowHint(GLFW_STENCIL_BITS, 0);
   glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
-  return glfwCreateWindow(size.x, size.y, title.c_str(), nullptr, nullptr);
+  constexpr int kLeastWidth = 480, kLeastHeight = 240;  // the panel and something of the picture
+  GLFWwindow* const window = glfwCreateWindow(size.x, size.y, title.c_str(), nullptr, nullptr);
+  if (window) glfwSetWindowSizeLimits(window, kLeastWidth, kLeastHeight, GLFW_DONT_CARE, GLFW_DONT_CARE);
+  return window;
 }
 
 DesktopWindow& owner(GLFWwindow* window) { return *static_cast<DesktopWindow*>(glfwGetWindowUserPointer(window)); }

@@ -2,6 +2,7 @@
 // Drags are told in heights of the picture, so that they mean the same in a picture of another size.
 #include "app/preview/window/gestures.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -36,7 +37,11 @@ void Gestures::take(const InputEvent& event, glm::ivec2 size, bool elsewhere, st
       break;
     case InputEvent::Kind::scroll:
       if (!elsewhere && event.scroll != 0.0)
-        add({{"command", "zoom"}, {"factor", std::pow(kZoomPerNotch, event.scroll)}}, commands);
+        add({{"command", "zoom"},
+             {"factor", std::pow(kZoomPerNotch, event.scroll)},
+             {"x", std::clamp(std::floor(event.position.x), 0.0, size.x - 1.0)},
+             {"y", std::clamp(std::floor(event.position.y), 0.0, size.y - 1.0)}},
+            commands);
       break;
     default:
       break;

@@ -66,6 +66,14 @@ std::optional<std::string> chosen(const char* id, const std::string& current, co
   return choice;
 }
 
+/// Kinds of patch have a switch of their own.
+std::vector<std::string> words_of(const Json& schemes) {
+  std::vector<std::string> words;
+  for (const Json& scheme : schemes)
+    if (scheme["word"] != "kind") words.push_back(scheme["word"]);
+  return words;
+}
+
 std::vector<std::string> map_names() {
   std::vector<std::string> names;
   for (const ColorMapMetadata& map : color_maps()) names.emplace_back(map.name);
@@ -93,6 +101,8 @@ void Panel::widgets() {
   title();
   surface();
   coloring();
+  heading("Figure");
+  figure_.draw();
   view();
   look();
   if (link_.state()["frames"].get<int>() > 1) frames();
@@ -121,7 +131,7 @@ void Panel::coloring() {
   const Json& state = link_.state();
   label("By");
   const std::string scheme = state["color"]["scheme"];
-  if (const auto word = chosen("##scheme", scheme, offered_schemes()))
+  if (const auto word = chosen("##scheme", scheme, words_of(link_.choices()["schemes"])))
     link_.send({{"command", "color"}, {"scheme", *word}});
   const auto parsed = parse_color_scheme(scheme);
   if (parsed && parsed->has_scale()) {
@@ -165,13 +175,17 @@ void Panel::view() {
 
 void Panel::look() {
   heading("Look");
+  label("Preset");
+  if (const auto preset = chosen("##preset", link_.state()["preset"].get<std::string>(),
+                                 link_.choices()["presets"].get<std::vector<std::string>>()))
+    link_.send({{"command", "preset"}, {"preset", *preset}});
   label("Background");
   const auto hex = parse_hex_color(link_.state()["look"]["background"].get<std::string>());
   glm::vec3 color = hex.value_or(glm::vec3(1.0f));
   if (ImGui::ColorEdit3("##background", &color.x, ImGuiColorEditFlags_DisplayHex))
     link_.send({{"command", "look"}, {"background", hex_color(color)}});
   strength("Occlusion", "ambient_occlusion", 1.0f, "Shade in pockets and clefts, when the picture is at rest (a)");
-  strength("Silhouettes", "silhouettes", 8.0f, "Width of lines where something stands in front, pixels (s)");
+  strength("Silhouettes", "silhouettes", 8.0f, "Width of lines where something stands in front, pixels (l)");
   strength("Depth cue", "depth_cue", 1.0f, "How much the farthest atoms fade into the background");
   strength("Light", "light_strength", 2.0f, "Strength of the key light");
   light();
@@ -218,7 +232,10 @@ void Panel::frames() {
   for (const Json& key : state["keys"]) is_key |= key["frame"] == state["frame_number"];
   if (ImGui::Button(is_key ? "Remove key" : "Set key")) link_.send({{"command", "key"}, {"on", !is_key}});
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("The camera passes here at this frame; %zu keys", state["keys"].size());
-  ImGui::SameLine();
+  float rate = state["fps"];
+  label("A second");
+  if (ImGui::SliderFloat("##fps", &rate, 1.0f, 60.0f, "%.0f frames", ImGuiSliderFlags_AlwaysClamp) && playing)
+    link_.send({{"command", "play"}, {"fps", std::round(rate)}});
   bool follows = state["follow_keys"];
   if (ImGui::Checkbox("follow", &follows)) link_.send({{"command", "follow_keys"}, {"on", follows}});
 }
@@ -247,7 +264,30 @@ void Panel::exports() {
   ImGui::SameLine();
   ImGui::Checkbox("replace", &replace_);
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("Replace a file of this name");
-  if (go) link_.send({{"command", "export"}, {"format", kFormats[format_].word}, {"path", path}, {"force", replace_}});
+  if (format_ == 0) {
+    label("Width");
+    ImGui::InputInt("##width", &width_, 0);
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("Pixels; 0: as shown. The height follows");
+    label("Samples");
+    ImGui::SliderInt("##samples", &samples_, 0, 64, samples_ > 0 ? "%d a pixel" : "as shown",
+                     ImGuiSliderFlags_AlwaysClamp);
+    ImGui::Checkbox("transparent", &transparent_);
+  }
+  if (ImGui::Button("Copy command")) link_.send(wished({{"command", "render_command"}}));
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("The command that makes this picture, into the clipboard");
+  Json command{{"command", "export"}, {"format", kFormats[format_].word}, {"path", path}, {"force", replace_}};
+  if (go) link_.send(format_ == 0 ? wished(command) : command);
+}
+
+Json Panel::wished(Json command) const {
+  if (samples_ > 0) command["samples"] = samples_;
+  if (transparent_) command["transparent"] = true;
+  if (width_ <= 0) return command;
+  constexpr int kLeast = 16, kMost = 16384;
+  const double shape = link_.state()["height"].get<double>() / link_.state()["width"].get<double>();
+  command["width"] = std::clamp(width_, kLeast, kMost);
+  command["height"] = std::clamp(static_cast<int>(std::lround(width_ * shape)), kLeast, kMost);
+  return command;
 }
 
 std::array<std::string, 4> pick_lines(const Json& pick) {
@@ -257,10 +297,11 @@ std::array<std::string, 4> pick_lines(const Json& pick) {
   if (pick["exposed_area"].is_number())
     area = fmt::format("exposed area {:.2f} \xc3\x85\xc2\xb2", pick["exposed_area"].get<double>());
   const std::string element = text("element").empty() ? "" : fmt::format(" ({})", text("element"));
+  const std::string kind = text("kind");
   return {fmt::format("atom {}{}", text("name"), element),
           fmt::format("residue {} {}{}, chain {}", text("residue"), pick["residue_number"].get<int>(),
                       text("insertion_code"), text("chain")),
-          text("kind") + " patch", area};
+          kind == "cap" || kind == "shape" ? kind : kind + " patch", area};
 }
 
 void Panel::picked() {
@@ -300,7 +341,14 @@ void Panel::show_reply(const SessionReply& reply) {
   line_is_fault_ = !reply.reply.value("ok", false);
   if (line_is_fault_) line_ = reply.reply.value("error", "the command failed");
   if (!line_is_fault_ && command_word(reply.command) == "export")
-    line_ = "written: " + reply.reply.value("path", std::string());
+    line_ = "written: " + reply.reply.value("path", std::string()) +
+            (reply.reply.contains("note") ? "; " + reply.reply["note"].get<std::string>() : "") +
+            (reply.reply.contains("render_with") ? "; render it with: " + reply.reply["render_with"].get<std::string>()
+                                                 : "");
+  if (!line_is_fault_ && command_word(reply.command) == "render_command") {
+    ImGui::SetClipboardText(reply.reply["text"].get<std::string>().c_str());
+    line_ = "the command is in the clipboard";
+  }
 }
 
 void Panel::status() {

@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "app/preview/window/figure_panel.h"
 #include "app/preview/window/session_link.h"
 
 namespace meniscus {
@@ -14,7 +15,7 @@ namespace meniscus {
 /// Lives between Gui frames; draw() belongs between Gui::begin and Gui::end.
 class Panel {
  public:
-  explicit Panel(SessionLink& link) : link_(link) {}
+  explicit Panel(SessionLink& link) : link_(link), figure_(link) {}
 
   /// Fills the right edge of the window. em: height of a letter.
   void draw(float em);
@@ -39,15 +40,18 @@ class Panel {
   void frames();
   void exports();
   void picked();
+  nlohmann::json wished(nlohmann::json command) const;
   void timing();
   void status();
 
   SessionLink& link_;
+  FigurePanel figure_;
   nlohmann::json pick_ = nlohmann::json::object();
   std::string selection_;
   std::string name_ = "view";
   int format_ = 0;
-  bool replace_ = false;
+  bool replace_ = false, transparent_ = false;
+  int samples_ = 0, width_ = 0;  ///< of an exported picture; 0: as shown
   bool name_wanted_ = false;
   std::string line_;  ///< about the last export or fault
   bool line_is_fault_ = false;

@@ -8,6 +8,13 @@ namespace meniscus {
 
 std::uint64_t SessionLink::send(const nlohmann::json& command) {
   if (has_state()) predict(command, state_);
+  const std::string word = command_word(command);
+  if (!is_question(command) && word != "undo" && word != "redo") {
+    constexpr std::chrono::milliseconds kStep(700);  // what comes later is a step of its own for undo
+    const auto now = std::chrono::steady_clock::now();
+    if (now - last_ > kStep) replay({{"command", "end_step"}});
+    last_ = now;
+  }
   return replay(command);
 }
 

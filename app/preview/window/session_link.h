@@ -2,6 +2,7 @@
 // What the window knows of its session: commands sent, the state as it will be once they are done, answers.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -33,6 +34,8 @@ class SessionLink {
   bool has_state() const { return state_.is_object(); }
   /// As the command "state" answers it, with what was sent since already in it.
   const nlohmann::json& state() const { return state_; }
+  /// As the command "choices" answers it.
+  const nlohmann::json& choices() const { return news_.choices; }
   /// Of the last picture; null before the first.
   const nlohmann::json& stats() const { return stats_; }
   /// Answers that came with the last update.
@@ -52,6 +55,7 @@ class SessionLink {
   SessionUpdate news_;
   nlohmann::json state_, stats_;
   std::uint64_t sent_ = 0;
+  std::chrono::steady_clock::time_point last_{};  ///< when something was sent that undo takes back
 };
 
 /// The state after a command that is right, as far as a window can tell: switches, sliders and frames.

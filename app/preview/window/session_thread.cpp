@@ -141,6 +141,7 @@ void SessionThread::tell(const LiveView& view) {
   const bool full = session.is_drawn(Quality::full);
   {
     const std::scoped_lock lock(mutex_);
+    if (news_.choices.is_null()) news_.choices = session.apply({{"command", "choices"}});
     news_.state = std::move(state);
     news_.stats = std::move(stats);
     news_.shown = done_;

@@ -36,6 +36,7 @@ struct SessionUpdate {
   bool full = false;                   ///< and it is not a draft
   bool at_rest = false;                ///< every command is done, and the full picture is drawn
   nlohmann::json state, stats;         ///< replies of the session to these words; null when nothing changed
+  nlohmann::json choices;              ///< likewise; null before the first state
   std::string fault;                   ///< why there is no picture of this view; empty if there is
   std::optional<double> busy_seconds;  ///< how long it has been working by now
   bool quit = false;

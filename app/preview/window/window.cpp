@@ -6,7 +6,6 @@
 #include <utility>
 
 #include <epoxy/gl.h>
-#include <fmt/format.h>
 #include <imgui.h>
 
 #include "app/preview/window/atom_question.h"
@@ -70,11 +69,11 @@ class PreviewWindow {
   SessionLink link_;
   Panel panel_;
   Gestures gestures_;
-  AtomQuestion hover_, clicked_;
+  AtomQuestion hover_{false}, clicked_{true};
   LatencyMeter latency_;
   WindowReport report_;
-  bool zoom_to_clicked_ = false;
   bool help_ = false, panel_shown_ = true;
+  int unsure_frames_ = 0;  // after a click into the panel, until ImGui has said whether that was a field
   int redraws_ = kSettlingFrames;
   std::size_t next_ = 0;  // of options_.commands
   std::uint64_t first_number_ = 0;
@@ -146,15 +145,18 @@ void PreviewWindow::take_events() {
   };
   const bool list_open = Gui::list_open();
   for (const InputEvent& event : window_.take_events()) {
-    // A letter that is a command must not turn up in the field that it opens.
-    if (event.kind != InputEvent::Kind::text || Gui::typing()) gui_.take(event);
-    if (!link_.has_state() || replaying()) continue;
     const bool elsewhere = list_open || event.position.x >= picture_area().x;
+    // A click into a field counts for what is typed behind it, though the field has not been drawn since.
+    if (event.kind == InputEvent::Kind::press) unsure_frames_ = elsewhere ? 2 : 0;
+    const bool for_panel = Gui::typing() || unsure_frames_ > 0;
+    // A letter that is a command must not turn up in the field that it opens.
+    if (event.kind != InputEvent::Kind::text || for_panel) gui_.take(event);
+    if (!link_.has_state() || replaying()) continue;
     gestures_.take(event, picture_area(), elsewhere, movements);
     if (gestures_.click()) take_click(*gestures_.click());
     if (event.kind == InputEvent::Kind::text || event.kind == InputEvent::Kind::key) {
       send_movements();  // things happen in the order they were done
-      take_key(event);
+      if (!for_panel) take_key(event);
     }
     if (event.kind == InputEvent::Kind::move || event.kind == InputEvent::Kind::leave) take_pointer(event, elsewhere);
   }
@@ -168,23 +170,22 @@ void PreviewWindow::take_pointer(const InputEvent& event, bool elsewhere) {
 }
 
 void PreviewWindow::take_key(const InputEvent& event) {
-  if (Gui::typing()) return;
-  const KeyMeaning meaning = key_meaning(event, link_.state());
-  if (Gui::list_open() && meaning.action == WindowAction::leave) return gui_.close_lists();
+  const KeyMeaning meaning = event_meaning(event, link_.state());
+  if (Gui::list_open() && meaning.action == FaceAction::leave) return gui_.close_lists();
   if (meaning.command) link_.send(*meaning.command);
   if (!meaning.action) return;
   switch (*meaning.action) {
-    case WindowAction::help:
+    case FaceAction::help:
       help_ = !help_;
       break;
-    case WindowAction::panel:
+    case FaceAction::panel:
       panel_shown_ = !panel_shown_;
       break;
-    case WindowAction::export_name:
+    case FaceAction::export_name:
       panel_shown_ = true;
       panel_.ask_for_name();
       break;
-    case WindowAction::leave:
+    case FaceAction::leave:
       if (event.kind == InputEvent::Kind::text || !std::exchange(help_, false))
         window_.close();  // Esc first closes help
       break;
@@ -193,7 +194,11 @@ void PreviewWindow::take_key(const InputEvent& event) {
 
 void PreviewWindow::take_click(const Click& click) {
   clicked_.ask_at(click.position, window_.seconds());
-  zoom_to_clicked_ = click.twice;
+  if (!click.twice) return;
+  const glm::ivec2 last = picture_area() - 1;
+  link_.send({{"command", "center"},
+              {"x", std::clamp(static_cast<int>(click.position.x), 0, last.x)},
+              {"y", std::clamp(static_cast<int>(click.position.y), 0, last.y)}});
 }
 
 void PreviewWindow::take_update() {
@@ -209,9 +214,6 @@ void PreviewWindow::take_reply(const SessionReply& reply) {
   if (hover_.take(reply, now)) return;
   if (!clicked_.take(reply, now)) return panel_.show_reply(reply);
   panel_.show_pick(clicked_.answer());
-  if (std::exchange(zoom_to_clicked_, false) && clicked_.answer().value("hit", false))
-    link_.send({{"command", "zoom_to"},
-                {"selection", fmt::format("byres index {}", clicked_.answer()["index"].get<std::size_t>())}});
 }
 
 /// What the window does by itself: the next command of a replay, the next frame of a film, another size.
@@ -242,14 +244,17 @@ void PreviewWindow::draw() {
   gui_.begin();
   if (panel_shown_) panel_.draw(gui_.em());
   if (help_) draw_help(gui_.em());
-  if (!gestures_.dragging()) draw_answer(hover_.answer());
+  if (!gestures_.dragging() && !help_) draw_answer(hover_.answer());
   const SharedPicture picture = link_.picture();
   const std::uint64_t shown = link_.news().shown;
   glViewport(0, 0, window_.pixels().x, window_.pixels().y);
   glClearColor(1.0f, 1.0f, 1.0f, 1.0f);
   glClear(GL_COLOR_BUFFER_BIT);
   if (picture.texture) view_.show(picture.texture, picture.size, picture_area(), window_.pixels());
-  if (gui_.end()) redraws_ = std::max(redraws_, 1);
+  if (gui_.end())
+    redraws_ = std::max(redraws_, 1);
+  else
+    unsure_frames_ = std::max(unsure_frames_ - 1, 0);
   window_.swap();
   ++report_.redraws;
   link_.presented(shown);

@@ -76,6 +76,7 @@ void CpuRenderer::begin(const Camera& camera, const RenderSettings& settings) {
   validate_camera(camera, "camera");
   drawn_ = false;
   places_.clear();
+  layers_.reset();
   clock_ = StageClock(settings.timing);
 }
 
@@ -239,6 +240,26 @@ bool CpuRenderer::draw_copies(std::span<const SurfaceObject> objects, const Came
   return true;
 }
 
+bool CpuRenderer::draw(std::span<const PictureObject> objects, const Camera& camera, const RenderSettings& settings,
+                       const std::function<bool()>& stop) {
+  assert(!objects.empty());
+  if (objects.size() == 1 && !needs_layers(objects.front()))
+    return draw(*objects.front().surface, *objects.front().coloring, camera, settings, stop);
+  scene_.placement = place(objects, camera, settings);
+  {
+    const auto stage = clock_.stage("pack");
+    layers_.emplace(objects, frame_, scene_.placement, settings.look);
+  }
+  Interruption interruption(stop);
+  const PictureBlock whole{{0, 0}, settings.size};
+  if (needs_shade_map(whole, settings)) cast_shade_map(shade_map_frame(frame_), settings, interruption, &*layers_);
+  cast({frame_, whole, settings, true, &*layers_}, interruption);
+  if (interruption.came()) return false;
+  present(settings);
+  drawn_ = true;
+  return true;
+}
+
 void CpuRenderer::present(const RenderSettings& settings) {
   const auto stage = clock_.stage("finish");
   const float per_sample = 1.0f / static_cast<float>(settings.samples);
@@ -256,8 +277,13 @@ std::optional<PickedPoint> CpuRenderer::pick(glm::ivec2 pixel) const {
   if (!drawn_ || pixel.x < 0 || pixel.y < 0 || pixel.x >= size_.x || pixel.y >= size_.y) return {};
   const ray_cast::Hit& hit = hits_[static_cast<std::size_t>(pixel.y) * size_.x + pixel.x];
   if (hit.primitive == ray_cast::kNoPrimitive) return {};
-  const ray_cast::Primitive& primitive = scene_.packed.primitives[hit.primitive];
-  PickedPoint point{hit.atom, static_cast<PatchKind>(primitive.kind), hit_point(frame_, pixel, hit.t).position};
+  PickedPoint point{hit.atom, {}, hit_point(frame_, pixel, hit.t).position};
+  if (layers_) point.object = hit.object;
+  if (hit.primitive == ray_cast::kOnPlane) return point;
+  const HitSource source = layers_ ? layers_->source(hit.object) : HitSource{};
+  if (layers_ && !source.surface) return point;
+  const auto primitives = layers_ ? source.primitives : std::span<const ray_cast::Primitive>(scene_.packed.primitives);
+  point.kind = static_cast<PatchKind>(primitives[hit.primitive].kind);
   if (places_.empty()) return point;
   const CopyPlace& place = places_[place_of(places_, hit.atom)];
   point.atom -= place.first_atom;

@@ -44,6 +44,9 @@ class CpuRenderer final : public SurfaceRenderer {
   /// true, the picture is given up: false, rgba() is the one before, and there is nothing to pick. Throws as render().
   bool draw(const Surface& surface, const Coloring& coloring, const Camera& camera, const RenderSettings& settings,
             const std::function<bool()>& stop = {});
+  /// The same of several objects, or of one that is cut or seen through.
+  bool draw(std::span<const PictureObject> objects, const Camera& camera, const RenderSettings& settings,
+            const std::function<bool()>& stop = {});
 
   /// The same of copies, as render_copies() makes them. What is picked tells its object, copy and atom.
   bool draw_copies(std::span<const SurfaceObject> objects, const Camera& camera, const RenderSettings& settings,
@@ -106,9 +109,10 @@ class CpuRenderer final : public SurfaceRenderer {
   BlockSamples samples_;
   std::vector<float> shade_map_;  // depths of the whole picture, and behind the last that of nothing
   std::vector<std::uint8_t> rgba_;
-  glm::ivec2 size_{0};             // of rgba_
-  bool drawn_ = false;             // scene_ and hits_ are those of rgba_
-  std::vector<CopyPlace> places_;  // in scene_, if copies are drawn; else empty
+  glm::ivec2 size_{0};                  // of rgba_
+  bool drawn_ = false;                  // scene_ and hits_ are those of rgba_
+  std::vector<CopyPlace> places_;       // in scene_, if copies are drawn; else empty
+  std::optional<LayeredScene> layers_;  // of rgba_, if it has any: what its hits mean
 };
 
 }  // namespace meniscus

@@ -1,6 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The socket: numbered questions with their replies, and one picture at a time.
 
+function new_socket() {
+  const address = new URL("socket", location.href);
+  address.protocol = "ws:";
+  return new WebSocket(address);
+}
+
+/// Does the server take connections?
+export const answers = () => new Promise((resolve) => {
+  const probe = new_socket();
+  probe.addEventListener("open", () => { probe.close(); resolve(true); });
+  probe.addEventListener("error", () => resolve(false));
+});
+
 /// Calls handlers[event](message) for what the server says of itself, and for "picture" with the bytes as well; asks for
 /// the next picture only when the last one is shown.
 export class Connection {
@@ -14,12 +27,9 @@ export class Connection {
 
   constructor(handlers) {
     this.#handlers = handlers;
-    const address = new URL("socket", location.href);
-    address.protocol = "ws:";
-    this.#socket = new WebSocket(address);
+    this.#socket = new_socket();
     this.#socket.binaryType = "arraybuffer";
     this.#open = new Promise((resolve) => this.#socket.addEventListener("open", resolve));
-    this.#open.then(() => this.#want_picture());
     this.#socket.addEventListener("message", (event) => this.#receive(event.data));
     this.#socket.addEventListener("close", () => this.#close());
   }
@@ -34,14 +44,15 @@ export class Connection {
     });
   }
 
-  #want_picture() {
-    this.#socket.send(JSON.stringify({ request: "picture" }));
+  /// Asks the server itself, which does not reply.
+  request(what) {
+    this.#socket.send(JSON.stringify({ request: what }));
   }
 
   async #receive(data) {
     if (typeof data !== "string") {
       await this.#handlers.picture(this.#announced, data);
-      if (this.#socket.readyState === WebSocket.OPEN) this.#want_picture();
+      if (this.#socket.readyState === WebSocket.OPEN) this.request("picture");
       return;
     }
     const message = JSON.parse(data);
@@ -53,9 +64,10 @@ export class Connection {
     }
   }
 
-  #tell(message) {
+  async #tell(message) {
     this.#ended ||= message.event === "ended";
-    this.#handlers[message.event]?.(message);
+    await this.#handlers[message.event]?.(message);
+    if (message.event === "welcome") this.request("picture");
   }
 
   #close() {

@@ -7,9 +7,16 @@ export function place_lamp(disc, [x, y, z]) {
   const dot = disc.firstElementChild;
   dot.style.left = `${50 + 44 * x / length}%`;
   dot.style.top = `${50 - 44 * y / length}%`;
+  disc.setAttribute("aria-valuetext", `${Math.round(100 * x / length)} right, ${Math.round(100 * y / length)} up`);
 }
 
-/// Calls tell(direction) while the dot is dragged.
+/// From a place on the disc, within the unit circle.
+function direction(x, y) {
+  const round = (value) => Math.round(value * 1000) / 1000;
+  return [round(x), round(y), round(Math.sqrt(1 - x * x - y * y))];
+}
+
+/// Calls tell(direction) while the dot is dragged, or moved by the arrow keys.
 export function follow_lamp(disc, tell) {
   const follow = (event) => {
     const box = disc.getBoundingClientRect();
@@ -17,9 +24,19 @@ export function follow_lamp(disc, tell) {
     let y = (box.top + box.height / 2 - event.clientY) / (0.44 * box.height);
     const across = Math.hypot(x, y);
     if (across > 0.98) [x, y] = [0.98 * x / across, 0.98 * y / across];
-    const round = (value) => Math.round(value * 1000) / 1000;
-    tell([round(x), round(y), round(Math.sqrt(1 - x * x - y * y))]);
+    tell(direction(x, y));
   };
+  disc.addEventListener("keydown", (event) => {
+    const step = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[event.key];
+    if (!step) return;
+    event.preventDefault();
+    event.stopPropagation();
+    const dot = disc.firstElementChild;
+    let [x, y] = [(parseFloat(dot.style.left) - 50) / 44 + 0.1 * step[0], (50 - parseFloat(dot.style.top)) / 44 + 0.1 * step[1]];
+    const across = Math.hypot(x, y);
+    if (across > 0.98) [x, y] = [0.98 * x / across, 0.98 * y / across];
+    tell(direction(x, y));
+  });
   disc.addEventListener("pointerdown", (event) => { disc.setPointerCapture(event.pointerId); follow(event); });
   disc.addEventListener("pointermove", (event) => { if (disc.hasPointerCapture(event.pointerId)) follow(event); });
 }

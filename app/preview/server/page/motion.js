@@ -4,10 +4,9 @@
 const kClick = 4;            // CSS pixels a click may wander
 const kHoverRest = 120;      // ms the pointer must rest before an atom is named
 const kWheel = 0.0015;       // growth per unit of wheel
-const kKeyTurn = 1 / 36;     // heights of the picture: five degrees
-const kKeyZoom = 1.1;
 
-/// Calls to.command(word, values) for motions, to.hover(pixel or null, place) and to.pick(pixel).
+/// Calls to.command(word, values) for motions, to.begin() where one begins, to.hover(pixel or null, place),
+/// to.pick(pixel) and, for a double click, to.center(pixel).
 export function follow_pointer(canvas, to) {
   let drag = null;
   let rest = 0;
@@ -21,9 +20,12 @@ export function follow_pointer(canvas, to) {
     return x >= 0 && y >= 0 && x < canvas.width && y < canvas.height ? { x, y } : null;
   };
 
+  const place_of = (event) =>
+    ({ x: event.offsetX, y: event.offsetY, clientX: event.clientX, clientY: event.clientY });
+
   const pinch = (event) => {
     const before = [...pointers.values()];
-    pointers.set(event.pointerId, { x: event.offsetX, y: event.offsetY });
+    pointers.set(event.pointerId, place_of(event));
     const after = [...pointers.values()];
     const span = ([a, b]) => Math.hypot(a.x - b.x, a.y - b.y) || 1;
     const middle = ([a, b]) => ({ x: (a.x + b.x) / 2, y: (a.y + b.y) / 2 });
@@ -38,12 +40,14 @@ export function follow_pointer(canvas, to) {
     document.activeElement?.blur();  // keys are for the picture again
     clearTimeout(rest);
     to.hover(null);
-    pointers.set(event.pointerId, { x: event.offsetX, y: event.offsetY });
+    to.begin();
+    pointers.set(event.pointerId, place_of(event));
     const pans = event.button === 2 || event.button === 1 || event.shiftKey;
     drag = { word: pans ? "pan" : "orbit", x: event.clientX, y: event.clientY, wandered: 0, button: event.button };
   });
   canvas.addEventListener("pointermove", (event) => {
-    if (pointers.size === 2) { drag.wandered = kClick; return pinch(event); }
+    if (pointers.size === 2 && pointers.has(event.pointerId)) { drag.wandered = kClick; return pinch(event); }
+    if (pointers.has(event.pointerId)) pointers.set(event.pointerId, place_of(event));
     if (!drag) {
       clearTimeout(rest);
       to.hover(null);
@@ -60,10 +64,13 @@ export function follow_pointer(canvas, to) {
   const release = (event) => {
     pointers.delete(event.pointerId);
     const was = drag;
-    if (pointers.size === 0) drag = null;
+    // A finger that stays behind a pinch begins anew from where it is, and taps nothing.
+    const [left] = pointers.values();
+    drag = left ? { ...was, x: left.clientX, y: left.clientY, wandered: kClick } : null;
     const pixel = pixel_at(event);
     if (event.type === "pointerup" && was && was.button === 0 && was.wandered < kClick && pixel) to.pick(pixel);
   };
+  canvas.addEventListener("dblclick", (event) => { const pixel = pixel_at(event); if (pixel) to.center(pixel); });
   canvas.addEventListener("pointerup", release);
   canvas.addEventListener("pointercancel", release);
   canvas.addEventListener("pointerleave", () => { clearTimeout(rest); to.hover(null); });
@@ -71,24 +78,17 @@ export function follow_pointer(canvas, to) {
     event.preventDefault();
     const lines = event.deltaMode === WheelEvent.DOM_DELTA_PIXEL ? 1 : 16;
     const growth = Math.exp(-event.deltaY * lines * kWheel);
-    to.command("zoom", { factor: Math.min(2, Math.max(0.5, growth)) });
+    to.command("zoom", { factor: Math.min(2, Math.max(0.5, growth)), ...pixel_at(event) });
   }, { passive: false });
 }
 
-/// Calls the action of a key, while `allowed`, unless something is being typed.
-export function follow_keys(actions, allowed) {
-  const keys = {
-    ArrowLeft: () => actions.orbit(-kKeyTurn, 0), ArrowRight: () => actions.orbit(kKeyTurn, 0),
-    ArrowUp: () => actions.orbit(0, -kKeyTurn), ArrowDown: () => actions.orbit(0, kKeyTurn),
-    "+": () => actions.zoom(kKeyZoom), "=": () => actions.zoom(kKeyZoom), "-": () => actions.zoom(1 / kKeyZoom),
-    "[": () => actions.probe(-0.1), "]": () => actions.probe(0.1),
-    k: actions.kinds, p: actions.projection, r: actions.reset, s: actions.save, h: actions.panel, " ": actions.play,
-  };
+/// Calls press(key) for keys that may mean something, while `allowed`, unless something is being typed.
+export function follow_keys(press, allowed) {
   document.addEventListener("keydown", (event) => {
-    const action = keys[event.key.length === 1 ? event.key.toLowerCase() : event.key];
-    const typing = event.target.closest?.("input, select, textarea, button");
-    if (!action || typing || event.ctrlKey || event.metaKey || event.altKey || !allowed()) return;
+    const known = event.key.length === 1 || event.key.startsWith("Arrow");
+    const typing = event.target.closest?.("input, select, textarea, button, [role=slider]");
+    if (!known || typing || event.ctrlKey || event.metaKey || event.altKey || !allowed()) return;
     event.preventDefault();
-    action();
+    press(event.key.length === 1 ? event.key.toLowerCase() : event.key);
   });
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The page: input becomes commands, pictures become pixels, and the controls show what the server says.
-import { Connection } from "./connection.js";
+import { answers, Connection } from "./connection.js";
+import { figure_controls } from "./figure.js";
 import { follow_lamp, place_lamp } from "./lamp.js";
 import { follow_pointer, follow_keys } from "./motion.js";
 
@@ -17,22 +18,42 @@ let newest = 0;        // the revision of the latest reply
 
 const server = new Connection({
   picture: show_picture,
-  welcome: (message) => { set_role(message.controls); server.ask({ command: "choices" }).then(fill_choices); fit(); },
+  welcome: async (message) => {
+    set_role(message.controls);
+    server.ask({ command: "choices" }).then(fill_choices);
+    await fit();  // before a picture is asked for, which would have another size
+  },
   role: (message) => { set_role(message.controls); fit(); },
   error: (message) => { apply_state(message.state); say(message.error, true); },
-  ended: (message) => { say(message.error ?? "The preview has ended.", Boolean(message.error), true); },
-  lost: () => { say("The connection to the preview is lost.", true, true); },
+  ended: (message) => { end(message.error ?? "The preview has ended.", Boolean(message.error)); },
+  lost: () => {
+    end("The connection to the preview is lost; trying again …", true);
+    connect_again();
+  },
 });
 
-/// Carries out a command; a refusal is said. Returns the reply, or null.
-async function command(word, values = {}) {
+const kStep = 700;  // ms without a command, after which the next is a step of its own for undo
+const tells_only = new Set(["pick", "export", "render_command", "end_step", "undo", "redo"]);
+const changes_state = new Set(["key", "save_view", "forget_view", "play", "pause"]);
+let last_change = 0;
+
+/// Carries out a command; a refusal is said, to the controls it came from if they can tell it. Returns the reply, or
+/// null.
+async function command(word, values = {}, refuse = (text) => say(text, true)) {
+  if (!tells_only.has(word)) {
+    const now = performance.now();
+    if (now - last_change > kStep) server.ask({ command: "end_step" });
+    last_change = now;
+  }
   ++outstanding;
   note_rest();
   const reply = await server.ask({ command: word, ...values });
   --outstanding;
   newest = reply.revision ?? newest;
   note_rest();
-  if (!reply.ok && reply.error) say(reply.error, true);
+  if (!reply.ok && reply.error) refuse(reply.error);
+  if (reply.ok && reply.revision === undefined && changes_state.has(word))
+    server.ask({ command: "state" }).then((next) => { if (next.ok) apply_state(next); });  // there is no new picture
   return reply.ok ? reply : null;
 }
 
@@ -40,19 +61,45 @@ async function command(word, values = {}) {
 const is_at_rest = () => Boolean(shown?.full) && outstanding === 0 && shown.state.revision >= newest;
 function note_rest() { canvas.dataset.rest = String(is_at_rest()); }
 
+$("take").addEventListener("click", () => server.request("control"));
+
 // Messages
 
 let message_timer = 0;
+say("The first picture …", false, true);
+
+/// A line over the picture, for some seconds or until another takes its place by say_anew().
 function say(text, is_error = false, stays = false) {
   const box = $("message");
-  if (box.classList.contains("stays")) return;
+  const { classList } = box;
+  if (classList.contains("stays") && (classList.contains("error") || !is_error)) return;
   box.textContent = text;
   box.classList.toggle("error", is_error);
   box.classList.toggle("stays", stays);
-  box.hidden = false;
+  box.hidden = !text;
   clearTimeout(message_timer);
   if (!stays) message_timer = setTimeout(() => { box.hidden = true; }, 6000);
-  if (stays) $("controls").disabled = true;
+}
+
+/// A fresh page, once the server answers again.
+async function connect_again() {
+  do await new Promise((resolve) => setTimeout(resolve, 2000));
+  while (!await answers());
+  location.reload();
+}
+
+/// The last word.
+function end(text, is_error) {
+  say_anew("");
+  say(text, is_error, true);
+  $("controls").disabled = true;
+}
+
+/// In place of one that stays.
+function say_anew(text, is_error = false) {
+  $("message").classList.remove("stays");
+  $("controls").disabled = !controls;
+  say(text, is_error);
 }
 
 function set_role(in_control) {
@@ -72,10 +119,10 @@ async function show_picture(message, bytes) {
   context.imageSmoothingQuality = "high";
   context.drawImage(bitmap, 0, 0, width, height);
   bitmap.close();
+  if (!shown) say_anew("");
   full_picture = message.full ? blob : null;
   shown = message;
   note_rest();
-  canvas.dataset.state = JSON.stringify(message.state);
   canvas.dataset.pictures = String(Number(canvas.dataset.pictures ?? 0) + 1);
   show_stats(message.stats, message.full);
   apply_state(message.state);
@@ -84,7 +131,7 @@ async function show_picture(message, bytes) {
 let moving = "";  // pictures a second, of the last one that was not full
 function show_stats(stats, full) {
   const ms = (value) => `${value < 10 ? value.toFixed(1) : Math.round(value)} ms`;
-  if (!full) moving = `${stats.fps < 10 ? stats.fps.toFixed(1) : Math.round(stats.fps)} fps`;
+  if (!full && Number(canvas.dataset.pictures) > 2) moving = `${stats.fps < 10 ? stats.fps.toFixed(1) : Math.round(stats.fps)} fps`;
   const rest = full ? `full picture in ${ms(stats.frame_milliseconds)}` : "";
   $("fps").textContent = [moving, rest].filter(Boolean).join(" · ");
   fill_list($("stages"), [...stats.stages.map((stage) => [stage.name, ms(stage.milliseconds)]),
@@ -108,11 +155,13 @@ function fit() {
   const side = (length) => Math.min(4096, Math.max(16, Math.round(length * scale)));
   const [width, height] = [side(stage.clientWidth), side(stage.clientHeight)];
   if (state && state.width === width && state.height === height) return;
-  command("resize", { width, height });
+  return command("resize", { width, height });
 }
 new ResizeObserver(fit).observe(stage);
 
 // State
+
+const show_figure = figure_controls(command, (text) => say(text));
 
 /// Unless somebody is at it: what is typed, or dragged ahead of the pictures, stays.
 function set_value(element, value) {
@@ -121,6 +170,7 @@ function set_value(element, value) {
 
 function apply_state(next) {
   state = next;
+  canvas.dataset.state = JSON.stringify(next);
   const name = next.file.split("/").pop();
   document.title = `${name} · Meniscus`;
   $("file").textContent = `${name}, ${next.atoms.toLocaleString("en")} atoms`;
@@ -128,7 +178,11 @@ function apply_state(next) {
   set_value($("probe-number"), Number(next.probe_radius.toFixed(3)));
   set_value($("scheme"), next.color.scheme);
   set_value($("map"), next.color.map ?? "");
-  $("map-row").hidden = !numbered.has(next.color.scheme);
+  $("map-row").hidden = $("range-row").hidden = !numbered.has(next.color.scheme);
+  set_value($("range"), next.color.range ?? "");
+  $("map").options[0].text = next.color.own_map ? "the file's" : "its own";
+  set_value($("preset"), next.preset);
+  show_figure(next);
   $("kinds").checked = next.patch_kinds;
   $("kinds-key").hidden = !(next.patch_kinds || next.color.scheme === "kind");
   set_value($("projection"), next.camera.projection);
@@ -156,6 +210,9 @@ function fill_choices(choices) {
   }
   $("map").add(new Option("its own", ""));
   for (const map of choices.maps) $("map").add(new Option(map, map));
+  for (const preset of choices.presets) $("preset").add(new Option(preset, preset));
+  fill_list($("help").querySelector("dl"), choices.keys.filter(({ keys }) => !keys.startsWith("q"))
+    .map(({ keys, what }) => [what, keys]));
   if (state) apply_state(state);
 }
 
@@ -168,10 +225,15 @@ $("probe").addEventListener("input", (event) => set_probe(event.target.valueAsNu
 $("probe-number").addEventListener("change", (event) => set_probe(event.target.valueAsNumber));
 
 const set_color = () => {
-  const scheme = $("scheme").value, map = $("map").value;
-  command("color", numbered.has(scheme) && map ? { scheme, map } : { scheme }).then((reply) => reply ?? apply_state(state));
+  const scheme = $("scheme").value, map = $("map").value, range = $("range").value.trim();
+  const values = { scheme };
+  if (numbered.has(scheme) && map) values.map = map;
+  if (numbered.has(scheme) && range) values.range = range;
+  command("color", values).then((reply) => reply ?? apply_state(state));
 };
-$("scheme").addEventListener("change", set_color);
+$("scheme").addEventListener("change", () => { $("range").value = ""; set_color(); });
+$("range").addEventListener("change", set_color);
+$("preset").addEventListener("change", (event) => command("preset", { preset: event.target.value }));
 $("map").addEventListener("change", set_color);
 $("kinds").addEventListener("change", (event) => command("patch_kinds", { on: event.target.checked }));
 $("projection").addEventListener("change", (event) => command("projection", { projection: event.target.value }));
@@ -197,37 +259,56 @@ $("rate").addEventListener("change", () => { if (state?.playing) command("play",
 
 // Atoms under the cursor
 
-const area_text = (area) => area === null ? "area …" : `${area.toFixed(2)} Å² exposed`;
+const area_text = (area) => area === null ? "" : ` · ${area.toFixed(2)} Å² exposed`;
+const kind_text = (kind) => ["cap", "shape"].includes(kind) ? kind : `${kind} patch`;
 let hovered = 0;  // number of the latest hover; older answers are late
 
-async function hover(pixel, place) {
+async function hover(pixel, place, more = 10) {
   const number = ++hovered;
   const tip = $("tip");
   if (!pixel || !is_at_rest()) { tip.hidden = true; return; }
-  const found = await server.ask({ command: "pick", ...pixel, wait: false });
+  const found = await server.ask({ command: "pick", ...pixel, wait: false, area: false });
   if (number !== hovered) return;
   tip.hidden = !(found.ok && found.hit);
   if (tip.hidden) return;
   tip.children[0].textContent = found.place;
-  tip.children[1].textContent = `${found.kind} patch · ${area_text(found.exposed_area)}`;
+  tip.children[1].textContent = kind_text(found.kind) + area_text(found.exposed_area);
   const left = Math.min(place.x + 14, stage.clientWidth - tip.offsetWidth - 8);
   const top = Math.min(place.y + 16, stage.clientHeight - tip.offsetHeight - 8);
   tip.style.transform = `translate(${Math.max(left, 0)}px, ${Math.max(top, 0)}px)`;
-  if (found.exposed_area === null) setTimeout(() => { if (number === hovered) hover(pixel, place); }, 300);
+  // Where it is cheap the area comes soon.
+  if (found.exposed_area === null && more > 0) setTimeout(() => { if (number === hovered) hover(pixel, place, more - 1); }, 300);
 }
 
+let picked = 0;  // number of the latest click
+
+/// Tells of an atom at once, and of its area when that is known.
 async function pick(pixel) {
-  if (!controls) return;
-  const found = await command("pick", pixel);
-  const rows = found?.hit ? [
-    ["place", found.place], ["element", found.element], ["patch", found.kind],
-    ["exposed", `${found.exposed_area.toFixed(3)} Å²`], ["position", found.position.map((x) => x.toFixed(2)).join(", ")],
-  ] : [];
-  $("picked").hidden = rows.length === 0;
-  fill_list($("picked").querySelector("dl"), rows);
+  const number = ++picked;
+  const revision = newest;
+  for (;;) {
+    const found = await server.ask({ command: "pick", ...pixel, wait: false });
+    if (number !== picked) return;
+    const rows = found.hit ? [
+      ["place", found.place], ["element", found.element], ["what", found.kind],
+      ["position", found.position.map((x) => x.toFixed(2)).join(", ")],
+    ] : [];
+    const waits = found.hit && found.exposed_area === null && ["convex", "toroidal", "concave"].includes(found.kind);
+    if (found.hit && (waits || found.exposed_area !== null))
+      rows.splice(3, 0, ["exposed", waits ? "…" : `${found.exposed_area.toFixed(3)} Å²`]);
+    $("picked").hidden = rows.length === 0;
+    fill_list($("picked").querySelector("dl"), rows);
+    if (!waits) return;
+    await new Promise((resolve) => setTimeout(resolve, 300));
+    if (number !== picked || newest !== revision) return;  // something else is there by now
+  }
 }
 
-follow_pointer(canvas, { command: (...values) => { if (controls) command(...values); }, hover, pick });
+follow_pointer(canvas, {
+  command: (...values) => { if (controls) command(...values); }, hover, pick,
+  center: (pixel) => { if (controls) command("center", pixel); },
+  begin: () => { last_change = 0; },
+});
 
 // Saving
 
@@ -252,20 +333,44 @@ $("export-form").addEventListener("submit", async (event) => {
   event.preventDefault();
   const format = event.submitter?.value ?? "png";
   const ending = { png: ".png", povray: "", blender: ".mns" }[format];
-  const reply = await command("export", { format, path: $("export-name").value + ending, force: $("export-force").checked });
-  if (reply) say(`Written: ${reply.path}`);
+  say("Writing …", false, true);
+  const reply = await command("export", { format, path: $("export-name").value + ending, force: $("export-force").checked,
+    ...wishes() }, (text) => say_anew(text, true));
+  if (reply) say_anew([`Written: ${reply.path}`, reply.note, reply.render_with && `render it with: ${reply.render_with}`]
+    .filter(Boolean).join("; "));
+});
+
+/// What is asked of an exported picture.
+function wishes() {
+  const wish = { samples: $("export-samples").valueAsNumber || state.samples };
+  if ($("export-transparent").checked) wish.transparent = true;
+  const [width, height] = [$("export-width").valueAsNumber, $("export-height").valueAsNumber];
+  if (width) wish.width = width;
+  if (height) wish.height = height;
+  if (width && !height) wish.height = Math.max(16, Math.round(width * state.height / state.width));
+  if (height && !width) wish.width = Math.max(16, Math.round(height * state.width / state.height));
+  return wish;
+}
+
+$("copy-command").addEventListener("click", async () => {
+  const reply = await command("render_command", wishes());
+  if (!reply) return;
+  $("command-text").value = reply.text;
+  $("command-text").hidden = false;
+  $("command-text").select();
+  const copied = await navigator.clipboard?.writeText(reply.text).then(() => true, () => false);
+  say(copied ? "The command is copied." : "Here it is, to be copied.");
 });
 
 // Keys
 
-follow_keys({
-  orbit: (dx, dy) => command("orbit", { dx, dy }),
-  zoom: (factor) => command("zoom", { factor }),
-  probe: (step) => set_probe(Math.min(100, Math.max(0, state.probe_radius + step))),
-  kinds: () => command("patch_kinds", { on: !state.patch_kinds }),
-  projection: () => command("projection", { projection: state.camera.projection === "perspective" ? "orthographic" : "perspective" }),
-  reset: () => command("reset_view"),
-  play: () => $("frames").hidden || $("play").click(),
-  save: save_picture,
+// What they mean is the session's to say, for all faces alike.
+const face_actions = {
+  help: () => { $("help").hidden = !$("help").hidden; },
   panel: () => { document.body.classList.toggle("bare"); },
+  export: () => { document.body.classList.remove("bare"); $("export-name").focus(); $("export-name").select(); },
+};
+follow_keys(async (key) => {
+  const reply = await command("press", { key });
+  face_actions[reply?.action]?.();
 }, () => controls && state !== null);

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Letters are taken as typed, so that they are where the user's keyboard has them.
+#include "app/preview/key_table.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/color/color_schemes.h"
+
+namespace meniscus {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr double kProbeStep = 0.1;    // Å
+constexpr double kTurn = 1.0 / 36.0;  // heights of the picture: five degrees
+constexpr double kZoom = 1.1;
+constexpr double kUsualOcclusion = 1.0;    // share
+constexpr double kUsualSilhouettes = 1.5;  // pixels
+
+constexpr KeyHelp kHelp[] = {
+    {"left drag, arrows", "turn"},
+    {"right drag, middle drag, shift + left drag", "move"},
+    {"wheel", "zoom at the cursor"},
+    {"+  -", "zoom"},
+    {"click", "tell about the atom"},
+    {"double click", "centre what is there"},
+    {"r", "the first view"},
+    {"z  y", "undo, redo"},
+    {"o", "orthographic / perspective"},
+    {"[  ]", "probe radius by 0.1 \xc3\x85"},
+    {"1 2 3 ...", "colour scheme"},
+    {"k", "colour by kind of patch"},
+    {"a", "shade"},
+    {"l", "lines"},
+    {"g", "legend"},
+    {"space", "play / pause"},
+    {",  .", "frame before / after"},
+    {"e", "export this view"},
+    {"p", "panel"},
+    {"h", "this help"},
+    {"q  Esc", "leave the window"},
+};
+
+Json turned(double dx, double dy) { return {{"command", "orbit"}, {"dx", kTurn * dx}, {"dy", kTurn * dy}}; }
+
+/// A strength of the look, off or as strong as it usually is.
+Json flipped_look(const char* key, double usual, const Json& state) {
+  return {{"command", "look"}, {key, state["look"].value(key, 0.0) > 0.0 ? 0.0 : usual}};
+}
+
+Json probe_by(double step, const Json& state) {
+  const double tenths = std::round(state["probe_radius"].get<double>() / kProbeStep + step / kProbeStep);
+  return {{"command", "probe"}, {"radius", std::max(0.0, tenths / 10.0)}};
+}
+
+std::optional<Json> frame_by(int step, const Json& state) {
+  const int count = state["frames"].get<int>();
+  if (count < 2) return {};
+  return Json{{"command", "frame"}, {"index", (state["frame"].get<int>() + step + count) % count}};
+}
+
+std::optional<Json> motion_of(std::string_view key) {
+  if (key == "ArrowLeft") return turned(-1.0, 0.0);
+  if (key == "ArrowRight") return turned(1.0, 0.0);
+  if (key == "ArrowUp") return turned(0.0, -1.0);
+  if (key == "ArrowDown") return turned(0.0, 1.0);
+  if (key == "+" || key == "=") return Json{{"command", "zoom"}, {"factor", kZoom}};
+  if (key == "-") return Json{{"command", "zoom"}, {"factor", 1.0 / kZoom}};
+  return {};
+}
+
+std::optional<Json> command_of(char letter, const Json& state) {
+  const auto& schemes = numbered_schemes();
+  if (letter >= '1' && letter <= '9' && static_cast<std::size_t>(letter - '1') < schemes.size())
+    return Json{{"command", "color"}, {"scheme", schemes[static_cast<std::size_t>(letter - '1')]}};
+  const bool perspective = state["camera"]["projection"] == "perspective";
+  switch (letter) {
+    case 'r':
+      return Json{{"command", "reset_view"}};
+    case 'z':
+      if (state.value("undo", 0) == 0) return {};
+      return Json{{"command", "undo"}};
+    case 'y':
+      if (state.value("redo", 0) == 0) return {};
+      return Json{{"command", "redo"}};
+    case 'o':
+      return Json{{"command", "projection"}, {"projection", perspective ? "orthographic" : "perspective"}};
+    case ']':
+      return probe_by(kProbeStep, state);
+    case '[':
+      return probe_by(-kProbeStep, state);
+    case 'k':
+      return Json{{"command", "patch_kinds"}, {"on", !state["patch_kinds"].get<bool>()}};
+    case 'a':
+      return flipped_look("ambient_occlusion", kUsualOcclusion, state);
+    case 'l':
+      return flipped_look("silhouettes", kUsualSilhouettes, state);
+    case 'g':
+      return Json{{"command", "legend"}, {"on", !state["legend"].value("on", false)}};
+    case ' ':
+      if (state["frames"].get<int>() < 2) return {};
+      return Json{{"command", state["playing"].get<bool>() ? "pause" : "play"}};
+    case ',':
+      return frame_by(-1, state);
+    case '.':
+      return frame_by(1, state);
+    default:
+      return {};
+  }
+}
+
+std::optional<FaceAction> action_of(std::string_view key) {
+  if (key == "h" || key == "?") return FaceAction::help;
+  if (key == "p") return FaceAction::panel;
+  if (key == "e") return FaceAction::export_name;
+  if (key == "q" || key == "Escape") return FaceAction::leave;
+  return {};
+}
+
+}  // namespace
+
+std::string_view face_action_word(FaceAction action) {
+  constexpr std::string_view kWords[] = {"help", "panel", "export", "leave"};
+  return kWords[static_cast<std::size_t>(action)];
+}
+
+std::span<const KeyHelp> key_help() { return kHelp; }
+
+const std::vector<std::string>& numbered_schemes() {
+  static const std::vector<std::string> words = [] {
+    std::vector<std::string> offered;
+    for (const ColorSchemeMetadata& scheme : color_schemes()) {
+      using By = ColorScheme::By;
+      // Kinds of patch have a key of their own; the others are not there for every molecule.
+      if (scheme.by != By::kind && scheme.by != By::component && scheme.by != By::file && scheme.by != By::copy &&
+          scheme.by != By::volume)
+        offered.emplace_back(scheme.word);
+    }
+    return offered;
+  }();
+  return words;
+}
+
+KeyMeaning key_meaning(std::string_view key, const Json& state) {
+  if (std::optional<Json> motion = motion_of(key)) return {std::move(motion), {}};
+  return {key.size() == 1 ? command_of(key.front(), state) : std::nullopt, action_of(key)};
+}
+
+}  // namespace meniscus

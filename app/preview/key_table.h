@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The keys of a preview, one table for the window and the page.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+namespace meniscus {
+
+/// What a key does to the face alone: to the window, or to the page.
+enum class FaceAction { help, panel, export_name, leave };
+
+/// "help", "panel", "export" or "leave".
+std::string_view face_action_word(FaceAction action);
+
+/// A row of the help: keys or mouse, and what they do.
+struct KeyHelp {
+  const char* keys;
+  const char* what;
+};
+std::span<const KeyHelp> key_help();
+
+struct KeyMeaning {
+  std::optional<nlohmann::json> command;
+  std::optional<FaceAction> action;
+};
+
+/// What a key means while the session has this state (the reply to "state"); nothing for all other keys. key: the
+/// letter that is typed, or "ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown", "Escape", as browsers call them.
+KeyMeaning key_meaning(std::string_view key, const nlohmann::json& state);
+
+/// The colour schemes of the keys 1, 2, 3, ...: those that every molecule has.
+const std::vector<std::string>& numbered_schemes();
+
+}  // namespace meniscus

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a preview shows, as one value: what undo brings back, and around it what belongs to the session.
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <optional>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "core/camera/camera.h"
+#include "core/color/color_schemes.h"
+#include "core/render/legend.h"
+#include "core/render/look_presets.h"
+#include "core/scene/figure.h"
+#include "core/structure/selection/selection.h"
+
+namespace meniscus {
+
+/// A figure, whatever its size. Commands change it, undo and redo replace it.
+struct PreviewFigure {
+  Camera camera;
+  bool overview = true;           ///< all is shown, as long as nobody moved the camera
+  double probe_radius = 1.4;      ///< Å
+  std::optional<Selection> show;  ///< atoms whose part of the surface is drawn; nothing: all
+  ColorScheme color;
+  bool patch_kinds = false;  ///< coloured by kind of patch, whatever the scheme (figure 2 of Krone et al. 2010)
+  FigureRequest figure;
+  LookRequest look{.preset = LookPreset::classic};
+  glm::vec3 background{1.0f};  ///< sRGB
+  bool legend = false;
+  LegendStyle legend_style;
+
+  /// What the colours are by, kinds of patch too.
+  ColorScheme told_scheme() const;
+};
+
+/// What is seen, and how; all of it changes by commands.
+struct PreviewView : PreviewFigure {
+  std::size_t frame = 0;               ///< from 0
+  std::map<std::size_t, Camera> keys;  ///< of the camera, by frame; all of one projection
+  bool follows_keys = false;           ///< showing a frame moves the camera along its keys
+  bool playing = false;
+  double frames_per_second = 10.0;  ///< while playing
+  glm::ivec2 size{1024, 768};       ///< of the full picture with its legend, in pixels
+  int samples = 4;                  ///< rays per pixel of the full picture
+  bool copies_apart = false;        ///< no probe may touch two copies of the structure (Structure::instances)
+};
+
+}  // namespace meniscus

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Says a view in the options of `meniscus render`.
+#include "app/preview/render_words.h"
+
+#include <nlohmann/json.hpp>
+
+#include <fmt/format.h>
+
+#include "app/preview/look_json.h"
+#include "core/base/text.h"
+#include "core/color/color_maps.h"
+
+namespace meniscus {
+namespace {
+
+class Words {
+ public:
+  explicit Words(std::vector<std::string> first) : words_(std::move(first)) {}
+
+  void add(const std::vector<std::string>& words) { words_.insert(words_.end(), words.begin(), words.end()); }
+  void flag(const char* name, bool on) {
+    if (on) words_.emplace_back(name);
+  }
+  /// A value that begins with a dash would be taken for an option.
+  void option(const char* name, const std::string& value) {
+    if (value.starts_with('-')) return words_.push_back(std::string(name) + "=" + value);
+    words_.emplace_back(name);
+    words_.push_back(value);
+  }
+  template <typename Number>
+  void number(const char* name, const std::optional<Number>& value) {
+    if (value) option(name, fmt::format("{}", *value));
+  }
+  std::vector<std::string> take() { return std::move(words_); }
+
+ private:
+  std::vector<std::string> words_;
+};
+
+void add_look(const LookRequest& look, Words& words) {
+  words.option("--preset", preset_word(look.preset));
+  if (look.light_direction)
+    words.option("--light",
+                 fmt::format("{},{},{}", look.light_direction->x, look.light_direction->y, look.light_direction->z));
+  words.number("--light-strength", look.light_strength);
+  words.number("--ambient", look.ambient);
+  words.number("--roughness", look.roughness);
+  words.number("--specular", look.specular);
+  words.number("--shininess", look.shininess);
+  words.number("--ambient-occlusion", look.ambient_occlusion);
+  words.number("--ambient-occlusion-radius", look.ambient_occlusion_radius);
+  words.number("--silhouettes", look.silhouettes);
+  words.number("--outer-lines", look.outer_lines);
+  words.number("--inner-lines", look.inner_lines);
+  words.number("--part-lines", look.part_lines);
+  words.number("--depth-cue", look.depth_cue);
+}
+
+void add_colors(const RenderInput& input, const RenderedView& view, Words& words) {
+  const PreviewFigure& figure = view.figure;
+  const ColorScheme& color = figure.color;
+  if (figure.patch_kinds) {
+    words.option("--color", "kind");
+  } else {
+    if (!color.uses_file() || color.by != ColorScheme::By::file) words.option("--color", scheme_word(color));
+    if (color.uses_file()) words.add(input.number_words);
+    if (color.uses_scale()) {
+      if (color.own_map)
+        words.add(input.map_words);
+      else if (color.map)
+        words.option("--map", std::string(map_name(*color.map)));
+      const auto range = color.range ? color.range : view.range;
+      if (range) words.option("--color-range", fmt::format("{}:{}", (*range)[0], (*range)[1]));
+      if (color.missing) words.option("--missing-color", hex_color(*color.missing));
+    }
+    for (const ColorRule& rule : color.rules)
+      words.option("--color", rule.atoms.text() + "=" + scheme_word(rule.paint));
+  }
+  for (const OpacityRule& rule : color.opacities)
+    words.option("--opacity", (rule.atoms ? rule.atoms->text() + "=" : "") + fmt::format("{}", rule.opacity));
+}
+
+void add_figure(const FigureRequest& figure, Words& words) {
+  words.flag("--film-opacity", figure.thickens);
+  for (const Cut& cut : figure.cuts) words.option("--clip", cut_text(cut));
+  if (figure.cap.color) words.option("--cap-color", hex_color(*figure.cap.color));
+  if (figure.cap.hatching > 0.0) words.option("--cap-hatching", fmt::format("{}", figure.cap.hatching));
+  for (const RepresentationRequest& request : figure.representations.requests)
+    words.option(option_word(request.kind), request.atoms.text());
+  words.number("--stick-radius", figure.representations.stick_radius);
+  words.number("--tube-radius", figure.representations.tube_radius);
+}
+
+void add_legend(const PreviewFigure& figure, Words& words) {
+  const LegendStyle& style = figure.legend_style;
+  words.flag("--legend", true);
+  if (style.title) words.option("--legend-title", *style.title);
+  words.number("--legend-size", style.letters);
+  if (style.place != LegendStyle::Place::automatic)
+    words.option("--legend-place", style.place == LegendStyle::Place::right ? "right" : "below");
+}
+
+}  // namespace
+
+const char* preset_word(LookPreset preset) {
+  constexpr const char* kWords[] = {"publication", "cover", "flat", "soft", "classic"};
+  return kWords[static_cast<std::size_t>(preset)];
+}
+
+std::vector<std::string> render_words(const RenderInput& input, const RenderedView& view) {
+  const PreviewFigure& figure = view.figure;
+  Words words({"meniscus", "render"});
+  words.add(input.words);
+  if (view.model) words.option("--model", fmt::format("{}", *view.model));
+  if (view.frame) {
+    words.option("--only", fmt::format("{}", *view.frame));
+    words.option("-o", "frame_#####.png");
+  }
+  words.option("--camera", nlohmann::json(camera_object(figure.camera)).dump());
+  words.option("--size", fmt::format("{}x{}", view.size.x, view.size.y));
+  words.option("--samples", fmt::format("{}", view.samples));
+  words.option("--background", view.transparent ? "transparent" : hex_color(figure.background));
+  words.option("--probe", fmt::format("{}", figure.probe_radius));
+  if (figure.show) words.option("--show", figure.show->text());
+  add_colors(input, view, words);
+  add_figure(figure.figure, words);
+  add_look(figure.look, words);
+  if (figure.legend) add_legend(figure, words);
+  return words.take();
+}
+
+std::string shell_line(std::span<const std::string> words) {
+  std::string line;
+  for (const std::string& word : words) {
+    const bool plain =
+        word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_./:,+=") ==
+            std::string::npos &&
+        !word.empty();
+    line += (line.empty() ? "" : " ") + (plain ? word : escaped(shell_word(word)));
+  }
+  return line;
+}
+
+std::string scheme_word(const ColorScheme& color) {
+  for (const ColorSchemeMetadata& scheme : color_schemes())
+    if (scheme.by == color.by) return std::string(scheme.word);
+  return hex_color(color.fixed);
+}
+
+}  // namespace meniscus

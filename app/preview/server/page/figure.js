@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The controls of the figure: atoms that are named, a chip for each thing shown, cuts, caps, legend, kept views.
+
+const $ = (id) => document.getElementById(id);
+
+function element(tag, properties = {}, ...children) {
+  const made = Object.assign(document.createElement(tag), properties);
+  made.append(...children);
+  return made;
+}
+
+function remove_button(what, action) {
+  const button = element("button", { type: "button", className: "remove", textContent: "×" });
+  button.setAttribute("aria-label", `Remove ${what}`);
+  button.addEventListener("click", action);
+  return button;
+}
+
+function slider(label, { min, max, step, value }, tell) {
+  const range = element("input", { type: "range", min, max, step, value });
+  range.setAttribute("aria-label", label);
+  range.addEventListener("input", () => tell(range.valueAsNumber));
+  return range;
+}
+
+const kPlane = /^(depth|x|y|z)([<>])(.*)$/;
+
+/// Where a plane can stand, that moves along the view or an axis; null for others.
+function plane_range(plane, state) {
+  const found = plane.match(kPlane);
+  if (!found) return null;
+  const [, axis, sign, bound] = found;
+  const a = "xyz".indexOf(axis);
+  const [min, max, step] = a < 0 ? [0, 1, 0.01] : [Math.floor(state.low[a]), Math.ceil(state.high[a]), 0.1];
+  return { axis, sign, min, max, step, value: Number(bound) };
+}
+
+/// Shows what the figure has, each with its controls; command(word, values) changes it. Returns show(state).
+export function figure_controls(command, say) {
+  let known = "";  // what the chips show: they are made anew when there are others, not when a slider moves
+
+  const fault = (text) => {
+    $("atoms-fault").textContent = text;
+    $("atoms-fault").hidden = !text;
+    $("atoms").setAttribute("aria-invalid", String(Boolean(text)));
+  };
+  $("atoms").addEventListener("input", () => fault(""));
+  $("figure-form").addEventListener("submit", async (event) => {
+    event.preventDefault();
+    const selection = $("atoms").value.trim();
+    const act = event.submitter?.value ?? "sticks";
+    if (!selection) return fault("Name some atoms first, such as: ligand");
+    const [word, values] = {
+      hide: ["hide", { selection }], only: ["show", { selection }], zoom: ["zoom_to", { selection }],
+      paint: ["paint", { selection, color: $("paint").value }], fade: ["opacity", { selection, opacity: 0.4 }],
+    }[act] ?? ["represent", { as: act, selection }];
+    fault("");
+    const reply = await command(word, values, fault);
+    if (reply?.atoms !== undefined) say(`${reply.atoms.toLocaleString("en")} atoms`);
+  });
+
+  for (const axis of ["depth", "x", "y", "z"])
+    $(`cut-${axis}`).addEventListener("click", () => {
+      const a = "xyz".indexOf(axis);
+      const bound = a < 0 ? 0.5 : Math.round(5 * (latest.low[a] + latest.high[a])) / 10;
+      command("cut", { plane: `${axis}>${bound}` });
+    });
+  $("film").addEventListener("change", (event) => command("film_opacity", { on: event.target.checked }));
+  $("cap").addEventListener("change", (event) =>
+    command("cap", { color: event.target.value === "own" ? $("cap-color").value : event.target.value }));
+  $("cap-color").addEventListener("input", (event) => command("cap", { color: event.target.value }));
+  $("hatching").addEventListener("input", (event) => command("cap", { hatching: event.target.valueAsNumber }));
+  $("undo").addEventListener("click", () => command("undo"));
+  $("redo").addEventListener("click", () => command("redo"));
+  $("legend").addEventListener("change", (event) =>
+    command("legend", { on: event.target.checked }).then((reply) => { if (!reply) event.target.checked = false; }));
+  $("legend-title").addEventListener("change", (event) => command("legend", { title: event.target.value || null }));
+  $("legend-place").addEventListener("change", (event) => command("legend", { place: event.target.value }));
+  $("view-form").addEventListener("submit", async (event) => {
+    event.preventDefault();
+    if (await command("save_view", { name: $("view-name").value.trim() })) {
+      $("view-name").value = "";
+      command("end_step");
+    }
+  });
+
+  let latest = null;
+  const chip = (what, of, index, ...more) =>
+    element("li", {}, element("span", { textContent: what, title: what }), ...more,
+      remove_button(what, () => command("remove", { of, index })));
+
+  function chips(state) {
+    const list = [];
+    if (state.show !== null) {
+      const what = `surface of ${state.show}`;
+      list.push(element("li", {}, element("span", { textContent: what, title: what }),
+        remove_button(what, () => command("show"))));
+    }
+    state.representations.forEach(({ as, selection }, n) => list.push(chip(`${as}: ${selection}`, "representations", n)));
+    (state.color.rules ?? []).forEach((rule, n) => {
+      const at = rule.lastIndexOf("=");
+      list.push(chip(`${rule.slice(at + 1)}: ${rule.slice(0, at)}`, "rules", n));
+    });
+    state.opacities.forEach(({ opacity, selection }, index) => {
+      const what = `see through: ${selection ?? "all"}`;
+      list.push(chip(what, "opacities", index, slider(`Opacity, ${what}`, { min: 0, max: 1, step: 0.05, value: opacity },
+        (value) => command("opacity", { opacity: value, index }))));
+    });
+    state.cuts.forEach((plane, index) => {
+      const range = plane_range(plane, state);
+      const more = [];
+      if (range) {
+        const side = element("button", { type: "button", textContent: "⇄", title: "The other side" });
+        side.setAttribute("aria-label", `Show the other side of ${plane}`);
+        side.addEventListener("click", () => {
+          const now = plane_range(latest.cuts[index], latest);
+          command("cut", { plane: `${now.axis}${now.sign === "<" ? ">" : "<"}${now.value}`, index });
+        });
+        more.push(slider(`Place of the cut ${range.axis}`, range, (value) => {
+          const now = plane_range(latest.cuts[index], latest);
+          command("cut", { plane: `${now.axis}${now.sign}${value}`, index });
+        }), side);
+      }
+      list.push(chip(range ? `cut ${range.axis} ${range.sign}` : `cut ${plane}`, "cuts", index, ...more));
+    });
+    return list;
+  }
+
+  function views(state) {
+    return state.views.map((name) => {
+      const button = element("button", { type: "button", className: "recall", textContent: name });
+      button.addEventListener("click", () => command("recall_view", { name }));
+      return element("li", {}, button,
+        remove_button(`the view ${name}`, () => command("forget_view", { name }).then(() => command("end_step"))));
+    });
+  }
+
+  return function show(state) {
+    latest = state;
+    const shape = JSON.stringify([state.show, state.representations, state.color.rules, state.opacities.map((o) => o.selection),
+      state.cuts.map((plane) => plane.match(kPlane)?.slice(1, 3) ?? plane), state.views]);
+    if (shape !== known) {
+      known = shape;
+      $("chips").replaceChildren(...chips(state));
+      $("views").replaceChildren(...views(state));
+    }
+    $("film").checked = state.film_opacity;
+    $("film").parentElement.hidden = state.opacities.length === 0;
+    const named = [...$("cap").options].some((option) => option.value === state.cap.color);
+    $("cap").value = named ? state.cap.color : "own";
+    $("cap-color-row").hidden = named;
+    if (state.cap.color !== "atom") $("cap-color").value = state.cap.color;
+    $("hatching").value = state.cap.hatching;
+    for (const id of ["cap", "hatching"]) $(id).parentElement.hidden = state.cuts.length === 0;
+    $("cap-color-row").hidden ||= state.cuts.length === 0;
+    $("undo").disabled = state.undo === 0;
+    $("redo").disabled = state.redo === 0;
+    $("legend").checked = state.legend.on;
+    for (const row of document.querySelectorAll(".of-legend")) row.hidden = !state.legend.on;
+    if ($("legend-title") !== document.activeElement) $("legend-title").value = state.legend.title ?? "";
+    $("legend-place").value = state.legend.place;
+    $("legend-fault").textContent = state.legend.fault ?? "";
+    $("legend-fault").hidden = !state.legend.fault;
+  };
+}

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Widgets over the state's lists; like those of the panel they hold no value of the session.
+#include "app/preview/window/figure_panel.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+#include "app/preview/look_json.h"
+#include "core/color/css_colors.h"
+#include "core/scene/cut.h"
+
+namespace meniscus {
+namespace {
+
+using Json = nlohmann::json;
+
+/// The same side of the same plane elsewhere, or the other side.
+std::string moved(Cut cut, double bound, bool turned) {
+  cut.bound = bound;
+  cut.keeps_less = cut.keeps_less != turned;
+  return cut_text(cut);
+}
+
+void same_line() { ImGui::SameLine(0.0f, 0.35f * ImGui::GetFontSize()); }
+
+}  // namespace
+
+void FigurePanel::draw() {
+  atoms();
+  rows();
+  cuts();
+  caps();
+  legend();
+  views();
+}
+
+void FigurePanel::atoms() {
+  ImGui::SetNextItemWidth(-1.0f);
+  ImGui::InputTextWithHint("##atoms", "atoms: ligand, chain A ...", &selection_);
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("A selection; then one of the buttons below");
+  constexpr std::array<const char*, 4> kShapes{"sticks", "balls", "spheres", "tube"};
+  const bool empty = selection_.empty();
+  if (empty) ImGui::PushStyleVar(ImGuiStyleVar_Alpha, 0.5f);
+  for (const char* shape : kShapes) {
+    if (shape != kShapes.front()) same_line();
+    if (ImGui::Button(shape) && !empty)
+      link_.send({{"command", "represent"}, {"as", shape}, {"selection", selection_}});
+  }
+  if (ImGui::Button("hide") && !empty) link_.send({{"command", "hide"}, {"selection", selection_}});
+  same_line();
+  if (ImGui::Button("only") && !empty) link_.send({{"command", "show"}, {"selection", selection_}});
+  same_line();
+  if (ImGui::Button("see through") && !empty)
+    link_.send({{"command", "opacity"}, {"selection", selection_}, {"opacity", 0.4}});
+  same_line();
+  if (ImGui::Button("paint") && !empty)
+    link_.send({{"command", "paint"}, {"selection", selection_}, {"color", hex_color(paint_)}});
+  same_line();
+  ImGui::ColorEdit3("##paint", &paint_.x, ImGuiColorEditFlags_NoInputs | ImGuiColorEditFlags_NoLabel);
+  if (empty) ImGui::PopStyleVar();
+}
+
+bool FigurePanel::removed(const std::string& text, const char* of, int index) {
+  const bool clicked = ImGui::SmallButton(fmt::format("x##{}{}", of, index).c_str());
+  same_line();
+  ImGui::TextUnformatted(text.c_str());
+  if (clicked && index >= 0) link_.send({{"command", "remove"}, {"of", of}, {"index", index}});
+  return clicked;
+}
+
+void FigurePanel::rows() {
+  const Json state = link_.state();
+  if (state["show"].is_string() && removed("surface of " + state["show"].get<std::string>(), "show", -1))
+    link_.send({{"command", "show"}});
+  int index = 0;
+  for (const Json& shown : state["representations"])
+    removed(fmt::format("{}: {}", shown["as"].get<std::string>(), shown["selection"].get<std::string>()),
+            "representations", index++);
+  index = 0;
+  for (const Json& rule : state["color"].value("rules", Json::array())) removed(rule, "rules", index++);
+  index = 0;
+  for (const Json& rule : state["opacities"]) {
+    removed("see through: " + rule.value("selection", "all"), "opacities", index);
+    float opacity = rule["opacity"];
+    ImGui::SetNextItemWidth(-1.0f);
+    if (ImGui::SliderFloat(fmt::format("##opacity{}", index).c_str(), &opacity, 0.0f, 1.0f, "%.2f",
+                           ImGuiSliderFlags_AlwaysClamp))
+      link_.send({{"command", "opacity"}, {"index", index}, {"opacity", std::round(100.0 * opacity) / 100.0}});
+    ++index;
+  }
+}
+
+void FigurePanel::cuts() {
+  const Json state = link_.state();
+  int index = 0;
+  for (const Json& text : state["cuts"]) {
+    const Cut cut = parse_cut(text.get<std::string>());
+    removed("cut " + text.get<std::string>(), "cuts", index);
+    const auto move = [&](double bound, bool turned) {
+      link_.send({{"command", "cut"}, {"plane", moved(cut, bound, turned)}, {"index", index}});
+    };
+    float low = 0.0f, high = 1.0f;
+    if (cut.direction != glm::dvec3(0.0)) {
+      low = high = 0.0f;  // how far the molecule reaches along the direction
+      for (int c = 0; c < 3; ++c) {
+        const double a = cut.direction[c] * state["low"][c].get<double>();
+        const double b = cut.direction[c] * state["high"][c].get<double>();
+        low += static_cast<float>(std::min(a, b));
+        high += static_cast<float>(std::max(a, b));
+      }
+    }
+    auto bound = static_cast<float>(cut.bound);
+    ImGui::SetNextItemWidth(-2.5f * ImGui::GetFontSize());
+    if (ImGui::SliderFloat(fmt::format("##cut{}", index).c_str(), &bound, low, high, "%.2f"))
+      move(std::round(100.0 * bound) / 100.0, false);
+    same_line();
+    if (ImGui::SmallButton(fmt::format("<>##side{}", index).c_str())) move(cut.bound, true);
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("Show the other side");
+    ++index;
+  }
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted("Cut along");
+  for (const char* axis : {"view", "x", "y", "z"}) {
+    same_line();
+    if (!ImGui::Button(fmt::format("{}##cut", axis).c_str())) continue;
+    const auto c = static_cast<std::size_t>(axis[0] - 'x');
+    const double middle =
+        axis[0] == 'v' ? 0.5
+                       : std::round(5.0 * (state["low"][c].get<double>() + state["high"][c].get<double>())) / 10.0;
+    link_.send({{"command", "cut"}, {"plane", fmt::format("{}>{}", axis[0] == 'v' ? "depth" : axis, middle)}});
+  }
+}
+
+void FigurePanel::caps() {
+  const Json& state = link_.state();
+  if (state["cuts"].empty()) return;
+  const std::string word = state["cap"]["color"];
+  bool of_atoms = word == "atom";
+  if (ImGui::Checkbox("caps as the atoms", &of_atoms))
+    link_.send({{"command", "cap"}, {"color", of_atoms ? "atom" : "#d8d8d0"}});
+  if (!of_atoms) {
+    same_line();
+    glm::vec3 color = parse_hex_color(word).value_or(glm::vec3(0.85f));
+    if (ImGui::ColorEdit3("##cap", &color.x, ImGuiColorEditFlags_NoInputs | ImGuiColorEditFlags_NoLabel))
+      link_.send({{"command", "cap"}, {"color", hex_color(color)}});
+  }
+  float hatching = state["cap"]["hatching"];
+  ImGui::SetNextItemWidth(-1.0f);
+  if (ImGui::SliderFloat("##hatching", &hatching, 0.0f, 6.0f, "hatching %.1f \xc3\x85"))
+    link_.send({{"command", "cap"}, {"hatching", std::round(10.0 * hatching) / 10.0}});
+}
+
+void FigurePanel::legend() {
+  const Json state = link_.state();
+  bool on = state["legend"]["on"];
+  if (ImGui::Checkbox("legend", &on)) link_.send({{"command", "legend"}, {"on", on}});
+  if (!on) return;
+  same_line();
+  ImGui::SetNextItemWidth(-1.0f);
+  if (ImGui::InputTextWithHint("##title", "its title", &legend_title_, ImGuiInputTextFlags_EnterReturnsTrue))
+    link_.send({{"command", "legend"}, {"title", legend_title_.empty() ? Json(nullptr) : Json(legend_title_)}});
+  if (state["legend"].contains("fault")) ImGui::TextWrapped("%s", state["legend"]["fault"].get<std::string>().c_str());
+}
+
+void FigurePanel::views() {
+  const Json state = link_.state();
+  if (ImGui::Button("undo") && state["undo"] != 0) link_.send({{"command", "undo"}});
+  same_line();
+  if (ImGui::Button("redo") && state["redo"] != 0) link_.send({{"command", "redo"}});
+  same_line();
+  ImGui::SetNextItemWidth(-1.0f);
+  if (ImGui::InputTextWithHint("##view", "keep view as ...", &view_name_, ImGuiInputTextFlags_EnterReturnsTrue)) {
+    link_.send({{"command", "save_view"}, {"name", view_name_}});
+    view_name_.clear();
+  }
+  for (const Json& name : state["views"]) {
+    const std::string text = name;
+    if (ImGui::SmallButton(fmt::format("x##view{}", text).c_str()))
+      link_.send({{"command", "forget_view"}, {"name", text}});
+    same_line();
+    if (ImGui::SmallButton(text.c_str())) link_.send({{"command", "recall_view"}, {"name", text}});
+  }
+}
+
+}  // namespace meniscus

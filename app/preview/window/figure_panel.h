@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The part of the panel that says what a figure shows: atoms that are named, and a row for each thing shown.
+#pragma once
+
+#include <string>
+
+#include <glm/vec3.hpp>
+
+#include "app/preview/window/session_link.h"
+
+namespace meniscus {
+
+/// draw() belongs into the panel.
+class FigurePanel {
+ public:
+  explicit FigurePanel(SessionLink& link) : link_(link) {}
+
+  void draw();
+
+ private:
+  void atoms();
+  void rows();
+  void cuts();
+  void caps();
+  void legend();
+  void views();
+  /// A row with a button that removes it; true if that was clicked.
+  bool removed(const std::string& text, const char* of, int index);
+
+  SessionLink& link_;
+  std::string selection_, view_name_, legend_title_;
+  glm::vec3 paint_{0.90f, 0.62f, 0.0f};
+};
+
+}  // namespace meniscus

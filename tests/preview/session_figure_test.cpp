@@ -1,0 +1,288 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Commands that change what a figure shows, what they refuse, and undo and redo of them.
+#include <memory>
+#include <string>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include "app/preview/camera_motion.h"
+#include "app/preview/merge_commands.h"
+#include "app/preview/session.h"
+#include "core/structure/formats/read_structure.h"
+#include "tests/support/run_program.h"
+
+namespace meniscus::test {
+namespace {
+
+using Json = nlohmann::json;
+
+// A peptide bond, a water, and a ligand.
+constexpr std::string_view kThree = R"(ATOM      1  N   ALA A   1       0.000   0.000   0.000  1.00 10.00           N
+ATOM      2  CA  ALA A   1       1.458   0.000   0.000  1.00 20.00           C
+ATOM      3  C   ALA A   1       2.009   1.420   0.000  1.00 30.00           C
+ATOM      4  O   ALA A   1       1.251   2.390   0.000  1.00 40.00           O
+HETATM    5  C1  LIG B   2       6.000   0.000   0.000  1.00 40.00           C
+HETATM    6  O1  LIG B   2       7.200   0.000   0.000  1.00 40.00           O
+HETATM    7  O   HOH B   3       4.000   5.000   0.000  1.00 40.00           O
+END
+)";
+
+class FigureSession : public ::testing::Test {
+ protected:
+  FigureSession() {
+    const std::string file = folder_.file("three.pdb", kThree);
+    ReadOptions reading;
+    reading.selection = parse_selection("polymer");
+    PreviewView view;
+    view.size = {80, 60};
+    SessionContext context;
+    context.read_shown = [file, reading](const Representations& representations, std::size_t) {
+      ReadOptions shown = reading;
+      representations.ask_for(shown);
+      return read_structure(file, shown);
+    };
+    session_ = std::make_unique<PreviewSession>(make_cpu_view_renderer(), read_structure(file, reading), view,
+                                                std::nullopt, folder_.path(), std::nullopt, context);
+  }
+
+  Json apply(const std::string& command) { return session_->apply(Json::parse(command)); }
+  /// The state without what every command changes.
+  Json state() {
+    Json state = apply(R"({"command":"state"})");
+    for (const char* key : {"revision", "undo", "redo", "drawn_by"}) state.erase(key);
+    return state;
+  }
+  void expect_ok(const std::string& command) {
+    const Json reply = apply(command);
+    EXPECT_TRUE(reply["ok"]) << command << " -> " << reply;
+  }
+  std::vector<std::uint8_t> picture() {
+    session_->render(Quality::full);
+    return session_->rgba();
+  }
+
+  TemporaryFolder folder_;
+  std::unique_ptr<PreviewSession> session_;
+};
+
+constexpr const char* kEdits[] = {
+    R"({"command":"represent","as":"sticks","selection":"ligand"})",
+    R"({"command":"represent","as":"spheres","selection":"resn HOH"})",
+    R"({"command":"remove","of":"representations","index":0})",
+    R"({"command":"color","scheme":"bfactor","map":"magma","range":"10:20"})",
+    R"({"command":"paint","selection":"name CA","color":"red"})",
+    R"({"command":"opacity","opacity":0.5,"selection":"name O"})",
+    R"({"command":"film_opacity","on":true})",
+    R"({"command":"cut","plane":"x<1"})",
+    R"({"command":"cap","color":"#00ff00","hatching":0.5})",
+    R"({"command":"hide","selection":"name N"})",
+    R"({"command":"preset","preset":"flat"})",
+    R"({"command":"look","background":"#336699"})",
+    R"({"command":"legend","on":true,"title":"B"})",
+    R"({"command":"resize","width":400,"height":300})",
+    R"({"command":"probe","radius":2})",
+    R"({"command":"reset_view"})",
+    R"({"command":"orbit","dx":0.1,"dy":0.1})",
+    R"({"command":"patch_kinds","on":true})",
+};
+
+TEST_F(FigureSession, EveryStepChangesThePictureAndUndoBringsItBack) {
+  std::vector<Json> states{state()};
+  std::vector<std::vector<std::uint8_t>> pictures{picture()};
+  for (const char* edit : kEdits) {
+    expect_ok(edit);
+    if (Json::parse(edit)["command"] == "resize") {
+      states.back() = state();
+      pictures.back() = picture();  // not undone: it is the window's
+      continue;
+    }
+    states.push_back(state());
+    pictures.push_back(picture());
+    if (Json::parse(edit)["command"] != "reset_view") {
+      EXPECT_NE(states.back(), states[states.size() - 2]) << edit;
+    }
+  }
+  for (std::size_t n = states.size() - 1; n-- > 0;) {
+    expect_ok(R"({"command":"undo"})");
+    Json expected = states[n];
+    expected["width"] = 400;  // whatever the window was then
+    expected["height"] = 300;
+    Json now = state();
+    for (Json* json : {&expected, &now}) json->erase("camera"), json->erase("look");
+    now["legend"].erase("fault");
+    expected["legend"].erase("fault");
+    EXPECT_EQ(now, expected) << n;
+  }
+  EXPECT_FALSE(apply(R"({"command":"undo"})")["ok"]);
+  for (std::size_t n = 1; n < states.size(); ++n) expect_ok(R"({"command":"redo"})");
+  EXPECT_EQ(state(), states.back());
+  EXPECT_EQ(picture(), pictures.back());
+  EXPECT_FALSE(apply(R"({"command":"redo"})")["ok"]);
+}
+
+TEST_F(FigureSession, ADragIsOneStepUntilItIsEnded) {
+  const Json before = state();
+  for (int n = 0; n < 5; ++n) expect_ok(R"({"command":"orbit","dx":0.02,"dy":0.01})");
+  expect_ok(R"({"command":"zoom","factor":1.1})");
+  const Json first = state();
+  expect_ok(R"({"command":"end_step"})");
+  expect_ok(R"({"command":"pan","dx":0.02,"dy":0.01})");
+  EXPECT_EQ(apply(R"({"command":"state"})")["undo"], 2);
+  expect_ok(R"({"command":"undo"})");
+  EXPECT_EQ(state(), first);
+  expect_ok(R"({"command":"undo"})");
+  EXPECT_EQ(state(), before);
+  // Something new forgets what was undone.
+  expect_ok(R"({"command":"probe","radius":1})");
+  expect_ok(R"({"command":"probe","radius":1.1})");
+  const Json after = apply(R"({"command":"state"})");
+  EXPECT_EQ(after["redo"], 0);
+  EXPECT_EQ(after["undo"], 1) << "a slider moves in one step";
+}
+
+TEST_F(FigureSession, WhatIsRefusedChangesNothing) {
+  expect_ok(R"({"command":"cut","plane":"x<1"})");
+  const Json before = apply(R"({"command":"state"})");
+  const std::vector<std::pair<const char*, const char*>> kRefused{
+      {R"({"command":"represent","as":"sticks","selection":"chain Q"})", "chain Q"},
+      {R"({"command":"represent","as":"sticks","selection":"chain ("})", "represent"},
+      {R"({"command":"represent","as":"lines","selection":"all"})", "one of sticks, balls, spheres, tube"},
+      {R"({"command":"paint","selection":"all","color":"rot"})", "rot"},
+      {R"({"command":"paint","selection":"all","color":"file"})", "--color-by-file"},
+      {R"({"command":"opacity","opacity":1.5})", "from 0 to 1"},
+      {R"({"command":"opacity","opacity":1,"index":0})", "index"},
+      {R"({"command":"cut","plane":"x=1"})", "there is no < or >"},
+      {R"({"command":"cut","plane":"x<2","index":1})", "from 0 to 0"},
+      {R"({"command":"cap","color":"greenish"})", "colour's name"},
+      {R"({"command":"cap","hatching":-1})", "hatching"},
+      {R"({"command":"remove","of":"rules","index":0})", "there are no rules"},
+      {R"({"command":"remove","of":"cuts","index":1})", "index"},
+      {R"({"command":"remove","of":"atoms"})", "one of"},
+      {R"({"command":"hide","selection":"all"})", "nothing would be left"},
+      {R"({"command":"show","selection":"resid 9"})", "nothing would be left"},
+      {R"({"command":"preset","preset":"loud"})", "publication"},
+      {R"({"command":"legend","place":"left"})", "one of auto, right, below"},
+      {R"({"command":"color","scheme":"bfactor","range":"9:1"})", "lo:hi"},
+      {R"({"command":"color","scheme":"chain","range":"1:9"})", "colours by a number"},
+      {R"({"command":"radii","stick":0})", "stick"},
+      {R"({"command":"recall_view","name":"front"})", "no view is called"},
+      {R"({"command":"save_view","name":""})", "1 to 60"},
+      {R"({"command":"center","x":0,"y":0})", "nothing is there"},
+      {R"({"command":"zoom","factor":2,"x":3})", "give both"},
+  };
+  for (const auto& [command, part] : kRefused) {
+    const Json reply = apply(command);
+    EXPECT_FALSE(reply["ok"]) << command;
+    EXPECT_NE(reply.value("error", "").find(part), std::string::npos) << command << " -> " << reply;
+    EXPECT_EQ(apply(R"({"command":"state"})"), before) << command;
+  }
+  expect_ok(R"({"command":"color","scheme":"#ff0000"})");
+  EXPECT_FALSE(apply(R"({"command":"legend","on":true})")["ok"]);
+}
+
+TEST_F(FigureSession, AtomsBesideTheSurfaceAreThoseOfTheWholeFile) {
+  EXPECT_FALSE(apply(R"({"command":"zoom_to","selection":"resn LIG"})")["ok"]) << "it is not shown";
+  const auto alone = picture();
+  expect_ok(R"({"command":"represent","as":"balls","selection":"resn LIG"})");
+  EXPECT_NE(picture(), alone);
+  EXPECT_EQ(apply(R"({"command":"zoom_to","selection":"resn LIG"})")["atoms"], 2);
+  const Json pick = apply(R"({"command":"pick","x":40,"y":30})");
+  ASSERT_TRUE(pick["hit"]);
+  EXPECT_EQ(pick["residue"], "LIG");
+  EXPECT_EQ(pick["kind"], "shape");
+  EXPECT_TRUE(pick["exposed_area"].is_null());
+  expect_ok(R"({"command":"remove","of":"representations"})");
+  expect_ok(R"({"command":"reset_view"})");
+  EXPECT_EQ(picture(), alone);
+}
+
+TEST_F(FigureSession, NamedViewsAndTheFirstOneComeBack) {
+  const Json first = state()["camera"];
+  expect_ok(R"({"command":"orbit","dx":0.3,"dy":0})");
+  const Json side = state()["camera"];
+  expect_ok(R"({"command":"save_view","name":"side"})");
+  expect_ok(R"({"command":"orbit","dx":0.3,"dy":0})");
+  EXPECT_EQ(state()["views"], Json::array({"side"}));
+  expect_ok(R"({"command":"recall_view","name":"side"})");
+  EXPECT_EQ(state()["camera"], side);
+  expect_ok(R"({"command":"reset_view"})");
+  EXPECT_EQ(state()["camera"], first);
+  expect_ok(R"({"command":"undo"})");
+  EXPECT_EQ(state()["camera"], side);
+  expect_ok(R"({"command":"forget_view","name":"side"})");
+  EXPECT_EQ(state()["views"], Json::array());
+}
+
+TEST_F(FigureSession, ACameraThatWasGivenIsWhatResetReturnsTo) {
+  Camera given;
+  given.position = {1, 2, 30};
+  given.target = {1, 2, 0};
+  PreviewView view;
+  view.size = {80, 60};
+  PreviewSession session(make_cpu_view_renderer(), session_->structure(), view, given, folder_.path());
+  session.apply({{"command", "orbit"}, {"dx", 0.3}, {"dy", 0.0}});
+  session.apply({{"command", "reset_view"}});
+  EXPECT_EQ(session.view().camera.position, given.position);
+  EXPECT_EQ(session.view().camera.target, given.target);
+}
+
+TEST_F(FigureSession, AClickCentresAndZoomStaysAtTheCursor) {
+  const Json pick = apply(R"({"command":"pick","x":30,"y":35})");
+  ASSERT_TRUE(pick["hit"]);
+  expect_ok(R"({"command":"center","x":30,"y":35})");
+  EXPECT_EQ(state()["camera"]["target"], pick["position"]);
+  for (const Projection projection : {Projection::perspective, Projection::orthographic}) {
+    Camera camera;
+    camera.position = {0, 0, 20};
+    camera.projection = projection;
+    camera.height = 10.0;
+    // What lies in the plane of the target under the cursor.
+    const auto at = [](const Camera& from, glm::dvec2 place) {
+      const ViewBasis basis = view_basis(from);
+      return from.target + (basis.right * place.x - basis.up * place.y) * height_at_target(from);
+    };
+    const glm::dvec2 place{0.2, -0.1};
+    const Camera near = zoomed_at(camera, 3.0, place);
+    EXPECT_LT(glm::distance(at(near, place), at(camera, place)), 1e-12);
+    EXPECT_NEAR(height_at_target(camera) / height_at_target(near), 3.0, 1e-12);
+  }
+  // A fast wheel over a slow picture: its notches are one, however many, and no place is lost.
+  Json wheel{{"command", "zoom"}, {"factor", 1e200}, {"x", 3}, {"y", 4}};
+  EXPECT_TRUE(merge_commands(wheel, {{"command", "zoom"}, {"factor", 10.0}, {"x", 3}, {"y", 4}}));
+  EXPECT_FALSE(merge_commands(wheel, {{"command", "zoom"}, {"factor", 10.0}, {"x", 3}, {"y", 5}}));
+  EXPECT_FALSE(merge_commands(wheel, {{"command", "zoom"}, {"factor", 10.0}}));
+  EXPECT_TRUE(session_->apply(wheel)["ok"]) << "too far is as far as it goes";
+}
+
+TEST_F(FigureSession, TheLegendStandsBesideTheMolecule) {
+  expect_ok(R"({"command":"resize","width":400,"height":300})");
+  expect_ok(R"({"command":"color","scheme":"element"})");
+  const auto without = picture();
+  expect_ok(R"({"command":"legend","on":true})");
+  const auto with = picture();
+  EXPECT_EQ(session_->picture_size(), glm::ivec2(400, 300));
+  EXPECT_EQ(with.size(), without.size());
+  EXPECT_NE(with, without);
+  session_->render(Quality::draft);
+  EXPECT_EQ(session_->picture_size(), glm::ivec2(200, 150));
+  EXPECT_EQ(session_->rgba().size(), 4u * 200 * 150);
+  EXPECT_FALSE(apply(R"({"command":"pick","x":399,"y":150})")["hit"]) << "nothing is there but letters";
+  // Too small for it: the picture is drawn without, and the state says why.
+  expect_ok(R"({"command":"resize","width":20,"height":20})");
+  EXPECT_FALSE(state()["legend"].value("fault", "").empty());
+  EXPECT_TRUE(session_->render(Quality::full));
+  EXPECT_EQ(session_->picture_size(), glm::ivec2(20, 20));
+}
+
+TEST_F(FigureSession, WithoutItsFileNothingCanBeDrawnBeside) {
+  PreviewView view;
+  view.size = {80, 60};
+  PreviewSession session(make_cpu_view_renderer(), session_->structure(), view, std::nullopt, folder_.path());
+  const Json reply = session.apply({{"command", "represent"}, {"as", "sticks"}, {"selection", "all"}});
+  EXPECT_FALSE(reply["ok"]);
+  EXPECT_NE(reply["error"].get<std::string>().find("cannot be read again"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace meniscus::test
