@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `meniscus export povray`: a folder with a POV-Ray scene of the analytic patches.
+#include <algorithm>
 #include <iostream>
 #include <map>
 #include <memory>
+#include <span>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -11,7 +14,7 @@
 #include "core/scene/molecule.h"
 #include "app/options/scene_file.h"
 #include "app/options/picture_options.h"
-#include "app/options/representation_options.h"
+#include "app/options/figure_options.h"
 #include "app/options/value_words.h"
 #include "app/process/program_error.h"
 #include "core/scene/run_framing.h"
@@ -29,6 +32,7 @@ namespace {
 
 struct PovrayCommand {
   MoleculeOptions molecule;
+  FigureRequest figure;
   FrameOptions frames;
   CameraMotionRequest run_camera;
   ViewRequest picture;
@@ -42,7 +46,34 @@ povray::SceneOptions scene_options(const PovrayCommand& command) {
   options.height = command.picture.height;
   options.material = command.material;
   options.existing = command.output.existing();
+  options.cut.style = command.figure.cap;
+  options.film = command.figure.thickens;
   return options;
+}
+
+std::vector<ClipPlane> planes_of(const PovrayCommand& command, const Camera& camera,
+                                 std::span<const SurfaceObject> objects) {
+  std::vector<ClipPlane> planes;
+  if (command.figure.cuts.empty()) return planes;
+  const std::vector<Ball> balls = placed_balls(objects);
+  for (const Cut& cut : command.figure.cuts) planes.push_back(clip_plane(cut, camera, balls));
+  return planes;
+}
+
+// Whatever atoms are meant by rules in other frames.
+std::vector<glm::vec4> colors_of_run(const PovrayCommand& command, const std::vector<glm::vec3>& colors) {
+  std::vector<glm::vec4> all;
+  const auto add = [&](const glm::vec3& color, float opacity) {
+    const glm::vec4 shown(color, opacity);
+    if (opacity > 0.0f && std::ranges::find(all, shown) == all.end()) all.push_back(shown);
+  };
+  std::vector<float> opacities{1.0f};
+  for (const OpacityRule& rule : command.molecule.color.opacities) opacities.push_back(rule.opacity);
+  for (const float opacity : opacities) {
+    for (const glm::vec3& color : colors) add(color, opacity);
+    if (!command.figure.cuts.empty() && command.figure.cap.color) add(*command.figure.cap.color, opacity);
+  }
+  return all;
 }
 
 // An include for each frame of the chunk; the scene for all of the run, the same from every chunk.
@@ -56,10 +87,10 @@ void run_sequence(const PovrayCommand& command) {
   options.origin = framing.origin();
   options.colors = color_key(frames.structure(), scheme, {});
   const ColoredShapes beside = shown_shapes(frames.structure(), command.molecule.representations, scheme);
-  const povray::SequenceScene scene(
-      {frames.numbers(), framing.cameras, run_colors(frames.structure(), scheme, beside.coloring), framing.low,
-       framing.high, !beside.empty()},
-      options, command.output.path);
+  const povray::SequenceScene scene({frames.numbers(), framing.cameras,
+                                     colors_of_run(command, run_colors(frames.structure(), scheme, beside.coloring)),
+                                     framing.low, framing.high, !beside.empty(), !command.figure.cuts.empty()},
+                                    options, command.output.path);
   const povray::SceneReport shared = scene.write_shared();
   bool noted = false;
   const auto finish = [&](const povray::SceneReport& report, std::uint64_t number) {
@@ -77,7 +108,9 @@ void run_sequence(const PovrayCommand& command) {
        frame_builders(frames, command.molecule, command.frames, kSurfaceBytesPerAtom * frames.structure().atoms.size()))
     workers.push_back([&, builder](RunFrame frame) -> FinishFrame {
       const Molecule molecule = builder->build(std::move(frame.structure));
-      const povray::SceneReport report = scene.write_frame(molecule.objects, frame.place, molecule.beside);
+      const Camera& camera = framing.cameras[framing.cameras.size() == 1 ? 0 : frame.place];
+      const povray::SceneReport report = scene.write_frame(molecule.objects, frame.place, molecule.beside,
+                                                           planes_of(command, camera, molecule.objects));
       return [&finish, report, number = frame.number] { return finish(report, number); };
     });
   run_frames(frames, command.molecule, command.frames, std::move(workers));
@@ -95,6 +128,7 @@ void run(const PovrayCommand& command) {
   options.colors = key_of(molecule);
   const Camera camera = aim.camera(command.picture, given, molecule.objects);
   options.shapes = &molecule.beside;
+  options.cut.planes = planes_of(command, camera, molecule.objects);
   const povray::SceneReport report = write_scene(molecule.objects, camera, options, command.output.path);
   say(command.molecule,
       fmt::format("{} primitives in {} files", with_thousands(report.object_count), report.files.size()));
@@ -109,13 +143,14 @@ void add_export_povray(CLI::App& command) {
       command, "Write a POV-Ray scene of the analytic patches, no triangles; prints how to render it",
       "  meniscus export povray 1tii.pdb -o 1tii                 then: cd 1tii; povray surface.ini\n"
       "  meniscus export povray 1tii.pdb -o glass --material glass --size 1920x1080\n"
+      "  meniscus export povray 1tii.pdb -o cut --clip 'depth>0.5' --color chain --sticks 'chain C'\n"
       "  meniscus export povray 1tii.pdb -o 1tii --camera camera.json --color chain --force\n"
       "  meniscus export povray adk.psf --trajectory adk.dcd --frames 0-90:10 -o adk   then: povray surface.ini",
       "Of a run of frames the folder holds one scene and an include for each frame; POV-Ray's frames count from 1.\n"
       "Machines that share the work give the same options and --only, and render with +SF and +EF.");
   auto state = std::make_shared<PovrayCommand>();
   add_molecule_options(command, state->molecule);
-  add_representation_options(command, state->molecule.representations);
+  add_figure_options(command, state->molecule, state->figure);
   add_picture_options(command, state->picture);
   add_frame_options(command, state->frames);
   add_run_camera_options(command, state->run_camera);
@@ -128,7 +163,10 @@ void add_export_povray(CLI::App& command) {
   command.add_option("--material", state->material, "Default material: opaque, ghost, glass, wax; the scene holds all")
       ->transform(one_of(words))
       ->type_name("WORD");
-  command.callback([state] { run(*state); });
+  command.callback([state] {
+    state->molecule.representations = state->figure.representations;
+    run(*state);
+  });
 }
 
 }  // namespace meniscus

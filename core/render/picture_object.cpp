@@ -7,8 +7,6 @@
 
 #include <glm/geometric.hpp>
 
-#include <glm/geometric.hpp>
-
 namespace meniscus {
 
 glm::dvec3 hatching_direction(const glm::dvec3& normal) {

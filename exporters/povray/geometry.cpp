@@ -2,6 +2,9 @@
 // Writes unions of pieces, and places them.
 #include "exporters/povray/geometry.h"
 
+#include <algorithm>
+#include <utility>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -54,14 +57,23 @@ void append_textures(SceneText& out, const ColoredPiece& piece) {
 
 }  // namespace
 
-Geometry::Geometry(std::span<const SurfaceObject> objects, const glm::dvec3& origin, std::span<const glm::vec3> colors,
-                   const ColoredShapes* shapes)
-    : objects_(objects), shapes_(shapes && !shapes->empty() ? shapes : nullptr), origin_(origin) {
-  for (const glm::vec3& color : colors) table_.number(color);
+Geometry::Geometry(std::span<const SurfaceObject> objects, const glm::dvec3& origin, std::span<const glm::vec4> colors,
+                   const ColoredShapes* shapes, std::span<const ClipPlane> clip)
+    : objects_(objects), shapes_(shapes && !shapes->empty() ? shapes : nullptr), origin_(origin), clip_(clip) {
+  if (!clip_.empty() && declares()) throw Error("POV-Ray export: planes cut a single object in its place");
+  for (const glm::vec4& color : colors) table_.number(glm::vec3(color), color.w);
   for (const SurfaceObject& object : objects)
     palettes_.push_back(make_palette(object.surface, object.coloring, table_));
+  for (std::size_t n = 0; !clip_.empty() && n < palettes_.size(); ++n) {
+    const PatchObjects primitives(objects_[n].surface, palettes_[n], origin_, clip_);
+    std::erase_if(palettes_[n].pieces, [&](const ColoredPiece& piece) { return primitives.is_cut_away(piece); });
+  }
   if (shapes_) add_colors(*shapes_, table_);
   if (primitive_count() == 0) throw RequestError("nothing of the surface is shown, so there is no scene to write");
+}
+
+bool Geometry::is_translucent() const {
+  return std::ranges::any_of(colors(), [](const glm::vec4& color) { return color.w < 1.0f; });
 }
 
 std::size_t Geometry::primitive_count() const {
@@ -92,7 +104,7 @@ bool Geometry::is_one_item() const {
 
 void Geometry::write_pieces(OutputFile& file, SceneText& out, std::size_t object) const {
   const std::vector<ColoredPiece>& pieces = palettes_[object].pieces;
-  const PatchObjects primitives(objects_[object].surface, palettes_[object], origin_);
+  const PatchObjects primitives(objects_[object].surface, palettes_[object], origin_, clip_);
   for (std::size_t begin = 0; begin < pieces.size();) {
     const std::size_t end = group_end(pieces, begin);
     out.literal(end - begin > 1 ? "union{\n" : "object{\n");
@@ -137,6 +149,14 @@ void Geometry::write(OutputFile& file, std::string_view head) const {
     for (const RigidMotion& copy : objects_[n].copies) append_copy(out, n, copy);
   }
   flush(file, out, 0);
+}
+
+void Geometry::add_caps(CapMesh mesh, std::span<const SurfaceObject> objects, const SurfaceCut& cut) {
+  caps_ = colored_caps(std::move(mesh), objects, cut.style, table_);
+}
+
+void Geometry::write_caps(OutputFile& file, const SurfaceCut& cut) const {
+  povray::write_caps(file, caps_, cut, origin_);
 }
 
 void Geometry::write_shapes(OutputFile& file) { povray::write_shapes(file, *shapes_, origin_, table_); }

@@ -14,6 +14,7 @@
 #include "core/base/output_file.h"
 #include "core/queries/colored_shapes.h"
 #include "core/queries/surface_object.h"
+#include "exporters/povray/cap_objects.h"
 #include "exporters/povray/palette.h"
 #include "exporters/povray/scene_text.h"
 
@@ -25,10 +26,17 @@ class Geometry {
   /// Throws RequestError when nothing is shown. origin: Å, of the scene's coordinates.
   /// colors: those that come first in colors(), whether they occur or not.
   /// shapes: beside the surface, or nothing; they add their colours.
-  Geometry(std::span<const SurfaceObject> objects, const glm::dvec3& origin, std::span<const glm::vec3> colors = {},
-           const ColoredShapes* shapes = nullptr);
+  /// clip: of the surface, as the first copy stands; only of a single object that is not copied.
+  Geometry(std::span<const SurfaceObject> objects, const glm::dvec3& origin, std::span<const glm::vec4> colors = {},
+           const ColoredShapes* shapes = nullptr, std::span<const ClipPlane> clip = {});
 
-  const std::vector<glm::vec3>& colors() const { return table_.colors(); }
+  /// Adds caps, made of these objects or of those that they were merged of.
+  void add_caps(CapMesh mesh, std::span<const SurfaceObject> objects, const SurfaceCut& cut);
+  /// Writes the file of the caps, of which there may be none.
+  void write_caps(OutputFile& file, const SurfaceCut& cut) const;
+
+  const std::vector<glm::vec4>& colors() const { return table_.colors(); }
+  bool is_translucent() const;  ///< some colour is
   /// Primitives written.
   std::size_t primitive_count() const;
   /// Primitives that POV-Ray keeps: its copies of a union share nothing, and a declared union is one more.
@@ -60,6 +68,8 @@ class Geometry {
   glm::dvec3 origin_;
   ColorTable table_;
   std::vector<Palette> palettes_;  ///< one an object
+  std::span<const ClipPlane> clip_;
+  Caps caps_;
 };
 
 }  // namespace meniscus::povray

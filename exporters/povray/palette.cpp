@@ -27,10 +27,10 @@ void for_each_patch(const Surface& surface, const auto& visit) {
 
 }  // namespace
 
-std::uint32_t ColorTable::number(const glm::vec3& color) {
+std::uint32_t ColorTable::number(const glm::vec3& color, float opacity) {
   const auto [known, is_new] =
-      number_.try_emplace({color.x, color.y, color.z}, static_cast<std::uint32_t>(colors_.size()));
-  if (is_new) colors_.push_back(color);
+      number_.try_emplace({color.x, color.y, color.z, opacity}, static_cast<std::uint32_t>(colors_.size()));
+  if (is_new) colors_.emplace_back(color, opacity);
   return known->second;
 }
 
@@ -38,8 +38,17 @@ Palette make_palette(const Surface& surface, const Coloring& coloring, ColorTabl
   if (coloring.atom.size() != surface.atoms.size())
     throw Error("POV-Ray export: the coloring does not have one colour for each atom");
   Palette palette;
+  // Coloured by kind, patches are parted where opacities differ alone.
+  std::vector<float> opacities;
+  const auto opacity_number = [&](float opacity) {
+    const auto known = std::ranges::find(opacities, opacity);
+    const auto place = static_cast<std::uint32_t>(known - opacities.begin());
+    if (known == opacities.end()) opacities.push_back(opacity);
+    return place;
+  };
   for (std::uint32_t a = 0; a < surface.atoms.size(); ++a) {
-    const std::uint32_t shown = coloring.kind ? 0 : table.number(coloring.atom[a]);
+    const float opacity = coloring.shows(a) ? coloring.opacity_of(a) : 1.0f;
+    const std::uint32_t shown = coloring.kind ? opacity_number(opacity) : table.number(coloring.atom[a], opacity);
     palette.atom_part.push_back(coloring.shows(a) ? shown : kNone);
   }
   for_each_patch(surface, [&](PatchKind kind, std::uint32_t patch, std::span<const std::uint32_t> atoms) {
@@ -49,7 +58,8 @@ Palette make_palette(const Surface& surface, const Coloring& coloring, ColorTabl
     std::sort(parts.begin(), parts.end());
     parts.erase(std::unique(parts.begin(), parts.end()), parts.end());
     for (const std::uint32_t part : parts) {
-      const std::uint32_t color = coloring.kind ? table.number((*coloring.kind)[static_cast<std::size_t>(kind)]) : part;
+      const std::uint32_t color =
+          coloring.kind ? table.number((*coloring.kind)[static_cast<std::size_t>(kind)], opacities[part]) : part;
       palette.pieces.push_back({kind, color, part, patch});
     }
   });

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 
 #include "core/color/coloring.h"
 #include "core/surface/primitives.h"
@@ -22,16 +23,16 @@ struct ColoredPiece {
   std::uint32_t patch = 0;  ///< into the patch table of its kind
 };
 
-/// The distinct colours of a scene.
+/// The distinct colours of a scene, with their opacities.
 class ColorTable {
  public:
   /// The number of a colour, in order of first use.
-  std::uint32_t number(const glm::vec3& color);
-  const std::vector<glm::vec3>& colors() const { return colors_; }  ///< sRGB, each once
+  std::uint32_t number(const glm::vec3& color, float opacity = 1.0f);
+  const std::vector<glm::vec4>& colors() const { return colors_; }  ///< sRGB and opacity in (0, 1], each once
 
  private:
-  std::map<std::tuple<float, float, float>, std::uint32_t> number_;
-  std::vector<glm::vec3> colors_;
+  std::map<std::tuple<float, float, float, float>, std::uint32_t> number_;
+  std::vector<glm::vec4> colors_;
 };
 
 /// All pieces of one surface in the order they are written: by kind, then colour, then patch.

@@ -2,9 +2,12 @@
 // The clips that cut each patch out of its sphere or torus.
 #include "exporters/povray/patch_objects.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "exporters/povray/patch_extent.h"
@@ -21,18 +24,49 @@ Plane nearer_to(const glm::dvec3& near, const glm::dvec3& far, const glm::dvec3&
   return {normal, glm::dot(normal, probe)};
 }
 
+/// How far a box reaches along a direction, from and to.
+std::pair<double, double> heights(const Box& box, const glm::dvec3& normal) {
+  const double middle = glm::dot(normal, 0.5 * (box.low + box.high));
+  const double half = glm::dot(glm::abs(normal), 0.5 * (box.high - box.low));
+  return {middle - half, middle + half};
+}
+
 }  // namespace
 
+Box PatchObjects::extent(const ColoredPiece& piece) const {
+  if (piece.kind == PatchKind::toroidal) return toroidal_extent(surface_, surface_.toroidal[piece.patch]);
+  if (piece.kind == PatchKind::concave) return concave_extent(surface_, surface_.concave[piece.patch]);
+  const Ball& atom = surface_.atoms[surface_.convex[piece.patch].atom];
+  return {atom.center - atom.radius, atom.center + atom.radius};
+}
+
+bool PatchObjects::is_cut_away(const ColoredPiece& piece) const {
+  if (clip_.empty()) return false;
+  const Box box = extent(piece);
+  return std::ranges::any_of(
+      clip_, [&](const ClipPlane& cut) { return heights(box, cut.normal).first > cut.offset + kBoxMargin; });
+}
+
+void PatchObjects::cuts(SceneText& out, const ColoredPiece& piece) const {
+  if (clip_.empty()) return;
+  const Box box = extent(piece);
+  for (const ClipPlane& cut : clip_)
+    if (heights(box, cut.normal).second > cut.offset - kBoxMargin)
+      plane(out, {cut.normal, cut.offset}, 0.5 * (box.low + box.high));
+}
+
 void PatchObjects::append(SceneText& out, const ColoredPiece& piece) const {
+  SceneText cut_by;
+  cuts(cut_by, piece);
   switch (piece.kind) {
     case PatchKind::convex:
-      convex(out, surface_.convex[piece.patch]);
+      convex(out, surface_.convex[piece.patch], cut_by.text());
       break;
     case PatchKind::toroidal:
-      toroidal(out, surface_.toroidal[piece.patch], piece.part);
+      toroidal(out, surface_.toroidal[piece.patch], piece.part, cut_by.text());
       break;
     case PatchKind::concave:
-      concave(out, surface_.concave[piece.patch], piece.part);
+      concave(out, surface_.concave[piece.patch], piece.part, cut_by.text());
       break;
   }
   out.literal("\n");
@@ -46,19 +80,20 @@ void PatchObjects::box(SceneText& out, const glm::dvec3& low, const glm::dvec3& 
   out.literal("box{").point(low - origin_ - kBoxMargin).literal(",").point(high - origin_ + kBoxMargin).literal("}");
 }
 
-void PatchObjects::convex(SceneText& out, const ConvexPatch& patch) const {
+void PatchObjects::convex(SceneText& out, const ConvexPatch& patch, std::string_view cuts) const {
   const Ball& atom = surface_.atoms[patch.atom];
   out.literal("sphere{").point(atom.center - origin_).literal(",").length(atom.radius);
-  if (patch.plane_count > 0) {
+  if (patch.plane_count > 0 || !cuts.empty()) {
     out.literal(" clipped_by{");
     for (std::uint32_t n = 0; n < patch.plane_count; ++n)
       plane(out, surface_.planes[patch.first_plane + n], atom.center);
-    out.literal("}");
+    out.literal(cuts).literal("}");
   }
   out.literal("}");
 }
 
-void PatchObjects::toroidal(SceneText& out, const ToroidalPatch& patch, std::uint32_t part) const {
+void PatchObjects::toroidal(SceneText& out, const ToroidalPatch& patch, std::uint32_t part,
+                            std::string_view cuts) const {
   const double p = surface_.probe_radius;
   out.literal("torus{").length(patch.radius).literal(",").length(p).literal(" matrix<");
   // Local y is the axis; the matrix stands before clipped_by, so the clips stay in world space.
@@ -77,6 +112,7 @@ void PatchObjects::toroidal(SceneText& out, const ToroidalPatch& patch, std::uin
     if (!patch.has_piece[1]) plane(out, {patch.axis, height}, patch.center);
   }
   part_half(out, patch, part);
+  out.literal(cuts);
   const Box extent = toroidal_extent(surface_, patch);
   box(out, extent.low, extent.high);
   out.literal("}}");
@@ -117,12 +153,13 @@ void PatchObjects::part_half(SceneText& out, const ToroidalPatch& patch, std::ui
   plane(out, {normal, glm::dot(normal, border)}, patch.center);
 }
 
-void PatchObjects::concave(SceneText& out, const ConcavePatch& patch, std::uint32_t part) const {
+void PatchObjects::concave(SceneText& out, const ConcavePatch& patch, std::uint32_t part, std::string_view cuts) const {
   out.literal("sphere{").point(patch.center - origin_).literal(",").length(surface_.probe_radius);
   out.literal(" clipped_by{");
   for (std::uint32_t n = 0; n < patch.plane_count(); ++n)
     plane(out, surface_.planes[patch.first_plane + n], patch.center);
   part_cells(out, patch, part);
+  out.literal(cuts);
   const Box extent = concave_extent(surface_, patch);
   box(out, extent.low, extent.high);
   out.literal("}}");

@@ -4,10 +4,13 @@
 
 #include <cstdint>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include <glm/vec3.hpp>
 
+#include "core/math/box.h"
+#include "core/render/picture_object.h"
 #include "core/surface/primitives.h"
 #include "exporters/povray/palette.h"
 #include "exporters/povray/scene_text.h"
@@ -20,30 +23,39 @@ namespace meniscus::povray {
 ///            that faces the axis), the wedge of the arc, and outside of the lemon where a spindle crosses its axis;
 ///  concave   sphere of the probe within its side planes and the bisectors towards other probes.
 /// Curved patches end with their exact box, which POV-Ray needs for its bounding hierarchy only.
+/// clip: of the whole surface; patches that a plane goes through are within it as well.
 /// The result keeps references to its arguments.
 class PatchObjects {
  public:
-  PatchObjects(const Surface& surface, const Palette& palette, const glm::dvec3& origin)
-      : surface_(surface), palette_(palette), origin_(origin) {}
+  PatchObjects(const Surface& surface, const Palette& palette, const glm::dvec3& origin,
+               std::span<const ClipPlane> clip = {})
+      : surface_(surface), palette_(palette), origin_(origin), clip_(clip) {}
+
+  /// Whether the planes cut all of the patch away.
+  bool is_cut_away(const ColoredPiece& piece) const;
 
   /// One line: the primitive of the piece, with a cut towards other parts of the same patch, of other colours or
   /// hidden.
   void append(SceneText& out, const ColoredPiece& piece) const;
 
  private:
-  void convex(SceneText& out, const ConvexPatch& patch) const;
-  void toroidal(SceneText& out, const ToroidalPatch& patch, std::uint32_t part) const;
-  void concave(SceneText& out, const ConcavePatch& patch, std::uint32_t part) const;
+  void convex(SceneText& out, const ConvexPatch& patch, std::string_view cuts) const;
+  void toroidal(SceneText& out, const ToroidalPatch& patch, std::uint32_t part, std::string_view cuts) const;
+  void concave(SceneText& out, const ConcavePatch& patch, std::uint32_t part, std::string_view cuts) const;
   void visibility_sphere(SceneText& out, const ToroidalPatch& patch) const;
   void wedge(SceneText& out, const ToroidalPatch& patch) const;
   void part_half(SceneText& out, const ToroidalPatch& patch, std::uint32_t part) const;
   void part_cells(SceneText& out, const ConcavePatch& patch, std::uint32_t part) const;
   void box(SceneText& out, const glm::dvec3& low, const glm::dvec3& high) const;
   void plane(SceneText& out, const Plane& plane, const glm::dvec3& anchor) const;
+  Box extent(const ColoredPiece& piece) const;
+  /// The planes that go through the box of the piece.
+  void cuts(SceneText& out, const ColoredPiece& piece) const;
 
   const Surface& surface_;
   const Palette& palette_;
   glm::dvec3 origin_;
+  std::span<const ClipPlane> clip_;
 };
 
 }  // namespace meniscus::povray

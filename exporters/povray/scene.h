@@ -12,11 +12,12 @@
 namespace meniscus::povray {
 
 /// Writes <name>.ini, <name>.pov, <name>_style.inc, <name>_aov.inc, <name>_geometry.inc, <name>_objects.json and, if
-/// there are shapes, <name>_shapes.inc into `folder`, all or none. One unit is 1 Å; coordinates are relative to
-/// options.origin. The camera shows the same pixels as the ray caster's. Each object with its copies is a union
-/// object_1, object_2, ...; the names they came with stand in the .json only. Points of hidden atoms are left out.
-/// Throws OutputError (exists, not writable), Error (nothing is shown, bad name or size, a number that is not finite).
-SceneReport write_scene(std::span<const SurfaceObject> objects, const Camera& camera, const SceneOptions& options,
+/// there are shapes or caps, <name>_shapes.inc and <name>_caps.inc into `folder`, all or none. One unit is 1 Å;
+/// coordinates are relative to options.origin. The camera shows the same pixels as the ray caster's. Each object with
+/// its copies is a union object_1, object_2, ...; the names they came with stand in the .json only; what planes cut is
+/// one object. Points of hidden atoms are left out. Throws OutputError (exists, not writable), Error (nothing is shown,
+/// bad name or size, a number that is not finite).
+SceneReport write_scene(std::span<const SurfaceObject> given, const Camera& camera, const SceneOptions& options,
                         const std::filesystem::path& folder);
 
 }  // namespace meniscus::povray

@@ -70,6 +70,8 @@ void append_camera(SceneText& out, std::span<const Camera> cameras, const SceneO
   out.literal("#ifndef (Meniscus_Fit_Aspect) #declare Meniscus_Fit_Aspect = 0; #end\n");
   out.literal("#if (Meniscus_Fit_Aspect = 1)\n  #declare Meniscus_Picture_Width = ");
   out.literal("Meniscus_Picture_Height*image_width/image_height;\n#end\n");
+  out.literal("#declare Meniscus_Orthographic = ");
+  out.count(cameras[0].projection == Projection::orthographic ? 1 : 0).literal(";\n");
   out.literal("#ifndef (Meniscus_Custom_Camera)\n  camera {\n    ");
   out.literal(cameras[0].projection == Projection::perspective ? "perspective" : "orthographic");
   out.literal("\n    location Meniscus_Eye\n    direction Meniscus_Forward\n");
@@ -95,7 +97,7 @@ void append_color(SceneText& out, const glm::vec3& c) { out.literal("srgb ").dir
 }  // namespace
 
 std::string main_text(std::span<const Camera> cameras, const SceneOptions& options, const glm::dvec3& origin,
-                      bool single, bool shapes, const SceneFrames* frames) {
+                      const SceneParts& parts, const SceneFrames* frames) {
   SceneText out;
   out.literal("// A solvent-excluded surface, written by Meniscus " MENISCUS_VERSION
               " for POV-Ray 3.7. One unit is 1 Å.\n");
@@ -113,21 +115,27 @@ std::string main_text(std::span<const Camera> cameras, const SceneOptions& optio
   out.literal(options.name).literal("_aov.inc\n");
   out.literal("#ifndef (Meniscus_Subsurface) #declare Meniscus_Subsurface = 0; #end\n");
   out.literal("#ifndef (Meniscus_Custom_Settings)\nglobal_settings {\n  assumed_gamma 1.0\n");
-  out.literal("  #if (Meniscus_Buffer = 4) max_trace_level 200 adc_bailout 0 #else max_trace_level 12 #end\n");
+  out.literal("  #if (Meniscus_Buffer = 4) max_trace_level 200 adc_bailout 0 #else max_trace_level ");
+  // Of layers that are seen through, all that show: the ray caster stops at the same share.
+  out.literal(parts.translucent ? "200 adc_bailout 1/1024" : "12").literal(" #end\n");
   out.literal("  #if (Meniscus_Subsurface = 1) mm_per_unit 1 subsurface { samples 50, 20 } #end\n}\n#end\n");
   if (frames) append_frames(out, options, *frames);
   append_camera(out, cameras, options, origin);
+  const auto include_of = [&](const std::string& part) {
+    const std::string name = options.name + "_" + part;
+    return frames ? "#include concat(\"" + name + "_\", Meniscus_Frame_Name, \".inc\")"
+                  : "#include \"" + name + ".inc\"";
+  };
   const std::string include = frames ? std::string("Meniscus_Geometry") : "\"" + options.name + "_geometry.inc\"";
-  out.literal(filled(scene_template("main.pov"),
-                     {{"NAME", options.name}, {"GROUP", single ? "object" : "union"}, {"GEOMETRY", include}}));
-  if (shapes && frames)
-    out.literal("\n#include concat(\"").literal(options.name).literal("_shapes_\", Meniscus_Frame_Name, \".inc\")\n");
-  else if (shapes)
-    out.literal("\n#include \"").literal(options.name).literal("_shapes.inc\"\n");
+  out.literal(filled(scene_template("main.pov"), {{"NAME", options.name},
+                                                  {"GROUP", parts.single && !parts.caps ? "object" : "union"},
+                                                  {"GEOMETRY", include},
+                                                  {"CAPS", parts.caps ? "\n  " + include_of("caps") : ""}}));
+  if (parts.shapes) out.literal("\n").literal(include_of("shapes")).literal("\n");
   return out.text();
 }
 
-std::string style_text(const std::vector<glm::vec3>& colors, const SceneOptions& options) {
+std::string style_text(const std::vector<glm::vec4>& colors, const SceneOptions& options) {
   SceneText out;
   out.literal(
       "// Colours, lights and materials of the scene. Everything may be declared before this file is included.\n");
@@ -137,10 +145,15 @@ std::string style_text(const std::vector<glm::vec3>& colors, const SceneOptions&
   out.literal("] {\n");
   for (std::size_t n = 0; n < colors.size(); ++n) {
     out.literal("    ");
-    append_color(out, colors[n]);
+    append_color(out, glm::vec3(colors[n]));
     out.literal(n + 1 < colors.size() ? ",\n" : "\n");
   }
-  out.literal("  }\n#end\n").literal(scene_template("style.inc"));
+  out.literal("  }\n#end\n// How much of what lies behind a point of each colour it covers.\n");
+  out.literal("#ifndef (Meniscus_Opacity)\n  #declare Meniscus_Opacity = array[").count(colors.size()).literal("] {");
+  for (std::size_t n = 0; n < colors.size(); ++n)
+    out.literal(n == 0 ? "" : n % 16 == 0 ? ",\n" : ",").ratio(colors[n].w);
+  out.literal("}\n#end\n#ifndef (Meniscus_Film) #declare Meniscus_Film = ").count(options.film ? 1 : 0);
+  out.literal("; #end\n").literal(scene_template("style.inc"));
   return out.text();
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 
 #include "core/camera/camera.h"
 #include "core/math/box.h"
@@ -22,12 +23,19 @@ struct SceneFrames {
   std::uint32_t palette = 0;           ///< tells colours and origin from those of other runs
 };
 
-/// <name>.pov. cameras: one, or one a frame. single: the geometry is one item. shapes: there is a file of them, or one
-/// a frame. frames: nothing for a single surface.
+/// What the main file has to know of the others.
+struct SceneParts {
+  bool single = false;       ///< the geometry is one item
+  bool caps = false;         ///< there is a file of them, or one a frame
+  bool shapes = false;       ///< likewise
+  bool translucent = false;  ///< some colour is
+};
+
+/// <name>.pov. cameras: one, or one a frame. frames: nothing for a single surface.
 std::string main_text(std::span<const Camera> cameras, const SceneOptions& options, const glm::dvec3& origin,
-                      bool single, bool shapes, const SceneFrames* frames = nullptr);
-/// <name>_style.inc
-std::string style_text(const std::vector<glm::vec3>& colors, const SceneOptions& options);
+                      const SceneParts& parts, const SceneFrames* frames = nullptr);
+/// <name>_style.inc. colors: sRGB and opacity.
+std::string style_text(const std::vector<glm::vec4>& colors, const SceneOptions& options);
 /// <name>_aov.inc
 std::string buffer_text(std::size_t color_count, const Box& e, const glm::dvec3& origin);
 /// <name>.ini. frame_count: 0 for a single surface.

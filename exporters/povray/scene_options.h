@@ -13,6 +13,7 @@
 #include "core/base/output_file.h"
 #include "core/color/color_key.h"
 #include "core/queries/colored_shapes.h"
+#include "core/render/picture_object.h"
 
 namespace meniscus::povray {
 
@@ -23,6 +24,12 @@ enum class Material {
   wax     ///< light scatters below the surface
 };
 
+/// The planes that a surface is cut by.
+struct SurfaceCut {
+  std::vector<ClipPlane> planes;  ///< none: it is whole
+  CapStyle style;
+};
+
 struct SceneOptions {
   std::string name = "surface";    ///< of all files; letters, digits, '-' and '_' only, since it stands in the scene
   int width = 1280, height = 960;  ///< pixels
@@ -31,6 +38,8 @@ struct SceneOptions {
   Existing existing = Existing::refuse;
   std::optional<glm::dvec3> origin;  ///< Å: where coordinates of the scene begin; nothing: the middle of all atoms
   const ColoredShapes* shapes = nullptr;  ///< beside the surface; nothing, or none: no file of them
+  SurfaceCut cut;                         ///< of the surface; of a run only the style counts
+  bool film = false;                      ///< a surface that is seen through is denser where the view grazes it
   std::optional<ColorKey> colors;         ///< what the colours mean, for <name>_objects.json
 };
 

@@ -2,6 +2,7 @@
 // Writes the shared files of a run, and the geometry of its frames.
 #include "exporters/povray/sequence.h"
 
+#include <algorithm>
 #include <utility>
 
 #include <fmt/format.h>
@@ -11,6 +12,7 @@
 #include "core/color/color_key_json.h"
 #include "core/base/error.h"
 #include "core/base/shared_files.h"
+#include "exporters/povray/cut_objects.h"
 #include "exporters/povray/geometry.h"
 #include "exporters/povray/scene_files.h"
 #include "exporters/povray/scene_report.h"
@@ -32,7 +34,10 @@ void check(const Run& run) {
 std::uint32_t palette_number(const Run& run, const glm::dvec3& origin) {
   SceneText text;
   text.full_vector(origin);
-  for (const glm::vec3& color : run.colors) text.full_vector(glm::dvec3(color));
+  for (const glm::vec4& color : run.colors) {
+    text.full_vector(glm::dvec3(color));
+    if (color.w < 1.0f) text.full(color.w);
+  }
   const std::string& bytes = text.text();
   return static_cast<std::uint32_t>(crc32_z(0, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()));
 }
@@ -66,10 +71,12 @@ SequenceScene::SequenceScene(Run run, SceneOptions options, std::filesystem::pat
 SceneReport SequenceScene::write_shared() const {
   const SceneFrames frames{run_.frames, palette_};
   const std::string& name = options_.name;
+  const SceneParts parts{false, run_.caps, run_.shapes,
+                         std::ranges::any_of(run_.colors, [](const glm::vec4& color) { return color.w < 1.0f; })};
   const SharedFile files[] = {{name + "_aov.inc", buffer_text(run_.colors.size(), {run_.low, run_.high}, origin_)},
                               {name + "_style.inc", style_text(run_.colors, options_)},
                               {name + "_objects.json", objects_text(run_, options_.colors)},
-                              {name + ".pov", main_text(run_.cameras, options_, origin_, false, run_.shapes, &frames)},
+                              {name + ".pov", main_text(run_.cameras, options_, origin_, parts, &frames)},
                               {name + ".ini", ini_text(options_, run_.frames.size())}};
   write_shared_files(folder_, options_.existing, files);
   SceneReport report;
@@ -79,10 +86,15 @@ SceneReport SequenceScene::write_shared() const {
   return report;
 }
 
-SceneReport SequenceScene::write_frame(std::span<const SurfaceObject> objects, std::size_t place,
-                                       const ColoredShapes& shapes) const {
-  check(objects, options_);
-  Geometry geometry(objects, origin_, run_.colors, &shapes);
+SceneReport SequenceScene::write_frame(std::span<const SurfaceObject> given, std::size_t place,
+                                       const ColoredShapes& shapes, std::span<const ClipPlane> planes) const {
+  check(given, options_);
+  const Camera& camera = run_.cameras[run_.cameras.size() == 1 ? 0 : place];
+  const SurfaceCut cut{{planes.begin(), planes.end()}, options_.cut.style};
+  const CutObjects cut_objects(given, cut, camera, options_);
+  const std::span<const SurfaceObject> objects = cut_objects.objects();
+  Geometry geometry(objects, origin_, run_.colors, &shapes, cut.planes);
+  if (run_.caps) geometry.add_caps(cut_objects.caps(), objects, cut);
   if (geometry.colors().size() > run_.colors.size())
     throw Error(fmt::format("frame {} has a colour that the run does not have", run_.frames[place]));
   OutputFolder output(folder_, options_.existing);
@@ -94,11 +106,12 @@ SceneReport SequenceScene::write_frame(std::span<const SurfaceObject> objects, s
   };
   if (geometry.declares()) begin_file("objects", ".json").write(geometry.names_json({}));
   geometry.write(begin_file("geometry", ".inc"), palette_check(palette_));
+  if (run_.caps) geometry.write_caps(begin_file("caps", ".inc"), cut);
   if (run_.shapes) geometry.write_shapes(begin_file("shapes", ".inc"));
   output.commit();
   report.object_count = geometry.primitive_count();
   report.origin = origin_;
-  report.notes = notes(objects, geometry, run_.cameras[run_.cameras.size() == 1 ? 0 : place]);
+  report.notes = notes(objects, geometry, camera);
   return report;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 
 #include "core/camera/camera.h"
 #include "exporters/povray/scene.h"
@@ -18,9 +19,10 @@ namespace meniscus::povray {
 struct Run {
   std::vector<std::uint64_t> frames;  ///< of the trajectory; scene frame n, from 1, is frames[n - 1]
   std::vector<Camera> cameras;        ///< one for all, or one a frame; of one projection
-  std::vector<glm::vec3> colors;      ///< sRGB: all that may occur, in the order of the style file
+  std::vector<glm::vec4> colors;      ///< sRGB and opacity: all that may occur, in the order of the style file
   glm::dvec3 low{0.0}, high{0.0};     ///< Å: a box around all atoms at all frames
   bool shapes = false;                ///< every frame has some beside the surface
+  bool caps = false;                  ///< every frame is cut by planes
 };
 
 class SequenceScene {
@@ -35,10 +37,11 @@ class SequenceScene {
   SceneReport write_shared() const;
 
   /// Writes <name>_geometry_#####.inc, numbered by the frame of the trajectory, and where there are several objects
-  /// <name>_objects_#####.json; with shapes <name>_shapes_#####.inc. place: in the run, from 0. Throws what write_scene
-  /// throws, and Error for a colour that is not the run's.
-  SceneReport write_frame(std::span<const SurfaceObject> objects, std::size_t place,
-                          const ColoredShapes& shapes = {}) const;
+  /// <name>_objects_#####.json; with shapes <name>_shapes_#####.inc, with caps <name>_caps_#####.inc. place: in the
+  /// run, from 0. planes: those that cut this frame, some if the run has caps. Throws what write_scene throws, and
+  /// Error for a colour that is not the run's.
+  SceneReport write_frame(std::span<const SurfaceObject> given, std::size_t place, const ColoredShapes& shapes = {},
+                          std::span<const ClipPlane> planes = {}) const;
 
  private:
   Run run_;

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// One mesh for each plane and colour; hatching is a pattern of POV-Ray's, in the place of the picture's.
+#include "exporters/povray/cap_objects.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "core/base/text_template.h"
+#include "core/queries/combine.h"
+#include "exporters/mesh/mesh_objects.h"
+#include "exporters/povray/scene_templates.h"
+#include "exporters/povray/scene_text.h"
+
+namespace meniscus::povray {
+namespace {
+
+constexpr double kPixelShare = 0.1, kFinest = 0.002, kCoarsest = 0.02;  // Å
+constexpr std::size_t kFlushBytes = std::size_t{1} << 20;
+constexpr double kStripesBefore = 1e4;  // what the pattern counts from: POV-Ray mirrors it at 0
+
+/// "texture{...}" of a hatched cap. The pattern runs along x until it is turned.
+void append_hatching(SceneText& out, std::uint32_t color, const ClipPlane& plane, double distance,
+                     const glm::dvec3& origin) {
+  const glm::dvec3 along = glm::normalize(hatching_direction(plane.normal));
+  const glm::dvec3 across = glm::cross(plane.normal, along);
+  const double phase = glm::dot(origin, along) / distance;
+  const glm::dvec3 shift = -(phase - std::floor(phase) + kStripesBefore) * distance * along;
+  out.literal("#if (Meniscus_Buffer = 0) texture{pigment{gradient x color_map{");
+  const auto entry = [&](double place, const char* pigment) {
+    out.literal("[").ratio(place).literal(" ").literal(pigment).literal("[").count(color).literal("]]");
+  };
+  for (const double place : {0.0, kHatchedShare}) entry(place, "Meniscus_Cap_Dark");
+  for (const double place : {kHatchedShare, 1.0}) entry(place, "Meniscus_Cap_Color");
+  out.literal("} scale ").length(distance).literal(" matrix<");
+  for (const glm::dvec3& row : {along, across, plane.normal})
+    out.full(row.x).literal(",").full(row.y).literal(",").full(row.z).literal(",");
+  out.full(shift.x).literal(",").full(shift.y).literal(",").full(shift.z);
+  out.literal(">} finish{Meniscus_Finish}} #else texture{Meniscus_Cap_Texture[").count(color).literal("]} #end");
+}
+
+}  // namespace
+
+CapMesh make_caps(std::span<const SurfaceObject> objects, const SurfaceCut& cut, const Camera& camera, int width,
+                  int height) {
+  const MeshRequest request{kFinest, kPixelShare};
+  const double tolerance = tolerance_of(request, {width, height}, camera, placed_balls(objects));
+  return section_caps(objects, cut.planes, cut.style.color.has_value(), std::clamp(tolerance, kFinest, kCoarsest));
+}
+
+Caps colored_caps(CapMesh mesh, std::span<const SurfaceObject> objects, const CapStyle& style, ColorTable& table) {
+  struct Shown {
+    glm::vec3 color;
+    float opacity;
+  };
+  std::vector<Shown> atoms;
+  for (const SurfaceObject& object : objects)
+    for (std::size_t copy = 0; copy < object.copies.size(); ++copy)
+      for (std::uint32_t a = 0; a < object.surface.atoms.size(); ++a)
+        atoms.push_back({style.color.value_or(object.coloring.atom[a]), object.coloring.opacity_of(a)});
+  Caps caps;
+  for (const std::uint32_t atom : mesh.atom) caps.color.push_back(table.number(atoms[atom].color, atoms[atom].opacity));
+  caps.mesh = std::move(mesh);
+  return caps;
+}
+
+void write_caps(OutputFile& file, const Caps& caps, const SurfaceCut& cut, const glm::dvec3& origin) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::size_t>> groups;
+  for (std::size_t n = 0; n < caps.mesh.triangles.size(); ++n) groups[{caps.mesh.plane[n], caps.color[n]}].push_back(n);
+  SceneText out;
+  const auto flush = [&](std::size_t limit) {
+    if (out.text().size() < limit) return;
+    file.write(out.text());
+    out.clear();
+  };
+  out.literal("// Where planes cut the solid; coordinates are those of the surface's geometry.\n");
+  SceneText dark;
+  dark.ratio(kHatchedLight);
+  out.literal(filled(template_text(povray_templates(), "caps.inc"), {{"DARK", dark.text()}}));
+  std::vector<std::size_t> place(caps.mesh.positions.size());
+  for (const auto& [key, triangles] : groups) {
+    std::vector<std::uint32_t> used;
+    for (const std::size_t n : triangles)
+      used.insert(used.end(), caps.mesh.triangles[n].begin(), caps.mesh.triangles[n].end());
+    std::ranges::sort(used);
+    used.erase(std::unique(used.begin(), used.end()), used.end());
+    for (std::size_t n = 0; n < used.size(); ++n) place[used[n]] = n;
+    out.literal("mesh2{\nvertex_vectors{").count(used.size());
+    for (const std::uint32_t v : used) {
+      out.literal(",\n").point(caps.mesh.positions[v] - origin);
+      flush(kFlushBytes);
+    }
+    out.literal("}\nface_indices{").count(triangles.size());
+    for (const std::size_t n : triangles) {
+      const auto& t = caps.mesh.triangles[n];
+      out.literal(",\n<")
+          .count(place[t[0]])
+          .literal(",")
+          .count(place[t[1]])
+          .literal(",")
+          .count(place[t[2]])
+          .literal(">");
+      flush(kFlushBytes);
+    }
+    out.literal("}\n");
+    const auto& [plane, color] = key;
+    if (cut.style.hatching > 0.0)
+      append_hatching(out, color, cut.planes[plane], cut.style.hatching, origin);
+    else
+      out.literal("texture{Meniscus_Cap_Texture[").count(color).literal("]}");
+    out.literal("\n}\n");
+  }
+  flush(0);
+}
+
+}  // namespace meniscus::povray
