@@ -262,6 +262,7 @@ void run(PreviewCommand& command) { command.port ? serve(command) : open_window(
 
 /// Options that the preview changes while it runs, or that render has not.
 constexpr std::string_view kOwnOptions[] = {"--help",
+                                            "--scene",
                                             "--camera",
                                             "--projection",
                                             "--view",

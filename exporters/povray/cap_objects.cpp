@@ -20,7 +20,7 @@ namespace meniscus::povray {
 namespace {
 
 constexpr double kPixelShare = 0.1, kFinest = 0.002, kCoarsest = 0.02;  // Å
-constexpr std::size_t kFlushBytes = std::size_t{1} << 20;
+constexpr std::size_t kCapFlushBytes = std::size_t{1} << 20;
 constexpr double kStripesBefore = 1e4;  // what the pattern counts from: POV-Ray mirrors it at 0
 
 /// "texture{...}" of a hatched cap. The pattern runs along x until it is turned.
@@ -92,7 +92,7 @@ void write_caps(OutputFile& file, const Caps& caps, const SurfaceCut& cut, const
     out.literal("mesh2{\nvertex_vectors{").count(used.size());
     for (const std::uint32_t v : used) {
       out.literal(",\n").point(caps.mesh.positions[v] - origin);
-      flush(kFlushBytes);
+      flush(kCapFlushBytes);
     }
     out.literal("}\nface_indices{").count(triangles.size());
     for (const std::size_t n : triangles) {
@@ -104,7 +104,7 @@ void write_caps(OutputFile& file, const Caps& caps, const SurfaceCut& cut, const
           .literal(",")
           .count(place[t[2]])
           .literal(">");
-      flush(kFlushBytes);
+      flush(kCapFlushBytes);
     }
     out.literal("}\n");
     const auto& [plane, color] = key;

@@ -228,8 +228,8 @@ class Hostile(FarmCase):
 
     def test_every_option_is_known_to_the_list_or_refused_on_purpose(self):
         """A new option of a command that can be bundled is looked at before it gets into bundles."""
-        refused = {"--output", "--force", "--only", "--progress", "--save-camera", "--device", "--threads",
-                   "--require-gpu", "--jobs", "--help", "--help-all", "--aovs", "--stats", "--legend-file"}
+        refused = {"--output", "--force", "--only", "--progress", "--save-camera", "--save-scene", "--scene", "--device",
+                   "--threads", "--require-gpu", "--jobs", "--help", "--help-all", "--aovs", "--stats", "--legend-file"}
         manifest = json.loads((self.render / "bundle.json").read_text())
         names = set()
         for command in (("render",), ("export", "povray"), ("export", "blender")):

@@ -138,7 +138,7 @@ def check_manifest(path):
     assert np.isfinite(sequence.origin).all() and sequence.scale > 0 and sequence.fps > 0
     folder = os.path.dirname(path)
     assert all(os.path.dirname(frame.path) == folder for frame in sequence.frames)
-    assert sequence.resolve(1.0) == 1 and isinstance(sequence.camera_moves, bool)
+    assert sequence_reader.Timing().place(1.0, len(sequence.frames)) == 1 and isinstance(sequence.camera_moves, bool)
 
 
 def holds(check, path):

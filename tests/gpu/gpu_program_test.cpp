@@ -132,7 +132,7 @@ TEST(SecondDriver, FindsTheSameSurface) {
   const auto draw = [&](const std::vector<std::string>& environment, const char* extent) {
     const std::string picture = (folder.path() / "picture.png").string();
     const auto result = run_with(environment, {"render", kUbiquitin, "--device", "software", "--extent", extent,
-                                               "--size", "160x120", "--force", "-q", "-o", picture});
+                                               "--size", "160x120", "--force", "-q", "--no-provenance", "-o", picture});
     EXPECT_EQ(result.exit_code, 0) << result.err;
     return test::read_bytes(picture);
   };

@@ -31,10 +31,14 @@ void attempt(Action&& action) {
 
 void check_look(const CommandReader& reader) {
   reader.expect_only(look_keys());
-  const Look look = changed_look(Look{}, reader);
-  Json json = look_json(look);
+  const LookRequest plain{.preset = LookPreset::classic};
+  const auto written = [&](const CommandReader& command) {
+    return look_json(look_of(changed_look(plain, command), {960, 960}, glm::vec3(1.0f)));
+  };
+  const Json look = written(reader);
+  Json json = look;
   json["command"] = "look";
-  require(look_json(changed_look(Look{}, CommandReader(json))) == look_json(look), "a look written is read as it was");
+  require(written(CommandReader(json)) == look, "a look written is read as it was");
 }
 
 void check_values(const Json& command) {
