@@ -28,7 +28,8 @@ constexpr std::string_view kDirectives[] = {"break", "case",  "declare", "else",
 
 // The part of the language that scenes of this program use. No function of strings but concat and str, none of files
 // but file_exists.
-constexpr std::string_view kWords[] = {"adc_bailout",
+constexpr std::string_view kWords[] = {"abs",
+                                       "adc_bailout",
                                        "ambient",
                                        "array",
                                        "assumed_gamma",
@@ -41,10 +42,12 @@ constexpr std::string_view kWords[] = {"adc_bailout",
                                        "color",
                                        "color_map",
                                        "concat",
+                                       "cylinder",
                                        "diffuse",
                                        "dimension_size",
                                        "direction",
                                        "emission",
+                                       "face_indices",
                                        "file_exists",
                                        "filter",
                                        "finish",
@@ -63,17 +66,23 @@ constexpr std::string_view kWords[] = {"adc_bailout",
                                        "light_source",
                                        "location",
                                        "matrix",
+                                       "max",
                                        "max_trace_level",
+                                       "mesh2",
                                        "mm_per_unit",
                                        "mod",
+                                       "normal_vectors",
                                        "object",
+                                       "open",
                                        "orthographic",
                                        "parallel",
                                        "perspective",
+                                       "pi",
                                        "pigment",
                                        "pigment_map",
                                        "plane",
                                        "point_at",
+                                       "pow",
                                        "rgb",
                                        "rgbt",
                                        "right",
@@ -81,6 +90,7 @@ constexpr std::string_view kWords[] = {"adc_bailout",
                                        "samples",
                                        "scale",
                                        "shadowless",
+                                       "sin",
                                        "slope",
                                        "specular",
                                        "sphere",
@@ -88,12 +98,14 @@ constexpr std::string_view kWords[] = {"adc_bailout",
                                        "str",
                                        "subsurface",
                                        "texture",
+                                       "texture_list",
                                        "torus",
                                        "translate",
                                        "translucency",
                                        "transmit",
                                        "union",
                                        "up",
+                                       "vertex_vectors",
                                        "x",
                                        "y",
                                        "z"};
@@ -110,7 +122,7 @@ bool has(const List& list, std::string_view word) {
 // Names of our own begin like this; the language has no word that does.
 bool is_own_name(std::string_view word) {
   return word.starts_with("Meniscus_") || word.starts_with("object_") || word == "Kind" || word == "I" ||
-         word == "Tinted";
+         word == "Side" || word == "Step" || word == "Tinted";
 }
 
 /// Names of files in the folder, parts of them, or sentences of error messages: none can be joined to a path out of the
@@ -259,6 +271,10 @@ void check_scene(const fs::path& folder) {
 
 void check_scene_frame(const fs::path& folder, std::uint64_t frame) {
   check_text(folder, fmt::format("scene/surface_geometry_{}.inc", frame_digits(frame)), wrong_in_scene);
+  for (const char* part : {"shapes", "caps"}) {
+    const fs::path inner = fmt::format("scene/surface_{}_{}.inc", part, frame_digits(frame));
+    if (inner_entry(folder, inner) != Entry::nothing) check_text(folder, inner, wrong_in_scene);
+  }
 }
 
 }  // namespace meniscus::farm
