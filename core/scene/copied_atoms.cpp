@@ -24,7 +24,7 @@ std::vector<std::uint32_t> farthest_atoms(std::span<const Ball> balls, std::span
             atoms, {}, [&](std::uint32_t a) { return glm::dot(direction, balls[a].center) + balls[a].radius; }));
       }
   std::ranges::sort(farthest);
-  farthest.erase(std::ranges::unique(farthest).begin(), farthest.end());
+  farthest.erase(std::unique(farthest.begin(), farthest.end()), farthest.end());
   return farthest;
 }
 
