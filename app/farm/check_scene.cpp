@@ -261,7 +261,9 @@ void check_scene(const fs::path& folder) {
     throw InputError((folder / "scene").string(), 0, "is missing; do the step surface first");
   for (const fs::directory_entry& entry : fs::directory_iterator(folder / "scene")) {
     const fs::path inner = fs::path("scene") / entry.path().filename();
-    if (inner_entry(folder, inner) != Entry::file || !is_scene_file(entry.path().filename().string()))
+    const Entry found = inner_entry(folder, inner);
+    if (found == Entry::nothing) continue;  // got its name in the meantime
+    if (found != Entry::file || !is_scene_file(entry.path().filename().string()))
       throw InputError(entry.path().string(), 0, "is nothing that this program writes; take it away");
   }
   check_text(folder, "scene/surface.ini", wrong_in_settings);
