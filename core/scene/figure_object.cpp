@@ -74,7 +74,9 @@ std::vector<FigureObject> make_objects(std::span<const FigureObjectRequest> obje
     const std::vector<bool> selected = marked_atoms(all, first_mark + n);
     ColorScheme own = request.color ? *request.color : scheme;
     if (request.color && own.uses_file()) own.set_numbers(scheme.file);
-    if (!request.color && request.shapes) own = scheme_beside(structure, all.atoms.size(), own);
+    if (!request.color)
+      own = request.shapes ? scheme_beside(structure, all.atoms.size(), std::move(own))
+                           : with_scale_of(structure, all.atoms.size(), std::move(own));
     own.opacities = request.opacities;
     FigureObject& object = made.emplace_back();
     if (request.shapes) {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "core/base/error.h"
 #include "core/color/color_atoms.h"
@@ -57,15 +58,25 @@ Shapes shapes_of_atoms(const Structure& all, Kind kind, const std::vector<bool>&
   return spheres(all, selected);
 }
 
+ColorScheme with_scale_of(const Structure& structure, std::size_t shown, ColorScheme scheme) {
+  for (ColorRule& rule : scheme.rules) rule.paint = with_scale_of(structure, shown, std::move(rule.paint));
+  if (!scheme.has_scale() || scheme.by == By::volume) return scheme;
+  const ColorScale scale = color_scale(structure, scheme);
+  if (scale.map == ColorMap::categorical && shown > structure.atoms.size())
+    throw RequestError(
+        "--map categorical: atoms beside the surface may have numbers that it has no colour for; choose another --map");
+  scheme.range = scale.range;
+  std::vector<double>& numbers = scheme.file.numbers;  // either of each atom of the file, or of each of the surface
+  const bool of_atoms = scheme.by == By::file || scheme.by == By::buried || scheme.by == By::rmsf;
+  if (of_atoms && numbers.size() == structure.atoms.size())
+    numbers.resize(shown, std::numeric_limits<double>::quiet_NaN());
+  return scheme;
+}
+
 ColorScheme scheme_beside(const Structure& structure, std::size_t shown, ColorScheme scheme) {
   if (scheme.by == By::kind || scheme.by == By::component || scheme.by == By::volume) scheme.by = By::element;
   scheme.opacities.clear();  // those of the surface, which is seen through to show what is in it
-  if (!scheme.has_scale()) return scheme;
-  scheme.range = color_scale(structure, scheme).range;
-  std::vector<double>& numbers = scheme.file.numbers;  // either of each atom of the file, or of each of the surface
-  if (scheme.by == By::file && numbers.size() == structure.atoms.size())
-    numbers.resize(shown, std::numeric_limits<double>::quiet_NaN());
-  return scheme;
+  return with_scale_of(structure, shown, std::move(scheme));
 }
 
 std::vector<Atom> shown_atoms(const Structure& structure) {

@@ -51,7 +51,12 @@ std::vector<bool> marked_atoms(const Structure& all, std::size_t mark);
 Shapes shapes_of_atoms(const Structure& all, RepresentationRequest::Kind kind, const std::vector<bool>& selected,
                        const std::vector<Bond>& bonds, const ShapeRadii& radii);
 
-/// The scheme by which all shown atoms, so many, get the colours that those of the surface have; opaque.
+/// The scheme with the ranges that it has for the surface's atoms, for all shown atoms, so many: a number has one
+/// colour, whatever it is drawn on; what is known of the surface's atoms alone is missing of others. Throws
+/// RequestError where each number has a colour of its own.
+ColorScheme with_scale_of(const Structure& structure, std::size_t shown, ColorScheme scheme);
+
+/// The same for shapes: opaque, and by element where colours are of surfaces alone.
 ColorScheme scheme_beside(const Structure& structure, std::size_t shown, ColorScheme scheme);
 
 /// The shapes of shown_atoms(), where the atoms of the structure stand, coloured as the surface is: chains have the

@@ -164,6 +164,47 @@ TEST_F(SceneFile, WhatIsShownMayBeNearWhatStandsBeside) {
             picture("b.png", {"--spheres", "index 2", "--show", "index 1"}));
 }
 
+// Numbers have the colours of the molecule's scale, which the legend tells, on whatever else is drawn.
+TEST_F(SceneFile, ObjectsShareTheScaleOfTheMolecule) {
+  const std::string numbered =
+      folder_.file("numbered.pdb",
+                   "ATOM      1  C   ALA A   1      -4.000   0.000   0.000  1.00 10.00           C\n"
+                   "ATOM      2  C   ALA A   2       0.000   0.000   0.000  1.00 20.00           C\n"
+                   "ATOM      3  C   ALA B   3       4.000   0.000   0.000  1.00 90.00           C\n"
+                   "ATOM      4  C   ALA B   4       4.000   4.000   0.000  1.00 15.00           C\n");
+  const auto picture = [&](const char* name, const std::vector<std::string>& own) {
+    std::vector<std::string> all{numbered, "--select", "chain A",
+                                 "--size", "64x48",    "--samples",
+                                 "1",      "--camera", folder_.file("camera.json", kCamera),
+                                 "-o",     path(name)};
+    all.insert(all.end(), own.begin(), own.end());
+    const ProgramResult result = render(all);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return result.exit_code == 0 ? bytes(name) : std::string();
+  };
+  const auto same = [&](const std::vector<std::string>& own) {
+    std::vector<std::string> ranged = own;
+    ranged.insert(ranged.end(), {"--color-range", "10:20", "--force"});
+    const std::string automatic = picture("automatic.png", own);
+    std::filesystem::remove(path("automatic.png"));
+    return automatic == picture("ranged.png", ranged);
+  };
+  EXPECT_TRUE(same({"--color", "bfactor", "--object", R"({"selection":"chain B"})"}));
+  EXPECT_TRUE(same({"--color", "bfactor", "--object", R"({"selection":"chain B","representation":"spheres"})"}));
+  EXPECT_TRUE(same({"--color", "all=bfactor", "--object", R"({"selection":"chain B"})"}));
+  EXPECT_TRUE(same({"--color", "all=bfactor", "--spheres", "chain B"}));
+  EXPECT_NE(
+      picture("narrow.png", {"--color", "bfactor", "--object", R"({"selection":"chain B"})"}),
+      picture("wide.png", {"--color", "bfactor", "--color-range", "10:90", "--object", R"({"selection":"chain B"})"}));
+  // What is measured of the surface's atoms alone is missing of others.
+  picture("buried.png", {"--color", "buried", "--by", "residue", "--spheres", "chain B"});
+  // A colour a number: others would get colours that the legend has not.
+  const ProgramResult classes = render({numbered, "--select", "chain A", "--color", "bfactor", "--map", "categorical",
+                                        "--spheres", "chain B", "-o", path("classes.png")});
+  EXPECT_EQ(classes.exit_code, 2) << classes.err;
+  EXPECT_NE(classes.err.find("--map categorical"), std::string::npos) << classes.err;
+}
+
 TEST_F(SceneFile, FaultsAreNamed) {
   int n = 0;
   for (
