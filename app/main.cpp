@@ -18,7 +18,7 @@
 #include "app/process/build_version.h"
 #include "app/process/command_line.h"
 #include "app/commands/commands.h"
-#include "app/reports/error_report.h"
+#include "app/process/error_report.h"
 #include "app/process/failed_allocation.h"
 #include "app/process/freed_memory.h"
 #include "app/process/memory_limit.h"

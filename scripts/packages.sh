@@ -17,6 +17,7 @@ test_packages=(libgtest-dev libbenchmark-dev glslang-tools spirv-tools mesa-vulk
   python3-mdanalysis python3-mdtraj python3-h5py python3-pymol python3-pil
   slurmctld slurmd slurm-client munge python3-jsonschema libxml2-utils nodejs make git
   apbs pdb2pqr
+  python3-biopython python3-ost jmol
   dpkg-dev lintian man-db mandoc zsh fish)
 fuzz_packages=(clang-14 libclang-rt-14-dev)
 # form, and a second compiler with sanitizers

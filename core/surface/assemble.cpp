@@ -16,7 +16,7 @@
 
 namespace meniscus {
 Surface assemble_surface(std::span<const Ball> atoms, double probe_radius, const ReducedSurface& rs, StageClock* clock,
-                         CuspTracer* tracer, ClipPlanes planes) {
+                         CuspTracer* tracer, ClipPlanes planes, const ReducedComponents* cut_within) {
   StageClock unused;
   StageClock& stages = clock ? *clock : unused;
   Surface surface;
@@ -35,7 +35,8 @@ Surface assemble_surface(std::span<const Ball> atoms, double probe_radius, const
   {
     const auto stage = stages.stage("singularities");
     const auto cpu_tracer = tracer ? nullptr : make_cpu_cusp_tracer();
-    cusps = find_cusps(atoms, probe_radius, rolling.probes, surface.toroidal, tracer ? *tracer : *cpu_tracer);
+    cusps =
+        find_cusps(atoms, probe_radius, rolling.probes, surface.toroidal, tracer ? *tracer : *cpu_tracer, cut_within);
   }
   {
     const auto stage = stages.stage("primitives");

@@ -117,11 +117,14 @@ struct DividerScratch {
 
 class AreaDivider {
  public:
-  explicit AreaDivider(const Surface& surface) : s_(surface) {}
+  /// group_of_face: empty where all faces are of one group.
+  explicit AreaDivider(const Surface& surface, std::span<const std::uint32_t> group_of_face = {})
+      : s_(surface), group_of_face_(group_of_face) {}
 
-  AtomAreas run() {
-    areas_.surface.assign(s_.atoms.size(), 0.0);
-    areas_.accessible.assign(s_.atoms.size(), 0.0);
+  /// One for each group.
+  std::vector<AtomAreas> run(std::uint32_t count = 1) {
+    const std::vector<double> none(s_.atoms.size(), 0.0);
+    areas_.assign(count, AtomAreas{none, none});
     for (const ConvexPatch& patch : s_.convex) add(patch);
     add_toroidal();
     std::vector<double> share(s_.contacts.size(), 0.0);
@@ -132,7 +135,9 @@ class AreaDivider {
         std::ranges::copy(divide(s_.concave[n], Cuts::beyond_touching, scratch),
                           share.begin() + s_.concave[n].first_contact);
     });
-    for (std::size_t n = 0; n < share.size(); ++n) areas_.surface[s_.contacts[n]] += share[n];
+    for (const ConcavePatch& patch : s_.concave)
+      for (std::uint32_t n = patch.first_contact; n < patch.first_contact + patch.contact_count; ++n)
+        areas_of(patch.face_count ? patch.first_face : kNone).surface[s_.contacts[n]] += share[n];
     require_sum();
     return std::move(areas_);
   }
@@ -159,13 +164,18 @@ class AreaDivider {
   }
 
  private:
+  /// Those of a face's group; a patch without any has no area to add.
+  AtomAreas& areas_of(std::uint32_t face) {
+    return areas_[group_of_face_.empty() || face == kNone ? 0 : group_of_face_[face]];
+  }
+
   void add(const ConvexPatch& patch) {
     const double r = s_.atoms[patch.atom].radius, extended = r + s_.probe_radius;
     for (std::uint32_t f = patch.first_face; f < patch.first_face + patch.face_count; ++f) {
-      areas_.surface[patch.atom] += s_.faces[f].area;
+      areas_of(f).surface[patch.atom] += s_.faces[f].area;
       // Where the probe's centre is seen from the atom's centre, there it touches: the patch and the accessible part
       // of the grown sphere fill the same solid angle.
-      areas_.accessible[patch.atom] += s_.faces[f].area * (extended / r) * (extended / r);
+      areas_of(f).accessible[patch.atom] += s_.faces[f].area * (extended / r) * (extended / r);
     }
   }
 
@@ -190,7 +200,7 @@ class AreaDivider {
     for (std::size_t t = 0; t < shares.size(); ++t)
       for (std::uint32_t n = 0; n < s_.toroidal[t].face_count; ++n)
         for (std::size_t side = 0; side < 2; ++side)
-          areas_.surface[s_.toroidal[t].atom[side]] += shares[t][2 * n + side];
+          areas_of(s_.toroidal[t].first_face + n).surface[s_.toroidal[t].atom[side]] += shares[t][2 * n + side];
   }
 
   void add_borders(const Face& face, const glm::dvec3& center, DividerScratch& w) const {
@@ -247,15 +257,19 @@ class AreaDivider {
 
   // Whoever computed the faces: what is divided among the atoms is all of it.
   void require_sum() const {
-    const double sum = std::accumulate(areas_.surface.begin(), areas_.surface.end(), 0.0);
     const double noise = 1e-6 * (1 + s_.area);
-    const auto least = std::ranges::min_element(areas_.surface);
-    if (std::abs(sum - s_.area) <= noise && (least == areas_.surface.end() || *least >= -noise)) return;
+    double sum = 0, least = 0;
+    for (const AtomAreas& group : areas_)
+      for (const double area : group.surface) {
+        sum += area;
+        least = std::min(least, area);
+      }
+    if (std::abs(sum - s_.area) <= noise && least >= -noise) return;
     throw OpenSurfaceError(
         fmt::format("the areas of atoms, {} Å² in sum and {} Å² the least, do not make up the surface's {} Å²; nothing "
                     "was written; "
                     "please report this structure",
-                    sum, *least, s_.area));
+                    sum, least, s_.area));
   }
 
   void list_planes(const ConcavePatch& patch, Cuts cuts, std::vector<std::uint32_t>& planes) const {
@@ -333,12 +347,18 @@ class AreaDivider {
   }
 
   const Surface& s_;
-  AtomAreas areas_;
+  std::span<const std::uint32_t> group_of_face_;
+  std::vector<AtomAreas> areas_;
 };
 
 }  // namespace
 
-AtomAreas atom_areas(const Surface& surface) { return AreaDivider(surface).run(); }
+AtomAreas atom_areas(const Surface& surface) { return std::move(AreaDivider(surface).run().front()); }
+
+std::vector<AtomAreas> atom_areas(const Surface& surface, std::span<const std::uint32_t> group_of_face,
+                                  std::uint32_t count) {
+  return AreaDivider(surface, group_of_face).run(count);
+}
 
 double divided_area(const Surface& surface, const ConcavePatch& patch) {
   DividerScratch scratch;

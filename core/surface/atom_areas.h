@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/surface/primitives.h"
@@ -22,6 +23,11 @@ struct AtomAreas {
 /// Needs the surface's faces measured. Throws OpenSurfaceError if the areas do not add up to the surface's, or one is
 /// negative, by more than a millionth. Runs on all cores TBB may use; the result does not depend on their number.
 AtomAreas atom_areas(const Surface& surface);
+
+/// The same of each of `count` groups of faces, for surfaces whose closed parts are of interest by themselves.
+/// group_of_face: below `count`, one per Surface::faces; the faces of one saddle or re-entrant patch share a group.
+std::vector<AtomAreas> atom_areas(const Surface& surface, std::span<const std::uint32_t> group_of_face,
+                                  std::uint32_t count);
 
 /// Å²: the sum of what the atoms that a re-entrant patch touches get of it. It comes from integrals along the patch's
 /// planes as well as its borders, so it is the area of the patch's faces only if both describe one figure.

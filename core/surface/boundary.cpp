@@ -68,12 +68,13 @@ class BoundaryBuilder {
   // Vertices: one per contact of each probe (the probe itself when its radius is 0), two per spindle circle, one per
   // point where three probes meet.
   void number_borders() {
-    const auto first_on_circle = [&](std::size_t t) {
-      return t == 0 || s_.toroidal[t].atom != s_.toroidal[t - 1].atom;
-    };
     const auto count = [&](std::size_t t) {
       const bool free = s_.toroidal[t].free(), spindle = s_.spindle(s_.toroidal[t]);
-      return BorderNumbers{flat_ ? 1u : free ? 2u : spindle ? 6u : 4u, spindle && first_on_circle(t) ? 2u : 0u};
+      return BorderNumbers{flat_     ? 1u
+                           : free    ? 2u
+                           : spindle ? 6u
+                                     : 4u,
+                           spindle && cusps_.first_on_circle[t] == t ? 2u : 0u};
     };
     const std::size_t contact_count = flat_ ? probes_.count() : probes_.sides.size();
     const RowNumbers<BorderNumbers> numbers(s_.toroidal.size(), {0, static_cast<std::uint32_t>(contact_count)}, count);
@@ -83,8 +84,10 @@ class BoundaryBuilder {
       const bool spindle = s_.spindle(s_.toroidal[t]);
       patch_borders_[t] = {next.border, s_.toroidal[t].free(), spindle};
       next += count(t);
-      axis_vertex_[t] = spindle ? next.vertex - 2 : kNone;
+      axis_vertex_[t] = spindle && cusps_.first_on_circle[t] == t ? next.vertex - 2 : kNone;
     });
+    for (std::size_t t = 0; t < s_.toroidal.size(); ++t)
+      if (patch_borders_[t].spindle) axis_vertex_[t] = axis_vertex_[cusps_.first_on_circle[t]];
     first_cusp_border_ = numbers.past().border;
     triple_vertex_ = numbers.past().vertex;
   }
@@ -103,7 +106,7 @@ class BoundaryBuilder {
     });
     // All patches of a spindle circle say the same.
     tbb::parallel_for(std::size_t{0}, s_.toroidal.size(), [&](std::size_t t) {
-      if (axis_vertex_[t] == kNone || (t > 0 && axis_vertex_[t] == axis_vertex_[t - 1])) return;
+      if (axis_vertex_[t] == kNone || cusps_.first_on_circle[t] != t) return;
       for (int side = 0; side < 2; ++side) s_.vertices[axis_vertex_[t] + side] = axis_cusp(s_.toroidal[t], p(), side);
     });
     std::copy(cusps_.triple.begin(), cusps_.triple.end(), s_.vertices.begin() + triple_vertex_);

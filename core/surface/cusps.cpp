@@ -15,6 +15,7 @@
 #include "core/math/geometry.h"
 #include "core/reduced_surface/reduced_surface.h"
 #include "core/surface/large_tables.h"
+#include "core/surface/reduced_components.h"
 #include "core/surface/walks.h"
 
 namespace meniscus {
@@ -45,18 +46,20 @@ double angle_between(const glm::dvec3& axis, const glm::dvec3& a, const glm::dve
 class CuspSearch {
  public:
   CuspSearch(std::span<const Ball> atoms, double probe_radius, const FixedProbes& probes,
-             std::span<const ToroidalPatch> toroidal)
+             std::span<const ToroidalPatch> toroidal, const ReducedComponents* within)
       : atoms_(atoms),
         p_(probe_radius),
         probes_(probes),
         toroidal_(toroidal),
-        first_on_circle_(first_on_circle(toroidal)) {
+        within_(within),
+        first_on_circle_(first_on_circle(toroidal, within)) {
     pose();
   }
 
   CuspParts run(CuspTracer& tracer) {
     find_gaps();
     CutLists cuts = tracer.list_cuts(problem_);
+    if (within_) keep_cuts_within_components(cuts);
     settle_neighbors(problem_, cuts);
     adopt_all(tracer.trace(problem_, cuts));
     std::sort(found_.begin(), found_.end(), [](const FoundArc& a, const FoundArc& b) {
@@ -65,10 +68,22 @@ class CuspSearch {
     join_triples();
     parts_.first_cut = std::move(cuts.first);
     parts_.cuts = std::move(cuts.probe);
+    parts_.first_on_circle = std::move(first_on_circle_);
     return std::move(parts_);
   }
 
  private:
+  void keep_cuts_within_components(CutLists& cuts) const {
+    CutLists kept;
+    kept.first.assign(1, 0);
+    for (std::uint32_t s = 0; s < problem_.count(); ++s) {
+      for (const std::uint32_t t : cuts.of(s))
+        if (within_->of_probe[s] == within_->of_probe[t]) kept.probe.push_back(t);
+      kept.first.push_back(static_cast<std::uint32_t>(kept.probe.size()));
+    }
+    cuts = std::move(kept);
+  }
+
   void pose() {
     problem_.probe_radius = p_;
     problem_.positions = probes_.position;
@@ -112,8 +127,9 @@ class CuspSearch {
     const ToroidalPatch& lead = toroidal_[first];
     if (lead.free() || !touches_axis(lead, atoms_, p_)) return;
     around.clear();
-    for (std::uint32_t t = first; t < toroidal_.size() && first_on_circle_[t] == first; ++t)
-      around.emplace_back(t == first ? 0.0 : angle_between(lead.axis, lead.start, toroidal_[t].start), t);
+    for (std::uint32_t t = first; t < toroidal_.size() && toroidal_[t].atom == lead.atom; ++t)
+      if (first_on_circle_[t] == first)
+        around.emplace_back(t == first ? 0.0 : angle_between(lead.axis, lead.start, toroidal_[t].start), t);
     std::sort(around.begin(), around.end());
     for (std::size_t n = 0; n < around.size(); ++n) {
       const std::uint32_t t = around[n].second, u = around[(n + 1) % around.size()].second;
@@ -278,6 +294,7 @@ class CuspSearch {
   double p_;
   const FixedProbes& probes_;
   std::span<const ToroidalPatch> toroidal_;
+  const ReducedComponents* within_;
   std::vector<std::uint32_t> first_on_circle_;
   CuspProblem problem_;
   std::vector<FoundArc> found_;
@@ -291,16 +308,20 @@ glm::dvec3 axis_cusp(const ToroidalPatch& patch, double probe_radius, int side) 
   return patch.center + patch.axis * (side ? along : -along);
 }
 
-std::vector<std::uint32_t> first_on_circle(std::span<const ToroidalPatch> toroidal) {
+std::vector<std::uint32_t> first_on_circle(std::span<const ToroidalPatch> toroidal, const ReducedComponents* within) {
   std::vector<std::uint32_t> first(toroidal.size());
-  for (std::uint32_t t = 0; t < toroidal.size(); ++t)
-    first[t] = t > 0 && toroidal[t].atom == toroidal[t - 1].atom ? first[t - 1] : t;
+  std::uint32_t begin = 0;  // of the patches between these atoms
+  for (std::uint32_t t = 0; t < toroidal.size(); ++t) {
+    if (toroidal[t].atom != toroidal[begin].atom) begin = t;
+    first[t] = begin;
+    while (within && within->of_toroidal[first[t]] != within->of_toroidal[t]) ++first[t];
+  }
   return first;
 }
 
 CuspParts find_cusps(std::span<const Ball> atoms, double probe_radius, const FixedProbes& probes,
-                     std::span<const ToroidalPatch> toroidal, CuspTracer& tracer) {
-  if (probe_radius > 0) return CuspSearch(atoms, probe_radius, probes, toroidal).run(tracer);
+                     std::span<const ToroidalPatch> toroidal, CuspTracer& tracer, const ReducedComponents* within) {
+  if (probe_radius > 0) return CuspSearch(atoms, probe_radius, probes, toroidal, within).run(tracer);
   CuspParts none;
   none.first_cut.assign(probes.count() + 1, 0);
   return none;

@@ -17,6 +17,8 @@
 
 namespace meniscus {
 
+struct ReducedComponents;
+
 /// An exposed arc of the circle in which two fixed probes intersect, counter-clockwise about the axis probe[0] ->
 /// probe[1]; vertex kNone twice: a whole circle.
 struct CuspArc {
@@ -36,15 +38,20 @@ struct CuspParts {
   std::vector<std::uint32_t> first_cut;    ///< per probe, into cuts; one past the last closes the list
   std::vector<std::uint32_t> cuts;         ///< probes whose ball reaches into the probe's spherical polygon, ascending
   std::vector<std::uint32_t> open_probes;  ///< probes at triples that not exactly three arcs agree on; empty if closed
+  std::vector<std::uint32_t> first_on_circle;  ///< as first_on_circle() has it; empty with a probe of no size
 };
 
 /// The axis cusp of the spindle circle of toroidal patch t near atom[side]: at most p from the circle's centre.
 glm::dvec3 axis_cusp(const ToroidalPatch& patch, double probe_radius, int side);
 
-/// Axis cusps are named after the first toroidal patch on their circle: patch -> that patch.
-std::vector<std::uint32_t> first_on_circle(std::span<const ToroidalPatch> toroidal);
+/// Axis cusps are named after the first toroidal patch on their circle, and of their component if there are several:
+/// patch -> that patch.
+std::vector<std::uint32_t> first_on_circle(std::span<const ToroidalPatch> toroidal,
+                                           const ReducedComponents* within = nullptr);
 
+/// `within`: only probes of one component of the reduced surface cut each other; without it all do.
 CuspParts find_cusps(std::span<const Ball> atoms, double probe_radius, const FixedProbes& probes,
-                     std::span<const ToroidalPatch> toroidal, CuspTracer& tracer);
+                     std::span<const ToroidalPatch> toroidal, CuspTracer& tracer,
+                     const ReducedComponents* within = nullptr);
 
 }  // namespace meniscus

@@ -11,6 +11,7 @@ namespace meniscus {
 
 class CuspTracer;
 class ReducedSurfaceEngine;
+struct ReducedComponents;
 struct ReducedSurface;
 
 /// Whether a surface gets the clip planes of its convex patches (ConvexPatch::planes), a fifth of the work.
@@ -23,9 +24,11 @@ enum class ClipPlanes {
 /// `rs` must have been computed for the same `atoms` and `probe_radius`.
 /// Look at the result's certificate, or call require_closed(), before using it.
 /// Adds the time of each stage to `clock` if there is one. Singularities are traced by `tracer`, by default on the CPU.
+/// With `cut_within`, of this very reduced surface, a probe cuts patches of its own component only
+/// (reduced_components.h), and a component's sheet may then run through another's.
 Surface assemble_surface(std::span<const Ball> atoms, double probe_radius, const ReducedSurface& rs,
                          StageClock* clock = nullptr, CuspTracer* tracer = nullptr,
-                         ClipPlanes planes = ClipPlanes::listed);
+                         ClipPlanes planes = ClipPlanes::listed, const ReducedComponents* cut_within = nullptr);
 
 /// Throws OpenSurfaceError, naming atoms by their index, unless the certificate says the surface is closed.
 void require_closed(const Surface& surface);

@@ -18,23 +18,41 @@ namespace {
 /// Borders shorter than this (Å) are rounding noise of a degenerate position: their two ends are one vertex.
 constexpr double kTinyBorder = 1e-9;
 constexpr double kLargestAngle = 0.8;
+/// Where a length is asked for, few long edges are wanted: five of a circle.
+constexpr double kLargestAngleOfEdges = 1.3;
+/// How far such an edge h may leave a sphere of radius r: twice as far as that of an equilateral triangle, but never
+/// more than this share of the radius.
+constexpr double kLargestShare = 0.3;
 
 bool whole_circle(const Border& border) { return border.vertex[0] == kNone; }
 
 }  // namespace
 
-double edge_length(double radius, double tolerance) {
-  return std::min(std::sqrt(5.0 * radius * tolerance), kLargestAngle * radius);
+double EdgeRule::edge(double radius) const {
+  const double longest = edge_ > 0.0 ? edge_ : std::sqrt(5.0 * radius * tolerance_);
+  return std::min(longest, largest_angle() * radius);
+}
+
+double EdgeRule::chord(double radius) const { return edge_ > 0.0 ? edge_ : 0.9 * std::sqrt(8.0 * radius * tolerance_); }
+
+int EdgeRule::parts(double steps) const {
+  return std::max(1, static_cast<int>(edge_ > 0.0 ? std::round(steps) : std::ceil(steps)));
+}
+
+double EdgeRule::largest_angle() const { return edge_ > 0.0 ? kLargestAngleOfEdges : kLargestAngle; }
+
+double EdgeRule::tolerance(double radius) const {
+  return edge_ > 0.0 && radius > 0.0 ? std::min(edge_ * edge_ / (3.0 * radius), kLargestShare * radius) : tolerance_;
 }
 
 double tube_radius(const Surface& surface, const Face& face) {
   return face.kind == PatchKind::convex ? surface.atoms[surface.convex[face.patch].atom].radius : surface.probe_radius;
 }
 
-BorderSamples::BorderSamples(const Surface& surface, double tolerance, bool split_colors)
+BorderSamples::BorderSamples(const Surface& surface, const EdgeRule& rule, bool split_colors)
     : surface_(surface), parameters_(surface.borders.size()) {
   join_ends_of_tiny_borders();
-  for (std::uint32_t b = 0; b < surface.borders.size(); ++b) sample(b, tolerance, split_colors);
+  for (std::uint32_t b = 0; b < surface.borders.size(); ++b) sample(b, rule, split_colors);
   // Two borders between the same two vertices would become the same edge if each were one segment.
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> single;
   for (std::uint32_t b = 0; b < surface.borders.size(); ++b) {
@@ -60,22 +78,22 @@ std::uint32_t BorderSamples::representative(std::uint32_t vertex) const {
   return vertex;
 }
 
-void BorderSamples::sample(std::uint32_t index, double tolerance, bool split_colors) {
+void BorderSamples::sample(std::uint32_t index, const EdgeRule& rule, bool split_colors) {
   const Border& border = surface_.borders[index];
   std::vector<double>& t = parameters_[index];
   if (!whole_circle(border) && representative(border.vertex[0]) == representative(border.vertex[1]) &&
       border.radius * border.sweep <= kTinyBorder) {
     return;
   }
-  double step = 0.9 * std::sqrt(8.0 * border.radius * tolerance);
+  double step = rule.chord(border.radius);
   std::vector<double> stops{0.0};
   for (std::uint32_t f : border.face) {
     const Face& face = surface_.faces[f];
-    if (tube_radius(surface_, face) > 0.0) step = std::min(step, edge_length(tube_radius(surface_, face), tolerance));
+    if (tube_radius(surface_, face) > 0.0) step = std::min(step, rule.edge(tube_radius(surface_, face)));
     if (face.kind == PatchKind::toroidal) {
       // Both contact circles of a saddle get equal steps: without a probe they are one circle, and must stay one.
       for (const std::uint32_t atom : surface_.toroidal[face.patch].atom) {
-        step = std::min(step, edge_length(surface_.atoms[atom].radius, tolerance));
+        step = std::min(step, rule.edge(surface_.atoms[atom].radius));
       }
     }
     if (!split_colors || face.kind == PatchKind::convex || border.kind == BorderKind::contact) continue;
@@ -86,7 +104,7 @@ void BorderSamples::sample(std::uint32_t index, double tolerance, bool split_col
     const auto changes = color_changes(contacts, probe, border);
     stops.insert(stops.end(), changes.begin(), changes.end());
   }
-  const double angle = std::min(step / border.radius, kLargestAngle);
+  const double angle = std::min(step / border.radius, rule.largest_angle());
   std::sort(stops.begin(), stops.end());
   stops.push_back(border.sweep);
   const double apart = std::min(1e-3 * angle, 0.25 * border.sweep);  // closer stops are one
@@ -97,7 +115,7 @@ void BorderSamples::sample(std::uint32_t index, double tolerance, bool split_col
       continue;
     }
     const double span = stops[i + 1] - stops[i];
-    const int parts = std::max(1, static_cast<int>(std::ceil(span / angle)));
+    const int parts = rule.parts(span / angle);
     for (int k = 0; k < parts; ++k) t.push_back(stops[i] + span * k / parts);
   }
   if (!whole_circle(border)) t.push_back(border.sweep);

@@ -8,12 +8,31 @@
 #include <glm/vec3.hpp>
 
 #include "core/surface/primitives.h"
+#include "exporters/mesh/triangle_mesh.h"
 
 namespace meniscus {
 
-/// The longest edge (Å) of a mesh on a sphere of this radius that stays within `tolerance` of it.
-/// An equilateral triangle of edge h lies h^2/(6 r) below the sphere at most; a little is kept in hand.
-double edge_length(double radius, double tolerance);
+/// How long edges may be and how far triangles may be from the surface, on spheres and tubes of any radius (Å): as
+/// MeshOptions say.
+class EdgeRule {
+ public:
+  explicit EdgeRule(const MeshOptions& options) : tolerance_(options.tolerance), edge_(options.edge) {}
+
+  /// The longest edge on a sphere of this radius. By tolerance: an equilateral triangle of edge h lies h^2/(6 r) below
+  /// the sphere at most; a little is kept in hand.
+  double edge(double radius) const;
+  /// The same of a chord of a circle.
+  double chord(double radius) const;
+  /// No step of an arc spans more, radian.
+  double largest_angle() const;
+  /// Into how many parts an arc of so many steps is cut: by tolerance none is longer than a step, by length each is as
+  /// near to one as can be.
+  int parts(double steps) const;
+  double tolerance(double radius) const;
+
+ private:
+  double tolerance_, edge_;
+};
 
 /// The radius of the sphere or of the torus tube that a face lies on.
 double tube_radius(const Surface& surface, const Face& face);
@@ -28,7 +47,7 @@ struct BorderPoint {
 class BorderSamples {
  public:
   /// With `split_colors`, points where the nearest contact of a face changes are samples too.
-  BorderSamples(const Surface& surface, double tolerance, bool split_colors);
+  BorderSamples(const Surface& surface, const EdgeRule& rule, bool split_colors);
 
   /// 0 for a border so short that its two ends have become one vertex.
   std::uint32_t segment_count(std::uint32_t border) const;
@@ -45,7 +64,7 @@ class BorderSamples {
 
  private:
   void join_ends_of_tiny_borders();
-  void sample(std::uint32_t border, double tolerance, bool split_colors);
+  void sample(std::uint32_t border, const EdgeRule& rule, bool split_colors);
 
   const Surface& surface_;
   std::vector<std::uint32_t> representative_;

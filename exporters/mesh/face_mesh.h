@@ -49,7 +49,7 @@ FaceOutline sphere_outline(const Surface& surface, const Face& face, const Borde
                            const SphereLattice& lattice, double edge);
 
 /// The outline of any piece of a torus. `piece`: which half of a spindle.
-FaceOutline torus_outline(const Surface& surface, const Face& face, const BorderSamples& samples, double tolerance);
+FaceOutline torus_outline(const Surface& surface, const Face& face, const BorderSamples& samples, const EdgeRule& rule);
 
 /// Triangulates an outline within the tolerance (Å).
 FaceMesh fill_outline(FaceOutline outline, double tolerance);

@@ -64,6 +64,7 @@ TriangleMesh shown_part(TriangleMesh mesh, const Coloring& coloring) {
   keep_triangles(mesh, shown);
   keep_used_vertices(mesh);
   mesh.partly_hidden = true;
+  mesh.corner_count = mesh.border_point_count = 0;
   return mesh;
 }
 

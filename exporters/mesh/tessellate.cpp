@@ -50,7 +50,8 @@ class Tessellation {
   Tessellation(const Surface& surface, const MeshOptions& options)
       : surface_(surface),
         options_(options),
-        samples_(std::in_place, surface, options.tolerance, options.split_colors),
+        rule_(options),
+        samples_(std::in_place, surface, rule_, options.split_colors),
         faces_(surface.faces.size()) {}
 
   TriangleMesh run() {
@@ -70,14 +71,19 @@ class Tessellation {
     return_free_memory();
     find_shared_normals();
     for_each_chunk([&](std::uint32_t first, std::uint32_t last) { append_faces(first, last); });
-    mesh_.tolerance = options_.tolerance;
+    mesh_.tolerance = options_.edge > 0.0 ? largest_tolerance() : options_.tolerance;
     return std::move(mesh_);
   }
 
  private:
-  double face_edge(const Face& face) const { return edge_length(tube_radius(surface_, face), options_.tolerance); }
+  double face_edge(const Face& face) const { return rule_.edge(tube_radius(surface_, face)); }
   int face_frequency(const Face& face) const {
     return lattice_frequency(face_edge(face) / tube_radius(surface_, face));
+  }
+  double largest_tolerance() const {
+    double largest = 0;
+    for (const Face& face : surface_.faces) largest = std::max(largest, rule_.tolerance(tube_radius(surface_, face)));
+    return largest;
   }
   void make_lattices() {
     for (const Face& face : surface_.faces) {
@@ -89,7 +95,7 @@ class Tessellation {
 
   FaceOutline outline(std::uint32_t f) const {
     const Face& face = surface_.faces[f];
-    if (face.kind == PatchKind::toroidal) return torus_outline(surface_, face, *samples_, options_.tolerance);
+    if (face.kind == PatchKind::toroidal) return torus_outline(surface_, face, *samples_, rule_);
     return sphere_outline(surface_, face, *samples_, lattices_.at(face_frequency(face)), face_edge(face));
   }
   FaceMesh fill(std::uint32_t f) const {
@@ -97,7 +103,7 @@ class Tessellation {
     if (face.loop_count == 0) return whole_sphere(surface_, face, lattices_.at(face_frequency(face)));
     FaceOutline rim = outline(f);
     if (rim.edges.size() < 3) return {};  // shrunk to a point or to one line
-    FaceMesh mesh = fill_outline(std::move(rim), options_.tolerance);
+    FaceMesh mesh = fill_outline(std::move(rim), rule_.tolerance(tube_radius(surface_, face)));
     give_back_room(mesh);
     return mesh;
   }
@@ -207,6 +213,7 @@ class Tessellation {
         }
       }
     }
+    mesh_.corner_count = next;
     border_number_.resize(surface_.borders.size());
     for (std::uint32_t b = 0; b < surface_.borders.size(); ++b) {
       const std::uint32_t n = samples_->segment_count(b);
@@ -214,6 +221,7 @@ class Tessellation {
       border_number_[b] = ring ? next : next - 1;  // sample 1 of an arc is its first inner point
       for (std::uint32_t k = ring ? 0 : 1; k < n; ++k, ++next) mesh_.positions.push_back(samples_->position(b, k));
     }
+    mesh_.border_point_count = next - mesh_.corner_count;
     make_room();
   }
 
@@ -391,6 +399,7 @@ class Tessellation {
 
   const Surface& surface_;
   const MeshOptions& options_;
+  const EdgeRule rule_;
   std::optional<BorderSamples> samples_;  // until vertices are numbered
   std::map<int, SphereLattice> lattices_;
   std::vector<FaceMesh> faces_;
@@ -405,14 +414,17 @@ TriangleMesh tessellate(const Surface& surface, const MeshOptions& options) {
   if (!(options.tolerance > 0.0) || !std::isfinite(options.tolerance)) {
     throw Error(fmt::format("mesh tolerance: {} Å, give a number above 0", options.tolerance));
   }
+  if (!(options.edge >= 0.0) || !std::isfinite(options.edge)) {
+    throw Error(fmt::format("mesh edges: {} Å, give a number above 0, or 0 for those of the tolerance", options.edge));
+  }
   TriangleMesh mesh = Tessellation(surface, options).run();
   return_free_memory();
   if (!mesh.triangles.empty() && !measure(mesh).closed) {
-    throw OpenSurfaceError(fmt::format("the mesh at {} Å is not closed; give another tolerance", options.tolerance));
+    throw OpenSurfaceError(fmt::format("the mesh at {} Å is not closed; give another tolerance", mesh.tolerance));
   }
   if (const std::vector<std::string> found = differences(surface, mesh); !found.empty()) {
     throw OpenSurfaceError(fmt::format("the mesh at {} Å is not that of the surface: {}; give another tolerance",
-                                       options.tolerance, found.front()));
+                                       mesh.tolerance, found.front()));
   }
   return mesh;
 }

@@ -21,12 +21,12 @@ int whole_parts(double parts) { return parts < 1e6 ? static_cast<int>(std::ceil(
 /// Collects the rim of a torus face in walking order; every visit of a point is a point of its own.
 class TorusRim {
  public:
-  TorusRim(const Surface& surface, const Face& face, const BorderSamples& samples, double tolerance)
+  TorusRim(const Surface& surface, const Face& face, const BorderSamples& samples, const EdgeRule& rule)
       : surface_(surface),
         face_(face),
         patch_(surface.toroidal[face.patch]),
         samples_(samples),
-        tolerance_(tolerance),
+        rule_(rule),
         angles_(contact_angles(surface, patch_)),
         piece_(patch_.piece(static_cast<std::uint32_t>(&face - &surface.faces[patch_.first_face]))),
         domain_(std::make_unique<TorusDomain>(patch_, surface.probe_radius, piece_)) {}
@@ -175,7 +175,7 @@ class TorusRim {
   }
   /// At most an edge length apart, and one where the nearest contact changes.
   std::vector<double> seam_shares(double from, double to) const {
-    const double step = edge_length(surface_.probe_radius, tolerance_);
+    const double step = rule_.edge(surface_.probe_radius);
     const double change = (0.5 * (angles_[0] + angles_[1]) - from) / (to - from);
     std::vector<double> stops{0.0};
     if (change > 0.01 && change < 0.99) stops.push_back(change);
@@ -233,7 +233,7 @@ class TorusRim {
   }
 
   void add_interior() {
-    const double p = surface_.probe_radius, edge = edge_length(p, tolerance_);
+    const double p = surface_.probe_radius, edge = rule_.edge(p);
     if (!patch_.free()) {
       const int rows = whole_parts(p * (high_ - low_) / edge);
       for (int i = 1; i < rows; ++i) rows_.push_back(double(i) / rows);
@@ -241,9 +241,9 @@ class TorusRim {
     for (std::size_t i = 0; i < rows_.size(); ++i) {
       const double share = rows_[i], tube = low_ + (high_ - low_) * share;
       const double distance = domain_->axis_distance(tube);
-      const double across = std::min(edge, edge_length(distance / std::max(std::cos(tube), 1e-3), tolerance_));
+      const double across = std::min(edge, rule_.edge(distance / std::max(std::cos(tube), 1e-3)));
       const double start = seam_[0].x + (seam_[1].x - seam_[0].x) * share;
-      const int columns = whole_parts(std::max(patch_.sweep * distance / across, patch_.sweep / 0.8));
+      const int columns = whole_parts(std::max(patch_.sweep * distance / across, patch_.sweep / rule_.largest_angle()));
       if (columns < 2) continue;
       const double shift = i % 2 ? 0.5 : 0.0;  // rows are staggered
       for (int k = 0; k < columns; ++k) {
@@ -257,7 +257,7 @@ class TorusRim {
   const Face& face_;
   const ToroidalPatch& patch_;
   const BorderSamples& samples_;
-  double tolerance_;
+  EdgeRule rule_;
   std::array<double, 2> angles_;
   int piece_;
   std::unique_ptr<TorusDomain> domain_;
@@ -271,8 +271,9 @@ class TorusRim {
 
 }  // namespace
 
-FaceOutline torus_outline(const Surface& surface, const Face& face, const BorderSamples& samples, double tolerance) {
-  return TorusRim(surface, face, samples, tolerance).build();
+FaceOutline torus_outline(const Surface& surface, const Face& face, const BorderSamples& samples,
+                          const EdgeRule& rule) {
+  return TorusRim(surface, face, samples, rule).build();
 }
 
 }  // namespace meniscus

@@ -16,6 +16,9 @@ namespace meniscus {
 struct MeshOptions {
   double tolerance = 0.01;   ///< Å: no point of the mesh is farther from the exact surface
   bool split_colors = true;  ///< cut triangles where the nearest contact changes, so colours change along edges
+  /// Å; above 0: edges are about this long, inside faces and along borders, and whatever tolerance that comes to is the
+  /// mesh's. Vertices of the surface stay, however near to each other.
+  double edge = 0.0;
 };
 
 /// Plain arrays. Every edge has exactly two triangles (but see partly_hidden), which walk it in opposite directions;
@@ -24,6 +27,9 @@ struct TriangleMesh {
   std::vector<glm::dvec3> positions;  ///< Å
   std::vector<glm::dvec3> normals;    ///< unit, exact; at sharp vertices the mean of the normals around them
   std::vector<std::array<std::uint32_t, 3>> triangles;
+  /// As tessellate() numbers them: so many vertices of the surface first, then so many points of its borders. Both 0
+  /// where triangles were left out.
+  std::uint32_t corner_count = 0, border_point_count = 0;
 
   std::vector<std::uint32_t> face;       ///< per triangle: into Surface::faces
   std::vector<PatchKind> kind;           ///< per triangle
@@ -36,7 +42,7 @@ struct TriangleMesh {
   std::vector<glm::dvec3> sharp_corner_normals;
   std::vector<std::array<std::uint32_t, 2>> sharp_edges;  ///< vertex pairs along cusps
 
-  double tolerance = 0.0;      ///< Å, as asked
+  double tolerance = 0.0;      ///< Å, as asked; with MeshOptions::edge what that comes to
   bool partly_hidden = false;  ///< triangles were left out: edges along the border of what is shown have one triangle
 };
 

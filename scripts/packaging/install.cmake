@@ -1,16 +1,18 @@
 # What `cmake --install` brings, once everything is built, and what the Debian packages hold. The program finds its
 # module in ../lib/meniscus and the Blender add-on in ../share/meniscus, so that the whole may stand anywhere.
 find_program(GZIP gzip REQUIRED)
+file(GLOB msms_pages CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/app/msms/man/*.1)
 set(share ${CMAKE_BINARY_DIR}/share_of_program)
 add_custom_command(
   OUTPUT ${share}/man/man1/meniscus.1.gz
   COMMAND ${CMAKE_COMMAND} -DPROGRAM=$<TARGET_FILE:meniscus> -DFOLDER=${share} -DGZIP=${GZIP}
-          -P ${CMAKE_CURRENT_LIST_DIR}/make_share.cmake
-  DEPENDS meniscus ${CMAKE_CURRENT_LIST_DIR}/make_share.cmake
+          -DPAGES=${CMAKE_SOURCE_DIR}/app/msms/man -P ${CMAKE_CURRENT_LIST_DIR}/make_share.cmake
+  DEPENDS ${msms_pages} meniscus ${CMAKE_CURRENT_LIST_DIR}/make_share.cmake
   COMMENT "Writing manual and completion" VERBATIM)
 add_custom_target(meniscus_share ALL DEPENDS ${share}/man/man1/meniscus.1.gz)
 
-install(TARGETS meniscus RUNTIME DESTINATION bin COMPONENT program)
+install(TARGETS meniscus meniscus_msms meniscus_pdb_to_xyzr RUNTIME DESTINATION bin COMPONENT program)
+install(FILES ${CMAKE_BINARY_DIR}/meniscus-pdb_to_xyzrn DESTINATION bin COMPONENT program)
 install(TARGETS meniscus_openimageio meniscus_hdf5 LIBRARY DESTINATION lib/meniscus COMPONENT program
         PERMISSIONS OWNER_READ OWNER_WRITE GROUP_READ WORLD_READ)
 install(DIRECTORY ${CMAKE_SOURCE_DIR}/exporters/blender/addon DESTINATION share/meniscus COMPONENT program

@@ -1,10 +1,12 @@
 # Writes what the program itself tells into a folder as it will stand below share/: manual pages, compressed, and the
-# completion of shells.
-# Run as: cmake -DPROGRAM=<meniscus> -DFOLDER=<folder> -DGZIP=<gzip> -P make_share.cmake
+# completion of shells; with the pages of programs that tell nothing.
+# Run as: cmake -DPROGRAM=<meniscus> -DPAGES=<folder> -DFOLDER=<folder> -DGZIP=<gzip> -P make_share.cmake
 cmake_minimum_required(VERSION 3.25)
 file(REMOVE_RECURSE "${FOLDER}")
 file(MAKE_DIRECTORY "${FOLDER}/man/man1" "${FOLDER}/man/man7")
 
+file(GLOB others "${PAGES}/*.1")
+file(COPY ${others} DESTINATION "${FOLDER}/man")
 execute_process(COMMAND "${PROGRAM}" help --man "${FOLDER}/man" COMMAND_ERROR_IS_FATAL ANY)
 foreach(section 1 7)
   file(GLOB pages "${FOLDER}/man/*.${section}")

@@ -14,7 +14,9 @@ from installation import BUILD, ROOT, run
 LIBRARIES = f"usr/lib/{sysconfig.get_config_var('MULTIARCH')}"
 HOLDS = {
     "meniscus": {"usr/bin/meniscus", "usr/lib/meniscus/meniscus_openimageio.so", "usr/lib/meniscus/meniscus_hdf5.so",
-                 "usr/share/man/man1/meniscus.1.gz", "usr/share/meniscus/addon/render_mns.py"},
+                 "usr/share/man/man1/meniscus.1.gz", "usr/bin/meniscus-msms", "usr/bin/meniscus-pdb_to_xyzr",
+                 "usr/bin/meniscus-pdb_to_xyzrn", "usr/share/man/man1/meniscus-msms.1.gz",
+                 "usr/share/meniscus/addon/render_mns.py"},
     "libmeniscus0": {f"{LIBRARIES}/libmeniscus.so.0", f"{LIBRARIES}/libmeniscus.so.{{version}}"},
     "libmeniscus-dev": {"usr/include/meniscus/meniscus.h", "usr/include/meniscus/meniscus.hpp",
                         f"{LIBRARIES}/libmeniscus.so", f"{LIBRARIES}/pkgconfig/meniscus.pc",
@@ -87,10 +89,16 @@ class DebianPackages(unittest.TestCase):
             for path in files:
                 self.assertEqual(owners.setdefault(path, name), name, path)
 
+    def test_the_program_offers_itself_as_msms(self):
+        for script, action in (("postinst", "--install /usr/bin/msms msms /usr/bin/meniscus-msms"),
+                               ("prerm", "--remove msms /usr/bin/meniscus-msms")):
+            text = run("dpkg-deb", "-I", self.packages["meniscus"], script).stdout
+            self.assertIn(f"update-alternatives {action}", text)
+
     def test_modes_do_not_depend_on_who_made_them(self):
         for name, package in self.packages.items():
             for path, (mode, owner) in listed(package).items():
-                executable = path == "usr/bin/meniscus"
+                executable = path.startswith("usr/bin/")
                 expected = {"d": "drwxr-xr-x", "l": "lrwxrwxrwx", "-": "-rwxr-xr-x" if executable else "-rw-r--r--"}
                 self.assertEqual((mode, owner), (expected[mode[0]], "root/root"), f"{name}: {path}")
 

@@ -2,10 +2,14 @@
 """The manual pages that are installed: one a command and a topic, without warnings, with every option of the help."""
 
 import gzip
+import re
 import shutil
 import unittest
 
 from installation import Installation
+
+
+OTHER_PROGRAMS = {f"meniscus-{name}.1.gz" for name in ("msms", "pdb_to_xyzr", "pdb_to_xyzrn")}
 
 
 class Manual(Installation):
@@ -16,12 +20,20 @@ class Manual(Installation):
 
     def test_every_command_has_its_page(self):
         names = {"-".join(["meniscus", *words]) + ".1.gz" for words in self.commands()}
-        self.assertEqual(names, {page.name for page in self.pages(1)})
+        self.assertEqual(names | OTHER_PROGRAMS, {page.name for page in self.pages(1)})
 
     def test_every_topic_has_its_page(self):
         listed = self.good(self.program, "help").stdout.split("\n\n")[1]
         self.assertEqual({f"meniscus-{line.split()[0]}.7.gz" for line in listed.splitlines()},
                          {page.name for page in self.pages(7)})
+
+    def test_every_option_of_msms_is_in_its_page(self):
+        told = self.good(self.prefix / "bin/meniscus-msms", "-h").stderr
+        text = gzip.decompress((self.prefix / "share/man/man1/meniscus-msms.1.gz").read_bytes()).decode().replace("\\-", "-")
+        options = re.findall(r"^  (-\w+)", told, re.M)
+        self.assertGreater(len(options), 10)
+        for name in options:
+            self.assertIn(f"\\fB{name}\\fR", text)
 
     def test_every_option_of_the_help_is_in_the_page(self):
         for words in self.commands():

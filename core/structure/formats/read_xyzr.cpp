@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads XYZR: one ball a line, as MSMS and NanoShaper take it.
+// Reads XYZR and XYZRN: one ball a line, as MSMS and NanoShaper take it.
 
 #include <fmt/format.h>
 
@@ -12,10 +12,10 @@
 namespace meniscus {
 namespace {
 
-constexpr std::string_view kLine = "x y z radius [name]";
+constexpr std::string_view kLine = "x y z radius [[1] name]";
 
 std::vector<std::string_view> fields_before_comment(std::string_view line) {
-  return fields_of(line.substr(0, line.find('#')), 5);
+  return fields_of(line.substr(0, line.find('#')), 6);
 }
 
 bool recognizes(std::string_view text) {
@@ -47,7 +47,17 @@ FileContents read(const TextFile& file, const ModelChoice& models) {
       atom.position[axis] = parse_coordinate(file, lines.number(), "xyz"[axis], fields[static_cast<std::size_t>(axis)]);
     }
     atom.radius = parse_radius(file, lines.number(), fields[3], kLine);
-    if (fields.size() > 4) atom.name = fields[4];
+    // MSMS has a number before the name, which says that the ball is part of the surface.
+    std::int64_t flag = 1;
+    const bool flagged = fields.size() > 5 && parse_whole_number(fields[4], flag);
+    if (flag != 1) {
+      throw InputError(
+          file.path, lines.number(),
+          fmt::format("the fifth column is {}: only 1, for a ball of the surface, is understood; a line is: "
+                      "{}",
+                      flag, kLine));
+    }
+    if (fields.size() > 4) atom.name = fields[flagged ? 5 : 4];
     if (models.takes(1)) {
       contents.atoms.push_back(std::move(atom));
     } else {
@@ -61,7 +71,7 @@ FileContents read(const TextFile& file, const ModelChoice& models) {
 
 const Reader kXyzrReader{
     {"XYZR", ".xyzr", "balls: centre and radius in Å, one a line", "Sanner, Olson & Spehner 1996 (input of MSMS)",
-     "x y z radius [name]; # begins a comment; radii as they are"},
+     "x y z radius [[1] name]; # begins a comment; radii as they are"},
     recognizes,
     read};
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Lines for people, harmless to a terminal.
-#include "app/reports/error_report.h"
+#include "app/process/error_report.h"
 
 #include <atomic>
 #include <exception>
@@ -21,8 +21,10 @@
 namespace meniscus {
 namespace {
 
+constinit const char* program_name = "meniscus";
+
 ExitCode say(ExitCode code, const std::string& message) {
-  std::cerr << "meniscus: error: " << escaped(message) << std::endl;
+  std::cerr << program_name << ": error: " << escaped(message) << std::endl;
   return code;
 }
 
@@ -31,7 +33,7 @@ ExitCode say(const SelectionError& error) {
   std::istringstream picture(error.picture());
   std::string lines = escaped(error.sentence());
   for (std::string line; std::getline(picture, line);) lines.append("\n  ").append(escaped(line));
-  std::cerr << "meniscus: error: " << lines << std::endl;
+  std::cerr << program_name << ": error: " << lines << std::endl;
   return kExitUsage;
 }
 
@@ -93,6 +95,8 @@ ExitCode report_current_error() noexcept {
     return kExitInternal;
   }
 }
+
+void report_errors_as(const char* program) { program_name = program; }
 
 void report_uncaught_errors() { std::set_terminate(end_by_uncaught_error); }
 

@@ -10,6 +10,9 @@ namespace meniscus {
 /// with, it says that.
 ExitCode report_current_error() noexcept;
 
+/// Whose errors they are: what lines begin with instead of "meniscus". A name that lives as long as the program.
+void report_errors_as(const char* program);
+
 /// From now on an exception that nobody catches, on whatever thread, is reported like all others and ends the program
 /// with its code, without unfinished files. (A thread of a library may run out of memory where no try block is ours.)
 void report_uncaught_errors();

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The surface that a command line asks for: computed, with the components that are wanted, and their meshes.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "app/msms/arguments.h"
+#include "app/msms/spheres.h"
+#include "core/surface/atom_areas.h"
+#include "core/surface/reduced_components.h"
+#include "exporters/msms/numbered_mesh.h"
+
+namespace meniscus::msms {
+
+class ChosenSurface {
+ public:
+  /// On the CPU. Throws OpenSurfaceError, CapacityError, and InputError where no component touches the spheres that
+  /// -one_cavity names.
+  ChosenSurface(const Arguments& arguments, const Spheres& spheres);
+
+  std::size_t component_count() const { return chosen_.size(); }
+  /// Of each component that is wanted.
+  std::vector<ReducedComponentSize> sizes() const;
+  /// Areas of the atoms, for each component that is wanted.
+  std::vector<AtomAreas> areas() const;
+  /// Triangulates; call before mesh(). Throws OpenSurfaceError.
+  void triangulate();
+  /// Of the n-th component that is wanted.
+  MsmsMesh mesh(std::size_t n) const;
+
+ private:
+  std::uint32_t component_touching(const std::vector<std::uint32_t>& numbers, const Spheres& spheres) const;
+
+  double density_;
+  ComponentSurface computed_;
+  std::vector<std::uint32_t> chosen_;
+  std::optional<TriangleMesh> mesh_;
+};
+
+}  // namespace meniscus::msms

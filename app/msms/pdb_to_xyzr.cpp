@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The programs `meniscus-pdb_to_xyzr` and, by that name, `meniscus-pdb_to_xyzrn`: spheres of a molecule for MSMS.
+#include <filesystem>
+#include <iostream>
+#include <iterator>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include <unistd.h>
+
+#include <fmt/format.h>
+
+#include "app/process/error_report.h"
+#include "app/process/failed_allocation.h"
+#include "app/process/memory_limit.h"
+#include "app/process/program_error.h"
+#include "app/process/standard_streams.h"
+#include "core/base/text.h"
+#include "core/structure/formats/read_structure.h"
+
+namespace meniscus::msms {
+namespace {
+
+constexpr std::string_view kHelp = R"([-h] [-c] [FILE]
+
+Writes the atoms of a molecule (PDB, mmCIF, PQR, GRO, XYZ; - or nothing: standard input) as spheres, in their order:
+  pdb_to_xyzr   x y z radius
+  pdb_to_xyzrn  x y z radius 1 ATOM_RESIDUE_NUMBER
+
+  -h      with hydrogens: radii of Bondi (1964); else united atoms, radii of Chothia (1976), hydrogens left out
+  -c      pdb_to_xyzrn: the chain behind the number, ATOM_RESIDUE_NUMBER_CHAIN
+  --help  this help
+
+Water and ions are written too. Of several models the first is read, of alternate locations the most occupied.
+)";
+
+struct Request {
+  bool hydrogens = false, chains = false, help = false;
+  std::string file = "-";
+};
+
+Request parse(std::span<const char* const> words, bool named) {
+  Request request;
+  bool has_file = false;
+  for (const std::string_view word : words) {
+    if (word == "-h") {
+      request.hydrogens = true;
+    } else if (word == "-c" && named) {
+      request.chains = true;
+    } else if (word == "--help") {
+      request.help = true;
+    } else if (has_file || (word.size() > 1 && word.front() == '-')) {
+      throw UsageError(fmt::format("{} is not understood; see --help", in_quotes(word)));
+    } else {
+      request.file = word;
+      has_file = true;
+    }
+  }
+  return request;
+}
+
+/// Blanks would end the column.
+std::string without_blanks(std::string_view name) {
+  std::string text;
+  for (const char c : name)
+    if (c != ' ' && c != '\t') text += c;
+  return text;
+}
+
+std::string name_of(const Atom& atom, bool chains) {
+  std::string name =
+      without_blanks(atom.name) + "_" + without_blanks(atom.residue_name) + "_" + std::to_string(atom.residue_number);
+  if (atom.insertion_code != ' ') name += atom.insertion_code;
+  return chains ? name + "_" + without_blanks(atom.chain) : name;
+}
+
+std::string rows_of(const Structure& structure, const Request& request, bool named) {
+  std::string text;
+  for (const Atom& atom : structure.atoms) {
+    const glm::dvec3& x = atom.position;
+    if (named)
+      fmt::format_to(std::back_inserter(text), "{:f} {:f} {:f} {:f} 1 {}\n", x.x, x.y, x.z, atom.radius,
+                     name_of(atom, request.chains));
+    else
+      fmt::format_to(std::back_inserter(text), "{:8.3f} {:8.3f} {:8.3f} {:.2f}\n", x.x, x.y, x.z, atom.radius);
+  }
+  return text;
+}
+
+void run(std::span<const char* const> words, bool named) {
+  const Request request = parse(words, named);
+  if (request.help) {
+    std::cout << (named ? "pdb_to_xyzrn " : "pdb_to_xyzr ") << kHelp;
+    return finish_standard_output();
+  }
+  ReadOptions options;
+  options.keep_water = options.keep_ions = true;
+  options.radii.set = request.hydrogens ? "bondi" : "united";
+  options.hydrogens = request.hydrogens ? Hydrogens::keep : Hydrogens::drop;
+  const Structure structure = read_structure(request.file, options);
+  for (const Warning& warning : structure.report.warnings) std::cerr << escaped(warning.text) << "\n";
+  std::cout << rows_of(structure, request, named);
+  finish_standard_output();
+}
+
+}  // namespace
+}  // namespace meniscus::msms
+
+int main(int argc, char** argv) {
+  using namespace meniscus;
+  libraries_are_loaded();
+  ExitCode code = kExitOk;
+  try {
+    remember_failed_allocations();
+    const bool named = argc > 0 && std::filesystem::path(argv[0]).filename().string().ends_with("xyzrn");
+    report_errors_as(named ? "pdb_to_xyzrn" : "pdb_to_xyzr");
+    report_uncaught_errors();
+    hold_standard_streams();
+    msms::run(std::span<const char* const>(argv + 1, argv + argc), named);
+  } catch (...) {
+    code = report_current_error();
+  }
+  if (memory_is_limited() || code == kExitCapacity) {
+    std::cout.flush();
+    ::_exit(code);
+  }
+  return code;
+}

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Reads by the reader of XYZR, leaving out nothing and changing no order.
+#include "app/msms/spheres.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/structure/formats/reader.h"
+#include "core/text/parse_number.h"
+#include "core/text/text_file.h"
+
+namespace meniscus::msms {
+namespace {
+
+bool within_limits(const Ball& ball) {
+  for (int axis = 0; axis < 3; ++axis)
+    if (!(std::abs(ball.center[axis]) <= kLargestCoordinate)) return false;
+  return ball.radius >= 0 && ball.radius <= kLargestRadius;
+}
+
+}  // namespace
+
+Spheres spheres_of(std::vector<Ball> balls, std::vector<std::string> names, const std::string& file) {
+  Spheres spheres;
+  spheres.rows.file = escaped(file);
+  spheres.rows.count = balls.size();
+  for (std::uint32_t n = 0; n < balls.size(); ++n) {
+    if (!within_limits(balls[n]))
+      throw InputError(file, 0,
+                       fmt::format("sphere {} is {} {} {} {}; coordinates of at most {} Å and a radius from 0 to {} Å "
+                                   "are read",
+                                   n + 1, balls[n].center.x, balls[n].center.y, balls[n].center.z, balls[n].radius,
+                                   kLargestCoordinate, kLargestRadius));
+    if (balls[n].radius == 0) continue;
+    spheres.balls.push_back(balls[n]);
+    spheres.rows.of_atom.push_back(n);
+  }
+  if (spheres.balls.empty())
+    throw InputError(file, 0,
+                     fmt::format("holds no sphere with a radius above 0, of {}; there is no surface", balls.size()));
+  const auto [smallest, largest] =
+      std::minmax_element(balls.begin(), balls.end(), [](const Ball& a, const Ball& b) { return a.radius < b.radius; });
+  spheres.smallest_radius = smallest->radius;
+  spheres.largest_radius = largest->radius;
+  // A column that some rows lack would shift what stands behind it.
+  const auto named = std::ranges::count_if(names, [](const std::string& name) { return !name.empty(); });
+  if (named > 0) {
+    for (std::string& name : names)
+      if (name.empty()) name = "?";
+    spheres.rows.names = std::move(names);
+  }
+  return spheres;
+}
+
+Spheres read_spheres(const std::string& file) {
+  const TextFile text = read_text_file(file);
+  FileContents contents = kXyzrReader.read(text, {});
+  std::vector<Ball> balls;
+  std::vector<std::string> names;
+  for (Atom& atom : contents.atoms) {
+    balls.push_back({atom.position, atom.radius});
+    names.push_back(std::move(atom.name));
+  }
+  return spheres_of(std::move(balls), std::move(names), text.path);
+}
+
+}  // namespace meniscus::msms

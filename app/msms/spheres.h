@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The spheres of a run, and the balls that a surface is made of.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/math/ball.h"
+#include "exporters/msms/msms_files.h"
+
+namespace meniscus::msms {
+
+struct Spheres {
+  std::vector<Ball> balls;  ///< those that the probe rolls over: a sphere of radius 0 is left out
+  MsmsSpheres rows;
+  double smallest_radius = 0.0, largest_radius = 0.0;
+};
+
+/// Reads x y z r [[1] name] a line; "-": standard input. Throws InputError, with file and line, also when there is no
+/// sphere with a radius; CapacityError.
+Spheres read_spheres(const std::string& file);
+
+/// The same of spheres that came otherwise; `file` names them. Throws InputError: no number, a radius below 0 or above
+/// kLargestRadius, a coordinate beyond kLargestCoordinate.
+Spheres spheres_of(std::vector<Ball> balls, std::vector<std::string> names, const std::string& file);
+
+}  // namespace meniscus::msms

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Rows are formatted in chunks on all cores.
+#include "exporters/msms/msms_files.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include <fmt/compile.h>
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include "core/base/index.h"
+
+namespace meniscus {
+namespace {
+
+constexpr std::size_t kChunk = 4096;
+
+/// put_row(n, out) for each n, in order.
+template <typename PutRow>
+std::string text_of_rows(std::string beginning, std::size_t count, const PutRow& put_row) {
+  std::vector<fmt::memory_buffer> parts((count + kChunk - 1) / kChunk);
+  tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t part) {
+    const std::size_t past = std::min(count, (part + 1) * kChunk);
+    for (std::size_t n = part * kChunk; n < past; ++n) put_row(n, std::back_inserter(parts[part]));
+  });
+  std::size_t size = beginning.size();
+  for (const auto& part : parts) size += part.size();
+  beginning.reserve(size);
+  for (const auto& part : parts) beginning.append(part.data(), part.size());
+  return beginning;
+}
+
+/// Without the sign of what rounds to nothing, which some readers take for a field of its own.
+double unsigned_zero(double x) { return std::abs(x) < 0.0005 ? 0.0 : x; }
+
+std::string header_text(const char* what, const char* counted, std::size_t count, const MsmsSpheres& spheres,
+                        const MsmsHeader& header) {
+  if (!header.wanted) return {};
+  return fmt::format(
+      "# MSMS solvent excluded surface {} for {}\n{} #sphere density probe_r\n{:7d} {:7d} {:5.2f} {:5.2f}\n", what,
+      spheres.file, counted, count, spheres.count, header.density, header.probe_radius);
+}
+
+}  // namespace
+
+std::string vert_text(const MsmsMesh& mesh, const MsmsSpheres& spheres, const MsmsHeader& header) {
+  return text_of_rows(header_text("vertices", "#vertex", mesh.vertices.size(), spheres, header), mesh.vertices.size(),
+                      [&](std::size_t n, auto out) {
+                        const MsmsVertex& v = mesh.vertices[n];
+                        const std::uint32_t sphere = spheres.of_atom[v.atom];
+                        for (const glm::dvec3& x : {v.position, v.normal})
+                          fmt::format_to(out, FMT_COMPILE("{:9.3f} {:9.3f} {:9.3f} "), unsigned_zero(x.x),
+                                         unsigned_zero(x.y), unsigned_zero(x.z));
+                        fmt::format_to(out, FMT_COMPILE("{:7d} {:7d} {:2d}"), v.face, sphere + 1, v.level);
+                        if (!spheres.names.empty()) fmt::format_to(out, FMT_COMPILE(" {}"), spheres.names[sphere]);
+                        *out = '\n';
+                      });
+}
+
+std::string face_text(const MsmsMesh& mesh, const MsmsSpheres& spheres, const MsmsHeader& header) {
+  return text_of_rows(header_text("faces", "#faces ", mesh.triangles.size(), spheres, header), mesh.triangles.size(),
+                      [&](std::size_t n, auto out) {
+                        const MsmsTriangle& t = mesh.triangles[n];
+                        fmt::format_to(out, FMT_COMPILE("{:6d} {:6d} {:6d} {:2d} {:6d}\n"), t.corner[0] + 1,
+                                       t.corner[1] + 1, t.corner[2] + 1, static_cast<int>(t.kind), t.face);
+                      });
+}
+
+std::string area_text(std::span<const AtomAreas> areas, const MsmsSpheres& spheres) {
+  std::string titles = "Atom#";
+  for (std::size_t c = 0; c < areas.size(); ++c) titles += fmt::format("    ses_{0}    sas_{0}", c);
+  std::vector<std::uint32_t> atom_of_sphere(spheres.count, kNone);
+  for (std::uint32_t a = 0; a < spheres.of_atom.size(); ++a) atom_of_sphere[spheres.of_atom[a]] = a;
+  return text_of_rows(titles + "\n", spheres.count, [&](std::size_t n, auto out) {
+    const std::uint32_t atom = atom_of_sphere[n];
+    fmt::format_to(out, FMT_COMPILE("{:5d}"), n);
+    for (const AtomAreas& component : areas)
+      fmt::format_to(out, FMT_COMPILE(" {:8.3f} {:8.3f}"), atom == kNone ? 0.0 : unsigned_zero(component.surface[atom]),
+                     atom == kNone ? 0.0 : unsigned_zero(component.accessible[atom]));
+    if (!spheres.names.empty()) fmt::format_to(out, FMT_COMPILE(" {}"), spheres.names[n]);
+    *out = '\n';
+  });
+}
+
+}  // namespace meniscus

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Which sphere, face and kind the vertices and triangles of a component are of, numbered as MSMS does.
+#pragma once
+
+#include <cstdint>
+
+#include "core/surface/reduced_components.h"
+#include "exporters/mesh/triangle_mesh.h"
+#include "exporters/msms/msms_mesh.h"
+
+namespace meniscus {
+
+/// Coordinates in files have three decimals: what lies nearer together would coincide there.
+inline constexpr double kMsmsStep = 0.001;
+
+/// The longest edge (Å) of a mesh with about so many vertices per Å². density > 0.
+double msms_edge(double density);
+
+/// The triangles of one component. `mesh` is of `surface` as tessellate() made it. Vertices of an edge that three
+/// decimals cannot tell apart are welded where the mesh stays closed and keeps its genus.
+MsmsMesh msms_mesh(const Surface& surface, const TriangleMesh& mesh, const ReducedComponents& components,
+                   std::uint32_t component);
+
+}  // namespace meniscus

@@ -1,0 +1,241 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Programs that call MSMS, unmodified, with meniscus-msms in its place: Biopython, OpenStructure, Jmol, PyMOL; and a client
+of the server, as VMD is one."""
+
+import glob
+import importlib.util
+import math
+import os
+import pathlib
+import shutil
+import socket
+import struct
+import subprocess
+import sys
+import time
+import unittest
+
+from msms_run import ANALYTIC, BUILD, MSMS, UBIQUITIN, Folder, run, table, triangles, vertices
+
+
+def has(module):
+    return importlib.util.find_spec(module) is not None
+
+
+class WithMsmsInPath(Folder):
+    """Programs find it by the name that they look for."""
+
+    def setUp(self):
+        super().setUp()
+        programs = self.folder / "bin"
+        programs.mkdir()
+        for name in ("msms", "pdb_to_xyzr", "pdb_to_xyzrn"):
+            (programs / name).symlink_to(BUILD / f"meniscus-{name}")
+        self.environment = {**os.environ, "PATH": f"{programs}:/usr/bin:/bin", "HOME": str(self.folder)}
+
+    def script(self, text):
+        path = self.folder / "script.py"
+        path.write_text(text)
+        done = run("/usr/bin/python3", "-B", path, env=self.environment, cwd=self.folder)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done.stdout.split()
+
+
+@unittest.skipUnless(has("Bio"), "python3-biopython is not installed")
+class Biopython(WithMsmsInPath):
+    def test_residue_depth(self):
+        told = self.script(f"""
+from Bio.PDB import PDBParser
+from Bio.PDB.ResidueDepth import ResidueDepth
+model = PDBParser(QUIET=True).get_structure("x", "{UBIQUITIN}")[0]
+for _, (residue, ca) in ResidueDepth(model):
+    print(residue, ca)
+""")
+        depths = [float(x) for x in told]
+        self.assertEqual(len(depths), 2 * 76)
+        self.assertTrue(all(1.0 < depth < 12.0 for depth in depths))
+        self.assertGreater(max(depths[::2]), 5.0)  # the core of ubiquitin
+        self.assertLess(min(depths[::2]), 2.5)
+
+
+@unittest.skipUnless(glob.glob("/usr/lib/python3/dist-packages/ost/bindings/msms.py"), "python3-ost is not installed")
+class OpenStructure(WithMsmsInPath):
+    def test_areas_volumes_and_surfaces(self):
+        told = self.script(f"""
+import sys
+from ost import io
+from ost.bindings import msms
+entity = io.LoadPDB("{UBIQUITIN}")
+for atom in entity.atoms: atom.radius = 1.8
+print("version", msms.GetVersion())
+ses, sas = msms.CalculateSurfaceArea(entity, density=1, radius=1.5, attach_asa="asa", attach_esa="esa")
+print("area", ses[0], sas[0], sum(a.GetFloatProp("asa") for a in entity.atoms), sum(a.GetFloatProp("esa") for a in entity.atoms))
+print("volume", msms.CalculateSurfaceVolume(entity))
+print("all", len(msms.CalculateSurfaceArea(entity, all_surf=True)[0]))
+for every in (False, True): print("surfaces", len(msms.CalculateSurface(entity, all_surf=every)))
+""")
+        words = iter(told)
+        values = {}
+        for word in words:
+            if word in ("version", "volume", "all"):
+                values[word] = next(words)
+            elif word == "area":
+                values[word] = [float(next(words)) for _ in range(4)]
+            elif word == "surfaces":
+                values.setdefault(word, []).append(int(next(words)))
+        self.assertEqual(values["version"], "2.6.1")
+        ses, sas, atoms_sas, atoms_ses = values["area"]
+        self.assertAlmostEqual(sas, atoms_sas, delta=1)
+        self.assertAlmostEqual(ses, atoms_ses, delta=1)
+        self.assertGreater(float(values["volume"]), 8000)
+        self.assertEqual(values["surfaces"], [1, int(values["all"])])
+
+
+@unittest.skipUnless(shutil.which("java") and pathlib.Path("/usr/share/jmol/JmolData.jar").exists(), "jmol is not installed")
+class Jmol(WithMsmsInPath):
+    def test_isosurface(self):
+        self.molecule()
+        self.msms("-if", "in.xyzr", "-of", "out", "-density", "1")
+        script = self.folder / "s.spt"
+        script.write_text(f'load "{UBIQUITIN}";\nisosurface s1 "{self.folder}/out.vert";\nshow isosurface;\n')
+        done = run("java", "-Djava.awt.headless=true", "-jar", "/usr/share/jmol/JmolData.jar", "-n", "-s", script,
+                   env=self.environment, cwd=self.folder)
+        told = done.stdout + done.stderr
+        self.assertIn(str(len(vertices(self.folder / "out.vert"))), told)
+        self.assertNotRegex(told, r"(?i)exception|error reading")
+
+
+@unittest.skipUnless(has("pymol"), "python3-pymol is not installed")
+class PyMol(WithMsmsInPath):
+    """The way of its plug-ins: read both files, draw the triangles as an object, ask for its extent."""
+
+    def test_triangles_are_shown(self):
+        self.molecule()
+        self.msms("-if", "in.xyzr", "-of", "out")
+        told = self.script(f"""
+import sys
+sys.path.insert(0, "{pathlib.Path(__file__).resolve().parent}")
+sys.argv = ["", "{BUILD}"]
+import pathlib
+from msms_run import vertices, triangles
+import pymol2
+from pymol.cgo import BEGIN, END, NORMAL, TRIANGLES, VERTEX
+rows, corners = vertices(pathlib.Path("out.vert")), triangles(pathlib.Path("out.face"))
+cgo = [BEGIN, TRIANGLES]
+for t in corners:
+    for corner in t.corners:
+        cgo += [NORMAL, *rows[corner - 1].normal, VERTEX, *rows[corner - 1].position]
+cgo.append(END)
+with pymol2.PyMOL() as pymol:
+    pymol.cmd.load("{UBIQUITIN}", "m")
+    pymol.cmd.load_cgo(cgo, "surface")
+    for name in ("m and polymer", "surface"):
+        low, high = pymol.cmd.get_extent(name)
+        print(*low, *high)
+    print("objects", *pymol.cmd.get_names())
+""")
+        place = told.index("objects")
+        numbers = [float(x) for x in told[place - 12:place]]
+        molecule, surface = numbers[:6], numbers[6:]
+        for axis in range(3):
+            self.assertTrue(0.8 < molecule[axis] - surface[axis] < 6)
+            self.assertTrue(0.8 < surface[axis + 3] - molecule[axis + 3] < 6)
+
+
+class Server(Folder):
+    """A client that does what VMD does."""
+
+    def connect(self, *words):
+        for _ in range(20):
+            with socket.socket() as probe:
+                probe.bind(("127.0.0.1", 0))
+                port = probe.getsockname()[1]
+            server = subprocess.Popen([MSMS, "-no_area", "-socketPort", str(port), *words], stdout=subprocess.PIPE,
+                                      stderr=subprocess.PIPE, text=True)
+            for _ in range(100):
+                try:
+                    client = socket.create_connection(("127.0.0.1", port), timeout=60)
+                    return server, client
+                except ConnectionRefusedError:
+                    if server.poll() is not None:
+                        break
+                    time.sleep(0.05)
+            server.kill()
+            server.communicate()
+        self.fail("no server")
+
+    @staticmethod
+    def line(stream):
+        return stream.readline().decode()
+
+    def ask(self, balls, probe=1.5, density=2.0):
+        server, client = self.connect()
+        with client, client.makefile("rb") as stream:
+            greeting = self.line(stream)
+            self.assertTrue(greeting.endswith("\n") and len(greeting) <= 255)
+            client.sendall(struct.pack("2f3i", probe, density, 0, 1, len(balls)))
+            for ball in balls:
+                client.sendall(struct.pack("4fi", *ball, 0))
+            self.assertEqual(self.line(stream), "MSMS RCF\n")
+            faces, count = struct.unpack("2i", stream.read(8))
+            corners = list(struct.iter_unpack("5i", stream.read(20 * faces)))
+            rows = list(struct.iter_unpack("6f", stream.read(24 * count)))
+            atoms = [n for n, in struct.iter_unpack("i", stream.read(4 * count))]
+            self.assertEqual(self.line(stream), "MSMS END\n")
+            self.assertEqual(stream.read(), b"")
+        out, err = server.communicate(timeout=60)
+        self.assertEqual((server.returncode, err), (0, ""))
+        return corners, rows, atoms
+
+    def test_the_surface_is_that_of_the_files(self):
+        path = self.molecule()
+        balls = [tuple(map(float, line.split())) for line in path.read_text().splitlines()]
+        corners, rows, atoms = self.ask(balls)
+        self.msms("-if", "in.xyzr", "-of", "out", "-density", "2")
+        files = triangles(self.folder / "out.face")
+        self.assertAlmostEqual(len(files), len(corners), delta=0.002 * len(files))  # floats move ties
+        self.assertEqual({kind for *_, kind, _ in corners}, {1, 2, 3})
+        self.assertTrue(all(0 <= n < len(rows) for row in corners for n in row[:3]))
+        for (nx, ny, nz, x, y, z), atom in zip(rows, atoms):
+            self.assertAlmostEqual(math.hypot(nx, ny, nz), 1, places=4)
+            *center, radius = balls[atom]
+            self.assertLess(math.dist(center, (x, y, z)) - radius, 2.0)
+
+    def test_clients_that_break_off_or_send_nonsense_end_it(self):
+        good = struct.pack("2f3i", 1.5, 1.0, 0, 1, 1)
+        for sent in (b"", good, good + b"\0" * 7, struct.pack("2f3i", float("nan"), 1.0, 0, 1, 1),
+                     struct.pack("2f3i", 1.5, -1.0, 0, 1, 1), struct.pack("2f3i", 1.5, 1.0, 0, 1, -5),
+                     struct.pack("2f3i", 1.5, 1.0, 0, 1, 2**31 - 1), good + struct.pack("4fi", 0, 0, float("inf"), 1, 0),
+                     good + struct.pack("4fi", 0, 0, 0, -1, 0), good + struct.pack("4fi", 0, 0, 0, 0, 0)):
+            with self.subTest(sent):
+                server, client = self.connect()
+                with client:
+                    client.sendall(sent)
+                    client.shutdown(socket.SHUT_WR)
+                    _, err = server.communicate(timeout=60)
+                self.assertEqual(server.returncode, 3, err)
+                self.assertIn("-socketPort", err)
+
+    def test_nobody_else_can_come_in(self):
+        server, client = self.connect()
+        try:
+            port = client.getpeername()[1]
+            with open("/proc/net/tcp") as table_of_sockets:
+                local = {line.split()[1] for line in table_of_sockets.readlines()[1:] if line.split()[3] == "0A"}
+            self.assertIn(f"0100007F:{port:04X}", local)
+            self.assertNotIn(f"00000000:{port:04X}", local)
+        finally:
+            client.close()
+            server.communicate(timeout=60)
+
+    def test_a_port_that_is_taken(self):
+        with socket.socket() as taken:
+            taken.bind(("127.0.0.1", 0))
+            taken.listen()
+            done = run(MSMS, "-socketPort", taken.getsockname()[1])
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("cannot be had", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
