@@ -18,8 +18,9 @@ namespace {
 /// Borders shorter than this (Å) are rounding noise of a degenerate position: their two ends are one vertex.
 constexpr double kTinyBorder = 1e-9;
 constexpr double kLargestAngle = 0.8;
-/// Where a length is asked for, few long edges are wanted: five of a circle.
-constexpr double kLargestAngleOfEdges = 1.3;
+/// Where a length is asked for, few long edges are wanted: on spheres up to this angle, of circles five parts.
+constexpr double kLargestAngleOfEdges = 0.9;
+constexpr double kLargestAngleOfParts = 1.3;
 /// How far such an edge h may leave a sphere of radius r: twice as far as that of an equilateral triangle, but never
 /// more than this share of the radius.
 constexpr double kLargestShare = 0.3;
@@ -29,8 +30,8 @@ bool whole_circle(const Border& border) { return border.vertex[0] == kNone; }
 }  // namespace
 
 double EdgeRule::edge(double radius) const {
-  const double longest = edge_ > 0.0 ? edge_ : std::sqrt(5.0 * radius * tolerance_);
-  return std::min(longest, largest_angle() * radius);
+  if (edge_ > 0.0) return std::min(edge_, kLargestAngleOfEdges * radius);
+  return std::min(std::sqrt(5.0 * radius * tolerance_), kLargestAngle * radius);
 }
 
 double EdgeRule::chord(double radius) const { return edge_ > 0.0 ? edge_ : 0.9 * std::sqrt(8.0 * radius * tolerance_); }
@@ -39,7 +40,7 @@ int EdgeRule::parts(double steps) const {
   return std::max(1, static_cast<int>(edge_ > 0.0 ? std::round(steps) : std::ceil(steps)));
 }
 
-double EdgeRule::largest_angle() const { return edge_ > 0.0 ? kLargestAngleOfEdges : kLargestAngle; }
+double EdgeRule::largest_angle() const { return edge_ > 0.0 ? kLargestAngleOfParts : kLargestAngle; }
 
 double EdgeRule::tolerance(double radius) const {
   return edge_ > 0.0 && radius > 0.0 ? std::min(edge_ * edge_ / (3.0 * radius), kLargestShare * radius) : tolerance_;
