@@ -176,13 +176,7 @@ class Measurement {
     const ToroidalPatch& t = s_.toroidal[face.patch];
     const double p = s_.probe_radius;
     const auto [begin, end] = tube_range(s_, t, static_cast<std::uint32_t>(&face - &s_.faces[t.first_face]));
-    const auto primitive = [&](double psi) {
-      const double s = std::sin(psi), c = std::cos(psi);
-      return glm::dvec3(p * (t.radius * psi - p * s),                  // of p (T - p cos psi)
-                        p * (t.radius * s - p * 0.5 * (psi + s * c)),  // ... times cos psi
-                        p * (-t.radius * c + 0.5 * p * c * c));        // ... times sin psi
-    };
-    const glm::dvec3 i = primitive(end) - primitive(begin);
+    const glm::dvec3 i = toroidal_moments(s_, t, begin, end);
     const glm::dvec3 side = glm::cross(t.axis, t.start);
     const glm::dvec3 around = std::sin(t.sweep) * t.start + (1 - std::cos(t.sweep)) * side;
     const glm::dvec3 c = t.center - origin_;
@@ -239,6 +233,17 @@ std::array<double, 2> tube_range(const Surface& surface, const ToroidalPatch& pa
   else
     range[0] = tip;
   return range;
+}
+
+glm::dvec3 toroidal_moments(const Surface& surface, const ToroidalPatch& patch, double low, double high) {
+  const double p = surface.probe_radius;
+  const auto primitive = [&](double psi) {
+    const double s = std::sin(psi), c = std::cos(psi);
+    return glm::dvec3(p * (patch.radius * psi - p * s),                  // of p (T - p cos psi)
+                      p * (patch.radius * s - p * 0.5 * (psi + s * c)),  // ... times cos psi
+                      p * (-patch.radius * c + 0.5 * p * c * c));        // ... times sin psi
+  };
+  return primitive(high) - primitive(low);
 }
 
 double toroidal_area(const Surface& surface, const ToroidalPatch& patch, double low, double high) {

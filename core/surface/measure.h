@@ -28,6 +28,9 @@ MeasurementDoubts measure_surface(Surface& surface);  ///< by the planes that it
 std::array<double, 2> contact_tube_angles(const Surface& surface, const ToroidalPatch& patch);
 /// Those between which the patch's n-th face lies, the lower one first.
 std::array<double, 2> tube_range(const Surface& surface, const ToroidalPatch& patch, std::uint32_t n);
+/// Integrals over the patch between two tube angles, per radian around the axis: of 1, of the tube angle's cosine and
+/// of its sine, Å².
+glm::dvec3 toroidal_moments(const Surface& surface, const ToroidalPatch& patch, double low, double high);
 /// Area of the patch between two tube angles, Å².
 double toroidal_area(const Surface& surface, const ToroidalPatch& patch, double low, double high);
 

@@ -4,10 +4,13 @@
 
 #include <cmath>
 #include <cstddef>
+#include <span>
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include "core/base/error.h"
+#include "core/surface/gradients.h"
 #include "exporters/c_api/cpu_threads.h"
 #include "exporters/c_api/guard.h"
 #include "exporters/c_api/sized_struct.h"
@@ -171,6 +174,29 @@ void find_distances(const FinishedSurface& finished, std::size_t count, const do
   });
 }
 
+Gradient find_gradient(const FinishedSurface& finished, std::int32_t quantity, const double* given) {
+  const Surface& s = finished.surface;
+  const bool is_ses = finished.kind == MENISCUS_SES;
+  const bool by_atom = quantity == (is_ses ? MENISCUS_GRADIENT_SAS_AREA : MENISCUS_GRADIENT_AREA);
+  if (quantity < MENISCUS_GRADIENT_AREA || quantity > MENISCUS_GRADIENT_SAS_VOLUME)
+    refuse(MENISCUS_USAGE, "a surface has no gradient {}", quantity);
+  if (!is_ses && quantity >= MENISCUS_GRADIENT_SAS_AREA)
+    refuse(MENISCUS_USAGE,
+           "gradients of MENISCUS_GRADIENT_SAS_... are of MENISCUS_SES surfaces; see MENISCUS_GRADIENT_AREA");
+  if (given && !by_atom) refuse(MENISCUS_USAGE, "only the gradients of areas that are a sum over atoms take weights");
+  const std::span<const double> weights(given, given ? s.atoms.size() : 0);
+  for (std::size_t n = 0; n < weights.size(); ++n)
+    if (!std::isfinite(weights[n]))
+      refuse(MENISCUS_INPUT, "the weight of atom {} is {}, not a finite number", n, weights[n]);
+  if (by_atom) return accessible_area_gradient(s, weights);
+  if (quantity == MENISCUS_GRADIENT_SAS_VOLUME) return accessible_volume_gradient(s);
+  try {
+    return quantity == MENISCUS_GRADIENT_AREA ? area_gradient(s) : volume_gradient(s);
+  } catch (const RequestError& tied) {
+    refuse(MENISCUS_INPUT, "{}", tied.what());
+  }
+}
+
 }  // namespace
 }  // namespace meniscus::c_api
 
@@ -205,5 +231,17 @@ meniscus_status meniscus_surface_distance(const meniscus_surface* surface, std::
     require(distances, "distances");
     check_points(count, points);
     find_distances(*surface->finished, count, points, distances, nearest);
+  });
+}
+
+meniscus_status meniscus_surface_gradient(const meniscus_surface* surface, std::int32_t quantity, const double* weights,
+                                          double* gradient) {
+  using namespace meniscus::c_api;
+  return guarded([&] {
+    require(surface, "surface");
+    require(gradient, "gradient");
+    const meniscus::Gradient found = find_gradient(*surface->finished, quantity, weights);
+    for (std::size_t a = 0; a < found.size(); ++a)
+      for (int axis = 0; axis < 3; ++axis) gradient[3 * a + static_cast<std::size_t>(axis)] = found[a][axis];
   });
 }

@@ -234,6 +234,32 @@ TEST(CApi, RefusesBadOptions) {
   EXPECT_EQ(meniscus_computer_new(nullptr, nullptr), MENISCUS_USAGE);
 }
 
+TEST(CApi, GradientsOfWhatHasThem) {
+  const testing::Balls balls = testing::two_atoms(4.0);
+  const Computer made = computer();
+  const SurfaceOf surface = computed(made.get(), balls);
+  double gradient[6], weighted[6];
+  for (std::int32_t quantity = MENISCUS_GRADIENT_AREA; quantity <= MENISCUS_GRADIENT_SAS_VOLUME; ++quantity) {
+    ASSERT_EQ(meniscus_surface_gradient(surface.get(), quantity, nullptr, gradient), MENISCUS_OK);
+    EXPECT_GT(gradient[3], 1.0) << quantity;
+    EXPECT_NEAR(gradient[0], -gradient[3], 1e-12);
+  }
+  const double weights[2] = {2.0, 2.0}, wrong[2] = {1.0, std::nan("")};
+  ASSERT_EQ(meniscus_surface_gradient(surface.get(), MENISCUS_GRADIENT_SAS_AREA, nullptr, gradient), MENISCUS_OK);
+  ASSERT_EQ(meniscus_surface_gradient(surface.get(), MENISCUS_GRADIENT_SAS_AREA, weights, weighted), MENISCUS_OK);
+  EXPECT_NEAR(weighted[3], 2 * gradient[3], 1e-12);
+  EXPECT_EQ(meniscus_surface_gradient(surface.get(), MENISCUS_GRADIENT_SAS_AREA, wrong, weighted), MENISCUS_INPUT);
+  EXPECT_EQ(meniscus_surface_gradient(surface.get(), MENISCUS_GRADIENT_AREA, weights, weighted), MENISCUS_USAGE);
+  EXPECT_EQ(meniscus_surface_gradient(surface.get(), 4, nullptr, weighted), MENISCUS_USAGE);
+  EXPECT_EQ(meniscus_surface_gradient(surface.get(), -1, nullptr, weighted), MENISCUS_USAGE);
+  EXPECT_EQ(meniscus_surface_gradient(surface.get(), 0, nullptr, nullptr), MENISCUS_USAGE);
+  EXPECT_NEAR(weighted[3], 2 * gradient[3], 1e-12);  // as it was
+  const SurfaceOf square = computed(made.get(), testing::ring(4, 3.4));
+  double of_square[12];
+  EXPECT_EQ(meniscus_surface_gradient(square.get(), MENISCUS_GRADIENT_VOLUME, nullptr, of_square), MENISCUS_INPUT);
+  EXPECT_NE(std::strstr(meniscus_last_error(), "4 atoms at once"), nullptr) << meniscus_last_error();
+}
+
 TEST(CApi, RefusesNullAndUnknownTables) {
   const Computer made = computer();
   const SurfaceOf surface = computed(made.get(), testing::two_atoms(4.0));

@@ -101,6 +101,16 @@ TEST(CppApi, TakesDoublesFloatsAndBalls) {
   EXPECT_EQ(computer.compute({xyz, one}).area(), computer.compute({xyz, both}).area());
 }
 
+TEST(CppApi, Gradients) {
+  const std::vector<double> xyz = {0, 0, 0, 3, 0, 0}, radii = {1.7};
+  const Surface surface = Computer().compute({xyz, radii});
+  const std::vector<Vector> plain = surface.gradient(MENISCUS_GRADIENT_SAS_AREA),
+                            weighted = surface.gradient(MENISCUS_GRADIENT_SAS_AREA, std::vector<double>{3, 3});
+  EXPECT_NEAR(plain.at(1)[0], 2 * 3.14159265358979 * 3.1, 1e-9);
+  EXPECT_NEAR(weighted.at(1)[0], 3 * plain.at(1)[0], 1e-9);
+  EXPECT_THROW(surface.gradient(MENISCUS_GRADIENT_SAS_AREA, std::vector<double>{1}), meniscus::UsageError);
+}
+
 TEST(CppApi, DistancesAndFeet) {
   const Surface surface = Computer().compute({kOneBall});
   const std::vector<Vector> points = {{1, 2, 8}, {1, 2, 3.5}};

@@ -78,6 +78,7 @@ class Frames(unittest.TestCase):
     def test_mdanalysis(self):
         atoms = module("MDAnalysis").Universe(self.file).atoms
         self.check(meniscus.from_mdanalysis(atoms, probe=1.3), meniscus.frames(atoms, probe=1.3), 1e-5)  # floats
+        np.testing.assert_allclose(meniscus.series(atoms, probe=1.3)["area"], self.areas, rtol=1e-5)
         part = meniscus.from_mdanalysis(atoms[:6], probe=1.3)
         self.assertEqual(len(part), 6)
 
@@ -110,6 +111,25 @@ class Frames(unittest.TestCase):
         with self.assertRaisesRegex(meniscus.InputError, "no element; give radii"):
             meniscus.from_prody(Atoms())
         self.assertAlmostEqual(meniscus.from_prody(Atoms(), radii=1.0).area, 4 * np.pi)
+
+    def test_series(self):
+        random = np.random.default_rng(1)
+        turns, heights = 2.399963 * np.arange(60), 1 - (2 * np.arange(60) + 1) / 60  # a cage no probe gets out of
+        flat = np.sqrt(1 - heights**2)
+        cage = 4.2 * np.stack([flat * np.cos(turns), flat * np.sin(turns), heights], axis=1)
+
+        class Atoms:
+            __module__ = "prody.fake"
+            def getElements(self): return ["C"] * 60
+            def iterCoordsets(self): return iter([cage, 0.69 * cage, cage + 1e-3 * random.normal(size=cage.shape)])
+        rows = meniscus.series(Atoms())
+        self.assertEqual(rows["cavities"].tolist(), [1, 0, 1])
+        for row, xyz in zip(rows[:2], [cage, 0.69 * cage]):
+            s = meniscus.surface(xyz, 1.7)
+            self.assertEqual((row["area"], row["volume"]), (s.area, s.volume))
+            self.assertAlmostEqual(row["sas_area"], s.atom_sas_areas.sum(), 9)
+            self.assertEqual(row["cavity_volume"], -s.components["volume"][1:].sum())
+        self.assertNotIn("sas_area", meniscus.series(Atoms(), kind="vdw").dtype.names)
 
     def test_what_is_no_source_is_named(self):
         with self.assertRaisesRegex(meniscus.InputError, "a builtins.dict is nothing that frames"):

@@ -80,6 +80,31 @@ class Numbers(unittest.TestCase):
                       np.repeat(xyz, 2, axis=0)[::2], xyz[::-1][::-1]):
             self.assertEqual(meniscus.surface(given, radii).area, expected)
 
+    def test_gradients(self):
+        xyz, radii = cloud(60, 4)
+        motion = np.random.default_rng(5).normal(size=xyz.shape)
+        s = meniscus.surface(xyz, radii)
+        for of, value in (("area", lambda s: s.area), ("volume", lambda s: s.volume),
+                          ("sas_area", lambda s: s.atom_sas_areas.sum())):
+            def at(t):
+                return value(meniscus.surface(xyz + t * motion, radii))
+            h = 1e-5
+            expected = (8 * (at(h) - at(-h)) - (at(2 * h) - at(-2 * h))) / (12 * h)
+            gradient = s.gradient(of)
+            self.assertEqual(gradient.shape, (60, 3))
+            self.assertAlmostEqual((gradient * motion).sum() / expected, 1.0, 5, of)
+            np.testing.assert_allclose(gradient.sum(axis=0), 0.0, atol=1e-9)
+        np.testing.assert_allclose(s.gradient("sas_area", np.full(60, 2.0)), 2 * s.gradient("sas_area"), atol=1e-12)
+        np.testing.assert_allclose(meniscus.surface(xyz, radii, kind="sas").gradient("volume"),
+                                   s.gradient("sas_volume"), atol=1e-9)
+        for wrong in (lambda: s.gradient("mass"), lambda: s.gradient("area", np.ones(60)),
+                      lambda: s.gradient("sas_area", np.ones(3)), lambda: s.gradient("sas_area", np.full(60, np.nan)),
+                      lambda: meniscus.surface([[0, 0, 0]], 1.7, kind="vdw").gradient("sas_area")):
+            self.assertRaises(meniscus.Error, wrong)
+        square = meniscus.surface([[0, 0, 0], [3.4, 0, 0], [3.4, 3.4, 0], [0, 3.4, 0]], 1.7)
+        self.assertRaisesRegex(meniscus.InputError, "4 atoms at once", square.gradient, "volume")
+        square.gradient("sas_area")
+
     def test_distance(self):
         xyz, radii = chain(12)
         s = meniscus.surface(xyz, radii)

@@ -17,10 +17,10 @@ from ._mesh import Mesh
 from ._picture import Camera, png
 from ._radii import radii_of
 from ._surface import Surface, surface
-from ._adapters import frames, from_biotite, from_mdanalysis, from_mdtraj, from_prody
+from ._adapters import frames, from_biotite, from_mdanalysis, from_mdtraj, from_prody, series
 
 __all__ = [
     "Camera", "CapacityError", "Error", "GpuError", "InputError", "InternalError", "Mesh", "NotClosedError", "Surface",
     "UsageError", "frames", "from_biotite", "from_mdanalysis", "from_mdtraj", "from_prody", "library_path", "png",
-    "radii_of", "surface", "version",
+    "radii_of", "series", "surface", "version",
 ]

@@ -88,6 +88,23 @@ def from_biotite(array: Any, *, radii: Optional[Any] = None, **options: Any) -> 
     return _first(_biotite(array, False), radii, options)
 
 
+def series(source: Any, *, radii: Optional[Any] = None, **options: Any) -> np.ndarray:
+    """The numbers of all frames of what frames() takes, a row each: area (Å²), of kind "ses" also sas_area, volume
+    (Å³), components, cavities, cavity_area, cavity_volume (positive). One surface is in memory at a time."""
+    rows = []
+    for s in frames(source, radii=radii, **options):
+        parts = s.components
+        cavities = parts[parts["kind"] == 1]
+        row = {"area": s.area, "volume": s.volume, "components": len(parts), "cavities": len(cavities),
+               "cavity_area": cavities["area"].sum(), "cavity_volume": -cavities["volume"].sum()}
+        if s.kind == "ses":
+            row["sas_area"] = s.atom_sas_areas.sum()
+        rows.append(row)
+    names = list(rows[0]) if rows else ["area", "volume", "components", "cavities", "cavity_area", "cavity_volume"]
+    kinds = [(name, np.int64 if name in ("components", "cavities") else np.float64) for name in names]
+    return np.array([tuple(row.values()) for row in rows], dtype=kinds)
+
+
 def frames(source: Any, *, radii: Optional[Any] = None, **options: Any) -> Iterator[Surface]:
     """One surface after the other for all frames of what the functions above take: the same Surface, updated."""
     for kind in type(source).__mro__:

@@ -18,6 +18,7 @@ DOUBLE, FLOAT = range(2)
 PERSPECTIVE, ORTHOGRAPHIC = range(2)
 (COMPONENTS, ATOM_AREAS, ATOM_SAS_AREAS, ATOMS, CONVEX, TOROIDAL, CONCAVE, PLANES, CONTACTS, CUTS, VERTICES, BORDERS,
  HALF_BORDERS, LOOPS, FACES) = range(15)
+GRADIENT_AREA, GRADIENT_VOLUME, GRADIENT_SAS_AREA, GRADIENT_SAS_VOLUME = range(4)
 (MESH_POSITIONS, MESH_NORMALS, MESH_TRIANGLES, MESH_TRIANGLE_ATOMS, MESH_TRIANGLE_KINDS, MESH_TRIANGLE_FACES,
  MESH_TRIANGLE_PATCHES, MESH_TRIANGLE_COMPONENTS, MESH_SHARP_CORNERS, MESH_SHARP_NORMALS) = range(10)
 
@@ -146,6 +147,7 @@ _CALLS: dict[str, list[Any]] = {
     "surface_summary": [c_void_p, POINTER(Summary)],
     "surface_table": [c_void_p, c_int32, POINTER(Array)],
     "surface_distance": [c_void_p, c_size_t, c_void_p, c_void_p, c_void_p],
+    "surface_gradient": [c_void_p, c_int32, c_void_p, c_void_p],
     "default_mesh_options": [POINTER(MeshOptions)],
     "surface_mesh": [c_void_p, POINTER(MeshOptions), POINTER(c_void_p)],
     "mesh_table": [c_void_p, c_int32, POINTER(Array)],
@@ -260,6 +262,8 @@ def word(name: str, given: str, words: dict[str, int]) -> int:
     return words[given]
 
 
+GRADIENTS = {"area": GRADIENT_AREA, "volume": GRADIENT_VOLUME, "sas_area": GRADIENT_SAS_AREA,
+             "sas_volume": GRADIENT_SAS_VOLUME}
 KINDS = {"ses": SES, "sas": SAS, "vdw": VDW}
 DEVICES = {"cpu": CPU, "auto": AUTO, "gpu": GPU, "software": SOFTWARE}
 PROJECTIONS = {"perspective": PERSPECTIVE, "orthographic": ORTHOGRAPHIC}

@@ -177,6 +177,23 @@ class Surface:
                  None if feet is None else feet.ctypes.data)
         return distances if feet is None else (distances, feet)
 
+    def gradient(self, of: str = "area", weights: Optional[Any] = None) -> np.ndarray:
+        """The exact derivative by the position of each atom, (n, 3), Å²/Å or Å³/Å. of: "area", "volume"; of kind "ses"
+        also "sas_area", "sas_volume". weights, (n,): by which the accessible areas of atoms count, for "sas_area", and
+        for "area" of the kinds "sas" and "vdw". InputError where a probe touches more than three atoms at once: then
+        "area" and "volume" of kind "ses" have none."""
+        handle = self._handle
+        quantity = lib.word("of", of, lib.GRADIENTS)
+        summary = lib.Summary(ctypes.sizeof(lib.Summary))
+        lib.call("surface_summary", handle.pointer, ctypes.byref(summary))
+        given = None if weights is None else np.ascontiguousarray(weights, dtype=np.float64)
+        if given is not None and given.shape != (summary.atoms,):
+            raise lib.InputError(f"weights has the shape {given.shape}; it has to be ({summary.atoms},)")
+        gradient = np.empty((summary.atoms, 3))
+        lib.call("surface_gradient", handle.pointer, quantity, None if given is None else given.ctypes.data,
+                 gradient.ctypes.data)
+        return gradient
+
     def camera(self, aspect: float = 4 / 3, projection: str = "perspective") -> Camera:
         """The camera that shows everything. aspect: width / height."""
         return framed(self._handle, aspect, projection)

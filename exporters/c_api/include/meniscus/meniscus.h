@@ -294,6 +294,23 @@ MENISCUS_API meniscus_status meniscus_surface_table(const meniscus_surface* surf
 MENISCUS_API meniscus_status meniscus_surface_distance(const meniscus_surface* surface, size_t count,
                                                        const double* points, double* distances, double* nearest);
 
+/* Of what meniscus_surface_gradient tells the derivative. */
+enum {
+  MENISCUS_GRADIENT_AREA = 0,      /* of the surface's area */
+  MENISCUS_GRADIENT_VOLUME = 1,    /* of its volume */
+  MENISCUS_GRADIENT_SAS_AREA = 2,  /* of the sum of MENISCUS_ATOM_SAS_AREAS; of MENISCUS_SES only */
+  MENISCUS_GRADIENT_SAS_VOLUME = 3 /* of the volume where the probe's centre cannot be; of MENISCUS_SES only */
+};
+
+/* The exact derivative by the position of each atom, in closed form: what the number changes by when the atom moves,
+ * for forces and minimizers. gradient: room for three doubles an atom, Å^2/Å or Å^3/Å. weights: [NULL: 1 for all] one
+ * finite number an atom by which its accessible area counts, as of atomic solvation parameters; for
+ * MENISCUS_GRADIENT_SAS_AREA, and for MENISCUS_GRADIENT_AREA of MENISCUS_SAS and MENISCUS_VDW. MENISCUS_INPUT where a
+ * probe touches more than three atoms at once, so that MENISCUS_GRADIENT_AREA and _VOLUME of MENISCUS_SES have no
+ * derivative. */
+MENISCUS_API meniscus_status meniscus_surface_gradient(const meniscus_surface* surface, int32_t quantity,
+                                                       const double* weights, double* gradient);
+
 /* ---- Meshes -------------------------------------------------------------------------------------------------- */
 
 typedef struct meniscus_mesh_options {

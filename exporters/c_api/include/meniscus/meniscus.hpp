@@ -339,6 +339,18 @@ class Surface {
     return found;
   }
 
+  // The exact derivative of MENISCUS_GRADIENT_... by the position of each atom. weights: none, or one an atom, where
+  // the number is a sum over atoms. InputError where a probe touches more than three atoms and there is none.
+  std::vector<Vector> gradient(std::int32_t quantity, std::span<const double> weights = {}) const {
+    if (!weights.empty() && weights.size() != atoms().size())
+      throw UsageError("there are " + std::to_string(weights.size()) + " weights for " +
+                       std::to_string(atoms().size()) + " atoms");
+    std::vector<Vector> gradient(atoms().size());
+    check(meniscus_surface_gradient(surface_.get(), quantity, weights.empty() ? nullptr : weights.data(),
+                                    gradient.front().data()));
+    return gradient;
+  }
+
   Mesh mesh(const MeshOptions& options = {}) const {
     meniscus_mesh* mesh = nullptr;
     check(meniscus_surface_mesh(surface_.get(), &options, &mesh));
