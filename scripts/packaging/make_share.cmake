@@ -16,6 +16,9 @@ foreach(section 1 7)
   file(REMOVE ${pages})
 endforeach()
 
+# One program by two names.
+file(CREATE_LINK meniscus-pdb_to_xyzr.1.gz "${FOLDER}/man/man1/meniscus-pdb_to_xyzrn.1.gz" SYMBOLIC)
+
 # Where Debian's shells look.
 foreach(completion bash:bash-completion/completions/meniscus zsh:zsh/vendor-completions/_meniscus
                    fish:fish/vendor_completions.d/meniscus.fish)

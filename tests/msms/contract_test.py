@@ -1,14 +1,20 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The contract of docs/msms.md, row by row: command line, files, standard output, exit codes."""
 
+import json
 import math
+import pathlib
 import re
 import resource
+import shutil
+import subprocess
+import tempfile
 import unittest
 
 from msms_run import (ANALYTIC, BUILD, MSMS, NUMERIC, TOXIN, UBIQUITIN, Folder, run, scanned_vertices, table, triangles,
                       vertices)
 
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 ONE = "0 0 0 1.7\n"
 TWO = "0 0 0 1.7\n2 0 0 1.5\n"
 
@@ -88,7 +94,7 @@ class CommandLine(Folder):
                       ("-xdr",), ("-sinetd",), ("-socketName", "x"), ("-socketPort", "70000"),
                       ("-all", "-one_cavity", "1", "1")):
             with self.subTest(words):
-                done = self.refused(2, "-if", "in.xyzr", *words[:0], "-of", "out", *words)
+                done = self.refused(2, "-if", "in.xyzr", "-of", "out", *words)
                 self.assertRegex(done.stderr, r"\Ameniscus-msms: error: [^\n]+\n\Z")
 
     def test_bad_input_is_exit_3_and_writes_nothing(self):
@@ -115,7 +121,6 @@ class CommandLine(Folder):
         self.assertEqual(done.returncode, 6, done.stderr)
         self.assertEqual([path.name for path in self.folder.iterdir()], ["in.xyzr"])
         with open("/dev/full", "w") as full:
-            import subprocess
             self.assertEqual(subprocess.run([MSMS, "-if", "in.xyzr"], stdout=full, stderr=subprocess.DEVNULL,
                                             cwd=self.folder, check=False).returncode, 6)
 
@@ -185,6 +190,33 @@ class PdbToXyzr(Folder):
             self.assertTrue(done.stderr.startswith("pdb_to_xyzr: error: "))
 
 
+@unittest.skipUnless(shutil.which("update-alternatives"), "update-alternatives is not installed")
+class Alternatives(Folder):
+    """What the Debian package does when it comes and goes, in a folder instead of in /."""
+
+    def script(self, name, word):
+        text = (ROOT / "scripts/packaging/program" / name).read_text().replace("/usr/", f"{self.folder}/usr/")
+        places = " ".join(f"--{what} {self.folder}/{what}" for what in ("altdir", "admindir")) + f" --log {self.folder}/log"
+        self.good("sh", "-c", text.replace("update-alternatives", f"update-alternatives --quiet {places}"), name, word)
+
+    def test_msms_and_its_helpers_come_and_go(self):
+        bin_folder, pages = self.folder / "usr/bin", self.folder / "usr/share/man/man1"
+        for folder in (bin_folder, pages, self.folder / "altdir", self.folder / "admindir"):
+            folder.mkdir(parents=True)
+        for name in ("msms", "pdb_to_xyzr", "pdb_to_xyzrn"):
+            (bin_folder / f"meniscus-{name}").symlink_to(BUILD / f"meniscus-{name}")
+        (pages / "meniscus-msms.1.gz").touch()
+        self.script("postinst", "configure")
+        self.assertIn("MSMS 2.6.1", run(bin_folder / "msms").stdout)
+        self.assertEqual(len(self.good(bin_folder / "pdb_to_xyzr", UBIQUITIN).stdout.splitlines()[0].split()), 4)
+        self.assertEqual(len(self.good(bin_folder / "pdb_to_xyzrn", UBIQUITIN).stdout.splitlines()[0].split()), 6)
+        self.script("prerm", "upgrade")
+        self.assertTrue((bin_folder / "msms").exists())
+        self.script("prerm", "remove")
+        self.assertEqual({path.name for path in bin_folder.iterdir()},
+                         {"meniscus-msms", "meniscus-pdb_to_xyzr", "meniscus-pdb_to_xyzrn"})
+
+
 class StandardOutput(Folder):
     LINES = [r"MSMS 2\.6\.1 started on \S+", r"Copyright .+", r"Compilation flags .*",
              r"INPUT  in\.xyzr 1 spheres 0 collision only, radii  1\.700 to  1\.700",
@@ -217,7 +249,6 @@ class StandardOutput(Folder):
         self.assertEqual(table(done.stdout, NUMERIC), [[0, 1.4, 20.580, 36.317]])
 
     def test_numbers_are_those_of_meniscus(self):
-        import json
         path = self.molecule(TOXIN)
         told = table(self.msms("-if", "in.xyzr", "-all", "-probe_radius", "1.4").stdout, ANALYTIC)
         exact = json.loads(self.good(BUILD / "meniscus", "surface", path, "--device", "cpu", "-q", "--json").stdout)
@@ -270,7 +301,6 @@ class Components(Folder):
 class Files(Folder):
     @classmethod
     def setUpClass(cls):
-        import tempfile, pathlib
         folder = tempfile.TemporaryDirectory()
         cls.addClassCleanup(folder.cleanup)
         cls.made = pathlib.Path(folder.name)
@@ -343,6 +373,7 @@ class Files(Folder):
                 self.assertIn(-row.face, faces[n])
 
     def test_contact_triangles_lie_on_one_sphere(self):
+        self.assertEqual({t.kind for t in self.corners}, {1, 2, 3})
         for t in self.corners:
             if t.kind == 1:
                 rows = [self.rows[corner - 1] for corner in t.corners]
