@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Runs the tests of the Blender add-on in newer Blenders than Debian's: the module bpy of PyPI, each version in a virtual
-# environment below build/blenders (1.2 GB each, kept). The last line says "cases N failures M".
+# environment below build/blenders (1.6 GB each, kept), with the Molecular Nodes that belongs to it. libmeniscus is taken
+# from the program's build. The last line says "cases N failures M".
 #
 #   scripts/newer_blenders.sh PROGRAM [VERSION...]     versions: 4.2, 4.5, 5.0 by default; newer ones need another Python
 set -euo pipefail
@@ -9,8 +10,10 @@ program=$(realpath "${1:?usage: scripts/newer_blenders.sh PROGRAM [VERSION...]}"
 shift
 versions=("${@:-4.2}")
 (($#)) || versions=(4.2 4.5 5.0)
+declare -A molecular_nodes=([4.2]=4.2.12 [4.5]=4.5.11 [5.0]=4.5.11)
 tests=$PWD/tests/export/blender
 addon=$PWD/exporters/blender/addon
+export MENISCUS_LIBRARY=${program%/*}/exporters/c_api/libmeniscus.so MENISCUS_PACKAGE=$PWD/exporters/python/meniscus
 cases=0
 failures=0
 
@@ -19,11 +22,14 @@ for version in "${versions[@]}"; do
   if [[ ! -x $home/blender ]]; then
     rm -rf "$home"
     /usr/bin/python3 -m venv "$home"
-    "$home/bin/pip" install --quiet --disable-pip-version-check "bpy==$version.*"
+    "$home/bin/pip" install --quiet --disable-pip-version-check "bpy==$version.*" \
+      ${molecular_nodes[$version]:+"molecularnodes==${molecular_nodes[$version]}"}
     printf '#!/bin/sh\nexec "%s/bin/python" "%s/bpy_as_blender.py" "$@"\n' "$home" "$tests" >"$home/blender"
     chmod +x "$home/blender"
   fi
-  for script in inside_blender inside_sequence; do
+  scripts=(inside_blender inside_sequence inside_computed inside_looks)
+  [[ ${molecular_nodes[$version]:-} ]] && scripts+=(inside_molecular_nodes)
+  for script in "${scripts[@]}"; do
     log=$home/$script.log
     /usr/bin/python3 "$tests/run_blender.py" "$home/blender" "$program" "$addon" "$tests/$script.py" >"$log" 2>&1 || true
     ran=$(sed -nE 's/^Ran ([0-9]+) tests? in .*/\1/p' "$log" | tail -n 1)

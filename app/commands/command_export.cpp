@@ -10,6 +10,7 @@ constexpr Command kFormats[] = {
     {"povray", add_export_povray},
     {"blender", add_export_blender},
     {"ply", add_export_ply},
+    {"atoms", add_export_atoms},
 };
 
 }  // namespace

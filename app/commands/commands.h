@@ -19,6 +19,7 @@ void add_bench(CLI::App& command);
 void add_colors(CLI::App& command);
 void add_completion(CLI::App& command);
 void add_export(CLI::App& command);
+void add_export_atoms(CLI::App& command);
 void add_export_blender(CLI::App& command);
 void add_export_ply(CLI::App& command);
 void add_export_povray(CLI::App& command);

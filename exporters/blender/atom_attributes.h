@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/structure/structure.h"
-#include "exporters/blender/surface_file.h"
+#include "exporters/blender/atom_arrays.h"
 
 namespace meniscus::blender {
 

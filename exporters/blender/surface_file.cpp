@@ -35,7 +35,6 @@ class Column {
  private:
   std::vector<T> values_;
 };
-using Doubles = Column<double>;
 using Floats = Column<float>;
 
 /// Rows of vectors in single precision, each less `origin`.
@@ -114,25 +113,6 @@ void add_map(MnsWriter& file, const TriangleMesh& mesh, const Coloring& coloring
 
 void add_velocities(MnsWriter& file, const std::vector<glm::dvec3>& velocities) {
   if (!velocities.empty()) stream_vectors(file, "mesh.velocity", velocities);
-}
-
-void add_atoms(MnsWriter& file, const SurfaceObject& object, const AtomAttributes& atoms) {
-  Doubles center, radius;
-  Floats color;
-  for (const Ball& ball : object.surface.atoms) {
-    center.push(ball.center);
-    radius.push(ball.radius);
-  }
-  for (const glm::vec3& c : object.coloring.atom) color.push(glm::dvec3(c));
-  file.add("atom.center", center.values(), 3);
-  file.add("atom.radius", radius.values());
-  file.add("atom.color", color.values(), 3);
-  file.add("atom.index", std::span(object.atom));
-  if (object.coloring.is_translucent()) file.add("atom.opacity", std::span(object.coloring.opacity));
-  if (!atoms.b_factor.empty()) file.add("atom.b_factor", std::span(atoms.b_factor));
-  if (!atoms.atomic_number.empty()) file.add("atom.atomic_number", std::span(atoms.atomic_number));
-  if (!atoms.residue_number.empty()) file.add("atom.res_id", std::span(atoms.residue_number));
-  if (!atoms.chain.empty()) file.add("atom.chain_id", std::span(atoms.chain));
 }
 
 /// A column for each of some fields of a table's rows; push: (sink, row) -> `columns` values.

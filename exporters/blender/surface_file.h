@@ -12,20 +12,11 @@
 #include "core/color/color_key.h"
 #include "core/queries/surface_object.h"
 #include "core/render/picture_object.h"
+#include "exporters/blender/atom_arrays.h"
 #include "exporters/blender/shot.h"
 #include "exporters/mesh/triangle_mesh.h"
 
 namespace meniscus::blender {
-
-/// Numbers per atom, in the order of Surface::atoms; an empty vector leaves the attribute out.
-/// The names in the file are those of Molecular Nodes: b_factor, atomic_number, res_id, chain_id.
-struct AtomAttributes {
-  std::vector<float> b_factor;
-  std::vector<std::int32_t> atomic_number;
-  std::vector<std::int32_t> residue_number;
-  std::vector<std::int32_t> chain;  ///< into chain_names
-  std::vector<std::string> chain_names;
-};
 
 /// Where the surface came from; kept in the file and in Blender as custom properties.
 struct Provenance {

@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Blender add-on: File > Import > Meniscus surface (.mns), and sequences of them. Pure Python and numpy, Blender 3.4 on."""
+"""Blender add-on: imports surfaces and sequences of them, and computes surfaces itself. Pure Python and numpy, Blender 3.4 on."""
 
 bl_info = {
-    "name": "Meniscus surface import",
+    "name": "Meniscus",
     "author": "The Meniscus developers",
     "version": (0, 1, 0),
     "blender": (3, 4, 0),
-    "location": "File > Import > Meniscus surface (.mns)",
-    "description": "Import exact solvent-excluded molecular surfaces and trajectories of them",
+    "location": "File > Import > Meniscus surface (.mns); 3D View > Sidebar > Meniscus",
+    "description": "Exact solvent-excluded molecular surfaces: import, compute, animate",
     "category": "Import-Export",
 }
 
@@ -16,7 +16,7 @@ import os
 import bpy
 from bpy_extras.io_utils import ImportHelper
 
-from . import build, compat, mns_reader, sequence, sequence_reader
+from . import build, compat, computed, mns_reader, panel, sequence, sequence_reader, settings
 
 
 class Looks:
@@ -190,9 +190,13 @@ def register():
     bpy.types.TOPBAR_MT_file_import.append(menu_entry)
     bpy.types.VIEW3D_MT_object.append(object_menu_entry)
     sequence.register()
+    for module in (settings, computed, panel):
+        module.register()
 
 
 def unregister():
+    for module in (panel, computed, settings):
+        module.unregister()
     sequence.unregister()
     bpy.types.VIEW3D_MT_object.remove(object_menu_entry)
     bpy.types.TOPBAR_MT_file_import.remove(menu_entry)

@@ -38,7 +38,7 @@ def keep(mesh, ours, older=()):
     before = {kept.name: kept for kept in older}
     if "atom_index" not in mesh.attributes or not len(mesh.polygons):
         return list(older)
-    atom = _read(mesh, "atom_index", "INT")[:, 0]
+    atom = read(mesh, "atom_index", "INT")[:, 0]
     vertices = np.empty(len(mesh.loops), dtype=np.int32)
     mesh.loops.foreach_get("vertex_index", vertices)
     names = [attribute.name for attribute in mesh.attributes
@@ -47,7 +47,7 @@ def keep(mesh, ours, older=()):
     result = []
     for name in names:
         kind, domain = mesh.attributes[name].data_type, mesh.attributes[name].domain
-        values = _read(mesh, name, kind)
+        values = read(mesh, name, kind)
         of_faces = {"FACE": slice(None), "POINT": vertices[::3], "CORNER": slice(0, None, 3)}[domain]
         by_atom = np.zeros((atom.max() + 1, values.shape[1]), dtype=values.dtype)
         by_atom[atom] = values[of_faces]
@@ -61,7 +61,7 @@ def give_back(mesh, kept):
     """Adds them to a mesh that has been filled anew; atoms without a value get zero."""
     if not kept or "atom_index" not in mesh.attributes:
         return
-    atom = _read(mesh, "atom_index", "INT")[:, 0]
+    atom = read(mesh, "atom_index", "INT")[:, 0]
     vertices = np.empty(len(mesh.loops), dtype=np.int32)
     mesh.loops.foreach_get("vertex_index", vertices)
     for each in kept:
@@ -79,7 +79,8 @@ def give_back(mesh, kept):
         attribute.data.foreach_set(TYPES[each.kind][0], np.ascontiguousarray(values).ravel())
 
 
-def _read(mesh, name, kind):
+def read(mesh, name, kind):
+    """Values of an attribute, (elements, columns)."""
     field, columns, dtype = TYPES[kind]
     data = mesh.attributes[name].data
     values = np.empty(len(data) * columns, dtype=dtype)

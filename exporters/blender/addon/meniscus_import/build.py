@@ -210,9 +210,10 @@ def build_mesh(surface, name, options, new_materials, fps, chains):
     return mesh
 
 
-def fill_mesh(mesh, surface, scale, crisp_colors, fps, chains):
+def fill_mesh(mesh, surface, scale, crisp_colors, fps, chains, trusted=False):
     """Puts a surface into a mesh without geometry. Materials stay. fps: scene frames a second, for velocities. chains: sorted
-    names, whose places are chain_id. On an error the mesh is half filled."""
+    names, whose places are chain_id. trusted: it was never in a file, so Blender need not look for faults. On an error the mesh
+    is half filled."""
     surface.check_closed()
     positions = positions_of(surface, scale)
     triangles = surface["mesh.triangle"]
@@ -228,7 +229,7 @@ def fill_mesh(mesh, surface, scale, crisp_colors, fps, chains):
     slots = np.where(caps_of(surface), materials.SLOTS.index("cap"), cavity[surface["mesh.component"]])
     mesh.polygons.foreach_set("material_index", slots.astype(np.int32))
     add_sharp_edges(mesh, surface)
-    if mesh.validate(clean_customdata=False):
+    if not trusted and mesh.validate(clean_customdata=False):
         raise mns_reader.MnsError(f"{surface.path}: Blender found faults in the mesh")
     add_normals(mesh, surface)
     compat.set_active_color(mesh, "Color")

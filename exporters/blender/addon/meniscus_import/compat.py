@@ -156,16 +156,67 @@ def add_input(tree, name, kind, value):
     socket.default_value = value
 
 
+def add_output(tree, name, kind):
+    """One output more of a node group."""
+    if hasattr(tree, "interface"):
+        tree.interface.new_socket(name, in_out="OUTPUT", socket_type=kind)
+    else:
+        tree.outputs.new(kind, name)
+
+
+def hsv_node(tree, saturation, value):
+    """Colour by hue, the first input: 3.3 made one node of those for each space."""
+    node = tree.nodes.new("ShaderNodeCombineColor")
+    node.mode = "HSV"
+    node.inputs[1].default_value, node.inputs[2].default_value = saturation, value
+    return node
+
+
+def mix_colors(tree, share, color, other):
+    """The output of a node that mixes a socket with a colour, `share` of it."""
+    node = tree.nodes.new("ShaderNodeMix")
+    node.data_type = "RGBA"
+    factor, first, second = (next(socket for socket in node.inputs if socket.identifier == name)
+                             for name in ("Factor_Float", "A_Color", "B_Color"))
+    factor.default_value, second.default_value = share, other
+    tree.links.new(color, first)
+    return next(socket for socket in node.outputs if socket.identifier == "Result_Color")
+
+
+def line_art(bpy, item, name, pixels=3):
+    """An object with a Line Art modifier that draws the outlines of another: 4.3 made grease pencil anew."""
+    anew = bpy.app.version >= (4, 3, 0)
+    store = getattr(bpy.data, "grease_pencils_v3", bpy.data.grease_pencils) if anew else bpy.data.grease_pencils
+    drawing = store.new(name)
+    layer = drawing.layers.new("Lines")
+    layer.frames.new(1)
+    ink = bpy.data.materials.new(name)
+    bpy.data.materials.create_gpencil_data(ink)
+    drawing.materials.append(ink)
+    lines = bpy.data.objects.new(name, drawing)
+    modifier = lines.modifiers.new("Line Art", "LINEART") if anew else lines.grease_pencil_modifiers.new("Line Art", "GP_LINEART")
+    modifier.source_type, modifier.source_object = "OBJECT", item
+    modifier.target_layer = layer.name if anew else layer.info
+    modifier.target_material = ink
+    for kind in ("use_crease", "use_material", "use_edge_mark", "use_loose", "use_intersection"):
+        setattr(modifier, kind, False)  # contours alone
+    if hasattr(modifier, "radius"):
+        modifier.radius = 0.004 * pixels
+    else:
+        modifier.thickness = 8 * pixels
+    return lines
+
+
 def input_identifier(tree, name):
     """The key of an input in a modifier."""
     sockets = tree.interface.items_tree if hasattr(tree, "interface") else tree.inputs
     return next(socket.identifier for socket in sockets if socket.name == name)
 
 
-def value_at(item, name, time):
-    """A custom property at a moment of the scene: keyed by the object's action, or as it is."""
-    found = next((curve for curve in action_curves(item) if curve.data_path == f'["{name}"]'), None)
-    return item[name] if found is None else found.evaluate(time)
+def value_at(item, path, time):
+    """A property at a moment of the scene: keyed by the object's action, or as it is. path: as curves have it, '["name"]'."""
+    found = next((curve for curve in action_curves(item) if curve.data_path == path), None)
+    return item.path_resolve(path) if found is None else found.evaluate(time)
 
 
 def action_curves(item):

@@ -75,6 +75,14 @@ class Surface:
 
 def read(path):
     """The objects of a file. Raises MnsError with one sentence, or OSError."""
+    header, arrays = read_arrays(path)
+    if header.get("format") == "meniscus atoms":
+        raise MnsError(f"{path}: it holds atoms, not a surface")
+    return File(header, _objects(path, header, arrays))
+
+
+def read_arrays(path):
+    """Header and arrays by name of any file of this container, whose sums are right. Raises likewise."""
     with open(path, "rb") as file:
         try:
             data = mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ)
@@ -90,7 +98,7 @@ def read(path):
         if name in arrays:
             raise MnsError(f"{path}: array {name} comes twice")
         arrays[name] = array
-    return File(header, _objects(path, header, arrays))
+    return header, arrays
 
 
 def _objects(path, header, arrays):

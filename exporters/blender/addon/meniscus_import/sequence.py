@@ -287,7 +287,7 @@ def place_at(item, placement, time):
     """Which frame of the run an object shows at a moment of the scene; None: nothing."""
     count = len(placement.sequence.frames)
     if item.get("meniscus_by_hand") and "meniscus_frame" in item:
-        return placement.timing.within(compat.value_at(item, "meniscus_frame", time), count)
+        return placement.timing.within(compat.value_at(item, '["meniscus_frame"]', time), count)
     return placement.timing.place(time, count)
 
 

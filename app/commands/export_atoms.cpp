@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// `meniscus export atoms`: the atoms that a surface is computed of, and where they stand in each frame, as arrays.
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <utility>
+
+#include "app/commands/commands.h"
+#include "app/options/frame_options.h"
+#include "app/options/molecule_options.h"
+#include "app/options/scene_file.h"
+#include "app/process/program_error.h"
+#include "app/reports/notes.h"
+#include "core/base/text.h"
+#include "core/queries/combine.h"
+#include "exporters/blender/atom_attributes.h"
+#include "exporters/blender/atoms_file.h"
+
+namespace meniscus {
+namespace {
+
+struct AtomsCommand {
+  MoleculeOptions molecule;
+  FrameOptions frames;
+  OutputOptions output;
+};
+
+// Where the atoms of merged() objects stand, with the positions of another frame.
+std::vector<glm::dvec3> placed_atoms(std::span<const SurfaceObject> objects, const Structure& structure) {
+  std::vector<glm::dvec3> positions;
+  for (const SurfaceObject& object : objects)
+    for (const RigidMotion& copy : object.copies)
+      for (const std::uint32_t atom : object.atom) positions.push_back(copy(structure.atoms[atom].position));
+  return positions;
+}
+
+// Radii and colours are those of the first frame of the run.
+Molecule first_molecule(const AtomsCommand& command, const FrameRun* run) {
+  if (!run) return load_molecule(command.molecule);
+  tell_run(command.molecule, *run);
+  return MoleculeBuilder(command.molecule).build(run->structure());
+}
+
+void export_atoms(const AtomsCommand& command) {
+  if (command.molecule.color.by == ColorScheme::By::volume)
+    throw UsageError("--color-map-file colours points of a surface, not atoms; leave it out");
+  std::unique_ptr<FrameRun> run;
+  if (command.frames.asked()) run = std::make_unique<FrameRun>(command.molecule, command.frames);
+  Molecule molecule = first_molecule(command, run.get());
+  blender::AtomFrames frames;
+  if (run) {
+    frames.numbers = run->chunk();
+    frames.next = [&] {
+      const RunFrame frame = run->next().value();
+      return blender::AtomFrame{placed_atoms(molecule.objects, frame.structure), frame.time};
+    };
+  }
+  const ColorKey key = key_of(molecule);
+  const SurfaceObject whole = merged(molecule.objects);
+  blender::write_atoms(command.output.path, command.output.existing(), whole,
+                       blender::atom_attributes(molecule.structure, whole.atom),
+                       {std::filesystem::path(molecule.structure.file).filename().string(),
+                        molecule.structure.radii_set, molecule.device, key},
+                       frames);
+  std::cout << escaped(command.output.path) << "\n";
+}
+
+}  // namespace
+
+void add_export_atoms(CLI::App& command) {
+  describe(command, "Write the atoms that a surface is computed of, with radii, colours and frames, as arrays",
+           "  meniscus export atoms 1tii.pdb -o 1tii.atoms\n"
+           "  meniscus export atoms adk.psf --trajectory adk.dcd --frames all --select protein -o adk.atoms",
+           "For programs that compute surfaces themselves, by libmeniscus: the panel of the Blender add-on is one. The "
+           "file\n"
+           "is described in exporters/blender/FORMAT.md; radii and colours are those of the first frame of a run.");
+  auto state = std::make_shared<AtomsCommand>();
+  add_atom_options(command, state->molecule);
+  add_surface_options(command, state->molecule);
+  add_color_options(command, state->molecule);
+  add_frame_options(command, state->frames);
+  add_scene_options(command);
+  add_output_options(command, state->output, "File to write");
+  command.callback([state] { export_atoms(*state); });
+}
+
+}  // namespace meniscus

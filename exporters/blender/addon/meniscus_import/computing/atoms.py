@@ -1,0 +1,79 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The atoms that a surface is computed of, and files of them (`meniscus export atoms`, FORMAT.md of Meniscus)."""
+
+import numpy as np
+
+from .. import mns_reader
+
+#: Arrays a file of atoms cannot do without, and their columns.
+NEEDED = {"atom.center": 3, "atom.radius": 1, "atom.color": 3, "atom.index": 1}
+#: Numbers by atom that a file may have.
+NUMBERS = ("atom.b_factor", "atom.atomic_number", "atom.res_id", "atom.chain_id")
+
+
+class Atoms:
+    """positions: (n, 3) Å. radii: (n,) Å. colors: (n, 3) sRGB. index: (n,) what each is called by, its place among the atoms of
+    its source. numbers: name of an array of .mns files -> (n,). chain_names: what atom.chain_id points to. kind_colors: sRGB of
+    convex, toroidal and concave patches instead of colors, or None. source: a name for people."""
+
+    def __init__(self, positions, radii, colors, index, numbers=None, chain_names=(), kind_colors=None, source=""):
+        self.positions, self.radii, self.colors, self.index = positions, radii, colors, index
+        self.numbers = numbers or {}
+        self.chain_names = list(chain_names)
+        self.kind_colors = kind_colors
+        self.source = source
+
+    def __len__(self):
+        return len(self.radii)
+
+    def at(self, positions):
+        """The same atoms elsewhere."""
+        return Atoms(positions, self.radii, self.colors, self.index, self.numbers, self.chain_names, self.kind_colors, self.source)
+
+
+class AtomFile:
+    """atoms: an Atoms, as the file lists them. numbers: of the frames of the run, in the trajectory; none for a still one."""
+
+    def __init__(self, path, atoms, numbers, positions):
+        self.path, self.atoms, self.numbers, self.positions = path, atoms, numbers, positions
+
+    def frame(self, place):
+        """The atoms in the frame in this place of the run, from 1. Read from the disk when it is asked for."""
+        return self.atoms.at(self.positions[place - 1])
+
+
+def read(path):
+    """An AtomFile. Raises mns_reader.MnsError with one sentence, or OSError."""
+    header, arrays = mns_reader.read_arrays(path)
+    if header.get("format") != "meniscus atoms":
+        raise mns_reader.MnsError(f"{path}: it holds no atoms (`meniscus export atoms` writes such files)")
+    for name, columns in NEEDED.items():
+        if name not in arrays:
+            raise mns_reader.MnsError(f"{path}: array {name} is missing")
+        found = 1 if arrays[name].ndim == 1 else arrays[name].shape[1]
+        if found != columns:
+            raise mns_reader.MnsError(f"{path}: array {name} has {found} columns instead of {columns}")
+    count = len(arrays["atom.radius"])
+    for name in (*NEEDED, *NUMBERS):
+        if name in arrays and len(arrays[name]) != count:
+            raise mns_reader.MnsError(f"{path}: array {name} has {len(arrays[name])} rows instead of {count}")
+        if name in arrays and not np.isfinite(arrays[name]).all():
+            raise mns_reader.MnsError(f"{path}: array {name} holds a number that is not finite")
+    names = [str(name) for name in header.get("chain_names", [])]
+    chains = arrays.get("atom.chain_id")
+    if chains is not None and count and not 0 <= chains.min() <= chains.max() < len(names):
+        raise mns_reader.MnsError(f"{path}: array atom.chain_id points to no chain name")
+    atoms = Atoms(arrays["atom.center"], arrays["atom.radius"], arrays["atom.color"], arrays["atom.index"],
+                  {name: arrays[name] for name in NUMBERS if name in arrays}, names, header.get("kind_colors"),
+                  str(header.get("source", {}).get("file", "")))
+    numbers = header.get("frames") or []
+    positions = _frames_of(path, arrays, len(numbers), count) if numbers else None
+    return AtomFile(path, atoms, numbers, positions)
+
+
+def _frames_of(path, arrays, frames, count):
+    """(frames, atoms, 3); no frame is looked at before it is asked for: a run may be larger than the memory."""
+    positions = arrays.get("frame.position")
+    if positions is None or positions.shape != (frames * count, 3):
+        raise mns_reader.MnsError(f"{path}: array frame.position is not that of {frames} frames of {count} atoms")
+    return positions.reshape(frames, count, 3)

@@ -1,0 +1,226 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What computes a surface: libmeniscus through its Python package, or the program meniscus."""
+
+import importlib
+import importlib.util
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import threading
+
+import numpy as np
+
+from .. import mns_reader
+from . import atoms as atom_files
+
+#: Options of the program, by what a request has.
+SURFACES = {"SES": "ses", "SAS": "sas", "VDW": "vdw"}
+SAYS = "meniscus: error: "
+POLL = 0.05  # s, between two looks at a program and at whether it is still wanted
+
+
+class EngineError(mns_reader.MnsError):
+    """There is nothing to compute with, or it refused; one sentence."""
+
+
+class Cancelled(Exception):
+    """Nobody waits for it any more."""
+
+
+class Tools:
+    """library: the package meniscus with libmeniscus, or None; program: path of the program, or None; missing: why the library is
+    none."""
+
+    def __init__(self, library, program, missing=""):
+        self.library, self.program, self.missing = library, program, missing
+
+    def needed_program(self, purpose):
+        if self.program is None:
+            raise EngineError(f"{purpose} needs the program meniscus, which is not found; name it in the add-on's preferences")
+        return self.program
+
+
+def find_tools(package="", program=""):
+    """package: folder of the Python package, "": where Python finds it. program: its path, "": where the shell finds it."""
+    library, missing = None, ""
+    try:
+        library = _import(package)
+        library.version()  # loads libmeniscus
+    except Exception as error:  # of whatever the package or the loader says
+        library, missing = None, str(error) or type(error).__name__
+    found = shutil.which(program or "meniscus")
+    return Tools(library, found and os.path.abspath(found), missing)
+
+
+def _import(folder):
+    if not folder:
+        return importlib.import_module("meniscus")
+    known = sys.modules.get("meniscus")
+    file = os.path.join(folder, "__init__.py")
+    if known is not None and getattr(known, "__file__", None) == file:
+        return known
+    spec = importlib.util.spec_from_file_location("meniscus", file, submodule_search_locations=[folder])
+    if spec is None or not os.path.exists(file):
+        raise ImportError(f"{folder}: no Python package")
+    module = importlib.util.module_from_spec(spec)
+    sys.modules["meniscus"] = module  # as its own modules look for it
+    try:
+        spec.loader.exec_module(module)
+    except BaseException:
+        del sys.modules["meniscus"]
+        raise
+    return module
+
+
+def surface_by_library(library, atoms, request, task):
+    """A mns_reader.Surface of atoms.Atoms. Raises EngineError in the library's words."""
+    if not len(atoms):
+        raise EngineError("there are no atoms")
+    try:
+        task.say("Surface")
+        made = library.surface(atoms.positions, atoms.radii, request.probe, kind=SURFACES[request.kind])
+        task.check()
+        task.say("Mesh")
+        mesh = made.mesh(request.tolerance)
+    except library.Error as error:
+        raise EngineError(str(error)) from None
+    task.check()
+    return _as_read(made, mesh, atoms, request, library.version())
+
+
+def _as_read(made, mesh, atoms, request, version):
+    """As if it had been written to a .mns file and read."""
+    vertices, components = mesh.vertices, made.components
+    origin = 0.5 * (vertices.min(axis=0) + vertices.max(axis=0))
+    arrays = {
+        "mesh.position": (vertices - origin).astype(np.float32), "mesh.normal": mesh.normals.astype(np.float32),
+        "mesh.triangle": mesh.triangles, "mesh.kind": mesh.triangle_kinds, "mesh.patch": mesh.triangle_patches,
+        "mesh.component": mesh.triangle_components, "mesh.atom": mesh.triangle_atoms, "mesh.sharp_corner": mesh.sharp_corners,
+        "mesh.sharp_corner_normal": mesh.sharp_normals.astype(np.float32), "mesh.sharp_edge": np.empty((0, 2), np.uint32),
+        "atom.center": np.asarray(atoms.positions, np.float64), "atom.radius": np.asarray(atoms.radii, np.float64),
+        "atom.color": np.asarray(atoms.colors, np.float32), "atom.index": np.asarray(atoms.index), **atoms.numbers,
+    }
+    header = {
+        "generator": f"libmeniscus {version}", "source": {"file": atoms.source}, "device": made.device, "unit": "angstrom",
+        "name": "surface", "probe_radius": made.probe, "area": made.area, "volume": made.volume, "chain_names": atoms.chain_names,
+        "mesh": {"origin": [float(value) for value in origin], "vertices": len(vertices), "triangles": len(mesh.triangles),
+                 "closed": True, "tolerance": request.tolerance},
+        "components": [{"kind": "cavity" if part["kind"] else "outer", "area": float(part["area"]),
+                        "volume": float(part["volume"]), "euler": int(part["euler"])} for part in components],
+    }
+    if atoms.kind_colors is not None:
+        header["kind_colors"] = atoms.kind_colors
+    surface = mns_reader.Surface(f"{atoms.source or 'atoms'} in memory", header, arrays)
+    surface.known_closed = True  # the library gives no other
+    return surface
+
+
+def surface_by_program(program, request, folder, task):
+    """The same of a request about a file. folder: for files that go again."""
+    task.say("Program")
+    with tempfile.TemporaryDirectory(dir=folder, prefix="surface_") as inner:
+        target = os.path.join(inner, "run" if request.place else "surface.mns")
+        words = [program, "export", "blender", request.file, *_about_atoms(request), "--surface", SURFACES[request.kind],
+                 f"--probe={request.probe!r}", f"--tolerance={request.tolerance!r}", "--force", "-q", "-o", target]
+        if request.kind == "VDW":
+            words.remove(f"--probe={request.probe!r}")
+        if request.place:
+            number = frame_numbers(program, request, folder, task)[request.place - 1]
+            words += [*_about_run(request, str(number))]
+        _run(words, task)
+        if request.place:
+            target = next(os.path.join(target, name) for name in os.listdir(target) if name.endswith(".mns"))
+        file = mns_reader.read(target)
+    if len(file.objects) != 1 or len(file.objects[0].copies) != 1:
+        raise EngineError(f"{request.file}: {len(file.objects)} objects instead of one")
+    return file.objects[0]
+
+
+def frame_numbers(program, request, folder, task):
+    """Of the frames of the run."""
+    return read_atoms(program, request, folder, task).numbers
+
+
+def read_atoms(program, request, folder, task):
+    """The atoms.AtomFile of a request about a file, of all frames of its run if it has a place there. Read once."""
+    key = (request.atoms_key(), request.place > 0)
+    with _reading:
+        if key not in _files:
+            task.say("Frames" if request.place else "Atoms")
+            found = _fresh_atoms(program, request, folder, task)
+            while len(_files) >= MOST_FILES:
+                del _files[next(iter(_files))]
+            _files[key] = found
+        return _files[key]
+
+
+def _fresh_atoms(program, request, folder, task):
+    descriptor, path = tempfile.mkstemp(dir=folder, prefix="atoms_")
+    os.close(descriptor)
+    try:
+        run = _about_run(request, request.frames or "all") if request.place else []
+        _run([program, "export", "atoms", request.file, *_about_atoms(request), *run, "--force", "-q", "-o", path], task)
+        return atom_files.read(path)
+    finally:
+        os.remove(path)  # what is mapped stays readable
+
+
+#: Files that were read, by what they were asked for, the oldest first.
+_files = {}
+_reading = threading.Lock()
+MOST_FILES = 4
+
+
+def forget():
+    with _reading:
+        _files.clear()
+
+
+def _about_atoms(request):
+    words = [f"--color={request.color}"]
+    if request.selection:
+        words.append(f"--select={request.selection}")
+    return words
+
+
+def _about_run(request, frames):
+    words = [f"--frames={frames}"]
+    if request.trajectory:
+        words.append(f"--trajectory={request.trajectory}")
+    return words
+
+
+def _run(words, task):
+    """Runs the program to its end, or ends it when nobody wants it any more. Raises EngineError in its words."""
+    with tempfile.TemporaryFile() as said:
+        child = subprocess.Popen(words, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=said)
+        try:
+            while True:
+                try:
+                    code = child.wait(POLL)
+                    break
+                except subprocess.TimeoutExpired:
+                    task.check()
+        finally:
+            if child.poll() is None:
+                child.kill()
+                child.wait()
+        if code:
+            said.seek(0)
+            lines = said.read().decode("utf-8", "replace").strip().splitlines() or [f"{words[0]} ended with {code}"]
+            told = [line[len(SAYS):] for line in lines if line.startswith(SAYS)]
+            raise EngineError(told[0] if told else lines[-1])
+
+
+def compute(tools, request, atoms, folder, task):
+    """A mns_reader.Surface. atoms: those that come from Blender, or None: then they are those of the request's file."""
+    if tools.library is None:
+        if atoms is not None:
+            raise EngineError(f"atoms of Blender need libmeniscus: {tools.missing}")
+        return surface_by_program(tools.needed_program("a file"), request, folder, task)
+    if atoms is None:
+        file = read_atoms(tools.needed_program("reading a file"), request, folder, task)
+        atoms = file.frame(request.place) if request.place else file.atoms
+    return surface_by_library(tools.library, atoms, request, task)

@@ -1,0 +1,220 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Materials that colour by attributes, so that a mesh is recoloured without computing it again: looks, and what colours them."""
+
+import bpy
+
+from . import compat, materials
+
+#: The custom property of node groups and materials that were made here: what they are.
+MARK = "meniscus_look"
+#: Å over which light is scattered in wax, by its colour, and absorbed by glass to a third.
+WAX_RADIUS, WAX_COLORS = 2.5, (1.0, 0.45, 0.25)
+GLASS_IOR = 1.45
+MOST_STOPS = 32  # of a colour ramp
+
+_GREY = "#c8c8c8"
+#: Colourings by steps: the attribute, and from which value on which colour, as sRGB.
+STEPS = {
+    # pLDDT of a prediction, in the B-factor's column, in the bands and colours of the AlphaFold database
+    "CONFIDENCE": ("b_factor", ((0, "#ff7d45"), (50, "#ffdb13"), (70, "#65cbf3"), (90, "#0053d6"))),
+    # hues as the program's element
+    "ELEMENT": ("atomic_number", ((0, _GREY), (1, "#ffffff"), (2, _GREY), (7, "#8fa6f5"), (8, "#f58f8f"), (9, "#a9e2a0"), (10, _GREY),
+                                  (15, "#f5c08f"), (16, "#f5e88f"), (17, "#a9e2a0"), (18, _GREY), (26, "#e0a080"), (27, _GREY),
+                                  (30, "#b0b5d8"), (31, _GREY))),
+    # of Okabe and Ito
+    "KIND": ("ses_kind", ((0, "#e69f00"), (1, "#56b4e9"), (2, "#009e73"))),
+}
+#: Colourings by a scale: the attribute, its value at both ends, and colours at equal distances between.
+SCALES = {
+    "B_FACTOR": ("b_factor", 0.0, 100.0, ("#440154", "#414487", "#2a788e", "#22a884", "#7ad151", "#fde725")),
+    "CHARGE": ("charge", -1.0, 1.0, ("#d6412f", "#ffffff", "#3a5fcd")),
+    "POTENTIAL": ("map_value", -10.0, 10.0, ("#d6412f", "#ffffff", "#3a5fcd")),
+    "LIPOPHILICITY": ("lipophobicity", -2.0, 2.0, ("#3a5fcd", "#ffffff", "#d6412f")),
+}
+#: Name of a colouring -> its label.
+COLORINGS = {"COLOR": "As computed", "ELEMENT": "Element", "CHAIN": "Chain", "CONFIDENCE": "Confidence (pLDDT)", "B_FACTOR": "B-factor",
+             "CHARGE": "Charge", "POTENTIAL": "Potential map", "LIPOPHILICITY": "Lipophilicity", "KIND": "Patch kind"}
+#: And the attribute that it looks at.
+ATTRIBUTES = {"COLOR": "Color", "CHAIN": "chain_id", **{name: of[0] for of_all in (STEPS, SCALES) for name, of in of_all.items()}}
+#: Name of a look -> its label.
+LOOKS = {"PAINT": "Paint", "CLAY": "Clay", "WAX": "Wax", "GLASS": "Glass", "FLAT": "Flat"}
+
+
+def coloring_group(name):
+    """A shader node group with one output, Color, and where it has a scale the inputs Low and High. Found or made."""
+    for tree in bpy.data.node_groups:
+        if tree.get(MARK) == name:
+            return tree
+    tree = bpy.data.node_groups.new(f"Meniscus colour: {COLORINGS[name]}", "ShaderNodeTree")
+    tree[MARK] = name
+    compat.add_output(tree, "Color", "NodeSocketColor")
+    if name in SCALES:
+        for socket, value in zip(("Low", "High"), SCALES[name][1:3]):
+            compat.add_input(tree, socket, "NodeSocketFloat", value)
+    output = tree.nodes.new("NodeGroupOutput")
+    tree.links.new(_color(tree, name), output.inputs[0])
+    for column, node in enumerate(tree.nodes):
+        node.location = (200 * column, 0)
+    return tree
+
+
+def _color(tree, name):
+    if name in STEPS:
+        return _steps(tree, *STEPS[name])
+    if name in SCALES:
+        return _scale(tree, *SCALES[name])
+    if name == "CHAIN":
+        return _hues(tree, "chain_id")
+    return _attribute(tree, "Color").outputs["Color"]
+
+
+def _attribute(tree, name):
+    node = tree.nodes.new("ShaderNodeAttribute")
+    node.attribute_name = name
+    return node
+
+
+def _steps(tree, attribute, steps):
+    """Constant from one value to the next. Whole numbers are blurred a little between points, so bounds lie half way."""
+    last = steps[-1][0] + 1.0
+    half = 0.5 if attribute != "b_factor" else 0.0
+    value = compat.math_node(tree, "DIVIDE", _attribute(tree, attribute).outputs["Fac"], last)
+    ramp = _ramp(tree, [(max(0.0, (low - half) / last), color) for low, color in steps])
+    ramp.color_ramp.interpolation = "CONSTANT"
+    tree.links.new(value, ramp.inputs["Fac"])
+    return ramp.outputs["Color"]
+
+
+def _scale(tree, attribute, _low, _high, colors):
+    given = tree.nodes.new("NodeGroupInput").outputs
+    above = compat.math_node(tree, "SUBTRACT", _attribute(tree, attribute).outputs["Fac"], given["Low"])
+    value = compat.math_node(tree, "DIVIDE", above, compat.math_node(tree, "SUBTRACT", given["High"], given["Low"]))
+    ramp = _ramp(tree, [(place / (len(colors) - 1), color) for place, color in enumerate(colors)])
+    tree.links.new(value, ramp.inputs["Fac"])
+    return ramp.outputs["Color"]
+
+
+def _ramp(tree, stops):
+    assert len(stops) <= MOST_STOPS
+    node = tree.nodes.new("ShaderNodeValToRGB")
+    elements = node.color_ramp.elements
+    while len(elements) > 1:
+        elements.remove(elements[-1])
+    elements[0].position, elements[0].color = stops[0][0], linear(stops[0][1])
+    for position, color in stops[1:]:
+        elements.new(position).color = linear(color)
+    return node
+
+
+def _hues(tree, attribute):
+    """A hue for each whole number: multiples of the golden section are never near one another."""
+    number = compat.math_node(tree, "FLOOR", compat.math_node(tree, "ADD", _attribute(tree, attribute).outputs["Fac"], 0.5))
+    hue = compat.math_node(tree, "FRACT", compat.math_node(tree, "ADD", compat.math_node(tree, "MULTIPLY", number, 0.6180340), 0.58))
+    node = compat.hsv_node(tree, 0.45, 0.85)
+    tree.links.new(hue, node.inputs[0])
+    return node.outputs[0]
+
+
+def linear(text):
+    """"#rrggbb" as scene-linear RGBA."""
+    values = [int(text[place:place + 2], 16) / 255.0 for place in (1, 3, 5)]
+    return (*(value / 12.92 if value <= 0.04045 else ((value + 0.055) / 1.055) ** 2.4 for value in values), 1.0)
+
+
+def material(look, coloring, scale=0.1):
+    """A material, found or made. scale: Blender units per Å, for how deep light goes."""
+    mark = f"{look} {coloring} {scale:.6g}"
+    for each in bpy.data.materials:
+        if each.get(MARK) == mark:
+            return each
+    made = bpy.data.materials.new(f"Meniscus {LOOKS[look].lower()}, {COLORINGS[coloring].lower()}")
+    made[MARK] = mark
+    tree = compat.node_tree(made)
+    output = compat.find_or_add(tree, "OUTPUT_MATERIAL", "ShaderNodeOutputMaterial")
+    group = tree.nodes.new("ShaderNodeGroup")
+    group.node_tree = coloring_group(coloring)
+    group.location = (-400, 0)
+    color = group.outputs["Color"]
+    if look == "FLAT":
+        shader = tree.nodes.new("ShaderNodeEmission")
+        tree.links.new(color, shader.inputs["Color"])
+        for node in [node for node in tree.nodes if node.type == "BSDF_PRINCIPLED"]:
+            tree.nodes.remove(node)
+    else:
+        shader = compat.find_or_add(tree, "BSDF_PRINCIPLED", "ShaderNodeBsdfPrincipled")
+        MAKERS[look](tree, shader, color, scale)
+    tree.links.new(shader.outputs[0], output.inputs["Surface"])
+    if look == "GLASS":
+        _tint(tree, color, output, scale)
+    return made
+
+
+def _set(shader, value, *names):
+    socket = compat.principled_input(shader, *names)
+    if socket is not None:
+        socket.default_value = value
+
+
+def _paint(tree, shader, color, _scale_):
+    tree.links.new(color, shader.inputs["Base Color"])
+    _set(shader, 0.45, "Roughness")
+
+
+def _clay(tree, shader, color, _scale_):
+    mixed = compat.mix_colors(tree, 0.75, color, linear("#c9a48c"))
+    tree.links.new(mixed, shader.inputs["Base Color"])
+    _set(shader, 0.95, "Roughness")
+    _set(shader, 0.15, "Specular IOR Level", "Specular")
+
+
+def _wax(tree, shader, color, scale):
+    tree.links.new(color, shader.inputs["Base Color"])
+    if "Subsurface Color" in shader.inputs:  # before 4.0
+        tree.links.new(color, shader.inputs["Subsurface Color"])
+    _set(shader, 0.35, "Roughness")
+    _set(shader, 1.0, "Subsurface Weight", "Subsurface")
+    _set(shader, [WAX_RADIUS * scale * each for each in WAX_COLORS], "Subsurface Radius")
+    _set(shader, 1.0, "Subsurface Scale")
+
+
+def _glass(_tree, shader, _color_, _scale_):
+    """Colour comes from what the volume absorbs, as in glass."""
+    _set(shader, (1.0, 1.0, 1.0, 1.0), "Base Color")
+    _set(shader, 0.02, "Roughness")
+    _set(shader, GLASS_IOR, "IOR")
+    _set(shader, 1.0, "Transmission Weight", "Transmission")
+
+
+def _tint(tree, color, output, scale):
+    """Attributes belong to the surface, not to the volume: what enters takes the colour there, what is behind it is darker by
+    the way through."""
+    shader = next(node for node in tree.nodes if node.type == "BSDF_PRINCIPLED")
+    tree.links.new(compat.mix_colors(tree, 0.6, color, (1.0, 1.0, 1.0, 1.0)), shader.inputs["Base Color"])
+    absorption = tree.nodes.new("ShaderNodeVolumeAbsorption")
+    absorption.inputs["Color"].default_value = (0.75, 0.85, 0.9, 1.0)
+    absorption.inputs["Density"].default_value = 0.02 / scale
+    absorption.location = (output.location[0] - 220, output.location[1] - 200)
+    tree.links.new(absorption.outputs[0], output.inputs["Volume"])
+
+
+MAKERS = {"PAINT": _paint, "CLAY": _clay, "WAX": _wax, "GLASS": _glass}
+
+
+def dress(item, look, coloring):
+    """Gives the outer surface and the cavities of an object a look. A cap keeps its own."""
+    scale = float(item.get("meniscus_scale", 0.1))
+    made = material(look, coloring, scale)
+    slots = item.data.materials
+    while len(slots) < 2:
+        slots.append(None)
+    for slot, role in enumerate(materials.SLOTS[:len(slots)]):
+        if role != "cap":
+            slots[slot] = made
+    return made
+
+
+def add_lines(context, item):
+    """Line Art of the outlines of an object, in an object of its own."""
+    lines = compat.line_art(bpy, item, item.name + ".lines")
+    (item.users_collection[0] if item.users_collection else context.scene.collection).objects.link(lines)
+    return lines

@@ -1,0 +1,281 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The panel Meniscus in the sidebar of 3-D views: makes objects with computed surfaces, and changes what they show."""
+
+import os
+
+import bpy
+from bpy_extras.io_utils import ImportHelper
+
+from . import build, computed, looks, mns_reader, molecular_nodes
+
+
+def new_object(context, name, source, **settings):
+    """An object without geometry in the scene's collection, selected and active."""
+    item = bpy.data.objects.new(name, bpy.data.meshes.new(name))
+    for key, value in settings.items():
+        setattr(item.meniscus, key, value)
+    item.meniscus.source = source  # last: before, nothing is computed
+    context.scene.collection.objects.link(item)
+    for other in context.view_layer.objects:
+        other.select_set(False)
+    item.select_set(True)
+    context.view_layer.objects.active = item
+    return item
+
+
+def start(operator, item):
+    """In the background where there is a window, else at once."""
+    if not bpy.app.background and not operator.wait:
+        computed.ask(item)
+        return {"FINISHED"}
+    try:
+        computed.compute_now(item)
+    except (mns_reader.MnsError, OSError) as error:
+        computed.fail(item, error)
+        operator.report({"ERROR"}, str(error))
+        return {"CANCELLED"}
+    return {"FINISHED"}
+
+
+class Waiting:
+    wait: bpy.props.BoolProperty(name="Wait", description="End when the surface is there", default=False, options={"SKIP_SAVE"})
+
+
+class OBJECT_OT_meniscus_from_file(Waiting, bpy.types.Operator, ImportHelper):
+    """Compute the surface of a molecule's file"""
+
+    bl_idname = "object.meniscus_from_file"
+    bl_label = "Surface of a file"
+    bl_options = {"UNDO"}
+
+    filepath: bpy.props.StringProperty(subtype="FILE_PATH", options={"SKIP_SAVE"})
+    selection: bpy.props.StringProperty(name="Selection", description="chain A and not element H")
+    trajectory: bpy.props.StringProperty(name="Trajectory", subtype="FILE_PATH")
+    is_run: bpy.props.BoolProperty(name="Frames", description="Show frames of the trajectory, or the file's models")
+    center: bpy.props.BoolProperty(name="Centre", default=True)
+
+    def execute(self, context):
+        name = os.path.basename(self.filepath).split(".")[0] or "surface"
+        item = new_object(context, name + ".surface", "FILE", file=build.remembered_path(self.filepath), selection=self.selection,
+                          trajectory=self.trajectory and build.remembered_path(self.trajectory),
+                          is_run=self.is_run or bool(self.trajectory), center=self.center)
+        return start(self, item)
+
+
+class OBJECT_OT_meniscus_from_atoms(Waiting, bpy.types.Operator):
+    """Compute the surface of the active object's atoms, as Molecular Nodes has them"""
+
+    bl_idname = "object.meniscus_from_atoms"
+    bl_label = "Surface of atoms"
+    bl_options = {"UNDO"}
+
+    selection: bpy.props.StringProperty(name="Selection", description="Name of a boolean attribute")
+
+    @classmethod
+    def poll(cls, context):
+        return molecular_nodes.is_molecule(context.active_object)
+
+    def execute(self, context):
+        atoms = context.active_object
+        try:
+            scale = molecular_nodes.scale_of(atoms)
+        except mns_reader.MnsError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        item = new_object(context, atoms.name + ".surface", "OBJECT", atoms=atoms, scale=scale, selection=self.selection)
+        item.parent = atoms  # without the inverse: it stands where its atoms are
+        computed.come_last()
+        return start(self, item)
+
+
+class OBJECT_OT_meniscus_update(Waiting, bpy.types.Operator):
+    """Compute the active surface from what its object stores"""
+
+    bl_idname = "object.meniscus_update"
+    bl_label = "Update"
+    bl_options = {"UNDO"}
+
+    @classmethod
+    def poll(cls, context):
+        item = context.active_object
+        return computed.is_computed(item) and item.mode == "OBJECT"
+
+    def execute(self, context):
+        computed.look_for_tools()
+        item = context.active_object
+        item.data[computed.SHOWN] = ""
+        return start(self, item)
+
+
+class OBJECT_OT_meniscus_cancel(bpy.types.Operator):
+    """Stop computing; the surface stays as it is"""
+
+    bl_idname = "object.meniscus_cancel"
+    bl_label = "Cancel"
+
+    @classmethod
+    def poll(cls, context):
+        return computed.is_computed(context.active_object) and computed.progress_of(context.active_object) is not None
+
+    def execute(self, context):
+        computed.cancel(context.active_object)
+        computed.redraw()
+        return {"FINISHED"}
+
+
+class OBJECT_OT_meniscus_look(bpy.types.Operator):
+    """Give the active surface a material that colours by its attributes"""
+
+    bl_idname = "object.meniscus_look"
+    bl_label = "Apply look"
+    bl_options = {"REGISTER", "UNDO"}
+
+    look: bpy.props.EnumProperty(name="Look", default="PAINT", items=[(name, label, "") for name, label in looks.LOOKS.items()])
+    coloring: bpy.props.EnumProperty(name="Colour", default="COLOR", items=[(name, label, "") for name, label in looks.COLORINGS.items()])
+    lines: bpy.props.BoolProperty(name="Outlines", description="Draw outlines by Line Art, as an object of their own", default=False)
+
+    @classmethod
+    def poll(cls, context):
+        return is_surface(context.active_object)
+
+    def execute(self, context):
+        item = context.active_object
+        name = looks.ATTRIBUTES[self.coloring]
+        if name not in item.data.attributes:
+            self.report({"ERROR"}, f"{item.name} has no attribute {name}")
+            return {"CANCELLED"}
+        looks.dress(item, self.look, self.coloring)
+        if self.lines:
+            looks.add_lines(context, item)
+        return {"FINISHED"}
+
+
+def is_surface(item):
+    return item is not None and item.type == "MESH" and "ses_kind" in item.data.attributes
+
+
+class VIEW3D_PT_meniscus(bpy.types.Panel):
+    bl_idname = "VIEW3D_PT_meniscus"
+    bl_label = "Meniscus"
+    bl_category = "Meniscus"
+    bl_space_type = "VIEW_3D"
+    bl_region_type = "UI"
+
+    def draw(self, context):
+        layout, item = self.layout, context.active_object
+        column = layout.column(align=True)
+        column.operator("object.meniscus_from_file", icon="FILE_FOLDER")
+        column.operator("object.meniscus_from_atoms", icon="OUTLINER_OB_POINTCLOUD")
+        if not computed.is_computed(item):
+            return
+        layout.use_property_split, layout.use_property_decorate = True, False
+        self.draw_state(item)
+        self.draw_request(item)
+
+    def draw_state(self, item):
+        layout, progress = self.layout, computed.progress_of(item)
+        row = layout.row(align=True)
+        row.operator("object.meniscus_update", icon="FILE_REFRESH")
+        if progress is not None:
+            row.operator("object.meniscus_cancel", text="", icon="CANCEL")
+            layout.label(text="%s … %.1f s" % progress, icon="SORTTIME")
+        if item.get(computed.ERROR):
+            for line in wrapped(item[computed.ERROR], 40):
+                layout.label(text=line, icon="ERROR")
+        elif "meniscus_area" in item:
+            layout.label(text="%.2f Å², %.2f Å³" % (item["meniscus_area"], item["meniscus_volume"]))
+            layout.label(text=f"{len(item.data.polygons):,} triangles")
+
+    def draw_request(self, item):
+        layout, settings = self.layout, item.meniscus
+        if settings.source == "FILE":
+            layout.prop(settings, "file")
+            layout.prop(settings, "selection")
+            layout.prop(settings, "color")
+        else:
+            layout.prop(settings, "atoms")
+            layout.prop(settings, "selection")
+        layout.prop(settings, "kind")
+        row = layout.row()
+        row.active = settings.kind != "VDW"
+        row.prop(settings, "probe", slider=True)
+        layout.prop(settings, "tolerance")
+        layout.prop(settings, "crisp")
+        layout.prop(settings, "scale")
+        layout.prop(settings, "live")
+
+
+class VIEW3D_PT_meniscus_time(bpy.types.Panel):
+    bl_idname = "VIEW3D_PT_meniscus_time"
+    bl_label = "Time"
+    bl_category = "Meniscus"
+    bl_space_type = "VIEW_3D"
+    bl_region_type = "UI"
+    bl_parent_id = "VIEW3D_PT_meniscus"
+
+    @classmethod
+    def poll(cls, context):
+        return computed.is_computed(context.active_object)
+
+    def draw(self, context):
+        layout, item = self.layout, context.active_object
+        settings = item.meniscus
+        layout.use_property_split = True
+        if settings.source == "FILE":
+            layout.prop(settings, "is_run")
+            if settings.is_run:
+                layout.prop(settings, "trajectory")
+                layout.prop(settings, "frames")
+        count = computed.frame_count(item)
+        if not count:
+            return
+        layout.label(text=f"{count:,} frames")
+        for name in ("start", "speed", "outside", "by_hand"):
+            layout.prop(settings, name)
+        row = layout.row()
+        row.active = settings.by_hand
+        row.prop(settings, "frame")
+
+
+class VIEW3D_PT_meniscus_look(bpy.types.Panel):
+    bl_idname = "VIEW3D_PT_meniscus_look"
+    bl_label = "Look"
+    bl_category = "Meniscus"
+    bl_space_type = "VIEW_3D"
+    bl_region_type = "UI"
+    bl_parent_id = "VIEW3D_PT_meniscus"
+
+    @classmethod
+    def poll(cls, context):
+        return is_surface(context.active_object)
+
+    def draw(self, context):
+        for look, label in looks.LOOKS.items():
+            row = self.layout.operator_menu_enum("object.meniscus_look", "coloring", text=label)
+            row.look, row.lines = look, look == "FLAT"
+
+
+def wrapped(text, width):
+    """Lines of a panel, which does not wrap."""
+    line = ""
+    for word in text.split():
+        if line and len(line) + len(word) >= width:
+            yield line
+            line = ""
+        line = f"{line} {word}".strip()
+    if line:
+        yield line
+
+
+CLASSES = (OBJECT_OT_meniscus_from_file, OBJECT_OT_meniscus_from_atoms, OBJECT_OT_meniscus_update, OBJECT_OT_meniscus_cancel,
+           OBJECT_OT_meniscus_look, VIEW3D_PT_meniscus, VIEW3D_PT_meniscus_time, VIEW3D_PT_meniscus_look)
+
+
+def register():
+    for item in CLASSES:
+        bpy.utils.register_class(item)
+
+
+def unregister():
+    for item in reversed(CLASSES):
+        bpy.utils.unregister_class(item)

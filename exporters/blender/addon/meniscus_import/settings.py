@@ -1,0 +1,127 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the panel asks of a computed surface, stored in its object, and where the add-on finds what computes."""
+
+import bpy
+
+from . import sequence_reader
+from .computing import request
+
+#: Of what the program colours by; more on its command line.
+COLORS = (
+    ("element", "Element", "Chemical element, in pale colours"), ("element-cpk", "Element (CPK)", "In the colours of models"),
+    ("chain", "Chain", "Chains in order of appearance"), ("residue", "Residue", "Residue type"),
+    ("bfactor", "B-factor", "B-factor; viridis, smallest to largest"), ("occupancy", "Occupancy", "Occupancy; viridis"),
+    ("hydrophobicity", "Hydrophobicity", "Hydropathy of the amino acid"), ("charge", "Charge", "Partial charge, of PQR files"),
+    ("radial", "Radial", "Distance from the middle"), ("kind", "Patch", "Kind of patch: convex, toroidal, concave"))
+
+
+def on_change(settings, _context):
+    """Of a property that changes the surface."""
+    from . import computed  # which needs the settings
+
+    computed.changed(settings.id_data)
+
+
+def _is_atoms(settings, item):
+    return item.type == "MESH" and item != settings.id_data and "vdw_radii" in item.data.attributes
+
+
+class MeniscusSettings(bpy.types.PropertyGroup):
+    """Of an object that shows a computed surface. All but the timing is what it is computed from: its stored request."""
+
+    source: bpy.props.EnumProperty(
+        name="Source", default="NONE",
+        items=(("NONE", "None", "The object shows no computed surface"), ("FILE", "File", "A molecule's file"),
+               ("OBJECT", "Object", "The atoms of an object, as Molecular Nodes has them")))
+    file: bpy.props.StringProperty(name="File", description="A molecule: PDB, mmCIF, PQR, GRO, XYZ, ...", subtype="FILE_PATH",
+                                   update=on_change)
+    trajectory: bpy.props.StringProperty(
+        name="Trajectory", description="XTC, TRR, DCD, ...; without one the file's models are the frames, if a run is shown",
+        subtype="FILE_PATH", update=on_change)
+    is_run: bpy.props.BoolProperty(name="Frames", description="Show frames of the trajectory, or the models of the file, on the "
+                                   "timeline", default=False, update=on_change)
+    frames: bpy.props.StringProperty(name="Frames", description='Which: "all", "0-999:10"', default="all", update=on_change)
+    atoms: bpy.props.PointerProperty(
+        name="Atoms", description="An object whose vertices are atoms with an attribute vdw_radii", type=bpy.types.Object,
+        poll=_is_atoms, update=on_change)
+    selection: bpy.props.StringProperty(
+        name="Selection", description="Of a file an expression (chain A and not element H); of an object the name of a boolean "
+        "attribute. Empty: all that a surface takes", update=on_change)
+    kind: bpy.props.EnumProperty(
+        name="Surface", default="SES", update=on_change,
+        items=(("SES", "Solvent-excluded", "What the probe cannot reach"), ("SAS", "Solvent-accessible", "Where its centre can be"),
+               ("VDW", "Van der Waals", "The balls themselves")))
+    probe: bpy.props.FloatProperty(
+        name="Probe", description="Radius of the probe in Å; 1.4 is water", default=1.4, min=0.0, max=100.0, soft_min=0.5, soft_max=5.0,
+        step=5, precision=2, update=on_change)
+    color: bpy.props.EnumProperty(name="Colour", default="element", items=COLORS, update=on_change)
+    tolerance: bpy.props.FloatProperty(
+        name="Tolerance", description="Å that the mesh is from the surface at most", default=0.2, min=1e-5, max=1.0, precision=3,
+        update=on_change)
+    live: bpy.props.BoolProperty(name="Live", description="Compute anew while sliders move", default=True, update=on_change)
+    scale: bpy.props.FloatProperty(name="Scale", description="Blender units per Å", default=0.1, min=1e-6, soft_max=1.0, precision=4,
+                                   update=on_change)
+    center: bpy.props.BoolProperty(name="Centre", description="The middle of the molecule comes to the origin, or where an earlier "
+                                   "import put it", default=True)
+    crisp: bpy.props.BoolProperty(name="Crisp colours", description="Colours change at edges; otherwise they blend", default=False,
+                                  update=on_change)
+    start: bpy.props.FloatProperty(name="Start", description="The frame of the scene that shows the first of the run", default=1.0)
+    speed: bpy.props.FloatProperty(name="Speed", description="Frames of the run in a frame of the scene", default=1.0, min=1e-4,
+                                   soft_max=10.0)
+    outside: bpy.props.EnumProperty(
+        name="Outside", default="HOLD", description="What shows before and behind the run",
+        items=(("EMPTY", "Nothing", "Nothing shows"), ("HOLD", "Hold", "The first and the last frame stay"),
+               ("LOOP", "Loop", "The run begins anew"), ("PINGPONG", "To and fro", "The run goes back and forth")))
+    by_hand: bpy.props.BoolProperty(name="By hand", description="Show the frame below, which can be keyed", default=False)
+    frame: bpy.props.FloatProperty(name="Frame", description="Place in the run, from 1", default=1.0)
+
+    def timing(self):
+        return sequence_reader.Timing(self.start, self.speed, self.outside)
+
+    def request(self, place=0):
+        """A request.Request; place: in the run, from 1, or 0."""
+        of_file = self.source == "FILE"
+        return request.Request(
+            file=bpy.path.abspath(self.file) if of_file else "", trajectory=bpy.path.abspath(self.trajectory) if of_file and self.is_run else "",
+            frames=self.frames if of_file and self.is_run else "", selection=self.selection,
+            color=self.color if of_file else "", place=place, kind=self.kind, probe=short(self.probe),
+            tolerance=short(self.tolerance))
+
+
+def short(value):
+    """The number that was typed: a property has single precision."""
+    return float(f"{value:.6g}")
+
+
+class MeniscusPreferences(bpy.types.AddonPreferences):
+    """Where what computes is, if Python and the shell do not find it by themselves."""
+
+    bl_idname = __package__
+
+    package: bpy.props.StringProperty(
+        name="Python package", description="The folder named meniscus of the Python package with libmeniscus; empty: as Python finds it",
+        subtype="DIR_PATH")
+    program: bpy.props.StringProperty(name="Program", description="The program meniscus; empty: as the shell finds it", subtype="FILE_PATH")
+
+    def draw(self, _context):
+        from . import computed
+
+        self.layout.prop(self, "package")
+        self.layout.prop(self, "program")
+        for line in computed.told_tools():
+            self.layout.label(text=line)
+
+
+CLASSES = (MeniscusSettings, MeniscusPreferences)
+
+
+def register():
+    for item in CLASSES:
+        bpy.utils.register_class(item)
+    bpy.types.Object.meniscus = bpy.props.PointerProperty(type=MeniscusSettings)
+
+
+def unregister():
+    del bpy.types.Object.meniscus
+    for item in reversed(CLASSES):
+        bpy.utils.unregister_class(item)

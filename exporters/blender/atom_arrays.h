@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The arrays of the atoms of an object, as all files for Blender have them.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/queries/surface_object.h"
+#include "exporters/blender/mns_file.h"
+
+namespace meniscus::blender {
+
+/// Numbers per atom, in the order of Surface::atoms; an empty vector leaves the attribute out.
+/// The names in the file are those of Molecular Nodes: b_factor, atomic_number, res_id, chain_id.
+struct AtomAttributes {
+  std::vector<float> b_factor;
+  std::vector<std::int32_t> atomic_number;
+  std::vector<std::int32_t> residue_number;
+  std::vector<std::int32_t> chain;  ///< into chain_names
+  std::vector<std::string> chain_names;
+};
+
+/// atom.center, atom.radius, atom.color, atom.index, and what else is known of them (FORMAT.md). What is added refers
+/// to the object and to the attributes until the file is written.
+void add_atoms(MnsWriter& file, const SurfaceObject& object, const AtomAttributes& atoms);
+
+}  // namespace meniscus::blender

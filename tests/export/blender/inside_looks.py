@@ -1,0 +1,154 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Materials by attributes: what Cycles shows of each colouring and look, recoloured without a new surface; the asset library."""
+
+import os
+import subprocess
+import sys
+import unittest
+
+import addon_utils
+import bpy
+import mathutils
+import numpy as np
+
+FOLDER, ADDON, HERE, BLENDER, PROGRAM = sys.argv[sys.argv.index("--") + 1:]
+sys.path.insert(0, HERE)
+
+from meniscus_import import build, looks  # noqa: E402
+
+SIZE = 48
+
+
+def pixel_of(item, samples=1):
+    """Linear colour in the middle of a picture of a face, seen straight on."""
+    scene = bpy.context.scene
+    scene.render.engine = "CYCLES"
+    scene.cycles.samples, scene.cycles.use_denoising = samples, False
+    scene.render.resolution_x = scene.render.resolution_y = SIZE
+    scene.render.resolution_percentage = 100
+    scene.view_settings.view_transform = "Raw"
+    scene.render.image_settings.file_format = "PNG"
+    scene.render.image_settings.color_depth = "16"
+    scene.render.filepath = os.path.join(FOLDER, "pixel.png")
+    if scene.camera is None:
+        camera = bpy.data.objects.new("camera", bpy.data.cameras.new("camera"))
+        camera.data.type, camera.data.ortho_scale = "ORTHO", 1.0
+        camera.matrix_world = mathutils.Matrix.Translation((0.0, 0.0, 5.0))
+        scene.collection.objects.link(camera)
+        scene.camera = camera
+    bpy.ops.render.render(write_still=True)
+    image = bpy.data.images.load(scene.render.filepath, check_existing=False)
+    image.colorspace_settings.name = "Non-Color"
+    values = np.array(image.pixels[:], dtype=np.float32).reshape(SIZE, SIZE, 4)
+    bpy.data.images.remove(image)
+    return values[SIZE // 2, SIZE // 2, :3]
+
+
+def plate(**attributes):
+    """A square across the view with the same value everywhere."""
+    mesh = bpy.data.meshes.new("plate")
+    mesh.from_pydata([(-2, -2, 0), (2, -2, 0), (2, 2, 0), (-2, 2, 0)], [], [(0, 1, 2, 3)])
+    build.add_attribute(mesh, "ses_kind", "INT", "FACE", np.zeros(1, np.int32)) if "ses_kind" not in attributes else None
+    for name, value in attributes.items():
+        if name == "Color":
+            build.add_attribute(mesh, name, "FLOAT_COLOR", "POINT", np.tile(np.float32([*value, 1.0]), (4, 1)), "color")
+        elif name == "ses_kind":
+            build.add_attribute(mesh, name, "INT", "FACE", np.array([value], np.int32))
+        else:
+            whole = isinstance(value, int)
+            build.add_attribute(mesh, name, "INT" if whole else "FLOAT", "POINT", np.full(4, value, np.int32 if whole else np.float32))
+    item = bpy.data.objects.new("plate", mesh)
+    bpy.context.scene.collection.objects.link(item)
+    bpy.context.view_layer.objects.active = item
+    return item
+
+
+class Looks(unittest.TestCase):
+    def setUp(self):
+        bpy.ops.wm.read_factory_settings(use_empty=True)
+        addon_utils.enable("meniscus_import", default_set=True)
+
+    def shown(self, coloring, **attributes):
+        """What the flat look shows of it."""
+        item = plate(**attributes)
+        self.assertEqual(bpy.ops.object.meniscus_look(look="FLAT", coloring=coloring), {"FINISHED"})
+        color = pixel_of(item)
+        bpy.data.objects.remove(item)
+        return color
+
+    def test_steps_and_scales_give_their_colours(self):
+        cases = [("CONFIDENCE", {"b_factor": value}, color) for value, color in
+                 ((20.0, "#ff7d45"), (55.0, "#ffdb13"), (69.0, "#ffdb13"), (71.0, "#65cbf3"), (95.0, "#0053d6"), (100.0, "#0053d6"))]
+        cases += [("ELEMENT", {"atomic_number": number}, color) for number, color in
+                  ((1, "#ffffff"), (6, "#c8c8c8"), (7, "#8fa6f5"), (8, "#f58f8f"), (16, "#f5e88f"), (53, "#c8c8c8"))]
+        cases += [("KIND", {"ses_kind": kind}, color) for kind, color in enumerate(("#e69f00", "#56b4e9", "#009e73"))]
+        cases += [("CHARGE", {"charge": value}, color) for value, color in ((-1.0, "#d6412f"), (0.0, "#ffffff"), (1.0, "#3a5fcd"), (7.0, "#3a5fcd"))]
+        for coloring, attributes, color in cases:
+            np.testing.assert_allclose(self.shown(coloring, **attributes), looks.linear(color)[:3], atol=4e-3, err_msg=f"{coloring} {attributes}")
+        np.testing.assert_allclose(self.shown("COLOR", Color=(0.2, 0.5, 0.8)), (0.2, 0.5, 0.8), atol=2e-3)
+
+    def test_chains_have_colours_of_their_own(self):
+        found = [self.shown("CHAIN", chain_id=number) for number in range(6)]
+        for one in range(6):
+            for other in range(one):
+                self.assertGreater(np.abs(found[one] - found[other]).max(), 0.08, (one, other))
+
+    def test_the_range_of_a_scale_is_an_input(self):
+        item = plate(charge=0.25)
+        bpy.ops.object.meniscus_look(look="FLAT", coloring="CHARGE")
+        group = next(node for node in item.data.materials[0].node_tree.nodes if node.type == "GROUP")
+        group.inputs["Low"].default_value, group.inputs["High"].default_value = -0.25, 0.25
+        np.testing.assert_allclose(pixel_of(item), looks.linear("#3a5fcd")[:3], atol=4e-3)
+
+    def test_every_look_renders_in_every_colouring(self):
+        attributes = {"Color": (0.8, 0.3, 0.2), "b_factor": 80.0, "atomic_number": 8, "chain_id": 1, "charge": 0.4, "map_value": 2.0,
+                      "lipophobicity": 0.3, "ses_kind": 1}
+        sun = bpy.data.objects.new("sun", bpy.data.lights.new("sun", "SUN"))
+        bpy.context.scene.collection.objects.link(sun)
+        for look in looks.LOOKS:
+            item = plate(**attributes)
+            seen = []
+            for coloring in looks.COLORINGS:
+                self.assertEqual(bpy.ops.object.meniscus_look(look=look, coloring=coloring), {"FINISHED"})
+                output = next(node for node in item.data.materials[0].node_tree.nodes if node.type == "OUTPUT_MATERIAL")
+                self.assertTrue(output.inputs["Surface"].is_linked, (look, coloring))
+                seen.append(item.data.materials[0].name)
+            self.assertEqual(len(set(seen)), len(looks.COLORINGS))
+            if look in ("PAINT", "CLAY", "FLAT"):
+                self.assertGreater(pixel_of(item).max(), 0.05, look)
+            bpy.data.objects.remove(item)
+
+    def test_a_material_is_made_once_for_a_scale(self):
+        names = {looks.material("WAX", "COLOR", scale).name for scale in (0.1, 0.1, 0.01)}
+        self.assertEqual(len(names), 2)
+        self.assertEqual(len([tree for tree in bpy.data.node_groups if looks.MARK in tree]), 1)
+
+    def test_what_an_object_has_not_is_said(self):
+        plate()
+        with self.assertRaisesRegex(RuntimeError, "charge"):
+            bpy.ops.object.meniscus_look(look="PAINT", coloring="CHARGE")
+
+    def test_outlines_by_line_art(self):
+        item = plate(Color=(1.0, 1.0, 1.0))
+        before = set(bpy.data.objects)
+        self.assertEqual(bpy.ops.object.meniscus_look(look="FLAT", coloring="COLOR", lines=True), {"FINISHED"})
+        (lines,) = set(bpy.data.objects) - before
+        stack = lines.modifiers if len(lines.modifiers) else lines.grease_pencil_modifiers
+        self.assertEqual((stack[0].source_object, stack[0].use_contour), (item, True))
+        self.assertIsNotNone(stack[0].target_material)
+
+    def test_the_asset_library(self):
+        target = os.path.join(FOLDER, "assets")
+        script = os.path.join(os.path.dirname(ADDON), "make_assets.py")
+        command = [BLENDER, "-b", "--factory-startup", "--python-exit-code", "3", "--python", script, "--", target]
+        self.assertEqual(subprocess.run(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=False).returncode, 0)
+        with bpy.data.libraries.load(os.path.join(target, "meniscus_assets.blend"), assets_only=True) as (found, _):
+            self.assertEqual(len(found.materials), len(looks.LOOKS) * len(looks.COLORINGS))
+            self.assertEqual(len(found.node_groups), len(looks.COLORINGS))
+        with open(os.path.join(target, "blender_assets.cats.txt"), encoding="utf-8") as file:
+            self.assertIn(":Meniscus/Materials:", file.read())
+        self.assertEqual(subprocess.run(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=False).returncode, 2)
+
+
+if not unittest.main(argv=["inside_looks"], exit=False).result.wasSuccessful():
+    sys.exit(1)
