@@ -17,6 +17,7 @@
 namespace meniscus::msms {
 namespace {
 
+constexpr std::size_t kMostAreas = std::size_t{1} << 26;  // a gigabyte, and as much text
 constexpr int kAttempts = 16;
 constexpr double kShorter = 0.9;
 
@@ -82,6 +83,11 @@ std::vector<ReducedComponentSize> ChosenSurface::sizes() const {
 }
 
 std::vector<AtomAreas> ChosenSurface::areas() const {
+  if (chosen_.size() * computed_.surface.atoms.size() > kMostAreas)
+    throw CapacityError(
+        fmt::format("the areas of {} spheres in {} components are too many for one table; leave -af or "
+                    "-all_components away",
+                    computed_.surface.atoms.size(), chosen_.size()));
   // Components that nobody asked for are one group, behind the others.
   const auto others = static_cast<std::uint32_t>(chosen_.size());
   std::vector<std::uint32_t> group(computed_.components.count, others);
@@ -101,6 +107,7 @@ void ChosenSurface::triangulate() {
   for (int attempt = 1;; ++attempt, options.edge *= kShorter) {
     try {
       mesh_ = tessellate(computed_.surface, options);
+      numbered_.emplace(computed_.surface, mesh_, computed_.components);
       return;
     } catch (const OpenSurfaceError&) {
       if (attempt == kAttempts) throw;
@@ -108,8 +115,6 @@ void ChosenSurface::triangulate() {
   }
 }
 
-MsmsMesh ChosenSurface::mesh(std::size_t n) const {
-  return msms_mesh(computed_.surface, *mesh_, computed_.components, chosen_[n]);
-}
+MsmsMesh ChosenSurface::mesh(std::size_t n) { return numbered_->of(chosen_[n]); }
 
 }  // namespace meniscus::msms

@@ -20,15 +20,18 @@ class ChosenSurface {
   /// -one_cavity names.
   ChosenSurface(const Arguments& arguments, const Spheres& spheres);
 
+  ChosenSurface(const ChosenSurface&) = delete;
+  ChosenSurface& operator=(const ChosenSurface&) = delete;
+
   std::size_t component_count() const { return chosen_.size(); }
   /// Of each component that is wanted.
   std::vector<ReducedComponentSize> sizes() const;
-  /// Areas of the atoms, for each component that is wanted.
+  /// Areas of the atoms, for each component that is wanted. Throws CapacityError: more than 2^26 numbers of each kind.
   std::vector<AtomAreas> areas() const;
   /// Triangulates; call before mesh(). Throws OpenSurfaceError.
   void triangulate();
   /// Of the n-th component that is wanted.
-  MsmsMesh mesh(std::size_t n) const;
+  MsmsMesh mesh(std::size_t n);
 
  private:
   std::uint32_t component_touching(const std::vector<std::uint32_t>& numbers, const Spheres& spheres) const;
@@ -36,7 +39,8 @@ class ChosenSurface {
   double density_;
   ComponentSurface computed_;
   std::vector<std::uint32_t> chosen_;
-  std::optional<TriangleMesh> mesh_;
+  TriangleMesh mesh_;
+  std::optional<MsmsMeshes> numbered_;
 };
 
 }  // namespace meniscus::msms

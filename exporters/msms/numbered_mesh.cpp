@@ -33,78 +33,99 @@ MsmsFaceKind kind_of(const Face& face) {
   }
 }
 
-class Numbering {
- public:
-  Numbering(const Surface& surface, const TriangleMesh& mesh, const ReducedComponents& components,
-            std::uint32_t component)
-      : s_(surface), mesh_(mesh), components_(components), component_(component) {}
+/// What the last column of .vert says of vertices inside a face.
+std::uint8_t level_inside(MsmsFaceKind kind) {
+  return kind == MsmsFaceKind::contact ? 1 : kind == MsmsFaceKind::reentrant ? 3 : 2;
+}
 
-  MsmsMesh run() {
+}  // namespace
+
+class MsmsMeshes::Numbering {
+ public:
+  Numbering(const Surface& surface, const TriangleMesh& mesh, const ReducedComponents& components)
+      : s_(surface), mesh_(mesh), components_(components), place_(mesh.positions.size(), kNone) {
     number_faces();
-    take_triangles();
-    take_vertices();
-    weld_short_edges(made_, kMsmsStep);
-    name_faces();
-    return std::move(made_);
+    sort_triangles();
+    find_closest_atoms();
+  }
+
+  MsmsMesh of(std::uint32_t component) {
+    MsmsMesh made;
+    std::vector<std::uint32_t> used;
+    for (std::uint32_t n = first_[component]; n < first_[component + 1]; ++n) {
+      const std::uint32_t t = triangles_[n];
+      const std::uint32_t f = mesh_.face[t];
+      made.triangles.push_back({mesh_.triangles[t], kind_of(s_.faces[f]), number_[f]});
+      for (const std::uint32_t v : mesh_.triangles[t])
+        if (place_[v] == kNone) {
+          used.push_back(v);
+          place_[v] = 0;
+        }
+    }
+    std::ranges::sort(used);
+    for (const std::uint32_t v : used) {
+      place_[v] = static_cast<std::uint32_t>(made.vertices.size());
+      made.vertices.push_back(vertex(v));
+    }
+    for (MsmsTriangle& t : made.triangles) {
+      for (std::uint32_t& corner : t.corner) {
+        corner = place_[corner];
+        MsmsVertex& v = made.vertices[corner];
+        if (v.face == kInside) v.level = level_inside(t.kind);
+      }
+    }
+    for (const std::uint32_t v : used) place_[v] = kNone;
+    weld_short_edges(made, kMsmsStep);
+    name_faces(made);
+    return made;
   }
 
  private:
-  bool is_ours(std::size_t face) const { return components_.of_face[face] == component_; }
+  static bool is_contact(const Face& face) { return face.kind == PatchKind::convex; }
 
+  // From 1 in each component, contact faces last.
   void number_faces() {
     number_.assign(s_.faces.size(), 0);
-    std::uint32_t next = 0;
+    std::vector<std::uint32_t> next(components_.count, 0);
     for (const bool contact : {false, true})
       for (std::size_t f = 0; f < s_.faces.size(); ++f)
-        if (is_ours(f) && (s_.faces[f].kind == PatchKind::convex) == contact) number_[f] = ++next;
+        if (is_contact(s_.faces[f]) == contact) number_[f] = ++next[components_.of_face[f]];
   }
 
-  void take_triangles() {
-    std::size_t count = 0;
-    for (const std::uint32_t face : mesh_.face) count += is_ours(face);
-    made_.triangles.reserve(count);
+  // By component, then by face.
+  void sort_triangles() {
+    first_.assign(components_.count + 1, 0);
+    for (const std::uint32_t f : mesh_.face) ++first_[components_.of_face[f] + 1];
+    for (std::size_t c = 1; c < first_.size(); ++c) first_[c] += first_[c - 1];
+    triangles_.resize(mesh_.triangles.size());
+    std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
     for (const bool contact : {false, true})
-      for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
-        const std::uint32_t f = mesh_.face[t];
-        if (is_ours(f) && (mesh_.kind[t] == PatchKind::convex) == contact)
-          made_.triangles.push_back({mesh_.triangles[t], kind_of(s_.faces[f]), number_[f]});
-      }
-    std::ranges::stable_sort(made_.triangles, {}, &MsmsTriangle::face);
+      for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t)
+        if (const std::uint32_t f = mesh_.face[t]; is_contact(s_.faces[f]) == contact)
+          triangles_[next[components_.of_face[f]]++] = t;
+    for (std::uint32_t c = 0; c < components_.count; ++c)
+      std::stable_sort(
+          triangles_.begin() + first_[c], triangles_.begin() + first_[c + 1],
+          [&](std::uint32_t x, std::uint32_t y) { return number_[mesh_.face[x]] < number_[mesh_.face[y]]; });
   }
 
-  void take_vertices() {
-    find_faces_of_vertices();
-    std::vector<std::uint32_t> place(mesh_.positions.size(), kNone);
-    for (std::uint32_t v = 0; v < place.size(); ++v) {
-      if (face_of_vertex_[v] == kNone) continue;
-      place[v] = static_cast<std::uint32_t>(made_.vertices.size());
-      made_.vertices.push_back(vertex(v));
-    }
-    for (MsmsTriangle& t : made_.triangles)
-      for (std::uint32_t& corner : t.corner) corner = place[corner];
-  }
-
-  // Of each vertex of the component the first face that has it, and the closest atom: first of those that its faces
-  // touch, for a vertex of a contact face lies on the face's own sphere, whatever rounding says of others.
-  void find_faces_of_vertices() {
-    face_of_vertex_.assign(mesh_.positions.size(), kNone);
+  // First of the atoms that a vertex's faces touch, for a vertex of a contact face lies on the face's own sphere,
+  // whatever rounding says of others.
+  void find_closest_atoms() {
     atom_of_vertex_.assign(mesh_.positions.size(), 0);
     std::vector<double> distance(mesh_.positions.size(), std::numeric_limits<double>::infinity());
     std::vector<std::uint32_t> touched;
     std::uint32_t known = kNone;
     for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
       const std::uint32_t f = mesh_.face[t];
-      if (!is_ours(f)) continue;
       if (f != known) list_touched(s_.faces[known = f], touched);
-      for (const std::uint32_t v : mesh_.triangles[t]) {
-        face_of_vertex_[v] = std::min(face_of_vertex_[v], f);
+      for (const std::uint32_t v : mesh_.triangles[t])
         for (const std::uint32_t atom : touched) {
           const double d = glm::distance(mesh_.positions[v], s_.atoms[atom].center) - s_.atoms[atom].radius;
           if (d >= distance[v] - kSame) continue;
           distance[v] = d;
           atom_of_vertex_[v] = atom;
         }
-      }
     }
     look_farther(distance);
   }
@@ -116,7 +137,7 @@ class Numbering {
     const BallGrid grid(s_.atoms, largest + s_.probe_radius);
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, distance.size(), 256), [&](const auto& range) {
       for (std::size_t v = range.begin(); v != range.end(); ++v) {
-        if (face_of_vertex_[v] == kNone || distance[v] < kOnSphere) continue;
+        if (distance[v] < kOnSphere) continue;
         grid.for_each_near(mesh_.positions[v], distance[v] + largest, [&](std::uint32_t atom) {
           const double d = glm::distance(mesh_.positions[v], s_.atoms[atom].center) - s_.atoms[atom].radius;
           const bool closer = d < distance[v] - kSame || (d < distance[v] + kSame && atom < atom_of_vertex_[v]);
@@ -140,25 +161,20 @@ class Numbering {
     }
   }
 
+  // All but the number of its face, and its level where it is inside one.
   MsmsVertex vertex(std::uint32_t v) const {
-    MsmsVertex row{mesh_.positions[v], mesh_.normals[v], 0, atom_of_vertex_[v], 2};
-    if (v < mesh_.corner_count) return row;
-    const bool on_edge = v < mesh_.corner_count + mesh_.border_point_count;
-    row.face = on_edge ? kOnEdge : kInside;
-    if (on_edge) return row;
-    const PatchKind kind = s_.faces[face_of_vertex_[v]].kind;
-    row.level = kind == PatchKind::convex ? 1 : kind == PatchKind::concave ? 3 : 2;
-    return row;
+    const bool corner = v < mesh_.corner_count, on_edge = v < mesh_.corner_count + mesh_.border_point_count;
+    return {mesh_.positions[v], mesh_.normals[v], corner ? 0 : on_edge ? kOnEdge : kInside, atom_of_vertex_[v], 2};
   }
 
   // By the triangles that are left: welding may have taken all of a face.
-  void name_faces() {
-    std::vector<bool> named(made_.vertices.size(), false);
-    for (const MsmsTriangle& t : made_.triangles)
+  static void name_faces(MsmsMesh& made) {
+    std::vector<bool> named(made.vertices.size(), false);
+    for (const MsmsTriangle& t : made.triangles)
       for (const std::uint32_t v : t.corner) {
         if (named[v]) continue;
         named[v] = true;
-        made_.vertices[v].face *= static_cast<std::int32_t>(t.face);
+        made.vertices[v].face *= static_cast<std::int32_t>(t.face);
       }
   }
 
@@ -169,20 +185,19 @@ class Numbering {
   const Surface& s_;
   const TriangleMesh& mesh_;
   const ReducedComponents& components_;
-  std::uint32_t component_;
-  std::vector<std::uint32_t> number_;          // per face of the surface, from 1; 0: of another component
-  std::vector<std::uint32_t> face_of_vertex_;  // kNone: of another component
+  std::vector<std::uint32_t> number_;     // per face of the surface
+  std::vector<std::uint32_t> triangles_;  // of the mesh, component by component
+  std::vector<std::uint32_t> first_;      // per component, and one more, into triangles_
   std::vector<std::uint32_t> atom_of_vertex_;
-  MsmsMesh made_;
+  std::vector<std::uint32_t> place_;  // of each vertex of the mesh in the component at work; kNone between two
 };
 
-}  // namespace
+MsmsMeshes::MsmsMeshes(const Surface& surface, const TriangleMesh& mesh, const ReducedComponents& components)
+    : numbering_(std::make_unique<Numbering>(surface, mesh, components)) {}
+MsmsMeshes::~MsmsMeshes() = default;
+
+MsmsMesh MsmsMeshes::of(std::uint32_t component) { return numbering_->of(component); }
 
 double msms_edge(double density) { return kEdgeAtDensityOne / std::sqrt(density); }
-
-MsmsMesh msms_mesh(const Surface& surface, const TriangleMesh& mesh, const ReducedComponents& components,
-                   std::uint32_t component) {
-  return Numbering(surface, mesh, components, component).run();
-}
 
 }  // namespace meniscus

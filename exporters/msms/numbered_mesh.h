@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 
 #include "core/surface/reduced_components.h"
 #include "exporters/mesh/triangle_mesh.h"
@@ -16,9 +17,20 @@ inline constexpr double kMsmsStep = 0.001;
 /// The longest edge (Å) of a mesh with about so many vertices per Å². density > 0.
 double msms_edge(double density);
 
-/// The triangles of one component. `mesh` is of `surface` as tessellate() made it. Vertices of an edge that three
-/// decimals cannot tell apart are welded where the mesh stays closed and keeps its genus.
-MsmsMesh msms_mesh(const Surface& surface, const TriangleMesh& mesh, const ReducedComponents& components,
-                   std::uint32_t component);
+/// The meshes of components, one after another.
+class MsmsMeshes {
+ public:
+  /// `mesh` is of `surface` as tessellate() made it. All three live longer.
+  MsmsMeshes(const Surface& surface, const TriangleMesh& mesh, const ReducedComponents& components);
+  ~MsmsMeshes();
+
+  /// Vertices of an edge that three decimals cannot tell apart are welded where the mesh stays closed and keeps its
+  /// genus. One thread at a time.
+  MsmsMesh of(std::uint32_t component);
+
+ private:
+  class Numbering;
+  std::unique_ptr<Numbering> numbering_;
+};
 
 }  // namespace meniscus
