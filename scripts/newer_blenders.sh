@@ -10,7 +10,8 @@ program=$(realpath "${1:?usage: scripts/newer_blenders.sh PROGRAM [VERSION...]}"
 shift
 versions=("${@:-4.2}")
 (($#)) || versions=(4.2 4.5 5.0)
-declare -A molecular_nodes=([4.2]=4.2.12 [4.5]=4.5.11 [5.0]=4.5.11)
+# 4.2.12 does not say which databpy it needs.
+declare -A molecular_nodes=([4.2]="4.2.12 databpy==0.0.14" [4.5]=4.5.11 [5.0]=4.5.11)
 tests=$PWD/tests/export/blender
 addon=$PWD/exporters/blender/addon
 export MENISCUS_LIBRARY=${program%/*}/exporters/c_api/libmeniscus.so MENISCUS_PACKAGE=$PWD/exporters/python/meniscus
@@ -22,8 +23,10 @@ for version in "${versions[@]}"; do
   if [[ ! -x $home/blender ]]; then
     rm -rf "$home"
     /usr/bin/python3 -m venv "$home"
-    "$home/bin/pip" install --quiet --disable-pip-version-check "bpy==$version.*" \
-      ${molecular_nodes[$version]:+"molecularnodes==${molecular_nodes[$version]}"}
+    packages=("bpy==$version.*")
+    # shellcheck disable=SC2206  # several words are several packages
+    [[ ${molecular_nodes[$version]:-} ]] && packages+=(molecularnodes==${molecular_nodes[$version]})
+    "$home/bin/pip" install --quiet --disable-pip-version-check "${packages[@]}"
     printf '#!/bin/sh\nexec "%s/bin/python" "%s/bpy_as_blender.py" "$@"\n' "$home" "$tests" >"$home/blender"
     chmod +x "$home/blender"
   fi

@@ -11,6 +11,7 @@ import bpy
 
 TOLD, MOLECULE, PROGRAM, PACKAGE, PICTURE = sys.argv[sys.argv.index("--") + 1:]
 addon_utils.enable("meniscus_import", default_set=True)
+bpy.context.preferences.view.show_splash = False
 from meniscus_import import computed, panel  # noqa: E402
 from meniscus_import.computing import engines  # noqa: E402
 
@@ -28,6 +29,20 @@ def watched(*arguments):
 engines.compute = watched
 
 
+def drawn(kind):
+    """Its draw, which says what goes wrong: Blender itself only prints that."""
+    draw = kind.draw
+
+    def watched_draw(self, context):
+        try:
+            draw(self, context)
+            found["drawn"] = sorted({*found.get("drawn", ()), kind.__name__})
+        except Exception:
+            found["error"] = traceback.format_exc()
+
+    return watched_draw
+
+
 def view():
     window = bpy.context.window_manager.windows[0]
     area = next(area for area in window.screen.areas if area.type == "VIEW_3D")
@@ -42,11 +57,12 @@ def steps():
     """Gives back whenever the window may go on."""
     preferences = bpy.context.preferences.addons[computed.__package__].preferences
     preferences.package, preferences.program = PACKAGE, PROGRAM
-    # The tab Item, which is open, for no script of 3.4 can open another.
+    # In the tab Tool, which is open, for no script of 3.4 can open another.
     for kind in (panel.VIEW3D_PT_meniscus_look, panel.VIEW3D_PT_meniscus_time, panel.VIEW3D_PT_meniscus):
         bpy.utils.unregister_class(kind)
     for kind in (panel.VIEW3D_PT_meniscus, panel.VIEW3D_PT_meniscus_time, panel.VIEW3D_PT_meniscus_look):
-        kind.bl_category = "Item"
+        kind.bl_category, kind.bl_order = "Tool", -1
+        kind.draw = drawn(kind)
         bpy.utils.register_class(kind)
     for item in list(bpy.data.objects):
         if item.type == "MESH":

@@ -4,6 +4,7 @@
 scripts/newer_blenders.sh runs it, where that package is installed beside bpy."""
 
 import importlib.metadata
+import inspect
 import json
 import os
 import subprocess
@@ -34,8 +35,9 @@ def load(path):
 def trajectory(path):
     import MDAnalysis
 
-    made = molecularnodes.entities.Trajectory(MDAnalysis.Universe(path, path))
-    if getattr(made, "object", None) is None or not hasattr(made, "name"):
+    kind = molecularnodes.entities.Trajectory
+    made = kind(MDAnalysis.Universe(path, path))
+    if "create_object" not in inspect.signature(kind).parameters:  # before 4.5 it did not do so by itself
         made.create_object(name="run")
     return made.object
 

@@ -60,6 +60,7 @@ class Window(unittest.TestCase):
         self.assertEqual(found["undone"], area(1.4))
         self.assertGreater(found["shown_while_dragging"], 0)
         self.assertEqual(found["on_other_threads"], True)
+        self.assertEqual(found["drawn"], ["VIEW3D_PT_meniscus", "VIEW3D_PT_meniscus_look", "VIEW3D_PT_meniscus_time"])
 
 
 if __name__ == "__main__":
