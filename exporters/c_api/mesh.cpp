@@ -2,6 +2,7 @@
 // Triangle meshes of a surface, table by table.
 #include <memory>
 #include <utility>
+#include <vector>
 
 #include "exporters/c_api/counted.h"
 #include "exporters/c_api/cpu_threads.h"
@@ -9,10 +10,13 @@
 #include "exporters/c_api/sized_struct.h"
 #include "exporters/c_api/surface.h"
 #include "exporters/c_api/table.h"
+#include "exporters/mesh/even_mesh.h"
+#include "exporters/mesh/mesh_colors.h"
 #include "exporters/mesh/tessellate.h"
 
 struct meniscus_mesh : meniscus::c_api::Counted {
   meniscus::TriangleMesh mesh;
+  std::vector<std::uint32_t> vertex_atoms;
 };
 
 namespace meniscus::c_api {
@@ -20,17 +24,34 @@ namespace {
 
 constexpr double kSmallestTolerance = 1e-5, kLargestTolerance = 1.0;  // Å, as on the command line
 
-const meniscus_mesh_options kDefaults{sizeof(meniscus_mesh_options), 0.01, 1, 0};
+constexpr double kSmallestDensity = 0.005, kLargestDensity = 1000.0;  // vertices per Å²
 
-MeshOptions checked(const meniscus_mesh_options* given) {
+const meniscus_mesh_options kDefaults{sizeof(meniscus_mesh_options), 0.01, 1, 0, 0.0, 0, 0};
+
+meniscus_mesh_options checked(const meniscus_mesh_options* given) {
   const meniscus_mesh_options options = given ? read_struct(given, kDefaults, "meniscus_mesh_options") : kDefaults;
   if (!(options.tolerance >= kSmallestTolerance && options.tolerance <= kLargestTolerance))
     refuse(MENISCUS_INPUT, "tolerance is {} Å; it has to be {} to {}", options.tolerance, kSmallestTolerance,
            kLargestTolerance);
-  return {options.tolerance, options.split_colors != 0};
+  if (options.density != 0.0 && !(options.density >= kSmallestDensity && options.density <= kLargestDensity))
+    refuse(MENISCUS_INPUT, "density is {} vertices per Å²; it has to be {} to {}, or 0", options.density,
+           kSmallestDensity, kLargestDensity);
+  return options;
 }
 
-meniscus_array find_table(const TriangleMesh& mesh, std::int32_t table) {
+void make_mesh(const Surface& surface, const meniscus_mesh_options& wanted, meniscus_mesh& made) {
+  if (wanted.density > 0.0 || wanted.even != 0) {
+    EvenMesh even = even_mesh(surface, {wanted.density, wanted.tolerance, {}});
+    made.mesh = std::move(even.mesh);
+    made.vertex_atoms = std::move(even.vertex_atom);
+  } else {
+    made.mesh = tessellate(surface, {wanted.tolerance, wanted.split_colors != 0});
+    made.vertex_atoms = vertex_atoms(made.mesh);
+  }
+}
+
+meniscus_array find_table(const meniscus_mesh& made, std::int32_t table) {
+  const TriangleMesh& mesh = made.mesh;
   switch (table) {
     case MENISCUS_MESH_POSITIONS:
       return table_of(mesh.positions);
@@ -52,6 +73,8 @@ meniscus_array find_table(const TriangleMesh& mesh, std::int32_t table) {
       return table_of(mesh.sharp_corners);
     case MENISCUS_MESH_SHARP_NORMALS:
       return table_of(mesh.sharp_corner_normals);
+    case MENISCUS_MESH_VERTEX_ATOMS:
+      return table_of(made.vertex_atoms);
     default:
       refuse(MENISCUS_USAGE, "a mesh has no table {}", table);
   }
@@ -71,10 +94,10 @@ meniscus_status meniscus_surface_mesh(const meniscus_surface* surface, const men
   return guarded([&] {
     require(surface, "surface");
     require(mesh, "mesh");
-    const meniscus::MeshOptions wanted = checked(options);
+    const meniscus_mesh_options wanted = checked(options);
     auto made = std::make_unique<meniscus_mesh>();
     const FinishedSurface& finished = *surface->finished;
-    run_on_threads(finished.threads, [&] { made->mesh = meniscus::tessellate(finished.surface, wanted); });
+    run_on_threads(finished.threads, [&] { make_mesh(finished.surface, wanted, *made); });
     *mesh = made.release();
   });
 }
@@ -87,6 +110,6 @@ meniscus_status meniscus_mesh_table(const meniscus_mesh* mesh, std::int32_t tabl
   return guarded([&] {
     require(mesh, "mesh");
     require(array, "array");
-    *array = find_table(mesh->mesh, table);
+    *array = find_table(*mesh, table);
   });
 }

@@ -389,5 +389,36 @@ TEST(CApi, MeshesLieOnTheSurface) {
   EXPECT_EQ(handle, nullptr);
 }
 
+TEST(CApi, EvenMeshesHaveTheDensityAskedFor) {
+  const testing::Balls balls = testing::collinear(5, 1.5);
+  const Computer made = computer();
+  const SurfaceOf surface = computed(made.get(), balls);
+  meniscus_summary summary{};
+  summary.size = sizeof summary;
+  ASSERT_EQ(meniscus_surface_summary(surface.get(), &summary), MENISCUS_OK);
+  meniscus_mesh_options options{};
+  options.size = sizeof options;
+  ASSERT_EQ(meniscus_default_mesh_options(&options), MENISCUS_OK);
+  EXPECT_EQ(options.density, 0.0);
+  EXPECT_EQ(options.even, 0);
+  options.density = 3.0;
+  meniscus_mesh* handle = nullptr;
+  ASSERT_EQ(meniscus_surface_mesh(surface.get(), &options, &handle), MENISCUS_OK) << meniscus_last_error();
+  const Mesh mesh(handle);
+  meniscus_array positions{}, triangles{}, atoms{};
+  ASSERT_EQ(meniscus_mesh_table(mesh.get(), MENISCUS_MESH_POSITIONS, &positions), MENISCUS_OK);
+  ASSERT_EQ(meniscus_mesh_table(mesh.get(), MENISCUS_MESH_TRIANGLES, &triangles), MENISCUS_OK);
+  ASSERT_EQ(meniscus_mesh_table(mesh.get(), MENISCUS_MESH_VERTEX_ATOMS, &atoms), MENISCUS_OK);
+  EXPECT_EQ(triangles.count, 2 * positions.count - 4);
+  EXPECT_EQ(atoms.count, positions.count);
+  EXPECT_NEAR(static_cast<double>(positions.count) / (3.0 * summary.area), 1.0, 0.2);
+  for (const double density : {-1.0, 1e-9, 1e9, std::nan("")}) {
+    options.density = density;
+    handle = nullptr;
+    EXPECT_EQ(meniscus_surface_mesh(surface.get(), &options, &handle), MENISCUS_INPUT) << density;
+    EXPECT_EQ(handle, nullptr);
+  }
+}
+
 }  // namespace
 }  // namespace meniscus

@@ -20,7 +20,7 @@ PERSPECTIVE, ORTHOGRAPHIC = range(2)
  HALF_BORDERS, LOOPS, FACES) = range(15)
 GRADIENT_AREA, GRADIENT_VOLUME, GRADIENT_SAS_AREA, GRADIENT_SAS_VOLUME = range(4)
 (MESH_POSITIONS, MESH_NORMALS, MESH_TRIANGLES, MESH_TRIANGLE_ATOMS, MESH_TRIANGLE_KINDS, MESH_TRIANGLE_FACES,
- MESH_TRIANGLE_PATCHES, MESH_TRIANGLE_COMPONENTS, MESH_SHARP_CORNERS, MESH_SHARP_NORMALS) = range(10)
+ MESH_TRIANGLE_PATCHES, MESH_TRIANGLE_COMPONENTS, MESH_SHARP_CORNERS, MESH_SHARP_NORMALS, MESH_VERTEX_ATOMS) = range(11)
 
 
 class Error(Exception):
@@ -122,7 +122,8 @@ class Face(Structure):
 
 
 class MeshOptions(Structure):
-    _fields_ = [("size", c_size_t), ("tolerance", c_double), ("split_colors", c_int32), ("reserved", c_int32)]
+    _fields_ = [("size", c_size_t), ("tolerance", c_double), ("split_colors", c_int32), ("reserved", c_int32),
+                ("density", c_double), ("even", c_int32), ("reserved_2", c_int32)]
 
 
 class CameraStruct(Structure):

@@ -14,9 +14,11 @@ from ._arrays import view
 class Mesh:
     """All vertices lie on the exact surface; seen from the solvent triangles are counter-clockwise."""
 
-    def __init__(self, surface: lib.Handle, tolerance: float, split_colors: bool) -> None:
+    def __init__(self, surface: lib.Handle, tolerance: float, split_colors: bool, density: float = 0.0,
+                 even: bool = False) -> None:
         options = lib.default("mesh_options", lib.MeshOptions())
         options.tolerance, options.split_colors = tolerance, split_colors
+        options.density, options.even = density, even
         self._handle = lib.Handle("mesh", "surface_mesh", surface.pointer, ctypes.byref(options))
 
     def _table(self, table: int, dtype: Any, columns: int = 0) -> np.ndarray:
@@ -61,6 +63,11 @@ class Mesh:
     def triangle_components(self) -> np.ndarray:
         """(m,) rows of Surface.components."""
         return self._table(lib.MESH_TRIANGLE_COMPONENTS, np.uint32)
+
+    @property
+    def vertex_atoms(self) -> np.ndarray:
+        """(n,) the touched atom that is nearest."""
+        return self._table(lib.MESH_VERTEX_ATOMS, np.uint32)
 
     @property
     def sharp_corners(self) -> np.ndarray:

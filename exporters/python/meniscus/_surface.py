@@ -159,10 +159,13 @@ class Surface:
 
     # ---- what is made of it
 
-    def mesh(self, tolerance: float = 0.01, *, split_colors: bool = True) -> Mesh:
+    def mesh(self, tolerance: float = 0.01, *, split_colors: bool = True, density: float = 0.0,
+             even: bool = False) -> Mesh:
         """Triangles that are nowhere farther than `tolerance` (Å) from the surface; with split_colors cut where the
-        nearest atom changes."""
-        return Mesh(self._handle, tolerance, split_colors)
+        nearest atom changes. With `even` nearly equilateral ones, which reach over borders of patches; with a
+        `density` as many of these as make that many vertices per Å² (0.1: about a triangle an atom), whatever the
+        distance."""
+        return Mesh(self._handle, tolerance, split_colors, density, even)
 
     def distance(self, points: Any, *, nearest: bool = False) -> Union[np.ndarray, tuple[np.ndarray, np.ndarray]]:
         """Å to the nearest point of the surface, above 0 in the solvent, below 0 in the solid; exact everywhere. With

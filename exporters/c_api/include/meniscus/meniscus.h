@@ -318,12 +318,17 @@ typedef struct meniscus_mesh_options {
   double tolerance;     /* [0.01] Å, 0.00001 to 1: no point of the mesh is farther from the surface */
   int32_t split_colors; /* [1] cut triangles where the nearest atom changes, so that colours change along edges */
   int32_t reserved;     /* 0 */
+  double density;       /* [0: by tolerance] vertices per Å^2 of the exact area, 0.005 to 1,000: an even mesh */
+  int32_t even;         /* [0] else: an even mesh by tolerance, too */
+  int32_t reserved_2;   /* 0 */
 } meniscus_mesh_options;
 
 MENISCUS_API meniscus_status meniscus_default_mesh_options(meniscus_mesh_options* options);
 
 /* A closed triangle mesh; all vertices lie on the exact surface. Seen from the solvent triangles are counter-clockwise.
- */
+ * As a rule triangles end at borders of patches, however narrow these are. Triangles of an even mesh are nearly
+ * equilateral, as few as one for an atom, and reach over borders: atom, kind, face and patch of one are those of the
+ * exact surface under its middle; split_colors does not count. No triangles of it cross. */
 typedef struct meniscus_mesh meniscus_mesh;
 
 /* options: NULL for the defaults. *mesh is overwritten. */
@@ -343,7 +348,9 @@ enum {
   MENISCUS_MESH_TRIANGLE_PATCHES = 6,    /* uint32_t per triangle: row of the table of its kind */
   MENISCUS_MESH_TRIANGLE_COMPONENTS = 7, /* uint32_t per triangle */
   MENISCUS_MESH_SHARP_CORNERS = 8,       /* uint32_t, ascending: corners (3 * triangle + 0, 1, 2) at cusps, where */
-  MENISCUS_MESH_SHARP_NORMALS = 9        /* double[3]: these are the exact normals */
+  MENISCUS_MESH_SHARP_NORMALS = 9,       /* double[3]: these are the exact normals */
+  MENISCUS_MESH_VERTEX_ATOMS = 10        /* uint32_t per vertex: the touched atom that is nearest; where several are
+                                            equally near the first */
 };
 
 MENISCUS_API meniscus_status meniscus_mesh_table(const meniscus_mesh* mesh, int32_t table, meniscus_array* array);

@@ -235,8 +235,8 @@ std::span<const Row> numbers(const meniscus_array& array) {
 
 // ---- Meshes ----
 
-// A closed triangle mesh; all vertices lie on the exact surface, no point of it is farther than the tolerance. It may
-// outlive its surface.
+// A closed triangle mesh; all vertices lie on the exact surface, no point of it is farther than the tolerance, if one was
+// asked for. It may outlive its surface.
 class Mesh {
  public:
   explicit Mesh(meniscus_mesh* owned) : mesh_(owned) {}
@@ -261,6 +261,8 @@ class Mesh {
   std::span<const std::uint32_t> triangle_components() const {
     return table<std::uint32_t>(MENISCUS_MESH_TRIANGLE_COMPONENTS);
   }
+  // Of each vertex the touched atom that is nearest.
+  std::span<const std::uint32_t> vertex_atoms() const { return table<std::uint32_t>(MENISCUS_MESH_VERTEX_ATOMS); }
   // Corners (3 * triangle + 0, 1, 2) at cusps, ascending, and the exact normals there.
   std::span<const std::uint32_t> sharp_corners() const { return table<std::uint32_t>(MENISCUS_MESH_SHARP_CORNERS); }
   std::span<const Vector> sharp_normals() const { return table<Vector>(MENISCUS_MESH_SHARP_NORMALS); }

@@ -1,0 +1,405 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Passes over the edges and vertices of a mesh on a surface (Botsch & Kobbelt 2004, section 4).
+#include "exporters/mesh/evener.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <glm/geometric.hpp>
+#include <tbb/parallel_for.h>
+
+#include "core/surface/walks.h"
+
+namespace meniscus {
+namespace {
+
+/// Edges longer than this times the length wanted are split, those shorter than that collapsed: either makes edges
+/// nearer to it (Botsch & Kobbelt 2004).
+constexpr double kLong = 4.0 / 3.0, kShort = 4.0 / 5.0;
+/// A foot farther below the middle of an edge than this share of its length is on another sheet.
+constexpr double kDeepest = 0.35;
+/// A crease is where mesh vertices are no farther (Å) from its circle.
+constexpr double kOnCrease = 1e-6;
+/// Flips have to improve the worse of two triangles by so much, or two edges would flip for ever.
+constexpr double kBetter = 1e-6;
+/// The quality of a triangle whose smallest angle is 20 degrees or more if it is isosceles.
+constexpr double kGood = 0.55;
+/// Of a collapse: worse triangles are not made.
+constexpr double kPoor = 0.3;
+/// Vertices of more edges are left alone.
+constexpr std::uint32_t kMostEdges = 24;
+/// How far a vertex goes towards the middle of its neighbours.
+constexpr double kStep = 0.8;
+constexpr int kMendingRounds = 4;
+
+}  // namespace
+
+double triangle_quality(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+  const glm::dvec3 u = b - a, v = c - a, w = c - b;
+  const double squares = glm::dot(u, u) + glm::dot(v, v) + glm::dot(w, w);
+  return squares > 0.0 ? 2.0 * std::sqrt(3.0) * glm::length(glm::cross(u, v)) / squares : 0.0;
+}
+
+Evener::Evener(const Surface& surface, const TriangleMesh& base, const std::vector<bool>& keep, EdgeLength edge)
+    : surface_(surface),
+      walk_(surface, keep),
+      edge_(std::move(edge)),
+      links_(base.triangles, static_cast<std::uint32_t>(base.positions.size())),
+      position_(base.positions),
+      normal_(base.positions.size(), glm::dvec3(0.0)),
+      face_(base.positions.size(), kNone),
+      border_(base.positions.size(), kNone),
+      pinned_(base.positions.size(), 0),
+      size_(base.positions.size(), 0.0f),
+      scale_(base.positions.size(), 1.0f),
+      active_(base.positions.size(), 1) {
+  for (std::size_t t = 0; t < base.triangles.size(); ++t)
+    for (const std::uint32_t v : base.triangles[t])
+      if (face_[v] == kNone) face_[v] = base.face[t];
+  for (std::uint32_t v = 0; v < face_.size(); ++v) settle(v, point(v), kNone);
+  mark_creases(base, keep);
+  pin_corners();
+}
+
+/// Every number of a vertex that follows from where it is.
+void Evener::settle(std::uint32_t vertex, const SurfacePoint& at, std::uint32_t border) {
+  position_[vertex] = at.position;
+  face_[vertex] = at.face;
+  border_[vertex] = border;
+  normal_[vertex] = walk_.normal(at);
+  size_[vertex] = scale_[vertex] * static_cast<float>(edge_(at));
+}
+
+void Evener::mark_creases(const TriangleMesh& base, const std::vector<bool>& keep) {
+  std::vector<bool> with_crease(surface_.faces.size(), false);
+  for (std::uint32_t b = 0; b < keep.size(); ++b)
+    if (keep[b])
+      for (const std::uint32_t f : surface_.borders[b].face) with_crease[f] = true;
+  for (std::uint32_t half = 0; half < links_.half_edge_count(); ++half) {
+    const std::uint32_t f = base.face[half / 3], g = base.face[links_.twin(half) / 3];
+    if (f == g || half > links_.twin(half) || !with_crease[f] || !with_crease[g]) continue;
+    // Without a probe a border on either side has the same points; the first stands for both.
+    const glm::dvec3 &a = position_[links_.from(half)], &b = position_[links_.to(half)];
+    const std::uint32_t border = std::min(crease_of(a, b, f, keep), crease_of(a, b, g, keep));
+    if (border != kNone) links_.set_crease(half, border);
+  }
+}
+
+std::uint32_t Evener::crease_of(const glm::dvec3& a, const glm::dvec3& b, std::uint32_t face,
+                                const std::vector<bool>& keep) const {
+  std::uint32_t found = kNone;
+  for_each_half_border(surface_, surface_.faces[face], [&](HalfBorder half) {
+    const std::uint32_t n = border_of(half);
+    if (!keep[n]) return;
+    const Border& border = surface_.borders[n];
+    for (const glm::dvec3& x : {a, b}) {
+      const glm::dvec3 out = x - border.center;
+      if (!(std::abs(glm::dot(out, border.axis)) < kOnCrease && std::abs(glm::length(out) - border.radius) < kOnCrease))
+        return;
+    }
+    if (walk_.on_border(0.5 * (a + b), n)) found = std::min(found, n);
+  });
+  return found;
+}
+
+/// Vertices of two edges along one border move along it; those of one, or of more, or of two borders stay.
+void Evener::pin_corners() {
+  std::vector<std::uint8_t> count(position_.size(), 0);
+  for (std::uint32_t half = 0; half < links_.half_edge_count(); ++half) {
+    const std::uint32_t border = links_.crease(half), v = links_.from(half);
+    if (border == kNone) continue;
+    if (count[v]++ > 0 && border_[v] != border) pinned_[v] = 1;
+    border_[v] = border;
+  }
+  for (std::uint32_t v = 0; v < count.size(); ++v)
+    if (count[v] != 0 && count[v] != 2) pinned_[v] = 1;
+  for (const Face& face : surface_.faces) {  // the tip of a free spindle has a cone of normals
+    if (face.tip == kNone) continue;
+    const auto tip = std::find(position_.begin(), position_.end(), surface_.vertices[face.tip]);
+    if (tip != position_.end()) pinned_[static_cast<std::size_t>(tip - position_.begin())] = 1;
+  }
+}
+
+double Evener::length(std::uint32_t half) const {
+  return glm::distance(position_[links_.from(half)], position_[links_.to(half)]);
+}
+
+Evener::Corners Evener::corners(std::uint32_t triangle) const {
+  const auto v = links_.corners(triangle);
+  return {position_[v[0]], position_[v[1]], position_[v[2]]};
+}
+
+/// How much a triangle may lean against the normal at a vertex, as a cosine: little where edges are short beside the
+/// radius of curvature, almost a right angle where they are not.
+double Evener::least_outlook(std::uint32_t vertex) const {
+  const double turn = size_[vertex] / std::max(walk_.radius(face_[vertex]), 1e-9);
+  return std::clamp(1.0 - 1.5 * turn * turn, 0.05, 0.7);
+}
+
+bool Evener::looks_out(const std::array<std::uint32_t, 3>& v, int k, const glm::dvec3& x) const {
+  Corners at{position_[v[0]], position_[v[1]], position_[v[2]]};
+  if (k >= 0) at[k] = x;
+  const glm::dvec3 normal = glm::cross(at[1] - at[0], at[2] - at[0]);
+  const double size = glm::length(normal);
+  if (!(size > 0.0)) return false;
+  for (const std::uint32_t vertex : v)
+    if (!on_crease(vertex) && !(glm::dot(normal, normal_[vertex]) > least_outlook(vertex) * size)) return false;
+  return true;
+}
+
+void Evener::Looks::add(const Evener& mesh, const std::array<std::uint32_t, 3>& v, int k, const glm::dvec3& x) {
+  if (!mesh.looks_out(v, k, x)) ++inwards;
+  Corners at{mesh.position_[v[0]], mesh.position_[v[1]], mesh.position_[v[2]]};
+  at[k] = x;
+  worst = std::min(worst, triangle_quality(at[0], at[1], at[2]));
+}
+
+void Evener::split_long() {
+  const std::uint32_t count = links_.half_edge_count();  // new ones come to the end, and wait for the next round
+  for (std::uint32_t half = 0; half < count; ++half)
+    if (links_.lives(half) && busy(half) && length(half) > kLong * wanted(half)) split(half);
+}
+
+void Evener::split(std::uint32_t half) {
+  const std::uint32_t a = links_.from(half), b = links_.to(half), border = links_.crease(half);
+  const glm::dvec3 middle = 0.5 * (position_[a] + position_[b]);
+  std::optional<SurfacePoint> at;
+  if (border != kNone) {
+    if (const auto on = walk_.on_border(middle, border)) at = SurfacePoint{*on, surface_.borders[border].face[0]};
+  } else {
+    at = walk_.below(middle, face_[a]);
+    if (!at) at = walk_.below(middle, face_[b]);
+  }
+  const double deepest = kDeepest * length(half);
+  if (border == kNone && (!at || glm::distance(at->position, middle) > deepest))
+    at = walk_.on_near_cusp(middle, face_[a]);
+  if (!at || glm::distance(at->position, middle) > deepest) return;
+  const std::uint32_t m = links_.split(half);
+  position_.emplace_back();
+  normal_.emplace_back();
+  face_.push_back(kNone);
+  border_.push_back(kNone);
+  pinned_.push_back(0);
+  size_.push_back(0.0f);
+  scale_.push_back(0.5f * (scale_[a] + scale_[b]));
+  active_.push_back(1);
+  settle(m, *at, border);
+}
+
+void Evener::collapse_short() {
+  for (std::uint32_t half = 0; half < links_.half_edge_count(); ++half) {
+    if (!links_.lives(half) || half > links_.twin(half) || !busy(half)) continue;
+    if (length(half) < kShort * wanted(half) && !try_collapse(half, false)) try_collapse(links_.twin(half), false);
+  }
+}
+
+/// A vertex of a crease goes along it only, and where creases end or meet it stays.
+bool Evener::may_vanish(std::uint32_t half) const {
+  const std::uint32_t a = links_.from(half);
+  if (pinned_[a]) return false;
+  if (border_[a] != kNone && links_.crease(half) != border_[a]) return false;
+  // Two creases must not fall together.
+  const auto creased = [&](std::uint32_t edge) { return links_.crease(edge) != kNone; };
+  const std::uint32_t other = links_.twin(half);
+  return !(creased(LinkedTriangles::next(half)) && creased(LinkedTriangles::last(half))) &&
+         !(creased(LinkedTriangles::next(other)) && creased(LinkedTriangles::last(other)));
+}
+
+bool Evener::try_collapse(std::uint32_t half, bool for_quality) {
+  const std::uint32_t a = links_.from(half), b = links_.to(half);
+  if (!may_vanish(half) || !links_.can_collapse(half)) return false;
+  if (links_.valence(a) + links_.valence(b) > kMostEdges) return false;
+  bool fits = true;
+  Looks before, after;
+  links_.around(a, [&](std::uint32_t edge) {
+    const std::uint32_t c = links_.to(edge), d = links_.opposite(edge);
+    before.add(*this, {a, c, d}, 0, position_[a]);
+    if (c == b || d == b) return;
+    after.add(*this, {b, c, d}, 0, position_[b]);
+    fits = fits && glm::distance(position_[b], position_[c]) <= kLong * 0.5 * (size_[b] + size_[c]);
+  });
+  if (!fits || (for_quality ? after.score() <= before.score() : after.score() < std::min(before.score(), kPoor)))
+    return false;
+  active_[b] = 1;
+  links_.collapse(half);
+  return true;
+}
+
+void Evener::flip_edges() {
+  for (std::uint32_t half = 0; half < links_.half_edge_count(); ++half)
+    if (links_.lives(half) && half < links_.twin(half) && busy(half)) try_flip(half);
+}
+
+bool Evener::try_flip(std::uint32_t half) {
+  if (links_.crease(half) != kNone) return false;
+  const std::uint32_t a = links_.from(half), b = links_.to(half);
+  const std::uint32_t c = links_.opposite(half), d = links_.opposite(links_.twin(half));
+  Looks before, after;
+  before.add(*this, {a, b, c}, 0, position_[a]);
+  before.add(*this, {b, a, d}, 0, position_[b]);
+  after.add(*this, {d, c, a}, 0, position_[d]);
+  after.add(*this, {c, d, b}, 0, position_[c]);
+  if (!(after.score() > before.score() + kBetter) || !links_.can_flip(half)) return false;
+  if (links_.valence(c) >= kMostEdges || links_.valence(d) >= kMostEdges) return false;
+  links_.flip(half);
+  return true;
+}
+
+std::optional<glm::dvec3> Evener::centroid_along_crease(std::uint32_t vertex) const {
+  glm::dvec3 sum(0.0);
+  int count = 0;
+  links_.around(vertex, [&](std::uint32_t half) {
+    if (links_.crease(half) == kNone) return;
+    sum += position_[links_.to(half)];
+    ++count;
+  });
+  if (count != 2) return std::nullopt;
+  return 0.5 * sum;
+}
+
+/// Of the triangles around a vertex, the mean of their centroids by area: what Lloyd's algorithm moves to.
+glm::dvec3 Evener::centroid_around(std::uint32_t vertex) const {
+  glm::dvec3 sum(0.0);
+  double weight = 0.0;
+  const glm::dvec3& x = position_[vertex];
+  links_.around(vertex, [&](std::uint32_t half) {
+    const glm::dvec3 u = position_[links_.to(half)] - x, v = position_[links_.opposite(half)] - x;
+    const double area = glm::length(glm::cross(u, v));
+    sum += area / 3.0 * (u + v);
+    weight += area;
+  });
+  return weight > 0.0 ? x + sum / weight : x;
+}
+
+std::optional<SurfacePoint> Evener::relaxed(std::uint32_t vertex) const {
+  if (pinned_[vertex]) return std::nullopt;
+  const glm::dvec3& x = position_[vertex];
+  SurfacePoint target;
+  if (border_[vertex] != kNone) {
+    const auto middle = centroid_along_crease(vertex);
+    if (!middle) return std::nullopt;
+    const auto on = walk_.on_border(x + kStep * (*middle - x), border_[vertex]);
+    if (!on) return std::nullopt;
+    target = {*on, face_[vertex]};
+  } else {
+    glm::dvec3 move = kStep * (centroid_around(vertex) - x);
+    move -= glm::dot(move, normal_[vertex]) * normal_[vertex];
+    const auto at = walk_.below(x + move, face_[vertex]);
+    if (!at || glm::distance(at->position, x) > size_[vertex]) return std::nullopt;
+    target = *at;
+  }
+  if (score_around(vertex, target.position) < std::min(score_around(vertex, x), kPoor)) return std::nullopt;
+  return target;
+}
+
+/// All vertices look at where the others were, so the order in which they are asked does not count.
+void Evener::relax() {
+  std::vector<std::optional<SurfacePoint>> target(position_.size());
+  tbb::parallel_for(std::size_t{0}, position_.size(), [&](std::size_t v) {
+    const auto vertex = static_cast<std::uint32_t>(v);
+    if (active_[v] && links_.vertex_lives(vertex)) target[v] = relaxed(vertex);
+  });
+  tbb::parallel_for(std::size_t{0}, position_.size(), [&](std::size_t v) {
+    if (target[v]) settle(static_cast<std::uint32_t>(v), *target[v], border_[v]);
+  });
+}
+
+void Evener::even_out(int rounds) {
+  for (int round = 0; round < rounds; ++round) {
+    split_long();
+    collapse_short();
+    flip_edges();
+    relax();
+    flip_edges();
+  }
+}
+
+double Evener::score_around(std::uint32_t vertex, const glm::dvec3& x) const {
+  Looks looks;
+  links_.around(vertex, [&](std::uint32_t half) {
+    looks.add(*this, {vertex, links_.to(half), links_.opposite(half)}, 0, x);
+  });
+  return looks.score();
+}
+
+/// Moves a vertex where its worst triangle is better: towards the middle of its neighbours, or part of the way.
+bool Evener::nudge(std::uint32_t vertex) {
+  if (pinned_[vertex]) return false;
+  const glm::dvec3 x = position_[vertex];
+  const bool along = border_[vertex] != kNone;
+  glm::dvec3 sum(0.0);
+  int count = 0;
+  links_.around(vertex, [&](std::uint32_t half) {
+    if (along && links_.crease(half) == kNone) return;
+    sum += position_[links_.to(half)];
+    ++count;
+  });
+  const double before = score_around(vertex, x);
+  for (const double step : {1.0, 0.5, 0.25}) {
+    const glm::dvec3 y = x + step * (sum / double(count) - x);
+    std::optional<SurfacePoint> at;
+    if (!along) at = walk_.below(y, face_[vertex]);
+    if (along)
+      if (const auto on = walk_.on_border(y, border_[vertex])) at = SurfacePoint{*on, face_[vertex]};
+    if (!at || !(glm::distance(at->position, x) < size_[vertex])) continue;
+    if (!(score_around(vertex, at->position) > before + kBetter)) continue;
+    settle(vertex, *at, border_[vertex]);
+    return true;
+  }
+  return false;
+}
+
+void Evener::mend() {
+  for (int round = 0; round < kMendingRounds; ++round) {
+    bool any = false;
+    for (std::uint32_t t = 0; t < links_.triangle_count(); ++t) {
+      if (!links_.lives(3 * t)) continue;
+      const auto x = corners(t);
+      if (triangle_quality(x[0], x[1], x[2]) >= kGood) continue;
+      for (std::uint32_t half = 3 * t; half < 3 * t + 3; ++half) any = try_flip(half) || any;
+      std::uint32_t shortest = 3 * t;
+      for (std::uint32_t half = 3 * t; half < 3 * t + 3; ++half)
+        if (length(half) < length(shortest)) shortest = half;
+      if (length(shortest) < kShort * wanted(shortest) &&
+          (try_collapse(shortest, true) || try_collapse(links_.twin(shortest), true))) {
+        any = true;
+        continue;
+      }
+      for (const std::uint32_t v : links_.corners(t)) any = nudge(v) || any;
+    }
+    if (!any) return;
+  }
+}
+
+void Evener::refine(const std::vector<std::uint32_t>& triangles, double factor) {
+  std::vector<std::uint8_t> bad(position_.size(), 0), beside(position_.size(), 0);
+  for (const std::uint32_t t : triangles)
+    for (const std::uint32_t v : links_.corners(t)) bad[v] = 1;
+  for (std::uint32_t v = 0; v < bad.size(); ++v)
+    if (bad[v]) links_.around(v, [&](std::uint32_t half) { beside[links_.to(half)] = 1; });
+  for (std::uint32_t v = 0; v < bad.size(); ++v) {
+    active_[v] = bad[v] | beside[v];
+    const auto less = static_cast<float>(bad[v] ? factor : beside[v] ? std::sqrt(factor) : 1.0);
+    scale_[v] *= less;
+    size_[v] *= less;
+  }
+}
+
+void Evener::compact() {
+  const std::vector<std::uint32_t> old = links_.compact();
+  const auto take = [&](auto& column) {
+    for (std::size_t v = 0; v < old.size(); ++v) column[v] = column[old[v]];
+    column.resize(old.size());
+  };
+  take(position_);
+  take(normal_);
+  take(face_);
+  take(border_);
+  take(pinned_);
+  take(size_);
+  take(scale_);
+  take(active_);
+}
+
+}  // namespace meniscus

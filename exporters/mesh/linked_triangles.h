@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Closed triangle meshes whose edges can be split, collapsed and flipped without a change of topology.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/base/index.h"
+
+namespace meniscus {
+
+/// Triangles with their neighbours. Half-edge 3 t + k of triangle t goes from its corner k to corner (k + 1) % 3.
+/// Triangles and vertices that were taken away keep their numbers until compact().
+class LinkedTriangles {
+ public:
+  /// triangles: closed; each edge has two, which walk it in opposite directions.
+  LinkedTriangles(std::span<const std::array<std::uint32_t, 3>> triangles, std::uint32_t vertex_count);
+
+  static std::uint32_t next(std::uint32_t half) { return half % 3 == 2 ? half - 2 : half + 1; }
+  static std::uint32_t last(std::uint32_t half) { return half % 3 == 0 ? half + 2 : half - 1; }
+  std::uint32_t half_edge_count() const { return static_cast<std::uint32_t>(from_.size()); }
+  std::uint32_t triangle_count() const { return half_edge_count() / 3; }
+  std::uint32_t vertex_count() const { return static_cast<std::uint32_t>(leaving_.size()); }
+  bool lives(std::uint32_t half) const { return from_[half] != kNone; }
+  bool vertex_lives(std::uint32_t vertex) const { return leaving_[vertex] != kNone; }
+  std::uint32_t from(std::uint32_t half) const { return from_[half]; }
+  std::uint32_t to(std::uint32_t half) const { return from_[next(half)]; }
+  std::uint32_t opposite(std::uint32_t half) const { return from_[last(half)]; }
+  std::uint32_t twin(std::uint32_t half) const { return twin_[half]; }
+  std::array<std::uint32_t, 3> corners(std::uint32_t triangle) const {
+    return {from_[3 * triangle], from_[3 * triangle + 1], from_[3 * triangle + 2]};
+  }
+  /// A border of the surface that the edge runs along, or kNone; the same for both half-edges.
+  std::uint32_t crease(std::uint32_t half) const { return crease_[half]; }
+  void set_crease(std::uint32_t half, std::uint32_t border) { crease_[half] = crease_[twin_[half]] = border; }
+
+  /// Calls visit(half-edge that leaves) for those around a vertex, clockwise.
+  template <typename Visit>
+  void around(std::uint32_t vertex, const Visit& visit) const {
+    const std::uint32_t first = leaving_[vertex];
+    std::uint32_t half = first;
+    do {
+      visit(half);
+      half = next(twin_[half]);
+    } while (half != first);
+  }
+  std::uint32_t valence(std::uint32_t vertex) const {
+    std::uint32_t count = 0;
+    around(vertex, [&](std::uint32_t) { ++count; });
+    return count;
+  }
+  /// Some half-edge from one vertex to another, or kNone.
+  std::uint32_t between(std::uint32_t from, std::uint32_t to) const;
+
+  /// Puts a new vertex on an edge, and returns it. Both halves keep the crease.
+  std::uint32_t split(std::uint32_t half);
+  /// Would the surface stay a closed one of the same topology without this edge?
+  bool can_collapse(std::uint32_t half) const;
+  /// Moves the edge's first vertex into its second: it and two triangles are gone.
+  void collapse(std::uint32_t half);
+  /// Would the other diagonal be a new edge?
+  bool can_flip(std::uint32_t half) const;
+  /// Puts the other diagonal of the two triangles in its place.
+  void flip(std::uint32_t half);
+
+  /// Renumbers what lives in order; returns the old number of each vertex.
+  std::vector<std::uint32_t> compact();
+
+ private:
+  void link(std::uint32_t a, std::uint32_t b, std::uint32_t crease) {
+    twin_[a] = b;
+    twin_[b] = a;
+    crease_[a] = crease_[b] = crease;
+  }
+
+  std::vector<std::uint32_t> from_;     // per half-edge; kNone: its triangle is gone
+  std::vector<std::uint32_t> twin_;     // per half-edge
+  std::vector<std::uint32_t> crease_;   // per half-edge
+  std::vector<std::uint32_t> leaving_;  // per vertex: one half-edge; kNone: gone
+};
+
+}  // namespace meniscus

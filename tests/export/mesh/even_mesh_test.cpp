@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Even meshes: topology, vertices on the surface, distances both ways, angles, densities, no triangle through another.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include "core/base/error.h"
+#include "core/math/box_tree.h"
+#include "core/queries/distance.h"
+#include "core/surface/surface.h"
+#include "exporters/mesh/even_mesh.h"
+#include "exporters/mesh/mesh_crossings.h"
+#include "exporters/mesh/tessellate.h"
+#include "tests/support/molecules.h"
+
+namespace meniscus::testing {
+namespace {
+
+using Triangle = std::array<std::uint32_t, 3>;
+
+void expect_same_topology(const Surface& surface, const TriangleMesh& mesh) {
+  ASSERT_TRUE(measure(mesh).closed);
+  for (std::uint32_t c = 0; c < surface.components.size(); ++c) {
+    const MeshMeasure m = measure(mesh, c);
+    EXPECT_TRUE(m.closed) << "component " << c;
+    EXPECT_EQ(m.euler(), surface.components[c].euler) << "component " << c;
+    EXPECT_EQ(m.volume > 0.0, surface.components[c].volume > 0.0) << "component " << c;
+  }
+}
+
+/// The smallest angle of each triangle, in degrees, ascending.
+std::vector<double> smallest_angles(const TriangleMesh& mesh) {
+  std::vector<double> angles;
+  for (const Triangle& t : mesh.triangles) {
+    double smallest = 180.0;
+    for (int k = 0; k < 3; ++k) {
+      const glm::dvec3 u = mesh.positions[t[(k + 1) % 3]] - mesh.positions[t[k]],
+                       v = mesh.positions[t[(k + 2) % 3]] - mesh.positions[t[k]];
+      smallest =
+          std::min(smallest, std::atan2(glm::length(glm::cross(u, v)), glm::dot(u, v)) * 180.0 / std::numbers::pi);
+    }
+    angles.push_back(smallest);
+  }
+  std::sort(angles.begin(), angles.end());
+  return angles;
+}
+double percentile(const std::vector<double>& ascending, double share) {
+  return ascending[static_cast<std::size_t>(share * static_cast<double>(ascending.size() - 1))];
+}
+
+glm::dvec3 nearest_on(const std::array<glm::dvec3, 3>& t, const glm::dvec3& x) {
+  const glm::dvec3 n = glm::cross(t[1] - t[0], t[2] - t[0]);
+  const glm::dvec3 foot = x - glm::dot(x - t[0], n) / glm::dot(n, n) * n;
+  bool inside = true;
+  glm::dvec3 best = t[0];
+  for (int k = 0; k < 3; ++k) {
+    const glm::dvec3 edge = t[(k + 1) % 3] - t[k];
+    inside = inside && glm::dot(glm::cross(edge, foot - t[k]), n) >= 0.0;
+    const double share = std::clamp(glm::dot(x - t[k], edge) / glm::dot(edge, edge), 0.0, 1.0);
+    const glm::dvec3 on_edge = t[k] + share * edge;
+    if (glm::distance(x, on_edge) < glm::distance(x, best)) best = on_edge;
+  }
+  return inside ? foot : best;
+}
+
+/// How far points of the surface are from the mesh at most: the vertices of a fine mesh, asked of all triangles.
+double farthest_from(const TriangleMesh& mesh, const std::vector<glm::dvec3>& points) {
+  std::vector<Box> boxes;
+  std::vector<std::array<glm::dvec3, 3>> corners;
+  for (const Triangle& t : mesh.triangles) {
+    corners.push_back({mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]});
+    const auto& x = corners.back();
+    boxes.push_back({glm::min(glm::min(x[0], x[1]), x[2]), glm::max(glm::max(x[0], x[1]), x[2])});
+  }
+  const BoxTree tree(boxes);
+  double farthest = 0.0;
+  for (const glm::dvec3& x : points) {
+    double nearest = 1e9;
+    tree.nearest(x, nearest, [&](std::uint32_t t, double limit) {
+      nearest = std::min(limit, glm::distance(x, nearest_on(corners[t], x)));
+      return nearest;
+    });
+    farthest = std::max(farthest, nearest);
+  }
+  return farthest;
+}
+
+struct Case {
+  std::string name;
+  Balls balls;
+  double probe = kWater;
+};
+std::vector<Case> cases() {
+  return {{"one", {{{1, 2, 3}, kCarbon}}},
+          {"two", two_atoms(4.0)},
+          {"free_spindle", two_atoms(5.8)},
+          {"apart", two_atoms(9.0)},
+          {"one_sided_small_circle", {{{0, 0, 0}, 3.0}, {{2.6, 0, 0}, 0.5}}},
+          {"collinear", collinear(3, 3.0)},
+          {"square", ring(4, 3.0)},
+          {"hexagon", ring(6, 3.6)},
+          {"tetrahedron", tetrahedron(3.0)},
+          {"c60_with_cavity", c60()},
+          {"lattice", lattice(4, 4, 4, 2.0)},
+          {"wide_lattice", lattice(3, 3, 3, 3.4), 0.7},
+          {"small_probe", ring(5, 3.0), 0.3},
+          {"gas", gas(3, 25, 9.0, 1.0, 2.0), 1.1},
+          {"loose_gas", gas(4, 25, 14.0, 1.0, 2.0), 2.0},
+          {"balls_without_probe", gas(5, 12, 5.0, 1.0, 2.0), 0.0}};
+}
+
+class EvenMeshOf : public ::testing::TestWithParam<Case> {};
+
+/// Creases shorter than edges are bridged, so that points of the surface are a little farther from the mesh than the
+/// mesh is from the surface.
+constexpr double kBackward = 1.25;
+/// With a tolerance these are refused at times: creases crowd.
+bool may_be_refused(const std::string& name) { return name == "loose_gas" || name == "balls_without_probe"; }
+
+TEST_P(EvenMeshOf, IsWithinTheToleranceBothWays) {
+  const Case& c = GetParam();
+  const Surface surface = compute_surface_cpu(c.balls, c.probe);
+  const SurfaceDistance distance(surface);
+  const double tolerance = 0.05;
+  TriangleMesh mesh;
+  try {
+    mesh = even_mesh(surface, {0.0, tolerance, {}}).mesh;
+  } catch (const OpenSurfaceError& error) {
+    ASSERT_TRUE(may_be_refused(c.name)) << error.what();
+    return;
+  }
+  expect_same_topology(surface, mesh);
+  for (const glm::dvec3& x : mesh.positions) ASSERT_LT(std::abs(distance(x).distance), 1e-7);
+  for (const Triangle& t : mesh.triangles) {
+    for (const glm::dvec3 w : {glm::dvec3(1, 1, 1) / 3.0, glm::dvec3(2, 2, 0) / 4.0, glm::dvec3(3, 1, 1) / 5.0}) {
+      const glm::dvec3 x = w.x * mesh.positions[t[0]] + w.y * mesh.positions[t[1]] + w.z * mesh.positions[t[2]];
+      ASSERT_LT(std::abs(distance(x).distance), tolerance);
+    }
+  }
+  EXPECT_LT(farthest_from(mesh, tessellate(surface, {0.01, false}).positions), kBackward * tolerance);
+  EXPECT_TRUE(crossing_triangles(mesh.positions, mesh.triangles).empty());
+}
+
+TEST_P(EvenMeshOf, HasTheTopologyOfTheSurfaceAtAnyDensity) {
+  const Case& c = GetParam();
+  const Surface surface = compute_surface_cpu(c.balls, c.probe);
+  for (const double density : {0.1, 1.0, 8.0}) {
+    SCOPED_TRACE(density);
+    const EvenMesh even = even_mesh(surface, {density, 0.0, {}});
+    expect_same_topology(surface, even.mesh);
+    EXPECT_TRUE(crossing_triangles(even.mesh.positions, even.mesh.triangles).empty());
+    const SurfaceDistance distance(surface);
+    for (const glm::dvec3& x : even.mesh.positions) ASSERT_LT(std::abs(distance(x).distance), 1e-7);
+    ASSERT_EQ(even.vertex_atom.size(), even.mesh.positions.size());
+    for (std::size_t v = 0; v < even.vertex_atom.size(); ++v) {  // what touches a probe there is no farther than others
+      const glm::dvec3 probe = even.mesh.positions[v] + c.probe * even.mesh.normals[v];
+      const Ball& atom = surface.atoms[even.vertex_atom[v]];
+      const bool smooth = std::none_of(even.mesh.sharp_edges.begin(), even.mesh.sharp_edges.end(),
+                                       [&](const auto& edge) { return edge[0] == v || edge[1] == v; });
+      if (smooth) {
+        ASSERT_NEAR(glm::distance(probe, atom.center), atom.radius + c.probe, 1e-4);
+      }
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Molecules, EvenMeshOf, ::testing::ValuesIn(cases()),
+                         [](const auto& test) { return test.param.name; });
+
+TEST(EvenMesh, DensityIsVerticesPerArea) {
+  const Surface surface = compute_surface_cpu(ubiquitin(), kWater);
+  for (const double density : {0.5, 1.0, 3.0, 10.0}) {
+    const TriangleMesh mesh = even_mesh(surface, {density, 0.0, {}}).mesh;
+    EXPECT_NEAR(static_cast<double>(mesh.positions.size()) / (density * surface.area), 1.0, 0.12) << density;
+  }
+}
+
+TEST(EvenMesh, UbiquitinHasNoSlivers) {
+  const Surface surface = compute_surface_cpu(ubiquitin(), kWater);
+  const TriangleMesh mesh = even_mesh(surface, {0.0, 0.05, {}}).mesh;
+  expect_same_topology(surface, mesh);
+  const std::vector<double> angles = smallest_angles(mesh);
+  EXPECT_GT(percentile(angles, 0.01), 15.0);
+  EXPECT_GT(percentile(angles, 0.05), 20.0);
+  EXPECT_GT(percentile(angles, 0.5), 35.0);
+  EXPECT_LT(static_cast<double>(std::lower_bound(angles.begin(), angles.end(), 5.0) - angles.begin()),
+            5e-5 * static_cast<double>(angles.size()) + 1);
+}
+
+TEST(EvenMesh, ToleranceMayDependOnThePlace) {
+  const Surface surface = compute_surface_cpu(collinear(12, 3.0), kWater);
+  const auto tolerance = [](const glm::dvec3& x) { return x.x < 18.0 ? 0.02 : 0.08; };
+  const TriangleMesh mesh = even_mesh(surface, {0.0, 0.02, tolerance}).mesh;
+  std::array<std::size_t, 2> count{};
+  for (const glm::dvec3& x : mesh.positions) ++count[x.x < 18.0];
+  EXPECT_GT(static_cast<double>(count[1]), 2.5 * static_cast<double>(count[0]));
+}
+
+TEST(EvenMesh, IsTheSameForAnyNumberOfThreads) {
+  const Surface surface = compute_surface_cpu(ubiquitin(), kWater);
+  const EvenMesh many = even_mesh(surface, {0.5, 0.0, {}});
+  const tbb::global_control alone(tbb::global_control::max_allowed_parallelism, 1);
+  const EvenMesh one = even_mesh(surface, {0.5, 0.0, {}});
+  EXPECT_EQ(many.mesh.positions, one.mesh.positions);
+  EXPECT_EQ(many.mesh.triangles, one.mesh.triangles);
+  EXPECT_EQ(many.vertex_atom, one.vertex_atom);
+}
+
+TEST(EvenMesh, RefusesNumbersThatMakeNoSense) {
+  const Surface surface = compute_surface_cpu(Balls{{{0, 0, 0}, 1.0}}, kWater);
+  for (const double density : {-1.0, 1e-9, 1e9, std::nan("")})
+    EXPECT_THROW(even_mesh(surface, {density, 0.05, {}}), Error) << density;
+  for (const double tolerance : {-1.0, 0.0, std::nan("")})
+    EXPECT_THROW(even_mesh(surface, {0.0, tolerance, {}}), Error) << tolerance;
+}
+
+TEST(MeshCrossings, AreFoundWhereTwoTetrahedraOverlap) {
+  const std::vector<Triangle> one{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
+  std::vector<glm::dvec3> x{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  EXPECT_TRUE(crossing_triangles(x, one).empty());
+  std::vector<Triangle> both = one;
+  for (const Triangle& t : one) both.push_back({t[0] + 4, t[1] + 4, t[2] + 4});
+  for (const double shift : {0.1, 2.0}) {
+    std::vector<glm::dvec3> all = x;
+    for (int k = 0; k < 4; ++k) all.push_back(x[k] + glm::dvec3(shift, 0.11 * shift, 0.13 * shift));
+    EXPECT_EQ(crossing_triangles(all, both).empty(), shift == 2.0);
+  }
+}
+
+TEST(MeshCrossings, AreFoundAtASharedVertex) {
+  const std::vector<glm::dvec3> x{{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {1, 0.2, -1}, {0.4, 0.8, 1}};
+  EXPECT_EQ(crossing_triangles(x, std::vector<Triangle>{{0, 1, 2}, {0, 3, 4}}).size(), 1u);
+  const std::vector<glm::dvec3> y{{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {1, 0.2, 1}, {0.4, 0.8, 1}};
+  EXPECT_TRUE(crossing_triangles(y, std::vector<Triangle>{{0, 1, 2}, {0, 3, 4}}).empty());
+}
+
+}  // namespace
+}  // namespace meniscus::testing
