@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What compare_peers.sh runs: areas and pictures of one molecule by several programs, as tables.
+"""What compare_peers.sh runs: areas, areas of a trajectory and pictures of one molecule by several programs, as tables.
 
 Every program gets the same heavy atoms with the same radii (Bondi 1964, by element), so that areas differ by method alone. The
 exact solvent-accessible area is that of Meniscus in closed form; an error is a program's whole area beside it. Times are
@@ -16,12 +16,14 @@ import tempfile
 import time
 
 import mdtraj
+import numpy
 from mdtraj.geometry import sasa
 
 RADII = {"C": 1.70, "N": 1.55, "O": 1.52, "S": 1.80, "P": 1.80}  # Å
 PROBE = 1.4
 LIMIT = 0.03  # an area further off is not of the same atoms and radii
 RUNS = 5
+FRAMES = 50  # of the trajectory
 
 
 class Molecule:
@@ -104,6 +106,69 @@ def areas(program, molecule, folder):
         yield "PyMOL", f"get_area, dot_density {density}, the call alone", area, wall
 
 
+def make_trajectory(molecule, folder):
+    """FRAMES frames in which the molecule breathes and shakes, as XTC, and what XTC keeps of them (0.01 Å) as models."""
+    trajectory = mdtraj.load_pdb(molecule.pdb, standard_names=False)
+    random = numpy.random.default_rng(1)
+    start, middle = trajectory.xyz[0], trajectory.xyz[0].mean(axis=0)
+    frames = [middle + (start - middle) * (1 + 0.02 * numpy.sin(n / 8)) + 0.02 * random.normal(size=start.shape)
+              for n in range(FRAMES)]
+    xtc = os.path.join(folder, "run.xtc")
+    mdtraj.Trajectory(numpy.array(frames), trajectory.topology).save_xtc(xtc)
+    trajectory = mdtraj.load_xtc(xtc, top=trajectory.topology)
+    with open(molecule.pdb, encoding="ascii") as file:
+        lines = [line for line in file if line.startswith("ATOM")]
+    models = os.path.join(folder, "models.pdb")
+    with open(models, "w", encoding="ascii") as file:
+        for n, xyz in enumerate(10 * trajectory.xyz.astype(float)):
+            file.write(f"MODEL     {n + 1:4d}\n")
+            file.writelines(f"{line[:30]}{x:8.3f}{y:8.3f}{z:8.3f}{line[54:]}" for line, (x, y, z) in zip(lines, xyz))
+            file.write("ENDMDL\n")
+    return trajectory, xtc, models
+
+
+def series(program, molecule, folder):
+    """Rows: program, setting, areas of all frames (Å²), seconds of all of them."""
+    trajectory, xtc, models = make_trajectory(molecule, folder)
+    wall, _, _, output = measured([program, "surface", molecule.xyzr, xtc, "--surface", "sas", "--csv-series", "-", "-q"], folder)
+    header, *rows = [line.split(",") for line in output.splitlines()]
+    yield "Meniscus", "closed form", [float(row[header.index("sas_area")]) for row in rows], wall
+    for method, points in (("lee-richards", 20), ("shrake-rupley", 100)):
+        wall, _, _, output = measured(["freesasa", f"--{method}", f"--resolution={points}", "--n-threads=2", "--hetatm",
+                                       "--radius-from-occupancy", f"--probe-radius={PROBE}", "--separate-models", models], folder)
+        kind = "slices" if method == "lee-richards" else "points"
+        yield "FreeSASA", f"{method}, {points} {kind}", [float(area) for area in re.findall(r"Total\s*:\s*([\d.]+)", output)], wall
+    for points in (24, 960):
+        wall, _, _, _ = measured(["gmx", "sasa", "-quiet", "-s", molecule.pdb, "-f", xtc, "-surface", "all", "-nopbc",
+                                  "-probe", str(PROBE / 10), "-ndots", str(points), "-xvg", "none", "-o", "series.xvg"],
+                                 folder, OMP_NUM_THREADS="2", GMX_MAXBACKUP="-1")
+        with open(os.path.join(folder, "series.xvg"), encoding="ascii") as file:
+            yield "gmx sasa", f"{points} points", [100 * float(line.split()[1]) for line in file], wall
+    for points in (100, 960):
+        wall, result = called(lambda: mdtraj.shrake_rupley(trajectory, PROBE / 10, n_sphere_points=points))
+        yield "MDTraj", f"{points} points, the call alone", [100 * float(area) for area in result.sum(axis=1)], wall
+
+
+def print_series(program, molecule, folder):
+    """Prints the table; how many rows it has, and how many of them are off."""
+    print(f"\n{molecule.name}, {FRAMES} frames: solvent-accessible area of each\n")
+    print("| program | method | mean error | largest | ms a frame |\n|---|---|---|---|---|")
+    exact, count, failures = None, 0, 0
+    for name, setting, found, wall in series(program, molecule, folder):
+        areas_found = numpy.array(found)
+        exact = areas_found if exact is None else exact
+        count += 1
+        if areas_found.shape != exact.shape or len(exact) != FRAMES:
+            failures += 1
+            print(f"| {name} | {setting} | {len(found)} frames of {FRAMES} | | |", flush=True)
+            continue
+        errors = areas_found / exact - 1
+        failures += abs(errors).max() > LIMIT
+        told = "exact | exact" if areas_found is exact else f"{100 * errors.mean():+.3f} % | {100 * abs(errors).max():.3f} %"
+        print(f"| {name} | {setting} | {told} | {1000 * wall / FRAMES:,.1f} |", flush=True)
+    return count, failures
+
+
 def pymol_area(molecule, folder, density):
     """Seconds of get_area, and its answer."""
     script = os.path.join(folder, "area.py")
@@ -174,6 +239,9 @@ def main(program, files):
                 failures += abs(area / exact - 1) > LIMIT
                 error = "exact" if area == exact else f"{100 * (area / exact - 1):+.3f} %"
                 print(f"| {name} | {setting} | {area:,.2f} | {error} | {1000 * wall:,.0f} |", flush=True)
+            counted, wrong = print_series(program, molecule, folder)
+            cases += counted
+            failures += wrong
             print(f"\n{molecule.name}: picture of the solvent-excluded surface\n")
             print("| program | picture | s | CPU s | MB |\n|---|---|---|---|---|")
             for name, what, wall, busy, peak in pictures(program, molecule, folder):

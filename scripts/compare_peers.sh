@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# compare_peers.sh [MENISCUS] [FILE.pdb ...]: areas and pictures beside those of PyMOL, FreeSASA, gmx sasa and MDTraj as Debian
+# compare_peers.sh [MENISCUS] [FILE.pdb ...]: areas, those of a trajectory and pictures beside those of PyMOL, FreeSASA, gmx sasa and MDTraj as Debian
 # ships them: the same atoms and radii, the same picture, two cores each, in one run. Prints tables in Markdown. Installs what
 # is missing; MENISCUS is build/release/meniscus if it is not named.
 set -euo pipefail

@@ -64,7 +64,7 @@ final name. Interrupted (Ctrl-C, SIGTERM) the program removes what is unfinished
 )";
 
 constexpr const char* kFrames = R"(Examples:
-  meniscus surface adk.psf --trajectory adk.dcd --frames all --json        a line of JSON a frame
+  meniscus surface adk.psf adk.dcd --csv-series adk.csv                    a row a frame
   meniscus render adk.psf --trajectory adk.dcd --superpose 'name CA' -o adk.mp4
   meniscus render 1d3z.pdb --frames 0-9 -o model_##.png                    the models of a file are its frames
   meniscus render 1tii.pdb --repeat 120 --turntable 1 -o turn.mp4          once around what stands still
@@ -73,9 +73,11 @@ constexpr const char* kFrames = R"(Examples:
 
 FILE says what the atoms are, --trajectory where they are (meniscus formats lists what is read). Selections, radii and
 colours are decided once, with the coordinates of FILE or, where it has none (PSF), of the first frame asked for.
+Several trajectories are read in a row; they may stand right behind FILE. --trajectory-atoms 'not water' says which atoms
+of FILE they have, if not all.
 
-Which frames  they count from 0. --frames takes all, 7, 0-99, 0-99:10 (every tenth), 90- (to the last), and several of
-              these with commas between; then --begin and --end (a frame, or a time such as 2.5ns) and --stride N.
+Which frames  they count from 0, or from the end: -1 or last. --frames takes all, 7, 0-99, 0-99:10 (every tenth), 90- (to
+              the last), -10- (the last ten), and several of these with commas between; then --begin and --end (a frame, or a time such as 2.5ns) and --stride N.
               --only LIST makes a chunk of this run: camera, colours and scene stay those of the whole.
 Prepared      in this order: --whole puts molecules together that the periodic box cuts, along the bonds of FILE and of
               standard residues (guess: by distance), and gathers them around the largest; --superpose EXPR fits atoms

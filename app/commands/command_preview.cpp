@@ -383,6 +383,7 @@ void add_preview(CLI::App& command) {
   add_color_options(command, state->molecule);
   add_figure_options(command, state->molecule, state->figure);
   for (const char* option : {"--object", "--hide-surface"}) command.remove_option(command.get_option(option));
+  add_trajectory_argument(command);
   add_frame_options(command, state->frames);
   for (const char* option : {"--only", "--progress"}) command.remove_option(command.get_option(option));
   add_picture_options(command, state->picture);

@@ -217,6 +217,7 @@ void add_render(CLI::App& command) {
   add_figure_options(command, state->molecule, state->figure);
   add_interface_option(command, state->molecule);
   add_picture_options(command, state->picture);
+  add_trajectory_argument(command);
   add_frame_options(command, state->frames);
   add_run_camera_options(command, state->run_camera);
   add_look_options(command, state->look, state->picture);

@@ -6,42 +6,34 @@
 #include <memory>
 #include <optional>
 
-#include <unistd.h>
+#include <fmt/format.h>
 
-#include "app/reports/area_csv.h"
 #include "app/commands/commands.h"
-#include "app/reports/run_frames.h"
-#include "core/scene/context_areas.h"
-#include "core/scene/molecule.h"
-#include "app/process/program_error.h"
-#include "app/reports/notes.h"
-#include "app/options/scene_file.h"
-#include "app/options/molecule_options.h"
+#include "app/commands/surface_command.h"
 #include "app/options/frame_options.h"
+#include "app/options/molecule_options.h"
+#include "app/options/scene_file.h"
+#include "app/process/program_error.h"
+#include "app/reports/area_csv.h"
+#include "app/reports/notes.h"
 #include "app/reports/surface_report.h"
+#include "core/base/output_file.h"
+#include "core/base/text.h"
+#include "core/scene/context_areas.h"
+#include "core/scene/gradient_columns.h"
+#include "core/scene/molecule.h"
 
 namespace meniscus {
 namespace {
 
-struct SurfaceCommand {
-  MoleculeOptions molecule;
-  FrameOptions frames;
-  bool json = false;
-  std::string atom_csv, residue_csv;  ///< paths; empty: none; "-": standard output
-  std::optional<Selection> context;
-  bool force = false;
-};
-
 bool is_stdout(const std::string& path) { return path == "-"; }
 
-// Whether the outputs can be written is known before the work begins; these vanish again.
-void check_outputs(const SurfaceCommand& command, Existing existing) {
-  if (is_stdout(command.atom_csv) + is_stdout(command.residue_csv) + command.json > 1)
-    throw UsageError("standard output holds one thing at a time: --json, --csv - or --csv-residues -");
-  if (!command.atom_csv.empty() && command.atom_csv == command.residue_csv)
-    throw UsageError("--csv and --csv-residues need two different files");
-  for (const std::string& path : {command.atom_csv, command.residue_csv})
-    if (!path.empty() && !is_stdout(path)) OutputFile(path, existing);
+std::vector<std::string> tables_of(const SurfaceCommand& command) {
+  std::vector<std::string> paths;
+  for (const std::string& path :
+       {command.series_csv, command.atom_csv, command.residue_csv, command.cavity_csv, command.gradient_csv})
+    if (!path.empty()) paths.push_back(path);
+  return paths;
 }
 
 void write(const std::string& path, const std::string& text, Existing existing) {
@@ -55,56 +47,74 @@ void write(const std::string& path, const std::string& text, Existing existing) 
   file.commit();
 }
 
-// A line or a row for every frame, as soon as it is there.
-void run_sequence(const SurfaceCommand& command) {
-  if (command.context) throw UsageError("--context: not in a run of frames; leave one of them away");
-  if (!command.atom_csv.empty() || !command.residue_csv.empty())
-    throw UsageError("--csv: not in a run of frames; --json has the areas of chains");
-  FrameRun frames(command.molecule, command.frames);
-  tell_run(command.molecule, frames);
-  if (!command.json) std::cout << report_row_header(command.molecule);
-  FrameOptions options = command.frames;
-  // On a terminal the rows themselves tell how far it is; a bar would run into them.
-  if (options.progress == ProgressStyle::automatic && ::isatty(STDOUT_FILENO)) options.progress = ProgressStyle::none;
-  const auto text_of = [&command](const Molecule& molecule, const FrameNote& note) {
-    const auto columns = area_columns(molecule.structure, molecule.objects, command.molecule.surface.kind);
-    const SurfaceReport report{molecule, command.molecule, columns, std::nullopt};
-    return command.json ? report_json_line(report, note) : report_row(report, note);
-  };
-  std::vector<FrameWorker> workers;
-  for (const auto& builder :
-       frame_builders(frames, command.molecule, options, kSurfaceBytesPerAtom * frames.structure().atoms.size()))
-    workers.push_back([&text_of, builder](RunFrame frame) -> FinishFrame {
-      const std::string text = text_of(builder->build(std::move(frame.structure)), {frame.number, frame.time});
-      return [text] {
-        std::cout << text << std::flush;
-        if (!std::cout) throw OutputError("standard output", "cannot be written");
-        return MadeFrame{};
-      };
-    });
-  run_frames(frames, command.molecule, options, std::move(workers));
-}
-
 void run(const SurfaceCommand& command) {
-  if (command.frames.asked()) return run_sequence(command);
-  const Existing existing = command.force ? Existing::replace : Existing::refuse;
-  check_outputs(command, existing);
+  if (command.frames.asked()) return surface_frames(command);
+  if (!command.series_csv.empty() || !command.cavity_csv.empty() || !command.plot.empty())
+    throw UsageError(
+        "--csv-series, --csv-cavities and --plot need a run of frames: a trajectory, or --frames of the models");
+  check_outputs(command);
   const Molecule molecule = load_molecule(command.molecule);
   std::vector<AreaColumn> columns = area_columns(molecule.structure, molecule.objects, command.molecule.surface.kind);
   std::optional<ContextNote> context;
   if (command.context) {
-    ContextAreas areas = context_areas(command.molecule, *command.context, molecule, columns);
+    SurfaceComputer computer(command.molecule.surface);
+    ContextAreas areas = context_areas(command.molecule, read_with_context(command.molecule, *command.context),
+                                       molecule, columns, computer);
     context = ContextNote{command.context->text(), areas.atoms};
     std::move(areas.columns.begin(), areas.columns.end(), std::back_inserter(columns));
   }
-  if (!command.atom_csv.empty()) write(command.atom_csv, atom_csv(molecule.structure, columns), existing);
-  if (!command.residue_csv.empty()) write(command.residue_csv, residue_csv(molecule.structure, columns), existing);
-  if (is_stdout(command.atom_csv) || is_stdout(command.residue_csv)) return;
+  write(command.atom_csv, atom_csv_header(columns) + atom_csv_rows(molecule.structure, columns), command.existing());
+  write(command.residue_csv, residue_csv_header(columns) + residue_csv_rows(molecule.structure, columns),
+        command.existing());
+  if (!command.gradient_csv.empty()) {
+    const auto gradients = gradient_columns(molecule.structure, molecule.objects, command.molecule.surface.kind);
+    write(command.gradient_csv, gradient_csv_header(gradients) + gradient_csv_rows(molecule.structure, gradients),
+          command.existing());
+  }
+  if (command.prints_csv()) return;
   const SurfaceReport report{molecule, command.molecule, columns, context};
   std::cout << (command.json ? report_json(report) : report_table(report));
 }
 
 }  // namespace
+
+bool SurfaceCommand::prints_csv() const { return std::ranges::any_of(tables_of(*this), is_stdout); }
+
+// Whether the outputs can be written is known before the work begins; these vanish again.
+void check_outputs(const SurfaceCommand& command) {
+  if (command.plot == "-" || (!command.plot.empty() && !command.plot.ends_with(".svg")))
+    throw UsageError(
+        fmt::format("--plot {}: plots are written as files whose names end in .svg", in_quotes(command.plot)));
+  std::vector<std::string> paths = tables_of(command);
+  if (std::ranges::count_if(paths, is_stdout) + command.json > 1)
+    throw UsageError(
+        "standard output holds one thing at a time: --json, or one of --csv-series, --csv, --csv-residues, "
+        "--csv-cavities, --gradients with -");
+  if (!command.plot.empty()) paths.push_back(command.plot);
+  std::ranges::sort(paths);
+  if (std::ranges::adjacent_find(paths) != paths.end())
+    throw UsageError(
+        "--csv, --csv-residues, --csv-series, --csv-cavities, --gradients and --plot need different files");
+  if (!command.gradient_csv.empty()) {
+    const Division& division = command.molecule.division;
+    if (division.components || division.cavities != Cavities::keep || division.instances != InstanceMode::none)
+      throw UsageError(
+          "--gradients are of whole surfaces of atoms; leave --by component, --cavities and --instances away");
+  }
+  if (!command.cavity_csv.empty()) {
+    const Division& division = command.molecule.division;
+    if (command.molecule.surface.kind != SurfaceKind::ses || command.molecule.surface.probe_radius == 0.0)
+      throw UsageError(
+          "--csv-cavities follows cavities of solvent-excluded surfaces; choose --surface ses and a probe");
+    if (division.groups || division.components || division.cavities == Cavities::drop)
+      throw UsageError("--csv-cavities follows the cavities of one surface; leave --by and --cavities drop away");
+    if (!command.frames.only.empty())
+      throw UsageError(
+          "--csv-cavities needs all frames of the run, as numbers go on from one to the next; leave --only away");
+  }
+  for (const std::string& path : paths)
+    if (!is_stdout(path)) OutputFile(path, command.existing());
+}
 
 void add_surface(CLI::App& command) {
   describe(
@@ -115,26 +125,48 @@ void add_surface(CLI::App& command) {
       "  meniscus surface 1tii.pdb --by chain              each chain as if it were alone\n"
       "  meniscus surface 1tii.pdb --select 'chain D' --context 'chain E'   area of D, and what E buries of it\n"
       "  meniscus surface 1tii.pdb --cavities only         cavities, and what lies in them\n"
+      "  meniscus surface 1tii.pdb --gradients forces.csv  derivatives of areas and volumes by positions\n"
       "  meniscus surface 1tii.pdb --surface sas --csv -   solvent-accessible areas of atoms on standard output\n"
       "  meniscus surface balls.xyzr --surface vdw         van der Waals surface, radii of the file\n"
-      "  meniscus surface adk.psf --trajectory adk.dcd --frames all --json      a line of JSON a frame",
+      "  meniscus surface adk.psf adk.dcd --csv-series run.csv --plot run.svg   a row a frame, curves\n"
+      "  meniscus surface adk.psf adk.dcd --superpose 'name CA' --csv-cavities cavities.csv   each cavity through "
+      "time\n"
+      "  meniscus surface adk.psf adk.dcd --json                a line of JSON a frame",
       "Used are the polymers and ligands of the first model, of each residue the most occupied conformer; water and\n"
       "free ions are left out. What was read, left out and used is always said. Radii are Bondi's (`meniscus info`\n"
       "lists them), or the file's own (PQR, XYZR). The surface is complete, cavities too, and closed; areas and "
       "volumes\n"
       "are exact, in closed form. A cavity's volume is negative: it is missing from the solid. An atom's part of the\n"
       "surface is what has its colour in pictures: its contact patch, and of the patches around it what is nearer to\n"
-      "its contact than to any other.");
+      "its contact than to any other.\n"
+      "Over frames the tables of atoms and residues have their rows for each frame. A cavity keeps its number while\n"
+      "probes that rest in it, touching three atoms, overlap from one frame to the next.");
   auto state = std::make_shared<SurfaceCommand>();
   state->molecule.surface.timing = StageTiming::exact;  // each is printed
   add_atom_options(command, state->molecule);
   add_surface_options(command, state->molecule);
   add_division_options(command, state->molecule);
+  add_trajectory_argument(command);
   add_frame_options(command, state->frames);
   command.add_flag("--json", state->json, "Print one JSON object instead of a table");
   command.add_option("--csv", state->atom_csv, "Write areas of atoms, a row each; -: to standard output, nothing else")
       ->type_name("FILE");
+  command
+      .add_option("--csv-series", state->series_csv,
+                  "Of a run of frames, write areas, volume and cavities, a row a frame; -: likewise")
+      ->type_name("FILE");
+  command
+      .add_option("--csv-cavities", state->cavity_csv,
+                  "Of a run of frames, write its cavities, a row a frame each: number, birth and end, volume, area, "
+                  "place, residues around; -: likewise")
+      ->type_name("FILE");
   command.add_option("--csv-residues", state->residue_csv, "Write areas of residues, a row each; -: likewise")
+      ->type_name("FILE");
+  command.add_option("--plot", state->plot, "Of a run of frames, draw areas and volumes as curves over time, as SVG")
+      ->type_name("FILE");
+  command
+      .add_option("--gradients", state->gradient_csv,
+                  "Write the exact derivatives of areas and volumes by the positions of atoms, a row each; -: likewise")
       ->type_name("FILE");
   command
       .add_option_function<std::string>(

@@ -49,7 +49,8 @@ blender::SequenceManifest manifest_of(const BlenderCommand& command, const Given
   const ColorKey key = color_key(frames.structure(), color_of(command.molecule), {});
   blender::SequenceManifest manifest;
   manifest.provenance = {file_name(frames.structure().file), frames.structure().radii_set, {}, key};
-  manifest.trajectory = file_name(command.frames.trajectory);
+  for (const std::string& path : command.frames.trajectories)
+    manifest.trajectory += (manifest.trajectory.empty() ? "" : ", ") + file_name(path);
   manifest.frames = frames.numbers();
   for (const Camera& camera : framing.cameras)
     manifest.shots.push_back({camera, command.picture.width, command.picture.height});
@@ -230,6 +231,7 @@ void add_export_blender(CLI::App& command) {
   add_cut_options(command, state->figure);
   add_mesh_options(command, state->mesh);
   add_picture_options(command, state->picture);
+  add_trajectory_argument(command);
   add_frame_options(command, state->frames);
   add_run_camera_options(command, state->run_camera);
   command.add_option("--fps", state->fps, "Frames of a run a second [24]")

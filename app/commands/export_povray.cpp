@@ -152,6 +152,7 @@ void add_export_povray(CLI::App& command) {
   add_molecule_options(command, state->molecule);
   add_figure_options(command, state->molecule, state->figure);
   add_picture_options(command, state->picture);
+  add_trajectory_argument(command);
   add_frame_options(command, state->frames);
   add_run_camera_options(command, state->run_camera);
   add_scene_options(command);

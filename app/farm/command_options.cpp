@@ -122,6 +122,7 @@ const Options& command_table() {
       {"--extent", Value::text},
       // frames
       {"--trajectory", Value::file},
+      {"--trajectory-atoms", Value::text},
       {"--trust-atom-order", Value::none},
       {"--repeat", Value::text},
       {"--frames", Value::text},
@@ -176,7 +177,8 @@ class Reader {
     option.place = next_++;
     const auto known = table_.find(option.name);
     if (known == table_.end())
-      throw RequestError(fmt::format("{} is no option that a bundle may have", in_quotes(word)));
+      throw RequestError(fmt::format("{} is no option that a bundle may have{}", in_quotes(word),
+                                     word.starts_with('-') ? "" : "; name trajectories by --trajectory"));
     option.reads_file = known->second == Value::file;
     option.joined = equals != std::string::npos;
     if (option.joined) {

@@ -62,7 +62,7 @@ CommandEntry read_command(const CLI::App& app, const std::string& parent) {
 }  // namespace
 
 bool OptionEntry::takes_path() const {
-  constexpr std::array<std::string_view, 6> kPaths{"FILE", "PATH", "FOLDER", "NUMBERS", "BUNDLE", "DIR"};
+  constexpr std::array<std::string_view, 7> kPaths{"FILE", "TRAJECTORY", "PATH", "FOLDER", "NUMBERS", "BUNDLE", "DIR"};
   const std::string_view word = value.empty() && !names.empty() ? std::string_view(names.front()) : value;
   return std::ranges::any_of(kPaths, [&](std::string_view path) { return word.starts_with(path); });
 }

@@ -31,14 +31,33 @@ void add_selection(CLI::App& command, const std::string& name, std::optional<Sel
 
 }  // namespace
 
+void add_trajectory_argument(CLI::App& command) {
+  command
+      .add_option_function<std::vector<std::string>>(
+          "TRAJECTORY",
+          [&command](const std::vector<std::string>& paths) {
+            // Its turn comes before that of --trajectory, whose values these are from here on, for scenes, too.
+            for (const std::string& path : paths) command.get_option("--trajectory")->add_result(path);
+          },
+          "Trajectories: the same as --trajectory")
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->type_name("");
+}
+
 void add_frame_options(CLI::App& command, FrameOptions& options) {
   const Heading heading(command, "Frames");
   options.index_folder = cache_folder();
   command
-      .add_option("--trajectory", options.trajectory,
-                  "Coordinates of the atoms of FILE, frame by frame (meniscus formats); without it the models of FILE "
-                  "are the frames")
+      .add_option("--trajectory", options.trajectories,
+                  "Coordinates of the atoms of FILE, frame by frame (meniscus formats); again for more, in a row; "
+                  "without it the models of FILE are the frames")
+      ->type_size(1)
+      ->expected(1)
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->type_name("PATH");
+  add_selection(command, "--trajectory-atoms", options.trajectory_atoms,
+                "The atoms of FILE that the trajectory has, such as 'not water'; the others are left out first");
   command.add_flag("--trust-atom-order", options.trust_atom_order,
                    "Take the atoms of the trajectory for those of FILE, in its order, though bonds come out too long");
   command
@@ -48,7 +67,9 @@ void add_frame_options(CLI::App& command, FrameOptions& options) {
           "are counted after that")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000}).description(""))
       ->type_name("N");
-  command.add_option("--frames", options.frames, "The run: all, or a list such as 0-99:10,250 (frames count from 0)")
+  command
+      .add_option("--frames", options.frames,
+                  "The run: all, or a list such as 0-99:10,250,last (frames count from 0; -10- are the last ten)")
       ->type_name("LIST");
   command.add_option("--stride", options.stride, "Of these every Nth [1]")
       ->check(CLI::PositiveNumber.description(""))
@@ -73,7 +94,8 @@ void add_frame_options(CLI::App& command, FrameOptions& options) {
                 "Turn and move each frame so that these atoms fit the reference frame best");
   add_selection(command, "--center", options.center,
                 "Move each frame so that the middle of these atoms stays in place");
-  command.add_option("--reference", options.reference, "Frame of the trajectory for --superpose and --center [0]")
+  command
+      .add_option("--reference", options.reference, "Frame of the trajectory for --superpose and --center [0], or last")
       ->type_name("N");
   command
       .add_option("--smooth", options.smooth,

@@ -24,7 +24,8 @@ constexpr auto kSceneKeys = std::to_array<SceneKey>({
     {"molecule", "assembly", "--assembly", V::text},
     {"molecule", "instances", "--instances", V::text},
 
-    {"frames", "trajectory", "--trajectory", V::path},
+    {"frames", "trajectory", "--trajectory", V::paths},
+    {"frames", "trajectory_atoms", "--trajectory-atoms", V::text},
     {"frames", "trust_atom_order", "--trust-atom-order", V::flag},
     {"frames", "frames", "--frames", V::text},
     {"frames", "stride", "--stride", V::text},

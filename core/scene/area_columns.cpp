@@ -13,6 +13,17 @@ double AreaColumn::total_of(const AtomGroup& group) const {
                          [&](double sum, std::uint32_t a) { return sum + values[a]; });
 }
 
+std::vector<AreaColumn> area_totals(const std::vector<SurfaceObject>& objects, SurfaceKind kind) {
+  AreaColumn surface{std::string(kind_word(kind)) + "_area", {}, 0.0}, accessible{"sas_area", {}, 0.0};
+  for (const SurfaceObject& object : objects) {
+    const auto copies = static_cast<double>(object.copies.size());
+    surface.total += copies * object.surface.area;
+    if (kind == SurfaceKind::ses) accessible.total += copies * accessible_area(object.surface);
+  }
+  if (kind == SurfaceKind::ses) return {surface, accessible};
+  return {surface};
+}
+
 std::vector<AreaColumn> area_columns(const Structure& structure, const std::vector<SurfaceObject>& objects,
                                      SurfaceKind kind) {
   AreaColumn surface{std::string(kind_word(kind)) + "_area", std::vector<double>(structure.atoms.size(), 0.0), 0.0};

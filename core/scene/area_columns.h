@@ -22,6 +22,9 @@ struct AreaColumn {
   double total_of(const AtomGroup& group) const;
 };
 
+/// The columns of area_columns without values, their totals alone, which take next to no time.
+std::vector<AreaColumn> area_totals(const std::vector<SurfaceObject>& objects, SurfaceKind kind);
+
 /// For a solvent-excluded surface "ses_area" and "sas_area", else the area of the surface that was made. An atom in
 /// several objects has the sum, of one copy of each.
 std::vector<AreaColumn> area_columns(const Structure& structure, const std::vector<SurfaceObject>& objects,

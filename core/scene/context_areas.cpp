@@ -21,14 +21,16 @@ void check(const MoleculeRequest& request) {
 
 }  // namespace
 
-ContextAreas context_areas(const MoleculeRequest& request, const Selection& context, const Molecule& molecule,
-                           const std::vector<AreaColumn>& alone) {
+Structure read_with_context(const MoleculeRequest& request, const Selection& context) {
   check(request);
   MoleculeRequest together = request;
   together.reading.selection =
       parse_selection(fmt::format("({}) or ({})", request.reading.selection->text(), context.text()));
-  const Structure structure = read_molecule(together);
-  SurfaceComputer computer(request.surface);
+  return read_molecule(together);
+}
+
+ContextAreas context_areas(const MoleculeRequest& request, const Structure& structure, const Molecule& molecule,
+                           const std::vector<AreaColumn>& alone, SurfaceComputer& computer) {
   const std::vector<SurfaceObject> objects =
       surface_objects(structure, {.groups = {}, .components = false, .cavities = request.division.cavities}, computer);
   const std::vector<AreaColumn> all = area_columns(structure, objects, request.surface.kind);

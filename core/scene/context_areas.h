@@ -17,10 +17,14 @@ struct ContextAreas {
   std::vector<AreaColumn> columns;  ///< for each given one: "<name>_in_context", "<name>_buried" (the difference)
 };
 
-/// Reads the file again with the context's atoms too, and computes the surface of all of them together, as one.
-/// `alone`: columns of the molecule by itself. Throws RequestError without --select (then there is nothing else in the
-/// file), for standard input, which can be read only once, and for assemblies; and what loading a molecule throws.
-ContextAreas context_areas(const MoleculeRequest& request, const Selection& context, const Molecule& molecule,
-                           const std::vector<AreaColumn>& alone);
+/// Reads the file again with the context's atoms too. Throws RequestError without --select (then there is nothing else
+/// in the file), for standard input, which can be read only once, and for assemblies; and what reading a molecule
+/// throws.
+Structure read_with_context(const MoleculeRequest& request, const Selection& context);
+
+/// Computes the surface of all atoms of `together` as one, and finds those of the molecule there. `alone`: columns of
+/// the molecule by itself. `computer`: of request.surface. Throws what computing a surface throws.
+ContextAreas context_areas(const MoleculeRequest& request, const Structure& together, const Molecule& molecule,
+                           const std::vector<AreaColumn>& alone, SurfaceComputer& computer);
 
 }  // namespace meniscus

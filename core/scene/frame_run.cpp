@@ -12,14 +12,16 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include "core/scene/context_areas.h"
 #include "core/scene/molecule.h"
 #include "core/base/text.h"
 #include "core/structure/formats/reader.h"
-#include "core/structure/usual_part.h"
+#include "core/structure/selection/usual_part.h"
 #include "core/trajectory/atom_order.h"
 #include "core/structure/found_bonds.h"
 #include "core/trajectory/frame_list.h"
 #include "core/base/error.h"
+#include "core/trajectory/joined_frames.h"
 #include "core/trajectory/repeated_frames.h"
 
 namespace meniscus {
@@ -31,7 +33,9 @@ void check_options(const MoleculeRequest& molecule, const RunRequest& request) {
     throw RequestError("--instances: runs of frames have no copies");
   if (molecule.reading.model.all || molecule.reading.model.number != 1)
     throw RequestError("--model and --frames: the models of a file are its frames, counted from 0; leave --model away");
-  if (request.trajectory.empty() && molecule.file == "-")
+  if (request.trajectories.empty() && request.trajectory_atoms)
+    throw RequestError("--trajectory-atoms says which atoms of FILE a trajectory has; name one by --trajectory");
+  if (request.trajectories.empty() && molecule.file == "-")
     throw RequestError("standard input is read once, so it has no frames; save it as a file");
   if (request.smooth % 2 == 0)
     throw RequestError(fmt::format("--smooth {}: an odd number has a middle", request.smooth));
@@ -56,10 +60,17 @@ class Bound {
   Bound(const char* option, const std::string& text, Trajectory& trajectory)
       : option_(option), text_(text), trajectory_(trajectory), time_(time_of(text)) {
     if (time_) return;
+    // A number may lie behind the end: then nothing is left, or all.
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), frame_);
-    if (error != std::errc() || end != text.data() + text.size())
+    if (error == std::errc() && end == text.data() + text.size()) return;
+    try {
+      frame_ = parse_frame(option, text, trajectory.frame_count());
+    } catch (const RequestError&) {
       throw RequestError(
-          fmt::format("{}: {} is neither a frame such as 100 nor a time such as 300ps", option, in_quotes(text)));
+          fmt::format("{}: {} is neither a frame such as 100, -10 or last, nor a time such as 300ps; there are {} "
+                      "frames",
+                      option, in_quotes(text), with_thousands(trajectory.frame_count())));
+    }
   }
 
   /// Less than 0: before it; 0: at it; more: behind.
@@ -94,41 +105,35 @@ std::vector<std::uint32_t> chosen(const Selection& selection, const std::vector<
   return indices;
 }
 
+std::unique_ptr<Trajectory> open_all(const std::vector<std::string>& paths, const TrajectoryOptions& options) {
+  if (paths.size() == 1) return open_trajectory(paths.front(), options);
+  std::vector<std::unique_ptr<Trajectory>> parts;
+  for (const std::string& path : paths) parts.push_back(open_trajectory(path, options));
+  return std::make_unique<JoinedFrames>(std::move(parts));
+}
+
+std::uint64_t reference_of(const RunRequest& request, const Trajectory& trajectory) {
+  return request.reference.empty() ? 0 : parse_frame("--reference", request.reference, trajectory.frame_count());
+}
+
 /// Does the file place the atoms that it names? All formats do but one.
 bool has_positions(const Structure& structure) { return structure.format != kPsfReader.metadata.name; }
 
 }  // namespace
 
 bool RunRequest::asked() const {
-  return !trajectory.empty() || !frames.empty() || stride != 1 || repeat != 1 || !begin.empty() || !end.empty() ||
+  return !trajectories.empty() || !frames.empty() || stride != 1 || repeat != 1 || !begin.empty() || !end.empty() ||
          !only.empty();
 }
 
 FrameRun::FrameRun(const MoleculeRequest& molecule, const RunRequest& request, bool velocities)
     : velocities_(velocities) {
   check_options(molecule, request);
-  trajectory_ =
-      open_trajectory(request.trajectory.empty() ? molecule.file : request.trajectory, {request.index_folder});
+  trajectory_ = open_all(request.trajectories.empty() ? std::vector{molecule.file} : request.trajectories,
+                         {request.index_folder});
   if (request.repeat > 1) trajectory_ = std::make_unique<RepeatedFrames>(std::move(trajectory_), request.repeat);
   choose_frames(request);
-  MoleculeRequest reading = molecule;
-  reading.reading.keep_topology = true;
-  Frame first;
-  if (!request.trajectory.empty()) {
-    trajectory_->read(run_.front(), first);
-    reading.reading.positions = first.positions;
-  }
-  structure_ = read_molecule(reading);
-  const std::size_t atoms = structure_.topology->atoms.size();
-  if (atoms != trajectory_->atom_count()) {
-    throw InputError(trajectory_->path(), 0,
-                     fmt::format("its frames have {} atoms, {} has {}: {}", with_thousands(trajectory_->atom_count()),
-                                 structure_.file, with_thousands(atoms),
-                                 advice_on_count(structure_.topology->atoms, trajectory_->atom_count())));
-  }
-  if (!request.trajectory.empty() && !request.trust_atom_order)
-    check_atom_order(*structure_.topology, structure_.atoms, first,
-                     {structure_.file, has_positions(structure_), trajectory_->path(), run_.front()});
+  read_atoms(molecule, request);
   prepare(molecule, request);
   Frame frame;
   frames_->read(run_.front(), frame);
@@ -136,6 +141,30 @@ FrameRun::FrameRun(const MoleculeRequest& molecule, const RunRequest& request, b
 }
 
 FrameRun::~FrameRun() = default;
+
+/// With the coordinates of their file, or of the first frame where it has none.
+void FrameRun::read_atoms(const MoleculeRequest& molecule, const RunRequest& request) {
+  MoleculeRequest reading = molecule;
+  reading.reading.keep_topology = true;
+  reading.reading.trajectory_atoms = request.trajectory_atoms;
+  Frame first;
+  if (!request.trajectories.empty()) {
+    trajectory_->read(run_.front(), first);
+    reading.reading.positions = first.positions;
+  }
+  structure_ = read_molecule(reading);
+  if (request.context) together_ = read_with_context(reading, *request.context);
+  const std::size_t atoms = structure_.topology->atoms.size();
+  if (atoms != trajectory_->atom_count()) {
+    throw InputError(trajectory_->path(), 0,
+                     fmt::format("its frames have {} atoms, {} has {}: {}", with_thousands(trajectory_->atom_count()),
+                                 structure_.file, with_thousands(atoms),
+                                 advice_on_count(structure_.topology->atoms, trajectory_->atom_count())));
+  }
+  if (!request.trajectories.empty() && !request.trust_atom_order)
+    check_atom_order(*structure_.topology, structure_.atoms, first,
+                     {structure_.file, has_positions(structure_), trajectory_->path(), run_.front()});
+}
 
 void FrameRun::choose_frames(const RunRequest& request) {
   run_ = parse_frame_list("--frames", request.frames.empty() ? "all" : request.frames, trajectory_->frame_count());
@@ -150,9 +179,6 @@ void FrameRun::choose_frames(const RunRequest& request) {
   for (std::size_t n = 0; n * request.stride < run_.size(); ++n) run_[n] = run_[n * request.stride];
   run_.resize((run_.size() + request.stride - 1) / request.stride);
   for (std::uint64_t place = 0; place < run_.size(); ++place) place_.try_emplace(run_[place], place);
-  if (request.reference >= trajectory_->frame_count())
-    throw RequestError(fmt::format("--reference {}: the trajectory has frames 0 to {}", request.reference,
-                                   trajectory_->frame_count() - 1));
   if (request.only.empty()) {
     chunk_ = run_;
     return;
@@ -166,7 +192,7 @@ void FrameRun::choose_frames(const RunRequest& request) {
 void FrameRun::prepare(const MoleculeRequest& molecule, const RunRequest& request) {
   const Topology& topology = *structure_.topology;
   Preparation preparation;
-  preparation.reference = request.reference;
+  preparation.reference = reference_of(request, *trajectory_);
   preparation.smooth_half = request.smooth / 2;
   if (request.superpose) preparation.superposed = chosen(*request.superpose, topology.atoms, "--superpose", 3);
   if (request.center) preparation.centered = chosen(*request.center, topology.atoms, "--center", 1);
@@ -181,6 +207,8 @@ void FrameRun::prepare(const MoleculeRequest& molecule, const RunRequest& reques
     wanted.insert(wanted.end(), preparation.centered.begin(), preparation.centered.end());
     for (const Atom& atom : structure_.atoms) wanted.push_back(atom.index);
     for (const Atom& atom : structure_.beside) wanted.push_back(atom.index);
+    if (together_)
+      for (const Atom& atom : together_->atoms) wanted.push_back(atom.index);
     preparation.whole.emplace(topology.atoms, bonds, wanted, molecule.file);
   }
   frames_ = std::make_unique<PreparedFrames>(*trajectory_, std::move(preparation));
@@ -240,6 +268,10 @@ std::optional<RunFrame> FrameRun::next() {
   frame.time = read->frame.time;
   frame.structure = structure_;
   place(read->frame.positions, frame.structure);
+  if (together_) {
+    frame.together = *together_;
+    place(read->frame.positions, frame.together);
+  }
   if (velocities_)
     for (const Atom& atom : shown_atoms(frame.structure)) frame.velocities.push_back(read->velocities[atom.index]);
   return frame;

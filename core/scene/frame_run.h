@@ -29,17 +29,21 @@ enum class WholeBy {
 
 /// Which frames of which trajectory, and what is done to them.
 struct RunRequest {
-  std::string trajectory;         ///< empty: the models of the molecule's file are the frames
+  std::vector<std::string> trajectories;      ///< in a row; none: the models of the molecule's file are the frames
+  std::optional<Selection> trajectory_atoms;  ///< of the molecule's file, those that they have; nothing: all
   bool trust_atom_order = false;  ///< bonds of the first frame are not compared with those of the molecule's file
   std::uint64_t repeat = 1;       ///< each frame this often in a row
   std::string frames;             ///< as parse_frame_list reads it; empty: all
   std::uint64_t stride = 1;
-  std::string begin, end;  ///< a frame ("100") or a time ("2.5ns", "300ps"); empty: no bound
+  std::string begin, end;  ///< a frame ("100", "-10", "last") or a time ("2.5ns", "300ps"); empty: no bound
   std::string only;        ///< the chunk of the run that is made; empty: all of it
   WholeBy whole = WholeBy::nothing;
   std::optional<Selection> superpose, center;
-  std::uint64_t reference = 0;
+  std::string reference;     ///< a frame; empty: the first of the trajectory
   std::uint64_t smooth = 1;  ///< frames that a mean is taken over; odd
+
+  /// Atoms that stand around the molecule's, which are those of its selection: RunFrame::together has both.
+  std::optional<Selection> context;
 
   std::string index_folder;  ///< where indices of frames are kept; empty: nowhere
 
@@ -53,6 +57,7 @@ struct RunFrame {
   std::uint64_t place = 0;     ///< in the run, from 0
   std::optional<double> time;  ///< ps
   Structure structure;
+  Structure together;  ///< the same atoms and those of RunRequest::context, if it is asked for
   std::vector<glm::dvec3>
       velocities;  ///< per shown_atoms() of the structure, Å per frame of the trajectory; only if asked for
 };
@@ -90,6 +95,7 @@ class FrameRun {
 
  private:
   void choose_frames(const RunRequest& request);
+  void read_atoms(const MoleculeRequest& molecule, const RunRequest& request);
   void prepare(const MoleculeRequest& molecule, const RunRequest& request);
   void place(const std::vector<glm::dvec3>& positions, Structure& structure) const;
 
@@ -97,6 +103,7 @@ class FrameRun {
   std::unique_ptr<PreparedFrames> frames_;
   std::unique_ptr<ReadAhead> ahead_;
   Structure structure_;
+  std::optional<Structure> together_;
   std::vector<std::uint64_t> run_, chunk_;
   std::unordered_map<std::uint64_t, std::uint64_t> place_;  ///< in the run, by number
   std::size_t taken_ = 0;

@@ -78,6 +78,9 @@ class MoleculeBuilder {
   /// Whether it computes on the CPU alone: then it may be used on any thread, by one at a time.
   bool is_on_cpu() const { return computer_.is_on_cpu(); }
 
+  /// For further surfaces on the same device.
+  SurfaceComputer& computer() { return computer_; }
+
  private:
   void measure_burial(Molecule& molecule);
 

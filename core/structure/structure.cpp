@@ -13,6 +13,7 @@ namespace {
 
 constexpr std::pair<const char*, const char*> kReasonWords[] = {
     {kExcludedModel, "of other models"},
+    {kExcludedTrajectory, "not in the trajectory"},
     {kExcludedAltloc, "of other alternate locations"},
     {kExcludedVirtual, "virtual sites"},
     {kExcludedSelection, "not selected"},

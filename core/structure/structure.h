@@ -80,6 +80,7 @@ struct ReadReport {
 
 /// The reasons of ReadReport::excluded in the order they are tried.
 inline constexpr const char* kExcludedModel = "other_model";
+inline constexpr const char* kExcludedTrajectory = "not_in_trajectory";
 inline constexpr const char* kExcludedAltloc = "altloc";
 inline constexpr const char* kExcludedVirtual = "virtual_site";
 inline constexpr const char* kExcludedSelection = "not_selected";

@@ -115,6 +115,13 @@ struct DividerScratch {
   std::vector<Course> courses;  // by contact
 };
 
+/// Where the probe's centre is seen from the atom's centre, there it touches: the patch and the accessible part of the
+/// grown sphere fill the same solid angle.
+double accessible_area_over(const Surface& surface, const ConvexPatch& patch, const Face& face) {
+  const double r = surface.atoms[patch.atom].radius, extended = r + surface.probe_radius;
+  return face.area * (extended / r) * (extended / r);
+}
+
 class AreaDivider {
  public:
   /// group_of_face: empty where all faces are of one group.
@@ -170,12 +177,9 @@ class AreaDivider {
   }
 
   void add(const ConvexPatch& patch) {
-    const double r = s_.atoms[patch.atom].radius, extended = r + s_.probe_radius;
     for (std::uint32_t f = patch.first_face; f < patch.first_face + patch.face_count; ++f) {
       areas_of(f).surface[patch.atom] += s_.faces[f].area;
-      // Where the probe's centre is seen from the atom's centre, there it touches: the patch and the accessible part
-      // of the grown sphere fill the same solid angle.
-      areas_of(f).accessible[patch.atom] += s_.faces[f].area * (extended / r) * (extended / r);
+      areas_of(f).accessible[patch.atom] += accessible_area_over(s_, patch, s_.faces[f]);
     }
   }
 
@@ -358,6 +362,13 @@ AtomAreas atom_areas(const Surface& surface) { return std::move(AreaDivider(surf
 std::vector<AtomAreas> atom_areas(const Surface& surface, std::span<const std::uint32_t> group_of_face,
                                   std::uint32_t count) {
   return AreaDivider(surface, group_of_face).run(count);
+}
+
+double accessible_area(const Surface& surface) {
+  double area = 0.0;
+  for (const ConvexPatch& patch : surface.convex)
+    for (const Face& face : faces_of(surface, patch)) area += accessible_area_over(surface, patch, face);
+  return area;
 }
 
 double divided_area(const Surface& surface, const ConcavePatch& patch) {

@@ -41,13 +41,29 @@ class ListParser {
     throw RequestError(fmt::format("{}: {} {}", option_, in_quotes(text_), what));
   }
 
-  std::uint64_t number(std::string_view& rest) const {
+  std::uint64_t unsigned_number(std::string_view& rest) const {
     std::uint64_t value = 0;
     const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), value);
     if (error != std::errc())
-      refuse("is no list of frames such as all, 7, 0-99, 0-99:10, 90- or several of these with commas between");
+      refuse(
+          "is no list of frames such as all, 7, last, 0-99, 0-99:10, 90-, -10- (the last ten) or several of these "
+          "with commas between");
     rest.remove_prefix(static_cast<std::size_t>(end - rest.data()));
     return value;
+  }
+
+  /// From the beginning, from the end, or the last.
+  std::uint64_t frame(std::string_view& rest) const {
+    constexpr std::string_view kLast = "last";
+    if (rest.starts_with(kLast)) {
+      rest.remove_prefix(kLast.size());
+      return count_ - 1;
+    }
+    if (!skip(rest, '-')) return unsigned_number(rest);
+    const std::uint64_t from_end = unsigned_number(rest);
+    if (from_end == 0 || from_end > count_)
+      refuse(fmt::format("asks for frame -{}; from the end they count from -1 to -{}", from_end, count_));
+    return count_ - from_end;
   }
 
   static bool skip(std::string_view& rest, char c) {
@@ -58,9 +74,9 @@ class ListParser {
 
   Part part_of(std::string_view rest) const {
     Part part;
-    part.first = part.last = number(rest);
-    if (skip(rest, '-')) part.last = rest.empty() || rest.front() == ':' ? count_ - 1 : number(rest);
-    if (skip(rest, ':')) part.step = number(rest);
+    part.first = part.last = frame(rest);
+    if (skip(rest, '-')) part.last = rest.empty() || rest.front() == ':' ? count_ - 1 : frame(rest);
+    if (skip(rest, ':')) part.step = unsigned_number(rest);
     if (!rest.empty()) refuse(fmt::format("has {} where a comma or the end should be", in_quotes(rest)));
     return part;
   }
@@ -100,6 +116,13 @@ class ListParser {
 std::vector<std::uint64_t> parse_frame_list(const std::string& option, std::string_view text,
                                             std::uint64_t frame_count) {
   return ListParser(option, text, frame_count).parse();
+}
+
+std::uint64_t parse_frame(const std::string& option, std::string_view text, std::uint64_t frame_count) {
+  const std::vector<std::uint64_t> frames = parse_frame_list(option, text, frame_count);
+  if (frames.size() != 1 || text == "all")
+    throw RequestError(fmt::format("{}: {} is more than one frame", option, in_quotes(text)));
+  return frames.front();
 }
 
 std::string frame_list_text(const std::vector<std::uint64_t>& frames) {

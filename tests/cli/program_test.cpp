@@ -70,7 +70,6 @@ TEST(Usage, WrongOptionsExitWithTwoAndSayWhy) {
       {{"surfac", kUbiquitin}, "surfac"},
       {{"surface"}, "FILE"},
       {{"surface", kUbiquitin, "--nonsense"}, "--nonsense"},
-      {{"surface", kUbiquitin, "extra"}, "extra"},
       {{"surface", kUbiquitin, "--probe"}, "--probe"},
       {{"surface", kUbiquitin, "--probe", "-1"}, "negative"},
       {{"surface", kUbiquitin, "--probe", "nan"}, "not a finite number"},

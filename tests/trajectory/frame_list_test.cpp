@@ -36,9 +36,25 @@ TEST(FrameList, EveryForm) {
   EXPECT_EQ(parse("0-299:18446744073709551615"), (Frames{0}));
 }
 
+TEST(FrameList, FromTheEnd) {
+  EXPECT_EQ(parse("last"), (Frames{299}));
+  EXPECT_EQ(parse("-1"), (Frames{299}));
+  EXPECT_EQ(parse("-3-"), (Frames{297, 298, 299}));
+  EXPECT_EQ(parse("-3--2"), (Frames{297, 298}));
+  EXPECT_EQ(parse("290-last:5"), (Frames{290, 295}));
+  EXPECT_EQ(parse("0,-300--299:1,last", 900), (Frames{0, 600, 601, 899}));
+  EXPECT_EQ(parse_frame("--reference", "last", 5), 4u);
+  EXPECT_EQ(parse_frame("--reference", "-5", 5), 0u);
+  EXPECT_EQ(parse_frame("--reference", "2", 5), 2u);
+  for (const char* text : {"0-1", "all", "5", "-6", "", "0,0"})
+    EXPECT_THROW(parse_frame("--reference", text, 5), RequestError) << text;
+}
+
 TEST(FrameList, SaysWhatIsWrong) {
-  for (const char* text : {"", "x", "1,", ",1", "-3", "1--2", "1-2-3", "1:2:3", "0x10", "1 ", "18446744073709551616"})
+  for (const char* text : {"", "x", "1,", ",1", "-", "-0", "-301", "--3", "last5", "lost", "1-2-3", "1:2:3", "0x10",
+                           "1 ", "18446744073709551616"})
     EXPECT_NE(complaint(text), "none") << text;
+  EXPECT_EQ(complaint("-301"), "--frames: '-301' asks for frame -301; from the end they count from -1 to -300");
   EXPECT_EQ(complaint("5-2"), "--frames: '5-2' runs backwards from 5 to 2");
   EXPECT_EQ(complaint("0-9:0"), "--frames: '0-9:0' has a step of 0");
   EXPECT_EQ(complaint("300"), "--frames: '300' asks for frame 300; there are 300, 0 to 299");

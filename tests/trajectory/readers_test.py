@@ -166,6 +166,19 @@ class Readers(unittest.TestCase):
         for name in ("m.nc", "m.xtc", "m.trr"):
             self.check(self.path(name))
 
+    def test_hdf5_of_mdtraj(self):
+        positions = np.array(self.motion, np.float32) / 10
+        lengths, angles = np.array(self.boxes)[:, :3] / 10, np.array(self.boxes)[:, 3:]
+        times = np.arange(FRAMES, dtype=np.float32)
+        path = self.path("m.h5")
+        with mdtraj.formats.HDF5TrajectoryFile(str(path), "w") as file:
+            file.write(positions, time=times, cell_lengths=lengths.astype(np.float32), cell_angles=angles.astype(np.float32))
+        self.compare(dump(path), 10 * positions.astype(float), np.hstack([10 * lengths, angles]), times)
+        with h5py.File(path, "r+") as file:
+            file["coordinates"].attrs["units"] = "feet"
+        said = subprocess.run([dump_program, str(path)], capture_output=True, text=True).stderr
+        self.assertIn("names 'feet' as a unit where MDTraj writes nanometers", said)
+
     def test_h5md(self):
         for unit in ("nm", "Angstrom"):
             path = self.write(f"{unit}.h5md", positions=True, velocities=False, forces=False, convert_units=False,

@@ -31,7 +31,7 @@ class RunFramings : public ::testing::Test {
  protected:
   void SetUp() override {
     molecule_.file = folder_.file("atoms.xyzr", "0 0 0 1.5\n3 0 0 1.5\n0 3 0 1.5\n0 0 3 1.5\n");
-    request_.trajectory = folder_.file("run.dcd", test::dcd({.promised = kFrames, .frames = kFrames}));
+    request_.trajectories = {folder_.file("run.dcd", test::dcd({.promised = kFrames, .frames = kFrames}))};
     request_.trust_atom_order = true;
   }
 
@@ -45,7 +45,7 @@ TEST_F(RunFramings, ReadEachFrameOnce) {
   ASSERT_EQ(frames.numbers().size(), kFrames);
   const std::uint64_t before = bytes_read();
   const RunFraming framing = run_framing({}, {}, {}, {}, frames);
-  const std::uint64_t read = bytes_read() - before, size = std::filesystem::file_size(request_.trajectory);
+  const std::uint64_t read = bytes_read() - before, size = std::filesystem::file_size(request_.trajectories.front());
   EXPECT_GT(read, size * 9 / 10);
   EXPECT_LT(read, size * 3 / 2);
   EXPECT_EQ(framing.cameras.size(), 1u);

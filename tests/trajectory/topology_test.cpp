@@ -80,6 +80,12 @@ TEST(Psf, StandardExtendedAndNamdForms) {
                                    "       3      -1   LYS  HZ1   HC     0.330000       3.02400           0\n"));
   expect_three_atoms(blank);
   EXPECT_EQ(blank.atoms[0].chain, "");
+  const Structure typeless = read(psf("PSF",  // as ProDy writes it
+                                      "       1 A    7    MET  N          -0.300000       14.0070       0\n"
+                                      "       2 A    8A   CAL  CAL         2.000000       40.0800       0\n"
+                                      "       3 B    -1   LYS  HZ1         0.330000        3.0240       0\n"));
+  expect_three_atoms(typeless);
+  EXPECT_EQ(typeless.atoms[2].chain, "B");
 }
 
 TEST(Psf, MassMovedToHydrogensLeavesElementsAsNamed) {

@@ -95,10 +95,21 @@ class PsfReader {
     }
   }
 
+  /// "52" or "52A".
+  static bool is_residue_number(std::string_view field) {
+    if (!field.empty() && std::isalpha(static_cast<unsigned char>(field.back()))) field.remove_suffix(1);
+    std::int64_t number = 0;
+    return parse_whole_number(field, number);
+  }
+
   /// Number, segment, residue, its name, atom name, type, charge, mass, and what follows.
   std::array<std::string_view, 7> columns_of(std::string_view line) const {
     std::vector<std::string_view> fields = fields_of(line, 12);
-    if (fields.size() == 8) fields.insert(fields.begin() + 1, std::string_view());  // a blank segment
+    if (fields.size() == 8) {
+      // A blank segment, or, where the residue's number stands behind one, a blank type, as ProDy writes.
+      const bool has_segment = !is_residue_number(fields[1]) && is_residue_number(fields[2]);
+      fields.insert(fields.begin() + (has_segment ? 5 : 1), std::string_view());
+    }
     if (fields.size() < 9) {
       throw InputError(
           file_.path, lines_.number(),

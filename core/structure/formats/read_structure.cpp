@@ -13,7 +13,7 @@
 #include "core/structure/molecule_bonds.h"
 #include "core/structure/plausibility.h"
 #include "core/structure/secondary_structure.h"
-#include "core/structure/usual_part.h"
+#include "core/structure/selection/usual_part.h"
 
 namespace meniscus {
 namespace {
@@ -220,6 +220,32 @@ void warn_of_missing_altloc(Structure& structure, const std::vector<Atom>& atoms
       fmt::format("no atom has the alternate location {}; the best one of each residue is used", choice.letter));
 }
 
+/// Leaves what a trajectory has of the atoms and bonds, counted anew.
+void keep_trajectory_atoms(FileContents& contents, const Selection& selection, const TextFile& file,
+                           ReadReport& report) {
+  const auto refuse = [&](const std::string& what) {
+    throw InputError(file.path, 0, fmt::format("--trajectory-atoms {}: {}", in_quotes(selection.text()), what));
+  };
+  if (selection.uses_radius()) refuse("radii are given to atoms only once it is known which are there");
+  if (contents.without_positions && selection.uses_positions())
+    refuse("this file has no positions to select by; name atoms, residues or classes");
+  const std::vector<bool> is_kept = selection.evaluate(contents.atoms);
+  constexpr std::uint32_t kGone = 0xffffffffu;
+  std::vector<std::uint32_t> place(contents.atoms.size(), kGone);
+  std::uint32_t kept = 0;
+  for (std::uint32_t n = 0; n < contents.atoms.size(); ++n)
+    if (is_kept[n]) place[n] = kept++;
+  if (kept == 0)
+    refuse(fmt::format("selects none of {} atoms; {}", with_thousands(contents.atoms.size()),
+                       selection.why_none(contents.atoms)));
+  if (kept < contents.atoms.size()) report.excluded[kExcludedTrajectory] = contents.atoms.size() - kept;
+  std::erase_if(contents.atoms, [&](const Atom& atom) { return place[atom.index] == kGone; });
+  for (Atom& atom : contents.atoms) atom.index = place[atom.index];
+  std::erase_if(contents.bonds, [&](const Bond& bond) { return place[bond[0]] == kGone || place[bond[1]] == kGone; });
+  for (Bond& bond : contents.bonds)
+    for (std::uint32_t& end : bond) end = place[end];
+}
+
 /// The atoms of a topology stand where the options say.
 void place_atoms(FileContents& contents, const ReadOptions& options, const TextFile& file) {
   if (!contents.without_positions) return;
@@ -270,6 +296,7 @@ Structure read_structure(const std::string& path, const ReadOptions& options) {
   report.models = contents.models;
   report.warnings.insert(report.warnings.end(), contents.warnings.begin(), contents.warnings.end());
   if (contents.other_model_atoms > 0) report.excluded[kExcludedModel] = contents.other_model_atoms;
+  if (options.trajectory_atoms) keep_trajectory_atoms(contents, *options.trajectory_atoms, file, report);
   place_atoms(contents, options, file);
   if (options.keep_topology)
     structure.topology = std::make_shared<const Topology>(

@@ -45,6 +45,10 @@ struct ReadOptions {
   Hydrogens hydrogens = Hydrogens::automatic;
   RadiiOptions radii{};
   bool keep_topology = false;  ///< fill in Structure::topology
+  /// The atoms that the frames of a trajectory have, where these are not all of the file: the others are left out
+  /// before anything else, and Atom::index counts what is left. By names and classes; positions only where the file
+  /// has them.
+  std::optional<Selection> trajectory_atoms = {};
   /// Where the atoms of a file without positions (PSF) stand, Å, one each in the order of the file.
   std::vector<glm::dvec3> positions{};
   /// Fills in Atom::shown, Structure::beside and, of all shown atoms, shown_bonds. At most kMostShown.

@@ -269,11 +269,20 @@ std::string Selection::why_none(std::span<const Atom> atoms) const {
   return "chains and names are case-sensitive";
 }
 
-bool Selection::uses_radius() const {
-  return std::any_of(steps_->steps.begin(), steps_->steps.end(), [](const SelectionStep& step) {
+bool Selection::uses_radius() const { return steps_->compare({AtomField::radius}); }
+
+bool Selection::uses_positions() const {
+  return steps_->compare({AtomField::x, AtomField::y, AtomField::z}) ||
+         std::ranges::any_of(steps_->steps,
+                             [](const SelectionStep& step) { return std::holds_alternative<WithinStep>(step); });
+}
+
+bool SelectionSteps::compare(std::initializer_list<AtomField> fields) const {
+  return std::ranges::any_of(steps, [&](const SelectionStep& step) {
     const auto* numbers = std::get_if<NumberTest>(&step);
     const auto* comparison = std::get_if<CompareTest>(&step);
-    return (numbers && numbers->field == AtomField::radius) || (comparison && comparison->field == AtomField::radius);
+    return (numbers && std::ranges::find(fields, numbers->field) != fields.end()) ||
+           (comparison && std::ranges::find(fields, comparison->field) != fields.end());
   });
 }
 

@@ -33,6 +33,9 @@ class Selection {
   /// Does it ask for radii, which not every moment knows?
   bool uses_radius() const;
 
+  /// Does it ask where atoms are: for distances or coordinates? Not every file knows.
+  bool uses_positions() const;
+
   const std::string& text() const { return text_; }
 
  private:

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <initializer_list>
 #include <string>
 #include <utility>
 #include <variant>
@@ -101,6 +102,9 @@ using SelectionStep = std::variant<FlagTest, TextTest, NumberTest, ResidueTest, 
 /// Evaluated one after another on a stack of sets, they leave one.
 struct SelectionSteps {
   std::vector<SelectionStep> steps;
+
+  /// Is one of these fields compared with numbers?
+  bool compare(std::initializer_list<AtomField> fields) const;
 };
 
 /// Does the text match the pattern? Time is linear in practice and at worst the product of the lengths.

@@ -26,7 +26,7 @@ std::unique_ptr<Trajectory> open(const std::string& path, const TrajectoryOption
 }  // namespace
 
 const TrajectoryFormat kH5mdFormat{
-    {"H5MD", ".h5md .h5", "trajectories in HDF5, as MDAnalysis, LAMMPS and ESPResSo write them",
+    {"H5MD", ".h5md .h5", "trajectories in HDF5, as MDAnalysis, LAMMPS and ESPResSo write them, and MDTraj's own",
      "P. de Buyl, P. H. Colberg and F. Höfling, Comput. Phys. Commun. 185, 1546 (2014)",
      "positions of the first group of particles, with their unit; boxes (edges or vectors), steps and times"},
     recognizes,

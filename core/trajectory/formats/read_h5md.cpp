@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads H5MD through the HDF5 library: a module of its own, see h5md_format.cpp.
+// Reads H5MD, and the HDF5 of MDTraj, through the HDF5 library: a module of its own, see h5md_format.cpp.
 #include "core/trajectory/formats/read_h5md.h"
 
 #include <hdf5.h>
@@ -160,21 +160,17 @@ class H5md final : public Trajectory {
     H5Pset_sieve_buf_size(access, 0);  // after a read that failed, the library takes this buffer of zeros for the data
     file_ = Handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access), H5Fclose);
     if (!file_) throw InputError(path, 0, "is damaged or cut short: the HDF5 library cannot open it");
-    choose_group();
-    position_ = table(group_, "position/value");
+    if (!has(file_, "particles") && text_attribute(file_, "conventions").find("Pande") != std::string::npos)
+      open_mdtraj();
+    else
+      open_particles();
     const std::vector<hsize_t>& lengths = position_.lengths;
     if (lengths.size() != 3 || lengths[2] != 3 || lengths[1] == 0)
-      throw InputError(path, 0, fmt::format("{}/position/value is not x, y and z of atoms of frames", escaped(name_)));
+      throw InputError(path, 0, fmt::format("{} is not x, y and z of atoms of frames", escaped(name_)));
     if (lengths[0] == 0) throw InputError(path, 0, "holds no frames");
     frame_count_ = lengths[0];
     atom_count_ = lengths[1];
     check_plausible_size();
-    unit_ = length_unit(position_, path, warnings_);
-    time_ = table(group_, "position/time");
-    time_unit_ = time_unit(time_);
-    step_ = table(group_, "position/step");
-    box_ = table(group_, "box/edges/value");
-    if (!box_.set) box_ = table(group_, "box/edges");
   }
 
  private:
@@ -183,15 +179,44 @@ class H5md final : public Trajectory {
     return 0;
   }
 
+  void open_particles() {
+    choose_group();
+    position_ = table(group_, "position/value");
+    if (position_.set) unit_ = length_unit(position_, path_, warnings_);
+    name_ += "/position/value";
+    time_ = table(group_, "position/time");
+    time_unit_ = time_unit(time_);
+    step_ = table(group_, "position/step");
+    box_ = table(group_, "box/edges/value");
+    if (!box_.set) box_ = table(group_, "box/edges");
+  }
+
+  /// MDTraj's own convention, "HDF5 format specification" of its manual: nm, ps and degrees, which `units` repeats.
+  void open_mdtraj() {
+    format_ = "HDF5 of MDTraj";
+    name_ = "coordinates";
+    position_ = table(file_, name_);
+    time_ = table(file_, "time");
+    lengths_ = table(file_, "cell_lengths");
+    angles_ = table(file_, "cell_angles");
+    require_unit(position_, "nanometers");
+    require_unit(time_, "picoseconds");
+    require_unit(lengths_, "nanometers");
+    require_unit(angles_, "degrees");
+    unit_ = kAngstromPerNanometre;
+  }
+
+  void require_unit(const Table& values, const std::string& unit) const {
+    const std::string found = values.set ? text_attribute(values.set, "units") : std::string();
+    if (!found.empty() && found != unit)
+      throw InputError(path_, 0, fmt::format("names {} as a unit where MDTraj writes {}", in_quotes(found), unit));
+  }
+
   /// The first group of particles that has positions, in the order of names.
   void choose_group() {
     std::vector<std::string> names;
-    if (!has(file_, "particles")) {
-      const bool mdtraj = text_attribute(file_, "conventions").find("Pande") != std::string::npos;
-      throw InputError(path_, 0,
-                       mdtraj ? "is HDF5 of MDTraj, not H5MD; convert it with mdconvert to XTC, DCD or NetCDF"
-                              : "is HDF5, but not H5MD: it has no group 'particles'");
-    }
+    if (!has(file_, "particles"))
+      throw InputError(path_, 0, "is HDF5, but neither H5MD nor of MDTraj: it has no group 'particles'");
     const Handle particles(H5Gopen2(file_, "particles", H5P_DEFAULT), H5Gclose);
     H5Literate(particles, H5_INDEX_NAME, H5_ITER_INC, nullptr, collect, &names);
     std::erase_if(names, [&](const std::string& name) { return !has(particles, name + "/position/value"); });
@@ -256,7 +281,16 @@ class H5md final : public Trajectory {
     return sum;
   }
 
+  /// Three numbers of a frame.
+  std::optional<glm::dvec3> three_of(const Table& from, std::uint64_t frame) const {
+    glm::dvec3 numbers(0.0);
+    if (!from.set || from.lengths != std::vector<hsize_t>{frame_count_, 3}) return std::nullopt;
+    return read_frame_of(from, frame, H5T_NATIVE_DOUBLE, &numbers.x) ? std::optional(numbers) : std::nullopt;
+  }
+
   std::optional<glm::dmat3> cell_at(std::uint64_t frame) const {
+    const std::optional<glm::dvec3> sides = three_of(lengths_, frame), angles = three_of(angles_, frame);
+    if (sides && angles) return cell_of_angles(unit_ * *sides, *angles);
     if (!box_.set) return std::nullopt;
     std::array<double, 9> numbers{};
     const std::vector<hsize_t>& lengths = box_.lengths;
@@ -296,6 +330,7 @@ class H5md final : public Trajectory {
   Handle file_, group_;
   std::string name_;
   Table position_, time_, step_, box_;
+  Table lengths_, angles_;  ///< of the box, as MDTraj has it
   double unit_ = 1.0, time_unit_ = 1.0;
   std::vector<double> numbers_;
 };

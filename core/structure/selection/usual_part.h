@@ -10,8 +10,8 @@
 
 namespace meniscus {
 
-/// What the atoms of a frame can be if they are not all of the file: "as many as it has without water; give a FILE of
-/// these atoms only", or that the two do not belong together.
+/// What the atoms of a frame can be if they are not all of the file: "as many as it has without water: choose
+/// --trajectory-atoms 'not water'", or that the two do not belong together.
 std::string advice_on_count(std::span<const Atom> atoms, std::size_t frame_atoms);
 
 }  // namespace meniscus

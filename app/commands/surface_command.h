@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the options of `meniscus surface` say, for its two halves: one molecule, and runs of frames.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/options/frame_options.h"
+#include "app/options/molecule_options.h"
+#include "core/structure/selection/selection.h"
+
+namespace meniscus {
+
+struct SurfaceCommand {
+  MoleculeOptions molecule;
+  FrameOptions frames;
+  bool json = false;
+  std::string atom_csv, residue_csv, series_csv, cavity_csv,
+      gradient_csv;  ///< paths; empty: none; "-": standard output
+  std::string plot;  ///< path of an SVG of a run; empty: none
+  std::optional<Selection> context;
+  bool force = false;
+
+  Existing existing() const { return force ? Existing::replace : Existing::refuse; }
+  /// Does a table take the place of what is printed else?
+  bool prints_csv() const;
+};
+
+/// Throws UsageError for outputs that get into each other's way, OutputError for what cannot be written.
+void check_outputs(const SurfaceCommand& command);
+
+/// A line or a row for every frame, as soon as it is there, in every output that is asked for (surface_frames.cpp).
+/// Files get their names at the end, with the frames that could be made.
+void surface_frames(const SurfaceCommand& command);
+
+}  // namespace meniscus

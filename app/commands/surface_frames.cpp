@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The run of frames of `meniscus surface`: numbers of each as a line or a row, cavities followed from one to the next.
+#include <algorithm>
+#include <iostream>
+#include <iterator>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "app/commands/surface_command.h"
+#include "app/process/program_error.h"
+#include "app/reports/area_csv.h"
+#include "app/reports/notes.h"
+#include "app/reports/run_frames.h"
+#include "app/reports/series_csv.h"
+#include "app/reports/series_plot.h"
+#include "app/reports/surface_report.h"
+#include "core/base/output_file.h"
+#include "core/queries/cavity_tracks.h"
+#include "core/scene/context_areas.h"
+#include "core/scene/gradient_columns.h"
+#include "core/scene/molecule.h"
+
+namespace meniscus {
+namespace {
+
+void print_now(const std::string& text) {
+  std::cout << text << std::flush;
+  if (!std::cout) throw OutputError("standard output", "cannot be written");
+}
+
+/// A table that grows frame by frame: a file, standard output, or nothing at all.
+class GrowingTable {
+ public:
+  GrowingTable(const std::string& path, Existing existing) : prints_(path == "-") {
+    if (!path.empty() && !prints_) file_.emplace(path, existing);
+  }
+
+  bool is_wanted() const { return prints_ || file_; }
+  void write(const std::string& header, const std::string& rows) {
+    if (!is_wanted()) return;
+    add(has_header_ ? rows : header + rows);
+    has_header_ = true;
+  }
+  void commit() {
+    if (file_ && has_header_) file_->commit();
+  }
+
+ private:
+  void add(const std::string& text) {
+    if (file_)
+      file_->write(text);
+    else
+      print_now(text);
+  }
+
+  bool prints_, has_header_ = false;
+  std::optional<OutputFile> file_;
+};
+
+/// What is known of a frame before its place among the others matters.
+struct FrameNumbers {
+  std::vector<SeriesValue> values;
+  std::string printed, atom_header, atoms, residue_header, residues, gradient_header, gradients;
+  std::vector<Cavity> cavities;
+  std::vector<std::string> lining;  ///< of each
+};
+
+class SurfaceFrames {
+ public:
+  explicit SurfaceFrames(const SurfaceCommand& command)
+      : command_(command),
+        series_(command.series_csv, command.existing()),
+        atoms_(command.atom_csv, command.existing()),
+        residues_(command.residue_csv, command.existing()),
+        gradients_(command.gradient_csv, command.existing()),
+        cavities_(command.cavity_csv, command.existing()),
+        tracks_(command.molecule.surface.probe_radius) {
+    if (!command.plot.empty()) plot_.emplace(command.plot, command.existing());
+  }
+
+  void run() {
+    FrameOptions options = command_.frames;
+    options.context = command_.context;
+    FrameRun frames(command_.molecule, options);
+    tell_run(command_.molecule, frames);
+    if (!command_.json && !command_.prints_csv()) std::cout << report_row_header(command_.molecule);
+    // On a terminal the rows themselves tell how far it is; a bar would run into them.
+    if (options.progress == ProgressStyle::automatic && ::isatty(STDOUT_FILENO)) options.progress = ProgressStyle::none;
+    std::vector<FrameWorker> workers;
+    for (const auto& builder :
+         frame_builders(frames, command_.molecule, options, kSurfaceBytesPerAtom * frames.structure().atoms.size()))
+      workers.push_back(worker(builder));
+    try {
+      run_frames(frames, command_.molecule, options, std::move(workers));
+    } catch (const RunError&) {
+      commit();  // of a run that misses some frames the others are kept; the exit code tells
+      throw;
+    }
+    commit();
+  }
+
+ private:
+  FrameWorker worker(const std::shared_ptr<MoleculeBuilder>& builder) {
+    return [this, builder](RunFrame frame) -> FinishFrame {
+      const FrameNote note{frame.number, frame.time};
+      const Structure together = std::move(frame.together);
+      const Molecule molecule = builder->build(std::move(frame.structure));
+      auto numbers = std::make_shared<FrameNumbers>(numbers_of(molecule, together, note, builder->computer()));
+      return [this, numbers, note] { return finish(*numbers, note); };
+    };
+  }
+
+  FrameNumbers numbers_of(const Molecule& molecule, const Structure& together, const FrameNote& note,
+                          SurfaceComputer& computer) const {
+    FrameNumbers numbers;
+    const SurfaceKind kind = command_.molecule.surface.kind;
+    const bool by_atom = command_.json || command_.context || atoms_.is_wanted() || residues_.is_wanted();
+    std::vector<AreaColumn> columns =
+        by_atom ? area_columns(molecule.structure, molecule.objects, kind) : area_totals(molecule.objects, kind);
+    std::optional<ContextNote> context;
+    if (command_.context) {
+      ContextAreas areas = context_areas(command_.molecule, together, molecule, columns, computer);
+      context = ContextNote{command_.context->text(), areas.atoms};
+      std::move(areas.columns.begin(), areas.columns.end(), std::back_inserter(columns));
+    }
+    const SurfaceReport report{molecule, command_.molecule, columns, context};
+    if (!command_.prints_csv())
+      numbers.printed = command_.json ? report_json_line(report, note) : report_row(report, note);
+    if (series_.is_wanted() || plot_) numbers.values = series_values(molecule, columns);
+    const std::string prefix = frame_cells(note) + ",";
+    if (atoms_.is_wanted()) {
+      numbers.atom_header = kFrameColumns + ("," + atom_csv_header(columns));
+      numbers.atoms = atom_csv_rows(molecule.structure, columns, prefix);
+    }
+    if (residues_.is_wanted()) {
+      numbers.residue_header = kFrameColumns + ("," + residue_csv_header(columns));
+      numbers.residues = residue_csv_rows(molecule.structure, columns, prefix);
+    }
+    if (gradients_.is_wanted()) {
+      const std::vector<GradientColumn> gradients = gradient_columns(molecule.structure, molecule.objects, kind);
+      numbers.gradient_header = kFrameColumns + ("," + gradient_csv_header(gradients));
+      numbers.gradients = gradient_csv_rows(molecule.structure, gradients, prefix);
+    }
+    if (cavities_.is_wanted()) {
+      numbers.cavities = cavities_of(molecule.surface());
+      for (const Cavity& cavity : numbers.cavities)
+        numbers.lining.push_back(lining_residues(molecule.structure, molecule.objects.front(), cavity));
+    }
+    return numbers;
+  }
+
+  MadeFrame finish(FrameNumbers& numbers, const FrameNote& note) {
+    if (!command_.prints_csv()) print_now(numbers.printed);
+    if (series_.is_wanted()) series_.write(series_csv_header(numbers.values), series_csv_row(numbers.values, note));
+    if (plot_) points_.push_back({note, std::move(numbers.values)});
+    atoms_.write(numbers.atom_header, numbers.atoms);
+    residues_.write(numbers.residue_header, numbers.residues);
+    gradients_.write(numbers.gradient_header, numbers.gradients);
+    if (cavities_.is_wanted()) {
+      std::string rows;
+      const std::vector<CavityStep> steps = tracks_.follow(numbers.cavities);
+      for (const CavityStep& step : steps) {
+        const bool is_there = step.cavity != kNone;
+        rows += cavity_csv_row(note, step, is_there ? &numbers.cavities[step.cavity] : nullptr,
+                               is_there ? numbers.lining[step.cavity] : "");
+      }
+      cavities_.write(cavity_csv_header(), rows);
+    }
+    return {};
+  }
+
+  void commit() {
+    if (plot_ && !points_.empty()) {
+      plot_->write(plot_svg(plot()));
+      plot_->commit();
+    }
+    for (GrowingTable* table : {&series_, &atoms_, &residues_, &gradients_, &cavities_}) table->commit();
+  }
+
+  /// Over time if all frames have one, else over their numbers.
+  SeriesPlot plot() const {
+    const bool has_times =
+        std::ranges::all_of(points_, [](const PlottedFrame& point) { return point.note.time.has_value(); });
+    SeriesPlot plot;
+    plot.x_title = has_times ? "time, ps" : "frame";
+    for (const PlottedFrame& point : points_)
+      plot.x.push_back(has_times ? *point.note.time : static_cast<double>(point.note.frame));
+    for (std::size_t n = 0; n < points_.front().values.size(); ++n) {
+      const SeriesValue& first = points_.front().values[n];
+      if (!*first.unit) continue;
+      PlotPanel panel{fmt::format("{}, {}", first.name, first.unit), {}};
+      for (const PlottedFrame& point : points_) panel.values.push_back(point.values[n].value);
+      plot.panels.push_back(std::move(panel));
+    }
+    return plot;
+  }
+
+  struct PlottedFrame {
+    FrameNote note;
+    std::vector<SeriesValue> values;
+  };
+
+  const SurfaceCommand& command_;
+  GrowingTable series_, atoms_, residues_, gradients_, cavities_;
+  CavityTracks tracks_;
+  std::optional<OutputFile> plot_;
+  std::vector<PlottedFrame> points_;
+};
+
+}  // namespace
+
+void surface_frames(const SurfaceCommand& command) {
+  check_outputs(command);
+  SurfaceFrames(command).run();
+}
+
+}  // namespace meniscus
