@@ -29,6 +29,7 @@ struct BenchCommand {
   int runs = 5;
   bool baseline = false;
   bool paper = false;
+  bool numbers = false;
   ViewRequest picture;  ///< size of the frames of --paper
 };
 
@@ -117,6 +118,7 @@ void print_table(const std::vector<Row>& rows) {
 }
 
 void run_paper(BenchCommand& command) {
+  if (command.numbers) throw UsageError("--numbers times surfaces, --paper frames; choose one");
   if (command.baseline) throw UsageError("--baseline times surfaces, --paper frames; choose one");
   if (command.molecule.surface.verify) throw UsageError("--verify compares surfaces, --paper times frames");
   if (command.molecule.surface.kind != SurfaceKind::ses)
@@ -136,6 +138,7 @@ void run_paper(BenchCommand& command) {
 
 void run(BenchCommand& command) {
   if (command.paper) return run_paper(command);
+  command.molecule.surface.drawn = !command.numbers;
   Progress progress(progress_on_stderr(command.molecule), "bench",
                     command.files.size() * static_cast<std::size_t>(command.runs));
   std::vector<Row> rows;
@@ -163,6 +166,8 @@ void add_bench(CLI::App& command) {
   command.add_option("--runs", state->runs, "Timed runs of each; the median is shown [5]")
       ->check(CLI::Range(1, 1000000).description(""))
       ->type_name("N");
+  command.add_flag("--numbers", state->numbers,
+                   "Only what areas and volumes need: without the clip planes of pictures and exports");
   command.add_flag("--baseline", state->baseline,
                    "Also time Sanner's sequential rolling probe (reduced surface alone, one thread)");
   command.add_flag("--paper", state->paper,

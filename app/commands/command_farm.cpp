@@ -17,6 +17,7 @@
 #include "app/farm/status.h"
 #include "app/farm/verify.h"
 #include "app/farm/worker.h"
+#include "app/options/film_options.h"
 #include "app/process/installed_files.h"
 #include "app/options/value_words.h"
 #include "app/process/program_error.h"
@@ -35,6 +36,7 @@ struct BundleCommand {
   farm::BundleOptions options;
   std::string folder, engines = "make,slurm,openjd,flamenco", film, addon = addon_folder();
   double frames_per_second = 25.0;
+  FilmFormat film_format;
   bool link = false;
 };
 
@@ -60,8 +62,9 @@ std::vector<farm::Engine> engines_of(const BundleCommand& command) {
 }
 
 void check_film_name(const std::string& name) {
-  if (name.find('/') != std::string::npos || name.starts_with('.') || name.starts_with('-') || !name.ends_with(".mp4"))
-    throw UsageError(fmt::format("--film {} is no plain name that ends in .mp4", in_quotes(name)));
+  if (name.find('/') != std::string::npos || name.starts_with('.') || name.starts_with('-') || !is_film_path(name))
+    throw UsageError(
+        fmt::format("--film {} is no plain name that ends in .mp4, .mov, .mkv, .webm or .gif", in_quotes(name)));
   farm::require_printable_path("--film", name);
 }
 
@@ -73,7 +76,7 @@ void bundle(BundleCommand command) {
   if (command.link) options.transfer = farm::InputTransfer::link;
   if (!command.film.empty()) {
     check_film_name(command.film);
-    options.film = farm::Film{command.film, command.frames_per_second};
+    options.film = farm::Film{command.film, command.frames_per_second, command.film_format};
   }
   farm::BundledCommand bundled;
   farm::parse_bundled_command(command.words, bundled);
@@ -134,6 +137,7 @@ void add_bundle(CLI::App& command) {
       ->check(CLI::Range(0.1, 1000.0).description(""))
       ->type_name("N")
       ->needs(film);
+  add_film_options(command, state->film_format);
   command
       .add_option("--farm-path", state->options.farm_path,
                   "DIR as the farm's machines see it: needed by OpenCue, and the default of Flamenco's setting")

@@ -12,6 +12,7 @@
 #include <fmt/ostream.h>
 
 #include "app/commands/commands.h"
+#include "app/options/film_options.h"
 #include "app/options/figure_options.h"
 #include "app/options/look_options.h"
 #include "app/options/scene_file.h"
@@ -225,7 +226,7 @@ void add_render(CLI::App& command) {
   add_output_options(
       command, state->output,
       "Picture to write: .png, .jpg, .webp, .tif, .exr [FILE's name here, as .png]; of frames: frame_#####.png, or a "
-      "film: .mp4, .mkv, .mov",
+      "film: .mp4, .mov, .mkv, .webm, .gif",
       OutputName::optional);
   command.add_option("--samples", state->samples, "Rays per pixel, the first through its centre [9]")
       ->check(CLI::Range(1, 1024).description(""))
@@ -261,6 +262,7 @@ void add_render(CLI::App& command) {
   command.add_option("--fps", state->frames_per_second, "Frames per second of a film [25]")
       ->check(CLI::Range(0.1, 240.0).description(""))
       ->type_name("N");
+  add_film_options(command, state->film);
   command.callback([state, &command] {
     state->figure.ask_for(state->molecule.reading);
     take_interface(command, state->molecule, state->picture);

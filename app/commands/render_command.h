@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "app/film/film_format.h"
 #include "app/options/molecule_options.h"
 #include "app/options/annotation_options.h"
 #include "app/options/picture_options.h"
@@ -41,6 +42,7 @@ struct RenderCommand {
   std::optional<Extent> extent;  ///< nothing: the complete surface, computed and certified before the picture
   bool stats = false;
   double frames_per_second = 25.0;  ///< of a film
+  FilmFormat film;
 };
 
 /// The picture's size, of which the molecule takes what the legend leaves.

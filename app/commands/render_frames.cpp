@@ -49,9 +49,11 @@ class PictureSink {
     if (is_film_path(path)) {
       if (!command.frames.only.empty())
         throw UsageError("--only: a film needs all frames; write the chunk as pictures: frame_#####.png");
-      film_ = std::make_unique<FilmWriter>(path, command.output.existing(), size, command.frames_per_second);
+      film_ =
+          std::make_unique<FilmWriter>(path, command.output.existing(), size, command.frames_per_second, command.film);
       return;
     }
+    if (command.film != FilmFormat{}) throw UsageError("--codec, --crf, --bits, --chroma: of films only");
     numbered_ = NumberedPath::parse(path);
     if (!numbered_) {
       const std::filesystem::path plain(path);
@@ -69,8 +71,8 @@ class PictureSink {
   /// On any thread: writes the picture, or leaves to its turn that it is added to the film.
   FinishFrame keep(std::uint64_t number, const Framebuffer& picture, bool shows_nothing) {
     if (film_) {
-      auto pixels = std::make_shared<const std::vector<std::uint8_t>>(
-          srgb_pixels(picture, command_.background.value_or(glm::vec3(1.0f))));
+      auto pixels =
+          std::make_shared<const std::vector<std::uint8_t>>(srgb_pixels(picture, ground(), film_->pixels().bytes));
       return [this, pixels, shows_nothing] {
         film_->add(*pixels);
         return MadeFrame{{}, shows_nothing};
@@ -86,6 +88,12 @@ class PictureSink {
   }
 
  private:
+  /// White where none was asked for, but in a film that keeps what is transparent.
+  std::optional<glm::vec3> ground() const {
+    if (command_.background || film_->pixels().channels == 4) return command_.background;
+    return glm::vec3(1.0f);
+  }
+
   const RenderCommand& command_;
   std::optional<NumberedPath> numbered_;
   std::unique_ptr<FilmWriter> film_;

@@ -76,9 +76,19 @@ Json chunking_json(const Chunking& chunking, bool measured) {
   return json;
 }
 
+Json film_json(const Film& film) {
+  Json json{{"file", film.file}, {"frames_per_second", film.frames_per_second}};
+  const FilmFormat& format = film.format;
+  if (!format.codec.empty()) json["codec"] = format.codec;
+  if (format.rate_factor) json["crf"] = *format.rate_factor;
+  if (format.bits != 0) json["bits"] = format.bits;
+  if (format.chroma != 0) json["chroma"] = format.chroma;
+  return json;
+}
+
 Json whole_json(const Bundle& bundle, bool measured) {
   Json json = work_json(bundle);
-  if (bundle.film) json["film"] = {{"file", bundle.film->file}, {"frames_per_second", bundle.film->frames_per_second}};
+  if (bundle.film) json["film"] = film_json(*bundle.film);
   json["chunks"] = chunking_json(bundle.chunking, measured);
   return json;
 }
@@ -93,6 +103,17 @@ Chunking read_chunking(const Json& json) {
   if (json.contains("peak_memory")) chunking.peak_memory = whole_number(json.at("peak_memory"), kAnyNumber);
   chunking.count = whole_number(json.at("count"), kMostChunks);
   return chunking;
+}
+
+Film read_film(const Json& json) {
+  constexpr std::uint64_t kMost = 1000;
+  const auto number = [&](const char* key) { return static_cast<int>(whole_number(json.at(key), kMost)); };
+  Film film{json.at("file").get<std::string>(), json.at("frames_per_second").get<double>(), {}};
+  if (json.contains("codec")) film.format.codec = json.at("codec").get<std::string>();
+  if (json.contains("crf")) film.format.rate_factor = number("crf");
+  if (json.contains("bits")) film.format.bits = number("bits");
+  if (json.contains("chroma")) film.format.chroma = number("chroma");
+  return film;
 }
 
 Bundle bundle_from_json(const Json& json) {
@@ -113,9 +134,7 @@ Bundle bundle_from_json(const Json& json) {
   for (const Json& input : json.at("inputs"))
     bundle.inputs.push_back({input.at("path").get<std::string>(), whole_number(input.at("bytes"), kAnyNumber),
                              input.at("sha256").get<std::string>()});
-  if (json.contains("film"))
-    bundle.film =
-        Film{json.at("film").at("file").get<std::string>(), json.at("film").at("frames_per_second").get<double>()};
+  if (json.contains("film")) bundle.film = read_film(json.at("film"));
   bundle.chunking = read_chunking(json.at("chunks"));
   return bundle;
 }

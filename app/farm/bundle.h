@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "app/film/film_format.h"
+
 namespace meniscus::farm {
 
 inline constexpr int kLargestSide = 65'535;  ///< of a picture, in pixels
@@ -37,6 +39,7 @@ struct Input {
 struct Film {
   std::string file;  ///< plain name, in the bundle
   double frames_per_second = 25.0;
+  FilmFormat format;
 };
 
 /// How the run is cut into tasks, and what each needs: as asked for, and as decided.

@@ -12,6 +12,7 @@
 #include "app/farm/blender_driver.h"
 #include "app/farm/command_options.h"
 #include "app/farm/inner_path.h"
+#include "app/process/program_error.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 
@@ -73,8 +74,13 @@ void check_numbers(const Bundle& bundle) {
   const double rate = bundle.film->frames_per_second;
   if (!(rate >= 0.1 && rate <= 1000.0)) throw RequestError("its film's frames a second make no sense");
   const std::string& name = bundle.film->file;
-  if (name.find('/') != std::string::npos || !name.ends_with(".mp4") || name.starts_with('.') || name.starts_with('-'))
-    throw RequestError(fmt::format("film {} is no plain name that ends in .mp4", in_quotes(name)));
+  if (name.find('/') != std::string::npos || !is_film_path(name) || name.starts_with('.') || name.starts_with('-'))
+    throw RequestError(fmt::format("film {} is no plain name that ends in .mp4 or as films do", in_quotes(name)));
+  try {
+    film_encoder(name, bundle.film->format);
+  } catch (const UsageError& error) {
+    throw RequestError(fmt::format("its film cannot be: {}", error.what()));
+  }
 }
 
 }  // namespace

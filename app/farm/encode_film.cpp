@@ -28,31 +28,38 @@ DecodedImage decoded(const fs::path& path) {
   }
 }
 
-/// 8-bit sRGB; what is transparent shows white, as in the films of `render`.
-std::vector<std::uint8_t> picture_rgb(const fs::path& folder, const std::string& inner) {
+/// sRGB as the film takes it; what is transparent shows white, as in the films of `render`, where it keeps no alpha.
+std::vector<std::uint8_t> film_pixels(const fs::path& folder, const std::string& inner, const FilmPixels& pixels) {
   const fs::path path = folder / inner;
   if (inner_entry(folder, inner) != Entry::file || !is_png(path)) throw InputError(path.string(), 0, "is no PNG file");
   const DecodedImage picture = decoded(path);
   const auto channels = static_cast<std::size_t>(picture.channels);
-  std::vector<std::uint8_t> rgb;
-  rgb.reserve(3 * picture.values.size() / channels);
+  const bool keeps_alpha = pixels.channels == 4;
+  std::vector<std::uint8_t> bytes;
+  bytes.reserve(picture.values.size() / channels * pixels.channels * pixels.bytes);
+  const auto append = [&](float value) {
+    const float most = pixels.bytes == 2 ? 65535.0f : 255.0f;
+    const auto word = static_cast<std::uint16_t>(std::clamp(value, 0.0f, 1.0f) * most + 0.5f);
+    bytes.push_back(static_cast<std::uint8_t>(word & 0xff));
+    if (pixels.bytes == 2) bytes.push_back(static_cast<std::uint8_t>(word >> 8));
+  };
   for (std::size_t at = 0; at < picture.values.size(); at += channels) {
-    const float ground = channels == 2 || channels == 4 ? 1.0f - picture.values[at + channels - 1] : 0.0f;
-    for (std::size_t c = 0; c < 3; ++c) {
-      const float value = picture.values[at + (channels < 3 ? 0 : c)] + ground;
-      rgb.push_back(static_cast<std::uint8_t>(std::clamp(value, 0.0f, 1.0f) * 255.0f + 0.5f));
-    }
+    const float alpha = channels == 2 || channels == 4 ? picture.values[at + channels - 1] : 1.0f;
+    const auto color = [&](std::size_t c) { return picture.values[at + (channels < 3 ? 0 : c)]; };  // times alpha
+    for (std::size_t c = 0; c < 3; ++c)
+      append(keeps_alpha ? (alpha > 0.0f ? color(c) / alpha : 0.0f) : color(c) + (1.0f - alpha));
+    if (keeps_alpha) append(alpha);
   }
-  return rgb;
+  return bytes;
 }
 
 }  // namespace
 
 void encode_film(const Bundle& bundle, const fs::path& folder) {
   FilmWriter film((folder / bundle.film->file).string(), Existing::replace, {bundle.width, bundle.height},
-                  bundle.film->frames_per_second);
+                  bundle.film->frames_per_second, bundle.film->format);
   for (const std::uint64_t frame : bundle.frames)
-    film.add(picture_rgb(folder, fmt::format("images/frame_{}.png", frame_digits(frame))));
+    film.add(film_pixels(folder, fmt::format("images/frame_{}.png", frame_digits(frame)), film.pixels()));
   film.finish();
 }
 

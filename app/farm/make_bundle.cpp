@@ -202,7 +202,8 @@ Bundle described(const BundleOptions& options, const BundledCommand& command, Bu
   bundle.steps = steps_of(command);
   bundle.width = command.picture.width;
   bundle.height = command.picture.height;
-  if (options.film) check_film_size({bundle.width, bundle.height});
+  if (options.film)
+    check_film_size(film_encoder(options.film->file, options.film->format), {bundle.width, bundle.height});
   bundle.film = options.film;
   bundle.command = bundled_command(command, default_camera(command, cameras, frames), inputs);
   if (bundle.steps.back().maker == Maker::blender) add_addon(options.addon, inputs);

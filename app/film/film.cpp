@@ -28,16 +28,22 @@ extern char** environ;
 namespace meniscus {
 namespace {
 
-std::vector<std::string> arguments(const std::string& output, glm::ivec2 size, double frames_per_second) {
-  return {"ffmpeg", "-hide_banner", "-loglevel", "error", "-xerror", "-y",
-          // pictures as they come
-          "-f", "rawvideo", "-pixel_format", "rgb24", "-video_size", fmt::format("{}x{}", size.x, size.y), "-framerate",
-          fmt::format("{}", frames_per_second), "-i", "pipe:0",
-          // BT.709 as players expect it, without names, dates or versions
-          "-vf", "scale=out_color_matrix=bt709:out_range=tv", "-c:v", "libx264", "-preset", "medium", "-crf", "18",
-          "-pix_fmt", "yuv420p", "-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709",
-          "-color_range", "tv", "-movflags", "+faststart", "-fflags", "+bitexact", "-flags:v", "+bitexact",
-          "-map_metadata", "-1", output};
+std::string pixel_format(const FilmPixels& pixels) {
+  return fmt::format("rgb{}{}", pixels.channels == 4 ? "a" : "",
+                     pixels.bytes == 2 ? (pixels.channels == 4 ? "64le" : "48le") : (pixels.channels == 4 ? "" : "24"));
+}
+
+std::vector<std::string> arguments(const FilmEncoder& encoder, const std::string& output, glm::ivec2 size,
+                                   double frames_per_second) {
+  std::vector<std::string> words{"ffmpeg", "-hide_banner", "-loglevel", "error", "-xerror", "-y",
+                                 // pictures as they come
+                                 "-f", "rawvideo", "-pixel_format", pixel_format(encoder.pixels), "-video_size",
+                                 fmt::format("{}x{}", size.x, size.y), "-framerate",
+                                 fmt::format("{}", frames_per_second), "-i", "pipe:0"};
+  words.insert(words.end(), encoder.arguments.begin(), encoder.arguments.end());
+  // without names, dates or versions
+  words.insert(words.end(), {"-fflags", "+bitexact", "-flags:v", "+bitexact", "-map_metadata", "-1", output});
+  return words;
 }
 
 std::string in_one_line(std::string_view text) {
@@ -48,20 +54,21 @@ std::string in_one_line(std::string_view text) {
 
 }  // namespace
 
-bool is_film_path(const std::string& path) {
-  for (const char* extension : {".mp4", ".mkv", ".mov"})
-    if (path.ends_with(extension)) return true;
-  return false;
+void check_film_size(const FilmEncoder& encoder, glm::ivec2 size) {
+  if (size.x < encoder.least.x || size.y < encoder.least.y)
+    throw UsageError(fmt::format("--size {}x{}: a film of this codec has at least {}x{}", size.x, size.y,
+                                 encoder.least.x, encoder.least.y));
+  if (size.x % encoder.unit.x == 0 && size.y % encoder.unit.y == 0) return;
+  throw UsageError(fmt::format("--size {}x{}: a film like this needs {}; so does not one of --chroma 444", size.x,
+                               size.y, encoder.unit.y == 1 ? "an even width" : "even numbers"));
 }
 
-void check_film_size(glm::ivec2 size) {
-  if (size.x % 2 == 0 && size.y % 2 == 0) return;
-  throw UsageError(fmt::format("--size {}x{}: a film needs even numbers", size.x, size.y));
-}
-
-FilmWriter::FilmWriter(const std::string& path, Existing existing, glm::ivec2 size, double frames_per_second)
+FilmWriter::FilmWriter(const std::string& path, Existing existing, glm::ivec2 size, double frames_per_second,
+                       const FilmFormat& format)
     : file_(path, existing) {
-  check_film_size(size);
+  const FilmEncoder encoder = film_encoder(path, format);
+  pixels_ = encoder.pixels;
+  check_film_size(encoder, size);
   std::array<int, 2> ends{-1, -1};
   // A socket rather than a pipe: writing to an encoder that died is then an error, and no signal.
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0)
@@ -73,7 +80,7 @@ FilmWriter::FilmWriter(const std::string& path, Existing existing, glm::ivec2 si
   posix_spawn_file_actions_adddup2(&actions, ends[1], STDIN_FILENO);
   posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
   posix_spawn_file_actions_adddup2(&actions, complaints_, STDERR_FILENO);
-  std::vector<std::string> words = arguments(file_.temporary_path().string(), size, frames_per_second);
+  std::vector<std::string> words = arguments(encoder, file_.temporary_path().string(), size, frames_per_second);
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
@@ -119,16 +126,16 @@ std::string FilmWriter::fault() const {
   return broken.empty() ? "" : fmt::format("ffmpeg says nothing, but what it wrote {}", broken);
 }
 
-void FilmWriter::add(std::span<const std::uint8_t> rgb) {
-  while (!rgb.empty()) {
-    const ssize_t sent = ::send(pictures_, rgb.data(), rgb.size(), MSG_NOSIGNAL);
+void FilmWriter::add(std::span<const std::uint8_t> picture) {
+  while (!picture.empty()) {
+    const ssize_t sent = ::send(pictures_, picture.data(), picture.size(), MSG_NOSIGNAL);
     if (sent < 0 && errno == EINTR) continue;
     if (sent <= 0) {
       end_pictures();
       const std::string why = fault();
       throw OutputError(file_.target().string(), why.empty() ? "ffmpeg takes no more pictures" : why);
     }
-    rgb = rgb.subspan(static_cast<std::size_t>(sent));
+    picture = picture.subspan(static_cast<std::size_t>(sent));
   }
   ++added_;
 }

@@ -11,28 +11,30 @@
 
 #include <glm/vec2.hpp>
 
+#include "app/film/film_format.h"
 #include "core/base/output_file.h"
 
 namespace meniscus {
 
-/// Does the name end as films do: .mp4, .mkv, .mov?
-bool is_film_path(const std::string& path);
+/// Throws UsageError unless the size, in pixels, is such as the encoder takes: even where it halves colours.
+void check_film_size(const FilmEncoder& encoder, glm::ivec2 size);
 
-/// Throws UsageError unless the size, in pixels, is even both ways, as the encoder needs it.
-void check_film_size(glm::ivec2 size);
-
-/// One film in H.264 (yuv420p, BT.709, constant quality 18); equal pictures give equal bytes on one machine. It appears
-/// under its name when finish() succeeds: when ffmpeg had nothing to complain of and the file is whole. Needs the
-/// program ffmpeg; without it, or when it fails, throws OutputError.
+/// One film, in BT.709; equal pictures give equal bytes on one machine. It appears under its name when finish()
+/// succeeds: when ffmpeg had nothing to complain of and the file is whole. Needs the program ffmpeg; without it, or
+/// when it fails, throws OutputError.
 class FilmWriter {
  public:
-  FilmWriter(const std::string& path, Existing existing, glm::ivec2 size, double frames_per_second);
+  /// Throws UsageError for what the format cannot be.
+  FilmWriter(const std::string& path, Existing existing, glm::ivec2 size, double frames_per_second,
+             const FilmFormat& format = {});
   ~FilmWriter();
   FilmWriter(const FilmWriter&) = delete;
   FilmWriter& operator=(const FilmWriter&) = delete;
 
-  /// rgb: 8 bit sRGB, 3 bytes a pixel, rows from the top.
-  void add(std::span<const std::uint8_t> rgb);
+  /// What add() takes.
+  const FilmPixels& pixels() const { return pixels_; }
+
+  void add(std::span<const std::uint8_t> picture);
   void finish();
 
  private:
@@ -41,6 +43,7 @@ class FilmWriter {
   std::string fault() const;  ///< why what the encoder has written is no film; empty if it is one
 
   OutputFile file_;
+  FilmPixels pixels_;
   pid_t encoder_ = -1;
   int pictures_ = -1;    ///< socket to the encoder's standard input
   int complaints_ = -1;  ///< what it writes on standard error

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Walks through the boxes of MP4 and the elements of Matroska, which encoders finish last.
+// Walks through the boxes of MP4, the elements of Matroska and the blocks of GIF, which encoders finish last.
 #include "app/film/film_check.h"
 
 #include <algorithm>
@@ -118,12 +118,50 @@ Size pictures_of_matroska(const BinaryFile& file) {
   return count;
 }
 
+/// Behind a block's data in pieces of up to 255 bytes, each after its length; one of none ends them.
+Size end_of_pieces(const BinaryFile& file, Size at) {
+  while (at < file.size()) {
+    const Size length = number(file, at, 1);
+    at += 1 + length;
+    if (length == 0) return at;
+  }
+  cut_short(file.size());
+}
+
+Size pictures_of_gif(const BinaryFile& file) {
+  constexpr Size kHeader = 13, kDescriptor = 10, kExtension = 0x21, kPicture = 0x2c, kTrailer = 0x3b;
+  // The lowest bits of the flags are one less than the binary logarithm of the number of colours.
+  const auto palette = [](Size flags) { return (flags & 0x80) != 0 ? Size{3} << ((flags & 7) + 1) : 0; };
+  if (file.size() < kHeader) cut_short(file.size());
+  Size at = kHeader + palette(number(file, 10, 1)), count = 0;
+  while (at < file.size()) {
+    const Size kind = number(file, at, 1);
+    if (kind == kTrailer) {
+      if (at + 1 != file.size()) throw Error(fmt::format("goes on behind its end at byte {}", at));
+      return count;
+    }
+    if (kind == kExtension) {
+      at = end_of_pieces(file, at + 2);
+    } else if (kind == kPicture) {
+      if (file.size() - at < kDescriptor) cut_short(at);
+      at = end_of_pieces(file, at + kDescriptor + palette(number(file, at + 9, 1)) + 1);
+      ++count;
+    } else {
+      throw Error(fmt::format("has no block at byte {}", at));
+    }
+  }
+  cut_short(file.size());
+}
+
 }  // namespace
 
 std::string film_fault(const std::filesystem::path& path, std::uint64_t pictures) {
   try {
     const BinaryFile file(path.string());
-    const Size found = path.extension() == ".mkv" ? pictures_of_matroska(file) : pictures_of_mp4(file);
+    const auto ending = path.extension();
+    const Size found = ending == ".gif"                        ? pictures_of_gif(file)
+                       : ending == ".mkv" || ending == ".webm" ? pictures_of_matroska(file)
+                                                               : pictures_of_mp4(file);
     return found == pictures ? "" : fmt::format("holds {} of {} pictures", found, pictures);
   } catch (const Error& error) {
     return error.what();

@@ -38,6 +38,10 @@ constexpr auto kSceneKeys = std::to_array<SceneKey>({
     {"frames", "reference", "--reference", V::text},
     {"frames", "smooth", "--smooth", V::text},
     {"frames", "fps", "--fps", V::text},
+    {"frames", "codec", "--codec", V::text},
+    {"frames", "crf", "--crf", V::text},
+    {"frames", "bits", "--bits", V::text},
+    {"frames", "chroma", "--chroma", V::text},
 
     {"surface", "shown", "--hide-surface", V::negated, true},
     {"surface", "interface", "--interface", V::text, true},

@@ -189,8 +189,18 @@ std::vector<std::uint8_t> encoded(const std::filesystem::path& path, const Frame
 
 bool holds_aovs(const std::filesystem::path& path) { return extension_of(path) == ".exr"; }
 
-std::vector<std::uint8_t> srgb_pixels(const Framebuffer& picture, const glm::vec3& background) {
-  return byte_channels(picture, background).bytes;
+std::vector<std::uint8_t> srgb_pixels(const Framebuffer& picture, const std::optional<glm::vec3>& background,
+                                      int bytes) {
+  if (bytes == 1) return byte_channels(picture, background, false).bytes;
+  const Channels channels = display_channels(picture, {.background = background, .linear_alpha = false});
+  std::vector<std::uint8_t> pixels;
+  pixels.reserve(2 * channels.values.size());
+  for (const float value : channels.values) {
+    const auto word = static_cast<std::uint16_t>(std::clamp(value, 0.0f, 1.0f) * 65535.0f + 0.5f);
+    pixels.push_back(static_cast<std::uint8_t>(word & 0xff));
+    pixels.push_back(static_cast<std::uint8_t>(word >> 8));
+  }
+  return pixels;
 }
 
 void check_image_path(const std::filesystem::path& path) {

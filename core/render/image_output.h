@@ -28,8 +28,11 @@ struct ImageSettings {
 /// True if the extension names a format that can hold AOVs (.exr).
 bool holds_aovs(const std::filesystem::path& path);
 
-/// The picture on an opaque background, as PNG would have it: 8 bit sRGB, 3 bytes a pixel, rows from the top.
-std::vector<std::uint8_t> srgb_pixels(const Framebuffer& picture, const glm::vec3& background);
+/// The picture in sRGB, rows from the top, as files would have it: 3 channels on the background, or 4 with alpha that
+/// is not multiplied in and blends in sRGB (layout_color()). `bytes` of a channel: 1, as PNG, or 2 little-endian, as
+/// TIFF.
+std::vector<std::uint8_t> srgb_pixels(const Framebuffer& picture, const std::optional<glm::vec3>& background,
+                                      int bytes = 1);
 
 /// Throws OutputError unless the extension is .png, .jpg, .jpeg, .webp, .tif, .tiff or .exr, Error if this installation
 /// writes no pictures.

@@ -232,6 +232,7 @@ TEST(Bench, PrintsARowForEachFile) {
   EXPECT_EQ(std::count(result.out.begin(), result.out.end(), '\n'), 3) << result.out;
   EXPECT_NE(result.out.find("total ms"), std::string::npos);
   EXPECT_NE(result.out.find("rolled, outer"), std::string::npos);
+  EXPECT_EQ(meniscus_says({"bench", kUbiquitin, "--runs", "1", "-q", "--device", "cpu", "--numbers"}).exit_code, 0);
 }
 
 TEST(Bench, PaperPrintsBothExtentsBesideThePapersFigures) {
@@ -243,6 +244,7 @@ TEST(Bench, PaperPrintsBothExtentsBesideThePapersFigures) {
   EXPECT_NE(result.out.find("1crn.xyzr         2 visible"), std::string::npos) << result.out;
   EXPECT_NE(result.out.find("     31 "), std::string::npos) << result.out;
   EXPECT_EQ(meniscus_says({"bench", "--paper", balls, "--baseline"}).exit_code, 2);
+  EXPECT_EQ(meniscus_says({"bench", "--paper", balls, "--numbers"}).exit_code, 2);
   EXPECT_EQ(meniscus_says({"bench", "--paper", balls, "--surface", "sas"}).exit_code, 2);
 }
 

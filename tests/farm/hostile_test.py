@@ -92,7 +92,8 @@ class Hostile(FarmCase):
                        at(("inputs", 0, "path"), "inputs/../../x"), at(("inputs", 0, "path"), "bundle.json"),
                        at(("inputs", 0, "path"), "inputs/.x"), at(("film", "file"), "../film.mp4"),
                        at(("film", "file"), "/tmp/film.mp4"), at(("film", "file"), "Makefile"),
-                       at(("film", "frames_per_second"), -1), at(("size",), [0, 30]), at(("size",), [40, 100000]),
+                       at(("film", "frames_per_second"), -1), at(("film", "codec"), "mjpeg"),
+                       at(("film", "codec"), ["h264"]), at(("film", "crf"), 900), at(("film", "bits"), 9), at(("size",), [0, 30]), at(("size",), [40, 100000]),
                        at(("frames",), ""), at(("chunks", "count"), 10**9), at((*step, "name"), "../x"),
                        at((*step, "name"), "paint"), at((*step, "maker"), "povray"), at((*step, "maker"), "/bin/sh"),
                        at((*step, "arguments"), ["--save-camera", "/x"]), at((*step, "arguments"), ["--threads"]),
@@ -229,7 +230,8 @@ class Hostile(FarmCase):
     def test_every_option_is_known_to_the_list_or_refused_on_purpose(self):
         """A new option of a command that can be bundled is looked at before it gets into bundles."""
         refused = {"--output", "--force", "--only", "--progress", "--save-camera", "--save-scene", "--scene", "--device",
-                   "--threads", "--require-gpu", "--jobs", "--help", "--help-all", "--aovs", "--stats", "--legend-file"}
+                   "--threads", "--require-gpu", "--jobs", "--help", "--help-all", "--aovs", "--stats", "--legend-file",
+                   "--codec", "--crf", "--bits", "--chroma"}
         manifest = json.loads((self.render / "bundle.json").read_text())
         names = set()
         for command in (("render",), ("export", "povray"), ("export", "blender")):

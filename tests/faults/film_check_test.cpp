@@ -53,7 +53,7 @@ TEST_P(Film, MoreThanAFilmIsBroken) {
   EXPECT_NE(film_fault(path_, kPictures), "");
 }
 
-INSTANTIATE_TEST_SUITE_P(Containers, Film, testing::Values("mp4", "mov", "mkv"),
+INSTANTIATE_TEST_SUITE_P(Containers, Film, testing::Values("mp4", "mov", "mkv", "webm", "gif"),
                          [](const auto& film) { return std::string(film.param); });
 
 // Matroska is written from front to back; its size and the cues come last.
