@@ -68,8 +68,7 @@ class ObjectReader {
     const std::string representation = text("representation", "surface");
     const std::string selection = text("selection", "");
     if (selection.empty()) throw RequestError("object: \"selection\" is missing: which atoms is it made of?");
-    FigureObjectRequest object;
-    object.atoms = naming("selection", [&] { return parse_selection(selection); });
+    FigureObjectRequest object{.atoms = naming("selection", [&] { return parse_selection(selection); })};
     const auto* const shape =
         std::ranges::find(kShapeWords, std::string_view(representation), &std::pair<std::string_view, Kind>::first);
     if (shape != kShapeWords.end())

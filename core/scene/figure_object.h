@@ -23,18 +23,18 @@ namespace meniscus {
 /// Some atoms of the file, which need not be atoms of the molecule's surface, and how they are drawn.
 struct FigureObjectRequest {
   Selection atoms;
-  std::optional<RepresentationRequest::Kind> shapes;  ///< nothing: the surface of these atoms, as if they were alone
-  std::optional<ColorScheme> color;                   ///< nothing: the molecule's
-  std::vector<OpacityRule> opacities;                 ///< the object's own; those of the molecule do not count here
-  MaterialRequest material;
-  std::optional<double> radius;  ///< Å, of sticks and backbones; nothing: the usual one
+  std::optional<RepresentationRequest::Kind> shapes{};  ///< nothing: the surface of these atoms, as if they were alone
+  std::optional<ColorScheme> color{};                   ///< nothing: the molecule's
+  std::vector<OpacityRule> opacities{};                 ///< the object's own; those of the molecule do not count here
+  MaterialRequest material{};
+  std::optional<double> radius{};  ///< Å, of sticks and backbones; nothing: the usual one
 
   // Of surfaces.
   SurfaceKind kind = SurfaceKind::ses;
-  double probe_radius = 1.4;      ///< Å
-  std::optional<Selection> show;  ///< of the atoms, those whose part of the surface is drawn
-  std::vector<Cut> cuts;
-  CapStyle cap;
+  double probe_radius = 1.4;        ///< Å
+  std::optional<Selection> show{};  ///< of the atoms, those whose part of the surface is drawn
+  std::vector<Cut> cuts{};
+  CapStyle cap{};
   bool thickens = false;  ///< PictureObject::thickens
 };
 
