@@ -4,6 +4,9 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <utility>
+
+#include <fmt/format.h>
 
 #include "exporters/blender/atom_attributes.h"
 #include "exporters/blender/capped_mesh.h"
@@ -13,8 +16,10 @@
 #include "app/options/mesh_options.h"
 #include "app/process/program_error.h"
 #include "core/scene/run_framing.h"
+#include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/queries/combine.h"
+#include "core/scene/figure.h"
 #include "exporters/blender/sequence_manifest.h"
 #include "exporters/blender/surface_file.h"
 #include "app/reports/notes.h"
@@ -23,8 +28,8 @@
 #include "app/options/figure_options.h"
 #include "app/options/frame_options.h"
 #include "app/options/picture_options.h"
-#include "app/options/representation_options.h"
 #include "exporters/mesh/mesh_colors.h"
+#include "exporters/mesh/mesh_objects.h"
 #include "exporters/mesh/shape_mesh.h"
 #include "exporters/mesh/velocity.h"
 
@@ -39,7 +44,8 @@ struct BlenderCommand {
   ViewRequest picture;
   OutputOptions output;
   double fps = 24.0;
-  FigureRequest figure;  // but its representations, which the molecule has
+  FigureRequest figure;
+  std::string save_scene;  // path; empty: it is not saved
 };
 
 std::string file_name(const std::string& path) { return std::filesystem::path(path).filename().string(); }
@@ -78,12 +84,12 @@ void settle(std::vector<SurfaceObject>& objects) {
   objects.push_back(std::move(whole));
 }
 
-// Cut, with caps. Throws RequestError if nothing is left.
+// Cut, with caps. Throws RequestError if nothing is left, unless it may be.
 std::vector<blender::MeshedObject> cut_objects(const BlenderCommand& command, Molecule& molecule,
-                                               const blender::CutFile& cut, double tolerance) {
+                                               const blender::CutFile& cut, double tolerance, bool may_be_empty) {
   settle(molecule.objects);
   std::vector<blender::MeshedObject> objects;
-  bool any = !molecule.beside.empty();
+  bool any = may_be_empty;
   for (const SurfaceObject& object : molecule.objects) {
     blender::CappedMesh made = blender::capped_mesh(object, cut.planes, cut.style.color.has_value(), tolerance);
     any = any || !made.mesh.triangles.empty();
@@ -106,6 +112,43 @@ std::vector<glm::dvec3> velocities_of(const SurfaceObject& object, const Triangl
   std::vector<glm::dvec3> velocities = vertex_velocities(object.surface, mesh, atoms);
   for (glm::dvec3& v : velocities) v *= frames_passed;
   return velocities;
+}
+
+// Meshes of what stands beside the surface with looks of its own, kept in `made`.
+void add_more(const BlenderCommand& command, const Figure& figure, const Camera& camera, double tolerance,
+              std::vector<ShapeObject>& made, std::vector<blender::MeshedObject>& objects) {
+  Structure shown;
+  shown.atoms = shown_atoms(figure.molecule.structure);
+  const std::vector<Ball> balls = placed_balls(figure.molecule.objects);
+  made.reserve(figure.objects.size());  // objects refer to them
+  for (std::size_t n = 0; n < figure.objects.size(); ++n) {
+    const FigureObject& object = figure.objects[n];
+    if (!object.surface && object.shapes.empty()) continue;
+    const PictureObject asked = picture_object(object, command.figure.objects[n], camera, balls);
+    std::vector<std::uint32_t> cap_plane;
+    if (!object.surface) {
+      made.push_back(shape_object(shown.atoms, object.shapes, tolerance));
+    } else if (asked.clip.empty()) {
+      made.push_back({*object.surface, std::move(mesh_objects({&*object.surface, 1}, tolerance, true).front())});
+    } else {
+      blender::CappedMesh capped =
+          blender::capped_mesh(*object.surface, asked.clip, asked.cap.color.has_value(), tolerance);
+      cap_plane = std::move(capped.cap_plane);
+      made.push_back({*object.surface, std::move(capped.mesh)});
+    }
+    SurfaceObject& own = made.back().object;
+    own.name = fmt::format("object {}", n + 1);
+    TriangleMesh& mesh = made.back().mesh;
+    if (!object.surface && own.coloring.hides_some()) mesh = shown_part(std::move(mesh), own.coloring);
+    objects.push_back({own,
+                       std::move(mesh),
+                       blender::atom_attributes(shown, own.atom),
+                       {},
+                       asked.thickens,
+                       std::move(cap_plane),
+                       blender::CutFile{asked.clip, asked.cap},
+                       asked.material});
+  }
 }
 
 // An object more for what is drawn beside the surface, kept in `made`.
@@ -159,7 +202,7 @@ void run_sequence(const BlenderCommand& command) {
       std::vector<blender::MeshedObject> objects =
           cut.planes.empty()
               ? moving_objects(command, molecule, frame, pace(frames.numbers(), frame.place), manifest.tolerance)
-              : cut_objects(command, molecule, cut, manifest.tolerance);
+              : cut_objects(command, molecule, cut, manifest.tolerance, !molecule.beside.empty());
       std::optional<ShapeObject> beside;
       add_beside(molecule, manifest.tolerance, beside, objects);
       if (beside && cut.planes.empty())
@@ -178,9 +221,8 @@ void run_sequence(const BlenderCommand& command) {
 }
 
 std::vector<blender::MeshedObject> whole_objects(const BlenderCommand& command, const Molecule& molecule,
-                                                 double tolerance) {
-  std::vector<TriangleMesh> meshes =
-      mesh_and_tell(command.molecule, molecule.objects, tolerance, !molecule.beside.empty());
+                                                 double tolerance, bool may_be_empty) {
+  std::vector<TriangleMesh> meshes = mesh_and_tell(command.molecule, molecule.objects, tolerance, may_be_empty);
   std::vector<blender::MeshedObject> objects;
   for (std::size_t n = 0; n < meshes.size(); ++n) {
     const SurfaceObject& object = molecule.objects[n];
@@ -193,21 +235,49 @@ std::vector<blender::MeshedObject> whole_objects(const BlenderCommand& command, 
   return objects;
 }
 
+// Before anything is computed.
+void check(const BlenderCommand& command) {
+  if (command.molecule.color.by == ColorScheme::By::volume) {
+    constexpr const char* kNoValues = "a .mns file has no values of the map on caps";
+    if (!command.figure.cuts.empty() && !command.figure.cap.color)
+      throw UsageError(fmt::format("--color-map-file with --clip needs --cap-color: {}", kNoValues));
+    for (const FigureObjectRequest& object : command.figure.objects)
+      if (!object.shapes && !object.color && !object.cuts.empty() && !object.cap.color)
+        throw UsageError(
+            fmt::format("--color-map-file with a \"clip\" in --object needs its \"cap_color\": {}", kNoValues));
+  }
+  if (!command.frames.asked()) return;
+  if (!command.figure.objects.empty() || command.figure.hides_surface)
+    throw UsageError(
+        "--object and --hide-surface: a run of frames in Blender has the surface, and beside it --sticks, --balls, "
+        "--spheres and --tube; export its frames one by one (--model), or use render");
+  if (command.molecule.interface) throw UsageError("--interface: of one picture only; leave --frames away");
+}
+
 void run(const BlenderCommand& command) {
-  if (command.molecule.color.by == ColorScheme::By::volume && !command.figure.cuts.empty() && !command.figure.cap.color)
-    throw UsageError("--color-map-file with --clip needs --cap-color: a .mns file has no values of the map on caps");
+  check(command);
   if (command.frames.asked()) return run_sequence(command);
   if (command.run_camera.moves()) throw UsageError(kMovesWithoutFrames);
   const std::optional<Camera> given = given_camera(command.picture);
-  auto [molecule, aim] = load_aimed_molecule(command.molecule, command.picture, given);
+  auto [loaded, aim] = load_aimed_molecule(command.molecule, command.picture, given);
+  Figure figure = make_figure(std::move(loaded), command.figure);
+  Molecule& molecule = figure.molecule;
+  molecule.beside = std::move(figure.shapes);
   const std::vector<Ball> balls = shown_balls(molecule);
   const Camera camera = aim.camera(command.picture, given, molecule.objects);
   const double tolerance = tolerance_of(command.mesh, command.picture.size(), camera, balls);
   const blender::CutFile cut = cut_file(command, camera, molecule.objects);
-  std::vector<blender::MeshedObject> objects =
-      cut.planes.empty() ? whole_objects(command, molecule, tolerance) : cut_objects(command, molecule, cut, tolerance);
+  const bool alone = molecule.beside.empty() && figure.objects.empty();
+  std::vector<blender::MeshedObject> objects;
+  if (!command.figure.hides_surface)
+    objects = cut.planes.empty() ? whole_objects(command, molecule, tolerance, !alone)
+                                 : cut_objects(command, molecule, cut, tolerance, !alone);
   std::optional<ShapeObject> beside;
   add_beside(molecule, tolerance, beside, objects);
+  std::vector<ShapeObject> more;
+  add_more(command, figure, camera, tolerance, more, objects);
+  if (std::ranges::all_of(objects, [](const blender::MeshedObject& each) { return each.mesh.triangles.empty(); }))
+    throw RequestError("the surface is not shown, and there is nothing beside it");
   const blender::Provenance provenance{file_name(molecule.structure.file), molecule.structure.radii_set,
                                        molecule.device, key_of(molecule)};
   write_objects(command.output.path, command.output.existing(), objects,
@@ -226,9 +296,8 @@ void add_export_blender(CLI::App& command) {
       "  meniscus export blender adk.psf --trajectory adk.dcd --frames all -o adk   a file a frame, and a manifest");
   auto state = std::make_shared<BlenderCommand>();
   add_molecule_options(command, state->molecule);
-  add_representation_options(command, state->molecule.representations);
-  add_opacity_options(command, state->molecule, state->figure.thickens);
-  add_cut_options(command, state->figure);
+  add_figure_options(command, state->molecule, state->figure);
+  add_interface_option(command, state->molecule);
   add_mesh_options(command, state->mesh);
   add_picture_options(command, state->picture);
   add_trajectory_argument(command);
@@ -237,9 +306,18 @@ void add_export_blender(CLI::App& command) {
   command.add_option("--fps", state->fps, "Frames of a run a second [24]")
       ->type_name("N")
       ->check(CLI::Range(0.01, 1000.0));
-  add_scene_options(command);
+  add_scene_options(command, &state->save_scene);
   add_output_options(command, state->output, ".mns file to write; of a run, the folder");
-  command.callback([state] { run(*state); });
+  command.callback([state, &command] {
+    if (state->frames.asked())
+      state->molecule.representations = state->figure.representations;
+    else
+      state->figure.ask_for(state->molecule.reading);
+    take_interface(command, state->molecule, state->picture);
+    SceneOutput scene(command, state->save_scene, state->output.existing());
+    run(*state);
+    scene.commit();
+  });
 }
 
 }  // namespace meniscus

@@ -11,6 +11,7 @@
 #include "core/base/text.h"
 #include "core/queries/combine.h"
 #include "app/reports/notes.h"
+#include "app/options/figure_options.h"
 #include "app/options/molecule_options.h"
 #include "app/options/picture_options.h"
 #include "app/options/representation_options.h"
@@ -25,6 +26,7 @@ struct PlyCommand {
   MeshRequest mesh;
   ViewRequest picture;
   OutputOptions output;
+  std::string save_scene;  // path; empty: it is not saved
 };
 
 // One row for each atom of the surface.
@@ -67,11 +69,17 @@ void add_export_ply(CLI::App& command) {
   auto state = std::make_shared<PlyCommand>();
   add_molecule_options(command, state->molecule);
   add_representation_options(command, state->molecule.representations);
+  add_interface_option(command, state->molecule);
   add_mesh_options(command, state->mesh);
   add_picture_options(command, state->picture);
-  add_scene_options(command);
+  add_scene_options(command, &state->save_scene);
   add_output_options(command, state->output, "PLY file to write");
-  command.callback([state] { run(*state); });
+  command.callback([state, &command] {
+    take_interface(command, state->molecule, state->picture);
+    SceneOutput scene(command, state->save_scene, state->output.existing());
+    run(*state);
+    scene.commit();
+  });
 }
 
 }  // namespace meniscus

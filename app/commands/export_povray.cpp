@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -19,7 +20,10 @@
 #include "app/process/program_error.h"
 #include "core/scene/run_framing.h"
 #include "core/base/text.h"
+#include "core/base/error.h"
+#include "core/color/volume_paint.h"
 #include "core/queries/combine.h"
+#include "core/scene/figure.h"
 #include "exporters/povray/scene.h"
 #include "app/reports/notes.h"
 #include "app/options/run_camera_options.h"
@@ -37,6 +41,7 @@ struct PovrayCommand {
   CameraMotionRequest run_camera;
   ViewRequest picture;
   OutputOptions output;
+  std::string save_scene;  // path; empty: it is not saved
   povray::Material material = povray::Material::opaque;
 };
 
@@ -61,19 +66,47 @@ std::vector<ClipPlane> planes_of(const PovrayCommand& command, const Camera& cam
 }
 
 // Whatever atoms are meant by rules in other frames.
-std::vector<glm::vec4> colors_of_run(const PovrayCommand& command, const std::vector<glm::vec3>& colors) {
-  std::vector<glm::vec4> all;
-  const auto add = [&](const glm::vec3& color, float opacity) {
-    const glm::vec4 shown(color, opacity);
-    if (opacity > 0.0f && std::ranges::find(all, shown) == all.end()) all.push_back(shown);
+std::vector<povray::SceneColor> colors_of_run(const PovrayCommand& command, const ColorScheme& scheme,
+                                              const std::vector<glm::vec3>& colors) {
+  povray::ColorTable all;
+  const auto add = [&](const povray::SceneColor& color) {
+    if (color.opacity > 0.0f) all.number(color);
   };
   std::vector<float> opacities{1.0f};
   for (const OpacityRule& rule : command.molecule.color.opacities) opacities.push_back(rule.opacity);
+  const bool film = command.figure.thickens, caps = !command.figure.cuts.empty();
   for (const float opacity : opacities) {
-    for (const glm::vec3& color : colors) add(color, opacity);
-    if (!command.figure.cuts.empty() && command.figure.cap.color) add(*command.figure.cap.color, opacity);
+    if (scheme.volume) {
+      add({scheme.volume->scale.missing_color, opacity, true, film});
+      if (caps) add({scheme.volume->scale.missing_color, opacity, true});
+    }
+    for (const glm::vec3& color : colors) {
+      add({color, opacity, false, film});
+      if (caps) add({color, opacity});
+    }
+    if (caps && command.figure.cap.color) add({*command.figure.cap.color, opacity});
   }
-  return all;
+  return all.colors();
+}
+
+// What stands beside the surface with looks of its own.
+std::vector<povray::SceneObject> more_objects(const Figure& figure, const FigureRequest& request, const Camera& camera,
+                                              std::span<const Ball> balls) {
+  std::vector<povray::SceneObject> more;
+  for (std::size_t n = 0; n < figure.objects.size(); ++n) {
+    const FigureObject& object = figure.objects[n];
+    if (!object.surface && object.shapes.empty()) continue;
+    const PictureObject shown = picture_object(object, request.objects[n], camera, balls);
+    povray::SceneObject& made = more.emplace_back();
+    if (object.surface)
+      made.surface = &*object.surface;
+    else
+      made.shapes = &object.shapes;
+    made.cut = {shown.clip, shown.cap};
+    made.film = shown.thickens;
+    made.material = shown.material;
+  }
+  return more;
 }
 
 // An include for each frame of the chunk; the scene for all of the run, the same from every chunk.
@@ -87,10 +120,11 @@ void run_sequence(const PovrayCommand& command) {
   options.origin = framing.origin();
   options.colors = color_key(frames.structure(), scheme, {});
   const ColoredShapes beside = shown_shapes(frames.structure(), command.molecule.representations, scheme);
-  const povray::SequenceScene scene({frames.numbers(), framing.cameras,
-                                     colors_of_run(command, run_colors(frames.structure(), scheme, beside.coloring)),
-                                     framing.low, framing.high, !beside.empty(), !command.figure.cuts.empty()},
-                                    options, command.output.path);
+  const std::vector<glm::vec3> colors = run_colors(frames.structure(), scheme, beside.coloring);
+  const povray::SequenceScene scene(
+      {frames.numbers(), framing.cameras, colors_of_run(command, scheme, colors), framing.low, framing.high,
+       !beside.empty(), !command.figure.cuts.empty(), scheme.volume},
+      options, command.output.path);
   const povray::SceneReport shared = scene.write_shared();
   bool noted = false;
   const auto finish = [&](const povray::SceneReport& report, std::uint64_t number) {
@@ -117,19 +151,38 @@ void run_sequence(const PovrayCommand& command) {
   std::cout << escaped(shared.command) << "\n";
 }
 
+// Before anything is computed.
+void check(const PovrayCommand& command) {
+  if (command.figure.thickens && command.molecule.volume_offset != 0.0)
+    throw UsageError(
+        "--map-offset: POV-Ray samples beside the surface patch by patch, not in a film; leave "
+        "--film-opacity away, or the offset");
+  if (!command.frames.asked()) return;
+  if (!command.figure.objects.empty() || command.figure.hides_surface)
+    throw UsageError(
+        "--object and --hide-surface: a run of frames in POV-Ray has the surface, and beside it --sticks, --balls, "
+        "--spheres and --tube; export its frames one by one (--model), or use render");
+  if (command.molecule.interface) throw UsageError("--interface: of one picture only; leave --frames away");
+}
+
 void run(const PovrayCommand& command) {
-  if (command.molecule.color.by == ColorScheme::By::volume)
-    throw UsageError("--color-map-file: a POV-Ray scene has colours of atoms only; use render, or export ply");
+  check(command);
   if (command.frames.asked()) return run_sequence(command);
   if (command.run_camera.moves()) throw UsageError(kMovesWithoutFrames);
   const std::optional<Camera> given = given_camera(command.picture);
-  const auto [molecule, aim] = load_aimed_molecule(command.molecule, command.picture, given);
+  auto [molecule, aim] = load_aimed_molecule(command.molecule, command.picture, given);
+  const Figure figure = make_figure(std::move(molecule), command.figure);
+  const std::vector<SurfaceObject>& objects = figure.molecule.objects;
   povray::SceneOptions options = scene_options(command);
-  options.colors = key_of(molecule);
-  const Camera camera = aim.camera(command.picture, given, molecule.objects);
-  options.shapes = &molecule.beside;
-  options.cut.planes = planes_of(command, camera, molecule.objects);
-  const povray::SceneReport report = write_scene(molecule.objects, camera, options, command.output.path);
+  options.colors = key_of(figure.molecule);
+  const Camera camera = aim.camera(command.picture, given, objects);
+  options.shapes = &figure.shapes;
+  options.objects = more_objects(figure, command.figure, camera, placed_balls(objects));
+  options.cut.planes = planes_of(command, camera, objects);
+  if (command.figure.hides_surface && figure.shapes.empty() && options.objects.empty())
+    throw RequestError("the surface is not shown, and there is nothing beside it");
+  const povray::SceneReport report = write_scene(
+      command.figure.hides_surface ? std::span<const SurfaceObject>{} : objects, camera, options, command.output.path);
   say(command.molecule,
       fmt::format("{} primitives in {} files", with_thousands(report.object_count), report.files.size()));
   for (const std::string& note : report.notes) say(command.molecule, "note: " + note);
@@ -144,6 +197,7 @@ void add_export_povray(CLI::App& command) {
       "  meniscus export povray 1tii.pdb -o 1tii                 then: cd 1tii; povray surface.ini\n"
       "  meniscus export povray 1tii.pdb -o glass --material glass --size 1920x1080\n"
       "  meniscus export povray 1tii.pdb -o cut --clip 'depth>0.5' --color chain --sticks 'chain C'\n"
+      "  meniscus export povray --scene fig.json -o fig           all of a figure; see meniscus help scenes\n"
       "  meniscus export povray 1tii.pdb -o 1tii --camera camera.json --color chain --force\n"
       "  meniscus export povray adk.psf --trajectory adk.dcd --frames 0-90:10 -o adk   then: povray surface.ini",
       "Of a run of frames the folder holds one scene and an include for each frame; POV-Ray's frames count from 1.\n"
@@ -151,11 +205,12 @@ void add_export_povray(CLI::App& command) {
   auto state = std::make_shared<PovrayCommand>();
   add_molecule_options(command, state->molecule);
   add_figure_options(command, state->molecule, state->figure);
+  add_interface_option(command, state->molecule);
   add_picture_options(command, state->picture);
   add_trajectory_argument(command);
   add_frame_options(command, state->frames);
   add_run_camera_options(command, state->run_camera);
-  add_scene_options(command);
+  add_scene_options(command, &state->save_scene);
   add_output_options(command, state->output, "Folder to write; made when missing");
   const std::map<std::string, povray::Material> words{{"opaque", povray::Material::opaque},
                                                       {"ghost", povray::Material::ghost},
@@ -164,9 +219,15 @@ void add_export_povray(CLI::App& command) {
   command.add_option("--material", state->material, "Default material: opaque, ghost, glass, wax; the scene holds all")
       ->transform(one_of(words))
       ->type_name("WORD");
-  command.callback([state] {
-    state->molecule.representations = state->figure.representations;
+  command.callback([state, &command] {
+    if (state->frames.asked())
+      state->molecule.representations = state->figure.representations;
+    else
+      state->figure.ask_for(state->molecule.reading);
+    take_interface(command, state->molecule, state->picture);
+    SceneOutput scene(command, state->save_scene, state->output.existing());
     run(*state);
+    scene.commit();
   });
 }
 

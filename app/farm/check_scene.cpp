@@ -23,11 +23,11 @@ constexpr std::size_t kMostBytes = std::size_t{1} << 32;  // of a file of a scen
 constexpr std::size_t kLongestText = 200;  // of a string, and of a setting: the matcher recurses by the letter
 
 // Sorted, as those below.
-constexpr std::string_view kDirectives[] = {"break", "case",  "declare", "else",    "end",    "error",  "for",
-                                            "if",    "ifdef", "ifndef",  "include", "switch", "version"};
+constexpr std::string_view kDirectives[] = {"break", "case",   "declare", "else",  "end",   "error",  "for",    "if",
+                                            "ifdef", "ifndef", "include", "local", "macro", "switch", "version"};
 
 // The part of the language that scenes of this program use. No function of strings but concat and str, none of files
-// but file_exists.
+// but file_exists and the reader of density files.
 constexpr std::string_view kWords[] = {"abs",
                                        "adc_bailout",
                                        "ambient",
@@ -36,6 +36,7 @@ constexpr std::string_view kWords[] = {"abs",
                                        "average",
                                        "background",
                                        "box",
+                                       "boxed",
                                        "brilliance",
                                        "camera",
                                        "clipped_by",
@@ -43,6 +44,8 @@ constexpr std::string_view kWords[] = {"abs",
                                        "color_map",
                                        "concat",
                                        "cylinder",
+                                       "density_file",
+                                       "df3",
                                        "diffuse",
                                        "dimension_size",
                                        "direction",
@@ -53,6 +56,7 @@ constexpr std::string_view kWords[] = {"abs",
                                        "finish",
                                        "floor",
                                        "frame_number",
+                                       "function",
                                        "global_settings",
                                        "gradient",
                                        "image_height",
@@ -60,6 +64,7 @@ constexpr std::string_view kWords[] = {"abs",
                                        "int",
                                        "interior",
                                        "interior_texture",
+                                       "interpolate",
                                        "intersection",
                                        "inverse",
                                        "ior",
@@ -69,6 +74,7 @@ constexpr std::string_view kWords[] = {"abs",
                                        "max",
                                        "max_trace_level",
                                        "mesh2",
+                                       "min",
                                        "mm_per_unit",
                                        "mod",
                                        "normal_vectors",
@@ -76,6 +82,7 @@ constexpr std::string_view kWords[] = {"abs",
                                        "open",
                                        "orthographic",
                                        "parallel",
+                                       "pattern",
                                        "perspective",
                                        "pi",
                                        "pigment",
@@ -89,17 +96,20 @@ constexpr std::string_view kWords[] = {"abs",
                                        "roughness",
                                        "samples",
                                        "scale",
+                                       "select",
                                        "shadowless",
                                        "sin",
                                        "slope",
                                        "specular",
                                        "sphere",
+                                       "sqrt",
                                        "srgb",
                                        "str",
                                        "subsurface",
                                        "texture",
                                        "texture_list",
                                        "torus",
+                                       "transform",
                                        "translate",
                                        "translucency",
                                        "transmit",
@@ -119,16 +129,20 @@ bool has(const List& list, std::string_view word) {
   return std::ranges::binary_search(list, word);
 }
 
+// Names of macros' arguments and of what is local; all letters of the language's own words are small.
+constexpr std::string_view kNames[] = {"A", "B",    "C",     "Covers", "D",     "Dark",   "E",       "F",      "H",
+                                       "I", "Kind", "Last",  "Lets",   "Light", "N",      "Outside", "Passes", "Q",
+                                       "R", "S",    "Shown", "Side",   "Step",  "Tinted", "V"};
+
 // Names of our own begin like this; the language has no word that does.
 bool is_own_name(std::string_view word) {
-  return word.starts_with("Meniscus_") || word.starts_with("object_") || word == "Kind" || word == "I" ||
-         word == "Side" || word == "Step" || word == "Tinted";
+  return word.starts_with("Meniscus_") || word.starts_with("object_") || has(kNames, word);
 }
 
 /// Names of files in the folder, parts of them, or sentences of error messages: none can be joined to a path out of the
 /// folder, or to a file of POV-Ray's library, which has no blanks and nothing that begins with "surface".
 bool is_harmless_string(std::string_view text) {
-  static const std::regex harmless(R"(surface[A-Za-z0-9_]*(\.inc)?|\.inc|([^/\\]|\\n)* ([^/\\]|\\n)*)");
+  static const std::regex harmless(R"(surface[A-Za-z0-9_]*(\.inc|\.df3)?|\.inc|([^/\\]|\\n)* ([^/\\]|\\n)*)");
   return text.size() < kLongestText && std::regex_match(text.begin(), text.end(), harmless);
 }
 
@@ -210,7 +224,7 @@ class SceneReader {
 };
 
 bool is_scene_file(const std::string& name) {
-  static const std::regex known(R"(surface[A-Za-z0-9_]*\.(ini|pov|inc|json))");
+  static const std::regex known(R"(surface[A-Za-z0-9_]*\.(ini|pov|inc|json|df3))");
   // Begun by a worker that was killed; nothing names it.
   const bool unfinished = name.starts_with('.') && name.find(".part") != std::string::npos;
   return unfinished || std::regex_match(name, known);

@@ -30,8 +30,7 @@ void parse_cap_color(const std::string& text, CapStyle& cap) {
     throw CLI::ValidationError("--cap-color", in_quotes(text) + " is neither atom nor a colour (red, #rrggbb)");
 }
 
-}  // namespace
-
+/// --opacity and --film-opacity, whether what is seen through is a thin film.
 void add_opacity_options(CLI::App& command, MoleculeOptions& molecule, bool& thickens) {
   const Heading heading(command, "Figure");
   add_opacity_option(command, molecule);
@@ -39,6 +38,7 @@ void add_opacity_options(CLI::App& command, MoleculeOptions& molecule, bool& thi
                    "A surface that is seen through is denser where the view grazes it, as a thin film is");
 }
 
+/// --clip, --cap-color and --cap-hatching.
 void add_cut_options(CLI::App& command, FigureRequest& figure) {
   const Heading heading(command, "Figure");
   command
@@ -61,6 +61,8 @@ void add_cut_options(CLI::App& command, FigureRequest& figure) {
       ->check(CLI::Range(0.0, 1000.0).description(""))
       ->type_name("Å");
 }
+
+}  // namespace
 
 void add_figure_options(CLI::App& command, MoleculeOptions& molecule, FigureRequest& figure) {
   const Heading heading(command, "Figure");
@@ -101,7 +103,7 @@ void add_interface_option(CLI::App& command, MoleculeOptions& molecule) {
 
 void take_interface(const CLI::App& command, MoleculeOptions& molecule, ViewRequest& picture) {
   if (!molecule.interface) return;
-  if (!molecule.reading.shown.empty())
+  if (!molecule.reading.shown.empty() || !molecule.representations.empty())
     throw CLI::ValidationError("--interface", "moves the atoms of both sides; nothing can stand beside them");
   std::string atoms = "(" + molecule.interface->left.text() + ") or (" + molecule.interface->right.text() + ")";
   if (molecule.reading.selection) atoms = "(" + molecule.reading.selection->text() + ") and (" + atoms + ")";

@@ -8,14 +8,8 @@
 
 namespace meniscus {
 
-/// --opacity and --film-opacity, whether what is seen through is a thin film. Both must live as long as the command.
-void add_opacity_options(CLI::App& command, MoleculeOptions& molecule, bool& thickens);
-
-/// --clip, --cap-color and --cap-hatching.
-void add_cut_options(CLI::App& command, FigureRequest& figure);
-
-/// --opacity, --film-opacity, --clip, --cap-color, --cap-hatching, and those of representation_options.h. Both must
-/// live as long as the command.
+/// --opacity, --film-opacity, --clip, --cap-color, --cap-hatching, --object, --hide-surface, and those of
+/// representation_options.h. Both must live as long as the command.
 void add_figure_options(CLI::App& command, MoleculeOptions& molecule, FigureRequest& figure);
 
 /// --interface. The molecule must live as long as the command.

@@ -226,6 +226,31 @@ json matrix(const RigidMotion& motion) {
   return rows;
 }
 
+json caps_header(const CutFile& cut) {
+  json caps{{"planes", json::array()}};
+  for (const ClipPlane& plane : cut.planes)
+    caps["planes"].push_back({plane.normal.x, plane.normal.y, plane.normal.z, plane.offset});
+  if (cut.style.color) caps["color"] = numbers(glm::dvec3(*cut.style.color));
+  if (cut.style.hatching > 0.0) {
+    caps["hatching"] = {{"distance", cut.style.hatching}, {"share", kHatchedShare}, {"light", kHatchedLight}};
+    for (const ClipPlane& plane : cut.planes)
+      caps["hatching"]["across"].push_back(numbers(hatching_direction(plane.normal) / std::numbers::sqrt2));
+  }
+  return caps;
+}
+
+json material_header(const MaterialRequest& material) {
+  json header = json::object();
+  const auto put = [&](const char* key, const std::optional<float>& value) {
+    if (value) header[key] = *value;
+  };
+  put("ambient", material.ambient);
+  put("roughness", material.roughness);
+  put("specular", material.specular);
+  put("shininess", material.shininess);
+  return header;
+}
+
 json object_header(const MeshedObject& meshed, const std::string& prefix, const glm::dvec3& origin) {
   const Surface& surface = meshed.object.surface;
   const TriangleMesh& mesh = meshed.mesh;
@@ -248,25 +273,14 @@ json object_header(const MeshedObject& meshed, const std::string& prefix, const 
               {"chain_names", meshed.atoms.chain_names}};
   for (const RigidMotion& copy : meshed.object.copies) header["copies"].push_back(matrix(copy));
   if (meshed.thickens && meshed.object.coloring.is_translucent()) header["film_opacity"] = true;
+  if (!meshed.cut.planes.empty()) header["caps"] = caps_header(meshed.cut);
+  if (!meshed.material.empty()) header["material"] = material_header(meshed.material);
   if (const auto& kinds = meshed.object.coloring.kind) {
     json colors = json::array();
     for (const glm::vec3& c : *kinds) colors.push_back(numbers(glm::dvec3(c)));
     header["kind_colors"] = colors;
   }
   return header;
-}
-
-json caps_header(const CutFile& cut) {
-  json caps{{"planes", json::array()}};
-  for (const ClipPlane& plane : cut.planes)
-    caps["planes"].push_back({plane.normal.x, plane.normal.y, plane.normal.z, plane.offset});
-  if (cut.style.color) caps["color"] = numbers(glm::dvec3(*cut.style.color));
-  if (cut.style.hatching > 0.0) {
-    caps["hatching"] = {{"distance", cut.style.hatching}, {"share", kHatchedShare}, {"light", kHatchedLight}};
-    for (const ClipPlane& plane : cut.planes)
-      caps["hatching"]["across"].push_back(numbers(hatching_direction(plane.normal) / std::numbers::sqrt2));
-  }
-  return caps;
 }
 
 }  // namespace
@@ -282,7 +296,8 @@ void write_objects(const std::string& path, Existing existing, std::span<const M
     const glm::dvec3 origin = mesh_origin(meshed.mesh);
     file.set_prefix(prefix);
     add_mesh(file, meshed.mesh, meshed.mesh.triangles.size() - meshed.cap_plane.size(), origin);
-    if (!cut.planes.empty()) add_caps(file, meshed);
+    if (!cut.planes.empty() || !meshed.cut.planes.empty()) add_caps(file, meshed);
+    if (!meshed.cut.planes.empty()) file.set_version(kMnsVersionOfCaps);
     add_map(file, meshed.mesh, meshed.object.coloring);
     add_velocities(file, meshed.velocities);
     add_atoms(file, meshed.object, meshed.atoms);

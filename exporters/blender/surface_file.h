@@ -26,6 +26,12 @@ struct Provenance {
   std::optional<ColorKey> colors;  ///< what the colours mean
 };
 
+/// Planes that cut a surface, and how their caps look.
+struct CutFile {
+  std::vector<ClipPlane> planes;
+  CapStyle style;
+};
+
 /// One object and its mesh.
 struct MeshedObject {
   const SurfaceObject& object;
@@ -34,12 +40,8 @@ struct MeshedObject {
   std::vector<glm::dvec3> velocities;         ///< per vertex, Å per scene frame; empty: the file has none
   bool thickens = false;                      ///< PictureObject::thickens, for colours with opacities
   std::vector<std::uint32_t> cap_plane = {};  ///< of the last triangles, which are caps (CappedMesh)
-};
-
-/// Of the planes that cut the objects of a file.
-struct CutFile {
-  std::vector<ClipPlane> planes;
-  CapStyle style;
+  CutFile cut = {};                           ///< that made them; without planes: that of the file
+  MaterialRequest material = {};              ///< what differs from the usual one
 };
 
 /// Which frame of a run a file is: it must say so, since files of several runs may get into one folder.
@@ -49,7 +51,8 @@ struct PlaceInRun {
   std::size_t scene_frame = 0;  ///< from 1
 };
 
-/// Writes the file as FORMAT.md describes. At least one mesh has triangles. Throws OutputError.
+/// Writes the file as FORMAT.md describes. At least one mesh has triangles. cut: of all objects that have none of their
+/// own. Throws OutputError.
 void write_objects(const std::string& path, Existing existing, std::span<const MeshedObject> objects,
                    const std::optional<Shot>& shot, const Provenance& provenance,
                    const std::optional<PlaceInRun>& place = {}, const CutFile& cut = {});

@@ -145,6 +145,7 @@ ShapeObject shape_object(std::span<const Atom> atoms, const ColoredShapes& shape
   for (const std::uint32_t atom : object.atom) {
     object.surface.atoms.push_back({atoms[atom].position, atoms[atom].radius});
     object.coloring.atom.push_back(shapes.coloring.atom[atom]);
+    if (!shapes.coloring.opacity.empty()) object.coloring.opacity.push_back(shapes.coloring.opacity[atom]);
   }
   const MeshSums sums = sums_of(made.mesh);
   object.surface.area = sums.area;

@@ -21,26 +21,23 @@ namespace {
 
 constexpr double kPixelShare = 0.1, kFinest = 0.002, kCoarsest = 0.02;  // Å
 constexpr std::size_t kCapFlushBytes = std::size_t{1} << 20;
-constexpr double kStripesBefore = 1e4;  // what the pattern counts from: POV-Ray mirrors it at 0
+constexpr double kStripesBefore = 1e4;  // whole ones, so that all are counted upwards
 
-/// "texture{...}" of a hatched cap. The pattern runs along x until it is turned.
+/// "texture{...}" of a hatched cap.
 void append_hatching(SceneText& out, std::uint32_t color, const ClipPlane& plane, double distance,
                      const glm::dvec3& origin) {
-  const glm::dvec3 along = glm::normalize(hatching_direction(plane.normal));
-  const glm::dvec3 across = glm::cross(plane.normal, along);
-  const double phase = glm::dot(origin, along) / distance;
-  const glm::dvec3 shift = -(phase - std::floor(phase) + kStripesBefore) * distance * along;
-  out.literal("#if (Meniscus_Buffer = 0) texture{pigment{gradient x color_map{");
+  const glm::dvec3 along = glm::normalize(hatching_direction(plane.normal)) / distance;
+  const double phase = glm::dot(origin, along);
+  out.literal("#if (Meniscus_Buffer = 0) texture{pigment{function{mod(");
+  for (int axis = 0; axis < 3; ++axis) out.full(along[axis]).literal(axis == 0 ? "*x+" : axis == 1 ? "*y+" : "*z+");
+  out.full(phase - std::floor(phase) + kStripesBefore).literal(",1)} pigment_map{");
   const auto entry = [&](double place, const char* pigment) {
     out.literal("[").ratio(place).literal(" ").literal(pigment).literal("[").count(color).literal("]]");
   };
   for (const double place : {0.0, kHatchedShare}) entry(place, "Meniscus_Cap_Dark");
-  for (const double place : {kHatchedShare, 1.0}) entry(place, "Meniscus_Cap_Color");
-  out.literal("} scale ").length(distance).literal(" matrix<");
-  for (const glm::dvec3& row : {along, across, plane.normal})
-    out.full(row.x).literal(",").full(row.y).literal(",").full(row.z).literal(",");
-  out.full(shift.x).literal(",").full(shift.y).literal(",").full(shift.z);
-  out.literal(">} finish{Meniscus_Finish}} #else texture{Meniscus_Cap_Texture[").count(color).literal("]} #end");
+  for (const double place : {kHatchedShare, 1.0}) entry(place, "Meniscus_Cap_Pigment");
+  out.literal("}} finish{Meniscus_Cap_Finish[").count(color).literal("]}} #else texture{Meniscus_Cap_Texture[");
+  out.count(color).literal("]} #end");
 }
 
 }  // namespace
@@ -52,18 +49,16 @@ CapMesh make_caps(std::span<const SurfaceObject> objects, const SurfaceCut& cut,
   return section_caps(objects, cut.planes, cut.style.color.has_value(), std::clamp(tolerance, kFinest, kCoarsest));
 }
 
-Caps colored_caps(CapMesh mesh, std::span<const SurfaceObject> objects, const CapStyle& style, ColorTable& table) {
-  struct Shown {
-    glm::vec3 color;
-    float opacity;
-  };
-  std::vector<Shown> atoms;
+Caps colored_caps(CapMesh mesh, std::span<const SurfaceObject> objects, const CapStyle& style,
+                  const ObjectStyle& object_style, ColorTable& table) {
+  std::vector<SceneColor> atoms;
+  const ObjectStyle cap_style{false, object_style.finish};
   for (const SurfaceObject& object : objects)
     for (std::size_t copy = 0; copy < object.copies.size(); ++copy)
       for (std::uint32_t a = 0; a < object.surface.atoms.size(); ++a)
-        atoms.push_back({style.color.value_or(object.coloring.atom[a]), object.coloring.opacity_of(a)});
+        atoms.push_back(scene_color(object.coloring, a, cap_style, style.color));
   Caps caps;
-  for (const std::uint32_t atom : mesh.atom) caps.color.push_back(table.number(atoms[atom].color, atoms[atom].opacity));
+  for (const std::uint32_t atom : mesh.atom) caps.color.push_back(table.number(atoms[atom]));
   caps.mesh = std::move(mesh);
   return caps;
 }

@@ -29,7 +29,8 @@ CapMesh make_caps(std::span<const SurfaceObject> objects, const SurfaceCut& cut,
                   int height);
 
 /// Adds the colours of caps to the table: opacities are those of the atoms. objects: those that the caps are of.
-Caps colored_caps(CapMesh mesh, std::span<const SurfaceObject> objects, const CapStyle& style, ColorTable& table);
+Caps colored_caps(CapMesh mesh, std::span<const SurfaceObject> objects, const CapStyle& style,
+                  const ObjectStyle& object_style, ColorTable& table);
 
 /// Writes mesh2 objects with their textures, hatched as CapStyle says. origin: Å, of the scene's coordinates. Throws
 /// Error for a number that is not finite.

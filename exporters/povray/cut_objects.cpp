@@ -11,7 +11,7 @@ namespace meniscus::povray {
 
 CutObjects::CutObjects(std::span<const SurfaceObject> objects, const SurfaceCut& cut, const Camera& camera,
                        const SceneOptions& options)
-    : cuts_(!cut.planes.empty()), objects_(objects) {
+    : cuts_(!cut.planes.empty() && !objects.empty()), objects_(objects) {
   if (!cuts_) return;
   caps_ = make_caps(objects, cut, camera, options.width, options.height);
   whole_ = merged({objects.begin(), objects.end()});

@@ -3,21 +3,23 @@
 #include "exporters/povray/geometry.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "core/color/color_key_json.h"
+#include "core/color/volume_paint.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "exporters/povray/patch_objects.h"
-#include "exporters/povray/shape_objects.h"
 
 namespace meniscus::povray {
 namespace {
 
 constexpr std::size_t kFlushBytes = std::size_t{1} << 20;
+constexpr double kLeastShare = 1e-6;  // of a radius: less is its middle
 
 bool is_identity(const RigidMotion& motion) {
   return motion.rotation == glm::dmat3(1.0) && motion.translation == glm::dvec3(0.0);
@@ -30,50 +32,39 @@ std::size_t group_end(const std::vector<ColoredPiece>& pieces, std::size_t begin
   return end;
 }
 
-std::size_t group_count(const Palette& palette) {
-  std::size_t count = 0;
-  for (std::size_t begin = 0; begin < palette.pieces.size(); begin = group_end(palette.pieces, begin)) ++count;
-  return count;
-}
-
 void flush(OutputFile& file, SceneText& out, std::size_t limit) {
   if (out.text().size() < limit) return;
   file.write(out.text());
   out.clear();
 }
 
-/// The outside of a convex patch's sphere is the solvent; that of a torus or a probe is the solid.
-void append_textures(SceneText& out, const ColoredPiece& piece) {
+/// The outside of a convex patch's sphere is the solvent; that of a torus or a probe is the solid. moved: how the
+/// textures are.
+void append_textures(SceneText& out, const ColoredPiece& piece, std::string_view moved) {
   const bool convex = piece.kind == PatchKind::convex;
   const auto side = [&](std::string_view property, std::string_view name) {
     out.literal(property).literal("{Meniscus_").literal(name).literal("_Side[");
-    out.count(static_cast<std::size_t>(piece.kind)).literal("][").count(piece.color).literal("]}");
+    out.count(static_cast<std::size_t>(piece.kind)).literal("][").count(piece.color).literal("]");
+    out.literal(moved).literal("}");
   };
   out.literal("#if (Meniscus_Own_Textures) ");
   side("texture", convex ? "Solvent" : "Solid");
   side(" interior_texture", convex ? "Solid" : "Solvent");
-  out.literal(" #end\n}\n");
+  out.literal(" #end\n");
 }
 
 }  // namespace
 
-Geometry::Geometry(std::span<const SurfaceObject> objects, const glm::dvec3& origin, std::span<const glm::vec4> colors,
-                   const ColoredShapes* shapes, std::span<const ClipPlane> clip)
-    : objects_(objects), shapes_(shapes && !shapes->empty() ? shapes : nullptr), origin_(origin), clip_(clip) {
+Geometry::Geometry(std::span<const SurfaceObject> objects, const glm::dvec3& origin, ColorTable& table,
+                   ObjectStyle style, std::span<const ClipPlane> clip)
+    : objects_(objects), origin_(origin), style_(style), clip_(clip) {
   if (!clip_.empty() && declares()) throw Error("POV-Ray export: planes cut a single object in its place");
-  for (const glm::vec4& color : colors) table_.number(glm::vec3(color), color.w);
   for (const SurfaceObject& object : objects)
-    palettes_.push_back(make_palette(object.surface, object.coloring, table_));
+    palettes_.push_back(make_palette(object.surface, object.coloring, table, style_));
   for (std::size_t n = 0; !clip_.empty() && n < palettes_.size(); ++n) {
     const PatchObjects primitives(objects_[n].surface, palettes_[n], origin_, clip_);
     std::erase_if(palettes_[n].pieces, [&](const ColoredPiece& piece) { return primitives.is_cut_away(piece); });
   }
-  if (shapes_) add_colors(*shapes_, table_);
-  if (primitive_count() == 0) throw RequestError("nothing of the surface is shown, so there is no scene to write");
-}
-
-bool Geometry::is_translucent() const {
-  return std::ranges::any_of(colors(), [](const glm::vec4& color) { return color.w < 1.0f; });
 }
 
 std::size_t Geometry::primitive_count() const {
@@ -91,15 +82,27 @@ std::size_t Geometry::primitives_in_memory() const {
 }
 
 bool Geometry::declares() const {
+  if (objects_.empty()) return false;
   return objects_.size() > 1 || objects_[0].copies.size() != 1 || !is_identity(objects_[0].copies[0]);
 }
 
 bool Geometry::is_one_item() const {
-  if (!declares()) return group_count(palettes_[0]) == 1;
+  if (!declares()) return !objects_.empty() && item_count(0) == 1;
   std::size_t copies = 0;
   for (std::size_t n = 0; n < objects_.size(); ++n)
     copies += palettes_[n].pieces.empty() ? 0 : objects_[n].copies.size();
   return copies == 1;
+}
+
+std::size_t Geometry::item_count(std::size_t object) const {
+  const std::vector<ColoredPiece>& pieces = palettes_[object].pieces;
+  std::size_t count = 0;
+  for (std::size_t begin = 0; begin < pieces.size();) {
+    const std::size_t end = group_end(pieces, begin);
+    count += has_own_way(object, pieces[begin]) ? end - begin : 1;
+    begin = end;
+  }
+  return count;
 }
 
 void Geometry::write_pieces(OutputFile& file, SceneText& out, std::size_t object) const {
@@ -107,14 +110,67 @@ void Geometry::write_pieces(OutputFile& file, SceneText& out, std::size_t object
   const PatchObjects primitives(objects_[object].surface, palettes_[object], origin_, clip_);
   for (std::size_t begin = 0; begin < pieces.size();) {
     const std::size_t end = group_end(pieces, begin);
+    if (has_own_way(object, pieces[begin])) {
+      for (; begin < end; ++begin) {
+        out.literal("object{\n");
+        primitives.append(out, pieces[begin]);
+        append_offset_textures(out, object, pieces[begin]);
+        flush(file, out, kFlushBytes);
+      }
+      continue;
+    }
     out.literal(end - begin > 1 ? "union{\n" : "object{\n");
     for (std::size_t n = begin; n < end; ++n) {
       primitives.append(out, pieces[n]);
       flush(file, out, kFlushBytes);
     }
-    append_textures(out, pieces[begin]);
+    append_textures(out, pieces[begin], "");
+    out.literal("}\n");
     begin = end;
   }
+}
+
+bool Geometry::has_own_way(std::size_t object, const ColoredPiece& piece) const {
+  const Coloring& coloring = objects_[object].coloring;
+  return coloring.volume && coloring.volume->offset != 0.0 && piece.by_map;
+}
+
+// A point that is moved along the normal of a sphere is moved towards the middle or away from it, in proportion; one of
+// a torus towards the middle of its tube.
+void Geometry::append_offset_textures(SceneText& out, std::size_t object, const ColoredPiece& piece) const {
+  const Surface& surface = objects_[object].surface;
+  const double offset = objects_[object].coloring.volume->offset;
+  const double probe = surface.probe_radius;
+  if (piece.kind == PatchKind::toroidal) {
+    const ToroidalPatch& patch = surface.toroidal[piece.patch];
+    SceneText place;
+    place.literal("pigment{function{Meniscus_Map_On_Torus(x,y,z");
+    const glm::dvec3 center = patch.center - origin_;
+    for (int k = 0; k < 3; ++k) place.literal(",").length(center[k]);
+    for (int k = 0; k < 3; ++k) place.literal(",").ratio(patch.axis[k]);
+    place.literal(",").length(patch.radius).literal(",").ratio(offset / probe).literal(")} ");
+    const auto side = [&](std::string_view property, std::string_view number) {
+      out.literal(property).literal("{").literal(place.text()).literal("color_map{Meniscus_Map_Colors[");
+      out.literal(number).literal("][").count(piece.color).literal("]}} finish{Meniscus_Map_Finish[").literal(number);
+      out.literal("][").count(piece.color).literal("]}}");
+    };
+    out.literal("#if (Meniscus_Buffer = 0) ");
+    side("texture", "1");
+    side(" interior_texture", "0");
+    out.literal("\n#else ");
+    append_textures(out, piece, "");
+    out.literal("#end\n}\n");
+    return;
+  }
+  const bool convex = piece.kind == PatchKind::convex;
+  const Ball& atom = surface.atoms[convex ? surface.convex[piece.patch].atom : 0];
+  const glm::dvec3 center = (convex ? atom.center : surface.concave[piece.patch].center) - origin_;
+  const double share = convex ? (atom.radius + offset) / atom.radius : (probe - offset) / probe;
+  SceneText motion;
+  motion.literal(" translate ").point(-center).literal(" scale ");
+  motion.full(1.0 / (std::abs(share) < kLeastShare ? kLeastShare : share)).literal(" translate ").point(center);
+  append_textures(out, piece, motion.text());
+  out.literal("}\n");
 }
 
 // POV-Ray multiplies rows: the first three are the images of the axes. Scene coordinates are relative to the origin.
@@ -139,7 +195,7 @@ void Geometry::write(OutputFile& file, std::string_view head) const {
   out.count(primitive_count()).literal(" primitives.\n").literal(head);
   for (std::size_t n = 0; n < objects_.size(); ++n) {
     if (palettes_[n].pieces.empty()) continue;
-    const bool several = group_count(palettes_[n]) > 1;
+    const bool several = item_count(n) > 1;
     if (declares()) out.literal("#declare object_").count(n + 1).literal(several ? " =\nunion{\n" : " =\n");
     write_pieces(file, out, n);
     if (declares() && several) out.literal("}\n");
@@ -151,15 +207,14 @@ void Geometry::write(OutputFile& file, std::string_view head) const {
   flush(file, out, 0);
 }
 
-void Geometry::add_caps(CapMesh mesh, std::span<const SurfaceObject> objects, const SurfaceCut& cut) {
-  caps_ = colored_caps(std::move(mesh), objects, cut.style, table_);
+void Geometry::add_caps(CapMesh mesh, std::span<const SurfaceObject> objects, const SurfaceCut& cut,
+                        ColorTable& table) {
+  caps_ = colored_caps(std::move(mesh), objects, cut.style, style_, table);
 }
 
 void Geometry::write_caps(OutputFile& file, const SurfaceCut& cut) const {
   povray::write_caps(file, caps_, cut, origin_);
 }
-
-void Geometry::write_shapes(OutputFile& file) { povray::write_shapes(file, *shapes_, origin_, table_); }
 
 std::string Geometry::names_json(const std::optional<ColorKey>& colors) const {
   using Json = nlohmann::ordered_json;

@@ -27,14 +27,26 @@ void for_each_patch(const Surface& surface, const auto& visit) {
 
 }  // namespace
 
-std::uint32_t ColorTable::number(const glm::vec3& color, float opacity) {
-  const auto [known, is_new] =
-      number_.try_emplace({color.x, color.y, color.z, opacity}, static_cast<std::uint32_t>(colors_.size()));
-  if (is_new) colors_.emplace_back(color, opacity);
+std::uint32_t ColorTable::number(SceneColor color) {
+  color.film = color.film && color.opacity < 1.0f;
+  const auto [known, is_new] = number_.try_emplace(
+      {color.color.x, color.color.y, color.color.z, color.opacity, color.by_map, color.film, color.finish},
+      static_cast<std::uint32_t>(colors_.size()));
+  if (is_new) colors_.push_back(color);
   return known->second;
 }
 
-Palette make_palette(const Surface& surface, const Coloring& coloring, ColorTable& table) {
+bool ColorTable::is_translucent() const {
+  return std::ranges::any_of(colors_, [](const SceneColor& color) { return color.opacity < 1.0f; });
+}
+
+SceneColor scene_color(const Coloring& coloring, std::uint32_t atom, const ObjectStyle& style,
+                       const std::optional<glm::vec3>& color) {
+  const float opacity = coloring.shows(atom) ? coloring.opacity_of(atom) : 1.0f;
+  return {color.value_or(coloring.atom[atom]), opacity, !color && coloring.by_volume(atom), style.film, style.finish};
+}
+
+Palette make_palette(const Surface& surface, const Coloring& coloring, ColorTable& table, const ObjectStyle& style) {
   if (coloring.atom.size() != surface.atoms.size())
     throw Error("POV-Ray export: the coloring does not have one colour for each atom");
   Palette palette;
@@ -47,8 +59,8 @@ Palette make_palette(const Surface& surface, const Coloring& coloring, ColorTabl
     return place;
   };
   for (std::uint32_t a = 0; a < surface.atoms.size(); ++a) {
-    const float opacity = coloring.shows(a) ? coloring.opacity_of(a) : 1.0f;
-    const std::uint32_t shown = coloring.kind ? opacity_number(opacity) : table.number(coloring.atom[a], opacity);
+    const SceneColor color = scene_color(coloring, a, style);
+    const std::uint32_t shown = coloring.kind ? opacity_number(color.opacity) : table.number(color);
     palette.atom_part.push_back(coloring.shows(a) ? shown : kNone);
   }
   for_each_patch(surface, [&](PatchKind kind, std::uint32_t patch, std::span<const std::uint32_t> atoms) {
@@ -58,9 +70,10 @@ Palette make_palette(const Surface& surface, const Coloring& coloring, ColorTabl
     std::sort(parts.begin(), parts.end());
     parts.erase(std::unique(parts.begin(), parts.end()), parts.end());
     for (const std::uint32_t part : parts) {
-      const std::uint32_t color =
-          coloring.kind ? table.number((*coloring.kind)[static_cast<std::size_t>(kind)], opacities[part]) : part;
-      palette.pieces.push_back({kind, color, part, patch});
+      const std::uint32_t color = coloring.kind ? table.number({(*coloring.kind)[static_cast<std::size_t>(kind)],
+                                                                opacities[part], false, style.film, style.finish})
+                                                : part;
+      palette.pieces.push_back({kind, color, part, patch, table.colors()[color].by_map});
     }
   });
   std::stable_sort(palette.pieces.begin(), palette.pieces.end(), [](const ColoredPiece& a, const ColoredPiece& b) {

@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
 #include <glm/common.hpp>
 
 #include "exporters/povray/scene_templates.h"
 #include "exporters/povray/scene_text.h"
+#include "exporters/povray/volume_map.h"
 
 namespace meniscus::povray {
 namespace {
@@ -94,6 +96,28 @@ void append_frames(SceneText& out, const SceneOptions& options, const SceneFrame
 
 void append_color(SceneText& out, const glm::vec3& c) { out.literal("srgb ").direction(glm::dvec3(c)); }
 
+/// Of the picture's light in POV-Ray's: with the usual material the scene's finish comes out.
+constexpr double kHighlight = 1.3, kLeastBrilliance = 0.6, kMostBrilliance = 1.2;
+
+// What an object's material changes of a finish.
+void append_materials(SceneText& out, const std::vector<MaterialRequest>& materials) {
+  out.literal("#macro Meniscus_Material_Of(N, Covers)\n  #switch (N)\n    #case (0) #break\n");
+  for (std::size_t n = 0; n < materials.size(); ++n) {
+    const MaterialRequest& material = materials[n];
+    out.literal("    #case (").count(n + 1).literal(")");
+    if (material.ambient) out.literal(" ambient ").ratio(*material.ambient);
+    if (material.ambient) out.literal(" diffuse ").ratio(1.0 - static_cast<double>(*material.ambient));
+    if (material.roughness) {
+      const double even = *material.roughness;
+      out.literal(" brilliance ").ratio((1.0 - even) * kMostBrilliance + even * kLeastBrilliance);
+    }
+    if (material.specular) out.literal(" specular Covers*").ratio(kHighlight * static_cast<double>(*material.specular));
+    if (material.shininess) out.literal(" roughness ").ratio(1.0 / static_cast<double>(*material.shininess));
+    out.literal(" #break\n");
+  }
+  out.literal("  #end\n#end\n");
+}
+
 }  // namespace
 
 std::string main_text(std::span<const Camera> cameras, const SceneOptions& options, const glm::dvec3& origin,
@@ -126,34 +150,58 @@ std::string main_text(std::span<const Camera> cameras, const SceneOptions& optio
     return frames ? "#include concat(\"" + name + "_\", Meniscus_Frame_Name, \".inc\")"
                   : "#include \"" + name + ".inc\"";
   };
-  const std::string include = frames ? std::string("Meniscus_Geometry") : "\"" + options.name + "_geometry.inc\"";
-  out.literal(filled(scene_template("main.pov"), {{"NAME", options.name},
-                                                  {"GROUP", parts.single && !parts.caps ? "object" : "union"},
-                                                  {"GEOMETRY", include},
-                                                  {"CAPS", parts.caps ? "\n  " + include_of("caps") : ""}}));
+  out.literal(filled(scene_template("main.pov"), {{"NAME", options.name}}));
+  const auto add_surface = [&](bool single, const std::string& geometry, const std::string& caps) {
+    out.literal(filled(scene_template("surface.pov"),
+                       {{"GROUP", single ? "object" : "union"}, {"GEOMETRY", geometry}, {"CAPS", caps}}));
+  };
+  if (parts.surface) {
+    const std::string geometry = frames ? std::string("#include Meniscus_Geometry") : include_of("geometry");
+    add_surface(parts.single && !parts.caps, geometry, parts.caps ? "\n  " + include_of("caps") : "");
+  }
   if (parts.shapes) out.literal("\n").literal(include_of("shapes")).literal("\n");
+  for (std::size_t n = 0; n < parts.objects.size(); ++n) {
+    const std::string include = include_of(fmt::format("object_{}", n + 1));
+    if (parts.objects[n].is_surface)
+      add_surface(parts.objects[n].single, include, "");
+    else
+      out.literal("\n").literal(include).literal("\n");
+  }
   return out.text();
 }
 
-std::string style_text(const std::vector<glm::vec4>& colors, const SceneOptions& options) {
+std::string style_text(const SceneStyle& style, const SceneOptions& options, const glm::dvec3& origin) {
   SceneText out;
   out.literal(
       "// Colours, lights and materials of the scene. Everything may be declared before this file is included.\n");
   out.literal("#declare Meniscus_Default_Background = ");
   append_color(out, options.background);
-  out.literal(";\n#ifndef (Meniscus_Color)\n  #declare Meniscus_Color = array[").count(colors.size());
+  out.literal(";\n#ifndef (Meniscus_Color)\n  #declare Meniscus_Color = array[").count(style.colors.size());
   out.literal("] {\n");
-  for (std::size_t n = 0; n < colors.size(); ++n) {
+  for (std::size_t n = 0; n < style.colors.size(); ++n) {
     out.literal("    ");
-    append_color(out, glm::vec3(colors[n]));
-    out.literal(n + 1 < colors.size() ? ",\n" : "\n");
+    append_color(out, style.colors[n].color);
+    out.literal(n + 1 < style.colors.size() ? ",\n" : "\n");
   }
-  out.literal("  }\n#end\n// How much of what lies behind a point of each colour it covers.\n");
-  out.literal("#ifndef (Meniscus_Opacity)\n  #declare Meniscus_Opacity = array[").count(colors.size()).literal("] {");
-  for (std::size_t n = 0; n < colors.size(); ++n)
-    out.literal(n == 0 ? "" : n % 16 == 0 ? ",\n" : ",").ratio(colors[n].w);
-  out.literal("}\n#end\n#ifndef (Meniscus_Film) #declare Meniscus_Film = ").count(options.film ? 1 : 0);
-  out.literal("; #end\n").literal(scene_template("style.inc"));
+  out.literal("  }\n#end\n");
+  const auto list = [&](std::string_view comment, std::string_view name, const auto& append) {
+    out.literal("// ").literal(comment).literal("\n#ifndef (").literal(name).literal(")\n  #declare ");
+    out.literal(name).literal(" = array[").count(style.colors.size()).literal("] {");
+    for (std::size_t n = 0; n < style.colors.size(); ++n)
+      append(out.literal(n == 0 ? "" : n % 16 == 0 ? ",\n" : ","), style.colors[n]);
+    out.literal("}\n#end\n");
+  };
+  list("How much of what lies behind a point of each colour it covers.", "Meniscus_Opacity",
+       [](SceneText& text, const SceneColor& color) { text.ratio(color.opacity); });
+  list("1: as a thin film does, more where the view grazes it.", "Meniscus_Film",
+       [](SceneText& text, const SceneColor& color) { text.count(color.film ? 1 : 0); });
+  list("1: where the volume map reaches, points have its colours instead.", "Meniscus_By_Map",
+       [](SceneText& text, const SceneColor& color) { text.count(color.by_map ? 1 : 0); });
+  list("What it is made of: 0 as all, or a number of Meniscus_Material_Of.", "Meniscus_Material_Number",
+       [](SceneText& text, const SceneColor& color) { text.count(color.finish); });
+  append_materials(out, style.materials);
+  if (style.map) append_map(out, *style.map, options.name, origin);
+  out.literal(scene_template("style.inc"));
   return out.text();
 }
 

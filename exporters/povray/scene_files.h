@@ -9,10 +9,11 @@
 #include <vector>
 
 #include <glm/vec3.hpp>
-#include <glm/vec4.hpp>
 
 #include "core/camera/camera.h"
 #include "core/math/box.h"
+#include "core/color/volume_paint.h"
+#include "exporters/povray/palette.h"
 #include "exporters/povray/scene_options.h"
 
 namespace meniscus::povray {
@@ -23,19 +24,34 @@ struct SceneFrames {
   std::uint32_t palette = 0;           ///< tells colours and origin from those of other runs
 };
 
+/// What the main file has to know of the file of one more object.
+struct ObjectPart {
+  bool is_surface = false;  ///< patches, which share an interior, else shapes
+  bool single = false;      ///< of a surface: it is one item
+};
+
 /// What the main file has to know of the others.
 struct SceneParts {
+  bool surface = true;       ///< there is geometry of the surface
   bool single = false;       ///< the geometry is one item
   bool caps = false;         ///< there is a file of them, or one a frame
   bool shapes = false;       ///< likewise
   bool translucent = false;  ///< some colour is
+  std::vector<ObjectPart> objects = {};
+};
+
+/// What the style is made of.
+struct SceneStyle {
+  const std::vector<SceneColor>& colors;
+  const VolumePaint* map = nullptr;             ///< of the colours that are by one
+  std::vector<MaterialRequest> materials = {};  ///< of objects: SceneColor::finish n is the n-th, from 1
 };
 
 /// <name>.pov. cameras: one, or one a frame. frames: nothing for a single surface.
 std::string main_text(std::span<const Camera> cameras, const SceneOptions& options, const glm::dvec3& origin,
                       const SceneParts& parts, const SceneFrames* frames = nullptr);
-/// <name>_style.inc. colors: sRGB and opacity.
-std::string style_text(const std::vector<glm::vec4>& colors, const SceneOptions& options);
+/// <name>_style.inc. origin: Å, of the scene's coordinates.
+std::string style_text(const SceneStyle& style, const SceneOptions& options, const glm::dvec3& origin);
 /// <name>_aov.inc
 std::string buffer_text(std::size_t color_count, const Box& e, const glm::dvec3& origin);
 /// <name>.ini. frame_count: 0 for a single surface.

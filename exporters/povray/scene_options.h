@@ -13,6 +13,8 @@
 #include "core/base/output_file.h"
 #include "core/color/color_key.h"
 #include "core/queries/colored_shapes.h"
+#include "core/queries/surface_object.h"
+#include "core/render/material.h"
 #include "core/render/picture_object.h"
 
 namespace meniscus::povray {
@@ -30,6 +32,16 @@ struct SurfaceCut {
   CapStyle style;
 };
 
+/// Something more in a scene: a surface or shapes, with what is its own. What it points to must stay until it is
+/// written.
+struct SceneObject {
+  const SurfaceObject* surface = nullptr;  ///< this one, standing in one place, not moved,
+  const ColoredShapes* shapes = nullptr;   ///< or these
+  SurfaceCut cut;                          ///< of the surface
+  bool film = false;                       ///< PictureObject::thickens
+  MaterialRequest material;                ///< what differs from the scene's
+};
+
 struct SceneOptions {
   std::string name = "surface";    ///< of all files; letters, digits, '-' and '_' only, since it stands in the scene
   int width = 1280, height = 960;  ///< pixels
@@ -38,6 +50,7 @@ struct SceneOptions {
   Existing existing = Existing::refuse;
   std::optional<glm::dvec3> origin;  ///< Å: where coordinates of the scene begin; nothing: the middle of all atoms
   const ColoredShapes* shapes = nullptr;  ///< beside the surface; nothing, or none: no file of them
+  std::vector<SceneObject> objects;       ///< likewise
   SurfaceCut cut;                         ///< of the surface; of a run only the style counts
   bool film = false;                      ///< a surface that is seen through is denser where the view grazes it
   std::optional<ColorKey> colors;         ///< what the colours mean, for <name>_objects.json

@@ -8,11 +8,12 @@
 
 namespace meniscus {
 
-/// main.pov: what is behind the camera: settings, lights and the surface; marks: NAME of the scene, GROUP (union or
-/// object), GEOMETRY (the file to include). frame.inc: of a run, from the scene's frame to the file to include, behind
-/// the list of frames; mark: NAME. style.inc: behind the colours. buffers.inc: all but the extent of the molecule,
-/// which comes before. settings.ini: behind the sizes; marks: NAME, and PICTURE, what pictures of frames have between
-/// name and number.
+/// main.pov: what is behind the camera: settings and lights; mark: NAME of the scene. surface.pov: a surface; marks:
+/// GROUP (union or object), GEOMETRY and CAPS (what includes their files). map.inc: behind the numbers of a volume map;
+/// mark: FILE. caps.inc: before caps; mark: DARK, the light of hatching. shapes.inc: before shapes. frame.inc: of a
+/// run, from the scene's frame to the file to include, behind the list of frames; mark: NAME. style.inc: behind the
+/// colours. buffers.inc: all but the extent of the molecule, which comes before. settings.ini: behind the sizes; marks:
+/// NAME, and PICTURE, what pictures of frames have between name and number.
 std::span<const TemplateFile> povray_templates();
 
 }  // namespace meniscus

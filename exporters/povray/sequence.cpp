@@ -3,6 +3,7 @@
 #include "exporters/povray/sequence.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include <fmt/format.h>
@@ -18,6 +19,8 @@
 #include "exporters/povray/scene_report.h"
 #include "core/base/text.h"
 #include "exporters/povray/scene_text.h"
+#include "exporters/povray/shape_objects.h"
+#include "exporters/povray/volume_map.h"
 
 namespace meniscus::povray {
 namespace {
@@ -34,9 +37,11 @@ void check(const Run& run) {
 std::uint32_t palette_number(const Run& run, const glm::dvec3& origin) {
   SceneText text;
   text.full_vector(origin);
-  for (const glm::vec4& color : run.colors) {
-    text.full_vector(glm::dvec3(color));
-    if (color.w < 1.0f) text.full(color.w);
+  for (const SceneColor& color : run.colors) {
+    text.full_vector(glm::dvec3(color.color));
+    if (color.opacity < 1.0f) text.full(color.opacity);
+    if (color.by_map) text.literal(" by map");
+    if (color.film) text.literal(" film");
   }
   const std::string& bytes = text.text();
   return static_cast<std::uint32_t>(crc32_z(0, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()));
@@ -71,13 +76,19 @@ SequenceScene::SequenceScene(Run run, SceneOptions options, std::filesystem::pat
 SceneReport SequenceScene::write_shared() const {
   const SceneFrames frames{run_.frames, palette_};
   const std::string& name = options_.name;
-  const SceneParts parts{false, run_.caps, run_.shapes,
-                         std::ranges::any_of(run_.colors, [](const glm::vec4& color) { return color.w < 1.0f; })};
-  const SharedFile files[] = {{name + "_aov.inc", buffer_text(run_.colors.size(), {run_.low, run_.high}, origin_)},
-                              {name + "_style.inc", style_text(run_.colors, options_)},
+  const SceneParts parts{true, false, run_.caps, run_.shapes,
+                         std::ranges::any_of(run_.colors, [](const SceneColor& c) { return c.opacity < 1.0f; })};
+  std::vector<SharedFile> files;
+  if (run_.map) {
+    std::string& values = files.emplace_back(name + std::string(kMapFileEnding), "").text;
+    write_density(run_.map->grid, [&](std::string_view bytes) { values += bytes; });
+  }
+  const SharedFile texts[] = {{name + "_aov.inc", buffer_text(run_.colors.size(), {run_.low, run_.high}, origin_)},
+                              {name + "_style.inc", style_text({run_.colors, run_.map.get()}, options_, origin_)},
                               {name + "_objects.json", objects_text(run_, options_.colors)},
                               {name + ".pov", main_text(run_.cameras, options_, origin_, parts, &frames)},
                               {name + ".ini", ini_text(options_, run_.frames.size())}};
+  files.insert(files.end(), std::begin(texts), std::end(texts));
   write_shared_files(folder_, options_.existing, files);
   SceneReport report;
   for (const SharedFile& file : files) report.files.push_back(folder_ / file.name);
@@ -93,9 +104,14 @@ SceneReport SequenceScene::write_frame(std::span<const SurfaceObject> given, std
   const SurfaceCut cut{{planes.begin(), planes.end()}, options_.cut.style};
   const CutObjects cut_objects(given, cut, camera, options_);
   const std::span<const SurfaceObject> objects = cut_objects.objects();
-  Geometry geometry(objects, origin_, run_.colors, &shapes, cut.planes);
-  if (run_.caps) geometry.add_caps(cut_objects.caps(), objects, cut);
-  if (geometry.colors().size() > run_.colors.size())
+  ColorTable table;
+  for (const SceneColor& color : run_.colors) table.number(color);
+  Geometry geometry(objects, origin_, table, {options_.film, 0}, cut.planes);
+  if (run_.caps) geometry.add_caps(cut_objects.caps(), objects, cut, table);
+  if (geometry.primitive_count() == 0)
+    throw RequestError("nothing of the surface is shown, so there is no scene to write");
+  if (!shapes.empty()) add_colors(shapes, table);
+  if (table.colors().size() > run_.colors.size())
     throw Error(fmt::format("frame {} has a colour that the run does not have", run_.frames[place]));
   OutputFolder output(folder_, options_.existing);
   SceneReport report;
@@ -107,7 +123,7 @@ SceneReport SequenceScene::write_frame(std::span<const SurfaceObject> given, std
   if (geometry.declares()) begin_file("objects", ".json").write(geometry.names_json({}));
   geometry.write(begin_file("geometry", ".inc"), palette_check(palette_));
   if (run_.caps) geometry.write_caps(begin_file("caps", ".inc"), cut);
-  if (run_.shapes) geometry.write_shapes(begin_file("shapes", ".inc"));
+  if (run_.shapes) write_shapes(begin_file("shapes", ".inc"), shapes, origin_, table);
   output.commit();
   report.object_count = geometry.primitive_count();
   report.origin = origin_;

@@ -4,25 +4,28 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <span>
 #include <vector>
 
 #include <glm/vec3.hpp>
-#include <glm/vec4.hpp>
 
 #include "core/camera/camera.h"
+#include "core/color/volume_paint.h"
+#include "exporters/povray/palette.h"
 #include "exporters/povray/scene.h"
 
 namespace meniscus::povray {
 
 /// What all frames of a run share. Every process that makes some of them must be given the same.
 struct Run {
-  std::vector<std::uint64_t> frames;  ///< of the trajectory; scene frame n, from 1, is frames[n - 1]
-  std::vector<Camera> cameras;        ///< one for all, or one a frame; of one projection
-  std::vector<glm::vec4> colors;      ///< sRGB and opacity: all that may occur, in the order of the style file
-  glm::dvec3 low{0.0}, high{0.0};     ///< Å: a box around all atoms at all frames
-  bool shapes = false;                ///< every frame has some beside the surface
-  bool caps = false;                  ///< every frame is cut by planes
+  std::vector<std::uint64_t> frames;            ///< of the trajectory; scene frame n, from 1, is frames[n - 1]
+  std::vector<Camera> cameras;                  ///< one for all, or one a frame; of one projection
+  std::vector<SceneColor> colors;               ///< all that may occur, in the order of the style file
+  glm::dvec3 low{0.0}, high{0.0};               ///< Å: a box around all atoms at all frames
+  bool shapes = false;                          ///< every frame has some beside the surface
+  bool caps = false;                            ///< every frame is cut by planes
+  std::shared_ptr<const VolumePaint> map = {};  ///< of the colours that are by one
 };
 
 class SequenceScene {
@@ -31,9 +34,9 @@ class SequenceScene {
   /// projections or of another number).
   SequenceScene(Run run, SceneOptions options, std::filesystem::path folder);
 
-  /// Writes <name>.ini, <name>.pov, <name>_style.inc, <name>_aov.inc and <name>_objects.json (the frames, and what the
-  /// colours mean). Files that are there with just this content stay; the others are written, all or none. Throws
-  /// OutputError.
+  /// Writes <name>.ini, <name>.pov, <name>_style.inc, <name>_aov.inc, <name>_objects.json (the frames, and what the
+  /// colours mean), and of a volume map <name>_map.df3. Files that are there with just this content stay; the others
+  /// are written, all or none. Throws OutputError.
   SceneReport write_shared() const;
 
   /// Writes <name>_geometry_#####.inc, numbered by the frame of the trajectory, and where there are several objects

@@ -89,34 +89,43 @@ class ShapeWriter {
 
 }  // namespace
 
-void add_colors(const ColoredShapes& shapes, ColorTable& table) {
-  const std::vector<glm::vec3>& color = shapes.coloring.atom;
-  for (const SphereShape& sphere : shapes.shapes.spheres) table.number(color[sphere.atom]);
+void add_colors(const ColoredShapes& shapes, ColorTable& table, const ObjectStyle& style) {
+  const auto add = [&](std::uint32_t atom) {
+    if (shapes.coloring.shows(atom)) table.number(scene_color(shapes.coloring, atom, style));
+  };
+  for (const SphereShape& sphere : shapes.shapes.spheres) add(sphere.atom);
   for (const CylinderShape& cylinder : shapes.shapes.cylinders) {
-    table.number(color[cylinder.from_atom]);
-    table.number(color[cylinder.to_atom]);
+    add(cylinder.from_atom);
+    add(cylinder.to_atom);
   }
-  for (const std::uint32_t atom : shapes.shapes.mesh.atoms) table.number(color[atom]);
+  for (const std::uint32_t atom : shapes.shapes.mesh.atoms) add(atom);
 }
 
-void write_shapes(OutputFile& file, const ColoredShapes& shapes, const glm::dvec3& origin, ColorTable& table) {
-  const std::vector<glm::vec3>& color = shapes.coloring.atom;
+void write_shapes(OutputFile& file, const ColoredShapes& shapes, const glm::dvec3& origin, ColorTable& table,
+                  const ObjectStyle& style) {
+  const Coloring& coloring = shapes.coloring;
+  const auto number = [&](std::uint32_t atom) { return table.number(scene_color(coloring, atom, style)); };
   std::map<std::uint32_t, ColorGroup> groups;
   for (const SphereShape& sphere : shapes.shapes.spheres)
-    groups[table.number(color[sphere.atom])].spheres.push_back(&sphere);
+    if (coloring.shows(sphere.atom)) groups[number(sphere.atom)].spheres.push_back(&sphere);
   for (const CylinderShape& cylinder : shapes.shapes.cylinders) {
-    const std::uint32_t first = table.number(color[cylinder.from_atom]), last = table.number(color[cylinder.to_atom]);
+    const bool from = coloring.shows(cylinder.from_atom), to = coloring.shows(cylinder.to_atom);
+    const std::uint32_t first = from ? number(cylinder.from_atom) : kNone, last = to ? number(cylinder.to_atom) : kNone;
     const glm::dvec3 middle = 0.5 * (cylinder.from + cylinder.to);
-    groups[first].cylinders.push_back({&cylinder, cylinder.from, first == last ? cylinder.to : middle});
-    if (first != last) groups[last].cylinders.push_back({&cylinder, middle, cylinder.to});
+    if (from) groups[first].cylinders.push_back({&cylinder, cylinder.from, first == last ? cylinder.to : middle});
+    if (to && first != last) groups[last].cylinders.push_back({&cylinder, middle, cylinder.to});
   }
   file.write("// Sticks, balls and spheres beside the surface; coordinates are those of its geometry.\n");
   file.write(template_text(povray_templates(), "shapes.inc"));
   ShapeWriter writer(file, origin);
-  for (const auto& [number, group] : groups) writer.write(number, group);
+  for (const auto& [color, group] : groups) writer.write(color, group);
   if (!shapes.shapes.mesh.triangles.empty()) {
     std::vector<std::uint32_t> numbers;
-    for (const std::uint32_t atom : shapes.shapes.mesh.atoms) numbers.push_back(table.number(color[atom]));
+    for (const std::uint32_t atom : shapes.shapes.mesh.atoms) {
+      SceneColor color = scene_color(coloring, atom, style);
+      if (!coloring.shows(atom)) color.opacity = 0.0f;
+      numbers.push_back(table.number(color));
+    }
     writer.write(shapes.shapes.mesh, numbers);
   }
   writer.flush(0);

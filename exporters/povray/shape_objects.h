@@ -13,9 +13,10 @@ namespace meniscus::povray {
 /// Writes sphere, cylinder and mesh2 with their textures; a cylinder of two colours as its two halves. Names are ours,
 /// all else numbers. origin: Å, of the scene's coordinates. Colours that `table` does not have yet are added. Throws
 /// Error for a number that is not finite.
-void write_shapes(OutputFile& file, const ColoredShapes& shapes, const glm::dvec3& origin, ColorTable& table);
+void write_shapes(OutputFile& file, const ColoredShapes& shapes, const glm::dvec3& origin, ColorTable& table,
+                  const ObjectStyle& style = {});
 
 /// Adds the colours of all shapes to the table.
-void add_colors(const ColoredShapes& shapes, ColorTable& table);
+void add_colors(const ColoredShapes& shapes, ColorTable& table, const ObjectStyle& style = {});
 
 }  // namespace meniscus::povray

@@ -112,7 +112,14 @@ TEST_F(ColorCommand, VolumeMapsColorThePointsOfTheSurface) {
     return meniscus({"export", format, file_, "-o", path(name), "--color-map-file", map, "--color-range", "-1:1"})
         .exit_code;
   };
-  EXPECT_EQ(exported("povray", "e"), 2);
+  EXPECT_EQ(exported("povray", "e"), 0);
+  EXPECT_TRUE(std::filesystem::exists(path("e") + "/surface_map.df3"));
+  const ProgramResult film =
+      meniscus({"export", "povray", file_, "-o", path("film"), "--color-map-file", map, "--color-range", "-1:1",
+                "--map-offset", "1", "--film-opacity", "--opacity", "0.5"});
+  EXPECT_EQ(film.exit_code, 2);
+  EXPECT_NE(film.err.find("--map-offset: POV-Ray samples beside the surface patch by patch"), std::string::npos)
+      << film.err;
   EXPECT_EQ(exported("blender", "e.mns"), 0);
   const ProgramResult mesh =
       meniscus({"export", "ply", file_, "-o", path("m.ply"), "--color-map-file", map, "--color-range", "-1:1", "-q"});

@@ -187,12 +187,48 @@ TEST(Layers, OfOneOpaqueObjectMakeThePictureOfItAlone) {
   }
 }
 
+/// Sums of light over white paper.
+double light(const Framebuffer& picture) {
+  double sum = 0.0;
+  for (const glm::vec4& pixel : picture.color) sum += pixel.x + (1.0 - pixel.w);
+  return sum;
+}
+
+TEST(Layers, WhatIsSeenThroughHasShadeAndLinesAsFarAsItCovers) {
+  Subject subject(testing::ubiquitin());
+  subject.settings.look.material.specular = 0.0f;  // highlights of the shade are no part of this
+  const auto picture = [&](float opacity, bool effects) {
+    subject.coloring.opacity.assign(opacity < 1.0f ? subject.surface.atoms.size() : 0, opacity);
+    subject.settings.look.ambient_occlusion = effects ? 0.9f : 0.0f;
+    subject.settings.look.silhouettes = effects ? 2.0f : 0.0f;
+    subject.settings.look.depth_cue = effects ? 0.3f : 0.0f;
+    return subject.picture();
+  };
+  // Hardly seen through it is the opaque picture, hardly seen at all it has no lines.
+  const Framebuffer opaque = picture(1.0f, true), nearly = picture(0.9999f, true);
+  float farthest = 0.0f;
+  for (std::size_t n = 0; n < opaque.color.size(); ++n)
+    for (int c = 0; c < 4; ++c) farthest = std::max(farthest, std::abs(opaque.color[n][c] - nearly.color[n][c]));
+  EXPECT_LT(farthest, 0.002f);
+  for (const glm::vec4& pixel : picture(0.001f, true).color) ASSERT_LT(pixel.w, 0.02f);
+  // Between them both make it darker, and less so the less it covers.
+  const auto darker = [&](float opacity) { return light(picture(opacity, false)) - light(picture(opacity, true)); };
+  const double half = darker(0.5f), quarter = darker(0.25f);
+  EXPECT_GT(quarter, 500.0);
+  EXPECT_GT(half, 1.5 * quarter);
+  // Beside it, lines of what is seen through reach as far as those of what is opaque.
+  const Framebuffer halved = picture(0.5f, true);
+  for (std::size_t n = 0; n < opaque.color.size(); ++n)
+    ASSERT_EQ(opaque.color[n].w > 0.0f, halved.color[n].w > 0.0f) << n;
+}
+
 TEST(Layers, AreTheSameForAllVectorsAndBlocks) {
   Subject subject(testing::ubiquitin());
   subject.see_through();
   subject.cut("depth>0.3");
   subject.settings.samples = 5;
   subject.settings.look.ambient_occlusion = 0.5f;
+  subject.settings.look.silhouettes = 3.0f;
   const Framebuffer widest = subject.picture();
   for (const int lanes : {4, 8})
     EXPECT_TRUE(same_bits(CpuRenderer(lanes).render({&subject.object, 1}, subject.camera, subject.settings), widest));

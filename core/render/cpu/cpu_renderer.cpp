@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cassert>
+#include <cmath>
 #include <cstddef>
 #include <span>
 #include <thread>
@@ -310,9 +311,13 @@ void CpuRenderer::cast_shade_map(const PictureFrame& map, const RenderSettings& 
   const PictureBlock whole{{0, 0}, map.size};
   start_block(map, whole, layers);
   const bool has_parts = layers ? layers->has_parts() : !scene_.parts.empty();
-  samples_.resize(static_cast<std::size_t>(map.size.x) * map.size.y, has_parts, layers != nullptr);
+  const auto texel_count = static_cast<std::size_t>(map.size.x) * map.size.y;
+  samples_.resize(texel_count, has_parts, layers != nullptr);
+  const bool has_front = layers && layers->shows_through();
+  if (has_front) front_.resize(texel_count, has_parts, false);
   cast_samples(0, 1, {map, whole, settings, false, layers}, interruption);
   shade_map_.swap(samples_.depth);
+  if (has_front) front_shade_map_.swap(front_.depth);
 }
 
 void CpuRenderer::cast(const BlockTask& task, Interruption& interruption) {
@@ -323,13 +328,17 @@ void CpuRenderer::cast(const BlockTask& task, Interruption& interruption) {
   if (task.hits) hits_.assign(pixel_count, kNoHit);
   const int step = look.has_effects() ? 1 : LaneTile::kMostSamples;
   const bool has_parts = task.layers ? task.layers->has_parts() : !scene_.parts.empty();
+  const bool has_front = task.layers && task.layers->shows_through();
   if (look.has_effects()) samples_.resize(pixel_count, has_parts, task.layers != nullptr);
+  if (look.has_effects() && has_front) front_.resize(pixel_count, has_parts, false);
   for (int first = 0; first < task.settings.samples && !interruption.came(); first += step) {
     cast_samples(first, std::min(step, task.settings.samples - first), task, interruption);
     if (!look.has_effects()) continue;
-    if (look.ambient_occlusion > 0.0f && first == 0 && holds_shade_map(task.block, task.settings.size))
+    if (look.ambient_occlusion > 0.0f && first == 0 && holds_shade_map(task.block, task.settings.size)) {
       shade_map_ = samples_.depth;
-    look_at(first, task.settings, has_parts, interruption);
+      if (has_front) front_shade_map_ = front_.depth;
+    }
+    look_at(first, task.settings, has_parts, has_front, interruption);
   }
 }
 
@@ -343,6 +352,7 @@ void CpuRenderer::cast_samples(int first, int count, const BlockTask& task, Inte
     samples.samples = samples_.lanes();
   else
     samples.sums = sums_.data();
+  if (task.settings.look.has_effects() && task.layers && task.layers->shows_through()) samples.front = front_.lanes();
   const glm::ivec2 tiles = tile_counts(task.block);
   for_each_until(interruption, tiles.x * tiles.y, [&](int tile) {
     if (task.layers)
@@ -361,7 +371,8 @@ void CpuRenderer::cast_tile(std::size_t tile, LaneTile task) {
   kernels_.cast_tile(scene_.lanes, task);
 }
 
-void CpuRenderer::look_at(int sample, const RenderSettings& settings, bool has_parts, Interruption& interruption) {
+void CpuRenderer::look_at(int sample, const RenderSettings& settings, bool has_parts, bool has_front,
+                          Interruption& interruption) {
   const auto stage = clock_.stage("look");
   const Look& look = settings.look;
   LaneLook task;
@@ -373,9 +384,45 @@ void CpuRenderer::look_at(int sample, const RenderSettings& settings, bool has_p
   task.shade_map = shade_map_.data();
   task.visibility = samples_.visibility.data();
   task.sums = sums_.data();
+  if (has_front) look_at_front(task, settings, interruption);
   if (look.ambient_occlusion > 0.0f)
     for_each_until(interruption, task.view.size.y, [&](int y) { kernels_.occlude_row(task, y); });
   for_each_until(interruption, task.view.size.y, [&](int y) { kernels_.finish_row(task, y); });
+}
+
+void CpuRenderer::look_at_front(LaneLook task, const RenderSettings& settings, Interruption& interruption) {
+  const glm::ivec2 size = task.view.size;
+  const std::size_t pixel_count = static_cast<std::size_t>(size.x) * size.y;
+  front_sums_.assign(pixel_count, glm::vec4(0.0f));
+  front_ink_.assign(pixel_count, 0.0f);
+  task.samples = front_.lanes();
+  task.finish.specular = 0.0f;  // highlights are in what is cast
+  task.shade_map = front_shade_map_.data();
+  task.visibility = front_.visibility.data();
+  task.sums = front_sums_.data();
+  task.ink = front_ink_.data();
+  if (settings.look.ambient_occlusion > 0.0f)
+    for_each_until(interruption, size.y, [&](int y) { kernels_.occlude_row(task, y); });
+  for_each_until(interruption, size.y, [&](int y) { kernels_.finish_row(task, y); });
+  const int reach = static_cast<int>(std::ceil(0.5f * settings.look.widest_line() + 0.5f));
+  for_each_until(interruption, size.y, [&](int y) {
+    for (int x = 0; x < size.x; ++x) {
+      const std::size_t at = static_cast<std::size_t>(y) * size.x + x;
+      const glm::vec4& color = front_.color[at];
+      glm::vec4& over = samples_.over[at];
+      if (color.w > 0.0f) {
+        over += color.w * (front_sums_[at] - glm::vec4(glm::vec3(color), 1.0f));
+        continue;
+      }
+      if (front_ink_[at] == 0.0f) continue;
+      float nearby = 0.0f;  // a line beside it is as opaque as it is there
+      for (int row = std::max(y - reach, 0); row <= std::min(y + reach, size.y - 1); ++row)
+        for (int column = std::max(x - reach, 0); column <= std::min(x + reach, size.x - 1); ++column)
+          nearby = std::max(nearby, front_.color[static_cast<std::size_t>(row) * size.x + column].w);
+      const float covered = front_ink_[at] * nearby;
+      over = over * (1.0f - covered) + glm::vec4(0.0f, 0.0f, 0.0f, covered);
+    }
+  });
 }
 
 std::unique_ptr<SurfaceRenderer> make_cpu_renderer(int most_lanes) { return std::make_unique<CpuRenderer>(most_lanes); }

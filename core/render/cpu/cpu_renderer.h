@@ -94,7 +94,10 @@ class CpuRenderer final : public SurfaceRenderer {
   void cast(const BlockTask& task, Interruption& interruption);
   void cast_samples(int first, int count, const BlockTask& task, Interruption& interruption);
   void cast_tile(std::size_t tile, LaneTile task);
-  void look_at(int sample, const RenderSettings& settings, bool has_parts, Interruption& interruption);
+  void look_at(int sample, const RenderSettings& settings, bool has_parts, bool has_front, Interruption& interruption);
+  /// Finishes what is seen through and first along its ray: its shade, air and lines go into samples_.over, each as
+  /// opaque as it is.
+  void look_at_front(LaneLook task, const RenderSettings& settings, Interruption& interruption);
   void present(const RenderSettings& settings);
 
   const LaneKernels& kernels_;
@@ -106,8 +109,10 @@ class CpuRenderer final : public SurfaceRenderer {
   tbb::enumerable_thread_specific<SortedList> sorted_;
   std::vector<glm::vec4> sums_;
   std::vector<ray_cast::Hit> hits_;
-  BlockSamples samples_;
-  std::vector<float> shade_map_;  // depths of the whole picture, and behind the last that of nothing
+  BlockSamples samples_, front_;                    // front_: of pictures in which something is seen through
+  std::vector<glm::vec4> front_sums_;               // of front_, finished
+  std::vector<float> front_ink_;                    // share of it that lines cover
+  std::vector<float> shade_map_, front_shade_map_;  // depths of the whole picture, and behind the last that of nothing
   std::vector<std::uint8_t> rgba_;
   glm::ivec2 size_{0};                  // of rgba_
   bool drawn_ = false;                  // scene_ and hits_ are those of rgba_

@@ -82,6 +82,9 @@ struct LaneTile {
   glm::vec4* sums = nullptr;      ///< of the block: gets the samples' sum added; or nullptr
   ray_cast::Hit* hits = nullptr;  ///< of the block: gets those of the first sample; or nullptr
   LaneSamples samples;            ///< of the block, for one sample; its pointers may be nullptr all together
+  /// Likewise, of layers: the first thing along each ray that is not quite transparent. Where that lets light through,
+  /// `color` is its own, not premultiplied, and its opacity; else 0.
+  LaneSamples front;
 };
 
 /// A point where a ray meets something: what layers are made of.
@@ -131,6 +134,7 @@ struct LaneLook {
   const float* shade_map = nullptr;  ///< depths of the whole picture, for occlude_row
   float* visibility = nullptr;
   glm::vec4* sums = nullptr;  ///< gets the finished colours added
+  float* ink = nullptr;       ///< gets the share of each pixel that lines cover; or nullptr
 };
 
 /// The kernels for one width.

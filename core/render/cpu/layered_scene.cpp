@@ -286,12 +286,19 @@ void LayeredScene::put_together(const TileWork& work) const {
     if (!samples.color) continue;
     samples.over[at] = over;
     samples.color[at] = behind;
-    samples.depth[at] = opaque ? opaque->depth : kernel::kNothing;
-    for (int axis = 0; axis < 3; ++axis) samples.normal[axis][at] = opaque ? opaque->normal[axis] : 0.0f;
-    if (!samples.part) continue;
-    const std::vector<float>* const parts = opaque ? &layers_[opaque->layer].scene.parts : nullptr;
-    samples.part[at] = parts && !parts->empty() ? (*parts)[opaque->atom] : 0.0f;
+    write(samples, at, opaque);
+    if (!task.front.color) continue;
+    task.front.color[at] = first && first != opaque ? first->color : glm::vec4(0.0f);
+    write(task.front, at, first);
   }
+}
+
+void LayeredScene::write(const LaneSamples& samples, std::size_t at, const LayerHit* hit) const {
+  samples.depth[at] = hit ? hit->depth : kernel::kNothing;
+  for (int axis = 0; axis < 3; ++axis) samples.normal[axis][at] = hit ? hit->normal[axis] : 0.0f;
+  if (!samples.part) return;
+  const std::vector<float>* const parts = hit ? &layers_[hit->layer].scene.parts : nullptr;
+  samples.part[at] = parts && !parts->empty() ? (*parts)[hit->atom] : 0.0f;
 }
 
 }  // namespace meniscus

@@ -32,10 +32,13 @@ class LayeredScene {
   /// A block of a picture that is seen as that of the constructor, but may have other pixels.
   void begin_block(const PictureFrame& frame, const PictureBlock& block);
   bool has_parts() const { return has_parts_; }
+  /// Whether something may be seen through.
+  bool shows_through() const { return !layers_.empty() && layers_.back().translucent; }
   /// Whether highlights are cast with everything else, for the finish knows one material alone.
   bool casts_highlights() const { return casts_highlights_; }
 
-  /// Casts a tile of the block: adds to task.sums, or writes task.samples, and task.hits. On several threads at once.
+  /// Casts a tile of the block: adds to task.sums, or writes task.samples and task.front, and task.hits. On several
+  /// threads at once.
   void cast_tile(std::size_t tile, LaneTile task, const LaneKernels& kernels);
 
   /// What the hits of an object mean.
@@ -75,6 +78,8 @@ class LayeredScene {
   void color_cap(const Layer& layer, std::uint32_t plane, const LaneTile& task, LayerHit& cap) const;
   void order_hits(Workplace& place) const;
   void put_together(const TileWork& work) const;
+  /// Of a sample what the look needs to know beside its colour; nullptr: nothing is met.
+  void write(const LaneSamples& samples, std::size_t at, const LayerHit* hit) const;
 
   PictureFrame frame_;
   PictureBlock block_;

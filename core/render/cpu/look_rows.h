@@ -111,6 +111,8 @@ struct LookedAtBlock {
       const real covered = ink.covered * clarity(ink.depth);
       color = color * (1.0f - covered);
       alpha = mix(alpha, 1.0f, covered);
+      if (look_.ink)
+        for (int n = 0; n < count; ++n) look_.ink[first + n] = lane(covered, n);
     }
     for (int n = 0; n < count; ++n) {
       const glm::vec4 finished(lane(color.x, n), lane(color.y, n), lane(color.z, n), lane(alpha, n));

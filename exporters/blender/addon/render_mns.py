@@ -133,10 +133,10 @@ def apply_style(style):
     for material in our_materials() if style != "film" else ():
         shader = materials.shader_of(material)
         specular = compat.principled_input(shader, "Specular IOR Level", "Specular")
-        specular.default_value = 0.0
+        specular.default_value = 0.0 if style == "flat" or "specular" not in material[materials.MARK] else specular.default_value
         if style == "flat":
-            color = next(link.from_socket for link in material.node_tree.links if link.to_node == shader
-                         and link.to_socket.name in ("Base Color", "Emission Color", "Emission"))
+            colors = {link.to_socket.name: link.from_socket for link in material.node_tree.links if link.to_node == shader}
+            color = colors.get("Emission Color") or colors.get("Emission") or colors["Base Color"]
             for link in list(shader.inputs["Base Color"].links):
                 material.node_tree.links.remove(link)
             shader.inputs["Base Color"].default_value = (0.0, 0.0, 0.0, 1.0)

@@ -6,10 +6,3 @@
 #else
   #include "@NAME@_aov.inc"
 #end
-
-@GROUP@ {
-  #include @GEOMETRY@@CAPS@
-  #if (!Meniscus_Own_Textures) texture { Meniscus_Texture } #end
-  // One interior for all patches: POV-Ray then takes the open pieces for one solid.
-  interior { Meniscus_Interior }
-}

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Figures are the same pictures from Blender as from the ray caster: PROGRAM ADDON_FOLDER BLENDER."""
 
+import json
 import os
 import subprocess
 import sys
@@ -9,6 +10,9 @@ import unittest
 
 import numpy as np
 import OpenImageIO
+
+sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+import smooth_map  # noqa: E402
 
 PROGRAM, ADDON, BLENDER = sys.argv[1:4]
 UBIQUITIN = "/usr/share/freesasa/test-data/1ubq.pdb"
@@ -45,7 +49,7 @@ class Figure(unittest.TestCase):
     def path(self, name):
         return os.path.join(os.environ.get("MENISCUS_KEEP_PICTURES", self.holder.name), name)
 
-    def pair(self, name, molecule, *options, samples=256):
+    def pair(self, name, molecule, *options, samples=256, style="flat"):
         """The picture of the ray caster, and that of Blender from the export with the same options."""
         def run(*command):
             done = subprocess.run(command, capture_output=True, text=True, check=False)
@@ -56,7 +60,7 @@ class Figure(unittest.TestCase):
             "--background", "transparent", "--save-camera", camera)
         run(PROGRAM, "export", "blender", molecule, "-o", mns, *VIEW, *options, "--tolerance", "0.02", "--camera", camera)
         run(BLENDER, "-b", "--factory-startup", "--python-exit-code", "3", "--python", os.path.join(ADDON, "render_mns.py"), "--",
-            mns, "--output", theirs, "--samples", str(samples), "--style", "flat", "--transparent")
+            mns, "--output", theirs, "--samples", str(samples), "--style", style, "--transparent")
         return pixels(ours), pixels(theirs)
 
     def difference(self, name, ours, theirs):
@@ -98,21 +102,36 @@ class Figure(unittest.TestCase):
         self.assertGreater(self.difference("hatched and seen through", hatched, plain)[0], 0.05)
 
     def test_volume_map(self):
-        """A map that varies as smoothly as potentials do at their grids."""
         path = self.path("map.dx")
-        count, step, corner = 41, 1.5, (0.0, 0.0, -15.0)
-        x, y, z = (corner[axis] + step * np.arange(count) for axis in range(3))
-        values = 4.0 * np.sin(x / 6.0)[:, None, None] * np.cos(y / 5.0)[None, :, None] + 0.05 * z[None, None, :]
-        with open(path, "w", encoding="ascii") as file:
-            file.write(f"object 1 class gridpositions counts {count} {count} {count}\norigin {corner[0]} {corner[1]} {corner[2]}\n")
-            for axis in range(3):
-                file.write("delta " + " ".join(str(step if k == axis else 0.0) for k in range(3)) + "\n")
-            file.write(f"object 2 class gridconnections counts {count} {count} {count}\n")
-            file.write(f"object 3 class array type double rank 0 items {count ** 3} data follows\n")
-            flat = ["%.6e" % value for value in values.ravel()]
-            file.write("\n".join(" ".join(flat[n:n + 3]) for n in range(0, len(flat), 3)) + "\n")
+        smooth_map.write_dx(path)
         for name, options in {"map": [], "map and a rule": ["--color", "resi 1-20=#30a030", "--sticks", "resi 70-76"]}.items():
             self.check(name, UBIQUITIN, "--color-map-file", path, "--color-range", "-4:4", *options)
+
+    def test_objects(self):
+        """Each with colours, opacity and cuts of its own, beside a part of the surface or without it."""
+        part = json.dumps({"representation": "surface", "selection": "resi 41-76", "color": "#c04020", "opacity": 0.5,
+                           "film_opacity": True})
+        cut = json.dumps({"representation": "surface", "selection": "resi 1-40", "color": "residue", "clip": "depth>0.4",
+                          "cap_hatching": 3})
+        sticks = json.dumps({"representation": "balls", "selection": "resi 1-40", "color": "gold"})
+        tube = json.dumps({"representation": "tube", "selection": "resi 1-40", "color": "#2040c0"})
+        self.check("a second surface", UBIQUITIN, "--select", "resi 1-40", "--object", part, "--color", "residue")
+        self.check("surfaces, one of them cut", UBIQUITIN, "--select", "resi 41-76", "--object", cut, "--opacity", "0.5", "--color", "element")
+        self.check("no surface of its own", UBIQUITIN, "--hide-surface", "--object", part, "--object", sticks, "--object", tube,
+                   "--spheres", "resi 60", "--color", "element")
+
+    def test_interface(self):
+        self.check("an interface", UBIQUITIN, "--interface", "resi 1-35:resi 36-76")
+
+    def test_materials(self):
+        """An object that lights itself has its colours whatever the lamps are."""
+        own = json.dumps({"representation": "surface", "selection": "all", "color": "residue", "ambient": 1, "specular": 0})
+        ours, theirs = self.pair("material", UBIQUITIN, "--hide-surface", "--object", own, style="studio")
+        # The studio's pixels see more than what lies in them: borders of colours are softer.
+        self.assertLess(self.difference("material", ours, theirs)[0], 0.1)
+        usual = json.dumps({"representation": "surface", "selection": "all", "color": "residue"})
+        _, lit = self.pair("usual material", UBIQUITIN, "--hide-surface", "--object", usual, style="studio")
+        self.assertGreater(self.difference("usual material", ours, lit)[0], 0.5)
 
 
 unittest.main(argv=["figure_test"])

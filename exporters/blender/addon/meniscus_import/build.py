@@ -342,7 +342,7 @@ def linear(srgb):
 def add_materials(mesh, surface, new_materials, own=False):
     """own: not those that all imports share."""
     for role, kind in materials.wanted(surface):
-        mesh.materials.append(materials.find_or_make(role, kind, new_materials, own, materials.hatching_of(surface, role)))
+        mesh.materials.append(materials.find_or_make(role, kind, new_materials, own, materials.hatching_of(surface, role), materials.looks_of(surface)))
 
 
 def add_sharp_edges(mesh, surface):

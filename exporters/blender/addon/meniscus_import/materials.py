@@ -30,17 +30,23 @@ def hatching_of(surface, role):
     return None if hatching is None else (float(hatching["share"]), float(hatching["light"]))
 
 
-def find_or_make(role, kind, new_materials, own=False, hatching=None):
-    """The material of a role, one of SLOTS, for a kind of opacity; own: of one import alone. hatching: as hatching_of. Those
-    that are made are added to new_materials."""
+def looks_of(surface):
+    """What the file says of the object's own material: pairs of a key and a number, () where it is the usual one."""
+    return tuple(sorted((key, float(value)) for key, value in surface.header.get("material", {}).items()))
+
+
+def find_or_make(role, kind, new_materials, own=False, hatching=None, looks=()):
+    """The material of a role, one of SLOTS, for a kind of opacity; own: of one import alone. hatching: as hatching_of; looks:
+    as looks_of. Those that are made are added to new_materials."""
     mark = f"{role} {kind}" + (" own" if own else "") + ("" if hatching is None else " hatched {:g} {:g}".format(*hatching))
+    mark += "".join(f" {key} {value:g}" for key, value in looks)
     for material in new_materials if own else bpy.data.materials:
-        if material.get(MARK) == mark or (kind == OPAQUE and not own and _is_of_an_old_import(material, role)):
+        if material.get(MARK) == mark or (kind == OPAQUE and not own and not looks and _is_of_an_old_import(material, role)):
             return material
     material = bpy.data.materials.new(f"Meniscus {role}{ENDINGS[kind]}{'' if hatching is None else ' hatched'}")
     new_materials.append(material)
     material[MARK] = mark
-    _fill(material, kind, hatching)
+    _fill(material, kind, hatching, dict(looks))
     return material
 
 
@@ -61,7 +67,7 @@ def _is_of_an_old_import(material, role):
             any(node.type == "ATTRIBUTE" and node.attribute_name == "Color" for node in material.node_tree.nodes))
 
 
-def _fill(material, kind, hatching):
+def _fill(material, kind, hatching, looks):
     tree = compat.node_tree(material)
     shader = compat.find_or_add(tree, "BSDF_PRINCIPLED", "ShaderNodeBsdfPrincipled")
     output = compat.find_or_add(tree, "OUTPUT_MATERIAL", "ShaderNodeOutputMaterial")
@@ -71,8 +77,13 @@ def _fill(material, kind, hatching):
     color = _attribute(tree, "Color", shader, 0).outputs["Color"]
     if hatching is not None:
         color = _hatched(tree, color, shader, *hatching)
-    tree.links.new(color, shader.inputs["Base Color"])
     shader.inputs["Roughness"].default_value = 0.45
+    _set_looks(shader, looks)
+    if "ambient" in looks:  # as bright wherever light comes from; the rest is lit
+        tree.links.new(color, compat.principled_input(shader, "Emission Color", "Emission"))
+        shader.inputs["Emission Strength"].default_value = looks["ambient"]
+        color = _scaled(tree, color, 1.0 - looks["ambient"])
+    tree.links.new(color, shader.inputs["Base Color"])
     if kind != OPAQUE:
         opacity = _attribute(tree, "opacity", shader, -320).outputs["Fac"]
         if kind == FILM:
@@ -92,12 +103,29 @@ def _hatched(tree, color, shader, share, light):
     """Darker where the fraction of cap_stripe is less than the share of the lines."""
     stripe = compat.math_node(tree, "FRACT", _attribute(tree, "cap_stripe", shader, -520).outputs["Fac"])
     dark = compat.math_node(tree, "LESS_THAN", stripe, share)
-    factor = compat.math_node(tree, "SUBTRACT", 1.0, compat.math_node(tree, "MULTIPLY", dark, 1.0 - light))
+    return _scaled(tree, color, compat.math_node(tree, "SUBTRACT", 1.0, compat.math_node(tree, "MULTIPLY", dark, 1.0 - light)))
+
+
+def _scaled(tree, color, factor):
     scaled = tree.nodes.new("ShaderNodeVectorMath")
     scaled.operation = "SCALE"
     tree.links.new(color, scaled.inputs[0])
-    tree.links.new(factor, scaled.inputs["Scale"])
+    if isinstance(factor, float):
+        scaled.inputs["Scale"].default_value = factor
+    else:
+        tree.links.new(factor, scaled.inputs["Scale"])
     return scaled.outputs["Vector"]
+
+
+def _set_looks(shader, looks):
+    """Highlights of Blinn and Phong by those of Blender that are as strong and as wide: the usual ones, 0.1 and 40, are its
+    own usual ones."""
+    if "specular" in looks:
+        compat.principled_input(shader, "Specular IOR Level", "Specular").default_value = min(5.0 * looks["specular"], 1.0)
+    if "shininess" in looks:
+        shader.inputs["Roughness"].default_value = (2.0 / (looks["shininess"] + 2.0)) ** 0.25
+    if "roughness" in looks and "Diffuse Roughness" in shader.inputs:  # from 4.3 on
+        shader.inputs["Diffuse Roughness"].default_value = looks["roughness"]
 
 
 def _through_a_film(tree, opacity):

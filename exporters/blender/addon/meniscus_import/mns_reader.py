@@ -201,6 +201,9 @@ def _check(surface):
         raise MnsError(f"{path}: the mesh is empty")
     if "caps" in surface.header:
         _check_caps(path, surface)
+    looks = surface.header.get("material", {})
+    if not isinstance(looks, dict) or not _are_numbers(list(looks.values()), len(looks)):
+        raise MnsError(f"{path}: material does not hold numbers alone")
     if ("mesh.map_value" in arrays) != ("mesh.map_color" in arrays):
         raise MnsError(f"{path}: of mesh.map_value and mesh.map_color one is missing")
     opacity = arrays.get("atom.opacity")

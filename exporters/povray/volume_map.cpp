@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Puts a grid where POV-Ray's density files stand, and its colours where POV-Ray's colour maps have them.
+#include "exporters/povray/volume_map.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/base/text_template.h"
+#include "exporters/povray/scene_templates.h"
+
+namespace meniscus::povray {
+namespace {
+
+constexpr std::size_t kFlushValues = std::size_t{1} << 18;
+constexpr std::size_t kMostDensityPoints = 65'535;  // an axis
+/// POV-Ray's colour maps have at most 256 entries, and go straight through linear light between them.
+constexpr std::size_t kMapSteps = 200;
+
+void push_bytes(std::string& bytes, std::uint32_t value, int count) {
+  for (int n = count - 1; n >= 0; --n) bytes.push_back(static_cast<char>(value >> 8 * n & 0xff));
+}
+
+}  // namespace
+
+void write_density(const VolumeGrid& grid, const std::function<void(std::string_view)>& write) {
+  const auto& size = grid.frame().size;
+  if (std::ranges::any_of(size, [](std::size_t points) { return points > kMostDensityPoints; }))
+    throw RequestError(fmt::format("--color-map-file: POV-Ray's density files have at most {} points along an axis",
+                                   with_thousands(kMostDensityPoints)));
+  const auto [low, high] = std::ranges::minmax(grid.values());
+  const double width = static_cast<double>(high) - low;
+  std::string bytes;
+  for (const std::size_t points : size) push_bytes(bytes, static_cast<std::uint32_t>(points), 2);
+  // Its first axis runs fastest.
+  for (std::size_t z = 0; z < size[2]; ++z)
+    for (std::size_t y = 0; y < size[1]; ++y)
+      for (std::size_t x = 0; x < size[0]; ++x) {
+        const double value = grid.values()[(x * size[1] + y) * size[2] + z];
+        const double share = width > 0.0 ? (value - low) / width : 0.0;
+        push_bytes(bytes, static_cast<std::uint32_t>(std::llround(share * std::numeric_limits<std::uint32_t>::max())),
+                   4);
+        if (bytes.size() < 4 * kFlushValues) continue;
+        write(bytes);
+        bytes.clear();
+      }
+  write(bytes);
+}
+
+void append_map(SceneText& out, const VolumePaint& paint, std::string_view name, const glm::dvec3& origin) {
+  const VolumeFrame& frame = paint.grid.frame();
+  const auto [low, high] = std::ranges::minmax(paint.grid.values());
+  const auto declare = [&](std::string_view what) -> SceneText& {
+    return out.literal("#declare Meniscus_Map_").literal(what).literal(" = ");
+  };
+  out.literal("// The volume map: values at its points, its place, and its colours from the first of the range.\n");
+  declare("Low").full(low).literal(";\n");
+  declare("High").full(high).literal(";\n");
+  declare("From").full(paint.scale.range[0]).literal(";\n");
+  declare("To").full(paint.scale.range[1]).literal(";\n");
+  // A density file fills the unit cube, and has its n-th value of N at n/N; what lies behind the last repeats the
+  // first.
+  declare("Place").literal("transform { matrix <");
+  glm::dvec3 reach(0.0);
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto points = static_cast<double>(frame.size[axis]);
+    reach[axis] = (points - 1.0) / points;
+    const glm::dvec3 edge = points * frame.step[axis];
+    for (int k = 0; k < 3; ++k) out.full(edge[k]).literal(",");
+  }
+  const glm::dvec3 corner = frame.origin - origin;
+  out.full(corner.x).literal(",").full(corner.y).literal(",").full(corner.z).literal("> }\n");
+  declare("Reach").full_vector(reach).literal(";\n");
+  const auto color = [&](const glm::vec3& c) { out.literal("srgb ").direction(glm::dvec3(c)); };
+  declare("Missing");
+  color(paint.scale.missing_color);
+  out.literal(";\n#ifndef (Meniscus_Map_Color)\n  #declare Meniscus_Map_Color = array[")
+      .count(kMapSteps + 1)
+      .literal("] {\n");
+  for (std::size_t n = 0; n <= kMapSteps; ++n) {
+    const double share = static_cast<double>(n) / kMapSteps;
+    out.literal("    ");
+    color(paint.scale.color((1.0 - share) * paint.scale.range[0] + share * paint.scale.range[1]));
+    out.literal(n < kMapSteps ? ",\n" : "\n  }\n#end\n");
+  }
+  std::string file(name);
+  file.append(kMapFileEnding);
+  out.literal(filled(template_text(povray_templates(), "map.inc"), {{"FILE", file}}));
+}
+
+}  // namespace meniscus::povray
