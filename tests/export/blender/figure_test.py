@@ -118,7 +118,7 @@ class Figure(unittest.TestCase):
         self.check("a second surface", UBIQUITIN, "--select", "resi 1-40", "--object", part, "--color", "residue")
         self.check("surfaces, one of them cut", UBIQUITIN, "--select", "resi 41-76", "--object", cut, "--opacity", "0.5", "--color", "element")
         self.check("no surface of its own", UBIQUITIN, "--hide-surface", "--object", part, "--object", sticks, "--object", tube,
-                   "--spheres", "resi 60", "--color", "element")
+                   "--spheres", "resi 60", "--color", "element", at_most=0.03)
 
     def test_interface(self):
         self.check("an interface", UBIQUITIN, "--interface", "resi 1-35:resi 36-76")
