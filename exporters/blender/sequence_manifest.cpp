@@ -35,8 +35,8 @@ ordered_json shared_by_files(const SequenceManifest& manifest) {
   return result;
 }
 
-std::string text_of(const ordered_json& json) {
-  return json.dump(1, ' ', true, ordered_json::error_handler_t::replace) + "\n";
+std::string text_of(const ordered_json& manifest) {
+  return manifest.dump(1, ' ', true, ordered_json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace

@@ -154,7 +154,7 @@ TEST(Manifest, ComesBackAsItWas) {
   const TemporaryFolder folder;
   Bundle bundle = bundle_of(5);
   bundle.inputs = {{"inputs/a.pdb", 12, sha256("a")}};
-  bundle.film = Film{"film.mp4", 23.976};
+  bundle.film = Film{"film.mov", 23.976, {"prores4444", {}, 10, 444}};
   bundle.chunking.seconds_per_frame = 0.1;
   bundle.chunking.decide(5);
   folder.file("bundle.json", bundle_json(bundle));

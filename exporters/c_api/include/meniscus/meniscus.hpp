@@ -235,8 +235,8 @@ std::span<const Row> numbers(const meniscus_array& array) {
 
 // ---- Meshes ----
 
-// A closed triangle mesh; all vertices lie on the exact surface, no point of it is farther than the tolerance, if one was
-// asked for. It may outlive its surface.
+// A closed triangle mesh; all vertices lie on the exact surface, no point of it is farther than the tolerance, if one
+// was asked for. It may outlive its surface.
 class Mesh {
  public:
   explicit Mesh(meniscus_mesh* owned) : mesh_(owned) {}
