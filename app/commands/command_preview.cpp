@@ -17,12 +17,7 @@
 #include <fmt/format.h>
 
 #include "app/commands/commands.h"
-#include "app/options/annotation_options.h"
-#include "app/options/figure_options.h"
-#include "app/options/frame_options.h"
-#include "app/options/look_options.h"
-#include "app/options/picture_options.h"
-#include "app/options/scene_file.h"
+#include "app/commands/preview_command.h"
 #include "core/scene/molecule.h"
 #include "app/preview/command_log.h"
 #include "app/preview/server/serve.h"
@@ -43,64 +38,11 @@
 namespace meniscus {
 namespace {
 
-struct PreviewCommand {
-  MoleculeOptions molecule;
-  FrameOptions frames;
-  ViewRequest picture;
-  FigureRequest figure;
-  LegendRequest legend;
-  LookRequest look{.preset = LookPreset::classic};
-  RenderInput input;
-  std::optional<std::uint16_t> port;  ///< of --serve
-  std::string record, commands, output_folder = ".";
-  bool force = false;
-};
-
-std::uint16_t parse_port(const std::string& text) {
-  if (text.empty()) return 0;
-  std::uint16_t port = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), port);
-  if (error != std::errc() || end != text.data() + text.size())
-    throw CLI::ValidationError("--serve", in_quotes(text) + " is no port, 0 to 65535; put FILE before --serve");
-  return port;
-}
-
 /// The name by which ssh may know this machine.
 std::string host_name() {
   char name[256] = {};
   return ::gethostname(name, sizeof name - 1) == 0 && name[0] ? escaped(name) : "HOST";
 }
-
-/// The molecule again, at a frame, with the atoms that representations show. Files are read anew when these change.
-class ShownReader {
- public:
-  ShownReader(const PreviewCommand& command, bool models) : molecule_(command.molecule), frames_(command.frames) {
-    if (!frames_.asked()) models_ = models;
-  }
-
-  Structure operator()(const Representations& representations, std::size_t frame) {
-    if (molecule_.file == "-")
-      throw RequestError(
-          "a molecule from standard input cannot be read again; give FILE to draw atoms beside a surface");
-    MoleculeOptions wanted = molecule_;
-    representations.ask_for(wanted.reading);
-    if (!frames_.asked()) {
-      if (models_) {
-        wanted.reading.model = {};
-        wanted.reading.model.number = static_cast<int>(frame) + 1;
-      }
-      return read_molecule(wanted);
-    }
-    if (wanted.reading.model.all) wanted.reading.model = {};
-    FrameRun run(wanted, frames_);
-    return run.at(run.chunk()[frame]);
-  }
-
- private:
-  MoleculeOptions molecule_;
-  FrameOptions frames_;
-  bool models_ = false;
-};
 
 /// A molecule, where its atoms stand at the frames of a trajectory, if there is one, and the camera of a file, if one
 /// is named.
@@ -127,27 +69,23 @@ Shown read_run(PreviewCommand& command) {
           {}};
 }
 
-/// As render aims it: what stands beside the surface counts.
-Camera aimed_camera(const PreviewCommand& command, const std::optional<Camera>& given, const Structure& structure) {
-  const auto aimed = [&](const Structure& at) {
-    return ViewAim(command.picture, command.molecule.show, at).camera(command.picture, given, balls_of(at));
-  };
-  if (command.figure.representations.empty()) return aimed(structure);
-  return aimed(ShownReader(command, command.molecule.reading.model.all)(command.figure.representations, 0));
-}
-
 Shown read_inputs(PreviewCommand& command) {
   if (!std::filesystem::is_directory(command.output_folder))
     throw OutputError(command.output_folder, "--output-dir is no folder");
   const std::optional<Camera> camera = given_camera(command.picture);
   Shown shown = read_run(command);
   shown.camera = camera;
-  const ViewRequest& picture = command.picture;
-  if (picture.direction || picture.zoom_to || !picture.turns.empty())
-    shown.camera = aimed_camera(command, camera, shown.structure);
   if (command.molecule.color.by == ColorScheme::By::volume)
     throw UsageError("--color-map-file is for render and export ply; leave it out");
   command.molecule.color = color_of(command.molecule);
+  require_previewed(command.molecule.color);
+  // What stands beside the surface counts; a scene's picture is framed as render frames it.
+  const ViewRequest& picture = command.picture;
+  const bool reads_again = !command.figure.representations.empty() || !command.figure.objects.empty();
+  if (command.of_scene || picture.direction || picture.zoom_to || !picture.turns.empty())
+    shown.camera = aimed_camera(
+        command, camera, command.molecule.color,
+        reads_again ? ShownReader(command, command.molecule.reading.model.all)(command.figure, 0) : shown.structure);
   return shown;
 }
 
@@ -168,21 +106,22 @@ std::unique_ptr<ViewRenderer> make_renderer(const PreviewCommand& command, const
 }
 
 /// A session as the options say.
-std::unique_ptr<PreviewSession> begin_session(const PreviewCommand& command, bool on_gl, Shown shown) {
+std::unique_ptr<PreviewSession> begin_session(const PreviewCommand& command, const CLI::App& parsed, bool on_gl,
+                                              Shown shown) {
   PreviewView view;
-  view.color = command.molecule.color;
-  view.show = command.molecule.show;
-  view.probe_radius = command.molecule.surface.probe_radius;
+  static_cast<PreviewFigure&>(view) = figure_of(command, command.molecule.color);
   view.copies_apart = command.molecule.division.instances == InstanceMode::exact;
-  view.figure = command.figure;
-  view.look = command.look;
-  view.legend = command.legend.within;
-  view.legend_style = command.legend.style;
-  view.size = {command.picture.width, command.picture.height};
-  view.camera.projection = command.picture.projection;
+  view.size = command.picture.size();
+  view.wishes = wishes_of(command, parsed);
   SessionContext context;
   context.input = command.input;
   context.read_shown = ShownReader(command, command.molecule.reading.model.all);
+  context.annotations = [request = command.annotations](const Structure& structure) {
+    return annotations_of(request, structure);
+  };
+  context.make_device = [request = command.molecule.surface] { return std::make_unique<PictureDevice>(request); };
+  context.save_scene = save_render_scene;
+  context.open_scene = SceneOpener(parsed, command);
   std::unique_ptr<ViewRenderer> renderer = make_renderer(command, shown.structure, on_gl);
   auto session = std::make_unique<PreviewSession>(std::move(renderer), std::move(shown.structure), view, shown.camera,
                                                   command.output_folder, std::move(shown.trajectory), context);
@@ -204,12 +143,13 @@ std::vector<WrittenCommand> written_commands(const PreviewCommand& command) {
   return read_commands(command.commands);
 }
 
-void serve(PreviewCommand& command) {
+void serve(PreviewCommand& command, const CLI::App& parsed) {
   std::signal(SIGPIPE, SIG_IGN);  // whoever stops reading must not end the server
   const std::vector<WrittenCommand> commands = written_commands(command);
   Shown shown = read_inputs(command);
   const PictureDevice device(command.molecule.surface);
-  const std::unique_ptr<PreviewSession> session = begin_session(command, device.context() != nullptr, std::move(shown));
+  const std::unique_ptr<PreviewSession> session =
+      begin_session(command, parsed, device.context() != nullptr, std::move(shown));
   replay_commands(command.commands, commands, *session, std::cout);
   if (session->wants_to_quit()) return;
   serve_session(*session, *command.port,
@@ -238,7 +178,7 @@ bool draws_on_gl(const SurfaceRequest& surface, const EglContext& context) {
   return !surface.cpu && (surface.gl.kind != Kind::automatic || !context.is_software());
 }
 
-void open_window(PreviewCommand& command) {
+void open_window(PreviewCommand& command, const CLI::App& parsed) {
   const SurfaceRequest& surface = command.molecule.surface;
   if (surface.gl.index || !surface.gl.name.empty())
     throw UsageError("--device gpu:N is for --serve; a window draws on the device of its display, or on the CPU");
@@ -253,108 +193,13 @@ void open_window(PreviewCommand& command) {
     print_reply(command.commands, commands[index].line, reply, std::cout);
   };
   const auto make = [&](const EglContext& context) {
-    return begin_session(command, draws_on_gl(surface, context), std::move(shown));
+    return begin_session(command, parsed, draws_on_gl(surface, context), std::move(shown));
   };
   say_report(command, run_window(options, make));
 }
 
-void run(PreviewCommand& command) { command.port ? serve(command) : open_window(command); }
-
-/// Options that the preview changes while it runs, or that render has not.
-constexpr std::string_view kOwnOptions[] = {"--help",
-                                            "--scene",
-                                            "--camera",
-                                            "--projection",
-                                            "--view",
-                                            "--turn",
-                                            "--zoom-to",
-                                            "--size",
-                                            "--width",
-                                            "--height",
-                                            "--dpi",
-                                            "--probe",
-                                            "--show",
-                                            "--color",
-                                            "--map",
-                                            "--map-file",
-                                            "--color-range",
-                                            "--missing-color",
-                                            "--color-by-file",
-                                            "--color-column",
-                                            "--sticks",
-                                            "--balls",
-                                            "--spheres",
-                                            "--tube",
-                                            "--stick-radius",
-                                            "--tube-radius",
-                                            "--opacity",
-                                            "--film-opacity",
-                                            "--clip",
-                                            "--cap-color",
-                                            "--cap-hatching",
-                                            "--preset",
-                                            "--light",
-                                            "--light-strength",
-                                            "--ambient",
-                                            "--roughness",
-                                            "--specular",
-                                            "--shininess",
-                                            "--ambient-occlusion",
-                                            "--ambient-occlusion-radius",
-                                            "--silhouettes",
-                                            "--outer-lines",
-                                            "--inner-lines",
-                                            "--part-lines",
-                                            "--depth-cue",
-                                            "--legend",
-                                            "--legend-title",
-                                            "--legend-size",
-                                            "--legend-place",
-                                            "--serve",
-                                            "--commands",
-                                            "--record",
-                                            "--output-dir",
-                                            "--force"};
-
-/// As they were said.
-void add_words(const CLI::Option& option, std::vector<std::string>& words) {
-  if (option.empty()) return;
-  const std::string name = option.get_positional() ? "" : option.get_name();
-  if (option.get_expected_max() == 0) return words.push_back(name);
-  for (const std::string& value : option.results()) {
-    if (name.empty() || value.starts_with('-')) {
-      words.push_back(name.empty() ? value : name + "=" + value);
-      continue;
-    }
-    words.push_back(name);
-    words.push_back(value);
-  }
-}
-
-RenderInput render_input(const CLI::App& command) {
-  RenderInput input;
-  for (const CLI::Option* option : command.get_options()) {
-    const std::string name = option->get_positional() ? "" : option->get_name();
-    if (name == "--color-by-file" || name == "--color-column") add_words(*option, input.number_words);
-    if (name == "--map-file") add_words(*option, input.map_words);
-    if (std::ranges::find(kOwnOptions, name) == std::end(kOwnOptions)) add_words(*option, input.words);
-  }
-  return input;
-}
-
-void add_session_options(CLI::App& command, PreviewCommand& state) {
-  command
-      .add_option_function<std::string>(
-          "--serve", [&state](const std::string& text) { state.port = parse_port(text); },
-          "No window: serve a page for browsers on 127.0.0.1, at this port or at any free one")
-      ->expected(0, 1)
-      ->type_name("[PORT]");
-  const Heading heading(command, "Session");
-  command.add_option("--commands", state.commands, "Carry out these commands first, one JSON object a line")
-      ->type_name("FILE");
-  command.add_option("--record", state.record, "Write every command to this file, for --commands")->type_name("FILE");
-  command.add_option("--output-dir", state.output_folder, "Folder of exports [.]")->type_name("FOLDER");
-  command.add_flag("--force", state.force, "Let --record replace a file");
+void run(PreviewCommand& command, const CLI::App& parsed) {
+  command.port ? serve(command, parsed) : open_window(command, parsed);
 }
 
 }  // namespace
@@ -365,6 +210,7 @@ void add_preview(CLI::App& command) {
            "  meniscus preview 1tii.pdb --serve                   prints an address to open in a browser\n"
            "  meniscus preview 1tii.pdb --serve 8080 --color chain\n"
            "  meniscus preview 1tii.pdb --color chain --tube polymer --opacity 0.3 --preset publication\n"
+           "  meniscus preview --scene fig.json                   the figure that a scene file says\n"
            "  meniscus preview 1tii.pdb --record session.jsonl    what is done, for --commands\n"
            "  meniscus preview adk.psf --trajectory adk.dcd --superpose 'name CA'   blank plays it",
            "Each model of FILE is a frame, or each frame of --trajectory. A window needs a display with OpenGL 4.5 "
@@ -372,30 +218,10 @@ void add_preview(CLI::App& command) {
            "exit code is 4. The page is served on 127.0.0.1 only, to whoever has the address with its token; to\n"
            "look from another machine, use the ssh line that is printed. SIGINT and SIGTERM end both.");
   auto state = std::make_shared<PreviewCommand>();
-  state->molecule.reading.model.all = true;
-  add_atom_options(command, state->molecule);
-  command.get_option("--model")->description("Model to show; default: all of them, each a frame");
-  {
-    const Heading heading(command, "Surface");
-    add_probe_option(command, state->molecule.surface);
-    add_device_option(command, state->molecule.surface);
-  }
-  add_color_options(command, state->molecule);
-  add_figure_options(command, state->molecule, state->figure);
-  for (const char* option : {"--object", "--hide-surface"}) command.remove_option(command.get_option(option));
-  add_trajectory_argument(command);
-  add_frame_options(command, state->frames);
-  for (const char* option : {"--only", "--progress"}) command.remove_option(command.get_option(option));
-  add_picture_options(command, state->picture);
-  add_look_options(command, state->look, state->picture);
-  command.remove_option(command.get_option("--linear-alpha"));  // its pictures are opaque
-  add_legend_options(command, state->legend, state->picture);
-  command.remove_option(command.get_option("--legend-file"));
-  add_session_options(command, *state);
-  add_scene_options(command);
+  declare_preview(command, *state);
   command.callback([state, &command] {
-    state->input = render_input(command);
-    run(*state);
+    take_preview(command, *state);
+    run(*state, command);
   });
 }
 

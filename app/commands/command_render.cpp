@@ -34,16 +34,6 @@
 namespace meniscus {
 namespace {
 
-void parse_background(const std::string& text, std::optional<glm::vec3>& background) {
-  background.reset();
-  if (text == "transparent") return;
-  if (text == "white") background = glm::vec3(1.0f);
-  if (text == "black") background = glm::vec3(0.0f);
-  if (!background) background = parse_hex_color(text);
-  if (!background)
-    throw CLI::ValidationError("--background", in_quotes(text) + " is none of transparent, white, black, #rrggbb");
-}
-
 void parse_extent(const std::string& text, std::optional<Extent>& extent) {
   const std::map<std::string, Extent> words{
       {"complete", Extent::complete}, {"visible", Extent::visible}, {"paper", Extent::paper}};
@@ -231,12 +221,7 @@ void add_render(CLI::App& command) {
   command.add_option("--samples", state->samples, "Rays per pixel, the first through its centre [9]")
       ->check(CLI::Range(1, 1024).description(""))
       ->type_name("N");
-  command
-      .add_option_function<std::string>(
-          "--background", [state](const std::string& text) { parse_background(text, state->background); },
-          "transparent (default), white, black or #rrggbb")
-      ->check(proposes({"transparent", "white", "black"}))
-      ->type_name("COLOR");
+  add_background_option(command, state->background, "transparent (default), white, black or #rrggbb");
   add_legend_options(command, state->legend, state->picture);
   add_annotation_options(command, state->annotations);
   command.add_flag("--aovs", state->aovs,

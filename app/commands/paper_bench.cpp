@@ -61,7 +61,7 @@ FrameTime median(std::vector<FrameTime> times) {
 }
 
 /// What changes from frame to frame.
-enum class Change { camera, probe, atoms };
+enum class FrameChange { camera, probe, atoms };
 
 class MoleculeBench {
  public:
@@ -78,21 +78,21 @@ class MoleculeBench {
     view_.set_coloring(coloring);
   }
 
-  FrameTime measure(Extent extent, Change change) {
+  FrameTime measure(Extent extent, FrameChange change) {
     view_.set_surface(settings_.probe_radius, extent);
     draw();  // kernels are compiled and buffers sized once
     std::vector<FrameTime> times;
     for (int n = 1; n <= settings_.runs; ++n) {
       const double turn = 2.0 * std::numbers::pi * n / settings_.runs;
       std::vector<Ball> moved;
-      if (change == Change::camera) turn_camera(turn);
-      if (change == Change::probe) view_.set_surface(settings_.probe_radius * (1.0 + 1e-3 * n), extent);
-      if (change == Change::atoms) {
+      if (change == FrameChange::camera) turn_camera(turn);
+      if (change == FrameChange::probe) view_.set_surface(settings_.probe_radius * (1.0 + 1e-3 * n), extent);
+      if (change == FrameChange::atoms) {
         moved = molecule_.balls;
         for (std::size_t a = 0; a < moved.size(); ++a) moved[a].center.x += 1e-3 * n * std::sin(static_cast<double>(a));
       }
       const auto begin = std::chrono::steady_clock::now();
-      if (change == Change::atoms) view_.set_atoms(std::move(moved));
+      if (change == FrameChange::atoms) view_.set_atoms(std::move(moved));
       draw();
       const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - begin;
       FrameTime time{elapsed.count(), {}};
@@ -100,7 +100,7 @@ class MoleculeBench {
       times.push_back(time);
     }
     camera_.position = first_position_;
-    if (change == Change::atoms) view_.set_atoms(molecule_.balls);
+    if (change == FrameChange::atoms) view_.set_atoms(molecule_.balls);
     return median(std::move(times));
   }
 
@@ -133,9 +133,9 @@ void print_head(std::size_t width) {
 
 void print_row(MoleculeBench& bench, const PaperBenchMolecule& molecule, std::size_t width, Extent extent) {
   // A complete surface does not depend on the camera: there only new atoms make all of it anew.
-  const FrameTime turned = bench.measure(extent, extent == Extent::complete ? Change::atoms : Change::camera);
+  const FrameTime turned = bench.measure(extent, extent == Extent::complete ? FrameChange::atoms : FrameChange::camera);
   const ViewStats stats = bench.stats();
-  const FrameTime probe = bench.measure(extent, Change::probe), moved = bench.measure(extent, Change::atoms);
+  const FrameTime probe = bench.measure(extent, FrameChange::probe), moved = bench.measure(extent, FrameChange::atoms);
   fmt::print(std::cout, "{:<{}} {:>9} {:<9} {:>5.0f}%", escaped(molecule.name), width,
              with_thousands(molecule.balls.size()), extent == Extent::complete ? "complete" : "visible",
              100.0 * static_cast<double>(stats.kept_atoms) / static_cast<double>(stats.atoms));

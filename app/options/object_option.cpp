@@ -2,6 +2,7 @@
 // Reads each key by the same parsers that options have.
 #include "app/options/object_option.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <set>
@@ -15,6 +16,8 @@
 #include "core/base/error.h"
 #include "core/base/json_depth.h"
 #include "core/base/text.h"
+#include "core/color/color_maps.h"
+#include "core/color/css_colors.h"
 
 namespace meniscus {
 namespace {
@@ -206,6 +209,44 @@ class ObjectReader {
   std::set<std::string> known_;
 };
 
+/// The shortest number that is the same float.
+double shortest_number(float value) { return std::stod(fmt::format("{}", value)); }
+
+/// One alone without a list around it.
+void put_words(const char* key, const std::vector<std::string>& words, Json& json) {
+  if (words.size() == 1) json[key] = words.front();
+  if (words.size() > 1) json[key] = words;
+}
+
+void put_colors(const FigureObjectRequest& object, Json& json) {
+  if (object.color) {
+    std::vector<std::string> words{scheme_word(*object.color)};
+    for (const ColorRule& rule : object.color->rules)
+      words.push_back(rule.atoms.text() + "=" + scheme_word(rule.paint));
+    put_words("color", words, json);
+    if (object.color->map) json["map"] = map_name(*object.color->map);
+    if (const auto& range = object.color->range) json["color_range"] = fmt::format("{}:{}", (*range)[0], (*range)[1]);
+    if (object.color->missing) json["missing_color"] = hex_color(*object.color->missing);
+  }
+  std::vector<std::string> opacities;
+  for (const OpacityRule& rule : object.opacities)
+    opacities.push_back((rule.atoms ? rule.atoms->text() + "=" : "") + fmt::format("{}", rule.opacity));
+  put_words("opacity", opacities, json);
+}
+
+void put_surface(const FigureObjectRequest& object, Json& json) {
+  if (object.kind != SurfaceKind::ses) json["kind"] = kind_word(object.kind);
+  if (object.kind != SurfaceKind::vdw && object.probe_radius != SurfaceRequest{}.probe_radius)
+    json["probe"] = object.probe_radius;
+  if (object.show) json["show"] = object.show->text();
+  std::vector<std::string> cuts;
+  for (const Cut& cut : object.cuts) cuts.push_back(cut_text(cut));
+  put_words("clip", cuts, json);
+  if (object.cap.color) json["cap_color"] = hex_color(*object.cap.color);
+  if (object.cap.hatching > 0.0) json["cap_hatching"] = object.cap.hatching;
+  if (object.thickens) json["film_opacity"] = true;
+}
+
 }  // namespace
 
 std::span<const ObjectKey> object_keys() { return kObjectKeys; }
@@ -216,6 +257,26 @@ FigureObjectRequest parse_figure_object(std::string_view json) {
   if (!object.is_object())
     throw RequestError(R"(object: expected JSON such as {"representation": "sticks", "selection": "ligand"})");
   return ObjectReader(object).read();
+}
+
+Json figure_object_json(const FigureObjectRequest& object) {
+  const auto* const shape =
+      object.shapes ? std::ranges::find(kShapeWords, *object.shapes, &std::pair<std::string_view, Kind>::second)
+                    : kShapeWords.end();
+  Json json{{"representation", std::string(shape == kShapeWords.end() ? "surface" : shape->first)},
+            {"selection", object.atoms.text()}};
+  put_colors(object, json);
+  const MaterialRequest& material = object.material;
+  const auto put_number = [&](const char* key, const std::optional<float>& value) {
+    if (value) json[key] = shortest_number(*value);
+  };
+  put_number("ambient", material.ambient);
+  put_number("roughness", material.roughness);
+  put_number("specular", material.specular);
+  put_number("shininess", material.shininess);
+  if (object.radius) json["radius"] = *object.radius;
+  if (!object.shapes) put_surface(object, json);
+  return json;
 }
 
 }  // namespace meniscus

@@ -6,6 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include <nlohmann/json.hpp>
+
 #include "app/options/scene_keys.h"
 #include "core/scene/figure_object.h"
 
@@ -22,5 +24,8 @@ std::span<const ObjectKey> object_keys();
 /// Reads {"representation": "surface" | "sticks" | "balls" | "spheres" | "tube", "selection": EXPR, ...};
 /// docs/scenes.md has all keys. Throws RequestError that names the key, SelectionError.
 FigureObjectRequest parse_figure_object(std::string_view json);
+
+/// What parse_figure_object reads as this object, exactly; what is as usual is left out.
+nlohmann::ordered_json figure_object_json(const FigureObjectRequest& object);
 
 }  // namespace meniscus

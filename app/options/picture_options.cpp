@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include "core/base/text.h"
+#include "core/color/css_colors.h"
 #include "core/text/parse_number.h"
 
 namespace meniscus {
@@ -121,6 +122,16 @@ void add_aim_options(CLI::App& command, ViewRequest& request, CLI::Option* camer
       ->type_name("EXPR");
 }
 
+void parse_background(const std::string& text, std::optional<glm::vec3>& background) {
+  background.reset();
+  if (text == "transparent") return;
+  if (text == "white") background = glm::vec3(1.0f);
+  if (text == "black") background = glm::vec3(0.0f);
+  if (!background) background = parse_hex_color(text);
+  if (!background)
+    throw CLI::ValidationError("--background", in_quotes(text) + " is none of transparent, white, black, #rrggbb");
+}
+
 }  // namespace
 
 double pixels_of(const char* option, const std::string& text, ViewRequest& request) {
@@ -160,6 +171,14 @@ void add_picture_options(CLI::App& command, ViewRequest& request) {
       ->type_name("WORD")
       ->excludes(camera);
   add_aim_options(command, request, camera);
+}
+
+void add_background_option(CLI::App& command, std::optional<glm::vec3>& background, const std::string& what) {
+  command
+      .add_option_function<std::string>(
+          "--background", [&background](const std::string& text) { parse_background(text, background); }, what)
+      ->check(proposes({"transparent", "white", "black"}))
+      ->type_name("COLOR");
 }
 
 }  // namespace meniscus

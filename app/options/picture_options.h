@@ -2,9 +2,11 @@
 // The options that say how a picture is taken: its size and its camera.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include <CLI/CLI.hpp>
+#include <glm/vec3.hpp>
 
 #include "core/camera/view_request.h"
 
@@ -20,5 +22,8 @@ double pixels_of(const char* option, const std::string& text, ViewRequest& reque
 
 /// --size, --dpi, --width, --height, --camera, --projection, --view, --turn, --zoom-to.
 void add_picture_options(CLI::App& command, ViewRequest& request);
+
+/// --background; nothing: transparent. `what` describes it. The colour must live as long as the command.
+void add_background_option(CLI::App& command, std::optional<glm::vec3>& background, const std::string& what);
 
 }  // namespace meniscus

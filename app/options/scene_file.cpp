@@ -385,6 +385,8 @@ SceneWords with_scene(const CLI::App& program, Words words) {
   }
   result.words.insert(result.words.end(), scene.words().begin(), scene.words().end());
   result.words.insert(result.words.end(), behind.begin(), behind.end());
+  // The preview's own defaults are not those of the picture that a scene is.
+  if (command->get_name() == "preview") result.words.push_back("--scene=" + result.file);
   result.keys = scene.keys();
   for (const std::string& word : behind) result.keys.erase(word == "-o" ? "--output" : option_name(word));
   return result;

@@ -18,16 +18,21 @@ std::string command_word(const nlohmann::json& command) {
   return found != command.end() && found->is_string() ? found->get<std::string>() : "";
 }
 
+std::string sentence_of(const std::string& error, const std::string& word) {
+  return error.starts_with(word + ": ") ? error.substr(word.size() + 2) : error;
+}
+
 bool is_question(const nlohmann::json& command) {
   const std::string word = command_word(command);
   if (word == "pick") return command.value("wait", nlohmann::json()) == false;
-  return word == "state" || word == "stats" || word == "choices" || word == "render_command";
+  return word == "state" || word == "stats" || word == "choices" || word == "render_command" || word == "export_state";
 }
 
 Change change_of(const nlohmann::json& command) {
   const std::string word = command_word(command);
-  if (is_question(command) || word == "export" || word == "end_step") return Change::none;
-  constexpr std::string_view kSurfaces[] = {"probe", "frame", "next_frame", "undo", "redo", "quit"};
+  if (is_question(command) || word == "export" || word == "cancel_export" || word == "save" || word == "end_step")
+    return Change::none;
+  constexpr std::string_view kSurfaces[] = {"probe", "frame", "next_frame", "undo", "redo", "open", "quit"};
   return std::ranges::find(kSurfaces, word) != std::end(kSurfaces) ? Change::surface : Change::view;
 }
 

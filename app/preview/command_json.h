@@ -14,8 +14,11 @@ std::string json_line(const nlohmann::json& json);
 /// The text under "command"; empty if there is none.
 std::string command_word(const nlohmann::json& command);
 
-/// Does the command only ask: state, stats, choices, render_command, or a pick that does not wait? Anybody may, and
-/// nobody records it.
+/// What an error says, without the word of its command, which is a program's and no reader's.
+std::string sentence_of(const std::string& error, const std::string& word);
+
+/// Does the command only ask: state, stats, choices, render_command, export_state, or a pick that does not wait?
+/// Anybody may, and nobody records it.
 bool is_question(const nlohmann::json& command);
 
 /// What a command will change, from the least to the most.

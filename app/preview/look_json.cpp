@@ -12,7 +12,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/color/color_schemes.h"
+#include "core/color/css_colors.h"
 
 namespace meniscus {
 namespace {
@@ -61,12 +61,6 @@ glm::vec3 direction_of(const nlohmann::json& value) {
 double shortest(float value) { return std::stod(fmt::format("{}", value)); }
 
 }  // namespace
-
-std::string hex_color(const glm::vec3& color) {
-  std::string text = "#";
-  for (int c = 0; c < 3; ++c) text += fmt::format("{:02x}", std::lround(255.0f * color[c]));
-  return text;
-}
 
 std::span<const std::string_view> look_keys() { return kKeys; }
 

@@ -22,9 +22,6 @@ LookRequest changed_look(LookRequest look, const CommandReader& command);
 /// "background" of the command, if it has one. Throws RequestError.
 glm::vec3 changed_background(const glm::vec3& background, const CommandReader& command);
 
-/// "#rrggbb" of an sRGB colour in [0, 1].
-std::string hex_color(const glm::vec3& color);
-
 /// Every key with its value.
 nlohmann::json look_json(const Look& look);
 

@@ -47,9 +47,12 @@ bool merge_commands(nlohmann::json& first, const nlohmann::json& second) {
     if (std::isfinite(factor)) first["factor"] = factor;
     return std::isfinite(factor);
   }
+  // A slider that belongs to one entry of a list.
+  constexpr std::array<std::string_view, 3> kEntries{"object", "cut", "opacity"};
+  const bool same_entry = is_one_of(kEntries, word) && first.contains("index") && same("index");
   // A pick that is waited for is a click, and each click counts.
   const auto waits = [](const nlohmann::json& pick) { return !pick.contains("wait") || pick["wait"] != false; };
-  if (!is_one_of(kLatest, word) || (word == "pick" && (waits(first) || waits(second)))) return false;
+  if (!(is_one_of(kLatest, word) || same_entry) || (word == "pick" && (waits(first) || waits(second)))) return false;
   if (std::ranges::any_of(first.items(), [&](const auto& item) { return !second.contains(item.key()); })) return false;
   first = second;
   return true;

@@ -1,8 +1,32 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a figure's colours mean.
+// What a figure's colours mean, and which a preview has.
 #include "app/preview/preview_view.h"
 
+#include <string>
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+
 namespace meniscus {
+namespace {
+
+/// What makes pictures of the schemes that a preview has not; empty: it has it.
+std::string who_shows(ColorScheme::By scheme) {
+  using By = ColorScheme::By;
+  if (scheme == By::component) return "parts of the surface have no atoms of their own; use meniscus render";
+  if (scheme == By::volume) return "volume maps are for render and export ply";
+  if (scheme == By::buried) return "areas that are buried between groups are measured by meniscus render and export";
+  if (scheme == By::rmsf) return "fluctuations over the frames are measured by meniscus render";
+  return {};
+}
+
+void require_shown(const ColorScheme& color) {
+  if (const std::string who = who_shows(color.by); !who.empty())
+    throw RequestError(fmt::format("color: \"{}\" needs more than atoms: {}", scheme_word(color), who));
+}
+
+}  // namespace
 
 ColorScheme PreviewFigure::told_scheme() const {
   ColorScheme told = color;
@@ -12,5 +36,12 @@ ColorScheme PreviewFigure::told_scheme() const {
   }
   return told;
 }
+
+void require_previewed(const ColorScheme& color) {
+  require_shown(color);
+  for (const ColorRule& rule : color.rules) require_shown(rule.paint);
+}
+
+bool is_previewed(ColorScheme::By scheme) { return who_shows(scheme).empty(); }
 
 }  // namespace meniscus

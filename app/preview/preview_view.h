@@ -36,6 +36,19 @@ struct PreviewFigure {
   ColorScheme told_scheme() const;
 };
 
+/// Of exported pictures, what a command does not say. Nothing: as it is shown.
+struct ExportWishes {
+  std::optional<glm::ivec2> size;  ///< pixels, with the legend
+  std::optional<int> samples;      ///< rays per pixel
+  bool transparent = false;        ///< without a background
+};
+
+/// Throws RequestError for a scheme whose numbers or parts come with surfaces that a preview does not make; so
+/// for those of its rules.
+void require_previewed(const ColorScheme& color);
+/// Whether it is none of these.
+bool is_previewed(ColorScheme::By scheme);
+
 /// What is seen, and how; all of it changes by commands.
 struct PreviewView : PreviewFigure {
   std::size_t frame = 0;               ///< from 0
@@ -46,6 +59,7 @@ struct PreviewView : PreviewFigure {
   glm::ivec2 size{1024, 768};       ///< of the full picture with its legend, in pixels
   int samples = 4;                  ///< rays per pixel of the full picture
   bool copies_apart = false;        ///< no probe may touch two copies of the structure (Structure::instances)
+  ExportWishes wishes;
 };
 
 }  // namespace meniscus

@@ -6,9 +6,10 @@
 
 #include <fmt/format.h>
 
-#include "app/preview/look_json.h"
+#include "app/options/object_option.h"
 #include "core/base/text.h"
 #include "core/color/color_maps.h"
+#include "core/color/css_colors.h"
 
 namespace meniscus {
 namespace {
@@ -54,6 +55,7 @@ void add_look(const LookRequest& look, Words& words) {
   words.number("--inner-lines", look.inner_lines);
   words.number("--part-lines", look.part_lines);
   words.number("--depth-cue", look.depth_cue);
+  words.flag("--linear-alpha", look.linear_alpha);
 }
 
 void add_colors(const RenderInput& input, const RenderedView& view, Words& words) {
@@ -89,6 +91,9 @@ void add_figure(const FigureRequest& figure, Words& words) {
     words.option(option_word(request.kind), request.atoms.text());
   words.number("--stick-radius", figure.representations.stick_radius);
   words.number("--tube-radius", figure.representations.tube_radius);
+  words.flag("--hide-surface", figure.hides_surface);
+  for (const FigureObjectRequest& object : figure.objects)
+    words.option("--object", figure_object_json(object).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
 }
 
 void add_legend(const PreviewFigure& figure, Words& words) {
@@ -139,12 +144,6 @@ std::string shell_line(std::span<const std::string> words) {
     line += (line.empty() ? "" : " ") + (plain ? word : escaped(shell_word(word)));
   }
   return line;
-}
-
-std::string scheme_word(const ColorScheme& color) {
-  for (const ColorSchemeMetadata& scheme : color_schemes())
-    if (scheme.by == color.by) return std::string(scheme.word);
-  return hex_color(color.fixed);
 }
 
 }  // namespace meniscus

@@ -43,7 +43,4 @@ std::string shell_line(std::span<const std::string> words);
 /// As --preset has it.
 const char* preset_word(LookPreset preset);
 
-/// As --color has it: a word, or "#rrggbb".
-std::string scheme_word(const ColorScheme& color);
-
 }  // namespace meniscus

@@ -6,17 +6,19 @@
 #include <chrono>
 #include <utility>
 
+#include <fmt/format.h>
 #include <glm/common.hpp>
 
 #include "app/preview/camera_motion.h"
 #include "app/preview/look_json.h"
 #include "core/base/error.h"
+#include "core/base/text.h"
 #include "core/color/color_atoms.h"
 #include "core/color/named_colors.h"
 #include "core/scene/copied_atoms.h"
+#include "core/scene/hidden_atoms.h"
 #include "core/scene/molecule.h"
 #include "core/scene/surface_objects.h"
-#include "core/scene/hidden_atoms.h"
 
 namespace meniscus {
 
@@ -32,9 +34,10 @@ PreviewSession::PreviewSession(std::unique_ptr<ViewRenderer> renderer, Structure
       coloring_(color_atoms(structure_, view_.color)),
       renderer_(std::move(renderer)) {
   if (view_.copies_apart) require_apart(structure_, view_.probe_radius);
-  if (view_.show) hidden_atoms(*view_.show, structure_);  // that some are shown
+  require_previewed(view_.color);
   if (trajectory_) sample_trajectory();
   show_frame(0);
+  if (view_.show) hidden_atoms(*view_.show, marked_ ? *marked_ : structure_);  // that some are shown
   camera ? look_from(*camera) : look_at_all();
   first_color_ = view_.color;
   first_camera_ = view_.camera;
@@ -74,7 +77,7 @@ void PreviewSession::show_frame(std::size_t frame) {
   for (std::size_t n = 0; n < positions.size(); ++n) structure_.atoms[n].position = positions[n];
   view_.frame = frame;
   marked_ = std::move(made.marked);
-  shapes_ = std::move(made.shapes);
+  beside_ = std::move(made.beside);
   if (view_.follows_keys && !view_.keys.empty())
     look_from(CameraPath(camera_keys()).at(static_cast<double>(number_of(frame))));
   balls_.clear();
@@ -84,46 +87,74 @@ void PreviewSession::show_frame(std::size_t frame) {
   if (!structure_.instances.empty()) reach_ = reaching_balls(balls_, structure_.instances);
   renderer_->set_atoms(balls_);
   renderer_->set_coloring(frame_coloring());
-  renderer_->set_figure(view_.figure, shapes_);
+  renderer_->set_figure(view_.figure, beside_);
   update_legend();
 }
 
 PreviewSession::Derived PreviewSession::derived(const PreviewFigure& figure, Changed changed, std::size_t frame) const {
   if (!structure_.instances.empty() && !(figure.figure.plain() && figure.color.opacities.empty()))
     throw RequestError("copies of one surface (--instances) are shown whole and opaque; leave --instances away");
-  Derived made{{}, marked_, shapes_};
+  Derived made{{}, marked_, beside_};
   require_colors_shared(structure_, figure.color);
   if (changed >= Changed::colors) made.coloring = color_atoms(structure_, figure.color);
   if (changed >= Changed::shapes) {
     made.marked.reset();
-    if (!figure.figure.representations.empty()) {
+    if (!figure.figure.representations.empty() || !figure.figure.objects.empty()) {
       if (!context_.read_shown)
         throw RequestError("this molecule cannot be read again, so nothing can be drawn beside its surface");
-      made.marked = std::make_shared<const Structure>(context_.read_shown(figure.figure.representations, frame));
+      made.marked = std::make_shared<const Structure>(context_.read_shown(figure.figure, frame));
       if (made.marked->atoms.size() != frames_[trajectory_ ? 0 : frame].atoms.size())
         throw InputError(structure_.file, 0, "has other atoms than when the preview began; begin it anew");
     }
   }
-  if (changed >= Changed::colors) made.shapes = shapes_of(figure, made.marked.get());
+  if (changed >= Changed::colors) made.beside = beside_of(figure, changed, made.marked.get());
+  if (figure.figure.hides_surface && (!made.beside || made.beside->empty()))
+    throw RequestError("without the surface nothing would be shown; draw something beside it first");
   return made;
 }
 
-std::shared_ptr<const ColoredShapes> PreviewSession::shapes_of(const PreviewFigure& figure,
+std::shared_ptr<const BesideSurface> PreviewSession::beside_of(const PreviewFigure& figure, Changed changed,
                                                                const Structure* marked) const {
   if (!marked) return nullptr;
-  return std::make_shared<const ColoredShapes>(
-      shown_shapes(*marked, figure.figure.representations, figure.told_scheme()));
+  const ColorScheme scheme = figure.told_scheme();
+  if (changed == Changed::shapes)
+    return std::make_shared<const BesideSurface>(make_beside(*marked, figure.figure, scheme));
+  auto beside = std::make_shared<BesideSurface>(*beside_);
+  color_beside(*marked, figure.figure, scheme, *beside);
+  return beside;
+}
+
+std::vector<bool> PreviewSession::part_shown(const Selection& show, const Structure* marked) const {
+  std::vector<Atom> atoms;
+  if (marked) {
+    atoms = meniscus::shown_atoms(*marked);
+  } else {
+    for (const std::uint32_t a : shown_atoms()) atoms.push_back(structure_.atoms[a]);
+  }
+  std::vector<bool> shown = show.evaluate(atoms);
+  shown.resize(shown_atoms().size());
+  return shown;
+}
+
+std::size_t PreviewSession::count_shown(const PreviewFigure& figure, const Structure* marked) const {
+  if (!figure.show) return shown_atoms().size();
+  const std::vector<bool> shown = part_shown(*figure.show, marked);
+  const auto count = static_cast<std::size_t>(std::ranges::count(shown, true));
+  if (count > 0) return count;
+  throw RequestError(fmt::format("of the surface of {} nothing would be left; {}", in_quotes(figure.show->text()),
+                                 figure.show->why_none(atoms_in_view())));
 }
 
 void PreviewSession::become(PreviewFigure next, Changed changed) {
   validate_camera(next.camera, "the view");
   Derived made = derived(next, changed, view_.frame);
+  if (changed >= Changed::colors) count_shown(next, made.marked.get());
   static_cast<PreviewFigure&>(view_) = std::move(next);
   if (made.coloring) coloring_ = std::move(*made.coloring);
   marked_ = std::move(made.marked);
-  shapes_ = std::move(made.shapes);
+  beside_ = std::move(made.beside);
   if (changed >= Changed::colors) renderer_->set_coloring(frame_coloring());
-  if (changed >= Changed::cuts) renderer_->set_figure(view_.figure, shapes_);
+  if (changed >= Changed::cuts) renderer_->set_figure(view_.figure, beside_);
   update_legend();
   if (changed == Changed::shapes && view_.overview) look_at_all();
 }
@@ -157,10 +188,17 @@ std::vector<Atom> PreviewSession::atoms_in_view() const {
 
 std::vector<Ball> PreviewSession::balls_in_view() const {
   std::vector<Ball> balls = reach();
-  if (!shapes_) return balls;
-  const std::vector<Ball> beside = balls_around(shapes_->shapes);
+  if (!beside_) return balls;
+  const std::vector<Ball> beside = beside_->balls();
   balls.insert(balls.end(), beside.begin(), beside.end());
   return balls;
+}
+
+Structure PreviewSession::frame_structure() const {
+  Structure frame;
+  frame.file = structure_.file;
+  for (const std::uint32_t a : shown_atoms()) frame.atoms.push_back(structure_.atoms[a]);
+  return frame;
 }
 
 Coloring PreviewSession::frame_coloring() const {
@@ -172,9 +210,7 @@ Coloring PreviewSession::frame_coloring() const {
     if (!coloring_.opacity.empty()) coloring.opacity.push_back(coloring_.opacity[a]);
   }
   if (view_.show) {
-    std::vector<Atom> atoms;
-    for (const std::uint32_t a : shown_atoms()) atoms.push_back(structure_.atoms[a]);
-    coloring.hidden = view_.show->evaluate(atoms);
+    coloring.hidden = part_shown(*view_.show, marked_.get());
     coloring.hidden.flip();
   }
   return coloring;

@@ -21,9 +21,12 @@
 #include "app/preview/edit_history.h"
 #include "app/preview/legend_strip.h"
 #include "app/preview/preview_view.h"
+#include "app/preview/export_job.h"
 #include "app/preview/render_words.h"
+#include "app/preview/view_export.h"
 #include "core/camera/camera.h"
 #include "core/camera/camera_path.h"
+#include "core/render/annotation.h"
 #include "core/render/look.h"
 #include "core/scene/view_renderer.h"
 #include "core/structure/atom_groups.h"
@@ -40,12 +43,26 @@ enum class Quality {
   full    ///< as exported
 };
 
+/// A figure that a scene file says, of the molecule that is shown.
+struct OpenedScene {
+  PreviewFigure figure;
+  ExportWishes wishes;
+  int frame = 0;  ///< of a file of several models, from 0
+};
+
 /// What a session needs of the program around it; all of it may be missing.
 struct SessionContext {
   /// Reads the molecule again as it is at a frame, with the atoms that are drawn beside its surface
-  /// (Representations::ask_for); so they are those that `meniscus render` would draw. Throws InputError.
-  std::function<Structure(const Representations& representations, std::size_t frame)> read_shown;
-  RenderInput input;  ///< for the command that makes the picture again
+  /// (FigureRequest::ask_for); so they are those that `meniscus render` would draw. Throws InputError.
+  std::function<Structure(const FigureRequest& figure, std::size_t frame)> read_shown;
+  RenderInput input;              ///< for the command that makes the picture again
+  MakePictureDevice make_device;  ///< of exported pictures
+  /// What is written into exported pictures of the molecule, as it is at a frame.
+  std::function<Annotations(const Structure& structure)> annotations;
+  /// Writes the scene of a command line of `meniscus render`. Throws OutputError, RequestError.
+  std::function<void(const std::vector<std::string>& words, const ExportTarget& target)> save_scene;
+  /// Reads a scene. Throws InputError, UsageError; RequestError where it is one of another molecule.
+  std::function<OpenedScene(const std::filesystem::path& path)> open_scene;
 };
 
 /// A molecule, how it is seen, and the renderer that draws it. Used by one thread.
@@ -116,6 +133,8 @@ class PreviewSession {
   nlohmann::json show(const CommandReader& command);
   nlohmann::json hide(const CommandReader& command);
   nlohmann::json represent(const CommandReader& command);
+  nlohmann::json put_object(const CommandReader& command);
+  nlohmann::json hide_surface(const CommandReader& command);
   nlohmann::json set_radii(const CommandReader& command);
   nlohmann::json paint(const CommandReader& command);
   nlohmann::json set_opacity(const CommandReader& command);
@@ -139,6 +158,10 @@ class PreviewSession {
   nlohmann::json press(const CommandReader& command);
   nlohmann::json pick(const CommandReader& command);
   nlohmann::json export_view(const CommandReader& command);
+  nlohmann::json export_state(const CommandReader& command);
+  nlohmann::json cancel_export(const CommandReader& command);
+  nlohmann::json save_scene(const CommandReader& command);
+  nlohmann::json open_scene(const CommandReader& command);
   nlohmann::json stats(const CommandReader& command);
   nlohmann::json state(const CommandReader& command);
   nlohmann::json choices(const CommandReader& command);
@@ -151,7 +174,7 @@ class PreviewSession {
   struct Derived {
     std::optional<Coloring> coloring;         ///< of all atoms of the structure; nothing: as it is
     std::shared_ptr<const Structure> marked;  ///< the frame with the atoms beside its surface; nullptr: none are drawn
-    std::shared_ptr<const ColoredShapes> shapes;
+    std::shared_ptr<const BesideSurface> beside;
   };
   /// What of it a command has changed, from the least to the most.
   enum class Changed { view, cuts, colors, shapes };
@@ -160,9 +183,15 @@ class PreviewSession {
   void look_at_all();
   void become(PreviewFigure next, Changed changed);
   Derived derived(const PreviewFigure& figure, Changed changed, std::size_t frame) const;
-  std::shared_ptr<const ColoredShapes> shapes_of(const PreviewFigure& figure, const Structure* marked) const;
+  std::shared_ptr<const BesideSurface> beside_of(const PreviewFigure& figure, Changed changed,
+                                                 const Structure* marked) const;
   void restore(const std::optional<PreviewFigure>& figure, const char* none);
-  std::size_t count_shown(const PreviewFigure& figure, const CommandReader& command) const;
+  /// Of the atoms of the surface those that are shown, which may be told by what stands beside them; nullptr: nothing.
+  std::vector<bool> part_shown(const Selection& show, const Structure* marked) const;
+  /// How many that are. Throws RequestError if it is none.
+  std::size_t count_shown(const PreviewFigure& figure, const Structure* marked) const;
+  /// The command that makes the picture which a command wishes.
+  std::vector<std::string> words_of(const CommandReader& command) const;
   void update_legend();
   std::uint64_t number_of(std::size_t frame) const { return trajectory_ ? trajectory_->numbers[frame] : frame; }
   std::vector<CameraKey> camera_keys() const;
@@ -176,6 +205,8 @@ class PreviewSession {
   std::vector<Atom> atoms_in_view() const;
   /// Van der Waals balls of the surface's atoms, and around what is drawn beside them.
   std::vector<Ball> balls_in_view() const;
+  /// The atoms of the frame alone.
+  Structure frame_structure() const;
   Coloring frame_coloring() const;
   const std::vector<Ball>& reach() const { return reach_.empty() ? balls_ : reach_; }
   /// Of the part of the picture that the molecule has.
@@ -208,7 +239,7 @@ class PreviewSession {
   std::vector<Ball> reach_;                          ///< what cameras see of the copies; without any: empty
   Coloring coloring_;                                ///< of all atoms of the structure
   std::shared_ptr<const Structure> marked_;          ///< see Derived
-  std::shared_ptr<const ColoredShapes> shapes_;      ///< beside the surface; nullptr: none
+  std::shared_ptr<const BesideSurface> beside_;      ///< the surface; nullptr: nothing
   std::shared_ptr<const LegendStrip> legend_;        ///< of the view; nullptr: none
   std::string legend_fault_;                         ///< why there is none though it is wanted
   std::shared_ptr<const LegendStrip> drawn_legend_;  ///< of the last picture
@@ -220,6 +251,7 @@ class PreviewSession {
   std::vector<StageTime> stages_;  ///< of the last picture that was no draft: nobody waits for the stages of those
   std::function<void(const nlohmann::json&)> sink_;
   bool quit_ = false;
+  std::unique_ptr<ExportJob> export_;  ///< the latest; nullptr: none yet
 };
 
 }  // namespace meniscus

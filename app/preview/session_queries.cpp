@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The commands that ask: what is under the cursor, how fast it is, what the state is; and exports.
+// The commands that ask: what is under the cursor, how fast it is, what the state is.
 #include <algorithm>
 #include <limits>
 #include <string>
@@ -7,23 +7,23 @@
 #include <fmt/format.h>
 #include <glm/common.hpp>
 
+#include "app/options/object_option.h"
+#include "app/preview/command_json.h"
 #include "app/preview/command_reader.h"
 #include "app/preview/key_table.h"
 #include "app/preview/look_json.h"
 #include "app/preview/session.h"
-#include "app/preview/view_export.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/scene/copied_atoms.h"
 #include "core/color/color_scale.h"
+#include "core/color/css_colors.h"
 #include "core/structure/radii.h"
 
 namespace meniscus {
 namespace {
 
 using Json = nlohmann::json;
-
-constexpr int kLongestExportedSide = 16384;  // pixels
 
 const char* kind_word(PatchKind kind) {
   constexpr const char* kWords[] = {"convex", "toroidal", "concave"};
@@ -62,20 +62,6 @@ Json color_json(const ColorScheme& scheme) {
   return color;
 }
 
-/// What is asked of an exported picture beside the view.
-struct PictureWishes {
-  glm::ivec2 size;
-  int samples;
-  bool transparent;
-};
-
-PictureWishes wishes_of(const CommandReader& command, const PreviewView& view) {
-  return {{command.integer_or(view.size.x, "width", 16, kLongestExportedSide),
-           command.integer_or(view.size.y, "height", 16, kLongestExportedSide)},
-          command.integer_or(view.samples, "samples", 1, 1024),
-          command.flag_or(false, "transparent")};
-}
-
 }  // namespace
 
 std::optional<PickedPoint> PreviewSession::point_at(const CommandReader& command) {
@@ -89,7 +75,8 @@ Json PreviewSession::pick(const CommandReader& command) {
   const bool wait = command.flag_or(true, "wait"), area_wanted = command.flag_or(true, "area");
   const std::optional<PickedPoint> point = point_at(command);
   if (!point) return {{"hit", false}};
-  const bool of_surface = point->object == 0 || !structure_.instances.empty();
+  const bool of_molecule = point->object == 0 || !structure_.instances.empty();
+  const bool of_surface = of_molecule || (point->object > 1 && beside_->objects.at(point->object - 2).surface);
   const std::size_t own = shown_atoms().size();
   Json reply = atom_json(point->atom < own ? structure_.atoms[shown_atoms()[point->atom]]
                                            : marked_->beside.at(point->atom - own));
@@ -98,7 +85,8 @@ Json PreviewSession::pick(const CommandReader& command) {
   reply["position"] = {point->position.x, point->position.y, point->position.z};
   if (!structure_.instances.empty()) reply["copy"] = point->copy + 1;
   reply["exposed_area"] = nullptr;
-  if (point->atom >= own) return reply;  // it has no part of the surface
+  // It has no part of the molecule's surface, or this is another one.
+  if (point->atom >= own || (of_surface && !of_molecule)) return reply;
   if (const std::optional<double> area = exposed_area(point->atom, wait, area_wanted)) reply["exposed_area"] = *area;
   return reply;
 }
@@ -119,53 +107,6 @@ std::optional<double> PreviewSession::exposed_area(std::uint32_t atom, bool wait
   return area({view_.frame, group, view_.probe_radius, balls, nullptr}, place);
 }
 
-Json PreviewSession::export_view(const CommandReader& command) {
-  const std::size_t format = command.choice("format", {"png", "povray", "blender", "camera", "camera_path"});
-  constexpr std::string_view kEndings[] = {"", "", ".mns", ".json", ".json"};
-  const std::string name = command.text("path");
-  // A scene is a folder; so no file of another kind is replaced.
-  if (format == 1 ? name.find('.') != std::string::npos : !name.ends_with(kEndings[format]))
-    throw RequestError(fmt::format("export: \"path\" is {}; {}", in_quotes(name),
-                                   format == 1 ? "a scene is a folder, whose name has no dot"
-                                               : fmt::format("its name must end in {}", kEndings[format])));
-  const ExportTarget target{export_path(export_folder_, name),
-                            command.flag_or(false, "force") ? Existing::replace : Existing::refuse};
-  if (target.existing == Existing::refuse && std::filesystem::exists(target.path))
-    throw RequestError(target.path.string() + " exists already; say that it may be replaced (force), or another name");
-  const PictureWishes wishes = wishes_of(command, view_);
-  const ColorScheme color = view_.told_scheme();
-  const Coloring coloring = frame_coloring();
-  const ExportedView view{structure_, shown_atoms(), balls_,      coloring,       color,
-                          view_,      shapes_.get(), wishes.size, wishes.samples, wishes.transparent};
-  Json reply{{"path", target.path.string()}};
-  if ((format == 1 || format == 2) && !view_.figure.plain())
-    reply["note"] = "without cuts and what stands beside the surface; meniscus export has options for these";
-  if (format == 0) export_picture(view, *renderer_, target);
-  if (format == 1) reply["render_with"] = export_povray(view, target);
-  if (format == 2) export_blender(view, target);
-  if (format == 3) export_camera(view, target);
-  if (format == 4) export_camera_path(camera_keys(), target);
-  return reply;
-}
-
-Json PreviewSession::render_command(const CommandReader& command) {
-  const PictureWishes wishes = wishes_of(command, view_);
-  RenderedView view{view_, wishes.size, wishes.samples, wishes.transparent, {}, {}, {}};
-  if (trajectory_) view.frame = number_of(view_.frame);
-  if (frames_.size() > 1) {
-    using By = ColorScheme::By;
-    if (!view_.patch_kinds && (view_.color.by == By::index || view_.color.by == By::radial))
-      throw RequestError("render_command: " + in_quotes(scheme_word(view_.color)) +
-                         " counts the atoms of all models here, and those of one in a picture by render; choose "
-                         "another scheme");
-    view.model = structure_.atoms[shown_atoms().front()].model;
-    // A model alone would have a scale of its own.
-    if (view_.color.has_scale()) view.range = color_scale(structure_, view_.color).range;
-  }
-  const std::vector<std::string> words = render_words(context_.input, view);
-  return {{"words", words}, {"text", shell_line(words)}};
-}
-
 Json PreviewSession::stats(const CommandReader&) {
   Json stages = Json::array();
   for (const StageTime& stage : stages_) stages.push_back({{"name", stage.name}, {"milliseconds", stage.milliseconds}});
@@ -179,7 +120,7 @@ Json PreviewSession::stats(const CommandReader&) {
 Json PreviewSession::choices(const CommandReader&) {
   Json schemes = Json::array(), maps = Json::array();
   for (const ColorSchemeMetadata& scheme : color_schemes()) {
-    if (scheme.by == ColorScheme::By::component || scheme.by == ColorScheme::By::volume) continue;
+    if (!is_previewed(scheme.by)) continue;
     if (scheme.by == ColorScheme::By::file && first_color_.file.empty()) continue;
     const auto is_copy = [](const Atom& atom) { return atom.copy > 0; };
     if (scheme.by == ColorScheme::By::copy && std::ranges::none_of(structure_.atoms, is_copy)) continue;
@@ -211,6 +152,15 @@ void PreviewSession::tell_figure(Json& state) const {
   state["cap"] = {{"color", view_.figure.cap.color ? hex_color(*view_.figure.cap.color) : "atom"},
                   {"hatching", view_.figure.cap.hatching}};
   state["film_opacity"] = view_.figure.thickens;
+  Json& objects = state["objects"] = Json::array();
+  for (const FigureObjectRequest& object : view_.figure.objects)
+    objects.push_back(Json::parse(json_line(figure_object_json(object))));
+  state["surface_hidden"] = view_.figure.hides_surface;
+  const ExportWishes& wishes = view_.wishes;
+  state["export"] = {{"width", wishes.size ? Json(wishes.size->x) : Json(nullptr)},
+                     {"height", wishes.size ? Json(wishes.size->y) : Json(nullptr)},
+                     {"samples", wishes.samples ? Json(*wishes.samples) : Json(nullptr)},
+                     {"transparent", wishes.transparent}};
   state["show"] = view_.show ? Json(escaped(view_.show->text())) : Json(nullptr);
   state["legend"] = {{"on", view_.legend},
                      {"title", view_.legend_style.title ? Json(escaped(*view_.legend_style.title)) : Json(nullptr)},

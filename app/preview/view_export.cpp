@@ -18,26 +18,29 @@
 #include "core/base/text.h"
 #include "core/render/image_output.h"
 #include "core/render/legend.h"
+#include "core/queries/combine.h"
 #include "core/queries/surface_object.h"
 #include "exporters/blender/surface_file.h"
 #include "exporters/povray/scene.h"
+#include "core/surface/surface.h"
 
 namespace meniscus {
 namespace {
 
 /// The complete surface, of copies one for each group of atoms that stand together, and what computed it.
-std::pair<std::vector<SurfaceObject>, std::string> complete_surfaces(const ExportedView& view) {
+std::pair<std::vector<SurfaceObject>, std::string> complete_surfaces(const ExportedView& view,
+                                                                     const ExportWatch& watch) {
   SurfaceRequest request;
   request.probe_radius = view.figure.probe_radius;
   request.cpu = true;
-  std::string device;
+  SurfaceComputer computer(request);
+  computer.before_stages([&watch] { watch("surface", 0.0); });
   std::vector<SurfaceObject> objects;
   const auto add = [&](std::span<const Ball> balls) -> SurfaceObject& {
-    ComputedSurface computed = compute_surface(balls, request);
     SurfaceObject& object = objects.emplace_back();
     object.name = "surface";
-    object.surface = std::move(computed.surface);
-    device = std::move(computed.device);
+    object.surface = computer.compute(balls);
+    require_closed(object.surface);
     return object;
   };
   for (const Instances& group : view.structure.instances) {
@@ -53,7 +56,7 @@ std::pair<std::vector<SurfaceObject>, std::string> complete_surfaces(const Expor
     object.coloring = view.coloring;
     object.atom = view.atoms;
   }
-  return {std::move(objects), std::move(device)};
+  return {std::move(objects), computer.device()};
 }
 
 ColorKey colors_of(const ExportedView& view) {
@@ -63,7 +66,8 @@ ColorKey colors_of(const ExportedView& view) {
 
 }  // namespace
 
-void export_picture(const ExportedView& view, ViewRenderer& renderer, const ExportTarget& target) {
+void export_picture(const ExportedView& view, const MakePictureDevice& make_device, const ExportTarget& target,
+                    const ExportWatch& watch) {
   check_image_path(target.path);
   OutputFile(target.path, target.existing);  // known to be possible before the work begins
   const PreviewFigure& figure = view.figure;
@@ -72,53 +76,65 @@ void export_picture(const ExportedView& view, ViewRenderer& renderer, const Expo
   std::optional<Legend> legend;
   if (figure.legend && (view.color.by != ColorScheme::By::fixed || !view.color.rules.empty()))
     legend.emplace(colors_of(view), view.size, figure.legend_style);
-  std::vector<SurfaceObject> objects = complete_surfaces(view).first;
+  Figure whole;
+  whole.molecule.objects = complete_surfaces(view, watch).first;
+  if (view.beside) whole.beside = *view.beside;
   RenderSettings settings;
   settings.size = legend ? legend->molecule_size() : view.size;
   settings.samples = view.samples;
   settings.look = look_of(figure.look, view.size, background);
-  Framebuffer picture;
-  if (view.structure.instances.empty()) {
-    const SurfaceObject& object = objects.front();
-    picture = renderer.render(picture_objects(object.surface, object.coloring, figure.figure, view.beside,
-                                              figure.camera, object.surface.atoms),
-                              figure.camera, settings);
-  } else {
-    Figure copies;
-    copies.molecule.objects = std::move(objects);
-    picture = draw(*make_cpu_renderer(), std::move(copies), {}, figure.camera, settings);
-  }
+  settings.progress = [&watch](double share) { watch("picture", share); };
+  SurfaceRequest on_cpu;
+  on_cpu.cpu = true;
+  const std::unique_ptr<PictureDevice> device = make_device ? make_device() : std::make_unique<PictureDevice>(on_cpu);
+  Framebuffer picture = draw(device->renderer(), std::move(whole), figure.figure, figure.camera, settings);
+  watch("writing", 0.0);
+  annotate(picture, view.annotations, figure.camera, background);
   if (legend) picture = legend->add_to(picture, background);
   write_image(target.path, picture, {background, target.existing, figure.look.has_linear_alpha()});
 }
 
-std::string export_povray(const ExportedView& view, const ExportTarget& target) {
+std::string export_povray(const ExportedView& view, const ExportTarget& target, const ExportWatch& watch) {
+  const FigureRequest& figure = view.figure.figure;
+  if (figure.hides_surface || !figure.objects.empty())
+    throw RequestError(
+        "export: a POV-Ray scene shows the molecule's surface and sticks, balls, spheres and tubes of its "
+        "colours; remove the other objects, or write a picture");
   povray::SceneOptions options;
   options.width = view.size.x;
   options.height = view.size.y;
   options.background = view.figure.background;
   options.existing = target.existing;
   options.colors = colors_of(view);
-  return write_scene(complete_surfaces(view).first, view.figure.camera, options, target.path).command;
+  if (view.beside) options.shapes = &view.beside->shapes;
+  options.film = figure.thickens;
+  options.cut.style = figure.cap;
+  const std::vector<SurfaceObject> surfaces = complete_surfaces(view, watch).first;
+  const std::vector<Ball> balls = placed_balls(surfaces);
+  for (const Cut& cut : figure.cuts) options.cut.planes.push_back(clip_plane(cut, view.figure.camera, balls));
+  watch("writing", 0.0);
+  return write_scene(surfaces, view.figure.camera, options, target.path).command;
 }
 
-void export_blender(const ExportedView& view, const ExportTarget& target) {
+void export_blender(const ExportedView& view, const ExportTarget& target, const ExportWatch& watch) {
   OutputFile(target.path, target.existing);
-  const auto [surfaces, device] = complete_surfaces(view);
+  const auto [surfaces, device] = complete_surfaces(view, watch);
+  watch("mesh", 0.0);
   std::vector<TriangleMesh> meshes = mesh_objects(surfaces, MeshRequest{}.tolerance);
   std::vector<blender::MeshedObject> objects;
   for (std::size_t n = 0; n < surfaces.size(); ++n)
     objects.push_back(
         {surfaces[n], std::move(meshes[n]), blender::atom_attributes(view.structure, surfaces[n].atom), {}});
+  watch("writing", 0.0);
   const blender::Provenance provenance{std::filesystem::path(view.structure.file).filename().string(),
                                        view.structure.radii_set, device, colors_of(view)};
   write_objects(target.path.string(), target.existing, objects,
                 blender::Shot{view.figure.camera, view.size.x, view.size.y}, provenance);
 }
 
-void export_camera(const ExportedView& view, const ExportTarget& target) {
+void export_camera(const Camera& camera, const ExportTarget& target) {
   OutputFile file(target.path, target.existing);
-  file.write(camera_json(view.figure.camera));
+  file.write(camera_json(camera));
   file.commit();
 }
 

@@ -2,7 +2,10 @@
 // "Export this view": what a preview shows as a picture, a scene, a file for Blender, or a camera.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -13,24 +16,28 @@
 #include "core/structure/structure.h"
 #include "core/camera/camera.h"
 #include "core/camera/camera_path.h"
+#include "app/preview/export_job.h"
 #include "app/preview/preview_view.h"
 #include "core/color/coloring.h"
-#include "core/scene/view_renderer.h"
+#include "core/render/annotation.h"
+#include "core/scene/figure.h"
+#include "core/scene/picture_device.h"
 
 namespace meniscus {
 
-/// A view to be exported. References live longer than the call.
+/// A view to be exported, whatever becomes of the session that showed it.
 struct ExportedView {
-  const Structure& structure;
-  const std::vector<std::uint32_t>& atoms;  ///< those shown, into structure.atoms
-  const std::vector<Ball>& balls;           ///< theirs
-  const Coloring& coloring;                 ///< theirs
-  const ColorScheme& color;                 ///< what the colours mean
-  const PreviewFigure& figure;
-  const ColoredShapes* beside;  ///< the surface; nullptr: nothing
-  glm::ivec2 size;              ///< pixels, with the legend
-  int samples;                  ///< rays per pixel
-  bool transparent;             ///< pictures have no background
+  Structure structure;
+  std::vector<std::uint32_t> atoms;  ///< those shown, into structure.atoms
+  std::vector<Ball> balls;           ///< theirs
+  Coloring coloring;                 ///< theirs
+  ColorScheme color;                 ///< what the colours mean
+  PreviewFigure figure;
+  std::shared_ptr<const BesideSurface> beside;  ///< the surface; nullptr: nothing
+  Annotations annotations;                      ///< written into pictures
+  glm::ivec2 size;                              ///< pixels, with the legend
+  int samples;                                  ///< rays per pixel
+  bool transparent;                             ///< pictures have no background
 };
 
 /// Where it goes.
@@ -39,19 +46,23 @@ struct ExportTarget {
   Existing existing = Existing::refuse;
 };
 
-/// As `meniscus render`: the complete surface and what stands beside it, with its legend, ray cast by `renderer`; what
-/// write_image() writes. Throws RequestError where there is no room for the legend, OutputError, OpenSurfaceError,
-/// CapacityError, GpuError; so do the others, but for the last.
-void export_picture(const ExportedView& view, ViewRenderer& renderer, const ExportTarget& target);
+/// What makes pictures of exports, in the thread that asks for it; nothing: the CPU.
+using MakePictureDevice = std::function<std::unique_ptr<PictureDevice>()>;
 
-/// As `meniscus export povray`; returns the command that renders it.
-std::string export_povray(const ExportedView& view, const ExportTarget& target);
+/// As `meniscus render`: the complete surface and what stands beside it, with its legend, ray cast; what write_image()
+/// writes. Throws RequestError where there is no room for the legend, OutputError, OpenSurfaceError, CapacityError,
+/// GpuError; so do the others, but for the last.
+void export_picture(const ExportedView& view, const MakePictureDevice& make_device, const ExportTarget& target,
+                    const ExportWatch& watch);
+
+/// As `meniscus export povray`, whole but for objects, which are refused; returns the command that renders it.
+std::string export_povray(const ExportedView& view, const ExportTarget& target, const ExportWatch& watch);
 
 /// As `meniscus export blender`.
-void export_blender(const ExportedView& view, const ExportTarget& target);
+void export_blender(const ExportedView& view, const ExportTarget& target, const ExportWatch& watch);
 
 /// As `meniscus render --save-camera`.
-void export_camera(const ExportedView& view, const ExportTarget& target);
+void export_camera(const Camera& camera, const ExportTarget& target);
 
 /// Key frames for `meniscus render --camera-path`. Throws RequestError where there are none.
 void export_camera_path(const std::vector<CameraKey>& keys, const ExportTarget& target);

@@ -16,6 +16,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/color/css_colors.h"
 #include "core/color/named_colors.h"
 #include "core/text/parse_number.h"
 
@@ -96,6 +97,12 @@ std::optional<ColorScheme> parse_color_scheme(std::string_view text) {
   if (found == std::end(kSchemes)) return std::nullopt;
   scheme.by = found->by;
   return scheme;
+}
+
+std::string scheme_word(const ColorScheme& color) {
+  for (const ColorSchemeMetadata& scheme : kSchemes)
+    if (scheme.by == color.by) return std::string(scheme.word);
+  return hex_color(color.fixed);
 }
 
 std::string color_scheme_words() {

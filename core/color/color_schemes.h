@@ -97,6 +97,9 @@ std::span<const ColorSchemeMetadata> color_schemes();
 /// Reads "element", ..., "file", "atom" (the same as "index") or what parse_color reads; nothing for any other text.
 std::optional<ColorScheme> parse_color_scheme(std::string_view text);
 
+/// What parse_color_scheme reads as this scheme, without its rules: a word, or "#rrggbb".
+std::string scheme_word(const ColorScheme& color);
+
 /// All words parse_color_scheme reads, for messages: "element, chain, ..., a name such as red, or #rrggbb".
 std::string color_scheme_words();
 

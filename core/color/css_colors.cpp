@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <iterator>
+
+#include <fmt/format.h>
 
 #include "core/color/named_colors.h"
 
@@ -183,6 +186,12 @@ std::optional<glm::vec3> parse_color(std::string_view text) {
   const auto found = std::ranges::lower_bound(kCssColors, text, {}, &CssColor::name);
   if (found == std::end(kCssColors) || found->name != text) return std::nullopt;
   return color_from_hex(found->hex);
+}
+
+std::string hex_color(const glm::vec3& color) {
+  std::string text = "#";
+  for (int c = 0; c < 3; ++c) text += fmt::format("{:02x}", std::lround(255.0f * color[c]));
+  return text;
 }
 
 }  // namespace meniscus

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include <glm/vec3.hpp>
@@ -15,5 +16,8 @@ std::optional<glm::vec3> parse_hex_color(std::string_view text);
 /// Reads these, and the 148 names in small letters of CSS Color Module Level 4 (W3C), section 6.1: "red", "slategrey",
 /// ...; nothing for any other text.
 std::optional<glm::vec3> parse_color(std::string_view text);
+
+/// "#rrggbb" of an sRGB colour in [0, 1].
+std::string hex_color(const glm::vec3& color);
 
 }  // namespace meniscus

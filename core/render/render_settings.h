@@ -2,6 +2,8 @@
 // What is wanted of a picture, whatever makes it.
 #pragma once
 
+#include <functional>
+
 #include <glm/vec2.hpp>
 
 #include "core/base/stage_clock.h"
@@ -17,6 +19,9 @@ struct RenderSettings {
   int block_edge = 2048;       ///< of render(): larger pictures are cast in blocks of at most this edge, in pixels
   Look look;                   ///< its background is that of draw(); render() leaves it transparent
   StageTiming timing = StageTiming::rough;
+  /// Of render() on the CPU: called now and then on the thread that asked for the picture, with the share of it that is
+  /// cast, from 0 to 1; what it throws ends the picture.
+  std::function<void(double share)> progress{};
 };
 
 }  // namespace meniscus

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copies drawn from one surface each by the CPU, or as atoms like all others by GL.
 #include <cassert>
-#include <span>
 #include <utility>
 
 #include "core/queries/surface_object.h"
@@ -30,7 +29,7 @@ class CpuCopiesRenderer final : public ViewRenderer {
     color_objects();
   }
   void set_figure([[maybe_unused]] const FigureRequest& request,
-                  [[maybe_unused]] std::shared_ptr<const ColoredShapes> beside) override {
+                  [[maybe_unused]] std::shared_ptr<const BesideSurface> beside) override {
     assert(request.plain() && !beside);  // copies are shown whole
   }
 
@@ -43,11 +42,6 @@ class CpuCopiesRenderer final : public ViewRenderer {
     const bool whole = renderer_.draw_copies(objects_, camera, settings, stop);
     times_.insert(times_.end(), renderer_.times().begin(), renderer_.times().end());
     return whole;
-  }
-
-  Framebuffer render(std::span<const PictureObject> objects, const Camera& camera,
-                     const RenderSettings& settings) override {
-    return CpuRenderer().render(objects, camera, settings);
   }
 
   std::vector<std::uint8_t> rgba() const override { return renderer_.rgba(); }
@@ -117,17 +111,13 @@ class PlacedAtomsRenderer final : public ViewRenderer {
     keep_parts_apart(all);
     renderer_->set_coloring(all);
   }
-  void set_figure(const FigureRequest& request, std::shared_ptr<const ColoredShapes> beside) override {
+  void set_figure(const FigureRequest& request, std::shared_ptr<const BesideSurface> beside) override {
     renderer_->set_figure(request, std::move(beside));
   }
 
   bool draw(double probe_radius, const Camera& camera, const RenderSettings& settings,
             const std::function<bool()>& stop) override {
     return renderer_->draw(probe_radius, camera, settings, stop);
-  }
-  Framebuffer render(std::span<const PictureObject> objects, const Camera& camera,
-                     const RenderSettings& settings) override {
-    return renderer_->render(objects, camera, settings);
   }
 
   std::vector<std::uint8_t> rgba() const override { return renderer_->rgba(); }

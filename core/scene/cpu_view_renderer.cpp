@@ -21,7 +21,7 @@ class CpuViewRenderer final : public ViewRenderer {
     surface_.reset();
   }
   void set_coloring(const Coloring& coloring) override { coloring_ = std::make_shared<const Coloring>(coloring); }
-  void set_figure(const FigureRequest& request, std::shared_ptr<const ColoredShapes> beside) override {
+  void set_figure(const FigureRequest& request, std::shared_ptr<const BesideSurface> beside) override {
     request_ = request;
     beside_ = std::move(beside);
   }
@@ -32,22 +32,21 @@ class CpuViewRenderer final : public ViewRenderer {
     times_.clear();
     if (!surface_ || surface_->probe_radius != probe_radius)
       if (!compute(probe_radius, stop)) return false;
-    drawn_ = {surface_, coloring_, beside_, {}};
-    drawn_.objects = picture_objects(*surface_, *coloring_, request_, drawn_.beside.get(), camera, surface_->atoms);
+    drawn_ = {surface_, coloring_, beside_,
+              picture_objects(*surface_, *coloring_, request_, beside_.get(), camera, surface_->atoms)};
     const bool whole = renderer_.draw(drawn_.objects, camera, settings, stop);
     times_.insert(times_.end(), renderer_.times().begin(), renderer_.times().end());
     return whole;
   }
 
-  Framebuffer render(std::span<const PictureObject> objects, const Camera& camera,
-                     const RenderSettings& settings) override {
-    return CpuRenderer().render(objects, camera, settings);  // the picture that is drawn stays
-  }
-
   std::vector<std::uint8_t> rgba() const override { return renderer_.rgba(); }
   std::uint32_t texture() const override { return 0; }
   glm::ivec2 size() const override { return renderer_.size(); }
-  std::optional<PickedPoint> pick(glm::ivec2 pixel) const override { return renderer_.pick(pixel); }
+  std::optional<PickedPoint> pick(glm::ivec2 pixel) const override {
+    std::optional<PickedPoint> point = renderer_.pick(pixel);
+    if (point) name_object(*point);
+    return point;
+  }
   std::shared_ptr<const Surface> surface() const override { return surface_; }
   bool draws_on_cpu() const override { return true; }
   const std::vector<StageTime>& times() const override { return times_; }
@@ -71,18 +70,36 @@ class CpuViewRenderer final : public ViewRenderer {
     return true;
   }
 
+  /// From the objects of the picture to those of the figure.
+  void name_object(PickedPoint& point) const {
+    const PictureObject& shown = drawn_.objects[point.object];
+    if (shown.surface == drawn_.surface.get()) {
+      point.object = 0;
+    } else if (shown.shapes == &drawn_.beside->shapes.shapes) {
+      point.object = 1;
+    } else {
+      const std::vector<FigureObject>& objects = drawn_.beside->objects;
+      const auto own = std::ranges::find_if(objects, [&](const FigureObject& object) {
+        return shown.surface ? object.surface && &object.surface->surface == shown.surface
+                             : &object.shapes.shapes == shown.shapes;
+      });
+      if (own->surface) point.atom = own->surface->atom[point.atom];
+      point.object = 2 + static_cast<std::uint32_t>(own - objects.begin());
+    }
+  }
+
   /// What the last picture was made of, for what it shows is asked later.
   struct Drawn {
     std::shared_ptr<const Surface> surface;
     std::shared_ptr<const Coloring> coloring;
-    std::shared_ptr<const ColoredShapes> beside;
+    std::shared_ptr<const BesideSurface> beside;
     std::vector<PictureObject> objects;
   };
 
   std::vector<Ball> atoms_;
   std::shared_ptr<const Coloring> coloring_;
   FigureRequest request_;
-  std::shared_ptr<const ColoredShapes> beside_;
+  std::shared_ptr<const BesideSurface> beside_;
   Drawn drawn_;
   std::unique_ptr<ReducedSurfaceEngine> engine_ = make_cpu_engine();
   std::shared_ptr<const Surface> surface_;  // of atoms_; none: not yet, or given up

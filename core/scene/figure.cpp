@@ -35,14 +35,19 @@ void name_atoms(std::span<const SurfaceObject* const> surfaces, Framebuffer& pic
 
 }  // namespace
 
-std::vector<Ball> Figure::balls() const {
-  std::vector<Ball> balls = placed_balls(molecule.objects);
-  const std::vector<Ball> more = balls_around(shapes.shapes);
-  balls.insert(balls.end(), more.begin(), more.end());
+std::vector<Ball> BesideSurface::balls() const {
+  std::vector<Ball> balls = balls_around(shapes.shapes);
   for (const FigureObject& object : objects) {
     const std::vector<Ball> own = balls_of(object);
     balls.insert(balls.end(), own.begin(), own.end());
   }
+  return balls;
+}
+
+std::vector<Ball> Figure::balls() const {
+  std::vector<Ball> balls = placed_balls(molecule.objects);
+  const std::vector<Ball> more = beside.balls();
+  balls.insert(balls.end(), more.begin(), more.end());
   return balls;
 }
 
@@ -51,18 +56,28 @@ void FigureRequest::ask_for(ReadOptions& reading) const {
   meniscus::ask_for(objects, reading);
 }
 
+BesideSurface make_beside(const Structure& structure, const FigureRequest& request, const ColorScheme& scheme) {
+  BesideSurface beside;
+  if (!request.representations.empty()) beside.shapes = shown_shapes(structure, request.representations, scheme);
+  beside.objects = make_objects(request.objects, structure, request.representations.requests.size(), scheme);
+  return beside;
+}
+
+void color_beside(const Structure& structure, const FigureRequest& request, const ColorScheme& scheme,
+                  BesideSurface& beside) {
+  if (!request.representations.empty()) beside.shapes = shown_shapes(structure, request.representations, scheme);
+  color_objects(request.objects, structure, scheme, beside.objects);
+}
+
 Figure make_figure(Molecule molecule, const FigureRequest& request) {
   Figure figure;
-  if (!request.representations.empty())
-    figure.shapes = shown_shapes(molecule.structure, request.representations, molecule.color);
-  figure.objects =
-      make_objects(request.objects, molecule.structure, request.representations.requests.size(), molecule.color);
+  figure.beside = make_beside(molecule.structure, request, molecule.color);
   figure.molecule = std::move(molecule);
   return figure;
 }
 
 std::vector<PictureObject> picture_objects(const Surface& surface, const Coloring& coloring,
-                                           const FigureRequest& request, const ColoredShapes* beside,
+                                           const FigureRequest& request, const BesideSurface* beside,
                                            const Camera& camera, std::span<const Ball> atoms) {
   std::vector<PictureObject> shown;
   if (!request.hides_surface) {
@@ -73,12 +88,24 @@ std::vector<PictureObject> picture_objects(const Surface& surface, const Colorin
     whole.thickens = request.thickens;
     for (const Cut& cut : request.cuts) whole.clip.push_back(clip_plane(cut, camera, atoms));
   }
-  if (beside && !beside->empty()) {
+  if (beside && !beside->shapes.empty()) {
     PictureObject& shapes = shown.emplace_back();
-    shapes.shapes = &beside->shapes;
-    shapes.coloring = &beside->coloring;
+    shapes.shapes = &beside->shapes.shapes;
+    shapes.coloring = &beside->shapes.coloring;
   }
+  for (std::size_t n = 0; beside && n < beside->objects.size(); ++n) {
+    const FigureObject& object = beside->objects[n];
+    if (object.surface || !object.shapes.empty())
+      shown.push_back(picture_object(object, request.objects[n], camera, atoms));
+  }
+  if (shown.empty()) throw RequestError("the surface is not shown, and there is nothing beside it");
   return shown;
+}
+
+const SurfaceObject* surface_beside(const BesideSurface& beside, const PictureObject& shown) {
+  for (const FigureObject& object : beside.objects)
+    if (object.surface && &object.surface->surface == shown.surface) return &*object.surface;
+  return nullptr;
 }
 
 Framebuffer draw(SurfaceRenderer& renderer, Figure figure, const FigureRequest& request, const Camera& camera,
@@ -94,17 +121,11 @@ Framebuffer draw(SurfaceRenderer& renderer, Figure figure, const FigureRequest& 
   // Planes along the view cut between the nearest atom of the molecule and its farthest.
   const std::vector<Ball> balls = request.plain() ? std::vector<Ball>{} : placed_balls(objects);
   const SurfaceObject whole = merged(std::move(objects));
-  std::vector<PictureObject> shown =
-      picture_objects(whole.surface, whole.coloring, request, &figure.shapes, camera, balls);
+  const std::vector<PictureObject> shown =
+      picture_objects(whole.surface, whole.coloring, request, &figure.beside, camera, balls);
   std::vector<const SurfaceObject*> surfaces;
-  for (const PictureObject& object : shown) surfaces.push_back(object.surface ? &whole : nullptr);
-  for (std::size_t n = 0; n < figure.objects.size(); ++n) {
-    const FigureObject& object = figure.objects[n];
-    if (!object.surface && object.shapes.empty()) continue;
-    shown.push_back(picture_object(object, request.objects[n], camera, balls));
-    surfaces.push_back(object.surface ? &*object.surface : nullptr);
-  }
-  if (shown.empty()) throw RequestError("the surface is not shown, and there is nothing beside it");
+  for (const PictureObject& object : shown)
+    surfaces.push_back(object.surface == &whole.surface ? &whole : surface_beside(figure.beside, object));
   Framebuffer picture = renderer.render(shown, camera, settings);
   name_atoms(surfaces, picture);
   return picture;

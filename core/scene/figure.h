@@ -34,24 +34,45 @@ struct FigureRequest {
   }
 };
 
+/// What stands beside the molecule's surface, ready to be drawn. Atoms are places in shown_atoms().
+struct BesideSurface {
+  ColoredShapes shapes;               ///< of FigureRequest::representations
+  std::vector<FigureObject> objects;  ///< one for each of FigureRequest::objects
+
+  bool empty() const { return shapes.empty() && objects.empty(); }
+  /// For framing.
+  std::vector<Ball> balls() const;
+};
+
 /// Everything of a figure, ready to be drawn.
 struct Figure {
   Molecule molecule;
-  ColoredShapes shapes;
-  std::vector<FigureObject> objects;
+  BesideSurface beside;
 
   /// For framing: atoms of the surface at all places, and what stands beside it.
   std::vector<Ball> balls() const;
 };
 
-/// The shapes beside a molecule, of its structure. Throws as shown_shapes does.
+/// What stands beside the surface of a structure that was read with request.ask_for(). scheme: the molecule's colours.
+/// Throws as shown_shapes and make_objects do.
+BesideSurface make_beside(const Structure& structure, const FigureRequest& request, const ColorScheme& scheme);
+
+/// The same of the same atoms in other colours, opacities and with other parts shown; surfaces are not computed again.
+void color_beside(const Structure& structure, const FigureRequest& request, const ColorScheme& scheme,
+                  BesideSurface& beside);
+
+/// The molecule with what stands beside it. Throws as make_beside does.
 Figure make_figure(Molecule molecule, const FigureRequest& request);
 
 /// What a picture shows of one surface: cut and seen through as asked, and what stands beside it (nullptr: nothing).
-/// atoms: of all that the picture shows, for cuts along the view. All must stay.
+/// atoms: of all that the picture shows, for cuts along the view. All must stay. Throws RequestError if there is
+/// nothing to be shown.
 std::vector<PictureObject> picture_objects(const Surface& surface, const Coloring& coloring,
-                                           const FigureRequest& request, const ColoredShapes* beside,
+                                           const FigureRequest& request, const BesideSurface* beside,
                                            const Camera& camera, std::span<const Ball> atoms);
+
+/// The surface among those beside the molecule's that an object of a picture shows; nullptr: none of them.
+const SurfaceObject* surface_beside(const BesideSurface& beside, const PictureObject& shown);
 
 /// Its picture. atom of the AOVs: into shown_atoms(); without shapes into Structure::atoms. Throws as
 /// SurfaceRenderer::render() does.

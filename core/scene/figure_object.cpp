@@ -30,8 +30,8 @@ Structure structure_of(const Structure& all, const std::vector<bool>& selected, 
   return own;
 }
 
-SurfaceObject surface_of(const FigureObjectRequest& request, const Structure& all, const std::vector<bool>& selected,
-                         const ColorScheme& scheme) {
+/// Without colours.
+SurfaceObject surface_of(const FigureObjectRequest& request, const Structure& all, const std::vector<bool>& selected) {
   std::vector<std::uint32_t> places;
   const Structure own = structure_of(all, selected, places);
   SurfaceRequest wanted;
@@ -41,14 +41,29 @@ SurfaceObject surface_of(const FigureObjectRequest& request, const Structure& al
   SurfaceComputer computer(wanted);
   SurfaceObject object = std::move(surface_objects(own, {}, computer).front());
   for (std::uint32_t& atom : object.atom) atom = places[atom];
-  object.coloring = color_object(all, object.atom, scheme, 0);
-  if (request.show) {
-    std::vector<SurfaceObject> one;
-    one.push_back(std::move(object));
-    hide(hidden_atoms(*request.show, all), one);
-    object = std::move(one.front());
-  }
   return object;
+}
+
+/// The colours of one object. shown: number of all atoms.
+ColorScheme scheme_of(const FigureObjectRequest& request, const Structure& structure, std::size_t shown,
+                      const ColorScheme& scheme) {
+  ColorScheme own = request.color ? *request.color : scheme;
+  if (request.color && own.uses_file()) own.set_numbers(scheme.file);
+  if (!request.color)
+    own = request.shapes ? scheme_beside(structure, shown, std::move(own))
+                         : with_scale_of(structure, shown, std::move(own));
+  own.opacities = request.opacities;
+  return own;
+}
+
+void color_surface(const FigureObjectRequest& request, const Structure& all, const ColorScheme& scheme,
+                   SurfaceObject& object) {
+  object.coloring = color_object(all, object.atom, scheme, 0);
+  if (!request.show) return;
+  std::vector<SurfaceObject> one;
+  one.push_back(std::move(object));
+  hide(hidden_atoms(*request.show, all), one);
+  object = std::move(one.front());
 }
 
 }  // namespace
@@ -72,22 +87,28 @@ std::vector<FigureObject> make_objects(std::span<const FigureObjectRequest> obje
   for (std::size_t n = 0; n < objects.size(); ++n) {
     const FigureObjectRequest& request = objects[n];
     const std::vector<bool> selected = marked_atoms(all, first_mark + n);
-    ColorScheme own = request.color ? *request.color : scheme;
-    if (request.color && own.uses_file()) own.set_numbers(scheme.file);
-    if (!request.color)
-      own = request.shapes ? scheme_beside(structure, all.atoms.size(), std::move(own))
-                           : with_scale_of(structure, all.atoms.size(), std::move(own));
-    own.opacities = request.opacities;
     FigureObject& object = made.emplace_back();
-    if (request.shapes) {
+    if (request.shapes)
       object.shapes.shapes =
           shapes_of_atoms(all, *request.shapes, selected, *structure.shown_bonds, {request.radius, request.radius});
-      object.shapes.coloring = color_atoms(all, own);
-    } else {
-      object.surface = surface_of(request, all, selected, own);
-    }
+    else
+      object.surface = surface_of(request, all, selected);
   }
+  color_objects(objects, structure, scheme, made);
   return made;
+}
+
+void color_objects(std::span<const FigureObjectRequest> requests, const Structure& structure, const ColorScheme& scheme,
+                   std::vector<FigureObject>& objects) {
+  if (objects.empty()) return;
+  const Structure all = structure_of_shown(structure);
+  for (std::size_t n = 0; n < objects.size(); ++n) {
+    const ColorScheme own = scheme_of(requests[n], structure, all.atoms.size(), scheme);
+    if (objects[n].surface)
+      color_surface(requests[n], all, own, *objects[n].surface);
+    else
+      objects[n].shapes.coloring = color_atoms(all, own);
+  }
 }
 
 std::vector<Ball> balls_of(const FigureObject& object) {

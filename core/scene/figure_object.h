@@ -54,6 +54,10 @@ void ask_for(std::span<const FigureObjectRequest> objects, ReadOptions& reading)
 std::vector<FigureObject> make_objects(std::span<const FigureObjectRequest> objects, const Structure& structure,
                                        std::size_t first_mark, const ColorScheme& scheme);
 
+/// Colours, opacities and shown parts of objects as make_objects makes them; their atoms, surfaces and shapes stay.
+void color_objects(std::span<const FigureObjectRequest> requests, const Structure& structure, const ColorScheme& scheme,
+                   std::vector<FigureObject>& objects);
+
 /// What encloses it, for framing.
 std::vector<Ball> balls_of(const FigureObject& object);
 

@@ -4,7 +4,6 @@
 
 #include "core/gpu/context_description.h"
 #include "core/render/renderer.h"
-#include "core/render/surface_renderer.h"
 #include "core/scene/view_renderer.h"
 #include "core/visible_surface/view_pipeline.h"
 
@@ -23,7 +22,7 @@ class GlViewRenderer final : public ViewRenderer {
     if (layered_) layered_->set_coloring(coloring);
     visible_.set_coloring(coloring);
   }
-  void set_figure(const FigureRequest& request, std::shared_ptr<const ColoredShapes> beside) override {
+  void set_figure(const FigureRequest& request, std::shared_ptr<const BesideSurface> beside) override {
     request_ = request;
     beside_ = std::move(beside);
     if (layered_) layered_->set_figure(request_, beside_);
@@ -44,14 +43,6 @@ class GlViewRenderer final : public ViewRenderer {
     return whole;
   }
 
-  Framebuffer render(std::span<const PictureObject> objects, const Camera& camera,
-                     const RenderSettings& settings) override {
-    if (objects.size() > 1 || needs_layers(objects.front()))
-      return make_cpu_renderer()->render(objects, camera, settings);
-    // The picture that is drawn stays.
-    return Renderer().render(*objects.front().surface, *objects.front().coloring, camera, settings);
-  }
-
   std::vector<std::uint8_t> rgba() const override { return shows_layered_ ? layered_->rgba() : renderer_.rgba(); }
   std::uint32_t texture() const override { return shows_layered_ ? 0 : renderer_.texture(); }
   glm::ivec2 size() const override { return shows_layered_ ? layered_->size() : renderer_.size(); }
@@ -60,7 +51,8 @@ class GlViewRenderer final : public ViewRenderer {
   }
   std::shared_ptr<const Surface> surface() const override { return shows_layered_ ? layered_->surface() : nullptr; }
   bool draws_on_cpu() const override {
-    return !request_.cuts.empty() || (beside_ && !beside_->empty()) || coloring_.is_translucent();
+    return request_.hides_surface || !request_.cuts.empty() || (beside_ && !beside_->empty()) ||
+           coloring_.is_translucent();
   }
   const std::vector<StageTime>& times() const override {
     return shows_layered_ ? layered_->times() : renderer_.times();
@@ -77,7 +69,7 @@ class GlViewRenderer final : public ViewRenderer {
   std::vector<Ball> atoms_;
   Coloring coloring_;
   FigureRequest request_;
-  std::shared_ptr<const ColoredShapes> beside_;
+  std::shared_ptr<const BesideSurface> beside_;
   ViewPipeline visible_;
   Renderer renderer_;
   std::unique_ptr<ViewRenderer> layered_;  // once a view was one that GL does not draw

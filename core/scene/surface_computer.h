@@ -2,9 +2,11 @@
 // From balls to a surface on the device a user asked for, with the time every stage took.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/base/stage_clock.h"
@@ -43,6 +45,8 @@ class SurfaceComputer {
   const std::string& device() const { return device_; }  ///< "cpu (16 threads)", or GL renderer and version
   const std::vector<StageTime>& stages() const { return clock_.times(); }  ///< of all surfaces since the last restart
   void restart_clock() { clock_.restart(); }
+  /// look: called before each stage; what it throws ends the computation.
+  void before_stages(std::function<void()> look) { clock_.before_stages(std::move(look)); }
 
  private:
   bool find_hardware();

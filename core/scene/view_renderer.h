@@ -6,7 +6,6 @@
 #include <functional>
 #include <memory>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include <glm/vec2.hpp>
@@ -14,9 +13,7 @@
 #include "core/base/stage_clock.h"
 #include "core/camera/camera.h"
 #include "core/color/coloring.h"
-#include "core/render/framebuffer.h"
 #include "core/render/hit_point.h"
-#include "core/render/picture_object.h"
 #include "core/render/render_settings.h"
 #include "core/structure/structure.h"
 #include "core/scene/figure.h"
@@ -34,26 +31,25 @@ class ViewRenderer {
   /// One colour per atom; to be set after atoms of another number and before the next picture.
   virtual void set_coloring(const Coloring& coloring) = 0;
 
-  /// What is cut, seen through and shown beside the surface. Such views are cast on the CPU whatever draws the others.
-  virtual void set_figure(const FigureRequest& request, std::shared_ptr<const ColoredShapes> beside) = 0;
+  /// What is cut, seen through, hidden and shown beside the surface (nullptr: nothing). Such views are cast on the CPU
+  /// whatever draws the others.
+  virtual void set_figure(const FigureRequest& request, std::shared_ptr<const BesideSurface> beside) = 0;
 
   /// A finished picture over the look's background. probe_radius: Å, >= 0. stop: asked now and then on this thread,
   /// also between the stages of a surface; if true, the picture is given up: false, the one before stays, and there is
-  /// nothing to pick. Throws GpuError, CapacityError, OpenSurfaceError, InputError for a bad camera.
+  /// nothing to pick. Throws GpuError, CapacityError, OpenSurfaceError, InputError for a bad camera, RequestError where
+  /// nothing is shown.
   virtual bool draw(double probe_radius, const Camera& camera, const RenderSettings& settings,
                     const std::function<bool()>& stop = {}) = 0;
-
-  /// A picture for a file; see SurfaceRenderer::render().
-  virtual Framebuffer render(std::span<const PictureObject> objects, const Camera& camera,
-                             const RenderSettings& settings) = 0;
 
   /// The last drawn picture, 8 bit sRGB and alpha (255) per pixel, rows from the top.
   virtual std::vector<std::uint8_t> rgba() const = 0;
   /// The same as a GL texture (GL_RGBA8, sRGB values, first row on top) that lives until the next draw; 0: none.
   virtual std::uint32_t texture() const = 0;
   virtual glm::ivec2 size() const = 0;
-  /// pixel of the last drawn picture: column, row from the top. Nothing where nothing is hit. object: 1 beside the
-  /// surface.
+  /// pixel of the last drawn picture: column, row from the top. Nothing where nothing is hit. object: 0 the surface,
+  /// with its atoms; 1 the shapes beside it, 2 + n the n-th of BesideSurface::objects, whose atoms are places in
+  /// shown_atoms(). Of copies: see make_cpu_copies_renderer().
   virtual std::optional<PickedPoint> pick(glm::ivec2 pixel) const = 0;
 
   /// The complete surface of the atoms, if that is what is drawn; else nullptr.

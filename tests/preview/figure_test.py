@@ -150,6 +150,102 @@ class Figures(unittest.TestCase):
         self.assertTrue(replies[-1]["hit"])
         self.assertEqual(replies[-1]["kind"], "shape")
 
+    SCENE = {
+        "meniscus_scene": 1,
+        "molecule": {"file": MOLECULE, "select": "polymer"},
+        "objects": [
+            {"representation": "surface", "selection": "not chain C", "color": ["chain", "resid 5-30=orange"],
+             "opacity": ["0.4", "chain D=1"], "clip": "depth>0.2", "cap_color": "#aabb22", "cap_hatching": 2,
+             "show": "not resid 100-110"},
+            {"representation": "surface", "selection": "chain C", "color": "gold", "specular": 0.8, "shininess": 200,
+             "clip": "depth>0.5", "probe": 1.6},
+            {"representation": "surface", "selection": "chain A and resid 1-40", "kind": "vdw", "opacity": 0.5},
+            {"representation": "spheres", "selection": "resn HOH and within 5 of chain D", "color": "bfactor",
+             "map": "magma"},
+            {"representation": "tube", "selection": "chain C"},
+            {"representation": "sticks", "selection": "resid 40-60 and chain A", "color": "element"}],
+        "look": {"preset": "cover", "silhouettes": "0.6pt", "depth_cue": 0.3},
+        "camera": {"view": "top", "turn": ["y30", "x-10"], "zoom_to": "chain A or chain C"},
+        "image": {"width": "30mm", "dpi": 200, "samples": 3, "background": "#eef2ff"},
+        "legend": {"shown": True, "place": "below", "size": "5pt"},
+        "annotations": {"panel": "b", "scale_bar": 20, "labels": "chain C and resid 200=here"}}
+
+    def scene(self, name, scene):
+        with open(self.path(name), "w") as file:
+            json.dump(scene, file)
+        return self.path(name)
+
+    def same(self, a, b):
+        compared = subprocess.run(["idiff", "-q", "-fail", "0", "-hardfail", "0", self.path(a), self.path(b)],
+                                  capture_output=True)
+        self.assertEqual(compared.returncode, 0, f"{a} and {b}")
+
+    def test_a_scene_is_the_picture_that_render_makes_of_it(self):
+        hidden = {"meniscus_scene": 1, "molecule": {"file": MOLECULE}, "image": {"size": "200x160"}, "objects": [
+            {"representation": "sticks", "selection": "chain C"},
+            {"representation": "balls", "selection": "resid 1-30 and chain D", "color": "chain", "specular": 0.9}]}
+        plain = {"meniscus_scene": 1, "molecule": {"file": MOLECULE}, "image": {"size": "200x160"}}
+        for number, scene in enumerate((self.SCENE, hidden, plain)):
+            file = self.scene(f"fig{number}.json", scene)
+            self.run_program("render", "--scene", file, "-o", f"rendered{number}.png")
+            with open(self.path("session.jsonl"), "w") as lines:
+                lines.write(json.dumps({"command": "export", "format": "png", "path": f"shown{number}.png"}) + "\n"
+                            '{"command": "quit"}\n')
+            self.run_program("preview", "--scene", file, "--serve", "--device", "cpu", "--output-dir", self.folder,
+                             "--commands", self.path("session.jsonl"))
+            self.same(f"rendered{number}.png", f"shown{number}.png")
+
+    def test_a_saved_scene_is_the_figure_and_opens_again(self):
+        export = {"command": "export", "format": "png", **SIZE, "samples": 2}
+        replies = self.session(MOLECULE, "--select", "polymer", commands=[
+            {"command": "state"}, {**export, "path": "first.png"},
+            {"command": "color", "scheme": "bfactor", "map": "magma", "range": "5:80"},
+            {"command": "object", "object": {"selection": "chain C", "color": "gold", "opacity": "0.5",
+                                             "clip": "depth>0.5"}},
+            {"command": "object", "object": {"representation": "spheres", "selection": "resn HOH"}},
+            {"command": "represent", "as": "tube", "selection": "chain D"},
+            {"command": "show", "selection": "within 8 of resn HOH"},
+            {"command": "opacity", "opacity": 0.5},
+            {"command": "legend", "on": True},
+            {"command": "orbit", "dx": 0.2, "dy": 0.05},
+            {**export, "path": "figure.png"},
+            {"command": "save", "path": "figure.json", **SIZE, "samples": 2}])
+        self.assertTrue(all(reply["ok"] for reply in replies), replies)
+        self.run_program("render", "--scene", self.path("figure.json"), "-o", "rendered.png")
+        self.same("figure.png", "rendered.png")
+        # Another session opens it, undoes that, and does it again.
+        replies = self.session(MOLECULE, "--select", "polymer", commands=[
+            {"command": "open", "path": "figure.json"}, {"command": "state"},
+            {"command": "export", "format": "png", "path": "opened.png"},
+            {"command": "undo"}, {**export, "path": "undone.png"},
+            {"command": "redo"}, {**export, "path": "redone.png"}, {"command": "state"}])
+        self.assertTrue(all(reply["ok"] for reply in replies), replies)
+        self.assertEqual(replies[1]["export"], {**SIZE, "samples": 2, "transparent": False})
+        self.assertEqual(replies[1]["objects"], replies[-1]["objects"])
+        for name, expected in (("opened", "figure"), ("undone", "first"), ("redone", "figure")):
+            self.same(f"{name}.png", f"{expected}.png")
+
+    def test_scenes_of_other_molecules_are_not_opened(self):
+        self.scene("other.json", {"meniscus_scene": 1, "molecule": {"file": MOLECULE, "select": "chain A"}})
+        self.scene("bad.json", {"meniscus_scene": 1, "molecule": {"file": MOLECULE}, "objects": [
+            {"representation": "surface", "color": "buried"}]})
+        self.scene("sas.json", {"meniscus_scene": 1, "molecule": {"file": MOLECULE}, "objects": [
+            {"representation": "surface", "kind": "sas"}]})
+        self.scene("syntax.json", {"meniscus_scene": 1, "molecule": {"file": MOLECULE}, "camera": {"turn": "y"}})
+        for name, text in (("other.json", "other atoms"), ("bad.json", "needs more than atoms"), ("sas.json", "--surface"),
+                           ("syntax.json", "camera.turn"), ("missing.json", "missing.json"), ("../a.json", "plain file name")):
+            with open(self.path("session.jsonl"), "w") as lines:
+                lines.write(json.dumps({"command": "open", "path": name}) + "\n")
+            done = subprocess.run([PROGRAM, "preview", MOLECULE, "--serve", "--device", "cpu", "--output-dir", self.folder,
+                                   "--commands", self.path("session.jsonl")], capture_output=True, text=True)
+            self.assertEqual(done.returncode, 3, done.stderr)
+            self.assertIn(text, done.stderr, name)
+            if name.startswith(("bad", "sas")):
+                done = subprocess.run([PROGRAM, "preview", "--scene", self.path(name), "--serve"], capture_output=True,
+                                      text=True)
+                self.assertEqual(done.returncode, 2, done.stderr)
+                self.assertIn(text, done.stderr)
+
     def test_bad_options_are_said_in_one_line(self):
         for words, text in ((["--sticks", "resn XYZ"], "--sticks"), (["--clip", "x=3"], "--clip"),
                             (["--opacity", "3"], "--opacity"), (["--show", "chain Q"], "chain")):

@@ -250,7 +250,7 @@ class Page(unittest.IsolatedAsyncioTestCase):
             await self.act(page, "chain C", "tube")
             await self.act(page, "resid 10-20 and (", "sticks")
             await page.until("!document.getElementById('atoms-fault').hidden")
-            self.assertIn("represent", await page.evaluate("document.getElementById('atoms-fault').textContent"))
+            self.assertNotIn("represent", await page.evaluate("document.getElementById('atoms-fault').textContent"))
             await self.act(page, "chain A", "fade")
             await self.act(page, "resid 1-20", "paint")
             await page.click("#cut-depth")
@@ -291,6 +291,68 @@ class Page(unittest.IsolatedAsyncioTestCase):
             await page.click("#views .recall")
             await page.until("JSON.stringify(JSON.parse(document.getElementById('picture').dataset.state).camera.target)"
                              f" === {json.dumps(json.dumps(before['target'], separators=(',', ':')))}")
+            self.assertEqual(page.complaints, [])
+
+    async def test_objects_scenes_and_exports_beside_the_pictures(self):
+        preview = self.serve(MOLECULE, "--select", "polymer", "--color", "chain")
+        async with Browser(CHROMIUM, (1100, 900)) as page:
+            await page.open(preview.url)
+            await self.act(page, "chain C", "surface")
+            self.assertEqual(await self.chips(page, 1), ["surface: chain C"])
+            await page.evaluate("""const [opacity, cut] = document.querySelectorAll('#chips li input[type=range]');
+                opacity.value = 0.5; opacity.dispatchEvent(new Event('input'));
+                cut.value = 0.4; cut.dispatchEvent(new Event('input')); 0""")
+            await page.until("JSON.parse(document.getElementById('picture').dataset.state).objects[0].clip === 'depth>0.4'")
+            await page.click("#surface-shown")
+            state = await self.state(page)
+            self.assertTrue(state["surface_hidden"])
+            self.assertEqual(state["objects"][0]["color"], "#e69f00")
+            await self.shoot(page, "objects.png")
+            # The scene that is saved opens again, after all of it was undone.
+            await page.click("#scene-form button[value=save]")
+            await page.until("document.getElementById('message').textContent.includes('Written')")
+            scene = json.load(open(self.path("figure.json")))
+            self.assertEqual([o["representation"] for o in scene["objects"]], ["surface"] * len(scene["objects"]))
+            for _ in range(20):
+                if (await self.state(page))["undo"] == 0:
+                    break
+                await page.click("#undo")
+            self.assertEqual(await self.chips(page, 0), [])
+            await page.click("#scene-form button[value=open]")
+            await page.until("document.getElementById('message').textContent.includes('Opened')")
+            opened = await self.state(page)
+            self.assertEqual((opened["objects"], opened["camera"], opened["surface_hidden"]),
+                             (state["objects"], state["camera"], True))
+            # A large export is told of, does not stand in the way, and can be cancelled.
+            await page.evaluate("""document.getElementById('export-width').value = 3000;
+                document.getElementById('export-height').value = 3000;
+                document.getElementById('export-samples').value = 1024; 0""")
+            await page.click("button[value=png]")
+            await page.until("!document.getElementById('job').hidden")
+            await page.until("document.getElementById('job-text').textContent.includes('s')")
+            before = (await page.evaluate("JSON.parse(document.getElementById('picture').dataset.state)"))["camera"]
+            await page.drag([(300, 300), (340, 320), (380, 340)])
+            await page.until("JSON.stringify(JSON.parse(document.getElementById('picture').dataset.state).camera)"
+                             f" !== {json.dumps(json.dumps(before, separators=(',', ':')))}")
+            self.assertFalse(await page.evaluate("document.getElementById('job').hidden"))
+            await page.click("#job-cancel")
+            await page.until("document.getElementById('message').textContent.includes('cancelled')")
+            self.assertTrue(await page.evaluate("document.getElementById('job').hidden"))
+            self.assertEqual(os.listdir(self.folder.name), ["figure.json"])
+            self.assertEqual(page.complaints, [])
+
+    async def test_a_connection_that_is_lost_comes_back(self):
+        preview = self.serve(MOLECULE, "--select", "chain D")
+        async with Browser(CHROMIUM, SIZE) as page:
+            await page.send("Page.addScriptToEvaluateOnNewDocument", source="""
+                window.sockets = [];
+                window.WebSocket = class extends WebSocket { constructor(...all) { super(...all); sockets.push(this); } };""")
+            await page.open(preview.url)
+            await page.evaluate("window.before = true; window.sockets[0].close(); 0")
+            await page.until("document.getElementById('message').textContent.includes('lost')")
+            await page.until("window.before === undefined && "
+                             "document.querySelector('#picture')?.dataset.rest === 'true'")
+            self.assertTrue(await page.evaluate("document.getElementById('role').hidden"), "it controls again")
             self.assertEqual(page.complaints, [])
 
     async def test_a_finger_that_stays_behind_a_pinch_turns_nothing(self):

@@ -215,6 +215,28 @@ class Server(unittest.IsolatedAsyncioTestCase):
             await client.send('{"id":9,"command":"orbit","dx":0.1,"dy":0}')
             self.assertFalse((await receive(client, lambda m: m.get("event") == "picture"))["full"])
 
+    async def test_the_first_picture_is_a_draft_of_the_size_that_was_asked_for(self):
+        async with self.preview.socket() as client:
+            await ask(client, {"command": "resize", "width": 90, "height": 70})
+            await asyncio.sleep(0.6)  # however late it is asked for
+            message, _ = await picture(client)
+            self.assertFalse(message["full"])
+            self.assertEqual((message["state"]["width"], message["stats"]["width"]), (90, 45))
+
+    async def test_others_are_served_while_an_export_is_written(self):
+        async with self.preview.socket() as client, self.preview.socket() as other:
+            export = {"command": "export", "format": "png", "path": "large.png", "width": 3000, "height": 3000,
+                      "samples": 1024, "wait": False}
+            self.assertTrue((await ask(client, export))["running"])
+            await ask(client, {"command": "orbit", "dx": 0.1, "dy": 0})
+            message, _ = await picture(other)
+            self.assertTrue(message["state"]["atoms"])
+            told = await ask(other, {"command": "export_state"})
+            self.assertTrue(told["running"], told)
+            self.assertTrue(told["path"].endswith("large.png"))
+        self.assertEqual(self.preview.end()[0], 143)  # which ends the export, too
+        self.assertEqual(os.listdir(self.folder.name), ["five.pdb"])
+
     async def test_drags_in_a_hurry_become_one(self):
         log = self.path("session.jsonl")
         self.preview = self.serve("--record", log, "--size", "800x600")

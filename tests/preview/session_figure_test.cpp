@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Commands that change what a figure shows, what they refuse, and undo and redo of them.
+#include <chrono>
 #include <memory>
 #include <string>
+#include <thread>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -37,9 +39,9 @@ class FigureSession : public ::testing::Test {
     PreviewView view;
     view.size = {80, 60};
     SessionContext context;
-    context.read_shown = [file, reading](const Representations& representations, std::size_t) {
+    context.read_shown = [file, reading](const FigureRequest& figure, std::size_t) {
       ReadOptions shown = reading;
-      representations.ask_for(shown);
+      figure.ask_for(shown);
       return read_structure(file, shown);
     };
     session_ = std::make_unique<PreviewSession>(make_cpu_view_renderer(), read_structure(file, reading), view,
@@ -70,6 +72,14 @@ constexpr const char* kEdits[] = {
     R"({"command":"represent","as":"sticks","selection":"ligand"})",
     R"({"command":"represent","as":"spheres","selection":"resn HOH"})",
     R"({"command":"remove","of":"representations","index":0})",
+    R"({"command":"object","object":{"selection":"ligand","color":"red"}})",
+    R"({"command":"object","object":{"representation":"spheres","selection":"resn HOH","color":"#00ff00"}})",
+    R"({"command":"hide_surface","on":true})",
+    R"({"command":"object","index":0,"object":{"selection":"ligand","color":"blue","opacity":"0.6","clip":"x<6.5"}})",
+    R"({"command":"hide_surface","on":false})",
+    R"({"command":"remove","of":"objects","index":1})",
+    R"({"command":"show","selection":"within 5 of ligand"})",
+    R"({"command":"show"})",
     R"({"command":"color","scheme":"bfactor","map":"magma","range":"10:20"})",
     R"({"command":"paint","selection":"name CA","color":"red"})",
     R"({"command":"opacity","opacity":0.5,"selection":"name O"})",
@@ -282,6 +292,96 @@ TEST_F(FigureSession, WithoutItsFileNothingCanBeDrawnBeside) {
   const Json reply = session.apply({{"command", "represent"}, {"as", "sticks"}, {"selection", "all"}});
   EXPECT_FALSE(reply["ok"]);
   EXPECT_NE(reply["error"].get<std::string>().find("cannot be read again"), std::string::npos);
+}
+
+TEST_F(FigureSession, ObjectsHaveLooksAndAtomsOfTheirOwn) {
+  expect_ok(R"({"command":"object","object":{"selection":"ligand","color":"gold","specular":0.8}})");
+  const Json told = state()["objects"];
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_EQ(told[0],
+            Json::parse(R"({"representation":"surface","selection":"ligand","color":"#ffd700","specular":0.8})"));
+  // The ligand is no atom of the surface, yet it is picked.
+  expect_ok(R"({"command":"hide_surface","on":true})");
+  expect_ok(R"({"command":"zoom_to","selection":"ligand"})");
+  const Json pick = apply(R"({"command":"pick","x":40,"y":30})");
+  ASSERT_TRUE(pick["hit"]) << pick;
+  EXPECT_EQ(pick["residue"], "LIG");
+  EXPECT_NE(pick["kind"], "shape") << pick;
+  EXPECT_TRUE(pick["exposed_area"].is_null()) << "not of the molecule's surface";
+  // A slider is one step, and merges on its way.
+  expect_ok(R"({"command":"end_step"})");
+  for (const char* opacity : {"0.8", "0.5", "0.2"})
+    expect_ok(std::string(R"({"command":"object","index":0,"object":{"selection":"ligand","opacity":")") + opacity +
+              "\"}}");
+  expect_ok(R"({"command":"undo"})");
+  EXPECT_EQ(state()["objects"], told);
+  Json first = Json::parse(R"({"command":"object","index":0,"object":{"selection":"ligand","opacity":"0.8"}})");
+  Json other = first;
+  other["object"]["opacity"] = "0.7";
+  EXPECT_TRUE(merge_commands(first, other));
+  EXPECT_EQ(first["object"]["opacity"], "0.7");
+  other["index"] = 1;
+  EXPECT_FALSE(merge_commands(first, other));
+  first.erase("index"), other.erase("index");
+  EXPECT_FALSE(merge_commands(first, other)) << "two objects";
+}
+
+TEST_F(FigureSession, WhatItCannotShowIsRefusedInOneLine) {
+  const auto refused = [&](const std::string& command, const std::string& because) {
+    const Json before = state();
+    const Json reply = apply(command);
+    EXPECT_FALSE(reply["ok"]) << command;
+    EXPECT_NE(reply.value("error", std::string()).find(because), std::string::npos) << reply;
+    EXPECT_EQ(reply.value("error", std::string()).find('\n'), std::string::npos) << reply;
+    EXPECT_EQ(state(), before) << command;
+  };
+  for (const char* scheme : {"buried", "rmsf", "component", "volume"})
+    refused(std::string(R"({"command":"color","scheme":")") + scheme + "\"}", "needs more than atoms");
+  refused(R"({"command":"paint","selection":"all","color":"buried"})", "needs more than atoms");
+  refused(R"({"command":"object","object":{"selection":"ligand","color":"rmsf"}})", "needs more than atoms");
+  refused(R"({"command":"hide_surface","on":true})", "nothing would be shown");
+  refused(R"({"command":"object","object":{"selection":"resn XYZ"}})", "--object");
+  refused(R"({"command":"object","object":{"selection":"ligand","colour":"red"}})", "colour");
+  refused(R"({"command":"object","index":0,"object":{"selection":"ligand"}})", "index");
+  refused(R"({"command":"save","path":"fig.json"})", "scenes");
+  refused(R"({"command":"open","path":"fig.json"})", "scenes");
+  const Json choices = apply(R"({"command":"choices"})");
+  for (const Json& scheme : choices["schemes"]) EXPECT_NE(scheme["word"], "buried");
+}
+
+TEST_F(FigureSession, AnExportIsMadeBesideThePicturesAndCanBeCancelled) {
+  const std::string large = R"({"command":"export","format":"png","path":"large.png","width":2000,"height":2000,)"
+                            R"("samples":1024,"wait":false})";
+  Json recorded;
+  session_->record([&](const Json& command) { recorded.push_back(command); });
+  const Json begun = apply(large);
+  ASSERT_TRUE(begun["ok"]) << begun;
+  EXPECT_TRUE(begun["running"]);
+  EXPECT_FALSE(recorded.at(0).contains("wait")) << "whoever carries it out again waits";
+  expect_ok(R"({"command":"orbit","dx":0.1,"dy":0})");
+  EXPECT_FALSE(picture().empty()) << "while it is written";
+  EXPECT_NE(apply(large)["error"].get<std::string>().find("is being written"), std::string::npos);
+  const auto told = [&] { return apply(R"({"command":"export_state"})"); };
+  const auto wait_until = [&](const auto& done) {
+    for (int n = 0; n < 1200 && !done(told()); ++n) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    return told();
+  };
+  const Json casting =
+      wait_until([](const Json& now) { return now.value("stage", "") == "picture" || !now["running"]; });
+  ASSERT_TRUE(casting["running"]) << casting;
+  EXPECT_GE(casting["share"], 0.0);
+  EXPECT_LT(casting["share"], 1.0);
+  expect_ok(R"({"command":"cancel_export"})");
+  const Json ended = wait_until([](const Json& now) { return now["running"] == false; });
+  EXPECT_NE(ended.value("error", std::string()).find("cancelled"), std::string::npos) << ended;
+  EXPECT_FALSE(apply(R"({"command":"cancel_export"})")["ok"]);
+  EXPECT_EQ(folder_.entries(), std::vector<std::string>{"three.pdb"});
+  // The next one comes to its end, with the view as it was when it was asked for.
+  expect_ok(R"({"command":"export","format":"png","path":"small.png","wait":false})");
+  const Json done = wait_until([](const Json& now) { return now["running"] == false; });
+  EXPECT_NE(done.value("path", std::string()).find("small.png"), std::string::npos);
+  EXPECT_FALSE(done.contains("error")) << done;
+  EXPECT_EQ(folder_.entries(), (std::vector<std::string>{"small.png", "three.pdb"}));
 }
 
 }  // namespace

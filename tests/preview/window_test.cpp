@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 #include <functional>
 #include <regex>
 #include <string>
@@ -145,6 +146,7 @@ TEST_F(WindowTest, ShowsThePictureItExports) {
   }
   ASSERT_TRUE(exported_once);
   ASSERT_EQ(recorded("export").front().value("path", std::string()), "view.png") << recorded("export").front().dump();
+  ASSERT_TRUE(happens([&] { return std::filesystem::exists(folder_.path() / "view.png"); }));
   const ScreenPicture exported = read_png(folder_.path() / "view.png");
   ASSERT_EQ(exported.size, picture_);
   EXPECT_GT(std::ranges::count_if(exported.pixels, [](const glm::u8vec3& p) { return p != glm::u8vec3(255); }), 50000);
@@ -173,7 +175,7 @@ TEST_F(WindowTest, MouseMovesTheCamera) {
 // The mouse speaks a hundred times a second; a slow picture is shown once, not once for each word.
 TEST_F(WindowTest, IsRedrawnForNewsAndNotForEveryMovement) {
   program_.emplace(kProgram, std::vector<std::string>{"preview", "/usr/share/pymol/data/demo/1tii.pdb", "--size",
-                                                      "800x600", "--device", "software"});
+                                                      "800x600", "--device", "software", "--record", record()});
   ASSERT_TRUE(happens([&] { return is_drawn(); })) << program_->err();
   screen_.act({"mousemove", "400", "400", "mousedown", "1"});
   std::vector<std::string> moves;
@@ -191,6 +193,8 @@ TEST_F(WindowTest, IsRedrawnForNewsAndNotForEveryMovement) {
   const int pictures = std::stoi(found[1]), redraws = std::stoi(found[2]);
   EXPECT_GE(pictures, 3) << line;
   EXPECT_LE(redraws, pictures + 60) << line;
+  EXPECT_LT(recorded("orbit").size(), 150u) << "movements that wait become one";
+  EXPECT_NEAR(sum("orbit", "dx"), 199.0 / 600.0, 0.02);
 }
 
 TEST_F(WindowTest, KeysAndPanelSendCommands) {
@@ -207,6 +211,17 @@ TEST_F(WindowTest, KeysAndPanelSendCommands) {
   EXPECT_EQ(recorded("probe").front()["radius"], 1.5);
   EXPECT_GT(recorded("probe").back()["radius"], 1.5);
   EXPECT_TRUE(recorded("orbit").empty());
+}
+
+// What is typed behind the key that opens the name is no command, however late the window draws the field.
+TEST_F(WindowTest, LettersForAFieldAreNoCommands) {
+  open();
+  screen_.act({"mousemove", "400", "400", "type", "--delay", "0", "eq"});
+  std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+  screen_.act({"mousemove", "400", "400", "click", "1", "type", "k"});
+  EXPECT_TRUE(happens([&] { return recorded("patch_kinds").size() == 1; }, 20)) << "q was a letter of the name";
+  screen_.act({"type", "q"});
+  EXPECT_EQ(program_->finish().exit_code, 0);
 }
 
 TEST_F(WindowTest, EndsWithALineWhenTheDisplayGoesAway) {

@@ -101,7 +101,9 @@ class ServedSession {
 
   /// False if there is nothing to show: it cannot be drawn, or a newer command stopped it.
   bool draw() {
-    const Quality quality = view_.due(Clock::now());
+    // However late a page asks, of what it has not seen at all there is a draft first.
+    const bool begun = picture_.number > 0 && picture_.revision == session_.revision();
+    const Quality due = view_.due(Clock::now()), quality = begun ? due : std::min(due, view_.at_once());
     if (!view_.draw(quality, [this] { return mailbox_.waiting_change(); })) {
       if (!view_.fault().empty())
         network_.send_to_all({{"event", "error"}, {"error", escaped(view_.fault())}, {"state", question("state")}});

@@ -10,7 +10,7 @@
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
-#include "app/preview/look_json.h"
+#include "core/color/color_schemes.h"
 #include "core/color/css_colors.h"
 #include "core/scene/cut.h"
 
@@ -26,6 +26,14 @@ std::string moved(Cut cut, double bound, bool turned) {
   return cut_text(cut);
 }
 
+/// Of the whole object, as one number; below 0: it has rules.
+float object_opacity(const Json& object) {
+  if (!object.contains("opacity")) return 1.0f;
+  const Json& opacity = object["opacity"];
+  if (!opacity.is_string() || opacity.get<std::string>().find('=') != std::string::npos) return -1.0f;
+  return parse_opacity_rule(opacity.get<std::string>()).opacity;
+}
+
 void same_line() { ImGui::SameLine(0.0f, 0.35f * ImGui::GetFontSize()); }
 
 }  // namespace
@@ -33,6 +41,7 @@ void same_line() { ImGui::SameLine(0.0f, 0.35f * ImGui::GetFontSize()); }
 void FigurePanel::draw() {
   atoms();
   rows();
+  objects();
   cuts();
   caps();
   legend();
@@ -51,6 +60,10 @@ void FigurePanel::atoms() {
     if (ImGui::Button(shape) && !empty)
       link_.send({{"command", "represent"}, {"as", shape}, {"selection", selection_}});
   }
+  if (ImGui::Button("surface") && !empty)
+    link_.send({{"command", "object"}, {"object", {{"selection", selection_}, {"color", hex_color(paint_)}}}});
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("A surface of their own, in this colour");
+  same_line();
   if (ImGui::Button("hide") && !empty) link_.send({{"command", "hide"}, {"selection", selection_}});
   same_line();
   if (ImGui::Button("only") && !empty) link_.send({{"command", "show"}, {"selection", selection_}});
@@ -91,6 +104,43 @@ void FigurePanel::rows() {
     if (ImGui::SliderFloat(fmt::format("##opacity{}", index).c_str(), &opacity, 0.0f, 1.0f, "%.2f",
                            ImGuiSliderFlags_AlwaysClamp))
       link_.send({{"command", "opacity"}, {"index", index}, {"opacity", std::round(100.0 * opacity) / 100.0}});
+    ++index;
+  }
+}
+
+void FigurePanel::objects() {
+  const Json state = link_.state();
+  const Json& objects = state["objects"];
+  if (!objects.empty() || state["representations"].size() > 0) {
+    bool shown = !state["surface_hidden"].get<bool>();
+    if (ImGui::Checkbox("the molecule's surface", &shown)) link_.send({{"command", "hide_surface"}, {"on", !shown}});
+  }
+  int index = 0;
+  for (const Json& object : objects) {
+    const auto change = [&](const char* key, const Json& value) {
+      Json changed = object;
+      value.is_null() ? static_cast<void>(changed.erase(key)) : static_cast<void>(changed[key] = value);
+      link_.send({{"command", "object"}, {"index", index}, {"object", changed}});
+    };
+    removed(fmt::format("{}: {}", object["representation"].get<std::string>(), object["selection"].get<std::string>()),
+            "objects", index);
+    const std::string word = object.contains("color") && object["color"].is_string() ? object["color"] : Json("");
+    glm::vec3 color = parse_hex_color(word).value_or(glm::vec3(0.85f));
+    if (ImGui::ColorEdit3(fmt::format("##object{}", index).c_str(), &color.x,
+                          ImGuiColorEditFlags_NoInputs | ImGuiColorEditFlags_NoLabel))
+      change("color", hex_color(color));
+    if (object["representation"] == "surface") {
+      same_line();
+      bool is_cut = object.contains("clip");
+      if (ImGui::Checkbox(fmt::format("cut##object{}", index).c_str(), &is_cut))
+        change("clip", is_cut ? Json("depth>0.5") : Json(nullptr));
+    }
+    same_line();
+    float opacity = object_opacity(object);
+    ImGui::SetNextItemWidth(-1.0f);
+    if (opacity >= 0.0f && ImGui::SliderFloat(fmt::format("##objectopacity{}", index).c_str(), &opacity, 0.0f, 1.0f,
+                                              "covers %.2f", ImGuiSliderFlags_AlwaysClamp))
+      change("opacity", opacity < 1.0f ? Json(fmt::format("{:.2f}", opacity)) : Json(nullptr));
     ++index;
   }
 }

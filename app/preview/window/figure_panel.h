@@ -20,6 +20,7 @@ class FigurePanel {
  private:
   void atoms();
   void rows();
+  void objects();
   void cuts();
   void caps();
   void legend();

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <utility>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -17,6 +18,7 @@
 #include "core/base/text.h"
 #include "core/color/color_maps.h"
 #include "core/color/color_schemes.h"
+#include "core/color/css_colors.h"
 #include "core/color/named_colors.h"
 
 namespace meniscus {
@@ -245,10 +247,12 @@ void Panel::exports() {
     const char *word, *shown, *ending;
   };
   constexpr Format kFormats[] = {{"png", "picture (PNG)", ".png"},
+                                 {"scene", "scene (JSON)", ".json"},
                                  {"povray", "POV-Ray scene", "_povray"},
                                  {"blender", "Blender file", ".mns"},
-                                 {"camera", "camera (JSON)", ".json"},
+                                 {"camera", "camera (JSON)", "_camera.json"},
                                  {"camera_path", "camera keys (JSON)", "_path.json"}};
+  take_wishes();
   heading("Export this view");
   label("As");
   if (ImGui::BeginCombo("##format", kFormats[format_].shown)) {
@@ -264,29 +268,67 @@ void Panel::exports() {
   ImGui::SameLine();
   ImGui::Checkbox("replace", &replace_);
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("Replace a file of this name");
-  if (format_ == 0) {
-    label("Width");
-    ImGui::InputInt("##width", &width_, 0);
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("Pixels; 0: as shown. The height follows");
-    label("Samples");
-    ImGui::SliderInt("##samples", &samples_, 0, 64, samples_ > 0 ? "%d a pixel" : "as shown",
-                     ImGuiSliderFlags_AlwaysClamp);
-    ImGui::Checkbox("transparent", &transparent_);
+  const std::string word = kFormats[format_].word;
+  if (word == "png" || word == "scene") picture_wishes();
+  if (word == "scene") {
+    if (ImGui::Button(fmt::format("Open {}###open", path).c_str())) link_.send({{"command", "open"}, {"path", path}});
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("A scene of this molecule; undo brings back what is shown now");
   }
   if (ImGui::Button("Copy command")) link_.send(wished({{"command", "render_command"}}));
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("The command that makes this picture, into the clipboard");
-  Json command{{"command", "export"}, {"format", kFormats[format_].word}, {"path", path}, {"force", replace_}};
-  if (go) link_.send(format_ == 0 ? wished(command) : command);
+  if (go && word == "scene") link_.send(wished({{"command", "save"}, {"path", path}, {"force", replace_}}));
+  if (go && word != "scene") {
+    const Json command{{"command", "export"}, {"format", word}, {"path", path}, {"force", replace_}, {"wait", false}};
+    link_.send(word == "png" ? wished(command) : command);
+  }
+  progress();
+}
+
+/// Those that a scene came with are in the fields until somebody types others.
+void Panel::take_wishes() {
+  const Json& wishes = link_.state()["export"];
+  if (wishes == wishes_) return;
+  wishes_ = wishes;
+  const auto number = [&](const char* key) { return wishes[key].is_number() ? wishes[key].get<int>() : 0; };
+  width_ = number("width");
+  height_ = number("height");
+  samples_ = number("samples");
+  transparent_ = wishes["transparent"];
+}
+
+void Panel::picture_wishes() {
+  label("Pixels");
+  int size[] = {width_, height_};
+  if (ImGui::InputInt2("##size", size)) {
+    width_ = size[0];
+    height_ = size[1];
+  }
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("Width and height; 0: as shown, or as the other side has it");
+  label("Samples");
+  ImGui::SliderInt("##samples", &samples_, 0, 64, samples_ > 0 ? "%d a pixel" : "as shown");
+  ImGui::Checkbox("transparent", &transparent_);
+}
+
+void Panel::progress() {
+  if (!exporting_.running()) return;
+  const Json& told = exporting_.told();
+  const std::string stage = told.value("stage", "begin");
+  ImGui::ProgressBar(static_cast<float>(told.value("share", 0.0)), {-5.0f * ImGui::GetFontSize(), 0.0f},
+                     fmt::format("{}, {:.0f} s", stage, told.value("seconds", 0.0)).c_str());
+  ImGui::SameLine();
+  if (ImGui::Button("Cancel")) link_.send({{"command", "cancel_export"}});
 }
 
 Json Panel::wished(Json command) const {
   if (samples_ > 0) command["samples"] = samples_;
-  if (transparent_) command["transparent"] = true;
-  if (width_ <= 0) return command;
+  command["transparent"] = transparent_;
+  if (width_ <= 0 && height_ <= 0) return command;
   constexpr int kLeast = 16, kMost = 16384;
   const double shape = link_.state()["height"].get<double>() / link_.state()["width"].get<double>();
-  command["width"] = std::clamp(width_, kLeast, kMost);
-  command["height"] = std::clamp(static_cast<int>(std::lround(width_ * shape)), kLeast, kMost);
+  const int width = width_ > 0 ? width_ : static_cast<int>(std::lround(height_ / shape));
+  const int height = height_ > 0 ? height_ : static_cast<int>(std::lround(width_ * shape));
+  command["width"] = std::clamp(width, kLeast, kMost);
+  command["height"] = std::clamp(height, kLeast, kMost);
   return command;
 }
 
@@ -337,15 +379,20 @@ void Panel::timing() {
   ImGui::EndTable();
 }
 
-void Panel::show_reply(const SessionReply& reply) {
-  line_is_fault_ = !reply.reply.value("ok", false);
-  if (line_is_fault_) line_ = reply.reply.value("error", "the command failed");
-  if (!line_is_fault_ && command_word(reply.command) == "export")
-    line_ = "written: " + reply.reply.value("path", std::string()) +
-            (reply.reply.contains("note") ? "; " + reply.reply["note"].get<std::string>() : "") +
-            (reply.reply.contains("render_with") ? "; render it with: " + reply.reply["render_with"].get<std::string>()
-                                                 : "");
-  if (!line_is_fault_ && command_word(reply.command) == "render_command") {
+void Panel::show_reply(const SessionReply& reply, double time) {
+  const std::string word = command_word(reply.command);
+  if (exporting_.take(reply, time) && exporting_.running()) return;
+  if (word == "export_state" && !reply.reply.contains("path")) return;
+  line_is_fault_ = !reply.reply.value("ok", false) || reply.reply.contains("error");
+  if (line_is_fault_) line_ = sentence_of(reply.reply.value("error", "the command failed"), word);
+  if (line_is_fault_) return;
+  if (word == "export" || word == "export_state" || word == "save") {
+    line_ = "written: " + reply.reply.value("path", std::string());
+    if (reply.reply.contains("note")) line_ += "; " + reply.reply["note"].get<std::string>();
+    if (reply.reply.contains("render_with"))
+      line_ += "; render it with: " + reply.reply["render_with"].get<std::string>();
+  }
+  if (word == "render_command") {
     ImGui::SetClipboardText(reply.reply["text"].get<std::string>().c_str());
     line_ = "the command is in the clipboard";
   }

@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "app/preview/window/export_question.h"
 #include "app/preview/window/figure_panel.h"
 #include "app/preview/window/session_link.h"
 
@@ -23,8 +24,10 @@ class Panel {
 
   /// An atom to tell about, as the command "pick" answers.
   void show_pick(const nlohmann::json& pick) { pick_ = pick; }
-  /// The answer to a command for which a line should stand in the panel: a fault, or where an export went.
-  void show_reply(const SessionReply& reply);
+  /// The answer to a command for which a line should stand in the panel: a fault, or where an export went. time: of the
+  /// window, seconds.
+  void show_reply(const SessionReply& reply, double time);
+  ExportQuestion& exporting() { return exporting_; }
   /// Puts the cursor into the field for the name of an export.
   void ask_for_name() { name_wanted_ = true; }
 
@@ -40,6 +43,10 @@ class Panel {
   void frames();
   void exports();
   void picked();
+  void picture_wishes();
+  void take_wishes();
+  void send_export(const std::string& path);
+  void progress();
   nlohmann::json wished(nlohmann::json command) const;
   void timing();
   void status();
@@ -51,7 +58,9 @@ class Panel {
   std::string name_ = "view";
   int format_ = 0;
   bool replace_ = false, transparent_ = false;
-  int samples_ = 0, width_ = 0;  ///< of an exported picture; 0: as shown
+  int samples_ = 0, width_ = 0, height_ = 0;  ///< of an exported picture; 0: as shown
+  nlohmann::json wishes_;                     ///< of the session, as they were taken last
+  ExportQuestion exporting_;
   bool name_wanted_ = false;
   std::string line_;  ///< about the last export or fault
   bool line_is_fault_ = false;

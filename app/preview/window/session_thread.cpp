@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "app/preview/command_json.h"
+#include "app/preview/merge_commands.h"
 
 namespace meniscus {
 namespace {
@@ -32,7 +33,12 @@ SessionThread::~SessionThread() {
 
 std::uint64_t SessionThread::post(nlohmann::json command) {
   const std::scoped_lock lock(mutex_);
-  queue_.push_back({++last_number_, std::move(command), {}});
+  ++last_number_;
+  // While a picture is made, movements become one; questions are told apart by their numbers.
+  if (!queue_.empty() && !is_question(command) && merge_commands(queue_.back().command, command))
+    queue_.back().number = last_number_;
+  else
+    queue_.push_back({last_number_, std::move(command), {}});
   posted_.notify_one();
   return last_number_;
 }

@@ -126,6 +126,7 @@ double PreviewWindow::patience() {
   if (link_.news().at_rest)
     if (const auto due = hover_.advance(link_, now)) seconds = std::min(seconds, *due);
   if (const auto due = clicked_.advance(link_, now)) seconds = std::min(seconds, *due);
+  if (const auto due = panel_.exporting().advance(link_, now)) seconds = std::min(seconds, *due);
   if (link_.state()["playing"].get<bool>()) seconds = std::min(seconds, std::max(next_frame_due_ - now, 1e-3));
   return seconds;
 }
@@ -133,7 +134,7 @@ double PreviewWindow::patience() {
 void PreviewWindow::note(std::uint64_t number, const Json& command) {
   latency_.sent(number, command, window_.seconds());
   const std::string word = command_word(command);
-  if (word == "pick" || word == "export") return;
+  if (word == "pick" || word == "export" || word == "export_state") return;
   hover_.forget();
   clicked_.stop();
 }
@@ -184,6 +185,7 @@ void PreviewWindow::take_key(const InputEvent& event) {
     case FaceAction::export_name:
       panel_shown_ = true;
       panel_.ask_for_name();
+      unsure_frames_ = 2;  // what is typed behind it is for the name
       break;
     case FaceAction::leave:
       if (event.kind == InputEvent::Kind::text || !std::exchange(help_, false))
@@ -212,7 +214,7 @@ void PreviewWindow::take_reply(const SessionReply& reply) {
   if (replaying() && options_.replied) options_.replied(reply.number - first_number_, reply.reply);
   const double now = window_.seconds();
   if (hover_.take(reply, now)) return;
-  if (!clicked_.take(reply, now)) return panel_.show_reply(reply);
+  if (!clicked_.take(reply, now)) return panel_.show_reply(reply, now);
   panel_.show_pick(clicked_.answer());
 }
 

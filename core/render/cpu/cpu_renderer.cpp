@@ -30,7 +30,12 @@ class Interruption {
     return came_;
   }
 
+  /// How many of `samples` of this block are cast, from 0; on the thread that is asked.
+  void note(int sample, int samples) { block_share_ = static_cast<double>(sample) / samples; }
+  double block_share() const { return block_share_; }
+
  private:
+  double block_share_ = 0.0;
   const std::function<bool()>& stop_;
   const std::thread::id asked_ = std::this_thread::get_id();
   std::atomic<bool> came_ = false;
@@ -44,6 +49,30 @@ constexpr ray_cast::Hit kNoHit{glm::vec3(0.0f), 0.0f, ray_cast::kNoPrimitive, ra
 int block_edge(const RenderSettings& settings) {
   return std::max(settings.block_edge / kTileEdge * kTileEdge, kTileEdge);
 }
+
+/// Tells how far a picture is that is cast block by block.
+class BlockProgress {
+ public:
+  BlockProgress(const RenderSettings& settings, std::size_t blocks) : blocks_(static_cast<double>(blocks)) {
+    if (!settings.progress) return;
+    tell_ = [this, &settings] {
+      settings.progress(std::min((done_ + interruption_.block_share()) / blocks_, 1.0));
+      return false;
+    };
+  }
+
+  /// Of the block at work.
+  Interruption& interruption() { return interruption_; }
+  void end_block() {
+    ++done_;
+    interruption_.note(0, 1);
+  }
+
+ private:
+  double blocks_, done_ = 0.0;
+  std::function<bool()> tell_;
+  Interruption interruption_{tell_};
+};
 
 /// Calls work(n) for n < count on all threads until an interruption comes.
 template <typename Work>
@@ -101,15 +130,16 @@ Framebuffer CpuRenderer::render(const Surface& surface, const Coloring& coloring
   pack(surface, coloring, camera, settings);
   const HitSource source{&surface, scene_.packed.primitives};
   PictureCollector collector(frame_, settings, names_of({&source, 1}));
-  const std::function<bool()> never;
-  Interruption interruption(never);
   const std::vector<PictureBlock> blocks = picture_blocks(settings.size, block_edge(settings));
-  if (needs_shade_map(blocks.front(), settings)) cast_shade_map(shade_map_frame(frame_), settings, interruption);
+  BlockProgress progress(settings, blocks.size());
+  if (needs_shade_map(blocks.front(), settings))
+    cast_shade_map(shade_map_frame(frame_), settings, progress.interruption());
   for (const PictureBlock& inner : blocks) {
     const PictureBlock block = with_neighbors(inner, look_reach(settings.look, settings.size), settings.size);
-    cast({frame_, block, settings, settings.aovs}, interruption);
+    cast({frame_, block, settings, settings.aovs}, progress.interruption());
     collector.add_colors(inner, block, sums_);
     if (settings.aovs) collector.add_hits(inner, block, hits_);
+    progress.end_block();
   }
   return collector.take();
 }
@@ -142,19 +172,20 @@ Framebuffer CpuRenderer::render_copies(std::span<const SurfaceObject> objects, c
   PictureCollector collector(frame_, settings, [&](const ray_cast::Hit& hit, const glm::dvec3& point) {
     return copies.names_of(hit, scene_.packed.primitives[hit.primitive], point);
   });
-  const std::function<bool()> never;
-  Interruption interruption(never);
   const std::vector<PictureBlock> blocks = picture_blocks(settings.size, block_edge(settings));
-  if (needs_shade_map(blocks.front(), settings)) cast_shade_map_of_copies(objects, placement, settings, interruption);
+  BlockProgress progress(settings, blocks.size());
+  if (needs_shade_map(blocks.front(), settings))
+    cast_shade_map_of_copies(objects, placement, settings, progress.interruption());
   for (const PictureBlock& inner : blocks) {
     const PictureBlock block = with_neighbors(inner, look_reach(settings.look, settings.size), settings.size);
     {
       const auto stage = clock_.stage("visible copies");
       copies.find(block, settings.samples, settings.look, scene_);
     }
-    cast({frame_, block, settings, settings.aovs}, interruption);
+    cast({frame_, block, settings, settings.aovs}, progress.interruption());
     collector.add_colors(inner, block, sums_);
     if (settings.aovs) collector.add_hits(inner, block, hits_);
+    progress.end_block();
   }
   return collector.take();
 }
@@ -193,15 +224,16 @@ Framebuffer CpuRenderer::render(std::span<const PictureObject> objects, const Ca
   std::vector<HitSource> sources;
   for (std::size_t n = 0; n < objects.size(); ++n) sources.push_back(layers->source(n));
   PictureCollector collector(frame_, settings, names_of(sources), sources.size() > 1);
-  const std::function<bool()> never;
-  Interruption interruption(never);
   const std::vector<PictureBlock> blocks = picture_blocks(settings.size, block_edge(settings));
-  if (needs_shade_map(blocks.front(), finish)) cast_shade_map(shade_map_frame(frame_), finish, interruption, &*layers);
+  BlockProgress progress(settings, blocks.size());
+  if (needs_shade_map(blocks.front(), finish))
+    cast_shade_map(shade_map_frame(frame_), finish, progress.interruption(), &*layers);
   for (const PictureBlock& inner : blocks) {
     const PictureBlock block = with_neighbors(inner, look_reach(settings.look, settings.size), settings.size);
-    cast({frame_, block, finish, settings.aovs, &*layers}, interruption);
+    cast({frame_, block, finish, settings.aovs, &*layers}, progress.interruption());
     collector.add_colors(inner, block, sums_);
     if (settings.aovs) collector.add_hits(inner, block, hits_);
+    progress.end_block();
   }
   return collector.take();
 }
@@ -332,6 +364,7 @@ void CpuRenderer::cast(const BlockTask& task, Interruption& interruption) {
   if (look.has_effects()) samples_.resize(pixel_count, has_parts, task.layers != nullptr);
   if (look.has_effects() && has_front) front_.resize(pixel_count, has_parts, false);
   for (int first = 0; first < task.settings.samples && !interruption.came(); first += step) {
+    interruption.note(first, task.settings.samples);
     cast_samples(first, std::min(step, task.settings.samples - first), task, interruption);
     if (!look.has_effects()) continue;
     if (look.ambient_occlusion > 0.0f && first == 0 && holds_shade_map(task.block, task.settings.size)) {

@@ -53,6 +53,7 @@ export function figure_controls(command, say) {
     const [word, values] = {
       hide: ["hide", { selection }], only: ["show", { selection }], zoom: ["zoom_to", { selection }],
       paint: ["paint", { selection, color: $("paint").value }], fade: ["opacity", { selection, opacity: 0.4 }],
+      surface: ["object", { object: { selection, color: $("paint").value } }],
     }[act] ?? ["represent", { as: act, selection }];
     fault("");
     const reply = await command(word, values, fault);
@@ -65,6 +66,8 @@ export function figure_controls(command, say) {
       const bound = a < 0 ? 0.5 : Math.round(5 * (latest.low[a] + latest.high[a])) / 10;
       command("cut", { plane: `${axis}>${bound}` });
     });
+  $("surface-shown").addEventListener("change", (event) =>
+    command("hide_surface", { on: !event.target.checked }).then((reply) => { if (!reply) event.target.checked = true; }));
   $("film").addEventListener("change", (event) => command("film_opacity", { on: event.target.checked }));
   $("cap").addEventListener("change", (event) =>
     command("cap", { color: event.target.value === "own" ? $("cap-color").value : event.target.value }));
@@ -89,6 +92,27 @@ export function figure_controls(command, say) {
     element("li", {}, element("span", { textContent: what, title: what }), ...more,
       remove_button(what, () => command("remove", { of, index })));
 
+  /// An object with its colour, its opacity if that is one number, and a surface's cut along the view.
+  function object_chip(object, index) {
+    const what = `${object.representation}: ${object.selection}`;
+    const change = (key, value) => command("object", { index, object: { ...latest.objects[index], [key]: value } });
+    const more = [];
+    const colour = element("input", { type: "color", value: /^#/.test(object.color ?? "") ? object.color : "#d8d8d0" });
+    colour.setAttribute("aria-label", `Colour of ${what}`);
+    colour.addEventListener("input", () => change("color", colour.value));
+    more.push(colour);
+    if (object.opacity === undefined || !/=/.test(object.opacity))
+      more.push(slider(`Opacity of ${what}`, { min: 0, max: 1, step: 0.05, value: object.opacity ?? 1 },
+        (value) => change("opacity", String(value))));
+    if (object.representation === "surface" && (object.clip === undefined || /^depth>/.test(object.clip))) {
+      const cut = slider(`Cut of ${what}`, { min: 0, max: 1, step: 0.01, value: (object.clip ?? "depth>0").slice(6) },
+        (value) => change("clip", value > 0 ? `depth>${value}` : []));
+      cut.title = "Cut along the view";
+      more.push(cut);
+    }
+    return chip(what, "objects", index, ...more);
+  }
+
   function chips(state) {
     const list = [];
     if (state.show !== null) {
@@ -97,6 +121,7 @@ export function figure_controls(command, say) {
         remove_button(what, () => command("show"))));
     }
     state.representations.forEach(({ as, selection }, n) => list.push(chip(`${as}: ${selection}`, "representations", n)));
+    state.objects.forEach((object, n) => list.push(object_chip(object, n)));
     (state.color.rules ?? []).forEach((rule, n) => {
       const at = rule.lastIndexOf("=");
       list.push(chip(`${rule.slice(at + 1)}: ${rule.slice(0, at)}`, "rules", n));
@@ -137,13 +162,15 @@ export function figure_controls(command, say) {
 
   return function show(state) {
     latest = state;
-    const shape = JSON.stringify([state.show, state.representations, state.color.rules, state.opacities.map((o) => o.selection),
+    const shape = JSON.stringify([state.show, state.representations, state.objects.map((o) => [o.representation, o.selection]), state.color.rules, state.opacities.map((o) => o.selection),
       state.cuts.map((plane) => plane.match(kPlane)?.slice(1, 3) ?? plane), state.views]);
     if (shape !== known) {
       known = shape;
       $("chips").replaceChildren(...chips(state));
       $("views").replaceChildren(...views(state));
     }
+    $("surface-shown").checked = !state.surface_hidden;
+    $("surface-shown").parentElement.hidden = state.representations.length + state.objects.length === 0;
     $("film").checked = state.film_opacity;
     $("film").parentElement.hidden = state.opacities.length === 0;
     const named = [...$("cap").options].some((option) => option.value === state.cap.color);

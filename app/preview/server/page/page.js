@@ -21,6 +21,7 @@ const server = new Connection({
   welcome: async (message) => {
     set_role(message.controls);
     server.ask({ command: "choices" }).then(fill_choices);
+    server.ask({ command: "export_state" }).then((told) => { if (told.running) follow_export(); });
     await fit();  // before a picture is asked for, which would have another size
   },
   role: (message) => { set_role(message.controls); fit(); },
@@ -33,9 +34,12 @@ const server = new Connection({
 });
 
 const kStep = 700;  // ms without a command, after which the next is a step of its own for undo
-const tells_only = new Set(["pick", "export", "render_command", "end_step", "undo", "redo"]);
+const tells_only = new Set(["pick", "export", "export_state", "cancel_export", "save", "render_command", "end_step", "undo", "redo"]);
 const changes_state = new Set(["key", "save_view", "forget_view", "play", "pause"]);
 let last_change = 0;
+
+/// What an error says, without the word of its command, which is a program's and no reader's.
+const sentence_of = (error, word) => error.startsWith(`${word}: `) ? error.slice(word.length + 2) : error;
 
 /// Carries out a command; a refusal is said, to the controls it came from if they can tell it. Returns the reply, or
 /// null.
@@ -51,7 +55,7 @@ async function command(word, values = {}, refuse = (text) => say(text, true)) {
   --outstanding;
   newest = reply.revision ?? newest;
   note_rest();
-  if (!reply.ok && reply.error) refuse(reply.error);
+  if (!reply.ok && reply.error) refuse(sentence_of(reply.error, word));
   if (reply.ok && reply.revision === undefined && changes_state.has(word))
     server.ask({ command: "state" }).then((next) => { if (next.ok) apply_state(next); });  // there is no new picture
   return reply.ok ? reply : null;
@@ -183,6 +187,7 @@ function apply_state(next) {
   $("map").options[0].text = next.color.own_map ? "the file's" : "its own";
   set_value($("preset"), next.preset);
   show_figure(next);
+  take_wishes(next);
   $("kinds").checked = next.patch_kinds;
   $("kinds-key").hidden = !(next.patch_kinds || next.color.scheme === "kind");
   set_value($("projection"), next.camera.projection);
@@ -333,17 +338,53 @@ $("export-form").addEventListener("submit", async (event) => {
   event.preventDefault();
   const format = event.submitter?.value ?? "png";
   const ending = { png: ".png", povray: "", blender: ".mns" }[format];
-  say("Writing …", false, true);
   const reply = await command("export", { format, path: $("export-name").value + ending, force: $("export-force").checked,
-    ...wishes() }, (text) => say_anew(text, true));
-  if (reply) say_anew([`Written: ${reply.path}`, reply.note, reply.render_with && `render it with: ${reply.render_with}`]
-    .filter(Boolean).join("; "));
+    wait: false, ...wishes() });
+  if (reply) follow_export();
 });
+
+/// Shows how far the export is until it is done; the picture can be turned meanwhile.
+async function follow_export() {
+  $("job").hidden = false;
+  for (const button of document.querySelectorAll("#export-form button")) button.disabled = true;
+  let told = { running: true };
+  while (told.running) {
+    told = await server.ask({ command: "export_state" });
+    $("job-text").textContent = `Writing ${told.path?.split("/").pop() ?? ""}: ${told.stage ?? "begin"}, ${Math.round(told.seconds ?? 0)} s`;
+    $("job-share").value = told.share ?? 0;
+    if (told.running) await new Promise((resolve) => setTimeout(resolve, 250));
+  }
+  $("job").hidden = true;
+  for (const button of document.querySelectorAll("#export-form button")) button.disabled = false;
+  if (told.error) say(sentence_of(told.error, "export"), true);
+  else if (told.path) say([`Written: ${told.path}`, told.note, told.render_with && `render it with: ${told.render_with}`]
+    .filter(Boolean).join("; "));
+}
+$("job-cancel").addEventListener("click", () => command("cancel_export"));
+
+$("scene-form").addEventListener("submit", async (event) => {
+  event.preventDefault();
+  const path = `${$("scene-name").value}.json`;
+  const opens = event.submitter?.value === "open";
+  const reply = opens ? await command("open", { path })
+    : await command("save", { path, force: $("export-force").checked, ...wishes() });
+  if (reply) say(`${opens ? "Opened" : "Written"}: ${reply.path}`);
+});
+
+/// What a scene asks of pictures, until somebody types something else.
+let taken_wishes = "";
+function take_wishes(next) {
+  const told = JSON.stringify(next.export);
+  if (told === taken_wishes) return;
+  taken_wishes = told;
+  for (const key of ["width", "height", "samples"]) $(`export-${key}`).value = next.export[key] ?? "";
+  $("export-transparent").checked = next.export.transparent;
+}
 
 /// What is asked of an exported picture.
 function wishes() {
   const wish = { samples: $("export-samples").valueAsNumber || state.samples };
-  if ($("export-transparent").checked) wish.transparent = true;
+  wish.transparent = $("export-transparent").checked;
   const [width, height] = [$("export-width").valueAsNumber, $("export-height").valueAsNumber];
   if (width) wish.width = width;
   if (height) wish.height = height;

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The commands that colour: schemes, rules, opacity, the look and the legend.
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "app/preview/command_values.h"
+#include "app/preview/look_json.h"
+#include "app/preview/session.h"
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/color/css_colors.h"
+
+namespace meniscus {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr std::size_t kMostRules = 100;
+
+/// "rules": a list of texts, as --color reads them.
+std::vector<ColorRule> rules_of(const CommandReader& command) {
+  std::vector<ColorRule> rules;
+  const Json& texts = command.value("rules");
+  if (!texts.is_array() || texts.size() > kMostRules)
+    throw RequestError(
+        fmt::format("color: \"rules\" is a list of at most {} texts such as \"ligand=red\"", kMostRules));
+  for (const Json& text : texts) {
+    if (!text.is_string()) throw RequestError("color: each of \"rules\" is a text such as \"ligand=red\"");
+    try {
+      rules.push_back(parse_color_rule(text.get<std::string>()));
+    } catch (const RequestError& error) {
+      throw RequestError(std::string("color: ") + error.what());
+    }
+  }
+  return rules;
+}
+
+/// "#rrggbb" or a name.
+glm::vec3 named_color(const CommandReader& command, const char* key) {
+  const std::optional<glm::vec3> color = parse_color(command.text(key));
+  if (!color)
+    throw RequestError(fmt::format("{}: \"{}\" is {}; it must be a colour's name such as red, or #rrggbb",
+                                   command.word(), key, in_quotes(command.text(key))));
+  return *color;
+}
+
+/// The scale of a scheme: as the command says, else its own.
+void read_scale(const CommandReader& command, ColorScheme& color) {
+  for (const char* key : {"map", "range", "missing"})
+    if (command.has(key) && !color.uses_scale())
+      throw RequestError(
+          fmt::format("color: \"{}\" is for colours by a number, not {}", key, in_quotes(command.text("scheme"))));
+  if (command.has("map")) {
+    color.map = parse_color_map(command.text("map"));
+    color.own_map.reset();
+    if (!color.map) throw RequestError("color: " + in_quotes(command.text("map")) + " is no map; see meniscus colors");
+  }
+  if (command.has("range")) {
+    const std::string text = command.text("range");
+    color.range = parse_color_range(text);
+    if (!color.range && text != "auto")
+      throw RequestError("color: \"range\" is " + in_quotes(text) + "; it must be auto or lo:hi with lo < hi");
+  }
+  if (command.has("missing")) color.missing = named_color(command, "missing");
+}
+
+/// Rules and opacities of before stay unless the command has others; what a file said stays for its scheme.
+ColorScheme scheme_of(const CommandReader& command, const ColorScheme& before, const ColorScheme& first) {
+  const std::string word = command.text("scheme");
+  const std::optional<ColorScheme> scheme = parse_color_scheme(word);
+  if (!scheme) throw RequestError("color: " + in_quotes(word) + " is none of " + color_scheme_words());
+  ColorScheme color = *scheme;
+  color.rules = command.has("rules") ? rules_of(command) : before.rules;
+  require_previewed(color);
+  if (color.by == ColorScheme::By::kind && !color.rules.empty())
+    throw RequestError("color: \"kind\" colours patches, rules colour atoms; send \"rules\": [] with it");
+  color.opacities = before.opacities;
+  if (color.uses_file() && first.file.empty())
+    throw RequestError("color: \"file\" needs numbers; begin the preview with --color-by-file FILE");
+  color.set_numbers(first.file);
+  if (color.uses_scale()) color.own_map = first.own_map;
+  color.title = first.title;
+  color.unit = first.unit;
+  if (color.by == first.by && color.has_scale()) {  // as it was begun with
+    color.map = first.map;
+    color.range = first.range;
+    color.missing = first.missing;
+  }
+  read_scale(command, color);
+  color.share_scale();
+  return color;
+}
+
+}  // namespace
+
+Json PreviewSession::set_color(const CommandReader& command) {
+  PreviewFigure next = view_;
+  next.color = scheme_of(command, view_.color, first_color_);
+  become(std::move(next), Changed::colors);
+  return Json::object();
+}
+
+Json PreviewSession::paint(const CommandReader& command) {
+  PreviewFigure next = view_;
+  const Selection selection = selection_of(command);
+  if (next.color.by == ColorScheme::By::kind)
+    throw RequestError("paint: kinds of patch are coloured now, not atoms; choose another scheme first");
+  if (next.color.rules.size() == kMostRules)
+    throw RequestError(fmt::format("paint: at most {} selections have colours of their own; remove one", kMostRules));
+  const std::string rule = selection.text() + "=" + command.text("color");
+  next.color.rules.push_back(naming(command, [&] { return parse_color_rule(rule); }));
+  require_previewed(next.color);
+  if (next.color.uses_file() && first_color_.file.empty())
+    throw RequestError("paint: \"file\" needs numbers; begin the preview with --color-by-file FILE");
+  next.color.set_numbers(first_color_.file);
+  next.color.share_scale();
+  become(std::move(next), Changed::colors);
+  return {{"index", view_.color.rules.size() - 1}};
+}
+
+Json PreviewSession::set_patch_kinds(const CommandReader& command) {
+  PreviewFigure next = view_;
+  next.patch_kinds = command.flag("on");
+  become(std::move(next), Changed::colors);
+  return Json::object();
+}
+
+Json PreviewSession::set_opacity(const CommandReader& command) {
+  PreviewFigure next = view_;
+  std::vector<OpacityRule>& rules = next.color.opacities;
+  OpacityRule rule;
+  rule.opacity = static_cast<float>(command.number("opacity", 0.0, 1.0));
+  std::size_t index = rules.size();
+  if (command.has("index")) {
+    index = static_cast<std::size_t>(command.integer("index", 0, static_cast<int>(rules.size()) - 1));
+    rules[index].opacity = rule.opacity;
+  } else {
+    if (command.has("selection")) rule.atoms = selection_of(command);
+    const auto same = std::ranges::find_if(rules, [&](const OpacityRule& known) {
+      return known.atoms.has_value() == rule.atoms.has_value() &&
+             (!rule.atoms || known.atoms->text() == rule.atoms->text());
+    });
+    if (same == rules.end() && rules.size() == kMostRules)
+      throw RequestError(fmt::format("opacity: at most {} selections have one of their own; remove one", kMostRules));
+    if (same != rules.end()) rules.erase(same);  // the last counts
+    rules.push_back(rule);
+    index = rules.size() - 1;
+  }
+  become(std::move(next), Changed::colors);
+  return {{"index", index}};
+}
+
+Json PreviewSession::set_film_opacity(const CommandReader& command) {
+  PreviewFigure next = view_;
+  next.figure.thickens = command.flag("on");
+  become(std::move(next), Changed::cuts);
+  return Json::object();
+}
+
+Json PreviewSession::set_cap(const CommandReader& command) {
+  PreviewFigure next = view_;
+  CapStyle& cap = next.figure.cap;
+  if (command.has("color")) {
+    cap.color.reset();
+    if (command.text("color") != "atom") cap.color = named_color(command, "color");
+  }
+  cap.hatching = command.number_or(cap.hatching, "hatching", 0.0, 1000.0);
+  become(std::move(next), Changed::cuts);
+  return Json::object();
+}
+
+Json PreviewSession::set_look(const CommandReader& command) {
+  PreviewFigure next = view_;
+  next.look = changed_look(view_.look, command);
+  next.background = changed_background(view_.background, command);
+  become(std::move(next), Changed::view);
+  return Json::object();
+}
+
+Json PreviewSession::set_preset(const CommandReader& command) {
+  const std::size_t preset = command.choice("preset", {"publication", "cover", "flat", "soft", "classic"});
+  PreviewFigure next = view_;
+  next.look = {.preset = static_cast<LookPreset>(preset)};
+  become(std::move(next), Changed::view);
+  return Json::object();
+}
+
+Json PreviewSession::set_legend(const CommandReader& command) {
+  constexpr std::size_t kLongestTitle = 200;
+  PreviewFigure next = view_;
+  LegendStyle& style = next.legend_style;
+  next.legend = command.flag_or(next.legend, "on");
+  if (command.has("title")) {
+    style.title.reset();
+    if (!command.value("title").is_null()) style.title = shortened(command.text("title"), kLongestTitle);
+  }
+  if (command.has("letters")) {
+    style.letters.reset();
+    if (!command.value("letters").is_null()) style.letters = command.integer("letters", 6, 1000);
+  }
+  if (command.has("place"))
+    style.place = static_cast<LegendStyle::Place>(command.choice("place", {"auto", "right", "below"}));
+  const ColorScheme color = next.told_scheme();
+  if (next.legend && color.by == ColorScheme::By::fixed && color.rules.empty())
+    throw RequestError("legend: there is nothing to explain where all is of one colour; choose another scheme first");
+  become(std::move(next), Changed::view);
+  if (view_.overview) look_at_all();
+  return Json::object();
+}
+
+}  // namespace meniscus
