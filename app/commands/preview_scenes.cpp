@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Molecules read again for a figure, cameras aimed as render aims them, scenes saved and opened.
 #include <algorithm>
+#include <numeric>
 #include <string_view>
 #include <utility>
 
@@ -15,6 +16,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/color/color_key.h"
+#include "core/queries/surface_object.h"
 #include "core/scene/frame_run.h"
 #include "core/scene/molecule.h"
 #include "core/scene/view_aim.h"
@@ -62,7 +64,20 @@ Camera aimed_camera(const PreviewCommand& command, const std::optional<Camera>& 
     layout.width = legend.molecule_size().x;
     layout.height = legend.molecule_size().y;
   }
-  return ViewAim(layout, command.molecule.show, structure).camera(layout, given, balls_of(structure));
+  // Framing needs atoms and their copies alone.
+  const std::vector<Ball> balls = balls_of(structure);
+  std::vector<SurfaceObject> objects;
+  const auto add = [&](const std::vector<std::uint32_t>& atoms) -> SurfaceObject& {
+    SurfaceObject& object = objects.emplace_back();
+    for (const std::uint32_t atom : atoms) object.surface.atoms.push_back(balls[atom]);
+    object.atom = atoms;
+    return object;
+  };
+  for (const Instances& group : structure.instances) add(group.atoms).copies = group.motions;
+  std::vector<std::uint32_t> all(balls.size());
+  std::iota(all.begin(), all.end(), 0u);
+  if (objects.empty()) add(all);
+  return ViewAim(layout, command.molecule.show, structure).camera(layout, given, objects);
 }
 
 void save_render_scene(const std::vector<std::string>& words, const ExportTarget& target) {

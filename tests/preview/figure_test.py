@@ -166,9 +166,9 @@ class Figures(unittest.TestCase):
             {"representation": "sticks", "selection": "resid 40-60 and chain A", "color": "element"}],
         "look": {"preset": "cover", "silhouettes": "0.6pt", "depth_cue": 0.3},
         "camera": {"view": "top", "turn": ["y30", "x-10"], "zoom_to": "chain A or chain C"},
-        "image": {"width": "30mm", "dpi": 200, "samples": 3, "background": "#eef2ff"},
+        "image": {"width": "60mm", "dpi": 200, "samples": 3, "background": "#eef2ff"},
         "legend": {"shown": True, "place": "below", "size": "5pt"},
-        "annotations": {"panel": "b", "scale_bar": 20, "labels": "chain C and resid 200=here"}}
+        "annotations": {"panel": "b", "scale_bar": 20, "labels": "chain A and resid 20=here"}}
 
     def scene(self, name, scene):
         with open(self.path(name), "w") as file:

@@ -306,12 +306,14 @@ class Page(unittest.IsolatedAsyncioTestCase):
             await page.click("#surface-shown")
             state = await self.state(page)
             self.assertTrue(state["surface_hidden"])
-            self.assertEqual(state["objects"][0]["color"], "#e69f00")
+            self.assertEqual(state["objects"], [{"representation": "surface", "selection": "chain C", "color": "#e69f00",
+                                                 "opacity": "0.5", "clip": "depth>0.4"}])
             await self.shoot(page, "objects.png")
             # The scene that is saved opens again, after all of it was undone.
             await page.click("#scene-form button[value=save]")
             await page.until("document.getElementById('message').textContent.includes('Written')")
-            scene = json.load(open(self.path("figure.json")))
+            with open(self.path("figure.json")) as file:
+                scene = json.load(file)
             self.assertEqual([o["representation"] for o in scene["objects"]], ["surface"] * len(scene["objects"]))
             for _ in range(20):
                 if (await self.state(page))["undo"] == 0:

@@ -335,7 +335,7 @@ TEST_F(FigureSession, WhatItCannotShowIsRefusedInOneLine) {
     EXPECT_EQ(reply.value("error", std::string()).find('\n'), std::string::npos) << reply;
     EXPECT_EQ(state(), before) << command;
   };
-  for (const char* scheme : {"buried", "rmsf", "component", "volume"})
+  for (const char* scheme : {"buried", "rmsf", "component"})
     refused(std::string(R"({"command":"color","scheme":")") + scheme + "\"}", "needs more than atoms");
   refused(R"({"command":"paint","selection":"all","color":"buried"})", "needs more than atoms");
   refused(R"({"command":"object","object":{"selection":"ligand","color":"rmsf"}})", "needs more than atoms");

@@ -95,7 +95,10 @@ export function figure_controls(command, say) {
   /// An object with its colour, its opacity if that is one number, and a surface's cut along the view.
   function object_chip(object, index) {
     const what = `${object.representation}: ${object.selection}`;
-    const change = (key, value) => command("object", { index, object: { ...latest.objects[index], [key]: value } });
+    const change = (key, value) => {
+      latest.objects[index] = { ...latest.objects[index], [key]: value };  // the next change may come before the reply
+      command("object", { index, object: latest.objects[index] });
+    };
     const more = [];
     const colour = element("input", { type: "color", value: /^#/.test(object.color ?? "") ? object.color : "#d8d8d0" });
     colour.setAttribute("aria-label", `Colour of ${what}`);
