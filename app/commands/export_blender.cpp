@@ -120,9 +120,9 @@ void add_more(const BlenderCommand& command, const Figure& figure, const Camera&
   Structure shown;
   shown.atoms = shown_atoms(figure.molecule.structure);
   const std::vector<Ball> balls = placed_balls(figure.molecule.objects);
-  made.reserve(figure.objects.size());  // objects refer to them
-  for (std::size_t n = 0; n < figure.objects.size(); ++n) {
-    const FigureObject& object = figure.objects[n];
+  made.reserve(figure.beside.objects.size());  // objects refer to them
+  for (std::size_t n = 0; n < figure.beside.objects.size(); ++n) {
+    const FigureObject& object = figure.beside.objects[n];
     if (!object.surface && object.shapes.empty()) continue;
     const PictureObject asked = picture_object(object, command.figure.objects[n], camera, balls);
     std::vector<std::uint32_t> cap_plane;
@@ -262,12 +262,12 @@ void run(const BlenderCommand& command) {
   auto [loaded, aim] = load_aimed_molecule(command.molecule, command.picture, given);
   Figure figure = make_figure(std::move(loaded), command.figure);
   Molecule& molecule = figure.molecule;
-  molecule.beside = std::move(figure.shapes);
+  molecule.beside = std::move(figure.beside.shapes);
   const std::vector<Ball> balls = shown_balls(molecule);
   const Camera camera = aim.camera(command.picture, given, molecule.objects);
   const double tolerance = tolerance_of(command.mesh, command.picture.size(), camera, balls);
   const blender::CutFile cut = cut_file(command, camera, molecule.objects);
-  const bool alone = molecule.beside.empty() && figure.objects.empty();
+  const bool alone = molecule.beside.empty() && figure.beside.objects.empty();
   std::vector<blender::MeshedObject> objects;
   if (!command.figure.hides_surface)
     objects = cut.planes.empty() ? whole_objects(command, molecule, tolerance, !alone)

@@ -93,8 +93,8 @@ std::vector<povray::SceneColor> colors_of_run(const PovrayCommand& command, cons
 std::vector<povray::SceneObject> more_objects(const Figure& figure, const FigureRequest& request, const Camera& camera,
                                               std::span<const Ball> balls) {
   std::vector<povray::SceneObject> more;
-  for (std::size_t n = 0; n < figure.objects.size(); ++n) {
-    const FigureObject& object = figure.objects[n];
+  for (std::size_t n = 0; n < figure.beside.objects.size(); ++n) {
+    const FigureObject& object = figure.beside.objects[n];
     if (!object.surface && object.shapes.empty()) continue;
     const PictureObject shown = picture_object(object, request.objects[n], camera, balls);
     povray::SceneObject& made = more.emplace_back();
@@ -176,10 +176,10 @@ void run(const PovrayCommand& command) {
   povray::SceneOptions options = scene_options(command);
   options.colors = key_of(figure.molecule);
   const Camera camera = aim.camera(command.picture, given, objects);
-  options.shapes = &figure.shapes;
+  options.shapes = &figure.beside.shapes;
   options.objects = more_objects(figure, command.figure, camera, placed_balls(objects));
   options.cut.planes = planes_of(command, camera, objects);
-  if (command.figure.hides_surface && figure.shapes.empty() && options.objects.empty())
+  if (command.figure.hides_surface && figure.beside.shapes.empty() && options.objects.empty())
     throw RequestError("the surface is not shown, and there is nothing beside it");
   const povray::SceneReport report = write_scene(
       command.figure.hides_surface ? std::span<const SurfaceObject>{} : objects, camera, options, command.output.path);
