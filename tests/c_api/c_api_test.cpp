@@ -239,9 +239,16 @@ TEST(CApi, GradientsOfWhatHasThem) {
   const Computer made = computer();
   const SurfaceOf surface = computed(made.get(), balls);
   double gradient[6], weighted[6];
+  const double step = 1e-4, accessible = testing::kCarbon + 1.4;
+  const SurfaceOf nearer = computed(made.get(), testing::two_atoms(4.0 - step));
+  const SurfaceOf farther = computed(made.get(), testing::two_atoms(4.0 + step));
+  const meniscus_summary less = summary_of(nearer), more = summary_of(farther);
+  // Of the accessible surface, two caps of height R + d / 2 on either side: 2 pi R and pi (R^2 - d^2 / 4).
+  const double along_axis[] = {(more.area - less.area) / (2 * step), (more.volume - less.volume) / (2 * step),
+                               2 * pi * accessible, pi * (accessible * accessible - 4.0)};
   for (std::int32_t quantity = MENISCUS_GRADIENT_AREA; quantity <= MENISCUS_GRADIENT_SAS_VOLUME; ++quantity) {
     ASSERT_EQ(meniscus_surface_gradient(surface.get(), quantity, nullptr, gradient), MENISCUS_OK);
-    EXPECT_GT(gradient[3], 1.0) << quantity;
+    EXPECT_NEAR(gradient[3], along_axis[quantity], 1e-6) << quantity;
     EXPECT_NEAR(gradient[0], -gradient[3], 1e-12);
   }
   const double weights[2] = {2.0, 2.0}, wrong[2] = {1.0, std::nan("")};
