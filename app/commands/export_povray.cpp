@@ -116,6 +116,10 @@ void run_sequence(const PovrayCommand& command) {
   tell_run(command.molecule, frames);
   const RunFraming framing = run_framing(command.picture, command.molecule.show, command.run_camera, cameras, frames);
   const ColorScheme scheme = color_of(command.molecule);
+  if (scheme.uses_frames())
+    throw UsageError(
+        "--color-by-file: a run in POV-Ray has the colours of all frames in one file, so that numbers by frame are too "
+        "many; use render or export blender");
   povray::SceneOptions options = scene_options(command);
   options.origin = framing.origin();
   options.colors = color_key(frames.structure(), scheme, {});

@@ -203,6 +203,8 @@ void render_frames(const RenderCommand& asked) {
   Molecule first;  // what the colours mean does not change with the frames
   first.structure = frames.structure();
   first.color = color_of(command.molecule);
+  if (command.extent && first.color.uses_frames())
+    throw UsageError("--color-by-file: numbers by frame need the complete surface; leave --extent away");
   const PictureLayout layout(command, key_of(first));
   PictureSink sink(command);
   const std::vector<Camera> cameras =

@@ -38,6 +38,8 @@ ColorScheme PreviewFigure::told_scheme() const {
 }
 
 void require_previewed(const ColorScheme& color) {
+  if (color.uses_frames())
+    throw RequestError("numbers by frame are for render and export blender; leave the column frame of their file away");
   require_shown(color);
   for (const ColorRule& rule : color.rules) require_shown(rule.paint);
 }

@@ -51,7 +51,8 @@ std::vector<double> numbers_by_name(const Structure& structure, const NumberFile
 
 /// The numbers of a file for the atoms in use: by name, or given for each of these, or for each atom of the molecule's
 /// file.
-std::vector<double> numbers_of_file(const Structure& structure, const NumberFile& file) {
+std::vector<double> numbers_of_file(const Structure& structure, const NumberFile& of_run) {
+  const NumberFile& file = of_run.of_frame(structure.frame);
   if (file.numbers.empty() && !file.empty()) return numbers_by_name(structure, file);
   const auto other_models = structure.report.excluded.find(kExcludedModel);
   const std::size_t read =

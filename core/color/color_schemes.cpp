@@ -69,8 +69,15 @@ bool ColorScheme::uses_file() const {
   return by == By::file || std::ranges::any_of(rules, [](const ColorRule& rule) { return rule.paint.by == By::file; });
 }
 
+bool ColorScheme::uses_frames() const { return uses_file() && file.by_frame; }
+
 void ColorScheme::set_numbers(const NumberFile& numbers) {
+  if (numbers.by_frame && map == ColorMap::categorical && !own_map)
+    throw RequestError(
+        "--map categorical gives each number of a picture a colour of its own, which would change from "
+        "frame to frame; choose another map");
   file = numbers;
+  if (by == By::file && !range) range = numbers.range_of_frames();
   for (ColorRule& rule : rules)
     if (rule.paint.by == By::file) rule.paint.file = numbers;
 }
@@ -80,7 +87,7 @@ void ColorScheme::share_scale() {
     if (!rule.paint.has_scale()) continue;
     rule.paint.map = map;
     rule.paint.own_map = own_map;
-    rule.paint.range = range;
+    rule.paint.range = range ? range : rule.paint.file.range_of_frames();
     rule.paint.missing = missing;
   }
 }

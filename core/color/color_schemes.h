@@ -71,7 +71,10 @@ struct ColorScheme {
   bool uses_scale() const;
   /// Whether this or a rule colours by the numbers of a file.
   bool uses_file() const;
-  /// Numbers, for this and for all rules.
+  /// Whether these differ from frame to frame of a run.
+  bool uses_frames() const;
+  /// Numbers, for this and for all rules. Those of frames have one scale: without a range that of all of them. Throws
+  /// RequestError for them where the map gives each number a colour of its own.
   void set_numbers(const NumberFile& numbers);
   /// Of what rules colour by a number this map, range and colour of missing ones hold, too.
   void share_scale();

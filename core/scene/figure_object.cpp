@@ -22,6 +22,7 @@ Structure structure_of(const Structure& all, const std::vector<bool>& selected, 
   Structure own;
   own.file = all.file;
   own.report = all.report;
+  own.frame = all.frame;
   for (std::uint32_t a = 0; a < all.atoms.size(); ++a) {
     if (!selected[a]) continue;
     own.atoms.push_back(all.atoms[a]);

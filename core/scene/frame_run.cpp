@@ -138,6 +138,7 @@ FrameRun::FrameRun(const MoleculeRequest& molecule, const RunRequest& request, b
   Frame frame;
   frames_->read(run_.front(), frame);
   place(frame.positions, structure_);
+  structure_.frame = run_.front();
 }
 
 FrameRun::~FrameRun() = default;
@@ -232,6 +233,7 @@ Structure FrameRun::at(std::uint64_t number) {
   frames_->read(number, frame);
   Structure structure = structure_;
   place(frame.positions, structure);
+  structure.frame = number;
   return structure;
 }
 
@@ -272,6 +274,7 @@ std::optional<RunFrame> FrameRun::next() {
     frame.together = *together_;
     place(read->frame.positions, frame.together);
   }
+  frame.structure.frame = frame.number;
   if (velocities_)
     for (const Atom& atom : shown_atoms(frame.structure)) frame.velocities.push_back(read->velocities[atom.index]);
   return frame;

@@ -44,6 +44,7 @@ Structure part_of(const Structure& structure, const AtomGroup& group) {
   Structure part;
   part.file = structure.file;
   part.report = structure.report;
+  part.frame = structure.frame;
   for (const std::uint32_t a : group.atoms) part.atoms.push_back(structure.atoms[a]);
   return part;
 }

@@ -89,6 +89,7 @@ Structure structure_of_shown(const Structure& structure) {
   Structure all;
   all.file = structure.file;
   all.report = structure.report;
+  all.frame = structure.frame;
   all.atoms = shown_atoms(structure);
   return all;
 }

@@ -74,7 +74,7 @@ std::vector<std::string> cells_of(std::string_view line) {
 class NumberReader {
  public:
   NumberReader(const TextFile& file, const std::string& column)
-      : column_(column), lines_(file.text), result_{file.path, {}, {}, {}, {}} {}
+      : column_(column), lines_(file.text), result_{.path = file.path} {}
 
   NumberFile read() {
     std::string_view line;
@@ -140,8 +140,8 @@ class NumberReader {
     return true;
   }
 
-  void add(const ResidueName& residue, double number) {
-    if (!result_.by_residue.emplace(residue, number).second)
+  void add(NumberFile& to, const ResidueName& residue, double number) {
+    if (!to.by_residue.emplace(residue, number).second)
       fail(fmt::format("gives residue {} of chain {} a second number", residue.number, in_quotes(residue.chain)));
   }
 
@@ -150,7 +150,7 @@ class NumberReader {
     if (fields.size() != 3 || !parse_place(fields[1], residue))
       fail("should be a chain, the number of a residue and a value, as in A 12 0.5");
     residue.chain = std::string(fields[0]);
-    add(residue, parse_word(result_.path, lines_.number(), fields[2]));
+    add(result_, residue, parse_word(result_.path, lines_.number(), fields[2]));
   }
 
   void add_numbers(std::string_view text) {
@@ -167,8 +167,8 @@ class NumberReader {
 
   /// The column of the numbers: the one asked for, or the only one that is no name of an atom or residue.
   std::size_t value_column(const std::vector<std::string>& header) const {
-    constexpr std::string_view kNames[] = {"index", "model", "chain",   "residue", "resname", "number", "resid",
-                                           "icode", "name",  "element", "class",   "radius",  "atoms"};
+    constexpr std::string_view kNames[] = {"frame", "index", "model", "chain",   "residue", "resname", "number",
+                                           "resid", "icode", "name",  "element", "class",   "radius",  "atoms"};
     std::vector<std::string> others;
     for (const std::string& cell : header)
       if (std::ranges::find(kNames, cell) == std::end(kNames)) others.push_back(cell);
@@ -188,22 +188,34 @@ class NumberReader {
       const auto found = std::ranges::find(header, name);
       return found == header.end() ? kNone : static_cast<std::size_t>(found - header.begin());
     };
-    const std::size_t value = value_column(header), index = place("index"), chain = place("chain"),
-                      icode = place("icode"), resid = place("number") == kNone ? place("resid") : place("number");
+    const std::size_t value = value_column(header), frame = place("frame"), index = place("index"),
+                      chain = place("chain"), icode = place("icode"),
+                      resid = place("number") == kNone ? place("resid") : place("number");
     result_.column = header[value];
     if (index == kNone && (chain == kNone || resid == kNone))
       fail("is the header of a table without a column index, or chain and number, to know its atoms by");
+    std::map<std::uint64_t, NumberFile> frames;
     std::string_view line;
     while (lines_.next(line)) {
       if (trimmed(line).empty()) continue;
       const std::vector<std::string> cells = cells_of(line);
       if (cells.size() != header.size()) fail(fmt::format("has {} cells, the header {}", cells.size(), header.size()));
       const double number = parse_word(result_.path, lines_.number(), cells[value]);
+      NumberFile* to = &result_;
+      if (frame != kNone) {
+        std::int64_t place_in_run = -1;
+        if (!parse_whole_number(cells[frame], place_in_run) || place_in_run < 0)
+          fail(fmt::format("{} is no number of a frame; they count from 0", in_quotes(cells[frame])));
+        to = &frames
+                  .try_emplace(static_cast<std::uint64_t>(place_in_run),
+                               NumberFile{.path = result_.path, .column = result_.column})
+                  .first->second;
+      }
       if (index != kNone) {
         std::int64_t atom = -1;
         if (!parse_whole_number(cells[index], atom) || atom != static_cast<std::uint32_t>(atom))
           fail(fmt::format("{} is no index of an atom", in_quotes(cells[index])));
-        if (!result_.by_atom.emplace(static_cast<std::uint32_t>(atom), number).second)
+        if (!to->by_atom.emplace(static_cast<std::uint32_t>(atom), number).second)
           fail(fmt::format("gives atom {} a second number", atom));
         continue;
       }
@@ -212,8 +224,10 @@ class NumberReader {
         fail(fmt::format("{} is no number of a residue", in_quotes(cells[resid])));
       residue.chain = cells[chain];
       if (icode != kNone && cells[icode].size() == 1) residue.insertion_code = cells[icode][0];
-      add(residue, number);
+      add(*to, residue, number);
     }
+    if (!frames.empty())
+      result_.by_frame = std::make_shared<const std::map<std::uint64_t, NumberFile>>(std::move(frames));
   }
 
   const std::string& column_;
@@ -229,6 +243,31 @@ NumberFile read_number_file(const std::string& path, const std::string& column) 
   NumberFile result = NumberReader(file, column).read();
   if (result.empty()) throw InputError(path, 0, "holds no numbers; write one an atom, or chain, residue and number");
   return result;
+}
+
+const NumberFile& NumberFile::of_frame(const std::optional<std::uint64_t>& frame) const {
+  if (!by_frame) return *this;
+  const std::string held = fmt::format("holds numbers of {} frames, {} to {}", by_frame->size(),
+                                       by_frame->begin()->first, by_frame->rbegin()->first);
+  if (!frame) throw InputError(path, 0, held + "; ask for a run of frames, or leave its column frame away");
+  const auto found = by_frame->find(*frame);
+  if (found == by_frame->end()) throw InputError(path, 0, fmt::format("{}, but none of frame {}", held, *frame));
+  return found->second;
+}
+
+std::optional<std::array<double, 2>> NumberFile::range_of_frames() const {
+  std::optional<std::array<double, 2>> range;
+  const auto include = [&range](double number) {
+    if (std::isnan(number)) return;
+    if (!range) range = {number, number};
+    range = {std::min((*range)[0], number), std::max((*range)[1], number)};
+  };
+  if (!by_frame) return range;
+  for (const auto& [number, frame] : *by_frame) {
+    for (const auto& [atom, value] : frame.by_atom) include(value);
+    for (const auto& [residue, value] : frame.by_residue) include(value);
+  }
+  return range;
 }
 
 double hydropathy(std::string_view residue_name) {

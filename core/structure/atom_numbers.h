@@ -2,9 +2,12 @@
 // Numbers that atoms can be coloured by: from a file of the user's own, and the hydrophobicity of residues.
 #pragma once
 
+#include <array>
 #include <compare>
 #include <cstdint>
 #include <map>
+#include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,15 +22,26 @@ struct ResidueName {
   auto operator<=>(const ResidueName&) const = default;
 };
 
-/// A file of numbers: one an atom in order, or by atom, or by residue; only one of the three is filled. NaN: missing.
+/// A file of numbers: one an atom in order, or by atom, or by residue, or tables of these for frames of a run; only one
+/// of the four is filled. NaN: missing.
 struct NumberFile {
   std::string path;
   std::vector<double> numbers{};              ///< in the order of atoms
   std::map<std::uint32_t, double> by_atom{};  ///< by place in the molecule's file, from 0
   std::map<ResidueName, double> by_residue{};
   std::string column{};  ///< whose numbers these are; empty if columns have no names
+  /// By number of the frame in its trajectory: that frame's numbers, by atom or by residue. Nothing: they are the same
+  /// in all frames.
+  std::shared_ptr<const std::map<std::uint64_t, NumberFile>> by_frame{};
 
-  bool empty() const { return numbers.empty() && by_atom.empty() && by_residue.empty(); }
+  bool empty() const { return numbers.empty() && by_atom.empty() && by_residue.empty() && !by_frame; }
+
+  /// The numbers that hold in a frame; nothing: that of a structure which is no frame of a run. Throws InputError where
+  /// there are none of it.
+  const NumberFile& of_frame(const std::optional<std::uint64_t>& frame) const;
+  /// The least and the greatest number of all frames, by which a colour means the same in each of them; nothing where
+  /// all are missing or none are by frame.
+  std::optional<std::array<double, 2>> range_of_frames() const;
 };
 
 /// Reads one of three layouts; nan, ? and - stand for a missing number, # begins a comment:
@@ -37,7 +51,7 @@ struct NumberFile {
 ///   no number or the line "chain number value" or "chain resid value" stands before;
 /// - CSV with a header, as `meniscus surface --csv` and `--csv-residues` write it: by its column "index", else by
 ///   "chain", "number" (or "resid") and, if there, "icode". `column` names the one of the numbers; it may be left out
-///   where there is one beside these.
+///   where there is one beside these. With a column "frame" rows are of that frame of a run.
 /// Throws InputError naming the line, the word and what is wanted; see also read_text_file.
 NumberFile read_number_file(const std::string& path, const std::string& column = {});
 

@@ -8,6 +8,7 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -136,6 +137,7 @@ struct Structure {
   std::vector<Atom> atoms;
   std::vector<Atom> beside;  ///< those that are shown beside the surface, which is not made of them
   std::shared_ptr<const std::vector<Bond>> shown_bonds;  ///< of shown atoms: places in atoms with beside behind them
+  std::optional<std::uint64_t> frame;                    ///< of a run: its number in the trajectory
   std::vector<Instances> instances;          ///< each atom belongs to one; empty: all stand where their positions say
   std::vector<Assembly> assemblies;          ///< those the file describes, if they were asked for
   std::shared_ptr<const Topology> topology;  ///< if it was asked for

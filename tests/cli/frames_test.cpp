@@ -289,6 +289,44 @@ TEST_F(Frames, NumberedPictures) {
   EXPECT_EQ(meniscus({"render", file_, "-q", "-o", folder + "/z.png", "--turntable", "1"}).exit_code, 2);
 }
 
+TEST_F(Frames, NumbersByFrameColorEachOfThem) {
+  const TemporaryFolder folder;
+  const std::string run =
+      folder.file("run.csv", "frame,index,x\n0,0,0\n0,1,1\n0,2,2\n0,3,3\n1,0,3\n1,1,3\n1,2,0\n1,3,?\n");
+  const auto picture = [&](const std::string& name, std::vector<std::string> options) {
+    std::vector<std::string> arguments{
+        "render", file_, "-q", "--size", "64x48", "--no-provenance", "-o", (folder.path() / name).string()};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const ProgramResult result = meniscus(arguments);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+  };
+  const auto bytes = [&](const std::string& name) { return read_bytes(folder.path() / name); };
+  picture("run_#.png", {"--frames", "0,1", "--color-by-file", run});
+  for (const auto& [frame, numbers] : {std::pair("0", "0 1 2 3"), std::pair("1", "3 3 0 ?")}) {
+    const std::string table = folder.file("one", numbers);
+    picture("one_#.png",
+            {"--frames", "0,1", "--only", frame, "--color-by-file", table, "--color-range", "0:3", "--force"});
+    const std::string name = std::string("run_") + frame + ".png";
+    EXPECT_TRUE(bytes(name) == bytes(std::string("one_") + frame + ".png")) << frame;
+  }
+  EXPECT_FALSE(bytes("run_0.png") == bytes("run_1.png"));
+  // A frame without numbers fails, the others are made; a single picture is none of a run.
+  const ProgramResult gap =
+      meniscus({"render", file_, "-q", "--size", "64x48", "-o", (folder.path() / "gap_#.png").string(), "--frames",
+                "0-2", "--color-by-file", run});
+  EXPECT_EQ(gap.exit_code, 3);
+  EXPECT_NE(gap.err.find("holds numbers of 2 frames, 0 to 1, but none of frame 2"), std::string::npos) << gap.err;
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "gap_1.png"));
+  const ProgramResult alone =
+      meniscus({"render", file_, "-q", "-o", (folder.path() / "a.png").string(), "--color-by-file", run});
+  EXPECT_EQ(alone.exit_code, 3);
+  EXPECT_NE(alone.err.find("ask for a run of frames"), std::string::npos) << alone.err;
+  const ProgramResult povray = meniscus({"export", "povray", file_, "-q", "-o", (folder.path() / "pov").string(),
+                                         "--frames", "all", "--color-by-file", run});
+  EXPECT_EQ(povray.exit_code, 2);
+  EXPECT_NE(povray.err.find("numbers by frame"), std::string::npos) << povray.err;
+}
+
 TEST_F(Frames, ATurntableTakesEqualStepsAndShowsNoPlaceTwice) {
   const std::string folder = (folder_.path() / "turn").string();
   const ProgramResult result = meniscus(

@@ -289,6 +289,44 @@ TEST(Colors, NumbersByResidueAndOfTables) {
   }
 }
 
+TEST(Colors, NumbersOfFramesHaveOneScale) {
+  const test::TemporaryFolder folder;
+  Structure structure = four_atoms();
+  const auto numbers = [&](const char* text, std::optional<std::uint64_t> frame) {
+    ColorScheme wish = scheme("file");
+    wish.set_numbers(read_number_file(folder.file("n", text)));
+    structure.frame = frame;
+    return color_scale(structure, wish);
+  };
+  for (std::size_t a = 0; a < 4; ++a) structure.atoms[a].residue_number = static_cast<std::int32_t>(a);
+  for (const char* const table : {"frame,index,rmsd\n0,0,1\n0,1,-\n7,1,5\n7,2,3\n",
+                                  "frame,chain,number,rmsd\n0,A,0,1\n0,A,1,nan\n7,A,1,5\n7,B,2,3\n"}) {
+    const ColorScale first = numbers(table, 0), last = numbers(table, 7);
+    EXPECT_EQ(first.range, (std::array<double, 2>{1.0, 5.0})) << table;
+    EXPECT_EQ(last.range, first.range);
+    EXPECT_EQ(first.title, "rmsd");
+    EXPECT_EQ(first.value[0], 1.0);
+    EXPECT_TRUE(std::isnan(first.value[1]) && std::isnan(last.value[0]));
+    EXPECT_EQ(last.value[1], 5.0);
+    EXPECT_EQ(last.value[2], 3.0);
+  }
+  const std::tuple<const char*, std::optional<std::uint64_t>, const char*> faults[] = {
+      {"frame,index,x\n0,0,1\n2,0,2\n", 1, "holds numbers of 2 frames, 0 to 2, but none of frame 1"},
+      {"frame,index,x\n0,0,1\n", {}, "holds numbers of 1 frames, 0 to 0; ask for a run of frames"},
+      {"frame,index,x\n-1,0,1\n", 0, "n:2: '-1' is no number of a frame; they count from 0"},
+      {"frame,index,x\n1.5,0,1\n", 0, "n:2: '1.5' is no number of a frame"},
+      {"frame,index,x\n3,0,1\n3,0,2\n", 0, "n:3: gives atom 0 a second number"},
+      {"frame,x\n3,1\n", 0, "n:1: is the header of a table without a column index"}};
+  for (const auto& [text, frame, reason] : faults) {
+    const std::string said = complaint([&, text = text, frame = frame] { numbers(text, frame); });
+    EXPECT_NE(said.find(reason), std::string::npos) << text << ": " << said;
+  }
+  ColorScheme categorical = scheme("file");
+  categorical.map = ColorMap::categorical;
+  const NumberFile table = read_number_file(folder.file("n", "frame,index,x\n0,0,1\n"));
+  EXPECT_NE(complaint([&] { categorical.set_numbers(table); }).find("--map categorical"), std::string::npos);
+}
+
 TEST(Colors, OpacitiesGoToTheAtomsMeantAndTheLastCounts) {
   EXPECT_TRUE(colored("chain").opacity.empty());
   ColorScheme wish = scheme("chain");
