@@ -80,7 +80,8 @@ SceneReport SequenceScene::write_shared() const {
                          std::ranges::any_of(run_.colors, [](const SceneColor& c) { return c.opacity < 1.0f; })};
   std::vector<SharedFile> files;
   if (run_.map) {
-    std::string& values = files.emplace_back(name + std::string(kMapFileEnding), "").text;
+    files.push_back({name + std::string(kMapFileEnding), {}});
+    std::string& values = files.back().text;
     write_density(run_.map->grid, [&](std::string_view bytes) { values += bytes; });
   }
   const SharedFile texts[] = {{name + "_aov.inc", buffer_text(run_.colors.size(), {run_.low, run_.high}, origin_)},
