@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What window_test.py does in Blender's window, step after step between its redraws; what was found goes to a file."""
 
+import faulthandler
 import json
 import sys
 import threading
@@ -9,7 +10,10 @@ import traceback
 import addon_utils
 import bpy
 
+faulthandler.enable()  # where Python was, should Blender crash
 TOLD, MOLECULE, PROGRAM, PACKAGE, PICTURE = sys.argv[sys.argv.index("--") + 1:]
+with open(TOLD + ".begun", "w", encoding="utf-8"):
+    pass  # from here on a crash may be ours
 addon_utils.enable("meniscus_import", default_set=True)
 bpy.context.preferences.view.show_splash = False
 from meniscus_import import computed, panel  # noqa: E402
