@@ -12,8 +12,6 @@ import bpy
 
 faulthandler.enable()  # where Python was, should Blender crash
 TOLD, MOLECULE, PROGRAM, PACKAGE, PICTURE = sys.argv[sys.argv.index("--") + 1:]
-with open(TOLD + ".begun", "w", encoding="utf-8"):
-    pass  # from here on a crash may be ours
 addon_utils.enable("meniscus_import", default_set=True)
 bpy.context.preferences.view.show_splash = False
 from meniscus_import import computed, panel  # noqa: E402

@@ -40,7 +40,8 @@ class Window(unittest.TestCase):
             os.makedirs(os.path.join(scripts, "addons"))
             os.symlink(os.path.join(ADDON, "meniscus_import"), os.path.join(scripts, "addons", "meniscus_import"))
             told = os.path.join(folder, "told.json")
-            # Blender 3.4.1 crashes at times while it opens its window on a busy machine, before any script has run.
+            # Blender 3.4.1 crashes in one of seven of these, soon after its window opened, never under a debugger; why is not
+            # known: the test registers panels anew while they are drawn. A crash counts if it comes three times.
             for _attempt in range(3):
                 done = subprocess.run(
                     [BLENDER, "--factory-startup", "--window-geometry", "0", "0", *SIZE, "--addons", "meniscus_import", "--python",
@@ -48,8 +49,9 @@ class Window(unittest.TestCase):
                     env={**os.environ, "DISPLAY": display, "LIBGL_ALWAYS_SOFTWARE": "1", "BLENDER_USER_SCRIPTS": scripts,
                          "MESA_SHADER_CACHE_DISABLE": "true", "PYTHONDONTWRITEBYTECODE": "1"},
                     timeout=90, check=False, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
-                if os.path.exists(told + ".begun"):
+                if done.returncode >= 0:
                     break
+                sys.stderr.write(f"Blender ended by signal {-done.returncode}\n{done.stdout[-2000:]}\n")
             self.assertTrue(os.path.exists(told), done.stdout[-3000:])
             with open(told, encoding="utf-8") as file:
                 found = json.load(file)
