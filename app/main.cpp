@@ -8,8 +8,6 @@
 #include <system_error>
 #include <vector>
 
-#include <unistd.h>
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -18,13 +16,9 @@
 #include "app/process/build_version.h"
 #include "app/process/command_line.h"
 #include "app/commands/commands.h"
-#include "app/process/error_report.h"
-#include "app/process/failed_allocation.h"
-#include "app/process/freed_memory.h"
-#include "app/process/memory_limit.h"
 #include "app/process/program_error.h"
+#include "app/process/program_main.h"
 #include "app/process/standard_streams.h"
-#include "app/process/stop_signals.h"
 #include "app/reports/version_report.h"
 #include "core/base/similar_words.h"
 #include "core/base/text.h"
@@ -195,23 +189,8 @@ void describe(CLI::App& command, const std::string& summary, const std::string& 
 
 int main(int argc, char** argv) {
   using namespace meniscus;
-  libraries_are_loaded();
-  keep_freed_memory();
-  ExitCode code = kExitOk;
-  try {
-    remember_failed_allocations();
-    report_uncaught_errors();
-    hold_standard_streams();
-    clean_up_on_signals();
+  return program_main("meniscus", [=] {
     run(argc, argv);
-  } catch (...) {
-    code = report_current_error();
-  }
-  // Without memory no destructor of a library can be relied on: a thread of OpenBLAS that gets none asks again for
-  // ever, and its destructor waits for it.
-  if (memory_is_limited() || code == kExitCapacity) {
-    std::cout.flush();
-    ::_exit(code);
-  }
-  return code;
+    return kExitOk;
+  });
 }

@@ -15,7 +15,7 @@ compare_packages=(python3 python3-numpy python3-openimageio)
 test_packages=(libgtest-dev libbenchmark-dev glslang-tools spirv-tools mesa-vulkan-drivers libvulkan-dev freesasa python3-prody-tests python3 python3-numpy
   python3-openimageio xvfb xdotool chromium python3-websockets
   python3-mdanalysis python3-mdtraj python3-h5py python3-pymol python3-pil
-  slurmctld slurmd slurm-client munge python3-jsonschema libxml2-utils nodejs make git
+  slurmctld slurmd slurm-client munge snakemake python3-yaml python3-jsonschema python3-prometheus-client libxml2-utils nodejs make git
   apbs pdb2pqr
   python3-biopython python3-ost jmol
   dpkg-dev lintian man-db mandoc zsh fish)
@@ -24,8 +24,8 @@ fuzz_packages=(clang-14 libclang-rt-14-dev)
 check_packages=("${fuzz_packages[@]}" clang-format-14 clang-tidy-14)
 # other programs that measure and draw surfaces
 peer_packages=(pymol pymol-data gromacs freesasa python3-mdtraj)
-# a second GL driver; an environment for the wheel; a bare system; images
-prove_packages=(mesa-vulkan-drivers python3-venv python3-pip mmdebstrap buildah)
+# a second GL driver; an environment for the wheel; a bare system; images; Nextflow
+prove_packages=(mesa-vulkan-drivers python3-venv python3-pip mmdebstrap buildah maven default-jre-headless)
 
 # install_packages NAME...: apt-get, only for what dpkg does not already have.
 install_packages() {

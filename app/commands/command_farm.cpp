@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `meniscus farm`: bundles a framed command for any render farm, tells how far it is, verifies it and makes the film.
 #include <algorithm>
+#include <ctime>
 #include <iostream>
 #include <memory>
+#include <optional>
+#include <sstream>
 
 #include <fmt/format.h>
 #include <fmt/ostream.h>
@@ -10,11 +13,13 @@
 #include "app/commands/commands.h"
 #include "app/commands/parse_bundled_command.h"
 #include "app/farm/child_process.h"
+#include "app/farm/frame_log.h"
+#include "app/farm/frame_record.h"
 #include "app/farm/inner_path.h"
 #include "app/farm/make_bundle.h"
 #include "app/farm/makers.h"
 #include "app/farm/quote.h"
-#include "app/farm/status.h"
+#include "app/farm/status_report.h"
 #include "app/farm/verify.h"
 #include "app/farm/worker.h"
 #include "app/options/film_options.h"
@@ -156,17 +161,74 @@ void add_bundle(CLI::App& command) {
 void add_status(CLI::App& command) {
   struct Status {
     std::string folder;
-    bool json = false;
+    bool json = false, metrics = false;
   };
-  describe(command, "Tell how far the frames of a bundle are, and what failed last", "  meniscus farm status film");
+  describe(command, "Tell how far the frames of a bundle are, how long still, and what failed last",
+           "  meniscus farm status film\n"
+           "  meniscus farm status film --prometheus > film.prom.new && mv film.prom.new /var/lib/node/film.prom");
   auto state = std::make_shared<Status>();
   command.add_option("BUNDLE", state->folder, "The bundle's folder")->required()->type_name("");
-  command.add_flag("--json", state->json, "Print one JSON object instead of a table");
+  CLI::Option* const json = command.add_flag("--json", state->json, "Print one JSON object instead of a table");
+  command.add_flag("--prometheus", state->metrics, "Print gauges for Prometheus instead of a table")->excludes(json);
   command.callback([state] {
     const farm::Bundle bundle = farm::read_bundle(state->folder);
-    const std::vector<farm::StepStatus> steps = farm::status_of(bundle, state->folder);
-    std::cout << (state->json ? farm::status_json(bundle, steps) : farm::status_table(bundle, steps));
+    const farm::BundleStatus status = farm::status_of(bundle, state->folder);
+    std::cout << (state->json      ? farm::status_json(bundle, status)
+                  : state->metrics ? farm::status_metrics(bundle, status, state->folder)
+                                   : farm::status_table(bundle, status, state->folder));
   });
+}
+
+/// Of seconds since 1970: "2026-11-23 11:12:13 UTC".
+std::string utc_time(double seconds) {
+  const auto whole = static_cast<std::time_t>(seconds);
+  std::tm parts{};
+  char text[64] = {};
+  if (!::gmtime_r(&whole, &parts) || std::strftime(text, sizeof text, "%F %T UTC", &parts) == 0)
+    return "a time that is none";
+  return text;
+}
+
+/// What became of the frame in one step.
+std::string outcome(const std::optional<farm::FrameRecord>& record) {
+  if (!record) return "not made yet";
+  const std::string who = record->worker.empty() ? "" : " by " + escaped(record->worker);
+  const std::string when = record->ended > 0.0 ? " at " + utc_time(record->ended) : "";
+  if (!record->done())
+    return fmt::format("failed{}{}, exit code {}: {}", who, when, record->exit_code, escaped(record->error));
+  const std::string again = record->first_try.empty() ? "" : "; the second try: " + escaped(record->first_try);
+  return fmt::format("made{}{} in {:.2f} s{}", who, when, record->seconds, again);
+}
+
+void tell_log(const std::string& folder, std::uint64_t frame, const std::string& only_step) {
+  const farm::Bundle bundle = farm::read_bundle(folder);
+  bundle.place_of(frame);
+  if (!only_step.empty() && !bundle.step(only_step))
+    throw UsageError(fmt::format("--step {} is none of this bundle's", in_quotes(only_step)));
+  const farm::FrameRecords records(folder, bundle);
+  for (const farm::Step& step : bundle.steps) {
+    if (!only_step.empty() && step.name != only_step) continue;
+    fmt::print(std::cout, "{} frame {}: {}\n", step.name, frame, outcome(records.read(step.name, frame)));
+    std::istringstream log(farm::read_frame_log(folder, step.name, frame));
+    for (std::string line; std::getline(log, line);) std::cout << "  " << escaped(line) << "\n";
+  }
+}
+
+void add_log(CLI::App& command) {
+  struct Log {
+    std::string folder, step;
+    std::uint64_t frame = 0;
+  };
+  describe(command, "Tell what became of a frame, who made it, and what the programs that made it said",
+           "  meniscus farm log film 42\n"
+           "  meniscus farm log film 42 --step render");
+  auto state = std::make_shared<Log>();
+  command.add_option("BUNDLE", state->folder, "The bundle's folder")->required()->type_name("");
+  command.add_option("FRAME", state->frame, "The frame's number, as in the trajectory")->required()->type_name("");
+  command.add_option("--step", state->step, "Only this step of the work: surface or render [all, in order]")
+      ->check(proposes({"surface", "render"}))
+      ->type_name("STEP");
+  command.callback([state] { tell_log(state->folder, state->frame, state->step); });
 }
 
 void verify(const std::filesystem::path& folder) {
@@ -197,7 +259,8 @@ void add_verify(CLI::App& command) {
   command.callback([folder] { verify(*folder); });
 }
 
-constexpr Command kFarmCommands[] = {{"bundle", add_bundle}, {"status", add_status}, {"verify", add_verify}};
+constexpr Command kFarmCommands[] = {
+    {"bundle", add_bundle}, {"status", add_status}, {"log", add_log}, {"verify", add_verify}};
 
 }  // namespace
 
@@ -206,6 +269,7 @@ void add_farm(CLI::App& command) {
            "  meniscus farm bundle film -- render adk.psf --trajectory adk.dcd --frames all\n"
            "  meniscus work film            on any number of machines (meniscus work --help)\n"
            "  meniscus farm status film\n"
+           "  meniscus farm log film 42\n"
            "  meniscus farm verify film");
   command.require_subcommand(1);
   for (const Command& entry : kFarmCommands) entry.add(*command.add_subcommand(entry.name)->group("Commands"));

@@ -141,13 +141,15 @@ Bundle bundle_from_json(const Json& json) {
 
 }  // namespace
 
-void Chunking::decide(std::uint64_t frame_count) {
+std::uint64_t Chunking::wanted_count(std::uint64_t frame_count) const {
   double frames = 10.0;
   if (asked_frames) frames = static_cast<double>(*asked_frames);
   if (!asked_frames && seconds_per_frame) frames = std::floor(60.0 * asked_minutes / *seconds_per_frame);
   const double tasks = std::ceil(static_cast<double>(frame_count) / std::max(frames, 1.0));
-  count = std::clamp<std::uint64_t>(static_cast<std::uint64_t>(tasks), 1, std::min(kMostChunks, frame_count));
+  return std::clamp<std::uint64_t>(static_cast<std::uint64_t>(tasks), 1, frame_count);
 }
+
+void Chunking::decide(std::uint64_t frame_count) { count = std::min(wanted_count(frame_count), kMostChunks); }
 
 std::optional<std::uint64_t> Chunking::memory() const {
   constexpr std::uint64_t kWorker = 256, kStep = 256;

@@ -52,7 +52,9 @@ struct Chunking {
   std::optional<std::uint64_t> asked_memory;  ///< of a task, in MiB
   std::optional<std::uint64_t> peak_memory;   ///< of the largest process of the trial frame, in MiB
 
-  /// Decides `count` for so many frames: at least 1, at most 1000, for queues take arrays of 1000 by default.
+  /// Tasks of as many frames, or as much time, as was asked for: at least 1.
+  std::uint64_t wanted_count(std::uint64_t frame_count) const;
+  /// Decides `count` for so many frames: what is wanted, at most 1000, for queues take arrays of 1000 by default.
   void decide(std::uint64_t frame_count);
 
   /// Memory that a task should be given, in MiB: what was asked for; else half as much again as was measured, for other

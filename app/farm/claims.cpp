@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Claims and signs of life as files.
+// Claims as files.
 #include "app/farm/claims.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cerrno>
 #include <chrono>
 #include <cstring>
-#include <fstream>
-#include <random>
-#include <sstream>
 #include <vector>
 
 #include <fcntl.h>
@@ -17,7 +13,6 @@
 #include <unistd.h>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "app/farm/bundle.h"
 #include "app/farm/inner_path.h"
@@ -26,61 +21,18 @@
 namespace meniscus::farm {
 namespace {
 
-using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
-constexpr std::size_t kLargestClaim = 4096;  // of a claim, and of a sign of life
-constexpr int kMostGenerations = 1000;       // so many workers died of one frame
+constexpr std::size_t kLargestClaim = 4096;
+constexpr int kMostGenerations = 1000;  // so many workers died of one frame
 
 Claims* current = nullptr;
 std::mutex current_mutex;
 
-/// The letters that names in a bundle have.
-std::string plain_name(std::string text) {
-  std::erase_if(text, [](unsigned char c) { return !std::isalnum(c) && c != '-'; });
-  return text.empty() || text.front() == '-' ? "host" + text : text.substr(0, 60);
-}
-
-std::string host_name() {
-  char name[256] = {};
-  ::gethostname(name, sizeof name - 1);
-  return plain_name(name);
-}
-
-std::string first_line(const fs::path& path) {
-  std::ifstream file(path);
-  std::string line;
-  std::getline(file, line);
-  return line;
-}
-
-/// Processes are numbered within one boot of one machine, and there within one space of numbers.
-std::string process_space() {
-  std::error_code error;
-  return first_line("/proc/sys/kernel/random/boot_id") + " " + fs::read_symlink("/proc/self/ns/pid", error).string();
-}
-
-/// When a process began, in the kernel's ticks; empty: it is gone. Numbers of processes are used again, times are not.
-std::string process_start(long pid) {
-  const std::string line = first_line(fmt::format("/proc/{}/stat", pid));
-  const std::size_t name_end = line.rfind(')');  // the name may hold anything
-  if (name_end == std::string::npos) return {};
-  std::istringstream fields(line.substr(name_end + 1));
-  std::string field, state;
-  fields >> state;
-  constexpr int kStart = 22, kState = 3;  // proc(5)
-  for (int n = kState; n < kStart; ++n) fields >> field;
-  return state == "Z" || state == "X" ? std::string() : field;
-}
-
-double seconds_between(FileTime earlier, FileTime later) { return 1e-9 * static_cast<double>(later - earlier); }
-
 }  // namespace
 
-Claims::Claims(fs::path folder, double lease) : folder_(std::move(folder)), lease_(lease) {
-  std::random_device random;
-  name_ = fmt::format("{}-{}-{:08x}", host_name(), ::getpid(), random());
-  life_ = folder_ / "state" / "workers" / (name_ + ".json");
+Claims::Claims(fs::path folder, double lease)
+    : folder_(std::move(folder)), name_(new_worker_name()), life_(folder_ / life_path(name_)), lease_(lease) {
   std::error_code ignored;  // if it cannot be made, touching says so
   fs::create_directories(life_.parent_path(), ignored);
   begin_ = touch();
@@ -98,16 +50,6 @@ Claims::~Claims() {
   heart_.join();
 }
 
-std::string Claims::own_life() const {
-  return Json{{"host", host_name()},
-              {"process", ::getpid()},
-              {"space", process_space()},
-              {"start", process_start(::getpid())},
-              {"lease", lease_}}
-             .dump() +
-         "\n";
-}
-
 /// Now, by the file system: the time it gives this worker's file.
 FileTime Claims::touch() {
   if (over_) return begin_;
@@ -121,7 +63,7 @@ FileTime Claims::touch() {
   struct stat status {};
   if (::fstat(file, &status) != 0) fail();
   if (status.st_size == 0) {
-    const std::string text = own_life();
+    const std::string text = life_text(lease_);
     if (::write(file, text.data(), text.size()) != static_cast<ssize_t>(text.size())) fail();
   }
   // No time given: the server's, where there is one.
@@ -166,29 +108,11 @@ Claims::Holder Claims::holder(const fs::path& claim) {
   if (!text) return {};
   const std::string worker = text->substr(0, text->find('\n'));
   if (worker == name_) return {true, true};
-  if (text->ends_with('\n') && is_inner_path(worker)) return {lives(worker), false};
+  if (text->ends_with('\n') && is_inner_path(worker))
+    return {lives(folder_, worker, [this] { return touch(); }), false};
   // Its writer has only begun, or died when it had.
   const std::optional<FileTime> when = modified(folder_ / claim);
   return {when && seconds_between(*when, touch()) < kDefaultLease, false};
-}
-
-bool Claims::lives(const std::string& worker) {
-  const fs::path file = fs::path("state") / "workers" / (worker + ".json");
-  const std::optional<FileTime> when = modified(folder_ / file);
-  const std::optional<std::string> text = inner_text(folder_, file, kLargestClaim);
-  if (!when || !text) return false;
-  const Json life = Json::parse(*text, nullptr, false);
-  double lease = kDefaultLease;
-  if (life.is_object()) {
-    const auto given = life.find("lease");
-    if (given != life.end() && given->is_number())
-      lease = std::clamp(given->get<double>(), kShortestLease, kLongestLease);
-    const auto process = life.find("process");
-    const bool is_here =
-        life.value("space", Json()) == process_space() && process != life.end() && process->is_number_integer();
-    if (is_here && life.value("start", Json()) != process_start(process->get<long>())) return false;
-  }
-  return seconds_between(*when, touch()) < lease;
 }
 
 bool Claims::take(const std::string& step, std::uint64_t frame) {
@@ -241,13 +165,8 @@ bool Claims::is_taken(const std::string& step, std::uint64_t frame) {
 }
 
 std::size_t Claims::others() {
-  std::size_t count = 0;
-  std::error_code error;
-  for (const fs::directory_entry& entry : fs::directory_iterator(life_.parent_path(), error)) {
-    const std::string worker = entry.path().stem().string();
-    if (entry.path().extension() == ".json" && worker != name_ && is_inner_path(worker) && lives(worker)) ++count;
-  }
-  return count;
+  const std::vector<std::string> names = live_workers(folder_, [this] { return touch(); });
+  return names.size() - static_cast<std::size_t>(std::ranges::count(names, name_));
 }
 
 void Claims::give_all_back() {

@@ -13,12 +13,9 @@
 #include <thread>
 #include <utility>
 
-#include "app/farm/inner_path.h"
+#include "app/farm/sign_of_life.h"
 
 namespace meniscus::farm {
-
-constexpr double kDefaultLease = 60.0;  ///< seconds
-constexpr double kShortestLease = 1.0, kLongestLease = 3600.0;
 
 /// The claims of one worker.
 ///
@@ -50,6 +47,8 @@ class Claims {
   bool is_taken(const std::string& step, std::uint64_t frame);
   /// Other workers that live.
   std::size_t others();
+  /// Of this worker: in its claims, and in records of frames it made.
+  const std::string& name() const { return name_; }
   /// When this worker began, by the file system.
   FileTime begin() const { return begin_; }
 
@@ -64,14 +63,13 @@ class Claims {
   bool make_claim(const std::filesystem::path& path) const;
   void remove_claims(const std::string& step, std::uint64_t frame, int generation) const;
   Holder holder(const std::filesystem::path& claim);
-  bool lives(const std::string& worker);
-  std::string own_life() const;
   FileTime touch();
   void keep_alive();
   void give_all_back();
 
-  std::filesystem::path folder_, life_;  ///< life_: the file that is touched
+  std::filesystem::path folder_;
   std::string name_;
+  std::filesystem::path life_;  ///< the file that is touched
   double lease_;
   FileTime begin_ = 0;
   std::mutex mutex_;                                           ///< of what is held, and of the files that say so

@@ -39,6 +39,8 @@ Json to_json(const FrameRecord& record) {
     json["files"].push_back({{"path", file.path}, {"bytes", file.bytes}, {"sha256", file.sha256}});
   json["seconds"] = record.seconds;
   if (!record.first_try.empty()) json["first_try"] = record.first_try;
+  json["worker"] = record.worker;
+  json["ended"] = record.ended;
   return json;
 }
 
@@ -60,6 +62,8 @@ FrameRecord record_from_json(const Json& json) {
         {file.at("path").get<std::string>(), whole_number(file.at("bytes")), file.at("sha256").get<std::string>()});
   record.seconds = json.at("seconds").get<double>();
   record.first_try = json.value("first_try", "");
+  record.worker = json.value("worker", "");
+  record.ended = json.value("ended", 0.0);
   return record;
 }
 

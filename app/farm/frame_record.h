@@ -28,6 +28,8 @@ struct FrameRecord {
   std::vector<MadeFile> files;  ///< of a frame that was made
   double seconds = 0.0;         ///< that it took
   std::string first_try;        ///< why a second process made it, if the first was ended by a signal
+  std::string worker;           ///< who made it (sign_of_life.h); empty in records of older programs
+  double ended = 0.0;           ///< when it was made or failed: seconds since 1970, by the worker's clock
 
   bool done() const { return exit_code == 0; }
 };

@@ -214,6 +214,18 @@ Bundle described(const BundleOptions& options, const BundledCommand& command, Bu
   return bundle;
 }
 
+/// Larger tasks than were asked for are told.
+void note_larger_tasks(const Bundle& bundle, std::vector<std::string>& notes) {
+  const Chunking& chunking = bundle.chunking;
+  const std::uint64_t frames = bundle.frames.size(), wanted = chunking.wanted_count(frames);
+  if (wanted <= chunking.count) return;
+  const std::string asked = chunking.asked_frames ? fmt::format("--chunk-frames {}", *chunking.asked_frames)
+                                                  : fmt::format("--chunk-minutes {}", chunking.asked_minutes);
+  notes.push_back(fmt::format("{} would be {} tasks; queues take {}, so a task has up to {} frames", asked,
+                              with_thousands(wanted), with_thousands(chunking.count),
+                              with_thousands((frames + chunking.count - 1) / chunking.count)));
+}
+
 }  // namespace
 
 MadeBundle make_bundle(const BundleOptions& given, const BundledCommand& command) {
@@ -228,6 +240,7 @@ MadeBundle make_bundle(const BundleOptions& given, const BundledCommand& command
   if (const std::optional<Bundle> there = same_bundle_at(options, made.bundle)) {
     made.bundle = *there;
     made.was_there = true;
+    note_larger_tasks(made.bundle, made.notes);
     write_engine_files(options, made.bundle, options.folder);
     return made;
   }
@@ -236,6 +249,7 @@ MadeBundle make_bundle(const BundleOptions& given, const BundledCommand& command
   Chunking& chunking = made.bundle.chunking;
   if (!chunking.asked_frames) make_trial(made.bundle, staging, chunking);
   chunking.decide(made.bundle.frames.size());
+  note_larger_tasks(made.bundle, made.notes);
   write_engine_files(options, made.bundle, staging.path());
   OutputFile file(staging.path() / "bundle.json", Existing::refuse);
   file.write(bundle_json(made.bundle));

@@ -50,8 +50,11 @@ void make_by_lines(
   while (!frames.empty()) {
     ChildProcess child(command_for(frames, tried.has_value()), folder);
     ErrorLine last;
-    while (const std::optional<std::string> line = child.next_line())
-      if (!take_frame(*line, folder, frames, listener)) last.add(*line);
+    while (const std::optional<std::string> line = child.next_line()) {
+      if (take_frame(*line, folder, frames, listener)) continue;
+      last.add(*line);
+      listener.said(*line);
+    }
     const int code = child.wait();
     if (frames.empty()) return;
     if (code <= kSignalCode) {

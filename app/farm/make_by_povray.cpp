@@ -48,10 +48,13 @@ struct Ended {
   std::string words;  ///< that tell why
 };
 
-Ended run_povray(const std::vector<std::string>& command, const fs::path& folder) {
+Ended run_povray(const std::vector<std::string>& command, const fs::path& folder, const FrameListener& listener) {
   ErrorLine last;
   ChildProcess child(command, folder);
-  while (const std::optional<std::string> line = child.next_line()) last.add(*line);
+  while (const std::optional<std::string> line = child.next_line()) {
+    last.add(*line);
+    listener.said(*line);
+  }
   const int code = child.wait();
   return {code, last.words()};
 }
@@ -79,10 +82,10 @@ void render(const Bundle& bundle, const Step& step, const Workplace& place, std:
   const OwnFolder folder(own);
   const std::vector<std::string> command =
       povray_command(step, place, bundle.place_of(frame) + 1, fmt::format("../images/{}/frame.png", name));
-  Ended ended = run_povray(command, scene);
+  Ended ended = run_povray(command, scene, listener);
   if (ended.code > kSignalCode) {
     listener.tried_again(frame, signal_text(ended.code));
-    ended = run_povray(command, scene);
+    ended = run_povray(command, scene, listener);
   }
   if (ended.code > kSignalCode)
     throw RunError(static_cast<ExitCode>(signal_exit_code(ended.code)), signal_text(ended.code) + ", twice");

@@ -19,6 +19,8 @@ struct FrameListener {
   std::function<void(std::uint64_t frame, int exit_code, const std::string& error)> failed;
   /// Hears, before the above, of a frame whose process was ended by a signal and that is tried a second time.
   std::function<void(std::uint64_t frame, const std::string& error)> tried_again;
+  /// Hears each line that a process says, but those about frames, before it hears of the frame that is over then.
+  std::function<void(const std::string& line)> said;
 };
 
 /// Where and with what a step is made.

@@ -1,40 +1,60 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Counts records with their files, and writes the counts.
+// Counts records with their files, and estimates from what live workers have made so far.
 #include "app/farm/status.h"
 
 #include <algorithm>
-#include <iterator>
-#include <span>
+#include <limits>
+#include <map>
+#include <utility>
 
-#include <fmt/format.h>
-#include <nlohmann/json.hpp>
-
-#include "core/base/text.h"
-#include "core/trajectory/frame_list.h"
+#include "app/farm/sign_of_life.h"
 
 namespace meniscus::farm {
 namespace {
 
-using Json = nlohmann::ordered_json;
+/// What one worker has made of a step, by its own clock in seconds.
+struct Made {
+  std::uint64_t frames = 0;
+  double begin = std::numeric_limits<double>::infinity(), end = -std::numeric_limits<double>::infinity();
 
-constexpr std::size_t kFaultsShown = 5;  // of a step and kind, the last ones
+  void add(const FrameRecord& record) {
+    ++frames;
+    begin = std::min(begin, record.ended - record.seconds);
+    end = std::max(end, record.ended);
+  }
+  /// Frames a second; nothing if it has made none in any time.
+  std::optional<double> pace() const {
+    return frames > 0 && end > begin ? std::optional(static_cast<double>(frames) / (end - begin)) : std::nullopt;
+  }
+};
 
-std::string duration(double seconds) {
-  const auto whole = static_cast<std::int64_t>(seconds + 0.5);
-  if (whole < 60) return fmt::format("{} s", whole);
-  return whole < 3600 ? fmt::format("{}:{:02} min", whole / 60, whole % 60)
-                      : fmt::format("{}:{:02}:{:02} h", whole / 3600, whole / 60 % 60, whole % 60);
+using MadeBy = std::map<std::string, Made>;
+
+/// Frames a second of these workers together. One that has made none yet counts like the mean of the others, or, where
+/// none has, like the mean of all frames done.
+std::optional<double> common_pace(const std::vector<std::string>& workers, const MadeBy& made,
+                                  const std::optional<double>& seconds_per_frame) {
+  double sum = 0.0;
+  std::size_t known = 0;
+  for (const std::string& worker : workers) {
+    const auto found = made.find(worker);
+    const std::optional<double> pace = found == made.end() ? std::nullopt : found->second.pace();
+    if (!pace) continue;
+    sum += *pace;
+    ++known;
+  }
+  const auto count = static_cast<double>(workers.size());
+  if (known > 0) return sum * count / static_cast<double>(known);
+  if (workers.empty() || !seconds_per_frame || *seconds_per_frame <= 0.0) return {};
+  return count / *seconds_per_frame;
 }
 
-template <typename Frame>
-std::span<const Frame> last(const std::vector<Frame>& frames) {
-  return std::span(frames).last(std::min(frames.size(), kFaultsShown));
-}
-
-StepStatus status_of(const Step& step, const Bundle& bundle, const FrameRecords& records) {
+StepStatus status_of(const Step& step, const Bundle& bundle, const FrameRecords& records,
+                     const std::vector<std::string>& workers) {
   StepStatus status;
   status.step = step.name;
   double seconds = 0.0;
+  MadeBy made;
   for (const std::uint64_t frame : bundle.frames) {
     std::optional<FrameRecord> record = records.read(step.name, frame);
     if (!record) {
@@ -46,74 +66,34 @@ StepStatus status_of(const Step& step, const Bundle& bundle, const FrameRecords&
     } else {
       ++status.done;
       seconds += record->seconds;
+      made[record->worker].add(*record);
     }
   }
   if (status.done > 0) status.seconds_per_frame = seconds / static_cast<double>(status.done);
-  const std::size_t left = status.missing + status.failed.size() + status.damaged.size();
-  if (left == 0) {
-    status.seconds_left = 0.0;
-  } else if (status.seconds_per_frame) {
-    status.seconds_left = *status.seconds_per_frame * static_cast<double>(left);
+  const auto left = static_cast<double>(status.left());
+  if (status.left() == 0) {
+    status.seconds_left = status.seconds_to_go = 0.0;
+    return status;
   }
+  if (status.seconds_per_frame) status.seconds_left = *status.seconds_per_frame * left;
+  if (const std::optional<double> pace = common_pace(workers, made, status.seconds_per_frame))
+    status.seconds_to_go = left / *pace;
   return status;
 }
 
 }  // namespace
 
-std::vector<StepStatus> status_of(const Bundle& bundle, const std::filesystem::path& folder) {
+BundleStatus status_of(const Bundle& bundle, const std::filesystem::path& folder) {
   const FrameRecords records(folder, bundle);
-  std::vector<StepStatus> steps;
-  for (const Step& step : bundle.steps) steps.push_back(status_of(step, bundle, records));
-  return steps;
-}
-
-std::string status_table(const Bundle& bundle, const std::vector<StepStatus>& steps) {
-  std::string text;
-  auto out = std::back_inserter(text);
-  fmt::format_to(out, "{} frames, {}; {} {} a step\n\n{:<10} {:>9} {:>9} {:>9} {:>9} {:>12} {:>12}\n",
-                 with_thousands(bundle.frames.size()), frame_list_text(bundle.frames), bundle.chunking.count,
-                 bundle.chunking.count == 1 ? "task" : "tasks", "step", "done", "failed", "damaged", "missing",
-                 "s a frame", "left, alone");
-  for (const StepStatus& step : steps) {
-    fmt::format_to(out, "{:<10} {:>9} {:>9} {:>9} {:>9} {:>12} {:>12}\n", step.step, with_thousands(step.done),
-                   with_thousands(step.failed.size()), with_thousands(step.damaged.size()),
-                   with_thousands(step.missing),
-                   step.seconds_per_frame ? fmt::format("{:.2f}", *step.seconds_per_frame) : "?",
-                   step.seconds_left ? duration(*step.seconds_left) : "?");
+  BundleStatus status;
+  status.workers = live_workers(folder, [&] { return file_system_now(folder); });
+  status.seconds_to_go = 0.0;
+  for (const Step& step : bundle.steps) {
+    status.steps.push_back(status_of(step, bundle, records, status.workers));
+    const std::optional<double> more = status.steps.back().seconds_to_go;
+    status.seconds_to_go = more && status.seconds_to_go ? std::optional(*status.seconds_to_go + *more) : std::nullopt;
   }
-  for (const StepStatus& step : steps) {
-    for (const FrameRecord& frame : last(step.failed))
-      fmt::format_to(out, "\n{} frame {}, exit code {}: {}", step.step, frame.frame, frame.exit_code,
-                     escaped(frame.error));
-    for (const DamagedFrame& frame : last(step.damaged))
-      fmt::format_to(out, "\n{} frame {}: {}", step.step, frame.frame, escaped(frame.what));
-    if (!step.failed.empty() || !step.damaged.empty()) text += "\n";
-  }
-  return text;
-}
-
-std::string status_json(const Bundle& bundle, const std::vector<StepStatus>& steps) {
-  Json json;
-  json["schema_version"] = 1;
-  json["frames"] = bundle.frames.size();
-  json["tasks"] = bundle.chunking.count;
-  json["steps"] = Json::array();
-  for (const StepStatus& step : steps) {
-    Json failed = Json::array();
-    for (const FrameRecord& record : step.failed)
-      failed.push_back({{"frame", record.frame}, {"exit", record.exit_code}, {"error", record.error}});
-    Json damaged = Json::array();
-    for (const DamagedFrame& frame : step.damaged) damaged.push_back({{"frame", frame.frame}, {"what", frame.what}});
-    const auto number = [](const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); };
-    json["steps"].push_back({{"name", step.step},
-                             {"done", step.done},
-                             {"missing", step.missing},
-                             {"failed", failed},
-                             {"damaged", damaged},
-                             {"seconds_per_frame", number(step.seconds_per_frame)},
-                             {"seconds_left", number(step.seconds_left)}});
-  }
-  return json.dump(2, ' ', true) + "\n";
+  return status;
 }
 
 }  // namespace meniscus::farm

@@ -26,13 +26,18 @@ struct StepStatus {
   std::vector<DamagedFrame> damaged;        ///< likewise
   std::optional<double> seconds_per_frame;  ///< mean of those done
   std::optional<double> seconds_left;       ///< of one worker alone, for all that is not done
+  std::optional<double> seconds_to_go;      ///< of all workers that live now, each at the pace it had so far
+
+  std::uint64_t left() const { return missing + failed.size() + damaged.size(); }
+};
+
+struct BundleStatus {
+  std::vector<StepStatus> steps;
+  std::vector<std::string> workers;     ///< that live now, by name
+  std::optional<double> seconds_to_go;  ///< of all steps, one after another; nothing if one is not known
 };
 
 /// Of files their sizes are looked at; `farm verify` looks at what is in them.
-std::vector<StepStatus> status_of(const Bundle& bundle, const std::filesystem::path& folder);
-
-/// A table with the last failures, and the same as one JSON object.
-std::string status_table(const Bundle& bundle, const std::vector<StepStatus>& steps);
-std::string status_json(const Bundle& bundle, const std::vector<StepStatus>& steps);
+BundleStatus status_of(const Bundle& bundle, const std::filesystem::path& folder);
 
 }  // namespace meniscus::farm

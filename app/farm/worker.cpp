@@ -16,6 +16,7 @@
 #include "app/process/build_version.h"
 #include "app/farm/checksum.h"
 #include "app/farm/claims.h"
+#include "app/farm/frame_log.h"
 #include "app/farm/frame_record.h"
 #include "app/farm/inner_path.h"
 #include "app/process/program_error.h"
@@ -118,6 +119,7 @@ class Worker {
       if (batch.empty()) return;
       begin_ = std::chrono::steady_clock::now();
       first_ = true;
+      log_.take();  // what was said behind the last frame of a batch before
       make_frames(bundle_, task.step, place_, batch, listener(task));
     }
   }
@@ -213,9 +215,7 @@ class Worker {
     FrameListener listener;
     listener.done = [&](std::uint64_t frame, const std::vector<std::string>& files, double seconds) {
       FrameRecord record = records_.measured(frame, files, seconds);
-      record.first_try = std::exchange(first_try_, {});
-      records_.write(step, record);
-      claims_.give_back(step, frame);
+      keep(step, record);
       measure(task.pace, seconds);
       task.progress.done(frame, files, 1000.0 * seconds);
     };
@@ -224,13 +224,25 @@ class Worker {
       record.frame = frame;
       record.exit_code = code;
       record.error = error;
-      record.first_try = std::exchange(first_try_, {});
-      records_.write(step, record);
-      claims_.give_back(step, frame);
+      keep(step, record);
       fail(task, frame, code, error);
     };
-    listener.tried_again = [&](std::uint64_t, const std::string& error) { first_try_ = error; };
+    listener.tried_again = [&](std::uint64_t, const std::string& error) {
+      first_try_ = error;
+      log_.add(fmt::format("-- {}; once more --", error));
+    };
+    listener.said = [&](const std::string& line) { log_.add(line); };
     return listener;
+  }
+
+  /// What is known of a frame that is over, and what was said of it; then others may have it.
+  void keep(const std::string& step, FrameRecord& record) {
+    record.first_try = std::exchange(first_try_, {});
+    record.worker = claims_.name();
+    record.ended = std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
+    write_frame_log(place_.folder, step, record.frame, log_.take());
+    records_.write(step, record);
+    claims_.give_back(step, record.frame);
   }
 
   void measure(Pace& pace, double seconds) {
@@ -250,6 +262,7 @@ class Worker {
   Failures failures_;
   std::list<Task> tasks_;
   std::string first_try_;  ///< of the frame at work
+  FrameLog log_;           ///< likewise
   std::chrono::steady_clock::time_point begin_;
   bool first_ = true;  ///< no frame of this batch is made yet
 };

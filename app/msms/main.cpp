@@ -5,21 +5,15 @@
 #include <span>
 #include <string>
 
-#include <unistd.h>
-
 #include "app/msms/arguments.h"
 #include "app/msms/chosen_surface.h"
 #include "app/msms/report.h"
 #include "app/msms/serve.h"
 #include "app/msms/spheres.h"
 #include "app/msms/write_files.h"
-#include "app/process/error_report.h"
-#include "app/process/failed_allocation.h"
-#include "app/process/freed_memory.h"
-#include "app/process/memory_limit.h"
 #include "app/process/program_error.h"
+#include "app/process/program_main.h"
 #include "app/process/standard_streams.h"
-#include "app/process/stop_signals.h"
 #include "exporters/msms/msms_files.h"
 
 namespace meniscus::msms {
@@ -90,20 +84,5 @@ ExitCode run(std::span<const char* const> words) {
 
 int main(int argc, char** argv) {
   using namespace meniscus;
-  libraries_are_loaded();
-  keep_freed_memory();
-  ExitCode code = kExitOk;
-  try {
-    remember_failed_allocations();
-    report_errors_as("meniscus-msms");
-    report_uncaught_errors();
-    hold_standard_streams();
-    clean_up_on_signals();
-    code = msms::run(std::span<const char* const>(argv + 1, argv + argc));
-  } catch (...) {
-    code = report_current_error();
-  }
-  std::cout.flush();
-  if (memory_is_limited() || code == kExitCapacity) ::_exit(code);
-  return code;
+  return program_main("meniscus-msms", [=] { return msms::run(std::span<const char* const>(argv + 1, argv + argc)); });
 }

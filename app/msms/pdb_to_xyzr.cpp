@@ -7,14 +7,10 @@
 #include <string>
 #include <string_view>
 
-#include <unistd.h>
-
 #include <fmt/format.h>
 
-#include "app/process/error_report.h"
-#include "app/process/failed_allocation.h"
-#include "app/process/memory_limit.h"
 #include "app/process/program_error.h"
+#include "app/process/program_main.h"
 #include "app/process/standard_streams.h"
 #include "core/base/text.h"
 #include "core/structure/formats/read_structure.h"
@@ -109,21 +105,9 @@ void run(std::span<const char* const> words, bool named) {
 
 int main(int argc, char** argv) {
   using namespace meniscus;
-  libraries_are_loaded();
-  ExitCode code = kExitOk;
-  try {
-    remember_failed_allocations();
-    const bool named = argc > 0 && std::filesystem::path(argv[0]).filename().string().ends_with("xyzrn");
-    report_errors_as(named ? "pdb_to_xyzrn" : "pdb_to_xyzr");
-    report_uncaught_errors();
-    hold_standard_streams();
+  const bool named = argc > 0 && std::filesystem::path(argv[0]).filename().string().ends_with("xyzrn");
+  return program_main(named ? "pdb_to_xyzrn" : "pdb_to_xyzr", [=] {
     msms::run(std::span<const char* const>(argv + 1, argv + argc), named);
-  } catch (...) {
-    code = report_current_error();
-  }
-  if (memory_is_limited() || code == kExitCapacity) {
-    std::cout.flush();
-    ::_exit(code);
-  }
-  return code;
+    return kExitOk;
+  });
 }

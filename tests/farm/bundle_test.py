@@ -85,6 +85,21 @@ class Bundle(FarmCase):
         self.meniscus("farm", "bundle", folder, "--chunk-minutes", "0.01", "--", *self.render())
         self.assertEqual(self.files(folder), before)
 
+    def test_larger_tasks_than_were_asked_for_are_told(self):
+        molecule = self.folder / "many.pdb"
+        molecule.write_text("".join(f"MODEL {n + 1:8d}\nHETATM    1  C   LIG A   1       0.000   0.000   0.000\nENDMDL\n"
+                                    for n in range(2500)))
+        words = ("--", "render", molecule, "--frames", "all", "--size", "8x6", "--camera", self.camera())
+        for _ in range(2):
+            told = self.meniscus("farm", "bundle", self.folder / "many", "--chunk-frames", "1", *words)
+            self.assertIn("note: --chunk-frames 1 would be 2,500 tasks; queues take 1,000, so a task has up to 3 frames", told.stderr)
+        self.assertEqual(json.loads((self.folder / "many" / "bundle.json").read_text())["chunks"]["count"], 1000)
+        self.assertNotIn("would be", self.meniscus("farm", "bundle", self.folder / "few", "--chunk-frames", "3", *words).stderr)
+
+    def camera(self):
+        folder = self.bundle("with_camera", *self.render())
+        return folder / "inputs" / "camera.json"
+
     def test_hostile_names_become_plain_and_links_are_links(self):
         hostile = self.folder / "a $(touch x) `b` \"c\" 'd'; é.pdb"
         os.link(self.molecule, hostile)

@@ -86,6 +86,11 @@ TEST(Chunks, AreAsLongAsWishedAndNeverTooMany) {
   EXPECT_EQ(decided(100, 5, 0.001), 1u);
   EXPECT_EQ(decided(100'000, 5, 1000), 1000u);
   EXPECT_EQ(decided(1, 5, 1e9), 1u);
+  Chunking one_each;
+  one_each.asked_frames = 1;
+  one_each.decide(3000);
+  EXPECT_EQ(one_each.count, 1000u);
+  EXPECT_EQ(one_each.wanted_count(3000), 3000u);
   Chunking by_frames;
   by_frames.asked_frames = 7;
   by_frames.decide(15);
@@ -324,6 +329,7 @@ done
     EXPECT_NE(error.find("signal 11"), std::string::npos) << error;
   };
   listener.tried_again = [](std::uint64_t, const std::string&) {};
+  listener.said = [](const std::string&) {};
   const auto command_for = [&](const std::vector<std::uint64_t>& frames, bool alone) {
     std::vector<std::string> words{"/bin/sh", script, alone ? "yes" : "no"};
     for (const std::uint64_t frame : frames) words.push_back(std::to_string(frame));

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What every program of ours does before its own work and behind it.
+#pragma once
+
+#include <functional>
+
+#include "app/process/program_error.h"
+
+namespace meniscus {
+
+/// For main(): makes ready for what may go wrong (memory, streams, signals), does the work, and gives the exit code:
+/// that of the work, or that of the exception which left it, after a line on standard error that begins with `name`. A
+/// name that lives as long as the program.
+int program_main(const char* name, const std::function<ExitCode()>& work);
+
+}  // namespace meniscus
