@@ -72,7 +72,7 @@ constexpr const char* kFrames = R"(Examples:
   meniscus preview adk.psf --trajectory adk.xtc --whole --center protein
 
 FILE says what the atoms are, --trajectory where they are (meniscus formats lists what is read). Selections, radii and
-colours are decided once, with the coordinates of FILE or, where it has none (PSF), of the first frame asked for.
+colours are decided once, with the coordinates of FILE or, where it has none (PSF, prmtop), of the first frame asked for.
 Several trajectories are read in a row; they may stand right behind FILE. --trajectory-atoms 'not water' says which atoms
 of FILE they have, if not all.
 

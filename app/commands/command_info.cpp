@@ -140,10 +140,11 @@ void print_structure(const MoleculeOptions& options, Trajectory* trajectory) {
 }
 
 void run(const MoleculeOptions& options, const std::string& trajectory_path) {
-  const bool alone = trajectory_path.empty() && !binary_trajectory_format(options.file).empty();
+  const bool alone = trajectory_path.empty() && !bare_trajectory_format(options.file).empty();
+  TrajectoryOptions opening{cache_folder()};
+  if (!alone) opening.atoms = [&] { return count_atoms(options.file, std::nullopt); };
   std::unique_ptr<Trajectory> trajectory;
-  if (alone || !trajectory_path.empty())
-    trajectory = open_trajectory(alone ? options.file : trajectory_path, {cache_folder()});
+  if (alone || !trajectory_path.empty()) trajectory = open_trajectory(alone ? options.file : trajectory_path, opening);
   if (!alone) print_structure(options, trajectory.get());
   if (!alone && trajectory) fmt::print(std::cout, "\n");
   if (trajectory) print_trajectory(*trajectory);

@@ -131,6 +131,7 @@ void run(const RenderCommand& command) {
     throw UsageError("--stats tells the stages of a view; add --extent");
   }
   if (command.annotations.time_stamp) throw UsageError("--time-stamp is for a run of frames; add --frames");
+  if (!command.annotations.curve.empty()) throw UsageError("--curve is for a run of frames; add --frames");
   if (command.legend.asked() && command.molecule.color.by == ColorScheme::By::fixed &&
       command.molecule.color.rules.empty())
     throw UsageError("--legend has nothing to explain where all is of one colour; choose another --color");
@@ -224,6 +225,7 @@ void add_render(CLI::App& command) {
   add_background_option(command, state->background, "transparent (default), white, black or #rrggbb");
   add_legend_options(command, state->legend, state->picture);
   add_annotation_options(command, state->annotations);
+  add_curve_options(command, state->annotations);
   command.add_flag("--aovs", state->aovs,
                    "Add Z, N.xyz, P.xyz, atom, kind and component of each pixel's centre to an .exr");
   command

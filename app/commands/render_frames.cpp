@@ -190,6 +190,14 @@ class ViewPainter {
   Renderer renderer_;
 };
 
+/// The curve of --curve over the frames of the run, the same in all pictures but for the mark; a frame that --repeat
+/// shows again has the row of the trajectory's.
+std::optional<Curve> run_curve(const RenderCommand& command, const FrameRun& frames) {
+  std::vector<std::uint64_t> numbers = frames.numbers();
+  for (std::uint64_t& number : numbers) number /= command.frames.repeat;
+  return curve_of(command.annotations, numbers);
+}
+
 }  // namespace
 
 void render_frames(const RenderCommand& asked) {
@@ -217,11 +225,14 @@ void render_frames(const RenderCommand& asked) {
   const RenderSettings settings = render_settings(command, layout);
   if (layout.legend_alone) write_image(command.legend.file, *layout.legend_alone, image_settings(command));
   const Annotations annotations = annotations_of(command.annotations, frames.structure());
+  const std::optional<Curve> curve = run_curve(command, frames);
   std::mutex legend;  // its letters come from one font, which is one thread's at a time
   const auto keep = [&](const FrameShown& frame, Framebuffer picture) {
     const bool empty = shows_nothing(picture);
     Annotations written = annotations;
     if (command.annotations.time_stamp) written.time = time_text(frame.time, frame.number);
+    written.curve = curve;
+    if (curve) written.curve->now = frame.place;
     annotate(picture, written, cameras[frame.place], command.background);
     if (layout.legend) {
       const std::lock_guard lock(legend);

@@ -158,7 +158,7 @@ class SurfaceFrames {
   MadeFrame finish(FrameNumbers& numbers, const FrameNote& note) {
     if (!command_.prints_csv()) print_now(numbers.printed);
     if (series_.is_wanted()) series_.write(series_csv_header(numbers.values), series_csv_row(numbers.values, note));
-    if (plot_) points_.push_back({note, std::move(numbers.values)});
+    if (plot_) plot_frame(numbers.values, note);
     atoms_.write(numbers.atom_header, numbers.atoms);
     residues_.write(numbers.residue_header, numbers.residues);
     gradients_.write(numbers.gradient_header, numbers.gradients);
@@ -176,7 +176,7 @@ class SurfaceFrames {
   }
 
   void commit() {
-    if (plot_ && !points_.empty()) {
+    if (plot_ && !plotted_.empty()) {
       plot_->write(plot_svg(plot()));
       plot_->commit();
     }
@@ -185,32 +185,31 @@ class SurfaceFrames {
 
   /// Over time if all frames have one, else over their numbers.
   SeriesPlot plot() const {
-    const bool has_times =
-        std::ranges::all_of(points_, [](const PlottedFrame& point) { return point.note.time.has_value(); });
+    const bool has_times = std::ranges::all_of(plotted_, [](const FrameNote& note) { return note.time.has_value(); });
     SeriesPlot plot;
     plot.x_title = has_times ? "time, ps" : "frame";
-    for (const PlottedFrame& point : points_)
-      plot.x.push_back(has_times ? *point.note.time : static_cast<double>(point.note.frame));
-    for (std::size_t n = 0; n < points_.front().values.size(); ++n) {
-      const SeriesValue& first = points_.front().values[n];
-      if (!*first.unit) continue;
-      PlotPanel panel{fmt::format("{}, {}", first.name, first.unit), {}};
-      for (const PlottedFrame& point : points_) panel.values.push_back(point.values[n].value);
-      plot.panels.push_back(std::move(panel));
-    }
+    for (const FrameNote& note : plotted_) plot.x.push_back(has_times ? *note.time : static_cast<double>(note.frame));
+    plot.panels = panels_;
     return plot;
   }
 
-  struct PlottedFrame {
-    FrameNote note;
-    std::vector<SeriesValue> values;
-  };
+  /// Numbers alone are kept of a frame: there may be many.
+  void plot_frame(const std::vector<SeriesValue>& values, const FrameNote& note) {
+    std::size_t panel = 0;
+    for (const SeriesValue& value : values) {
+      if (!*value.unit) continue;
+      if (plotted_.empty()) panels_.push_back({fmt::format("{}, {}", value.name, value.unit), {}});
+      panels_[panel++].values.push_back(value.value);
+    }
+    plotted_.push_back(note);
+  }
 
   const SurfaceCommand& command_;
   GrowingTable series_, atoms_, residues_, gradients_, cavities_;
   CavityTracks tracks_;
   std::optional<OutputFile> plot_;
-  std::vector<PlottedFrame> points_;
+  std::vector<FrameNote> plotted_;
+  std::vector<PlotPanel> panels_;
 };
 
 }  // namespace

@@ -119,6 +119,8 @@ const Options& command_table() {
       {"--scale-bar", Value::maybe_text},
       {"--label", Value::text},
       {"--time-stamp", Value::none},
+      {"--curve", Value::file},
+      {"--curve-column", Value::text},
       {"--extent", Value::text},
       // frames
       {"--trajectory", Value::file},

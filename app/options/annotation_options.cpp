@@ -2,6 +2,7 @@
 // Declares what is written into a picture.
 #include "app/options/annotation_options.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <map>
@@ -13,6 +14,7 @@
 #include "app/options/value_words.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/trajectory/series_table.h"
 
 namespace meniscus {
 namespace {
@@ -51,6 +53,16 @@ glm::dvec3 middle_of(const Selection& selection, const Structure& structure) {
         fmt::format("--label {}: none of the {} atoms used is selected; chains and names are case-sensitive",
                     in_quotes(selection.text()), with_thousands(structure.atoms.size())));
   return sum / static_cast<double>(count);
+}
+
+/// Columns that `surface --csv-series` names get their unit, others stay as they are.
+std::string title_of(const std::string& column) {
+  const auto begins = [&](const char* word) { return column.starts_with(word); };
+  std::string title = column;
+  if (begins("ses_area") || begins("sas_area") || begins("vdw_area") || begins("cavity_area")) title += ", Å²";
+  if (column == "volume" || column == "cavity_volume") title += ", Å³";
+  if (title != column) std::ranges::replace(title, '_', ' ');
+  return title;
 }
 
 }  // namespace
@@ -106,6 +118,27 @@ void add_annotation_options(CLI::App& command, AnnotationRequest& request) {
       ->type_name("EXPR=TEXT");
   command.add_flag("--time-stamp", request.time_stamp,
                    "Of frames: write the time in ns at the top right, or the frame's number where there are no times");
+}
+
+void add_curve_options(CLI::App& command, AnnotationRequest& request) {
+  CLI::Option* const curve =
+      command
+          .add_option(
+              "--curve", request.curve,
+              "Of frames: draw numbers of the run (surface --csv-series) as a curve at the bottom right, with a "
+              "mark where each frame is")
+          ->type_name("FILE.csv");
+  command.add_option("--curve-column", request.curve_column, "Which column of --curve [the first behind the time]")
+      ->needs(curve)
+      ->type_name("NAME");
+}
+
+std::optional<Curve> curve_of(const AnnotationRequest& request, std::span<const std::uint64_t> frames) {
+  if (request.curve.empty()) return std::nullopt;
+  const SeriesTable table = read_series_table(request.curve, request.curve_column);
+  Curve curve{title_of(table.column), {}, 0};
+  for (const std::uint64_t frame : frames) curve.values.push_back(table.at(frame));
+  return curve;
 }
 
 Annotations annotations_of(const AnnotationRequest& request, const Structure& structure) {

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <optional>
+#include <span>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -35,6 +37,7 @@ struct AnnotationRequest {
   bool scale_bar = false, time_stamp = false;
   std::optional<double> bar_length;  ///< Å
   std::vector<LabelRequest> labels;
+  std::string curve, curve_column;  ///< the file and a name in it; empty: none, the first
 };
 
 /// --legend, --legend-file, --legend-title, --legend-size, --legend-place. picture: as for add_look_options.
@@ -42,6 +45,13 @@ void add_legend_options(CLI::App& command, LegendRequest& request, ViewRequest& 
 
 /// --panel, --scale-bar, --label, --time-stamp.
 void add_annotation_options(CLI::App& command, AnnotationRequest& request);
+
+/// --curve, --curve-column.
+void add_curve_options(CLI::App& command, AnnotationRequest& request);
+
+/// The numbers of --curve for the frames of a run, given by their numbers in the trajectory; nothing if there is none.
+/// Throws InputError.
+std::optional<Curve> curve_of(const AnnotationRequest& request, std::span<const std::uint64_t> frames);
 
 /// What is written into a picture of the structure; no time. Throws InputError for a label of no atoms.
 Annotations annotations_of(const AnnotationRequest& request, const Structure& structure);

@@ -115,6 +115,8 @@ constexpr auto kSceneKeys = std::to_array<SceneKey>({
     {"annotations", "scale_bar", "--scale-bar", V::text_or_flag},
     {"annotations", "labels", "--label", V::list},
     {"annotations", "time_stamp", "--time-stamp", V::flag},
+    {"annotations", "curve", "--curve", V::path},
+    {"annotations", "curve_column", "--curve-column", V::text},
 
     {"mesh", "tolerance", "--tolerance", V::text},
     {"mesh", "tolerance_pixels", "--tolerance-pixels", V::text},

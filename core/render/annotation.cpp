@@ -26,7 +26,8 @@ class InkMask {
 
   void text(const Font& font, const std::string& text, glm::ivec2 place) { font.draw(text, place, shares_, size_); }
 
-  void line(const glm::dvec2& from, const glm::dvec2& to, double width) {
+  /// share: of each pixel within; the more of several counts.
+  void line(const glm::dvec2& from, const glm::dvec2& to, double width, double share = 1.0) {
     const double margin = 0.5 * width + 1.0;
     const glm::ivec2 low = glm::max(glm::ivec2(glm::floor(glm::min(from, to) - margin)), glm::ivec2(0));
     const glm::ivec2 high = glm::min(glm::ivec2(glm::ceil(glm::max(from, to) + margin)), size_ - 1);
@@ -36,7 +37,8 @@ class InkMask {
       for (int x = low.x; x <= high.x; ++x) {
         const glm::dvec2 here = glm::dvec2(x, y) + 0.5 - from;
         const double t = std::clamp(glm::dot(here, along) / square, 0.0, 1.0);
-        cover(x, y, static_cast<float>(0.5 * width + 0.5 - glm::length(here - t * along)));
+        cover(x, y,
+              static_cast<float>(share * std::clamp(0.5 * width + 0.5 - glm::length(here - t * along), 0.0, 1.0)));
       }
   }
 
@@ -104,6 +106,7 @@ class Writer {
         side_(std::min(size_.x, size_.y)),
         font_(std::max(9, side_ / 25)),
         large_(std::max(12, side_ / 16)),
+        small_(std::max(8, side_ / 36)),
         mask_(size_) {}
 
   const InkMask& mask() const { return mask_; }
@@ -133,6 +136,40 @@ class Writer {
     const int left = std::max(em, em + (pixels - font_.width(text)) / 2);
     write(font_, text, {left, low.y - em}, em);
     taken_.push_back({low, high});
+  }
+
+  /// From the least of its numbers to the greatest, which stand at its left; the present one stands above.
+  void curve(const Curve& curve) {
+    const auto [least, greatest] = std::ranges::minmax(curve.values);
+    const double range = greatest - least, em = font_.height(), line = std::max(1.0, em / 12.0);
+    const int decimals = range > 0.0 ? std::clamp(static_cast<int>(std::ceil(2.0 - std::log10(range))), 0, 9) : 3;
+    const auto number = [&](double value) { return fmt::format("{:.{}f}", value, decimals); };
+    const glm::dvec2 high(size_.x - em, size_.y - em),
+        low(high.x - 0.3 * size_.x, high.y - std::max(3.0 * em, 0.1 * size_.y));
+    const auto place = [&](std::size_t n) {
+      const double across =
+          curve.values.size() > 1 ? static_cast<double>(n) / static_cast<double>(curve.values.size() - 1) : 0.5;
+      const double up = range > 0.0 ? (curve.values[n] - least) / range : 0.5;
+      return glm::dvec2(low.x + across * (high.x - low.x), high.y - up * (high.y - low.y));
+    };
+    mask_.line({low.x, low.y}, {low.x, high.y}, line, 0.5);
+    mask_.line({low.x, high.y}, {high.x, high.y}, line, 0.5);
+    for (std::size_t n = 1; n < curve.values.size(); ++n)
+      mask_.line(place(n - 1), place(n), n <= curve.now ? 1.8 * line : line, n <= curve.now ? 1.0 : 0.45);
+    mask_.line(place(curve.now), place(curve.now), 0.5 * em);
+    const int row = static_cast<int>(em), left = static_cast<int>(low.x), right = static_cast<int>(high.x),
+              above = static_cast<int>(low.y - em);
+    const auto width = [&](double value) { return font_.width(number(value)); };
+    // The title stays where it is while the number changes.
+    const int widest = std::max({width(least), width(greatest), width(curve.values[curve.now])});
+    write(font_, curve.title, {right - widest - row / 2 - font_.width(curve.title), above}, row);
+    write(font_, number(curve.values[curve.now]), {right - width(curve.values[curve.now]), above}, row);
+    for (const double end : {least, greatest}) {
+      const std::string text = number(end);
+      const double y = end == greatest ? low.y : high.y;
+      write(small_, text, {left - small_.height() / 2 - small_.width(text), static_cast<int>(y)}, small_.height());
+    }
+    taken_.push_back({glm::ivec2(low), glm::ivec2(high)});
   }
 
   void label(const PlaceLabel& label) {
@@ -176,7 +213,7 @@ class Writer {
   const Camera& camera_;
   glm::ivec2 size_;
   int side_;
-  Font font_, large_;
+  Font font_, large_, small_;
   InkMask mask_;
   std::vector<TextBox> taken_;
 };
@@ -214,6 +251,7 @@ void annotate(Framebuffer& picture, const Annotations& annotations, const Camera
   Writer writer(picture, camera);
   if (!annotations.panel.empty()) writer.panel(annotations.panel);
   if (!annotations.time.empty()) writer.time(annotations.time);
+  if (annotations.curve) writer.curve(*annotations.curve);
   if (annotations.scale_bar) writer.scale_bar(annotations.bar_length);
   for (const PlaceLabel& label : annotations.labels) writer.label(label);
   writer.mask().lay_over(picture, linear_from_srgb(ink_on(background)), linear_from_srgb(rim_on(background)),

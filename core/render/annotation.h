@@ -20,6 +20,13 @@ struct PlaceLabel {
   glm::dvec3 position{0.0};  ///< Å
 };
 
+/// Numbers of a run of frames, one of which this picture is.
+struct Curve {
+  std::string title;           ///< what they are, and their unit
+  std::vector<double> values;  ///< of the frames in their order, at least one, finite
+  std::size_t now = 0;         ///< whose is this picture's
+};
+
 /// Texts are drawn as they are given, so they are the user's and never a molecule file's; empty ones are not drawn.
 struct Annotations {
   std::string panel;                 ///< at the top left
@@ -27,8 +34,10 @@ struct Annotations {
   bool scale_bar = false;            ///< at the bottom left
   std::optional<double> bar_length;  ///< Å, > 0; nothing: a round number, at most a quarter of what the picture shows
   std::vector<PlaceLabel> labels;
+  std::optional<Curve>
+      curve;  ///< at the bottom right, a third of the picture wide: faint from now on, with a mark at now
 
-  bool any() const { return !panel.empty() || !time.empty() || scale_bar || !labels.empty(); }
+  bool any() const { return !panel.empty() || !time.empty() || scale_bar || !labels.empty() || curve; }
 };
 
 /// Å between two pixels of a picture: of an orthographic camera everywhere, of a perspective one where it looks at.

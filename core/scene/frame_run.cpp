@@ -13,9 +13,9 @@
 #include <glm/geometric.hpp>
 
 #include "core/scene/context_areas.h"
+#include "core/structure/formats/read_structure.h"
 #include "core/scene/molecule.h"
 #include "core/base/text.h"
-#include "core/structure/formats/reader.h"
 #include "core/structure/selection/usual_part.h"
 #include "core/trajectory/atom_order.h"
 #include "core/structure/found_bonds.h"
@@ -116,9 +116,6 @@ std::uint64_t reference_of(const RunRequest& request, const Trajectory& trajecto
   return request.reference.empty() ? 0 : parse_frame("--reference", request.reference, trajectory.frame_count());
 }
 
-/// Does the file place the atoms that it names? All formats do but one.
-bool has_positions(const Structure& structure) { return structure.format != kPsfReader.metadata.name; }
-
 }  // namespace
 
 bool RunRequest::asked() const {
@@ -129,8 +126,10 @@ bool RunRequest::asked() const {
 FrameRun::FrameRun(const MoleculeRequest& molecule, const RunRequest& request, bool velocities)
     : velocities_(velocities) {
   check_options(molecule, request);
-  trajectory_ = open_all(request.trajectories.empty() ? std::vector{molecule.file} : request.trajectories,
-                         {request.index_folder});
+  TrajectoryOptions options{request.index_folder};
+  if (!request.trajectories.empty())
+    options.atoms = [&] { return count_atoms(molecule.file, request.trajectory_atoms); };
+  trajectory_ = open_all(request.trajectories.empty() ? std::vector{molecule.file} : request.trajectories, options);
   if (request.repeat > 1) trajectory_ = std::make_unique<RepeatedFrames>(std::move(trajectory_), request.repeat);
   choose_frames(request);
   read_atoms(molecule, request);
@@ -164,7 +163,7 @@ void FrameRun::read_atoms(const MoleculeRequest& molecule, const RunRequest& req
   }
   if (!request.trajectories.empty() && !request.trust_atom_order)
     check_atom_order(*structure_.topology, structure_.atoms, first,
-                     {structure_.file, has_positions(structure_), trajectory_->path(), run_.front()});
+                     {structure_.file, !structure_.topology->without_positions, trajectory_->path(), run_.front()});
 }
 
 void FrameRun::choose_frames(const RunRequest& request) {

@@ -20,7 +20,7 @@ namespace meniscus {
 namespace {
 
 void refuse_trajectory(const std::string& path) {
-  const std::string_view format = binary_trajectory_format(path);
+  const std::string_view format = bare_trajectory_format(path);
   if (format.empty()) return;
   throw InputError(path, 0,
                    fmt::format("is a trajectory ({}) and holds no atoms; give their structure or topology as FILE, and "

@@ -12,6 +12,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/text/csv_cells.h"
 #include "core/text/parse_number.h"
 #include "core/text/text_file.h"
 #include "core/text/text_lines.h"
@@ -53,24 +54,6 @@ double parse_word(const std::string& path, std::size_t line, std::string_view wo
   return number;
 }
 
-/// The cells of a line of CSV; quotes around one may hold commas, two of them stand for one.
-std::vector<std::string> cells_of(std::string_view line) {
-  std::vector<std::string> cells(1);
-  bool quoted = false;
-  for (std::size_t n = 0; n < line.size(); ++n) {
-    const bool twice = quoted && line[n] == '"' && n + 1 < line.size() && line[n + 1] == '"';
-    if (line[n] == '"' && !twice)
-      quoted = !quoted;
-    else if (line[n] == ',' && !quoted)
-      cells.emplace_back();
-    else
-      cells.back() += line[n];
-    n += twice ? 1 : 0;
-  }
-  for (std::string& cell : cells) cell = std::string(trimmed(cell));
-  return cells;
-}
-
 class NumberReader {
  public:
   NumberReader(const TextFile& file, const std::string& column)
@@ -83,7 +66,7 @@ class NumberReader {
       const std::string_view text = trimmed(line.substr(0, line.find('#')));
       if (text.empty()) continue;
       if (first && begins_table(text)) {
-        read_table(cells_of(text));
+        read_table(csv_cells_of(text));
         return std::move(result_);
       }
       if (!column_.empty())
@@ -114,7 +97,7 @@ class NumberReader {
   /// Commas and no number.
   static bool begins_table(std::string_view text) {
     if (text.find(',') == std::string_view::npos) return false;
-    for (const std::string& cell : cells_of(text))
+    for (const std::string& cell : csv_cells_of(text))
       if (is_number(cell)) return false;
     return true;
   }
@@ -198,7 +181,7 @@ class NumberReader {
     std::string_view line;
     while (lines_.next(line)) {
       if (trimmed(line).empty()) continue;
-      const std::vector<std::string> cells = cells_of(line);
+      const std::vector<std::string> cells = csv_cells_of(line);
       if (cells.size() != header.size()) fail(fmt::format("has {} cells, the header {}", cells.size(), header.size()));
       const double number = parse_word(result_.path, lines_.number(), cells[value]);
       NumberFile* to = &result_;

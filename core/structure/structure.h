@@ -26,6 +26,10 @@ enum class AtomClass : std::uint8_t { polymer, ligand, water, ion, unclassified 
 /// "polymer", "ligand", "water", "ion" or "unclassified".
 const char* class_name(AtomClass kind);
 
+/// What radii a file gives its atoms. `if_asked`: others than those of van der Waals, which count only where they are
+/// asked for.
+enum class FileRadii : std::uint8_t { none, if_asked, usual };
+
 /// What the backbone of a residue forms. `unknown`: nobody has looked; `coil`: neither of the others.
 enum class SecondaryStructure : std::uint8_t { unknown, coil, helix, strand };
 
@@ -124,8 +128,9 @@ using Bond = std::array<std::uint32_t, 2>;
 
 /// A file's atoms before anything is left out, and its bonds: what the frames of a trajectory are about.
 struct Topology {
-  std::vector<Atom> atoms;  ///< of one model
-  std::vector<Bond> bonds;  ///< those the file lists, which may be none or few
+  std::vector<Atom> atoms;         ///< of one model
+  std::vector<Bond> bonds;         ///< those the file lists, which may be none or few
+  bool without_positions = false;  ///< the file does not place its atoms: others did
 };
 
 /// The atoms a surface is made of, in file order.

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -56,7 +57,10 @@ std::string cut_short_sentence(std::uint64_t whole_frames);
 struct TrajectoryOptions {
   /// Folder for the frame indices of formats whose frames are found only by walking through the file (XTC, TRR); made
   /// when missing. Empty: none is kept. An index is used only while size and time of its file are as they were.
-  std::string index_folder;
+  std::string index_folder{};
+  /// How many atoms the structure has, for a format that does not say it of its frames (mdcrd); may throw. Null: there
+  /// is no structure.
+  std::function<std::size_t()> atoms{};
 };
 
 /// Opens a file of any format in core/trajectory/formats/formats.h, told by its content. Throws InputError: missing, no

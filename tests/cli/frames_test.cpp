@@ -380,6 +380,83 @@ TEST_F(Frames, Film) {
       0);
 }
 
+// Decoded, each picture of a film is nearest to the one of its own frame, and there is one for each.
+TEST_F(Frames, AFilmShowsEachFrameInItsPlace) {
+  const std::string folder = folder_.path().string();
+  const std::vector<std::string> view{"render", file_, "-q",        "--size", "64x48",        "--frames", "all",
+                                      "--jobs", "3",   "--samples", "1",      "--background", "white",    "-o"};
+  for (const char* output : {"/f.mkv", "/f_##.png"}) {
+    std::vector<std::string> words = view;
+    words.push_back(folder + output);
+    if (output == std::string("/f.mkv")) words.insert(words.end(), {"--crf", "1", "--chroma", "444"});
+    const ProgramResult made = meniscus(words);
+    ASSERT_EQ(made.exit_code, 0) << made.err;
+  }
+  const auto decoded = [&](const std::string& input) {
+    const ProgramResult result =
+        run_program("/usr/bin/ffmpeg", {"-v", "error", "-i", input, "-f", "rawvideo", "-pix_fmt", "rgb24", "-"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return result.out;
+  };
+  constexpr std::size_t kPicture = 64 * 48 * 3;
+  const std::string film = decoded(folder + "/f.mkv"), pictures = decoded(folder + "/f_%02d.png");
+  ASSERT_EQ(film.size(), 8 * kPicture);
+  ASSERT_EQ(pictures.size(), 8 * kPicture);
+  for (std::size_t n = 0; n < 8; ++n) {
+    std::vector<double> differences(8, 0.0);
+    for (std::size_t other = 0; other < 8; ++other)
+      for (std::size_t byte = 0; byte < kPicture; ++byte)
+        differences[other] += std::abs(static_cast<unsigned char>(film[n * kPicture + byte]) -
+                                       static_cast<unsigned char>(pictures[other * kPicture + byte]));
+    EXPECT_EQ(std::ranges::min_element(differences) - differences.begin(), static_cast<std::ptrdiff_t>(n));
+    EXPECT_LT(differences[n] / kPicture, 3.0);
+  }
+}
+
+TEST_F(Frames, ACurveGoesAlong) {
+  const std::string folder = folder_.path().string(), table = folder + "/series.csv";
+  ASSERT_EQ(meniscus({"surface", file_, "-q", "--frames", "all", "--csv-series", table}).exit_code, 0);
+  const auto render = [&](std::vector<std::string> more) {
+    std::vector<std::string> words{"render",
+                                   file_,
+                                   "-q",
+                                   "--size",
+                                   "200x150",
+                                   "--samples",
+                                   "1",
+                                   "--frames",
+                                   "all",
+                                   "-o",
+                                   folder + "/c_##.png",
+                                   "--force",
+                                   "--no-provenance"};
+    words.insert(words.end(), more.begin(), more.end());
+    return meniscus(words);
+  };
+  ASSERT_EQ(render({"--curve", table}).exit_code, 0);
+  const std::string whole = read_bytes(folder + "/c_05.png"), other = read_bytes(folder + "/c_06.png");
+  // A share of the run has the same pictures; another column, none and another frame have others.
+  ASSERT_EQ(render({"--curve", table, "--only", "5"}).exit_code, 0);
+  EXPECT_EQ(read_bytes(folder + "/c_05.png"), whole);
+  ASSERT_EQ(render({"--curve", table, "--curve-column", "volume", "--only", "5"}).exit_code, 0);
+  EXPECT_NE(read_bytes(folder + "/c_05.png"), whole);
+  const auto refused = [&](std::vector<std::string> more, int code, const std::string& words) {
+    const ProgramResult result = render(std::move(more));
+    EXPECT_EQ(result.exit_code, code) << result.err;
+    EXPECT_NE(result.err.find(words), std::string::npos) << result.err;
+  };
+  refused({"--curve", table, "--curve-column", "depth"}, 3,
+          "series.csv:1: has no column 'depth'; it has time, ses_area");
+  refused({"--curve", folder_.file("short.csv", "frame,time,volume\n0,,1\n1,,2\n")}, 3, "has no row of frame 2");
+  refused({"--curve", folder_.file("twice.csv", "frame,volume\n0,1\n0,2\n")}, 3, "twice.csv:3: frame 0 stands here a");
+  refused({"--curve", folder_.file("word.csv", "frame,volume\n0,many\n")}, 3, "word.csv:2: volume 'many' is no number");
+  refused({"--curve", folder_.file("none.csv", "a,b\n")}, 3, "none.csv:1: is no header with a column 'frame'");
+  refused({"--curve-column", "volume"}, 2, "--curve");
+  const ProgramResult one = meniscus({"render", file_, "-q", "-o", folder + "/one.png", "--curve", table});
+  EXPECT_EQ(one.exit_code, 2);
+  EXPECT_NE(one.err.find("--curve is for a run of frames"), std::string::npos) << one.err;
+}
+
 TEST_F(Frames, FilmWithoutFfmpegSaysSo) {
   const ProgramResult result =
       run_program("/usr/bin/env", {"PATH=/nowhere", MENISCUS_PROGRAM, "render", file_, "-q", "--size", "64x48",

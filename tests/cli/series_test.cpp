@@ -179,6 +179,41 @@ TEST_F(Series, CavitiesKeepTheirNumbersUntilTheyClose) {
   expect_error({dry_, "--csv-cavities", "-"}, 2, "run of frames");
 }
 
+/// Three atoms a frame, farther apart from frame to frame, at times of their own.
+std::string timed_gro(int frames) {
+  std::string text;
+  for (int n = 0; n < frames; ++n) {
+    text += fmt::format("a run t= {:.5f} step= {}\n    3\n", 2.5 * n + 10, 50 * n);
+    for (int atom = 0; atom < 3; ++atom)
+      text += fmt::format("    1LIG     C{}    {}{:8.3f}{:8.3f}{:8.3f}\n", atom + 1, atom + 1, atom * 0.05 * (n + 1),
+                          0.0, 0.0);
+    text += "   9.00000   9.00000   9.00000\n";
+  }
+  return text;
+}
+
+// The numbers of a frame beside its own number and time, however many are made at once.
+TEST_F(Series, EachRowHasItsOwnTimeAndNumbers) {
+  const std::string file = folder_.file("timed.gro", timed_gro(9));
+  for (const char* jobs : {"1", "2", "3"}) {
+    const Rows rows = table({file, "--frames", "all", "--jobs", jobs}, "--csv-series");
+    ASSERT_EQ(rows.size(), 9u);
+    for (int n = 0; n < 9; ++n) {
+      const auto& row = rows[static_cast<std::size_t>(n)];
+      EXPECT_EQ(row.at("frame"), std::to_string(n));
+      EXPECT_DOUBLE_EQ(std::stod(row.at("time")), 2.5 * n + 10);
+      const nlohmann::json model = one({file, "--model", std::to_string(n + 1)});
+      EXPECT_NEAR(std::stod(row.at("sas_area")), model["sas_area"], 1e-6);
+      if (n > 0)
+        EXPECT_GT(std::stod(row.at("sas_area")), std::stod(rows[static_cast<std::size_t>(n - 1)].at("sas_area")));
+    }
+    const Rows atoms = table({file, "--frames", "4-5", "--jobs", jobs}, "--csv");
+    ASSERT_EQ(atoms.size(), 6u);
+    EXPECT_EQ(atoms[3].at("frame"), "5");
+    EXPECT_EQ(atoms[3].at("time"), "22.5");
+  }
+}
+
 TEST_F(Series, OutputsThatGetIntoEachOthersWay) {
   expect_error({dry_, "--frames", "0", "--csv-series", "-", "--json"}, 2, "one thing at a time");
   expect_error({dry_, "--frames", "0", "--csv-series", "-", "--csv", "-"}, 2, "one thing at a time");

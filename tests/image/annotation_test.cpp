@@ -124,6 +124,43 @@ TEST(Annotations, LabelsLeadToTheirPlacesAndDoNotMeet) {
   EXPECT_EQ(extent(written(one)).z, 0);
 }
 
+TEST(Annotations, ACurveHasItsMarkWhereThePictureIs) {
+  Annotations run;
+  // Of the pixel or one above or below it.
+  const auto share = [&](std::size_t now, glm::ivec2 place) {
+    run.curve->now = now;
+    const Framebuffer picture = written(run);
+    float most = 0.0f;
+    for (int y = place.y - 1; y <= place.y + 1; ++y)
+      most = std::max(most, picture.color[static_cast<std::size_t>(y) * kSize.x + place.x].w);
+    return most;
+  };
+  run.curve = Curve{"volume", {10, 20, 30, 40, 50}, 0};
+  // From (268, 288), the least at the left, to (388, 252).
+  const glm::ivec2 places[] = {{268, 287}, {298, 279}, {328, 270}, {358, 261}, {387, 252}};
+  for (std::size_t now = 0; now < 5; ++now)
+    for (std::size_t n = 0; n < 5; ++n) {
+      const float found = share(now, places[n]);
+      if (n <= now)
+        EXPECT_GT(found, 0.9f) << now << " " << n;
+      else
+        EXPECT_LT(found, 0.7f) << now << " " << n;
+      EXPECT_GT(found, 0.25f) << "what is to come is there, too";
+    }
+  // The mark is wider than the curve.
+  EXPECT_GT(share(2, {328, 272}), 0.9f);
+  EXPECT_LT(share(4, {328, 274}), 0.1f);
+  const glm::ivec4 found = extent(written(run));
+  EXPECT_GT(found.x, 230);
+  EXPECT_GT(found.y, 225);
+  EXPECT_LT(found.z, 400);
+  EXPECT_LT(found.w, 300);
+  run.curve = Curve{"flat", {7, 7, 7}, 1};
+  EXPECT_GT(share(1, {328, 270}), 0.9f);
+  run.curve = Curve{"one", {7}, 0};
+  EXPECT_GT(share(0, {328, 270}), 0.9f);
+}
+
 TEST(Annotations, LettersHaveARimBeforeTheMoleculeOnly) {
   Annotations panel;
   panel.panel = "A";

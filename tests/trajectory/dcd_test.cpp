@@ -180,8 +180,8 @@ TEST(Dcd, ChangesWhileOpenAreErrors) {
 
 TEST(Dcd, NameAndContentMustAgree) {
   const TemporaryFolder folder;
-  EXPECT_EQ(binary_trajectory_format(folder.file("x.bin", dcd({}))), "DCD");
-  EXPECT_EQ(binary_trajectory_format(folder.file("x.txt", "text")), "");
+  EXPECT_EQ(bare_trajectory_format(folder.file("x.bin", dcd({}))), "DCD");
+  EXPECT_EQ(bare_trajectory_format(folder.file("x.txt", "text")), "");
   EXPECT_EQ(open_trajectory(folder.file("x.bin", dcd({})))->format(), "DCD");
   EXPECT_NE(refusal([&] { open_bytes(folder, "ATOM  "); }).find("it does not begin with a record of 84 bytes and CORD"),
             std::string::npos);

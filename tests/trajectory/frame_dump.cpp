@@ -29,9 +29,11 @@ int main(int count, char** arguments) {
   try {
     meniscus::TrajectoryOptions options;
     int next = 2;
-    if (count > 3 && std::strcmp(arguments[2], "--index") == 0) {
-      options.index_folder = arguments[3];
-      next = 4;
+    for (; count > next + 1 && std::strncmp(arguments[next], "--", 2) == 0; next += 2) {
+      const char* value = arguments[next + 1];
+      if (std::strcmp(arguments[next], "--index") == 0) options.index_folder = value;
+      if (std::strcmp(arguments[next], "--atoms") == 0)
+        options.atoms = [value] { return std::strtoull(value, nullptr, 10); };
     }
     const auto trajectory = meniscus::open_trajectory(count > 1 ? arguments[1] : "", options);
     std::printf("format %s atoms %zu frames %llu\n", trajectory->format().c_str(), trajectory->atom_count(),

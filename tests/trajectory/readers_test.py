@@ -13,7 +13,10 @@ import numpy as np
 
 warnings.filterwarnings("ignore")
 import MDAnalysis  # noqa: E402
+import MDAnalysis.coordinates.LAMMPS  # noqa: E402
+import MDAnalysis.coordinates.TRJ  # noqa: E402
 import mdtraj.formats  # noqa: E402
+from parmed.amber import AmberMdcrd  # noqa: E402
 from MDAnalysis.lib.mdamath import triclinic_box  # noqa: E402
 
 FRAMES = 6
@@ -21,9 +24,10 @@ ORDER = [4, 0, 5, 2, 2, 1, 3]
 dump_program = structure_file = None
 
 
-def dump(path, numbers=()):
-    """The frames of a file as frame_dump prints them: a dictionary of number, text, positions, cell, time each."""
-    arguments = [dump_program, str(path), *map(str, numbers)]
+def dump(path, numbers=(), atoms=None):
+    """The frames of a file as frame_dump prints them: a dictionary of number, text, positions, cell, time each. atoms:
+    of a frame, for a format that does not say."""
+    arguments = [dump_program, str(path), *(["--atoms", str(atoms)] if atoms else []), *map(str, numbers)]
     text = subprocess.run(arguments, check=True, capture_output=True, text=True).stdout
     frames = []
     for part in text.split("frame ")[1:]:
@@ -178,6 +182,97 @@ class Readers(unittest.TestCase):
             file["coordinates"].attrs["units"] = "feet"
         said = subprocess.run([dump_program, str(path)], capture_output=True, text=True).stderr
         self.assertIn("names 'feet' as a unit where MDTraj writes nanometers", said)
+
+    def test_mdcrd(self):
+        """Written by MDTraj and by ParmEd, with a box and without, of numbers of atoms whose lines are all full too."""
+        for count, box in ((len(self.atoms), True), (len(self.atoms), False), (10, False), (20, True), (1, False)):
+            positions = np.array(self.motion, np.float32)[:, :count]
+            lengths = np.array(self.boxes)[:, :3]
+            path = self.path(f"m{count}{box}.mdcrd")
+            with mdtraj.formats.MDCRDTrajectoryFile(str(path), mode="w", force_overwrite=True) as file:
+                file.write(positions, lengths if box else None)
+            frames = dump(path, atoms=count)
+            self.assertLess(np.abs(frames[3]["positions"] - self.motion[3][:count]).max(), 6e-4)  # three decimals
+            with mdtraj.formats.MDCRDTrajectoryFile(str(path), n_atoms=count, has_box=box) as file:
+                self.compare(frames, file.read()[0])
+            for frame, edges in zip(frames, lengths):
+                self.assertEqual(frame["cell"] is not None, box)
+                if box:
+                    np.testing.assert_allclose(frame["cell"], np.diag(edges), rtol=0, atol=6e-4)
+            for frame in dump(path, ORDER, atoms=count):
+                self.assertEqual(frame["text"].splitlines(), frames[frame["number"]]["text"].splitlines())
+            by_parmed = AmberMdcrd(str(self.path(f"p{count}{box}.mdcrd")), count, box, "w")
+            for place in range(FRAMES):
+                by_parmed.add_coordinates(positions[place].ravel())
+                if box:
+                    by_parmed.add_box(lengths[place])
+            by_parmed.close()
+            again = dump(self.path(f"p{count}{box}.mdcrd"), atoms=count)
+            # It reads boxes of eight columns, and not those with blanks between that MDTraj writes.
+            other = MDAnalysis.coordinates.TRJ.TRJReader(str(self.path(f"p{count}{box}.mdcrd")), n_atoms=count)
+            self.compare(again, [step.positions.copy() for step in other])
+            self.assertEqual([frame["text"] for frame in again], [frame["text"] for frame in frames])
+
+    def lammps_dump(self, name, columns, low=(0, 0, 0), vectors=None, head=lambda n: ""):
+        """A dump as LAMMPS writes it, atoms in another order in each frame: the positions in it, with `low` as the corner
+        of the box whose vectors (rows, a along x) are given."""
+        inside = np.array(self.motion) + 200
+        vectors = np.diag([400.0, 410.0, 420.0]) if vectors is None else np.array(vectors, float)
+        (xy, xz, yz), edges = (vectors[1][0], vectors[2][0], vectors[2][1]), np.diag(vectors)
+        below = np.array([min(0, xy, xz, xy + xz), min(0, yz), 0])
+        above = np.array([max(0, xy, xz, xy + xz), max(0, yz), 0])
+        inclined = any((xy, xz, yz))
+        positions, text = inside + np.array(low), []
+        rng = np.random.default_rng(3)
+        for n in range(FRAMES):
+            text.append(f"{head(n)}ITEM: TIMESTEP\n{100 * n}\nITEM: NUMBER OF ATOMS\n{len(self.atoms)}\nITEM: BOX BOUNDS "
+                        f"{'xy xz yz ' if inclined else ''}pp pp pp\n")
+            for axis, tilt in enumerate((xy, xz, yz)):
+                text.append(f"{low[axis] + below[axis]:.16e} {low[axis] + edges[axis] + above[axis]:.16e}"
+                            + (f" {tilt:.16e}" if inclined else "") + "\n")
+            text.append(f"ITEM: ATOMS {columns}\n")
+            scaled = inside[n] @ np.linalg.inv(vectors)
+            for k in rng.permutation(len(self.atoms)):
+                number = {"id": k + 1, "type": 1, "element": "C", "ix": 0}
+                number.update({axis + kind: f"{positions[n][k][at]:.9g}" for kind in ("", "u")
+                               for at, axis in enumerate("xyz")})
+                number.update({axis + kind: f"{scaled[k][at]:.12g}" for kind in ("s", "su") for at, axis in enumerate("xyz")})
+                text.append(" ".join(str(number[word]) for word in columns.split()) + "\n")
+        path = self.path(name)
+        path.write_text("".join(text))
+        return path, positions, vectors
+
+    def test_lammps_dump(self):
+        """Every kind of columns and of boxes, against the numbers that were written, MDAnalysis and MDTraj."""
+        inclined = [[400, 0, 0], [60, 410, 0], [-70, 50, 420]]
+        for columns in ("id type x y z", "xu element yu zu id", "id xs ys zs ix", "type xsu ysu zsu id", "id x y z xu yu zu"):
+            for low in ((0, 0, 0), (-30, 7, 11)):
+                for vectors in (None, inclined):
+                    path, positions, box = self.lammps_dump("a.lammpstrj", columns, low, vectors)
+                    frames = dump(path)
+                    for frame, expected in zip(frames, positions):
+                        np.testing.assert_allclose(frame["positions"], expected, rtol=0, atol=1e-5)
+                        np.testing.assert_allclose(frame["cell"], box, rtol=0, atol=1e-9)
+                        self.assertIsNone(frame["time"])
+                        self.assertIn(f"step {100 * frame['number']}", frame["text"])
+                    for frame in dump(path, ORDER):
+                        self.assertEqual(frame["text"].splitlines(), frames[frame["number"]]["text"].splitlines())
+                    if columns.startswith("id type x"):
+                        other = MDAnalysis.coordinates.LAMMPS.DumpReader(str(path))
+                        # It counts from the corner of the box.
+                        self.compare(frames, [step.positions + np.array(low, np.float32) for step in other])
+                        with mdtraj.formats.LAMMPSTrajectoryFile(str(path)) as file:
+                            self.compare(frames, file.read()[0])
+
+    def test_lammps_names_its_units(self):
+        def head(n):
+            return ("ITEM: UNITS\nnano\n" if n == 0 else "") + f"ITEM: TIME\n{0.5 * n}\n"
+
+        path, positions, box = self.lammps_dump("n.dump", "id x y z", head=head)
+        for frame, expected in zip(dump(path, reversed(range(FRAMES))), positions[::-1]):
+            np.testing.assert_allclose(frame["positions"], 10 * expected, rtol=0, atol=1e-4)
+            np.testing.assert_allclose(frame["cell"], 10 * box)
+            self.assertAlmostEqual(frame["time"], 500.0 * frame["number"])
 
     def test_h5md(self):
         for unit in ("nm", "Angstrom"):

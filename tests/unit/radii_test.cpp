@@ -36,7 +36,7 @@ TEST(Radii, SymbolsFollowAtomicNumbers) {
 TEST(Radii, ElementsWithoutSourceAreNamed) {
   Structure structure;
   for (const int element : {6, 26, 26, 42}) structure.atoms.emplace_back().element = static_cast<std::uint8_t>(element);
-  RadiiChoice({}, "file", false).assign(structure);
+  RadiiChoice({}, "file", FileRadii::none).assign(structure);
   EXPECT_EQ(structure.atoms[0].radius, 1.7);
   EXPECT_EQ(structure.atoms[1].radius, 2.0);
   EXPECT_EQ(structure.radii_set, "bondi");

@@ -14,12 +14,12 @@ namespace meniscus {
 namespace {
 
 /// A new format is a file read_<name>.cpp, its name in reader.h and an entry in both lists.
-constexpr std::array<const Reader*, 7> kReaders{&kPdbReader, &kMmcifReader, &kPqrReader, &kGroReader,
-                                                &kXyzReader, &kXyzrReader,  &kPsfReader};
+constexpr std::array<const Reader*, 8> kReaders{&kPdbReader, &kMmcifReader, &kPqrReader, &kGroReader,
+                                                &kXyzReader, &kXyzrReader,  &kPsfReader, &kPrmtopReader};
 
 /// Strict tests first: PDB takes any text with one of its records in it, and what may be PQR too.
-constexpr std::array<const Reader*, 7> kOrderOfTrial{&kPsfReader, &kMmcifReader, &kGroReader, &kXyzReader,
-                                                     &kPdbReader, &kPqrReader,   &kXyzrReader};
+constexpr std::array<const Reader*, 8> kOrderOfTrial{&kPsfReader, &kPrmtopReader, &kMmcifReader, &kGroReader,
+                                                     &kXyzReader, &kPdbReader,    &kPqrReader,   &kXyzrReader};
 static_assert(kReaders.size() == kOrderOfTrial.size());
 
 std::string lower_case_name(const std::string& path) {

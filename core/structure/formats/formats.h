@@ -12,7 +12,7 @@ namespace meniscus {
 /// All formats, as people list them.
 std::span<const Reader* const> readers();
 
-/// "PDB, mmCIF, PQR, GRO, XYZ, XYZR, PSF"
+/// "PDB, mmCIF, PQR, GRO, XYZ, XYZR, PSF, prmtop"
 std::string format_names();
 
 /// The reader of a file: the format of its name if its content may be that, else the one its content is.

@@ -23,7 +23,7 @@ constexpr std::string_view kLine = "ATOM serial name residue [chain] number x y 
 class PqrReader {
  public:
   PqrReader(const TextFile& file, const ModelChoice& models) : file_(file), choice_(models) {
-    contents_.radii_from_file = true;
+    contents_.radii = FileRadii::usual;
   }
 
   FileContents run() {

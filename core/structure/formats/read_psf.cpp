@@ -3,52 +3,20 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <cmath>
 
 #include <fmt/format.h>
-#include <gemmi/elem.hpp>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/structure/atom_classes.h"
 #include "core/text/parse_number.h"
+#include "core/structure/formats/element_of_mass.h"
 #include "core/structure/formats/reader.h"
 #include "core/structure/residue_counter.h"
 #include "core/text/text_lines.h"
 
 namespace meniscus {
 namespace {
-
-constexpr std::string_view kOrganic = "HCNOPS";
-
-/// The element whose weight this is, within 0.1; 0 if there is none.
-std::uint8_t element_of_mass(double mass) {
-  int best = 0;
-  double least = 0.1;
-  for (int number = 1; number < 119; ++number) {
-    const double distance = std::abs(gemmi::Element(number).weight() - mass);
-    if (distance < least) {
-      least = distance;
-      best = number;
-    }
-  }
-  return static_cast<std::uint8_t>(best);
-}
-
-/// By the mass, which tells calcium from carbon, unless the name says another element of organic residues: where mass
-/// was moved from carbon and nitrogen to their hydrogens, NH weighs as much as C.
-std::uint8_t element_of(const std::string& name, double mass) {
-  const std::uint8_t by_mass = element_of_mass(mass);
-  const std::size_t letter = std::min(name.find_first_not_of("0123456789"), name.size());
-  const char first =
-      letter < name.size() ? static_cast<char>(std::toupper(static_cast<unsigned char>(name[letter]))) : ' ';
-  const bool named_organic = kOrganic.find(first) != std::string_view::npos;
-  const gemmi::Element heavy_or_light(int{by_mass});
-  const bool moved_mass = named_organic &&
-                          (by_mass == 2 || kOrganic.find(heavy_or_light.name()) != std::string_view::npos) &&
-                          heavy_or_light.name()[0] != first;
-  return moved_mass ? 0 : by_mass;
-}
 
 class PsfReader {
  public:
@@ -134,7 +102,7 @@ class PsfReader {
                        fmt::format("charge {} and mass {} are not both numbers; columns may have run together",
                                    in_quotes(charge), in_quotes(mass)));
     }
-    atom.element = element_of(atom.name, weight);
+    atom.element = element_of_mass(atom.name, weight);
     residues_.number(atom);
     contents_.atoms.push_back(std::move(atom));
   }

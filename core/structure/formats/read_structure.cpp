@@ -282,6 +282,14 @@ void use_assemblies(Structure& structure, const TextFile& file, const Reader& re
 
 }  // namespace
 
+std::size_t count_atoms(const std::string& path, const std::optional<Selection>& trajectory_atoms) {
+  const TextFile file = read_text_file(path);
+  FileContents contents = choose_reader(file).read(file, {});
+  ReadReport unused;
+  if (trajectory_atoms) keep_trajectory_atoms(contents, *trajectory_atoms, file, unused);
+  return contents.atoms.size();
+}
+
 Structure read_structure(const std::string& path, const ReadOptions& options) {
   const TextFile file = read_text_file(path);
   Structure structure;
@@ -300,10 +308,11 @@ Structure read_structure(const std::string& path, const ReadOptions& options) {
   place_atoms(contents, options, file);
   if (options.keep_topology)
     structure.topology = std::make_shared<const Topology>(
-        Topology{contents.atoms, options.shown.empty() ? std::move(contents.bonds) : contents.bonds});
+        Topology{contents.atoms, options.shown.empty() ? std::move(contents.bonds) : contents.bonds,
+                 contents.without_positions});
 
   warn_of_missing_altloc(structure, contents.atoms, options.altloc);
-  const RadiiChoice radii(options.radii, file.path, contents.radii_from_file);
+  const RadiiChoice radii(options.radii, file.path, contents.radii);
   choose_atoms(contents.atoms, structure.beside, options, radii, report, file.path);
   structure.atoms = std::move(contents.atoms);
   report.used = structure.atoms.size();
@@ -314,7 +323,7 @@ Structure read_structure(const std::string& path, const ReadOptions& options) {
   if (options.unknown_element == UnknownElement::halt) halt_on_unknown_elements(structure, unknown);
   refuse_no_atoms(structure);
   warn_of_coincident_atoms(structure);
-  if (!contents.radii_from_file) warn_of_wrong_unit(structure);
+  if (contents.radii != FileRadii::usual) warn_of_wrong_unit(structure);
   use_assemblies(structure, file, reader, options);
   if (!options.shown.empty())
     structure.shown_bonds = std::make_shared<const std::vector<Bond>>(bonds_of_shown(structure, contents.bonds));

@@ -63,4 +63,8 @@ struct ReadOptions {
 /// elements), CapacityError.
 Structure read_structure(const std::string& path, const ReadOptions& options = {});
 
+/// How many atoms the first model of the file has, or how many of them are those of a trajectory
+/// (ReadOptions::trajectory_atoms). Throws as read_structure.
+std::size_t count_atoms(const std::string& path, const std::optional<Selection>& trajectory_atoms);
+
 }  // namespace meniscus

@@ -32,7 +32,7 @@ bool recognizes(std::string_view text) {
 FileContents read(const TextFile& file, const ModelChoice& models) {
   FileContents contents;
   contents.models = 1;
-  contents.radii_from_file = true;
+  contents.radii = FileRadii::usual;
   LineReader lines(file.text);
   for (std::string_view line; lines.next(line);) {
     const std::vector<std::string_view> fields = fields_before_comment(line);

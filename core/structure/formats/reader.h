@@ -34,10 +34,10 @@ struct ModelChoice {
 struct FileContents {
   std::vector<Atom> atoms;         ///< Atom::model says of which model
   std::vector<Bond> bonds;         ///< those the file lists, of the first of these models
-  bool without_positions = false;  ///< a topology (PSF): all positions are the origin
+  bool without_positions = false;  ///< a topology (PSF, prmtop): all positions are the origin
   std::size_t models = 0;          ///< in the whole file
   std::size_t other_model_atoms = 0;
-  bool radii_from_file = false;
+  FileRadii radii = FileRadii::none;
   std::vector<Warning> warnings;
 };
 
@@ -60,5 +60,6 @@ extern const Reader kGroReader;
 extern const Reader kXyzReader;
 extern const Reader kXyzrReader;
 extern const Reader kPsfReader;
+extern const Reader kPrmtopReader;
 
 }  // namespace meniscus

@@ -48,12 +48,13 @@ RadiusOverride parse_radius_override(const std::string& text) {
   return {parse_selection(std::string_view(text).substr(0, sign)), radius};
 }
 
-RadiiChoice::RadiiChoice(const RadiiOptions& options, const std::string& molecule_file, bool has_radii)
+RadiiChoice::RadiiChoice(const RadiiOptions& options, const std::string& molecule_file, FileRadii file_radii)
     : options_(options), tables_(read_radii_files(options.files)) {
   if (options.set.empty()) {
-    from_file_ = has_radii && tables_.empty();
+    from_file_ = file_radii == FileRadii::usual && tables_.empty();
   } else if (options.set == "file") {
-    if (!has_radii) throw InputError(molecule_file, 0, "holds no radii; choose another set: " + radii_set_names());
+    if (file_radii == FileRadii::none)
+      throw InputError(molecule_file, 0, "holds no radii; choose another set: " + radii_set_names());
     from_file_ = true;
   } else {
     set_ = find_radii_set(options.set);

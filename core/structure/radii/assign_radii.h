@@ -19,7 +19,7 @@ struct RadiusOverride {
 };
 
 struct RadiiOptions {
-  std::string set{};                        ///< "bondi", "united", "protor" or "file"; empty: file if it has radii
+  std::string set{};                        ///< "bondi", "united", "protor" or "file"; empty: file if it has usual ones
   std::vector<std::string> files{};         ///< read_radii_files; the last that covers an atom counts, then the set
   std::vector<RadiusOverride> overrides{};  ///< the last that selects an atom counts
 };
@@ -31,7 +31,7 @@ RadiusOverride parse_radius_override(const std::string& text);
 class RadiiChoice {
  public:
   /// Throws InputError: an unknown set, "file" for a molecule file without radii, or what read_radii_files throws.
-  RadiiChoice(const RadiiOptions& options, const std::string& molecule_file, bool has_radii);
+  RadiiChoice(const RadiiOptions& options, const std::string& molecule_file, FileRadii file_radii);
 
   bool from_molecule_file() const { return from_file_; }
   /// Do the radii contain hydrogens, so that these are left out unless the user keeps them? `any`: the molecule has

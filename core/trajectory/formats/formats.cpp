@@ -17,13 +17,14 @@ namespace meniscus {
 namespace {
 
 /// A new format is a file read_<name>.cpp, its name in formats.h and an entry here, before the last.
-constexpr std::array<const TrajectoryFormat*, 6> kFormats{&kXtcFormat,  &kTrrFormat,         &kDcdFormat,
-                                                          &kH5mdFormat, &kAmberNetcdfFormat, &kModelsFormat};
-constexpr std::span<const TrajectoryFormat* const> kBinaryFormats{kFormats.data(), kFormats.size() - 1};
+constexpr std::array<const TrajectoryFormat*, 8> kFormats{&kXtcFormat,    &kTrrFormat,         &kDcdFormat,
+                                                          &kH5mdFormat,   &kAmberNetcdfFormat, &kMdcrdFormat,
+                                                          &kLammpsFormat, &kModelsFormat};
+constexpr std::span<const TrajectoryFormat* const> kBareFormats{kFormats.data(), kFormats.size() - 1};
 
-std::string binary_format_names() {
+std::string bare_format_names() {
   std::string names;
-  for (const TrajectoryFormat* format : kBinaryFormats) names += fmt::format("{}, ", format->metadata.name);
+  for (const TrajectoryFormat* format : kBareFormats) names += fmt::format("{}, ", format->metadata.name);
   return names;
 }
 
@@ -33,7 +34,7 @@ std::string lower_case(std::string text) {
 }
 
 const TrajectoryFormat* format_by_name(const std::string& name) {
-  for (const TrajectoryFormat* format : kBinaryFormats) {
+  for (const TrajectoryFormat* format : kBareFormats) {
     const auto extensions = fields_of(format->metadata.extensions);
     if (std::any_of(extensions.begin(), extensions.end(), [&](std::string_view end) { return name.ends_with(end); }))
       return format;
@@ -42,9 +43,9 @@ const TrajectoryFormat* format_by_name(const std::string& name) {
 }
 
 const TrajectoryFormat* format_by_content(std::string_view start) {
-  const auto found = std::find_if(kBinaryFormats.begin(), kBinaryFormats.end(),
+  const auto found = std::find_if(kBareFormats.begin(), kBareFormats.end(),
                                   [&](const TrajectoryFormat* format) { return format->recognizes(start); });
-  return found == kBinaryFormats.end() ? nullptr : *found;
+  return found == kBareFormats.end() ? nullptr : *found;
 }
 
 std::string start_of(const std::string& path) {
@@ -54,7 +55,21 @@ std::string start_of(const std::string& path) {
   return start;
 }
 
+/// The version of the program as an XDR string, twice its length before it.
+bool is_run_input(std::string_view start) {
+  constexpr std::string_view kLengths("\0\0\0", 3);
+  return start.size() > 16 && start.starts_with(kLengths) && start.substr(4).starts_with(kLengths) &&
+         start.substr(8).starts_with("VERSION ");
+}
+
+[[noreturn]] void refuse_run_input(const std::string& path) {
+  throw InputError(path, 0,
+                   "is a run input file of GROMACS (TPR), which is another in each version and is not read; give its "
+                   "atoms as a PDB file: gmx editconf -f run.tpr -conect -o run.pdb");
+}
+
 const TrajectoryFormat& choose_format(const std::string& path, const std::string& start) {
+  if (is_run_input(start)) refuse_run_input(path);
   const std::string name = lower_case(path);
   const bool packed = start.starts_with("\x1f\x8b");
   if (packed && name.ends_with(".gz") && format_by_name(name.substr(0, name.size() - 3)))
@@ -72,7 +87,7 @@ const TrajectoryFormat& choose_format(const std::string& path, const std::string
   if (by_content) return *by_content;
   if (!packed && start.find('\0') != std::string::npos) {
     throw InputError(path, 0,
-                     fmt::format("is in no trajectory format that is read ({}or models of {})", binary_format_names(),
+                     fmt::format("is in no trajectory format that is read ({}or models of {})", bare_format_names(),
                                  format_names()));
   }
   return kModelsFormat;
@@ -82,14 +97,17 @@ const TrajectoryFormat& choose_format(const std::string& path, const std::string
 
 std::span<const TrajectoryFormat* const> trajectory_formats() { return kFormats; }
 
-std::string_view binary_trajectory_format(const std::string& path) {
+std::string_view bare_trajectory_format(const std::string& path) {
   if (path == "-") return {};
+  std::string start;
   try {
-    const TrajectoryFormat* format = format_by_content(start_of(path));
-    return format ? format->metadata.name : std::string_view();
+    start = start_of(path);
   } catch (const InputError&) {
     return {};
   }
+  if (is_run_input(start)) refuse_run_input(path);
+  const TrajectoryFormat* format = format_by_content(start);
+  return format ? format->metadata.name : std::string_view();
 }
 
 std::unique_ptr<Trajectory> open_trajectory(const std::string& path, const TrajectoryOptions& options) {

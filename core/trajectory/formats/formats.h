@@ -26,15 +26,17 @@ inline constexpr std::size_t kTrajectoryStart = 4096;
 /// core/structure/formats/formats.h.
 std::span<const TrajectoryFormat* const> trajectory_formats();
 
-/// The name of the binary format that the file begins like; these hold no atoms of their own. Empty for other files,
-/// and for one that cannot be read.
-std::string_view binary_trajectory_format(const std::string& path);
+/// The name of the format that the file begins like, if it is one of those that hold no atoms of their own: all but the
+/// last. Empty for other files, and for one that cannot be read. Throws InputError for a run input file of GROMACS.
+std::string_view bare_trajectory_format(const std::string& path);
 
 extern const TrajectoryFormat kDcdFormat;
 extern const TrajectoryFormat kXtcFormat;
 extern const TrajectoryFormat kTrrFormat;
 extern const TrajectoryFormat kAmberNetcdfFormat;
 extern const TrajectoryFormat kH5mdFormat;
+extern const TrajectoryFormat kLammpsFormat;
+extern const TrajectoryFormat kMdcrdFormat;
 extern const TrajectoryFormat kModelsFormat;
 
 }  // namespace meniscus

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
-#include <span>
 #include <utility>
 
 #include "core/base/units.h"
@@ -14,59 +12,11 @@
 #include "core/text/parse_number.h"
 #include "core/text/text_lines.h"
 #include "core/trajectory/formats/cell.h"
+#include "core/trajectory/formats/file_lines.h"
 #include "core/trajectory/trajectory.h"
 
 namespace meniscus {
 namespace {
-
-constexpr std::size_t kBlock = std::size_t{1} << 20;
-
-/// The lines of a file, of which only a block is in memory.
-class FileLines {
- public:
-  explicit FileLines(const BinaryFile& file) : file_(file) {}
-
-  /// The next line without its end; false behind the last one. A line longer than a block is given in pieces.
-  bool next(std::string_view& line) {
-    begin_ = block_begin_ + used_;
-    if (begin_ == file_.size()) return false;
-    const char* end = find_end();
-    if (!end && block_begin_ + block_.size() < file_.size()) {
-      load(begin_);
-      end = find_end();
-    }
-    const std::size_t length = (end ? static_cast<std::size_t>(end - block_.data()) : block_.size()) - used_;
-    line = std::string_view(block_).substr(used_, length);
-    used_ += length + (end ? 1 : 0);
-    return true;
-  }
-
-  std::uint64_t begin() const { return begin_; }                 ///< offset of the line last given
-  std::uint64_t behind() const { return block_begin_ + used_; }  ///< offset behind it and its end
-  bool ended_by_newline() const { return used_ > 0 && block_[used_ - 1] == '\n'; }
-
- private:
-  const char* find_end() const {
-    return static_cast<const char*>(std::memchr(block_.data() + used_, '\n', block_.size() - used_));
-  }
-
-  void load(std::uint64_t offset) {
-    block_.resize(std::min<std::uint64_t>(kBlock, file_.size() - offset));
-    file_.read(offset, std::as_writable_bytes(std::span(block_)));
-    block_begin_ = offset;
-    used_ = 0;
-  }
-
-  const BinaryFile& file_;
-  std::string block_;
-  std::uint64_t block_begin_ = 0, begin_ = 0;
-  std::size_t used_ = 0;
-};
-
-std::string_view without_return(std::string_view line) {
-  if (line.ends_with('\r')) line.remove_suffix(1);
-  return line;
-}
 
 bool is_blank(std::string_view line) { return line.find_first_not_of(" \t\r\v\f") == std::string_view::npos; }
 

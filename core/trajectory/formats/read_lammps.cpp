@@ -1,0 +1,337 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Reads text dumps of LAMMPS (dump atom, dump custom), whose atoms come in any order and go by their numbers.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/base/units.h"
+#include "core/text/parse_number.h"
+#include "core/text/text_lines.h"
+#include "core/trajectory/formats/binary_file.h"
+#include "core/trajectory/formats/cell.h"
+#include "core/trajectory/formats/file_lines.h"
+#include "core/trajectory/formats/formats.h"
+#include "core/trajectory/formats/frame_index.h"
+
+namespace meniscus {
+namespace {
+
+/// What one unit of length is in Å and one of time in ps ("units" in the manual); 0: nobody knows.
+struct UnitStyle {
+  std::string_view name;
+  double length, time;
+};
+constexpr std::array<UnitStyle, 7> kUnitStyles{{{"real", 1.0, 1e-3},
+                                                {"metal", 1.0, 1.0},
+                                                {"si", 1e10, 1e12},
+                                                {"cgs", 1e8, 1e12},
+                                                {"electron", 0.529177210903, 1e-3},
+                                                {"micro", 1e4, 1e6},
+                                                {"nano", 10.0, 1e3}}};
+
+/// Columns of positions, the best kind first: those that go on where they leave the box keep molecules whole.
+struct PositionColumns {
+  std::array<std::string_view, 3> names;
+  bool scaled;
+};
+constexpr std::array<PositionColumns, 4> kPositionColumns{
+    {{{"xu", "yu", "zu"}, false}, {{"xsu", "ysu", "zsu"}, true}, {{"x", "y", "z"}, false}, {{"xs", "ys", "zs"}, true}}};
+
+/// What stands above the atoms of a frame.
+struct DumpHeader {
+  std::optional<std::int64_t> step;
+  std::optional<double> time;
+  std::string units;  ///< LAMMPS names them once, in the first frame
+  std::int64_t atoms = -1;
+  glm::dvec3 low{0.0};  ///< the corner of the box, in the file's unit
+  glm::dmat3 box{0.0};  ///< its vectors, in the columns
+  bool has_box = false, periodic = false;
+  std::string columns;
+};
+
+/// Reads a header line by line; what is wrong with it is a fault.
+class HeaderReader {
+ public:
+  explicit HeaderReader(FileLines& lines) : lines_(lines) {}
+
+  /// Up to the line of columns. False: the file ends before it. Throws the words of a fault.
+  bool read(DumpHeader& header) {
+    for (std::string_view line; next(line);) {
+      if (trimmed(line).empty()) continue;
+      if (!line.starts_with("ITEM: ")) throw fault("has {} where a line 'ITEM: ...' should be", line);
+      const std::string item(trimmed(line.substr(6)));
+      if (item.starts_with("ATOMS")) {
+        header.columns = item.substr(5);
+        return true;
+      }
+      if (!take(item, header)) return false;
+    }
+    return false;
+  }
+
+  bool only_blanks() const { return only_blanks_; }  ///< nothing but blanks was read
+
+  struct Fault {
+    std::string words;
+  };
+
+ private:
+  bool next(std::string_view& line) {
+    if (!lines_.next(line)) return false;
+    line = without_return(line);
+    only_blanks_ = only_blanks_ && trimmed(line).empty();
+    return lines_.ended_by_newline();  // else the end of the file cuts it
+  }
+
+  static Fault fault(fmt::format_string<std::string> words, std::string_view text) {
+    return {fmt::format(words, in_quotes(text))};
+  }
+
+  bool take(const std::string& item, DumpHeader& header) {
+    if (item.starts_with("BOX BOUNDS")) return take_box(item.substr(10), header);
+    std::string_view line;
+    if (!next(line)) return false;
+    std::int64_t number = 0;
+    double time = 0.0;
+    if (item == "UNITS") {
+      header.units = trimmed(line);
+    } else if (item == "TIME") {
+      if (!parse_number(line, time)) throw fault("has the time {}, which is no number", line);
+      header.time = time;
+    } else if (item == "TIMESTEP") {
+      if (!parse_whole_number(line, number)) throw fault("has the timestep {}, which is no whole number", line);
+      header.step = number;
+    } else if (item == "NUMBER OF ATOMS") {
+      if (!parse_whole_number(line, header.atoms) || header.atoms < 1) throw fault("has {} atoms", line);
+    } else {
+      throw fault("has {}, which dumps of atoms (dump atom, dump custom) have not", item);
+    }
+    return true;
+  }
+
+  /// Three lines: low, high, and of an inclined box xy, xz, yz; bounds are then those of the box around it (manual,
+  /// "Triclinic simulation boxes"). Boundaries: "pp" is periodic.
+  bool take_box(std::string_view words, DumpHeader& header) {
+    const std::vector<std::string_view> fields = fields_of(words);
+    if (!fields.empty() && fields.front() == "abc")
+      throw Fault{"has a general triclinic box; write restricted ones: dump_modify triclinic/general no"};
+    const bool inclined = !fields.empty() && fields.front() == "xy";
+    const auto boundaries = std::span(fields).subspan(inclined ? std::min<std::size_t>(3, fields.size()) : 0);
+    header.periodic = std::ranges::all_of(boundaries, [](std::string_view word) { return word == "pp"; });
+    glm::dvec3 low(0.0), high(0.0), tilt(0.0);
+    for (int axis = 0; axis < 3; ++axis) {
+      std::string_view line;
+      if (!next(line)) return false;
+      const std::vector<std::string_view> numbers = fields_of(line);
+      if (numbers.size() != (inclined ? 3 : 2) || !parse_number(numbers[0], low[axis]) ||
+          !parse_number(numbers[1], high[axis]) || (inclined && !parse_number(numbers[2], tilt[axis])))
+        throw fault("has the bounds {}, which are not the numbers of a box", line);
+    }
+    const double xy = tilt[0], xz = tilt[1], yz = tilt[2];
+    low -= glm::dvec3(std::min({0.0, xy, xz, xy + xz}), std::min(0.0, yz), 0.0);
+    high -= glm::dvec3(std::max({0.0, xy, xz, xy + xz}), std::max(0.0, yz), 0.0);
+    header.low = low;
+    header.box = glm::dmat3(high.x - low.x, 0.0, 0.0, xy, high.y - low.y, 0.0, xz, yz, high.z - low.z);
+    header.has_box = true;
+    return true;
+  }
+
+  FileLines& lines_;
+  bool only_blanks_ = true;
+};
+
+class LammpsDump final : public Trajectory {
+ public:
+  LammpsDump(const std::string& path, const TrajectoryOptions& options)
+      : Trajectory(path, "LAMMPS dump"), file_(path), lines_(file_) {
+    index_ = find_frames(file_, options.index_folder, [this](std::uint64_t offset) { return extent_at(offset); });
+    cut_short_ = index_.cut_short;
+    frame_count_ = index_.offsets.size();
+    DumpHeader first;
+    read_header(0, first);
+    choose_units(first.units);
+    Frame frame;
+    read_unchecked(0, frame);
+    numbers_ = found_;
+    atom_count_ = numbers_.size();
+  }
+
+ private:
+  /// Goes through the lines of a frame without reading its atoms.
+  FrameExtent extent_at(std::uint64_t offset) {
+    constexpr std::uint64_t kEndless = std::uint64_t{1} << 62;
+    DumpHeader header;
+    lines_.seek(offset);
+    try {
+      HeaderReader reader(lines_);
+      if (!reader.read(header)) return {reader.only_blanks() ? file_.size() - offset : kEndless, false, {}};
+    } catch (const HeaderReader::Fault& fault) {
+      return {0, true, fault.words};
+    }
+    if (header.atoms < 0) return {0, true, "has no ITEM: NUMBER OF ATOMS before its atoms"};
+    std::string_view line;
+    for (std::int64_t n = 0; n < header.atoms; ++n)
+      if (!lines_.next(line)) return {kEndless, true, {}};
+    // LAMMPS ends every line: a number at the end of the file may be cut, and is a number still.
+    return {lines_.ended_by_newline() ? lines_.behind() - offset : kEndless, true, {}};
+  }
+
+  void choose_units(const std::string& name) {
+    if (name.empty()) {
+      warnings_.emplace_back("it names no units; its lengths are taken to be Å (dump_modify units yes writes them)");
+      return;
+    }
+    const auto found = std::ranges::find(kUnitStyles, std::string_view(name), &UnitStyle::name);
+    if (found == kUnitStyles.end())
+      throw InputError(path_, 0,
+                       fmt::format("its units are {}, which are no lengths in Å; real, metal, si, cgs, electron, micro "
+                                   "and nano are",
+                                   in_quotes(name)));
+    length_ = found->length;
+    time_ = found->time;
+  }
+
+  void read_header(std::uint64_t number, DumpHeader& header) {
+    lines_.seek(index_.offsets[number]);
+    bool whole = false;
+    try {
+      whole = HeaderReader(lines_).read(header);
+    } catch (const HeaderReader::Fault& fault) {
+      refuse(number, fault.words);
+    }
+    if (!whole || header.atoms < 1) refuse(number, "is no dump of atoms any more");
+  }
+
+  [[noreturn]] void refuse(std::uint64_t number, const std::string& what) const {
+    throw InputError(path_, 0,
+                     fmt::format("frame {} at byte {} {}", number, with_thousands(index_.offsets[number]), what));
+  }
+
+  /// Where the columns of an atom are that are read: its number, and three of its position.
+  struct Columns {
+    std::array<std::size_t, 4> place;
+    std::size_t last;
+    bool scaled;
+  };
+
+  Columns columns_of(std::uint64_t number, const DumpHeader& header) const {
+    const std::vector<std::string_view> names = fields_of(header.columns, 1000);
+    const auto place = [&](std::string_view name) {
+      return static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
+    };
+    Columns columns{};
+    columns.place[0] = place("id");
+    if (columns.place[0] == names.size())
+      refuse(number, "has no column 'id', so that nobody knows which atom is which; add id to dump custom");
+    for (const PositionColumns& kind : kPositionColumns) {
+      for (std::size_t axis = 0; axis < 3; ++axis) columns.place[axis + 1] = place(kind.names[axis]);
+      columns.last = std::ranges::max(columns.place);
+      columns.scaled = kind.scaled;
+      if (columns.last == names.size()) continue;
+      if (kind.scaled && !header.has_box) refuse(number, "has positions in parts of a box, and no box");
+      return columns;
+    }
+    refuse(number, fmt::format("has the columns {}, but neither xu yu zu, xsu ysu zsu, x y z nor xs ys zs",
+                               in_quotes(trimmed(header.columns))));
+  }
+
+  void read_unchecked(std::uint64_t number, Frame& frame) override {
+    DumpHeader header;
+    read_header(number, header);
+    const Columns columns = columns_of(number, header);
+    if (static_cast<std::uint64_t>(header.atoms) > file_.size()) refuse(number, "has more atoms than the file bytes");
+    found_.clear();
+    placed_.clear();
+    for (std::int64_t n = 0; n < header.atoms; ++n) take_atom(number, header, columns);
+    file_.check_unchanged();
+    sort_atoms(number);
+    frame.positions.resize(placed_.size());
+    for (std::size_t n = 0; n < placed_.size(); ++n) frame.positions[n] = length_ * placed_[n];
+    if (header.has_box && header.periodic) frame.cell = cell_of_vectors(length_ * header.box);
+    frame.step = header.step;
+    if (header.time && time_ > 0.0 && std::isfinite(time_ * *header.time)) frame.time = time_ * *header.time;
+  }
+
+  void take_atom(std::uint64_t number, const DumpHeader& header, const Columns& columns) {
+    std::string_view line;
+    if (!lines_.next(line)) refuse(number, "has less atoms than before");
+    line = without_return(line);
+    std::string_view rest = line;
+    std::array<std::string_view, 4> fields;
+    for (std::size_t column = 0; column <= columns.last; ++column) {
+      const std::string_view field = take_field(rest);
+      for (std::size_t n = 0; n < 4; ++n)
+        if (columns.place[n] == column) fields[n] = field;
+    }
+    std::int64_t id = 0;
+    glm::dvec3 p(0.0);
+    if (!parse_whole_number(fields[0], id) || !parse_number(fields[1], p.x) || !parse_number(fields[2], p.y) ||
+        !parse_number(fields[3], p.z))
+      refuse(number, fmt::format("has the atom {}, whose number and position in the columns {} are not all numbers",
+                                 in_quotes(line), in_quotes(trimmed(header.columns))));
+    found_.push_back(id);
+    placed_.push_back(columns.scaled ? header.low + header.box * p : p);
+  }
+
+  /// By their numbers, which must be those of the first frame.
+  void sort_atoms(std::uint64_t number) {
+    if (!std::ranges::is_sorted(found_)) {
+      std::vector<std::size_t> order(found_.size());
+      std::iota(order.begin(), order.end(), std::size_t{0});
+      std::ranges::sort(order, {}, [&](std::size_t n) { return found_[n]; });
+      std::vector<std::int64_t> ids;
+      std::vector<glm::dvec3> positions;
+      for (const std::size_t n : order) {
+        ids.push_back(found_[n]);
+        positions.push_back(placed_[n]);
+      }
+      found_ = std::move(ids);
+      placed_ = std::move(positions);
+    }
+    const auto twice = std::ranges::adjacent_find(found_);
+    if (twice != found_.end()) refuse(number, fmt::format("has the atom {} twice", *twice));
+    if (numbers_.empty() || found_.size() != numbers_.size()) return;  // the first, or of another number of atoms
+    const auto other = std::ranges::mismatch(found_, numbers_);
+    if (other.in1 != found_.end())
+      refuse(number, fmt::format("has the atom {} where the first frame has {}: a group that changes is no trajectory",
+                                 *other.in1, *other.in2));
+  }
+
+  BinaryFile file_;
+  FileLines lines_;
+  FrameIndex index_;
+  double length_ = 1.0, time_ = 0.0;
+  std::vector<std::int64_t> numbers_;  ///< of the atoms, ascending
+  std::vector<std::int64_t> found_;    ///< those of the frame that is read
+  std::vector<glm::dvec3> placed_;     ///< their positions in the file's unit
+};
+
+bool recognizes(std::string_view start) {
+  return std::ranges::any_of(std::array{"ITEM: TIMESTEP", "ITEM: UNITS", "ITEM: TIME"},
+                             [&](const char* item) { return start.starts_with(item); });
+}
+
+}  // namespace
+
+const TrajectoryFormat kLammpsFormat{
+    {"LAMMPS dump", ".lammpstrj .lammpsdump .dump", "text dumps of LAMMPS (dump atom, dump custom)",
+     "LAMMPS manual: dump, dump_modify, Howto triclinic",
+     "positions by the numbers of the atoms: xu, xsu, x or xs, in this order; boxes that are periodic in all "
+     "directions, "
+     "inclined ones too; steps; times and units where they are named, else Å"},
+    recognizes,
+    [](const std::string& path, const TrajectoryOptions& options) {
+      return std::unique_ptr<Trajectory>(std::make_unique<LammpsDump>(path, options));
+    }};
+
+}  // namespace meniscus

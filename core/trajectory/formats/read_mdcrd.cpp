@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Reads mdcrd, Amber's formatted trajectories: a title, then ten numbers of eight columns a line, in Å.
+#include <algorithm>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/text/parse_number.h"
+#include "core/text/text_lines.h"
+#include "core/trajectory/formats/binary_file.h"
+#include "core/trajectory/formats/cell.h"
+#include "core/trajectory/formats/file_lines.h"
+#include "core/trajectory/formats/formats.h"
+
+namespace meniscus {
+namespace {
+
+constexpr std::size_t kPerLine = 10, kWidth = 8;
+
+std::string_view without_blanks_behind(std::string_view line) {
+  return line.substr(0, line.find_last_not_of(" \t\r") + 1);
+}
+
+/// Of a line without blanks behind it.
+std::size_t fields_in(std::string_view line) { return (line.size() + kWidth - 1) / kWidth; }
+
+/// Does a line consist of numbers as F8.3 prints them? Those that do not fit into eight columns are asterisks.
+bool is_formatted(std::string_view line) {
+  line = without_blanks_behind(line);
+  if (line.empty() || line.size() % kWidth != 0 || fields_in(line) > kPerLine) return false;
+  for (; !line.empty(); line.remove_prefix(kWidth)) {
+    const std::string_view field = line.substr(0, kWidth);
+    double number = 0.0;
+    if (field == "********") continue;
+    if (field[4] != '.' || field[7] == ' ' || !parse_number(field, number)) return false;
+  }
+  return true;
+}
+
+/// The three edges of a box: by columns, or with blanks between them.
+std::optional<glm::dvec3> edges_of(std::string_view line) {
+  line = without_blanks_behind(line);
+  const std::vector<std::string_view> fields = fields_of(line);
+  glm::dvec3 edges(0.0);
+  if (line.size() == 3 * kWidth && is_formatted(line)) {
+    for (int n = 0; n < 3; ++n)
+      if (!parse_number(line.substr(static_cast<std::size_t>(n) * kWidth, kWidth), edges[n])) return std::nullopt;
+    return edges;
+  }
+  if (fields.size() != 3) return std::nullopt;
+  for (int n = 0; n < 3; ++n)
+    if (!parse_number(fields[static_cast<std::size_t>(n)], edges[n])) return std::nullopt;
+  return edges;
+}
+
+class Mdcrd final : public Trajectory {
+ public:
+  Mdcrd(const std::string& path, const TrajectoryOptions& options) : Trajectory(path, "mdcrd"), file_(path) {
+    if (!options.atoms)
+      throw InputError(path, 0,
+                       "does not say how many atoms a frame has; give their structure or topology as FILE, and this "
+                       "file with --trajectory");
+    atom_count_ = options.atoms();
+    if (atom_count_ == 0) throw InputError(path, 0, "does not say how many atoms a frame has, and FILE has none");
+    numbers_ = 3 * atom_count_;
+    lines_ = (numbers_ + kPerLine - 1) / kPerLine;
+    measure();
+    count_frames();
+    // Which say where the lines are others than those of so many atoms.
+    for (std::uint64_t frame = 0; frame < std::min<std::uint64_t>(2, frame_count_); ++frame) load(frame);
+    Frame first;
+    read_unchecked(0, first);
+    const auto& cell = first.cell;
+    if (cell && (*cell)[0].x == (*cell)[1].y && (*cell)[1].y == (*cell)[2].z)
+      warnings_.emplace_back(
+          "its box has three equal edges, and the format no angles: it is taken for a cube; a truncated octahedron "
+          "needs NetCDF (cpptraj: trajout run.nc)");
+  }
+
+ private:
+  /// Lines end at the same places in all frames.
+  void measure() {
+    FileLines lines(file_);
+    std::string_view line;
+    lines.next(line);
+    begin_ = lines.behind();
+    for (std::size_t n = 0; n < lines_; ++n) {
+      if (!lines.next(line))
+        throw InputError(path_, n + 1,
+                         fmt::format("the file ends within its first frame, which should have {} atoms as FILE has; do "
+                                     "the two belong together?",
+                                     with_thousands(atom_count_)));
+    }
+    frame_bytes_ = lines.behind() - begin_;
+    last_newline_ = lines.ended_by_newline() ? (line.ends_with('\r') ? 2 : 1) : 0;
+    // One atom looks like a box, and whoever has one needs none.
+    if (numbers_ != 3 && lines.next(line) && edges_of(line)) {
+      has_box_ = true;
+      frame_bytes_ = lines.behind() - begin_;
+      last_newline_ = lines.ended_by_newline() ? (line.ends_with('\r') ? 2 : 1) : 0;
+    }
+    lines_of_frame_ = lines_ + (has_box_ ? 1 : 0);
+  }
+
+  void count_frames() {
+    const std::uint64_t bytes = file_.size() - begin_;
+    frame_count_ = bytes / frame_bytes_;
+    const std::uint64_t rest = bytes % frame_bytes_;
+    if (rest == 0) return;
+    if (frame_count_ > 0 && rest == frame_bytes_ - last_newline_) {
+      ++frame_count_;  // without a line feed behind it
+      return;
+    }
+    std::string text(std::min<std::uint64_t>(rest, 4096), '\0');
+    file_.read(file_.size() - rest, std::as_writable_bytes(std::span(text)));
+    const bool blank_lines =
+        text.find_first_not_of(" \t\r\n") == std::string::npos && text.find('\n') != std::string::npos;
+    if (!blank_lines) cut_short_ = cut_short_sentence(frame_count_);
+  }
+
+  [[noreturn]] void refuse(std::uint64_t frame, std::size_t line, const std::string& what) const {
+    throw InputError(path_, 2 + frame * lines_of_frame_ + line, fmt::format("{} (frame {})", what, frame));
+  }
+
+  /// Reads the lines of a frame and looks at their lengths.
+  void load(std::uint64_t number) {
+    const std::uint64_t begin = begin_ + number * frame_bytes_;
+    text_.resize(std::min(frame_bytes_, file_.size() - begin));
+    file_.read(begin, std::as_writable_bytes(std::span(text_)));
+    file_.check_unchanged();
+    LineReader lines(text_);
+    std::string_view line;
+    for (std::size_t n = 0, left = numbers_; n < lines_; ++n) {
+      const std::size_t expected = std::min(kPerLine, left);
+      left -= expected;
+      if (lines.next(line) && without_blanks_behind(line).size() == expected * kWidth) continue;
+      refuse(number, n,
+             fmt::format("{} has not the {} numbers of eight columns that a frame of {} atoms has here; has FILE the "
+                         "same atoms as this trajectory?",
+                         in_quotes(line), expected, with_thousands(atom_count_)));
+    }
+  }
+
+  void read_unchecked(std::uint64_t number, Frame& frame) override {
+    load(number);
+    LineReader lines(text_);
+    std::string_view line;
+    frame.positions.assign(atom_count_, glm::dvec3(0.0));
+    for (std::size_t n = 0, place = 0; n < lines_; ++n) {
+      lines.next(line);
+      for (line = without_blanks_behind(line); !line.empty(); line.remove_prefix(kWidth), ++place)
+        frame.positions[place / 3][static_cast<int>(place % 3)] = coordinate(number, n, line.substr(0, kWidth));
+    }
+    if (!has_box_) return;
+    lines.next(line);
+    const std::optional<glm::dvec3> edges = edges_of(line);
+    if (!edges) refuse(number, lines_, fmt::format("{} should be the three edges of the box", in_quotes(line)));
+    frame.cell = cell_of_angles(*edges, glm::dvec3(90.0));
+  }
+
+  double coordinate(std::uint64_t frame, std::size_t line, std::string_view field) const {
+    double number = 0.0;
+    if (parse_number(field, number)) return number;
+    refuse(frame, line,
+           field == "********" ? "******** stands where a coordinate did not fit into eight columns; image the frames "
+                                 "into their box, or write NetCDF"
+                               : fmt::format("{} is no coordinate", in_quotes(field)));
+  }
+
+  BinaryFile file_;
+  std::uint64_t begin_ = 0, frame_bytes_ = 0;
+  std::size_t numbers_ = 0, lines_ = 0, lines_of_frame_ = 0, last_newline_ = 0;
+  bool has_box_ = false;
+  std::string text_;
+};
+
+/// The line behind the title is one of coordinates.
+bool recognizes(std::string_view start) {
+  const std::size_t title = start.find('\n');
+  if (title == std::string_view::npos || title > 1000) return false;
+  const std::string_view rest = start.substr(title + 1);
+  const std::size_t end = rest.find('\n');
+  return end != std::string_view::npos && is_formatted(rest.substr(0, end));
+}
+
+}  // namespace
+
+const TrajectoryFormat kMdcrdFormat{
+    {"mdcrd", ".mdcrd .crdbox", "formatted trajectories of Amber, as text",
+     "ambermd.org, File Formats: AMBER trajectory (coordinate) file",
+     "positions; boxes, as rectangular ones; as many atoms a frame as FILE has; no times"},
+    recognizes,
+    [](const std::string& path, const TrajectoryOptions& options) {
+      return std::unique_ptr<Trajectory>(std::make_unique<Mdcrd>(path, options));
+    }};
+
+}  // namespace meniscus

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Text dumps of LAMMPS.
+#include "tests/fuzz/trajectory_checks.h"
+
+namespace meniscus::fuzz {
+namespace {
+
+void run(std::string_view bytes) {
+  static const ScratchFile file("input.lammpstrj");
+  check_trajectory(kLammpsFormat, file, bytes);
+}
+
+const Registration registration{"lammps", run};
+
+}  // namespace
+}  // namespace meniscus::fuzz

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Formatted trajectories of Amber, of structures of few atoms.
+#include "tests/fuzz/trajectory_checks.h"
+
+namespace meniscus::fuzz {
+namespace {
+
+std::size_t atoms = 1;
+
+std::unique_ptr<Trajectory> open(const std::string& path, const TrajectoryOptions&) {
+  return kMdcrdFormat.open(path, {.index_folder = {}, .atoms = [] { return atoms; }});
+}
+
+/// The first letter of the title is the number of atoms.
+void run(std::string_view bytes) {
+  static const ScratchFile file("input.mdcrd");
+  atoms = bytes.empty() ? 1 : static_cast<unsigned char>(bytes.front()) % 32 + 1;
+  check_trajectory({kMdcrdFormat.metadata, kMdcrdFormat.recognizes, open}, file, bytes);
+}
+
+const Registration registration{"mdcrd", run};
+
+}  // namespace
+}  // namespace meniscus::fuzz
