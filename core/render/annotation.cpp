@@ -140,7 +140,8 @@ class Writer {
 
   /// From the least of its numbers to the greatest, which stand at its left; the present one stands above.
   void curve(const Curve& curve) {
-    const auto [least, greatest] = std::ranges::minmax(curve.values);
+    const auto ends = std::ranges::minmax(curve.values);
+    const double least = ends.min, greatest = ends.max;
     const double range = greatest - least, em = font_.height(), line = std::max(1.0, em / 12.0);
     const int decimals = range > 0.0 ? std::clamp(static_cast<int>(std::ceil(2.0 - std::log10(range))), 0, 9) : 3;
     const auto number = [&](double value) { return fmt::format("{:.{}f}", value, decimals); };
