@@ -260,10 +260,10 @@ class Stage:
         """Brings one frame to the camera; its triangles."""
         scene = bpy.context.scene
         if self.mode == "driver":
-            file = self.placement.refill(self.item.data, scene_frame)
+            prepared = self.placement.refill(self.item.data, scene_frame)
             self.item.data.update()
             scene.frame_set(scene_frame)
-            build.reach_all(self.camera, file, self.placement.scale, self.placement.origin)
+            build.reach_all(self.camera, prepared.points, self.placement.scale, self.placement.origin)
         else:
             scene.frame_set(scene_frame)
         if self.item.get("meniscus_error"):

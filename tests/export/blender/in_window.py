@@ -15,20 +15,8 @@ TOLD, MOLECULE, PROGRAM, PACKAGE, PICTURE = sys.argv[sys.argv.index("--") + 1:]
 addon_utils.enable("meniscus_import", default_set=True)
 bpy.context.preferences.view.show_splash = False
 from meniscus_import import computed, panel  # noqa: E402
-from meniscus_import.computing import engines  # noqa: E402
 
-found = {"error": "", "shown_while_dragging": 0, "on_other_threads": True}
-main_thread = threading.current_thread()
-compute = engines.compute
-
-
-def watched(*arguments):
-    if threading.current_thread() is main_thread:
-        found["on_other_threads"] = False
-    return compute(*arguments)
-
-
-engines.compute = watched
+found = {"error": "", "shown_while_dragging": 0, "threads": 1}
 
 
 def drawn(kind):
@@ -52,7 +40,7 @@ def view():
 
 
 def at_rest(item):
-    return not computed._worker.is_busy() and len(item.data.polygons) > 0
+    return not computed.working().is_busy() and len(item.data.polygons) > 0
 
 
 def steps():
@@ -113,6 +101,7 @@ going = steps()
 
 
 def go_on():
+    found["threads"] = max(found["threads"], threading.active_count())
     try:
         next(going)
         return 0.02

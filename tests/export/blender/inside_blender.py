@@ -17,7 +17,7 @@ FOLDER, ADDON, HERE, BLENDER, PROGRAM = sys.argv[sys.argv.index("--") + 1:]
 sys.path.insert(0, HERE)
 import samples  # noqa: E402
 
-from meniscus_import import build, compat, materials, mns_reader  # noqa: E402
+from meniscus_import import attributes, build, compat, materials, mns_reader  # noqa: E402
 
 STORES = ("objects", "meshes", "cameras", "collections", "materials", "lights", "images", "node_groups")
 
@@ -362,8 +362,8 @@ class Import(unittest.TestCase):
 
     def test_a_failure_half_way_leaves_nothing(self):
         before = everything()
-        for step in ("add_attributes", "add_normals", "place_camera"):
-            with mock.patch.object(build, step, side_effect=MemoryError(step)):
+        for module, step in ((attributes, "add"), (compat, "set_normals"), (build, "place_camera")):
+            with mock.patch.object(module, step, side_effect=MemoryError(step)):
                 with self.assertRaises(MemoryError):
                     build.import_file(path_of("triple"))
             self.assertEqual(everything(), before, step)

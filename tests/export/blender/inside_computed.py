@@ -5,6 +5,7 @@ import json
 import os
 import subprocess
 import sys
+import threading
 import unittest
 import unittest.mock
 
@@ -21,6 +22,7 @@ from meniscus_import import attributes, build, compat, computed, mns_reader, mol
 
 TRIPLE = os.path.join(FOLDER, "triple.xyzr")
 CAGE = os.path.join(FOLDER, "cage.xyzr")
+UBIQUITIN = "/usr/share/freesasa/test-data/1ubq.pdb"
 
 
 def start_anew():
@@ -29,11 +31,10 @@ def start_anew():
     name = computed.__package__
     preferences = bpy.context.preferences.addons[name].preferences
     preferences.package, preferences.program = PACKAGE, PROGRAM
-    computed.look_for_tools()
 
 
-def of_file(path=TRIPLE, **options):
-    assert bpy.ops.object.meniscus_from_file(filepath=path, wait=True, **options) == {"FINISHED"}
+def of_file(path=TRIPLE, detail="FINE", **options):
+    assert bpy.ops.object.meniscus_from_file(filepath=path, wait=True, detail=detail, **options) == {"FINISHED"}
     return bpy.context.view_layer.objects.active
 
 
@@ -77,7 +78,7 @@ def atoms_object(name="atoms", scale=0.01, molecule="triple"):
     for key, kind, values in (("vdw_radii", "FLOAT", rows[:, 3] * scale), ("atomic_number", "INT", numbers + 6), ("b_factor", "FLOAT", numbers * 10.0),
                               ("res_id", "INT", numbers + 100), ("chain_id", "INT", numbers % 2), ("is_even", "BOOLEAN", numbers % 2 == 0),
                               ("lipophobicity", "FLOAT", numbers * 0.5)):
-        build.add_attribute(mesh, key, kind, "POINT", values.astype({"FLOAT": np.float32, "INT": np.int32, "BOOLEAN": bool}[kind]))
+        attributes.add(mesh, key, kind, "POINT", values.astype({"FLOAT": np.float32, "INT": np.int32, "BOOLEAN": bool}[kind]))
     item = bpy.data.objects.new(name, mesh)
     item["chain_ids"] = ["A", "B"]
     bpy.context.scene.collection.objects.link(item)
@@ -88,7 +89,7 @@ def atoms_object(name="atoms", scale=0.01, molecule="triple"):
 class Computed(unittest.TestCase):
     def setUp(self):
         start_anew()
-        self.assertIsNotNone(computed.tools().library, computed.tools().missing)
+        self.assertNotEqual(computed.working().told()["library"], "", computed.working().told())
 
     def test_a_file_gives_the_surface_that_the_program_computes(self):
         item = of_file()
@@ -114,7 +115,7 @@ class Computed(unittest.TestCase):
         self.assertAlmostEqual(signed_volume(item) / item["meniscus_volume"], 1.0, delta=0.01)
 
     def test_by_the_program_where_there_is_no_library(self):
-        computed._tools.library = None
+        bpy.context.preferences.addons[computed.__package__].preferences.package = FOLDER
         item = of_file()
         self.assertEqual(measures(item), wanted(TRIPLE)[0])
         bpy.context.view_layer.objects.active = atoms_object()
@@ -182,6 +183,55 @@ class Computed(unittest.TestCase):
         self.assertEqual(measures(item), wanted(TRIPLE, "--probe", "2.5")[0])
         self.assertAlmostEqual(signed_volume(item) / item["meniscus_volume"], 1.0, delta=0.1)
 
+    def test_proxies(self):
+        item = of_file(UBIQUITIN, selection="resi 1-20", detail="PROXY")
+        counts = []
+        for density in (0.5, 1.0):
+            item.meniscus.density = density
+            self.assertEqual(update(), {"FINISHED"})
+            counts.append(len(item.data.vertices))
+            self.assertAlmostEqual(counts[-1] / (density * item["meniscus_area"]), 1.0, delta=0.25)
+            self.assertEqual(len(item.data.edges) * 2, 3 * len(item.data.polygons))
+            self.assertAlmostEqual(signed_volume(item) / item["meniscus_volume"], 1.0, delta=0.1)
+        self.assertLess(1.5 * counts[0], counts[1])
+
+    def test_colours_scale_and_crispness_follow(self):
+        item = of_file()
+        before = positions(item.data)
+        colors = attributes.read(item.data, "Color", "FLOAT_COLOR")
+        item.meniscus.color = "chain"
+        update()
+        np.testing.assert_array_equal(positions(item.data), before)
+        self.assertGreater(np.abs(attributes.read(item.data, "Color", "FLOAT_COLOR") - colors).max(), 0.05)
+        item.meniscus.crisp, item.meniscus.scale = True, 0.2
+        update()
+        np.testing.assert_allclose(positions(item.data), 2.0 * before, rtol=1e-6)
+        self.assertEqual(item.data.attributes["Color"].domain, "CORNER")
+
+    def test_cavities_by_themselves_or_not_at_all(self):
+        item = of_file(CAGE)
+        whole = len(item.data.polygons)
+        parts = {}
+        for cavities in ("DROP", "ONLY"):
+            item.meniscus.cavities = cavities
+            update()
+            parts[cavities] = len(item.data.polygons), item["meniscus_area"], {polygon.material_index for polygon in item.data.polygons}
+        self.assertEqual(parts["DROP"][0] + parts["ONLY"][0], whole)
+        self.assertEqual((parts["DROP"][2], parts["ONLY"][2]), ({0}, {1}))
+        self.assertAlmostEqual(parts["DROP"][1] + parts["ONLY"][1], wanted(CAGE)[0][0], places=6)
+        item.meniscus.file = TRIPLE  # which has none
+        self.assertEqual(update(), {"FINISHED"})
+        self.assertEqual(len(item.data.polygons), 0)
+
+    def test_no_thread_of_python_lives_beside_blender(self):
+        item = of_file(samples.UBIQUITIN, selection="resi 1-15", is_run=True)
+        bpy.context.scene.frame_set(2)
+        item.meniscus.probe = 2.0
+        computed.ask(item)
+        self.assertEqual(threading.enumerate(), [threading.main_thread()])
+        computed.wait()
+        self.assertEqual(item["meniscus_probe_radius"], 2.0)
+
     def test_in_the_background_the_newest_request_wins(self):
         item = of_file()
         for probe in (1.5, 1.6, 1.7, 1.8, 1.9, 2.0):
@@ -204,7 +254,7 @@ class Computed(unittest.TestCase):
         own = bpy.data.materials.new("own")
         item.data.materials[0] = own
         item.modifiers.new("smooth", "SMOOTH")
-        build.add_attribute(item.data, "marks", "FLOAT", "FACE", attributes.read(item.data, "atom_index", "INT")[:, 0].astype(np.float32))
+        attributes.add(item.data, "marks", "FLOAT", "FACE", attributes.read(item.data, "atom_index", "INT")[:, 0].astype(np.float32))
         item.meniscus.probe = 2.0
         update()
         self.assertEqual((item.data.materials[0], len(item.modifiers)), (own, 1))
@@ -238,17 +288,23 @@ class Computed(unittest.TestCase):
         item = of_file(samples.UBIQUITIN, selection="resi 1-15", is_run=True)
         bpy.context.scene.frame_set(2)
         self.assertEqual(len(computed._awaited), computed.AHEAD)
-        with unittest.mock.patch.object(computed.Wanted, "compute", side_effect=AssertionError("it was not ahead")):
-            for frame in range(3, 3 + computed.AHEAD):
-                bpy.context.scene.frame_set(frame)
-                self.assertEqual(item["meniscus_error"], "", frame)
-                if frame == 3:
-                    break
+        while computed.working().is_busy():
+            computed._deliver(computed.working().take(1.0))
+        self.assertEqual(computed._awaited, {})
+        with unittest.mock.patch.object(computed.Wanted, "ask", side_effect=AssertionError("it was not ahead")):
+            with unittest.mock.patch.object(computed, "_compute_ahead"):
+                for frame in range(3, 3 + computed.AHEAD):
+                    bpy.context.scene.frame_set(frame)
+                    self.assertEqual(item["meniscus_error"], "", frame)
+        bpy.context.scene.frame_set(3)
+        bpy.context.scene.frame_set(9)  # what was asked for before is not wanted any more
+        self.assertEqual({each.key for each in computed._awaited.values()}, set(computed._awaited))
+        self.assertLessEqual(len(computed._awaited), computed.AHEAD)
 
     def test_atoms_of_an_object(self):
         for scale in (0.01, 0.1, 1.0):
             atoms = atoms_object(f"atoms{scale}", scale)
-            self.assertEqual(bpy.ops.object.meniscus_from_atoms(wait=True), {"FINISHED"})
+            self.assertEqual(bpy.ops.object.meniscus_from_atoms(wait=True, detail="FINE"), {"FINISHED"})
             item = bpy.context.view_layer.objects.active
             self.assertAlmostEqual(item.meniscus.scale, scale, places=6)
             self.assertEqual(item.parent, atoms)

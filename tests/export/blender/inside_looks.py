@@ -14,7 +14,7 @@ import numpy as np
 FOLDER, ADDON, HERE, BLENDER, PROGRAM = sys.argv[sys.argv.index("--") + 1:]
 sys.path.insert(0, HERE)
 
-from meniscus_import import build, looks  # noqa: E402
+from meniscus_import import attributes, looks  # noqa: E402
 
 SIZE = 48
 
@@ -44,19 +44,20 @@ def pixel_of(item, samples=1):
     return values[SIZE // 2, SIZE // 2, :3]
 
 
-def plate(**attributes):
+def plate(**given):
     """A square across the view with the same value everywhere."""
     mesh = bpy.data.meshes.new("plate")
     mesh.from_pydata([(-2, -2, 0), (2, -2, 0), (2, 2, 0), (-2, 2, 0)], [], [(0, 1, 2, 3)])
-    build.add_attribute(mesh, "ses_kind", "INT", "FACE", np.zeros(1, np.int32)) if "ses_kind" not in attributes else None
-    for name, value in attributes.items():
+    if "ses_kind" not in given:
+        attributes.add(mesh, "ses_kind", "INT", "FACE", np.zeros(1, np.int32))
+    for name, value in given.items():
         if name == "Color":
-            build.add_attribute(mesh, name, "FLOAT_COLOR", "POINT", np.tile(np.float32([*value, 1.0]), (4, 1)), "color")
+            attributes.add(mesh, name, "FLOAT_COLOR", "POINT", np.tile(np.float32([*value, 1.0]), (4, 1)))
         elif name == "ses_kind":
-            build.add_attribute(mesh, name, "INT", "FACE", np.array([value], np.int32))
+            attributes.add(mesh, name, "INT", "FACE", np.array([value], np.int32))
         else:
             whole = isinstance(value, int)
-            build.add_attribute(mesh, name, "INT" if whole else "FLOAT", "POINT", np.full(4, value, np.int32 if whole else np.float32))
+            attributes.add(mesh, name, "INT" if whole else "FLOAT", "POINT", np.full(4, value, np.int32 if whole else np.float32))
     item = bpy.data.objects.new("plate", mesh)
     bpy.context.scene.collection.objects.link(item)
     bpy.context.view_layer.objects.active = item
@@ -68,9 +69,9 @@ class Looks(unittest.TestCase):
         bpy.ops.wm.read_factory_settings(use_empty=True)
         addon_utils.enable("meniscus_import", default_set=True)
 
-    def shown(self, coloring, **attributes):
+    def shown(self, coloring, **given):
         """What the flat look shows of it."""
-        item = plate(**attributes)
+        item = plate(**given)
         self.assertEqual(bpy.ops.object.meniscus_look(look="FLAT", coloring=coloring), {"FINISHED"})
         color = pixel_of(item)
         bpy.data.objects.remove(item)
@@ -83,8 +84,8 @@ class Looks(unittest.TestCase):
                   ((1, "#ffffff"), (6, "#c8c8c8"), (7, "#8fa6f5"), (8, "#f58f8f"), (16, "#f5e88f"), (53, "#c8c8c8"))]
         cases += [("KIND", {"ses_kind": kind}, color) for kind, color in enumerate(("#e69f00", "#56b4e9", "#009e73"))]
         cases += [("CHARGE", {"charge": value}, color) for value, color in ((-1.0, "#d6412f"), (0.0, "#ffffff"), (1.0, "#3a5fcd"), (7.0, "#3a5fcd"))]
-        for coloring, attributes, color in cases:
-            np.testing.assert_allclose(self.shown(coloring, **attributes), looks.linear(color)[:3], atol=4e-3, err_msg=f"{coloring} {attributes}")
+        for coloring, given, color in cases:
+            np.testing.assert_allclose(self.shown(coloring, **given), looks.linear(color)[:3], atol=4e-3, err_msg=f"{coloring} {given}")
         np.testing.assert_allclose(self.shown("COLOR", Color=(0.2, 0.5, 0.8)), (0.2, 0.5, 0.8), atol=2e-3)
 
     def test_chains_have_colours_of_their_own(self):
@@ -101,12 +102,12 @@ class Looks(unittest.TestCase):
         np.testing.assert_allclose(pixel_of(item), looks.linear("#3a5fcd")[:3], atol=4e-3)
 
     def test_every_look_renders_in_every_colouring(self):
-        attributes = {"Color": (0.8, 0.3, 0.2), "b_factor": 80.0, "atomic_number": 8, "chain_id": 1, "charge": 0.4, "map_value": 2.0,
+        given = {"Color": (0.8, 0.3, 0.2), "b_factor": 80.0, "atomic_number": 8, "chain_id": 1, "charge": 0.4, "map_value": 2.0,
                       "lipophobicity": 0.3, "ses_kind": 1}
         sun = bpy.data.objects.new("sun", bpy.data.lights.new("sun", "SUN"))
         bpy.context.scene.collection.objects.link(sun)
         for look in looks.LOOKS:
-            item = plate(**attributes)
+            item = plate(**given)
             seen = []
             for coloring in looks.COLORINGS:
                 self.assertEqual(bpy.ops.object.meniscus_look(look=look, coloring=coloring), {"FINISHED"})

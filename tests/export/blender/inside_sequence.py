@@ -6,7 +6,9 @@ import os
 import shutil
 import subprocess
 import sys
+import threading
 import unittest
+import unittest.mock
 
 import addon_utils
 import bpy
@@ -330,7 +332,8 @@ class Sequence(unittest.TestCase):
         scene.frame_set(2)
         waiting = list(sequence._ahead.waiting.values())
         self.assertEqual(len(waiting), 1)
-        waiting[0].result()
+        sequence._ahead.process.wait(waiting[0])
+        self.assertIsNone(waiting[0].error)
         bad = os.path.join(folder, "surface_00005.mns")
         with open(bad, "r+b") as file:  # after it has been read ahead
             file.truncate(os.path.getsize(bad) - 64)
@@ -378,19 +381,22 @@ class Sequence(unittest.TestCase):
         item = sequence.stream(MANIFEST)
         scene, reads = bpy.context.scene, []
         self.assertTrue(scene.render.use_lock_interface)
-        original = sequence_reader.Sequence.read
+        original, ask = sequence_reader.Sequence.read, sequence._ahead.process.ask
 
         def counted(self, scene_frame):
             reads.append(scene_frame)
             return original(self, scene_frame)
 
-        sequence_reader.Sequence.read = counted
-        try:
+        def counted_ask(owner, key, kind, about):
+            reads.append((kind, about["scene_frame"]))
+            return ask(owner, key, kind, about)
+
+        with unittest.mock.patch.object(sequence_reader.Sequence, "read", counted), \
+                unittest.mock.patch.object(sequence._ahead.process, "ask", counted_ask):
             for frame, part in ((2, 0.0), (1, 0.75), (2, 0.25), (2, 0.0), (3, 0.0)):
                 scene.frame_set(frame, subframe=part)
-        finally:
-            sequence_reader.Sequence.read = original
-        self.assertEqual(reads, [2, 3])
+        self.assertEqual(reads, [2, ("frame", 3)])
+        self.assertEqual(threading.enumerate(), [threading.main_thread()])
         self.assertEqual(len([mesh for mesh in bpy.data.meshes if mesh.users]), 1)
         self.assertEqual(len(item.data.materials), 2)
 

@@ -40,18 +40,13 @@ class Window(unittest.TestCase):
             os.makedirs(os.path.join(scripts, "addons"))
             os.symlink(os.path.join(ADDON, "meniscus_import"), os.path.join(scripts, "addons", "meniscus_import"))
             told = os.path.join(folder, "told.json")
-            # Blender 3.4.1 crashes in one of seven of these, soon after its window opened, never under a debugger; why is not
-            # known: the test registers panels anew while they are drawn. A crash counts if it comes three times.
-            for _attempt in range(3):
-                done = subprocess.run(
-                    [BLENDER, "--factory-startup", "--window-geometry", "0", "0", *SIZE, "--addons", "meniscus_import", "--python",
-                     os.path.join(HERE, "in_window.py"), "--", told, MOLECULE, PROGRAM, PACKAGE, PICTURE],
-                    env={**os.environ, "DISPLAY": display, "LIBGL_ALWAYS_SOFTWARE": "1", "BLENDER_USER_SCRIPTS": scripts,
-                         "MESA_SHADER_CACHE_DISABLE": "true", "PYTHONDONTWRITEBYTECODE": "1"},
-                    timeout=90, check=False, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
-                if done.returncode >= 0:
-                    break
-                sys.stderr.write(f"Blender ended by signal {-done.returncode}\n{done.stdout[-2000:]}\n")
+            done = subprocess.run(
+                [BLENDER, "--factory-startup", "--window-geometry", "0", "0", *SIZE, "--addons", "meniscus_import", "--python",
+                 os.path.join(HERE, "in_window.py"), "--", told, MOLECULE, PROGRAM, PACKAGE, PICTURE],
+                env={**os.environ, "DISPLAY": display, "LIBGL_ALWAYS_SOFTWARE": "1", "BLENDER_USER_SCRIPTS": scripts,
+                     "MESA_SHADER_CACHE_DISABLE": "true", "PYTHONDONTWRITEBYTECODE": "1"},
+                timeout=200, check=False, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+            self.assertGreaterEqual(done.returncode, 0, f"Blender ended by signal {-done.returncode}\n{done.stdout[-3000:]}")
             self.assertTrue(os.path.exists(told), done.stdout[-3000:])
             with open(told, encoding="utf-8") as file:
                 found = json.load(file)
@@ -66,7 +61,7 @@ class Window(unittest.TestCase):
         self.assertEqual(found["dragged"], area(2.0))
         self.assertEqual(found["undone"], area(1.4))
         self.assertGreater(found["shown_while_dragging"], 0)
-        self.assertEqual(found["on_other_threads"], True)
+        self.assertEqual(found["threads"], 1)  # of Python: Blender crashes at times while others run
         self.assertEqual(found["drawn"], ["VIEW3D_PT_meniscus", "VIEW3D_PT_meniscus_look", "VIEW3D_PT_meniscus_time"])
 
 

@@ -169,7 +169,7 @@ def object_menu_entry(self, context):
 
 CLASSES = [IMPORT_SCENE_OT_meniscus, IMPORT_SCENE_OT_meniscus_sequence, OBJECT_OT_meniscus_reload]
 
-if compat.can_drop_files(bpy):
+if compat.can_drop_files():
 
     class IMPORT_SCENE_FH_meniscus(bpy.types.FileHandler):
         bl_idname = "IMPORT_SCENE_FH_meniscus"

@@ -38,12 +38,14 @@ def keep(mesh, ours, older=()):
     before = {kept.name: kept for kept in older}
     if "atom_index" not in mesh.attributes or not len(mesh.polygons):
         return list(older)
-    atom = read(mesh, "atom_index", "INT")[:, 0]
-    vertices = np.empty(len(mesh.loops), dtype=np.int32)
-    mesh.loops.foreach_get("vertex_index", vertices)
     names = [attribute.name for attribute in mesh.attributes
              if attribute.name not in ours and attribute.name not in BLENDERS and not attribute.name.startswith(".")
              and attribute.data_type in TYPES and attribute.domain in DOMAINS]
+    if not names:
+        return []
+    atom = read(mesh, "atom_index", "INT")[:, 0]
+    vertices = np.empty(len(mesh.loops), dtype=np.int32)
+    mesh.loops.foreach_get("vertex_index", vertices)
     result = []
     for name in names:
         kind, domain = mesh.attributes[name].data_type, mesh.attributes[name].domain
@@ -57,26 +59,32 @@ def keep(mesh, ours, older=()):
     return result
 
 
-def give_back(mesh, kept):
-    """Adds them to a mesh that has been filled anew; atoms without a value get zero."""
-    if not kept or "atom_index" not in mesh.attributes:
-        return
-    atom = read(mesh, "atom_index", "INT")[:, 0]
-    vertices = np.empty(len(mesh.loops), dtype=np.int32)
-    mesh.loops.foreach_get("vertex_index", vertices)
+def give_back(mesh, kept, arrays):
+    """Adds them to a mesh that has been filled with mesh_arrays.MeshArrays."""
     for each in kept:
-        table = np.zeros((max(len(each.values), atom.max() + 1), each.values.shape[1]), dtype=each.values.dtype)
-        table[:len(each.values)] = each.values
-        of_faces = table[atom]
-        if each.domain == "FACE":
-            values = of_faces
-        elif each.domain == "CORNER":
-            values = np.repeat(of_faces, 3, axis=0)
-        else:
-            values = np.zeros((len(mesh.vertices), of_faces.shape[1]), dtype=of_faces.dtype)
-            values[vertices] = np.repeat(of_faces, 3, axis=0)
-        attribute = mesh.attributes.new(each.name, each.kind, each.domain)
-        attribute.data.foreach_set(TYPES[each.kind][0], np.ascontiguousarray(values).ravel())
+        add(mesh, each.name, each.kind, each.domain, spread(each, arrays))
+
+
+def spread(kept, arrays):
+    """Values of a Kept for the elements of mesh_arrays.MeshArrays, a row each; atoms without a value get zero."""
+    atom = arrays.atom_index
+    table = np.zeros((max(len(kept.values), atom.max(initial=0) + 1), kept.values.shape[1]), dtype=kept.values.dtype)
+    table[:len(kept.values)] = kept.values
+    of_faces = table[atom]
+    if kept.domain == "FACE":
+        return of_faces
+    of_corners = np.repeat(of_faces, 3, axis=0)
+    if kept.domain == "CORNER":
+        return of_corners
+    values = np.zeros((len(arrays.positions), of_faces.shape[1]), dtype=of_faces.dtype)
+    values[arrays.triangles.ravel()] = of_corners
+    return values
+
+
+def add(mesh, name, kind, domain, values):
+    """A new attribute. values: one row an element, in the type that Blender stores."""
+    attribute = mesh.attributes.new(name, kind, domain)
+    attribute.data.foreach_set(TYPES[kind][0], np.ascontiguousarray(values).ravel())
 
 
 def read(mesh, name, kind):

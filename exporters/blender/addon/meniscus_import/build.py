@@ -8,22 +8,11 @@ import bpy
 import mathutils
 import numpy as np
 
-from . import attributes, compat, joined, materials, mns_reader
+from . import attributes, compat, frames, joined, materials, mns_reader
+from .mesh_arrays import OURS, chains_of, of_surface
 
 #: Of a surface that is seen through, along one ray.
 MOST_LAYERS = 256
-#: Attribute -> array; on faces, where they stay whole numbers. ses_object: only of joined objects.
-FACE_INTEGERS = {
-    "ses_kind": "mesh.kind", "ses_patch": "mesh.patch", "ses_component": "mesh.component", "ses_object": "mesh.object",
-}
-#: The attributes of Molecular Nodes, on points as there: the array of the atoms, the type. vdw_radii in Blender units, chain_id
-#: the place of the chain's name among the sorted ones.
-POINT_NUMBERS = {
-    "atomic_number": ("atom.atomic_number", "INT"), "res_id": ("atom.res_id", "INT"), "chain_id": ("atom.chain_id", "INT"),
-    "b_factor": ("atom.b_factor", "FLOAT"), "vdw_radii": ("atom.radius", "FLOAT"),
-}
-#: All that an import makes.
-OURS = {"atom_index", "opacity", "velocity", "Color", "ses_cap", "cap_stripe", "map_value", "map_known", *FACE_INTEGERS, *POINT_NUMBERS}
 
 
 class Options:
@@ -55,14 +44,14 @@ def import_file(path, context=None, **options):
     context = context or bpy.context
     file = mns_reader.read(path)
     options = Options(**options)
-    origin = scene_origin(context.scene, lambda: middle_of(file)) if options.center else np.zeros(3)
+    origin = scene_origin(context.scene, lambda: middle_of(frames.points_of(file))) if options.center else np.zeros(3)
     stem = os.path.splitext(os.path.basename(path))[0]
     made = Import()
     camera = None
     meshes, new_materials = [], []
     try:
         made.collection = bpy.data.collections.new(stem)
-        chains = sorted({str(name) for surface in file.objects for name in surface.header.get("chain_names", [])})
+        chains = chains_of(*file.objects)
         for key, surface in parts_of(file, options.parts):
             name = f"{stem}.{key if len(file.objects) > 1 or options.parts else 'surface'}"
             meshes.append(build_mesh(surface, name, options, new_materials, fps_of(context.scene), chains))
@@ -78,7 +67,7 @@ def import_file(path, context=None, **options):
             camera = bpy.data.cameras.new(stem + ".camera")
             made.camera = bpy.data.objects.new(camera.name, camera)
             place_camera(made.camera, file.header["camera"], options.scale, origin)
-            reach_all(made.camera, file, options.scale, origin)
+            reach_all(made.camera, frames.points_of(file), options.scale, origin)
             made.collection.objects.link(made.camera)
         context.scene.collection.children.link(made.collection)
     except BaseException:
@@ -120,15 +109,16 @@ def reload(item, context=None):
     surface = dict(parts_of(file, options.parts)).get(item["meniscus_part"])
     if surface is None:
         raise mns_reader.MnsError(f"{path}: it has no surface {item['meniscus_part']} any more")
-    chains = sorted({str(name) for each in file.objects for name in each.header.get("chain_names", [])})
+    chains = chains_of(*file.objects)
     old = item.data
     kept = attributes.keep(old, OURS)
     fresh = bpy.data.meshes.new(old.name)
     try:
         for material in old.materials:
             fresh.materials.append(material)
-        fill_mesh(fresh, surface, options.scale, options.crisp_colors, fps_of(context.scene), chains)
-        attributes.give_back(fresh, kept)
+        arrays = of_surface(surface, options.scale, options.crisp_colors, chains)
+        fill_mesh(fresh, arrays, fps_of(context.scene))
+        attributes.give_back(fresh, kept, arrays)
     except BaseException:
         bpy.data.meshes.remove(fresh)
         raise
@@ -147,10 +137,8 @@ def remembered_path(path):
     return bpy.path.relpath(path) if bpy.data.filepath else path
 
 
-def middle_of(file):
-    """Å: the middle of all atoms in all places."""
-    points = np.concatenate([surface["atom.center"] @ copy[:, :3].T + copy[:, 3]
-                             for surface in file.objects for copy in surface.copies])
+def middle_of(points):
+    """Of their bounding box."""
     return 0.5 * (points.min(axis=0) + points.max(axis=0))
 
 
@@ -189,12 +177,6 @@ def placement(copy, scale, origin):
     return matrix
 
 
-def positions_of(surface, scale):
-    """Vertex positions in Blender units, float32: Å times scale, in the input file's own coordinates."""
-    origin = np.array(surface.header["mesh"]["origin"], dtype=np.float64)
-    return ((surface["mesh.position"].astype(np.float64) + origin) * scale).astype(np.float32)
-
-
 def fps_of(scene):
     return scene.render.fps / scene.render.fps_base
 
@@ -203,163 +185,37 @@ def build_mesh(surface, name, options, new_materials, fps, chains):
     mesh = bpy.data.meshes.new(name)
     try:
         add_materials(mesh, surface, new_materials, options.own_materials)
-        fill_mesh(mesh, surface, options.scale, options.crisp_colors, fps, chains)
+        fill_mesh(mesh, of_surface(surface, options.scale, options.crisp_colors, chains), fps)
     except BaseException:
         bpy.data.meshes.remove(mesh)
         raise
     return mesh
 
 
-def fill_mesh(mesh, surface, scale, crisp_colors, fps, chains, trusted=False):
-    """Puts a surface into a mesh without geometry. Materials stay. fps: scene frames a second, for velocities. chains: sorted
-    names, whose places are chain_id. trusted: it was never in a file, so Blender need not look for faults. On an error the mesh
-    is half filled."""
-    surface.check_closed()
-    positions = positions_of(surface, scale)
-    triangles = surface["mesh.triangle"]
-    mesh.vertices.add(len(positions))
-    mesh.vertices.foreach_set("co", positions.ravel())
-    compat.set_triangles(mesh, triangles)
+def fill_mesh(mesh, arrays, fps, trusted=False):
+    """Puts mesh_arrays.MeshArrays into a mesh without geometry. Materials stay. fps: frames of the run a second, for velocities.
+    trusted: they were never in a file, so Blender need not look for faults. On an error the mesh is half filled."""
+    mesh.vertices.add(len(arrays.positions))
+    mesh.vertices.foreach_set("co", arrays.positions.ravel())
+    compat.set_triangles(mesh, arrays.triangles)
     mesh.update(calc_edges=True)
-    add_attributes(mesh, surface, scale, crisp_colors, chains)
-    if surface.get("mesh.velocity") is not None:  # Cycles blurs by the attribute of this name: units per second
-        add_attribute(mesh, "velocity", "FLOAT_VECTOR", "POINT",
-                      (surface["mesh.velocity"] * (scale * fps)).astype(np.float32), "vector")
-    cavity = np.array([part["kind"] == "cavity" for part in surface.header["components"]], dtype=np.int32)
-    slots = np.where(caps_of(surface), materials.SLOTS.index("cap"), cavity[surface["mesh.component"]])
-    mesh.polygons.foreach_set("material_index", slots.astype(np.int32))
-    add_sharp_edges(mesh, surface)
+    for each in arrays.attributes:
+        attributes.add(mesh, *each)
+    if arrays.velocity is not None:  # Cycles blurs by the attribute of this name: units per second
+        attributes.add(mesh, "velocity", "FLOAT_VECTOR", "POINT", arrays.velocity * np.float32(fps))
+    mesh.polygons.foreach_set("material_index", arrays.slots)
+    if len(arrays.sharp_edges):
+        compat.mark_sharp(mesh, arrays.sharp_edges)
     if not trusted and mesh.validate(clean_customdata=False):
-        raise mns_reader.MnsError(f"{surface.path}: Blender found faults in the mesh")
-    add_normals(mesh, surface)
+        raise mns_reader.MnsError("Blender found faults in the mesh")
+    compat.set_normals(mesh, arrays.normals)
     compat.set_active_color(mesh, "Color")
-
-
-def add_attribute(mesh, name, kind, domain, values, field="value"):
-    attribute = mesh.attributes.new(name, kind, domain)
-    attribute.data.foreach_set(field, np.ascontiguousarray(values).ravel())
-
-
-def add_attributes(mesh, surface, scale, crisp_colors, chains):
-    atom = surface["mesh.atom"]
-    triangles = surface["mesh.triangle"]
-    for name, array in FACE_INTEGERS.items():  # INT, not INT8: Cycles 3.4 reads INT8 as 0
-        if surface.get(array) is not None:
-            add_attribute(mesh, name, "INT", "FACE", surface[array].astype(np.int32))
-    index = surface.get("atom.index")  # before version 2 one object, whose atoms are those of the molecule in order
-    add_attribute(mesh, "atom_index", "INT", "FACE", (atom if index is None else index[atom]).astype(np.int32))
-    if surface.get("atom.opacity") is not None:  # on faces, as colours: it changes at edges
-        add_attribute(mesh, "opacity", "FLOAT", "FACE", surface["atom.opacity"][atom].astype(np.float32))
-    of_vertex = vertex_atoms(triangles, atom, len(mesh.vertices))
-    for name, (array, kind) in POINT_NUMBERS.items():
-        if surface.get(array) is None:
-            continue
-        values = surface[array]
-        if name == "vdw_radii":
-            values = values * scale
-        elif name == "chain_id":
-            values = chain_places(surface, chains)[values]
-        add_attribute(mesh, name, kind, "POINT", values[of_vertex].astype(np.int32 if kind == "INT" else np.float32))
-    if surface.get("mesh.map_value") is not None:
-        add_attribute(mesh, "map_value", "FLOAT", "POINT", surface["mesh.map_value"])
-        if surface.get("mesh.map_known") is not None:
-            add_attribute(mesh, "map_known", "BOOLEAN", "POINT", surface["mesh.map_known"].astype(bool))
-    if surface.get("mesh.cap_plane") is not None:
-        add_attribute(mesh, "ses_cap", "INT", "FACE", np.where(caps_of(surface), surface["mesh.cap_plane"], -1).astype(np.int32))
-        if "hatching" in surface.header["caps"]:
-            add_attribute(mesh, "cap_stripe", "FLOAT", "CORNER", stripes(surface))
-    colors = linear(corner_colors(surface))
-    if crisp_colors:
-        rgba = np.ones((len(triangles), 3, 4), dtype=np.float32)
-        rgba[:, :, :3] = colors
-        add_attribute(mesh, "Color", "BYTE_COLOR", "CORNER", rgba, "color")
-    else:
-        around = np.maximum(np.bincount(triangles.ravel(), minlength=len(mesh.vertices)), 1)
-        rgba = np.ones((len(mesh.vertices), 4), dtype=np.float32)
-        for channel in range(3):
-            rgba[:, channel] = np.bincount(triangles.ravel(), colors[:, :, channel].ravel(), len(mesh.vertices)) / around
-        add_attribute(mesh, "Color", "FLOAT_COLOR", "POINT", rgba, "color")
-
-
-def caps_of(surface):
-    """Which triangles are caps."""
-    return surface["mesh.kind"] == mns_reader.CAP
-
-
-def stripes(surface):
-    """Of each corner of a cap how many lines of hatching lie before it; elsewhere between two of them."""
-    hatching, cap = surface.header["caps"]["hatching"], caps_of(surface)
-    origin = np.array(surface.header["mesh"]["origin"])
-    across = np.array(hatching["across"], dtype=np.float64)[surface["mesh.cap_plane"][cap]]
-    points = surface["mesh.position"][surface["mesh.triangle"][cap]].astype(np.float64) + origin + surface.header.get("moved_by", 0.0)
-    values = np.full((len(cap), 3), 0.5 + 0.5 * hatching["share"], dtype=np.float32)
-    values[cap] = np.einsum("tkx,tx->tk", points, across) / hatching["distance"]
-    return values
-
-
-def corner_colors(surface):
-    """sRGB per corner of each triangle: (triangles, 3, 3)."""
-    colors = np.repeat(face_colors(surface)[:, None, :], 3, axis=1).astype(np.float64)
-    of_map = surface.get("mesh.map_color")
-    if of_map is not None:
-        own = surface.get("atom.own_color")
-        by_map = ~caps_of(surface) if own is None else ~caps_of(surface) & (own[surface["mesh.atom"]] == 0)
-        colors[by_map] = of_map[surface["mesh.triangle"][by_map]]
-    return colors
-
-
-def vertex_atoms(triangles, atom, count):
-    """Of each vertex the atom of one of its triangles, that with the lowest index."""
-    found = np.zeros(count, dtype=np.int64)
-    found[triangles[::-1].ravel()] = np.repeat(atom[::-1], 3)
-    return found
-
-
-def chain_places(surface, chains):
-    """From chain numbers of the file to places in `chains`."""
-    names, ids = surface.header.get("chain_names", []), surface["atom.chain_id"]
-    if len(ids) and not 0 <= ids.min() <= ids.max() < len(names):
-        raise mns_reader.MnsError(f"{surface.path}: array atom.chain_id points to no chain name")
-    return np.array([chains.index(str(name)) for name in names] or [0], dtype=np.int32)
-
-
-def face_colors(surface):
-    """sRGB per triangle, but of volume maps."""
-    kinds, cap = surface.header.get("kind_colors"), caps_of(surface)
-    colors = surface["atom.color"][surface["mesh.atom"]]
-    if kinds is not None:
-        colors = np.where(cap[:, None], colors, np.array(kinds, dtype=np.float32)[np.where(cap, 0, surface["mesh.kind"])])
-    if "color" in surface.header.get("caps", {}):
-        colors = np.where(cap[:, None], np.array(surface.header["caps"]["color"], dtype=np.float32), colors)
-    return colors
-
-
-def linear(srgb):
-    """Scene-linear Rec. 709, which Blender's colour attributes hold."""
-    return np.where(srgb <= 0.04045, srgb / 12.92, ((srgb + 0.055) / 1.055) ** 2.4).astype(np.float32)
 
 
 def add_materials(mesh, surface, new_materials, own=False):
     """own: not those that all imports share."""
     for role, kind in materials.wanted(surface):
         mesh.materials.append(materials.find_or_make(role, kind, new_materials, own, materials.hatching_of(surface, role), materials.looks_of(surface)))
-
-
-def add_sharp_edges(mesh, surface):
-    pairs = np.sort(surface["mesh.sharp_edge"], axis=1).astype(np.uint64) if surface["mesh.sharp_edge"].size else None
-    if pairs is not None:
-        compat.mark_sharp(mesh, pairs[:, 0] << np.uint64(32) | pairs[:, 1])
-
-
-def add_normals(mesh, surface):
-    normals = surface["mesh.normal"]
-    sharp = surface["mesh.sharp_corner"]
-    if not len(sharp):
-        compat.set_smooth_with_vertex_normals(mesh, normals)
-        return
-    corners = normals[surface["mesh.triangle"].ravel()]
-    corners[sharp] = surface["mesh.sharp_corner_normal"]
-    compat.set_smooth_with_normals(mesh, corners)
 
 
 def set_provenance(item, surface, options, chains):
@@ -394,11 +250,10 @@ def place_camera(item, shot, scale, origin=(0.0, 0.0, 0.0)):
         camera.angle_y = math.radians(shot["vertical_fov"])
 
 
-def reach_all(item, file, scale, origin=(0.0, 0.0, 0.0)):
-    """Sets the clipping of a camera so that no atom of the file is cut off; never brings its end nearer."""
+def reach_all(item, points, scale, origin=(0.0, 0.0, 0.0)):
+    """Sets the clipping of a camera so that none of the atoms at `points` (n, 3) Å is cut off; never brings its end nearer."""
     place = np.array(item.matrix_world.translation) / scale + np.array(origin)
-    reach = max(float(np.linalg.norm(surface["atom.center"] @ copy[:, :3].T + copy[:, 3] - place, axis=1).max())
-                for surface in file.objects for copy in surface.copies) * scale
+    reach = float(np.linalg.norm(points - place, axis=1).max()) * scale
     item.data.clip_start = max(1e-4 * reach, 1e-6)
     item.data.clip_end = max(item.data.clip_end, 4.0 * reach)
 

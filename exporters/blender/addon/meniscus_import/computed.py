@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Objects whose mesh is computed from the request they store: in the background, on the timeline, and again after undo."""
 
-import concurrent.futures
+import dataclasses
 import sys
 import time as clock
 
@@ -9,69 +9,99 @@ import bpy
 import mathutils
 from bpy.app.handlers import persistent
 
-from . import attributes, build, compat, mns_reader, molecular_nodes
-from .computing import engines, jobs
+from . import attributes, build, compat, mesh_arrays, mns_reader, molecular_nodes
+from .computing import process
 
 #: Of a mesh: the key of the request that it shows; of an object: what the last computation said.
 SHOWN, ERROR = "meniscus_shown", "meniscus_error"
 #: Seconds between two looks at whether something is done.
-TICK = 0.01
+TICK = 0.005
+#: Seconds between two looks at how far it is.
+TELL = 0.2
 #: Surfaces that are kept, for undo and for frames that come again; bytes.
 KEPT_BYTES = 1 << 28
 #: Frames that are computed ahead of the one that shows.
 AHEAD = 4
 
-_worker = jobs.Worker()
-_tools = None
-_kept = {}  # key -> surface, the oldest first
-_ahead = None  # frames to come
-_awaited = {}  # key -> future
+_process = None
+_told = 0.0  # when sidebars were last drawn anew
+_kept = {}  # key -> Shown or None, the oldest first
+_awaited = {}  # key -> process.Job of a frame to come
 
 
 class Wanted:
-    """One look at an object, on Blender's thread: the request, the atoms if they come from Blender, with their other
-    attributes."""
+    """One look at an object: the request, the atoms if they come from Blender, with their other attributes, and how they come
+    into a mesh."""
 
     def __init__(self, item, place):
         settings = item.meniscus
-        self.name, self.place = item.name, place
         self.request = settings.request(place if settings.source == "FILE" else 0)
+        self.scale, self.crisp = settings.scale, settings.crisp
         self.atoms, self.others = None, []
         if settings.source == "OBJECT":
             if settings.atoms is None:
                 raise mns_reader.MnsError("there is no object with atoms")
             self.atoms, self.others = molecular_nodes.read(settings.atoms, settings.scale, settings.selection, place)
-        self.key = self.request.key(self.atoms)
-        self.tools, self.folder = tools(), bpy.app.tempdir or None
+        shape = self.request.key(self.atoms, [each.values for each in self.others])
+        self.key = f"{shape} {self.scale:.6g} {int(self.crisp)} " + ",".join(each.name for each in self.others)
 
-    def compute(self, task):
-        """On any thread."""
-        return engines.compute(self.tools, self.request, self.atoms, self.folder, task)
+    def ask(self, owner, urgency=process.NOW):
+        """A process.Job whose result is for Shown."""
+        about = {"request": dataclasses.asdict(self.request), "atoms": self.atoms and vars(self.atoms), "scale": self.scale,
+                 "crisp": self.crisp, "others": [vars(each) for each in self.others]}
+        job = working().ask(owner, self.key, "surface", about, urgency)
+        job.make = lambda result: result and Shown(result, self)
+        return job
 
 
-def tools():
-    """What there is to compute with; looked for once."""
-    global _tools
-    if _tools is None:
-        found = bpy.context.preferences.addons.get(__package__)
-        chosen = found.preferences if found else None
-        _tools = engines.find_tools(bpy.path.abspath(chosen.package) if chosen and chosen.package else "",
-                                    bpy.path.abspath(chosen.program) if chosen and chosen.program else "")
-    return _tools
+class Shown:
+    """What a mesh shows: header of the surface, middle of its atoms in Å, and the arrays that fill the mesh."""
+
+    def __init__(self, result, wanted):
+        self.surface = mns_reader.Surface("a computed surface", result["header"], {})
+        self.middle, self.arrays = result["middle"], mesh_arrays.MeshArrays(**result["arrays"])
+        self.scale, self.crisp = wanted.scale, wanted.crisp
+        self.chains = mesh_arrays.chains_of(self.surface)
+        self.names = {each.name for each in wanted.others}
+
+
+def working():
+    """The process that computes, as the preferences want it now."""
+    global _process
+    found = bpy.context.preferences.addons.get(__package__)
+    chosen = found.preferences if found else None
+    package, program = (bpy.path.abspath(getattr(chosen, name, "")) for name in ("package", "program"))
+    if _process is not None and (_process.package, _process.program) != (package, program):
+        end()
+    if _process is None:
+        _process = process.Process(package, program, bpy.app.tempdir or None)
+    return _process
 
 
 def look_for_tools():
-    """Anew: they may have been installed, or named in the preferences."""
-    global _tools
-    _tools = None
-    return tools()
+    """Anew: they may have been installed. What was found, as of works.Tools.told."""
+    end()
+    return working().told()
 
 
 def told_tools():
     """Lines for people."""
-    found = tools()
-    yield f"libmeniscus {found.library.version()}: {found.library.library_path()}" if found.library else f"No libmeniscus: {found.missing}"
-    yield f"Program: {found.program}" if found.program else "No program meniscus"
+    try:
+        found = working().told()
+    except mns_reader.MnsError as error:
+        yield str(error)
+        return
+    yield f"libmeniscus {found['version']}: {found['library']}" if found["library"] else f"No libmeniscus: {found['missing']}"
+    yield f"Program: {found['program']}" if found["program"] else "No program meniscus"
+
+
+def end():
+    """Ends what computes; it starts again when it is needed."""
+    global _process
+    if _process is not None:
+        _process.end()
+        _process = None
+    _awaited.clear()
 
 
 def is_computed(item):
@@ -107,7 +137,7 @@ def ask(item):
     """Has the surface computed in the background; what waits for the same object falls away."""
     try:
         if needs_frames(item):
-            _worker.ask(jobs.Task(item.name, "", _count_frames(item)))
+            _ask_for_frames(item)
         else:
             place = place_at(item, bpy.context.scene.frame_current_final)
             if place is None:
@@ -117,10 +147,10 @@ def ask(item):
             if item.data.get(SHOWN) == wanted.key:
                 return
             if wanted.key in _kept:
-                _worker.cancel(item.name)
-                show(item, wanted, _kept[wanted.key])
+                working().drop(item.name)
+                show(item, wanted.key, _kept[wanted.key])
                 return
-            _worker.ask(jobs.Task(item.name, wanted.key, lambda task: (wanted, wanted.compute(task))))
+            wanted.ask(item.name)
     except (mns_reader.MnsError, OSError) as error:
         fail(item, error)
         return
@@ -137,30 +167,20 @@ def _run_key(item):
     return item.meniscus.request(1).atoms_key()
 
 
-def _count_frames(item):
-    """Reads the run, to know how many frames it has."""
-    found, request, key, folder = tools(), item.meniscus.request(1), _run_key(item), bpy.app.tempdir or None
-
-    def work(task):
-        return key, len(engines.read_atoms(found.needed_program("reading a run"), request, folder, task).numbers)
-
-    return work
+def _ask_for_frames(item):
+    """How many the run has."""
+    return working().ask(item.name, _run_key(item), "count", {"request": dataclasses.asdict(item.meniscus.request(1))})
 
 
-def _take_frames(item, result):
-    key, count = result
-    item["meniscus_frames"], item["meniscus_frames_of"] = count, key
+def _take_frames(item, job):
+    item["meniscus_frames"], item["meniscus_frames_of"] = job.result, job.key
 
 
 def compute_now(item, time=None):
-    """The same on this thread. Raises MnsError or OSError, and leaves the mesh as it was."""
-    _worker.cancel(item.name)
+    """The same, and waits for it. Raises MnsError or OSError, and leaves the mesh as it was."""
+    working().drop(item.name)
     if needs_frames(item):
-        task = jobs.Task(item.name, "", _count_frames(item))
-        task.run()
-        if task.error:
-            raise task.error
-        _take_frames(item, task.result)
+        _take_frames(item, _finished(_ask_for_frames(item)))
     place = place_at(item, bpy.context.scene.frame_current_final if time is None else time)
     if place is None:
         empty(item)
@@ -168,14 +188,18 @@ def compute_now(item, time=None):
     wanted = Wanted(item, place)
     if item.data.get(SHOWN) == wanted.key:
         return
-    surface = _kept.get(wanted.key) or _from_ahead(wanted)
-    if surface is None:
-        task = jobs.Task(item.name, wanted.key, wanted.compute)
-        task.run()
-        if task.error:
-            raise task.error
-        surface = task.result
-    show(item, wanted, surface)
+    if wanted.key not in _kept:
+        job = _finished(_awaited.pop(wanted.key, None) or wanted.ask(item.name))
+        keep(wanted.key, job.make(job.result))
+    show(item, wanted.key, _kept[wanted.key])
+
+
+def _finished(job):
+    """Waits; raises what went wrong."""
+    _deliver([other for other in working().wait(job) if other is not job])
+    if job.error is not None:
+        raise job.error
+    return job
 
 
 def empty(item):
@@ -184,52 +208,50 @@ def empty(item):
     item.data.update()
 
 
-def show(item, wanted, surface):
-    """Puts a surface into the mesh of an object; materials, modifiers and attributes of the user remain. While the mesh is
-    edited it stays as it is."""
-    mesh, settings = item.data, item.meniscus
+def show(item, key, shown):
+    """Puts what was computed into the mesh of an object; materials, modifiers and attributes of the user remain. While the mesh
+    is edited it stays as it is."""
+    mesh = item.data
     if mesh.is_editmode:
         return
-    keep(wanted.key, surface)
-    theirs = {each.name for each in wanted.others}
-    kept = attributes.keep(mesh, build.OURS | theirs)
+    if shown is None:
+        empty(item)
+        mesh[SHOWN] = key
+        return
+    kept = attributes.keep(mesh, build.OURS | shown.names)
     mesh.clear_geometry()
-    chains = sorted(str(name) for name in surface.header.get("chain_names", []))
     if not mesh.materials:
-        build.add_materials(mesh, surface, [])
-    build.fill_mesh(mesh, surface, settings.scale, settings.crisp, build.fps_of(bpy.context.scene), chains,
-                    trusted=surface.known_closed)
-    attributes.give_back(mesh, [*kept, *wanted.others])
-    place(item, surface)
-    build.set_provenance(item, surface, build.Options(settings.scale, settings.crisp), chains)
-    mesh[SHOWN] = wanted.key
+        build.add_materials(mesh, shown.surface, [])
+    build.fill_mesh(mesh, shown.arrays, build.fps_of(bpy.context.scene), trusted=True)
+    attributes.give_back(mesh, kept, shown.arrays)
+    place(item, shown)
+    build.set_provenance(item, shown.surface, build.Options(shown.scale, shown.crisp), shown.chains)
+    mesh[SHOWN] = key
     item[ERROR] = ""
     mesh.update()
 
 
-def place(item, surface):
+def place(item, shown):
     """Where the object stands when it first shows something; if its scale changes the molecule's middle stays where it is."""
-    settings = item.meniscus
-    if settings.source == "FILE" and settings.center and "meniscus_origin" not in item:
-        centers = surface["atom.center"]
-        origin = build.scene_origin(bpy.context.scene, lambda: 0.5 * (centers.min(axis=0) + centers.max(axis=0)))
+    if item.meniscus.source == "FILE" and item.meniscus.center and "meniscus_origin" not in item:
+        origin = build.scene_origin(bpy.context.scene, lambda: shown.middle)
         item["meniscus_origin"] = [float(value) for value in origin]
-        item.location = mathutils.Vector(origin) * -settings.scale
-    elif "meniscus_origin" in item and item.get("meniscus_scale", settings.scale) != settings.scale:
+        item.location = mathutils.Vector(origin) * -shown.scale
+    elif "meniscus_origin" in item and item.get("meniscus_scale", shown.scale) != shown.scale:
         origin = mathutils.Vector(item["meniscus_origin"][:])
-        item.location += origin * (item["meniscus_scale"] - settings.scale)
+        item.location += origin * (item["meniscus_scale"] - shown.scale)
 
 
-def keep(key, surface):
+def keep(key, shown):
+    """For as long as there is room; the oldest go."""
     _kept.pop(key, None)
-    _kept[key] = surface
-    total = sum(_bytes_of(each) for each in _kept.values())
+    _kept[key] = shown
+    sizes = {each: 0 if kept is None else kept.arrays.nbytes for each, kept in _kept.items()}
+    total = sum(sizes.values())
     while total > KEPT_BYTES and len(_kept) > 1:
-        total -= _bytes_of(_kept.pop(next(iter(_kept))))
-
-
-def _bytes_of(surface):
-    return sum(array.nbytes for array in surface.arrays.values())
+        oldest = next(iter(_kept))
+        total -= sizes[oldest]
+        del _kept[oldest]
 
 
 def fail(item, error):
@@ -238,81 +260,94 @@ def fail(item, error):
 
 
 def redraw():
+    """The sidebars, which tell how far it is; views are drawn anew when a mesh has changed, which takes longer."""
     for window in getattr(bpy.context.window_manager, "windows", ()):
         for area in window.screen.areas:
             if area.type == "VIEW_3D":
-                area.tag_redraw()
+                for region in area.regions:
+                    if region.type == "UI":
+                        region.tag_redraw()
 
 
 def _tick():
-    """On Blender's thread, while something is computed."""
-    for task in _worker.take():
-        item = bpy.data.objects.get(task.owner)
+    """While something is computed."""
+    global _told
+    done = working().take()
+    _deliver(done)
+    if done or clock.monotonic() - _told > TELL:
+        _told = clock.monotonic()
+        redraw()
+    return TICK if working().is_busy() else None
+
+
+def _deliver(done):
+    """Shows what was asked for in the background, and keeps what was computed ahead."""
+    for job in done:
+        if job.make is not None and job.error is None:
+            keep(job.key, job.make(job.result))
+        if _awaited.get(job.key) is job:
+            del _awaited[job.key]
+            continue
+        item = _item_of(job)
         if not is_computed(item):
             continue
-        if task.error is not None:
-            fail(item, task.error)
-        elif task.key == "":
-            _take_frames(item, task.result)
+        if job.error is not None:
+            fail(item, job.error)
+        elif job.make is None:
+            _take_frames(item, job)
             ask(item)
         else:
-            wanted, surface = task.result
             try:
-                show(item, wanted, surface)
+                show(item, job.key, _kept[job.key])
             except Exception as error:  # a timer that raises is never called again
                 fail(item, error)
-    redraw()
-    return TICK if _worker.is_busy() else None
 
 
 def progress_of(item):
     """Stage and seconds of what is computed for an object, or None."""
-    task = _worker.task_of(item.name)
-    return None if task is None else (task.stage, clock.monotonic() - task.began)
+    job = _process and _process.job_of(item.name)
+    return None if job is None else (job.stage, clock.monotonic() - job.began)
 
 
 def cancel(item):
-    return _worker.cancel(item.name)
+    """At once, whatever is done for it. True if there was something."""
+    if not working().stop(item.name):
+        return False
+    _awaited.clear()
+    for job in working().take():  # they ended with it
+        other = _item_of(job)
+        if is_computed(other):
+            ask(other)
+    return True
+
+
+def _item_of(job):
+    return bpy.data.objects.get(job.owner) if isinstance(job.owner, str) else None
 
 
 def wait():
     """Until nothing is computed any more, and shows it: for scripts and tests."""
-    while _worker.is_busy():
-        _tick()
-        clock.sleep(0.002)
-    _tick()
+    while working().is_busy():
+        _deliver(working().take(1.0))
 
 
 # ---- time
 
-def _from_ahead(wanted):
-    future = _awaited.pop(wanted.key, None)
-    if future is None:
-        return None
-    try:
-        return future.result()
-    except concurrent.futures.CancelledError:
-        return None
-
-
 def _compute_ahead(item, time):
     """Has the next frames computed. Of atoms that come from Blender nobody knows where they will be, but of its own frames."""
-    global _ahead
-    wanted_keys = []
+    wanted_keys = set()
     for step in range(1, AHEAD + 1):
         place = place_at(item, time + step)
         if not place:
             continue
         wanted = Wanted(item, place)
-        wanted_keys.append(wanted.key)
-        if wanted.key in _awaited or wanted.key in _kept:
-            continue
-        if _ahead is None:
-            _ahead = concurrent.futures.ThreadPoolExecutor(1, "meniscus-ahead")
-        task = jobs.Task(item.name, wanted.key, None)
-        _awaited[wanted.key] = _ahead.submit(wanted.compute, task)
-    for key in [key for key in _awaited if key not in wanted_keys][:-AHEAD or None]:
-        _awaited.pop(key).cancel()
+        wanted_keys.add(wanted.key)
+        if wanted.key not in _awaited and wanted.key not in _kept:
+            _awaited[wanted.key] = wanted.ask((item.name, wanted.key), process.NEXT)
+    for key, job in list(_awaited.items()):
+        if job.owner[0] == item.name and key not in wanted_keys:
+            working().drop(job.owner)
+            del _awaited[key]
 
 
 def follow(scene):
@@ -357,6 +392,9 @@ def catch_up():
 @persistent
 def on_load(*_arguments):
     _kept.clear()
+    _awaited.clear()
+    if _process is not None:
+        _process.drop_all()
     come_last()
 
 
@@ -378,7 +416,6 @@ def register():
 
 
 def unregister():
-    global _tools, _ahead
     for timer in (_tick, catch_up):
         if bpy.app.timers.is_registered(timer):
             bpy.app.timers.unregister(timer)
@@ -386,13 +423,5 @@ def unregister():
         handlers = getattr(bpy.app.handlers, name)
         if handler in handlers:
             handlers.remove(handler)
-    _worker.forget()
-    if _ahead is not None:
-        for future in _awaited.values():
-            future.cancel()
-        _ahead.shutdown(wait=True)
-        _ahead = None
-    _awaited.clear()
+    end()
     _kept.clear()
-    engines.forget()
-    _tools = None

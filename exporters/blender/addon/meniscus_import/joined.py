@@ -131,4 +131,6 @@ def _part(surface, shown, wanted):
     mesh = {**surface.header["mesh"], "vertices": int(used.sum()), "triangles": int(shown.sum())}
     kept = [part for part, is_kept in zip(surface.header["components"], wanted) if is_kept]
     measures = {key: sum(part.get(key, 0.0) for part in kept) for key in ("area", "volume")}
-    return mns_reader.Surface(surface.path, {**surface.header, **measures, "mesh": mesh}, arrays)
+    part = mns_reader.Surface(surface.path, {**surface.header, **measures, "mesh": mesh}, arrays)
+    part.known_closed = surface.known_closed
+    return part

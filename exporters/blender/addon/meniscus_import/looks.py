@@ -3,7 +3,8 @@
 
 import bpy
 
-from . import compat, materials
+from . import compat
+from .mesh_arrays import SLOTS
 
 #: The custom property of node groups and materials that were made here: what they are.
 MARK = "meniscus_look"
@@ -207,7 +208,7 @@ def dress(item, look, coloring):
     slots = item.data.materials
     while len(slots) < 2:
         slots.append(None)
-    for slot, role in enumerate(materials.SLOTS[:len(slots)]):
+    for slot, role in enumerate(SLOTS[:len(slots)]):
         if role != "cap":
             slots[slot] = made
     return made
@@ -215,6 +216,6 @@ def dress(item, look, coloring):
 
 def add_lines(context, item):
     """Line Art of the outlines of an object, in an object of its own."""
-    lines = compat.line_art(bpy, item, item.name + ".lines")
+    lines = compat.line_art(item, item.name + ".lines")
     (item.users_collection[0] if item.users_collection else context.scene.collection).objects.link(lines)
     return lines

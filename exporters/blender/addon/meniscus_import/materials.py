@@ -4,9 +4,8 @@
 import bpy
 
 from . import compat
+from .mesh_arrays import SLOTS
 
-#: What materials are for, and the slots of a mesh in order; a mesh without caps lacks the third.
-SLOTS = ("outer", "cavity", "cap")
 #: How a surface lets through what lies behind it, and what the names of its materials end with.
 OPAQUE, TRANSLUCENT, FILM = "opaque", "translucent", "film"
 ENDINGS = {OPAQUE: "", TRANSLUCENT: " seen through", FILM: " film"}

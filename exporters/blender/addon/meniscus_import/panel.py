@@ -7,12 +7,13 @@ import bpy
 from bpy_extras.io_utils import ImportHelper
 
 from . import build, computed, looks, mns_reader, molecular_nodes
+from .settings import DETAILS
 
 
-def new_object(context, name, source, **settings):
+def new_object(context, name, source, **values):
     """An object without geometry in the scene's collection, selected and active."""
     item = bpy.data.objects.new(name, bpy.data.meshes.new(name))
-    for key, value in settings.items():
+    for key, value in values.items():
         setattr(item.meniscus, key, value)
     item.meniscus.source = source  # last: before, nothing is computed
     context.scene.collection.objects.link(item)
@@ -41,7 +42,13 @@ class Waiting:
     wait: bpy.props.BoolProperty(name="Wait", description="End when the surface is there", default=False, options={"SKIP_SAVE"})
 
 
-class OBJECT_OT_meniscus_from_file(Waiting, bpy.types.Operator, ImportHelper):
+class Making(Waiting):
+    """What operators that make a surface share."""
+
+    detail: bpy.props.EnumProperty(name="Detail", default="PROXY", items=DETAILS)
+
+
+class OBJECT_OT_meniscus_from_file(Making, bpy.types.Operator, ImportHelper):
     """Compute the surface of a molecule's file"""
 
     bl_idname = "object.meniscus_from_file"
@@ -56,13 +63,13 @@ class OBJECT_OT_meniscus_from_file(Waiting, bpy.types.Operator, ImportHelper):
 
     def execute(self, context):
         name = os.path.basename(self.filepath).split(".")[0] or "surface"
-        item = new_object(context, name + ".surface", "FILE", file=build.remembered_path(self.filepath), selection=self.selection,
+        item = new_object(context, name + ".surface", "FILE", detail=self.detail, file=build.remembered_path(self.filepath), selection=self.selection,
                           trajectory=self.trajectory and build.remembered_path(self.trajectory),
                           is_run=self.is_run or bool(self.trajectory), center=self.center)
         return start(self, item)
 
 
-class OBJECT_OT_meniscus_from_atoms(Waiting, bpy.types.Operator):
+class OBJECT_OT_meniscus_from_atoms(Making, bpy.types.Operator):
     """Compute the surface of the active object's atoms, as Molecular Nodes has them"""
 
     bl_idname = "object.meniscus_from_atoms"
@@ -82,7 +89,7 @@ class OBJECT_OT_meniscus_from_atoms(Waiting, bpy.types.Operator):
         except mns_reader.MnsError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
-        item = new_object(context, atoms.name + ".surface", "OBJECT", atoms=atoms, scale=scale, selection=self.selection)
+        item = new_object(context, atoms.name + ".surface", "OBJECT", atoms=atoms, scale=scale, selection=self.selection, detail=self.detail)
         item.parent = atoms  # without the inverse: it stands where its atoms are
         computed.come_last()
         return start(self, item)
@@ -101,7 +108,8 @@ class OBJECT_OT_meniscus_update(Waiting, bpy.types.Operator):
         return computed.is_computed(item) and item.mode == "OBJECT"
 
     def execute(self, context):
-        computed.look_for_tools()
+        if not computed.working().told()["library"]:
+            computed.look_for_tools()
         item = context.active_object
         item.data[computed.SHOWN] = ""
         return start(self, item)
@@ -194,12 +202,15 @@ class VIEW3D_PT_meniscus(bpy.types.Panel):
             layout.prop(settings, "color")
         else:
             layout.prop(settings, "atoms")
-            layout.prop(settings, "selection")
+            if settings.atoms is not None:
+                layout.prop_search(settings, "selection", settings.atoms.data, "attributes")
         layout.prop(settings, "kind")
         row = layout.row()
         row.active = settings.kind != "VDW"
         row.prop(settings, "probe", slider=True)
-        layout.prop(settings, "tolerance")
+        layout.prop(settings, "detail")
+        layout.prop(settings, "density" if settings.detail == "PROXY" else "tolerance")
+        layout.prop(settings, "cavities")
         layout.prop(settings, "crisp")
         layout.prop(settings, "scale")
         layout.prop(settings, "live")

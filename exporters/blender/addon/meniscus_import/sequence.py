@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A sequence of surfaces in a scene: all frames baked into the file, or one frame at a time by a handler."""
 
-import concurrent.futures
 import math
 import os
 import sys
@@ -9,7 +8,8 @@ import sys
 import bpy
 from bpy.app.handlers import persistent
 
-from . import attributes, build, compat, frame_picker, joined, mns_reader, sequence_reader
+from . import attributes, build, compat, frame_picker, frames, mns_reader, sequence_reader
+from .computing import process
 
 
 class Placement:
@@ -27,74 +27,68 @@ class Placement:
         self.own_materials = own_materials
         self.new_materials = []
 
-    def refill(self, mesh, scene_frame):
-        """Puts the frame in this place of the run into the mesh. On an error the mesh is left without geometry: no other
-        frame stands for it."""
+    def refill(self, mesh, scene_frame, kept=()):
+        """Puts the frame in this place of the run into the mesh, with what was kept of the user's attributes; its
+        frames.Prepared. On an error the mesh is left without geometry: no other frame stands for it."""
         try:
             mesh.clear_geometry()
-            file, surface = _ahead.take(self, scene_frame)
+            prepared = _ahead.take(self, scene_frame)
             if not mesh.materials:
-                build.add_materials(mesh, surface, self.new_materials, self.own_materials)
+                build.add_materials(mesh, prepared.surface, self.new_materials, self.own_materials)
             fps = self.sequence.fps if self.scene is None else build.fps_of(self.scene)
-            build.fill_mesh(mesh, surface, self.scale, self.crisp_colors, fps * self.timing.speed,
-                            sorted(surface.header["chain_names"]))
+            build.fill_mesh(mesh, prepared.arrays, fps * self.timing.speed)
+            attributes.give_back(mesh, kept, prepared.arrays)
+            if len(mesh.polygons) != prepared.triangles:
+                raise mns_reader.MnsError(f"{self.sequence.frames[scene_frame - 1].path}: {len(mesh.polygons)} triangles of {prepared.triangles}")
         except BaseException:
             mesh.clear_geometry()
             raise
-        expected = sum(len(surface.copies) * surface.header["mesh"]["triangles"] for surface in file.objects)
-        if len(mesh.polygons) != expected:
-            found = len(mesh.polygons)
-            mesh.clear_geometry()
-            raise mns_reader.MnsError(f"{self.sequence.frames[scene_frame - 1].path}: {found} triangles of {expected}")
-        return file
+        return prepared
 
-
-def prepare(sequence, scene_frame, origin):
-    """The file of a frame and its one surface, checked; knows nothing of Blender's data, so any thread may do it."""
-    file = sequence.read(scene_frame)
-    surface = joined.joined(file, origin)
-    surface.check_closed()
-    return file, surface
+    def prepared(self, scene_frame):
+        return frames.prepare(self.sequence, scene_frame, self.origin, self.scale, self.crisp_colors)
 
 
 class Ahead:
-    """Frames that a thread reads before they are asked for: the disk, checksums and checks are half of the time."""
+    """Frames that another process reads before they are asked for: all but handing them to Blender, and most of the time."""
 
     MOST = 2
 
     def __init__(self):
-        self.executor = None
-        self.waiting = {}  # key -> future, the oldest first
+        self.process = process.Process()
+        self.waiting = {}  # key -> process.Job, the oldest first
 
     @staticmethod
     def key(placement, scene_frame):
         path = placement.sequence.frames[scene_frame - 1].path
-        stamp = os.stat(path) if os.path.exists(path) else None
-        return (path, placement.sequence.run, tuple(placement.origin), stamp and (stamp.st_mtime_ns, stamp.st_size, stamp.st_ino))
+        return (path, placement.sequence.run, tuple(placement.origin), placement.scale, placement.crisp_colors,
+                mns_reader.stamp(path) if os.path.exists(path) else None)
 
     def take(self, placement, scene_frame):
-        future = self.waiting.pop(self.key(placement, scene_frame), None)
-        if future is not None:
-            return future.result()
-        return prepare(placement.sequence, scene_frame, placement.origin)
+        """A frames.Prepared; where the other process failed this one says why. Raises MnsError or OSError."""
+        job = self.waiting.pop(self.key(placement, scene_frame), None)
+        if job is not None:
+            self.process.wait(job)
+            if job.error is None:
+                return frames.unpacked(job.result)
+        return placement.prepared(scene_frame)
 
     def ask(self, placement, scene_frame):
         key = self.key(placement, scene_frame)
         if key in self.waiting:
             return
-        if self.executor is None:
-            self.executor = concurrent.futures.ThreadPoolExecutor(1, "meniscus")
-        self.waiting[key] = self.executor.submit(prepare, placement.sequence, scene_frame, placement.origin)
+        about = {"path": os.path.abspath(placement.sequence.path), "scene_frame": scene_frame, "origin": placement.origin,
+                 "scale": placement.scale, "crisp": placement.crisp_colors}
+        try:
+            self.waiting[key] = self.process.ask(key, key, "frame", about)
+        except mns_reader.MnsError:
+            return  # it will be read when it is needed
         while len(self.waiting) > self.MOST:
-            self.waiting.pop(next(iter(self.waiting))).cancel()
+            self.process.drop(self.waiting.pop(next(iter(self.waiting))).owner)
 
     def forget(self):
-        for future in self.waiting.values():
-            future.cancel()
+        self.process.end()
         self.waiting.clear()
-        if self.executor is not None:
-            self.executor.shutdown(wait=True)
-            self.executor = None
 
 
 _ahead = Ahead()
@@ -192,9 +186,9 @@ def bake(path, context=None, progress=None, **options):
             store.objects.link(bpy.data.objects.new(mesh.name, mesh))
             if scene_frame < len(sequence.frames):
                 _ahead.ask(placement, scene_frame + 1)
-            file = placement.refill(mesh, scene_frame)
+            prepared = placement.refill(mesh, scene_frame)
             if camera is not None:
-                build.reach_all(camera, file, placement.scale, placement.origin)
+                build.reach_all(camera, prepared.points, placement.scale, placement.origin)
             if progress:
                 progress(scene_frame, len(sequence.frames))
         item = frame_picker.add(sequence.stem + ".surface", store, len(sequence.frames), placement.timing)
@@ -224,12 +218,12 @@ def stream(path, context=None, **options):
     camera = None
     try:
         collection.objects.link(item)
-        file = placement.refill(mesh, 1)
+        prepared = placement.refill(mesh, 1)
         mesh["meniscus_shown"] = shown_key(sequence, 1)
         if run.import_camera:
             camera = add_camera(collection, placement)
         if camera is not None:
-            build.reach_all(camera, file, placement.scale, placement.origin)
+            build.reach_all(camera, prepared.points, placement.scale, placement.origin)
         remember(item, placement)
         item["meniscus_stream"] = 1
         item["meniscus_start"], item["meniscus_speed"] = placement.timing.start, placement.timing.speed
@@ -264,20 +258,14 @@ def remove(items, collections, new_materials):
         bpy.data.materials.remove(material)
 
 
-_manifests = {}  # path -> ((modification time, size), sequence)
+_manifests = frames.Manifests()
 _kept = {}  # name of a mesh -> (run, attributes of the user by atom)
 
 
 def placement_of(item, scene):
-    """The manifest is read again when its file has changed."""
-    path = bpy.path.abspath(item["meniscus_sequence"])
-    stamp = os.stat(path)
-    key = (stamp.st_mtime_ns, stamp.st_size)
-    if _manifests.get(path, (None,))[0] != key:
-        _manifests[path] = (key, sequence_reader.read(path))
+    sequence = _manifests.get(bpy.path.abspath(item["meniscus_sequence"]))
     timing = sequence_reader.Timing(item.get("meniscus_start", 1.0), item.get("meniscus_speed", 1.0),
                                     item.get("meniscus_outside", "EMPTY"))
-    sequence = _manifests[path][1]
     return Placement(sequence, item["meniscus_scale"], True, bool(item["meniscus_crisp"]), timing,
                      None if item.get("meniscus_own_rate", 1) else scene,
                      sequence.origin * 0.0 + list(item["meniscus_origin"]))
@@ -319,8 +307,7 @@ def refresh(item, scene):
         if scene_frame is None:  # outside of the run there is nothing to see
             mesh.clear_geometry()
         else:
-            placement.refill(mesh, scene_frame)
-            attributes.give_back(mesh, kept)
+            placement.refill(mesh, scene_frame, kept)
             after = place_at(item, placement, time + 1.0)
             if after not in (None, scene_frame):
                 _ahead.ask(placement, after)
@@ -331,7 +318,7 @@ def refresh(item, scene):
         mesh["meniscus_shown"] = ""
         item["meniscus_error"] = str(error) or type(error).__name__
         sys.stderr.write(f"meniscus: error: {item['meniscus_error']}\n")
-        compat.show_message(bpy, "Meniscus", item["meniscus_error"])
+        compat.show_message("Meniscus", item["meniscus_error"])
     mesh.update()
 
 

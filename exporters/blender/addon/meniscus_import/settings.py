@@ -14,6 +14,9 @@ COLORS = (
     ("hydrophobicity", "Hydrophobicity", "Hydropathy of the amino acid"), ("charge", "Charge", "Partial charge, of PQR files"),
     ("radial", "Radial", "Distance from the middle"), ("kind", "Patch", "Kind of patch: convex, toroidal, concave"))
 
+DETAILS = (("PROXY", "Proxy", "Even triangles, as few as one an atom, for looking while sliders move"),
+           ("FINE", "Fine", "Within a tolerance of the exact surface, for pictures"))
+
 
 def on_change(settings, _context):
     """Of a property that changes the surface."""
@@ -55,9 +58,17 @@ class MeniscusSettings(bpy.types.PropertyGroup):
         name="Probe", description="Radius of the probe in Å; 1.4 is water", default=1.4, min=0.0, max=100.0, soft_min=0.5, soft_max=5.0,
         step=5, precision=2, update=on_change)
     color: bpy.props.EnumProperty(name="Colour", default="element", items=COLORS, update=on_change)
+    detail: bpy.props.EnumProperty(name="Detail", default="PROXY", items=DETAILS, update=on_change)
+    density: bpy.props.FloatProperty(
+        name="Density", description="Vertices per Å² of a proxy; 0.1 makes about a triangle an atom", default=0.2, min=0.005, max=1000.0,
+        soft_min=0.05, soft_max=5.0, precision=3, update=on_change)
     tolerance: bpy.props.FloatProperty(
-        name="Tolerance", description="Å that the mesh is from the surface at most", default=0.2, min=1e-5, max=1.0, precision=3,
+        name="Tolerance", description="Å that the mesh is from the surface at most", default=0.05, min=1e-5, max=1.0, precision=3,
         update=on_change)
+    cavities: bpy.props.EnumProperty(
+        name="Cavities", default="KEEP", update=on_change,
+        items=(("KEEP", "Keep", "They show, with the second material"), ("DROP", "Leave out", "Only what is outside shows"),
+               ("ONLY", "Alone", "Nothing else shows")))
     live: bpy.props.BoolProperty(name="Live", description="Compute anew while sliders move", default=True, update=on_change)
     scale: bpy.props.FloatProperty(name="Scale", description="Blender units per Å", default=0.1, min=1e-6, soft_max=1.0, precision=4,
                                    update=on_change)
@@ -85,7 +96,7 @@ class MeniscusSettings(bpy.types.PropertyGroup):
             file=bpy.path.abspath(self.file) if of_file else "", trajectory=bpy.path.abspath(self.trajectory) if of_file and self.is_run else "",
             frames=self.frames if of_file and self.is_run else "", selection=self.selection,
             color=self.color if of_file else "", place=place, kind=self.kind, probe=short(self.probe),
-            tolerance=short(self.tolerance))
+            tolerance=short(self.tolerance), density=short(self.density) if self.detail == "PROXY" else 0.0, cavities=self.cavities)
 
 
 def short(value):

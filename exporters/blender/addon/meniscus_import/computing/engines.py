@@ -12,7 +12,7 @@ import threading
 
 import numpy as np
 
-from .. import mns_reader
+from .. import joined, mns_reader
 from . import atoms as atom_files
 
 #: Options of the program, by what a request has.
@@ -75,43 +75,58 @@ def _import(folder):
 
 
 def surface_by_library(library, atoms, request, task):
-    """A mns_reader.Surface of atoms.Atoms. Raises EngineError in the library's words."""
+    """A mns_reader.Surface of atoms.Atoms, of all components. Raises EngineError in the library's words."""
     if not len(atoms):
         raise EngineError("there are no atoms")
-    try:
-        task.say("Surface")
-        made = library.surface(atoms.positions, atoms.radii, request.probe, kind=SURFACES[request.kind])
-        task.check()
-        task.say("Mesh")
-        mesh = made.mesh(request.tolerance)
-    except library.Error as error:
-        raise EngineError(str(error)) from None
+    key = request.shape_key(atoms)
+    shape = _shapes.get(key)
+    if shape is None:
+        try:
+            shape = _shape(library, atoms, request, task)
+        except library.Error as error:
+            raise EngineError(str(error)) from None
+        with _reading:
+            while len(_shapes) >= MOST_SHAPES:
+                del _shapes[next(iter(_shapes))]
+            _shapes[key] = shape
     task.check()
-    return _as_read(made, mesh, atoms, request, library.version())
+    return _painted(shape, atoms)
 
 
-def _as_read(made, mesh, atoms, request, version):
-    """As if it had been written to a .mns file and read."""
-    vertices, components = mesh.vertices, made.components
+def _shape(library, atoms, request, task):
+    """Header and arrays as if they had been written to a .mns file and read, without those of the atoms."""
+    task.say("Surface")
+    made = library.surface(atoms.positions, atoms.radii, request.probe, kind=SURFACES[request.kind])
+    task.check()
+    task.say("Mesh")
+    mesh = made.mesh(density=request.density) if request.density else made.mesh(request.tolerance)
+    vertices = mesh.vertices
     origin = 0.5 * (vertices.min(axis=0) + vertices.max(axis=0))
     arrays = {
         "mesh.position": (vertices - origin).astype(np.float32), "mesh.normal": mesh.normals.astype(np.float32),
         "mesh.triangle": mesh.triangles, "mesh.kind": mesh.triangle_kinds, "mesh.patch": mesh.triangle_patches,
         "mesh.component": mesh.triangle_components, "mesh.atom": mesh.triangle_atoms, "mesh.sharp_corner": mesh.sharp_corners,
         "mesh.sharp_corner_normal": mesh.sharp_normals.astype(np.float32), "mesh.sharp_edge": np.empty((0, 2), np.uint32),
-        "atom.center": np.asarray(atoms.positions, np.float64), "atom.radius": np.asarray(atoms.radii, np.float64),
-        "atom.color": np.asarray(atoms.colors, np.float32), "atom.index": np.asarray(atoms.index), **atoms.numbers,
     }
     header = {
-        "generator": f"libmeniscus {version}", "source": {"file": atoms.source}, "device": made.device, "unit": "angstrom",
-        "name": "surface", "probe_radius": made.probe, "area": made.area, "volume": made.volume, "chain_names": atoms.chain_names,
+        "generator": f"libmeniscus {library.version()}", "device": made.device, "unit": "angstrom",
+        "name": "surface", "probe_radius": made.probe, "area": made.area, "volume": made.volume,
         "mesh": {"origin": [float(value) for value in origin], "vertices": len(vertices), "triangles": len(mesh.triangles),
-                 "closed": True, "tolerance": request.tolerance},
+                 "closed": True, "tolerance": 0.0 if request.density else request.tolerance},
         "components": [{"kind": "cavity" if part["kind"] else "outer", "area": float(part["area"]),
-                        "volume": float(part["volume"]), "euler": int(part["euler"])} for part in components],
+                        "volume": float(part["volume"]), "euler": int(part["euler"])} for part in made.components],
     }
+    return header, arrays
+
+
+def _painted(shape, atoms):
+    """The surface of a shape with the atoms as they are now: a change of colours computes nothing anew."""
+    header, arrays = shape
+    header = {**header, "source": {"file": atoms.source}, "chain_names": atoms.chain_names}
     if atoms.kind_colors is not None:
         header["kind_colors"] = atoms.kind_colors
+    arrays = {**arrays, "atom.center": np.asarray(atoms.positions, np.float64), "atom.radius": np.asarray(atoms.radii, np.float64),
+              "atom.color": np.asarray(atoms.colors, np.float32), "atom.index": np.asarray(atoms.index), **atoms.numbers}
     surface = mns_reader.Surface(f"{atoms.source or 'atoms'} in memory", header, arrays)
     surface.known_closed = True  # the library gives no other
     return surface
@@ -119,6 +134,8 @@ def _as_read(made, mesh, atoms, request, version):
 
 def surface_by_program(program, request, folder, task):
     """The same of a request about a file. folder: for files that go again."""
+    if request.density:
+        raise EngineError("a proxy needs libmeniscus; choose a fine mesh")
     task.say("Program")
     with tempfile.TemporaryDirectory(dir=folder, prefix="surface_") as inner:
         target = os.path.join(inner, "run" if request.place else "surface.mns")
@@ -167,15 +184,16 @@ def _fresh_atoms(program, request, folder, task):
         os.remove(path)  # what is mapped stays readable
 
 
-#: Files that were read, by what they were asked for, the oldest first.
-_files = {}
+#: Files that were read, by what they were asked for, and shapes that were computed; the oldest first.
+_files, _shapes = {}, {}
 _reading = threading.Lock()
-MOST_FILES = 4
+MOST_FILES, MOST_SHAPES = 4, 4
 
 
 def forget():
     with _reading:
         _files.clear()
+        _shapes.clear()
 
 
 def _about_atoms(request):
@@ -215,7 +233,15 @@ def _run(words, task):
 
 
 def compute(tools, request, atoms, folder, task):
-    """A mns_reader.Surface. atoms: those that come from Blender, or None: then they are those of the request's file."""
+    """A mns_reader.Surface, or None where the request is about cavities alone and there are none. atoms: those that come from
+    Blender, or None: then they are those of the request's file."""
+    surface = _all_of_it(tools, request, atoms, folder, task)
+    if request.cavities == "KEEP":
+        return surface
+    return dict(joined.by_role(surface)).get("cavities" if request.cavities == "ONLY" else "outer")
+
+
+def _all_of_it(tools, request, atoms, folder, task):
     if tools.library is None:
         if atoms is not None:
             raise EngineError(f"atoms of Blender need libmeniscus: {tools.missing}")

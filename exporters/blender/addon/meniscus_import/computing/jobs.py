@@ -3,24 +3,21 @@
 
 import collections
 import threading
-import time
 
 from . import engines
 
 
 class Task:
-    """owner: whose it is. key: what it is for. work: takes the task, gives the result. stage: what it does now, for people."""
+    """owner: whose it is. key: what it is for. work: takes the task, gives the result. urgency: what waits is done in this order."""
 
-    def __init__(self, owner, key, work):
-        self.owner, self.key, self.work = owner, key, work
-        self.stage = "Waiting"
-        self.began = time.monotonic()
+    def __init__(self, owner, key, work, urgency=0):
+        self.owner, self.key, self.work, self.urgency = owner, key, work, urgency
         self.result = self.error = None
         self.finished = threading.Event()
         self._unwanted = threading.Event()
 
     def say(self, stage):
-        self.stage = stage
+        """What it does now, for people."""
 
     def cancel(self):
         self._unwanted.set()
@@ -51,16 +48,16 @@ class Task:
 class Worker:
     """One thread, which lives while there is something to do."""
 
-    def __init__(self):
+    def __init__(self, give):
+        """give: takes each task that is done, but cancelled ones, on that thread."""
+        self._give = give
         self._lock = threading.Lock()
         self._waiting = collections.OrderedDict()  # owner -> Task
         self._running = None
-        self._done = collections.deque()
         self._thread = None
 
     def ask(self, task):
-        """Puts a task behind the others; what waits of the same owner falls away. What runs goes on, so that something shows
-        while a slider moves on and on."""
+        """Puts a task behind those that are as urgent; what waits of the same owner falls away, what runs goes on."""
         with self._lock:
             self._waiting.pop(task.owner, None)
             self._waiting[task.owner] = task
@@ -68,46 +65,13 @@ class Worker:
                 self._thread = threading.Thread(target=self._work, name="meniscus", daemon=True)
                 self._thread.start()
 
-    def task_of(self, owner):
-        """What waits or runs for it, the newest; None: nothing."""
-        with self._lock:
-            running = self._running if self._running is not None and self._running.owner == owner else None
-            return self._waiting.get(owner) or running
-
     def cancel(self, owner):
-        """True if there was something."""
+        """True if there was something that waited or ran."""
         with self._lock:
-            waiting = self._waiting.pop(owner, None)
-            running = self._running if self._running is not None and self._running.owner == owner else None
-            for task in (waiting, running):
-                if task is not None:
-                    task.cancel()
-            return waiting is not None or running is not None
-
-    def is_busy(self):
-        with self._lock:
-            return self._thread is not None or bool(self._done)
-
-    def take(self):
-        """Finished tasks, the oldest first; none that was cancelled."""
-        taken = []
-        with self._lock:
-            while self._done:
-                taken.append(self._done.popleft())
-        return [task for task in taken if not task.is_cancelled]
-
-    def forget(self):
-        """Cancels everything and waits for the thread."""
-        with self._lock:
-            for task in self._waiting.values():
+            found = [task for task in (self._waiting.pop(owner, None), self._running) if task is not None and task.owner == owner]
+            for task in found:
                 task.cancel()
-            self._waiting.clear()
-            if self._running is not None:
-                self._running.cancel()
-            thread = self._thread
-        if thread is not None:
-            thread.join()
-        self.take()
+            return bool(found)
 
     def _work(self):
         while True:
@@ -115,8 +79,10 @@ class Worker:
                 if not self._waiting:
                     self._thread = None
                     return
-                _, self._running = self._waiting.popitem(last=False)
+                first = min(self._waiting.values(), key=lambda task: task.urgency)
+                self._running = self._waiting.pop(first.owner)
             self._running.run()
             with self._lock:
-                self._done.append(self._running)
-                self._running = None
+                done, self._running = self._running, None
+            if not done.is_cancelled:
+                self._give(done)

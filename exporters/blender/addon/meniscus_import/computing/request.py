@@ -6,13 +6,18 @@ import hashlib
 import json
 import os
 
+import numpy as np
+
 KINDS = ("SES", "SAS", "VDW")
+#: What becomes of cavities: they show, they do not, nothing else does.
+CAVITIES = ("KEEP", "DROP", "ONLY")
 
 
 @dataclasses.dataclass(frozen=True)
 class Request:
     """file: of a molecule, an absolute path; "": atoms come from Blender. trajectory, frames: of a run, as the program takes
-    them; "" for none. selection, color: likewise. place: in the run, from 1; 0: none. probe, tolerance: Å."""
+    them; "" for none. selection, color: likewise. place: in the run, from 1; 0: none. probe, tolerance: Å. density: vertices
+    per Å² of a proxy, an even mesh however far from the surface; 0: a mesh within the tolerance. cavities: one of CAVITIES."""
 
     file: str = ""
     trajectory: str = ""
@@ -23,20 +28,31 @@ class Request:
     kind: str = "SES"
     probe: float = 1.4
     tolerance: float = 0.05
+    density: float = 0.0
+    cavities: str = "KEEP"
 
     def atoms_key(self):
         """Text that two requests share if they are about the same atoms of the same files."""
         return json.dumps([self.selection, self.color, self.frames, *(stamp(path) for path in (self.file, self.trajectory))])
 
-    def key(self, atoms=None):
-        """Text that two requests share if their surfaces are the same. atoms: those that come from Blender."""
+    def key(self, atoms=None, others=()):
+        """Text that two requests share if their surfaces are the same. atoms: those that come from Blender; others: more arrays
+        of theirs."""
         values = dataclasses.asdict(self)
         if self.kind == "VDW":
             values["probe"] = 0.0
+        if self.density:
+            values["tolerance"] = 0.0
         values["files"] = [stamp(self.file), stamp(self.trajectory)]
         if atoms is not None:
-            values["atoms"] = fingerprint(atoms)
+            values["atoms"] = _digest(atoms.positions, atoms.radii, atoms.colors, atoms.index, *atoms.numbers.values(), *others)
         return hashlib.sha256(json.dumps(values, sort_keys=True).encode()).hexdigest()
+
+    def shape_key(self, atoms):
+        """Text that two requests share if the triangles of their surfaces, cavities included, are the same."""
+        probe = 0.0 if self.kind == "VDW" else self.probe
+        detail = ("density", self.density) if self.density else ("tolerance", self.tolerance)
+        return json.dumps([self.kind, probe, *detail, _digest(atoms.positions, atoms.radii)])
 
 
 def stamp(path):
@@ -47,8 +63,8 @@ def stamp(path):
     return [path, found.st_mtime_ns, found.st_size]
 
 
-def fingerprint(atoms):
+def _digest(*arrays):
     digest = hashlib.blake2b(digest_size=16)
-    for values in (atoms.positions, atoms.radii, atoms.colors, atoms.index):
-        digest.update(values.tobytes())
+    for values in arrays:
+        digest.update(np.ascontiguousarray(values))
     return digest.hexdigest()

@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The program that computes for the add-on, in a process of its own: takes tasks from a connection, gives results back.
+
+process.py starts it. A message is a tuple of plain values and numpy arrays, a word first. It takes "begin" (sys.path, package,
+program, folder for files that go again), "do" (number, owner, urgency, kind of work, what it is about), "forget" (owner); it gives
+"stage" (number, text), "done" (number, result), "failed" (number, text)."""
+
+import multiprocessing.connection
+import os
+import signal
+import sys
+import types
+
+
+def main(descriptor):
+    connection = multiprocessing.connection.Connection(descriptor)
+    _, sys.path[:], package, program, folder = connection.recv()
+    adopt(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+    from meniscus_import.computing import jobs, works  # not before its path is known
+
+    tools = works.Tools(package, program, folder)
+    worker = jobs.Worker(lambda task: say(connection, *outcome(task)))
+    while True:
+        try:
+            word, *rest = connection.recv()
+        except (EOFError, OSError):
+            leave()
+        if word == "do":
+            worker.ask(task_of(jobs.Task, tools, connection, *rest))
+        elif word == "forget":
+            worker.cancel(*rest)
+
+
+def adopt(folder):
+    """Makes the modules of the add-on importable under its name, but not the add-on, which needs Blender."""
+    package = types.ModuleType("meniscus_import")
+    package.__path__ = [folder]
+    sys.modules["meniscus_import"] = package
+
+
+def task_of(kind_of_task, tools, connection, number, owner, urgency, kind, about):
+    task = kind_of_task(owner, number, lambda task: getattr(tools, kind)(task, **about), urgency)
+    task.say = lambda stage: say(connection, "stage", number, stage)
+    return task
+
+
+def say(connection, *message):
+    try:
+        connection.send(message)
+    except OSError:
+        leave()
+
+
+def leave():
+    """Blender is gone: nobody wants what is computed here, or by what was started here."""
+    os.killpg(0, signal.SIGKILL)
+
+
+def outcome(task):
+    if task.error is not None:
+        return "failed", task.key, str(task.error) or type(task.error).__name__
+    return "done", task.key, task.result
+
+
+if __name__ == "__main__":
+    main(int(sys.argv[1]))

@@ -1,0 +1,185 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a mesh of Blender is filled with, made of a surface by numpy alone: any thread may do it."""
+
+import dataclasses
+
+import numpy as np
+
+from . import mns_reader
+
+#: Of a mesh's materials, in order; a mesh without caps lacks the third.
+SLOTS = ("outer", "cavity", "cap")
+#: Attribute -> array; on faces, where they stay whole numbers. ses_object: only of joined objects.
+FACE_INTEGERS = {
+    "ses_kind": "mesh.kind", "ses_patch": "mesh.patch", "ses_component": "mesh.component", "ses_object": "mesh.object",
+}
+#: The attributes of Molecular Nodes, on points as there: the array of the atoms, the type. vdw_radii in Blender units, chain_id
+#: the place of the chain's name among the sorted ones.
+POINT_NUMBERS = {
+    "atomic_number": ("atom.atomic_number", "INT"), "res_id": ("atom.res_id", "INT"), "chain_id": ("atom.chain_id", "INT"),
+    "b_factor": ("atom.b_factor", "FLOAT"), "vdw_radii": ("atom.radius", "FLOAT"),
+}
+#: All that an import makes.
+OURS = {"atom_index", "opacity", "velocity", "Color", "ses_cap", "cap_stripe", "map_value", "map_known", *FACE_INTEGERS, *POINT_NUMBERS}
+
+
+@dataclasses.dataclass
+class MeshArrays:
+    """positions: (n, 3) float32, Blender units. triangles: (m, 3) int32. normals: (n, 3) of vertices, or (3 m, 3) of corners
+    where some are sharp; float32. sharp_edges: sorted keys a << 32 | b of vertex pairs a < b. slots: (m,) int32, of SLOTS.
+    atom_index: (m,) int32. velocity: (n, 3) float32, Blender units a frame of the run, or None. attributes: name, type, domain
+    as Blender calls them, and values, a row an element, in the type that it stores and copies as they are."""
+
+    positions: np.ndarray
+    triangles: np.ndarray
+    normals: np.ndarray
+    sharp_edges: np.ndarray
+    slots: np.ndarray
+    atom_index: np.ndarray
+    velocity: np.ndarray
+    attributes: list
+
+    @property
+    def nbytes(self):
+        return sum(each.nbytes for each in (self.positions, self.triangles, self.normals, *(values for *_, values in self.attributes)))
+
+
+def of_surface(surface, scale, crisp_colors, chains):
+    """The MeshArrays of a mns_reader.Surface. scale: Blender units per Å. crisp_colors: they change at edges, not between
+    vertices. chains: sorted names, whose places are chain_id. Raises mns_reader.MnsError, too if it shall be closed and is not."""
+    surface.check_closed()
+    positions = positions_of(surface, scale)
+    triangles = np.ascontiguousarray(surface["mesh.triangle"], dtype=np.int32)
+    pairs = np.sort(surface["mesh.sharp_edge"].reshape(-1, 2), axis=1).astype(np.uint64)
+    cavity = np.array([part["kind"] == "cavity" for part in surface.header["components"]], dtype=np.int32)
+    slots = np.where(caps_of(surface), SLOTS.index("cap"), cavity[surface["mesh.component"]]).astype(np.int32)
+    velocity = surface.get("mesh.velocity")
+    index = surface.get("atom.index")  # before version 2 one object, whose atoms are those of the molecule in order
+    atom_index = (surface["mesh.atom"] if index is None else index[surface["mesh.atom"]]).astype(np.int32)
+    return MeshArrays(positions, triangles, normals_of(surface), pairs[:, 0] << np.uint64(32) | pairs[:, 1], slots, atom_index,
+                      None if velocity is None else (velocity * scale).astype(np.float32),
+                      [*_of_faces(surface, atom_index), *_of_points(surface, scale, chains),
+                       _colors(surface, triangles, len(positions), crisp_colors)])
+
+
+def chains_of(*surfaces):
+    """Sorted names of the chains of some surfaces."""
+    return sorted({str(name) for surface in surfaces for name in surface.header.get("chain_names", [])})
+
+
+def _of_faces(surface, atom_index):
+    for name, array in FACE_INTEGERS.items():  # INT, not INT8: Cycles 3.4 reads INT8 as 0
+        if surface.get(array) is not None:
+            yield (name, "INT", "FACE", surface[array].astype(np.int32))
+    yield ("atom_index", "INT", "FACE", atom_index)
+    if surface.get("atom.opacity") is not None:  # on faces, as colours: it changes at edges
+        yield ("opacity", "FLOAT", "FACE", surface["atom.opacity"][surface["mesh.atom"]].astype(np.float32))
+    if surface.get("mesh.cap_plane") is not None:
+        yield ("ses_cap", "INT", "FACE", np.where(caps_of(surface), surface["mesh.cap_plane"], -1).astype(np.int32))
+        if "hatching" in surface.header["caps"]:
+            yield ("cap_stripe", "FLOAT", "CORNER", stripes(surface))
+
+
+def _of_points(surface, scale, chains):
+    of_vertex = vertex_atoms(surface["mesh.triangle"], surface["mesh.atom"], len(surface["mesh.position"]))
+    for name, (array, kind) in POINT_NUMBERS.items():
+        if surface.get(array) is None:
+            continue
+        values = surface[array]
+        if name == "vdw_radii":
+            values = values * scale
+        elif name == "chain_id":
+            values = chain_places(surface, chains)[values]
+        yield (name, kind, "POINT", values[of_vertex].astype(np.int32 if kind == "INT" else np.float32))
+    if surface.get("mesh.map_value") is not None:
+        yield ("map_value", "FLOAT", "POINT", surface["mesh.map_value"])
+        if surface.get("mesh.map_known") is not None:
+            yield ("map_known", "BOOLEAN", "POINT", surface["mesh.map_known"].astype(bool))
+
+
+def _colors(surface, triangles, count, crisp):
+    colors = corner_colors(surface)
+    if crisp:
+        rgba = np.ones((len(triangles), 3, 4), dtype=np.float32)
+        rgba[:, :, :3] = colors
+        return ("Color", "BYTE_COLOR", "CORNER", rgba.reshape(-1, 4))
+    corners = triangles.ravel()
+    around = np.maximum(np.bincount(corners, minlength=count), 1)
+    rgba = np.ones((count, 4), dtype=np.float32)
+    for channel in range(3):
+        rgba[:, channel] = np.bincount(corners, colors[:, :, channel].ravel(), count) / around
+    return ("Color", "FLOAT_COLOR", "POINT", rgba)
+
+
+def positions_of(surface, scale):
+    """Vertex positions in Blender units, float32: Å times scale, in the input file's own coordinates."""
+    origin = np.array(surface.header["mesh"]["origin"], dtype=np.float64)
+    return ((surface["mesh.position"].astype(np.float64) + origin) * scale).astype(np.float32)
+
+
+def normals_of(surface):
+    """Of vertices (n, 3), or of corners (3 m, 3) if there are sharp ones."""
+    normals, sharp = surface["mesh.normal"], surface["mesh.sharp_corner"]
+    if len(sharp):
+        normals = normals[surface["mesh.triangle"].ravel()]
+        normals[sharp] = surface["mesh.sharp_corner_normal"]
+    return np.ascontiguousarray(normals, dtype=np.float32)
+
+
+def caps_of(surface):
+    """Which triangles are caps."""
+    return surface["mesh.kind"] == mns_reader.CAP
+
+
+def stripes(surface):
+    """Of each corner of a cap how many lines of hatching lie before it; elsewhere between two of them."""
+    hatching, cap = surface.header["caps"]["hatching"], caps_of(surface)
+    origin = np.array(surface.header["mesh"]["origin"])
+    across = np.array(hatching["across"], dtype=np.float64)[surface["mesh.cap_plane"][cap]]
+    points = surface["mesh.position"][surface["mesh.triangle"][cap]].astype(np.float64) + origin + surface.header.get("moved_by", 0.0)
+    values = np.full((len(cap), 3), 0.5 + 0.5 * hatching["share"], dtype=np.float32)
+    values[cap] = np.einsum("tkx,tx->tk", points, across) / hatching["distance"]
+    return values.ravel()
+
+
+def corner_colors(surface):
+    """Scene-linear colour per corner of each triangle: (triangles, 3, 3) float32."""
+    colors = np.repeat(linear(face_colors(surface))[:, None, :], 3, axis=1)
+    of_map = surface.get("mesh.map_color")
+    if of_map is not None:
+        own = surface.get("atom.own_color")
+        by_map = ~caps_of(surface) if own is None else ~caps_of(surface) & (own[surface["mesh.atom"]] == 0)
+        colors[by_map] = linear(of_map)[surface["mesh.triangle"][by_map]]
+    return colors
+
+
+def vertex_atoms(triangles, atom, count):
+    """Of each vertex the atom of one of its triangles, that with the lowest index."""
+    found = np.zeros(count, dtype=np.int64)
+    found[triangles[::-1].ravel()] = np.repeat(atom[::-1], 3)
+    return found
+
+
+def chain_places(surface, chains):
+    """From chain numbers of the file to places in `chains`."""
+    names, ids = surface.header.get("chain_names", []), surface["atom.chain_id"]
+    if len(ids) and not 0 <= ids.min() <= ids.max() < len(names):
+        raise mns_reader.MnsError(f"{surface.path}: array atom.chain_id points to no chain name")
+    return np.array([chains.index(str(name)) for name in names] or [0], dtype=np.int32)
+
+
+def face_colors(surface):
+    """sRGB per triangle, but of volume maps."""
+    kinds, cap = surface.header.get("kind_colors"), caps_of(surface)
+    colors = surface["atom.color"][surface["mesh.atom"]]
+    if kinds is not None:
+        colors = np.where(cap[:, None], colors, np.array(kinds, dtype=np.float32)[np.where(cap, 0, surface["mesh.kind"])])
+    if "color" in surface.header.get("caps", {}):
+        colors = np.where(cap[:, None], np.array(surface.header["caps"]["color"], dtype=np.float32), colors)
+    return colors
+
+
+def linear(srgb):
+    """Scene-linear Rec. 709, which Blender's colour attributes hold."""
+    srgb = np.asarray(srgb, dtype=np.float64)
+    return np.where(srgb <= 0.04045, srgb / 12.92, ((srgb + 0.055) / 1.055) ** 2.4).astype(np.float32)
