@@ -232,6 +232,14 @@ class Computed(unittest.TestCase):
         computed.wait()
         self.assertEqual(item["meniscus_probe_radius"], 2.0)
 
+    def test_blender_ends_well_after_a_script_that_imports_the_add_on(self):
+        script = os.path.join(FOLDER, "imports.py")
+        with open(script, "w", encoding="utf-8") as file:
+            file.write(f"import sys\nsys.path.insert(0, {ADDON!r})\nimport meniscus_import\nfrom meniscus_import.computing import process\n")
+        done = subprocess.run([BLENDER, "-b", "--factory-startup", "--python-exit-code", "3", "--python", script], stdout=subprocess.DEVNULL,
+                              stderr=subprocess.DEVNULL, check=False)
+        self.assertEqual(done.returncode, 0)
+
     def test_in_the_background_the_newest_request_wins(self):
         item = of_file()
         for probe in (1.5, 1.6, 1.7, 1.8, 1.9, 2.0):

@@ -6,14 +6,13 @@ interpreter's lock if any thread has it just then (BPY_context_member_get and Py
 drivers; it crashes. Its manual asks for threads to end with the script that began them. So there are none: what takes time
 happens elsewhere, and is looked at from time to time."""
 
-import multiprocessing.connection
 import os
 import signal
 import subprocess
 import sys
 import time
 
-from . import engines
+from . import engines, messages
 
 SCRIPT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "worker.py")
 #: Order among tasks that wait: what shall show now, what may show next.
@@ -85,9 +84,9 @@ class Process:
         """Jobs that have been done meanwhile, the oldest first; waits so long for the first message."""
         done, self._over = self._over, []
         try:
-            while self._connection is not None and self._connection.poll(seconds):
+            while self._connection is not None and self._connection.is_there(seconds):
                 seconds = 0.0
-                job = self._hear(*self._connection.recv())
+                job = self._hear(*self._connection.receive())
                 if job is not None:
                     done.append(job)
         except (EOFError, OSError):
@@ -120,7 +119,7 @@ class Process:
     def _start(self):
         if self._connection is not None:
             return
-        connection, theirs = multiprocessing.connection.Pipe()
+        connection, theirs = messages.pair()
         try:
             self._child = subprocess.Popen([python(), "-B", SCRIPT, str(theirs.fileno())], pass_fds=[theirs.fileno()],
                                            stdin=subprocess.DEVNULL, start_new_session=True)

@@ -5,7 +5,6 @@ process.py starts it. A message is a tuple of plain values and numpy arrays, a w
 program, folder for files that go again), "do" (number, owner, urgency, kind of work, what it is about), "forget" (owner); it gives
 "stage" (number, text), "done" (number, result), "failed" (number, text)."""
 
-import multiprocessing.connection
 import os
 import signal
 import sys
@@ -13,16 +12,18 @@ import types
 
 
 def main(descriptor):
-    connection = multiprocessing.connection.Connection(descriptor)
-    _, sys.path[:], package, program, folder = connection.recv()
     adopt(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-    from meniscus_import.computing import jobs, works  # not before its path is known
+    from meniscus_import.computing import messages
+
+    connection = messages.of_descriptor(descriptor)
+    _, sys.path[:], package, program, folder = connection.receive()
+    from meniscus_import.computing import jobs, works  # not before it is known where numpy is
 
     tools = works.Tools(package, program, folder)
     worker = jobs.Worker(lambda task: say(connection, *outcome(task)))
     while True:
         try:
-            word, *rest = connection.recv()
+            word, *rest = connection.receive()
         except (EOFError, OSError):
             leave()
         if word == "do":
