@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What documents and comments point to is there: links, kernels, theorems."""
+"""What documents and comments point to is there: links, kernels, theorems, tests."""
+import ast
 import pathlib
 import re
 import unittest
@@ -51,6 +52,35 @@ class Documents(unittest.TestCase):
         listed = set(re.findall(r"\]\(([a-z_]+/[a-z_]+\.comp)\)", (ROOT / "gpu_shaders/README.md").read_text()))
         there = {str(path.relative_to(ROOT / "gpu_shaders")) for path in (ROOT / "gpu_shaders").rglob("*.comp")}
         self.assertEqual(listed, there)
+
+    def test_each_row_of_the_contract_of_msms_names_tests_that_are_there(self):
+        """CLASS: any test of it; CLASS.test_name, and its continuation in the same row; a name cut off by an ellipsis."""
+        places = {}
+        for path in (ROOT / "tests/msms").glob("*_test.py"):
+            for node in ast.parse(path.read_text()).body:
+                if isinstance(node, ast.ClassDef):
+                    places[path.name, node.name] = [item.name for item in node.body
+                                                    if isinstance(item, ast.FunctionDef) and item.name.startswith("test_")]
+        text = (ROOT / "docs/msms.md").read_text()
+        (contract,) = re.findall(r"^## What is promised$(.*?)(?=^## )", text, re.M | re.S)
+        rows = [line.strip("|").replace(r"\|", "/").split("|") for line in contract.splitlines() if line.startswith("|")][2:]
+        self.assertGreater(len(rows), 25)
+        for row in rows:
+            self.assertEqual(len(row), 3, row)
+            cited = row[2].strip()
+            if cited == "every test":
+                continue
+            file, _, names = cited.rpartition(": ")
+            of_file = {group: tests for (place, group), tests in places.items() if place == (file or "contract_test.py")}
+            tests = []
+            for name in names.split(", "):
+                group, _, test = name.rpartition(".") if "." in name else ("", "", name)
+                if not test.startswith("test_"):
+                    group, test = test, ""
+                tests = of_file.get(group, tests) if group else tests
+                self.assertTrue(tests, f"{row[0].strip()}: there is no {name}")
+                fits = [there for there in tests if there == test or (test.endswith("…") and there.startswith(test[:-1]))]
+                self.assertTrue(not test or fits, f"{row[0].strip()}: there is no {name}")
 
     def test_nobody_cites_what_is_not_in_the_tree(self):
         for source in sources():
