@@ -23,7 +23,7 @@ fuzz_packages=(clang-14 libclang-rt-14-dev)
 # form, and a second compiler with sanitizers
 check_packages=("${fuzz_packages[@]}" clang-format-14 clang-tidy-14)
 # other programs that measure and draw surfaces
-peer_packages=(pymol pymol-data gromacs freesasa python3-mdtraj)
+peer_packages=(pymol pymol-data gromacs freesasa python3-mdtraj python3-scipy)
 # a second GL driver; an environment for the wheel; a bare system; images; Nextflow
 prove_packages=(mesa-vulkan-drivers python3-venv python3-pip mmdebstrap buildah maven default-jre-headless)
 

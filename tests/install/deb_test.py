@@ -14,7 +14,7 @@ from installation import BUILD, ROOT, run
 LIBRARIES = f"usr/lib/{sysconfig.get_config_var('MULTIARCH')}"
 HOLDS = {
     "meniscus": {"usr/bin/meniscus", "usr/lib/meniscus/meniscus_openimageio.so", "usr/lib/meniscus/meniscus_hdf5.so",
-                 "usr/share/man/man1/meniscus.1.gz", "usr/bin/meniscus-msms", "usr/bin/meniscus-pdb_to_xyzr",
+                 "usr/share/man/man1/meniscus.1.gz", "usr/bin/meniscus-msms", "usr/bin/meniscus-nanoshaper", "usr/bin/meniscus-pdb_to_xyzr",
                  "usr/bin/meniscus-pdb_to_xyzrn", "usr/share/man/man1/meniscus-msms.1.gz",
                  "usr/share/meniscus/addon/render_mns.py"},
     "libmeniscus0": {f"{LIBRARIES}/libmeniscus.so.0", f"{LIBRARIES}/libmeniscus.so.{{version}}"},

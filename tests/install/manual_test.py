@@ -9,7 +9,7 @@ import unittest
 from installation import Installation
 
 
-OTHER_PROGRAMS = {f"meniscus-{name}.1.gz" for name in ("msms", "pdb_to_xyzr", "pdb_to_xyzrn")}
+OTHER_PROGRAMS = {f"meniscus-{name}.1.gz" for name in ("msms", "nanoshaper", "pdb_to_xyzr", "pdb_to_xyzrn")}
 
 
 class Manual(Installation):

@@ -1,0 +1,168 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""meniscus-nanoshaper: a configuration as its clients write it, and files as they read them, by place in the file."""
+
+import collections
+import json
+import math
+import unittest
+
+from msms_run import BUILD, TOXIN, UBIQUITIN, Folder, run
+
+# As TABI-PB writes it, but for the smallest cavity: one of a probe of 1.4 Å has 11.5 Å³ at least.
+CONFIGURATION = """Grid_scale = {scale}
+Grid_perfil = 90
+XYZR_FileName = molecule.xyzr
+Build_epsilon_maps = false
+Build_status_map = false
+Save_Mesh_MSMS_Format = true
+Compute_Vertex_Normals = true
+Surface = ses
+Smooth_Mesh = true
+Skin_Surface_Parameter = 0.45
+Cavity_Detection_Filling = {fill}
+Conditional_Volume_Filling_Value = 20
+Keep_Water_Shaped_Cavities = false
+Probe_Radius = 1.4
+Accurate_Triangulation = true
+Triangulation = true
+Check_duplicated_vertices = true
+Save_PovRay = false
+"""
+
+Mesh = collections.namedtuple("Mesh", "positions normals atoms triangles")
+
+
+def rows(path, width):
+    """Two lines are thrown away, the third begins with the number of rows; all others are rows."""
+    lines = path.read_text().splitlines()
+    found = [line.split() for line in lines[3:]]
+    assert len(found) == int(lines[2].split()[0]) and {len(row) for row in found} == {width}, path
+    return found
+
+
+def read_mesh(folder):
+    vertices, faces = rows(folder / "triangulatedSurf.vert", 9), rows(folder / "triangulatedSurf.face", 5)
+    return Mesh([tuple(map(float, row[:3])) for row in vertices], [tuple(map(float, row[3:6])) for row in vertices],
+                [int(row[7]) for row in vertices], [tuple(int(word) - 1 for word in row[:3]) for row in faces])
+
+
+def minus(a, b):
+    return tuple(x - y for x, y in zip(a, b))
+
+
+def dot(a, b):
+    return sum(x * y for x, y in zip(a, b))
+
+
+def cross(a, b):
+    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
+
+
+def area_and_volume(mesh):
+    area = volume = 0.0
+    for triangle in mesh.triangles:
+        a, b, c = (mesh.positions[corner] for corner in triangle)
+        normal = cross(minus(b, a), minus(c, a))
+        area += math.sqrt(dot(normal, normal)) / 2
+        volume += dot(a, normal) / 6
+    return area, volume
+
+
+def shells(mesh):
+    """Parts of the mesh that hang together."""
+    parent = list(range(len(mesh.positions)))
+
+    def root(vertex):
+        while parent[vertex] != vertex:
+            parent[vertex] = parent[parent[vertex]]
+            vertex = parent[vertex]
+        return vertex
+
+    for a, b, c in mesh.triangles:
+        parent[root(a)] = root(b)
+        parent[root(b)] = root(c)
+    return len({root(vertex) for vertex in range(len(parent))})
+
+
+class NanoShaper(Folder):
+    def shape(self, pdb=UBIQUITIN, scale=2.0, fill="false"):
+        self.molecule(pdb, name="molecule.xyzr")
+        (self.folder / "surfaceConfiguration.prm").write_text(CONFIGURATION.format(scale=scale, fill=fill))
+        self.good(BUILD / "meniscus-nanoshaper", cwd=self.folder)
+        return read_mesh(self.folder)
+
+    def exact(self):
+        told = self.good(BUILD / "meniscus", "surface", self.folder / "molecule.xyzr", "--json", "--quiet").stdout
+        return json.loads(told)
+
+    def test_what_a_client_reads_is_the_surface(self):
+        mesh, exact = self.shape(scale=3.0), self.exact()
+        area, volume = area_and_volume(mesh)
+        self.assertAlmostEqual(area / exact["area"], 1, delta=0.01)
+        self.assertAlmostEqual(volume / exact["volume"], 1, delta=0.01)
+        edges = collections.Counter((triangle[k], triangle[k - 2]) for triangle in mesh.triangles for k in range(3))
+        self.assertEqual(set(edges.values()), {1})
+        self.assertTrue(all((b, a) in edges for a, b in edges))
+        self.assertEqual(len({*mesh.positions}), len(mesh.positions))
+        with_the_normals = 0
+        for triangle in mesh.triangles:
+            a, b, c = (mesh.positions[corner] for corner in triangle)
+            with_the_normals += dot(cross(minus(b, a), minus(c, a)), mesh.normals[triangle[0]]) > 0
+        self.assertGreater(with_the_normals, 0.98 * len(mesh.triangles))
+        self.assertTrue(all(abs(dot(normal, normal) - 1) < 0.005 for normal in mesh.normals))
+
+    def test_spheres_are_those_that_the_probe_touches(self):
+        mesh = self.shape(scale=1.0)
+        spheres = [tuple(map(float, line.split())) for line in (self.folder / "molecule.xyzr").read_text().splitlines()]
+        for position, atom in zip(mesh.positions, mesh.atoms):
+            offset = minus(position, spheres[atom - 1][:3])
+            self.assertTrue(-0.01 < math.sqrt(dot(offset, offset)) - spheres[atom - 1][3] < 1.4)
+
+    def test_the_scale_of_the_grid_is_a_density(self):
+        for scale in (1.0, 2.0):
+            mesh = self.shape(scale=scale)
+            self.assertAlmostEqual(len(mesh.positions) / self.exact()["area"] / (1.5 * scale**2), 1, delta=0.15)
+
+    def test_small_cavities_are_filled_if_asked(self):
+        filled, whole = (self.shape(TOXIN, scale=1.0, fill=fill) for fill in ("true", "false"))
+        cavities = [part["volume"] for part in self.exact()["components"] if part["volume"] < 0]
+        small, large = ([volume for volume in cavities if (volume > -20) == is_small] for is_small in (True, False))
+        self.assertTrue(small and large)
+        self.assertEqual((shells(whole), shells(filled)), (1 + len(cavities), 1 + len(large)))
+        self.assertGreater(area_and_volume(filled)[1], area_and_volume(whole)[1])
+
+    def test_another_file_may_be_named(self):
+        self.shape()
+        (self.folder / "surfaceConfiguration.prm").rename(self.folder / "other.prm")
+        (self.folder / "triangulatedSurf.vert").unlink()
+        self.good(BUILD / "meniscus-nanoshaper", "other.prm", cwd=self.folder)
+        self.assertGreater(len(read_mesh(self.folder).triangles), 1000)
+
+    def test_faults_are_told_with_their_line_and_write_nothing(self):
+        self.molecule(name="molecule.xyzr")
+        good = CONFIGURATION.format(scale=2, fill="false")
+        cases = {
+            good.replace("= ses", "= skin"): (3, "prm:8: Surface is 'skin'; give ses"),
+            good.replace("Grid_scale = 2", "Grid_scale = two"): (3, "prm:1: Grid_scale is 'two'; give a number from 0.1 to 20"),
+            good.replace("Radius = 1.4", "Radius = -1"): (3, "Probe_Radius is '-1'"),
+            good.replace("MSMS_Format = true", "MSMS_Format = false"): (3, "give true"),
+            good.replace("Filling = false", "Filling = maybe"): (3, "true or false"),
+            good.replace("XYZR_FileName", "XYZ"): (3, "has no XYZR_FileName"),
+            good.replace("molecule.xyzr", "none.xyzr"): (3, "none.xyzr"),
+            good + "words\n": (3, "is not of the form"),
+        }
+        for text, (code, message) in cases.items():
+            (self.folder / "surfaceConfiguration.prm").write_text(text)
+            before = sorted(self.folder.iterdir())
+            done = run(BUILD / "meniscus-nanoshaper", cwd=self.folder)
+            self.assertEqual(done.returncode, code, done.stderr)
+            self.assertIn(message, done.stderr)
+            self.assertEqual(done.stderr.count("\n"), 1)
+            self.assertEqual(sorted(self.folder.iterdir()), before)
+        for words, code in ((("a", "b"), 2), (("--scale",), 2), (("none.prm",), 3), (("--help",), 0)):
+            done = run(BUILD / "meniscus-nanoshaper", *words, cwd=self.folder)
+            self.assertEqual(done.returncode, code, done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
