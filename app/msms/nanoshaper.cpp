@@ -89,9 +89,10 @@ ExitCode run(std::span<const char* const> words) {
   spheres.rows.names.clear();  // nine columns, always
   const Surface surface = compute_surface_cpu(spheres.balls, settings.probe_radius);
   require_closed(surface);
-  const double density = shaper_density(settings.grid_scale);
-  const MsmsMesh mesh = rows_of(even_mesh(surface, {density, {}, {}}), components_that_stay(surface, settings));
-  const MsmsHeader header{true, density, settings.probe_radius};
+  EvenMeshOptions fineness;
+  fineness.density = shaper_density(settings.grid_scale);
+  const MsmsMesh mesh = rows_of(even_mesh(surface, fineness), components_that_stay(surface, settings));
+  const MsmsHeader header{true, fineness.density, settings.probe_radius};
   files.write("triangulatedSurf.vert", vert_text(mesh, spheres.rows, header));
   files.write("triangulatedSurf.face", face_text(mesh, spheres.rows, header));
   fmt::print(std::cout, "{}: {} spheres, {} vertices, {} triangles\n", escaped(settings.spheres), spheres.rows.count,
