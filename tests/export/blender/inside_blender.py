@@ -298,6 +298,26 @@ class Import(unittest.TestCase):
         np.testing.assert_allclose(normals["outer"], together[outer], atol=2e-3)
         np.testing.assert_allclose(normals["cavities"], together[~outer], atol=2e-3)
 
+    def dress(self, item):
+        """A parent, a collection, a constraint, keys of the object and of its mesh, properties; as dressing_of tells them."""
+        scene = bpy.context.scene
+        item.parent = bpy.data.objects.new("stand", None)
+        mine = bpy.data.collections.new("mine")
+        scene.collection.objects.link(item.parent)
+        scene.collection.children.link(mine)
+        mine.objects.link(item)
+        item.constraints.new("LIMIT_SCALE")
+        item["note"], item.data["note"], item.pass_index = "object", "mesh", 7
+        for owner, path in ((item, "location"), (item.data, '["heat"]')):
+            owner["heat"] = 0.5
+            owner.keyframe_insert(path, frame=12)
+        return self.dressing_of(item)
+
+    def dressing_of(self, item):
+        mesh = item.data
+        return (item.parent.name, sorted(each.name for each in item.users_collection), item.constraints.keys(), item["note"], mesh["note"],
+                item.pass_index, item.animation_data.action.name, mesh.animation_data.action.name, mesh["heat"], len(mesh.materials))
+
     def test_reload_in_place(self):
         shutil.copy(path_of("triple"), path_of("changing"))
         item = imported("changing", scale=0.5, center=True)
@@ -306,6 +326,7 @@ class Import(unittest.TestCase):
         place, material = item.matrix_world.copy(), bpy.data.materials.new("mine")
         item.data.materials[0] = material
         item.modifiers.new("mine", "DECIMATE")
+        dressing = self.dress(item)
         mask = item.data.attributes.new("mask", "FLOAT", "FACE")
         values = np.empty(len(item.data.polygons), dtype=np.int32)
         item.data.attributes["atom_index"].data.foreach_get("value", values)
@@ -318,6 +339,7 @@ class Import(unittest.TestCase):
             self.assertLess(len(item.data.polygons), 0.5 * count)
             self.assertEqual((item.data, item.data.name, item.matrix_world), (twin.data, name, place))
             self.assertEqual((item.data.materials[0], list(item.modifiers.keys())), (material, ["mine"]))
+            self.assertEqual(self.dressing_of(item), dressing)
             kept, atoms = (np.empty(len(item.data.polygons), dtype=kind) for kind in (np.float32, np.int32))
             item.data.attributes["mask"].data.foreach_get("value", kept)
             item.data.attributes["atom_index"].data.foreach_get("value", atoms)

@@ -262,10 +262,13 @@ class Computed(unittest.TestCase):
         own = bpy.data.materials.new("own")
         item.data.materials[0] = own
         item.modifiers.new("smooth", "SMOOTH")
+        item.data["heat"] = 0.5
+        item.data.keyframe_insert('["heat"]', frame=3)
         attributes.add(item.data, "marks", "FLOAT", "FACE", attributes.read(item.data, "atom_index", "INT")[:, 0].astype(np.float32))
         item.meniscus.probe = 2.0
         update()
         self.assertEqual((item.data.materials[0], len(item.modifiers)), (own, 1))
+        self.assertIsNotNone(item.data.animation_data.action)
         np.testing.assert_array_equal(attributes.read(item.data, "marks", "FLOAT"), attributes.read(item.data, "atom_index", "INT"))
 
     def test_frames_of_a_file_without_an_export(self):

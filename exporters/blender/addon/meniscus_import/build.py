@@ -4,6 +4,7 @@
 import math
 import os
 
+import bmesh
 import bpy
 import mathutils
 import numpy as np
@@ -98,8 +99,8 @@ def parts_of(file, apart):
 
 
 def reload(item, context=None):
-    """Reads the file of an imported object again into its mesh: materials, modifiers, attributes of the user and where the
-    object stands remain. Raises mns_reader.MnsError or OSError and then changes nothing."""
+    """Reads the file of an imported object again into its mesh: all that was done to the object and its mesh remains, attributes
+    of the user go with their atoms. Raises mns_reader.MnsError or OSError and then changes nothing."""
     context = context or bpy.context
     if item is None or "meniscus_file" not in item:
         raise mns_reader.MnsError("the active object was not imported from a .mns file")
@@ -110,26 +111,26 @@ def reload(item, context=None):
     if surface is None:
         raise mns_reader.MnsError(f"{path}: it has no surface {item['meniscus_part']} any more")
     chains = chains_of(*file.objects)
-    old = item.data
-    kept = attributes.keep(old, OURS)
-    fresh = bpy.data.meshes.new(old.name)
+    mesh, arrays = item.data, of_surface(surface, options.scale, options.crisp_colors, chains)
+    check_with_blender(arrays)
+    kept = attributes.keep(mesh, OURS)
+    clear_geometry(mesh)
+    fill_mesh(mesh, arrays, fps_of(context.scene), trusted=True)
+    attributes.give_back(mesh, kept, arrays)
+    mesh.update()
+    for other in bpy.data.objects:
+        if other.data == mesh:
+            set_provenance(other, surface, options, chains)
+    let_rays_through(context.scene, [mesh])
+
+
+def check_with_blender(arrays):
+    """Raises mns_reader.MnsError if Blender finds faults in such a mesh, before the one that shows something is touched."""
+    mesh = bpy.data.meshes.new("check")
     try:
-        for material in old.materials:
-            fresh.materials.append(material)
-        arrays = of_surface(surface, options.scale, options.crisp_colors, chains)
-        fill_mesh(fresh, arrays, fps_of(context.scene))
-        attributes.give_back(fresh, kept, arrays)
-    except BaseException:
-        bpy.data.meshes.remove(fresh)
-        raise
-    users = [other for other in bpy.data.objects if other.data == old]
-    old.user_remap(fresh)
-    name = old.name
-    bpy.data.meshes.remove(old)
-    fresh.name = name
-    for other in users:
-        set_provenance(other, surface, options, chains)
-    let_rays_through(context.scene, [fresh])
+        fill_mesh(mesh, arrays, 1.0)
+    finally:
+        bpy.data.meshes.remove(mesh)
 
 
 def remembered_path(path):
@@ -190,6 +191,16 @@ def build_mesh(surface, name, options, new_materials, fps, chains):
         bpy.data.meshes.remove(mesh)
         raise
     return mesh
+
+
+def clear_geometry(mesh):
+    """Materials, properties and what animates the mesh remain; the function of Mesh would take the last away."""
+    if mesh.animation_data is None:
+        mesh.clear_geometry()
+        return
+    nothing = bmesh.new()
+    nothing.to_mesh(mesh)
+    nothing.free()
 
 
 def fill_mesh(mesh, arrays, fps, trusted=False):

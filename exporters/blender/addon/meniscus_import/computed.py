@@ -203,7 +203,7 @@ def _finished(job):
 
 
 def empty(item):
-    item.data.clear_geometry()
+    build.clear_geometry(item.data)
     item.data[SHOWN] = ""
     item.data.update()
 
@@ -219,7 +219,7 @@ def show(item, key, shown):
         mesh[SHOWN] = key
         return
     kept = attributes.keep(mesh, build.OURS | shown.names)
-    mesh.clear_geometry()
+    build.clear_geometry(mesh)
     if not mesh.materials:
         build.add_materials(mesh, shown.surface, [])
     build.fill_mesh(mesh, shown.arrays, build.fps_of(bpy.context.scene), trusted=True)

@@ -108,9 +108,13 @@ class OBJECT_OT_meniscus_update(Waiting, bpy.types.Operator):
         return computed.is_computed(item) and item.mode == "OBJECT"
 
     def execute(self, context):
-        if not computed.working().told()["library"]:
-            computed.look_for_tools()
         item = context.active_object
+        try:
+            if not computed.working().told()["library"]:
+                computed.look_for_tools()
+        except mns_reader.MnsError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
         item.data[computed.SHOWN] = ""
         return start(self, item)
 

@@ -31,7 +31,7 @@ class Placement:
         """Puts the frame in this place of the run into the mesh, with what was kept of the user's attributes; its
         frames.Prepared. On an error the mesh is left without geometry: no other frame stands for it."""
         try:
-            mesh.clear_geometry()
+            build.clear_geometry(mesh)
             prepared = _ahead.take(self, scene_frame)
             if not mesh.materials:
                 build.add_materials(mesh, prepared.surface, self.new_materials, self.own_materials)
@@ -41,7 +41,7 @@ class Placement:
             if len(mesh.polygons) != prepared.triangles:
                 raise mns_reader.MnsError(f"{self.sequence.frames[scene_frame - 1].path}: {len(mesh.polygons)} triangles of {prepared.triangles}")
         except BaseException:
-            mesh.clear_geometry()
+            build.clear_geometry(mesh)
             raise
         return prepared
 
@@ -305,7 +305,7 @@ def refresh(item, scene):
         kept = attributes.keep(mesh, build.OURS, older if run == placement.sequence.run else ())
         _kept[mesh.name] = (placement.sequence.run, kept)
         if scene_frame is None:  # outside of the run there is nothing to see
-            mesh.clear_geometry()
+            build.clear_geometry(mesh)
         else:
             placement.refill(mesh, scene_frame, kept)
             after = place_at(item, placement, time + 1.0)
@@ -314,7 +314,7 @@ def refresh(item, scene):
         mesh["meniscus_shown"] = key
         item["meniscus_error"] = ""
     except Exception as error:  # a handler that raises changes nothing: Blender goes on and renders
-        mesh.clear_geometry()
+        build.clear_geometry(mesh)
         mesh["meniscus_shown"] = ""
         item["meniscus_error"] = str(error) or type(error).__name__
         sys.stderr.write(f"meniscus: error: {item['meniscus_error']}\n")
