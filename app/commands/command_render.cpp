@@ -30,6 +30,7 @@
 #include "core/scene/view_aim.h"
 #include "app/reports/notes.h"
 #include "app/options/run_camera_options.h"
+#include "app/options/camera_file.h"
 
 namespace meniscus {
 namespace {
@@ -50,12 +51,6 @@ void check_legend_file(const RenderCommand& command) {
   OutputFile(command.legend.file, command.output.existing());
 }
 
-void save_camera(const RenderCommand& command, const Camera& camera) {
-  OutputFile file(command.save_camera, command.output.existing());
-  file.write(camera_json(camera));
-  file.commit();
-}
-
 void finish(const RenderCommand& command, const PictureLayout& layout, const Annotations& annotations,
             Framebuffer picture, const Camera& camera) {
   if (shows_nothing(picture))
@@ -66,7 +61,7 @@ void finish(const RenderCommand& command, const PictureLayout& layout, const Ann
   if (layout.legend) picture = layout.legend->add_to(picture, command.background);
   write_image(command.output.path, picture, image_settings(command));
   if (layout.legend_alone) write_image(command.legend.file, *layout.legend_alone, image_settings(command));
-  if (!command.save_camera.empty()) save_camera(command, camera);
+  save_camera(command.save_camera, command.output.existing(), camera);
 }
 
 void say_times(const RenderCommand& command, const std::string& device, const std::vector<StageTime>& stages) {
@@ -138,7 +133,7 @@ void run(const RenderCommand& command) {
   // Whether the outputs can be written is known before the work begins; these vanish again.
   OutputFile(command.output.path, command.output.existing());
   check_legend_file(command);
-  if (!command.save_camera.empty()) OutputFile(command.save_camera, command.output.existing());
+  check_camera_file(command.save_camera, command.output.existing());
   const std::optional<Camera> given = given_camera(command.picture);
   if (command.extent) return draw_view(command, given);
   auto [molecule, aim] = load_aimed_molecule(command.molecule, command.picture, given);
@@ -244,8 +239,7 @@ void add_render(CLI::App& command) {
           "--no-provenance", [state] { state->names_program = false; },
           "Leave the program's version out of them, and the scene (all of these options, without folders)")
       ->excludes(provenance);
-  command.add_option("--save-camera", state->save_camera, "Write the camera used, as JSON for --camera")
-      ->type_name("FILE");
+  add_save_camera_option(command, state->save_camera);
   command.add_option("--fps", state->frames_per_second, "Frames per second of a film [25]")
       ->check(CLI::Range(0.1, 240.0).description(""))
       ->type_name("N");

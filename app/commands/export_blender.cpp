@@ -309,11 +309,7 @@ void add_export_blender(CLI::App& command) {
   add_scene_options(command, &state->save_scene);
   add_output_options(command, state->output, ".mns file to write; of a run, the folder");
   command.callback([state, &command] {
-    if (state->frames.asked())
-      state->molecule.representations = state->figure.representations;
-    else
-      state->figure.ask_for(state->molecule.reading);
-    take_interface(command, state->molecule, state->picture);
+    take_figure(command, state->molecule, state->figure, state->picture, state->frames.asked());
     SceneOutput scene(command, state->save_scene, state->output.existing());
     run(*state);
     scene.commit();

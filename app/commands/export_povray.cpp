@@ -27,6 +27,7 @@
 #include "exporters/povray/scene.h"
 #include "app/reports/notes.h"
 #include "app/options/run_camera_options.h"
+#include "app/options/camera_file.h"
 #include "app/options/molecule_options.h"
 #include "app/options/frame_options.h"
 #include "exporters/povray/sequence.h"
@@ -41,7 +42,8 @@ struct PovrayCommand {
   CameraMotionRequest run_camera;
   ViewRequest picture;
   OutputOptions output;
-  std::string save_scene;  // path; empty: it is not saved
+  std::string save_scene, save_camera;  // paths; empty: it is not saved
+  bool comments = false;                // that tell kinds and atoms
   povray::Material material = povray::Material::opaque;
 };
 
@@ -89,6 +91,19 @@ std::vector<povray::SceneColor> colors_of_run(const PovrayCommand& command, cons
   return all.colors();
 }
 
+// Of all atoms of the structure, if comments shall tell them.
+std::vector<std::string> comment_names(const PovrayCommand& command, const Structure& structure) {
+  std::vector<std::string> names;
+  if (!command.comments) return names;
+  names.reserve(structure.atoms.size());
+  for (const Atom& atom : structure.atoms) {
+    const std::string code = atom.insertion_code == ' ' ? std::string() : std::string(1, atom.insertion_code);
+    names.push_back(fmt::format("{} {} {}{} {}", atom.chain, atom.residue_name, atom.residue_number, code, atom.name));
+    names.back().erase(0, names.back().find_first_not_of(' '));
+  }
+  return names;
+}
+
 // What stands beside the surface with looks of its own.
 std::vector<povray::SceneObject> more_objects(const Figure& figure, const FigureRequest& request, const Camera& camera,
                                               std::span<const Ball> balls) {
@@ -122,6 +137,7 @@ void run_sequence(const PovrayCommand& command) {
         "many; use render or export blender");
   povray::SceneOptions options = scene_options(command);
   options.origin = framing.origin();
+  options.atom_names = comment_names(command, frames.structure());
   options.colors = color_key(frames.structure(), scheme, {});
   const ColoredShapes beside = shown_shapes(frames.structure(), command.molecule.representations, scheme);
   const std::vector<glm::vec3> colors = run_colors(frames.structure(), scheme, beside.coloring);
@@ -130,6 +146,7 @@ void run_sequence(const PovrayCommand& command) {
        !beside.empty(), !command.figure.cuts.empty(), scheme.volume},
       options, command.output.path);
   const povray::SceneReport shared = scene.write_shared();
+  save_camera(command.save_camera, command.output.existing(), framing.cameras.front());
   bool noted = false;
   const auto finish = [&](const povray::SceneReport& report, std::uint64_t number) {
     // Notes of later frames would differ in their numbers only.
@@ -161,7 +178,9 @@ void check(const PovrayCommand& command) {
     throw UsageError(
         "--map-offset: POV-Ray samples beside the surface patch by patch, not in a film; leave "
         "--film-opacity away, or the offset");
+  check_camera_file(command.save_camera, command.output.existing());
   if (!command.frames.asked()) return;
+  if (!command.save_camera.empty() && command.run_camera.moves()) throw UsageError(kNoSingleCamera);
   if (!command.figure.objects.empty() || command.figure.hides_surface)
     throw UsageError(
         "--object and --hide-surface: a run of frames in POV-Ray has the surface, and beside it --sticks, --balls, "
@@ -179,6 +198,7 @@ void run(const PovrayCommand& command) {
   const std::vector<SurfaceObject>& objects = figure.molecule.objects;
   povray::SceneOptions options = scene_options(command);
   options.colors = key_of(figure.molecule);
+  options.atom_names = comment_names(command, figure.molecule.structure);
   const Camera camera = aim.camera(command.picture, given, objects);
   options.shapes = &figure.beside.shapes;
   options.objects = more_objects(figure, command.figure, camera, placed_balls(objects));
@@ -190,6 +210,7 @@ void run(const PovrayCommand& command) {
   say(command.molecule,
       fmt::format("{} primitives in {} files", with_thousands(report.object_count), report.files.size()));
   for (const std::string& note : report.notes) say(command.molecule, "note: " + note);
+  save_camera(command.save_camera, command.output.existing(), camera);
   std::cout << escaped(report.command) << "\n";
 }
 
@@ -203,9 +224,10 @@ void add_export_povray(CLI::App& command) {
       "  meniscus export povray 1tii.pdb -o cut --clip 'depth>0.5' --color chain --sticks 'chain C'\n"
       "  meniscus export povray --scene fig.json -o fig           all of a figure; see meniscus help scenes\n"
       "  meniscus export povray 1tii.pdb -o 1tii --camera camera.json --color chain --force\n"
-      "  meniscus export povray adk.psf --trajectory adk.dcd --frames 0-90:10 -o adk   then: povray surface.ini",
-      "Of a run of frames the folder holds one scene and an include for each frame; POV-Ray's frames count from 1.\n"
-      "Machines that share the work give the same options and --only, and render with +SF and +EF.");
+      "  meniscus export povray adk.psf --trajectory adk.dcd --frames 0-90 -o adk      then: povray surface.ini",
+      "Of a run of frames the folder holds one scene and an include for each frame; POV-Ray's frames and pictures\n"
+      "have the numbers of the trajectory. Machines that share the work give the same options and --only, and render\n"
+      "with +SF and +EF.");
   auto state = std::make_shared<PovrayCommand>();
   add_molecule_options(command, state->molecule);
   add_figure_options(command, state->molecule, state->figure);
@@ -223,12 +245,11 @@ void add_export_povray(CLI::App& command) {
   command.add_option("--material", state->material, "Default material: opaque, ghost, glass, wax; the scene holds all")
       ->transform(one_of(words))
       ->type_name("WORD");
+  command.add_flag("--comments", state->comments,
+                   "A comment before each patch: convex, toroidal or concave, and the atoms that it touches");
+  add_save_camera_option(command, state->save_camera);
   command.callback([state, &command] {
-    if (state->frames.asked())
-      state->molecule.representations = state->figure.representations;
-    else
-      state->figure.ask_for(state->molecule.reading);
-    take_interface(command, state->molecule, state->picture);
+    take_figure(command, state->molecule, state->figure, state->picture, state->frames.asked());
     SceneOutput scene(command, state->save_scene, state->output.existing());
     run(*state);
     scene.commit();

@@ -13,6 +13,7 @@
 #include "app/film/film.h"
 #include "app/reports/run_frames.h"
 #include "core/scene/molecule.h"
+#include "app/options/camera_file.h"
 #include "app/options/numbered_path.h"
 #include "app/process/program_error.h"
 #include "app/commands/render_command.h"
@@ -31,8 +32,7 @@ void check_options(const RenderCommand& command) {
   if (command.stats) throw UsageError("--stats: of one picture only; leave --frames away");
   if (command.aovs && !holds_aovs(command.output.path))
     throw UsageError("--aovs needs .exr outputs; other formats hold colour only");
-  if (!command.save_camera.empty() && command.run_camera.moves())
-    throw UsageError("--save-camera: a camera that moves is no single one");
+  if (!command.save_camera.empty() && command.run_camera.moves()) throw UsageError(kNoSingleCamera);
   if (command.extent) check_view_options(command.molecule);
   if (command.molecule.interface) throw UsageError("--interface: of one picture only; leave --frames away");
   if (!command.annotations.labels.empty())
@@ -217,11 +217,7 @@ void render_frames(const RenderCommand& asked) {
   PictureSink sink(command);
   const std::vector<Camera> cameras =
       run_cameras(layout.size, command.molecule.show, command.run_camera, given, frames);
-  if (!command.save_camera.empty()) {
-    OutputFile file(command.save_camera, command.output.existing());
-    file.write(camera_json(cameras.front()));
-    file.commit();
-  }
+  save_camera(command.save_camera, command.output.existing(), cameras.front());
   const RenderSettings settings = render_settings(command, layout);
   if (layout.legend_alone) write_image(command.legend.file, *layout.legend_alone, image_settings(command));
   const Annotations annotations = annotations_of(command.annotations, frames.structure());

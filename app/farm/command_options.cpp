@@ -97,6 +97,7 @@ const Options& command_table() {
       {"--linear-alpha", Value::none},
       {"--depth-cue", Value::text},
       {"--material", Value::text},
+      {"--comments", Value::none},
       // picture
       {"--size", Value::text},
       {"--dpi", Value::text},

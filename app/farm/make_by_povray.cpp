@@ -23,20 +23,20 @@ namespace fs = std::filesystem;
 constexpr const char* kScene = "surface.ini";
 std::string own_name(std::uint64_t frame) { return fmt::format(".povray_{}_{}", ::getpid(), frame_digits(frame)); }
 
-std::vector<std::string> povray_command(const Step& step, const Workplace& place, std::size_t scene_frame,
+std::vector<std::string> povray_command(const Step& step, const Workplace& place, std::uint64_t frame,
                                         const std::string& output) {
   std::vector<std::string> command{"povray"};
   const bool chosen = std::ranges::any_of(step.arguments, [](const auto& a) { return a.starts_with(kScene); });
   if (!chosen) command.emplace_back(kScene);
   command.insert(command.end(), step.arguments.begin(), step.arguments.end());
   if (place.threads > 0) command.push_back(fmt::format("+WT{}", place.threads));
-  for (const std::string& option : {fmt::format("+SF{}", scene_frame), fmt::format("+EF{}", scene_frame),
-                                    std::string("-D"), std::string("+FN"), "+O" + output})
+  for (const std::string& option :
+       {fmt::format("+SF{}", frame), fmt::format("+EF{}", frame), std::string("-D"), std::string("+FN"), "+O" + output})
     command.push_back(option);
   return command;
 }
 
-// The one picture in the folder: POV-Ray adds the scene frame to its name.
+// The one picture in the folder: POV-Ray adds the frame to its name.
 fs::path picture_in(const fs::path& folder) {
   for (const fs::directory_entry& entry : fs::directory_iterator(folder))
     if (entry.path().extension() == ".png") return entry.path();
@@ -74,14 +74,14 @@ class OwnFolder {
   fs::path path_;
 };
 
-void render(const Bundle& bundle, const Step& step, const Workplace& place, std::uint64_t frame,
-            const std::string& picture, const FrameListener& listener) {
+void render(const Step& step, const Workplace& place, std::uint64_t frame, const std::string& picture,
+            const FrameListener& listener) {
   const std::string name = own_name(frame);
   const fs::path own = place.folder / "images" / name, scene = place.folder / "scene";
   check_scene_frame(place.folder, frame);
   const OwnFolder folder(own);
   const std::vector<std::string> command =
-      povray_command(step, place, bundle.place_of(frame) + 1, fmt::format("../images/{}/frame.png", name));
+      povray_command(step, place, frame, fmt::format("../images/{}/frame.png", name));
   Ended ended = run_povray(command, scene, listener);
   if (ended.code > kSignalCode) {
     listener.tried_again(frame, signal_text(ended.code));
@@ -98,14 +98,14 @@ void render(const Bundle& bundle, const Step& step, const Workplace& place, std:
 
 }  // namespace
 
-void make_by_povray(const Bundle& bundle, const Step& step, const Workplace& place,
-                    const std::vector<std::uint64_t>& frames, const FrameListener& listener) {
+void make_by_povray(const Bundle&, const Step& step, const Workplace& place, const std::vector<std::uint64_t>& frames,
+                    const FrameListener& listener) {
   check_scene(place.folder);
   for (const std::uint64_t frame : frames) {
     const auto begin = std::chrono::steady_clock::now();
     const std::string picture = fmt::format("images/frame_{}.png", frame_digits(frame));
     try {
-      render(bundle, step, place, frame, picture, listener);
+      render(step, place, frame, picture, listener);
     } catch (const RunError& error) {
       listener.failed(frame, error.code(), error.what());
       continue;

@@ -86,6 +86,7 @@ constexpr auto kSceneKeys = std::to_array<SceneKey>({
     {"look", "depth_cue", "--depth-cue", V::text},
     {"look", "linear_alpha", "--linear-alpha", V::flag},
     {"look", "material", "--material", V::text},
+    {"look", "comments", "--comments", V::flag},
 
     {"camera", "from", "--camera", V::camera},
     {"camera", "projection", "--projection", V::text},

@@ -14,6 +14,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "exporters/povray/patch_objects.h"
+#include "exporters/povray/scene_names.h"
 
 namespace meniscus::povray {
 namespace {
@@ -56,8 +57,8 @@ void append_textures(SceneText& out, const ColoredPiece& piece, std::string_view
 }  // namespace
 
 Geometry::Geometry(std::span<const SurfaceObject> objects, const glm::dvec3& origin, ColorTable& table,
-                   ObjectStyle style, std::span<const ClipPlane> clip)
-    : objects_(objects), origin_(origin), style_(style), clip_(clip) {
+                   ObjectStyle style, std::span<const ClipPlane> clip, std::span<const std::string> names)
+    : objects_(objects), origin_(origin), style_(style), clip_(clip), names_(names) {
   if (!clip_.empty() && declares()) throw Error("POV-Ray export: planes cut a single object in its place");
   for (const SurfaceObject& object : objects)
     palettes_.push_back(make_palette(object.surface, object.coloring, table, style_));
@@ -113,6 +114,7 @@ void Geometry::write_pieces(OutputFile& file, SceneText& out, std::size_t object
     if (has_own_way(object, pieces[begin])) {
       for (; begin < end; ++begin) {
         out.literal("object{\n");
+        append_comment(out, object, pieces[begin]);
         primitives.append(out, pieces[begin]);
         append_offset_textures(out, object, pieces[begin]);
         flush(file, out, kFlushBytes);
@@ -121,6 +123,7 @@ void Geometry::write_pieces(OutputFile& file, SceneText& out, std::size_t object
     }
     out.literal(end - begin > 1 ? "union{\n" : "object{\n");
     for (std::size_t n = begin; n < end; ++n) {
+      append_comment(out, object, pieces[n]);
       primitives.append(out, pieces[n]);
       flush(file, out, kFlushBytes);
     }
@@ -128,6 +131,21 @@ void Geometry::write_pieces(OutputFile& file, SceneText& out, std::size_t object
     out.literal("}\n");
     begin = end;
   }
+}
+
+void Geometry::append_comment(SceneText& out, std::size_t object, const ColoredPiece& piece) const {
+  if (names_.empty()) return;
+  const Surface& surface = objects_[object].surface;
+  std::span<const std::uint32_t> touched;
+  if (piece.kind == PatchKind::convex) touched = std::span(&surface.convex[piece.patch].atom, 1);
+  if (piece.kind == PatchKind::toroidal) touched = surface.toroidal[piece.patch].atom;
+  if (piece.kind == PatchKind::concave) {
+    const ConcavePatch& patch = surface.concave[piece.patch];
+    touched = std::span(surface.contacts).subspan(patch.first_contact, patch.contact_count);
+  }
+  std::vector<std::uint32_t> atoms;
+  for (const std::uint32_t a : touched) atoms.push_back(objects_[object].atom[a]);
+  out.literal(piece_comment(piece.kind, atoms, names_));
 }
 
 bool Geometry::has_own_way(std::size_t object, const ColoredPiece& piece) const {

@@ -23,9 +23,10 @@ namespace meniscus::povray {
 class Geometry {
  public:
   /// origin: Å, of the scene's coordinates. table: gets the colours, in the order of their numbers.
-  /// clip: of the surface, as the first copy stands; only of a single object that is not copied.
+  /// clip: of the surface, as the first copy stands; only of a single object that is not copied. names: nothing, or of
+  /// the atoms that SurfaceObject::atom counts, for a comment on each piece; they must outlive it, too.
   Geometry(std::span<const SurfaceObject> objects, const glm::dvec3& origin, ColorTable& table, ObjectStyle style = {},
-           std::span<const ClipPlane> clip = {});
+           std::span<const ClipPlane> clip = {}, std::span<const std::string> names = {});
 
   /// Adds caps, made of these objects or of those that they were merged of, and their colours to the table.
   void add_caps(CapMesh mesh, std::span<const SurfaceObject> objects, const SurfaceCut& cut, ColorTable& table);
@@ -53,6 +54,8 @@ class Geometry {
  private:
   std::size_t item_count(std::size_t object) const;
   void write_pieces(OutputFile& file, SceneText& out, std::size_t object) const;
+  /// What the piece is and whose, if names were given.
+  void append_comment(SceneText& out, std::size_t object, const ColoredPiece& piece) const;
   /// The map is sampled beside the surface, so that each patch has its own way to it.
   bool has_own_way(std::size_t object, const ColoredPiece& piece) const;
   void append_offset_textures(SceneText& out, std::size_t object, const ColoredPiece& piece) const;
@@ -63,6 +66,7 @@ class Geometry {
   ObjectStyle style_;
   std::vector<Palette> palettes_;  ///< one an object
   std::span<const ClipPlane> clip_;
+  std::span<const std::string> names_;
   Caps caps_;
 };
 

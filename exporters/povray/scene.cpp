@@ -69,7 +69,7 @@ SceneReport write_scene(std::span<const SurfaceObject> given, const Camera& came
   const Box extent = scene_extent(objects, options);
   const glm::dvec3 origin = options.origin ? *options.origin : middle(objects.empty() ? extent : atom_extent(objects));
   ColorTable table;
-  Geometry geometry(objects, origin, table, {options.film, 0}, options.cut.planes);
+  Geometry geometry(objects, origin, table, {options.film, 0}, options.cut.planes, options.atom_names);
   const bool has_shapes = options.shapes && !options.shapes->empty();
   if (has_shapes) add_colors(*options.shapes, table);
   if (cut.has_caps()) geometry.add_caps(cut.caps(), objects, options.cut, table);
@@ -90,7 +90,8 @@ SceneReport write_scene(std::span<const SurfaceObject> given, const Camera& came
     if (writer.object->shapes) add_colors(*writer.object->shapes, table, writer.style);
     if (writer.object->surface) {
       writer.cut.emplace(std::span(writer.object->surface, 1), writer.object->cut, camera, options);
-      writer.geometry.emplace(writer.cut->objects(), origin, table, writer.style, writer.object->cut.planes);
+      writer.geometry.emplace(writer.cut->objects(), origin, table, writer.style, writer.object->cut.planes,
+                              options.atom_names);
       if (writer.cut->has_caps())
         writer.geometry->add_caps(writer.cut->caps(), writer.cut->objects(), writer.object->cut, table);
       part.single = writer.geometry->is_one_item() && !writer.cut->has_caps();

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <glm/common.hpp>
 
+#include "exporters/povray/scene_names.h"
 #include "exporters/povray/scene_templates.h"
 #include "exporters/povray/scene_text.h"
 #include "exporters/povray/volume_map.h"
@@ -50,7 +51,7 @@ void append_camera_lists(SceneText& out, const std::vector<CameraNumbers>& camer
       append(cameras[n]);
       out.literal(n + 1 < cameras.size() ? ",\n" : "\n}\n");
     }
-    out.literal("#declare ").literal(name).literal(" = ").literal(name).literal("_List[Meniscus_Frame - 1];\n");
+    out.literal("#declare ").literal(name).literal(" = ").literal(name).literal("_List[Meniscus_Place];\n");
   };
   for (std::size_t k = 0; k < kVectorNames.size(); ++k)
     list(kVectorNames[k], [&](const CameraNumbers& camera) { out.full_vector(camera.vectors[k]); });
@@ -83,7 +84,7 @@ void append_camera(SceneText& out, std::span<const Camera> cameras, const SceneO
 
 // Which include belongs to a frame of the scene. POV-Ray's own message about a missing file would not name the frame.
 void append_frames(SceneText& out, const SceneOptions& options, const SceneFrames& frames) {
-  out.literal("\n// Frames of the scene count from 1; this is what each of them is called in the trajectory.\n");
+  out.literal("\n// The frames of the run, by their numbers in the trajectory.\n");
   out.literal("#declare Meniscus_Frame_Count = ").count(frames.numbers.size()).literal(";\n");
   out.literal("#declare Meniscus_Trajectory_Frame = array[").count(frames.numbers.size()).literal("] {");
   for (std::size_t n = 0; n < frames.numbers.size(); ++n)
@@ -139,9 +140,11 @@ std::string main_text(std::span<const Camera> cameras, const SceneOptions& optio
   out.literal(options.name).literal("_aov.inc\n");
   out.literal("#ifndef (Meniscus_Subsurface) #declare Meniscus_Subsurface = 0; #end\n");
   out.literal("#ifndef (Meniscus_Custom_Settings)\nglobal_settings {\n  assumed_gamma 1.0\n");
-  out.literal("  #if (Meniscus_Buffer = 4) max_trace_level 200 adc_bailout 0 #else max_trace_level ");
+  out.literal("  #if (Meniscus_Buffer = 4) max_trace_level 256 adc_bailout 0\n");
+  // Rays are kept in by total reflection, and most of what they would still bring is below a grey level.
+  out.literal("  #else #if (Meniscus_Material = 2) max_trace_level 30 adc_bailout 1/64 #else max_trace_level ");
   // Of layers that are seen through, all that show: the ray caster stops at the same share.
-  out.literal(parts.translucent ? "200 adc_bailout 1/1024" : "12").literal(" #end\n");
+  out.literal(parts.translucent ? "200 adc_bailout 1/1024" : "12").literal(" #end #end\n");
   out.literal("  #if (Meniscus_Subsurface = 1) mm_per_unit 1 subsurface { samples 50, 20 } #end\n}\n#end\n");
   if (frames) append_frames(out, options, *frames);
   append_camera(out, cameras, options, origin);
@@ -181,7 +184,9 @@ std::string style_text(const SceneStyle& style, const SceneOptions& options, con
   for (std::size_t n = 0; n < style.colors.size(); ++n) {
     out.literal("    ");
     append_color(out, style.colors[n].color);
-    out.literal(n + 1 < style.colors.size() ? ",\n" : "\n");
+    out.literal(n + 1 < style.colors.size() ? "," : "");
+    if (options.colors) out.literal(color_comment(*options.colors, style.colors[n]));
+    out.literal("\n");
   }
   out.literal("  }\n#end\n");
   const auto list = [&](std::string_view comment, std::string_view name, const auto& append) {
@@ -205,6 +210,23 @@ std::string style_text(const SceneStyle& style, const SceneOptions& options, con
   return out.text();
 }
 
+bool are_consecutive(std::span<const std::uint64_t> frames) {
+  for (std::size_t n = 1; n < frames.size(); ++n)
+    if (frames[n] != frames[n - 1] + 1) return false;
+  return true;
+}
+
+std::string render_command(const SceneOptions& options, std::span<const std::uint64_t> frames) {
+  const std::string command = fmt::format("povray {}.ini", options.name);
+  if (are_consecutive(frames)) return command;
+  const std::uint64_t step = frames[1] - frames[0];
+  bool even = frames[1] > frames[0];
+  for (std::size_t n = 1; n < frames.size(); ++n) even = even && frames[n] == frames[n - 1] + step;
+  const std::string numbers = even ? fmt::format("$(seq {} {} {})", frames.front(), step, frames.back())
+                                   : fmt::format("{}", fmt::join(frames, " "));
+  return fmt::format("for n in {}; do {} +SF$n +EF$n || break; done", numbers, command);
+}
+
 std::string buffer_text(std::size_t color_count, const Box& e, const glm::dvec3& origin) {
   const glm::dvec3 size = e.high - e.low;
   // One cube for all axes, wide enough that no gradient reaches its own end.
@@ -217,7 +239,7 @@ std::string buffer_text(std::size_t color_count, const Box& e, const glm::dvec3&
   return out.text();
 }
 
-std::string ini_text(const SceneOptions& options, std::size_t frame_count) {
+std::string ini_text(const SceneOptions& options, std::span<const std::uint64_t> frames) {
   SceneText out;
   out.literal("; A solvent-excluded surface. In this folder: povray ").literal(options.name).literal(".ini\n");
   out.literal("; From elsewhere, where no path holds a space: povray FOLDER/").literal(options.name);
@@ -225,13 +247,21 @@ std::string ini_text(const SceneOptions& options, std::size_t frame_count) {
   out.literal("; The camera is made for this size; another ratio stretches (see Meniscus_Fit_Aspect in the .pov).\n");
   out.literal("Width=").count(static_cast<std::size_t>(options.width)).literal("\nHeight=");
   out.count(static_cast<std::size_t>(options.height)).literal("\n");
-  if (frame_count > 0) {
-    out.literal("; All frames; of several machines each renders a part of them: +SF1 +EF10 and so on.\n");
-    out.literal("Initial_Frame=1\nFinal_Frame=").count(frame_count).literal("\n");
+  if (!frames.empty()) {
+    out.literal(
+        "; Frames have their numbers in the trajectory. Of several machines each renders a part: +SF10 +EF19.\n");
+    if (!are_consecutive(frames))
+      out.literal("; POV-Ray knows no steps. All frames: ").literal(render_command(options, frames)).literal("\n");
+    // The final frame says how many digits the number of a picture has, the subset which frames there are.
+    const auto [first, last] = std::ranges::minmax(frames);
+    std::uint64_t final_frame = 99'999;
+    while (final_frame < last) final_frame = final_frame * 10 + 9;
+    out.literal("Initial_Frame=0\nFinal_Frame=").count(final_frame);
+    out.literal("\nSubset_Start_Frame=").count(first).literal("\nSubset_End_Frame=").count(last);
+    out.literal("\n");
   }
-  // POV-Ray writes the number of the frame behind the name, if there are several.
-  out.literal(
-      filled(scene_template("settings.ini"), {{"NAME", options.name}, {"PICTURE", frame_count > 1 ? "_" : ""}}));
+  // POV-Ray writes the number of the frame behind the name.
+  out.literal(filled(scene_template("settings.ini"), {{"NAME", options.name}, {"PICTURE", frames.empty() ? "" : "_"}}));
   return out.text();
 }
 

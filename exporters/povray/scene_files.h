@@ -54,7 +54,10 @@ std::string main_text(std::span<const Camera> cameras, const SceneOptions& optio
 std::string style_text(const SceneStyle& style, const SceneOptions& options, const glm::dvec3& origin);
 /// <name>_aov.inc
 std::string buffer_text(std::size_t color_count, const Box& e, const glm::dvec3& origin);
-/// <name>.ini. frame_count: 0 for a single surface.
-std::string ini_text(const SceneOptions& options, std::size_t frame_count = 0);
+/// <name>.ini. frames: of the run; none for a single surface.
+std::string ini_text(const SceneOptions& options, std::span<const std::uint64_t> frames = {});
+/// What renders all frames, as a line of a POSIX shell in the folder of the scene: POV-Ray itself goes through
+/// consecutive frames alone.
+std::string render_command(const SceneOptions& options, std::span<const std::uint64_t> frames);
 
 }  // namespace meniscus::povray

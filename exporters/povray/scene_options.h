@@ -53,7 +53,10 @@ struct SceneOptions {
   std::vector<SceneObject> objects;       ///< likewise
   SurfaceCut cut;                         ///< of the surface; of a run only the style counts
   bool film = false;                      ///< a surface that is seen through is denser where the view grazes it
-  std::optional<ColorKey> colors;         ///< what the colours mean, for <name>_objects.json
+  std::optional<ColorKey> colors;         ///< what the colours mean: for <name>_objects.json, and beside the colours
+  /// Nothing, or a name for each of the atoms that SurfaceObject::atom counts: pieces then have comments that tell
+  /// their kind and atoms. They may come from a molecule file; what is not harmless (scene_names.h) is left out.
+  std::vector<std::string> atom_names;
 };
 
 /// What was written and what was not.

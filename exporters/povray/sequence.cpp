@@ -88,13 +88,13 @@ SceneReport SequenceScene::write_shared() const {
                               {name + "_style.inc", style_text({run_.colors, run_.map.get()}, options_, origin_)},
                               {name + "_objects.json", objects_text(run_, options_.colors)},
                               {name + ".pov", main_text(run_.cameras, options_, origin_, parts, &frames)},
-                              {name + ".ini", ini_text(options_, run_.frames.size())}};
+                              {name + ".ini", ini_text(options_, run_.frames)}};
   files.insert(files.end(), std::begin(texts), std::end(texts));
   write_shared_files(folder_, options_.existing, files);
   SceneReport report;
   for (const SharedFile& file : files) report.files.push_back(folder_ / file.name);
   report.origin = origin_;
-  report.command = fmt::format("cd {} && povray {}.ini", shell_word(folder_.string()), options_.name);
+  report.command = fmt::format("cd {} && {}", shell_word(folder_.string()), render_command(options_, run_.frames));
   return report;
 }
 
@@ -107,7 +107,7 @@ SceneReport SequenceScene::write_frame(std::span<const SurfaceObject> given, std
   const std::span<const SurfaceObject> objects = cut_objects.objects();
   ColorTable table;
   for (const SceneColor& color : run_.colors) table.number(color);
-  Geometry geometry(objects, origin_, table, {options_.film, 0}, cut.planes);
+  Geometry geometry(objects, origin_, table, {options_.film, 0}, cut.planes, options_.atom_names);
   if (run_.caps) geometry.add_caps(cut_objects.caps(), objects, cut, table);
   if (geometry.primitive_count() == 0)
     throw RequestError("nothing of the surface is shown, so there is no scene to write");

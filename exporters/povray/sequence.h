@@ -19,7 +19,7 @@ namespace meniscus::povray {
 
 /// What all frames of a run share. Every process that makes some of them must be given the same.
 struct Run {
-  std::vector<std::uint64_t> frames;            ///< of the trajectory; scene frame n, from 1, is frames[n - 1]
+  std::vector<std::uint64_t> frames;            ///< of the trajectory, each once; POV-Ray's frames have these numbers
   std::vector<Camera> cameras;                  ///< one for all, or one a frame; of one projection
   std::vector<SceneColor> colors;               ///< all that may occur, in the order of the style file
   glm::dvec3 low{0.0}, high{0.0};               ///< Å: a box around all atoms at all frames

@@ -15,6 +15,7 @@ namespace meniscus::povray {
 namespace {
 
 constexpr std::size_t kPieceBytes = std::size_t{1} << 20;
+constexpr std::string_view kCastsShadow = " #if (Meniscus_Casts = 0) no_shadow #end";
 
 /// The pieces of one colour.
 struct ColorGroup {
@@ -41,7 +42,7 @@ class ShapeWriter {
       out_.length(cylinder->radius).literal(" open}\n");
       flush(kPieceBytes);
     }
-    texture(color).literal("\n}\n");
+    texture(color).literal(kCastsShadow).literal("\n}\n");
   }
 
   /// texture: per vertex of the mesh, into the colours.
@@ -58,7 +59,7 @@ class ShapeWriter {
       out_.literal("<").count(t[0]).literal(",").count(t[1]).literal(",").count(t[2]).literal(">");
       for (const std::uint32_t v : t) out_.literal(",").count(place.at(color[v]));
     });
-    out_.literal("}\n");
+    out_.literal(kCastsShadow).literal("\n}\n");
   }
 
   void flush(std::size_t limit) {

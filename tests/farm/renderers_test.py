@@ -107,7 +107,7 @@ class Renderers(WorkCase):
         self.meniscus("work", folder, "--step", "surface")
         real = shutil.which("povray")
         always = self.programs("always", povray=f"""#!/bin/sh
-case "$*" in *+SF1*) kill -9 $$;; esac
+case "$*" in *+SF0*) kill -9 $$;; esac
 exec {real} "$@"
 """)
         said = self.meniscus("work", folder, code=5, env=always)
@@ -117,7 +117,7 @@ exec {real} "$@"
         self.assertIn("was killed", records[0]["first_try"])
         mark = self.folder / "mark"
         once = self.programs("once", povray=f"""#!/bin/sh
-case "$*" in *+SF1*) if [ ! -e {mark} ]; then touch {mark}; kill -SEGV $$; fi;; esac
+case "$*" in *+SF0*) if [ ! -e {mark} ]; then touch {mark}; kill -SEGV $$; fi;; esac
 exec {real} "$@"
 """)
         self.meniscus("work", folder, env=once)

@@ -94,7 +94,7 @@ Buffers render_buffers(const std::filesystem::path& folder, const std::string& n
     b.color.push_back(static_cast<int>(std::lround(v.y * 255.0) + 256 * std::lround(v.z * 255.0)));
   }
   for (const glm::dvec3& v : read_rgb(folder / "check4.png"))
-    b.layers.push_back(v.x > 0.0 ? static_cast<int>(std::lround(-std::log2(v.x))) : kMostLayers);
+    b.layers.push_back(v.x > 0.0 ? static_cast<int>(std::lround(std::log(v.x) / std::log(63.0 / 64.0))) : kMostLayers);
   return b;
 }
 

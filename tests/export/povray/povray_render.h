@@ -22,7 +22,7 @@ struct PovrayRun {
 PovrayRun run_povray(const std::filesystem::path& folder, const std::vector<std::string>& arguments);
 
 /// 16 bits can tell fewer layers than this apart.
-inline constexpr int kMostLayers = 15;
+inline constexpr int kMostLayers = 255;
 
 /// What the buffer include gives, one entry a pixel, rows from the top. Where nothing was hit only `hit` counts.
 struct Buffers {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -62,8 +63,9 @@ TEST_F(PovraySequence, EachFrameIsThatOfItsOwnExport) {
   const std::string shot = camera();
   ASSERT_EQ(export_run("run", {"--frames", "1-5:2", "--camera", shot}).exit_code, 0);
   ASSERT_EQ(render("run", {"+SF1", "+EF1"}).exit_code, 0);
-  EXPECT_FALSE(std::filesystem::exists(path("run") / "surface_2.png"));
-  ASSERT_EQ(render("run", {"+SF2", "+EF3"}).exit_code, 0);
+  EXPECT_FALSE(std::filesystem::exists(path("run") / "surface_00003.png"));
+  for (const char* const frame : {"3", "5"})
+    ASSERT_EQ(render("run", {fmt::format("+SF{}", frame), fmt::format("+EF{}", frame)}).exit_code, 0);
   std::vector<std::vector<glm::dvec3>> alone;
   for (const int frame : kFrames) {
     const std::string name = fmt::format("alone{}", frame);
@@ -72,13 +74,13 @@ TEST_F(PovraySequence, EachFrameIsThatOfItsOwnExport) {
     alone.push_back(picture(name, "surface.png"));
   }
   for (std::size_t place = 0; place < kFrames.size(); ++place) {
-    const auto shown = picture("run", fmt::format("surface_{}.png", place + 1));
+    const auto shown = picture("run", fmt::format("surface_{:05}.png", kFrames[place]));
     for (std::size_t other = 0; other < kFrames.size(); ++other) {
       const double differs = share_of_other_pixels(shown, alone[other]);
       if (other == place)
-        EXPECT_EQ(differs, 0.0) << "scene frame " << place + 1;
+        EXPECT_EQ(differs, 0.0) << "frame " << kFrames[place];
       else
-        EXPECT_GT(differs, 0.05) << "scene frame " << place + 1;
+        EXPECT_GT(differs, 0.05) << "frame " << kFrames[place];
     }
   }
 }
@@ -103,30 +105,30 @@ TEST_F(PovraySequence, SharesAreTheSameBytesAsOneRun) {
 
 TEST_F(PovraySequence, MissingAndForeignFramesAreNamedErrors) {
   ASSERT_EQ(export_run("run", {"--frames", "1-5:2", "--only", "1,5"}).exit_code, 0);
-  EXPECT_EQ(render("run", {"+SF3", "+EF3"}).exit_code, 0);
-  const PovrayRun missing = render("run", {"+SF2", "+EF2"});
+  EXPECT_EQ(render("run", {"+SF5", "+EF5"}).exit_code, 0);
+  const PovrayRun missing = render("run", {"+SF3", "+EF3"});
   EXPECT_NE(missing.exit_code, 0);
-  EXPECT_NE(missing.log.find("00003 (scene frame 2) is missing"), std::string::npos) << missing.log;
-  EXPECT_FALSE(std::filesystem::exists(path("run") / "surface_2.png"));
+  EXPECT_NE(missing.log.find("there is no surface_geometry_00003.inc"), std::string::npos) << missing.log;
+  EXPECT_FALSE(std::filesystem::exists(path("run") / "surface_00003.png"));
   // The same atoms in other colours: the numbers of the colours mean something else.
   ASSERT_EQ(export_run("other", {"--frames", "1-5:2", "--color", "residue", "--only", "3"}).exit_code, 0);
   std::filesystem::copy(path("other") / "surface_geometry_00003.inc", path("run"));
-  const PovrayRun foreign = render("run", {"+SF2", "+EF2"});
+  const PovrayRun foreign = render("run", {"+SF3", "+EF3"});
   EXPECT_NE(foreign.exit_code, 0);
   EXPECT_NE(foreign.log.find("other colours"), std::string::npos) << foreign.log;
   const PovrayRun beyond = run_povray(path("run"), {"surface.pov", "+W12", "+H9", "Declare=Meniscus_Frame=4"});
   EXPECT_NE(beyond.exit_code, 0);
-  EXPECT_NE(beyond.log.find("they are 1 to 3"), std::string::npos) << beyond.log;
+  EXPECT_NE(beyond.log.find("is no frame 4 in this run of 3 frames"), std::string::npos) << beyond.log;
 }
 
 TEST_F(PovraySequence, TheCameraMovesUnlessTheUserHasOne) {
   const std::string shot = camera();
-  ASSERT_EQ(export_run("turning", {"--frames", "1,3", "--camera", shot, "--turntable", "0.5"}).exit_code, 0);
-  ASSERT_EQ(export_run("still", {"--frames", "1,3", "--camera", shot}).exit_code, 0);
+  ASSERT_EQ(export_run("turning", {"--frames", "1,2", "--camera", shot, "--turntable", "0.5"}).exit_code, 0);
+  ASSERT_EQ(export_run("still", {"--frames", "1,2", "--camera", shot}).exit_code, 0);
   ASSERT_EQ(render("turning").exit_code, 0);
   ASSERT_EQ(render("still").exit_code, 0);
-  EXPECT_EQ(share_of_other_pixels(picture("turning", "surface_1.png"), picture("still", "surface_1.png")), 0.0);
-  EXPECT_GT(share_of_other_pixels(picture("turning", "surface_2.png"), picture("still", "surface_2.png")), 0.2);
+  EXPECT_EQ(share_of_other_pixels(picture("turning", "surface_00001.png"), picture("still", "surface_00001.png")), 0.0);
+  EXPECT_GT(share_of_other_pixels(picture("turning", "surface_00002.png"), picture("still", "surface_00002.png")), 0.2);
   const std::string own =
       "#version 3.7;\n#declare Meniscus_Custom_Camera = 1;\n#declare Meniscus_Custom_Lights = 1;\n"
       "camera { location <0,0,60> look_at 0 angle 30 }\nlight_source { <0,0,100> rgb 1 }\n#include \"surface.pov\"\n";
@@ -139,11 +141,33 @@ TEST_F(PovraySequence, TheCameraMovesUnlessTheUserHasOne) {
   EXPECT_EQ(share_of_other_pixels(picture("turning", "own2.png"), picture("still", "own2.png")), 0.0);
 }
 
-TEST_F(PovraySequence, ARunOfOneFrameIsAPicture) {
-  ASSERT_EQ(export_run("run", {"--frames", "4"}).exit_code, 0);
-  const PovrayRun run = render("run");
-  EXPECT_EQ(run.exit_code, 0) << run.log;
-  EXPECT_TRUE(std::filesystem::exists(path("run") / "surface.png"));
+// POV-Ray goes through consecutive frames; the command that is printed goes through others, too.
+TEST_F(PovraySequence, PicturesHaveTheNumbersOfTheTrajectory) {
+  for (const auto& [frames, numbers] : {std::pair{"4", Words{"4"}}, std::pair{"0-2", Words{"0", "1", "2"}},
+                                        std::pair{"1-5:2", Words{"1", "3", "5"}}, std::pair{"4,2", Words{"4", "2"}}}) {
+    SCOPED_TRACE(frames);
+    const test::ProgramResult exported = export_run(frames, {"--frames", frames, "--size", "24x18"});
+    ASSERT_EQ(exported.exit_code, 0) << exported.err;
+    const test::ProgramResult run = test::run_program("/bin/sh", {"-c", exported.out});
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    std::size_t pictures = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(path(frames)))
+      pictures += entry.path().extension() == ".png";
+    EXPECT_EQ(pictures, numbers.size());
+    for (const std::string& number : numbers)
+      EXPECT_TRUE(std::filesystem::exists(path(frames) / ("surface_0000" + number + ".png"))) << number;
+  }
+}
+
+TEST_F(PovraySequence, TheCameraIsSaved) {
+  const std::string first = path("first.json").string(), again = path("again.json").string();
+  ASSERT_EQ(export_run("run", {"--frames", "1-5:2", "--save-camera", first}).exit_code, 0);
+  ASSERT_EQ(export_run("one", {"--camera", first, "--save-camera", again}).exit_code, 0);
+  EXPECT_EQ(test::read_bytes(first), test::read_bytes(again));
+  EXPECT_EQ(export_run("two", {"--save-camera", again}).exit_code, 6);  // it is there
+  EXPECT_FALSE(std::filesystem::exists(path("two")));
+  const Words turning{"--frames", "1,3", "--turntable", "1", "--save-camera", path("new.json").string()};
+  EXPECT_EQ(export_run("turning", turning).exit_code, 2);
 }
 
 }  // namespace

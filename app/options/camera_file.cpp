@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Declares --save-camera and writes its file.
+#include "app/options/camera_file.h"
+
+namespace meniscus {
+
+void add_save_camera_option(CLI::App& command, std::string& path) {
+  command.add_option("--save-camera", path, "Write the camera used, as JSON for --camera")->type_name("FILE");
+}
+
+void check_camera_file(const std::string& path, Existing existing) {
+  if (!path.empty()) OutputFile(path, existing);  // vanishes again
+}
+
+void save_camera(const std::string& path, Existing existing, const Camera& camera) {
+  if (path.empty()) return;
+  OutputFile file(path, existing);
+  file.write(camera_json(camera));
+  file.commit();
+}
+
+}  // namespace meniscus
