@@ -8,6 +8,7 @@
 #include <limits>
 #include <mutex>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -15,6 +16,7 @@
 
 #include "core/base/error.h"
 #include "core/queries/distance.h"
+#include "exporters/mesh/coarse_mesh.h"
 #include "exporters/mesh/creases.h"
 #include "exporters/mesh/evener.h"
 #include "exporters/mesh/mesh_crossings.h"
@@ -36,6 +38,17 @@ constexpr double kMargin = 0.97;
 /// The base is a scaffold: its tolerance follows that of the result between these (Å).
 constexpr double kFinestBase = 1e-4, kCoarsestBase = 0.4;
 constexpr int kBases = 4;
+/// Edges (Å) from which on the base has the fewest triangles that there are, and how long its edges are.
+constexpr double kLongEdge = 1.1, kCoarseEdge = 0.9;
+/// What is done about triangles that cross: rounds of refinement in which they may part, and the trouble from which on
+/// a face stays as it is. The fewest triangles become more before they stay; patch-aligned ones are as they should be.
+struct Patience {
+  int rounds, frozen;
+};
+constexpr Patience kWithCoarse{1, 3}, kWithPatches{0, 1};
+/// Of a tolerance: triangles that are too far away become others in most rounds.
+constexpr Patience kWithTolerance{2, 1};
+constexpr int kAttempts = 8;
 constexpr int kRounds = 6, kRefinedRounds = 3, kRefinements = 12;
 constexpr double kFiner = 0.7;
 /// Refinements that make more triangles than these lead nowhere.
@@ -56,41 +69,120 @@ double smallest_radius(const Surface& surface) {
   return radius;
 }
 
+double edge_of_density(double density) { return density > 0.0 ? std::sqrt(kVerticesPerSquare / density) : 0.0; }
+
+/// Do long edges begin with the fewest triangles?
+bool begins_coarse(const Surface& surface, const EvenMeshOptions& options) {
+  return surface.probe_radius > 0.0 && edge_of_density(options.density) >= kLongEdge;
+}
+
 class EvenMeshing {
  public:
-  EvenMeshing(const Surface& surface, const EvenMeshOptions& options, bool follow_creases)
+  EvenMeshing(const Surface& surface, const EvenMeshOptions& options, bool follow_creases, bool from_patches)
       : surface_(surface),
         options_(options),
         ball_radius_(smallest_radius(surface)),
-        edge_of_density_(options.density > 0.0 ? std::sqrt(kVerticesPerSquare / options.density) : 0.0),
-        evener_(surface, base(), follow_creases ? creases() : std::vector<bool>(surface.borders.size(), false),
-                [this](const SurfacePoint& at) { return edge_at(at.position, radius(at.face)); }) {}
+        edge_of_density_(edge_of_density(options.density)),
+        follow_creases_(follow_creases),
+        from_patches_(from_patches),
+        walk_(surface),
+        trouble_(surface.faces.size(), 0) {
+    find_base();
+  }
 
   EvenMesh run() {
-    for (int round = 0; round < kRounds; ++round) {
-      evener_.even_out(1);
-      evener_.compact();
-    }
-    evener_.mend();
-    const std::uint32_t most = kMostGrowth * evener_.links().triangle_count() + kGrowthAllowed;
-    for (int round = 0;; ++round) {
-      evener_.compact();
-      const std::vector<std::uint32_t> bad = to_refine();
-      if (bad.empty()) break;
-      if (round == kRefinements || evener_.links().triangle_count() > most)
+    for (int attempt = 0;; ++attempt) {
+      start();
+      const std::vector<std::uint32_t> crossing = even_out();
+      if (!crossing.empty()) {
+        if (attempt == kAttempts)
+          throw OpenSurfaceError(fmt::format(
+              "no even mesh was found: {} triangles stay in others' way; ask for a finer one", crossing.size()));
+        note_trouble(crossing);
+        continue;
+      }
+      EvenMesh even = result();
+      const std::vector<std::uint32_t> wrong = wrong_components(even.mesh);
+      if (wrong.empty()) return even;
+      if (attempt == kAttempts)
         throw OpenSurfaceError(
-            fmt::format("no even mesh was found: {} triangles stay too far away or in others' way; ask for a finer one",
-                        bad.size()));
-      evener_.refine(bad, kFiner);
-      evener_.even_out(kRefinedRounds);
-      evener_.mend();
+            fmt::format("component {} has {:.6g} Å³, its even mesh another volume; ask for a finer one", wrong.front(),
+                        surface_.components[wrong.front()].volume));
+      for (std::size_t f = 0; f < trouble_.size(); ++f)
+        if (std::find(wrong.begin(), wrong.end(), surface_.faces[f].component) != wrong.end()) worsen(f);
     }
-    return result();
   }
 
  private:
+  void start() {
+    std::vector<bool> frozen(trouble_.size());
+    for (std::size_t f = 0; f < frozen.size(); ++f) frozen[f] = trouble_[f] >= patience_.frozen;
+    walk_.bar(std::vector<bool>(surface_.borders.size(), false));
+    evener_.emplace(surface_, walk_, base_, creases(), frozen, [this](const SurfacePoint& at) {
+      const double edge = edge_at(at.position, radius(at.face));
+      return std::max(std::ldexp(edge, -trouble_[at.face]), std::min(edge, least_edge_));
+    });
+  }
+
+  /// Returns triangles that pass through others and would not part, or none.
+  std::vector<std::uint32_t> even_out() {
+    if (options_.density > 0.0) evener_->approach();
+    for (int round = 0; round < kRounds; ++round) {
+      evener_->even_out(1);
+      evener_->compact();
+    }
+    evener_->mend();
+    const std::uint32_t most = kMostGrowth * evener_->links().triangle_count() + kGrowthAllowed;
+    for (int round = 0, in_a_row = 0;; ++round) {
+      evener_->compact();
+      std::vector<std::uint32_t> bad = crossing();
+      in_a_row = bad.empty() ? 0 : in_a_row + 1;
+      if (in_a_row > patience_.rounds || (in_a_row > 0 && evener_->links().triangle_count() > most)) return bad;
+      const std::vector<std::uint32_t> far = too_far();
+      bad.insert(bad.end(), far.begin(), far.end());
+      if (bad.empty()) return bad;
+      if (round == kRefinements || evener_->links().triangle_count() > most)
+        throw OpenSurfaceError(
+            fmt::format("no even mesh was found: {} triangles stay too far away; ask for a finer one", far.size()));
+      evener_->refine(bad, kFiner);
+      evener_->even_out(kRefinedRounds);
+      evener_->mend();
+    }
+  }
+
+  /// Edges on the faces under these triangles are half as long in the next attempt, and keep to the base, which hardly
+  /// has crossings, in the end; those on faces beside them come a step behind.
+  void note_trouble(const std::vector<std::uint32_t>& triangles) {
+    std::vector<std::uint8_t> here(trouble_.size(), 0);
+    for (const std::uint32_t t : triangles) {
+      const auto v = evener_->links().corners(t);
+      const auto& x = evener_->positions();
+      for (const std::uint32_t k : v) here[evener_->point(k).face] = 1;
+      if (const auto at = below((x[v[0]] + x[v[1]] + x[v[2]]) / 3.0, v)) here[at->face] = 1;
+    }
+    for (std::size_t f = 0; f < here.size(); ++f)
+      if (here[f]) worsen(f);
+    std::vector<std::uint8_t> beside = trouble_;
+    for (const Border& border : surface_.borders)
+      for (int side = 0; side < 2; ++side) {
+        const int from = trouble_[border.face[side]];
+        std::uint8_t& to = beside[border.face[1 - side]];
+        to = static_cast<std::uint8_t>(std::max<int>(to, from - 1));
+      }
+    trouble_ = std::move(beside);
+  }
+
+  void worsen(std::size_t face) {
+    trouble_[face] = static_cast<std::uint8_t>(std::min(trouble_[face] + 1, patience_.frozen));
+  }
+
   std::vector<bool> creases() const {
-    return creases_to_keep(surface_, [this](const glm::dvec3& x) { return edge_at(x, probe()); });
+    if (!follow_creases_) return std::vector<bool>(surface_.borders.size(), false);
+    std::vector<bool> keep = creases_to_keep(surface_, [this](const glm::dvec3& x) { return edge_at(x, probe()); });
+    for (std::size_t b = 0; b < keep.size(); ++b)
+      for (const std::uint32_t f : surface_.borders[b].face)
+        if (trouble_[f]) keep[b] = false;
+    return keep;
   }
   double probe() const { return surface_.probe_radius > 0.0 ? surface_.probe_radius : ball_radius_; }
   double radius(std::uint32_t face) const {
@@ -104,14 +196,27 @@ class EvenMeshing {
     return edge_of_density_ > 0.0 ? edge_of_density_ : std::sqrt(6.0 * kShareOfTolerance * tolerance_at(x) * radius);
   }
 
-  /// Some surfaces have no patch-aligned mesh at a coarse tolerance.
-  TriangleMesh base() const {
+  /// Long edges begin with the fewest triangles, others, and surfaces that have no such mesh, with patch-aligned ones;
+  /// of these some have none at a coarse tolerance.
+  void find_base() {
+    if (!from_patches_) {
+      try {
+        base_ = coarse_mesh(surface_, walk_);
+        least_edge_ = kCoarseEdge;
+        patience_ = kWithCoarse;
+        return;
+      } catch (const OpenSurfaceError&) {
+      }
+    }
     double tolerance =
         options_.density > 0.0 ? edge_of_density_ * edge_of_density_ / (6.0 * probe()) : options_.tolerance;
     tolerance = std::clamp(2.0 * tolerance, kFinestBase, kCoarsestBase);
     for (int n = 1;; ++n, tolerance *= 0.25) {
       try {
-        return tessellate(surface_, {tolerance, false});
+        base_ = tessellate(surface_, {tolerance, false});
+        least_edge_ = std::sqrt(5.0 * tolerance * probe());
+        patience_ = options_.density > 0.0 ? kWithPatches : kWithTolerance;
+        return;
       } catch (const OpenSurfaceError&) {
         if (n == kBases) throw;
       }
@@ -122,15 +227,15 @@ class EvenMeshing {
   std::optional<SurfacePoint> below(const glm::dvec3& x, const std::array<std::uint32_t, 3>& corners) const {
     for (const bool smooth : {true, false})  // a vertex of a crease is on both sides of it
       for (const std::uint32_t v : corners) {
-        if (evener_.on_crease(v) == smooth) continue;
-        if (const auto at = evener_.walk().below(x, evener_.point(v).face)) return at;
+        if (evener_->on_crease(v) == smooth) continue;
+        if (const auto at = walk_.below(x, evener_->point(v).face)) return at;
       }
     return std::nullopt;
   }
 
-  bool too_far(std::uint32_t triangle) const {
-    const auto v = evener_.links().corners(triangle);
-    const auto& x = evener_.positions();
+  bool is_too_far(std::uint32_t triangle) const {
+    const auto v = evener_->links().corners(triangle);
+    const auto& x = evener_->positions();
     return std::any_of(kPlaces.begin(), kPlaces.end(), [&](const auto& w) {
       const glm::dvec3 place = w[0] * x[v[0]] + w[1] * x[v[1]] + w[2] * x[v[2]];
       const double limit = kMargin * tolerance_at(place);
@@ -144,27 +249,34 @@ class EvenMeshing {
     return *distance_;
   }
 
-  std::vector<std::uint32_t> to_refine() const {
-    const LinkedTriangles& links = evener_.links();
-    std::vector<std::uint8_t> bad(links.triangle_count(), 0);
-    if (options_.density == 0.0)
-      tbb::parallel_for(std::uint32_t{0}, links.triangle_count(), [&](std::uint32_t t) { bad[t] = too_far(t); });
-    for (const auto& [a, b] : crossing_triangles(evener_.positions(), triangles())) bad[a] = bad[b] = 1;
+  std::vector<std::uint32_t> too_far() const {
+    if (options_.density > 0.0) return {};
+    std::vector<std::uint8_t> bad(evener_->links().triangle_count(), 0);
+    tbb::parallel_for(std::uint32_t{0}, evener_->links().triangle_count(),
+                      [&](std::uint32_t t) { bad[t] = is_too_far(t); });
+    return numbers_of(bad);
+  }
+  std::vector<std::uint32_t> crossing() const {
+    std::vector<std::uint8_t> bad(evener_->links().triangle_count(), 0);
+    for (const auto& [a, b] : crossing_triangles(evener_->positions(), triangles())) bad[a] = bad[b] = 1;
+    return numbers_of(bad);
+  }
+  static std::vector<std::uint32_t> numbers_of(const std::vector<std::uint8_t>& marked) {
     std::vector<std::uint32_t> found;
-    for (std::uint32_t t = 0; t < bad.size(); ++t)
-      if (bad[t]) found.push_back(t);
+    for (std::uint32_t t = 0; t < marked.size(); ++t)
+      if (marked[t]) found.push_back(t);
     return found;
   }
   std::vector<std::array<std::uint32_t, 3>> triangles() const {
-    std::vector<std::array<std::uint32_t, 3>> all(evener_.links().triangle_count());
-    for (std::uint32_t t = 0; t < all.size(); ++t) all[t] = evener_.links().corners(t);
+    std::vector<std::array<std::uint32_t, 3>> all(evener_->links().triangle_count());
+    for (std::uint32_t t = 0; t < all.size(); ++t) all[t] = evener_->links().corners(t);
     return all;
   }
 
   EvenMesh result() const {
     EvenMesh even;
     TriangleMesh& mesh = even.mesh;
-    mesh.positions = evener_.positions();
+    mesh.positions = evener_->positions();
     mesh.triangles = triangles();
     mesh.tolerance = options_.density > 0.0 ? 0.0 : options_.tolerance;
     const std::size_t vertices = mesh.positions.size(), count = mesh.triangles.size();
@@ -172,10 +284,10 @@ class EvenMeshing {
     even.vertex_face.resize(vertices);
     even.vertex_atom.resize(vertices);
     tbb::parallel_for(std::size_t{0}, vertices, [&](std::size_t v) {
-      const SurfacePoint at = evener_.point(static_cast<std::uint32_t>(v));
-      mesh.normals[v] = evener_.walk().normal(at);
+      const SurfacePoint at = evener_->point(static_cast<std::uint32_t>(v));
+      mesh.normals[v] = walk_.normal(at);
       even.vertex_face[v] = at.face;
-      even.vertex_atom[v] = evener_.walk().nearest_atom(at);
+      even.vertex_atom[v] = walk_.nearest_atom(at);
     });
     mesh.face.resize(count);
     mesh.kind.resize(count);
@@ -185,28 +297,27 @@ class EvenMeshing {
     tbb::parallel_for(std::size_t{0}, count, [&](std::size_t t) {
       const auto& v = mesh.triangles[t];
       const glm::dvec3 middle = (mesh.positions[v[0]] + mesh.positions[v[1]] + mesh.positions[v[2]]) / 3.0;
-      const SurfacePoint at = below(middle, v).value_or(evener_.point(v[0]));
+      const SurfacePoint at = below(middle, v).value_or(evener_->point(v[0]));
       const Face& face = surface_.faces[at.face];
       mesh.face[t] = at.face;
       mesh.kind[t] = face.kind;
       mesh.patch[t] = face.patch;
       mesh.component[t] = face.component;
-      mesh.atom[t] = evener_.walk().nearest_atom(at);
+      mesh.atom[t] = walk_.nearest_atom(at);
     });
     add_creases(mesh);
-    check(mesh);
     return even;
   }
 
   /// At vertices on creases each triangle has the normal of the face that it lies nearest to.
   void add_creases(TriangleMesh& mesh) const {
-    const LinkedTriangles& links = evener_.links();
+    const LinkedTriangles& links = evener_->links();
     std::vector<glm::dvec3> sum(mesh.positions.size(), glm::dvec3(0.0));
     for (std::uint32_t half = 0; half < links.half_edge_count(); ++half) {
       if (links.crease(half) != kNone && half < links.twin(half))
         mesh.sharp_edges.push_back({links.from(half), links.to(half)});
       const std::uint32_t v = links.from(half);
-      if (!evener_.on_crease(v)) continue;
+      if (!evener_->on_crease(v)) continue;
       const auto& [a, b, c] = mesh.triangles[half / 3];
       const glm::dvec3 flat = glm::cross(mesh.positions[b] - mesh.positions[a], mesh.positions[c] - mesh.positions[a]);
       glm::dvec3 best = mesh.normals[v];
@@ -224,23 +335,30 @@ class EvenMeshing {
   }
 
   /// Splits, collapses and flips keep the topology; that triangles look outwards is seen from the volumes.
-  void check(const TriangleMesh& mesh) const {
+  std::vector<std::uint32_t> wrong_components(const TriangleMesh& mesh) const {
+    std::vector<std::uint32_t> wrong;
     const std::vector<MeshSums> sums = component_sums(mesh, surface_.components.size());
-    for (std::size_t c = 0; c < sums.size(); ++c) {
+    for (std::uint32_t c = 0; c < sums.size(); ++c) {
       const Component& component = surface_.components[c];
       const bool same = (sums[c].volume > 0.0) == (component.volume > 0.0);
       const double off = std::abs(sums[c].volume - component.volume);
       if (!same || (mesh.tolerance > 0.0 && !options_.tolerance_at && off > mesh.tolerance * component.area + 1e-9))
-        throw OpenSurfaceError(fmt::format("component {} has {:.6g} Å³, its even mesh {:.6g}; ask for a finer one", c,
-                                           component.volume, sums[c].volume));
+        wrong.push_back(c);
     }
+    return wrong;
   }
 
   const Surface& surface_;
   const EvenMeshOptions& options_;
   double ball_radius_;  ///< Å, the smallest: of curvature where the probe has none
   double edge_of_density_;
-  Evener evener_;
+  bool follow_creases_, from_patches_;
+  SurfaceWalk walk_;
+  TriangleMesh base_;
+  double least_edge_ = 0.0;  ///< Å; faces in trouble are not asked for shorter ones
+  Patience patience_{};
+  std::vector<std::uint8_t> trouble_;  ///< per face: how often triangles were found to cross there
+  std::optional<Evener> evener_;
   mutable std::once_flag distance_made_;
   mutable std::optional<SurfaceDistance> distance_;
 };
@@ -254,11 +372,15 @@ EvenMesh even_mesh(const Surface& surface, const EvenMeshOptions& options) {
   if (options.density == 0.0 && !(options.tolerance > 0.0 && std::isfinite(options.tolerance)))
     throw Error(fmt::format("mesh tolerance: {} Å, give a number above 0", options.tolerance));
   // Where creases crowd, triangles that have to end at them may find no place; without that they are smaller there.
-  try {
-    return EvenMeshing(surface, options, true).run();
-  } catch (const OpenSurfaceError&) {
-    return EvenMeshing(surface, options, false).run();
+  const bool coarse = begins_coarse(surface, options);
+  for (const bool patches : {false, true}) {
+    if (!patches && !coarse) continue;
+    try {
+      return EvenMeshing(surface, options, true, patches).run();
+    } catch (const OpenSurfaceError&) {
+    }
   }
+  return EvenMeshing(surface, options, false, true).run();
 }
 
 }  // namespace meniscus

@@ -27,13 +27,15 @@ struct EvenMesh {
   std::vector<std::uint32_t> vertex_atom;  ///< per vertex: the touched atom whose contact is nearest
 };
 
-/// Remeshes tessellate()'s mesh: edges are split, collapsed and flipped, vertices move along the surface (Botsch &
+/// Remeshes the fewest triangles that have the surface's topology (coarse_mesh.h), or for short edges those of
+/// tessellate(): edges are split, collapsed and flipped, vertices move along the surface (Botsch &
 /// Kobbelt, "A remeshing approach to multiresolution modeling", 2004), and each stays on the exact sphere or torus
 /// below it. Triangles reach over borders of patches; `kind`, `face`, `patch` and `atom` of a triangle are those of the
 /// exact surface under its middle. Edges follow creases that are no shorter than they are. The mesh is closed, has the
 /// surface's components and their Euler characteristics, no triangles that pass through others, and is the same for any
 /// number of threads. With a tolerance the distance of each triangle from the surface is measured at 7 places; creases
 /// shorter than edges are bridged, and points there may be a quarter farther from the mesh.
+/// Where triangles cross, all begins anew with shorter edges there, or with those of the beginning left as they are.
 /// Throws Error for numbers that make no sense, OpenSurfaceError where no such mesh was found: where creases crowd, as
 /// on bare balls, a tolerance is refused at times.
 EvenMesh even_mesh(const Surface& surface, const EvenMeshOptions& options = {});

@@ -19,11 +19,25 @@ namespace {
 constexpr double kLong = 4.0 / 3.0, kShort = 4.0 / 5.0;
 /// A foot farther below the middle of an edge than this share of its length is on another sheet.
 constexpr double kDeepest = 0.35;
+/// A vertex that would come nearer than this share of the edge to one that is there is not made.
+constexpr double kTooNear = 0.2;
 /// A crease is where mesh vertices are no farther (Å) from its circle.
 constexpr double kOnCrease = 1e-6;
 /// Flips have to improve the worse of two triangles by so much, or two edges would flip for ever.
 constexpr double kBetter = 1e-6;
-/// The quality of a triangle whose smallest angle is 20 degrees or more if it is isosceles.
+/// Edges between triangles as good as that are not flipped: their smallest angles are some 35 degrees.
+constexpr double kFine = 0.82;
+/// A look that was not taken.
+constexpr float kUnseen = 9.0f;
+/// Steps shorter than this share of the edges wanted change nothing worth the walk.
+constexpr double kNoStep = 0.01;
+/// Passes that change fewer than one in so many triangles are the last ones of an approach.
+constexpr std::uint32_t kFew = 16;
+constexpr int kApproaches = 12;
+/// Cosines between the normals of a triangle and of the surface at its vertices: the least, and the most asked for.
+constexpr double kSteepest = 0.05, kLeaning = 0.7;
+/// The quality (4 sqrt(3) area / sum of squared edges: 1 for an equilateral triangle) of one whose smallest angle is 20
+/// degrees or more if it is isosceles.
 constexpr double kGood = 0.55;
 /// Of a collapse: worse triangles are not made.
 constexpr double kPoor = 0.3;
@@ -35,15 +49,10 @@ constexpr int kMendingRounds = 4;
 
 }  // namespace
 
-double triangle_quality(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
-  const glm::dvec3 u = b - a, v = c - a, w = c - b;
-  const double squares = glm::dot(u, u) + glm::dot(v, v) + glm::dot(w, w);
-  return squares > 0.0 ? 2.0 * std::sqrt(3.0) * glm::length(glm::cross(u, v)) / squares : 0.0;
-}
-
-Evener::Evener(const Surface& surface, const TriangleMesh& base, const std::vector<bool>& keep, EdgeLength edge)
+Evener::Evener(const Surface& surface, SurfaceWalk& walk, const TriangleMesh& base, const std::vector<bool>& keep,
+               const std::vector<bool>& frozen, EdgeLength edge)
     : surface_(surface),
-      walk_(surface, keep),
+      walk_(walk),
       edge_(std::move(edge)),
       links_(base.triangles, static_cast<std::uint32_t>(base.positions.size())),
       position_(base.positions),
@@ -53,11 +62,20 @@ Evener::Evener(const Surface& surface, const TriangleMesh& base, const std::vect
       pinned_(base.positions.size(), 0),
       size_(base.positions.size(), 0.0f),
       scale_(base.positions.size(), 1.0f),
-      active_(base.positions.size(), 1) {
+      outlook_(base.positions.size(), 0.0f),
+      active_(base.positions.size(), 1),
+      frozen_(base.positions.size(), 0),
+      look_(base.triangles.size(), kUnseen) {
+  walk.bar(keep);
   for (std::size_t t = 0; t < base.triangles.size(); ++t)
-    for (const std::uint32_t v : base.triangles[t])
+    for (const std::uint32_t v : base.triangles[t]) {
       if (face_[v] == kNone) face_[v] = base.face[t];
-  for (std::uint32_t v = 0; v < face_.size(); ++v) settle(v, point(v), kNone);
+      if (frozen[base.face[t]]) frozen_[v] = 1;
+    }
+  tbb::parallel_for(std::size_t{0}, face_.size(), [&](std::size_t n) {
+    const auto v = static_cast<std::uint32_t>(n);
+    settle(v, point(v), kNone);
+  });
   mark_creases(base, keep);
   pin_corners();
 }
@@ -69,6 +87,7 @@ void Evener::settle(std::uint32_t vertex, const SurfacePoint& at, std::uint32_t 
   border_[vertex] = border;
   normal_[vertex] = walk_.normal(at);
   size_[vertex] = scale_[vertex] * static_cast<float>(edge_(at));
+  outlook_[vertex] = static_cast<float>(least_outlook(vertex));
 }
 
 void Evener::mark_creases(const TriangleMesh& base, const std::vector<bool>& keep) {
@@ -114,10 +133,10 @@ void Evener::pin_corners() {
   }
   for (std::uint32_t v = 0; v < count.size(); ++v)
     if (count[v] != 0 && count[v] != 2) pinned_[v] = 1;
-  for (const Face& face : surface_.faces) {  // the tip of a free spindle has a cone of normals
-    if (face.tip == kNone) continue;
-    const auto tip = std::find(position_.begin(), position_.end(), surface_.vertices[face.tip]);
-    if (tip != position_.end()) pinned_[static_cast<std::size_t>(tip - position_.begin())] = 1;
+  // The tip of a free spindle has a cone of normals.
+  for (std::uint32_t v = 0; v < face_.size(); ++v) {
+    const std::uint32_t tip = surface_.faces[face_[v]].tip;
+    if (tip != kNone && position_[v] == surface_.vertices[tip]) pinned_[v] = 1;
   }
 }
 
@@ -125,43 +144,53 @@ double Evener::length(std::uint32_t half) const {
   return glm::distance(position_[links_.from(half)], position_[links_.to(half)]);
 }
 
-Evener::Corners Evener::corners(std::uint32_t triangle) const {
-  const auto v = links_.corners(triangle);
-  return {position_[v[0]], position_[v[1]], position_[v[2]]};
-}
-
 /// How much a triangle may lean against the normal at a vertex, as a cosine: little where edges are short beside the
 /// radius of curvature, almost a right angle where they are not.
 double Evener::least_outlook(std::uint32_t vertex) const {
   const double turn = size_[vertex] / std::max(walk_.radius(face_[vertex]), 1e-9);
-  return std::clamp(1.0 - 1.5 * turn * turn, 0.05, 0.7);
+  return std::clamp(1.0 - 1.5 * turn * turn, kSteepest, approaching_ ? kSteepest : kLeaning);
 }
 
-bool Evener::looks_out(const std::array<std::uint32_t, 3>& v, int k, const glm::dvec3& x) const {
-  Corners at{position_[v[0]], position_[v[1]], position_[v[2]]};
-  if (k >= 0) at[k] = x;
-  const glm::dvec3 normal = glm::cross(at[1] - at[0], at[2] - at[0]);
-  const double size = glm::length(normal);
-  if (!(size > 0.0)) return false;
-  for (const std::uint32_t vertex : v)
-    if (!on_crease(vertex) && !(glm::dot(normal, normal_[vertex]) > least_outlook(vertex) * size)) return false;
-  return true;
+bool Evener::leans_over(std::uint32_t vertex, const glm::dvec3& normal, double size) const {
+  return !on_crease(vertex) && !(glm::dot(normal, normal_[vertex]) > outlook_[vertex] * size);
 }
 
-void Evener::Looks::add(const Evener& mesh, const std::array<std::uint32_t, 3>& v, int k, const glm::dvec3& x) {
-  if (!mesh.looks_out(v, k, x)) ++inwards;
-  Corners at{mesh.position_[v[0]], mesh.position_[v[1]], mesh.position_[v[2]]};
-  at[k] = x;
-  worst = std::min(worst, triangle_quality(at[0], at[1], at[2]));
+double Evener::look(std::uint32_t a, const glm::dvec3& x, std::uint32_t b, std::uint32_t c) const {
+  const glm::dvec3 u = position_[b] - x, v = position_[c] - x, w = v - u;
+  const glm::dvec3 normal = glm::cross(u, v);
+  const double size = glm::length(normal), squares = glm::dot(u, u) + glm::dot(v, v) + glm::dot(w, w);
+  if (!(size > 0.0)) return -kFold;
+  const double quality = 2.0 * std::sqrt(3.0) * size / squares;
+  const bool over = leans_over(a, normal, size) || leans_over(b, normal, size) || leans_over(c, normal, size);
+  return over ? quality - kFold : quality;
 }
 
-void Evener::split_long() {
+double Evener::look_of(std::uint32_t triangle) const {
+  if (look_[triangle] != kUnseen) return look_[triangle];
+  const auto v = links_.corners(triangle);
+  return look(v[0], position_[v[0]], v[1], v[2]);
+}
+
+void Evener::forget_looks_around(std::uint32_t vertex) {
+  links_.around(vertex, [&](std::uint32_t half) { look_[half / 3] = kUnseen; });
+}
+
+void Evener::look_at_all() {
+  tbb::parallel_for(std::uint32_t{0}, links_.triangle_count(), [&](std::uint32_t t) {
+    if (links_.lives(3 * t)) look_[t] = static_cast<float>(look_of(t));
+  });
+}
+
+std::uint32_t Evener::split_long(double limit) {
   const std::uint32_t count = links_.half_edge_count();  // new ones come to the end, and wait for the next round
+  std::uint32_t done = 0;
   for (std::uint32_t half = 0; half < count; ++half)
-    if (links_.lives(half) && busy(half) && length(half) > kLong * wanted(half)) split(half);
+    if (half < links_.twin(half) && links_.lives(half) && busy(half) && length(half) > limit * wanted(half))
+      done += split(half);
+  return done;
 }
 
-void Evener::split(std::uint32_t half) {
+bool Evener::split(std::uint32_t half) {
   const std::uint32_t a = links_.from(half), b = links_.to(half), border = links_.crease(half);
   const glm::dvec3 middle = 0.5 * (position_[a] + position_[b]);
   std::optional<SurfacePoint> at;
@@ -174,7 +203,10 @@ void Evener::split(std::uint32_t half) {
   const double deepest = kDeepest * length(half);
   if (border == kNone && (!at || glm::distance(at->position, middle) > deepest))
     at = walk_.on_near_cusp(middle, face_[a]);
-  if (!at || glm::distance(at->position, middle) > deepest) return;
+  if (!at || glm::distance(at->position, middle) > deepest) return false;
+  for (const std::uint32_t c : {links_.opposite(half), links_.opposite(links_.twin(half))})
+    if (approaching_ && glm::distance(at->position, position_[c]) < kTooNear * length(half))
+      return border == kNone && try_flip(half);
   const std::uint32_t m = links_.split(half);
   position_.emplace_back();
   normal_.emplace_back();
@@ -182,22 +214,30 @@ void Evener::split(std::uint32_t half) {
   border_.push_back(kNone);
   pinned_.push_back(0);
   size_.push_back(0.0f);
+  outlook_.push_back(0.0f);
   scale_.push_back(0.5f * (scale_[a] + scale_[b]));
   active_.push_back(1);
+  frozen_.push_back(0);
+  look_.resize(links_.triangle_count(), kUnseen);
   settle(m, *at, border);
+  forget_looks_around(m);
+  return true;
 }
 
-void Evener::collapse_short() {
+std::uint32_t Evener::collapse_short() {
+  std::uint32_t done = 0;
   for (std::uint32_t half = 0; half < links_.half_edge_count(); ++half) {
     if (!links_.lives(half) || half > links_.twin(half) || !busy(half)) continue;
-    if (length(half) < kShort * wanted(half) && !try_collapse(half, false)) try_collapse(links_.twin(half), false);
+    if (length(half) < kShort * wanted(half))
+      done += try_collapse(half, false) || try_collapse(links_.twin(half), false);
   }
+  return done;
 }
 
 /// A vertex of a crease goes along it only, and where creases end or meet it stays.
 bool Evener::may_vanish(std::uint32_t half) const {
   const std::uint32_t a = links_.from(half);
-  if (pinned_[a]) return false;
+  if (pinned_[a] || frozen_[a]) return false;
   if (border_[a] != kNone && links_.crease(half) != border_[a]) return false;
   // Two creases must not fall together.
   const auto creased = [&](std::uint32_t edge) { return links_.crease(edge) != kNone; };
@@ -208,41 +248,49 @@ bool Evener::may_vanish(std::uint32_t half) const {
 
 bool Evener::try_collapse(std::uint32_t half, bool for_quality) {
   const std::uint32_t a = links_.from(half), b = links_.to(half);
-  if (!may_vanish(half) || !links_.can_collapse(half)) return false;
+  if (!may_vanish(half)) return false;
   if (links_.valence(a) + links_.valence(b) > kMostEdges) return false;
+  const double before = score_around(a);
+  const double bar = for_quality ? before : std::min(before, kPoor);
   bool fits = true;
-  Looks before, after;
+  Looks after;
   links_.around(a, [&](std::uint32_t edge) {
     const std::uint32_t c = links_.to(edge), d = links_.opposite(edge);
-    before.add(*this, {a, c, d}, 0, position_[a]);
-    if (c == b || d == b) return;
-    after.add(*this, {b, c, d}, 0, position_[b]);
-    fits = fits && glm::distance(position_[b], position_[c]) <= kLong * 0.5 * (size_[b] + size_[c]);
+    if (!fits || c == b || d == b) return;
+    after.add(look(b, position_[b], c, d));
+    fits = after.score() >= bar && glm::distance(position_[b], position_[c]) <= kLong * 0.5 * (size_[b] + size_[c]);
   });
-  if (!fits || (for_quality ? after.score() <= before.score() : after.score() < std::min(before.score(), kPoor)))
-    return false;
+  if (!fits || (for_quality && after.score() <= before) || !links_.can_collapse(half)) return false;
   active_[b] = 1;
   links_.collapse(half);
+  forget_looks_around(b);
   return true;
 }
 
 void Evener::flip_edges() {
-  for (std::uint32_t half = 0; half < links_.half_edge_count(); ++half)
-    if (links_.lives(half) && half < links_.twin(half) && busy(half)) try_flip(half);
+  for (std::uint32_t half = 0; half < links_.half_edge_count(); ++half) {
+    if (half > links_.twin(half) || !links_.lives(half) || !busy(half)) continue;
+    if (look_of(half / 3) < kFine || look_of(links_.twin(half) / 3) < kFine) try_flip(half);
+  }
 }
 
 bool Evener::try_flip(std::uint32_t half) {
-  if (links_.crease(half) != kNone) return false;
-  const std::uint32_t a = links_.from(half), b = links_.to(half);
-  const std::uint32_t c = links_.opposite(half), d = links_.opposite(links_.twin(half));
+  if (links_.crease(half) != kNone || frozen_edge(half)) return false;
+  const std::uint32_t a = links_.from(half), b = links_.to(half), other = links_.twin(half);
+  const std::uint32_t c = links_.opposite(half), d = links_.opposite(other);
   Looks before, after;
-  before.add(*this, {a, b, c}, 0, position_[a]);
-  before.add(*this, {b, a, d}, 0, position_[b]);
-  after.add(*this, {d, c, a}, 0, position_[d]);
-  after.add(*this, {c, d, b}, 0, position_[c]);
+  before.add(look_of(half / 3));
+  before.add(look_of(other / 3));
+  const double first = look(d, position_[d], c, a);
+  after.add(first);
+  if (!(after.score() > before.score() + kBetter)) return false;
+  const double second = look(c, position_[c], d, b);
+  after.add(second);
   if (!(after.score() > before.score() + kBetter) || !links_.can_flip(half)) return false;
   if (links_.valence(c) >= kMostEdges || links_.valence(d) >= kMostEdges) return false;
   links_.flip(half);
+  look_[half / 3] = static_cast<float>(first);
+  look_[other / 3] = static_cast<float>(second);
   return true;
 }
 
@@ -273,7 +321,7 @@ glm::dvec3 Evener::centroid_around(std::uint32_t vertex) const {
 }
 
 std::optional<SurfacePoint> Evener::relaxed(std::uint32_t vertex) const {
-  if (pinned_[vertex]) return std::nullopt;
+  if (pinned_[vertex] || frozen_[vertex]) return std::nullopt;
   const glm::dvec3& x = position_[vertex];
   SurfacePoint target;
   if (border_[vertex] != kNone) {
@@ -285,11 +333,13 @@ std::optional<SurfacePoint> Evener::relaxed(std::uint32_t vertex) const {
   } else {
     glm::dvec3 move = kStep * (centroid_around(vertex) - x);
     move -= glm::dot(move, normal_[vertex]) * normal_[vertex];
+    if (glm::length(move) < kNoStep * size_[vertex]) return std::nullopt;
     const auto at = walk_.below(x + move, face_[vertex]);
     if (!at || glm::distance(at->position, x) > size_[vertex]) return std::nullopt;
     target = *at;
   }
-  if (score_around(vertex, target.position) < std::min(score_around(vertex, x), kPoor)) return std::nullopt;
+  if (const double score = score_around(vertex, target.position); score < kPoor && score < score_around(vertex))
+    return std::nullopt;
   return target;
 }
 
@@ -303,11 +353,41 @@ void Evener::relax() {
   tbb::parallel_for(std::size_t{0}, position_.size(), [&](std::size_t v) {
     if (target[v]) settle(static_cast<std::uint32_t>(v), *target[v], border_[v]);
   });
+  look_.assign(look_.size(), kUnseen);
+  look_at_all();
 }
 
+/// Longest edges first, or halves of triangles would be slivers.
+void Evener::approach() {
+  approaching_ = true;
+  settle_outlooks();
+  flip_edges();
+  double longest = 0.0;
+  for (std::uint32_t half = 0; half < links_.half_edge_count(); ++half)
+    longest = std::max(longest, length(half) / wanted(half));
+  for (double limit = longest / std::sqrt(2.0); limit > kLong; limit /= std::sqrt(2.0)) {
+    split_long(limit);
+    flip_edges();
+  }
+  for (int n = 0; n < kApproaches; ++n) {
+    const std::uint32_t changes = split_long(kLong) + collapse_short();
+    flip_edges();
+    compact();
+    if (changes < links_.triangle_count() / kFew) break;
+  }
+  approaching_ = false;
+  settle_outlooks();
+}
+
+void Evener::settle_outlooks() {
+  tbb::parallel_for(std::uint32_t{0}, links_.vertex_count(),
+                    [&](std::uint32_t v) { outlook_[v] = static_cast<float>(least_outlook(v)); });
+  look_.assign(look_.size(), kUnseen);
+  look_at_all();
+}
 void Evener::even_out(int rounds) {
   for (int round = 0; round < rounds; ++round) {
-    split_long();
+    split_long(kLong);
     collapse_short();
     flip_edges();
     relax();
@@ -315,17 +395,22 @@ void Evener::even_out(int rounds) {
   }
 }
 
+double Evener::score_around(std::uint32_t vertex) const {
+  Looks looks;
+  links_.around(vertex, [&](std::uint32_t half) { looks.add(look_of(half / 3)); });
+  return looks.score();
+}
+
 double Evener::score_around(std::uint32_t vertex, const glm::dvec3& x) const {
   Looks looks;
-  links_.around(vertex, [&](std::uint32_t half) {
-    looks.add(*this, {vertex, links_.to(half), links_.opposite(half)}, 0, x);
-  });
+  links_.around(vertex,
+                [&](std::uint32_t half) { looks.add(look(vertex, x, links_.to(half), links_.opposite(half))); });
   return looks.score();
 }
 
 /// Moves a vertex where its worst triangle is better: towards the middle of its neighbours, or part of the way.
 bool Evener::nudge(std::uint32_t vertex) {
-  if (pinned_[vertex]) return false;
+  if (pinned_[vertex] || frozen_[vertex]) return false;
   const glm::dvec3 x = position_[vertex];
   const bool along = border_[vertex] != kNone;
   glm::dvec3 sum(0.0);
@@ -335,7 +420,7 @@ bool Evener::nudge(std::uint32_t vertex) {
     sum += position_[links_.to(half)];
     ++count;
   });
-  const double before = score_around(vertex, x);
+  const double before = score_around(vertex);
   for (const double step : {1.0, 0.5, 0.25}) {
     const glm::dvec3 y = x + step * (sum / double(count) - x);
     std::optional<SurfacePoint> at;
@@ -345,6 +430,7 @@ bool Evener::nudge(std::uint32_t vertex) {
     if (!at || !(glm::distance(at->position, x) < size_[vertex])) continue;
     if (!(score_around(vertex, at->position) > before + kBetter)) continue;
     settle(vertex, *at, border_[vertex]);
+    forget_looks_around(vertex);
     return true;
   }
   return false;
@@ -355,8 +441,7 @@ void Evener::mend() {
     bool any = false;
     for (std::uint32_t t = 0; t < links_.triangle_count(); ++t) {
       if (!links_.lives(3 * t)) continue;
-      const auto x = corners(t);
-      if (triangle_quality(x[0], x[1], x[2]) >= kGood) continue;
+      if (look_of(t) >= kGood) continue;
       for (std::uint32_t half = 3 * t; half < 3 * t + 3; ++half) any = try_flip(half) || any;
       std::uint32_t shortest = 3 * t;
       for (std::uint32_t half = 3 * t; half < 3 * t + 3; ++half)
@@ -383,6 +468,7 @@ void Evener::refine(const std::vector<std::uint32_t>& triangles, double factor) 
     const auto less = static_cast<float>(bad[v] ? factor : beside[v] ? std::sqrt(factor) : 1.0);
     scale_[v] *= less;
     size_[v] *= less;
+    outlook_[v] = static_cast<float>(least_outlook(v));
   }
 }
 
@@ -399,7 +485,10 @@ void Evener::compact() {
   take(pinned_);
   take(size_);
   take(scale_);
+  take(outlook_);
   take(active_);
+  take(frozen_);
+  look_.assign(links_.triangle_count(), kUnseen);
 }
 
 }  // namespace meniscus

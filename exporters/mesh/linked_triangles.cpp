@@ -8,6 +8,12 @@
 #include "core/base/error.h"
 
 namespace meniscus {
+namespace {
+
+/// Neighbours of a vertex that are compared at once; few vertices have more.
+constexpr std::size_t kRing = 16;
+
+}  // namespace
 
 LinkedTriangles::LinkedTriangles(std::span<const std::array<std::uint32_t, 3>> triangles, std::uint32_t vertex_count)
     : from_(3 * triangles.size()),
@@ -27,9 +33,14 @@ LinkedTriangles::LinkedTriangles(std::span<const std::array<std::uint32_t, 3>> t
   for (std::uint32_t half = 0; half < half_edge_count(); ++half) {
     if (twin_[half] != kNone) continue;
     const std::uint32_t a = from_[half], b = to(half);
-    for (std::uint32_t i = first[b]; i < first[b + 1] && twin_[half] == kNone; ++i)
-      if (to(order[i]) == a && twin_[order[i]] == kNone) link(half, order[i], kNone);
-    if (twin_[half] == kNone) throw OpenSurfaceError("the mesh to be evened is not closed");
+    std::uint32_t back = kNone;
+    for (std::uint32_t i = first[b]; i < first[b + 1]; ++i) {
+      if (to(order[i]) != a) continue;
+      if (back != kNone) throw OpenSurfaceError("the mesh to be evened has two edges between the same vertices");
+      back = order[i];
+    }
+    if (back == kNone || twin_[back] != kNone) throw OpenSurfaceError("the mesh to be evened is not closed");
+    link(half, back, kNone);
   }
 }
 
@@ -71,11 +82,19 @@ std::uint32_t LinkedTriangles::split(std::uint32_t half) {
 bool LinkedTriangles::can_collapse(std::uint32_t half) const {
   const std::uint32_t a = from_[half], b = to(half);
   if (valence(opposite(half)) <= 3 || valence(opposite(twin_[half])) <= 3) return false;
+  std::array<std::uint32_t, kRing> ring{};  // around a
+  std::size_t count = 0;
   int shared = 0;
-  around(a, [&](std::uint32_t from_a) {
-    const std::uint32_t v = to(from_a);
-    around(b, [&](std::uint32_t from_b) { shared += to(from_b) == v; });
+  const auto in_ring = [&](std::uint32_t v) {
+    shared += std::find(ring.begin(), ring.begin() + count, v) != ring.begin() + count;
+  };
+  around(a, [&](std::uint32_t half_a) {
+    ring[count++] = to(half_a);
+    if (count < kRing) return;
+    around(b, [&](std::uint32_t half_b) { in_ring(to(half_b)); });
+    count = 0;
   });
+  around(b, [&](std::uint32_t half_b) { in_ring(to(half_b)); });
   return shared == 2;
 }
 

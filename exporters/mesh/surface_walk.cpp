@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <utility>
 
 #include <glm/geometric.hpp>
+#include <tbb/parallel_for.h>
 
 #include "core/surface/walks.h"
 #include "exporters/mesh/contact_colors.h"
@@ -34,23 +34,24 @@ double angle_along(const Arc& arc, const glm::dvec3& x) {
 
 }  // namespace
 
-SurfaceWalk::SurfaceWalk(const Surface& surface, std::vector<bool> barred)
-    : surface_(surface), barred_(std::move(barred)) {
-  first_.reserve(surface.faces.size() + 1);
-  sides_.reserve(surface.half_borders.size());
-  for (std::uint32_t f = 0; f < surface.faces.size(); ++f) {
-    first_.push_back(static_cast<std::uint32_t>(sides_.size()));
-    list_sides(f);
+SurfaceWalk::SurfaceWalk(const Surface& surface)
+    : surface_(surface), barred_(surface.borders.size(), false), first_(surface.faces.size() + 1, 0) {
+  for (std::size_t f = 0; f < surface.faces.size(); ++f) {
+    first_[f + 1] = first_[f];
+    for (const Loop& loop : loops_of(surface, surface.faces[f])) first_[f + 1] += loop.half_border_count;
   }
-  first_.push_back(static_cast<std::uint32_t>(sides_.size()));
+  sides_.resize(first_.back());
+  tbb::parallel_for(std::size_t{0}, surface.faces.size(),
+                    [&](std::size_t f) { list_sides(static_cast<std::uint32_t>(f)); });
 }
 
 void SurfaceWalk::list_sides(std::uint32_t f) {
   const Face& face = surface_.faces[f];
+  std::uint32_t place = first_[f];
   for_each_half_border(surface_, face, [&](HalfBorder half) {
     const std::uint32_t b = border_of(half);
     const Border& border = surface_.borders[b];
-    Side side;
+    Side& side = sides_[place++];
     side.border = b;
     side.beyond = border.face[is_backwards(half) ? 0 : 1];
     if (face.kind != PatchKind::toroidal) {
@@ -72,7 +73,6 @@ void SurfaceWalk::list_sides(std::uint32_t f) {
                         : Wall::end;
       }
     }
-    sides_.push_back(side);
   });
 }
 

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -23,8 +24,10 @@ struct SurfacePoint {
 /// goes on with the face on its other side. Points have to be nearer to the surface than its radii of curvature.
 class SurfaceWalk {
  public:
-  /// `surface` must live as long. barred: per border, whether no walk may cross it.
-  SurfaceWalk(const Surface& surface, std::vector<bool> barred);
+  /// `surface` must live as long. Walks may cross all borders.
+  explicit SurfaceWalk(const Surface& surface);
+  /// From now on no walk crosses these; per border.
+  void bar(std::vector<bool> barred) { barred_ = std::move(barred); }
 
   /// The point of the surface under x for a walk that begins at `face`; nothing if it leads nowhere or to a bar.
   std::optional<SurfacePoint> below(const glm::dvec3& x, std::uint32_t face) const;

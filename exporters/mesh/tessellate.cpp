@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <set>
 #include <tuple>
@@ -22,13 +23,11 @@
 #include "exporters/mesh/border_samples.h"
 #include "exporters/mesh/compare_mesh.h"
 #include "exporters/mesh/face_mesh.h"
-#include "exporters/mesh/sphere_lattice.h"
+#include "exporters/mesh/filled_faces.h"
 
 namespace meniscus {
 namespace {
 
-/// Rims that cross themselves are sampled finer this often before a face is given up.
-constexpr int kUntanglingRounds = 24;
 /// More points than any seam has.
 constexpr std::uint32_t kSeamNames = 1024;
 /// Normals of neighbouring faces that differ by more than this (radian) make a sharp vertex.
@@ -55,7 +54,6 @@ class Tessellation {
         faces_(surface.faces.size()) {}
 
   TriangleMesh run() {
-    make_lattices();
     fill_faces();
     tbb::parallel_for(std::size_t{0}, faces_.size(), [&](std::size_t f) { part_doubled_edges(faces_[f]); });
     part_shared_edges();
@@ -76,71 +74,15 @@ class Tessellation {
   }
 
  private:
-  double face_edge(const Face& face) const { return rule_.edge(tube_radius(surface_, face)); }
-  int face_frequency(const Face& face) const {
-    return lattice_frequency(face_edge(face) / tube_radius(surface_, face));
-  }
   double largest_tolerance() const {
     double largest = 0;
     for (const Face& face : surface_.faces) largest = std::max(largest, rule_.tolerance(tube_radius(surface_, face)));
     return largest;
   }
-  void make_lattices() {
-    for (const Face& face : surface_.faces) {
-      if (face.kind == PatchKind::toroidal) continue;
-      const int frequency = face_frequency(face);
-      if (!lattices_.contains(frequency)) lattices_[frequency] = sphere_lattice(frequency);
-    }
-  }
-
-  FaceOutline outline(std::uint32_t f) const {
-    const Face& face = surface_.faces[f];
-    if (face.kind == PatchKind::toroidal) return torus_outline(surface_, face, *samples_, rule_);
-    return sphere_outline(surface_, face, *samples_, lattices_.at(face_frequency(face)), face_edge(face));
-  }
-  FaceMesh fill(std::uint32_t f) const {
-    const Face& face = surface_.faces[f];
-    if (face.loop_count == 0) return whole_sphere(surface_, face, lattices_.at(face_frequency(face)));
-    FaceOutline rim = outline(f);
-    if (rim.edges.size() < 3) return {};  // shrunk to a point or to one line
-    FaceMesh mesh = fill_outline(std::move(rim), rule_.tolerance(tube_radius(surface_, face)));
-    give_back_room(mesh);
-    return mesh;
-  }
-  /// Lists that grew row by row have room for half as much again.
-  static void give_back_room(FaceMesh& mesh) {
-    mesh.points.shrink_to_fit();
-    mesh.triangles.shrink_to_fit();
-    mesh.atom.shrink_to_fit();
-    mesh.bridges.shrink_to_fit();
-  }
-
   void fill_faces() {
-    std::vector<std::uint32_t> todo(faces_.size());
-    for (std::uint32_t f = 0; f < todo.size(); ++f) todo[f] = f;
-    for (int round = 0; round < kUntanglingRounds && !todo.empty(); ++round) {
-      tbb::parallel_for(std::size_t{0}, todo.size(), [&](std::size_t i) { faces_[todo[i]] = fill(todo[i]); });
-      std::set<std::pair<std::uint32_t, std::uint32_t>> segments;
-      for (std::uint32_t f : todo) {
-        for (const Segment& s : faces_[f].too_coarse) segments.insert({s.border, s.index});
-      }
-      std::set<std::uint32_t> dirty;
-      for (auto s = segments.rbegin(); s != segments.rend(); ++s) {  // from the back, so that indices stay true
-        samples_->split(s->first, s->second);
-        for (std::uint32_t f : surface_.borders[s->first].face) dirty.insert(f);
-      }
-      todo.assign(dirty.begin(), dirty.end());
-    }
-    tbb::parallel_for(std::size_t{0}, faces_.size(), [&](std::size_t f) {
-      if (!faces_[f].triangles.empty()) return;
-      FaceOutline rim = outline(static_cast<std::uint32_t>(f));
-      if (rim.edges.size() < 3) return;
-      if (rim.loop_count > 1) {
-        throw OpenSurfaceError(
-            fmt::format("the mesh cannot be closed: the borders of face {} cross; give a smaller tolerance", f));
-      }
-      faces_[f] = fan_outline(std::move(rim));
-    });
+    std::vector<std::uint32_t> all(faces_.size());
+    std::iota(all.begin(), all.end(), 0u);
+    FaceFilling(surface_, rule_, *samples_).fill(std::move(all), faces_);
   }
 
   bool on_seam(const FaceMesh& mesh, const std::array<int, 2>& edge) const {
@@ -401,7 +343,6 @@ class Tessellation {
   const MeshOptions& options_;
   const EdgeRule rule_;
   std::optional<BorderSamples> samples_;  // until vertices are numbered
-  std::map<int, SphereLattice> lattices_;
   std::vector<FaceMesh> faces_;
   TriangleMesh mesh_;
   std::vector<std::uint32_t> vertex_number_, border_number_;

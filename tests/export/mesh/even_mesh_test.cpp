@@ -14,6 +14,7 @@
 #include "core/math/box_tree.h"
 #include "core/queries/distance.h"
 #include "core/surface/surface.h"
+#include "exporters/mesh/coarse_mesh.h"
 #include "exporters/mesh/even_mesh.h"
 #include "exporters/mesh/mesh_crossings.h"
 #include "exporters/mesh/tessellate.h"
@@ -170,6 +171,29 @@ TEST_P(EvenMeshOf, HasTheTopologyOfTheSurfaceAtAnyDensity) {
   }
 }
 
+void expect_coarse_mesh(const Surface& surface) {
+  TriangleMesh mesh = coarse_mesh(surface, SurfaceWalk(surface));
+  for (const std::uint32_t f : mesh.face) mesh.component.push_back(surface.faces[f].component);
+  ASSERT_TRUE(measure(mesh).closed);
+  for (std::uint32_t k = 0; k < surface.components.size(); ++k)
+    EXPECT_EQ(measure(mesh, k).euler(), surface.components[k].euler) << "component " << k;
+  EXPECT_LE(mesh.triangles.size(), tessellate(surface, {0.05, false}).triangles.size());
+  const SurfaceDistance distance(surface);
+  for (const glm::dvec3& x : mesh.positions) ASSERT_LT(std::abs(distance(x).distance), 1e-7);
+}
+
+TEST_P(EvenMeshOf, BeginsWithFewTrianglesOfTheSameTopology) {
+  const Case& c = GetParam();
+  if (c.probe > 0.0) expect_coarse_mesh(compute_surface_cpu(c.balls, c.probe));  // else patch-aligned meshes begin
+}
+
+TEST(CoarseMesh, IsThatOfUbiquitinForSomeProbes) {
+  for (const double probe : {0.5, 1.4, 3.0}) {
+    SCOPED_TRACE(probe);
+    expect_coarse_mesh(compute_surface_cpu(ubiquitin(), probe));
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Molecules, EvenMeshOf, ::testing::ValuesIn(cases()),
                          [](const auto& test) { return test.param.name; });
 
@@ -178,6 +202,19 @@ TEST(EvenMesh, DensityIsVerticesPerArea) {
   for (const double density : {0.5, 1.0, 3.0, 10.0}) {
     const TriangleMesh mesh = even_mesh(surface, {density, 0.0, {}}).mesh;
     EXPECT_NEAR(static_cast<double>(mesh.positions.size()) / (density * surface.area), 1.0, 0.12) << density;
+  }
+}
+
+/// Creases crowd in a gas, and triangles that cross there have to part or to stay as the base has them.
+TEST(EvenMesh, IsFoundWhereCreasesCrowd) {
+  for (const std::uint32_t seed : {1u, 2u, 3u, 4u, 5u, 6u}) {
+    const Surface surface = compute_surface_cpu(gas(seed, 60, 16.0, 1.0, 2.0), 1.8);
+    for (const double density : {0.05, 0.3, 2.0}) {
+      SCOPED_TRACE(std::to_string(seed) + " " + std::to_string(density));
+      const TriangleMesh mesh = even_mesh(surface, {density, 0.0, {}}).mesh;
+      expect_same_topology(surface, mesh);
+      EXPECT_TRUE(crossing_triangles(mesh.positions, mesh.triangles).empty());
+    }
   }
 }
 

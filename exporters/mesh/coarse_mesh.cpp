@@ -1,0 +1,332 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Polygons of border samples, cut into triangles without a plane to triangulate them in wherever they are simple.
+#include "exporters/mesh/coarse_mesh.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <optional>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <tbb/parallel_for.h>
+
+#include "core/base/error.h"
+#include "core/surface/walks.h"
+#include "exporters/mesh/border_samples.h"
+#include "exporters/mesh/filled_faces.h"
+
+namespace meniscus {
+namespace {
+
+/// Å: longer than any edge that a face of a molecule lets be, so that the angles of EdgeRule decide.
+constexpr double kAnyEdge = 10.0;
+/// A fan's triangles see its middle from no farther than the cosine of this many radian (1.9) away.
+constexpr double kWidestFan = -0.32;
+/// Corners of a saddle that is a fan: longer ones bend too much.
+constexpr std::size_t kMostSaddleCorners = 6;
+
+using Corners = std::vector<BorderPoint>;
+
+class CoarseMeshing {
+ public:
+  CoarseMeshing(const Surface& surface, const SurfaceWalk& walk)
+      : surface_(surface),
+        walk_(walk),
+        rule_(MeshOptions{0.4, false, kAnyEdge}),
+        samples_(surface, rule_, false),
+        filling_(surface, rule_, samples_),
+        parts_(surface.faces.size()),
+        filled_(surface.faces.size()) {}
+
+  TriangleMesh run() {
+    for (std::vector<std::uint32_t> hard = plan(); !hard.empty(); hard = plan()) {
+      for (const std::uint32_t f : hard) parts_[f].cut = Cut::filled;
+      filling_.fill(std::move(hard), filled_);
+    }
+    number_vertices();
+    part_shared_edges();
+    put_faces();
+    return std::move(mesh_);
+  }
+
+ private:
+  enum class Cut : std::uint8_t { none, triangle, diagonal, fan, filled };
+  /// What becomes of a face, and where its rows begin.
+  struct Part {
+    Cut cut = Cut::none;
+    std::uint8_t diagonal = 0;  ///< the corner it begins at
+    std::uint32_t corners = 0, vertex = 0, triangle = 0;
+    glm::dvec3 middle{0.0};  ///< of a fan
+  };
+
+  /// The corners of a face with one loop, the face on their left.
+  Corners corners_of(const Face& face) const {
+    Corners corners;
+    for (const HalfBorder half : half_borders_of(surface_, loops_of(surface_, face)[0])) {
+      const std::uint32_t border = border_of(half), n = samples_.segment_count(border);
+      for (std::uint32_t k = 0; k < n; ++k) corners.push_back(samples_.point(border, is_backwards(half) ? n - k : k));
+    }
+    return corners;
+  }
+
+  /// Finds how each face is cut; returns those that have to be filled and are not yet.
+  std::vector<std::uint32_t> plan() {
+    std::vector<std::uint8_t> hard(parts_.size(), 0);
+    tbb::parallel_for(std::size_t{0}, parts_.size(), [&](std::size_t f) {
+      if (parts_[f].cut == Cut::filled) return;
+      const auto part = simple_part(static_cast<std::uint32_t>(f));
+      hard[f] = !part;
+      if (part) parts_[f] = *part;
+    });
+    std::vector<std::uint32_t> found;
+    for (std::uint32_t f = 0; f < hard.size(); ++f)
+      if (hard[f]) found.push_back(f);
+    return found;
+  }
+
+  std::optional<Part> simple_part(std::uint32_t f) const {
+    const Face& face = surface_.faces[f];
+    if (face.loop_count != 1 || face.tip != kNone) return std::nullopt;
+    const Corners corners = corners_of(face);
+    Part part;
+    part.corners = static_cast<std::uint32_t>(corners.size());
+    if (corners.size() < 3) return part;  // shrunk to a point or to one line
+    if (corners.size() == 3) {
+      part.cut = Cut::triangle;
+      return part;
+    }
+    Corners sorted = corners;
+    std::sort(sorted.begin(), sorted.end());
+    if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end()) return std::nullopt;
+    std::vector<glm::dvec3> at;
+    for (const BorderPoint& point : corners) at.push_back(samples_.position(point));
+    if (face.kind != PatchKind::toroidal) return sphere_fan(f, part, at);
+    if (corners.size() == 4) {
+      part.cut = Cut::diagonal;
+      part.diagonal = glm::distance(at[0], at[2]) <= glm::distance(at[1], at[3]) ? 0 : 1;
+      return part;
+    }
+    return saddle_fan(f, part, at);
+  }
+
+  /// Seen from the centre a fan must turn around its middle, and the middle must be on the face.
+  std::optional<Part> sphere_fan(std::uint32_t f, Part part, std::vector<glm::dvec3>& at) const {
+    const Face& face = surface_.faces[f];
+    const bool convex = face.kind == PatchKind::convex;
+    const Ball sphere = convex ? surface_.atoms[surface_.convex[face.patch].atom]
+                               : Ball{surface_.concave[face.patch].center, surface_.probe_radius};
+    glm::dvec3 area(0.0);  // the vector area of what the rim goes around points to its middle
+    for (glm::dvec3& x : at) x = (x - sphere.center) / sphere.radius;
+    for (std::size_t k = 0; k < at.size(); ++k) area += glm::cross(at[k], at[(k + 1) % at.size()]);
+    if (!convex) area = -area;
+    const double size = glm::length(area);
+    if (!(size > 0.0)) return std::nullopt;
+    const glm::dvec3 middle = area / size;
+    for (std::size_t k = 0; k < at.size(); ++k) {
+      const double turn = glm::dot(middle, glm::cross(at[k], at[(k + 1) % at.size()]));
+      if (!((convex ? turn : -turn) > 0.0) || glm::dot(middle, at[k]) < kWidestFan) return std::nullopt;
+    }
+    return with_middle(f, part, sphere.center + sphere.radius * middle);
+  }
+  std::optional<Part> saddle_fan(std::uint32_t f, Part part, const std::vector<glm::dvec3>& at) const {
+    if (at.size() > kMostSaddleCorners) return std::nullopt;
+    glm::dvec3 sum(0.0);
+    for (const glm::dvec3& x : at) sum += x;
+    return with_middle(f, part, sum / static_cast<double>(at.size()));
+  }
+  std::optional<Part> with_middle(std::uint32_t f, Part part, const glm::dvec3& x) const {
+    const auto on = walk_.below(x, f);
+    if (!on || on->face != f) return std::nullopt;
+    part.cut = Cut::fan;
+    part.middle = on->position;
+    return part;
+  }
+
+  /// Vertices of the surface that are used, border samples, then each face's own.
+  void number_vertices() {
+    vertex_number_.assign(surface_.vertices.size(), kNone);
+    border_number_.resize(surface_.borders.size());
+    for (std::uint32_t b = 0; b < surface_.borders.size(); ++b) {
+      const std::uint32_t n = samples_.segment_count(b);
+      for (std::uint32_t k = 0; k < n; ++k)
+        for (const BorderPoint& end : {samples_.point(b, k), samples_.point(b, k + 1)})
+          if (end.border == kNone) number_vertex(end.index);
+    }
+    for (const Face& face : surface_.faces)
+      if (face.tip != kNone) number_vertex(samples_.representative(face.tip));
+    for (std::uint32_t b = 0; b < surface_.borders.size(); ++b) {
+      const std::uint32_t n = samples_.segment_count(b);
+      const bool ring = surface_.borders[b].vertex[0] == kNone;
+      const auto next = static_cast<std::uint32_t>(mesh_.positions.size());
+      border_number_[b] = ring ? next : next - 1;  // sample 1 of an arc is its first inner point
+      for (std::uint32_t k = ring ? 0 : 1; k < n; ++k) mesh_.positions.push_back(samples_.position(b, k));
+    }
+  }
+  void number_vertex(std::uint32_t vertex) {
+    if (vertex_number_[vertex] != kNone) return;
+    vertex_number_[vertex] = static_cast<std::uint32_t>(mesh_.positions.size());
+    mesh_.positions.push_back(surface_.vertices[vertex]);
+  }
+  std::uint32_t number(const BorderPoint& name) const {
+    return name.border == kNone ? vertex_number_[name.index] : border_number_[name.border] + name.index;
+  }
+
+  void put_faces() {
+    auto vertices = static_cast<std::uint32_t>(mesh_.positions.size());
+    std::uint32_t triangles = 0;
+    for (std::uint32_t f = 0; f < parts_.size(); ++f) {
+      Part& part = parts_[f];
+      part.triangle = triangles;
+      part.vertex = vertices;
+      if (part.cut == Cut::filled) {
+        triangles += static_cast<std::uint32_t>(filled_[f].triangles.size());
+        vertices += own_vertices(filled_[f]);
+      } else if (part.corners >= 3) {
+        triangles += part.corners - (part.cut == Cut::fan ? 0 : 2);
+        vertices += part.cut == Cut::fan;
+      }
+    }
+    mesh_.positions.resize(vertices);
+    mesh_.triangles.resize(triangles);
+    mesh_.face.resize(triangles);
+    tbb::parallel_for(std::size_t{0}, parts_.size(), [&](std::size_t f) { put_face(static_cast<std::uint32_t>(f)); });
+  }
+  /// An edge inside of a face between two points of rims, by their numbers.
+  struct Bridge {
+    std::uint32_t a, b, face, index;
+  };
+  bool on_rims(std::uint32_t face, std::uint32_t point) const { return filled_[face].rim[point].border != kSeam; }
+  /// Two faces may each draw an edge between the same two points of their rims: those of faces that were filled get a
+  /// vertex of their own then.
+  void part_shared_edges() {
+    std::vector<Bridge> bridges;
+    std::vector<std::uint8_t> at_bridge(mesh_.positions.size(), 0);
+    const auto add = [&](std::uint32_t u, std::uint32_t w, std::uint32_t face, std::uint32_t index) {
+      bridges.push_back({std::min(u, w), std::max(u, w), face, index});
+    };
+    for (std::uint32_t f = 0; f < parts_.size(); ++f) {
+      if (parts_[f].cut != Cut::filled) continue;
+      part_doubled_edges(filled_[f]);
+      for (std::uint32_t i = 0; i < filled_[f].bridges.size(); ++i) {
+        const auto [u, w] = filled_[f].bridges[i];
+        if (!on_rims(f, u) || !on_rims(f, w)) continue;
+        add(number(filled_[f].rim[u]), number(filled_[f].rim[w]), f, i);
+        at_bridge[bridges.back().a] = at_bridge[bridges.back().b] = 1;
+      }
+    }
+    const auto add_other = [&](const BorderPoint& p, const BorderPoint& q) {
+      if (at_bridge[number(p)] && at_bridge[number(q)]) add(number(p), number(q), kNone, 0);
+    };
+    for (std::uint32_t b = 0; b < surface_.borders.size(); ++b)
+      for (std::uint32_t k = 0; k < samples_.segment_count(b); ++k)
+        add_other(samples_.point(b, k), samples_.point(b, k + 1));
+    for (std::uint32_t f = 0; f < parts_.size(); ++f) {
+      if (parts_[f].cut != Cut::diagonal) continue;
+      const Corners corners = corners_of(surface_.faces[f]);
+      add_other(corners[parts_[f].diagonal], corners[parts_[f].diagonal + 2]);
+    }
+    std::sort(bridges.begin(), bridges.end(), [](const Bridge& x, const Bridge& y) {
+      return std::tie(x.a, x.b, x.face, x.index) < std::tie(y.a, y.b, y.face, y.index);
+    });
+    const auto same = [&](std::size_t i, std::size_t j) {
+      return j < bridges.size() && bridges[i].a == bridges[j].a && bridges[i].b == bridges[j].b;
+    };
+    for (std::size_t i = 0; i < bridges.size(); ++i) {
+      if (bridges[i].face == kNone || !(same(i, i - 1) || same(i, i + 1))) continue;
+      FaceMesh& mesh = filled_[bridges[i].face];
+      const auto [u, w] = mesh.bridges[bridges[i].index];
+      split_edge(mesh, u, w);
+    }
+  }
+  /// Per seam point its number among the face's own.
+  static std::map<std::uint32_t, std::uint32_t> seam_of(const FaceMesh& mesh) {
+    std::map<std::uint32_t, std::uint32_t> seam;
+    for (const BorderPoint& name : mesh.rim)
+      if (name.border == kSeam) seam.try_emplace(name.index, static_cast<std::uint32_t>(seam.size()));
+    return seam;
+  }
+  static std::uint32_t own_vertices(const FaceMesh& mesh) {
+    return static_cast<std::uint32_t>(mesh.points.size() - mesh.rim.size() + seam_of(mesh).size());
+  }
+
+  void put_face(std::uint32_t f) {
+    const Part& part = parts_[f];
+    if (part.cut == Cut::none) return;
+    if (part.cut == Cut::filled) return put_filled(f);
+    std::vector<std::uint32_t> v;
+    for (const BorderPoint& point : corners_of(surface_.faces[f])) v.push_back(number(point));
+    const std::size_t n = v.size();
+    std::uint32_t row = part.triangle;
+    const auto put = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+      mesh_.face[row] = f;
+      mesh_.triangles[row++] = {a, b, c};
+    };
+    if (part.cut == Cut::fan) {
+      mesh_.positions[part.vertex] = part.middle;
+      for (std::size_t k = 0; k < n; ++k) put(v[k], v[(k + 1) % n], part.vertex);
+    } else {
+      const std::size_t d = part.diagonal;
+      put(v[d], v[d + 1], v[d + 2]);
+      if (n == 4) put(v[d + 2], v[(d + 3) % 4], v[d]);
+    }
+  }
+  void put_filled(std::uint32_t f) {
+    const FaceMesh& mesh = filled_[f];
+    const auto seam = seam_of(mesh);
+    const auto rim = static_cast<std::uint32_t>(mesh.rim.size());
+    std::vector<std::uint32_t> v(mesh.points.size());
+    for (std::uint32_t i = 0; i < v.size(); ++i) {
+      const bool inner = i >= rim, on_seam = !inner && mesh.rim[i].border == kSeam;
+      if (inner) v[i] = parts_[f].vertex + static_cast<std::uint32_t>(seam.size()) + i - rim;
+      if (on_seam) v[i] = parts_[f].vertex + seam.at(mesh.rim[i].index);
+      if (inner || on_seam) mesh_.positions[v[i]] = mesh.points[i].position;
+      if (!inner && !on_seam) v[i] = number(mesh.rim[i]);
+    }
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+      const auto& [a, b, c] = mesh.triangles[t];
+      mesh_.triangles[parts_[f].triangle + t] = {v[a], v[b], v[c]};
+      mesh_.face[parts_[f].triangle + t] = f;
+    }
+  }
+
+  const Surface& surface_;
+  const SurfaceWalk& walk_;
+  const EdgeRule rule_;
+  BorderSamples samples_;
+  FaceFilling filling_;
+  std::vector<Part> parts_;       ///< per face
+  std::vector<FaceMesh> filled_;  ///< per face; of those that were filled
+  std::vector<std::uint32_t> vertex_number_, border_number_;
+  TriangleMesh mesh_;
+};
+
+/// V - E + F of each component, as the triangles' faces part them.
+void check_euler(const Surface& surface, const TriangleMesh& mesh) {
+  std::vector<int> twice(surface.components.size(), 0);  // closed: E = 3 F / 2
+  std::vector<std::uint8_t> seen(mesh.positions.size(), 0);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    int& sum = twice[surface.faces[mesh.face[t]].component];
+    --sum;
+    for (const std::uint32_t v : mesh.triangles[t])
+      if (!std::exchange(seen[v], 1)) sum += 2;
+  }
+  if (std::find(seen.begin(), seen.end(), 0) != seen.end())
+    throw OpenSurfaceError("the coarsest mesh has points without triangles");
+  for (std::size_t c = 0; c < twice.size(); ++c)
+    if (twice[c] != 2 * surface.components[c].euler)
+      throw OpenSurfaceError(fmt::format("the coarsest mesh of component {} has another topology", c));
+}
+
+}  // namespace
+
+TriangleMesh coarse_mesh(const Surface& surface, const SurfaceWalk& walk) {
+  TriangleMesh mesh = CoarseMeshing(surface, walk).run();
+  check_euler(surface, mesh);
+  return mesh;
+}
+
+}  // namespace meniscus
