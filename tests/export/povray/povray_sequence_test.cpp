@@ -161,9 +161,16 @@ TEST_F(PovraySequence, PicturesHaveTheNumbersOfTheTrajectory) {
 
 TEST_F(PovraySequence, TheCameraIsSaved) {
   const std::string first = path("first.json").string(), again = path("again.json").string();
-  ASSERT_EQ(export_run("run", {"--frames", "1-5:2", "--save-camera", first}).exit_code, 0);
+  ASSERT_EQ(export_run("run", {"--frames", "1-5:2", "--turn", "y30", "--save-camera", first}).exit_code, 0);
   ASSERT_EQ(export_run("one", {"--camera", first, "--save-camera", again}).exit_code, 0);
   EXPECT_EQ(test::read_bytes(first), test::read_bytes(again));
+  const auto line = [&](const std::string& scene, const std::string& name) {
+    const std::string text = test::read_bytes(path(scene) / "surface.pov");
+    const std::size_t begin = text.find("#declare " + name);
+    return begin == std::string::npos ? scene : text.substr(begin, text.find('\n', begin) - begin);
+  };
+  for (const std::string name : {"Meniscus_Right", "Meniscus_Up", "Meniscus_Forward", "Meniscus_Picture_Height"})
+    EXPECT_EQ(line("run", name), line("one", name));
   EXPECT_EQ(export_run("two", {"--save-camera", again}).exit_code, 6);  // it is there
   EXPECT_FALSE(std::filesystem::exists(path("two")));
   const Words turning{"--frames", "1,3", "--turntable", "1", "--save-camera", path("new.json").string()};
