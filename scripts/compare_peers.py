@@ -71,13 +71,14 @@ def measured(command, folder, **environment):
 
 
 def called(work):
-    """Median of the wall clock of a call, and its last result."""
-    walls = []
+    """Medians of the wall clock and of CPU seconds of a call, and its last result."""
+    walls, busy = [], []
     for _ in range(RUNS):
-        begin = time.perf_counter()
+        begin, begin_busy = time.perf_counter(), time.process_time()
         result = work()
         walls.append(time.perf_counter() - begin)
-    return statistics.median(walls), result
+        busy.append(time.process_time() - begin_busy)
+    return statistics.median(walls), statistics.median(busy), result
 
 
 def areas(program, molecule, folder):
@@ -99,7 +100,7 @@ def areas(program, molecule, folder):
     sasa._ATOMIC_RADII.update({element: radius / 10 for element, radius in RADII.items()})  # it takes no list of radii
     trajectory = mdtraj.load_pdb(molecule.pdb, standard_names=False)
     for points in (100, 960):
-        wall, result = called(lambda: mdtraj.shrake_rupley(trajectory, PROBE / 10, n_sphere_points=points))
+        wall, _, result = called(lambda: mdtraj.shrake_rupley(trajectory, PROBE / 10, n_sphere_points=points))
         yield "MDTraj", f"{points} points, the call alone", 100 * float(result.sum()), wall
     for density in (2, 4):
         wall, area = pymol_area(molecule, folder, density)
@@ -128,44 +129,44 @@ def make_trajectory(molecule, folder):
 
 
 def series(program, molecule, folder):
-    """Rows: program, setting, areas of all frames (Å²), seconds of all of them."""
+    """Rows: program, setting, areas of all frames (Å²), wall and CPU seconds of all of them."""
     trajectory, xtc, models = make_trajectory(molecule, folder)
-    wall, _, _, output = measured([program, "surface", molecule.xyzr, xtc, "--surface", "sas", "--csv-series", "-", "-q"], folder)
+    wall, busy, _, output = measured([program, "surface", molecule.xyzr, xtc, "--surface", "sas", "--csv-series", "-", "-q"], folder)
     header, *rows = [line.split(",") for line in output.splitlines()]
-    yield "Meniscus", "closed form", [float(row[header.index("sas_area")]) for row in rows], wall
+    yield "Meniscus", "closed form", [float(row[header.index("sas_area")]) for row in rows], wall, busy
     for method, points in (("lee-richards", 20), ("shrake-rupley", 100)):
-        wall, _, _, output = measured(["freesasa", f"--{method}", f"--resolution={points}", "--n-threads=2", "--hetatm",
+        wall, busy, _, output = measured(["freesasa", f"--{method}", f"--resolution={points}", "--n-threads=2", "--hetatm",
                                        "--radius-from-occupancy", f"--probe-radius={PROBE}", "--separate-models", models], folder)
         kind = "slices" if method == "lee-richards" else "points"
-        yield "FreeSASA", f"{method}, {points} {kind}", [float(area) for area in re.findall(r"Total\s*:\s*([\d.]+)", output)], wall
+        yield "FreeSASA", f"{method}, {points} {kind}", [float(area) for area in re.findall(r"Total\s*:\s*([\d.]+)", output)], wall, busy
     for points in (24, 960):
-        wall, _, _, _ = measured(["gmx", "sasa", "-quiet", "-s", molecule.pdb, "-f", xtc, "-surface", "all", "-nopbc",
+        wall, busy, _, _ = measured(["gmx", "sasa", "-quiet", "-s", molecule.pdb, "-f", xtc, "-surface", "all", "-nopbc",
                                   "-probe", str(PROBE / 10), "-ndots", str(points), "-xvg", "none", "-o", "series.xvg"],
                                  folder, OMP_NUM_THREADS="2", GMX_MAXBACKUP="-1")
         with open(os.path.join(folder, "series.xvg"), encoding="ascii") as file:
-            yield "gmx sasa", f"{points} points", [100 * float(line.split()[1]) for line in file], wall
+            yield "gmx sasa", f"{points} points", [100 * float(line.split()[1]) for line in file], wall, busy
     for points in (100, 960):
-        wall, result = called(lambda: mdtraj.shrake_rupley(trajectory, PROBE / 10, n_sphere_points=points))
-        yield "MDTraj", f"{points} points, the call alone", [100 * float(area) for area in result.sum(axis=1)], wall
+        wall, busy, result = called(lambda: mdtraj.shrake_rupley(trajectory, PROBE / 10, n_sphere_points=points))
+        yield "MDTraj", f"{points} points, the call alone", [100 * float(area) for area in result.sum(axis=1)], wall, busy
 
 
 def print_series(program, molecule, folder):
     """Prints the table; how many rows it has, and how many of them are off."""
     print(f"\n{molecule.name}, {FRAMES} frames: solvent-accessible area of each\n")
-    print("| program | method | mean error | largest | ms a frame |\n|---|---|---|---|---|")
+    print("| program | method | mean error | largest | ms a frame | CPU ms |\n|---|---|---|---|---|---|")
     exact, count, failures = None, 0, 0
-    for name, setting, found, wall in series(program, molecule, folder):
+    for name, setting, found, wall, busy in series(program, molecule, folder):
         areas_found = numpy.array(found)
         exact = areas_found if exact is None else exact
         count += 1
         if areas_found.shape != exact.shape or len(exact) != FRAMES:
             failures += 1
-            print(f"| {name} | {setting} | {len(found)} frames of {FRAMES} | | |", flush=True)
+            print(f"| {name} | {setting} | {len(found)} frames of {FRAMES} | | | |", flush=True)
             continue
         errors = areas_found / exact - 1
         failures += abs(errors).max() > LIMIT
         told = "exact | exact" if areas_found is exact else f"{100 * errors.mean():+.3f} % | {100 * abs(errors).max():.3f} %"
-        print(f"| {name} | {setting} | {told} | {1000 * wall / FRAMES:,.1f} |", flush=True)
+        print(f"| {name} | {setting} | {told} | {1000 * wall / FRAMES:,.1f} | {1000 * busy / FRAMES:,.1f} |", flush=True)
     return count, failures
 
 

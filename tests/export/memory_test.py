@@ -68,7 +68,7 @@ def write_run(folder):
     with open(run, "w", encoding="ascii") as file:
         file.write("a run\n")
         for frame in range(RUN_FRAMES):
-            fields = [f"{x + 0.3 * math.sin(0.05 * frame + n % 7):8.3f}" for n, x in enumerate(start)]
+            fields = [f"{x + 0.05 * math.sin(0.05 * frame + n % 7):8.3f}" for n, x in enumerate(start)]
             file.writelines("".join(fields[n:n + 10]) + "\n" for n in range(0, len(fields), 10))
     return str(path), str(run)
 

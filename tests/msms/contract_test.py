@@ -11,7 +11,7 @@ import subprocess
 import tempfile
 import unittest
 
-from msms_run import (ANALYTIC, BUILD, MSMS, NUMERIC, TOXIN, UBIQUITIN, Folder, run, scanned_vertices, table, triangles,
+from msms_run import (ANALYTIC, BUILD, LYSOZYME, MSMS, NUMERIC, TOXIN, UBIQUITIN, Folder, run, scanned_vertices, table, triangles,
                       vertices)
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -296,6 +296,38 @@ class Components(Folder):
         for words in (("2", "1", "2"), ("1", "7")):  # opposite ends; no such sphere
             done = self.refused(3, "-if", "in.xyzr", "-of", "out", "-probe_radius", "1.4", "-one_cavity", *words)
             self.assertIn("find_first_rs_face", done.stderr)
+
+
+    def test_those_of_lysozyme_beside_those_of_the_surface(self):
+        """Sheets of the reduced surface are those of the solvent-accessible one; where two of them cross, they are one
+        component of the solvent-excluded surface, and what crosses is cut off."""
+        (self.folder / "in.xyzr").write_text(run(BUILD / "meniscus-pdb_to_xyzr", LYSOZYME).stdout)
+        done = self.msms("-if", "in.xyzr", "-of", "out", "-all_components", "-probe_radius", "1.4", "-density", "1")
+        analytic, numeric = table(done.stdout, ANALYTIC), table(done.stdout, NUMERIC)
+        surfaces = {kind: json.loads(run(BUILD / "meniscus", "surface", self.folder / "in.xyzr", "--surface", kind, "--json",
+                                         "-q", "--device", "cpu").stdout)["components"] for kind in ("sas", "ses")}
+        self.assertEqual(len(analytic), 6)
+        for row, sheet in zip(analytic, surfaces["sas"], strict=True):
+            self.assertAlmostEqual(row[6], sheet["area"], delta=0.001)
+        clouds = [[row.position for row in vertices(self.folder / name)]
+                  for name in ("out.vert", *(f"out_{k}.vert" for k in range(1, 6)))]
+        groups = [{k} for k in range(6)]
+        for a in range(6):
+            for b in range(a):
+                if min(math.dist(p, q) for p in clouds[a] for q in clouds[b]) > 0.1:
+                    continue
+                joined = next(group for group in groups if a in group) | next(group for group in groups if b in group)
+                groups = [group for group in groups if not group & joined] + [joined]
+        self.assertEqual(sorted(map(sorted, groups)), [[0, 1, 5], [2], [3, 4]])
+        groups.sort(key=lambda group: max(numeric[k][3] for k in group), reverse=True)
+        for group, part in zip(groups, surfaces["ses"], strict=True):  # each by falling area
+            volume, area = (sum(numeric[k][column] for k in group) for column in (2, 3))
+            if len(group) == 1:
+                self.assertAlmostEqual(part["volume"], volume, delta=0.001)
+                self.assertAlmostEqual(part["area"], area, delta=0.001)
+            else:
+                self.assertGreater(part["volume"], volume + 1.0)
+                self.assertLess(part["area"], area - 1.0)
 
 
 class Files(Folder):

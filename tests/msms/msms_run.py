@@ -12,6 +12,7 @@ import unittest
 BUILD = pathlib.Path(sys.argv.pop(1)).resolve()
 MSMS = BUILD / "meniscus-msms"
 UBIQUITIN = pathlib.Path("/usr/share/freesasa/test-data/1ubq.pdb")
+LYSOZYME = pathlib.Path("/usr/lib/R/site-library/bio3d/examples/1hel.pdb")
 TOXIN = pathlib.Path("/usr/share/pymol/data/demo/1tii.pdb")
 
 Vertex = collections.namedtuple("Vertex", "position normal face sphere level name")

@@ -16,6 +16,7 @@ import MDAnalysis  # noqa: E402
 import mdtraj  # noqa: E402
 import parmed  # noqa: E402
 
+CRAMBIN = "/usr/lib/R/site-library/bio3d/examples/crambin.prmtop"
 dump_program = meniscus_program = topology_file = None
 
 
@@ -70,6 +71,17 @@ class Prmtop(unittest.TestCase):
         traj = mdtraj.load_prmtop(str(topology_file))
         self.assertEqual([int(mine[6]) for mine in atoms], [atom.element.number for atom in traj.atoms])
         self.assertEqual(bonds, sorted(tuple(sorted((a.index, b.index))) for a, b in traj.bonds))
+
+    def test_a_file_that_leap_wrote(self):
+        """Crambin, with its disulfide bridges: lines end in blanks up to the 80th column."""
+        atoms, bonds = dump(CRAMBIN)
+        theirs = parmed.load_file(CRAMBIN)
+        self.assertEqual([(mine[0], mine[1], int(mine[2]), int(mine[6])) for mine in atoms],
+                         [(atom.name, atom.residue.name, atom.residue.idx + 1, atom.atomic_number) for atom in theirs.atoms])
+        np.testing.assert_allclose([(float(mine[7]), float(mine[8])) for mine in atoms],
+                                   [(atom.charge, atom.solvent_radius) for atom in theirs.atoms], atol=1e-6)
+        self.assertEqual(bonds, sorted(tuple(sorted((bond.atom1.idx, bond.atom2.idx))) for bond in theirs.bonds))
+        self.assertEqual(sum(atoms[a][0] == atoms[b][0] == "SG" for a, b in bonds), 3)
 
     def test_elements_by_mass_where_there_are_no_numbers(self):
         """As Amber before 12 writes them."""
