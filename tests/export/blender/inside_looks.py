@@ -124,6 +124,12 @@ class Looks(unittest.TestCase):
         self.assertEqual(len(names), 2)
         self.assertEqual(len([tree for tree in bpy.data.node_groups if looks.MARK in tree]), 1)
 
+    def test_glass_absorbs_in_cycles_and_refracts_in_eevee(self):
+        made = looks.material("GLASS", "COLOR")
+        volume = {node.target: node.inputs["Volume"].is_linked for node in made.node_tree.nodes if node.type == "OUTPUT_MATERIAL"}
+        self.assertEqual(volume, {"CYCLES": True, "EEVEE": False})
+        self.assertTrue(getattr(made, "use_screen_refraction", False) or getattr(made, "use_raytrace_refraction", False))
+
     def test_what_an_object_has_not_is_said(self):
         plate()
         with self.assertRaisesRegex(RuntimeError, "charge"):

@@ -103,6 +103,14 @@ def let_through(material):
         material.shadow_method = "HASHED"
 
 
+def refract(material):
+    """Makes Eevee show what is behind a transmitting surface, if its scene is told to: a setting of another name since 4.2."""
+    for name in ("use_screen_refraction", "use_raytrace_refraction"):
+        if hasattr(material, name):
+            setattr(material, name, True)
+            return
+
+
 def cast_shadows(light, wanted):
     """Cycles had a setting of its own before 4.2."""
     light.use_shadow = wanted

@@ -146,7 +146,8 @@ def material(look, coloring, scale=0.1):
         MAKERS[look](tree, shader, color, scale)
     tree.links.new(shader.outputs[0], output.inputs["Surface"])
     if look == "GLASS":
-        _tint(tree, color, output, scale)
+        _tint(tree, color, shader, output, scale)
+        compat.refract(made)
     return made
 
 
@@ -186,16 +187,19 @@ def _glass(_tree, shader, _color_, _scale_):
     _set(shader, 1.0, "Transmission Weight", "Transmission")
 
 
-def _tint(tree, color, output, scale):
+def _tint(tree, color, shader, output, scale):
     """Attributes belong to the surface, not to the volume: what enters takes the colour there, what is behind it is darker by
-    the way through."""
-    shader = next(node for node in tree.nodes if node.type == "BSDF_PRINCIPLED")
+    the way through. In Cycles: Eevee fills the whole bounding box with a volume, and has an output without one."""
     tree.links.new(compat.mix_colors(tree, 0.6, color, (1.0, 1.0, 1.0, 1.0)), shader.inputs["Base Color"])
     absorption = tree.nodes.new("ShaderNodeVolumeAbsorption")
     absorption.inputs["Color"].default_value = (0.75, 0.85, 0.9, 1.0)
     absorption.inputs["Density"].default_value = 0.02 / scale
     absorption.location = (output.location[0] - 220, output.location[1] - 200)
     tree.links.new(absorption.outputs[0], output.inputs["Volume"])
+    other = tree.nodes.new("ShaderNodeOutputMaterial")
+    output.target, other.target = "CYCLES", "EEVEE"
+    other.location = (output.location[0], output.location[1] - 300)
+    tree.links.new(shader.outputs[0], other.inputs["Surface"])
 
 
 MAKERS = {"PAINT": _paint, "CLAY": _clay, "WAX": _wax, "GLASS": _glass}
