@@ -18,14 +18,15 @@ test_packages=(libgtest-dev libbenchmark-dev glslang-tools spirv-tools mesa-vulk
   slurmctld slurmd slurm-client munge snakemake python3-yaml python3-jsonschema python3-prometheus-client libxml2-utils nodejs make git
   apbs pdb2pqr
   python3-biopython python3-ost jmol
+  admesh tetgen python3-meshio assimp-utils
   dpkg-dev lintian man-db mandoc zsh fish)
 fuzz_packages=(clang-14 libclang-rt-14-dev)
 # form, and a second compiler with sanitizers
 check_packages=("${fuzz_packages[@]}" clang-format-14 clang-tidy-14)
 # other programs that measure and draw surfaces
 peer_packages=(pymol pymol-data gromacs freesasa python3-mdtraj python3-scipy)
-# a second GL driver; an environment for the wheel; a bare system; images; Nextflow
-prove_packages=(mesa-vulkan-drivers python3-venv python3-pip mmdebstrap buildah maven default-jre-headless)
+# a second GL driver; an environment for the wheel; a bare system; images; Nextflow; more readers of meshes
+prove_packages=(mesa-vulkan-drivers python3-venv python3-pip mmdebstrap buildah maven default-jre-headless prusa-slicer python3-vtk9)
 
 # install_packages NAME...: apt-get, only for what dpkg does not already have.
 install_packages() {

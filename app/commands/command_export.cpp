@@ -7,10 +7,8 @@ namespace {
 
 /// One row a format; its file is app/export_<name>.cpp.
 constexpr Command kFormats[] = {
-    {"povray", add_export_povray},
-    {"blender", add_export_blender},
-    {"ply", add_export_ply},
-    {"atoms", add_export_atoms},
+    {"povray", add_export_povray}, {"blender", add_export_blender}, {"mesh", add_export_mesh},
+    {"ply", add_export_ply},       {"atoms", add_export_atoms},
 };
 
 }  // namespace

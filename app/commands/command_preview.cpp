@@ -76,7 +76,7 @@ Shown read_inputs(PreviewCommand& command) {
   Shown shown = read_run(command);
   shown.camera = camera;
   if (command.molecule.color.by == ColorScheme::By::volume)
-    throw UsageError("--color-map-file is for render and export ply; leave it out");
+    throw UsageError("--color-map-file is for render and export mesh; leave it out");
   command.molecule.color = color_of(command.molecule);
   require_previewed(command.molecule.color);
   // What stands beside the surface counts; a scene's picture is framed as render frames it.

@@ -21,6 +21,7 @@ void add_completion(CLI::App& command);
 void add_export(CLI::App& command);
 void add_export_atoms(CLI::App& command);
 void add_export_blender(CLI::App& command);
+void add_export_mesh(CLI::App& command);
 void add_export_ply(CLI::App& command);
 void add_export_povray(CLI::App& command);
 void add_farm(CLI::App& command);

@@ -21,7 +21,6 @@
 #include "exporters/mesh/even_mesh.h"
 #include "exporters/msms/msms_files.h"
 #include "exporters/msms/numbered_mesh.h"
-#include "exporters/msms/weld.h"
 
 namespace meniscus::msms {
 namespace {
@@ -69,7 +68,7 @@ MsmsMesh rows_of(const EvenMesh& even, const std::vector<bool>& stays) {
     triangle.face = even.mesh.face[t] + 1;
     rows.triangles.push_back(triangle);
   }
-  weld_short_edges(rows, kMsmsStep);
+  weld_for_files(rows);
   return rows;
 }
 

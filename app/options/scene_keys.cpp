@@ -121,6 +121,12 @@ constexpr auto kSceneKeys = std::to_array<SceneKey>({
 
     {"mesh", "tolerance", "--tolerance", V::text},
     {"mesh", "tolerance_pixels", "--tolerance-pixels", V::text},
+    {"mesh", "density", "--density", V::text},
+    {"mesh", "even", "--even", V::flag},
+    {"mesh", "format", "--format", V::text},
+    {"mesh", "attributes", "--attributes", V::text},
+    {"mesh", "unit", "--unit", V::text},
+    {"mesh", "scale", "--scale", V::text},
 
     {"output", "file", "-o", V::path},
 });

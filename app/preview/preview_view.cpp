@@ -15,7 +15,7 @@ namespace {
 std::string who_shows(ColorScheme::By scheme) {
   using By = ColorScheme::By;
   if (scheme == By::component) return "parts of the surface have no atoms of their own; use meniscus render";
-  if (scheme == By::volume) return "volume maps are for render and export ply";
+  if (scheme == By::volume) return "volume maps are for render and export mesh";
   if (scheme == By::buried) return "areas that are buried between groups are measured by meniscus render and export";
   if (scheme == By::rmsf) return "fluctuations over the frames are measured by meniscus render";
   return {};

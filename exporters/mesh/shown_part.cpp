@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Leaves out the triangles of hidden atoms, and what only they used.
+// Leaves out triangles, and what only they used.
 #include <algorithm>
 #include <utility>
 
@@ -26,22 +26,23 @@ std::vector<std::uint32_t> new_places(const std::vector<bool>& keep) {
   return place;
 }
 
-void keep_triangles(TriangleMesh& mesh, const std::vector<bool>& shown) {
-  const std::vector<std::uint32_t> place = new_places(shown);
+void keep_rows_of_triangles(TriangleMesh& mesh, const std::vector<bool>& keep, const std::vector<bool>& changed) {
+  const std::vector<std::uint32_t> place = new_places(keep);
   std::vector<bool> sharp;
   for (std::uint32_t& corner : mesh.sharp_corners) {
-    sharp.push_back(shown[corner / 3]);
-    if (shown[corner / 3]) corner = 3 * place[corner / 3] + corner % 3;
+    const std::uint32_t t = corner / 3;
+    sharp.push_back(keep[t] && (changed.empty() || !changed[t]));
+    if (keep[t]) corner = 3 * place[t] + corner % 3;
   }
   keep_rows(mesh.sharp_corners, sharp);
   keep_rows(mesh.sharp_corner_normals, sharp);
-  keep_rows(mesh.triangles, shown);
-  keep_rows(mesh.kind, shown);
+  keep_rows(mesh.triangles, keep);
+  keep_rows(mesh.kind, keep);
   for (std::vector<std::uint32_t>* table : {&mesh.face, &mesh.patch, &mesh.component, &mesh.atom})
-    keep_rows(*table, shown);
+    keep_rows(*table, keep);
 }
 
-void keep_used_vertices(TriangleMesh& mesh) {
+std::vector<std::uint32_t> keep_used_vertices(TriangleMesh& mesh) {
   std::vector<bool> used(mesh.positions.size(), false);
   for (const auto& t : mesh.triangles)
     for (const std::uint32_t v : t) used[v] = true;
@@ -53,18 +54,24 @@ void keep_used_vertices(TriangleMesh& mesh) {
   std::erase_if(mesh.sharp_edges, [&](const auto& e) { return !used[e[0]] || !used[e[1]]; });
   for (auto& e : mesh.sharp_edges)
     for (std::uint32_t& v : e) v = place[v];
+  return place;
 }
 
 }  // namespace
+
+std::vector<std::uint32_t> keep_triangles(TriangleMesh& mesh, const std::vector<bool>& keep,
+                                          const std::vector<bool>& changed) {
+  mesh.corner_count = mesh.border_point_count = 0;
+  keep_rows_of_triangles(mesh, keep, changed);
+  return keep_used_vertices(mesh);
+}
 
 TriangleMesh shown_part(TriangleMesh mesh, const Coloring& coloring) {
   std::vector<bool> shown;
   for (const std::uint32_t a : mesh.atom) shown.push_back(coloring.shows(a));
   if (std::ranges::find(shown, false) == shown.end()) return mesh;
   keep_triangles(mesh, shown);
-  keep_used_vertices(mesh);
   mesh.partly_hidden = true;
-  mesh.corner_count = mesh.border_point_count = 0;
   return mesh;
 }
 

@@ -57,6 +57,12 @@ struct MeshMeasure {
   int euler() const { return int(vertex_count) - int(edge_count) + int(triangle_count); }
 };
 
+/// Leaves out the triangles that `keep` does not mark, and the vertices that only they use; returns the new place of
+/// each vertex, kNone for those left out. changed: triangles whose corners are not those of sharp_corners any more;
+/// empty: none.
+std::vector<std::uint32_t> keep_triangles(TriangleMesh& mesh, const std::vector<bool>& keep,
+                                          const std::vector<bool>& changed = {});
+
 /// The triangles whose atoms are shown, with the vertices they use; all of them when none is hidden. The mesh must have
 /// been split at colours, so that it ends where shown and hidden atoms are equally near.
 TriangleMesh shown_part(TriangleMesh mesh, const Coloring& coloring);

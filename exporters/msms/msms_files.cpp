@@ -1,36 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rows are formatted in chunks on all cores.
+// Columns of text, row by row.
 #include "exporters/msms/msms_files.h"
 
-#include <algorithm>
 #include <cmath>
-#include <iterator>
 
 #include <fmt/compile.h>
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include "core/base/index.h"
+#include "exporters/mesh/files/text_rows.h"
 
 namespace meniscus {
 namespace {
-
-constexpr std::size_t kChunk = 4096;
-
-/// put_row(n, out) for each n, in order.
-template <typename PutRow>
-std::string text_of_rows(std::string beginning, std::size_t count, const PutRow& put_row) {
-  std::vector<fmt::memory_buffer> parts((count + kChunk - 1) / kChunk);
-  tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t part) {
-    const std::size_t past = std::min(count, (part + 1) * kChunk);
-    for (std::size_t n = part * kChunk; n < past; ++n) put_row(n, std::back_inserter(parts[part]));
-  });
-  std::size_t size = beginning.size();
-  for (const auto& part : parts) size += part.size();
-  beginning.reserve(size);
-  for (const auto& part : parts) beginning.append(part.data(), part.size());
-  return beginning;
-}
 
 /// Without the sign of what rounds to nothing, which some readers take for a field of its own.
 double unsigned_zero(double x) { return std::abs(x) < 0.0005 ? 0.0 : x; }

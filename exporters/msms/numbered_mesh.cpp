@@ -13,7 +13,7 @@
 
 #include "core/base/index.h"
 #include "core/math/ball_grid.h"
-#include "exporters/msms/weld.h"
+#include "exporters/mesh/weld.h"
 
 namespace meniscus {
 namespace {
@@ -39,6 +39,29 @@ std::uint8_t level_inside(MsmsFaceKind kind) {
 }
 
 }  // namespace
+
+void weld_for_files(MsmsMesh& made) {
+  std::vector<glm::dvec3> positions;
+  for (const MsmsVertex& v : made.vertices) positions.push_back(v.position);
+  std::vector<std::array<std::uint32_t, 3>> corners;
+  for (const MsmsTriangle& t : made.triangles) corners.push_back(t.corner);
+  const Welding welding = weld_short_edges(positions, corners, kMsmsStep);
+  std::vector<std::uint32_t> place(positions.size());
+  std::uint32_t next = 0;
+  for (std::uint32_t v = 0; v < place.size(); ++v) {
+    place[v] = next;
+    if (welding.into[v] == v) made.vertices[next++] = made.vertices[v];
+  }
+  made.vertices.resize(next);
+  std::size_t kept = 0;
+  for (std::size_t t = 0; t < corners.size(); ++t) {
+    if (welding.gone[t]) continue;
+    made.triangles[kept] = made.triangles[t];
+    for (std::size_t k = 0; k < 3; ++k) made.triangles[kept].corner[k] = place[corners[t][k]];
+    ++kept;
+  }
+  made.triangles.resize(kept);
+}
 
 class MsmsMeshes::Numbering {
  public:
@@ -75,7 +98,7 @@ class MsmsMeshes::Numbering {
       }
     }
     for (const std::uint32_t v : used) place_[v] = kNone;
-    weld_short_edges(made, kMsmsStep);
+    weld_for_files(made);
     name_faces(made);
     return made;
   }

@@ -17,6 +17,9 @@ inline constexpr double kMsmsStep = 0.001;
 /// The longest edge (Å) of a mesh with about so many vertices per Å². density > 0.
 double msms_edge(double density);
 
+/// Welds vertices of an edge that three decimals cannot tell apart, where the mesh stays closed and keeps its genus.
+void weld_for_files(MsmsMesh& mesh);
+
 /// The meshes of components, one after another.
 class MsmsMeshes {
  public:

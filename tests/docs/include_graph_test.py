@@ -28,6 +28,7 @@ ORDER = [
     ["core/visible_surface"],
     ["core/scene"],
     ["exporters/mesh"],
+    ["exporters/mesh/files"],
     ["exporters/povray", "exporters/blender", "exporters/c_api", "exporters/msms"],
     ["app/process"],
     ["app/film", "app/msms"],

@@ -16,10 +16,8 @@
 #include "core/base/error.h"
 #include "core/surface/surface.h"
 #include "exporters/mesh/contact_colors.h"
-#include "exporters/mesh/ply.h"
 #include "exporters/mesh/tessellate.h"
 #include "tests/support/molecules.h"
-#include "tests/support/run_program.h"
 #include "tests/support/sphere_tracer.h"
 
 namespace meniscus::testing {
@@ -299,73 +297,6 @@ TEST(Mesh, HiddenAtomsLeaveAHoleThatTheirOwnPartFills) {
     for (const auto& e : part.sharp_edges) EXPECT_LT(std::max(e[0], e[1]), part.positions.size());
     EXPECT_EQ(shown_part(whole, {}).triangles, whole.triangles);
     EXPECT_FALSE(shown_part(whole, {}).partly_hidden);
-  }
-}
-
-/// The rows of vertices of a binary PLY file: normals and colours.
-struct PlyVertex {
-  glm::vec3 normal;
-  std::array<std::uint8_t, 3> color;
-};
-
-std::vector<PlyVertex> ply_vertices(const TriangleMesh& mesh, const Coloring& coloring) {
-  const test::TemporaryFolder folder;
-  const std::string path = (folder.path() / "a.ply").string();
-  write_ply(path, Existing::refuse, mesh, coloring, {});
-  const std::string file = test::read_bytes(path);
-  constexpr std::string_view kEnd = "end_header\n";
-  constexpr std::size_t kRow = 6 * sizeof(float) + 3 + 2 * sizeof(float);
-  const char* row = file.data() + file.find(kEnd) + kEnd.size();
-  std::vector<PlyVertex> vertices(mesh.positions.size());
-  for (PlyVertex& vertex : vertices) {
-    std::memcpy(&vertex.normal, row + 3 * sizeof(float), sizeof vertex.normal);
-    std::memcpy(vertex.color.data(), row + 6 * sizeof(float), 3);
-    row += kRow;
-  }
-  return vertices;
-}
-
-TEST(Mesh, PlyNormalsAtCuspsAreTheMeanOfThoseAround) {
-  const Balls balls = two_atoms(5.3, 1.7, 1.2);
-  const TriangleMesh mesh = tessellate(compute_surface_cpu(balls, kWater), {0.02, true});
-  std::map<std::uint32_t, glm::dvec3> sum;
-  for (std::size_t n = 0; n < mesh.sharp_corners.size(); ++n) {
-    const std::uint32_t corner = mesh.sharp_corners[n];
-    sum[mesh.triangles[corner / 3][corner % 3]] += mesh.sharp_corner_normals[n];
-  }
-  ASSERT_FALSE(sum.empty());
-  Coloring gray;
-  gray.atom.assign(balls.size(), glm::vec3(0.5f));
-  const std::vector<PlyVertex> vertices = ply_vertices(mesh, gray);
-  std::size_t bent = 0;  // where the mean is none of those around
-  for (const auto& [vertex, normals] : sum) {
-    if (glm::length(normals) < 1e-6) continue;
-    EXPECT_LT(glm::distance(glm::dvec3(vertices[vertex].normal), glm::normalize(normals)), 1e-6) << vertex;
-    ++bent;
-  }
-  EXPECT_GT(bent, 0u);
-}
-
-TEST(Mesh, PlyColorsAreRoundedToTheNearestByte) {
-  const Balls balls{{{0, 0, 0}, 1.5}};
-  const TriangleMesh mesh = tessellate(compute_surface_cpu(balls, kWater), {0.2, true});
-  Coloring coloring;
-  coloring.atom = {glm::vec3(0.5f, 0.999f, 0.2f)};  // 127.5, 254.7, 51
-  for (const PlyVertex& vertex : ply_vertices(mesh, coloring))
-    ASSERT_EQ(vertex.color, (std::array<std::uint8_t, 3>{128, 255, 51}));
-}
-
-TEST(Mesh, PlyColorsAreThoseOfTheAtomBelow) {
-  const Balls balls{{{0, 0, 0}, 1.5}, {{20, 0, 0}, 1.5}, {{0, 20, 0}, 1.5}};
-  const TriangleMesh mesh = tessellate(compute_surface_cpu(balls, kWater), {0.2, true});
-  Coloring coloring;
-  coloring.atom = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  const std::vector<PlyVertex> vertices = ply_vertices(mesh, coloring);
-  for (std::size_t v = 0; v < vertices.size(); ++v) {
-    const std::size_t atom = mesh.positions[v].x > 10 ? 1 : mesh.positions[v].y > 10 ? 2 : 0;
-    std::array<std::uint8_t, 3> expected{};
-    expected[atom] = 255;
-    ASSERT_EQ(vertices[v].color, expected) << v;
   }
 }
 

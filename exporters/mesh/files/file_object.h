@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// From a surface with its colours to an object of a mesh file.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/queries/surface_object.h"
+#include "core/structure/structure.h"
+#include "exporters/mesh/files/mesh_file.h"
+#include "exporters/mesh/files/vertex_numbers.h"
+#include "exporters/mesh/mesh_fineness.h"
+#include "exporters/mesh/shape_mesh.h"
+#include "exporters/mesh/weld.h"
+
+namespace meniscus {
+
+/// Files hold floats, programs print three decimals: what is nearer together than this (Å) is welded.
+inline constexpr double kFileStep = 0.001;
+
+/// What files are made of beside the surfaces themselves.
+struct FileRequest {
+  MeshFineness fineness;
+  std::vector<std::string> numbers;  ///< names of vertex_number_kinds()
+  double scale = 1.0;                ///< of the file's unit: what 1 Å is
+  std::span<const Atom> atoms;       ///< SurfaceObject::atom points into these
+  std::span<const double> buried;    ///< Å² of each of these atoms; empty: unknown
+  bool inner_points = false;
+};
+
+/// Makes a file object by object.
+class MeshFileMaker {
+ public:
+  MeshFileMaker(FileRequest request, std::string about);
+
+  /// Meshes and welds all of a surface, in all its places; then what is hidden is left out. Throws what tessellate()
+  /// and even_mesh() throw, OpenSurfaceError where triangles without area stay.
+  void add(SurfaceObject object);
+  /// Shapes beside it.
+  void add(ShapeObject shapes);
+
+  std::size_t triangle_count() const { return triangles_; }
+  std::size_t joined_edges() const { return joined_; }
+  std::size_t flipped_edges() const { return flipped_; }
+
+  /// Call once, last. Throws RequestError where no triangle is shown.
+  MeshFile take();
+
+ private:
+  void put(const SurfaceObject& object, FineMesh mesh);
+
+  FileRequest request_;
+  MeshFile file_;
+  std::uint32_t components_ = 0;
+  std::size_t triangles_ = 0, joined_ = 0, flipped_ = 0;
+};
+
+}  // namespace meniscus

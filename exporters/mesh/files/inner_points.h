@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A point inside each cavity and each solid, for programs that fill meshes.
+#pragma once
+
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "core/surface/primitives.h"
+#include "exporters/mesh/triangle_mesh.h"
+
+namespace meniscus {
+
+/// One per component: on its inner side, in a cavity in the solvent and else in the solid, with a ball around it that
+/// touches this component of the surface and holds nothing of it; and on the inner side of its triangles. mesh: of all
+/// of the surface, closed. Throws OpenSurfaceError for a component with no such point at any of the places tried.
+std::vector<glm::dvec3> inner_points(const Surface& surface, const TriangleMesh& mesh);
+
+}  // namespace meniscus

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a mesh file holds, whatever its format: objects of triangles with colours and numbers, in the unit of the file.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "core/surface/primitives.h"
+
+namespace meniscus {
+
+/// A number of each vertex. The name is a word of letters, digits and underscores.
+struct VertexNumbers {
+  std::string name;
+  std::vector<float> values;  ///< NaN: there is none
+};
+
+/// Of an atom, what files may name. Texts are those of a molecule file.
+struct FileAtom {
+  std::string name, residue_name, chain;
+  std::int32_t residue_number = 0;
+  char insertion_code = ' ';
+  glm::dvec3 position{0.0};  ///< Å
+};
+
+/// An object of a file. One entry a vertex, or one a triangle.
+struct FileObject {
+  std::string name;                                     ///< text of a molecule file may be in it
+  std::vector<glm::vec3> positions;                     ///< in the unit of the file
+  std::vector<glm::vec3> normals;                       ///< unit, towards the solvent
+  std::vector<std::array<std::uint8_t, 3>> colors;      ///< sRGB
+  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< counter-clockwise seen from the solvent
+  std::vector<VertexNumbers> numbers;                   ///< alike in all objects of a file
+  std::vector<std::uint32_t> atom;                      ///< per vertex: into MeshFile::atoms
+  std::vector<PatchKind> kind;                          ///< per vertex
+  std::vector<std::uint32_t> component;  ///< per triangle: each closed part of the file has a number of its own
+  bool is_cavity = false;                ///< all of it bounds cavities
+};
+
+/// All of a file.
+struct MeshFile {
+  std::vector<FileObject> objects;  ///< at least one
+  std::vector<FileAtom> atoms;
+  double scale = 1.0;  ///< of the file's unit: what 1 Å is
+  std::string about;   ///< one line: the program, what it is, its scale
+  /// A point inside each cavity, and inside each solid; with the number of its component.
+  struct InnerPoint {
+    glm::dvec3 position{0.0};  ///< in the unit of the file
+    std::uint32_t component = 0;
+  };
+  std::vector<InnerPoint> cavities, solids;
+};
+
+/// One object that has them all; the name of the first.
+FileObject joined(std::vector<FileObject> objects);
+
+}  // namespace meniscus

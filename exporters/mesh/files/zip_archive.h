@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A zip archive of a few compressed files.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace meniscus {
+
+/// PKWARE's APPNOTE 6.3.3: local headers with their deflated content, the central directory, its end. Times are the
+/// first that the format knows, so that equal content makes equal bytes.
+class ZipArchive {
+ public:
+  /// Throws CapacityError for content of 4 GiB or more.
+  void add(const std::string& name, std::string_view content);
+  /// All of the archive. Call once, last.
+  std::vector<std::byte> finish();
+
+ private:
+  struct Entry {
+    std::string name;
+    std::uint32_t checksum = 0, packed = 0, size = 0, place = 0;
+  };
+  std::vector<std::byte> bytes_;
+  std::vector<Entry> entries_;
+};
+
+}  // namespace meniscus

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Welding: short edges and flat triangles go where the mesh stays a closed surface of the same genus, and nowhere else.
+#include "exporters/mesh/weld.h"
+
+#include <utility>
+
+#include <gtest/gtest.h>
+
+namespace meniscus {
+namespace {
+
+TriangleMesh mesh_of(std::vector<glm::dvec3> points, std::vector<std::array<std::uint32_t, 3>> triangles) {
+  TriangleMesh mesh;
+  mesh.normals.assign(points.size(), glm::dvec3(0, 0, 1));
+  mesh.positions = std::move(points);
+  for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+    for (std::vector<std::uint32_t>* table : {&mesh.face, &mesh.patch, &mesh.atom}) table->push_back(t);
+    mesh.component.push_back(0);
+    mesh.kind.push_back(PatchKind::convex);
+  }
+  mesh.triangles = std::move(triangles);
+  return mesh;
+}
+
+int euler_if_closed(const TriangleMesh& mesh) {
+  const MeshMeasure measured = measure(mesh);
+  EXPECT_TRUE(measured.closed);
+  EXPECT_EQ(measured.vertex_count, mesh.positions.size());
+  return measured.euler();
+}
+
+Welding weld(TriangleMesh& mesh) { return meniscus::weld(mesh, 0.001, 1.0); }
+
+// An octahedron whose upper corner is two, so near together that they are one.
+TriangleMesh octahedron_with_a_double_corner(double apart) {
+  return mesh_of(
+      {{0, 0, 1}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}, {apart, 0, 1}},
+      {{6, 1, 2}, {6, 2, 0}, {0, 2, 3}, {0, 3, 4}, {0, 4, 6}, {6, 4, 1}, {2, 1, 5}, {3, 2, 5}, {4, 3, 5}, {1, 4, 5}});
+}
+
+TEST(Weld, TwoVerticesOnePointBecomeOneAndTheLowerStays) {
+  TriangleMesh mesh = octahedron_with_a_double_corner(0.0004);
+  ASSERT_EQ(euler_if_closed(mesh), 2);
+  const Welding made = weld(mesh);
+  EXPECT_EQ(made.joined, 1u);
+  EXPECT_EQ(made.into, (std::vector<std::uint32_t>{0, 1, 2, 3, 4, 5, 0}));
+  EXPECT_EQ(mesh.positions.size(), 6u);
+  EXPECT_EQ(mesh.triangles.size(), 8u);
+  EXPECT_EQ(mesh.atom.size(), 8u);
+  EXPECT_EQ(euler_if_closed(mesh), 2);
+  EXPECT_EQ(mesh.positions[0].x, 0.0);
+}
+
+TEST(Weld, LongerEdgesStay) {
+  TriangleMesh mesh = octahedron_with_a_double_corner(0.01);
+  EXPECT_EQ(weld(mesh).joined, 0u);
+  EXPECT_EQ(mesh.positions.size(), 7u);
+}
+
+// A tetrahedron has no edge that could go: what is left would be two triangles back to back.
+TEST(Weld, ATetrahedronStays) {
+  TriangleMesh mesh =
+      mesh_of({{0, 0, 0}, {0.0001, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}});
+  EXPECT_EQ(weld(mesh).flat, 2u);
+  EXPECT_EQ(mesh.positions.size(), 4u);
+  EXPECT_EQ(euler_if_closed(mesh), 2);
+}
+
+// Round the neck of a double pyramid with three sides: without one of its edges it would be pinched there.
+TEST(Weld, ANeckStays) {
+  TriangleMesh mesh = mesh_of({{0, 0, 1}, {0.0002, 0, 0}, {0, 0.0002, 0}, {-1, -1, 0}, {0, 0, -1}},
+                              {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {2, 1, 4}, {3, 2, 4}, {1, 3, 4}});
+  weld(mesh);
+  EXPECT_EQ(mesh.positions.size(), 5u);  // 1 and 2 have three common neighbours
+  EXPECT_EQ(euler_if_closed(mesh), 2);
+}
+
+// A tetrahedron with a vertex 6 on its edge from 0 to 1: both triangles there could be drawn without it; the one that
+// has it as a corner beside the whole edge has no area.
+TriangleMesh tetrahedron_with_a_flat_triangle(double off) {
+  return mesh_of({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {0, 0, 4}, {2, off, 0}},
+                 {{0, 2, 1}, {0, 1, 4}, {0, 4, 3}, {4, 1, 3}, {1, 2, 3}, {2, 0, 3}});
+}
+
+TEST(Weld, AFlatTriangleLosesItsLongestEdge) {
+  for (const double off : {0.0, 0.0003}) {
+    TriangleMesh mesh = tetrahedron_with_a_flat_triangle(off);
+    ASSERT_EQ(euler_if_closed(mesh), 2);
+    const double volume = measure(mesh).volume;
+    const Welding made = weld(mesh);
+    EXPECT_EQ(made.flipped, 1u);
+    EXPECT_EQ(made.flat, 0u);
+    EXPECT_EQ(mesh.positions.size(), 5u);
+    EXPECT_EQ(mesh.triangles.size(), 6u);
+    EXPECT_EQ(euler_if_closed(mesh), 2);
+    EXPECT_NEAR(measure(mesh).volume, volume, 0.01);
+    EXPECT_EQ(mesh.face, (std::vector<std::uint32_t>{0, 0, 2, 3, 4, 5}));  // both of the one that had an area
+  }
+}
+
+TEST(Weld, WhatHasAnAreaInTheNumbersOfAFileStays) {
+  TriangleMesh mesh = tetrahedron_with_a_flat_triangle(0.002);
+  EXPECT_EQ(weld(mesh).flipped, 0u);
+}
+
+// Where coordinates are large, single precision cannot tell what thousandths can.
+TEST(Weld, TrianglesWithoutAreaInSinglePrecisionGo) {
+  TriangleMesh mesh = tetrahedron_with_a_flat_triangle(0.002);
+  for (glm::dvec3& x : mesh.positions) x += glm::dvec3(1e6);
+  EXPECT_EQ(weld(mesh).flipped, 1u);
+  EXPECT_EQ(euler_if_closed(mesh), 2);
+}
+
+}  // namespace
+}  // namespace meniscus
