@@ -229,6 +229,24 @@ TEST(MeshFiles, InnerPointsLieInCavitiesAndSolids) {
   }
 }
 
+void expect_good_estimate(const Surface& surface, const MeshFineness& fineness) {
+  const double made = static_cast<double>(fine_mesh(surface, fineness).mesh.triangles.size());
+  const double ratio = estimated_triangles(surface, fineness) / made;
+  EXPECT_GT(ratio, 0.5) << surface.atoms.size() << ' ' << fineness.tolerance;
+  EXPECT_LT(ratio, 2.0) << surface.atoms.size() << ' ' << fineness.tolerance;
+}
+
+// A warning before tens of millions of triangles has to come before they are made.
+TEST(MeshFiles, TrianglesAreEstimatedToAFactorOfTwo) {
+  for (const Balls& balls : {c60(), ring(10, 2.5), lattice(3, 3, 3, 3.0), gas(5, 150, 22.0, 1.2, 1.9)})
+    for (const double tolerance : {0.2, 0.03, 0.005})
+      expect_good_estimate(compute_surface_cpu(balls, kWater), {tolerance, {}, 0.0, false});
+  for (const Balls& balls : {c60(), ring(10, 2.5), lattice(3, 3, 3, 3.0)}) {
+    expect_good_estimate(compute_surface_cpu(balls, kWater), {0.05, {}, 0.0, true});
+    expect_good_estimate(compute_surface_cpu(balls, kWater), {0.05, {}, 3.0, false});
+  }
+}
+
 TEST(MeshFiles, FormatsAreKnownByTheirEndings) {
   EXPECT_EQ(mesh_format_of_path("a/b.c.STL"), mesh_format("stl"));
   EXPECT_EQ(mesh_format_of_path("a.3mf"), mesh_format("3mf"));
