@@ -1,63 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Colour schemes on a small molecule, colour maps against the published tables, and files of numbers with their faults.
+// Colour schemes on a small molecule, and colour maps against the published tables.
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <tuple>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "core/base/error.h"
 #include "core/color/color_key.h"
-#include "core/color/color_schemes.h"
 #include "core/color/named_colors.h"
-#include "core/color/color_atoms.h"
 #include "tests/support/run_program.h"
+#include "tests/unit/colored_atoms.h"
 
 namespace meniscus {
 namespace {
-
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-
-Structure four_atoms() {
-  Structure structure;
-  structure.file = "four";
-  const char* chains[] = {"A", "A", "B", "A"};
-  const char* residues[] = {"ASP", "LYS", "GLY", "XXX"};
-  const float b_factors[] = {10.0f, 20.0f, 30.0f, kNan};
-  const float charges[] = {-0.25f, 0.5f, kNan, 0.0f};
-  for (std::uint32_t n = 0; n < 4; ++n) {
-    Atom& atom = structure.atoms.emplace_back();
-    atom.index = n;
-    atom.chain = chains[n];
-    atom.residue_name = residues[n];
-    atom.b_factor = b_factors[n];
-    atom.charge = charges[n];
-    atom.occupancy = 1.0f;
-    atom.element = static_cast<std::uint8_t>(6 + n % 3);
-  }
-  structure.report.read = 4;
-  structure.report.used = 4;
-  return structure;
-}
-
-ColorScheme scheme(const char* word) { return parse_color_scheme(word).value(); }
-
-Coloring colored(const char* word, const Structure& structure = four_atoms()) {
-  return color_atoms(structure, scheme(word));
-}
-
-/// What `run` complains about.
-template <class Run>
-std::string complaint(const Run& run) {
-  try {
-    run();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
-}
 
 TEST(Colors, WordsAreReadStrictly) {
   for (const char* good : {"element", "chain", "residue", "bfactor", "occupancy", "charge", "hydrophobicity", "kind",
@@ -246,87 +201,6 @@ TEST(Colors, MapsOfOnesOwn) {
   EXPECT_EQ(color_atoms(four_atoms(), wish).atom[1], 0.5f * (red + blue));
 }
 
-TEST(Colors, NumbersByResidueAndOfTables) {
-  const test::TemporaryFolder folder;
-  Structure structure = four_atoms();
-  for (std::size_t a = 0; a < 4; ++a) structure.atoms[a].residue_number = static_cast<std::int32_t>(a) - 1;
-  structure.atoms[1].insertion_code = 'B';
-  const auto numbers = [&](const char* text, const char* column = "") {
-    ColorScheme wish = scheme("file");
-    wish.file = read_number_file(folder.file("n", text), column);
-    return color_scale(structure, wish);
-  };
-  const char* const layouts[] = {
-      "A -1 1.5\nA 0B 2\nB 1 ?\nA 2 4e0\n", "chain resid value\nA -1 1.5\nA 0B 2\nA 2 4\nZ 9 9\n",
-      "chain,number,icode,sas\nA,-1,,1.5\nA,0,B,2\n\"A\",2,,4\n", "index,sas\n0,1.5\n1,2\n3,4\n2,-\n"};
-  for (const char* text : layouts) {
-    const std::vector<double> value = numbers(text).value;
-    ASSERT_EQ(value.size(), 4u);
-    EXPECT_EQ(value[0], 1.5) << text;
-    EXPECT_EQ(value[1], 2.0) << text;
-    EXPECT_TRUE(std::isnan(value[2])) << text;
-    EXPECT_EQ(value[3], 4.0) << text;
-  }
-  const char* const table = "chain,number,ses,sas\nA,-1,1,10\nB,1,2,20\n";
-  EXPECT_EQ(numbers(table, "sas").value[2], 20.0);
-  EXPECT_EQ(numbers(table, "sas").title, "sas");
-  const std::tuple<const char*, const char*, const char*> faults[] = {
-      {table, "", "n:1: is a table; choose one of its columns by --color-column: ses, sas"},
-      {table, "vdw", "n:1: has no column 'vdw'; it has ses, sas"},
-      {"a,b\n1,2\n", "b", "n:1: is the header of a table without a column index"},
-      {"chain,number,x\nA,1\n", "", "n:2: has 2 cells, the header 3"},
-      {"chain,number,x\nA,1x9,2\n", "", "n:2: '1x9' is no number of a residue"},
-      {"chain,number,x\nA,1,red\n", "", "n:2: 'red' is not a finite number"},
-      {"index,x\n-1,2\n", "", "n:2: '-1' is no index of an atom"},
-      {"index,x\n1,2\n1,3\n", "", "n:3: gives atom 1 a second number"},
-      {"A 1 2\nA 1 3\n", "", "n:2: gives residue 1 of chain 'A' a second number"},
-      {"A 1 2\nB 2\n", "", "n:2: should be a chain, the number of a residue and a value"},
-      {"1 2 3\n", "x", "n:1: is not the header of a table"},
-      {"Q 1 2\n", "", "names 1 residues, none of which is among the atoms used of four"}};
-  for (const auto& [text, column, reason] : faults) {
-    const std::string said = complaint([&, text = text, column = column] { numbers(text, column); });
-    EXPECT_NE(said.find(reason), std::string::npos) << text << ": " << said;
-  }
-}
-
-TEST(Colors, NumbersOfFramesHaveOneScale) {
-  const test::TemporaryFolder folder;
-  Structure structure = four_atoms();
-  const auto numbers = [&](const char* text, std::optional<std::uint64_t> frame) {
-    ColorScheme wish = scheme("file");
-    wish.set_numbers(read_number_file(folder.file("n", text)));
-    structure.frame = frame;
-    return color_scale(structure, wish);
-  };
-  for (std::size_t a = 0; a < 4; ++a) structure.atoms[a].residue_number = static_cast<std::int32_t>(a);
-  for (const char* const table : {"frame,index,rmsd\n0,0,1\n0,1,-\n7,1,5\n7,2,3\n",
-                                  "frame,chain,number,rmsd\n0,A,0,1\n0,A,1,nan\n7,A,1,5\n7,B,2,3\n"}) {
-    const ColorScale first = numbers(table, 0), last = numbers(table, 7);
-    EXPECT_EQ(first.range, (std::array<double, 2>{1.0, 5.0})) << table;
-    EXPECT_EQ(last.range, first.range);
-    EXPECT_EQ(first.title, "rmsd");
-    EXPECT_EQ(first.value[0], 1.0);
-    EXPECT_TRUE(std::isnan(first.value[1]) && std::isnan(last.value[0]));
-    EXPECT_EQ(last.value[1], 5.0);
-    EXPECT_EQ(last.value[2], 3.0);
-  }
-  const std::tuple<const char*, std::optional<std::uint64_t>, const char*> faults[] = {
-      {"frame,index,x\n0,0,1\n2,0,2\n", 1, "holds numbers of 2 frames, 0 to 2, but none of frame 1"},
-      {"frame,index,x\n0,0,1\n", {}, "holds numbers of 1 frames, 0 to 0; ask for a run of frames"},
-      {"frame,index,x\n-1,0,1\n", 0, "n:2: '-1' is no number of a frame; they count from 0"},
-      {"frame,index,x\n1.5,0,1\n", 0, "n:2: '1.5' is no number of a frame"},
-      {"frame,index,x\n3,0,1\n3,0,2\n", 0, "n:3: gives atom 0 a second number"},
-      {"frame,x\n3,1\n", 0, "n:1: is the header of a table without a column index"}};
-  for (const auto& [text, frame, reason] : faults) {
-    const std::string said = complaint([&, text = text, frame = frame] { numbers(text, frame); });
-    EXPECT_NE(said.find(reason), std::string::npos) << text << ": " << said;
-  }
-  ColorScheme categorical = scheme("file");
-  categorical.map = ColorMap::categorical;
-  const NumberFile table = read_number_file(folder.file("n", "frame,index,x\n0,0,1\n"));
-  EXPECT_NE(complaint([&] { categorical.set_numbers(table); }).find("--map categorical"), std::string::npos);
-}
-
 TEST(Colors, OpacitiesGoToTheAtomsMeantAndTheLastCounts) {
   EXPECT_TRUE(colored("chain").opacity.empty());
   ColorScheme wish = scheme("chain");
@@ -451,45 +325,6 @@ TEST(Colors, TheCategoricalMapGivesEachNumberAColorOfItsOwn) {
   for (int n = 0; n < 22; ++n) wish.file.numbers.push_back(n);
   EXPECT_EQ(complaint([&] { color_atoms(many, wish); }),
             "four: has 22 different numbers to colour by, the categorical map 21 colours; choose another --map");
-}
-
-TEST(Colors, NumbersAreGivenForAllAtomsOrForThoseInUse) {
-  Structure structure = four_atoms();
-  structure.atoms.erase(structure.atoms.begin() + 1);
-  structure.report.used = 3;
-  structure.report.excluded[kExcludedWater] = 1;
-  ColorScheme wish = scheme("file");
-  wish.file = {"all", {0.0, 100.0, 1.0, 2.0}};
-  EXPECT_EQ(color_scale(structure, wish).value, (std::vector<double>{0.0, 1.0, 2.0}));
-  wish.file.numbers = {5.0, 6.0, 7.0};
-  EXPECT_EQ(color_scale(structure, wish).value, (std::vector<double>{5.0, 6.0, 7.0}));
-  structure.report.read = 9;  // with five atoms of a model that was not read
-  structure.report.excluded[kExcludedModel] = 5;
-  wish.file.numbers = {0.0, 100.0, 1.0, 2.0};
-  EXPECT_EQ(color_scale(structure, wish).value, (std::vector<double>{0.0, 1.0, 2.0}));
-  wish.file.numbers = {1.0, 2.0};
-  EXPECT_EQ(complaint([&] { color_atoms(structure, wish); }),
-            "all: holds 2 numbers; four holds 4 atoms, of which 3 are used; give as many as either");
-}
-
-TEST(Colors, NumberFilesAreReadWithTheirGapsAndFaults) {
-  const test::TemporaryFolder folder;
-  const NumberFile good = read_number_file(folder.file("good", "# charge\n1 -2.5e-1,nan\n\n ? -\t+7 # end\n;8"));
-  ASSERT_EQ(good.numbers.size(), 7u);
-  EXPECT_EQ(good.numbers[1], -0.25);
-  for (const int n : {2, 3, 4}) EXPECT_TRUE(std::isnan(good.numbers[n])) << n;
-  EXPECT_EQ(good.numbers[5], 7.0);
-  EXPECT_EQ(good.numbers[6], 8.0);
-  const std::pair<const char*, const char*> bad[] = {{"1\n2\nabc\n", "bad:3: 'abc' is not a finite number"},
-                                                     {"1\n inf\n", "bad:2: 'inf' is not"},
-                                                     {"1e999\n", "bad:1: '1e999' is not"},
-                                                     {"1 2x\n", "bad:1: '2x' is not"},
-                                                     {"# nothing\n", "bad: holds no numbers"}};
-  for (const auto& [text, reason] : bad) {
-    const std::string path = folder.file("bad", text);
-    const std::string said = complaint([&] { read_number_file(path); });
-    EXPECT_NE(said.find(reason), std::string::npos) << said;
-  }
 }
 
 TEST(Colors, KindAndOrder) {
