@@ -352,8 +352,10 @@ class OtherProcess(WithFolder):
         self.assertEqual(child.wait(10), -9)
         self.assert_gone(number)
 
-    def test_no_thread_of_python_is_left_in_this_one(self):
-        self.finished(self.process.ask("a", "k", "surface", self.about()))
+    def test_no_thread_of_python_lives_in_this_one(self):
+        job = self.process.ask("a", "k", "surface", self.about())
+        self.assertEqual(threading.enumerate(), [threading.main_thread()])
+        self.finished(job)
         self.assertEqual(threading.enumerate(), [threading.main_thread()])
 
 
