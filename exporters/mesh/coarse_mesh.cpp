@@ -6,7 +6,6 @@
 #include <array>
 #include <map>
 #include <optional>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -48,7 +47,6 @@ class CoarseMeshing {
       filling_.fill(std::move(hard), filled_);
     }
     number_vertices();
-    part_shared_edges();
     put_faces();
     return std::move(mesh_);
   }
@@ -183,6 +181,7 @@ class CoarseMeshing {
       part.triangle = triangles;
       part.vertex = vertices;
       if (part.cut == Cut::filled) {
+        part_doubled_edges(filled_[f]);
         triangles += static_cast<std::uint32_t>(filled_[f].triangles.size());
         vertices += own_vertices(filled_[f]);
       } else if (part.corners >= 3) {
@@ -194,53 +193,6 @@ class CoarseMeshing {
     mesh_.triangles.resize(triangles);
     mesh_.face.resize(triangles);
     tbb::parallel_for(std::size_t{0}, parts_.size(), [&](std::size_t f) { put_face(static_cast<std::uint32_t>(f)); });
-  }
-  /// An edge inside of a face between two points of rims, by their numbers.
-  struct Bridge {
-    std::uint32_t a, b, face, index;
-  };
-  bool on_rims(std::uint32_t face, std::uint32_t point) const { return filled_[face].rim[point].border != kSeam; }
-  /// Two faces may each draw an edge between the same two points of their rims: those of faces that were filled get a
-  /// vertex of their own then.
-  void part_shared_edges() {
-    std::vector<Bridge> bridges;
-    std::vector<std::uint8_t> at_bridge(mesh_.positions.size(), 0);
-    const auto add = [&](std::uint32_t u, std::uint32_t w, std::uint32_t face, std::uint32_t index) {
-      bridges.push_back({std::min(u, w), std::max(u, w), face, index});
-    };
-    for (std::uint32_t f = 0; f < parts_.size(); ++f) {
-      if (parts_[f].cut != Cut::filled) continue;
-      part_doubled_edges(filled_[f]);
-      for (std::uint32_t i = 0; i < filled_[f].bridges.size(); ++i) {
-        const auto [u, w] = filled_[f].bridges[i];
-        if (!on_rims(f, u) || !on_rims(f, w)) continue;
-        add(number(filled_[f].rim[u]), number(filled_[f].rim[w]), f, i);
-        at_bridge[bridges.back().a] = at_bridge[bridges.back().b] = 1;
-      }
-    }
-    const auto add_other = [&](const BorderPoint& p, const BorderPoint& q) {
-      if (at_bridge[number(p)] && at_bridge[number(q)]) add(number(p), number(q), kNone, 0);
-    };
-    for (std::uint32_t b = 0; b < surface_.borders.size(); ++b)
-      for (std::uint32_t k = 0; k < samples_.segment_count(b); ++k)
-        add_other(samples_.point(b, k), samples_.point(b, k + 1));
-    for (std::uint32_t f = 0; f < parts_.size(); ++f) {
-      if (parts_[f].cut != Cut::diagonal) continue;
-      const Corners corners = corners_of(surface_.faces[f]);
-      add_other(corners[parts_[f].diagonal], corners[parts_[f].diagonal + 2]);
-    }
-    std::sort(bridges.begin(), bridges.end(), [](const Bridge& x, const Bridge& y) {
-      return std::tie(x.a, x.b, x.face, x.index) < std::tie(y.a, y.b, y.face, y.index);
-    });
-    const auto same = [&](std::size_t i, std::size_t j) {
-      return j < bridges.size() && bridges[i].a == bridges[j].a && bridges[i].b == bridges[j].b;
-    };
-    for (std::size_t i = 0; i < bridges.size(); ++i) {
-      if (bridges[i].face == kNone || !(same(i, i - 1) || same(i, i + 1))) continue;
-      FaceMesh& mesh = filled_[bridges[i].face];
-      const auto [u, w] = mesh.bridges[bridges[i].index];
-      split_edge(mesh, u, w);
-    }
   }
   /// Per seam point its number among the face's own.
   static std::map<std::uint32_t, std::uint32_t> seam_of(const FaceMesh& mesh) {
