@@ -242,6 +242,10 @@ SurfaceDistance::~SurfaceDistance() = default;
 SurfaceDistance::SurfaceDistance(SurfaceDistance&&) noexcept = default;
 SurfaceDistance& SurfaceDistance::operator=(SurfaceDistance&&) noexcept = default;
 
+double SurfaceDistance::to_probe(const glm::dvec3& x) const { return index_->nearest_accessible(x).distance; }
+
+bool SurfaceDistance::in_sas(const glm::dvec3& x) const { return index_->in_sas_ball(x); }
+
 NearestPoint SurfaceDistance::operator()(const glm::dvec3& x) const {
   const double probe_radius = index_->s.probe_radius;
   if (index_->in_sas_ball(x)) {

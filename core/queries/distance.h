@@ -33,6 +33,13 @@ class SurfaceDistance {
 
   NearestPoint operator()(const glm::dvec3& point) const;
 
+  /// Å, from the point to the nearest place where a probe touches an atom, whichever side of the SAS the point is on.
+  /// Places are those of the surface's patches: of a part of a surface (part.h), of that part alone.
+  double to_probe(const glm::dvec3& point) const;
+
+  /// Whether a probe there would reach into an atom; of a part of a surface, into one that the part has.
+  bool in_sas(const glm::dvec3& point) const;
+
  private:
   struct Index;
   std::unique_ptr<const Index> index_;

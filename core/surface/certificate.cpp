@@ -13,6 +13,7 @@
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
+#include "core/math/spiral.h"
 #include "core/surface/atom_areas.h"
 #include "core/surface/walks.h"
 
@@ -25,15 +26,9 @@ constexpr double kUnbounded = std::numeric_limits<double>::max();
 constexpr double kBeside = 1e-5;  // Å for a probe of no size: what merging probes may turn a plane by
 constexpr double kClose = 1e-3;   // Å, half the distance of probes whose bisector rounding may turn
 
-// Directions spread evenly: Fibonacci's spiral.
 std::array<glm::dvec3, 32> spread_directions() {
   std::array<glm::dvec3, 32> directions;
-  for (std::size_t n = 0; n < directions.size(); ++n) {
-    const auto k = static_cast<double>(n);
-    const double z = (2 * k + 1.0) / static_cast<double>(directions.size()) - 1, turn = 2 * kPi * std::numbers::phi * k,
-                 across = std::sqrt(1 - z * z);
-    directions[n] = {across * std::cos(turn), across * std::sin(turn), z};
-  }
+  for (std::size_t n = 0; n < directions.size(); ++n) directions[n] = spiral_direction(n, directions.size());
   return directions;
 }
 

@@ -24,6 +24,7 @@ ORDER = [
     ["core/reduced_surface"],
     ["core/surface"],
     ["core/queries"],
+    ["core/pockets"],
     ["core/render"],
     ["core/visible_surface"],
     ["core/scene"],

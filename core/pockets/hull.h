@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a large probe from outside cannot reach, and how deep a point lies in it.
+#pragma once
+
+#include <optional>
+
+#include <glm/vec3.hpp>
+
+#include "core/queries/distance.h"
+#include "core/surface/primitives.h"
+
+namespace meniscus {
+
+/// The solid of a solvent-excluded surface with its cavities filled: what the probe rolls over from outside. A larger
+/// probe has a larger hull, for a ball is a union of smaller ones.
+class Hull {
+ public:
+  /// surface: closed, with at least one atom and a probe above 0, with listed clip planes.
+  explicit Hull(Surface surface);
+  Hull(const Hull&) = delete;
+  Hull& operator=(const Hull&) = delete;
+
+  double volume() const { return volume_; }  ///< Å³, exact
+  /// Of the hull; its atoms are those that a probe from outside touches.
+  const Surface& surface() const { return part_ ? *part_ : whole_; }
+
+  /// Å, from the point to the nearest place where the centre of a probe from outside may be; 0 where it may be itself.
+  /// Points of the hull are those for which this is the probe's radius or more; how much more is their depth.
+  double to_probe(const glm::dvec3& point) const;
+
+ private:
+  Surface whole_;
+  SurfaceDistance anywhere_;
+  std::optional<Surface> part_;  ///< without cavities, if there are any
+  std::optional<SurfaceDistance> outside_;
+  double volume_ = 0.0;
+};
+
+}  // namespace meniscus

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Closes the mouths by large probes, and reads the pockets off as cavities.
+#include "core/pockets/pockets.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <numeric>
+#include <utility>
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include "core/base/error.h"
+#include "core/pockets/hull.h"
+#include "core/pockets/mouths.h"
+#include "core/pockets/probe_cells.h"
+#include "core/pockets/probe_places.h"
+#include "core/queries/part.h"
+#include "core/surface/surface.h"
+
+namespace meniscus {
+namespace {
+
+/// How dense places of the large probe must be. Let y be its place that is nearest to some point, and z the one that
+/// stands for y, on the same sphere or arc, which bulges towards the point: then |z - point|² <= |y - point|² + |y - z|².
+double spacing_for(double tolerance, double clearance) {
+  const double least = std::max(0.0, clearance - tolerance);
+  return std::sqrt(clearance * clearance - least * least);
+}
+
+/// A part before it is cut out.
+struct Part {
+  Cavity cavity;
+  std::vector<std::uint32_t> components;  // its own, then those of what floats in it
+};
+
+class PocketFinder {
+ public:
+  PocketFinder(std::span<const Ball> atoms, const PocketRequest& request, const ComputeSurface& compute)
+      : atoms_(atoms),
+        request_(request),
+        compute_(compute),
+        clearance_(request.large_probe_radius + request.trim + request.probe_radius),
+        hull_(closed(request.large_probe_radius)),
+        cells_(atoms, request.probe_radius, hull_, clearance_ - request.tolerance - kSamePlace) {}
+
+  Pockets run() {
+    found_.request = request_;
+    found_.between_volume = hull_.volume() - closed(request_.probe_radius).volume;
+    if (cells_.count() == 0) return std::move(found_);
+    close_mouths();
+    const std::vector<Part> parts = list_parts();
+    found_.pockets.resize(parts.size());
+    tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t n) { found_.pockets[n] = pocket_of(parts[n]); });
+    return std::move(found_);
+  }
+
+ private:
+  Surface closed(double probe_radius) const {
+    Surface surface = compute_(atoms_, probe_radius);
+    require_closed(surface);
+    return surface;
+  }
+
+  /// Balls that can touch a probe in a pocket, or one that overlaps such a probe; all others change nothing about it.
+  void close_mouths() {
+    const double r = request_.probe_radius;
+    std::vector<Ball> balls;
+    for (std::uint32_t a = 0; a < atoms_.size(); ++a) {
+      if (!cells_.within(atoms_[a].center, atoms_[a].radius + 3 * r)) continue;
+      balls.push_back(atoms_[a]);
+      atom_.push_back(a);
+    }
+    first_probe_ = static_cast<std::uint32_t>(balls.size());
+    const double spacing = spacing_for(request_.tolerance, clearance_);
+    for (const glm::dvec3& place :
+         probe_places(hull_.surface(), spacing, [&](const glm::dvec3& point, double reach) {
+           return cells_.within(point, clearance_ + 2 * r + reach);
+         }))
+      balls.push_back({place, request_.large_probe_radius + request_.trim});
+    atom_.resize(balls.size(), kNone);
+    found_.probe_count = balls.size() - first_probe_;
+    found_.surface = compute_(balls, r);
+    if (!found_.surface.certificate.closed)
+      throw OpenSurfaceError(
+          fmt::format("the surface of {} atoms and of {} large probes around them is not closed; try another "
+                      "--tolerance, and please report this structure",
+                      first_probe_, found_.probe_count));
+  }
+
+  /// A bounded part of the solvent is a pocket if probes in it are where pockets can be. Elsewhere balls are missing.
+  std::vector<Part> list_parts() const {
+    const Surface& s = found_.surface;
+    const std::vector<Cavity> cavities = cavities_of(s);
+    std::vector<Part> parts;
+    std::size_t next = 0;
+    for (std::uint32_t c = 0; c < s.components.size(); ++c) {
+      if (s.components[c].kind != ComponentKind::cavity) continue;
+      const Cavity& cavity = cavities[next++];
+      if (cells_.within(cavity.probes.front(), 0.0)) parts.push_back({cavity, {c}});
+    }
+    add_islands(parts);
+    std::erase_if(parts, [&](const Part& part) { return part.cavity.volume < request_.min_volume; });
+    std::ranges::stable_sort(parts, std::greater(), [](const Part& part) { return part.cavity.volume; });
+    return parts;
+  }
+
+  /// Atoms that float in a pocket are no part of it.
+  void add_islands(std::vector<Part>& parts) const {
+    const Surface& s = found_.surface;
+    const std::vector<bool> reached = reached_from_outside(s);
+    for (std::uint32_t c = 0; c < s.components.size(); ++c) {
+      if (reached[c] || s.components[c].kind != ComponentKind::outer) continue;
+      const std::vector<std::uint32_t> atoms = atoms_of(c);
+      Part* around = nullptr;
+      for (Part& part : parts)
+        if (winding_number(s, part.components.front(), s.atoms[atoms.front()].center) != 0 &&
+            (!around || part.cavity.volume < around->cavity.volume))
+          around = &part;
+      if (!around) continue;
+      around->components.push_back(c);
+      around->cavity.volume -= s.components[c].volume;
+      around->cavity.area += s.components[c].area;
+      around->cavity.atoms.insert(around->cavity.atoms.end(), atoms.begin(), atoms.end());
+    }
+  }
+
+  /// Those with a contact patch on the component. An outer one has some (component_side.h).
+  std::vector<std::uint32_t> atoms_of(std::uint32_t component) const {
+    std::vector<std::uint32_t> atoms;
+    for (const ConvexPatch& patch : found_.surface.convex)
+      for (std::uint32_t f = patch.first_face; f < patch.first_face + patch.face_count; ++f)
+        if (found_.surface.faces[f].component == component && (atoms.empty() || atoms.back() != patch.atom))
+          atoms.push_back(patch.atom);
+    return atoms;
+  }
+
+  Pocket pocket_of(const Part& part) const {
+    Pocket pocket;
+    pocket.cavity = part.cavity;
+    pocket.cavity.atoms.clear();
+    for (const std::uint32_t a : part.cavity.atoms)
+      if (a < first_probe_) pocket.cavity.atoms.push_back(atom_[a]);
+    std::ranges::sort(pocket.cavity.atoms);
+    for (const glm::dvec3& probe : part.cavity.probes)
+      pocket.depth = std::max(pocket.depth, hull_.to_probe(probe) - request_.large_probe_radius);
+    std::vector<bool> keep(found_.surface.components.size(), false);
+    for (const std::uint32_t c : part.components) keep[c] = true;
+    SurfacePart cut = part_of(found_.surface, keep);
+    std::vector<bool> is_probe;
+    for (const std::uint32_t a : cut.atom) {
+      is_probe.push_back(a >= first_probe_);
+      pocket.atom.push_back(atom_[a]);
+    }
+    pocket.surface = std::move(cut.surface);
+    pocket.mouth_areas = mouth_areas(pocket.surface, is_probe,
+                                     2 * std::numbers::pi * request_.probe_radius * request_.tolerance);
+    return pocket;
+  }
+
+  std::span<const Ball> atoms_;
+  const PocketRequest& request_;
+  const ComputeSurface& compute_;
+  double clearance_;  // of the small probe's centre from the large one's
+  Hull hull_;
+  ProbeCells cells_;
+  std::uint32_t first_probe_ = 0;
+  std::vector<std::uint32_t> atom_;  // per ball of found_.surface: of those given; kNone: a large probe
+  Pockets found_;
+};
+
+}  // namespace
+
+double Pocket::mouth_area() const { return std::accumulate(mouth_areas.begin(), mouth_areas.end(), 0.0); }
+
+const char* Pocket::kind() const {
+  return mouth_areas.empty() ? "cavity" : mouth_areas.size() == 1 ? "pocket" : "tunnel";
+}
+
+std::string pocket_fault(const PocketRequest& request) {
+  if (!(request.probe_radius > 0.0)) return "--probe: pockets are what a probe fills; it must be above 0 Å";
+  if (!(request.large_probe_radius > request.probe_radius))
+    return fmt::format("--large-probe: {} Å is not above the small probe's {} Å, so nothing lies between the two",
+                       request.large_probe_radius, request.probe_radius);
+  if (!(request.trim >= 0.0)) return fmt::format("--trim: {} Å is negative", request.trim);
+  if (!(request.tolerance > 0.0)) return fmt::format("--tolerance: {} Å is not above 0", request.tolerance);
+  return {};
+}
+
+Pockets find_pockets(std::span<const Ball> atoms, const PocketRequest& request, const ComputeSurface& compute) {
+  if (const std::string fault = pocket_fault(request); !fault.empty()) throw RequestError(fault);
+  return PocketFinder(atoms, request, compute).run();
+}
+
+}  // namespace meniscus

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Takes fixed probes as they are, divides arcs evenly, and spreads a spiral over the sphere of each exposed atom.
+#include "core/pockets/probe_places.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <span>
+
+#include <glm/geometric.hpp>
+
+#include "core/math/ball_grid.h"
+#include "core/math/spiral.h"
+
+namespace meniscus {
+namespace {
+
+// Of a face the spiral is within 0.77 of its own spacing, or beyond a border, where the arc is as near and its next
+// place half a step away.
+constexpr double kOfSpiral = 0.9, kOfArc = 0.6;
+static_assert(0.77 * kOfSpiral + 0.5 * kOfArc <= 1.0);
+
+void add_fixed(const Surface& s, const NearWanted& wanted, std::vector<glm::dvec3>& places) {
+  for (const ConcavePatch& patch : s.concave)
+    if (wanted(patch.center, 0.0)) places.push_back(patch.center);
+}
+
+void add_on_arcs(const Surface& s, double spacing, const NearWanted& wanted, std::vector<glm::dvec3>& places) {
+  for (const ToroidalPatch& t : s.toroidal) {
+    if (!wanted(t.center, t.radius)) continue;
+    const auto steps = static_cast<std::size_t>(std::ceil(t.sweep * t.radius / spacing));
+    const glm::dvec3 across = glm::cross(t.axis, t.start);
+    for (std::size_t n = t.free() ? 0 : 1; n < steps; ++n) {
+      const double angle = t.sweep * static_cast<double>(n) / static_cast<double>(steps);
+      const glm::dvec3 place = t.center + t.radius * (std::cos(angle) * t.start + std::sin(angle) * across);
+      if (wanted(place, 0.0)) places.push_back(place);
+    }
+  }
+}
+
+void add_on_faces(const Surface& s, double spacing, const NearWanted& wanted, std::vector<glm::dvec3>& places) {
+  for (const ConvexPatch& patch : s.convex) {
+    const Ball& atom = s.atoms[patch.atom];
+    const double radius = atom.radius + s.probe_radius;
+    if (!wanted(atom.center, radius)) continue;
+    const std::span<const Plane> planes(s.planes.data() + patch.first_plane, patch.plane_count);
+    const auto count = static_cast<std::size_t>(std::ceil(4 * std::numbers::pi * std::pow(radius / spacing, 2)));
+    for (std::size_t n = 0; n < count; ++n) {
+      const glm::dvec3 direction = spiral_direction(n, count), foot = atom.center + atom.radius * direction;
+      if (std::ranges::all_of(planes,
+                              [&](const Plane& plane) { return glm::dot(plane.normal, foot) <= plane.offset; }) &&
+          wanted(atom.center + radius * direction, 0.0))
+        places.push_back(atom.center + radius * direction);
+    }
+  }
+}
+
+/// Without those that stand where an earlier one does.
+std::vector<glm::dvec3> without_doubles(const std::vector<glm::dvec3>& places) {
+  const BallGrid grid(places, 1.0);
+  std::vector<bool> kept(places.size(), true);
+  std::vector<glm::dvec3> result;
+  for (std::uint32_t n = 0; n < places.size(); ++n) {
+    grid.for_each_near(places[n], kSamePlace, [&](std::uint32_t m) { kept[n] = kept[n] && (m >= n || !kept[m]); });
+    if (kept[n]) result.push_back(places[n]);
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<glm::dvec3> probe_places(const Surface& surface, double spacing, const NearWanted& wanted) {
+  std::vector<glm::dvec3> places;
+  add_fixed(surface, wanted, places);
+  add_on_arcs(surface, kOfArc * spacing, wanted, places);
+  add_on_faces(surface, kOfSpiral * spacing, wanted, places);
+  return without_doubles(places);
+}
+
+}  // namespace meniscus
