@@ -28,6 +28,7 @@ namespace {
 
 constexpr Command kCommands[] = {
     {"surface", add_surface},
+    {"pockets", add_pockets},
     {"render", add_render},
     {"preview", add_preview},
     {"export", add_export},
@@ -43,6 +44,7 @@ constexpr Command kCommands[] = {
 
 constexpr const char* kExamples = R"(  meniscus info 1tii.pdb                          what the file holds
   meniscus surface 1tii.pdb                       area, volume, cavities; --json, --csv for programs
+  meniscus pockets 1tii.pdb                       pockets, tunnels, cavities
   meniscus render 1tii.pdb -o 1tii.png            a picture
   meniscus preview 1tii.pdb --serve               look at it while it changes
   meniscus export povray 1tii.pdb -o 1tii         a POV-Ray scene; blender, ply likewise

@@ -28,6 +28,7 @@ void add_farm(CLI::App& command);
 void add_formats(CLI::App& command);
 void add_help(CLI::App& command);
 void add_info(CLI::App& command);
+void add_pockets(CLI::App& command);
 void add_preview(CLI::App& command);
 void add_render(CLI::App& command);
 void add_surface(CLI::App& command);

@@ -15,6 +15,7 @@
 #include "app/commands/surface_command.h"
 #include "app/process/program_error.h"
 #include "app/reports/area_csv.h"
+#include "app/reports/growing_table.h"
 #include "app/reports/notes.h"
 #include "app/reports/run_frames.h"
 #include "app/reports/series_csv.h"
@@ -28,40 +29,6 @@
 
 namespace meniscus {
 namespace {
-
-void print_now(const std::string& text) {
-  std::cout << text << std::flush;
-  if (!std::cout) throw OutputError("standard output", "cannot be written");
-}
-
-/// A table that grows frame by frame: a file, standard output, or nothing at all.
-class GrowingTable {
- public:
-  GrowingTable(const std::string& path, Existing existing) : prints_(path == "-") {
-    if (!path.empty() && !prints_) file_.emplace(path, existing);
-  }
-
-  bool is_wanted() const { return prints_ || file_; }
-  void write(const std::string& header, const std::string& rows) {
-    if (!is_wanted()) return;
-    add(has_header_ ? rows : header + rows);
-    has_header_ = true;
-  }
-  void commit() {
-    if (file_ && has_header_) file_->commit();
-  }
-
- private:
-  void add(const std::string& text) {
-    if (file_)
-      file_->write(text);
-    else
-      print_now(text);
-  }
-
-  bool prints_, has_header_ = false;
-  std::optional<OutputFile> file_;
-};
 
 /// What is known of a frame before its place among the others matters.
 struct FrameNumbers {

@@ -46,6 +46,7 @@ void add_radii_options(CLI::App& command, ReadOptions& reading);
 /// --verify, --threads.
 void add_surface_options(CLI::App& command, MoleculeOptions& options);
 void add_probe_option(CLI::App& command, SurfaceRequest& surface);
+void add_threads_option(CLI::App& command, SurfaceRequest& surface);
 /// Reads CUDA_VISIBLE_DEVICES, the number of this worker in kWorkerVariable or SLURM_LOCALID, and kKernelVariable: see
 /// DeviceChoice.
 void add_device_option(CLI::App& command, SurfaceRequest& surface);

@@ -105,6 +105,12 @@ void add_device_option(CLI::App& command, SurfaceRequest& surface) {
       "Refuse (exit code 4) to run on the CPU or on software GL where there is no hardware GPU");
 }
 
+void add_threads_option(CLI::App& command, SurfaceRequest& surface) {
+  command.add_option("--threads", surface.threads, "CPU threads [all]")
+      ->check(CLI::Range(1, 4096).description(""))
+      ->type_name("N");
+}
+
 void add_surface_options(CLI::App& command, MoleculeOptions& options) {
   const Heading heading(command, "Surface");
   SurfaceRequest& surface = options.surface;
@@ -119,9 +125,7 @@ void add_surface_options(CLI::App& command, MoleculeOptions& options) {
   add_device_option(command, surface);
   surface.check = check_by_mesh;
   command.add_flag("--verify", surface.verify, "Compute on GPU and CPU, mesh, and name every difference");
-  command.add_option("--threads", surface.threads, "CPU threads [all]")
-      ->check(CLI::Range(1, 4096).description(""))
-      ->type_name("N");
+  add_threads_option(command, surface);
 }
 
 void add_division_options(CLI::App& command, MoleculeOptions& options) {

@@ -3,6 +3,7 @@
 #include "app/reports/series_csv.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -50,9 +51,7 @@ std::string series_csv_row(const std::vector<SeriesValue>& values, const FrameNo
   return line + "\n";
 }
 
-std::string lining_residues(const Structure& structure, const SurfaceObject& object, const Cavity& cavity) {
-  std::vector<std::uint32_t> atoms;
-  for (const std::uint32_t a : cavity.atoms) atoms.push_back(object.atom[a]);
+std::string residues_of(const Structure& structure, std::vector<std::uint32_t> atoms) {
   std::ranges::sort(atoms);
   std::string text;
   const Atom* previous = nullptr;
@@ -65,6 +64,12 @@ std::string lining_residues(const Structure& structure, const SurfaceObject& obj
                         atom.insertion_code == ' ' ? "" : std::string(1, atom.insertion_code));
   }
   return text;
+}
+
+std::string lining_residues(const Structure& structure, const SurfaceObject& object, const Cavity& cavity) {
+  std::vector<std::uint32_t> atoms;
+  for (const std::uint32_t a : cavity.atoms) atoms.push_back(object.atom[a]);
+  return residues_of(structure, std::move(atoms));
 }
 
 std::string cavity_csv_header() {

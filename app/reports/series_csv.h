@@ -2,6 +2,7 @@
 // What changes from frame to frame as comma-separated values: areas, volumes, cavities.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -32,7 +33,9 @@ std::vector<SeriesValue> series_values(const Molecule& molecule, const std::vect
 std::string series_csv_header(const std::vector<SeriesValue>& values);
 std::string series_csv_row(const std::vector<SeriesValue>& values, const FrameNote& note);
 
-/// The residues whose atoms line a cavity of the object, "A:LEU12 A:PHE30B", in the order of the file.
+/// The residues of these atoms of the structure, in any order: "A:LEU12 A:PHE30B", in the order of the file.
+std::string residues_of(const Structure& structure, std::vector<std::uint32_t> atoms);
+/// Those whose atoms line a cavity of the object.
 std::string lining_residues(const Structure& structure, const SurfaceObject& object, const Cavity& cavity);
 
 /// frame,time,cavity,event,other,volume,area,x,y,z,atoms,residues. `event`: born, kept, split (off `other`), merged

@@ -23,11 +23,21 @@
 namespace meniscus {
 namespace {
 
-/// How dense places of the large probe must be. Let y be its place that is nearest to some point, and z the one that
-/// stands for y, on the same sphere or arc, which bulges towards the point: then |z - point|² <= |y - point|² + |y - z|².
-double spacing_for(double tolerance, double clearance) {
-  const double least = std::max(0.0, clearance - tolerance);
-  return std::sqrt(clearance * clearance - least * least);
+/// How dense places of the large probe must be so that a small one's centre x that is kept from them by `clearance`,
+/// and touches no atom, is kept from all places by clearance - tolerance. Let y be the place nearest to x, D away.
+///  * On an arc or a sphere with a place z beside y, which bulges towards x: |x - z|² <= D² + |y - z|².
+///  * If y touches atom a alone, x lies on the line to its centre, so it reaches into a unless D <= R - r, or D is larger
+///    than 2 r_a + R + r: places on such spheres need only keep out what is between the hull and the large probe.
+/// A point of a face has a place of the sphere within 0.77 of its step, or beyond the face's border, which is nearer then
+/// and has a place half a step away.
+PlaceSteps place_steps(const PocketRequest& request, double clearance) {
+  const double R = request.large_probe_radius, r = request.probe_radius, trim = request.trim;
+  const double least = std::max(0.0, clearance - request.tolerance);
+  const double near = std::sqrt(clearance * clearance - least * least);
+  const double far = std::max(near, std::sqrt(clearance * clearance - (R - r) * (R - r)));
+  const double half_step = 0.7 * near;
+  return {2 * half_step,
+          [=](double atom_radius) { return ((trim < 2 * atom_radius ? far : near) - half_step) / 0.77; }};
 }
 
 /// A part before it is cut out.
@@ -74,9 +84,8 @@ class PocketFinder {
       atom_.push_back(a);
     }
     first_probe_ = static_cast<std::uint32_t>(balls.size());
-    const double spacing = spacing_for(request_.tolerance, clearance_);
     for (const glm::dvec3& place :
-         probe_places(hull_.surface(), spacing, [&](const glm::dvec3& point, double reach) {
+         probe_places(hull_.surface(), place_steps(request_, clearance_), [&](const glm::dvec3& point, double reach) {
            return cells_.within(point, clearance_ + 2 * r + reach);
          }))
       balls.push_back({place, request_.large_probe_radius + request_.trim});
@@ -86,7 +95,7 @@ class PocketFinder {
     if (!found_.surface.certificate.closed)
       throw OpenSurfaceError(
           fmt::format("the surface of {} atoms and of {} large probes around them is not closed; try another "
-                      "--tolerance, and please report this structure",
+                      "--mouth-tolerance, and please report this structure",
                       first_probe_, found_.probe_count));
   }
 
@@ -185,7 +194,7 @@ std::string pocket_fault(const PocketRequest& request) {
     return fmt::format("--large-probe: {} Å is not above the small probe's {} Å, so nothing lies between the two",
                        request.large_probe_radius, request.probe_radius);
   if (!(request.trim >= 0.0)) return fmt::format("--trim: {} Å is negative", request.trim);
-  if (!(request.tolerance > 0.0)) return fmt::format("--tolerance: {} Å is not above 0", request.tolerance);
+  if (!(request.tolerance > 0.0)) return fmt::format("--mouth-tolerance: {} Å is not above 0", request.tolerance);
   return {};
 }
 

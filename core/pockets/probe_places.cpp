@@ -15,36 +15,32 @@
 namespace meniscus {
 namespace {
 
-// Of a face the spiral is within 0.77 of its own spacing, or beyond a border, where the arc is as near and its next
-// place half a step away.
-constexpr double kOfSpiral = 0.9, kOfArc = 0.6;
-static_assert(0.77 * kOfSpiral + 0.5 * kOfArc <= 1.0);
-
 void add_fixed(const Surface& s, const NearWanted& wanted, std::vector<glm::dvec3>& places) {
   for (const ConcavePatch& patch : s.concave)
     if (wanted(patch.center, 0.0)) places.push_back(patch.center);
 }
 
-void add_on_arcs(const Surface& s, double spacing, const NearWanted& wanted, std::vector<glm::dvec3>& places) {
+void add_on_arcs(const Surface& s, double step, const NearWanted& wanted, std::vector<glm::dvec3>& places) {
   for (const ToroidalPatch& t : s.toroidal) {
     if (!wanted(t.center, t.radius)) continue;
-    const auto steps = static_cast<std::size_t>(std::ceil(t.sweep * t.radius / spacing));
+    const auto count = static_cast<std::size_t>(std::ceil(t.sweep * t.radius / step));
     const glm::dvec3 across = glm::cross(t.axis, t.start);
-    for (std::size_t n = t.free() ? 0 : 1; n < steps; ++n) {
-      const double angle = t.sweep * static_cast<double>(n) / static_cast<double>(steps);
+    for (std::size_t n = t.free() ? 0 : 1; n < count; ++n) {
+      const double angle = t.sweep * static_cast<double>(n) / static_cast<double>(count);
       const glm::dvec3 place = t.center + t.radius * (std::cos(angle) * t.start + std::sin(angle) * across);
       if (wanted(place, 0.0)) places.push_back(place);
     }
   }
 }
 
-void add_on_faces(const Surface& s, double spacing, const NearWanted& wanted, std::vector<glm::dvec3>& places) {
+void add_on_faces(const Surface& s, const PlaceSteps& steps, const NearWanted& wanted, std::vector<glm::dvec3>& places) {
   for (const ConvexPatch& patch : s.convex) {
     const Ball& atom = s.atoms[patch.atom];
     const double radius = atom.radius + s.probe_radius;
     if (!wanted(atom.center, radius)) continue;
+    const double step = steps.on_sphere(atom.radius);
     const std::span<const Plane> planes(s.planes.data() + patch.first_plane, patch.plane_count);
-    const auto count = static_cast<std::size_t>(std::ceil(4 * std::numbers::pi * std::pow(radius / spacing, 2)));
+    const auto count = static_cast<std::size_t>(std::ceil(4 * std::numbers::pi * std::pow(radius / step, 2)));
     for (std::size_t n = 0; n < count; ++n) {
       const glm::dvec3 direction = spiral_direction(n, count), foot = atom.center + atom.radius * direction;
       if (std::ranges::all_of(planes,
@@ -69,11 +65,11 @@ std::vector<glm::dvec3> without_doubles(const std::vector<glm::dvec3>& places) {
 
 }  // namespace
 
-std::vector<glm::dvec3> probe_places(const Surface& surface, double spacing, const NearWanted& wanted) {
+std::vector<glm::dvec3> probe_places(const Surface& surface, const PlaceSteps& steps, const NearWanted& wanted) {
   std::vector<glm::dvec3> places;
   add_fixed(surface, wanted, places);
-  add_on_arcs(surface, kOfArc * spacing, wanted, places);
-  add_on_faces(surface, kOfSpiral * spacing, wanted, places);
+  add_on_arcs(surface, steps.on_arcs, wanted, places);
+  add_on_faces(surface, steps, wanted, places);
   return without_doubles(places);
 }
 

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// `meniscus pockets`: finds pockets, tunnels and cavities and prints their numbers; their solids as a mesh.
+#include <algorithm>
+#include <iostream>
+#include <memory>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "app/commands/commands.h"
+#include "app/commands/pockets_command.h"
+#include "app/options/frame_options.h"
+#include "app/options/molecule_options.h"
+#include "app/options/pocket_options.h"
+#include "app/options/scene_file.h"
+#include "app/process/program_error.h"
+#include "app/reports/notes.h"
+#include "app/reports/pocket_report.h"
+#include "core/base/output_file.h"
+#include "core/base/text.h"
+#include "core/scene/molecule_pockets.h"
+#include "exporters/mesh/mesh_objects.h"
+#include "exporters/mesh/pocket_mesh.h"
+
+namespace meniscus {
+namespace {
+
+void check_request(const PocketsCommand& command) {
+  if (const std::string fault = pocket_fault(command.pockets); !fault.empty()) throw UsageError(fault);
+  if (command.molecule.division.instances != InstanceMode::none)
+    throw UsageError("--instances: pockets are between all atoms, those of copies too; leave it away");
+  if (command.json && command.csv == "-")
+    throw UsageError("standard output holds one thing at a time: --json, or --csv -");
+  if (!command.mesh.empty() && !command.mesh.ends_with(".ply"))
+    throw UsageError(fmt::format("--mesh {}: meshes are written as PLY files; choose a name that ends in .ply",
+                                 in_quotes(command.mesh)));
+  if (!command.mesh.empty() && command.mesh == command.csv)
+    throw UsageError("--csv and --mesh need different files");
+  if (!command.mesh.empty() && command.frames.asked())
+    throw UsageError("--mesh is of one molecule; choose a frame with --model, or leave --mesh away");
+  for (const std::string& path : {command.csv, command.mesh})
+    if (!path.empty() && path != "-") OutputFile(path, command.existing());
+}
+
+void write_mesh(const PocketsCommand& command, const Pockets& found) {
+  const PocketMesh solids = pocket_mesh(found, command.mesh_tolerance);
+  write_ply(command.mesh, command.existing(), solids.mesh, solids.coloring, solids.scalars);
+}
+
+void run_one(const PocketsCommand& command) {
+  const Structure structure = read_and_tell(command.molecule);
+  const std::vector<bool> left_out = taken_out(command, structure);
+  PocketComputer computer(command.molecule.surface, command.pockets);
+  const MoleculePockets pockets = computer.compute(structure, left_out);
+  const PocketReport report{structure, pockets, computer.device()};
+  if (!command.mesh.empty()) write_mesh(command, pockets.found);
+  if (command.csv == "-") {
+    std::cout << pocket_csv_header() << pocket_csv_rows(report);
+    return;
+  }
+  if (!command.csv.empty()) {
+    OutputFile file(command.csv, command.existing());
+    file.write(pocket_csv_header() + pocket_csv_rows(report));
+    file.commit();
+  }
+  std::cout << (command.json ? pocket_json(report) : pocket_table(report));
+}
+
+}  // namespace
+
+std::vector<bool> taken_out(const PocketsCommand& command, const Structure& structure) {
+  std::vector<bool> taken = command.ligand.evaluate(structure.atoms);
+  if (std::ranges::find(taken, false) == taken.end())
+    throw InputError(structure.file, 0,
+                     fmt::format("all {} atoms are taken out by --ligand {}, so nothing is left for pockets to be "
+                                 "between; name others, or none",
+                                 with_thousands(taken.size()), in_quotes(command.ligand.text())));
+  return taken;
+}
+
+void add_pockets(CLI::App& command) {
+  describe(
+      command, "Find pockets, tunnels and cavities: volume, mouths, depth, the atoms around",
+      "  meniscus pockets 1hpv.pdb                         a table; the ligand's place is told\n"
+      "  meniscus pockets 1hpv.pdb --json > pockets.json   one JSON object\n"
+      "  meniscus pockets 1hpv.pdb --csv pockets.csv --mesh pockets.ply    rows, and solids in colours\n"
+      "  meniscus pockets 1hpv.pdb --large-probe 6 --trim 0   shallower ones too\n"
+      "  meniscus pockets 1ake.cif --ligand 'resname AP5'  only these atoms are taken out\n"
+      "  meniscus pockets adk.psf adk.dcd --superpose 'name CA' --csv run.csv   each pocket through time\n"
+      "  meniscus render 1hpv.pdb -o lining.png --select polymer --color pocket   the atoms around, by rank",
+      "A pocket is a connected part of what a probe of --probe can fill of the solid that --large-probe rolls over, its\n"
+      "surface lowered by --trim. Large probes that touch the molecule close the mouths; then pockets are cavities of an\n"
+      "exact surface, and volume, areas and borders are in closed form. A volume is too large by at most the area of\n"
+      "the mouths times --mouth-tolerance (`less up to`). Without a mouth it is a cavity, with two or more a tunnel.\n"
+      "Ranked by volume. Over frames a pocket keeps its number while probes at rest in it overlap. docs/pockets.md.");
+  auto state = std::make_shared<PocketsCommand>();
+  add_atom_options(command, state->molecule);
+  add_pocket_options(command, state->molecule.surface, state->pockets);
+  {
+    const Heading heading(command, "Surface");
+    add_device_option(command, state->molecule.surface);
+    add_threads_option(command, state->molecule.surface);
+  }
+  add_trajectory_argument(command);
+  add_frame_options(command, state->frames);
+  command
+      .add_option_function<std::string>(
+          "--ligand", [state](const std::string& text) { state->ligand = parse_selection_option("--ligand", text); },
+          "Atoms that are taken out first, and whose places are told [ligand]; none: they stay")
+      ->type_name("EXPR");
+  command.add_flag("--json", state->json, "Print one JSON object instead of a table");
+  command.add_option("--csv", state->csv, "Write a row a pocket; -: to standard output, nothing else")
+      ->type_name("FILE");
+  command.add_option("--mesh", state->mesh, "Write the pockets as closed meshes, each in its colour, as binary PLY")
+      ->type_name("FILE");
+  command.add_option("--tolerance", state->mesh_tolerance, "Farthest the mesh may be from the pocket, in Å [0.02]")
+      ->check(CLI::Range(kSmallestTolerance, kLargestTolerance))
+      ->type_name("Å");
+  command.add_flag("--force", state->force, "Replace files that exist");
+  add_scene_options(command);
+  command.callback([state] {
+    state->pockets.probe_radius = state->molecule.surface.probe_radius;
+    check_request(*state);
+    if (state->frames.asked()) return pockets_frames(*state);
+    run_one(*state);
+  });
+}
+
+}  // namespace meniscus

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Lays out the numbers of pockets.
+#include "app/reports/pocket_report.h"
+
+#include <iterator>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include "app/reports/area_csv.h"
+#include "app/reports/series_csv.h"
+#include "core/base/text.h"
+
+namespace meniscus {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Raised when a key changes its meaning or goes away; new keys do not raise it.
+constexpr int kPocketSchemaVersion = 1;
+
+/// Mouths are at most so far out.
+double excess_of(const Pocket& pocket, const PocketRequest& request) { return pocket.mouth_area() * request.tolerance; }
+
+std::string left_out_name(const PocketReport& report, const LeftOutResidue& residue) {
+  return residues_of(report.structure, {residue.first_atom});
+}
+
+std::string in_pocket(const PocketReport& report, std::size_t n) {
+  std::string text;
+  for (const LeftOutResidue& residue : report.pockets.left_out)
+    if (2 * residue.in_pocket[n] >= residue.atoms)
+      text += (text.empty() ? "" : " ") + left_out_name(report, residue);
+  return text;
+}
+
+Json pocket_object(const PocketReport& report, std::size_t n) {
+  const Pocket& pocket = report.pockets.found.pockets[n];
+  Json atoms = Json::array();
+  for (const std::uint32_t a : pocket.cavity.atoms) atoms.push_back(report.structure.atoms[a].index);
+  const glm::dvec3 middle = pocket.cavity.middle();
+  return {{"rank", n + 1},
+          {"kind", pocket.kind()},
+          {"volume", pocket.cavity.volume},
+          {"volume_excess_at_most", excess_of(pocket, report.pockets.found.request)},
+          {"area", pocket.cavity.area},
+          {"wall_area", pocket.wall_area()},
+          {"mouth_areas", pocket.mouth_areas},
+          {"depth", pocket.depth},
+          {"middle", {middle.x, middle.y, middle.z}},
+          {"atoms", atoms},
+          {"residues", residues_of(report.structure, pocket.cavity.atoms)}};
+}
+
+Json report_object(const PocketReport& report) {
+  const Pockets& found = report.pockets.found;
+  const PocketRequest& request = found.request;
+  Json pockets = Json::array(), left_out = Json::array();
+  for (std::size_t n = 0; n < found.pockets.size(); ++n) pockets.push_back(pocket_object(report, n));
+  for (const LeftOutResidue& residue : report.pockets.left_out) {
+    Json places = Json::array();
+    for (std::size_t n = 0; n < residue.in_pocket.size(); ++n)
+      if (residue.in_pocket[n] > 0) places.push_back({{"rank", n + 1}, {"atoms", residue.in_pocket[n]}});
+    left_out.push_back({{"name", left_out_name(report, residue)}, {"atoms", residue.atoms}, {"pockets", places}});
+  }
+  Json excluded = Json::object();
+  for (const auto& [reason, count] : report.structure.report.excluded) excluded[reason] = count;
+  return {{"schema_version", kPocketSchemaVersion},
+          {"atoms",
+           {{"read", report.structure.report.read},
+            {"excluded", excluded},
+            {"left_out", report.structure.atoms.size() - report.pockets.atom_count},
+            {"used", report.pockets.atom_count}}},
+          {"probe_radius", request.probe_radius},
+          {"large_probe_radius", request.large_probe_radius},
+          {"trim", request.trim},
+          {"min_volume", request.min_volume},
+          {"mouth_tolerance", request.tolerance},
+          {"radii_set", report.structure.radii_set},
+          {"volume_between", found.between_volume},
+          {"probes_in_mouths", found.probe_count},
+          {"pockets", pockets},
+          {"left_out", left_out},
+          {"device", report.device}};
+}
+
+std::string mouth_list(const Pocket& pocket) {
+  std::string text;
+  for (const double area : pocket.mouth_areas) text += fmt::format("{}{:.6f}", text.empty() ? "" : ";", area);
+  return text;
+}
+
+constexpr const char* kPocketColumns =
+    "rank,kind,volume,excess,area,wall_area,mouth_area,mouths,mouth_areas,depth,x,y,z,atoms,residues,left_out";
+
+std::string pocket_cells(const PocketReport& report, std::size_t n) {
+  const Pocket& pocket = report.pockets.found.pockets[n];
+  const glm::dvec3 middle = pocket.cavity.middle();
+  return fmt::format("{},{},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{},{},{:.6f},{:.3f},{:.3f},{:.3f},{},{},{}", n + 1,
+                     pocket.kind(), pocket.cavity.volume, excess_of(pocket, report.pockets.found.request),
+                     pocket.cavity.area, pocket.wall_area(), pocket.mouth_area(), pocket.mouth_areas.size(),
+                     mouth_list(pocket), pocket.depth, middle.x, middle.y, middle.z, pocket.cavity.atoms.size(),
+                     csv_cell(residues_of(report.structure, pocket.cavity.atoms)), csv_cell(in_pocket(report, n)));
+}
+
+/// The first few of some words, for a line that people read.
+std::string first_of(const std::string& words) {
+  constexpr std::size_t kWidth = 48;
+  if (words.size() <= kWidth) return words;
+  return words.substr(0, words.rfind(' ', kWidth)) + " ...";
+}
+
+double total_volume(const PocketReport& report) {
+  double sum = 0.0;
+  for (const Pocket& pocket : report.pockets.found.pockets) sum += pocket.cavity.volume;
+  return sum;
+}
+
+}  // namespace
+
+std::string pocket_table(const PocketReport& report) {
+  const Pockets& found = report.pockets.found;
+  const PocketRequest& request = found.request;
+  std::string text;
+  const auto out = std::back_inserter(text);
+  fmt::format_to(out, "molecule      {} ({})\n", escaped(report.structure.file), report.structure.format);
+  fmt::format_to(out, "atoms         {}", report.structure.report.sentence());
+  if (const std::size_t taken_out = report.structure.atoms.size() - report.pockets.atom_count; taken_out > 0)
+    fmt::format_to(out, "; {} of them taken out as ligands", with_thousands(taken_out));
+  fmt::format_to(out, "\npockets       what a probe of {} Å fills, {} Å or more below the surface of one of {} Å\n",
+                 request.probe_radius, request.trim, request.large_probe_radius);
+  fmt::format_to(out, "between       {:.3f} Å³ between the solids of both probes; {:.3f} in {} pockets of {} Å³ or more\n",
+                 found.between_volume, total_volume(report), found.pockets.size(), request.min_volume);
+  fmt::format_to(out, "mouths        closed by {} large probes, at most {} Å too far out\ndevice        {}\n",
+                 with_thousands(found.probe_count), request.tolerance, report.device);
+  fmt::format_to(out, "\n{:>5}  {:<7} {:>13} {:>11} {:>11} {:>7} {:>11} {:>9} {:>6}  {}\n", "rank", "kind", "volume Å³",
+                 "less up to", "wall Å²", "mouths", "mouth Å²", "depth Å", "atoms", "residues");
+  for (std::size_t n = 0; n < found.pockets.size(); ++n) {
+    const Pocket& pocket = found.pockets[n];
+    fmt::format_to(out, "{:>5}  {:<7} {:>12.3f} {:>11.3f} {:>10.3f} {:>7} {:>10.3f} {:>8.3f} {:>6}  {}\n", n + 1,
+                   pocket.kind(), pocket.cavity.volume, excess_of(pocket, request), pocket.wall_area(),
+                   pocket.mouth_areas.size(), pocket.mouth_area(), pocket.depth, pocket.cavity.atoms.size(),
+                   escaped(first_of(residues_of(report.structure, pocket.cavity.atoms))));
+  }
+  for (const LeftOutResidue& residue : report.pockets.left_out) {
+    std::string places;
+    for (std::size_t n = 0; n < residue.in_pocket.size(); ++n)
+      if (residue.in_pocket[n] > 0)
+        places += fmt::format("{}{} in pocket {}", places.empty() ? "" : ", ", residue.in_pocket[n], n + 1);
+    fmt::format_to(out, "{}{}: of {} atoms {}\n", &residue == &report.pockets.left_out.front() ? "\n" : "",
+                   escaped(left_out_name(report, residue)), residue.atoms, places.empty() ? "none in a pocket" : places);
+  }
+  return text;
+}
+
+std::string pocket_json(const PocketReport& report) {
+  return report_object(report).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string pocket_json_line(const PocketReport& report, const FrameNote& note) {
+  Json json{{"frame", note.frame}, {"time", note.time ? Json(*note.time) : Json()}};
+  json.update(report_object(report));
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string pocket_csv_header() { return std::string(kPocketColumns) + "\n"; }
+
+std::string pocket_csv_rows(const PocketReport& report) {
+  std::string text;
+  for (std::size_t n = 0; n < report.pockets.found.pockets.size(); ++n) text += pocket_cells(report, n) + "\n";
+  return text;
+}
+
+std::string pocket_series_header() {
+  return fmt::format("{},pocket,event,other,{}\n", kFrameColumns, kPocketColumns);
+}
+
+std::string pocket_series_rows(const PocketReport& report, const FrameNote& note,
+                               const std::vector<CavityStep>& steps) {
+  std::string text;
+  for (const CavityStep& step : steps) {
+    text += fmt::format("{},{},{},{},", frame_cells(note), step.id, event_word(step.event),
+                        step.other ? fmt::format("{}", *step.other) : "");
+    text += step.cavity == kNone ? ",,0,0,0,0,0,0,,,,,,0,,\n" : pocket_cells(report, step.cavity) + "\n";
+  }
+  return text;
+}
+
+std::string pocket_row_header() {
+  return fmt::format("{:>9} {:>12} {:>8} {:>14} {:>16} {:>12}  {}\n", "frame", "time ps", "pockets", "volume Å³",
+                     "largest Å³", "its depth Å", "its residues");
+}
+
+std::string pocket_row(const PocketReport& report, const FrameNote& note) {
+  const std::vector<Pocket>& pockets = report.pockets.found.pockets;
+  std::string row = fmt::format("{:>9} {:>12} {:>8} {:>13.3f}", note.frame,
+                                note.time ? fmt::format("{:.3f}", *note.time) : "-", pockets.size(),
+                                total_volume(report));
+  if (pockets.empty()) return row + "\n";
+  return row + fmt::format(" {:>15.3f} {:>11.3f}  {}\n", pockets.front().cavity.volume, pockets.front().depth,
+                           escaped(first_of(residues_of(report.structure, pockets.front().cavity.atoms))));
+}
+
+}  // namespace meniscus

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Meshes all boundaries at once, and turns them over.
+#include "exporters/mesh/pocket_mesh.h"
+
+#include <cstdint>
+#include <utility>
+
+#include "core/base/error.h"
+#include "core/color/color_schemes.h"
+#include "core/color/named_colors.h"
+#include "core/queries/combine.h"
+#include "exporters/mesh/tessellate.h"
+
+namespace meniscus {
+namespace {
+
+void turn_over(TriangleMesh& mesh) {
+  for (auto& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
+  for (glm::dvec3& normal : mesh.normals) normal = -normal;
+  // Corners are numbered along their triangles, and stay in ascending order.
+  for (std::size_t n = 0; n < mesh.sharp_corners.size(); ++n) {
+    mesh.sharp_corner_normals[n] = -mesh.sharp_corner_normals[n];
+    if (mesh.sharp_corners[n] % 3 == 0) continue;
+    const bool both = mesh.sharp_corners[n] % 3 == 1 && n + 1 < mesh.sharp_corners.size() &&
+                      mesh.sharp_corners[n + 1] == mesh.sharp_corners[n] + 1;
+    if (both) {
+      mesh.sharp_corner_normals[n + 1] = -mesh.sharp_corner_normals[n + 1];
+      std::swap(mesh.sharp_corner_normals[n], mesh.sharp_corner_normals[n + 1]);
+      ++n;
+    } else {
+      mesh.sharp_corners[n] += mesh.sharp_corners[n] % 3 == 1 ? 1 : -1;
+    }
+  }
+}
+
+}  // namespace
+
+PocketMesh pocket_mesh(const Pockets& pockets, double tolerance) {
+  if (pockets.pockets.empty()) throw RequestError("there are no pockets, so there is no mesh to write");
+  PocketMesh result;
+  Surface all;
+  std::vector<std::uint32_t> pocket_of_component;
+  AtomScalar rank{"pocket", {}};
+  for (std::uint32_t n = 0; n < pockets.pockets.size(); ++n) {
+    const Surface& surface = pockets.pockets[n].surface;
+    append(all, surface);
+    pocket_of_component.insert(pocket_of_component.end(), surface.components.size(), n);
+    result.coloring.atom.insert(result.coloring.atom.end(), surface.atoms.size(), categorical_color(n));
+    rank.values.insert(rank.values.end(), surface.atoms.size(), static_cast<float>(n + 1));
+  }
+  result.mesh = tessellate(all, {tolerance, false});
+  for (std::uint32_t& component : result.mesh.component) component = pocket_of_component[component];
+  turn_over(result.mesh);
+  result.scalars = {std::move(rank)};
+  return result;
+}
+
+}  // namespace meniscus
