@@ -27,18 +27,9 @@ namespace meniscus {
 namespace {
 
 constexpr Command kCommands[] = {
-    {"surface", add_surface},
-    {"pockets", add_pockets},
-    {"render", add_render},
-    {"preview", add_preview},
-    {"export", add_export},
-    {"farm", add_farm},
-    {"work", add_work},
-    {"info", add_info},
-    {"formats", add_formats},
-    {"colors", add_colors},
-    {"bench", add_bench},
-    {"completion", add_completion},
+    {"surface", add_surface}, {"pockets", add_pockets}, {"render", add_render}, {"preview", add_preview},
+    {"export", add_export},   {"farm", add_farm},       {"work", add_work},     {"info", add_info},
+    {"formats", add_formats}, {"colors", add_colors},   {"bench", add_bench},   {"completion", add_completion},
     {"help", add_help},
 };
 

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `meniscus pockets`: finds pockets, tunnels and cavities and prints their numbers; their solids as a mesh.
 #include <algorithm>
+#include <filesystem>
 #include <iostream>
 #include <memory>
-#include <optional>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -15,6 +17,7 @@
 #include "app/options/scene_file.h"
 #include "app/process/program_error.h"
 #include "app/reports/notes.h"
+#include "app/reports/pocket_figure.h"
 #include "app/reports/pocket_report.h"
 #include "core/base/output_file.h"
 #include "core/base/text.h"
@@ -34,12 +37,22 @@ void check_request(const PocketsCommand& command) {
   if (!command.mesh.empty() && !command.mesh.ends_with(".ply"))
     throw UsageError(fmt::format("--mesh {}: meshes are written as PLY files; choose a name that ends in .ply",
                                  in_quotes(command.mesh)));
-  if (!command.mesh.empty() && command.mesh == command.csv)
-    throw UsageError("--csv and --mesh need different files");
-  if (!command.mesh.empty() && command.frames.asked())
-    throw UsageError("--mesh is of one molecule; choose a frame with --model, or leave --mesh away");
-  for (const std::string& path : {command.csv, command.mesh})
-    if (!path.empty() && path != "-") OutputFile(path, command.existing());
+  if (!command.figure.empty() && !command.figure.ends_with(".json"))
+    throw UsageError(
+        fmt::format("--figure {}: scenes are JSON; choose a name that ends in .json", in_quotes(command.figure)));
+  if (!command.figure.empty() && command.molecule.file == "-")
+    throw UsageError("--figure: a scene names its molecule's file, which standard input is not");
+  std::vector<std::string> paths;
+  for (const std::string& path : {command.csv, command.mesh, command.figure})
+    if (!path.empty()) paths.push_back(path);
+  std::ranges::sort(paths);
+  if (std::ranges::adjacent_find(paths) != paths.end())
+    throw UsageError("--csv, --mesh and --figure need different files");
+  if ((!command.mesh.empty() || !command.figure.empty()) && command.frames.asked())
+    throw UsageError("--mesh and --figure are of one molecule; leave them away where there are frames");
+  // Whether the outputs can be written is known before the work begins; these vanish again.
+  for (const std::string& path : paths)
+    if (path != "-") OutputFile(path, command.existing());
 }
 
 void write_mesh(const PocketsCommand& command, const Pockets& found) {
@@ -47,22 +60,31 @@ void write_mesh(const PocketsCommand& command, const Pockets& found) {
   write_ply(command.mesh, command.existing(), solids.mesh, solids.coloring, solids.scalars);
 }
 
-void run_one(const PocketsCommand& command) {
+void write(const std::string& path, const std::string& text, Existing existing) {
+  if (path.empty()) return;
+  OutputFile file(path, existing);
+  file.write(text);
+  file.commit();
+}
+
+void run_one(const PocketsCommand& command, const CLI::App& words) {
   const Structure structure = read_and_tell(command.molecule);
   const std::vector<bool> left_out = taken_out(command, structure);
   PocketComputer computer(command.molecule.surface, command.pockets);
   const MoleculePockets pockets = computer.compute(structure, left_out);
   const PocketReport report{structure, pockets, computer.device()};
   if (!command.mesh.empty()) write_mesh(command, pockets.found);
+  if (!command.figure.empty()) {
+    const std::string folder = std::filesystem::path(command.figure).parent_path().string();
+    write(command.figure,
+          pocket_figure(report, scene_text(words, folder.empty() ? "." : folder), command.ligand.text()),
+          command.existing());
+  }
   if (command.csv == "-") {
     std::cout << pocket_csv_header() << pocket_csv_rows(report);
     return;
   }
-  if (!command.csv.empty()) {
-    OutputFile file(command.csv, command.existing());
-    file.write(pocket_csv_header() + pocket_csv_rows(report));
-    file.commit();
-  }
+  write(command.csv, pocket_csv_header() + pocket_csv_rows(report), command.existing());
   std::cout << (command.json ? pocket_json(report) : pocket_table(report));
 }
 
@@ -87,10 +109,13 @@ void add_pockets(CLI::App& command) {
       "  meniscus pockets 1hpv.pdb --large-probe 6 --trim 0   shallower ones too\n"
       "  meniscus pockets 1ake.cif --ligand 'resname AP5'  only these atoms are taken out\n"
       "  meniscus pockets adk.psf adk.dcd --superpose 'name CA' --csv run.csv   each pocket through time\n"
-      "  meniscus render 1hpv.pdb -o lining.png --select polymer --color pocket   the atoms around, by rank",
-      "A pocket is a connected part of what a probe of --probe can fill of the solid that --large-probe rolls over, its\n"
-      "surface lowered by --trim. Large probes that touch the molecule close the mouths; then pockets are cavities of an\n"
-      "exact surface, and volume, areas and borders are in closed form. A volume is too large by at most the area of\n"
+      "  meniscus pockets 1hpv.pdb --figure lining.json; meniscus lining.json -o lining.png   the atoms around, by "
+      "rank",
+      "A pocket is a connected part of what a probe of --probe can fill of the solid that --large-probe rolls over, "
+      "its\n"
+      "surface lowered by --trim. Large probes that touch the molecule close the mouths; then pockets are cavities of\n"
+      "an exact surface, and volume, areas and borders are in closed form. A volume is too large by at most the area "
+      "of\n"
       "the mouths times --mouth-tolerance (`less up to`). Without a mouth it is a cavity, with two or more a tunnel.\n"
       "Ranked by volume. Over frames a pocket keeps its number while probes at rest in it overlap. docs/pockets.md.");
   auto state = std::make_shared<PocketsCommand>();
@@ -113,16 +138,20 @@ void add_pockets(CLI::App& command) {
       ->type_name("FILE");
   command.add_option("--mesh", state->mesh, "Write the pockets as closed meshes, each in its colour, as binary PLY")
       ->type_name("FILE");
+  command
+      .add_option("--figure", state->figure,
+                  "Write a scene for render, export and preview: atoms around pockets in colours, ligands as sticks")
+      ->type_name("FILE");
   command.add_option("--tolerance", state->mesh_tolerance, "Farthest the mesh may be from the pocket, in Å [0.02]")
       ->check(CLI::Range(kSmallestTolerance, kLargestTolerance))
       ->type_name("Å");
   command.add_flag("--force", state->force, "Replace files that exist");
   add_scene_options(command);
-  command.callback([state] {
+  command.callback([state, &command] {
     state->pockets.probe_radius = state->molecule.surface.probe_radius;
     check_request(*state);
     if (state->frames.asked()) return pockets_frames(*state);
-    run_one(*state);
+    run_one(*state, command);
   });
 }
 

@@ -18,8 +18,9 @@ struct PocketsCommand {
   PocketRequest pockets;
   Selection ligand = parse_selection("ligand");
   bool json = false;
-  std::string csv;   ///< path; empty: none; "-": standard output
-  std::string mesh;  ///< path of a PLY file; empty: none
+  std::string csv;     ///< path; empty: none; "-": standard output
+  std::string mesh;    ///< path of a PLY file; empty: none
+  std::string figure;  ///< path of a scene; empty: none
   double mesh_tolerance = 0.02;
   bool force = false;
 

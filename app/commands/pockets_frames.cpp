@@ -37,9 +37,9 @@ class PocketFrames {
     // On a terminal the rows themselves tell how far it is; a bar would run into them.
     if (options.progress == ProgressStyle::automatic && ::isatty(STDOUT_FILENO)) options.progress = ProgressStyle::none;
     std::vector<FrameWorker> workers;
-    const std::size_t count = frame_builders(frames, command_.molecule, options,
-                                             kPocketBytesPerAtom * frames.structure().atoms.size())
-                                  .size();
+    const std::size_t count =
+        frame_builders(frames, command_.molecule, options, kPocketBytesPerAtom * frames.structure().atoms.size())
+            .size();
     while (workers.size() < count) workers.push_back(worker());
     try {
       run_frames(frames, command_.molecule, options, std::move(workers));
@@ -64,8 +64,7 @@ class PocketFrames {
   }
 
   MadeFrame finish(const PocketReport& report, const FrameNote& note) {
-    if (command_.csv != "-")
-      print_now(command_.json ? pocket_json_line(report, note) : pocket_row(report, note));
+    if (command_.csv != "-") print_now(command_.json ? pocket_json_line(report, note) : pocket_row(report, note));
     std::vector<Cavity> cavities;
     for (const Pocket& pocket : report.pockets.found.pockets) cavities.push_back(pocket.cavity);
     rows_.write(pocket_series_header(), pocket_series_rows(report, note, tracks_.follow(cavities)));
@@ -82,8 +81,9 @@ class PocketFrames {
 
 void pockets_frames(const PocketsCommand& command) {
   if (!command.csv.empty() && !command.frames.only.empty())
-    throw UsageError("--csv needs all frames of the run, as numbers of pockets go on from one to the next; leave "
-                     "--only away");
+    throw UsageError(
+        "--csv needs all frames of the run, as numbers of pockets go on from one to the next; leave "
+        "--only away");
   PocketFrames(command).run();
 }
 

@@ -31,8 +31,7 @@ std::string left_out_name(const PocketReport& report, const LeftOutResidue& resi
 std::string in_pocket(const PocketReport& report, std::size_t n) {
   std::string text;
   for (const LeftOutResidue& residue : report.pockets.left_out)
-    if (2 * residue.in_pocket[n] >= residue.atoms)
-      text += (text.empty() ? "" : " ") + left_out_name(report, residue);
+    if (2 * residue.in_pocket[n] >= residue.atoms) text += (text.empty() ? "" : " ") + left_out_name(report, residue);
   return text;
 }
 
@@ -131,7 +130,8 @@ std::string pocket_table(const PocketReport& report) {
     fmt::format_to(out, "; {} of them taken out as ligands", with_thousands(taken_out));
   fmt::format_to(out, "\npockets       what a probe of {} Å fills, {} Å or more below the surface of one of {} Å\n",
                  request.probe_radius, request.trim, request.large_probe_radius);
-  fmt::format_to(out, "between       {:.3f} Å³ between the solids of both probes; {:.3f} in {} pockets of {} Å³ or more\n",
+  fmt::format_to(out,
+                 "between       {:.3f} Å³ between the solids of both probes; {:.3f} in {} pockets of {} Å³ or more\n",
                  found.between_volume, total_volume(report), found.pockets.size(), request.min_volume);
   fmt::format_to(out, "mouths        closed by {} large probes, at most {} Å too far out\ndevice        {}\n",
                  with_thousands(found.probe_count), request.tolerance, report.device);
@@ -150,7 +150,8 @@ std::string pocket_table(const PocketReport& report) {
       if (residue.in_pocket[n] > 0)
         places += fmt::format("{}{} in pocket {}", places.empty() ? "" : ", ", residue.in_pocket[n], n + 1);
     fmt::format_to(out, "{}{}: of {} atoms {}\n", &residue == &report.pockets.left_out.front() ? "\n" : "",
-                   escaped(left_out_name(report, residue)), residue.atoms, places.empty() ? "none in a pocket" : places);
+                   escaped(left_out_name(report, residue)), residue.atoms,
+                   places.empty() ? "none in a pocket" : places);
   }
   return text;
 }
@@ -173,9 +174,7 @@ std::string pocket_csv_rows(const PocketReport& report) {
   return text;
 }
 
-std::string pocket_series_header() {
-  return fmt::format("{},pocket,event,other,{}\n", kFrameColumns, kPocketColumns);
-}
+std::string pocket_series_header() { return fmt::format("{},pocket,event,other,{}\n", kFrameColumns, kPocketColumns); }
 
 std::string pocket_series_rows(const PocketReport& report, const FrameNote& note,
                                const std::vector<CavityStep>& steps) {
@@ -195,9 +194,9 @@ std::string pocket_row_header() {
 
 std::string pocket_row(const PocketReport& report, const FrameNote& note) {
   const std::vector<Pocket>& pockets = report.pockets.found.pockets;
-  std::string row = fmt::format("{:>9} {:>12} {:>8} {:>13.3f}", note.frame,
-                                note.time ? fmt::format("{:.3f}", *note.time) : "-", pockets.size(),
-                                total_volume(report));
+  std::string row =
+      fmt::format("{:>9} {:>12} {:>8} {:>13.3f}", note.frame, note.time ? fmt::format("{:.3f}", *note.time) : "-",
+                  pockets.size(), total_volume(report));
   if (pockets.empty()) return row + "\n";
   return row + fmt::format(" {:>15.3f} {:>11.3f}  {}\n", pockets.front().cavity.volume, pockets.front().depth,
                            escaped(first_of(residues_of(report.structure, pockets.front().cavity.atoms))));

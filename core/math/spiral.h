@@ -14,8 +14,8 @@ namespace meniscus {
 /// Measured from 12 to 1,500: no direction is farther from the nearest one than 0.77 times the root of that share.
 inline glm::dvec3 spiral_direction(std::size_t n, std::size_t count) {
   const auto k = static_cast<double>(n);
-  const double z = (2 * k + 1.0) / static_cast<double>(count) - 1,
-               turn = 2 * std::numbers::pi * std::numbers::phi * k, across = std::sqrt(1 - z * z);
+  const double z = (2 * k + 1.0) / static_cast<double>(count) - 1, turn = 2 * std::numbers::pi * std::numbers::phi * k,
+               across = std::sqrt(1 - z * z);
   return {across * std::cos(turn), across * std::sin(turn), z};
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a large probe from outside cannot reach, and how deep a point lies in it.
+// The solid that a large probe rolls over, its cavities filled, and how deep a point lies in it.
 #pragma once
 
 #include <optional>
@@ -11,8 +11,9 @@
 
 namespace meniscus {
 
-/// The solid of a solvent-excluded surface with its cavities filled: what the probe rolls over from outside. A larger
-/// probe has a larger hull, for a ball is a union of smaller ones.
+/// The solid of a solvent-excluded surface with its cavities filled. A larger probe has a larger hull, for a ball is a
+/// union of smaller ones. Probes that overlap one outside count as outside, though they may stand behind a door that is
+/// too narrow for them.
 class Hull {
  public:
   /// surface: closed, with at least one atom and a probe above 0, with listed clip planes.
@@ -21,10 +22,10 @@ class Hull {
   Hull& operator=(const Hull&) = delete;
 
   double volume() const { return volume_; }  ///< Å³, exact
-  /// Of the hull; its atoms are those that a probe from outside touches.
+  /// Of the hull; its atoms are those that a probe touches which is in no cavity.
   const Surface& surface() const { return part_ ? *part_ : whole_; }
 
-  /// Å, from the point to the nearest place where the centre of a probe from outside may be; 0 where it may be itself.
+  /// Å, from the point to the nearest place where the centre of a probe may be that is in no cavity; 0 in such a place.
   /// Points of the hull are those for which this is the probe's radius or more; how much more is their depth.
   double to_probe(const glm::dvec3& point) const;
 

@@ -26,10 +26,11 @@ namespace {
 /// How dense places of the large probe must be so that a small one's centre x that is kept from them by `clearance`,
 /// and touches no atom, is kept from all places by clearance - tolerance. Let y be the place nearest to x, D away.
 ///  * On an arc or a sphere with a place z beside y, which bulges towards x: |x - z|² <= D² + |y - z|².
-///  * If y touches atom a alone, x lies on the line to its centre, so it reaches into a unless D <= R - r, or D is larger
+///  * If y touches atom a alone, x lies on the line to its centre, so it reaches into a unless D <= R - r, or D is
+///  larger
 ///    than 2 r_a + R + r: places on such spheres need only keep out what is between the hull and the large probe.
-/// A point of a face has a place of the sphere within 0.77 of its step, or beyond the face's border, which is nearer then
-/// and has a place half a step away.
+/// A point of a face has a place of the sphere within 0.77 of its step, or beyond the face's border, which is nearer
+/// then and has a place half a step away.
 PlaceSteps place_steps(const PocketRequest& request, double clearance) {
   const double R = request.large_probe_radius, r = request.probe_radius, trim = request.trim;
   const double least = std::max(0.0, clearance - request.tolerance);
@@ -84,10 +85,9 @@ class PocketFinder {
       atom_.push_back(a);
     }
     first_probe_ = static_cast<std::uint32_t>(balls.size());
-    for (const glm::dvec3& place :
-         probe_places(hull_.surface(), place_steps(request_, clearance_), [&](const glm::dvec3& point, double reach) {
-           return cells_.within(point, clearance_ + 2 * r + reach);
-         }))
+    for (const glm::dvec3& place : probe_places(
+             hull_.surface(), place_steps(request_, clearance_),
+             [&](const glm::dvec3&point, double reach) { return cells_.within(point, clearance_ + 2 * r + reach); }))
       balls.push_back({place, request_.large_probe_radius + request_.trim});
     atom_.resize(balls.size(), kNone);
     found_.probe_count = balls.size() - first_probe_;
@@ -164,8 +164,8 @@ class PocketFinder {
       pocket.atom.push_back(atom_[a]);
     }
     pocket.surface = std::move(cut.surface);
-    pocket.mouth_areas = mouth_areas(pocket.surface, is_probe,
-                                     2 * std::numbers::pi * request_.probe_radius * request_.tolerance);
+    pocket.mouth_areas =
+        mouth_areas(pocket.surface, is_probe, 2 * std::numbers::pi * request_.probe_radius * request_.tolerance);
     return pocket;
   }
 

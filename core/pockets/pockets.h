@@ -32,8 +32,8 @@ struct Pocket {
   /// Volume, area, the places of the small probe at rest, and the atoms that line it, of those given.
   Cavity cavity;
   std::vector<double> mouth_areas;  ///< Å², the largest first (mouths.h). None: a cavity; two or more: a tunnel
-  double depth = 0.0;               ///< Å, of the deepest place of the small probe at rest below the large one's surface
-  Surface surface;                  ///< closed; normals point into the pocket
+  double depth = 0.0;  ///< Å, of the deepest place of the small probe at rest below the large one's surface
+  Surface surface;     ///< closed; normals point into the pocket
   std::vector<std::uint32_t> atom;  ///< per surface.atoms: of the atoms given; kNone: a large probe
 
   double mouth_area() const;

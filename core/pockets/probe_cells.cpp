@@ -36,8 +36,7 @@ class CellFinder {
     std::vector<std::vector<Box>> slabs(static_cast<std::size_t>(size.z) * size.y);
     tbb::parallel_for(std::size_t{0}, slabs.size(), [&](std::size_t slab) {
       const int y = static_cast<int>(slab) % size.y, z = static_cast<int>(slab) / size.y;
-      for (int x = 0; x < size.x; ++x)
-        visit(low + 2 * kCoarsest * (glm::dvec3(x, y, z) + 0.5), kCoarsest, slabs[slab]);
+      for (int x = 0; x < size.x; ++x) visit(low + 2 * kCoarsest * (glm::dvec3(x, y, z) + 0.5), kCoarsest, slabs[slab]);
     });
     std::vector<Box> boxes;
     for (const std::vector<Box>& slab : slabs) boxes.insert(boxes.end(), slab.begin(), slab.end());
@@ -53,8 +52,10 @@ class CellFinder {
 
   void visit(const glm::dvec3& middle, double half, std::vector<Box>& found) const {
     const double reach = half * std::numbers::sqrt3;  // of its corners
-    if (in_one_ball(middle, reach) || hull_.to_probe(middle) < clearance_ - reach) return;
-    if (half <= kFinest) {
+    if (in_one_ball(middle, reach)) return;
+    const double away = hull_.to_probe(middle);
+    if (away < clearance_ - reach) return;
+    if (half <= kFinest || (away >= clearance_ + reach && in_no_ball(middle, reach))) {
       found.push_back({middle - half, middle + half});
       return;
     }
@@ -70,6 +71,14 @@ class CellFinder {
       inside = inside || glm::distance(middle, atoms_[a].center) < atoms_[a].radius + probe_radius_ - reach;
     });
     return inside;
+  }
+
+  bool in_no_ball(const glm::dvec3& middle, double reach) const {
+    bool clear = true;
+    balls_.for_each_near(middle, largest_ + reach, [&](std::uint32_t a) {
+      clear = clear && glm::distance(middle, atoms_[a].center) > atoms_[a].radius + probe_radius_ + reach;
+    });
+    return clear;
   }
 
   std::span<const Ball> atoms_;

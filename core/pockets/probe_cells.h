@@ -13,8 +13,9 @@
 
 namespace meniscus {
 
-/// Cubes of half an Ångström that together hold every place where a probe touches no ball and is at least so far from the
-/// large probe's centre. Found by halving larger cubes: both distances change by no more than a step's length.
+/// Cubes that together hold every place where a probe touches no ball and is at least so far from the large probe's
+/// centre. Found by halving larger cubes down to half an Ångström, unless all of one is such a place: both distances
+/// change by no more than a step's length.
 class ProbeCells {
  public:
   /// atoms: the hull's; probe_radius: of the small probe, Å; clearance: Å, of its centre from Hull::to_probe. Runs on

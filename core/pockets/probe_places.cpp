@@ -33,7 +33,8 @@ void add_on_arcs(const Surface& s, double step, const NearWanted& wanted, std::v
   }
 }
 
-void add_on_faces(const Surface& s, const PlaceSteps& steps, const NearWanted& wanted, std::vector<glm::dvec3>& places) {
+void add_on_faces(const Surface& s, const PlaceSteps& steps, const NearWanted& wanted,
+                  std::vector<glm::dvec3>& places) {
   for (const ConvexPatch& patch : s.convex) {
     const Ball& atom = s.atoms[patch.atom];
     const double radius = atom.radius + s.probe_radius;
