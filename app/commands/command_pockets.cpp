@@ -60,7 +60,7 @@ void write_mesh(const PocketsCommand& command, const Pockets& found) {
   write_ply(command.mesh, command.existing(), solids.mesh, solids.coloring, solids.scalars);
 }
 
-void write(const std::string& path, const std::string& text, Existing existing) {
+void write_text(const std::string& path, const std::string& text, Existing existing) {
   if (path.empty()) return;
   OutputFile file(path, existing);
   file.write(text);
@@ -76,15 +76,15 @@ void run_one(const PocketsCommand& command, const CLI::App& words) {
   if (!command.mesh.empty()) write_mesh(command, pockets.found);
   if (!command.figure.empty()) {
     const std::string folder = std::filesystem::path(command.figure).parent_path().string();
-    write(command.figure,
-          pocket_figure(report, scene_text(words, folder.empty() ? "." : folder), command.ligand.text()),
-          command.existing());
+    write_text(command.figure,
+               pocket_figure(report, scene_text(words, folder.empty() ? "." : folder), command.ligand.text()),
+               command.existing());
   }
   if (command.csv == "-") {
     std::cout << pocket_csv_header() << pocket_csv_rows(report);
     return;
   }
-  write(command.csv, pocket_csv_header() + pocket_csv_rows(report), command.existing());
+  write_text(command.csv, pocket_csv_header() + pocket_csv_rows(report), command.existing());
   std::cout << (command.json ? pocket_json(report) : pocket_table(report));
 }
 

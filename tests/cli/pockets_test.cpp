@@ -101,8 +101,9 @@ TEST(Pockets, TablesMeshesAndFiguresSayTheSame) {
   EXPECT_NE(result.out.find("    1  tunnel "), std::string::npos) << result.out;
   EXPECT_NE(result.out.find("of 35 atoms 35 in pocket 1"), std::string::npos) << result.out;
   const std::string rows = read_bytes(csv);
-  EXPECT_TRUE(rows.starts_with("rank,kind,volume,excess,area,wall_area,mouth_area,mouths,mouth_areas,depth,x,y,z,atoms,"
-                               "residues,left_out\n1,tunnel,"));
+  EXPECT_TRUE(
+      rows.starts_with("rank,kind,volume,excess,area,wall_area,mouth_area,mouths,mouth_areas,depth,x,y,z,atoms,"
+                       "residues,left_out\n1,tunnel,"));
   EXPECT_EQ(pockets({kProtease, "--csv", "-", "-q", "--min-volume", "100"}).out, rows);
   EXPECT_TRUE(read_bytes(mesh).starts_with("ply\nformat binary_little_endian 1.0\n"));
   EXPECT_NE(read_bytes(mesh).substr(0, 1000).find("property float pocket\n"), std::string::npos);
@@ -122,8 +123,8 @@ TEST(Pockets, TablesMeshesAndFiguresSayTheSame) {
 
 TEST(Pockets, KeepTheirNumbersThroughFrames) {
   TemporaryFolder folder;
-  const std::string run = folder.file("run.pdb", "MODEL        1\n" + tube(false) + "ENDMDL\nMODEL        2\n" +
-                                                     tube(false) + "ENDMDL\nEND\n");
+  const std::string run = folder.file(
+      "run.pdb", "MODEL        1\n" + tube(false) + "ENDMDL\nMODEL        2\n" + tube(false) + "ENDMDL\nEND\n");
   const std::string csv = folder.path() / "run.csv";
   const ProgramResult result = pockets({run, "--frames", "all", "--csv", csv, "--json", "-q"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
@@ -157,10 +158,10 @@ TEST(Pockets, WhatMakesNoSenseIsSaid) {
     const char* what;
   };
   TemporaryFolder folder;
-  const std::string ligand_alone = folder.file(
-      "l.pdb", "HETATM    1  C1  LIG A   1       0.000   0.000   0.000  1.00 10.00           C\n");
-  const std::string nowhere = folder.file(
-      "n.pdb", "ATOM      1  CA  ALA A   1         nan   0.000   0.000  1.00 10.00           C\n");
+  const std::string ligand_alone =
+      folder.file("l.pdb", "HETATM    1  C1  LIG A   1       0.000   0.000   0.000  1.00 10.00           C\n");
+  const std::string nowhere =
+      folder.file("n.pdb", "ATOM      1  CA  ALA A   1         nan   0.000   0.000  1.00 10.00           C\n");
   for (const Case& each : std::vector<Case>{
            {{kProtease, "--large-probe", "1"}, 2, "--large-probe: 1 Å is not above the small probe's 1.4 Å"},
            {{kProtease, "--probe", "4"}, 2, "--large-probe: 4 Å is not above the small probe's 4 Å"},
