@@ -38,7 +38,7 @@ std::string tube(bool lid) {
   int serial = 0;
   const auto add = [&](double x, double y, double z) {
     ++serial;
-    text += fmt::format("ATOM  {:>5}  C1  TUB A{:>4}    {:>8.3f}{:>8.3f}{:>8.3f}  1.00 10.00           C\n", serial,
+    text += fmt::format("ATOM  {:>5}  C1  ALA A{:>4}    {:>8.3f}{:>8.3f}{:>8.3f}  1.00 10.00           C\n", serial,
                         1 + serial / 22, x, y, z);
   };
   for (int k = 0; k < 16; ++k)
