@@ -22,11 +22,23 @@
 #include "core/base/output_file.h"
 #include "core/base/text.h"
 #include "core/scene/molecule_pockets.h"
+#include "exporters/mesh/files/mesh_formats.h"
+#include "exporters/mesh/files/pocket_file.h"
 #include "exporters/mesh/mesh_objects.h"
 #include "exporters/mesh/pocket_mesh.h"
 
 namespace meniscus {
 namespace {
+
+const MeshFormat& format_of(const std::string& path) {
+  const MeshFormat* const format = mesh_format_of_path(path);
+  if (!format || format->solid || format->atoms)
+    throw UsageError(
+        fmt::format("--mesh {}: the ending names no format for pockets; there are {}, but those for one "
+                    "solid or for atoms",
+                    in_quotes(path), mesh_format_words()));
+  return *format;
+}
 
 void check_request(const PocketsCommand& command) {
   if (const std::string fault = pocket_fault(command.pockets); !fault.empty()) throw UsageError(fault);
@@ -34,9 +46,7 @@ void check_request(const PocketsCommand& command) {
     throw UsageError("--instances: pockets are between all atoms, those of copies too; leave it away");
   if (command.json && command.csv == "-")
     throw UsageError("standard output holds one thing at a time: --json, or --csv -");
-  if (!command.mesh.empty() && !command.mesh.ends_with(".ply"))
-    throw UsageError(fmt::format("--mesh {}: meshes are written as PLY files; choose a name that ends in .ply",
-                                 in_quotes(command.mesh)));
+  if (!command.mesh.empty()) format_of(command.mesh);
   if (!command.figure.empty() && !command.figure.ends_with(".json"))
     throw UsageError(
         fmt::format("--figure {}: scenes are JSON; choose a name that ends in .json", in_quotes(command.figure)));
@@ -55,11 +65,6 @@ void check_request(const PocketsCommand& command) {
     if (path != "-") OutputFile(path, command.existing());
 }
 
-void write_mesh(const PocketsCommand& command, const Pockets& found) {
-  const PocketMesh solids = pocket_mesh(found, command.mesh_tolerance);
-  write_ply(command.mesh, command.existing(), solids.mesh, solids.coloring, solids.scalars);
-}
-
 void write_text(const std::string& path, const std::string& text, Existing existing) {
   if (path.empty()) return;
   OutputFile file(path, existing);
@@ -73,7 +78,9 @@ void run_one(const PocketsCommand& command, const CLI::App& words) {
   PocketComputer computer(command.molecule.surface, command.pockets);
   const MoleculePockets pockets = computer.compute(structure, left_out);
   const PocketReport report{structure, pockets, computer.device()};
-  if (!command.mesh.empty()) write_mesh(command, pockets.found);
+  if (!command.mesh.empty())
+    write_mesh_file(format_of(command.mesh), command.mesh, command.existing(),
+                    pocket_file(pocket_mesh(pockets.found, command.mesh_tolerance)));
   if (!command.figure.empty()) {
     const std::string folder = std::filesystem::path(command.figure).parent_path().string();
     write_text(command.figure,
@@ -136,7 +143,10 @@ void add_pockets(CLI::App& command) {
   command.add_flag("--json", state->json, "Print one JSON object instead of a table");
   command.add_option("--csv", state->csv, "Write a row a pocket; -: to standard output, nothing else")
       ->type_name("FILE");
-  command.add_option("--mesh", state->mesh, "Write the pockets as closed meshes, each in its colour, as binary PLY")
+  command
+      .add_option(
+          "--mesh", state->mesh,
+          "Write the pockets as closed meshes, each in its colour: PLY, OBJ, GLB, 3MF, STL, OFF, VTP by the ending")
       ->type_name("FILE");
   command
       .add_option("--figure", state->figure,

@@ -19,7 +19,7 @@ struct PocketsCommand {
   Selection ligand = parse_selection("ligand");
   bool json = false;
   std::string csv;     ///< path; empty: none; "-": standard output
-  std::string mesh;    ///< path of a PLY file; empty: none
+  std::string mesh;    ///< path; empty: none
   std::string figure;  ///< path of a scene; empty: none
   double mesh_tolerance = 0.02;
   bool force = false;

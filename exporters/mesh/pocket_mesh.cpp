@@ -4,10 +4,9 @@
 
 #include <cstdint>
 #include <utility>
+#include <vector>
 
 #include "core/base/error.h"
-#include "core/color/color_schemes.h"
-#include "core/color/named_colors.h"
 #include "core/queries/combine.h"
 #include "exporters/mesh/tessellate.h"
 
@@ -35,24 +34,19 @@ void turn_over(TriangleMesh& mesh) {
 
 }  // namespace
 
-PocketMesh pocket_mesh(const Pockets& pockets, double tolerance) {
+TriangleMesh pocket_mesh(const Pockets& pockets, double tolerance) {
   if (pockets.pockets.empty()) throw RequestError("there are no pockets, so there is no mesh to write");
-  PocketMesh result;
   Surface all;
   std::vector<std::uint32_t> pocket_of_component;
-  AtomScalar rank{"pocket", {}};
   for (std::uint32_t n = 0; n < pockets.pockets.size(); ++n) {
     const Surface& surface = pockets.pockets[n].surface;
     append(all, surface);
     pocket_of_component.insert(pocket_of_component.end(), surface.components.size(), n);
-    result.coloring.atom.insert(result.coloring.atom.end(), surface.atoms.size(), categorical_color(n));
-    rank.values.insert(rank.values.end(), surface.atoms.size(), static_cast<float>(n + 1));
   }
-  result.mesh = tessellate(all, {tolerance, false});
-  for (std::uint32_t& component : result.mesh.component) component = pocket_of_component[component];
-  turn_over(result.mesh);
-  result.scalars = {std::move(rank)};
-  return result;
+  TriangleMesh mesh = tessellate(all, {.tolerance = tolerance, .split_colors = false});
+  for (std::uint32_t& component : mesh.component) component = pocket_of_component[component];
+  turn_over(mesh);
+  return mesh;
 }
 
 }  // namespace meniscus

@@ -174,7 +174,7 @@ TEST(Pockets, WhatMakesNoSenseIsSaid) {
            {{kProtease, "--select", "ligand"}, 3, "all 35 atoms are taken out by --ligand 'ligand'"},
            {{kProtease, "--ligand", "resname"}, 2, "--ligand"},
            {{kProtease, "--json", "--csv", "-"}, 2, "one thing at a time"},
-           {{kProtease, "--mesh", "p.obj"}, 2, "--mesh 'p.obj'"},
+           {{kProtease, "--mesh", "p.smesh"}, 2, "--mesh 'p.smesh'"},
            {{kProtease, "--figure", "p.png"}, 2, "--figure 'p.png'"},
            {{kProtease, "--figure", "p.json", "--csv", "p.json"}, 2, "different files"},
            {{kProtease, "--frames", "all", "--mesh", "p.ply"}, 2, "--mesh and --figure are of one molecule"},

@@ -286,22 +286,21 @@ TEST(Pockets, AreTheSameForAnyNumberOfThreads) {
 TEST(Pockets, MeshesAreClosedAndTurnedOutwards) {
   const Pockets found = pockets_of(ubiquitin(), PocketRequest{});
   ASSERT_GE(found.pockets.size(), 2u);
-  const PocketMesh solids = pocket_mesh(found, 0.02);
+  const TriangleMesh solids = pocket_mesh(found, 0.02);
   for (std::uint32_t n = 0; n < found.pockets.size(); ++n) {
-    const MeshMeasure measured = measure(solids.mesh, n);
+    const MeshMeasure measured = measure(solids, n);
     EXPECT_TRUE(measured.closed);
     EXPECT_NEAR(measured.volume, found.pockets[n].cavity.volume, 0.03 * found.pockets[n].cavity.volume);
     EXPECT_NEAR(measured.area, found.pockets[n].cavity.area, 0.03 * found.pockets[n].cavity.area);
   }
-  for (std::size_t t = 0; t < solids.mesh.triangles.size(); ++t) {
-    const auto& [a, b, c] = solids.mesh.triangles[t];
-    const glm::dvec3 across = glm::cross(solids.mesh.positions[b] - solids.mesh.positions[a],
-                                         solids.mesh.positions[c] - solids.mesh.positions[a]);
+  for (std::size_t t = 0; t < solids.triangles.size(); ++t) {
+    const auto& [a, b, c] = solids.triangles[t];
+    const glm::dvec3 across =
+        glm::cross(solids.positions[b] - solids.positions[a], solids.positions[c] - solids.positions[a]);
     if (glm::length(across) < 1e-4) continue;
-    double along = glm::dot(glm::normalize(across), solids.mesh.normals[a]);
-    for (std::size_t k = 0; k < solids.mesh.sharp_corners.size(); ++k)
-      if (solids.mesh.sharp_corners[k] == 3 * t)
-        along = glm::dot(glm::normalize(across), solids.mesh.sharp_corner_normals[k]);
+    double along = glm::dot(glm::normalize(across), solids.normals[a]);
+    for (std::size_t k = 0; k < solids.sharp_corners.size(); ++k)
+      if (solids.sharp_corners[k] == 3 * t) along = glm::dot(glm::normalize(across), solids.sharp_corner_normals[k]);
     EXPECT_GT(along, 0.5) << t;
   }
   EXPECT_THROW(pocket_mesh(pockets_of(two_atoms(3.0), PocketRequest{}), 0.02), RequestError);
