@@ -121,6 +121,14 @@ TEST(Pockets, AHoleIsAMouthAndTwoAreATunnel) {
   EXPECT_LT(cup.pockets[0].depth, 2 * 5.5);
   EXPECT_EQ(cup.pockets[0].cavity.atoms.size(), shell(5.5, 4.4).size());
 
+  // A bowl's mouth is so wide that several large probes close it together.
+  PocketRequest wide;
+  wide.large_probe_radius = 12.0;
+  const Pockets bowl = pockets_of(shell(9.0, 0.0), wide);
+  ASSERT_EQ(bowl.pockets.size(), 1u);
+  EXPECT_EQ(bowl.pockets[0].mouth_areas.size(), 1u);
+  EXPECT_GT(std::ranges::count(bowl.pockets[0].atom, kNone), 1);
+
   const Pockets pipe = pockets_of(tube(5.0, 17), PocketRequest{});
   ASSERT_EQ(pipe.pockets.size(), 1u);
   const Pocket& tunnel = pipe.pockets[0];
