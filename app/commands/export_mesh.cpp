@@ -100,6 +100,11 @@ void tell(const MeshCommand& command, const MeshFormat& format, const MeshFileMa
     say(command.molecule,
         fmt::format("welded: {} edges shorter than {} Å, {} triangles without area",
                     with_thousands(maker.joined_edges()), kFileStep, with_thousands(maker.flipped_edges())));
+  if (maker.flat_triangles() > 0)
+    say(command.molecule,
+        fmt::format("warning: {} triangles have no area in thousandths of an Å and could not be welded; "
+                    "another --tolerance may have none",
+                    with_thousands(maker.flat_triangles())));
 }
 
 // Objects in files of their own, all or none of them.

@@ -6,8 +6,6 @@
 #include <cmath>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "core/base/error.h"
 #include "core/queries/combine.h"
 #include "exporters/mesh/files/inner_points.h"
@@ -57,11 +55,7 @@ void MeshFileMaker::add(SurfaceObject given) {
   const Welding welding = weld(mesh.mesh, kFileStep, request_.scale);
   joined_ += welding.joined;
   flipped_ += welding.flipped;
-  if (welding.flat > 0)
-    throw OpenSurfaceError(
-        fmt::format("{} triangles of the mesh have no area in thousandths of an Å and cannot be "
-                    "welded; give another --tolerance",
-                    welding.flat));
+  flat_ += welding.flat;
   move_vertices(mesh, welding.into);
   if (request_.inner_points) {
     const std::vector<glm::dvec3> points = inner_points(object.surface, mesh.mesh);

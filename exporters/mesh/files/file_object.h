@@ -35,7 +35,7 @@ class MeshFileMaker {
   MeshFileMaker(FileRequest request, std::string about);
 
   /// Meshes and welds all of a surface, in all its places; then what is hidden is left out. Throws what tessellate()
-  /// and even_mesh() throw, OpenSurfaceError where triangles without area stay.
+  /// and even_mesh() throw.
   void add(SurfaceObject object);
   /// Shapes beside it.
   void add(ShapeObject shapes);
@@ -43,6 +43,8 @@ class MeshFileMaker {
   std::size_t triangle_count() const { return triangles_; }
   std::size_t joined_edges() const { return joined_; }
   std::size_t flipped_edges() const { return flipped_; }
+  /// Triangles without area that stay, where welding would leave the mesh open, pinched or folded.
+  std::size_t flat_triangles() const { return flat_; }
 
   /// Call once, last. Throws RequestError where no triangle is shown.
   MeshFile take();
@@ -53,7 +55,7 @@ class MeshFileMaker {
   FileRequest request_;
   MeshFile file_;
   std::uint32_t components_ = 0;
-  std::size_t triangles_ = 0, joined_ = 0, flipped_ = 0;
+  std::size_t triangles_ = 0, joined_ = 0, flipped_ = 0, flat_ = 0;
 };
 
 }  // namespace meniscus
