@@ -57,7 +57,7 @@ TEST_F(Words, UnknownCommandsAndMissingFilesAreToldApart) {
   EXPECT_EQ(says({"rendr", molecule_}).exit_code, 2);
   EXPECT_NE(says({"rendr", molecule_}).err.find("'rendr' is no command (did you mean render?) and no file"),
             std::string::npos);
-  EXPECT_NE(says({"nowhere.pdb"}).err.find("'nowhere.pdb' is no command; there are surface, render"),
+  EXPECT_NE(says({"nowhere.pdb"}).err.find("'nowhere.pdb' is no command; there are surface, pockets, render"),
             std::string::npos);
 }
 

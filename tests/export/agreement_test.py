@@ -31,12 +31,13 @@ class Agreement(unittest.TestCase):
         run(PROGRAM, "render", *MOLECULE, "--samples", "1", "--aovs", "-o", path("ray_#####.exr"))
         run(PROGRAM, "export", "povray", *MOLECULE, "-o", path("povray"))
         run(PROGRAM, "export", "blender", *MOLECULE, "-o", path("blender"))
-        run(POVRAY, "surface.ini[normal]", "-D", "-V", cwd=path("povray"))
+        for frame in FRAMES:
+            run(POVRAY, "surface.ini[normal]", f"+SF{frame}", f"+EF{frame}", "-D", "-V", cwd=path("povray"))
         run(BLENDER, "-b", "--factory-startup", "--python-exit-code", "3", "--python", os.path.join(ADDON, "render_mns.py"), "--",
             path("blender/surface_sequence.json"), "--passes", path("blender_#####.exr"))
         cls.ray = [compare_pictures.ray_cast_normals(path(f"ray_{frame:05d}.exr")) for frame in FRAMES]
         cls.others = {
-            "POV-Ray": [compare_pictures.povray_normals(path(f"povray/surface_normal_{place}.png")) for place in (1, 2, 3)],
+            "POV-Ray": [compare_pictures.povray_normals(path(f"povray/surface_normal_{frame:05d}.png")) for frame in FRAMES],
             "Blender": [compare_pictures.blender_normals(path(f"blender_{frame:05d}.exr")) for frame in FRAMES]}
 
     @classmethod

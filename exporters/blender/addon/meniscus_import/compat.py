@@ -3,8 +3,12 @@
 
 import math
 
-import bpy
 import numpy as np
+
+try:
+    import bpy
+except ImportError:  # what follows from numbers alone is tested by any Python
+    bpy = None
 
 
 def set_normals(mesh, normals):
