@@ -20,6 +20,7 @@
 #include "exporters/mesh/creases.h"
 #include "exporters/mesh/evener.h"
 #include "exporters/mesh/mesh_crossings.h"
+#include "exporters/mesh/mesh_distance.h"
 #include "exporters/mesh/tessellate.h"
 
 namespace meniscus {
@@ -36,7 +37,7 @@ constexpr double kShareOfTolerance = 0.62;
 /// What is measured at places is less than what is between them.
 constexpr double kMargin = 0.97;
 /// The base is a scaffold: its tolerance follows that of the result between these (Å).
-constexpr double kFinestBase = 1e-4, kCoarsestBase = 0.4;
+constexpr double kFinestBase = 1e-4, kCoarsestBase = 0.4, kShareOfKept = 0.9;
 constexpr int kBases = 4;
 /// Edges (Å) from which on the base has the fewest triangles that there are, and how long its edges are.
 constexpr double kLongEdge = 1.1, kCoarseEdge = 0.9;
@@ -46,10 +47,12 @@ struct Patience {
   int rounds, frozen;
 };
 constexpr Patience kWithCoarse{1, 3}, kWithPatches{0, 1};
-/// Of a tolerance: triangles that are too far away become others in most rounds.
-constexpr Patience kWithTolerance{2, 1};
 constexpr int kAttempts = 8;
 constexpr int kRounds = 6, kRefinedRounds = 3, kRefinements = 12;
+/// How often a refinement is done again with triangles held that would cross.
+constexpr int kTakenBack = 3;
+/// Refinements in a row that help nowhere are the last ones.
+constexpr int kIdle = 5;
 constexpr double kFiner = 0.7;
 /// Refinements that make more triangles than these lead nowhere.
 constexpr std::uint32_t kMostGrowth = 2, kGrowthAllowed = 500;
@@ -98,9 +101,11 @@ class EvenMeshing {
         if (attempt == kAttempts)
           throw OpenSurfaceError(fmt::format(
               "no even mesh was found: {} triangles stay in others' way; ask for a finer one", crossing.size()));
+        if (std::none_of(trouble_.begin(), trouble_.end(), [](std::uint8_t t) { return t > 0; })) find_kept_base();
         note_trouble(crossing);
         continue;
       }
+      mend_kept();
       EvenMesh even = result();
       const std::vector<std::uint32_t> wrong = wrong_components(even.mesh);
       if (wrong.empty()) return even;
@@ -124,7 +129,7 @@ class EvenMeshing {
     });
   }
 
-  /// Returns triangles that pass through others and would not part, or none.
+  /// Returns triangles that pass through others and would not part, or that would not come near enough, or none.
   std::vector<std::uint32_t> even_out() {
     if (options_.density > 0.0) evener_->approach();
     for (int round = 0; round < kRounds; ++round) {
@@ -132,22 +137,86 @@ class EvenMeshing {
       evener_->compact();
     }
     evener_->mend();
+    evener_->compact();
     const std::uint32_t most = kMostGrowth * evener_->links().triangle_count() + kGrowthAllowed;
-    for (int round = 0, in_a_row = 0;; ++round) {
-      evener_->compact();
+    return options_.density > 0.0 ? part(most) : come_near(most);
+  }
+
+  std::vector<std::uint32_t> part(std::uint32_t most) {
+    for (int round = 0;; ++round) {
       std::vector<std::uint32_t> bad = crossing();
-      in_a_row = bad.empty() ? 0 : in_a_row + 1;
-      if (in_a_row > patience_.rounds || (in_a_row > 0 && evener_->links().triangle_count() > most)) return bad;
-      const std::vector<std::uint32_t> far = too_far();
-      bad.insert(bad.end(), far.begin(), far.end());
-      if (bad.empty()) return bad;
-      if (round == kRefinements || evener_->links().triangle_count() > most)
+      if (bad.empty() || round == patience_.rounds || evener_->links().triangle_count() > most) return bad;
+      refine(bad);
+    }
+  }
+
+  /// Makes triangles smaller where they are too far away. Where that lets some cross, it is done again without what is
+  /// around those.
+  std::vector<std::uint32_t> come_near(std::uint32_t most) {
+    if (std::vector<std::uint32_t> bad = crossing(); !bad.empty()) return bad;
+    std::vector<std::uint32_t> far = too_far();
+    std::size_t fewest = far.size();
+    for (int round = 0, idle = 0; round < kRefinements && idle < kIdle && !far.empty(); ++round) {
+      if (evener_->links().triangle_count() > most)
         throw OpenSurfaceError(
             fmt::format("no even mesh was found: {} triangles stay too far away; ask for a finer one", far.size()));
-      evener_->refine(bad, kFiner);
-      evener_->even_out(kRefinedRounds);
-      evener_->mend();
+      const Evener before = *evener_;
+      std::vector<Ball> held;
+      for (int n = 0;; ++n) {
+        refine(far);
+        std::vector<std::uint32_t> bad = crossing();
+        if (bad.empty()) break;
+        if (n == kTakenBack) return bad;
+        for (const std::uint32_t t : bad) held.push_back(around(t));
+        evener_.emplace(before);
+        evener_->hold(held);
+      }
+      far = too_far();
+      idle = far.size() < fewest ? 0 : idle + 1;
+      fewest = std::min(fewest, far.size());
     }
+    return far;
+  }
+
+  /// What was kept for fear of crossings has the slivers of the base: it is mended as far as nothing gets wrong by
+  /// that.
+  void mend_kept() {
+    const Evener before = *evener_;
+    std::vector<Ball> held;
+    for (int n = 0; n <= kTakenBack; ++n) {
+      evener_->release();
+      evener_->hold(held);
+      evener_->mend();
+      evener_->compact();
+      std::vector<std::uint32_t> bad = crossing();
+      if (options_.density == 0.0) {
+        const std::vector<std::uint32_t> far = too_far();
+        bad.insert(bad.end(), far.begin(), far.end());
+      }
+      if (bad.empty()) return;
+      for (const std::uint32_t t : bad) held.push_back(around(t));
+      evener_.emplace(before);
+    }
+  }
+
+  void refine(const std::vector<std::uint32_t>& triangles) {
+    evener_->refine(triangles, kFiner);
+    evener_->even_out(kRefinedRounds);
+    evener_->mend();
+    evener_->compact();
+  }
+
+  /// The triangle and what is as near as its longest edge is long.
+  Ball around(std::uint32_t triangle) const {
+    const auto v = evener_->links().corners(triangle);
+    const auto& x = evener_->positions();
+    const glm::dvec3 middle = (x[v[0]] + x[v[1]] + x[v[2]]) / 3.0;
+    double reach = 0.0, longest = 0.0;
+    for (int k = 0; k < 3; ++k) {
+      reach = std::max(reach, glm::distance(middle, x[v[k]]));
+      longest = std::max(longest, glm::distance(x[v[k]], x[v[(k + 1) % 3]]));
+    }
+    return {middle, reach + longest};
   }
 
   /// Edges on the faces under these triangles are half as long in the next attempt, and keep to the base, which hardly
@@ -208,14 +277,23 @@ class EvenMeshing {
       } catch (const OpenSurfaceError&) {
       }
     }
-    double tolerance =
+    const double tolerance =
         options_.density > 0.0 ? edge_of_density_ * edge_of_density_ / (6.0 * probe()) : options_.tolerance;
-    tolerance = std::clamp(2.0 * tolerance, kFinestBase, kCoarsestBase);
+    take_patches(2.0 * tolerance);
+  }
+
+  /// By tolerance faces in trouble stay as they are in the base, which has to be as near as promised then.
+  void find_kept_base() {
+    if (options_.density == 0.0) take_patches(kShareOfKept * options_.tolerance);
+  }
+
+  void take_patches(double tolerance) {
+    tolerance = std::clamp(tolerance, kFinestBase, kCoarsestBase);
     for (int n = 1;; ++n, tolerance *= 0.25) {
       try {
         base_ = tessellate(surface_, {tolerance, false});
         least_edge_ = std::sqrt(5.0 * tolerance * probe());
-        patience_ = options_.density > 0.0 ? kWithPatches : kWithTolerance;
+        patience_ = kWithPatches;
         return;
       } catch (const OpenSurfaceError&) {
         if (n == kBases) throw;
@@ -249,11 +327,22 @@ class EvenMeshing {
     return *distance_;
   }
 
+  /// Triangles that are too far from the surface, and those nearest to places of creases that are too far from the
+  /// mesh: away from creases neither is without the other.
   std::vector<std::uint32_t> too_far() const {
-    if (options_.density > 0.0) return {};
-    std::vector<std::uint8_t> bad(evener_->links().triangle_count(), 0);
+    const std::vector<std::array<std::uint32_t, 3>> all = triangles();
+    std::vector<std::uint8_t> bad(all.size(), 0);
     tbb::parallel_for(std::uint32_t{0}, evener_->links().triangle_count(),
                       [&](std::uint32_t t) { bad[t] = is_too_far(t); });
+    const MeshDistance from_mesh(evener_->positions(), all);
+    std::vector<std::uint32_t> bridging(base_.positions.size(), kNone);
+    tbb::parallel_for(std::size_t{0}, bridging.size(), [&](std::size_t v) {
+      const double limit = kMargin * tolerance_at(base_.positions[v]);
+      const NearestTriangle nearest = from_mesh(base_.positions[v], std::numeric_limits<double>::infinity());
+      if (nearest.distance > limit) bridging[v] = nearest.triangle;
+    });
+    for (const std::uint32_t t : bridging)
+      if (t != kNone) bad[t] = 1;
     return numbers_of(bad);
   }
   std::vector<std::uint32_t> crossing() const {

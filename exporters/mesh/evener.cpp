@@ -472,6 +472,15 @@ void Evener::refine(const std::vector<std::uint32_t>& triangles, double factor) 
   }
 }
 
+void Evener::hold(const std::vector<Ball>& places) {
+  tbb::parallel_for(std::size_t{0}, position_.size(), [&](std::size_t v) {
+    for (const Ball& place : places)
+      if (glm::distance(place.center, position_[v]) < place.radius) frozen_[v] = 1;
+  });
+}
+
+void Evener::release() { std::fill(frozen_.begin(), frozen_.end(), std::uint8_t{0}); }
+
 void Evener::compact() {
   const std::vector<std::uint32_t> old = links_.compact();
   const auto take = [&](auto& column) {

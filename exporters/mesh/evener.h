@@ -36,6 +36,10 @@ class Evener {
   void mend();
   /// Asks for edges shorter by `factor` around these triangles, and confines what follows to their neighbourhood.
   void refine(const std::vector<std::uint32_t>& triangles, double factor);
+  /// Vertices in these balls stay where they are from now on, and edges between them.
+  void hold(const std::vector<Ball>& places);
+  /// Nothing is held or frozen from now on.
+  void release();
   /// Takes the places of vertices and triangles that are gone.
   void compact();
 

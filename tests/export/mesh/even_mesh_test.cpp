@@ -218,6 +218,14 @@ TEST(EvenMesh, IsFoundWhereCreasesCrowd) {
   }
 }
 
+TEST(EvenMesh, IsFoundByToleranceWhereBallsCrowd) {
+  const Surface surface = compute_surface_cpu(gas(5, 150, 22.0, 1.2, 1.9), kWater);
+  const TriangleMesh mesh = even_mesh(surface, {0.0, 0.1, {}}).mesh;
+  expect_same_topology(surface, mesh);
+  EXPECT_TRUE(crossing_triangles(mesh.positions, mesh.triangles).empty());
+  EXPECT_LT(farthest_from(mesh, tessellate(surface, {0.2, false}).positions), 0.1);
+}
+
 TEST(EvenMesh, UbiquitinHasNoSlivers) {
   const Surface surface = compute_surface_cpu(ubiquitin(), kWater);
   const TriangleMesh mesh = even_mesh(surface, {0.0, 0.05, {}}).mesh;
