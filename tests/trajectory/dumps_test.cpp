@@ -171,7 +171,8 @@ TEST(LammpsDump, WhatIsNoTrajectoryIsNamed) {
 
 TEST(Tpr, IsRefusedWithTheCommandThatConvertsIt) {
   const TemporaryFolder folder;
-  const std::string start("\0\0\0\x1f\0\0\0\x1eVERSION 2022.5-Debian_2022.5_2\0\0\0\0\0\4\0\0\0\x7f", 52);
+  using std::string_literals::operator""s;
+  const std::string start = "\0\0\0\x1f\0\0\0\x1eVERSION 2022.5-Debian_2022.5_2\0\0\0\0\0\4\0\0\0\x7f"s;
   const std::string path = folder.file("run.tpr", start + std::string(100, '\0'));
   expect_words(refusal([&] { open_trajectory(path); }), "gmx editconf -f run.tpr -conect -o run.pdb");
   const test::ProgramResult result = test::run_program(MENISCUS_PROGRAM, {"surface", path});
