@@ -1,9 +1,11 @@
 #!/usr/bin/env bash
 # The Debian packages of each job, and one function that installs what is missing of them.
 
+# openimageio-tools: OpenImageIO's CMake files name its programs and fail where they are missing.
 build_packages=(
   g++ cmake ninja-build pkg-config ccache
-  libepoxy-dev libegl-dev libglm-dev libopenimageio-dev libfreetype-dev gemmi-dev tao-pegtl-dev libcli11-dev libfmt-dev
+  libepoxy-dev libegl-dev libglm-dev libopenimageio-dev openimageio-tools libfreetype-dev gemmi-dev tao-pegtl-dev
+  libcli11-dev libfmt-dev
   nlohmann-json3-dev libtbb-dev zlib1g-dev libdeflate-dev libglfw3-dev libimgui-dev
   libboost-dev libturbojpeg0-dev libhdf5-dev libssl-dev
 )
