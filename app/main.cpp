@@ -38,7 +38,7 @@ constexpr const char* kExamples = R"(  meniscus info 1tii.pdb                   
   meniscus pockets 1tii.pdb                       pockets, tunnels, cavities
   meniscus render 1tii.pdb -o 1tii.png            a picture
   meniscus preview 1tii.pdb --serve               look at it while it changes
-  meniscus export povray 1tii.pdb -o 1tii         a POV-Ray scene; blender, ply likewise
+  meniscus export povray 1tii.pdb -o 1tii         a POV-Ray scene; blender, mitsuba, pbrt likewise
   meniscus surface 1tii.pdb --select 'chain A'    only some atoms; meniscus help selections
   meniscus COMMAND --help                         everything about one command)";
 

@@ -7,8 +7,9 @@ namespace {
 
 /// One row a format; its file is app/export_<name>.cpp.
 constexpr Command kFormats[] = {
-    {"povray", add_export_povray}, {"blender", add_export_blender}, {"mesh", add_export_mesh},
-    {"ply", add_export_ply},       {"atoms", add_export_atoms},
+    {"povray", add_export_povray}, {"blender", add_export_blender}, {"mitsuba", add_export_mitsuba},
+    {"pbrt", add_export_pbrt},     {"mesh", add_export_mesh},       {"ply", add_export_ply},
+    {"atoms", add_export_atoms},
 };
 
 }  // namespace

@@ -22,6 +22,8 @@ void add_export(CLI::App& command);
 void add_export_atoms(CLI::App& command);
 void add_export_blender(CLI::App& command);
 void add_export_mesh(CLI::App& command);
+void add_export_mitsuba(CLI::App& command);
+void add_export_pbrt(CLI::App& command);
 void add_export_ply(CLI::App& command);
 void add_export_povray(CLI::App& command);
 void add_farm(CLI::App& command);

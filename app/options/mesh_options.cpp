@@ -16,8 +16,6 @@
 namespace meniscus {
 namespace {
 
-/// What a camera is for: nothing finer can be seen.
-constexpr double kPixelsOfACamera = 0.5;
 constexpr double kSmallestScale = 1e-12, kLargestScale = 1e6;
 
 /// As CLI11 names the options that exclude each other.
@@ -26,12 +24,15 @@ struct FinenessOptions {
 };
 
 FinenessOptions add_tolerances(CLI::App& command, MeshRequest& request) {
-  CLI::Option* const angstrom =
-      command.add_option("--tolerance", request.tolerance,
-                         fmt::format("Farthest the mesh may be from the surface, in Å [{}]", request.tolerance));
+  const bool by_pixels = request.tolerance_pixels > 0.0;
+  CLI::Option* const angstrom = command.add_option(
+      "--tolerance", request.tolerance,
+      "Farthest the mesh may be from the surface, in Å" + (by_pixels ? "" : fmt::format(" [{}]", request.tolerance)));
   angstrom->type_name("Å")->check(CLI::Range(kSmallestTolerance, kLargestTolerance));
-  CLI::Option* const pixels = command.add_option("--tolerance-pixels", request.tolerance_pixels,
-                                                 "The same in pixels of the picture, e.g. 0.25");
+  CLI::Option* const pixels =
+      command.add_option("--tolerance-pixels", request.tolerance_pixels,
+                         "The same in pixels of the picture" +
+                             (by_pixels ? fmt::format(" [{}]", request.tolerance_pixels) : ", e.g. 0.25"));
   pixels->type_name("PIXELS")->check(CLI::Range(1e-3, 100.0))->excludes(angstrom);
   return {angstrom, pixels};
 }
@@ -83,6 +84,10 @@ void add_mesh_file_options(CLI::App& command, MeshFileOptions& options) {
       ->type_name("NAMES")
       ->check(proposes(names));
   add_units(command, options);
+}
+
+void take_tolerance(const CLI::App& command, MeshRequest& request) {
+  if (command.count("--tolerance") > 0) request.tolerance_pixels = 0.0;
 }
 
 void take_camera_for_tolerance(const CLI::App& command, bool has_camera, MeshFileOptions& options) {

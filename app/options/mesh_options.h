@@ -11,9 +11,14 @@
 
 namespace meniscus {
 
-/// --tolerance and --tolerance-pixels, the former with its default as the request has it. The request must live as long
-/// as the command.
+/// What a camera is for: nothing finer can be seen.
+inline constexpr double kPixelsOfACamera = 0.5;
+
+/// --tolerance and --tolerance-pixels, with the default that the request has: pixels if it has some, else Å. The
+/// request must live as long as the command.
 void add_mesh_options(CLI::App& command, MeshRequest& request);
+/// A tolerance in Å counts instead of pixels by default. For when the options are read.
+void take_tolerance(const CLI::App& command, MeshRequest& request);
 
 /// What `export mesh` says of its file beside that.
 struct MeshFileOptions {

@@ -30,7 +30,7 @@ ORDER = [
     ["core/scene"],
     ["exporters/mesh"],
     ["exporters/mesh/files"],
-    ["exporters/povray", "exporters/blender", "exporters/c_api", "exporters/msms"],
+    ["exporters/povray", "exporters/blender", "exporters/path_tracers", "exporters/c_api", "exporters/msms"],
     ["app/process"],
     ["app/film", "app/msms"],
     ["app/options"],

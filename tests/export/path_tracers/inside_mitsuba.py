@@ -1,0 +1,118 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""inside_mitsuba.py PROGRAM: scenes in Mitsuba 3 itself, ray by ray beside the ray caster, and rendered; the last line
+says "cases N failures M". Run by an interpreter that has mitsuba; MENISCUS_KEEP_PICTURES=FOLDER keeps pictures."""
+
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import mitsuba as mi
+import numpy as np
+
+mi.set_variant("scalar_rgb")
+PROGRAM = sys.argv[1]
+UBIQUITIN = "/usr/share/freesasa/test-data/1ubq.pdb"
+WIDTH, HEIGHT = 160, 120
+
+
+def atom_line(number, x, y, z, chain="A"):
+    return f"HETATM{number:5d}  C   UNK {chain}{number:4d}    {x:8.3f}{y:8.3f}{z:8.3f}  1.00  0.00           C\n"
+
+
+class InMitsuba(unittest.TestCase):
+    def setUp(self):
+        holder = tempfile.TemporaryDirectory()
+        self.addCleanup(holder.cleanup)
+        self.folder = pathlib.Path(holder.name)
+
+    def run_program(self, *words):
+        done = subprocess.run([PROGRAM, *map(str, words)], capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done
+
+    def scene(self, molecule, *options, name="scene"):
+        folder = self.folder / name
+        self.run_program("export", "mitsuba", molecule, "-o", folder, "--size", f"{WIDTH}x{HEIGHT}", "-q", *options)
+        return folder / "surface.xml"
+
+    def ours(self, molecule, *options):
+        """Colours (linear), coverage and depth along the view of the ray through the middle of each pixel."""
+        path = self.folder / "ours.exr"
+        self.run_program("render", molecule, "-o", path, "--size", f"{WIDTH}x{HEIGHT}", "-q", "--aovs", "--samples", 1,
+                         "--preset", "classic", "--ambient", 1, "--specular", 0, "--force", *options)
+        bitmap = mi.Bitmap(str(path))
+        values = np.array(bitmap, dtype=float)
+        channel = {field.name: values[:, :, n] for n, field in enumerate(bitmap.struct_())}
+        normals = np.stack([channel[f"N.{axis}"] for axis in "xyz"], 2)
+        positions = np.stack([channel[f"P.{axis}"] for axis in "xyz"], 2)
+        return np.stack([channel[c] for c in "RGB"], 2), channel["A"] > 0.5, normals, positions
+
+    def theirs(self, path):
+        """The same of a scene, position relative to its origin."""
+        scene = mi.load_file(str(path))
+        sensor = scene.sensors()[0]
+        colors, normals, positions = (np.zeros((HEIGHT, WIDTH, 3)) for _ in range(3))
+        covered = np.zeros((HEIGHT, WIDTH), bool)
+        for row in range(HEIGHT):
+            for column in range(WIDTH):
+                ray, _ = sensor.sample_ray(0, 0.5, [(column + 0.5) / WIDTH, (row + 0.5) / HEIGHT], [0.5, 0.5])
+                hit = scene.ray_intersect(ray)
+                if not hit.is_valid() or hit.emitter(scene) is not None:
+                    continue
+                covered[row, column] = True
+                colors[row, column] = np.array(hit.bsdf().eval_diffuse_reflectance(hit))
+                normals[row, column] = np.array(hit.sh_frame.n)
+                positions[row, column] = np.array(hit.p)
+        return colors, covered, normals, positions
+
+    def keep(self, name, image):
+        if "MENISCUS_KEEP_PICTURES" in os.environ:
+            path = pathlib.Path(os.environ["MENISCUS_KEEP_PICTURES"]) / f"{name}.png"
+            mi.util.write_bitmap(str(path), mi.TensorXf(image.astype(np.float32)), write_async=False)
+
+    def compare(self, name, molecule, *options, tolerance=0.005, covered_limit=0.0005, color_limit=0.002):
+        """Both of a scene with a mesh within the tolerance (Å; None: half a pixel), with the same options."""
+        mesh = [] if tolerance is None else ["--tolerance", tolerance]
+        ours = self.ours(molecule, *options)
+        path = self.scene(molecule, *options, *mesh, name=name)
+        theirs = self.theirs(path)
+        self.keep(f"{name}-ours", ours[0])
+        self.keep(f"{name}-mitsuba", theirs[0])
+        both = ours[1] & theirs[1]
+        self.assertGreater(both.mean(), 0.05)
+        covered = (ours[1] != theirs[1]).mean()
+        colors = (np.abs(ours[0] - theirs[0]).max(2)[both] > 0.02).mean()
+        turned = np.degrees(np.arccos(np.clip((ours[2] * theirs[2]).sum(2)[both], -1, 1)))
+        origin = np.median((ours[3] - theirs[3])[both], 0)
+        off = np.linalg.norm(ours[3] - theirs[3] - origin, axis=2)[both]
+        print(f"{name}: {covered:.3%} of pixels covered by one alone, {colors:.3%} of another colour; normals off by "
+              f"{np.median(turned):.2f} (99 %: {np.percentile(turned, 99):.2f}) degrees, points by {np.median(off):.4f} "
+              f"(99 %: {np.percentile(off, 99):.4f}) Å")
+        self.assertLess(covered, covered_limit)
+        self.assertLess(colors, color_limit)
+        if tolerance is not None:
+            self.assertLess(np.percentile(turned, 99), 3)
+            self.assertLess(np.percentile(off, 99), 10 * tolerance)  # where the view grazes the surface
+        return path
+
+    def test_surface_by_perspective(self):
+        self.compare("surface", UBIQUITIN, "--color", "element")
+
+    def test_mesh_of_half_a_pixel(self):
+        self.compare("half_a_pixel", UBIQUITIN, "--color", "element", tolerance=None, covered_limit=0.005, color_limit=0.015)
+
+    def test_surface_by_orthographic_camera_in_a_tall_picture(self):
+        self.compare("orthographic", UBIQUITIN, "--projection", "orthographic", "--view", "y", "--color", "residue")
+
+
+class Summary(unittest.TextTestResult):
+    pass
+
+
+if __name__ == "__main__":
+    result = unittest.main(argv=sys.argv[:1] + sys.argv[2:], exit=False).result
+    print(f"cases {result.testsRun} failures {len(result.failures) + len(result.errors)}")
+    sys.exit(not result.wasSuccessful())

@@ -1,0 +1,241 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Scenes for Mitsuba and pbrt: whole, closed, equal to the surface, and free of what molecule files say: PROGRAM."""
+
+import json
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import numpy as np
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+from scene_files import mitsuba_scene, pbrt_scene  # noqa: E402
+
+PROGRAM = sys.argv[1]
+UBIQUITIN = "/usr/share/freesasa/test-data/1ubq.pdb"
+ENDING = {"mitsuba": "xml", "pbrt": "pbrt"}
+
+
+def atom_line(number, x, y, z, chain="A", element="C", residue="UNK"):
+    return (f"HETATM{number:5d}  {element}   {residue} {chain}{number:4d}    {x:8.3f}{y:8.3f}{z:8.3f}  1.00  0.00"
+            f"           {element}\n")
+
+
+def volume(mesh):
+    a, b, c = (mesh.positions[mesh.triangles[:, k]].astype(float) for k in range(3))
+    return float((np.cross(a, b) * c).sum() / 6)
+
+
+class Scenes(unittest.TestCase):
+    def setUp(self):
+        holder = tempfile.TemporaryDirectory()
+        self.addCleanup(holder.cleanup)
+        self.folder = pathlib.Path(holder.name)
+
+    def run_program(self, *words, code=0):
+        done = subprocess.run([PROGRAM, *map(str, words)], capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, code, done.stderr)
+        return done
+
+    def written(self, renderer, molecule, *options, name="scene"):
+        """The paths of the scenes."""
+        folder = self.folder / f"{name}-{renderer}"
+        self.run_program("export", renderer, molecule, "-o", folder, "--size", "320x240", "-q", *options)
+        return sorted(folder.glob(f"*.{ENDING[renderer]}"))
+
+    def mitsuba(self, molecule, *options, name="scene"):
+        (path,) = self.written("mitsuba", molecule, *options, name=name)
+        subprocess.run(["xmllint", "--noout", "--nonet", path], check=True)
+        return mitsuba_scene(path)
+
+    def pbrt(self, molecule, *options, name="scene"):
+        (path,) = self.written("pbrt", molecule, *options, name=name)
+        return pbrt_scene(path)
+
+    def molecule(self, text, name="molecule.pdb"):
+        path = self.folder / name
+        path.write_text(text)
+        return path
+
+    @staticmethod
+    def origin_of(path):
+        said = re.search(r"those here plus \(([^)]*)\)", path.read_text())
+        return np.array([float(word) for word in said.group(1).split(", ")])
+
+    def test_meshes_enclose_the_volume_of_the_surface(self):
+        said = json.loads(self.run_program("surface", UBIQUITIN, "--json", "-q").stdout)
+        whole = said["volume"]
+        _, meshes = self.mitsuba(UBIQUITIN, "--color", "element", "--tolerance", 0.02)
+        self.assertEqual(list(meshes), ["surface_1.ply"])
+        mesh = meshes["surface_1.ply"]
+        self.assertAlmostEqual(volume(mesh) / whole, 1, delta=2e-3)
+        np.testing.assert_allclose(np.linalg.norm(mesh.normals, axis=1), 1, atol=1e-5)
+        self.assertEqual(len(np.unique(mesh.colors, axis=0)), 4)
+        # Three corners, one colour: colours change along edges.
+        corner = mesh.colors[mesh.triangles]
+        self.assertTrue((corner == corner[:, :1]).all())
+        _, parts = self.pbrt(UBIQUITIN, "--color", "element", "--tolerance", 0.02)
+        self.assertEqual(len(parts), 4)
+        self.assertEqual(sum(len(part.triangles) for part in parts.values()), len(mesh.triangles))
+        self.assertAlmostEqual(sum(volume(part) for part in parts.values()), volume(mesh), delta=1e-2)
+        self.assertTrue(all(part.colors is None for part in parts.values()))
+
+    def test_half_a_pixel_is_the_default(self):
+        count = [len(self.mitsuba(UBIQUITIN, *options, name=f"s{n}")[1]["surface_1.ply"].triangles)
+                 for n, options in enumerate([(), ("--tolerance-pixels", 0.5), ("--tolerance-pixels", 2),
+                                              ("--tolerance", 0.2)])]
+        self.assertEqual(count[0], count[1])
+        self.assertGreater(count[0], 1.5 * count[2])
+        said = self.run_program("export", "mitsuba", UBIQUITIN, "-o", self.folder / "said", "--tolerance", 0.2)
+        self.assertIn("within 0.2 Å", said.stderr)
+
+    def test_untouched_atoms_are_spheres(self):
+        text = atom_line(1, 0.125, 0, 0) + atom_line(2, 20, 1, 2, element="O") + atom_line(3, 40, 0, 0) + atom_line(4, 41.5, 0, 0)
+        path = self.molecule(text)
+        (scene,) = self.written("mitsuba", path, "--color", "element")
+        root, meshes = mitsuba_scene(scene)
+        spheres = [e for e in root.iter("shape") if e.get("type") == "sphere"]
+        self.assertEqual((len(spheres), len(meshes)), (2, 1))
+        centers = [[float(s.find("point").get(axis)) for axis in "xyz"] for s in spheres] + self.origin_of(scene)
+        np.testing.assert_allclose(centers, [[0.125, 0, 0], [20, 1, 2]], rtol=0, atol=1e-12)
+        self.assertEqual([float(s.find("float").get("value")) for s in spheres], [1.7, 1.52])
+        statements, parts = self.pbrt(path, "--color", "element")
+        self.assertEqual([p["radius"] for n, v, p in statements if n == "Shape" and v == ["sphere"]], [1.7, 1.52])
+        self.assertEqual(len(parts), 1)
+
+    def test_sticks_are_spheres_and_cylinders(self):
+        root, meshes = self.mitsuba(UBIQUITIN, "--hide-surface", "--sticks", "resname LYS", "--tube", "chain A")
+        kinds = [e.get("type") for e in root.iter("shape")]
+        self.assertEqual(len(meshes), 1)
+        self.assertEqual(kinds.count("ply") + kinds.count("sphere") + kinds.count("cylinder"), len(kinds))
+        statements, _ = self.pbrt(UBIQUITIN, "--hide-surface", "--sticks", "resname LYS", "--tube", "chain A")
+        shapes = [v[0] for n, v, p in statements if n == "Shape"]
+        for theirs, ours in (("sphere", "sphere"), ("cylinder", "cylinder")):
+            self.assertGreater(kinds.count(theirs), 60)
+            self.assertEqual(kinds.count(theirs), shapes.count(ours))
+        # The placed cylinders of both are the same.
+        ends = [[float(p.get(axis)) for p in e.findall("point") for axis in "xyz"] for e in root.iter("shape")
+                if e.get("type") == "cylinder"]
+        placed = [(m[1], s[2]) for m, s in zip(statements, statements[1:]) if s[0] == "Shape" and s[1] == ["cylinder"]]
+        for (x0, y0, z0, x1, y1, z1), (matrix, parameters) in zip(ends, placed):
+            matrix = np.reshape(matrix, (4, 4)).T
+            np.testing.assert_allclose(np.linalg.det(matrix[:3, :3]), 1, atol=1e-12)
+            np.testing.assert_allclose(matrix @ [0, 0, 0, 1], [x0, y0, z0, 1], atol=1e-12)
+            np.testing.assert_allclose(matrix @ [0, 0, parameters["zmax"], 1], [x1, y1, z1, 1], atol=1e-12)
+
+    def test_copies_are_placed_not_repeated(self):
+        biomt = "".join(f"REMARK 350   BIOMT{row} {n:3d} {m[0]:9.6f} {m[1]:9.6f} {m[2]:9.6f} {m[3]:14.5f}\n"
+                        for n, rows in ((1, ((1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0))),
+                                        (2, ((0, -1, 0, 30), (1, 0, 0, 5), (0, 0, 1, 7))))
+                        for row, m in enumerate(rows, 1))
+        path = self.molecule("REMARK 350 BIOMOLECULE: 1\nREMARK 350 APPLY THE FOLLOWING TO CHAINS: A\n" + biomt +
+                             atom_line(1, 1, 2, 3) + atom_line(2, 2.5, 2, 3))
+        (scene,) = self.written("mitsuba", path, "--assembly", 1, "--instances", "exact")
+        root, meshes = mitsuba_scene(scene)
+        self.assertEqual(len(meshes), 1)
+        matrices = [np.array([float(w) for w in e.get("value").split()]).reshape(4, 4) for e in root.iter("matrix")]
+        self.assertEqual(len(matrices), 2)
+        origin = self.origin_of(scene)
+        for matrix, awaited in zip(matrices, ([1, 2, 3], [28, 6, 10])):
+            at = matrix @ np.append(np.array([1, 2, 3]) - origin, 1)
+            np.testing.assert_allclose(at[:3] + origin, awaited, atol=1e-9)
+        statements, parts = self.pbrt(path, "--assembly", 1, "--instances", "exact")
+        self.assertEqual(len(parts), 1)
+        placed = [m[1] for m, s in zip(statements, statements[1:]) if s[0] == "ObjectInstance"]
+        for theirs, ours in zip(placed, matrices):
+            np.testing.assert_array_equal(np.reshape(theirs, (4, 4)).T, ours)
+
+    def test_camera_is_that_of_the_view(self):
+        for projection in "perspective", "orthographic":
+            camera = self.folder / f"{projection}.json"
+            (path,) = self.written("mitsuba", UBIQUITIN, "--projection", projection, "--save-camera", camera,
+                                   "--tolerance", 0.5, name=projection)
+            said, (root, _) = json.loads(camera.read_text()), mitsuba_scene(path)
+            look = root.find("sensor/transform/lookat")
+            eye = np.array([float(w) for w in look.get("origin").split(",")])
+            np.testing.assert_allclose(eye + self.origin_of(path), said["position"], rtol=0, atol=1e-9)
+            self.assertEqual(root.find("sensor").get("type"), projection)
+            statements, _ = self.pbrt(UBIQUITIN, "--camera", camera, "--tolerance", 0.5, name=projection)
+            self.assertEqual([n for n, _, _ in statements[:3]], ["Scale", "LookAt", "Camera"])
+            np.testing.assert_array_equal(statements[1][1][:3], eye)
+            window = statements[2][2]["screenwindow"]
+            if projection == "perspective":
+                self.assertEqual(float(root.find("sensor/float[@name='fov']").get("value")), said["vertical_fov"])
+                self.assertEqual(statements[2][2]["fov"], said["vertical_fov"])
+                np.testing.assert_allclose(window, [-4 / 3, 4 / 3, -1, 1])
+            else:
+                half = said["height"] / 2
+                np.testing.assert_allclose(window, [-half * 4 / 3, half * 4 / 3, -half, half])
+                scale = root.find("sensor/transform/scale")
+                self.assertAlmostEqual(float(scale.get("x")), half * 4 / 3)
+
+    def test_materials_opacity_and_cuts(self):
+        for material in "matte", "plastic", "glass", "wax":
+            options = ["--material", material, "--tolerance", 0.5, "--opacity", "0.25", "--sticks", "resid 1-5", "--clip", "depth>0.4",
+                       "--cap-color", "red", "--object",
+                       '{"representation": "surface", "selection": "resid 10-20", "color": "blue"}']
+            root, meshes = self.mitsuba(UBIQUITIN, *options, name=material)
+            self.assertEqual(len(meshes), 2)
+            self.assertTrue(any((mesh.colors[:, 0] > 1.5 * mesh.colors[:, 1]).any() for mesh in meshes.values()))
+            masks = [e for e in root.iter("bsdf") if e.get("type") == "mask"]
+            self.assertEqual([e.find("float").get("value") for e in masks], ["0.25"])
+            statements, _ = self.pbrt(UBIQUITIN, *options, name=material)
+            self.assertIn(0.25, {p.get("alpha") for n, v, p in statements if v == ["plymesh"]})
+            medium = [n for n, _, _ in statements if n == "MediumInterface"]
+            self.assertEqual(bool(medium), material == "glass")
+            self.assertEqual(root.find("medium") is not None, material == "glass")
+
+    def test_frames_have_their_numbers(self):
+        path = self.molecule("".join(f"MODEL {n + 1}\n{atom_line(1, n, 0, 0)}{atom_line(2, n + 1.5, 0, 0)}ENDMDL\n" for n in range(4)))
+        for renderer, read in ("mitsuba", mitsuba_scene), ("pbrt", pbrt_scene):
+            scenes = self.written(renderer, path, "--frames", "1-3:2", "--sticks", "all")
+            self.assertEqual([s.stem for s in scenes], ["surface_00001", "surface_00003"])
+            first, last = (read(scene)[1] for scene in scenes)
+            self.assertEqual((list(first), list(last)), (["surface_00001_1.ply"], ["surface_00003_1.ply"]))
+            moved = last["surface_00003_1.ply"].positions - first["surface_00001_1.ply"].positions
+            np.testing.assert_allclose(moved, np.broadcast_to([2, 0, 0], moved.shape), atol=1e-5)
+            self.assertEqual(*(self.origin_of(scene).tolist() for scene in scenes))
+
+    def test_nothing_of_the_molecule_file_is_in_a_scene(self):
+        path = self.molecule(atom_line(1, 0, 0, 0, chain='"', residue="</s") + atom_line(2, 1.5, 0, 0, chain="]", residue="--&"),
+                             name='"--Include.pdb')
+        for renderer in ENDING:
+            (scene,) = self.written(renderer, path, "--by", "chain", "--color", "chain", name='a"&b')
+            text = scene.read_text()
+            for word in "</s\"", "--&", "Include", 'a"&b':
+                self.assertNotIn(word, text)
+            (mitsuba_scene if renderer == "mitsuba" else pbrt_scene)(scene)
+
+    def test_what_is_there_stays_unless_forced(self):
+        for renderer in ENDING:
+            (scene,) = self.written(renderer, UBIQUITIN, "--tolerance", 0.5)
+            before = {path.name: path.read_bytes() for path in scene.parent.iterdir()}
+            again = ["export", renderer, UBIQUITIN, "-o", scene.parent, "--size", "320x240", "-q", "--tolerance", 0.5]
+            self.run_program(*again, "--color", "red", code=6)
+            self.assertEqual({path.name: path.read_bytes() for path in scene.parent.iterdir()}, before)
+            self.run_program(*again, "--force")
+            self.assertEqual({path.name: path.read_bytes() for path in scene.parent.iterdir()}, before)
+
+    def test_what_cannot_be_shown_is_refused(self):
+        (self.folder / "map.dx").write_text("no map")
+        for renderer in ENDING:
+            for options, code, word in (
+                    (["--film-opacity"], 2, "--film-opacity"), (["--clip", "x<0", "--cap-hatching", "1"], 2, "--cap-hatching"),
+                    (["--material", "gold"], 2, "gold"), (["--hide-surface"], 2, "nothing"),
+                    (["--turntable", "1"], 2, "--frames"), (["--tolerance", "-1"], 2, "--tolerance"),
+                    (["--frames", "all", "--hide-surface"], 2, "--hide-surface")):
+                with self.subTest(renderer=renderer, options=options):
+                    said = self.run_program("export", renderer, UBIQUITIN, "-o", self.folder / "none", "-q", *options, code=code)
+                    self.assertIn(word, said.stderr)
+                    self.assertEqual(said.stderr.count("\n"), 1, said.stderr)
+                    self.assertFalse((self.folder / "none").exists())
+        said = self.run_program("export", "pbrt", UBIQUITIN, "-o", self.folder / "none", "-q", "--color-map-file", self.folder / "map.dx", "--color-range=-5:5",
+                                code=2)
+        self.assertIn("export mitsuba", said.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1] + sys.argv[2:])
