@@ -43,21 +43,25 @@ Lights lights_of(const Scene& scene) {
   const auto from = [&](double x, double y, double z) { return glm::normalize(x * right + y * up - z * forward); };
   Lights lights;
   if (scene.material != Material::glass) {
-    lights.everywhere = {0.22f, 0.23f, 0.25f};
-    lights.distant = {{-from(-0.45, 0.65, 0.75), {0.64f, 0.62f, 0.58f}},
+    lights.everywhere = {0.14f, 0.15f, 0.17f};
+    lights.distant = {{-from(-0.45, 0.65, 0.75), {0.76f, 0.74f, 0.7f}},
                       {-from(0.85, -0.05, 0.45), {0.13f, 0.15f, 0.17f}},
                       {-from(0.0, 0.0, 1.0), {0.11f, 0.11f, 0.12f}}};
     return lights;
   }
   const Extent extent = extent_of(scene);
   const double away = 6.0 * extent.radius;
-  lights.everywhere = {0.55f, 0.57f, 0.6f};
+  lights.everywhere = glm::vec3(0.25f);
   const auto add = [&](const glm::dvec3& direction, double radius, float radiance) {
-    lights.softboxes.push_back(
-        {extent.center + away * direction, -direction, radius * extent.radius, glm::vec3(radiance)});
+    lights.softboxes.push_back({extent.center + away * direction, -direction, radius, glm::vec3(radiance)});
   };
-  add(from(-0.45, 0.75, 0.45), 3.0, 4.0f);
-  add(from(0.9, 0.1, 0.3), 1.5, 2.0f);
+  add(from(-0.45, 0.75, 0.45), 2.5 * extent.radius, 4.0f);
+  add(from(0.9, 0.1, 0.3), 1.5 * extent.radius, 2.0f);
+  // All of the picture, and what glass bends into it.
+  const double depth = glm::dot(extent.center - (scene.camera.position - scene.origin), forward) + away;
+  const double seen = glm::length(half_extent(scene.camera, static_cast<double>(scene.width) / scene.height)) *
+                      (scene.camera.projection == Projection::perspective ? depth : 1.0);
+  add(forward, 1.2 * std::max(seen, 3.0 * extent.radius), 1.0f);
   return lights;
 }
 

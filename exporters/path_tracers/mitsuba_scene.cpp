@@ -130,9 +130,9 @@ class MitsubaWriter {
       case Material::matte:
         made = fmt::format("<bsdf type=\"diffuse\">{}</bsdf>", color("reflectance"));
         break;
-      case Material::plastic:
-        made = fmt::format("<bsdf type=\"roughplastic\">{}{}{}</bsdf>", number("int_ior", kCoatIor),
-                           number("alpha", kCoatRoughness), color("diffuse_reflectance"));
+      case Material::plastic:  // not roughplastic, which cannot have colours of vertices
+        made = fmt::format("<bsdf type=\"principled\">{}{}{}</bsdf>", color("base_color"),
+                           number("roughness", kCoatRoughness), number("eta", kCoatIor));
         break;
       case Material::glass:
         made = fmt::format("<bsdf type=\"dielectric\">{}{}{}</bsdf>", number("int_ior", kGlassIor),

@@ -13,8 +13,8 @@ namespace meniscus::path_tracers {
 /// Of glass: the index of refraction, and what is absorbed on a way of 1 Å, as in the POV-Ray scene.
 inline constexpr double kGlassIor = 1.45;
 inline const glm::vec3 kGlassAbsorption{0.4f / 30.0f, 0.25f / 30.0f, 0.2f / 30.0f};
-/// Of plastic.
-inline constexpr double kCoatIor = 1.45, kCoatRoughness = 0.15;
+/// Of plastic: roughness as artists mean it, the square root of that of microfacets.
+inline constexpr double kCoatIor = 1.45, kCoatRoughness = 0.35;
 /// Of wax: the boundary, and the way (Å) that light goes until it is scattered.
 inline constexpr double kWaxIor = 1.4, kWaxRoughness = 0.4;
 inline const glm::vec3 kWaxMeanFreePath{1.6f, 1.0f, 0.8f};

@@ -115,7 +115,7 @@ class PbrtWriter {
     switch (is_surface ? scene_.material : Material::matte) {
       case Material::plastic:
         return text_parameter("string type", "coateddiffuse") + parameter("rgb reflectance", of) +
-               parameter("float eta", kCoatIor) + parameter("float roughness", kCoatRoughness) +
+               parameter("float eta", kCoatIor) + parameter("float roughness", kCoatRoughness * kCoatRoughness) +
                parameter("bool remaproughness", "false");
       case Material::glass:
         return text_parameter("string type", "dielectric") + parameter("float eta", kGlassIor);
