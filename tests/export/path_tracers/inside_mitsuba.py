@@ -107,9 +107,52 @@ class InMitsuba(unittest.TestCase):
     def test_surface_by_orthographic_camera_in_a_tall_picture(self):
         self.compare("orthographic", UBIQUITIN, "--projection", "orthographic", "--view", "y", "--color", "residue")
 
+    def test_sticks_spheres_and_a_tube(self):
+        path = self.compare("beside", UBIQUITIN, "--hide-surface", "--sticks", "resname LYS", "--spheres", "resid 10-20",
+                            "--tube", "chain A", "--color", "element", color_limit=0.01)
+        self.assertIn('type="cylinder"', path.read_text())
 
-class Summary(unittest.TextTestResult):
-    pass
+    def test_untouched_atoms_as_spheres_with_a_mesh(self):
+        path = self.folder / "apart.pdb"
+        path.write_text("".join(atom_line(n, 6.5 * n, 0, 0) for n in range(4)) + atom_line(9, -1.5, 1, 1))
+        scene = self.compare("apart", path)
+        self.assertEqual(scene.read_text().count('type="sphere"'), 3)
+
+    def test_copies(self):
+        path = self.folder / "copies.pdb"
+        rows = ((1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0)), ((0, -1, 0, 12), (1, 0, 0, 5), (0, 0, 1, 7))
+        path.write_text("REMARK 350 BIOMOLECULE: 1\nREMARK 350 APPLY THE FOLLOWING TO CHAINS: A\n" + "".join(
+            f"REMARK 350   BIOMT{r} {n:3d} {m[0]:9.6f} {m[1]:9.6f} {m[2]:9.6f} {m[3]:14.5f}\n"
+            for n, motion in enumerate(rows, 1) for r, m in enumerate(motion, 1))
+            + atom_line(1, 1, 2, 3) + atom_line(2, 2.5, 2, 3) + atom_line(3, 4.5, 3.5, 3) + atom_line(4, 1, 2, 9))
+        scene = self.compare("copies", path, "--assembly", 1, "--instances", "exact")
+        self.assertEqual(scene.read_text().count('type="instance"'), 2)
+
+    def test_cut_with_caps(self):
+        self.compare("cut", UBIQUITIN, "--clip", "depth>0.5", "--cap-color", "orange", "--color", "element")
+
+    def test_colours_of_a_map(self):
+        path = self.folder / "map.dx"
+        grid = np.add.outer(np.add.outer(np.arange(12.0), np.arange(12.0)), np.zeros(12))
+        path.write_text("object 1 class gridpositions counts 12 12 12\norigin 5 5 -5\ndelta 5 0 0\ndelta 0 5 0\n"
+                        "delta 0 0 5\nobject 2 class gridconnections counts 12 12 12\nobject 3 class array type double "
+                        f"rank 0 items {grid.size} data follows\n" + "\n".join(map(str, grid.ravel())) + "\n")
+        self.compare("map", UBIQUITIN, "--color-map-file", path, "--color-range", "3:18")
+
+    def test_pictures_of_all_materials(self):
+        for material in "matte", "plastic", "glass", "wax":
+            for options in [], ["--opacity", "0.5"]:
+                path = self.scene(UBIQUITIN, "--material", material, "--sticks", "resid 1-5", *options,
+                                  name=f"{material}{len(options)}")
+                picture = np.array(mi.render(mi.load_file(str(path), spp="16", width="80", height="60")))
+                self.keep(f"{material}{len(options)}", picture[:, :, :3] + 1 - picture[:, :, 3:])
+                self.assertTrue(np.isfinite(picture).all())
+                alpha = picture[:, :, 3]
+                solid = alpha > 0.4
+                self.assertGreater(solid.mean(), 0.2)
+                self.assertGreater((alpha < 0.01).mean(), 0.2)
+                light = picture[:, :, :3][solid].mean()
+                self.assertTrue(0.05 < light < 0.9, light)
 
 
 if __name__ == "__main__":

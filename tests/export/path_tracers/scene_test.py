@@ -24,6 +24,40 @@ def atom_line(number, x, y, z, chain="A", element="C", residue="UNK"):
             f"           {element}\n")
 
 
+def view_ray(camera, aspect, x, y):
+    """Origin and direction of the view's ray through a point of the picture, x and y from -1 to 1, right and up."""
+    eye, up = np.array(camera["position"]), np.array(camera["up"])
+    forward = np.array(camera["target"]) - eye
+    forward /= np.linalg.norm(forward)
+    right = np.cross(forward, up)
+    right /= np.linalg.norm(right)
+    up = np.cross(right, forward)
+    if camera["projection"] == "orthographic":
+        half = camera["height"] / 2
+        return eye + x * aspect * half * right + y * half * up, forward
+    tangent = np.tan(np.radians(camera["vertical_fov"]) / 2)
+    direction = forward + x * aspect * tangent * right + y * tangent * up
+    return eye, direction / np.linalg.norm(direction)
+
+
+def pbrt_ray(statements, x, y):
+    """The same as pbrt-v4 makes it (Pharr, Jakob and Humphreys 2023, sections 3.9.3 "Look-At", 5.2 "Projective cameras"):
+    left-handed axes, the window of the screen at distance 1 stretched to the angle."""
+    (_, scale, _), (_, look, _), (_, (kind,), parameters) = statements[:3]
+    eye, at, up = np.reshape(look, (3, 3))
+    forward = (at - eye) / np.linalg.norm(at - eye)
+    right = np.cross(up / np.linalg.norm(up), forward)
+    right /= np.linalg.norm(right)
+    world_from_look = np.stack([right, np.cross(forward, right), forward], 1)
+    x0, x1, y0, y1 = parameters["screenwindow"]
+    screen = np.array([(x0 + x1) / 2 + x * (x1 - x0) / 2, (y0 + y1) / 2 + y * (y1 - y0) / 2])
+    back = world_from_look @ np.diag(1 / np.array(scale))
+    if kind == "orthographic":
+        return eye + back @ [*screen, 0], back @ [0, 0, 1]
+    direction = back @ [*(screen * np.tan(np.radians(parameters["fov"]) / 2)), 1]
+    return eye, direction / np.linalg.norm(direction)
+
+
 def volume(mesh):
     a, b, c = (mesh.positions[mesh.triangles[:, k]].astype(float) for k in range(3))
     return float((np.cross(a, b) * c).sum() / 6)
@@ -150,27 +184,28 @@ class Scenes(unittest.TestCase):
 
     def test_camera_is_that_of_the_view(self):
         for projection in "perspective", "orthographic":
-            camera = self.folder / f"{projection}.json"
-            (path,) = self.written("mitsuba", UBIQUITIN, "--projection", projection, "--save-camera", camera,
-                                   "--tolerance", 0.5, name=projection)
-            said, (root, _) = json.loads(camera.read_text()), mitsuba_scene(path)
-            look = root.find("sensor/transform/lookat")
-            eye = np.array([float(w) for w in look.get("origin").split(",")])
-            np.testing.assert_allclose(eye + self.origin_of(path), said["position"], rtol=0, atol=1e-9)
-            self.assertEqual(root.find("sensor").get("type"), projection)
-            statements, _ = self.pbrt(UBIQUITIN, "--camera", camera, "--tolerance", 0.5, name=projection)
-            self.assertEqual([n for n, _, _ in statements[:3]], ["Scale", "LookAt", "Camera"])
-            np.testing.assert_array_equal(statements[1][1][:3], eye)
-            window = statements[2][2]["screenwindow"]
-            if projection == "perspective":
-                self.assertEqual(float(root.find("sensor/float[@name='fov']").get("value")), said["vertical_fov"])
-                self.assertEqual(statements[2][2]["fov"], said["vertical_fov"])
-                np.testing.assert_allclose(window, [-4 / 3, 4 / 3, -1, 1])
-            else:
-                half = said["height"] / 2
-                np.testing.assert_allclose(window, [-half * 4 / 3, half * 4 / 3, -half, half])
-                scale = root.find("sensor/transform/scale")
-                self.assertAlmostEqual(float(scale.get("x")), half * 4 / 3)
+            for size in "320x240", "120x200":
+                camera, name = self.folder / f"{projection}{size}.json", projection + size
+                view = ["--view", "front", "--turn", "z20", "--size", size, "--tolerance", 0.5]
+                (path,) = self.written("mitsuba", UBIQUITIN, "--projection", projection, "--save-camera", camera, *view, name=name)
+                said, (root, _) = json.loads(camera.read_text()), mitsuba_scene(path)
+                origin, sensor = self.origin_of(path), root.find("sensor")
+                aspect = int(size.split("x")[0]) / int(size.split("x")[1])
+                look = sensor.find("transform/lookat")
+                eye, at = (np.array([float(w) for w in look.get(what).split(",")]) for what in ("origin", "target"))
+                np.testing.assert_allclose(eye + origin, said["position"], rtol=0, atol=1e-9)
+                np.testing.assert_allclose(at - eye, view_ray(said, 1, 0, 0)[1], atol=1e-9)
+                self.assertEqual(sensor.get("type"), projection)
+                if projection == "perspective":
+                    self.assertEqual(float(sensor.find("float[@name='fov']").get("value")), said["vertical_fov"])
+                else:
+                    self.assertAlmostEqual(float(sensor.find("transform/scale").get("x")), said["height"] / 2 * aspect)
+                statements, _ = self.pbrt(UBIQUITIN, "--camera", camera, *view[4:], name=name)
+                self.assertEqual([n for n, _, _ in statements[:3]], ["Scale", "LookAt", "Camera"])
+                for x, y in (0, 0), (1, 1), (-1, 1), (0.3, -0.7):
+                    ours, theirs = view_ray(said, aspect, x, y), pbrt_ray(statements, x, y)
+                    np.testing.assert_allclose(theirs[0] + origin, ours[0], atol=1e-9)
+                    np.testing.assert_allclose(theirs[1], ours[1], atol=1e-9)
 
     def test_materials_opacity_and_cuts(self):
         for material in "matte", "plastic", "glass", "wax":
