@@ -270,6 +270,12 @@ class Computed(unittest.TestCase):
         self.assertEqual((item.data.materials[0], len(item.modifiers)), (own, 1))
         self.assertIsNotNone(item.data.animation_data.action)
         np.testing.assert_array_equal(attributes.read(item.data, "marks", "FLOAT"), attributes.read(item.data, "atom_index", "INT"))
+        item.meniscus.cavities = "ONLY"  # there are none
+        update()
+        self.assertEqual(len(item.data.polygons), 0)
+        item.meniscus.cavities = "KEEP"
+        update()
+        np.testing.assert_array_equal(attributes.read(item.data, "marks", "FLOAT"), attributes.read(item.data, "atom_index", "INT"))
 
     def test_frames_of_a_file_without_an_export(self):
         item = of_file(samples.UBIQUITIN, selection="resi 1-15", is_run=True)

@@ -27,6 +27,7 @@ _process = None
 _told = 0.0  # when sidebars were last drawn anew
 _kept = {}  # key -> Shown or None, the oldest first
 _awaited = {}  # key -> process.Job of a frame to come
+_of_user = {}  # name of a mesh -> (whose atoms, attributes of the user by atom)
 
 
 class Wanted:
@@ -203,6 +204,9 @@ def _finished(job):
 
 
 def empty(item):
+    shown = _kept.get(item.data.get(SHOWN))
+    if shown is not None:
+        _keep_of_user(item, shown)
     build.clear_geometry(item.data)
     item.data[SHOWN] = ""
     item.data.update()
@@ -218,7 +222,7 @@ def show(item, key, shown):
         empty(item)
         mesh[SHOWN] = key
         return
-    kept = attributes.keep(mesh, build.OURS | shown.names)
+    kept = _keep_of_user(item, shown)
     build.clear_geometry(mesh)
     if not mesh.materials:
         build.add_materials(mesh, shown.surface, [])
@@ -229,6 +233,16 @@ def show(item, key, shown):
     mesh[SHOWN] = key
     item[ERROR] = ""
     mesh.update()
+
+
+def _keep_of_user(item, shown):
+    """Attributes that the user gave to the mesh, also those of atoms that it does not show now."""
+    mesh, settings = item.data, item.meniscus
+    source = settings.file if settings.source == "FILE" else settings.atoms and settings.atoms.name
+    of, older = _of_user.get(mesh.name, (None, ()))
+    kept = attributes.keep(mesh, build.OURS | shown.names, older if of == source else ())
+    _of_user[mesh.name] = source, kept
+    return kept
 
 
 def place(item, shown):
@@ -391,8 +405,8 @@ def catch_up():
 
 @persistent
 def on_load(*_arguments):
-    _kept.clear()
-    _awaited.clear()
+    for memory in (_kept, _awaited, _of_user):
+        memory.clear()
     if _process is not None:
         _process.drop_all()
     come_last()
@@ -425,3 +439,4 @@ def unregister():
             handlers.remove(handler)
     end()
     _kept.clear()
+    _of_user.clear()
