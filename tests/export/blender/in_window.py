@@ -3,6 +3,7 @@
 
 import faulthandler
 import json
+import os
 import sys
 import threading
 import traceback
@@ -11,12 +12,15 @@ import addon_utils
 import bpy
 
 faulthandler.enable()  # where Python was, should Blender crash
-TOLD, MOLECULE, PROGRAM, PACKAGE, PICTURE = sys.argv[sys.argv.index("--") + 1:]
+TOLD, MOLECULE, MODELS, PROGRAM, PACKAGE = sys.argv[sys.argv.index("--") + 1:]
+FOLDER = os.path.dirname(TOLD)
+#: Pixels of the view that lie under what is drawn over it: tools, header, navigation.
+MARGIN = 90
 addon_utils.enable("meniscus_import", default_set=True)
 bpy.context.preferences.view.show_splash = False
 from meniscus_import import computed, panel  # noqa: E402
 
-found = {"error": "", "shown_while_dragging": 0, "threads": 1}
+found = {"error": "", "shown_while_dragging": 0, "threads": 1, "played": []}
 
 
 def drawn(kind):
@@ -43,8 +47,22 @@ def at_rest(item):
     return not computed.working().is_busy() and len(item.data.polygons) > 0
 
 
-def steps():
-    """Gives back whenever the window may go on."""
+def push(message):
+    with bpy.context.temp_override(**view()):
+        bpy.ops.ed.undo_push(message=message)
+
+
+def picture(name):
+    """A screenshot; steps until the window has been drawn as things are."""
+    view()["area"].tag_redraw()
+    for _ in range(5):
+        yield
+    with bpy.context.temp_override(**view()):
+        bpy.ops.screen.screenshot(filepath=os.path.join(FOLDER, name + ".png"))
+
+
+def set_up():
+    """The panel in a tab that is open, and a view without anything but objects."""
     preferences = bpy.context.preferences.addons[computed.__package__].preferences
     preferences.package, preferences.program = PACKAGE, PROGRAM
     # In the tab Tool, which is open, for no script of 3.4 can open another.
@@ -57,21 +75,32 @@ def steps():
     for item in list(bpy.data.objects):
         if item.type == "MESH":
             bpy.data.objects.remove(item)
-    where = view()
-    where["area"].spaces.active.show_region_ui = True
-    where["area"].spaces.active.shading.color_type = "VERTEX"
-    yield
-    with bpy.context.temp_override(**where):
+    area = view()["area"]
+    space = area.spaces.active
+    space.show_region_ui = True
+    space.shading.color_type = "VERTEX"
+    space.overlay.show_overlays = space.show_gizmo = False
+
+
+def bare_view():
+    """Pixels of a screenshot where nothing but objects shows: left, bottom, right, top."""
+    area = view()["area"]
+    side = next(region for region in area.regions if region.type == "UI")
+    return [area.x + MARGIN, area.y + MARGIN, side.x - 10, area.y + area.height - MARGIN]
+
+
+def compute_drag_and_undo():
+    with bpy.context.temp_override(**view()):
         bpy.ops.object.meniscus_from_file("EXEC_DEFAULT", True, filepath=MOLECULE, selection="resi 1-20")
     item = bpy.context.view_layer.objects.active
     name = item.name
     while not at_rest(item):
         yield
     found["first"] = item["meniscus_area"]
-    with bpy.context.temp_override(**where):
-        bpy.ops.view3d.view_selected()
-        bpy.ops.ed.undo_push(message="Before the slider moves")
-    yield
+    with bpy.context.temp_override(**view()):
+        bpy.ops.view3d.view_selected(use_all_regions=True)
+    push("Before the slider moves")
+    yield from picture("computed")
     for step in range(1, 11):
         item.meniscus.probe = 1.4 + 0.06 * step
         yield
@@ -81,20 +110,68 @@ def steps():
     while not at_rest(item):
         yield
     found["dragged"] = item["meniscus_area"]
-    with bpy.context.temp_override(**where):
-        bpy.ops.ed.undo_push(message="Probe")
-    for _ in range(5):
-        yield
-    if PICTURE:
-        with bpy.context.temp_override(**where):
-            bpy.ops.screen.screenshot(filepath=PICTURE)
-    with bpy.context.temp_override(**where):
+    push("Probe")
+    yield from picture("dragged")
+    with bpy.context.temp_override(**view()):
         bpy.ops.ed.undo()
     for _ in range(3):
         yield
     while not at_rest(bpy.data.objects[name]):
         yield
     found["undone"] = bpy.data.objects[name]["meniscus_area"]
+    yield from picture("undone")
+    return bpy.data.objects[name]
+
+
+def recolour(item):
+    item.meniscus.color = "residue"
+    yield
+    while not at_rest(item):
+        yield
+    found["recoloured"] = item["meniscus_area"]
+    yield from picture("recoloured")
+
+
+def play(before):
+    """A run on the timeline, as the button plays it."""
+    before.hide_set(True)
+    scene = bpy.context.scene
+    with bpy.context.temp_override(**view()):
+        bpy.ops.object.meniscus_from_file("EXEC_DEFAULT", True, filepath=MODELS, selection="resi 1-20", is_run=True)
+    item = bpy.context.view_layer.objects.active
+    while not at_rest(item):
+        yield
+    found["frames"] = scene.frame_end = computed.frame_count(item)
+    with bpy.context.temp_override(**view()):
+        bpy.ops.view3d.view_selected(use_all_regions=True)
+        bpy.ops.screen.animation_play()
+    while len(found["played"]) < found["frames"]:
+        shown = [scene.frame_current, item["meniscus_area"]]
+        if shown not in found["played"]:
+            found["played"].append(shown)
+        if len(found["played"]) == found["frames"] // 2 and "playing" not in found:
+            found["playing"] = bpy.context.screen.is_animation_playing
+            with bpy.context.temp_override(**view()):
+                bpy.ops.screen.screenshot(filepath=os.path.join(FOLDER, "playing.png"))
+        yield
+    with bpy.context.temp_override(**view()):
+        bpy.ops.screen.animation_cancel(restore_frame=False)
+    yield
+    scene.frame_set(1)
+    while not at_rest(item):
+        yield
+    yield from picture("saved")
+    bpy.ops.wm.save_as_mainfile(filepath=os.path.join(FOLDER, "saved.blend"))
+
+
+def steps():
+    """Gives back whenever the window may go on."""
+    set_up()
+    yield
+    found["view"] = bare_view()
+    item = yield from compute_drag_and_undo()
+    yield from recolour(item)
+    yield from play(item)
 
 
 going = steps()

@@ -1,20 +1,29 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The panel in Blender's window on a virtual screen: surfaces come while a slider moves, the window never waits for them, undo works.
+"""The panel in Blender's window on a virtual screen: surfaces come while a slider moves, the window never waits for them; undo,
+colours, a run that plays and a file that is opened without the add-on show what they shall, by pixels of screenshots.
 
-Arguments: BLENDER PROGRAM ADDON_FOLDER PACKAGE [PICTURE]; the picture is a screenshot, to look at."""
+Arguments: BLENDER PROGRAM ADDON_FOLDER PACKAGE. MENISCUS_KEEP_PICTURES: a folder for the screenshots, to look at."""
 
 import json
 import os
+import shutil
 import subprocess
 import sys
 import tempfile
 import unittest
 
+import numpy as np
+import OpenImageIO
+
 BLENDER, PROGRAM, ADDON, PACKAGE = sys.argv[1:5]
-PICTURE = sys.argv[5] if len(sys.argv) > 5 else ""
 HERE = os.path.dirname(os.path.abspath(__file__))
-SIZE = ("1280", "900") if PICTURE else ("640", "480")
+SIZE = ("1280", "900")
 MOLECULE = "/usr/share/freesasa/test-data/1ubq.pdb"
+MODELS = "/usr/share/freesasa/test-data/1d3z.pdb"
+SELECTION = "resi 1-20"
+PICTURES = ("computed", "dragged", "undone", "recoloured", "playing", "saved", "reopened")
+#: Of 255, between pixels that show the same.
+SAME = 12
 
 
 class VirtualScreen:
@@ -33,36 +42,104 @@ class VirtualScreen:
         self.server.wait()
 
 
+def areas(molecule, *options):
+    """Å², of each frame."""
+    said = subprocess.run([PROGRAM, "surface", molecule, "--select", SELECTION, *options, "--json", "-q", "--device", "cpu"], check=True,
+                          capture_output=True, text=True).stdout
+    return [json.loads(line)["area"] for line in said.splitlines()] if "--frames" in options else [json.loads(said)["area"]]
+
+
+def pixels(path, view):
+    """Of the part of a screenshot that shows objects: (rows, columns, 3), 0 to 255."""
+    left, bottom, right, top = view
+    values = np.asarray(OpenImageIO.ImageBuf(path).get_pixels(OpenImageIO.UINT8), dtype=int)
+    height = len(values)
+    return values[height - top:height - bottom, left:right, :3]
+
+
+def shown(picture):
+    """Which pixels show an object: the background is grey, and the same in every row."""
+    return np.abs(picture - picture[:, :1]).max(axis=2) > SAME
+
+
+def colorfulness(picture):
+    """Mean difference of the channels of what shows."""
+    seen = picture[shown(picture)]
+    return float((seen.max(axis=1) - seen.min(axis=1)).mean())
+
+
 class Window(unittest.TestCase):
-    def test_a_slider_is_followed_and_undone(self):
-        with tempfile.TemporaryDirectory() as folder, VirtualScreen() as display:
-            scripts = os.path.join(folder, "scripts")
-            os.makedirs(os.path.join(scripts, "addons"))
-            os.symlink(os.path.join(ADDON, "meniscus_import"), os.path.join(scripts, "addons", "meniscus_import"))
-            told = os.path.join(folder, "told.json")
-            done = subprocess.run(
-                [BLENDER, "--factory-startup", "--window-geometry", "0", "0", *SIZE, "--addons", "meniscus_import", "--python",
-                 os.path.join(HERE, "in_window.py"), "--", told, MOLECULE, PROGRAM, PACKAGE, PICTURE],
-                env={**os.environ, "DISPLAY": display, "LIBGL_ALWAYS_SOFTWARE": "1", "BLENDER_USER_SCRIPTS": scripts,
-                     "MESA_SHADER_CACHE_DISABLE": "true", "PYTHONDONTWRITEBYTECODE": "1"},
-                timeout=200, check=False, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
-            self.assertGreaterEqual(done.returncode, 0, f"Blender ended by signal {-done.returncode}\n{done.stdout[-3000:]}")
-            self.assertTrue(os.path.exists(told), done.stdout[-3000:])
+    @classmethod
+    def setUpClass(cls):
+        holder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(holder.cleanup)
+        cls.folder = holder.name
+        scripts = os.path.join(cls.folder, "scripts")
+        os.makedirs(os.path.join(scripts, "addons"))
+        os.symlink(os.path.join(ADDON, "meniscus_import"), os.path.join(scripts, "addons", "meniscus_import"))
+        told = os.path.join(cls.folder, "told.json")
+        with VirtualScreen() as display:
+            said = cls.blender(display, scripts, "--addons", "meniscus_import", "--python", os.path.join(HERE, "in_window.py"), "--", told,
+                               MOLECULE, MODELS, PROGRAM, PACKAGE)
+            if not os.path.exists(told):
+                raise AssertionError(said)
             with open(told, encoding="utf-8") as file:
-                found = json.load(file)
-        self.assertEqual(found.get("error", ""), "")
+                cls.found = json.load(file)
+            if cls.found["error"]:
+                raise AssertionError(cls.found["error"])
+            cls.blender(display, cls.folder, os.path.join(cls.folder, "saved.blend"), "--python", os.path.join(HERE, "reopened.py"), "--",
+                        os.path.join(cls.folder, "reopened.png"))
+        if "MENISCUS_KEEP_PICTURES" in os.environ:
+            for name in PICTURES:
+                shutil.copy(os.path.join(cls.folder, name + ".png"), os.environ["MENISCUS_KEEP_PICTURES"])
+        cls.seen = {name: pixels(os.path.join(cls.folder, name + ".png"), cls.found["view"]) for name in PICTURES}
 
-        def area(probe):
-            said = subprocess.run([PROGRAM, "surface", MOLECULE, "--select", "resi 1-20", "--probe", str(probe), "--json", "-q", "--device", "cpu"], check=True,
-                                  capture_output=True, text=True).stdout
-            return json.loads(said)["area"]
+    @staticmethod
+    def blender(display, scripts, *words):
+        """What it said."""
+        done = subprocess.run([BLENDER, "--factory-startup", "--window-geometry", "0", "0", *SIZE, *words],
+                              env={**os.environ, "DISPLAY": display, "LIBGL_ALWAYS_SOFTWARE": "1", "BLENDER_USER_SCRIPTS": scripts,
+                                   "MESA_SHADER_CACHE_DISABLE": "true", "PYTHONDONTWRITEBYTECODE": "1"},
+                              timeout=280, check=False, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        if done.returncode < 0:
+            raise AssertionError(f"Blender ended by signal {-done.returncode}\n{done.stdout[-3000:]}")
+        return done.stdout[-3000:]
 
-        self.assertEqual(found["first"], area(1.4))
-        self.assertEqual(found["dragged"], area(2.0))
-        self.assertEqual(found["undone"], area(1.4))
-        self.assertGreater(found["shown_while_dragging"], 0)
-        self.assertEqual(found["threads"], 1)  # of Python: Blender crashes at times while others run
-        self.assertEqual(found["drawn"], ["VIEW3D_PT_meniscus", "VIEW3D_PT_meniscus_look", "VIEW3D_PT_meniscus_time"])
+    def share_that_differs(self, one, other):
+        """Of the pixels that show an object in either picture."""
+        one, other = self.seen[one], self.seen[other]
+        either = shown(one) | shown(other)
+        self.assertGreater(either.sum(), 20000)
+        return float((np.abs(one - other).max(axis=2) > SAME)[either].mean())
+
+    def test_a_slider_is_followed_and_undone(self):
+        self.assertEqual(self.found["first"], *areas(MOLECULE))
+        self.assertEqual(self.found["dragged"], *areas(MOLECULE, "--probe", "2"))
+        self.assertEqual(self.found["undone"], self.found["first"])
+        self.assertGreater(self.found["shown_while_dragging"], 0)
+        self.assertEqual(self.found["threads"], 1)  # of Python: Blender crashes at times while others run
+        self.assertEqual(self.found["drawn"], ["VIEW3D_PT_meniscus", "VIEW3D_PT_meniscus_look", "VIEW3D_PT_meniscus_time"])
+        self.assertGreater(self.share_that_differs("computed", "dragged"), 0.1)
+        self.assertEqual(self.share_that_differs("computed", "undone"), 0.0)
+
+    def test_other_colours_on_the_same_surface(self):
+        self.assertEqual(self.found["recoloured"], self.found["first"])
+        before, after = (shown(self.seen[name]) for name in ("undone", "recoloured"))
+        self.assertGreater((before & after).sum() / (before | after).sum(), 0.9)  # dark parts are hard to tell from the background
+        self.assertGreater(self.share_that_differs("undone", "recoloured"), 0.5)
+        self.assertGreater(colorfulness(self.seen["recoloured"]), 1.5 * colorfulness(self.seen["undone"]))
+
+    def test_a_run_plays(self):
+        self.assertTrue(self.found["playing"])
+        wanted = areas(MODELS, "--frames", "all")
+        self.assertEqual(len(wanted), self.found["frames"])
+        self.assertEqual({frame for frame, _ in self.found["played"]}, set(range(1, len(wanted) + 1)))
+        for frame, area in self.found["played"]:
+            self.assertAlmostEqual(area / wanted[frame - 1], 1.0, places=6, msg=f"frame {frame}")
+        self.assertGreater(self.share_that_differs("playing", "saved"), 0.1)  # the first frame
+
+    def test_a_file_opens_without_the_add_on(self):
+        self.assertLess(self.share_that_differs("saved", "reopened"), 0.005)  # edges are smoothed a little otherwise
 
 
 if __name__ == "__main__":
