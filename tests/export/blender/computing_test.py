@@ -209,6 +209,34 @@ class Jobs(unittest.TestCase):
         self.assertEqual(done, [("a", 0), ("a", 5), ("b", 5), ("later", 5)])
         self.assertEqual([task.result for task in self.given], [0, 5, 5, 5])
 
+    def test_threads_share_owners_but_no_owner(self):
+        self.worker = jobs.Worker(self.given.append, 2)
+        lock, running, most, together, both = threading.Lock(), [], 0, [], threading.Barrier(2)
+
+        def work(task):
+            nonlocal most
+            with lock:
+                together.extend((task.owner, other) for other in running)
+                running.append(task.owner)
+                most = max(most, len(running))
+            if task.key == 0:
+                both.wait(10)  # breaks if they are not done at the same time
+            time.sleep(0.01)
+            with lock:
+                running.remove(task.owner)
+
+        for owner in "ab":
+            self.worker.ask(jobs.Task(owner, 0, work))
+        both_began = time.monotonic() + 10
+        while self.worker._waiting and time.monotonic() < both_began:
+            time.sleep(0.001)
+        for owner in "abcd":
+            self.worker.ask(jobs.Task(owner, 1, work))
+        self.finish()
+        self.assertEqual([task.error for task in self.given], 6 * [None])
+        self.assertEqual(most, 2)
+        self.assertEqual([pair for pair in together if pair[0] == pair[1]], [])
+
     def test_cancelled_tasks_give_nothing(self):
         started = threading.Event()
 
@@ -235,7 +263,7 @@ class Jobs(unittest.TestCase):
 
     def finish(self):
         end = time.monotonic() + 10
-        while self.worker._thread is not None and time.monotonic() < end:
+        while self.worker._threads and time.monotonic() < end:
             time.sleep(0.001)
 
 

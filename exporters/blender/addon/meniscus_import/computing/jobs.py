@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A thread that computes one surface after the other, of each object only what was asked for last."""
+"""Threads that compute one surface after the other, of each object only what was asked for last."""
 
 import collections
 import threading
@@ -46,43 +46,50 @@ class Task:
 
 
 class Worker:
-    """One thread, which lives while there is something to do."""
+    """Threads, which live while there is something to do; of one owner they do one task at a time."""
 
-    def __init__(self, give):
-        """give: takes each task that is done, but cancelled ones, on that thread."""
-        self._give = give
+    def __init__(self, give, threads=1):
+        """give: takes each task that is done, but cancelled ones, on its thread. threads: at most."""
+        self._give, self._most = give, threads
         self._lock = threading.Lock()
         self._waiting = collections.OrderedDict()  # owner -> Task
-        self._running = None
-        self._thread = None
+        self._running = []
+        self._threads = 0
 
     def ask(self, task):
         """Puts a task behind those that are as urgent; what waits of the same owner falls away, what runs goes on."""
         with self._lock:
             self._waiting.pop(task.owner, None)
             self._waiting[task.owner] = task
-            if self._thread is None:
-                self._thread = threading.Thread(target=self._work, name="meniscus", daemon=True)
-                self._thread.start()
+            if self._threads < self._most:
+                self._threads += 1
+                threading.Thread(target=self._work, name="meniscus", daemon=True).start()
 
     def cancel(self, owner):
         """True if there was something that waited or ran."""
         with self._lock:
-            found = [task for task in (self._waiting.pop(owner, None), self._running) if task is not None and task.owner == owner]
+            found = [task for task in (self._waiting.pop(owner, None), *self._running) if task is not None and task.owner == owner]
             for task in found:
                 task.cancel()
             return bool(found)
 
     def _work(self):
+        done = None
         while True:
             with self._lock:
-                if not self._waiting:
-                    self._thread = None
+                if done is not None:
+                    self._running.remove(done)
+                done = self._next()
+                if done is None:
+                    self._threads -= 1
                     return
-                first = min(self._waiting.values(), key=lambda task: task.urgency)
-                self._running = self._waiting.pop(first.owner)
-            self._running.run()
-            with self._lock:
-                done, self._running = self._running, None
+                self._running.append(done)
+            done.run()
             if not done.is_cancelled:
                 self._give(done)
+
+    def _next(self):
+        """The most urgent that may begin, and waits no more; None: there is none."""
+        busy = {task.owner for task in self._running}
+        free = [task for task in self._waiting.values() if task.owner not in busy]
+        return self._waiting.pop(min(free, key=lambda task: task.urgency).owner) if free else None

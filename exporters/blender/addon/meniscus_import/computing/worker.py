@@ -8,7 +8,12 @@ program, folder for files that go again), "do" (number, owner, urgency, kind of 
 import os
 import signal
 import sys
+import threading
 import types
+
+#: Surfaces that are computed at a time: the mesh of each is made by one core.
+THREADS = min(len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1, 4)
+_saying = threading.Lock()
 
 
 def main(descriptor):
@@ -20,7 +25,7 @@ def main(descriptor):
     from meniscus_import.computing import jobs, works  # not before it is known where numpy is
 
     tools = works.Tools(package, program, folder)
-    worker = jobs.Worker(lambda task: say(connection, *outcome(task)))
+    worker = jobs.Worker(lambda task: say(connection, *outcome(task)), THREADS)
     while True:
         try:
             word, *rest = connection.receive()
@@ -47,7 +52,8 @@ def task_of(kind_of_task, tools, connection, number, owner, urgency, kind, about
 
 def say(connection, *message):
     try:
-        connection.send(message)
+        with _saying:  # a message is whole
+            connection.send(message)
     except OSError:
         leave()
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the other process does for the add-on: surfaces as arrays of a mesh, frames of runs, whatever takes time."""
 
-import functools
+import threading
 
 from .. import attributes, frames, mesh_arrays
 from . import engines
@@ -15,11 +15,15 @@ class Tools:
     def __init__(self, package, program, folder):
         """package, program: as of engines.find_tools. folder: for files that go again, or None."""
         self._named, self.folder = (package, program), folder
+        self._found, self._finding = None, threading.Lock()
         self._manifests = frames.Manifests()
 
-    @functools.cached_property
+    @property
     def tools(self):
-        return engines.find_tools(*self._named)
+        with self._finding:  # it loads a library
+            if self._found is None:
+                self._found = engines.find_tools(*self._named)
+            return self._found
 
     def told(self, _task):
         """version and library: what is loaded, "" for nothing; missing: why; program: its path or ""."""
