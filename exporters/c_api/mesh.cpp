@@ -12,6 +12,7 @@
 #include "exporters/c_api/table.h"
 #include "exporters/mesh/even_mesh.h"
 #include "exporters/mesh/mesh_colors.h"
+#include "exporters/mesh/mesh_objects.h"
 #include "exporters/mesh/tessellate.h"
 
 struct meniscus_mesh : meniscus::c_api::Counted {
@@ -21,10 +22,6 @@ struct meniscus_mesh : meniscus::c_api::Counted {
 
 namespace meniscus::c_api {
 namespace {
-
-constexpr double kSmallestTolerance = 1e-5, kLargestTolerance = 1.0;  // Å, as on the command line
-
-constexpr double kSmallestDensity = 0.005, kLargestDensity = 1000.0;  // vertices per Å²
 
 const meniscus_mesh_options kDefaults{sizeof(meniscus_mesh_options), 0.01, 1, 0, 0.0, 0, 0};
 

@@ -21,13 +21,12 @@
 #include "exporters/mesh/evener.h"
 #include "exporters/mesh/mesh_crossings.h"
 #include "exporters/mesh/mesh_distance.h"
+#include "exporters/mesh/mesh_objects.h"
 #include "exporters/mesh/tessellate.h"
 
 namespace meniscus {
 namespace {
 
-/// Vertices per Å² of even meshes.
-constexpr double kSmallestDensity = 0.005, kLargestDensity = 1000.0;
 /// Of edges of wanted length h: vertices per Å², times h². Equilateral triangles have 2 / sqrt(3) = 1.155; splitting
 /// and collapsing leave edges a little shorter.
 constexpr double kVerticesPerSquare = 1.34;

@@ -18,9 +18,6 @@
 
 namespace meniscus {
 
-/// Vertices per Å² that a mesh may be asked for.
-inline constexpr double kSmallestDensity = 0.005, kLargestDensity = 1000.0;
-
 /// What a mesh is to be like.
 struct MeshFineness {
   double tolerance = 0.05;  ///< Å; the smallest, where it depends on the place

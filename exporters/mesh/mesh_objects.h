@@ -14,9 +14,10 @@
 
 namespace meniscus {
 
-/// Below this a mesh of a protein no longer fits into memory, and float coordinates could not hold it.
-inline constexpr double kSmallestTolerance = 1e-5;  // Å
-inline constexpr double kLargestTolerance = 1.0;    // Å
+/// What a mesh may be asked for. With a smaller tolerance one of a protein no longer fits into memory, and float
+/// coordinates could not hold it.
+inline constexpr double kSmallestTolerance = 1e-5, kLargestTolerance = 1.0;  // Å
+inline constexpr double kSmallestDensity = 0.005, kLargestDensity = 1000.0;  // vertices per Å², of even meshes
 
 /// How far a mesh may be from the surface.
 struct MeshRequest {
