@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Builds borders from patches, chains them into loops, groups loops into faces and faces into components.
+// Chains the patches' borders into loops, groups loops into faces and faces into components.
 #include "core/surface/boundary.h"
 
 #include <algorithm>
-#include <cmath>
+#include <array>
 #include <memory>
+#include <span>
+#include <vector>
 
-#include <glm/geometric.hpp>
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
@@ -15,20 +16,11 @@
 #include "core/surface/large_tables.h"
 #include "core/surface/loops.h"
 #include "core/surface/numbering.h"
+#include "core/surface/placed_borders.h"
 #include "core/surface/walks.h"
 
 namespace meniscus {
 namespace {
-
-// Where the borders of one toroidal patch start, and what they are: contact circles first, then the ends.
-struct PatchBorders {
-  std::uint32_t first = 0;
-  bool free = false;
-  bool spindle = false;
-  std::uint32_t contact(int side) const { return first + side; }
-  std::uint32_t edge(int end) const { return first + 2 + end; }                            // not a spindle
-  std::uint32_t half_edge(int end, int side) const { return first + 2 + 2 * end + side; }  // spindle
-};
 
 // What the chained half-borders of a spherical patch come to.
 struct PatchNumbers {
@@ -43,9 +35,7 @@ class BoundaryBuilder {
       : s_(surface), probes_(probes), cusps_(cusps), rs_(rs), flat_(surface.probe_radius == 0) {}
 
   void run() {
-    number_borders();
-    place_vertices();
-    place_borders();
+    placed_ = place_borders(s_, probes_, cusps_);
     list_walks();
     chain_loops();
     number_faces();
@@ -55,158 +45,18 @@ class BoundaryBuilder {
  private:
   double p() const { return s_.probe_radius; }
 
-  // How many borders of toroidal patches there are and vertices on their axes, or how many stand before those of one.
-  struct BorderNumbers {
-    std::uint32_t border = 0, vertex = 0;
-    BorderNumbers& operator+=(const BorderNumbers& more) {
-      border += more.border;
-      vertex += more.vertex;
-      return *this;
-    }
-  };
-
-  // Vertices: one per contact of each probe (the probe itself when its radius is 0), two per spindle circle, one per
-  // point where three probes meet.
-  void number_borders() {
-    const auto count = [&](std::size_t t) {
-      const bool free = s_.toroidal[t].free(), spindle = s_.spindle(s_.toroidal[t]);
-      return BorderNumbers{flat_     ? 1u
-                           : free    ? 2u
-                           : spindle ? 6u
-                                     : 4u,
-                           spindle && cusps_.first_on_circle[t] == t ? 2u : 0u};
-    };
-    const std::size_t contact_count = flat_ ? probes_.count() : probes_.sides.size();
-    const RowNumbers<BorderNumbers> numbers(s_.toroidal.size(), {0, static_cast<std::uint32_t>(contact_count)}, count);
-    patch_borders_.resize(s_.toroidal.size());
-    axis_vertex_.resize(s_.toroidal.size());
-    numbers.for_each([&](std::size_t t, BorderNumbers& next) {
-      const bool spindle = s_.spindle(s_.toroidal[t]);
-      patch_borders_[t] = {next.border, s_.toroidal[t].free(), spindle};
-      next += count(t);
-      axis_vertex_[t] = spindle && cusps_.first_on_circle[t] == t ? next.vertex - 2 : kNone;
-    });
-    for (std::size_t t = 0; t < s_.toroidal.size(); ++t)
-      if (patch_borders_[t].spindle) axis_vertex_[t] = axis_vertex_[cusps_.first_on_circle[t]];
-    first_cusp_border_ = numbers.past().border;
-    triple_vertex_ = numbers.past().vertex;
-  }
-
-  void place_vertices() {
-    resize_large(s_.vertices, triple_vertex_ + cusps_.triple.size());
-    tbb::parallel_for(std::size_t{0}, probes_.count(), [&](std::size_t probe) {
-      if (flat_) {
-        s_.vertices[probe] = probes_.position[probe];
-        return;
-      }
-      for (std::uint32_t n = probes_.first_side[probe]; n < probes_.first_side[probe + 1]; ++n) {
-        const Ball& atom = s_.atoms[probes_.sides[n].from];
-        s_.vertices[n] = atom.center + glm::normalize(probes_.position[probe] - atom.center) * atom.radius;
-      }
-    });
-    // All patches of a spindle circle say the same.
-    tbb::parallel_for(std::size_t{0}, s_.toroidal.size(), [&](std::size_t t) {
-      if (axis_vertex_[t] == kNone || cusps_.first_on_circle[t] != t) return;
-      for (int side = 0; side < 2; ++side) s_.vertices[axis_vertex_[t] + side] = axis_cusp(s_.toroidal[t], p(), side);
-    });
-    std::copy(cusps_.triple.begin(), cusps_.triple.end(), s_.vertices.begin() + triple_vertex_);
-  }
-
-  void place_borders() {
-    side_at_.resize(s_.toroidal.size());
-    tbb::parallel_for(std::size_t{0}, probes_.count(), [&](std::size_t probe) {
-      for (std::uint32_t n = probes_.first_side[probe]; n < probes_.first_side[probe + 1]; ++n)
-        side_at_[probes_.sides[n].toroidal][probes_.sides[n].at_end] = n;
-    });
-    resize_large(s_.borders, first_cusp_border_ + cusps_.arcs.size());
-    tbb::parallel_for(std::size_t{0}, s_.toroidal.size(), [&](std::size_t t) { place_patch_borders(t); });
-    tbb::parallel_for(std::size_t{0}, cusps_.arcs.size(), [&](std::size_t n) { place_cusp_border(n); });
-  }
-
-  // The vertex of the probe at `end` of patch t on atom `side` of the patch.
-  std::uint32_t contact_vertex(std::size_t t, int end, int side) const {
-    const std::uint32_t n = side_at_[t][end];
-    const std::uint32_t probe = s_.toroidal[t].probe[end];
-    if (flat_) return probe;
-    // At its start the side runs from atom[0] to atom[1], at its end the other way.
-    if (end == side) return n;
-    return n + 1 == probes_.first_side[probe + 1] ? probes_.first_side[probe] : n + 1;
-  }
-
-  void place_patch_borders(std::size_t t) {
-    const ToroidalPatch& patch = s_.toroidal[t];
-    const PatchBorders& b = patch_borders_[t];
-    for (int side = 0; side < (flat_ ? 1 : 2); ++side) {
-      const Ball& atom = s_.atoms[patch.atom[side]];
-      const double ratio = atom.radius / (atom.radius + p());
-      Border& border = s_.borders[b.contact(side)];
-      border.kind = BorderKind::contact;
-      border.center = atom.center + (patch.center - atom.center) * ratio;
-      border.axis = patch.axis;
-      border.radius = patch.radius * ratio;
-      border.start = patch.start;
-      border.sweep = patch.sweep;
-      if (!b.free) border.vertex = {contact_vertex(t, 0, side), contact_vertex(t, 1, side)};
-    }
-    if (b.free || flat_) return;
-    for (int end = 0; end < 2; ++end) {
-      const glm::dvec3 probe = probes_.position[patch.probe[end]];
-      const std::array<std::uint32_t, 2> contact = {contact_vertex(t, end, 0), contact_vertex(t, end, 1)};
-      if (!b.spindle) {
-        s_.borders[b.edge(end)] = edge_border(probe, patch, contact[0], contact[1]);
-      } else {
-        const std::uint32_t cusp = axis_vertex_[t];
-        s_.borders[b.half_edge(end, 0)] = edge_border(probe, patch, contact[0], cusp);
-        s_.borders[b.half_edge(end, 1)] = edge_border(probe, patch, cusp + 1, contact[1]);
-      }
-    }
-  }
-
-  // The shorter great-circle arc of the probe's sphere from vertex a to vertex b, in the plane of the patch's axis.
-  Border edge_border(const glm::dvec3& probe, const ToroidalPatch& patch, std::uint32_t a, std::uint32_t b) const {
-    const glm::dvec3 d0 = s_.vertices[a] - probe, d1 = s_.vertices[b] - probe;
-    Border border;
-    border.kind = BorderKind::edge;
-    border.center = probe;
-    // Seen from the probe the axis of the patch stands upright and the walk goes up.
-    border.axis = glm::normalize(glm::cross(glm::dvec3(patch.center - probe), patch.axis));
-    if (patch.radius < 1e-9) border.axis = glm::normalize(glm::cross(d0, d1));
-    border.radius = p();
-    border.start = glm::normalize(d0 - border.axis * glm::dot(d0, border.axis));
-    border.sweep = std::atan2(glm::dot(border.axis, glm::cross(d0, d1)), glm::dot(d0, d1));
-    border.sweep = std::max(border.sweep, 0.0);
-    border.vertex = {a, b};
-    return border;
-  }
-
-  void place_cusp_border(std::size_t n) {
-    const CuspArc& arc = cusps_.arcs[n];
-    Border& border = s_.borders[first_cusp_border_ + n];
-    border.kind = BorderKind::cusp;
-    border.center = arc.center;
-    border.axis = arc.axis;
-    border.radius = arc.radius;
-    border.start = arc.start;
-    border.sweep = arc.sweep;
-    for (int end = 0; end < 2; ++end) {
-      if (arc.vertex[end] == kNone) continue;
-      border.vertex[end] = arc.on_axis[end] ? axis_vertex_[arc.vertex[end] / 2] + (arc.vertex[end] & 1)
-                                            : triple_vertex_ + arc.vertex[end];
-    }
-  }
-
   // Half-borders by atom, those that toroidal patches have between them, then by probe: where each patch chains its
   // own.
   void list_walks() {
     list_convex_patches();
-    const auto count = [&](std::size_t t) { return numbers_of(patch_borders_[t]); };
+    const auto count = [&](std::size_t t) { return numbers_of(placed_.of_patch[t]); };
     const std::uint32_t first_of_concave =
         RowNumbers<Numbers>(s_.toroidal.size(), {0, 0, first_of_atom_.back()}, count).past().half_border;
     list_cusps_of_probes();
     const auto walk_size = [&](std::size_t s) {
       std::uint32_t size = first_cusp_[s + 1] - first_cusp_[s];
       for (const ProbeSide& side : probes_.sides_of(static_cast<std::uint32_t>(s)))
-        size += patch_borders_[side.toroidal].spindle ? 2 : 1;
+        size += placed_.of_patch[side.toroidal].spindle ? 2 : 1;
       return size;
     };
     const RowNumbers<std::uint32_t> walks(concave_count(), first_of_concave, walk_size);
@@ -246,8 +96,8 @@ class BoundaryBuilder {
     std::vector<HalfBorder>& of_atom = s_.half_borders;
     for (std::uint32_t t = 0; t < s_.toroidal.size(); ++t) {
       // Counter-clockwise about the axis the convex patch of atom[0] lies on the right, that of atom[1] on the left.
-      of_atom[next[s_.toroidal[t].atom[0]]++] = patch_borders_[t].contact(0) * 2 + 1;
-      of_atom[next[s_.toroidal[t].atom[1]]++] = patch_borders_[t].contact(flat_ ? 0 : 1) * 2;
+      of_atom[next[s_.toroidal[t].atom[0]]++] = placed_.of_patch[t].contact(0) * 2 + 1;
+      of_atom[next[s_.toroidal[t].atom[1]]++] = placed_.of_patch[t].contact(flat_ ? 0 : 1) * 2;
     }
   }
 
@@ -260,8 +110,8 @@ class BoundaryBuilder {
     std::vector<std::uint32_t> next(first_cusp_.begin(), first_cusp_.end() - 1);
     for (std::uint32_t n = 0; n < cusps_.arcs.size(); ++n) {
       // Counter-clockwise about the axis from the first probe to the second, the first one's patch lies on the left.
-      cusp_of_probe_[next[cusps_.arcs[n].probe[0]]++] = (first_cusp_border_ + n) * 2;
-      cusp_of_probe_[next[cusps_.arcs[n].probe[1]]++] = (first_cusp_border_ + n) * 2 + 1;
+      cusp_of_probe_[next[cusps_.arcs[n].probe[0]]++] = (placed_.first_cusp + n) * 2;
+      cusp_of_probe_[next[cusps_.arcs[n].probe[1]]++] = (placed_.first_cusp + n) * 2 + 1;
     }
   }
 
@@ -270,7 +120,7 @@ class BoundaryBuilder {
                           s_.half_borders.begin() + first_of_probe_[s]);
     for (const ProbeSide& side : probes_.sides_of(static_cast<std::uint32_t>(s))) {
       // At the start of a toroidal patch the concave patch lies on the left of its edge, at the end on the right.
-      const PatchBorders& b = patch_borders_[side.toroidal];
+      const PatchBorders& b = placed_.of_patch[side.toroidal];
       const std::uint32_t backwards = side.at_end ? 1 : 0;
       if (!b.spindle) {
         *next++ = b.edge(side.at_end) * 2 + backwards;
@@ -359,7 +209,7 @@ class BoundaryBuilder {
     const auto of_convex = [&](std::size_t c) {
       return Numbers{convex_numbers_[c].faces, convex_numbers_[c].loops, index(walk_of_convex(c).size())};
     };
-    const auto of_toroidal = [&](std::size_t t) { return numbers_of(patch_borders_[t]); };
+    const auto of_toroidal = [&](std::size_t t) { return numbers_of(placed_.of_patch[t]); };
     const auto of_concave = [&](std::size_t s) {
       return Numbers{concave_numbers_[s].faces, concave_numbers_[s].loops, index(walk_of_concave(s).size())};
     };
@@ -429,7 +279,7 @@ class BoundaryBuilder {
 
   void list_toroidal_faces(std::uint32_t t, Numbers& next) {
     ToroidalPatch& patch = s_.toroidal[t];
-    const PatchBorders& b = patch_borders_[t];
+    const PatchBorders& b = placed_.of_patch[t];
     patch.first_face = next.face;
     patch.face_count = numbers_of(b).face;
     if (flat_) return;
@@ -449,7 +299,7 @@ class BoundaryBuilder {
       const HalfBorder contact = side ? top : bottom;
       if (b.free) {
         add_loop(face, std::array{contact}, next);
-        s_.faces[face].tip = axis_vertex_[t] + side;
+        s_.faces[face].tip = placed_.axis_vertex[t] + side;
       } else if (side == 0) {
         add_loop(face, std::array{contact, b.half_edge(1, 0) * 2, b.half_edge(0, 0) * 2 + 1}, next);
       } else {
@@ -480,14 +330,10 @@ class BoundaryBuilder {
   const CuspParts& cusps_;
   const ReducedSurface& rs_;
   const bool flat_;  // probe radius 0: toroidal and concave patches have no area, convex patches meet directly
-  std::vector<PatchBorders> patch_borders_;
-  std::vector<std::uint32_t> axis_vertex_;  // per toroidal patch: the first of the two on its axis if it is a spindle
-  std::uint32_t triple_vertex_ = 0;
-  std::uint32_t first_cusp_border_ = 0;
-  std::vector<std::array<std::uint32_t, 2>> side_at_;  // toroidal patch, end -> side of the probe there
-  std::vector<std::uint32_t> first_of_atom_;           // per atom, and one more: its half-borders begin there
-  std::vector<std::uint32_t> first_of_probe_;          // the same per probe
-  std::vector<std::uint32_t> first_cusp_;              // per probe, and one more, into cusp_of_probe_
+  PlacedBorders placed_;
+  std::vector<std::uint32_t> first_of_atom_;   // per atom, and one more: its half-borders begin there
+  std::vector<std::uint32_t> first_of_probe_;  // the same per probe
+  std::vector<std::uint32_t> first_cusp_;      // per probe, and one more, into cusp_of_probe_
   std::vector<HalfBorder> cusp_of_probe_;
   std::unique_ptr<std::uint32_t[]> loop_size_;  // per half-border of a spherical patch that begins a loop
   std::vector<PatchNumbers> convex_numbers_;
