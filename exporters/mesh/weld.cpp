@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <iterator>
 #include <numeric>
+#include <optional>
 #include <unordered_map>
 
 #include <glm/common.hpp>
@@ -20,11 +21,15 @@ using Triangle = std::array<std::uint32_t, 3>;
 
 /// An edge that was flipped leaves one that makes other triangles flat at times.
 constexpr int kRounds = 12;
+constexpr double kNoFin = -1.0;
 
 class Welder {
  public:
-  Welder(std::span<const glm::dvec3> positions, std::vector<Triangle>& triangles, double step, double scale)
-      : positions_(positions), triangles_(triangles), step_(step), scale_(scale) {
+  /// scale: a file holds that many times the positions in single precision; 0: the positions as they are. longest_fin:
+  /// Å from what stays to the tip of a fin that goes.
+  Welder(std::span<const glm::dvec3> positions, std::vector<Triangle>& triangles, double step, double scale,
+         double longest_fin)
+      : positions_(positions), triangles_(triangles), step_(step), scale_(scale), longest_fin_(longest_fin) {
     made_.into.resize(positions.size());
     std::iota(made_.into.begin(), made_.into.end(), 0u);
     made_.gone.assign(triangles.size(), false);
@@ -34,11 +39,13 @@ class Welder {
     find_short_edges();
     if (short_.empty()) return;
     list_triangles();
-    // A collapse may bring other vertices together, so that an edge that could not go now can.
-    for (bool again = true; again;) {
-      again = false;
-      for (auto& [keep, drop] : short_) again = collapse(keep, drop) || again;
-    }
+    // A collapse may bring other vertices together, so that an edge that could not go now can. What then is left, fins
+    // may keep.
+    for (const double longest_fin : {kNoFin, longest_fin_})
+      for (bool again = true; again;) {
+        again = false;
+        for (auto& [keep, drop] : short_) again = collapse(keep, drop, longest_fin) || again;
+      }
   }
 
   /// changed(t, from): triangle t now covers what `from` did.
@@ -50,7 +57,8 @@ class Welder {
       short_.clear();
       list_triangles();
       bool any = false;
-      for (const std::uint32_t t : flat_) any = flip(t, changed) || any;
+      for (const std::uint32_t t : flat_)
+        if (!made_.gone[t]) any = flip(t, changed) || any;
       if (!any) break;
     }
     find_flat_triangles();
@@ -64,8 +72,20 @@ class Welder {
     std::uint32_t keep, drop;
   };
 
+  /// Beside a short edge a triangle (a, b, tip) with two more at its tip, (tip, a, foot) and (b, tip, foot), which lie
+  /// back to back. While it is there, the ends of the edge have three neighbours in common.
+  struct Fin {
+    std::uint32_t end, side_a, side_b;  ///< triangles
+    std::uint32_t tip, foot;            ///< vertices
+  };
+
+  glm::vec3 single(std::uint32_t v) const { return glm::vec3(scale_ * positions_[v]); }
+
   /// Whole numbers, so that what is said of them is exact.
-  glm::i64vec3 steps(std::uint32_t v) const { return glm::i64vec3(glm::round(positions_[v] / step_)); }
+  glm::i64vec3 steps(std::uint32_t v) const {
+    const glm::dvec3 written = scale_ > 0.0 ? glm::dvec3(single(v)) / scale_ : positions_[v];
+    return glm::i64vec3(glm::round(written / step_));
+  }
 
   bool is_short(std::uint32_t a, std::uint32_t b) const {
     return glm::distance(positions_[a], positions_[b]) < step_ || steps(a) == steps(b);
@@ -74,7 +94,6 @@ class Welder {
   bool is_flat(const Triangle& t) const {
     const glm::i64vec3 a = steps(t[0]), u = steps(t[1]) - a, v = steps(t[2]) - a;
     if (u.y * v.z == u.z * v.y && u.z * v.x == u.x * v.z && u.x * v.y == u.y * v.x) return true;
-    const auto single = [this](std::uint32_t corner) { return glm::vec3(scale_ * positions_[corner]); };
     const glm::vec3 x = single(t[0]);
     return glm::cross(single(t[1]) - x, single(t[2]) - x) == glm::vec3(0.0f);
   }
@@ -111,6 +130,9 @@ class Welder {
   }
 
   static bool has(const Triangle& t, std::uint32_t v) { return std::ranges::find(t, v) != t.end(); }
+  static std::uint32_t third_corner(const Triangle& t, std::uint32_t a, std::uint32_t b) {
+    return *std::ranges::find_if(t, [a, b](std::uint32_t v) { return v != a && v != b; });
+  }
 
   std::vector<std::uint32_t> neighbors(std::uint32_t v) const {
     std::vector<std::uint32_t> found;
@@ -141,18 +163,60 @@ class Welder {
 
   bool is_gone(std::uint32_t v) const { return made_.into[v] != v; }
 
-  bool collapse(std::uint32_t keep, std::uint32_t drop) {
+  void remove(std::uint32_t t) {
+    take_from_lists(t);
+    made_.gone[t] = true;
+  }
+
+  /// Whether the mesh stays what it is where two vertices become one that have an edge, or would have one, once so many
+  /// fins beside it are gone.
+  bool can_join(std::uint32_t a, std::uint32_t b, std::size_t fins) const {
+    if (!around_.contains(a) || !around_.contains(b)) return false;
+    const std::vector<std::uint32_t> of_a = neighbors(a), of_b = neighbors(b);
+    std::vector<std::uint32_t> common;
+    std::set_intersection(of_a.begin(), of_a.end(), of_b.begin(), of_b.end(), std::back_inserter(common));
+    if (common.size() != 2 + fins) return false;
+    const std::size_t edge_to_come = std::ranges::binary_search(of_a, b) ? 0 : 2;
+    return of_a.size() + of_b.size() + edge_to_come - 2 * fins >= 7;  // else nothing but two triangles back to back
+  }
+
+  std::optional<Fin> fin_at(std::uint32_t end, std::uint32_t a, std::uint32_t b) const {
+    const std::uint32_t tip = third_corner(triangles_[end], a, b);
+    std::vector<std::uint32_t> side_a = triangles_at(a, tip), side_b = triangles_at(b, tip);
+    std::erase(side_a, end);
+    std::erase(side_b, end);
+    if (side_a.size() != 1 || side_b.size() != 1) return std::nullopt;
+    const std::uint32_t foot = third_corner(triangles_[side_a[0]], a, tip);
+    if (third_corner(triangles_[side_b[0]], b, tip) != foot) return std::nullopt;
+    return Fin{end, side_a[0], side_b[0], tip, foot};
+  }
+
+  double length(const Fin& fin, std::uint32_t a) const {
+    const glm::dvec3 to_foot = positions_[fin.foot] - positions_[a], to_tip = positions_[fin.tip] - positions_[a];
+    const double share = glm::dot(to_tip, to_foot) / glm::dot(to_foot, to_foot);
+    return glm::distance(to_tip, std::clamp(share, 0.0, 1.0) * to_foot);
+  }
+
+  /// One triangle instead of the three at its tip.
+  void take_out(const Fin& fin) {
+    remove(fin.side_a);
+    remove(fin.side_b);
+    take_from_lists(fin.end);
+    std::ranges::replace(triangles_[fin.end], fin.tip, fin.foot);
+    put_on_lists(fin.end);
+    ++made_.fins;
+  }
+
+  bool collapse(std::uint32_t keep, std::uint32_t drop, double longest_fin) {
     if (keep == drop || is_gone(keep) || is_gone(drop)) return false;
     const std::vector<std::uint32_t> across = triangles_at(drop, keep);
     if (across.size() != 2) return false;
-    const std::vector<std::uint32_t> a = neighbors(keep), b = neighbors(drop);
-    std::vector<std::uint32_t> common;
-    std::set_intersection(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(common));
-    if (common.size() != 2 || a.size() + b.size() < 7) return false;  // else nothing but two triangles back to back
-    for (const std::uint32_t t : across) {
-      take_from_lists(t);
-      made_.gone[t] = true;
-    }
+    std::vector<Fin> fins;
+    for (const std::uint32_t t : across)
+      if (const auto fin = fin_at(t, keep, drop); fin && length(*fin, keep) <= longest_fin) fins.push_back(*fin);
+    if (!can_join(keep, drop, fins.size())) return false;
+    for (const Fin& fin : fins) take_out(fin);
+    for (const std::uint32_t t : across) remove(t);
     for (const std::uint32_t t : around_[drop]) {
       for (std::uint32_t& v : triangles_[t])
         if (v == drop) v = keep;
@@ -193,12 +257,13 @@ class Welder {
     if (at.size() != 2) return false;
     const std::uint32_t other = at[0] == t ? at[1] : at[0];
     const Triangle before = triangles_[other];
-    const std::uint32_t d = *std::ranges::find_if(before, [a = a, b = b](std::uint32_t v) { return v != a && v != b; });
+    const std::uint32_t d = third_corner(before, a, b);
     if (d == c || !triangles_at(c, d).empty()) return false;
     const Triangle first{a, d, c}, second{d, b, c};
     const bool had_area = !is_flat(before);
     const int flat_after = int(is_flat(first)) + int(is_flat(second)), flat_now = 1 + int(!had_area);
-    if (flat_after >= flat_now) return false;
+    const bool joins = !had_area && is_short(c, d) && can_join(c, d, 0);
+    if (flat_after >= flat_now && !joins) return false;
     if (had_area && (glm::dot(normal(first), normal(before)) <= 0.0 || glm::dot(normal(second), normal(before)) <= 0.0))
       return false;
     take_from_lists(t);
@@ -208,13 +273,16 @@ class Welder {
     put_on_lists(t);
     put_on_lists(other);
     changed(t, other);
-    ++made_.flipped;
+    if (joins)
+      collapse(std::min(c, d), std::max(c, d), kNoFin);
+    else
+      ++made_.flipped;
     return true;
   }
 
   std::span<const glm::dvec3> positions_;
   std::vector<Triangle>& triangles_;
-  double step_, scale_;
+  double step_, scale_, longest_fin_;
   Welding made_;
   std::vector<Edge> short_;
   std::vector<std::uint32_t> flat_;
@@ -230,7 +298,7 @@ void follow(std::vector<std::uint32_t>& into) {
 }  // namespace
 
 Welding weld_short_edges(std::span<const glm::dvec3> positions, std::vector<Triangle>& triangles, double step) {
-  Welder welder(positions, triangles, step, 1.0);
+  Welder welder(positions, triangles, step, 0.0, kNoFin);
   welder.join_short_edges();
   Welding made = welder.take();
   follow(made.into);
@@ -238,7 +306,7 @@ Welding weld_short_edges(std::span<const glm::dvec3> positions, std::vector<Tria
 }
 
 Welding weld(TriangleMesh& mesh, double step, double scale) {
-  Welder welder(mesh.positions, mesh.triangles, step, scale);
+  Welder welder(mesh.positions, mesh.triangles, step, scale, mesh.tolerance);
   welder.join_short_edges();
   std::vector<bool> flipped(mesh.triangles.size(), false);
   welder.flip_flat_triangles([&](std::uint32_t t, std::uint32_t from) {

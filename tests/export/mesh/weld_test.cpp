@@ -2,8 +2,10 @@
 // Welding: short edges and flat triangles go where the mesh stays a closed surface of the same genus, and nowhere else.
 #include "exporters/mesh/weld.h"
 
+#include <cmath>
 #include <utility>
 
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 namespace meniscus {
@@ -75,6 +77,72 @@ TEST(Weld, ANeckStays) {
   EXPECT_EQ(euler_if_closed(mesh), 2);
 }
 
+// The same octahedron with a fin beside the edge from 0 to 2: two triangles back to back with their tip at 7, which
+// keeps the double corner from becoming one.
+TriangleMesh octahedron_with_a_fin(double length) {
+  const double out = 0.5 + length / std::sqrt(2.0);
+  TriangleMesh mesh =
+      mesh_of({{0, 0, 1}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}, {0.0004, 0, 1}, {0, out, out}},
+              {{6, 1, 2},
+               {6, 2, 7},
+               {2, 0, 7},
+               {0, 6, 7},
+               {0, 2, 3},
+               {0, 3, 4},
+               {0, 4, 6},
+               {6, 4, 1},
+               {2, 1, 5},
+               {3, 2, 5},
+               {4, 3, 5},
+               {1, 4, 5}});
+  mesh.sharp_edges = {{0, 7}, {2, 7}, {3, 4}};
+  mesh.sharp_corners = {5, 13};  // of triangle 1, at the tip, and of triangle 4
+  mesh.sharp_corner_normals = {{1, 0, 0}, {0, 1, 0}};
+  mesh.tolerance = 0.05;
+  return mesh;
+}
+
+TEST(Weld, AFinGoesThatKeepsVerticesApart) {
+  TriangleMesh mesh = octahedron_with_a_fin(0.04);
+  ASSERT_EQ(euler_if_closed(mesh), 2);
+  const Welding made = weld(mesh);
+  EXPECT_EQ(made.fins, 1u);
+  EXPECT_EQ(made.joined, 1u);
+  EXPECT_EQ(made.flat, 0u);
+  EXPECT_EQ(made.into, (std::vector<std::uint32_t>{0, 1, 2, 3, 4, 5, 0, kNone}));
+  EXPECT_EQ(mesh.positions.size(), 6u);
+  EXPECT_EQ(mesh.triangles.size(), 8u);
+  EXPECT_EQ(mesh.face, (std::vector<std::uint32_t>{0, 4, 5, 7, 8, 9, 10, 11}));
+  EXPECT_EQ(mesh.sharp_edges, (std::vector<std::array<std::uint32_t, 2>>{{3, 4}}));
+  EXPECT_EQ(mesh.sharp_corners, (std::vector<std::uint32_t>{4}));
+  EXPECT_EQ(euler_if_closed(mesh), 2);
+  EXPECT_NEAR(measure(mesh).volume, 4.0 / 3.0, 1e-12);
+}
+
+// Without it the surface there would be farther from the mesh than the tolerance.
+TEST(Weld, AFinLongerThanTheToleranceStays) {
+  TriangleMesh mesh = octahedron_with_a_fin(0.06);
+  const Welding made = weld(mesh);
+  EXPECT_EQ(made.fins, 0u);
+  EXPECT_EQ(made.joined, 0u);
+  EXPECT_EQ(made.flat, 2u);
+  EXPECT_EQ(mesh.positions.size(), 8u);
+  EXPECT_EQ(euler_if_closed(mesh), 2);
+}
+
+// Files hold floats: where rounding to these brings two points to the same thousandth, they are one.
+TEST(Weld, PointsThatAreOneInTheNumbersOfAFileAreJoined) {
+  double edge = 100.0005;  // between thousandths
+  while (!(double(float(edge - 1e-7)) > edge)) edge += 0.001;
+  TriangleMesh mesh = octahedron_with_a_double_corner(0.0);
+  for (glm::dvec3& x : mesh.positions) x.x += edge - 1e-7;
+  mesh.positions[6] += glm::dvec3(0.00095, 0.00045, 0.0);
+  ASSERT_GT(glm::distance(mesh.positions[0], mesh.positions[6]), 0.001);
+  std::vector<std::array<std::uint32_t, 3>> triangles = mesh.triangles;
+  EXPECT_EQ(weld_short_edges(mesh.positions, triangles, 0.001).joined, 0u);  // numbers as they are
+  EXPECT_EQ(weld(mesh).joined, 1u);
+}
+
 // A tetrahedron with a vertex 6 on its edge from 0 to 1: both triangles there could be drawn without it; the one that
 // has it as a corner beside the whole edge has no area.
 TriangleMesh tetrahedron_with_a_flat_triangle(double off) {
@@ -96,6 +164,33 @@ TEST(Weld, AFlatTriangleLosesItsLongestEdge) {
     EXPECT_NEAR(measure(mesh).volume, volume, 0.01);
     EXPECT_EQ(mesh.face, (std::vector<std::uint32_t>{0, 0, 2, 3, 4, 5}));  // both of the one that had an area
   }
+}
+
+// The diagonal of two flat triangles is too short to be an edge.
+TEST(Weld, TwoFlatTrianglesGoAndTheirCornersBecomeOne) {
+  TriangleMesh mesh = mesh_of({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {0, 0, 4}, {2, 0.0002, 0}, {2, 0, 0.0002}},
+                              {{0, 4, 1}, {0, 1, 5}, {0, 2, 4}, {4, 2, 1}, {0, 5, 3}, {5, 1, 3}, {1, 2, 3}, {2, 0, 3}});
+  ASSERT_EQ(euler_if_closed(mesh), 2);
+  const Welding made = weld(mesh);
+  EXPECT_EQ(made.joined, 1u);
+  EXPECT_EQ(made.flat, 0u);
+  EXPECT_EQ(made.into, (std::vector<std::uint32_t>{0, 1, 2, 3, 4, 4}));
+  EXPECT_EQ(mesh.triangles.size(), 6u);
+  EXPECT_EQ(euler_if_closed(mesh), 2);
+  EXPECT_NEAR(measure(mesh).volume, 32.0 / 3.0, 0.01);
+}
+
+// The other diagonal would lie outside the triangle beyond the longest edge, which is thinner than the flat one is far
+// off: one of the new triangles would face inwards.
+TEST(Weld, AFlatTriangleStaysWhereItsFlipWouldFold) {
+  TriangleMesh mesh = mesh_of({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {0, 0, 4}, {1, 0.00049, 0}, {2, 0.0008, 0}},
+                              {{0, 5, 1}, {5, 2, 1}, {0, 2, 5}, {0, 1, 4}, {0, 4, 3}, {4, 1, 3}, {1, 2, 3}, {2, 0, 3}});
+  ASSERT_EQ(euler_if_closed(mesh), 2);
+  const std::vector<std::array<std::uint32_t, 3>> before = mesh.triangles;
+  const Welding made = weld(mesh);
+  EXPECT_EQ(made.flipped, 0u);
+  EXPECT_EQ(made.flat, 1u);
+  EXPECT_EQ(mesh.triangles, before);
 }
 
 TEST(Weld, WhatHasAnAreaInTheNumbersOfAFileStays) {
