@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Numbers that atoms can be coloured by: from a file of the user's own, and the hydrophobicity of residues.
+// Numbers that atoms can be coloured by, from a file of the user's own.
 #pragma once
 
 #include <array>
@@ -54,10 +54,5 @@ struct NumberFile {
 ///   where there is one beside these. With a column "frame" rows are of that frame of a run.
 /// Throws InputError naming the line, the word and what is wanted; see also read_text_file.
 NumberFile read_number_file(const std::string& path, const std::string& column = {});
-
-/// Hydropathy of an amino acid, -4.5 (arginine) to 4.5 (isoleucine): J. Kyte and R. F. Doolittle, J. Mol. Biol. 157,
-/// 105 (1982), table 2. Force-field names of charge states and selenomethionine go with their parent; NaN for all
-/// others.
-double hydropathy(std::string_view residue_name);
 
 }  // namespace meniscus

@@ -12,7 +12,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/queries/curvature.h"
-#include "core/structure/atom_numbers.h"
+#include "core/structure/hydropathy.h"
 #include "core/surface/atom_areas.h"
 #include "exporters/mesh/mesh_colors.h"
 #include "exporters/mesh/smoothed_curvature.h"
@@ -86,48 +86,48 @@ struct Column {
 };
 
 const auto kColumns = std::to_array<Column>({
-    {{"b_factor", "B-factor of the atom, Å²; 0: none", true},
+    {{"b_factor", "B-factor of the atom, Å²; 0: none", true, true},
      [](const NumberSource& s) {
        return of_atoms(s, [](const Atom& a) { return std::isfinite(a.b_factor) ? a.b_factor : 0.0f; });
      }},
-    {{"atomic_number", "of its element; 0: unknown", true},
+    {{"atomic_number", "of its element; 0: unknown", true, true},
      [](const NumberSource& s) { return of_atoms(s, [](const Atom& a) { return a.element; }); }},
-    {{"res_id", "number of its residue", true},
+    {{"res_id", "number of its residue", true, true},
      [](const NumberSource& s) { return of_atoms(s, [](const Atom& a) { return a.residue_number; }); }},
-    {{"vdw_radii", "its radius, Å", true},
+    {{"vdw_radii", "its radius, Å", true, false},
      [](const NumberSource& s) { return of_atoms(s, [](const Atom& a) { return a.radius; }); }},
-    {{"atom_index", "its place among the atoms used, from 0", true},
+    {{"atom_index", "its place among the atoms used, from 0", true, false},
      [](const NumberSource& s) {
        return of_vertices(s, [&](std::uint32_t v) { return s.object.atom[s.mesh.vertex_atom[v]]; });
      }},
-    {{"ses_kind", "of the patch: 0 convex, 1 toroidal, 2 concave", true},
+    {{"ses_kind", "of the patch: 0 convex, 1 toroidal, 2 concave", true, false},
      [](const NumberSource& s) {
        return of_vertices(s, [&](std::uint32_t v) {
          const std::uint32_t face = s.mesh.vertex_face[v];
          return face == kNone ? 0 : static_cast<int>(s.object.surface.faces[face].kind);
        });
      }},
-    {{"ses_component", "of the closed part, from 0", true}, component_of},
-    {{"mean_curvature", "exact, 1/Å; positive where the solid bulges", false},
+    {{"ses_component", "of the closed part, from 0", true, false}, component_of},
+    {{"mean_curvature", "exact, 1/Å; positive where the solid bulges", false, false},
      [](const NumberSource& s) { return curvatures(s, &Curvature::mean); }},
-    {{"gaussian_curvature", "exact, 1/Å²", false},
+    {{"gaussian_curvature", "exact, 1/Å²", false, false},
      [](const NumberSource& s) { return curvatures(s, &Curvature::gaussian); }},
-    {{"smooth_mean_curvature", "averaged over 2 Å around, 1/Å", false},
+    {{"smooth_mean_curvature", "averaged over 2 Å around, 1/Å", false, false},
      [](const NumberSource& s) { return smoothed(s, &Curvature::mean); }},
-    {{"smooth_gaussian_curvature", "the same, 1/Å²", false},
+    {{"smooth_gaussian_curvature", "the same, 1/Å²", false, false},
      [](const NumberSource& s) { return smoothed(s, &Curvature::gaussian); }},
-    {{"atom_area", "all of the surface that is the atom's, Å²", false}, atom_areas_of},
-    {{"patch_area", "of the patch's connected piece, Å²", false},
+    {{"atom_area", "all of the surface that is the atom's, Å²", false, false}, atom_areas_of},
+    {{"patch_area", "of the patch's connected piece, Å²", false, false},
      [](const NumberSource& s) {
        return of_faces(s, [&](std::uint32_t face, std::uint32_t) { return s.object.surface.faces[face].area; });
      }},
-    {{"charge", "partial charge of the atom, e", false},
+    {{"charge", "partial charge of the atom, e", false, true},
      [](const NumberSource& s) { return of_atoms(s, [](const Atom& a) { return a.charge; }); }},
-    {{"hydrophobicity", "of its residue (Kyte & Doolittle 1982)", false},
+    {{"hydrophobicity", "of its residue (Kyte & Doolittle 1982)", false, true},
      [](const NumberSource& s) { return of_atoms(s, [](const Atom& a) { return hydropathy(a.residue_name); }); }},
-    {{"entity", "of the atom: 0 polymer, 1 ligand, 2 water, 3 ion, 4 unclassified", false},
+    {{"entity", "of the atom: 0 polymer, 1 ligand, 2 water, 3 ion, 4 unclassified", false, true},
      [](const NumberSource& s) { return of_atoms(s, [](const Atom& a) { return static_cast<int>(a.kind); }); }},
-    {{"buried_area", "accessible area of the atom that other chains bury, Å²", false}, buried_of},
+    {{"buried_area", "accessible area of the atom that other chains bury, Å²", false, true}, buried_of},
 });
 
 const auto kKinds = [] {
@@ -136,33 +136,40 @@ const auto kKinds = [] {
   return kinds;
 }();
 
-bool is_wanted(const VertexNumberKind& kind, std::span<const std::string> words) {
-  return std::ranges::any_of(words, [&](const std::string& word) {
-    return word == kind.name || word == "all" || (word == "usual" && kind.usual);
-  });
+bool is_wanted(const VertexNumberKind& kind, std::span<const std::string> words, AtomSource atoms) {
+  return (atoms == AtomSource::molecule || !kind.of_molecule) &&
+         std::ranges::any_of(words, [&](const std::string& word) {
+           return word == kind.name || word == "all" || (word == "usual" && kind.usual);
+         });
+}
+
+void check_word(const std::string& word, AtomSource atoms) {
+  if (word == "all" || word == "usual" || word == "none") return;
+  const auto* const kind = std::ranges::find(kKinds, word, &VertexNumberKind::name);
+  if (kind == kKinds.end()) {
+    std::string known;
+    for (const VertexNumberKind& k : kKinds) known.append(k.name).append(", ");
+    throw RequestError(fmt::format("{} is no attribute; there are {}usual, all and none", in_quotes(word), known));
+  }
+  if (atoms == AtomSource::bare && kind->of_molecule)
+    throw RequestError(fmt::format("{} is known of molecules that were read from a file, not of bare atoms", word));
 }
 
 }  // namespace
 
 std::span<const VertexNumberKind> vertex_number_kinds() { return kKinds; }
 
-std::vector<std::string> parse_vertex_numbers(std::string_view text) {
+std::vector<std::string> parse_vertex_numbers(std::string_view text, AtomSource atoms) {
   std::vector<std::string> words;
   for (std::size_t first = 0; first <= text.size();) {
     const std::size_t past = std::min(text.find(',', first), text.size());
     words.emplace_back(text.substr(first, past - first));
     first = past + 1;
   }
-  for (const std::string& word : words) {
-    if (word == "all" || word == "usual" || word == "none") continue;
-    if (std::ranges::find(kKinds, word, &VertexNumberKind::name) != kKinds.end()) continue;
-    std::string known;
-    for (const VertexNumberKind& kind : kKinds) known.append(kind.name).append(", ");
-    throw RequestError(fmt::format("{} is no attribute; there are {}usual, all and none", in_quotes(word), known));
-  }
+  for (const std::string& word : words) check_word(word, atoms);
   std::vector<std::string> names;
   for (const VertexNumberKind& kind : kKinds)
-    if (is_wanted(kind, words)) names.emplace_back(kind.name);
+    if (is_wanted(kind, words, atoms)) names.emplace_back(kind.name);
   return names;
 }
 
