@@ -40,13 +40,6 @@ std::string scale_sentence(const MeshFormat& format, double scale) {
   return fmt::format("1 Å is {:g} {}", scale, format.unit.empty() ? "in the file" : format.unit);
 }
 
-std::string about_line(const MeshCommand& command, const MeshFineness& fineness) {
-  const std::string how = fineness.density > 0.0 ? fmt::format("{:g} vertices per square Angstrom", fineness.density)
-                                                 : fmt::format("tolerance {:.4g} Angstrom", fineness.tolerance);
-  return fmt::format("Meniscus {}: 1 Angstrom is {:g}; {} surface, {}", MENISCUS_VERSION, command.mesh.scale,
-                     kind_word(command.molecule.surface.kind), how);
-}
-
 void warn_of_many(const MeshCommand& command, const Molecule& molecule, const MeshFineness& fineness) {
   double triangles = 0.0;
   for (const SurfaceObject& object : molecule.objects)
@@ -98,8 +91,10 @@ void tell(const MeshCommand& command, const MeshFormat& format, const MeshFileMa
                                     scale_sentence(format, command.mesh.scale)));
   if (maker.joined_edges() + maker.flipped_edges() > 0)
     say(command.molecule,
-        fmt::format("welded: {} edges shorter than {} Å, {} triangles without area",
-                    with_thousands(maker.joined_edges()), kFileStep, with_thousands(maker.flipped_edges())));
+        fmt::format("welded: {} edges shorter than {} Å, {}{} triangles without area",
+                    with_thousands(maker.joined_edges()), kFileStep,
+                    maker.fins() > 0 ? fmt::format("{} fins no thicker, ", with_thousands(maker.fins())) : "",
+                    with_thousands(maker.flipped_edges())));
   if (maker.flat_triangles() > 0)
     say(command.molecule,
         fmt::format("warning: {} triangles have no area in thousandths of an Å and could not be welded; "
@@ -138,7 +133,7 @@ void run(const MeshCommand& command) {
   const std::vector<Atom> atoms = shown_atoms(molecule.structure);
   const std::vector<double> buried = buried_by_chains(command, molecule.structure, names);
   MeshFileMaker maker({fineness, names, command.mesh.scale, atoms, buried, format.solid},
-                      about_line(command, fineness));
+                      about_line(kind_word(command.molecule.surface.kind), command.mesh.scale, fineness));
   for (SurfaceObject& object : molecule.objects) maker.add(std::exchange(object, {}));
   if (!molecule.beside.empty()) maker.add(shape_object(atoms, molecule.beside, fineness.tolerance));
   tell(command, format, maker, fineness);

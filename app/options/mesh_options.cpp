@@ -16,8 +16,6 @@
 namespace meniscus {
 namespace {
 
-constexpr double kSmallestScale = 1e-12, kLargestScale = 1e6;
-
 /// As CLI11 names the options that exclude each other.
 struct FinenessOptions {
   CLI::Option *angstrom, *pixels;
@@ -46,7 +44,7 @@ void add_units(CLI::App& command, MeshFileOptions& options) {
       .add_option("--scale", options.scale,
                   "Length in the file of 1 Å [1]; 3MF has millimetres and GLB metres, others no unit of their own")
       ->type_name("LENGTH")
-      ->check(CLI::Range(kSmallestScale, kLargestScale).description(""))
+      ->check(CLI::Range(kSmallestFileScale, kLargestFileScale).description(""))
       ->excludes(unit);
 }
 

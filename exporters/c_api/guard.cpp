@@ -46,6 +46,8 @@ meniscus_status report(const std::exception_ptr& error) noexcept {
     return kept(MENISCUS_NO_GPU, gpu.what());
   } catch (const CapacityError& capacity) {
     return kept(MENISCUS_CAPACITY, capacity.what());
+  } catch (const OutputError& output) {
+    return kept(MENISCUS_OUTPUT, output.what());
   } catch (const OpenSurfaceError& open) {
     return kept(MENISCUS_NOT_CLOSED, open.what());
   } catch (const std::bad_alloc&) {

@@ -1,24 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Triangle meshes of a surface, table by table.
 #include <memory>
-#include <utility>
-#include <vector>
 
-#include "exporters/c_api/counted.h"
 #include "exporters/c_api/cpu_threads.h"
 #include "exporters/c_api/guard.h"
+#include "exporters/c_api/mesh.h"
 #include "exporters/c_api/sized_struct.h"
-#include "exporters/c_api/surface.h"
 #include "exporters/c_api/table.h"
-#include "exporters/mesh/even_mesh.h"
 #include "exporters/mesh/mesh_colors.h"
 #include "exporters/mesh/mesh_objects.h"
 #include "exporters/mesh/tessellate.h"
-
-struct meniscus_mesh : meniscus::c_api::Counted {
-  meniscus::TriangleMesh mesh;
-  std::vector<std::uint32_t> vertex_atoms;
-};
 
 namespace meniscus::c_api {
 namespace {
@@ -36,19 +27,16 @@ meniscus_mesh_options checked(const meniscus_mesh_options* given) {
   return options;
 }
 
-void make_mesh(const Surface& surface, const meniscus_mesh_options& wanted, meniscus_mesh& made) {
-  if (wanted.density > 0.0 || wanted.even != 0) {
-    EvenMesh even = even_mesh(surface, {wanted.density, wanted.tolerance, {}});
-    made.mesh = std::move(even.mesh);
-    made.vertex_atoms = std::move(even.vertex_atom);
-  } else {
-    made.mesh = tessellate(surface, {wanted.tolerance, wanted.split_colors != 0});
-    made.vertex_atoms = vertex_atoms(made.mesh);
-  }
+FineMesh make_mesh(const Surface& surface, const meniscus_mesh_options& wanted, const MeshFineness& fineness) {
+  if (fineness.even || fineness.density > 0.0 || wanted.split_colors != 0) return fine_mesh(surface, fineness);
+  FineMesh made{tessellate(surface, {wanted.tolerance, false}), {}, {}};
+  made.vertex_face = vertex_faces(made.mesh);
+  made.vertex_atom = vertex_atoms(made.mesh);
+  return made;
 }
 
 meniscus_array find_table(const meniscus_mesh& made, std::int32_t table) {
-  const TriangleMesh& mesh = made.mesh;
+  const TriangleMesh& mesh = made.made.mesh;
   switch (table) {
     case MENISCUS_MESH_POSITIONS:
       return table_of(mesh.positions);
@@ -71,7 +59,7 @@ meniscus_array find_table(const meniscus_mesh& made, std::int32_t table) {
     case MENISCUS_MESH_SHARP_NORMALS:
       return table_of(mesh.sharp_corner_normals);
     case MENISCUS_MESH_VERTEX_ATOMS:
-      return table_of(made.vertex_atoms);
+      return table_of(made.made.vertex_atom);
     default:
       refuse(MENISCUS_USAGE, "a mesh has no table {}", table);
   }
@@ -93,8 +81,9 @@ meniscus_status meniscus_surface_mesh(const meniscus_surface* surface, const men
     require(mesh, "mesh");
     const meniscus_mesh_options wanted = checked(options);
     auto made = std::make_unique<meniscus_mesh>();
-    const FinishedSurface& finished = *surface->finished;
-    run_on_threads(finished.threads, [&] { make_mesh(finished.surface, wanted, *made); });
+    made->of = surface->finished;
+    made->fineness = {wanted.tolerance, {}, wanted.density, wanted.even != 0};
+    run_on_threads(made->of->threads, [&] { made->made = make_mesh(made->of->surface, wanted, made->fineness); });
     *mesh = made.release();
   });
 }

@@ -12,6 +12,7 @@
 #include "core/gpu/egl_context.h"
 #include "core/image/display_color.h"
 #include "core/render/surface_renderer.h"
+#include "exporters/c_api/atom_colors.h"
 #include "exporters/c_api/cpu_threads.h"
 #include "exporters/c_api/device.h"
 #include "exporters/c_api/gl_thread.h"
@@ -26,11 +27,6 @@ constexpr std::int32_t kMostSamples = 1024;
 
 const meniscus_picture kDefaults{sizeof(meniscus_picture), nullptr, nullptr, 1024, 768, 4, 0, {0.75f, 0.82f, 0.9f},
                                  {1.0f, 1.0f, 1.0f},       0.0f,    0.0f,    0.0f, 0};
-
-void check_range(const char* name, double value, double low, double high) {
-  if (!(value >= low && value <= high))
-    refuse(MENISCUS_INPUT, "{} is {}; it has to be {} to {}", name, value, low, high);
-}
 
 meniscus_picture checked(const meniscus_picture* given) {
   const meniscus_picture picture = given ? read_struct(given, kDefaults, "meniscus_picture") : kDefaults;
@@ -82,19 +78,6 @@ meniscus_camera struct_of(const Camera& camera) {
   result.height = camera.height;
   result.projection = camera.projection == Projection::perspective ? MENISCUS_PERSPECTIVE : MENISCUS_ORTHOGRAPHIC;
   return result;
-}
-
-Coloring coloring_of(const meniscus_picture& picture, std::size_t atoms) {
-  Coloring coloring;
-  coloring.atom.assign(atoms, vector_of(picture.color));
-  if (!picture.atom_colors) return coloring;
-  for (std::size_t n = 0; n < 3 * atoms; ++n) {
-    const float channel = picture.atom_colors[n];
-    if (!(channel >= 0.0f && channel <= 1.0f))
-      refuse(MENISCUS_INPUT, "channel {} of the colour of atom {} is {}; it has to be 0 to 1", n % 3, n / 3, channel);
-    coloring.atom[n / 3][static_cast<int>(n % 3)] = channel;
-  }
-  return coloring;
 }
 
 RenderSettings settings_of(const meniscus_picture& picture) {
@@ -201,7 +184,7 @@ meniscus_status meniscus_paint(meniscus_painter* painter, const meniscus_surface
     const double aspect = static_cast<double>(wanted.width) / wanted.height;
     const meniscus::Camera camera =
         wanted.camera ? camera_of(wanted.camera) : meniscus::frame_camera(finished.surface.atoms, aspect);
-    const meniscus::Coloring coloring = coloring_of(wanted, finished.surface.atoms.size());
+    const meniscus::Coloring coloring = coloring_of(wanted.color, wanted.atom_colors, finished.surface.atoms.size());
     meniscus::Framebuffer drawn;
     painter->run([&](meniscus::SurfaceRenderer& renderer) {
       run_on_threads(finished.threads,

@@ -36,5 +36,5 @@ struct FinishedSurface {
 }  // namespace meniscus::c_api
 
 struct meniscus_surface : meniscus::c_api::Counted {
-  std::unique_ptr<const meniscus::c_api::FinishedSurface> finished;
+  std::shared_ptr<const meniscus::c_api::FinishedSurface> finished;  ///< with its meshes
 };

@@ -45,14 +45,6 @@ double even_triangles(const Surface& surface, const MeshFineness& fineness) {
   return kTrianglesAVertex * vertices;
 }
 
-/// The face of one of the triangles of each vertex, the first.
-std::vector<std::uint32_t> first_faces(const TriangleMesh& mesh) {
-  std::vector<std::uint32_t> face(mesh.positions.size(), kNone);
-  for (std::size_t t = mesh.triangles.size(); t-- > 0;)
-    for (const std::uint32_t v : mesh.triangles[t]) face[v] = mesh.face[t];
-  return face;
-}
-
 }  // namespace
 
 MeshFineness fineness_of(const MeshRequest& request, bool even, double density, glm::ivec2 size, const Camera& camera,
@@ -72,13 +64,20 @@ double estimated_triangles(const Surface& surface, const MeshFineness& fineness)
                                                  : patch_aligned_triangles(surface, fineness.tolerance);
 }
 
+std::vector<std::uint32_t> vertex_faces(const TriangleMesh& mesh) {
+  std::vector<std::uint32_t> face(mesh.positions.size(), kNone);
+  for (std::size_t t = mesh.triangles.size(); t-- > 0;)
+    for (const std::uint32_t v : mesh.triangles[t]) face[v] = mesh.face[t];
+  return face;
+}
+
 FineMesh fine_mesh(const Surface& surface, const MeshFineness& fineness) {
   if (fineness.even || fineness.density > 0.0) {
     EvenMesh even = even_mesh(surface, {fineness.density, fineness.tolerance, fineness.tolerance_at});
     return {std::move(even.mesh), std::move(even.vertex_face), std::move(even.vertex_atom)};
   }
   FineMesh made{tessellate(surface, {fineness.tolerance, true}), {}, {}};
-  made.vertex_face = first_faces(made.mesh);
+  made.vertex_face = vertex_faces(made.mesh);
   made.vertex_atom = vertex_atoms(made.mesh);
   return made;
 }

@@ -42,6 +42,9 @@ struct FineMesh {
   std::vector<std::uint32_t> vertex_atom;  ///< into Surface::atoms
 };
 
+/// Of each vertex of a mesh that keeps to patches, the face of the first of its triangles.
+std::vector<std::uint32_t> vertex_faces(const TriangleMesh& mesh);
+
 /// Throws what tessellate() or even_mesh() throw.
 FineMesh fine_mesh(const Surface& surface, const MeshFineness& fineness);
 

@@ -428,4 +428,72 @@ TEST(CApi, EvenMeshesHaveTheDensityAskedFor) {
 }
 
 }  // namespace
+TEST(CApi, AMeshIsSavedThoughItsSurfaceIsGone) {
+  const testing::Balls balls = testing::collinear(5, 1.5);
+  const Computer made = computer();
+  SurfaceOf surface = computed(made.get(), balls);
+  const auto mesh_of = [](const SurfaceOf& of) {
+    meniscus_mesh* handle = nullptr;
+    EXPECT_EQ(meniscus_surface_mesh(of.get(), nullptr, &handle), MENISCUS_OK) << meniscus_last_error();
+    return Mesh(handle);
+  };
+  const TemporaryFolder folder;
+  const auto save = [&](const Mesh& mesh, const char* name) {
+    const std::string path = folder.path() / name;
+    EXPECT_EQ(meniscus_mesh_save(mesh.get(), path.c_str(), nullptr), MENISCUS_OK) << meniscus_last_error();
+    return read_bytes(path);
+  };
+  const Mesh mesh = mesh_of(surface);
+  const std::string before = save(mesh, "before.vtp");
+  meniscus_surface* in_place = surface.release();
+  const testing::Balls others = testing::collinear(3, 2.5);
+  const meniscus_atoms atoms = atoms_of(others);
+  ASSERT_EQ(meniscus_compute(made.get(), &atoms, &in_place), MENISCUS_OK);
+  surface.reset(in_place);
+  EXPECT_EQ(save(mesh, "anew.vtp"), before);
+  EXPECT_NE(save(mesh_of(surface), "other.vtp"), before);
+  surface.reset();
+  EXPECT_EQ(save(mesh, "gone.vtp"), before);
+}
+
+TEST(CApi, WhatCannotBeSavedIsSaid) {
+  const Computer made = computer();
+  const SurfaceOf surface = computed(made.get(), testing::collinear(3, 1.5));
+  meniscus_mesh* handle = nullptr;
+  ASSERT_EQ(meniscus_surface_mesh(surface.get(), nullptr, &handle), MENISCUS_OK);
+  const Mesh mesh(handle);
+  const TemporaryFolder folder;
+  const std::string path = folder.path() / "mesh.ply";
+  meniscus_mesh_file defaults{};
+  EXPECT_EQ(meniscus_default_mesh_file(&defaults), MENISCUS_USAGE);
+  defaults.size = sizeof defaults;
+  ASSERT_EQ(meniscus_default_mesh_file(&defaults), MENISCUS_OK);
+  EXPECT_EQ(defaults.scale, 1.0);
+  EXPECT_STREQ(defaults.attributes, "usual");
+  EXPECT_EQ(meniscus_mesh_save(nullptr, path.c_str(), nullptr), MENISCUS_USAGE);
+  EXPECT_EQ(meniscus_mesh_save(mesh.get(), nullptr, nullptr), MENISCUS_USAGE);
+  EXPECT_EQ(meniscus_mesh_save(mesh.get(), "", nullptr), MENISCUS_USAGE);
+  const auto said = [&](meniscus_status status, const char* sentence, const auto& change) {
+    meniscus_mesh_file file = defaults;
+    change(file);
+    EXPECT_EQ(meniscus_mesh_save(mesh.get(), path.c_str(), &file), status) << sentence;
+    EXPECT_NE(std::strstr(meniscus_last_error(), sentence), nullptr) << meniscus_last_error();
+    EXPECT_TRUE(folder.entries().empty());
+  };
+  said(MENISCUS_USAGE, "size", [](meniscus_mesh_file& file) { file.size = 0; });
+  said(MENISCUS_USAGE, "format is 'step'", [](meniscus_mesh_file& file) { file.format = "step"; });
+  said(MENISCUS_USAGE, "no attribute", [](meniscus_mesh_file& file) { file.attributes = "mass"; });
+  said(MENISCUS_USAGE, "bare atoms", [](meniscus_mesh_file& file) { file.attributes = "all,charge"; });
+  said(MENISCUS_INPUT, "scale is -1", [](meniscus_mesh_file& file) { file.scale = -1.0; });
+  said(MENISCUS_INPUT, "scale is nan", [](meniscus_mesh_file& file) { file.scale = std::nan(""); });
+  said(MENISCUS_INPUT, "color is 1.5", [](meniscus_mesh_file& file) { file.color[1] = 1.5f; });
+  const std::vector<float> colors{0, 0, 0, 0, 0, -2, 0, 0, 0};
+  said(MENISCUS_INPUT, "channel 2 of the colour of atom 1 is -2",
+       [&](meniscus_mesh_file& file) { file.atom_colors = colors.data(); });
+  EXPECT_EQ(meniscus_mesh_save(mesh.get(), path.c_str(), &defaults), MENISCUS_OK) << meniscus_last_error();
+  EXPECT_EQ(meniscus_mesh_save(mesh.get(), path.c_str(), &defaults), MENISCUS_OUTPUT);
+  defaults.replace = 1;
+  EXPECT_EQ(meniscus_mesh_save(mesh.get(), path.c_str(), &defaults), MENISCUS_OK) << meniscus_last_error();
+}
+
 }  // namespace meniscus

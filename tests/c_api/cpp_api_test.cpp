@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The C++ header over the C interface: closed forms through every class, errors as exceptions, who owns what.
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 #include <numeric>
 #include <span>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <meniscus/meniscus.hpp>
 
@@ -137,6 +139,13 @@ TEST(CppApi, AMeshIsClosedAndOutlivesItsSurface) {
     EXPECT_EQ(size, triangles);
   EXPECT_EQ(mesh.triangle_kinds()[0], MENISCUS_KIND_CONVEX);
   EXPECT_TRUE(mesh.sharp_corners().empty() && mesh.sharp_normals().empty());
+  meniscus::MeshFile file;
+  file.format = "off";
+  const std::string path = ::testing::TempDir() + "cpp_api_test_" + std::to_string(::getpid()) + ".mesh";
+  mesh.save(path, file);
+  EXPECT_THROW(mesh.save(path, file), meniscus::OutputError);
+  EXPECT_THROW(mesh.save(path), meniscus::UsageError);  // its ending says nothing
+  EXPECT_TRUE(std::filesystem::remove(path));
   EXPECT_GT(Computer().compute({kOneBall}).mesh().positions().size(), mesh.positions().size());  // 0.01 Å
 }
 

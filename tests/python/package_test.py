@@ -9,6 +9,7 @@ import pathlib
 import re
 import subprocess
 import sys
+import tempfile
 import threading
 import unittest
 import zlib
@@ -253,6 +254,106 @@ class Pictures(unittest.TestCase):
         self.assertIn("6 atoms", repr(meniscus.surface(*chain(6))))
 
 
+class MeshFiles(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        self.xyz, self.radii = cloud(40, 7)
+        self.surface = meniscus.surface(self.xyz, self.radii)
+
+    def bytes_of(self, mesh, name, **options):
+        mesh.save(self.folder / name, **options)
+        return (self.folder / name).read_bytes()
+
+    @unittest.skipUnless(PROGRAM, "MENISCUS_PROGRAM is not set")
+    def test_the_program_writes_the_same_bytes(self):
+        lines = "".join(f"{x!r} {y!r} {z!r} {r!r}\n" for (x, y, z), r in zip(self.xyz.tolist(), self.radii.tolist()))
+        mesh = self.surface.mesh(0.05)
+        even = self.surface.mesh(0.1, even=True)
+        for made, name, *words in ((mesh, "a.stl", "--tolerance", "0.05"), (mesh, "a.off", "--tolerance", "0.05"),
+                                   (mesh, "a.smesh", "--tolerance", "0.05"), (even, "b.stl", "--even", "--tolerance", "0.1")):
+            path = self.folder / ("program_" + name)
+            subprocess.run([PROGRAM, "export", "mesh", "-q", "--device", "cpu", "-", "-o", str(path), *words], input=lines,
+                           text=True, check=True, capture_output=True)
+            self.assertEqual(self.bytes_of(made, name), path.read_bytes(), name)
+
+    def test_every_format(self):
+        mesh = self.surface.mesh(density=1.0)
+        begins = {"stl": b"Meniscus", "3mf": b"PK", "obj": b"#", "off": b"OFF", "glb": b"glTF", "vtp": b"<?xml",
+                  "smesh": b"#", "dms": b"  -    1", "ply": b"ply"}
+        for ending, first in begins.items():
+            content = self.bytes_of(mesh, "mesh." + ending)
+            self.assertEqual(content[:len(first)], first, ending)
+            self.assertEqual(self.bytes_of(mesh, "named_" + ending, format=ending), content)
+        self.assertEqual(len(self.bytes_of(mesh, "again.STL")), 84 + 50 * len(mesh.triangles))
+
+    def test_colors_attributes_and_scale(self):
+        mesh = self.surface.mesh(0.2)
+
+        def columns(mesh, name, **options):
+            content = self.bytes_of(mesh, name, **options)
+            head, rows = content.split(b"end_header\n", 1)
+            types = {"float": "<f4", "uchar": "u1", "int": "<i4"}
+            lines = [line.split() for line in head.decode().split("element face")[0].splitlines()]
+            row = np.dtype([(line[2], types[line[1]]) for line in lines if line[0] == "property"])
+            count = int(next(line[2] for line in lines if line[:2] == ["element", "vertex"]))
+            return np.frombuffer(rows, row, count)
+
+        table = columns(mesh, "a.ply", attributes="all", scale=0.1)
+        self.assertEqual(table.dtype.names[9:], ("vdw_radii", "atom_index", "ses_kind", "ses_component", "mean_curvature",
+                                                 "gaussian_curvature", "smooth_mean_curvature",
+                                                 "smooth_gaussian_curvature", "atom_area", "patch_area"))
+        np.testing.assert_allclose(table["vdw_radii"], self.radii[table["atom_index"].astype(int)], rtol=1e-6)
+        np.testing.assert_allclose(table["atom_area"], self.surface.atom_areas[table["atom_index"].astype(int)], rtol=1e-5)
+        places = np.stack([table[axis] for axis in "xyz"], axis=1) * 10.0
+        np.testing.assert_allclose(self.surface.distance(places), 0.0, atol=1e-4)
+        one = columns(mesh, "b.ply", colors=(1, 0, 0), attributes="none")
+        self.assertEqual(one.dtype.names[9:], ())
+        self.assertTrue((one["red"] == 255).all() and (one["green"] == 0).all())
+        self.assertEqual(columns(mesh, "c.ply").dtype.names[9:], ("vdw_radii", "atom_index", "ses_kind", "ses_component"))
+        table = columns(meniscus.surface(self.xyz, self.radii, kind="sas").mesh(0.2), "d.ply")
+        np.testing.assert_allclose(table["vdw_radii"], self.radii[table["atom_index"].astype(int)], rtol=1e-6)
+        apart = meniscus.surface([[0, 0, 0], [20, 0, 0]], [1.7, 1.2]).mesh(density=1.0)
+        table = columns(apart, "e.ply", colors=[[0.2, 0.4, 0.6], [1, 0, 0]])
+        for atom, color in enumerate(((51, 102, 153), (255, 0, 0))):
+            at = table["atom_index"] == atom
+            self.assertGreater(at.sum(), 10)
+            self.assertTrue(((table["x"][at] > 10) == atom).all())
+            self.assertTrue((np.stack([table[c][at] for c in ("red", "green", "blue")], axis=1) == color).all())
+
+    def test_a_mesh_is_that_of_its_frame(self):
+        mesh = self.surface.mesh(0.1)
+        before = self.bytes_of(mesh, "before.vtp", attributes="all")
+        self.surface.update(self.xyz + 0.3)
+        self.assertEqual(self.bytes_of(mesh, "after.vtp", attributes="all"), before)
+
+    def test_what_cannot_be(self):
+        mesh = self.surface.mesh(0.3)
+        mesh.save(self.folder / "there.stl")
+        for wanted, error, sentence in (
+                (lambda: mesh.save(self.folder / "there.stl"), meniscus.OutputError, "there.stl"),
+                (lambda: mesh.save(self.folder / "no" / "folder.stl"), OSError, "folder.stl"),
+                (lambda: mesh.save(self.folder / "mesh.xyz"), meniscus.UsageError, "xyz.* ends as no mesh file"),
+                (lambda: mesh.save(self.folder / "mesh"), meniscus.UsageError, "ends as no mesh file"),
+                (lambda: mesh.save(self.folder / "a.stl", format="step"), meniscus.UsageError, "format is 'step'"),
+                (lambda: mesh.save(self.folder / "a.ply", attributes="b_factor"), meniscus.UsageError, "bare atoms"),
+                (lambda: mesh.save(self.folder / "a.ply", attributes="mass"), meniscus.UsageError, "no attribute"),
+                (lambda: mesh.save(self.folder / "a.ply", scale=0.0), meniscus.InputError, "scale is 0"),
+                (lambda: mesh.save(self.folder / "a.ply", scale=math.nan), meniscus.InputError, "scale is nan"),
+                (lambda: mesh.save(self.folder / "a.ply", colors=(2, 0, 0)), meniscus.InputError, "color is 2"),
+                (lambda: mesh.save(self.folder / "a.ply", colors=np.full((40, 3), -1.0)), meniscus.InputError,
+                 "colour of atom 0 is -1"),
+                (lambda: mesh.save(self.folder / "a.ply", colors=np.zeros((3, 3))), meniscus.InputError, "the shape"),
+                (lambda: mesh.save("a\0.ply"), ValueError, "zero"),
+                (lambda: self.surface.mesh(density=0.1).save(self.folder / "a.dms", format="dms", scale=1e9),
+                 meniscus.InputError, "scale")):
+            with self.assertRaisesRegex(error, sentence):
+                wanted()
+        self.assertEqual([path.name for path in self.folder.iterdir()], ["there.stl"])
+        mesh.save(self.folder / "there.stl", replace=True)
+
+
 @unittest.skipUnless(HEADER, "MENISCUS_HEADER is not set")
 class Header(unittest.TestCase):
     """The structs and constants that are written a second time are those of the header."""
@@ -276,7 +377,7 @@ class Header(unittest.TestCase):
         found = re.findall(r"typedef struct meniscus_\w+ \{(.*?)\} meniscus_(\w+);", self.text, re.S)
         self.assertGreaterEqual(len(found), 15)
         for body, name in found:
-            python = {"mesh_options": "MeshOptions", "camera": "CameraStruct"}.get(name, name.capitalize())
+            python = {"mesh_options": "MeshOptions", "mesh_file": "MeshFile", "camera": "CameraStruct"}.get(name, name.capitalize())
             fields = []
             for kind, members in re.findall(r"((?:const )?\w+\*?) ([^;]+);", body):
                 self.assertTrue(kind in c_names or "*" in kind, f"{name}: {kind}")

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "core/base/error.h"
 #include "core/queries/combine.h"
 #include "exporters/mesh/files/inner_points.h"
@@ -39,7 +41,15 @@ FileAtom file_atom(const Atom& atom) {
   return {atom.name, atom.residue_name, atom.chain, atom.residue_number, atom.insertion_code, atom.position};
 }
 
+SurfaceView view_of(const SurfaceObject& object) { return {object.name, object.surface, object.coloring, object.atom}; }
+
 }  // namespace
+
+std::string about_line(std::string_view surface, double scale, const MeshFineness& fineness) {
+  const std::string how = fineness.density > 0.0 ? fmt::format("{:g} vertices per square Angstrom", fineness.density)
+                                                 : fmt::format("tolerance {:.4g} Angstrom", fineness.tolerance);
+  return fmt::format("Meniscus {}: 1 Angstrom is {:g}; {} surface, {}", MENISCUS_VERSION, scale, surface, how);
+}
 
 MeshFileMaker::MeshFileMaker(FileRequest request, std::string about) : request_(std::move(request)) {
   file_.scale = request_.scale;
@@ -51,9 +61,13 @@ void MeshFileMaker::add(SurfaceObject given) {
   std::vector<SurfaceObject> one;
   one.push_back(std::move(given));
   const SurfaceObject object = merged(std::move(one));
-  FineMesh mesh = fine_mesh(object.surface, request_.fineness);
+  add(view_of(object), fine_mesh(object.surface, request_.fineness));
+}
+
+void MeshFileMaker::add(const SurfaceView& object, FineMesh mesh) {
   const Welding welding = weld(mesh.mesh, kFileStep, request_.scale);
   joined_ += welding.joined;
+  fins_ += welding.fins;
   flipped_ += welding.flipped;
   flat_ += welding.flat;
   move_vertices(mesh, welding.into);
@@ -70,10 +84,10 @@ void MeshFileMaker::add(ShapeObject shapes) {
   FineMesh mesh{std::move(shapes.mesh), {}, {}};
   mesh.vertex_face.assign(mesh.mesh.positions.size(), kNone);
   mesh.vertex_atom = vertex_atoms(mesh.mesh);
-  put(shapes.object, std::move(mesh));
+  put(view_of(shapes.object), std::move(mesh));
 }
 
-void MeshFileMaker::put(const SurfaceObject& object, FineMesh mesh) {
+void MeshFileMaker::put(const SurfaceView& object, FineMesh mesh) {
   FileObject made;
   made.name = object.name.empty() ? "surface" : object.name;
   made.numbers = vertex_numbers(request_.numbers, {object, mesh, request_.atoms, request_.buried, components_});

@@ -11,6 +11,9 @@
 
 namespace meniscus {
 
+/// What 1 Å may be in a file.
+inline constexpr double kSmallestFileScale = 1e-12, kLargestFileScale = 1e6;
+
 /// One format, one file beside this one.
 struct MeshFormat {
   std::string_view word;   ///< how it is called, and the ending of its files without the dot

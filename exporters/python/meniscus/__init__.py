@@ -11,8 +11,8 @@ memory, which lives as long as any view of it does, whatever becomes of the obje
 """
 from __future__ import annotations
 
-from ._library import (CapacityError, Error, GpuError, InputError, InternalError, NotClosedError, UsageError,
-                       library_path, version)
+from ._library import (CapacityError, Error, GpuError, InputError, InternalError, NotClosedError, OutputError,
+                       UsageError, library_path, version)
 from ._mesh import Mesh
 from ._picture import Camera, png
 from ._radii import radii_of
@@ -20,7 +20,7 @@ from ._surface import Surface, surface
 from ._adapters import frames, from_biotite, from_mdanalysis, from_mdtraj, from_prody, series
 
 __all__ = [
-    "Camera", "CapacityError", "Error", "GpuError", "InputError", "InternalError", "Mesh", "NotClosedError", "Surface",
-    "UsageError", "frames", "from_biotite", "from_mdanalysis", "from_mdtraj", "from_prody", "library_path", "png",
-    "radii_of", "series", "surface", "version",
+    "Camera", "CapacityError", "Error", "GpuError", "InputError", "InternalError", "Mesh", "NotClosedError",
+    "OutputError", "Surface", "UsageError", "frames", "from_biotite", "from_mdanalysis", "from_mdtraj", "from_prody",
+    "library_path", "png", "radii_of", "series", "surface", "version",
 ]

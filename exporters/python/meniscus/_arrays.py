@@ -59,3 +59,25 @@ def numbers(values: Any, name: str, columns: int = 0) -> tuple[np.ndarray, int]:
     if not (apart and together and array.flags.aligned):
         array = np.ascontiguousarray(array)
     return array, _TYPES[array.dtype]
+
+
+def color_of(values: Any, name: str) -> tuple[float, float, float]:
+    """As a struct takes it."""
+    array = np.asarray(values, dtype=np.float32)
+    if array.shape != (3,):
+        raise InputError(f"{name} has the shape {array.shape}; it has to be three numbers in [0, 1]")
+    return tuple(array)
+
+
+def put_colors(struct: Any, colors: Any, atom_count: int) -> None:
+    """Into `color` or `atom_colors` of a struct, as the shape says."""
+    if colors is None:
+        return
+    if np.ndim(colors) == 1:
+        struct.color = color_of(colors, "colors")
+        return
+    of_atoms = np.ascontiguousarray(colors, dtype=np.float32)
+    if of_atoms.shape != (atom_count, 3):
+        raise InputError(f"colors has the shape {of_atoms.shape}; it has to be (3,) or ({atom_count}, 3)")
+    struct.atom_colors = of_atoms.ctypes.data
+    struct.owner = of_atoms  # of these numbers

@@ -47,13 +47,17 @@ class CapacityError(Error, MemoryError):
     """Out of memory or threads, or more than indices can count."""
 
 
+class OutputError(Error, OSError):
+    """A file cannot be written, or is there already."""
+
+
 class NotClosedError(Error):
     """The surface or mesh is not closed, so there is none."""
 
 
-OK, INTERNAL, USAGE, INPUT, NO_GPU, CAPACITY, NOT_CLOSED = 0, 1, 2, 3, 4, 5, 7
+OK, INTERNAL, USAGE, INPUT, NO_GPU, CAPACITY, OUTPUT, NOT_CLOSED = range(8)
 _EXCEPTIONS = {INTERNAL: InternalError, USAGE: UsageError, INPUT: InputError, NO_GPU: GpuError,
-               CAPACITY: CapacityError, NOT_CLOSED: NotClosedError}
+               CAPACITY: CapacityError, OUTPUT: OutputError, NOT_CLOSED: NotClosedError}
 
 
 class Options(Structure):
@@ -126,6 +130,11 @@ class MeshOptions(Structure):
                 ("density", c_double), ("even", c_int32), ("reserved_2", c_int32)]
 
 
+class MeshFile(Structure):
+    _fields_ = [("size", c_size_t), ("format", c_char_p), ("attributes", c_char_p), ("atom_colors", c_void_p),
+                ("scale", c_double), ("color", c_float * 3), ("replace", c_int32)]
+
+
 class CameraStruct(Structure):
     _fields_ = [("size", c_size_t), ("position", c_double * 3), ("target", c_double * 3), ("up", c_double * 3),
                 ("vertical_fov", c_double), ("height", c_double), ("projection", c_int32), ("reserved", c_int32)]
@@ -152,6 +161,8 @@ _CALLS: dict[str, list[Any]] = {
     "default_mesh_options": [POINTER(MeshOptions)],
     "surface_mesh": [c_void_p, POINTER(MeshOptions), POINTER(c_void_p)],
     "mesh_table": [c_void_p, c_int32, POINTER(Array)],
+    "default_mesh_file": [POINTER(MeshFile)],
+    "mesh_save": [c_void_p, c_char_p, POINTER(MeshFile)],
     "surface_frame": [c_void_p, c_double, c_int32, POINTER(CameraStruct)],
     "default_picture": [POINTER(Picture)],
     "painter_new": [c_int32, POINTER(c_void_p)],

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import ctypes
-from typing import Any
+import os
+from typing import Any, Optional
 
 import numpy as np
 
 from . import _library as lib
-from ._arrays import view
+from ._arrays import put_colors, view
 
 
 class Mesh:
@@ -20,6 +21,9 @@ class Mesh:
         options.tolerance, options.split_colors = tolerance, split_colors
         options.density, options.even = density, even
         self._handle = lib.Handle("mesh", "surface_mesh", surface.pointer, ctypes.byref(options))
+        summary = lib.Summary(ctypes.sizeof(lib.Summary))
+        lib.call("surface_summary", surface.pointer, ctypes.byref(summary))
+        self._atom_count = int(summary.atoms)
 
     def _table(self, table: int, dtype: Any, columns: int = 0) -> np.ndarray:
         return view(self._handle, "mesh_table", table, dtype, columns)
@@ -80,6 +84,24 @@ class Mesh:
 
     def __repr__(self) -> str:
         return f"<meniscus.Mesh: {len(self.vertices)} vertices, {len(self.triangles)} triangles>"
+
+    def save(self, path: Any, *, format: Optional[str] = None, colors: Optional[Any] = None, attributes: str = "usual",
+             scale: float = 1.0, replace: bool = False) -> None:
+        """Writes a file, whole or not at all: "stl", "3mf", "obj", "off", "glb", "vtp", "smesh", "dms" or "ply", by the
+        ending of the path unless `format` says which. colors: one (3,), or one per atom (n, 3), in [0, 1]. attributes:
+        of vertices in GLB, PLY and VTP, with commas between; "vdw_radii", "atom_index", "ses_kind", "ses_component" are
+        the usual ones, "mean_curvature", "gaussian_curvature", "smooth_mean_curvature", "smooth_gaussian_curvature",
+        "atom_area" and "patch_area" the others; "all", "none". scale: length in the file of 1 Å. Edges shorter than
+        0.001 Å and triangles without area in single precision are welded in the file. OutputError where the path cannot
+        be written, or is there already and not to be replaced."""
+        name = os.fsencode(path)
+        if b"\0" in name:
+            raise lib.InputError(f"path {path!r} has a zero in it, which no file's name may have")
+        file = lib.default("mesh_file", lib.MeshFile())
+        file.format = None if format is None else format.encode()
+        file.attributes, file.scale, file.replace = attributes.encode(), scale, replace
+        put_colors(file, colors, self._atom_count)
+        lib.call("mesh_save", self._handle.pointer, name, ctypes.byref(file))
 
     def to_trimesh(self) -> Any:
         """A trimesh.Trimesh, with `atom`, `kind` and `component` in its face_attributes."""

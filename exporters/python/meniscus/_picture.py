@@ -12,6 +12,7 @@ from typing import Any, Optional
 
 import numpy as np
 
+from ._arrays import color_of, put_colors
 from ._library import (DEVICES, ORTHOGRAPHIC, PROJECTIONS, CameraStruct, Handle, InputError, Picture, call, default,
                        word)
 
@@ -53,13 +54,6 @@ def _painter(device: str) -> Handle:
         return _painters[device]
 
 
-def _color(values: Any, name: str) -> tuple[float, float, float]:
-    array = np.asarray(values, dtype=np.float32)
-    if array.shape != (3,):
-        raise InputError(f"{name} has the shape {array.shape}; it has to be three numbers in [0, 1]")
-    return tuple(array)
-
-
 def painted(surface: Handle, atom_count: int, width: int, height: int, colors: Any, camera: Optional[Camera],
             background: Any, device: str, look: dict[str, Any]) -> np.ndarray:
     """(height, width, 4) bytes; see Surface.render."""
@@ -67,16 +61,9 @@ def painted(surface: Handle, atom_count: int, width: int, height: int, colors: A
     picture.width, picture.height = width, height
     for name, value in look.items():
         setattr(picture, name, value)
-    of_atoms = None
-    if colors is not None and np.ndim(colors) == 1:
-        picture.color = _color(colors, "colors")
-    elif colors is not None:
-        of_atoms = np.ascontiguousarray(colors, dtype=np.float32)
-        if of_atoms.shape != (atom_count, 3):
-            raise InputError(f"colors has the shape {of_atoms.shape}; it has to be (3,) or ({atom_count}, 3)")
-        picture.atom_colors = of_atoms.ctypes.data
+    put_colors(picture, colors, atom_count)
     if background is not None:
-        picture.opaque, picture.background = 1, _color(background, "background")
+        picture.opaque, picture.background = 1, color_of(background, "background")
     seen_by = camera._struct() if camera else None
     if seen_by:
         picture.camera = ctypes.pointer(seen_by)

@@ -58,7 +58,8 @@ typedef enum meniscus_status {
   MENISCUS_USAGE = 2,     /* a call that makes no sense: NULL, an unknown word, a struct without its size */
   MENISCUS_INPUT = 3,     /* a position, radius, colour or camera that cannot be; the text has its index and value */
   MENISCUS_NO_GPU = 4,    /* no usable GL or GPU, or one that left work undone */
-  MENISCUS_CAPACITY = 5,  /* out of memory or threads, or more than indices can count */
+  MENISCUS_CAPACITY = 5,  /* out of memory or threads, or more than indices or a file can count */
+  MENISCUS_OUTPUT = 6,    /* a file cannot be written, or is there already */
   MENISCUS_NOT_CLOSED = 7 /* the surface or mesh is not closed, so there is none; the text names atoms */
 } meniscus_status;
 
@@ -325,10 +326,11 @@ typedef struct meniscus_mesh_options {
 
 MENISCUS_API meniscus_status meniscus_default_mesh_options(meniscus_mesh_options* options);
 
-/* A closed triangle mesh; all vertices lie on the exact surface. Seen from the solvent triangles are counter-clockwise.
- * As a rule triangles end at borders of patches, however narrow these are. Triangles of an even mesh are nearly
- * equilateral, as few as one for an atom, and reach over borders: atom, kind, face and patch of one are those of the
- * exact surface under its middle; split_colors does not count. No triangles of it cross. */
+/* A closed triangle mesh; all vertices lie on the exact surface, which it keeps for meniscus_mesh_save. Seen from the
+ * solvent triangles are counter-clockwise. As a rule triangles end at borders of patches, however narrow these are.
+ * Triangles of an even mesh are nearly equilateral, as few as one for an atom, and reach over borders: atom, kind, face
+ * and patch of one are those of the exact surface under its middle; split_colors does not count. No triangles of it
+ * cross. */
 typedef struct meniscus_mesh meniscus_mesh;
 
 /* options: NULL for the defaults. *mesh is overwritten. */
@@ -354,6 +356,30 @@ enum {
 };
 
 MENISCUS_API meniscus_status meniscus_mesh_table(const meniscus_mesh* mesh, int32_t table, meniscus_array* array);
+
+/* How a mesh is written. Texts are read during the call only. */
+typedef struct meniscus_mesh_file {
+  size_t size;
+  const char* format;       /* [NULL: by the ending of the path] "stl", "3mf", "obj", "off", "glb", "vtp", "smesh",
+                               "dms" or "ply" */
+  const char* attributes;   /* ["usual"] numbers of vertices in GLB, PLY and VTP, with commas between: "vdw_radii",
+                               "atom_index", "ses_kind" and "ses_component", which are the usual ones,
+                               "mean_curvature", "gaussian_curvature", "smooth_mean_curvature",
+                               "smooth_gaussian_curvature", "atom_area", "patch_area"; "all", "none" */
+  const float* atom_colors; /* [NULL: all have `color`] sRGB in [0, 1], three per atom; read during the call only */
+  double scale;             /* [1] length in the file of 1 Å, 1e-12 to 1e6; 3MF has mm, GLB m; DMS is in Å always */
+  float color[3];           /* [0.75, 0.82, 0.9] sRGB in [0, 1] */
+  int32_t replace;          /* [0: refuse] else: replace a file that is there */
+} meniscus_mesh_file;
+
+MENISCUS_API meniscus_status meniscus_default_mesh_file(meniscus_mesh_file* file);
+
+/* Writes a mesh, whole or not at all. Edges shorter than 0.001 Å and triangles without area in single precision are
+ * welded in the file, not in the mesh. The mesh knows its surface, even if that was released or computed anew. path: as
+ * the system has names of files. file: NULL for the defaults. MENISCUS_NOT_CLOSED where "smesh" finds no point inside a
+ * component. 3MF is compressed. */
+MENISCUS_API meniscus_status meniscus_mesh_save(const meniscus_mesh* mesh, const char* path,
+                                                const meniscus_mesh_file* file);
 
 /* ---- Pictures ------------------------------------------------------------------------------------------------ */
 

@@ -62,6 +62,7 @@ using UsageError = ErrorOf<MENISCUS_USAGE>;           // a call that makes no se
 using InputError = ErrorOf<MENISCUS_INPUT>;           // a position, radius, colour or camera that cannot be
 using GpuError = ErrorOf<MENISCUS_NO_GPU>;            // no usable GL or GPU, or one that left work undone
 using CapacityError = ErrorOf<MENISCUS_CAPACITY>;     // out of memory or threads, or more than indices can count
+using OutputError = ErrorOf<MENISCUS_OUTPUT>;         // a file cannot be written, or is there already
 using NotClosedError = ErrorOf<MENISCUS_NOT_CLOSED>;  // the surface or mesh is not closed, so there is none
 
 // Throws what a C function's status says; returns if it is MENISCUS_OK.
@@ -79,6 +80,8 @@ inline void check(meniscus_status status) {
       throw GpuError(meniscus_last_error());
     case MENISCUS_CAPACITY:
       throw CapacityError(meniscus_last_error());
+    case MENISCUS_OUTPUT:
+      throw OutputError(meniscus_last_error());
     case MENISCUS_NOT_CLOSED:
       throw NotClosedError(meniscus_last_error());
   }
@@ -121,6 +124,7 @@ struct WithDefaults : Struct {
 };
 using Options = WithDefaults<meniscus_options, meniscus_default_options>;
 using MeshOptions = WithDefaults<meniscus_mesh_options, meniscus_default_mesh_options>;
+using MeshFile = WithDefaults<meniscus_mesh_file, meniscus_default_mesh_file>;
 using Picture = WithDefaults<meniscus_picture, meniscus_default_picture>;
 using Camera = meniscus_camera;  // as Surface::frame gives it
 using Ball = meniscus_ball;
@@ -236,7 +240,7 @@ std::span<const Row> numbers(const meniscus_array& array) {
 // ---- Meshes ----
 
 // A closed triangle mesh; all vertices lie on the exact surface, no point of it is farther than the tolerance, if one
-// was asked for. It may outlive its surface.
+// was asked for. It may outlive its surface, of which it keeps what files need.
 class Mesh {
  public:
   explicit Mesh(meniscus_mesh* owned) : mesh_(owned) {}
@@ -266,6 +270,12 @@ class Mesh {
   // Corners (3 * triangle + 0, 1, 2) at cusps, ascending, and the exact normals there.
   std::span<const std::uint32_t> sharp_corners() const { return table<std::uint32_t>(MENISCUS_MESH_SHARP_CORNERS); }
   std::span<const Vector> sharp_normals() const { return table<Vector>(MENISCUS_MESH_SHARP_NORMALS); }
+
+  // Writes a file, whole or not at all, in the format of the path's ending unless `file` names one. OutputError where
+  // there is one already, unless it may be replaced.
+  void save(const std::string& path, const MeshFile& file = {}) const {
+    check(meniscus_mesh_save(mesh_.get(), path.c_str(), &file));
+  }
 
   // For the functions of meniscus.h; owned by this.
   meniscus_mesh* get() const noexcept { return mesh_.get(); }

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Colours as callers pass them: one for all atoms, or one each.
+#pragma once
+
+#include <cstddef>
+
+#include "core/color/coloring.h"
+#include "exporters/c_api/guard.h"
+
+namespace meniscus::c_api {
+
+inline void check_range(const char* name, double value, double low, double high) {
+  if (!(value >= low && value <= high))
+    refuse(MENISCUS_INPUT, "{} is {}; it has to be {} to {}", name, value, low, high);
+}
+
+/// color: of atoms if of_atoms, three numbers an atom, is NULL. Channels are in [0, 1], else MENISCUS_INPUT.
+inline Coloring coloring_of(const float (&color)[3], const float* of_atoms, std::size_t atoms) {
+  for (const float channel : color) check_range("color", channel, 0, 1);
+  Coloring coloring;
+  coloring.atom.assign(atoms, {color[0], color[1], color[2]});
+  if (!of_atoms) return coloring;
+  for (std::size_t n = 0; n < 3 * atoms; ++n) {
+    const float channel = of_atoms[n];
+    if (!(channel >= 0.0f && channel <= 1.0f))
+      refuse(MENISCUS_INPUT, "channel {} of the colour of atom {} is {}; it has to be 0 to 1", n % 3, n / 3, channel);
+    coloring.atom[n / 3][static_cast<int>(n % 3)] = channel;
+  }
+  return coloring;
+}
+
+}  // namespace meniscus::c_api

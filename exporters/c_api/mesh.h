@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What stands behind the handle of a mesh.
+#pragma once
+
+#include <memory>
+
+#include "exporters/c_api/counted.h"
+#include "exporters/c_api/surface.h"
+#include "exporters/mesh/mesh_fineness.h"
+
+struct meniscus_mesh : meniscus::c_api::Counted {
+  std::shared_ptr<const meniscus::c_api::FinishedSurface> of;
+  meniscus::MeshFineness fineness;
+  meniscus::FineMesh made;
+};
