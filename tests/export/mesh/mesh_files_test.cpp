@@ -260,6 +260,10 @@ TEST(MeshFiles, NamesOfNumbersAreReadOnceAndInOrder) {
   EXPECT_EQ(parse_vertex_numbers("all").size(), vertex_number_kinds().size());
   EXPECT_THROW(parse_vertex_numbers("charges"), RequestError);
   EXPECT_THROW(parse_vertex_numbers(""), RequestError);
+  for (const std::string& name : parse_vertex_numbers("all", AtomSource::bare))
+    EXPECT_THROW(parse_vertex_numbers(name + ",charge", AtomSource::bare), RequestError);
+  EXPECT_EQ(parse_vertex_numbers("usual", AtomSource::bare),
+            (std::vector<std::string>{"vdw_radii", "atom_index", "ses_kind", "ses_component"}));
 }
 
 }  // namespace
