@@ -30,7 +30,7 @@ constexpr Hydropathy kKyteDoolittle[] = {{4.5, " ILE "},         {4.2, " VAL "},
 
 double hydropathy(std::string_view residue_name) {
   if (residue_name.empty()) return kMissing;
-  const std::string word = " " + std::string(residue_name) + " ";
+  const std::string word = std::string(" ").append(residue_name).append(" ");
   for (const Hydropathy& entry : kKyteDoolittle) {
     if (entry.names.find(word) != std::string_view::npos) return entry.value;
   }
