@@ -3,9 +3,11 @@
 
     MENISCUS_LIBRARY=build/release/exporters/c_api/libmeniscus.so blender [-b] --factory-startup --python-exit-code 3 \
         --python scripts/measure_panel.py -- FILE [--density D | --tolerance T] [--changes N] [--trajectory T] [--program P]
+    blender [-b] ... --python scripts/measure_panel.py -- surface_sequence.json
 
 The table has the smallest, the median and the largest time in ms. With a trajectory the timeline is played instead, for ten
-seconds from its first frame, and what comes is frames a second: without -b of the window, drawn in full each time."""
+seconds from its first frame, and what comes is frames a second: without -b of the window, drawn in full each time. So it is with a
+sequence of .mns files, which is streamed."""
 
 import argparse
 import os
@@ -18,7 +20,7 @@ import bpy
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 sys.path.insert(0, os.path.join(ROOT, "exporters", "blender", "addon"))
 import meniscus_import  # noqa: E402
-from meniscus_import import build, computed  # noqa: E402
+from meniscus_import import build, computed, sequence  # noqa: E402
 from meniscus_import.computing import process  # noqa: E402
 
 TOLD = {"look": "request read and sent (window's thread)", "Atoms": "atoms read", "Surface": "surface", "Mesh": "mesh",
@@ -97,11 +99,11 @@ def measure(item, changes):
             print(f"{label:45}{min(times[stage]):9.1f}{statistics.median(times[stage]):9.1f}{max(times[stage]):9.1f}")
 
 
-def next_frame(item):
+def next_frame(count, error_of):
     scene = bpy.context.scene
-    scene.frame_set(scene.frame_current % computed.frame_count(item) + 1)
-    if item.get(computed.ERROR):
-        sys.exit(f"frame {scene.frame_current}: {item[computed.ERROR]}")
+    scene.frame_set(scene.frame_current % count + 1)
+    if error_of():
+        sys.exit(f"frame {scene.frame_current}: {error_of()}")
 
 
 def cpu_of(child):
@@ -110,20 +112,20 @@ def cpu_of(child):
         return sum(int(word) for word in file.read().rsplit(")", 1)[1].split()[11:15]) / os.sysconf("SC_CLK_TCK")
 
 
-def play(item):
-    """Frames a second; in a window each is drawn before the next is asked for."""
-    item.meniscus.outside = "LOOP"
-    next_frame(item)
-    cpu_here, cpu_there = time.process_time(), cpu_of(computed._process._child)
+def play(item, count, error_of, other):
+    """Frames a second; in a window each is drawn before the next is asked for. other: gives the process that computes or reads."""
+    next_frame(count, error_of)
+    cpu_here, cpu_there = time.process_time(), cpu_of(other())
     frames, began = 0, time.perf_counter()
     while time.perf_counter() - began < SECONDS:
-        next_frame(item)
+        next_frame(count, error_of)
         if not bpy.app.background:
             bpy.ops.wm.redraw_timer(type="DRAW_WIN_SWAP", iterations=1)
         frames += 1
-    print(f"{computed.frame_count(item)} frames of {len(item.data.polygons):,} triangles; {frames / (time.perf_counter() - began):.1f} a second")
-    for who, spent in (("Blender", time.process_time() - cpu_here), ("what computes", cpu_of(computed._process._child) - cpu_there)):
-        print(f"CPU of {who}: {1e3 * spent / frames:.1f} ms a frame")
+    spent = time.perf_counter() - began
+    print(f"{count} frames of {len(item.data.polygons):,} triangles; {frames / spent:.1f} a second")
+    for who, cpu in (("Blender", time.process_time() - cpu_here), ("the other process", cpu_of(other()) - cpu_there)):
+        print(f"CPU of {who}: {1e3 * cpu / frames:.1f} ms a frame")
 
 
 def main(words):
@@ -136,9 +138,16 @@ def main(words):
     parser.add_argument("--trajectory", default="")
     parser.add_argument("--program", default=os.path.join(ROOT, "build", "release", "meniscus"))
     options = parser.parse_args(words)
+    if options.file.endswith(".json"):
+        meniscus_import.register()
+        item = sequence.stream(options.file)
+        play(item, bpy.context.scene.frame_end, lambda: item["meniscus_error"], lambda: sequence._ahead.process._child)
+        sequence.unregister()
+        return
     item = surface(options)
     if options.trajectory:
-        play(item)
+        item.meniscus.outside = "LOOP"
+        play(item, computed.frame_count(item), lambda: item[computed.ERROR], lambda: computed._process._child)
     else:
         measure(item, options.changes)
     computed.end()

@@ -9,6 +9,8 @@ Of a sequence, --frames names frames of the trajectory (default: all of the run)
 1; a run of # in a path stands for the number of the trajectory's frame. --motion-blur 0.5 blurs by half a frame.
 --mode driver, the default, holds one frame in memory; bake puts all frames into the scene, stream has the add-on's handler
 read them, and with these two --blend keeps the scene. One unit is one Å unless --scale says otherwise.
+--look glass and the others are the add-on's; they need light (--style film, their default) but for flat, which may have outlines (--lines).
+--engine eevee draws by OpenGL, without a screen too.
 
 Standard output holds, after Blender's name, one JSON line a frame, for a sequence
   {"frame": 42, "scene_frame": 5, "state": "done", "files": ["DIR/frame_00042.png"], "triangles": 6120, "ms": 812.4}
@@ -29,7 +31,7 @@ import bpy
 import mathutils
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from meniscus_import import build, compat, materials, mns_reader, sequence, sequence_reader  # noqa: E402
+from meniscus_import import build, compat, looks, materials, mns_reader, sequence, sequence_reader  # noqa: E402
 
 #: Direction towards the light in the camera's axes (right, up, back), its colour; strengths are what a white, matt
 #: surface that faces the light sends to the camera. As in the POV-Ray scenes of Meniscus.
@@ -44,7 +46,11 @@ FILM = (
     ((-0.55, 0.65, 0.75), (0.90, 0.87, 0.82), 12.0),
     ((0.8, 0.1, 0.5), (0.13, 0.15, 0.18), 30.0),
 )
+GLASS_BOUNCES = 32
 LIGHTS = {"studio": STUDIO, "film": FILM, "flat": ()}
+#: What surrounds glass, from behind the molecule to behind the camera, by half the cosine: a bright wall in a dark room draws its
+#: edges, as photographers light glass; lamps would be grains in it.
+BRIGHT_FIELD = ((0.0, 1.0), (0.15, 0.95), (0.4, 0.5), (0.6, 0.3), (0.85, 0.35), (1.0, 0.8))
 
 
 class Parser(argparse.ArgumentParser):
@@ -65,13 +71,17 @@ def parse(arguments):
     parser.add_argument("--size", help="WIDTHxHEIGHT in pixels; default: that of the file")
     parser.add_argument("--scale", type=float, default=1.0, help="Blender units per Å")
     parser.add_argument("--samples", type=int, default=32)
-    parser.add_argument("--style", choices=tuple(LIGHTS), default="studio",
+    parser.add_argument("--style", choices=tuple(LIGHTS),
                         help="studio: matt, no shadows, as the POV-Ray scenes; film: soft shadows and sky light; "
-                        "flat: colours as they are, no light")
+                        "flat: colours as they are, no light; default: studio, film with --look")
+    parser.add_argument("--look", choices=[name.lower() for name in looks.LOOKS], help="a material of the add-on's")
+    parser.add_argument("--lines", action="store_true", help="outlines by Line Art")
+    parser.add_argument("--engine", choices=("cycles", "eevee"), default="cycles", help="of --output; --passes are by Cycles")
     parser.add_argument("--blend", help="save the scene here, too")
     parser.add_argument("--transparent", action="store_true", help="no background")
     options = parser.parse_args(arguments)
     options.is_sequence = options.file.endswith(".json")
+    options.style = options.style or ("film" if options.look and options.look != "flat" else "studio")
     check_together(parser, options)
     if options.size:
         try:
@@ -89,6 +99,8 @@ def check_together(parser, options):
         parser.error("--scale is not a positive number")
     if options.motion_blur is not None and not 0 < options.motion_blur <= 2:
         parser.error("--motion-blur is not between 0 and 2 frames")
+    if options.engine == "eevee" and options.motion_blur:
+        parser.error("Eevee does not blur by velocities; --motion-blur is for --engine cycles")
     if not options.is_sequence:
         if options.frames or options.scene_frames or options.mode:
             parser.error("--frames, --scene-frames and --mode are for the manifest of a sequence (.json)")
@@ -97,6 +109,8 @@ def check_together(parser, options):
         parser.error("--frames or --scene-frames, not both")
     if options.blend and options.mode in (None, "driver"):
         parser.error("--blend with a sequence needs --mode bake or stream")
+    if options.lines and options.mode == "bake":
+        parser.error("--lines draws one mesh; a baked run has one for each frame")
 
 
 def empty_scene():
@@ -105,8 +119,8 @@ def empty_scene():
             store.remove(item)
 
 
-def add_lights(scene, camera, style):
-    for index, (direction, color, *angle) in enumerate(LIGHTS[style]):
+def add_lights(scene, camera, style, look):
+    for index, (direction, color, *angle) in enumerate(LIGHTS[style] if look != "glass" else ()):
         light = bpy.data.lights.new(f"Meniscus light {index + 1}", "SUN")
         light.color, light.energy = color, math.pi
         light.angle = math.radians(angle[0]) if angle else 0.0
@@ -121,7 +135,28 @@ def add_lights(scene, camera, style):
     tree.links.new(background.outputs[0], compat.find_or_add(tree, "OUTPUT_WORLD", "ShaderNodeOutputWorld").inputs["Surface"])
     background.inputs["Color"].default_value = (0.85, 0.92, 1.0, 1.0)
     background.inputs["Strength"].default_value = 0.35 if style == "film" else 0.0
+    if look == "glass":
+        background.inputs["Strength"].default_value = 1.0
+        tree.links.new(bright_field(tree, camera), background.inputs["Color"])
+    elif look == "flat":  # emits, and needs no light
+        background.inputs["Color"].default_value, background.inputs["Strength"].default_value = (1.0, 1.0, 1.0, 1.0), 1.0
     scene.world = world
+
+
+def bright_field(tree, camera):
+    """The colour of BRIGHT_FIELD in a direction."""
+    toward = tree.nodes.new("ShaderNodeVectorMath")
+    toward.operation = "DOT_PRODUCT"
+    tree.links.new(tree.nodes.new("ShaderNodeTexCoord").outputs["Generated"], toward.inputs[0])
+    toward.inputs[1].default_value = camera.matrix_world.col[2].xyz
+    half = compat.math_node(tree, "MULTIPLY_ADD", toward.outputs["Value"], 0.5, 0.5)
+    ramp = tree.nodes.new("ShaderNodeValToRGB")
+    ramp.color_ramp.elements.remove(ramp.color_ramp.elements[-1])
+    for place, light in BRIGHT_FIELD:
+        ramp.color_ramp.elements.new(place).color = (light, light, light, 1.0)
+    ramp.color_ramp.elements.remove(ramp.color_ramp.elements[0])
+    tree.links.new(half, ramp.inputs["Fac"])
+    return ramp.outputs["Color"]
 
 
 def our_materials():
@@ -156,6 +191,18 @@ def set_up_cycles(scene, samples):
     scene.render.use_overwrite = True
 
 
+def apply_look(options):
+    for mesh in bpy.data.meshes if options.look else ():
+        if "ses_kind" in mesh.attributes:
+            looks.dress_mesh(mesh, options.look.upper(), "COLOR", options.scale)
+
+
+def set_up_look(scene, look):
+    """Rays have to go through glass as often as there is some in their way."""
+    if look == "glass":
+        scene.cycles.max_bounces = scene.cycles.transmission_bounces = scene.cycles.glossy_bounces = GLASS_BOUNCES
+
+
 def render_to(scene, path, file_format, depth):
     settings = scene.render.image_settings
     compat.set_format(settings, file_format)
@@ -173,7 +220,12 @@ def render_to(scene, path, file_format, depth):
 
 def render_picture(scene, options, path):
     apply_style(options.style)  # the first frame of a sequence brings its materials
+    apply_look(options)
     set_up_cycles(scene, options.samples)
+    set_up_look(scene, options.look)
+    if options.engine == "eevee":
+        scene.render.engine = compat.eevee()
+        compat.set_up_eevee(scene, options.samples)
     if options.style == "flat":  # a pixel is the mean of what lies in it, as in the ray caster
         scene.cycles.pixel_filter_type, scene.cycles.filter_width = "BOX", 1.0
     else:
@@ -200,16 +252,19 @@ def use_passes(scene, wanted):
     layer.use_pass_z = layer.use_pass_normal = layer.use_pass_diffuse_color = wanted
 
 
-def dress(scene, camera, options):
-    """Lights, size, style; saves the scene when asked to."""
+def dress(scene, camera, options, items):
+    """Lights, size, style and look; saves the scene when asked to."""
     if camera is None:
         raise mns_reader.MnsError(f"{options.file}: the file holds no camera")
     if options.size:
         scene.render.resolution_x, scene.render.resolution_y = options.size
-    add_lights(scene, camera, options.style)
+    add_lights(scene, camera, options.style, options.look)
     apply_style(options.style)
     if options.style != "film":
         scene.cycles.max_bounces = 0
+    apply_look(options)
+    for item in items if options.lines else ():
+        looks.add_lines(bpy.context, item)
     if options.motion_blur:
         scene.render.use_motion_blur = True
         scene.render.motion_blur_shutter = options.motion_blur
@@ -224,7 +279,7 @@ def run_file(options):
     made = build.import_file(options.file, bpy.context, scale=options.scale)
     loaded = time.time()
     scene = bpy.context.scene
-    dress(scene, made.camera, options)
+    dress(scene, made.camera, options, made.surfaces)
     if options.output:
         render_picture(scene, options, options.output)
     if options.passes:
@@ -325,7 +380,7 @@ def run_sequence(options):
         if path and "#" not in path and len(chosen) > 1:
             fail(2, f"{path}: {len(chosen)} frames need a run of # for their numbers")
     stage = Stage(options, frames)
-    dress(bpy.context.scene, stage.camera, options)
+    dress(bpy.context.scene, stage.camera, options, [stage.item])
     code = 0
     for scene_frame, number in chosen if options.output or options.passes else ():
         started = time.time()

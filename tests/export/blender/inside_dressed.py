@@ -23,7 +23,7 @@ from meniscus_import import attributes, compat, computed  # noqa: E402
 
 UBIQUITIN = "/usr/share/freesasa/test-data/1ubq.pdb"
 #: What of the scene knows of new objects, and that they are selected.
-NEW_OBJECTS = (r"scenes/Scene: \.collection\.(children|objects|all_objects)", r"scenes/Scene: \.(objects|view_layers\[0\]\.(objects|layer_collection))",
+NEW_OBJECTS = (r"scenes/Scene: \.collection\.((collection_)?(children|objects)|all_objects)", r"scenes/Scene: \.(objects|view_layers\[0\]\.(objects|layer_collection))",
           r"scenes/Scene: \.(view_layers\[0\]\.)?active")
 
 

@@ -144,6 +144,16 @@ class Looks(unittest.TestCase):
         self.assertEqual((stack[0].source_object, stack[0].use_contour), (item, True))
         self.assertIsNotNone(stack[0].target_material)
 
+    def test_outlines_are_as_wide_for_any_scale(self):
+        """LINE_WIDTH Å: in 3.4 thousandths of a unit times a factor of the drawing, from 4.3 on a radius."""
+        for scale in (1.0, 0.1, 0.01):
+            item = plate(Color=(1.0, 1.0, 1.0))
+            item["meniscus_scale"] = scale
+            lines = looks.add_lines(bpy.context, item)
+            stack = lines.modifiers if len(lines.modifiers) else lines.grease_pencil_modifiers
+            width = 2.0 * stack[0].radius if hasattr(stack[0], "radius") else 1e-3 * stack[0].thickness * lines.data.pixel_factor
+            self.assertAlmostEqual(width / (looks.LINE_WIDTH * scale), 1.0, places=5)
+
     def test_the_asset_library(self):
         target = os.path.join(FOLDER, "assets")
         script = os.path.join(os.path.dirname(ADDON), "make_assets.py")

@@ -115,6 +115,20 @@ def refract(material):
             return
 
 
+def eevee():
+    """What Eevee is called as an engine: it had another name from 4.2 to 4.5."""
+    names = {item.identifier for item in bpy.types.RenderSettings.bl_rna.properties["engine"].enum_items}
+    return "BLENDER_EEVEE_NEXT" if "BLENDER_EEVEE_NEXT" in names else "BLENDER_EEVEE"
+
+
+def set_up_eevee(scene, samples):
+    """Samples of a pixel, and that surfaces mirror and refract what the picture shows: settings of other names since 4.2."""
+    scene.eevee.taa_render_samples = samples
+    for name in ("use_ssr", "use_ssr_refraction", "use_soft_shadows", "use_gtao", "use_raytracing"):
+        if hasattr(scene.eevee, name):
+            setattr(scene.eevee, name, True)
+
+
 def cast_shadows(light, wanted):
     """Cycles had a setting of its own before 4.2."""
     light.use_shadow = wanted
@@ -193,8 +207,9 @@ def mix_colors(tree, share, color, other):
     return next(socket for socket in node.outputs if socket.identifier == "Result_Color")
 
 
-def line_art(item, name, pixels=3):
-    """An object with a Line Art modifier that draws the outlines of another: 4.3 made grease pencil anew."""
+def line_art(item, name, width):
+    """An object with a Line Art modifier that draws the outlines of another, so many Blender units wide: 4.3 made grease pencil
+    anew."""
     anew = bpy.app.version >= (4, 3, 0)
     store = getattr(bpy.data, "grease_pencils_v3", bpy.data.grease_pencils) if anew else bpy.data.grease_pencils
     drawing = store.new(name)
@@ -211,9 +226,9 @@ def line_art(item, name, pixels=3):
     for kind in ("use_crease", "use_material", "use_edge_mark", "use_loose", "use_intersection"):
         setattr(modifier, kind, False)  # contours alone
     if hasattr(modifier, "radius"):
-        modifier.radius = 0.004 * pixels
+        modifier.radius = 0.5 * width
     else:
-        modifier.thickness = 8 * pixels
+        modifier.thickness, drawing.pixel_factor = 20, width / 0.02  # a unit has a thousand pixels
     return lines
 
 

@@ -11,6 +11,7 @@ MARK = "meniscus_look"
 #: Å over which light is scattered in wax, by its colour, and absorbed by glass to a third.
 WAX_RADIUS, WAX_COLORS = 2.5, (1.0, 0.45, 0.25)
 GLASS_IOR = 1.45
+LINE_WIDTH = 0.24  # Å
 MOST_STOPS = 32  # of a colour ramp
 
 _GREY = "#c8c8c8"
@@ -189,17 +190,19 @@ def _glass(_tree, shader, _color_, _scale_):
 
 def _tint(tree, color, shader, output, scale):
     """Attributes belong to the surface, not to the volume: what enters takes the colour there, what is behind it is darker by
-    the way through. In Cycles: Eevee fills the whole bounding box with a volume, and has an output without one."""
+    the way through. In Cycles: Eevee fills the whole bounding box with a volume; there more of the colour is at the surface."""
     tree.links.new(compat.mix_colors(tree, 0.6, color, (1.0, 1.0, 1.0, 1.0)), shader.inputs["Base Color"])
     absorption = tree.nodes.new("ShaderNodeVolumeAbsorption")
     absorption.inputs["Color"].default_value = (0.75, 0.85, 0.9, 1.0)
     absorption.inputs["Density"].default_value = 0.02 / scale
     absorption.location = (output.location[0] - 220, output.location[1] - 200)
     tree.links.new(absorption.outputs[0], output.inputs["Volume"])
-    other = tree.nodes.new("ShaderNodeOutputMaterial")
+    other, in_color = tree.nodes.new("ShaderNodeOutputMaterial"), tree.nodes.new("ShaderNodeBsdfPrincipled")
     output.target, other.target = "CYCLES", "EEVEE"
-    other.location = (output.location[0], output.location[1] - 300)
-    tree.links.new(shader.outputs[0], other.inputs["Surface"])
+    _glass(tree, in_color, color, scale)
+    tree.links.new(compat.mix_colors(tree, 0.3, color, (1.0, 1.0, 1.0, 1.0)), in_color.inputs["Base Color"])
+    tree.links.new(in_color.outputs[0], other.inputs["Surface"])
+    in_color.location, other.location = ((node.location[0], node.location[1] - 700) for node in (shader, output))
 
 
 MAKERS = {"PAINT": _paint, "CLAY": _clay, "WAX": _wax, "GLASS": _glass}
@@ -207,9 +210,13 @@ MAKERS = {"PAINT": _paint, "CLAY": _clay, "WAX": _wax, "GLASS": _glass}
 
 def dress(item, look, coloring):
     """Gives the outer surface and the cavities of an object a look. A cap keeps its own."""
-    scale = float(item.get("meniscus_scale", 0.1))
+    return dress_mesh(item.data, look, coloring, float(item.get("meniscus_scale", 0.1)))
+
+
+def dress_mesh(mesh, look, coloring, scale):
+    """The same of a mesh; scale: Blender units per Å."""
     made = material(look, coloring, scale)
-    slots = item.data.materials
+    slots = mesh.materials
     while len(slots) < 2:
         slots.append(None)
     for slot, role in enumerate(SLOTS[:len(slots)]):
@@ -220,6 +227,6 @@ def dress(item, look, coloring):
 
 def add_lines(context, item):
     """Line Art of the outlines of an object, in an object of its own."""
-    lines = compat.line_art(item, item.name + ".lines")
+    lines = compat.line_art(item, item.name + ".lines", LINE_WIDTH * float(item.get("meniscus_scale", 0.1)))
     (item.users_collection[0] if item.users_collection else context.scene.collection).objects.link(lines)
     return lines
