@@ -88,9 +88,11 @@ void add_surface(const PathTracerCommand& command, std::vector<SurfaceObject> ob
     const std::vector<Ball> balls = placed_balls(objects);
     for (const Cut& cut : command.figure.cuts) planes.push_back(clip_plane(cut, scene.camera, balls));
     // Where they stand, a copy is cut as no other is: copies become one object.
-    SurfaceObject whole = merged(std::move(objects));
-    objects.clear();
-    objects.push_back(std::move(whole));
+    if (std::ranges::any_of(objects, [](const SurfaceObject& object) { return object.copies.size() > 1; })) {
+      SurfaceObject whole = merged(std::move(objects));
+      objects.clear();
+      objects.push_back(std::move(whole));
+    }
   }
   for (const SurfaceObject& object : objects)
     scene.items.push_back(item_of(object, planes, command.figure.cap, tolerance, scene.origin));
@@ -155,6 +157,19 @@ void run_sequence(const PathTracerCommand& command) {
   std::cout << escaped(render_command(command, true)) << "\n";
 }
 
+void check_maps(const PathTracerCommand& command) {
+  if (command.molecule.color.by != ColorScheme::By::volume) return;
+  if (command.renderer == path_tracers::Renderer::pbrt)
+    throw UsageError("--color-map-file: meshes of pbrt have no colours of their vertices; use export mitsuba");
+  if (!command.figure.cuts.empty() && !command.figure.cap.color)
+    throw UsageError("--color-map-file with --clip needs --cap-color: these scenes have no values of the map on caps");
+  for (const FigureObjectRequest& object : command.figure.objects)
+    if (!object.shapes && !object.color && !object.cuts.empty() && !object.cap.color)
+      throw UsageError(
+          "--color-map-file with a \"clip\" in --object needs its \"cap_color\": these scenes have no values "
+          "of the map on caps");
+}
+
 // Before anything is computed.
 void check(const PathTracerCommand& command) {
   const auto is_film = [](const FigureObjectRequest& object) { return object.thickens; };
@@ -164,12 +179,7 @@ void check(const PathTracerCommand& command) {
   const auto hatched = [](const FigureObjectRequest& object) { return object.cap.hatching > 0.0; };
   if (command.figure.cap.hatching > 0.0 || std::ranges::any_of(command.figure.objects, hatched))
     throw UsageError("--cap-hatching: caps in these scenes are plain; leave it away, or use render or export povray");
-  const auto by_map = [](const FigureObjectRequest& object) {
-    return object.color && object.color->by == ColorScheme::By::volume;
-  };
-  if (command.renderer == path_tracers::Renderer::pbrt &&
-      (command.molecule.color.by == ColorScheme::By::volume || std::ranges::any_of(command.figure.objects, by_map)))
-    throw UsageError("--color-map-file: meshes of pbrt have no colours of their vertices; use export mitsuba");
+  check_maps(command);
   check_camera_file(command.save_camera, command.output.existing());
   if (!command.frames.asked()) return;
   if (!command.save_camera.empty() && command.run_camera.moves()) throw UsageError(kNoSingleCamera);

@@ -131,6 +131,8 @@ class InMitsuba(unittest.TestCase):
     def test_cut_with_caps(self):
         self.compare("cut", UBIQUITIN, "--clip", "depth>0.5", "--cap-color", "orange", "--color", "element")
 
+        self.compare("kinds", UBIQUITIN, "--clip", "depth>0.5", "--color", "kind")
+
     def test_colours_of_a_map(self):
         path = self.folder / "map.dx"
         grid = np.add.outer(np.add.outer(np.arange(12.0), np.arange(12.0)), np.zeros(12))

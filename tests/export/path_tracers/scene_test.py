@@ -111,6 +111,13 @@ class Scenes(unittest.TestCase):
         # Three corners, one colour: colours change along edges.
         corner = mesh.colors[mesh.triangles]
         self.assertTrue((corner == corner[:, :1]).all())
+        # Normals are those of the surface near each triangle, at cusps too; slivers say little.
+        a, b, c = (mesh.positions[mesh.triangles[:, k]].astype(float) for k in range(3))
+        faces = np.cross(b - a, c - a)
+        large = np.linalg.norm(faces, axis=1) > 0.01
+        faces = faces[large] / np.linalg.norm(faces[large], axis=1)[:, None]
+        cosine = np.min([(faces * mesh.normals[corner]).sum(1) for corner in mesh.triangles[large].T], 0)
+        self.assertLess((cosine < np.cos(np.radians(30))).mean(), 0.001)
         _, parts = self.pbrt(UBIQUITIN, "--color", "element", "--tolerance", 0.02)
         self.assertEqual(len(parts), 4)
         self.assertEqual(sum(len(part.triangles) for part in parts.values()), len(mesh.triangles))
@@ -136,6 +143,7 @@ class Scenes(unittest.TestCase):
         centers = [[float(s.find("point").get(axis)) for axis in "xyz"] for s in spheres] + self.origin_of(scene)
         np.testing.assert_allclose(centers, [[0.125, 0, 0], [20, 1, 2]], rtol=0, atol=1e-12)
         self.assertEqual([float(s.find("float").get("value")) for s in spheres], [1.7, 1.52])
+        self.assertGreater(meshes["surface_1.ply"].positions[:, 0].min() + self.origin_of(scene)[0], 38)
         statements, parts = self.pbrt(path, "--color", "element")
         self.assertEqual([p["radius"] for n, v, p in statements if n == "Shape" and v == ["sphere"]], [1.7, 1.52])
         self.assertEqual(len(parts), 1)
@@ -153,6 +161,9 @@ class Scenes(unittest.TestCase):
         # The placed cylinders of both are the same.
         ends = [[float(p.get(axis)) for p in e.findall("point") for axis in "xyz"] for e in root.iter("shape")
                 if e.get("type") == "cylinder"]
+        halves = np.reshape(ends, (-1, 2, 2, 3))
+        np.testing.assert_array_equal(halves[:, 0, 1], halves[:, 1, 0])
+        np.testing.assert_allclose(halves[:, 0, 1], (halves[:, 0, 0] + halves[:, 1, 1]) / 2, atol=1e-12)
         placed = [(m[1], s[2]) for m, s in zip(statements, statements[1:]) if s[0] == "Shape" and s[1] == ["cylinder"]]
         for (x0, y0, z0, x1, y1, z1), (matrix, parameters) in zip(ends, placed):
             matrix = np.reshape(matrix, (4, 4)).T
@@ -190,11 +201,14 @@ class Scenes(unittest.TestCase):
                 (path,) = self.written("mitsuba", UBIQUITIN, "--projection", projection, "--save-camera", camera, *view, name=name)
                 said, (root, _) = json.loads(camera.read_text()), mitsuba_scene(path)
                 origin, sensor = self.origin_of(path), root.find("sensor")
+                mesh = mitsuba_scene(path)[1]["surface_1.ply"]
                 aspect = int(size.split("x")[0]) / int(size.split("x")[1])
                 look = sensor.find("transform/lookat")
                 eye, at = (np.array([float(w) for w in look.get(what).split(",")]) for what in ("origin", "target"))
                 np.testing.assert_allclose(eye + origin, said["position"], rtol=0, atol=1e-9)
                 np.testing.assert_allclose(at - eye, view_ray(said, 1, 0, 0)[1], atol=1e-9)
+                far = float(sensor.find("float[@name='far_clip']").get("value"))
+                self.assertGreater(far, np.linalg.norm(mesh.positions - eye, axis=1).max())
                 self.assertEqual(sensor.get("type"), projection)
                 if projection == "perspective":
                     self.assertEqual(float(sensor.find("float[@name='fov']").get("value")), said["vertical_fov"])
@@ -221,6 +235,10 @@ class Scenes(unittest.TestCase):
             self.assertIn(0.25, {p.get("alpha") for n, v, p in statements if v == ["plymesh"]})
             medium = [n for n, _, _ in statements if n == "MediumInterface"]
             self.assertEqual(bool(medium), material == "glass")
+            theirs = {"matte": "diffuse", "plastic": "principled", "glass": "dielectric", "wax": "principled"}[material]
+            self.assertEqual({e.get("type") for e in root.iter("bsdf")} - {"twosided", "mask"}, {"diffuse", theirs})
+            ours = {"matte": "diffuse", "plastic": "coateddiffuse", "glass": "dielectric", "wax": "subsurface"}[material]
+            self.assertEqual({p["type"] for n, _, p in statements if n == "MakeNamedMaterial"}, {"diffuse", ours})
             self.assertEqual(root.find("medium") is not None, material == "glass")
 
     def test_frames_have_their_numbers(self):
@@ -267,6 +285,9 @@ class Scenes(unittest.TestCase):
                     self.assertIn(word, said.stderr)
                     self.assertEqual(said.stderr.count("\n"), 1, said.stderr)
                     self.assertFalse((self.folder / "none").exists())
+        said = self.run_program("export", "mitsuba", UBIQUITIN, "-o", self.folder / "none", "-q", "--color-map-file", self.folder / "map.dx",
+                                "--color-range=-5:5", "--clip", "x<0", code=2)
+        self.assertIn("--cap-color", said.stderr)
         said = self.run_program("export", "pbrt", UBIQUITIN, "-o", self.folder / "none", "-q", "--color-map-file", self.folder / "map.dx", "--color-range=-5:5",
                                 code=2)
         self.assertIn("export mitsuba", said.stderr)
