@@ -124,6 +124,21 @@ class Scenes(unittest.TestCase):
         self.assertAlmostEqual(sum(volume(part) for part in parts.values()), volume(mesh), delta=1e-2)
         self.assertTrue(all(part.colors is None for part in parts.values()))
 
+    def test_meshes_of_pbrt_have_one_colour_of_8_bits(self):
+        options = ["--color", "bfactor", "--tolerance", 0.3]
+        _, meshes = self.mitsuba(UBIQUITIN, *options)
+        statements, parts = self.pbrt(UBIQUITIN, *options)
+        colors = np.array([p["reflectance"] for n, _, p in statements if n == "MakeNamedMaterial"])
+        exact = np.unique(meshes["surface_1.ply"].colors, axis=0)
+        self.assertEqual((len(parts), len(np.unique(colors, axis=0))), (len(colors), len(colors)))
+        self.assertLess(len(colors), len(exact))
+
+        def srgb(linear):
+            return np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * np.maximum(linear, 1e-9) ** (1 / 2.4) - 0.055)
+
+        np.testing.assert_allclose(255 * srgb(colors), np.round(255 * srgb(colors)), atol=1e-3)
+        self.assertEqual({tuple(c) for c in np.round(255 * srgb(exact))}, {tuple(c) for c in np.round(255 * srgb(colors))})
+
     def test_half_a_pixel_is_the_default(self):
         count = [len(self.mitsuba(UBIQUITIN, *options, name=f"s{n}")[1]["surface_1.ply"].triangles)
                  for n, options in enumerate([(), ("--tolerance-pixels", 0.5), ("--tolerance-pixels", 2),
