@@ -39,8 +39,10 @@ Extent extent_of(const Scene& scene) {
 }
 
 Lights lights_of(const Scene& scene) {
-  const auto [right, up, forward] = view_basis(scene.camera);
-  const auto from = [&](double x, double y, double z) { return glm::normalize(x * right + y * up - z * forward); };
+  const ViewBasis view = view_basis(scene.camera);
+  const auto from = [&](double x, double y, double z) {
+    return glm::normalize(x * view.right + y * view.up - z * view.forward);
+  };
   Lights lights;
   if (scene.material != Material::glass) {
     lights.everywhere = {0.14f, 0.15f, 0.17f};
@@ -58,10 +60,10 @@ Lights lights_of(const Scene& scene) {
   add(from(-0.45, 0.75, 0.45), 2.5 * extent.radius, 4.0f);
   add(from(0.9, 0.1, 0.3), 1.5 * extent.radius, 2.0f);
   // All of the picture, and what glass bends into it.
-  const double depth = glm::dot(extent.center - (scene.camera.position - scene.origin), forward) + away;
+  const double depth = glm::dot(extent.center - (scene.camera.position - scene.origin), view.forward) + away;
   const double seen = glm::length(half_extent(scene.camera, static_cast<double>(scene.width) / scene.height)) *
                       (scene.camera.projection == Projection::perspective ? depth : 1.0);
-  add(forward, 1.2 * std::max(seen, 3.0 * extent.radius), 1.0f);
+  add(view.forward, 1.2 * std::max(seen, 3.0 * extent.radius), 1.0f);
   return lights;
 }
 

@@ -120,6 +120,7 @@ std::vector<SceneMesh> meshes_of(const TrianglePaint& paint, const std::vector<b
     maker.add(corners);
   }
   std::vector<SceneMesh> meshes;
+  meshes.reserve(makers.size());
   for (auto& [opacity, maker] : makers) meshes.push_back(maker.take());
   return meshes;
 }
