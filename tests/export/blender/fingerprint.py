@@ -12,7 +12,7 @@ VOLATILE = {"rna_type", "bl_rna", "users", "original", "is_evaluated", "is_embed
             "depsgraph", "dimensions", "bound_box", "is_from_instancer", "is_from_set", "error_location", "error_rotation", "execution_time"}
 #: Of meshes they are hashed as arrays; of layers and curves they are seen by other ways.
 ARRAYS = {"vertices", "edges", "loops", "polygons", "loop_triangles", "attributes", "color_attributes", "uv_layers", "vertex_colors",
-          "vertex_normals", "polygon_normals", "corner_normals", "sculpt_vertex_colors", "face_maps", "uv_layer_clone", "uv_layer_stencil",
+          "vertex_normals", "polygon_normals", "corner_normals", "loop_triangle_polygons", "sculpt_vertex_colors", "face_maps", "uv_layer_clone", "uv_layer_stencil",
           "vertex_layers_float", "vertex_layers_int", "vertex_layers_string", "polygon_layers_float", "polygon_layers_int",
           "polygon_layers_string", "vertex_creases", "edge_creases", "vertex_paint_masks", "skin_vertices"}
 FIELDS = {"FLOAT": ("value", 1), "INT": ("value", 1), "BOOLEAN": ("value", 1), "FLOAT_VECTOR": ("vector", 3), "FLOAT2": ("vector", 2),
