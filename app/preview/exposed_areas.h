@@ -33,6 +33,8 @@ class ExposedAreas {
   std::optional<double> of(const AtomsInView& atoms, std::size_t atom, bool wait);
   /// The same if it is known, or cheap because the surface is there; else nothing, and nothing is begun.
   std::optional<double> if_cheap(const AtomsInView& atoms, std::size_t atom);
+  /// Whether some are being computed, so that asking again will tell more.
+  bool computing() const { return pending_.valid(); }
 
  private:
   using Key = std::tuple<std::size_t, std::size_t, double>;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Letters are taken as typed, so that they are where the user's keyboard has them.
+// Letters are taken as typed, great or small, so that they are where the user's keyboard has them.
 #include "app/preview/key_table.h"
 
 #include <algorithm>
@@ -69,6 +69,13 @@ std::optional<Json> motion_of(std::string_view key) {
   if (key == "+" || key == "=") return Json{{"command", "zoom"}, {"factor", kZoom}};
   if (key == "-") return Json{{"command", "zoom"}, {"factor", 1.0 / kZoom}};
   return {};
+}
+
+/// ASCII alone, whatever the locale.
+std::string in_small_letters(std::string_view key) {
+  std::string small(key);
+  if (key.size() == 1 && key[0] >= 'A' && key[0] <= 'Z') small[0] = static_cast<char>(key[0] - 'A' + 'a');
+  return small;
 }
 
 std::optional<Json> command_of(char letter, const Json& state) {
@@ -143,7 +150,8 @@ const std::vector<std::string>& numbered_schemes() {
   return words;
 }
 
-KeyMeaning key_meaning(std::string_view key, const Json& state) {
+KeyMeaning key_meaning(std::string_view typed, const Json& state) {
+  const std::string key = in_small_letters(typed);
   if (std::optional<Json> motion = motion_of(key)) return {std::move(motion), {}};
   return {key.size() == 1 ? command_of(key.front(), state) : std::nullopt, action_of(key)};
 }

@@ -30,9 +30,9 @@ struct KeyMeaning {
   std::optional<FaceAction> action;
 };
 
-/// What a key means while the session has this state (the reply to "state"); nothing for all other keys. key: the
-/// letter that is typed, or "ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown", "Escape", as browsers call them.
-KeyMeaning key_meaning(std::string_view key, const nlohmann::json& state);
+/// What a key means while the session has this state (the reply to "state"); nothing for all other keys. typed: the
+/// letter, great or small, or "ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown", "Escape", as browsers call them.
+KeyMeaning key_meaning(std::string_view typed, const nlohmann::json& state);
 
 /// The colour schemes of the keys 1, 2, 3, ...: those that every molecule has.
 const std::vector<std::string>& numbered_schemes();

@@ -95,7 +95,7 @@ const std::vector<PreviewSession::Command>& PreviewSession::commands() {
       {"key", {"on"}, &S::set_key, Effect::none},
       {"follow_keys", {"on"}, &S::follow_keys, Effect::picture},
       {"play", {"fps"}, &S::play, Effect::none},
-      {"pause", {}, &S::pause, Effect::none},
+      {"pause", {"fps"}, &S::pause, Effect::none},
       {"resize", {"width", "height"}, &S::resize, Effect::picture},
       {"samples", {"count"}, &S::set_samples, Effect::picture},
       {"press", {"key"}, &S::press, Effect::none, false},  // what it means is recorded

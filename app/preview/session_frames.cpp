@@ -47,9 +47,10 @@ nlohmann::json PreviewSession::play(const CommandReader& command) {
   return {{"playing", view_.playing}};
 }
 
-nlohmann::json PreviewSession::pause(const CommandReader&) {
+nlohmann::json PreviewSession::pause(const CommandReader& command) {
+  view_.frames_per_second = command.number_or(view_.frames_per_second, "fps", 0.1, 240.0);
   view_.playing = false;
-  return nlohmann::json::object();
+  return {{"playing", false}};
 }
 
 }  // namespace meniscus

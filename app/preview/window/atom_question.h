@@ -12,6 +12,9 @@
 
 namespace meniscus {
 
+/// The command that asks what is at a place of a picture in this state, without waiting for the area.
+nlohmann::json atom_question(glm::dvec2 place, bool with_area, const nlohmann::json& state);
+
 /// Exposed areas take a while; the rest of the answer comes at once. Times: seconds on any one clock.
 class AtomQuestion {
  public:

@@ -22,6 +22,7 @@
 namespace meniscus {
 namespace {
 
+constexpr glm::ivec2 kLeast{480, 240};  // the panel and something of the picture, on an ordinary screen
 constexpr const char* kElsewhere = "run on a desktop, or use --serve";
 
 /// Why the last GLFW call failed.
@@ -45,15 +46,17 @@ void catch_lost_display() {
   if (set_handler) set_handler(lose_display);
 }
 
-/// At most as large as the screen has room for.
+/// At most as large as the screen has room for, and never too small for the panel.
 glm::ivec2 fitting(glm::ivec2 size) {
+  size = glm::max(size, kLeast);
   GLFWmonitor* const monitor = glfwGetPrimaryMonitor();
   if (!monitor) return size;
   glm::ivec2 corner{0}, room{0};
   glfwGetMonitorWorkarea(monitor, &corner.x, &corner.y, &room.x, &room.y);
   float scale = 1.0f;
   glfwGetMonitorContentScale(monitor, &scale, nullptr);
-  return room.x > 0 && room.y > 0 ? glm::min(size, glm::ivec2(glm::vec2(room) / std::max(scale, 1.0f))) : size;
+  if (room.x <= 0 || room.y <= 0) return size;
+  return glm::max(glm::min(size, glm::ivec2(glm::vec2(room) / std::max(scale, 1.0f))), kLeast);
 }
 
 GLFWwindow* create_window(const std::string& title, glm::ivec2 size, bool tell_resets) {
@@ -66,10 +69,7 @@ GLFWwindow* create_window(const std::string& title, glm::ivec2 size, bool tell_r
   glfwWindowHint(GLFW_DEPTH_BITS, 0);
   glfwWindowHint(GLFW_STENCIL_BITS, 0);
   glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
-  constexpr int kLeastWidth = 480, kLeastHeight = 240;  // the panel and something of the picture
-  GLFWwindow* const window = glfwCreateWindow(size.x, size.y, title.c_str(), nullptr, nullptr);
-  if (window) glfwSetWindowSizeLimits(window, kLeastWidth, kLeastHeight, GLFW_DONT_CARE, GLFW_DONT_CARE);
-  return window;
+  return glfwCreateWindow(size.x, size.y, title.c_str(), nullptr, nullptr);
 }
 
 DesktopWindow& owner(GLFWwindow* window) { return *static_cast<DesktopWindow*>(glfwGetWindowUserPointer(window)); }
@@ -93,6 +93,8 @@ DesktopWindow::DesktopWindow(const std::string& title, glm::ivec2 size) {
     glfwTerminate();
     throw GpuError(fmt::format("no window with GL 4.5 through EGL on this display: {} ({})", kElsewhere, reason));
   }
+  const glm::ivec2 least(scale() / pixels_per_unit() * glm::dvec2(kLeast));
+  glfwSetWindowSizeLimits(window_, least.x, least.y, GLFW_DONT_CARE, GLFW_DONT_CARE);
   glfwMakeContextCurrent(window_);
   glfwSwapInterval(0);  // frames are drawn when something changed, not as fast as possible
   context_ = describe_current_context();

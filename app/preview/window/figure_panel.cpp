@@ -70,7 +70,6 @@ void FigurePanel::atoms() {
   same_line();
   if (ImGui::Button("see through") && !empty)
     link_.send({{"command", "opacity"}, {"selection", selection_}, {"opacity", 0.4}});
-  same_line();
   if (ImGui::Button("paint") && !empty)
     link_.send({{"command", "paint"}, {"selection", selection_}, {"color", hex_color(paint_)}});
   same_line();

@@ -30,7 +30,7 @@ class FigurePanel {
 
   SessionLink& link_;
   std::string selection_, view_name_, legend_title_;
-  glm::vec3 paint_{0.90f, 0.62f, 0.0f};
+  glm::vec3 paint_{230.0f / 255.0f, 159.0f / 255.0f, 0.0f};
 };
 
 }  // namespace meniscus

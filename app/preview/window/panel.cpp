@@ -138,8 +138,14 @@ void Panel::coloring() {
   const auto parsed = parse_color_scheme(scheme);
   if (parsed && parsed->has_scale()) {
     label("Map");
-    if (const auto map = chosen("##map", state["color"].value("map", "as the scheme has it"), map_names()))
-      link_.send({{"command", "color"}, {"scheme", scheme}, {"map", *map}});
+    const char* own = state["color"].value("own_map", false) ? "the file's" : "its own";
+    std::vector<std::string> maps = map_names();
+    maps.insert(maps.begin(), own);
+    if (const auto map = chosen("##map", state["color"].value("map", own), maps)) {
+      Json command{{"command", "color"}, {"scheme", scheme}};
+      if (*map != own) command["map"] = *map;
+      link_.send(command);
+    }
   }
   bool kinds = state["patch_kinds"];
   if (ImGui::Checkbox("Kinds of patch instead", &kinds)) link_.send({{"command", "patch_kinds"}, {"on", kinds}});
@@ -236,8 +242,8 @@ void Panel::frames() {
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("The camera passes here at this frame; %zu keys", state["keys"].size());
   float rate = state["fps"];
   label("A second");
-  if (ImGui::SliderFloat("##fps", &rate, 1.0f, 60.0f, "%.0f frames", ImGuiSliderFlags_AlwaysClamp) && playing)
-    link_.send({{"command", "play"}, {"fps", std::round(rate)}});
+  if (ImGui::SliderFloat("##fps", &rate, 1.0f, 60.0f, "%.0f frames", ImGuiSliderFlags_AlwaysClamp))
+    link_.send({{"command", playing ? "play" : "pause"}, {"fps", std::round(rate)}});
   bool follows = state["follow_keys"];
   if (ImGui::Checkbox("follow", &follows)) link_.send({{"command", "follow_keys"}, {"on", follows}});
 }
@@ -346,6 +352,13 @@ std::array<std::string, 4> pick_lines(const Json& pick) {
           kind == "cap" || kind == "shape" ? kind : kind + " patch", area};
 }
 
+std::string timing_line(const Json& stats, bool full) {
+  const std::string line =
+      fmt::format("{} \xc3\x97 {}{}: {:.1f} ms", stats["width"].get<int>(), stats["height"].get<int>(),
+                  full ? "" : ", draft", stats["frame_milliseconds"].get<double>());
+  return full ? line : line + fmt::format(", {:.1f} fps", stats["fps"].get<double>());
+}
+
 void Panel::picked() {
   heading("Picked");
   if (!pick_.value("hit", false)) {
@@ -360,9 +373,7 @@ void Panel::timing() {
   heading("Last picture");
   const Json& stats = link_.stats();
   if (!stats.is_object()) return;
-  plain(fmt::format("{} \xc3\x97 {}{}: {:.1f} ms, {:.1f} fps", stats["width"].get<int>(), stats["height"].get<int>(),
-                    link_.news().full ? "" : ", draft", stats["frame_milliseconds"].get<double>(),
-                    stats["fps"].get<double>()));
+  plain(timing_line(stats, link_.news().full));
   if (!ImGui::TreeNodeEx("stages", ImGuiTreeNodeFlags_NoTreePushOnOpen)) return;
   if (!ImGui::BeginTable("times", 2, ImGuiTableFlags_RowBg)) return;
   ImGui::TableSetupColumn("stage", ImGuiTableColumnFlags_WidthStretch);

@@ -69,4 +69,7 @@ class Panel {
 /// What a pick says, in up to four lines: atom, residue and chain, kind of patch, exposed area.
 std::array<std::string, 4> pick_lines(const nlohmann::json& pick);
 
+/// How long the last picture took, as the command "stats" answers; how many a second only while it moves.
+std::string timing_line(const nlohmann::json& stats, bool full);
+
 }  // namespace meniscus

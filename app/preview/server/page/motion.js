@@ -82,13 +82,22 @@ export function follow_pointer(canvas, to) {
   }, { passive: false });
 }
 
+const kSwitches = "input[type=checkbox], input[type=color], button, summary";
+
+/// Whether the control that has the focus has a use for the key itself; a slider or a switch that was used last must not
+/// keep letters from the picture.
+function is_for(control, key) {
+  if (control.matches("input[type=range], [role=slider]")) return key.startsWith("Arrow");
+  if (control.matches(kSwitches)) return key === " ";
+  return control.matches("input, select, textarea");
+}
+
 /// Calls press(key) for keys that may mean something, while `allowed`, unless something is being typed.
 export function follow_keys(press, allowed) {
   document.addEventListener("keydown", (event) => {
-    const known = event.key.length === 1 || event.key.startsWith("Arrow");
-    const typing = event.target.closest?.("input, select, textarea, button, [role=slider]");
-    if (!known || typing || event.ctrlKey || event.metaKey || event.altKey || !allowed()) return;
+    const known = event.key.length === 1 || event.key.startsWith("Arrow") || event.key === "Escape";
+    if (!known || is_for(event.target, event.key) || event.ctrlKey || event.metaKey || event.altKey || !allowed()) return;
     event.preventDefault();
-    press(event.key.length === 1 ? event.key.toLowerCase() : event.key);
+    press(event.key);
   });
 }

@@ -282,7 +282,7 @@ async function hover(pixel, place, more = 10) {
   const top = Math.min(place.y + 16, stage.clientHeight - tip.offsetHeight - 8);
   tip.style.transform = `translate(${Math.max(left, 0)}px, ${Math.max(top, 0)}px)`;
   // Where it is cheap the area comes soon.
-  if (found.exposed_area === null && more > 0) setTimeout(() => { if (number === hovered) hover(pixel, place, more - 1); }, 300);
+  if (found.area_follows && more > 0) setTimeout(() => { if (number === hovered) hover(pixel, place, more - 1); }, 300);
 }
 
 let picked = 0;  // number of the latest click
@@ -298,7 +298,7 @@ async function pick(pixel) {
       ["place", found.place], ["element", found.element], ["what", found.kind],
       ["position", found.position.map((x) => x.toFixed(2)).join(", ")],
     ] : [];
-    const waits = found.hit && found.exposed_area === null && ["convex", "toroidal", "concave"].includes(found.kind);
+    const waits = found.hit && found.area_follows;
     if (found.hit && (waits || found.exposed_area !== null))
       rows.splice(3, 0, ["exposed", waits ? "…" : `${found.exposed_area.toFixed(3)} Å²`]);
     $("picked").hidden = rows.length === 0;
@@ -412,6 +412,8 @@ const face_actions = {
   export: () => { document.body.classList.remove("bare"); $("export-name").focus(); $("export-name").select(); },
 };
 follow_keys(async (key) => {
+  const help = $("help");
+  if (key === "Escape") { help.hidden = true; return; }  // a page is left otherwise
   const reply = await command("press", { key });
   face_actions[reply?.action]?.();
 }, () => controls && state !== null);

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The schedule of drafts and full pictures: what is given up for what, and how films are drawn.
+#include "app/preview/live_view.h"
+
+#include <chrono>
+#include <memory>
+#include <thread>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "app/preview/session.h"
+#include "core/structure/formats/read_structure.h"
+#include "tests/preview/two_models.h"
+#include "tests/support/run_program.h"
+
+namespace meniscus::test {
+namespace {
+
+// A surface takes stages, and none is begun for somebody who does not want it any more.
+TEST(LivePictures, SurfacesCanBeGivenUpBetweenStages) {
+  const std::unique_ptr<ViewRenderer> renderer = make_cpu_view_renderer();
+  renderer->set_atoms({{{0, 0, 0}, 1.7}, {{3, 0, 0}, 1.5}});
+  Coloring coloring;
+  coloring.atom.assign(2, glm::vec3(0.5f));
+  renderer->set_coloring(coloring);
+  Camera camera;
+  camera.position = {0, 0, 20};
+  RenderSettings settings;
+  settings.size = {40, 30};
+  ASSERT_TRUE(renderer->draw(1.4, camera, settings));
+  ASSERT_TRUE(renderer->surface());
+  const std::vector<std::uint8_t> before = renderer->rgba();
+  const std::size_t stages = renderer->times().size();
+  int asked = 0;
+  EXPECT_FALSE(renderer->draw(2.0, camera, settings, [&] { return ++asked == 3; }));
+  EXPECT_EQ(asked, 3);
+  EXPECT_FALSE(renderer->surface());
+  EXPECT_EQ(renderer->rgba(), before);
+  ASSERT_TRUE(renderer->draw(2.0, camera, settings, [] { return false; }));
+  EXPECT_EQ(renderer->surface()->probe_radius, 2.0);
+  EXPECT_NE(renderer->rgba(), before);
+  // Another view of the same surface computes none.
+  camera.position = {0, 0, 30};
+  ASSERT_TRUE(renderer->draw(2.0, camera, settings));
+  EXPECT_LT(renderer->times().size(), stages);
+}
+
+TEST(LivePictures, FramesPlayInFullSizeWhenThereIsTime) {
+  const TemporaryFolder folder;
+  PreviewView view;
+  view.size = {80, 60};
+  ReadOptions reading;
+  reading.model.all = true;
+  PreviewSession session(make_cpu_view_renderer(), read_structure(folder.file("two.pdb", kTwoModels), reading), view,
+                         std::nullopt, folder.path());
+  LiveView live(session);
+  const auto nothing_waits = [] { return Change::none; };
+  ASSERT_TRUE(live.draw(Quality::draft, nothing_waits));
+  ASSERT_TRUE(live.apply({{"command", "orbit"}, {"dx", 0.1}, {"dy", 0.0}})["ok"]);
+  EXPECT_EQ(live.at_once(), Quality::draft);
+  ASSERT_TRUE(live.apply({{"command", "play"}, {"fps", 0.1}})["ok"]);
+  EXPECT_EQ(live.at_once(), Quality::draft);  // nobody knows yet how long one takes
+  ASSERT_TRUE(live.apply({{"command", "next_frame"}})["ok"]);
+  ASSERT_TRUE(live.draw(live.at_once(), nothing_waits));
+  EXPECT_EQ(live.at_once(), Quality::plain);
+  EXPECT_EQ(live.due(LiveView::Clock::now()), Quality::plain);
+  // 240 frames a second of pictures that take as long as a slow machine's.
+  ASSERT_TRUE(live.apply({{"command", "play"}, {"fps", 240.0}})["ok"]);
+  ASSERT_TRUE(live.apply({{"command", "next_frame"}})["ok"]);
+  ASSERT_TRUE(live.draw(Quality::plain, [] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    return Change::none;
+  }));
+  EXPECT_EQ(live.at_once(), Quality::draft);
+  ASSERT_TRUE(live.apply({{"command", "pause"}})["ok"]);
+  EXPECT_EQ(live.at_once(), Quality::draft);
+}
+
+// What moves never costs a draft; what makes it worthless does, when it takes long.
+TEST(LivePictures, DraftsAreGivenUpForOtherSurfacesOnly) {
+  const TemporaryFolder folder;
+  PreviewView view;
+  view.size = {80, 60};
+  PreviewSession session(make_cpu_view_renderer(), read_structure(folder.file("one.pdb", kTwoModels)), view,
+                         std::nullopt, folder.path());
+  LiveView live(session);
+  EXPECT_FALSE(live.draw(Quality::plain, [] { return Change::view; }));
+  EXPECT_TRUE(live.fault().empty());
+  ASSERT_TRUE(live.draw(Quality::draft, [] { return Change::view; }));
+  ASSERT_TRUE(live.apply({{"command", "probe"}, {"radius", 2.0}})["ok"]);
+  ASSERT_TRUE(live.draw(Quality::draft, [] { return Change::surface; }));  // at once, so it is shown
+  EXPECT_EQ(change_of({{"command", "probe"}, {"radius", 2.0}}), Change::surface);
+  EXPECT_EQ(change_of({{"command", "orbit"}}), Change::view);
+  EXPECT_EQ(change_of({{"command", "export"}}), Change::none);
+  EXPECT_EQ(change_of({{"command", "state"}}), Change::none);
+}
+
+}  // namespace
+}  // namespace meniscus::test

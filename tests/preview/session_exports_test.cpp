@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Exports of a session: beside the pictures, to be cancelled, and under names that say what they are.
+#include <chrono>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "app/preview/session.h"
+#include "core/structure/formats/read_structure.h"
+#include "tests/preview/two_models.h"
+#include "tests/support/run_program.h"
+
+namespace meniscus::test {
+namespace {
+
+using Json = nlohmann::json;
+
+class SessionExports : public ::testing::Test {
+ protected:
+  SessionExports() {
+    PreviewView view;
+    view.size = {80, 60};
+    SessionContext context;
+    context.save_scene = [](const std::vector<std::string>&, const ExportTarget& target) {
+      OutputFile file(target.path, target.existing);
+      file.write("a scene");
+      file.commit();
+    };
+    session_ =
+        std::make_unique<PreviewSession>(make_cpu_view_renderer(), read_structure(folder_.file("two.pdb", kTwoModels)),
+                                         view, std::nullopt, folder_.path(), std::nullopt, context);
+  }
+
+  Json apply(const std::string& command) { return session_->apply(Json::parse(command)); }
+  void expect_ok(const std::string& command) {
+    const Json reply = apply(command);
+    EXPECT_TRUE(reply["ok"]) << command << " -> " << reply;
+  }
+
+  TemporaryFolder folder_;
+  std::unique_ptr<PreviewSession> session_;
+};
+
+// Even with "force" no file of another kind is replaced.
+TEST_F(SessionExports, EndWhatTheirFormatEndsIn) {
+  const std::map<std::string, std::vector<std::string>> allowed{
+      {"png", {"p.png", "p.tif", "p.exr"}}, {"povray", {"p"}},   {"blender", {"p.mns"}}, {"camera", {"p.json"}},
+      {"camera_path", {"p.json"}},          {"save", {"p.json"}}};
+  const std::vector<std::string> names{"p",        "p.png",   "p.tif",     "p.exr",     "p.mns",      "p.json", "p.pdb",
+                                       "p.py",     "p.jsonl", "p.mns.bak", "p.png.mns", "p.json.png", "p.sh",   "png",
+                                       "view.ini", "mns",     "notes.txt", "p.JSON",    "p.mnss"};
+  apply(R"({"command":"key"})");  // a path of the camera has some
+  for (const auto& [format, good] : allowed) {
+    for (const std::string& name : names) {
+      SCOPED_TRACE(format + " " + name);
+      const auto ends_well = [&](const std::string& one) {
+        const std::string ending = std::filesystem::path(one).extension();
+        return !ending.empty() && name.ends_with(ending);
+      };
+      const bool fits = format == "povray" ? name.find('.') == std::string::npos : std::ranges::any_of(good, ends_well);
+      if (fits && name[0] != 'p') continue;
+      const std::string file = folder_.file(name, "precious");
+      Json command{{"command", format == "save" ? "save" : "export"}, {"path", name}, {"force", true}};
+      if (format != "save") command["format"] = format;
+      if (format == "png") command.update({{"width", 20}, {"height", 20}, {"samples", 1}});
+      if (format == "povray" && fits) std::filesystem::remove(file);  // a folder, which takes no file's place
+      const Json reply = session_->apply(command);
+      EXPECT_EQ(reply["ok"], fits) << reply;
+      if (!fits) {
+        EXPECT_EQ(read_bytes(file), "precious");
+        EXPECT_NE(reply.value("error", "").find(name), std::string::npos) << reply;
+      } else if (format != "povray") {
+        EXPECT_NE(read_bytes(file), "precious");
+      }
+      std::filesystem::remove_all(file);
+    }
+  }
+  // A folder that holds something else keeps it, and a file is no folder.
+  std::filesystem::create_directory(folder_.path() / "work");
+  const std::string mine = folder_.file("work/mine.txt", "precious");
+  expect_ok(R"({"command":"export","format":"povray","path":"work","force":true})");
+  EXPECT_EQ(read_bytes(mine), "precious");
+  const std::string plain = folder_.file("plain", "precious");
+  EXPECT_FALSE(apply(R"({"command":"export","format":"povray","path":"plain","force":true})")["ok"]);
+  EXPECT_EQ(read_bytes(plain), "precious");
+}
+
+TEST_F(SessionExports, AnExportIsMadeBesideThePicturesAndCanBeCancelled) {
+  const std::string large = R"({"command":"export","format":"png","path":"large.png","width":2000,"height":2000,)"
+                            R"("samples":1024,"wait":false})";
+  Json recorded;
+  session_->record([&](const Json& command) { recorded.push_back(command); });
+  const Json begun = apply(large);
+  ASSERT_TRUE(begun["ok"]) << begun;
+  EXPECT_TRUE(begun["running"]);
+  EXPECT_FALSE(recorded.at(0).contains("wait")) << "whoever carries it out again waits";
+  expect_ok(R"({"command":"orbit","dx":0.1,"dy":0})");
+  EXPECT_TRUE(session_->render(Quality::full)) << "while it is written";
+  EXPECT_NE(apply(large)["error"].get<std::string>().find("is being written"), std::string::npos);
+  const auto told = [&] { return apply(R"({"command":"export_state"})"); };
+  const auto wait_until = [&](const auto& done) {
+    for (int n = 0; n < 1200 && !done(told()); ++n) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    return told();
+  };
+  const Json casting =
+      wait_until([](const Json& now) { return now.value("stage", "") == "picture" || !now["running"]; });
+  ASSERT_TRUE(casting["running"]) << casting;
+  EXPECT_GE(casting["share"], 0.0);
+  EXPECT_LT(casting["share"], 1.0);
+  expect_ok(R"({"command":"cancel_export"})");
+  const Json ended = wait_until([](const Json& now) { return now["running"] == false; });
+  EXPECT_NE(ended.value("error", std::string()).find("cancelled"), std::string::npos) << ended;
+  EXPECT_FALSE(apply(R"({"command":"cancel_export"})")["ok"]);
+  EXPECT_EQ(folder_.entries(), std::vector<std::string>{"two.pdb"});
+  // The next one comes to its end, with the view as it was when it was asked for.
+  expect_ok(R"({"command":"export","format":"png","path":"small.png","wait":false})");
+  const Json done = wait_until([](const Json& now) { return now["running"] == false; });
+  EXPECT_NE(done.value("path", std::string()).find("small.png"), std::string::npos);
+  EXPECT_FALSE(done.contains("error")) << done;
+  EXPECT_EQ(folder_.entries(), (std::vector<std::string>{"small.png", "two.pdb"}));
+}
+
+}  // namespace
+}  // namespace meniscus::test
