@@ -211,9 +211,10 @@ TEST_P(PreviewSessionTest, AMouseAtRestHasNoSurfaceComputedForIt) {
       if (pick(clicked)["exposed_area"].is_number()) return true;
     return false;
   };
-  ASSERT_TRUE(pick(false)["hit"]);
   const bool has_surface = !context_;  // the CPU draws the complete surface, so its areas are cheap
-  EXPECT_EQ(pick(false)["area_follows"], has_surface);
+  const Json first = pick(false);
+  ASSERT_TRUE(first["hit"]);
+  EXPECT_EQ(first["area_follows"], has_surface);
   EXPECT_EQ(told_within_half_a_second(false), has_surface);
   EXPECT_TRUE(told_within_half_a_second(true));
   EXPECT_TRUE(told_within_half_a_second(false)) << "what is known is told";
