@@ -63,6 +63,11 @@ Shown read_run(PreviewCommand& command) {
   if (molecule.reading.model.all) molecule.reading.model = {};  // the preview's default; a run has frames instead
   const auto frames = std::make_shared<FrameRun>(molecule, command.frames);
   tell_run(molecule, *frames);
+  if (command.molecule.color.by == ColorScheme::By::rmsf) {
+    if (command.molecule.color.uses_file())
+      throw UsageError("--color rmsf beside the numbers of a file is for render; leave --color-by-file out");
+    command.molecule.color.file = {.path = frames->structure().file, .numbers = fluctuations(*frames)};
+  }
   return {frames->structure(),
           TrajectoryPositions{frames->chunk(),
                               [frames](std::size_t frame) { return frames->positions(frames->chunk()[frame]); }},

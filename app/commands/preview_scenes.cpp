@@ -140,7 +140,6 @@ OpenedScene SceneOpener::operator()(const fs::path& path) const {
         escaped(path.string()), escaped(file_)));
 
   const ColorScheme color = color_of(command.molecule);
-  require_previewed(color);
   OpenedScene opened{figure_of(command, color), wishes_of(command, parsed), 0};
   opened.figure.camera = aimed_camera(command, given_camera(command.picture), color,
                                       ShownReader(command, command.molecule.reading.model.all)(command.figure, 0));

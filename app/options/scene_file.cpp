@@ -176,7 +176,7 @@ class SceneReader {
     const std::string option(key.option == "-o" ? "--output" : key.option);
     // A picture's name is none for the folder of an export.
     if (key.option == "-o" && command_.get_name() != "render") return;
-    if (!takes(option, key.shows, place)) return;
+    if (!takes(option, key.shows && !is_usual(key, value), place)) return;
     keys_[option] = place;
     switch (key.value) {
       case SceneValue::flag:
@@ -203,6 +203,14 @@ class SceneReader {
       case SceneValue::camera:
         return add_word(option, value.is_object() ? value.dump() : path(value, place));
     }
+  }
+
+  /// Whether the value says aloud what is seen without it.
+  static bool is_usual(const SceneKey& key, const Json& value) {
+    if (key.value == SceneValue::flag || key.value == SceneValue::negated)
+      return value == Json(key.value == SceneValue::negated);
+    if (key.value == SceneValue::list) return value.is_array() && value.empty();
+    return !key.usual.empty() && value == Json(key.usual);
   }
 
   void add_word(const std::string& option, const std::string& value) { words_.push_back(option + "=" + value); }

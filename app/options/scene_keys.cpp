@@ -45,11 +45,11 @@ constexpr auto kSceneKeys = std::to_array<SceneKey>({
 
     {"surface", "shown", "--hide-surface", V::negated, true},
     {"surface", "interface", "--interface", V::text, true},
-    {"surface", "kind", "--surface", V::text, true},
+    {"surface", "kind", "--surface", V::text, true, "ses"},
     {"surface", "probe", "--probe", V::text},
     {"surface", "show", "--show", V::text},
     {"surface", "by", "--by", V::text, true},
-    {"surface", "cavities", "--cavities", V::text, true},
+    {"surface", "cavities", "--cavities", V::text, true, "keep"},
     {"surface", "color", "--color", V::list, true},
     {"surface", "color_by_file", "--color-by-file", V::path, true},
     {"surface", "color_column", "--color-column", V::text, true},

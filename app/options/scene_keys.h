@@ -25,6 +25,7 @@ struct SceneKey {
   std::string_view option;  ///< "--select"; "FILE", "-o"
   SceneValue value;
   bool shows = false;  ///< a picture or an export without it would show something else
+  std::string_view usual = {};  ///< of a text: the value that is the same as nothing
 };
 
 /// In the order in which scenes are written. Not in them: where and how much is computed, what is told of it, and what

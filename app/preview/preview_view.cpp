@@ -12,17 +12,19 @@ namespace meniscus {
 namespace {
 
 /// What makes pictures of the schemes that a preview has not; empty: it has it.
-std::string who_shows(ColorScheme::By scheme) {
+std::string who_shows(ColorScheme::By scheme, bool has_numbers) {
   using By = ColorScheme::By;
   if (scheme == By::component) return "parts of the surface have no atoms of their own; use meniscus render";
   if (scheme == By::volume) return "volume maps are for render and export mesh";
   if (scheme == By::buried) return "areas that are buried between groups are measured by meniscus render and export";
-  if (scheme == By::rmsf) return "fluctuations over the frames are measured by meniscus render";
+  if (scheme == By::rmsf && !has_numbers)
+    return "fluctuations are measured once, over all frames; begin the preview with --color rmsf and --trajectory or "
+           "--frames";
   return {};
 }
 
 void require_shown(const ColorScheme& color) {
-  if (const std::string who = who_shows(color.by); !who.empty())
+  if (const std::string who = who_shows(color.by, !color.file.empty()); !who.empty())
     throw RequestError(fmt::format("color: \"{}\" needs more than atoms: {}", scheme_word(color), who));
 }
 
@@ -44,6 +46,6 @@ void require_previewed(const ColorScheme& color) {
   for (const ColorRule& rule : color.rules) require_shown(rule.paint);
 }
 
-bool is_previewed(ColorScheme::By scheme) { return who_shows(scheme).empty(); }
+bool is_previewed(ColorScheme::By scheme) { return who_shows(scheme, false).empty(); }
 
 }  // namespace meniscus

@@ -46,7 +46,7 @@ struct ExportWishes {
 /// Throws RequestError for a scheme whose numbers or parts come with surfaces that a preview does not make; so
 /// for those of its rules.
 void require_previewed(const ColorScheme& color);
-/// Whether it is none of these.
+/// Whether it is none of these, whatever a preview was begun with.
 bool is_previewed(ColorScheme::By scheme);
 
 /// What is seen, and how; all of it changes by commands.

@@ -67,6 +67,12 @@ void read_scale(const CommandReader& command, ColorScheme& color) {
   if (command.has("missing")) color.missing = named_color(command, "missing");
 }
 
+/// The numbers of a file that a preview was begun with; of fluctuations there are others in their place.
+const NumberFile& numbers_at_first(const ColorScheme& first) {
+  static const NumberFile kNone;
+  return first.by == ColorScheme::By::rmsf ? kNone : first.file;
+}
+
 /// Rules and opacities of before stay unless the command has others; what a file said stays for its scheme.
 ColorScheme scheme_of(const CommandReader& command, const ColorScheme& before, const ColorScheme& first) {
   const std::string word = command.text("scheme");
@@ -74,13 +80,14 @@ ColorScheme scheme_of(const CommandReader& command, const ColorScheme& before, c
   if (!scheme) throw RequestError("color: " + in_quotes(word) + " is none of " + color_scheme_words());
   ColorScheme color = *scheme;
   color.rules = command.has("rules") ? rules_of(command) : before.rules;
+  if (color.uses_file() && numbers_at_first(first).empty())
+    throw RequestError("color: \"file\" needs numbers; begin the preview with --color-by-file FILE");
+  color.set_numbers(numbers_at_first(first));
+  if (color.by == ColorScheme::By::rmsf && color.by == first.by) color.file = first.file;
   require_previewed(color);
   if (color.by == ColorScheme::By::kind && !color.rules.empty())
     throw RequestError("color: \"kind\" colours patches, rules colour atoms; send \"rules\": [] with it");
   color.opacities = before.opacities;
-  if (color.uses_file() && first.file.empty())
-    throw RequestError("color: \"file\" needs numbers; begin the preview with --color-by-file FILE");
-  color.set_numbers(first.file);
   if (color.uses_scale()) color.own_map = first.own_map;
   color.title = first.title;
   color.unit = first.unit;
@@ -113,9 +120,11 @@ Json PreviewSession::paint(const CommandReader& command) {
   const std::string rule = selection.text() + "=" + command.text("color");
   next.color.rules.push_back(naming(command, [&] { return parse_color_rule(rule); }));
   require_previewed(next.color);
-  if (next.color.uses_file() && first_color_.file.empty())
-    throw RequestError("paint: \"file\" needs numbers; begin the preview with --color-by-file FILE");
-  next.color.set_numbers(first_color_.file);
+  if (next.color.uses_file()) {
+    if (numbers_at_first(first_color_).empty())
+      throw RequestError("paint: \"file\" needs numbers; begin the preview with --color-by-file FILE");
+    next.color.set_numbers(numbers_at_first(first_color_));
+  }
   next.color.share_scale();
   become(std::move(next), Changed::colors);
   return {{"index", view_.color.rules.size() - 1}};

@@ -138,7 +138,10 @@ Json PreviewSession::open_scene(const CommandReader& command) {
   if (!name.ends_with(".json") && !name.ends_with(".png"))
     throw RequestError(
         fmt::format("open: \"path\" is {}; a scene ends in .json, a picture that holds one in .png", in_quotes(name)));
-  const OpenedScene opened = context_.open_scene(export_path(export_folder_, name));
+  OpenedScene opened = context_.open_scene(export_path(export_folder_, name));
+  ColorScheme& color = opened.figure.color;
+  if (color.by == ColorScheme::By::rmsf && color.by == first_color_.by) color.file = first_color_.file;
+  require_previewed(color);
   const double radius = opened.figure.probe_radius;
   if (view_.copies_apart && radius > view_.probe_radius) require_apart(structure_, radius);
   const std::size_t frame = frames_.size() > 1 ? static_cast<std::size_t>(opened.frame) : view_.frame;

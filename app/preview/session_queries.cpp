@@ -124,7 +124,7 @@ Json PreviewSession::stats(const CommandReader&) {
 Json PreviewSession::choices(const CommandReader&) {
   Json schemes = Json::array(), maps = Json::array();
   for (const ColorSchemeMetadata& scheme : color_schemes()) {
-    if (!is_previewed(scheme.by)) continue;
+    if (!is_previewed(scheme.by) && scheme.by != first_color_.by) continue;
     if (scheme.by == ColorScheme::By::file && first_color_.file.empty()) continue;
     const auto is_copy = [](const Atom& atom) { return atom.copy > 0; };
     if (scheme.by == ColorScheme::By::copy && std::ranges::none_of(structure_.atoms, is_copy)) continue;

@@ -114,6 +114,22 @@ class Figures(unittest.TestCase):
         self.same_picture(models, "--trajectory", f"{DATA}/dcd2k39_truncated.dcd", "--superpose", "name CA",
                           commands=commands)
 
+        # Fluctuations over the frames are there to be returned to, in scenes, too.
+        run = (models, "--trajectory", f"{DATA}/dcd2k39_truncated.dcd", "--superpose", "name CA", "--color", "rmsf")
+        replies = self.same_picture(*run, commands=[{"command": "state"}, *commands[:2], {"command": "color", "scheme": "chain"},
+                                                    {"command": "color", "scheme": "rmsf"}, {"command": "state"},
+                                                    {"command": "choices"}])
+        self.assertEqual(replies[0]["color"], replies[5]["color"])
+        self.assertIn("rmsf", [scheme["word"] for scheme in replies[6]["schemes"]])
+        export = {"command": "export", "format": "png", "force": True}
+        replies = self.session(*run, commands=[
+            {**export, "path": "before.png"}, {"command": "save", "path": "run.json", "force": True},
+            {"command": "color", "scheme": "chain"}, {"command": "open", "path": "run.json"}, {**export, "path": "after.png"}])
+        self.assertTrue(all(reply["ok"] for reply in replies), replies)
+        self.same("before.png", "after.png")
+        done = self.run_program("preview", models, "--serve", "--color", "rmsf", code=2)
+        self.assertIn("measured once, over all frames", done.stderr)
+
         with open(self.path("session.jsonl"), "w") as lines:
             lines.write('{"command":"render_command"}\n')
         refused = subprocess.run([PROGRAM, "preview", models, "--serve", "--color", "index", "--commands",
@@ -184,7 +200,9 @@ class Figures(unittest.TestCase):
         hidden = {"meniscus_scene": 1, "molecule": {"file": MOLECULE}, "image": {"size": "200x160"}, "objects": [
             {"representation": "sticks", "selection": "chain C"},
             {"representation": "balls", "selection": "resid 1-30 and chain D", "color": "chain", "specular": 0.9}]}
-        plain = {"meniscus_scene": 1, "molecule": {"file": MOLECULE}, "image": {"size": "200x160"}}
+        # What is said aloud although it is so anyway is no hindrance.
+        plain = {"meniscus_scene": 1, "molecule": {"file": MOLECULE}, "image": {"size": "200x160"}, "objects": [
+            {"representation": "surface", "kind": "ses", "cavities": "keep"}]}
         for number, scene in enumerate((self.SCENE, hidden, plain)):
             file = self.scene(f"fig{number}.json", scene)
             self.run_program("render", "--scene", file, "-o", f"rendered{number}.png")

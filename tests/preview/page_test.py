@@ -24,7 +24,15 @@ SIZE = (760, 420)  # of the browser's window; the picture is smaller by the pane
 WATCHED = """
     window.sent = [];
     window.said = [];
-    window.WebSocket = class extends WebSocket { send(text) { sent.push(JSON.parse(text)); super.send(text); } };
+    window.WebSocket = class extends WebSocket {
+      constructor(...all) {
+        super(...all);
+        this.addEventListener("message", ({data}) => {
+          if (typeof data !== "string") window.locked ??= document.getElementById("controls").disabled;
+        });
+      }
+      send(text) { sent.push(JSON.parse(text)); super.send(text); }
+    };
     document.addEventListener("readystatechange", () => {
       const message = document.getElementById("message");
       new MutationObserver(() => said.push(message.textContent)).observe(message, {childList: true});
@@ -401,6 +409,8 @@ class Page(unittest.IsolatedAsyncioTestCase):
             await page.send("Page.addScriptToEvaluateOnNewDocument", source=WATCHED)
             await page.open(preview.url)
             self.assertIn("The first picture …", await page.evaluate("window.said"))
+            self.assertTrue(await page.evaluate("window.locked"), "until there is a picture nothing can be changed")
+            self.assertFalse(await page.evaluate("document.getElementById('controls').disabled"))
             self.assertNotIn("fps", await page.evaluate("document.getElementById('fps').textContent"))
             words = [said.get("command", said.get("request")) for said in await page.evaluate("window.sent")]
             self.assertLess(words.index("resize"), words.index("picture"), "the first picture has the page's size")

@@ -102,15 +102,18 @@ function end(text, is_error) {
 /// In place of one that stays.
 function say_anew(text, is_error = false) {
   $("message").classList.remove("stays");
-  $("controls").disabled = !controls;
+  allow_controls();
   say(text, is_error);
 }
 
 function set_role(in_control) {
   controls = in_control;
   $("role").hidden = controls;
-  $("controls").disabled = !controls;
+  allow_controls();
 }
+
+/// To whoever decides, once there is something to be changed.
+function allow_controls() { $("controls").disabled = !controls || !state; }
 
 // Pictures
 
@@ -173,7 +176,9 @@ function set_value(element, value) {
 }
 
 function apply_state(next) {
+  const is_first = !state;
   state = next;
+  if (is_first) allow_controls();
   canvas.dataset.state = JSON.stringify(next);
   const name = next.file.split("/").pop();
   document.title = `${name} · Meniscus`;
