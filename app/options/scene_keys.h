@@ -24,7 +24,7 @@ struct SceneKey {
   std::string_view key;
   std::string_view option;  ///< "--select"; "FILE", "-o"
   SceneValue value;
-  bool shows = false;  ///< a picture or an export without it would show something else
+  bool shows = false;           ///< a picture or an export without it would show something else
   std::string_view usual = {};  ///< of a text: the value that is the same as nothing
 };
 

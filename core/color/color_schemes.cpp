@@ -69,14 +69,18 @@ bool ColorScheme::uses_file() const {
   return by == By::file || std::ranges::any_of(rules, [](const ColorRule& rule) { return rule.paint.by == By::file; });
 }
 
-bool ColorScheme::uses_frames() const { return uses_file() && file.by_frame; }
+bool ColorScheme::uses_frames() const {
+  return (by == By::file && file.by_frame) || std::ranges::any_of(rules, [](const ColorRule& rule) {
+           return rule.paint.by == By::file && rule.paint.file.by_frame;
+         });
+}
 
 void ColorScheme::set_numbers(const NumberFile& numbers) {
   if (numbers.by_frame && map == ColorMap::categorical && !own_map)
     throw RequestError(
         "--map categorical gives each number of a picture a colour of its own, which would change from "
         "frame to frame; choose another map");
-  file = numbers;
+  if (by != By::rmsf) file = numbers;  // its own were measured
   if (by == By::file && !range) range = numbers.range_of_frames();
   for (ColorRule& rule : rules)
     if (rule.paint.by == By::file) rule.paint.file = numbers;

@@ -41,8 +41,8 @@ class Figures(unittest.TestCase):
 
     def same_picture(self, file, *options, commands=(), device="cpu", **wishes):
         """Exports the session's picture and makes it by the command that the session names."""
-        for name in ("view.png", "command.png"):
-            if os.path.exists(self.path(name)):
+        for name in os.listdir(self.folder):
+            if name in ("view.png", "command.png") or name.startswith("frame_"):
                 os.remove(self.path(name))
         replies = self.session(file, *options, device=device, commands=[
             *commands, {"command": "export", "format": "png", "path": "view.png", **wishes},

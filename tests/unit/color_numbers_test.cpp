@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Colours by numbers from files: of residues, tables and frames, with their gaps and faults.
 #include <cmath>
+#include <cstdint>
+#include <map>
+#include <memory>
 #include <tuple>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -92,6 +96,22 @@ TEST(Colors, NumbersOfFramesHaveOneScale) {
   categorical.map = ColorMap::categorical;
   const NumberFile table = read_number_file(folder.file("n", "frame,index,x\n0,0,1\n"));
   EXPECT_NE(complaint([&] { categorical.set_numbers(table); }).find("--map categorical"), std::string::npos);
+}
+
+// A scheme whose numbers are measured over the frames keeps them when rules take others from a file.
+TEST(Colors, FluctuationsStayBesideNumbersOfAFile) {
+  ColorScheme scheme;
+  scheme.by = ColorScheme::By::rmsf;
+  scheme.file = {.path = "run", .numbers = {1.0, 2.0}};
+  scheme.rules.push_back(parse_color_rule("resid 1=file"));
+  NumberFile numbers{.path = "numbers.txt", .numbers = {5.0, 6.0}};
+  scheme.set_numbers(numbers);
+  EXPECT_EQ(scheme.file.numbers, (std::vector<double>{1.0, 2.0}));
+  EXPECT_EQ(scheme.rules[0].paint.file.numbers, numbers.numbers);
+  EXPECT_FALSE(scheme.uses_frames());
+  numbers.by_frame = std::make_shared<const std::map<std::uint64_t, NumberFile>>();
+  scheme.set_numbers(numbers);
+  EXPECT_TRUE(scheme.uses_frames());
 }
 
 TEST(Colors, NumbersAreGivenForAllAtomsOrForThoseInUse) {
