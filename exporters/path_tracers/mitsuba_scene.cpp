@@ -78,7 +78,9 @@ class MitsubaWriter {
     line(fmt::format("<default name=\"width\" value=\"{}\"/>", scene_.width));
     line(fmt::format("<default name=\"height\" value=\"{}\"/>", scene_.height));
     const bool glass = scene_.material == Material::glass;
-    line(fmt::format("<integrator type=\"{}\">{}{}</integrator>", glass ? "volpath" : "path",
+    // Mitsuba 3.9.1 crashes where "path" hides emitters and things are placed as instances; "volpath" does not.
+    const bool placed = !std::ranges::all_of(scene_.items, &SceneItem::stands_once);
+    line(fmt::format("<integrator type=\"{}\">{}{}</integrator>", glass || placed ? "volpath" : "path",
                      named("integer", "max_depth", glass ? "32" : "8"), named("boolean", "hide_emitters", "true")));
   }
 

@@ -127,6 +127,8 @@ class InMitsuba(unittest.TestCase):
             + atom_line(1, 1, 2, 3) + atom_line(2, 2.5, 2, 3) + atom_line(3, 4.5, 3.5, 3) + atom_line(4, 1, 2, 9))
         scene = self.compare("copies", path, "--assembly", 1, "--instances", "exact")
         self.assertEqual(scene.read_text().count('type="instance"'), 2)
+        alpha = np.array(mi.render(mi.load_file(str(scene), spp="16")))[:, :, 3]
+        np.testing.assert_allclose(alpha.mean(), self.ours(path, "--assembly", 1, "--instances", "exact")[1].mean(), atol=0.005)
 
     def test_cut_with_caps(self):
         self.compare("cut", UBIQUITIN, "--clip", "depth>0.5", "--cap-color", "orange", "--color", "element")

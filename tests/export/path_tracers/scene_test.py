@@ -198,6 +198,7 @@ class Scenes(unittest.TestCase):
         self.assertEqual(len(meshes), 1)
         matrices = [np.array([float(w) for w in e.get("value").split()]).reshape(4, 4) for e in root.iter("matrix")]
         self.assertEqual(len(matrices), 2)
+        self.assertEqual(root.find("integrator").get("type"), "volpath")  # "path" crashes with instances
         origin = self.origin_of(scene)
         for matrix, awaited in zip(matrices, ([1, 2, 3], [28, 6, 10])):
             at = matrix @ np.append(np.array([1, 2, 3]) - origin, 1)
