@@ -103,7 +103,7 @@ class SceneReader {
       if (!value.is_object()) fail(section, "is no JSON object {...}");
       for (const auto& [key, own] : value.items()) {
         if (section == "molecule" && key == "select") continue;
-        add(section, key, own, section + "." + key);
+        add(section, key, own, fmt::format("{}.{}", section, key));
       }
     }
     read_objects(scene);
@@ -266,7 +266,7 @@ class SceneReader {
             select = select.empty() ? own : fmt::format("({}) and ({})", select, own);
             select_place = place + ".selection";
           } else {
-            add("surface", key, value, place + "." + key);
+            add("surface", key, value, fmt::format("{}.{}", place, key));
           }
         }
       }

@@ -260,6 +260,10 @@ class Page(unittest.IsolatedAsyncioTestCase):
     async def chips(self, page, count):
         await page.until(f"document.querySelectorAll('#chips li').length === {count}")
         await page.at_rest()
+        await page.evaluate("document.getElementById('chips').scrollIntoView()")
+        self.assertTrue(await page.evaluate("""(({right}) => [...document.querySelectorAll('#panel :is(button, input, select)')]
+            .every((control) => control.getBoundingClientRect().right <= right))(document.getElementById('controls')
+            .getBoundingClientRect())"""), "each control is in sight")
         return await page.evaluate("[...document.querySelectorAll('#chips span')].map((chip) => chip.textContent)")
 
     async def test_a_figure_is_made_in_the_page(self):

@@ -57,7 +57,7 @@ TEST_F(SessionExports, EndWhatTheirFormatEndsIn) {
   apply(R"({"command":"key"})");  // a path of the camera has some
   for (const auto& [format, good] : allowed) {
     for (const std::string& name : names) {
-      SCOPED_TRACE(format + " " + name);
+      SCOPED_TRACE(::testing::Message() << format << " " << name);
       const auto ends_well = [&](const std::string& one) {
         const std::string ending = std::filesystem::path(one).extension();
         return !ending.empty() && name.ends_with(ending);

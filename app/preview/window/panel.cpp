@@ -56,14 +56,11 @@ void label(const char* text) {
 double rounded(float value) { return std::round(100.0 * value) / 100.0; }
 
 /// A list to choose from; the word chosen now, or nothing.
-template <class Words>
-std::optional<std::string> chosen(const char* id, const std::string& current, const Words& words) {
+std::optional<std::string> chosen(const char* id, const std::string& current, const std::vector<std::string>& words) {
   std::optional<std::string> choice;
   if (!ImGui::BeginCombo(id, current.c_str(), ImGuiComboFlags_HeightLarge)) return choice;
-  for (const auto& word : words) {
-    const std::string text(word);
-    if (ImGui::Selectable(text.c_str(), text == current)) choice = text;
-  }
+  for (const std::string& word : words)
+    if (ImGui::Selectable(word.c_str(), word == current)) choice = word;
   ImGui::EndCombo();
   return choice;
 }
