@@ -73,10 +73,13 @@ class Welder {
   };
 
   /// Beside a short edge a triangle (a, b, tip) with two more at its tip, (tip, a, foot) and (b, tip, foot), which lie
-  /// back to back. While it is there, the ends of the edge have three neighbours in common.
+  /// back to back. While it is there, the ends of the edge have three neighbours in common. The foot may be the next
+  /// tip.
   struct Fin {
-    std::uint32_t end, side_a, side_b;  ///< triangles
-    std::uint32_t tip, foot;            ///< vertices
+    std::uint32_t end = 0;             ///< triangle
+    std::vector<std::uint32_t> sides;  ///< triangles, two a tip
+    std::vector<std::uint32_t> tips;   ///< vertices
+    std::uint32_t foot = 0;            ///< vertex: of the last tip
   };
 
   glm::vec3 single(std::uint32_t v) const { return glm::vec3(scale_ * positions_[v]); }
@@ -168,53 +171,83 @@ class Welder {
     made_.gone[t] = true;
   }
 
-  /// Whether the mesh stays what it is where two vertices become one that have an edge, or would have one, once so many
-  /// fins beside it are gone.
-  bool can_join(std::uint32_t a, std::uint32_t b, std::size_t fins) const {
-    if (!around_.contains(a) || !around_.contains(b)) return false;
+  std::vector<std::uint32_t> common_neighbors(std::uint32_t a, std::uint32_t b) const {
     const std::vector<std::uint32_t> of_a = neighbors(a), of_b = neighbors(b);
     std::vector<std::uint32_t> common;
     std::set_intersection(of_a.begin(), of_a.end(), of_b.begin(), of_b.end(), std::back_inserter(common));
-    if (common.size() != 2 + fins) return false;
+    return common;
+  }
+
+  /// Whether the mesh stays what it is where two vertices become one that have an edge, or would have one, once so many
+  /// tips of fins beside it are gone.
+  bool can_join(std::uint32_t a, std::uint32_t b, std::size_t tips) const {
+    if (!around_.contains(a) || !around_.contains(b)) return false;
+    if (common_neighbors(a, b).size() != 2 + tips) return false;
+    const std::vector<std::uint32_t> of_a = neighbors(a), of_b = neighbors(b);
     const std::size_t edge_to_come = std::ranges::binary_search(of_a, b) ? 0 : 2;
-    return of_a.size() + of_b.size() + edge_to_come - 2 * fins >= 7;  // else nothing but two triangles back to back
+    return of_a.size() + of_b.size() + edge_to_come - 2 * tips >= 7;  // else nothing but two triangles back to back
   }
 
-  std::optional<Fin> fin_at(std::uint32_t end, std::uint32_t a, std::uint32_t b) const {
-    const std::uint32_t tip = third_corner(triangles_[end], a, b);
-    std::vector<std::uint32_t> side_a = triangles_at(a, tip), side_b = triangles_at(b, tip);
-    std::erase(side_a, end);
-    std::erase(side_b, end);
-    if (side_a.size() != 1 || side_b.size() != 1) return std::nullopt;
-    const std::uint32_t foot = third_corner(triangles_[side_a[0]], a, tip);
-    if (third_corner(triangles_[side_b[0]], b, tip) != foot) return std::nullopt;
-    return Fin{end, side_a[0], side_b[0], tip, foot};
+  /// The triangle beside t at an edge.
+  std::optional<std::uint32_t> beside(std::uint32_t t, std::uint32_t a, std::uint32_t b) const {
+    std::vector<std::uint32_t> found = triangles_at(a, b);
+    std::erase(found, t);
+    return found.size() == 1 ? std::optional(found[0]) : std::nullopt;
   }
 
+  /// With at most so many tips; perhaps none.
+  Fin fin_at(std::uint32_t end, std::uint32_t a, std::uint32_t b, std::size_t most) const {
+    Fin fin{end, {}, {}, third_corner(triangles_[end], a, b)};
+    for (std::uint32_t last_a = end, last_b = end; fin.tips.size() < most;) {
+      const auto side_a = beside(last_a, a, fin.foot), side_b = beside(last_b, b, fin.foot);
+      if (!side_a || !side_b) break;
+      const std::uint32_t foot = third_corner(triangles_[*side_a], a, fin.foot);
+      if (third_corner(triangles_[*side_b], b, fin.foot) != foot) break;
+      fin.tips.push_back(fin.foot);
+      fin.sides.insert(fin.sides.end(), {*side_a, *side_b});
+      fin.foot = foot;
+      last_a = *side_a;
+      last_b = *side_b;
+    }
+    return fin;
+  }
+
+  /// How far its tips are at most from what stays, the edge from a to its foot.
   double length(const Fin& fin, std::uint32_t a) const {
-    const glm::dvec3 to_foot = positions_[fin.foot] - positions_[a], to_tip = positions_[fin.tip] - positions_[a];
-    const double share = glm::dot(to_tip, to_foot) / glm::dot(to_foot, to_foot);
-    return glm::distance(to_tip, std::clamp(share, 0.0, 1.0) * to_foot);
+    const glm::dvec3 to_foot = positions_[fin.foot] - positions_[a];
+    double longest = 0.0;
+    for (const std::uint32_t tip : fin.tips) {
+      const glm::dvec3 to_tip = positions_[tip] - positions_[a];
+      const double share = std::clamp(glm::dot(to_tip, to_foot) / glm::dot(to_foot, to_foot), 0.0, 1.0);
+      longest = std::max(longest, glm::distance(to_tip, share * to_foot));
+    }
+    return longest;
   }
 
-  /// One triangle instead of the three at its tip.
+  /// One triangle instead of those at its tips.
   void take_out(const Fin& fin) {
-    remove(fin.side_a);
-    remove(fin.side_b);
+    for (const std::uint32_t t : fin.sides) remove(t);
     take_from_lists(fin.end);
-    std::ranges::replace(triangles_[fin.end], fin.tip, fin.foot);
+    std::ranges::replace(triangles_[fin.end], fin.tips.front(), fin.foot);
     put_on_lists(fin.end);
-    ++made_.fins;
+    made_.fins += fin.tips.size();
   }
 
   bool collapse(std::uint32_t keep, std::uint32_t drop, double longest_fin) {
     if (keep == drop || is_gone(keep) || is_gone(drop)) return false;
     const std::vector<std::uint32_t> across = triangles_at(drop, keep);
     if (across.size() != 2) return false;
+    const std::size_t common = common_neighbors(keep, drop).size();
+    std::size_t tips = 0;
     std::vector<Fin> fins;
-    for (const std::uint32_t t : across)
-      if (const auto fin = fin_at(t, keep, drop); fin && length(*fin, keep) <= longest_fin) fins.push_back(*fin);
-    if (!can_join(keep, drop, fins.size())) return false;
+    for (const std::uint32_t t : across) {
+      if (longest_fin < 0.0 || common <= 2 + tips) continue;
+      const Fin fin = fin_at(t, keep, drop, common - 2 - tips);
+      if (fin.tips.empty() || length(fin, keep) > longest_fin) continue;
+      tips += fin.tips.size();
+      fins.push_back(fin);
+    }
+    if (!can_join(keep, drop, tips)) return false;
     for (const Fin& fin : fins) take_out(fin);
     for (const std::uint32_t t : across) remove(t);
     for (const std::uint32_t t : around_[drop]) {

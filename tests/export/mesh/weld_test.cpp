@@ -119,6 +119,42 @@ TEST(Weld, AFinGoesThatKeepsVerticesApart) {
   EXPECT_NEAR(measure(mesh).volume, 4.0 / 3.0, 1e-12);
 }
 
+// The foot of one is the tip of the next.
+TEST(Weld, AFinOfSeveralTipsGoes) {
+  for (const double apart : {0.02, 0.5}) {
+    TriangleMesh mesh = mesh_of({{0, 0, 1},
+                                 {1, 0, 0},
+                                 {0, 1, 0},
+                                 {-1, 0, 0},
+                                 {0, -1, 0},
+                                 {0, 0, -1},
+                                 {0.0004, 0, 1},
+                                 {0, 0.6, 0.4 + apart},
+                                 {0, 0.3, 0.7 + apart}},
+                                {{6, 1, 2},
+                                 {6, 2, 7},
+                                 {2, 0, 7},
+                                 {6, 7, 8},
+                                 {7, 0, 8},
+                                 {0, 6, 8},
+                                 {0, 2, 3},
+                                 {0, 3, 4},
+                                 {0, 4, 6},
+                                 {6, 4, 1},
+                                 {2, 1, 5},
+                                 {3, 2, 5},
+                                 {4, 3, 5},
+                                 {1, 4, 5}});
+    mesh.tolerance = 0.05;
+    ASSERT_EQ(euler_if_closed(mesh), 2);
+    const Welding made = weld(mesh);
+    EXPECT_EQ(euler_if_closed(mesh), 2);
+    EXPECT_EQ(made.fins, apart < mesh.tolerance ? 2u : 0u);
+    EXPECT_EQ(made.flat, apart < mesh.tolerance ? 0u : 2u);
+    EXPECT_EQ(mesh.positions.size(), apart < mesh.tolerance ? 6u : 9u);
+  }
+}
+
 // Without it the surface there would be farther from the mesh than the tolerance.
 TEST(Weld, AFinLongerThanTheToleranceStays) {
   TriangleMesh mesh = octahedron_with_a_fin(0.06);
