@@ -274,10 +274,11 @@ class Page(unittest.IsolatedAsyncioTestCase):
             await self.act(page, "resid 10-20 and (", "sticks")
             await page.until("!document.getElementById('atoms-fault').hidden")
             self.assertNotIn("represent", await page.evaluate("document.getElementById('atoms-fault').textContent"))
-            await self.act(page, "chain A", "fade")
+            long = "chain A and (resid 1-60 or resid 80-120 or resid 140-160)"
+            await self.act(page, long, "fade")
             await self.act(page, "resid 1-20", "paint")
             await page.click("#cut-depth")
-            self.assertEqual(await self.chips(page, 4), ["tube: chain C", "#e69f00: resid 1-20", "see through: chain A",
+            self.assertEqual(await self.chips(page, 4), ["tube: chain C", "#e69f00: resid 1-20", f"see through: {long}",
                                                          "cut depth >"])
             await page.evaluate("""const cut = document.querySelector('#chips li:last-child input'); cut.value = 0.3;
                 cut.dispatchEvent(new Event('input')); document.getElementById('legend').click();
