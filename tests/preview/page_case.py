@@ -1,0 +1,52 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A page of the preview and what all its tests need: arguments PROGRAM CHROMIUM SESSION.
+
+With MENISCUS_SCREENSHOTS=FOLDER in the environment, pictures of the page are left there to be looked at."""
+
+import asyncio
+import json
+import os
+import sys
+import tempfile
+import unittest
+
+from browser import Preview
+
+PROGRAM, CHROMIUM, SESSION = sys.argv[1:4]
+MOLECULE = "/usr/share/pymol/data/demo/1tii.pdb"
+SIZE = (760, 420)  # of the browser's window; the picture is smaller by the panel
+
+
+class PageCase(unittest.IsolatedAsyncioTestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+
+    def path(self, name):
+        return os.path.join(self.folder.name, name)
+
+    def serve(self, file, *arguments):
+        preview = Preview(PROGRAM, file, "--output-dir", self.folder.name, *arguments)
+        self.addCleanup(preview.end)
+        return preview
+
+    async def shoot(self, page, name):
+        if "MENISCUS_SCREENSHOTS" in os.environ:
+            await page.screenshot(os.path.join(os.environ["MENISCUS_SCREENSHOTS"], name))
+
+    async def downloaded(self, page, name):
+        path = os.path.join(page.downloads, name)
+        for _ in range(200):
+            if os.path.exists(path):
+                return path
+            await asyncio.sleep(0.05)
+        self.fail(f"{name} was not downloaded; there are {os.listdir(page.downloads)}")
+
+    async def state(self, page):
+        await page.at_rest()
+        return await page.evaluate("JSON.parse(document.getElementById('picture').dataset.state)")
+
+    async def press(self, page, key):
+        text = key if len(key) == 1 else ""
+        await page.send("Input.dispatchKeyEvent", type="keyDown", key=key, text=text)
+        await page.send("Input.dispatchKeyEvent", type="keyUp", key=key)

