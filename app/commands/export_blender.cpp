@@ -185,10 +185,12 @@ std::vector<blender::MeshedObject> moving_objects(const BlenderCommand& command,
 }
 
 // A file for each frame of the chunk; the manifest for all of the run, the same from every chunk.
-void run_sequence(const BlenderCommand& command) {
+void run_sequence(const BlenderCommand& asked) {
+  BlenderCommand command = asked;
   const GivenCameras cameras = given_cameras(command.picture, command.run_camera);
   FrameRun frames(command.molecule, command.frames, true);
   tell_run(command.molecule, frames);
+  measure_colors(command.molecule.color, frames);
   const blender::SequenceManifest manifest = manifest_of(command, cameras, frames);
   const std::string run = run_name(manifest);
   const std::filesystem::path folder = command.output.path;

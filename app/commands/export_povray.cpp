@@ -67,9 +67,11 @@ std::vector<ClipPlane> planes_of(const PovrayCommand& command, const Camera& cam
   return planes;
 }
 
-// Whatever atoms are meant by rules in other frames.
-std::vector<povray::SceneColor> colors_of_run(const PovrayCommand& command, const ColorScheme& scheme,
-                                              const std::vector<glm::vec3>& colors) {
+// Whatever atoms are meant by rules in other frames. Nothing if colours change with the frames.
+std::optional<std::vector<povray::SceneColor>> colors_of_run(const PovrayCommand& command, const ColorScheme& scheme,
+                                                             const FrameRun& frames, const Coloring& beside) {
+  if (scheme.changes_with_frames()) return {};
+  const std::vector<glm::vec3> colors = run_colors(frames.structure(), scheme, beside);
   povray::ColorTable all;
   const auto add = [&](const povray::SceneColor& color) {
     if (color.opacity > 0.0f) all.number(color);
@@ -125,25 +127,24 @@ std::vector<povray::SceneObject> more_objects(const Figure& figure, const Figure
 }
 
 // An include for each frame of the chunk; the scene for all of the run, the same from every chunk.
-void run_sequence(const PovrayCommand& command) {
+void run_sequence(const PovrayCommand& asked) {
+  PovrayCommand command = asked;
   const GivenCameras cameras = given_cameras(command.picture, command.run_camera);
   FrameRun frames(command.molecule, command.frames);
   tell_run(command.molecule, frames);
   const RunFraming framing = run_framing(command.picture, command.molecule.show, command.run_camera, cameras, frames);
+  measure_colors(command.molecule.color, frames);
   const ColorScheme scheme = color_of(command.molecule);
-  if (scheme.uses_frames())
-    throw UsageError(
-        "--color-by-file: a run in POV-Ray has the colours of all frames in one file, so that numbers by frame are too "
-        "many; use render or export blender");
   povray::SceneOptions options = scene_options(command);
   options.origin = framing.origin();
   options.atom_names = comment_names(command, frames.structure());
   options.colors = color_key(frames.structure(), scheme, {});
   const ColoredShapes beside = shown_shapes(frames.structure(), command.molecule.representations, scheme);
-  const std::vector<glm::vec3> colors = run_colors(frames.structure(), scheme, beside.coloring);
+  const bool translucent = std::ranges::any_of(
+      scheme.opacities, [](const OpacityRule& rule) { return rule.opacity > 0.0f && rule.opacity < 1.0f; });
   const povray::SequenceScene scene(
-      {frames.numbers(), framing.cameras, colors_of_run(command, scheme, colors), framing.low, framing.high,
-       !beside.empty(), !command.figure.cuts.empty(), scheme.volume},
+      {frames.numbers(), framing.cameras, colors_of_run(command, scheme, frames, beside.coloring), framing.low,
+       framing.high, !beside.empty(), !command.figure.cuts.empty(), translucent, scheme.volume},
       options, command.output.path);
   const povray::SceneReport shared = scene.write_shared();
   save_camera(command.save_camera, command.output.existing(), framing.cameras.front());
@@ -227,7 +228,7 @@ void add_export_povray(CLI::App& command) {
       "  meniscus export povray adk.psf --trajectory adk.dcd --frames 0-90 -o adk      then: povray surface.ini",
       "Of a run of frames the folder holds one scene and an include for each frame; POV-Ray's frames and pictures\n"
       "have the numbers of the trajectory. Machines that share the work give the same options and --only, and render\n"
-      "with +SF and +EF.");
+      "with +SF and +EF. povray 'surface.ini[film]' goes through a run in any order and counts pictures from 1.");
   auto state = std::make_shared<PovrayCommand>();
   add_molecule_options(command, state->molecule);
   add_figure_options(command, state->molecule, state->figure);

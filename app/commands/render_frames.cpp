@@ -24,6 +24,7 @@
 #include "core/render/image_output.h"
 #include "core/render/renderer.h"
 #include "core/scene/picture_device.h"
+#include "core/scene/run_framing.h"
 
 namespace meniscus {
 namespace {
@@ -206,13 +207,12 @@ void render_frames(const RenderCommand& asked) {
   const GivenCameras given = given_cameras(command.picture, command.run_camera);
   FrameRun frames(command.molecule, command.frames);
   tell_run(command.molecule, frames);
-  if (command.molecule.color.by == ColorScheme::By::rmsf)
-    command.molecule.color.file = {.path = frames.structure().file, .numbers = fluctuations(frames)};
+  measure_colors(command.molecule.color, frames);
   Molecule first;  // what the colours mean does not change with the frames
   first.structure = frames.structure();
   first.color = color_of(command.molecule);
-  if (command.extent && first.color.uses_frames())
-    throw UsageError("--color-by-file: numbers by frame need the complete surface; leave --extent away");
+  if (command.extent && first.color.changes_with_frames())
+    throw UsageError("colours that change from frame to frame need the complete surface; leave --extent away");
   const PictureLayout layout(command, key_of(first));
   PictureSink sink(command);
   const std::vector<Camera> cameras =

@@ -268,7 +268,7 @@ std::string_view wrong_in_scene(std::string_view text) { return SceneReader(text
 std::string_view wrong_in_settings(std::string_view text) {
   static const std::regex harmless(
       R"(;.*|\[[a-z]+\]|)"
-      R"((Width|Height|Initial_Frame|Final_Frame|Subset_(Start|End)_Frame|Antialias_Depth|Sampling_Method|Bits_Per_Color)=[0-9]+|)"
+      R"((Width|Height|Initial_Frame|Final_Frame|Subset_(Start|End)_Frame|Frame_Step|Antialias_Depth|Sampling_Method|Bits_Per_Color)=[0-9]+|)"
       R"((Antialias_Threshold|File_Gamma)=[0-9.]+|(Antialias|Display|Output_Alpha)=(On|Off)|Output_File_Type=N|)"
       R"(Declare=Meniscus_[A-Za-z_]+=[0-9]+|Input_File_Name=surface\.pov|Output_File_Name=surface[a-z_]*\.png)");
   while (!text.empty()) {
@@ -297,7 +297,7 @@ void check_scene(const fs::path& folder) {
 
 void check_scene_frame(const fs::path& folder, std::uint64_t frame) {
   check_text(folder, fmt::format("scene/surface_geometry_{}.inc", frame_digits(frame)), wrong_in_scene);
-  for (const char* part : {"shapes", "caps"}) {
+  for (const char* part : {"colors", "shapes", "caps"}) {
     const fs::path inner = fmt::format("scene/surface_{}_{}.inc", part, frame_digits(frame));
     if (inner_entry(folder, inner) != Entry::nothing) check_text(folder, inner, wrong_in_scene);
   }

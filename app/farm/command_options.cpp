@@ -235,8 +235,11 @@ void check_povray_options(const Words& words) {
       R"(|Bounding_Method|Remove_Bounds|Split_Unions|Vista_Buffer|Light_Buffer|File_Gamma|Display_Gamma|Render_Block_Size)"
       R"(|Verbose|Warning_Level)=[A-Za-z0-9.]+)"
       R"(|Declare=[A-Za-z_][A-Za-z0-9_]*=-?[0-9]+(\.[0-9]+)?)");
+  // Frames have their numbers in the trajectory, of which each process is given one.
+  static const std::regex chooses_frame(R"(.*\[film\]|Declare=Meniscus_(By_Place|Frame)=.*)", std::regex::icase);
   for (const std::string& word : words)
-    if (word.size() < 2 || word.size() > kLongestWord || !std::regex_match(word, harmless))
+    if (word.size() < 2 || word.size() > kLongestWord || !std::regex_match(word, harmless) ||
+        std::regex_match(word, chooses_frame))
       throw RequestError(fmt::format("{} is no option for POV-Ray that a bundle may have", in_quotes(word)));
 }
 

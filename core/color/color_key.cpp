@@ -52,8 +52,7 @@ std::vector<double> numbers_by_name(const Structure& structure, const NumberFile
 
 /// The numbers of a file for the atoms in use: by name, or given for each of these, or for each atom of the molecule's
 /// file.
-std::vector<double> numbers_of_file(const Structure& structure, const NumberFile& of_run) {
-  const NumberFile& file = of_run.of_frame(structure.frame);
+std::vector<double> numbers_of_file(const Structure& structure, const NumberFile& file) {
   if (file.numbers.empty() && !file.empty()) return numbers_by_name(structure, file);
   const auto other_models = structure.report.excluded.find(kExcludedModel);
   const std::size_t read =
@@ -72,20 +71,17 @@ std::vector<double> numbers_of_file(const Structure& structure, const NumberFile
   return numbers;
 }
 
-/// Å from the mean of all atoms' centres.
-std::vector<double> distances_from_middle(const Structure& structure) {
-  glm::dvec3 middle(0.0);
-  for (const Atom& atom : structure.atoms) middle += atom.position / static_cast<double>(structure.atoms.size());
-  std::vector<double> distances;
-  distances.reserve(structure.atoms.size());
-  for (const Atom& atom : structure.atoms) distances.push_back(glm::distance(atom.position, middle));
-  return distances;
+std::vector<glm::dvec3> positions_of(const Structure& structure) {
+  std::vector<glm::dvec3> positions;
+  positions.reserve(structure.atoms.size());
+  for (const Atom& atom : structure.atoms) positions.push_back(atom.position);
+  return positions;
 }
 
 /// One number an atom, NaN where there is none.
 std::vector<double> numbers_of(const Structure& structure, const ColorScheme& scheme) {
-  if (scheme.by == By::file) return numbers_of_file(structure, scheme.file);
-  if (scheme.by == By::radial) return distances_from_middle(structure);
+  if (scheme.by == By::file) return numbers_of_file(structure, scheme.file.of_frame(structure.frame));
+  if (scheme.by == By::radial) return distances_from_middle(positions_of(structure));
   if (scheme.by == By::buried || scheme.by == By::rmsf) return numbers_of_file(structure, scheme.file);
   const auto number = [&](const Atom& atom) -> double {
     switch (scheme.by) {
@@ -204,6 +200,15 @@ class ClassList {
 
 }  // namespace
 
+std::vector<double> distances_from_middle(std::span<const glm::dvec3> points) {
+  glm::dvec3 middle(0.0);
+  for (const glm::dvec3& point : points) middle += point / static_cast<double>(points.size());
+  std::vector<double> distances;
+  distances.reserve(points.size());
+  for (const glm::dvec3& point : points) distances.push_back(glm::distance(point, middle));
+  return distances;
+}
+
 ColorScale color_scale(const Structure& structure, const ColorScheme& scheme) {
   if (scheme.by == By::volume) return scheme.volume->scale;
   ColorScale scale;
@@ -221,7 +226,9 @@ ColorScale color_scale(const Structure& structure, const ColorScheme& scheme) {
   std::ranges::copy_if(scale.value, std::back_inserter(defined), [](double number) { return !std::isnan(number); });
   if (defined.empty()) no_numbers(structure, scheme);
   scale.missing = scale.value.size() - defined.size();
-  scale.range = scheme.range ? *scheme.range : automatic_range(defined, scheme.by);
+  scale.range = scheme.range          ? *scheme.range
+                : scheme.frames_range ? *scheme.frames_range
+                                      : automatic_range(defined, scheme.by);
   if (scale.map == ColorMap::categorical) count_classes(scale, defined, structure.file);
   return scale;
 }

@@ -15,9 +15,13 @@
 
 namespace meniscus {
 
-/// The scale of a scheme that has one. Automatic ranges are the smallest and the largest number; for charges symmetric
-/// about 0; for hydrophobicity the ends of its scale, -4.5 and 4.5. Default maps: charge red-white-blue (negative is
-/// red), hydrophobicity blue-white-red, others viridis. Throws as color_atoms does.
+/// Of each point the distance from the mean of all: what By::radial colours by.
+std::vector<double> distances_from_middle(std::span<const glm::dvec3> points);
+
+/// The scale of a scheme that has one. Automatic ranges are the smallest and the largest number, of all frames where
+/// these are known; for charges symmetric about 0; for hydrophobicity the ends of its scale, -4.5 and 4.5. Default
+/// maps: charge red-white-blue (negative is red), hydrophobicity blue-white-red, others viridis. Throws as color_atoms
+/// does.
 ColorScale color_scale(const Structure& structure, const ColorScheme& scheme);
 
 /// A name and its colour.

@@ -75,15 +75,23 @@ bool ColorScheme::uses_frames() const {
          });
 }
 
+bool ColorScheme::changes_with_frames() const {
+  return uses_frames() || by == By::radial ||
+         std::ranges::any_of(rules, [](const ColorRule& rule) { return rule.paint.by == By::radial; });
+}
+
 void ColorScheme::set_numbers(const NumberFile& numbers) {
   if (numbers.by_frame && map == ColorMap::categorical && !own_map)
     throw RequestError(
         "--map categorical gives each number of a picture a colour of its own, which would change from "
         "frame to frame; choose another map");
   if (by != By::rmsf) file = numbers;  // its own were measured
-  if (by == By::file && !range) range = numbers.range_of_frames();
-  for (ColorRule& rule : rules)
-    if (rule.paint.by == By::file) rule.paint.file = numbers;
+  if (by == By::file) frames_range = numbers.range_of_frames();
+  for (ColorRule& rule : rules) {
+    if (rule.paint.by != By::file) continue;
+    rule.paint.file = numbers;
+    rule.paint.frames_range = numbers.range_of_frames();
+  }
 }
 
 void ColorScheme::share_scale() {
@@ -91,7 +99,7 @@ void ColorScheme::share_scale() {
     if (!rule.paint.has_scale()) continue;
     rule.paint.map = map;
     rule.paint.own_map = own_map;
-    rule.paint.range = range ? range : rule.paint.file.range_of_frames();
+    rule.paint.range = range;
     rule.paint.missing = missing;
   }
 }

@@ -58,12 +58,15 @@ struct ColorScheme {
   std::optional<ColorMap> map;                 ///< nothing: that of the scheme (color_scale)
   std::shared_ptr<const ColorRamp> own_map;    ///< instead of `map`, if there is one
   std::optional<std::array<double, 2>> range;  ///< numbers at both ends of the map; nothing: automatic (color_scale)
-  std::optional<glm::vec3> missing;            ///< of atoms without a number; nothing: default_missing_color
-  NumberFile file;                             ///< for By::file; for buried and rmsf the numbers of the atoms
-  std::shared_ptr<const VolumePaint> volume;   ///< for By::volume
-  std::string title, unit;                     ///< of the scale; empty: its own
-  std::vector<ColorRule> rules;                ///< over all this; of several that speak of an atom the last counts
-  std::vector<OpacityRule> opacities;          ///< and so here
+  /// Of numbers that change from frame to frame of a run the least and the greatest of all frames, instead of an
+  /// automatic range.
+  std::optional<std::array<double, 2>> frames_range;
+  std::optional<glm::vec3> missing;           ///< of atoms without a number; nothing: default_missing_color
+  NumberFile file;                            ///< for By::file; for buried and rmsf the numbers of the atoms
+  std::shared_ptr<const VolumePaint> volume;  ///< for By::volume
+  std::string title, unit;                    ///< of the scale; empty: its own
+  std::vector<ColorRule> rules;               ///< over all this; of several that speak of an atom the last counts
+  std::vector<OpacityRule> opacities;         ///< and so here
 
   /// True for schemes that colour by a number.
   bool has_scale() const { return by >= By::bfactor; }
@@ -73,6 +76,8 @@ struct ColorScheme {
   bool uses_file() const;
   /// Whether these differ from frame to frame of a run.
   bool uses_frames() const;
+  /// The same, or that this or a rule colours by where atoms are.
+  bool changes_with_frames() const;
   /// Numbers, for this and for all rules. Those of frames have one scale: without a range that of all of them. Throws
   /// RequestError for them where the map gives each number a colour of its own.
   void set_numbers(const NumberFile& numbers);

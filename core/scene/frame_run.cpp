@@ -124,7 +124,7 @@ bool RunRequest::asked() const {
 }
 
 FrameRun::FrameRun(const MoleculeRequest& molecule, const RunRequest& request, bool velocities)
-    : velocities_(velocities) {
+    : repeat_(request.repeat), velocities_(velocities) {
   check_options(molecule, request);
   TrajectoryOptions options{request.index_folder};
   if (!request.trajectories.empty())
@@ -137,7 +137,7 @@ FrameRun::FrameRun(const MoleculeRequest& molecule, const RunRequest& request, b
   Frame frame;
   frames_->read(run_.front(), frame);
   place(frame.positions, structure_);
-  structure_.frame = run_.front();
+  structure_.frame = run_.front() / repeat_;
 }
 
 FrameRun::~FrameRun() = default;
@@ -232,7 +232,7 @@ Structure FrameRun::at(std::uint64_t number) {
   frames_->read(number, frame);
   Structure structure = structure_;
   place(frame.positions, structure);
-  structure.frame = number;
+  structure.frame = number / repeat_;
   return structure;
 }
 
@@ -273,7 +273,7 @@ std::optional<RunFrame> FrameRun::next() {
     frame.together = *together_;
     place(read->frame.positions, frame.together);
   }
-  frame.structure.frame = frame.number;
+  frame.structure.frame = frame.number / repeat_;
   if (velocities_)
     for (const Atom& atom : shown_atoms(frame.structure)) frame.velocities.push_back(read->velocities[atom.index]);
   return frame;

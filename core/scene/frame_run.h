@@ -107,6 +107,7 @@ class FrameRun {
   std::vector<std::uint64_t> run_, chunk_;
   std::unordered_map<std::uint64_t, std::uint64_t> place_;  ///< in the run, by number
   std::size_t taken_ = 0;
+  std::uint64_t repeat_;  ///< RunRequest::repeat
   bool velocities_;
 };
 

@@ -26,7 +26,12 @@ struct RunFraming {
 RunFraming run_framing(const ViewRequest& view, const std::optional<Selection>& show, const CameraMotionRequest& motion,
                        const GivenCameras& given, FrameRun& frames);
 
-/// All colours that a frame of the run may have, in the order of the atoms; of components all there are.
+/// Takes from all frames of the run what its colours mean in each of them: fluctuations, and one range of numbers that
+/// change with the places of atoms. Reads the run again for each scheme that needs it. Throws what fluctuations throws.
+void measure_colors(ColorScheme& color, FrameRun& frames);
+
+/// All colours that a frame of the run may have, in the order of the atoms; of components all there are. Of schemes
+/// that do not change with the frames.
 std::vector<glm::vec3> run_colors(const Structure& structure, const ColorScheme& scheme, const Coloring& beside = {});
 
 /// Frames of the trajectory that go by in one frame of the scene: the mean over the steps to both neighbours in the

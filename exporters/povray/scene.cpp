@@ -76,7 +76,7 @@ SceneReport write_scene(std::span<const SurfaceObject> given, const Camera& came
   std::vector<ObjectWriter> more(options.objects.size());
   SceneParts parts{geometry.primitive_count() > 0, geometry.is_one_item(),
                    geometry.primitive_count() > 0 && cut.has_caps(), has_shapes, false};
-  SceneStyle style{table.colors(), map_of(objects, options.objects)};
+  SceneStyle style{&table.colors(), map_of(objects, options.objects)};
   std::size_t primitives = geometry.primitive_count();
   for (std::size_t n = 0; n < more.size(); ++n) {
     ObjectWriter& writer = more[n];
@@ -124,7 +124,7 @@ SceneReport write_scene(std::span<const SurfaceObject> given, const Camera& came
     OutputFile& file = begin_file(std::string(kMapFileEnding));
     write_density(style.map->grid, [&](std::string_view bytes) { file.write(bytes); });
   }
-  begin_file("_aov.inc").write(buffer_text(table.colors().size(), extent, origin));
+  begin_file("_aov.inc").write(buffer_text(&table.colors(), options, extent, origin));
   begin_file("_style.inc").write(style_text(style, options, origin));
   begin_file(".pov").write(main_text({&camera, 1}, options, origin, parts));
   begin_file(".ini").write(ini_text(options));

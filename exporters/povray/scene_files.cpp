@@ -97,6 +97,10 @@ void append_frames(SceneText& out, const SceneOptions& options, const SceneFrame
 
 void append_color(SceneText& out, const glm::vec3& c) { out.literal("srgb ").direction(glm::dvec3(c)); }
 
+std::string colors_of_frame(const SceneOptions& options) {
+  return "#include concat(\"" + options.name + "_colors_\", Meniscus_Frame_Name, \".inc\")\n";
+}
+
 /// Of the picture's light in POV-Ray's: with the usual material the scene's finish comes out.
 constexpr double kHighlight = 1.3, kLeastBrilliance = 0.6, kMostBrilliance = 1.2;
 
@@ -117,6 +121,15 @@ void append_materials(SceneText& out, const std::vector<MaterialRequest>& materi
     out.literal(" #break\n");
   }
   out.literal("  #end\n#end\n");
+}
+
+/// From each frame to the next, where it is the same for all and leads on: POV-Ray itself goes through such frames
+/// alone.
+std::optional<std::uint64_t> step_of(std::span<const std::uint64_t> frames) {
+  const std::uint64_t step = frames.size() > 1 ? frames[1] - frames[0] : 1;
+  for (std::size_t n = 1; n < frames.size(); ++n)
+    if (frames[n] <= frames[n - 1] || frames[n] - frames[n - 1] != step) return {};
+  return step;
 }
 
 }  // namespace
@@ -173,27 +186,23 @@ std::string main_text(std::span<const Camera> cameras, const SceneOptions& optio
   return out.text();
 }
 
-std::string style_text(const SceneStyle& style, const SceneOptions& options, const glm::dvec3& origin) {
+std::string colors_text(const std::vector<SceneColor>& colors, const std::optional<ColorKey>& meaning) {
   SceneText out;
-  out.literal(
-      "// Colours, lights and materials of the scene. Everything may be declared before this file is included.\n");
-  out.literal("#declare Meniscus_Default_Background = ");
-  append_color(out, options.background);
-  out.literal(";\n#ifndef (Meniscus_Color)\n  #declare Meniscus_Color = array[").count(style.colors.size());
+  out.literal("#ifndef (Meniscus_Color)\n  #declare Meniscus_Color = array[").count(colors.size());
   out.literal("] {\n");
-  for (std::size_t n = 0; n < style.colors.size(); ++n) {
+  for (std::size_t n = 0; n < colors.size(); ++n) {
     out.literal("    ");
-    append_color(out, style.colors[n].color);
-    out.literal(n + 1 < style.colors.size() ? "," : "");
-    if (options.colors) out.literal(color_comment(*options.colors, style.colors[n]));
+    append_color(out, colors[n].color);
+    out.literal(n + 1 < colors.size() ? "," : "");
+    if (meaning) out.literal(color_comment(*meaning, colors[n]));
     out.literal("\n");
   }
   out.literal("  }\n#end\n");
   const auto list = [&](std::string_view comment, std::string_view name, const auto& append) {
     out.literal("// ").literal(comment).literal("\n#ifndef (").literal(name).literal(")\n  #declare ");
-    out.literal(name).literal(" = array[").count(style.colors.size()).literal("] {");
-    for (std::size_t n = 0; n < style.colors.size(); ++n)
-      append(out.literal(n == 0 ? "" : n % 16 == 0 ? ",\n" : ","), style.colors[n]);
+    out.literal(name).literal(" = array[").count(colors.size()).literal("] {");
+    for (std::size_t n = 0; n < colors.size(); ++n)
+      append(out.literal(n == 0 ? "" : n % 16 == 0 ? ",\n" : ","), colors[n]);
     out.literal("}\n#end\n");
   };
   list("How much of what lies behind a point of each colour it covers.", "Meniscus_Opacity",
@@ -204,37 +213,43 @@ std::string style_text(const SceneStyle& style, const SceneOptions& options, con
        [](SceneText& text, const SceneColor& color) { text.count(color.by_map ? 1 : 0); });
   list("What it is made of: 0 as all, or a number of Meniscus_Material_Of.", "Meniscus_Material_Number",
        [](SceneText& text, const SceneColor& color) { text.count(color.finish); });
+  return out.text();
+}
+
+std::string style_text(const SceneStyle& style, const SceneOptions& options, const glm::dvec3& origin) {
+  SceneText out;
+  out.literal(
+      "// Colours, lights and materials of the scene. Everything may be declared before this file is included.\n");
+  out.literal("#declare Meniscus_Default_Background = ");
+  append_color(out, options.background);
+  out.literal(";\n").literal(style.colors ? colors_text(*style.colors, options.colors) : colors_of_frame(options));
   append_materials(out, style.materials);
   if (style.map) append_map(out, *style.map, options.name, origin);
   out.literal(scene_template("style.inc"));
   return out.text();
 }
 
-bool are_consecutive(std::span<const std::uint64_t> frames) {
-  for (std::size_t n = 1; n < frames.size(); ++n)
-    if (frames[n] != frames[n - 1] + 1) return false;
-  return true;
-}
-
 std::string render_command(const SceneOptions& options, std::span<const std::uint64_t> frames) {
-  const std::string command = fmt::format("povray {}.ini", options.name);
-  if (are_consecutive(frames)) return command;
-  const std::uint64_t step = frames[1] - frames[0];
-  bool even = frames[1] > frames[0];
-  for (std::size_t n = 1; n < frames.size(); ++n) even = even && frames[n] == frames[n - 1] + step;
-  const std::string numbers = even ? fmt::format("$(seq {} {} {})", frames.front(), step, frames.back())
-                                   : fmt::format("{}", fmt::join(frames, " "));
-  return fmt::format("for n in {}; do {} +SF$n +EF$n || break; done", numbers, command);
+  return step_of(frames) ? fmt::format("povray {}.ini", options.name)
+                         : fmt::format("povray '{}.ini[film]'", options.name);
 }
 
-std::string buffer_text(std::size_t color_count, const Box& e, const glm::dvec3& origin) {
+std::string buffer_text(const std::vector<SceneColor>* colors, const SceneOptions& options, const Box& e,
+                        const glm::dvec3& origin) {
   const glm::dvec3 size = e.high - e.low;
   // One cube for all axes, wide enough that no gradient reaches its own end.
   const double extent = std::ceil(std::max({size.x, size.y, size.z}) + 1.0);
   SceneText out;
   out.literal("// The surface as numbers instead of colours.\n#declare Meniscus_Low = ");
   out.full_vector(glm::floor((e.low - origin - 0.5) * 1e3) / 1e3).literal(";\n#declare Meniscus_Extent = ");
-  out.full(extent).literal(";\n#declare Meniscus_Color_Count = ").count(color_count).literal(";\n");
+  out.full(extent).literal(";\n");
+  if (!colors) out.literal(colors_of_frame(options));
+  out.literal("#declare Meniscus_Color_Count = ");
+  if (colors)
+    out.count(colors->size());
+  else
+    out.literal("dimension_size(Meniscus_Color, 1)");
+  out.literal(";\n");
   out.literal(scene_template("buffers.inc"));
   return out.text();
 }
@@ -250,18 +265,22 @@ std::string ini_text(const SceneOptions& options, std::span<const std::uint64_t>
   if (!frames.empty()) {
     out.literal(
         "; Frames have their numbers in the trajectory. Of several machines each renders a part: +SF10 +EF19.\n");
-    if (!are_consecutive(frames))
-      out.literal("; POV-Ray knows no steps. All frames: ").literal(render_command(options, frames)).literal("\n");
+    if (!step_of(frames))
+      out.literal("; POV-Ray's steps are even, so that all frames of this run are rendered by ")
+          .literal(render_command(options, frames))
+          .literal("\n");
     // The final frame says how many digits the number of a picture has, the subset which frames there are.
     const auto [first, last] = std::ranges::minmax(frames);
     std::uint64_t final_frame = 99'999;
     while (final_frame < last) final_frame = final_frame * 10 + 9;
     out.literal("Initial_Frame=0\nFinal_Frame=").count(final_frame);
     out.literal("\nSubset_Start_Frame=").count(first).literal("\nSubset_End_Frame=").count(last);
-    out.literal("\n");
+    out.literal("\nFrame_Step=").count(step_of(frames).value_or(1)).literal("\n");
   }
   // POV-Ray writes the number of the frame behind the name.
   out.literal(filled(scene_template("settings.ini"), {{"NAME", options.name}, {"PICTURE", frames.empty() ? "" : "_"}}));
+  if (!frames.empty())
+    out.literal(filled(scene_template("film.ini"), {{"NAME", options.name}, {"COUNT", std::to_string(frames.size())}}));
   return out.text();
 }
 

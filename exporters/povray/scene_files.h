@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -42,9 +43,9 @@ struct SceneParts {
 
 /// What the style is made of.
 struct SceneStyle {
-  const std::vector<SceneColor>& colors;
-  const VolumePaint* map = nullptr;             ///< of the colours that are by one
-  std::vector<MaterialRequest> materials = {};  ///< of objects: SceneColor::finish n is the n-th, from 1
+  const std::vector<SceneColor>* colors = nullptr;  ///< nothing: each frame has a file of its own
+  const VolumePaint* map = nullptr;                 ///< of the colours that are by one
+  std::vector<MaterialRequest> materials = {};      ///< of objects: SceneColor::finish n is the n-th, from 1
 };
 
 /// <name>.pov. cameras: one, or one a frame. frames: nothing for a single surface.
@@ -52,12 +53,14 @@ std::string main_text(std::span<const Camera> cameras, const SceneOptions& optio
                       const SceneParts& parts, const SceneFrames* frames = nullptr);
 /// <name>_style.inc. origin: Å, of the scene's coordinates.
 std::string style_text(const SceneStyle& style, const SceneOptions& options, const glm::dvec3& origin);
-/// <name>_aov.inc
-std::string buffer_text(std::size_t color_count, const Box& e, const glm::dvec3& origin);
+/// Of <name>_style.inc, or <name>_colors_#####.inc: lists with an entry for each colour.
+std::string colors_text(const std::vector<SceneColor>& colors, const std::optional<ColorKey>& meaning);
+/// <name>_aov.inc. colors: as of the style.
+std::string buffer_text(const std::vector<SceneColor>* colors, const SceneOptions& options, const Box& e,
+                        const glm::dvec3& origin);
 /// <name>.ini. frames: of the run; none for a single surface.
 std::string ini_text(const SceneOptions& options, std::span<const std::uint64_t> frames = {});
-/// What renders all frames, as a line of a POSIX shell in the folder of the scene: POV-Ray itself goes through
-/// consecutive frames alone.
+/// What renders all frames, as a line of a POSIX shell in the folder of the scene.
 std::string render_command(const SceneOptions& options, std::span<const std::uint64_t> frames);
 
 }  // namespace meniscus::povray

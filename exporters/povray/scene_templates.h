@@ -13,7 +13,8 @@ namespace meniscus {
 /// mark: FILE. caps.inc: before caps; mark: DARK, the light of hatching. shapes.inc: before shapes. frame.inc: of a
 /// run, from the scene's frame to the file to include, behind the list of frames; mark: NAME. style.inc: behind the
 /// colours. buffers.inc: all but the extent of the molecule, which comes before. settings.ini: behind the sizes; marks:
-/// NAME, and PICTURE, what pictures of frames have between name and number.
+/// NAME, and PICTURE, what pictures of frames have between name and number. film.ini: of a run, behind that; marks:
+/// NAME, COUNT of frames.
 std::span<const TemplateFile> povray_templates();
 
 }  // namespace meniscus

@@ -34,10 +34,10 @@ void check(const Run& run) {
       throw Error("POV-Ray export: the cameras of a run have one projection");
 }
 
-std::uint32_t palette_number(const Run& run, const glm::dvec3& origin) {
+std::uint32_t palette_number(const std::vector<SceneColor>& colors, const glm::dvec3& origin) {
   SceneText text;
   text.full_vector(origin);
-  for (const SceneColor& color : run.colors) {
+  for (const SceneColor& color : colors) {
     text.full_vector(glm::dvec3(color.color));
     if (color.opacity < 1.0f) text.full(color.opacity);
     if (color.by_map) text.literal(" by map");
@@ -57,6 +57,16 @@ std::string palette_check(std::uint32_t palette) {
   return out.text();
 }
 
+// The geometry must be of the same frame, and both of this run.
+std::string frame_colors_text(const std::vector<SceneColor>& colors, const SceneOptions& options, std::uint32_t of_run,
+                              std::uint32_t of_frame) {
+  SceneText out;
+  out.literal("// The colours of one frame.\n").literal(palette_check(of_run));
+  out.literal("#declare Meniscus_Palette = ").count(of_frame).literal(";\n");
+  out.literal(colors_text(colors, options.colors));
+  return out.text();
+}
+
 std::string objects_text(const Run& run, const std::optional<ColorKey>& colors) {
   nlohmann::ordered_json json{{"frames", run.frames}};
   if (colors) json["colors"] = color_key_json(*colors);
@@ -70,22 +80,22 @@ SequenceScene::SequenceScene(Run run, SceneOptions options, std::filesystem::pat
   check(run_);
   check({}, options_);
   origin_ = options_.origin ? *options_.origin : middle({run_.low, run_.high});
-  palette_ = palette_number(run_, origin_);
+  palette_ = palette_number(run_.colors.value_or(std::vector<SceneColor>{}), origin_);
 }
 
 SceneReport SequenceScene::write_shared() const {
   const SceneFrames frames{run_.frames, palette_};
   const std::string& name = options_.name;
-  const SceneParts parts{true, false, run_.caps, run_.shapes,
-                         std::ranges::any_of(run_.colors, [](const SceneColor& c) { return c.opacity < 1.0f; })};
+  const SceneParts parts{true, false, run_.caps, run_.shapes, run_.translucent};
+  const std::vector<SceneColor>* const colors = run_.colors ? &*run_.colors : nullptr;
   std::vector<SharedFile> files;
   if (run_.map) {
     files.push_back({name + std::string(kMapFileEnding), {}});
     std::string& values = files.back().text;
     write_density(run_.map->grid, [&](std::string_view bytes) { values += bytes; });
   }
-  const SharedFile texts[] = {{name + "_aov.inc", buffer_text(run_.colors.size(), {run_.low, run_.high}, origin_)},
-                              {name + "_style.inc", style_text({run_.colors, run_.map.get()}, options_, origin_)},
+  const SharedFile texts[] = {{name + "_aov.inc", buffer_text(colors, options_, {run_.low, run_.high}, origin_)},
+                              {name + "_style.inc", style_text({colors, run_.map.get()}, options_, origin_)},
                               {name + "_objects.json", objects_text(run_, options_.colors)},
                               {name + ".pov", main_text(run_.cameras, options_, origin_, parts, &frames)},
                               {name + ".ini", ini_text(options_, run_.frames)}};
@@ -106,13 +116,14 @@ SceneReport SequenceScene::write_frame(std::span<const SurfaceObject> given, std
   const CutObjects cut_objects(given, cut, camera, options_);
   const std::span<const SurfaceObject> objects = cut_objects.objects();
   ColorTable table;
-  for (const SceneColor& color : run_.colors) table.number(color);
+  if (run_.colors)
+    for (const SceneColor& color : *run_.colors) table.number(color);
   Geometry geometry(objects, origin_, table, {options_.film, 0}, cut.planes, options_.atom_names);
   if (run_.caps) geometry.add_caps(cut_objects.caps(), objects, cut, table);
   if (geometry.primitive_count() == 0)
     throw RequestError("nothing of the surface is shown, so there is no scene to write");
   if (!shapes.empty()) add_colors(shapes, table);
-  if (table.colors().size() > run_.colors.size())
+  if (run_.colors && table.colors().size() > run_.colors->size())
     throw Error(fmt::format("frame {} has a colour that the run does not have", run_.frames[place]));
   OutputFolder output(folder_, options_.existing);
   SceneReport report;
@@ -122,7 +133,9 @@ SceneReport SequenceScene::write_frame(std::span<const SurfaceObject> given, std
     return output.file(name);
   };
   if (geometry.declares()) begin_file("objects", ".json").write(geometry.names_json({}));
-  geometry.write(begin_file("geometry", ".inc"), palette_check(palette_));
+  const std::uint32_t palette = run_.colors ? palette_ : palette_number(table.colors(), origin_);
+  if (!run_.colors) begin_file("colors", ".inc").write(frame_colors_text(table.colors(), options_, palette_, palette));
+  geometry.write(begin_file("geometry", ".inc"), palette_check(palette));
   if (run_.caps) geometry.write_caps(begin_file("caps", ".inc"), cut);
   if (run_.shapes) write_shapes(begin_file("shapes", ".inc"), shapes, origin_, table);
   output.commit();

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -19,12 +20,14 @@ namespace meniscus::povray {
 
 /// What all frames of a run share. Every process that makes some of them must be given the same.
 struct Run {
-  std::vector<std::uint64_t> frames;            ///< of the trajectory, each once; POV-Ray's frames have these numbers
-  std::vector<Camera> cameras;                  ///< one for all, or one a frame; of one projection
-  std::vector<SceneColor> colors;               ///< all that may occur, in the order of the style file
+  std::vector<std::uint64_t> frames;  ///< of the trajectory, each once; POV-Ray's frames have these numbers
+  std::vector<Camera> cameras;        ///< one for all, or one a frame; of one projection
+  /// All that may occur, in the order of the style file; nothing: they change, and each frame has a file of its own.
+  std::optional<std::vector<SceneColor>> colors;
   glm::dvec3 low{0.0}, high{0.0};               ///< Å: a box around all atoms at all frames
   bool shapes = false;                          ///< every frame has some beside the surface
   bool caps = false;                            ///< every frame is cut by planes
+  bool translucent = false;                     ///< some colour of some frame may be seen through
   std::shared_ptr<const VolumePaint> map = {};  ///< of the colours that are by one
 };
 
@@ -40,9 +43,9 @@ class SequenceScene {
   SceneReport write_shared() const;
 
   /// Writes <name>_geometry_#####.inc, numbered by the frame of the trajectory, and where there are several objects
-  /// <name>_objects_#####.json; with shapes <name>_shapes_#####.inc, with caps <name>_caps_#####.inc. place: in the
-  /// run, from 0. planes: those that cut this frame, some if the run has caps. Throws what write_scene throws, and
-  /// Error for a colour that is not the run's.
+  /// <name>_objects_#####.json; with shapes <name>_shapes_#####.inc, with caps <name>_caps_#####.inc, with colours of
+  /// its own <name>_colors_#####.inc. place: in the run, from 0. planes: those that cut this frame, some if the run has
+  /// caps. Throws what write_scene throws, and Error for a colour that is not the run's.
   SceneReport write_frame(std::span<const SurfaceObject> given, std::size_t place, const ColoredShapes& shapes = {},
                           std::span<const ClipPlane> planes = {}) const;
 
@@ -51,7 +54,7 @@ class SequenceScene {
   SceneOptions options_;
   std::filesystem::path folder_;
   glm::dvec3 origin_;
-  std::uint32_t palette_;  ///< of origin and colours: scene and includes must agree on both
+  std::uint32_t palette_;  ///< of origin and colours, if all frames share them: scene and includes must agree on them
 };
 
 }  // namespace meniscus::povray

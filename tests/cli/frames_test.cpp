@@ -321,10 +321,42 @@ TEST_F(Frames, NumbersByFrameColorEachOfThem) {
       meniscus({"render", file_, "-q", "-o", (folder.path() / "a.png").string(), "--color-by-file", run});
   EXPECT_EQ(alone.exit_code, 3);
   EXPECT_NE(alone.err.find("ask for a run of frames"), std::string::npos) << alone.err;
-  const ProgramResult povray = meniscus({"export", "povray", file_, "-q", "-o", (folder.path() / "pov").string(),
-                                         "--frames", "all", "--color-by-file", run});
-  EXPECT_EQ(povray.exit_code, 2);
-  EXPECT_NE(povray.err.find("numbers by frame"), std::string::npos) << povray.err;
+  // A frame that is shown again has the numbers of the trajectory's.
+  picture("again_#.png", {"--frames", "2,3", "--repeat", "2", "--color-by-file", run});
+  EXPECT_TRUE(bytes("again_2.png") == bytes("again_3.png"));
+  picture("second_#.png", {"--frames", "1", "--color-by-file", run});
+  EXPECT_TRUE(bytes("again_2.png") == bytes("second_1.png"));
+}
+
+// One scale for all frames, whatever is in the first.
+TEST_F(Frames, WhatColorsMeanIsMeasuredOverTheRun) {
+  const TemporaryFolder folder;
+  const auto key = [&](const std::string& name, std::vector<std::string> options) {
+    std::vector<std::string> arguments{"export",   "blender", file_, "-q",
+                                       "--device", "cpu",     "-o",  (folder.path() / name).string()};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const ProgramResult result = meniscus(arguments);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return Json::parse(read_bytes(folder.path() / name / "surface_sequence.json"))["colors"];
+  };
+  const auto range = [](const Json& colors) { return colors["range"].get<std::array<double, 2>>(); };
+  const auto all = range(key("all", {"--frames", "0-3", "--color", "radial"}));
+  std::array<double, 2> widest{1e300, 0.0};
+  for (const char* const frame : {"0", "1", "2", "3"}) {
+    const auto one = range(key(frame, {"--frames", frame, "--color", "radial"}));
+    widest = {std::min(widest[0], one[0]), std::max(widest[1], one[1])};
+  }
+  EXPECT_EQ(all, widest);
+  EXPECT_NE(all, range(key("first", {"--frames", "0", "--color", "radial"})));
+  EXPECT_EQ(range(key("asked", {"--frames", "all", "--color", "radial", "--color-range", "0:9"})),
+            (std::array<double, 2>{0.0, 9.0}));
+  const auto moved = range(key("rmsf", {"--frames", "all", "--color", "rmsf"}));
+  EXPECT_EQ(moved[0], 0.0);
+  EXPECT_GT(moved[1], 0.0);
+  const ProgramResult extent = meniscus({"render", file_, "-q", "-o", (folder.path() / "a_#.png").string(), "--frames",
+                                         "all", "--extent", "visible", "--color", "radial"});
+  EXPECT_EQ(extent.exit_code, 2);
+  EXPECT_NE(extent.err.find("change from frame to frame"), std::string::npos) << extent.err;
 }
 
 TEST_F(Frames, ATurntableTakesEqualStepsAndShowsNoPlaceTwice) {

@@ -120,6 +120,9 @@ TEST(CommandOptions, AreSaidAgainInOneWay) {
                            Words{"--select"}, Words{"--select="}, Words{"-q=1"}, Words{"--sel", "all"}})
     EXPECT_THROW(read_command_options(bad), RequestError) << bad.front();
   EXPECT_THROW(check_povray_options({"+Q" + std::string(10'000'000, '1')}), RequestError);
+  for (const char* chooses_frame :
+       {"surface.ini[film]", "surface.ini[Film]", "Declare=Meniscus_By_Place=1", "Declare=Meniscus_Frame=3"})
+    EXPECT_THROW(check_povray_options({chooses_frame}), RequestError) << chooses_frame;
   EXPECT_NO_THROW(check_povray_options({"+A0.1", "-A", "+AM2", "+Q9", "surface.ini[ghost]", "Declare=Meniscus_A=1"}));
 }
 

@@ -174,6 +174,19 @@ class Hostile(FarmCase):
             record.write_text(json.dumps(content))
             self.assertIn("frame 0: is not made yet", self.meniscus("farm", "verify", folder, code=3).stderr)
 
+    def assert_scene_refused(self, folder, name, text):
+        """With a text at the end of a file that the records say is whole."""
+        with open(folder / name, "a") as scene:
+            scene.write(text)
+        for path in (folder / "state" / "surface").glob("*.json"):
+            record = json.loads(path.read_text())
+            for file in record["files"]:
+                content = (folder / file["path"]).read_bytes()
+                file.update(bytes=len(content), sha256=hashlib.sha256(content).hexdigest())
+            path.write_text(json.dumps(record))
+        result = self.meniscus("work", folder, "--step", "render", "--force", code=3)
+        self.assertIn("does not write", result.stderr, text)
+
     def test_scenes(self):
         """POV-Ray's scenes are programs: one that this program would not have written is not run, whoever says it was
         made."""
@@ -192,17 +205,7 @@ class Hostile(FarmCase):
         }
         for name, texts in attacks.items():
             for text in texts:
-                folder = self.copy(self.povray)
-                with open(folder / name, "a") as scene:
-                    scene.write(text)
-                for path in (folder / "state" / "surface").glob("*.json"):
-                    record = json.loads(path.read_text())
-                    for file in record["files"]:
-                        content = (folder / file["path"]).read_bytes()
-                        file.update(bytes=len(content), sha256=hashlib.sha256(content).hexdigest())
-                    path.write_text(json.dumps(record))
-                result = self.meniscus("work", folder, "--step", "render", "--force", code=3)
-                self.assertIn("does not write", result.stderr, text)
+                self.assert_scene_refused(self.copy(self.povray), name, text)
         folder = self.copy(self.povray)
         (folder / "scene" / "povray.ini").write_text("Pre_Scene_Command=id\n")
         self.assertIn("take it away", self.meniscus("work", folder, "--step", "render", "--force",
@@ -211,12 +214,18 @@ class Hostile(FarmCase):
 
     def test_scenes_of_this_program_are_run(self):
         """With all that changes their words."""
-        for more in (("--material", "glass", "--by", "residue"), ("--color", "bfactor", "--turntable", "1"),
+        for more in (("--material", "glass", "--by", "residue"), ("--color", "radial", "--turntable", "1"),
                      ("--probe", "0", "--projection", "orthographic"), ("--color", "component", "--cavities", "drop")):
             shutil.rmtree(self.folder / "varied", ignore_errors=True)
             folder = self.bundle("varied", "export", "povray", self.molecule, "--frames", "all", "--size", "40x30",
                                  *more, "--", "surface.ini[ghost]", "+Q5", "-A")
             self.meniscus("work", folder)
+
+    def test_colors_of_frames_are_read_like_the_rest_of_a_scene(self):
+        folder = self.bundle("colors", "export", "povray", self.molecule, "--frames", "all", "--size", "40x30", "--color", "radial",
+                             "--", "-A")
+        self.meniscus("work", folder)
+        self.assert_scene_refused(folder, "scene/surface_colors_00001.inc", f'#fopen F "{self.outside / "hit"}" write\n')
 
     def test_programs_are_not_looked_for_in_the_bundle(self):
         folder = self.copy(self.povray)

@@ -17,6 +17,7 @@ import smooth_map  # noqa: E402
 
 PROGRAM, POVRAY = sys.argv[1:3]
 UBIQUITIN = "/usr/share/freesasa/test-data/1ubq.pdb"
+ENSEMBLE = "/usr/share/freesasa/test-data/1d3z.pdb"  # ten models, which are frames
 WIDTH, HEIGHT = 320, 240
 #: Of 255: a pixel differs if a channel does by more.
 LIMIT = 8
@@ -39,6 +40,15 @@ class Figure(unittest.TestCase):
         done = subprocess.run(command, capture_output=True, text=True, check=False, cwd=cwd)
         self.assertEqual(done.returncode, 0, done.stdout[-2000:] + done.stderr[-2000:])
 
+    def write_flat(self, folder, flat=True):
+        """A scene without light, which POV-Ray's highlights make another way: colours, borders and layers alone."""
+        with open(os.path.join(folder, "flat.pov"), "w", encoding="ascii") as file:
+            finish = "finish { ambient 1 diffuse 0 specular 0 }"
+            file.write("#version 3.7;\n")
+            if flat:
+                file.write(f"#declare Meniscus_Finish = {finish}\n#declare Meniscus_Shape_Finish = {finish}\n")
+            file.write('#include "surface.pov"\n')
+
     def pair(self, name, *options, flat=True):
         """The picture of the ray caster, and POV-Ray's of the export with the same options; a ray through each pixel."""
         ours, camera, folder = (os.path.join(self.holder.name, name + end) for end in (".png", ".json", ""))
@@ -47,13 +57,7 @@ class Figure(unittest.TestCase):
                          "--specular", "0", "--samples", "1",
                          "--background", "white", "--save-camera", camera)
         self.run_program(PROGRAM, "export", "povray", UBIQUITIN, "-o", folder, *view, *options, "--camera", camera)
-        # Without light, which POV-Ray's highlights make another way: colours, borders and layers alone.
-        with open(os.path.join(folder, "flat.pov"), "w", encoding="ascii") as file:
-            finish = "finish { ambient 1 diffuse 0 specular 0 }"
-            file.write("#version 3.7;\n")
-            if flat:
-                file.write(f"#declare Meniscus_Finish = {finish}\n#declare Meniscus_Shape_Finish = {finish}\n")
-            file.write('#include "surface.pov"\n')
+        self.write_flat(folder, flat)
         self.run_program(POVRAY, "surface.ini", "Antialias=Off", "Input_File_Name=flat.pov", cwd=folder)
         theirs = os.path.join(folder, "surface.png")
         if "MENISCUS_KEEP_PICTURES" in os.environ:
@@ -74,6 +78,45 @@ class Figure(unittest.TestCase):
         ours, theirs = self.pair(name, *options)
         self.assertLess(self.difference(name, ours, theirs), at_most, name)
         self.assertGreater(self.difference(name + ", one pixel aside", ours, np.roll(theirs, 1, axis=1)), 0.03)
+
+    def check_run(self, name, *options, at_most=0.005):
+        """Each frame of a run is that of the ray caster's run, by the one command that goes through its gaps."""
+        folder, camera = (os.path.join(self.holder.name, name + end) for end in ("", ".json"))
+        common = [ENSEMBLE, "--select", "resi 1-40", "--frames", "1-5:2", "--size", f"{WIDTH}x{HEIGHT}", "-q", *options]
+        self.run_program(PROGRAM, "render", "-o", os.path.join(self.holder.name, name + "_#.png"), *common, "--preset", "classic",
+                         "--ambient", "1", "--specular", "0", "--samples", "1", "--background", "white", "--save-camera", camera)
+        self.run_program(PROGRAM, "export", "povray", "-o", folder, *common, "--camera", camera)
+        self.write_flat(folder)
+        self.run_program(POVRAY, "surface.ini[film]", "Antialias=Off", "Input_File_Name=flat.pov", cwd=folder)
+        pictures = []
+        for place, frame in enumerate((1, 3, 5)):
+            ours = pixels(os.path.join(self.holder.name, f"{name}_{frame}.png"))
+            theirs = pixels(os.path.join(folder, f"surface_film_{place + 1:05}.png"))
+            self.assertLess(self.difference(f"{name}, frame {frame}", ours, theirs), at_most)
+            self.assertGreater(self.difference(f"{name}, frame {frame}, one pixel aside", ours, np.roll(theirs, 1, axis=1)), 0.03)
+            pictures.append(theirs)
+        return pictures
+
+    def test_colors_that_change_with_the_frames(self):
+        numbers, first = (os.path.join(self.holder.name, name) for name in ("numbers.csv", "first.csv"))
+        with open(numbers, "w", encoding="ascii") as table, open(first, "w", encoding="ascii") as one:
+            table.write("frame,chain,number,x\n")
+            one.write("chain,number,x\n")
+            for frame in 1, 3, 5:
+                for residue in range(1, 41):
+                    x = (7 * residue + 13 * frame) % 40 if residue % 9 else "?"
+                    table.write(f"{frame},A,{residue},{x}\n")
+                    if frame == 1:
+                        one.write(f"A,{residue},{x}\n")
+        changing = self.check_run("numbers by frame", "--color-by-file", numbers)
+        still = self.check_run("numbers of the first", "--color-by-file", first, "--color-range", "0:39")
+        self.assertEqual(self.difference("the first", changing[0], still[0]), 0.0)
+        self.assertGreater(self.difference("the third", changing[2], still[2]), 0.3)
+        self.check_run("numbers and more", "--color", "all=file", "--color", "resi 5-9=#c04020", "--color-by-file", numbers, "--sticks",
+                       "resi 10-20", "--opacity", "resi 10-30=0.5", "--clip", "depth>0.3")
+        self.check_run("radial", "--color", "radial")
+        self.check_run("a rule by places", "--color", "element", "--color", "resi 1-20=radial", "--tube", "all")
+        self.check_run("fluctuations", "--color", "rmsf")
 
     def test_shapes(self):
         self.check("shapes", "--sticks", "resi 1-20", "--spheres", "resi 70-76", "--show", "resi 30-60", "--color", "element")
@@ -149,4 +192,4 @@ class Figure(unittest.TestCase):
             self.assertEqual(json.load(one)["objects"], json.load(two)["objects"])
 
 
-unittest.main(argv=["figure_test"])
+unittest.main(argv=["figure_test", *sys.argv[3:]])

@@ -141,22 +141,60 @@ TEST_F(PovraySequence, TheCameraMovesUnlessTheUserHasOne) {
   EXPECT_EQ(share_of_other_pixels(picture("turning", "own2.png"), picture("still", "own2.png")), 0.0);
 }
 
-// POV-Ray goes through consecutive frames; the command that is printed goes through others, too.
-TEST_F(PovraySequence, PicturesHaveTheNumbersOfTheTrajectory) {
-  for (const auto& [frames, numbers] : {std::pair{"4", Words{"4"}}, std::pair{"0-2", Words{"0", "1", "2"}},
-                                        std::pair{"1-5:2", Words{"1", "3", "5"}}, std::pair{"4,2", Words{"4", "2"}}}) {
+// POV-Ray goes through even steps by itself; through others by their places.
+TEST_F(PovraySequence, PicturesHaveNumbersOfTheTrajectoryOrPlacesInTheRun) {
+  for (const auto& [frames, numbers] :
+       {std::pair{"4", Words{"4"}}, std::pair{"0-2", Words{"0", "1", "2"}}, std::pair{"1-5:2", Words{"1", "3", "5"}},
+        std::pair{"4,2", Words{"4", "2"}}, std::pair{"0,1,3", Words{"0", "1", "3"}}}) {
     SCOPED_TRACE(frames);
     const test::ProgramResult exported = export_run(frames, {"--frames", frames, "--size", "24x18"});
     ASSERT_EQ(exported.exit_code, 0) << exported.err;
     const test::ProgramResult run = test::run_program("/bin/sh", {"-c", exported.out});
     EXPECT_EQ(run.exit_code, 0) << run.err;
+    const bool is_even = frames != std::string("4,2") && frames != std::string("0,1,3");
+    EXPECT_EQ(exported.out.find("[film]") == std::string::npos, is_even) << exported.out;
+    if (is_even) {
+      ASSERT_EQ(render(frames, {"surface.ini[film]"}).exit_code, 0);
+    }
     std::size_t pictures = 0;
     for (const auto& entry : std::filesystem::directory_iterator(path(frames)))
       pictures += entry.path().extension() == ".png";
-    EXPECT_EQ(pictures, numbers.size());
-    for (const std::string& number : numbers)
-      EXPECT_TRUE(std::filesystem::exists(path(frames) / ("surface_0000" + number + ".png"))) << number;
+    EXPECT_EQ(pictures, (is_even ? 2 : 1) * numbers.size());
+    for (std::size_t place = 0; place < numbers.size(); ++place) {
+      const std::string& number = numbers[place];
+      if (!is_even) {
+        ASSERT_EQ(render(frames, {"+SF" + number, "+EF" + number, "+A0.05"}).exit_code, 0);
+      }
+      EXPECT_EQ(share_of_other_pixels(picture(frames, "surface_0000" + number + ".png"),
+                                      picture(frames, fmt::format("surface_film_{:05}.png", place + 1))),
+                0.0)
+          << number;
+    }
   }
+  const PovrayRun beyond = run_povray(path("4,2"), {"surface.ini[film]", "+SF3", "+EF3"});
+  EXPECT_NE(beyond.exit_code, 0);
+  EXPECT_NE(beyond.log.find("is no place 3 in this run of 2 frames"), std::string::npos) << beyond.log;
+}
+
+// Their include must be that of the geometry, and of the run.
+TEST_F(PovraySequence, ColorsThatChangeBelongToTheirFrame) {
+  ASSERT_EQ(export_run("run", {"--frames", "1-5:2", "--color", "radial"}).exit_code, 0);
+  EXPECT_EQ(render("run", {"+SF3", "+EF3"}).exit_code, 0);
+  EXPECT_EQ(render("run", {"surface.ini[group]", "+SF5", "+EF5"}).exit_code, 0);
+  const auto refused = [&](const std::string& what) {
+    const PovrayRun foreign = render("run", {"+SF3", "+EF3"});
+    EXPECT_NE(foreign.exit_code, 0) << what;
+    EXPECT_NE(foreign.log.find("other colours"), std::string::npos) << what << ": " << foreign.log;
+  };
+  const auto replace = [&](const std::filesystem::path& from, const std::string& name) {
+    std::filesystem::copy(from, path("run") / name, std::filesystem::copy_options::overwrite_existing);
+  };
+  replace(path("run") / "surface_colors_00001.inc", "surface_colors_00003.inc");
+  refused("colours of another frame");
+  ASSERT_EQ(export_run("other", {"--frames", "3-9", "--color", "radial"}).exit_code, 0);
+  for (const std::string name : {"surface_colors_00003.inc", "surface_geometry_00003.inc"})
+    replace(path("other") / name, name);
+  refused("a frame of another run");
 }
 
 TEST_F(PovraySequence, TheCameraIsSaved) {
