@@ -5,6 +5,7 @@
   ... -- FILE.mns --passes passes.exr       depth, normals and unlit colours through pixel centres, 32-bit, no anti-aliasing
   ... -- SEQUENCE.json --frames 0-99:10,250 --output DIR/frame_#####
 
+--camera FILE looks with a camera of --save-camera instead of that of the file; of a sequence it stays for all frames.
 Of a sequence, --frames names frames of the trajectory (default: all of the run), --scene-frames those of the scene, from
 1; a run of # in a path stands for the number of the trajectory's frame. --motion-blur 0.5 blurs by half a frame.
 --mode driver, the default, holds one frame in memory; bake puts all frames into the scene, stream has the add-on's handler
@@ -31,7 +32,7 @@ import bpy
 import mathutils
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from meniscus_import import build, compat, looks, materials, mns_reader, sequence, sequence_reader  # noqa: E402
+from meniscus_import import build, camera_reader, compat, looks, materials, mns_reader, sequence, sequence_reader  # noqa: E402
 
 #: Direction towards the light in the camera's axes (right, up, back), its colour; strengths are what a white, matt
 #: surface that faces the light sends to the camera. As in the POV-Ray scenes of Meniscus.
@@ -68,6 +69,7 @@ def parse(arguments):
     parser.add_argument("--motion-blur", type=float, metavar="SHUTTER", help="share of a frame the shutter is open")
     parser.add_argument("--output", help="picture, PNG")
     parser.add_argument("--passes", help="depth, normals and colours, multi-layer EXR")
+    parser.add_argument("--camera", metavar="FILE", help="as --save-camera writes it, instead of that of the file")
     parser.add_argument("--size", help="WIDTHxHEIGHT in pixels; default: that of the file")
     parser.add_argument("--scale", type=float, default=1.0, help="Blender units per Å")
     parser.add_argument("--samples", type=int, default=32)
@@ -276,7 +278,7 @@ def dress(scene, camera, options, items):
 def run_file(options):
     started = time.time()
     empty_scene()
-    made = build.import_file(options.file, bpy.context, scale=options.scale)
+    made = build.import_file(options.file, bpy.context, scale=options.scale, camera=options.shot)
     loaded = time.time()
     scene = bpy.context.scene
     dress(scene, made.camera, options, made.surfaces)
@@ -297,10 +299,10 @@ class Stage:
         self.mode = options.mode or "driver"
         scene, context = bpy.context.scene, bpy.context
         if self.mode == "bake":
-            self.item = sequence.bake(options.file, context, scale=options.scale)
+            self.item = sequence.bake(options.file, context, scale=options.scale, camera=options.shot)
         elif self.mode == "stream":
             sequence.register()
-            self.item = sequence.stream(options.file, context, scale=options.scale)
+            self.item = sequence.stream(options.file, context, scale=options.scale, camera=options.shot)
         else:
             self.placement = sequence.Placement(frames, options.scale)
             self.item = bpy.data.objects.new(frames.stem, bpy.data.meshes.new(frames.stem))
@@ -375,6 +377,8 @@ def render_frame(stage, options, scene_frame, number):
 def run_sequence(options):
     empty_scene()
     frames = sequence_reader.read(options.file)
+    if options.shot:
+        frames.look_from(options.shot)
     chosen = chosen_frames(options, frames)
     for path in (options.output, options.passes):
         if path and "#" not in path and len(chosen) > 1:
@@ -415,6 +419,7 @@ def main():
     arguments = sys.argv[sys.argv.index("--") + 1:] if "--" in sys.argv else []
     options = parse(arguments)
     try:
+        options.shot = camera_reader.read(options.camera) if options.camera else None
         code = run_sequence(options) if options.is_sequence else run_file(options)
     except (mns_reader.MnsError, OSError, RuntimeError) as error:
         fail(exit_code(error), error)

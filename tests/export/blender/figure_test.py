@@ -49,12 +49,13 @@ class Figure(unittest.TestCase):
     def path(self, name):
         return os.path.join(os.environ.get("MENISCUS_KEEP_PICTURES", self.holder.name), name)
 
+    def run_program(self, *command):
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+
     def pair(self, name, molecule, *options, samples=256, style="flat"):
         """The picture of the ray caster, and that of Blender from the export with the same options."""
-        def run(*command):
-            done = subprocess.run(command, capture_output=True, text=True, check=False)
-            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
-
+        run = self.run_program
         camera, ours, mns, theirs = (self.path(name + end) for end in (".json", ".exr", ".mns", ".png"))
         run(PROGRAM, "render", molecule, "-o", ours, *VIEW, *options, "--preset", "classic", "--ambient", "1", "--specular", "0", "--samples", "64",
             "--background", "transparent", "--save-camera", camera)
@@ -80,6 +81,22 @@ class Figure(unittest.TestCase):
         self.assertLess(abs(bias), 0.015, name)  # meshed sticks are thinner, by no more than the tolerance
         self.assertGreater(self.difference(name + ", one pixel aside", ours, np.roll(theirs, 1, axis=1))[0], 0.05)
         return ours, theirs
+
+    def test_the_driver_takes_a_camera(self):
+        """Of --save-camera, instead of that of the file, which looks from another side."""
+        for name, *turned in (("turned", "--turn", "y70", "--turn", "x20"), ("parallel", "--view", "x", "--projection", "orthographic")):
+            camera, ours, mns, theirs = (self.path(name + end) for end in (".json", ".exr", ".mns", ".png"))
+            self.run_program(PROGRAM, "render", UBIQUITIN, "-o", ours, *VIEW, *turned, "--color", "residue", "--preset", "classic", "--ambient",
+                             "1", "--specular", "0", "--samples", "64", "--background", "transparent", "--save-camera", camera)
+            self.run_program(PROGRAM, "export", "blender", UBIQUITIN, "-o", mns, *VIEW, "--color", "residue", "--tolerance", "0.02")
+            driver = [BLENDER, "-b", "--factory-startup", "--python-exit-code", "3", "--python", os.path.join(ADDON, "render_mns.py"),
+                      "--", mns, "--output", theirs, "--samples", "256", "--style", "flat", "--transparent"]
+            self.run_program(*driver, "--camera", camera)
+            share, bias = self.difference(name, pixels(ours), pixels(theirs))
+            self.assertLess(share, 0.01, name)
+            self.assertLess(abs(bias), 0.015, name)
+            self.run_program(*driver)
+            self.assertGreater(self.difference(name + ", camera of the file", pixels(ours), pixels(theirs))[0], 0.3)
 
     def test_opacity(self):
         self.check("opacity", UBIQUITIN, "--opacity", "0.4", "--color", "residue")
@@ -134,4 +151,4 @@ class Figure(unittest.TestCase):
         self.assertGreater(self.difference("usual material", ours, lit)[0], 0.5)
 
 
-unittest.main(argv=["figure_test"])
+unittest.main(argv=["figure_test", *sys.argv[4:]])

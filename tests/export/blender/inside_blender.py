@@ -445,6 +445,7 @@ class Import(unittest.TestCase):
         self.assertGreater(os.path.getsize(passes), 1000)
         self.assertEqual(drive(path_of("triple")), 2)
         self.assertEqual(drive(path_of("no_such_file"), "--output", picture), 3)
+        self.assertEqual(drive(path_of("triple"), "--output", picture, "--camera", path_of("triple")), 3)
 
 
 if not unittest.main(argv=["inside_blender"], exit=False).result.wasSuccessful():

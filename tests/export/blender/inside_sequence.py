@@ -113,6 +113,20 @@ class Sequence(unittest.TestCase):
             self.assertLess(other(beside[number], driven[number]), FEW, number)
             self.assertGreater(os.path.getsize(os.path.join(self.folder, f"passes_{number}.exr")), 1000)
 
+    def test_a_camera_of_the_command_stays_for_all_frames(self):
+        """Instead of one that moves: the pictures of the run whose camera it is."""
+        turning = os.path.join(FOLDER, "turning", "surface_sequence.json")
+        camera = os.path.join(self.folder, "camera.json")
+        with open(camera, "w", encoding="utf-8") as file:
+            still = sequence_reader.read(MANIFEST).frames[0].camera
+            json.dump({key: value for key, value in still.items() if key != "size"}, file)
+        driven = self.driven()
+        self.assertGreater(other(self.pictures("turned", manifest=turning)[3], driven[3]), 0.05)
+        for mode in ("driver", "bake", "stream"):
+            made = self.pictures(mode, "--mode", mode, "--camera", camera, manifest=turning)
+            for number in NUMBERS:
+                self.assertLess(other(made[number], driven[number]), FEW, (mode, number))
+
     def test_a_baked_file_renders_without_add_on_and_scripts(self):
         driven = self.driven()
         blend = os.path.join(self.folder, "baked.blend")

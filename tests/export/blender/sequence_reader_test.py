@@ -13,6 +13,7 @@ sys.path[:0] = [os.path.join(ADDON, "meniscus_import"), os.path.dirname(os.path.
 
 import numpy as np  # noqa: E402
 
+import camera_reader  # noqa: E402
 import compat  # noqa: E402
 import mns_reader  # noqa: E402
 import samples  # noqa: E402
@@ -38,6 +39,40 @@ class SequenceReader(unittest.TestCase):
         for place in (1, 2, 3):
             self.assertEqual(found.read(place).header["sequence"]["scene_frame"], place)
         self.assertFalse(found.camera_moves)
+
+    def test_cameras_of_files(self):
+        """Those that --save-camera writes; others are refused with what is wrong."""
+        path = os.path.join(self.folder.name, "camera.json")
+        picture = os.path.join(self.folder.name, "a.png")
+        for projection in ("perspective", "orthographic"):
+            subprocess.run([PROGRAM, "render", samples.UBIQUITIN, "--select", "resi 1", "-q", "-o", picture, "--size", "40x30", "--projection",
+                            projection, "--save-camera", path, "--force", "--device", "cpu"], check=True)
+            with open(path, encoding="utf-8") as file:
+                good = json.load(file)
+            self.assertEqual(camera_reader.read(path), good)
+            run = sequence_reader.read(self.manifest)
+            size = run.frames[0].camera["size"]
+            run.look_from(good)
+            self.assertEqual([frame.camera for frame in run.frames], [{**good, "size": size}] * 3)
+            name = camera_reader.SIZES[projection]
+            missing = {key: value for key, value in good.items() if key != "up"}
+            for wrong, said in ((missing, "'up' is missing"), ({**good, "projection": "fisheye"}, "projection"), ([1, 2], "projection"),
+                                ({**good, "size": [4, 3]}, "'size' is nothing"), ({**good, name: 0}, "positive"),
+                                ({**good, name: "wide"}, "camera: "), ({**good, "position": good["target"]}, "position equals target"),
+                                ({**good, "up": [0, 0, "x"]}, "camera: "), ({**good, "up": [0, 0]}, "camera: "),
+                                ({**good, "target": [float("nan"), 0, 0]}, "not finite")):
+                with open(path, "w", encoding="utf-8") as file:
+                    json.dump(wrong, file)
+                with self.assertRaisesRegex(mns_reader.MnsError, said):
+                    camera_reader.read(path)
+        with open(path, "w", encoding="utf-8") as file:
+            json.dump({**good, "projection": "perspective", "vertical_fov": 180.0}, file)
+        with self.assertRaisesRegex(mns_reader.MnsError, "'height' is nothing"):
+            camera_reader.read(path)
+        with open(path, "w", encoding="utf-8") as file:
+            file.write("set_view (1, 2)")
+        with self.assertRaisesRegex(mns_reader.MnsError, "no JSON, such as --save-camera writes"):
+            camera_reader.read(path)
 
     def test_times_show_the_nearest_frame(self):
         def places(times, count=3, **options):

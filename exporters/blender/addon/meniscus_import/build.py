@@ -20,14 +20,15 @@ class Options:
     """How surfaces come into a scene. scale: Blender units per Å. crisp_colors: they change at edges, not between vertices.
     own_materials: not those that all imports share. parts: an object for what is outside and one for the cavities.
     center: moved by the origin of the scene (scene_origin). import_camera: the file's; use_camera: as the scene's, with the
-    size of its picture."""
+    size of its picture. camera: a dict, instead of the file's."""
 
     def __init__(self, scale=0.1, crisp_colors=True, own_materials=False, parts=False, center=False, import_camera=True,
-                 use_camera=True):
+                 use_camera=True, camera=None):
         if not (math.isfinite(scale) and scale > 0.0):
             raise mns_reader.MnsError(f"scale {scale} is not a positive number")
         self.scale, self.crisp_colors, self.own_materials, self.parts = scale, crisp_colors, own_materials, parts
         self.center, self.import_camera, self.use_camera = center, import_camera, use_camera
+        self.camera = camera
 
 
 class Import:
@@ -48,6 +49,7 @@ def import_file(path, context=None, **options):
     origin = scene_origin(context.scene, lambda: middle_of(frames.points_of(file))) if options.center else np.zeros(3)
     stem = os.path.splitext(os.path.basename(path))[0]
     made = Import()
+    shot = {**file.header.get("camera", {}), **(options.camera or {})}
     camera = None
     meshes, new_materials = [], []
     try:
@@ -64,10 +66,10 @@ def import_file(path, context=None, **options):
                 made.surfaces[-1]["meniscus_part"] = key
                 made.surfaces[-1]["meniscus_origin"] = [float(value) for value in origin]
                 made.collection.objects.link(made.surfaces[-1])
-        if options.import_camera and "camera" in file.header:
+        if options.import_camera and shot:
             camera = bpy.data.cameras.new(stem + ".camera")
             made.camera = bpy.data.objects.new(camera.name, camera)
-            place_camera(made.camera, file.header["camera"], options.scale, origin)
+            place_camera(made.camera, shot, options.scale, origin)
             reach_all(made.camera, frames.points_of(file), options.scale, origin)
             made.collection.objects.link(made.camera)
         context.scene.collection.children.link(made.collection)
@@ -81,7 +83,7 @@ def import_file(path, context=None, **options):
         raise
     if made.camera is not None and options.use_camera:
         context.scene.camera = made.camera
-        use_picture_size(context.scene, file.header["camera"])
+        use_picture_size(context.scene, shot)
     let_rays_through(context.scene, meshes)
     present(context, made.surfaces)
     return made

@@ -150,10 +150,14 @@ def remember(item, placement):
 
 class Run:
     """What is asked of a sequence that comes into a scene. import_camera: that of the run; use_camera: as the scene's, with
-    its picture size. set_time: the scene gets the run's range of frames and frame rate. Others: as of Placement."""
+    its picture size; camera: a dict, instead of the run's. set_time: the scene gets the run's range of frames and frame
+    rate. Others: as of Placement."""
 
-    def __init__(self, path, context, center=True, import_camera=True, use_camera=True, set_time=True, **options):
+    def __init__(self, path, context, center=True, import_camera=True, use_camera=True, set_time=True, camera=None,
+                 **options):
         self.sequence = sequence_reader.read(path)
+        if camera:
+            self.sequence.look_from(camera)
         scene = context.scene
         origin = build.scene_origin(scene, lambda: self.sequence.origin) if center else self.sequence.origin * 0.0
         self.placement = Placement(self.sequence, origin=origin, scene=None if set_time else scene, **options)

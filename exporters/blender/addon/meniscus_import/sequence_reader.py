@@ -9,8 +9,9 @@ import re
 import numpy as np
 
 try:
-    from . import mns_reader
+    from . import camera_reader, mns_reader
 except ImportError:  # outside of the add-on
+    import camera_reader
     import mns_reader
 
 VERSION = 1
@@ -82,6 +83,12 @@ class Sequence:
     def camera_moves(self):
         return any(frame.camera != self.frames[0].camera for frame in self.frames)
 
+    def look_from(self, camera):
+        """All frames are seen by this camera, a dict; pictures keep their size."""
+        for frame in self.frames:
+            size = {key: value for key, value in (frame.camera or {}).items() if key == "size"}
+            frame.camera = {**camera, **size}
+
     def scene_frame(self, number):
         """Of a frame of the trajectory; None if it is not in the run."""
         return self._scene_frame.get(number)
@@ -143,17 +150,10 @@ def _frame(path, header, entry):
             raise ValueError
         camera = entry.get("camera", header.get("camera"))
         if camera is not None:
-            _check_camera(camera)
+            camera_reader.check(camera)
     except (KeyError, TypeError, ValueError, OverflowError):
         raise mns_reader.MnsError(f"{path}: an entry of the list of frames makes no sense") from None
     return Frame(number, os.path.join(os.path.dirname(path), name), camera)
-
-
-def _check_camera(camera):
-    vectors = np.array([camera[key] for key in ("position", "target", "up")], dtype=np.float64)
-    size = camera["height" if camera["projection"] == "orthographic" else "vertical_fov"]
-    if vectors.shape != (3, 3) or not np.isfinite(vectors).all() or not (math.isfinite(size) and size > 0):
-        raise ValueError
 
 
 def parse_frames(text, known):
