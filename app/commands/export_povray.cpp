@@ -242,8 +242,11 @@ void add_export_povray(CLI::App& command) {
   const std::map<std::string, povray::Material> words{{"opaque", povray::Material::opaque},
                                                       {"ghost", povray::Material::ghost},
                                                       {"glass", povray::Material::glass},
-                                                      {"wax", povray::Material::wax}};
-  command.add_option("--material", state->material, "Default material: opaque, ghost, glass, wax; the scene holds all")
+                                                      {"wax", povray::Material::wax},
+                                                      {"flat", povray::Material::flat}};
+  command
+      .add_option("--material", state->material,
+                  "Default material: opaque, ghost, glass, wax, flat; the scene holds all")
       ->transform(one_of(words))
       ->type_name("WORD");
   command.add_flag("--comments", state->comments,

@@ -106,7 +106,8 @@ constexpr double kHighlight = 1.3, kLeastBrilliance = 0.6, kMostBrilliance = 1.2
 
 // What an object's material changes of a finish.
 void append_materials(SceneText& out, const std::vector<MaterialRequest>& materials) {
-  out.literal("#macro Meniscus_Material_Of(N, Covers)\n  #switch (N)\n    #case (0) #break\n");
+  out.literal(
+      "#macro Meniscus_Material_Of(N, Covers)\n  #switch (Meniscus_Material = 4 ? 0 : N)\n    #case (0) #break\n");
   for (std::size_t n = 0; n < materials.size(); ++n) {
     const MaterialRequest& material = materials[n];
     out.literal("    #case (").count(n + 1).literal(")");
@@ -148,7 +149,8 @@ std::string main_text(std::span<const Camera> cameras, const SceneOptions& optio
   out.literal(
       "// Meniscus_Custom_Settings; likewise Meniscus_Custom_Camera and Meniscus_Custom_Lights.\n#version 3.7;\n");
   out.literal("#ifndef (Meniscus_Material) #declare Meniscus_Material = ");
-  out.count(static_cast<std::size_t>(options.material)).literal("; #end  // 0 opaque, 1 ghost, 2 glass, 3 wax\n");
+  out.count(static_cast<std::size_t>(options.material))
+      .literal("; #end  // 0 opaque, 1 ghost, 2 glass, 3 wax, 4 flat\n");
   out.literal("#ifndef (Meniscus_Buffer) #declare Meniscus_Buffer = 0; #end  // 0 picture; others: see ");
   out.literal(options.name).literal("_aov.inc\n");
   out.literal("#ifndef (Meniscus_Subsurface) #declare Meniscus_Subsurface = 0; #end\n");

@@ -23,7 +23,8 @@ enum class Material {
   opaque,
   ghost,  ///< see-through; only the sides that face the viewer are drawn
   glass,  ///< refracts as one solid
-  wax     ///< light scatters below the surface
+  wax,    ///< light scatters below the surface
+  flat    ///< colours as they are, without light
 };
 
 /// The planes that a surface is cut by.
@@ -45,7 +46,7 @@ struct SceneObject {
 struct SceneOptions {
   std::string name = "surface";    ///< of all files; letters, digits, '-' and '_' only, since it stands in the scene
   int width = 1280, height = 960;  ///< pixels
-  Material material = Material::opaque;  ///< the scene's default; every scene holds all four
+  Material material = Material::opaque;  ///< the scene's default; every scene holds all of them
   glm::vec3 background{1.0f};            ///< sRGB
   Existing existing = Existing::refuse;
   std::optional<glm::dvec3> origin;  ///< Å: where coordinates of the scene begin; nothing: the middle of all atoms

@@ -40,15 +40,6 @@ class Figure(unittest.TestCase):
         done = subprocess.run(command, capture_output=True, text=True, check=False, cwd=cwd)
         self.assertEqual(done.returncode, 0, done.stdout[-2000:] + done.stderr[-2000:])
 
-    def write_flat(self, folder, flat=True):
-        """A scene without light, which POV-Ray's highlights make another way: colours, borders and layers alone."""
-        with open(os.path.join(folder, "flat.pov"), "w", encoding="ascii") as file:
-            finish = "finish { ambient 1 diffuse 0 specular 0 }"
-            file.write("#version 3.7;\n")
-            if flat:
-                file.write(f"#declare Meniscus_Finish = {finish}\n#declare Meniscus_Shape_Finish = {finish}\n")
-            file.write('#include "surface.pov"\n')
-
     def pair(self, name, *options, flat=True):
         """The picture of the ray caster, and POV-Ray's of the export with the same options; a ray through each pixel."""
         ours, camera, folder = (os.path.join(self.holder.name, name + end) for end in (".png", ".json", ""))
@@ -57,8 +48,8 @@ class Figure(unittest.TestCase):
                          "--specular", "0", "--samples", "1",
                          "--background", "white", "--save-camera", camera)
         self.run_program(PROGRAM, "export", "povray", UBIQUITIN, "-o", folder, *view, *options, "--camera", camera)
-        self.write_flat(folder, flat)
-        self.run_program(POVRAY, "surface.ini", "Antialias=Off", "Input_File_Name=flat.pov", cwd=folder)
+        # Without light, which POV-Ray makes another way: colours, borders and layers alone.
+        self.run_program(POVRAY, "surface.ini[flat]" if flat else "surface.ini", "Antialias=Off", "Output_File_Name=surface.png", cwd=folder)
         theirs = os.path.join(folder, "surface.png")
         if "MENISCUS_KEEP_PICTURES" in os.environ:
             for path, end in (ours, "-ours.png"), (theirs, "-povray.png"):
@@ -86,8 +77,7 @@ class Figure(unittest.TestCase):
         self.run_program(PROGRAM, "render", "-o", os.path.join(self.holder.name, name + "_#.png"), *common, "--preset", "classic",
                          "--ambient", "1", "--specular", "0", "--samples", "1", "--background", "white", "--save-camera", camera)
         self.run_program(PROGRAM, "export", "povray", "-o", folder, *common, "--camera", camera)
-        self.write_flat(folder)
-        self.run_program(POVRAY, "surface.ini[film]", "Antialias=Off", "Input_File_Name=flat.pov", cwd=folder)
+        self.run_program(POVRAY, "surface.ini[film]", "Antialias=Off", "Declare=Meniscus_Material=4", cwd=folder)
         pictures = []
         for place, frame in enumerate((1, 3, 5)):
             ours = pixels(os.path.join(self.holder.name, f"{name}_{frame}.png"))

@@ -117,8 +117,8 @@ class Materials(unittest.TestCase):
         tinted = 0.9 * color + 0.1
         self.assertLess(np.abs(values[WIDTH // 2] - tinted).max(), 0.003)
         rim = values[np.abs(places) < 0.999 * RADIUS][0]
-        self.assertTrue(np.all(rim > tinted + 0.25 * (1 - tinted)), f"{rim} of {tinted}")
-        self.assertTrue(np.all(rim < tinted + 0.41 * (1 - tinted)), f"{rim} of {tinted}")
+        self.assertTrue(np.all(rim > tinted ** 0.75), f"{rim} of {tinted}")
+        self.assertTrue(np.all(rim < tinted ** 0.6 + 0.003), f"{rim} of {tinted}")
 
     def test_layers_are_counted_beyond_fifteen(self):
         for count in 20, 100:

@@ -103,7 +103,8 @@ TEST(PovrayExport, EverySectionOfTheIniRendersWithoutWarning) {
   const std::filesystem::path folder = scratch.path() / "scene";
   const povray::SceneReport report =
       scene.write(oblique_camera(scene.surface(), Projection::perspective, kAspect), 64, 48, folder);
-  for (const std::string section : {"", "opaque", "ghost", "glass", "wax", "position", "normal", "group", "layers"}) {
+  for (const std::string section :
+       {"", "opaque", "ghost", "glass", "wax", "flat", "position", "normal", "group", "layers"}) {
     const PovrayRun run = run_povray(folder, {section.empty() ? "surface.ini" : "surface.ini[" + section + "]"});
     EXPECT_EQ(run.exit_code, 0) << section << run.log;
     EXPECT_TRUE(run.warnings.empty()) << section << ": " << run.warnings.front();
