@@ -16,6 +16,7 @@
 
 #include "core/base/error.h"
 #include "core/queries/distance.h"
+#include "core/surface/walks.h"
 #include "exporters/mesh/coarse_mesh.h"
 #include "exporters/mesh/creases.h"
 #include "exporters/mesh/evener.h"
@@ -33,25 +34,31 @@ constexpr double kVerticesPerSquare = 1.34;
 /// The share of the tolerance that the middle of an equilateral triangle with the edges wanted may take up: edges up to
 /// 4/3 of that length stay.
 constexpr double kShareOfTolerance = 0.62;
+/// Tolerances between places along creases that the mesh has to be near.
+constexpr double kCreaseStep = 0.4;
 /// What is measured at places is less than what is between them.
 constexpr double kMargin = 0.97;
 /// The base is a scaffold: its tolerance follows that of the result between these (Å).
-constexpr double kFinestBase = 1e-4, kCoarsestBase = 0.4, kShareOfKept = 0.9;
+constexpr double kFinestBase = 1e-4, kCoarsestBase = 0.4;
 constexpr int kBases = 4;
-/// Edges (Å) from which on the base has the fewest triangles that there are, and how long its edges are.
-constexpr double kLongEdge = 1.1, kCoarseEdge = 0.9;
-/// What is done about triangles that cross: rounds of refinement in which they may part, and the trouble from which on
-/// a face stays as it is. The fewest triangles become more before they stay; patch-aligned ones are as they should be.
-struct Patience {
-  int rounds, frozen;
-};
-constexpr Patience kWithCoarse{1, 3}, kWithPatches{0, 1};
-constexpr int kAttempts = 8;
+/// Edges (Å) from which on the base has the fewest triangles that there are.
+constexpr double kLongEdge = 1.1;
+/// How often all begins again, with an eye on the places where triangles crossed, and from which attempt on these keep
+/// to the base, which is as near as promised then.
+constexpr int kAttempts = 6, kFirstHeld = 2;
+constexpr double kShareOfKept = 0.9;
+/// Of the tolerance, that of the mesh whose vertices are looked at in the end.
+constexpr double kShareOfFine = 0.3;
+/// How these places grow with each attempt.
+constexpr double kWider = 1.7;
+/// How often triangles are mended and, where that leaves them too far away, made smaller.
+constexpr int kMendings = 5;
+/// Rounds of remeshing.
 constexpr int kRounds = 6, kRefinedRounds = 3, kRefinements = 12;
-/// How often a refinement is done again with triangles held that would cross.
-constexpr int kTakenBack = 3;
 /// Refinements in a row that help nowhere are the last ones.
-constexpr int kIdle = 5;
+constexpr int kIdle = 2;
+/// So few triangles that are too far away are mended one by one.
+constexpr std::size_t kFewFar = 100;
 constexpr double kFiner = 0.7;
 /// Refinements that make more triangles than these lead nowhere.
 constexpr std::uint32_t kMostGrowth = 2, kGrowthAllowed = 500;
@@ -87,45 +94,76 @@ class EvenMeshing {
         edge_of_density_(edge_of_density(options.density)),
         follow_creases_(follow_creases),
         from_patches_(from_patches),
-        walk_(surface),
-        trouble_(surface.faces.size(), 0) {
+        walk_(surface) {
     find_base();
   }
 
   EvenMesh run() {
-    for (int attempt = 0;; ++attempt) {
-      start();
-      const std::vector<std::uint32_t> crossing = even_out();
-      if (!crossing.empty()) {
-        if (attempt == kAttempts)
-          throw OpenSurfaceError(fmt::format(
-              "no even mesh was found: {} triangles stay in others' way; ask for a finer one", crossing.size()));
-        if (std::none_of(trouble_.begin(), trouble_.end(), [](std::uint8_t t) { return t > 0; })) find_kept_base();
-        note_trouble(crossing);
-        continue;
-      }
-      mend_kept();
-      EvenMesh even = result();
-      const std::vector<std::uint32_t> wrong = wrong_components(even.mesh);
-      if (wrong.empty()) return even;
+    std::vector<Ball> watched;
+    for (int attempt = 1;; ++attempt) {
+      if (attempt == kFirstHeld && options_.density == 0.0) take_patches(kShareOfKept * options_.tolerance);
+      start(watched);
+      if (attempt >= kFirstHeld) evener_->hold_watched();
+      const std::vector<std::uint32_t> bad = even_out();
+      if (bad.empty()) break;
       if (attempt == kAttempts)
         throw OpenSurfaceError(
-            fmt::format("component {} has {:.6g} Å³, its even mesh another volume; ask for a finer one", wrong.front(),
-                        surface_.components[wrong.front()].volume));
-      for (std::size_t f = 0; f < trouble_.size(); ++f)
-        if (std::find(wrong.begin(), wrong.end(), surface_.faces[f].component) != wrong.end()) worsen(f);
+            fmt::format("no even mesh was found: {} triangles stay in others' way or too far away; ask for a finer one",
+                        bad.size()));
+      for (Ball& place : watched) place.radius *= kWider;
+      for (const std::uint32_t t : bad) watched.push_back(around(t));
     }
+    EvenMesh even = result();
+    if (const std::vector<std::uint32_t> wrong = wrong_components(even.mesh); !wrong.empty())
+      throw OpenSurfaceError(
+          fmt::format("component {} has {:.6g} Å³, its even mesh another volume; ask for a finer one", wrong.front(),
+                      surface_.components[wrong.front()].volume));
+    return even;
   }
 
  private:
-  void start() {
-    std::vector<bool> frozen(trouble_.size());
-    for (std::size_t f = 0; f < frozen.size(); ++f) frozen[f] = trouble_[f] >= patience_.frozen;
+  void start(const std::vector<Ball>& watched) {
+    if (options_.density == 0.0) list_places_to_reach();
     walk_.bar(std::vector<bool>(surface_.borders.size(), false));
-    evener_.emplace(surface_, walk_, base_, creases(), frozen, [this](const SurfacePoint& at) {
-      const double edge = edge_at(at.position, radius(at.face));
-      return std::max(std::ldexp(edge, -trouble_[at.face]), std::min(edge, least_edge_));
+    evener_.emplace(surface_, walk_, base_, creases(),
+                    [this](const SurfacePoint& at) { return edge_at(at.position, radius(at.face)); });
+    evener_->watch(watched);
+  }
+
+  /// The vertices and the middles of the base, and places along creases, which coarser meshes bridge.
+  void list_places_to_reach() {
+    to_reach_.assign(base_.positions.size(), {});
+    for (std::size_t t = 0; t < base_.triangles.size(); ++t)
+      for (const std::uint32_t v : base_.triangles[t]) to_reach_[v] = {base_.positions[v], base_.face[t]};
+    for (std::size_t t = 0; t < base_.triangles.size(); ++t) {
+      const auto& [a, b, c] = base_.triangles[t];
+      const glm::dvec3 middle = (base_.positions[a] + base_.positions[b] + base_.positions[c]) / 3.0;
+      if (const auto at = walk_.below(middle, base_.face[t])) to_reach_.push_back(*at);
+    }
+    for (const Border& border : surface_.borders) {
+      if (crease_angle(surface_, border) == 0.0) continue;
+      const double step = kCreaseStep * tolerance_at(arc_point(border, 0.5 * border.sweep));
+      const auto count = static_cast<std::uint32_t>(std::ceil(border.radius * border.sweep / step));
+      for (std::uint32_t k = 1; k < count; ++k)
+        to_reach_.push_back({arc_point(border, border.sweep * k / count), border.face[0]});
+    }
+  }
+
+  /// Is the mesh near the vertices of a fine one as well? Others have to be reached from now on.
+  bool reaches_all() {
+    const TriangleMesh fine = tessellate(surface_, {kShareOfFine * options_.tolerance, false});
+    std::vector<std::uint32_t> face(fine.positions.size());
+    for (std::size_t t = 0; t < fine.triangles.size(); ++t)
+      for (const std::uint32_t v : fine.triangles[t]) face[v] = fine.face[t];
+    const std::vector<std::array<std::uint32_t, 3>> all = triangles();
+    const MeshDistance from_mesh(evener_->positions(), all);
+    std::vector<std::uint8_t> far(face.size());
+    tbb::parallel_for(std::size_t{0}, far.size(), [&](std::size_t v) {
+      const double limit = tolerance_at(fine.positions[v]);
+      far[v] = from_mesh(fine.positions[v], limit).distance >= limit;
     });
+    for (const std::uint32_t v : numbers_of(far)) to_reach_.push_back({fine.positions[v], face[v]});
+    return std::none_of(far.begin(), far.end(), [](std::uint8_t f) { return f > 0; });
   }
 
   /// Returns triangles that pass through others and would not part, or that would not come near enough, or none.
@@ -135,122 +173,73 @@ class EvenMeshing {
       evener_->even_out(1);
       evener_->compact();
     }
-    evener_->mend();
-    evener_->compact();
     const std::uint32_t most = kMostGrowth * evener_->links().triangle_count() + kGrowthAllowed;
-    return options_.density > 0.0 ? part(most) : come_near(most);
-  }
-
-  std::vector<std::uint32_t> part(std::uint32_t most) {
-    for (int round = 0;; ++round) {
+    for (int n = 1;; ++n) {
+      if (options_.density == 0.0)
+        if (std::vector<std::uint32_t> far = come_near(most); !far.empty()) return far;
+      mend(crossing());
       std::vector<std::uint32_t> bad = crossing();
-      if (bad.empty() || round == patience_.rounds || evener_->links().triangle_count() > most) return bad;
-      refine(bad);
+      if (!bad.empty() || options_.density > 0.0) return bad;
+      bad = triangles_of(too_far());
+      if (bad.empty() && reaches_all()) return bad;
+      if (n == kMendings) return bad;
     }
   }
 
-  /// Makes triangles smaller where they are too far away. Where that lets some cross, it is done again without what is
-  /// around those.
+  void mend(const std::vector<std::uint32_t>& triangles) {
+    evener_->mend(triangles, nearness());
+    evener_->compact();
+  }
+  Allowed nearness() const {
+    return [this](const PlacedTriangle& t) { return options_.density > 0.0 || !far_place(t); };
+  }
+
+  /// Makes triangles smaller where they are too far away; returns those that stay.
   std::vector<std::uint32_t> come_near(std::uint32_t most) {
-    if (std::vector<std::uint32_t> bad = crossing(); !bad.empty()) return bad;
-    std::vector<std::uint32_t> far = too_far();
+    std::vector<Evener::Place> far = too_far();
     std::size_t fewest = far.size();
     for (int round = 0, idle = 0; round < kRefinements && idle < kIdle && !far.empty(); ++round) {
-      if (evener_->links().triangle_count() > most)
-        throw OpenSurfaceError(
-            fmt::format("no even mesh was found: {} triangles stay too far away; ask for a finer one", far.size()));
-      const Evener before = *evener_;
-      std::vector<Ball> held;
-      for (int n = 0;; ++n) {
-        refine(far);
-        std::vector<std::uint32_t> bad = crossing();
-        if (bad.empty()) break;
-        if (n == kTakenBack) return bad;
-        for (const std::uint32_t t : bad) held.push_back(around(t));
-        evener_.emplace(before);
-        evener_->hold(held);
+      if (evener_->links().triangle_count() > most) break;
+      if (far.size() > kFewFar) {
+        refine(triangles_of(far));
+        far = too_far();
+      } else {
+        evener_->reach(far, nearness());
       }
+      mend(triangles_of(far));
       far = too_far();
       idle = far.size() < fewest ? 0 : idle + 1;
       fewest = std::min(fewest, far.size());
     }
-    return far;
+    return triangles_of(far);
   }
 
-  /// What was kept for fear of crossings has the slivers of the base: it is mended as far as nothing gets wrong by
-  /// that.
-  void mend_kept() {
-    const Evener before = *evener_;
-    std::vector<Ball> held;
-    for (int n = 0; n <= kTakenBack; ++n) {
-      evener_->release();
-      evener_->hold(held);
-      evener_->mend();
-      evener_->compact();
-      std::vector<std::uint32_t> bad = crossing();
-      if (options_.density == 0.0) {
-        const std::vector<std::uint32_t> far = too_far();
-        bad.insert(bad.end(), far.begin(), far.end());
-      }
-      if (bad.empty()) return;
-      for (const std::uint32_t t : bad) held.push_back(around(t));
-      evener_.emplace(before);
+  /// The triangle and what is as near as its longest edge is long.
+  Ball around(std::uint32_t triangle) const {
+    const PlacedTriangle t = placed(triangle);
+    const glm::dvec3 middle = (t.at[0] + t.at[1] + t.at[2]) / 3.0;
+    double reach = 0.0, longest = 0.0;
+    for (int k = 0; k < 3; ++k) {
+      reach = std::max(reach, glm::distance(middle, t.at[k]));
+      longest = std::max(longest, glm::distance(t.at[k], t.at[(k + 1) % 3]));
     }
+    return {middle, reach + longest};
+  }
+  PlacedTriangle placed(std::uint32_t triangle) const {
+    const auto v = evener_->links().corners(triangle);
+    const auto& x = evener_->positions();
+    return {v, {x[v[0]], x[v[1]], x[v[2]]}};
   }
 
   void refine(const std::vector<std::uint32_t>& triangles) {
     evener_->refine(triangles, kFiner);
     evener_->even_out(kRefinedRounds);
-    evener_->mend();
     evener_->compact();
-  }
-
-  /// The triangle and what is as near as its longest edge is long.
-  Ball around(std::uint32_t triangle) const {
-    const auto v = evener_->links().corners(triangle);
-    const auto& x = evener_->positions();
-    const glm::dvec3 middle = (x[v[0]] + x[v[1]] + x[v[2]]) / 3.0;
-    double reach = 0.0, longest = 0.0;
-    for (int k = 0; k < 3; ++k) {
-      reach = std::max(reach, glm::distance(middle, x[v[k]]));
-      longest = std::max(longest, glm::distance(x[v[k]], x[v[(k + 1) % 3]]));
-    }
-    return {middle, reach + longest};
-  }
-
-  /// Edges on the faces under these triangles are half as long in the next attempt, and keep to the base, which hardly
-  /// has crossings, in the end; those on faces beside them come a step behind.
-  void note_trouble(const std::vector<std::uint32_t>& triangles) {
-    std::vector<std::uint8_t> here(trouble_.size(), 0);
-    for (const std::uint32_t t : triangles) {
-      const auto v = evener_->links().corners(t);
-      const auto& x = evener_->positions();
-      for (const std::uint32_t k : v) here[evener_->point(k).face] = 1;
-      if (const auto at = below((x[v[0]] + x[v[1]] + x[v[2]]) / 3.0, v)) here[at->face] = 1;
-    }
-    for (std::size_t f = 0; f < here.size(); ++f)
-      if (here[f]) worsen(f);
-    std::vector<std::uint8_t> beside = trouble_;
-    for (const Border& border : surface_.borders)
-      for (int side = 0; side < 2; ++side) {
-        const int from = trouble_[border.face[side]];
-        std::uint8_t& to = beside[border.face[1 - side]];
-        to = static_cast<std::uint8_t>(std::max<int>(to, from - 1));
-      }
-    trouble_ = std::move(beside);
-  }
-
-  void worsen(std::size_t face) {
-    trouble_[face] = static_cast<std::uint8_t>(std::min(trouble_[face] + 1, patience_.frozen));
   }
 
   std::vector<bool> creases() const {
     if (!follow_creases_) return std::vector<bool>(surface_.borders.size(), false);
-    std::vector<bool> keep = creases_to_keep(surface_, [this](const glm::dvec3& x) { return edge_at(x, probe()); });
-    for (std::size_t b = 0; b < keep.size(); ++b)
-      for (const std::uint32_t f : surface_.borders[b].face)
-        if (trouble_[f]) keep[b] = false;
-    return keep;
+    return creases_to_keep(surface_, [this](const glm::dvec3& x) { return edge_at(x, probe()); });
   }
   double probe() const { return surface_.probe_radius > 0.0 ? surface_.probe_radius : ball_radius_; }
   double radius(std::uint32_t face) const {
@@ -270,8 +259,6 @@ class EvenMeshing {
     if (!from_patches_) {
       try {
         base_ = coarse_mesh(surface_, walk_);
-        least_edge_ = kCoarseEdge;
-        patience_ = kWithCoarse;
         return;
       } catch (const OpenSurfaceError&) {
       }
@@ -281,18 +268,11 @@ class EvenMeshing {
     take_patches(2.0 * tolerance);
   }
 
-  /// By tolerance faces in trouble stay as they are in the base, which has to be as near as promised then.
-  void find_kept_base() {
-    if (options_.density == 0.0) take_patches(kShareOfKept * options_.tolerance);
-  }
-
   void take_patches(double tolerance) {
     tolerance = std::clamp(tolerance, kFinestBase, kCoarsestBase);
     for (int n = 1;; ++n, tolerance *= 0.25) {
       try {
         base_ = tessellate(surface_, {tolerance, false});
-        least_edge_ = std::sqrt(5.0 * tolerance * probe());
-        patience_ = kWithPatches;
         return;
       } catch (const OpenSurfaceError&) {
         if (n == kBases) throw;
@@ -304,22 +284,32 @@ class EvenMeshing {
   std::optional<SurfacePoint> below(const glm::dvec3& x, const std::array<std::uint32_t, 3>& corners) const {
     for (const bool smooth : {true, false})  // a vertex of a crease is on both sides of it
       for (const std::uint32_t v : corners) {
-        if (evener_->on_crease(v) == smooth) continue;
+        if (v >= evener_->positions().size() || evener_->on_crease(v) == smooth) continue;
         if (const auto at = walk_.below(x, evener_->point(v).face)) return at;
       }
     return std::nullopt;
   }
 
-  bool is_too_far(std::uint32_t triangle) const {
-    const auto v = evener_->links().corners(triangle);
-    const auto& x = evener_->positions();
-    return std::any_of(kPlaces.begin(), kPlaces.end(), [&](const auto& w) {
-      const glm::dvec3 place = w[0] * x[v[0]] + w[1] * x[v[1]] + w[2] * x[v[2]];
+  /// That, or where there is none, as creases stand between, the nearest point of these.
+  SurfacePoint near(const glm::dvec3& x, const std::array<std::uint32_t, 3>& corners) const {
+    if (const auto at = below(x, corners)) return *at;
+    SurfacePoint nearest;
+    for (const std::uint32_t v : corners)
+      if (const auto at = walk_.on_near_cusp(x, evener_->point(v).face))
+        if (nearest.face == kNone || glm::distance(at->position, x) < glm::distance(nearest.position, x)) nearest = *at;
+    return nearest;
+  }
+
+  /// A place of a triangle that is too far away.
+  std::optional<glm::dvec3> far_place(const PlacedTriangle& t) const {
+    for (const auto& w : kPlaces) {
+      const glm::dvec3 place = w[0] * t.at[0] + w[1] * t.at[1] + w[2] * t.at[2];
       const double limit = kMargin * tolerance_at(place);
-      const auto foot = below(place, v);
-      if (foot && glm::distance(foot->position, place) <= limit) return false;
-      return std::abs(distance()(place).distance) > limit;
-    });
+      const auto foot = below(place, t.vertex);
+      if (foot && glm::distance(foot->position, place) <= limit) continue;
+      if (std::abs(distance()(place).distance) > limit) return place;
+    }
+    return std::nullopt;
   }
   const SurfaceDistance& distance() const {
     std::call_once(distance_made_, [&] { distance_.emplace(surface_); });
@@ -327,22 +317,40 @@ class EvenMeshing {
   }
 
   /// Triangles that are too far from the surface, and those nearest to places of creases that are too far from the
-  /// mesh: away from creases neither is without the other.
-  std::vector<std::uint32_t> too_far() const {
+  /// mesh: away from creases neither is without the other. With the place, as far as it is known; ascending.
+  std::vector<Evener::Place> too_far() {
     const std::vector<std::array<std::uint32_t, 3>> all = triangles();
-    std::vector<std::uint8_t> bad(all.size(), 0);
-    tbb::parallel_for(std::uint32_t{0}, evener_->links().triangle_count(),
-                      [&](std::uint32_t t) { bad[t] = is_too_far(t); });
-    const MeshDistance from_mesh(evener_->positions(), all);
-    std::vector<std::uint32_t> bridging(base_.positions.size(), kNone);
-    tbb::parallel_for(std::size_t{0}, bridging.size(), [&](std::size_t v) {
-      const double limit = kMargin * tolerance_at(base_.positions[v]);
-      const NearestTriangle nearest = from_mesh(base_.positions[v], std::numeric_limits<double>::infinity());
-      if (nearest.distance > limit) bridging[v] = nearest.triangle;
+    std::vector<Evener::Place> place(all.size());
+    tbb::parallel_for(std::uint32_t{0}, evener_->links().triangle_count(), [&](std::uint32_t t) {
+      if (!evener_->changed(t)) return;
+      const auto far = far_place(placed(t));
+      if (far) place[t] = {t, near(*far, all[t])};
     });
-    for (const std::uint32_t t : bridging)
-      if (t != kNone) bad[t] = 1;
-    return numbers_of(bad);
+    add_bridges(all, place);
+    std::erase_if(place, [](const Evener::Place& p) { return p.triangle == kNone; });
+    evener_->forget_changes(place);
+    return place;
+  }
+  void add_bridges(const std::vector<std::array<std::uint32_t, 3>>& all, std::vector<Evener::Place>& place) const {
+    const MeshDistance from_mesh(evener_->positions(), all);
+    std::vector<NearestTriangle> bridging(to_reach_.size(), {kNone, 0.0});
+    tbb::parallel_for(std::size_t{0}, bridging.size(), [&](std::size_t v) {
+      const glm::dvec3& x = to_reach_[v].position;
+      const double limit = kMargin * tolerance_at(x);
+      if (from_mesh(x, limit).distance >= limit) bridging[v] = from_mesh(x, std::numeric_limits<double>::infinity());
+    });
+    std::vector<double> farthest(all.size(), 0.0);
+    for (std::size_t v = 0; v < bridging.size(); ++v) {
+      const auto& [t, distance] = bridging[v];
+      if (t == kNone || distance <= farthest[t]) continue;
+      farthest[t] = distance;
+      place[t] = {t, to_reach_[v]};
+    }
+  }
+  static std::vector<std::uint32_t> triangles_of(const std::vector<Evener::Place>& places) {
+    std::vector<std::uint32_t> triangles;
+    for (const Evener::Place& place : places) triangles.push_back(place.triangle);
+    return triangles;
   }
   std::vector<std::uint32_t> crossing() const {
     std::vector<std::uint8_t> bad(evener_->links().triangle_count(), 0);
@@ -443,9 +451,7 @@ class EvenMeshing {
   bool follow_creases_, from_patches_;
   SurfaceWalk walk_;
   TriangleMesh base_;
-  double least_edge_ = 0.0;  ///< Å; faces in trouble are not asked for shorter ones
-  Patience patience_{};
-  std::vector<std::uint8_t> trouble_;  ///< per face: how often triangles were found to cross there
+  std::vector<SurfacePoint> to_reach_;  ///< the mesh has to come near these
   std::optional<Evener> evener_;
   mutable std::once_flag distance_made_;
   mutable std::optional<SurfaceDistance> distance_;

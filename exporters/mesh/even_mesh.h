@@ -34,9 +34,10 @@ struct EvenMesh {
 /// exact surface under its middle. Edges follow creases that are no shorter than they are. The mesh is closed, has the
 /// surface's components and their Euler characteristics, no triangles that pass through others, and is the same for any
 /// number of threads. With a tolerance the distance of each triangle from the surface is measured at 7 places, and that
-/// of the surface from the mesh at the vertices of a coarser mesh; between those, beside creases that are bridged, the
-/// surface may be farther: 1.4 tolerances were seen.
-/// Where triangles cross, all begins anew with shorter edges there, or with those of the beginning left as they are.
+/// of the surface from the mesh at the vertices of one as near as 0.3 tolerances; between those the surface may be
+/// farther, by less than that. Where triangles pass through others, lie too far away or are slivers, the best of all
+/// small changes there is made, again and again. Where that is not enough all begins anew, and what is around such
+/// places keeps to the triangles of the beginning, but for such changes.
 /// Throws Error for numbers that make no sense, OpenSurfaceError where no such mesh was found: where creases crowd, as
 /// on bare balls, a tolerance is refused at times.
 EvenMesh even_mesh(const Surface& surface, const EvenMeshOptions& options = {});

@@ -23,8 +23,6 @@ constexpr double kDeepest = 0.35;
 constexpr double kTooNear = 0.2;
 /// A crease is where mesh vertices are no farther (Å) from its circle.
 constexpr double kOnCrease = 1e-6;
-/// Flips have to improve the worse of two triangles by so much, or two edges would flip for ever.
-constexpr double kBetter = 1e-6;
 /// Edges between triangles as good as that are not flipped: their smallest angles are some 35 degrees.
 constexpr double kFine = 0.82;
 /// A look that was not taken.
@@ -34,23 +32,21 @@ constexpr double kNoStep = 0.01;
 /// Passes that change fewer than one in so many triangles are the last ones of an approach.
 constexpr std::uint32_t kFew = 16;
 constexpr int kApproaches = 12;
-/// Cosines between the normals of a triangle and of the surface at its vertices: the least, and the most asked for.
-constexpr double kSteepest = 0.05, kLeaning = 0.7;
-/// The quality (4 sqrt(3) area / sum of squared edges: 1 for an equilateral triangle) of one whose smallest angle is 20
-/// degrees or more if it is isosceles.
-constexpr double kGood = 0.55;
+/// Cosines between the normals of a triangle and of the surface at its vertices: the most asked for.
+constexpr double kLeaning = 0.7;
 /// Of a collapse: worse triangles are not made.
 constexpr double kPoor = 0.3;
 /// Vertices of more edges are left alone.
 constexpr std::uint32_t kMostEdges = 24;
+/// Edges that are asked to be shorter than this share of what they were at first would not help either.
+constexpr float kFinest = 0.25f;
 /// How far a vertex goes towards the middle of its neighbours.
 constexpr double kStep = 0.8;
-constexpr int kMendingRounds = 4;
 
 }  // namespace
 
 Evener::Evener(const Surface& surface, SurfaceWalk& walk, const TriangleMesh& base, const std::vector<bool>& keep,
-               const std::vector<bool>& frozen, EdgeLength edge)
+               EdgeLength edge)
     : surface_(surface),
       walk_(walk),
       edge_(std::move(edge)),
@@ -64,14 +60,14 @@ Evener::Evener(const Surface& surface, SurfaceWalk& walk, const TriangleMesh& ba
       scale_(base.positions.size(), 1.0f),
       outlook_(base.positions.size(), 0.0f),
       active_(base.positions.size(), 1),
-      frozen_(base.positions.size(), 0),
+      changed_(base.positions.size(), 1),
+      watched_(base.positions.size(), 0),
+      held_(base.positions.size(), 0),
       look_(base.triangles.size(), kUnseen) {
   walk.bar(keep);
   for (std::size_t t = 0; t < base.triangles.size(); ++t)
-    for (const std::uint32_t v : base.triangles[t]) {
+    for (const std::uint32_t v : base.triangles[t])
       if (face_[v] == kNone) face_[v] = base.face[t];
-      if (frozen[base.face[t]]) frozen_[v] = 1;
-    }
   tbb::parallel_for(std::size_t{0}, face_.size(), [&](std::size_t n) {
     const auto v = static_cast<std::uint32_t>(n);
     settle(v, point(v), kNone);
@@ -171,8 +167,12 @@ double Evener::look_of(std::uint32_t triangle) const {
   return look(v[0], position_[v[0]], v[1], v[2]);
 }
 
-void Evener::forget_looks_around(std::uint32_t vertex) {
-  links_.around(vertex, [&](std::uint32_t half) { look_[half / 3] = kUnseen; });
+void Evener::note_changes_around(std::uint32_t vertex) {
+  changed_[vertex] = 1;
+  links_.around(vertex, [&](std::uint32_t half) {
+    look_[half / 3] = kUnseen;
+    if (watched_[vertex]) guard_.add(half / 3);
+  });
 }
 
 void Evener::look_at_all() {
@@ -191,6 +191,18 @@ std::uint32_t Evener::split_long(double limit) {
 }
 
 bool Evener::split(std::uint32_t half) {
+  const auto at = middle_of(half);
+  if (!at) return false;
+  for (const std::uint32_t c : {links_.opposite(half), links_.opposite(links_.twin(half))})
+    if (approaching_ && glm::distance(at->position, position_[c]) < kTooNear * length(half))
+      return links_.crease(half) == kNone && try_flip(half);
+  if ((watched_[links_.from(half)] || watched_[links_.to(half)]) && !is_free(split_of(half, *at))) return false;
+  put_vertex(half, *at);
+  return true;
+}
+
+/// Where the surface is below the middle of an edge.
+std::optional<SurfacePoint> Evener::middle_of(std::uint32_t half) const {
   const std::uint32_t a = links_.from(half), b = links_.to(half), border = links_.crease(half);
   const glm::dvec3 middle = 0.5 * (position_[a] + position_[b]);
   std::optional<SurfacePoint> at;
@@ -203,11 +215,25 @@ bool Evener::split(std::uint32_t half) {
   const double deepest = kDeepest * length(half);
   if (border == kNone && (!at || glm::distance(at->position, middle) > deepest))
     at = walk_.on_near_cusp(middle, face_[a]);
-  if (!at || glm::distance(at->position, middle) > deepest) return false;
-  for (const std::uint32_t c : {links_.opposite(half), links_.opposite(links_.twin(half))})
-    if (approaching_ && glm::distance(at->position, position_[c]) < kTooNear * length(half))
-      return border == kNone && try_flip(half);
-  const std::uint32_t m = links_.split(half);
+  if (at && glm::distance(at->position, middle) > deepest) return std::nullopt;
+  return at;
+}
+
+void Evener::put_vertex(std::uint32_t half, const SurfacePoint& at) {
+  const std::uint32_t a = links_.from(half), b = links_.to(half), border = links_.crease(half);
+  links_.split(half);
+  add_vertex(a, b, at, border);
+}
+
+void Evener::poke(std::uint32_t triangle, const SurfacePoint& at) {
+  const auto v = links_.corners(triangle);
+  links_.poke(triangle);
+  add_vertex(v[0], v[1], at, kNone);
+}
+
+/// The numbers of the last vertex, which has come between a and b.
+void Evener::add_vertex(std::uint32_t a, std::uint32_t b, const SurfacePoint& at, std::uint32_t border) {
+  const std::uint32_t m = links_.vertex_count() - 1;
   position_.emplace_back();
   normal_.emplace_back();
   face_.push_back(kNone);
@@ -217,19 +243,19 @@ bool Evener::split(std::uint32_t half) {
   outlook_.push_back(0.0f);
   scale_.push_back(0.5f * (scale_[a] + scale_[b]));
   active_.push_back(1);
-  frozen_.push_back(0);
+  changed_.push_back(1);
+  watched_.push_back(watched_[a] | watched_[b]);
+  held_.push_back(0);
   look_.resize(links_.triangle_count(), kUnseen);
-  settle(m, *at, border);
-  forget_looks_around(m);
-  return true;
+  settle(m, at, border);
+  note_changes_around(m);
 }
 
 std::uint32_t Evener::collapse_short() {
   std::uint32_t done = 0;
   for (std::uint32_t half = 0; half < links_.half_edge_count(); ++half) {
     if (!links_.lives(half) || half > links_.twin(half) || !busy(half)) continue;
-    if (length(half) < kShort * wanted(half))
-      done += try_collapse(half, false) || try_collapse(links_.twin(half), false);
+    if (length(half) < kShort * wanted(half)) done += try_collapse(half) || try_collapse(links_.twin(half));
   }
   return done;
 }
@@ -237,7 +263,7 @@ std::uint32_t Evener::collapse_short() {
 /// A vertex of a crease goes along it only, and where creases end or meet it stays.
 bool Evener::may_vanish(std::uint32_t half) const {
   const std::uint32_t a = links_.from(half);
-  if (pinned_[a] || frozen_[a]) return false;
+  if (pinned_[a]) return false;
   if (border_[a] != kNone && links_.crease(half) != border_[a]) return false;
   // Two creases must not fall together.
   const auto creased = [&](std::uint32_t edge) { return links_.crease(edge) != kNone; };
@@ -246,24 +272,29 @@ bool Evener::may_vanish(std::uint32_t half) const {
          !(creased(LinkedTriangles::next(other)) && creased(LinkedTriangles::last(other)));
 }
 
-bool Evener::try_collapse(std::uint32_t half, bool for_quality) {
+bool Evener::try_collapse(std::uint32_t half) {
   const std::uint32_t a = links_.from(half), b = links_.to(half);
-  if (!may_vanish(half)) return false;
+  if (held_[a] || !may_vanish(half)) return false;
   if (links_.valence(a) + links_.valence(b) > kMostEdges) return false;
-  const double before = score_around(a);
-  const double bar = for_quality ? before : std::min(before, kPoor);
   bool fits = true;
+  links_.around(a, [&](std::uint32_t edge) {
+    const std::uint32_t c = links_.to(edge);
+    fits = fits && (c == b || glm::distance(position_[b], position_[c]) <= kLong * 0.5 * (size_[b] + size_[c]));
+  });
+  if (!fits || !links_.can_collapse(half)) return false;
+  const double bar = std::min(score_around(a), kPoor);
   Looks after;
   links_.around(a, [&](std::uint32_t edge) {
     const std::uint32_t c = links_.to(edge), d = links_.opposite(edge);
     if (!fits || c == b || d == b) return;
     after.add(look(b, position_[b], c, d));
-    fits = after.score() >= bar && glm::distance(position_[b], position_[c]) <= kLong * 0.5 * (size_[b] + size_[c]);
+    fits = after.score() >= bar;
   });
-  if (!fits || (for_quality && after.score() <= before) || !links_.can_collapse(half)) return false;
+  if (!fits || ((watched_[a] || watched_[b]) && !is_free(collapse_of(half)))) return false;
   active_[b] = 1;
+  watched_[b] |= watched_[a];
   links_.collapse(half);
-  forget_looks_around(b);
+  note_changes_around(b);
   return true;
 }
 
@@ -275,7 +306,7 @@ void Evener::flip_edges() {
 }
 
 bool Evener::try_flip(std::uint32_t half) {
-  if (links_.crease(half) != kNone || frozen_edge(half)) return false;
+  if (links_.crease(half) != kNone) return false;
   const std::uint32_t a = links_.from(half), b = links_.to(half), other = links_.twin(half);
   const std::uint32_t c = links_.opposite(half), d = links_.opposite(other);
   Looks before, after;
@@ -288,9 +319,13 @@ bool Evener::try_flip(std::uint32_t half) {
   after.add(second);
   if (!(after.score() > before.score() + kBetter) || !links_.can_flip(half)) return false;
   if (links_.valence(c) >= kMostEdges || links_.valence(d) >= kMostEdges) return false;
+  const bool watched = watched_[a] || watched_[b] || watched_[c] || watched_[d];
+  if (watched && !is_free(flip_of(half))) return false;
   links_.flip(half);
   look_[half / 3] = static_cast<float>(first);
   look_[other / 3] = static_cast<float>(second);
+  for (const std::uint32_t v : {a, b, c, d}) changed_[v] = 1;
+  if (watched) guard_.add(half / 3), guard_.add(other / 3);
   return true;
 }
 
@@ -321,7 +356,7 @@ glm::dvec3 Evener::centroid_around(std::uint32_t vertex) const {
 }
 
 std::optional<SurfacePoint> Evener::relaxed(std::uint32_t vertex) const {
-  if (pinned_[vertex] || frozen_[vertex]) return std::nullopt;
+  if (pinned_[vertex] || held_[vertex]) return std::nullopt;
   const glm::dvec3& x = position_[vertex];
   SurfacePoint target;
   if (border_[vertex] != kNone) {
@@ -343,7 +378,8 @@ std::optional<SurfacePoint> Evener::relaxed(std::uint32_t vertex) const {
   return target;
 }
 
-/// All vertices look at where the others were, so the order in which they are asked does not count.
+/// All vertices look at where the others were, so the order in which they are asked does not count; where triangles
+/// have to be kept apart they move one after another.
 void Evener::relax() {
   std::vector<std::optional<SurfacePoint>> target(position_.size());
   tbb::parallel_for(std::size_t{0}, position_.size(), [&](std::size_t v) {
@@ -351,8 +387,11 @@ void Evener::relax() {
     if (active_[v] && links_.vertex_lives(vertex)) target[v] = relaxed(vertex);
   });
   tbb::parallel_for(std::size_t{0}, position_.size(), [&](std::size_t v) {
-    if (target[v]) settle(static_cast<std::uint32_t>(v), *target[v], border_[v]);
+    if (target[v] && !watched_[v]) settle(static_cast<std::uint32_t>(v), *target[v], border_[v]), changed_[v] = 1;
   });
+  for (std::uint32_t v = 0; v < target.size(); ++v)
+    if (target[v] && watched_[v])
+      if (const Change move = move_of(v, *target[v]); is_free(move)) make(move);
   look_.assign(look_.size(), kUnseen);
   look_at_all();
 }
@@ -408,53 +447,10 @@ double Evener::score_around(std::uint32_t vertex, const glm::dvec3& x) const {
   return looks.score();
 }
 
-/// Moves a vertex where its worst triangle is better: towards the middle of its neighbours, or part of the way.
-bool Evener::nudge(std::uint32_t vertex) {
-  if (pinned_[vertex] || frozen_[vertex]) return false;
-  const glm::dvec3 x = position_[vertex];
-  const bool along = border_[vertex] != kNone;
-  glm::dvec3 sum(0.0);
-  int count = 0;
-  links_.around(vertex, [&](std::uint32_t half) {
-    if (along && links_.crease(half) == kNone) return;
-    sum += position_[links_.to(half)];
-    ++count;
-  });
-  const double before = score_around(vertex);
-  for (const double step : {1.0, 0.5, 0.25}) {
-    const glm::dvec3 y = x + step * (sum / double(count) - x);
-    std::optional<SurfacePoint> at;
-    if (!along) at = walk_.below(y, face_[vertex]);
-    if (along)
-      if (const auto on = walk_.on_border(y, border_[vertex])) at = SurfacePoint{*on, face_[vertex]};
-    if (!at || !(glm::distance(at->position, x) < size_[vertex])) continue;
-    if (!(score_around(vertex, at->position) > before + kBetter)) continue;
-    settle(vertex, *at, border_[vertex]);
-    forget_looks_around(vertex);
-    return true;
-  }
-  return false;
-}
-
-void Evener::mend() {
-  for (int round = 0; round < kMendingRounds; ++round) {
-    bool any = false;
-    for (std::uint32_t t = 0; t < links_.triangle_count(); ++t) {
-      if (!links_.lives(3 * t)) continue;
-      if (look_of(t) >= kGood) continue;
-      for (std::uint32_t half = 3 * t; half < 3 * t + 3; ++half) any = try_flip(half) || any;
-      std::uint32_t shortest = 3 * t;
-      for (std::uint32_t half = 3 * t; half < 3 * t + 3; ++half)
-        if (length(half) < length(shortest)) shortest = half;
-      if (length(shortest) < kShort * wanted(shortest) &&
-          (try_collapse(shortest, true) || try_collapse(links_.twin(shortest), true))) {
-        any = true;
-        continue;
-      }
-      for (const std::uint32_t v : links_.corners(t)) any = nudge(v) || any;
-    }
-    if (!any) return;
-  }
+void Evener::forget_changes(std::span<const Place> but) {
+  std::fill(changed_.begin(), changed_.end(), std::uint8_t{0});
+  for (const Place& place : but)
+    for (const std::uint32_t v : links_.corners(place.triangle)) changed_[v] = 1;
 }
 
 void Evener::refine(const std::vector<std::uint32_t>& triangles, double factor) {
@@ -465,21 +461,13 @@ void Evener::refine(const std::vector<std::uint32_t>& triangles, double factor) 
     if (bad[v]) links_.around(v, [&](std::uint32_t half) { beside[links_.to(half)] = 1; });
   for (std::uint32_t v = 0; v < bad.size(); ++v) {
     active_[v] = bad[v] | beside[v];
-    const auto less = static_cast<float>(bad[v] ? factor : beside[v] ? std::sqrt(factor) : 1.0);
+    const double asked = bad[v] ? factor : beside[v] ? std::sqrt(factor) : 1.0;
+    const auto less = scale_[v] > kFinest ? static_cast<float>(asked) : 1.0f;
     scale_[v] *= less;
     size_[v] *= less;
     outlook_[v] = static_cast<float>(least_outlook(v));
   }
 }
-
-void Evener::hold(const std::vector<Ball>& places) {
-  tbb::parallel_for(std::size_t{0}, position_.size(), [&](std::size_t v) {
-    for (const Ball& place : places)
-      if (glm::distance(place.center, position_[v]) < place.radius) frozen_[v] = 1;
-  });
-}
-
-void Evener::release() { std::fill(frozen_.begin(), frozen_.end(), std::uint8_t{0}); }
 
 void Evener::compact() {
   const std::vector<std::uint32_t> old = links_.compact();
@@ -496,8 +484,11 @@ void Evener::compact() {
   take(scale_);
   take(outlook_);
   take(active_);
-  take(frozen_);
+  take(changed_);
+  take(watched_);
+  take(held_);
   look_.assign(links_.triangle_count(), kUnseen);
+  guard_.list(watched_);
 }
 
 }  // namespace meniscus

@@ -79,6 +79,28 @@ std::uint32_t LinkedTriangles::split(std::uint32_t half) {
   return m;
 }
 
+std::uint32_t LinkedTriangles::poke(std::uint32_t triangle) {
+  // (a, b, c) becomes (a, b, m), (b, c, m), (c, a, m).
+  const std::uint32_t ab = 3 * triangle, bc = ab + 1, ca = ab + 2;
+  const std::uint32_t a = from_[ab], b = from_[bc], c = from_[ca];
+  const std::uint32_t outer_bc = twin_[bc], outer_ca = twin_[ca], crease_bc = crease_[bc], crease_ca = crease_[ca];
+  const std::uint32_t m = vertex_count(), first = half_edge_count();
+  from_.insert(from_.end(), {b, c, m, c, a, m});
+  twin_.resize(first + 6);
+  crease_.resize(first + 6, kNone);
+  from_[ca] = m;  // bc: b to m, ca: m to a
+  link(first, outer_bc, crease_bc);
+  link(first + 3, outer_ca, crease_ca);
+  link(bc, first + 2, kNone);
+  link(first + 1, first + 5, kNone);
+  link(first + 4, ca, kNone);
+  leaving_.push_back(ca);
+  leaving_[a] = ab;
+  leaving_[b] = bc;
+  leaving_[c] = first + 1;
+  return m;
+}
+
 bool LinkedTriangles::can_collapse(std::uint32_t half) const {
   const std::uint32_t a = from_[half], b = to(half);
   if (valence(opposite(half)) <= 3 || valence(opposite(twin_[half])) <= 3) return false;

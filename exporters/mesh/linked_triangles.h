@@ -56,6 +56,8 @@ class LinkedTriangles {
 
   /// Puts a new vertex on an edge, and returns it. Both halves keep the crease.
   std::uint32_t split(std::uint32_t half);
+  /// Puts a new vertex into a triangle, and returns it.
+  std::uint32_t poke(std::uint32_t triangle);
   /// Would the surface stay a closed one of the same topology without this edge?
   bool can_collapse(std::uint32_t half) const;
   /// Moves the edge's first vertex into its second: it and two triangles are gone.

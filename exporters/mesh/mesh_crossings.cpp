@@ -42,8 +42,8 @@ class CrossingSearch {
   CrossingSearch(std::span<const glm::dvec3> positions, std::span<const Triangle> triangles)
       : positions_(positions), triangles_(triangles), boxes_(triangles.size()) {
     tbb::parallel_for(std::size_t{0}, triangles.size(), [&](std::size_t t) {
-      const auto x = corners(static_cast<std::uint32_t>(t));
-      boxes_[t] = {glm::min(glm::min(x[0], x[1]), x[2]), glm::max(glm::max(x[0], x[1]), x[2])};
+      const PlacedTriangle x = placed(static_cast<std::uint32_t>(t));
+      boxes_[t] = {x.low(), x.high()};
     });
   }
 
@@ -63,7 +63,7 @@ class CrossingSearch {
   }
 
  private:
-  struct Box {
+  struct Bounds {
     glm::dvec3 low{0.0}, high{0.0};
   };
   struct Entry {
@@ -74,14 +74,10 @@ class CrossingSearch {
     }
   };
 
-  std::array<glm::dvec3, 3> corners(std::uint32_t t) const {
-    return {positions_[triangles_[t][0]], positions_[triangles_[t][1]], positions_[triangles_[t][2]]};
-  }
-
   void choose_cells() {
     double sum = 0.0;
     low_ = boxes_.front().low;
-    for (const Box& box : boxes_) {
+    for (const Bounds& box : boxes_) {
       const glm::dvec3 size = box.high - box.low;
       sum += std::max({size.x, size.y, size.z});
       low_ = glm::min(low_, box.low);
@@ -117,6 +113,11 @@ class CrossingSearch {
     starts_.push_back(entries_.size());
   }
 
+  PlacedTriangle placed(std::uint32_t t) const {
+    const Triangle& v = triangles_[t];
+    return {v, {positions_[v[0]], positions_[v[1]], positions_[v[2]]}};
+  }
+
   void look_in_cell(std::size_t c, std::vector<Pair>& found) const {
     for (std::size_t i = starts_[c]; i < starts_[c + 1]; ++i)
       for (std::size_t j = i + 1; j < starts_[c + 1]; ++j) {
@@ -124,34 +125,14 @@ class CrossingSearch {
         const glm::dvec3 low = glm::max(boxes_[a].low, boxes_[b].low), high = glm::min(boxes_[a].high, boxes_[b].high);
         if (glm::any(glm::greaterThan(low, high))) continue;
         const auto home = cell_of(low);  // boxes that meet do so in several cells; they count in the first
-        if (key(home[0], home[1], home[2]) == entries_[i].cell && cross(a, b)) found.emplace_back(a, b);
+        if (key(home[0], home[1], home[2]) == entries_[i].cell && triangles_cross(placed(a), placed(b)))
+          found.emplace_back(a, b);
       }
-  }
-
-  bool cross(std::uint32_t a, std::uint32_t b) const {
-    const Triangle &s = triangles_[a], &t = triangles_[b];
-    std::array<int, 3> shared{};  // places in s
-    int count = 0;
-    for (int k = 0; k < 3; ++k)
-      if (std::find(t.begin(), t.end(), s[k]) != t.end()) shared[count++] = k;
-    const auto x = corners(a), y = corners(b);
-    if (count == 0) {
-      for (int k = 0; k < 3; ++k)
-        if (passes_through(x[k], x[(k + 1) % 3], y) || passes_through(y[k], y[(k + 1) % 3], x)) return true;
-      return false;
-    }
-    if (count == 1) {
-      const int i = shared[0];
-      const auto j = static_cast<int>(std::find(t.begin(), t.end(), s[i]) - t.begin());
-      return passes_through(x[(i + 1) % 3], x[(i + 2) % 3], y) || passes_through(y[(j + 1) % 3], y[(j + 2) % 3], x);
-    }
-    const glm::dvec3 n = glm::cross(x[1] - x[0], x[2] - x[0]), m = glm::cross(y[1] - y[0], y[2] - y[0]);
-    return !(glm::dot(n, m) > kFolded * glm::length(n) * glm::length(m));
   }
 
   std::span<const glm::dvec3> positions_;
   std::span<const Triangle> triangles_;
-  std::vector<Box> boxes_;
+  std::vector<Bounds> boxes_;
   glm::dvec3 low_{0.0};
   double cell_ = 1.0;
   std::vector<Entry> entries_;
@@ -159,6 +140,26 @@ class CrossingSearch {
 };
 
 }  // namespace
+
+bool triangles_cross(const PlacedTriangle& a, const PlacedTriangle& b) {
+  std::array<int, 3> shared{};  // places in a
+  int count = 0;
+  for (int k = 0; k < 3; ++k)
+    if (std::find(b.vertex.begin(), b.vertex.end(), a.vertex[k]) != b.vertex.end()) shared[count++] = k;
+  const auto &x = a.at, &y = b.at;
+  if (count == 0) {
+    for (int k = 0; k < 3; ++k)
+      if (passes_through(x[k], x[(k + 1) % 3], y) || passes_through(y[k], y[(k + 1) % 3], x)) return true;
+    return false;
+  }
+  if (count == 1) {
+    const int i = shared[0];
+    const auto j = static_cast<int>(std::find(b.vertex.begin(), b.vertex.end(), a.vertex[i]) - b.vertex.begin());
+    return passes_through(x[(i + 1) % 3], x[(i + 2) % 3], y) || passes_through(y[(j + 1) % 3], y[(j + 2) % 3], x);
+  }
+  const glm::dvec3 n = glm::cross(x[1] - x[0], x[2] - x[0]), m = glm::cross(y[1] - y[0], y[2] - y[0]);
+  return !(glm::dot(n, m) > kFolded * glm::length(n) * glm::length(m));
+}
 
 std::vector<std::pair<std::uint32_t, std::uint32_t>> crossing_triangles(std::span<const glm::dvec3> positions,
                                                                         std::span<const Triangle> triangles) {

@@ -15,7 +15,9 @@
 #include "core/queries/distance.h"
 #include "core/surface/surface.h"
 #include "exporters/mesh/coarse_mesh.h"
+#include "exporters/mesh/crossing_guard.h"
 #include "exporters/mesh/even_mesh.h"
+#include "exporters/mesh/linked_triangles.h"
 #include "exporters/mesh/mesh_crossings.h"
 #include "exporters/mesh/tessellate.h"
 #include "tests/support/molecules.h"
@@ -238,6 +240,28 @@ TEST(EvenMesh, UbiquitinHasNoSlivers) {
             5e-5 * static_cast<double>(angles.size()) + 1);
 }
 
+/// The longest edge over the height on it, of the worst triangle.
+double worst_aspect(const TriangleMesh& mesh) {
+  double worst = 0.0;
+  for (const Triangle& t : mesh.triangles) {
+    const std::array<glm::dvec3, 3> x{mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]};
+    double longest = 0.0;
+    for (int k = 0; k < 3; ++k) longest = std::max(longest, glm::distance(x[k], x[(k + 1) % 3]));
+    worst = std::max(worst, longest * longest / glm::length(glm::cross(x[1] - x[0], x[2] - x[0])));
+  }
+  return worst;
+}
+
+TEST(EvenMesh, UbiquitinHasNoSliversAtAnyDensity) {
+  const Surface surface = compute_surface_cpu(ubiquitin(), kWater);
+  for (const double density : {0.3, 1.0, 3.0, 6.0}) {
+    SCOPED_TRACE(density);
+    const TriangleMesh mesh = even_mesh(surface, {density, 0.0, {}}).mesh;
+    EXPECT_GT(smallest_angles(mesh).front(), 5.0);
+    EXPECT_LT(worst_aspect(mesh), 14.0);
+  }
+}
+
 TEST(EvenMesh, ToleranceMayDependOnThePlace) {
   const Surface surface = compute_surface_cpu(collinear(12, 3.0), kWater);
   const auto tolerance = [](const glm::dvec3& x) { return x.x < 18.0 ? 0.02 : 0.08; };
@@ -275,6 +299,46 @@ TEST(MeshCrossings, AreFoundWhereTwoTetrahedraOverlap) {
     std::vector<glm::dvec3> all = x;
     for (int k = 0; k < 4; ++k) all.push_back(x[k] + glm::dvec3(shift, 0.11 * shift, 0.13 * shift));
     EXPECT_EQ(crossing_triangles(all, both).empty(), shift == 2.0);
+  }
+}
+
+TEST(CrossingGuard, CountsWhatPassesThroughListedTriangles) {
+  const std::vector<Triangle> one{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
+  const std::vector<glm::dvec3> x{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  const LinkedTriangles links(one, 4);
+  CrossingGuard guard(links, x);
+  const auto crossings = [&](const PlacedTriangle& made, std::vector<std::uint32_t> gone) {
+    return guard.crossings({&made, 1}, gone);
+  };
+  const PlacedTriangle through{{7, 8, 9}, {{{0.2, 0.2, -1}, {0.2, 0.2, 2}, {-3, -3, 0.5}}}};
+  const PlacedTriangle beside{{7, 8, 9}, {{{2, 2, -1}, {2, 2, 2}, {3, 3, 0.5}}}};
+  guard.list({0, 0, 0, 0});
+  EXPECT_EQ(crossings(through, {}), 0u);  // nothing is listed
+  guard.list({1, 1, 1, 1});
+  EXPECT_EQ(crossings(through, {}), 4u);
+  EXPECT_EQ(crossings(through, {0}), 3u);
+  EXPECT_EQ(crossings(beside, {}), 0u);
+  guard.list({0, 0, 0, 0});
+  guard.add(2);
+  guard.add(2);  // listed twice, counted once
+  EXPECT_EQ(crossings(through, {}), 1u);
+  const std::array<PlacedTriangle, 2> both{
+      through, PlacedTriangle{{10, 11, 12}, {{{-0.5, -0.6, 0.5}, {-0.62, -0.5, 0.4}, {-0.6, -0.5, 0.6}}}}};
+  EXPECT_EQ(guard.crossings(both, std::vector<std::uint32_t>{2}), 1u);  // each other
+}
+
+TEST(LinkedTriangles, AreClosedWithANewVertexInATriangle) {
+  LinkedTriangles links(std::vector<Triangle>{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}, 4);
+  links.set_crease(4, 6);
+  EXPECT_EQ(links.poke(1), 4u);
+  EXPECT_EQ(links.triangle_count(), 6u);
+  EXPECT_EQ(links.valence(4), 3u);
+  for (const std::uint32_t v : {0u, 1u, 3u}) EXPECT_EQ(links.valence(v), 4u);
+  for (std::uint32_t half = 0; half < links.half_edge_count(); ++half) {
+    EXPECT_EQ(links.from(links.twin(half)), links.to(half));
+    EXPECT_EQ(links.to(links.twin(half)), links.from(half));
+    const bool creased = std::minmax(links.from(half), links.to(half)) == std::minmax(1u, 3u);
+    EXPECT_EQ(links.crease(half), creased ? 6u : kNone);
   }
 }
 
