@@ -349,6 +349,7 @@ class EvenMeshing {
   }
   static std::vector<std::uint32_t> triangles_of(const std::vector<Evener::Place>& places) {
     std::vector<std::uint32_t> triangles;
+    triangles.reserve(places.size());
     for (const Evener::Place& place : places) triangles.push_back(place.triangle);
     return triangles;
   }
