@@ -55,8 +55,8 @@ def distance_to_triangles(points, corners):
     return np.where(inside, np.abs(above), nearest)
 
 
-def farthest_from_mesh(points, vertices, triangles, near=12):
-    """The largest distance of the points from the mesh, no less than it is: to triangles at the nearest vertices."""
+def bounds_from_mesh(points, vertices, triangles, near=12):
+    """The distance of each point to the triangles at its nearest vertices: no less than that to the mesh."""
     order = np.argsort(triangles.ravel(), kind="stable")
     starts = np.searchsorted(triangles.ravel()[order], np.arange(len(vertices) + 1))
     best = np.full(len(points), np.inf)
@@ -67,6 +67,26 @@ def farthest_from_mesh(points, vertices, triangles, near=12):
             triangle = order[starts[column[has]] + turn] // 3
             best[has] = np.minimum(best[has], distance_to_triangles(points[has], vertices[triangles[triangle]]))
     return best
+
+
+def farthest_from_mesh(points, vertices, triangles, together=100):
+    """The largest distance of the points from the mesh. Small triangles may crowd around a point whose nearest triangle
+    has no vertex nearby, so the largest bounds are replaced by distances until one is no less than all bounds left."""
+    bounds = bounds_from_mesh(points, vertices, triangles)
+    corners = vertices[triangles]
+    middles = corners.mean(axis=1)
+    reach = np.linalg.norm(corners - middles[:, None], axis=2).max()
+    tree = cKDTree(middles)
+    largest = 0.0
+    order = np.argsort(-bounds)
+    for first in range(0, len(order), together):
+        if largest >= bounds[order[first]]:
+            break
+        for i in order[first:first + together]:
+            candidates = tree.query_ball_point(points[i], bounds[i] + reach + 1e-9)
+            distance = distance_to_triangles(np.broadcast_to(points[i], (len(candidates), 3)), corners[candidates]).min()
+            largest = max(largest, min(distance, bounds[i]))
+    return largest
 
 
 def main():
@@ -111,7 +131,7 @@ def main():
         samples = np.array(surface.mesh(0.01, split_colors=False).vertices)
         back = farthest_from_mesh(samples, vertices, triangles)
         print(f"Å: vertices {np.abs(surface.distance(vertices)).max():.1e}  middles max {at_middle.max():.4f} mean "
-              f"{at_middle.mean():.4f}  mesh to surface {forward.max():.4f}  surface to mesh {back.max():.4f}")
+              f"{at_middle.mean():.4f}  mesh to surface {forward.max():.4f}  surface to mesh {back:.4f}")
     if options.off:
         with open(options.off, "w", encoding="ascii") as file:
             file.write(f"OFF\n{len(vertices)} {len(triangles)} 0\n")

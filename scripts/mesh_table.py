@@ -90,7 +90,7 @@ def quality(vertices, triangles, surface, options):
     places = np.einsum("pk,tkc->tpc", measure.PLACES, few).reshape(-1, 3)
     forward = np.abs(surface.distance(places)).max()
     samples = drawn(np.array(surface.mesh(options.reference, split_colors=False).vertices), options.points)
-    back = measure.farthest_from_mesh(samples, vertices.astype(float), triangles).max()
+    back = measure.farthest_from_mesh(samples, vertices.astype(float), triangles)
     p = np.percentile(angles, [0, 1, 5, 50])
     return [f"{p[0]:.2f}", f"{p[1]:.1f}", f"{p[2]:.1f}", f"{p[3]:.1f}", f"{100 * (angles < 5).mean():.4f}",
             f"{aspect.max():.3g}", f"{100 * (areas.sum() / surface.area - 1):+.2f}", f"{forward:.4f}", f"{back:.4f}",

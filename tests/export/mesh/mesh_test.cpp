@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Meshes of many surfaces: closed, outward, of the right topology, on the surface, within the tolerance, crisply
-// coloured.
+// Meshes of many surfaces: closed, outward, of the right topology, on the surface, within the tolerance both ways,
+// crisply coloured.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -17,6 +17,7 @@
 #include "core/surface/surface.h"
 #include "exporters/mesh/contact_colors.h"
 #include "exporters/mesh/tessellate.h"
+#include "tests/support/distance_to_mesh.h"
 #include "tests/support/molecules.h"
 #include "tests/support/sphere_tracer.h"
 
@@ -153,6 +154,15 @@ TEST_P(MeshOf, IsClosedOnTheSurfaceAndExactInItsNormals) {
   EXPECT_NEAR(m.volume, surface.volume, c.tolerance * surface.area);
 }
 
+TEST_P(MeshOf, LeavesNoPointOfTheSurfaceOutOfTolerance) {
+  const Case& c = GetParam();
+  const Surface surface = compute_surface_cpu(c.balls, c.probe);
+  for (const double tolerance : {c.tolerance, 0.1, 0.3}) {
+    const std::vector<glm::dvec3> points = tessellate(surface, {tolerance / 8.0, false}).positions;
+    EXPECT_LE(farthest_from(tessellate(surface, {tolerance, true}), points), tolerance) << tolerance;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Molecules, MeshOf, ::testing::ValuesIn(cases()),
                          [](const auto& test) { return test.param.name; });
 
@@ -200,6 +210,9 @@ TEST(Mesh, UbiquitinLiesOnItsSurfaceAndHasItsCavities) {
   expect_exact_normals(surface, mesh);
   expect_crisp_colors(surface, mesh);
   EXPECT_FALSE(mesh.sharp_edges.empty());
+  const std::vector<glm::dvec3> points = tessellate(surface, {0.01, false}).positions;
+  for (const double tolerance : {0.05, 0.1, 0.2, 0.4})
+    EXPECT_LE(farthest_from(tessellate(surface, {tolerance, true}), points), tolerance) << tolerance;
 }
 
 TEST(Mesh, EnterotoxinIsClosedWithTheRightTopology) {
