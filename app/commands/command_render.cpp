@@ -12,6 +12,7 @@
 #include <fmt/ostream.h>
 
 #include "app/commands/commands.h"
+#include "app/commands/figure_export.h"
 #include "app/options/film_options.h"
 #include "app/options/figure_options.h"
 #include "app/options/look_options.h"
@@ -79,7 +80,8 @@ RenderSettings timed_settings(const RenderCommand& command, const PictureLayout&
 }
 
 // Without the complete surface: from atoms to the picture on the GPU.
-void draw_view(const RenderCommand& command, const std::optional<Camera>& given) {
+void draw_view(const RenderCommand& command) {
+  const std::optional<Camera> given = given_camera(command.picture);
   const ColoredAtoms atoms = load_atoms(command.molecule);
   const PictureLayout layout(command, key_of(atoms.molecule));
   const Annotations annotations = annotations_of(command.annotations, atoms.molecule.structure);
@@ -111,8 +113,7 @@ void name_output(RenderCommand& command) {
 
 void run(const RenderCommand& command) {
   if (command.frames.asked()) return render_frames(command);
-  if (command.run_camera.moves())
-    throw UsageError("--camera-path, --turntable and --follow move the camera over a run of frames; add --frames");
+  if (command.run_camera.moves()) throw UsageError(kMovesWithoutFrames);
   check_image_path(command.output.path);
   if (command.aovs && !holds_aovs(command.output.path))
     throw UsageError("--aovs needs an .exr output; other formats hold colour only");
@@ -134,16 +135,15 @@ void run(const RenderCommand& command) {
   OutputFile(command.output.path, command.output.existing());
   check_legend_file(command);
   check_camera_file(command.save_camera, command.output.existing());
-  const std::optional<Camera> given = given_camera(command.picture);
-  if (command.extent) return draw_view(command, given);
-  auto [molecule, aim] = load_aimed_molecule(command.molecule, command.picture, given);
-  Figure figure = make_figure(std::move(molecule), command.figure);
-  const PictureLayout layout(command, key_of(figure.molecule));
-  const Annotations annotations = annotations_of(command.annotations, figure.molecule.structure);
-  const Camera camera = aim.camera(layout.size, given, figure.molecule.objects);
+  if (command.extent) return draw_view(command);
+  AimedFigure aimed = aimed_figure(command);
+  const PictureLayout layout(command, key_of(aimed.figure.molecule));
+  const Annotations annotations = annotations_of(command.annotations, aimed.figure.molecule.structure);
+  const Camera camera = aimed.camera(layout.size);
   PictureDevice device(picture_request(command));
   SurfaceRenderer& renderer = device.renderer();
-  Framebuffer picture = draw(renderer, std::move(figure), command.figure, camera, timed_settings(command, layout));
+  Framebuffer picture =
+      draw(renderer, std::move(aimed.figure), command.figure, camera, timed_settings(command, layout));
   finish(command, layout, annotations, std::move(picture), camera);
   say_times(command, renderer.device(), renderer.times());
 }
@@ -200,13 +200,8 @@ void add_render(CLI::App& command) {
       "  meniscus render 1tii.pdb -o 1tii.exr --aovs --camera camera.json   depth, normals, atoms for compositing\n"
       "  meniscus render adk.psf --trajectory adk.dcd --frames all --superpose 'name CA' -o adk.mp4");
   auto state = std::make_shared<RenderCommand>();
-  add_molecule_options(command, state->molecule);
-  add_figure_options(command, state->molecule, state->figure);
-  add_interface_option(command, state->molecule);
-  add_picture_options(command, state->picture);
-  add_trajectory_argument(command);
-  add_frame_options(command, state->frames);
-  add_run_camera_options(command, state->run_camera);
+  add_shown_options(command, *state);
+  add_run_options(command, *state);
   add_look_options(command, state->look, state->picture);
   add_scene_options(command, &state->save_scene);
   add_output_options(

@@ -8,26 +8,19 @@
 
 #include <fmt/format.h>
 
-#include "exporters/blender/atom_attributes.h"
-#include "exporters/blender/capped_mesh.h"
 #include "app/commands/commands.h"
-#include "app/reports/run_frames.h"
-#include "app/options/scene_file.h"
+#include "app/commands/figure_export.h"
+#include "app/options/figure_command.h"
 #include "app/options/mesh_options.h"
-#include "app/process/program_error.h"
-#include "core/scene/run_framing.h"
+#include "app/options/scene_file.h"
+#include "app/reports/notes.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/queries/combine.h"
-#include "core/scene/figure.h"
+#include "exporters/blender/atom_attributes.h"
+#include "exporters/blender/capped_mesh.h"
 #include "exporters/blender/sequence_manifest.h"
 #include "exporters/blender/surface_file.h"
-#include "app/reports/notes.h"
-#include "app/options/run_camera_options.h"
-#include "app/options/molecule_options.h"
-#include "app/options/figure_options.h"
-#include "app/options/frame_options.h"
-#include "app/options/picture_options.h"
 #include "exporters/mesh/mesh_colors.h"
 #include "exporters/mesh/mesh_objects.h"
 #include "exporters/mesh/shape_mesh.h"
@@ -36,22 +29,16 @@
 namespace meniscus {
 namespace {
 
-struct BlenderCommand {
-  MoleculeOptions molecule;
+struct BlenderCommand : FigureCommand {
   MeshRequest mesh;
-  FrameOptions frames;
-  CameraMotionRequest run_camera;
-  ViewRequest picture;
-  OutputOptions output;
   double fps = 24.0;
-  FigureRequest figure;
-  std::string save_scene;  // path; empty: it is not saved
 };
 
 std::string file_name(const std::string& path) { return std::filesystem::path(path).filename().string(); }
 
-blender::SequenceManifest manifest_of(const BlenderCommand& command, const GivenCameras& cameras, FrameRun& frames) {
-  const RunFraming framing = run_framing(command.picture, command.molecule.show, command.run_camera, cameras, frames);
+blender::SequenceManifest manifest_of(const BlenderCommand& command, ExportRun& run) {
+  const FrameRun& frames = run.frames();
+  const RunFraming& framing = run.framing();
   const ColorKey key = color_key(frames.structure(), color_of(command.molecule), {});
   blender::SequenceManifest manifest;
   manifest.provenance = {file_name(frames.structure().file), frames.structure().radii_set, {}, key};
@@ -70,24 +57,13 @@ blender::SequenceManifest manifest_of(const BlenderCommand& command, const Given
 }
 
 blender::CutFile cut_file(const BlenderCommand& command, const Camera& camera, std::span<const SurfaceObject> objects) {
-  blender::CutFile cut{{}, command.figure.cap};
-  const std::vector<Ball> balls = command.figure.cuts.empty() ? std::vector<Ball>{} : placed_balls(objects);
-  for (const Cut& each : command.figure.cuts) cut.planes.push_back(clip_plane(each, camera, balls));
-  return cut;
-}
-
-// Where they stand, a copy is cut as no other is: copies become one object.
-void settle(std::vector<SurfaceObject>& objects) {
-  if (std::ranges::all_of(objects, [](const SurfaceObject& object) { return object.copies.size() == 1; })) return;
-  SurfaceObject whole = merged(std::move(objects));
-  objects.clear();
-  objects.push_back(std::move(whole));
+  return {surface_planes(command.figure, camera, objects), command.figure.cap};
 }
 
 // Cut, with caps. Throws RequestError if nothing is left, unless it may be.
 std::vector<blender::MeshedObject> cut_objects(const BlenderCommand& command, Molecule& molecule,
                                                const blender::CutFile& cut, double tolerance, bool may_be_empty) {
-  settle(molecule.objects);
+  settle_copies(molecule.objects);
   std::vector<blender::MeshedObject> objects;
   bool any = may_be_empty;
   for (const SurfaceObject& object : molecule.objects) {
@@ -128,8 +104,6 @@ void add_more(const BlenderCommand& command, const Figure& figure, const Camera&
     std::vector<std::uint32_t> cap_plane;
     if (!object.surface) {
       made.push_back(shape_object(shown.atoms, object.shapes, tolerance));
-    } else if (asked.clip.empty()) {
-      made.push_back({*object.surface, std::move(mesh_objects({&*object.surface, 1}, tolerance, true).front())});
     } else {
       blender::CappedMesh capped =
           blender::capped_mesh(*object.surface, asked.clip, asked.cap.color.has_value(), tolerance);
@@ -187,38 +161,31 @@ std::vector<blender::MeshedObject> moving_objects(const BlenderCommand& command,
 // A file for each frame of the chunk; the manifest for all of the run, the same from every chunk.
 void run_sequence(const BlenderCommand& asked) {
   BlenderCommand command = asked;
-  const GivenCameras cameras = given_cameras(command.picture, command.run_camera);
-  FrameRun frames(command.molecule, command.frames, true);
-  tell_run(command.molecule, frames);
-  measure_colors(command.molecule.color, frames);
-  const blender::SequenceManifest manifest = manifest_of(command, cameras, frames);
-  const std::string run = run_name(manifest);
+  ExportRun run(command, true);
+  const std::vector<std::uint64_t>& numbers = run.frames().numbers();
+  const blender::SequenceManifest manifest = manifest_of(command, run);
+  const std::string name = run_name(manifest);
   const std::filesystem::path folder = command.output.path;
   const std::filesystem::path written = write_manifest(folder, command.output.existing(), manifest);
-  std::vector<FrameWorker> workers;
-  for (const auto& builder :
-       frame_builders(frames, command.molecule, command.frames, kMeshBytesPerAtom * frames.structure().atoms.size()))
-    workers.push_back([&, builder](const RunFrame& frame) -> FinishFrame {
-      Molecule molecule = builder->build(frame.structure);
-      const blender::CutFile cut = cut_file(command, manifest.shot(frame.place).camera, molecule.objects);
-      std::vector<blender::MeshedObject> objects =
-          cut.planes.empty()
-              ? moving_objects(command, molecule, frame, pace(frames.numbers(), frame.place), manifest.tolerance)
-              : cut_objects(command, molecule, cut, manifest.tolerance, !molecule.beside.empty());
-      std::optional<ShapeObject> beside;
-      add_beside(molecule, manifest.tolerance, beside, objects);
-      if (beside && cut.planes.empty())
-        objects.back().velocities =
-            velocities_of(*beside, objects.back().mesh, frame, pace(frames.numbers(), frame.place));
-      blender::Provenance provenance = manifest.provenance;
-      provenance.device = molecule.device;
-      provenance.colors = key_of(molecule);
-      const std::string path = (folder / blender::frame_file(frame.number)).string();
-      write_objects(path, command.output.existing(), objects, manifest.shot(frame.place), provenance,
-                    blender::PlaceInRun{run, frame.number, frame.place + 1}, cut);
-      return [path] { return MadeFrame{{path}}; };
-    });
-  run_frames(frames, command.molecule, command.frames, std::move(workers));
+  run.run(kMeshBytesPerAtom, [&](MoleculeBuilder& builder, const RunFrame& frame) -> FinishFrame {
+    Molecule molecule = builder.build(frame.structure);
+    const blender::CutFile cut = cut_file(command, manifest.shot(frame.place).camera, molecule.objects);
+    const double frames_passed = pace(numbers, frame.place);
+    std::vector<blender::MeshedObject> objects =
+        cut.planes.empty() ? moving_objects(command, molecule, frame, frames_passed, manifest.tolerance)
+                           : cut_objects(command, molecule, cut, manifest.tolerance, !molecule.beside.empty());
+    std::optional<ShapeObject> beside;
+    add_beside(molecule, manifest.tolerance, beside, objects);
+    if (beside && cut.planes.empty())
+      objects.back().velocities = velocities_of(*beside, objects.back().mesh, frame, frames_passed);
+    blender::Provenance provenance = manifest.provenance;
+    provenance.device = molecule.device;
+    provenance.colors = key_of(molecule);
+    const std::string path = (folder / blender::frame_file(frame.number)).string();
+    write_objects(path, command.output.existing(), objects, manifest.shot(frame.place), provenance,
+                  blender::PlaceInRun{name, frame.number, frame.place + 1}, cut);
+    return [path] { return MadeFrame{{path}}; };
+  });
   std::cout << escaped(written.string()) << "\n";
 }
 
@@ -239,34 +206,19 @@ std::vector<blender::MeshedObject> whole_objects(const BlenderCommand& command, 
 
 // Before anything is computed.
 void check(const BlenderCommand& command) {
-  if (command.molecule.color.by == ColorScheme::By::volume) {
-    constexpr const char* kNoValues = "a .mns file has no values of the map on caps";
-    if (!command.figure.cuts.empty() && !command.figure.cap.color)
-      throw UsageError(fmt::format("--color-map-file with --clip needs --cap-color: {}", kNoValues));
-    for (const FigureObjectRequest& object : command.figure.objects)
-      if (!object.shapes && !object.color && !object.cuts.empty() && !object.cap.color)
-        throw UsageError(
-            fmt::format("--color-map-file with a \"clip\" in --object needs its \"cap_color\": {}", kNoValues));
-  }
-  if (!command.frames.asked()) return;
-  if (!command.figure.objects.empty() || command.figure.hides_surface)
-    throw UsageError(
-        "--object and --hide-surface: a run of frames in Blender has the surface, and beside it --sticks, --balls, "
-        "--spheres and --tube; export its frames one by one (--model), or use render");
-  if (command.molecule.interface) throw UsageError("--interface: of one picture only; leave --frames away");
+  check_caps_of_map(command, "a .mns file has no values of the map on caps");
+  check_export(command, " in Blender");
 }
 
 void run(const BlenderCommand& command) {
   check(command);
   if (command.frames.asked()) return run_sequence(command);
-  if (command.run_camera.moves()) throw UsageError(kMovesWithoutFrames);
-  const std::optional<Camera> given = given_camera(command.picture);
-  auto [loaded, aim] = load_aimed_molecule(command.molecule, command.picture, given);
-  Figure figure = make_figure(std::move(loaded), command.figure);
+  AimedFigure aimed = aimed_figure(command);
+  Figure& figure = aimed.figure;
   Molecule& molecule = figure.molecule;
   molecule.beside = std::move(figure.beside.shapes);
   const std::vector<Ball> balls = shown_balls(molecule);
-  const Camera camera = aim.camera(command.picture, given, molecule.objects);
+  const Camera camera = aimed.camera(command.picture);
   const double tolerance = tolerance_of(command.mesh, command.picture.size(), camera, balls);
   const blender::CutFile cut = cut_file(command, camera, molecule.objects);
   const bool alone = molecule.beside.empty() && figure.beside.objects.empty();
@@ -297,25 +249,15 @@ void add_export_blender(CLI::App& command) {
       "--size 1920x1080\n"
       "  meniscus export blender adk.psf --trajectory adk.dcd --frames all -o adk   a file a frame, and a manifest");
   auto state = std::make_shared<BlenderCommand>();
-  add_molecule_options(command, state->molecule);
-  add_figure_options(command, state->molecule, state->figure);
-  add_interface_option(command, state->molecule);
+  add_shown_options(command, *state);
   add_mesh_options(command, state->mesh);
-  add_picture_options(command, state->picture);
-  add_trajectory_argument(command);
-  add_frame_options(command, state->frames);
-  add_run_camera_options(command, state->run_camera);
+  add_run_options(command, *state);
   command.add_option("--fps", state->fps, "Frames of a run a second [24]")
       ->type_name("N")
       ->check(CLI::Range(0.01, 1000.0));
   add_scene_options(command, &state->save_scene);
   add_output_options(command, state->output, ".mns file to write; of a run, the folder");
-  command.callback([state, &command] {
-    take_figure(command, state->molecule, state->figure, state->picture, state->frames.asked());
-    SceneOutput scene(command, state->save_scene, state->output.existing());
-    run(*state);
-    scene.commit();
-  });
+  command.callback([state, &command] { run_export(command, *state, [&] { run(*state); }); });
 }
 
 }  // namespace meniscus

@@ -12,23 +12,16 @@
 #include <fmt/format.h>
 
 #include "app/commands/commands.h"
+#include "app/commands/figure_export.h"
 #include "app/options/camera_file.h"
-#include "app/options/figure_options.h"
-#include "app/options/frame_options.h"
+#include "app/options/figure_command.h"
 #include "app/options/mesh_options.h"
-#include "app/options/molecule_options.h"
-#include "app/options/picture_options.h"
-#include "app/options/run_camera_options.h"
 #include "app/options/scene_file.h"
 #include "app/options/value_words.h"
 #include "app/process/program_error.h"
 #include "app/reports/notes.h"
-#include "app/reports/run_frames.h"
-#include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/queries/combine.h"
-#include "core/scene/figure.h"
-#include "core/scene/run_framing.h"
 #include "exporters/blender/capped_mesh.h"
 #include "exporters/mesh/mesh_objects.h"
 #include "exporters/path_tracers/scene_folder.h"
@@ -37,16 +30,9 @@
 namespace meniscus {
 namespace {
 
-struct PathTracerCommand {
+struct PathTracerCommand : FigureCommand {
   path_tracers::Renderer renderer = path_tracers::Renderer::mitsuba;
-  MoleculeOptions molecule;
   MeshRequest mesh{0.01, kPixelsOfACamera};
-  FigureRequest figure;
-  FrameOptions frames;
-  CameraMotionRequest run_camera;
-  ViewRequest picture;
-  OutputOptions output;
-  std::string save_scene, save_camera;  // paths; empty: it is not saved
   path_tracers::Material material = path_tracers::Material::matte;
 };
 
@@ -74,26 +60,16 @@ glm::dvec3 middle_of(std::span<const Ball> balls) {
 // What is shown of a surface, with caps where planes cut it.
 path_tracers::SceneItem item_of(const SurfaceObject& object, std::span<const ClipPlane> planes, const CapStyle& cap,
                                 double tolerance, const glm::dvec3& origin) {
-  if (planes.empty())
-    return path_tracers::surface_item(object, mesh_objects({&object, 1}, tolerance, true).front(), origin);
-  const blender::CappedMesh capped = blender::capped_mesh(object, planes, cap.color.has_value(), tolerance);
-  return path_tracers::surface_item(object, capped.mesh, origin,
-                                    path_tracers::CapRows{capped.cap_plane.size(), cap.color});
+  const blender::CappedMesh shown = blender::capped_mesh(object, planes, cap.color.has_value(), tolerance);
+  std::optional<path_tracers::CapRows> caps;
+  if (!planes.empty()) caps = {shown.cap_plane.size(), cap.color};
+  return path_tracers::surface_item(object, shown.mesh, origin, caps);
 }
 
 void add_surface(const PathTracerCommand& command, std::vector<SurfaceObject> objects, double tolerance,
                  path_tracers::Scene& scene) {
-  std::vector<ClipPlane> planes;
-  if (!command.figure.cuts.empty()) {
-    const std::vector<Ball> balls = placed_balls(objects);
-    for (const Cut& cut : command.figure.cuts) planes.push_back(clip_plane(cut, scene.camera, balls));
-    // Where they stand, a copy is cut as no other is: copies become one object.
-    if (std::ranges::any_of(objects, [](const SurfaceObject& object) { return object.copies.size() > 1; })) {
-      SurfaceObject whole = merged(std::move(objects));
-      objects.clear();
-      objects.push_back(std::move(whole));
-    }
-  }
+  const std::vector<ClipPlane> planes = surface_planes(command.figure, scene.camera, objects);
+  if (!planes.empty()) settle_copies(objects);
   for (const SurfaceObject& object : objects)
     scene.items.push_back(item_of(object, planes, command.figure.cap, tolerance, scene.origin));
 }
@@ -130,44 +106,23 @@ std::string render_command(const PathTracerCommand& command, bool of_a_run) {
 }
 
 // A scene for each frame of the chunk, all with one origin.
-void run_sequence(const PathTracerCommand& command) {
-  const GivenCameras cameras = given_cameras(command.picture, command.run_camera);
-  FrameRun frames(command.molecule, command.frames);
-  tell_run(command.molecule, frames);
-  const RunFraming framing = run_framing(command.picture, command.molecule.show, command.run_camera, cameras, frames);
+void run_sequence(const PathTracerCommand& asked) {
+  PathTracerCommand command = asked;
+  ExportRun run(command);
+  const Camera& first = run.framing().cameras.front();
   const double tolerance =
-      tolerance_of(command.mesh, command.picture.size(), framing.cameras[0], balls_of(frames.structure()));
-  save_camera(command.save_camera, command.output.existing(), framing.cameras.front());
-  std::vector<FrameWorker> workers;
-  for (const auto& builder :
-       frame_builders(frames, command.molecule, command.frames, kMeshBytesPerAtom * frames.structure().atoms.size()))
-    workers.push_back([&, builder](RunFrame frame) -> FinishFrame {
-      Molecule molecule = builder->build(std::move(frame.structure));
-      path_tracers::Scene scene =
-          empty_scene(command, framing.cameras[framing.cameras.size() == 1 ? 0 : frame.place], framing.origin());
-      add_surface(command, std::move(molecule.objects), tolerance, scene);
-      scene.items.push_back(path_tracers::shapes_item(shown_atoms(molecule.structure), molecule.beside, scene.origin));
-      const path_tracers::SceneReport report =
-          write_scene(scene, target_of(command, fmt::format("surface_{:05}", frame.number)));
-      std::vector<std::string> files;
-      for (const std::filesystem::path& file : report.files) files.push_back(file.string());
-      return [files] { return MadeFrame{files}; };
-    });
-  run_frames(frames, command.molecule, command.frames, std::move(workers));
+      tolerance_of(command.mesh, command.picture.size(), first, balls_of(run.frames().structure()));
+  save_camera(command.save_camera, command.output.existing(), first);
+  run.run(kMeshBytesPerAtom, [&](MoleculeBuilder& builder, RunFrame frame) -> FinishFrame {
+    Molecule molecule = builder.build(std::move(frame.structure));
+    path_tracers::Scene scene = empty_scene(command, run.camera(frame.place), run.framing().origin());
+    add_surface(command, std::move(molecule.objects), tolerance, scene);
+    scene.items.push_back(path_tracers::shapes_item(shown_atoms(molecule.structure), molecule.beside, scene.origin));
+    const path_tracers::SceneReport report =
+        write_scene(scene, target_of(command, fmt::format("surface_{:05}", frame.number)));
+    return [files = report.files] { return made_frame(files); };
+  });
   std::cout << escaped(render_command(command, true)) << "\n";
-}
-
-void check_maps(const PathTracerCommand& command) {
-  if (command.molecule.color.by != ColorScheme::By::volume) return;
-  if (command.renderer == path_tracers::Renderer::pbrt)
-    throw UsageError("--color-map-file: meshes of pbrt have no colours of their vertices; use export mitsuba");
-  if (!command.figure.cuts.empty() && !command.figure.cap.color)
-    throw UsageError("--color-map-file with --clip needs --cap-color: these scenes have no values of the map on caps");
-  for (const FigureObjectRequest& object : command.figure.objects)
-    if (!object.shapes && !object.color && !object.cuts.empty() && !object.cap.color)
-      throw UsageError(
-          "--color-map-file with a \"clip\" in --object needs its \"cap_color\": these scenes have no values "
-          "of the map on caps");
 }
 
 // Before anything is computed.
@@ -179,27 +134,20 @@ void check(const PathTracerCommand& command) {
   const auto hatched = [](const FigureObjectRequest& object) { return object.cap.hatching > 0.0; };
   if (command.figure.cap.hatching > 0.0 || std::ranges::any_of(command.figure.objects, hatched))
     throw UsageError("--cap-hatching: caps in these scenes are plain; leave it away, or use render or export povray");
-  check_maps(command);
-  check_camera_file(command.save_camera, command.output.existing());
-  if (!command.frames.asked()) return;
-  if (!command.save_camera.empty() && command.run_camera.moves()) throw UsageError(kNoSingleCamera);
-  if (!command.figure.objects.empty() || command.figure.hides_surface)
-    throw UsageError(
-        "--object and --hide-surface: a run of frames has the surface, and beside it --sticks, --balls, --spheres and "
-        "--tube; export its frames one by one (--model), or use render");
-  if (command.molecule.interface) throw UsageError("--interface: of one picture only; leave --frames away");
+  if (command.renderer == path_tracers::Renderer::pbrt && command.molecule.color.by == ColorScheme::By::volume)
+    throw UsageError("--color-map-file: meshes of pbrt have no colours of their vertices; use export mitsuba");
+  check_caps_of_map(command, "these scenes have no values of the map on caps");
+  check_export(command, "");
 }
 
 void run(const PathTracerCommand& command) {
   check(command);
   if (command.frames.asked()) return run_sequence(command);
-  if (command.run_camera.moves()) throw UsageError(kMovesWithoutFrames);
-  const std::optional<Camera> given = given_camera(command.picture);
-  auto [loaded, aim] = load_aimed_molecule(command.molecule, command.picture, given);
-  Figure figure = make_figure(std::move(loaded), command.figure);
+  AimedFigure aimed = aimed_figure(command);
+  Figure& figure = aimed.figure;
   Molecule& molecule = figure.molecule;
   const std::vector<Ball> balls = figure.balls();
-  const Camera camera = aim.camera(command.picture, given, molecule.objects);
+  const Camera camera = aimed.camera(command.picture);
   const double tolerance = tolerance_of(command.mesh, command.picture.size(), camera, balls);
   path_tracers::Scene scene = empty_scene(command, camera, middle_of(balls));
   const std::vector<Atom> atoms = shown_atoms(molecule.structure);
@@ -217,14 +165,9 @@ void run(const PathTracerCommand& command) {
 void declare(CLI::App& command, path_tracers::Renderer renderer) {
   auto state = std::make_shared<PathTracerCommand>();
   state->renderer = renderer;
-  add_molecule_options(command, state->molecule);
-  add_figure_options(command, state->molecule, state->figure);
-  add_interface_option(command, state->molecule);
+  add_shown_options(command, *state);
   add_mesh_options(command, state->mesh);
-  add_picture_options(command, state->picture);
-  add_trajectory_argument(command);
-  add_frame_options(command, state->frames);
-  add_run_camera_options(command, state->run_camera);
+  add_run_options(command, *state);
   add_scene_options(command, &state->save_scene);
   add_output_options(command, state->output, "Folder to write; made when missing");
   const std::map<std::string, path_tracers::Material> words{{"matte", path_tracers::Material::matte},
@@ -238,11 +181,8 @@ void declare(CLI::App& command, path_tracers::Renderer renderer) {
       ->type_name("WORD");
   add_save_camera_option(command, state->save_camera);
   command.callback([state, &command] {
-    take_figure(command, state->molecule, state->figure, state->picture, state->frames.asked());
     take_tolerance(command, state->mesh);
-    SceneOutput scene(command, state->save_scene, state->output.existing());
-    run(*state);
-    scene.commit();
+    run_export(command, *state, [&] { run(*state); });
   });
 }
 

@@ -11,39 +11,25 @@
 #include <fmt/format.h>
 
 #include "app/commands/commands.h"
-#include "app/reports/run_frames.h"
-#include "core/scene/molecule.h"
+#include "app/commands/figure_export.h"
+#include "app/options/camera_file.h"
+#include "app/options/figure_command.h"
 #include "app/options/scene_file.h"
-#include "app/options/picture_options.h"
-#include "app/options/figure_options.h"
 #include "app/options/value_words.h"
 #include "app/process/program_error.h"
-#include "core/scene/run_framing.h"
-#include "core/base/text.h"
+#include "app/reports/notes.h"
 #include "core/base/error.h"
+#include "core/base/text.h"
 #include "core/color/volume_paint.h"
 #include "core/queries/combine.h"
-#include "core/scene/figure.h"
 #include "exporters/povray/scene.h"
-#include "app/reports/notes.h"
-#include "app/options/run_camera_options.h"
-#include "app/options/camera_file.h"
-#include "app/options/molecule_options.h"
-#include "app/options/frame_options.h"
 #include "exporters/povray/sequence.h"
 
 namespace meniscus {
 namespace {
 
-struct PovrayCommand {
-  MoleculeOptions molecule;
-  FigureRequest figure;
-  FrameOptions frames;
-  CameraMotionRequest run_camera;
-  ViewRequest picture;
-  OutputOptions output;
-  std::string save_scene, save_camera;  // paths; empty: it is not saved
-  bool comments = false;                // that tell kinds and atoms
+struct PovrayCommand : FigureCommand {
+  bool comments = false;  // that tell kinds and atoms
   povray::Material material = povray::Material::opaque;
 };
 
@@ -56,15 +42,6 @@ povray::SceneOptions scene_options(const PovrayCommand& command) {
   options.cut.style = command.figure.cap;
   options.film = command.figure.thickens;
   return options;
-}
-
-std::vector<ClipPlane> planes_of(const PovrayCommand& command, const Camera& camera,
-                                 std::span<const SurfaceObject> objects) {
-  std::vector<ClipPlane> planes;
-  if (command.figure.cuts.empty()) return planes;
-  const std::vector<Ball> balls = placed_balls(objects);
-  for (const Cut& cut : command.figure.cuts) planes.push_back(clip_plane(cut, camera, balls));
-  return planes;
 }
 
 // Whatever atoms are meant by rules in other frames. Nothing if colours change with the frames.
@@ -129,11 +106,9 @@ std::vector<povray::SceneObject> more_objects(const Figure& figure, const Figure
 // An include for each frame of the chunk; the scene for all of the run, the same from every chunk.
 void run_sequence(const PovrayCommand& asked) {
   PovrayCommand command = asked;
-  const GivenCameras cameras = given_cameras(command.picture, command.run_camera);
-  FrameRun frames(command.molecule, command.frames);
-  tell_run(command.molecule, frames);
-  const RunFraming framing = run_framing(command.picture, command.molecule.show, command.run_camera, cameras, frames);
-  measure_colors(command.molecule.color, frames);
+  ExportRun run(command);
+  const FrameRun& frames = run.frames();
+  const RunFraming& framing = run.framing();
   const ColorScheme scheme = color_of(command.molecule);
   povray::SceneOptions options = scene_options(command);
   options.origin = framing.origin();
@@ -155,21 +130,15 @@ void run_sequence(const PovrayCommand& asked) {
       for (const std::string& note : report.notes)
         say(command.molecule, fmt::format("note: frame {}: {}", number, note));
     noted = noted || !report.notes.empty();
-    std::vector<std::string> files;
-    for (const std::filesystem::path& file : report.files) files.push_back(file.string());
-    return MadeFrame{std::move(files)};
+    return made_frame(report.files);
   };
-  std::vector<FrameWorker> workers;
-  for (const auto& builder :
-       frame_builders(frames, command.molecule, command.frames, kSurfaceBytesPerAtom * frames.structure().atoms.size()))
-    workers.push_back([&, builder](RunFrame frame) -> FinishFrame {
-      const Molecule molecule = builder->build(std::move(frame.structure));
-      const Camera& camera = framing.cameras[framing.cameras.size() == 1 ? 0 : frame.place];
-      const povray::SceneReport report = scene.write_frame(molecule.objects, frame.place, molecule.beside,
-                                                           planes_of(command, camera, molecule.objects));
-      return [&finish, report, number = frame.number] { return finish(report, number); };
-    });
-  run_frames(frames, command.molecule, command.frames, std::move(workers));
+  run.run(kSurfaceBytesPerAtom, [&](MoleculeBuilder& builder, RunFrame frame) -> FinishFrame {
+    const Molecule molecule = builder.build(std::move(frame.structure));
+    const povray::SceneReport report =
+        scene.write_frame(molecule.objects, frame.place, molecule.beside,
+                          surface_planes(command.figure, run.camera(frame.place), molecule.objects));
+    return [&finish, report, number = frame.number] { return finish(report, number); };
+  });
   std::cout << escaped(shared.command) << "\n";
 }
 
@@ -179,31 +148,22 @@ void check(const PovrayCommand& command) {
     throw UsageError(
         "--map-offset: POV-Ray samples beside the surface patch by patch, not in a film; leave "
         "--film-opacity away, or the offset");
-  check_camera_file(command.save_camera, command.output.existing());
-  if (!command.frames.asked()) return;
-  if (!command.save_camera.empty() && command.run_camera.moves()) throw UsageError(kNoSingleCamera);
-  if (!command.figure.objects.empty() || command.figure.hides_surface)
-    throw UsageError(
-        "--object and --hide-surface: a run of frames in POV-Ray has the surface, and beside it --sticks, --balls, "
-        "--spheres and --tube; export its frames one by one (--model), or use render");
-  if (command.molecule.interface) throw UsageError("--interface: of one picture only; leave --frames away");
+  check_export(command, " in POV-Ray");
 }
 
 void run(const PovrayCommand& command) {
   check(command);
   if (command.frames.asked()) return run_sequence(command);
-  if (command.run_camera.moves()) throw UsageError(kMovesWithoutFrames);
-  const std::optional<Camera> given = given_camera(command.picture);
-  auto [molecule, aim] = load_aimed_molecule(command.molecule, command.picture, given);
-  const Figure figure = make_figure(std::move(molecule), command.figure);
+  const AimedFigure aimed = aimed_figure(command);
+  const Figure& figure = aimed.figure;
   const std::vector<SurfaceObject>& objects = figure.molecule.objects;
   povray::SceneOptions options = scene_options(command);
   options.colors = key_of(figure.molecule);
   options.atom_names = comment_names(command, figure.molecule.structure);
-  const Camera camera = aim.camera(command.picture, given, objects);
+  const Camera camera = aimed.camera(command.picture);
   options.shapes = &figure.beside.shapes;
   options.objects = more_objects(figure, command.figure, camera, placed_balls(objects));
-  options.cut.planes = planes_of(command, camera, objects);
+  options.cut.planes = surface_planes(command.figure, camera, objects);
   if (command.figure.hides_surface && figure.beside.shapes.empty() && options.objects.empty())
     throw RequestError("the surface is not shown, and there is nothing beside it");
   const povray::SceneReport report = write_scene(
@@ -230,13 +190,8 @@ void add_export_povray(CLI::App& command) {
       "have the numbers of the trajectory. Machines that share the work give the same options and --only, and render\n"
       "with +SF and +EF. povray 'surface.ini[film]' goes through a run in any order and counts pictures from 1.");
   auto state = std::make_shared<PovrayCommand>();
-  add_molecule_options(command, state->molecule);
-  add_figure_options(command, state->molecule, state->figure);
-  add_interface_option(command, state->molecule);
-  add_picture_options(command, state->picture);
-  add_trajectory_argument(command);
-  add_frame_options(command, state->frames);
-  add_run_camera_options(command, state->run_camera);
+  add_shown_options(command, *state);
+  add_run_options(command, *state);
   add_scene_options(command, &state->save_scene);
   add_output_options(command, state->output, "Folder to write; made when missing");
   const std::map<std::string, povray::Material> words{{"opaque", povray::Material::opaque},
@@ -252,12 +207,7 @@ void add_export_povray(CLI::App& command) {
   command.add_flag("--comments", state->comments,
                    "A comment before each patch: convex, toroidal or concave, and the atoms that it touches");
   add_save_camera_option(command, state->save_camera);
-  command.callback([state, &command] {
-    take_figure(command, state->molecule, state->figure, state->picture, state->frames.asked());
-    SceneOutput scene(command, state->save_scene, state->output.existing());
-    run(*state);
-    scene.commit();
-  });
+  command.callback([state, &command] { run_export(command, *state, [&] { run(*state); }); });
 }
 
 }  // namespace meniscus

@@ -7,12 +7,9 @@
 #include <vector>
 
 #include "app/film/film_format.h"
-#include "app/options/molecule_options.h"
 #include "app/options/annotation_options.h"
+#include "app/options/figure_command.h"
 #include "app/options/picture_options.h"
-#include "core/scene/figure.h"
-#include "core/scene/run_cameras.h"
-#include "app/options/frame_options.h"
 #include "core/render/image_output.h"
 #include "core/render/legend.h"
 #include "core/render/look_presets.h"
@@ -21,21 +18,13 @@
 
 namespace meniscus {
 
-struct RenderCommand {
-  MoleculeOptions molecule;
-  FrameOptions frames;
-  ViewRequest picture;
-  CameraMotionRequest run_camera;
-  FigureRequest figure;
+struct RenderCommand : FigureCommand {
   LookRequest look;
-  OutputOptions output;
-  std::string save_camera;
   int samples = 9;
   bool aovs = false;
   bool provenance = false;    ///< the command line is in the picture
   bool names_program = true;  ///< the program's version is, and of single pictures the scene
   std::string scene;          ///< scene_text() of the options, for pictures
-  std::string save_scene;     ///< path; empty: it is not saved
   LegendRequest legend;
   AnnotationRequest annotations;
   std::optional<glm::vec3> background;

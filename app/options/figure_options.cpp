@@ -112,13 +112,4 @@ void take_interface(const CLI::App& command, MoleculeOptions& molecule, ViewRequ
   if (!picture.direction && picture.camera_file.empty()) picture.direction = parse_view_direction("z");
 }
 
-void take_figure(const CLI::App& command, MoleculeOptions& molecule, FigureRequest& figure, ViewRequest& picture,
-                 bool of_a_run) {
-  if (of_a_run)
-    molecule.representations = figure.representations;
-  else
-    figure.ask_for(molecule.reading);
-  take_interface(command, molecule, picture);
-}
-
 }  // namespace meniscus

@@ -17,8 +17,5 @@ void add_interface_option(CLI::App& command, MoleculeOptions& molecule);
 /// Takes the atoms of both sides, once --select is known; colours and the view are those of an open book unless others
 /// were asked for.
 void take_interface(const CLI::App& command, MoleculeOptions& molecule, ViewRequest& picture);
-/// The same for an export: of a run of frames each frame's molecule has what stands beside it, else the figure has.
-void take_figure(const CLI::App& command, MoleculeOptions& molecule, FigureRequest& figure, ViewRequest& picture,
-                 bool of_a_run);
 
 }  // namespace meniscus

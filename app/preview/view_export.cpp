@@ -110,8 +110,7 @@ std::string export_povray(const ExportedView& view, const ExportTarget& target, 
   options.film = figure.thickens;
   options.cut.style = figure.cap;
   const std::vector<SurfaceObject> surfaces = complete_surfaces(view, watch).first;
-  const std::vector<Ball> balls = placed_balls(surfaces);
-  for (const Cut& cut : figure.cuts) options.cut.planes.push_back(clip_plane(cut, view.figure.camera, balls));
+  options.cut.planes = surface_planes(figure, view.figure.camera, surfaces);
   watch("writing", 0.0);
   return write_scene(surfaces, view.figure.camera, options, target.path).command;
 }

@@ -90,4 +90,10 @@ ClipPlane clip_plane(const Cut& cut, const Camera& camera, std::span<const Ball>
   return {normal / length, offset / length};
 }
 
+std::vector<ClipPlane> clip_planes(std::span<const Cut> cuts, const Camera& camera, std::span<const Ball> atoms) {
+  std::vector<ClipPlane> planes;
+  for (const Cut& cut : cuts) planes.push_back(clip_plane(cut, camera, atoms));
+  return planes;
+}
+
 }  // namespace meniscus

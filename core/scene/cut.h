@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <glm/vec3.hpp>
 
@@ -29,5 +30,6 @@ std::string cut_text(const Cut& cut);
 
 /// The plane in a picture of these atoms, of which there must be one.
 ClipPlane clip_plane(const Cut& cut, const Camera& camera, std::span<const Ball> atoms);
+std::vector<ClipPlane> clip_planes(std::span<const Cut> cuts, const Camera& camera, std::span<const Ball> atoms);
 
 }  // namespace meniscus

@@ -76,6 +76,12 @@ Figure make_figure(Molecule molecule, const FigureRequest& request) {
   return figure;
 }
 
+std::vector<ClipPlane> surface_planes(const FigureRequest& request, const Camera& camera,
+                                      std::span<const SurfaceObject> objects) {
+  if (request.cuts.empty()) return {};
+  return clip_planes(request.cuts, camera, placed_balls(objects));
+}
+
 std::vector<PictureObject> picture_objects(const Surface& surface, const Coloring& coloring,
                                            const FigureRequest& request, const BesideSurface* beside,
                                            const Camera& camera, std::span<const Ball> atoms) {
@@ -86,7 +92,7 @@ std::vector<PictureObject> picture_objects(const Surface& surface, const Colorin
     whole.coloring = &coloring;
     whole.cap = request.cap;
     whole.thickens = request.thickens;
-    for (const Cut& cut : request.cuts) whole.clip.push_back(clip_plane(cut, camera, atoms));
+    whole.clip = clip_planes(request.cuts, camera, atoms);
   }
   if (beside && !beside->shapes.empty()) {
     PictureObject& shapes = shown.emplace_back();

@@ -64,6 +64,10 @@ void color_beside(const Structure& structure, const FigureRequest& request, cons
 /// The molecule with what stands beside it. Throws as make_beside does.
 Figure make_figure(Molecule molecule, const FigureRequest& request);
 
+/// The planes that cut the surface, seen by this camera. objects: of all the surface, with their copies.
+std::vector<ClipPlane> surface_planes(const FigureRequest& request, const Camera& camera,
+                                      std::span<const SurfaceObject> objects);
+
 /// What a picture shows of one surface: cut and seen through as asked, and what stands beside it (nullptr: nothing).
 /// atoms: of all that the picture shows, for cuts along the view. All must stay. Throws RequestError if there is
 /// nothing to be shown.

@@ -129,7 +129,7 @@ PictureObject picture_object(const FigureObject& object, const FigureObjectReque
   shown.coloring = &object.surface->coloring;
   shown.cap = request.cap;
   shown.thickens = request.thickens;
-  for (const Cut& cut : request.cuts) shown.clip.push_back(clip_plane(cut, camera, balls));
+  shown.clip = clip_planes(request.cuts, camera, balls);
   return shown;
 }
 

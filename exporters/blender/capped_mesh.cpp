@@ -27,6 +27,7 @@ std::vector<std::uint32_t> add_vertices(TriangleMesh& mesh, const CapMesh& caps,
 
 CappedMesh capped_mesh(const SurfaceObject& object, std::span<const ClipPlane> planes, bool one_color,
                        double tolerance) {
+  if (planes.empty()) return {shown_part(tessellate(object.surface, {tolerance, true}), object.coloring), {}};
   const CapAtoms atoms(object.surface.atoms, object.surface.probe_radius, cap_parts(std::span(&object, 1), one_color));
   CutMesh cut = cut_mesh(tessellate(object.surface, {tolerance, true}), planes, atoms);
   TriangleMesh mesh = std::move(cut.surface);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A surface that planes cut, with its caps, as one mesh.
+// A surface as planes cut it, with its caps, as one mesh.
 #pragma once
 
 #include <cstdint>
@@ -20,8 +20,8 @@ struct CappedMesh {
   std::vector<std::uint32_t> cap_plane;  ///< of the last triangles: into the planes
 };
 
-/// The object must stand in one place, not moved. one_color: caps have no borders where colours of atoms change.
-/// tolerance: Å. Throws as tessellate() and cut_mesh() do.
+/// No planes: the whole surface. Else the object must stand in one place, not moved. one_color: caps have no borders
+/// where colours of atoms change. tolerance: Å. Throws as tessellate() and cut_mesh() do.
 CappedMesh capped_mesh(const SurfaceObject& object, std::span<const ClipPlane> planes, bool one_color,
                        double tolerance);
 

@@ -268,6 +268,22 @@ class Scenes(unittest.TestCase):
             np.testing.assert_allclose(moved, np.broadcast_to([2, 0, 0], moved.shape), atol=1e-5)
             self.assertEqual(*(self.origin_of(scene).tolist() for scene in scenes))
 
+    def test_what_colors_mean_is_measured_over_the_run(self):
+        path = self.molecule("".join(
+            f"MODEL {n + 1}\n{atom_line(1, 0, 0, 0)}{atom_line(2, 1.5 + n, 0, 0)}{atom_line(3, -1.5 - n, 0, 0)}ENDMDL\n" for n in range(3)))
+        for renderer in ENDING:
+            run = [scene.read_text() for scene in self.written(renderer, path, "--frames", "all", "--color", "rmsf", name="rmsf")]
+            self.assertEqual(len(run), 3)
+        by_frame = {}
+        for frames in "all", "1":  # atoms are from 0 to 1.5, 2.5 and 3.5 Å from their middle
+            for scene in self.written("mitsuba", path, "--frames", frames, "--color", "radial", name=f"radial_{frames}"):
+                (mesh,) = mitsuba_scene(scene)[1].values()
+                by_frame[frames, scene.stem] = {tuple(color) for color in mesh.colors}
+        first, middle, last = (by_frame["all", f"surface_{n:05}"] for n in range(3))
+        self.assertEqual([len(colors) for colors in (first, middle, last)], [2, 2, 2])
+        self.assertEqual([len(first & middle), len(middle & last), len(first & last)], [1, 1, 1])  # the atom in the middle
+        self.assertEqual(by_frame["1", "surface_00001"], last)  # each end of the map
+
     def test_nothing_of_the_molecule_file_is_in_a_scene(self):
         path = self.molecule(atom_line(1, 0, 0, 0, chain='"', residue="</s") + atom_line(2, 1.5, 0, 0, chain="]", residue="--&"),
                              name='"--Include.pdb')
