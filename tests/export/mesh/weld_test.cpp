@@ -2,8 +2,10 @@
 // Welding: short edges and flat triangles go where the mesh stays a closed surface of the same genus, and nowhere else.
 #include "exporters/mesh/weld.h"
 
+#include <array>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -33,11 +35,22 @@ int euler_if_closed(const TriangleMesh& mesh) {
 
 Welding weld(TriangleMesh& mesh) { return meniscus::weld(mesh, 0.001, 1.0); }
 
-// An octahedron whose upper corner is two, so near together that they are one.
-TriangleMesh octahedron_with_a_double_corner(double apart) {
-  return mesh_of(
-      {{0, 0, 1}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}, {apart, 0, 1}},
-      {{6, 1, 2}, {6, 2, 0}, {0, 2, 3}, {0, 3, 4}, {0, 4, 6}, {6, 4, 1}, {2, 1, 5}, {3, 2, 5}, {4, 3, 5}, {1, 4, 5}});
+// An octahedron whose upper corner is two, 0 and 6. Beside the edge from 0 to 2 a fin stands between them: pairs of
+// triangles back to back, one for each tip, the tip of one the foot of the next. Without tips 0 and 6 share that edge.
+TriangleMesh octahedron_with_a_double_corner(double apart, const std::vector<glm::dvec3>& tips = {}) {
+  std::vector<glm::dvec3> points{{0, 0, 1}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}, {apart, 0, 1}};
+  std::vector<std::array<std::uint32_t, 3>> triangles{{6, 1, 2}};
+  std::uint32_t foot = 2;
+  for (const glm::dvec3& point : tips) {
+    const auto tip = static_cast<std::uint32_t>(points.size());
+    points.push_back(point);
+    triangles.insert(triangles.end(), {{6, foot, tip}, {foot, 0, tip}});
+    foot = tip;
+  }
+  triangles.insert(
+      triangles.end(),
+      {{6, foot, 0}, {0, 2, 3}, {0, 3, 4}, {0, 4, 6}, {6, 4, 1}, {2, 1, 5}, {3, 2, 5}, {4, 3, 5}, {1, 4, 5}});
+  return mesh_of(std::move(points), std::move(triangles));
 }
 
 TEST(Weld, TwoVerticesOnePointBecomeOneAndTheLowerStays) {
@@ -77,24 +90,10 @@ TEST(Weld, ANeckStays) {
   EXPECT_EQ(euler_if_closed(mesh), 2);
 }
 
-// The same octahedron with a fin beside the edge from 0 to 2: two triangles back to back with their tip at 7, which
-// keeps the double corner from becoming one.
+// With a fin of one tip, vertex 7, so far from the edge.
 TriangleMesh octahedron_with_a_fin(double length) {
   const double out = 0.5 + length / std::sqrt(2.0);
-  TriangleMesh mesh =
-      mesh_of({{0, 0, 1}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}, {0.0004, 0, 1}, {0, out, out}},
-              {{6, 1, 2},
-               {6, 2, 7},
-               {2, 0, 7},
-               {0, 6, 7},
-               {0, 2, 3},
-               {0, 3, 4},
-               {0, 4, 6},
-               {6, 4, 1},
-               {2, 1, 5},
-               {3, 2, 5},
-               {4, 3, 5},
-               {1, 4, 5}});
+  TriangleMesh mesh = octahedron_with_a_double_corner(0.0004, {{0, out, out}});
   mesh.sharp_edges = {{0, 7}, {2, 7}, {3, 4}};
   mesh.sharp_corners = {5, 13};  // of triangle 1, at the tip, and of triangle 4
   mesh.sharp_corner_normals = {{1, 0, 0}, {0, 1, 0}};
@@ -119,32 +118,9 @@ TEST(Weld, AFinGoesThatKeepsVerticesApart) {
   EXPECT_NEAR(measure(mesh).volume, 4.0 / 3.0, 1e-12);
 }
 
-// The foot of one is the tip of the next.
 TEST(Weld, AFinOfSeveralTipsGoes) {
   for (const double apart : {0.02, 0.5}) {
-    TriangleMesh mesh = mesh_of({{0, 0, 1},
-                                 {1, 0, 0},
-                                 {0, 1, 0},
-                                 {-1, 0, 0},
-                                 {0, -1, 0},
-                                 {0, 0, -1},
-                                 {0.0004, 0, 1},
-                                 {0, 0.6, 0.4 + apart},
-                                 {0, 0.3, 0.7 + apart}},
-                                {{6, 1, 2},
-                                 {6, 2, 7},
-                                 {2, 0, 7},
-                                 {6, 7, 8},
-                                 {7, 0, 8},
-                                 {0, 6, 8},
-                                 {0, 2, 3},
-                                 {0, 3, 4},
-                                 {0, 4, 6},
-                                 {6, 4, 1},
-                                 {2, 1, 5},
-                                 {3, 2, 5},
-                                 {4, 3, 5},
-                                 {1, 4, 5}});
+    TriangleMesh mesh = octahedron_with_a_double_corner(0.0004, {{0, 0.6, 0.4 + apart}, {0, 0.3, 0.7 + apart}});
     mesh.tolerance = 0.05;
     ASSERT_EQ(euler_if_closed(mesh), 2);
     const Welding made = weld(mesh);

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Reads and checks cameras as --save-camera writes them, with numpy alone; knows nothing of Blender."""
 
-import json
 import math
 
 import numpy as np
@@ -30,11 +29,7 @@ def check(camera):
 
 def read(path):
     """The camera of a file, a dict as in a .mns header. Raises MnsError or OSError."""
-    with open(path, encoding="utf-8") as file:
-        try:
-            camera = json.load(file)
-        except (ValueError, RecursionError) as error:
-            raise mns_reader.MnsError(f"{path}: no JSON, such as --save-camera writes ({error})") from None
+    camera = mns_reader.read_json(path, ", such as --save-camera writes")
     if not isinstance(camera, dict) or camera.get("projection") not in SIZES:
         raise mns_reader.MnsError(f"{path}: no camera: its projection is neither perspective nor orthographic")
     unknown = set(camera) - {*VECTORS, "projection", SIZES[camera["projection"]]}

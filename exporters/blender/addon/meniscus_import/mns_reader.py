@@ -37,6 +37,15 @@ MOST_COLUMNS = 64
 IDENTITY = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0]
 
 
+def read_json(path, what=""):
+    """What a JSON file beside .mns files holds. what: of its writer, for the message. Raises MnsError or OSError."""
+    with open(path, encoding="utf-8") as file:
+        try:
+            return json.load(file)
+        except (ValueError, RecursionError) as error:
+            raise MnsError(f"{path}: no JSON{what} ({error})") from None
+
+
 class File:
     """header: dict. objects: the surfaces, at least one."""
 

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Reads and checks the manifest of a sequence of .mns files with numpy alone; knows nothing of Blender (FORMAT.md)."""
 
-import json
 import math
 import os
 import re
@@ -108,11 +107,7 @@ class Sequence:
 
 def read(path):
     """The sequence a manifest describes. Its .mns files may not be there yet. Raises MnsError or OSError."""
-    with open(path, encoding="utf-8") as file:
-        try:
-            header = json.load(file)
-        except (ValueError, RecursionError) as error:
-            raise mns_reader.MnsError(f"{path}: no JSON ({error})") from None
+    header = mns_reader.read_json(path)
     if not isinstance(header, dict) or header.get("format") != "meniscus surface sequence":
         raise mns_reader.MnsError(f"{path}: not the manifest of a sequence of surfaces")
     version = header.get("version")
