@@ -34,8 +34,8 @@ constexpr std::uint32_t kSeamNames = 1024;
 constexpr double kSharpAngle = 1e-4;
 /// Faces whose rows are made at the same time.
 constexpr std::uint32_t kFacesTogether = 1 << 12;
-/// After so many faces their memory goes back: to ask for that after each piece of them would take its time.
-constexpr std::uint32_t kFacesFreed = 1 << 14;
+/// So often, and after no fewer faces, the memory of those that are done goes back: each time the whole heap is walked.
+constexpr std::uint32_t kTimesFreed = 16, kFacesFreed = 1 << 14;
 
 /// Memory of many small blocks stays with the process after they are freed, unless the allocator is asked.
 void return_free_memory() {
@@ -285,7 +285,8 @@ class Tessellation {
       mesh_.sharp_corners.insert(mesh_.sharp_corners.end(), some.corners.begin(), some.corners.end());
       mesh_.sharp_corner_normals.insert(mesh_.sharp_corner_normals.end(), some.normals.begin(), some.normals.end());
     }
-    if (last % kFacesFreed == 0) return_free_memory();
+    const std::uint32_t freed = std::max(kFacesFreed, static_cast<std::uint32_t>(faces_.size()) / kTimesFreed);
+    if (last / freed != first / freed) return_free_memory();
   }
   void put_face(std::uint32_t f, const FacePlace& place, SharpCorners& sharp) {
     const FaceMesh& part = faces_[f];
