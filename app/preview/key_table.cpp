@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "core/color/color_schemes.h"
@@ -118,12 +119,14 @@ std::optional<Json> command_of(char letter, const Json& state) {
   }
 }
 
+constexpr FaceKey kFaceKeys[] = {
+    {"h", FaceAction::help},        {"?", FaceAction::help},  {"p", FaceAction::panel},
+    {"e", FaceAction::export_name}, {"q", FaceAction::leave}, {"Escape", FaceAction::leave},
+};
+
 std::optional<FaceAction> action_of(std::string_view key) {
-  if (key == "h" || key == "?") return FaceAction::help;
-  if (key == "p") return FaceAction::panel;
-  if (key == "e") return FaceAction::export_name;
-  if (key == "q" || key == "Escape") return FaceAction::leave;
-  return {};
+  const auto known = std::ranges::find(kFaceKeys, key, &FaceKey::key);
+  return known == std::end(kFaceKeys) ? std::nullopt : std::optional(known->action);
 }
 
 }  // namespace
@@ -134,6 +137,8 @@ std::string_view face_action_word(FaceAction action) {
 }
 
 std::span<const KeyHelp> key_help() { return kHelp; }
+
+std::span<const FaceKey> face_keys() { return kFaceKeys; }
 
 const std::vector<std::string>& numbered_schemes() {
   static const std::vector<std::string> words = [] {

@@ -25,6 +25,13 @@ struct KeyHelp {
 };
 std::span<const KeyHelp> key_help();
 
+/// A key as key_meaning() takes it, in small letters, and what it does to the face whatever the state.
+struct FaceKey {
+  std::string_view key;
+  FaceAction action;
+};
+std::span<const FaceKey> face_keys();
+
 struct KeyMeaning {
   std::optional<nlohmann::json> command;
   std::optional<FaceAction> action;

@@ -43,9 +43,11 @@ bool merge_commands(nlohmann::json& first, const nlohmann::json& second) {
     return first.value(key, nlohmann::json()) == second.value(key, nlohmann::json());
   };
   if (word == "zoom" && same("x") && same("y") && are_numbers(first, second, "factor")) {
-    const double factor = first["factor"].get<double>() * second["factor"].get<double>();
-    if (std::isfinite(factor)) first["factor"] = factor;
-    return std::isfinite(factor);
+    const auto is_factor = [](double factor) { return factor >= 1.0 / kMostZoom && factor <= kMostZoom; };
+    const double before = first["factor"].get<double>(), after = second["factor"].get<double>();
+    if (!is_factor(before) || !is_factor(after)) return false;  // refused, each by itself
+    first["factor"] = std::clamp(before * after, 1.0 / kMostZoom, kMostZoom);
+    return true;
   }
   // A slider that belongs to one entry of a list.
   constexpr std::array<std::string_view, 3> kEntries{"object", "cut", "opacity"};

@@ -9,6 +9,7 @@
 #include "app/preview/camera_motion.h"
 #include "app/preview/command_json.h"
 #include "app/preview/command_values.h"
+#include "app/preview/merge_commands.h"
 #include "app/preview/session.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
@@ -49,7 +50,7 @@ Json PreviewSession::pan(const CommandReader& command) {
 
 Json PreviewSession::zoom(const CommandReader& command) {
   constexpr double kMost = 1e3;  // more does not come of one movement; wheels are added up while a picture is drawn
-  const double factor = std::clamp(command.number("factor", 1e-300, 1e300), 1.0 / kMost, kMost);
+  const double factor = std::clamp(command.number("factor", 1.0 / kMostZoom, kMostZoom), 1.0 / kMost, kMost);
   if (command.has("x") != command.has("y")) throw RequestError("zoom: \"x\" and \"y\" are one place; give both");
   if (!command.has("x")) {
     look_from(zoomed(view_.camera, factor));

@@ -135,9 +135,12 @@ Json PreviewSession::choices(const CommandReader&) {
   for (const ColorMapMetadata& map : color_maps()) maps.push_back(map.name);
   Json keys = Json::array();
   for (const KeyHelp& row : key_help()) keys.push_back({{"keys", row.keys}, {"what", row.what}});
+  Json actions = Json::object();
+  for (const FaceKey& key : face_keys()) actions[std::string(key.key)] = face_action_word(key.action);
   return {{"schemes", schemes},
           {"maps", maps},
           {"keys", keys},
+          {"actions", actions},
           {"presets", {"publication", "cover", "flat", "soft", "classic"}},
           {"representations", {"sticks", "balls", "spheres", "tube"}}};
 }

@@ -30,6 +30,10 @@ WATCHED = """
     }, {once: true});"""
 
 
+def distance(a, b):
+    return sum((x - y) ** 2 for x, y in zip(a, b)) ** 0.5
+
+
 class PageManners(PageCase):
     async def test_a_connection_that_is_lost_comes_back(self):
         preview = self.serve(MOLECULE, "--select", "chain D")
@@ -54,16 +58,59 @@ class PageManners(PageCase):
                 await page.send("Input.dispatchTouchEvent", type=kind,
                                 touchPoints=[{"x": x, "y": y, "id": n} for n, x, y in points])
 
-            await touch("touchStart", (0, 100, 200))
-            await touch("touchStart", (0, 100, 200), (1, 200, 200))
-            await touch("touchMove", (0, 80, 200), (1, 260, 200))
-            await touch("touchEnd", (1, 260, 200))
-            pinched = (await self.state(page))["camera"]
-            await touch("touchMove", (1, 261, 200))
+            for gone in (0, 1):
+                left = 1 - gone
+                places = [(0, 80, 200), (1, 260, 200)]
+                await touch("touchStart", (0, 100, 200))
+                await touch("touchStart", (0, 100, 200), (1, 200, 200))
+                before = (await self.state(page))["camera"]
+                await touch("touchMove", *places)
+                pinched = (await self.state(page))["camera"]
+                self.assertLess(distance(pinched["position"], pinched["target"]),
+                                0.8 * distance(before["position"], before["target"]), "two fingers zoom")
+                await touch("touchEnd", places[left])
+                await touch("touchMove", (left, places[left][1] + 1, 200))
+                camera = (await self.state(page))["camera"]
+                self.assertLess(distance(camera["position"], pinched["position"]), 3.0, "one pixel, not 180")
+                await touch("touchEnd")
+                await self.press(page, "r")
+
+            # Of three fingers none turns where another one is, whichever stay behind.
+            places = [(0, 80, 200), (1, 260, 200), (2, 160, 300)]
+            for count in (1, 2, 3):
+                await touch("touchStart", *places[:count])
+            before = (await self.state(page))["camera"]
+            for n, _, _ in places:
+                await touch("touchMove", *((m, x + 1, y) if m == n else (m, x, y) for m, x, y in places))
+                await touch("touchMove", *places)
+            for stay in (places[:2], places[:1]):
+                await touch("touchEnd", *stay)
+                await touch("touchMove", *((m, x + 1, y) for m, x, y in stay))
+                await touch("touchMove", *stay)
             await touch("touchEnd")
             camera = (await self.state(page))["camera"]
-            for a, b in zip(camera["position"], pinched["position"]):
-                self.assertAlmostEqual(a, b, delta=3.0)  # one pixel, not 180
+            self.assertLess(distance(camera["position"], before["position"]), 3.0)
+            self.assertEqual(page.complaints, [])
+
+    async def test_letters_behind_the_key_that_opens_a_field_are_for_the_field(self):
+        preview = self.serve(MOLECULE, "--select", "chain D")
+        async with Browser(CHROMIUM, SIZE) as page:
+            # What the page says arrives late, as where a slow picture is being drawn.
+            await page.send("Page.addScriptToEvaluateOnNewDocument", source="""
+                window.WebSocket = class extends WebSocket {
+                  send(text) { setTimeout(() => super.send(text), 500); }
+                };""")
+            await page.open(preview.url)
+            before = await self.state(page)
+            for letter in "ek]l":
+                await self.press(page, letter)
+            self.assertEqual(await page.evaluate("document.getElementById('export-name').value"), "k]l")
+            await page.evaluate("document.activeElement.blur()")
+            await self.press(page, "g")
+            await page.until("JSON.parse(document.getElementById('picture').dataset.state).legend.on")
+            after = await self.state(page)
+            for kept in ("patch_kinds", "probe_radius", "look"):
+                self.assertEqual(after[kept], before[kept], kept)
             self.assertEqual(page.complaints, [])
 
     async def test_nothing_waits_for_what_takes_long(self):

@@ -260,6 +260,19 @@ class Server(unittest.IsolatedAsyncioTestCase):
             input=text + '{"command":"state"}\n{"command":"quit"}\n', capture_output=True, text=True, check=True)
         self.assertEqual(json.loads(again.stdout.splitlines()[-2])["camera"], camera)
 
+    async def test_a_fast_wheel_over_a_slow_picture_is_not_refused(self):
+        self.preview = self.serve("--size", "1600x1200", "--device", "software")
+        async with self.preview.socket() as client:
+            for factor in (2.0, 0.5):
+                count = 100
+                for n in range(count):
+                    await client.send(json.dumps({"id": n, "command": "zoom", "factor": factor, "x": 30, "y": 20}))
+                    if n == 0:
+                        await client.send('{"request":"picture"}')
+                for n in range(count):
+                    reply = await receive(client, lambda m, n=n: m.get("id") == n)
+                    self.assertTrue(reply["ok"], reply)
+
     async def test_it_ends_as_it_is_told(self):
         async with self.preview.socket() as client:
             self.assertTrue((await ask(client, {"command": "quit"}))["ok"])

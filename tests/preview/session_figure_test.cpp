@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Commands that change what a figure shows, what they refuse, and undo and redo of them.
+#include <algorithm>
+#include <cmath>
 #include <memory>
 #include <set>
 #include <string>
@@ -259,12 +261,33 @@ TEST_F(FigureSession, AClickCentresAndZoomStaysAtTheCursor) {
     EXPECT_LT(glm::distance(at(near, place), at(camera, place)), 1e-12);
     EXPECT_NEAR(height_at_target(camera) / height_at_target(near), 3.0, 1e-12);
   }
-  // A fast wheel over a slow picture: its notches are one, however many, and no place is lost.
-  Json wheel{{"command", "zoom"}, {"factor", 1e200}, {"x", 3}, {"y", 4}};
-  EXPECT_TRUE(merge_commands(wheel, {{"command", "zoom"}, {"factor", 10.0}, {"x", 3}, {"y", 4}}));
-  EXPECT_FALSE(merge_commands(wheel, {{"command", "zoom"}, {"factor", 10.0}, {"x", 3}, {"y", 5}}));
-  EXPECT_FALSE(merge_commands(wheel, {{"command", "zoom"}, {"factor", 10.0}}));
-  EXPECT_TRUE(session_->apply(wheel)["ok"]) << "too far is as far as it goes";
+}
+
+// While a slow picture is drawn notches become one, however many: too far is as far as it goes, and no place is lost.
+TEST_F(FigureSession, AFastWheelOverASlowPictureIsNotRefused) {
+  for (const double notch : {1.1, 2.0, 1e200, 1.0 / 1.1, 0.5, 1e-200}) {
+    const Json one{{"command", "zoom"}, {"factor", notch}, {"x", 3}, {"y", 4}};
+    for (const int count : {2, 100, 10000}) {
+      SCOPED_TRACE(::testing::Message() << count << " times " << notch);
+      Json wheel = one;
+      for (int n = 1; n < count; ++n) ASSERT_TRUE(merge_commands(wheel, one));
+      const double before = height_at_target(session_->view().camera);
+      const Json reply = session_->apply(wheel);
+      ASSERT_TRUE(reply["ok"]) << reply;
+      const double grown = before / height_at_target(session_->view().camera);
+      EXPECT_GE(notch > 1.0 ? grown : 1.0 / grown, std::min(10.0, 0.9 * std::pow(std::max(notch, 1.0 / notch), count)));
+      expect_ok(R"({"command":"undo"})");
+    }
+  }
+  Json wheel{{"command", "zoom"}, {"factor", 1.1}, {"x", 3}, {"y", 4}};
+  EXPECT_FALSE(merge_commands(wheel, {{"command", "zoom"}, {"factor", 1.1}, {"x", 3}, {"y", 5}}));
+  EXPECT_FALSE(merge_commands(wheel, {{"command", "zoom"}, {"factor", 1.1}}));
+  // What is no factor is not hidden among others.
+  for (const double wrong : {0.0, -1.0}) {
+    wheel["factor"] = wrong;
+    EXPECT_FALSE(merge_commands(wheel, Json(wheel)));
+    EXPECT_FALSE(session_->apply(wheel)["ok"]) << wrong;
+  }
 }
 
 TEST_F(FigureSession, TheLegendStandsBesideTheMolecule) {

@@ -321,10 +321,14 @@ TEST_F(WindowTest, IsNeverTooSmallForItsPanel) {
   EXPECT_TRUE(happens([&] { return std::filesystem::exists(folder_.path() / "view.png"); }));
 }
 
-// What is typed behind the key that opens the name is no command, however late the window draws the field.
+// What is typed behind a click into a field, or behind the key that opens the name, is no command, however late the
+// window draws the field.
 TEST_F(WindowTest, LettersForAFieldAreNoCommands) {
   open();
-  screen_.act({"mousemove", "400", "400", "type", "--delay", "0", "eq"});
+  screen_.act({"mousemove", "1120", "205", "click", "1", "type", "--delay", "0", "qk"});  // the field for atoms
+  std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+  EXPECT_TRUE(recorded("patch_kinds").empty()) << "k was a letter of the selection";
+  screen_.act({"mousemove", "400", "400", "click", "1", "sleep", "0.7", "type", "--delay", "0", "eq"});
   std::this_thread::sleep_for(std::chrono::milliseconds(1500));
   screen_.act({"mousemove", "400", "400", "click", "1", "type", "k"});
   EXPECT_TRUE(happens([&] { return recorded("patch_kinds").size() == 1; }, 20)) << "q was a letter of the name";

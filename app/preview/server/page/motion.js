@@ -8,7 +8,7 @@ const kWheel = 0.0015;       // growth per unit of wheel
 /// Calls to.command(word, values) for motions, to.begin() where one begins, to.hover(pixel or null, place),
 /// to.pick(pixel) and, for a double click, to.center(pixel).
 export function follow_pointer(canvas, to) {
-  let drag = null;
+  let drag = null;  // of the pointer that came last
   let rest = 0;
   const pointers = new Map();
 
@@ -43,7 +43,8 @@ export function follow_pointer(canvas, to) {
     to.begin();
     pointers.set(event.pointerId, place_of(event));
     const pans = event.button === 2 || event.button === 1 || event.shiftKey;
-    drag = { word: pans ? "pan" : "orbit", x: event.clientX, y: event.clientY, wandered: 0, button: event.button };
+    drag = { pointer: event.pointerId, word: pans ? "pan" : "orbit", x: event.clientX, y: event.clientY, wandered: 0,
+      button: event.button };
   });
   canvas.addEventListener("pointermove", (event) => {
     if (pointers.size === 2 && pointers.has(event.pointerId)) { drag.wandered = kClick; return pinch(event); }
@@ -55,6 +56,7 @@ export function follow_pointer(canvas, to) {
       rest = setTimeout(() => to.hover(pixel, place), kHoverRest);
       return;
     }
+    if (event.pointerId !== drag.pointer) return;  // the other ones of three fingers
     const [dx, dy] = [event.clientX - drag.x, event.clientY - drag.y];
     drag.wandered += Math.hypot(dx, dy);
     if (drag.wandered < kClick) return;
@@ -65,8 +67,8 @@ export function follow_pointer(canvas, to) {
     pointers.delete(event.pointerId);
     const was = drag;
     // A finger that stays behind a pinch begins anew from where it is, and taps nothing.
-    const [left] = pointers.values();
-    drag = left ? { ...was, x: left.clientX, y: left.clientY, wandered: kClick } : null;
+    const [[pointer, left] = []] = pointers;
+    drag = left ? { ...was, pointer, x: left.clientX, y: left.clientY, wandered: kClick } : null;
     const pixel = pixel_at(event);
     if (event.type === "pointerup" && was && was.button === 0 && was.wandered < kClick && pixel) to.pick(pixel);
   };

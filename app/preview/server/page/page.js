@@ -15,6 +15,7 @@ let shown = null;      // the message of the picture in the canvas
 let full_picture = null;  // its PNG, if it is full
 let outstanding = 0;   // commands without a reply
 let newest = 0;        // the revision of the latest reply
+let actions = null;    // of keys which are the page's, by their names
 
 const server = new Connection({
   picture: show_picture,
@@ -212,6 +213,7 @@ function apply_state(next) {
 
 function fill_choices(choices) {
   if (!choices.ok) return;
+  actions = choices.actions;
   for (const { word, has_map, description } of choices.schemes) {
     const option = new Option(word, word);
     option.title = description;
@@ -416,9 +418,10 @@ const face_actions = {
   panel: () => { document.body.classList.toggle("bare"); },
   export: () => { document.body.classList.remove("bare"); $("export-name").focus(); $("export-name").select(); },
 };
-follow_keys(async (key) => {
-  const help = $("help");
-  if (key === "Escape") { help.hidden = true; return; }  // a page is left otherwise
-  const reply = await command("press", { key });
-  face_actions[reply?.action]?.();
-}, () => controls && state !== null);
+follow_keys((key) => {
+  if (key === "Escape") { $("help").hidden = true; return; }  // a page is left otherwise
+  // At once: what is typed behind the key that opens a field is for the field, however late the session replies.
+  const action = actions[key.length === 1 ? key.toLowerCase() : key];
+  if (action) return face_actions[action]?.();
+  command("press", { key });
+}, () => controls && actions && state !== null);
