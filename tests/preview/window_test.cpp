@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <functional>
@@ -86,6 +87,13 @@ class WindowTest : public ::testing::Test {
       return false;
     std::this_thread::sleep_for(std::chrono::milliseconds(600));
     return screen_.picture().pixels == before.pixels;
+  }
+
+  /// While the window's loop stands still, so that all of it is done to what it drew last.
+  void act_at_once(const std::vector<std::string>& words) {
+    program_->signal(SIGSTOP);
+    screen_.act(words);
+    program_->signal(SIGCONT);
   }
 
   std::vector<Json> recorded(const std::string& word) const {
@@ -325,10 +333,11 @@ TEST_F(WindowTest, IsNeverTooSmallForItsPanel) {
 // window draws the field.
 TEST_F(WindowTest, LettersForAFieldAreNoCommands) {
   open();
-  screen_.act({"mousemove", "1120", "205", "click", "1", "type", "--delay", "0", "qk"});  // the field for atoms
+  act_at_once({"mousemove", "1120", "205", "click", "1", "type", "--delay", "0", "qk"});  // the field for atoms
   std::this_thread::sleep_for(std::chrono::milliseconds(1500));
   EXPECT_TRUE(recorded("patch_kinds").empty()) << "k was a letter of the selection";
-  screen_.act({"mousemove", "400", "400", "click", "1", "sleep", "0.7", "type", "--delay", "0", "eq"});
+  screen_.act({"mousemove", "400", "400", "click", "1", "sleep", "0.7"});
+  act_at_once({"type", "--delay", "0", "eq"});
   std::this_thread::sleep_for(std::chrono::milliseconds(1500));
   screen_.act({"mousemove", "400", "400", "click", "1", "type", "k"});
   EXPECT_TRUE(happens([&] { return recorded("patch_kinds").size() == 1; }, 20)) << "q was a letter of the name";

@@ -65,6 +65,8 @@ RunningProgram::~RunningProgram() {
   if (child_ > 0) wait_for(child_, 0);
 }
 
+void RunningProgram::signal(int number) const { ::kill(child_, number); }
+
 ProgramResult RunningProgram::finish(int limit_seconds) {
   ProgramResult result;
   result.exit_code = wait_for(std::exchange(child_, -1), limit_seconds);

@@ -56,6 +56,8 @@ class RunningProgram {
   /// What it wrote so far.
   std::string out() const { return read_bytes(folder_.path() / "out"); }
   std::string err() const { return read_bytes(folder_.path() / "err"); }
+  /// Sends it SIGSTOP, SIGCONT or another signal.
+  void signal(int number) const;
   /// Waits for its end; it is killed after `limit_seconds`. Once.
   ProgramResult finish(int limit_seconds = 60);
 
