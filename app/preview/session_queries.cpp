@@ -106,6 +106,7 @@ std::optional<double> PreviewSession::exposed_area(std::uint32_t atom, bool wait
   while (!std::ranges::binary_search(structure_.instances[group].atoms, atom)) ++group;
   const std::vector<std::uint32_t>& atoms = structure_.instances[group].atoms;
   std::vector<Ball> balls;
+  balls.reserve(atoms.size());
   for (const std::uint32_t a : atoms) balls.push_back(balls_[a]);
   const auto place = static_cast<std::size_t>(std::ranges::lower_bound(atoms, atom) - atoms.begin());
   return area({view_.frame, group, view_.probe_radius, balls, nullptr}, place);
