@@ -110,7 +110,8 @@ void add_bundle(CLI::App& command) {
            "long it takes, unless --chunk-frames says how many frames make a task.");
   auto state = std::make_shared<BundleCommand>();
   command.add_option("DIR", state->folder, "The folder to make")->required()->type_name("");
-  command.add_option("COMMAND", state->words, "Behind --: render, export povray or export blender, and more")
+  command
+      .add_option("COMMAND", state->words, "Behind --: render, or export povray, blender, mitsuba or pbrt, and more")
       ->required()
       ->type_name("");
   command

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "app/commands/commands.h"
+#include "app/farm/bundled_steps.h"
 #include "app/farm/command_options.h"
 #include "app/process/program_error.h"
 #include "app/options/figure_options.h"
@@ -35,11 +36,7 @@ void split(const Words& words, BundledCommand& result) {
   if (words.size() <= word_count) throw UsageError("behind -- there is no FILE");
   const auto behind = words.begin() + static_cast<std::ptrdiff_t>(word_count);
   result.words.assign(words.begin(), behind);
-  if (result.words != Words{"render"} && result.words != Words{"export", "povray"} &&
-      result.words != Words{"export", "blender"}) {
-    throw UsageError(fmt::format("{} cannot be bundled; render, export povray and export blender can",
-                                 in_quotes(fmt::format("{}", fmt::join(result.words, " ")))));
-  }
+  const std::vector<Step> steps = steps_of(result.words);
   if (behind->starts_with('-')) {
     throw UsageError(fmt::format("name FILE right behind {}, then options; standard input cannot be bundled",
                                  fmt::join(result.words, " ")));
@@ -47,8 +44,9 @@ void split(const Words& words, BundledCommand& result) {
   const auto second = std::find(behind, words.end(), "--");
   result.arguments.assign(behind, second);
   if (second != words.end()) result.renderer.assign(second + 1, words.end());
-  if (!result.renderer.empty() && result.words.front() == "render")
-    throw UsageError("render needs no other renderer; leave out what is behind the second --");
+  if (!result.renderer.empty() && steps.back().maker == Maker::meniscus)
+    throw UsageError(fmt::format("no renderer is started for {}; leave out what is behind the second --",
+                                 fmt::join(result.words, " ")));
 }
 
 void take_out_device(BundledCommand& result) {
@@ -71,7 +69,11 @@ void take_out_device(BundledCommand& result) {
 
 /// The command of this name with all its options.
 void add_command(CLI::App& program, const Words& words) {
-  const Command table[] = {{"render", add_render}, {"povray", add_export_povray}, {"blender", add_export_blender}};
+  const Command table[] = {{"render", add_render},
+                           {"povray", add_export_povray},
+                           {"blender", add_export_blender},
+                           {"mitsuba", add_export_mitsuba},
+                           {"pbrt", add_export_pbrt}};
   const auto* entry = std::ranges::find_if(table, [&](const Command& c) { return words.back() == c.name; });
   CLI::App* parent = &program;
   if (words.size() == 2) parent = program.add_subcommand(words.front());

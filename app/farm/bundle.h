@@ -79,6 +79,8 @@ struct Bundle {
   /// Place of a frame in the run, from 0. Throws RequestError if it is not in it.
   std::size_t place_of(std::uint64_t frame) const;
   const Step* step(const std::string& name) const;  ///< nullptr: there is none
+  /// Whether the last step makes pictures; else scenes for a renderer that is no step.
+  bool makes_pictures() const { return step("render") != nullptr; }
 };
 
 /// Part K of N of the run, K from 1: frames that follow each other in it, sizes differing by one at most.

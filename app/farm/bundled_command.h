@@ -13,7 +13,7 @@
 namespace meniscus::farm {
 
 struct BundledCommand {
-  std::vector<std::string> words;      ///< {"render"}, {"export", "povray"} or {"export", "blender"}
+  std::vector<std::string> words;      ///< {"render"}, {"export", "povray"} and others of bundled_steps.h
   std::vector<std::string> arguments;  ///< behind the words, as written: FILE first
   std::vector<std::string> device;     ///< those of them that say where it is computed, taken out
   std::vector<std::string> renderer;   ///< what stood behind a second --: for POV-Ray, or Blender's driver

@@ -7,9 +7,9 @@
 #include <set>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "app/farm/blender_driver.h"
+#include "app/farm/bundled_steps.h"
 #include "app/farm/command_options.h"
 #include "app/farm/inner_path.h"
 #include "app/process/program_error.h"
@@ -39,19 +39,9 @@ void check_inputs(const Bundle& bundle) {
 }
 
 void check_steps(const Bundle& bundle) {
-  const Words words = command_words(bundle.command);
-  const bool render = words == Words{"render"};
-  const bool povray = words == Words{"export", "povray"};
-  if (!render && !povray && words != Words{"export", "blender"})
-    throw RequestError(fmt::format("{} cannot be bundled; render, export povray and export blender can",
-                                   in_quotes(fmt::format("{}", fmt::join(words, " ")))));
-  const auto is = [&](std::size_t n, const char* name, Maker maker) {
-    return bundle.steps[n].name == name && bundle.steps[n].maker == maker;
-  };
-  const bool fits = render ? bundle.steps.size() == 1 && is(0, "render", Maker::meniscus)
-                           : bundle.steps.size() == 2 && is(0, "surface", Maker::meniscus) &&
-                                 is(1, "render", povray ? Maker::povray : Maker::blender);
-  if (!fits) throw RequestError("its steps are not those of its command");
+  const std::vector<Step> steps = steps_of(command_words(bundle.command));
+  const auto same = [](const Step& a, const Step& b) { return a.name == b.name && a.maker == b.maker; };
+  if (!std::ranges::equal(bundle.steps, steps, same)) throw RequestError("its steps are not those of its command");
   for (const Step& step : bundle.steps) {
     if (step.maker == Maker::meniscus) read_device_options(step.arguments);
     if (step.maker == Maker::povray) check_povray_options(step.arguments);
@@ -71,6 +61,7 @@ void check_numbers(const Bundle& bundle) {
   if (bundle.chunking.cores < 1 || bundle.chunking.cores > kMostCores || memory < 1 || memory > kMostMemory)
     throw RequestError("cores or memory of its tasks make no sense");
   if (!bundle.film) return;
+  if (!bundle.makes_pictures()) throw RequestError("has a film, and no pictures to make it of");
   const double rate = bundle.film->frames_per_second;
   if (!(rate >= 0.1 && rate <= 1000.0)) throw RequestError("its film's frames a second make no sense");
   const std::string& name = bundle.film->file;

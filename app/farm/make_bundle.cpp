@@ -11,6 +11,7 @@
 
 #include "app/process/build_version.h"
 #include "app/farm/blender_driver.h"
+#include "app/farm/bundled_steps.h"
 #include "app/farm/check_bundle.h"
 #include "app/farm/child_process.h"
 #include "app/farm/command_options.h"
@@ -33,10 +34,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<Step> steps_of(const BundledCommand& command) {
-  if (command.words.front() == "render") return {{"render", Maker::meniscus, command.device}};
-  const Maker renderer = command.words.back() == "povray" ? Maker::povray : Maker::blender;
-  return {{"surface", Maker::meniscus, command.device}, {"render", renderer, command.renderer}};
+std::vector<Step> steps_with_arguments(const BundledCommand& command) {
+  std::vector<Step> steps = steps_of(command.words);
+  for (Step& step : steps) step.arguments = step.maker == Maker::meniscus ? command.device : command.renderer;
+  return steps;
 }
 
 bool has(const BundledCommand& command, const std::string& option) {
@@ -199,7 +200,9 @@ Bundle described(const BundleOptions& options, const BundledCommand& command, Bu
   Bundle bundle;
   bundle.program_version = build_version();
   bundle.frames = frames.numbers();
-  bundle.steps = steps_of(command);
+  bundle.steps = steps_with_arguments(command);
+  if (options.film && !bundle.makes_pictures())
+    throw UsageError("--film: this bundle makes scenes, and whoever renders them the film; leave it away");
   bundle.width = command.picture.width;
   bundle.height = command.picture.height;
   if (options.film)

@@ -2,6 +2,7 @@
 // Follows a program that makes many frames and tells each by a line of JSON.
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -23,14 +24,19 @@ std::string relative_to(const std::filesystem::path& folder, const std::string& 
   return path.is_absolute() ? path.lexically_proximate(std::filesystem::absolute(folder)).string() : path.string();
 }
 
-/// Tells the listener about the frame of this line, takes it off the list, and is true; false for any other line.
-bool take_frame(const std::string& line, const std::filesystem::path& folder, std::vector<std::uint64_t>& frames,
+/// The object of a line that a program says for this one.
+std::optional<json> event_in(const std::string& line) {
+  if (!line.starts_with('{')) return {};
+  json event = json::parse(line, nullptr, false);
+  return event.is_object() ? std::optional(std::move(event)) : std::nullopt;
+}
+
+/// Tells the listener about the frame of an event and takes it off the list.
+void take_frame(const json& event, const std::filesystem::path& folder, std::vector<std::uint64_t>& frames,
                 const FrameListener& listener) {
-  if (!line.starts_with('{')) return false;
-  const json event = json::parse(line, nullptr, false);
-  if (!event.is_object() || !event.contains("frame") || !event.contains("state")) return event.is_object();
+  if (!event.contains("frame") || !event.contains("state")) return;
   const auto frame = event["frame"].get<std::uint64_t>();
-  if (std::erase(frames, frame) == 0) return true;
+  if (std::erase(frames, frame) == 0) return;
   if (event["state"] == "done") {
     std::vector<std::string> files;
     for (const json& file : event.at("files")) files.push_back(relative_to(folder, file.get<std::string>()));
@@ -38,7 +44,6 @@ bool take_frame(const std::string& line, const std::filesystem::path& folder, st
   } else {
     listener.failed(frame, event.value("exit", static_cast<int>(kExitInternal)), event.value("error", "no reason"));
   }
-  return true;
 }
 
 }  // namespace
@@ -50,10 +55,15 @@ void make_by_lines(
   while (!frames.empty()) {
     ChildProcess child(command_for(frames, tried.has_value()), folder);
     ErrorLine last;
+    bool several = false;  // frames are made at once
     while (const std::optional<std::string> line = child.next_line()) {
-      if (take_frame(*line, folder, frames, listener)) continue;
+      if (const std::optional<json> event = event_in(*line)) {
+        several = several || event->value("at_once", 1) > 1;
+        take_frame(*event, folder, frames, listener);
+        continue;
+      }
       last.add(*line);
-      listener.said(*line);
+      if (!several) listener.said(*line);
     }
     const int code = child.wait();
     if (frames.empty()) return;
@@ -66,7 +76,8 @@ void make_by_lines(
     const std::uint64_t culprit = frames.front();
     if (tried != culprit) {
       tried = culprit;
-      listener.tried_again(culprit, signal_text(code));
+      // The first of those that it made may not be the one that ended it.
+      listener.tried_again(culprit, signal_text(code) + (several ? ", while it made several frames at once" : ""));
       continue;
     }
     frames.erase(frames.begin());

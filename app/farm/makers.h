@@ -19,7 +19,8 @@ struct FrameListener {
   std::function<void(std::uint64_t frame, int exit_code, const std::string& error)> failed;
   /// Hears, before the above, of a frame whose process was ended by a signal and that is tried a second time.
   std::function<void(std::uint64_t frame, const std::string& error)> tried_again;
-  /// Hears each line that a process says, but those about frames, before it hears of the frame that is over then.
+  /// Hears each line that a process says, but those about frames, before it hears of the frame that is over then. Not
+  /// those said while it makes several at once: nobody knows of which frame they are.
   std::function<void(const std::string& line)> said;
 };
 
@@ -37,9 +38,10 @@ void make_frames(const Bundle& bundle, const Step& step, const Workplace& place,
 
 /// The same by a program that tells each frame by a line of JSON, {"frame":42,"state":"done","files":[...],"ms":1.5} or
 /// {"frame":42,"state":"failed","exit":7,"error":"..."}, in the order of the list. `command_for` gives its arguments
-/// for a list of frames; `alone`: that it makes one after another, not several at once. If a signal ends it, another
-/// process goes on behind the last frame told, with one frame after another, so that it is known which one it was at;
-/// if that ends so, too, and at the same frame, the frame has failed, and a third makes the others.
+/// for a list of frames; `alone`: that it makes one after another, not several at once. A program that makes several at
+/// once says so before it begins them: {"event":"start","at_once":3}. If a signal ends it, another process goes on
+/// behind the last frame told, with one frame after another, so that it is known which one it was at; if that ends so,
+/// too, and at the same frame, the frame has failed, and a third makes the others.
 void make_by_lines(
     const std::function<std::vector<std::string>(const std::vector<std::uint64_t>& frames, bool alone)>& command_for,
     const std::filesystem::path& folder, std::vector<std::uint64_t> frames, const FrameListener& listener);

@@ -20,6 +20,7 @@ CLI::Validator one_of(const std::vector<std::string>& words);
 template <class Value>
 CLI::Validator one_of(const std::map<std::string, Value>& meanings) {
   std::vector<std::string> words;
+  words.reserve(meanings.size());
   for (const auto& [word, meaning] : meanings) words.push_back(word);
   CLI::Validator check = CLI::CheckedTransformer(meanings).description("");
   check.name(CLI::detail::join(words, "|"));

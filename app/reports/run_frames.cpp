@@ -125,7 +125,7 @@ std::vector<std::shared_ptr<MoleculeBuilder>> frame_builders(const FrameRun& fra
 
 void run_frames(FrameRun& frames, const MoleculeOptions& molecule, const FrameOptions& options,
                 std::vector<FrameWorker> workers) {
-  RunProgress progress(options.progress, molecule.quiet, frames.chunk().size());
+  RunProgress progress(options.progress, molecule.quiet, frames.chunk().size(), workers.size());
   Failures failures;
   EmptyPictures empty;
   // One more than are worked on waits to be, and one to be finished.

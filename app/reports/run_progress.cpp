@@ -31,11 +31,11 @@ std::string duration(double seconds) {
 
 }  // namespace
 
-RunProgress::RunProgress(ProgressStyle style, bool quiet, std::uint64_t frames)
+RunProgress::RunProgress(ProgressStyle style, bool quiet, std::uint64_t frames, std::size_t at_once)
     : style_(style), total_(frames), begin_(std::chrono::steady_clock::now()) {
   if (style_ == ProgressStyle::automatic)
     style_ = quiet ? ProgressStyle::none : ::isatty(STDERR_FILENO) ? ProgressStyle::bar : ProgressStyle::plain;
-  if (style_ == ProgressStyle::json) write_line({{"event", "start"}, {"frames", total_}});
+  if (style_ == ProgressStyle::json) write_line({{"event", "start"}, {"frames", total_}, {"at_once", at_once}});
 }
 
 void RunProgress::done(std::uint64_t frame, const std::vector<std::string>& files, double milliseconds, bool empty) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -14,7 +15,8 @@ namespace meniscus {
 /// Tells the progress of one run; one thread.
 class RunProgress {
  public:
-  RunProgress(ProgressStyle style, bool quiet, std::uint64_t frames);
+  /// at_once: so many frames are worked on at the same time.
+  RunProgress(ProgressStyle style, bool quiet, std::uint64_t frames, std::size_t at_once = 1);
 
   /// empty: its picture shows nothing.
   void done(std::uint64_t frame, const std::vector<std::string>& files, double milliseconds, bool empty = false);

@@ -5,6 +5,8 @@
 #include <iterator>
 #include <map>
 #include <sstream>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -215,6 +217,7 @@ TEST_F(Frames, FailInTheirOrderHoweverManyAreMadeAtOnce) {
     for (const Json& line : lines_of(result.err))
       if (line["event"] == "frame") said.push_back(line["frame"]);
     EXPECT_EQ(said, (std::vector<int>{0, 1, 2, 3, 4, 5, 6, 7})) << result.err;
+    EXPECT_EQ(lines_of(result.err).front().value("at_once", 0), std::stoi(jobs)) << result.err;
     EXPECT_EQ(lines_of(result.out).size(), 7u) << result.out;
     EXPECT_NE(result.err.find("1 of 8 frames failed; the first, frame 3"), std::string::npos) << result.err;
   }

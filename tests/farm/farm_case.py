@@ -90,6 +90,9 @@ class FarmCase(unittest.TestCase):
         return self.bundle(name, "export", "povray", molecule, "--frames", "all", "--size", "160x120", "--device",
                            "cpu", "--", "-A", options=options)
 
+    def start(self, folder, *more):
+        return subprocess.Popen([MENISCUS, "work", folder, "--progress", "none", *more])
+
     def records(self, bundle, step):
         """Records of frames by number."""
         found = {}
@@ -111,9 +114,6 @@ class WorkCase(FarmCase):
         super().setUpClass()
         cls.reference = cls().povray_bundle("reference", options=("--chunk-frames", "5", "--film", "film.mp4"))
         subprocess.run([MENISCUS, "work", cls.reference, "--progress", "none"], check=True)
-
-    def start(self, folder, *more):
-        return subprocess.Popen([MENISCUS, "work", folder, "--progress", "none", *more])
 
     def assert_equals_reference(self, folder):
         for place, pattern in (("images", "*.png"), ("scene", "*.inc"), ("scene", "*.pov"), ("scene", "*.ini")):

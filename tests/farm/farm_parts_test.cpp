@@ -4,7 +4,14 @@
 #include <atomic>
 #include <chrono>
 #include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
 #include <thread>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
 
 #include <gtest/gtest.h>
 
@@ -341,6 +348,50 @@ done
   make_by_lines(command_for, folder.path(), {1, 3, 5, 7, 9}, listener);
   EXPECT_EQ(done, (std::vector<std::uint64_t>{1, 3, 5, 9}));
   EXPECT_EQ(failed, (std::vector<std::uint64_t>{7}));
+}
+
+// What a program says while it makes several frames at once is in no frame's log: a later frame's line would be in that
+// of the first one that is over. Once it makes one after another each frame has its own.
+TEST(Makers, HearOnlyWhatIsKnownToBeOfTheFrame) {
+  const TemporaryFolder folder;
+  const std::string script = folder.file("program", R"(alone=$1; shift
+echo opened
+if [ $alone = no ]; then
+  echo '{"event":"start","frames":3,"at_once":3}'
+  echo "of frame 7"
+  echo '{"frame":1,"state":"done","files":[]}'
+  echo "of frame 7, again"
+  kill -SEGV $$
+fi
+echo '{"event":"start","frames":2,"at_once":1}'
+for frame in "$@"; do
+  echo "of frame $frame"
+  [ $frame = 7 ] && kill -SEGV $$
+  echo "{\"frame\":$frame,\"state\":\"done\",\"files\":[]}"
+done
+)");
+  std::map<std::uint64_t, std::vector<std::string>> logs;
+  std::vector<std::string> log;
+  FrameListener listener;
+  listener.done = [&](std::uint64_t frame, const std::vector<std::string>&, double) {
+    logs[frame] = std::exchange(log, {});
+  };
+  listener.failed = [&](std::uint64_t frame, int, const std::string&) { logs[frame] = std::exchange(log, {}); };
+  listener.tried_again = [&](std::uint64_t frame, const std::string& error) {
+    log.push_back(
+        fmt::format("{} again{}", frame, error.find("several") == std::string::npos ? "" : ", one of several"));
+  };
+  listener.said = [&](const std::string& line) { log.push_back(line); };
+  const auto command_for = [&](const std::vector<std::uint64_t>& frames, bool alone) {
+    std::vector<std::string> words{"/bin/sh", script, alone ? "yes" : "no"};
+    for (const std::uint64_t frame : frames) words.push_back(std::to_string(frame));
+    return words;
+  };
+  make_by_lines(command_for, folder.path(), {1, 5, 7}, listener);
+  EXPECT_EQ(logs, (std::map<std::uint64_t, std::vector<std::string>>{
+                      {1, {"opened"}},
+                      {5, {"5 again, one of several", "opened", "of frame 5"}},
+                      {7, {"of frame 7", "7 again", "opened", "of frame 7"}}}));
 }
 
 TEST(Children, AreHeardAndWaitedFor) {

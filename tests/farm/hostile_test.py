@@ -243,7 +243,7 @@ class Hostile(FarmCase):
                    "--codec", "--crf", "--bits", "--chroma"}
         manifest = json.loads((self.render / "bundle.json").read_text())
         names = set()
-        for command in (("render",), ("export", "povray"), ("export", "blender")):
+        for command in (("render",), ("export", "povray"), ("export", "blender"), ("export", "mitsuba"), ("export", "pbrt")):
             text = self.meniscus(*command, "--help-all").stdout
             names |= {name for line in text.splitlines() if line.startswith("  -")
                       for name in line.split()[0].split(",") if name.startswith("--")}
