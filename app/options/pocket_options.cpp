@@ -35,15 +35,13 @@ void add_number(CLI::App& command, const std::string& option, double& number, co
 void add_pocket_options(CLI::App& command, SurfaceRequest& surface, PocketRequest& pockets) {
   const Heading heading(command, "Surface");
   add_probe_option(command, surface);
-  // Beyond, every atom neighbours every other.
-  add_number(command, "--large-probe", pockets.large_probe_radius, "Å", 1e-3, 100.0,
+  add_number(command, "--large-probe", pockets.large_probe_radius, "Å", kSmallestLargeProbe, kLargestLargeProbe,
              "Radius of the probe that rolls over the mouths in Å [4]; larger ones see wider, shallower pockets");
-  add_number(command, "--trim", pockets.trim, "Å", 0.0, 100.0,
+  add_number(command, "--trim", pockets.trim, "Å", 0.0, kLargestTrim,
              "Pockets begin so far below the large probe's surface [1]; more parts neighbours that meet at it");
-  add_number(command, "--min-volume", pockets.min_volume, "Å³", 0.0, 1e9,
+  add_number(command, "--min-volume", pockets.min_volume, "Å³", 0.0, kLargestMinVolume,
              "Leave out smaller ones [30: a molecule of water]");
-  // Places of the large probe become more with the inverse of this.
-  add_number(command, "--mouth-tolerance", pockets.tolerance, "Å", 1e-3, 1.0,
+  add_number(command, "--mouth-tolerance", pockets.tolerance, "Å", kSmallestMouthTolerance, kLargestMouthTolerance,
              "How far a mouth may lie outside of where it should be [0.1]; less costs time");
 }
 

@@ -21,9 +21,6 @@ using Json = nlohmann::ordered_json;
 /// Raised when a key changes its meaning or goes away; new keys do not raise it.
 constexpr int kPocketSchemaVersion = 1;
 
-/// Mouths are at most so far out.
-double excess_of(const Pocket& pocket, const PocketRequest& request) { return pocket.mouth_area() * request.tolerance; }
-
 std::string left_out_name(const PocketReport& report, const LeftOutResidue& residue) {
   return residues_of(report.structure, {residue.first_atom});
 }
@@ -43,7 +40,7 @@ Json pocket_object(const PocketReport& report, std::size_t n) {
   return {{"rank", n + 1},
           {"kind", pocket.kind()},
           {"volume", pocket.cavity.volume},
-          {"volume_excess_at_most", excess_of(pocket, report.pockets.found.request)},
+          {"volume_excess_at_most", report.pockets.found.volume_excess(pocket)},
           {"area", pocket.cavity.area},
           {"wall_area", pocket.wall_area()},
           {"mouth_areas", pocket.mouth_areas},
@@ -98,7 +95,7 @@ std::string pocket_cells(const PocketReport& report, std::size_t n) {
   const Pocket& pocket = report.pockets.found.pockets[n];
   const glm::dvec3 middle = pocket.cavity.middle();
   return fmt::format("{},{},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{},{},{:.6f},{:.3f},{:.3f},{:.3f},{},{},{}", n + 1,
-                     pocket.kind(), pocket.cavity.volume, excess_of(pocket, report.pockets.found.request),
+                     pocket.kind(), pocket.cavity.volume, report.pockets.found.volume_excess(pocket),
                      pocket.cavity.area, pocket.wall_area(), pocket.mouth_area(), pocket.mouth_areas.size(),
                      mouth_list(pocket), pocket.depth, middle.x, middle.y, middle.z, pocket.cavity.atoms.size(),
                      csv_cell(residues_of(report.structure, pocket.cavity.atoms)), csv_cell(in_pocket(report, n)));
@@ -140,7 +137,7 @@ std::string pocket_table(const PocketReport& report) {
   for (std::size_t n = 0; n < found.pockets.size(); ++n) {
     const Pocket& pocket = found.pockets[n];
     fmt::format_to(out, "{:>5}  {:<7} {:>12.3f} {:>11.3f} {:>10.3f} {:>7} {:>10.3f} {:>8.3f} {:>6}  {}\n", n + 1,
-                   pocket.kind(), pocket.cavity.volume, excess_of(pocket, request), pocket.wall_area(),
+                   pocket.kind(), pocket.cavity.volume, found.volume_excess(pocket), pocket.wall_area(),
                    pocket.mouth_areas.size(), pocket.mouth_area(), pocket.depth, pocket.cavity.atoms.size(),
                    escaped(first_of(residues_of(report.structure, pocket.cavity.atoms))));
   }

@@ -23,6 +23,12 @@ struct PocketRequest {
   double min_volume = 30.0;         ///< smaller ones are left out; a molecule of liquid water has 30 Å³
 };
 
+/// What may be asked for. Beyond the largest probe every atom neighbours every other; large probes in mouths become
+/// more with the inverse of the tolerance.
+inline constexpr double kSmallestLargeProbe = 1e-3, kLargestLargeProbe = 100.0, kLargestTrim = 100.0;  // Å
+inline constexpr double kSmallestMouthTolerance = 1e-3, kLargestMouthTolerance = 1.0;                  // Å
+inline constexpr double kLargestMinVolume = 1e9;                                                       // Å³
+
 /// What is wrong with it, beginning with the option that it is about; empty if nothing is.
 std::string pocket_fault(const PocketRequest& request);
 
@@ -51,6 +57,9 @@ struct Pockets {
   /// Of the atoms near the pockets and of balls at places of the large probe: the pockets, however small, are cavities
   /// of it. Without atoms if there are none.
   Surface surface;
+
+  /// Å³ by which the volume of a pocket may be too large, to first order: mouths are at most the tolerance too far out.
+  double volume_excess(const Pocket& pocket) const { return pocket.mouth_area() * request.tolerance; }
 };
 
 /// Computes a closed surface with listed clip planes: compute_surface_cpu, or on another device.

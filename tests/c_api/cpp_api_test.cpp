@@ -113,6 +113,31 @@ TEST(CppApi, Gradients) {
   EXPECT_THROW(surface.gradient(MENISCUS_GRADIENT_SAS_AREA, std::vector<double>{1}), meniscus::UsageError);
 }
 
+TEST(CppApi, Pockets) {
+  // A hollow ball of atoms, open at one pole.
+  std::vector<double> xyz;
+  constexpr int kAtoms = 400;
+  for (int n = 0; n < kAtoms - 12; ++n) {
+    const double height = (2.0 * n + 1.0) / kAtoms - 1.0, turn = 2.399963 * n, width = std::sqrt(1 - height * height);
+    xyz.insert(xyz.end(), {9 * width * std::cos(turn), 9 * width * std::sin(turn), 9 * height});
+  }
+  meniscus::PocketOptions options;
+  options.min_volume = 5.0;
+  const meniscus::Pockets pockets = Computer().compute({xyz, std::vector<double>{1.7}}).pockets(options);
+  ASSERT_EQ(pockets.rows().size(), 1u);
+  const meniscus_pocket& pocket = pockets.rows()[0];
+  EXPECT_EQ(pocket.mouth_count, 1u);
+  EXPECT_NEAR(pocket.volume, 1600.0, 300.0);  // of a ball of 7.3 Å and more, less a cap
+  ASSERT_EQ(pockets.mouth_areas().size(), 1u);
+  EXPECT_EQ(pockets.mouth_areas()[0], pocket.mouth_area);
+  EXPECT_EQ(pockets.atoms().size(), pocket.atom_count);
+  ASSERT_EQ(pockets.probes().size(), pocket.probe_count);
+  for (const Vector& probe : pockets.probes())
+    EXPECT_LT(std::hypot(probe[0], probe[1], probe[2]), 9.0 - 1.4);  // all are inside
+  options.large_probe_radius = 1.0;
+  EXPECT_THROW(Computer().compute({xyz, std::vector<double>{1.7}}).pockets(options), meniscus::InputError);
+}
+
 TEST(CppApi, DistancesAndFeet) {
   const Surface surface = Computer().compute({kOneBall});
   const std::vector<Vector> points = {{1, 2, 8}, {1, 2, 3.5}};

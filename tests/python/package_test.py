@@ -106,6 +106,33 @@ class Numbers(unittest.TestCase):
         self.assertRaisesRegex(meniscus.InputError, "4 atoms at once", square.gradient, "volume")
         square.gradient("sas_area")
 
+    @unittest.skipUnless(PROGRAM, "MENISCUS_PROGRAM is not set")
+    def test_pockets_are_those_of_the_program(self):
+        import json
+        xyz, radii = cloud(600, 6)
+        xyz *= 1.25
+        lines = "".join(f"{x!r} {y!r} {z!r} {r!r}\n" for (x, y, z), r in zip(xyz.tolist(), radii.tolist()))
+        told = json.loads(subprocess.run([PROGRAM, "pockets", "-q", "--device", "cpu", "--ligand", "none", "--trim", "0.5", "--json", "-"],
+                                         input=lines, text=True, check=True, capture_output=True).stdout)["pockets"]
+        found = meniscus.surface(xyz, radii).pockets(trim=0.5)
+        gc.collect()
+        self.assertGreater(len(told), 0)
+        self.assertEqual(len(found), len(told))
+        for pocket, expected in zip(found, told):
+            self.assertIsInstance(pocket, meniscus.Pocket)
+            self.assertEqual((pocket.kind, pocket.volume, pocket.volume_excess, pocket.area, pocket.depth),
+                             tuple(expected[key] for key in ("kind", "volume", "volume_excess_at_most", "area", "depth")))
+            self.assertAlmostEqual(pocket.wall_area, expected["wall_area"], 9)
+            self.assertEqual(pocket.mouth_areas.tolist(), expected["mouth_areas"])
+            self.assertEqual(pocket.middle.tolist(), expected["middle"])
+            self.assertEqual(pocket.atoms.tolist(), expected["atoms"])
+            np.testing.assert_allclose(pocket.probes.mean(axis=0), expected["middle"], atol=1e-9)
+            self.assertFalse(pocket.atoms.flags.writeable)
+        self.assertEqual(meniscus.surface(xyz, radii).pockets(min_volume=1e8), [])
+        for wrong in ({"large_probe": 1.0}, {"trim": -1}, {"mouth_tolerance": 0}, {"min_volume": math.nan}):
+            self.assertRaisesRegex(meniscus.InputError, list(wrong)[0], meniscus.surface(xyz, radii).pockets, **wrong)
+        self.assertRaises(meniscus.UsageError, meniscus.surface(xyz, radii, kind="sas").pockets)
+
     def test_distance(self):
         xyz, radii = chain(12)
         s = meniscus.surface(xyz, radii)
@@ -377,7 +404,8 @@ class Header(unittest.TestCase):
         found = re.findall(r"typedef struct meniscus_\w+ \{(.*?)\} meniscus_(\w+);", self.text, re.S)
         self.assertGreaterEqual(len(found), 15)
         for body, name in found:
-            python = {"mesh_options": "MeshOptions", "mesh_file": "MeshFile", "camera": "CameraStruct"}.get(name, name.capitalize())
+            python = {"mesh_options": "MeshOptions", "mesh_file": "MeshFile", "camera": "CameraStruct", "pocket": "PocketRow",
+                      "pocket_options": "PocketOptions"}.get(name, name.capitalize())
             fields = []
             for kind, members in re.findall(r"((?:const )?\w+\*?) ([^;]+);", body):
                 self.assertTrue(kind in c_names or "*" in kind, f"{name}: {kind}")

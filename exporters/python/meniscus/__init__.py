@@ -15,12 +15,13 @@ from ._library import (CapacityError, Error, GpuError, InputError, InternalError
                        UsageError, library_path, version)
 from ._mesh import Mesh
 from ._picture import Camera, png
+from ._pockets import Pocket
 from ._radii import radii_of
 from ._surface import Surface, surface
 from ._adapters import frames, from_biotite, from_mdanalysis, from_mdtraj, from_prody, series
 
 __all__ = [
     "Camera", "CapacityError", "Error", "GpuError", "InputError", "InternalError", "Mesh", "NotClosedError",
-    "OutputError", "Surface", "UsageError", "frames", "from_biotite", "from_mdanalysis", "from_mdtraj", "from_prody",
+    "OutputError", "Pocket", "Surface", "UsageError", "frames", "from_biotite", "from_mdanalysis", "from_mdtraj", "from_prody",
     "library_path", "png", "radii_of", "series", "surface", "version",
 ]

@@ -19,6 +19,7 @@ PERSPECTIVE, ORTHOGRAPHIC = range(2)
 (COMPONENTS, ATOM_AREAS, ATOM_SAS_AREAS, ATOMS, CONVEX, TOROIDAL, CONCAVE, PLANES, CONTACTS, CUTS, VERTICES, BORDERS,
  HALF_BORDERS, LOOPS, FACES) = range(15)
 GRADIENT_AREA, GRADIENT_VOLUME, GRADIENT_SAS_AREA, GRADIENT_SAS_VOLUME = range(4)
+POCKETS, POCKET_MOUTHS, POCKET_ATOMS, POCKET_PROBES = range(4)
 (MESH_POSITIONS, MESH_NORMALS, MESH_TRIANGLES, MESH_TRIANGLE_ATOMS, MESH_TRIANGLE_KINDS, MESH_TRIANGLE_FACES,
  MESH_TRIANGLE_PATCHES, MESH_TRIANGLE_COMPONENTS, MESH_SHARP_CORNERS, MESH_SHARP_NORMALS, MESH_VERTEX_ATOMS) = range(11)
 
@@ -130,6 +131,18 @@ class MeshOptions(Structure):
                 ("density", c_double), ("even", c_int32), ("reserved_2", c_int32)]
 
 
+class PocketOptions(Structure):
+    _fields_ = [("size", c_size_t), ("large_probe_radius", c_double), ("trim", c_double), ("min_volume", c_double),
+                ("mouth_tolerance", c_double)]
+
+
+class PocketRow(Structure):
+    _fields_ = [("volume", c_double), ("volume_excess", c_double), ("area", c_double), ("mouth_area", c_double),
+                ("depth", c_double), ("middle", c_double * 3), ("first_mouth", c_uint32), ("mouth_count", c_uint32),
+                ("first_atom", c_uint32), ("atom_count", c_uint32), ("first_probe", c_uint32),
+                ("probe_count", c_uint32)]
+
+
 class MeshFile(Structure):
     _fields_ = [("size", c_size_t), ("format", c_char_p), ("attributes", c_char_p), ("atom_colors", c_void_p),
                 ("scale", c_double), ("color", c_float * 3), ("replace", c_int32)]
@@ -158,6 +171,9 @@ _CALLS: dict[str, list[Any]] = {
     "surface_table": [c_void_p, c_int32, POINTER(Array)],
     "surface_distance": [c_void_p, c_size_t, c_void_p, c_void_p, c_void_p],
     "surface_gradient": [c_void_p, c_int32, c_void_p, c_void_p],
+    "default_pocket_options": [POINTER(PocketOptions)],
+    "surface_pockets": [c_void_p, POINTER(PocketOptions), POINTER(c_void_p)],
+    "pockets_table": [c_void_p, c_int32, POINTER(Array)],
     "default_mesh_options": [POINTER(MeshOptions)],
     "surface_mesh": [c_void_p, POINTER(MeshOptions), POINTER(c_void_p)],
     "mesh_table": [c_void_p, c_int32, POINTER(Array)],
@@ -168,7 +184,7 @@ _CALLS: dict[str, list[Any]] = {
     "painter_new": [c_int32, POINTER(c_void_p)],
     "paint": [c_void_p, c_void_p, POINTER(Picture), c_void_p, c_size_t],
 }
-_RELEASES = ("computer_release", "surface_release", "mesh_release", "painter_release")
+_RELEASES = ("computer_release", "surface_release", "pockets_release", "mesh_release", "painter_release")
 
 
 def _candidates() -> list[str]:

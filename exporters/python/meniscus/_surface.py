@@ -11,6 +11,7 @@ from . import _library as lib
 from ._arrays import numbers, view
 from ._mesh import Mesh
 from ._picture import Camera, framed, painted, png
+from ._pockets import Pocket, pockets_of
 
 
 class Patches(NamedTuple):
@@ -196,6 +197,14 @@ class Surface:
         lib.call("surface_gradient", handle.pointer, quantity, None if given is None else given.ctypes.data,
                  gradient.ctypes.data)
         return gradient
+
+    def pockets(self, large_probe: float = 4.0, *, trim: float = 1.0, min_volume: float = 30.0,
+                mouth_tolerance: float = 0.1) -> list[Pocket]:
+        """Pockets, tunnels and cavities, the largest volume first: the connected parts of what the surface's probe can
+        fill of the solid that a large one of this radius (Å) rolls over, begun `trim` (Å) below its surface. Smaller
+        ones than min_volume (Å³) are left out. mouth_tolerance: Å by which a mouth may lie outside of where it should
+        be. In closed form, on the CPU; of kind "ses" only."""
+        return pockets_of(self._handle, large_probe, trim, min_volume, mouth_tolerance)
 
     def camera(self, aspect: float = 4 / 3, projection: str = "perspective") -> Camera:
         """The camera that shows everything. aspect: width / height."""

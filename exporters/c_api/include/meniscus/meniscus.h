@@ -312,6 +312,54 @@ enum {
 MENISCUS_API meniscus_status meniscus_surface_gradient(const meniscus_surface* surface, int32_t quantity,
                                                        const double* weights, double* gradient);
 
+/* ---- Pockets ------------------------------------------------------------------------------------------------- */
+
+typedef struct meniscus_pocket_options {
+  size_t size;
+  double large_probe_radius; /* [4] above the surface's probe, at most 100: larger ones see wider, shallower pockets */
+  double trim;               /* [1] Å, 0 to 100: pockets begin so far below the large probe's surface */
+  double min_volume;         /* [30] Å^3, 0 to 1e9: smaller ones are left out */
+  double mouth_tolerance;    /* [0.1] Å, 0.001 to 1: how far a mouth may lie outside of where it should be */
+} meniscus_pocket_options;
+
+MENISCUS_API meniscus_status meniscus_default_pocket_options(meniscus_pocket_options* options);
+
+/* Pockets, tunnels and cavities of a molecule: the connected parts of what its probe can fill of the solid that a large
+ * probe rolls over (docs/pockets.md). Volumes and areas are in closed form, without a grid. */
+typedef struct meniscus_pockets meniscus_pockets;
+
+/* Those between the atoms of a surface of MENISCUS_SES, with its probe, above 0; on the CPU, wherever that was
+ * computed. options: NULL for the defaults. *pockets is overwritten; they do not need the surface any longer. */
+MENISCUS_API meniscus_status meniscus_surface_pockets(const meniscus_surface* surface,
+                                                      const meniscus_pocket_options* options,
+                                                      meniscus_pockets** pockets);
+MENISCUS_API meniscus_pockets* meniscus_pockets_retain(meniscus_pockets* pockets);
+MENISCUS_API void meniscus_pockets_release(meniscus_pockets* pockets);
+
+/* The tables of pockets, and what their rows are. */
+enum {
+  MENISCUS_POCKETS = 0,       /* meniscus_pocket: the largest volume first */
+  MENISCUS_POCKET_MOUTHS = 1, /* double: Å^2 of each mouth, of a pocket the largest first */
+  MENISCUS_POCKET_ATOMS = 2,  /* uint32_t: atoms that line a pocket, which the probe in it can touch; ascending */
+  MENISCUS_POCKET_PROBES = 3  /* double[3]: centres of the probe at rest in a pocket, touching three atoms or more */
+};
+
+/* One connected part. */
+typedef struct meniscus_pocket {
+  double volume;        /* Å^3 */
+  double volume_excess; /* Å^3 by which that is too large at most, to first order, for mouths lie outside */
+  double area;          /* Å^2 of its whole border */
+  double mouth_area;    /* Å^2 of its mouths; the rest is wall */
+  double depth;         /* Å, of the deepest probe at rest below the large probe's surface */
+  double middle[3];     /* the mean of the probes at rest */
+  uint32_t first_mouth, mouth_count; /* none: a cavity; one: a pocket; more: a tunnel */
+  uint32_t first_atom, atom_count;
+  uint32_t first_probe, probe_count;
+} meniscus_pocket;
+
+MENISCUS_API meniscus_status meniscus_pockets_table(const meniscus_pockets* pockets, int32_t table,
+                                                    meniscus_array* array);
+
 /* ---- Meshes -------------------------------------------------------------------------------------------------- */
 
 typedef struct meniscus_mesh_options {

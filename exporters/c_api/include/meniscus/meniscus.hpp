@@ -124,6 +124,7 @@ struct WithDefaults : Struct {
 };
 using Options = WithDefaults<meniscus_options, meniscus_default_options>;
 using MeshOptions = WithDefaults<meniscus_mesh_options, meniscus_default_mesh_options>;
+using PocketOptions = WithDefaults<meniscus_pocket_options, meniscus_default_pocket_options>;
 using MeshFile = WithDefaults<meniscus_mesh_file, meniscus_default_mesh_file>;
 using Picture = WithDefaults<meniscus_picture, meniscus_default_picture>;
 using Camera = meniscus_camera;  // as Surface::frame gives it
@@ -290,6 +291,32 @@ class Mesh {
   detail::Handle<meniscus_mesh, meniscus_mesh_release> mesh_;
 };
 
+// ---- Pockets ----
+
+// Pockets, tunnels and cavities, the largest volume first. They may outlive their surface.
+class Pockets {
+ public:
+  explicit Pockets(meniscus_pockets* owned) : pockets_(owned) {}
+
+  // Each with its places in the tables below.
+  Rows<meniscus_pocket> rows() const { return Rows<meniscus_pocket>(table(MENISCUS_POCKETS)); }
+  // Å^2 of the mouths of all, of atoms that line them, and centres of probes at rest in them.
+  std::span<const double> mouth_areas() const { return detail::numbers<double>(table(MENISCUS_POCKET_MOUTHS)); }
+  std::span<const std::uint32_t> atoms() const { return detail::numbers<std::uint32_t>(table(MENISCUS_POCKET_ATOMS)); }
+  std::span<const Vector> probes() const { return detail::numbers<Vector>(table(MENISCUS_POCKET_PROBES)); }
+
+  // For the functions of meniscus.h; owned by this.
+  meniscus_pockets* get() const noexcept { return pockets_.get(); }
+
+ private:
+  meniscus_array table(std::int32_t which) const {
+    meniscus_array array{};
+    check(meniscus_pockets_table(pockets_.get(), which, &array));
+    return array;
+  }
+  detail::Handle<meniscus_pockets, meniscus_pockets_release> pockets_;
+};
+
 // ---- Surfaces ----
 
 // A closed surface with its certificate: every border has two faces, areas and volumes are proved.
@@ -361,6 +388,13 @@ class Surface {
     check(meniscus_surface_gradient(surface_.get(), quantity, weights.empty() ? nullptr : weights.data(),
                                     gradient.front().data()));
     return gradient;
+  }
+
+  // What its probe fills of the solid that a large one rolls over; of MENISCUS_SES only, else UsageError.
+  Pockets pockets(const PocketOptions& options = {}) const {
+    meniscus_pockets* pockets = nullptr;
+    check(meniscus_surface_pockets(surface_.get(), &options, &pockets));
+    return Pockets(pockets);
   }
 
   Mesh mesh(const MeshOptions& options = {}) const {
