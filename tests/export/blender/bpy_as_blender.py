@@ -5,6 +5,7 @@ It takes -b --factory-startup --disable-autoexec --addons NAMES --python-exit-co
 -s FRAME -e FRAME -a in their order, and what stands behind -- is for the script.
 """
 
+import atexit
 import os
 import runpy
 import sys
@@ -56,4 +57,23 @@ def main(arguments):
             sys.exit(f"bpy_as_blender: unknown option {word}")
 
 
-main(sys.argv[1:])
+def ended():
+    """The exit status that main comes to."""
+    try:
+        main(sys.argv[1:])
+    except SystemExit as end:
+        if isinstance(end.code, str):
+            print(end.code, file=sys.stderr)
+        return end.code if isinstance(end.code, int) else int(end.code is not None)
+    except BaseException:
+        traceback.print_exc()
+        return 1
+    return 0
+
+
+# Not by the end of the interpreter: there bpy 4.5 destroys a condition that a thread of its own waits for, and at times hangs.
+status = ended()
+atexit._run_exitfuncs()
+sys.stdout.flush()
+sys.stderr.flush()
+os._exit(status)

@@ -9,7 +9,8 @@ import numpy as np
 #: Of every struct: what Blender counts or caches.
 VOLATILE = {"rna_type", "bl_rna", "users", "original", "is_evaluated", "is_embedded_data", "is_library_indirect", "is_missing", "is_updated",
             "is_updated_data", "is_updated_shading", "is_valid", "library_weak_reference", "preview", "tag", "session_uid", "is_runtime_data",
-            "depsgraph", "dimensions", "bound_box", "is_from_instancer", "is_from_set", "error_location", "error_rotation", "execution_time"}
+            "depsgraph", "dimensions", "bound_box", "is_from_instancer", "is_from_set", "error_location", "error_rotation", "execution_time",
+            "uv_sculpt"}  # 4.2 crashes when one asks for the brush of it
 #: Of meshes they are hashed as arrays; of layers and curves they are seen by other ways.
 ARRAYS = {"vertices", "edges", "loops", "polygons", "loop_triangles", "attributes", "color_attributes", "uv_layers", "vertex_colors",
           "vertex_normals", "polygon_normals", "corner_normals", "loop_triangle_polygons", "sculpt_vertex_colors", "face_maps", "uv_layer_clone", "uv_layer_stencil",

@@ -14,13 +14,18 @@ import numpy as np
 FOLDER, ADDON, HERE, BLENDER, PROGRAM = sys.argv[sys.argv.index("--") + 1:]
 sys.path.insert(0, HERE)
 
-from meniscus_import import attributes, looks  # noqa: E402
+from meniscus_import import attributes, compat, looks  # noqa: E402
 
 SIZE = 48
 
 
-def pixel_of(item, samples=1):
+def pixel_of(_item):
     """Linear colour in the middle of a picture of a face, seen straight on."""
+    return picture()[SIZE // 2, SIZE // 2]
+
+
+def picture(samples=1):
+    """Linear colours from above: (rows, columns, 3)."""
     scene = bpy.context.scene
     scene.render.engine = "CYCLES"
     scene.cycles.samples, scene.cycles.use_denoising = samples, False
@@ -41,7 +46,7 @@ def pixel_of(item, samples=1):
     image.colorspace_settings.name = "Non-Color"
     values = np.array(image.pixels[:], dtype=np.float32).reshape(SIZE, SIZE, 4)
     bpy.data.images.remove(image)
-    return values[SIZE // 2, SIZE // 2, :3]
+    return values[:, :, :3]
 
 
 def plate(**given):
@@ -59,6 +64,31 @@ def plate(**given):
             whole = isinstance(value, int)
             attributes.add(mesh, name, "INT" if whole else "FLOAT", "POINT", np.full(4, value, np.int32 if whole else np.float32))
     item = bpy.data.objects.new("plate", mesh)
+    bpy.context.scene.collection.objects.link(item)
+    bpy.context.view_layer.objects.active = item
+    return item
+
+
+def bumpy_slab(side, atom, depth):
+    """A closed box whose upper and lower faces are waved as by atoms of a radius."""
+    count = 64
+    across = np.linspace(-side, side, count)
+    x, y = (each.ravel() for each in np.meshgrid(across, across))
+    wave = 0.5 * atom * np.cos(np.pi * x / (1.2 * atom)) * np.cos(np.pi * y / (1.2 * atom))
+    points = np.concatenate([np.column_stack([x, y, wave]), np.column_stack([x, y, -depth + np.roll(wave, 3)])])
+    corner = (np.arange(count - 1)[:, None] * count + np.arange(count - 1)).ravel()
+    top = np.column_stack([corner, corner + 1, corner + count + 1, corner + count])
+    rim = np.concatenate([np.arange(count - 1), np.arange(count - 1, count * count - 1, count),
+                          np.arange(count * count - 1, count * (count - 1), -1), np.arange(count * (count - 1), 0, -count)])
+    after = np.roll(rim, -1)
+    walls = np.column_stack([rim, rim + count * count, after + count * count, after])
+    mesh = bpy.data.meshes.new("slab")
+    mesh.from_pydata(points.tolist(), [], [*top.tolist(), *(top[:, ::-1] + count * count).tolist(), *walls.tolist()])
+    for face in mesh.polygons:
+        face.use_smooth = True
+    attributes.add(mesh, "Color", "FLOAT_COLOR", "POINT", np.ones((len(points), 4), dtype=np.float32))
+    attributes.add(mesh, "ses_kind", "INT", "FACE", np.zeros(len(mesh.polygons), np.int32))
+    item = bpy.data.objects.new("slab", mesh)
     bpy.context.scene.collection.objects.link(item)
     bpy.context.view_layer.objects.active = item
     return item
@@ -129,6 +159,51 @@ class Looks(unittest.TestCase):
         volume = {node.target: node.inputs["Volume"].is_linked for node in made.node_tree.nodes if node.type == "OUTPUT_MATERIAL"}
         self.assertEqual(volume, {"CYCLES": True, "EEVEE": False})
         self.assertTrue(getattr(made, "use_screen_refraction", False) or getattr(made, "use_raytrace_refraction", False))
+
+    def test_what_is_behind_glass_can_be_told(self):
+        """Bumps of atoms, in front and behind, leave an edge where it is: bent as by real glass it would be everywhere and nowhere."""
+        for side, light in ((-1.0, 1.0), (1.0, 0.0)):
+            half = plate(Color=(light, light, light))
+            half.location = (2.0 * side, 0.0, -2.0)
+            bpy.ops.object.meniscus_look(look="FLAT", coloring="COLOR")
+        alone = picture()
+        bumps = bumpy_slab(side=1.2, atom=0.1, depth=1.5)
+        bumps["meniscus_scale"] = 0.1
+        self.assertEqual(bpy.ops.object.meniscus_look(look="GLASS", coloring="COLOR"), {"FINISHED"})
+        through = picture(samples=16)
+        likeness = float(np.corrcoef(alone[:, :, 1].ravel(), through[:, :, 1].ravel())[0, 1])
+        print(f"likeness through glass: {likeness:.3f}")
+        self.assertGreater(likeness, 0.8)
+
+    def test_glass_mirrors_as_glass_does(self):
+        """A lamp that glass is no window for: what shows is what its surface mirrors, 3.4 % of it at a right angle."""
+        world = bpy.data.worlds.new("bright")
+        tree = compat.node_tree(world)
+        background = compat.find_or_add(tree, "BACKGROUND", "ShaderNodeBackground")
+        tree.links.new(background.outputs[0], compat.find_or_add(tree, "OUTPUT_WORLD", "ShaderNodeOutputWorld").inputs["Surface"])
+        background.inputs["Color"].default_value = (1.0, 1.0, 1.0, 1.0)
+        bpy.context.scene.world = world
+        wall = plate(Color=(0.0, 0.0, 0.0))
+        wall.location, wall.scale = (0.0, 0.0, -0.5), (50.0, 50.0, 1.0)
+        bpy.ops.object.meniscus_look(look="FLAT", coloring="COLOR")
+        plate(Color=(1.0, 1.0, 1.0))
+        bpy.ops.object.meniscus_look(look="GLASS", coloring="COLOR")
+        once = ((looks.GLASS_IOR - 1.0) / (looks.GLASS_IOR + 1.0)) ** 2
+        self.assertAlmostEqual(float(picture(samples=64)[4:-4, 4:-4].mean()), once + ((looks.GLASS_BENDS - 1.0) / (looks.GLASS_BENDS + 1.0)) ** 2, delta=0.006)
+
+    def test_a_scene_of_the_driver_lets_light_through(self):
+        """It keeps what a look needs: bounces for glass, as many samples as pixels need for wax; others have neither."""
+        found = {}
+        for look in ("glass", "wax", "paint"):
+            target = os.path.join(FOLDER, look + ".blend")
+            command = [BLENDER, "-b", "--factory-startup", "--python-exit-code", "3", "--python", os.path.join(ADDON, "render_mns.py"), "--",
+                       os.path.join(FOLDER, "pair.mns"), "--look", look, "--blend", target]
+            self.assertEqual(subprocess.run(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=False).returncode, 0)
+            bpy.ops.wm.open_mainfile(filepath=target)
+            scene = bpy.context.scene
+            lamps = [item.visible_transmission for item in bpy.data.objects if item.type == "LIGHT"]
+            found[look] = (scene.cycles.samples, scene.cycles.use_adaptive_sampling, scene.cycles.transmission_bounces, lamps)
+        self.assertEqual(found, {"glass": (128, True, 32, [False]), "wax": (128, True, 12, [True, True]), "paint": (32, False, 12, [True, True])})
 
     def test_what_an_object_has_not_is_said(self):
         plate()

@@ -129,6 +129,14 @@ def set_up_eevee(scene, samples):
             setattr(scene.eevee, name, True)
 
 
+def denoise(scene):
+    """Has Cycles take the grain out of its pictures by OpenImageDenoise, which Debian's Blender is built without."""
+    import _cycles
+
+    if _cycles.with_openimagedenoise:
+        scene.cycles.use_denoising, scene.cycles.denoiser = True, "OPENIMAGEDENOISE"
+
+
 def cast_shadows(light, wanted):
     """Cycles had a setting of its own before 4.2."""
     light.use_shadow = wanted

@@ -10,7 +10,9 @@ from .mesh_arrays import SLOTS
 MARK = "meniscus_look"
 #: Å over which light is scattered in wax, by its colour, and absorbed by glass to a third.
 WAX_RADIUS, WAX_COLORS = 2.5, (1.0, 0.45, 0.25)
-GLASS_IOR = 1.45
+#: Glass mirrors as glass does. It bends what is seen through it less: bumps of atoms are lenses of 4 Å focal length at 1.45, and
+#: light that went through a few of them comes from anywhere, so that a protein is crushed ice, in exact renderers, too.
+GLASS_IOR, GLASS_BENDS = 1.45, 1.1
 LINE_WIDTH = 0.24  # Å
 MOST_STOPS = 32  # of a colour ramp
 
@@ -144,11 +146,13 @@ def material(look, coloring, scale=0.1):
             tree.nodes.remove(node)
     else:
         shader = compat.find_or_add(tree, "BSDF_PRINCIPLED", "ShaderNodeBsdfPrincipled")
-        MAKERS[look](tree, shader, color, scale)
-    tree.links.new(shader.outputs[0], output.inputs["Surface"])
+        if look in MAKERS:
+            MAKERS[look](tree, shader, color, scale)
     if look == "GLASS":
-        _tint(tree, color, shader, output, scale)
+        _glass(tree, shader, color, output, scale)
         compat.refract(made)
+    else:
+        tree.links.new(shader.outputs[0], output.inputs["Surface"])
     return made
 
 
@@ -180,18 +184,10 @@ def _wax(tree, shader, color, scale):
     _set(shader, 1.0, "Subsurface Scale")
 
 
-def _glass(_tree, shader, _color_, _scale_):
-    """Colour comes from what the volume absorbs, as in glass."""
-    _set(shader, (1.0, 1.0, 1.0, 1.0), "Base Color")
-    _set(shader, 0.02, "Roughness")
-    _set(shader, GLASS_IOR, "IOR")
-    _set(shader, 1.0, "Transmission Weight", "Transmission")
-
-
-def _tint(tree, color, shader, output, scale):
+def _glass(tree, shader, color, output, scale):
     """Attributes belong to the surface, not to the volume: what enters takes the colour there, what is behind it is darker by
     the way through. In Cycles: Eevee fills the whole bounding box with a volume; there more of the colour is at the surface."""
-    tree.links.new(compat.mix_colors(tree, 0.6, color, (1.0, 1.0, 1.0, 1.0)), shader.inputs["Base Color"])
+    tree.links.new(_clear(tree, shader, color, 0.5), output.inputs["Surface"])
     absorption = tree.nodes.new("ShaderNodeVolumeAbsorption")
     absorption.inputs["Color"].default_value = (0.75, 0.85, 0.9, 1.0)
     absorption.inputs["Density"].default_value = 0.02 / scale
@@ -199,13 +195,29 @@ def _tint(tree, color, shader, output, scale):
     tree.links.new(absorption.outputs[0], output.inputs["Volume"])
     other, in_color = tree.nodes.new("ShaderNodeOutputMaterial"), tree.nodes.new("ShaderNodeBsdfPrincipled")
     output.target, other.target = "CYCLES", "EEVEE"
-    _glass(tree, in_color, color, scale)
-    tree.links.new(compat.mix_colors(tree, 0.3, color, (1.0, 1.0, 1.0, 1.0)), in_color.inputs["Base Color"])
-    tree.links.new(in_color.outputs[0], other.inputs["Surface"])
+    tree.links.new(_clear(tree, in_color, color, 0.3), other.inputs["Surface"])
     in_color.location, other.location = ((node.location[0], node.location[1] - 700) for node in (shader, output))
 
 
-MAKERS = {"PAINT": _paint, "CLAY": _clay, "WAX": _wax, "GLASS": _glass}
+def _clear(tree, shader, color, white):
+    """The output of a surface that mirrors by Fresnel's equations of GLASS_IOR outside, and lets the rest through a Principled shader
+    of GLASS_BENDS, in a colour mixed with so much white."""
+    _set(shader, 0.0, "Roughness")
+    _set(shader, GLASS_BENDS, "IOR")
+    _set(shader, 1.0, "Transmission Weight", "Transmission")
+    tree.links.new(compat.mix_colors(tree, white, color, (1.0, 1.0, 1.0, 1.0)), shader.inputs["Base Color"])
+    mirror, fresnel, side, both = (tree.nodes.new("ShaderNode" + kind) for kind in ("BsdfGlossy", "Fresnel", "NewGeometry", "MixShader"))
+    mirror.inputs["Color"].default_value = (1.0, 1.0, 1.0, 1.0)
+    mirror.inputs["Roughness"].default_value = 0.08  # enough that lamps are found in it without grain
+    fresnel.inputs["IOR"].default_value = GLASS_IOR
+    outside = compat.math_node(tree, "SUBTRACT", 1.0, side.outputs["Backfacing"])
+    tree.links.new(compat.math_node(tree, "MULTIPLY", fresnel.outputs[0], outside), both.inputs[0])
+    tree.links.new(shader.outputs[0], both.inputs[1])
+    tree.links.new(mirror.outputs[0], both.inputs[2])
+    return both.outputs[0]
+
+
+MAKERS = {"PAINT": _paint, "CLAY": _clay, "WAX": _wax}
 
 
 def dress(item, look, coloring):
