@@ -4,26 +4,17 @@
 #include <utility>
 
 #include "core/queries/surface_object.h"
-#include "core/render/cpu/cpu_renderer.h"
 #include "core/scene/copied_atoms.h"
-#include "core/scene/view_renderer.h"
-#include "core/surface/reduced_surface_engine.h"
+#include "core/scene/cpu_view.h"
 #include "core/surface/surface.h"
 
 namespace meniscus {
 namespace {
 
-/// Ends the computation of a surface that nobody wants any more.
-struct StoppedSurface {};
-
-class CpuCopiesRenderer final : public ViewRenderer {
+class CpuCopiesRenderer final : public CpuView {
  public:
   explicit CpuCopiesRenderer(std::vector<Instances> copies) : copies_(std::move(copies)) {}
 
-  void set_atoms(std::vector<Ball> atoms) override {
-    atoms_ = std::move(atoms);
-    objects_.clear();
-  }
   void set_coloring(const Coloring& coloring) override {
     coloring_ = coloring;
     color_objects();
@@ -33,55 +24,34 @@ class CpuCopiesRenderer final : public ViewRenderer {
     assert(request.plain() && !beside);  // copies are shown whole
   }
 
-  bool draw(double probe_radius, const Camera& camera, const RenderSettings& settings,
-            const std::function<bool()>& stop) override {
-    validate_camera(camera, "camera");
-    times_.clear();
-    if (objects_.empty() || objects_.front().surface.probe_radius != probe_radius)
-      if (!compute(probe_radius, stop)) return false;
-    const bool whole = renderer_.draw_copies(objects_, camera, settings, stop);
-    times_.insert(times_.end(), renderer_.times().begin(), renderer_.times().end());
-    return whole;
-  }
-
-  std::vector<std::uint8_t> rgba() const override { return renderer_.rgba(); }
-  std::uint32_t texture() const override { return 0; }
-  glm::ivec2 size() const override { return renderer_.size(); }
   std::optional<PickedPoint> pick(glm::ivec2 pixel) const override {
-    std::optional<PickedPoint> point = renderer_.pick(pixel);
+    std::optional<PickedPoint> point = renderer().pick(pixel);
     if (point) point->atom = copies_[point->object].atoms[point->atom];
     return point;
   }
   std::shared_ptr<const Surface> surface() const override { return nullptr; }
-  bool draws_on_cpu() const override { return true; }
-  const std::vector<StageTime>& times() const override { return times_; }
 
  private:
-  /// False if it was given up.
-  bool compute(double probe_radius, const std::function<bool()>& stop) {
-    objects_.clear();
-    StageClock clock;
-    clock.before_stages([&stop] {
-      if (stop && stop()) throw StoppedSurface();
-    });
+  void forget() override { objects_.clear(); }
+  bool is_computed(double probe_radius) const override {
+    return !objects_.empty() && objects_.front().surface.probe_radius == probe_radius;
+  }
+  void compute(double probe_radius, StageClock& clock) override {
     std::vector<SurfaceObject> objects;
-    try {
-      for (const Instances& group : copies_) {
-        std::vector<Ball> balls;
-        for (const std::uint32_t atom : group.atoms) balls.push_back(atoms_[atom]);
-        SurfaceObject& object = objects.emplace_back();
-        object.surface = compute_surface(*engine_, balls, probe_radius, clock);
-        require_closed(object.surface);
-        object.atom = group.atoms;
-        object.copies = group.motions;
-      }
-    } catch (const StoppedSurface&) {
-      return false;
+    for (const Instances& group : copies_) {
+      std::vector<Ball> balls;
+      for (const std::uint32_t atom : group.atoms) balls.push_back(atoms()[atom]);
+      SurfaceObject& object = objects.emplace_back();
+      object.surface = compute_surface(engine(), balls, probe_radius, clock);
+      require_closed(object.surface);
+      object.atom = group.atoms;
+      object.copies = group.motions;
     }
     objects_ = std::move(objects);
     color_objects();
-    times_ = clock.times();
-    return true;
+  }
+  bool paint(const Camera& camera, const RenderSettings& settings, const std::function<bool()>& stop) override {
+    return renderer().draw_copies(objects_, camera, settings, stop);
   }
 
   void color_objects() {
@@ -89,12 +59,8 @@ class CpuCopiesRenderer final : public ViewRenderer {
   }
 
   const std::vector<Instances> copies_;
-  std::vector<Ball> atoms_;
   Coloring coloring_;
-  std::unique_ptr<ReducedSurfaceEngine> engine_ = make_cpu_engine();
-  std::vector<SurfaceObject> objects_;  // of copies_ and atoms_; none: not yet, or given up
-  CpuRenderer renderer_;
-  std::vector<StageTime> times_;
+  std::vector<SurfaceObject> objects_;  // of copies_ and atoms(); none: not yet, or given up
 };
 
 /// Whatever draws atoms draws all copies, as they keep apart.
