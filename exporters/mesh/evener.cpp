@@ -63,7 +63,8 @@ Evener::Evener(const Surface& surface, SurfaceWalk& walk, const TriangleMesh& ba
       changed_(base.positions.size(), 1),
       watched_(base.positions.size(), 0),
       held_(base.positions.size(), 0),
-      look_(base.triangles.size(), kUnseen) {
+      look_(base.triangles.size(), kUnseen),
+      stale_(base.triangles.size(), 1) {
   walk.bar(keep);
   for (std::size_t t = 0; t < base.triangles.size(); ++t)
     for (const std::uint32_t v : base.triangles[t])
@@ -171,6 +172,7 @@ void Evener::note_changes_around(std::uint32_t vertex) {
   changed_[vertex] = 1;
   links_.around(vertex, [&](std::uint32_t half) {
     look_[half / 3] = kUnseen;
+    stale_[half / 3] = 1;
     if (watched_[vertex]) guard_.add(half / 3);
   });
 }
@@ -196,7 +198,7 @@ bool Evener::split(std::uint32_t half) {
   for (const std::uint32_t c : {links_.opposite(half), links_.opposite(links_.twin(half))})
     if (approaching_ && glm::distance(at->position, position_[c]) < kTooNear * length(half))
       return links_.crease(half) == kNone && try_flip(half);
-  if ((watched_[links_.from(half)] || watched_[links_.to(half)]) && !is_free(split_of(half, *at))) return false;
+  if ((watched_[links_.from(half)] || watched_[links_.to(half)]) && !is_free({Change::Kind::split, half, *at})) return false;
   put_vertex(half, *at);
   return true;
 }
@@ -247,6 +249,7 @@ void Evener::add_vertex(std::uint32_t a, std::uint32_t b, const SurfacePoint& at
   watched_.push_back(watched_[a] | watched_[b]);
   held_.push_back(0);
   look_.resize(links_.triangle_count(), kUnseen);
+  stale_.resize(links_.triangle_count(), 1);
   settle(m, at, border);
   note_changes_around(m);
 }
@@ -290,7 +293,7 @@ bool Evener::try_collapse(std::uint32_t half) {
     after.add(look(b, position_[b], c, d));
     fits = after.score() >= bar;
   });
-  if (!fits || ((watched_[a] || watched_[b]) && !is_free(collapse_of(half)))) return false;
+  if (!fits || ((watched_[a] || watched_[b]) && !is_free({Change::Kind::collapse, half, {}}))) return false;
   active_[b] = 1;
   watched_[b] |= watched_[a];
   links_.collapse(half);
@@ -298,10 +301,16 @@ bool Evener::try_collapse(std::uint32_t half) {
   return true;
 }
 
+/// Edges between two triangles of which neither has changed have been asked before.
 void Evener::flip_edges() {
+  look_at_all();
+  std::vector<std::uint8_t> stale(stale_.size(), 0);
+  stale.swap(stale_);
   for (std::uint32_t half = 0; half < links_.half_edge_count(); ++half) {
     if (half > links_.twin(half) || !links_.lives(half) || !busy(half)) continue;
-    if (look_of(half / 3) < kFine || look_of(links_.twin(half) / 3) < kFine) try_flip(half);
+    const std::uint32_t t = half / 3, u = links_.twin(half) / 3;
+    if (!stale[t] && !stale[u]) continue;
+    if ((look_of(t) < kFine || look_of(u) < kFine) && try_flip(half)) stale[t] = stale[u] = 1;
   }
 }
 
@@ -320,10 +329,11 @@ bool Evener::try_flip(std::uint32_t half) {
   if (!(after.score() > before.score() + kBetter) || !links_.can_flip(half)) return false;
   if (links_.valence(c) >= kMostEdges || links_.valence(d) >= kMostEdges) return false;
   const bool watched = watched_[a] || watched_[b] || watched_[c] || watched_[d];
-  if (watched && !is_free(flip_of(half))) return false;
+  if (watched && !is_free({Change::Kind::flip, half, {}})) return false;
   links_.flip(half);
   look_[half / 3] = static_cast<float>(first);
   look_[other / 3] = static_cast<float>(second);
+  stale_[half / 3] = stale_[other / 3] = 1;
   for (const std::uint32_t v : {a, b, c, d}) changed_[v] = 1;
   if (watched) guard_.add(half / 3), guard_.add(other / 3);
   return true;
@@ -391,9 +401,12 @@ void Evener::relax() {
   });
   for (std::uint32_t v = 0; v < target.size(); ++v)
     if (target[v] && watched_[v])
-      if (const Change move = move_of(v, *target[v]); is_free(move)) make(move);
-  look_.assign(look_.size(), kUnseen);
-  look_at_all();
+      if (const Change move{Change::Kind::move, v, *target[v]}; is_free(move)) make(move);
+  tbb::parallel_for(std::uint32_t{0}, links_.triangle_count(), [&](std::uint32_t t) {
+    if (!links_.lives(3 * t)) return;
+    const auto v = links_.corners(t);
+    if (target[v[0]] || target[v[1]] || target[v[2]]) look_[t] = kUnseen, stale_[t] = 1;
+  });
 }
 
 /// Longest edges first, or halves of triangles would be slivers.
@@ -421,12 +434,18 @@ void Evener::approach() {
 void Evener::settle_outlooks() {
   tbb::parallel_for(std::uint32_t{0}, links_.vertex_count(),
                     [&](std::uint32_t v) { outlook_[v] = static_cast<float>(least_outlook(v)); });
-  look_.assign(look_.size(), kUnseen);
-  look_at_all();
+  forget_looks();
 }
+
+void Evener::forget_looks() {
+  look_.assign(look_.size(), kUnseen);
+  stale_.assign(stale_.size(), 1);
+}
+
 void Evener::even_out(int rounds) {
   for (int round = 0; round < rounds; ++round) {
     split_long(kLong);
+    look_at_all();
     collapse_short();
     flip_edges();
     relax();
@@ -467,9 +486,18 @@ void Evener::refine(const std::vector<std::uint32_t>& triangles, double factor) 
     size_[v] *= less;
     outlook_[v] = static_cast<float>(least_outlook(v));
   }
+  forget_looks();
 }
 
 void Evener::compact() {
+  std::uint32_t living = 0;
+  for (std::uint32_t t = 0; t < links_.triangle_count(); ++t) {
+    if (!links_.lives(3 * t)) continue;
+    look_[living] = look_[t];
+    stale_[living++] = stale_[t];
+  }
+  look_.resize(living);
+  stale_.resize(living);
   const std::vector<std::uint32_t> old = links_.compact();
   const auto take = [&](auto& column) {
     for (std::size_t v = 0; v < old.size(); ++v) column[v] = column[old[v]];
@@ -487,7 +515,6 @@ void Evener::compact() {
   take(changed_);
   take(watched_);
   take(held_);
-  look_.assign(links_.triangle_count(), kUnseen);
   guard_.list(watched_);
 }
 

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -122,18 +123,21 @@ class Evener {
     Kind kind = Kind::flip;
     std::uint32_t where = kNone;  ///< a half-edge; of a poke the triangle, of a move the vertex
     SurfacePoint at;              ///< of the latter three: where the vertex comes
+  };
+  /// The triangles that it makes and those that it takes away.
+  struct Exchange {
     std::vector<PlacedTriangle> made;
     std::vector<std::uint32_t> gone;
   };
   /// Scores that differ less are the same, or changes would be made back and forth for ever.
   static constexpr double kBetter = 1e-6;
 
-  Change flip_of(std::uint32_t half) const;
-  Change collapse_of(std::uint32_t half) const;
-  Change split_of(std::uint32_t half, const SurfacePoint& at) const;
-  Change poke_of(std::uint32_t triangle, const SurfacePoint& at) const;
-  Change move_of(std::uint32_t vertex, const SurfacePoint& to) const;
-  bool is_free(const Change& change) const { return guard_.crossings(change.made, change.gone) == 0; }
+  template <typename Visit>
+  void each_made(const Change& change, const Visit& visit) const;
+  template <typename Visit>
+  void each_gone(const Change& change, const Visit& visit) const;
+  Exchange exchange(const Change& change) const;
+  bool is_free(const Change& change) const;
   /// The vertex that a change makes or moves.
   struct Newcomer {
     std::uint32_t vertex = kNone;
@@ -141,16 +145,16 @@ class Evener {
     double outlook = 0.0;
     bool on_crease = false;
   };
-  Looks looks_of(const Change& change, bool steep) const;
-  Looks looks_now(const Change& change, bool steep) const;
+  double score_after(const Change& change, bool steep, double bar = -std::numeric_limits<double>::infinity()) const;
+  double score_before(const Change& change, bool steep) const;
   double look(const PlacedTriangle& triangle, const Newcomer& newcomer, bool steep) const;
-  std::ptrdiff_t fewer_crossings(const Change& change) const;
+  std::ptrdiff_t fewer_crossings(const Exchange& exchange) const;
   void make(const Change& change);
   bool is_wrong(std::uint32_t triangle, const Allowed& allowed) const;
   bool improve(std::uint32_t triangle, bool wrong, const Allowed& allowed);
-  std::ptrdiff_t fewer_forbidden(const Change& change, const Allowed& allowed) const;
+  std::ptrdiff_t fewer_forbidden(const Exchange& exchange, const Allowed& allowed) const;
   template <typename Visit>
-  void each_change(std::uint32_t triangle, const Visit& visit) const;
+  void each_change(std::uint32_t triangle, bool steep, const Visit& visit) const;
   template <typename Visit>
   void each_place_near(std::uint32_t vertex, const Visit& visit) const;
   void watch_around(std::span<const std::uint32_t> triangles);
@@ -174,6 +178,7 @@ class Evener {
   /// The same of a triangle as it is, from memory if nothing of it changed.
   double look_of(std::uint32_t triangle) const;
   void look_at_all();
+  void forget_looks();
   void settle_outlooks();
   double least_outlook(std::uint32_t vertex) const;
   double score_around(std::uint32_t vertex) const;
@@ -194,7 +199,9 @@ class Evener {
   std::vector<float> outlook_;         ///< least_outlook()
   std::vector<std::uint8_t> active_, changed_;
   std::vector<std::uint8_t> watched_, held_;  ///< where the guard is asked; where nothing is done but mending
-  std::vector<float> look_;                   ///< per triangle; kUnseen where something changed
+  // per triangle
+  std::vector<float> look_;          ///< kUnseen where something changed
+  std::vector<std::uint8_t> stale_;  ///< changed since its edges were last asked to flip
   CrossingGuard guard_{links_, position_};
 };
 

@@ -77,52 +77,80 @@ void Evener::watch_no_longer() {
   guard_.list(watched_);
 }
 
-Evener::Change Evener::flip_of(std::uint32_t half) const {
-  const std::uint32_t other = links_.twin(half), a = links_.from(half), b = links_.to(half);
-  const std::uint32_t c = links_.opposite(half), d = links_.opposite(other);
-  return {Change::Kind::flip, half, {}, {placed(d, c, a), placed(c, d, b)}, {half / 3, other / 3}};
-}
-
-Evener::Change Evener::collapse_of(std::uint32_t half) const {
-  const std::uint32_t b = links_.to(half);
-  Change change{Change::Kind::collapse, half, {}, {}, {}};
-  links_.around(links_.from(half), [&](std::uint32_t edge) {
-    const std::uint32_t c = links_.to(edge), d = links_.opposite(edge);
-    change.gone.push_back(edge / 3);
-    if (c != b && d != b) change.made.push_back(placed(b, c, d));
-  });
-  return change;
-}
-
-Evener::Change Evener::split_of(std::uint32_t half, const SurfacePoint& at) const {
+/// visit(PlacedTriangle) for those that a change makes.
+template <typename Visit>
+void Evener::each_made(const Change& change, const Visit& visit) const {
   const std::uint32_t m = links_.vertex_count();
-  Change change{Change::Kind::split, half, at, {}, {half / 3, links_.twin(half) / 3}};
-  for (const std::uint32_t side : {half, links_.twin(half)}) {
-    const std::uint32_t from = links_.from(side), to = links_.to(side), c = links_.opposite(side);
-    change.made.push_back({{from, m, c}, {position_[from], at.position, position_[c]}});
-    change.made.push_back({{m, to, c}, {at.position, position_[to], position_[c]}});
+  switch (change.kind) {
+    case Change::Kind::flip: {
+      const std::uint32_t a = links_.from(change.where), b = links_.to(change.where);
+      const std::uint32_t c = links_.opposite(change.where), d = links_.opposite(links_.twin(change.where));
+      visit(placed(d, c, a));
+      visit(placed(c, d, b));
+      break;
+    }
+    case Change::Kind::collapse: {
+      const std::uint32_t b = links_.to(change.where);
+      links_.around(links_.from(change.where), [&](std::uint32_t edge) {
+        const std::uint32_t c = links_.to(edge), d = links_.opposite(edge);
+        if (c != b && d != b) visit(placed(b, c, d));
+      });
+      break;
+    }
+    case Change::Kind::split:
+      for (const std::uint32_t side : {change.where, links_.twin(change.where)}) {
+        const std::uint32_t from = links_.from(side), to = links_.to(side), c = links_.opposite(side);
+        visit(PlacedTriangle{{from, m, c}, {position_[from], change.at.position, position_[c]}});
+        visit(PlacedTriangle{{m, to, c}, {change.at.position, position_[to], position_[c]}});
+      }
+      break;
+    case Change::Kind::poke:
+      for (std::uint32_t half = 3 * change.where; half < 3 * change.where + 3; ++half) {
+        const std::uint32_t a = links_.from(half), b = links_.to(half);
+        visit(PlacedTriangle{{a, b, m}, {position_[a], position_[b], change.at.position}});
+      }
+      break;
+    case Change::Kind::move:
+      links_.around(change.where, [&](std::uint32_t half) {
+        PlacedTriangle moved = placed(change.where, links_.to(half), links_.opposite(half));
+        moved.at[0] = change.at.position;
+        visit(moved);
+      });
   }
-  return change;
 }
 
-Evener::Change Evener::poke_of(std::uint32_t triangle, const SurfacePoint& at) const {
-  const std::uint32_t m = links_.vertex_count();
-  Change change{Change::Kind::poke, triangle, at, {}, {triangle}};
-  for (std::uint32_t half = 3 * triangle; half < 3 * triangle + 3; ++half) {
-    const std::uint32_t a = links_.from(half), b = links_.to(half);
-    change.made.push_back({{a, b, m}, {position_[a], position_[b], at.position}});
+/// visit(triangle) for those that a change takes away.
+template <typename Visit>
+void Evener::each_gone(const Change& change, const Visit& visit) const {
+  switch (change.kind) {
+    case Change::Kind::flip:
+    case Change::Kind::split:
+      visit(change.where / 3);
+      visit(links_.twin(change.where) / 3);
+      break;
+    case Change::Kind::poke:
+      visit(change.where);
+      break;
+    case Change::Kind::collapse:
+    case Change::Kind::move: {
+      const bool moves = change.kind == Change::Kind::move;
+      links_.around(moves ? change.where : links_.from(change.where), [&](std::uint32_t half) { visit(half / 3); });
+    }
   }
-  return change;
 }
 
-Evener::Change Evener::move_of(std::uint32_t vertex, const SurfacePoint& to) const {
-  Change change{Change::Kind::move, vertex, to, {}, {}};
-  links_.around(vertex, [&](std::uint32_t half) {
-    change.made.push_back(placed(vertex, links_.to(half), links_.opposite(half)));
-    change.made.back().at[0] = to.position;
-    change.gone.push_back(half / 3);
-  });
-  return change;
+Evener::Exchange Evener::exchange(const Change& change) const {
+  Exchange all;
+  all.made.reserve(kMostEdges);
+  all.gone.reserve(kMostEdges);
+  each_made(change, [&](const PlacedTriangle& t) { all.made.push_back(t); });
+  each_gone(change, [&](std::uint32_t t) { all.gone.push_back(t); });
+  return all;
+}
+
+bool Evener::is_free(const Change& change) const {
+  const Exchange all = exchange(change);
+  return guard_.crossings(all.made, all.gone) == 0;
 }
 
 void Evener::make(const Change& change) {
@@ -171,8 +199,9 @@ bool Evener::stays_short(std::uint32_t half) const {
   return fits;
 }
 
-/// If `steep`, triangles may lean almost at a right angle against the surface.
-Evener::Looks Evener::looks_of(const Change& change, bool steep) const {
+/// If `steep`, triangles may lean almost at a right angle against the surface. What is no better than the bar is not
+/// looked at to its end.
+double Evener::score_after(const Change& change, bool steep, double bar) const {
   const bool moving = change.kind == Change::Kind::move, splitting = change.kind == Change::Kind::split;
   const bool placing = moving || splitting || change.kind == Change::Kind::poke;
   Newcomer newcomer;
@@ -184,14 +213,17 @@ Evener::Looks Evener::looks_of(const Change& change, bool steep) const {
     newcomer.on_crease = moving ? on_crease(change.where) : splitting && links_.crease(change.where) != kNone;
   }
   Looks looks;
-  for (const PlacedTriangle& t : change.made) looks.add(look(t, newcomer, steep));
-  return looks;
+  each_made(change, [&](const PlacedTriangle& t) {
+    if (looks.score() > bar) looks.add(look(t, newcomer, steep));
+  });
+  return looks.score();
 }
 
-Evener::Looks Evener::looks_now(const Change& change, bool steep) const {
+double Evener::score_before(const Change& change, bool steep) const {
   Looks looks;
-  for (const std::uint32_t t : change.gone) looks.add(steep ? look(guard_.placed(t), {}, true) : look_of(t));
-  return looks;
+  each_gone(change,
+            [&](std::uint32_t t) { looks.add(steep ? look(guard_.placed(t), {}, true) : look_of(t)); });
+  return looks.score();
 }
 
 double Evener::look(const PlacedTriangle& t, const Newcomer& newcomer, bool steep) const {
@@ -214,11 +246,12 @@ double Evener::look(const PlacedTriangle& t, const Newcomer& newcomer, bool stee
 }
 
 /// How many pairs of triangles cross fewer with the change.
-std::ptrdiff_t Evener::fewer_crossings(const Change& change) const {
+std::ptrdiff_t Evener::fewer_crossings(const Exchange& exchange) const {
   std::vector<PlacedTriangle> now;
-  for (const std::uint32_t t : change.gone) now.push_back(guard_.placed(t));
-  return static_cast<std::ptrdiff_t>(guard_.crossings(now, change.gone)) -
-         static_cast<std::ptrdiff_t>(guard_.crossings(change.made, change.gone));
+  now.reserve(exchange.gone.size());
+  for (const std::uint32_t t : exchange.gone) now.push_back(guard_.placed(t));
+  return static_cast<std::ptrdiff_t>(guard_.crossings(now, exchange.gone)) -
+         static_cast<std::ptrdiff_t>(guard_.crossings(exchange.made, exchange.gone));
 }
 
 template <typename Visit>
@@ -248,22 +281,26 @@ void Evener::each_place_near(std::uint32_t vertex, const Visit& visit) const {
     }
 }
 
-/// visit(change), which may take it, for all small changes of a triangle.
+/// visit(change, the score of what it takes away) for all small changes of a triangle.
 template <typename Visit>
-void Evener::each_change(std::uint32_t triangle, const Visit& visit) const {
+void Evener::each_change(std::uint32_t triangle, bool steep, const Visit& visit) const {
+  const auto offer = [&](const Change& change) { visit(change, score_before(change, steep)); };
   for (std::uint32_t half = 3 * triangle; half < 3 * triangle + 3; ++half) {
     const std::uint32_t other = links_.twin(half);
     const std::uint32_t c = links_.opposite(half), d = links_.opposite(other);
-    if (links_.can_flip(half) && links_.valence(c) < kMostEdges && links_.valence(d) < kMostEdges) visit(flip_of(half));
+    const bool has_room = links_.valence(c) < kMostEdges && links_.valence(d) < kMostEdges;
+    if (has_room && links_.can_flip(half)) offer({Change::Kind::flip, half, {}});
     if (links_.valence(links_.from(half)) + links_.valence(links_.to(half)) < kMostEdges + 4)
       for (const std::uint32_t side : {half, other})
-        if (may_merge(side) && stays_short(side) && links_.can_collapse(side)) visit(collapse_of(side));
-    if (length(half) > 2.0 * kTooShort * wanted(half) && links_.valence(c) < kMostEdges &&
-        links_.valence(d) < kMostEdges)
-      if (const auto at = middle_of(half)) visit(split_of(half, *at));
+        if (may_merge(side) && stays_short(side) && links_.can_collapse(side))
+          offer({Change::Kind::collapse, side, {}});
+    if (has_room && length(half) > 2.0 * kTooShort * wanted(half))
+      if (const auto at = middle_of(half)) offer({Change::Kind::split, half, *at});
   }
-  for (const std::uint32_t v : links_.corners(triangle))
-    each_place_near(v, [&](const SurfacePoint& at) { visit(move_of(v, at)); });
+  for (const std::uint32_t v : links_.corners(triangle)) {
+    const double now = score_before({Change::Kind::move, v, {}}, steep);
+    each_place_near(v, [&](const SurfacePoint& at) { visit(Change{Change::Kind::move, v, at}, now); });
+  }
 }
 
 bool Evener::is_wrong(std::uint32_t triangle, const Allowed& allowed) const {
@@ -271,10 +308,10 @@ bool Evener::is_wrong(std::uint32_t triangle, const Allowed& allowed) const {
   return guard_.crossings({&x, 1}, {&triangle, 1}) > 0 || !allowed(x);
 }
 
-std::ptrdiff_t Evener::fewer_forbidden(const Change& change, const Allowed& allowed) const {
+std::ptrdiff_t Evener::fewer_forbidden(const Exchange& exchange, const Allowed& allowed) const {
   std::ptrdiff_t fewer = 0;
-  for (const std::uint32_t t : change.gone) fewer += !allowed(guard_.placed(t));
-  for (const PlacedTriangle& t : change.made) fewer -= !allowed(t);
+  for (const std::uint32_t t : exchange.gone) fewer += !allowed(guard_.placed(t));
+  for (const PlacedTriangle& t : exchange.made) fewer -= !allowed(t);
   return fewer;
 }
 
@@ -287,20 +324,24 @@ bool Evener::improve(std::uint32_t triangle, bool wrong, const Allowed& allowed)
     Change change;
   };
   const auto fewer_wrong = [&](const Change& change) {
-    const std::ptrdiff_t allowances = fewer_forbidden(change, allowed);
+    const Exchange all = exchange(change);
+    const std::ptrdiff_t allowances = fewer_forbidden(all, allowed);
     if (allowances < 0) return allowances;
-    const std::ptrdiff_t crossings = fewer_crossings(change);
+    const std::ptrdiff_t crossings = fewer_crossings(all);
     return crossings < 0 ? crossings : crossings + allowances;
   };
   const bool sliver = look(guard_.placed(triangle), {}, true) < kSliver;
   std::vector<Candidate> candidates;
-  each_change(triangle, [&](Change&& change) {
-    const double gain = looks_of(change, sliver).score() - looks_now(change, sliver).score();
-    const std::ptrdiff_t fewer = wrong ? fewer_wrong(change) : 0;
+  each_change(triangle, sliver, [&](const Change& change, double now) {
+    if (wrong) {
+      if (const std::ptrdiff_t fewer = fewer_wrong(change); fewer > 0)
+        candidates.push_back({fewer, score_after(change, sliver) - now, change});
+      return;
+    }
     // Short edges go even where a worse triangle stays.
     const bool shortens = change.kind == Change::Kind::collapse && is_too_short(change.where);
-    if (wrong ? fewer > 0 : gain > (shortens ? -kBetter : kBetter))
-      candidates.push_back({fewer, gain, std::move(change)});
+    const double bar = now + (shortens ? -kBetter : kBetter), score = score_after(change, sliver, bar);
+    if (score > bar) candidates.push_back({0, score - now, change});
   });
   std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
     return a.fewer != b.fewer ? a.fewer > b.fewer : a.gain > b.gain;
@@ -308,7 +349,7 @@ bool Evener::improve(std::uint32_t triangle, bool wrong, const Allowed& allowed)
   if (!sliver && candidates.size() > kTries) candidates.erase(candidates.begin() + kTries, candidates.end());
   for (const Candidate& candidate : candidates) {
     const Change& change = candidate.change;
-    if (!wrong && !(is_free(change) && fewer_forbidden(change, allowed) >= 0)) continue;
+    if (!wrong && !(is_free(change) && fewer_forbidden(exchange(change), allowed) >= 0)) continue;
     make(change);
     return true;
   }
@@ -323,16 +364,17 @@ void Evener::reach(std::span<const Place> places, const Allowed& allowed) {
     if (place.at.face == kNone || !links_.lives(3 * place.triangle)) continue;
     std::optional<Change> best;
     double score = 0.0;
-    const auto consider = [&](Change&& change) {
-      const double now = looks_of(change, false).score();
-      if ((best && now <= score) || fewer_crossings(change) < 0 || fewer_forbidden(change, allowed) < 0) return;
-      best = std::move(change);
+    const auto consider = [&](const Change& change) {
+      const double now = score_after(change, false);
+      if (best && now <= score) return;
+      if (const Exchange all = exchange(change); fewer_crossings(all) < 0 || fewer_forbidden(all, allowed) < 0) return;
+      best = change;
       score = now;
     };
-    consider(poke_of(place.triangle, place.at));
+    consider({Change::Kind::poke, place.triangle, place.at});
     for (std::uint32_t half = 3 * place.triangle; half < 3 * place.triangle + 3; ++half) {
-      if (links_.crease(half) == kNone) consider(split_of(half, place.at));
-      if (const std::uint32_t v = links_.from(half); !on_crease(v)) consider(move_of(v, place.at));
+      if (links_.crease(half) == kNone) consider({Change::Kind::split, half, place.at});
+      if (const std::uint32_t v = links_.from(half); !on_crease(v)) consider({Change::Kind::move, v, place.at});
     }
     if (!best) continue;
     const bool moves = best->kind == Change::Kind::move;
@@ -346,6 +388,7 @@ void Evener::mend(std::span<const std::uint32_t> triangles, const Allowed& allow
   std::vector<std::uint8_t> doubtful(links_.triangle_count(), 0);  // and with them what comes about there
   for (const std::uint32_t t : triangles) doubtful[t] = 1;
   std::vector<std::uint32_t> bad;
+  look_at_all();
   for (std::uint32_t t = 0; t < links_.triangle_count(); ++t)
     if (doubtful[t] || look_of(t) < kGood) bad.push_back(t);
   watch_around(bad);
@@ -366,7 +409,6 @@ void Evener::mend(std::span<const std::uint32_t> triangles, const Allowed& allow
         });
     }
     bad = std::move(next);
-    guard_.list(watched_);  // without what has gone
   }
   watch_no_longer();
 }
