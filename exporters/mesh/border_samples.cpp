@@ -3,11 +3,12 @@
 #include "exporters/mesh/border_samples.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <map>
 #include <numbers>
 
 #include <glm/geometric.hpp>
+#include <tbb/parallel_for.h>
 
 #include "core/surface/walks.h"
 #include "exporters/mesh/contact_colors.h"
@@ -18,8 +19,7 @@ namespace {
 /// Borders shorter than this (Å) are rounding noise of a degenerate position: their two ends are one vertex.
 constexpr double kTinyBorder = 1e-9;
 constexpr double kLargestAngle = 0.8;
-/// Where a length is asked for, few long edges are wanted: on spheres up to this angle, of circles five parts.
-constexpr double kLargestAngleOfEdges = 0.9;
+/// Where a length is asked for: of circles no fewer than five parts.
 constexpr double kLargestAngleOfParts = 1.3;
 /// How far such an edge h may leave a sphere of radius r: twice as far as that of an equilateral triangle, but never
 /// more than this share of the radius.
@@ -30,7 +30,7 @@ bool whole_circle(const Border& border) { return border.vertex[0] == kNone; }
 }  // namespace
 
 double EdgeRule::edge(double radius) const {
-  if (edge_ > 0.0) return std::min(edge_, kLargestAngleOfEdges * radius);
+  if (edge_ > 0.0) return std::min(edge_, angle_ * radius);
   return std::min(std::sqrt(5.0 * radius * tolerance_), kLargestAngle * radius);
 }
 
@@ -40,7 +40,7 @@ int EdgeRule::parts(double steps) const {
   return std::max(1, static_cast<int>(edge_ > 0.0 ? std::round(steps) : std::ceil(steps)));
 }
 
-double EdgeRule::largest_angle() const { return edge_ > 0.0 ? kLargestAngleOfParts : kLargestAngle; }
+double EdgeRule::largest_angle() const { return edge_ > 0.0 ? std::max(angle_, kLargestAngleOfParts) : kLargestAngle; }
 
 double EdgeRule::tolerance(double radius) const {
   return edge_ > 0.0 && radius > 0.0 ? std::min(edge_ * edge_ / (3.0 * radius), kLargestShare * radius) : tolerance_;
@@ -53,14 +53,18 @@ double tube_radius(const Surface& surface, const Face& face) {
 BorderSamples::BorderSamples(const Surface& surface, const EdgeRule& rule, bool split_colors)
     : surface_(surface), parameters_(surface.borders.size()) {
   join_ends_of_tiny_borders();
-  for (std::uint32_t b = 0; b < surface.borders.size(); ++b) sample(b, rule, split_colors);
+  tbb::parallel_for(std::size_t{0}, surface.borders.size(),
+                    [&](std::size_t b) { sample(static_cast<std::uint32_t>(b), rule, split_colors); });
   // Two borders between the same two vertices would become the same edge if each were one segment.
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> single;
+  std::vector<std::array<std::uint32_t, 3>> single;  // ends, border
   for (std::uint32_t b = 0; b < surface.borders.size(); ++b) {
     if (segment_count(b) != 1) continue;
-    const std::uint32_t from = point(b, 0).index, to = point(b, 1).index;
-    if (!single.try_emplace({std::min(from, to), std::max(from, to)}, b).second) split(b, 0);
+    const auto [from, to] = std::minmax({point(b, 0).index, point(b, 1).index});
+    single.push_back({from, to, b});
   }
+  std::sort(single.begin(), single.end());
+  for (std::size_t n = 1; n < single.size(); ++n)
+    if (single[n][0] == single[n - 1][0] && single[n][1] == single[n - 1][1]) split(single[n][2], 0);
 }
 
 void BorderSamples::join_ends_of_tiny_borders() {
@@ -87,7 +91,7 @@ void BorderSamples::sample(std::uint32_t index, const EdgeRule& rule, bool split
     return;
   }
   double step = rule.chord(border.radius);
-  std::vector<double> stops{0.0};
+  std::vector<double> stops;
   for (std::uint32_t f : border.face) {
     const Face& face = surface_.faces[f];
     if (tube_radius(surface_, face) > 0.0) step = std::min(step, rule.edge(tube_radius(surface_, face)));
@@ -107,18 +111,18 @@ void BorderSamples::sample(std::uint32_t index, const EdgeRule& rule, bool split
   }
   const double angle = std::min(step / border.radius, rule.largest_angle());
   std::sort(stops.begin(), stops.end());
-  stops.push_back(border.sweep);
   const double apart = std::min(1e-3 * angle, 0.25 * border.sweep);  // closer stops are one
-  for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
-    const bool last = i + 2 == stops.size();
-    if (!last && (stops[i + 1] - stops[i] < apart || border.sweep - stops[i + 1] < apart)) {
-      stops[i + 1] = stops[i];
-      continue;
-    }
-    const double span = stops[i + 1] - stops[i];
+  double from = 0.0;
+  const auto go_to = [&](double to) {
+    const double span = to - from;
     const int parts = rule.parts(span / angle);
-    for (int k = 0; k < parts; ++k) t.push_back(stops[i] + span * k / parts);
-  }
+    t.reserve(t.size() + static_cast<std::size_t>(parts) + 1);
+    for (int k = 0; k < parts; ++k) t.push_back(from + span * k / parts);
+    from = to;
+  };
+  for (const double stop : stops)
+    if (!(stop - from < apart || border.sweep - stop < apart)) go_to(stop);
+  go_to(border.sweep);
   if (!whole_circle(border)) t.push_back(border.sweep);
 }
 

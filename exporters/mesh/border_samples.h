@@ -17,6 +17,12 @@ namespace meniscus {
 class EdgeRule {
  public:
   explicit EdgeRule(const MeshOptions& options) : tolerance_(options.tolerance), edge_(options.edge) {}
+  /// As many as that only where arcs span more than this, radian.
+  EdgeRule with_angle(double angle) const {
+    EdgeRule rule = *this;
+    rule.angle_ = angle;
+    return rule;
+  }
 
   /// The longest edge on a sphere of this radius. By tolerance: an equilateral triangle of edge h lies h^2/(6 r) below
   /// the sphere at most; a little is kept in hand.
@@ -32,6 +38,7 @@ class EdgeRule {
 
  private:
   double tolerance_, edge_;
+  double angle_ = 0.9;  ///< radian: where a length is asked for, few long edges are wanted
 };
 
 /// The radius of the sphere or of the torus tube that a face lies on.

@@ -23,6 +23,8 @@ namespace {
 
 /// Å: longer than any edge that a face of a molecule lets be, so that the angles of EdgeRule decide.
 constexpr double kAnyEdge = 10.0;
+/// Beside faces that are not simple no segment of an arc spans more, radian.
+constexpr double kFineAngle = 1.2;
 /// A fan's triangles see its middle from no farther than the cosine of this many radian (1.9) away.
 constexpr double kWidestFan = -0.32;
 /// Corners of a saddle that is a fan: longer ones bend too much.
@@ -32,17 +34,19 @@ using Corners = std::vector<BorderPoint>;
 
 class CoarseMeshing {
  public:
-  CoarseMeshing(const Surface& surface, const SurfaceWalk& walk)
+  CoarseMeshing(const Surface& surface, const SurfaceWalk& walk, double angle)
       : surface_(surface),
         walk_(walk),
         rule_(MeshOptions{0.4, false, kAnyEdge}),
-        samples_(surface, rule_, false),
+        samples_(surface, rule_.with_angle(angle), false),
         filling_(surface, rule_, samples_),
         parts_(surface.faces.size()),
+        finer_(surface.faces.size(), false),
         filled_(surface.faces.size()) {}
 
   TriangleMesh run() {
     for (std::vector<std::uint32_t> hard = plan(); !hard.empty(); hard = plan()) {
+      if (sample_finer(hard)) continue;
       for (const std::uint32_t f : hard) parts_[f].cut = Cut::filled;
       filling_.fill(std::move(hard), filled_);
     }
@@ -58,7 +62,8 @@ class CoarseMeshing {
     Cut cut = Cut::none;
     std::uint8_t diagonal = 0;  ///< the corner it begins at
     std::uint32_t corners = 0, vertex = 0, triangle = 0;
-    glm::dvec3 middle{0.0};  ///< of a fan
+    glm::dvec3 middle{0.0};             ///< of a fan
+    std::uint32_t planned_for = kNone;  ///< corner_count() then
   };
 
   /// The corners of a face with one loop, the face on their left.
@@ -71,19 +76,43 @@ class CoarseMeshing {
     return corners;
   }
 
-  /// Finds how each face is cut; returns those that have to be filled and are not yet.
+  std::uint32_t corner_count(const Face& face) const {
+    std::uint32_t count = 0;
+    for_each_half_border(surface_, face, [&](HalfBorder half) { count += samples_.segment_count(border_of(half)); });
+    return count;
+  }
+
+  /// Finds how each face is cut whose borders have other samples than before; returns those that have to be filled and
+  /// are not yet.
   std::vector<std::uint32_t> plan() {
     std::vector<std::uint8_t> hard(parts_.size(), 0);
     tbb::parallel_for(std::size_t{0}, parts_.size(), [&](std::size_t f) {
-      if (parts_[f].cut == Cut::filled) return;
+      if (parts_[f].cut == Cut::filled || parts_[f].planned_for == corner_count(surface_.faces[f])) return;
       const auto part = simple_part(static_cast<std::uint32_t>(f));
       hard[f] = !part;
-      if (part) parts_[f] = *part;
+      if (!part) return;
+      parts_[f] = *part;
+      parts_[f].planned_for = corner_count(surface_.faces[f]);
     });
     std::vector<std::uint32_t> found;
     for (std::uint32_t f = 0; f < hard.size(); ++f)
       if (hard[f]) found.push_back(f);
     return found;
+  }
+
+  /// Halves the long segments around faces that are no polygons of the simple kinds; false if that was done before.
+  bool sample_finer(const std::vector<std::uint32_t>& hard) {
+    bool any = false;
+    for (const std::uint32_t f : hard) {
+      if (finer_[f]) continue;
+      finer_[f] = any = true;
+      for_each_half_border(surface_, surface_.faces[f], [&](HalfBorder half) {
+        const std::uint32_t b = border_of(half);
+        for (std::uint32_t k = samples_.segment_count(b); k-- > 0;)
+          if (samples_.parameter(b, k + 1) - samples_.parameter(b, k) > kFineAngle) samples_.split(b, k);
+      });
+    }
+    return any;
   }
 
   std::optional<Part> simple_part(std::uint32_t f) const {
@@ -251,6 +280,7 @@ class CoarseMeshing {
   BorderSamples samples_;
   FaceFilling filling_;
   std::vector<Part> parts_;       ///< per face
+  std::vector<bool> finer_;       ///< per face: its borders are sampled as finely as those of faces that are filled
   std::vector<FaceMesh> filled_;  ///< per face; of those that were filled
   std::vector<std::uint32_t> vertex_number_, border_number_;
   TriangleMesh mesh_;
@@ -275,8 +305,8 @@ void check_euler(const Surface& surface, const TriangleMesh& mesh) {
 
 }  // namespace
 
-TriangleMesh coarse_mesh(const Surface& surface, const SurfaceWalk& walk) {
-  TriangleMesh mesh = CoarseMeshing(surface, walk).run();
+TriangleMesh coarse_mesh(const Surface& surface, const SurfaceWalk& walk, double angle) {
+  TriangleMesh mesh = CoarseMeshing(surface, walk, angle).run();
   check_euler(surface, mesh);
   return mesh;
 }

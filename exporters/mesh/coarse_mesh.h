@@ -12,9 +12,9 @@ namespace meniscus {
 /// holes, is triangulated in its plane. Closed, outward but for folds at deep faces, vertices on the exact surface,
 /// components and their Euler characteristics those of the surface. No bound on how far triangles are from it,
 /// and of degenerate surfaces, as lattices, a few may cross.
-/// Of the result `positions`, `triangles` and `face` are filled in. walk: nothing barred. The probe needs a size.
-/// Throws OpenSurfaceError where no such mesh was found; two faces that draw an edge between the same two vertices are
-/// left to LinkedTriangles to refuse.
-TriangleMesh coarse_mesh(const Surface& surface, const SurfaceWalk& walk);
+/// Arcs that span no more than about `angle` (radian) are one edge. Of the result `positions`, `triangles` and `face`
+/// are filled in. walk: nothing barred. The probe needs a size. Throws OpenSurfaceError where no such mesh was found;
+/// two faces that draw an edge between the same two vertices are left to LinkedTriangles to refuse.
+TriangleMesh coarse_mesh(const Surface& surface, const SurfaceWalk& walk, double angle = 0.9);
 
 }  // namespace meniscus

@@ -27,7 +27,7 @@ class CrossingGuard {
   /// Lists one more, or one that has moved.
   void add(std::uint32_t triangle);
   /// How many pairs of the new triangles, which are neighbours, pass through one another, or of one of them and one
-  /// that is listed and stays? `gone` are those that they replace.
+  /// that is listed and stays? `gone` are those that they replace. Not for several threads at once.
   std::size_t crossings(std::span<const PlacedTriangle> made, std::span<const std::uint32_t> gone) const;
   PlacedTriangle placed(std::uint32_t triangle) const;
 
@@ -37,13 +37,18 @@ class CrossingGuard {
   };
 
   template <typename Visit>
-  void each_cell(const PlacedTriangle& triangle, const Visit& visit) const;
+  void each_cell(const glm::dvec3& low, const glm::dvec3& high, const Visit& visit) const;
+  void list_near(std::span<const PlacedTriangle> made, std::span<const std::uint32_t> gone) const;
 
   const LinkedTriangles& links_;
   const std::vector<glm::dvec3>& positions_;
   double cell_ = 1.0;                 ///< Å
   std::vector<std::uint32_t> heads_;  ///< per bucket, into entries_, or kNone
   std::vector<Entry> entries_;
+  // of the last question: not to be asked by two threads
+  mutable std::vector<PlacedTriangle> near_;
+  mutable std::vector<std::uint32_t> seen_;  ///< per triangle: the number of the question that last met it
+  mutable std::uint32_t question_ = 0;
 };
 
 }  // namespace meniscus

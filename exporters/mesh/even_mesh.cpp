@@ -17,7 +17,7 @@
 #include "core/base/error.h"
 #include "core/queries/distance.h"
 #include "core/surface/walks.h"
-#include "exporters/mesh/coarse_mesh.h"
+#include "exporters/mesh/base_mesh.h"
 #include "exporters/mesh/creases.h"
 #include "exporters/mesh/evener.h"
 #include "exporters/mesh/mesh_crossings.h"
@@ -38,15 +38,14 @@ constexpr double kShareOfTolerance = 0.62;
 constexpr double kCreaseStep = 0.4;
 /// What is measured at places is less than what is between them.
 constexpr double kMargin = 0.97;
-/// The base is a scaffold: its tolerance follows that of the result between these (Å).
-constexpr double kFinestBase = 1e-4, kCoarsestBase = 0.4;
-constexpr int kBases = 4;
 /// Edges (Å) from which on the base has the fewest triangles that there are.
 constexpr double kLongEdge = 1.1;
+/// Edges (Å) from which on contact faces begin as points: as long as those between such points.
+constexpr double kLongContracted = 2.5;
 /// How often all begins again, with an eye on the places where triangles crossed, and from which attempt on these keep
-/// to the base, which is as near as promised then.
-constexpr int kAttempts = 6, kFirstHeld = 2;
-constexpr double kShareOfKept = 0.9;
+/// to the base, which is as near as promised then; contact faces that are points are no base to keep to.
+constexpr int kAttempts = 6, kFirstHeld = 2, kContractedAttempts = 2;
+constexpr double kCoarserBase = 2.0, kShareOfKept = 0.9;
 /// Of the tolerance, that of the mesh whose vertices are looked at in the end.
 constexpr double kShareOfFine = 0.3;
 /// How these places grow with each attempt.
@@ -80,33 +79,38 @@ double smallest_radius(const Surface& surface) {
 
 double edge_of_density(double density) { return density > 0.0 ? std::sqrt(kVerticesPerSquare / density) : 0.0; }
 
-/// Do long edges begin with the fewest triangles?
-bool begins_coarse(const Surface& surface, const EvenMeshOptions& options) {
-  return surface.probe_radius > 0.0 && edge_of_density(options.density) >= kLongEdge;
+/// Those that may do, the fastest first.
+std::vector<Beginning> beginnings(const Surface& surface, const EvenMeshOptions& options) {
+  std::vector<Beginning> all;
+  const double edge = edge_of_density(options.density);
+  if (surface.probe_radius > 0.0 && edge >= kLongContracted) all.push_back(Beginning::contracted);
+  if (surface.probe_radius > 0.0 && edge >= kLongEdge) all.push_back(Beginning::coarse);
+  all.push_back(Beginning::patches);
+  return all;
 }
 
 class EvenMeshing {
  public:
-  EvenMeshing(const Surface& surface, const EvenMeshOptions& options, bool follow_creases, bool from_patches)
+  EvenMeshing(const Surface& surface, const EvenMeshOptions& options, bool follow_creases, Beginning beginning)
       : surface_(surface),
         options_(options),
         ball_radius_(smallest_radius(surface)),
         edge_of_density_(edge_of_density(options.density)),
         follow_creases_(follow_creases),
-        from_patches_(from_patches),
-        walk_(surface) {
-    find_base();
-  }
+        contracted_(beginning == Beginning::contracted),
+        walk_(surface),
+        base_(base_mesh(surface, walk_, beginning, kCoarserBase * tolerance())) {}
 
   EvenMesh run() {
     std::vector<Ball> watched;
     for (int attempt = 1;; ++attempt) {
-      if (attempt == kFirstHeld && options_.density == 0.0) take_patches(kShareOfKept * options_.tolerance);
+      if (attempt == kFirstHeld && options_.density == 0.0)
+        base_ = base_mesh(surface_, walk_, Beginning::patches, kShareOfKept * options_.tolerance);
       start(watched);
-      if (attempt >= kFirstHeld) evener_->hold_watched();
+      if (attempt >= kFirstHeld && !contracted_) evener_->hold_watched();
       const std::vector<std::uint32_t> bad = even_out();
       if (bad.empty()) break;
-      if (attempt == kAttempts)
+      if (attempt == (contracted_ ? kContractedAttempts : kAttempts))
         throw OpenSurfaceError(
             fmt::format("no even mesh was found: {} triangles stay in others' way or too far away; ask for a finer one",
                         bad.size()));
@@ -125,20 +129,21 @@ class EvenMeshing {
   void start(const std::vector<Ball>& watched) {
     if (options_.density == 0.0) list_places_to_reach();
     walk_.bar(std::vector<bool>(surface_.borders.size(), false));
-    evener_.emplace(surface_, walk_, base_, creases(),
+    evener_.emplace(surface_, walk_, base_.mesh, base_.vertex_face, creases(),
                     [this](const SurfacePoint& at) { return edge_at(at.position, radius(at.face)); });
     evener_->watch(watched);
   }
 
   /// The vertices and the middles of the base, and places along creases, which coarser meshes bridge.
   void list_places_to_reach() {
-    to_reach_.assign(base_.positions.size(), {});
-    for (std::size_t t = 0; t < base_.triangles.size(); ++t)
-      for (const std::uint32_t v : base_.triangles[t]) to_reach_[v] = {base_.positions[v], base_.face[t]};
-    for (std::size_t t = 0; t < base_.triangles.size(); ++t) {
-      const auto& [a, b, c] = base_.triangles[t];
-      const glm::dvec3 middle = (base_.positions[a] + base_.positions[b] + base_.positions[c]) / 3.0;
-      if (const auto at = walk_.below(middle, base_.face[t])) to_reach_.push_back(*at);
+    const TriangleMesh& base = base_.mesh;
+    to_reach_.clear();
+    for (std::size_t v = 0; v < base.positions.size(); ++v)
+      to_reach_.push_back({base.positions[v], base_.vertex_face[v]});
+    for (std::size_t t = 0; t < base.triangles.size(); ++t) {
+      const auto& [a, b, c] = base.triangles[t];
+      const glm::dvec3 middle = (base.positions[a] + base.positions[b] + base.positions[c]) / 3.0;
+      if (const auto at = walk_.below(middle, base.face[t])) to_reach_.push_back(*at);
     }
     for (const Border& border : surface_.borders) {
       if (crease_angle(surface_, border) == 0.0) continue;
@@ -246,38 +251,16 @@ class EvenMeshing {
     const Face& f = surface_.faces[face];
     return f.kind == PatchKind::convex ? surface_.atoms[surface_.convex[f.patch].atom].radius : probe();
   }
+  /// Å; with a density about that of equilateral triangles.
+  double tolerance() const {
+    const double edge = edge_of_density_;
+    return edge > 0.0 ? edge * edge / (6.0 * probe()) : options_.tolerance;
+  }
   double tolerance_at(const glm::dvec3& x) const {
     return options_.tolerance_at ? std::max(options_.tolerance_at(x), options_.tolerance) : options_.tolerance;
   }
   double edge_at(const glm::dvec3& x, double radius) const {
     return edge_of_density_ > 0.0 ? edge_of_density_ : std::sqrt(6.0 * kShareOfTolerance * tolerance_at(x) * radius);
-  }
-
-  /// Long edges begin with the fewest triangles, others, and surfaces that have no such mesh, with patch-aligned ones;
-  /// of these some have none at a coarse tolerance.
-  void find_base() {
-    if (!from_patches_) {
-      try {
-        base_ = coarse_mesh(surface_, walk_);
-        return;
-      } catch (const OpenSurfaceError&) {
-      }
-    }
-    const double tolerance =
-        options_.density > 0.0 ? edge_of_density_ * edge_of_density_ / (6.0 * probe()) : options_.tolerance;
-    take_patches(2.0 * tolerance);
-  }
-
-  void take_patches(double tolerance) {
-    tolerance = std::clamp(tolerance, kFinestBase, kCoarsestBase);
-    for (int n = 1;; ++n, tolerance *= 0.25) {
-      try {
-        base_ = tessellate(surface_, {tolerance, false});
-        return;
-      } catch (const OpenSurfaceError&) {
-        if (n == kBases) throw;
-      }
-    }
   }
 
   /// The point of the surface under one of a triangle, as its corners lead there.
@@ -449,9 +432,9 @@ class EvenMeshing {
   const EvenMeshOptions& options_;
   double ball_radius_;  ///< Å, the smallest: of curvature where the probe has none
   double edge_of_density_;
-  bool follow_creases_, from_patches_;
+  bool follow_creases_, contracted_;
   SurfaceWalk walk_;
-  TriangleMesh base_;
+  BaseMesh base_;
   std::vector<SurfacePoint> to_reach_;  ///< the mesh has to come near these
   std::optional<Evener> evener_;
   mutable std::once_flag distance_made_;
@@ -467,15 +450,13 @@ EvenMesh even_mesh(const Surface& surface, const EvenMeshOptions& options) {
   if (options.density == 0.0 && !(options.tolerance > 0.0 && std::isfinite(options.tolerance)))
     throw Error(fmt::format("mesh tolerance: {} Å, give a number above 0", options.tolerance));
   // Where creases crowd, triangles that have to end at them may find no place; without that they are smaller there.
-  const bool coarse = begins_coarse(surface, options);
-  for (const bool patches : {false, true}) {
-    if (!patches && !coarse) continue;
+  for (const Beginning beginning : beginnings(surface, options)) {
     try {
-      return EvenMeshing(surface, options, true, patches).run();
+      return EvenMeshing(surface, options, true, beginning).run();
     } catch (const OpenSurfaceError&) {
     }
   }
-  return EvenMeshing(surface, options, false, true).run();
+  return EvenMeshing(surface, options, false, Beginning::patches).run();
 }
 
 }  // namespace meniscus

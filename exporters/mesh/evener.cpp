@@ -25,35 +25,27 @@ constexpr double kTooNear = 0.2;
 constexpr double kOnCrease = 1e-6;
 /// Edges between triangles as good as that are not flipped: their smallest angles are some 35 degrees.
 constexpr double kFine = 0.82;
-/// A look that was not taken.
-constexpr float kUnseen = 9.0f;
-/// Steps shorter than this share of the edges wanted change nothing worth the walk.
-constexpr double kNoStep = 0.01;
 /// Passes that change fewer than one in so many triangles are the last ones of an approach.
 constexpr std::uint32_t kFew = 16;
 constexpr int kApproaches = 12;
 /// Cosines between the normals of a triangle and of the surface at its vertices: the most asked for.
 constexpr double kLeaning = 0.7;
-/// Of a collapse: worse triangles are not made.
-constexpr double kPoor = 0.3;
 /// Vertices of more edges are left alone.
 constexpr std::uint32_t kMostEdges = 24;
 /// Edges that are asked to be shorter than this share of what they were at first would not help either.
 constexpr float kFinest = 0.25f;
-/// How far a vertex goes towards the middle of its neighbours.
-constexpr double kStep = 0.8;
 
 }  // namespace
 
-Evener::Evener(const Surface& surface, SurfaceWalk& walk, const TriangleMesh& base, const std::vector<bool>& keep,
-               EdgeLength edge)
+Evener::Evener(const Surface& surface, SurfaceWalk& walk, const TriangleMesh& base,
+               std::vector<std::uint32_t> vertex_face, const std::vector<bool>& keep, EdgeLength edge)
     : surface_(surface),
       walk_(walk),
       edge_(std::move(edge)),
       links_(base.triangles, static_cast<std::uint32_t>(base.positions.size())),
       position_(base.positions),
       normal_(base.positions.size(), glm::dvec3(0.0)),
-      face_(base.positions.size(), kNone),
+      face_(std::move(vertex_face)),
       border_(base.positions.size(), kNone),
       pinned_(base.positions.size(), 0),
       size_(base.positions.size(), 0.0f),
@@ -66,9 +58,6 @@ Evener::Evener(const Surface& surface, SurfaceWalk& walk, const TriangleMesh& ba
       look_(base.triangles.size(), kUnseen),
       stale_(base.triangles.size(), 1) {
   walk.bar(keep);
-  for (std::size_t t = 0; t < base.triangles.size(); ++t)
-    for (const std::uint32_t v : base.triangles[t])
-      if (face_[v] == kNone) face_[v] = base.face[t];
   tbb::parallel_for(std::size_t{0}, face_.size(), [&](std::size_t n) {
     const auto v = static_cast<std::uint32_t>(n);
     settle(v, point(v), kNone);
@@ -198,7 +187,8 @@ bool Evener::split(std::uint32_t half) {
   for (const std::uint32_t c : {links_.opposite(half), links_.opposite(links_.twin(half))})
     if (approaching_ && glm::distance(at->position, position_[c]) < kTooNear * length(half))
       return links_.crease(half) == kNone && try_flip(half);
-  if ((watched_[links_.from(half)] || watched_[links_.to(half)]) && !is_free({Change::Kind::split, half, *at})) return false;
+  if ((watched_[links_.from(half)] || watched_[links_.to(half)]) && !is_free({Change::Kind::split, half, *at}))
+    return false;
   put_vertex(half, *at);
   return true;
 }
@@ -339,76 +329,6 @@ bool Evener::try_flip(std::uint32_t half) {
   return true;
 }
 
-std::optional<glm::dvec3> Evener::centroid_along_crease(std::uint32_t vertex) const {
-  glm::dvec3 sum(0.0);
-  int count = 0;
-  links_.around(vertex, [&](std::uint32_t half) {
-    if (links_.crease(half) == kNone) return;
-    sum += position_[links_.to(half)];
-    ++count;
-  });
-  if (count != 2) return std::nullopt;
-  return 0.5 * sum;
-}
-
-/// Of the triangles around a vertex, the mean of their centroids by area: what Lloyd's algorithm moves to.
-glm::dvec3 Evener::centroid_around(std::uint32_t vertex) const {
-  glm::dvec3 sum(0.0);
-  double weight = 0.0;
-  const glm::dvec3& x = position_[vertex];
-  links_.around(vertex, [&](std::uint32_t half) {
-    const glm::dvec3 u = position_[links_.to(half)] - x, v = position_[links_.opposite(half)] - x;
-    const double area = glm::length(glm::cross(u, v));
-    sum += area / 3.0 * (u + v);
-    weight += area;
-  });
-  return weight > 0.0 ? x + sum / weight : x;
-}
-
-std::optional<SurfacePoint> Evener::relaxed(std::uint32_t vertex) const {
-  if (pinned_[vertex] || held_[vertex]) return std::nullopt;
-  const glm::dvec3& x = position_[vertex];
-  SurfacePoint target;
-  if (border_[vertex] != kNone) {
-    const auto middle = centroid_along_crease(vertex);
-    if (!middle) return std::nullopt;
-    const auto on = walk_.on_border(x + kStep * (*middle - x), border_[vertex]);
-    if (!on) return std::nullopt;
-    target = {*on, face_[vertex]};
-  } else {
-    glm::dvec3 move = kStep * (centroid_around(vertex) - x);
-    move -= glm::dot(move, normal_[vertex]) * normal_[vertex];
-    if (glm::length(move) < kNoStep * size_[vertex]) return std::nullopt;
-    const auto at = walk_.below(x + move, face_[vertex]);
-    if (!at || glm::distance(at->position, x) > size_[vertex]) return std::nullopt;
-    target = *at;
-  }
-  if (const double score = score_around(vertex, target.position); score < kPoor && score < score_around(vertex))
-    return std::nullopt;
-  return target;
-}
-
-/// All vertices look at where the others were, so the order in which they are asked does not count; where triangles
-/// have to be kept apart they move one after another.
-void Evener::relax() {
-  std::vector<std::optional<SurfacePoint>> target(position_.size());
-  tbb::parallel_for(std::size_t{0}, position_.size(), [&](std::size_t v) {
-    const auto vertex = static_cast<std::uint32_t>(v);
-    if (active_[v] && links_.vertex_lives(vertex)) target[v] = relaxed(vertex);
-  });
-  tbb::parallel_for(std::size_t{0}, position_.size(), [&](std::size_t v) {
-    if (target[v] && !watched_[v]) settle(static_cast<std::uint32_t>(v), *target[v], border_[v]), changed_[v] = 1;
-  });
-  for (std::uint32_t v = 0; v < target.size(); ++v)
-    if (target[v] && watched_[v])
-      if (const Change move{Change::Kind::move, v, *target[v]}; is_free(move)) make(move);
-  tbb::parallel_for(std::uint32_t{0}, links_.triangle_count(), [&](std::uint32_t t) {
-    if (!links_.lives(3 * t)) return;
-    const auto v = links_.corners(t);
-    if (target[v[0]] || target[v[1]] || target[v[2]]) look_[t] = kUnseen, stale_[t] = 1;
-  });
-}
-
 /// Longest edges first, or halves of triangles would be slivers.
 void Evener::approach() {
   approaching_ = true;
@@ -456,13 +376,6 @@ void Evener::even_out(int rounds) {
 double Evener::score_around(std::uint32_t vertex) const {
   Looks looks;
   links_.around(vertex, [&](std::uint32_t half) { looks.add(look_of(half / 3)); });
-  return looks.score();
-}
-
-double Evener::score_around(std::uint32_t vertex, const glm::dvec3& x) const {
-  Looks looks;
-  links_.around(vertex,
-                [&](std::uint32_t half) { looks.add(look(vertex, x, links_.to(half), links_.opposite(half))); });
   return looks.score();
 }
 

@@ -34,10 +34,11 @@ class Evener {
     SurfacePoint at;
   };
 
-  /// base: of tessellate() or coarse_mesh(), all faces. keep: per border of the surface, whether edges follow it; the
-  /// walk is barred from crossing those. The surface and the walk have to live as long.
-  Evener(const Surface& surface, SurfaceWalk& walk, const TriangleMesh& base, const std::vector<bool>& keep,
-         EdgeLength edge);
+  /// base: closed, its vertices on the surface; vertex_face: per vertex a face that it lies on. keep: per border of the
+  /// surface, whether edges follow it; the walk is barred from crossing those. The surface and the walk have to live as
+  /// long.
+  Evener(const Surface& surface, SurfaceWalk& walk, const TriangleMesh& base, std::vector<std::uint32_t> vertex_face,
+         const std::vector<bool>& keep, EdgeLength edge);
   Evener(const Evener&) = delete;
   Evener& operator=(const Evener&) = delete;
 
@@ -88,6 +89,10 @@ class Evener {
   };
   /// What a look falls by if the triangle is folded over.
   static constexpr double kFold = 2.0;
+  /// A look that was not taken.
+  static constexpr float kUnseen = 9.0f;
+  /// Collapses and moves of vertices make no worse triangles than that.
+  static constexpr double kPoor = 0.3;
   /// Cosines between the normals of a triangle and of the surface at its vertices: the least asked for.
   static constexpr double kSteepest = 0.05;
 

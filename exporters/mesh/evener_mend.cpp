@@ -221,8 +221,7 @@ double Evener::score_after(const Change& change, bool steep, double bar) const {
 
 double Evener::score_before(const Change& change, bool steep) const {
   Looks looks;
-  each_gone(change,
-            [&](std::uint32_t t) { looks.add(steep ? look(guard_.placed(t), {}, true) : look_of(t)); });
+  each_gone(change, [&](std::uint32_t t) { looks.add(steep ? look(guard_.placed(t), {}, true) : look_of(t)); });
   return looks.score();
 }
 
@@ -349,7 +348,10 @@ bool Evener::improve(std::uint32_t triangle, bool wrong, const Allowed& allowed)
   if (!sliver && candidates.size() > kTries) candidates.erase(candidates.begin() + kTries, candidates.end());
   for (const Candidate& candidate : candidates) {
     const Change& change = candidate.change;
-    if (!wrong && !(is_free(change) && fewer_forbidden(exchange(change), allowed) >= 0)) continue;
+    if (!wrong) {
+      const Exchange all = exchange(change);
+      if (guard_.crossings(all.made, all.gone) > 0 || fewer_forbidden(all, allowed) < 0) continue;
+    }
     make(change);
     return true;
   }

@@ -13,6 +13,7 @@
 #include "core/base/error.h"
 #include "core/queries/distance.h"
 #include "core/surface/surface.h"
+#include "exporters/mesh/base_mesh.h"
 #include "exporters/mesh/coarse_mesh.h"
 #include "exporters/mesh/crossing_guard.h"
 #include "exporters/mesh/even_mesh.h"
@@ -157,6 +158,46 @@ TEST(CoarseMesh, IsThatOfUbiquitinForSomeProbes) {
     SCOPED_TRACE(probe);
     expect_coarse_mesh(compute_surface_cpu(ubiquitin(), probe));
   }
+}
+
+BaseMesh expect_contracted_mesh(const Surface& surface) {
+  BaseMesh base = base_mesh(surface, SurfaceWalk(surface), Beginning::contracted, 0.0);
+  TriangleMesh& mesh = base.mesh;
+  for (const std::uint32_t f : mesh.face) mesh.component.push_back(surface.faces[f].component);
+  EXPECT_TRUE(measure(mesh).closed);
+  for (std::uint32_t k = 0; k < surface.components.size(); ++k)
+    EXPECT_EQ(measure(mesh, k).euler(), surface.components[k].euler) << "component " << k;
+  const SurfaceDistance distance(surface);
+  for (const glm::dvec3& x : mesh.positions) EXPECT_LT(std::abs(distance(x).distance), 1e-7);
+  const LinkedTriangles links(mesh.triangles, static_cast<std::uint32_t>(mesh.positions.size()));
+  std::vector<std::uint32_t> corners(mesh.positions.size(), 0);
+  for (const Triangle& t : mesh.triangles)
+    for (const std::uint32_t v : t) ++corners[v];
+  for (std::uint32_t v = 0; v < corners.size(); ++v) {
+    EXPECT_GE(corners[v], 3u) << "vertex " << v;
+    EXPECT_EQ(links.valence(v), corners[v]) << "vertex " << v;  // triangles go around it once
+  }
+  return base;
+}
+
+TEST_P(EvenMeshOf, BeginsWithContactFacesAsPointsAndTheSameTopology) {
+  const Case& c = GetParam();
+  if (c.probe > 0.0) expect_contracted_mesh(compute_surface_cpu(c.balls, c.probe));
+}
+
+TEST(ContractedMesh, HasAPointForMostContactFacesOfUbiquitin) {
+  const Surface surface = compute_surface_cpu(ubiquitin(), kWater);
+  const BaseMesh base = expect_contracted_mesh(surface);
+  EXPECT_LT(3 * base.mesh.triangles.size(), coarse_mesh(surface, SurfaceWalk(surface)).triangles.size());
+  std::vector<std::uint32_t> points(surface.faces.size(), 0);
+  for (const std::uint32_t f : base.vertex_face) ++points[f];
+  std::size_t contact = 0, single = 0;
+  for (std::size_t f = 0; f < points.size(); ++f) {
+    if (surface.faces[f].kind != PatchKind::convex) continue;
+    ++contact;
+    single += points[f] == 1;
+  }
+  EXPECT_GT(2 * single, contact);
 }
 
 INSTANTIATE_TEST_SUITE_P(Molecules, EvenMeshOf, ::testing::ValuesIn(cases()),

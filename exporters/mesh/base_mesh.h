@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The closed meshes that even ones begin with.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "exporters/mesh/surface_walk.h"
+#include "exporters/mesh/triangle_mesh.h"
+
+namespace meniscus {
+
+struct BaseMesh {
+  TriangleMesh mesh;                       ///< `positions`, `triangles` and `face` are filled in
+  std::vector<std::uint32_t> vertex_face;  ///< per vertex: into Surface::faces, one that it lies on
+};
+
+/// What is remeshed.
+enum class Beginning : std::uint8_t {
+  contracted,  ///< contracted_mesh(): contact faces as points
+  coarse,      ///< coarse_mesh(): the fewest triangles of all faces
+  patches      ///< tessellate(): patch-aligned triangles
+};
+
+/// Components and their Euler characteristics are those of the surface. walk: nothing barred. tolerance: Å, of patches;
+/// a finer one is taken where there is no such mesh. Throws OpenSurfaceError where there is none.
+BaseMesh base_mesh(const Surface& surface, const SurfaceWalk& walk, Beginning beginning, double tolerance);
+
+}  // namespace meniscus

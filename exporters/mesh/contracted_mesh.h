@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A mesh of a surface with each contact face drawn together to a point: about the reduced surface, of seven times fewer
+// triangles than the coarsest mesh of all faces.
+#pragma once
+
+#include "exporters/mesh/base_mesh.h"
+
+namespace meniscus {
+
+/// coarse: of coarse_mesh(). Contact faces that are discs become their middles, saddles between two such ones edges,
+/// unless the mesh would not be closed, or of another topology, without them. Closed, vertices on the exact surface,
+/// components and their Euler characteristics those of the surface. No bound on how far triangles are from it; some may
+/// cross. walk: nothing barred. Throws OpenSurfaceError where the coarse mesh is no manifold.
+BaseMesh contracted_mesh(const Surface& surface, const SurfaceWalk& walk, const TriangleMesh& coarse);
+
+}  // namespace meniscus
