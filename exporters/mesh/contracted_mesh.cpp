@@ -84,7 +84,6 @@ class Contraction {
   void put_triangles() {
     made_ = {};
     disc_.clear();
-    origin_.clear();
     std::vector<std::uint32_t> number(disc_of_.size(), kNone), number_of_disc(surface_.faces.size(), kNone);
     const auto number_of = [&](std::uint32_t v, std::uint32_t face) {
       const std::uint32_t d = disc_of_[v];
@@ -94,7 +93,6 @@ class Contraction {
       made_.mesh.positions.push_back(d == kNone ? coarse_.positions[v] : *middle_[d]);
       made_.vertex_face.push_back(d == kNone ? face : d);
       disc_.push_back(d);
-      origin_.push_back(v);
       return n;
     };
     const auto same = [&](std::uint32_t v, std::uint32_t w) {
@@ -109,11 +107,10 @@ class Contraction {
     }
   }
 
-  /// Where triangles do not go around a vertex once: one of two back to back joins a disc beside it, discs are taken
-  /// back. Where there is none of that all discs of components of another topology are. Was anything done?
+  /// Takes back discs where triangles do not go around a vertex once, or, where there is none of that, all discs of
+  /// components of another topology. Were there any?
   bool repair() {
     sound_ = true;
-    bool joined = false;
     std::vector<std::uint8_t> restored(surface_.faces.size(), 0);
     std::vector<std::uint8_t> broken(surface_.components.size(), 0);
     std::vector<std::uint32_t> first, corner;
@@ -131,15 +128,12 @@ class Contraction {
         restored[disc_[v]] = 1;
       } else if (beside.empty()) {
         broken[component_of(v)] = 1;
-      } else if (around.size() == 2) {
-        disc_of_[origin_[v]] = beside.front();
-        joined = true;
       } else {
         for (const std::uint32_t d : beside) restored[d] = 1;
       }
     }
     if (sound_) find_other_topology(broken);
-    bool any = joined;
+    bool any = false;
     for (std::uint32_t& disc : disc_of_)
       if (disc != kNone && (restored[disc] || broken[surface_.faces[disc].component])) disc = kNone, any = true;
     return any;
@@ -194,8 +188,8 @@ class Contraction {
   const SurfaceWalk& walk_;
   const TriangleMesh& coarse_;
   std::vector<std::optional<glm::dvec3>> middle_;  ///< per face
-  std::vector<std::uint32_t> disc_of_;        ///< per vertex of the coarse mesh: the face that it goes into, or kNone
-  std::vector<std::uint32_t> disc_, origin_;  ///< per vertex that is made: its disc or kNone, one that it was
+  std::vector<std::uint32_t> disc_of_;  ///< per vertex of the coarse mesh: the face that it goes into, or kNone
+  std::vector<std::uint32_t> disc_;     ///< per vertex that is made: its disc or kNone
   BaseMesh made_;
   bool sound_ = false;
 };

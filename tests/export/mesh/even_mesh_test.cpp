@@ -185,6 +185,17 @@ TEST_P(EvenMeshOf, BeginsWithContactFacesAsPointsAndTheSameTopology) {
   if (c.probe > 0.0) expect_contracted_mesh(compute_surface_cpu(c.balls, c.probe));
 }
 
+TEST(ContractedMesh, HasTheTopologyOfTheSurfaceForSomeProbes) {
+  for (const double probe : {0.5, 0.9, 1.4, 2.0, 3.0}) {
+    SCOPED_TRACE(probe);
+    expect_contracted_mesh(compute_surface_cpu(ubiquitin(), probe));
+    for (const std::uint32_t seed : {1u, 2u, 3u, 4u}) {
+      SCOPED_TRACE(seed);
+      expect_contracted_mesh(compute_surface_cpu(gas(seed, 60, 12.0, 1.0, 2.0), probe));
+    }
+  }
+}
+
 TEST(ContractedMesh, HasAPointForMostContactFacesOfUbiquitin) {
   const Surface surface = compute_surface_cpu(ubiquitin(), kWater);
   const BaseMesh base = expect_contracted_mesh(surface);
