@@ -7,7 +7,6 @@
 
 #include "core/base/error.h"
 #include "exporters/mesh/coarse_mesh.h"
-#include "exporters/mesh/contracted_mesh.h"
 #include "exporters/mesh/tessellate.h"
 
 namespace meniscus {

@@ -3,17 +3,11 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
+#include "exporters/mesh/contracted_mesh.h"
 #include "exporters/mesh/surface_walk.h"
-#include "exporters/mesh/triangle_mesh.h"
 
 namespace meniscus {
-
-struct BaseMesh {
-  TriangleMesh mesh;                       ///< `positions`, `triangles` and `face` are filled in
-  std::vector<std::uint32_t> vertex_face;  ///< per vertex: into Surface::faces, one that it lies on
-};
 
 /// What is remeshed.
 enum class Beginning : std::uint8_t {

@@ -3,9 +3,19 @@
 // triangles than the coarsest mesh of all faces.
 #pragma once
 
-#include "exporters/mesh/base_mesh.h"
+#include <cstdint>
+#include <vector>
+
+#include "exporters/mesh/surface_walk.h"
+#include "exporters/mesh/triangle_mesh.h"
 
 namespace meniscus {
+
+/// A closed mesh that an even one begins with.
+struct BaseMesh {
+  TriangleMesh mesh;                       ///< `positions`, `triangles` and `face` are filled in
+  std::vector<std::uint32_t> vertex_face;  ///< per vertex: into Surface::faces, one that it lies on
+};
 
 /// coarse: of coarse_mesh(). Contact faces that are discs become their middles, saddles between two such ones edges,
 /// unless the mesh would not be closed, or of another topology, without them. Closed, vertices on the exact surface,
