@@ -30,7 +30,7 @@ for version in "${versions[@]}"; do
     printf '#!/bin/sh\nexec "%s/bin/python" "%s/bpy_as_blender.py" "$@"\n' "$home" "$tests" >"$home/blender"
     chmod +x "$home/blender"
   fi
-  scripts=(inside_blender inside_sequence inside_computed inside_dressed inside_looks)
+  scripts=(inside_blender inside_sequence inside_driven inside_computed inside_dressed inside_looks)
   [[ ${molecular_nodes[$version]:-} ]] && scripts+=(inside_molecular_nodes)
   for script in "${scripts[@]}"; do
     log=$home/$script.log

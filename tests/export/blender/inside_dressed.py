@@ -15,7 +15,7 @@ import numpy as np
 FOLDER, ADDON, HERE, BLENDER, PROGRAM = sys.argv[sys.argv.index("--") + 1:]
 PACKAGE = os.environ["MENISCUS_PACKAGE"]
 PICTURES = os.environ.get("MENISCUS_KEEP_PICTURES", "")
-SIZE = (640, 480) if PICTURES else (120, 90)
+SIZE = (1200, 900) if PICTURES else (120, 90)
 sys.path.insert(0, HERE)
 import fingerprint  # noqa: E402
 

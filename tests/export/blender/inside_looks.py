@@ -17,6 +17,7 @@ sys.path.insert(0, HERE)
 from meniscus_import import attributes, compat, looks  # noqa: E402
 
 SIZE = 48
+WAX_GRAIN = 0.14  # standard deviation of a channel, of the mean
 
 
 def pixel_of(_item):
@@ -190,6 +191,24 @@ class Looks(unittest.TestCase):
         bpy.ops.object.meniscus_look(look="GLASS", coloring="COLOR")
         once = ((looks.GLASS_IOR - 1.0) / (looks.GLASS_IOR + 1.0)) ** 2
         self.assertAlmostEqual(float(picture(samples=64)[4:-4, 4:-4].mean()), once + ((looks.GLASS_BENDS - 1.0) / (looks.GLASS_BENDS + 1.0)) ** 2, delta=0.006)
+
+    def test_wax_of_one_colour_has_little_grain(self):
+        """With 16 samples, of two seeds."""
+        sun = bpy.data.objects.new("sun", bpy.data.lights.new("sun", "SUN"))
+        sun.rotation_euler = (0.6, 0.3, 0.0)
+        bpy.context.scene.collection.objects.link(sun)
+        item = bumpy_slab(side=1.2, atom=0.1, depth=1.5)
+        colors = np.tile(np.float32([0.02, 0.2, 0.6, 1.0]), (len(item.data.vertices), 1))
+        item.data.attributes["Color"].data.foreach_set("color", colors.ravel())
+        bpy.ops.object.meniscus_look(look="WAX", coloring="COLOR")
+        pictures = []
+        for bpy.context.scene.cycles.seed in (1, 2):
+            pictures.append(picture(samples=16))
+        one, other = pictures
+        grain = float((one - other).std() / (one + other).mean())
+        print(f"grain of wax: {grain:.3f}")
+        self.assertGreater(one[:, :, 2].mean(), 3.0 * one[:, :, 0].mean())
+        self.assertLess(grain, WAX_GRAIN)
 
     def test_a_scene_of_the_driver_lets_light_through(self):
         """It keeps what a look needs: bounces for glass, as many samples as pixels need for wax; others have neither."""

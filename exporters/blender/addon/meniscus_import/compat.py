@@ -107,6 +107,12 @@ def let_through(material):
         material.shadow_method = "HASHED"
 
 
+def scatter_smoothly(shader):
+    """Before 4.0 the random walk below a surface of saturated colours, the default, leaves grain in all other colours."""
+    if bpy.app.version < (4, 0, 0):
+        shader.subsurface_method = "BURLEY"
+
+
 def refract(material):
     """Makes Eevee show what is behind a transmitting surface, if its scene is told to: a setting of another name since 4.2."""
     for name in ("use_screen_refraction", "use_raytrace_refraction"):

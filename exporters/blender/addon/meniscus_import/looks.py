@@ -182,6 +182,7 @@ def _wax(tree, shader, color, scale):
     _set(shader, 1.0, "Subsurface Weight", "Subsurface")
     _set(shader, [WAX_RADIUS * scale * each for each in WAX_COLORS], "Subsurface Radius")
     _set(shader, 1.0, "Subsurface Scale")
+    compat.scatter_smoothly(shader)
 
 
 def _glass(tree, shader, color, output, scale):
