@@ -165,10 +165,11 @@ void say_report(const PreviewCommand& command, const WindowReport& report) {
   say(command.molecule, fmt::format("window on {}, GL {}{}", report.context.renderer, report.context.version,
                                     report.context.software ? " (software)" : ""));
   if (report.latency.pictures > 0)
-    say(command.molecule,
-        fmt::format(
-            "from movement to picture: median {:.1f} ms, 95 % within {:.1f} ms, {} pictures; window redrawn {} times",
-            report.latency.median_ms, report.latency.p95_ms, report.latency.pictures, report.redraws));
+    say(command.molecule, fmt::format("from movement to picture: median {:.1f} ms, 95 % within {:.1f} ms, {} pictures; "
+                                      "window redrawn {} times in "
+                                      "{:.2f} s",
+                                      report.latency.median_ms, report.latency.p95_ms, report.latency.pictures,
+                                      report.latency.redraws, report.latency.seconds));
 }
 
 /// Whether GL draws for a window. It is that of its display; where that is software the CPU draws faster by itself.

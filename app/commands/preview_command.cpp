@@ -14,6 +14,7 @@
 #include "app/options/picture_options.h"
 #include "app/options/scene_file.h"
 #include "core/base/text.h"
+#include "core/scene/surface_kind.h"
 
 namespace meniscus {
 namespace {
@@ -44,6 +45,7 @@ constexpr std::string_view kOwnOptions[] = {"--help",
                                             "--width",
                                             "--height",
                                             "--dpi",
+                                            "--surface",
                                             "--probe",
                                             "--show",
                                             "--color",
@@ -137,6 +139,7 @@ void declare_preview(CLI::App& command, PreviewCommand& state) {
   command.get_option("--model")->description("Model to show; default: all of them, each a frame");
   {
     const Heading heading(command, "Surface");
+    add_kind_option(command, state.molecule.surface);
     add_probe_option(command, state.molecule.surface);
     add_device_option(command, state.molecule.surface);
   }
@@ -161,6 +164,7 @@ void declare_preview(CLI::App& command, PreviewCommand& state) {
 }
 
 void take_preview(const CLI::App& command, PreviewCommand& state) {
+  require_probe_of_kind(state.molecule.surface);
   state.of_scene = command.count("--scene") > 0;
   state.input = render_input(command);
   if (!state.of_scene) return;
@@ -172,6 +176,7 @@ void take_preview(const CLI::App& command, PreviewCommand& state) {
 PreviewFigure figure_of(const PreviewCommand& command, const ColorScheme& color) {
   PreviewFigure figure;
   figure.camera.projection = command.picture.projection;
+  figure.kind = command.molecule.surface.kind;
   figure.probe_radius = command.molecule.surface.probe_radius;
   figure.show = command.molecule.show;
   figure.color = color;

@@ -19,6 +19,7 @@
 #include "core/queries/surface_object.h"
 #include "core/scene/frame_run.h"
 #include "core/scene/molecule.h"
+#include "core/scene/surface_kind.h"
 #include "core/scene/view_aim.h"
 
 namespace meniscus {
@@ -65,7 +66,8 @@ Camera aimed_camera(const PreviewCommand& command, const std::optional<Camera>& 
     layout.height = legend.molecule_size().y;
   }
   // Framing needs atoms and their copies alone.
-  const std::vector<Ball> balls = balls_of(structure);
+  const SurfaceRequest& surface = command.molecule.surface;
+  const std::vector<Ball> balls = grown(balls_of(structure), growth_of(surface.kind, surface.probe_radius));
   std::vector<SurfaceObject> objects;
   const auto add = [&](const std::vector<std::uint32_t>& atoms) -> SurfaceObject& {
     SurfaceObject& object = objects.emplace_back();

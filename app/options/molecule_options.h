@@ -45,6 +45,7 @@ void add_radii_options(CLI::App& command, ReadOptions& reading);
 /// How the surface is made of them (surface_options.cpp): --surface, --probe, --device, --require-gpu,
 /// --verify, --threads.
 void add_surface_options(CLI::App& command, MoleculeOptions& options);
+void add_kind_option(CLI::App& command, SurfaceRequest& surface);
 void add_probe_option(CLI::App& command, SurfaceRequest& surface);
 void add_threads_option(CLI::App& command, SurfaceRequest& surface);
 /// Reads CUDA_VISIBLE_DEVICES, the number of this worker in kWorkerVariable or SLURM_LOCALID, and kKernelVariable: see

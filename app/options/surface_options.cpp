@@ -111,9 +111,7 @@ void add_threads_option(CLI::App& command, SurfaceRequest& surface) {
       ->type_name("N");
 }
 
-void add_surface_options(CLI::App& command, MoleculeOptions& options) {
-  const Heading heading(command, "Surface");
-  SurfaceRequest& surface = options.surface;
+void add_kind_option(CLI::App& command, SurfaceRequest& surface) {
   const std::map<std::string, SurfaceKind> kinds{
       {"ses", SurfaceKind::ses}, {"sas", SurfaceKind::sas}, {"vdw", SurfaceKind::vdw}};
   command
@@ -121,6 +119,12 @@ void add_surface_options(CLI::App& command, MoleculeOptions& options) {
                   "ses: solvent-excluded (default); sas: solvent-accessible; vdw: van der Waals, without a probe")
       ->transform(one_of(kinds))
       ->type_name("KIND");
+}
+
+void add_surface_options(CLI::App& command, MoleculeOptions& options) {
+  const Heading heading(command, "Surface");
+  SurfaceRequest& surface = options.surface;
+  add_kind_option(command, surface);
   add_probe_option(command, surface);
   add_device_option(command, surface);
   surface.check = check_by_mesh;

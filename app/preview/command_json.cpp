@@ -32,7 +32,7 @@ Change change_of(const nlohmann::json& command) {
   const std::string word = command_word(command);
   if (is_question(command) || word == "export" || word == "cancel_export" || word == "save" || word == "end_step")
     return Change::none;
-  constexpr std::string_view kSurfaces[] = {"probe", "frame", "next_frame", "undo", "redo", "open", "quit"};
+  constexpr std::string_view kSurfaces[] = {"surface", "probe", "frame", "next_frame", "undo", "redo", "open", "quit"};
   return std::ranges::find(kSurfaces, word) != std::end(kSurfaces) ? Change::surface : Change::view;
 }
 

@@ -21,8 +21,9 @@ std::vector<double> exposed_areas(const std::vector<Ball>& balls, double probe_r
 std::future<std::vector<double>> begin_areas(const AtomsInView& atoms) {
   if (atoms.surface)
     return std::async(std::launch::async, [surface = atoms.surface] { return atom_areas(*surface).surface; });
-  return std::async(std::launch::async,
-                    [balls = atoms.balls, radius = atoms.probe_radius] { return exposed_areas(balls, radius); });
+  return std::async(std::launch::async, [balls = atoms.balls, radius = rolling_probe(atoms.kind, atoms.probe_radius)] {
+    return exposed_areas(balls, radius);
+  });
 }
 
 bool is_ready(const std::future<std::vector<double>>& pending) {
@@ -32,7 +33,7 @@ bool is_ready(const std::future<std::vector<double>>& pending) {
 }  // namespace
 
 std::optional<double> ExposedAreas::of(const AtomsInView& atoms, std::size_t atom, bool wait) {
-  const Key key{atoms.frame, atoms.group, atoms.probe_radius};
+  const Key key{atoms.frame, atoms.group, atoms.kind, atoms.probe_radius};
   if (pending_.valid() && pending_key_ != key && (wait || is_ready(pending_))) forget_or_keep();
   if (pending_.valid() && pending_key_ == key && (wait || is_ready(pending_))) finish();
   if (!known_.contains(key) && !pending_.valid()) {
@@ -45,7 +46,7 @@ std::optional<double> ExposedAreas::of(const AtomsInView& atoms, std::size_t ato
 }
 
 std::optional<double> ExposedAreas::if_cheap(const AtomsInView& atoms, std::size_t atom) {
-  const Key key{atoms.frame, atoms.group, atoms.probe_radius};
+  const Key key{atoms.frame, atoms.group, atoms.kind, atoms.probe_radius};
   const bool begun = pending_.valid() && pending_key_ == key;
   if (!atoms.surface && !begun && !known_.contains(key)) return {};
   return of(atoms, atom, false);

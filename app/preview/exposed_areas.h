@@ -10,6 +10,7 @@
 #include <tuple>
 #include <vector>
 
+#include "core/scene/surface_kind.h"
 #include "core/surface/primitives.h"
 
 namespace meniscus {
@@ -17,14 +18,15 @@ namespace meniscus {
 /// Whose areas are asked for.
 struct AtomsInView {
   std::size_t frame = 0;
-  std::size_t group = 0;      ///< of several that have surfaces of their own
-  double probe_radius = 0.0;  ///< Å
-  const std::vector<Ball>& balls;
+  std::size_t group = 0;  ///< of several that have surfaces of their own
+  SurfaceKind kind = SurfaceKind::ses;
+  double probe_radius = 0.0;               ///< Å
+  const std::vector<Ball>& balls;          ///< grown by growth_of() the kind
   std::shared_ptr<const Surface> surface;  ///< theirs, complete, if somebody has it already
 };
 
-/// Exact areas per frame and probe radius, from the complete surface on the CPU in a thread of its own. One is computed
-/// at a time; the latest few are kept.
+/// Exact areas per frame, kind of surface and probe radius, from the complete surface on the CPU in a thread of its
+/// own. One is computed at a time; the latest few are kept.
 class ExposedAreas {
  public:
   /// Area of the points that take the atom's colour, Å² (AtomAreas::surface). If it is not known yet it is computed:
@@ -37,7 +39,7 @@ class ExposedAreas {
   bool computing() const { return pending_.valid(); }
 
  private:
-  using Key = std::tuple<std::size_t, std::size_t, double>;
+  using Key = std::tuple<std::size_t, std::size_t, SurfaceKind, double>;
   using Areas = std::vector<double>;
 
   void begin(const Key& key, const AtomsInView& atoms);

@@ -51,9 +51,10 @@ Json flipped_look(const char* key, double usual, const Json& state) {
   return {{"command", "look"}, {key, state["look"].value(key, 0.0) > 0.0 ? 0.0 : usual}};
 }
 
-Json probe_by(double step, const Json& state) {
+std::optional<Json> probe_by(double step, const Json& state) {
+  if (state.value("surface", "") == "vdw") return {};
   const double tenths = std::round(state["probe_radius"].get<double>() / kProbeStep + step / kProbeStep);
-  return {{"command", "probe"}, {"radius", std::max(0.0, tenths / 10.0)}};
+  return Json{{"command", "probe"}, {"radius", std::max(0.0, tenths / 10.0)}};
 }
 
 std::optional<Json> frame_by(int step, const Json& state) {

@@ -14,6 +14,7 @@
 #include "core/render/legend.h"
 #include "core/render/look_presets.h"
 #include "core/scene/figure.h"
+#include "core/scene/surface_kind.h"
 #include "core/structure/selection/selection.h"
 
 namespace meniscus {
@@ -21,8 +22,9 @@ namespace meniscus {
 /// A figure, whatever its size. Commands change it, undo and redo replace it.
 struct PreviewFigure {
   Camera camera;
-  bool overview = true;           ///< all is shown, as long as nobody moved the camera
-  double probe_radius = 1.4;      ///< Å
+  bool overview = true;  ///< all is shown, as long as nobody moved the camera
+  SurfaceKind kind = SurfaceKind::ses;
+  double probe_radius = 1.4;      ///< Å; one that nobody sees while the surface has no probe
   std::optional<Selection> show;  ///< atoms whose part of the surface is drawn; nothing: all
   ColorScheme color;
   bool patch_kinds = false;  ///< coloured by kind of patch, whatever the scheme (figure 2 of Krone et al. 2010)
@@ -34,6 +36,8 @@ struct PreviewFigure {
 
   /// What the colours are by, kinds of patch too.
   ColorScheme told_scheme() const;
+  /// How far from the atoms' balls something may be and still change their surface, Å.
+  double probe_reach() const { return growth_of(kind, probe_radius) + rolling_probe(kind, probe_radius); }
 };
 
 /// Of exported pictures, what a command does not say. Nothing: as it is shown.

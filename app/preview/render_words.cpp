@@ -125,7 +125,8 @@ std::vector<std::string> render_words(const RenderInput& input, const RenderedVi
   words.option("--size", fmt::format("{}x{}", view.size.x, view.size.y));
   words.option("--samples", fmt::format("{}", view.samples));
   words.option("--background", view.transparent ? "transparent" : hex_color(figure.background));
-  words.option("--probe", fmt::format("{}", figure.probe_radius));
+  if (figure.kind != SurfaceKind::ses) words.option("--surface", kind_word(figure.kind));
+  if (figure.kind != SurfaceKind::vdw) words.option("--probe", fmt::format("{}", figure.probe_radius));
   if (figure.show) words.option("--show", figure.show->text());
   add_colors(input, view, words);
   add_figure(figure.figure, words);

@@ -33,7 +33,7 @@ PreviewSession::PreviewSession(std::unique_ptr<ViewRenderer> renderer, Structure
       context_(std::move(context)),
       coloring_(color_atoms(structure_, view_.color)),
       renderer_(std::move(renderer)) {
-  if (view_.copies_apart) require_apart(structure_, view_.probe_radius);
+  if (view_.copies_apart) require_apart(structure_, view_.probe_reach());
   require_previewed(view_.color);
   if (trajectory_) sample_trajectory();
   show_frame(0);
@@ -51,7 +51,9 @@ void PreviewSession::look_from(const Camera& camera) {
 }
 
 void PreviewSession::look_at_all() {
-  look_from(overview(trajectory_ ? sampled_ : balls_in_view(), aspect(), view_.camera.projection));
+  const std::vector<Ball> all =
+      trajectory_ ? grown(sampled_, growth_of(view_.kind, view_.probe_radius)) : balls_in_view();
+  look_from(overview(all, aspect(), view_.camera.projection));
   view_.overview = true;
 }
 
@@ -80,15 +82,24 @@ void PreviewSession::show_frame(std::size_t frame) {
   beside_ = std::move(made.beside);
   if (view_.follows_keys && !view_.keys.empty())
     look_from(CameraPath(camera_keys()).at(static_cast<double>(number_of(frame))));
-  balls_.clear();
-  for (const std::uint32_t a : shown_atoms())
-    balls_.push_back({structure_.atoms[a].position, structure_.atoms[a].radius});
-  reach_.clear();
-  if (!structure_.instances.empty()) reach_ = reaching_balls(balls_, structure_.instances);
-  renderer_->set_atoms(balls_);
+  place_balls();
   renderer_->set_coloring(frame_coloring());
   renderer_->set_figure(view_.figure, beside_);
   update_legend();
+}
+
+void PreviewSession::place_balls() {
+  balls_.clear();
+  for (const std::uint32_t a : shown_atoms())
+    balls_.push_back({structure_.atoms[a].position, structure_.atoms[a].radius});
+  balls_ = grown(balls_, growth_of(view_.kind, view_.probe_radius));
+  reach_.clear();
+  if (!structure_.instances.empty()) reach_ = reaching_balls(balls_, structure_.instances);
+  renderer_->set_atoms(balls_);
+}
+
+void PreviewSession::require_apart_in(const PreviewFigure& figure) const {
+  if (view_.copies_apart && figure.probe_reach() > view_.probe_reach()) require_apart(structure_, figure.probe_reach());
 }
 
 PreviewSession::Derived PreviewSession::derived(const PreviewFigure& figure, Changed changed, std::size_t frame) const {
@@ -149,7 +160,10 @@ void PreviewSession::become(PreviewFigure next, Changed changed) {
   validate_camera(next.camera, "the view");
   Derived made = derived(next, changed, view_.frame);
   if (changed >= Changed::colors) count_shown(next, made.marked.get());
+  const double growth = growth_of(next.kind, next.probe_radius);
+  const bool same_balls = growth == growth_of(view_.kind, view_.probe_radius);
   static_cast<PreviewFigure&>(view_) = std::move(next);
+  if (!same_balls) place_balls();
   if (made.coloring) coloring_ = std::move(*made.coloring);
   marked_ = std::move(made.marked);
   beside_ = std::move(made.beside);
@@ -233,7 +247,8 @@ bool PreviewSession::render(Quality quality, const std::function<bool()>& stop) 
   if (is_drawn(quality)) return true;
   drawn_ = {};
   const auto begin = std::chrono::steady_clock::now();
-  if (!renderer_->draw(view_.probe_radius, view_.camera, settings(quality), stop)) return false;
+  const double probe_radius = rolling_probe(view_.kind, view_.probe_radius);
+  if (!renderer_->draw(probe_radius, view_.camera, settings(quality), stop)) return false;
   if (quality != Quality::draft || stages_.empty()) stages_ = renderer_->times();
   frame_ms_ = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
   drawn_legend_ = legend_;

@@ -125,6 +125,7 @@ class PreviewSession {
   nlohmann::json reset_view(const CommandReader& command);
   nlohmann::json set_camera(const CommandReader& command);
   nlohmann::json set_projection(const CommandReader& command);
+  nlohmann::json set_surface(const CommandReader& command);
   nlohmann::json set_probe(const CommandReader& command);
   nlohmann::json set_color(const CommandReader& command);
   nlohmann::json set_patch_kinds(const CommandReader& command);
@@ -199,11 +200,15 @@ class PreviewSession {
   std::optional<double> exposed_area(std::uint32_t atom, bool wait, bool area_wanted);
   void sample_trajectory();
   void show_frame(std::size_t frame);
+  /// The balls of the frame that is shown, for the kind of surface that is.
+  void place_balls();
+  /// Throws InputError if a probe would touch two copies that are to be apart.
+  void require_apart_in(const PreviewFigure& figure) const;
   /// Of the frame that is shown, into structure_.atoms.
   const std::vector<std::uint32_t>& shown_atoms() const { return frames_[trajectory_ ? 0 : view_.frame].atoms; }
   /// The same and behind them those that are drawn beside the surface.
   std::vector<Atom> atoms_in_view() const;
-  /// Van der Waals balls of the surface's atoms, and around what is drawn beside them.
+  /// Those of the surface's atoms, and around what is drawn beside them.
   std::vector<Ball> balls_in_view() const;
   /// The atoms of the frame alone.
   Structure frame_structure() const;
@@ -235,7 +240,7 @@ class PreviewSession {
   ColorScheme first_color_;  ///< with what files said
   EditHistory history_;
   std::map<std::string, Camera> named_views_;
-  std::vector<Ball> balls_;                          ///< of the frame shown
+  std::vector<Ball> balls_;                          ///< of the frame shown, grown by growth_of() its kind of surface
   std::vector<Ball> reach_;                          ///< what cameras see of the copies; without any: empty
   Coloring coloring_;                                ///< of all atoms of the structure
   std::shared_ptr<const Structure> marked_;          ///< see Derived

@@ -69,6 +69,7 @@ const std::vector<PreviewSession::Command>& PreviewSession::commands() {
       {"save_view", {"name"}, &S::save_view, Effect::none},
       {"recall_view", {"name"}, &S::recall_view, Effect::edit},
       {"forget_view", {"name"}, &S::forget_view, Effect::none},
+      {"surface", {"kind"}, &S::set_surface, Effect::edit},
       {"probe", {"radius"}, &S::set_probe, Effect::slide},
       {"show", {"selection"}, &S::show, Effect::edit},
       {"hide", {"selection"}, &S::hide, Effect::edit},

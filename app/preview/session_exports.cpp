@@ -142,8 +142,7 @@ Json PreviewSession::open_scene(const CommandReader& command) {
   ColorScheme& color = opened.figure.color;
   if (color.by == ColorScheme::By::rmsf && color.by == first_color_.by) color.file = first_color_.file;
   require_previewed(color);
-  const double radius = opened.figure.probe_radius;
-  if (view_.copies_apart && radius > view_.probe_radius) require_apart(structure_, radius);
+  require_apart_in(opened.figure);
   const std::size_t frame = frames_.size() > 1 ? static_cast<std::size_t>(opened.frame) : view_.frame;
   if (frame >= frame_count()) throw RequestError(fmt::format("open: {} is of a model that is not there", name));
   const std::size_t before = view_.frame;

@@ -42,8 +42,21 @@ Json PreviewSession::set_probe(const CommandReader& command) {
   const double radius = command.number("radius", 0.0, 1e6);
   const std::string fault = probe_fault(radius);
   if (!fault.empty()) throw RequestError("probe: " + fault);
-  if (view_.copies_apart && radius > view_.probe_radius) require_apart(structure_, radius);
-  view_.probe_radius = radius;
+  if (view_.kind == SurfaceKind::vdw)
+    throw RequestError("probe: the van der Waals surface has no probe; choose another kind of surface first");
+  PreviewFigure next = view_;
+  next.probe_radius = radius;
+  require_apart_in(next);
+  become(std::move(next), Changed::view);
+  return Json::object();
+}
+
+Json PreviewSession::set_surface(const CommandReader& command) {
+  PreviewFigure next = view_;
+  next.kind = static_cast<SurfaceKind>(command.choice("kind", {"ses", "sas", "vdw"}));
+  require_apart_in(next);
+  become(std::move(next), Changed::view);
+  if (view_.overview) look_at_all();
   return Json::object();
 }
 

@@ -100,7 +100,7 @@ std::optional<double> PreviewSession::exposed_area(std::uint32_t atom, bool wait
     return area_wanted ? areas_.of(atoms, place, wait) : areas_.if_cheap(atoms, place);
   };
   if (structure_.instances.empty())
-    return area({view_.frame, 0, view_.probe_radius, balls_, renderer_->surface()}, atom);
+    return area({view_.frame, 0, view_.kind, view_.probe_radius, balls_, renderer_->surface()}, atom);
   // Copies of a group are as if it were alone.
   std::size_t group = 0;
   while (!std::ranges::binary_search(structure_.instances[group].atoms, atom)) ++group;
@@ -109,7 +109,7 @@ std::optional<double> PreviewSession::exposed_area(std::uint32_t atom, bool wait
   balls.reserve(atoms.size());
   for (const std::uint32_t a : atoms) balls.push_back(balls_[a]);
   const auto place = static_cast<std::size_t>(std::ranges::lower_bound(atoms, atom) - atoms.begin());
-  return area({view_.frame, group, view_.probe_radius, balls, nullptr}, place);
+  return area({view_.frame, group, view_.kind, view_.probe_radius, balls, nullptr}, place);
 }
 
 Json PreviewSession::stats(const CommandReader&) {
@@ -204,6 +204,7 @@ Json PreviewSession::state(const CommandReader&) {
              {"playing", view_.playing},
              {"fps", view_.frames_per_second},
              {"camera", Json(camera_object(view_.camera))},
+             {"surface", kind_word(view_.kind)},
              {"probe_radius", view_.probe_radius},
              {"color", color_json(view_.color)},
              {"patch_kinds", view_.patch_kinds},

@@ -31,7 +31,7 @@ namespace {
 std::pair<std::vector<SurfaceObject>, std::string> complete_surfaces(const ExportedView& view,
                                                                      const ExportWatch& watch) {
   SurfaceRequest request;
-  request.probe_radius = view.figure.probe_radius;
+  request.probe_radius = rolling_probe(view.figure.kind, view.figure.probe_radius);  // the balls are grown already
   request.cpu = true;
   SurfaceComputer computer(request);
   computer.before_stages([&watch] { watch("surface", 0.0); });

@@ -29,7 +29,7 @@ namespace meniscus {
 struct ExportedView {
   Structure structure;
   std::vector<std::uint32_t> atoms;  ///< those shown, into structure.atoms
-  std::vector<Ball> balls;           ///< theirs
+  std::vector<Ball> balls;           ///< theirs, grown by growth_of() the kind of surface
   Coloring coloring;                 ///< theirs
   ColorScheme color;                 ///< what the colours mean
   PreviewFigure figure;

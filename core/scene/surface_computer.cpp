@@ -9,6 +9,7 @@
 #include "core/base/error.h"
 #include "core/gpu/egl_context.h"
 #include "core/queries/compare.h"
+#include "core/scene/surface_kind.h"
 #include "core/surface/gpu/gpu_engine.h"
 #include "core/surface/surface.h"
 
@@ -38,8 +39,7 @@ SurfaceComputer::SurfaceComputer(const SurfaceRequest& request, const EglContext
       thread_limit_(request.threads),
       on_cpu_(request.cpu),
       clock_(request.timing) {
-  if (request.kind == SurfaceKind::vdw && request.probe_named)
-    throw RequestError("--probe: the van der Waals surface has no probe; leave --probe or --surface vdw away");
+  require_probe_of_kind(request);
   if (!request.cpu && request.gl.kind == DeviceChoice::Kind::automatic) on_cpu_ = !find_hardware();
 }
 
@@ -64,13 +64,12 @@ std::unique_ptr<ReducedSurfaceEngine> SurfaceComputer::make_engine(bool on_cpu, 
 }
 
 Surface SurfaceComputer::compute(std::span<const Ball> balls) {
-  std::vector<Ball> grown;
-  if (request_.kind == SurfaceKind::sas) {
-    grown.assign(balls.begin(), balls.end());
-    for (Ball& ball : grown) ball.radius += request_.probe_radius;
-    balls = grown;
+  std::vector<Ball> larger;
+  if (const double growth = growth_of(request_.kind, request_.probe_radius); growth > 0.0) {
+    larger = grown(balls, growth);
+    balls = larger;
   }
-  const double probe_radius = request_.kind == SurfaceKind::ses ? request_.probe_radius : 0.0;
+  const double probe_radius = rolling_probe(request_.kind, request_.probe_radius);
   if (!engine_) engine_ = make_engine(on_cpu_, request_.gl);
   Surface surface = compute_surface(*engine_, balls, probe_radius, clock_,
                                     request_.drawn || request_.verify ? ClipPlanes::listed : ClipPlanes::left_out);

@@ -100,6 +100,19 @@ class Figures(unittest.TestCase):
                                         commands=[*commands, {"command": "state"}])
             self.assertEqual(replies[-3]["drawn_by"], "cpu" if commands else "gl")
 
+    def test_kinds_of_surface(self):
+        for device in ("cpu", "software"):
+            for kind in ("sas", "vdw"):
+                begun = self.same_picture(MOLECULE, "--select", "chain D", "--surface", kind, "--color", "chain",
+                                          device=device, commands=[{"command": "state"}])
+                self.assertEqual((begun[0]["surface"], begun[0]["drawn_by"]), (kind, "cpu" if device == "cpu" else "gl"))
+        # A figure on its way through all of them, and back to one.
+        self.same_picture(MOLECULE, "--select", "chain D", "--surface", "vdw", commands=[
+            {"command": "surface", "kind": "sas"}, {"command": "probe", "radius": 2.5},
+            {"command": "represent", "as": "tube", "selection": "chain D"}, {"command": "opacity", "opacity": 0.4},
+            {"command": "surface", "kind": "ses"}, {"command": "surface", "kind": "vdw"}, {"command": "cut", "plane": "depth>0.4"},
+            {"command": "undo"}, {"command": "undo"}, {"command": "undo"}])
+
     def test_kinds_of_patch(self):
         self.same_picture(MOLECULE, "--color", "chain", "--color", "chain A=red",
                           commands=[{"command": "patch_kinds", "on": True},
@@ -203,7 +216,10 @@ class Figures(unittest.TestCase):
         # What is said aloud although it is so anyway is no hindrance.
         plain = {"meniscus_scene": 1, "molecule": {"file": MOLECULE}, "image": {"size": "200x160"}, "objects": [
             {"representation": "surface", "kind": "ses", "cavities": "keep"}]}
-        for number, scene in enumerate((self.SCENE, hidden, plain)):
+        accessible = {"meniscus_scene": 1, "molecule": {"file": MOLECULE}, "image": {"size": "200x160"}, "objects": [
+            {"representation": "surface", "kind": "sas", "probe": 1.8, "color": "chain"}]}
+        touched = {**accessible, "objects": [{"representation": "surface", "kind": "vdw", "clip": "depth>0.4"}]}
+        for number, scene in enumerate((self.SCENE, hidden, plain, accessible, touched)):
             file = self.scene(f"fig{number}.json", scene)
             self.run_program("render", "--scene", file, "-o", f"rendered{number}.png")
             with open(self.path("session.jsonl"), "w") as lines:
@@ -247,10 +263,10 @@ class Figures(unittest.TestCase):
         self.scene("other.json", {"meniscus_scene": 1, "molecule": {"file": MOLECULE, "select": "chain A"}})
         self.scene("bad.json", {"meniscus_scene": 1, "molecule": {"file": MOLECULE}, "objects": [
             {"representation": "surface", "color": "buried"}]})
-        self.scene("sas.json", {"meniscus_scene": 1, "molecule": {"file": MOLECULE}, "objects": [
-            {"representation": "surface", "kind": "sas"}]})
+        self.scene("drop.json", {"meniscus_scene": 1, "molecule": {"file": MOLECULE}, "objects": [
+            {"representation": "surface", "cavities": "drop"}]})
         self.scene("syntax.json", {"meniscus_scene": 1, "molecule": {"file": MOLECULE}, "camera": {"turn": "y"}})
-        for name, text in (("other.json", "other atoms"), ("bad.json", "needs more than atoms"), ("sas.json", "--surface"),
+        for name, text in (("other.json", "other atoms"), ("bad.json", "needs more than atoms"), ("drop.json", "--cavities"),
                            ("syntax.json", "camera.turn"), ("missing.json", "missing.json"), ("../a.json", "plain file name")):
             with open(self.path("session.jsonl"), "w") as lines:
                 lines.write(json.dumps({"command": "open", "path": name}) + "\n")
@@ -258,7 +274,7 @@ class Figures(unittest.TestCase):
                                    "--commands", self.path("session.jsonl")], capture_output=True, text=True)
             self.assertEqual(done.returncode, 3, done.stderr)
             self.assertIn(text, done.stderr, name)
-            if name.startswith(("bad", "sas")):
+            if name.startswith(("bad", "drop")):
                 done = subprocess.run([PROGRAM, "preview", "--scene", self.path(name), "--serve"], capture_output=True,
                                       text=True)
                 self.assertEqual(done.returncode, 2, done.stderr)
@@ -266,7 +282,7 @@ class Figures(unittest.TestCase):
 
     def test_bad_options_are_said_in_one_line(self):
         for words, text in ((["--sticks", "resn XYZ"], "--sticks"), (["--clip", "x=3"], "--clip"),
-                            (["--opacity", "3"], "--opacity"), (["--show", "chain Q"], "chain")):
+                            (["--opacity", "3"], "--opacity"), (["--surface", "vdw", "--probe", "1"], "--probe"), (["--show", "chain Q"], "chain")):
             done = subprocess.run([PROGRAM, "preview", MOLECULE, "--serve", *words], capture_output=True, text=True)
             self.assertGreater(done.returncode, 1)
             self.assertIn(text, done.stderr)

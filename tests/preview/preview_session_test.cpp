@@ -164,6 +164,31 @@ TEST_P(PreviewSessionTest, APickNamesTheAtomAndItsExactArea) {
   EXPECT_FALSE(apply(R"({"command":"pick","x":0,"y":0})")["hit"]);
 }
 
+TEST_P(PreviewSessionTest, AreasAreThoseOfTheKindOfSurface) {
+  std::vector<Ball> balls = balls_of(session_->structure());
+  balls.resize(4);
+  const auto area = [&](double probe) { return atom_areas(compute_surface_cpu(balls, probe)).surface[3]; };
+  const auto told = [&] {
+    expect_ok(R"({"command":"zoom_to","selection":"name O"})");
+    const Json reply = apply(R"({"command":"pick","x":40,"y":30})");
+    EXPECT_EQ(reply["name"], "O");
+    return reply["exposed_area"].get<double>();
+  };
+  const double excluded = area(1.4), touched = area(0.0);
+  for (Ball& ball : balls) ball.radius += 1.4;
+  const double accessible = area(0.0);
+  EXPECT_EQ(told(), excluded);
+  expect_ok(R"({"command":"surface","kind":"sas"})");
+  EXPECT_EQ(told(), accessible);
+  expect_ok(R"({"command":"surface","kind":"vdw"})");
+  EXPECT_EQ(told(), touched);
+  EXPECT_NE(apply(R"({"command":"probe","radius":1})").value("error", "").find("has no probe"), std::string::npos);
+  expect_ok(R"({"command":"surface","kind":"sas"})");
+  EXPECT_EQ(told(), accessible);
+  expect_ok(R"({"command":"surface","kind":"ses"})");
+  EXPECT_EQ(told(), excluded);
+}
+
 TEST_P(PreviewSessionTest, APickDoesNotPassForTheFullPicture) {
   session_->render(Quality::full);
   const auto picture = session_->rgba();

@@ -239,6 +239,22 @@ TEST(Latency, CountsPicturesFromTheirOldestMovement) {
   EXPECT_NEAR(meter.result().p95_ms, 500.0, 1e-6);
 }
 
+TEST(Latency, CountsRedrawsWhileAMovementWaits) {
+  LatencyMeter meter;
+  meter.shown(0, 0.5);
+  meter.sent(1, {{"command", "orbit"}}, 1.0);
+  meter.shown(0, 1.25);
+  meter.sent(2, {{"command", "orbit"}}, 1.3);
+  meter.shown(1, 1.5);
+  meter.shown(2, 2.0);
+  meter.shown(2, 7.0);
+  meter.sent(3, {{"command", "orbit"}}, 8.0);
+  meter.shown(2, 8.25);
+  EXPECT_EQ(meter.result().pictures, 2u);
+  EXPECT_EQ(meter.result().redraws, 4u);
+  EXPECT_DOUBLE_EQ(meter.result().seconds, 1.25);
+}
+
 // A mouse that rests must not have a surface computed, and neither it nor a click may stop the pictures.
 TEST(AtomQuestion, WaitsForNothing) {
   const Json state{{"width", 300}, {"height", 200}};

@@ -185,30 +185,44 @@ TEST_F(WindowTest, IsRedrawnForNewsAndNotForEveryMovement) {
   program_.emplace(kProgram, std::vector<std::string>{"preview", "/usr/share/pymol/data/demo/1tii.pdb", "--size",
                                                       "800x600", "--device", "software", "--record", record()});
   ASSERT_TRUE(happens([&] { return is_drawn(); })) << program_->err();
+  // Above the cursor's way.
+  const auto seen = [&] {
+    std::vector<glm::u8vec3> pixels = screen_.picture().pixels;
+    pixels.resize(300 * kScreen.x);
+    return pixels;
+  };
   screen_.act({"mousemove", "400", "400", "mousedown", "1"});
-  std::vector<std::string> moves;
-  for (int n = 0; n < 200; ++n) {
-    const std::string x = std::to_string(400 + n), pause = "0.01";
-    moves.insert(moves.end(), {"mousemove", x, "400", "sleep", pause});
+  // To and fro until some pictures have come of it, however slow the machine is.
+  int count = 0, x = 400, changes = 0;
+  for (std::vector<glm::u8vec3> last = seen(), now; count < 200 || (changes < 4 && count < 5000); last = now) {
+    std::vector<std::string> moves;
+    for (int n = 0; n < 20; ++n, ++count) {
+      x += count / 200 % 2 == 0 ? 1 : -1;
+      moves.insert(moves.end(), {"mousemove", std::to_string(x), "400", "sleep", "0.01"});
+    }
+    screen_.act(moves);
+    now = seen();
+    changes += now != last;
   }
-  screen_.act(moves);
   screen_.act({"mouseup", "1", "type", "q"});
   const ProgramResult result = program_->finish();
   const std::string line = result.err.substr(std::min(result.err.find("from movement"), result.err.size()));
   std::smatch found;
-  ASSERT_TRUE(std::regex_search(line, found, std::regex(R"((\d+) pictures; window redrawn (\d+) times)")))
+  ASSERT_TRUE(std::regex_search(line, found, std::regex(R"((\d+) pictures; window redrawn (\d+) times in ([\d.]+) s)")))
       << result.err;
   const int pictures = std::stoi(found[1]), redraws = std::stoi(found[2]);
+  const double seconds = std::stod(found[3]);
   EXPECT_GE(pictures, 3) << line;
-  EXPECT_LE(redraws, pictures + 60) << line;
-  EXPECT_LT(recorded("orbit").size(), 150u) << "movements that wait become one";
-  EXPECT_NEAR(sum("orbit", "dx"), 199.0 / 600.0, 0.02);
+  // One for each picture, four a second that say how long the next one takes, and a few where the mouse lets go.
+  EXPECT_LE(redraws, pictures + 4.0 * seconds + 6.0) << line;
+  EXPECT_LT(recorded("orbit").size(), 0.75 * count) << "movements that wait become one";
+  EXPECT_NEAR(sum("orbit", "dx"), (x - 400) / 600.0, 1e-9);
 }
 
 TEST_F(WindowTest, KeysAndPanelSendCommands) {
   open();
   screen_.act({"type", "ok]"});
-  screen_.act({"mousemove", "1200", "66", "mousedown", "1", "mousemove", "1240", "66", "mouseup", "1"});
+  screen_.act({"mousemove", "1200", "86", "mousedown", "1", "mousemove", "1240", "86", "mouseup", "1"});
   ASSERT_TRUE(happens([&] { return recorded("probe").size() >= 2; }));
   screen_.act({"mousemove", "400", "400", "click", "--repeat", "2", "--delay", "40", "1"});
   ASSERT_TRUE(happens([&] { return recorded("center").size() == 1; }));
@@ -234,15 +248,15 @@ TEST_F(WindowTest, HasMapsPaintAndThePaceOfFrames) {
   const auto click = [&](int x, int y) {
     screen_.act({"mousemove", std::to_string(x), std::to_string(y), "click", "1", "sleep", "0.7"});
   };
-  const int map_list = 146, its_own = 173, magma = 233;
+  const int map_list = 172, its_own = 199, magma = 259;
   click(1170, map_list), click(1120, magma);
   click(1170, map_list), click(1120, its_own);
   ASSERT_TRUE(happens([&] { return recorded("color").size() == 2; }));
   EXPECT_EQ(recorded("color")[0].value("map", ""), "magma");
   EXPECT_EQ(recorded("color")[1].value("map", "none"), "none");
-  click(1120, 231);  // the field for atoms
+  click(1120, 257);  // the field for atoms
   screen_.act({"type", "resid 1-3"});
-  click(1018, 309);
+  click(1018, 335);
   ASSERT_TRUE(happens([&] { return recorded("paint").size() == 1; }));
   EXPECT_EQ(recorded("paint")[0]["color"], "#e69f00");
   screen_.act({"mousemove", "1100", "600", "click", "--repeat", "40", "--delay", "10", "5", "sleep", "0.7"});
@@ -329,17 +343,16 @@ TEST_F(WindowTest, IsNeverTooSmallForItsPanel) {
   EXPECT_TRUE(happens([&] { return std::filesystem::exists(folder_.path() / "view.png"); }));
 }
 
-// What is typed behind a click into a field, or behind the key that opens the name, is no command, however late the
-// window draws the field.
+// What is typed behind a click into a field, or behind the key that opens the name, is no command, and behind a click
+// out of it is one, however late the window draws the field.
 TEST_F(WindowTest, LettersForAFieldAreNoCommands) {
   open();
-  act_at_once({"mousemove", "1120", "205", "click", "1", "type", "--delay", "0", "qk"});  // the field for atoms
+  act_at_once({"mousemove", "1120", "231", "click", "1", "type", "--delay", "0", "qk"});  // the field for atoms
   std::this_thread::sleep_for(std::chrono::milliseconds(1500));
   EXPECT_TRUE(recorded("patch_kinds").empty()) << "k was a letter of the selection";
-  screen_.act({"mousemove", "400", "400", "click", "1", "sleep", "0.7"});
-  act_at_once({"type", "--delay", "0", "eq"});
+  act_at_once({"mousemove", "400", "400", "click", "1", "type", "--delay", "0", "eq"});
   std::this_thread::sleep_for(std::chrono::milliseconds(1500));
-  screen_.act({"mousemove", "400", "400", "click", "1", "type", "k"});
+  act_at_once({"mousemove", "400", "400", "click", "1", "type", "k"});
   EXPECT_TRUE(happens([&] { return recorded("patch_kinds").size() == 1; }, 20)) << "q was a letter of the name";
   screen_.act({"type", "q"});
   EXPECT_EQ(program_->finish().exit_code, 0);

@@ -67,13 +67,13 @@ void FigurePanel::atoms() {
   if (ImGui::Button("hide") && !empty) link_.send({{"command", "hide"}, {"selection", selection_}});
   same_line();
   if (ImGui::Button("only") && !empty) link_.send({{"command", "show"}, {"selection", selection_}});
-  same_line();
-  if (ImGui::Button("see through") && !empty)
-    link_.send({{"command", "opacity"}, {"selection", selection_}, {"opacity", 0.4}});
   if (ImGui::Button("paint") && !empty)
     link_.send({{"command", "paint"}, {"selection", selection_}, {"color", hex_color(paint_)}});
   same_line();
   ImGui::ColorEdit3("##paint", &paint_.x, ImGuiColorEditFlags_NoInputs | ImGuiColorEditFlags_NoLabel);
+  same_line();
+  if (ImGui::Button("see through") && !empty)
+    link_.send({{"command", "opacity"}, {"selection", selection_}, {"opacity", 0.4}});
   if (empty) ImGui::PopStyleVar();
 }
 

@@ -22,11 +22,19 @@ double quantile(const std::vector<double>& sorted, double share) {
 
 void LatencyMeter::sent(std::uint64_t number, const nlohmann::json& command, double time) {
   const std::string word = command_word(command);
-  for (const char* movement : {"orbit", "pan", "zoom", "probe", "frame", "next_frame"})
-    if (word == movement) waiting_.push_back({number, time});
+  for (const char* movement : {"orbit", "pan", "zoom", "probe", "frame", "next_frame"}) {
+    if (word != movement) continue;
+    if (waiting_.empty()) counted_ = time;
+    waiting_.push_back({number, time});
+  }
 }
 
 void LatencyMeter::shown(std::uint64_t number, double time) {
+  if (!waiting_.empty()) {
+    ++redraws_;
+    waited_ += time - counted_;
+    counted_ = time;
+  }
   std::optional<double> oldest;
   while (!waiting_.empty() && waiting_.front().number <= number) {
     if (!oldest) oldest = waiting_.front().time;
@@ -39,7 +47,7 @@ FrameLatency LatencyMeter::result() const {
   if (seconds_.empty()) return {};
   std::vector<double> sorted = seconds_;
   std::ranges::sort(sorted);
-  return {sorted.size(), 1e3 * quantile(sorted, 0.5), 1e3 * quantile(sorted, 0.95)};
+  return {sorted.size(), 1e3 * quantile(sorted, 0.5), 1e3 * quantile(sorted, 0.95), redraws_, waited_};
 }
 
 }  // namespace meniscus

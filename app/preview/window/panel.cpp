@@ -118,7 +118,14 @@ void Panel::title() {
 }
 
 void Panel::surface() {
+  label("Surface");
+  const std::string kind = link_.state()["surface"];
+  if (const auto word = chosen("##kind", kind, {"ses", "sas", "vdw"}))
+    link_.send({{"command", "surface"}, {"kind", *word}});
+  if (ImGui::IsItemHovered())
+    ImGui::SetTooltip("ses: solvent-excluded\nsas: solvent-accessible\nvdw: van der Waals, without a probe");
   label("Probe");
+  if (kind == "vdw") return ImGui::TextDisabled("none");
   float radius = link_.state()["probe_radius"];
   if (ImGui::SliderFloat("##probe", &radius, 0.0f, kLargestSliderProbe, "%.2f \xc3\x85", ImGuiSliderFlags_Logarithmic))
     link_.send({{"command", "probe"}, {"radius", rounded(std::max(radius, 0.0f))}});

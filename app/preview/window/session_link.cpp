@@ -36,6 +36,7 @@ bool SessionLink::update() {
 
 void predict(const nlohmann::json& command, nlohmann::json& state) {
   const std::string word = command_word(command);
+  if (word == "surface") state["surface"] = command["kind"];
   if (word == "probe") state["probe_radius"] = command["radius"];
   if (word == "projection") state["camera"]["projection"] = command["projection"];
   if (word == "patch_kinds") state["patch_kinds"] = command["on"];

@@ -52,6 +52,7 @@ class PreviewWindow {
   double patience();
   void note(std::uint64_t number, const Json& command);
   void take_events();
+  void assume_typing(bool typing);
   void take_pointer(const InputEvent& event, bool elsewhere);
   void take_key(const InputEvent& event);
   void take_click(const Click& click);
@@ -73,7 +74,8 @@ class PreviewWindow {
   LatencyMeter latency_;
   WindowReport report_;
   bool help_ = false, panel_shown_ = true;
-  int unsure_frames_ = 0;  // after a click into the panel, until ImGui has said whether that was a field
+  int unsure_frames_ = 0;        // after a click, until ImGui has said whether that was into a field
+  bool typing_assumed_ = false;  // as long as that is unsure
   int redraws_ = kSettlingFrames;
   std::size_t next_ = 0;  // of options_.commands
   std::uint64_t first_number_ = 0;
@@ -147,9 +149,9 @@ void PreviewWindow::take_events() {
   const bool list_open = Gui::list_open();
   for (const InputEvent& event : window_.take_events()) {
     const bool elsewhere = list_open || event.position.x >= picture_area().x;
-    // A click into a field counts for what is typed behind it, though the field has not been drawn since.
-    if (event.kind == InputEvent::Kind::press) unsure_frames_ = elsewhere ? 2 : 0;
-    const bool for_panel = Gui::typing() || unsure_frames_ > 0;
+    // A click into a field, or out of it, counts for what is typed behind it, though nothing has been drawn since.
+    if (event.kind == InputEvent::Kind::press) assume_typing(elsewhere);
+    const bool for_panel = unsure_frames_ > 0 ? typing_assumed_ : Gui::typing();
     // A letter that is a command must not turn up in the field that it opens.
     if (event.kind != InputEvent::Kind::text || for_panel) gui_.take(event);
     if (!link_.has_state() || replaying()) continue;
@@ -162,6 +164,11 @@ void PreviewWindow::take_events() {
     if (event.kind == InputEvent::Kind::move || event.kind == InputEvent::Kind::leave) take_pointer(event, elsewhere);
   }
   send_movements();
+}
+
+void PreviewWindow::assume_typing(bool typing) {
+  unsure_frames_ = 2;
+  typing_assumed_ = typing;
 }
 
 void PreviewWindow::take_pointer(const InputEvent& event, bool elsewhere) {
@@ -185,7 +192,7 @@ void PreviewWindow::take_key(const InputEvent& event) {
     case FaceAction::export_name:
       panel_shown_ = true;
       panel_.ask_for_name();
-      unsure_frames_ = 2;  // what is typed behind it is for the name
+      assume_typing(true);  // what is typed behind it is for the name
       break;
     case FaceAction::leave:
       if (event.kind == InputEvent::Kind::text || !std::exchange(help_, false))
@@ -258,7 +265,6 @@ void PreviewWindow::draw() {
   else
     unsure_frames_ = std::max(unsure_frames_ - 1, 0);
   window_.swap();
-  ++report_.redraws;
   link_.presented(shown);
   latency_.shown(shown, window_.seconds());
 }

@@ -26,8 +26,7 @@ struct WindowOptions {
 /// What there is to say when the window is closed.
 struct WindowReport {
   ContextDescription context;
-  FrameLatency latency;     ///< of the pictures that followed a movement
-  std::size_t redraws = 0;  ///< of the whole window, for whatever reason
+  FrameLatency latency;  ///< of the pictures that followed a movement
 };
 
 /// Runs until the user leaves or a command says quit; on the main thread. make: called on another one, with the context

@@ -184,6 +184,8 @@ function apply_state(next) {
   const name = next.file.split("/").pop();
   document.title = `${name} · Meniscus`;
   $("file").textContent = `${name}, ${next.atoms.toLocaleString("en")} atoms`;
+  set_value($("surface-kind"), next.surface);
+  $("probe").disabled = $("probe-number").disabled = next.surface === "vdw";
   set_value($("probe"), next.probe_radius);
   set_value($("probe-number"), Number(next.probe_radius.toFixed(3)));
   set_value($("scheme"), next.color.scheme);
@@ -230,6 +232,8 @@ function fill_choices(choices) {
 
 // Controls
 
+$("surface-kind").addEventListener("change", (event) =>
+  command("surface", { kind: event.target.value }).then((reply) => reply ?? apply_state(state)));
 const set_probe = (radius) => {
   if (Number.isFinite(radius)) command("probe", { radius: Math.round(radius * 1000) / 1000 });
 };
