@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A mesh of a surface with each contact face drawn together to a point: about the reduced surface, of seven times fewer
-// triangles than the coarsest mesh of all faces.
+// A mesh of a surface with contact faces drawn together to points: about the reduced surface.
 #pragma once
 
 #include <cstdint>
