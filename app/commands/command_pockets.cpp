@@ -62,7 +62,7 @@ void check_request(const PocketsCommand& command) {
     throw UsageError("--mesh and --figure are of one molecule; leave them away where there are frames");
   // Whether the outputs can be written is known before the work begins; these vanish again.
   for (const std::string& path : paths)
-    if (path != "-") OutputFile(path, command.existing());
+    if (path != "-") check_output(path, command.existing());
 }
 
 void write_text(const std::string& path, const std::string& text, Existing existing) {

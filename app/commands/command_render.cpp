@@ -49,7 +49,7 @@ void parse_extent(const std::string& text, std::optional<Extent>& extent) {
 void check_legend_file(const RenderCommand& command) {
   if (command.legend.file.empty()) return;
   check_image_path(command.legend.file);
-  OutputFile(command.legend.file, command.output.existing());
+  check_output(command.legend.file, command.output.existing());
 }
 
 void finish(const RenderCommand& command, const PictureLayout& layout, const Annotations& annotations,
@@ -132,7 +132,7 @@ void run(const RenderCommand& command) {
       command.molecule.color.rules.empty())
     throw UsageError("--legend has nothing to explain where all is of one colour; choose another --color");
   // Whether the outputs can be written is known before the work begins; these vanish again.
-  OutputFile(command.output.path, command.output.existing());
+  check_output(command.output.path, command.output.existing());
   check_legend_file(command);
   check_camera_file(command.save_camera, command.output.existing());
   if (command.extent) return draw_view(command);

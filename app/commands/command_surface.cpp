@@ -113,7 +113,7 @@ void check_outputs(const SurfaceCommand& command) {
           "--csv-cavities needs all frames of the run, as numbers go on from one to the next; leave --only away");
   }
   for (const std::string& path : paths)
-    if (!is_stdout(path)) OutputFile(path, command.existing());
+    if (!is_stdout(path)) check_output(path, command.existing());
 }
 
 void add_surface(CLI::App& command) {

@@ -9,7 +9,7 @@ void add_save_camera_option(CLI::App& command, std::string& path) {
 }
 
 void check_camera_file(const std::string& path, Existing existing) {
-  if (!path.empty()) OutputFile(path, existing);  // vanishes again
+  if (!path.empty()) check_output(path, existing);
 }
 
 void save_camera(const std::string& path, Existing existing, const Camera& camera) {

@@ -69,7 +69,7 @@ ColorKey colors_of(const ExportedView& view) {
 void export_picture(const ExportedView& view, const MakePictureDevice& make_device, const ExportTarget& target,
                     const ExportWatch& watch) {
   check_image_path(target.path);
-  OutputFile(target.path, target.existing);  // known to be possible before the work begins
+  check_output(target.path, target.existing);  // known to be possible before the work begins
   const PreviewFigure& figure = view.figure;
   std::optional<glm::vec3> background = figure.background;
   if (view.transparent) background.reset();
@@ -116,7 +116,7 @@ std::string export_povray(const ExportedView& view, const ExportTarget& target, 
 }
 
 void export_blender(const ExportedView& view, const ExportTarget& target, const ExportWatch& watch) {
-  OutputFile(target.path, target.existing);
+  check_output(target.path, target.existing);
   const auto [surfaces, device] = complete_surfaces(view, watch);
   watch("mesh", 0.0);
   std::vector<TriangleMesh> meshes = mesh_objects(surfaces, MeshRequest{}.tolerance);

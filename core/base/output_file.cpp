@@ -204,6 +204,8 @@ void OutputFile::commit() {
 
 void OutputFile::fail(const std::string& what) const { throw OutputError(target_.string(), what); }
 
+void check_output(const fs::path& target, Existing existing) { const OutputFile possible(target, existing); }
+
 OutputFolder::OutputFolder(fs::path folder, Existing existing) : folder_(std::move(folder)), existing_(existing) {
   if (folder_.empty()) throw OutputError("output folder", "the name is empty");
   std::vector<fs::path> missing;

@@ -50,6 +50,9 @@ class OutputFile {
   bool replaced_ = false;
 };
 
+/// Before long work: throws what an OutputFile of this target would, which is made and vanishes again.
+void check_output(const std::filesystem::path& target, Existing existing);
+
 /// Several files that belong together, in one folder that is made when missing. No file appears before all are
 /// complete; if a step fails, the files that appeared newly are taken away again, and the folder if it was made here.
 class OutputFolder {
