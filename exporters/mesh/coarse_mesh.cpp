@@ -41,12 +41,13 @@ class CoarseMeshing {
         samples_(surface, rule_.with_angle(angle), false),
         filling_(surface, rule_, samples_),
         parts_(surface.faces.size()),
+        wide_(angle > kFineAngle),
         finer_(surface.faces.size(), false),
         filled_(surface.faces.size()) {}
 
   TriangleMesh run() {
     for (std::vector<std::uint32_t> hard = plan(); !hard.empty(); hard = plan()) {
-      if (sample_finer(hard)) continue;
+      if (wide_ && sample_finer(hard)) continue;
       for (const std::uint32_t f : hard) parts_[f].cut = Cut::filled;
       filling_.fill(std::move(hard), filled_);
     }
@@ -280,6 +281,7 @@ class CoarseMeshing {
   BorderSamples samples_;
   FaceFilling filling_;
   std::vector<Part> parts_;       ///< per face
+  bool wide_;                     ///< arcs that are one edge span more than those beside faces that are not simple
   std::vector<bool> finer_;       ///< per face: its borders are sampled as finely as those of faces that are filled
   std::vector<FaceMesh> filled_;  ///< per face; of those that were filled
   std::vector<std::uint32_t> vertex_number_, border_number_;
