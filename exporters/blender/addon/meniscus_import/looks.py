@@ -203,7 +203,7 @@ def _glass(tree, shader, color, output, scale):
 def _clear(tree, shader, color, white):
     """The output of a surface that mirrors by Fresnel's equations of GLASS_IOR outside, and lets the rest through a Principled shader
     of GLASS_BENDS, in a colour mixed with so much white."""
-    _set(shader, 0.0, "Roughness")
+    _set(shader, 0.02, "Roughness")  # of none at all lamps make black pixels in Eevee 3.4
     _set(shader, GLASS_BENDS, "IOR")
     _set(shader, 1.0, "Transmission Weight", "Transmission")
     tree.links.new(compat.mix_colors(tree, white, color, (1.0, 1.0, 1.0, 1.0)), shader.inputs["Base Color"])
