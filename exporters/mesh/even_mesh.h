@@ -35,12 +35,12 @@ struct EvenMesh {
 /// are. The mesh is closed, has the surface's components and their Euler characteristics, no triangles that pass
 /// through others, and is the same for any number of threads. With a tolerance the distance of each triangle from the
 /// surface is measured at 7 places, and that of the surface from the mesh at the vertices of one as near as 0.3
-/// tolerances; between those it may be larger, by an amount that is not bounded here (1.011 tolerances were seen).
-/// Where triangles pass through others, lie too far away or are slivers, the best of all small changes there is made,
-/// again and again, as long as one helps: a few slivers may stay. Where triangles still cross or are too far away, all
-/// begins anew, and what is around such places keeps to the triangles of the beginning, but for such changes. Throws
-/// Error for numbers that make no sense, OpenSurfaceError where no such mesh was found: where creases crowd, as on bare
-/// balls, a tolerance is refused at times.
+/// tolerances; between those it may be larger, by an amount that is not bounded here (1.46 tolerances were seen, at 5
+/// of 140,000 points). Where triangles pass through others, lie too far away or are slivers, the best of all small
+/// changes there is made, again and again, as long as one helps: a few slivers may stay. Where triangles still cross or
+/// are too far away, all begins anew, and what is around such places keeps to the triangles of the beginning, but for
+/// such changes. Throws Error for numbers that make no sense, OpenSurfaceError where no such mesh was found: where
+/// creases crowd, as on bare balls, a tolerance is refused at times.
 EvenMesh even_mesh(const Surface& surface, const EvenMeshOptions& options = {});
 
 }  // namespace meniscus
