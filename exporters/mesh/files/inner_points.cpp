@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Steps along the normals of some vertices, as long as the vertex stays the surface's nearest point; then triangles are
-// asked, too, by their winding number.
+// asked, too, by their winding number, and where they do not have it inside, a point below one of them is taken.
 #include "exporters/mesh/files/inner_points.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <span>
 
 #include <fmt/format.h>
@@ -19,6 +20,7 @@ namespace {
 
 constexpr std::size_t kPlaces = 48;  // of a component; the roomiest counts
 constexpr double kLongest = 2.8, kShorter = 0.7, kShortest = 1e-4, kEnough = 1.0;  // Å but for the ratio
+constexpr double kShareOfHeight = 0.1, kSmallestShare = 1e-5;                      // of a triangle's height, its depth
 constexpr double kSame = 1e-9;                                                     // Å: rounding
 
 /// The steps (Å, at most `longest`) from a point of the surface along a normal whose end is that far from the surface:
@@ -43,6 +45,24 @@ long winding_number(const TriangleMesh& mesh, std::span<const std::uint32_t> tri
   return std::lround(angle / (4.0 * std::numbers::pi));
 }
 
+/// A point right below a triangle, where the mesh alone decides: coarse triangles may leave out what is inside the
+/// exact surface.
+std::optional<glm::dvec3> point_below(const TriangleMesh& mesh, std::span<const std::uint32_t> triangles,
+                                      long winding) {
+  for (const std::uint32_t t : triangles) {
+    const auto& [i, j, k] = mesh.triangles[t];
+    const glm::dvec3 a = mesh.positions[i], b = mesh.positions[j], c = mesh.positions[k];
+    const glm::dvec3 cross = glm::cross(b - a, c - a);
+    const double longest = std::max({glm::distance(a, b), glm::distance(b, c), glm::distance(c, a)});
+    for (double share = kShareOfHeight; share > kSmallestShare; share *= 0.1) {
+      // Triangles face the solvent, which is inside of a cavity, and outside of a solid.
+      const glm::dvec3 point = (a + b + c) / 3.0 - static_cast<double>(winding) * share / longest * cross;
+      if (winding_number(mesh, triangles, point) == winding) return point;
+    }
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::vector<glm::dvec3> inner_points(const Surface& surface, const TriangleMesh& mesh) {
@@ -62,8 +82,14 @@ std::vector<glm::dvec3> inner_points(const Surface& surface, const TriangleMesh&
       longest = step;
       point = mesh.positions[v] + side * step * mesh.normals[v];
     }
-    if (longest == 0.0 || winding_number(mesh, triangles[c], point) != (side > 0.0 ? -1 : 1))
-      throw OpenSurfaceError(fmt::format("no point was found inside component {} of the mesh; ask for a finer one", c));
+    const long winding = side > 0.0 ? -1 : 1;
+    if (longest == 0.0 || winding_number(mesh, triangles[c], point) != winding) {
+      const auto below = point_below(mesh, triangles[c], winding);
+      if (!below)
+        throw OpenSurfaceError(
+            fmt::format("no point was found inside component {} of the mesh; ask for a finer one", c));
+      point = *below;
+    }
     points.push_back(point);
   }
   return points;
