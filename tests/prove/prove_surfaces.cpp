@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// prove_surfaces COUNT [FAMILY...] [--first N] [--effort N] [--write FOLDER]: the families of balls made to tie, each
-// surface checked; prints a line for each family and the sum, writes what failed as files.
-// prove_surfaces --minimize FILE: leaves out balls while the surface still fails, or still needs to be helped over
-// ties, and prints what is left: an entry for tests/corpus.
+// prove_surfaces COUNT [FAMILY...] [--first N] [--effort N] [--write FOLDER]: cases N to N + COUNT - 1 of the families
+// of balls made to tie, each surface checked; prints a line for each family and the sum, writes what failed as files.
+// lost: something is missing; wrong: anything else that fails; refused: no surface, as given or turned; grown: radii
+// grew to tell ties apart; tied: turned another surface, within the bounds of growth (turning.h). prove_surfaces
+// --check FILE...: a line for each file of balls (tests/corpus). prove_surfaces --minimize FILE: leaves out balls while
+// the surface still fails, or still needs to be helped over ties, and prints what is left: an entry for tests/corpus.
 #include <tbb/parallel_for.h>
 
-#include <atomic>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
@@ -43,6 +44,19 @@ std::string trouble_of(const CorpusCase& entry) {
   return verdict.surface->certificate.grown_by > 0 ? "ties" : "";
 }
 
+int check_file(const std::string& path) {
+  const CorpusCase entry = read_corpus(path);
+  const SurfaceVerdict verdict = check_surface(entry.balls, entry.probe_radius, 1, 2, Turned::too);
+  const std::string words = verdict.refused ? "refused" : verdict.complaint.empty() ? "right" : verdict.complaint;
+  fmt::print("{}: {} balls, probe {}: {}{}", path, entry.balls.size(), entry.probe_radius, words,
+             verdict.tied ? ", tied" : "");
+  if (verdict.surface)
+    fmt::print("; area {}, volume {}, grown by {}", verdict.surface->area, verdict.surface->volume,
+               verdict.surface->certificate.grown_by);
+  fmt::print("\n");
+  return verdict.complaint.empty() && !verdict.refused ? 0 : 1;
+}
+
 int minimize(const std::string& path) {
   CorpusCase entry = read_corpus(path);
   const std::string trouble = trouble_of(entry);
@@ -63,40 +77,62 @@ int minimize(const std::string& path) {
   return 0;
 }
 
+struct Tally {
+  std::size_t cases = 0, lost = 0, wrong = 0, refused = 0, exact = 0, grown = 0, tied = 0;
+
+  void add(const SurfaceVerdict& verdict, double jitter) {
+    ++cases;
+    grown += verdict.surface && verdict.surface->certificate.grown_by > 0;
+    tied += verdict.tied;
+    refused += verdict.refused;
+    exact += verdict.refused && jitter == 0;
+    lost += verdict.lost;
+    wrong += !verdict.lost && !verdict.complaint.empty();
+  }
+  void add(const Tally& t) {
+    cases += t.cases, lost += t.lost, wrong += t.wrong, refused += t.refused, exact += t.exact, grown += t.grown;
+    tied += t.tied;
+  }
+  void print(const std::string& name) const {
+    fmt::print("{:13} cases {:7} lost {:4} wrong {:4} refused {:4} (exact {}) grown {} tied {}\n", name, cases, lost,
+               wrong, refused, exact, grown, tied);
+    std::fflush(stdout);
+  }
+};
+
+SurfaceVerdict verdict_of(const FamilyCase& made, std::uint32_t n, int effort) {
+  try {
+    const bool quick = n % 8 != 0 && effort == 1;
+    return check_surface(made.balls, made.probe_radius, n + 1, quick ? 0 : effort, Turned::too);
+  } catch (const std::exception& error) {
+    SurfaceVerdict verdict;
+    verdict.complaint = error.what();
+    return verdict;
+  }
+}
+
 int run(const Options& options) {
-  std::size_t cases = 0, wrong = 0, refused = 0;
+  Tally all;
   std::mutex lock;
   for (const std::string& family : options.families) {
-    std::atomic<std::size_t> grown = 0;
-    std::size_t family_wrong = 0, family_refused = 0, exact_refused = 0;
+    Tally tally;
     tbb::parallel_for(options.first, options.first + options.count, [&](std::uint32_t n) {
       const FamilyCase made = family_case(family, n);
-      SurfaceVerdict verdict;
-      try {
-        const bool quick = n % 8 != 0 && options.effort == 1;
-        verdict = check_surface(made.balls, made.probe_radius, n + 1, quick ? 0 : options.effort);
-      } catch (const std::exception& error) {
-        verdict.complaint = error.what();
-      }
-      if (verdict.surface && verdict.surface->certificate.grown_by > 0) ++grown;
-      if (!verdict.refused && verdict.complaint.empty()) return;
+      const SurfaceVerdict verdict = verdict_of(made, n, options.effort);
       const std::lock_guard guard(lock);
-      (verdict.refused ? family_refused : family_wrong)++;
-      exact_refused += verdict.refused && made.jitter == 0;
-      const std::string why = verdict.refused ? "refused" : verdict.complaint;
+      tally.add(verdict, made.jitter);
+      if (!verdict.refused && verdict.complaint.empty()) return;
+      const std::string why = verdict.refused ? "refused" : (verdict.lost ? "lost: " : "") + verdict.complaint;
       fmt::print("  {} {} (probe {}, {} balls, jitter {:.1e}): {}\n", family, n, made.probe_radius, made.balls.size(),
                  made.jitter, why);
       if (!options.folder.empty()) write_case(fmt::format("{}/{}-{}.xyzr", options.folder, family, n), made, why);
     });
-    fmt::print("{:12} cases {:7} wrong {:4} refused {:4} (exact {}) grown {}\n", family, options.count, family_wrong,
-               family_refused, exact_refused, grown.load());
-    std::fflush(stdout);
-    cases += options.count;
-    wrong += family_wrong;
-    refused += family_refused;
+    tally.print(family);
+    all.add(tally);
   }
-  const bool good = wrong == 0 && refused * 10000 <= cases;
-  fmt::print("refused {} of {}\ncases {} failures {}\n", refused, cases, cases, good ? 0 : wrong + refused);
+  all.print("all");
+  const bool good = all.lost + all.wrong == 0 && all.refused * 10000 <= all.cases;
+  fmt::print("cases {} failures {}\n", all.cases, good ? 0 : all.lost + all.wrong + all.refused);
   return good ? 0 : 1;
 }
 
@@ -109,6 +145,11 @@ int main(int argc, char** argv) {
     const std::string word = argv[n];
     const auto value = [&] { return n + 1 < argc ? argv[++n] : ""; };
     if (word == "--minimize") return meniscus::testing::minimize(value());
+    if (word == "--check") {
+      int bad = 0;
+      while (n + 1 < argc) bad |= meniscus::testing::check_file(value());
+      return bad;
+    }
     if (word == "--first")
       options.first = static_cast<std::uint32_t>(std::atoi(value()));
     else if (word == "--effort")

@@ -14,6 +14,8 @@
 #include "core/reduced_surface/reduced_surface.h"
 #include "core/surface/surface.h"
 #include "exporters/mesh/tessellate.h"
+#include "tests/prove/completeness.h"
+#include "tests/prove/turning.h"
 #include "tests/support/patch_samples.h"
 #include "tests/support/sampled_volume.h"
 #include "tests/support/sphere_tracer.h"
@@ -35,13 +37,14 @@ class Check {
   Check(const Surface& surface, const Balls& balls, std::uint32_t seed, int effort)
       : s_(surface), balls_(balls), random_(seed), effort_(effort) {}
 
-  std::string complaint() {
-    for (const auto check :
-         {&Check::faces, &Check::atoms, &Check::patches, &Check::mesh, &Check::points, &Check::volume}) {
-      if (std::string text = (this->*check)(); !text.empty()) return text;
-      if (check == &Check::patches && effort_ == 0) break;  // meshes and the oracle cost more than all the rest
+  void run(SurfaceVerdict& verdict) {
+    for (const auto check : {&Check::faces, &Check::all_there, &Check::atoms, &Check::patches, &Check::mesh,
+                             &Check::points, &Check::volume}) {
+      verdict.complaint = (this->*check)();
+      verdict.lost = lost_;
+      if (!verdict.complaint.empty()) return;
+      if (check == &Check::patches && effort_ == 0) return;  // meshes and the oracle cost more than all the rest
     }
-    return {};
   }
 
  private:
@@ -52,6 +55,12 @@ class Check {
         return fmt::format("{} face of area {} of {}", name_of(face.kind), face.area, whole);
     }
     return {};
+  }
+
+  std::string all_there() {
+    const Completeness found = check_completeness(s_, balls_, effort_ == 0 ? 40 : 200 * effort_, random_());
+    lost_ = !found.lost.empty();
+    return lost_ ? found.lost : found.wrong;
   }
 
   std::string atoms() {
@@ -166,21 +175,27 @@ class Check {
   const Balls& balls_;
   std::mt19937 random_;
   int effort_;
+  bool lost_ = false;
   std::optional<SphereTracer> oracle_;
   std::vector<std::uint32_t> asked_;  // the atoms that the oracle knows, by its indices
 };
 
 }  // namespace
 
-SurfaceVerdict check_surface(const Balls& balls, double probe_radius, std::uint32_t seed, int effort) {
+SurfaceVerdict check_surface(const Balls& balls, double probe_radius, std::uint32_t seed, int effort, Turned turned) {
   SurfaceVerdict verdict;
   try {
     verdict.surface = compute_surface_cpu(balls, probe_radius);
+    Check(*verdict.surface, balls, seed, effort).run(verdict);
   } catch (const OpenSurfaceError&) {
     verdict.refused = true;
-    return verdict;
   }
-  verdict.complaint = Check(*verdict.surface, balls, seed, effort).complaint();
+  if (turned == Turned::no || verdict.refused || !verdict.complaint.empty()) return verdict;
+  const Turning turning = check_turning(*verdict.surface, balls, seed);
+  verdict.refused = turning.refused;
+  verdict.lost = turning.lost;
+  verdict.tied = turning.tied;
+  verdict.complaint = turning.complaint;
   return verdict;
 }
 

@@ -12,15 +12,22 @@ namespace meniscus::testing {
 
 /// What became of one input.
 struct SurfaceVerdict {
-  bool refused = false;   ///< OpenSurfaceError
+  bool refused = false;   ///< OpenSurfaceError, of the balls as given or turned
+  bool lost = false;      ///< something of the surface is missing (completeness.h); the complaint says what
+  bool tied = false;      ///< turned it is another surface, within the bounds of turning.h
   std::string complaint;  ///< empty if all checks agree; else one line
   std::optional<Surface> surface;
 };
 
-/// Computes the surface on the CPU and checks it: the area of each spherical patch against its planes by sampling,
-/// areas of atoms, a mesh, points of every patch and the volume against an oracle that knows only the balls
-/// (sphere_tracer.h). The oracle gets the balls as decisions see them (decision_weight()), so ties are no excuse.
-/// effort: 0 leaves mesh and oracle out, 1 looks for errors of a whole sphere, larger ones sample so much more.
-SurfaceVerdict check_surface(const Balls& balls, double probe_radius, std::uint32_t seed, int effort = 1);
+/// Whether the atoms are asked once more, turned and reordered.
+enum class Turned { no, too };
+
+/// Computes the surface on the CPU and checks it: random points of every atom's SAS sphere (completeness.h), the area
+/// of each re-entrant patch against its planes by sampling, areas of atoms, the same surface turned (turning.h), a
+/// mesh, points of every patch and the volume against an oracle that knows only the balls (sphere_tracer.h). That
+/// oracle gets the balls as decisions see them (decision_weight()), so ties are no excuse. effort: 0 leaves mesh and
+/// oracle out, 1 looks for errors of a whole sphere, larger ones sample so much more.
+SurfaceVerdict check_surface(const Balls& balls, double probe_radius, std::uint32_t seed, int effort = 1,
+                             Turned turned = Turned::no);
 
 }  // namespace meniscus::testing
