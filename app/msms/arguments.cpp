@@ -71,7 +71,7 @@ void take_cavity(Arguments& arguments, std::string_view name, Words& words) {
   const auto count = words.whole_number_of(name, 1, 3);
   arguments.cavity_atoms.clear();
   for (std::int64_t n = 0; n < count; ++n)
-    arguments.cavity_atoms.push_back(static_cast<std::uint32_t>(words.whole_number_of(name, 1, UINT32_MAX)));
+    arguments.cavity_atoms.push_back(static_cast<std::uint32_t>(words.whole_number_of(name, 0, UINT32_MAX)));
 }
 
 void take_surface(Arguments& arguments, std::string_view name, Words& words) {
@@ -100,7 +100,7 @@ constexpr std::array kOptions{
                             Words& w) { a.port = static_cast<std::uint16_t>(w.whole_number_of(name, 1, UINT16_MAX)); }},
     Option{"xdr", refuse},
     Option{"sinetd", refuse},
-    Option{"noh", ignore},
+    Option{"noh", [](Arguments& a, std::string_view, Words&) { a.hydrogens = false; }},
     Option{"no_rest_on_pbr", ignore},
     Option{"no_rest", ignore},
     Option{"if", [](Arguments& a, std::string_view name, Words& w) { take_file(a.spheres, name, w); }},
@@ -117,6 +117,7 @@ const Option& option_of(std::string_view word) {
   for (const Option& option : kOptions)
     if (!name.empty() && option.name.starts_with(name)) return option;
   std::vector<std::string_view> names;
+  names.reserve(kOptions.size());
   for (const Option& option : kOptions) names.push_back(option.name);
   const std::string_view nearest = nearest_word(name, names);
   throw UsageError(fmt::format("{} is no option{}; -h lists all", in_quotes(word),
@@ -161,12 +162,13 @@ std::string help_text() {
   -no_area             no table of analytic areas
   -no_header           no lines above the rows of .vert and .face
   -all_components      all components of the reduced surface: number 0 in PREFIX.vert, number k in PREFIX_k.vert
-  -one_cavity N A...   only the component that touches these 1 to 3 spheres, numbered from 1 as in .vert
+  -one_cavity N A...   only the component that touches these 1 to 3 spheres, numbered from 0 as in .area
+  -noh                 leave out spheres of radius 1.2, which are hydrogens; the others keep their numbers
   -socketPort PORT     serve one surface on 127.0.0.1, as VMD asks for it
   -h                   this help
 
-An option may be cut short: -prob, -d, -all. -hdensity D, -noh, -no_rest, -no_rest_on_pbr and -free_vertices are read
-and change nothing; -socketName, -xdr and -sinetd are refused.
+An option may be cut short: -prob, -d, -all. -hdensity D, -no_rest, -no_rest_on_pbr and -free_vertices are read and
+change nothing; -socketName, -xdr and -sinetd are refused.
 Exit codes: 0 done, 1 internal error, 2 wrong usage, 3 bad input, 5 too large, 6 output not written, 7 not closed.
 On any but 0 no file is written. What differs from MSMS: docs/msms.md.
 )";

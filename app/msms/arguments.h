@@ -22,8 +22,9 @@ struct Arguments {
   bool area = true;           ///< the analytic table
   bool mesh = true;           ///< -surface tses; false: ases
   bool header = true;         ///< three lines above the rows of .vert and .face
+  bool hydrogens = true;      ///< false: spheres of radius 1.2 are left out
   bool all_components = false;
-  std::vector<std::uint32_t> cavity_atoms;  ///< -one_cavity: one to three sphere numbers from 1; empty: not asked
+  std::vector<std::uint32_t> cavity_atoms;  ///< -one_cavity: one to three sphere numbers from 0; empty: not asked
   std::optional<std::uint16_t> port;        ///< -socketPort
 };
 

@@ -53,7 +53,7 @@ std::uint32_t ChosenSurface::component_touching(const std::vector<std::uint32_t>
                                                 const Spheres& spheres) const {
   std::vector<std::uint32_t> wanted;
   for (std::uint32_t a = 0; a < spheres.rows.of_atom.size(); ++a)
-    if (std::ranges::find(numbers, spheres.rows.of_atom[a] + 1) != numbers.end()) wanted.push_back(a);
+    if (std::ranges::find(numbers, spheres.rows.of_atom[a]) != numbers.end()) wanted.push_back(a);
   const std::vector<ReducedComponentSize> all = sizes_of(computed_.surface, computed_.components);
   std::optional<std::uint32_t> outer, cavity;
   for (std::size_t f = 0; f < computed_.surface.faces.size(); ++f) {
@@ -70,8 +70,8 @@ std::uint32_t ChosenSurface::component_touching(const std::vector<std::uint32_t>
     throw InputError(
         spheres.rows.file, 0,
         fmt::format("find_first_rs_face: no place of the probe touches the spheres {} of -one_cavity; they "
-                    "are numbered from 1 to {}",
-                    fmt::join(numbers, ", "), spheres.rows.count));
+                    "are numbered from 0 to {}",
+                    fmt::join(numbers, ", "), spheres.rows.count - 1));
   return cavity ? *cavity : *outer;
 }
 

@@ -37,7 +37,8 @@ void run(const Arguments& arguments, std::chrono::steady_clock::time_point start
   const std::string area_path = arguments.area_file.empty() ? "" : with_extension(arguments.area_file, ".area");
   if (!area_path.empty()) files.begin(area_path);
 
-  const Spheres spheres = read_spheres(arguments.spheres);
+  Spheres spheres = read_spheres(arguments.spheres);
+  if (!arguments.hydrogens) leave_out_hydrogens(spheres);
   std::cout << input_lines(arguments, spheres.rows.count, spheres.smallest_radius, spheres.largest_radius);
   ChosenSurface surface(arguments, spheres);
   if (arguments.all_components) std::cout << component_lines(surface.component_count());

@@ -27,10 +27,12 @@ namespace {
 
 constexpr const char* kHelp = R"(meniscus-nanoshaper [FILE]: exact solvent-excluded surfaces where NanoShaper is called
 
-Reads FILE (surfaceConfiguration.prm) and writes triangulatedSurf.vert and triangulatedSurf.face into the current folder:
-even triangles of the whole surface, in the form of MSMS. Keys: XYZR_FileName, Probe_Radius (1.4), Grid_scale (2: 1.5 times
-its square are the vertices per square Angstrom), Cavity_Detection_Filling (false) and Conditional_Volume_Filling_Value
-(11.4); Surface must be ses, Save_Mesh_MSMS_Format true. All other keys are passed over.
+Reads FILE (surfaceConfiguration.prm) and writes even triangles of the whole surface into the current folder, or where
+Root_FileName says: triangulatedSurf.vert and triangulatedSurf.face where Save_Mesh_MSMS_Format is true,
+triangulatedSurf.off where it is false, all three where it is not given. Keys: XYZR_FileName, Probe_Radius (1.4),
+Grid_scale (2: 1.5 times its square are the vertices per square Angstrom), Cavity_Detection_Filling (false) and
+Conditional_Volume_Filling_Value (11.4). Refused is what asks for another result: a Surface but ses, an Operative_Mode
+but normal, PLY, maps. Other keys change nothing; unknown ones are named on standard error.
 Exit codes: 0 done, 1 internal error, 2 wrong usage, 3 bad input, 5 too large, 6 output not written, 7 not closed.
 )";
 
@@ -81,9 +83,16 @@ ExitCode run(std::span<const char* const> words) {
     return kExitOk;
   }
   if (words.size() > 1 || path.starts_with('-')) throw UsageError("give one configuration file, or none; see --help");
-  OutputFiles files;
-  for (const char* name : {"triangulatedSurf.vert", "triangulatedSurf.face"}) files.begin(name);
   const ShaperSettings settings = read_shaper_settings(path);
+  for (const std::string& key : settings.unknown_keys)
+    fmt::print(std::cerr, "meniscus-nanoshaper: warning: {}: {} is no key of NanoShaper and changes nothing\n",
+               escaped(path), in_quotes(key));
+  const std::string vert = settings.root + "triangulatedSurf.vert", face = settings.root + "triangulatedSurf.face",
+                    off = settings.root + "triangulatedSurf.off";
+  OutputFiles files;
+  if (settings.msms_files)
+    for (const std::string& name : {vert, face}) files.begin(name);
+  if (settings.off_file) files.begin(off);
   Spheres spheres = read_spheres(settings.spheres);
   spheres.rows.names.clear();  // nine columns, always
   const Surface surface = compute_surface_cpu(spheres.balls, settings.probe_radius);
@@ -92,8 +101,11 @@ ExitCode run(std::span<const char* const> words) {
   fineness.density = shaper_density(settings.grid_scale);
   const MsmsMesh mesh = rows_of(even_mesh(surface, fineness), components_that_stay(surface, settings));
   const MsmsHeader header{true, fineness.density, settings.probe_radius};
-  files.write("triangulatedSurf.vert", vert_text(mesh, spheres.rows, header));
-  files.write("triangulatedSurf.face", face_text(mesh, spheres.rows, header));
+  if (settings.msms_files) {
+    files.write(vert, vert_text(mesh, spheres.rows, header));
+    files.write(face, face_text(mesh, spheres.rows, header));
+  }
+  if (settings.off_file) files.write(off, off_text(mesh));
   fmt::print(std::cout, "{}: {} spheres, {} vertices, {} triangles\n", escaped(settings.spheres), spheres.rows.count,
              mesh.vertices.size(), mesh.triangles.size());
   finish_standard_output();

@@ -17,6 +17,8 @@
 namespace meniscus::msms {
 namespace {
 
+constexpr double kHydrogenRadius = 1.2, kSameRadius = 1e-6;  // Å
+
 bool within_limits(const Ball& ball) {
   for (int axis = 0; axis < 3; ++axis)
     if (!(std::abs(ball.center[axis]) <= kLargestCoordinate)) return false;
@@ -55,6 +57,20 @@ Spheres spheres_of(std::vector<Ball> balls, std::vector<std::string> names, cons
     spheres.rows.names = std::move(names);
   }
   return spheres;
+}
+
+void leave_out_hydrogens(Spheres& spheres) {
+  std::size_t kept = 0;
+  for (std::size_t a = 0; a < spheres.balls.size(); ++a) {
+    if (std::abs(spheres.balls[a].radius - kHydrogenRadius) < kSameRadius) continue;
+    spheres.balls[kept] = spheres.balls[a];
+    spheres.rows.of_atom[kept++] = spheres.rows.of_atom[a];
+  }
+  spheres.balls.resize(kept);
+  spheres.rows.of_atom.resize(kept);
+  if (kept == 0)
+    throw InputError(spheres.rows.file, 0,
+                     fmt::format("holds no sphere but those of radius {} Å, which -noh leaves out", kHydrogenRadius));
 }
 
 Spheres read_spheres(const std::string& file) {

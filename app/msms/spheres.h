@@ -24,4 +24,7 @@ Spheres read_spheres(const std::string& file);
 /// kLargestRadius, a coordinate beyond kLargestCoordinate.
 Spheres spheres_of(std::vector<Ball> balls, std::vector<std::string> names, const std::string& file);
 
+/// -noh: takes out the balls of radius 1.2 Å, as MSMS tells hydrogens. Throws InputError where no other is there.
+void leave_out_hydrogens(Spheres& spheres);
+
 }  // namespace meniscus::msms

@@ -36,6 +36,11 @@ class Grid {
     scale_ = (double(kGridLimit) - 16.0) / std::max(0.5 * std::max(extent.x, extent.y), 1e-300);
   }
   bool covers(const glm::dvec2& p) const { return p.x > low_.x && p.y > low_.y && p.x < high_.x && p.y < high_.y; }
+  /// Is there a grid point at all?
+  bool reaches(const glm::dvec2& p) const {
+    const glm::dvec2 q = glm::abs(p - 0.5 * (low_ + high_)) * scale_;
+    return std::max(q.x, q.y) < double(kGridLimit);
+  }
   GridPoint at(const glm::dvec2& p) const {
     const glm::dvec2 q = (p - 0.5 * (low_ + high_)) * scale_;
     return {std::llround(q.x), std::llround(q.y)};
@@ -61,10 +66,11 @@ class FaceFiller {
       }
       if (fill()) {
         refine(grid);
-        return extract();
+        if (too_coarse_.empty()) return extract();
+      } else {
+        // The chords of a rim with few points may enclose the wrong side.
+        for (int e = 0; e < rim_count() && rim_count() < kManyRimPoints; ++e) ask_for_split(e);
       }
-      // The chords of a rim with few points may enclose the wrong side.
-      for (int e = 0; e < rim_count() && rim_count() < kManyRimPoints; ++e) ask_for_split(e);
     }
     FaceMesh failed;
     failed.too_coarse = std::move(too_coarse_);
@@ -121,7 +127,8 @@ class FaceFiller {
     return i < rim_count() ? outline_.points[i] : inner_[i - rim_count()];
   }
 
-  /// Splits the longest inner edge of each triangle that is too far from the surface, or its middle.
+  /// Splits the longest inner edge of each triangle that is too far from the surface, or its middle. Where that lies
+  /// beyond the chord of a rim, as on spindles, whose contact circles bulge in the plane, the rim is split instead.
   void refine(const Grid& grid) {
     for (int round = 0; round < kRefinementRounds; ++round) {
       std::vector<FacePoint> wanted;
@@ -141,7 +148,12 @@ class FaceFiller {
           weight[longest] = 0.0;
         }
         const FacePoint middle = outline_.domain->between(corner, weight);
-        if (outline_.domain->contains(middle)) wanted.push_back(middle);
+        if (!outline_.domain->contains(middle)) continue;
+        if (grid.reaches(outline_.domain->flat(middle)))
+          wanted.push_back(middle);
+        else
+          for (const int edge : t.segment)
+            if (edge >= 0) ask_for_split(edge);
       }
       if (wanted.empty()) return;
       for (const FacePoint& p : wanted) insert(grid.at(outline_.domain->flat(p)), p);

@@ -49,6 +49,19 @@ std::string face_text(const MsmsMesh& mesh, const MsmsSpheres& spheres, const Ms
                       });
 }
 
+std::string off_text(const MsmsMesh& mesh) {
+  std::string text = text_of_rows(fmt::format("OFF\n{} {} 0\n", mesh.vertices.size(), mesh.triangles.size()),
+                                  mesh.vertices.size(), [&](std::size_t n, auto out) {
+                                    const glm::dvec3& x = mesh.vertices[n].position;
+                                    fmt::format_to(out, FMT_COMPILE("{:.3f} {:.3f} {:.3f}\n"), unsigned_zero(x.x),
+                                                   unsigned_zero(x.y), unsigned_zero(x.z));
+                                  });
+  return text_of_rows(std::move(text), mesh.triangles.size(), [&](std::size_t n, auto out) {
+    const auto& [a, b, c] = mesh.triangles[n].corner;
+    fmt::format_to(out, FMT_COMPILE("3 {} {} {}\n"), a, b, c);
+  });
+}
+
 std::string area_text(std::span<const AtomAreas> areas, const MsmsSpheres& spheres) {
   std::string titles = "Atom#";
   for (std::size_t c = 0; c < areas.size(); ++c) titles += fmt::format("    ses_{0}    sas_{0}", c);

@@ -32,6 +32,9 @@ std::string vert_text(const MsmsMesh& mesh, const MsmsSpheres& spheres, const Ms
 /// Rows of five: corners (from 1), kind, face.
 std::string face_text(const MsmsMesh& mesh, const MsmsSpheres& spheres, const MsmsHeader& header);
 
+/// The same mesh as OFF, as NanoShaper writes it unless it is asked for the files of MSMS: corners from 0.
+std::string off_text(const MsmsMesh& mesh);
+
 /// A line of titles, then a row for each sphere: its number from 0, areas of each component (solvent-excluded,
 /// solvent-accessible, Å²), name. areas: one for each component.
 std::string area_text(std::span<const AtomAreas> areas, const MsmsSpheres& spheres);

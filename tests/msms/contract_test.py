@@ -65,7 +65,7 @@ class CommandLine(Folder):
         self.assertNotIn("ANALYTICAL", self.msms("-if", "in.xyzr", "-no_a").stdout)
         self.assertNotIn("ANALYTICAL", self.msms("-if", "in.xyzr", "-no").stdout)  # the first that begins so
         self.assertNotIn("NUMERICAL", self.msms("-if", "in.xyzr", "-s", "ases").stdout)
-        for ignored in (("-noh",), ("-no_rest",), ("-no_r",), ("-no_rest_on_pbr",), ("-free_vertices",), ("-f",)):
+        for ignored in (("-no_rest",), ("-no_r",), ("-no_rest_on_pbr",), ("-free_vertices",), ("-f",)):
             self.msms("-if", "in.xyzr", *ignored)
 
     def test_blanks_around_words_are_nothing(self):
@@ -90,7 +90,7 @@ class CommandLine(Folder):
         self.spheres(ONE)
         for words in (("-quiet",), ("-density",), ("-density", "fast"), ("-density", "0"), ("-density", "nan"),
                       ("-probe_radius", "-1"), ("-probe_radius", "inf"), ("-surface", "vdw"), ("stray",), ("-",),
-                      ("-one_cavity", "0"), ("-one_cavity", "2", "1"), ("-one_cavity", "1", "0"), ("-of", ""),
+                      ("-one_cavity", "0"), ("-one_cavity", "2", "1"), ("-one_cavity", "1", "-1"), ("-of", ""),
                       ("-xdr",), ("-sinetd",), ("-socketName", "x"), ("-socketPort", "70000"),
                       ("-all", "-one_cavity", "1", "1")):
             with self.subTest(words):
@@ -149,6 +149,38 @@ class Input(Folder):
     def test_standard_input(self):
         done = run(MSMS, "-if", "-", input=ONE)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
+
+
+    def test_without_hydrogens_the_others_keep_their_numbers(self):
+        self.spheres("0 0 0 1.7\n1 0 0 1.2\n3 0 0 1.5\n3.9 0 0 1.20\n")
+        self.msms("-if", "in.xyzr", "-of", "out", "-noh")
+        self.assertEqual({row.sphere for row in vertices(self.folder / "out.vert")}, {1, 3})
+        bare = (self.folder / "out.face").read_text()
+        self.spheres("0 0 0 1.7\n3 0 0 1.5\n")
+        self.msms("-if", "in.xyzr", "-of", "out")
+        self.assertEqual((self.folder / "out.face").read_text().splitlines()[3:], bare.splitlines()[3:])
+        self.spheres("0 0 0 1.2\n")
+        self.assertIn("-noh leaves out", self.refused(3, "-if", "in.xyzr", "-of", "out", "-noh").stderr)
+
+
+class Probes(Folder):
+    """Spindles of large probes are long and thin; contact circles with few vertices once cut them short."""
+
+    def test_meshes_are_closed_and_near_the_surface_for_every_probe(self):
+        for pdb, options, probes in ((UBIQUITIN, ("-h",), ("0.5", "2", "5", "10")), (LYSOZYME, (), ("2.5", "7")),
+                                     (TOXIN, (), ("3.4",))):
+            self.spheres(run(BUILD / "meniscus-pdb_to_xyzr", *options, pdb).stdout)
+            for probe in probes:
+                with self.subTest(f"{pdb.name} {probe}"):
+                    done = self.msms("-if", "in.xyzr", "-of", "out", "-probe_radius", probe)
+                    rows, corners = vertices(self.folder / "out.vert"), triangles(self.folder / "out.face")
+                    edges = {(t.corners[k], t.corners[k - 2]) for t in corners for k in range(3)}
+                    self.assertEqual(len(edges), 3 * len(corners))
+                    self.assertEqual(edges, {(b, a) for a, b in edges})
+                    volume, area = volume_and_area(rows, corners)
+                    told = table(done.stdout, NUMERIC)[0]
+                    self.assertAlmostEqual(volume / told[2], 1, delta=0.05)
+                    self.assertAlmostEqual(area / told[3], 1, delta=0.1)
 
 
 class PdbToXyzr(Folder):
@@ -290,13 +322,24 @@ class Components(Folder):
     def test_a_cavity_by_its_spheres(self):
         self.spheres(CUT_CAGE)
         everything = table(self.msms("-if", "in.xyzr", "-all", "-probe_radius", "1.4").stdout, ANALYTIC)
-        for words in (("1", "1"), ("2", "1", "3"), ("3", "1", "3", "5")):
+        for words in (("1", "0"), ("2", "0", "2"), ("3", "0", "2", "4")):
             told = table(self.msms("-if", "in.xyzr", "-probe_radius", "1.4", "-one_cavity", *words).stdout, ANALYTIC)
             self.assertEqual(told, [[0, *everything[1][1:]]])
-        for words in (("2", "1", "2"), ("1", "7")):  # opposite ends; no such sphere
+        for words in (("2", "0", "1"), ("1", "6")):  # opposite ends; no such sphere
             done = self.refused(3, "-if", "in.xyzr", "-of", "out", "-probe_radius", "1.4", "-one_cavity", *words)
             self.assertIn("find_first_rs_face", done.stderr)
 
+    def test_clients_number_spheres_of_a_cavity_from_0(self):
+        """PyVOL, SurfDock and others pass what numpy.argmin says of the rows that they wrote."""
+        far = "".join(f"{float(line.split()[0]) + 40} {line.split(maxsplit=1)[1]}\n" for line in octahedron(3.6).splitlines())
+        rows = (CAGE + far).splitlines()  # six spheres around one cavity, six around a larger one
+        self.spheres(CAGE + far)
+        everything = table(self.msms("-if", "in.xyzr", "-all", "-probe_radius", "1.4").stdout, ANALYTIC)
+        large, small = (row for row in everything if row[5] < 100)
+        for end, cavity in ((3.2, small), (43.6, large)):
+            nearest = min(range(len(rows)), key=lambda n: abs(float(rows[n].split()[0]) - end))
+            told = table(self.msms("-if", "in.xyzr", "-probe_radius", "1.4", "-one_cavity", "1", nearest).stdout, ANALYTIC)
+            self.assertEqual(told, [[0, *cavity[1:]]])
 
     def test_those_of_lysozyme_beside_those_of_the_surface(self):
         """Sheets of the reduced surface are those of the solvent-accessible one; where two of them cross, they are one

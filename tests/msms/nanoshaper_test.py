@@ -138,6 +138,59 @@ class NanoShaper(Folder):
         self.good(BUILD / "meniscus-nanoshaper", "other.prm", cwd=self.folder)
         self.assertGreater(len(read_mesh(self.folder).triangles), 1000)
 
+    def test_every_key_is_honoured_refused_or_named(self):
+        """What asks for another result than the files that are here is refused; what NanoShaper does not know, named."""
+        self.molecule(name="molecule.xyzr")
+        least = "XYZR_FileName = molecule.xyzr\nGrid_scale = 0.5\n"
+        both = {"triangulatedSurf.vert", "triangulatedSurf.face", "triangulatedSurf.off"}
+        refused = ("Operative_Mode = pockets", "Operative_Mode = membfit", "Surface = pockets", "Surface = skin",
+                   "Surface = blobby", "Surface = mesh", "Save_Mesh_PLY_Format = true", "Triangulation = false",
+                   "Save_Cavities = true", "Save_Status_map = true", "Save_eps_maps = true", "Save_bgps = true",
+                   "Save_PovRay = true", "Tri2Balls = true")
+        allowed = ("Operative_Mode = normal", "Surface = ses", "Save_Mesh_PLY_Format = false", "Triangulation = true",
+                   "Save_Cavities = false", "Smooth_Mesh = false", "Max_ses_patches_per_auxiliary_grid_cell = 250;",
+                   "Grid_perfill = 70", "Pocket_Radius_Big = 3.0", "Number_thread = 32", "Blobbyness = -2.5")
+        for line in refused + allowed:
+            with self.subTest(line):
+                (self.folder / "surfaceConfiguration.prm").write_text(least + line + "\n")
+                done = run(BUILD / "meniscus-nanoshaper", cwd=self.folder)
+                made = {path.name for path in self.folder.glob("triangulated*")}
+                if line in refused:
+                    self.assertEqual((done.returncode, made, done.stderr.count("\n")), (3, set(), 1))
+                    self.assertIn(f"prm:3: {line.split()[0]} is '{line.split()[-1]}'; give", done.stderr)
+                else:
+                    self.assertEqual((done.returncode, made, done.stderr), (0, both, ""))
+                for name in made:
+                    (self.folder / name).unlink()
+        (self.folder / "surfaceConfiguration.prm").write_text(least + "Probe_radius = 3\n")
+        done = run(BUILD / "meniscus-nanoshaper", cwd=self.folder)
+        self.assertEqual(done.returncode, 0)
+        self.assertIn("warning: surfaceConfiguration.prm: 'Probe_radius' is no key of NanoShaper", done.stderr)
+
+    def test_files_are_those_that_the_client_reads(self):
+        """VMD gives names a beginning of their own; others ask for OFF, the form that NanoShaper has without a key."""
+        mesh = self.shape(scale=1.0)
+        settings = self.folder / "surfaceConfiguration.prm"
+        as_msms = settings.read_text()
+        for path in self.folder.glob("triangulated*"):
+            path.rename(self.folder / f"first_{path.name}")
+        (self.folder / "tmp").mkdir()
+        settings.write_text(as_msms.replace("MSMS_Format = true", "MSMS_Format = false") + "Root_FileName = tmp/vmdns.7.\n")
+        self.good(BUILD / "meniscus-nanoshaper", cwd=self.folder)
+        self.assertEqual([path.name for path in (self.folder / "tmp").iterdir()], ["vmdns.7.triangulatedSurf.off"])
+        words = (self.folder / "tmp/vmdns.7.triangulatedSurf.off").read_text().split()
+        count, triangles, edges = map(int, words[1:4])
+        self.assertEqual((words[0], count, triangles, edges), ("OFF", len(mesh.positions), len(mesh.triangles), 0))
+        numbers = list(map(float, words[4:]))
+        self.assertEqual([tuple(numbers[3 * n:3 * n + 3]) for n in range(count)], mesh.positions)
+        rows = [tuple(map(int, numbers[3 * count + 4 * n:3 * count + 4 * n + 4])) for n in range(triangles)]
+        self.assertEqual(rows, [(3, *triangle) for triangle in mesh.triangles])
+        settings.write_text(as_msms + "Root_FileName = tmp/other_\n")
+        self.good(BUILD / "meniscus-nanoshaper", cwd=self.folder)
+        for kind in ("vert", "face"):
+            self.assertEqual((self.folder / f"tmp/other_triangulatedSurf.{kind}").read_text(),
+                             (self.folder / f"first_triangulatedSurf.{kind}").read_text())
+
     def test_faults_are_told_with_their_line_and_write_nothing(self):
         self.molecule(name="molecule.xyzr")
         good = CONFIGURATION.format(scale=2, fill="false")
@@ -145,7 +198,6 @@ class NanoShaper(Folder):
             good.replace("= ses", "= skin"): (3, "prm:8: Surface is 'skin'; give ses"),
             good.replace("Grid_scale = 2", "Grid_scale = two"): (3, "prm:1: Grid_scale is 'two'; give a number from 0.1 to 20"),
             good.replace("Radius = 1.4", "Radius = -1"): (3, "Probe_Radius is '-1'"),
-            good.replace("MSMS_Format = true", "MSMS_Format = false"): (3, "give true"),
             good.replace("Filling = false", "Filling = maybe"): (3, "true or false"),
             good.replace("XYZR_FileName", "XYZ"): (3, "has no XYZR_FileName"),
             good.replace("molecule.xyzr", "none.xyzr"): (3, "none.xyzr"),
