@@ -25,11 +25,12 @@ struct RsArc {
   auto operator<=>(const RsArc&) const = default;
 };
 
-/// All exposed arcs, sorted, and the atoms that have none but are wholly exposed. Whatever computes it (exhaustive
-/// enumeration, rolling probe, GPU) must give the same lists.
+/// All exposed arcs, sorted, and the atoms that have none but are wholly exposed. Whatever computes the arcs
+/// (exhaustive enumeration, rolling probe, GPU) must give the same ones; the atoms follow from them (whole_spheres.h).
 struct ReducedSurface {
   std::vector<RsArc> arcs;
   std::vector<std::uint32_t> lone_atoms;  ///< SAS spheres that meet no other and lie in none, sorted
+  std::vector<std::uint32_t> lost_atoms;  ///< of which arcs must be missing, sorted; none unless there is a fault
   bool operator==(const ReducedSurface&) const = default;
 };
 

@@ -29,6 +29,8 @@ Surface assemble_surface(std::span<const Ball> atoms, double probe_radius, const
     rolling = place_rolling_parts(atoms, probe_radius, rs);
     surface.toroidal = std::move(rolling.toroidal);
     surface.certificate.open_atoms = std::move(rolling.open_atoms);
+    surface.certificate.open_atoms.insert(surface.certificate.open_atoms.end(), rs.lost_atoms.begin(),
+                                          rs.lost_atoms.end());
     if (!surface.certificate.open_atoms.empty()) return surface;
   }
   CuspParts cusps;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Stage "primitives", 7: a convex patch for every atom with exposed arcs, or without any neighbour.
+// Stage "primitives", 7: a convex patch for every atom with exposed arcs, or whose whole sphere is exposed.
 // Reads: kept atoms and their neighbour lists, arcs by atom, clips, atoms, radii. Writes: primitives, rows, counters.
 // One invocation per kept atom of the batch. Overflow: appends stop at the capacity but go on counting; the host grows
 // and runs again.
@@ -22,7 +22,6 @@ layout(binding = 0) uniform usamplerBuffer atom_arc_first;
 layout(binding = 1) uniform usamplerBuffer atom_arcs;  // partner, begin_by, end_by, mark
 layout(std430, binding = 5) readonly buffer NeighborFirst { uint neighbor_first[]; };
 layout(std430, binding = 6) readonly buffer NeighborLabels { uint neighbor_labels[]; };
-#include "gpu_shaders/reduced_surface/lone_atom.glsl"
 layout(std140, binding = 0) uniform Parameters { ConvexParameters params; };
 layout(std430, binding = 7) readonly buffer Clips { uint clips[]; };  // with whole spheres, whether each is drawn
 
@@ -47,6 +46,17 @@ void make_patch(uint a, uint entry) {
   append_primitive(sphere);
 }
 #else
+// Whether the sphere of an atom without arcs is exposed, as a whole then (theorem 4): no ball surely overlaps it. Those
+// that touch it but for rounding cover caps too small to cover a sphere together, and of any cap an arc would show.
+bool alone(uint a, uint entry) {
+  const double nearer = 1.0LF + 32.0LF * kUnitRoundoff;
+  for (uint n = neighbor_first[entry]; n < neighbor_first[entry + 1u]; ++n) {
+    dvec4 other = atoms[neighbor_labels[n]];
+    if (balls_overlap(nearer * (other.xyz - atoms[a].xyz), atoms[a].w, other.w)) return false;
+  }
+  return true;
+}
+
 uint plane_count;
 PatchBound bound;
 

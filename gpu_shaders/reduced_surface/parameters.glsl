@@ -36,12 +36,6 @@ struct CircleParameters {
   uint doubtful_capacity;
 };
 
-struct LoneAtomParameters {
-  uint first_entry;  // of the batch
-  uint entry_count;  // in the batch
-  uint capacity;     // of the list
-};
-
 struct FixedProbeParameters {
   dvec3 middle;  // of the atoms
   double probe_radius;

@@ -13,6 +13,7 @@
 #include "core/reduced_surface/contour/contour.h"
 #include "core/reduced_surface/contour/sphere_cover.h"
 #include "core/reduced_surface/cpu/neighbor_search.h"
+#include "core/reduced_surface/whole_spheres.h"
 
 namespace meniscus {
 namespace {
@@ -26,7 +27,6 @@ struct Group {
   std::vector<std::uint32_t> first;      // per atom, into neighbors; one past the last closes the list
   std::vector<std::uint32_t> open;       // per atom: how many of its circles are open
   std::vector<RsArc> arcs;               // atom after atom, those of each sorted
-  std::vector<std::uint32_t> lone_atoms;
   std::size_t pairs = 0;
 };
 
@@ -42,12 +42,13 @@ struct Worker {
 
 class Enumeration {
  public:
-  Enumeration(std::span<const Ball> atoms, double probe_radius)
+  Enumeration(std::span<const Ball> atoms, double probe_radius, std::span<const double> weights,
+              const std::vector<bool>& swallowed)
       : atom_count_(atoms.size()),
-        search_(atoms, probe_radius, decision_weights(atoms, probe_radius), swallowed_atoms(atoms)),
+        search_(atoms, probe_radius, weights, swallowed),
         groups_((search_.size() + kGroup - 1) / kGroup) {}
 
-  ReducedSurface run(CircleStats* stats) {
+  std::vector<RsArc> run(CircleStats* stats) {
     // Nearly half of all atoms are buried, which is quickly told; their circles need no look.
     for_each_group([&](std::size_t group, Worker& worker) { look_around(group, worker); });
     for_each_group([&](std::size_t group, Worker& worker) { list_arcs(group, worker); });
@@ -55,7 +56,7 @@ class Enumeration {
       for (const Group& group : groups_) stats->pairs += group.pairs / 2;
       for (const Worker& worker : workers_) stats->decided_in_quadruple += worker.contour.doubtful_count();
     }
-    return {sorted_arcs(), sorted_lone_atoms()};
+    return sorted_arcs();
   }
 
  private:
@@ -85,7 +86,6 @@ class Enumeration {
       search_.append_neighbors(place, w.rows, group.neighbors);
       const std::size_t count = group.neighbors.size() - known;
       group.pairs += count;
-      if (count == 0) group.lone_atoms.push_back(search_.atom(place));
       search_.list_blockers(place, std::span(group.neighbors).subspan(known), w.blockers);
       if (!w.cover.look(w.blockers)) group.neighbors.resize(known);
       group.open.push_back(open_first(std::span(group.neighbors).subspan(known), w.cover));
@@ -172,13 +172,6 @@ class Enumeration {
     return arcs;
   }
 
-  std::vector<std::uint32_t> sorted_lone_atoms() const {
-    std::vector<std::uint32_t> lone;
-    for (const Group& group : groups_) lone.insert(lone.end(), group.lone_atoms.begin(), group.lone_atoms.end());
-    std::sort(lone.begin(), lone.end());
-    return lone;
-  }
-
   std::size_t atom_count_;
   NeighborSearch search_;
   std::vector<Group> groups_;
@@ -188,7 +181,12 @@ class Enumeration {
 }  // namespace
 
 ReducedSurface enumerate_reduced_surface(std::span<const Ball> atoms, double probe_radius, CircleStats* stats) {
-  return Enumeration(atoms, probe_radius).run(stats);
+  const std::vector<double> weights = decision_weights(atoms, probe_radius);
+  const std::vector<bool> swallowed = swallowed_atoms(atoms);
+  ReducedSurface rs;
+  rs.arcs = Enumeration(atoms, probe_radius, weights, swallowed).run(stats);
+  find_whole_spheres(atoms, weights, swallowed, rs);
+  return rs;
 }
 
 }  // namespace meniscus

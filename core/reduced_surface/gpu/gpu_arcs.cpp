@@ -20,13 +20,12 @@ void GpuArcs::upload(std::span<const Ball> atoms, const std::vector<bool>& swall
   });
 }
 
-void GpuArcs::find(StageClock& clock, const std::function<void(const BallBatch&)>& visit) {
+void GpuArcs::find(StageClock& clock) {
   neighbors.count_lists(Counting::now);
   circles.restart();
   std::optional<GpuStage> listing(std::in_place, clock, "neighbors");
   neighbors.for_each_batch([&](const BallBatch& batch) {
     neighbors.list_pairs(batch);
-    if (visit) visit(batch);
     listing.reset();
     circles.expose(batch, clock);
     listing.emplace(clock, "neighbors");

@@ -2,7 +2,6 @@
 // RS edges on the GPU: the exposed arcs of all atoms, or of those that a view keeps.
 #pragma once
 
-#include <functional>
 #include <span>
 #include <vector>
 
@@ -24,9 +23,8 @@ class GpuArcs {
   void upload(std::span<const Ball> atoms, const std::vector<bool>& swallowed, double probe_radius);
 
   /// Fills `circles.arcs`, in any order: the arcs of all circles of two atoms that are listed (neighbors.list_only()).
-  /// All atoms block. visit: called for every batch while its neighbour lists are there. Throws GpuError,
-  /// CapacityError.
-  void find(StageClock& clock, const std::function<void(const BallBatch&)>& visit = {});
+  /// All atoms block. Throws GpuError, CapacityError.
+  void find(StageClock& clock);
 
   /// The same without asking for any count, where neighbors.can_trust(): see GpuCircles::expose_later().
   void find_later(StageClock& clock);

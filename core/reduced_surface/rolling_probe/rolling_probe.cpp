@@ -11,6 +11,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/reduced_surface/rolling_probe/rolling_circle.h"
+#include "core/reduced_surface/whole_spheres.h"
 #include "core/math/ball_grid.h"
 
 namespace meniscus {
@@ -56,6 +57,7 @@ class RollingProbe {
     else
       start_everywhere();
     std::sort(rs_.arcs.begin(), rs_.arcs.end());
+    if (scope == RollingScope::complete) find_whole_spheres(atoms_, weights_, swallowed_, rs_);
     return std::move(rs_);
   }
 
@@ -229,7 +231,6 @@ class RollingProbe {
     for (std::uint32_t i = 0; i < atoms_.size(); ++i) {
       if (swallowed_[i]) continue;
       const std::size_t count = neighbors_of(i).size();
-      if (count == 0) rs_.lone_atoms.push_back(i);
       for (std::size_t n = 0; n < count; ++n) {
         const std::uint32_t j = neighbors_[i][n].atom;
         if (j < i) continue;
