@@ -40,15 +40,21 @@ Box box_of_circle(const glm::dvec3& center, const glm::dvec3& axis, double radiu
 /// A point in the cylindrical coordinates of a circle: along its axis, and away from it.
 struct BesideAxis {
   double along, away;
-  glm::dvec3 outward;  ///< unit; on the axis itself any direction does, and `start` is taken
+  glm::dvec3 outward;  ///< unit, across the axis; on the axis itself any direction does, and `start` is taken
 };
 
+/// Close to the axis what is across it is a difference of nearly equal numbers, whose rounding points anywhere, along
+/// the axis too: so it is taken across once more. If that leaves less than half of it, it was rounding alone.
 BesideAxis beside_axis(const glm::dvec3& x, const glm::dvec3& center, const glm::dvec3& axis, const glm::dvec3& start) {
   const glm::dvec3 from_center = x - center;
   const double along = glm::dot(from_center, axis);
   const glm::dvec3 across = from_center - along * axis;
   const double away = glm::length(across);
-  return {along, away, away > 0.0 ? across / away : start};
+  if (away > 1e-3 * std::abs(along)) return {along, away, across / away};
+  const glm::dvec3 again = across - glm::dot(across, axis) * axis;
+  const double left = glm::length(again);
+  if (!(left > 0.5 * away)) return {along, 0.0, start};
+  return {along, left, again / left};
 }
 
 /// Does the arc that begins at `start` and turns counter-clockwise by `sweep` pass the direction?

@@ -31,6 +31,9 @@ class SurfaceDistance {
   SurfaceDistance(SurfaceDistance&&) noexcept;
   SurfaceDistance& operator=(SurfaceDistance&&) noexcept;
 
+  /// Å, the largest coordinate that a point may have: squares of distances are finite.
+  static constexpr double kFarthest = 1e150;
+
   NearestPoint operator()(const glm::dvec3& point) const;
 
   /// Å, from the point to the nearest place where a probe touches an atom, whichever side of the SAS the point is on.

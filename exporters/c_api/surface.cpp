@@ -155,9 +155,13 @@ meniscus_summary summary_of(const FinishedSurface& finished) {
 }
 
 void check_points(std::size_t count, const double* points) {
-  for (std::size_t n = 0; n < 3 * count; ++n)
+  for (std::size_t n = 0; n < 3 * count; ++n) {
     if (!std::isfinite(points[n]))
       refuse(MENISCUS_INPUT, "{} of point {} is {}, not a finite number", "xyz"[n % 3], n / 3, points[n]);
+    if (std::abs(points[n]) > SurfaceDistance::kFarthest)
+      refuse(MENISCUS_INPUT, "{} of point {} is {} Å; distances are known up to coordinates of {} Å", "xyz"[n % 3],
+             n / 3, points[n], SurfaceDistance::kFarthest);
+  }
 }
 
 void find_distances(const FinishedSurface& finished, std::size_t count, const double* points, double* distances,

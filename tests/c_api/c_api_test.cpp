@@ -342,21 +342,28 @@ TEST(CApi, DistancesAreThoseOfTheOracle) {
   const testing::SphereTracer oracle(balls, 1.4, 2.0);
   const Computer made = computer();
   const SurfaceOf surface = computed(made.get(), balls);
-  std::vector<double> points;
-  for (const Ball& ball : balls)
-    for (int axis = 0; axis < 3; ++axis) points.push_back(ball.center[axis] + 0.1);
-  std::vector<double> distances(balls.size()), nearest(points.size());
-  ASSERT_EQ(meniscus_surface_distance(surface.get(), balls.size(), points.data(), distances.data(), nearest.data()),
-            MENISCUS_OK);
-  for (std::size_t n = 0; n < balls.size(); ++n) {
-    const glm::dvec3 point(points[3 * n], points[3 * n + 1], points[3 * n + 2]);
-    const double to_probe = oracle.nearest(point).distance;
-    if (to_probe < oracle.reach()) {
-      EXPECT_NEAR(distances[n], 1.4 - to_probe, 1e-9);
+  std::vector<double> points, distances(balls.size()), nearest(3 * balls.size());
+  for (const double aside : {0.0, 0.1}) {
+    points.clear();
+    for (const Ball& ball : balls)
+      for (int axis = 0; axis < 3; ++axis) points.push_back(ball.center[axis] + aside);
+    ASSERT_EQ(meniscus_surface_distance(surface.get(), balls.size(), points.data(), distances.data(), nearest.data()),
+              MENISCUS_OK);
+    for (std::size_t n = 0; n < balls.size(); ++n) {
+      const glm::dvec3 point(points[3 * n], points[3 * n + 1], points[3 * n + 2]);
+      const double to_probe = oracle.nearest(point).distance;
+      if (to_probe < oracle.reach()) {
+        EXPECT_NEAR(distances[n], 1.4 - to_probe, 1e-9);
+      }
+      const glm::dvec3 foot(nearest[3 * n], nearest[3 * n + 1], nearest[3 * n + 2]);
+      EXPECT_NEAR(glm::distance(point, foot), -distances[n], 1e-9);
+      EXPECT_NEAR(oracle.nearest(foot).distance, 1.4, 1e-9);
     }
-    const glm::dvec3 foot(nearest[3 * n], nearest[3 * n + 1], nearest[3 * n + 2]);
-    EXPECT_NEAR(glm::distance(point, foot), -distances[n], 1e-9);
   }
+  points[5] = 1e160;
+  EXPECT_EQ(meniscus_surface_distance(surface.get(), balls.size(), points.data(), distances.data(), nullptr),
+            MENISCUS_INPUT);
+  EXPECT_NE(std::strstr(meniscus_last_error(), "z of point 1 is 1e+160 Å"), nullptr) << meniscus_last_error();
   points[4] = std::nan("");
   EXPECT_EQ(meniscus_surface_distance(surface.get(), balls.size(), points.data(), distances.data(), nullptr),
             MENISCUS_INPUT);

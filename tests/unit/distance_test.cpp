@@ -4,11 +4,13 @@
 
 #include <cmath>
 #include <random>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 #include "core/surface/surface.h"
 #include "tests/support/molecules.h"
+#include "tests/support/sanitized.h"
 #include "tests/support/sphere_tracer.h"
 
 namespace meniscus {
@@ -65,6 +67,99 @@ TEST(SurfaceDistance, OfASpindleIsThatToItsTip) {
   EXPECT_NEAR(distance({middle, 0.0, 0.0}).distance, tip, 1e-14);
   EXPECT_NEAR(distance({middle + 0.5 * tip, 0.0, 0.0}).distance, 0.5 * tip, 1e-14);
   EXPECT_LT(distance({middle + 1.5 * tip, 0.0, 0.0}).distance, 0.0);
+}
+
+/// Where many points of a surface are equally near, all of them but for rounding: centres of atoms, of probes, of tori
+/// and of borders, points of their axes, vertices with the tips of spindles, and what is half-way between two such.
+std::vector<glm::dvec3> symmetric_points(const Surface& s) {
+  std::vector<glm::dvec3> points;
+  for (const Ball& atom : s.atoms) points.push_back(atom.center);
+  for (const ConcavePatch& patch : s.concave) points.push_back(patch.center);
+  const auto add_axis = [&](const glm::dvec3& center, const glm::dvec3& axis) {
+    for (const double along : {0.0, 0.4, -1.1, 30.0}) points.push_back(center + along * axis);
+  };
+  for (const ToroidalPatch& patch : s.toroidal) {
+    add_axis(patch.center, patch.axis);
+    points.push_back(0.5 * (s.atoms[patch.atom[0]].center + s.atoms[patch.atom[1]].center));
+    points.push_back(patch.center + patch.radius * patch.start);
+  }
+  for (const Border& border : s.borders) add_axis(border.center, border.axis);
+  points.insert(points.end(), s.vertices.begin(), s.vertices.end());
+  for (std::size_t n = 1; n < s.concave.size(); ++n)
+    points.push_back(0.5 * (s.concave[n - 1].center + s.concave[n].center));
+  return points;
+}
+
+/// Every foot is on the surface and as far away as the distance says, asked at these points and beside them.
+void expect_feet_on(const Surface& surface, const std::vector<glm::dvec3>& points) {
+  const double p = surface.probe_radius;
+  const SurfaceDistance distance(surface);
+  const testing::SphereTracer oracle(surface.atoms, p, 0.5);
+  std::mt19937 random(3);
+  int off = 0, elsewhere = 0;
+  for (const glm::dvec3& symmetric : points)
+    for (const double aside : {0.0, 1e-15, 1e-9}) {
+      const glm::dvec3 point = symmetric + aside * random_direction(random);
+      const NearestPoint nearest = distance(point);
+      const double height = p > 0 ? oracle.nearest(nearest.point).distance - p : oracle.outside(nearest.point);
+      off += !(std::abs(height) < 1e-11);
+      elsewhere += !(std::abs(glm::distance(nearest.point, point) - std::abs(nearest.distance)) < 1e-12);
+    }
+  EXPECT_EQ(off, 0) << "of " << 3 * points.size() << " feet are off the surface";
+  EXPECT_EQ(elsewhere, 0) << "of " << 3 * points.size() << " feet are not as far as the distance says";
+}
+
+TEST(SurfaceDistance, OfSymmetricPointsHasFeetOnTheSurface) {
+  for (const double probe_radius : {0.0, 1.4, 3.0}) {
+    SCOPED_TRACE(probe_radius);
+    testing::Balls atoms = testing::ubiquitin();
+    atoms.resize(static_cast<std::size_t>(test::samples(300)));
+    const Surface surface = compute_surface_cpu(atoms, probe_radius);
+    expect_feet_on(surface, symmetric_points(surface));
+  }
+}
+
+// Turned, so that no axis is one of space: coordinates along them are rounded.
+TEST(SurfaceDistance, OfAFewBallsHasFeetOnTheSurface) {
+  const double r = testing::kCarbon, p = testing::kWater;
+  std::mt19937 random(9);
+  for (const testing::Balls& atoms :
+       {testing::two_atoms(3.0), testing::two_atoms(4.0, 1.2, 2.0), testing::two_atoms(5.8),
+        testing::two_atoms(2 * std::sqrt((r + p) * (r + p) - p * p)), testing::ring(3, 3.0), testing::ring(3, 5.0),
+        testing::collinear(3, 2.9), testing::tetrahedron(3.5)})
+    for (int turn = 0; turn < 4; ++turn) {
+      SCOPED_TRACE(atoms.size());
+      const testing::Balls turned =
+          testing::translated(testing::rotated(atoms, testing::random_rotation(random)), {11.0, -37.0, 53.0});
+      const Surface surface = compute_surface_cpu(turned, p);
+      expect_feet_on(surface, symmetric_points(surface));
+    }
+}
+
+// An atom's centre is equally far from all of its contact patch.
+TEST(SurfaceDistance, FromACenterIsTheRadius) {
+  const testing::Balls atoms = testing::ubiquitin();
+  const Surface surface = compute_surface_cpu(atoms, 1.4);
+  const SurfaceDistance distance(surface);
+  for (const ConvexPatch& patch : surface.convex) {
+    const Ball& atom = surface.atoms[patch.atom];
+    const NearestPoint nearest = distance(atom.center);
+    EXPECT_NEAR(nearest.distance, -atom.radius, 1e-12);
+    EXPECT_NEAR(glm::distance(nearest.point, atom.center), atom.radius, 1e-12);
+  }
+}
+
+TEST(SurfaceDistance, FromFarAwayIsFinite) {
+  const Surface surface = compute_surface_cpu(testing::tetrahedron(3.5), 1.4);
+  const SurfaceDistance distance(surface);
+  for (const double far : {1e6, 1e16, 1e38, SurfaceDistance::kFarthest})
+    for (const glm::dvec3& direction : {glm::dvec3(1, 0, 0), glm::dvec3(1, -1, 1)}) {
+      const glm::dvec3 point = far * direction;
+      const NearestPoint nearest = distance(point);
+      EXPECT_NEAR(nearest.distance / glm::length(point), 1.0, 1e-5);
+      EXPECT_NEAR(glm::distance(point, nearest.point) / nearest.distance, 1.0, 1e-15);
+      EXPECT_LT(glm::length(nearest.point), 10.0);
+    }
 }
 
 /// What a distance must satisfy: its point is on the surface and that far away, and no part of the surface is nearer,

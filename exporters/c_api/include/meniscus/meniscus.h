@@ -290,8 +290,8 @@ MENISCUS_API meniscus_status meniscus_surface_table(const meniscus_surface* surf
 /* Of each point the Euclidean distance to the nearest point of the surface: above 0 in the solvent, below 0 in the
  * solid (the solid of MENISCUS_SES is what no probe reaches, cavities are solvent; that of the other kinds is the union
  * of the balls). Exact but for rounding, also far away; where atoms touch in one point, within 1e-6 Å. points: count
- * times x, y, z, finite. distances: room for count. nearest: NULL, or room for count points, of those of the surface
- * that are nearest; where several are, for one of them. */
+ * times x, y, z, each 1e150 Å at most. distances: room for count. nearest: NULL, or room for count points, of those of
+ * the surface that are nearest; where several are, for one of them. */
 MENISCUS_API meniscus_status meniscus_surface_distance(const meniscus_surface* surface, size_t count,
                                                        const double* points, double* distances, double* nearest);
 
