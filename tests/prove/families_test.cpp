@@ -23,8 +23,6 @@ namespace {
 bool expect_right(const Balls& balls, double probe_radius, std::uint32_t seed, int effort, Turned turned = Turned::no) {
   const SurfaceVerdict verdict = check_surface(balls, probe_radius, seed, effort, turned);
   EXPECT_FALSE(verdict.refused);
-  // Atoms are lost where SAS balls miss each other by 2e-9 to 3e-9 Å; prove_surfaces counts them.
-  if (verdict.lost) return false;
   EXPECT_EQ(verdict.complaint, "");
   return verdict.surface && verdict.surface->certificate.grown_by > 0;
 }
