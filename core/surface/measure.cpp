@@ -93,7 +93,9 @@ class Measurement {
       walk_loop(s_, s_.loops[l], center, radius, seen_from_inside, loop);
       area += area_left_of(loop) - 4 * kPi;
       moment += moment_left_of(loop);
-      misfit = std::max(misfit, misfit_of(loop));
+      const double misfit_here = misfit_of(loop);
+      if (misfit_here > kMisfit) moment += moment_of_steps(loop);
+      misfit = std::max(misfit, misfit_here);
       shortest = std::min(shortest, shortest_of(loop));
     }
     FaceIntegrals integrals;

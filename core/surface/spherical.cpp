@@ -174,7 +174,13 @@ double area_swept_from(const glm::dvec3& pole, const SphereCircle& circle, doubl
 
 double area_swept_from(const glm::dvec3& pole, std::span<const SphereArc> loop) {
   double area = 0;
-  for (const SphereArc& arc : loop) area += area_swept_from(pole, circle_of(arc), 0.0, std::abs(arc.sweep));
+  for (std::size_t n = 0; n < loop.size(); ++n) {
+    const SphereArc &arc = loop[n], &next = loop[n + 1 == loop.size() ? 0 : n + 1];
+    area += area_swept_from(pole, circle_of(arc), 0.0, std::abs(arc.sweep));
+    // (1 - cos theta) d phi is dot(pole, u x du) / (1 + cos theta).
+    if (const double beyond = 1 + glm::dot(pole, arc.to); !arc.whole && beyond > 0)
+      area += glm::dot(pole, glm::cross(arc.to, next.from)) / beyond;
+  }
   return area;
 }
 
@@ -184,6 +190,13 @@ glm::dvec3 moment_left_of(std::span<const SphereArc> loop) {
     sum +=
         arc.height * glm::cross(arc.axis, arc.to - arc.from) + arc.axis * ((1 - arc.height * arc.height) * arc.sweep);
   return 0.5 * sum;
+}
+
+glm::dvec3 moment_of_steps(std::span<const SphereArc> loop) {
+  glm::dvec3 sum(0.0);
+  for (std::size_t n = 0; n < loop.size(); ++n)
+    if (!loop[n].whole) sum += 0.5 * glm::cross(loop[n].to, loop[n + 1 == loop.size() ? 0 : n + 1].from);
+  return sum;
 }
 
 bool lies_left_of(std::span<const SphereArc> inner, std::span<const SphereArc> loop) {

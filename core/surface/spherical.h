@@ -58,15 +58,17 @@ SphereCircle circle_of(const SphereArc& arc);
 
 /// Integral of (1 - cos theta) d phi along a circle from t = from to t = to; theta and phi are polar coordinates about
 /// `pole`. Along the border of a region these integrals add up to the region's area, less 4 pi if the region holds the
-/// antipode of the pole. Small steps between arcs change the sum by as little, wherever they are far from the antipode:
-/// unlike the turning it needs no tangents, which tiny circles do not have.
+/// antipode of the pole. Unlike the turning it needs no tangents, which tiny circles do not have.
 double area_swept_from(const glm::dvec3& pole, const SphereCircle& circle, double from, double to);
 
-/// The same along closed loops.
+/// The same along closed loops; small steps from the end of an arc to the beginning of the next belong to them.
 double area_swept_from(const glm::dvec3& pole, std::span<const SphereArc> loop);
 
 /// Integral of the unit vector u over the region on the left of the loops: 1/2 of the sum of integrals of u x du.
 glm::dvec3 moment_left_of(std::span<const SphereArc> loop);
+
+/// What the steps between the arcs of a loop that does not quite close add to that.
+glm::dvec3 moment_of_steps(std::span<const SphereArc> loop);
 
 /// The straight distance from a point of the unit sphere to the loop; positive if the point lies on the left of it.
 /// All interior angles at most pi, as in area_left_of().

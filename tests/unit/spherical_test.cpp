@@ -114,6 +114,29 @@ TEST(Area, SweptFromAnyPole) {
       }
 }
 
+// Arcs that end a little past or before the corner, as those of planes that are nearly parallel do: areas and moments
+// change by the square of the step. (By the step itself, areas of atoms did not add up to the surface's.)
+TEST(Area, OfLoopsThatDoNotQuiteClose) {
+  std::mt19937 random(6);
+  for (const int corners : {3, 4, 7})
+    for (double step = 1e-4; step > 1e-11; step /= 10) {
+      const glm::dmat3 turn = random_rotation(random);
+      const std::vector<SphereArc> closed = polygon(corners, 0.4, turn);
+      std::vector<SphereArc> loop = closed;
+      for (std::size_t n = 0; n < loop.size(); n += 2) {
+        const double past = n % 4 == 0 ? step : -0.7 * step;
+        loop[n].to = std::cos(past) * loop[n].to + std::sin(past) * glm::cross(loop[n].axis, loop[n].to);
+        loop[n].sweep += past;
+      }
+      const double area = polygon_area(corners, 0.4), noise = 8 * step * step + 1e-13;
+      EXPECT_GT(misfit_of(loop), 0.5 * step);
+      EXPECT_NEAR(area_left_of(loop), area, noise) << step;
+      EXPECT_NEAR(area_swept_from(glm::normalize(turn[2] + 0.3 * turn[0]), loop), area, noise) << step;
+      EXPECT_NEAR(glm::distance(moment_left_of(loop) + moment_of_steps(loop), moment_left_of(closed)), 0, noise)
+          << step;
+    }
+}
+
 // Corners beside their circles by more than these are wide: the turning is lost, the swept area is not.
 TEST(Area, OfATinyCapWithABlurredCorner) {
   const double size = 1e-7, height = std::cos(size);
