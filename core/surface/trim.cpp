@@ -177,9 +177,11 @@ class ConvexTrimmer::Search {
 
   double weight(std::uint32_t a) const { return decision_weight(s_.atoms[a].radius + s_.probe_radius, a); }
 
-  // All balls, cell by cell.
+  // All balls, cell by cell. Swallowed ones cover nothing: where they reach beyond the atom that holds them, by 1e-6 Å
+  // at most, their planes would take half of a patch.
   struct Balls {
     explicit Balls(const Search& search) : grid(search.s_.atoms, search.largest_) {
+      const std::vector<bool> swallowed = swallowed_atoms(search.s_.atoms);
       const std::size_t count = grid.order().size();
       table.make_room(count);
       double *x = table.column(kX), *y = table.column(kY), *z = table.column(kZ), *weight = table.column(kWeight);
@@ -188,7 +190,7 @@ class ConvexTrimmer::Search {
         x[n] = search.s_.atoms[b].center.x;
         y[n] = search.s_.atoms[b].center.y;
         z[n] = search.s_.atoms[b].center.z;
-        weight[n] = search.weight(b);
+        weight[n] = swallowed[b] ? 0.0 : search.weight(b);
       }
     }
     BallGrid grid;

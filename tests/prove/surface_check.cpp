@@ -2,6 +2,7 @@
 // The checks, cheapest first; the first that fails gives the complaint.
 #include "tests/prove/surface_check.h"
 
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -109,19 +110,23 @@ class Check {
     return {};
   }
 
-  SphereTracer& oracle() {
-    if (!oracle_) {
-      Balls grown;
-      const std::vector<bool> swallowed = swallowed_atoms(s_.atoms);
-      for (std::uint32_t a = 0; a < s_.atoms.size(); ++a) {
-        if (swallowed[a]) continue;
-        const double extended = std::sqrt(decision_weight(s_.atoms[a].radius + s_.probe_radius, a));
-        grown.push_back({s_.atoms[a].center, extended - s_.probe_radius});
-        asked_.push_back(a);
-      }
-      oracle_.emplace(grown, s_.probe_radius, 0.01);
+  // Whose radii the oracle gets: those in which decisions are taken, or all so much smaller or larger that no decision
+  // at a tie can be explained by its growth.
+  enum Radii : std::size_t { kDecided, kSmaller, kLarger, kRadiiCount };
+
+  SphereTracer& oracle(Radii radii) {
+    if (oracles_[radii]) return *oracles_[radii];
+    Balls asked;
+    const std::vector<bool> swallowed = swallowed_atoms(s_.atoms);
+    const double more = radii == kDecided ? 0.0 : (radii == kSmaller ? -3 : 3) * allowed_growth(s_);
+    asked_.clear();
+    for (std::uint32_t a = 0; a < s_.atoms.size(); ++a) {
+      if (swallowed[a]) continue;
+      const double extended = std::sqrt(decision_weight(s_.atoms[a].radius + s_.probe_radius, a));
+      asked.push_back({s_.atoms[a].center, extended - s_.probe_radius + more});
+      asked_.push_back(a);
     }
-    return *oracle_;
+    return oracles_[radii].emplace(asked, s_.probe_radius, 0.01);
   }
 
   // Two probes that are next to each other are as far from a point but for the square of the way between them. So a
@@ -135,6 +140,15 @@ class Check {
     return asked_[probe.atom[0]] == s_.convex[patch].atom;
   }
 
+  // Probes closer than 1e-6 Å count as one: any of them may have the point.
+  bool another_has(const NearestProbe& probe, PatchKind kind, const glm::dvec3& point) const {
+    if (kind != PatchKind::concave) return false;
+    for (std::uint32_t patch = 0; patch < s_.concave.size(); ++patch)
+      if (glm::distance(probe.center, s_.concave[patch].center) < 1e-6 && inside_planes(s_, kind, patch, point))
+        return true;
+    return false;
+  }
+
   std::string points() {
     for (const PatchKind kind : {PatchKind::convex, PatchKind::toroidal, PatchKind::concave}) {
       const std::size_t count = patch_count(s_, kind);
@@ -143,40 +157,54 @@ class Check {
         const auto patch = static_cast<std::uint32_t>(random_() % count);
         const PatchSample sample =
             kind == PatchKind::toroidal ? sample_circle(s_, patch, random_) : sample_patch(s_, kind, patch, random_);
-        // A probe close to a fixed one is as far from the point as that one but for the square of the way between them:
-        // so the point is missed here only if nothing of another kind explains it.
-        NearestProbe probe{0, {}, kind, {}};
-        if (s_.probe_radius > 0) probe = oracle().nearest(sample.point);
-        const double off = s_.probe_radius > 0 ? probe.distance - s_.probe_radius : oracle().outside(sample.point);
-        // Where spheres touch, growth moves a probe by its square root.
-        if (sample.inside && std::abs(off) > 2e-3 * (1 + s_.probe_radius))
-          return fmt::format("a point of {} patch {} is {} off the surface", name_of(kind), patch, off);
-        if (!sample.inside && sample.clearance > 0.05 &&
-            std::abs(off) < (kind == PatchKind::convex ? kOnSphere : kOn) && is_of(probe, kind, patch))
-          return fmt::format("{} patch {} lacks a point of the surface", name_of(kind), patch);
+        std::string text = complaint_about(sample, kind, patch, kDecided);
+        if (!text.empty() && !complaint_about(sample, kind, patch, kSmaller).empty() &&
+            !complaint_about(sample, kind, patch, kLarger).empty())
+          return text;
       }
     }
     return {};
   }
 
+  // A probe close to a fixed one is as far from the point as that one but for the square of the way between them: so
+  // the point is missed here only if nothing of another kind explains it.
+  std::string complaint_about(const PatchSample& sample, PatchKind kind, std::uint32_t patch, Radii radii) {
+    NearestProbe probe{0, {}, kind, {}};
+    if (s_.probe_radius > 0) probe = oracle(radii).nearest(sample.point);
+    const double off = s_.probe_radius > 0 ? probe.distance - s_.probe_radius : oracle(radii).outside(sample.point);
+    // Where spheres touch, growth moves a probe by its square root.
+    if (sample.inside && std::abs(off) > 2e-3 * (1 + s_.probe_radius))
+      return fmt::format("a point of {} patch {} is {} off the surface", name_of(kind), patch, off);
+    if (!sample.inside && sample.clearance > 0.05 && std::abs(off) < (kind == PatchKind::convex ? kOnSphere : kOn) &&
+        is_of(probe, kind, patch) && !another_has(probe, kind, sample.point))
+      return fmt::format("{} patch {} lacks a point of the surface", name_of(kind), patch);
+    return {};
+  }
+
   // A few points that all miss a thin solid know nothing of their error: what seems wrong is sampled ever more finely,
-  // and is wrong if the finest says so.
+  // and is wrong if the finest says so, and if it is not between the volumes of smaller and larger radii.
   std::string volume() {
     std::string text;
     for (int cells = effort_ > 1 ? 16 : 9; cells <= 64; cells *= 2) {
-      const VolumeEstimate v = sampled_volume(balls_, s_.probe_radius, oracle(), cells, random_);
-      if (std::abs(s_.volume - v.value) <= 5.5 * v.error + 1.5 * v.cell + 1e-9) return {};
+      const VolumeEstimate v = sampled_volume(balls_, s_.probe_radius, oracle(kDecided), cells, random_);
+      if (std::abs(s_.volume - v.value) <= noise_of(v)) return {};
       text = fmt::format("volume {}, sampled {} +- {}", s_.volume, v.value, v.error);
     }
-    return text;
+    const VolumeEstimate least = sampled_volume(balls_, s_.probe_radius, oracle(kSmaller), 36, random_);
+    const VolumeEstimate most = sampled_volume(balls_, s_.probe_radius, oracle(kLarger), 36, random_);
+    const bool between = s_.volume >= least.value - noise_of(least) && s_.volume <= most.value + noise_of(most) &&
+                         most.value > least.value;
+    return between ? std::string() : text;
   }
+
+  static double noise_of(const VolumeEstimate& v) { return 5.5 * v.error + 1.5 * v.cell + 1e-9; }
 
   const Surface& s_;
   const Balls& balls_;
   std::mt19937 random_;
   int effort_;
   bool lost_ = false;
-  std::optional<SphereTracer> oracle_;
+  std::array<std::optional<SphereTracer>, kRadiiCount> oracles_;
   std::vector<std::uint32_t> asked_;  // the atoms that the oracle knows, by its indices
 };
 

@@ -31,6 +31,7 @@ std::vector<SphereArc> polygon(int corners, double polar_angle, const glm::dmat3
                                        std::cos(polar_angle)));
   }
   std::vector<SphereArc> loop;
+  loop.reserve(points.size());
   for (int n = 0; n < corners; ++n) loop.push_back(great_arc(points[n], points[(n + 1) % corners]));
   return loop;
 }
