@@ -5,7 +5,7 @@
 #include <cstddef>
 
 #include "core/color/coloring.h"
-#include "exporters/c_api/guard.h"
+#include "exporters/c_api/caller_memory.h"
 
 namespace meniscus::c_api {
 
@@ -20,6 +20,7 @@ inline Coloring coloring_of(const float (&color)[3], const float* of_atoms, std:
   Coloring coloring;
   coloring.atom.assign(atoms, {color[0], color[1], color[2]});
   if (!of_atoms) return coloring;
+  require_numbers(of_atoms, atoms, 3, "atom_colors");
   for (std::size_t n = 0; n < 3 * atoms; ++n) {
     const float channel = of_atoms[n];
     if (!(channel >= 0.0f && channel <= 1.0f))

@@ -7,7 +7,7 @@
 #include <cstdint>
 
 #include "core/text/parse_number.h"
-#include "exporters/c_api/guard.h"
+#include "exporters/c_api/caller_memory.h"
 #include "exporters/c_api/sized_struct.h"
 
 namespace meniscus::c_api {
@@ -19,16 +19,12 @@ constexpr std::size_t kMostAtoms = std::size_t{1} << 27;
 /// Rows of `width` numbers, of either type, with a stride.
 class Numbers {
  public:
-  Numbers(const void* data, std::size_t width, std::size_t stride, std::int32_t type, const char* name)
+  Numbers(const void* data, std::size_t count, std::size_t width, std::size_t stride, std::int32_t type,
+          const char* name)
       : data_(static_cast<const unsigned char*>(data)), single_(type == MENISCUS_FLOAT) {
-    require(data, name);
     if (type != MENISCUS_FLOAT && type != MENISCUS_DOUBLE)
       refuse(MENISCUS_USAGE, "{}_type is {}, neither MENISCUS_DOUBLE nor MENISCUS_FLOAT", name, type);
-    const std::size_t size = single_ ? sizeof(float) : sizeof(double);
-    stride_ = stride == 0 ? width * size : stride;
-    if (stride_ < width * size || stride_ % size != 0 || reinterpret_cast<std::uintptr_t>(data) % size != 0)
-      refuse(MENISCUS_USAGE, "{}_stride is {} bytes; rows of {} numbers of {} bytes need a multiple of {}, at least {}",
-             name, stride, width, size, size, width * size);
+    stride_ = require_rows(data, {count, width, single_ ? sizeof(float) : sizeof(double), stride}, name);
   }
 
   double at(std::size_t row, std::size_t column) const {
@@ -67,8 +63,11 @@ std::vector<Ball> read_atoms(const meniscus_atoms* given) {
   if (atoms.count == 0) refuse(MENISCUS_INPUT, "there are no atoms: meniscus_atoms.count is 0");
   if (atoms.count > kMostAtoms)
     refuse(MENISCUS_CAPACITY, "{} atoms are more than the {} that indices can count", atoms.count, kMostAtoms);
-  const Numbers positions(atoms.positions, 3, atoms.positions_stride, atoms.positions_type, "meniscus_atoms.positions");
-  const Numbers radii(atoms.radii, 1, atoms.radii_stride, atoms.radii_type, "meniscus_atoms.radii");
+  require_zero(atoms.reserved, "meniscus_atoms.reserved");
+  const Numbers positions(atoms.positions, atoms.count, 3, atoms.positions_stride, atoms.positions_type,
+                          "meniscus_atoms.positions");
+  const Numbers radii(atoms.radii, atoms.equal_radii ? 1 : atoms.count, 1, atoms.radii_stride, atoms.radii_type,
+                      "meniscus_atoms.radii");
   std::vector<Ball> balls(atoms.count);
   for (std::size_t n = 0; n < balls.size(); ++n) {
     for (std::size_t axis = 0; axis < 3; ++axis) {

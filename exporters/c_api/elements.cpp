@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Van der Waals radii by element.
 #include "core/structure/radii.h"
-#include "exporters/c_api/guard.h"
+#include "exporters/c_api/caller_memory.h"
 
 namespace {
 
@@ -22,6 +22,7 @@ meniscus_status meniscus_element_radius(std::int32_t element, double* radius, co
   using namespace meniscus;
   return c_api::guarded([&] {
     c_api::require(radius, "radius");
+    if (source) c_api::require(source, "source");
     if (element < 0 || element > kHeaviest)
       c_api::refuse(MENISCUS_INPUT, "there is no element {}; atomic numbers go to {}", element, kHeaviest);
     const ElementRadius found = bondi_radius(static_cast<std::uint8_t>(element));

@@ -27,11 +27,6 @@ template <typename... Values>
   throw Refusal(status, fmt::vformat(fmt::string_view(text), fmt::make_format_args(values...)));
 }
 
-/// Refuses with MENISCUS_USAGE what is NULL.
-inline void require(const void* pointer, const char* name) {
-  if (!pointer) refuse(MENISCUS_USAGE, "{} is NULL", name);
-}
-
 /// Keeps the text of the exception for this thread and returns its code.
 meniscus_status report(const std::exception_ptr& error) noexcept;
 

@@ -18,6 +18,8 @@ const meniscus_mesh_options kDefaults{sizeof(meniscus_mesh_options), 0.01, 1, 0,
 
 meniscus_mesh_options checked(const meniscus_mesh_options* given) {
   const meniscus_mesh_options options = given ? read_struct(given, kDefaults, "meniscus_mesh_options") : kDefaults;
+  require_zero(options.reserved, "meniscus_mesh_options.reserved");
+  require_zero(options.reserved_2, "meniscus_mesh_options.reserved_2");
   if (!(options.tolerance >= kSmallestTolerance && options.tolerance <= kLargestTolerance))
     refuse(MENISCUS_INPUT, "tolerance is {} Å; it has to be {} to {}", options.tolerance, kSmallestTolerance,
            kLargestTolerance);

@@ -30,6 +30,7 @@ const meniscus_picture kDefaults{sizeof(meniscus_picture), nullptr, nullptr, 102
 
 meniscus_picture checked(const meniscus_picture* given) {
   const meniscus_picture picture = given ? read_struct(given, kDefaults, "meniscus_picture") : kDefaults;
+  require_zero(picture.reserved, "meniscus_picture.reserved");
   check_range("width", picture.width, 1, kLargestSide);
   check_range("height", picture.height, 1, kLargestSide);
   check_range("samples", picture.samples, 1, kMostSamples);
@@ -56,6 +57,7 @@ Projection projection_of(std::int32_t word) {
 
 Camera camera_of(const meniscus_camera* given) {
   const meniscus_camera from = read_struct(given, meniscus_camera{}, "meniscus_camera");
+  require_zero(from.reserved, "meniscus_camera.reserved");
   Camera camera;
   camera.position = vector_of(from.position);
   camera.target = vector_of(from.target);
@@ -175,6 +177,7 @@ meniscus_status meniscus_paint(meniscus_painter* painter, const meniscus_surface
     require(painter, "painter");
     require(surface, "surface");
     require(rgba, "rgba");
+    require_numbers(rgba, rgba_size, 1, "rgba");
     const meniscus_picture wanted = checked(picture);
     const std::size_t size = std::size_t{4} * wanted.width * wanted.height;
     if (rgba_size < size)

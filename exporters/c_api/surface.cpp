@@ -231,8 +231,15 @@ meniscus_status meniscus_surface_distance(const meniscus_surface* surface, std::
   return guarded([&] {
     require(surface, "surface");
     if (count == 0) return;
-    require(points, "points");
-    require(distances, "distances");
+    require_numbers(points, count, 3, "points");
+    require_numbers(distances, count, 1, "distances");
+    const std::size_t of_numbers = count * sizeof(double), of_points = 3 * of_numbers;
+    require_apart(distances, of_numbers, "distances", points, of_points, "points");
+    if (nearest) {
+      require_numbers(nearest, count, 3, "nearest");
+      require_apart(nearest, of_points, "nearest", distances, of_numbers, "distances");
+      if (nearest != points) require_apart(nearest, of_points, "nearest", points, of_points, "points");
+    }
     check_points(count, points);
     find_distances(*surface->finished, count, points, distances, nearest);
   });
@@ -243,7 +250,9 @@ meniscus_status meniscus_surface_gradient(const meniscus_surface* surface, std::
   using namespace meniscus::c_api;
   return guarded([&] {
     require(surface, "surface");
+    const std::size_t atoms = surface->finished->surface.atoms.size();
     require(gradient, "gradient");
+    if (weights) require_numbers(weights, atoms, 1, "weights");
     const meniscus::Gradient found = find_gradient(*surface->finished, quantity, weights);
     for (std::size_t a = 0; a < found.size(); ++a)
       for (int axis = 0; axis < 3; ++axis) gradient[3 * a + static_cast<std::size_t>(axis)] = found[a][axis];

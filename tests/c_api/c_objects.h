@@ -16,11 +16,13 @@ namespace meniscus::test {
 struct Release {
   void operator()(meniscus_computer* computer) const { meniscus_computer_release(computer); }
   void operator()(meniscus_surface* surface) const { meniscus_surface_release(surface); }
+  void operator()(meniscus_pockets* pockets) const { meniscus_pockets_release(pockets); }
   void operator()(meniscus_mesh* mesh) const { meniscus_mesh_release(mesh); }
   void operator()(meniscus_painter* painter) const { meniscus_painter_release(painter); }
 };
 using Computer = std::unique_ptr<meniscus_computer, Release>;
 using SurfaceOf = std::unique_ptr<meniscus_surface, Release>;
+using Pockets = std::unique_ptr<meniscus_pockets, Release>;
 using Mesh = std::unique_ptr<meniscus_mesh, Release>;
 using Painter = std::unique_ptr<meniscus_painter, Release>;
 

@@ -19,6 +19,9 @@
  * Errors. A function that can fail returns a meniscus_status; after anything but MENISCUS_OK meniscus_last_error() has
  * one sentence about it, and nothing that was passed to be filled in has changed. No exception, no signal, no output.
  *
+ * Arrays. Each pointer is aligned as its type is. An array that does not fit into half the address space, which a
+ * negative number or a product that overflowed would be, is MENISCUS_USAGE.
+ *
  * Structs that are passed begin with their `size`: set it to sizeof. What a caller compiled against an older header
  * does not know has its default; what it asks of a newer one that this library does not know is refused.
  *
@@ -291,7 +294,8 @@ MENISCUS_API meniscus_status meniscus_surface_table(const meniscus_surface* surf
  * solid (the solid of MENISCUS_SES is what no probe reaches, cavities are solvent; that of the other kinds is the union
  * of the balls). Exact but for rounding, also far away; where atoms touch in one point, within 1e-6 Å. points: count
  * times x, y, z, each 1e150 Å at most. distances: room for count. nearest: NULL, or room for count points, of those of
- * the surface that are nearest; where several are, for one of them. */
+ * the surface that are nearest; where several are, for one of them. The arrays do not overlap, but nearest may be
+ * points. */
 MENISCUS_API meniscus_status meniscus_surface_distance(const meniscus_surface* surface, size_t count,
                                                        const double* points, double* distances, double* nearest);
 

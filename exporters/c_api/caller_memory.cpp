@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Products are never formed before it is known that they do not overflow.
+#include "exporters/c_api/caller_memory.h"
+
+#include <algorithm>
+
+namespace meniscus::c_api {
+
+std::size_t require_rows(const void* data, const CallerRows& rows, const char* name) {
+  const std::size_t row = rows.width * rows.number, stride = rows.stride == 0 ? row : rows.stride;
+  if (rows.count == 0) return stride;
+  require(data, name);
+  const auto address = reinterpret_cast<std::uintptr_t>(data);
+  if (address % rows.number != 0)
+    refuse(MENISCUS_USAGE, "{} is not aligned: its address is not a multiple of {}", name, rows.number);
+  if (stride > kMostBytes)
+    refuse(MENISCUS_USAGE, "{}_stride is {} bytes, which is -{} with a sign; rows stand in ascending order", name,
+           stride, ~stride + 1);
+  if (stride < row || stride % rows.number != 0)
+    refuse(MENISCUS_USAGE, "{}_stride is {} bytes; rows of {} numbers of {} bytes need a multiple of {}, at least {}",
+           name, stride, rows.width, rows.number, rows.number, row);
+  const std::size_t room = std::min<std::size_t>(kMostBytes, std::numeric_limits<std::uintptr_t>::max() - address);
+  if (stride > room / rows.count)
+    refuse(MENISCUS_USAGE, "{}: {} rows, {} bytes from one to the next, do not fit into memory", name, rows.count,
+           stride);
+  return stride;
+}
+
+void require_apart(const void* written, std::size_t written_bytes, const char* written_name, const void* read,
+                   std::size_t read_bytes, const char* read_name) {
+  const auto a = reinterpret_cast<std::uintptr_t>(written), b = reinterpret_cast<std::uintptr_t>(read);
+  if (a < b + read_bytes && b < a + written_bytes)
+    refuse(MENISCUS_USAGE, "{} and {} overlap; what is written needs room of its own", written_name, read_name);
+}
+
+}  // namespace meniscus::c_api

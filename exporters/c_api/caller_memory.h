@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Memory that callers pass: every pointer, count and stride of the interface is looked at here before it is followed.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <type_traits>
+
+#include "exporters/c_api/guard.h"
+
+namespace meniscus::c_api {
+
+/// Bytes that one array can have: half the address space. More is a negative number, or a product that overflowed.
+inline constexpr std::size_t kMostBytes = std::numeric_limits<std::size_t>::max() / 2;
+
+/// Refuses with MENISCUS_USAGE a NULL, and what is no address of such an object.
+template <typename Object>
+void require(const Object* pointer, const char* name) {
+  if (!pointer) refuse(MENISCUS_USAGE, "{} is NULL", name);
+  if constexpr (!std::is_void_v<Object>)
+    if (reinterpret_cast<std::uintptr_t>(pointer) % alignof(Object) != 0)
+      refuse(MENISCUS_USAGE, "{} is not aligned: its address is not a multiple of {}", name, alignof(Object));
+}
+
+/// Rows of a caller's array: `width` numbers of `number` bytes each, the next row `stride` bytes behind (0: without a
+/// gap).
+struct CallerRows {
+  std::size_t count, width, number, stride = 0;
+};
+
+/// The distance of the rows. Refuses with MENISCUS_USAGE what cannot be such an array: NULL, an address that numbers
+/// do not have, a stride shorter than a row or between two numbers, rows that would not fit into memory. An array
+/// without rows may be NULL.
+std::size_t require_rows(const void* data, const CallerRows& rows, const char* name);
+
+/// As above, of rows without a gap.
+template <typename Number>
+void require_numbers(const Number* data, std::size_t count, std::size_t width, const char* name) {
+  require_rows(data, {count, width, sizeof(Number)}, name);
+}
+
+/// Refuses with MENISCUS_USAGE what is written while the other is still read.
+void require_apart(const void* written, std::size_t written_bytes, const char* written_name, const void* read,
+                   std::size_t read_bytes, const char* read_name);
+
+/// Refuses with MENISCUS_USAGE a field that is kept for later versions and not 0.
+inline void require_zero(std::int32_t reserved, const char* name) {
+  if (reserved != 0) refuse(MENISCUS_USAGE, "{} is {}; it has to be 0", name, reserved);
+}
+
+}  // namespace meniscus::c_api

@@ -1,0 +1,436 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Every pointer, count, stride, word and number that the C interface takes, from one table that the header is held
+// against: what cannot be is refused with a sentence, and nothing is changed.
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <limits>
+#include <regex>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "tests/c_api/c_objects.h"
+#include "tests/support/run_program.h"
+
+namespace meniscus {
+namespace {
+
+using namespace test;
+
+template <typename Struct>
+Struct sized() {
+  Struct made{};
+  made.size = sizeof made;
+  return made;
+}
+
+/// Objects and memory for calls of which one argument is bad.
+struct World {
+  Computer computer = test::computer();
+  SurfaceOf surface = computed(computer.get(), testing::two_atoms(4.0));
+  Mesh mesh = made<meniscus_mesh>([&](auto** to) { return meniscus_surface_mesh(surface.get(), nullptr, to); });
+  Pockets pockets =
+      made<meniscus_pockets>([&](auto** to) { return meniscus_surface_pockets(surface.get(), nullptr, to); });
+  Painter painter = made<meniscus_painter>([](auto** to) { return meniscus_painter_new(MENISCUS_CPU, to); });
+  std::vector<double> numbers = std::vector<double>(64, 1.0);
+  double* const n = numbers.data();
+  std::int32_t word = 0;
+  meniscus_array array{};
+  meniscus_summary summary = sized<meniscus_summary>();
+  meniscus_camera camera = sized<meniscus_camera>();
+  meniscus_picture picture = sized<meniscus_picture>();
+  meniscus_mesh_file file = sized<meniscus_mesh_file>();
+  meniscus_atoms atoms = sized<meniscus_atoms>();
+  const TemporaryFolder folder;
+  const std::string path = folder.path() / "mesh.ply";
+  const double positions[8] = {0, 0, 0, 1.7, 2, 0, 0, 1.7};
+
+  World() {
+    EXPECT_EQ(meniscus_surface_frame(surface.get(), 1.0, MENISCUS_PERSPECTIVE, &camera), MENISCUS_OK);
+    EXPECT_EQ(meniscus_default_picture(&picture), MENISCUS_OK);
+    EXPECT_EQ(meniscus_default_mesh_file(&file), MENISCUS_OK);
+    picture.width = picture.height = 2;
+    picture.samples = 1;
+    atoms.count = 2;
+    atoms.positions = positions;
+    atoms.radii = positions + 3;
+    atoms.positions_stride = atoms.radii_stride = 32;
+  }
+
+  template <typename Object, typename Make>
+  static std::unique_ptr<Object, Release> made(const Make& make) {
+    Object* object = nullptr;
+    EXPECT_EQ(make(&object), MENISCUS_OK) << meniscus_last_error();
+    return std::unique_ptr<Object, Release>(object);
+  }
+  meniscus_status compute() const {
+    meniscus_surface* fresh = nullptr;
+    const meniscus_status status = meniscus_compute(computer.get(), &atoms, &fresh);
+    meniscus_surface_release(fresh);
+    return status;
+  }
+  meniscus_status paint() const {
+    return meniscus_paint(painter.get(), surface.get(), &picture, reinterpret_cast<std::uint8_t*>(n), 16);
+  }
+  meniscus_status save() const { return meniscus_mesh_save(mesh.get(), path.c_str(), &file); }
+};
+
+/// Its address is no multiple of 8.
+alignas(8) unsigned char crooked[64] = {};
+
+template <typename Type>
+Type* as(const void* address) {
+  return static_cast<Type*>(const_cast<void*>(address));
+}
+
+struct Pointer {
+  const char* place;  // "function argument" or "struct.field"
+  bool may_be_null;
+  meniscus_status (*call)(World&, const void* address);
+  bool text = false;  // which stands anywhere
+};
+
+#define ARGUMENT(function, name, may_be_null, ...)                                                       \
+  {                                                                                                      \
+#function " " #name, may_be_null, [](World& w, const void* p) { (void)w; return function(__VA_ARGS__); } \
+  }
+#define FIELD(structure, name, member, call)                                                                                                        \
+  {                                                                                                                                                 \
+#structure "." #name, true, [](World& w, const void* p) { w.member.name = as<std::remove_pointer_t<decltype(w.member.name)>>(p); return w.call(); } \
+  }
+
+const Pointer kPointers[] = {
+    {"meniscus_element_of_symbol symbol", false,
+     [](World& w, const void* p) { return meniscus_element_of_symbol(as<const char>(p), &w.word); }, true},
+    ARGUMENT(meniscus_element_of_symbol, element, false, "C", as<std::int32_t>(p)),
+    ARGUMENT(meniscus_element_radius, radius, false, 6, as<double>(p), nullptr),
+    ARGUMENT(meniscus_element_radius, source, true, 6, w.n, as<const char*>(p)),
+    ARGUMENT(meniscus_default_options, options, false, as<meniscus_options>(p)),
+    ARGUMENT(meniscus_default_pocket_options, options, false, as<meniscus_pocket_options>(p)),
+    ARGUMENT(meniscus_default_mesh_options, options, false, as<meniscus_mesh_options>(p)),
+    ARGUMENT(meniscus_default_mesh_file, file, false, as<meniscus_mesh_file>(p)),
+    ARGUMENT(meniscus_default_picture, picture, false, as<meniscus_picture>(p)),
+    {"meniscus_computer_new options", true,
+     [](World&, const void* p) {
+       meniscus_computer* fresh = nullptr;
+       const meniscus_status status = meniscus_computer_new(as<meniscus_options>(p), &fresh);
+       meniscus_computer_release(fresh);
+       return status;
+     }},
+    ARGUMENT(meniscus_computer_new, computer, false, nullptr, as<meniscus_computer*>(p)),
+    {"meniscus_compute computer", false,
+     [](World& w, const void* p) {
+       meniscus_surface* fresh = nullptr;
+       return meniscus_compute(as<meniscus_computer>(p), &w.atoms, &fresh);
+     }},
+    {"meniscus_compute atoms", false,
+     [](World& w, const void* p) {
+       meniscus_surface* fresh = nullptr;
+       return meniscus_compute(w.computer.get(), as<meniscus_atoms>(p), &fresh);
+     }},
+    ARGUMENT(meniscus_compute, surface, false, w.computer.get(), &w.atoms, as<meniscus_surface*>(p)),
+    {"meniscus_atoms.positions", false, [](World& w, const void* p) { w.atoms.positions = p; return w.compute(); }},
+    {"meniscus_atoms.radii", false, [](World& w, const void* p) { w.atoms.radii = p; return w.compute(); }},
+    ARGUMENT(meniscus_surface_summary, surface, false, as<meniscus_surface>(p), &w.summary),
+    ARGUMENT(meniscus_surface_summary, summary, false, w.surface.get(), as<meniscus_summary>(p)),
+    ARGUMENT(meniscus_surface_table, surface, false, as<meniscus_surface>(p), 0, &w.array),
+    ARGUMENT(meniscus_surface_table, array, false, w.surface.get(), 0, as<meniscus_array>(p)),
+    ARGUMENT(meniscus_surface_distance, surface, false, as<meniscus_surface>(p), 2, w.n, w.n + 20, nullptr),
+    ARGUMENT(meniscus_surface_distance, points, false, w.surface.get(), 2, as<double>(p), w.n + 20, nullptr),
+    ARGUMENT(meniscus_surface_distance, distances, false, w.surface.get(), 2, w.n, as<double>(p), nullptr),
+    ARGUMENT(meniscus_surface_distance, nearest, true, w.surface.get(), 2, w.n, w.n + 20, as<double>(p)),
+    ARGUMENT(meniscus_surface_gradient, surface, false, as<meniscus_surface>(p), 0, nullptr, w.n),
+    ARGUMENT(meniscus_surface_gradient, weights, true, w.surface.get(), MENISCUS_GRADIENT_SAS_AREA, as<double>(p), w.n),
+    ARGUMENT(meniscus_surface_gradient, gradient, false, w.surface.get(), 0, nullptr, as<double>(p)),
+    {"meniscus_surface_pockets surface", false,
+     [](World&, const void* p) {
+       meniscus_pockets* fresh = nullptr;
+       return meniscus_surface_pockets(as<meniscus_surface>(p), nullptr, &fresh);
+     }},
+    {"meniscus_surface_pockets options", true,
+     [](World& w, const void* p) {
+       meniscus_pockets* fresh = nullptr;
+       const auto status = meniscus_surface_pockets(w.surface.get(), as<meniscus_pocket_options>(p), &fresh);
+       meniscus_pockets_release(fresh);
+       return status;
+     }},
+    ARGUMENT(meniscus_surface_pockets, pockets, false, w.surface.get(), nullptr, as<meniscus_pockets*>(p)),
+    ARGUMENT(meniscus_pockets_table, pockets, false, as<meniscus_pockets>(p), 0, &w.array),
+    ARGUMENT(meniscus_pockets_table, array, false, w.pockets.get(), 0, as<meniscus_array>(p)),
+    {"meniscus_surface_mesh surface", false,
+     [](World&, const void* p) {
+       meniscus_mesh* fresh = nullptr;
+       return meniscus_surface_mesh(as<meniscus_surface>(p), nullptr, &fresh);
+     }},
+    {"meniscus_surface_mesh options", true,
+     [](World& w, const void* p) {
+       meniscus_mesh* fresh = nullptr;
+       const auto status = meniscus_surface_mesh(w.surface.get(), as<meniscus_mesh_options>(p), &fresh);
+       meniscus_mesh_release(fresh);
+       return status;
+     }},
+    ARGUMENT(meniscus_surface_mesh, mesh, false, w.surface.get(), nullptr, as<meniscus_mesh*>(p)),
+    ARGUMENT(meniscus_mesh_table, mesh, false, as<meniscus_mesh>(p), 0, &w.array),
+    ARGUMENT(meniscus_mesh_table, array, false, w.mesh.get(), 0, as<meniscus_array>(p)),
+    ARGUMENT(meniscus_mesh_save, mesh, false, as<meniscus_mesh>(p), w.path.c_str(), nullptr),
+    {"meniscus_mesh_save path", false,
+     [](World& w, const void* p) { return meniscus_mesh_save(w.mesh.get(), as<const char>(p), nullptr); }, true},
+    ARGUMENT(meniscus_mesh_save, file, true, w.mesh.get(), w.path.c_str(), as<meniscus_mesh_file>(p)),
+    {"meniscus_mesh_file.format", true,
+     [](World& w, const void* p) { w.file.format = as<const char>(p); return w.save(); }, true},
+    {"meniscus_mesh_file.attributes", true,
+     [](World& w, const void* p) { w.file.attributes = as<const char>(p); return w.save(); }, true},
+    FIELD(meniscus_mesh_file, atom_colors, file, save),
+    ARGUMENT(meniscus_surface_frame, surface, false, as<meniscus_surface>(p), 1.0, 0, &w.camera),
+    ARGUMENT(meniscus_surface_frame, camera, false, w.surface.get(), 1.0, 0, as<meniscus_camera>(p)),
+    FIELD(meniscus_picture, camera, picture, paint),
+    FIELD(meniscus_picture, atom_colors, picture, paint),
+    ARGUMENT(meniscus_painter_new, painter, false, MENISCUS_CPU, as<meniscus_painter*>(p)),
+    ARGUMENT(meniscus_paint, painter, false, as<meniscus_painter>(p), w.surface.get(), &w.picture, as<std::uint8_t>(w.n), 16),
+    ARGUMENT(meniscus_paint, surface, false, w.painter.get(), as<meniscus_surface>(p), &w.picture, as<std::uint8_t>(w.n), 16),
+    {"meniscus_paint picture", true,
+     [](World& w, const void* p) {
+       std::vector<std::uint8_t> rgba(1024 * 768 * 4);
+       return meniscus_paint(w.painter.get(), w.surface.get(), as<meniscus_picture>(p), rgba.data(), rgba.size());
+     }},
+    {"meniscus_paint rgba", false,
+     [](World& w, const void* p) {
+       return meniscus_paint(w.painter.get(), w.surface.get(), &w.picture, as<std::uint8_t>(p), 16);
+     }, true},
+};
+#undef ARGUMENT
+#undef FIELD
+
+struct Size {
+  const char* place;
+  meniscus_status (*call)(World&, std::size_t size);
+};
+
+#define SIZE_OF(structure, ...)                        \
+  {                                                    \
+#structure ".size", [](World& w, std::size_t size) { \
+     structure s = sized<structure>();                         \
+     s.size = size;                                            \
+     (void)w;                                                  \
+     return __VA_ARGS__;                                       \
+   } \
+  }
+
+template <typename Object, typename Make>
+meniscus_status refused(const Make& make) {
+  Object* fresh = nullptr;
+  const meniscus_status status = make(&fresh);
+  EXPECT_EQ(fresh, nullptr);
+  return status;
+}
+
+const Size kSizes[] = {
+    {"meniscus_surface_distance count",
+     [](World& w, std::size_t n) { return meniscus_surface_distance(w.surface.get(), n, w.n, w.n + 20, w.n + 30); }},
+    {"meniscus_paint rgba_size",
+     [](World& w, std::size_t n) {
+       return meniscus_paint(w.painter.get(), w.surface.get(), &w.picture, reinterpret_cast<std::uint8_t*>(w.n), n);
+     }},
+    {"meniscus_atoms.count",
+     [](World& w, std::size_t n) {
+       w.atoms.count = n;
+       return w.compute();
+     }},
+    {"meniscus_atoms.positions_stride",
+     [](World& w, std::size_t n) {
+       w.atoms.positions_stride = n;
+       return w.compute();
+     }},
+    {"meniscus_atoms.radii_stride",
+     [](World& w, std::size_t n) {
+       w.atoms.radii_stride = n;
+       return w.compute();
+     }},
+    SIZE_OF(meniscus_options, refused<meniscus_computer>([&](auto** to) { return meniscus_computer_new(&s, to); })),
+    SIZE_OF(meniscus_atoms,
+            refused<meniscus_surface>([&](auto** to) { return meniscus_compute(w.computer.get(), &s, to); })),
+    SIZE_OF(meniscus_summary, meniscus_surface_summary(w.surface.get(), &s)),
+    SIZE_OF(meniscus_pocket_options,
+            refused<meniscus_pockets>([&](auto** to) { return meniscus_surface_pockets(w.surface.get(), &s, to); })),
+    SIZE_OF(meniscus_mesh_options,
+            refused<meniscus_mesh>([&](auto** to) { return meniscus_surface_mesh(w.surface.get(), &s, to); })),
+    SIZE_OF(meniscus_mesh_file, meniscus_mesh_save(w.mesh.get(), w.path.c_str(), &s)),
+    SIZE_OF(meniscus_camera, meniscus_surface_frame(w.surface.get(), 1.0, 0, &s)),
+    SIZE_OF(meniscus_picture,
+            meniscus_paint(w.painter.get(), w.surface.get(), &s, reinterpret_cast<std::uint8_t*>(w.n), 16)),
+};
+#undef SIZE_OF
+
+struct Word {
+  const char* place;
+  meniscus_status (*call)(World&, std::int32_t word);
+};
+
+const Word kWords[] = {
+    {"meniscus_element_radius element",
+     [](World& w, std::int32_t v) { return meniscus_element_radius(v, w.n, nullptr); }},
+    {"meniscus_surface_table table",
+     [](World& w, std::int32_t v) { return meniscus_surface_table(w.surface.get(), v, &w.array); }},
+    {"meniscus_surface_gradient quantity",
+     [](World& w, std::int32_t v) { return meniscus_surface_gradient(w.surface.get(), v, nullptr, w.n); }},
+    {"meniscus_pockets_table table",
+     [](World& w, std::int32_t v) { return meniscus_pockets_table(w.pockets.get(), v, &w.array); }},
+    {"meniscus_mesh_table table",
+     [](World& w, std::int32_t v) { return meniscus_mesh_table(w.mesh.get(), v, &w.array); }},
+    {"meniscus_surface_frame projection",
+     [](World& w, std::int32_t v) { return meniscus_surface_frame(w.surface.get(), 1.0, v, &w.camera); }},
+    {"meniscus_painter_new device",
+     [](World&, std::int32_t v) {
+       return refused<meniscus_painter>([&](auto** to) { return meniscus_painter_new(v, to); });
+     }},
+    {"meniscus_atoms.reserved",
+     [](World& w, std::int32_t v) {
+       w.atoms.reserved = v;
+       return w.compute();
+     }},
+    {"meniscus_mesh_options.reserved",
+     [](World& w, std::int32_t v) {
+       auto options = sized<meniscus_mesh_options>();
+       meniscus_default_mesh_options(&options);
+       options.reserved = v;
+       return refused<meniscus_mesh>([&](auto** to) { return meniscus_surface_mesh(w.surface.get(), &options, to); });
+     }},
+    {"meniscus_mesh_options.reserved_2",
+     [](World& w, std::int32_t v) {
+       auto options = sized<meniscus_mesh_options>();
+       meniscus_default_mesh_options(&options);
+       options.reserved_2 = v;
+       return refused<meniscus_mesh>([&](auto** to) { return meniscus_surface_mesh(w.surface.get(), &options, to); });
+     }},
+    {"meniscus_camera.reserved",
+     [](World& w, std::int32_t v) {
+       w.camera.reserved = v;
+       w.picture.camera = &w.camera;
+       return w.paint();
+     }},
+    {"meniscus_picture.reserved",
+     [](World& w, std::int32_t v) {
+       w.picture.reserved = v;
+       return w.paint();
+     }},
+};
+
+/// Each ends with a sentence that says which argument it is.
+void expect_refused(meniscus_status status, const char* place) {
+  EXPECT_TRUE(status == MENISCUS_USAGE || status == MENISCUS_INPUT || status == MENISCUS_CAPACITY)
+      << place << ": " << status;
+  EXPECT_STRNE(meniscus_last_error(), "") << place;
+}
+
+TEST(CArguments, PointersAreLookedAtBeforeTheyAreFollowed) {
+  for (const Pointer& pointer : kPointers) {
+    SCOPED_TRACE(pointer.place);
+    const std::string name = std::string(pointer.place).substr(std::string(pointer.place).find_last_of(" .") + 1);
+    const auto with = [&](const void* address) {
+      World world;
+      return pointer.call(world, address);
+    };
+    const meniscus_status of_null = with(nullptr);
+    EXPECT_EQ(of_null, pointer.may_be_null ? MENISCUS_OK : MENISCUS_USAGE) << meniscus_last_error();
+    if (!pointer.may_be_null) {
+      EXPECT_NE(std::string(meniscus_last_error()).find("is NULL"), std::string::npos) << meniscus_last_error();
+    }
+    if (pointer.text) continue;
+    EXPECT_EQ(with(crooked + 1), MENISCUS_USAGE);
+    EXPECT_NE(std::string(meniscus_last_error()).find("not aligned"), std::string::npos) << meniscus_last_error();
+  }
+}
+
+TEST(CArguments, CountsAndStridesThatNoMemoryHasAreRefused) {
+  constexpr std::size_t kMost = std::numeric_limits<std::size_t>::max();
+  for (const Size& size : kSizes)
+    for (const std::size_t value : {kMost, kMost - 7, kMost - 23, kMost / 2 + 1, kMost / 2 - 7, kMost / 4 + 9}) {
+      SCOPED_TRACE(std::to_string(value));
+      World world;
+      const std::vector<double> before = world.numbers;
+      if (std::strcmp(size.place, "meniscus_paint rgba_size") == 0 && value < kMost / 2) continue;  // room enough
+      expect_refused(size.call(world, value), size.place);
+      EXPECT_EQ(world.numbers, before);
+    }
+}
+
+TEST(CArguments, UnknownWordsAreRefused) {
+  for (const Word& word : kWords)
+    for (const std::int32_t value :
+         {-1, 1000, std::numeric_limits<std::int32_t>::min(), std::numeric_limits<std::int32_t>::max()}) {
+      World world;
+      expect_refused(word.call(world, value), word.place);
+    }
+}
+
+TEST(CArguments, ArraysOfADistanceDoNotOverlap) {
+  World w;
+  const auto distance = [&](double* distances, double* nearest) {
+    return meniscus_surface_distance(w.surface.get(), 2, w.n, distances, nearest);
+  };
+  EXPECT_EQ(distance(w.n, nullptr), MENISCUS_USAGE);
+  EXPECT_EQ(distance(w.n + 5, nullptr), MENISCUS_USAGE);
+  EXPECT_EQ(distance(w.n + 6, w.n + 3), MENISCUS_USAGE);
+  EXPECT_EQ(distance(w.n + 6, w.n + 7), MENISCUS_USAGE);
+  EXPECT_NE(std::strstr(meniscus_last_error(), "overlap"), nullptr) << meniscus_last_error();
+  EXPECT_EQ(distance(w.n + 6, w.n + 8), MENISCUS_OK);
+  EXPECT_EQ(distance(w.n + 6, w.n), MENISCUS_OK);  // in place
+}
+
+TEST(CArguments, NullHasNoHolders) {
+  EXPECT_EQ(meniscus_computer_retain(nullptr), nullptr);
+  EXPECT_EQ(meniscus_surface_retain(nullptr), nullptr);
+  EXPECT_EQ(meniscus_pockets_retain(nullptr), nullptr);
+  EXPECT_EQ(meniscus_mesh_retain(nullptr), nullptr);
+  EXPECT_EQ(meniscus_painter_retain(nullptr), nullptr);
+  meniscus_computer_release(nullptr);
+  meniscus_surface_release(nullptr);
+  meniscus_pockets_release(nullptr);
+  meniscus_mesh_release(nullptr);
+  meniscus_painter_release(nullptr);
+}
+
+/// What the header has: "function argument" of all functions, "struct.field" of pointers, sizes and what is kept for
+/// later of structs that begin with their size.
+std::set<std::string> places_of_header() {
+  std::ifstream file(MENISCUS_HEADER);
+  std::string text{std::istreambuf_iterator<char>(file), {}};
+  text = std::regex_replace(text, std::regex(R"(/\*[\s\S]*?\*/)"), "");
+  std::set<std::string> places;
+  const auto each = [](const std::string& in, const char* pattern, const auto& use) {
+    const std::regex regex(pattern);
+    for (std::sregex_iterator at(in.begin(), in.end(), regex), end; at != end; ++at) use(*at);
+  };
+  each(text, R"(MENISCUS_API [^;(]*?\b(meniscus_\w+)\(([^)]*)\);)", [&](const std::smatch& function) {
+    const std::string name = function[1], arguments = function[2];
+    if (name.ends_with("_retain") || name.ends_with("_release")) return;
+    each(arguments, R"((\w+)\s*(?:,|$))", [&](const std::smatch& argument) {
+      if (argument[1] != "void") places.insert(name + " " + argument[1].str());
+    });
+  });
+  each(text, R"(typedef struct (meniscus_\w+) \{\s*size_t size;([^}]*)\})", [&](const std::smatch& found) {
+    places.insert(found[1].str() + ".size");
+    each(found[2], R"((?:\*\s*|size_t |int32_t (?=reserved))(\w+);)",
+         [&](const std::smatch& field) { places.insert(found[1].str() + "." + field[1].str()); });
+  });
+  return places;
+}
+
+TEST(CArguments, AreAllOfTheHeader) {
+  // A range, which CApiPictures tests; a text that is given out.
+  std::set<std::string> known{"meniscus_surface_frame aspect", "meniscus_summary.device"};
+  for (const Pointer& pointer : kPointers) known.insert(pointer.place);
+  for (const Size& size : kSizes) known.insert(size.place);
+  for (const Word& word : kWords) known.insert(word.place);
+  const std::set<std::string> there = places_of_header();
+  EXPECT_GT(there.size(), 70u);
+  for (const std::string& place : there) EXPECT_TRUE(known.contains(place)) << place << " is in no table of this test";
+  for (const std::string& place : known) EXPECT_TRUE(there.contains(place)) << place << " is not in the header";
+}
+
+}  // namespace
+}  // namespace meniscus
