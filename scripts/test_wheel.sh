@@ -14,9 +14,10 @@ python=$folder/venv/bin/python
 "$python" -m pip install -q --disable-pip-version-check --upgrade pip
 "$python" -m pip wheel -q --no-deps -w "$folder/dist" .
 ls -l "$folder/dist"
-"$python" -m pip install -q "$folder"/dist/meniscus-*.whl MDAnalysis mdtraj prody biotite trimesh pyvista open3d
+"$python" -m pip install -q "$folder"/dist/meniscus-*.whl MDAnalysis mdtraj prody biotite ase openmm pint \
+  astropy unyt trimesh pyvista open3d
 cd "$folder"
 unset MENISCUS_LIBRARY MENISCUS_PACKAGE
 "$python" -c 'import meniscus; print("libmeniscus", meniscus.version(), meniscus.library_path())'
 "$python" -B "$tests/package_test.py"
-"$python" -B "$tests/adapters_test.py" MDAnalysis mdtraj prody biotite trimesh pyvista open3d
+"$python" -B "$tests/adapters_test.py" MDAnalysis mdtraj prody biotite ase openmm pint astropy unyt trimesh pyvista open3d

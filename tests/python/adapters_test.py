@@ -7,6 +7,7 @@ import os
 import sys
 import tempfile
 import unittest
+import warnings
 
 if "MENISCUS_PACKAGE" in os.environ:
     sys.path.insert(0, os.environ["MENISCUS_PACKAGE"])
@@ -15,7 +16,7 @@ import numpy as np
 
 import meniscus
 
-ALL = ("MDAnalysis", "mdtraj", "prody", "biotite", "trimesh", "pyvista", "open3d")
+ALL = ("MDAnalysis", "mdtraj", "prody", "biotite", "ase", "openmm", "pint", "astropy", "unyt", "trimesh", "pyvista", "open3d")
 NAMED = sys.argv[1:]
 
 # Two residues, three models.
@@ -134,6 +135,101 @@ class Frames(unittest.TestCase):
     def test_what_is_no_source_is_named(self):
         with self.assertRaisesRegex(meniscus.InputError, "a builtins.dict is nothing that frames"):
             meniscus.frames({})
+
+
+class Units(unittest.TestCase):
+    """What carries a unit is converted; positions in nm without one are warned of."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.xyz = models()[0]
+        cls.radii = meniscus.radii_of([element for _, element in NAMES] * 2)
+        cls.surface = meniscus.surface(cls.xyz, cls.radii, probe=1.3)
+
+    def same(self, xyz, radii, probe=1.3, points=None):
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            s = meniscus.surface(xyz, radii, probe=probe)
+        self.assertAlmostEqual(s.area / self.surface.area, 1, delta=1e-9)
+        self.assertAlmostEqual(s.update(xyz, radii).area / self.surface.area, 1, delta=1e-9)
+        if points is not None:
+            np.testing.assert_allclose(s.distance(points), self.surface.distance(self.xyz), atol=1e-9)
+
+    def looks_like_nanometres(self, xyz):
+        with self.assertWarnsRegex(UserWarning, "look like nanometres"):
+            return meniscus.surface(xyz, self.radii)
+
+    def test_plain_numbers_in_nanometres(self):
+        self.looks_like_nanometres(self.xyz / 10)
+        with self.assertWarnsRegex(UserWarning, "look like nanometres"):
+            meniscus.surface(self.xyz, self.radii).update(self.xyz / 10)
+
+    @tried_with("mdtraj")
+    def test_mdtraj(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = os.path.join(folder, "models.pdb")
+            with open(file, "w") as out:
+                out.write(pdb(models()))
+            trajectory = module("mdtraj").load(file)
+        self.looks_like_nanometres(trajectory.xyz[0])
+        with self.assertRaisesRegex(meniscus.InputError, r"not an array; meniscus.from_mdtraj\(\) takes it"):
+            meniscus.surface(trajectory, self.radii)
+
+    @tried_with("MDAnalysis")
+    def test_mdanalysis(self):
+        module("MDAnalysis")
+        class Atoms:
+            __module__ = "MDAnalysis.fake"
+            def __len__(self): return 12
+        with self.assertRaisesRegex(meniscus.InputError, r"meniscus.from_mdanalysis\(\) takes it"):
+            meniscus.surface(Atoms(), self.radii)
+
+    @tried_with("ase")
+    def test_ase(self):
+        atoms = module("ase").Atoms("NCCOCS" * 2, positions=self.xyz)
+        self.same(atoms.get_positions(), self.radii)
+        self.same(atoms.positions, meniscus.radii_of(atoms.get_atomic_numbers()))
+        with self.assertRaisesRegex(meniscus.InputError, "get_positions"):
+            meniscus.surface(atoms, self.radii)
+
+    @tried_with("openmm")
+    def test_openmm(self):
+        module("openmm")
+        unit, vec3 = importlib.import_module("openmm.unit"), importlib.import_module("openmm").Vec3
+        nm = self.xyz / 10
+        as_array = unit.Quantity(nm, unit.nanometer)
+        self.same(as_array, self.radii, points=as_array)
+        self.same(unit.Quantity([vec3(*row) for row in nm], unit.nanometer), self.radii / 10 * unit.nanometer)
+        self.same([vec3(*row) * unit.nanometer for row in nm], self.radii, probe=0.13 * unit.nanometer)
+        with self.assertRaisesRegex(meniscus.InputError, "xyz is in kelvin, not in a unit of Å"):
+            meniscus.surface(self.xyz * unit.kelvin, self.radii)
+        with self.assertRaisesRegex(meniscus.InputError, "weights is in angstrom; give numbers without a unit"):
+            self.surface.gradient("sas_area", np.ones(12) * unit.angstrom)
+
+    @tried_with("pint")
+    def test_pint(self):
+        units = module("pint").UnitRegistry()
+        nm = units.Quantity(self.xyz / 10, "nm")
+        self.same(nm, units.Quantity(self.radii * 100, "pm"), units.Quantity(0.13, "nm"), nm)
+        with self.assertRaisesRegex(meniscus.InputError, "xyz is in second"):
+            meniscus.surface(units.Quantity(self.xyz, "s"), self.radii)
+
+    @tried_with("astropy")
+    def test_astropy(self):
+        module("astropy")
+        units = importlib.import_module("astropy.units")
+        nm = self.xyz / 10 * units.nm
+        self.same(nm, self.radii / 10 * units.nm, 0.13 * units.nm, nm)
+        with self.assertRaisesRegex(meniscus.InputError, "xyz is in K"):
+            meniscus.surface(self.xyz * units.K, self.radii)
+
+    @tried_with("unyt")
+    def test_unyt(self):
+        unyt = module("unyt")
+        nm = unyt.unyt_array(self.xyz / 10, "nm")
+        self.same(nm, unyt.unyt_array(self.radii / 10, "nm"), unyt.unyt_quantity(0.13, "nm"), nm)
+        with self.assertRaisesRegex(meniscus.InputError, "xyz is in s"):
+            meniscus.surface(unyt.unyt_array(self.xyz, "s"), self.radii)
 
 
 class Meshes(unittest.TestCase):

@@ -233,6 +233,87 @@ class Errors(unittest.TestCase):
         self.assertEqual(s.update(xyz).area, area)
 
 
+class Foreign(unittest.TestCase):
+    """Numbers of other packages become the numbers that they are, or are refused."""
+
+    class InNanometres:
+        """As pint has it."""
+        units = "nanometer"
+
+        def __init__(self, values):
+            self.values = np.asarray(values)
+
+        def m_as(self, unit):
+            return self.values * 10 ** int(unit.split("**")[1])
+
+        def __array__(self, dtype=None, copy=None):
+            return self.values
+
+    def test_units_are_converted_or_refused(self):
+        nm = self.InNanometres
+        xyz, radii = chain(8)
+        s = meniscus.surface(nm(xyz / 10), nm(radii / 10), probe=nm(0.14))
+        expected = meniscus.surface(xyz, radii, probe=1.4)
+        self.assertAlmostEqual(s.area, expected.area, 9)
+        self.assertAlmostEqual(s.update(nm(xyz / 10), nm(0.17)).area, meniscus.surface(xyz, 1.7).area, 9)
+        np.testing.assert_allclose(expected.distance(nm(xyz)), expected.distance(10 * xyz), atol=1e-9)
+        self.assertEqual(len(expected.mesh(nm(0.01)).vertices), len(expected.mesh(0.1).vertices))
+        self.assertEqual([p.volume for p in expected.pockets(nm(0.4), min_volume=nm(1e-3))],
+                         [p.volume for p in expected.pockets(4.0, min_volume=1.0)])
+        with self.assertRaisesRegex(meniscus.InputError, "weights is in nanometer; give numbers without a unit"):
+            expected.gradient("sas_area", nm(radii))
+
+        class Labelled(np.ndarray):  # as xarray's
+            attrs = {"units": "nm"}
+        with self.assertRaisesRegex(meniscus.InputError, "xyz says that it is in nm"):
+            meniscus.surface(xyz.view(Labelled), radii)
+
+    def test_what_would_become_other_numbers_is_refused(self):
+        xyz, radii = chain(5)
+        masked = np.ma.masked_array(xyz, mask=np.arange(15).reshape(5, 3) == 4)
+        s = meniscus.surface(xyz, radii)
+        self.assertEqual(meniscus.surface(np.ma.masked_array(xyz), np.ma.masked_array(radii)).area, s.area)
+        for values, said in ((masked, "1 masked number"), (xyz + 0j, "complex numbers"), (xyz > 1, "true or false"),
+                             (xyz.astype(str), "text"), (xyz.astype(str).tolist(), "text"), (xyz.astype("S8"), "text"),
+                             (xyz.astype("M8[s]"), "datetime64"), ([[None, 0, 0]], "object")):
+            for call in (lambda: meniscus.surface(values, 1.7), lambda: s.update(values), lambda: s.distance(values),
+                         lambda: meniscus.surface(xyz, np.ravel(values)[:5] if values is not masked else masked[:, 1])):
+                with self.assertRaisesRegex(meniscus.InputError, said):
+                    call()
+        for values in (np.ma.masked_array(radii, mask=radii > 1.6), radii + 1j, radii > 1, radii.astype(str)):
+            self.assertRaises(meniscus.InputError, s.gradient, "sas_area", values)
+            self.assertRaises(meniscus.InputError, s.render, 8, 8, colors=values[:3], device="cpu")
+
+    def test_numbers_are_looked_at_before_ctypes_cuts_them(self):
+        xyz, radii = chain(5)
+        s = meniscus.surface(xyz, radii)
+        for call in (lambda: meniscus.surface(xyz, radii, threads=2**32 + 1), lambda: s.render(2**32 + 8, 8),
+                     lambda: s.render(8, 8, samples=2**32 + 1), lambda: meniscus.radii_of([2**32 + 6]),
+                     lambda: s.mesh(0.1, split_colors=2**32)):
+            with self.assertRaisesRegex(meniscus.InputError, "which 32 bits cannot count"):
+                call()
+        for call, said in ((lambda: meniscus.surface(xyz, radii, threads=1.5), "threads is 1.5, not a whole number"),
+                           (lambda: meniscus.radii_of([6.5]), "atom 0: the element is 6.5, not a whole number"),
+                           (lambda: meniscus.surface(xyz, radii, probe=None), "probe_radius is None, not a number"),
+                           (lambda: meniscus.surface(xyz, radii, probe="1.4"), "probe_radius is '1.4', not a number"),
+                           (lambda: meniscus.surface(xyz, radii, probe=1.4 + 0j), "not a number"),
+                           (lambda: s.mesh([0.1]), "tolerance is .0.1., not a number")):
+            with self.assertRaisesRegex(meniscus.InputError, said):
+                call()
+        same = meniscus.surface(xyz, radii, np.float32(1.5), threads=np.int64(1), verify=np.bool_(False))
+        self.assertEqual(same.area, meniscus.surface(xyz, radii, 1.5).area)
+
+    def test_rows_that_are_not_aligned_are_copied(self):
+        xyz, radii = chain(5)
+        raw = np.zeros(5 * 24 + 1, np.uint8)
+        crooked = raw[1:].view(np.float64).reshape(5, 3)
+        crooked[:] = xyz
+        s = meniscus.surface(xyz, radii)
+        self.assertFalse(crooked.flags.aligned)
+        self.assertEqual(meniscus.surface(crooked, radii).area, s.area)
+        np.testing.assert_array_equal(s.distance(crooked), s.distance(xyz))
+
+
 class Threads(unittest.TestCase):
     def test_eight_at_once_agree(self):
         clouds = [cloud(120, seed) for seed in range(8)]

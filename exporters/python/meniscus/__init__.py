@@ -11,8 +11,9 @@ memory, which lives as long as any view of it does, whatever becomes of the obje
 """
 from __future__ import annotations
 
-from ._library import (CapacityError, Error, GpuError, InputError, InternalError, NotClosedError, OutputError,
-                       UsageError, library_path, version)
+from ._errors import (CapacityError, Error, GpuError, InputError, InternalError, NotClosedError, OutputError,
+                      UsageError)
+from ._library import library_path, version
 from ._mesh import Mesh
 from ._picture import Camera, png
 from ._pockets import Pocket

@@ -6,7 +6,7 @@ from typing import Any, Iterator, NamedTuple, Optional
 
 import numpy as np
 
-from ._library import InputError
+from ._errors import InputError
 from ._radii import radii_of
 from ._surface import Surface, surface
 

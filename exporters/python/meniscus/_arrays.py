@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import ctypes
-from typing import Any
+from numbers import Real
+from typing import Any, Optional
 
 import numpy as np
 
-from ._library import DOUBLE, FLOAT, Array, Handle, InputError, call
+from ._errors import InputError
+from ._library import DOUBLE, FLOAT, Array, Handle, call
+from ._units import plain
 
 
 class _Rows:
@@ -41,15 +44,40 @@ def view(owner: Handle, function: str, table: int, row: Any, columns: int = 0) -
 _TYPES = {np.dtype(np.float64): DOUBLE, np.dtype(np.float32): FLOAT}
 
 
-def numbers(values: Any, name: str, columns: int = 0) -> tuple[np.ndarray, int]:
-    """An array that the library can read as it is, and its type: the one given, if it has floats or doubles with whole
-    rows; else a copy in doubles."""
+# Packages whose objects are no arrays, though some can be walked through, and what takes them.
+_TAKEN_BY = {"MDAnalysis": "from_mdanalysis()", "mdtraj": "from_mdtraj()", "prody": "from_prody()",
+             "biotite": "from_biotite()", "ase": "surface() with atoms.get_positions()"}
+
+
+def real_array(values: Any, name: str, power: Optional[int] = None) -> np.ndarray:
+    """Of real numbers, in Å to this power where they have a unit; else InputError: what is masked, complex, true or
+    false, or text would become numbers that nobody meant."""
+    values = plain(values, name, power)
+    package = type(values).__module__.split(".")[0]
+    if package in _TAKEN_BY and not isinstance(values, np.ndarray):
+        raise InputError(f"{name} is a {package}.{type(values).__name__}, not an array; meniscus.{_TAKEN_BY[package]} "
+                         "takes it")
+    if np.ma.is_masked(values):
+        raise InputError(f"{name} has {np.ma.count_masked(values)} masked numbers; leave these rows out, or fill them in")
     try:
         array = np.asarray(values)
-        if array.dtype not in _TYPES:
+        if array.dtype.kind == "O" and all(isinstance(value, Real) for value in array.flat):
             array = array.astype(np.float64)
-    except (TypeError, ValueError) as error:
+    except Exception as error:  # packages have errors of their own
         raise InputError(f"{name}: {error}") from None
+    if array.dtype.kind not in "fiu":
+        what = {"b": "true or false", "c": "complex numbers", "U": "text", "S": "text"}.get(array.dtype.kind,
+                                                                                        f"of the type {array.dtype}")
+        raise InputError(f"{name} is {what}; give real numbers")
+    return array
+
+
+def numbers(values: Any, name: str, columns: int = 0, power: Optional[int] = None) -> tuple[np.ndarray, int]:
+    """An array that the library can read as it is, and its type: the one given, if it has floats or doubles with whole
+    rows; else a copy in doubles."""
+    array = real_array(values, name, power)
+    if array.dtype not in _TYPES:
+        array = array.astype(np.float64)
     if array.ndim != (2 if columns else 1) or (columns and array.shape[1] != columns):
         wanted = f"(n, {columns})" if columns else "(n,)"
         raise InputError(f"{name} has the shape {array.shape}; it has to be {wanted}")
@@ -57,13 +85,18 @@ def numbers(values: Any, name: str, columns: int = 0) -> tuple[np.ndarray, int]:
     apart = array.strides[0] >= max(columns, 1) * size and array.strides[0] % size == 0
     together = not columns or array.strides[1] == size
     if not (apart and together and array.flags.aligned):
-        array = np.ascontiguousarray(array)
+        array = np.array(array, order="C")
     return array, _TYPES[array.dtype]
+
+
+def doubles(values: Any, name: str, columns: int = 0, power: Optional[int] = None) -> np.ndarray:
+    """The same without a gap, in doubles."""
+    return np.require(numbers(values, name, columns, power)[0], np.float64, ["C", "A"])
 
 
 def color_of(values: Any, name: str) -> tuple[float, float, float]:
     """As a struct takes it."""
-    array = np.asarray(values, dtype=np.float32)
+    array = real_array(values, name).astype(np.float32)
     if array.shape != (3,):
         raise InputError(f"{name} has the shape {array.shape}; it has to be three numbers in [0, 1]")
     return tuple(array)
@@ -73,10 +106,11 @@ def put_colors(struct: Any, colors: Any, atom_count: int) -> None:
     """Into `color` or `atom_colors` of a struct, as the shape says."""
     if colors is None:
         return
-    if np.ndim(colors) == 1:
-        struct.color = color_of(colors, "colors")
+    given = real_array(colors, "colors")
+    if given.ndim == 1:
+        struct.color = color_of(given, "colors")
         return
-    of_atoms = np.ascontiguousarray(colors, dtype=np.float32)
+    of_atoms = np.array(given, dtype=np.float32, order="C")
     if of_atoms.shape != (atom_count, 3):
         raise InputError(f"colors has the shape {of_atoms.shape}; it has to be (3,) or ({atom_count}, 3)")
     struct.atom_colors = of_atoms.ctypes.data

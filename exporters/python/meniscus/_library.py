@@ -4,12 +4,20 @@ from __future__ import annotations
 
 import ctypes
 import ctypes.util
+import numbers
+import operator
 import os
 import pathlib
 import threading
 from ctypes import (POINTER, Structure, byref, c_char_p, c_double, c_float, c_int, c_int32, c_size_t, c_uint8, c_uint32,
                     c_uint64, c_void_p)
 from typing import Any, Callable, Optional
+
+import numpy as np
+
+from ._errors import (CapacityError, Error, GpuError, InputError, InternalError, NotClosedError, OutputError,
+                      UsageError)
+from ._units import plain
 
 NONE = 0xFFFFFFFF
 SES, SAS, VDW = range(3)
@@ -24,44 +32,49 @@ POCKETS, POCKET_MOUTHS, POCKET_ATOMS, POCKET_PROBES = range(4)
  MESH_TRIANGLE_PATCHES, MESH_TRIANGLE_COMPONENTS, MESH_SHARP_CORNERS, MESH_SHARP_NORMALS, MESH_VERTEX_ATOMS) = range(11)
 
 
-class Error(Exception):
-    """What the library refused or could not do; its text is the library's own."""
-
-
-class InternalError(Error):
-    """A fault of the library: please report it."""
-
-
-class UsageError(Error, ValueError):
-    """A call that makes no sense."""
-
-
-class InputError(Error, ValueError):
-    """A position, radius, colour or camera that cannot be; the text has its index and value."""
-
-
-class GpuError(Error, RuntimeError):
-    """No usable GL or GPU, or one that left work undone."""
-
-
-class CapacityError(Error, MemoryError):
-    """Out of memory or threads, or more than indices can count."""
-
-
-class OutputError(Error, OSError):
-    """A file cannot be written, or is there already."""
-
-
-class NotClosedError(Error):
-    """The surface or mesh is not closed, so there is none."""
-
-
 OK, INTERNAL, USAGE, INPUT, NO_GPU, CAPACITY, OUTPUT, NOT_CLOSED = range(8)
 _EXCEPTIONS = {INTERNAL: InternalError, USAGE: UsageError, INPUT: InputError, NO_GPU: GpuError,
                CAPACITY: CapacityError, OUTPUT: OutputError, NOT_CLOSED: NotClosedError}
 
+# Lengths, areas and volumes of structs: the power of Å of their unit.
+_POWERS = {"probe_radius": 1, "large_probe_radius": 1, "trim": 1, "mouth_tolerance": 1, "tolerance": 1, "height": 1,
+           "min_volume": 3, "density": -2}
 
-class Options(Structure):
+
+def whole_number(name: str, value: Any) -> int:
+    """Of 32 bits, to which ctypes would cut a larger one without a word."""
+    try:
+        number = int(value) if isinstance(value, np.bool_) else operator.index(value)
+    except TypeError:
+        raise InputError(f"{name} is {value!r}, not a whole number") from None
+    if not -2**31 <= number < 2**31:
+        raise InputError(f"{name} is {number}, which 32 bits cannot count")
+    return number
+
+
+def number(name: str, value: Any) -> float:
+    """In Å, or a power of it, where that is what it counts."""
+    plain_value = plain(value, name, _POWERS.get(name))
+    if not isinstance(plain_value, numbers.Real) or isinstance(plain_value, (bool, np.bool_)):
+        array = np.asarray(plain_value)
+        if array.ndim != 0 or array.dtype.kind not in "fiu":
+            raise InputError(f"{name} is {value!r}, not a number")
+    return float(plain_value)
+
+
+class _Given(Structure):
+    """A struct whose numbers come from callers: each is looked at before ctypes makes something of it."""
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        kind = next((field[1] for field in self._fields_ if field[0] == name), None)
+        if kind is c_int32:
+            value = whole_number(name, value)
+        elif kind in (c_double, c_float):
+            value = number(name, value)
+        super().__setattr__(name, value)
+
+
+class Options(_Given):
     _fields_ = [("size", c_size_t), ("probe_radius", c_double), ("kind", c_int32), ("device", c_int32),
                 ("threads", c_int32), ("verify", c_int32)]
 
@@ -126,12 +139,12 @@ class Face(Structure):
                 ("component", c_uint32), ("tip", c_uint32), ("area", c_double)]
 
 
-class MeshOptions(Structure):
+class MeshOptions(_Given):
     _fields_ = [("size", c_size_t), ("tolerance", c_double), ("split_colors", c_int32), ("reserved", c_int32),
                 ("density", c_double), ("even", c_int32), ("reserved_2", c_int32)]
 
 
-class PocketOptions(Structure):
+class PocketOptions(_Given):
     _fields_ = [("size", c_size_t), ("large_probe_radius", c_double), ("trim", c_double), ("min_volume", c_double),
                 ("mouth_tolerance", c_double)]
 
@@ -143,17 +156,17 @@ class PocketRow(Structure):
                 ("probe_count", c_uint32)]
 
 
-class MeshFile(Structure):
+class MeshFile(_Given):
     _fields_ = [("size", c_size_t), ("format", c_char_p), ("attributes", c_char_p), ("atom_colors", c_void_p),
                 ("scale", c_double), ("color", c_float * 3), ("replace", c_int32)]
 
 
-class CameraStruct(Structure):
+class CameraStruct(_Given):
     _fields_ = [("size", c_size_t), ("position", c_double * 3), ("target", c_double * 3), ("up", c_double * 3),
                 ("vertical_fov", c_double), ("height", c_double), ("projection", c_int32), ("reserved", c_int32)]
 
 
-class Picture(Structure):
+class Picture(_Given):
     _fields_ = [("size", c_size_t), ("camera", POINTER(CameraStruct)), ("atom_colors", c_void_p), ("width", c_int32),
                 ("height", c_int32), ("samples", c_int32), ("opaque", c_int32), ("color", c_float * 3),
                 ("background", c_float * 3), ("ambient_occlusion", c_float), ("silhouettes", c_float),

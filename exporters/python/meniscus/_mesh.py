@@ -10,6 +10,7 @@ import numpy as np
 
 from . import _library as lib
 from ._arrays import put_colors, view
+from ._errors import InputError
 
 
 class Mesh:
@@ -96,7 +97,7 @@ class Mesh:
         be written, or is there already and not to be replaced."""
         name = os.fsencode(path)
         if b"\0" in name:
-            raise lib.InputError(f"path {path!r} has a zero in it, which no file's name may have")
+            raise InputError(f"path {path!r} has a zero in it, which no file's name may have")
         file = lib.default("mesh_file", lib.MeshFile())
         file.format = None if format is None else format.encode()
         file.attributes, file.scale, file.replace = attributes.encode(), scale, replace

@@ -13,8 +13,8 @@ from typing import Any, Optional
 import numpy as np
 
 from ._arrays import color_of, put_colors
-from ._library import (DEVICES, ORTHOGRAPHIC, PROJECTIONS, CameraStruct, Handle, InputError, Picture, call, default,
-                       word)
+from ._errors import InputError
+from ._library import DEVICES, ORTHOGRAPHIC, PROJECTIONS, CameraStruct, Handle, Picture, call, default, word
 
 
 @dataclass

@@ -7,7 +7,8 @@ from typing import Sequence, Union
 
 import numpy as np
 
-from ._library import InputError, call
+from ._errors import InputError
+from ._library import call, whole_number
 
 
 def _element(symbol: str) -> int:
@@ -29,7 +30,7 @@ def radii_of(elements: Sequence[Union[str, int]]) -> np.ndarray:
     for n, element in enumerate(elements):
         if element in known:
             continue
-        number = _element(element) if isinstance(element, str) else int(element)
+        number = _element(element) if isinstance(element, str) else whole_number(f"atom {n}: the element", element)
         if number == 0:
             raise InputError(f"atom {n}: {str(element)!r} is no element; give radii")
         known[element] = _radius(number)

@@ -8,10 +8,12 @@ from typing import Any, NamedTuple, Optional, Union
 import numpy as np
 
 from . import _library as lib
-from ._arrays import numbers, view
+from ._arrays import doubles, numbers, real_array, view
+from ._errors import GpuError, InputError
 from ._mesh import Mesh
 from ._picture import Camera, framed, painted, png
 from ._pockets import Pocket, pockets_of
+from ._units import warn_of_nanometres
 
 
 class Patches(NamedTuple):
@@ -22,6 +24,12 @@ class Patches(NamedTuple):
     planes: np.ndarray
     contacts: np.ndarray
     cuts: np.ndarray
+
+
+def _radii_of(radii: Any) -> np.ndarray:
+    """A copy; of no dimension where one counts for all."""
+    given = real_array(radii, "radii", power=1)
+    return np.array(given, dtype=np.float64) if given.ndim == 0 else np.array(numbers(given, "radii")[0])
 
 
 class Surface:
@@ -36,23 +44,25 @@ class Surface:
         options.device = lib.word("device", device, lib.DEVICES)
         self._kind = kind
         self._computer = lib.Handle("computer", "computer_new", ctypes.byref(options))
-        self._radii = np.array(radii, dtype=np.float64) if np.ndim(radii) == 0 else np.array(numbers(radii, "radii")[0])
+        self._radii = _radii_of(radii)
         self._handle = self._computed(xyz, self._radii)
 
     def _computed(self, xyz: Any, radii: np.ndarray) -> lib.Handle:
-        positions, positions_type = numbers(xyz, "xyz", 3)
+        positions, positions_type = numbers(xyz, "xyz", 3, power=1)
         if radii.ndim == 1 and len(radii) != len(positions):
-            raise lib.InputError(f"there are {len(positions)} positions and {len(radii)} radii")
+            raise InputError(f"there are {len(positions)} positions and {len(radii)} radii")
         radii_type = lib.FLOAT if radii.dtype == np.float32 else lib.DOUBLE
         atoms = lib.Atoms(ctypes.sizeof(lib.Atoms), len(positions), positions.ctypes.data, radii.ctypes.data,
                           positions.strides[0], 0, positions_type, radii_type, int(radii.ndim == 0), 0)
-        return lib.Handle("surface", "compute", self._computer.pointer, ctypes.byref(atoms))
+        handle = lib.Handle("surface", "compute", self._computer.pointer, ctypes.byref(atoms))
+        warn_of_nanometres(positions)
+        return handle
 
     def update(self, xyz: Any, radii: Optional[Any] = None) -> Surface:
         """The next frame: other positions, and radii where they change too. Returns itself. Arrays that were taken
         before keep the frame they belong to."""
         if radii is not None:
-            radii = np.array(numbers(radii, "radii")[0] if np.ndim(radii) else float(radii))
+            radii = _radii_of(radii)
         wanted = self._radii if radii is None else radii
         self._handle = self._computed(xyz, wanted)
         self._radii = wanted
@@ -171,9 +181,7 @@ class Surface:
     def distance(self, points: Any, *, nearest: bool = False) -> Union[np.ndarray, tuple[np.ndarray, np.ndarray]]:
         """Å to the nearest point of the surface, above 0 in the solvent, below 0 in the solid; exact everywhere. With
         `nearest` these points, too, as (n, 3)."""
-        given = np.ascontiguousarray(points, dtype=np.float64)
-        if given.ndim != 2 or given.shape[1] != 3:
-            raise lib.InputError(f"points has the shape {given.shape}; it has to be (n, 3)")
+        given = doubles(points, "points", 3, power=1)
         distances = np.empty(len(given))
         feet = np.empty((len(given), 3)) if nearest else None
         handle = self._handle
@@ -190,9 +198,9 @@ class Surface:
         quantity = lib.word("of", of, lib.GRADIENTS)
         summary = lib.Summary(ctypes.sizeof(lib.Summary))
         lib.call("surface_summary", handle.pointer, ctypes.byref(summary))
-        given = None if weights is None else np.ascontiguousarray(weights, dtype=np.float64)
+        given = None if weights is None else doubles(weights, "weights")
         if given is not None and given.shape != (summary.atoms,):
-            raise lib.InputError(f"weights has the shape {given.shape}; it has to be ({summary.atoms},)")
+            raise InputError(f"weights has the shape {given.shape}; it has to be ({summary.atoms},)")
         gradient = np.empty((summary.atoms, 3))
         lib.call("surface_gradient", handle.pointer, quantity, None if given is None else given.ctypes.data,
                  gradient.ctypes.data)
@@ -227,7 +235,7 @@ class Surface:
     def _repr_png_(self) -> Optional[bytes]:
         try:
             return png(self.render(640, 480, ambient_occlusion=0.7, silhouettes=1.0))
-        except lib.GpuError:
+        except GpuError:
             return None  # the text below will do
 
     def __repr__(self) -> str:
@@ -238,7 +246,8 @@ class Surface:
 
 def surface(xyz: Any, radii: Any, probe: float = 1.4, *, kind: str = "ses", device: str = "cpu", threads: int = 0,
             verify: bool = False) -> Surface:
-    """The surface of atoms at xyz, (n, 3) Å, with van der Waals radii, (n,) or one for all.
+    """The surface of atoms at xyz, (n, 3) Å, with van der Waals radii, (n,) or one for all. What carries a unit, of
+    OpenMM, pint, astropy or unyt, is converted; a warning tells where positions look like nanometres.
 
     kind: "ses", solvent-excluded; "sas", solvent-accessible; "vdw", without a probe. device: "cpu"; "gpu"; "auto", a
     hardware GPU if one works, else the CPU; "software", GL on the CPU. threads: of the CPU, 0 for all. verify: compute
