@@ -76,6 +76,11 @@ std::vector<std::string> comment_names(const PovrayCommand& command, const Struc
   if (!command.comments) return names;
   names.reserve(structure.atoms.size());
   for (const Atom& atom : structure.atoms) {
+    if (atom.residue_name.empty()) {  // as --csv and selections number it
+      names.push_back(fmt::format("{} index {}", atom.name, atom.index));
+      names.back().erase(0, names.back().find_first_not_of(' '));
+      continue;
+    }
     const std::string code = atom.insertion_code == ' ' ? std::string() : std::string(1, atom.insertion_code);
     names.push_back(fmt::format("{} {} {}{} {}", atom.chain, atom.residue_name, atom.residue_number, code, atom.name));
     names.back().erase(0, names.back().find_first_not_of(' '));

@@ -33,6 +33,13 @@ void name_atoms(std::span<const SurfaceObject* const> surfaces, Framebuffer& pic
   }
 }
 
+/// From places in shown_atoms() to those in the file.
+void name_atoms_as_the_file(const Structure& structure, Framebuffer& picture) {
+  const std::size_t own = structure.atoms.size();
+  for (std::uint32_t& atom : picture.atom)
+    if (atom != kNone) atom = (atom < own ? structure.atoms[atom] : structure.beside[atom - own]).index;
+}
+
 }  // namespace
 
 std::vector<Ball> BesideSurface::balls() const {
@@ -122,6 +129,7 @@ Framebuffer draw(SurfaceRenderer& renderer, Figure figure, const FigureRequest& 
     Framebuffer picture = renderer.render_copies(objects, camera, settings);
     for (std::uint32_t& atom : picture.atom)
       if (atom != kNone) atom = merged_atom(objects, atom);
+    name_atoms_as_the_file(figure.molecule.structure, picture);
     return picture;
   }
   // Planes along the view cut between the nearest atom of the molecule and its farthest.
@@ -134,6 +142,7 @@ Framebuffer draw(SurfaceRenderer& renderer, Figure figure, const FigureRequest& 
     surfaces.push_back(object.surface == &whole.surface ? &whole : surface_beside(figure.beside, object));
   Framebuffer picture = renderer.render(shown, camera, settings);
   name_atoms(surfaces, picture);
+  name_atoms_as_the_file(figure.molecule.structure, picture);
   return picture;
 }
 

@@ -78,8 +78,8 @@ std::vector<PictureObject> picture_objects(const Surface& surface, const Colorin
 /// The surface among those beside the molecule's that an object of a picture shows; nullptr: none of them.
 const SurfaceObject* surface_beside(const BesideSurface& beside, const PictureObject& shown);
 
-/// Its picture. atom of the AOVs: into shown_atoms(); without shapes into Structure::atoms. Throws as
-/// SurfaceRenderer::render() does.
+/// Its picture. atom of the AOVs: place in the file (Atom::index), as in every other answer; of copies the same. Throws
+/// as SurfaceRenderer::render() does.
 Framebuffer draw(SurfaceRenderer& renderer, Figure figure, const FigureRequest& request, const Camera& camera,
                  const RenderSettings& settings);
 

@@ -19,6 +19,7 @@ void add_atoms(MnsWriter& file, const SurfaceObject& object, const AtomAttribute
   file.add("atom.radius", std::span<const double>(radius));
   file.add("atom.color", std::span<const float>(color), 3);
   file.add("atom.index", std::span(object.atom));
+  if (!atoms.file_index.empty()) file.add("atom.file_index", std::span(atoms.file_index));
   if (object.coloring.is_translucent()) file.add("atom.opacity", std::span(object.coloring.opacity));
   if (!atoms.b_factor.empty()) file.add("atom.b_factor", std::span(atoms.b_factor));
   if (!atoms.atomic_number.empty()) file.add("atom.atomic_number", std::span(atoms.atomic_number));

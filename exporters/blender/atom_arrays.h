@@ -14,6 +14,7 @@ namespace meniscus::blender {
 /// Numbers per atom, in the order of Surface::atoms; an empty vector leaves the attribute out.
 /// The names in the file are those of Molecular Nodes: b_factor, atomic_number, res_id, chain_id.
 struct AtomAttributes {
+  std::vector<std::uint32_t> file_index;  ///< place in the file, from 0 (Atom::index)
   std::vector<float> b_factor;
   std::vector<std::int32_t> atomic_number;
   std::vector<std::int32_t> residue_number;

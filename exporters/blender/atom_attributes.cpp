@@ -13,6 +13,7 @@ AtomAttributes atom_attributes(const Structure& structure, const std::vector<std
   std::map<std::string, std::int32_t> chains;
   for (const std::uint32_t index : atoms) {
     const Atom& atom = structure.atoms[index];
+    attributes.file_index.push_back(atom.index);
     attributes.b_factor.push_back(std::isfinite(atom.b_factor) ? atom.b_factor : 0.0f);
     attributes.atomic_number.push_back(atom.element);
     attributes.residue_number.push_back(atom.residue_number);

@@ -43,7 +43,8 @@ SurfaceKind kind_of(const FinishedSurface& finished) {
                                          : SurfaceKind::vdw;
 }
 
-/// Balls of an accessible surface are larger by the probe. Residues are numbered as atoms are, from 1.
+/// Balls of an accessible surface are larger by the probe. Atoms are numbered as the caller's arrays have them, their
+/// residues, too, from 1.
 std::vector<Atom> bare_atoms(const FinishedSurface& finished) {
   const double probe = finished.kind == MENISCUS_SAS ? finished.probe_radius : 0.0;
   std::vector<Atom> atoms;
@@ -51,6 +52,7 @@ std::vector<Atom> bare_atoms(const FinishedSurface& finished) {
     Atom& atom = atoms.emplace_back();
     atom.position = ball.center;
     atom.radius = ball.radius - probe;
+    atom.index = static_cast<std::uint32_t>(atoms.size() - 1);
     atom.residue_number = static_cast<std::int32_t>(atoms.size());
   }
   return atoms;

@@ -96,10 +96,8 @@ const auto kColumns = std::to_array<Column>({
      [](const NumberSource& s) { return of_atoms(s, [](const Atom& a) { return a.residue_number; }); }},
     {{"vdw_radii", "its radius, Å", true, false},
      [](const NumberSource& s) { return of_atoms(s, [](const Atom& a) { return a.radius; }); }},
-    {{"atom_index", "its place among the atoms used, from 0", true, false},
-     [](const NumberSource& s) {
-       return of_vertices(s, [&](std::uint32_t v) { return s.object.atom[s.mesh.vertex_atom[v]]; });
-     }},
+    {{"atom_index", "its place in the file, from 0", true, false},
+     [](const NumberSource& s) { return of_atoms(s, [](const Atom& a) { return a.index; }); }},
     {{"ses_kind", "of the patch: 0 convex, 1 toroidal, 2 concave", true, false},
      [](const NumberSource& s) {
        return of_vertices(s, [&](std::uint32_t v) {

@@ -316,7 +316,7 @@ class OtherProcess(WithFolder):
         surface = engines.compute(engines.find_tools(PACKAGE, PROGRAM), request.Request(**about["request"]), None, self.folder, Quiet())
         wanted = mesh_arrays.of_surface(surface, 0.1, False, mesh_arrays.chains_of(surface))
         self.assertEqual(found["header"]["area"], surface.header["area"])
-        for name in ("positions", "triangles", "normals", "slots", "atom_index"):
+        for name in ("positions", "triangles", "normals", "slots", "ses_atom"):
             np.testing.assert_array_equal(found["arrays"][name], getattr(wanted, name), name)
         self.assertEqual([each[:3] for each in found["arrays"]["attributes"]], [each[:3] for each in wanted.attributes])
 

@@ -10,6 +10,8 @@ TYPES = {
     "BYTE_COLOR": ("color", 4, np.float32),
 }
 DOMAINS = ("POINT", "FACE", "CORNER")
+#: What tells atoms apart, copies of one, too; in scenes of 0.1.0 it was the second.
+KEYS = ("ses_atom", "atom_index")
 #: What Blender itself, or the import, keeps in attributes.
 BLENDERS = {"position", "material_index", "sharp_edge", "sharp_face", "custom_normal", "crease_edge", "crease_vert"}
 
@@ -36,14 +38,15 @@ class Kept:
 def keep(mesh, ours, older=()):
     """The attributes of a mesh, but Blender's and those named in `ours`, as a list of Kept. older: of an earlier call."""
     before = {kept.name: kept for kept in older}
-    if "atom_index" not in mesh.attributes or not len(mesh.polygons):
+    key = next((name for name in KEYS if name in mesh.attributes), None)
+    if key is None or not len(mesh.polygons):
         return list(older)
     names = [attribute.name for attribute in mesh.attributes
              if attribute.name not in ours and attribute.name not in BLENDERS and not attribute.name.startswith(".")
              and attribute.data_type in TYPES and attribute.domain in DOMAINS]
     if not names:
         return []
-    atom = read(mesh, "atom_index", "INT")[:, 0]
+    atom = read(mesh, key, "INT")[:, 0]
     vertices = np.empty(len(mesh.loops), dtype=np.int32)
     mesh.loops.foreach_get("vertex_index", vertices)
     result = []
@@ -67,7 +70,7 @@ def give_back(mesh, kept, arrays):
 
 def spread(kept, arrays):
     """Values of a Kept for the elements of mesh_arrays.MeshArrays, a row each; atoms without a value get zero."""
-    atom = arrays.atom_index
+    atom = arrays.ses_atom
     table = np.zeros((max(len(kept.values), atom.max(initial=0) + 1), kept.values.shape[1]), dtype=kept.values.dtype)
     table[:len(kept.values)] = kept.values
     of_faces = table[atom]

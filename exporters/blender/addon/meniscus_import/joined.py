@@ -8,8 +8,8 @@ from . import mns_reader
 #: Arrays whose rows refer to others, and by how many rows those of earlier objects have moved on.
 INDICES = {"mesh.triangle": "mesh.position", "mesh.sharp_edge": "mesh.position", "mesh.atom": "atom.center"}
 TURNED = ("mesh.normal", "mesh.sharp_corner_normal", "mesh.velocity")
-PLAIN = ("mesh.kind", "mesh.patch", "atom.radius", "atom.color", "atom.index", "atom.b_factor", "atom.atomic_number",
-         "atom.res_id")
+PLAIN = ("mesh.kind", "mesh.patch", "atom.radius", "atom.color", "atom.index", "atom.file_index", "atom.b_factor",
+         "atom.atomic_number", "atom.res_id")
 #: Arrays that some objects may lack, and what stands for them: values, their columns, their type.
 STAND_INS = {
     "atom.opacity": (1.0, 1, np.float32), "mesh.cap_plane": (0xffffffff, 1, np.uint32), "mesh.map_value": (0.0, 1, np.float32),

@@ -20,14 +20,14 @@ POINT_NUMBERS = {
     "b_factor": ("atom.b_factor", "FLOAT"), "vdw_radii": ("atom.radius", "FLOAT"),
 }
 #: All that an import makes.
-OURS = {"atom_index", "opacity", "velocity", "Color", "ses_cap", "cap_stripe", "map_value", "map_known", *FACE_INTEGERS, *POINT_NUMBERS}
+OURS = {"atom_index", "ses_atom", "opacity", "velocity", "Color", "ses_cap", "cap_stripe", "map_value", "map_known", *FACE_INTEGERS, *POINT_NUMBERS}
 
 
 @dataclasses.dataclass
 class MeshArrays:
     """positions: (n, 3) float32, Blender units. triangles: (m, 3) int32. normals: (n, 3) of vertices, or (3 m, 3) of corners
     where some are sharp; float32. sharp_edges: sorted keys a << 32 | b of vertex pairs a < b. slots: (m,) int32, of SLOTS.
-    atom_index: (m,) int32. velocity: (n, 3) float32, Blender units a frame of the run, or None. attributes: name, type, domain
+    ses_atom: (m,) int32, what each atom is told apart by. velocity: (n, 3) float32, Blender units a frame of the run, or None. attributes: name, type, domain
     as Blender calls them, and values, a row an element, in the type that it stores and copies as they are."""
 
     positions: np.ndarray
@@ -35,7 +35,7 @@ class MeshArrays:
     normals: np.ndarray
     sharp_edges: np.ndarray
     slots: np.ndarray
-    atom_index: np.ndarray
+    ses_atom: np.ndarray
     velocity: np.ndarray
     attributes: list
 
@@ -55,10 +55,10 @@ def of_surface(surface, scale, crisp_colors, chains):
     slots = np.where(caps_of(surface), SLOTS.index("cap"), cavity[surface["mesh.component"]]).astype(np.int32)
     velocity = surface.get("mesh.velocity")
     index = surface.get("atom.index")  # before version 2 one object, whose atoms are those of the molecule in order
-    atom_index = (surface["mesh.atom"] if index is None else index[surface["mesh.atom"]]).astype(np.int32)
-    return MeshArrays(positions, triangles, normals_of(surface), pairs[:, 0] << np.uint64(32) | pairs[:, 1], slots, atom_index,
+    ses_atom = (surface["mesh.atom"] if index is None else index[surface["mesh.atom"]]).astype(np.int32)
+    return MeshArrays(positions, triangles, normals_of(surface), pairs[:, 0] << np.uint64(32) | pairs[:, 1], slots, ses_atom,
                       None if velocity is None else (velocity * scale).astype(np.float32),
-                      [*_of_faces(surface, atom_index), *_of_points(surface, scale, chains),
+                      [*_of_faces(surface, ses_atom), *_of_points(surface, scale, chains),
                        _colors(surface, triangles, len(positions), crisp_colors)])
 
 
@@ -67,11 +67,13 @@ def chains_of(*surfaces):
     return sorted({str(name) for surface in surfaces for name in surface.header.get("chain_names", [])})
 
 
-def _of_faces(surface, atom_index):
+def _of_faces(surface, ses_atom):
     for name, array in FACE_INTEGERS.items():  # INT, not INT8: Cycles 3.4 reads INT8 as 0
         if surface.get(array) is not None:
             yield (name, "INT", "FACE", surface[array].astype(np.int32))
-    yield ("atom_index", "INT", "FACE", atom_index)
+    in_file = surface.get("atom.file_index")  # files of 0.1.0 and atoms of Blender have one numbering alone
+    yield ("atom_index", "INT", "FACE", ses_atom if in_file is None else in_file[surface["mesh.atom"]].astype(np.int32))
+    yield ("ses_atom", "INT", "FACE", ses_atom)
     if surface.get("atom.opacity") is not None:  # on faces, as colours: it changes at edges
         yield ("opacity", "FLOAT", "FACE", surface["atom.opacity"][surface["mesh.atom"]].astype(np.float32))
     if surface.get("mesh.cap_plane") is not None:
