@@ -195,6 +195,13 @@ def build_mesh(surface, name, options, new_materials, fps, chains):
     return mesh
 
 
+def let_exporters_follow(mesh):
+    """Exporters of Alembic and USD look at a mesh again in later frames only if it has keys, a modifier or the like."""
+    if mesh.animation_data is None:
+        mesh["meniscus_moves"] = 1.0
+        mesh.keyframe_insert('["meniscus_moves"]', frame=1.0)
+
+
 def clear_geometry(mesh):
     """Materials, properties and what animates the mesh remain; the function of Mesh would take the last away."""
     if mesh.animation_data is None:

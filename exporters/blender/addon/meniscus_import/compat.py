@@ -246,6 +246,20 @@ def line_art(item, name, width):
     return lines
 
 
+def switch_geometry(tree, condition, if_true, otherwise):
+    """The output of a node that chooses between two geometries."""
+    node = tree.nodes.new("GeometryNodeSwitch")
+    node.input_type = "GEOMETRY"
+    for socket, source in zip((socket for socket in node.inputs if socket.enabled), (condition, otherwise, if_true)):
+        tree.links.new(source, socket)
+    return next(socket for socket in node.outputs if socket.enabled)
+
+
+def keeps_realized_normals():
+    """Whether instances that become a mesh keep their custom normals, which before 4.5 are no attribute."""
+    return bpy.app.version >= (4, 5, 0)
+
+
 def input_identifier(tree, name):
     """The key of an input in a modifier."""
     sockets = tree.interface.items_tree if hasattr(tree, "interface") else tree.inputs
@@ -259,16 +273,14 @@ def value_at(item, path, time):
 
 
 def action_curves(item):
-    """The curves that animate an object: in a bag for each of what it animates from 5.0 on."""
+    """The curves that animate an object: from 4.4 on an action is that of the object and of its mesh, with a bag for each."""
     animation = item.animation_data
     if animation is None or animation.action is None:
         return []
-    if hasattr(animation.action, "fcurves"):
+    if not hasattr(animation, "action_slot"):
         return animation.action.fcurves
-    from bpy_extras import anim_utils  # only there has it what is asked of it
-
-    bag = anim_utils.action_get_channelbag_for_slot(animation.action, animation.action_slot)
-    return [] if bag is None else bag.fcurves
+    bags = [strip.channelbag(animation.action_slot) for layer in animation.action.layers for strip in layer.strips]
+    return [curve for bag in bags if bag is not None for curve in bag.fcurves]
 
 
 def frame_rate(fps):

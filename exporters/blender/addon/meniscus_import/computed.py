@@ -232,6 +232,8 @@ def show(item, key, shown):
     build.set_provenance(item, shown.surface, build.Options(shown.scale, shown.crisp), shown.chains)
     mesh[SHOWN] = key
     item[ERROR] = ""
+    if frame_count(item) or item.meniscus.source == "OBJECT":
+        build.let_exporters_follow(mesh)
     mesh.update()
 
 

@@ -7,15 +7,16 @@ from . import compat, sequence_reader
 
 #: Inputs of the node group, which stand in the modifier and can be keyed, behind the geometry.
 START, SPEED, OUTSIDE, BY_HAND, FRAME = "Start", "Speed", "Outside: empty, hold, loop, ping-pong", "Frame by hand", "Frame"
+OWN = "Own mesh, for modifiers and exports"
 TYPES = {START: "NodeSocketFloat", SPEED: "NodeSocketFloat", OUTSIDE: "NodeSocketInt", BY_HAND: "NodeSocketBool",
-         FRAME: "NodeSocketFloat"}
+         FRAME: "NodeSocketFloat", OWN: "NodeSocketBool"}
 
 
 def add(name, collection, count, timing):
     """An object that shows the n-th object of `collection`, by name, when a sequence_reader.Timing has place n of `count`."""
     tree = bpy.data.node_groups.new(name + " by frame", "GeometryNodeTree")
     values = {START: timing.start, SPEED: timing.speed, OUTSIDE: sequence_reader.OUTSIDE.index(timing.outside),
-              BY_HAND: False, FRAME: 1.0}
+              BY_HAND: False, FRAME: 1.0, OWN: compat.keeps_realized_normals()}
     _fill(tree, collection, count, values)
     item = bpy.data.objects.new(name, bpy.data.meshes.new(name))
     modifier = item.modifiers.new("Frame", "NODES")
@@ -44,7 +45,11 @@ def _fill(tree, collection, count, values):
     tree.links.new(inside, show.inputs["Selection"])
     tree.links.new(frames.outputs[0], show.inputs["Instance"])
     tree.links.new(index, show.inputs["Instance Index"])
-    tree.links.new(show.outputs[0], group_output.inputs[0])
+    # Modifiers behind and exporters (Alembic, USD) see the object's own mesh, not its instances.
+    own = tree.nodes.new("GeometryNodeRealizeInstances")
+    tree.links.new(show.outputs[0], own.inputs[0])
+    shown = compat.switch_geometry(tree, group_input.outputs[OWN], own.outputs[0], show.outputs[0])
+    tree.links.new(shown, group_output.inputs[0])
     for column, node in enumerate(tree.nodes):
         node.location = (180 * (column // 3), -200 * (column % 3))
 

@@ -224,6 +224,7 @@ def stream(path, context=None, **options):
         collection.objects.link(item)
         prepared = placement.refill(mesh, 1)
         mesh["meniscus_shown"] = shown_key(sequence, 1)
+        build.let_exporters_follow(mesh)
         if run.import_camera:
             camera = add_camera(collection, placement)
         if camera is not None:
