@@ -30,6 +30,12 @@ for version in "${versions[@]}"; do
     printf '#!/bin/sh\nexec "%s/bin/python" "%s/bpy_as_blender.py" "$@"\n' "$home" "$tests" >"$home/blender"
     chmod +x "$home/blender"
   fi
+  # What an upload and a repository of extensions ask for.
+  validator=$(find "$home/lib" -path '*/bl_pkg/cli/blender_ext.py' -print -quit)
+  said=$("$home/bin/python" "$validator" validate "$addon/meniscus_import" 2>&1) && failed=0 || failed=1
+  echo "Blender $version, its validator of extensions: ${said//$'\n'/; }"
+  cases=$((cases + 1))
+  failures=$((failures + failed))
   scripts=(inside_blender inside_sequence inside_driven inside_computed inside_dressed inside_looks)
   [[ ${molecular_nodes[$version]:-} ]] && scripts+=(inside_molecular_nodes)
   for script in "${scripts[@]}"; do
