@@ -28,7 +28,7 @@ void tell_structure(const MoleculeOptions& options, const Structure& structure) 
 Molecule built_and_told(const MoleculeOptions& options, Structure structure) {
   Molecule molecule = MoleculeBuilder(options).build(std::move(structure));
   say(options, fmt::format("surface on {} in {:.1f} ms", molecule.device, total_ms(molecule.stages)));
-  if (const double grown_by = largest_growth(molecule.objects); grown_by > 0)
+  if (const double grown_by = change_of_radii(molecule.objects).grown_by; grown_by > 0)
     say(options,
         fmt::format("spheres that meet in one point were told apart by radii grown by up to {:.2g} Å", grown_by));
   return molecule;

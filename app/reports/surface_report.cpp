@@ -179,9 +179,10 @@ Json report_object(const SurfaceReport& report) {
   if (report.context) json["context"] = {{"selection", report.context->selection}, {"atoms", report.context->atoms}};
   json["components"] = component_list(report.molecule.objects);
   json["groups"] = group_list(report);
-  json["certificate"] = {{"closed", true}, {"open_atoms", Json::array()}};
-  if (const double grown_by = largest_growth(report.molecule.objects); grown_by > 0)
-    json["certificate"]["radii_grown_by"] = grown_by;
+  const RadiiChange change = change_of_radii(report.molecule.objects);
+  json["certificate"] = {
+      {"closed", true}, {"open_atoms", Json::array()}, {"exact_for_radii_within", change.exact_within}};
+  if (change.grown_by > 0) json["certificate"]["radii_grown_by"] = change.grown_by;
   json["device"] = report.molecule.device;
   json["stages"] = stages;
   return json;
@@ -235,8 +236,9 @@ std::string report_table(const SurfaceReport& report) {
   if (report.options.surface.kind == SurfaceKind::ses)
     fmt::format_to(out, "accessible    {:.3f} Å²\n", report.columns[1].total);
   fmt::format_to(out, "volume        {:.3f} Å³\nclosed        yes\n", totals.volume);
-  if (const double grown_by = largest_growth(objects); grown_by > 0)
-    fmt::format_to(out, "ties          told apart by radii grown by up to {:.2g} Å\n", grown_by);
+  if (const RadiiChange change = change_of_radii(objects); change.exact_within > 0)
+    fmt::format_to(out, "ties          exact for radii that differ from these by up to {:.2g} Å\n",
+                   change.exact_within);
   if (report.context)
     fmt::format_to(out, "context       {} atoms: {}\n", n(report.context->atoms), escaped(report.context->selection));
   fmt::format_to(out, "device        {}\n", report.molecule.device);

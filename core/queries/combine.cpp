@@ -119,6 +119,7 @@ class Appender {
     });
     add(whole_.components, part_.components, [](Component&) {});
     whole_.certificate.grown_by = std::max(whole_.certificate.grown_by, part_.certificate.grown_by);
+    whole_.certificate.exact_within = std::max(whole_.certificate.exact_within, part_.certificate.exact_within);
     add(whole_.certificate.open_atoms, part_.certificate.open_atoms, [&](std::uint32_t& atom) { atom += atom_; });
   }
 

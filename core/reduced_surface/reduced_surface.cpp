@@ -28,8 +28,12 @@ bool outranks(std::span<const Ball> atoms, std::uint32_t a, std::uint32_t b) {
 
 constexpr double kWay = 0.7;  // Å, that an atom may go; both may come, so that bonded atoms are pairs, and few others
 
+// Å, of decision weights.
+double growth(std::size_t index) { return 1e-9 * (1.0 + 0.5 * scattered(index)); }
+
 struct Holder {
   std::uint32_t held, by;
+  double slack;  // Å between the spheres where they are nearest; negative: the held one sticks out
 };
 
 /// An atom that holds another has a centre closer than the largest radius difference.
@@ -57,19 +61,30 @@ void for_each_pair_near(std::span<const Ball> atoms, double reach, const Visit& 
 void add_holder(std::span<const Ball> atoms, std::uint32_t a, std::uint32_t b, std::vector<Holder>& holders) {
   const std::uint32_t by = outranks(atoms, a, b) ? a : b, held = by == a ? b : a;
   const double slack = atoms[by].radius - atoms[held].radius - glm::distance(atoms[held].center, atoms[by].center);
-  if (slack + kSwallowTolerance >= 0) holders.push_back({held, by});
+  if (slack + kSwallowTolerance >= 0) holders.push_back({held, by, slack});
 }
 
 std::vector<bool> swallowed_by(std::span<const Ball> atoms,
-                               const tbb::enumerable_thread_specific<std::vector<Holder>>& found) {
+                               const tbb::enumerable_thread_specific<std::vector<Holder>>& found,
+                               double* protruding = nullptr) {
   std::vector<Holder> holders;  // hardly any in a molecule
   for (const std::vector<Holder>& part : found) holders.insert(holders.end(), part.begin(), part.end());
   // The highest first: whether one is swallowed has been decided before it can swallow.
   std::sort(holders.begin(), holders.end(),
             [&](const Holder& x, const Holder& y) { return x.held != y.held && outranks(atoms, x.held, y.held); });
   std::vector<bool> swallowed(atoms.size(), false);
-  for (const auto& [held, by] : holders)
-    if (!swallowed[by]) swallowed[held] = true;
+  double most = 0;
+  for (std::size_t n = 0; n < holders.size();) {
+    const std::uint32_t held = holders[n].held;
+    double slack = -kSwallowTolerance;  // in the one that holds it best
+    for (; n < holders.size() && holders[n].held == held; ++n) {
+      if (swallowed[holders[n].by]) continue;
+      swallowed[held] = true;
+      slack = std::max(slack, holders[n].slack);
+    }
+    if (swallowed[held]) most = std::max(most, -slack);
+  }
+  if (protruding) *protruding = most;
   return swallowed;
 }
 
@@ -84,8 +99,24 @@ double scattered(std::size_t index) {
 }
 
 double decision_weight(double radius, std::size_t index) {
-  const double grown = radius + 1e-9 * (1.0 + 0.5 * scattered(index));
+  const double grown = radius + growth(index);
   return grown * grown;
+}
+
+double shrunk_weight(double decision_weight, std::size_t index) {
+  const double shrunk = std::sqrt(decision_weight) - 2 * growth(index);
+  return shrunk > 0 ? shrunk * shrunk : 0.0;
+}
+
+double growth_as_roundoff(std::span<const double> decision_weights) {
+  if (decision_weights.empty()) return geometry::kUnitRoundoff;
+  const double smallest = std::sqrt(*std::ranges::min_element(decision_weights));
+  const double unit = 2 * geometry::kLargestGrowth / (3 * smallest);
+  return unit < 1e-6 ? unit + geometry::kUnitRoundoff : 0.0;
+}
+
+double decided_within(double roundoff, std::size_t ties, double protruding) {
+  return std::max(roundoff > 0 && ties == 0 ? 0.0 : geometry::kLargestGrowth, protruding);
 }
 
 double probe_decision_weight(double probe_radius, std::size_t index) {
@@ -102,13 +133,14 @@ std::vector<double> decision_weights(std::span<const Ball> atoms, double probe_r
   return weights;
 }
 
-std::vector<bool> swallowed_atoms(std::span<const Ball> atoms) {
+std::vector<bool> swallowed_atoms(std::span<const Ball> atoms, double* protruding) {
+  if (protruding) *protruding = 0;
   if (atoms.empty()) return {};
   tbb::enumerable_thread_specific<std::vector<Holder>> found;
   // Exact containment hands on from ball to ball, nearness does not: hence all who could swallow whom.
   for_each_pair_near(atoms, farthest_holder(atoms),
                      [&](std::uint32_t a, std::uint32_t b) { add_holder(atoms, a, b, found.local()); });
-  return swallowed_by(atoms, found);
+  return swallowed_by(atoms, found, protruding);
 }
 
 std::vector<bool> SwallowedAtoms::of(std::span<const Ball> atoms) {

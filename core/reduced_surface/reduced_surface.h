@@ -31,6 +31,7 @@ struct ReducedSurface {
   std::vector<RsArc> arcs;
   std::vector<std::uint32_t> lone_atoms;  ///< SAS spheres that meet no other and lie in none, sorted
   std::vector<std::uint32_t> lost_atoms;  ///< of which arcs must be missing, sorted; none unless there is a fault
+  double exact_within = 0.0;  ///< Å by which radii may have to change at most for all decisions to be theirs
   bool operator==(const ReducedSurface&) const = default;
 };
 
@@ -39,6 +40,7 @@ struct CircleStats {
   std::size_t pairs = 0;                 ///< overlapping pairs of SAS balls, each one circle
   std::size_t decided_in_double = 0;     ///< circles that single precision left in doubt; none on the CPU
   std::size_t decided_in_quadruple = 0;  ///< circles that double left in doubt, decided on the host
+  std::size_t ties = 0;                  ///< circles that the growth of decision weights decides
 };
 
 /// The squared SAS radii in which every sign decision is taken: (r_i + p + g_i)^2, with g_i between 1e-9 and 1.5e-9 Å,
@@ -53,6 +55,17 @@ double scattered(std::size_t index);
 /// The decision weight of one ball of (extended) radius R with the given index.
 double decision_weight(double radius, std::size_t index);
 
+/// The weight of a ball whose radius is as much below the given one as that of this decision weight is above it.
+double shrunk_weight(double decision_weight, std::size_t index);
+
+/// By how much numbers are taken to be off, relative, so that every circle which growth may decide is in doubt: bounds
+/// on rounding allow for squared radii that are off by three units. 0 where a radius is so small that too many would
+/// be.
+double growth_as_roundoff(std::span<const double> decision_weights);
+
+/// ReducedSurface::exact_within. roundoff: growth_as_roundoff(); protruding: of swallowed_atoms().
+double decided_within(double roundoff, std::size_t ties, double protruding);
+
 /// The decision weight of a fixed probe where probes cut each other: grown by 1e-12 to 1.5e-12 Å only. Two probes may
 /// be as near as 1e-6 Å, and growth moves the plane between them by its ratio to their distance; through it run the
 /// axes of spindle circles, which do not move. Copies about a symmetry axis have such probes, and their exact ties
@@ -60,8 +73,8 @@ double decision_weight(double radius, std::size_t index);
 double probe_decision_weight(double probe_radius, std::size_t index);
 
 /// Atoms whose SAS ball lies in that of an atom that is not swallowed itself, but for 1e-6 Å (ties: the lower index
-/// wins). They have no patch and block nothing more.
-std::vector<bool> swallowed_atoms(std::span<const Ball> atoms);
+/// wins). They have no patch and block nothing more. protruding: gets the Å by which one of them sticks out at most.
+std::vector<bool> swallowed_atoms(std::span<const Ball> atoms, double* protruding = nullptr);
 
 /// swallowed_atoms() of one frame after another: whoever could swallow whom is found once, with room for a way that all
 /// atoms may go. As long as none has gone farther, and radii are the same, only those pairs are asked again; where

@@ -180,9 +180,12 @@ void require_apart(const Structure& structure, double probe_radius) {
   require_apart(structure, copied, atoms, probe_radius);
 }
 
-double largest_growth(const std::vector<SurfaceObject>& objects) {
-  double largest = 0.0;
-  for (const SurfaceObject& object : objects) largest = std::max(largest, object.surface.certificate.grown_by);
+RadiiChange change_of_radii(const std::vector<SurfaceObject>& objects) {
+  RadiiChange largest;
+  for (const SurfaceObject& object : objects) {
+    largest.grown_by = std::max(largest.grown_by, object.surface.certificate.grown_by);
+    largest.exact_within = std::max(largest.exact_within, object.surface.certificate.exact_within);
+  }
   return largest;
 }
 

@@ -44,7 +44,12 @@ std::vector<SurfaceObject> surface_objects(const Structure& structure, const Div
 /// one surface are not the surface of the whole.
 void require_apart(const Structure& structure, double probe_radius);
 
-/// By how many Å radii were grown at most to tell ties apart (core/surface/tie_ladder.h); 0 as a rule.
-double largest_growth(const std::vector<SurfaceObject>& objects);
+/// The largest of all certificates, in Å; 0 as a rule: by how much radii were grown to tell ties apart, and for radii
+/// how near the given ones the surfaces are exact.
+struct RadiiChange {
+  double grown_by = 0.0;
+  double exact_within = 0.0;
+};
+RadiiChange change_of_radii(const std::vector<SurfaceObject>& objects);
 
 }  // namespace meniscus

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The second half of the pipeline as a list of its stages: place, cut, bound, trim, measure, certify.
+#include <algorithm>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -29,6 +30,7 @@ Surface assemble_surface(std::span<const Ball> atoms, double probe_radius, const
     rolling = place_rolling_parts(atoms, probe_radius, rs);
     surface.toroidal = std::move(rolling.toroidal);
     surface.certificate.open_atoms = std::move(rolling.open_atoms);
+    surface.certificate.exact_within = std::max(rs.exact_within, rolling.exact_within);
     surface.certificate.open_atoms.insert(surface.certificate.open_atoms.end(), rs.lost_atoms.begin(),
                                           rs.lost_atoms.end());
     if (!surface.certificate.open_atoms.empty()) return surface;

@@ -199,6 +199,8 @@ class Placement {
     }
     for (const Members& cluster : members_)
       if (!cluster.more.empty()) settle(cluster);
+    if (std::ranges::any_of(height_, [](double h) { return geometry::is_flat(h); }))
+      parts_.exact_within = std::max(parts_.exact_within, geometry::kLargestGrowth);
   }
 
   // A cluster whose remaining sides are not one ring is a cavity too small for the probe to move in: all its arcs are
@@ -227,8 +229,15 @@ class Placement {
     std::uint32_t sharpest = cluster.first;
     for (const std::uint32_t t : cluster.more)
       if (height_[t] > height_[sharpest]) sharpest = t;
-    position_[cluster.first] = position_[sharpest];
-    for (const std::uint32_t t : cluster.more) position_[t] = position_[sharpest];
+    const glm::dvec3 place = position_[sharpest];
+    const auto move = [&](std::uint32_t t) {
+      position_[t] = place;
+      for (const std::uint32_t a : triples_[t].atom)
+        parts_.exact_within =
+            std::max(parts_.exact_within, std::abs(glm::distance(place, atoms_[a].center) - extended(a)));
+    };
+    move(cluster.first);
+    for (const std::uint32_t t : cluster.more) move(t);
   }
 
   void place_toroidal() {

@@ -149,7 +149,9 @@ struct Component {
 struct Certificate {
   bool closed = false;
   std::vector<std::uint32_t> open_atoms;  ///< atoms at which the surface is not closed; empty when closed
-  double grown_by = 0.0;  ///< Å by which radii were grown at most to tell ties apart (tie_ladder.h); 0 as a rule
+  double grown_by = 0.0;      ///< Å by which radii were grown at most to tell ties apart (tie_ladder.h); 0 as a rule
+  double exact_within = 0.0;  ///< the surface is exact for radii that differ from the given ones by so many Å at most;
+                              ///< 0: for the given ones, whatever the order of the atoms
 };
 
 /// Numbers that users and papers quote.

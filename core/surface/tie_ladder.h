@@ -35,6 +35,7 @@ Surface compute_through_ties(std::span<const Ball> balls, const Compute& compute
     surface = compute(std::span<const Ball>(grown_balls(balls, attempt)));
     if (!surface.certificate.closed) continue;
     surface.certificate.grown_by = tie_growth(attempt);
+    surface.certificate.exact_within += tie_growth(attempt);
     return surface;
   }
   surface = {};

@@ -137,6 +137,7 @@ meniscus_summary summary_of(const FinishedSurface& finished) {
   summary.volume = s.volume;
   summary.probe_radius = finished.probe_radius;
   summary.grown_by = s.certificate.grown_by;
+  summary.exact_within = s.certificate.exact_within;
   summary.atoms = s.atoms.size();
   summary.convex = counts.convex;
   summary.toroidal = counts.toroidal;

@@ -10,15 +10,17 @@
 Circle contour_circle;
 real contour_weight;  // of the circle's first ball
 real contour_noise;   // half_plane_noise() of the circle
+real contour_unit;    // by which numbers are taken to be off, relative: a rounding, or more
 uint exposed_count;
 bool exposed_whole;
 bool exposed_doubtful;  // rounding could have changed a decision; those that follow are taken all the same
 real exposed_error;     // of any end point so far
 
-GEOMETRY void begin_contour(Circle c, real first_weight) {
+GEOMETRY void begin_contour(Circle c, real first_weight, real unit) {
   contour_circle = c;
   contour_weight = first_weight;
-  contour_noise = half_plane_noise(c, kUnitRoundoff);
+  contour_unit = unit;
+  contour_noise = half_plane_noise(c, unit);
   exposed_count = 0u;
   exposed_whole = true;
   exposed_doubtful = false;
@@ -73,7 +75,7 @@ GEOMETRY void block(Blocker ball, uint label) {
     if (offset < real(0)) cover_everything();
     return;
   }
-  HalfPlane h = covered_half_plane(contour_circle, contour_weight, ball.center, ball.distance, ball.weight, kUnitRoundoff);
+  HalfPlane h = covered_half_plane(contour_circle, contour_weight, ball.center, ball.distance, ball.weight, contour_unit);
   real margin;
   int meeting = meet_circle(h, margin);
   if (!(margin > real(0))) exposed_doubtful = true;

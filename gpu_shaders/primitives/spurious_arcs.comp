@@ -36,7 +36,7 @@ void expose_among_partners(ListedArc listed, uint b) {
   real w0 = real(ball.w);
   dvec4 other = atoms[b];
   Circle c = circle_of_two_spheres(real3(other.xyz - ball.xyz), w0, real(other.w));
-  begin_contour(c, w0);
+  begin_contour(c, w0, kUnitRoundoff);
   exposed_doubtful = too_small(c, w0);
   for (uint n = listed.first; n < listed.last && !contour_ended(); ++n) {
     uvec4 arc = texelFetch(atom_arcs, int(n));

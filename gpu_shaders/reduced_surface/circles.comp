@@ -76,10 +76,10 @@ void main() {
   real w1;
   neighbor(i, place, d, w1);
   Circle c = circle_of_two_spheres(d, w0, w1);
-  begin_contour(c, w0);
-  real unit = kUnitRoundoff * w0;
-  if (c.radius_squared < real(-1024) * unit) return;  // the balls do not overlap after all
-  if (c.radius_squared <= kSmallestCircle * unit) {
+  real unit = max(kUnitRoundoff, real(params.doubt));
+  begin_contour(c, w0, unit);
+  if (c.radius_squared < real(-1024) * unit * w0) return;  // the balls do not overlap after all
+  if (c.radius_squared <= max(kSmallestCircle * kUnitRoundoff, real(1024) * unit) * w0) {
     exposed_doubtful = true;
   } else {
     uint last = neighbor_first[entry - params.first_entry + 1u];

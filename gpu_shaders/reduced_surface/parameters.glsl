@@ -28,6 +28,7 @@ struct PairParameters {
 };
 
 struct CircleParameters {
+  double doubt;       // what is decided by less goes to the host: relative, see decision_doubt()
   uint first_entry;   // of the batch, which the neighbour lists count from
   uint entry_count;   // in the batch
   uint circle_count;  // at most; the GPU knows how many

@@ -76,7 +76,7 @@ void main() {
   vec4 other = neighbor_balls[place];
   float w0 = other.w;  // all probes have one radius
   Circle c = circle_of_two_spheres(other.xyz, w0, w0);
-  begin_contour(c, w0);
+  begin_contour(c, w0, kUnitRoundoff);
   if (!find_pencils(s, t)) return;
   if (pencils_left_out) exposed_doubtful = true;
   if (c.radius_squared < kSmallestCircle * kUnitRoundoff * w0 || dot(other.xyz, other.xyz) < 1e-4 * w0) exposed_doubtful = true;

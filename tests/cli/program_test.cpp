@@ -147,11 +147,15 @@ TEST(Surface, SaysByHowMuchRadiiGrew) {
     EXPECT_EQ(certificate["closed"], true);
     EXPECT_GT(certificate.value("radii_grown_by", 0.0), 0.0);
     EXPECT_LT(certificate.value("radii_grown_by", 1.0), 1e-5);
+    EXPECT_GE(certificate.value("exact_for_radii_within", 0.0), certificate.value("radii_grown_by", 1.0));
     const ProgramResult result = meniscus_says({"surface", tied[0], tied[1], tied[2], "--device", device});
-    EXPECT_NE(result.out.find("told apart by radii grown by up to"), std::string::npos) << result.out;
+    EXPECT_NE(result.out.find("exact for radii that differ from these by up to"), std::string::npos) << result.out;
     EXPECT_NE(result.err.find("told apart by radii grown by up to"), std::string::npos) << result.err;
   }
-  EXPECT_FALSE(surface_json({kUbiquitin, "--device", "cpu"})["certificate"].contains("radii_grown_by"));
+  const json certificate = surface_json({kUbiquitin, "--device", "cpu"})["certificate"];
+  EXPECT_FALSE(certificate.contains("radii_grown_by"));
+  EXPECT_EQ(certificate.value("exact_for_radii_within", 1.0), 0.0);
+  EXPECT_EQ(meniscus_says({"surface", kUbiquitin, "--device", "cpu"}).out.find("exact for radii"), std::string::npos);
 }
 
 // Two balls of radius 1 and a probe of 1.5: BALL 1.5 states these areas, and so does the closed form.

@@ -21,7 +21,9 @@ class GpuSurface : public ::testing::Test {
   void expect_equal(const Balls& balls, double probe_radius) {
     const Surface surface = attempt(balls, probe_radius);
     EXPECT_TRUE(surface.certificate.closed);
-    const std::vector<std::string> different = differences(compute_surface_cpu(balls, probe_radius), surface);
+    const Surface expected = compute_surface_cpu(balls, probe_radius);
+    EXPECT_EQ(surface.certificate.exact_within, expected.certificate.exact_within);
+    const std::vector<std::string> different = differences(expected, surface);
     EXPECT_TRUE(different.empty()) << different.size() << " differences, first: " << different.front();
   }
 

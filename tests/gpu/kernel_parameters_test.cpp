@@ -40,6 +40,7 @@ const Places& places_in_cpp() {
       AT(NeighborParameters, capacity),
       AT(PairParameters, first_entry),
       AT(PairParameters, entry_count),
+      AT(CircleParameters, doubt),
       AT(CircleParameters, first_entry),
       AT(CircleParameters, entry_count),
       AT(CircleParameters, circle_count),

@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
+#include "core/math/geometry.h"
 #include "core/surface/component_side.h"
 #include "core/surface/surface.h"
 #include "core/surface/tie_ladder.h"
@@ -279,6 +280,43 @@ TEST(TieLadder, GrowsByThreesAndDrawsAnew) {
   };
   for (int attempt = 7; attempt + 1 < kTieAttempts; ++attempt)  // before, rounding blurs the shares
     EXPECT_GT(std::abs(share(attempt + 1) - share(attempt)), 1e-4) << attempt;
+}
+
+double exact_within(const Balls& balls, double probe_radius = kWater) {
+  return compute_surface_cpu(balls, probe_radius).certificate.exact_within;
+}
+
+// How near radii the surface is exact for: 0 where no decision rests on growth, else no less than what it rests on.
+TEST(ExactWithin, IsTheGrowthWhereItDecides) {
+  const double kGrowth = geometry::kLargestGrowth;
+  const auto pair = [](double gap) {
+    return Balls{{{0, 0, 0}, kCarbon}, {{2 * (kCarbon + kWater) + gap, 0, 0}, kCarbon}};
+  };
+  for (const double gap : {-1e-3, -1e-8, 4e-9, 1e-8, 1.0}) EXPECT_EQ(exact_within(pair(gap)), 0.0) << gap;
+  for (const double gap : {-1e-9, -1e-12, 0.0, 1e-12, 1e-9}) EXPECT_EQ(exact_within(pair(gap)), kGrowth) << gap;
+  // Four spheres through one point, and nearly so.
+  const auto square = [](double lift) {
+    Balls balls = lattice(2, 2, 1, 3.0);
+    balls[0].center.z += lift;
+    return balls;
+  };
+  EXPECT_EQ(exact_within(square(0)), kGrowth);
+  EXPECT_EQ(exact_within(square(0.01)), 0.0);
+  EXPECT_EQ(exact_within(ubiquitin()), 0.0);
+  EXPECT_EQ(exact_within(enterotoxin()), 0.0);
+}
+
+TEST(ExactWithin, CountsWhatASwallowedAtomSticksOut) {
+  const auto dolls = [](double out) { return Balls{{{0, 0, 0}, 2.0}, {{0.5, 0, 0}, 1.5 + out}}; };
+  EXPECT_NEAR(exact_within(dolls(5e-7)), 5e-7, 1e-12);
+  EXPECT_EQ(exact_within(dolls(-1e-3)), 0.0);
+}
+
+TEST(ExactWithin, IsNoLessThanTheGrowthOfRadii) {
+  for (const NamedBalls& molecule : degenerate_molecules()) {
+    const Certificate certificate = compute_surface_cpu(molecule.balls, molecule.probe_radius).certificate;
+    EXPECT_GE(certificate.exact_within, certificate.grown_by) << molecule.name;
+  }
 }
 
 // Ties as such are told apart by the decisions; radii grow only where positions contradict them.

@@ -47,7 +47,8 @@ Blockers surroundings(Random& random, int most) {
 geometry::Remainder one_after_the_other(const Blockers& blockers, std::size_t circle) {
   geometry::Remainder left;
   const double w0 = blockers.first_weight();
-  left.begin_contour(geometry::circle_of_two_spheres(blockers[circle].center, w0, blockers[circle].weight), w0);
+  left.begin_contour(geometry::circle_of_two_spheres(blockers[circle].center, w0, blockers[circle].weight), w0,
+                     geometry::kUnitRoundoff);
   for (std::size_t n = 0; n < blockers.size() && !left.contour_ended(); ++n)
     if (n != circle) left.block(blockers[n], blockers.label(n));
   return left;

@@ -33,7 +33,7 @@ void tell_apart(const geometry::Circle& circle, double first_weight, double nois
 }  // namespace
 
 MENISCUS_VECTOR_CLONES
-void CircleMeetings::meet_all(const geometry::Circle& circle, double first_weight, const CloseBalls& balls,
+void CircleMeetings::meet_all(const geometry::Circle& circle, double unit, double first_weight, const CloseBalls& balls,
                               std::size_t count, const Columns& out) {
   const geometry::Circle c = circle;
   const CloseBalls b = balls;
@@ -41,8 +41,8 @@ void CircleMeetings::meet_all(const geometry::Circle& circle, double first_weigh
   MENISCUS_INDEPENDENT_STEPS
   for (std::size_t n = 0; n < count; ++n) {
     double margin;
-    const geometry::HalfPlane h = geometry::covered_half_plane(c, first_weight, {b.x[n], b.y[n], b.z[n]}, b.distance[n],
-                                                               b.weight[n], geometry::kUnitRoundoff);
+    const geometry::HalfPlane h =
+        geometry::covered_half_plane(c, first_weight, {b.x[n], b.y[n], b.z[n]}, b.distance[n], b.weight[n], unit);
     const double meeting = geometry::meet_circle(h, margin);
     const geometry::CoveredArc arc = geometry::covered_arc(h);
     o.meeting[n] = margin > 0 ? meeting : kInDoubt;
@@ -90,8 +90,8 @@ bool CircleMeetings::list_close(const geometry::Circle& circle, double noise, co
   return (all & kSurelyCovers) == 0;
 }
 
-void CircleMeetings::find(const geometry::Circle& circle, double noise, const Blockers& blockers, std::size_t skip) {
-  if (!list_close(circle, noise, blockers, skip)) {
+void CircleMeetings::find(const geometry::Circle& circle, double unit, const Blockers& blockers, std::size_t skip) {
+  if (!list_close(circle, geometry::half_plane_noise(circle, unit), blockers, skip)) {
     count_ = 0;
     most_ = {geometry::kCovers, 0, 0};
     return;
@@ -111,7 +111,7 @@ void CircleMeetings::find(const geometry::Circle& circle, double noise, const Bl
     distance[n] = from.distance[ball];
   }
   const Columns columns{of(kMeeting), of(kBegin), of(kEnd), of(kError), of(kSweep)};
-  meet_all(circle, blockers.first_weight(), {x, y, z, weight, distance}, count_, columns);
+  meet_all(circle, unit, blockers.first_weight(), {x, y, z, weight, distance}, count_, columns);
   std::fill(columns.meeting + close, columns.meeting + count_, geometry::kMisses);
   most_ = find_most(columns, count_);
 }

@@ -15,8 +15,8 @@ namespace meniscus {
 /// Most surely miss it, and are not listed. Reused from circle to circle to save allocations.
 class CircleMeetings {
  public:
-  /// The blocker at index `skip` is ignored. noise: half_plane_noise() of the circle.
-  void find(const geometry::Circle& circle, double noise, const Blockers& blockers, std::size_t skip);
+  /// The blocker at index `skip` is ignored. unit: by which numbers are taken to be off, relative.
+  void find(const geometry::Circle& circle, double unit, const Blockers& blockers, std::size_t skip);
 
   /// Some ball surely covers all of the circle.
   bool covered() const { return most_.meeting > kInDoubt; }
@@ -66,8 +66,8 @@ class CircleMeetings {
     const double *x, *y, *z, *weight, *distance;
   };
   bool list_close(const geometry::Circle& circle, double noise, const Blockers& blockers, std::size_t skip);
-  static void meet_all(const geometry::Circle& circle, double first_weight, const CloseBalls& balls, std::size_t count,
-                       const Columns& out);
+  static void meet_all(const geometry::Circle& circle, double unit, double first_weight, const CloseBalls& balls,
+                       std::size_t count, const Columns& out);
   static Most find_most(const Columns& columns, std::size_t count);
 
   std::size_t count_ = 0;

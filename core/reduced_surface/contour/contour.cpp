@@ -38,8 +38,8 @@ void Contour::expose(const glm::dvec3& d, double w1, const Blockers& blockers, s
 
 // Begins with the whole circle. False if what is left is known already, or doubtful: sure_ says which.
 bool Contour::begin_surely(const glm::dvec3& d, double w0, double w1) {
-  left_.begin_contour(geometry::circle_of_two_spheres(d, w0, w1), w0);
-  const double barely = 1024 * geometry::kUnitRoundoff * w0;
+  left_.begin_contour(geometry::circle_of_two_spheres(d, w0, w1), w0, unit_);
+  const double barely = 1024 * unit_ * w0;
   const bool apart = circle().radius_squared < -barely;
   if (apart) left_.cover_everything();
   // Where the spheres barely meet, if they do, the sign itself needs the better arithmetic.
@@ -53,7 +53,7 @@ bool Contour::expose_surely(const glm::dvec3& d, double w1, const Blockers& bloc
   for (std::size_t n = 0; n < halves.size() && !left_.contour_ended(); ++n)
     left_.cover(halves[n].half_plane, halves[n].label);
   if (!left_.contour_ended()) {
-    meetings_.find(circle(), left_.contour_noise, blockers, skip);
+    meetings_.find(circle(), unit_, blockers, skip);
     cover_in_turn(blockers);
   }
   return settle();
@@ -63,7 +63,7 @@ bool Contour::settle() { return sure_ = !left_.exposed_doubtful; }
 
 bool Contour::expose_at_once(const glm::dvec3& d, double w1, const Blockers& blockers, std::size_t skip) {
   if (!begin_surely(d, blockers.first_weight(), w1)) return sure_;
-  meetings_.find(circle(), left_.contour_noise, blockers, skip);
+  meetings_.find(circle(), unit_, blockers, skip);
   const CircleSweep::Outcome outcome = sweep_.find(meetings_, blockers);
   if (outcome == CircleSweep::Outcome::unknown) {
     cover_in_turn(blockers);
@@ -98,7 +98,7 @@ void Contour::expose_in_quad(const glm::dvec3& d, double w1, const Blockers& blo
   const q::Circle circle = q::circle_of_two_spheres(quad(d), w0, w1);
   if (!(circle.radius_squared > 0)) return;
   q::Remainder left;
-  left.begin_contour(circle, w0);
+  left.begin_contour(circle, w0, q::kUnitRoundoff);
   // The frame is the one in double but for rounding, so that the half-planes given by the caller mean the same.
   for (std::size_t n = 0; n < halves.size() && !left.contour_is_covered(); ++n) {
     const geometry::HalfPlane& h = halves[n].half_plane;

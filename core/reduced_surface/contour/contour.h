@@ -43,6 +43,9 @@ struct BlockedHalf {
 /// What is left of one circle. Reused from circle to circle to save allocations.
 class Contour {
  public:
+  /// unit: by which numbers are taken to be off in double precision, relative: what is decided by less is in doubt.
+  explicit Contour(double unit = geometry::kUnitRoundoff) : unit_(unit) {}
+
   /// The circle of the blockers' first ball and the ball (d, w1) among them; the blocker at index `skip` is ignored.
   /// Afterwards: whole() = nothing covers any of it; else arcs() (possibly none).
   void expose(const glm::dvec3& d, double w1, const Blockers& blockers, std::size_t skip,
@@ -76,6 +79,7 @@ class Contour {
   void expose_in_quad(const glm::dvec3& d, double w1, const Blockers& blockers, std::size_t skip,
                       std::span<const BlockedHalf> halves);
 
+  double unit_;
   geometry::Remainder left_;
   CircleMeetings meetings_;
   CircleSweep sweep_;

@@ -12,6 +12,7 @@
 
 #include "core/reduced_surface/contour/contour.h"
 #include "core/reduced_surface/contour/sphere_cover.h"
+#include "core/reduced_surface/contour/tie_watch.h"
 #include "core/reduced_surface/cpu/neighbor_search.h"
 #include "core/reduced_surface/whole_spheres.h"
 
@@ -32,29 +33,34 @@ struct Group {
 
 // One worker's reusable lists.
 struct Worker {
+  explicit Worker(double roundoff) : contour(roundoff) {}
+
   NeighborSearch::Rows rows;
   Blockers blockers;
   Blockers nearest_first;  // sorted, of the atom nearest_of
   std::size_t nearest_of = kNone;
   SphereCover cover;
   Contour contour;
+  TieWatch ties;
 };
 
 class Enumeration {
  public:
   Enumeration(std::span<const Ball> atoms, double probe_radius, std::span<const double> weights,
-              const std::vector<bool>& swallowed)
+              const std::vector<bool>& swallowed, double roundoff)
       : atom_count_(atoms.size()),
         search_(atoms, probe_radius, weights, swallowed),
-        groups_((search_.size() + kGroup - 1) / kGroup) {}
+        groups_((search_.size() + kGroup - 1) / kGroup),
+        workers_([roundoff] { return Worker(std::max(roundoff, geometry::kUnitRoundoff)); }) {}
 
-  std::vector<RsArc> run(CircleStats* stats) {
+  std::vector<RsArc> run(CircleStats& stats) {
     // Nearly half of all atoms are buried, which is quickly told; their circles need no look.
     for_each_group([&](std::size_t group, Worker& worker) { look_around(group, worker); });
     for_each_group([&](std::size_t group, Worker& worker) { list_arcs(group, worker); });
-    if (stats) {
-      for (const Group& group : groups_) stats->pairs += group.pairs / 2;
-      for (const Worker& worker : workers_) stats->decided_in_quadruple += worker.contour.doubtful_count();
+    for (const Group& group : groups_) stats.pairs += group.pairs / 2;
+    for (const Worker& worker : workers_) {
+      stats.decided_in_quadruple += worker.contour.doubtful_count();
+      stats.ties += worker.ties.ties();
     }
     return sorted_arcs();
   }
@@ -152,7 +158,11 @@ class Enumeration {
     }
     std::size_t skip = 0;
     while (w.nearest_first.label(skip) != b.label) ++skip;
+    const std::size_t doubtful = w.contour.doubtful_count();
     w.contour.expose(b.center, b.weight, w.nearest_first, skip);
+    if (w.contour.doubtful_count() > doubtful)
+      w.ties.look(w.contour, w.nearest_first, skip, search_.atom(place),
+                  [&](std::uint32_t label) { return search_.atom(label); });
   }
 
   // By atoms: those of each stand together and are sorted already.
@@ -182,9 +192,14 @@ class Enumeration {
 
 ReducedSurface enumerate_reduced_surface(std::span<const Ball> atoms, double probe_radius, CircleStats* stats) {
   const std::vector<double> weights = decision_weights(atoms, probe_radius);
-  const std::vector<bool> swallowed = swallowed_atoms(atoms);
+  double protruding = 0;
+  const std::vector<bool> swallowed = swallowed_atoms(atoms, &protruding);
+  const double roundoff = growth_as_roundoff(weights);
+  CircleStats found;
   ReducedSurface rs;
-  rs.arcs = Enumeration(atoms, probe_radius, weights, swallowed).run(stats);
+  rs.arcs = Enumeration(atoms, probe_radius, weights, swallowed, roundoff).run(found);
+  rs.exact_within = decided_within(roundoff, found.ties, protruding);
+  if (stats) *stats = found;
   find_whole_spheres(atoms, weights, swallowed, rs);
   return rs;
 }

@@ -9,9 +9,10 @@
 
 namespace meniscus {
 
-void GpuArcs::upload(std::span<const Ball> atoms, const std::vector<bool>& swallowed, double probe_radius) {
+void GpuArcs::upload(std::span<const Ball> atoms, const std::vector<bool>& swallowed, double probe_radius,
+                     bool watch_ties) {
   weights_ = decision_weights(atoms, probe_radius);
-  circles.upload(atoms, weights_);
+  circles.upload(atoms, weights_, watch_ties ? growth_as_roundoff(weights_) : 0.0);
   if (atoms.empty()) return neighbors.adopt(0, {});
   BallExtent box = extent_of(atoms);
   box.largest_radius += probe_radius;

@@ -19,8 +19,12 @@ class GpuArcs {
   explicit GpuArcs(ProgramCache& programs) : neighbors(programs), circles(programs, neighbors) {}
 
   /// Van der Waals balls, Å, which must stay until the last find(); `swallowed` says who has no patch and blocks
-  /// nothing. From now on all of them are listed.
-  void upload(std::span<const Ball> atoms, const std::vector<bool>& swallowed, double probe_radius);
+  /// nothing. From now on all of them are listed. watch_ties: circles.stats() counts ties, which costs a little.
+  void upload(std::span<const Ball> atoms, const std::vector<bool>& swallowed, double probe_radius,
+              bool watch_ties = false);
+
+  /// Decision weights of the atoms.
+  std::span<const double> weights() const { return weights_; }
 
   /// Fills `circles.arcs`, in any order: the arcs of all circles of two atoms that are listed (neighbors.list_only()).
   /// All atoms block. Throws GpuError, CapacityError.

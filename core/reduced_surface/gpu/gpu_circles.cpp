@@ -13,10 +13,12 @@
 #include "core/gpu/gpu_stage.h"
 #include "core/gpu/kernel_parameters.h"
 #include "core/reduced_surface/contour/contour.h"
+#include "core/reduced_surface/contour/tie_watch.h"
 
 namespace meniscus {
 
-void GpuCircles::upload(std::span<const Ball> host_atoms, std::span<const double> weights) {
+void GpuCircles::upload(std::span<const Ball> host_atoms, std::span<const double> weights, double roundoff) {
+  roundoff_ = roundoff;
   host_atoms_ = host_atoms;
   weights_ = weights;
   exact_.resize(host_atoms.size());
@@ -64,7 +66,7 @@ void GpuCircles::expose_later(const BallBatch& batch, StageClock& clock) {
 void GpuCircles::ask(Readback& readback) { readback.ask(counters_, 0, counts_); }
 
 bool GpuCircles::settle(const BallBatch& batch) {
-  stats_ = {batch.pair_count, counts_[1], counts_[2]};
+  stats_ = {batch.pair_count, counts_[1], counts_[2], 0};
   return settle_all({&arcs, &doubtful_}, counts_) && counts_[2] == 0;
 }
 
@@ -102,7 +104,8 @@ void GpuCircles::start(const BallBatch& batch, bool in_double, std::uint32_t cir
   counters_.bind(6);
   neighbors_.balls.bind(7);
   neighbors_.bind_listed();
-  program.set(kernel::CircleParameters{.first_entry = batch.first,
+  program.set(kernel::CircleParameters{.doubt = roundoff_,
+                                       .first_entry = batch.first,
                                        .entry_count = batch.count,
                                        .circle_count = circle_count,
                                        .list_limit = neighbors_.list_limit(),
@@ -115,7 +118,8 @@ void GpuCircles::start(const BallBatch& batch, bool in_double, std::uint32_t cir
 void GpuCircles::decide_on_host(const BallBatch& batch, std::vector<glm::uvec2> circles) {
   std::ranges::sort(circles, {}, [](const glm::uvec2& circle) { return std::pair(circle.x, circle.y); });
   std::vector<RsArc> found;
-  Contour contour;
+  Contour contour(std::max(roundoff_, geometry::kUnitRoundoff));
+  TieWatch ties;
   Blockers blockers;
   NeighborList near;
   for (const glm::uvec2& circle : circles) {
@@ -127,9 +131,11 @@ void GpuCircles::decide_on_host(const BallBatch& batch, std::vector<glm::uvec2> 
     }
     const std::uint32_t i = near.ball, place = circle.y - near.first, j = near.labels[place];
     contour.expose(host_atoms_[j].center - host_atoms_[i].center, weights_[j], blockers, place);
+    ties.look(contour, blockers, place, i, [](std::uint32_t label) { return label; });
     if (contour.whole()) found.push_back({i, j, kNone, kNone});
     for (const ExposedArc& arc : contour.arcs()) found.push_back({i, j, arc.begin_by, arc.end_by});
   }
+  stats_.ties += ties.ties();
   arcs.append(std::span<const RsArc>(found));
 }
 

@@ -27,8 +27,9 @@ class GpuCircles {
  public:
   GpuCircles(ProgramCache& programs, GpuNeighbors& neighbors) : programs_(programs), neighbors_(neighbors) {}
 
-  /// New atoms or a new probe; weights: decision weights. Both must stay until the last expose().
-  void upload(std::span<const Ball> atoms, std::span<const double> weights);
+  /// New atoms or a new probe; weights: decision weights. Both must stay until the last expose(). roundoff: what double
+  /// precision decides by less is decided on the host, where ties are counted; 0: by less than rounding.
+  void upload(std::span<const Ball> atoms, std::span<const double> weights, double roundoff);
 
   /// Forgets all arcs and figures.
   void restart();
@@ -60,6 +61,7 @@ class GpuCircles {
   GpuNeighbors& neighbors_;
   std::span<const Ball> host_atoms_;
   std::span<const double> weights_;
+  double roundoff_ = 0;
   std::vector<glm::dvec4> exact_;                    // of upload(), kept for its memory
   TexelBuffer relative_texels_{TexelFormat::uint4};  // of the neighbours, which circles fetch most
   AppendList doubtful_{sizeof(glm::uvec2), 1 << 12}, still_doubtful_{sizeof(glm::uvec2), 1 << 12};

@@ -27,10 +27,11 @@ class GpuEngine final : public ReducedSurfaceEngine {
 
   ReducedSurface reduce(std::span<const Ball> atoms, double probe_radius, StageClock& clock) override {
     if (atoms.empty()) return {};
-    const std::vector<bool> swallowed = swallowed_atoms(atoms);
+    double protruding = 0;
+    const std::vector<bool> swallowed = swallowed_atoms(atoms, &protruding);
     {
       const GpuStage stage(clock, "grid");
-      arcs_.upload(atoms, swallowed, probe_radius);
+      arcs_.upload(atoms, swallowed, probe_radius, true);
     }
     arcs_.find(clock);
     ReducedSurface rs;
@@ -40,7 +41,8 @@ class GpuEngine final : public ReducedSurfaceEngine {
       tbb::parallel_sort(rs.arcs.begin(), rs.arcs.end());
     }
     const auto stage = clock.stage("spheres without arcs");
-    find_whole_spheres(atoms, decision_weights(atoms, probe_radius), swallowed, rs);
+    find_whole_spheres(atoms, arcs_.weights(), swallowed, rs);
+    rs.exact_within = decided_within(growth_as_roundoff(arcs_.weights()), stats().ties, protruding);
     // Some atom is exposed, whatever the atoms: with arcs, or as a whole.
     if (rs.arcs.empty() && rs.lone_atoms.empty())
       throw GpuError("the GPU finds no surface at all, which cannot be; run again, or on another --device");

@@ -90,7 +90,8 @@ class Summary(Structure):
                 ("grown_by", c_double), ("atoms", c_uint64), ("convex", c_uint64), ("toroidal", c_uint64),
                 ("concave", c_uint64), ("free_edges", c_uint64), ("spindle", c_uint64), ("fixed_probes", c_uint64),
                 ("arcs", c_uint64), ("faces", c_uint64), ("borders", c_uint64), ("vertices", c_uint64),
-                ("components", c_uint64), ("cavities", c_uint64), ("device", c_char_p)]
+                ("components", c_uint64), ("cavities", c_uint64), ("device", c_char_p),
+                ("exact_within", c_double)]
 
 
 class Array(Structure):

@@ -107,6 +107,11 @@ class Surface:
         return self._summary().grown_by
 
     @property
+    def exact_within(self) -> float:
+        """Å: the surface is exact for radii that differ from the given ones by so much at most; 0: for the given ones."""
+        return self._summary().exact_within
+
+    @property
     def counts(self) -> dict[str, int]:
         """How many atoms, patches of each kind, faces, borders, vertices, components, cavities."""
         summary = self._summary()

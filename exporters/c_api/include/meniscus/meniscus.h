@@ -167,9 +167,11 @@ typedef struct meniscus_summary {
   uint64_t borders;
   uint64_t vertices;
   uint64_t components;
-  uint64_t cavities;  /* components that the probe cannot get out of */
-  const char* device; /* "cpu (16 threads)", the threads of the machine, or GL renderer and version; lives as long as
-                         the surface */
+  uint64_t cavities;   /* components that the probe cannot get out of */
+  const char* device;  /* "cpu (16 threads)", the threads of the machine, or GL renderer and version; lives as long as
+                          the surface */
+  double exact_within; /* Å: the surface is exact for radii that differ from the given ones by so much at most; 0: for
+                          the given ones */
 } meniscus_summary;
 
 /* summary->size has to be set. */
