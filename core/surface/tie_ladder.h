@@ -11,7 +11,8 @@
 namespace meniscus {
 
 /// How often a surface is computed at most: once as given, then for grown radii, by 0.016 Å in the last. Growth of more
-/// than 1e-4 Å is for probes of 50 Å and more that touch dozens of atoms at once: rounding is as much larger as they are.
+/// than 1e-4 Å is for probes of 50 Å and more that touch dozens of atoms at once: rounding is as much larger as they
+/// are.
 inline constexpr int kTieAttempts = 15;
 
 /// The largest growth of that attempt, Å: 0 for attempt 0, then from 1e-8 Å upwards, each three times the last.
