@@ -78,6 +78,7 @@ of FILE they have, if not all.
 
 Which frames  they count from 0, or from the end: -1 or last. --frames takes all, 7, 0-99, 0-99:10 (every tenth), 90- (to
               the last), -10- (the last ten), and several of these with commas between; then --begin and --end (a frame, or a time such as 2.5ns) and --stride N.
+              --repeat N shows each of these N times.
               --only LIST makes a chunk of this run: camera, colours and scene stay those of the whole.
 Prepared      in this order: --whole puts molecules together that the periodic box cuts, along the bonds of FILE and of
               standard residues (guess: by distance), and gathers them around the largest; --superpose EXPR fits atoms
@@ -86,8 +87,8 @@ Prepared      in this order: --whole puts molecules together that the periodic b
 Camera        by default still, showing all of every frame. --camera FILE for one of your own, --camera-path FILE for key
               frames {"keys":[{"frame":0,"camera":{...}},...]} (cameras as --save-camera writes them), --turntable TURNS,
               --follow EXPR.
-Files         bear the number of the frame in the trajectory. Pictures: -o frame_#####.png; a film: -o film.mp4 (needs
-              ffmpeg), --fps.
+Files         bear the number of the frame in the trajectory; with --repeat N those of frame F bear F*N, F*N + 1, ...
+              Pictures: -o frame_#####.png; a film: -o film.mp4 (needs ffmpeg), --fps.
 What fails    is told, and the run goes on; in the end the exit code is that of the first frame that failed. A trajectory
               that ends in mid-frame gives all its whole frames, and then exit code 8.
 Progress      --progress bar, plain, json (a line a frame on stderr), openjd, none.

@@ -80,14 +80,11 @@ std::vector<blender::MeshedObject> cut_objects(const BlenderCommand& command, Mo
   return objects;
 }
 
-// How the vertices of one object move in a frame of the scene, while so many frames of the trajectory pass.
-std::vector<glm::dvec3> velocities_of(const SurfaceObject& object, const TriangleMesh& mesh, const RunFrame& frame,
-                                      double frames_passed) {
+// How the vertices of one object move.
+std::vector<glm::dvec3> velocities_of(const SurfaceObject& object, const TriangleMesh& mesh, const RunFrame& frame) {
   std::vector<glm::dvec3> atoms;
   for (const std::uint32_t atom : object.atom) atoms.push_back(frame.velocities[atom]);
-  std::vector<glm::dvec3> velocities = vertex_velocities(object.surface, mesh, atoms);
-  for (glm::dvec3& v : velocities) v *= frames_passed;
-  return velocities;
+  return vertex_velocities(object.surface, mesh, atoms);
 }
 
 // Meshes of what stands beside the surface with looks of its own, kept in `made`.
@@ -136,22 +133,20 @@ void add_beside(const Molecule& molecule, double tolerance, std::optional<ShapeO
 }
 
 // Vertices beside the surface move with the atom of their triangles.
-std::vector<glm::dvec3> velocities_of(const ShapeObject& beside, const TriangleMesh& mesh, const RunFrame& frame,
-                                      double frames_passed) {
+std::vector<glm::dvec3> velocities_of(const ShapeObject& beside, const TriangleMesh& mesh, const RunFrame& frame) {
   std::vector<glm::dvec3> velocities;
-  for (const std::uint32_t atom : vertex_atoms(mesh))
-    velocities.push_back(frames_passed * frame.velocities[beside.object.atom[atom]]);
+  for (const std::uint32_t atom : vertex_atoms(mesh)) velocities.push_back(frame.velocities[beside.object.atom[atom]]);
   return velocities;
 }
 
 // Whole, with velocities.
 std::vector<blender::MeshedObject> moving_objects(const BlenderCommand& command, const Molecule& molecule,
-                                                  const RunFrame& frame, double frames_passed, double tolerance) {
+                                                  const RunFrame& frame, double tolerance) {
   std::vector<TriangleMesh> meshes = mesh_objects(molecule.objects, tolerance, !molecule.beside.empty());
   std::vector<blender::MeshedObject> objects;
   for (std::size_t n = 0; n < meshes.size(); ++n) {
     const SurfaceObject& object = molecule.objects[n];
-    std::vector<glm::dvec3> velocities = velocities_of(object, meshes[n], frame, frames_passed);
+    std::vector<glm::dvec3> velocities = velocities_of(object, meshes[n], frame);
     objects.push_back({object, std::move(meshes[n]), blender::atom_attributes(molecule.structure, object.atom),
                        std::move(velocities), command.figure.thickens});
   }
@@ -162,7 +157,6 @@ std::vector<blender::MeshedObject> moving_objects(const BlenderCommand& command,
 void run_sequence(const BlenderCommand& asked) {
   BlenderCommand command = asked;
   ExportRun run(command, true);
-  const std::vector<std::uint64_t>& numbers = run.frames().numbers();
   const blender::SequenceManifest manifest = manifest_of(command, run);
   const std::string name = run_name(manifest);
   const std::filesystem::path folder = command.output.path;
@@ -170,14 +164,12 @@ void run_sequence(const BlenderCommand& asked) {
   run.run(kMeshBytesPerAtom, [&](MoleculeBuilder& builder, const RunFrame& frame) -> FinishFrame {
     Molecule molecule = builder.build(frame.structure);
     const blender::CutFile cut = cut_file(command, manifest.shot(frame.place).camera, molecule.objects);
-    const double frames_passed = pace(numbers, frame.place);
     std::vector<blender::MeshedObject> objects =
-        cut.planes.empty() ? moving_objects(command, molecule, frame, frames_passed, manifest.tolerance)
+        cut.planes.empty() ? moving_objects(command, molecule, frame, manifest.tolerance)
                            : cut_objects(command, molecule, cut, manifest.tolerance, !molecule.beside.empty());
     std::optional<ShapeObject> beside;
     add_beside(molecule, manifest.tolerance, beside, objects);
-    if (beside && cut.planes.empty())
-      objects.back().velocities = velocities_of(*beside, objects.back().mesh, frame, frames_passed);
+    if (beside && cut.planes.empty()) objects.back().velocities = velocities_of(*beside, objects.back().mesh, frame);
     blender::Provenance provenance = manifest.provenance;
     provenance.device = molecule.device;
     provenance.colors = key_of(molecule);

@@ -56,7 +56,7 @@ class PocketFrames {
     return [this, computer](RunFrame frame) -> FinishFrame {
       auto pockets = std::make_shared<MoleculePockets>(computer->compute(frame.structure, left_out_));
       const auto structure = std::make_shared<Structure>(std::move(frame.structure));
-      const FrameNote note{frame.number, frame.time};
+      const FrameNote note{frame.source, frame.time};
       return [this, pockets, structure, note, computer] {
         return finish({*structure, *pockets, computer->device()}, note);
       };

@@ -102,10 +102,11 @@ class PictureSink {
 
 /// Which frame a picture shows.
 struct FrameShown {
-  std::uint64_t number, place;
+  std::uint64_t number, source, place;
   std::optional<double> time;
 
-  explicit FrameShown(const RunFrame& frame) : number(frame.number), place(frame.place), time(frame.time) {}
+  explicit FrameShown(const RunFrame& frame)
+      : number(frame.number), source(frame.source), place(frame.place), time(frame.time) {}
 };
 
 /// Takes a picture of a frame to where it belongs, on any thread.
@@ -191,11 +192,10 @@ class ViewPainter {
   Renderer renderer_;
 };
 
-/// The curve of --curve over the frames of the run, the same in all pictures but for the mark; a frame that --repeat
-/// shows again has the row of the trajectory's.
+/// The curve of --curve over the frames of the run, the same in all pictures but for the mark.
 std::optional<Curve> run_curve(const RenderCommand& command, const FrameRun& frames) {
   std::vector<std::uint64_t> numbers = frames.numbers();
-  for (std::uint64_t& number : numbers) number /= command.frames.repeat;
+  for (std::uint64_t& number : numbers) number = frames.source(number);
   return curve_of(command.annotations, numbers);
 }
 
@@ -226,7 +226,7 @@ void render_frames(const RenderCommand& asked) {
   const auto keep = [&](const FrameShown& frame, Framebuffer picture) {
     const bool empty = shows_nothing(picture);
     Annotations written = annotations;
-    if (command.annotations.time_stamp) written.time = time_text(frame.time, frame.number);
+    if (command.annotations.time_stamp) written.time = time_text(frame.time, frame.source);
     written.curve = curve;
     if (curve) written.curve->now = frame.place;
     annotate(picture, written, cameras[frame.place], command.background);

@@ -75,7 +75,7 @@ class SurfaceFrames {
  private:
   FrameWorker worker(const std::shared_ptr<MoleculeBuilder>& builder) {
     return [this, builder](RunFrame frame) -> FinishFrame {
-      const FrameNote note{frame.number, frame.time};
+      const FrameNote note{frame.source, frame.time};
       const Structure together = std::move(frame.together);
       const Molecule molecule = builder->build(std::move(frame.structure));
       auto numbers = std::make_shared<FrameNumbers>(numbers_of(molecule, together, note, builder->computer()));

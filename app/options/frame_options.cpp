@@ -61,13 +61,6 @@ void add_frame_options(CLI::App& command, FrameOptions& options) {
   command.add_flag("--trust-atom-order", options.trust_atom_order,
                    "Take the atoms of the trajectory for those of FILE, in its order, though bonds come out too long");
   command
-      .add_option(
-          "--repeat", options.repeat,
-          "Each frame N times in a row [1]: slow motion, or a camera about a molecule that stands still; frames "
-          "are counted after that")
-      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000}).description(""))
-      ->type_name("N");
-  command
       .add_option("--frames", options.frames,
                   "The run: all, or a list such as 0-99:10,250,last (frames count from 0; -10- are the last ten)")
       ->type_name("LIST");
@@ -77,6 +70,12 @@ void add_frame_options(CLI::App& command, FrameOptions& options) {
   command.add_option("--begin", options.begin, "Leave out what is before this frame, or time: 300ps, 2.5ns")
       ->type_name("WHEN");
   command.add_option("--end", options.end, "Leave out what is behind this frame or time")->type_name("WHEN");
+  command
+      .add_option("--repeat", options.repeat,
+                  "Each frame of the run N times in a row [1]: slow motion, or a camera about a molecule that stands "
+                  "still; files of frame F are then numbered F*N, F*N + 1, ...")
+      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000}).description(""))
+      ->type_name("N");
   command
       .add_option("--only", options.only,
                   "Make only these frames of the run, as one chunk of many: camera, colours and scene stay those of "

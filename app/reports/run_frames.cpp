@@ -154,7 +154,8 @@ void run_frames(FrameRun& frames, const MoleculeOptions& molecule, const FrameOp
                                with_thousands(frames.chunk().size()), failures.frame, failures.message));
   }
   const Trajectory& trajectory = frames.trajectory();
-  const bool reaches_end = std::ranges::find(frames.chunk(), trajectory.frame_count() - 1) != frames.chunk().end();
+  const bool reaches_end = std::ranges::any_of(
+      frames.chunk(), [&](std::uint64_t number) { return frames.source(number) + 1 == trajectory.frame_count(); });
   if (!trajectory.cut_short().empty() && reaches_end) {
     throw RunError(kExitIncomplete, fmt::format("{}: {}; every whole frame asked for is done", trajectory.path(),
                                                 trajectory.cut_short()));

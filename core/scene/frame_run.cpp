@@ -22,7 +22,6 @@
 #include "core/trajectory/frame_list.h"
 #include "core/base/error.h"
 #include "core/trajectory/joined_frames.h"
-#include "core/trajectory/repeated_frames.h"
 
 namespace meniscus {
 namespace {
@@ -59,7 +58,10 @@ class Bound {
  public:
   Bound(const char* option, const std::string& text, Trajectory& trajectory)
       : option_(option), text_(text), trajectory_(trajectory), time_(time_of(text)) {
-    if (time_) return;
+    if (time_) {
+      if (trajectory.frame_count() > 1) tolerance_ = kPartOfStep * std::abs(time_at(1) - time_at(0));
+      return;
+    }
     // A number may lie behind the end: then nothing is left, or all.
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), frame_);
     if (error == std::errc() && end == text.data() + text.size()) return;
@@ -76,19 +78,28 @@ class Bound {
   /// Less than 0: before it; 0: at it; more: behind.
   double compare(std::uint64_t number) const {
     if (!time_) return static_cast<double>(number) - static_cast<double>(frame_);
+    const double difference = time_at(number) - *time_;
+    return std::abs(difference) <= tolerance_ ? 0.0 : difference;
+  }
+
+ private:
+  /// Nobody means a part of the step so small: times in files are rounded.
+  static constexpr double kPartOfStep = 1e-3;
+
+  double time_at(std::uint64_t number) const {
     Frame frame;
     trajectory_.read(number, frame);
     if (!frame.time)
       throw RequestError(
           fmt::format("{} {}: the frames of {} have no times; give a frame", option_, text_, trajectory_.path()));
-    return *frame.time - *time_;
+    return *frame.time;
   }
 
- private:
   const char* option_;
   std::string text_;
   Trajectory& trajectory_;
-  std::optional<double> time_;
+  std::optional<double> time_;  // ps
+  double tolerance_ = 0.0;      // ps
   std::uint64_t frame_ = 0;
 };
 
@@ -130,14 +141,13 @@ FrameRun::FrameRun(const MoleculeRequest& molecule, const RunRequest& request, b
   if (!request.trajectories.empty())
     options.atoms = [&] { return count_atoms(molecule.file, request.trajectory_atoms); };
   trajectory_ = open_all(request.trajectories.empty() ? std::vector{molecule.file} : request.trajectories, options);
-  if (request.repeat > 1) trajectory_ = std::make_unique<RepeatedFrames>(std::move(trajectory_), request.repeat);
   choose_frames(request);
   read_atoms(molecule, request);
   prepare(molecule, request);
   Frame frame;
-  frames_->read(run_.front(), frame);
+  frames_->read(source(run_.front()), frame);
   place(frame.positions, structure_);
-  structure_.frame = run_.front() / repeat_;
+  structure_.frame = source(run_.front());
 }
 
 FrameRun::~FrameRun() = default;
@@ -149,7 +159,7 @@ void FrameRun::read_atoms(const MoleculeRequest& molecule, const RunRequest& req
   reading.reading.trajectory_atoms = request.trajectory_atoms;
   Frame first;
   if (!request.trajectories.empty()) {
-    trajectory_->read(run_.front(), first);
+    trajectory_->read(source(run_.front()), first);
     reading.reading.positions = first.positions;
   }
   structure_ = read_molecule(reading);
@@ -162,8 +172,9 @@ void FrameRun::read_atoms(const MoleculeRequest& molecule, const RunRequest& req
                                  advice_on_count(structure_.topology->atoms, trajectory_->atom_count())));
   }
   if (!request.trajectories.empty() && !request.trust_atom_order)
-    check_atom_order(*structure_.topology, structure_.atoms, first,
-                     {structure_.file, !structure_.topology->without_positions, trajectory_->path(), run_.front()});
+    check_atom_order(
+        *structure_.topology, structure_.atoms, first,
+        {structure_.file, !structure_.topology->without_positions, trajectory_->path(), source(run_.front())});
 }
 
 void FrameRun::choose_frames(const RunRequest& request) {
@@ -178,15 +189,28 @@ void FrameRun::choose_frames(const RunRequest& request) {
   if (run_.empty()) throw RequestError("no frame is left between --begin and --end");
   for (std::size_t n = 0; n * request.stride < run_.size(); ++n) run_[n] = run_[n * request.stride];
   run_.resize((run_.size() + request.stride - 1) / request.stride);
+  repeat();
   for (std::uint64_t place = 0; place < run_.size(); ++place) place_.try_emplace(run_[place], place);
   if (request.only.empty()) {
     chunk_ = run_;
     return;
   }
   const std::unordered_set<std::uint64_t> members(run_.begin(), run_.end());
-  chunk_ = parse_frame_list("--only", request.only, trajectory_->frame_count());
+  chunk_ = parse_frame_list("--only", request.only, trajectory_->frame_count() * repeat_);
   for (const std::uint64_t number : chunk_)
     if (!members.contains(number)) throw RequestError(fmt::format("--only: frame {} is not in the run", number));
+}
+
+/// Each frame becomes as many.
+void FrameRun::repeat() {
+  if (repeat_ == 1) return;
+  if (run_.size() > kMostListedFrames / repeat_)
+    throw RequestError(
+        fmt::format("--repeat {}: makes more than {} frames", repeat_, with_thousands(kMostListedFrames)));
+  std::vector<std::uint64_t> repeated;
+  for (const std::uint64_t number : run_)
+    for (std::uint64_t n = 0; n < repeat_; ++n) repeated.push_back(number * repeat_ + n);
+  run_ = std::move(repeated);
 }
 
 void FrameRun::prepare(const MoleculeRequest& molecule, const RunRequest& request) {
@@ -198,7 +222,7 @@ void FrameRun::prepare(const MoleculeRequest& molecule, const RunRequest& reques
   if (request.center) preparation.centered = chosen(*request.center, topology.atoms, "--center", 1);
   if (request.whole != WholeBy::nothing) {
     Frame frame;
-    trajectory_->read(run_.front(), frame);
+    trajectory_->read(source(run_.front()), frame);
     const std::optional<PeriodicCell> cell = frame.cell ? PeriodicCell::of(*frame.cell) : std::nullopt;
     std::vector<Bond> bonds = request.whole == WholeBy::guess ? guessed_bonds(topology.atoms, frame.positions, cell)
                                                               : template_bonds(topology.atoms, frame.positions, cell);
@@ -221,7 +245,7 @@ void FrameRun::place(const std::vector<glm::dvec3>& positions, Structure& struct
 
 std::vector<glm::dvec3> FrameRun::positions(std::uint64_t number) {
   Frame frame;
-  frames_->read(number, frame);
+  frames_->read(source(number), frame);
   std::vector<glm::dvec3> positions;
   for (const Atom& atom : structure_.atoms) positions.push_back(frame.positions[atom.index]);
   return positions;
@@ -229,10 +253,10 @@ std::vector<glm::dvec3> FrameRun::positions(std::uint64_t number) {
 
 Structure FrameRun::at(std::uint64_t number) {
   Frame frame;
-  frames_->read(number, frame);
+  frames_->read(source(number), frame);
   Structure structure = structure_;
   place(frame.positions, structure);
-  structure.frame = number / repeat_;
+  structure.frame = source(number);
   return structure;
 }
 
@@ -241,7 +265,7 @@ void FrameRun::survey(const std::function<void(std::uint64_t, std::span<const Ba
   Frame frame;
   for (std::uint64_t place = 0; place < run_.size(); ++place) {
     try {
-      frames_->read(run_[place], frame);
+      frames_->read(source(run_[place]), frame);
     } catch (const InputError&) {
       continue;  // whoever makes this frame says what is wrong with it
     }
@@ -250,13 +274,21 @@ void FrameRun::survey(const std::function<void(std::uint64_t, std::span<const Ba
   }
 }
 
+void FrameRun::read_velocities(ReadFrame& read) {
+  const std::uint64_t place = place_.at(read.number);
+  std::optional<std::uint64_t> before, behind;
+  if (place > 0) before = source(run_[place - 1]);
+  if (place + 1 < run_.size()) behind = source(run_[place + 1]);
+  frames_->read_velocities(source(read.number), before, behind, read.velocities);
+}
+
 std::optional<RunFrame> FrameRun::next() {
   if (taken_ == chunk_.size()) return {};
   if (!ahead_) {
     ahead_ = std::make_unique<ReadAhead>(
         [this](ReadFrame& read) {
-          frames_->read(read.number, read.frame);
-          if (velocities_) frames_->read_velocities(read.number, read.velocities);
+          frames_->read(source(read.number), read.frame);
+          if (velocities_) read_velocities(read);
         },
         chunk_);
   }
@@ -265,6 +297,7 @@ std::optional<RunFrame> FrameRun::next() {
   if (read->error) std::rethrow_exception(read->error);
   RunFrame frame;
   frame.number = read->number;
+  frame.source = source(read->number);
   frame.place = place_.at(read->number);
   frame.time = read->frame.time;
   frame.structure = structure_;
@@ -273,7 +306,7 @@ std::optional<RunFrame> FrameRun::next() {
     frame.together = *together_;
     place(read->frame.positions, frame.together);
   }
-  frame.structure.frame = frame.number / repeat_;
+  frame.structure.frame = frame.source;
   if (velocities_)
     for (const Atom& atom : shown_atoms(frame.structure)) frame.velocities.push_back(read->velocities[atom.index]);
   return frame;

@@ -32,11 +32,11 @@ struct RunRequest {
   std::vector<std::string> trajectories;      ///< in a row; none: the models of the molecule's file are the frames
   std::optional<Selection> trajectory_atoms;  ///< of the molecule's file, those that they have; nothing: all
   bool trust_atom_order = false;  ///< bonds of the first frame are not compared with those of the molecule's file
-  std::uint64_t repeat = 1;       ///< each frame this often in a row
   std::string frames;             ///< as parse_frame_list reads it; empty: all
   std::uint64_t stride = 1;
-  std::string begin, end;  ///< a frame ("100", "-10", "last") or a time ("2.5ns", "300ps"); empty: no bound
-  std::string only;        ///< the chunk of the run that is made; empty: all of it
+  std::uint64_t repeat = 1;  ///< each frame chosen by these this often in a row
+  std::string begin, end;    ///< a frame ("100", "-10", "last") or a time ("2.5ns", "300ps"); empty: no bound
+  std::string only;          ///< the chunk of the run that is made; empty: all of it
   WholeBy whole = WholeBy::nothing;
   std::optional<Selection> superpose, center;
   std::string reference;     ///< a frame; empty: the first of the trajectory
@@ -53,13 +53,14 @@ struct RunRequest {
 
 /// The molecule at one frame.
 struct RunFrame {
-  std::uint64_t number = 0;    ///< in the trajectory, from 0
+  std::uint64_t number = 0;    ///< in the run (FrameRun::numbers), by which files are named
+  std::uint64_t source = 0;    ///< in the trajectory, from 0
   std::uint64_t place = 0;     ///< in the run, from 0
   std::optional<double> time;  ///< ps
   Structure structure;
   Structure together;  ///< the same atoms and those of RunRequest::context, if it is asked for
   std::vector<glm::dvec3>
-      velocities;  ///< per shown_atoms() of the structure, Å per frame of the trajectory; only if asked for
+      velocities;  ///< per shown_atoms() of the structure, Å per frame of the run; only if asked for
 };
 
 class FrameRun {
@@ -71,17 +72,19 @@ class FrameRun {
 
   /// At the first frame of the run.
   const Structure& structure() const { return structure_; }
-  /// The frames of the run, and those of them that are to be made here, by their numbers in the trajectory.
+  /// The frames of the run, and those of them that are to be made here, by their numbers: those in the trajectory. If
+  /// each comes `repeat` times, `repeat` times that, and one more each time.
   const std::vector<std::uint64_t>& numbers() const { return run_; }
   const std::vector<std::uint64_t>& chunk() const { return chunk_; }
+  /// The number in the trajectory of one of them.
+  std::uint64_t source(std::uint64_t number) const { return number / repeat_; }
   const Trajectory& trajectory() const { return *trajectory_; }
 
   /// Reads every frame of the run, without its surface, before any is made: place in the run, and the balls. What a
   /// camera for all of them needs. A frame that cannot be read is passed over here.
   void survey(const std::function<void(std::uint64_t place, std::span<const Ball> balls)>& look);
 
-  /// Where the atoms of the structure stand at any frame of the trajectory; not together with next(). Throws
-  /// InputError.
+  /// Where the atoms of the structure stand at a frame of the run; not together with next(). Throws InputError.
   std::vector<glm::dvec3> positions(std::uint64_t number);
 
   /// The structure there, with what is shown beside the surface. Likewise.
@@ -95,6 +98,8 @@ class FrameRun {
 
  private:
   void choose_frames(const RunRequest& request);
+  void repeat();
+  void read_velocities(ReadFrame& read);
   void read_atoms(const MoleculeRequest& molecule, const RunRequest& request);
   void prepare(const MoleculeRequest& molecule, const RunRequest& request);
   void place(const std::vector<glm::dvec3>& positions, Structure& structure) const;

@@ -71,10 +71,4 @@ std::vector<glm::vec3> run_colors(const Structure& structure, const ColorScheme&
   return colors;
 }
 
-double pace(const std::vector<std::uint64_t>& run, std::size_t place) {
-  const std::size_t before = place > 0 ? place - 1 : place, behind = std::min(place + 1, run.size() - 1);
-  if (before == behind) return 1.0;
-  return (static_cast<double>(run[behind]) - static_cast<double>(run[before])) / static_cast<double>(behind - before);
-}
-
 }  // namespace meniscus

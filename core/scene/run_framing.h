@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What every frame of an exported run shares, whichever process makes it: cameras, extent, colours, pace.
+// What every frame of an exported run shares, whichever process makes it: cameras, extent, colours.
 #pragma once
 
 #include <cstdint>
@@ -33,9 +33,5 @@ void measure_colors(ColorScheme& color, FrameRun& frames);
 /// All colours that a frame of the run may have, in the order of the atoms; of components all there are. Of schemes
 /// that do not change with the frames.
 std::vector<glm::vec3> run_colors(const Structure& structure, const ColorScheme& scheme, const Coloring& beside = {});
-
-/// Frames of the trajectory that go by in one frame of the scene: the mean over the steps to both neighbours in the
-/// run.
-double pace(const std::vector<std::uint64_t>& run, std::size_t place);
 
 }  // namespace meniscus

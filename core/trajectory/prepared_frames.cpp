@@ -75,23 +75,24 @@ void PreparedFrames::read(std::uint64_t number, Frame& frame) {
   for (std::size_t a = 0; a < sum.size(); ++a) frame.positions[a] = sum[a] / static_cast<double>(2 * half + 1);
 }
 
-void PreparedFrames::read_velocities(std::uint64_t number, std::vector<glm::dvec3>& velocities) {
+void PreparedFrames::read_velocities(std::uint64_t number, std::optional<std::uint64_t> before,
+                                     std::optional<std::uint64_t> behind, std::vector<glm::dvec3>& velocities) {
+  double steps = 0.0;
   // A damaged neighbour is an error of its own frame, not of this one.
-  const auto read_neighbor = [&](std::uint64_t neighbor, Frame& frame) {
+  const auto read_neighbor = [&](std::optional<std::uint64_t> neighbor, Frame& frame) {
     try {
-      read(neighbor, frame);
-      return neighbor;
+      read(neighbor.value_or(number), frame);
+      if (neighbor) steps += 1.0;
     } catch (const InputError&) {
       read(number, frame);
-      return number;
     }
   };
   Frame first, last;
-  const std::uint64_t before = read_neighbor(number == 0 ? 0 : number - 1, first);
-  const std::uint64_t behind = read_neighbor(std::min(number + 1, trajectory_.frame_count() - 1), last);
+  read_neighbor(before, first);
+  read_neighbor(behind, last);
   velocities.resize(first.positions.size());
-  const double steps = std::max<double>(1.0, static_cast<double>(behind - before));
-  for (std::size_t a = 0; a < velocities.size(); ++a) velocities[a] = (last.positions[a] - first.positions[a]) / steps;
+  for (std::size_t a = 0; a < velocities.size(); ++a)
+    velocities[a] = (last.positions[a] - first.positions[a]) / std::max(1.0, steps);
 }
 
 }  // namespace meniscus

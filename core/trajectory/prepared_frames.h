@@ -35,10 +35,11 @@ class PreparedFrames {
   /// made whole, a molecule bonded to its own image.
   void read(std::uint64_t number, Frame& frame);
 
-  /// How the atoms move at this frame, in Å per frame of the trajectory: the central difference of the prepared frames
-  /// next to it, at the ends and beside a frame that cannot be read the difference to the one neighbour; zero where
-  /// there is none.
-  void read_velocities(std::uint64_t number, std::vector<glm::dvec3>& velocities);
+  /// How the atoms move at this frame of a run, in Å per frame of the run: half of the difference between the prepared
+  /// frames before and behind it there; without one of them, or if it cannot be read, the difference to the other; zero
+  /// where there is none.
+  void read_velocities(std::uint64_t number, std::optional<std::uint64_t> before, std::optional<std::uint64_t> behind,
+                       std::vector<glm::dvec3>& velocities);
 
  private:
   struct Kept {

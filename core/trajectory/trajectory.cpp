@@ -2,7 +2,9 @@
 // Checks that hold for a frame of any format.
 #include "core/trajectory/trajectory.h"
 
+#include <charconv>
 #include <cmath>
+#include <string>
 
 #include <fmt/format.h>
 
@@ -33,6 +35,17 @@ std::string cut_short_sentence(std::uint64_t whole_frames) {
                      whole_frames == 1 ? "frame is" : "frames are");
 }
 
+double Trajectory::with_fewest_digits(double number, double precision) {
+  constexpr int kMostDigits = 17;
+  for (int digits = 1; digits < kMostDigits; ++digits) {
+    const std::string text = fmt::format("{:.{}e}", number, digits - 1);
+    double rounded = 0.0;
+    std::from_chars(text.data(), text.data() + text.size(), rounded);
+    if (std::abs(rounded - number) <= precision * std::abs(number)) return rounded;
+  }
+  return number;
+}
+
 void Trajectory::read(std::uint64_t number, Frame& frame) {
   if (number >= frame_count_) {
     throw InputError(path_, 0,
@@ -49,6 +62,7 @@ void Trajectory::read(std::uint64_t number, Frame& frame) {
                                  with_thousands(frame.positions.size()), with_thousands(atom_count_)));
   }
   check_positions(frame, number, path_);
+  if (frame.time) frame.time = with_fewest_digits(*frame.time, time_precision_);
 }
 
 }  // namespace meniscus

@@ -42,12 +42,19 @@ class Trajectory {
   Trajectory(std::string path, std::string format) : path_(std::move(path)), format_(std::move(format)) {}
   /// As read(); `number` is one of frame_count(), and what is read is checked by the caller.
   virtual void read_unchecked(std::uint64_t number, Frame& frame) = 0;
+  /// The number with the fewest decimal digits that is as near to this one as the precision, relative, allows: 30 for
+  /// 29.9999974 in single precision.
+  static double with_fewest_digits(double number, double precision);
 
   std::string path_, format_;
   std::size_t atom_count_ = 0;
   std::uint64_t frame_count_ = 0;
   std::vector<Warning> warnings_;
   std::string cut_short_;
+  double time_precision_ = kDoublePrecision;  ///< of Frame::time as the file has it; read() rounds accordingly
+
+  /// Relative: what products of a few such numbers are wrong by at most, and one unit in the last place of a float.
+  static constexpr double kDoublePrecision = 1e-14, kSinglePrecision = 1.2e-7;
 };
 
 /// "the file ends within frame 42; its 42 whole frames are used".

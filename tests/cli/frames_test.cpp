@@ -67,10 +67,36 @@ TEST_F(Frames, WhichOnes) {
   EXPECT_EQ(numbers({"--stride", "3"}), (std::vector<int>{0, 3, 6}));
   EXPECT_EQ(numbers({"--begin", "2", "--end", "5", "--stride", "2"}), (std::vector<int>{2, 4}));
   EXPECT_EQ(numbers({"--frames", "all", "--only", "6,1"}), (std::vector<int>{6, 1}));
-  EXPECT_EQ(numbers({"--repeat", "3", "--frames", "0-5"}).size(), 6u);
-  const std::vector<Json> slow = surface({"--repeat", "3", "--frames", "2-3"});
-  EXPECT_EQ(slow[0]["area"], surface({"--frames", "0"})[0]["area"]);
-  EXPECT_EQ(slow[1]["area"], surface({"--frames", "1"})[0]["area"]);
+}
+
+// Chosen first, then repeated: of each frame of the run as many, with its number in tables.
+TEST_F(Frames, AreRepeatedOnceTheyAreChosen) {
+  EXPECT_EQ(numbers({"--repeat", "3", "--frames", "0-5"}).size(), 18u);
+  EXPECT_EQ(numbers({"--repeat", "2", "--frames", "3-4"}), (std::vector<int>{3, 3, 4, 4}));
+  EXPECT_EQ(numbers({"--repeat", "2", "--begin", "5", "--stride", "2"}), (std::vector<int>{5, 5, 7, 7}));
+  EXPECT_EQ(numbers({"--repeat", "2", "--frames", "3-4", "--only", "7-8"}), (std::vector<int>{3, 4}));
+  expect_error({"--repeat", "2", "--frames", "3-4", "--only", "4"}, 2, "frame 4 is not in the run");
+  const std::vector<Json> slow = surface({"--repeat", "2", "--frames", "2-3", "--reference", "7", "--center", "all"});
+  const std::vector<Json> once = surface({"--frames", "2-3", "--reference", "7", "--center", "all"});
+  for (int n = 0; n < 4; ++n) EXPECT_EQ(slow[n]["area"], once[n / 2]["area"]) << n;
+  const std::string folder = folder_.path().string();
+  const ProgramResult turning = meniscus({"render", file_, "-q", "--size", "32x24", "--frames", "1", "--repeat", "3",
+                                          "--turntable", "0.1", "-o", folder + "/turn_#.png"});
+  EXPECT_EQ(turning.exit_code, 0) << turning.err;
+  for (const int n : {3, 4, 5}) EXPECT_TRUE(std::filesystem::exists(fmt::format("{}/turn_{}.png", folder, n))) << n;
+}
+
+// Files round: what is at a bound but for a small part of the step is there.
+TEST_F(Frames, OfABoundInTimeBelongToTheRun) {
+  std::string text;
+  for (const char* time : {"0.00000", "9.99999", "20.00001", "30.00000"})
+    text += fmt::format(
+        "two t= {}\n2\n{:>5}{:<5}{:>5}{:>5}{:>8.3f}{:>8.3f}{:>8.3f}\n{:>5}{:<5}{:>5}{:>5}{:>8.3f}{:>8.3f}"
+        "{:>8.3f}\n2 2 2\n",
+        time, 1, "ALA", "N", 1, 0.0, 0.0, 0.0, 1, "ALA", "CA", 2, 0.146, 0.0, 0.0);
+  file_ = folder_.file("times.gro", text);
+  EXPECT_EQ(numbers({"--begin", "10ps", "--end", "20ps"}), (std::vector<int>{1, 2}));
+  expect_error({"--begin", "10.02ps", "--end", "19.98ps"}, 2, "no frame is left");
 }
 
 TEST_F(Frames, SharesAreTheRun) {

@@ -56,13 +56,28 @@ TEST(Dcd, EveryLayoutReadsTheSameInAnyOrder) {
             trajectory->read(number, frame);
             expect_frame(frame, sample, number);
             EXPECT_EQ(frame.step, 100 + 10 * number);
-            EXPECT_DOUBLE_EQ(frame.time.value(), (100.0 + 10.0 * number) * 0.5 * 4.888821e-2);
+            EXPECT_NEAR(frame.time.value(), (100.0 + 10.0 * number) * 0.5 * 4.888821e-2, 1e-6);
             if (version != 0) {
               EXPECT_EQ(frame.cell, glm::dmat3(10, 0, 0, 0, 20, 0, 0, 0, 30));
             }
             EXPECT_EQ(frame.cell.has_value(), version != 0);
           }
         }
+      }
+    }
+  }
+}
+
+// A step of 1 fs or 0.4 ps as a float, by the unit's constants of several programs, is that and nothing near it.
+TEST(Dcd, TimesAreThoseThatPeopleKnow) {
+  const TemporaryFolder folder;
+  for (const double unit : {4.888821e-2, 4.88882129e-2, 4.8888211e-2}) {
+    for (const double step : {0.001, 0.4}) {
+      const auto trajectory = open_bytes(folder, dcd({.time_step = step / unit}));
+      Frame frame;
+      for (const std::uint64_t number : {0, 1, 2}) {
+        trajectory->read(number, frame);
+        EXPECT_EQ(frame.time, (100.0 + 10.0 * static_cast<double>(number)) * step) << unit;
       }
     }
   }

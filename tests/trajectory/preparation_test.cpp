@@ -276,18 +276,34 @@ TEST(PreparedFrames, CenterStaysInPlace) {
   EXPECT_GT(glm::distance(middle(frame), 0.5 * (MadeUp::at(9, 1) + MadeUp::at(9, 3))), 0.1);
 }
 
+TEST(Trajectory, TimesHaveTheDigitsThatTheirPrecisionHolds) {
+  struct Rounding : Trajectory {
+    static double single(double time) { return with_fewest_digits(time, kSinglePrecision); }
+    static double twice(double time) { return with_fewest_digits(time, kDoublePrecision); }
+  };
+  EXPECT_EQ(Rounding::single(29.999997357600556), 30.0);
+  EXPECT_EQ(Rounding::single(100.00000762939453), 100.0);
+  EXPECT_EQ(Rounding::single(double{0.1F}), 0.1);
+  EXPECT_EQ(Rounding::single(1234567.25), 1234567.2);
+  EXPECT_EQ(Rounding::single(-0.5), -0.5);
+  EXPECT_EQ(Rounding::single(0.0), 0.0);
+  EXPECT_EQ(Rounding::twice(3 * 0.1), 0.3);
+  EXPECT_EQ(Rounding::twice(123456.789012), 123456.789012);
+}
+
 TEST(PreparedFrames, VelocitiesAreDifferences) {
   MadeUp trajectory(10);
   PreparedFrames frames(trajectory, {});
   std::vector<glm::dvec3> v;
-  frames.read_velocities(5, v);
+  frames.read_velocities(5, 4, 6, v);
   EXPECT_LT(glm::distance(v[3], 0.5 * (MadeUp::at(6, 3) - MadeUp::at(4, 3))), 1e-12);
-  frames.read_velocities(0, v);
-  EXPECT_LT(glm::distance(v[3], MadeUp::at(1, 3) - MadeUp::at(0, 3)), 1e-12);
-  frames.read_velocities(9, v);
+  frames.read_velocities(5, 1, 9, v);
+  EXPECT_LT(glm::distance(v[3], 0.5 * (MadeUp::at(9, 3) - MadeUp::at(1, 3))), 1e-12);
+  frames.read_velocities(2, std::nullopt, 5, v);
+  EXPECT_LT(glm::distance(v[3], MadeUp::at(5, 3) - MadeUp::at(2, 3)), 1e-12);
+  frames.read_velocities(9, 8, std::nullopt, v);
   EXPECT_LT(glm::distance(v[3], MadeUp::at(9, 3) - MadeUp::at(8, 3)), 1e-12);
-  MadeUp single(1);
-  PreparedFrames(single, {}).read_velocities(0, v);
+  frames.read_velocities(4, std::nullopt, std::nullopt, v);
   EXPECT_EQ(v[3], glm::dvec3(0.0));
 }
 

@@ -75,5 +75,25 @@ TEST_F(RunFramings, FluctuationsAreThoseOfEvenSteps) {
   for (const double fluctuation : fluctuations(still)) EXPECT_NEAR(fluctuation, 0.0, 1e-4);
 }
 
+// Each atom moves by 1 Å along each axis from a frame of the trajectory to the next.
+TEST_F(RunFramings, VelocitiesAreThoseBetweenFramesOfTheRun) {
+  const auto steps = [&](const std::string& list, std::uint64_t repeat) {
+    request_.frames = list;
+    request_.repeat = repeat;
+    FrameRun frames(molecule_, request_, true);
+    std::vector<double> steps;
+    while (const std::optional<RunFrame> frame = frames.next()) {
+      for (const glm::dvec3& velocity : frame->velocities) EXPECT_EQ(velocity, glm::dvec3(frame->velocities[0].x));
+      steps.push_back(frame->velocities[0].x);
+    }
+    return steps;
+  };
+  EXPECT_EQ(steps("10-12", 1), (std::vector<double>{1, 1, 1}));
+  EXPECT_EQ(steps("0-60:30", 1), (std::vector<double>{30, 30, 30}));
+  EXPECT_EQ(steps("0,4,24", 1), (std::vector<double>{4, 12, 20}));
+  EXPECT_EQ(steps("7", 1), (std::vector<double>{0}));
+  EXPECT_EQ(steps("0,4", 2), (std::vector<double>{0, 2, 2, 0}));  // shown twice, it stands still
+}
+
 }  // namespace
 }  // namespace meniscus

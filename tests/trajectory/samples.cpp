@@ -66,10 +66,10 @@ std::string dcd(const DcdSample& sample) {
     header.put_text("CORD");
     for (int n = 0; n < 20; ++n) {
       if (n == 9 && sample.version == 0) {
-        header.put(0.5);
+        header.put(sample.time_step);
         ++n;
       } else if (n == 9) {
-        header.put(0.5F);
+        header.put(static_cast<float>(sample.time_step));
       } else {
         header.put(numbers[n]);
       }

@@ -18,6 +18,7 @@ struct DcdSample {
   std::vector<std::int32_t> free = {};  // from 1; empty: all
   std::vector<double> cell = {};
   bool fourth_axis = false;
+  double time_step = 0.5;  // AKMA
 };
 
 /// Where the samples put atoms: Å in DCD and Amber NetCDF, nm in TRR.

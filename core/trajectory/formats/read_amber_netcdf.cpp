@@ -37,6 +37,7 @@ class AmberNetcdf final : public Trajectory {
     }
     find_coordinates(layout);
     time_ = find(layout, "time", 1);
+    if (time_ && !time_->doubles) time_precision_ = kSinglePrecision;
     edges_ = find(layout, "cell_lengths", 3);
     angles_ = find(layout, "cell_angles", 3);
     count_frames(layout);

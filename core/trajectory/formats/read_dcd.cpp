@@ -235,10 +235,12 @@ class Dcd final : public Trajectory {
     }
   }
 
+  /// The step is a float, and the unit of time that was written with it has as many digits.
   void set_time(std::uint64_t number, Frame& frame) const {
     if (steps_between_ <= 0) return;
     frame.step = first_step_ + static_cast<std::int64_t>(number) * steps_between_;
-    const double time = static_cast<double>(*frame.step) * time_step_ * kPicosecondsPerAkma;
+    const double step = with_fewest_digits(time_step_ * kPicosecondsPerAkma, 2 * kSinglePrecision);
+    const double time = static_cast<double>(*frame.step) * step;
     if (time_step_ > 0.0 && std::isfinite(time)) frame.time = time;
   }
 

@@ -88,6 +88,13 @@ bool is_number(const Handle& type) {
   return (kind == H5T_INTEGER || kind == H5T_FLOAT) && size >= 1 && size <= sizeof(long double);
 }
 
+/// Whether numbers have the precision of a float, or less.
+bool is_single(const Table& table) {
+  if (!table.set) return false;
+  const Handle type(H5Dget_type(table.set), H5Tclose);
+  return H5Tget_class(type) == H5T_FLOAT && H5Tget_size(type) <= sizeof(float);
+}
+
 /// None, if there is none at this path, or none of numbers that this file holds itself.
 Table table(hid_t place, const std::string& path) {
   Table result;
@@ -164,6 +171,7 @@ class H5md final : public Trajectory {
       open_mdtraj();
     else
       open_particles();
+    if (is_single(time_)) time_precision_ = kSinglePrecision;
     const std::vector<hsize_t>& lengths = position_.lengths;
     if (lengths.size() != 3 || lengths[2] != 3 || lengths[1] == 0)
       throw InputError(path, 0, fmt::format("{} is not x, y and z of atoms of frames", escaped(name_)));

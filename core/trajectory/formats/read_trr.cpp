@@ -120,6 +120,7 @@ class Trr final : public Trajectory {
                        fmt::format("frame {} at byte {} {}; leave it out by --frames, or write the file anew", number,
                                    with_thousands(offset), fault));
     }
+    time_precision_ = header.doubles ? kDoublePrecision : kSinglePrecision;
     header.doubles ? copy<double>(header, frame) : copy<float>(header, frame);
   }
 

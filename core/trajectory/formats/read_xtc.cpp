@@ -80,6 +80,7 @@ std::string parse(std::span<const std::byte> bytes, XtcHeader& header) {
 class Xtc final : public Trajectory {
  public:
   Xtc(const std::string& path, const TrajectoryOptions& options) : Trajectory(path, "XTC"), file_(path) {
+    time_precision_ = kSinglePrecision;
     index_ = find_frames(file_, options.index_folder, [this](std::uint64_t offset) {
       XtcHeader header;
       std::string fault = read_header(offset, header);
