@@ -71,8 +71,9 @@ constexpr const char* kFrames = R"(Examples:
   meniscus export povray adk.psf --trajectory adk.xtc --frames 0-999:10 -o adk
   meniscus preview adk.psf --trajectory adk.xtc --whole --center protein
 
-FILE says what the atoms are, --trajectory where they are (meniscus formats lists what is read). Selections, radii and
-colours are decided once, with the coordinates of FILE or, where it has none (PSF, prmtop), of the first frame asked for.
+FILE says what the atoms are, --trajectory where they are (meniscus formats lists what is read). Selections that ask
+where atoms are (within, x, y, z, helix, strand, coil) are evaluated anew in each frame, all others once; --select-once
+keeps what they mean in the first frame of the run.
 Several trajectories are read in a row; they may stand right behind FILE. --trajectory-atoms 'not water' says which atoms
 of FILE they have, if not all.
 

@@ -25,6 +25,8 @@
 #include "app/preview/window/window.h"
 #include "app/process/program_error.h"
 #include "core/scene/frame_run.h"
+#include "core/scene/run_framing.h"
+#include "core/scene/settled_selections.h"
 #include "core/scene/copied_atoms.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
@@ -61,6 +63,7 @@ Shown read_run(PreviewCommand& command) {
   }
   MoleculeOptions molecule = command.molecule;
   if (molecule.reading.model.all) molecule.reading.model = {};  // the preview's default; a run has frames instead
+  settle_selections(molecule, command.frames, {.figure = &command.figure, .view = &command.picture});
   const auto frames = std::make_shared<FrameRun>(molecule, command.frames);
   tell_run(molecule, *frames);
   if (command.molecule.color.by == ColorScheme::By::rmsf) {
@@ -68,10 +71,13 @@ Shown read_run(PreviewCommand& command) {
       throw UsageError("--color rmsf beside the numbers of a file is for render; leave --color-by-file out");
     command.molecule.color.file = {.path = frames->structure().file, .numbers = fluctuations(*frames)};
   }
-  return {frames->structure(),
-          TrajectoryPositions{frames->chunk(),
-                              [frames](std::size_t frame) { return frames->positions(frames->chunk()[frame]); }},
-          {}};
+  TrajectoryPositions trajectory{frames->chunk(),
+                                 [frames](std::size_t frame) { return frames->positions(frames->chunk()[frame]); }};
+  if (frames->atoms_change()) {
+    trajectory.structure = [frames](std::size_t frame) { return frames->at(frames->chunk()[frame]); };
+    measure_colors(command.molecule.color, *frames);
+  }
+  return {frames->structure(), std::move(trajectory), {}};
 }
 
 Shown read_inputs(PreviewCommand& command) {

@@ -58,8 +58,8 @@ void run(const SurfaceCommand& command) {
   std::optional<ContextNote> context;
   if (command.context) {
     SurfaceComputer computer(command.molecule.surface);
-    ContextAreas areas = context_areas(command.molecule, read_with_context(command.molecule, *command.context),
-                                       molecule, columns, computer);
+    ContextAreas areas = context_areas(
+        command.molecule, read_molecule(with_context(command.molecule, *command.context)), molecule, columns, computer);
     context = ContextNote{command.context->text(), areas.atoms};
     std::move(areas.columns.begin(), areas.columns.end(), std::back_inserter(columns));
   }
@@ -136,7 +136,8 @@ void add_surface(CLI::App& command) {
       "free ions are left out. What was read, left out and used is always said. Radii are Bondi's (`meniscus info`\n"
       "lists them), or the file's own (PQR, XYZR). The surface is complete, cavities too, and closed; areas and "
       "volumes\n"
-      "are exact, in closed form. A cavity's volume is negative: it is missing from the solid. An atom's part of the\n"
+      "are exact, in closed form. `volume` is the solid's, less cavities; a cavity's own is positive. An atom's part "
+      "of the\n"
       "surface is what has its colour in pictures: its contact patch, and of the patches around it what is nearer to\n"
       "its contact than to any other.\n"
       "Over frames the tables of atoms and residues have their rows for each frame. A cavity keeps its number while\n"

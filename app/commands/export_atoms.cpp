@@ -13,6 +13,7 @@
 #include "app/reports/notes.h"
 #include "core/base/text.h"
 #include "core/queries/combine.h"
+#include "core/scene/settled_selections.h"
 #include "exporters/blender/atom_attributes.h"
 #include "exporters/blender/atoms_file.h"
 
@@ -41,11 +42,19 @@ Molecule first_molecule(const AtomsCommand& command, const FrameRun* run) {
   return MoleculeBuilder(command.molecule).build(run->structure());
 }
 
-void export_atoms(const AtomsCommand& command) {
+void export_atoms(const AtomsCommand& asked) {
+  AtomsCommand command = asked;
   if (command.molecule.color.by == ColorScheme::By::volume)
     throw UsageError("--color-map-file colours points of a surface, not atoms; leave it out");
   std::unique_ptr<FrameRun> run;
-  if (command.frames.asked()) run = std::make_unique<FrameRun>(command.molecule, command.frames);
+  if (command.frames.asked()) {
+    settle_selections(command.molecule, command.frames);
+    run = std::make_unique<FrameRun>(command.molecule, command.frames);
+    if (run->atoms_change())
+      throw UsageError(
+          "export atoms: the file has the same atoms in all frames, but --select means others in each; add "
+          "--select-once for those of the first");
+  }
   Molecule molecule = first_molecule(command, run.get());
   blender::AtomFrames frames;
   if (run) {

@@ -39,7 +39,7 @@ std::string file_name(const std::string& path) { return std::filesystem::path(pa
 blender::SequenceManifest manifest_of(const BlenderCommand& command, ExportRun& run) {
   const FrameRun& frames = run.frames();
   const RunFraming& framing = run.framing();
-  const ColorKey key = color_key(frames.structure(), color_of(command.molecule), {});
+  const ColorKey key = color_key(frames.reach(), color_of(command.molecule), {});
   blender::SequenceManifest manifest;
   manifest.provenance = {file_name(frames.structure().file), frames.structure().radii_set, {}, key};
   for (const std::string& path : command.frames.trajectories)

@@ -48,7 +48,7 @@ povray::SceneOptions scene_options(const PovrayCommand& command) {
 std::optional<std::vector<povray::SceneColor>> colors_of_run(const PovrayCommand& command, const ColorScheme& scheme,
                                                              const FrameRun& frames, const Coloring& beside) {
   if (scheme.changes_with_frames()) return {};
-  const std::vector<glm::vec3> colors = run_colors(frames.structure(), scheme, beside);
+  const std::vector<glm::vec3> colors = run_colors(frames.reach(), scheme, beside);
   povray::ColorTable all;
   const auto add = [&](const povray::SceneColor& color) {
     if (color.opacity > 0.0f) all.number(color);
@@ -117,9 +117,12 @@ void run_sequence(const PovrayCommand& asked) {
   const ColorScheme scheme = color_of(command.molecule);
   povray::SceneOptions options = scene_options(command);
   options.origin = framing.origin();
+  if (command.comments && frames.atoms_change())
+    throw UsageError(
+        "--comments names the atoms of all frames once, but --select means others in each; add --select-once");
   options.atom_names = comment_names(command, frames.structure());
-  options.colors = color_key(frames.structure(), scheme, {});
-  const ColoredShapes beside = shown_shapes(frames.structure(), command.molecule.representations, scheme);
+  options.colors = color_key(frames.reach(), scheme, {});
+  const ColoredShapes beside = shown_shapes(frames.reach(), command.molecule.representations, scheme);
   const bool translucent = std::ranges::any_of(
       scheme.opacities, [](const OpacityRule& rule) { return rule.opacity > 0.0f && rule.opacity < 1.0f; });
   const povray::SequenceScene scene(

@@ -60,7 +60,7 @@ MadeFrame made_frame(std::span<const std::filesystem::path> files) {
 }
 
 ExportRun::ExportRun(FigureCommand& command, bool velocities)
-    : ExportRun(command, given_cameras(command.picture, command.run_camera), velocities) {}
+    : ExportRun(with_settled_selections(command), given_cameras(command.picture, command.run_camera), velocities) {}
 
 ExportRun::ExportRun(FigureCommand& command, const GivenCameras& cameras, bool velocities)
     : command_(command), frames_(command.molecule, command.frames, velocities) {

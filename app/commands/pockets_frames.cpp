@@ -16,6 +16,7 @@
 #include "app/reports/run_frames.h"
 #include "core/queries/cavity_tracks.h"
 #include "core/scene/molecule_pockets.h"
+#include "core/scene/settled_selections.h"
 
 namespace meniscus {
 namespace {
@@ -31,6 +32,7 @@ class PocketFrames {
   void run() {
     FrameRun frames(command_.molecule, command_.frames);
     tell_run(command_.molecule, frames);
+    takes_out_anew_ = frames.atoms_change() || command_.ligand.uses_positions();
     left_out_ = taken_out(command_, frames.structure());
     if (!command_.json && command_.csv != "-") std::cout << pocket_row_header();
     FrameOptions options = command_.frames;
@@ -54,7 +56,8 @@ class PocketFrames {
   FrameWorker worker() {
     const auto computer = std::make_shared<PocketComputer>(command_.molecule.surface, command_.pockets);
     return [this, computer](RunFrame frame) -> FinishFrame {
-      auto pockets = std::make_shared<MoleculePockets>(computer->compute(frame.structure, left_out_));
+      auto pockets = std::make_shared<MoleculePockets>(
+          computer->compute(frame.structure, takes_out_anew_ ? taken_out(command_, frame.structure) : left_out_));
       const auto structure = std::make_shared<Structure>(std::move(frame.structure));
       const FrameNote note{frame.source, frame.time};
       return [this, pockets, structure, note, computer] {
@@ -66,7 +69,10 @@ class PocketFrames {
   MadeFrame finish(const PocketReport& report, const FrameNote& note) {
     if (command_.csv != "-") print_now(command_.json ? pocket_json_line(report, note) : pocket_row(report, note));
     std::vector<Cavity> cavities;
-    for (const Pocket& pocket : report.pockets.found.pockets) cavities.push_back(pocket.cavity);
+    for (const Pocket& pocket : report.pockets.found.pockets) {
+      cavities.push_back(pocket.cavity);
+      for (std::uint32_t& atom : cavities.back().atoms) atom = report.structure.atoms[atom].index;
+    }
     rows_.write(pocket_series_header(), pocket_series_rows(report, note, tracks_.follow(cavities)));
     return {};
   }
@@ -74,16 +80,19 @@ class PocketFrames {
   const PocketsCommand& command_;
   GrowingTable rows_;
   CavityTracks tracks_;
+  bool takes_out_anew_ = false;  ///< in each frame
   std::vector<bool> left_out_;
 };
 
 }  // namespace
 
-void pockets_frames(const PocketsCommand& command) {
+void pockets_frames(const PocketsCommand& asked) {
+  PocketsCommand command = asked;
   if (!command.csv.empty() && !command.frames.only.empty())
     throw UsageError(
         "--csv needs all frames of the run, as numbers of pockets go on from one to the next; leave "
         "--only away");
+  settle_selections(command.molecule, command.frames, {.of_atoms = {&command.ligand}});
   PocketFrames(command).run();
 }
 

@@ -25,6 +25,7 @@
 #include "core/render/renderer.h"
 #include "core/scene/picture_device.h"
 #include "core/scene/run_framing.h"
+#include "core/scene/settled_selections.h"
 
 namespace meniscus {
 namespace {
@@ -204,15 +205,21 @@ std::optional<Curve> run_curve(const RenderCommand& command, const FrameRun& fra
 void render_frames(const RenderCommand& asked) {
   check_options(asked);
   RenderCommand command = asked;
+  with_settled_selections(command);
   const GivenCameras given = given_cameras(command.picture, command.run_camera);
   FrameRun frames(command.molecule, command.frames);
   tell_run(command.molecule, frames);
   measure_colors(command.molecule.color, frames);
   Molecule first;  // what the colours mean does not change with the frames
-  first.structure = frames.structure();
+  first.structure = frames.reach();
   first.color = color_of(command.molecule);
   if (command.extent && first.color.changes_with_frames())
     throw UsageError("colours that change from frame to frame need the complete surface; leave --extent away");
+  if (command.extent && selects_by_positions(command.molecule))
+    throw UsageError(
+        "--extent: what a selection by distance means changes from frame to frame; add --select-once, or leave "
+        "--extent "
+        "away");
   const PictureLayout layout(command, key_of(first));
   PictureSink sink(command);
   const std::vector<Camera> cameras =

@@ -26,6 +26,7 @@
 #include "core/scene/context_areas.h"
 #include "core/scene/gradient_columns.h"
 #include "core/scene/molecule.h"
+#include "core/scene/settled_selections.h"
 
 namespace meniscus {
 namespace {
@@ -53,7 +54,6 @@ class SurfaceFrames {
 
   void run() {
     FrameOptions options = command_.frames;
-    options.context = command_.context;
     FrameRun frames(command_.molecule, options);
     tell_run(command_.molecule, frames);
     if (!command_.json && !command_.prints_csv()) std::cout << report_row_header(command_.molecule);
@@ -116,8 +116,11 @@ class SurfaceFrames {
     }
     if (cavities_.is_wanted()) {
       numbers.cavities = cavities_of(molecule.surface());
-      for (const Cavity& cavity : numbers.cavities)
+      for (Cavity& cavity : numbers.cavities) {
         numbers.lining.push_back(lining_residues(molecule.structure, molecule.objects.front(), cavity));
+        for (std::uint32_t& atom : cavity.atoms)  // of the file, which are the same in all frames
+          atom = molecule.structure.atoms[molecule.objects.front().atom[atom]].index;
+      }
     }
     return numbers;
   }
@@ -181,8 +184,11 @@ class SurfaceFrames {
 
 }  // namespace
 
-void surface_frames(const SurfaceCommand& command) {
-  check_outputs(command);
+void surface_frames(const SurfaceCommand& asked) {
+  check_outputs(asked);
+  SurfaceCommand command = asked;
+  command.frames.context = command.context;
+  settle_selections(command.molecule, command.frames);
   SurfaceFrames(command).run();
 }
 

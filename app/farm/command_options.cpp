@@ -132,6 +132,7 @@ const Options& command_table() {
       {"--stride", Value::text},
       {"--begin", Value::text},
       {"--end", Value::text},
+      {"--select-once", Value::none},
       {"--whole", Value::maybe_text},
       {"--superpose", Value::text},
       {"--center", Value::text},

@@ -24,6 +24,7 @@
 #include "app/process/program_error.h"
 #include "core/scene/run_cameras.h"
 #include "core/scene/frame_run.h"
+#include "core/scene/settled_selections.h"
 #include "app/process/stop_signals.h"
 #include "core/base/output_file.h"
 #include "app/farm/read_bundle.h"
@@ -190,8 +191,10 @@ std::optional<std::uint64_t> threads_of(const std::vector<std::string>& device) 
   return {};
 }
 
-Bundle described(const BundleOptions& options, const BundledCommand& command, BundleInputs& inputs,
+Bundle described(const BundleOptions& options, const BundledCommand& asked, BundleInputs& inputs,
                  std::vector<std::string>& notes) {
+  BundledCommand command = asked;
+  settle_selections(command.molecule, command.frames, {.view = &command.picture, .motion = &command.camera_motion});
   const GivenCameras cameras = given_cameras(command.picture, command.camera_motion);
   FrameRun frames(command.molecule, command.frames);
   tell_run(command.molecule, frames);

@@ -6,6 +6,7 @@
 #include "app/options/picture_options.h"
 #include "app/options/run_camera_options.h"
 #include "app/options/scene_file.h"
+#include "core/scene/settled_selections.h"
 
 namespace meniscus {
 
@@ -20,6 +21,12 @@ void add_run_options(CLI::App& command, FigureCommand& figure) {
   add_trajectory_argument(command);
   add_frame_options(command, figure.frames);
   add_run_camera_options(command, figure.run_camera);
+}
+
+FigureCommand& with_settled_selections(FigureCommand& command) {
+  settle_selections(command.molecule, command.frames,
+                    {.figure = &command.figure, .view = &command.picture, .motion = &command.run_camera});
+  return command;
 }
 
 void run_export(const CLI::App& command, FigureCommand& figure, const std::function<void()>& run) {

@@ -32,6 +32,9 @@ void add_shown_options(CLI::App& command, FigureCommand& figure);
 /// Size and camera of the picture, and the run of frames; behind the above.
 void add_run_options(CLI::App& command, FigureCommand& figure);
 
+/// The command, its selections settled (settle_selections).
+FigureCommand& with_settled_selections(FigureCommand& command);
+
 /// Runs an export whose options are parsed, and saves its scene, if that is asked for, when it is done. Throws what
 /// `run` throws, and OutputError before it if the scene cannot be saved.
 void run_export(const CLI::App& command, FigureCommand& figure, const std::function<void()>& run);

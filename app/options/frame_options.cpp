@@ -81,6 +81,10 @@ void add_frame_options(CLI::App& command, FrameOptions& options) {
                   "Make only these frames of the run, as one chunk of many: camera, colours and scene stay those of "
                   "the whole run")
       ->type_name("LIST");
+  command.add_flag(
+      "--select-once", options.select_once,
+      "Selections by distance, coordinates or secondary structure mean in all frames what they mean in the "
+      "first of the run; without it they are found anew in each frame");
   command
       .add_option_function<std::string>(
           "--whole", [&options](const std::string& word) { parse_whole(word, options.whole); },

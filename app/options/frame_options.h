@@ -27,7 +27,8 @@ struct FrameOptions : RunRequest {
   std::size_t jobs = 0;  ///< frames that are made at once; 0: as cores and memory allow
 };
 
-/// --trajectory, --trajectory-atoms, --trust-atom-order, --frames, --stride, --begin, --end, --repeat, --only, --whole,
+/// --trajectory, --trajectory-atoms, --trust-atom-order, --frames, --stride, --begin, --end, --repeat, --only,
+/// --select-once, --whole,
 /// --superpose, --center, --reference, --smooth, --jobs, --progress, under a heading of their own.
 void add_frame_options(CLI::App& command, FrameOptions& options);
 /// Trajectories named behind FILE, for what has --trajectory. To be called behind what adds FILE and before

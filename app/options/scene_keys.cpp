@@ -32,6 +32,7 @@ constexpr auto kSceneKeys = std::to_array<SceneKey>({
     {"frames", "begin", "--begin", V::text},
     {"frames", "end", "--end", V::text},
     {"frames", "repeat", "--repeat", V::text},
+    {"frames", "select_once", "--select-once", V::flag},
     {"frames", "whole", "--whole", V::text_or_flag},
     {"frames", "superpose", "--superpose", V::text},
     {"frames", "center", "--center", V::text},

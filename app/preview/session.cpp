@@ -63,6 +63,11 @@ void PreviewSession::sample_trajectory() {
   for (std::size_t n = 0; n < count; ++n) {
     const std::size_t frame = count == 1 ? 0 : n * (trajectory_->numbers.size() - 1) / (count - 1);
     try {
+      if (trajectory_->structure) {
+        const std::vector<Ball> balls = balls_of(trajectory_->structure(frame));
+        sampled_.insert(sampled_.end(), balls.begin(), balls.end());
+        continue;
+      }
       const std::vector<glm::dvec3> positions = trajectory_->positions(frame);
       for (const std::uint32_t a : shown_atoms()) sampled_.push_back({positions[a], structure_.atoms[a].radius});
     } catch (const InputError&) {
@@ -74,10 +79,28 @@ void PreviewSession::sample_trajectory() {
 void PreviewSession::show_frame(std::size_t frame) {
   // Read first: what cannot be read changes nothing.
   std::vector<glm::dvec3> positions;
-  if (trajectory_) positions = trajectory_->positions(frame);
-  Derived made = derived(view_, Changed::shapes, frame);
-  for (std::size_t n = 0; n < positions.size(); ++n) structure_.atoms[n].position = positions[n];
+  std::optional<Structure> other;
+  if (trajectory_ && trajectory_->structure)
+    other = trajectory_->structure(frame);
+  else if (trajectory_)
+    positions = trajectory_->positions(frame);
+  const auto exchange = [&] {
+    if (other) {
+      std::swap(structure_, *other);
+      frames_ = group_atoms(structure_, Grouping::model);
+    }
+    for (std::size_t n = 0; n < positions.size(); ++n) std::swap(structure_.atoms[n].position, positions[n]);
+  };
+  exchange();  // colours and selections may depend on where atoms stand
+  Derived made;
+  try {
+    made = derived(view_, Changed::shapes, frame);
+  } catch (...) {
+    exchange();
+    throw;
+  }
   view_.frame = frame;
+  coloring_ = std::move(*made.coloring);
   marked_ = std::move(made.marked);
   beside_ = std::move(made.beside);
   if (view_.follows_keys && !view_.keys.empty())

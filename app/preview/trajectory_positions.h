@@ -9,12 +9,16 @@
 
 #include <glm/vec3.hpp>
 
+#include "core/structure/structure.h"
+
 namespace meniscus {
 
 struct TrajectoryPositions {
   std::vector<std::uint64_t> numbers;  ///< of the frames in the trajectory; at least one
   /// Å, one per atom of the structure. Throws InputError for a frame that cannot be read.
   std::function<std::vector<glm::dvec3>(std::size_t frame)> positions;
+  /// Instead of positions, where frames have other atoms each; else empty. Likewise.
+  std::function<Structure(std::size_t frame)> structure{};
 };
 
 }  // namespace meniscus

@@ -21,8 +21,9 @@ namespace {
 using By = ColorScheme::By;
 
 /// Chains in order of appearance, so that colours follow the file.
-std::vector<glm::vec3> by_chain(const Structure& structure) {
+std::vector<glm::vec3> by_chain(const Structure& structure, const ColorScheme& scheme) {
   std::map<std::string, std::size_t> order;
+  for (const std::string& chain : scheme.chains) order.try_emplace(chain, order.size());
   std::vector<glm::vec3> colors;
   for (const Atom& atom : structure.atoms)
     colors.push_back(categorical_color(order.try_emplace(chain_of_file(atom), order.size()).first->second));
@@ -30,7 +31,7 @@ std::vector<glm::vec3> by_chain(const Structure& structure) {
 }
 
 std::vector<glm::vec3> colors_of(const Structure& structure, const ColorScheme& scheme) {
-  if (scheme.by == By::chain) return by_chain(structure);
+  if (scheme.by == By::chain) return by_chain(structure, scheme);
   std::vector<glm::vec3> colors;
   colors.reserve(structure.atoms.size());
   if (scheme.has_scale()) {

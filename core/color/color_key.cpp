@@ -190,12 +190,19 @@ class ClassList {
   void add(const std::string& name, const glm::vec3& color) {
     if (seen_.insert(name).second) key_.classes.push_back({name, color});
   }
-  /// The colour of the next new class.
-  glm::vec3 next_color() const { return categorical_color(seen_.size()); }
+  /// In the colour of its place in the order, if it has one, else behind that.
+  void add_chain(const std::string& name, const std::vector<std::string>& order) {
+    const auto place = std::ranges::find(order, name);
+    const bool known = place != order.end();
+    if (seen_.contains(name)) return;
+    add(name, categorical_color(known ? static_cast<std::size_t>(place - order.begin()) : order.size() + others_));
+    if (!known) ++others_;
+  }
 
  private:
   ColorKey& key_;
   std::set<std::string> seen_;
+  std::size_t others_ = 0;
 };
 
 }  // namespace
@@ -253,7 +260,7 @@ ColorKey color_key(const Structure& structure, const ColorScheme& scheme, std::s
         classes.add(atom.element == 0 ? "unknown" : element_symbol(atom.element),
                     scheme.by == By::element ? element_color(atom.element) : cpk_color(atom.element));
       else if (scheme.by == By::chain)
-        classes.add(chain_of_file(atom), classes.next_color());
+        classes.add_chain(chain_of_file(atom), scheme.chains);
       else if (scheme.by == By::copy)
         classes.add(fmt::format("copy {}", atom.copy + 1), categorical_color(atom.copy));
       else

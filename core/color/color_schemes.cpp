@@ -59,6 +59,14 @@ std::string chain_of_file(const Atom& atom) {
   return atom.chain.substr(0, atom.chain.size() - suffix.size());
 }
 
+std::vector<std::string> chains_of(const Structure& structure) {
+  std::vector<std::string> chains;
+  for (const std::vector<Atom>* atoms : {&structure.atoms, &structure.beside})
+    for (const Atom& atom : *atoms)
+      if (std::ranges::find(chains, chain_of_file(atom)) == chains.end()) chains.push_back(chain_of_file(atom));
+  return chains;
+}
+
 std::span<const ColorSchemeMetadata> color_schemes() { return kSchemes; }
 
 bool ColorScheme::uses_scale() const {

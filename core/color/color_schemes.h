@@ -54,9 +54,10 @@ struct ColorScheme {
     volume           ///< a volume map, at each point of the surface
   };
   By by = By::element;
-  glm::vec3 fixed{0.8f};                       ///< sRGB in [0, 1], for By::fixed
-  std::optional<ColorMap> map;                 ///< nothing: that of the scheme (color_scale)
-  std::shared_ptr<const ColorRamp> own_map;    ///< instead of `map`, if there is one
+  glm::vec3 fixed{0.8f};                     ///< sRGB in [0, 1], for By::fixed
+  std::vector<std::string> chains{};         ///< chain_of_file, in the order of their colours; others come behind them
+  std::optional<ColorMap> map;               ///< nothing: that of the scheme (color_scale)
+  std::shared_ptr<const ColorRamp> own_map;  ///< instead of `map`, if there is one
   std::optional<std::array<double, 2>> range;  ///< numbers at both ends of the map; nothing: automatic (color_scale)
   /// Of numbers that change from frame to frame of a run the least and the greatest of all frames, instead of an
   /// automatic range.
@@ -127,5 +128,8 @@ std::optional<std::array<double, 2>> parse_color_range(std::string_view text);
 
 /// The chain as the file names it: in an assembly copies of A are called, ... and keep its colour.
 std::string chain_of_file(const Atom& atom);
+
+/// The chains of the structure, in order of appearance; those of atoms beside it come behind.
+std::vector<std::string> chains_of(const Structure& structure);
 
 }  // namespace meniscus

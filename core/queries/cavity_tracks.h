@@ -59,8 +59,8 @@ class CavityTracks {
   /// probe_radius: Å, above 0.
   explicit CavityTracks(double probe_radius) : probe_radius_(probe_radius) {}
 
-  /// The next frame's: a step for each of them, and for each of those before that is gone; by id. Atoms must be the
-  /// same as before.
+  /// The next frame's: a step for each of them, and for each of those before that is gone; by id. Cavity::atoms must
+  /// mean the same atoms as before.
   std::vector<CavityStep> follow(const std::vector<Cavity>& cavities);
 
  private:

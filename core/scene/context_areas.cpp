@@ -21,12 +21,11 @@ void check(const MoleculeRequest& request) {
 
 }  // namespace
 
-Structure read_with_context(const MoleculeRequest& request, const Selection& context) {
+MoleculeRequest with_context(const MoleculeRequest& request, const Selection& context) {
   check(request);
   MoleculeRequest together = request;
-  together.reading.selection =
-      parse_selection(fmt::format("({}) or ({})", request.reading.selection->text(), context.text()));
-  return read_molecule(together);
+  together.reading.selection = either(*request.reading.selection, context);
+  return together;
 }
 
 ContextAreas context_areas(const MoleculeRequest& request, const Structure& structure, const Molecule& molecule,

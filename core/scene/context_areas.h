@@ -17,10 +17,9 @@ struct ContextAreas {
   std::vector<AreaColumn> columns;  ///< for each given one: "<name>_in_context", "<name>_buried" (the difference)
 };
 
-/// Reads the file again with the context's atoms too. Throws RequestError without --select (then there is nothing else
-/// in the file), for standard input, which can be read only once, and for assemblies; and what reading a molecule
-/// throws.
-Structure read_with_context(const MoleculeRequest& request, const Selection& context);
+/// The request for the context's atoms too. Throws RequestError without --select (then there is nothing else in the
+/// file), for standard input, which can be read only once, and for assemblies.
+MoleculeRequest with_context(const MoleculeRequest& request, const Selection& context);
 
 /// Computes the surface of all atoms of `together` as one, and finds those of the molecule there. `alone`: columns of
 /// the molecule by itself. `computer`: of request.surface. Throws what computing a surface throws.

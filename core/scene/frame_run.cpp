@@ -103,6 +103,25 @@ class Bound {
   std::uint64_t frame_ = 0;
 };
 
+/// Does it depend on where atoms stand which of them a frame has, or how they are drawn beside the surface?
+bool chooses_by_positions(const MoleculeRequest& molecule, const RunRequest& request) {
+  const auto asks = [](const std::optional<Selection>& selection) { return selection && selection->uses_positions(); };
+  ReadOptions reading = molecule.reading;
+  molecule.representations.ask_for(reading);
+  return reading.secondary_structure || asks(reading.selection) || asks(request.context) ||
+         std::ranges::any_of(reading.shown, [](const ShownAtoms& shown) { return shown.atoms.uses_positions(); }) ||
+         std::ranges::any_of(reading.radii.overrides,
+                             [](const RadiusOverride& radius) { return radius.atoms.uses_positions(); });
+}
+
+/// Adds those from which selections measure distances.
+void add_measured(const Selection& selection, const std::vector<Atom>& atoms, std::vector<std::uint32_t>& places) {
+  if (!selection.uses_positions()) return;
+  const std::vector<bool> measured = selection.reach(atoms).measured;
+  for (std::uint32_t n = 0; n < atoms.size(); ++n)
+    if (measured[n]) places.push_back(n);
+}
+
 std::vector<std::uint32_t> chosen(const Selection& selection, const std::vector<Atom>& atoms, const char* option,
                                   std::size_t least) {
   std::vector<std::uint32_t> indices;
@@ -146,13 +165,13 @@ FrameRun::FrameRun(const MoleculeRequest& molecule, const RunRequest& request, b
   prepare(molecule, request);
   Frame frame;
   frames_->read(source(run_.front()), frame);
-  place(frame.positions, structure_);
-  structure_.frame = source(run_.front());
+  structure_ = structure_at(frame, run_.front());
 }
 
 FrameRun::~FrameRun() = default;
 
-/// With the coordinates of their file, or of the first frame where it has none.
+/// With the coordinates of their file, or of the first frame where it has none; all that may be chosen, if that is done
+/// anew in each frame.
 void FrameRun::read_atoms(const MoleculeRequest& molecule, const RunRequest& request) {
   MoleculeRequest reading = molecule;
   reading.reading.keep_topology = true;
@@ -162,8 +181,16 @@ void FrameRun::read_atoms(const MoleculeRequest& molecule, const RunRequest& req
     trajectory_->read(source(run_.front()), first);
     reading.reading.positions = first.positions;
   }
-  structure_ = read_molecule(reading);
-  if (request.context) together_ = read_with_context(reading, *request.context);
+  atoms_change_ = reading.reading.selection && reading.reading.selection->uses_positions();
+  if (!request.select_once && chooses_by_positions(reading, request)) {
+    file_ = open_molecule(reading);
+    structure_ = file_->reach();
+    if (request.context) file_together_ = open_molecule(with_context(reading, *request.context));
+    if (request.context) together_ = file_together_->reach();
+  } else {
+    structure_ = read_molecule(reading);
+    if (request.context) together_ = read_molecule(with_context(reading, *request.context));
+  }
   const std::size_t atoms = structure_.topology->atoms.size();
   if (atoms != trajectory_->atom_count()) {
     throw InputError(trajectory_->path(), 0,
@@ -233,6 +260,11 @@ void FrameRun::prepare(const MoleculeRequest& molecule, const RunRequest& reques
     for (const Atom& atom : structure_.beside) wanted.push_back(atom.index);
     if (together_)
       for (const Atom& atom : together_->atoms) wanted.push_back(atom.index);
+    if (molecule.reading.selection) add_measured(*molecule.reading.selection, topology.atoms, wanted);
+    if (request.context) add_measured(*request.context, topology.atoms, wanted);
+    ReadOptions reading = molecule.reading;
+    molecule.representations.ask_for(reading);
+    for (const ShownAtoms& shown : reading.shown) add_measured(shown.atoms, topology.atoms, wanted);
     preparation.whole.emplace(topology.atoms, bonds, wanted, molecule.file);
   }
   frames_ = std::make_unique<PreparedFrames>(*trajectory_, std::move(preparation));
@@ -241,6 +273,21 @@ void FrameRun::prepare(const MoleculeRequest& molecule, const RunRequest& reques
 void FrameRun::place(const std::vector<glm::dvec3>& positions, Structure& structure) const {
   for (Atom& atom : structure.atoms) atom.position = positions[atom.index];
   for (Atom& atom : structure.beside) atom.position = positions[atom.index];
+}
+
+Structure FrameRun::structure_at(const Frame& frame, std::uint64_t number) const {
+  Structure structure = file_ ? file_->at(frame.positions) : structure_;
+  if (!file_) place(frame.positions, structure);
+  structure.frame = source(number);
+  return structure;
+}
+
+std::vector<Atom> FrameRun::all_atoms() {
+  Frame frame;
+  frames_->read(source(run_.front()), frame);
+  std::vector<Atom> atoms = structure_.topology->atoms;
+  for (std::size_t n = 0; n < atoms.size(); ++n) atoms[n].position = frame.positions[n];
+  return atoms;
 }
 
 std::vector<glm::dvec3> FrameRun::positions(std::uint64_t number) {
@@ -254,23 +301,23 @@ std::vector<glm::dvec3> FrameRun::positions(std::uint64_t number) {
 Structure FrameRun::at(std::uint64_t number) {
   Frame frame;
   frames_->read(source(number), frame);
-  Structure structure = structure_;
-  place(frame.positions, structure);
-  structure.frame = source(number);
-  return structure;
+  return structure_at(frame, number);
 }
 
-void FrameRun::survey(const std::function<void(std::uint64_t, std::span<const Ball>)>& look) {
-  std::vector<Ball> balls = balls_of(structure_);
+void FrameRun::survey(const std::function<void(std::uint64_t, const Structure&)>& look) {
+  Structure structure = structure_;
   Frame frame;
-  for (std::uint64_t place = 0; place < run_.size(); ++place) {
+  for (std::uint64_t number = 0; number < run_.size(); ++number) {
     try {
-      frames_->read(source(run_[place]), frame);
+      frames_->read(source(run_[number]), frame);
+      if (file_)
+        structure = structure_at(frame, run_[number]);
+      else
+        place(frame.positions, structure);
     } catch (const InputError&) {
       continue;  // whoever makes this frame says what is wrong with it
     }
-    for (std::size_t n = 0; n < balls.size(); ++n) balls[n].center = frame.positions[structure_.atoms[n].index];
-    look(place, balls);
+    look(number, structure);
   }
 }
 
@@ -300,29 +347,33 @@ std::optional<RunFrame> FrameRun::next() {
   frame.source = source(read->number);
   frame.place = place_.at(read->number);
   frame.time = read->frame.time;
-  frame.structure = structure_;
-  place(read->frame.positions, frame.structure);
-  if (together_) {
+  frame.structure = structure_at(read->frame, read->number);
+  if (file_together_) {
+    frame.together = file_together_->at(read->frame.positions);
+  } else if (together_) {
     frame.together = *together_;
     place(read->frame.positions, frame.together);
   }
-  frame.structure.frame = frame.source;
   if (velocities_)
     for (const Atom& atom : shown_atoms(frame.structure)) frame.velocities.push_back(read->velocities[atom.index]);
   return frame;
 }
 
 std::vector<double> fluctuations(FrameRun& run) {
+  if (run.atoms_change())
+    throw RequestError(
+        "--color rmsf follows atoms through all frames, but --select means others in each; add --select-once for those "
+        "of the first");
   const std::size_t count = run.structure().atoms.size();
   std::vector<glm::dvec3> mean(count, glm::dvec3(0.0));
   std::vector<double> squares(count, 0.0);  // of distances from the mean so far (Welford 1962)
   double frames = 0.0;
-  run.survey([&](std::uint64_t, std::span<const Ball> balls) {
+  run.survey([&](std::uint64_t, const Structure& structure) {
     frames += 1.0;
     for (std::size_t a = 0; a < count; ++a) {
-      const glm::dvec3 step = balls[a].center - mean[a];
+      const glm::dvec3 step = structure.atoms[a].position - mean[a];
       mean[a] += step / frames;
-      squares[a] += glm::dot(step, balls[a].center - mean[a]);
+      squares[a] += glm::dot(step, structure.atoms[a].position - mean[a]);
     }
   });
   if (frames == 0.0) throw InputError(run.structure().file, 0, "no frame of the run can be read");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A run of frames of one molecule: which atoms and radii is decided once, positions come frame by frame.
+// A run of frames of one molecule: atoms are chosen once, but anew in each frame where a selection asks for positions.
 #pragma once
 
 #include <cstdint>
@@ -42,6 +42,8 @@ struct RunRequest {
   std::string reference;     ///< a frame; empty: the first of the trajectory
   std::uint64_t smooth = 1;  ///< frames that a mean is taken over; odd
 
+  bool select_once = false;  ///< selections that ask for positions mean what they do in the first frame of the run
+
   /// Atoms that stand around the molecule's, which are those of its selection: RunFrame::together has both.
   std::optional<Selection> context;
 
@@ -65,13 +67,22 @@ struct RunFrame {
 
 class FrameRun {
  public:
-  /// Opens and chooses the atoms. velocities: frames shall have them. Throws InputError, RequestError for what makes no
+  /// Opens and chooses the atoms. Selections are as they are: settle_selections comes before. velocities: frames shall
+  /// have them. Throws InputError, RequestError for what makes no
   /// sense together; texts name the options of the program.
   FrameRun(const MoleculeRequest& molecule, const RunRequest& request, bool velocities = false);
   ~FrameRun();
 
   /// At the first frame of the run.
   const Structure& structure() const { return structure_; }
+  /// The same with all atoms that any frame may have.
+  const Structure& reach() const { return file_ ? file_->reach() : structure_; }
+  /// All atoms of the file, as they stand there.
+  std::vector<Atom> all_atoms();
+  /// Whether the structures of two frames may have different atoms, or different ones beside them.
+  bool chooses_anew() const { return file_ != nullptr; }
+  /// Whether their surfaces may be of different atoms.
+  bool atoms_change() const { return atoms_change_; }
   /// The frames of the run, and those of them that are to be made here, by their numbers: those in the trajectory. If
   /// each comes `repeat` times, `repeat` times that, and one more each time.
   const std::vector<std::uint64_t>& numbers() const { return run_; }
@@ -80,11 +91,12 @@ class FrameRun {
   std::uint64_t source(std::uint64_t number) const { return number / repeat_; }
   const Trajectory& trajectory() const { return *trajectory_; }
 
-  /// Reads every frame of the run, without its surface, before any is made: place in the run, and the balls. What a
+  /// Reads every frame of the run, without its surface, before any is made: place in the run, and the structure. What a
   /// camera for all of them needs. A frame that cannot be read is passed over here.
-  void survey(const std::function<void(std::uint64_t place, std::span<const Ball> balls)>& look);
+  void survey(const std::function<void(std::uint64_t place, const Structure& structure)>& look);
 
-  /// Where the atoms of the structure stand at a frame of the run; not together with next(). Throws InputError.
+  /// Where the atoms of the structure stand at a frame of the run, if they do not change; not together with next().
+  /// Throws InputError.
   std::vector<glm::dvec3> positions(std::uint64_t number);
 
   /// The structure there, with what is shown beside the surface. Likewise.
@@ -103,21 +115,24 @@ class FrameRun {
   void read_atoms(const MoleculeRequest& molecule, const RunRequest& request);
   void prepare(const MoleculeRequest& molecule, const RunRequest& request);
   void place(const std::vector<glm::dvec3>& positions, Structure& structure) const;
+  Structure structure_at(const Frame& frame, std::uint64_t number) const;
 
   std::unique_ptr<Trajectory> trajectory_;
   std::unique_ptr<PreparedFrames> frames_;
   std::unique_ptr<ReadAhead> ahead_;
+  std::unique_ptr<StructureFile> file_, file_together_;  ///< if atoms are chosen anew in each frame
   Structure structure_;
   std::optional<Structure> together_;
   std::vector<std::uint64_t> run_, chunk_;
   std::unordered_map<std::uint64_t, std::uint64_t> place_;  ///< in the run, by number
   std::size_t taken_ = 0;
   std::uint64_t repeat_;  ///< RunRequest::repeat
-  bool velocities_;
+  bool velocities_, atoms_change_ = false;
 };
 
 /// Of each atom of the structure the root mean square distance from its mean place over the frames of the run, Å; they
-/// are as --superpose and the like leave them. Throws InputError if no frame can be read.
+/// are as --superpose and the like leave them. Throws InputError if no frame can be read, RequestError if the atoms
+/// change.
 std::vector<double> fluctuations(FrameRun& run);
 
 }  // namespace meniscus

@@ -28,6 +28,13 @@ void refuse_trajectory(const std::string& path) {
                                format));
 }
 
+ReadOptions reading_of(const MoleculeRequest& request) {
+  ReadOptions reading = request.reading;
+  if (request.division.instances != InstanceMode::none) reading.copy_mode = CopyMode::instances;
+  request.representations.ask_for(reading);
+  return reading;
+}
+
 /// Potentials inside a molecule are huge, so that no range of the whole map says anything about its surface.
 std::shared_ptr<const VolumePaint> volume_paint(const MoleculeRequest& request, const ColorScheme& color) {
   if (!color.range)
@@ -47,10 +54,12 @@ std::shared_ptr<const VolumePaint> volume_paint(const MoleculeRequest& request, 
 
 Structure read_molecule(const MoleculeRequest& request) {
   refuse_trajectory(request.file);
-  ReadOptions reading = request.reading;
-  if (request.division.instances != InstanceMode::none) reading.copy_mode = CopyMode::instances;
-  request.representations.ask_for(reading);
-  return read_structure(request.file, reading);
+  return read_structure(request.file, reading_of(request));
+}
+
+std::unique_ptr<StructureFile> open_molecule(const MoleculeRequest& request) {
+  refuse_trajectory(request.file);
+  return std::make_unique<StructureFile>(request.file, reading_of(request));
 }
 
 ColorScheme color_of(const MoleculeRequest& request) {

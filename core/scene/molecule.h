@@ -2,6 +2,7 @@
 // From a file to a molecule with its surfaces and colours.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -52,6 +53,9 @@ struct Molecule {
 
 /// The atoms asked for; Structure::report says what was read and left out. Throws InputError, RequestError.
 Structure read_molecule(const MoleculeRequest& request);
+
+/// The same for structures of its atoms wherever they stand.
+std::unique_ptr<StructureFile> open_molecule(const MoleculeRequest& request);
 
 /// The colour scheme with the numbers of its file, if it has one. Throws InputError.
 ColorScheme color_of(const MoleculeRequest& request);

@@ -26,22 +26,17 @@ class CameraCourse {
   /// pivot: what the camera turns about, Å.
   CameraCourse(const CameraMotionRequest& motion, const FrameRun& frames, const glm::dvec3& pivot)
       : motion_(motion), pivot_(pivot) {
-    const std::vector<Atom>& atoms = frames.structure().atoms;
-    const std::vector<Ball> balls = balls_of(frames.structure());
     count_ = static_cast<double>(frames.numbers().size());
     if (!motion.follow) return;
-    const std::vector<bool> selected = motion.follow->evaluate(atoms);
-    for (std::size_t n = 0; n < atoms.size(); ++n)
-      if (selected[n]) followed_.push_back(n);
-    if (followed_.empty())
-      throw RequestError(fmt::format("--follow {}: selects none of the {} atoms of the surface",
-                                     in_quotes(motion.follow->text()), with_thousands(atoms.size())));
-    start_ = followed_middle(balls);
+    followed_ = followed_of(frames.structure());
+    start_ = middle_of(frames.structure(), followed_);
+    follows_others_ = frames.atoms_change() || motion.follow->uses_positions();
   }
 
   bool follows() const { return !followed_.empty(); }
-  glm::dvec3 shift(std::span<const Ball> balls) const {
-    return follows() ? followed_middle(balls) - start_ : glm::dvec3(0.0);
+  glm::dvec3 shift(const Structure& structure) const {
+    if (!follows()) return glm::dvec3(0.0);
+    return middle_of(structure, follows_others_ ? followed_of(structure) : followed_) - start_;
   }
   double angle(std::uint64_t place) const {
     return 2.0 * std::numbers::pi * motion_.turns * static_cast<double>(place) / count_;
@@ -49,14 +44,27 @@ class CameraCourse {
   const glm::dvec3& pivot() const { return pivot_; }
 
  private:
-  glm::dvec3 followed_middle(std::span<const Ball> balls) const {
+  std::vector<std::size_t> followed_of(const Structure& structure) const {
+    const std::vector<bool> selected = motion_.follow->evaluate(structure.atoms);
+    std::vector<std::size_t> followed;
+    for (std::size_t n = 0; n < selected.size(); ++n)
+      if (selected[n]) followed.push_back(n);
+    if (followed.empty())
+      throw RequestError(fmt::format("--follow {}: selects none of the {} atoms of the surface{}",
+                                     in_quotes(motion_.follow->text()), with_thousands(selected.size()),
+                                     structure.frame ? fmt::format(" in frame {}", *structure.frame) : ""));
+    return followed;
+  }
+
+  static glm::dvec3 middle_of(const Structure& structure, const std::vector<std::size_t>& places) {
     glm::dvec3 sum(0.0);
-    for (const std::size_t n : followed_) sum += balls[n].center;
-    return sum / static_cast<double>(followed_.size());
+    for (const std::size_t n : places) sum += structure.atoms[n].position;
+    return sum / static_cast<double>(places.size());
   }
 
   const CameraMotionRequest& motion_;
   std::vector<std::size_t> followed_;
+  bool follows_others_ = false;  // from frame to frame
   glm::dvec3 pivot_{0.0}, start_{0.0};
   double count_ = 1.0;
 };
@@ -71,6 +79,17 @@ std::vector<Ball> before_camera(std::span<const Ball> balls, const glm::dvec3& s
     ball.center = turned(carrier, pivot, axis, -angle).position;
   }
   return seen;
+}
+
+/// Of a frame the balls that fill the picture, which may be others than in the first; none where nothing is shown.
+std::vector<Ball> framed_there(const ViewRequest& view, const std::optional<Selection>& show,
+                               const Structure& structure) {
+  try {
+    return ViewAim(view, show, structure).framed(balls_of(structure));
+  } catch (const InputError&) {
+  } catch (const RequestError&) {
+  }
+  return {};
 }
 
 void include(std::span<const Ball> balls, Box& box) {
@@ -106,11 +125,15 @@ std::vector<Camera> run_cameras(const ViewRequest& view, const std::optional<Sel
   std::vector<glm::dvec3> shifts(frames.numbers().size(), glm::dvec3(0.0));
   const bool frames_all = !given.path && (!given.still || view.zoom_to);
   if (frames_all || course.follows() || extent) {
-    frames.survey([&](std::uint64_t place, std::span<const Ball> balls) {
+    const bool aims_anew =
+        frames.chooses_anew() || (show && show->uses_positions()) || (view.zoom_to && view.zoom_to->uses_positions());
+    frames.survey([&](std::uint64_t place, const Structure& structure) {
+      const std::vector<Ball> balls = balls_of(structure);
       if (extent) include(balls, *extent);
-      shifts[place] = course.shift(balls);
+      shifts[place] = course.shift(structure);
       if (!frames_all) return;
-      const std::vector<Ball> filling = aim.framed(balls);
+      const std::vector<Ball> filling = aims_anew ? framed_there(view, show, structure) : aim.framed(balls);
+      if (filling.empty()) return;
       decisive.add(motion.moves() ? before_camera(filling, shifts[place], course.pivot(), basis.up, course.angle(place))
                                   : filling);
     });

@@ -9,6 +9,7 @@
 #include "core/color/color_atoms.h"
 #include "core/color/color_key.h"
 #include "core/color/named_colors.h"
+#include "core/base/error.h"
 #include "core/math/box.h"
 
 namespace meniscus {
@@ -20,14 +21,32 @@ namespace {
 /// Of By::radial in all frames that can be read.
 std::optional<std::array<double, 2>> radial_range(FrameRun& frames) {
   std::optional<std::array<double, 2>> range;
-  frames.survey([&range](std::uint64_t, std::span<const Ball> balls) {
+  frames.survey([&range](std::uint64_t, const Structure& structure) {
     std::vector<glm::dvec3> centers;
-    for (const Ball& ball : balls) centers.push_back(ball.center);
+    for (const Atom& atom : structure.atoms) centers.push_back(atom.position);
     const std::vector<double> distances = distances_from_middle(centers);
     const auto [low, high] = std::ranges::minmax(distances);
     range = range ? std::array{std::min((*range)[0], low), std::max((*range)[1], high)} : std::array{low, high};
   });
   return range;
+}
+
+/// What a scheme says of all atoms that any frame may have, and so of each frame alike: the order of chains, and the
+/// range of numbers that atoms have by themselves.
+void share_colors(ColorScheme& color, const FrameRun& frames) {
+  if (color.by == ColorScheme::By::chain && frames.chooses_anew()) color.chains = chains_of(frames.reach());
+  if (!frames.atoms_change() || !color.has_scale() || color.by == ColorScheme::By::volume) return;
+  if (color.map == ColorMap::categorical && !color.own_map)
+    throw RequestError(
+        "--map categorical gives each number of a picture a colour of its own, but --select means other atoms in each "
+        "frame; choose another --map, or add --select-once");
+  if (color.range || color.by == ColorScheme::By::radial || color.by == ColorScheme::By::rmsf ||
+      color.by == ColorScheme::By::buried)
+    return;
+  if (color.by == ColorScheme::By::file)
+    throw RequestError(
+        "--color-by-file needs --color-range LO:HI where --select means other atoms in each frame, or --select-once");
+  color.frames_range = color_scale(frames.reach(), color).range;
 }
 
 }  // namespace
@@ -44,6 +63,7 @@ RunFraming run_framing(const ViewRequest& view, const std::optional<Selection>& 
 }
 
 void measure_colors(ColorScheme& color, FrameRun& frames) {
+  share_colors(color, frames);
   for (ColorRule& rule : color.rules) measure_colors(rule.paint, frames);
   if (color.by == ColorScheme::By::rmsf)
     color.file = {.path = frames.structure().file, .numbers = fluctuations(frames)};

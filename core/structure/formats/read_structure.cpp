@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <set>
 #include <span>
+#include <unordered_map>
 
 #include <fmt/format.h>
 
@@ -49,12 +50,20 @@ void leave_out(std::vector<Atom>& atoms, std::vector<Atom>& beside, ReadReport& 
   atoms.resize(kept);
 }
 
+/// What selections mean: what they select of atoms where these stand, or all that they may select somewhere. In a frame
+/// of a run nothing may be drawn beside the surface.
+enum class Meaning { here, in_a_frame, anywhere };
+
+std::vector<bool> selected_of(const Selection& selection, const std::vector<Atom>& atoms, Meaning meaning) {
+  return meaning == Meaning::anywhere ? selection.reach(atoms).selected : selection.evaluate(atoms);
+}
+
 std::vector<bool> evaluate(const Selection& selection, const std::vector<Atom>& atoms, const RadiiChoice& radii,
-                           const std::string& path) {
+                           const std::string& path, Meaning meaning) {
   if (selection.uses_radius() && !radii.from_molecule_file()) {
     throw InputError(path, 0, "has no radii to select by yet; they are given to atoms once these are selected");
   }
-  std::vector<bool> selected = selection.evaluate(atoms);
+  std::vector<bool> selected = selected_of(selection, atoms, meaning);
   if (std::find(selected.begin(), selected.end(), true) == selected.end()) {
     throw InputError(path, 0,
                      fmt::format("none of its {} atoms is selected by {}; {}", with_thousands(atoms.size()),
@@ -95,7 +104,7 @@ class Choice {
 
 /// Sets Atom::shown.
 void mark_shown(std::vector<Atom>& atoms, std::span<const ShownAtoms> shown, const Choice& choice,
-                const RadiiChoice& radii, const std::string& path) {
+                const RadiiChoice& radii, const std::string& path, Meaning meaning) {
   if (shown.size() > kMostShown)
     throw CapacityError(
         fmt::format("{} sets of atoms are to be shown beside the surface; the most is {}", shown.size(), kMostShown));
@@ -103,14 +112,14 @@ void mark_shown(std::vector<Atom>& atoms, std::span<const ShownAtoms> shown, con
     const Selection& selection = shown[bit].atoms;
     if (selection.uses_radius() && !radii.from_molecule_file())
       throw InputError(path, 0, fmt::format("has no radii yet for {} to select by", shown[bit].option));
-    const std::vector<bool> selected = selection.evaluate(atoms), named = selection.names(atoms);
+    const std::vector<bool> selected = selected_of(selection, atoms, meaning), named = selection.names(atoms);
     bool any = false;
     for (std::size_t n = 0; n < atoms.size(); ++n) {
       if (choice.reason(atoms[n], selected[n], named[n])) continue;
       atoms[n].shown = static_cast<std::uint16_t>(atoms[n].shown | (1u << bit));
       any = true;
     }
-    if (any) continue;
+    if (any || meaning == Meaning::in_a_frame) continue;
     throw InputError(path, 0,
                      fmt::format("none of its {} atoms is shown by {} {}; chains and names are case-sensitive, water "
                                  "and free ions are shown where the expression names them",
@@ -120,7 +129,7 @@ void mark_shown(std::vector<Atom>& atoms, std::span<const ShownAtoms> shown, con
 
 /// What each atom is left out for, in the order of the reasons in structure.h.
 void choose_atoms(std::vector<Atom>& atoms, std::vector<Atom>& beside, const ReadOptions& options,
-                  const RadiiChoice& radii, ReadReport& report, const std::string& path) {
+                  const RadiiChoice& radii, ReadReport& report, const std::string& path, Meaning meaning) {
   const std::vector<char> altlocs = kept_altlocs(atoms, options.altloc);
   const bool all_altlocs = options.altloc.rule == AltlocChoice::Rule::all;
   leave_out(atoms, beside, report, [&](std::size_t n) -> const char* {
@@ -130,11 +139,11 @@ void choose_atoms(std::vector<Atom>& atoms, std::vector<Atom>& beside, const Rea
   if (options.secondary_structure) assign_secondary_structure(atoms);
   std::vector<bool> selected(atoms.size(), true), named(atoms.size());
   if (options.selection) {
-    selected = evaluate(*options.selection, atoms, radii, path);
+    selected = evaluate(*options.selection, atoms, radii, path, meaning);
     named = options.selection->names(atoms);
   }
   const Choice choice(atoms, options, radii);
-  mark_shown(atoms, options.shown, choice, radii, path);
+  mark_shown(atoms, options.shown, choice, radii, path, meaning);
   leave_out(atoms, beside, report, [&](std::size_t n) { return choice.reason(atoms[n], selected[n], named[n]); });
 }
 
@@ -280,7 +289,99 @@ void use_assemblies(Structure& structure, const TextFile& file, const Reader& re
   assemble_beside(structure, assembly);
 }
 
+/// Of atoms shown together, places in Structure::atoms and, behind them, in beside, by Atom::index.
+std::vector<Bond> places_of(const Structure& structure, const std::vector<Bond>& by_index) {
+  std::unordered_map<std::uint32_t, std::uint32_t> places;
+  std::uint32_t next = 0;
+  for (const std::vector<Atom>* atoms : {&structure.atoms, &structure.beside})
+    for (const Atom& atom : *atoms) places.emplace(atom.index, next++);
+  std::vector<Bond> bonds;
+  for (const auto& [a, b] : by_index) {
+    const auto first = places.find(a), second = places.find(b);
+    if (first != places.end() && second != places.end()) bonds.push_back({first->second, second->second});
+  }
+  return bonds;
+}
+
 }  // namespace
+
+/// What is read once.
+struct StructureFile::Parts {
+  Parts(const std::string& path, const ReadOptions& asked)
+      : options(asked),
+        file(read_text_file(path)),
+        reader(choose_reader(file)),
+        contents(reader.read(file, asked.model)) {
+    require_model(file.path, options.model, contents.models);
+    report.read = contents.atoms.size() + contents.other_model_atoms;
+    report.models = contents.models;
+    report.warnings.insert(report.warnings.end(), contents.warnings.begin(), contents.warnings.end());
+    if (contents.other_model_atoms > 0) report.excluded[kExcludedModel] = contents.other_model_atoms;
+    if (options.trajectory_atoms) keep_trajectory_atoms(contents, *options.trajectory_atoms, file, report);
+    place_atoms(contents, options, file);
+    if (options.keep_topology)
+      topology = std::make_shared<const Topology>(
+          Topology{contents.atoms, options.shown.empty() ? std::move(contents.bonds) : contents.bonds,
+                   contents.without_positions});
+    radii.emplace(options.radii, file.path, contents.radii);
+  }
+  Parts(const Parts&) = delete;
+  Parts& operator=(const Parts&) = delete;
+
+  /// atoms: those of the contents, wherever they stand. Without bonds of what is shown.
+  Structure choose(std::vector<Atom> atoms, Meaning meaning) const {
+    Structure structure;
+    structure.file = file.path;
+    structure.format = reader.metadata.name;
+    structure.report = report;
+    structure.topology = topology;
+    warn_of_missing_altloc(structure, atoms, options.altloc);
+    choose_atoms(atoms, structure.beside, options, *radii, structure.report, file.path, meaning);
+    structure.atoms = std::move(atoms);
+    structure.report.used = structure.atoms.size();
+    refuse_no_atoms(structure);
+    std::vector<std::string> unknown = radii->assign(structure);
+    const std::vector<std::string> beside = assign_beside(structure, *radii);
+    unknown.insert(unknown.end(), beside.begin(), beside.end());
+    if (options.unknown_element == UnknownElement::halt && meaning != Meaning::anywhere)
+      halt_on_unknown_elements(structure, unknown);
+    refuse_no_atoms(structure);
+    warn_of_coincident_atoms(structure);
+    if (contents.radii != FileRadii::usual) warn_of_wrong_unit(structure);
+    use_assemblies(structure, file, reader, options);
+    return structure;
+  }
+
+  const ReadOptions options;
+  TextFile file;
+  const Reader& reader;
+  FileContents contents;
+  ReadReport report;
+  std::shared_ptr<const Topology> topology;
+  std::optional<RadiiChoice> radii;
+  std::vector<Bond> bonds_by_index;  ///< of all that may be shown
+};
+
+StructureFile::StructureFile(const std::string& path, const ReadOptions& options)
+    : parts_(std::make_unique<Parts>(path, options)),
+      reach_(parts_->choose(parts_->contents.atoms, Meaning::anywhere)) {
+  if (options.shown.empty()) return;
+  reach_.shown_bonds = std::make_shared<const std::vector<Bond>>(bonds_of_shown(reach_, parts_->contents.bonds));
+  const std::size_t own = reach_.atoms.size();
+  const auto index = [&](std::uint32_t n) { return (n < own ? reach_.atoms[n] : reach_.beside[n - own]).index; };
+  for (const auto& [a, b] : *reach_.shown_bonds) parts_->bonds_by_index.push_back({index(a), index(b)});
+}
+
+StructureFile::~StructureFile() = default;
+
+Structure StructureFile::at(std::span<const glm::dvec3> positions) const {
+  std::vector<Atom> atoms = parts_->contents.atoms;
+  for (std::size_t n = 0; n < atoms.size(); ++n) atoms[n].position = positions[n];
+  Structure structure = parts_->choose(std::move(atoms), Meaning::in_a_frame);
+  if (!parts_->options.shown.empty())
+    structure.shown_bonds = std::make_shared<const std::vector<Bond>>(places_of(structure, parts_->bonds_by_index));
+  return structure;
+}
 
 std::size_t count_atoms(const std::string& path, const std::optional<Selection>& trajectory_atoms) {
   const TextFile file = read_text_file(path);
@@ -291,42 +392,10 @@ std::size_t count_atoms(const std::string& path, const std::optional<Selection>&
 }
 
 Structure read_structure(const std::string& path, const ReadOptions& options) {
-  const TextFile file = read_text_file(path);
-  Structure structure;
-  structure.file = file.path;
-  ReadReport& report = structure.report;
-  const Reader& reader = choose_reader(file);
-  structure.format = reader.metadata.name;
-
-  FileContents contents = reader.read(file, options.model);
-  require_model(file.path, options.model, contents.models);
-  report.read = contents.atoms.size() + contents.other_model_atoms;
-  report.models = contents.models;
-  report.warnings.insert(report.warnings.end(), contents.warnings.begin(), contents.warnings.end());
-  if (contents.other_model_atoms > 0) report.excluded[kExcludedModel] = contents.other_model_atoms;
-  if (options.trajectory_atoms) keep_trajectory_atoms(contents, *options.trajectory_atoms, file, report);
-  place_atoms(contents, options, file);
-  if (options.keep_topology)
-    structure.topology = std::make_shared<const Topology>(
-        Topology{contents.atoms, options.shown.empty() ? std::move(contents.bonds) : contents.bonds,
-                 contents.without_positions});
-
-  warn_of_missing_altloc(structure, contents.atoms, options.altloc);
-  const RadiiChoice radii(options.radii, file.path, contents.radii);
-  choose_atoms(contents.atoms, structure.beside, options, radii, report, file.path);
-  structure.atoms = std::move(contents.atoms);
-  report.used = structure.atoms.size();
-  refuse_no_atoms(structure);
-  std::vector<std::string> unknown = radii.assign(structure);
-  const std::vector<std::string> beside = assign_beside(structure, radii);
-  unknown.insert(unknown.end(), beside.begin(), beside.end());
-  if (options.unknown_element == UnknownElement::halt) halt_on_unknown_elements(structure, unknown);
-  refuse_no_atoms(structure);
-  warn_of_coincident_atoms(structure);
-  if (contents.radii != FileRadii::usual) warn_of_wrong_unit(structure);
-  use_assemblies(structure, file, reader, options);
+  StructureFile::Parts parts(path, options);
+  Structure structure = parts.choose(std::move(parts.contents.atoms), Meaning::here);
   if (!options.shown.empty())
-    structure.shown_bonds = std::make_shared<const std::vector<Bond>>(bonds_of_shown(structure, contents.bonds));
+    structure.shown_bonds = std::make_shared<const std::vector<Bond>>(bonds_of_shown(structure, parts.contents.bonds));
   return structure;
 }
 

@@ -2,7 +2,9 @@
 // From a file name to the atoms of a surface: format by content, one model, one alternate location, no water, no ions.
 #pragma once
 
+#include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -62,6 +64,30 @@ struct ReadOptions {
 /// Throws InputError (see read_text_file and the readers; no such model; nothing selected; no atoms left; unknown
 /// elements), CapacityError.
 Structure read_structure(const std::string& path, const ReadOptions& options = {});
+
+/// A file that is read once, for structures of its atoms wherever they stand.
+class StructureFile {
+ public:
+  /// Throws as read_structure.
+  StructureFile(const std::string& path, const ReadOptions& options);
+  ~StructureFile();
+  StructureFile(const StructureFile&) = delete;
+  StructureFile& operator=(const StructureFile&) = delete;
+
+  /// All atoms that at() takes or marks anywhere, where the file or the options place them.
+  const Structure& reach() const { return reach_; }
+
+  /// What read_structure gives for atoms that stand there: one position, Å, of each atom of the file, or of
+  /// ReadOptions::trajectory_atoms. ReadOptions::shown may mean none of them, and bonds are those found in reach(), so
+  /// that they stay. Throws as read_structure.
+  Structure at(std::span<const glm::dvec3> positions) const;
+
+ private:
+  friend Structure read_structure(const std::string& path, const ReadOptions& options);
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+  Structure reach_;
+};
 
 /// How many atoms the first model of the file has, or how many of them are those of a trajectory
 /// (ReadOptions::trajectory_atoms). Throws as read_structure.

@@ -174,18 +174,37 @@ class Evaluation {
     }
   }
 
+  void operator()(const SettledTest& test) {
+    stack_.push_back(atoms_where(atoms_, [&](const Atom& atom) { return test.atoms->contains(atom.index); }));
+  }
+
+  void push(Set set) { stack_.push_back(std::move(set)); }
   Set pop() {
     Set set = std::move(stack_.back());
     stack_.pop_back();
     return set;
   }
 
- private:
   Set& top() { return stack_.back(); }
 
+ private:
   std::span<const Atom> atoms_;
   std::vector<Set> stack_;
 };
+
+bool is_of_backbone(const SelectionStep& step) {
+  const auto* test = std::get_if<FlagTest>(&step);
+  return test && (test->flag == AtomFlag::helix || test->flag == AtomFlag::strand || test->flag == AtomFlag::coil);
+}
+
+bool is_of_coordinates(const SelectionStep& step) {
+  const auto is_one = [](AtomField field) {
+    return field == AtomField::x || field == AtomField::y || field == AtomField::z;
+  };
+  const auto* numbers = std::get_if<NumberTest>(&step);
+  const auto* comparison = std::get_if<CompareTest>(&step);
+  return (numbers && is_one(numbers->field)) || (comparison && is_one(comparison->field));
+}
 
 /// Do the step's values, wildcards aside, say what this atom is?
 bool names_by(const SelectionStep& step, const Atom& atom, const std::set<std::string>& names_of_others) {
@@ -198,6 +217,10 @@ bool names_by(const SelectionStep& step, const Atom& atom, const std::set<std::s
     return ion && test->field == AtomField::element &&
            std::any_of(test->ranges.begin(), test->ranges.end(),
                        [&](const std::array<double, 2>& range) { return range[0] == atom.element; });
+  }
+  if (const auto* test = std::get_if<SettledTest>(&step)) {
+    return std::ranges::any_of(test->expression->steps,
+                               [&](const SelectionStep& each) { return names_by(each, atom, names_of_others); });
   }
   const auto* test = std::get_if<TextTest>(&step);
   if (!test) return false;
@@ -272,9 +295,52 @@ std::string Selection::why_none(std::span<const Atom> atoms) const {
 bool Selection::uses_radius() const { return steps_->compare({AtomField::radius}); }
 
 bool Selection::uses_positions() const {
-  return steps_->compare({AtomField::x, AtomField::y, AtomField::z}) ||
-         std::ranges::any_of(steps_->steps,
-                             [](const SelectionStep& step) { return std::holds_alternative<WithinStep>(step); });
+  return std::ranges::any_of(steps_->steps, [](const SelectionStep& step) {
+    return is_of_coordinates(step) || is_of_backbone(step) || std::holds_alternative<WithinStep>(step);
+  });
+}
+
+// What is surely selected and what may be, side by side.
+Selection::Reach Selection::reach(std::span<const Atom> atoms) const {
+  Evaluation surely(atoms), perhaps(atoms);
+  Reach reach{{}, Set(atoms.size(), false)};
+  for (const SelectionStep& step : steps_->steps) {
+    if (is_of_coordinates(step) || is_of_backbone(step)) {
+      surely.push(Set(atoms.size(), false));
+      perhaps.push(is_of_coordinates(step) ? Set(atoms.size(), true) : atoms_with(AtomFlag::protein, atoms));
+    } else if (const auto* within = std::get_if<WithinStep>(&step)) {
+      for (std::size_t n = 0; n < atoms.size(); ++n) {
+        reach.measured[n] = reach.measured[n] || perhaps.top()[n];
+        perhaps.top()[n] = within->with_the_set || !surely.top()[n];
+        surely.top()[n] = within->with_the_set && surely.top()[n];
+      }
+    } else {
+      std::visit(surely, step);
+      std::visit(perhaps, step);
+      if (std::holds_alternative<NotStep>(step)) std::swap(surely.top(), perhaps.top());
+    }
+  }
+  reach.selected = perhaps.pop();
+  return reach;
+}
+
+Selection Selection::settled(std::span<const Atom> atoms, const std::vector<bool>& selected) const {
+  auto indices = std::make_shared<std::unordered_set<std::uint32_t>>();
+  for (std::size_t n = 0; n < atoms.size(); ++n)
+    if (selected[n]) indices->insert(atoms[n].index);
+  Selection settled = *this;
+  settled.steps_ = std::make_shared<const SelectionSteps>(SelectionSteps{{SettledTest{steps_, std::move(indices)}}});
+  return settled;
+}
+
+Selection either(const Selection& a, const Selection& b) {
+  SelectionSteps both = *a.steps_;
+  both.steps.insert(both.steps.end(), b.steps_->steps.begin(), b.steps_->steps.end());
+  both.steps.emplace_back(OrStep{});
+  Selection either = a;
+  either.text_ = fmt::format("({}) or ({})", a.text_, b.text_);
+  either.steps_ = std::make_shared<const SelectionSteps>(std::move(both));
+  return either;
 }
 
 bool SelectionSteps::compare(std::initializer_list<AtomField> fields) const {

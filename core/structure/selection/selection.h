@@ -33,13 +33,24 @@ class Selection {
   /// Does it ask for radii, which not every moment knows?
   bool uses_radius() const;
 
-  /// Does it ask where atoms are: for distances or coordinates? Not every file knows.
+  /// Does it ask where atoms are: for distances, coordinates, or what the backbone forms there? Not every file knows,
+  /// and from frame to frame the answer changes.
   bool uses_positions() const;
+
+  /// What it may select of these atoms, wherever they stand, and from which of them it measures distances.
+  struct Reach {
+    std::vector<bool> selected, measured;
+  };
+  Reach reach(std::span<const Atom> atoms) const;
+
+  /// The same expression, which wherever atoms stand means those that are `selected` of these, by Atom::index.
+  Selection settled(std::span<const Atom> atoms, const std::vector<bool>& selected) const;
 
   const std::string& text() const { return text_; }
 
  private:
   friend Selection parse_selection(std::string_view text);
+  friend Selection either(const Selection& a, const Selection& b);
   Selection() = default;
   std::string text_;
   std::shared_ptr<const SelectionSteps> steps_;
@@ -48,6 +59,9 @@ class Selection {
 /// Understands an expression (selection_words.h lists the words). Throws SelectionError: a sentence, the expression and
 /// a caret under the place. At most kLongestSelection bytes and kDeepestSelection levels of nesting.
 Selection parse_selection(std::string_view text);
+
+/// "(a) or (b)".
+Selection either(const Selection& a, const Selection& b);
 
 inline constexpr std::size_t kLongestSelection = 65'536;
 inline constexpr int kDeepestSelection = 200;

@@ -5,7 +5,9 @@
 #include <array>
 #include <cstdint>
 #include <initializer_list>
+#include <memory>
 #include <string>
+#include <unordered_set>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -96,8 +98,16 @@ struct WholeStep {
   bool chains;  ///< whole chains, else whole residues
 };
 
+struct SelectionSteps;
+
+/// What an expression selected once.
+struct SettledTest {
+  std::shared_ptr<const SelectionSteps> expression;
+  std::shared_ptr<const std::unordered_set<std::uint32_t>> atoms;  ///< by Atom::index
+};
+
 using SelectionStep = std::variant<FlagTest, TextTest, NumberTest, ResidueTest, CompareTest, NotStep, AndStep, OrStep,
-                                   WithinStep, WholeStep>;
+                                   WithinStep, WholeStep, SettledTest>;
 
 /// Evaluated one after another on a stack of sets, they leave one.
 struct SelectionSteps {

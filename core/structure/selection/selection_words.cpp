@@ -109,7 +109,9 @@ Rules:
   Ranges of residues follow number and insertion code: 52 < 52A < 53.
   A set after within, around, byres, bychain or same ... as stands in parentheses where and/or follows.
   SET within 5 of (EXPR) is what of SET is near it. (EXPR) around 5 and (EXPR) expand 5 work as in PyMOL.
-  Distances are exact and between the atoms of the file, without periodic images.
+  Distances are exact and between the atoms of the file, without periodic images. In a run of frames
+  within, x, y, z, helix, strand and coil mean in each frame what they mean there; --select-once keeps
+  what they mean in its first.
   Values that an atom lacks (B-factor, charge) meet no comparison.
 
 Water and free ions:

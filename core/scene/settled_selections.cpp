@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Finds all expressions, and asks the first frame what they mean.
+#include "core/scene/settled_selections.h"
+
+#include <algorithm>
+
+#include "core/base/error.h"
+
+namespace meniscus {
+namespace {
+
+/// By what they are evaluated on: all atoms of the file, or those of the surface and beside it.
+struct Expressions {
+  std::vector<Selection*> of_file, of_surface;
+
+  void add(std::optional<Selection>& selection, std::vector<Selection*>& list) {
+    if (selection) list.push_back(&*selection);
+  }
+
+  void add(ColorScheme& color) {
+    for (ColorRule& rule : color.rules) of_surface.push_back(&rule.atoms);
+    for (OpacityRule& rule : color.opacities) add(rule.atoms, of_surface);
+  }
+
+  void add(Representations& representations) {
+    for (RepresentationRequest& request : representations.requests) of_file.push_back(&request.atoms);
+  }
+
+  void add(MoleculeRequest& molecule) {
+    add(molecule.reading.selection, of_file);
+    for (ShownAtoms& shown : molecule.reading.shown) of_file.push_back(&shown.atoms);
+    for (RadiusOverride& radius : molecule.reading.radii.overrides) of_surface.push_back(&radius.atoms);
+    add(molecule.show, of_surface);
+    add(molecule.color);
+    add(molecule.representations);
+  }
+
+  void add(FigureRequest& figure) {
+    add(figure.representations);
+    for (FigureObjectRequest& object : figure.objects) {
+      of_file.push_back(&object.atoms);
+      add(object.show, of_surface);
+      if (object.color) add(*object.color);
+      for (OpacityRule& rule : object.opacities) add(rule.atoms, of_surface);
+    }
+  }
+
+  void keep_by_positions() {
+    for (std::vector<Selection*>* list : {&of_file, &of_surface})
+      std::erase_if(*list, [](const Selection* selection) { return !selection->uses_positions(); });
+  }
+};
+
+void settle(const std::vector<Selection*>& selections, const std::vector<Atom>& atoms) {
+  for (Selection* selection : selections) *selection = selection->settled(atoms, selection->evaluate(atoms));
+}
+
+}  // namespace
+
+void settle_selections(MoleculeRequest& molecule, RunRequest& run, const OtherSelections& others) {
+  if (!run.select_once) return;
+  Expressions expressions;
+  expressions.add(molecule);
+  expressions.add(run.context, expressions.of_file);
+  if (others.figure) expressions.add(*others.figure);
+  if (others.view) expressions.add(others.view->zoom_to, expressions.of_surface);
+  if (others.motion) expressions.add(others.motion->follow, expressions.of_surface);
+  for (Selection* selection : others.of_atoms) expressions.of_surface.push_back(selection);
+  expressions.keep_by_positions();
+  const bool backbones = molecule.reading.secondary_structure;
+  if (expressions.of_file.empty() && expressions.of_surface.empty() && !backbones)
+    throw RequestError("--select-once: no selection of this run depends on where atoms are; leave it away");
+  RunRequest first = run;
+  first.select_once = false;
+  FrameRun frames(molecule, first);
+  settle(expressions.of_file, frames.all_atoms());
+  settle(expressions.of_surface, shown_atoms(frames.structure()));
+}
+
+bool selects_by_positions(MoleculeRequest molecule) {
+  Expressions expressions;
+  expressions.add(molecule);
+  expressions.keep_by_positions();
+  return !expressions.of_file.empty() || !expressions.of_surface.empty();
+}
+
+}  // namespace meniscus
