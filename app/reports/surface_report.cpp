@@ -19,14 +19,20 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// Raised when a key changes its meaning or goes away; new keys do not raise it.
-constexpr int kSchemaVersion = 1;
+constexpr int kSchemaVersion = 2;
 
 const char* kind_name(ComponentKind kind) { return kind == ComponentKind::outer ? "outer" : "cavity"; }
+
+/// A cavity's volume is that of the void.
+double volume_of(const Component& component) {
+  return component.kind == ComponentKind::cavity ? -component.volume : component.volume;
+}
 
 /// Sums over all copies of all objects.
 struct Totals {
   SurfaceCounts counts;
-  double area = 0.0, volume = 0.0;
+  double area = 0.0, volume = 0.0, cavity_area = 0.0, cavity_volume = 0.0;
+  std::size_t cavities = 0;
 };
 
 Totals totals_of(const std::vector<SurfaceObject>& objects) {
@@ -41,6 +47,12 @@ Totals totals_of(const std::vector<SurfaceObject>& objects) {
       add(count);
     sum.area += object.surface.area * static_cast<double>(copies);
     sum.volume += object.surface.volume * static_cast<double>(copies);
+    for (const Component& component : object.surface.components) {
+      if (component.kind != ComponentKind::cavity) continue;
+      sum.cavities += copies;
+      sum.cavity_area += component.area * static_cast<double>(copies);
+      sum.cavity_volume += volume_of(component) * static_cast<double>(copies);
+    }
   }
   return sum;
 }
@@ -51,7 +63,8 @@ Json component_list(const std::vector<SurfaceObject>& objects) {
     for (const Component& component : objects[n].surface.components) {
       list.push_back({{"kind", kind_name(component.kind)},
                       {"area", component.area},
-                      {"volume", component.volume},
+                      {"volume", volume_of(component)},
+                      {"signed_volume", component.volume},
                       {"euler", component.euler}});
       if (objects.size() > 1) list.back()["object"] = n;
     }
@@ -126,7 +139,7 @@ std::string component_table(const Surface& surface) {
   for (std::size_t c = 0; c < surface.components.size(); ++c) {
     const Component& component = surface.components[c];
     text += fmt::format("{:>9}  {:<7} {:>13.3f} {:>15.3f} {:>6}\n", c, kind_name(component.kind), component.area,
-                        component.volume, component.euler);
+                        volume_of(component), component.euler);
   }
   return text;
 }
@@ -174,7 +187,10 @@ Json report_object(const SurfaceReport& report) {
                  {"fixed_probes", counts.fixed_probes},
                  {"arcs", counts.arcs}}},
                {"area", totals.area},
-               {"volume", totals.volume}};
+               {"volume", totals.volume},
+               {"cavities", totals.cavities},
+               {"cavity_area", totals.cavity_area},
+               {"cavity_volume", totals.cavity_volume}};
   for (const AreaColumn& column : report.columns) json[column.name] = column.total;
   if (report.context) json["context"] = {{"selection", report.context->selection}, {"atoms", report.context->atoms}};
   json["components"] = component_list(report.molecule.objects);

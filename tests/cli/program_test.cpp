@@ -102,10 +102,10 @@ TEST(Surface, JsonHasTheWholeSchema) {
   ASSERT_TRUE(result.is_object());
   std::vector<std::string> keys;
   for (const auto& [key, value] : result.items()) keys.push_back(key);
-  EXPECT_EQ(keys, (std::vector<std::string>{"area", "atoms", "certificate", "components", "counts", "device", "groups",
-                                            "probe_radius", "radii_set", "sas_area", "schema_version", "ses_area",
-                                            "stages", "surface", "volume"}));
-  EXPECT_EQ(result["schema_version"], 1);
+  EXPECT_EQ(keys, (std::vector<std::string>{"area", "atoms", "cavities", "cavity_area", "cavity_volume", "certificate",
+                                            "components", "counts", "device", "groups", "probe_radius", "radii_set",
+                                            "sas_area", "schema_version", "ses_area", "stages", "surface", "volume"}));
+  EXPECT_EQ(result["schema_version"], 2);
   EXPECT_EQ(result["atoms"], json::parse(R"({"read":5684,"excluded":{"water":215},"used":5469})"));
   EXPECT_EQ(result["probe_radius"], 1.4);
   EXPECT_EQ(result["radii_set"], "bondi");
@@ -133,7 +133,7 @@ TEST(Surface, NumbersOfTheToxinAreTheIndependentOnes) {
     area += component["area"].get<double>();
     volume += component["volume"].get<double>();
     EXPECT_EQ(component["euler"].get<int>() % 2, 0);
-    EXPECT_EQ(component["kind"] == "cavity", component["volume"].get<double>() < 0.0);
+    EXPECT_EQ(component["kind"] == "cavity", component["signed_volume"].get<double>() < 0.0);
   }
   EXPECT_NEAR(area, result["area"].get<double>(), 1e-6);
   EXPECT_NEAR(volume, result["volume"].get<double>(), 1e-6);

@@ -121,12 +121,48 @@ TEST_F(Series, ARowAFrameHasTheNumbersOfItsModel) {
     for (const auto& component : model["components"]) {
       if (component["kind"] != "cavity") continue;
       ++cavities;
-      volume -= component["volume"].get<double>();
+      volume += component["volume"].get<double>();
     }
     EXPECT_EQ(cavities, n == 2 ? 1 : 2);
     EXPECT_EQ(std::stoi(row["cavities"]), cavities);
     EXPECT_NEAR(std::stod(row["cavity_volume"]), volume, 1e-6);
   }
+}
+
+// Through every door a cavity has one volume, which is positive.
+TEST_F(Series, CavitiesHaveOneSignEverywhere) {
+  const Words frame{dry_, "--frames", "0"};
+  auto series = table(frame, "--csv-series").at(0);
+  std::vector<double> volumes;
+  for (auto row : table(frame, "--csv-cavities")) volumes.push_back(std::stod(row["volume"]));
+  ASSERT_EQ(volumes.size(), 2u);
+  for (const double volume : volumes) EXPECT_GT(volume, 1.0);
+  const double sum = volumes[0] + volumes[1], solid = std::stod(series["volume"]);
+  EXPECT_NEAR(std::stod(series["cavity_volume"]), sum, 1e-5);
+  for (const Words& words : {Words{dry_}, frame}) {  // an object, and a line of a run
+    const nlohmann::json surface = one(words);
+    EXPECT_NEAR(surface["cavity_volume"], sum, 1e-5);
+    EXPECT_EQ(surface["cavities"], 2);
+    EXPECT_NEAR(surface["volume"], solid, 1e-5);
+    double of_cavities = 0.0, of_all = 0.0;
+    for (const auto& component : surface["components"]) {
+      EXPECT_GT(component["volume"], 1.0);
+      of_all += component["signed_volume"].get<double>();
+      if (component["kind"] == "cavity") of_cavities += component["volume"].get<double>();
+    }
+    EXPECT_NEAR(of_cavities, sum, 1e-5);
+    EXPECT_NEAR(of_all, solid, 1e-5);
+  }
+  const ProgramResult printed = meniscus({dry_});
+  for (const double volume : volumes)
+    EXPECT_NE(printed.out.find(fmt::format(" {:.3f} ", volume)), std::string::npos) << printed.out;
+  EXPECT_EQ(printed.out.find(" -"), std::string::npos) << printed.out;
+  double of_pockets = 0.0;
+  const ProgramResult pockets =
+      run_program(MENISCUS_PROGRAM, {"pockets", dry_, "-q", "--device", "cpu", "--min-volume", "0", "--csv", "-"});
+  for (auto row : rows_of(pockets.out))
+    if (row["kind"] == "cavity") of_pockets += std::stod(row["volume"]);
+  EXPECT_NEAR(of_pockets, sum, 0.02 * sum);
 }
 
 TEST_F(Series, AtomsAndResiduesOfEachFrameAddUp) {

@@ -127,7 +127,8 @@ class Surface:
 
     @property
     def components(self) -> np.ndarray:
-        """Rows of kind (0 outer, 1 cavity), area, volume (negative for cavities), euler; outer ones first."""
+        """Rows of kind (0 outer, 1 cavity), area, volume (signed: a cavity has the negative of its own, so that the sum is
+        the solid's), euler; outer ones first."""
         return self._table(lib.COMPONENTS, lib.Component)
 
     @property

@@ -213,7 +213,7 @@ enum { MENISCUS_OUTER = 0, MENISCUS_CAVITY = 1 };
 typedef struct meniscus_component {
   uint8_t kind;  /* MENISCUS_OUTER or MENISCUS_CAVITY */
   double area;   /* Å^2 */
-  double volume; /* Å^3, negative for cavities */
+  double volume; /* Å^3, signed: negative for cavities, so that the sum is the solid's; a cavity's volume is -volume */
   int32_t euler; /* Euler characteristic: 2 less twice the handles */
 } meniscus_component;
 
