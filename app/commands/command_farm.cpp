@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <ctime>
 #include <iostream>
+#include <map>
 #include <memory>
 #include <optional>
 #include <sstream>
@@ -30,6 +31,7 @@
 #include "app/farm/read_bundle.h"
 #include "core/base/text_template.h"
 #include "core/base/text.h"
+#include "core/trajectory/frame_list.h"
 
 namespace meniscus {
 namespace {
@@ -213,6 +215,9 @@ void tell_log(const std::string& folder, std::uint64_t frame, const std::string&
     std::istringstream log(farm::read_frame_log(folder, step.name, frame));
     for (std::string line; std::getline(log, line);) std::cout << "  " << escaped(line) << "\n";
   }
+  const std::optional<farm::FilmNote> note = farm::read_film_note(bundle, folder);
+  if (bundle.film && note && std::ranges::count(note->missing, frame) > 0)
+    fmt::print(std::cout, "{} was made without frame {}: {}\n", bundle.film->file, frame, note->sentence());
 }
 
 void add_log(CLI::App& command) {
@@ -232,7 +237,29 @@ void add_log(CLI::App& command) {
   command.callback([state] { tell_log(state->folder, state->frame, state->step); });
 }
 
-void verify(const std::filesystem::path& folder) {
+/// What can be done about frames that are not good, which is another thing if they failed when they were made.
+std::string advice(const std::vector<farm::FrameFault>& faults, const std::string& folder) {
+  const auto failed = std::ranges::find(faults, true, &farm::FrameFault::failed);
+  if (failed == faults.end()) return "meniscus work makes them";
+  const bool all = std::ranges::all_of(faults, &farm::FrameFault::failed);
+  return fmt::format(
+      "{}`meniscus farm log {} {}` says why frame {} failed, meniscus work tries it once more, and --allow-missing "
+      "hold "
+      "goes on without what is missing",
+      all ? "" : "meniscus work makes those that did not fail; ", escaped(shell_word(folder)), failed->frame,
+      failed->frame);
+}
+
+/// Frames whose pictures are not good, if the film may be made without them.
+farm::FilmNote film_note(const farm::Bundle& bundle, const std::vector<farm::FrameFault>& faults,
+                         const std::optional<farm::InPlace>& in_place) {
+  farm::FilmNote note{in_place.value_or(farm::InPlace::hold), {}};
+  for (const farm::FrameFault& fault : faults)
+    if (fault.step == bundle.steps.back().name) note.missing.push_back(fault.frame);
+  return note;
+}
+
+void verify(const std::filesystem::path& folder, const std::optional<farm::InPlace>& in_place) {
   const farm::Bundle bundle = farm::read_bundle(folder);
   const StopHandler handler([] { farm::stop_children(); }, std::nullopt);
   farm::check_places(folder);
@@ -240,24 +267,48 @@ void verify(const std::filesystem::path& folder) {
   const std::vector<farm::FrameFault> faults = farm::faults_of(bundle, folder);
   for (std::size_t n = 0; n < std::min(faults.size(), kFaultsShown); ++n)
     std::cerr << fmt::format("meniscus: {} frame {}: {}\n", faults[n].step, faults[n].frame, escaped(faults[n].what));
-  if (!faults.empty()) {
+  const farm::FilmNote note = film_note(bundle, faults, in_place);
+  const std::size_t good = bundle.frames.size() - note.missing.size();
+  if (!faults.empty() && (!in_place || good == 0)) {
     throw RunError(
         static_cast<ExitCode>(faults.front().exit_code),
-        fmt::format("{}: {} of {} frames are not good; meniscus work makes them", folder.string(),
-                    with_thousands(faults.size()), with_thousands(bundle.frames.size() * bundle.steps.size())));
+        fmt::format("{}: {} of {} frames are not good; {}", folder.string(), with_thousands(faults.size()),
+                    with_thousands(bundle.frames.size() * bundle.steps.size()), advice(faults, folder.string())));
   }
   farm::remove_leftovers(folder);
-  if (bundle.film) farm::encode_film(bundle, folder);
-  fmt::print(std::cout, "{} frames are good{}\n", with_thousands(bundle.frames.size()),
-             bundle.film ? "; film: " + escaped((folder / bundle.film->file).string()) : "");
+  if (bundle.film) {
+    farm::encode_film(bundle, folder, note);
+    farm::write_film_note(bundle, folder, note);
+  }
+  fmt::print(std::cout, "{} frames are good{}{}\n", with_thousands(good),
+             note.missing.empty()
+                 ? ""
+                 : fmt::format(", {} missing: {}", with_thousands(note.missing.size()), frame_list_text(note.missing)),
+             bundle.film ? fmt::format("; film{}: {}",
+                                       note.missing.empty() ? "" : fmt::format(", in which {}", note.sentence()),
+                                       escaped((folder / bundle.film->file).string()))
+                         : "");
 }
 
 void add_verify(CLI::App& command) {
   describe(command, "Check that every frame is there, whole, of the right size and not blank; then make the film",
-           "  meniscus farm verify film");
-  auto folder = std::make_shared<std::string>();
-  command.add_option("BUNDLE", *folder, "The bundle's folder")->required()->type_name("");
-  command.callback([folder] { verify(*folder); });
+           "  meniscus farm verify film\n"
+           "  meniscus farm verify film --allow-missing hold    a film in spite of frames that cannot be made");
+  struct Verify {
+    std::string folder;
+    std::optional<farm::InPlace> in_place;
+  };
+  auto state = std::make_shared<Verify>();
+  command.add_option("BUNDLE", state->folder, "The bundle's folder")->required()->type_name("");
+  command
+      .add_option(
+          "--allow-missing", state->in_place,
+          "Make the film although frames are missing or not good: hold (the frame before is shown again) or drop "
+          "(they are left out); farm status and farm log then say so")
+      ->transform(
+          one_of(std::map<std::string, farm::InPlace>{{"hold", farm::InPlace::hold}, {"drop", farm::InPlace::drop}}))
+      ->type_name("WORD");
+  command.callback([state] { verify(state->folder, state->in_place); });
 }
 
 constexpr Command kFarmCommands[] = {

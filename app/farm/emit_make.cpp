@@ -13,8 +13,11 @@ std::vector<EngineFile> emit_make(const Emission& emission) {
   for (const Step& step : bundle.steps) {
     const std::string all = fmt::format("$(addprefix {}-,$(CHUNKS))", step.name);
     phony += (phony.empty() ? "" : " ") + all;
-    rules += fmt::format("{}: {}-%:{}\n\t$(WORK) --step {} --chunk $*/{}\n\n", all, step.name,
-                         before.empty() ? "" : " " + before + "-%", step.name, bundle.chunking.count);
+    // A frame that fails does not keep the next step from the others of its chunk.
+    const bool is_last = &step == &bundle.steps.back();
+    rules +=
+        fmt::format("{}: {}-%:{}\n\t{}$(WORK) --step {} --chunk $*/{}\n\n", all, step.name,
+                    before.empty() ? "" : " " + before + "-%", is_last ? "" : "-", step.name, bundle.chunking.count);
     before = step.name;
   }
   const std::optional<std::uint64_t> memory = bundle.chunking.memory();

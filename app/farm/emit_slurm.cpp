@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Slurm: an array of tasks for each step, each task behind the same task of the step before, and a job that verifies.
+// Slurm: an array of tasks for each step, behind all of the step before, however its tasks ended, and a job that
+// verifies.
 #include <algorithm>
 #include <cmath>
 
@@ -48,7 +49,7 @@ std::vector<EngineFile> emit_slurm(const Emission& emission) {
     jobs += filled(farm_template("submit_step.sh"),
                    {{"UPPER", upper(step.name)},
                     {"STEP", step.name},
-                    {"DEPENDENCY", jobs.empty() ? "" : "--dependency=\"aftercorr:$job\" --kill-on-invalid-dep=yes "}});
+                    {"DEPENDENCY", jobs.empty() ? "" : "--dependency=\"afterany:$job\" "}});
   }
   files.push_back({"submit.sh",
                    filled(farm_template("submit.sh"),

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <stdexcept>
 #include <string>
+#include <unordered_set>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -55,11 +57,24 @@ std::vector<std::uint8_t> film_pixels(const fs::path& folder, const std::string&
 
 }  // namespace
 
-void encode_film(const Bundle& bundle, const fs::path& folder) {
+void encode_film(const Bundle& bundle, const fs::path& folder, const FilmNote& without) {
   FilmWriter film((folder / bundle.film->file).string(), Existing::replace, {bundle.width, bundle.height},
                   bundle.film->frames_per_second, bundle.film->format);
-  for (const std::uint64_t frame : bundle.frames)
-    film.add(film_pixels(folder, fmt::format("images/frame_{}.png", frame_digits(frame)), film.pixels()));
+  const std::unordered_set<std::uint64_t> missing(without.missing.begin(), without.missing.end());
+  std::vector<std::uint8_t> shown;
+  std::size_t waiting = 0;  // before the first good frame
+  for (const std::uint64_t frame : bundle.frames) {
+    if (!missing.contains(frame)) {
+      shown = film_pixels(folder, fmt::format("images/frame_{}.png", frame_digits(frame)), film.pixels());
+      for (; waiting > 0; --waiting) film.add(shown);
+    } else if (without.in_place == InPlace::drop) {
+      continue;
+    } else if (shown.empty()) {
+      ++waiting;
+      continue;
+    }
+    film.add(shown);
+  }
   film.finish();
 }
 

@@ -87,6 +87,7 @@ BundleStatus status_of(const Bundle& bundle, const std::filesystem::path& folder
   const FrameRecords records(folder, bundle);
   BundleStatus status;
   status.workers = live_workers(folder, [&] { return file_system_now(folder); });
+  if (bundle.film) status.film = read_film_note(bundle, folder);
   status.seconds_to_go = 0.0;
   for (const Step& step : bundle.steps) {
     status.steps.push_back(status_of(step, bundle, records, status.workers));

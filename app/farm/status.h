@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "app/farm/bundle.h"
+#include "app/farm/film_note.h"
 #include "app/farm/frame_record.h"
 
 namespace meniscus::farm {
@@ -35,6 +36,7 @@ struct BundleStatus {
   std::vector<StepStatus> steps;
   std::vector<std::string> workers;     ///< that live now, by name
   std::optional<double> seconds_to_go;  ///< of all steps, one after another; nothing if one is not known
+  std::optional<FilmNote> film;         ///< if it was made without some frames
 };
 
 /// Of files their sizes are looked at; `farm verify` looks at what is in them.

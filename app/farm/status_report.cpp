@@ -103,6 +103,10 @@ std::string status_table(const Bundle& bundle, const BundleStatus& status, const
     if (!step.failed.empty() || !step.damaged.empty()) text += "\n";
     if (!step.failed.empty()) failed = step.failed.back().frame;
   }
+  if (status.film)
+    fmt::format_to(out, "\n{} was made without {} {}, {}: {}\n", bundle.film->file,
+                   with_thousands(status.film->missing.size()), status.film->missing.size() == 1 ? "frame" : "frames",
+                   frame_list_text(status.film->missing), status.film->sentence());
   if (failed) fmt::format_to(out, "\nmore: meniscus farm log {} {}\n", escaped(shell_word(folder.string())), *failed);
   return text;
 }
@@ -115,6 +119,8 @@ std::string status_json(const Bundle& bundle, const BundleStatus& status) {
   json["tasks"] = bundle.chunking.count;
   json["workers"] = status.workers;
   json["seconds_to_go"] = number(status.seconds_to_go);
+  if (status.film)
+    json["film_without"] = {{"in_place", word_of(status.film->in_place)}, {"frames", status.film->missing}};
   json["steps"] = Json::array();
   for (const StepStatus& step : status.steps) {
     Json failed = Json::array();

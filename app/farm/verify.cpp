@@ -63,11 +63,11 @@ std::vector<FrameFault> faults_of(const Bundle& bundle, const std::filesystem::p
     for (const std::uint64_t frame : bundle.frames) {
       const std::optional<FrameRecord> record = records.read(step.name, frame);
       if (!record) {
-        faults.push_back({step.name, frame, kExitInput, "is not made yet"});
+        faults.push_back({step.name, frame, kExitInput, false, "is not made yet"});
       } else if (!record->done()) {
-        faults.push_back({step.name, frame, record->exit_code, "failed: " + record->error});
+        faults.push_back({step.name, frame, record->exit_code, true, "failed: " + record->error});
       } else if (const std::string fault = fault_of(*record, records, bundle, folder); !fault.empty()) {
-        faults.push_back({step.name, frame, kExitInput, fault});
+        faults.push_back({step.name, frame, kExitInput, false, fault});
       }
     }
   }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/farm/bundle.h"
+#include "app/farm/film_note.h"
 
 namespace meniscus::farm {
 
@@ -15,7 +16,8 @@ namespace meniscus::farm {
 struct FrameFault {
   std::string step;
   std::uint64_t frame = 0;
-  int exit_code = 0;  ///< that of the frame if it failed, else kExitInput
+  int exit_code = 0;    ///< that of the frame if it failed, else kExitInput
+  bool failed = false;  ///< when it was made, and so perhaps each time
   std::string what;
 };
 
@@ -24,7 +26,8 @@ struct FrameFault {
 std::vector<FrameFault> faults_of(const Bundle& bundle, const std::filesystem::path& folder);
 
 /// Makes the film of the bundle's pictures (app/film/film.h): the same bytes for the same pictures. What is transparent
-/// shows white. Throws OutputError if ffmpeg is not there or fails.
-void encode_film(const Bundle& bundle, const std::filesystem::path& folder);
+/// shows white. without: frames that are not looked at, and not all of them. Throws OutputError if ffmpeg is not there
+/// or fails.
+void encode_film(const Bundle& bundle, const std::filesystem::path& folder, const FilmNote& without);
 
 }  // namespace meniscus::farm

@@ -39,6 +39,36 @@ class Repair(WorkCase):
         self.assertEqual((stream["codec_name"], stream["width"], stream["height"], stream["pix_fmt"],
                           stream["nb_read_frames"]), ("h264", 160, 120, "yuv420p", "8"))
 
+    def test_a_film_without_a_frame_that_cannot_be_made(self):
+        folder = self.povray_bundle("without", 8, bad_frame=5, options=("--chunk-frames", "4", "--film", "film.mp4"))
+        self.meniscus("work", folder, code=3)
+        told = self.meniscus("farm", "verify", folder, code=3).stderr
+        self.assertIn("says why frame 5 failed", told)
+        self.assertIn("--allow-missing", told)
+        self.assertFalse((folder / "film.mp4").exists())
+        for in_place, frames, words in (("drop", 7, "the film is shorter"), ("hold", 8, "the frame before is shown")):
+            said = self.meniscus("farm", "verify", folder, "--allow-missing", in_place).stdout
+            self.assertIn("7 frames are good, 1 missing: 5; film, in which " + words, said)
+            self.assertEqual(self.film_frames(folder), frames)
+            told = self.meniscus("farm", "status", folder).stdout
+            self.assertIn("film.mp4 was made without 1 frame, 5: " + words, told)
+            status = json.loads(self.meniscus("farm", "status", folder, "--json").stdout)
+            self.assertEqual(status["film_without"], {"in_place": in_place, "frames": [5]})
+            self.assertIn("film.mp4 was made without frame 5", self.meniscus("farm", "log", folder, "5").stdout)
+            self.assertNotIn("film.mp4", self.meniscus("farm", "log", folder, "4").stdout)
+        # Frames that are merely missing are made by work; a picture that is held is the one before, or the first good.
+        (folder / "images" / "frame_00000.png").unlink()
+        self.assertIn("makes those that did not fail", self.meniscus("farm", "verify", folder, code=3).stderr)
+        self.meniscus("farm", "verify", folder, "--allow-missing", "hold")
+        self.assertEqual(self.film_frames(folder), 8)
+        self.assertEqual(json.loads((folder / "state" / "film.json").read_text())["missing"], [0, 5])
+
+    def film_frames(self, folder):
+        probe = subprocess.run(["ffprobe", "-v", "error", "-count_frames", "-select_streams", "v", "-show_entries",
+                                "stream=nb_read_frames", "-of", "csv=p=0", folder / "film.mp4"],
+                               capture_output=True, text=True, check=True)
+        return int(probe.stdout)
+
     def test_status_sees_pictures_that_are_gone_or_cut(self):
         folder = self.povray_bundle("gone", options=("--chunk-frames", "5"))
         self.meniscus("work", folder)

@@ -25,9 +25,9 @@ class Slurm(FarmCase):
         cls.addClassCleanup(shutil.rmtree, home, ignore_errors=True)
         cls.cluster = cls.enterClassContext(SlurmCluster(home))
 
-    def submit(self, folder, *options):
+    def submit(self, folder, *options, **environment):
         """Numbers of the jobs by step."""
-        result = self.cluster.run(folder / "submit.sh", *options, MENISCUS=MENISCUS)
+        result = self.cluster.run(folder / "submit.sh", *options, MENISCUS=MENISCUS, **environment)
         self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
         return dict(line.split() for line in result.stdout.splitlines())
 
@@ -88,16 +88,20 @@ class Slurm(FarmCase):
 
     def test_a_failing_frame_fails_its_task_with_its_own_code(self):
         folder = self.povray_bundle("failing", 8, bad_frame=5, options=("--chunk-frames", "2", "--engine", "slurm",
-                                                                       "--task-cores", "1", "--task-memory", "600"))
-        jobs = self.submit(folder)
-        wait_until(lambda: self.state(jobs["verify"]) == "CANCELLED", 60, "the end")
+                                                                       "--film", "film.mp4", "--task-cores", "1",
+                                                                       "--task-memory", "600"))
+        jobs = self.submit(folder, MENISCUS_VERIFY_OPTIONS="--allow-missing hold")
+        wait_until(lambda: self.state(jobs["verify"]) == "COMPLETED", 90, "the end")
         surface = self.cluster.tasks(jobs["surface"])
         self.assertEqual({task: (surface[task]["JobState"], surface[task]["ExitCode"]) for task in surface},
                          {1: ("COMPLETED", "0:0"), 2: ("COMPLETED", "0:0"), 3: ("FAILED", "3:0"),
                           4: ("COMPLETED", "0:0")})
         self.assertIn("frame 5", (folder / "logs" / "surface-3.log").read_text())
-        # The frames of the other tasks are there; what depends on the bad one was not begun.
-        self.assertEqual(sorted(self.records(folder, "render")), [0, 1, 2, 3, 6, 7])
+        # All other frames are there, those of the same task, too, and the film.
+        made = [frame for frame, record in self.records(folder, "render").items() if record["state"] == "done"]
+        self.assertEqual(sorted(made), [0, 1, 2, 3, 4, 6, 7])
+        self.assertIn("7 frames are good, 1 missing: 5", (folder / "logs" / "verify.log").read_text())
+        self.assertGreater((folder / "film.mp4").stat().st_size, 1000)
 
     def test_gpus_are_asked_for_where_the_command_needs_them(self):
         molecule = self.folder / "8_None.pdb"

@@ -53,6 +53,34 @@ TEST(PreviewFrames, FramesOfATrajectory) {
   EXPECT_EQ(apply(R"({"command":"next_frame"})")["frame"], 0);
 }
 
+// Frames with other atoms each: what is drawn, coloured and counted is that of the frame.
+TEST(PreviewFrames, AtomsThatComeAndGo) {
+  const TemporaryFolder folder;
+  const Structure all = read_structure(folder.file("one.pdb", kTwoModels));
+  const auto at = [all](std::size_t frame) {
+    if (frame == 2) throw InputError("walk.dcd", 0, "frame 2 is damaged");
+    Structure structure = all;
+    structure.atoms.resize(all.atoms.size() - frame);
+    return structure;
+  };
+  TrajectoryPositions moments{{0, 1, 2}, {}, at};
+  PreviewView view;
+  view.size = {80, 60};
+  PreviewSession session(make_cpu_view_renderer(), all, view, std::nullopt, folder.path(), moments);
+  const auto apply = [&](const char* command) { return session.apply(Json::parse(command)); };
+  ASSERT_TRUE(session.render(Quality::plain));
+  const std::vector<std::uint8_t> first = session.rgba();
+  ASSERT_TRUE(apply(R"({"command":"frame","index":1})")["ok"]);
+  EXPECT_EQ(session.structure().atoms.size(), all.atoms.size() - 1);
+  ASSERT_TRUE(session.render(Quality::plain));
+  EXPECT_NE(session.rgba(), first);
+  EXPECT_FALSE(apply(R"({"command":"frame","index":2})")["ok"]);
+  EXPECT_EQ(session.structure().atoms.size(), all.atoms.size() - 1);
+  ASSERT_TRUE(apply(R"({"command":"frame","index":0})")["ok"]);
+  ASSERT_TRUE(session.render(Quality::plain));
+  EXPECT_EQ(session.rgba(), first);
+}
+
 TEST(PreviewFrames, KeysOfTheCamera) {
   const TemporaryFolder folder;
   const Structure structure = read_structure(folder.file("one.pdb", kTwoModels));
