@@ -22,6 +22,8 @@ void add_atoms(MnsWriter& file, const SurfaceObject& object, const AtomAttribute
   if (!atoms.file_index.empty()) file.add("atom.file_index", std::span(atoms.file_index));
   if (object.coloring.is_translucent()) file.add("atom.opacity", std::span(object.coloring.opacity));
   if (!atoms.b_factor.empty()) file.add("atom.b_factor", std::span(atoms.b_factor));
+  if (!atoms.charge.empty()) file.add("atom.charge", std::span(atoms.charge));
+  if (!atoms.hydrophobicity.empty()) file.add("atom.hydrophobicity", std::span(atoms.hydrophobicity));
   if (!atoms.atomic_number.empty()) file.add("atom.atomic_number", std::span(atoms.atomic_number));
   if (!atoms.residue_number.empty()) file.add("atom.res_id", std::span(atoms.residue_number));
   if (!atoms.chain.empty()) file.add("atom.chain_id", std::span(atoms.chain));

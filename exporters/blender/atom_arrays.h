@@ -16,6 +16,8 @@ namespace meniscus::blender {
 struct AtomAttributes {
   std::vector<std::uint32_t> file_index;  ///< place in the file, from 0 (Atom::index)
   std::vector<float> b_factor;
+  std::vector<float> charge;          ///< e; 0: unknown
+  std::vector<float> hydrophobicity;  ///< of the residue (Kyte & Doolittle 1982); 0: it has none
   std::vector<std::int32_t> atomic_number;
   std::vector<std::int32_t> residue_number;
   std::vector<std::int32_t> chain;  ///< into chain_names

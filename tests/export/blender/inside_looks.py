@@ -134,7 +134,7 @@ class Looks(unittest.TestCase):
 
     def test_every_look_renders_in_every_colouring(self):
         given = {"Color": (0.8, 0.3, 0.2), "b_factor": 80.0, "atomic_number": 8, "chain_id": 1, "charge": 0.4, "map_value": 2.0,
-                      "lipophobicity": 0.3, "ses_kind": 1}
+                      "hydrophobicity": 1.0, "lipophobicity": 0.3, "ses_kind": 1}
         sun = bpy.data.objects.new("sun", bpy.data.lights.new("sun", "SUN"))
         bpy.context.scene.collection.objects.link(sun)
         for look in looks.LOOKS:
@@ -227,9 +227,10 @@ class Looks(unittest.TestCase):
             found[look] = (scene.cycles.samples, scene.cycles.use_adaptive_sampling, scene.cycles.transmission_bounces, lamps)
         self.assertEqual(found, {"glass": (128, True, 32, [False]), "wax": (128, True, 12, [True, True]), "paint": (32, False, 12, [True, True])})
 
-    def test_what_an_object_has_not_is_said(self):
+    def test_what_an_object_has_not_is_not_offered(self):
         plate()
-        with self.assertRaisesRegex(RuntimeError, "charge"):
+        self.assertEqual(looks.offered(bpy.context.active_object.data), {"COLOR", "KIND"})
+        with self.assertRaisesRegex(TypeError, "CHARGE"):
             bpy.ops.object.meniscus_look(look="PAINT", coloring="CHARGE")
 
     def test_outlines_by_line_art(self):

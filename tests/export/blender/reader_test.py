@@ -3,6 +3,7 @@
 
 import os
 import struct
+import subprocess
 import sys
 import tempfile
 import unittest
@@ -25,6 +26,19 @@ class Reader(unittest.TestCase):
     @classmethod
     def tearDownClass(cls):
         cls.folder.cleanup()
+
+    def test_charges_and_hydropathies_where_atoms_have_them(self):
+        source, target = (os.path.join(self.folder.name, name) for name in ("three.pqr", "three.mns"))
+        with open(source, "w", encoding="ascii") as file:
+            file.write("ATOM 1 CA ALA A 1 0.0 0.0 0.0 -0.25 1.7\nATOM 2 CA ARG A 2 4.0 0.0 0.0 0.75 1.7\n"
+                       "ATOM 3 C1 LIG A 3 8.0 0.0 0.0 0.5 1.7\n")
+        subprocess.run([PROGRAM, "export", "blender", source, "-o", target, "--device", "cpu", "-q"], check=True, stdout=subprocess.DEVNULL)
+        surface = mns_reader.read(target).objects[0]
+        np.testing.assert_allclose(surface["atom.charge"], [-0.25, 0.75, 0.5])
+        np.testing.assert_allclose(surface["atom.hydrophobicity"], [1.8, -4.5, 0.0], rtol=1e-6)
+        bare = mns_reader.read(self.files["triple"]).objects[0]
+        self.assertIsNone(bare.get("atom.charge"))
+        self.assertIsNone(bare.get("atom.hydrophobicity"))
 
     def test_meshes_are_closed_outward_and_measure_what_the_header_says(self):
         for path in self.files.values():

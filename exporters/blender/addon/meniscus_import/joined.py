@@ -13,10 +13,12 @@ PLAIN = ("mesh.kind", "mesh.patch", "atom.radius", "atom.color", "atom.index", "
 #: Arrays that some objects may lack, and what stands for them: values, their columns, their type.
 STAND_INS = {
     "atom.opacity": (1.0, 1, np.float32), "mesh.cap_plane": (0xffffffff, 1, np.uint32), "mesh.map_value": (0.0, 1, np.float32),
+    "atom.charge": (0.0, 1, np.float32), "atom.hydrophobicity": (0.0, 1, np.float32),
     "mesh.map_color": (0.0, 3, np.float32), "mesh.map_known": (1, 1, np.uint8), "atom.own_color": (0, 1, np.uint8),
 }
 ROWS = {"mesh.cap_plane": "mesh.triangle", "mesh.map_value": "mesh.position", "mesh.map_color": "mesh.position",
-        "mesh.map_known": "mesh.position", "atom.opacity": "atom.center", "atom.own_color": "atom.center"}
+        "mesh.map_known": "mesh.position", "atom.charge": "atom.center", "atom.hydrophobicity": "atom.center",
+        "atom.opacity": "atom.center", "atom.own_color": "atom.center"}
 
 
 def joined(file, origin):

@@ -33,15 +33,22 @@ SCALES = {
     "B_FACTOR": ("b_factor", 0.0, 100.0, ("#440154", "#414487", "#2a788e", "#22a884", "#7ad151", "#fde725")),
     "CHARGE": ("charge", -1.0, 1.0, ("#d6412f", "#ffffff", "#3a5fcd")),
     "POTENTIAL": ("map_value", -10.0, 10.0, ("#d6412f", "#ffffff", "#3a5fcd")),
+    "HYDROPHOBICITY": ("hydrophobicity", -4.5, 4.5, ("#3a5fcd", "#ffffff", "#d6412f")),
     "LIPOPHILICITY": ("lipophobicity", -2.0, 2.0, ("#3a5fcd", "#ffffff", "#d6412f")),
 }
 #: Name of a colouring -> its label.
 COLORINGS = {"COLOR": "As computed", "ELEMENT": "Element", "CHAIN": "Chain", "CONFIDENCE": "Confidence (pLDDT)", "B_FACTOR": "B-factor",
-             "CHARGE": "Charge", "POTENTIAL": "Potential map", "LIPOPHILICITY": "Lipophilicity", "KIND": "Patch kind"}
+             "CHARGE": "Charge", "POTENTIAL": "Potential map", "HYDROPHOBICITY": "Hydrophobicity (Kyte & Doolittle)",
+             "LIPOPHILICITY": "Lipophilicity", "KIND": "Patch kind"}
 #: And the attribute that it looks at.
 ATTRIBUTES = {"COLOR": "Color", "CHAIN": "chain_id", **{name: of[0] for of_all in (STEPS, SCALES) for name, of in of_all.items()}}
 #: Name of a look -> its label.
 LOOKS = {"PAINT": "Paint", "CLAY": "Clay", "WAX": "Wax", "GLASS": "Glass", "FLAT": "Flat"}
+
+
+def offered(mesh):
+    """Names of the colourings whose attribute a mesh has; "as computed" is always one."""
+    return {name for name, attribute in ATTRIBUTES.items() if name == "COLOR" or attribute in mesh.attributes}
 
 
 def coloring_group(name):

@@ -17,7 +17,7 @@ FACE_INTEGERS = {
 #: the place of the chain's name among the sorted ones.
 POINT_NUMBERS = {
     "atomic_number": ("atom.atomic_number", "INT"), "res_id": ("atom.res_id", "INT"), "chain_id": ("atom.chain_id", "INT"),
-    "b_factor": ("atom.b_factor", "FLOAT"), "vdw_radii": ("atom.radius", "FLOAT"),
+    "charge": ("atom.charge", "FLOAT"), "hydrophobicity": ("atom.hydrophobicity", "FLOAT"), "b_factor": ("atom.b_factor", "FLOAT"), "vdw_radii": ("atom.radius", "FLOAT"),
 }
 #: All that an import makes.
 OURS = {"atom_index", "ses_atom", "opacity", "velocity", "Color", "ses_cap", "cap_stripe", "map_value", "map_known", *FACE_INTEGERS, *POINT_NUMBERS}

@@ -241,7 +241,7 @@ def _check(surface):
         "mesh.component": triangles,
         "mesh.atom": triangles, "atom.radius": atoms, "atom.color": atoms, "atom.opacity": atoms, "atom.own_color": atoms, "mesh.cap_plane": triangles,
         "mesh.map_value": vertices, "mesh.map_color": vertices, "mesh.map_known": vertices, "atom.b_factor": atoms,
-        "atom.atomic_number": atoms, "atom.index": atoms, "atom.file_index": atoms, "atom.res_id": atoms, "atom.chain_id": atoms,
+        "atom.atomic_number": atoms, "atom.index": atoms, "atom.file_index": atoms, "atom.charge": atoms, "atom.hydrophobicity": atoms, "atom.res_id": atoms, "atom.chain_id": atoms,
         "mesh.sharp_corner_normal": len(arrays["mesh.sharp_corner"]),
     }
     for name, rows in lengths.items():

@@ -135,6 +135,12 @@ class OBJECT_OT_meniscus_cancel(bpy.types.Operator):
         return {"FINISHED"}
 
 
+def _offered(_self, context):
+    item = context.active_object if context else None
+    offered = looks.offered(item.data) if is_surface(item) else looks.COLORINGS
+    return [(name, label, "", number) for number, (name, label) in enumerate(looks.COLORINGS.items()) if name in offered]
+
+
 class OBJECT_OT_meniscus_look(bpy.types.Operator):
     """Give the active surface a material that colours by its attributes"""
 
@@ -143,7 +149,7 @@ class OBJECT_OT_meniscus_look(bpy.types.Operator):
     bl_options = {"REGISTER", "UNDO"}
 
     look: bpy.props.EnumProperty(name="Look", default="PAINT", items=[(name, label, "") for name, label in looks.LOOKS.items()])
-    coloring: bpy.props.EnumProperty(name="Colour", default="COLOR", items=[(name, label, "") for name, label in looks.COLORINGS.items()])
+    coloring: bpy.props.EnumProperty(name="Colour", items=_offered)
     lines: bpy.props.BoolProperty(name="Outlines", description="Draw outlines by Line Art, as an object of their own", default=False)
 
     @classmethod

@@ -8,7 +8,8 @@ from .. import mns_reader
 #: Arrays a file of atoms cannot do without, and their columns.
 NEEDED = {"atom.center": 3, "atom.radius": 1, "atom.color": 3, "atom.index": 1}
 #: Numbers by atom that a file may have.
-NUMBERS = ("atom.file_index", "atom.b_factor", "atom.atomic_number", "atom.res_id", "atom.chain_id")
+NUMBERS = ("atom.file_index", "atom.b_factor", "atom.atomic_number", "atom.res_id", "atom.chain_id", "atom.charge",
+           "atom.hydrophobicity")
 
 
 class Atoms:
