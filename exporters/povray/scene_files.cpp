@@ -145,9 +145,13 @@ std::string main_text(std::span<const Camera> cameras, const SceneOptions& optio
   out.literal("//   #version 3.7; #declare Meniscus_Material = 2; #include \"")
       .literal(options.name)
       .literal(".pov\"\n");
+  out.literal("// For a scene that is all your own declare Meniscus_Own_Scene = 1: then nothing is placed, and\n");
+  out.literal("// object { Meniscus_Surface } stands where you put it.\n");
   out.literal("// Colours as srgb need assumed_gamma first: write global_settings of your own and declare\n");
   out.literal(
       "// Meniscus_Custom_Settings; likewise Meniscus_Custom_Camera and Meniscus_Custom_Lights.\n#version 3.7;\n");
+  out.literal("#ifdef (Meniscus_Own_Scene)\n  #declare Meniscus_Custom_Settings = 1;\n");
+  out.literal("  #declare Meniscus_Custom_Camera = 1;\n  #declare Meniscus_Custom_Lights = 1;\n#end\n");
   out.literal("#ifndef (Meniscus_Material) #declare Meniscus_Material = ");
   out.count(static_cast<std::size_t>(options.material))
       .literal("; #end  // 0 opaque, 1 ghost, 2 glass, 3 wax, 4 flat\n");
@@ -169,19 +173,22 @@ std::string main_text(std::span<const Camera> cameras, const SceneOptions& optio
                   : "#include \"" + name + ".inc\"";
   };
   out.literal(filled(scene_template("main.pov"), {{"NAME", options.name}}));
-  const auto add_surface = [&](bool single, const std::string& geometry, const std::string& caps) {
-    out.literal(filled(scene_template("surface.pov"),
-                       {{"GROUP", single ? "object" : "union"}, {"GEOMETRY", geometry}, {"CAPS", caps}}));
+  const auto add_surface = [&](bool single, const std::string& geometry, const std::string& caps,
+                               const std::string& handle) {
+    out.literal(
+        filled(scene_template("surface.pov"),
+               {{"GROUP", single ? "object" : "union"}, {"GEOMETRY", geometry}, {"CAPS", caps}, {"HANDLE", handle}}));
   };
   if (parts.surface) {
     const std::string geometry = frames ? std::string("#include Meniscus_Geometry") : include_of("geometry");
-    add_surface(parts.single && !parts.caps, geometry, parts.caps ? "\n  " + include_of("caps") : "");
+    add_surface(parts.single && !parts.caps, geometry, parts.caps ? "\n  " + include_of("caps") : "",
+                "Meniscus_Surface");
   }
   if (parts.shapes) out.literal("\n").literal(include_of("shapes")).literal("\n");
   for (std::size_t n = 0; n < parts.objects.size(); ++n) {
     const std::string include = include_of(fmt::format("object_{}", n + 1));
     if (parts.objects[n].is_surface)
-      add_surface(parts.objects[n].single, include, "");
+      add_surface(parts.objects[n].single, include, "", fmt::format("Meniscus_Object_{}", n + 1));
     else
       out.literal("\n").literal(include).literal("\n");
   }

@@ -1,4 +1,5 @@
 
+#ifdef (Meniscus_Own_Scene) #declare @HANDLE@ = #end
 @GROUP@ {
   @GEOMETRY@@CAPS@
   #if (!Meniscus_Own_Textures) texture { Meniscus_Texture } #end
