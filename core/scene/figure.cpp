@@ -138,6 +138,7 @@ Framebuffer draw(SurfaceRenderer& renderer, Figure figure, const FigureRequest& 
   const std::vector<PictureObject> shown =
       picture_objects(whole.surface, whole.coloring, request, &figure.beside, camera, balls);
   std::vector<const SurfaceObject*> surfaces;
+  surfaces.reserve(shown.size());
   for (const PictureObject& object : shown)
     surfaces.push_back(object.surface == &whole.surface ? &whole : surface_beside(figure.beside, object));
   Framebuffer picture = renderer.render(shown, camera, settings);

@@ -334,12 +334,10 @@ class Stage:
             scene.frame_set(scene_frame)
         if self.item.get("meniscus_error"):
             raise mns_reader.MnsError(self.item["meniscus_error"])
-        evaluated = self.item.evaluated_get(bpy.context.evaluated_depsgraph_get())
-        if self.mode == "bake":
-            shown = [each.object.data for each in bpy.context.evaluated_depsgraph_get().object_instances
-                     if each.is_instance and each.parent == evaluated]
-        else:
-            shown = [evaluated.data]
+        graph = bpy.context.evaluated_depsgraph_get()
+        evaluated = self.item.evaluated_get(graph)
+        # A bake has a mesh of its own, or an instance.
+        shown = [evaluated.data, *(each.object.data for each in graph.object_instances if each.is_instance and each.parent == evaluated)]
         return sum(len(mesh.polygons) for mesh in shown)
 
 
