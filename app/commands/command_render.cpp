@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `meniscus render`: a picture of the surface by ray casting its analytic patches.
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
 #include <iostream>
 #include <map>
@@ -23,6 +24,7 @@
 #include "core/scene/molecule.h"
 #include "app/commands/render_command.h"
 #include "app/commands/view_picture.h"
+#include "core/base/progress.h"
 #include "core/base/text.h"
 #include "core/gpu/egl_context.h"
 #include "core/render/image_output.h"
@@ -78,6 +80,32 @@ RenderSettings timed_settings(const RenderCommand& command, const PictureLayout&
   if (command.stats || !command.molecule.quiet) settings.timing = StageTiming::exact;
   return settings;
 }
+
+/// Tells how far a picture is that takes long on the CPU; GL makes it in a fraction of the time.
+class PictureProgress {
+ public:
+  PictureProgress(const RenderCommand& command, RenderSettings& settings) {
+    const double rays = static_cast<double>(settings.samples) * settings.size.x * settings.size.y;
+    if (command.molecule.quiet || rays < kManyRays) return;
+    progress_.emplace(progress_on_stderr(command.molecule), "picture", kParts);
+    settings.progress = [this](double share) { tell(static_cast<std::uint64_t>(share * kParts)); };
+  }
+  void end() {
+    if (progress_) tell(kParts);
+  }
+
+ private:
+  void tell(std::uint64_t parts) {
+    if (parts <= told_) return;
+    progress_->advance(parts - told_);
+    told_ = parts;
+  }
+
+  static constexpr double kManyRays = 5e7;  // some seconds
+  static constexpr std::uint64_t kParts = 100;
+  std::optional<Progress> progress_;
+  std::uint64_t told_ = 0;
+};
 
 // Without the complete surface: from atoms to the picture on the GPU.
 void draw_view(const RenderCommand& command) {
@@ -142,8 +170,10 @@ void run(const RenderCommand& command) {
   const Camera camera = aimed.camera(layout.size);
   PictureDevice device(picture_request(command));
   SurfaceRenderer& renderer = device.renderer();
-  Framebuffer picture =
-      draw(renderer, std::move(aimed.figure), command.figure, camera, timed_settings(command, layout));
+  RenderSettings settings = timed_settings(command, layout);
+  PictureProgress progress(command, settings);
+  Framebuffer picture = draw(renderer, std::move(aimed.figure), command.figure, camera, settings);
+  progress.end();
   finish(command, layout, annotations, std::move(picture), camera);
   say_times(command, renderer.device(), renderer.times());
 }

@@ -43,6 +43,24 @@ TEST_F(RenderCommand, WritesEveryFormatAndNamesTheDevice) {
   EXPECT_GT(test::read_bytes(path("b.exr")).size(), test::read_bytes(path("a.exr")).size());
 }
 
+TEST_F(RenderCommand, TellsHowFarALongPictureIs) {
+  const std::string far_apart = folder_.file("far.xyzr", "0 0 0 1.7\n400 0 0 1.7\n");
+  const std::vector<std::string> many_rays{"--size", "800x600", "--samples", "105", "--device", "cpu"};
+  const auto told = [&](std::vector<std::string> words) {
+    words.insert(words.end(), many_rays.begin(), many_rays.end());
+    words.insert(words.begin(), {"render", far_apart});
+    const ProgramResult result = test::run_program(MENISCUS_PROGRAM, words);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return result.err;
+  };
+  const std::string err = told({"-o", path("told.png")});
+  for (const char* part : {"picture: 0 of 100 (0 %)\n", "picture: 100 of 100 (100 %)\n"})
+    EXPECT_NE(err.find(part), std::string::npos) << err;
+  EXPECT_GT(std::ranges::count(err, '%'), 5) << err;
+  EXPECT_EQ(told({"-o", path("quiet.png"), "-q"}), "");
+  EXPECT_EQ(render({"-o", path("short.png")}).err.find(" of 100 "), std::string::npos);
+}
+
 TEST_F(RenderCommand, ASavedCameraTakesTheSamePicture) {
   for (const char* projection : {"perspective", "orthographic"}) {
     const std::string camera = path(std::string(projection) + ".json");
