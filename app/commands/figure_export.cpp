@@ -74,11 +74,13 @@ const Camera& ExportRun::camera(std::uint64_t place) const {
 }
 
 void ExportRun::run(std::uint64_t bytes_per_atom, const MakeFrame& make) {
+  const std::vector<std::shared_ptr<MoleculeBuilder>> builders =
+      frame_builders(frames_, command_.molecule, command_.frames, bytes_per_atom * frames_.structure().atoms.size());
   std::vector<FrameWorker> workers;
-  for (const std::shared_ptr<MoleculeBuilder>& builder :
-       frame_builders(frames_, command_.molecule, command_.frames, bytes_per_atom * frames_.structure().atoms.size()))
+  for (const std::shared_ptr<MoleculeBuilder>& builder : builders)
     workers.push_back([&make, builder](RunFrame frame) { return make(*builder, std::move(frame)); });
   run_frames(frames_, command_.molecule, command_.frames, std::move(workers));
+  tell_beyond_map(command_.molecule, builders);
 }
 
 }  // namespace meniscus

@@ -131,6 +131,8 @@ class CompletePainter {
         builders_(frame_builders(frames, run.command.molecule, run.command.frames, bytes_of_frame(run, frames),
                                  device_.context())) {}
 
+  std::span<const std::shared_ptr<MoleculeBuilder>> builders() const { return builders_; }
+
   std::vector<FrameWorker> workers() {
     std::vector<FrameWorker> workers;
     for (const auto& builder : builders_) workers.push_back(device_.context() ? by_gl(builder) : on_cpu(builder));
@@ -250,6 +252,7 @@ void render_frames(const RenderCommand& asked) {
   } else {
     CompletePainter painter(run, frames);
     run_frames(frames, command.molecule, command.frames, painter.workers());
+    tell_beyond_map(command.molecule, painter.builders());
   }
   sink.finish();
 }

@@ -2,6 +2,7 @@
 // Lines for people: one a fact, none if quiet.
 #include "app/reports/notes.h"
 
+#include <algorithm>
 #include <iostream>
 #include <memory>
 #include <utility>
@@ -27,6 +28,7 @@ void tell_structure(const MoleculeOptions& options, const Structure& structure) 
 
 Molecule built_and_told(const MoleculeOptions& options, Structure structure) {
   Molecule molecule = MoleculeBuilder(options).build(std::move(structure));
+  tell_beyond_map(options, molecule.beyond_map, "the surface");
   say(options, fmt::format("surface on {} in {:.1f} ms", molecule.device, total_ms(molecule.stages)));
   if (const double grown_by = change_of_radii(molecule.objects).grown_by; grown_by > 0)
     say(options,
@@ -47,6 +49,13 @@ void say_warnings(const MoleculeOptions& options, const Structure& structure) {
     if (options.warnings != WarningDetail::full) continue;
     for (const std::string& detail : warning.details) say(options, "  " + detail);
   }
+}
+
+void tell_beyond_map(const MoleculeOptions& options, double share, std::string_view whose) {
+  if (share <= 0.0 || options.warnings == WarningDetail::none) return;
+  say(options, fmt::format("warning: {}: {:.3g} % of {} lies outside of this map and has the colour of missing "
+                           "numbers (--missing-color); compute a map that holds all of it",
+                           options.volume_file, std::clamp(100.0 * share, 0.001, 99.9), whose));
 }
 
 ProgressSink progress_on_stderr(const MoleculeOptions& options) {

@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "app/options/molecule_options.h"
@@ -20,6 +21,10 @@ void say(const MoleculeOptions& options, const std::string& line);
 
 /// The warnings about a file on stderr, as detailed as wanted, unless quiet.
 void say_warnings(const MoleculeOptions& options, const Structure& structure);
+
+/// Warns that this share of a surface lies outside of the volume map that colours it, unless none does. whose: "the
+/// surface".
+void tell_beyond_map(const MoleculeOptions& options, double share, std::string_view whose);
 
 /// Progress on stderr: a bar on a terminal, plain lines elsewhere, nothing when quiet.
 ProgressSink progress_on_stderr(const MoleculeOptions& options);

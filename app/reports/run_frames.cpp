@@ -123,6 +123,12 @@ std::vector<std::shared_ptr<MoleculeBuilder>> frame_builders(const FrameRun& fra
   return builders;
 }
 
+void tell_beyond_map(const MoleculeOptions& molecule, std::span<const std::shared_ptr<MoleculeBuilder>> builders) {
+  double most = 0.0;
+  for (const std::shared_ptr<MoleculeBuilder>& builder : builders) most = std::max(most, builder->most_beyond_map());
+  tell_beyond_map(molecule, most, "the surface of one frame, and no more of any other,");
+}
+
 void run_frames(FrameRun& frames, const MoleculeOptions& molecule, const FrameOptions& options,
                 std::vector<FrameWorker> workers) {
   RunProgress progress(options.progress, molecule.quiet, frames.chunk().size(), workers.size());

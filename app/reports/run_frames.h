@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,9 @@ using FrameWorker = std::function<FinishFrame(RunFrame frame)>;
 std::vector<std::shared_ptr<MoleculeBuilder>> frame_builders(const FrameRun& frames, const MoleculeOptions& molecule,
                                                              const FrameOptions& options, std::uint64_t frame_bytes,
                                                              const EglContext* context = nullptr);
+
+/// Says how much of a frame's surface a volume map did not reach, of that frame of which it is the most.
+void tell_beyond_map(const MoleculeOptions& molecule, std::span<const std::shared_ptr<MoleculeBuilder>> builders);
 
 /// What a frame takes until it is finished, about: its surface and areas; and a mesh of half a pixel, with its file.
 constexpr std::uint64_t kSurfaceBytesPerAtom = 8'000, kMeshBytesPerAtom = 150'000;

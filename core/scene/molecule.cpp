@@ -2,14 +2,18 @@
 // Carries out what the common request say.
 #include "core/scene/molecule.h"
 
+#include <algorithm>
 #include <memory>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "core/scene/hidden_atoms.h"
+#include "core/scene/map_reach.h"
 #include "core/scene/surface_objects.h"
 #include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/math/box.h"
 #include "core/queries/combine.h"
 #include "core/color/color_atoms.h"
 #include "core/color/volume_paint.h"
@@ -50,11 +54,46 @@ std::shared_ptr<const VolumePaint> volume_paint(const MoleculeRequest& request, 
   return std::make_shared<VolumePaint>(VolumePaint{std::move(grid), std::move(scale), request.volume_offset});
 }
 
+/// A potential shows the charges of all atoms that it was computed with.
+void warn_of_unseen_charges(Structure& structure) {
+  std::size_t count = 0;
+  for (const auto& [reason, atoms] : structure.report.charged) count += atoms;
+  if (count == 0) return;
+  const bool water = structure.report.charged.contains(kExcludedWater);
+  structure.report.warnings.emplace_back(fmt::format(
+      "{} {} with charges {} left out of the surface ({}); a map computed with them colours it by charges that it does "
+      "not show. Compute the map without them{}, or keep them in the surface{}",
+      with_thousands(count), count == 1 ? "atom" : "atoms", count == 1 ? "is" : "are",
+      reasons_text(structure.report.charged), water ? " (pdb2pqr --drop-water)" : "", water ? " (--keep-water)" : ""));
+}
+
+/// "x -27.1 to 26.4, y ..., z ..." of points.
+std::string extent_text(const Box& box) {
+  std::string text;
+  for (int axis = 0; axis < 3; ++axis)
+    text += fmt::format("{}{} {:.1f} to {:.1f}", axis ? ", " : "", "xyz"[axis], box.low[axis], box.high[axis]);
+  return text;
+}
+
+/// Throws InputError if the map reaches none of the surface.
+double checked_share_beyond(const VolumePaint& map, const std::string& path, const Molecule& molecule) {
+  const double share = share_beyond(map, molecule.objects);
+  if (share < 1.0) return share;
+  Box atoms;
+  for (const Ball& ball : placed_balls(molecule.objects)) atoms.include(ball.center);
+  throw InputError(path, 0,
+                   fmt::format("holds {} Å; no part of the surface lies there: {} has its atoms at {} Å; move the "
+                               "molecule back or compute the map again",
+                               extent_text(map.grid.frame().extent()), molecule.structure.file, extent_text(atoms)));
+}
+
 }  // namespace
 
 Structure read_molecule(const MoleculeRequest& request) {
   refuse_trajectory(request.file);
-  return read_structure(request.file, reading_of(request));
+  Structure structure = read_structure(request.file, reading_of(request));
+  if (request.color.by == ColorScheme::By::volume) warn_of_unseen_charges(structure);
+  return structure;
 }
 
 std::unique_ptr<StructureFile> open_molecule(const MoleculeRequest& request) {
@@ -126,6 +165,8 @@ Molecule MoleculeBuilder::build(Structure structure) {
     object.coloring = color_object(molecule.structure, object.atom, molecule.color, n);
   }
   if (!hidden.empty()) hide(hidden, molecule.objects);
+  if (color_.volume) molecule.beyond_map = checked_share_beyond(*color_.volume, request_.volume_file, molecule);
+  most_beyond_map_ = std::max(most_beyond_map_, molecule.beyond_map);
   molecule.beside = shown_shapes(molecule.structure, request_.representations, molecule.color);
   molecule.device = computer_.device();
   molecule.stages = computer_.stages();

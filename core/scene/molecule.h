@@ -44,6 +44,7 @@ struct Molecule {
   ColorScheme color;                   ///< as asked for, with the numbers of its file
   std::vector<SurfaceObject> objects;  ///< at least one
   ColoredShapes beside;                ///< what is drawn beside them
+  double beyond_map = 0.0;             ///< share of the surface, in [0, 1), that its volume map does not reach
   std::string device;                  ///< what computed them
   std::vector<StageTime> stages;       ///< of all of them
 
@@ -76,11 +77,15 @@ class MoleculeBuilder {
   /// the numbers to colour by, RequestError.
   explicit MoleculeBuilder(const MoleculeRequest& request, const EglContext* context = nullptr);
 
-  /// Computes and colours. Throws what surface_objects and color_object throw, InputError if nothing is shown.
+  /// Computes and colours. Throws what surface_objects and color_object throw, InputError if nothing is shown or no
+  /// point of the surface lies in its volume map.
   Molecule build(Structure structure);
 
   /// Whether it computes on the CPU alone: then it may be used on any thread, by one at a time.
   bool is_on_cpu() const { return computer_.is_on_cpu(); }
+
+  /// The greatest share of a surface built so far that its volume map does not reach.
+  double most_beyond_map() const { return most_beyond_map_; }
 
   /// For further surfaces on the same device.
   SurfaceComputer& computer() { return computer_; }
@@ -92,6 +97,7 @@ class MoleculeBuilder {
   ColorScheme color_;
   Division division_;
   SurfaceComputer computer_;
+  double most_beyond_map_ = 0.0;
 };
 
 }  // namespace meniscus

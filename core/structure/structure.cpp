@@ -49,13 +49,18 @@ std::string label_of(const Atom& atom) {
                      atom.insertion_code == ' ' ? "" : std::string(1, atom.insertion_code));
 }
 
-std::string ReadReport::sentence() const {
-  std::string left_out;
+std::string reasons_text(const std::map<std::string, std::size_t>& excluded) {
+  std::string text;
   for (const auto& [reason, words] : kReasonWords) {
     const auto found = excluded.find(reason);
     if (found == excluded.end()) continue;
-    left_out += fmt::format("{}{} {}", left_out.empty() ? "" : ", ", with_thousands(found->second), words);
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", with_thousands(found->second), words);
   }
+  return text;
+}
+
+std::string ReadReport::sentence() const {
+  const std::string left_out = reasons_text(excluded);
   return fmt::format("{} {} read; {} left out; {} used{}{}", with_thousands(read), read == 1 ? "atom" : "atoms",
                      left_out.empty() ? "none" : left_out, with_thousands(used), assembled.empty() ? "" : "; ",
                      assembled);

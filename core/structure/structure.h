@@ -74,6 +74,7 @@ struct Warning {
 struct ReadReport {
   std::size_t read = 0;                         ///< every atom record of the file, all models and alternate locations
   std::map<std::string, std::size_t> excluded;  ///< reason -> atoms; an atom counts for the first reason it meets
+  std::map<std::string, std::size_t> charged;   ///< those of `excluded` that have room and a partial charge
   std::size_t used = 0;
   std::size_t models = 1;  ///< models in the file, used or not
   std::string assembled;   ///< what an assembly made of the used atoms; empty: they are as deposited
@@ -82,6 +83,9 @@ struct ReadReport {
   /// "5,684 atoms read; 215 water left out; 5,469 used".
   std::string sentence() const;
 };
+
+/// "127 of radius zero, 58 water": atoms by the reason why they are left out, in the order of the reasons.
+std::string reasons_text(const std::map<std::string, std::size_t>& excluded);
 
 /// The reasons of ReadReport::excluded in the order they are tried.
 inline constexpr const char* kExcludedModel = "other_model";

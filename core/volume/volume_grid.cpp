@@ -37,6 +37,17 @@ void check_frame(const std::string& path, const VolumeFrame& frame) {
 
 }  // namespace
 
+Box VolumeFrame::extent() const {
+  Box box;
+  for (std::size_t corner = 0; corner < 8; ++corner) {
+    glm::dvec3 point = origin;
+    for (int axis = 0; axis < 3; ++axis)
+      if (corner >> axis & 1) point += static_cast<double>(size[axis] - 1) * step[axis];
+    box.include(point);
+  }
+  return box;
+}
+
 VolumeGrid::VolumeGrid(const std::string& path, const VolumeFrame& frame, std::vector<float> values)
     : frame_(frame), to_index_(1.0), values_(std::move(values)) {
   assert(values_.size() == frame_.count());

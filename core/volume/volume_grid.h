@@ -11,6 +11,8 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 
+#include "core/math/box.h"
+
 namespace meniscus {
 
 /// Where the points of a grid stand.
@@ -20,6 +22,8 @@ struct VolumeFrame {
   glm::dmat3 step{1.0};               ///< columns, Å: from a point to the next along each axis; they may be skewed
 
   std::size_t count() const { return size[0] * size[1] * size[2]; }
+  /// The least box around all points.
+  Box extent() const;
 };
 
 /// As many values as all programs' files of them hold; 4 GiB in memory.

@@ -93,9 +93,9 @@ TEST_F(ColorCommand, VolumeMapsColorThePointsOfTheSurface) {
   EXPECT_EQ(with({"--device", "software"}), shown);
   EXPECT_NE(with({"--map-offset", "1.4"}), shown);
   EXPECT_NE(with({"--color", "chain B=green"}), shown);
-  EXPECT_EQ(with({"--color", "all=green"}), picture({"--color", "green"}));
+  const std::string green = picture({"--color", "green", "--depth-cue", "0", "--specular", "0"});
+  EXPECT_EQ(with({"--color", "all=green"}), green);
   EXPECT_NE(with({"--legend", "--color-title", "potential", "--color-unit", "kT/e"}), with({"--legend"}));
-  EXPECT_EQ(with({"--map-offset", "20", "--missing-color", "green"}), picture({"--color", "green"}));
   const std::pair<std::vector<std::string>, std::string> refused[] = {
       {{"--color-map-file", map}, "needs --color-range"},
       {{"--color-map-file", map, "--color-range", "-1:1", "--color", "chain"}, "leave the other one out"},
@@ -125,6 +125,64 @@ TEST_F(ColorCommand, VolumeMapsColorThePointsOfTheSurface) {
       meniscus({"export", "ply", file_, "-o", path("m.ply"), "--color-map-file", map, "--color-range", "-1:1", "-q"});
   EXPECT_EQ(mesh.exit_code, 0) << mesh.err;
   EXPECT_NE(test::read_bytes(path("m.ply")).find("property float map_value\n"), std::string::npos);
+}
+
+TEST_F(ColorCommand, WhatAMapDoesNotReachIsSaid) {
+  // A sphere of 2 Å at x = 4: a quarter of its area lies beyond x = 5. Another one lies far from all maps.
+  const auto at = [&](const std::string& name, double x) { return folder_.file(name, fmt::format("{} 0 0 2\n", x)); };
+  const std::string map = folder_.file("linear.dx", linear_map()), all = folder_.file("all.dx", [] {
+    std::string text = linear_map();
+    text.replace(text.find("delta 10"), 8, "delta 90");
+    return text;
+  }());
+  const std::vector<std::pair<std::vector<std::string>, std::string>> doors{
+      {{"render", "--size", "64x48"}, "reach.png"},
+      {{"export", "ply"}, "reach.ply"},
+      {{"export", "blender"}, "reach.mns"},
+      {{"export", "povray"}, "povray"},
+      {{"export", "mitsuba"}, "mitsuba"}};
+  for (const auto& [door, name] : doors) {
+    const auto call = [&](const std::string& file, const std::string& of_map) {
+      std::vector<std::string> words = door;
+      words.insert(words.end(), {file, "-o", path(name), "--force", "--color-map-file", of_map, "--color-range=-1:1"});
+      return meniscus(words);
+    };
+    const ProgramResult part = call(at("part.xyzr", 4.0), map);
+    EXPECT_EQ(part.exit_code, 0) << part.err;
+    const std::size_t share = part.err.find(" % of the surface lies outside of this map");
+    ASSERT_NE(share, std::string::npos) << part.err;
+    EXPECT_NEAR(std::stod(part.err.substr(share - 2, 2)), 25.0, 1.0) << part.err;
+    const ProgramResult none = call(at("off.xyzr", 40.0), map);
+    EXPECT_EQ(none.exit_code, 3) << none.err;
+    EXPECT_NE(none.err.find("no part of the surface lies there"), std::string::npos) << none.err;
+    const ProgramResult whole = call(at("whole.xyzr", 40.0), all);
+    EXPECT_EQ(whole.exit_code, 0) << whole.err;
+    EXPECT_EQ(whole.err.find("warning"), std::string::npos) << whole.err;
+  }
+}
+
+TEST_F(ColorCommand, ChargesThatAMapHasAndTheSurfaceHasNotAreSaid) {
+  const std::string map = folder_.file("linear.dx", linear_map());
+  const std::string file = folder_.file("m.pqr",
+                                        "ATOM 1 CA GLY A 1 0 0 0 0.5 1.7\nATOM 2 HA GLY A 1 1 0 0 0.1 0\n"
+                                        "ATOM 3 O HOH W 2 3 0 0 -0.8 1.5\nATOM 4 CA GLY B 3 -3 0 0 0 1.7\n");
+  const auto said = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), {"render", file, "-o", path("c.png"), "--size", "64x48", "--force", "--radii", "file"});
+    const ProgramResult result = meniscus(words);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return result.err;
+  };
+  const std::vector<std::string> by_map{"--color-map-file", map, "--color-range=-1:1"};
+  const auto with = [&](std::vector<std::string> words) {
+    words.insert(words.end(), by_map.begin(), by_map.end());
+    return said(words);
+  };
+  EXPECT_NE(with({}).find("1 atom with charges is left out of the surface (1 water)"), std::string::npos) << with({});
+  EXPECT_EQ(with({"--keep-water"}).find("charges"), std::string::npos);
+  EXPECT_EQ(said({}).find("charges"), std::string::npos);
+  // Chain B has no charge; an atom without a radius lies within its neighbour.
+  EXPECT_EQ(with({"--select", "not chain B", "--keep-water"}).find("charges"), std::string::npos);
+  EXPECT_NE(with({"--select", "chain B or water"}).find("(2 not selected)"), std::string::npos);
 }
 
 TEST_F(ColorCommand, OurOwnTablesOfAreasColor) {

@@ -3,8 +3,10 @@
 #include "core/structure/formats/read_structure.h"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <span>
+#include <string_view>
 #include <unordered_map>
 
 #include <fmt/format.h>
@@ -33,6 +35,13 @@ bool is_virtual_site(const Atom& atom) {
 
 bool is_hydrogen(const Atom& atom) { return atom.element == 1; }
 
+/// Whether a potential of the file's charges has this atom's, too, and a surface of the whole file its ball. Atoms of
+/// other alternate locations stand where one is used.
+bool has_charge_and_room(const Atom& atom, std::string_view reason) {
+  return atom.charge != 0.0f && !std::isnan(atom.charge) && reason != kExcludedAltloc && reason != kExcludedVirtual &&
+         reason != kExcludedRadius;
+}
+
 /// Moves the atoms without a reason to be left out to the front of `atoms`, counts the reasons of the others, and moves
 /// those of them that are shown to `beside`.
 template <typename Reason>
@@ -41,6 +50,7 @@ void leave_out(std::vector<Atom>& atoms, std::vector<Atom>& beside, ReadReport& 
   for (std::size_t n = 0; n < atoms.size(); ++n) {
     if (const char* reason = reason_of(n)) {
       ++report.excluded[reason];
+      if (has_charge_and_room(atoms[n], reason)) ++report.charged[reason];
       if (atoms[n].shown != 0) beside.push_back(std::move(atoms[n]));
     } else {
       if (kept != n) atoms[kept] = std::move(atoms[n]);

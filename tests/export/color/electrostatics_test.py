@@ -24,6 +24,7 @@ PROGRAM, PAGE = sys.argv.pop(1), pathlib.Path(sys.argv.pop(1))
 def run(words, folder):
     result = subprocess.run(words, cwd=folder, capture_output=True, text=True, timeout=600)
     assert result.returncode == 0, (words, result.stderr[-2000:], result.stdout[-2000:])
+    return result.stderr
 
 
 def vertices_of(path):
@@ -52,8 +53,10 @@ class Electrostatics(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             folder = pathlib.Path(folder)
             for words in commands:
-                words = [PROGRAM] + words[1:] + ["-q"] if words[0] == "meniscus" else words
-                run(words, folder)
+                said = run([PROGRAM] + words[1:] if words[0] == "meniscus" else words, folder)
+                if words[0] == "meniscus":
+                    # All that the map was computed of is in the surface, which the map holds.
+                    self.assertNotIn("warning", said)
             pixels = OpenImageIO.ImageInput.open(str(folder / "potential.png")).read_image("float")[..., :3]
             molecule = pixels[:, : pixels.shape[1] * 3 // 4]
             red = (molecule[..., 0] > molecule[..., 2] + 0.2).mean()
@@ -64,6 +67,8 @@ class Electrostatics(unittest.TestCase):
             words = [PROGRAM, "export", "ply"] + [w for w in words[2:] if w not in ("--legend", "--background", "white")]
             words[words.index("potential.png")] = "potential.ply"
             run(words + ["--tolerance", "0.1", "-q"], folder)
+            self.check_pixels(folder, commands[2])
+            self.check_that_waters_are_missed(folder, commands)
             positions, values = vertices_of(folder / "potential.ply")
             means = {}
             for line in (folder / "1ubq.pqr").read_text().splitlines():
@@ -76,6 +81,59 @@ class Electrostatics(unittest.TestCase):
                     means.setdefault(residue, []).append(numpy.nanmean(values[near]))
             self.assertGreater(numpy.median(means["LYS"]), 1.0)
             self.assertLess(numpy.median(means["GLU"] + means["ASP"]), -1.0)
+
+    def check_pixels(self, folder, recipe):
+        """Colours of a picture without light are those that numpy looks up in the map where each pixel's ray ends."""
+        words = [PROGRAM, *recipe[1:], "--preset", "flat", "--silhouettes", "0", "--aovs", "--samples", "1", "--size", "160x120", "-q"]
+        words = [w for w in words if w not in ("--legend", "--background", "white")]
+        words[words.index("potential.png")] = "flat.exr"
+        run(words, folder)
+        image = OpenImageIO.ImageInput.open(str(folder / "flat.exr"))
+        names = list(image.spec().channelnames)
+        pixels = dict(zip(names, numpy.moveaxis(numpy.asarray(image.read_image("float")), 2, 0)))
+        image.close()
+        hit = numpy.isfinite(pixels["Z"]) & (pixels["A"] > 0.99)
+        self.assertGreater(hit.sum(), 3000)
+        points = numpy.stack([pixels[f"P.{axis}"][hit] for axis in "xyz"], axis=1).astype(float)
+        low, high = (float(word) for word in next(w for w in recipe if w.startswith("--color-range=")).split("=")[1].split(":"))
+        share = numpy.clip((self.looked_up(folder / "1ubq.pqr-PE0.dx", points) - low) / (high - low), 0.0, 1.0)[:, None]
+        red, white, blue = (numpy.array(color) / 255.0 for color in ((0xD2, 0x32, 0x2A), (255, 255, 255), (0x2A, 0x4F, 0xD7)))
+        color = numpy.where(share < 0.5, red + (white - red) * 2 * share, white + (blue - white) * (2 * share - 1))
+        linear = numpy.where(color <= 0.04045, color / 12.92, ((color + 0.055) / 1.055) ** 2.4)
+        shown = numpy.stack([pixels[channel][hit] for channel in "RGB"], axis=1)
+        self.assertLess(numpy.abs(shown - linear).max(), 0.005)
+
+    @staticmethod
+    def looked_up(path, points):
+        """Trilinear values of an OpenDX map."""
+        counts = origin = None
+        steps, numbers = [], []
+        for line in path.read_text().splitlines():
+            words = line.split()
+            if "gridpositions" in line:
+                counts = [int(word) for word in words[-3:]]
+            elif words[:1] == ["origin"]:
+                origin = numpy.array([float(word) for word in words[1:]])
+            elif words[:1] == ["delta"]:
+                steps.append(max(float(word) for word in words[1:]))
+            elif words and re.match(r"[-+]?[0-9]", words[0]):
+                numbers.extend(words)
+        grid = numpy.array(numbers, float).reshape(counts)
+        places = (points - origin) / steps
+        base = numpy.floor(places).astype(int)
+        share = places - base
+        value = 0.0
+        for corner in numpy.ndindex(2, 2, 2):
+            weight = numpy.where(corner, share, 1.0 - share).prod(axis=1)
+            value = value + weight * grid[tuple((base + corner).T)]
+        return value
+
+    def check_that_waters_are_missed(self, folder, commands):
+        """The recipe as it was once, whose waters have charges."""
+        words = [word for word in commands[0] if word not in ("--drop-water", "1ubq.pqr") and "--apbs" not in word]
+        run(words + ["water.pqr"], folder)
+        said = run([PROGRAM] + ["water.pqr" if word == "1ubq.pqr" else word for word in commands[2][1:]] + ["--force", "--size", "160x120"], folder)
+        self.assertIn("58 atoms with charges are left out of the surface (58 water)", said)
 
 
 if __name__ == "__main__":
