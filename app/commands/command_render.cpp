@@ -125,6 +125,12 @@ void draw_view(const RenderCommand& command) {
   finish(command, layout, annotations, std::move(picture), camera);
 }
 
+void tell_hue_changes(const RenderCommand& command) {
+  const std::string changes = hue_changes(command.look);
+  if (changes.empty() || hues_of(command.molecule.color, command.legend.asked()) == Hues::free) return;
+  say(command.molecule, "warning: colours of the surface are not those of the legend: " + changes);
+}
+
 /// Without -o the picture has the molecule's name, in the current folder.
 void name_output(RenderCommand& command) {
   if (!command.output.path.empty()) return;
@@ -140,6 +146,7 @@ void name_output(RenderCommand& command) {
 }
 
 void run(const RenderCommand& command) {
+  tell_hue_changes(command);
   if (command.frames.asked()) return render_frames(command);
   if (command.run_camera.moves()) throw UsageError(kMovesWithoutFrames);
   check_image_path(command.output.path);
@@ -210,7 +217,8 @@ RenderSettings render_settings(const RenderCommand& command, const PictureLayout
   settings.size = {layout.size.width, layout.size.height};
   settings.samples = command.samples;
   settings.aovs = command.aovs;
-  settings.look = look_of(command.look, {command.picture.width, command.picture.height}, command.background);
+  settings.look = look_of(command.look, {command.picture.width, command.picture.height}, command.background,
+                          hues_of(command.molecule.color, command.legend.asked()));
   return settings;
 }
 

@@ -39,7 +39,8 @@ void add_look_options(CLI::App& command, LookRequest& look, ViewRequest& picture
       .add_option("--preset", look.preset,
                   fmt::format("A look, which the next options change whatever their order: publication (shade, thin "
                               "lines, colours as given), cover (studio light, highlights), flat (constant colours and "
-                              "lines), soft (matt, no lines), classic (studio light alone) [{}]",
+                              "lines), soft (matt, no lines), classic (studio light alone); where colours stand for "
+                              "numbers or a legend explains them, light changes their lightness alone [{}]",
                               usual->first))
       ->transform(one_of(presets))
       ->type_name("WORD");
@@ -83,7 +84,9 @@ void add_look_options(CLI::App& command, LookRequest& look, ViewRequest& picture
   width("--inner-lines", look.inner_lines, "Of those where something stands in front");
   width("--part-lines", look.part_lines, "Of those where chains meet");
   number("--depth-cue", look.depth_cue, 0.0f, 1.0f,
-         "How far the farthest fades into the background, or into white if that is transparent, 0 to 1", "F");
+         "How far the farthest fades into the background, or into white if that is transparent, 0 to 1; not by itself "
+         "where colours stand for numbers or a legend explains them",
+         "F");
   command.add_flag(
       "--linear-alpha", look.linear_alpha,
       "Edges of transparent .png and .tif for programs that blend in linear light; without it they look on "

@@ -217,7 +217,7 @@ class PreviewSession {
   /// Of the part of the picture that the molecule has.
   glm::ivec2 molecule_size() const { return legend_ ? legend_->molecule_size() : view_.size; }
   double aspect() const { return static_cast<double>(molecule_size().x) / molecule_size().y; }
-  Look look() const { return look_of(view_.look, view_.size, view_.background); }
+  Look look() const { return look_of(view_.look, view_.size, view_.background, view_.hues()); }
   RenderSettings settings(Quality quality) const;
   /// What the pixel shows, drawn anew if need be. Throws RequestError outside of the picture.
   std::optional<PickedPoint> point_at(const CommandReader& command);

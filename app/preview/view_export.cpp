@@ -82,7 +82,7 @@ void export_picture(const ExportedView& view, const MakePictureDevice& make_devi
   RenderSettings settings;
   settings.size = legend ? legend->molecule_size() : view.size;
   settings.samples = view.samples;
-  settings.look = look_of(figure.look, view.size, background);
+  settings.look = look_of(figure.look, view.size, background, figure.hues());
   settings.progress = [&watch](double share) { watch("picture", share); };
   SurfaceRequest on_cpu;
   on_cpu.cpu = true;

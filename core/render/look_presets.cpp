@@ -65,6 +65,15 @@ Look soft() {
   return look;
 }
 
+/// White light times a colour in linear light keeps its hue and its saturation (CIE 1976 h_uv and s_uv); white that is
+/// added, as by highlights and air, and light that clips a channel do not.
+void keep_hues(Look& look) {
+  look.lamps = Lamps::white;
+  look.light_strength = 1.0f;
+  look.material.specular = 0.0f;
+  look.depth_cue = 0.0f;
+}
+
 template <typename T, typename U>
 void take(const std::optional<T>& asked, U& value) {
   if (asked) value = *asked;
@@ -88,8 +97,23 @@ Look preset_look(LookPreset preset, glm::ivec2 picture_size) {
   return {};
 }
 
-Look look_of(const LookRequest& request, glm::ivec2 picture_size, const std::optional<glm::vec3>& background) {
+Hues hues_of(const ColorScheme& color, bool legend) { return legend || color.uses_scale() ? Hues::kept : Hues::free; }
+
+std::string hue_changes(const LookRequest& request) {
+  std::string text;
+  const auto add = [&](bool asked, const char* words) {
+    if (asked) text += (text.empty() ? "" : ", ") + std::string(words);
+  };
+  add(request.depth_cue.value_or(0.0f) > 0.0f, "--depth-cue fades them into the background");
+  add(request.specular.value_or(0.0f) > 0.0f, "--specular lays white highlights over them");
+  add(request.light_strength.value_or(1.0f) > 1.0f, "--light-strength above 1 bleaches them");
+  return text;
+}
+
+Look look_of(const LookRequest& request, glm::ivec2 picture_size, const std::optional<glm::vec3>& background,
+             Hues hues) {
   Look look = preset_look(request.preset, picture_size);
+  if (hues == Hues::kept) keep_hues(look);
   look.background = background.value_or(glm::vec3(1.0f));
   take(request.light_direction, look.light_direction);
   take(request.light_strength, look.light_strength);

@@ -3,10 +3,12 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include "core/color/color_schemes.h"
 #include "core/render/look.h"
 
 namespace meniscus {
@@ -34,10 +36,23 @@ struct LookRequest {
   bool has_linear_alpha() const { return linear_alpha || preset == LookPreset::classic; }
 };
 
+/// What light may do to colours. `kept`: each changes in lightness alone, so that it is found on the bar or among the
+/// swatches that explain it: white lamps, not too bright, no highlights, no fading into the background.
+enum class Hues : bool { free, kept };
+
+/// Kept where colours stand for numbers, or a legend explains them.
+Hues hues_of(const ColorScheme& color, bool legend);
+
+/// What of the request lets colours change in more than lightness all the same: words for a message, such as
+/// "--depth-cue fades them"; empty: nothing.
+std::string hue_changes(const LookRequest& request);
+
 /// The lines of a preset are so many pixels wide in a picture of 960 pixels, and wider in larger ones.
 Look preset_look(LookPreset preset, glm::ivec2 picture_size);
 
-/// background: nothing for a transparent one, in which what is far takes the colour of white paper.
-Look look_of(const LookRequest& request, glm::ivec2 picture_size, const std::optional<glm::vec3>& background);
+/// background: nothing for a transparent one, in which what is far takes the colour of white paper. What the request
+/// says itself counts before `hues`.
+Look look_of(const LookRequest& request, glm::ivec2 picture_size, const std::optional<glm::vec3>& background,
+             Hues hues);
 
 }  // namespace meniscus

@@ -33,7 +33,7 @@ void check_look(const CommandReader& reader) {
   reader.expect_only(look_keys());
   const LookRequest plain{.preset = LookPreset::classic};
   const auto written = [&](const CommandReader& command) {
-    return look_json(look_of(changed_look(plain, command), {960, 960}, glm::vec3(1.0f)));
+    return look_json(look_of(changed_look(plain, command), {960, 960}, glm::vec3(1.0f), Hues::free));
   };
   const Json look = written(reader);
   Json json = look;

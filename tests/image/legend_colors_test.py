@@ -1,0 +1,119 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Numbers are read back from a picture as its readers do it: each sphere's colour is looked up on the colour bar of the
+same picture, whatever its lightness, and lies where the number of its atom does."""
+
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import numpy
+import OpenImageIO
+
+PROGRAM = sys.argv.pop(1)
+COUNT = 9
+NUMBERS = [float(n) for n in range(COUNT)]
+
+
+def spheres():
+    """A sphere a number, each farther away than the one before, and some of them in the shade of others."""
+    lines = []
+    for n, number in enumerate(NUMBERS):
+        x, y, z = 9.0 * (n % 3), 9.0 * (n // 3), -4.0 * n
+        lines.append("ATOM  %5d  C   ALA A%4d    %8.3f%8.3f%8.3f  1.00%6.2f           C" % (n + 1, n + 1, x, y, z, number))
+    return "\n".join(lines) + "\n"
+
+
+def linear(srgb):
+    return numpy.where(srgb <= 0.04045, srgb / 12.92, ((srgb + 0.055) / 1.055) ** 2.4)
+
+
+def picture_of(path):
+    image = OpenImageIO.ImageInput.open(str(path))
+    pixels = image.read_image("float")
+    image.close()
+    return numpy.asarray(pixels)[..., :3]
+
+
+def bar_of(pixels):
+    """Colours along the bar, from its lower end: the columns at the right in which most rows are neither paper nor ink."""
+    width = pixels.shape[1]
+    colored = (pixels.max(axis=2) - pixels.min(axis=2) > 0.02) | ((pixels.max(axis=2) > 0.2) & (pixels.max(axis=2) < 0.9))
+    strip = range(width * 7 // 8, width)
+    column = max(strip, key=lambda x: colored[:, x].sum())
+    inside = [x for x in strip if colored[:, x].sum() > 0.95 * colored[:, column].sum()]
+    middle = inside[len(inside) // 2]
+    rows = numpy.flatnonzero(colored[:, middle])
+    return pixels[rows.max() : rows.min() : -1, middle]
+
+
+def place_on(bar, colors):
+    """The share of the bar at which all of these colours are found best, each with a lightness of its own."""
+    bar, colors = linear(bar), linear(colors)
+    # What light, in [0, 1], makes of the bar's colour to come nearest to each; and how far it stays away, as the eye
+    # sees it.
+    light = numpy.clip(colors @ bar.T / numpy.maximum((bar * bar).sum(axis=1), 1e-9), 0.0, 1.0)
+    off = numpy.sqrt(light[..., None] * bar[None]) - numpy.sqrt(colors)[:, None]
+    return numpy.argmin((off * off).sum(axis=(0, 2))) / (len(bar) - 1)
+
+
+class LegendColors(unittest.TestCase):
+    def render(self, *words):
+        with tempfile.TemporaryDirectory() as folder:
+            molecule, picture = pathlib.Path(folder) / "spheres.pdb", pathlib.Path(folder) / "spheres.png"
+            molecule.write_text(spheres())
+            result = subprocess.run([PROGRAM, "render", molecule, "-o", picture, "--color", "bfactor", "--legend", "--legend-title", "",
+                                     "--background", "white", "--projection", "orthographic", "--view", "z", "--samples", "4",
+                                     "--size", "400x300", *words], capture_output=True, text=True, timeout=100)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            return picture_of(picture), result.stderr
+
+    def places(self, pixels):
+        """Of each sphere where its colours are on the bar; spheres are parted by the paper between them."""
+        bar = bar_of(pixels)
+        molecule = pixels[:, : pixels.shape[1] * 7 // 8]
+        ink = (numpy.abs(molecule - 1.0).max(axis=2) > 0.02)
+        rows, columns = self.runs(ink.any(axis=1)), self.runs(ink.any(axis=0))
+        self.assertEqual((len(rows), len(columns)), (3, 3))
+        found = []
+        for low, high in reversed(rows):  # up is up
+            for left, right in columns:
+                y, x = (low + high) // 2, (left + right) // 2
+                reach = max(2, (high - low) // 4)  # clear of the outline
+                found.append(place_on(bar, molecule[y - reach : y + reach, x - reach : x + reach].reshape(-1, 3)))
+        return found
+
+    @staticmethod
+    def runs(flags):
+        edges = numpy.flatnonzero(numpy.diff(numpy.concatenate(([0], flags.astype(int), [0]))))
+        return list(zip(edges[::2], edges[1::2]))
+
+    def check(self, *words):
+        pixels, _ = self.render(*words)
+        for number, place in zip(NUMBERS, self.places(pixels)):
+            self.assertLess(abs(place - number / NUMBERS[-1]), 0.5 / (COUNT - 1), (words, number, place))
+
+    def test_each_number_is_found_on_the_bar_by_every_map(self):
+        for name in ("viridis", "cividis", "magma", "blue-white-red", "red-white-blue", "blues", "ylorrd"):
+            with self.subTest(map=name):
+                self.check("--map", name)
+
+    def test_each_look_leaves_colours_on_the_bar(self):
+        for preset in ("publication", "cover", "flat", "soft", "classic"):
+            for name in ("viridis", "blue-white-red"):
+                with self.subTest(preset=preset, map=name):
+                    self.check("--preset", preset, "--map", name)
+
+    def test_a_fade_that_is_asked_for_counts_and_is_said(self):
+        plain, said = self.render()
+        self.assertNotIn("legend", said)
+        faded, said = self.render("--depth-cue", "0.9")
+        self.assertIn("--depth-cue fades them into the background", said)
+        self.assertGreater(numpy.abs(faded - plain).max(), 0.3)
+        found = self.places(faded)
+        self.assertGreater(abs(found[-1] - 1.0) + abs(found[-2] - NUMBERS[-2] / NUMBERS[-1]), 0.0)
+
+
+if __name__ == "__main__":
+    unittest.main()
