@@ -75,6 +75,11 @@ glm::vec3 between(const std::array<std::uint32_t, size>& table, double t) {
   return (1.0f - fraction) * color_from_hex(table[below]) + fraction * color_from_hex(table[below + 1]);
 }
 
+template <std::size_t size>
+glm::vec3 nearest(const std::array<std::uint32_t, size>& table, double t) {
+  return color_from_hex(table[static_cast<std::size_t>(std::clamp(t, 0.0, 1.0) * (size - 1) + 0.5)]);
+}
+
 }  // namespace
 
 std::span<const ColorMapMetadata> color_maps() { return kMaps; }
@@ -102,11 +107,13 @@ glm::vec3 mapped_color(ColorMap map, double t) {
     case ColorMap::ylorrd:
       return between(kYlOrRd, t);
     case ColorMap::consurf:
-      return between(kConsurf, t);
+      return nearest(kConsurf, t);
     default:
       return between(kViridis, t);
   }
 }
+
+std::size_t map_steps(ColorMap map) { return map == ColorMap::consurf ? kConsurf.size() : 0; }
 
 glm::vec3 default_missing_color(ColorMap map) {
   // The middle of cividis is grey itself.

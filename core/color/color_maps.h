@@ -2,6 +2,7 @@
 // Colour maps: from numbers to colours that people with any colour vision can put in order.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -39,8 +40,12 @@ std::string_view map_name(ColorMap map);
 /// The inverse; nothing for any other text.
 std::optional<ColorMap> parse_color_map(std::string_view text);
 
-/// The colour at t in [0, 1] (clamped), sRGB. Not for the categorical map, which has no order.
+/// The colour at t in [0, 1] (clamped), sRGB; of a map of steps the one whose place is nearest. Not for the categorical
+/// map, which has no order.
 glm::vec3 mapped_color(ColorMap map, double t);
+
+/// How many colours a map of steps has, each of which stands for a class of numbers; 0: colours run into each other.
+std::size_t map_steps(ColorMap map);
 
 /// What atoms without a number get unless told otherwise: a grey #808080, which no map comes near, but #cc79a7 with
 /// cividis, which goes through grey, and ConSurf's own yellow for grades of too few data.

@@ -28,6 +28,8 @@ struct ColorScale {
 
   /// sRGB. Beyond the range: the colour of its end. All numbers equal: the middle of the map. NaN: missing_color.
   glm::vec3 color(double number) const;
+  /// How many colours there are, where these are steps; 0: they run into each other.
+  std::size_t steps() const { return own_map ? 0 : map_steps(map); }
 };
 
 }  // namespace meniscus

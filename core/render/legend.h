@@ -45,6 +45,10 @@ class Legend {
   /// Pixels left for the molecule, at the top left.
   glm::ivec2 molecule_size() const { return molecule_size_; }
 
+  /// What is drawn, and where in the picture.
+  const std::vector<LegendText>& texts() const { return texts_; }
+  const std::vector<LegendBox>& boxes() const { return boxes_; }
+
   /// The whole picture: `molecule`, of molecule_size(), and the legend. On a background letters are dark or light,
   /// whichever it needs; on none (transparent) they are dark, as for paper. AOVs of the strip are those of a miss.
   Framebuffer add_to(const Framebuffer& molecule, const std::optional<glm::vec3>& background) const;

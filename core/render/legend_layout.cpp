@@ -45,22 +45,12 @@ std::string tick_text(const ColorScale& scale, double number) {
   return text;
 }
 
-/// Where a bar has ticks: at round numbers, at most so many. Ends that are not round go without, for they say no more
-/// than that some number was the least, unless numbers lie beyond them or the round ones are too few to read the bar
-/// by.
+/// Where a bar has ticks, the more important first: both ends, and round numbers between, at most so many.
 std::vector<double> tick_numbers(const ColorScale& scale, int most) {
   const double low = scale.range[0], high = scale.range[1];
   if (low == high) return {low};
+  std::vector<double> numbers{low, high};
   const std::vector<double> round = round_numbers(low, high, most);
-  const auto is_round = [&](double end) {
-    if (round.size() < 2) return true;
-    const double steps = (end - round[0]) / (round[1] - round[0]);
-    return std::abs(steps - std::round(steps)) < 1e-6;
-  };
-  std::vector<double> numbers;
-  const auto beyond = [&](auto is_beyond) { return std::ranges::any_of(scale.value, is_beyond); };
-  if (is_round(low) || beyond([&](double v) { return v < low; })) numbers.push_back(low);
-  if (is_round(high) || beyond([&](double v) { return v > high; })) numbers.push_back(high);
   numbers.insert(numbers.end(), round.begin(), round.end());
   return numbers;
 }
@@ -145,22 +135,32 @@ void Legend::keep_entries(std::size_t most) {
 void Legend::add_bar(glm::ivec2 low, glm::ivec2 high, bool upright) {
   const int length = upright ? high.y - low.y : high.x - low.x;
   const double width = bar_->range[1] - bar_->range[0];
-  LegendBox box{low, high, {}};
-  for (int n = 0; n < length; ++n) box.colors.push_back(bar_->color(bar_->range[0] + width * (n + 0.5) / length));
-  boxes_.push_back(std::move(box));
-  const std::vector<double> numbers = tick_numbers(*bar_, std::min(5, length / line() / 2));
   std::vector<glm::ivec2> taken;  // along the bar
-  for (const double number : numbers) {
+  const auto add_tick = [&](double number, int along) {
     const std::string text = tick_text(*bar_, number);
-    const double share = width > 0.0 ? (number - bar_->range[0]) / width : 0.5;
-    const int along = static_cast<int>(std::lround(share * length));
     const int half = upright ? line() / 2 : (font_.width(text) + font_.height()) / 2;
     if (std::ranges::any_of(taken, [&](const glm::ivec2& t) { return along - half < t.y && along + half > t.x; }))
-      continue;
+      return;
     taken.emplace_back(along - half, along + half);
     texts_.push_back({text, upright ? glm::ivec2(high.x + font_.height() / 2, high.y - along)
                                     : glm::ivec2(low.x + along - font_.width(text) / 2, high.y + font_.height())});
+  };
+  if (const auto steps = static_cast<int>(bar_->steps()); steps > 0 && width > 0.0) {
+    for (int n = 0; n < steps; ++n) {
+      const int from = n * length / steps, to = (n + 1) * length / steps;
+      const double number = bar_->range[0] + width * n / (steps - 1);
+      boxes_.push_back({upright ? glm::ivec2(low.x, high.y - to) : glm::ivec2(low.x + from, low.y),
+                        upright ? glm::ivec2(high.x, high.y - from) : glm::ivec2(low.x + to, high.y),
+                        {bar_->color(number)}});
+      add_tick(number, (from + to) / 2);
+    }
+    return;
   }
+  LegendBox box{low, high, {}};
+  for (int n = 0; n < length; ++n) box.colors.push_back(bar_->color(bar_->range[0] + width * (n + 0.5) / length));
+  boxes_.push_back(std::move(box));
+  for (const double number : tick_numbers(*bar_, std::min(5, length / line() / 2)))
+    add_tick(number, static_cast<int>(std::lround((width > 0.0 ? (number - bar_->range[0]) / width : 0.5) * length)));
 }
 
 void Legend::shift_to(glm::ivec2 place) {
@@ -211,8 +211,9 @@ void Legend::lay_out_bottom(const std::string& title) {
     y += line();
   }
   if (bar_) {
-    const int end = 2 * em;  // half a number reaches past each end of the bar
-    if (room < 14 * em) too_small(picture_size_);
+    int end = 2 * em;  // half a number reaches past each end of the bar
+    for (const double number : bar_->range) end = std::max(end, (font_.width(tick_text(*bar_, number)) + em) / 2);
+    if (room < 14 * em || room < 4 * end) too_small(picture_size_);
     add_bar({end, y}, {std::min(room - end, 30 * em), y + em + em / 2}, false);
     y += 3 * em + em / 2;
   }

@@ -2,9 +2,13 @@
 // Legends: their place at every size, what is drawn where, transparency, and names that do not behave.
 #include "core/render/legend.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
+#include <utility>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
@@ -104,6 +108,61 @@ TEST(Legend, TheBarRunsThroughTheMapFromBelow) {
   EXPECT_GT(row_of(0.0), row_of(0.5));
   EXPECT_GT(row_of(0.5), row_of(1.0));
   EXPECT_GT(row_of(1.0), 0);
+}
+
+TEST(Legend, BothEndsOfABarHaveTheirNumbers) {
+  for (const glm::ivec2 size : {glm::ivec2(800, 600), {600, 800}, {1920, 400}, {300, 200}, {400, 600}}) {
+    for (const auto& [low, high] : {std::pair(-5.0, 5.0), {11.37, 114.7}, {0.0, 1e-6}, {-0.01234, -0.0123}}) {
+      const Legend legend(numbers(low, high), size);
+      const auto place_of = [&](double number) {
+        const std::string text = fmt::format("{:.4g}", number);
+        const auto found = std::ranges::find(legend.texts(), text, &LegendText::text);
+        EXPECT_NE(found, legend.texts().end()) << text;
+        return found == legend.texts().end() ? glm::ivec2(0) : found->place;
+      };
+      ASSERT_EQ(legend.boxes().size(), 1u);
+      const LegendBox& bar = legend.boxes().front();
+      const int em = std::max(9, std::min(size.x, size.y) / 30);
+      if (size.x >= size.y) {
+        EXPECT_EQ(place_of(low).y, bar.high.y);
+        EXPECT_EQ(place_of(high).y, bar.low.y);
+      } else {
+        EXPECT_LT(place_of(low).x, bar.low.x + em);
+        EXPECT_GT(place_of(high).x, bar.high.x - 8 * em);
+      }
+      // None runs into another one.
+      const Font font(em);
+      for (const LegendText& a : legend.texts())
+        for (const LegendText& b : legend.texts()) {
+          if (&a == &b) continue;
+          const bool beside =
+              a.place.x + font.width(a.text) <= b.place.x || b.place.x + font.width(b.text) <= a.place.x;
+          EXPECT_TRUE(beside || std::abs(a.place.y - b.place.y) >= em) << a.text << " " << b.text;
+        }
+    }
+  }
+}
+
+TEST(Legend, AMapOfStepsIsABoxAClass) {
+  ColorKey key = numbers(1.0, 9.0);
+  key.scale->map = ColorMap::consurf;
+  for (const glm::ivec2 size : {glm::ivec2(800, 600), {600, 800}}) {
+    const Legend legend(key, size);
+    ASSERT_EQ(legend.boxes().size(), 9u);
+    for (std::size_t n = 0; n < 9; ++n) {
+      const LegendBox& box = legend.boxes()[n];
+      EXPECT_EQ(box.colors, std::vector<glm::vec3>{mapped_color(ColorMap::consurf, static_cast<double>(n) / 8.0)});
+      const auto text = std::ranges::find(legend.texts(), std::to_string(n + 1), &LegendText::text);
+      ASSERT_NE(text, legend.texts().end());
+      if (size.x > size.y) {
+        EXPECT_TRUE(box.low.y <= text->place.y && text->place.y <= box.high.y);
+        EXPECT_NEAR(box.high.y - box.low.y, (legend.boxes()[0].high.y - legend.boxes()[8].low.y) / 9.0, 1.0);
+      }
+    }
+  }
+  // A number between two classes has the colour of one of them.
+  EXPECT_EQ(key.scale->color(3.4), key.scale->color(3.0));
+  EXPECT_EQ(key.scale->color(3.6), key.scale->color(4.0));
 }
 
 TEST(Legend, SwatchesHaveTheColoursAndMissingNumbersOne) {
@@ -234,14 +293,14 @@ TEST(Legend, ChainsStandByName) {
   EXPECT_GE(row_of(blue), 0);
 }
 
-TEST(Legend, EndsThatAreNotRoundHaveNoNumber) {
+TEST(Legend, NumbersBeyondAnEndAreSaidThere) {
   const auto ticks = [](double low, double high, std::vector<double> values) {
     ColorKey key = numbers(low, high);
     key.scale->value = std::move(values);
     return with_legend(key, {800, 600}, glm::vec3(1.0f));
   };
   const Framebuffer plain = ticks(4.0, 114.9, {4.0, 114.9});
-  EXPECT_FALSE(plain.color == ticks(4.0, 114.9, {4.0, 200.0}).color) << "beyond the end, which then has its number";
+  EXPECT_FALSE(plain.color == ticks(4.0, 114.9, {4.0, 200.0}).color) << "beyond the end";
   EXPECT_FALSE(ticks(0.0, 100.0, {}).color == ticks(0.5, 100.5, {}).color);
 }
 
