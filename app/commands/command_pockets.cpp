@@ -18,6 +18,7 @@
 #include "app/process/program_error.h"
 #include "app/reports/notes.h"
 #include "app/reports/pocket_figure.h"
+#include "app/reports/pocket_hints.h"
 #include "app/reports/pocket_report.h"
 #include "core/base/output_file.h"
 #include "core/base/text.h"
@@ -78,6 +79,7 @@ void run_one(const PocketsCommand& command, const CLI::App& words) {
   PocketComputer computer(command.molecule.surface, command.pockets);
   const MoleculePockets pockets = computer.compute(structure, left_out);
   const PocketReport report{structure, pockets, computer.device()};
+  for (const std::string& hint : pocket_hints(report)) say(command.molecule, "note: " + hint);
   if (!command.mesh.empty())
     write_mesh_file(format_of(command.mesh), command.mesh, command.existing(),
                     pocket_file(pocket_mesh(pockets.found, command.mesh_tolerance)));

@@ -6,12 +6,14 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include "app/commands/pockets_command.h"
 #include "app/process/program_error.h"
 #include "app/reports/growing_table.h"
 #include "app/reports/notes.h"
+#include "app/reports/pocket_hints.h"
 #include "app/reports/pocket_report.h"
 #include "app/reports/run_frames.h"
 #include "core/queries/cavity_tracks.h"
@@ -67,6 +69,10 @@ class PocketFrames {
   }
 
   MadeFrame finish(const PocketReport& report, const FrameNote& note) {
+    if (!hinted_)
+      for (const std::string& hint : pocket_hints(report))
+        say(command_.molecule, fmt::format("note: frame {}: {}", note.frame, hint));
+    hinted_ = true;
     if (command_.csv != "-") print_now(command_.json ? pocket_json_line(report, note) : pocket_row(report, note));
     std::vector<Cavity> cavities;
     for (const Pocket& pocket : report.pockets.found.pockets) {
@@ -82,6 +88,7 @@ class PocketFrames {
   CavityTracks tracks_;
   bool takes_out_anew_ = false;  ///< in each frame
   std::vector<bool> left_out_;
+  bool hinted_ = false;
 };
 
 }  // namespace

@@ -59,9 +59,8 @@ std::string residues_of(const Structure& structure, std::vector<std::uint32_t> a
     const Atom& atom = structure.atoms[a];
     if (previous && previous->residue == atom.residue) continue;
     previous = &atom;
-    text += fmt::format("{}{}{}{}{}", text.empty() ? "" : " ", atom.chain.empty() ? "" : atom.chain + ":",
-                        atom.residue_name, atom.residue_number,
-                        atom.insertion_code == ' ' ? "" : std::string(1, atom.insertion_code));
+    text += fmt::format("{}{}:{}:{}{}", text.empty() ? "" : " ", atom.chain == " " ? "" : atom.chain, atom.residue_name,
+                        atom.residue_number, atom.insertion_code == ' ' ? "" : std::string(1, atom.insertion_code));
   }
   return text;
 }

@@ -33,7 +33,8 @@ std::vector<SeriesValue> series_values(const Molecule& molecule, const std::vect
 std::string series_csv_header(const std::vector<SeriesValue>& values);
 std::string series_csv_row(const std::vector<SeriesValue>& values, const FrameNote& note);
 
-/// The residues of these atoms of the structure, in any order: "A:LEU12 A:PHE30B", in the order of the file.
+/// The residues of these atoms of the structure, in any order: "A:LEU:12 A:PHE:30B", in the order of the file;
+/// ":LEU:12" where it names no chains.
 std::string residues_of(const Structure& structure, std::vector<std::uint32_t> atoms);
 /// Those whose atoms line a cavity of the object.
 std::string lining_residues(const Structure& structure, const SurfaceObject& object, const Cavity& cavity);

@@ -194,5 +194,33 @@ TEST(Pockets, WhatMakesNoSenseIsSaid) {
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "x.ply"));
 }
 
+// What the table does not show: a ligand beside the molecule, and a peptide in a chain of its own.
+TEST(Pockets, LigandsInNoPocketAndShortChainsAreNamed) {
+  const TemporaryFolder folder;
+  std::string text = tube(true);
+  const auto add = [&](const char* record, const char* residue, char chain, int number, double x, double z) {
+    text += fmt::format("{:<6}{:>5}  C1  {:>3} {}{:>4}    {:>8.3f}{:>8.3f}{:>8.3f}  1.00 10.00           C\n", record,
+                        900, residue, chain, number, x, 0.0, z);
+  };
+  add("HETATM", "PU8", 'X', 1224, 30.0, 5.0);
+  for (int n = 1; n <= 3; ++n) add("ATOM", "GLY", 'P', n, 0.0, 4.0 * n);
+  const std::string file = folder.file("m.pdb", text);
+  const ProgramResult table = pockets({file});
+  ASSERT_EQ(table.exit_code, 0) << table.err;
+  EXPECT_NE(table.err.find("less than half of X:PU8:1224 lies in one pocket; a --large-probe above 4 Å"),
+            std::string::npos)
+      << table.err;
+  EXPECT_NE(table.err.find("fill the pockets they are bound in: P; take them out by --ligand 'ligand or chain \"P\"'"),
+            std::string::npos)
+      << table.err;
+  const Json json = Json::parse(pockets({file, "--json", "-q"}).out);
+  EXPECT_EQ(json["short_chains"], Json::array({"P"}));
+  EXPECT_EQ(json["left_out"][0]["name"], "X:PU8:1224");
+  const ProgramResult taken = pockets({file, "--ligand", "ligand or chain \"P\""});
+  EXPECT_EQ(taken.exit_code, 0) << taken.err;
+  EXPECT_EQ(taken.err.find("short chains"), std::string::npos) << taken.err;
+  EXPECT_NE(taken.out.find("P:GLY:2"), std::string::npos) << taken.out;
+}
+
 }  // namespace
 }  // namespace meniscus::test

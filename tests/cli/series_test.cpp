@@ -207,7 +207,7 @@ TEST_F(Series, CavitiesKeepTheirNumbersUntilTheyClose) {
             "0:1 born; 0:2 born; 1:1 kept; 1:2 kept; 2:1 kept; 2:2 closed; 3:1 kept; 3:3 born; 4:1 kept; 4:3 kept; ");
   auto first = rows[0];  // the larger one
   EXPECT_NEAR(std::stod(first["x"]), 14.0, 0.2);
-  EXPECT_EQ(first["residues"].find("\"B:CAG1 "), 0u) << first["residues"];
+  EXPECT_EQ(first["residues"].find("\"B:CAG:1 "), 0u) << first["residues"];
   EXPECT_EQ(std::count(first["residues"].begin(), first["residues"].end(), 'B'), 6);
   expect_error({dry_, "--frames", "all", "--only", "2", "--csv-cavities", "-"}, 2, "--only");
   expect_error({dry_, "--frames", "all", "--surface", "sas", "--csv-cavities", "-"}, 2, "solvent-excluded");
