@@ -30,19 +30,8 @@ std::string unplaced_ligands(const PocketReport& report) {
                      report.pockets.found.request.large_probe_radius);
 }
 
-std::string filling_chains(const PocketReport& report) {
-  const std::vector<std::string> chains = short_chains(report);
-  if (chains.empty()) return {};
-  std::string selection = "ligand";
-  for (const std::string& chain : chains) selection += fmt::format(" or chain \"{}\"", chain);
-  return fmt::format(
-      "short chains stay in the molecule and fill the pockets they are bound in: {}; take them out by "
-      "--ligand '{}'",
-      fmt::join(chains, ", "), selection);
-}
-
-}  // namespace
-
+/// Chains of at most 30 residues beside one at least three times as long, such as peptides that are bound to it, that
+/// were not taken out; by name, in the order of the file.
 std::vector<std::string> short_chains(const PocketReport& report) {
   constexpr std::size_t kShort = 30, kTimes = 3;
   std::set<std::uint32_t> taken;
@@ -64,6 +53,19 @@ std::vector<std::string> short_chains(const PocketReport& report) {
   });
   return order;
 }
+
+std::string filling_chains(const PocketReport& report) {
+  const std::vector<std::string> chains = short_chains(report);
+  if (chains.empty()) return {};
+  std::string selection = "ligand";
+  for (const std::string& chain : chains) selection += fmt::format(" or chain \"{}\"", chain);
+  return fmt::format(
+      "short chains stay in the molecule and fill the pockets they are bound in: {}; take them out by "
+      "--ligand '{}'",
+      fmt::join(chains, ", "), selection);
+}
+
+}  // namespace
 
 std::vector<std::string> pocket_hints(const PocketReport& report) {
   std::vector<std::string> hints;

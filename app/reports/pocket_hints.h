@@ -9,10 +9,6 @@
 
 namespace meniscus {
 
-/// Chains of at most 30 residues beside one at least three times as long, such as peptides that are bound to it, that
-/// were not taken out; by name, in the order of the file.
-std::vector<std::string> short_chains(const PocketReport& report);
-
 /// Sentences that say what to try next; none where there is nothing to say.
 std::vector<std::string> pocket_hints(const PocketReport& report);
 

@@ -10,7 +10,6 @@
 #include <nlohmann/json.hpp>
 
 #include "app/reports/area_csv.h"
-#include "app/reports/pocket_hints.h"
 #include "app/reports/series_csv.h"
 #include "core/base/text.h"
 
@@ -80,7 +79,6 @@ Json report_object(const PocketReport& report) {
           {"probes_in_mouths", found.probe_count},
           {"pockets", pockets},
           {"left_out", left_out},
-          {"short_chains", short_chains(report)},
           {"device", report.device}};
 }
 

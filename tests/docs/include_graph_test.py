@@ -13,7 +13,8 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 ORDER = [
     ["core/base", "gpu_shaders"],
     ["core/text"],
-    ["core/math", "core/volume"],
+    ["core/math"],
+    ["core/volume"],
     ["core/structure"],
     ["core/structure/selection"],
     ["core/structure/radii"],
