@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "app/options/idle_options.h"
 #include "app/options/scene_file.h"
 #include "app/options/usage_faults.h"
 #include "app/process/build_version.h"
@@ -114,6 +115,13 @@ bool is_command(std::string_view word) {
   return std::ranges::any_of(kCommands, [&](const Command& command) { return word == command.name; });
 }
 
+/// On stderr, unless quiet.
+void tell_idle_options(const CLI::App& command) {
+  const CLI::Option* const quiet = command.get_option_no_throw("--quiet");
+  for (const std::string& sentence : idle_options(command))
+    if (!quiet || quiet->count() == 0) std::cerr << "meniscus: " << escaped(sentence) << std::endl;
+}
+
 [[noreturn]] void refuse_unknown_command(std::string_view word) {
   std::vector<std::string_view> names;
   for (const Command& command : kCommands) names.emplace_back(command.name);
@@ -155,6 +163,8 @@ void run(int argc, char** argv) {
   let_the_last_count(program);
   program.footer(kExamples);
   for (const Command& command : kCommands) command.add(*program.add_subcommand(command.name)->group("Commands"));
+  // All options are known then, and no command has begun.
+  program.parse_complete_callback([&program] { tell_idle_options(named_command(program)); });
   SceneWords scene = with_scene(program, {words.begin() + 1, words.end()});
   std::ranges::reverse(scene.words);
   try {

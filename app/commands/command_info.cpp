@@ -163,6 +163,7 @@ void add_info(CLI::App& command) {
            "  meniscus info run.psf --trajectory run.dcd");
   auto options = std::make_shared<MoleculeOptions>();
   add_atom_options(command, *options);
+  for (const char* option : {"--show", "--instances"}) command.remove_option(command.get_option(option));
   command.get_option("--radii")->expected(0, 1);  // alone it asks for what is printed anyway
   auto trajectory = std::make_shared<std::string>();
   command.add_option("--trajectory", *trajectory, "Coordinates of the atoms of FILE, frame by frame; tell of them too")

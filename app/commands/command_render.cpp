@@ -32,7 +32,6 @@
 #include "core/scene/picture_device.h"
 #include "core/scene/view_aim.h"
 #include "app/reports/notes.h"
-#include "app/options/run_camera_options.h"
 #include "app/options/camera_file.h"
 
 namespace meniscus {
@@ -148,7 +147,6 @@ void name_output(RenderCommand& command) {
 void run(const RenderCommand& command) {
   tell_hue_changes(command);
   if (command.frames.asked()) return render_frames(command);
-  if (command.run_camera.moves()) throw UsageError(kMovesWithoutFrames);
   check_image_path(command.output.path);
   if (command.aovs && !holds_aovs(command.output.path))
     throw UsageError("--aovs needs an .exr output; other formats hold colour only");
@@ -161,8 +159,6 @@ void run(const RenderCommand& command) {
   } else if (command.stats) {
     throw UsageError("--stats tells the stages of a view; add --extent");
   }
-  if (command.annotations.time_stamp) throw UsageError("--time-stamp is for a run of frames; add --frames");
-  if (!command.annotations.curve.empty()) throw UsageError("--curve is for a run of frames; add --frames");
   if (command.legend.asked() && command.molecule.color.by == ColorScheme::By::fixed &&
       command.molecule.color.rules.empty())
     throw UsageError("--legend has nothing to explain where all is of one colour; choose another --color");

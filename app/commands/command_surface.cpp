@@ -49,9 +49,6 @@ void write(const std::string& path, const std::string& text, Existing existing) 
 
 void run(const SurfaceCommand& command) {
   if (command.frames.asked()) return surface_frames(command);
-  if (!command.series_csv.empty() || !command.cavity_csv.empty() || !command.plot.empty())
-    throw UsageError(
-        "--csv-series, --csv-cavities and --plot need a run of frames: a trajectory, or --frames of the models");
   check_outputs(command);
   const Molecule molecule = load_molecule(command.molecule);
   std::vector<AreaColumn> columns = area_columns(molecule.structure, molecule.objects, command.molecule.surface.kind);
@@ -145,6 +142,7 @@ void add_surface(CLI::App& command) {
   auto state = std::make_shared<SurfaceCommand>();
   state->molecule.surface.timing = StageTiming::exact;  // each is printed
   add_atom_options(command, state->molecule);
+  command.remove_option(command.get_option("--show"));  // numbers are of whole surfaces
   add_surface_options(command, state->molecule);
   add_division_options(command, state->molecule);
   add_trajectory_argument(command);

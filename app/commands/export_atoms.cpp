@@ -85,6 +85,7 @@ void add_export_atoms(CLI::App& command) {
            "is described in exporters/blender/FORMAT.md; radii and colours are those of the first frame of a run.");
   auto state = std::make_shared<AtomsCommand>();
   add_atom_options(command, state->molecule);
+  command.remove_option(command.get_option("--show"));
   add_surface_options(command, state->molecule);
   add_color_options(command, state->molecule);
   add_frame_options(command, state->frames);

@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 
 #include "app/options/camera_file.h"
-#include "app/options/run_camera_options.h"
 #include "app/process/program_error.h"
 #include "app/reports/notes.h"
 #include "core/queries/combine.h"
@@ -18,10 +17,7 @@ namespace meniscus {
 
 void check_export(const FigureCommand& command, std::string_view program) {
   check_camera_file(command.save_camera, command.output.existing());
-  if (!command.frames.asked()) {
-    if (command.run_camera.moves()) throw UsageError(kMovesWithoutFrames);
-    return;
-  }
+  if (!command.frames.asked()) return;
   if (!command.save_camera.empty() && command.run_camera.moves()) throw UsageError(kNoSingleCamera);
   if (!command.figure.objects.empty() || command.figure.hides_surface)
     throw UsageError(

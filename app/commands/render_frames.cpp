@@ -55,7 +55,6 @@ class PictureSink {
           std::make_unique<FilmWriter>(path, command.output.existing(), size, command.frames_per_second, command.film);
       return;
     }
-    if (command.film != FilmFormat{}) throw UsageError("--codec, --crf, --bits, --chroma: of films only");
     numbered_ = NumberedPath::parse(path);
     if (!numbered_) {
       const std::filesystem::path plain(path);

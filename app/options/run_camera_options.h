@@ -8,10 +8,6 @@
 
 namespace meniscus {
 
-/// For commands that were given a motion of the camera, but no run.
-inline constexpr const char* kMovesWithoutFrames =
-    "--camera-path, --turntable and --follow move the camera over a run of frames; add --frames";
-
 /// --camera-path, --turntable, --follow. The request must live as long as the command.
 void add_run_camera_options(CLI::App& command, CameraMotionRequest& motion);
 

@@ -27,6 +27,10 @@ class CameraCourse {
   CameraCourse(const CameraMotionRequest& motion, const FrameRun& frames, const glm::dvec3& pivot)
       : motion_(motion), pivot_(pivot) {
     count_ = static_cast<double>(frames.numbers().size());
+    if (motion.turns != 0.0 && frames.numbers().size() == 1)
+      throw RequestError(
+          "--turntable: the camera turns from frame to frame, and this run has one frame; --repeat N shows a frame N "
+          "times");
     if (!motion.follow) return;
     followed_ = followed_of(frames.structure());
     start_ = middle_of(frames.structure(), followed_);

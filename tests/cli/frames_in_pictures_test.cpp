@@ -241,7 +241,7 @@ TEST_F(FramesInPictures, ACurveGoesAlong) {
   refused({"--curve-column", "volume"}, 2, "--curve");
   const ProgramResult one = meniscus({"render", file_, "-q", "-o", folder + "/one.png", "--curve", table});
   EXPECT_EQ(one.exit_code, 2);
-  EXPECT_NE(one.err.find("--curve is for a run of frames"), std::string::npos) << one.err;
+  EXPECT_NE(one.err.find("--curve has nothing to do: there is no run of frames"), std::string::npos) << one.err;
 }
 
 TEST_F(FramesInPictures, FilmWithoutFfmpegSaysSo) {

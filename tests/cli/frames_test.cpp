@@ -169,7 +169,7 @@ TEST_F(Frames, WrongRequests) {
   expect_error({"--frames", "all", "--smooth", "4"}, 2, "odd");
   expect_error({"--frames", "all", "--superpose", "name CA"}, 2, "selects 1 of 4 atoms, and needs at least 3");
   expect_error({"--frames", "all", "--model", "2"}, 2, "leave --model away");
-  expect_error({"--frames", "all", "--reference", "8"}, 2, "0 to 7");
+  expect_error({"--frames", "all", "--center", "all", "--reference", "8"}, 2, "0 to 7");
   expect_error({"--frames", "0", "--whole"}, 3, "frame 0: has no periodic box");
   const std::string other = folder_.file("other.xyz", "2\n\nC 0 0 0\nC 0 0 2\n");
   expect_error({"--trajectory", other}, 3, "its frames have 2 atoms");

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The table of what options need.
+#include "app/options/idle_options.h"
+
+#include <algorithm>
+#include <cctype>
+#include <initializer_list>
+#include <string_view>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "app/film/film_format.h"
+#include "app/process/program_error.h"
+#include "core/render/look_presets.h"
+#include "core/text/parse_number.h"
+
+namespace meniscus {
+namespace {
+
+/// A command whose options are parsed, as the table asks about it.
+class Asked {
+ public:
+  explicit Asked(const CLI::App& command) : command_(command) {}
+
+  bool has(const char* option) const { return command_.get_option_no_throw(option) != nullptr; }
+  /// Was it given?
+  bool given(const char* option) const {
+    const CLI::Option* const found = command_.get_option_no_throw(option);
+    return found && found->count() > 0;
+  }
+  bool any(std::initializer_list<const char*> options) const {
+    return std::ranges::any_of(options, [&](const char* option) { return given(option); });
+  }
+  /// The value that counts; empty if there is none.
+  std::string value(const char* option) const {
+    return given(option) ? command_.get_option_no_throw(option)->results().back() : "";
+  }
+  const std::string& name() const { return command_.get_name(); }
+
+  bool is_run() const {
+    const auto counts = [&](const char* option) { return given(option) && value(option) != "1"; };
+    return any({"--trajectory", "--frames", "--begin", "--end", "--only"}) || counts("--stride") || counts("--repeat");
+  }
+  bool is_film() const { return is_film_path(value("--output")); }
+
+  /// Of the preset, if the option does not say it.
+  double look(const char* option, float Material::*part) const {
+    double number = 0.0;
+    if (given(option) && parse_number(value(option), number)) return number;
+    return preset().material.*part;
+  }
+  double shade() const {
+    double number = 0.0;
+    const char* const option = "--ambient-occlusion";
+    return given(option) && parse_number(value(option), number) ? number : preset().ambient_occlusion;
+  }
+  /// Colours are not simply those given. Objects may have a material of their own.
+  bool is_shaded() const { return given("--object") || look("--ambient", &Material::ambient) < 1.0; }
+  bool has_highlights() const { return given("--object") || look("--specular", &Material::specular) > 0.0; }
+
+ private:
+  Look preset() const {
+    const CLI::Option* const option = command_.get_option_no_throw("--preset");
+    return preset_look(given("--preset") ? option->as<LookPreset>() : LookRequest{}.preset, {1, 1});
+  }
+
+  const CLI::App& command_;
+};
+
+/// What some options need to do anything.
+struct Need {
+  std::vector<const char*> options;
+  bool (*is_met)(const Asked&);
+  const char* missing;  ///< a sentence that says what is not there, and what to do
+  bool is_refused = false;
+};
+
+bool has_legend(const Asked& asked) { return asked.any({"--legend", "--legend-file"}); }
+
+bool ends_as(const std::string& path, std::initializer_list<std::string_view> endings) {
+  return std::ranges::any_of(endings, [&](std::string_view ending) { return path.ends_with(ending); });
+}
+
+const std::vector<Need>& needs() {
+  static const std::vector<Need> kNeeds{
+      {{"--trajectory-atoms", "--trust-atom-order", "--whole", "--superpose", "--center", "--reference", "--smooth",
+        "--camera-path", "--turntable", "--follow", "--time-stamp", "--curve", "--csv-series", "--csv-cavities",
+        "--plot"},
+       [](const Asked& asked) { return !asked.has("--stride") || asked.is_run(); },
+       "there is no run of frames; add --trajectory FILE, or --frames all for the models of FILE",
+       true},
+      {{"--jobs", "--progress"},
+       [](const Asked& asked) { return !asked.has("--stride") || asked.is_run(); },
+       "there is no run of frames"},
+      {{"--reference"},
+       [](const Asked& asked) {
+         return asked.any({"--superpose", "--center"});
+       },
+       "it is the frame that --superpose and --center refer to; add one of them",
+       true},
+      {{"--trajectory-atoms", "--trust-atom-order"},
+       [](const Asked& asked) { return asked.given("--trajectory"); },
+       "the frames are models of FILE itself; add --trajectory FILE",
+       true},
+      {{"--superpose", "--center", "--reference"},
+       [](const Asked& asked) {
+         if (asked.name() == "pockets") return asked.any({"--csv", "--json"});
+         return asked.name() != "surface" || asked.any({"--csv-cavities", "--gradients"});
+       },
+       "areas and volumes stay the same however a frame is turned and moved; places and gradients, which are written "
+       "to "
+       "files, do not"},
+      {{"--codec", "--crf", "--bits", "--chroma"},
+       [](const Asked& asked) { return !asked.has("--samples") || asked.is_film(); },
+       "the output is no film; name one, such as -o a.mp4",
+       true},
+      {{"--fps"},
+       [](const Asked& asked) {
+         return asked.has("--samples") ? asked.is_film() : !asked.has("--stride") || asked.is_run();
+       },
+       "the output is no film"},
+      {{"--cap-color", "--cap-hatching"},
+       [](const Asked& asked) { return asked.given("--clip"); },
+       "nothing is cut, so there are no caps; add --clip PLANE"},
+      {{"--film-opacity"},
+       [](const Asked& asked) { return asked.given("--opacity"); },
+       "all of the surface is opaque; add --opacity"},
+      {{"--stick-radius"},
+       [](const Asked& asked) {
+         return asked.any({"--sticks", "--balls"});
+       },
+       "there are no sticks; add --sticks EXPR or --balls EXPR"},
+      {{"--tube-radius"},
+       [](const Asked& asked) { return asked.given("--tube"); },
+       "there is no tube; add --tube EXPR"},
+      {{"--legend-title", "--legend-size", "--legend-place"}, has_legend, "there is no legend; add --legend"},
+      {{"--color-title", "--color-unit"},
+       [](const Asked& asked) { return has_legend(asked) || asked.name() == "preview"; },
+       "they name the scale of a legend, and there is none"},
+      {{"--light", "--light-strength"},
+       [](const Asked& asked) { return asked.is_shaded() || asked.has_highlights(); },
+       "with --ambient 1, as --preset flat has it, colours are exactly those given; add a smaller --ambient"},
+      {{"--roughness"},
+       [](const Asked& asked) { return asked.is_shaded(); },
+       "with --ambient 1, as --preset flat has it, nothing is shaded; add a smaller --ambient"},
+      {{"--shininess"},
+       [](const Asked& asked) { return asked.has_highlights(); },
+       "there are no highlights; add --specular"},
+      {{"--ambient-occlusion-radius"},
+       [](const Asked& asked) { return asked.shade() > 0.0; },
+       "no shade is cast; add --ambient-occlusion"},
+      {{"--linear-alpha"},
+       [](const Asked& asked) {
+         if (asked.has("--serve")) return true;  // pictures are exported later
+         const std::string ground = asked.value("--background");
+         return (ground.empty() || ground == "transparent") &&
+                ends_as(asked.value("--output"), {".png", ".tif", ".tiff"});
+       },
+       "it is for the edges of transparent .png and .tif pictures"},
+      {{"--dpi"},
+       [](const Asked& asked) {
+         return asked.has("--samples") || asked.any({"--width", "--height"});
+       },
+       "the size is in pixels; add --width or --height with a length, such as 85mm"},
+      {{"--size", "--width", "--height", "--projection", "--view", "--turn", "--zoom-to", "--camera"},
+       [](const Asked& asked) {
+         if (asked.name() != "mesh" && asked.name() != "ply") return true;
+         return asked.given("--tolerance-pixels") ||
+                (asked.name() == "mesh" && asked.given("--camera") && !asked.any({"--tolerance", "--density"}));
+       },
+       "a mesh has no picture; they matter for --tolerance-pixels alone"},
+      {{"--show"},
+       [](const Asked& asked) { return asked.name() != "pockets" || asked.given("--figure"); },
+       "it says what --figure shows; --select takes some of the atoms"},
+      {{"--tolerance"},
+       [](const Asked& asked) { return asked.name() != "pockets" || asked.given("--mesh"); },
+       "it is that of a mesh; add --mesh FILE"},
+      {{"--unknown-element"},
+       [](const Asked& asked) { return asked.name() != "info"; },
+       "all atoms are told of, with a guessed radius where the element is unknown"},
+      {{"--force"},
+       [](const Asked& asked) { return asked.name() != "preview" || asked.given("--record"); },
+       "it is for --record alone"}};
+  return kNeeds;
+}
+
+bool has_unit(const std::string& text) {
+  return !text.empty() && std::isalpha(static_cast<unsigned char>(text.back()));
+}
+
+/// A value that is possible, and more likely one of another unit.
+void add_unlikely_values(const Asked& asked, std::vector<std::string>& sentences) {
+  constexpr double kSmallestUsualProbe = 0.5, kSmallestUsualSide = 200.0;  // Å, pixels
+  double number = 0.0;
+  if (const std::string probe = asked.value("--probe");
+      parse_number(probe, number) && number > 0.0 && number < kSmallestUsualProbe)
+    sentences.push_back(
+        fmt::format("warning: --probe {} is in Å, and no solvent is so small; {} nm would be --probe {:g}", probe,
+                    probe, 10.0 * number));
+  for (const char* const side : {"--width", "--height"}) {
+    const std::string length = asked.value(side);
+    if (!has_unit(length) && parse_number(length, number) && number < kSmallestUsualSide)
+      sentences.push_back(
+          fmt::format("warning: {} {} is in pixels, which makes a small picture; in millimetres it is {} {}mm", side,
+                      length, side, length));
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> idle_options(const CLI::App& command) {
+  const Asked asked(command);
+  std::vector<std::string> sentences;
+  for (const Need& need : needs()) {
+    std::vector<std::string_view> idle;
+    for (const char* const option : need.options)
+      if (asked.given(option)) idle.emplace_back(option);
+    if (idle.empty() || need.is_met(asked)) continue;
+    const std::string sentence =
+        fmt::format("{} {} nothing to do: {}", fmt::join(idle, ", "), idle.size() == 1 ? "has" : "have", need.missing);
+    if (need.is_refused) throw UsageError(sentence);
+    sentences.push_back("note: " + sentence);
+  }
+  add_unlikely_values(asked, sentences);
+  return sentences;
+}
+
+}  // namespace meniscus

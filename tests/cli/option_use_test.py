@@ -1,0 +1,333 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Each option of each command changes a result, is refused, or says that it has nothing to do."""
+
+import concurrent.futures
+import functools
+import json
+import math
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+PROGRAM = sys.argv.pop(1)
+
+# They say how the work is done or what is told of it, and leave the result as it is.
+HOW = {"--threads", "--jobs", "--device", "--require-gpu", "--verify", "--progress", "--warnings", "--quiet", "--help",
+       "--help-all", "--force", "--stats", "--extent", "--trust-scene", "--trust-atom-order", "--link", "--addon"}
+# They say what to do with something that a file may hold, and are right to be silent where it does not.
+POLICIES = {"--unknown-element", "--missing-color", "--altloc", "--hydrogens", "--keep-water", "--keep-ions", "--whole",
+            "--cavities", "--instances", "--min-volume", "--cap-color", "--cap-hatching",
+            "--sticks", "--balls", "--spheres", "--tube", "--object"}
+
+
+def pdb(atoms, record="ATOM"):
+    return [f"{record:<6}{serial:5d} {name if len(name) > 3 else ' ' + name:<4}{altloc}{residue:>3} {chain}{number:4d}    "
+            f"{x:8.3f}{y:8.3f}{z:8.3f}{ {'A': 0.6, 'B': 0.4}.get(altloc, 1.0 - 0.01 * serial):6.2f}"
+            f"{10.0 + 3 * serial:6.2f}          {element:>2}"
+            for serial, (name, altloc, residue, chain, number, x, y, z, element) in enumerate(atoms, 1)]
+
+
+def molecule(models, turn=0.4, water=True, broken=False):
+    """Two chains, a ligand, water, an ion, a hydrogen and alternate locations; each model is turned and moved."""
+    atoms = [("N", " ", "ALA", "A", 1, 0.0, 0.0, 0.0, "N"), ("CA", " ", "ALA", "A", 1, 1.46, 0.0, 0.0, "C"),
+             ("C", " ", "ALA", "A", 1, 2.0, 1.42, 0.0, "C"), ("O", " ", "ALA", "A", 1, 1.3, 2.4, 0.1, "O"),
+             ("CB", " ", "ALA", "A", 1, 2.0, -0.8, 1.2, "C"), ("H", " ", "ALA", "A", 1, -0.5, 0.8, 0.3, "H"),
+             ("N", " ", "GLY", "A", 2, 3.3, 1.5, 0.0, "N"), ("CA", " ", "GLY", "A", 2, 4.0, 2.8, 0.2, "C"),
+             ("C", " ", "GLY", "A", 2, 5.4, 2.6, 0.6, "C"), ("O", "A", "GLY", "A", 2, 6.0, 1.5, 0.5, "O"),
+             ("O", "B", "GLY", "A", 2, 6.1, 3.6, 0.9, "O"),
+             ("N", " ", "ASP", "B", 1, 1.0, 1.0, 6.0, "N"), ("CA", " ", "ASP", "B", 1, 2.4, 1.0, 6.2, "C"),
+             ("C", " ", "ASP", "B", 1, 3.0, 2.4, 6.1, "C"), ("O", " ", "ASP", "B", 1, 2.4, 3.4, 6.0, "O"),
+             ("C1", " ", "LIG", "A", 9, 6.0, 0.0, 4.0, "C"), ("C2", " ", "LIG", "A", 9, 7.4, 0.2, 4.1, "C"),
+             ("O", " ", "HOH", "A", 21, -4.0, 1.0, 2.0, "O"), ("NA", " ", " NA", "A", 31, 0.0, -6.0, 3.0, "NA")]
+    lines = ["CRYST1   40.000   40.000   40.000  90.00  90.00  90.00 P 1           1",
+             "REMARK 350 BIOMOLECULE: 1", "REMARK 350 APPLY THE FOLLOWING TO CHAINS: A, B"]
+    for number, shift in ((1, 0.0), (2, 25.0)):
+        lines += [f"REMARK 350   BIOMT{row + 1}{number:4d}{float(row == 0):10.6f}{float(row == 1):10.6f}"
+                  f"{float(row == 2):10.6f}{shift if row == 0 else 0.0:15.5f}" for row in range(3)]
+    for model in range(models):
+        cosine, sine = math.cos(turn * model), math.sin(turn * model)
+        moved = [(*atom[:5], cosine * atom[5] - sine * atom[6] + 1.5 * model, sine * atom[5] + cosine * atom[6],
+                  atom[7] + 0.05 * model * n + (40.0 if broken and atom[:4] == ("O", " ", "ASP", "B") else 0.0), atom[8])
+                 for n, atom in enumerate(atoms) if water or atom[2] != "HOH"]
+        lines += [f"MODEL     {model + 1:4d}"] * (models > 1) + pdb(moved) + ["ENDMDL"] * (models > 1)
+    return "\n".join(lines + ["END", ""])
+
+
+def sphere(lid, models=1):
+    """Atoms on a sphere, which has a cavity; or without its lid, so that it is a pocket. Models are moved."""
+    points = [(math.acos(1 - 2 * (n + 0.5) / 44), math.pi * (1 + 5 ** 0.5) * n) for n in range(44)]
+    places = [(5 * math.sin(a) * math.cos(b), 5 * math.sin(a) * math.sin(b), 5 * math.cos(a)) for a, b in points]
+    lines = []
+    for model in range(models):
+        atoms = [("CA", " ", "ALA", "A", n, x + 9 * model, y, z - 0.05 * model ** 2 * (n % 3), "C")
+                 for n, (x, y, z) in enumerate(places, 1) if lid or z < 3.6]
+        lines += [f"MODEL     {model + 1:4d}"] * (models > 1) + pdb(atoms) + ["ENDMDL"] * (models > 1)
+    return "\n".join(lines + ["END", ""])
+
+
+def potential():
+    """A volume map around the molecule that falls along x."""
+    values = "\n".join(f"{0.3 * x - 2.0:.3f}" for x in range(14) for _ in range(14 * 14))
+    return ("object 1 class gridpositions counts 14 14 14\norigin -12 -14 -8\ndelta 2.5 0 0\ndelta 0 2.5 0\n"
+            "delta 0 0 2.5\nobject 2 class gridconnections counts 14 14 14\n"
+            "object 3 class array type double rank 0 items 2744 data follows\n" + values + "\n")
+
+
+def camera(x):
+    return {"position": [x, 5, 60], "target": [2, 1, 3], "up": [0, 1, 0], "projection": "perspective", "vertical_fov": 30}
+
+
+INPUTS = {
+    "one.pdb": molecule(1), "run.pdb": molecule(4), "other.pdb": molecule(3, 0.9), "dry.pdb": molecule(3, water=False),
+    "broken.pdb": molecule(3, broken=True), "odd.pdb": molecule(1).replace(" H\n", " Q\n").replace(" H   ALA", " Q   ALA"),
+    "cup.pdb": sphere(lid=False), "hollow.pdb": sphere(lid=True), "cups.pdb": sphere(False, 3), "map.dx": potential(),
+    "numbers.csv": "chain,number,first,second\nA,1,1.0,7\nA,2,2.0,5\nB,1,3.0,1\n",
+    "plain.txt": "A 1 1.0\nA 2 2.0\nB 1 3.0\n", "ramp.txt": "#ff0000\n#00ff00\n#0000ff\n", "radii.txt": "ALA CA 2.5\n",
+    "curve.csv": "frame,time,area,volume\n" + "".join(f"{n},{n},{n * n},{5 - n}\n" for n in range(4)),
+    "camera.json": json.dumps(camera(30)),
+    "path.json": json.dumps({"keys": [{"frame": n, "camera": camera(30 + 9 * n)} for n in (0, 3)]}),
+    "scene.json": json.dumps({"meniscus_scene": 1, "molecule": {"select": "chain A"}}),
+}
+
+# What must be there for an option to do anything, as words of a command; {name} is an input.
+CONTEXTS = {
+    "plain": ["{one.pdb}"], "models": ["{run.pdb}"], "odd": ["{odd.pdb}"],
+    "frames": ["{run.pdb}", "--frames", "all"], "film": ["{run.pdb}", "--frames", "0-1"],
+    "broken": ["{broken.pdb}", "--frames", "all"], "fit": ["{run.pdb}", "--frames", "all", "--superpose", "name CA"],
+    "dry": ["{one.pdb}", "--trajectory", "{dry.pdb}"],
+    "curve": ["{run.pdb}", "--frames", "all", "--curve", "{curve.csv}"],
+    "assembly": ["{one.pdb}", "--assembly", "1"], "hollow": ["{hollow.pdb}"],
+    "exr": ["{one.pdb}"], "clip": ["{one.pdb}", "--clip", "depth>0.5"], "seen through": ["{one.pdb}", "--opacity", "0.4"],
+    "shapes": ["{one.pdb}", "--sticks", "chain A"], "sticks": ["{one.pdb}", "--sticks", "chain A", "--hide-surface"],
+    "tube": ["{one.pdb}", "--tube", "protein", "--hide-surface"],
+    "mesh sticks": ["{one.pdb}", "--sticks", "chain A"], "mesh tube": ["{one.pdb}", "--tube", "protein"],
+    "bare": ["{one.pdb}", "--opacity", "0.1"],
+    "table": ["{one.pdb}", "--color-by-file", "{numbers.csv}", "--color-column", "first"],
+    "some numbers": ["{one.pdb}", "--color-by-file", "{plain.txt}"],
+    "number": ["{one.pdb}", "--color", "bfactor"],
+    "range": ["{one.pdb}", "--color-range", "-2:2"],
+    "volume": ["{one.pdb}", "--color-map-file", "{map.dx}", "--color-range", "-2:2"],
+    "legend": ["{one.pdb}", "--color", "bfactor", "--legend"],
+    "shiny": ["{one.pdb}", "--specular", "0.9", "--ambient", "0.1"],
+    "flat": ["{one.pdb}", "--preset", "flat"],
+    "shade": ["{one.pdb}", "--ambient-occlusion", "1"], "length": ["{one.pdb}", "--width", "10mm"],
+    "pixels": ["{one.pdb}", "--tolerance-pixels", "2"], "choice": ["{one.pdb}", "--select", "chain A"],
+    "pocket fit": ["{cups.pdb}", "--frames", "all", "--csv", "p.csv", "--superpose", "name CA"],
+    "cup": ["{cup.pdb}"], "pocket run": ["{cups.pdb}", "--frames", "all", "--csv", "p.csv"], "pocket mesh": ["{cup.pdb}", "--mesh", "p.ply"], "pocket figure": ["{cup.pdb}", "--figure", "p.json"],
+    "bundle": [], "bundled film": ["--film", "f.mp4"], "": [],
+}
+
+# Of each option a value, and a context in which it changes what comes out.
+ROWS = {
+    "--model": ("2", "models"), "--altloc": ("all", "plain"), "--select": ("chain A", "plain"),
+    "--show": ("chain A", "plain"), "--keep-water": (None, "plain"), "--keep-ions": (None, "plain"),
+    "--unknown-element": ("guess", "odd"), "--surface": ("sas", "plain"), "--probe": ("2", "plain"),
+    "--by": ("chain", "plain"), "--cavities": ("drop", "hollow"), "--hydrogens": ("drop", "plain"),
+    "--radii": ("united", "plain"), "--radii-file": ("{radii.txt}", "plain"), "--radius": ("chain A=2.2", "plain"),
+    "--assembly": ("1", "plain"), "--instances": ("separate", "assembly"), "--trajectory": ("{other.pdb}", "plain"),
+    "--trajectory-atoms": ("not water", "dry"), "--repeat": ("2", "frames"),
+    "--frames": ("1-2", "models"), "--stride": ("2", "frames"), "--begin": ("1", "frames"), "--end": ("1", "frames"),
+    "--only": ("1", "frames"), "--whole": ("guess", "broken"), "--superpose": ("name CA", "frames"),
+    "--center": ("name CA", "frames"), "--reference": ("2", "fit"), "--smooth": ("3", "frames"), "--fps": ("10", "film"),
+    "--codec": ("h265", "film"), "--crf": ("40", "film"), "--bits": ("10", "film"), "--chroma": ("444", "film"),
+    "--camera-path": ("{path.json}", "frames"), "--turntable": ("0.4", "frames"), "--follow": ("chain B", "frames"),
+    "--sticks": ("chain A", "bare"), "--balls": ("chain A", "bare"), "--spheres": ("chain A", "bare"),
+    "--tube": ("protein", "bare"), "--stick-radius": ("0.7", "sticks"), "--tube-radius": ("0.9", "tube"),
+    "--object": ('{"representation": "surface", "selection": "resname LIG", "probe": 3}', "bare"),
+    "--hide-surface": (None, "shapes"), "--opacity": ("0.4", "plain"), "--film-opacity": (None, "seen through"),
+    "--clip": ("depth>0.5", "plain"), "--cap-color": ("red", "clip"), "--cap-hatching": ("1", "clip"),
+    "--interface": ("A:B", "plain"), "--color": ("chain", "plain"), "--color-by-file": ("{plain.txt}", "plain"),
+    "--color-column": ("second", "table"), "--map": ("magma", "number"), "--map-file": ("{ramp.txt}", "number"),
+    "--color-range": ("0:99", "number"), "--color-map-file": ("{map.dx}", "range"), "--map-offset": ("2", "volume"),
+    "--color-title": ("Heat", "legend"), "--color-unit": ("K", "legend"), "--missing-color": ("red", "some numbers"),
+    "--size": ("48x30", "plain"), "--dpi": ("90", "plain"), "--width": ("5mm", "plain"), "--height": ("5mm", "plain"),
+    "--camera": ("{camera.json}", "plain"), "--projection": ("orthographic", "plain"), "--view": ("top", "plain"),
+    "--turn": ("y40", "plain"), "--zoom-to": ("chain B", "plain"), "--preset": ("soft", "plain"),
+    "--light": ("1,0,1", "plain"), "--light-strength": ("3", "plain"), "--ambient": ("0.1", "plain"),
+    "--roughness": ("0.9", "plain"), "--specular": ("0.9", "plain"), "--shininess": ("9", "shiny"),
+    "--ambient-occlusion": ("0.5", "plain"), "--ambient-occlusion-radius": ("3", "shade"), "--silhouettes": ("3", "plain"),
+    "--outer-lines": ("3", "plain"), "--inner-lines": ("3", "plain"), "--part-lines": ("3", "plain"),
+    "--depth-cue": ("1", "plain"), "--linear-alpha": (None, "plain"), "--samples": ("3", "plain"),
+    "--background": ("white", "plain"), "--legend": (None, "number"), "--legend-file": ("legend.png", "number"),
+    "--legend-title": ("Heat", "legend"), "--legend-size": ("7", "legend"), "--legend-place": ("below", "legend"),
+    "--panel": ("B", "plain"), "--scale-bar": ("5", "plain"), "--label": ("resid 9=Here", "plain"),
+    "--time-stamp": (None, "frames"), "--curve": ("{curve.csv}", "frames"), "--curve-column": ("volume", "curve"),
+    "--aovs": (None, "plain"), "--provenance": (None, "plain"), "--no-provenance": (None, "plain"),
+    "--save-camera": ("saved.json", "plain"), "--scene": ("{scene.json}", "plain"), "--save-scene": ("saved.json", "plain"),
+    "--json": (None, "plain"), "--csv": ("a.csv", "plain"), "--csv-series": ("s.csv", "frames"),
+    "--csv-cavities": ("c.csv", "frames"), "--csv-residues": ("r.csv", "plain"), "--plot": ("p.svg", "frames"),
+    "--gradients": ("g.csv", "plain"), "--context": ("chain B", "choice"), "--ligand": ("resid 1-9", "cup"),
+    "--mesh": ("p.ply", "cup"), "--figure": ("f.json", "cup"), "--large-probe": ("6", "cup"), "--trim": ("0", "cup"),
+    "--min-volume": ("9999", "cup"), "--mouth-tolerance": ("0.5", "cup"), "--material": ("glass", "plain"),
+    "--comments": (None, "plain"), "--tolerance": ("0.3", "plain"), "--tolerance-pixels": ("2", "plain"),
+    "--density": ("1", "plain"), "--even": (None, "plain"), "--format": ("obj", "plain"), "--attributes": ("all", "plain"),
+    "--unit": ("nanometer", "plain"), "--scale": ("3", "plain"),
+}
+
+# Where it takes another value or another context.
+OWN_ROWS = {
+    ("surface", "--hydrogens"): ("drop", "plain"), ("pockets", "--show"): ("chain A", "pocket figure"),
+    **{("pockets", option): (value, "pocket run")
+       for option, value in (("--superpose", "name CA"), ("--center", "name CA"))},
+    ("pockets", "--reference"): ("1", "pocket fit"),
+    ("pockets", "--tolerance"): ("0.5", "pocket mesh"), ("export blender", "--fps"): ("10", "frames"),
+    ("render", "--aovs"): (None, "exr"),
+    ("formats", "--json"): (None, ""), ("farm bundle", "--engine"): ("slurm", "bundle"),
+    ("farm bundle", "--chunk-minutes"): ("2", "bundle"), ("farm bundle", "--chunk-frames"): ("1", "bundle"),
+    ("farm bundle", "--task-cores"): ("3", "bundle"), ("farm bundle", "--task-memory"): ("999", "bundle"),
+    ("farm bundle", "--film"): ("f.mp4", "bundle"), ("farm bundle", "--farm-path"): ("/mnt/farm", "bundle"),
+    **{("farm bundle", option): (value, "bundled film")
+       for option, value in (("--fps", "10"), ("--codec", "h265"), ("--crf", "40"), ("--bits", "10"), ("--chroma", "444"))},
+}
+for export in ("povray", "blender", "mitsuba", "pbrt"):
+    OWN_ROWS["export " + export, "--dpi"] = ("90", "length")
+for export in ("mesh", "ply"):
+    OWN_ROWS["export " + export, "--stick-radius"] = ("0.7", "mesh sticks")
+    OWN_ROWS["export " + export, "--tube-radius"] = ("0.9", "mesh tube")
+    for shape in ("--sticks", "--balls", "--spheres", "--tube"):
+        OWN_ROWS["export " + export, shape] = (ROWS[shape][0], "plain")
+    for option in ("--size", "--width", "--height", "--projection", "--zoom-to", "--camera"):
+        OWN_ROWS["export " + export, option] = (ROWS[option][0], "pixels")
+    for option in ("--dpi", "--view", "--turn"):
+        OWN_ROWS["export " + export, option] = (ROWS[option][0], None)
+
+SMALL = {"render": ["--size", "32x24", "--samples", "1", "--no-provenance"]}
+MESHES = {"export blender", "export mitsuba", "export pbrt", "export mesh", "export ply"}
+EXCLUDES = {"--tolerance-pixels": "--tolerance", "--density": "--tolerance", "--width": "--size", "--height": "--size",
+            "--provenance": "--no-provenance", "--no-provenance": "--no-provenance"}
+
+
+def output_of(command, context):
+    of_run = "--frames" in CONTEXTS[context] or "--trajectory" in CONTEXTS[context]
+    return {"render": "a.mp4" if context == "film" else "a.exr" if context == "exr" else "a_#.png" if of_run else "a.png", "export mesh": "a.glb",
+            "export ply": "a.ply", "export atoms": "a.atoms", "export blender": "a" if of_run else "a.mns"}.get(command, "a")
+
+
+def options_of(command):
+    """The options of a command, from its help."""
+    text = subprocess.run([PROGRAM, *command.split(), "--help-all"], capture_output=True, text=True).stdout
+    return sorted(set(re.findall(r"^  (?:-\w,)?(--[a-z-]+)", text, re.M)) - {"--output"})
+
+
+class Result:
+    """What came of one run: what is printed, but for times, and the files."""
+
+    def __init__(self, words, folder):
+        with tempfile.TemporaryDirectory(dir=folder) as place:
+            done = subprocess.run([PROGRAM, *words], capture_output=True, cwd=place, stdin=subprocess.DEVNULL, timeout=120)
+            paths = [path for path in sorted(Path(place).rglob("*")) if path.is_file()]
+            self.files = {str(path.relative_to(place)): path.read_bytes() for path in paths}
+        self.code, self.err = done.returncode, done.stderr.decode().replace(str(folder), "")
+        self.out = re.sub(r'(?m)"ms": [-+0-9.e]+|^time .*$', "", done.stdout.decode())
+
+    def differs_from(self, base):
+        return (self.code, self.out, self.files) != (base.code, base.out, base.files)
+
+
+class OptionUse(unittest.TestCase):
+    """Every option alone, in the context that it is for, and where there are frames, a cut or constant colours."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = Path(tempfile.mkdtemp())
+        cls.addClassCleanup(shutil.rmtree, cls.folder)
+        for name, text in INPUTS.items():
+            (cls.folder / name).write_text(text)
+        cls.pool = concurrent.futures.ThreadPoolExecutor(os.cpu_count())
+        cls.addClassCleanup(cls.pool.shutdown)
+        cls.commands = re.findall(r"^  ([a-z]+) ", subprocess.run([PROGRAM, "--help"], capture_output=True, text=True)
+                                  .stdout.split("Commands:")[1], re.M)
+        below = {name: re.findall(r"^  ([a-z]+) ", cls.help_of(name).split("Options:")[1], re.M) for name in ("export", "farm")}
+        cls.commands = [name for name in cls.commands if name not in below] + \
+            [f"{name} {part}" for name, parts in below.items() for part in parts]
+
+    @staticmethod
+    def help_of(command):
+        return subprocess.run([PROGRAM, *command.split(), "--help"], capture_output=True, text=True).stdout
+
+    @functools.cache
+    def begun(self, words):
+        return self.pool.submit(Result, words, self.folder)
+
+    def words(self, command, context, option, value):
+        """Of the run with the option; without its last part it is the one without."""
+        def filled(word):
+            if command == "pockets":
+                word = word.replace("{run.pdb}", "{cups.pdb}")
+            return re.sub(r"\{(\w+\.\w+)\}", lambda name: str(self.folder / name.group(1)), word)
+        own = list(SMALL.get(command, []))
+        if command in MESHES and "--tolerance-pixels" not in CONTEXTS[context]:
+            own += ["--tolerance", "0.5"]
+        if command == "render" and {"--legend", "--legend-file"} & {*CONTEXTS[context], option}:
+            own[1] = "200x150"
+        excluded = {EXCLUDES.get(word) for word in (option, *CONTEXTS[context])}
+        for name in excluded & set(own):
+            at = own.index(name)
+            del own[at:at + (1 if name == "--no-provenance" else 2)]
+        words = [filled(word) for word in CONTEXTS[context]] + own
+        if command == "farm bundle":
+            words = ["b", *words] if option == "--chunk-minutes" else ["b", "--chunk-frames", "2", *words]
+        elif command != "info" and command != "formats" and "--device" not in words:
+            words += ["--device", "cpu", "--threads", "1"]
+        if command in ("render",) or command.startswith("export"):
+            words += ["-o", output_of(command, context)]
+        tail = ["--", "render", str(self.folder / "run.pdb"), "--frames", "all", "--size", "64x48"] if command == "farm bundle" else []
+        asked = [option] if value is None else [option, filled(value)]
+        return (*command.split(), *words, *tail), (*command.split(), *words, *asked, *tail)
+
+    def pairs(self, contexts):
+        """(command, option, context, is it what the option is for, base, with it)"""
+        pairs = []
+        for command in TESTED:
+            options = options_of(command)
+            for option in options:
+                if option in HOW:
+                    continue
+                value, own = OWN_ROWS.get((command, option)) or ROWS[option]
+                for context in dict.fromkeys([own, *contexts]):
+                    if context is None or (context != own and command in ("formats", "farm bundle", "pockets")):
+                        continue
+                    if any(word.startswith("--") and word not in options for word in CONTEXTS[context]):
+                        continue
+                    base, more = self.words(command, context, option, value)
+                    pairs.append((command, option, context, context == own, self.begun(base), self.begun(more)))
+        return [(*pair[:4], pair[4].result(), pair[5].result()) for pair in pairs]
+
+    def test_each_option_has_a_row(self):
+        for command in self.commands:
+            for option in options_of(command):
+                if command in TESTED and option not in HOW:
+                    self.assertTrue((command, option) in OWN_ROWS or option in ROWS, f"{command} {option}")
+
+    def test_no_option_does_nothing_without_a_word(self):
+        for command, option, context, is_own, base, more in self.pairs(["plain", "frames", "flat"]):
+            with self.subTest(command=command, option=option, context=context):
+                if more.code != 0:
+                    self.assertTrue(more.err.strip())
+                    if is_own:
+                        self.assertIn((command, option), REFUSED, more.err)
+                    continue
+                if (command, option) in SILENT or (option in POLICIES and not is_own):
+                    continue
+                said = set(more.err.splitlines()) - set(base.err.splitlines())
+                self.assertTrue(more.differs_from(base) or any(option in line for line in said), more.err)
+
+
+TESTED = ["surface", "pockets", "info", "render", "export povray", "export blender", "export mitsuba", "export pbrt",
+          "export mesh", "export ply", "export atoms", "formats", "farm bundle"]
+# What it is for is nothing that the command can do, or not with an output of that name.
+REFUSED = {("pockets", "--instances"), ("render", "--frames"), ("render", "--trajectory"),
+           ("export atoms", "--color-map-file"), ("export atoms", "--map-offset"), ("export pbrt", "--color-map-file"),
+           ("export pbrt", "--map-offset"), ("export mitsuba", "--cap-hatching"), ("export mitsuba", "--film-opacity"),
+           ("export pbrt", "--cap-hatching"), ("export pbrt", "--film-opacity")}
+# There are no pockets in what is made whole, a cavity is not seen from outside, and copies that stand apart look the same.
+SILENT = {("pockets", "--whole"), ("render", "--instances"), ("render", "--cavities")}
+
+if __name__ == "__main__":
+    unittest.main()
