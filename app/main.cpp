@@ -12,6 +12,7 @@
 #include <fmt/ranges.h>
 
 #include "app/options/idle_options.h"
+#include "app/options/named_files.h"
 #include "app/options/scene_file.h"
 #include "app/options/usage_faults.h"
 #include "app/process/build_version.h"
@@ -163,9 +164,13 @@ void run(int argc, char** argv) {
   let_the_last_count(program);
   program.footer(kExamples);
   for (const Command& command : kCommands) command.add(*program.add_subcommand(command.name)->group("Commands"));
-  // All options are known then, and no command has begun.
-  program.parse_complete_callback([&program] { tell_idle_options(named_command(program)); });
   SceneWords scene = with_scene(program, {words.begin() + 1, words.end()});
+  // All options are known then, and no command has begun.
+  program.parse_complete_callback([&program, &scene] {
+    const CLI::App& command = named_command(program);
+    guard_named_files(command, scene.file);
+    tell_idle_options(command);
+  });
   std::ranges::reverse(scene.words);
   try {
     program.parse(scene.words);

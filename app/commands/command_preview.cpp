@@ -132,6 +132,7 @@ std::unique_ptr<PreviewSession> begin_session(const PreviewCommand& command, con
   };
   context.make_device = [request = command.molecule.surface] { return std::make_unique<PictureDevice>(request); };
   context.save_scene = save_render_scene;
+  context.scene_text = render_scene_text;
   context.open_scene = SceneOpener(parsed, command);
   std::unique_ptr<ViewRenderer> renderer = make_renderer(command, shown.structure, on_gl);
   auto session = std::make_unique<PreviewSession>(std::move(renderer), std::move(shown.structure), view, shown.camera,

@@ -87,7 +87,9 @@ Words without_scene(const Words& typed) {
   const Command table[] = {{"render", add_render}, {"export", add_export}};
   for (const Command& command : table) command.add(*program.add_subcommand(command.name));
   Words words = with_scene(program, typed).words;
-  if (words != typed) std::erase_if(words, [](const std::string& word) { return word.starts_with("--output="); });
+  if (words != typed)
+    std::erase_if(words,
+                  [](const std::string& word) { return word.starts_with("--output=") || word == "--trust-scene"; });
   return words;
 }
 

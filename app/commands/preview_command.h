@@ -70,6 +70,8 @@ ExportWishes wishes_of(const PreviewCommand& command, const CLI::App& parsed);
 
 /// Writes the scene of a command line of render, as its --save-scene does. Throws OutputError, RequestError.
 void save_render_scene(const std::vector<std::string>& words, const ExportTarget& target);
+/// The same scene as the text that render's pictures carry. Throws RequestError.
+std::string render_scene_text(const std::vector<std::string>& words);
 
 /// Opens scenes of one molecule.
 class SceneOpener {
@@ -90,6 +92,7 @@ class SceneOpener {
   std::vector<Reading> molecule_, numbers_;
   bool shows_models_;  ///< each is a frame
   std::string file_;
+  std::vector<std::string> named_;  ///< words of the command line: files among them may be named by scenes, too
 };
 
 }  // namespace meniscus

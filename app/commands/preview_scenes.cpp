@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Molecules read again for a figure, cameras aimed as render aims them, scenes saved and opened.
 #include <algorithm>
+#include <functional>
 #include <numeric>
 #include <string_view>
 #include <utility>
@@ -32,6 +33,16 @@ void parse_only(CLI::App& program, CLI::App& command, std::vector<std::string> w
   command.callback([] {});
   std::ranges::reverse(words);
   program.parse(words);
+}
+
+/// Does something with the command `render` whose options are these words.
+void with_render(const std::vector<std::string>& words, const std::function<void(const CLI::App& render)>& use) {
+  CLI::App program("", words.front());
+  let_the_last_count(program);
+  CLI::App& render = *program.add_subcommand(words.at(1));
+  add_render(render);
+  parse_only(program, render, {words.begin() + 1, words.end()});
+  use(render);
 }
 
 }  // namespace
@@ -83,20 +94,27 @@ Camera aimed_camera(const PreviewCommand& command, const std::optional<Camera>& 
 }
 
 void save_render_scene(const std::vector<std::string>& words, const ExportTarget& target) {
-  CLI::App program("", words.front());
-  let_the_last_count(program);
-  CLI::App& render = *program.add_subcommand(words.at(1));
-  add_render(render);
-  parse_only(program, render, {words.begin() + 1, words.end()});
-  SceneOutput scene(render, target.path.string(), target.existing);
-  scene.commit();
+  with_render(words, [&](const CLI::App& render) {
+    SceneOutput scene(render, target.path.string(), target.existing);
+    scene.commit();
+  });
+}
+
+std::string render_scene_text(const std::vector<std::string>& words) {
+  std::string text;
+  with_render(words, [&](const CLI::App& render) { text = scene_text(render, ""); });
+  return text;
 }
 
 SceneOpener::SceneOpener(const CLI::App& parsed, const PreviewCommand& command)
     : molecule_(reading_of(parsed, {"molecule", "frames"})),
       numbers_(reading_of(parsed, {"surface"})),
       shows_models_(command.molecule.reading.model.all && !command.frames.asked()),
-      file_(command.molecule.file) {}
+      file_(command.molecule.file) {
+  if (parsed.count("--trust-scene") > 0) named_.emplace_back("--trust-scene");
+  for (const CLI::Option* option : parsed.get_options())
+    for (const std::string& value : option->results()) named_.push_back(value);
+}
 
 std::vector<SceneOpener::Reading> SceneOpener::reading_of(const CLI::App& parsed,
                                                           std::initializer_list<std::string_view> sections) {
@@ -121,7 +139,7 @@ OpenedScene SceneOpener::operator()(const fs::path& path) const {
   CLI::App& parsed = *program.add_subcommand("preview");
   PreviewCommand command;
   declare_preview(parsed, command);
-  const SceneWords scene = with_scene(program, {"preview", "--scene", path.string()});
+  const SceneWords scene = with_scene(program, {"preview", "--scene", path.string()}, named_);
   try {
     parse_only(program, parsed, scene.words);
   } catch (const SelectionError& error) {

@@ -14,6 +14,7 @@
 #include "app/process/program_error.h"
 #include "app/process/program_main.h"
 #include "app/process/standard_streams.h"
+#include "core/base/output_file.h"
 #include "exporters/msms/msms_files.h"
 
 namespace meniscus::msms {
@@ -32,6 +33,7 @@ void run(const Arguments& arguments, std::chrono::steady_clock::time_point start
   const bool mesh_wanted = arguments.mesh && !arguments.mesh_files.empty();
   // Whether they can be written is known before the work begins.
   OutputFiles files;
+  protect_input(arguments.spheres);
   if (mesh_wanted)
     for (const char* extension : {".vert", ".face"}) files.begin(mesh_path(arguments, 0, extension));
   const std::string area_path = arguments.area_file.empty() ? "" : with_extension(arguments.area_file, ".area");

@@ -16,6 +16,7 @@
 #include "app/process/program_error.h"
 #include "app/process/program_main.h"
 #include "app/process/standard_streams.h"
+#include "core/base/output_file.h"
 #include "core/base/text.h"
 #include "core/surface/surface.h"
 #include "exporters/mesh/even_mesh.h"
@@ -90,6 +91,7 @@ ExitCode run(std::span<const char* const> words) {
   const std::string vert = settings.root + "triangulatedSurf.vert", face = settings.root + "triangulatedSurf.face",
                     off = settings.root + "triangulatedSurf.off";
   OutputFiles files;
+  for (const std::string& input : {path, settings.spheres}) protect_input(input);
   if (settings.msms_files)
     for (const std::string& name : {vert, face}) files.begin(name);
   if (settings.off_file) files.begin(off);

@@ -37,6 +37,11 @@ OptionEntry entry_of(const CLI::Option& option) {
   return entry;
 }
 
+bool names_path(std::string_view word) {
+  constexpr std::array<std::string_view, 7> kPaths{"FILE", "TRAJECTORY", "PATH", "FOLDER", "NUMBERS", "BUNDLE", "DIR"};
+  return std::ranges::any_of(kPaths, [&](std::string_view path) { return word.starts_with(path); });
+}
+
 void read_options(const CLI::App& app, CommandEntry& command) {
   for (const std::string& title : app.get_groups()) {
     OptionSection section{title, {}};
@@ -62,10 +67,10 @@ CommandEntry read_command(const CLI::App& app, const std::string& parent) {
 }  // namespace
 
 bool OptionEntry::takes_path() const {
-  constexpr std::array<std::string_view, 7> kPaths{"FILE", "TRAJECTORY", "PATH", "FOLDER", "NUMBERS", "BUNDLE", "DIR"};
-  const std::string_view word = value.empty() && !names.empty() ? std::string_view(names.front()) : value;
-  return std::ranges::any_of(kPaths, [&](std::string_view path) { return word.starts_with(path); });
+  return names_path(value.empty() && !names.empty() ? std::string_view(names.front()) : value);
 }
+
+bool takes_path(const CLI::Option& option) { return entry_of(option).takes_path(); }
 
 CommandEntry command_tree(const CLI::App& program) { return read_command(program, ""); }
 

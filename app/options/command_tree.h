@@ -41,6 +41,9 @@ struct CommandEntry {
   std::vector<CommandEntry> commands;
 };
 
+/// Whether the values of an option are paths.
+bool takes_path(const CLI::Option& option);
+
 /// Of the program with all that was added to it.
 CommandEntry command_tree(const CLI::App& program);
 

@@ -89,11 +89,30 @@ std::string take_scene(Words& words) {
   return file;
 }
 
+/// What somebody who uses a scene has said of files: what was typed, and files named before.
+struct SceneTrust {
+  const Words& typed;
+  const Words& named;
+  bool has_molecule;  ///< it was typed
+
+  bool has(std::string_view option) const {
+    return std::ranges::any_of(typed, [&](const std::string& word) { return option_name(word) == option; });
+  }
+  bool is_whole() const { return has("--trust-scene") || std::ranges::find(named, "--trust-scene") != named.end(); }
+  bool has_file(const fs::path& path) const {
+    std::error_code ignored;
+    const auto is_it = [&](const std::string& word) {
+      return fs::equivalent(word.substr(word.starts_with("--") ? word.find('=') + 1 : 0), path, ignored);
+    };
+    return std::ranges::any_of(typed, is_it) || std::ranges::any_of(named, is_it);
+  }
+};
+
 /// The words of one scene for one command.
 class SceneReader {
  public:
-  SceneReader(const CLI::App& command, const std::string& file)
-      : command_(command), file_(file), shows_(option_of(command, "--color") != nullptr) {}
+  SceneReader(const CLI::App& command, const std::string& file, const SceneTrust& trust)
+      : command_(command), file_(file), trust_(trust), shows_(option_of(command, "--color") != nullptr) {}
 
   void read() {
     const Json scene = parse();
@@ -120,6 +139,10 @@ class SceneReader {
 
   Json parse() const {
     const std::string text = png_note(file_, kSceneNote).value_or("");
+    if (text.empty() && is_png(file_))
+      throw InputError(file_, 0,
+                       "is a picture that carries no scene; pictures made with --no-provenance, frames of runs and "
+                       "pictures of other programs have none");
     const TextFile read = text.empty() ? read_text_file(file_, kLargestScene) : TextFile{};
     const std::string_view json = text.empty() ? std::string_view(read.text) : std::string_view(text);
     if (is_nested_too_deep(json)) throw InputError(file_, 0, "scene: is nested too deep to be one");
@@ -170,13 +193,14 @@ class SceneReader {
   void add(const std::string& section, const std::string& name, const Json& value, const std::string& place) {
     const SceneKey& key = key_of(section, name, place);
     if (key.option == "FILE") {
-      molecule_ = path(value, place);
+      if (!trust_.has_molecule) molecule_ = path(value, place);
       return;
     }
     const std::string option(key.option == "-o" ? "--output" : key.option);
     // A picture's name is none for the folder of an export.
     if (key.option == "-o" && command_.get_name() != "render") return;
     if (!takes(option, key.shows && !is_usual(key, value), place)) return;
+    if (key.value == SceneValue::path && (trust_.has(option) || trust_.has(key.option))) return;
     keys_[option] = place;
     switch (key.value) {
       case SceneValue::flag:
@@ -196,7 +220,7 @@ class SceneReader {
         for (const Json& one : listed(value)) add_word(option, text(one, place));
         return;
       case SceneValue::path:
-        return add_word(option, path(value, place));
+        return add_word(option, is_output(key) ? output(key, value, place) : path(value, place));
       case SceneValue::paths:
         for (const Json& one : listed(value)) add_word(option, path(one, place));
         return;
@@ -234,10 +258,38 @@ class SceneReader {
     return value.is_array() ? value.get<std::vector<Json>>() : std::vector<Json>{value};
   }
 
-  std::string path(const Json& value, const std::string& place) const {
+  /// As the scene has it, and as seen from here.
+  std::pair<fs::path, fs::path> paths_of(const Json& value, const std::string& place) const {
     if (!value.is_string() || value.get<std::string>().empty()) fail(place, "is no path");
     const fs::path given(value.get<std::string>());
-    return given.is_absolute() ? given.string() : (fs::path(file_).parent_path() / given).string();
+    return {given, given.is_absolute() ? given : fs::path(file_).parent_path() / given};
+  }
+
+  std::string path(const Json& value, const std::string& place) const {
+    const auto [given, path] = paths_of(value, place);
+    const bool leads_out = given.is_absolute() || std::ranges::find(given, fs::path("..")) != given.end();
+    if (leads_out && !trust_.is_whole() && !trust_.has_file(path))
+      fail(place, fmt::format("is {}, outside of the scene's folder; name that file on the command line, or add "
+                              "--trust-scene if the scene is yours",
+                              in_quotes(given.string())));
+    return path.string();
+  }
+
+  static bool is_output(const SceneKey& key) { return key.option == "-o" || key.option == "--legend-file"; }
+
+  std::string output(const SceneKey& key, const Json& value, const std::string& place) const {
+    const auto [given, path] = paths_of(value, place);
+    const std::string advice =
+        fmt::format("name it by {} FILE, or add --trust-scene if the scene is yours", key.option);
+    if (trust_.is_whole()) return path.string();
+    if (given != given.filename())
+      fail(place, fmt::format("is {}; a scene does not say in which folder its picture is written: {}",
+                              in_quotes(given.string()), advice));
+    std::error_code ignored;
+    if (trust_.has("--force") && fs::exists(fs::symlink_status(path, ignored)))
+      fail(place, fmt::format("is {}, which exists already; --force replaces what is named on the command line: {}",
+                              in_quotes(given.string()), advice));
+    return path.string();
   }
 
   void read_objects(const Json& scene) {
@@ -294,6 +346,7 @@ class SceneReader {
 
   const CLI::App& command_;
   const std::string file_;
+  const SceneTrust& trust_;
   const bool shows_;  // pictures or exports
   std::string molecule_;
   Words words_;
@@ -363,7 +416,7 @@ std::string SceneWords::name_key(const std::string& message) const {
   return message;
 }
 
-SceneWords with_scene(const CLI::App& program, Words words) {
+SceneWords with_scene(const CLI::App& program, Words words, const Words& named) {
   SceneWords result;
   result.file = take_scene(words);
   if (result.file.empty()) {
@@ -381,12 +434,13 @@ SceneWords with_scene(const CLI::App& program, Words words) {
   if (!option_of(*command, "--scene"))
     throw UsageError(
         fmt::format("{} takes no --scene; render, export, preview and surface do", command_path(*command)));
-  SceneReader scene(*command, result.file);
-  scene.read();
   const auto typed = words.begin() + static_cast<std::ptrdiff_t>(depth);
   const Words behind(typed, words.end());
+  const SceneTrust trust{behind, named, has_argument(*command, behind)};
+  SceneReader scene(*command, result.file, trust);
+  scene.read();
   result.words.assign(words.begin(), typed);
-  if (!has_argument(*command, behind)) {
+  if (!trust.has_molecule) {
     if (scene.molecule().empty())
       throw InputError(result.file, 0, "scene: molecule.file is missing; name it there, or on the command line");
     result.words.push_back(scene.molecule());
@@ -406,6 +460,8 @@ void add_scene_options(CLI::App& command, std::string* save_path) {
           "--scene", [](const std::string&) {},
           "Take all of these options from a scene file, but those named here; or from a picture that meniscus made")
       ->type_name("FILE");
+  command.add_flag_callback(
+      "--trust-scene", [] {}, "Let it name files anywhere, to read and to write: for scenes of your own");
   if (save_path)
     command.add_option("--save-scene", *save_path, "Write these options as a scene file")->type_name("FILE");
 }

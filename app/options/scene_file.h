@@ -25,8 +25,11 @@ struct SceneWords {
 
 /// Replaces --scene FILE by what the file says, in front of what else was typed, so that this counts. `file`: JSON as
 /// docs/scenes.md describes it, or a picture that holds it. A command leaves out what it has no options for; what would
-/// change what an export shows it refuses. Throws InputError for a file that is no scene, UsageError.
-SceneWords with_scene(const CLI::App& program, std::vector<std::string> words);
+/// change what an export shows it refuses. Scenes may come from anybody: without --trust-scene they name no files
+/// outside of their folder but those that are typed or in `named`, and write to none but a new one beside them. Throws
+/// InputError for a file that is no scene or names such files, UsageError.
+SceneWords with_scene(const CLI::App& program, std::vector<std::string> words,
+                      const std::vector<std::string>& named = {});
 
 /// --scene, for the help; and --save-scene where `save_path` is given, which must live as long as the command.
 void add_scene_options(CLI::App& command, std::string* save_path = nullptr);

@@ -11,8 +11,7 @@
 namespace meniscus {
 
 CommandLog::CommandLog(const std::filesystem::path& path, Existing existing) : path_(path.string()) {
-  if (existing == Existing::refuse && std::filesystem::exists(path))
-    throw OutputError(path_, "exists already; give --force to replace it");
+  check_output(path, existing);
   stream_.open(path, std::ios::trunc);
   if (!stream_) throw OutputError(path_, "cannot be written");
 }

@@ -61,6 +61,8 @@ struct SessionContext {
   std::function<Annotations(const Structure& structure)> annotations;
   /// Writes the scene of a command line of `meniscus render`. Throws OutputError, RequestError.
   std::function<void(const std::vector<std::string>& words, const ExportTarget& target)> save_scene;
+  /// The same scene as the text that pictures carry.
+  std::function<std::string(const std::vector<std::string>& words)> scene_text;
   /// Reads a scene. Throws InputError, UsageError; RequestError where it is one of another molecule.
   std::function<OpenedScene(const std::filesystem::path& path)> open_scene;
 };
@@ -191,6 +193,8 @@ class PreviewSession {
   std::vector<bool> part_shown(const Selection& show, const Structure* marked) const;
   /// How many that are. Throws RequestError if it is none.
   std::size_t count_shown(const PreviewFigure& figure, const Structure* marked) const;
+  /// The scene of that picture; empty where there is none.
+  std::string scene_of(const CommandReader& command) const;
   /// The command that makes the picture which a command wishes.
   std::vector<std::string> words_of(const CommandReader& command) const;
   void update_legend();

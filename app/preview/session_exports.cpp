@@ -74,9 +74,9 @@ Json PreviewSession::export_view(const CommandReader& command) {
   }
   Annotations annotations;
   if (context_.annotations) annotations = context_.annotations(marked_ ? *marked_ : frame_structure());
-  auto view = std::make_shared<const ExportedView>(
-      ExportedView{structure_, shown_atoms(), balls_, frame_coloring(), view_.told_scheme(), view_, beside_,
-                   std::move(annotations), wishes.size, wishes.samples, wishes.transparent});
+  auto view = std::make_shared<const ExportedView>(ExportedView{
+      structure_, shown_atoms(), balls_, frame_coloring(), view_.told_scheme(), view_, beside_, std::move(annotations),
+      wishes.size, wishes.samples, wishes.transparent, format == 0 ? scene_of(command) : ""});
   const auto work = [view, target, format, make_device = context_.make_device](const ExportWatch& watch) {
     Json reply{{"path", target.path.string()}};
     if (format == 2 && !view->figure.figure.plain())
@@ -97,6 +97,15 @@ Json PreviewSession::cancel_export(const CommandReader&) {
   if (!export_ || !export_->running()) throw RequestError("cancel_export: nothing is being written");
   export_->cancel();
   return Json::object();
+}
+
+std::string PreviewSession::scene_of(const CommandReader& command) const {
+  if (!context_.scene_text || trajectory_) return {};  // frames of a run carry none
+  try {
+    return context_.scene_text(words_of(command));
+  } catch (const RequestError&) {
+    return {};  // render cannot make this view
+  }
 }
 
 std::vector<std::string> PreviewSession::words_of(const CommandReader& command) const {

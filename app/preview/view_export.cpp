@@ -91,7 +91,9 @@ void export_picture(const ExportedView& view, const MakePictureDevice& make_devi
   watch("writing", 0.0);
   annotate(picture, view.annotations, figure.camera, background);
   if (legend) picture = legend->add_to(picture, background);
-  write_image(target.path, picture, {background, target.existing, figure.look.has_linear_alpha()});
+  ImageSettings settings_of_file{background, target.existing, figure.look.has_linear_alpha()};
+  settings_of_file.scene = view.scene;
+  write_image(target.path, picture, settings_of_file);
 }
 
 std::string export_povray(const ExportedView& view, const ExportTarget& target, const ExportWatch& watch) {

@@ -38,6 +38,7 @@ struct ExportedView {
   glm::ivec2 size;                              ///< pixels, with the legend
   int samples;                                  ///< rays per pixel
   bool transparent;                             ///< pictures have no background
+  std::string scene;                            ///< what pictures say they were made of; empty: nothing
 };
 
 /// Where it goes.

@@ -14,6 +14,8 @@
 #include <cstring>
 #include <ctime>
 #include <memory>
+#include <mutex>
+#include <set>
 #include <utility>
 
 #include <fmt/format.h>
@@ -52,9 +54,33 @@ bool rename_to_free(const fs::path& from, const fs::path& to) {
   return no_links && uninterrupted([&] { return ::rename(from.c_str(), to.c_str()); }) == 0;
 }
 
+/// The files that protect_input() was told of, by device and inode.
+class Inputs {
+ public:
+  void add(const struct stat& status) {
+    const std::lock_guard lock(mutex_);
+    files_.emplace(status.st_dev, status.st_ino);
+  }
+  bool has(const struct stat& status) {
+    const std::lock_guard lock(mutex_);
+    return files_.contains({status.st_dev, status.st_ino});
+  }
+
+ private:
+  std::mutex mutex_;
+  std::set<std::pair<dev_t, ino_t>> files_;
+};
+
+Inputs& inputs() {
+  static Inputs all;
+  return all;
+}
+
 void refuse_unsuitable_target(const fs::path& target, Existing existing) {
   if (target.filename().empty()) throw OutputError(target.string(), "names no file");
   struct stat status {};
+  if (::stat(target.c_str(), &status) == 0 && inputs().has(status))
+    throw OutputError(target.string(), "is one of the files that this command reads; choose another name");
   if (::lstat(target.c_str(), &status) != 0) return;
   if (S_ISDIR(status.st_mode)) throw OutputError(target.string(), "is a folder; give the name of a file");
   if (!S_ISREG(status.st_mode) && !S_ISLNK(status.st_mode)) throw OutputError(target.string(), "is no regular file");
@@ -203,6 +229,17 @@ void OutputFile::commit() {
 }
 
 void OutputFile::fail(const std::string& what) const { throw OutputError(target_.string(), what); }
+
+void protect_input(const fs::path& path) {
+  struct stat status {};
+  if (::stat(path.c_str(), &status) == 0 && S_ISREG(status.st_mode)) inputs().add(status);
+}
+
+void make_folders_of(const fs::path& file) {
+  std::error_code error;
+  fs::create_directories(folder_of(file), error);
+  if (error) throw OutputError(folder_of(file).string(), "the folder cannot be made: " + error.message());
+}
 
 void check_output(const fs::path& target, Existing existing) { const OutputFile possible(target, existing); }
 

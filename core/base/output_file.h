@@ -16,7 +16,7 @@ enum class Existing { refuse, replace };
 
 /// One output file. Bytes go to a temporary file in the target's folder; commit() makes it the target, and a file that
 /// is never committed vanishes. A symbolic link at the target is replaced, never followed.
-/// Throws OutputError: target exists (Existing::refuse), is no regular file, folder missing or not writable, disk full.
+/// Throws OutputError: target exists (Existing::refuse), is an input (protect_input) or no regular file, folder missing or not writable, disk full.
 class OutputFile {
  public:
   OutputFile(std::filesystem::path target, Existing existing);
@@ -49,6 +49,13 @@ class OutputFile {
   int descriptor_ = -1;
   bool replaced_ = false;
 };
+
+/// From now on no output of this process replaces this file, whatever name leads to it: hard and symbolic links too.
+/// Nothing happens if there is no such file.
+void protect_input(const std::filesystem::path& path);
+
+/// Makes the folders that a file lies in, if they are missing. Throws OutputError.
+void make_folders_of(const std::filesystem::path& file);
 
 /// Before long work: throws what an OutputFile of this target would, which is made and vanishes again.
 void check_output(const std::filesystem::path& target, Existing existing);

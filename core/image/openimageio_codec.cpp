@@ -27,6 +27,7 @@ OIIO::ImageSpec spec_of(const ImageToEncode& image) {
   if (image.format == "jpeg") spec.attribute("jpeg:subsampling", "4:4:4");
   if (image.png_level >= 0) spec.attribute("png:compressionLevel", image.png_level);
   if (!image.software.empty()) spec.attribute("Software", image.software);
+  if (!image.date.empty()) spec.attribute("DateTime", image.date);  // else it is now
   if (!image.color_profile.empty())
     spec.attribute("ICCProfile", OIIO::TypeDesc(OIIO::TypeDesc::UINT8, static_cast<int>(image.color_profile.size())),
                    image.color_profile.data());

@@ -20,6 +20,12 @@ std::uint32_t word_at(const char* bytes) {
 
 }  // namespace
 
+bool is_png(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::array<char, 8> head{};
+  return file.read(head.data(), head.size()) && std::string_view(head.data(), head.size()) == kSignature;
+}
+
 std::optional<std::string> png_note(const std::filesystem::path& path, std::string_view key) {
   std::ifstream file(path, std::ios::binary);
   std::array<char, 8> head{};

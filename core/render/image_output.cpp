@@ -5,9 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <charconv>
 #include <cstdint>
+#include <cstdlib>
+#include <ctime>
 #include <span>
 #include <stdexcept>
+#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
@@ -30,6 +34,23 @@ std::string extension_of(const std::filesystem::path& path) {
   std::string extension = path.extension().string();
   std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
   return extension;
+}
+
+/// EXR and TIFF always have a date. So that the same command gives the same bytes it is that of SOURCE_DATE_EPOCH
+/// (reproducible-builds.org), in UTC, or else the first second of 1970.
+std::string date_of_pictures() {
+  std::int64_t seconds = 0;
+  if (const char* const text = std::getenv("SOURCE_DATE_EPOCH")) {
+    const std::string_view digits(text);
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), seconds);
+    if (error != std::errc() || end != digits.data() + digits.size()) seconds = 0;
+  }
+  const std::time_t time = seconds;
+  std::tm parts{};
+  std::array<char, 32> date{};
+  if (!::gmtime_r(&time, &parts) || std::strftime(date.data(), date.size(), "%Y:%m:%d %H:%M:%S", &parts) != 19)
+    return "1970:01:01 00:00:00";
+  return date.data();
 }
 
 bool is_jpeg(const std::string& extension) { return extension == ".jpg" || extension == ".jpeg"; }
@@ -130,6 +151,7 @@ ImageToEncode described(const Framebuffer& picture, const Channels& channels, co
   // Of JPEG and WebP the quality: nobody sees the loss, and text stays sharp.
   image.compression = is_jpeg(extension) ? "jpeg:95" : extension == ".webp" ? "webp:95" : "zip";
   if (settings.names_program) image.software = "Meniscus " MENISCUS_VERSION;
+  if (exr || tiff) image.date = date_of_pictures();
   image.command = settings.command;
   image.scene = settings.scene;
   image.dots_per_inch = settings.dots_per_inch;

@@ -20,6 +20,9 @@
 namespace meniscus::blender {
 namespace {
 
+/// Without how many threads it had, which change nothing.
+std::string device_alone(const std::string& device) { return device.starts_with("cpu (") ? "cpu" : device; }
+
 using nlohmann::json;
 
 json numbers(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
@@ -310,7 +313,7 @@ void write_objects(const std::string& path, Existing existing, std::span<const M
   json header{{"format", "meniscus surface"},
               {"generator", "meniscus " MENISCUS_VERSION},
               {"source", {{"file", provenance.source}, {"radii_set", provenance.radii_set}}},
-              {"device", provenance.device},
+              {"device", device_alone(provenance.device)},
               {"unit", "angstrom"},
               {"objects", std::move(list)}};
   if (provenance.colors) header["colors"] = color_key_json(*provenance.colors);

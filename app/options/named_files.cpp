@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Tells inputs from outputs by the names of options.
+#include "app/options/named_files.h"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "app/options/command_tree.h"
+#include "app/process/program_error.h"
+#include "core/base/output_file.h"
+#include "core/base/text.h"
+
+namespace meniscus {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::array<std::string_view, 13> kOutputs{
+    "--output",       "--save-scene", "--save-camera", "--legend-file", "--csv",    "--csv-series", "--csv-cavities",
+    "--csv-residues", "--plot",       "--gradients",   "--mesh",        "--figure", "--record"};
+
+/// Of a bundle the files that it was made of, too.
+void protect(const fs::path& path) {
+  protect_input(path);
+  std::error_code ignored;
+  if (!fs::exists(path / "bundle.json", ignored)) return;
+  protect_input(path / "bundle.json");
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(path / "inputs", ignored))
+    protect_input(entry.path());
+}
+
+bool are_one_file(const std::string& a, const std::string& b) {
+  std::error_code failed, ignored;
+  // Absolute first: a path of which nothing is there yet stays relative.
+  const auto place = [&](const std::string& path) { return fs::weakly_canonical(fs::absolute(path, failed), failed); };
+  return place(a) == place(b) || fs::equivalent(a, b, ignored);
+}
+
+}  // namespace
+
+void guard_named_files(const CLI::App& command, const std::string& scene) {
+  if (!scene.empty()) protect(scene);
+  std::vector<std::pair<std::string, std::string>> outputs;  // option, path
+  for (const CLI::Option* const option : command.get_options()) {
+    if (option->empty() || !takes_path(*option)) continue;
+    const bool writes = std::ranges::find(kOutputs, option->get_name()) != kOutputs.end();
+    for (const std::string& path : option->results()) {
+      if (writes && path != "-") outputs.emplace_back(option->get_name(), path);
+      if (!writes) protect(path);
+    }
+  }
+  for (std::size_t a = 0; a < outputs.size(); ++a)
+    for (std::size_t b = 0; b < a; ++b)
+      if (outputs[a].first != outputs[b].first && are_one_file(outputs[a].second, outputs[b].second))
+        throw UsageError(fmt::format("{} and {} name the same file, {}; choose two", outputs[b].first, outputs[a].first,
+                                     in_quotes(outputs[a].second)));
+}
+
+}  // namespace meniscus

@@ -1,0 +1,253 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""What is read is never replaced, scenes of others write and read nowhere else, and the same command makes the same bytes."""
+
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+PROGRAM = sys.argv.pop(1)
+
+ATOM = "ATOM  {0:5d}  CA  ALA A{0:4d}    {1:8.3f}{2:8.3f}{3:8.3f}  1.00 {4:5.2f}           C\n"
+PLACES = [(0, 0, 0), (3, 1, 0), (1, 4, 1), (4, 4, 2), (2, 2, 4)]
+MODEL = "".join(ATOM.format(n, *place, 10.0 * n) for n, place in enumerate(PLACES, 1))
+CAMERA = {"position": [20, 5, 40], "target": [2, 2, 1], "up": [0, 1, 0], "projection": "perspective", "vertical_fov": 30}
+INPUTS = {
+    "one.pdb": MODEL + "END\n",
+    "run.pdb": "".join(f"MODEL {n:8d}\n{MODEL}ENDMDL\n" for n in (1, 2)) + "END\n",
+    "numbers.txt": "1\n2\n3\n4\n5\n", "ramp.txt": "#ff0000\n#0000ff\n", "radii.txt": "ALA CA 2.0\n",
+    "curve.csv": "frame,area\n0,1\n1,2\n", "camera.json": json.dumps(CAMERA),
+    "path.json": json.dumps({"keys": [{"frame": 0, "camera": CAMERA}]}),
+    "scene.json": json.dumps({"meniscus_scene": 1, "molecule": {"file": "one.pdb"}}),
+    "map.dx": "object 1 class gridpositions counts 2 2 2\norigin -9 -9 -9\ndelta 20 0 0\ndelta 0 20 0\ndelta 0 0 20\n"
+              "object 2 class gridconnections counts 2 2 2\n"
+              "object 3 class array type double rank 0 items 8 data follows\n0 1 2 3 4 5 6 7\n",
+    "job.xyzr": "0 0 0 1.7\n2 0 0 1.7\n",
+}
+SMALL = ["--size", "32x24", "--samples", "1"]
+ON_CPU = ["--device", "cpu"]
+
+# Every option that names a file to read, and with what it is read.
+READING = [
+    ["render", "one.pdb"], ["render", "run.pdb", "--frames", "0"], ["render", "one.pdb", "--trajectory", "run.pdb"],
+    ["render", "one.pdb", "--color-by-file", "numbers.txt"],
+    ["render", "one.pdb", "--color", "bfactor", "--map-file", "ramp.txt"], ["render", "one.pdb", "--radii-file", "radii.txt"],
+    ["render", "one.pdb", "--color-map-file", "map.dx", "--color-range", "0:7"],
+    ["render", "one.pdb", "--camera", "camera.json"], ["render", "run.pdb", "--frames", "0-1", "--camera-path", "path.json"],
+    ["render", "run.pdb", "--frames", "0-1", "--curve", "curve.csv"], ["render", "--scene", "scene.json"],
+]
+# Every option that names a file to write.
+WRITING = [
+    ["surface", "one.pdb", "--csv"], ["surface", "one.pdb", "--csv-residues"], ["surface", "one.pdb", "--gradients"],
+    ["surface", "run.pdb", "--frames", "all", "--csv-series"], ["surface", "run.pdb", "--frames", "all", "--csv-cavities"],
+    ["surface", "run.pdb", "--frames", "all", "--plot"], ["pockets", "one.pdb", "--csv"], ["pockets", "one.pdb", "--mesh"],
+    ["pockets", "one.pdb", "--figure"], ["render", "one.pdb", *SMALL, "-o"],
+    ["render", "one.pdb", *SMALL, "-o", "new.png", "--save-camera"], ["render", "one.pdb", *SMALL, "-o", "new.png", "--save-scene"],
+    ["render", "one.pdb", "--size", "200x150", "--color", "bfactor", "-o", "new.png", "--legend-file"],
+    ["render", "run.pdb", "--frames", "0-1", "--size", "64x48", "-o"],
+    ["export", "blender", "one.pdb", "-o"], ["export", "mesh", "one.pdb", "--format", "ply", "-o"], ["export", "ply", "one.pdb", "-o"],
+    ["export", "atoms", "one.pdb", "-o"], ["export", "povray", "one.pdb", "-o", "new", "--save-camera"],
+    ["export", "mitsuba", "one.pdb", "-o", "new", "--save-scene"],
+    ["preview", "one.pdb", "--commands", "quit.json", "--serve", "--record"],
+]
+
+
+class Workplace(unittest.TestCase):
+    def setUp(self):
+        self.folder = Path(tempfile.mkdtemp())
+        self.addCleanup(shutil.rmtree, self.folder)
+        for name, text in {**INPUTS, "quit.json": '{"command": "quit"}\n'}.items():
+            (self.folder / name).write_text(text)
+
+    def run_program(self, *words, folder=None, **more):
+        return subprocess.run([PROGRAM, *map(str, words)], capture_output=True, text=True, cwd=folder or self.folder,
+                              stdin=subprocess.DEVNULL, timeout=100, **more)
+
+
+class Files(Workplace):
+    def names_of(self, name, ending=""):
+        """Other names of a file: itself, a hard link, a symbolic link."""
+        place = self.folder / name
+        hard, soft = self.folder / ("hard" + (ending or place.suffix)), self.folder / ("soft" + (ending or place.suffix))
+        for link in (hard, soft):
+            link.unlink(missing_ok=True)
+        os.link(place, hard)
+        os.symlink(name, soft)
+        return [hard.name, soft.name] + ([name] if not ending or name.endswith(ending) else [])
+
+    def check_kept(self, done, name):
+        self.assertIn(done.returncode, (2, 6), done.stderr)
+        self.assertEqual((self.folder / name).read_text(), INPUTS[name], done.stderr)
+
+    def test_no_output_replaces_the_molecule(self):
+        for words in WRITING:
+            molecule = next(word for word in words if word.endswith(".pdb"))
+            ending = {"--plot": ".svg", "--mesh": ".ply", "--figure": ".json", "--legend-file": ".png"}.get(words[-1], "")
+            if words[0] == "render" and words[-1] == "-o":
+                ending = ".mp4" if "--frames" in words else ".png"
+            for name in self.names_of(molecule, ending):
+                with self.subTest(words=words, name=name):
+                    done = self.run_program(*words, name, "--force", *ON_CPU)
+                    self.check_kept(done, molecule)
+                    self.assertIn(name + ": is one of the files that this command reads", done.stderr)
+
+    def test_no_picture_replaces_anything_that_is_read(self):
+        for words in READING:
+            for read in [word for word in words if word in INPUTS]:
+                frames = "--frames" in words or "--trajectory" in words
+                for name in self.names_of(read, ".gif" if frames else ".png")[:2]:
+                    with self.subTest(words=words, name=name):
+                        self.check_kept(self.run_program(*words, *SMALL, "-o", name, "--force", *ON_CPU), read)
+
+    def test_numbered_outputs_keep_what_is_read(self):
+        shutil.copy(self.folder / "one.pdb", self.folder / "part_1.stl")
+        done = self.run_program("export", "mesh", "one.pdb", "--radii-file", "radii.txt", "-o", "radii.txt", "--format", "ply", "--force")
+        self.check_kept(done, "radii.txt")
+        os.link(self.folder / "one.pdb", self.folder / "a_1.png")
+        done = self.run_program("render", "one.pdb", "--trajectory", "run.pdb", *SMALL, "-o", "a_#.png", "--force", *ON_CPU)
+        self.check_kept(done, "one.pdb")
+
+    def test_two_outputs_are_two_files(self):
+        for words in (["surface", "one.pdb", "--csv", "a.csv", "--csv-residues", "./a.csv"],
+                      ["render", "one.pdb", *SMALL, "-o", "a.png", "--save-camera", str(self.folder / "a.png")],
+                      ["export", "ply", "one.pdb", "-o", "a.ply", "--save-scene", "a.ply"]):
+            with self.subTest(words=words):
+                done = self.run_program(*words, *ON_CPU)
+                self.assertEqual(done.returncode, 2, done.stderr)
+                self.assertFalse([name for name in os.listdir(self.folder) if name.startswith("a.")])
+
+    def test_replacing_other_files_works(self):
+        (self.folder / "old.png").write_text("old")
+        self.assertEqual(self.run_program("render", "one.pdb", *SMALL, "-o", "old.png", "--force").returncode, 0)
+        self.assertNotEqual((self.folder / "old.png").read_bytes(), b"old")
+
+
+class ScenesOfOthers(Workplace):
+    def setUp(self):
+        super().setUp()
+        self.inner = self.folder / "inner"
+        self.inner.mkdir()
+        shutil.copy(self.folder / "one.pdb", self.inner)
+
+    def scene(self, **sections):
+        text = {"meniscus_scene": 1, "molecule": {"file": "one.pdb"}, "image": {"size": "32x24", "samples": 1}, **sections}
+        (self.inner / "evil.json").write_text(json.dumps(text))
+        return self.inner / "evil.json"
+
+    def refused(self, done, place, advice):
+        self.assertEqual(done.returncode, 3, done.stderr)
+        self.assertRegex(done.stderr, rf"evil\.json: scene: {re.escape(place)} .*{advice}.*--trust-scene")
+
+    def test_they_choose_no_place_to_write(self):
+        before = sorted(self.folder.rglob("*"))
+        for path in (str(self.folder / "x.png"), "../x.png", "sub/x.png", "a/../../x.png"):
+            done = self.run_program("render", "--scene", self.scene(output={"file": path}), "--force")
+            self.refused(done, "output.file", "-o FILE")
+            done = self.run_program("render", "--scene", self.scene(legend={"file": path}), "-o", "y.png", "--force")
+            self.refused(done, "legend.file", "--legend-file FILE")
+        self.assertEqual([p for p in sorted(self.folder.rglob("*")) if p.name != "evil.json"], before)
+
+    def test_they_replace_nothing(self):
+        (self.inner / "mine.png").write_text("mine")
+        done = self.run_program("render", "--scene", self.scene(output={"file": "mine.png"}), "--force")
+        self.refused(done, "output.file", "-o FILE")
+        self.assertEqual((self.inner / "mine.png").read_text(), "mine")
+
+    def test_they_name_no_file_elsewhere(self):
+        hidden = self.folder / "one.pdb"
+        cases = [("molecule", "file"), ("molecule", "radii_file"), ("frames", "trajectory"), ("camera", "from"), ("camera", "path"),
+                 ("annotations", "curve")]
+        for path in (str(hidden), "../one.pdb", "./x/../../one.pdb"):
+            for section, key in cases:
+                sections = {section: {"file": "one.pdb", key: path} if section == "molecule" else {key: path}}
+                with self.subTest(section=section, key=key, path=path):
+                    done = self.run_program("render", "--scene", self.scene(**sections), "-o", "a.png")
+                    self.refused(done, f"{section}.{key}", "outside of the scene's folder")
+            for key in ("color_by_file", "color_map_file", "map_file"):
+                done = self.run_program("render", "--scene", self.scene(objects=[{key: path}]), "-o", "a.png")
+                self.refused(done, f"objects[0].{key}", "outside of the scene's folder")
+            for command in (["surface"], ["pockets"], ["export", "ply", "-o", "a.ply"], ["preview", "--serve"]):
+                done = self.run_program(*command, "--scene", self.scene(molecule={"file": path}))
+                self.refused(done, "molecule.file", "outside of the scene's folder")
+
+    def test_what_is_named_on_the_command_line_counts(self):
+        scene = self.scene(molecule={"file": "../one.pdb"}, camera={"from": "../camera.json"}, output={"file": "../x.png"})
+        done = self.run_program("render", "one.pdb", "--scene", scene, "--camera", "camera.json", "-o", "a.png")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        done = self.run_program("render", "--scene", scene, "--trust-scene")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual((self.folder / "a.png").read_bytes(), (self.folder / "x.png").read_bytes())
+
+    def test_a_plain_name_beside_the_scene_is_written_once(self):
+        scene = self.scene(output={"file": "x.png"})
+        self.assertEqual(self.run_program("render", "--scene", scene).returncode, 0)
+        self.assertTrue((self.inner / "x.png").exists())
+        self.assertEqual(self.run_program("render", "--scene", scene).returncode, 6)
+
+    def test_pictures_with_scenes_are_no_better(self):
+        """The scene in a picture, its text replaced."""
+        self.assertEqual(self.run_program("render", "one.pdb", *SMALL, "-o", "inner/a.png").returncode, 0)
+        picture = (self.inner / "a.png").read_bytes()
+        self.assertIn(b'"file": "one.pdb"', picture)
+        (self.inner / "evil.png").write_bytes(picture.replace(b'"file": "one.pdb"', b'"file": "/tm/x.p"'))
+        done = self.run_program("render", "--scene", self.inner / "evil.png", "-o", "b.png")
+        self.assertEqual(done.returncode, 3, done.stderr)
+        self.assertIn("outside of the scene's folder", done.stderr)
+
+    def test_a_picture_without_a_scene_says_so(self):
+        self.assertEqual(self.run_program("render", "one.pdb", *SMALL, "--no-provenance", "-o", "a.png").returncode, 0)
+        done = self.run_program("render", "--scene", "a.png", "-o", "b.png")
+        self.assertEqual(done.returncode, 3)
+        self.assertIn("a.png: is a picture that carries no scene", done.stderr)
+
+
+class SameBytes(Workplace):
+    """Twice, with another clock and another number of threads."""
+
+    COMMANDS = [
+        *[["render", "one.pdb", *SMALL, "-o", "a." + ending] for ending in ("png", "jpg", "webp", "tif", "exr")],
+        ["render", "one.pdb", *SMALL, "--aovs", "-o", "b.exr"], ["render", "run.pdb", "--frames", "all", *SMALL, "-o", "a_#.exr"],
+        ["render", "run.pdb", "--frames", "all", "--size", "64x48", "--samples", "1", "-o", "a.mp4"],
+        ["render", "run.pdb", "--frames", "all", "--size", "64x48", "--samples", "1", "-o", "a.gif"],
+        ["render", "one.pdb", *SMALL, "-o", "c.png", "--save-camera", "c.json", "--save-scene", "d.json"],
+        *[["export", "mesh", "one.pdb", "-o", "a." + ending, "--tolerance", "0.3"]
+          for ending in ("stl", "3mf", "obj", "off", "glb", "vtp", "ply", "smesh", "dms")],
+        ["export", "blender", "one.pdb", "-o", "a.mns"], ["export", "blender", "run.pdb", "--frames", "all", "-o", "run"],
+        ["export", "povray", "one.pdb", "-o", "povray"], ["export", "mitsuba", "one.pdb", "-o", "mitsuba"],
+        ["export", "pbrt", "one.pdb", "-o", "pbrt"], ["export", "atoms", "one.pdb", "-o", "a.atoms"],
+        ["surface", "one.pdb", "--csv", "a.csv", "--csv-residues", "b.csv", "--gradients", "c.csv"],
+        ["surface", "run.pdb", "--frames", "all", "--csv-series", "d.csv", "--csv-cavities", "e.csv", "--plot", "a.svg"],
+        ["pockets", "one.pdb", "--csv", "f.csv", "--figure", "f.json", "--ligand", "none"],
+    ]
+
+    def made(self, threads, **environment):
+        place = self.folder / f"with {threads}"
+        place.mkdir()
+        for name in INPUTS:
+            shutil.copy(self.folder / name, place)
+        for words in self.COMMANDS:
+            done = self.run_program(*words, *ON_CPU, "--threads", threads, folder=place, env={**os.environ, **environment})
+            self.assertEqual(done.returncode, 0, (words, done.stderr))
+        return {str(path.relative_to(place)): path.read_bytes() for path in sorted(place.rglob("*")) if path.is_file()}
+
+    def test_clock_and_threads_change_nothing(self):
+        first = self.made(1)
+        time.sleep(1.1)  # dates in files have whole seconds
+        second = self.made(3)
+        self.assertEqual(first.keys(), second.keys())
+        self.assertEqual([name for name in first if first[name] != second[name]], [])
+        dated = self.made(2, SOURCE_DATE_EPOCH="1700000000")
+        self.assertEqual([name for name in first if first[name] != dated[name]],
+                         [name for name in first if name.endswith((".exr", ".tif"))])
+        self.assertIn(b"2023:11:14 22:13:20", dated["a.exr"])
+
+
+if __name__ == "__main__":
+    unittest.main()
