@@ -126,6 +126,9 @@ Bundle bundle_from_json(const Json& json) {
   bundle.program_version = json.at("program_version").get<std::string>();
   bundle.command = json.at("command").get<std::vector<std::string>>();
   bundle.frames = parse_frame_list("frames", json.at("frames").get<std::string>(), kMostFrames);
+  if (whole_number(json.at("frame_count"), kMostFrames) != bundle.frames.size())
+    throw RequestError(fmt::format("is damaged: \"frame_count\" is {}, and there are {} frames in \"frames\"",
+                                   json.at("frame_count").dump(), bundle.frames.size()));
   bundle.width = static_cast<int>(whole_number(json.at("size").at(0), kLargestSide));
   bundle.height = static_cast<int>(whole_number(json.at("size").at(1), kLargestSide));
   for (const Json& step : json.at("steps"))

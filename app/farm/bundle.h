@@ -12,7 +12,8 @@
 
 namespace meniscus::farm {
 
-inline constexpr int kLargestSide = 65'535;  ///< of a picture, in pixels
+inline constexpr int kLargestSide = 65'535;                 ///< of a picture, in pixels
+inline constexpr std::int64_t kMostPixels = 1'000'000'000;  ///< of a picture
 
 /// What makes the frames of a step.
 enum class Maker {

@@ -51,7 +51,9 @@ void check_steps(const Bundle& bundle) {
 
 void check_numbers(const Bundle& bundle) {
   const auto side = [](int pixels) { return pixels >= 1 && pixels <= kLargestSide; };
-  if (!side(bundle.width) || !side(bundle.height)) throw RequestError("its picture size makes no sense");
+  if (!side(bundle.width) || !side(bundle.height) || std::int64_t{bundle.width} * bundle.height > kMostPixels)
+    throw RequestError(fmt::format("its picture size is {} x {}; a side has 1 to {} pixels, a picture {} at most",
+                                   bundle.width, bundle.height, kLargestSide, kMostPixels));
   if (bundle.frames.empty()) throw RequestError("has no frames");
   const std::uint64_t count = bundle.chunking.count;
   if (count < 1 || count > std::min<std::uint64_t>(kMostTasks, bundle.frames.size()))

@@ -17,6 +17,7 @@
 #include "app/farm/bundle.h"
 #include "app/farm/inner_path.h"
 #include "core/base/error.h"
+#include "core/base/output_file.h"
 
 namespace meniscus::farm {
 namespace {
@@ -33,8 +34,7 @@ std::mutex current_mutex;
 
 Claims::Claims(fs::path folder, double lease)
     : folder_(std::move(folder)), name_(new_worker_name()), life_(folder_ / life_path(name_)), lease_(lease) {
-  std::error_code ignored;  // if it cannot be made, touching says so
-  fs::create_directories(life_.parent_path(), ignored);
+  make_folders_of(life_);
   begin_ = touch();
   heart_ = std::thread([this] { keep_alive(); });
   const std::lock_guard lock(current_mutex);
@@ -90,8 +90,7 @@ fs::path Claims::claim_path(const std::string& step, std::uint64_t frame, int ge
 /// False: there is one already.
 bool Claims::make_claim(const fs::path& path) const {
   const fs::path whole = folder_ / path;
-  std::error_code ignored;
-  fs::create_directories(whole.parent_path(), ignored);
+  make_folders_of(whole);
   const int file = ::open(whole.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
   if (file < 0 && errno == EEXIST) return false;
   const std::string text = name_ + "\n";

@@ -63,8 +63,7 @@ void write_frame_log(const fs::path& folder, const std::string& step, std::uint6
     ::unlink(path.c_str());
     return;
   }
-  std::error_code ignored;  // if it cannot be made, the file says so
-  fs::create_directories(path.parent_path(), ignored);
+  make_folders_of(path);
   OutputFile file(path, Existing::replace);
   file.write(text);
   file.commit();

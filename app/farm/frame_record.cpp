@@ -102,8 +102,7 @@ std::optional<FileTime> FrameRecords::written(const std::string& step, std::uint
 
 void FrameRecords::write(const std::string& step, const FrameRecord& record) const {
   const fs::path path = folder_ / path_of(step, record.frame);
-  std::error_code ignored;  // if it cannot be made, the file says so
-  fs::create_directories(path.parent_path(), ignored);
+  make_folders_of(path);
   Json json = to_json(record);
   json["bundle"] = fingerprint_;
   OutputFile file(path, Existing::replace);

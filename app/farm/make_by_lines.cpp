@@ -70,7 +70,8 @@ void make_by_lines(
     if (code <= kSignalCode) {
       // An orderly end before the last frame: the next process would end so, too.
       throw RunError(code == kExitOk ? kExitInternal : static_cast<ExitCode>(code),
-                     fmt::format("frame {} and {} more were not begun: {}", frames.front(), frames.size() - 1,
+                     fmt::format("frame {}{} not made: {}", frames.front(),
+                                 frames.size() == 1 ? " was" : fmt::format(" and {} more were", frames.size() - 1),
                                  last.words().empty() ? fmt::format("exit code {}", code) : last.words()));
     }
     const std::uint64_t culprit = frames.front();

@@ -11,6 +11,7 @@
 #include "app/farm/makers.h"
 #include "app/farm/png_without_time.h"
 #include "core/trajectory/frame_list.h"
+#include "core/base/output_file.h"
 
 namespace meniscus::farm {
 namespace {
@@ -74,7 +75,7 @@ FrameListener without_dates(const FrameListener& listener, const std::filesystem
 void make_frames(const Bundle& bundle, const Step& step, const Workplace& place,
                  const std::vector<std::uint64_t>& frames, const FrameListener& listener) {
   if (step.maker == Maker::povray) return make_by_povray(bundle, step, place, frames, listener);
-  std::filesystem::create_directories(place.folder / "images");
+  make_folders_of(place.folder / "images" / "frame");
   const bool blender = step.maker == Maker::blender;
   std::optional<DriverCopy> driver;
   if (blender) driver.emplace(place.folder);

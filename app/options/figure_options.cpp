@@ -108,6 +108,7 @@ void take_interface(const CLI::App& command, MoleculeOptions& molecule, ViewRequ
   std::string atoms = "(" + molecule.interface->left.text() + ") or (" + molecule.interface->right.text() + ")";
   if (molecule.reading.selection) atoms = "(" + molecule.reading.selection->text() + ") and (" + atoms + ")";
   molecule.reading.selection = parse_selection(atoms);
+  molecule.reading.sides = {molecule.interface->left, molecule.interface->right};
   if (command.count("--color") + command.count("--color-by-file") == 0) molecule.color.by = ColorScheme::By::buried;
   if (!picture.direction && picture.camera_file.empty()) picture.direction = parse_view_direction("z");
 }

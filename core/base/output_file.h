@@ -16,7 +16,8 @@ enum class Existing { refuse, replace };
 
 /// One output file. Bytes go to a temporary file in the target's folder; commit() makes it the target, and a file that
 /// is never committed vanishes. A symbolic link at the target is replaced, never followed.
-/// Throws OutputError: target exists (Existing::refuse), is an input (protect_input) or no regular file, folder missing or not writable, disk full.
+/// Throws OutputError: target exists (Existing::refuse), is an input (protect_input) or no regular file, folder missing
+/// or not writable, disk full.
 class OutputFile {
  public:
   OutputFile(std::filesystem::path target, Existing existing);

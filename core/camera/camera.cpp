@@ -142,7 +142,8 @@ void validate_camera(const Camera& camera, const std::string& file) {
   const double scale = std::max(glm::length(camera.position), glm::length(camera.target));
   // Squares of smaller and larger numbers have no place in double precision.
   constexpr double kSmallest = 1e-100, kLargest = 1e100;
-  if (!(scale <= kLargest) || glm::length(view) <= 1e-12 * scale || glm::length(view) < kSmallest)
+  if (!(scale <= kLargest)) fail(fmt::format("position and target must lie within {:g} Å of the origin", kLargest));
+  if (glm::length(view) <= 1e-12 * scale || glm::length(view) < kSmallest)
     fail("position and target are the same point, so there is no view direction");
   const double up_length = glm::length(camera.up);
   if (!(up_length >= kSmallest && up_length <= kLargest)) fail("\"up\" has no direction");

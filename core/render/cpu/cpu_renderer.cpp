@@ -11,6 +11,7 @@
 #include <thread>
 
 #include <fmt/format.h>
+#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -326,7 +327,9 @@ std::optional<PickedPoint> CpuRenderer::pick(glm::ivec2 pixel) const {
 }
 
 std::string CpuRenderer::device() const {
-  return fmt::format("cpu ({} threads)", tbb::this_task_arena::max_concurrency());
+  const auto allowed = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
+  const auto threads = std::min(static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()), allowed);
+  return fmt::format("cpu ({} {})", threads, threads == 1 ? "thread" : "threads");
 }
 
 void CpuRenderer::start_block(const PictureFrame& frame, const PictureBlock& block, LayeredScene* layers) {

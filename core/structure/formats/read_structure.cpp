@@ -149,6 +149,7 @@ void choose_atoms(std::vector<Atom>& atoms, std::vector<Atom>& beside, const Rea
   if (options.secondary_structure) assign_secondary_structure(atoms);
   std::vector<bool> selected(atoms.size(), true), named(atoms.size());
   if (options.selection) {
+    for (const Selection& side : options.sides) evaluate(side, atoms, radii, path, meaning);
     selected = evaluate(*options.selection, atoms, radii, path, meaning);
     named = options.selection->names(atoms);
   }

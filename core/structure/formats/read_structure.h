@@ -44,6 +44,7 @@ struct ReadOptions {
   /// Evaluated on what other models, altlocs and virtual sites leave, water and ions included. Water and ions that it
   /// selects are used only if it names them (Selection::names) or keep_water, keep_ions.
   std::optional<Selection> selection = {};
+  std::vector<Selection> sides = {};  ///< parts of it, each of which must have atoms
   Hydrogens hydrogens = Hydrogens::automatic;
   RadiiOptions radii{};
   bool keep_topology = false;  ///< fill in Structure::topology
