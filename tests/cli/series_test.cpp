@@ -240,8 +240,9 @@ TEST_F(Series, EachRowHasItsOwnTimeAndNumbers) {
       EXPECT_DOUBLE_EQ(std::stod(row.at("time")), 2.5 * n + 10);
       const nlohmann::json model = one({file, "--model", std::to_string(n + 1)});
       EXPECT_NEAR(std::stod(row.at("sas_area")), model["sas_area"], 1e-6);
-      if (n > 0)
+      if (n > 0) {
         EXPECT_GT(std::stod(row.at("sas_area")), std::stod(rows[static_cast<std::size_t>(n - 1)].at("sas_area")));
+      }
     }
     const Rows atoms = table({file, "--frames", "4-5", "--jobs", jobs}, "--csv");
     ASSERT_EQ(atoms.size(), 6u);
