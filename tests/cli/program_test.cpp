@@ -131,7 +131,7 @@ TEST(Surface, NumbersOfTheToxinAreTheIndependentOnes) {
   double area = 0.0, volume = 0.0;
   for (const json& component : result["components"]) {
     area += component["area"].get<double>();
-    volume += component["volume"].get<double>();
+    volume += component["signed_volume"].get<double>();
     EXPECT_EQ(component["euler"].get<int>() % 2, 0);
     EXPECT_EQ(component["kind"] == "cavity", component["signed_volume"].get<double>() < 0.0);
   }

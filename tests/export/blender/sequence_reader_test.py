@@ -113,7 +113,7 @@ class SequenceReader(unittest.TestCase):
             self.assertEqual(found.read(place).header["camera"], frame.camera)
 
     def test_points_of_contact_move_with_their_atom(self):
-        """Convex points between the atoms' places in the neighbouring frames of the trajectory, per frame of the scene."""
+        """Convex points between the atoms' places in the neighbouring frames of the run, per frame of the scene."""
         every = os.path.join(self.folder.name, "every")
         samples.export_run(PROGRAM, every, "0-9")
         all_frames = sequence_reader.read(os.path.join(every, "surface_sequence.json"))
@@ -124,8 +124,8 @@ class SequenceReader(unittest.TestCase):
         strided = sequence_reader.read(self.manifest)
         for found, number, wanted in (
                 (all_frames, 0, centers(1) - centers(0)), (all_frames, 9, centers(9) - centers(8)),
-                (all_frames, 4, (centers(5) - centers(3)) / 2), (strided, 3, centers(4) - centers(2)),
-                (strided, 5, centers(6) - centers(4))):
+                (all_frames, 4, (centers(5) - centers(3)) / 2), (strided, 3, (centers(5) - centers(1)) / 2),
+                (strided, 5, centers(5) - centers(3))):
             surface = found.read(found.scene_frame(number)).objects[0]
             triangles, atom, kind = (surface["mesh." + name] for name in ("triangle", "atom", "kind"))
             curved = set(triangles[kind != 0].ravel())
