@@ -75,7 +75,8 @@ class Check {
       if (!(areas.accessible[a] >= -noise && areas.accessible[a] <= 4 * kPi * R * R + noise))
         return fmt::format("SAS area {} of atom {}", areas.accessible[a], a);
     }
-    // Planes and borders of a patch whose corners a tie blurs agree as well as the certificate asks, others to rounding.
+    // Planes and borders of a patch whose corners a tie blurs agree as well as the certificate asks, others to
+    // rounding.
     const double blur = s_.certificate.exact_within > 0 ? 1e-8 : 1e-10;
     const double p = s_.probe_radius, by_patch = blur * 4 * kPi * p * p * static_cast<double>(s_.concave.size());
     if (!(std::abs(sum - s_.area) <= 2e-8 * (1 + s_.area) + by_patch))
