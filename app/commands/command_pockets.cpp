@@ -56,9 +56,6 @@ void check_request(const PocketsCommand& command) {
   std::vector<std::string> paths;
   for (const std::string& path : {command.csv, command.mesh, command.figure})
     if (!path.empty()) paths.push_back(path);
-  std::ranges::sort(paths);
-  if (std::ranges::adjacent_find(paths) != paths.end())
-    throw UsageError("--csv, --mesh and --figure need different files");
   if ((!command.mesh.empty() || !command.figure.empty()) && command.frames.asked())
     throw UsageError("--mesh and --figure are of one molecule; leave them away where there are frames");
   // Whether the outputs can be written is known before the work begins; these vanish again.

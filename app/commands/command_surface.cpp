@@ -88,10 +88,6 @@ void check_outputs(const SurfaceCommand& command) {
         "standard output holds one thing at a time: --json, or one of --csv-series, --csv, --csv-residues, "
         "--csv-cavities, --gradients with -");
   if (!command.plot.empty()) paths.push_back(command.plot);
-  std::ranges::sort(paths);
-  if (std::ranges::adjacent_find(paths) != paths.end())
-    throw UsageError(
-        "--csv, --csv-residues, --csv-series, --csv-cavities, --gradients and --plot need different files");
   if (!command.gradient_csv.empty()) {
     const Division& division = command.molecule.division;
     if (division.components || division.cavities != Cavities::keep || division.instances != InstanceMode::none)

@@ -109,7 +109,7 @@ TEST(Pockets, TablesMeshesAndFiguresSayTheSame) {
   EXPECT_NE(read_bytes(mesh).substr(0, 1000).find("property float pocket\n"), std::string::npos);
 
   const std::string picture = folder.path() / "p.png";
-  const ProgramResult drawn = render({"--scene", figure, "-o", picture, "--size", "160x120", "-q"});
+  const ProgramResult drawn = render({"--scene", figure, "--trust-scene", "-o", picture, "--size", "160x120", "-q"});
   EXPECT_EQ(drawn.exit_code, 0) << drawn.err;
   const Json scene = Json::parse(read_bytes(figure));
   EXPECT_EQ(scene["molecule"]["select"], "not (ligand)");
@@ -176,7 +176,7 @@ TEST(Pockets, WhatMakesNoSenseIsSaid) {
            {{kProtease, "--json", "--csv", "-"}, 2, "one thing at a time"},
            {{kProtease, "--mesh", "p.smesh"}, 2, "--mesh 'p.smesh'"},
            {{kProtease, "--figure", "p.png"}, 2, "--figure 'p.png'"},
-           {{kProtease, "--figure", "p.json", "--csv", "p.json"}, 2, "different files"},
+           {{kProtease, "--figure", "p.json", "--csv", "p.json"}, 2, "--csv and --figure name the same file"},
            {{kProtease, "--frames", "all", "--mesh", "p.ply"}, 2, "--mesh and --figure are of one molecule"},
            {{ligand_alone}, 3, "nothing is left for pockets"},
            {{nowhere}, 3, "n.pdb"},

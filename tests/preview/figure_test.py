@@ -221,11 +221,11 @@ class Figures(unittest.TestCase):
         touched = {**accessible, "objects": [{"representation": "surface", "kind": "vdw", "clip": "depth>0.4"}]}
         for number, scene in enumerate((self.SCENE, hidden, plain, accessible, touched)):
             file = self.scene(f"fig{number}.json", scene)
-            self.run_program("render", "--scene", file, "-o", f"rendered{number}.png")
+            self.run_program("render", "--scene", file, "--trust-scene", "-o", f"rendered{number}.png")
             with open(self.path("session.jsonl"), "w") as lines:
                 lines.write(json.dumps({"command": "export", "format": "png", "path": f"shown{number}.png"}) + "\n"
                             '{"command": "quit"}\n')
-            self.run_program("preview", "--scene", file, "--serve", "--device", "cpu", "--output-dir", self.folder,
+            self.run_program("preview", "--scene", file, "--trust-scene", "--serve", "--device", "cpu", "--output-dir", self.folder,
                              "--commands", self.path("session.jsonl"))
             self.same(f"rendered{number}.png", f"shown{number}.png")
 
@@ -245,7 +245,7 @@ class Figures(unittest.TestCase):
             {**export, "path": "figure.png"},
             {"command": "save", "path": "figure.json", **SIZE, "samples": 2}])
         self.assertTrue(all(reply["ok"] for reply in replies), replies)
-        self.run_program("render", "--scene", self.path("figure.json"), "-o", "rendered.png")
+        self.run_program("render", "--scene", self.path("figure.json"), "--trust-scene", "-o", "rendered.png")
         self.same("figure.png", "rendered.png")
         # Another session opens it, undoes that, and does it again.
         replies = self.session(MOLECULE, "--select", "polymer", commands=[
@@ -275,7 +275,7 @@ class Figures(unittest.TestCase):
             self.assertEqual(done.returncode, 3, done.stderr)
             self.assertIn(text, done.stderr, name)
             if name.startswith(("bad", "drop")):
-                done = subprocess.run([PROGRAM, "preview", "--scene", self.path(name), "--serve"], capture_output=True,
+                done = subprocess.run([PROGRAM, "preview", MOLECULE, "--scene", self.path(name), "--serve"], capture_output=True,
                                       text=True)
                 self.assertEqual(done.returncode, 2, done.stderr)
                 self.assertIn(text, done.stderr)

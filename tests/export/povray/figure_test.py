@@ -173,7 +173,7 @@ class Figure(unittest.TestCase):
         self.run_program(PROGRAM, "render", UBIQUITIN, "-o", os.path.join(self.holder.name, "a.png"), "-q", "--size", "64x48",
                          *options, "--save-scene", scene)
         self.run_program(PROGRAM, "export", "povray", UBIQUITIN, "-o", folders[0], "-q", "--size", "64x48", *options)
-        self.run_program(PROGRAM, "export", "povray", "--scene", scene, "-o", folders[1], "-q", "--save-scene", scene + ".2")
+        self.run_program(PROGRAM, "export", "povray", "--scene", scene, "--trust-scene", "-o", folders[1], "-q", "--save-scene", scene + ".2")
         self.assertEqual(sorted(os.listdir(folders[0])), sorted(os.listdir(folders[1])))
         for name in os.listdir(folders[0]):
             with open(os.path.join(folders[0], name), "rb") as one, open(os.path.join(folders[1], name), "rb") as two:
