@@ -84,9 +84,9 @@ bool ends_as(const std::string& path, std::initializer_list<std::string_view> en
 
 const std::vector<Need>& needs() {
   static const std::vector<Need> kNeeds{
-      {{"--trajectory-atoms", "--trust-atom-order", "--whole", "--superpose", "--center", "--reference", "--smooth",
-        "--camera-path", "--turntable", "--follow", "--time-stamp", "--curve", "--csv-series", "--csv-cavities",
-        "--plot"},
+      {{"--trajectory-atoms", "--trust-atom-order", "--select-once", "--whole", "--superpose", "--center",
+        "--reference", "--smooth", "--camera-path", "--turntable", "--follow", "--time-stamp", "--curve",
+        "--csv-series", "--csv-cavities", "--plot"},
        [](const Asked& asked) { return !asked.has("--stride") || asked.is_run(); },
        "there is no run of frames; add --trajectory FILE, or --frames all for the models of FILE",
        true},

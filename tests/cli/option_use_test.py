@@ -22,7 +22,7 @@ HOW = {"--threads", "--jobs", "--device", "--require-gpu", "--verify", "--progre
        "--help-all", "--force", "--stats", "--extent", "--trust-scene", "--trust-atom-order", "--link", "--addon"}
 # They say what to do with something that a file may hold, and are right to be silent where it does not.
 POLICIES = {"--unknown-element", "--missing-color", "--altloc", "--hydrogens", "--keep-water", "--keep-ions", "--whole",
-            "--cavities", "--instances", "--min-volume", "--cap-color", "--cap-hatching",
+            "--select-once", "--cavities", "--instances", "--min-volume", "--cap-color", "--cap-hatching",
             "--sticks", "--balls", "--spheres", "--tube", "--object"}
 
 
@@ -99,6 +99,7 @@ INPUTS = {
 CONTEXTS = {
     "plain": ["{one.pdb}"], "models": ["{run.pdb}"], "odd": ["{odd.pdb}"],
     "frames": ["{run.pdb}", "--frames", "all"], "film": ["{run.pdb}", "--frames", "0-1"],
+    "near": ["{run.pdb}", "--frames", "all", "--select", "within 6 of resname LIG"],
     "broken": ["{broken.pdb}", "--frames", "all"], "fit": ["{run.pdb}", "--frames", "all", "--superpose", "name CA"],
     "dry": ["{one.pdb}", "--trajectory", "{dry.pdb}"],
     "curve": ["{run.pdb}", "--frames", "all", "--curve", "{curve.csv}"],
@@ -133,7 +134,7 @@ ROWS = {
     "--assembly": ("1", "plain"), "--instances": ("separate", "assembly"), "--trajectory": ("{other.pdb}", "plain"),
     "--trajectory-atoms": ("not water", "dry"), "--repeat": ("2", "frames"),
     "--frames": ("1-2", "models"), "--stride": ("2", "frames"), "--begin": ("1", "frames"), "--end": ("1", "frames"),
-    "--only": ("1", "frames"), "--whole": ("guess", "broken"), "--superpose": ("name CA", "frames"),
+    "--only": ("1", "frames"), "--select-once": (None, "near"), "--whole": ("guess", "broken"), "--superpose": ("name CA", "frames"),
     "--center": ("name CA", "frames"), "--reference": ("2", "fit"), "--smooth": ("3", "frames"), "--fps": ("10", "film"),
     "--codec": ("h265", "film"), "--crf": ("40", "film"), "--bits": ("10", "film"), "--chroma": ("444", "film"),
     "--camera-path": ("{path.json}", "frames"), "--turntable": ("0.4", "frames"), "--follow": ("chain B", "frames"),
