@@ -81,12 +81,12 @@ TEST_F(RunFramings, VelocitiesAreThoseBetweenFramesOfTheRun) {
     request_.frames = list;
     request_.repeat = repeat;
     FrameRun frames(molecule_, request_, true);
-    std::vector<double> steps;
+    std::vector<double> found;
     while (const std::optional<RunFrame> frame = frames.next()) {
       for (const glm::dvec3& velocity : frame->velocities) EXPECT_EQ(velocity, glm::dvec3(frame->velocities[0].x));
-      steps.push_back(frame->velocities[0].x);
+      found.push_back(frame->velocities[0].x);
     }
-    return steps;
+    return found;
   };
   EXPECT_EQ(steps("10-12", 1), (std::vector<double>{1, 1, 1}));
   EXPECT_EQ(steps("0-60:30", 1), (std::vector<double>{30, 30, 30}));
