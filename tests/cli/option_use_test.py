@@ -99,6 +99,7 @@ INPUTS = {
 CONTEXTS = {
     "plain": ["{one.pdb}"], "models": ["{run.pdb}"], "odd": ["{odd.pdb}"],
     "frames": ["{run.pdb}", "--frames", "all"], "film": ["{run.pdb}", "--frames", "0-1"],
+    "moving": ["{run.pdb}", "--frames", "all", "--select", "x < 4"],
     "near": ["{run.pdb}", "--frames", "all", "--select", "within 6 of resname LIG"],
     "broken": ["{broken.pdb}", "--frames", "all"], "fit": ["{run.pdb}", "--frames", "all", "--superpose", "name CA"],
     "dry": ["{one.pdb}", "--trajectory", "{dry.pdb}"],
@@ -174,6 +175,7 @@ ROWS = {
 # Where it takes another value or another context.
 OWN_ROWS = {
     ("surface", "--hydrogens"): ("drop", "plain"), ("pockets", "--show"): ("chain A", "pocket figure"),
+    ("pockets", "--select-once"): (None, "moving"),
     **{("pockets", option): (value, "pocket run")
        for option, value in (("--superpose", "name CA"), ("--center", "name CA"))},
     ("pockets", "--reference"): ("1", "pocket fit"),

@@ -38,12 +38,15 @@ TEST(Select, MistakesArePointedAt) {
             "meniscus: error: --select: 'foo' is no residue number; they look like 52, -3, 52A, 5-10\n"
             "  chain A and resid foo\n"
             "                    ^\n");
-  EXPECT_NE(says({"surface", kToxin, "--show", "chian A"}).err.find("did you mean 'chain'?"), std::string::npos);
+  EXPECT_NE(says({"surface", kToxin, "--context", "chian A"}).err.find("did you mean 'chain'?"), std::string::npos);
 }
 
 TEST(Select, AnEmptyResultIsAnErrorOfTheFile) {
-  for (const char* option : {"--select", "--show"}) {
-    const ProgramResult result = says({"surface", kToxin, option, "chain Z"});
+  for (const std::vector<std::string> command : {std::vector<std::string>{"surface", kToxin, "--select"},
+                                                 {"export", "mesh", kToxin, "-o", "/dev/null.ply", "--show"}}) {
+    std::vector<std::string> arguments = command;
+    arguments.push_back("chain Z");
+    const ProgramResult result = says(arguments);
     EXPECT_EQ(result.exit_code, 3);
     EXPECT_NE(result.err.find("chain Z"), std::string::npos) << result.err;
   }

@@ -256,7 +256,8 @@ TEST_F(Series, OutputsThatGetIntoEachOthersWay) {
   expect_error({dry_, "--frames", "0", "--csv-series", "-", "--json"}, 2, "one thing at a time");
   expect_error({dry_, "--frames", "0", "--csv-series", "-", "--csv", "-"}, 2, "one thing at a time");
   const std::string path = folder_.file("there.csv", "old");
-  expect_error({dry_, "--frames", "0", "--csv-series", path, "--csv", path}, 2, "--csv and --csv-series name the same file");
+  expect_error({dry_, "--frames", "0", "--csv-series", path, "--csv", path}, 2,
+               "--csv and --csv-series name the same file");
   expect_error({dry_, "--frames", "0", "--csv-series", path}, 6, "exists");
   EXPECT_EQ(read_bytes(path), "old");
   expect_error({dry_, "--csv-series", path}, 2, "run of frames");
