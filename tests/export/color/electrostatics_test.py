@@ -132,7 +132,8 @@ class Electrostatics(unittest.TestCase):
         """The recipe as it was once, whose waters have charges."""
         words = [word for word in commands[0] if word not in ("--drop-water", "1ubq.pqr") and "--apbs" not in word]
         run(words + ["water.pqr"], folder)
-        said = run([PROGRAM] + ["water.pqr" if word == "1ubq.pqr" else word for word in commands[2][1:]] + ["--force", "--size", "160x120"], folder)
+        small = ["--force", "--size", "320x240"]
+        said = run([PROGRAM] + ["water.pqr" if word == "1ubq.pqr" else word for word in commands[2][1:]] + small, folder)
         self.assertIn("58 atoms with charges are left out of the surface (58 water)", said)
 
 
