@@ -54,7 +54,8 @@ TEST_F(InexactGpu, FindsTheSameSurface) {
 }
 
 TEST_F(InexactGpu, IsSeenWhereItGoesTooFar) {
-  compile_inexactly(5, 1u << 20);
+  // What double precision decides by less than the growth of weights goes to the host: single precision shows it.
+  compile_inexactly(1u << 20, 5);
   EXPECT_FALSE(different(degenerate_molecules()).empty()) << "the test above sees nothing";
 }
 

@@ -366,10 +366,10 @@ class Components(Folder):
         for group, part in zip(groups, surfaces["ses"], strict=True):  # each by falling area
             volume, area = (sum(numeric[k][column] for k in group) for column in (2, 3))
             if len(group) == 1:
-                self.assertAlmostEqual(part["volume"], volume, delta=0.001)
+                self.assertAlmostEqual(part["signed_volume"], volume, delta=0.001)
                 self.assertAlmostEqual(part["area"], area, delta=0.001)
             else:
-                self.assertGreater(part["volume"], volume + 1.0)
+                self.assertGreater(part["signed_volume"], volume + 1.0)
                 self.assertLess(part["area"], area - 1.0)
 
 

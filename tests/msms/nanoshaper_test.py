@@ -125,8 +125,8 @@ class NanoShaper(Folder):
 
     def test_small_cavities_are_filled_if_asked(self):
         filled, whole = (self.shape(TOXIN, scale=1.0, fill=fill) for fill in ("true", "false"))
-        cavities = [part["volume"] for part in self.exact()["components"] if part["volume"] < 0]
-        small, large = ([volume for volume in cavities if (volume > -20) == is_small] for is_small in (True, False))
+        cavities = [part["volume"] for part in self.exact()["components"] if part["kind"] == "cavity"]
+        small, large = ([volume for volume in cavities if (volume < 20) == is_small] for is_small in (True, False))
         self.assertTrue(small and large)
         self.assertEqual((shells(whole), shells(filled)), (1 + len(cavities), 1 + len(large)))
         self.assertGreater(area_and_volume(filled)[1], area_and_volume(whole)[1])
