@@ -42,8 +42,8 @@ TEST(Select, MistakesArePointedAt) {
 }
 
 TEST(Select, AnEmptyResultIsAnErrorOfTheFile) {
-  for (const std::vector<std::string> command : {std::vector<std::string>{"surface", kToxin, "--select"},
-                                                 {"export", "mesh", kToxin, "-o", "/dev/null.ply", "--show"}}) {
+  for (const std::vector<std::string>& command : {std::vector<std::string>{"surface", kToxin, "--select"},
+                                                  {"export", "mesh", kToxin, "-o", "/dev/null.ply", "--show"}}) {
     std::vector<std::string> arguments = command;
     arguments.push_back("chain Z");
     const ProgramResult result = says(arguments);
