@@ -11,7 +11,7 @@
 
 namespace meniscus {
 
-/// Completes a reduced surface of which the arcs are known: sets its lone_atoms and lost_atoms.
+/// Sets lone_atoms and lost_atoms of a reduced surface. Its arcs must have been found already.
 ///
 /// A sphere on which no arc is exposed is exposed as a whole or not at all, so each of its points decides (theorem 4).
 /// Two opposite points are asked, of the balls alone and by the decision weights: whatever found the arcs has no say.

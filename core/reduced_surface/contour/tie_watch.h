@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Notices circles of which the growth of decision weights decides what is left: those that a tie leaves open.
+// Counts ties: circles whose exposed arcs depend on the growth of the decision weights.
 #pragma once
 
 #include <cstdint>
