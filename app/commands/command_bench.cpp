@@ -13,6 +13,7 @@
 #include "core/scene/molecule.h"
 #include "app/commands/paper_bench.h"
 #include "app/options/picture_options.h"
+#include "app/options/property_options.h"
 #include "app/process/program_error.h"
 #include "core/base/text.h"
 #include "core/structure/formats/formats.h"
@@ -163,19 +164,15 @@ void add_bench(CLI::App& command) {
   command.add_option("FILES", state->files, "Molecules: " + format_names() + "; .gz too")->required();
   state->molecule.surface.timing = StageTiming::exact;
   add_surface_options(command, state->molecule);
-  command.add_option("--runs", state->runs, "Timed runs of each; the median is shown [5]")
-      ->check(CLI::Range(1, 1000000).description(""))
-      ->type_name("N");
-  command.add_flag("--numbers", state->numbers,
-                   "Only what areas and volumes need: without the clip planes of pictures and exports");
-  command.add_flag("--baseline", state->baseline,
-                   "Also time Sanner's sequential rolling probe (reduced surface alone, one thread)");
-  command.add_flag("--paper", state->paper,
-                   "Time whole frames instead, ray casting included, like table 1 of the paper: complete and visible");
+  PropertyOptions options(command);
+  options.add("bench.runs", state->runs);
+  options.add("bench.numbers", state->numbers);
+  options.add("bench.baseline", state->baseline);
+  options.add("bench.paper", state->paper);
   state->picture.width = 1024;
   state->picture.height = 768;
-  add_size_option(command, state->picture, "With --paper: frames");
-  command.add_flag("-q,--quiet", state->molecule.quiet, "No notes on stderr; errors only");
+  add_size_option(command, state->picture, "With --paper: size of frames");
+  options.add("molecule.quiet", state->molecule.quiet);
   command.callback([state] { run(*state); });
 }
 

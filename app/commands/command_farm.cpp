@@ -23,7 +23,8 @@
 #include "app/farm/status_report.h"
 #include "app/farm/verify.h"
 #include "app/farm/worker.h"
-#include "app/options/film_options.h"
+#include "app/options/frame_options.h"
+#include "app/options/property_options.h"
 #include "app/process/installed_files.h"
 #include "app/options/value_words.h"
 #include "app/process/program_error.h"
@@ -116,45 +117,19 @@ void add_bundle(CLI::App& command) {
       .add_option("COMMAND", state->words, "Behind --: render, or export povray, blender, mitsuba or pbrt, and more")
       ->required()
       ->type_name("");
-  command
-      .add_option("--engine", state->engines,
-                  "Whose files to write, commas between: make, slurm, openjd, flamenco, opencue, all [all but opencue]")
-      ->check(proposes({"make", "slurm", "openjd", "flamenco", "opencue", "all"}))
-      ->type_name("WORDS");
-  CLI::Option* const minutes = command.add_option("--chunk-minutes", state->options.chunking.asked_minutes,
-                                                  "Time that a task shall take, by the trial frame [5]");
-  minutes->check(CLI::Range(0.01, 10000.0).description(""))->type_name("M");
-  command.add_option("--chunk-frames", state->options.chunking.asked_frames, "Frames a task, and no trial")
-      ->check(CLI::PositiveNumber.description(""))
-      ->type_name("N")
-      ->excludes(minutes);
-  command
-      .add_option("--task-cores", state->options.chunking.cores,
-                  "Cores of a task, for engines that give tasks a part of a machine [--threads behind --, else 2]")
-      ->check(CLI::Range(1, 4096).description(""))
-      ->type_name("N");
-  command
-      .add_option("--task-memory", state->options.chunking.asked_memory,
-                  "Memory of a task in MiB [half as much again as the trial frame needed, and 256]")
-      ->check(CLI::Range(1, 1 << 30).description(""))
-      ->type_name("MIB");
-  CLI::Option* const film =
-      command.add_option("--film", state->film, "Film that farm verify makes of the pictures, in DIR");
-  film->type_name("NAME.mp4");
-  command.add_option("--fps", state->frames_per_second, "Frames a second of it [25]")
-      ->check(CLI::Range(0.1, 1000.0).description(""))
-      ->type_name("N")
-      ->needs(film);
+  PropertyOptions options(command);
+  options.add("bundle.engine", state->engines);
+  CLI::Option* const minutes = options.add("bundle.chunk_minutes", state->options.chunking.asked_minutes);
+  options.add("bundle.chunk_frames", state->options.chunking.asked_frames)->excludes(minutes);
+  options.add("bundle.task_cores", state->options.chunking.cores);
+  options.add("bundle.task_memory", state->options.chunking.asked_memory);
+  CLI::Option* const film = options.add("bundle.film", state->film);
+  options.add("bundle.fps", state->frames_per_second)->needs(film);
   add_film_options(command, state->film_format);
-  command
-      .add_option("--farm-path", state->options.farm_path,
-                  "DIR as the farm's machines see it: needed by OpenCue, and the default of Flamenco's setting")
-      ->type_name("PATH");
-  command.add_flag("--link", state->link, "Inputs as hard links instead of copies");
-  command
-      .add_option("--addon", state->addon, "Folder of render_mns.py, of this version, to go along with export blender")
-      ->type_name("DIR");
-  command.add_flag("--force", state->options.force, "Replace another bundle at DIR, with all its frames");
+  options.add("bundle.farm_path", state->options.farm_path);
+  options.add("bundle.link", state->link);
+  options.add("bundle.addon", state->addon);
+  options.add("bundle.force", state->options.force);
   command.callback([state, &command] {
     state->options.cores_asked = command.count("--task-cores") > 0;
     bundle(*state);
@@ -171,8 +146,9 @@ void add_status(CLI::App& command) {
            "  meniscus farm status film --prometheus > film.prom.new && mv film.prom.new /var/lib/node/film.prom");
   auto state = std::make_shared<Status>();
   command.add_option("BUNDLE", state->folder, "The bundle's folder")->required()->type_name("");
-  CLI::Option* const json = command.add_flag("--json", state->json, "Print one JSON object instead of a table");
-  command.add_flag("--prometheus", state->metrics, "Print gauges for Prometheus instead of a table")->excludes(json);
+  PropertyOptions options(command);
+  CLI::Option* const json = options.add("report.json", state->json);
+  options.add("status.prometheus", state->metrics)->excludes(json);
   command.callback([state] {
     const farm::Bundle bundle = farm::read_bundle(state->folder);
     const farm::BundleStatus status = farm::status_of(bundle, state->folder);
@@ -231,9 +207,7 @@ void add_log(CLI::App& command) {
   auto state = std::make_shared<Log>();
   command.add_option("BUNDLE", state->folder, "The bundle's folder")->required()->type_name("");
   command.add_option("FRAME", state->frame, "The frame's number, as in the trajectory")->required()->type_name("");
-  command.add_option("--step", state->step, "Only this step of the work: surface or render [all, in order]")
-      ->check(proposes({"surface", "render"}))
-      ->type_name("STEP");
+  PropertyOptions(command).add("work.step", state->step);
   command.callback([state] { tell_log(state->folder, state->frame, state->step); });
 }
 
@@ -300,14 +274,8 @@ void add_verify(CLI::App& command) {
   };
   auto state = std::make_shared<Verify>();
   command.add_option("BUNDLE", state->folder, "The bundle's folder")->required()->type_name("");
-  command
-      .add_option(
-          "--allow-missing", state->in_place,
-          "Make the film although frames are missing or not good: hold (the frame before is shown again) or drop "
-          "(they are left out); farm status and farm log then say so")
-      ->transform(
-          one_of(std::map<std::string, farm::InPlace>{{"hold", farm::InPlace::hold}, {"drop", farm::InPlace::drop}}))
-      ->type_name("WORD");
+  PropertyOptions(command).add_word("verify.allow_missing", state->in_place,
+                                    {farm::InPlace::hold, farm::InPlace::drop});
   command.callback([state] { verify(state->folder, state->in_place); });
 }
 

@@ -9,6 +9,7 @@
 #include <fmt/ostream.h>
 #include <nlohmann/json.hpp>
 
+#include "app/options/property_options.h"
 #include "app/commands/commands.h"
 #include "core/base/text.h"
 #include "core/structure/formats/formats.h"
@@ -64,7 +65,7 @@ void add_formats(CLI::App& command) {
            "  meniscus formats\n"
            "  meniscus formats --json");
   auto json = std::make_shared<bool>(false);
-  command.add_flag("--json", *json, "As JSON, for programs");
+  PropertyOptions(command).add("report.json", *json);
   command.callback([json] { *json ? print_json() : print_table(); });
 }
 

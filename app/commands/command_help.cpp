@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ostream.h>
 
+#include "app/options/property_options.h"
 #include "app/process/build_version.h"
 #include "app/commands/commands.h"
 #include "app/options/command_tree.h"
@@ -168,8 +169,9 @@ void add_help(CLI::App& command) {
   command.add_option("TOPIC", *topic, "The page; none: what pages there are")
       ->check(proposes(page_names(*command.get_parent())))
       ->type_name("");
-  command.add_option("--man", *folder, "Write all pages as manual pages into this folder")->type_name("FOLDER");
-  command.add_flag("--scene-schema", *schema, "Print the JSON schema of scene files");
+  PropertyOptions options(command);
+  options.add("help.man", *folder);
+  options.add("help.scene_schema", *schema);
   command.callback([topic, folder, schema, &command] {
     const CLI::App& program = *command.get_parent();
     if (*schema) {

@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 #include <fmt/ostream.h>
 
+#include "app/options/property_options.h"
 #include "app/commands/commands.h"
 #include "core/scene/molecule.h"
 #include "core/scene/frame_run.h"
@@ -166,8 +167,8 @@ void add_info(CLI::App& command) {
   for (const char* option : {"--show", "--instances"}) command.remove_option(command.get_option(option));
   command.get_option("--radii")->expected(0, 1);  // alone it asks for what is printed anyway
   auto trajectory = std::make_shared<std::string>();
-  command.add_option("--trajectory", *trajectory, "Coordinates of the atoms of FILE, frame by frame; tell of them too")
-      ->type_name("PATH");
+  PropertyOptions(command).add("frames.trajectory", *trajectory)->description(
+      "Also report this trajectory: coordinates of the atoms of FILE, frame by frame");
   command.callback([options, trajectory] { run(*options, *trajectory); });
 }
 

@@ -13,7 +13,7 @@
 #include "app/commands/pockets_command.h"
 #include "app/options/frame_options.h"
 #include "app/options/molecule_options.h"
-#include "app/options/pocket_options.h"
+#include "app/options/property_options.h"
 #include "app/options/scene_file.h"
 #include "app/process/program_error.h"
 #include "app/reports/notes.h"
@@ -126,35 +126,24 @@ void add_pockets(CLI::App& command) {
       "Ranked by volume. Over frames a pocket keeps its number while probes at rest in it overlap. docs/pockets.md.");
   auto state = std::make_shared<PocketsCommand>();
   add_atom_options(command, state->molecule);
-  add_pocket_options(command, state->molecule.surface, state->pockets);
-  {
-    const Heading heading(command, "Surface");
-    add_device_option(command, state->molecule.surface);
-    add_threads_option(command, state->molecule.surface);
-  }
+  add_probe_option(command, state->molecule.surface);
+  PropertyOptions options(command);
+  options.add("pockets.large_probe", state->pockets.large_probe_radius);
+  options.add("pockets.trim", state->pockets.trim);
+  options.add("pockets.min_volume", state->pockets.min_volume);
+  options.add("pockets.mouth_tolerance", state->pockets.tolerance);
+  options.add_parsed("pockets.ligand",
+                     [state](const std::string& text) { state->ligand = parse_selection_option("--ligand", text); });
+  add_device_option(command, state->molecule.surface);
+  add_threads_option(command, state->molecule.surface);
   add_trajectory_argument(command);
   add_frame_options(command, state->frames);
-  command
-      .add_option_function<std::string>(
-          "--ligand", [state](const std::string& text) { state->ligand = parse_selection_option("--ligand", text); },
-          "Atoms that are taken out first, and whose places are told [ligand]; none: they stay")
-      ->type_name("EXPR");
-  command.add_flag("--json", state->json, "Print one JSON object instead of a table");
-  command.add_option("--csv", state->csv, "Write a row a pocket; -: to standard output, nothing else")
-      ->type_name("FILE");
-  command
-      .add_option(
-          "--mesh", state->mesh,
-          "Write the pockets as closed meshes, each in its colour: PLY, OBJ, GLB, 3MF, STL, OFF, VTP by the ending")
-      ->type_name("FILE");
-  command
-      .add_option("--figure", state->figure,
-                  "Write a scene for render, export and preview: atoms around pockets in colours, ligands as sticks")
-      ->type_name("FILE");
-  command.add_option("--tolerance", state->mesh_tolerance, "Farthest the mesh may be from the pocket, in Å [0.02]")
-      ->check(CLI::Range(kSmallestTolerance, kLargestTolerance))
-      ->type_name("Å");
-  command.add_flag("--force", state->force, "Replace files that exist");
+  options.add("report.json", state->json);
+  options.add("report.csv_pockets", state->csv);
+  options.add("report.pocket_mesh", state->mesh);
+  options.add("report.pocket_figure", state->figure);
+  options.add("pockets.tolerance", state->mesh_tolerance);
+  options.add("output.force", state->force);
   add_scene_options(command);
   command.callback([state, &command] {
     state->pockets.probe_radius = state->molecule.surface.probe_radius;

@@ -14,11 +14,10 @@
 
 #include "app/commands/commands.h"
 #include "app/commands/figure_export.h"
-#include "app/options/film_options.h"
 #include "app/options/figure_options.h"
 #include "app/options/look_options.h"
+#include "app/options/property_options.h"
 #include "app/options/scene_file.h"
-#include "app/options/value_words.h"
 #include "app/process/command_line.h"
 #include "app/process/program_error.h"
 #include "core/scene/molecule.h"
@@ -243,35 +242,19 @@ void add_render(CLI::App& command) {
       "Picture to write: .png, .jpg, .webp, .tif, .exr [FILE's name here, as .png]; of frames: frame_#####.png, or a "
       "film: .mp4, .mov, .mkv, .webm, .gif",
       OutputName::optional);
-  command.add_option("--samples", state->samples, "Rays per pixel, the first through its centre [9]")
-      ->check(CLI::Range(1, 1024).description(""))
-      ->type_name("N");
-  add_background_option(command, state->background, "transparent (default), white, black or #rrggbb");
+  PropertyOptions options(command);
+  options.add("image.samples", state->samples);
+  add_background_option(command, state->background);
   add_legend_options(command, state->legend, state->picture);
   add_annotation_options(command, state->annotations);
   add_curve_options(command, state->annotations);
-  command.add_flag("--aovs", state->aovs,
-                   "Add Z, N.xyz, P.xyz, atom, kind and component of each pixel's centre to an .exr");
-  command
-      .add_option_function<std::string>(
-          "--extent", [state](const std::string& text) { parse_extent(text, state->extent); },
-          "Compute on the GPU only what this view needs: visible (the same picture, pixel for pixel); complete "
-          "(everything, the same way); paper (as Krone et al. 2010 select it: deep clefts may have holes)")
-      ->check(proposes({"visible", "complete", "paper"}))
-      ->type_name("WORD");
-  command.add_flag("--stats", state->stats, "With --extent: what each group of stages found, and its time, on stderr");
-  CLI::Option* const provenance =
-      command.add_flag("--provenance", state->provenance,
-                       "Write this command line into .png, .tif, .jpg and .exr, so that it can be made again");
-  command
-      .add_flag_callback(
-          "--no-provenance", [state] { state->names_program = false; },
-          "Leave the program's version out of them, and the scene (all of these options, without folders)")
-      ->excludes(provenance);
+  options.add("image.aovs", state->aovs);
+  options.add_parsed("image.extent", [state](const std::string& text) { parse_extent(text, state->extent); });
+  options.add("picture.stats", state->stats);
+  CLI::Option* const provenance = options.add("picture.provenance", state->provenance);
+  options.add_switch("picture.no_provenance", [state] { state->names_program = false; })->excludes(provenance);
   add_save_camera_option(command, state->save_camera);
-  command.add_option("--fps", state->frames_per_second, "Frames per second of a film [25]")
-      ->check(CLI::Range(0.1, 240.0).description(""))
-      ->type_name("N");
+  options.add("frames.fps", state->frames_per_second);
   add_film_options(command, state->film);
   command.callback([state, &command] {
     state->figure.ask_for(state->molecule.reading);

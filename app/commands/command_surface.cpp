@@ -12,6 +12,7 @@
 #include "app/commands/surface_command.h"
 #include "app/options/frame_options.h"
 #include "app/options/molecule_options.h"
+#include "app/options/property_options.h"
 #include "app/options/scene_file.h"
 #include "app/process/program_error.h"
 #include "app/reports/area_csv.h"
@@ -143,32 +144,16 @@ void add_surface(CLI::App& command) {
   add_division_options(command, state->molecule);
   add_trajectory_argument(command);
   add_frame_options(command, state->frames);
-  command.add_flag("--json", state->json, "Print one JSON object instead of a table");
-  command.add_option("--csv", state->atom_csv, "Write areas of atoms, a row each; -: to standard output, nothing else")
-      ->type_name("FILE");
-  command
-      .add_option("--csv-series", state->series_csv,
-                  "Of a run of frames, write areas, volume and cavities, a row a frame; -: likewise")
-      ->type_name("FILE");
-  command
-      .add_option("--csv-cavities", state->cavity_csv,
-                  "Of a run of frames, write its cavities, a row a frame each: number, birth and end, volume, area, "
-                  "place, residues around; -: likewise")
-      ->type_name("FILE");
-  command.add_option("--csv-residues", state->residue_csv, "Write areas of residues, a row each; -: likewise")
-      ->type_name("FILE");
-  command.add_option("--plot", state->plot, "Of a run of frames, draw areas and volumes as curves over time, as SVG")
-      ->type_name("FILE");
-  command
-      .add_option("--gradients", state->gradient_csv,
-                  "Write the exact derivatives of areas and volumes by the positions of atoms, a row each; -: likewise")
-      ->type_name("FILE");
-  command
-      .add_option_function<std::string>(
-          "--context", [state](const std::string& text) { state->context = parse_selection_option("--context", text); },
-          "Also the areas of --select in the presence of these atoms, and the difference: what is buried")
-      ->type_name("EXPR");
-  command.add_flag("--force", state->force, "Replace files that exist");
+  PropertyOptions options(command);
+  options.add("report.json", state->json);
+  options.add("report.csv_atoms", state->atom_csv);
+  options.add("report.csv_residues", state->residue_csv);
+  options.add("report.csv_series", state->series_csv);
+  options.add("report.csv_cavities", state->cavity_csv);
+  options.add("report.plot", state->plot);
+  options.add("report.gradients", state->gradient_csv);
+  options.add_selection("report.context", state->context);
+  options.add("output.force", state->force);
   add_scene_options(command);
   command.callback([state] {
     // Parts of surfaces are cut out by planes.

@@ -125,32 +125,16 @@ void add_work(CLI::App& command) {
       "ends with exit code 9. After a frame that fails the others are made; the exit code is that frame's.");
   auto state = std::make_shared<WorkCommand>();
   command.add_option("BUNDLE", state->folder, "The bundle's folder")->required()->type_name("");
-  command.add_option("--step", state->step, "Only this step of the work: surface or render [all, in order]")
-      ->check(proposes({"surface", "render"}))
-      ->type_name("STEP");
-  CLI::Option* const frames =
-      command.add_option("--frames", state->frames, "Only these frames of the run, such as 0-99:10,250");
-  frames->type_name("LIST");
-  command.add_option("--chunk", state->chunk, "Only the Kth of N shares of the run, all nearly equal; K from 1")
-      ->type_name("K/N")
-      ->excludes(frames);
-  command.add_flag("--force", state->force, "Make frames again that are there");
-  command
-      .add_option("--lease", state->lease,
-                  "Seconds after which others take this worker for dead, if it does not touch its file [60]")
-      ->check(CLI::Range(farm::kShortestLease, farm::kLongestLease).description(""))
-      ->type_name("S");
+  PropertyOptions options(command);
+  options.add("work.step", state->step);
+  CLI::Option* const frames = options.add("work.frames", state->frames);
+  options.add("work.chunk", state->chunk)->excludes(frames);
+  options.add("work.force", state->force);
+  options.add("work.lease", state->lease);
   add_progress_option(command, state->progress);
-  command
-      .add_option("--device", state->device,
-                  "Where surfaces and pictures are computed, instead of what the bundle says: auto, gpu, gpu:N, "
-                  "software, cpu")
-      ->check(proposes({"auto", "gpu", "software", "cpu"}))
-      ->type_name("DEVICE");
-  command.add_flag("--require-gpu", state->require_gpu, "Refuse (exit code 4) the CPU and software GL for these");
-  command.add_option("--threads", state->threads, "CPU threads of each process [all]")
-      ->check(CLI::Range(1, 4096).description(""))
-      ->type_name("N");
+  options.add("work.device", state->device);
+  options.add("work.require_gpu", state->require_gpu);
+  options.add("work.threads", state->threads);
   command.callback([state] { run(*state); });
 }
 

@@ -12,6 +12,7 @@
 #include "app/commands/figure_export.h"
 #include "app/options/figure_command.h"
 #include "app/options/mesh_options.h"
+#include "app/options/property_options.h"
 #include "app/options/scene_file.h"
 #include "app/reports/notes.h"
 #include "core/base/error.h"
@@ -244,9 +245,7 @@ void add_export_blender(CLI::App& command) {
   add_shown_options(command, *state);
   add_mesh_options(command, state->mesh);
   add_run_options(command, *state);
-  command.add_option("--fps", state->fps, "Frames of a run a second [24]")
-      ->type_name("N")
-      ->check(CLI::Range(0.01, 1000.0));
+  PropertyOptions(command).add("frames.fps", state->fps)->description("Frames per second of a run [24]");
   add_scene_options(command, &state->save_scene);
   add_output_options(command, state->output, ".mns file to write; of a run, the folder");
   command.callback([state, &command] { run_export(command, *state, [&] { run(*state); }); });

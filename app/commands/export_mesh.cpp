@@ -9,12 +9,11 @@
 #include <fmt/format.h>
 
 #include "app/commands/commands.h"
-#include "app/options/figure_options.h"
 #include "app/options/mesh_options.h"
 #include "app/options/molecule_options.h"
 #include "app/options/numbered_path.h"
 #include "app/options/picture_options.h"
-#include "app/options/representation_options.h"
+#include "app/options/figure_options.h"
 #include "app/options/scene_file.h"
 #include "app/reports/notes.h"
 #include "core/base/error.h"

@@ -16,6 +16,7 @@
 #include "app/options/camera_file.h"
 #include "app/options/figure_command.h"
 #include "app/options/mesh_options.h"
+#include "app/options/property_options.h"
 #include "app/options/scene_file.h"
 #include "app/options/value_words.h"
 #include "app/process/program_error.h"
@@ -170,15 +171,8 @@ void declare(CLI::App& command, path_tracers::Renderer renderer) {
   add_run_options(command, *state);
   add_scene_options(command, &state->save_scene);
   add_output_options(command, state->output, "Folder to write; made when missing");
-  const std::map<std::string, path_tracers::Material> words{{"matte", path_tracers::Material::matte},
-                                                            {"plastic", path_tracers::Material::plastic},
-                                                            {"glass", path_tracers::Material::glass},
-                                                            {"wax", path_tracers::Material::wax}};
-  command
-      .add_option("--material", state->material,
-                  "Of the surface: matte, plastic, glass, wax [matte]; what stands beside it is matte")
-      ->transform(one_of(words))
-      ->type_name("WORD");
+  using enum path_tracers::Material;
+  PropertyOptions(command).add_word("path_tracers.material", state->material, {matte, plastic, glass, wax});
   add_save_camera_option(command, state->save_camera);
   command.callback([state, &command] {
     take_tolerance(command, state->mesh);

@@ -14,6 +14,7 @@
 #include "app/commands/figure_export.h"
 #include "app/options/camera_file.h"
 #include "app/options/figure_command.h"
+#include "app/options/property_options.h"
 #include "app/options/scene_file.h"
 #include "app/options/value_words.h"
 #include "app/process/program_error.h"
@@ -202,18 +203,10 @@ void add_export_povray(CLI::App& command) {
   add_run_options(command, *state);
   add_scene_options(command, &state->save_scene);
   add_output_options(command, state->output, "Folder to write; made when missing");
-  const std::map<std::string, povray::Material> words{{"opaque", povray::Material::opaque},
-                                                      {"ghost", povray::Material::ghost},
-                                                      {"glass", povray::Material::glass},
-                                                      {"wax", povray::Material::wax},
-                                                      {"flat", povray::Material::flat}};
-  command
-      .add_option("--material", state->material,
-                  "Default material: opaque, ghost, glass, wax, flat; the scene holds all")
-      ->transform(one_of(words))
-      ->type_name("WORD");
-  command.add_flag("--comments", state->comments,
-                   "A comment before each patch: convex, toroidal or concave, and the atoms that it touches");
+  using enum povray::Material;
+  PropertyOptions options(command);
+  options.add_word("povray.material", state->material, {opaque, ghost, glass, wax, flat});
+  options.add("look.comments", state->comments);
   add_save_camera_option(command, state->save_camera);
   command.callback([state, &command] { run_export(command, *state, [&] { run(*state); }); });
 }

@@ -13,7 +13,7 @@
 #include "app/farm/command_options.h"
 #include "app/process/program_error.h"
 #include "app/options/figure_options.h"
-#include "app/options/run_camera_options.h"
+#include "app/options/picture_options.h"
 #include "app/options/scene_file.h"
 #include "app/options/usage_faults.h"
 #include "core/base/text.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Declares the options of the preview, and takes what they say as a figure and as words for render.
+// Adds the options of the preview, and turns them into a figure and into words for render.
 #include "app/commands/preview_command.h"
 
 #include <algorithm>
@@ -12,6 +12,7 @@
 #include "app/options/figure_options.h"
 #include "app/options/look_options.h"
 #include "app/options/picture_options.h"
+#include "app/options/property_options.h"
 #include "app/options/scene_file.h"
 #include "core/base/text.h"
 #include "core/scene/surface_kind.h"
@@ -28,68 +29,14 @@ std::uint16_t parse_port(const std::string& text) {
   return port;
 }
 
-/// Options that the preview changes while it runs, or that render has not.
-constexpr std::string_view kOwnOptions[] = {"--help",
-                                            "--samples",
-                                            "--background",
-                                            "--linear-alpha",
-                                            "--object",
-                                            "--hide-surface",
-                                            "--scene",
-                                            "--trust-scene",
-                                            "--camera",
-                                            "--projection",
-                                            "--view",
-                                            "--turn",
-                                            "--zoom-to",
-                                            "--size",
-                                            "--width",
-                                            "--height",
-                                            "--dpi",
-                                            "--surface",
-                                            "--probe",
-                                            "--show",
-                                            "--color",
-                                            "--map",
-                                            "--map-file",
-                                            "--color-range",
-                                            "--missing-color",
-                                            "--color-by-file",
-                                            "--color-column",
-                                            "--sticks",
-                                            "--balls",
-                                            "--spheres",
-                                            "--tube",
-                                            "--stick-radius",
-                                            "--tube-radius",
-                                            "--opacity",
-                                            "--film-opacity",
-                                            "--clip",
-                                            "--cap-color",
-                                            "--cap-hatching",
-                                            "--preset",
-                                            "--light",
-                                            "--light-strength",
-                                            "--ambient",
-                                            "--roughness",
-                                            "--specular",
-                                            "--shininess",
-                                            "--ambient-occlusion",
-                                            "--ambient-occlusion-radius",
-                                            "--silhouettes",
-                                            "--outer-lines",
-                                            "--inner-lines",
-                                            "--part-lines",
-                                            "--depth-cue",
-                                            "--legend",
-                                            "--legend-title",
-                                            "--legend-size",
-                                            "--legend-place",
-                                            "--serve",
-                                            "--commands",
-                                            "--record",
-                                            "--output-dir",
-                                            "--force"};
+/// Whether the preview changes the option while it runs, or render does not have it.
+bool is_own(std::string_view name) {
+  constexpr std::string_view kOthers[] = {"--help", "--scene", "--trust-scene", "--force"};
+  if (std::ranges::find(kOthers, name) != std::end(kOthers)) return true;
+  return std::ranges::any_of(properties(), [&](const Property* property) {
+    return property->has(live) && property->option == name;
+  });
+}
 
 /// As they were said.
 void add_words(const CLI::Option& option, std::vector<std::string>& words) {
@@ -112,24 +59,18 @@ RenderInput render_input(const CLI::App& command) {
     const std::string name = option->get_positional() ? "" : option->get_name();
     if (name == "--color-by-file" || name == "--color-column") add_words(*option, input.number_words);
     if (name == "--map-file") add_words(*option, input.map_words);
-    if (std::ranges::find(kOwnOptions, name) == std::end(kOwnOptions)) add_words(*option, input.words);
+    if (!is_own(name)) add_words(*option, input.words);
   }
   return input;
 }
 
 void add_session_options(CLI::App& command, PreviewCommand& state) {
-  command
-      .add_option_function<std::string>(
-          "--serve", [&state](const std::string& text) { state.port = parse_port(text); },
-          "No window: serve a page for browsers on 127.0.0.1, at this port or at any free one")
-      ->expected(0, 1)
-      ->type_name("[PORT]");
-  const Heading heading(command, "Session");
-  command.add_option("--commands", state.commands, "Carry out these commands first, one JSON object a line")
-      ->type_name("FILE");
-  command.add_option("--record", state.record, "Write every command to this file, for --commands")->type_name("FILE");
-  command.add_option("--output-dir", state.output_folder, "Folder of exports [.]")->type_name("FOLDER");
-  command.add_flag("--force", state.force, "Let --record replace a file");
+  PropertyOptions options(command);
+  options.add_parsed("preview.serve", [&state](const std::string& text) { state.port = parse_port(text); });
+  options.add("preview.commands", state.commands);
+  options.add("preview.record", state.record);
+  options.add("preview.output_folder", state.output_folder);
+  options.add("output.force", state.force)->description("Let --record replace a file");
 }
 
 }  // namespace
@@ -138,12 +79,9 @@ void declare_preview(CLI::App& command, PreviewCommand& state) {
   state.molecule.reading.model.all = true;
   add_atom_options(command, state.molecule);
   command.get_option("--model")->description("Model to show; default: all of them, each a frame");
-  {
-    const Heading heading(command, "Surface");
-    add_kind_option(command, state.molecule.surface);
-    add_probe_option(command, state.molecule.surface);
-    add_device_option(command, state.molecule.surface);
-  }
+  add_kind_option(command, state.molecule.surface);
+  add_probe_option(command, state.molecule.surface);
+  add_device_option(command, state.molecule.surface);
   add_color_options(command, state.molecule);
   add_figure_options(command, state.molecule, state.figure);
   add_trajectory_argument(command);
@@ -155,11 +93,11 @@ void declare_preview(CLI::App& command, PreviewCommand& state) {
   command.remove_option(command.get_option("--legend-file"));
   add_annotation_options(command, state.annotations);
   command.remove_option(command.get_option("--time-stamp"));
-  command.add_option("--samples", state.samples, "Rays per pixel of exported pictures [4; of scenes 9]")
-      ->check(CLI::Range(1, 1024).description(""))
-      ->type_name("N");
-  add_background_option(command, state.background,
-                        "white (default), black, #rrggbb, or transparent in exported pictures");
+  PropertyOptions(command)
+      .add("image.samples", state.samples)
+      ->description("Rays per pixel of exported pictures [4; of scenes 9]");
+  add_background_option(command, state.background);
+  command.get_option("--background")->description("white, black, #rrggbb, or transparent in exported pictures [white]");
   add_session_options(command, state);
   add_scene_options(command);
 }

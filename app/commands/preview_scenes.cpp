@@ -11,7 +11,7 @@
 #include "app/commands/commands.h"
 #include "app/commands/preview_command.h"
 #include "app/options/scene_file.h"
-#include "app/options/scene_keys.h"
+#include "core/properties/property.h"
 #include "app/options/usage_faults.h"
 #include "app/process/program_error.h"
 #include "core/base/error.h"
@@ -119,14 +119,15 @@ SceneOpener::SceneOpener(const CLI::App& parsed, const PreviewCommand& command)
 std::vector<SceneOpener::Reading> SceneOpener::reading_of(const CLI::App& parsed,
                                                           std::initializer_list<std::string_view> sections) {
   std::vector<Reading> readings;
-  for (const SceneKey& key : scene_keys()) {
-    if (std::ranges::find(sections, key.section) == sections.end()) continue;
+  for (const Property* property : properties()) {
+    if (!property->has(in_scene) || std::ranges::find(sections, property->section()) == sections.end()) continue;
+    const bool is_file = property->type == ValueType::file;
     // Of surfaces the files that they are coloured by.
-    if (key.section == "surface" && key.value != SceneValue::path && key.key != "color_column") continue;
-    const CLI::Option* const option = parsed.get_option_no_throw(std::string(key.option));
+    if (property->section() == "surface" && !is_file && property->name() != "color_column") continue;
+    const CLI::Option* const option = parsed.get_option_no_throw(std::string(property->option));
     if (!option || option->empty()) continue;
-    Reading reading{std::string(key.option), option->results()};
-    if (key.value == SceneValue::path || key.value == SceneValue::paths)
+    Reading reading{std::string(property->option), option->results()};
+    if (is_file)
       for (std::string& path : reading.values) path = fs::weakly_canonical(path).string();
     readings.push_back(std::move(reading));
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The lists, and the one way to read words by them.
+// Reads the options of a bundled command, and refuses every word that a bundle must not have.
 #include "app/farm/command_options.h"
 
 #include <algorithm>
@@ -11,6 +11,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/properties/property.h"
 
 namespace meniscus::farm {
 namespace {
@@ -28,127 +29,40 @@ constexpr std::size_t kLongestWord = 100;  // the matcher recurses by the letter
 
 using Options = std::map<std::string_view, Value>;
 
+Value value_of(const Property& property) {
+  switch (property.type) {
+    case ValueType::flag:
+      return Value::none;
+    case ValueType::file:
+    case ValueType::camera:
+      return Value::file;
+    default:
+      return property.has(value_optional) ? Value::maybe_text : Value::text;
+  }
+}
+
+/// The properties that a bundle may have. None of them writes a file or starts a program.
 const Options& command_table() {
-  static const Options table{
-      // atoms
-      {"--model", Value::text},
-      {"--altloc", Value::text},
-      {"--select", Value::text},
-      {"--show", Value::text},
-      {"--keep-water", Value::none},
-      {"--keep-ions", Value::none},
-      {"--unknown-element", Value::text},
-      {"--hydrogens", Value::text},
-      {"--radii", Value::text},
-      {"--radii-file", Value::file},
-      {"--radius", Value::text},
-      {"--warnings", Value::text},
-      {"-q", Value::none},
-      {"--quiet", Value::none},
-      {"--assembly", Value::text},
-      {"--instances", Value::text},
-      // surface
-      {"--surface", Value::text},
-      {"--probe", Value::text},
-      {"--verify", Value::none},
-      {"--by", Value::text},
-      {"--interface", Value::text},
-      {"--cavities", Value::text},
-      {"--tolerance", Value::text},
-      {"--tolerance-pixels", Value::text},
-      // colour and look
-      {"--color", Value::text},
-      {"--color-by-file", Value::file},
-      {"--color-column", Value::text},
-      {"--color-map-file", Value::file},
-      {"--map-offset", Value::text},
-      {"--color-title", Value::text},
-      {"--color-unit", Value::text},
-      {"--map", Value::text},
-      {"--map-file", Value::file},
-      {"--color-range", Value::text},
-      {"--missing-color", Value::text},
-      {"--opacity", Value::text},
-      {"--film-opacity", Value::none},
-      {"--object", Value::text},
-      {"--hide-surface", Value::none},
-      {"--clip", Value::text},
-      {"--cap-color", Value::text},
-      {"--cap-hatching", Value::text},
-      {"--sticks", Value::text},
-      {"--balls", Value::text},
-      {"--spheres", Value::text},
-      {"--stick-radius", Value::text},
-      {"--preset", Value::text},
-      {"--tube", Value::text},
-      {"--tube-radius", Value::text},
-      {"--light", Value::text},
-      {"--light-strength", Value::text},
-      {"--ambient-occlusion", Value::text},
-      {"--ambient-occlusion-radius", Value::text},
-      {"--silhouettes", Value::text},
-      {"--outer-lines", Value::text},
-      {"--inner-lines", Value::text},
-      {"--part-lines", Value::text},
-      {"--ambient", Value::text},
-      {"--roughness", Value::text},
-      {"--specular", Value::text},
-      {"--shininess", Value::text},
-      {"--linear-alpha", Value::none},
-      {"--depth-cue", Value::text},
-      {"--material", Value::text},
-      {"--comments", Value::none},
-      // picture
-      {"--size", Value::text},
-      {"--dpi", Value::text},
-      {"--width", Value::text},
-      {"--height", Value::text},
-      {"--provenance", Value::none},
-      {"--no-provenance", Value::none},
-      {"--camera", Value::file},
-      {"--projection", Value::text},
-      {"--view", Value::text},
-      {"--turn", Value::text},
-      {"--zoom-to", Value::text},
-      {"--samples", Value::text},
-      {"--background", Value::text},
-      {"--legend", Value::none},
-      {"--legend-title", Value::text},
-      {"--legend-size", Value::text},
-      {"--legend-place", Value::text},
-      {"--panel", Value::text},
-      {"--scale-bar", Value::maybe_text},
-      {"--label", Value::text},
-      {"--time-stamp", Value::none},
-      {"--curve", Value::file},
-      {"--curve-column", Value::text},
-      {"--extent", Value::text},
-      // frames
-      {"--trajectory", Value::file},
-      {"--trajectory-atoms", Value::text},
-      {"--trust-atom-order", Value::none},
-      {"--repeat", Value::text},
-      {"--frames", Value::text},
-      {"--stride", Value::text},
-      {"--begin", Value::text},
-      {"--end", Value::text},
-      {"--select-once", Value::none},
-      {"--whole", Value::maybe_text},
-      {"--superpose", Value::text},
-      {"--center", Value::text},
-      {"--reference", Value::text},
-      {"--smooth", Value::text},
-      {"--camera-path", Value::file},
-      {"--turntable", Value::text},
-      {"--follow", Value::text},
-      {"--fps", Value::text},
-  };
+  static const Options table = [] {
+    Options options;
+    for (const Property* property : properties()) {
+      if (!property->has(in_bundle)) continue;
+      options[property->long_option()] = value_of(*property);
+      if (const std::size_t comma = property->option.find(','); comma != std::string_view::npos)
+        options[property->option.substr(0, comma)] = value_of(*property);
+    }
+    return options;
+  }();
   return table;
 }
 
 const Options& device_table() {
-  static const Options table{
-      {"--device", Value::text}, {"--threads", Value::text}, {"--require-gpu", Value::none}, {"--jobs", Value::text}};
+  static const Options table = [] {
+    Options options;
+    for (const char* key : {"surface.device", "surface.threads", "surface.require_gpu", "frames.jobs"})
+      options[property_of(key).option] = value_of(property_of(key));
+    return options;
+  }();
   return table;
 }
 
@@ -181,7 +95,7 @@ class Reader {
     option.place = next_++;
     const auto known = table_.find(option.name);
     if (known == table_.end())
-      throw RequestError(fmt::format("{} is no option that a bundle may have{}", in_quotes(word),
+      throw RequestError(fmt::format("{} is not supported in farm bundles{}", in_quotes(word),
                                      word.starts_with('-') ? "" : "; name trajectories by --trajectory"));
     option.reads_file = known->second == Value::file;
     option.joined = equals != std::string::npos;

@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Declares what is written into a picture.
+// Adds the options of legends and labels, and turns what they say into texts of a picture.
 #include "app/options/annotation_options.h"
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <map>
 
 #include <fmt/format.h>
 
 #include "app/options/molecule_options.h"
 #include "app/options/picture_options.h"
-#include "app/options/value_words.h"
+#include "app/options/property_options.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/trajectory/series_table.h"
@@ -68,69 +67,41 @@ std::string title_of(const std::string& column) {
 }  // namespace
 
 void add_legend_options(CLI::App& command, LegendRequest& request, ViewRequest& picture) {
-  command.add_flag("--legend", request.within,
-                   "Write what the colours mean at the right (of high pictures: below); the molecule is framed beside "
-                   "it");
-  command.add_option("--legend-file", request.file, "Write the legend as a picture of its own")->type_name("FILE");
-  command.add_option("--legend-title", request.style.title, "Instead of the usual one; '' for none")->type_name("TEXT");
-  command
-      .add_option_function<std::string>(
-          "--legend-size",
-          [&request, &picture](const std::string& text) {
-            constexpr double kLeast = 6.0, kMost = 1000.0;
-            const double pixels = std::round(pixels_of("--legend-size", text, picture));
-            if (!(pixels >= kLeast && pixels <= kMost))
-              throw CLI::ValidationError("--legend-size", fmt::format("{} makes {:.4g} pixels; letters have {} to {}",
-                                                                      in_quotes(text), pixels, kLeast, kMost));
-            request.style.letters = static_cast<int>(pixels);
-          },
-          "Height of its letters: pixels, or 8pt, 3mm [a thirtieth of the shorter side]")
-      ->type_name("SIZE");
-  const std::map<std::string, LegendStyle::Place> places{{"auto", LegendStyle::Place::automatic},
-                                                         {"right", LegendStyle::Place::right},
-                                                         {"below", LegendStyle::Place::below}};
-  command.add_option("--legend-place", request.style.place, "auto (default), right or below")
-      ->transform(one_of(places))
-      ->type_name("WORD");
+  PropertyOptions options(command);
+  options.add("legend.shown", request.within);
+  options.add("legend.file", request.file);
+  options.add("legend.title", request.style.title);
+  options.add_parsed("legend.size", [&request, &picture](const std::string& text) {
+    const Property& size = property_of("legend.size");
+    const double pixels = std::round(pixels_of("--legend-size", text, picture));
+    if (!(pixels >= size.lowest && pixels <= size.highest))
+      throw CLI::ValidationError("--legend-size", fmt::format("{} makes {:.4g} pixels; letters have {} to {}",
+                                                              in_quotes(text), pixels, size.lowest, size.highest));
+    request.style.letters = static_cast<int>(pixels);
+  });
+  using enum LegendStyle::Place;
+  options.add_word("legend.place", request.style.place, {automatic, right, below});
 }
 
 void add_annotation_options(CLI::App& command, AnnotationRequest& request) {
-  command.add_option("--panel", request.panel, "Letter of the panel, at the top left")->type_name("TEXT");
-  command
-      .add_option_function<std::string>(
-          "--scale-bar", [&request](const std::string& text) { parse_scale_bar(text, request); },
-          "A bar of so many Å at the bottom left, or of a round length (auto, default); of a perspective camera it "
-          "holds where that looks at")
-      ->expected(0, 1)
-      ->check(proposes({"auto"}))
-      ->type_name("Å");
-  command
-      .add_option_function<std::vector<std::string>>(
-          "--label",
-          [&request](const std::vector<std::string>& texts) {
-            request.labels.clear();
-            for (const std::string& text : texts) request.labels.push_back(parse_label(text));
-          },
-          "Write TEXT beside the middle of these atoms, with a line that leads there, before whatever is in front of "
-          "it; repeatable")
+  PropertyOptions options(command);
+  options.add("annotations.panel", request.panel);
+  options.add_parsed("annotations.scale_bar", [&request](const std::string& text) { parse_scale_bar(text, request); });
+  options
+      .add_list("annotations.labels",
+                [&request](const std::vector<std::string>& texts) {
+                  request.labels.clear();
+                  for (const std::string& text : texts) request.labels.push_back(parse_label(text));
+                })
       ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-      ->type_name("EXPR=TEXT");
-  command.add_flag("--time-stamp", request.time_stamp,
-                   "Of frames: write the time in ns at the top right, or the frame's number where there are no times");
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  options.add("annotations.time_stamp", request.time_stamp);
 }
 
 void add_curve_options(CLI::App& command, AnnotationRequest& request) {
-  CLI::Option* const curve =
-      command
-          .add_option(
-              "--curve", request.curve,
-              "Of frames: draw numbers of the run (surface --csv-series) as a curve at the bottom right, with a "
-              "mark where each frame is")
-          ->type_name("FILE.csv");
-  command.add_option("--curve-column", request.curve_column, "Which column of --curve [the first behind the time]")
-      ->needs(curve)
-      ->type_name("NAME");
+  PropertyOptions options(command);
+  CLI::Option* const curve = options.add("annotations.curve", request.curve);
+  options.add("annotations.curve_column", request.curve_column)->needs(curve);
 }
 
 std::optional<Curve> curve_of(const AnnotationRequest& request, std::span<const std::uint64_t> frames) {

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Declares --save-camera and writes its file.
+// Adds --save-camera, and writes its file.
 #include "app/options/camera_file.h"
+
+#include "app/options/property_options.h"
 
 namespace meniscus {
 
 void add_save_camera_option(CLI::App& command, std::string& path) {
-  command.add_option("--save-camera", path, "Write the camera used, as JSON for --camera")->type_name("FILE");
+  PropertyOptions(command).add("camera.save", path);
 }
 
 void check_camera_file(const std::string& path, Existing existing) {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Declares the options that say how a surface is coloured.
+// Adds the options that say how a surface is coloured, and checks them together.
 #include <algorithm>
 #include <optional>
 
 #include <fmt/format.h>
 
 #include "app/options/molecule_options.h"
-#include "app/options/value_words.h"
+#include "app/options/property_options.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 
@@ -89,96 +89,48 @@ void check_together(const MoleculeOptions& options, const CLI::Option& scheme, c
 
 }  // namespace
 
-void add_color_options(CLI::App& command, MoleculeOptions& options) {
-  const Heading heading(command, "Colour");
-  ColorScheme& color = options.color;
-  const auto add = [&](const char* name, void (*parse)(const std::string&, ColorScheme&), const char* help,
-                       const char* type) {
-    CLI::Option* const option = command.add_option_function<std::string>(
-        name, [&color, parse](const std::string& text) { parse(text, color); }, help);
-    return option->type_name(type);
+void add_color_options(CLI::App& command, MoleculeOptions& molecule) {
+  ColorScheme& color = molecule.color;
+  PropertyOptions options(command);
+  const auto parsed_by = [&color](void (*parse)(const std::string&, ColorScheme&)) {
+    return [&color, parse](const std::string& text) { parse(text, color); };
   };
   std::vector<std::string> schemes, maps;
   for (const ColorSchemeMetadata& known : color_schemes()) schemes.emplace_back(known.word);
   for (const ColorMapMetadata& known : color_maps()) maps.emplace_back(known.name);
-  CLI::Option* const scheme =
-      command
-          .add_option_function<std::vector<std::string>>(
-              "--color", [&color](const std::vector<std::string>& texts) { parse_colors(texts, color); },
-              "element (default), chain, copy (of an assembly), residue (type), kind (of patch), component, a colour "
-              "(red, #rrggbb), element-cpk (darker); or by number: bfactor, occupancy, charge, hydrophobicity (Kyte & "
-              "Doolittle 1982), "
-              "index, radial (capsids); meniscus colors explains them. Or EXPR=COLOR for some atoms, as in "
-              "'ligand=orange'; repeatable, "
-              "the last counts")
-          ->allow_extra_args(false)
-          ->type_name("SCHEME")
-          ->check(proposes(schemes));
-  CLI::Option* const file = command.add_option(
-      "--color-by-file", options.number_file,
-      "Colour by numbers from a file: one an atom of FILE or one an atom used; lines of chain, residue and number; or "
-      "a CSV table, such as meniscus surface --csv-residues writes; nan, ? or -: missing");
-  file->type_name("NUMBERS");
-  command.add_option("--color-column", options.number_column, "Column of that table")->needs(file)->type_name("NAME");
-  add("--map", parse_map,
-      "Of numbers: viridis (default), cividis, magma, blue-white-red (default of hydrophobicity), red-white-blue (of "
-      "charge: negative is red), blues and ylorrd (light), consurf (grades 1 to 9), categorical (each number a colour "
-      "of "
-      "its own)",
-      "MAP")
-      ->check(proposes(maps));
-  command
-      .add_option("--map-file", options.map_file,
-                  "A map of your own: a colour a line, or a place and a colour; or a JSON list of them")
-      ->type_name("FILE");
-  add("--color-range", parse_range,
-      "Numbers at the ends of the map, or auto (default: smallest and largest; charge symmetric about 0; "
-      "hydrophobicity -4.5:4.5)",
-      "LO:HI");
-  CLI::Option* const volume =
-      command
-          .add_option("--color-map-file", options.volume_file,
-                      "Colour each point of the surface by a volume map, such as a potential of APBS: OpenDX (.dx), "
-                      "Gaussian cube, CCP4/MRC; needs --color-range; map red-white-blue unless told otherwise")
-          ->excludes(file)
-          ->type_name("FILE");
-  command
-      .add_option(
-          "--map-offset", options.volume_offset,
-          "Sample that map so many Å outside of the surface, along its normal; 1.4 is where solvent's centres are [0]")
-      ->check(CLI::Range(-20.0, 20.0).description(""))
-      ->needs(volume)
-      ->type_name("Å");
-  command.add_option("--color-title", color.title, "Title of the legend's scale")->type_name("TEXT");
-  command.add_option("--color-unit", color.unit, "Its unit, such as kT/e")->type_name("TEXT");
-  add("--missing-color", parse_missing,
-      "Of atoms without a number, and points outside of a volume map [#808080; cividis #cc79a7; consurf #ffff96]",
-      "COLOR");
-  command.parse_complete_callback([&options, scheme, file, volume] {
+  CLI::Option* const scheme = options.add_list(
+      "surface.color", [&color](const std::vector<std::string>& texts) { parse_colors(texts, color); });
+  scheme->check(proposes(schemes));
+  CLI::Option* const file = options.add("surface.color_by_file", molecule.number_file);
+  options.add("surface.color_column", molecule.number_column)->needs(file);
+  options.add_parsed("surface.map", parsed_by(parse_map))->check(proposes(maps));
+  options.add("surface.map_file", molecule.map_file);
+  options.add_parsed("surface.color_range", parsed_by(parse_range));
+  CLI::Option* const volume = options.add("surface.color_map_file", molecule.volume_file);
+  volume->excludes(file);
+  options.add("surface.map_offset", molecule.volume_offset)->needs(volume);
+  options.add("surface.color_title", color.title);
+  options.add("surface.color_unit", color.unit);
+  options.add_parsed("surface.missing_color", parsed_by(parse_missing));
+  command.parse_complete_callback([&molecule, scheme, file, volume] {
     // Numbers that no --color speaks of are for all atoms.
-    if (!file->empty() && !has_base(*scheme) && !options.color.uses_file()) options.color.by = By::file;
+    if (!file->empty() && !has_base(*scheme) && !molecule.color.uses_file()) molecule.color.by = By::file;
     if (!volume->empty()) {
       if (has_base(*scheme))
         throw CLI::ValidationError("--color-map-file", "is itself a --color; leave the other one out, but EXPR=COLOR");
-      if (!options.color.range)
+      if (!molecule.color.range)
         throw CLI::ValidationError("--color-map-file", "needs --color-range LO:HI, such as -5:5 for kT/e");
-      options.color.by = By::volume;
+      molecule.color.by = By::volume;
     }
-    check_together(options, *scheme, *file);
+    check_together(molecule, *scheme, *file);
   });
 }
 
-void add_opacity_option(CLI::App& command, MoleculeOptions& options) {
-  command
-      .add_option_function<std::vector<std::string>>(
-          "--opacity",
-          [&options](const std::vector<std::string>& texts) {
-            for (const std::string& text : texts)
-              options.color.opacities.push_back(naming("--opacity", [&] { return parse_opacity_rule(text); }));
-          },
-          "Of atoms, from 0 (hidden) to 1: EXPR=0.4, or a number alone for all of them; repeatable, the last counts")
-      ->allow_extra_args(false)
-      ->type_name("EXPR=N");
+void add_opacity_option(CLI::App& command, MoleculeOptions& molecule) {
+  PropertyOptions(command).add_list("surface.opacity", [&molecule](const std::vector<std::string>& texts) {
+    for (const std::string& text : texts)
+      molecule.color.opacities.push_back(naming("--opacity", [&] { return parse_opacity_rule(text); }));
+  });
 }
 
 }  // namespace meniscus

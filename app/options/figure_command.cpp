@@ -4,7 +4,6 @@
 
 #include "app/options/figure_options.h"
 #include "app/options/picture_options.h"
-#include "app/options/run_camera_options.h"
 #include "app/options/scene_file.h"
 #include "core/scene/settled_selections.h"
 

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Declares the options of figures and checks what they say.
+// Adds the options of what is drawn: sticks and tubes beside the surface, objects, opacity, cuts, interfaces.
 #include "app/options/figure_options.h"
 
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "app/options/object_option.h"
-#include "app/options/representation_options.h"
+#include "app/options/property_options.h"
+#include "app/process/program_error.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/color/color_schemes.h"
@@ -30,75 +33,61 @@ void parse_cap_color(const std::string& text, CapStyle& cap) {
     throw CLI::ValidationError("--cap-color", in_quotes(text) + " is neither atom nor a colour (red, #rrggbb)");
 }
 
-/// --opacity and --film-opacity, whether what is seen through is a thin film.
-void add_opacity_options(CLI::App& command, MoleculeOptions& molecule, bool& thickens) {
-  const Heading heading(command, "Figure");
-  add_opacity_option(command, molecule);
-  command.add_flag("--film-opacity", thickens,
-                   "A surface that is seen through is denser where the view grazes it, as a thin film is");
-}
-
-/// --clip, --cap-color and --cap-hatching.
-void add_cut_options(CLI::App& command, FigureRequest& figure) {
-  const Heading heading(command, "Figure");
-  command
-      .add_option_function<std::vector<std::string>>(
-          "--clip",
-          [&figure](const std::vector<std::string>& texts) {
-            figure.cuts.clear();
-            for (const std::string& text : texts) figure.cuts.push_back(cut_of(text));
-          },
-          "Show of the surface what lies where this holds, with exact caps: x<20, 1,1,0>35 (a direction), or depth>0.5 "
-          "along the view (0 nearest, 1 farthest); repeatable, all count")
-      ->allow_extra_args(false)
-      ->type_name("PLANE");
-  command
-      .add_option_function<std::string>(
-          "--cap-color", [&figure](const std::string& text) { parse_cap_color(text, figure.cap); },
-          "Of caps: atom (default: that of the nearest atom) or a colour (red, #rrggbb)")
-      ->type_name("COLOR");
-  command.add_option("--cap-hatching", figure.cap.hatching, "Dark lines on caps, so many Å apart [0: none]")
-      ->check(CLI::Range(0.0, 1000.0).description(""))
-      ->type_name("Å");
+void add_cuts(PropertyOptions& options, FigureRequest& figure) {
+  options.add_list("surface.clip", [&figure](const std::vector<std::string>& texts) {
+    figure.cuts.clear();
+    for (const std::string& text : texts) figure.cuts.push_back(cut_of(text));
+  });
+  options.add_parsed("surface.cap_color", [&figure](const std::string& text) { parse_cap_color(text, figure.cap); });
+  options.add("surface.cap_hatching", figure.cap.hatching);
 }
 
 }  // namespace
 
+void add_representation_options(CLI::App& command, Representations& representations) {
+  PropertyOptions options(command);
+  using Kind = RepresentationRequest::Kind;
+  const auto add = [&](const char* key, Kind kind) {
+    options.add_list(key, [&representations, kind](const std::vector<std::string>& texts) {
+      for (const std::string& text : texts) {
+        if (representations.requests.size() == kMostShown)
+          throw UsageError(
+              fmt::format("{}: at most {} sets of atoms are drawn beside a surface", option_word(kind), kMostShown));
+        representations.requests.push_back({kind, parse_selection_option(option_word(kind), text)});
+      }
+    });
+  };
+  add("figure.sticks", Kind::sticks);
+  add("figure.balls", Kind::balls_and_sticks);
+  add("figure.spheres", Kind::spheres);
+  add("figure.tube", Kind::backbone);
+  options.add("shapes.stick_radius", representations.stick_radius);
+  options.add("shapes.tube_radius", representations.tube_radius);
+}
+
 void add_figure_options(CLI::App& command, MoleculeOptions& molecule, FigureRequest& figure) {
-  const Heading heading(command, "Figure");
+  PropertyOptions options(command);
   add_representation_options(command, figure.representations);
-  command
-      .add_option_function<std::vector<std::string>>(
-          "--object",
-          [&figure](const std::vector<std::string>& texts) {
-            figure.objects.clear();
-            for (const std::string& text : texts) figure.objects.push_back(parse_figure_object(text));
-          },
-          "Draw something more, with colour, opacity, material and cuts of its own, as in a scene file: "
-          "'{\"representation\": \"surface\", \"selection\": \"chain B\", \"color\": \"red\"}'; repeatable")
-      ->allow_extra_args(false)
-      ->type_name("JSON");
-  command.add_flag("--hide-surface", figure.hides_surface, "Draw only what stands beside the surface");
-  add_opacity_options(command, molecule, figure.thickens);
-  add_cut_options(command, figure);
+  options.add_list("figure.object", [&figure](const std::vector<std::string>& texts) {
+    figure.objects.clear();
+    for (const std::string& text : texts) figure.objects.push_back(parse_figure_object(text));
+  });
+  options.add("surface.shown", figure.hides_surface);
+  add_opacity_option(command, molecule);
+  options.add("surface.film_opacity", figure.thickens);
+  add_cuts(options, figure);
 }
 
 void add_interface_option(CLI::App& command, MoleculeOptions& molecule) {
-  command
-      .add_option_function<std::string>(
-          "--interface",
-          [&molecule](const std::string& text) {
-            try {
-              molecule.interface = parse_interface(text);
-            } catch (const SelectionError& error) {
-              throw SelectionError("--interface: " + error.sentence(), error.picture());
-            } catch (const RequestError& error) {
-              throw CLI::ValidationError("--interface", error.what());
-            }
-          },
-          "Open the contact of two groups like a book, both sides to the viewer, coloured by buried area: chains (A:B, "
-          "A,C:B) or EXPR:EXPR")
-      ->type_name("A:B");
+  PropertyOptions(command).add_parsed("surface.interface", [&molecule](const std::string& text) {
+    try {
+      molecule.interface = parse_interface(text);
+    } catch (const SelectionError& error) {
+      throw SelectionError("--interface: " + error.sentence(), error.picture());
+    } catch (const RequestError& error) {
+      throw CLI::ValidationError("--interface", error.what());
+    }
+  });
 }
 
 void take_interface(const CLI::App& command, MoleculeOptions& molecule, ViewRequest& picture) {

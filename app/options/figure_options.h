@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The options that say what a figure shows beside the whole surface: cuts, opacity, sticks and the like.
+// The options of what is drawn: sticks and tubes beside the surface, objects, opacity, cuts, interfaces.
 #pragma once
 
 #include "app/options/molecule_options.h"
@@ -8,8 +8,11 @@
 
 namespace meniscus {
 
-/// --opacity, --film-opacity, --clip, --cap-color, --cap-hatching, --object, --hide-surface, and those of
-/// representation_options.h. Both must live as long as the command.
+/// --sticks, --balls, --spheres, --tube, --stick-radius, --tube-radius. They must live as long as the command.
+void add_representation_options(CLI::App& command, Representations& representations);
+
+/// The same and --object, --hide-surface, --opacity, --film-opacity, --clip, --cap-color, --cap-hatching. Both must
+/// live as long as the command.
 void add_figure_options(CLI::App& command, MoleculeOptions& molecule, FigureRequest& figure);
 
 /// --interface. The molecule must live as long as the command.

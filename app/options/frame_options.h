@@ -7,6 +7,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "app/film/film_format.h"
 #include "core/scene/frame_run.h"
 
 namespace meniscus {
@@ -27,13 +28,13 @@ struct FrameOptions : RunRequest {
   std::size_t jobs = 0;  ///< frames that are made at once; 0: as cores and memory allow
 };
 
-/// --trajectory, --trajectory-atoms, --trust-atom-order, --frames, --stride, --begin, --end, --repeat, --only,
-/// --select-once, --whole,
-/// --superpose, --center, --reference, --smooth, --jobs, --progress, under a heading of their own.
+/// Which frames there are, how their atoms are moved, and how many are made at once: --trajectory to --progress.
 void add_frame_options(CLI::App& command, FrameOptions& options);
 /// Trajectories named behind FILE, for what has --trajectory. To be called behind what adds FILE and before
 /// add_frame_options.
 void add_trajectory_argument(CLI::App& command);
+/// --codec, --crf, --bits, --chroma. `format` must live as long as the command.
+void add_film_options(CLI::App& command, FilmFormat& format);
 void add_progress_option(CLI::App& command, ProgressStyle& style);
 
 /// Where indices of frames and compiled kernels are kept: beside other caches of the user, or nowhere.

@@ -30,18 +30,13 @@ struct OutputOptions {
   Existing existing() const { return force ? Existing::replace : Existing::refuse; }
 };
 
-/// FILE and what is taken from it (atom_options.cpp): --model, --altloc, --keep-water, --keep-ions, --unknown-element,
-/// --quiet.
+/// FILE and what is taken from it: --model, --altloc, --select, --keep-water, ...; radii and assemblies.
 void add_atom_options(CLI::App& command, MoleculeOptions& options);
 /// Understands an expression that is the value of an option. Throws SelectionError, which names the option.
 Selection parse_selection_option(const std::string& option, const std::string& text);
 /// FILE alone, and --warnings and --quiet, for commands that take everything.
 void add_file_argument(CLI::App& command, MoleculeOptions& options);
 void add_warning_options(CLI::App& command, MoleculeOptions& options);
-/// Which copies of it there are (assembly_options.cpp): --assembly, --instances. Comes with add_atom_options.
-void add_assembly_options(CLI::App& command, MoleculeOptions& options);
-/// Which radii they get (radii_options.cpp): --hydrogens, --radii, --radii-file, --radius; part of the above.
-void add_radii_options(CLI::App& command, ReadOptions& reading);
 /// How the surface is made of them (surface_options.cpp): --surface, --probe, --device, --require-gpu,
 /// --verify, --threads.
 void add_surface_options(CLI::App& command, MoleculeOptions& options);
@@ -68,17 +63,5 @@ enum class OutputName { required, optional };
 /// -o/--output (described by `what`) and --force.
 void add_output_options(CLI::App& command, OutputOptions& options, const std::string& what,
                         OutputName name = OutputName::required);
-
-/// Options added while this lives stand under a heading of their own in the help.
-class Heading {
- public:
-  Heading(CLI::App& command, const char* text);
-  ~Heading();
-  Heading(const Heading&) = delete;
-  Heading& operator=(const Heading&) = delete;
-
- private:
-  CLI::App& command_;
-};
 
 }  // namespace meniscus

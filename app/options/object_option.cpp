@@ -18,6 +18,7 @@
 #include "core/base/text.h"
 #include "core/color/color_maps.h"
 #include "core/color/css_colors.h"
+#include "core/properties/property.h"
 
 namespace meniscus {
 namespace {
@@ -31,25 +32,25 @@ constexpr std::array<std::pair<std::string_view, Kind>, 4> kShapeWords{{{"sticks
                                                                         {"tube", Kind::backbone}}};
 
 constexpr auto kObjectKeys = std::to_array<ObjectKey>({
-    {"representation", "surface, sticks, balls, spheres or tube", SceneValue::text},
-    {"selection", "its atoms", SceneValue::text},
-    {"color", "as --color, of this object [that of the molecule]", SceneValue::list},
-    {"opacity", "as --opacity, of this object", SceneValue::list},
-    {"map", "as --map, of a color by number", SceneValue::text},
-    {"color_range", "as --color-range, likewise", SceneValue::text},
-    {"missing_color", "as --missing-color, likewise", SceneValue::text},
-    {"ambient", "of its material, 0 to 1 [as --ambient]", SceneValue::text},
-    {"roughness", "likewise, 0 to 1", SceneValue::text},
-    {"specular", "likewise, 0 to 1", SceneValue::text},
-    {"shininess", "likewise, 1 to 1000", SceneValue::text},
-    {"radius", "of sticks and tubes, Å", SceneValue::text},
-    {"kind", "of a surface: ses, sas, vdw", SceneValue::text},
-    {"probe", "of a surface: radius of the probe, Å [1.4]", SceneValue::text},
-    {"show", "of a surface: as --show", SceneValue::text},
-    {"clip", "of a surface: as --clip", SceneValue::list},
-    {"cap_color", "as --cap-color", SceneValue::text},
-    {"cap_hatching", "as --cap-hatching", SceneValue::text},
-    {"film_opacity", "as --film-opacity", SceneValue::flag},
+    {"representation", "surface, sticks, balls, spheres or tube", SceneForm::text},
+    {"selection", "its atoms", SceneForm::text},
+    {"color", "as --color, of this object [that of the molecule]", SceneForm::list},
+    {"opacity", "as --opacity, of this object", SceneForm::list},
+    {"map", "as --map, of a color by number", SceneForm::text},
+    {"color_range", "as --color-range, likewise", SceneForm::text},
+    {"missing_color", "as --missing-color, likewise", SceneForm::text},
+    {"ambient", "of its material, 0 to 1 [as --ambient]", SceneForm::text},
+    {"roughness", "likewise, 0 to 1", SceneForm::text},
+    {"specular", "likewise, 0 to 1", SceneForm::text},
+    {"shininess", "likewise, 1 to 1000", SceneForm::text},
+    {"radius", "of sticks and tubes, Å", SceneForm::text},
+    {"kind", "of a surface: ses, sas, vdw", SceneForm::text},
+    {"probe", "of a surface: radius of the probe, Å [1.4]", SceneForm::text},
+    {"show", "of a surface: as --show", SceneForm::text},
+    {"clip", "of a surface: as --clip", SceneForm::list},
+    {"cap_color", "as --cap-color", SceneForm::text},
+    {"cap_hatching", "as --cap-hatching", SceneForm::text},
+    {"film_opacity", "as --film-opacity", SceneForm::flag},
 });
 
 class ObjectReader {
@@ -81,7 +82,7 @@ class ObjectReader {
     read_colors(object);
     read_material(object.material);
     if (object.shapes)
-      object.radius = number("radius", 0.001, 10.0);
+      object.radius = number("radius", "shapes.stick_radius");
     else
       read_surface(object);
     for (const auto& [key, value] : json_.items())
@@ -107,11 +108,13 @@ class ObjectReader {
     return json_.at(key).get<std::string>();
   }
 
-  std::optional<double> number(const std::string& key, double least, double most) {
+  /// Within the range of a property.
+  std::optional<double> number(const std::string& key, std::string_view property_key) {
     if (!has(key)) return {};
+    const Property& property = property_of(property_key);
     const Json& value = json_.at(key);
-    if (!value.is_number() || !(value.get<double>() >= least && value.get<double>() <= most))
-      refuse(key, fmt::format("is no number from {} to {}", least, most));
+    if (!value.is_number() || !(value.get<double>() >= property.lowest && value.get<double>() <= property.highest))
+      refuse(key, fmt::format("is not a number from {} to {}", property.lowest, property.highest));
     return value.get<double>();
   }
 
@@ -172,13 +175,13 @@ class ObjectReader {
   }
 
   void read_material(MaterialRequest& material) {
-    const auto take = [&](const char* key, double least, double most, std::optional<float>& value) {
-      if (const std::optional<double> given = number(key, least, most)) value = static_cast<float>(*given);
+    const auto take = [&](const std::string& key, std::optional<float>& value) {
+      if (const std::optional<double> given = number(key, "look." + key)) value = static_cast<float>(*given);
     };
-    take("ambient", 0.0, 1.0, material.ambient);
-    take("roughness", 0.0, 1.0, material.roughness);
-    take("specular", 0.0, 1.0, material.specular);
-    take("shininess", 1.0, 1000.0, material.shininess);
+    take("ambient", material.ambient);
+    take("roughness", material.roughness);
+    take("specular", material.specular);
+    take("shininess", material.shininess);
   }
 
   void read_surface(FigureObjectRequest& object) {
@@ -189,7 +192,7 @@ class ObjectReader {
       object.kind = SurfaceKind::vdw;
     else if (kind != kind_word(SurfaceKind::ses))
       refuse("kind", "is none of ses, sas, vdw");
-    if (const std::optional<double> radius = number("probe", 0.0, 1000.0)) {
+    if (const std::optional<double> radius = number("probe", "surface.probe")) {
       if (object.kind == SurfaceKind::vdw)
         throw RequestError("object: \"probe\": a van der Waals surface has none; leave it away");
       if (const std::string fault = probe_fault(*radius); !fault.empty()) refuse("probe", fault);
@@ -201,7 +204,7 @@ class ObjectReader {
     const std::string cap = text("cap_color", "atom");
     if (cap != "atom") object.cap.color = parse_color(cap);
     if (cap != "atom" && !object.cap.color) refuse("cap_color", "is neither atom nor a colour");
-    object.cap.hatching = number("cap_hatching", 0.0, 1000.0).value_or(0.0);
+    object.cap.hatching = number("cap_hatching", "surface.cap_hatching").value_or(0.0);
     object.thickens = flag("film_opacity");
   }
 

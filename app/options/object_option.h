@@ -8,7 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "app/options/scene_keys.h"
+#include "core/properties/property.h"
 #include "core/scene/figure_object.h"
 
 namespace meniscus {
@@ -16,7 +16,7 @@ namespace meniscus {
 /// A key of such an object.
 struct ObjectKey {
   std::string_view key, description;
-  SceneValue value;
+  SceneForm form;
 };
 
 std::span<const ObjectKey> object_keys();

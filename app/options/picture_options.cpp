@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Declares the picture request.
+// Adds the options of pictures: size, background, and the camera, which may move over a run of frames.
 #include "app/options/picture_options.h"
-#include "app/options/molecule_options.h"
-#include "app/options/value_words.h"
 
 #include <algorithm>
 #include <charconv>
@@ -12,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "app/options/property_options.h"
 #include "core/base/text.h"
 #include "core/color/css_colors.h"
 #include "core/text/parse_number.h"
@@ -49,31 +48,21 @@ int parse_length(const char* option, const std::string& text, ViewRequest& reque
 }
 
 /// One side alone keeps the shape of the picture.
-void add_length_options(CLI::App& command, ViewRequest& request, CLI::Option* size) {
-  command
-      .add_option("--dpi", request.dots_per_inch,
-                  "Dots an inch, for lengths and for programs that print [300 for lengths]")
-      ->check(CLI::Range(1.0, 100'000.0).description(""))
-      ->type_name("N");
+void add_length_options(PropertyOptions& options, ViewRequest& request, CLI::Option* size) {
+  options.add("image.dpi", request.dots_per_inch);
   const double shape = request.aspect();
-  CLI::Option* const width = command.add_option_function<std::string>(
-      "--width",
-      [&request, shape](const std::string& text) {
-        request.width = parse_length("--width", text, request);
-        request.height = std::clamp(static_cast<int>(std::lround(request.width / shape)), 1, kLargestSide);
-      },
-      "Width of the picture: 85mm, 8.5cm, 3.5in, 1000px; the height follows");
-  width->type_name("LENGTH")->excludes(size);
-  command
-      .add_option_function<std::string>(
-          "--height",
-          [&request, shape, width](const std::string& text) {
-            request.height = parse_length("--height", text, request);
-            if (width->empty())
-              request.width = std::clamp(static_cast<int>(std::lround(request.height * shape)), 1, kLargestSide);
-          },
-          "Height of the picture, likewise; with --width both")
-      ->type_name("LENGTH")
+  CLI::Option* const width = options.add_parsed("image.width", [&request, shape](const std::string& text) {
+    request.width = parse_length("--width", text, request);
+    request.height = std::clamp(static_cast<int>(std::lround(request.width / shape)), 1, kLargestSide);
+  });
+  width->excludes(size);
+  options
+      .add_parsed("image.height",
+                  [&request, shape, width](const std::string& text) {
+                    request.height = parse_length("--height", text, request);
+                    if (width->empty())
+                      request.width = std::clamp(static_cast<int>(std::lround(request.height * shape)), 1, kLargestSide);
+                  })
       ->excludes(size);
 }
 
@@ -93,33 +82,6 @@ void parse_turns(const std::vector<std::string>& texts, ViewRequest& request) {
           in_quotes(text) + " is no axis of the picture (x, y, z) with degrees behind it, such as y90 or x-30");
     request.turns.push_back(*turn);
   }
-}
-
-void add_aim_options(CLI::App& command, ViewRequest& request, CLI::Option* camera) {
-  command
-      .add_option_function<std::string>(
-          "--view", [&request](const std::string& text) { parse_view(text, request); },
-          "Side that faces the viewer: front (default: the broad side), back, top, bottom, right, left; x, y, z: axes "
-          "of "
-          "the file; 1, 2, 3: of inertia, longest first; symmetry: along the axis of --assembly, symmetry-side: with "
-          "it "
-          "upright; - before these: from the other side")
-      ->check(proposes(view_direction_words()))
-      ->type_name("SIDE")
-      ->excludes(camera);
-  command
-      .add_option_function<std::vector<std::string>>(
-          "--turn", [&request](const std::vector<std::string>& texts) { parse_turns(texts, request); },
-          "Turn the molecule about an axis of the picture, in degrees: y90, x-30, z45 (x to the right, y up, z to the "
-          "viewer); repeatable, in this order")
-      ->allow_extra_args(false)
-      ->type_name("AXISANGLE");
-  command
-      .add_option_function<std::string>(
-          "--zoom-to",
-          [&request](const std::string& text) { request.zoom_to = parse_selection_option("--zoom-to", text); },
-          "Fill the picture with these atoms [all that --show leaves]")
-      ->type_name("EXPR");
 }
 
 void parse_background(const std::string& text, std::optional<glm::vec3>& background) {
@@ -150,35 +112,36 @@ double pixels_of(const char* option, const std::string& text, ViewRequest& reque
 }
 
 void add_size_option(CLI::App& command, ViewRequest& request, const std::string& what) {
-  command
-      .add_option_function<std::string>(
-          "--size", [&request](const std::string& text) { parse_size(text, request); },
-          fmt::format("{} in pixels [{}x{}]", what, request.width, request.height))
-      ->type_name("WxH");
+  PropertyOptions(command)
+      .add_parsed("image.size", [&request](const std::string& text) { parse_size(text, request); })
+      ->description(fmt::format("{} in pixels [{}x{}]", what, request.width, request.height));
 }
 
 void add_picture_options(CLI::App& command, ViewRequest& request) {
-  add_size_option(command, request, "Picture");
-  add_length_options(command, request, command.get_option("--size"));
-  CLI::Option* const camera = command.add_option("--camera", request.camera_file,
-                                                 "Camera as JSON, in a file or said here; or PyMOL's get_view or "
-                                                 "ChimeraX's view matrix [shows everything]");
-  camera->type_name("FILE");
-  const std::map<std::string, Projection> words{{"perspective", Projection::perspective},
-                                                {"orthographic", Projection::orthographic}};
-  command.add_option("--projection", request.projection, "Of the default camera: perspective (default), orthographic")
-      ->transform(one_of(words))
-      ->type_name("WORD")
+  add_size_option(command, request, "Size");
+  PropertyOptions options(command);
+  add_length_options(options, request, command.get_option("--size"));
+  CLI::Option* const camera = options.add("camera.from", request.camera_file);
+  options.add_word("camera.projection", request.projection, {Projection::perspective, Projection::orthographic})
       ->excludes(camera);
-  add_aim_options(command, request, camera);
+  options.add_parsed("camera.view", [&request](const std::string& text) { parse_view(text, request); })
+      ->check(proposes(view_direction_words()))
+      ->excludes(camera);
+  options.add_list("camera.turn", [&request](const std::vector<std::string>& texts) { parse_turns(texts, request); });
+  options.add_selection("camera.zoom_to", request.zoom_to);
 }
 
-void add_background_option(CLI::App& command, std::optional<glm::vec3>& background, const std::string& what) {
-  command
-      .add_option_function<std::string>(
-          "--background", [&background](const std::string& text) { parse_background(text, background); }, what)
-      ->check(proposes({"transparent", "white", "black"}))
-      ->type_name("COLOR");
+void add_background_option(CLI::App& command, std::optional<glm::vec3>& background) {
+  PropertyOptions(command).add_parsed(
+      "image.background", [&background](const std::string& text) { parse_background(text, background); });
+}
+
+void add_run_camera_options(CLI::App& command, CameraMotionRequest& motion) {
+  PropertyOptions options(command);
+  CLI::Option* const path = options.add("camera.path", motion.path_file);
+  for (const char* name : {"--camera", "--view", "--turn", "--zoom-to"}) path->excludes(command.get_option(name));
+  options.add("camera.turntable", motion.turns);
+  options.add_selection("camera.follow", motion.follow);
 }
 
 }  // namespace meniscus

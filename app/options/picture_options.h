@@ -9,6 +9,7 @@
 #include <glm/vec3.hpp>
 
 #include "core/camera/view_request.h"
+#include "core/scene/run_cameras.h"
 
 namespace meniscus {
 
@@ -23,7 +24,10 @@ double pixels_of(const char* option, const std::string& text, ViewRequest& reque
 /// --size, --dpi, --width, --height, --camera, --projection, --view, --turn, --zoom-to.
 void add_picture_options(CLI::App& command, ViewRequest& request);
 
-/// --background; nothing: transparent. `what` describes it. The colour must live as long as the command.
-void add_background_option(CLI::App& command, std::optional<glm::vec3>& background, const std::string& what);
+/// --background; nothing: transparent. The colour must live as long as the command.
+void add_background_option(CLI::App& command, std::optional<glm::vec3>& background);
+
+/// --camera-path, --turntable, --follow, for commands that also have the options of pictures.
+void add_run_camera_options(CLI::App& command, CameraMotionRequest& motion);
 
 }  // namespace meniscus

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From JSON to words and back, by the table of keys.
+// Reads scene files into the words of a command line, and writes them, by the table of properties.
 #include "app/options/scene_file.h"
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include "app/options/scene_keys.h"
+#include "app/options/property_options.h"
 #include "app/options/usage_faults.h"
 #include "app/process/program_error.h"
 #include "core/base/error.h"
@@ -33,6 +33,7 @@ namespace fs = std::filesystem;
 constexpr const char* kVersionKey = "meniscus_scene";
 constexpr int kVersion = 1;
 constexpr std::size_t kLargestScene = std::size_t{16} << 20;
+constexpr const char* kOutput = "--output";
 /// What scenes call them, and the options.
 constexpr std::array<std::pair<std::string_view, const char*>, 4> kShapes{
     {{"sticks", "--sticks"}, {"balls", "--balls"}, {"spheres", "--spheres"}, {"tube", "--tube"}}};
@@ -167,9 +168,10 @@ class SceneReader {
 
   void check_section(const std::string& section) const {
     std::vector<std::string_view> sections{"objects"};
-    for (const SceneKey& key : scene_keys())
-      if (key.section != "surface" && std::ranges::find(sections, key.section) == sections.end())
-        sections.push_back(key.section);
+    for (const Property* property : properties())
+      if (property->has(in_scene) && property->section() != "surface" &&
+          std::ranges::find(sections, property->section()) == sections.end())
+        sections.push_back(property->section());
     if (std::ranges::find(sections, section) == sections.end())
       fail(in_quotes(section), "is no part of a scene" + meant(section, sections));
   }
@@ -180,61 +182,67 @@ class SceneReader {
                            : fmt::format("; did you mean {}?", nearest);
   }
 
-  const SceneKey& key_of(const std::string& section, const std::string& key, const std::string& place) const {
+  const Property& property_of_key(const std::string& section, const std::string& key, const std::string& place) const {
     std::vector<std::string_view> keys;
-    for (const SceneKey& known : scene_keys()) {
-      if (known.section != section) continue;
-      if (known.key == key) return known;
-      keys.push_back(known.key);
+    for (const Property* known : properties()) {
+      if (!known->has(in_scene) || known->section() != section) continue;
+      if (known->name() == key) return *known;
+      keys.push_back(known->name());
     }
     fail(place, "is no key" + meant(key, keys));
   }
 
   void add(const std::string& section, const std::string& name, const Json& value, const std::string& place) {
-    const SceneKey& key = key_of(section, name, place);
-    if (key.option == "FILE") {
+    const Property& property = property_of_key(section, name, place);
+    if (property.option == "FILE") {
       if (!trust_.has_molecule) molecule_ = path(value, place);
       return;
     }
-    const std::string option(key.option == "-o" ? "--output" : key.option);
-    // A picture's name is none for the folder of an export.
-    if (key.option == "-o" && command_.get_name() != "render") return;
-    if (!takes(option, key.shows && !is_usual(key, value), place)) return;
-    if (key.value == SceneValue::path && (trust_.has(option) || trust_.has(key.option))) return;
+    const std::string option(property.long_option());
+    // The name of a picture does not fit the folder of an export.
+    if (option == kOutput && command_.get_name() != "render") return;
+    if (!takes(option, property.has(needs_support) && !changes_nothing(property, value), place)) return;
+    const SceneForm form = scene_form(property);
+    if (form == SceneForm::path && (trust_.has(option) || (option == kOutput && trust_.has("-o")))) return;
     keys_[option] = place;
-    switch (key.value) {
-      case SceneValue::flag:
-      case SceneValue::negated:
+    switch (form) {
+      case SceneForm::flag:
+      case SceneForm::negated:
         if (!value.is_boolean()) fail(place, "is neither true nor false");
-        if (value.get<bool>() == (key.value == SceneValue::flag)) words_.push_back(option);
+        if (value.get<bool>() == (form == SceneForm::flag)) words_.push_back(option);
         return;
-      case SceneValue::text_or_flag:
+      case SceneForm::text_or_flag:
         if (value.is_boolean()) {
           if (value.get<bool>()) words_.push_back(option);
           return;
         }
         [[fallthrough]];
-      case SceneValue::text:
+      case SceneForm::text:
         return add_word(option, text(value, place));
-      case SceneValue::list:
+      case SceneForm::list:
         for (const Json& one : listed(value)) add_word(option, text(one, place));
         return;
-      case SceneValue::path:
-        return add_word(option, is_output(key) ? output(key, value, place) : path(value, place));
-      case SceneValue::paths:
+      case SceneForm::path:
+        return add_word(option, property.type == ValueType::new_file ? output(option, value, place) : path(value, place));
+      case SceneForm::paths:
         for (const Json& one : listed(value)) add_word(option, path(one, place));
         return;
-      case SceneValue::camera:
+      case SceneForm::camera:
         return add_word(option, value.is_object() ? value.dump() : path(value, place));
     }
   }
 
-  /// Whether the value says aloud what is seen without it.
-  static bool is_usual(const SceneKey& key, const Json& value) {
-    if (key.value == SceneValue::flag || key.value == SceneValue::negated)
-      return value == Json(key.value == SceneValue::negated);
-    if (key.value == SceneValue::list) return value.is_array() && value.empty();
-    return !key.usual.empty() && value == Json(key.usual);
+  /// Whether the value means the same as leaving the key out.
+  static bool changes_nothing(const Property& property, const Json& value) {
+    switch (scene_form(property)) {
+      case SceneForm::flag:
+      case SceneForm::negated:
+        return value == Json(property.has(negated));
+      case SceneForm::list:
+        return value.is_array() && value.empty();
+      default:
+        return !property.without.empty() && value == Json(property.without);
+    }
   }
 
   void add_word(const std::string& option, const std::string& value) { words_.push_back(option + "=" + value); }
@@ -275,12 +283,10 @@ class SceneReader {
     return path.string();
   }
 
-  static bool is_output(const SceneKey& key) { return key.option == "-o" || key.option == "--legend-file"; }
-
-  std::string output(const SceneKey& key, const Json& value, const std::string& place) const {
+  std::string output(const std::string& option, const Json& value, const std::string& place) const {
     const auto [given, path] = paths_of(value, place);
-    const std::string advice =
-        fmt::format("name it by {} FILE, or add --trust-scene if the scene is yours", key.option);
+    const std::string advice = fmt::format("name it by {} FILE, or add --trust-scene if the scene is yours",
+                                           option == kOutput ? "-o" : option);
     if (trust_.is_whole()) return path.string();
     if (given != given.filename())
       fail(place, fmt::format("is {}; a scene does not say in which folder its picture is written: {}",
@@ -374,33 +380,34 @@ std::string seen_from(const std::string& folder, const std::string& path) {
   return failed ? fs::absolute(path).string() : seen.string();
 }
 
-Json value_of(const SceneKey& key, const CLI::Option& option, const std::string& folder) {
+Json value_of(const Property& property, const CLI::Option& option, const std::string& folder) {
   const std::vector<std::string>& all = option.results();
-  switch (key.value) {
-    case SceneValue::flag:
-    case SceneValue::negated: {
+  const SceneForm form = scene_form(property);
+  switch (form) {
+    case SceneForm::flag:
+    case SceneForm::negated: {
       const bool given = !all.empty() && all.back() != "false";
-      return given == (key.value == SceneValue::flag);
+      return given == (form == SceneForm::flag);
     }
-    case SceneValue::text_or_flag:
+    case SceneForm::text_or_flag:
       if (all.empty() || all.back().empty() || all.back() == "auto") return true;
       return value_of(last_value(option));
-    case SceneValue::text:
+    case SceneForm::text:
       return value_of(last_value(option));
-    case SceneValue::list: {
+    case SceneForm::list: {
       if (all.size() == 1) return value_of(all.front());
       Json list = Json::array();
       for (const std::string& one : all) list.push_back(value_of(one));
       return list;
     }
-    case SceneValue::path:
+    case SceneForm::path:
       return seen_from(folder, all.back());
-    case SceneValue::paths: {
+    case SceneForm::paths: {
       Json list = Json::array();
       for (const std::string& one : all) list.push_back(seen_from(folder, one));
       return list;
     }
-    case SceneValue::camera:
+    case SceneForm::camera:
       if (all.back().starts_with('{')) return Json::parse(all.back(), nullptr, false);
       return seen_from(folder, all.back());
   }
@@ -455,15 +462,10 @@ SceneWords with_scene(const CLI::App& program, Words words, const Words& named) 
 }
 
 void add_scene_options(CLI::App& command, std::string* save_path) {
-  command
-      .add_option_function<std::string>(
-          "--scene", [](const std::string&) {},
-          "Take all of these options from a scene file, but those named here; or from a picture that meniscus made")
-      ->type_name("FILE");
-  command.add_flag_callback(
-      "--trust-scene", [] {}, "Let it name files anywhere, to read and to write: for scenes of your own");
-  if (save_path)
-    command.add_option("--save-scene", *save_path, "Write these options as a scene file")->type_name("FILE");
+  PropertyOptions options(command);
+  options.add_parsed("scene.read", [](const std::string&) {});  // with_scene() has read it by then
+  options.add_switch("scene.trust", [] {});
+  if (save_path) options.add("scene.save", *save_path);
 }
 
 SceneOutput::SceneOutput(const CLI::App& command, const std::string& path, Existing existing) {
@@ -484,11 +486,11 @@ std::string scene_text(const CLI::App& command, const std::string& folder) {
   Json scene;
   scene[kVersionKey] = kVersion;
   Json objects = Json::array({{{"representation", "surface"}}});
-  for (const SceneKey& key : scene_keys()) {
-    const CLI::Option* const option = option_of(command, key.option);
-    if (!option || option->count() == 0 || (folder.empty() && key.section == "output")) continue;
-    const std::string section(key.section), name(key.key);
-    (section == "surface" ? objects.front() : scene[section])[name] = value_of(key, *option, folder);
+  for (const Property* property : properties()) {
+    const CLI::Option* const option = property->has(in_scene) ? option_of(command, property->long_option()) : nullptr;
+    if (!option || option->count() == 0 || (folder.empty() && property->section() == "output")) continue;
+    const std::string section(property->section()), name(property->name());
+    (section == "surface" ? objects.front() : scene[section])[name] = value_of(*property, *option, folder);
   }
   for (const auto& [word, name] : kShapes)
     if (const CLI::Option* const option = option_of(command, name))

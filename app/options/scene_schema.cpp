@@ -1,50 +1,68 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes the table of keys in two ways.
+// Describes the keys of scene files, for people and as a JSON schema, by the table of properties.
 #include "app/options/scene_schema.h"
 
 #include <algorithm>
 #include <string_view>
+#include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "app/options/object_option.h"
-#include "app/options/scene_keys.h"
+#include "core/properties/property.h"
 
 namespace meniscus {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json type_of(SceneValue value) {
+Json type_of(SceneForm value) {
   const Json text{{"type", {"string", "number"}}};
   const Json path{{"type", "string"}, {"minLength", 1}};
   const auto one_or_more = [](const Json& one) { return Json{{"anyOf", {one, {{"type", "array"}, {"items", one}}}}}; };
   switch (value) {
-    case SceneValue::flag:
-    case SceneValue::negated:
+    case SceneForm::flag:
+    case SceneForm::negated:
       return {{"type", "boolean"}};
-    case SceneValue::list:
+    case SceneForm::list:
       return one_or_more(text);
-    case SceneValue::path:
+    case SceneForm::path:
       return path;
-    case SceneValue::paths:
+    case SceneForm::paths:
       return one_or_more(path);
-    case SceneValue::text_or_flag:
+    case SceneForm::text_or_flag:
       return {{"type", {"string", "number", "boolean"}}};
-    case SceneValue::camera:
+    case SceneForm::camera:
       return {{"anyOf", {path, {{"type", "object"}}}}};
-    case SceneValue::text:
+    case SceneForm::text:
       break;
   }
   return text;
 }
 
-Json described(const SceneKey& key) {
-  Json type = type_of(key.value);
-  type["description"] = key.option == "FILE" ? std::string("the molecule") : std::string(key.option);
+Json described(const Property& property) {
+  Json type = type_of(scene_form(property));
+  if (property.type == ValueType::word) type = {{"enum", words_of(property)}};
+  if (property.has_range() && scene_form(property) == SceneForm::text) {
+    type["minimum"] = property.lowest;
+    type["maximum"] = property.highest;
+  }
+  type["description"] = help_of(property);
   return type;
 }
+
+/// The keys of scene files: those of one section, or those of all but one.
+template <typename Chosen>
+std::vector<const Property*> scene_properties(const Chosen& is_chosen) {
+  std::vector<const Property*> chosen;
+  for (const Property* property : properties())
+    if (property->has(in_scene) && is_chosen(property->section())) chosen.push_back(property);
+  return chosen;
+}
+
+bool is_surface(std::string_view section) { return section == "surface"; }
+bool is_other(std::string_view section) { return section != "surface"; }
 
 Json strict(Json properties) {
   return {{"type", "object"}, {"properties", std::move(properties)}, {"additionalProperties", false}};
@@ -67,18 +85,17 @@ options whose values they take:
 
 )";
   std::string_view section;
-  for (const SceneKey& key : scene_keys()) {
-    if (key.section == "surface") continue;
-    if (key.section != section) page += fmt::format("{}\n", section = key.section);
-    page += fmt::format("  {:<26}{}\n", key.key, key.option);
+  for (const Property* property : scene_properties(is_other)) {
+    if (property->section() != section) page += fmt::format("{}\n", section = property->section());
+    page += fmt::format("  {:<26}{}\n", property->name(), property->long_option());
   }
   page += R"(
 objects is a list. Each has a "representation" (surface, sticks, balls, spheres, tube) and a "selection". The first
 surface is that of the molecule:
 
 )";
-  for (const SceneKey& key : scene_keys())
-    if (key.section == "surface") page += fmt::format("  {:<26}{}\n", key.key, key.option);
+  for (const Property* property : scene_properties(is_surface))
+    page += fmt::format("  {:<26}{}\n", property->name(), property->long_option());
   page += R"(
 All others are made of their own atoms alone, which need not be among those of molecule.select; as --object:
 
@@ -91,18 +108,15 @@ std::string scene_schema() {
   Json sections;
   sections["meniscus_scene"] = {{"const", 1}};
   Json own, surface;
-  for (const SceneKey& key : scene_keys()) {
-    const std::string name(key.key);
-    if (key.section == "surface")
-      surface[name] = described(key);
-    else
-      own[std::string(key.section)][name] = described(key);
-  }
+  for (const Property* property : scene_properties(is_surface))
+    surface[std::string(property->name())] = described(*property);
+  for (const Property* property : scene_properties(is_other))
+    own[std::string(property->section())][std::string(property->name())] = described(*property);
   for (const auto& [section, keys] : own.items()) sections[section] = strict(keys);
   Json object = surface;
   for (const ObjectKey& key : object_keys()) {
     const std::string name(key.key);
-    if (!object.contains(name)) object[name] = type_of(key.value);
+    if (!object.contains(name)) object[name] = type_of(key.form);
     object[name]["description"] = std::string(key.description);
   }
   object["representation"] = {{"enum", {"surface", "sticks", "balls", "spheres", "tube"}}};

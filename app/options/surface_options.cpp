@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Declares the options that say which surface is computed, and where.
+// Adds the options that say which surface is computed, of which parts, and on which device.
 #include <charconv>
 #include <cstdlib>
 #include <cstring>
@@ -11,7 +11,7 @@
 
 #include "app/options/frame_options.h"
 #include "app/options/molecule_options.h"
-#include "app/options/value_words.h"
+#include "app/options/property_options.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/text/parse_number.h"
@@ -80,75 +80,43 @@ void parse_division(const std::string& text, Division& division) {
 }  // namespace
 
 void add_probe_option(CLI::App& command, SurfaceRequest& surface) {
-  command
-      .add_option_function<std::string>(
-          "--probe",
-          [&surface](const std::string& text) {
-            surface.probe_radius = parse_probe(text);
-            surface.probe_named = true;
-          },
-          "Probe radius in Å [1.4]; 0 gives the van der Waals surface")
-      ->type_name("RADIUS");
+  PropertyOptions(command).add_parsed("surface.probe", [&surface](const std::string& text) {
+    surface.probe_radius = parse_probe(text);
+    surface.probe_named = true;
+  });
 }
 
 void add_device_option(CLI::App& command, SurfaceRequest& surface) {
   read_environment(surface.gl);
-  command
-      .add_option_function<std::string>(
-          "--device", [&surface](const std::string& text) { parse_device(text, surface); },
-          "auto (default: a GPU if there is one, else cpu), gpu, gpu:N (or UUID, PCI address), software (GL "
-          "without a GPU), cpu")
-      ->check(proposes({"auto", "gpu", "software", "cpu"}))
-      ->type_name("DEVICE");
-  command.add_flag_callback(
-      "--require-gpu", [&surface] { require_gpu(surface); },
-      "Refuse (exit code 4) to run on the CPU or on software GL where there is no hardware GPU");
+  PropertyOptions options(command);
+  options.add_parsed("surface.device", [&surface](const std::string& text) { parse_device(text, surface); });
+  options.add_switch("surface.require_gpu", [&surface] { require_gpu(surface); });
 }
 
 void add_threads_option(CLI::App& command, SurfaceRequest& surface) {
-  command.add_option("--threads", surface.threads, "CPU threads [all]")
-      ->check(CLI::Range(1, 4096).description(""))
-      ->type_name("N");
+  PropertyOptions(command).add("surface.threads", surface.threads);
 }
 
 void add_kind_option(CLI::App& command, SurfaceRequest& surface) {
-  const std::map<std::string, SurfaceKind> kinds{
-      {"ses", SurfaceKind::ses}, {"sas", SurfaceKind::sas}, {"vdw", SurfaceKind::vdw}};
-  command
-      .add_option("--surface", surface.kind,
-                  "ses: solvent-excluded (default); sas: solvent-accessible; vdw: van der Waals, without a probe")
-      ->transform(one_of(kinds))
-      ->type_name("KIND");
+  PropertyOptions(command).add_word("surface.kind", surface.kind,
+                                    {SurfaceKind::ses, SurfaceKind::sas, SurfaceKind::vdw});
 }
 
-void add_surface_options(CLI::App& command, MoleculeOptions& options) {
-  const Heading heading(command, "Surface");
-  SurfaceRequest& surface = options.surface;
+void add_surface_options(CLI::App& command, MoleculeOptions& molecule) {
+  SurfaceRequest& surface = molecule.surface;
   add_kind_option(command, surface);
   add_probe_option(command, surface);
   add_device_option(command, surface);
   surface.check = check_by_mesh;
-  command.add_flag("--verify", surface.verify, "Compute on GPU and CPU, mesh, and name every difference");
+  PropertyOptions(command).add("surface.verify", surface.verify);
   add_threads_option(command, surface);
 }
 
-void add_division_options(CLI::App& command, MoleculeOptions& options) {
-  const Heading heading(command, "Surface");
-  Division& division = options.division;
-  command
-      .add_option_function<std::string>(
-          "--by", [&division](const std::string& text) { parse_division(text, division); },
-          "Several objects: chain, model, class (polymer, ligand, ...), residue: each a surface of its own, as if it "
-          "were alone; component: each closed part of the one surface")
-      ->check(proposes({"chain", "model", "class", "residue", "component"}))
-      ->type_name("WORD");
-  const std::map<std::string, Cavities> words{
-      {"keep", Cavities::keep}, {"drop", Cavities::drop}, {"only", Cavities::only}};
-  command
-      .add_option("--cavities", division.cavities,
-                  "keep (default); drop: only what the outside reaches; only: cavities and what lies in them")
-      ->transform(one_of(words))
-      ->type_name("WORD");
+void add_division_options(CLI::App& command, MoleculeOptions& molecule) {
+  Division& division = molecule.division;
+  PropertyOptions options(command);
+  options.add_parsed("surface.by", [&division](const std::string& text) { parse_division(text, division); });
+  options.add_word("surface.cavities", division.cavities, {Cavities::keep, Cavities::drop, Cavities::only});
 }
 
 }  // namespace meniscus

@@ -3,38 +3,31 @@
 #include "app/preview/look_json.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/color/css_colors.h"
+#include "core/properties/property.h"
 
 namespace meniscus {
 namespace {
 
-constexpr std::array<std::string_view, 7> kKeys{"background",        "light_direction",          "light_strength",
-                                                "ambient_occlusion", "ambient_occlusion_radius", "silhouettes",
-                                                "depth_cue"};
+/// What the look's command changes besides background and light: all numbers of a look, and of its lines the width of
+/// all.
+std::vector<const LookNumber*> live_numbers() {
+  std::vector<const LookNumber*> live;
+  for (const LookNumber& number : look_numbers())
+    if (number.in || number.asked == &LookRequest::silhouettes) live.push_back(&number);
+  return live;
+}
 
-/// A number of the look, as the options of `meniscus render` bound it.
-struct Strength {
-  const char* key;
-  std::optional<float> LookRequest::*asked;
-  float Look::*value;
-  double lowest, highest;
-};
-using Asked = LookRequest;
-constexpr Strength kStrengths[] = {
-    {"light_strength", &Asked::light_strength, &Look::light_strength, 0.0, 10.0},
-    {"ambient_occlusion", &Asked::ambient_occlusion, &Look::ambient_occlusion, 0.0, 1.0},
-    {"ambient_occlusion_radius", &Asked::ambient_occlusion_radius, &Look::ambient_occlusion_radius, 0.1, 1000.0},
-    {"silhouettes", &Asked::silhouettes, &Look::silhouettes, 0.0, kWidestSilhouette},
-    {"depth_cue", &Asked::depth_cue, &Look::depth_cue, 0.0, 1.0}};
+std::string json_key(const LookNumber& number) { return std::string(property_of(number.key).name()); }
 
 glm::vec3 background_of(const std::string& text) {
   if (text == "white") return glm::vec3(1.0f);
@@ -62,14 +55,21 @@ double shortest(float value) { return std::stod(fmt::format("{}", value)); }
 
 }  // namespace
 
-std::span<const std::string_view> look_keys() { return kKeys; }
+std::vector<std::string_view> look_keys() {
+  std::vector<std::string_view> keys{"background", "light_direction"};
+  for (const LookNumber* number : live_numbers()) keys.push_back(property_of(number->key).name());
+  return keys;
+}
 
 LookRequest changed_look(LookRequest look, const CommandReader& command) {
   if (command.has("light_direction")) look.light_direction = direction_of(command.value("light_direction"));
   if (command.has("silhouettes")) look.outer_lines = look.inner_lines = look.part_lines = {};
-  for (const Strength& strength : kStrengths)
-    if (command.has(strength.key))
-      look.*strength.asked = static_cast<float>(command.number(strength.key, strength.lowest, strength.highest));
+  for (const LookNumber* number : live_numbers()) {
+    const Property& property = property_of(number->key);
+    const std::string key = json_key(*number);
+    if (command.has(key.c_str()))
+      look.*number->asked = static_cast<float>(command.number(key.c_str(), property.lowest, property.highest));
+  }
   return look;
 }
 
@@ -77,13 +77,25 @@ glm::vec3 changed_background(const glm::vec3& background, const CommandReader& c
   return command.has("background") ? background_of(command.text("background")) : background;
 }
 
-nlohmann::json look_json(const Look& look) {
+nlohmann::json look_json(Look look) {
   const glm::vec3& light = look.light_direction;
   nlohmann::json json{{"background", hex_color(look.background)},
                       {"light_direction", {shortest(light.x), shortest(light.y), shortest(light.z)}}};
-  for (const Strength& strength : kStrengths) json[strength.key] = shortest(look.*strength.value);
+  for (const LookNumber* number : live_numbers())
+    if (number->in) json[json_key(*number)] = shortest(number->in(look));
   json["silhouettes"] = shortest(look.widest_line());
   return json;
+}
+
+nlohmann::json look_sliders() {
+  nlohmann::json sliders = nlohmann::json::array();
+  for (const Property* property : properties())
+    if (property->section() == "look" && !property->label.empty())
+      sliders.push_back({{"key", property->name()},
+                         {"label", property->label},
+                         {"end", property->slider_end},
+                         {"help", property->help}});
+  return sliders;
 }
 
 Look without_effects(Look look) {

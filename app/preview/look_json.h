@@ -2,9 +2,9 @@
 // The look of pictures as JSON, for the command "look" and the state.
 #pragma once
 
-#include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -14,7 +14,7 @@
 namespace meniscus {
 
 /// The keys of the command "look".
-std::span<const std::string_view> look_keys();
+std::vector<std::string_view> look_keys();
 
 /// `look` with what the command says changed; the background is not part of it. Throws RequestError.
 LookRequest changed_look(LookRequest look, const CommandReader& command);
@@ -23,9 +23,12 @@ LookRequest changed_look(LookRequest look, const CommandReader& command);
 glm::vec3 changed_background(const glm::vec3& background, const CommandReader& command);
 
 /// Every key with its value.
-nlohmann::json look_json(const Look& look);
+nlohmann::json look_json(Look look);
 
-/// The same without what takes time.
+/// The sliders that windows and pages show: key, label, end and help of each, in the order of the table of properties.
+nlohmann::json look_sliders();
+
+/// A look without the effects that take time.
 Look without_effects(Look look);
 
 }  // namespace meniscus

@@ -10,6 +10,7 @@
 #include "core/base/text.h"
 #include "core/color/color_maps.h"
 #include "core/color/css_colors.h"
+#include "core/properties/property.h"
 
 namespace meniscus {
 namespace {
@@ -23,13 +24,13 @@ class Words {
     if (on) words_.emplace_back(name);
   }
   /// A value that begins with a dash would be taken for an option.
-  void option(const char* name, const std::string& value) {
-    if (value.starts_with('-')) return words_.push_back(std::string(name) + "=" + value);
+  void option(std::string_view name, const std::string& value) {
+    if (value.starts_with('-')) return words_.push_back(fmt::format("{}={}", name, value));
     words_.emplace_back(name);
     words_.push_back(value);
   }
   template <typename Number>
-  void number(const char* name, const std::optional<Number>& value) {
+  void number(std::string_view name, const std::optional<Number>& value) {
     if (value) option(name, fmt::format("{}", *value));
   }
   std::vector<std::string> take() { return std::move(words_); }
@@ -43,18 +44,8 @@ void add_look(const LookRequest& look, Words& words) {
   if (look.light_direction)
     words.option("--light",
                  fmt::format("{},{},{}", look.light_direction->x, look.light_direction->y, look.light_direction->z));
-  words.number("--light-strength", look.light_strength);
-  words.number("--ambient", look.ambient);
-  words.number("--roughness", look.roughness);
-  words.number("--specular", look.specular);
-  words.number("--shininess", look.shininess);
-  words.number("--ambient-occlusion", look.ambient_occlusion);
-  words.number("--ambient-occlusion-radius", look.ambient_occlusion_radius);
-  words.number("--silhouettes", look.silhouettes);
-  words.number("--outer-lines", look.outer_lines);
-  words.number("--inner-lines", look.inner_lines);
-  words.number("--part-lines", look.part_lines);
-  words.number("--depth-cue", look.depth_cue);
+  for (const LookNumber& number : look_numbers())
+    words.number(property_of(number.key).option, look.*number.asked);
   words.flag("--linear-alpha", look.linear_alpha);
 }
 
@@ -107,9 +98,8 @@ void add_legend(const PreviewFigure& figure, Words& words) {
 
 }  // namespace
 
-const char* preset_word(LookPreset preset) {
-  constexpr const char* kWords[] = {"publication", "cover", "flat", "soft", "classic"};
-  return kWords[static_cast<std::size_t>(preset)];
+std::string preset_word(LookPreset preset) {
+  return words_of(property_of("look.preset"))[static_cast<std::size_t>(preset)];
 }
 
 std::vector<std::string> render_words(const RenderInput& input, const RenderedView& view) {

@@ -41,6 +41,6 @@ std::vector<std::string> render_words(const RenderInput& input, const RenderedVi
 std::string shell_line(std::span<const std::string> words);
 
 /// As --preset has it.
-const char* preset_word(LookPreset preset);
+std::string preset_word(LookPreset preset);
 
 }  // namespace meniscus

@@ -55,7 +55,7 @@ struct PreviewSession::Command {
 const std::vector<PreviewSession::Command>& PreviewSession::commands() {
   using S = PreviewSession;
   using Effect = Command::Effect;
-  const std::span<const std::string_view> look = look_keys();
+  const std::vector<std::string_view> look = look_keys();
   static const std::vector<Command> table{
       {"orbit", {"dx", "dy"}, &S::orbit, Effect::motion},
       {"pan", {"dx", "dy"}, &S::pan, Effect::motion},

@@ -74,6 +74,23 @@ void keep_hues(Look& look) {
   look.depth_cue = 0.0f;
 }
 
+using Asked = LookRequest;
+constexpr LookNumber kNumbers[] = {
+    {"look.light_strength", &Asked::light_strength, [](Look& look) -> float& { return look.light_strength; }},
+    {"look.ambient", &Asked::ambient, [](Look& look) -> float& { return look.material.ambient; }},
+    {"look.roughness", &Asked::roughness, [](Look& look) -> float& { return look.material.roughness; }},
+    {"look.specular", &Asked::specular, [](Look& look) -> float& { return look.material.specular; }},
+    {"look.shininess", &Asked::shininess, [](Look& look) -> float& { return look.material.shininess; }},
+    {"look.ambient_occlusion", &Asked::ambient_occlusion, [](Look& look) -> float& { return look.ambient_occlusion; }},
+    {"look.ambient_occlusion_radius", &Asked::ambient_occlusion_radius,
+     [](Look& look) -> float& { return look.ambient_occlusion_radius; }},
+    {"look.depth_cue", &Asked::depth_cue, [](Look& look) -> float& { return look.depth_cue; }},
+    {"look.silhouettes", &Asked::silhouettes, nullptr},
+    {"look.outer_lines", &Asked::outer_lines, nullptr},
+    {"look.inner_lines", &Asked::inner_lines, nullptr},
+    {"look.part_lines", &Asked::part_lines, nullptr},
+};
+
 template <typename T, typename U>
 void take(const std::optional<T>& asked, U& value) {
   if (asked) value = *asked;
@@ -97,6 +114,8 @@ Look preset_look(LookPreset preset, glm::ivec2 picture_size) {
   return {};
 }
 
+std::span<const LookNumber> look_numbers() { return kNumbers; }
+
 Hues hues_of(const ColorScheme& color, bool legend) { return legend || color.uses_scale() ? Hues::kept : Hues::free; }
 
 std::string hue_changes(const LookRequest& request) {
@@ -116,13 +135,8 @@ Look look_of(const LookRequest& request, glm::ivec2 picture_size, const std::opt
   if (hues == Hues::kept) keep_hues(look);
   look.background = background.value_or(glm::vec3(1.0f));
   take(request.light_direction, look.light_direction);
-  take(request.light_strength, look.light_strength);
-  take(request.ambient, look.material.ambient);
-  take(request.roughness, look.material.roughness);
-  take(request.specular, look.material.specular);
-  take(request.shininess, look.material.shininess);
-  take(request.ambient_occlusion, look.ambient_occlusion);
-  take(request.ambient_occlusion_radius, look.ambient_occlusion_radius);
+  for (const LookNumber& number : look_numbers())
+    if (number.in) take(request.*number.asked, number.in(look));
   if (request.silhouettes) {
     look.silhouettes = *request.silhouettes;
     look.outer_lines = look.inner_lines = look.part_lines = {};
@@ -130,7 +144,6 @@ Look look_of(const LookRequest& request, glm::ivec2 picture_size, const std::opt
   take(request.outer_lines, look.outer_lines);
   take(request.inner_lines, look.inner_lines);
   take(request.part_lines, look.part_lines);
-  take(request.depth_cue, look.depth_cue);
   return look;
 }
 

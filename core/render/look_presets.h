@@ -3,7 +3,9 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -35,6 +37,16 @@ struct LookRequest {
   /// classic keeps what its pictures always were.
   bool has_linear_alpha() const { return linear_alpha || preset == LookPreset::classic; }
 };
+
+/// A number of a look: the key of its property (core/properties), where a request has it, and the number itself.
+struct LookNumber {
+  std::string_view key;
+  std::optional<float> LookRequest::*asked;
+  float& (*in)(Look& look);  ///< nothing: a width of lines, of which look_of() knows the order
+};
+
+/// All of them, in the order of the help.
+std::span<const LookNumber> look_numbers();
 
 /// What light may do to colours. `kept`: each changes in lightness alone, so that it is found on the bar or among the
 /// swatches that explain it: white lamps, not too bright, no highlights, no fading into the background.

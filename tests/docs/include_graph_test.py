@@ -12,7 +12,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 # the longest name that its path begins with.
 ORDER = [
     ["core/base", "gpu_shaders"],
-    ["core/text"],
+    ["core/text", "core/properties"],
     ["core/math"],
     ["core/volume"],
     ["core/structure"],

@@ -196,20 +196,19 @@ void Panel::look() {
   glm::vec3 color = hex.value_or(glm::vec3(1.0f));
   if (ImGui::ColorEdit3("##background", &color.x, ImGuiColorEditFlags_DisplayHex))
     link_.send({{"command", "look"}, {"background", hex_color(color)}});
-  strength("Occlusion", "ambient_occlusion", 1.0f, "Shade in pockets and clefts, when the picture is at rest (a)");
-  strength("Silhouettes", "silhouettes", 8.0f, "Width of lines where something stands in front, pixels (l)");
-  strength("Depth cue", "depth_cue", 1.0f, "How much the farthest atoms fade into the background");
-  strength("Light", "light_strength", 2.0f, "Strength of the key light");
+  for (const Json& slider : link_.choices()["sliders"]) strength(slider);
   light();
 }
 
-void Panel::strength(const char* name, const char* key, float most, const char* tip) {
+void Panel::strength(const Json& slider) {
+  const auto key = slider["key"].get<std::string>();
   if (!link_.state()["look"].contains(key)) return;
-  label(name);
+  label(slider["label"].get<std::string>().c_str());
   float value = link_.state()["look"][key];
-  if (ImGui::SliderFloat(fmt::format("##{}", key).c_str(), &value, 0.0f, most, "%.2f", ImGuiSliderFlags_AlwaysClamp))
+  const float end = slider["end"];
+  if (ImGui::SliderFloat(("##" + key).c_str(), &value, 0.0f, end, "%.2f", ImGuiSliderFlags_AlwaysClamp))
     link_.send({{"command", "look"}, {key, rounded(value)}});
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", tip);
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", slider["help"].get<std::string>().c_str());
 }
 
 void Panel::light() {

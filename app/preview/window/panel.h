@@ -38,7 +38,7 @@ class Panel {
   void coloring();
   void view();
   void look();
-  void strength(const char* name, const char* key, float most, const char* tip);
+  void strength(const nlohmann::json& slider);
   void light();
   void frames();
   void exports();

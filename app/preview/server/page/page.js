@@ -8,7 +8,7 @@ import { follow_pointer, follow_keys } from "./motion.js";
 const $ = (id) => document.getElementById(id);
 const canvas = $("picture"), stage = $("stage");
 const numbered = new Set();  // colour schemes that take a map
-const strengths = ["ambient_occlusion", "silhouettes", "depth_cue"];  // of the look, each with a slider
+const strengths = [];  // keys of the look that have a slider
 let state = null;      // what the server shows
 let controls = false;  // does this page decide?
 let shown = null;      // the message of the picture in the canvas
@@ -224,6 +224,8 @@ function fill_choices(choices) {
   }
   $("map").add(new Option("its own", ""));
   for (const map of choices.maps) $("map").add(new Option(map, map));
+  choices.sliders.forEach(add_slider);
+  if (state) for (const key of strengths) set_value($(key), state.look[key]);
   for (const preset of choices.presets) $("preset").add(new Option(preset, preset));
   fill_list($("help").querySelector("dl"), choices.keys.filter(({ keys }) => !keys.startsWith("q"))
     .map(({ keys, what }) => [what, keys]));
@@ -254,8 +256,14 @@ $("map").addEventListener("change", set_color);
 $("kinds").addEventListener("change", (event) => command("patch_kinds", { on: event.target.checked }));
 $("projection").addEventListener("change", (event) => command("projection", { projection: event.target.value }));
 $("background").addEventListener("input", (event) => command("look", { background: event.target.value }));
-for (const key of strengths)
-  $(key).addEventListener("input", (event) => command("look", { [key]: event.target.valueAsNumber }));
+function add_slider({ key, label, end, help }) {
+  const slider = Object.assign(document.createElement("input"), { id: key, type: "range", min: 0, max: end, step: end / 20 });
+  slider.addEventListener("input", () => command("look", { [key]: slider.valueAsNumber }));
+  const row = Object.assign(document.createElement("label"), { htmlFor: key, title: help });
+  row.append(`${label} `, slider);
+  $("strengths").append(row);
+  strengths.push(key);
+}
 follow_lamp($("lamp"), (light_direction) => { if (controls) command("look", { light_direction }); });
 $("reset").addEventListener("click", () => command("reset_view"));
 $("zoom-form").addEventListener("submit", async (event) => {

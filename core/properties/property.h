@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a user can choose, declared once: options, their help, scene keys, bundles and the preview follow from these
+// rows.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace meniscus {
+
+/// What a value is.
+enum class ValueType {
+  flag,      ///< true or false; an option without a value
+  number,    ///< a finite number from `lowest` to `highest`
+  count,     ///< a whole number in the same range
+  word,      ///< one of `words`
+  text,      ///< text with a syntax of its own: a selection, a colour, a length, a list of frames
+  file,      ///< the path of a file to read
+  new_file,  ///< the path of a file or folder to write
+  camera     ///< a camera as JSON, or the path of a file that has one
+};
+
+/// Where a property may be set besides the command line, and what it means there; combined by |.
+enum Trait : unsigned {
+  in_scene = 1,         ///< a scene file has it, under `key`
+  in_bundle = 2,        ///< the command of a farm bundle may have it: it writes no file and starts no program
+  live = 4,             ///< the preview changes it while it runs
+  repeatable = 8,       ///< may be given several times; a list in scene files
+  value_optional = 16,  ///< the option may stand without a value; true in scene files
+  needs_support = 32,   ///< a command without it would show something else, so it refuses a scene that sets it
+  negated = 64          ///< the scene key is false where the option is given
+};
+
+/// One property: what tables are made of. Rows begin with one of the functions below, and say more by members that
+/// return a changed copy. Defaults and help are for people; the structs that hold values have the defaults in force.
+struct Property {
+  ValueType type;
+  std::string_view key;     ///< section and name, "look.silhouettes": unique; those of scene files where in_scene
+  std::string_view option;  ///< as CLI11 takes it: "--silhouettes", "-o,--output", "FILE"
+  std::string_view value;   ///< what the help calls the value: "WIDTH"; empty for flags
+  std::string_view help;    ///< what it does; begins with a capital letter, has no full stop at its end
+  std::string_view heading{};
+  unsigned traits = 0;
+  double lowest = 0.0, highest = 0.0;  ///< of numbers, counts and lengths in pixels; equal: no range
+  std::string_view words{};            ///< of a word all of them, else some that completion proposes: "ses|sas|vdw"
+  std::string_view initial{};          ///< the default, which the help shows in brackets; empty: it shows none
+  std::string_view without{};          ///< in a scene: the value that means the same as leaving the key out
+  std::string_view label{};            ///< of its slider in the preview; empty: it has none
+  double slider_end = 0.0;             ///< the largest value that the slider reaches
+
+  constexpr Property from(double least, double most) const {
+    Property changed = *this;
+    changed.lowest = least;
+    changed.highest = most;
+    return changed;
+  }
+  constexpr Property one_of(std::string_view all) const {
+    Property changed = *this;
+    changed.words = all;
+    return changed;
+  }
+  constexpr Property proposes(std::string_view some) const { return one_of(some); }
+  constexpr Property initially(std::string_view shown) const {
+    Property changed = *this;
+    changed.initial = shown;
+    return changed;
+  }
+  constexpr Property omitted_as(std::string_view same) const {
+    Property changed = *this;
+    changed.without = same;
+    return changed;
+  }
+  constexpr Property slider(std::string_view name, double end) const {
+    Property changed = *this;
+    changed.label = name;
+    changed.slider_end = end;
+    return changed;
+  }
+  /// Under a heading of the help, with the traits or-ed together.
+  constexpr Property in(std::string_view title, unsigned all_traits = 0) const {
+    Property changed = *this;
+    changed.heading = title;
+    changed.traits = all_traits;
+    return changed;
+  }
+
+  constexpr bool has(Trait trait) const { return (traits & trait) != 0; }
+  constexpr bool has_range() const { return lowest < highest; }
+  constexpr std::string_view section() const { return key.substr(0, key.find('.')); }
+  constexpr std::string_view name() const { return key.substr(key.find('.') + 1); }
+  /// The option's long name, "--output" of "-o,--output".
+  constexpr std::string_view long_option() const { return option.substr(option.rfind(',') + 1); }
+};
+
+constexpr Property flag(std::string_view key, std::string_view option, std::string_view help) {
+  return {ValueType::flag, key, option, "", help};
+}
+constexpr Property number(std::string_view key, std::string_view option, std::string_view value,
+                          std::string_view help) {
+  return {ValueType::number, key, option, value, help};
+}
+constexpr Property count(std::string_view key, std::string_view option, std::string_view value, std::string_view help) {
+  return {ValueType::count, key, option, value, help};
+}
+constexpr Property word(std::string_view key, std::string_view option, std::string_view value, std::string_view help) {
+  return {ValueType::word, key, option, value, help};
+}
+constexpr Property text(std::string_view key, std::string_view option, std::string_view value, std::string_view help) {
+  return {ValueType::text, key, option, value, help};
+}
+constexpr Property file(std::string_view key, std::string_view option, std::string_view value, std::string_view help) {
+  return {ValueType::file, key, option, value, help};
+}
+constexpr Property new_file(std::string_view key, std::string_view option, std::string_view value,
+                            std::string_view help) {
+  return {ValueType::new_file, key, option, value, help};
+}
+constexpr Property camera(std::string_view key, std::string_view option, std::string_view value,
+                          std::string_view help) {
+  return {ValueType::camera, key, option, value, help};
+}
+
+/// What the value of a property looks like in a scene file, and as words of a command line.
+enum class SceneForm {
+  text,          ///< a text or a number
+  flag,          ///< true; false is the same as nothing
+  negated,       ///< false gives the option, true is the same as nothing
+  list,          ///< a text or a number, or a list of them: the option again and again
+  path,          ///< a file, seen from the scene's folder
+  paths,         ///< one, or a list of them
+  text_or_flag,  ///< true gives the option without a value
+  camera         ///< a path, or the camera itself as an object
+};
+
+SceneForm scene_form(const Property& property);
+
+/// All properties: sections in the order in which scene files are written, properties in that of the help.
+std::span<const Property* const> properties();
+
+/// The property of this key. Throws std::logic_error where there is none: keys are written by programmers.
+const Property& property_of(std::string_view key);
+
+/// `words` parted at the bars.
+std::vector<std::string> words_of(const Property& property);
+
+/// The help with the default behind it, in brackets.
+std::string help_of(const Property& property);
+
+}  // namespace meniscus
