@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """How long a change in the panel of the Blender add-on takes, stage by stage: the probe moves, and the mesh follows.
 
-    MENISCUS_LIBRARY=build/release/exporters/c_api/libmeniscus.so blender [-b] --factory-startup --python-exit-code 3 \
+    MENISCUS_LIBRARY=build/release/exporters/bindings/c/libmeniscus.so blender [-b] --factory-startup --python-exit-code 3 \
         --python scripts/measure_panel.py -- FILE [--density D | --tolerance T] [--changes N] [--trajectory T] [--program P]
     blender [-b] ... --python scripts/measure_panel.py -- surface_sequence.json
 

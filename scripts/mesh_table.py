@@ -18,7 +18,7 @@ import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
-sys.path[:0] = [str(ROOT / "exporters/python"), str(ROOT / "exporters/blender/addon/meniscus_import")]
+sys.path[:0] = [str(ROOT / "exporters/bindings/python"), str(ROOT / "exporters/blender/addon/meniscus_import")]
 
 import mns_reader
 import numpy as np
@@ -124,7 +124,7 @@ def main():
     parser.add_argument("--tetgen-most", type=int, default=1_000_000, metavar="TRIANGLES")
     parser.add_argument("--tetgen-seconds", type=float, default=900, metavar="S")
     options = parser.parse_args()
-    os.environ.setdefault("MENISCUS_LIBRARY", str(options.build / "exporters/c_api/libmeniscus.so"))
+    os.environ.setdefault("MENISCUS_LIBRARY", str(options.build / "exporters/bindings/c/libmeniscus.so"))
     import meniscus
     program = options.program or options.build / "meniscus"
     print("| " + " | ".join(COLUMNS) + " |\n|" + "-|" * len(COLUMNS), flush=True)

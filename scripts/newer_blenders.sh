@@ -14,7 +14,7 @@ versions=("${@:-4.2}")
 declare -A molecular_nodes=([4.2]="4.2.12 databpy==0.0.14" [4.5]=4.5.11 [5.0]=4.5.11)
 tests=$PWD/tests/export/blender
 addon=$PWD/exporters/blender/addon
-export MENISCUS_LIBRARY=${program%/*}/exporters/c_api/libmeniscus.so MENISCUS_PACKAGE=$PWD/exporters/python/meniscus
+export MENISCUS_LIBRARY=${program%/*}/exporters/bindings/c/libmeniscus.so MENISCUS_PACKAGE=$PWD/exporters/bindings/python/meniscus
 cases=0
 failures=0
 

@@ -5,7 +5,7 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 export CMAKE_BUILD_PARALLEL_LEVEL=${MENISCUS_JOBS:-$(nproc)}
 tests=$PWD/tests/python
-export MENISCUS_HEADER=$PWD/exporters/c_api/include/meniscus/meniscus.h
+export MENISCUS_HEADER=$PWD/exporters/bindings/c/include/meniscus/meniscus.h
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 

@@ -93,7 +93,7 @@ ${about}
 This package has the headers for C99 and C++20, and what CMake and pkg-config
 need to compile a program that uses the library.")
 
-install(DIRECTORY ${CMAKE_SOURCE_DIR}/exporters/python/meniscus DESTINATION lib/python3/dist-packages
+install(DIRECTORY ${CMAKE_SOURCE_DIR}/exporters/bindings/python/meniscus DESTINATION lib/python3/dist-packages
         COMPONENT python3-meniscus EXCLUDE_FROM_ALL PATTERN __pycache__ EXCLUDE)
 file(CONFIGURE OUTPUT ${generated}/METADATA CONTENT [[
 Metadata-Version: 2.1

@@ -31,7 +31,9 @@ ORDER = [
     ["core/scene"],
     ["exporters/mesh"],
     ["exporters/mesh/files"],
-    ["exporters/povray", "exporters/blender", "exporters/path_tracers", "exporters/c_api", "exporters/msms"],
+    ["exporters/povray", "exporters/blender", "exporters/path_tracers", "exporters/msms"],
+    ["exporters/bindings/c"],
+    ["exporters/bindings/cpp"],
     ["app/process"],
     ["app/film", "app/msms"],
     ["app/options"],
@@ -50,7 +52,7 @@ def sources(root=ROOT, folders=("core", "gpu_shaders", "exporters", "app")):
     graph = {}
     for folder in folders:
         for path in sorted((root / folder).rglob("*")):
-            if path.suffix in {".cpp", ".h", ".glsl", ".comp"}:
+            if path.suffix in {".cpp", ".h", ".hpp", ".glsl", ".comp"}:
                 included = [name for name in INCLUDE.findall(path.read_text()) if (root / name).is_file()]
                 graph[str(path.relative_to(root))] = included
     return graph

@@ -22,7 +22,7 @@ HOLDS = {
                         f"{LIBRARIES}/libmeniscus.so", f"{LIBRARIES}/pkgconfig/meniscus.pc",
                         f"{LIBRARIES}/cmake/Meniscus/MeniscusConfig.cmake"},
     "python3-meniscus": {f"usr/lib/python3/dist-packages/meniscus/{path.name}"
-                         for path in (ROOT / "exporters/python/meniscus").iterdir() if path.is_file()}
+                         for path in (ROOT / "exporters/bindings/python/meniscus").iterdir() if path.is_file()}
                         | {"usr/lib/python3/dist-packages/meniscus-{version}.dist-info/METADATA"},
 }
 

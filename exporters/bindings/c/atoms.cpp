@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Looks at every number before anything is computed from it.
-#include "exporters/c_api/atoms.h"
+#include "exporters/bindings/c/atoms.h"
 
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 
 #include "core/text/parse_number.h"
-#include "exporters/c_api/caller_memory.h"
-#include "exporters/c_api/sized_struct.h"
+#include "exporters/bindings/c/caller_memory.h"
+#include "exporters/bindings/c/sized_struct.h"
 
 namespace meniscus::c_api {
 namespace {

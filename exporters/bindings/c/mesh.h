@@ -4,8 +4,8 @@
 
 #include <memory>
 
-#include "exporters/c_api/counted.h"
-#include "exporters/c_api/surface.h"
+#include "exporters/bindings/c/counted.h"
+#include "exporters/bindings/c/surface.h"
 #include "exporters/mesh/mesh_fineness.h"
 
 struct meniscus_mesh : meniscus::c_api::Counted {

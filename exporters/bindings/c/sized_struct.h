@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <cstring>
 
-#include "exporters/c_api/caller_memory.h"
+#include "exporters/bindings/c/caller_memory.h"
 
 namespace meniscus::c_api {
 

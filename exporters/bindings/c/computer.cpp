@@ -10,12 +10,12 @@
 
 #include "core/scene/surface_computer.h"
 #include "core/surface/surface.h"
-#include "exporters/c_api/atoms.h"
-#include "exporters/c_api/cpu_threads.h"
-#include "exporters/c_api/device.h"
-#include "exporters/c_api/gl_thread.h"
-#include "exporters/c_api/sized_struct.h"
-#include "exporters/c_api/surface.h"
+#include "exporters/bindings/c/atoms.h"
+#include "exporters/bindings/c/cpu_threads.h"
+#include "exporters/bindings/c/device.h"
+#include "exporters/bindings/c/gl_thread.h"
+#include "exporters/bindings/c/sized_struct.h"
+#include "exporters/bindings/c/surface.h"
 #include "exporters/mesh/check_by_mesh.h"
 
 namespace meniscus::c_api {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Van der Waals radii by element.
 #include "core/structure/radii.h"
-#include "exporters/c_api/caller_memory.h"
+#include "exporters/bindings/c/caller_memory.h"
 
 namespace {
 

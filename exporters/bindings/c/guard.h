@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "exporters/c_api/include/meniscus/meniscus.h"
+#include "exporters/bindings/c/include/meniscus/meniscus.h"
 
 namespace meniscus::c_api {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Reading a surface: its numbers, its tables as they stand in memory, distances to it.
-#include "exporters/c_api/surface.h"
+#include "exporters/bindings/c/surface.h"
 
 #include <cmath>
 #include <cstddef>
@@ -11,10 +11,10 @@
 
 #include "core/base/error.h"
 #include "core/surface/gradients.h"
-#include "exporters/c_api/cpu_threads.h"
-#include "exporters/c_api/guard.h"
-#include "exporters/c_api/sized_struct.h"
-#include "exporters/c_api/table.h"
+#include "exporters/bindings/c/cpu_threads.h"
+#include "exporters/bindings/c/guard.h"
+#include "exporters/bindings/c/sized_struct.h"
+#include "exporters/bindings/c/table.h"
 
 namespace meniscus::c_api {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Which exception is which code, and the last text of each thread.
-#include "exporters/c_api/guard.h"
+#include "exporters/bindings/c/guard.h"
 
 #include <algorithm>
 #include <array>

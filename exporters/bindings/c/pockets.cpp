@@ -7,12 +7,12 @@
 
 #include "core/pockets/pockets.h"
 #include "core/surface/surface.h"
-#include "exporters/c_api/counted.h"
-#include "exporters/c_api/cpu_threads.h"
-#include "exporters/c_api/guard.h"
-#include "exporters/c_api/sized_struct.h"
-#include "exporters/c_api/surface.h"
-#include "exporters/c_api/table.h"
+#include "exporters/bindings/c/counted.h"
+#include "exporters/bindings/c/cpu_threads.h"
+#include "exporters/bindings/c/guard.h"
+#include "exporters/bindings/c/sized_struct.h"
+#include "exporters/bindings/c/surface.h"
+#include "exporters/bindings/c/table.h"
 
 /// What stands behind the handle of pockets: their rows, one after the other.
 struct meniscus_pockets : meniscus::c_api::Counted {

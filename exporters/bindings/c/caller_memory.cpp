@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Products are never formed before it is known that they do not overflow.
-#include "exporters/c_api/caller_memory.h"
+#include "exporters/bindings/c/caller_memory.h"
 
 #include <algorithm>
 

@@ -5,7 +5,7 @@
 #include <cstddef>
 
 #include "core/color/coloring.h"
-#include "exporters/c_api/caller_memory.h"
+#include "exporters/bindings/c/caller_memory.h"
 
 namespace meniscus::c_api {
 

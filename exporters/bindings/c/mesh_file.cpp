@@ -7,11 +7,11 @@
 
 #include "core/base/text.h"
 #include "core/scene/surface_request.h"
-#include "exporters/c_api/atom_colors.h"
-#include "exporters/c_api/cpu_threads.h"
-#include "exporters/c_api/guard.h"
-#include "exporters/c_api/mesh.h"
-#include "exporters/c_api/sized_struct.h"
+#include "exporters/bindings/c/atom_colors.h"
+#include "exporters/bindings/c/cpu_threads.h"
+#include "exporters/bindings/c/guard.h"
+#include "exporters/bindings/c/mesh.h"
+#include "exporters/bindings/c/sized_struct.h"
 #include "exporters/mesh/files/file_object.h"
 #include "exporters/mesh/files/mesh_formats.h"
 

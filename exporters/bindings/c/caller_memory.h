@@ -7,7 +7,7 @@
 #include <limits>
 #include <type_traits>
 
-#include "exporters/c_api/guard.h"
+#include "exporters/bindings/c/guard.h"
 
 namespace meniscus::c_api {
 

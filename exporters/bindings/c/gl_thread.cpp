@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // One worker, one piece of work at a time.
-#include "exporters/c_api/gl_thread.h"
+#include "exporters/bindings/c/gl_thread.h"
 
 #include <atomic>
 #include <condition_variable>

@@ -2,11 +2,11 @@
 // Triangle meshes of a surface, table by table.
 #include <memory>
 
-#include "exporters/c_api/cpu_threads.h"
-#include "exporters/c_api/guard.h"
-#include "exporters/c_api/mesh.h"
-#include "exporters/c_api/sized_struct.h"
-#include "exporters/c_api/table.h"
+#include "exporters/bindings/c/cpu_threads.h"
+#include "exporters/bindings/c/guard.h"
+#include "exporters/bindings/c/mesh.h"
+#include "exporters/bindings/c/sized_struct.h"
+#include "exporters/bindings/c/table.h"
 #include "exporters/mesh/mesh_colors.h"
 #include "exporters/mesh/mesh_objects.h"
 #include "exporters/mesh/tessellate.h"

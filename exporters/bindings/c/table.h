@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "exporters/c_api/include/meniscus/meniscus.h"
+#include "exporters/bindings/c/include/meniscus/meniscus.h"
 
 namespace meniscus::c_api {
 

@@ -10,8 +10,8 @@
 #include "core/surface/atom_areas.h"
 #include "core/queries/distance.h"
 #include "core/surface/primitives.h"
-#include "exporters/c_api/counted.h"
-#include "exporters/c_api/include/meniscus/meniscus.h"
+#include "exporters/bindings/c/counted.h"
+#include "exporters/bindings/c/include/meniscus/meniscus.h"
 
 namespace meniscus::c_api {
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "core/gpu/device_choice.h"
-#include "exporters/c_api/guard.h"
+#include "exporters/bindings/c/guard.h"
 
 namespace meniscus::c_api {
 

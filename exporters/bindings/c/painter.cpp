@@ -12,12 +12,12 @@
 #include "core/gpu/egl_context.h"
 #include "core/image/display_color.h"
 #include "core/render/surface_renderer.h"
-#include "exporters/c_api/atom_colors.h"
-#include "exporters/c_api/cpu_threads.h"
-#include "exporters/c_api/device.h"
-#include "exporters/c_api/gl_thread.h"
-#include "exporters/c_api/sized_struct.h"
-#include "exporters/c_api/surface.h"
+#include "exporters/bindings/c/atom_colors.h"
+#include "exporters/bindings/c/cpu_threads.h"
+#include "exporters/bindings/c/device.h"
+#include "exporters/bindings/c/gl_thread.h"
+#include "exporters/bindings/c/sized_struct.h"
+#include "exporters/bindings/c/surface.h"
 
 namespace meniscus::c_api {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/surface/primitives.h"
-#include "exporters/c_api/include/meniscus/meniscus.h"
+#include "exporters/bindings/c/include/meniscus/meniscus.h"
 
 namespace meniscus::c_api {
 
