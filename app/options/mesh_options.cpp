@@ -10,8 +10,8 @@
 #include "app/options/value_words.h"
 #include "app/process/program_error.h"
 #include "core/base/text.h"
-#include "exporters/mesh/files/vertex_numbers.h"
-#include "exporters/mesh/mesh_fineness.h"
+#include "core/mesh/mesh_fineness.h"
+#include "exporters/mesh_files/vertex_numbers.h"
 
 namespace meniscus {
 namespace {

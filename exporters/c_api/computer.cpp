@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/mesh/check_by_mesh.h"
 #include "core/scene/surface_computer.h"
 #include "core/surface/surface.h"
 #include "exporters/c_api/atoms.h"
@@ -16,7 +17,6 @@
 #include "exporters/c_api/gl_thread.h"
 #include "exporters/c_api/sized_struct.h"
 #include "exporters/c_api/surface.h"
-#include "exporters/mesh/check_by_mesh.h"
 
 namespace meniscus::c_api {
 namespace {

@@ -2,14 +2,14 @@
 // Triangle meshes of a surface, table by table.
 #include <memory>
 
+#include "core/mesh/mesh_colors.h"
+#include "core/mesh/mesh_objects.h"
+#include "core/mesh/tessellate.h"
 #include "exporters/c_api/cpu_threads.h"
 #include "exporters/c_api/guard.h"
 #include "exporters/c_api/mesh.h"
 #include "exporters/c_api/sized_struct.h"
 #include "exporters/c_api/table.h"
-#include "exporters/mesh/mesh_colors.h"
-#include "exporters/mesh/mesh_objects.h"
-#include "exporters/mesh/tessellate.h"
 
 namespace meniscus::c_api {
 namespace {

@@ -4,9 +4,9 @@
 
 #include <memory>
 
+#include "core/mesh/mesh_fineness.h"
 #include "exporters/c_api/counted.h"
 #include "exporters/c_api/surface.h"
-#include "exporters/mesh/mesh_fineness.h"
 
 struct meniscus_mesh : meniscus::c_api::Counted {
   std::shared_ptr<const meniscus::c_api::FinishedSurface> of;

@@ -12,8 +12,8 @@
 #include "exporters/c_api/guard.h"
 #include "exporters/c_api/mesh.h"
 #include "exporters/c_api/sized_struct.h"
-#include "exporters/mesh/files/file_object.h"
-#include "exporters/mesh/files/mesh_formats.h"
+#include "exporters/mesh_files/file_object.h"
+#include "exporters/mesh_files/mesh_formats.h"
 
 namespace meniscus::c_api {
 namespace {
