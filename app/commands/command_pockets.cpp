@@ -22,11 +22,11 @@
 #include "app/reports/pocket_report.h"
 #include "core/base/output_file.h"
 #include "core/base/text.h"
+#include "core/mesh/mesh_objects.h"
+#include "core/mesh/pocket_mesh.h"
 #include "core/scene/molecule_pockets.h"
-#include "exporters/mesh/files/mesh_formats.h"
-#include "exporters/mesh/files/pocket_file.h"
-#include "exporters/mesh/mesh_objects.h"
-#include "exporters/mesh/pocket_mesh.h"
+#include "exporters/mesh_files/mesh_formats.h"
+#include "exporters/mesh_files/pocket_file.h"
 
 namespace meniscus {
 namespace {

@@ -17,15 +17,15 @@
 #include "app/reports/notes.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/mesh/mesh_colors.h"
+#include "core/mesh/mesh_objects.h"
+#include "core/mesh/shape_mesh.h"
+#include "core/mesh/velocity.h"
 #include "core/queries/combine.h"
 #include "exporters/blender/atom_attributes.h"
 #include "exporters/blender/capped_mesh.h"
 #include "exporters/blender/sequence_manifest.h"
 #include "exporters/blender/surface_file.h"
-#include "exporters/mesh/mesh_colors.h"
-#include "exporters/mesh/mesh_objects.h"
-#include "exporters/mesh/shape_mesh.h"
-#include "exporters/mesh/velocity.h"
 
 namespace meniscus {
 namespace {

@@ -18,8 +18,8 @@
 #include "app/reports/notes.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "exporters/mesh/files/file_object.h"
-#include "exporters/mesh/files/mesh_formats.h"
+#include "exporters/mesh_files/file_object.h"
+#include "exporters/mesh_files/mesh_formats.h"
 
 namespace meniscus {
 namespace {

@@ -22,9 +22,9 @@
 #include "app/process/program_error.h"
 #include "app/reports/notes.h"
 #include "core/base/text.h"
+#include "core/mesh/mesh_objects.h"
 #include "core/queries/combine.h"
 #include "exporters/blender/capped_mesh.h"
-#include "exporters/mesh/mesh_objects.h"
 #include "exporters/path_tracers/scene_folder.h"
 #include "exporters/path_tracers/scene_items.h"
 

@@ -10,9 +10,9 @@
 #include <fmt/ranges.h>
 
 #include "core/base/error.h"
+#include "core/mesh/tessellate.h"
 #include "core/surface/reduced_surface_engine.h"
 #include "core/surface/surface.h"
-#include "exporters/mesh/tessellate.h"
 
 namespace meniscus::msms {
 namespace {

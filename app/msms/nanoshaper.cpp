@@ -18,8 +18,8 @@
 #include "app/process/standard_streams.h"
 #include "core/base/output_file.h"
 #include "core/base/text.h"
+#include "core/mesh/even_mesh.h"
 #include "core/surface/surface.h"
-#include "exporters/mesh/even_mesh.h"
 #include "exporters/msms/msms_files.h"
 #include "exporters/msms/numbered_mesh.h"
 

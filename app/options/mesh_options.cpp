@@ -9,8 +9,8 @@
 #include "app/options/property_options.h"
 #include "app/process/program_error.h"
 #include "core/base/text.h"
-#include "exporters/mesh/files/vertex_numbers.h"
-#include "exporters/mesh/mesh_fineness.h"
+#include "core/mesh/mesh_fineness.h"
+#include "exporters/mesh_files/vertex_numbers.h"
 
 namespace meniscus {
 namespace {

@@ -6,8 +6,8 @@
 
 #include <CLI/CLI.hpp>
 
-#include "exporters/mesh/files/mesh_formats.h"
-#include "exporters/mesh/mesh_objects.h"
+#include "core/mesh/mesh_objects.h"
+#include "exporters/mesh_files/mesh_formats.h"
 
 namespace meniscus {
 

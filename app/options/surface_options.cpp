@@ -14,8 +14,8 @@
 #include "app/options/property_options.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/mesh/check_by_mesh.h"
 #include "core/text/parse_number.h"
-#include "exporters/mesh/check_by_mesh.h"
 
 namespace meniscus {
 namespace {

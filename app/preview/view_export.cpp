@@ -8,21 +8,21 @@
 
 #include <fmt/format.h>
 
-#include "exporters/blender/atom_attributes.h"
-#include "core/scene/copied_atoms.h"
-#include "core/scene/surface_computer.h"
-#include "exporters/mesh/mesh_objects.h"
-#include "core/scene/figure.h"
-#include "core/scene/molecule.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/render/image_output.h"
-#include "core/render/legend.h"
+#include "core/mesh/mesh_objects.h"
 #include "core/queries/combine.h"
 #include "core/queries/surface_object.h"
+#include "core/render/image_output.h"
+#include "core/render/legend.h"
+#include "core/scene/copied_atoms.h"
+#include "core/scene/figure.h"
+#include "core/scene/molecule.h"
+#include "core/scene/surface_computer.h"
+#include "core/surface/surface.h"
+#include "exporters/blender/atom_attributes.h"
 #include "exporters/blender/surface_file.h"
 #include "exporters/povray/scene.h"
-#include "core/surface/surface.h"
 
 namespace meniscus {
 namespace {

@@ -10,10 +10,10 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "app/options/molecule_options.h"
 #include "app/reports/assembly_table.h"
 #include "core/base/text.h"
-#include "app/options/molecule_options.h"
-#include "exporters/mesh/mesh_objects.h"
+#include "core/mesh/mesh_objects.h"
 
 namespace meniscus {
 namespace {

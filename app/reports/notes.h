@@ -10,9 +10,9 @@
 
 #include "app/options/molecule_options.h"
 #include "core/base/progress.h"
+#include "core/mesh/triangle_mesh.h"
 #include "core/scene/frame_run.h"
 #include "core/scene/view_aim.h"
-#include "exporters/mesh/triangle_mesh.h"
 
 namespace meniscus {
 

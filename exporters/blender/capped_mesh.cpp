@@ -4,8 +4,8 @@
 
 #include <utility>
 
-#include "exporters/mesh/section_mesh.h"
-#include "exporters/mesh/tessellate.h"
+#include "core/mesh/section_mesh.h"
+#include "core/mesh/tessellate.h"
 
 namespace meniscus::blender {
 namespace {

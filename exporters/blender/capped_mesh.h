@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
+#include "core/mesh/triangle_mesh.h"
 #include "core/queries/surface_object.h"
 #include "core/render/picture_object.h"
-#include "exporters/mesh/triangle_mesh.h"
 
 namespace meniscus::blender {
 

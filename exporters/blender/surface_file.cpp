@@ -11,11 +11,11 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/text.h"
-#include "exporters/blender/shot.h"
-#include "exporters/blender/mns_file.h"
 #include "core/color/color_key_json.h"
 #include "core/color/volume_paint.h"
-#include "exporters/mesh/mesh_colors.h"
+#include "core/mesh/mesh_colors.h"
+#include "exporters/blender/mns_file.h"
+#include "exporters/blender/shot.h"
 
 namespace meniscus::blender {
 namespace {

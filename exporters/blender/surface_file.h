@@ -10,11 +10,11 @@
 #include "core/base/output_file.h"
 #include "core/camera/camera.h"
 #include "core/color/color_key.h"
+#include "core/mesh/triangle_mesh.h"
 #include "core/queries/surface_object.h"
 #include "core/render/picture_object.h"
 #include "exporters/blender/atom_arrays.h"
 #include "exporters/blender/shot.h"
-#include "exporters/mesh/triangle_mesh.h"
 
 namespace meniscus::blender {
 

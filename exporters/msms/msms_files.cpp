@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/base/index.h"
-#include "exporters/mesh/files/text_rows.h"
+#include "exporters/mesh_files/text_rows.h"
 
 namespace meniscus {
 namespace {

@@ -13,7 +13,7 @@
 
 #include "core/base/index.h"
 #include "core/math/ball_grid.h"
-#include "exporters/mesh/weld.h"
+#include "core/mesh/weld.h"
 
 namespace meniscus {
 namespace {

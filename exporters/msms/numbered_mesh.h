@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <memory>
 
+#include "core/mesh/triangle_mesh.h"
 #include "core/surface/reduced_components.h"
-#include "exporters/mesh/triangle_mesh.h"
 #include "exporters/msms/msms_mesh.h"
 
 namespace meniscus {

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "exporters/mesh/files/binary_rows.h"
+#include "exporters/mesh_files/binary_rows.h"
 
 namespace meniscus::path_tracers {
 

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "core/image/color_space.h"
-#include "exporters/mesh/mesh_colors.h"
-#include "exporters/mesh/shape_mesh.h"
+#include "core/mesh/mesh_colors.h"
+#include "core/mesh/shape_mesh.h"
 
 namespace meniscus::path_tracers {
 namespace {

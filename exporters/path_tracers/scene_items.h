@@ -8,10 +8,10 @@
 
 #include <glm/vec3.hpp>
 
+#include "core/mesh/triangle_mesh.h"
 #include "core/queries/colored_shapes.h"
 #include "core/queries/surface_object.h"
 #include "core/structure/structure.h"
-#include "exporters/mesh/triangle_mesh.h"
 #include "exporters/path_tracers/scene.h"
 
 namespace meniscus::path_tracers {

@@ -11,8 +11,8 @@
 #include <glm/geometric.hpp>
 
 #include "core/base/text_template.h"
+#include "core/mesh/mesh_objects.h"
 #include "core/queries/combine.h"
-#include "exporters/mesh/mesh_objects.h"
 #include "exporters/povray/scene_templates.h"
 #include "exporters/povray/scene_text.h"
 

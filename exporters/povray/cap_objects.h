@@ -10,8 +10,8 @@
 
 #include "core/base/output_file.h"
 #include "core/camera/camera.h"
+#include "core/mesh/section_mesh.h"
 #include "core/queries/surface_object.h"
-#include "exporters/mesh/section_mesh.h"
 #include "exporters/povray/palette.h"
 #include "exporters/povray/scene_options.h"
 

@@ -5,8 +5,8 @@
 #include <span>
 
 #include "core/camera/camera.h"
+#include "core/mesh/section_mesh.h"
 #include "core/queries/surface_object.h"
-#include "exporters/mesh/section_mesh.h"
 #include "exporters/povray/scene_options.h"
 
 namespace meniscus::povray {

@@ -8,9 +8,9 @@
 
 #include <gtest/gtest.h>
 
+#include "core/mesh/tessellate.h"
 #include "core/reduced_surface/reduced_surface.h"
 #include "core/surface/surface.h"
-#include "exporters/mesh/tessellate.h"
 #include "tests/prove/families.h"
 #include "tests/prove/surface_check.h"
 #include "tests/support/sanitized.h"

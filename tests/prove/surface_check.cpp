@@ -11,10 +11,10 @@
 #include <glm/geometric.hpp>
 
 #include "core/base/error.h"
-#include "core/surface/atom_areas.h"
+#include "core/mesh/tessellate.h"
 #include "core/reduced_surface/reduced_surface.h"
+#include "core/surface/atom_areas.h"
 #include "core/surface/surface.h"
-#include "exporters/mesh/tessellate.h"
 #include "tests/prove/completeness.h"
 #include "tests/prove/turning.h"
 #include "tests/support/patch_samples.h"

@@ -6,7 +6,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "exporters/mesh/triangle_mesh.h"
+#include "core/mesh/triangle_mesh.h"
 
 namespace meniscus::testing {
 

@@ -12,11 +12,11 @@
 
 #include "core/base/error.h"
 #include "core/math/geometry.h"
+#include "core/mesh/compare_mesh.h"
+#include "core/mesh/tessellate.h"
 #include "core/surface/component_side.h"
 #include "core/surface/surface.h"
 #include "core/surface/tie_ladder.h"
-#include "exporters/mesh/compare_mesh.h"
-#include "exporters/mesh/tessellate.h"
 #include "tests/support/molecules.h"
 
 namespace meniscus::testing {

@@ -14,10 +14,10 @@
 
 #include "core/base/error.h"
 #include "core/math/spiral.h"
+#include "core/mesh/pocket_mesh.h"
 #include "core/pockets/pocket_locator.h"
 #include "core/queries/part.h"
 #include "core/surface/surface.h"
-#include "exporters/mesh/pocket_mesh.h"
 #include "tests/support/molecules.h"
 #include "tests/support/sphere_tracer.h"
 

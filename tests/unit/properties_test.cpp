@@ -11,8 +11,8 @@
 #include "core/pockets/pockets.h"
 #include "core/properties/property.h"
 #include "core/render/look_presets.h"
-#include "exporters/mesh/files/mesh_formats.h"
-#include "exporters/mesh/mesh_objects.h"
+#include "exporters/mesh_files/mesh_formats.h"
+#include "core/mesh/mesh_objects.h"
 
 namespace meniscus {
 namespace {

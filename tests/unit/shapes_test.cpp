@@ -12,10 +12,10 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
+#include "core/mesh/shape_mesh.h"
 #include "core/shapes/backbone.h"
 #include "core/structure/formats/read_structure.h"
 #include "core/structure/molecule_bonds.h"
-#include "exporters/mesh/shape_mesh.h"
 #include "tests/support/run_program.h"
 #include "tests/unit/pdb_line.h"
 

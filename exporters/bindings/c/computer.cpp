@@ -16,7 +16,7 @@
 #include "exporters/bindings/c/gl_thread.h"
 #include "exporters/bindings/c/sized_struct.h"
 #include "exporters/bindings/c/surface.h"
-#include "exporters/mesh/check_by_mesh.h"
+#include "core/mesh/check_by_mesh.h"
 
 namespace meniscus::c_api {
 namespace {

@@ -7,9 +7,9 @@
 #include "exporters/bindings/c/mesh.h"
 #include "exporters/bindings/c/sized_struct.h"
 #include "exporters/bindings/c/table.h"
-#include "exporters/mesh/mesh_colors.h"
-#include "exporters/mesh/mesh_objects.h"
-#include "exporters/mesh/tessellate.h"
+#include "core/mesh/mesh_colors.h"
+#include "core/mesh/mesh_objects.h"
+#include "core/mesh/tessellate.h"
 
 namespace meniscus::c_api {
 namespace {

@@ -12,8 +12,8 @@
 #include "exporters/bindings/c/guard.h"
 #include "exporters/bindings/c/mesh.h"
 #include "exporters/bindings/c/sized_struct.h"
-#include "exporters/mesh/files/file_object.h"
-#include "exporters/mesh/files/mesh_formats.h"
+#include "exporters/mesh_files/file_object.h"
+#include "exporters/mesh_files/mesh_formats.h"
 
 namespace meniscus::c_api {
 namespace {

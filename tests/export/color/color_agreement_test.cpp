@@ -9,18 +9,18 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "core/gpu/egl_context.h"
+#include "core/color/color_atoms.h"
 #include "core/color/color_schemes.h"
-#include "core/structure/formats/read_structure.h"
+#include "core/gpu/egl_context.h"
 #include "core/image/color_space.h"
-#include "core/render/renderer.h"
+#include "core/mesh/tessellate.h"
 #include "core/queries/combine.h"
+#include "core/render/renderer.h"
+#include "core/structure/formats/read_structure.h"
 #include "core/surface/surface.h"
 #include "exporters/blender/surface_file.h"
-#include "exporters/mesh/tessellate.h"
 #include "exporters/povray/scene.h"
 #include "tests/export/povray/povray_render.h"
-#include "core/color/color_atoms.h"
 #include "tests/support/run_program.h"
 
 namespace meniscus::testing {

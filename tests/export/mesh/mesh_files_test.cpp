@@ -10,15 +10,15 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
+#include "core/mesh/even_mesh.h"
+#include "core/mesh/smoothed_curvature.h"
+#include "core/mesh/tessellate.h"
 #include "core/queries/curvature.h"
 #include "core/queries/distance.h"
 #include "core/surface/surface.h"
-#include "exporters/mesh/even_mesh.h"
-#include "exporters/mesh/files/file_object.h"
-#include "exporters/mesh/files/inner_points.h"
-#include "exporters/mesh/files/mesh_formats.h"
-#include "exporters/mesh/smoothed_curvature.h"
-#include "exporters/mesh/tessellate.h"
+#include "exporters/mesh_files/file_object.h"
+#include "exporters/mesh_files/inner_points.h"
+#include "exporters/mesh_files/mesh_formats.h"
 #include "tests/support/molecules.h"
 #include "tests/support/run_program.h"
 

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Tries one tolerance after another; tessellate() compares.
+#include "core/mesh/check_by_mesh.h"
+
+#include <array>
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+#include "core/mesh/tessellate.h"
+
+namespace meniscus {
+namespace {
+
+constexpr std::array kTolerances{0.1, 0.03, 0.01};  // Å
+
+}  // namespace
+
+void check_by_mesh(const Surface& surface) {
+  for (const double tolerance : kTolerances) {
+    try {
+      tessellate(surface, {tolerance, false});
+      return;
+    } catch (const OpenSurfaceError& error) {
+      if (tolerance == kTolerances.back()) throw OpenSurfaceError(fmt::format("--verify: {}", error.what()));
+    }
+  }
+}
+
+}  // namespace meniscus

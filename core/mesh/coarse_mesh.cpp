@@ -1,0 +1,316 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Polygons of border samples, cut into triangles without a plane to triangulate them in wherever they are simple.
+#include "core/mesh/coarse_mesh.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <tbb/parallel_for.h>
+
+#include "core/base/error.h"
+#include "core/mesh/border_samples.h"
+#include "core/mesh/filled_faces.h"
+#include "core/surface/walks.h"
+
+namespace meniscus {
+namespace {
+
+/// Å: longer than any edge that a face of a molecule lets be, so that the angles of EdgeRule decide.
+constexpr double kAnyEdge = 10.0;
+/// Beside faces that are not simple no segment of an arc spans more, radian.
+constexpr double kFineAngle = 1.2;
+/// A fan's triangles see its middle from no farther than the cosine of this many radian (1.9) away.
+constexpr double kWidestFan = -0.32;
+/// Corners of a saddle that is a fan: longer ones bend too much.
+constexpr std::size_t kMostSaddleCorners = 6;
+
+using Corners = std::vector<BorderPoint>;
+
+class CoarseMeshing {
+ public:
+  CoarseMeshing(const Surface& surface, const SurfaceWalk& walk, double angle)
+      : surface_(surface),
+        walk_(walk),
+        rule_(MeshOptions{0.4, false, kAnyEdge}),
+        samples_(surface, rule_.with_angle(angle), false),
+        filling_(surface, rule_, samples_),
+        parts_(surface.faces.size()),
+        wide_(angle > kFineAngle),
+        finer_(surface.faces.size(), false),
+        filled_(surface.faces.size()) {}
+
+  TriangleMesh run() {
+    for (std::vector<std::uint32_t> hard = plan(); !hard.empty(); hard = plan()) {
+      if (wide_ && sample_finer(hard)) continue;
+      for (const std::uint32_t f : hard) parts_[f].cut = Cut::filled;
+      filling_.fill(std::move(hard), filled_);
+    }
+    number_vertices();
+    put_faces();
+    return std::move(mesh_);
+  }
+
+ private:
+  enum class Cut : std::uint8_t { none, triangle, diagonal, fan, filled };
+  /// What becomes of a face, and where its rows begin.
+  struct Part {
+    Cut cut = Cut::none;
+    std::uint8_t diagonal = 0;  ///< the corner it begins at
+    std::uint32_t corners = 0, vertex = 0, triangle = 0;
+    glm::dvec3 middle{0.0};             ///< of a fan
+    std::uint32_t planned_for = kNone;  ///< corner_count() then
+  };
+
+  /// The corners of a face with one loop, the face on their left.
+  Corners corners_of(const Face& face) const {
+    Corners corners;
+    for (const HalfBorder half : half_borders_of(surface_, loops_of(surface_, face)[0])) {
+      const std::uint32_t border = border_of(half), n = samples_.segment_count(border);
+      for (std::uint32_t k = 0; k < n; ++k) corners.push_back(samples_.point(border, is_backwards(half) ? n - k : k));
+    }
+    return corners;
+  }
+
+  std::uint32_t corner_count(const Face& face) const {
+    std::uint32_t count = 0;
+    for_each_half_border(surface_, face, [&](HalfBorder half) { count += samples_.segment_count(border_of(half)); });
+    return count;
+  }
+
+  /// Finds how each face is cut whose borders have other samples than before; returns those that have to be filled and
+  /// are not yet.
+  std::vector<std::uint32_t> plan() {
+    std::vector<std::uint8_t> hard(parts_.size(), 0);
+    tbb::parallel_for(std::size_t{0}, parts_.size(), [&](std::size_t f) {
+      if (parts_[f].cut == Cut::filled || parts_[f].planned_for == corner_count(surface_.faces[f])) return;
+      const auto part = simple_part(static_cast<std::uint32_t>(f));
+      hard[f] = !part;
+      if (!part) return;
+      parts_[f] = *part;
+      parts_[f].planned_for = corner_count(surface_.faces[f]);
+    });
+    std::vector<std::uint32_t> found;
+    for (std::uint32_t f = 0; f < hard.size(); ++f)
+      if (hard[f]) found.push_back(f);
+    return found;
+  }
+
+  /// Halves the long segments around faces that are no polygons of the simple kinds; false if that was done before.
+  bool sample_finer(const std::vector<std::uint32_t>& hard) {
+    bool any = false;
+    for (const std::uint32_t f : hard) {
+      if (finer_[f]) continue;
+      finer_[f] = any = true;
+      for_each_half_border(surface_, surface_.faces[f], [&](HalfBorder half) {
+        const std::uint32_t b = border_of(half);
+        for (std::uint32_t k = samples_.segment_count(b); k-- > 0;)
+          if (samples_.parameter(b, k + 1) - samples_.parameter(b, k) > kFineAngle) samples_.split(b, k);
+      });
+    }
+    return any;
+  }
+
+  std::optional<Part> simple_part(std::uint32_t f) const {
+    const Face& face = surface_.faces[f];
+    if (face.loop_count != 1 || face.tip != kNone) return std::nullopt;
+    const Corners corners = corners_of(face);
+    Part part;
+    part.corners = static_cast<std::uint32_t>(corners.size());
+    if (corners.size() < 3) return part;  // shrunk to a point or to one line
+    if (corners.size() == 3) {
+      part.cut = Cut::triangle;
+      return part;
+    }
+    Corners sorted = corners;
+    std::sort(sorted.begin(), sorted.end());
+    if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end()) return std::nullopt;
+    std::vector<glm::dvec3> at;
+    for (const BorderPoint& point : corners) at.push_back(samples_.position(point));
+    if (face.kind != PatchKind::toroidal) return sphere_fan(f, part, at);
+    if (corners.size() == 4) {
+      part.cut = Cut::diagonal;
+      part.diagonal = glm::distance(at[0], at[2]) <= glm::distance(at[1], at[3]) ? 0 : 1;
+      return part;
+    }
+    return saddle_fan(f, part, at);
+  }
+
+  /// Seen from the centre a fan must turn around its middle, and the middle must be on the face.
+  std::optional<Part> sphere_fan(std::uint32_t f, Part part, std::vector<glm::dvec3>& at) const {
+    const Face& face = surface_.faces[f];
+    const bool convex = face.kind == PatchKind::convex;
+    const Ball sphere = convex ? surface_.atoms[surface_.convex[face.patch].atom]
+                               : Ball{surface_.concave[face.patch].center, surface_.probe_radius};
+    glm::dvec3 area(0.0);  // the vector area of what the rim goes around points to its middle
+    for (glm::dvec3& x : at) x = (x - sphere.center) / sphere.radius;
+    for (std::size_t k = 0; k < at.size(); ++k) area += glm::cross(at[k], at[(k + 1) % at.size()]);
+    if (!convex) area = -area;
+    const double size = glm::length(area);
+    if (!(size > 0.0)) return std::nullopt;
+    const glm::dvec3 middle = area / size;
+    for (std::size_t k = 0; k < at.size(); ++k) {
+      const double turn = glm::dot(middle, glm::cross(at[k], at[(k + 1) % at.size()]));
+      if (!((convex ? turn : -turn) > 0.0) || glm::dot(middle, at[k]) < kWidestFan) return std::nullopt;
+    }
+    return with_middle(f, part, sphere.center + sphere.radius * middle);
+  }
+  std::optional<Part> saddle_fan(std::uint32_t f, Part part, const std::vector<glm::dvec3>& at) const {
+    if (at.size() > kMostSaddleCorners) return std::nullopt;
+    glm::dvec3 sum(0.0);
+    for (const glm::dvec3& x : at) sum += x;
+    return with_middle(f, part, sum / static_cast<double>(at.size()));
+  }
+  std::optional<Part> with_middle(std::uint32_t f, Part part, const glm::dvec3& x) const {
+    const auto on = walk_.below(x, f);
+    if (!on || on->face != f) return std::nullopt;
+    part.cut = Cut::fan;
+    part.middle = on->position;
+    return part;
+  }
+
+  /// Vertices of the surface that are used, border samples, then each face's own.
+  void number_vertices() {
+    vertex_number_.assign(surface_.vertices.size(), kNone);
+    border_number_.resize(surface_.borders.size());
+    for (std::uint32_t b = 0; b < surface_.borders.size(); ++b) {
+      const std::uint32_t n = samples_.segment_count(b);
+      for (std::uint32_t k = 0; k < n; ++k)
+        for (const BorderPoint& end : {samples_.point(b, k), samples_.point(b, k + 1)})
+          if (end.border == kNone) number_vertex(end.index);
+    }
+    for (const Face& face : surface_.faces)
+      if (face.tip != kNone) number_vertex(samples_.representative(face.tip));
+    for (std::uint32_t b = 0; b < surface_.borders.size(); ++b) {
+      const std::uint32_t n = samples_.segment_count(b);
+      const bool ring = surface_.borders[b].vertex[0] == kNone;
+      const auto next = static_cast<std::uint32_t>(mesh_.positions.size());
+      border_number_[b] = ring ? next : next - 1;  // sample 1 of an arc is its first inner point
+      for (std::uint32_t k = ring ? 0 : 1; k < n; ++k) mesh_.positions.push_back(samples_.position(b, k));
+    }
+  }
+  void number_vertex(std::uint32_t vertex) {
+    if (vertex_number_[vertex] != kNone) return;
+    vertex_number_[vertex] = static_cast<std::uint32_t>(mesh_.positions.size());
+    mesh_.positions.push_back(surface_.vertices[vertex]);
+  }
+  std::uint32_t number(const BorderPoint& name) const {
+    return name.border == kNone ? vertex_number_[name.index] : border_number_[name.border] + name.index;
+  }
+
+  void put_faces() {
+    auto vertices = static_cast<std::uint32_t>(mesh_.positions.size());
+    std::uint32_t triangles = 0;
+    for (std::uint32_t f = 0; f < parts_.size(); ++f) {
+      Part& part = parts_[f];
+      part.triangle = triangles;
+      part.vertex = vertices;
+      if (part.cut == Cut::filled) {
+        part_doubled_edges(filled_[f]);
+        triangles += static_cast<std::uint32_t>(filled_[f].triangles.size());
+        vertices += own_vertices(filled_[f]);
+      } else if (part.corners >= 3) {
+        triangles += part.corners - (part.cut == Cut::fan ? 0 : 2);
+        vertices += part.cut == Cut::fan;
+      }
+    }
+    mesh_.positions.resize(vertices);
+    mesh_.triangles.resize(triangles);
+    mesh_.face.resize(triangles);
+    tbb::parallel_for(std::size_t{0}, parts_.size(), [&](std::size_t f) { put_face(static_cast<std::uint32_t>(f)); });
+  }
+  /// Per seam point its number among the face's own.
+  static std::map<std::uint32_t, std::uint32_t> seam_of(const FaceMesh& mesh) {
+    std::map<std::uint32_t, std::uint32_t> seam;
+    for (const BorderPoint& name : mesh.rim)
+      if (name.border == kSeam) seam.try_emplace(name.index, static_cast<std::uint32_t>(seam.size()));
+    return seam;
+  }
+  static std::uint32_t own_vertices(const FaceMesh& mesh) {
+    return static_cast<std::uint32_t>(mesh.points.size() - mesh.rim.size() + seam_of(mesh).size());
+  }
+
+  void put_face(std::uint32_t f) {
+    const Part& part = parts_[f];
+    if (part.cut == Cut::none) return;
+    if (part.cut == Cut::filled) return put_filled(f);
+    std::vector<std::uint32_t> v;
+    for (const BorderPoint& point : corners_of(surface_.faces[f])) v.push_back(number(point));
+    const std::size_t n = v.size();
+    std::uint32_t row = part.triangle;
+    const auto put = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+      mesh_.face[row] = f;
+      mesh_.triangles[row++] = {a, b, c};
+    };
+    if (part.cut == Cut::fan) {
+      mesh_.positions[part.vertex] = part.middle;
+      for (std::size_t k = 0; k < n; ++k) put(v[k], v[(k + 1) % n], part.vertex);
+    } else {
+      const std::size_t d = part.diagonal;
+      put(v[d], v[d + 1], v[d + 2]);
+      if (n == 4) put(v[d + 2], v[(d + 3) % 4], v[d]);
+    }
+  }
+  void put_filled(std::uint32_t f) {
+    const FaceMesh& mesh = filled_[f];
+    const auto seam = seam_of(mesh);
+    const auto rim = static_cast<std::uint32_t>(mesh.rim.size());
+    std::vector<std::uint32_t> v(mesh.points.size());
+    for (std::uint32_t i = 0; i < v.size(); ++i) {
+      const bool inner = i >= rim, on_seam = !inner && mesh.rim[i].border == kSeam;
+      if (inner) v[i] = parts_[f].vertex + static_cast<std::uint32_t>(seam.size()) + i - rim;
+      if (on_seam) v[i] = parts_[f].vertex + seam.at(mesh.rim[i].index);
+      if (inner || on_seam) mesh_.positions[v[i]] = mesh.points[i].position;
+      if (!inner && !on_seam) v[i] = number(mesh.rim[i]);
+    }
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+      const auto& [a, b, c] = mesh.triangles[t];
+      mesh_.triangles[parts_[f].triangle + t] = {v[a], v[b], v[c]};
+      mesh_.face[parts_[f].triangle + t] = f;
+    }
+  }
+
+  const Surface& surface_;
+  const SurfaceWalk& walk_;
+  const EdgeRule rule_;
+  BorderSamples samples_;
+  FaceFilling filling_;
+  std::vector<Part> parts_;       ///< per face
+  bool wide_;                     ///< arcs that are one edge span more than those beside faces that are not simple
+  std::vector<bool> finer_;       ///< per face: its borders are sampled as finely as those of faces that are filled
+  std::vector<FaceMesh> filled_;  ///< per face; of those that were filled
+  std::vector<std::uint32_t> vertex_number_, border_number_;
+  TriangleMesh mesh_;
+};
+
+/// V - E + F of each component, as the triangles' faces part them.
+void check_euler(const Surface& surface, const TriangleMesh& mesh) {
+  std::vector<int> twice(surface.components.size(), 0);  // closed: E = 3 F / 2
+  std::vector<std::uint8_t> seen(mesh.positions.size(), 0);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    int& sum = twice[surface.faces[mesh.face[t]].component];
+    --sum;
+    for (const std::uint32_t v : mesh.triangles[t])
+      if (!std::exchange(seen[v], 1)) sum += 2;
+  }
+  if (std::find(seen.begin(), seen.end(), 0) != seen.end())
+    throw OpenSurfaceError("the coarsest mesh has points without triangles");
+  for (std::size_t c = 0; c < twice.size(); ++c)
+    if (twice[c] != 2 * surface.components[c].euler)
+      throw OpenSurfaceError(fmt::format("the coarsest mesh of component {} has another topology", c));
+}
+
+}  // namespace
+
+TriangleMesh coarse_mesh(const Surface& surface, const SurfaceWalk& walk, double angle) {
+  TriangleMesh mesh = CoarseMeshing(surface, walk, angle).run();
+  check_euler(surface, mesh);
+  return mesh;
+}
+
+}  // namespace meniscus

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Gives triangles their atom and cuts them where the nearest contact changes, so that colours end along edges.
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <set>
+
+#include <glm/geometric.hpp>
+
+#include "core/mesh/contact_colors.h"
+#include "core/mesh/face_mesh.h"
+
+namespace meniscus {
+namespace {
+
+/// Scores closer than this are a tie: border samples lie on colour lines up to rounding.
+constexpr double kTie = 1e-9;
+constexpr int kMostPasses = 8;
+
+using Scores = std::vector<double>;  // one per contact; the largest wins
+
+/// Cuts the triangles of one face along its colour lines.
+class ColorCutter {
+ public:
+  ColorCutter(FaceMesh& mesh, std::vector<Scores> scores) : mesh_(mesh), scores_(std::move(scores)) {
+    for (const auto& edge : mesh.rim_edges) {
+      rim_edges_.insert({std::min(edge[0], edge[1]), std::max(edge[0], edge[1])});
+    }
+  }
+
+  /// Cutting an edge may show a third contact on the rest of it, so go on until every triangle has one winner.
+  void run() {
+    for (int pass = 0; pass < kMostPasses; ++pass) {
+      const auto old = std::move(mesh_.triangles);
+      mesh_.triangles.clear();
+      crossings_.clear();
+      for (const auto& t : old) cut(t);
+      if (mesh_.triangles.size() == old.size()) return;
+    }
+  }
+
+ private:
+  bool wins(std::uint32_t vertex, std::size_t contact) const {
+    const Scores& s = scores_[vertex];
+    return s[contact] >= *std::max_element(s.begin(), s.end()) - kTie;
+  }
+  /// A contact that wins at all of these vertices, and so between them: scores are linear on a flat triangle.
+  std::optional<std::size_t> shared_winner(std::initializer_list<std::uint32_t> vertices) const {
+    for (std::size_t c = 0; c < scores_.front().size(); ++c) {
+      if (std::all_of(vertices.begin(), vertices.end(), [&](std::uint32_t v) { return wins(v, c); })) return c;
+    }
+    return std::nullopt;
+  }
+  std::uint32_t add(const std::array<std::uint32_t, 3>& v, const std::array<double, 3>& weight,
+                    std::initializer_list<std::size_t> tied) {
+    const auto index = static_cast<std::uint32_t>(mesh_.points.size());
+    Scores sum(scores_.front().size(), 0.0);
+    for (int k = 0; k < 3; ++k) {
+      for (std::size_t c = 0; c < sum.size(); ++c) sum[c] += weight[k] * scores_[v[k]][c];
+    }
+    double best = sum[*tied.begin()];
+    for (std::size_t c : tied) best = std::max(best, sum[c]);
+    for (std::size_t c : tied) sum[c] = best;  // equal but for rounding
+    mesh_.points.push_back(
+        mesh_.domain->between({&mesh_.points[v[0]], &mesh_.points[v[1]], &mesh_.points[v[2]]}, weight));
+    scores_.push_back(std::move(sum));
+    return index;
+  }
+  /// The first point of an edge where another contact overtakes; the two triangles of the edge share it.
+  std::uint32_t crossing(std::uint32_t a, std::uint32_t b) {
+    if (a > b) std::swap(a, b);
+    const auto [at, fresh] = crossings_.try_emplace({a, b}, 0);
+    if (fresh) {
+      const Scores &from = scores_[a], &to = scores_[b];
+      std::size_t first = 0;  // of those that win at a, the one that wins just after it
+      for (std::size_t c = 1; c < from.size(); ++c) {
+        if (wins(a, c) && (!wins(a, first) || to[c] > to[first])) first = c;
+      }
+      double share = 2.0;
+      std::size_t next = first;
+      for (std::size_t c = 0; c < from.size(); ++c) {
+        const double lead = std::max(from[first] - from[c], 0.0), gain = (to[c] - to[first]) + lead;
+        if (to[c] <= to[first] || lead / gain >= share) continue;
+        share = lead / gain;
+        next = c;
+      }
+      at->second = add({a, b, b}, {1.0 - share, share, 0.0}, {first, next});
+    }
+    return at->second;
+  }
+  /// The weights of the point of a triangle where three contacts are equally near.
+  std::array<double, 3> junction(const std::array<std::uint32_t, 3>& t, std::size_t a, std::size_t b,
+                                 std::size_t c) const {
+    std::array<glm::dvec2, 3> lead;
+    for (int k = 0; k < 3; ++k) {
+      const Scores& s = scores_[t[k]];
+      lead[k] = {s[a] - s[b], s[a] - s[c]};
+    }
+    auto cross = [](const glm::dvec2& u, const glm::dvec2& v) { return u.x * v.y - u.y * v.x; };
+    const std::array<double, 3> weight{cross(lead[1], lead[2]), cross(lead[2], lead[0]), cross(lead[0], lead[1])};
+    const double sum = weight[0] + weight[1] + weight[2];
+    if (sum == 0.0 || *std::min_element(weight.begin(), weight.end()) * sum < 0.0) return {1.0 / 3, 1.0 / 3, 1.0 / 3};
+    return {weight[0] / sum, weight[1] / sum, weight[2] / sum};
+  }
+
+  /// No edge is crossed but no contact wins everywhere: three of them meet inside.
+  void cut_at_junction(const std::array<std::uint32_t, 3>& t) {
+    const auto a = shared_winner({t[0], t[1]}), b = shared_winner({t[1], t[2]}), c = shared_winner({t[2], t[0]});
+    auto& out = mesh_.triangles;
+    if (!a || !b || !c || *a == *b || *b == *c || *c == *a || shared_winner({t[0], t[1], t[2]})) {
+      out.push_back(t);
+      return;
+    }
+    const std::uint32_t middle = add(t, junction(t, *a, *b, *c), {*a, *b, *c});
+    for (int k = 0; k < 3; ++k) out.push_back({t[k], t[(k + 1) % 3], middle});
+  }
+
+  void cut(const std::array<std::uint32_t, 3>& t) {
+    std::array<bool, 3> crossed{};  // edge k from t[k] to t[k+1]
+    int count = 0;
+    for (int k = 0; k < 3; ++k) {
+      const int a = static_cast<int>(t[k]), b = static_cast<int>(t[(k + 1) % 3]);
+      crossed[k] = !shared_winner({t[k], t[(k + 1) % 3]}) && !rim_edges_.contains({std::min(a, b), std::max(a, b)});
+      count += crossed[k];
+    }
+    auto& out = mesh_.triangles;
+    if (count == 0) {
+      cut_at_junction(t);
+    } else if (count == 1) {
+      const int k = crossed[0] ? 0 : crossed[1] ? 1 : 2;
+      const std::uint32_t a = t[k], b = t[(k + 1) % 3], c = t[(k + 2) % 3], m = crossing(a, b);
+      out.push_back({a, m, c});
+      out.push_back({m, b, c});
+    } else if (count == 2) {
+      const int k = !crossed[0] ? 2 : !crossed[1] ? 0 : 1;  // the corner between the two crossed edges
+      const std::uint32_t a = t[k], b = t[(k + 1) % 3], c = t[(k + 2) % 3];
+      const std::uint32_t m = crossing(a, b), n = crossing(c, a);
+      out.push_back({a, m, n});
+      out.push_back({m, b, n});
+      out.push_back({n, b, c});
+    } else {
+      const std::uint32_t m0 = crossing(t[0], t[1]), m1 = crossing(t[1], t[2]), m2 = crossing(t[2], t[0]);
+      out.push_back({t[0], m0, m2});
+      out.push_back({m0, t[1], m1});
+      out.push_back({m2, m1, t[2]});
+      out.push_back({m0, m1, m2});
+    }
+  }
+
+  FaceMesh& mesh_;
+  std::vector<Scores> scores_;
+  std::set<std::pair<int, int>> rim_edges_;  ///< shared with other faces: never cut
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> crossings_;
+};
+
+void color_concave(const Surface& surface, const ConcavePatch& patch, FaceMesh& mesh, bool split) {
+  const auto contacts = contact_directions(surface, patch);
+  auto score = [&](const glm::dvec3& x, std::size_t c) {
+    return glm::dot(contacts[c].direction, x - patch.center) / surface.probe_radius;
+  };
+  if (split) {
+    std::vector<Scores> scores(mesh.points.size(), Scores(contacts.size()));
+    for (std::size_t i = 0; i < mesh.points.size(); ++i) {
+      for (std::size_t c = 0; c < contacts.size(); ++c) scores[i][c] = score(mesh.points[i].position, c);
+    }
+    ColorCutter(mesh, std::move(scores)).run();
+  }
+  for (const auto& t : mesh.triangles) {
+    const glm::dvec3 middle =
+        (mesh.points[t[0]].position + mesh.points[t[1]].position + mesh.points[t[2]].position) / 3.0;
+    std::size_t best = 0;
+    for (std::size_t c = 1; c < contacts.size(); ++c) {
+      if (score(middle, c) > score(middle, best)) best = c;
+    }
+    mesh.atom.push_back(contacts[best].atom);
+  }
+}
+
+void color_torus(const Surface& surface, const ToroidalPatch& patch, FaceMesh& mesh, bool split) {
+  const auto angles = contact_angles(surface, patch);
+  const double middle = 0.5 * (angles[0] + angles[1]);
+  if (split) {
+    std::vector<Scores> scores;
+    for (const FacePoint& p : mesh.points) scores.push_back({middle - p.angles.y, p.angles.y - middle});
+    ColorCutter(mesh, std::move(scores)).run();
+  }
+  for (const auto& t : mesh.triangles) {
+    const double tube = (mesh.points[t[0]].angles.y + mesh.points[t[1]].angles.y + mesh.points[t[2]].angles.y) / 3.0;
+    mesh.atom.push_back(patch.atom[tube < middle ? 0 : 1]);
+  }
+}
+
+}  // namespace
+
+void color_face(const Surface& surface, const Face& face, FaceMesh& mesh, bool split) {
+  if (face.kind == PatchKind::convex) {
+    mesh.atom.assign(mesh.triangles.size(), surface.convex[face.patch].atom);
+  } else if (face.kind == PatchKind::toroidal) {
+    color_torus(surface, surface.toroidal[face.patch], mesh, split);
+  } else {
+    color_concave(surface, surface.concave[face.patch], mesh, split);
+  }
+}
+
+}  // namespace meniscus

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Angles of creases, and chains of them that are long enough.
+#include "core/mesh/creases.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include <glm/geometric.hpp>
+
+#include "core/surface/walks.h"
+
+namespace meniscus {
+namespace {
+
+/// Arcs that go on in one another.
+class Chains {
+ public:
+  explicit Chains(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0u); }
+  std::uint32_t root(std::uint32_t n) {
+    while (parent_[n] != n) n = parent_[n] = parent_[parent_[n]];
+    return n;
+  }
+  void join(std::uint32_t a, std::uint32_t b) { parent_[std::max(root(a), root(b))] = std::min(root(a), root(b)); }
+
+ private:
+  std::vector<std::uint32_t> parent_;
+};
+
+/// Takes away chains that are shorter than an edge; true if there were any.
+bool drop_short_chains(const Surface& surface, const std::function<double(const glm::dvec3&)>& edge,
+                       std::vector<bool>& keep) {
+  std::vector<std::array<std::uint32_t, 2>> ends(surface.vertices.size(), {kNone, kNone});
+  std::vector<std::uint32_t> degree(surface.vertices.size(), 0);
+  Chains chains(surface.borders.size());
+  for (std::uint32_t b = 0; b < surface.borders.size(); ++b) {
+    if (!keep[b]) continue;
+    for (const std::uint32_t v : surface.borders[b].vertex) {
+      if (v == kNone) continue;
+      if (degree[v] < 2) ends[v][degree[v]] = b;
+      ++degree[v];
+    }
+  }
+  for (std::size_t v = 0; v < degree.size(); ++v)
+    if (degree[v] == 2) chains.join(ends[v][0], ends[v][1]);
+  std::vector<double> edges_long(surface.borders.size(), 0.0);
+  for (std::uint32_t b = 0; b < surface.borders.size(); ++b) {
+    const Border& border = surface.borders[b];
+    if (keep[b])
+      edges_long[chains.root(b)] += border.radius * border.sweep / edge(arc_point(border, 0.5 * border.sweep));
+  }
+  bool any = false;
+  for (std::uint32_t b = 0; b < surface.borders.size(); ++b)
+    if (keep[b] && edges_long[chains.root(b)] < 1.0) keep[b] = false, any = true;
+  return any;
+}
+
+}  // namespace
+
+std::array<glm::dvec3, 2> crease_normals(const Surface& surface, const Border& border, const glm::dvec3& x) {
+  std::array<glm::dvec3, 2> normal{};
+  if (border.kind == BorderKind::cusp) {
+    for (int side = 0; side < 2; ++side)
+      normal[side] = glm::normalize(surface.concave[surface.faces[border.face[side]].patch].center - x);
+  } else if (border.kind == BorderKind::contact && surface.probe_radius == 0.0) {
+    for (const std::uint32_t f : border.face) {
+      if (surface.faces[f].kind != PatchKind::toroidal) continue;
+      const ToroidalPatch& torus = surface.toroidal[surface.faces[f].patch];
+      for (int side = 0; side < 2; ++side) normal[side] = glm::normalize(x - surface.atoms[torus.atom[side]].center);
+    }
+  }
+  return normal;
+}
+
+double crease_angle(const Surface& surface, const Border& border) {
+  const auto normal = crease_normals(surface, border, arc_point(border, 0.5 * border.sweep));
+  return std::atan2(glm::length(glm::cross(normal[0], normal[1])), glm::dot(normal[0], normal[1]));
+}
+
+std::vector<bool> creases_to_keep(const Surface& surface, const std::function<double(const glm::dvec3&)>& edge) {
+  std::vector<bool> keep(surface.borders.size(), false);
+  for (std::uint32_t b = 0; b < surface.borders.size(); ++b) {
+    const Border& border = surface.borders[b];
+    const double angle = crease_angle(surface, border);
+    if (angle == 0.0) continue;
+    const double radius = surface.probe_radius > 0.0 ? surface.probe_radius : border.radius;
+    keep[b] = std::sin(0.5 * angle) > 0.5 * edge(arc_point(border, 0.5 * border.sweep)) / radius;
+  }
+  while (drop_short_chains(surface, edge, keep)) {
+  }
+  return keep;
+}
+
+}  // namespace meniscus

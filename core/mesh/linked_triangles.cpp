@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The Euler operations: split, collapse with the link condition (Dey, Edelsbrunner, Guha & Nekhayev 1999), flip.
+#include "core/mesh/linked_triangles.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "core/base/error.h"
+
+namespace meniscus {
+namespace {
+
+/// Neighbours of a vertex that are compared at once; few vertices have more.
+constexpr std::size_t kRing = 16;
+
+}  // namespace
+
+LinkedTriangles::LinkedTriangles(std::span<const std::array<std::uint32_t, 3>> triangles, std::uint32_t vertex_count)
+    : from_(3 * triangles.size()),
+      twin_(3 * triangles.size(), kNone),
+      crease_(3 * triangles.size(), kNone),
+      leaving_(vertex_count, kNone) {
+  std::vector<std::uint32_t> first(vertex_count + 1, 0), order(from_.size());
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t v = triangles[t][k];
+      from_[3 * t + k] = v;
+      leaving_[v] = static_cast<std::uint32_t>(3 * t + k);
+      ++first[v];
+    }
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  for (std::uint32_t half = half_edge_count(); half-- > 0;) order[--first[from_[half]]] = half;
+  for (std::uint32_t half = 0; half < half_edge_count(); ++half) {
+    if (twin_[half] != kNone) continue;
+    const std::uint32_t a = from_[half], b = to(half);
+    std::uint32_t back = kNone;
+    for (std::uint32_t i = first[b]; i < first[b + 1]; ++i) {
+      if (to(order[i]) != a) continue;
+      if (back != kNone) throw OpenSurfaceError("the mesh to be evened has two edges between the same vertices");
+      back = order[i];
+    }
+    if (back == kNone || twin_[back] != kNone) throw OpenSurfaceError("the mesh to be evened is not closed");
+    link(half, back, kNone);
+  }
+}
+
+std::uint32_t LinkedTriangles::between(std::uint32_t a, std::uint32_t b) const {
+  std::uint32_t found = kNone;
+  around(a, [&](std::uint32_t half) {
+    if (to(half) == b) found = half;
+  });
+  return found;
+}
+
+std::uint32_t LinkedTriangles::split(std::uint32_t half) {
+  // (a, b, c) and (b, a, d) become (a, m, c), (m, b, c), (m, a, d), (b, m, d).
+  const std::uint32_t other = twin_[half], border = crease_[half];
+  const std::uint32_t bc = next(half), ad = next(other);
+  const std::uint32_t b = to(half), a = from_[half], c = from_[last(half)], d = from_[last(other)];
+  const std::uint32_t outer_bc = twin_[bc], outer_ad = twin_[ad];
+  const std::uint32_t crease_bc = crease_[bc], crease_ad = crease_[ad];
+  const std::uint32_t m = vertex_count(), first = half_edge_count();
+  from_.insert(from_.end(), {m, b, c, m, a, d});
+  twin_.resize(first + 6);
+  crease_.resize(first + 6, kNone);
+  from_[next(half)] = m;   // half: a to m, then m to c
+  from_[next(other)] = m;  // other: b to m, then m to d
+  link(half, first + 3, border);
+  link(other, first, border);
+  link(first + 1, outer_bc, crease_bc);
+  link(first + 2, next(half), kNone);
+  link(first + 4, outer_ad, crease_ad);
+  link(first + 5, next(other), kNone);
+  leaving_.push_back(first);
+  leaving_[a] = half;
+  leaving_[b] = other;
+  leaving_[c] = last(half);
+  leaving_[d] = last(other);
+  return m;
+}
+
+std::uint32_t LinkedTriangles::poke(std::uint32_t triangle) {
+  // (a, b, c) becomes (a, b, m), (b, c, m), (c, a, m).
+  const std::uint32_t ab = 3 * triangle, bc = ab + 1, ca = ab + 2;
+  const std::uint32_t a = from_[ab], b = from_[bc], c = from_[ca];
+  const std::uint32_t outer_bc = twin_[bc], outer_ca = twin_[ca], crease_bc = crease_[bc], crease_ca = crease_[ca];
+  const std::uint32_t m = vertex_count(), first = half_edge_count();
+  from_.insert(from_.end(), {b, c, m, c, a, m});
+  twin_.resize(first + 6);
+  crease_.resize(first + 6, kNone);
+  from_[ca] = m;  // bc: b to m, ca: m to a
+  link(first, outer_bc, crease_bc);
+  link(first + 3, outer_ca, crease_ca);
+  link(bc, first + 2, kNone);
+  link(first + 1, first + 5, kNone);
+  link(first + 4, ca, kNone);
+  leaving_.push_back(ca);
+  leaving_[a] = ab;
+  leaving_[b] = bc;
+  leaving_[c] = first + 1;
+  return m;
+}
+
+bool LinkedTriangles::can_collapse(std::uint32_t half) const {
+  const std::uint32_t a = from_[half], b = to(half);
+  if (valence(opposite(half)) <= 3 || valence(opposite(twin_[half])) <= 3) return false;
+  std::array<std::uint32_t, kRing> ring{};  // around a
+  std::size_t count = 0;
+  int shared = 0;
+  const auto in_ring = [&](std::uint32_t v) {
+    shared += std::find(ring.begin(), ring.begin() + count, v) != ring.begin() + count;
+  };
+  around(a, [&](std::uint32_t half_a) {
+    ring[count++] = to(half_a);
+    if (count < kRing) return;
+    around(b, [&](std::uint32_t half_b) { in_ring(to(half_b)); });
+    count = 0;
+  });
+  around(b, [&](std::uint32_t half_b) { in_ring(to(half_b)); });
+  return shared == 2;
+}
+
+void LinkedTriangles::collapse(std::uint32_t half) {
+  const std::uint32_t other = twin_[half];
+  const std::uint32_t a = from_[half], b = to(half), c = opposite(half), d = opposite(other);
+  std::uint32_t rim = half;  // all that leave a leave b from now on
+  do {
+    const std::uint32_t following = next(twin_[rim]);
+    from_[rim] = b;
+    rim = following;
+  } while (rim != half);
+  const std::uint32_t bc = next(half), ca = last(half), ad = next(other), db = last(other);
+  const std::uint32_t outer_bc = twin_[bc], outer_ca = twin_[ca], outer_ad = twin_[ad], outer_db = twin_[db];
+  const std::uint32_t c_crease = crease_[bc] != kNone ? crease_[bc] : crease_[ca];
+  const std::uint32_t d_crease = crease_[ad] != kNone ? crease_[ad] : crease_[db];
+  link(outer_bc, outer_ca, c_crease);
+  link(outer_ad, outer_db, d_crease);
+  leaving_[b] = outer_ca;  // from b to c
+  leaving_[c] = outer_bc;
+  leaving_[d] = outer_ad;
+  leaving_[a] = kNone;
+  for (const std::uint32_t gone : {half, bc, ca, other, ad, db}) from_[gone] = kNone;
+}
+
+bool LinkedTriangles::can_flip(std::uint32_t half) const {
+  const std::uint32_t c = opposite(half), d = opposite(twin_[half]);
+  return crease_[half] == kNone && c != d && valence(from_[half]) > 3 && valence(to(half)) > 3 &&
+         between(c, d) == kNone;
+}
+
+void LinkedTriangles::flip(std::uint32_t half) {
+  // (a, b, c) and (b, a, d) become (d, c, a) and (c, d, b).
+  const std::uint32_t other = twin_[half];
+  const std::uint32_t a = from_[half], b = to(half), c = opposite(half), d = opposite(other);
+  const std::uint32_t bc = next(half), ca = last(half), ad = next(other), db = last(other);
+  const std::uint32_t outer_bc = twin_[bc], outer_ca = twin_[ca], outer_ad = twin_[ad], outer_db = twin_[db];
+  const std::uint32_t crease_bc = crease_[bc], crease_ca = crease_[ca], crease_ad = crease_[ad],
+                      crease_db = crease_[db];
+  from_[half] = d;
+  from_[bc] = c;
+  from_[ca] = a;
+  from_[other] = c;
+  from_[ad] = d;
+  from_[db] = b;
+  link(half, other, kNone);       // d to c
+  link(bc, outer_ca, crease_ca);  // c to a
+  link(ca, outer_ad, crease_ad);  // a to d
+  link(ad, outer_db, crease_db);  // d to b
+  link(db, outer_bc, crease_bc);  // b to c
+  leaving_[a] = ca;
+  leaving_[b] = db;
+  leaving_[c] = bc;
+  leaving_[d] = ad;
+}
+
+std::vector<std::uint32_t> LinkedTriangles::compact() {
+  std::vector<std::uint32_t> old_vertex, new_vertex(vertex_count(), kNone), new_half(half_edge_count(), kNone);
+  for (std::uint32_t v = 0; v < vertex_count(); ++v) {
+    if (!vertex_lives(v)) continue;
+    new_vertex[v] = static_cast<std::uint32_t>(old_vertex.size());
+    old_vertex.push_back(v);
+  }
+  std::uint32_t count = 0;
+  for (std::uint32_t half = 0; half < half_edge_count(); ++half)
+    if (lives(half)) new_half[half] = count++;
+  for (std::uint32_t half = 0; half < half_edge_count(); ++half) {
+    if (new_half[half] == kNone) continue;
+    from_[new_half[half]] = new_vertex[from_[half]];
+    twin_[new_half[half]] = new_half[twin_[half]];
+    crease_[new_half[half]] = crease_[half];
+  }
+  from_.resize(count);
+  twin_.resize(count);
+  crease_.resize(count);
+  leaving_.assign(old_vertex.size(), kNone);
+  for (std::uint32_t half = count; half-- > 0;) leaving_[from_[half]] = half;
+  return old_vertex;
+}
+
+}  // namespace meniscus

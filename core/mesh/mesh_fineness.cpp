@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Pixels become Å, and requests the mesh of one kind or the other.
+#include "core/mesh/mesh_fineness.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include <glm/geometric.hpp>
+
+#include "core/mesh/border_samples.h"
+#include "core/mesh/even_mesh.h"
+#include "core/mesh/mesh_colors.h"
+#include "core/mesh/tessellate.h"
+
+namespace meniscus {
+namespace {
+
+/// Of an even mesh by tolerance, as measured: vertices per Å² times tolerance times radius of curvature.
+constexpr double kEvenVertices = 0.36;
+/// Triangles of an even mesh beside each vertex.
+constexpr double kTrianglesAVertex = 2.0;
+/// Of a mesh that keeps to patches, as measured: triangles a segment of a border, on both sides together.
+constexpr double kTrianglesASegment = 2.3;
+
+double patch_aligned_triangles(const Surface& surface, double tolerance) {
+  const EdgeRule rule(MeshOptions{tolerance, true});
+  double triangles = 0.0;
+  for (const Border& border : surface.borders)
+    if (border.radius > 0.0)
+      triangles += kTrianglesASegment * std::max(1.0, border.sweep * border.radius / rule.chord(border.radius));
+  for (const Face& face : surface.faces) {
+    const double edge = rule.edge(tube_radius(surface, face));
+    triangles += 4.0 / std::numbers::sqrt3 * face.area / (edge * edge);
+  }
+  return triangles;
+}
+
+double even_triangles(const Surface& surface, const MeshFineness& fineness) {
+  double vertices = fineness.density * surface.area;
+  if (fineness.density == 0.0)
+    for (const Face& face : surface.faces)
+      vertices += kEvenVertices * face.area / (fineness.tolerance * std::max(tube_radius(surface, face), 0.1));
+  return kTrianglesAVertex * vertices;
+}
+
+}  // namespace
+
+MeshFineness fineness_of(const MeshRequest& request, bool even, double density, glm::ivec2 size, const Camera& camera,
+                         std::span<const Ball> balls) {
+  MeshFineness fineness{tolerance_of(request, size, camera, balls), {}, density, even};
+  if (request.tolerance_pixels == 0.0 || camera.projection == Projection::orthographic) return fineness;
+  const double wanted = request.tolerance_pixels * 2.0 * half_extent(camera, double(size.x) / size.y).y / size.y;
+  fineness.tolerance_at = [wanted, position = camera.position, forward = view_basis(camera).forward,
+                           smallest = fineness.tolerance](const glm::dvec3& x) {
+    return std::clamp(wanted * glm::dot(x - position, forward), smallest, kLargestTolerance);
+  };
+  return fineness;
+}
+
+double estimated_triangles(const Surface& surface, const MeshFineness& fineness) {
+  return fineness.even || fineness.density > 0.0 ? even_triangles(surface, fineness)
+                                                 : patch_aligned_triangles(surface, fineness.tolerance);
+}
+
+std::vector<std::uint32_t> vertex_faces(const TriangleMesh& mesh) {
+  std::vector<std::uint32_t> face(mesh.positions.size(), kNone);
+  for (std::size_t t = mesh.triangles.size(); t-- > 0;)
+    for (const std::uint32_t v : mesh.triangles[t]) face[v] = mesh.face[t];
+  return face;
+}
+
+FineMesh fine_mesh(const Surface& surface, const MeshFineness& fineness) {
+  if (fineness.even || fineness.density > 0.0) {
+    EvenMesh even = even_mesh(surface, {fineness.density, fineness.tolerance, fineness.tolerance_at});
+    return {std::move(even.mesh), std::move(even.vertex_face), std::move(even.vertex_atom)};
+  }
+  FineMesh made{tessellate(surface, {fineness.tolerance, true}), {}, {}};
+  made.vertex_face = vertex_faces(made.mesh);
+  made.vertex_atom = vertex_atoms(made.mesh);
+  return made;
+}
+
+}  // namespace meniscus

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The solid of a closed mesh cut by planes: what is left of its surface, and the caps that close it again.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "core/mesh/cap_atoms.h"
+#include "core/mesh/triangle_mesh.h"
+#include "core/queries/surface_object.h"
+#include "core/render/picture_object.h"
+
+namespace meniscus {
+
+/// Plain arrays of flat triangles.
+struct CapMesh {
+  std::vector<glm::dvec3> positions;  ///< Å
+  std::vector<std::uint32_t> rim;     ///< per position: the vertex of CutMesh::surface at this place, or kNone
+  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< counter-clockwise seen from where the solid was cut away
+  std::vector<std::uint32_t> plane;                     ///< per triangle: into the planes; their normals are the caps'
+  std::vector<std::uint32_t> atom;                      ///< per triangle: of CapAtoms, whose colour is shown
+};
+
+/// A solid that planes cut. Surface and caps together are closed as the mesh was: their rims are the same vertices.
+struct CutMesh {
+  TriangleMesh surface;  ///< of what is left; partly_hidden where anything was cut away
+  CapMesh caps;
+};
+
+/// Cuts a closed mesh by all planes, each of which cuts the caps of those before. Rims are where the mesh crosses the
+/// plane: its distance from the surface is the mesh's tolerance divided by the sine between surface and plane. Borders
+/// of parts are straight over lengths on which an arc of radius 1 Å is flat to the tolerance; a part that is narrower
+/// may be lost. A plane that meets the mesh in such a way that its section cannot be triangulated is moved, by less
+/// than 1e-5 Å. Throws OpenSurfaceError if that does not help.
+CutMesh cut_mesh(TriangleMesh mesh, std::span<const ClipPlane> planes, const CapAtoms& atoms);
+
+/// For each atom of placed_balls(objects), the number of its look: atoms of one colour, opacity and hiddenness are a
+/// part. one_color: only opacity and hiddenness count.
+std::vector<std::uint32_t> cap_parts(std::span<const SurfaceObject> objects, bool one_color);
+
+/// The caps of all copies of all objects, of meshes of this tolerance (Å). CapMesh::atom: into placed_balls(objects);
+/// CapMesh::rim is empty. Triangles of hidden atoms are left out. Where solids of copies overlap, so do their caps,
+/// which have the same colours there. Throws as tessellate() and cut_mesh() do.
+CapMesh section_caps(std::span<const SurfaceObject> objects, std::span<const ClipPlane> planes, bool one_color,
+                     double tolerance);
+
+}  // namespace meniscus

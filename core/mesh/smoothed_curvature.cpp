@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Curvature measures of vertices, and walks that add them up.
+#include "core/mesh/smoothed_curvature.h"
+
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include <glm/geometric.hpp>
+#include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+namespace meniscus {
+namespace {
+
+/// Integrals over the part of the mesh that is a vertex's.
+struct Measure {
+  double area = 0.0, mean = 0.0, gaussian = 0.0;
+};
+
+class Smoothing {
+ public:
+  explicit Smoothing(const TriangleMesh& mesh) : mesh_(mesh), measures_(mesh.positions.size()) {
+    link();
+    for (Measure& m : measures_) m.gaussian = 2.0 * std::numbers::pi;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) measure(t);
+  }
+
+  Curvature around(std::uint32_t vertex, double radius, std::vector<std::uint32_t>& seen,
+                   std::vector<std::uint32_t>& walk) const {
+    Measure sum;
+    walk.assign(1, vertex);
+    seen[vertex] = vertex;
+    for (std::size_t n = 0; n < walk.size(); ++n) {
+      const Measure& m = measures_[walk[n]];
+      sum.area += m.area;
+      sum.mean += m.mean;
+      sum.gaussian += m.gaussian;
+      for (std::uint32_t i = first_[walk[n]]; i < first_[walk[n] + 1]; ++i) {
+        const std::uint32_t next = end_[i].vertex;
+        if (seen[next] == vertex || glm::distance(mesh_.positions[next], mesh_.positions[vertex]) > radius) continue;
+        seen[next] = vertex;
+        walk.push_back(next);
+      }
+    }
+    return {sum.mean / sum.area, sum.gaussian / sum.area};
+  }
+
+ private:
+  /// An edge that leaves a vertex, and the triangle at its left.
+  struct End {
+    std::uint32_t vertex, triangle;
+  };
+
+  void link() {
+    first_.assign(mesh_.positions.size() + 1, 0);
+    for (const auto& t : mesh_.triangles)
+      for (const std::uint32_t v : t) ++first_[v];
+    std::partial_sum(first_.begin(), first_.end(), first_.begin());
+    end_.resize(first_.back());
+    for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t)
+      for (int k = 0; k < 3; ++k) end_[--first_[mesh_.triangles[t][k]]] = {mesh_.triangles[t][(k + 1) % 3], t};
+  }
+
+  glm::dvec3 cross(std::size_t t) const {
+    const auto& [a, b, c] = mesh_.triangles[t];
+    const auto& x = mesh_.positions;
+    return glm::cross(x[b] - x[a], x[c] - x[a]);
+  }
+
+  std::uint32_t across(std::uint32_t from, std::uint32_t to) const {
+    for (std::uint32_t i = first_[to]; i < first_[to + 1]; ++i)
+      if (end_[i].vertex == from) return end_[i].triangle;
+    return kNone;
+  }
+
+  void measure(std::size_t t) {
+    const glm::dvec3 normal = cross(t);
+    const double twice_area = glm::length(normal);
+    for (int k = 0; k < 3; ++k) {
+      const std::uint32_t a = mesh_.triangles[t][k], b = mesh_.triangles[t][(k + 1) % 3],
+                          c = mesh_.triangles[t][(k + 2) % 3];
+      const glm::dvec3 &x = mesh_.positions[a], along = mesh_.positions[b] - x;
+      measures_[a].area += twice_area / 6.0;
+      measures_[a].gaussian -= std::atan2(twice_area, glm::dot(along, mesh_.positions[c] - x));
+      const std::uint32_t other = across(a, b);
+      if (a > b || other == kNone) continue;
+      // Half the angle times the length is the integral of the mean curvature; each end has half of it.
+      const glm::dvec3 beyond = cross(other), direction = along / std::max(glm::length(along), 1e-300);
+      const double angle = std::atan2(glm::dot(direction, glm::cross(normal, beyond)), glm::dot(normal, beyond));
+      for (const std::uint32_t v : {a, b}) measures_[v].mean += 0.25 * angle * glm::length(along);
+    }
+  }
+
+  const TriangleMesh& mesh_;
+  std::vector<std::uint32_t> first_;  // per vertex, and one more, into end_
+  std::vector<End> end_;
+  std::vector<Measure> measures_;
+};
+
+}  // namespace
+
+std::vector<Curvature> smoothed_curvatures(const TriangleMesh& mesh, double radius) {
+  const Smoothing smoothing(mesh);
+  std::vector<Curvature> smoothed(mesh.positions.size());
+  struct Room {
+    std::vector<std::uint32_t> seen, walk;
+  };
+  tbb::enumerable_thread_specific<Room> rooms([&] { return Room{std::vector(smoothed.size(), kNone), {}}; });
+  tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, static_cast<std::uint32_t>(smoothed.size()), 256),
+                    [&](const auto& range) {
+                      Room& room = rooms.local();
+                      for (std::uint32_t v = range.begin(); v != range.end(); ++v)
+                        smoothed[v] = smoothing.around(v, radius, room.seen, room.walk);
+                    });
+  return smoothed;
+}
+
+}  // namespace meniscus

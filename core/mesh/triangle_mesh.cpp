@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Counting edges, areas and volumes of a triangle mesh.
+#include "core/mesh/triangle_mesh.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include <glm/geometric.hpp>
+
+namespace meniscus {
+
+namespace {
+
+/// Calls add(triangle, area, signed volume) for each triangle; volumes are those of cones from the first vertex.
+template <typename Add>
+void for_each_triangle(const TriangleMesh& mesh, const Add& add) {
+  const glm::dvec3 origin = mesh.positions.empty() ? glm::dvec3(0.0) : mesh.positions.front();
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const auto& t = mesh.triangles[i];
+    const glm::dvec3 a = mesh.positions[t[0]] - origin, b = mesh.positions[t[1]] - origin,
+                     c = mesh.positions[t[2]] - origin;
+    add(i, 0.5 * glm::length(glm::cross(b - a, c - a)), glm::dot(a, glm::cross(b, c)) / 6.0);
+  }
+}
+
+void add(double area, double volume, MeshSums& sums) {
+  ++sums.triangle_count;
+  sums.area += area;
+  sums.volume += volume;
+}
+
+/// The directed edges whose lower vertex lies in a range; all of a large mesh would take as much memory as the mesh.
+class EdgeLists {
+ public:
+  static constexpr std::uint32_t kVertices = 1u << 21;
+
+  /// Of the vertices [first, first + kVertices).
+  EdgeLists(const TriangleMesh& mesh, std::uint32_t component, std::uint32_t first) : first_(first) {
+    const auto last = std::min(std::size_t{first} + kVertices, mesh.positions.size());
+    starts_.assign(last - first + 1, 0);
+    for_each_edge(mesh, component, [&](std::uint32_t lower, const End&) { ++starts_[lower]; });
+    std::partial_sum(starts_.begin(), starts_.end(), starts_.begin());
+    ends_.resize(starts_.back());
+    for_each_edge(mesh, component, [&](std::uint32_t lower, const End& end) { ends_[--starts_[lower]] = end; });
+    for (std::size_t v = 0; v + 1 < starts_.size(); ++v)
+      std::sort(ends_.begin() + starts_[v], ends_.begin() + starts_[v + 1]);
+  }
+
+  std::size_t size() const { return ends_.size(); }
+
+  /// Each edge is there once in each direction, and none ends where it begins.
+  bool paired() const {
+    for (std::size_t v = 0; v + 1 < starts_.size(); ++v) {
+      if ((starts_[v + 1] - starts_[v]) % 2 != 0) return false;
+      for (std::size_t i = starts_[v]; i < starts_[v + 1]; i += 2) {
+        const bool pair = ends_[i].vertex == ends_[i + 1].vertex && ends_[i].upwards != ends_[i + 1].upwards;
+        const bool again = i + 2 < starts_[v + 1] && ends_[i + 2].vertex == ends_[i].vertex;
+        if (!pair || again || ends_[i].vertex == first_ + v) return false;
+      }
+    }
+    return true;
+  }
+
+ private:
+  /// The higher vertex, and whether the edge goes there.
+  struct End {
+    std::uint32_t vertex : 31, upwards : 1;
+    bool operator<(const End& other) const {
+      return vertex != other.vertex ? vertex < other.vertex : upwards < other.upwards;
+    }
+  };
+
+  template <typename Look>
+  void for_each_edge(const TriangleMesh& mesh, std::uint32_t component, const Look& look) const {
+    const std::size_t count = starts_.size() - 1;
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+      if (component != kNone && mesh.component[i] != component) continue;
+      const auto& t = mesh.triangles[i];
+      for (int k = 0; k < 3; ++k) {
+        const std::uint32_t from = t[k], to = t[(k + 1) % 3], lower = std::min(from, to);
+        if (lower >= first_ && lower - first_ < count) look(lower - first_, {std::max(from, to), from < to});
+      }
+    }
+  }
+
+  std::uint32_t first_;
+  std::vector<std::uint32_t> starts_;  // where the list of each vertex begins, and where the last one ends
+  std::vector<End> ends_;
+};
+
+}  // namespace
+
+MeshSums sums_of(const TriangleMesh& mesh) {
+  MeshSums sums;
+  for_each_triangle(mesh, [&](std::size_t, double area, double volume) { add(area, volume, sums); });
+  return sums;
+}
+
+std::vector<MeshSums> component_sums(const TriangleMesh& mesh, std::size_t component_count) {
+  std::vector<MeshSums> sums(component_count);
+  for_each_triangle(mesh,
+                    [&](std::size_t t, double area, double volume) { add(area, volume, sums[mesh.component[t]]); });
+  return sums;
+}
+
+MeshMeasure measure(const TriangleMesh& mesh, std::uint32_t component) {
+  MeshMeasure m;
+  std::vector<bool> used(mesh.positions.size(), false);
+  for_each_triangle(mesh, [&](std::size_t i, double area, double volume) {
+    if (component != kNone && mesh.component[i] != component) return;
+    m.area += area;
+    m.volume += volume;
+    ++m.triangle_count;
+    for (const std::uint32_t v : mesh.triangles[i]) used[v] = true;
+  });
+  m.vertex_count = static_cast<std::size_t>(std::count(used.begin(), used.end(), true));
+  std::size_t directed = 0;
+  m.closed = true;
+  for (std::size_t first = 0; first < mesh.positions.size(); first += EdgeLists::kVertices) {
+    const EdgeLists edges(mesh, component, static_cast<std::uint32_t>(first));
+    m.closed = m.closed && edges.paired();
+    directed += edges.size();
+  }
+  m.closed = m.closed && directed > 0;
+  m.edge_count = directed / 2;
+  return m;
+}
+
+}  // namespace meniscus

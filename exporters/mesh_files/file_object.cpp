@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Mesh, weld, number, hide, colour, in this order.
+#include "exporters/mesh_files/file_object.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+#include "core/mesh/mesh_colors.h"
+#include "core/queries/combine.h"
+#include "exporters/mesh_files/inner_points.h"
+
+namespace meniscus {
+namespace {
+
+std::array<std::uint8_t, 3> bytes_of(const glm::vec3& color) {
+  const auto byte = [](float channel) {
+    return static_cast<std::uint8_t>(std::lround(255.0f * std::clamp(channel, 0.0f, 1.0f)));
+  };
+  return {byte(color.x), byte(color.y), byte(color.z)};
+}
+
+/// Rows of vertices at their new places; those without one go.
+template <class T>
+void move_rows(std::vector<T>& rows, const std::vector<std::uint32_t>& place, std::size_t count) {
+  std::vector<T> moved(count);
+  for (std::size_t v = place.size(); v-- > 0;)  // of vertices that became one the first counts
+    if (place[v] != kNone) moved[place[v]] = std::move(rows[v]);
+  rows = std::move(moved);
+}
+
+void move_vertices(FineMesh& mesh, const std::vector<std::uint32_t>& place) {
+  move_rows(mesh.vertex_face, place, mesh.mesh.positions.size());
+  move_rows(mesh.vertex_atom, place, mesh.mesh.positions.size());
+}
+
+FileAtom file_atom(const Atom& atom) {
+  return {atom.name, atom.residue_name, atom.chain, atom.residue_number, atom.insertion_code, atom.position};
+}
+
+SurfaceView view_of(const SurfaceObject& object) { return {object.name, object.surface, object.coloring, object.atom}; }
+
+}  // namespace
+
+std::string about_line(std::string_view surface, double scale, const MeshFineness& fineness) {
+  const std::string how = fineness.density > 0.0 ? fmt::format("{:g} vertices per square Angstrom", fineness.density)
+                                                 : fmt::format("tolerance {:.4g} Angstrom", fineness.tolerance);
+  return fmt::format("Meniscus {}: 1 Angstrom is {:g}; {} surface, {}", MENISCUS_VERSION, scale, surface, how);
+}
+
+MeshFileMaker::MeshFileMaker(FileRequest request, std::string about) : request_(std::move(request)) {
+  file_.scale = request_.scale;
+  file_.about = std::move(about);
+  for (const Atom& atom : request_.atoms) file_.atoms.push_back(file_atom(atom));
+}
+
+void MeshFileMaker::add(SurfaceObject given) {
+  std::vector<SurfaceObject> one;
+  one.push_back(std::move(given));
+  const SurfaceObject object = merged(std::move(one));
+  add(view_of(object), fine_mesh(object.surface, request_.fineness));
+}
+
+void MeshFileMaker::add(const SurfaceView& object, FineMesh mesh) {
+  const Welding welding = weld(mesh.mesh, kFileStep, request_.scale);
+  joined_ += welding.joined;
+  fins_ += welding.fins;
+  flipped_ += welding.flipped;
+  flat_ += welding.flat;
+  move_vertices(mesh, welding.into);
+  if (request_.inner_points) {
+    const std::vector<glm::dvec3> points = inner_points(object.surface, mesh.mesh);
+    for (std::uint32_t c = 0; c < points.size(); ++c)
+      (object.surface.components[c].kind == ComponentKind::cavity ? file_.cavities : file_.solids)
+          .push_back({request_.scale * points[c], components_ + c});
+  }
+  put(object, std::move(mesh));
+}
+
+void MeshFileMaker::add(ShapeObject shapes) {
+  FineMesh mesh{std::move(shapes.mesh), {}, {}};
+  mesh.vertex_face.assign(mesh.mesh.positions.size(), kNone);
+  mesh.vertex_atom = vertex_atoms(mesh.mesh);
+  put(view_of(shapes.object), std::move(mesh));
+}
+
+void MeshFileMaker::put(const SurfaceView& object, FineMesh mesh) {
+  FileObject made;
+  made.name = object.name.empty() ? "surface" : object.name;
+  made.numbers = vertex_numbers(request_.numbers, {object, mesh, request_.atoms, request_.buried, components_});
+  if (object.coloring.hides_some()) {
+    std::vector<bool> shown;
+    for (const std::uint32_t a : mesh.mesh.atom) shown.push_back(object.coloring.shows(a));
+    const std::vector<std::uint32_t> place = keep_triangles(mesh.mesh, shown);
+    move_vertices(mesh, place);
+    for (VertexNumbers& column : made.numbers) move_rows(column.values, place, mesh.mesh.positions.size());
+  }
+  for (const glm::dvec3& x : mesh.mesh.positions) made.positions.emplace_back(request_.scale * x);
+  for (const glm::dvec3& n : mesh.mesh.normals) made.normals.emplace_back(n);
+  for (const glm::vec3& color : vertex_colors(mesh.mesh, object.coloring)) made.colors.push_back(bytes_of(color));
+  for (std::size_t v = 0; v < made.positions.size(); ++v) {
+    const std::uint32_t face = mesh.vertex_face[v];
+    made.kind.push_back(face == kNone ? PatchKind::convex : object.surface.faces[face].kind);
+    made.atom.push_back(object.atom[mesh.vertex_atom[v]]);
+  }
+  for (const std::uint32_t c : mesh.mesh.component) made.component.push_back(components_ + c);
+  made.triangles = std::move(mesh.mesh.triangles);
+  made.is_cavity = std::ranges::all_of(object.surface.components,
+                                       [](const Component& c) { return c.kind == ComponentKind::cavity; });
+  components_ += static_cast<std::uint32_t>(object.surface.components.size());
+  triangles_ += made.triangles.size();
+  if (!made.triangles.empty()) file_.objects.push_back(std::move(made));
+}
+
+MeshFile MeshFileMaker::take() {
+  if (file_.objects.empty()) throw RequestError("nothing of the surface is shown, so there is no mesh to write");
+  return std::move(file_);
+}
+
+}  // namespace meniscus

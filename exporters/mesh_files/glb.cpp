@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// GLB: a JSON chunk that says what the arrays of the binary chunk are; a node, a mesh and arrays an object.
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <limits>
+
+#include <glm/common.hpp>
+#include <nlohmann/json.hpp>
+
+#include "core/base/error.h"
+#include "exporters/mesh_files/binary_rows.h"
+#include "exporters/mesh_files/writers.h"
+
+namespace meniscus {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int kFloat = 5126, kUnsignedInt = 5125, kUnsignedShort = 5123;  // componentType
+constexpr int kArrayBuffer = 34962, kElementArrayBuffer = 34963;          // target
+constexpr std::uint32_t kMagic = 0x46546C67, kVersion = 2, kJsonChunk = 0x4E4F534A, kBinaryChunk = 0x004E4942;
+
+/// Colours of vertices are linear; 16 bits keep what 8 bits of sRGB tell apart.
+std::uint16_t linear(std::uint8_t channel) {
+  const double c = channel / 255.0;
+  const double light = c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);  // IEC 61966-2-1
+  return static_cast<std::uint16_t>(std::lround(65535.0 * light));
+}
+
+std::array<float, 3> as_array(const glm::vec3& x) { return {x.x, x.y, x.z}; }
+
+/// Names of files may be in any encoding, JSON is UTF-8.
+std::string plain_text(const std::string& text) {
+  std::string plain = text;
+  std::ranges::replace_if(
+      plain, [](unsigned char c) { return c < ' ' || c > '~'; }, '_');
+  return plain;
+}
+
+/// The format has no word for a missing number.
+std::vector<float> without_gaps(std::vector<float> values) {
+  std::ranges::replace_if(
+      values, [](float x) { return !std::isfinite(x); }, 0.0f);
+  return values;
+}
+
+std::string semantic(const std::string& name) {
+  std::string word = "_" + name;
+  std::ranges::transform(word, word.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  return word;
+}
+
+class Builder {
+ public:
+  explicit Builder(const MeshFile& mesh) {
+    json_["asset"] = {{"version", "2.0"},
+                      {"generator", "Meniscus " MENISCUS_VERSION},
+                      {"extras", {{"about", mesh.about}, {"meters_per_angstrom", mesh.scale}}}};
+    json_["scene"] = 0;
+    json_["scenes"] = Json::array({{{"nodes", Json::array()}}});
+    json_["nodes"] = json_["meshes"] = json_["accessors"] = json_["bufferViews"] = Json::array();
+    json_["materials"] = Json::array(
+        {{{"name", "surface"}, {"pbrMetallicRoughness", {{"metallicFactor", 0.0}, {"roughnessFactor", 0.5}}}}});
+    for (const FileObject& object : mesh.objects) add(object);
+    json_["buffers"] = Json::array({{{"byteLength", binary_.size()}}});
+  }
+
+  void write(OutputFile& file) {
+    BinaryRows text;
+    text.put_text(json_.dump());
+    text.pad(4, ' ');
+    binary_.pad(4, '\0');
+    const std::size_t length = 12 + 8 + text.size() + 8 + binary_.size();
+    if (length > std::numeric_limits<std::uint32_t>::max())
+      throw CapacityError("GLB has room for 4 GiB; ask for a coarser mesh, or for fewer --attributes");
+    BinaryRows head;
+    for (const std::uint32_t word :
+         {kMagic, kVersion, static_cast<std::uint32_t>(length), static_cast<std::uint32_t>(text.size()), kJsonChunk})
+      head.put(word);
+    BinaryRows between;
+    for (const std::uint32_t word : {static_cast<std::uint32_t>(binary_.size()), kBinaryChunk}) between.put(word);
+    for (const BinaryRows* part : {&head, &text, &between, &binary_}) file.write(part->bytes());
+  }
+
+ private:
+  void add(const FileObject& object) {
+    Json attributes;
+    attributes["POSITION"] = positions(object);
+    attributes["NORMAL"] = accessor(std::span(object.normals), kFloat, "VEC3", kArrayBuffer);
+    attributes["COLOR_0"] = colors(object);
+    for (const VertexNumbers& column : object.numbers) {
+      const std::vector<float> values = without_gaps(column.values);
+      attributes[semantic(column.name)] = accessor(std::span(values), kFloat, "SCALAR", kArrayBuffer);
+    }
+    const std::size_t indices = accessor(std::span(object.triangles), kUnsignedInt, "SCALAR", kElementArrayBuffer, 3);
+    const std::size_t number = json_["meshes"].size();
+    const std::string name = plain_text(object.name);
+    json_["meshes"].push_back(
+        {{"name", name},
+         {"primitives",
+          Json::array({{{"attributes", attributes}, {"indices", indices}, {"material", 0}, {"mode", 4}}})}});
+    json_["nodes"].push_back({{"name", name}, {"mesh", number}});
+    json_["scenes"][0]["nodes"].push_back(number);
+  }
+
+  template <class Row>
+  std::size_t accessor(std::span<const Row> rows, int component, const char* type, int target,
+                       std::size_t elements_a_row = 1) {
+    binary_.pad(4, '\0');
+    json_["bufferViews"].push_back(
+        {{"buffer", 0}, {"byteOffset", binary_.size()}, {"byteLength", rows.size_bytes()}, {"target", target}});
+    binary_.put_all(rows);
+    json_["accessors"].push_back({{"bufferView", json_["bufferViews"].size() - 1},
+                                  {"componentType", component},
+                                  {"count", rows.size() * elements_a_row},
+                                  {"type", type}});
+    return json_["accessors"].size() - 1;
+  }
+  template <class Row>
+  std::size_t accessor(std::span<Row> rows, int component, const char* type, int target) {
+    return accessor(std::span<const Row>(rows), component, type, target);
+  }
+
+  std::size_t positions(const FileObject& object) {
+    const std::size_t made = accessor(std::span(object.positions), kFloat, "VEC3", kArrayBuffer);
+    glm::vec3 low(std::numeric_limits<float>::max()), high(std::numeric_limits<float>::lowest());
+    for (const glm::vec3& x : object.positions) {
+      low = glm::min(low, x);
+      high = glm::max(high, x);
+    }
+    json_["accessors"][made]["min"] = as_array(low);
+    json_["accessors"][made]["max"] = as_array(high);
+    return made;
+  }
+
+  /// With an alpha of one, so that each begins at a multiple of four bytes.
+  std::size_t colors(const FileObject& object) {
+    std::array<std::uint16_t, 256> of_channel{};
+    for (std::size_t c = 0; c < of_channel.size(); ++c) of_channel[c] = linear(static_cast<std::uint8_t>(c));
+    std::vector<std::array<std::uint16_t, 4>> rows;
+    rows.reserve(object.colors.size());
+    for (const auto& [red, green, blue] : object.colors)
+      rows.push_back({of_channel[red], of_channel[green], of_channel[blue], 65535});
+    const std::size_t made = accessor(std::span(rows), kUnsignedShort, "VEC4", kArrayBuffer);
+    json_["accessors"][made]["normalized"] = true;
+    return made;
+  }
+
+  Json json_;
+  BinaryRows binary_;
+};
+
+}  // namespace
+
+void write_glb(OutputFile& file, const MeshFile& mesh) { Builder(mesh).write(file); }
+
+}  // namespace meniscus
