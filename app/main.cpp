@@ -52,9 +52,11 @@ constexpr const char* kExitCodesInShort = R"(Exit codes:
 constexpr std::size_t kHelpWidth = 100;
 
 /// Headings of the help: what most people need first, what few need last, and that only on --help-all.
-constexpr std::array<std::string_view, 8> kFirstHeadings{"Output", "Picture", "Figure", "Look",
-                                                         "Colour", "Options", "Input",  "Surface"};
-constexpr std::array<std::string_view, 3> kRareHeadings{"Radii", "Assembly", "Frames"};
+constexpr auto kFirstHeadings = std::to_array<std::string_view>(
+    {"Output", "Picture", "Mesh", "Figure", "Beside the surface", "Colour", "Light", "Lines", "Camera", "Legend",
+     "Labels", "Session", "Scene", "Options", "Input", "Surface", "Computing"});
+constexpr auto kRareHeadings =
+    std::to_array<std::string_view>({"Radii", "Assembly", "Frames", "Alignment of frames", "Film"});
 
 /// Help in the order people read: what it is, examples, usage, options.
 class ManualFormatter : public CLI::Formatter {
@@ -86,6 +88,16 @@ class ManualFormatter : public CLI::Formatter {
 
   std::string make_option_desc(const CLI::Option* option) const override {
     return wrapped(option->get_description(), kHelpWidth - column_width_);
+  }
+
+  /// CLI11 counts bytes; a unit such as Å has fewer letters than bytes.
+  std::string make_option(const CLI::Option* option, bool is_positional) const override {
+    std::string text = CLI::Formatter::make_option(option, is_positional);
+    const std::string name = "  " + make_option_name(option, is_positional) + make_option_opts(option);
+    const auto further_bytes =
+        std::ranges::count_if(name, [](char byte) { return (static_cast<unsigned char>(byte) & 0xC0) == 0x80; });
+    if (name.size() < column_width_) text.insert(name.size(), static_cast<std::size_t>(further_bytes), ' ');
+    return text;
   }
 
   std::string make_subcommand(const CLI::App* command) const override {

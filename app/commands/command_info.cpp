@@ -167,8 +167,9 @@ void add_info(CLI::App& command) {
   for (const char* option : {"--show", "--instances"}) command.remove_option(command.get_option(option));
   command.get_option("--radii")->expected(0, 1);  // alone it asks for what is printed anyway
   auto trajectory = std::make_shared<std::string>();
-  PropertyOptions(command).add("frames.trajectory", *trajectory)->description(
-      "Also report this trajectory: coordinates of the atoms of FILE, frame by frame");
+  PropertyOptions(command)
+      .add("frames.trajectory", *trajectory)
+      ->description("Also report this trajectory: coordinates of the atoms of FILE, frame by frame");
   command.callback([options, trajectory] { run(*options, *trajectory); });
 }
 

@@ -33,9 +33,8 @@ std::uint16_t parse_port(const std::string& text) {
 bool is_own(std::string_view name) {
   constexpr std::string_view kOthers[] = {"--help", "--scene", "--trust-scene", "--force"};
   if (std::ranges::find(kOthers, name) != std::end(kOthers)) return true;
-  return std::ranges::any_of(properties(), [&](const Property* property) {
-    return property->has(live) && property->option == name;
-  });
+  return std::ranges::any_of(properties(),
+                             [&](const Property* property) { return property->has(live) && property->option == name; });
 }
 
 /// As they were said.

@@ -11,7 +11,7 @@
 #include "app/commands/commands.h"
 #include "app/commands/preview_command.h"
 #include "app/options/scene_file.h"
-#include "core/properties/property.h"
+#include "core/properties/properties.h"
 #include "app/options/usage_faults.h"
 #include "app/process/program_error.h"
 #include "core/base/error.h"

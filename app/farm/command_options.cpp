@@ -11,7 +11,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/properties/property.h"
+#include "core/properties/properties.h"
 
 namespace meniscus::farm {
 namespace {

@@ -74,7 +74,7 @@ void add_legend_options(CLI::App& command, LegendRequest& request, ViewRequest& 
   options.add_parsed("legend.size", [&request, &picture](const std::string& text) {
     const Property& size = property_of("legend.size");
     const double pixels = std::round(pixels_of("--legend-size", text, picture));
-    if (!(pixels >= size.lowest && pixels <= size.highest))
+    if (!size.is_within(pixels))
       throw CLI::ValidationError("--legend-size", fmt::format("{} makes {:.4g} pixels; letters have {} to {}",
                                                               in_quotes(text), pixels, size.lowest, size.highest));
     request.style.letters = static_cast<int>(pixels);

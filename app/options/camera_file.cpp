@@ -6,9 +6,7 @@
 
 namespace meniscus {
 
-void add_save_camera_option(CLI::App& command, std::string& path) {
-  PropertyOptions(command).add("camera.save", path);
-}
+void add_save_camera_option(CLI::App& command, std::string& path) { PropertyOptions(command).add("camera.save", path); }
 
 void check_camera_file(const std::string& path, Existing existing) {
   if (!path.empty()) check_output(path, existing);

@@ -28,7 +28,7 @@ glm::vec3 direction_of(const std::vector<float>& values) {
 float width_of(const Property& property, const std::string& text, ViewRequest& picture) {
   const std::string option(property.option);
   const double pixels = pixels_of(option.c_str(), text, picture);
-  if (!(pixels >= property.lowest && pixels <= property.highest))
+  if (!property.is_within(pixels))
     throw CLI::ValidationError(option, fmt::format("{} makes {:.4g} pixels; a line has {} to {}", in_quotes(text),
                                                    pixels, property.lowest, property.highest));
   return static_cast<float>(pixels);
@@ -38,11 +38,12 @@ float width_of(const Property& property, const std::string& text, ViewRequest& p
 
 void add_look_options(CLI::App& command, LookRequest& look, ViewRequest& picture) {
   PropertyOptions options(command);
-  options.add_word("look.preset", look.preset,
-                   {LookPreset::publication, LookPreset::cover, LookPreset::flat, LookPreset::soft,
-                    LookPreset::classic});
+  options.add_word(
+      "look.preset", look.preset,
+      {LookPreset::publication, LookPreset::cover, LookPreset::flat, LookPreset::soft, LookPreset::classic});
   options
-      .add_numbers("look.light", [&look](const std::vector<float>& values) { look.light_direction = direction_of(values); })
+      .add_numbers("look.light",
+                   [&look](const std::vector<float>& values) { look.light_direction = direction_of(values); })
       ->delimiter(',')
       ->expected(3);
   for (const LookNumber& number : look_numbers()) {

@@ -42,8 +42,7 @@ RadiusOverride radius_override_of(const std::string& text) {
 
 void add_radii_options(CLI::App& command, ReadOptions& reading) {
   PropertyOptions options(command);
-  options.add_word("molecule.hydrogens", reading.hydrogens,
-                   {Hydrogens::keep, Hydrogens::drop, Hydrogens::automatic});
+  options.add_word("molecule.hydrogens", reading.hydrogens, {Hydrogens::keep, Hydrogens::drop, Hydrogens::automatic});
   std::vector<std::string> sets{"file"};
   for (const RadiiSet* set : radii_sets()) sets.emplace_back(set->name);
   options.add("molecule.radii", reading.radii.set)->check(one_of(sets));
@@ -56,8 +55,7 @@ void add_radii_options(CLI::App& command, ReadOptions& reading) {
 void add_assembly_options(CLI::App& command, MoleculeOptions& molecule) {
   PropertyOptions options(command);
   CLI::Option* const assembly = options.add("molecule.assembly", molecule.reading.assembly);
-  options
-      .add_word("molecule.instances", molecule.division.instances, {InstanceMode::exact, InstanceMode::separate})
+  options.add_word("molecule.instances", molecule.division.instances, {InstanceMode::exact, InstanceMode::separate})
       ->needs(assembly);
 }
 
@@ -75,14 +73,6 @@ void add_warning_options(CLI::App& command, MoleculeOptions& molecule) {
   options.add_word("molecule.warnings", molecule.warnings,
                    {WarningDetail::full, WarningDetail::summary, WarningDetail::none});
   options.add("molecule.quiet", molecule.quiet);
-}
-
-Selection parse_selection_option(const std::string& option, const std::string& text) {
-  try {
-    return parse_selection(text);
-  } catch (const SelectionError& error) {
-    throw SelectionError(option + ": " + error.sentence(), error.picture());
-  }
 }
 
 void add_atom_options(CLI::App& command, MoleculeOptions& molecule) {

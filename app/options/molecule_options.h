@@ -32,8 +32,6 @@ struct OutputOptions {
 
 /// FILE and what is taken from it: --model, --altloc, --select, --keep-water, ...; radii and assemblies.
 void add_atom_options(CLI::App& command, MoleculeOptions& options);
-/// Understands an expression that is the value of an option. Throws SelectionError, which names the option.
-Selection parse_selection_option(const std::string& option, const std::string& text);
 /// FILE alone, and --warnings and --quiet, for commands that take everything.
 void add_file_argument(CLI::App& command, MoleculeOptions& options);
 void add_warning_options(CLI::App& command, MoleculeOptions& options);

@@ -18,7 +18,7 @@
 #include "core/base/text.h"
 #include "core/color/color_maps.h"
 #include "core/color/css_colors.h"
-#include "core/properties/property.h"
+#include "core/properties/properties.h"
 
 namespace meniscus {
 namespace {
@@ -113,7 +113,7 @@ class ObjectReader {
     if (!has(key)) return {};
     const Property& property = property_of(property_key);
     const Json& value = json_.at(key);
-    if (!value.is_number() || !(value.get<double>() >= property.lowest && value.get<double>() <= property.highest))
+    if (!value.is_number() || !property.is_within(value.get<double>()))
       refuse(key, fmt::format("is not a number from {} to {}", property.lowest, property.highest));
     return value.get<double>();
   }

@@ -8,7 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/properties/property.h"
+#include "core/properties/properties.h"
 #include "core/scene/figure_object.h"
 
 namespace meniscus {

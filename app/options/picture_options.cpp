@@ -61,7 +61,8 @@ void add_length_options(PropertyOptions& options, ViewRequest& request, CLI::Opt
                   [&request, shape, width](const std::string& text) {
                     request.height = parse_length("--height", text, request);
                     if (width->empty())
-                      request.width = std::clamp(static_cast<int>(std::lround(request.height * shape)), 1, kLargestSide);
+                      request.width =
+                          std::clamp(static_cast<int>(std::lround(request.height * shape)), 1, kLargestSide);
                   })
       ->excludes(size);
 }
@@ -132,8 +133,8 @@ void add_picture_options(CLI::App& command, ViewRequest& request) {
 }
 
 void add_background_option(CLI::App& command, std::optional<glm::vec3>& background) {
-  PropertyOptions(command).add_parsed(
-      "image.background", [&background](const std::string& text) { parse_background(text, background); });
+  PropertyOptions(command).add_parsed("image.background",
+                                      [&background](const std::string& text) { parse_background(text, background); });
 }
 
 void add_run_camera_options(CLI::App& command, CameraMotionRequest& motion) {

@@ -2,13 +2,36 @@
 // Turns a row of the table of properties into an option of CLI11: names, help, heading, and what its value may be.
 #include "app/options/property_options.h"
 
+#include <cstdint>
+
 #include <fmt/format.h>
 
-#include "app/options/molecule_options.h"
+#include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/text/parse_number.h"
 
 namespace meniscus {
+namespace {
+
+/// Accepts numbers within the range of a property.
+CLI::Validator within(const Property& property) {
+  return CLI::Validator(
+      [&property](std::string& text) -> std::string {
+        double number = 0.0;
+        std::int64_t whole = 0;
+        const bool is_count = property.type == ValueType::count;
+        if ((is_count ? parse_whole_number(text, whole) : parse_number(text, number)) &&
+            property.is_within(is_count ? static_cast<double>(whole) : number))
+          return {};
+        const char* const kind = is_count ? "whole number" : "number";
+        if (property.highest >= kUnlimited)
+          return fmt::format("{} is not a {} of at least {}", in_quotes(text), kind, property.lowest);
+        return fmt::format("{} is not a {} from {} to {}", in_quotes(text), kind, property.lowest, property.highest);
+      },
+      "");
+}
+
+}  // namespace
 
 CLI::Option* PropertyOptions::add_parsed(std::string_view key, const std::function<void(const std::string&)>& parse) {
   const Property& property = property_of(key);
@@ -29,7 +52,8 @@ CLI::Option* PropertyOptions::add_numbers(std::string_view key,
 
 CLI::Option* PropertyOptions::add_selection(std::string_view key, std::optional<Selection>& selection) {
   const std::string name(property_of(key).long_option());
-  return add_parsed(key, [name, &selection](const std::string& text) { selection = parse_selection_option(name, text); });
+  return add_parsed(key,
+                    [name, &selection](const std::string& text) { selection = parse_selection_option(name, text); });
 }
 
 CLI::Option* PropertyOptions::add_switch(std::string_view key, const std::function<void()>& turn_on) {
@@ -45,19 +69,17 @@ CLI::Option* PropertyOptions::finish(const Property& property, CLI::Option* opti
   if (property.has(value_optional)) option->expected(0, 1);
   // The range of a text is that of a length in pixels, which its own parser checks.
   if (property.has_range() && (property.type == ValueType::number || property.type == ValueType::count))
-    option->check(within(property.lowest, property.highest));
+    option->check(within(property));
   if (!property.words.empty() && property.type != ValueType::word) option->check(proposes(words_of(property)));
   return option;
 }
 
-CLI::Validator within(double lowest, double highest) {
-  return CLI::Validator(
-      [=](std::string& text) {
-        double number = 0.0;
-        if (parse_number(text, number) && number >= lowest && number <= highest) return std::string();
-        return fmt::format("{} is not a number from {} to {}", in_quotes(text), lowest, highest);
-      },
-      "");
+Selection parse_selection_option(const std::string& option, const std::string& text) {
+  try {
+    return parse_selection(text);
+  } catch (const SelectionError& error) {
+    throw SelectionError(option + ": " + error.sentence(), error.picture());
+  }
 }
 
 }  // namespace meniscus

@@ -5,17 +5,18 @@
 #include <concepts>
 #include <functional>
 #include <initializer_list>
-#include <map>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
 #include "app/options/value_words.h"
-#include "core/properties/property.h"
+#include "core/properties/properties.h"
 #include "core/structure/selection/selection.h"
 
 namespace meniscus {
@@ -41,12 +42,17 @@ class PropertyOptions {
   template <typename Target, typename Meaning>
   CLI::Option* add_word(std::string_view key, Target& target, std::initializer_list<Meaning> meanings) {
     const Property& property = property_of(key);
+    std::vector<std::string> values;
+    for (const Meaning& meaning : meanings) {
+      if constexpr (std::is_enum_v<Meaning>)
+        values.push_back(std::to_string(static_cast<int>(meaning)));
+      else
+        values.push_back(fmt::format("{}", meaning));
+    }
     const std::vector<std::string> words = words_of(property);
-    if (words.size() != meanings.size()) throw std::logic_error("words and meanings differ: " + std::string(key));
-    std::map<std::string, Meaning> meaning_of;
-    for (std::size_t n = 0; n < words.size(); ++n) meaning_of[words[n]] = meanings.begin()[n];
+    if (words.size() != values.size()) throw std::logic_error("words and meanings differ: " + std::string(key));
     CLI::Option* const option = command_.add_option(std::string(property.option), target);
-    return finish(property, option)->transform(one_of(meaning_of));
+    return finish(property, option)->transform(one_of(words, values));
   }
 
   /// Text that `parse` understands.
@@ -66,7 +72,7 @@ class PropertyOptions {
   CLI::App& command_;
 };
 
-/// Accepts numbers within the range of a property.
-CLI::Validator within(double lowest, double highest);
+/// Understands an expression that is the value of an option. Throws SelectionError, which names the option.
+Selection parse_selection_option(const std::string& option, const std::string& text);
 
 }  // namespace meniscus

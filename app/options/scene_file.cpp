@@ -223,7 +223,8 @@ class SceneReader {
         for (const Json& one : listed(value)) add_word(option, text(one, place));
         return;
       case SceneForm::path:
-        return add_word(option, property.type == ValueType::new_file ? output(option, value, place) : path(value, place));
+        return add_word(option,
+                        property.type == ValueType::new_file ? output(option, value, place) : path(value, place));
       case SceneForm::paths:
         for (const Json& one : listed(value)) add_word(option, path(one, place));
         return;

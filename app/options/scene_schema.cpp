@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/options/object_option.h"
-#include "core/properties/property.h"
+#include "core/properties/properties.h"
 
 namespace meniscus {
 namespace {

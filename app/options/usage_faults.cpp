@@ -112,7 +112,7 @@ std::string unknown_option_fault(const CLI::App& program, std::span<const char* 
     const std::string_view name = std::string_view(word).substr(0, std::string_view(word).find('='));
     if (!name.starts_with('-') || name == "-")
       return fmt::format("{} is one argument too many for {}", in_quotes(word), command_path(command));
-    return fmt::format("{} is no option of {}{}", in_quotes(name), command_path(command), meant_option(command, name));
+    return fmt::format("{} has no option {}{}", command_path(command), in_quotes(name), meant_option(command, name));
   }
   return "there are words too many";
 }

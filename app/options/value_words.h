@@ -2,7 +2,6 @@
 // Checks that know the words of an option's value: what the completion of shells proposes.
 #pragma once
 
-#include <map>
 #include <string>
 #include <vector>
 
@@ -16,15 +15,7 @@ CLI::Validator proposes(const std::vector<std::string>& words);
 /// Takes one of these words, and nothing else.
 CLI::Validator one_of(const std::vector<std::string>& words);
 
-/// The same, for what it means.
-template <class Value>
-CLI::Validator one_of(const std::map<std::string, Value>& meanings) {
-  std::vector<std::string> words;
-  words.reserve(meanings.size());
-  for (const auto& [word, meaning] : meanings) words.push_back(word);
-  CLI::Validator check = CLI::CheckedTransformer(meanings).description("");
-  check.name(CLI::detail::join(words, "|"));
-  return check;
-}
+/// The same, and replaces a word by the value at its place.
+CLI::Validator one_of(const std::vector<std::string>& words, const std::vector<std::string>& values);
 
 }  // namespace meniscus

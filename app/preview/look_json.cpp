@@ -13,7 +13,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/color/css_colors.h"
-#include "core/properties/property.h"
+#include "core/properties/properties.h"
 
 namespace meniscus {
 namespace {

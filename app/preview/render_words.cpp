@@ -10,7 +10,7 @@
 #include "core/base/text.h"
 #include "core/color/color_maps.h"
 #include "core/color/css_colors.h"
-#include "core/properties/property.h"
+#include "core/properties/properties.h"
 
 namespace meniscus {
 namespace {
@@ -44,8 +44,7 @@ void add_look(const LookRequest& look, Words& words) {
   if (look.light_direction)
     words.option("--light",
                  fmt::format("{},{},{}", look.light_direction->x, look.light_direction->y, look.light_direction->z));
-  for (const LookNumber& number : look_numbers())
-    words.number(property_of(number.key).option, look.*number.asked);
+  for (const LookNumber& number : look_numbers()) words.number(property_of(number.key).option, look.*number.asked);
   words.flag("--linear-alpha", look.linear_alpha);
 }
 

@@ -18,7 +18,7 @@
 #include "core/scene/copied_atoms.h"
 #include "core/color/color_scale.h"
 #include "core/color/css_colors.h"
-#include "core/properties/property.h"
+#include "core/properties/properties.h"
 #include "core/structure/radii.h"
 
 namespace meniscus {
@@ -143,7 +143,7 @@ Json PreviewSession::choices(const CommandReader&) {
           {"maps", maps},
           {"keys", keys},
           {"actions", actions},
-          {"presets", words_of(property_of("look.preset"))},
+          {"presets", meniscus::words_of(property_of("look.preset"))},
           {"sliders", look_sliders()},
           {"representations", {"sticks", "balls", "spheres", "tube"}}};
 }

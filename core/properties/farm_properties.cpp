@@ -19,7 +19,7 @@ constexpr auto kTable = std::to_array<Property>({
         .initially("5")
         .in("Options"),
     count("bundle.chunk_frames", "--chunk-frames", "N", "Frames of a task; no trial frame is made")
-        .from(1, 1e9)
+        .from(1, kUnlimited)
         .in("Options"),
     count("bundle.task_cores", "--task-cores", "N", "Cores of a task, for engines that share a machine among tasks")
         .from(1, 4096)

@@ -25,13 +25,16 @@ constexpr auto kTable = std::to_array<Property>({
     text("frames.frames", "--frames", "LIST",
          "Frames of the run: all, or a list such as 0-99:10,250,last; frames count from 0, -10- are the last ten")
         .in(kFrames, kShared),
-    count("frames.stride", "--stride", "N", "Use every Nth of them").from(1, 1e18).initially("1").in(kFrames, kShared),
+    count("frames.stride", "--stride", "N", "Use every Nth of them")
+        .from(1, kUnlimited)
+        .initially("1")
+        .in(kFrames, kShared),
     text("frames.begin", "--begin", "WHEN", "Leave out what comes before this frame or time: 300ps, 2.5ns")
         .in(kFrames, kShared),
     text("frames.end", "--end", "WHEN", "Leave out what comes after this frame or time").in(kFrames, kShared),
     count("frames.repeat", "--repeat", "N",
           "Show each frame N times in a row, for slow motion or a camera that moves around a molecule at rest; "
-          "files of frame F are then numbered F*N, F*N + 1, ...")
+          "files of frame F are then numbered F*N, F*N + 1 and so on")
         .from(1, 1e6)
         .initially("1")
         .in(kFrames, kShared),

@@ -1,33 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Joins the tables of properties into one, and finds a property by its key.
+// Derives from a property what its help says, which words it has, and what its value is in scene files.
 #include "core/properties/property.h"
 
 #include <algorithm>
-#include <stdexcept>
 
 #include <fmt/format.h>
 
-#include "core/properties/tables.h"
-
 namespace meniscus {
-
-std::span<const Property* const> properties() {
-  static const std::vector<const Property*> all = [] {
-    std::vector<const Property*> joined;
-    for (const auto& table :
-         {molecule_properties(), frame_properties(), surface_properties(), look_properties(), picture_properties(),
-          annotation_properties(), mesh_properties(), report_properties(), farm_properties()})
-      for (const Property& property : table) joined.push_back(&property);
-    return joined;
-  }();
-  return all;
-}
-
-const Property& property_of(std::string_view key) {
-  const auto found = std::ranges::find(properties(), key, &Property::key);
-  if (found == properties().end()) throw std::logic_error(fmt::format("there is no property {}", key));
-  return **found;
-}
 
 SceneForm scene_form(const Property& property) {
   const bool many = property.has(repeatable);

@@ -33,6 +33,9 @@ enum Trait : unsigned {
   negated = 64          ///< the scene key is false where the option is given
 };
 
+/// The highest value of a property that has no upper limit.
+inline constexpr double kUnlimited = 1e18;
+
 /// One property: what tables are made of. Rows begin with one of the functions below, and say more by members that
 /// return a changed copy. Defaults and help are for people; the structs that hold values have the defaults in force.
 struct Property {
@@ -88,6 +91,7 @@ struct Property {
 
   constexpr bool has(Trait trait) const { return (traits & trait) != 0; }
   constexpr bool has_range() const { return lowest < highest; }
+  constexpr bool is_within(double number) const { return number >= lowest && number <= highest; }
   constexpr std::string_view section() const { return key.substr(0, key.find('.')); }
   constexpr std::string_view name() const { return key.substr(key.find('.') + 1); }
   /// The option's long name, "--output" of "-o,--output".
@@ -135,12 +139,6 @@ enum class SceneForm {
 };
 
 SceneForm scene_form(const Property& property);
-
-/// All properties: sections in the order in which scene files are written, properties in that of the help.
-std::span<const Property* const> properties();
-
-/// The property of this key. Throws std::logic_error where there is none: keys are written by programmers.
-const Property& property_of(std::string_view key);
 
 /// `words` parted at the bars.
 std::vector<std::string> words_of(const Property& property);

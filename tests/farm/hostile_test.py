@@ -252,7 +252,7 @@ class Hostile(FarmCase):
             words = [*manifest["command"][:2], name]
             folder = self.edited(self.render, lambda changed, _: changed.update(command=words))
             said = self.meniscus("farm", "status", folder, code=None).stderr
-            self.assertEqual("no option that a bundle may have" in said, name in refused, f"{name}: {said}")
+            self.assertEqual("not supported in farm bundles" in said, name in refused, f"{name}: {said}")
 
 
 if __name__ == "__main__":

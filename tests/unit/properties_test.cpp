@@ -9,7 +9,7 @@
 #include "app/farm/command_options.h"
 #include "core/base/error.h"
 #include "core/pockets/pockets.h"
-#include "core/properties/property.h"
+#include "core/properties/properties.h"
 #include "core/render/look_presets.h"
 #include "exporters/mesh_files/mesh_formats.h"
 #include "core/mesh/mesh_objects.h"
@@ -44,7 +44,8 @@ TEST(Properties, HelpIsAPhraseUnderAHeading) {
     EXPECT_FALSE(property->heading.empty()) << property->key;
     EXPECT_NE(property->help.back(), '.') << property->key;
     // The words of a value may come first, as in "ses: solvent-excluded".
-    const bool begins_with_word = property->words.starts_with(property->help.substr(0, property->help.find_first_of(" :,")));
+    const bool begins_with_word =
+        property->words.starts_with(property->help.substr(0, property->help.find_first_of(" :,")));
     const bool is_capital = std::isupper(static_cast<unsigned char>(property->help.front())) != 0;
     EXPECT_TRUE(is_capital || begins_with_word || property->help.starts_with("auto")) << property->key;
     EXPECT_EQ(property->value.empty(), property->type == ValueType::flag || !property->option.starts_with('-'))
