@@ -83,7 +83,7 @@ class ManualFormatter : public CLI::Formatter {
       else
         rare += fmt::format("{}{} ({} options)", rare.empty() ? "" : ", ", heading, options.size());
     }
-    return rare.empty() ? text : text + fmt::format("\nMore on --help-all: {}\n", rare);
+    return rare.empty() ? text : text + "\n" + wrapped("More on --help-all: " + rare, kHelpWidth) + "\n";
   }
 
   std::string make_option_desc(const CLI::Option* option) const override {

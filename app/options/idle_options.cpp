@@ -12,6 +12,7 @@
 
 #include "app/film/film_format.h"
 #include "app/process/program_error.h"
+#include "core/properties/properties.h"
 #include "core/render/look_presets.h"
 #include "core/text/parse_number.h"
 
@@ -61,8 +62,11 @@ class Asked {
 
  private:
   Look preset() const {
-    const CLI::Option* const option = command_.get_option_no_throw("--preset");
-    return preset_look(given("--preset") ? option->as<LookPreset>() : LookRequest{}.preset, {1, 1});
+    const std::vector<std::string> words = words_of(property_of("look.preset"));
+    const std::string asked = value("--preset");
+    for (std::size_t n = 0; n < words.size(); ++n)  // scenes of version 0.1.0 have its number
+      if (asked == words[n] || asked == std::to_string(n)) return preset_look(static_cast<LookPreset>(n), {1, 1});
+    return preset_look(LookRequest{}.preset, {1, 1});
   }
 
   const CLI::App& command_;

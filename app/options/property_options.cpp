@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
@@ -61,6 +62,14 @@ CLI::Option* PropertyOptions::add_switch(std::string_view key, const std::functi
   return finish(property, command_.add_flag_callback(std::string(property.option), turn_on));
 }
 
+std::size_t PropertyOptions::place_of_word(const Property& property, const std::vector<std::string>& words,
+                                           const std::vector<std::string>& numbers, const std::string& text) {
+  for (std::size_t place = 0; place < words.size(); ++place)
+    if (text == words[place] || text == numbers[place]) return place;
+  throw CLI::ValidationError(std::string(property.long_option()),
+                             fmt::format("{} is not one of {}", in_quotes(text), fmt::join(words, ", ")));
+}
+
 CLI::Option* PropertyOptions::finish(const Property& property, CLI::Option* option) const {
   option->description(help_of(property))->group(std::string(property.heading));
   if (property.type == ValueType::flag) return option;
@@ -70,7 +79,7 @@ CLI::Option* PropertyOptions::finish(const Property& property, CLI::Option* opti
   // The range of a text is that of a length in pixels, which its own parser checks.
   if (property.has_range() && (property.type == ValueType::number || property.type == ValueType::count))
     option->check(within(property));
-  if (!property.words.empty() && property.type != ValueType::word) option->check(proposes(words_of(property)));
+  if (!property.words.empty()) option->check(proposes(words_of(property)));
   return option;
 }
 

@@ -38,21 +38,19 @@ class PropertyOptions {
       return finish(property, command_.add_option(std::string(property.option), target));
   }
 
-  /// One of the property's words; `meanings` in their order.
+  /// One of the property's words; `meanings` in their order. The option's results stay words, which scene files store.
+  /// Scenes of version 0.1.0 have the numbers of enumerators instead; they are understood, too.
   template <typename Target, typename Meaning>
   CLI::Option* add_word(std::string_view key, Target& target, std::initializer_list<Meaning> meanings) {
     const Property& property = property_of(key);
-    std::vector<std::string> values;
-    for (const Meaning& meaning : meanings) {
-      if constexpr (std::is_enum_v<Meaning>)
-        values.push_back(std::to_string(static_cast<int>(meaning)));
-      else
-        values.push_back(fmt::format("{}", meaning));
-    }
     const std::vector<std::string> words = words_of(property);
-    if (words.size() != values.size()) throw std::logic_error("words and meanings differ: " + std::string(key));
-    CLI::Option* const option = command_.add_option(std::string(property.option), target);
-    return finish(property, option)->transform(one_of(words, values));
+    if (words.size() != meanings.size()) throw std::logic_error("words and meanings differ: " + std::string(key));
+    const auto take = [&target, values = std::vector<Meaning>(meanings)](std::size_t place) { target = values[place]; };
+    std::vector<std::string> numbers;
+    for (const Meaning& meaning : meanings) numbers.push_back(number_of(meaning));
+    return add_parsed(key, [&property, words, numbers, take](const std::string& text) {
+      take(place_of_word(property, words, numbers, text));
+    });
   }
 
   /// Text that `parse` understands.
@@ -67,6 +65,16 @@ class PropertyOptions {
   CLI::Option* add_switch(std::string_view key, const std::function<void()>& turn_on);
 
  private:
+  template <typename Meaning>
+  static std::string number_of(const Meaning& meaning) {
+    if constexpr (std::is_enum_v<Meaning>)
+      return std::to_string(static_cast<int>(meaning));
+    else
+      return fmt::format("{}", meaning);
+  }
+  /// Throws CLI::ValidationError unless text is one of the words, or one of the numbers.
+  static std::size_t place_of_word(const Property& property, const std::vector<std::string>& words,
+                                   const std::vector<std::string>& numbers, const std::string& text);
   CLI::Option* finish(const Property& property, CLI::Option* option) const;
 
   CLI::App& command_;

@@ -15,16 +15,12 @@ CLI::Validator proposes(const std::vector<std::string>& words) {
   return CLI::Validator([](std::string&) { return std::string(); }, "", CLI::detail::join(words, "|"));
 }
 
-CLI::Validator one_of(const std::vector<std::string>& words) { return one_of(words, words); }
-
-CLI::Validator one_of(const std::vector<std::string>& words, const std::vector<std::string>& values) {
-  const auto replace = [=](std::string& text) -> std::string {
-    const auto word = std::ranges::find(words, text);
-    if (word == words.end()) return fmt::format("{} is not one of {}", in_quotes(text), fmt::join(words, ", "));
-    text = values[static_cast<std::size_t>(word - words.begin())];
-    return {};
+CLI::Validator one_of(const std::vector<std::string>& words) {
+  const auto check = [words](std::string& text) -> std::string {
+    if (std::ranges::find(words, text) != words.end()) return {};
+    return fmt::format("{} is not one of {}", in_quotes(text), fmt::join(words, ", "));
   };
-  return CLI::Validator(replace, "", CLI::detail::join(words, "|"));
+  return CLI::Validator(check, "", CLI::detail::join(words, "|"));
 }
 
 }  // namespace meniscus

@@ -15,7 +15,4 @@ CLI::Validator proposes(const std::vector<std::string>& words);
 /// Takes one of these words, and nothing else.
 CLI::Validator one_of(const std::vector<std::string>& words);
 
-/// The same, and replaces a word by the value at its place.
-CLI::Validator one_of(const std::vector<std::string>& words, const std::vector<std::string>& values);
-
 }  // namespace meniscus

@@ -83,6 +83,31 @@ TEST_F(SceneFile, WhatIsSavedMakesTheSamePictureAgain) {
   EXPECT_EQ(bytes("a.png"), bytes("b.png"));
 }
 
+// Version 0.1.0 wrote the number of an enumerator where the user had given a word.
+TEST_F(SceneFile, HasWordsAsTheyWereGivenAndReadsTheNumbersOfVersion010) {
+  const std::vector<std::string> options{molecule_, "--size=64x48", "--preset", "soft",         "--surface",
+                                         "sas",     "--cavities",   "drop",     "--projection", "orthographic"};
+  std::vector<std::string> first = options;
+  first.insert(first.end(), {"-o", path("a.png"), "--save-scene", path("a.json")});
+  const ProgramResult made = render(first);
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  nlohmann::json scene = nlohmann::json::parse(bytes("a.json"));
+  nlohmann::json& surface = scene["objects"][0];
+  EXPECT_EQ(scene["look"]["preset"], "soft");
+  EXPECT_EQ(scene["camera"]["projection"], "orthographic");
+  EXPECT_EQ(surface["kind"], "sas");
+  EXPECT_EQ(surface["cavities"], "drop");
+  scene["look"]["preset"] = 3;
+  scene["camera"]["projection"] = 1;
+  surface["kind"] = 1;
+  surface["cavities"] = 1;
+  folder_.file("old.json", scene.dump());
+  const ProgramResult again = render({"--scene", path("old.json"), "-o", path("b.png")});
+  ASSERT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_EQ(bytes("a.png"), bytes("b.png"));
+  EXPECT_EQ(render({molecule_, "--preset", "9", "-o", path("c.png")}).exit_code, 2);
+}
+
 TEST_F(SceneFile, OptionsCountBeforeIt) {
   folder_.file("s.json", R"({"meniscus_scene":1,"molecule":{"file":"two.xyzr"},"image":{"size":"64x48","samples":1},
                              "surface_is_no_section":{}})");

@@ -28,17 +28,17 @@ class Words : public ::testing::Test {
 
 TEST_F(Words, UnknownOptionsAreNamedInTheirOrderWithTheOneThatWasMeant) {
   const std::pair<std::vector<std::string>, std::string> cases[] = {
-      {{"--colour", "red"}, "'--colour' is no option of meniscus render; did you mean --color?"},
-      {{"--colour=red"}, "'--colour' is no option of meniscus render; did you mean --color?"},
-      {{"--bg", "white"}, "'--bg' is no option of meniscus render; did you mean --background?"},
-      {{"--ao", "1"}, "'--ao' is no option of meniscus render; did you mean --ambient-occlusion?"},
-      {{"--zoom", "ligand"}, "'--zoom' is no option of meniscus render; did you mean --zoom-to?"},
-      {{"--rotate", "y90"}, "'--rotate' is no option of meniscus render; did you mean --turn?"},
-      {{"--backgroud", "white"}, "'--backgroud' is no option of meniscus render; did you mean --background?"},
-      {{"--quite"}, "'--quite' is no option of meniscus render; did you mean --quiet?"},
-      {{"--turnt", "1"}, "'--turnt' is no option of meniscus render; did you mean --turntable?"},
-      {{"--first", "--second"}, "'--first' is no option of meniscus render; see"},
-      {{"--wholly-other", "x"}, "'--wholly-other' is no option of meniscus render; see"},
+      {{"--colour", "red"}, "meniscus render has no option '--colour'; did you mean --color?"},
+      {{"--colour=red"}, "meniscus render has no option '--colour'; did you mean --color?"},
+      {{"--bg", "white"}, "meniscus render has no option '--bg'; did you mean --background?"},
+      {{"--ao", "1"}, "meniscus render has no option '--ao'; did you mean --ambient-occlusion?"},
+      {{"--zoom", "ligand"}, "meniscus render has no option '--zoom'; did you mean --zoom-to?"},
+      {{"--rotate", "y90"}, "meniscus render has no option '--rotate'; did you mean --turn?"},
+      {{"--backgroud", "white"}, "meniscus render has no option '--backgroud'; did you mean --background?"},
+      {{"--quite"}, "meniscus render has no option '--quite'; did you mean --quiet?"},
+      {{"--turnt", "1"}, "meniscus render has no option '--turnt'; did you mean --turntable?"},
+      {{"--first", "--second"}, "meniscus render has no option '--first'; see"},
+      {{"--wholly-other", "x"}, "meniscus render has no option '--wholly-other'; see"},
       {{"--samples", "0"}, "--samples"},
   };
   for (const auto& [options, sentence] : cases) {
@@ -49,7 +49,7 @@ TEST_F(Words, UnknownOptionsAreNamedInTheirOrderWithTheOneThatWasMeant) {
   const std::string below = says({"export", "ply", molecule_, "-o", "a.ply", "--colour", "chain"}).err;
   EXPECT_EQ(
       below,
-      "meniscus: error: '--colour' is no option of meniscus export ply; did you mean --color?; see meniscus export "
+      "meniscus: error: meniscus export ply has no option '--colour'; did you mean --color?; see meniscus export "
       "ply --help\n");
 }
 
