@@ -257,7 +257,7 @@ $("kinds").addEventListener("change", (event) => command("patch_kinds", { on: ev
 $("projection").addEventListener("change", (event) => command("projection", { projection: event.target.value }));
 $("background").addEventListener("input", (event) => command("look", { background: event.target.value }));
 function add_slider({ key, label, end, help }) {
-  const slider = Object.assign(document.createElement("input"), { id: key, type: "range", min: 0, max: end, step: end / 20 });
+  const slider = Object.assign(document.createElement("input"), { id: key, type: "range", min: 0, max: end, step: end > 2 ? 0.5 : 0.05 });
   slider.addEventListener("input", () => command("look", { [key]: slider.valueAsNumber }));
   const row = Object.assign(document.createElement("label"), { htmlFor: key, title: help });
   row.append(`${label} `, slider);
