@@ -14,7 +14,7 @@ namespace meniscus {
 /// and of degenerate surfaces, as lattices, a few may cross.
 /// Arcs that span no more than about `angle` (radian) are one edge. Of the result `positions`, `triangles` and `face`
 /// are filled in. walk: nothing barred. The probe needs a size. Throws OpenSurfaceError where no such mesh was found;
-/// two faces that draw an edge between the same two vertices are left to LinkedTriangles to refuse.
+/// two faces that draw an edge between the same two vertices are left to HalfEdges to refuse.
 TriangleMesh coarse_mesh(const Surface& surface, const SurfaceWalk& walk, double angle = 0.9);
 
 }  // namespace meniscus

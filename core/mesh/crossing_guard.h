@@ -9,7 +9,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "core/mesh/linked_triangles.h"
+#include "core/mesh/half_edges.h"
 #include "core/mesh/mesh_crossings.h"
 
 namespace meniscus {
@@ -19,7 +19,7 @@ namespace meniscus {
 class CrossingGuard {
  public:
   /// links, positions: of the mesh that it guards; they have to live as long.
-  CrossingGuard(const LinkedTriangles& links, const std::vector<glm::dvec3>& positions)
+  CrossingGuard(const HalfEdges& links, const std::vector<glm::dvec3>& positions)
       : links_(links), positions_(positions) {}
 
   /// Forgets all, and lists the triangles that have a vertex of `watched`.
@@ -40,7 +40,7 @@ class CrossingGuard {
   void each_cell(const glm::dvec3& low, const glm::dvec3& high, const Visit& visit) const;
   void list_near(std::span<const PlacedTriangle> made, std::span<const std::uint32_t> gone) const;
 
-  const LinkedTriangles& links_;
+  const HalfEdges& links_;
   const std::vector<glm::dvec3>& positions_;
   double cell_ = 1.0;                 ///< Å
   std::vector<std::uint32_t> heads_;  ///< per bucket, into entries_, or kNone

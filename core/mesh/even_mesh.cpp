@@ -391,7 +391,7 @@ class EvenMeshing {
 
   /// At vertices on creases each triangle has the normal of the face that it lies nearest to.
   void add_creases(TriangleMesh& mesh) const {
-    const LinkedTriangles& links = evener_->links();
+    const HalfEdges& links = evener_->links();
     std::vector<glm::dvec3> sum(mesh.positions.size(), glm::dvec3(0.0));
     for (std::uint32_t half = 0; half < links.half_edge_count(); ++half) {
       if (links.crease(half) != kNone && half < links.twin(half))

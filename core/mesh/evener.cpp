@@ -261,8 +261,8 @@ bool Evener::may_vanish(std::uint32_t half) const {
   // Two creases must not fall together.
   const auto creased = [&](std::uint32_t edge) { return links_.crease(edge) != kNone; };
   const std::uint32_t other = links_.twin(half);
-  return !(creased(LinkedTriangles::next(half)) && creased(LinkedTriangles::last(half))) &&
-         !(creased(LinkedTriangles::next(other)) && creased(LinkedTriangles::last(other)));
+  return !(creased(HalfEdges::next(half)) && creased(HalfEdges::last(half))) &&
+         !(creased(HalfEdges::next(other)) && creased(HalfEdges::last(other)));
 }
 
 bool Evener::try_collapse(std::uint32_t half) {

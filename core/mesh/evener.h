@@ -15,7 +15,7 @@
 #include <glm/vec3.hpp>
 
 #include "core/mesh/crossing_guard.h"
-#include "core/mesh/linked_triangles.h"
+#include "core/mesh/half_edges.h"
 #include "core/mesh/surface_walk.h"
 #include "core/mesh/triangle_mesh.h"
 
@@ -62,7 +62,7 @@ class Evener {
   /// Takes the places of vertices and triangles that are gone.
   void compact();
 
-  const LinkedTriangles& links() const { return links_; }
+  const HalfEdges& links() const { return links_; }
   const std::vector<glm::dvec3>& positions() const { return position_; }
   SurfacePoint point(std::uint32_t vertex) const { return {position_[vertex], face_[vertex]}; }
   /// May the triangle have changed since forget_changes()?
@@ -193,7 +193,7 @@ class Evener {
   bool approaching_ = false;  ///< triangles are still coarser than wanted, and lean as they have to
   const SurfaceWalk& walk_;
   EdgeLength edge_;
-  LinkedTriangles links_;
+  HalfEdges links_;
   // per vertex
   std::vector<glm::dvec3> position_, normal_;
   std::vector<std::uint32_t> face_;    ///< of the surface

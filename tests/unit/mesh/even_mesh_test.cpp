@@ -15,7 +15,7 @@
 #include "core/mesh/coarse_mesh.h"
 #include "core/mesh/crossing_guard.h"
 #include "core/mesh/even_mesh.h"
-#include "core/mesh/linked_triangles.h"
+#include "core/mesh/half_edges.h"
 #include "core/mesh/mesh_crossings.h"
 #include "core/mesh/tessellate.h"
 #include "core/queries/distance.h"
@@ -169,7 +169,7 @@ BaseMesh expect_contracted_mesh(const Surface& surface) {
     EXPECT_EQ(measure(mesh, k).euler(), surface.components[k].euler) << "component " << k;
   const SurfaceDistance distance(surface);
   for (const glm::dvec3& x : mesh.positions) EXPECT_LT(std::abs(distance(x).distance), 1e-7);
-  const LinkedTriangles links(mesh.triangles, static_cast<std::uint32_t>(mesh.positions.size()));
+  const HalfEdges links(mesh.triangles, static_cast<std::uint32_t>(mesh.positions.size()));
   std::vector<std::uint32_t> corners(mesh.positions.size(), 0);
   for (const Triangle& t : mesh.triangles)
     for (const std::uint32_t v : t) ++corners[v];
@@ -320,7 +320,7 @@ TEST(MeshCrossings, AreFoundWhereTwoTetrahedraOverlap) {
 TEST(CrossingGuard, CountsWhatPassesThroughListedTriangles) {
   const std::vector<Triangle> one{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
   const std::vector<glm::dvec3> x{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  const LinkedTriangles links(one, 4);
+  const HalfEdges links(one, 4);
   CrossingGuard guard(links, x);
   const auto crossings = [&](const PlacedTriangle& made, std::vector<std::uint32_t> gone) {
     return guard.crossings({&made, 1}, gone);
@@ -340,21 +340,6 @@ TEST(CrossingGuard, CountsWhatPassesThroughListedTriangles) {
   const std::array<PlacedTriangle, 2> both{
       through, PlacedTriangle{{10, 11, 12}, {{{-0.5, -0.6, 0.5}, {-0.62, -0.5, 0.4}, {-0.6, -0.5, 0.6}}}}};
   EXPECT_EQ(guard.crossings(both, std::vector<std::uint32_t>{2}), 1u);  // each other
-}
-
-TEST(LinkedTriangles, AreClosedWithANewVertexInATriangle) {
-  LinkedTriangles links(std::vector<Triangle>{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}, 4);
-  links.set_crease(4, 6);
-  EXPECT_EQ(links.poke(1), 4u);
-  EXPECT_EQ(links.triangle_count(), 6u);
-  EXPECT_EQ(links.valence(4), 3u);
-  for (const std::uint32_t v : {0u, 1u, 3u}) EXPECT_EQ(links.valence(v), 4u);
-  for (std::uint32_t half = 0; half < links.half_edge_count(); ++half) {
-    EXPECT_EQ(links.from(links.twin(half)), links.to(half));
-    EXPECT_EQ(links.to(links.twin(half)), links.from(half));
-    const bool creased = std::minmax(links.from(half), links.to(half)) == std::minmax(1u, 3u);
-    EXPECT_EQ(links.crease(half), creased ? 6u : kNone);
-  }
 }
 
 TEST(MeshCrossings, AreFoundAtASharedVertex) {

@@ -218,5 +218,19 @@ TEST(Weld, TrianglesWithoutAreaInSinglePrecisionGo) {
   EXPECT_EQ(euler_if_closed(mesh), 2);
 }
 
+// Of a vertex that two parts have in common no triangles go around all of it: what its edges are to vanish into is
+// open.
+TEST(Weld, AVertexOfTwoPartsStays) {
+  TriangleMesh mesh = octahedron_with_a_double_corner(0.0004);
+  const std::vector<glm::dvec3> more{{1, 0, 2}, {0, 1, 2}, {-1, -1, 2}};
+  mesh.positions.insert(mesh.positions.end(), more.begin(), more.end());
+  std::vector<std::array<std::uint32_t, 3>> triangles = mesh.triangles;
+  triangles.insert(triangles.end(), {{0, 8, 7}, {0, 9, 8}, {0, 7, 9}, {7, 8, 9}});
+  mesh = mesh_of(mesh.positions, triangles);
+  EXPECT_TRUE(measure(mesh).closed);
+  EXPECT_EQ(weld(mesh).joined, 0u);
+  EXPECT_EQ(mesh.triangles, triangles);
+}
+
 }  // namespace
 }  // namespace meniscus
