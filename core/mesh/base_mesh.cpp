@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Three ways to begin, and finer tolerances where one does not close.
+// Makes the closed mesh that an even one begins with, at finer tolerances where one does not close.
 #include "core/mesh/base_mesh.h"
 
 #include <algorithm>
 #include <utility>
 
 #include "core/base/error.h"
-#include "core/mesh/coarse_mesh.h"
 #include "core/mesh/tessellate.h"
 
 namespace meniscus {

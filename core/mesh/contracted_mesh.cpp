@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Draws contact faces of a mesh together to points: triangles with two corners in one face vanish. Where the rest would
 // be no manifold, faces stay as they were.
-#include "core/mesh/contracted_mesh.h"
+#include "core/mesh/base_mesh.h"
 
 #include <algorithm>
 #include <array>

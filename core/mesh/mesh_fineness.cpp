@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pixels become Å, and requests the mesh of one kind or the other.
+// Says how fine a mesh has to be, in Å or for a camera's pixels, estimates how large it will be, and makes it.
 #include "core/mesh/mesh_fineness.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <utility>
 
 #include <glm/geometric.hpp>
 
@@ -72,10 +71,8 @@ std::vector<std::uint32_t> vertex_faces(const TriangleMesh& mesh) {
 }
 
 FineMesh fine_mesh(const Surface& surface, const MeshFineness& fineness) {
-  if (fineness.even || fineness.density > 0.0) {
-    EvenMesh even = even_mesh(surface, {fineness.density, fineness.tolerance, fineness.tolerance_at});
-    return {std::move(even.mesh), std::move(even.vertex_face), std::move(even.vertex_atom)};
-  }
+  if (fineness.even || fineness.density > 0.0)
+    return even_mesh(surface, {fineness.density, fineness.tolerance, fineness.tolerance_at});
   FineMesh made{tessellate(surface, {fineness.tolerance, true}), {}, {}};
   made.vertex_face = vertex_faces(made.mesh);
   made.vertex_atom = vertex_atoms(made.mesh);
