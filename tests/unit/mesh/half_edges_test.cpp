@@ -130,7 +130,9 @@ TEST(HalfEdges, PutFirstTurnsATriangle) {
 
 TEST(HalfEdges, RefuseWhatIsNotClosed) {
   EXPECT_THROW(HalfEdges(std::vector<Triangle>{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}}, 4), OpenSurfaceError);
-  EXPECT_THROW(HalfEdges(std::vector<Triangle>{{0, 2, 1}, {0, 1, 3}, {0, 1, 3}, {2, 0, 3}}, 4), OpenSurfaceError);
+  std::vector<Triangle> two = tetrahedron();  // with an edge in common
+  two.insert(two.end(), {{0, 4, 1}, {0, 1, 5}, {1, 4, 5}, {4, 0, 5}});
+  EXPECT_THROW(HalfEdges(two, 6), OpenSurfaceError);
 }
 
 TEST(HalfEdges, OfAPartAreLinkedAroundWholeVertices) {
