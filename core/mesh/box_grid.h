@@ -10,7 +10,6 @@
 
 #include <glm/common.hpp>
 #include <glm/vec3.hpp>
-#include <glm/vector_relational.hpp>
 
 #include "core/base/index.h"
 #include "core/math/box_tree.h"
@@ -19,7 +18,8 @@ namespace meniscus {
 
 /// Have two boxes no point in common?
 inline bool are_apart(const Box& a, const Box& b) {
-  return glm::any(glm::greaterThan(a.low, b.high)) || glm::any(glm::greaterThan(b.low, a.high));
+  return a.low.x > b.high.x || b.low.x > a.high.x || a.low.y > b.high.y || b.low.y > a.high.y || a.low.z > b.high.z ||
+         b.low.z > a.high.z;
 }
 inline double longest_side(const Box& box) {
   const glm::dvec3 size = box.high - box.low;

@@ -81,8 +81,8 @@ class CrossingSearch {
     grid_.for_each_in(bucket, [&](std::uint32_t t) { room.here.push_back(t); });
     for (std::size_t i = 0; i < room.here.size(); ++i)
       for (std::size_t j = i + 1; j < room.here.size(); ++j) {
+        if (are_apart(boxes_[room.here[i]], boxes_[room.here[j]])) continue;
         const auto [a, b] = std::minmax(room.here[i], room.here[j]);
-        if (are_apart(boxes_[a], boxes_[b])) continue;
         // Boxes that meet do so in several cells; they count in the first.
         const glm::dvec3 low = glm::max(boxes_[a].low, boxes_[b].low);
         if (grid_.bucket_of(low) == bucket && triangles_cross(placed(a), placed(b))) room.found.emplace_back(a, b);

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <utility>
 
-#include <glm/geometric.hpp>
 #include <tbb/parallel_for.h>
 
 #include "core/mesh/creases.h"
@@ -35,14 +34,6 @@ MeshOnSurface::MeshOnSurface(const Surface& surface, SurfaceWalk& walk, const Tr
     vertices_[v].crease = creases[v].border;
     vertices_[v].pinned = creases[v].ends || (tip != kNone && positions_[v] == surface.vertices[tip]);
   }
-}
-
-double MeshOnSurface::length(std::uint32_t half) const {
-  return glm::distance(positions_[links_.from(half)], positions_[links_.to(half)]);
-}
-
-double MeshOnSurface::wanted(std::uint32_t half) const {
-  return 0.5 * (vertices_[links_.from(half)].size + vertices_[links_.to(half)].size);
 }
 
 /// Every number of a vertex that follows from where it is.

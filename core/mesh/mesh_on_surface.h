@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
 #include "core/mesh/crossing_guard.h"
@@ -40,9 +41,13 @@ class MeshOnSurface {
   const MeshVertex& vertex(std::uint32_t vertex) const { return vertices_[vertex]; }
   MeshVertex& vertex(std::uint32_t vertex) { return vertices_[vertex]; }
   SurfacePoint point(std::uint32_t vertex) const { return {positions_[vertex], vertices_[vertex].face}; }
-  double length(std::uint32_t half) const;
+  double length(std::uint32_t half) const {
+    return glm::distance(positions_[links_.from(half)], positions_[links_.to(half)]);
+  }
   /// The length (Å) wanted of an edge.
-  double wanted(std::uint32_t half) const;
+  double wanted(std::uint32_t half) const {
+    return 0.5 * (vertices_[links_.from(half)].size + vertices_[links_.to(half)].size);
+  }
   PlacedTriangle placed(std::uint32_t triangle) const { return guard_.placed(triangle); }
   TriangleQuality& quality() { return quality_; }
   const TriangleQuality& quality() const { return quality_; }
