@@ -63,13 +63,6 @@ double estimated_triangles(const Surface& surface, const MeshFineness& fineness)
                                                  : patch_aligned_triangles(surface, fineness.tolerance);
 }
 
-std::vector<std::uint32_t> vertex_faces(const TriangleMesh& mesh) {
-  std::vector<std::uint32_t> face(mesh.positions.size(), kNone);
-  for (std::size_t t = mesh.triangles.size(); t-- > 0;)
-    for (const std::uint32_t v : mesh.triangles[t]) face[v] = mesh.face[t];
-  return face;
-}
-
 FineMesh fine_mesh(const Surface& surface, const MeshFineness& fineness) {
   if (fineness.even || fineness.density > 0.0)
     return even_mesh(surface, {fineness.density, fineness.tolerance, fineness.tolerance_at});

@@ -35,9 +35,6 @@ MeshFineness fineness_of(const MeshRequest& request, bool even, double density, 
 /// About how many triangles the mesh of a surface gets, to a factor of two, without making it.
 double estimated_triangles(const Surface& surface, const MeshFineness& fineness);
 
-/// Of each vertex of a mesh that keeps to patches, the face of the first of its triangles.
-std::vector<std::uint32_t> vertex_faces(const TriangleMesh& mesh);
-
 /// Throws what tessellate() or even_mesh() throw.
 FineMesh fine_mesh(const Surface& surface, const MeshFineness& fineness);
 

@@ -126,7 +126,7 @@ std::vector<std::uint32_t> keep_used_vertices(TriangleMesh& mesh) {
   std::vector<bool> used(mesh.positions.size(), false);
   for (const auto& t : mesh.triangles)
     for (const std::uint32_t v : t) used[v] = true;
-  const std::vector<std::uint32_t> place = new_places(used);
+  std::vector<std::uint32_t> place = new_places(used);
   keep_rows(mesh.positions, used);
   keep_rows(mesh.normals, used);
   for (auto& t : mesh.triangles)
@@ -138,6 +138,13 @@ std::vector<std::uint32_t> keep_used_vertices(TriangleMesh& mesh) {
 }
 
 }  // namespace
+
+std::vector<std::uint32_t> vertex_faces(const TriangleMesh& mesh) {
+  std::vector<std::uint32_t> face(mesh.positions.size(), kNone);
+  for (std::size_t t = mesh.triangles.size(); t-- > 0;)
+    for (const std::uint32_t v : mesh.triangles[t]) face[v] = mesh.face[t];
+  return face;
+}
 
 MeshSums sums_of(const TriangleMesh& mesh) {
   MeshSums sums;

@@ -53,6 +53,9 @@ struct FineMesh {
   std::vector<std::uint32_t> vertex_atom;  ///< into Surface::atoms: the touched one whose contact is nearest
 };
 
+/// Of each vertex of a mesh that keeps to patches, the face of the first of its triangles.
+std::vector<std::uint32_t> vertex_faces(const TriangleMesh& mesh);
+
 /// Measures of a triangle mesh, or of one component of it.
 struct MeshMeasure {
   std::size_t vertex_count = 0;
