@@ -51,7 +51,7 @@ std::vector<bool> components_that_stay(const Surface& surface, const ShaperSetti
   return stays;
 }
 
-MsmsMesh rows_of(const EvenMesh& even, const std::vector<bool>& stays) {
+MsmsMesh rows_of(const FineMesh& even, const std::vector<bool>& stays) {
   constexpr std::uint32_t kUnused = ~std::uint32_t{0};
   std::vector<std::uint32_t> row(even.mesh.positions.size(), kUnused);
   MsmsMesh rows;

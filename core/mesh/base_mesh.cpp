@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Three ways to begin, and finer tolerances where one does not close.
+// Makes the closed mesh that an even one begins with, at finer tolerances where one does not close.
 #include "core/mesh/base_mesh.h"
 
 #include <algorithm>
 #include <utility>
 
 #include "core/base/error.h"
-#include "core/mesh/coarse_mesh.h"
 #include "core/mesh/tessellate.h"
 
 namespace meniscus {
@@ -35,10 +34,7 @@ BaseMesh base_mesh(const Surface& surface, const SurfaceWalk& walk, Beginning be
   if (beginning == Beginning::contracted) return contracted_mesh(surface, walk, coarse_mesh(surface, walk, kWideAngle));
   BaseMesh base;
   base.mesh = beginning == Beginning::coarse ? coarse_mesh(surface, walk) : patches(surface, tolerance);
-  base.vertex_face.assign(base.mesh.positions.size(), kNone);
-  for (std::size_t t = 0; t < base.mesh.triangles.size(); ++t)
-    for (const std::uint32_t v : base.mesh.triangles[t])
-      if (base.vertex_face[v] == kNone) base.vertex_face[v] = base.mesh.face[t];
+  base.vertex_face = vertex_faces(base.mesh);
   return base;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How finely borders are sampled, and where colours change along them.
+// Samples the borders of a surface as finely as a mesh needs, and where colours change along them.
 #include "core/mesh/border_samples.h"
 
 #include <algorithm>

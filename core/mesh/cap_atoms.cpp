@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Looks for the nearest sphere in a grid, farther and farther away.
+// Finds the atom whose colour a point of a cap has: the nearest sphere, in a grid, farther and farther away.
 #include "core/mesh/cap_atoms.h"
 
 #include <algorithm>

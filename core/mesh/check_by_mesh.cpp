@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Tries one tolerance after another; tessellate() compares.
+// Checks areas and volumes of a surface against meshes of it, at one tolerance after another.
 #include "core/mesh/check_by_mesh.h"
 
 #include <array>

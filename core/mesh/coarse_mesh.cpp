@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Polygons of border samples, cut into triangles without a plane to triangulate them in wherever they are simple.
-#include "core/mesh/coarse_mesh.h"
+// Makes the coarsest mesh of a surface: polygons of border samples, cut without a plane wherever they are simple.
+#include "core/mesh/base_mesh.h"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Adds up triangles by face and by component, and bounds what flat triangles may lack of them.
+// Compares areas and volumes of a surface with those of a mesh: adds up triangles, and bounds what flat ones lack.
 #include "core/mesh/compare_mesh.h"
 
 #include <cmath>

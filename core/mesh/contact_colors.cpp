@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Contact directions and where, along an arc, the nearest of them changes.
+// Finds the directions from a probe to its contacts, and where along an arc the nearest of them changes.
 #include "core/mesh/contact_colors.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Discs become points, triangles with two corners in one disc vanish; where that is no manifold, discs stay as they
-// were.
-#include "core/mesh/contracted_mesh.h"
+// Draws contact faces of a mesh together to points: triangles with two corners in one face vanish. Where the rest would
+// be no manifold, faces stay as they were.
+#include "core/mesh/base_mesh.h"
 
 #include <algorithm>
 #include <array>
@@ -14,6 +14,7 @@
 #include <tbb/parallel_for.h>
 
 #include "core/base/error.h"
+#include "core/mesh/corner_lists.h"
 
 namespace meniscus {
 namespace {
@@ -113,14 +114,12 @@ class Contraction {
     sound_ = true;
     std::vector<std::uint8_t> restored(surface_.faces.size(), 0);
     std::vector<std::uint8_t> broken(surface_.components.size(), 0);
-    std::vector<std::uint32_t> first, corner;
-    list_corners(first, corner);
+    const CornerLists corners(made_.mesh.triangles, static_cast<std::uint32_t>(disc_.size()));
     for (std::uint32_t v = 0; v < disc_.size(); ++v) {
-      const std::span<const std::uint32_t> around(corner.data() + first[v], first[v + 1] - first[v]);
-      if (is_ring(around)) continue;
+      if (go_around_once(made_.mesh.triangles, corners.at(v))) continue;
       sound_ = false;
       std::vector<std::uint32_t> beside;  // discs
-      for (const std::uint32_t c : around)
+      for (const std::uint32_t c : corners.at(v))
         for (const std::uint32_t w : made_.mesh.triangles[c / 3])
           if (w != v && disc_[w] != kNone) beside.push_back(disc_[w]);
       if (std::any_of(beside.begin(), beside.end(), [&](std::uint32_t d) { return restored[d] > 0; })) continue;
@@ -139,17 +138,6 @@ class Contraction {
     return any;
   }
 
-  /// Per vertex that is made the corners (3 * triangle + 0..2) there.
-  void list_corners(std::vector<std::uint32_t>& first, std::vector<std::uint32_t>& corner) const {
-    const auto& triangles = made_.mesh.triangles;
-    first.assign(disc_.size() + 1, 0);
-    corner.resize(3 * triangles.size());
-    for (const Triangle& t : triangles)
-      for (const std::uint32_t v : t) ++first[v];
-    std::partial_sum(first.begin(), first.end(), first.begin());
-    for (auto c = static_cast<std::uint32_t>(corner.size()); c-- > 0;) corner[--first[triangles[c / 3][c % 3]]] = c;
-  }
-
   std::uint32_t component_of(std::uint32_t vertex) const { return surface_.faces[made_.vertex_face[vertex]].component; }
 
   /// By V - E + F, where E = 3 F / 2.
@@ -160,27 +148,6 @@ class Contraction {
     for (std::size_t c = 0; c < broken.size(); ++c) {
       broken[c] = twice[c] != 2 * surface_.components[c].euler;
       if (broken[c]) sound_ = false;
-    }
-  }
-
-  /// Do these triangles, each given by its corner at one vertex, go around it once?
-  bool is_ring(std::span<const std::uint32_t> around) const {
-    const auto& triangles = made_.mesh.triangles;
-    const auto last = [&](std::uint32_t c) { return triangles[c / 3][(c % 3 + 2) % 3]; };
-    if (around.size() < 3) return false;
-    const auto after = [&](std::uint32_t c) { return triangles[c / 3][(c % 3 + 1) % 3]; };
-    std::uint32_t at = around[0];
-    for (std::size_t n = 1;; ++n) {
-      std::uint32_t found = kNone;
-      for (const std::uint32_t c : around) {
-        if (after(c) != last(at)) continue;
-        if (found != kNone) return false;
-        found = c;
-      }
-      if (found == kNone) return false;
-      if (found == around[0]) return n == around.size();
-      if (n == around.size()) return false;
-      at = found;
     }
   }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Angles of creases, and chains of them that are long enough.
+// Finds borders at which faces meet at an angle, which of them a mesh should follow, and which edges of a mesh do.
 #include "core/mesh/creases.h"
 
 #include <algorithm>
@@ -8,6 +8,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/mesh/remesh_tuning.h"
 #include "core/surface/walks.h"
 
 namespace meniscus {
@@ -55,6 +56,23 @@ bool drop_short_chains(const Surface& surface, const std::function<double(const 
   return any;
 }
 
+/// The first of a face's borders that counts and that an edge from a to b runs along, or kNone.
+std::uint32_t crease_of(const Surface& surface, const SurfaceWalk& walk, const std::vector<bool>& keep,
+                        std::uint32_t face, const glm::dvec3& a, const glm::dvec3& b) {
+  const auto on_circle = [](const Border& border, const glm::dvec3& x) {
+    const glm::dvec3 out = x - border.center;
+    return std::abs(glm::dot(out, border.axis)) < RemeshTuning::on_crease &&
+           std::abs(glm::length(out) - border.radius) < RemeshTuning::on_crease;
+  };
+  std::uint32_t found = kNone;
+  for_each_half_border(surface, surface.faces[face], [&](HalfBorder half) {
+    const std::uint32_t n = border_of(half);
+    if (!keep[n] || !on_circle(surface.borders[n], a) || !on_circle(surface.borders[n], b)) return;
+    if (walk.on_border(0.5 * (a + b), n)) found = std::min(found, n);
+  });
+  return found;
+}
+
 }  // namespace
 
 std::array<glm::dvec3, 2> crease_normals(const Surface& surface, const Border& border, const glm::dvec3& x) {
@@ -89,6 +107,37 @@ std::vector<bool> creases_to_keep(const Surface& surface, const std::function<do
   while (drop_short_chains(surface, edge, keep)) {
   }
   return keep;
+}
+
+void mark_creases(const Surface& surface, const SurfaceWalk& walk, const TriangleMesh& mesh,
+                  const std::vector<bool>& keep, HalfEdges& links) {
+  std::vector<bool> with_crease(surface.faces.size(), false);
+  for (std::uint32_t b = 0; b < keep.size(); ++b)
+    if (keep[b])
+      for (const std::uint32_t f : surface.borders[b].face) with_crease[f] = true;
+  for (std::uint32_t half = 0; half < links.half_edge_count(); ++half) {
+    const std::uint32_t f = mesh.face[half / 3], g = mesh.face[links.twin(half) / 3];
+    if (f == g || half > links.twin(half) || !with_crease[f] || !with_crease[g]) continue;
+    // Without a probe a border on either side has the same points; the first stands for both.
+    const glm::dvec3 &a = mesh.positions[links.from(half)], &b = mesh.positions[links.to(half)];
+    const std::uint32_t border =
+        std::min(crease_of(surface, walk, keep, f, a, b), crease_of(surface, walk, keep, g, a, b));
+    if (border != kNone) links.set_crease(half, border);
+  }
+}
+
+std::vector<CreaseAt> creases_at_vertices(const HalfEdges& links) {
+  std::vector<CreaseAt> found(links.vertex_count());
+  std::vector<std::uint32_t> count(found.size(), 0);
+  for (std::uint32_t half = 0; half < links.half_edge_count(); ++half) {
+    const std::uint32_t border = links.crease(half), v = links.from(half);
+    if (border == kNone) continue;
+    if (count[v]++ > 0 && found[v].border != border) found[v].ends = true;
+    found[v].border = border;
+  }
+  for (std::size_t v = 0; v < found.size(); ++v)
+    if (count[v] != 0 && count[v] != 2) found[v].ends = true;
+  return found;
 }
 
 }  // namespace meniscus

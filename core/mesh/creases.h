@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Borders at which faces meet at an angle, and which of them a mesh of given edges has to follow.
+// Borders at which faces meet at an angle, which of them a mesh of given edges has to follow, and which edges do.
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <functional>
 #include <vector>
 
 #include <glm/vec3.hpp>
 
+#include "core/base/index.h"
+#include "core/mesh/half_edges.h"
+#include "core/mesh/surface_walk.h"
+#include "core/mesh/triangle_mesh.h"
 #include "core/surface/primitives.h"
 
 namespace meniscus {
@@ -23,5 +28,17 @@ double crease_angle(const Surface& surface, const Border& border);
 /// farther from the surface than elsewhere (h sin(angle/2) / 4 against h²/(6 r)), and the crease is no shorter than an
 /// edge.
 std::vector<bool> creases_to_keep(const Surface& surface, const std::function<double(const glm::dvec3&)>& edge);
+
+/// Tells the edges of `links`, which are those of the mesh, of the borders that they run along. keep: per border of the
+/// surface whether it counts. mesh: `face` is filled in.
+void mark_creases(const Surface& surface, const SurfaceWalk& walk, const TriangleMesh& mesh,
+                  const std::vector<bool>& keep, HalfEdges& links);
+
+/// What meets at a vertex.
+struct CreaseAt {
+  std::uint32_t border = kNone;  ///< one that edges at the vertex run along, or kNone
+  bool ends = false;             ///< not two edges along one border: creases end or meet
+};
+std::vector<CreaseAt> creases_at_vertices(const HalfEdges& links);
 
 }  // namespace meniscus

@@ -1,40 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A hashed grid (Teschner, Heidelberger, Mueller, Pomeranets & Gross, "Optimized spatial hashing", 2003).
+// Counts the triangles of a changing mesh that new triangles would pass through, in the places where it is near itself.
 #include "core/mesh/crossing_guard.h"
 
 #include <algorithm>
-#include <bit>
-#include <cmath>
 #include <utility>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <glm/vector_relational.hpp>
+#include <tbb/parallel_for.h>
+
+#include "core/math/box_tree.h"
+#include "core/mesh/remesh_tuning.h"
 
 namespace meniscus {
 namespace {
 
 /// The mean longest side of listed triangles, times this, is the side of a cell.
 constexpr double kCellSides = 1.2;
-constexpr std::size_t kFewestBuckets = 64;
-
-std::size_t hash(const glm::i64vec3& cell) {
-  return static_cast<std::size_t>((cell.x * 73856093) ^ (cell.y * 19349663) ^ (cell.z * 83492791));
-}
-
-/// An axis-parallel box, both corners included.
-struct Bounds {
-  glm::dvec3 low, high;
-
-  explicit Bounds(const PlacedTriangle& x) : low(x.low()), high(x.high()) {}
-  void add(const Bounds& other) {
-    low = glm::min(low, other.low);
-    high = glm::max(high, other.high);
-  }
-  bool apart(const Bounds& other) const {
-    return glm::any(glm::greaterThan(low, other.high)) || glm::any(glm::greaterThan(other.low, high));
-  }
-};
 
 /// Do neighbouring triangles that all look the same way go side by side onto a plane?
 bool unfolds(std::span<const PlacedTriangle> triangles) {
@@ -52,41 +34,62 @@ PlacedTriangle CrossingGuard::placed(std::uint32_t triangle) const {
   return {v, {positions_[v[0]], positions_[v[1]], positions_[v[2]]}};
 }
 
-/// visit(bucket) for the cells that a box touches.
-template <typename Visit>
-void CrossingGuard::each_cell(const glm::dvec3& from, const glm::dvec3& to, const Visit& visit) const {
-  const glm::i64vec3 low(glm::floor(from / cell_)), high(glm::floor(to / cell_));
-  glm::i64vec3 at = low;
-  for (at.x = low.x; at.x <= high.x; ++at.x)
-    for (at.y = low.y; at.y <= high.y; ++at.y)
-      for (at.z = low.z; at.z <= high.z; ++at.z) visit(hash(at) & (heads_.size() - 1));
+void CrossingGuard::mark(std::span<const Ball> places, std::uint8_t how) {
+  if (!places.empty()) {
+    std::vector<Box> boxes;
+    for (const Ball& place : places) boxes.push_back({place.center - place.radius, place.center + place.radius});
+    const BoxTree tree(boxes);
+    tbb::parallel_for(std::size_t{0}, positions_.size(), [&](std::size_t v) {
+      constexpr double kInside = 1e-9;
+      tree.nearest(positions_[v], kInside, [&](std::uint32_t p, double limit) {
+        if (glm::distance(positions_[v], places[p].center) > places[p].radius) return limit;
+        watched_[v] |= how;
+        return 0.0;
+      });
+    });
+  }
+  list();
 }
 
-void CrossingGuard::list(const std::vector<std::uint8_t>& watched) {
+void CrossingGuard::watch_around(std::span<const std::uint32_t> triangles) {
+  std::vector<Ball> places;
+  for (const std::uint32_t t : triangles) {
+    const PlacedTriangle x = placed(t);
+    double longest = 0.0;
+    for (int k = 0; k < 3; ++k) longest = std::max(longest, glm::distance(x.at[k], x.at[(k + 1) % 3]));
+    places.push_back({(x.at[0] + x.at[1] + x.at[2]) / 3.0, RemeshTuning::mending_reach * longest});
+  }
+  mark(places, kForNow);
+}
+
+void CrossingGuard::release() {
+  for (std::uint8_t& how : watched_) how &= kLasting;
+  list();
+}
+
+void CrossingGuard::compact(std::span<const std::uint32_t> old_vertices) {
+  for (std::size_t v = 0; v < old_vertices.size(); ++v) watched_[v] = watched_[old_vertices[v]];
+  watched_.resize(old_vertices.size());
+  list();
+}
+
+/// Forgets all, and lists the triangles that have a watched vertex.
+void CrossingGuard::list() {
   std::vector<std::uint32_t> listed;
   double sum = 0.0;
   for (std::uint32_t t = 0; t < links_.triangle_count(); ++t) {
     if (!links_.lives(3 * t)) continue;
     const auto v = links_.corners(t);
-    if (!watched[v[0]] && !watched[v[1]] && !watched[v[2]]) continue;
+    if (!watched_[v[0]] && !watched_[v[1]] && !watched_[v[2]]) continue;
     listed.push_back(t);
-    const PlacedTriangle x = placed(t);
-    const glm::dvec3 size = x.high() - x.low();
-    sum += std::max({size.x, size.y, size.z});
+    sum += longest_side(placed(t).box());
   }
-  if (!listed.empty()) cell_ = std::max(kCellSides * sum / static_cast<double>(listed.size()), 1e-6);
-  heads_.assign(std::bit_ceil(std::max(2 * listed.size(), kFewestBuckets)), kNone);
-  entries_.clear();
+  const double mean = listed.empty() ? 1.0 : sum / static_cast<double>(listed.size());
+  grid_ = BoxGrid(std::max(kCellSides * mean, 1e-6), listed.size());
   for (const std::uint32_t t : listed) add(t);
 }
 
-void CrossingGuard::add(std::uint32_t triangle) {
-  const Bounds box(placed(triangle));
-  each_cell(box.low, box.high, [&](std::size_t bucket) {
-    entries_.push_back({triangle, heads_[bucket]});
-    heads_[bucket] = static_cast<std::uint32_t>(entries_.size() - 1);
-  });
-}
+void CrossingGuard::add(std::uint32_t triangle) { grid_.add(triangle, placed(triangle).box()); }
 
 /// Finds the listed triangles that stay and whose boxes meet the one around all that are made.
 void CrossingGuard::list_near(std::span<const PlacedTriangle> made, std::span<const std::uint32_t> gone) const {
@@ -94,15 +97,15 @@ void CrossingGuard::list_near(std::span<const PlacedTriangle> made, std::span<co
   seen_.resize(links_.triangle_count(), 0);
   ++question_;
   for (const std::uint32_t t : gone) seen_[t] = question_;
-  Bounds all(made[0]);
-  for (const PlacedTriangle& x : made) all.add(Bounds(x));
-  each_cell(all.low, all.high, [&](std::size_t bucket) {
-    for (std::uint32_t e = heads_[bucket]; e != kNone; e = entries_[e].next) {
-      const std::uint32_t t = entries_[e].triangle;
-      if (std::exchange(seen_[t], question_) == question_ || !links_.lives(3 * t)) continue;
-      const PlacedTriangle other = placed(t);
-      if (!all.apart(Bounds(other))) near_.push_back(other);
-    }
+  Box all = made[0].box();
+  for (const PlacedTriangle& x : made) {
+    const Box box = x.box();
+    all = {glm::min(all.low, box.low), glm::max(all.high, box.high)};
+  }
+  grid_.for_each_near(all, [&](std::uint32_t t) {
+    if (std::exchange(seen_[t], question_) == question_ || !links_.lives(3 * t)) return;
+    const PlacedTriangle other = placed(t);
+    if (!are_apart(all, other.box())) near_.push_back(other);
   });
 }
 
@@ -114,8 +117,8 @@ std::size_t CrossingGuard::crossings(std::span<const PlacedTriangle> made, std::
       for (std::size_t j = i + 1; j < made.size(); ++j) count += triangles_cross(made[i], made[j]);
   list_near(made, gone);
   for (const PlacedTriangle& x : made) {
-    const Bounds box(x);
-    for (const PlacedTriangle& other : near_) count += !box.apart(Bounds(other)) && triangles_cross(x, other);
+    const Box box = x.box();
+    for (const PlacedTriangle& other : near_) count += !are_apart(box, other.box()) && triangles_cross(x, other);
   }
   return count;
 }

@@ -2,33 +2,13 @@
 // From an exact surface to a closed mesh of nearly equilateral triangles, at any density down to a few per atom.
 #pragma once
 
-#include <cstdint>
-#include <functional>
-#include <vector>
-
-#include <glm/vec3.hpp>
-
+#include "core/mesh/even_sizes.h"
 #include "core/mesh/triangle_mesh.h"
 
 namespace meniscus {
 
-/// How fine an even mesh is.
-struct EvenMeshOptions {
-  double density = 0.0;  ///< > 0: vertices per Å² of the exact area, to some 10 %, below 0.3 to 25 %; 0: by tolerance
-  double tolerance = 0.05;  ///< Å; without a density. No point of the mesh is farther from the surface
-  /// Of tolerances that depend on the place (Å at a point, smooth): used instead of `tolerance`, which is their
-  /// smallest.
-  std::function<double(const glm::dvec3&)> tolerance_at;
-};
-
-struct EvenMesh {
-  TriangleMesh mesh;
-  std::vector<std::uint32_t> vertex_face;  ///< per vertex: into Surface::faces, the face that it lies on
-  std::vector<std::uint32_t> vertex_atom;  ///< per vertex: the touched atom whose contact is nearest
-};
-
-/// Remeshes the fewest triangles that have the surface's topology (coarse_mesh.h), for long edges with contact faces as
-/// points (contracted_mesh.h), for short ones those of tessellate(): edges are split, collapsed and flipped, vertices
+/// Remeshes the fewest triangles that have the surface's topology (coarse_mesh()), for long edges with contact faces as
+/// points (contracted_mesh()), for short ones those of tessellate(): edges are split, collapsed and flipped, vertices
 /// move along the surface (Botsch & Kobbelt, "A remeshing approach to multiresolution modeling", 2004), and each stays
 /// on the exact sphere or torus below it. Triangles reach over borders of patches; `kind`, `face`, `patch` and `atom`
 /// of a triangle are those of the exact surface under its middle. Edges follow creases that are no shorter than they
@@ -41,6 +21,6 @@ struct EvenMesh {
 /// are too far away, all begins anew, and what is around such places keeps to the triangles of the beginning, but for
 /// such changes. Throws Error for numbers that make no sense, OpenSurfaceError where no such mesh was found: where
 /// creases crowd, as on bare balls, a tolerance is refused at times.
-EvenMesh even_mesh(const Surface& surface, const EvenMeshOptions& options = {});
+FineMesh even_mesh(const Surface& surface, const EvenMeshOptions& options = {});
 
 }  // namespace meniscus

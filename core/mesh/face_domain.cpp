@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Stereographic and toroidal conformal coordinates, and distances of flat triangles from spheres and tori.
+// Maps faces to the plane by stereographic or toroidal conformal coordinates, and measures how far flat triangles
+// are from spheres and tori.
 #include "core/mesh/face_domain.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Constrained Delaunay triangulation of one face, refined until it is within the tolerance.
+// Meshes one face: a constrained Delaunay triangulation, refined until it is within the tolerance.
 #include "core/mesh/face_mesh.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rounds of filling: a rim whose chords cross asks for finer samples, and with it the face beyond.
+// Fills faces with triangles in rounds: a rim whose chords cross asks for finer samples, and with it the face beyond.
 #include "core/mesh/filled_faces.h"
 
 #include <set>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From colours of atoms to colours of triangles and vertices.
+// Turns colours of atoms into colours of a mesh's triangles and vertices.
 #include "core/mesh/mesh_colors.h"
 
 #include <algorithm>

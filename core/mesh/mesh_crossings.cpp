@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A grid of boxes finds pairs of triangles, signs of volumes decide.
+// Finds triangles of a mesh that pass through one another: a grid finds pairs that are near, signs of volumes decide.
 #include "core/mesh/mesh_crossings.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <glm/vector_relational.hpp>
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
-#include <tbb/parallel_sort.h>
+
+#include "core/mesh/box_grid.h"
 
 namespace meniscus {
 namespace {
@@ -20,8 +18,8 @@ namespace {
 using Triangle = std::array<std::uint32_t, 3>;
 using Pair = std::pair<std::uint32_t, std::uint32_t>;
 
-/// The middle edge length, times this, is the side of a cell.
-constexpr double kCellEdges = 1.5;
+/// The mean longest side of the boxes, times this, is the side of a cell.
+constexpr double kCellSides = 1.5;
 /// Unit normals of two triangles with a common edge that are folded onto one another: their product is below this.
 constexpr double kFolded = -1.0 + 1e-12;
 
@@ -41,76 +39,36 @@ class CrossingSearch {
  public:
   CrossingSearch(std::span<const glm::dvec3> positions, std::span<const Triangle> triangles)
       : positions_(positions), triangles_(triangles), boxes_(triangles.size()) {
-    tbb::parallel_for(std::size_t{0}, triangles.size(), [&](std::size_t t) {
-      const PlacedTriangle x = placed(static_cast<std::uint32_t>(t));
-      boxes_[t] = {x.low(), x.high()};
-    });
+    tbb::parallel_for(std::size_t{0}, triangles.size(),
+                      [&](std::size_t t) { boxes_[t] = placed(static_cast<std::uint32_t>(t)).box(); });
   }
 
   std::vector<Pair> run() {
     if (triangles_.empty()) return {};
-    choose_cells();
-    enter_cells();
-    tbb::enumerable_thread_specific<std::vector<Pair>> found;
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, starts_.size() - 1, 256), [&](const auto& range) {
-      auto& mine = found.local();
-      for (std::size_t c = range.begin(); c != range.end(); ++c) look_in_cell(c, mine);
+    enter_boxes();
+    tbb::enumerable_thread_specific<Room> rooms;
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, grid_.bucket_count(), 256), [&](const auto& range) {
+      Room& mine = rooms.local();
+      for (std::size_t bucket = range.begin(); bucket != range.end(); ++bucket) search(bucket, mine);
     });
     std::vector<Pair> all;
-    for (const auto& some : found) all.insert(all.end(), some.begin(), some.end());
+    for (const Room& some : rooms) all.insert(all.end(), some.found.begin(), some.found.end());
     std::sort(all.begin(), all.end());
     return all;
   }
 
  private:
-  struct Bounds {
-    glm::dvec3 low{0.0}, high{0.0};
-  };
-  struct Entry {
-    std::uint64_t cell;
-    std::uint32_t triangle;
-    bool operator<(const Entry& other) const {
-      return cell != other.cell ? cell < other.cell : triangle < other.triangle;
-    }
+  /// Of a thread.
+  struct Room {
+    std::vector<Pair> found;
+    std::vector<std::uint32_t> here;  ///< triangles of a bucket
   };
 
-  void choose_cells() {
+  void enter_boxes() {
     double sum = 0.0;
-    low_ = boxes_.front().low;
-    for (const Bounds& box : boxes_) {
-      const glm::dvec3 size = box.high - box.low;
-      sum += std::max({size.x, size.y, size.z});
-      low_ = glm::min(low_, box.low);
-    }
-    cell_ = std::max(kCellEdges * sum / static_cast<double>(boxes_.size()), 1e-9);
-  }
-  std::array<std::uint64_t, 3> cell_of(const glm::dvec3& x) const {
-    std::array<std::uint64_t, 3> at{};
-    for (int k = 0; k < 3; ++k)
-      at[k] = std::min<std::uint64_t>(static_cast<std::uint64_t>((x[k] - low_[k]) / cell_), (1u << 21) - 1);
-    return at;
-  }
-  static std::uint64_t key(std::uint64_t x, std::uint64_t y, std::uint64_t z) { return (x << 42) | (y << 21) | z; }
-
-  void enter_cells() {
-    std::vector<std::size_t> first(triangles_.size() + 1, 0);
-    tbb::parallel_for(std::size_t{0}, boxes_.size(), [&](std::size_t t) {
-      const auto a = cell_of(boxes_[t].low), b = cell_of(boxes_[t].high);
-      first[t + 1] = (b[0] - a[0] + 1) * (b[1] - a[1] + 1) * (b[2] - a[2] + 1);
-    });
-    for (std::size_t t = 0; t < boxes_.size(); ++t) first[t + 1] += first[t];
-    entries_.resize(first.back());
-    tbb::parallel_for(std::size_t{0}, boxes_.size(), [&](std::size_t t) {
-      const auto a = cell_of(boxes_[t].low), b = cell_of(boxes_[t].high);
-      std::size_t at = first[t];
-      for (auto x = a[0]; x <= b[0]; ++x)
-        for (auto y = a[1]; y <= b[1]; ++y)
-          for (auto z = a[2]; z <= b[2]; ++z) entries_[at++] = {key(x, y, z), static_cast<std::uint32_t>(t)};
-    });
-    tbb::parallel_sort(entries_.begin(), entries_.end());
-    for (std::size_t i = 0; i < entries_.size(); ++i)
-      if (i == 0 || entries_[i].cell != entries_[i - 1].cell) starts_.push_back(i);
-    starts_.push_back(entries_.size());
+    for (const Box& box : boxes_) sum += longest_side(box);
+    grid_ = BoxGrid(std::max(kCellSides * sum / static_cast<double>(boxes_.size()), 1e-9), boxes_.size());
+    for (std::uint32_t t = 0; t < boxes_.size(); ++t) grid_.add(t, boxes_[t]);
   }
 
   PlacedTriangle placed(std::uint32_t t) const {
@@ -118,25 +76,23 @@ class CrossingSearch {
     return {v, {positions_[v[0]], positions_[v[1]], positions_[v[2]]}};
   }
 
-  void look_in_cell(std::size_t c, std::vector<Pair>& found) const {
-    for (std::size_t i = starts_[c]; i < starts_[c + 1]; ++i)
-      for (std::size_t j = i + 1; j < starts_[c + 1]; ++j) {
-        const std::uint32_t a = entries_[i].triangle, b = entries_[j].triangle;
-        const glm::dvec3 low = glm::max(boxes_[a].low, boxes_[b].low), high = glm::min(boxes_[a].high, boxes_[b].high);
-        if (glm::any(glm::greaterThan(low, high))) continue;
-        const auto home = cell_of(low);  // boxes that meet do so in several cells; they count in the first
-        if (key(home[0], home[1], home[2]) == entries_[i].cell && triangles_cross(placed(a), placed(b)))
-          found.emplace_back(a, b);
+  void search(std::size_t bucket, Room& room) const {
+    room.here.clear();
+    grid_.for_each_in(bucket, [&](std::uint32_t t) { room.here.push_back(t); });
+    for (std::size_t i = 0; i < room.here.size(); ++i)
+      for (std::size_t j = i + 1; j < room.here.size(); ++j) {
+        if (are_apart(boxes_[room.here[i]], boxes_[room.here[j]])) continue;
+        const auto [a, b] = std::minmax(room.here[i], room.here[j]);
+        // Boxes that meet do so in several cells; they count in the first.
+        const glm::dvec3 low = glm::max(boxes_[a].low, boxes_[b].low);
+        if (grid_.bucket_of(low) == bucket && triangles_cross(placed(a), placed(b))) room.found.emplace_back(a, b);
       }
   }
 
   std::span<const glm::dvec3> positions_;
   std::span<const Triangle> triangles_;
-  std::vector<Bounds> boxes_;
-  glm::dvec3 low_{0.0};
-  double cell_ = 1.0;
-  std::vector<Entry> entries_;
-  std::vector<std::size_t> starts_;  // of the cells in entries_, and the end
+  std::vector<Box> boxes_;
+  BoxGrid grid_;
 };
 
 }  // namespace

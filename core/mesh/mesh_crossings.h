@@ -11,6 +11,8 @@
 #include <glm/common.hpp>
 #include <glm/vec3.hpp>
 
+#include "core/math/box_tree.h"
+
 namespace meniscus {
 
 /// A triangle by the numbers of its vertices and where these are (Å).
@@ -18,8 +20,7 @@ struct PlacedTriangle {
   std::array<std::uint32_t, 3> vertex{};
   std::array<glm::dvec3, 3> at{};
 
-  glm::dvec3 low() const { return glm::min(glm::min(at[0], at[1]), at[2]); }
-  glm::dvec3 high() const { return glm::max(glm::max(at[0], at[1]), at[2]); }
+  Box box() const { return {glm::min(glm::min(at[0], at[1]), at[2]), glm::max(glm::max(at[0], at[1]), at[2])}; }
 };
 
 /// Have these a point in common other than a vertex or edge that both have? Decided by signs of volumes in double

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The nearest point of a triangle by the regions of its plane (Ericson, "Real-Time Collision Detection", 2005, 5.1.5).
+// Finds the triangle of a mesh nearest to a point, by the regions of a triangle's plane (Ericson, "Real-Time Collision
+// Detection", 2005, 5.1.5).
 #include "core/mesh/mesh_distance.h"
 
 #include <vector>

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pixels become Å, and requests the mesh of one kind or the other.
+// Says how fine a mesh has to be, in Å or for a camera's pixels, estimates how large it will be, and makes it.
 #include "core/mesh/mesh_fineness.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <utility>
 
 #include <glm/geometric.hpp>
 
@@ -64,18 +63,9 @@ double estimated_triangles(const Surface& surface, const MeshFineness& fineness)
                                                  : patch_aligned_triangles(surface, fineness.tolerance);
 }
 
-std::vector<std::uint32_t> vertex_faces(const TriangleMesh& mesh) {
-  std::vector<std::uint32_t> face(mesh.positions.size(), kNone);
-  for (std::size_t t = mesh.triangles.size(); t-- > 0;)
-    for (const std::uint32_t v : mesh.triangles[t]) face[v] = mesh.face[t];
-  return face;
-}
-
 FineMesh fine_mesh(const Surface& surface, const MeshFineness& fineness) {
-  if (fineness.even || fineness.density > 0.0) {
-    EvenMesh even = even_mesh(surface, {fineness.density, fineness.tolerance, fineness.tolerance_at});
-    return {std::move(even.mesh), std::move(even.vertex_face), std::move(even.vertex_atom)};
-  }
+  if (fineness.even || fineness.density > 0.0)
+    return even_mesh(surface, {fineness.density, fineness.tolerance, fineness.tolerance_at});
   FineMesh made{tessellate(surface, {fineness.tolerance, true}), {}, {}};
   made.vertex_face = vertex_faces(made.mesh);
   made.vertex_atom = vertex_atoms(made.mesh);

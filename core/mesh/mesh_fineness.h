@@ -35,16 +35,6 @@ MeshFineness fineness_of(const MeshRequest& request, bool even, double density, 
 /// About how many triangles the mesh of a surface gets, to a factor of two, without making it.
 double estimated_triangles(const Surface& surface, const MeshFineness& fineness);
 
-/// A mesh, and what its vertices belong to.
-struct FineMesh {
-  TriangleMesh mesh;
-  std::vector<std::uint32_t> vertex_face;  ///< into Surface::faces: one that the vertex lies on
-  std::vector<std::uint32_t> vertex_atom;  ///< into Surface::atoms
-};
-
-/// Of each vertex of a mesh that keeps to patches, the face of the first of its triangles.
-std::vector<std::uint32_t> vertex_faces(const TriangleMesh& mesh);
-
 /// Throws what tessellate() or even_mesh() throw.
 FineMesh fine_mesh(const Surface& surface, const MeshFineness& fineness);
 

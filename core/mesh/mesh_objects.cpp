@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Meshes object by object, and turns pixels into Å.
+// Meshes the surfaces of several objects, and turns a tolerance in pixels into Å.
 #include "core/mesh/mesh_objects.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Insertion, flips and constraint recovery of the exact planar triangulation.
+// Triangulates points and segments of the plane exactly: insertion, flips, recovery of constraints.
 #include "core/mesh/planar_triangulation.h"
 
 #include <deque>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Meshes all boundaries at once, and turns them over.
+// Meshes the boundaries of all pockets at once, and turns them over, so that they face outwards.
 #include "core/mesh/pocket_mesh.h"
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Cuts by one plane after the other, then parts what is left into surface and caps.
+// Cuts a closed mesh by one plane after the other, then parts what is left into surface and caps.
 #include "core/mesh/section_mesh.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Spheres by circles of latitude, cylinders by prisms.
+// Makes meshes of shapes beside a surface: spheres by circles of latitude, cylinders by prisms.
 #include "core/mesh/shape_mesh.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Curvature measures of vertices, and walks that add them up.
+// Measures the curvature of a mesh at each vertex, and averages it over the vertices around.
 #include "core/mesh/smoothed_curvature.h"
 
 #include <array>

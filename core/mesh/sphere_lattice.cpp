@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Subdivision of the icosahedron.
+// Spreads points evenly over a sphere by subdividing an icosahedron.
 #include "core/mesh/sphere_lattice.h"
 
 #include <algorithm>

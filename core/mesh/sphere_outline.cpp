@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Outlines of faces on spheres: convex and concave patches.
+// Outlines convex and concave faces, which lie on spheres, in the plane where they are meshed.
 #include <algorithm>
 #include <cmath>
 #include <map>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Feet on spheres and tori, and which wall of a face's cell stands between it and a point.
+// Projects a point to the surface: walks from face to face while it is beyond a wall of a face's cell.
 #include "core/mesh/surface_walk.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Meshing in five steps: sample borders, fill faces, part doubled edges, colour, number the vertices.
+// Meshes a surface in five steps: sample borders, fill faces, part doubled edges, colour, number the vertices.
 #include "core/mesh/tessellate.h"
 
 #include <algorithm>

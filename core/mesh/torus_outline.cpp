@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Outlines of faces on tori: strips, rings cut open along a seam, halves of spindles, and drops around a tip.
+// Outlines toroidal faces in the plane where they are meshed: strips, rings cut open along a seam, halves of spindles,
+// and drops around a tip.
 #include <algorithm>
 #include <cmath>
 #include <numbers>

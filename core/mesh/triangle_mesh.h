@@ -46,6 +46,16 @@ struct TriangleMesh {
   bool partly_hidden = false;  ///< triangles were left out: edges along the border of what is shown have one triangle
 };
 
+/// A mesh, and what its vertices belong to.
+struct FineMesh {
+  TriangleMesh mesh;
+  std::vector<std::uint32_t> vertex_face;  ///< into Surface::faces: one that the vertex lies on
+  std::vector<std::uint32_t> vertex_atom;  ///< into Surface::atoms: the touched one whose contact is nearest
+};
+
+/// Of each vertex of a mesh that keeps to patches, the face of the first of its triangles.
+std::vector<std::uint32_t> vertex_faces(const TriangleMesh& mesh);
+
 /// Measures of a triangle mesh, or of one component of it.
 struct MeshMeasure {
   std::size_t vertex_count = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Differentiates the conditions that hold a probe.
+// Computes how points of a surface move with its atoms: differentiates the conditions that hold a probe.
 #include "core/mesh/velocity.h"
 
 #include <algorithm>

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Edge collapses under the link condition and edge flips, with lists of triangles for the few vertices they concern.
+// Takes short edges out of a mesh by collapses under the link condition, and flat triangles by flips.
 #include "core/mesh/weld.h"
 
 #include <algorithm>
-#include <iterator>
 #include <numeric>
 #include <optional>
-#include <unordered_map>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/type_precision.hpp>
 
 #include "core/base/index.h"
+#include "core/mesh/corner_lists.h"
+#include "core/mesh/half_edges.h"
 
 namespace meniscus {
 namespace {
@@ -23,6 +23,8 @@ using Triangle = std::array<std::uint32_t, 3>;
 constexpr int kRounds = 12;
 constexpr double kNoFin = -1.0;
 
+/// Half-edges of the triangles at the ends of short edges and at the corners of flat triangles, few of a mesh, answer
+/// all questions about them. Vertices whose triangles do not go around them once stay as they are.
 class Welder {
  public:
   /// scale: a file holds that many times the positions in single precision; 0: the positions as they are. longest_fin:
@@ -38,7 +40,7 @@ class Welder {
   void join_short_edges() {
     find_short_edges();
     if (short_.empty()) return;
-    list_triangles();
+    link_triangles();
     // A collapse may bring other vertices together, so that an edge that could not go now can. What then is left, fins
     // may keep.
     for (const double longest_fin : {kNoFin, longest_fin_})
@@ -46,6 +48,7 @@ class Welder {
         again = false;
         for (auto& [keep, drop] : short_) again = collapse(keep, drop, longest_fin) || again;
       }
+    put_back_triangles();
   }
 
   /// changed(t, from): triangle t now covers what `from` did.
@@ -55,10 +58,13 @@ class Welder {
       find_flat_triangles();
       if (flat_.empty()) return;
       short_.clear();
-      list_triangles();
+      link_triangles();
       bool any = false;
-      for (const std::uint32_t t : flat_)
-        if (!made_.gone[t]) any = flip(t, changed) || any;
+      for (const std::uint32_t t : flat_) {
+        const auto local = static_cast<std::uint32_t>(std::ranges::lower_bound(part_, t) - part_.begin());
+        if (links_->lives(3 * local)) any = flip(local, changed) || any;
+      }
+      put_back_triangles();
       if (!any) break;
     }
     find_flat_triangles();
@@ -76,10 +82,9 @@ class Welder {
   /// back to back. While it is there, the ends of the edge have three neighbours in common. The foot may be the next
   /// tip.
   struct Fin {
-    std::uint32_t end = 0;             ///< triangle
-    std::vector<std::uint32_t> sides;  ///< triangles, two a tip
-    std::vector<std::uint32_t> tips;   ///< vertices
-    std::uint32_t foot = 0;            ///< vertex: of the last tip
+    std::uint32_t half = 0;           ///< that of the short edge, in the first triangle
+    std::vector<std::uint32_t> tips;  ///< vertices
+    std::uint32_t foot = 0;           ///< vertex: of the last tip
   };
 
   glm::vec3 single(std::uint32_t v) const { return glm::vec3(scale_ * positions_[v]); }
@@ -119,95 +124,56 @@ class Welder {
       if (!made_.gone[t] && is_flat(triangles_[t])) flat_.push_back(t);
   }
 
-  // Of the ends of short edges and the corners of flat triangles, which take part in every question.
-  void list_triangles() {
-    around_.clear();
-    std::vector<bool> wanted(positions_.size(), false);
-    for (const auto& [a, b] : short_) wanted[a] = wanted[b] = true;
+  void link_triangles() {
+    linked_.assign(positions_.size(), false);
+    for (const auto& [a, b] : short_) linked_[a] = linked_[b] = true;
     for (const std::uint32_t t : flat_)
-      for (const std::uint32_t v : triangles_[t]) wanted[v] = true;
-    for (std::uint32_t t = 0; t < triangles_.size(); ++t)
-      if (!made_.gone[t])
-        for (const std::uint32_t v : triangles_[t])
-          if (wanted[v]) around_[v].push_back(t);
+      for (const std::uint32_t v : triangles_[t]) linked_[v] = true;
+    part_.clear();
+    std::vector<Triangle> triangles;
+    for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
+      const auto& [a, b, c] = triangles_[t];
+      if (made_.gone[t] || !(linked_[a] || linked_[b] || linked_[c])) continue;
+      part_.push_back(t);
+      triangles.push_back(triangles_[t]);
+    }
+    const CornerLists corners(triangles, static_cast<std::uint32_t>(positions_.size()));
+    links_ = HalfEdges::of_part(triangles, corners);
+    for (const Triangle& t : triangles)
+      for (const std::uint32_t v : t)
+        if (linked_[v] && !go_around_once(triangles, corners.at(v))) linked_[v] = false;
   }
 
-  static bool has(const Triangle& t, std::uint32_t v) { return std::ranges::find(t, v) != t.end(); }
-  static std::uint32_t third_corner(const Triangle& t, std::uint32_t a, std::uint32_t b) {
-    return *std::ranges::find_if(t, [a, b](std::uint32_t v) { return v != a && v != b; });
+  void put_back_triangles() {
+    for (std::uint32_t local = 0; local < part_.size(); ++local) {
+      if (links_->lives(3 * local))
+        triangles_[part_[local]] = links_->corners(local);
+      else
+        made_.gone[part_[local]] = true;
+    }
   }
 
-  std::vector<std::uint32_t> neighbors(std::uint32_t v) const {
-    std::vector<std::uint32_t> found;
-    for (const std::uint32_t t : around_.at(v))
-      for (const std::uint32_t w : triangles_[t])
-        if (w != v) found.push_back(w);
-    std::ranges::sort(found);
-    found.erase(std::unique(found.begin(), found.end()), found.end());
-    return found;
+  bool may_change(std::uint32_t v) const { return linked_[v] && links_->vertex_lives(v); }
+
+  /// Whether the mesh stays what it is where two vertices become one that have an edge, or would have one more
+  /// neighbour each (`to_come` 2) if they had one, once so many tips of fins beside it are gone.
+  bool can_join(const CommonNeighbors& neighbors, std::size_t to_come, std::size_t tips) const {
+    // Of less than 7 nothing but two triangles back to back would stay.
+    return neighbors.common == 2 + tips && neighbors.sum + to_come - 2 * tips >= 7;
   }
 
-  void take_from_lists(std::uint32_t t) {
-    for (const std::uint32_t v : triangles_[t])
-      if (const auto list = around_.find(v); list != around_.end()) std::erase(list->second, t);
-  }
-
-  void put_on_lists(std::uint32_t t) {
-    for (const std::uint32_t v : triangles_[t])
-      if (const auto list = around_.find(v); list != around_.end()) list->second.push_back(t);
-  }
-
-  std::vector<std::uint32_t> triangles_at(std::uint32_t a, std::uint32_t b) const {
-    std::vector<std::uint32_t> found;
-    for (const std::uint32_t t : around_.at(a))
-      if (has(triangles_[t], b)) found.push_back(t);
-    return found;
-  }
-
-  bool is_gone(std::uint32_t v) const { return made_.into[v] != v; }
-
-  void remove(std::uint32_t t) {
-    take_from_lists(t);
-    made_.gone[t] = true;
-  }
-
-  std::vector<std::uint32_t> common_neighbors(std::uint32_t a, std::uint32_t b) const {
-    const std::vector<std::uint32_t> of_a = neighbors(a), of_b = neighbors(b);
-    std::vector<std::uint32_t> common;
-    std::set_intersection(of_a.begin(), of_a.end(), of_b.begin(), of_b.end(), std::back_inserter(common));
-    return common;
-  }
-
-  /// Whether the mesh stays what it is where two vertices become one that have an edge, or would have one, once so many
-  /// tips of fins beside it are gone.
-  bool can_join(std::uint32_t a, std::uint32_t b, std::size_t tips) const {
-    if (!around_.contains(a) || !around_.contains(b)) return false;
-    if (common_neighbors(a, b).size() != 2 + tips) return false;
-    const std::vector<std::uint32_t> of_a = neighbors(a), of_b = neighbors(b);
-    const std::size_t edge_to_come = std::ranges::binary_search(of_a, b) ? 0 : 2;
-    return of_a.size() + of_b.size() + edge_to_come - 2 * tips >= 7;  // else nothing but two triangles back to back
-  }
-
-  /// The triangle beside t at an edge.
-  std::optional<std::uint32_t> beside(std::uint32_t t, std::uint32_t a, std::uint32_t b) const {
-    std::vector<std::uint32_t> found = triangles_at(a, b);
-    std::erase(found, t);
-    return found.size() == 1 ? std::optional(found[0]) : std::nullopt;
-  }
-
-  /// With at most so many tips; perhaps none.
-  Fin fin_at(std::uint32_t end, std::uint32_t a, std::uint32_t b, std::size_t most) const {
-    Fin fin{end, {}, {}, third_corner(triangles_[end], a, b)};
-    for (std::uint32_t last_a = end, last_b = end; fin.tips.size() < most;) {
-      const auto side_a = beside(last_a, a, fin.foot), side_b = beside(last_b, b, fin.foot);
-      if (!side_a || !side_b) break;
-      const std::uint32_t foot = third_corner(triangles_[*side_a], a, fin.foot);
-      if (third_corner(triangles_[*side_b], b, fin.foot) != foot) break;
+  /// At a half-edge of a short edge, with at most so many tips; perhaps none.
+  Fin fin_at(std::uint32_t half, std::size_t most) const {
+    Fin fin{half, {}, links_->opposite(half)};
+    std::uint32_t to_tip = HalfEdges::next(half), from_tip = HalfEdges::last(half);
+    while (fin.tips.size() < most) {
+      const std::uint32_t beside = links_->twin(to_tip), other = links_->twin(from_tip);
+      const std::uint32_t foot = links_->opposite(beside);
+      if (links_->opposite(other) != foot) break;
       fin.tips.push_back(fin.foot);
-      fin.sides.insert(fin.sides.end(), {*side_a, *side_b});
       fin.foot = foot;
-      last_a = *side_a;
-      last_b = *side_b;
+      to_tip = HalfEdges::next(beside);
+      from_tip = HalfEdges::last(other);
     }
     return fin;
   }
@@ -224,88 +190,70 @@ class Welder {
     return longest;
   }
 
-  /// One triangle instead of those at its tips.
-  void take_out(const Fin& fin) {
-    for (const std::uint32_t t : fin.sides) remove(t);
-    take_from_lists(fin.end);
-    std::ranges::replace(triangles_[fin.end], fin.tips.front(), fin.foot);
-    put_on_lists(fin.end);
-    made_.fins += fin.tips.size();
-  }
-
   bool collapse(std::uint32_t keep, std::uint32_t drop, double longest_fin) {
-    if (keep == drop || is_gone(keep) || is_gone(drop)) return false;
-    const std::vector<std::uint32_t> across = triangles_at(drop, keep);
-    if (across.size() != 2) return false;
-    const std::size_t common = common_neighbors(keep, drop).size();
+    if (keep == drop || !may_change(keep) || !may_change(drop)) return false;
+    const std::uint32_t half = links_->between(drop, keep);
+    if (half == kNone) return false;
+    const CommonNeighbors neighbors = common_neighbors(*links_, keep, drop);
     std::size_t tips = 0;
     std::vector<Fin> fins;
-    for (const std::uint32_t t : across) {
-      if (longest_fin < 0.0 || common <= 2 + tips) continue;
-      const Fin fin = fin_at(t, keep, drop, common - 2 - tips);
+    const auto [first, second] = std::minmax({half, links_->twin(half)});
+    for (const std::uint32_t side : {first, second}) {
+      if (longest_fin < 0.0 || neighbors.common <= 2 + tips) continue;
+      const Fin fin = fin_at(side, neighbors.common - 2 - tips);
       if (fin.tips.empty() || length(fin, keep) > longest_fin) continue;
       tips += fin.tips.size();
       fins.push_back(fin);
     }
-    if (!can_join(keep, drop, tips)) return false;
-    for (const Fin& fin : fins) take_out(fin);
-    for (const std::uint32_t t : across) remove(t);
-    for (const std::uint32_t t : around_[drop]) {
-      for (std::uint32_t& v : triangles_[t])
-        if (v == drop) v = keep;
-      around_[keep].push_back(t);
-    }
-    around_[drop].clear();
+    if (!can_join(neighbors, 0, tips)) return false;
+    for (const Fin& fin : fins)
+      for (std::size_t n = 0; n < fin.tips.size(); ++n) links_->unpoke(fin.half);
+    links_->collapse(half);
+    made_.fins += tips;
     made_.into[drop] = keep;
     ++made_.joined;
     // What was short between the dropped vertex and a third one is so from here.
-    for (auto& [first, second] : short_) {
-      if (first == drop) first = keep;
-      if (second == drop) second = keep;
-      if (second < first) std::swap(first, second);
+    for (auto& [one, other] : short_) {
+      if (one == drop) one = keep;
+      if (other == drop) other = keep;
+      if (other < one) std::swap(one, other);
     }
     return true;
   }
 
-  // Turns a flat triangle so that its longest edge is its first.
-  Triangle from_longest_edge(std::uint32_t t) const {
-    Triangle turned = triangles_[t], longest = turned;
+  /// Of a triangle the half-edge of its longest edge; of equal ones the first.
+  std::uint32_t longest_edge(std::uint32_t t) const {
+    std::uint32_t longest = 3 * t;
     double most = -1.0;
-    for (int k = 0; k < 3; ++k) {
-      const double length = glm::distance(positions_[turned[0]], positions_[turned[1]]);
+    for (std::uint32_t half = 3 * t; half < 3 * t + 3; ++half) {
+      const double length = glm::distance(positions_[links_->from(half)], positions_[links_->to(half)]);
       if (length > most) {
         most = length;
-        longest = turned;
+        longest = half;
       }
-      turned = {turned[1], turned[2], turned[0]};
     }
     return longest;
   }
 
   template <typename Changed>
   bool flip(std::uint32_t t, const Changed& changed) {
-    if (!is_flat(triangles_[t])) return false;  // a flip before has mended it
-    const auto [a, b, c] = from_longest_edge(t);
-    const std::vector<std::uint32_t> at = triangles_at(a, b);
-    if (at.size() != 2) return false;
-    const std::uint32_t other = at[0] == t ? at[1] : at[0];
-    const Triangle before = triangles_[other];
-    const std::uint32_t d = third_corner(before, a, b);
-    if (d == c || !triangles_at(c, d).empty()) return false;
+    if (!is_flat(links_->corners(t))) return false;  // a flip before has mended it
+    const std::uint32_t half = longest_edge(t), other = links_->twin(half);
+    const std::uint32_t a = links_->from(half), b = links_->to(half), c = links_->opposite(half);
+    if (!may_change(a) || !may_change(b) || !may_change(c) || !links_->can_flip(half)) return false;
+    const Triangle before = links_->corners(other / 3);
+    const std::uint32_t d = links_->opposite(other);
     const Triangle first{a, d, c}, second{d, b, c};
     const bool had_area = !is_flat(before);
     const int flat_after = int(is_flat(first)) + int(is_flat(second)), flat_now = 1 + int(!had_area);
-    const bool joins = !had_area && is_short(c, d) && can_join(c, d, 0);
+    const bool joins = !had_area && is_short(c, d) && may_change(d) && can_join(common_neighbors(*links_, c, d), 2, 0);
     if (flat_after >= flat_now && !joins) return false;
     if (had_area && (glm::dot(normal(first), normal(before)) <= 0.0 || glm::dot(normal(second), normal(before)) <= 0.0))
       return false;
-    take_from_lists(t);
-    take_from_lists(other);
-    triangles_[t] = first;
-    triangles_[other] = second;
-    put_on_lists(t);
-    put_on_lists(other);
-    changed(t, other);
+    links_->flip(half);
+    links_->put_first(HalfEdges::last(half));  // the triangles as they are above: what is written depends on it
+    links_->put_first(HalfEdges::next(other));
+    changed(part_[t], part_[other / 3]);
     if (joins)
       collapse(std::min(c, d), std::max(c, d), kNoFin);
     else
@@ -319,7 +267,9 @@ class Welder {
   Welding made_;
   std::vector<Edge> short_;
   std::vector<std::uint32_t> flat_;
-  std::unordered_map<std::uint32_t, std::vector<std::uint32_t>> around_;
+  std::vector<std::uint32_t> part_;  ///< the triangles that are linked, ascending
+  std::optional<HalfEdges> links_;   ///< of these; vertices have the numbers that they have in the mesh
+  std::vector<bool> linked_;         ///< per vertex: all of its triangles are, and go around it once
 };
 
 /// To the vertex at the end of the chain.

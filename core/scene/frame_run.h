@@ -105,8 +105,6 @@ class FrameRun {
   /// The next frame of the chunk; nothing behind the last. Throws what reading it threw: then next() can be called
   /// again for the one behind it.
   std::optional<RunFrame> next();
-  /// The number of the frame that next() gives or throws about.
-  std::uint64_t upcoming() const { return chunk_[taken_]; }
 
  private:
   void choose_frames(const RunRequest& request);

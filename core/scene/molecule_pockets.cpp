@@ -2,7 +2,6 @@
 // Parts a structure, and puts its numbers of atoms back.
 #include "core/scene/molecule_pockets.h"
 
-#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -41,13 +40,6 @@ std::vector<LeftOutResidue> residues_of(const Structure& structure, const std::v
 }
 
 }  // namespace
-
-std::vector<double> pocket_ranks(const Pockets& found, std::size_t atom_count) {
-  std::vector<double> rank(atom_count, std::numeric_limits<double>::quiet_NaN());
-  for (std::size_t n = found.pockets.size(); n-- > 0;)
-    for (const std::uint32_t a : found.pockets[n].cavity.atoms) rank[a] = static_cast<double>(n + 1);
-  return rank;
-}
 
 PocketComputer::PocketComputer(SurfaceRequest computing, const PocketRequest& request)
     : request_(request),

@@ -26,9 +26,6 @@ struct MoleculePockets {
   std::size_t atom_count = 0;  ///< those that pockets are between
 };
 
-/// Per atom of a structure the rank of the first pocket that it lines, from 1; NaN: of none.
-std::vector<double> pocket_ranks(const Pockets& found, std::size_t atom_count);
-
 /// Finds the pockets of one structure after another on one device.
 class PocketComputer {
  public:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// DMS: columns of fixed width, each atom before the dots that are its own.
+// Writes DMS files: columns of fixed width, each atom before the dots that are its own.
 #include <algorithm>
 #include <cctype>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Mesh, weld, number, hide, colour, in this order.
+// Makes an object of a mesh file of a surface: meshes, welds, numbers, hides, colours, in this order.
 #include "exporters/mesh_files/file_object.h"
 
 #include <algorithm>

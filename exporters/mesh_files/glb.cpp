@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// GLB: a JSON chunk that says what the arrays of the binary chunk are; a node, a mesh and arrays an object.
+// Writes GLB files: a JSON chunk that says what the arrays of the binary chunk are; a node, a mesh and arrays an
+// object.
 #include <algorithm>
 #include <cctype>
 #include <cmath>

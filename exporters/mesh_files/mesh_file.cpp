@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Objects one behind another.
+// Joins the objects of a mesh file into one, for formats that hold no more.
 #include "exporters/mesh_files/mesh_file.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The table.
+// Lists the formats of mesh files, finds one by its name or ending, and writes a file in it.
 #include "exporters/mesh_files/mesh_formats.h"
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// OBJ: for each object its vertices, their normals, and triangles that count both from the beginning of the file.
+// Writes OBJ files: for each object its vertices, their normals, and triangles that count both from the beginning of
+// the file.
 #include <algorithm>
 #include <cctype>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// OFF: a line with counts, then positions, then triangles.
+// Writes OFF files: a line with counts, then positions, then triangles.
 #include <fmt/compile.h>
 
 #include "exporters/mesh_files/text_rows.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// PLY: a header that names the columns, then little-endian rows.
+// Writes PLY files: a header that names the columns, then little-endian rows.
 #include <fmt/format.h>
 
 #include "exporters/mesh_files/binary_rows.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Divides the mesh by pocket.
+// Divides the mesh of all pockets into objects of a mesh file, one a pocket.
 #include "exporters/mesh_files/pocket_file.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// TetGen's four lists: points, facets with the number of their component, holes, regions. All count from 1.
+// Writes TetGen's four lists: points, facets with the number of their component, holes, regions. All count from 1.
 #include <fmt/compile.h>
 
 #include "exporters/mesh_files/text_rows.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// STL: 80 bytes about the file, how many triangles there are, and 50 bytes each.
+// Writes STL files: 80 bytes about the file, how many triangles there are, and 50 bytes each.
 #include <array>
 #include <limits>
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// 3MF: a model of objects in millimetres, a group of the colours that occur, and the two parts a package must have.
+// Writes 3MF files: a model of objects in millimetres, a group of the colours that occur, and the two parts a package
+// must have.
 #include <algorithm>
 #include <utility>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A table of columns and what fills them.
+// Fills the columns of numbers that vertices of a mesh file may have.
 #include "exporters/mesh_files/vertex_numbers.h"
 
 #include <algorithm>

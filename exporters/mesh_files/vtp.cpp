@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// VTP: XML that says where in the appended bytes each array begins; every array has its size before it.
+// Writes VTP files: XML that says where in the appended bytes each array begins; every array has its size before it.
 #include <limits>
 
 #include <fmt/format.h>

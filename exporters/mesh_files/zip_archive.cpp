@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Zip's records around streams of libdeflate.
+// Writes zip archives: records around streams of libdeflate.
 #include "exporters/mesh_files/zip_archive.h"
 
 #include <limits>

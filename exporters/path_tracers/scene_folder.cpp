@@ -7,10 +7,10 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "exporters/path_tracers/mesh_file.h"
 #include "exporters/path_tracers/mitsuba_scene.h"
 #include "exporters/path_tracers/optics.h"
 #include "exporters/path_tracers/pbrt_scene.h"
+#include "exporters/path_tracers/ply_mesh.h"
 #include "exporters/path_tracers/split_colors.h"
 
 namespace meniscus::path_tracers {

@@ -45,7 +45,6 @@ class Panel {
   void picked();
   void picture_wishes();
   void take_wishes();
-  void send_export(const std::string& path);
   void progress();
   nlohmann::json wished(nlohmann::json command) const;
   void timing();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The meshes that even ones begin with, looked at triangle by triangle: where their corners lie, where they face.
-#include "core/mesh/coarse_mesh.h"
+#include "core/mesh/base_mesh.h"
 
 #include <map>
 #include <set>

@@ -12,10 +12,8 @@
 
 #include "core/base/error.h"
 #include "core/mesh/base_mesh.h"
-#include "core/mesh/coarse_mesh.h"
-#include "core/mesh/crossing_guard.h"
 #include "core/mesh/even_mesh.h"
-#include "core/mesh/linked_triangles.h"
+#include "core/mesh/half_edges.h"
 #include "core/mesh/mesh_crossings.h"
 #include "core/mesh/tessellate.h"
 #include "core/queries/distance.h"
@@ -119,7 +117,7 @@ TEST_P(EvenMeshOf, HasTheTopologyOfTheSurfaceAtAnyDensity) {
   const Surface surface = compute_surface_cpu(c.balls, c.probe);
   for (const double density : {0.1, 1.0, 8.0}) {
     SCOPED_TRACE(density);
-    const EvenMesh even = even_mesh(surface, {density, 0.0, {}});
+    const FineMesh even = even_mesh(surface, {density, 0.0, {}});
     expect_same_topology(surface, even.mesh);
     EXPECT_TRUE(crossing_triangles(even.mesh.positions, even.mesh.triangles).empty());
     const SurfaceDistance distance(surface);
@@ -169,7 +167,7 @@ BaseMesh expect_contracted_mesh(const Surface& surface) {
     EXPECT_EQ(measure(mesh, k).euler(), surface.components[k].euler) << "component " << k;
   const SurfaceDistance distance(surface);
   for (const glm::dvec3& x : mesh.positions) EXPECT_LT(std::abs(distance(x).distance), 1e-7);
-  const LinkedTriangles links(mesh.triangles, static_cast<std::uint32_t>(mesh.positions.size()));
+  const HalfEdges links(mesh.triangles, static_cast<std::uint32_t>(mesh.positions.size()));
   std::vector<std::uint32_t> corners(mesh.positions.size(), 0);
   for (const Triangle& t : mesh.triangles)
     for (const std::uint32_t v : t) ++corners[v];
@@ -288,9 +286,9 @@ TEST(EvenMesh, ToleranceMayDependOnThePlace) {
 
 TEST(EvenMesh, IsTheSameForAnyNumberOfThreads) {
   const Surface surface = compute_surface_cpu(ubiquitin(), kWater);
-  const EvenMesh many = even_mesh(surface, {0.5, 0.0, {}});
+  const FineMesh many = even_mesh(surface, {0.5, 0.0, {}});
   const tbb::global_control alone(tbb::global_control::max_allowed_parallelism, 1);
-  const EvenMesh one = even_mesh(surface, {0.5, 0.0, {}});
+  const FineMesh one = even_mesh(surface, {0.5, 0.0, {}});
   EXPECT_EQ(many.mesh.positions, one.mesh.positions);
   EXPECT_EQ(many.mesh.triangles, one.mesh.triangles);
   EXPECT_EQ(many.vertex_atom, one.vertex_atom);
@@ -302,66 +300,6 @@ TEST(EvenMesh, RefusesNumbersThatMakeNoSense) {
     EXPECT_THROW(even_mesh(surface, {density, 0.05, {}}), Error) << density;
   for (const double tolerance : {-1.0, 0.0, std::nan("")})
     EXPECT_THROW(even_mesh(surface, {0.0, tolerance, {}}), Error) << tolerance;
-}
-
-TEST(MeshCrossings, AreFoundWhereTwoTetrahedraOverlap) {
-  const std::vector<Triangle> one{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
-  std::vector<glm::dvec3> x{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  EXPECT_TRUE(crossing_triangles(x, one).empty());
-  std::vector<Triangle> both = one;
-  for (const Triangle& t : one) both.push_back({t[0] + 4, t[1] + 4, t[2] + 4});
-  for (const double shift : {0.1, 2.0}) {
-    std::vector<glm::dvec3> all = x;
-    for (int k = 0; k < 4; ++k) all.push_back(x[k] + glm::dvec3(shift, 0.11 * shift, 0.13 * shift));
-    EXPECT_EQ(crossing_triangles(all, both).empty(), shift == 2.0);
-  }
-}
-
-TEST(CrossingGuard, CountsWhatPassesThroughListedTriangles) {
-  const std::vector<Triangle> one{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
-  const std::vector<glm::dvec3> x{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  const LinkedTriangles links(one, 4);
-  CrossingGuard guard(links, x);
-  const auto crossings = [&](const PlacedTriangle& made, std::vector<std::uint32_t> gone) {
-    return guard.crossings({&made, 1}, gone);
-  };
-  const PlacedTriangle through{{7, 8, 9}, {{{0.2, 0.2, -1}, {0.2, 0.2, 2}, {-3, -3, 0.5}}}};
-  const PlacedTriangle beside{{7, 8, 9}, {{{2, 2, -1}, {2, 2, 2}, {3, 3, 0.5}}}};
-  guard.list({0, 0, 0, 0});
-  EXPECT_EQ(crossings(through, {}), 0u);  // nothing is listed
-  guard.list({1, 1, 1, 1});
-  EXPECT_EQ(crossings(through, {}), 4u);
-  EXPECT_EQ(crossings(through, {0}), 3u);
-  EXPECT_EQ(crossings(beside, {}), 0u);
-  guard.list({0, 0, 0, 0});
-  guard.add(2);
-  guard.add(2);  // listed twice, counted once
-  EXPECT_EQ(crossings(through, {}), 1u);
-  const std::array<PlacedTriangle, 2> both{
-      through, PlacedTriangle{{10, 11, 12}, {{{-0.5, -0.6, 0.5}, {-0.62, -0.5, 0.4}, {-0.6, -0.5, 0.6}}}}};
-  EXPECT_EQ(guard.crossings(both, std::vector<std::uint32_t>{2}), 1u);  // each other
-}
-
-TEST(LinkedTriangles, AreClosedWithANewVertexInATriangle) {
-  LinkedTriangles links(std::vector<Triangle>{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}, 4);
-  links.set_crease(4, 6);
-  EXPECT_EQ(links.poke(1), 4u);
-  EXPECT_EQ(links.triangle_count(), 6u);
-  EXPECT_EQ(links.valence(4), 3u);
-  for (const std::uint32_t v : {0u, 1u, 3u}) EXPECT_EQ(links.valence(v), 4u);
-  for (std::uint32_t half = 0; half < links.half_edge_count(); ++half) {
-    EXPECT_EQ(links.from(links.twin(half)), links.to(half));
-    EXPECT_EQ(links.to(links.twin(half)), links.from(half));
-    const bool creased = std::minmax(links.from(half), links.to(half)) == std::minmax(1u, 3u);
-    EXPECT_EQ(links.crease(half), creased ? 6u : kNone);
-  }
-}
-
-TEST(MeshCrossings, AreFoundAtASharedVertex) {
-  const std::vector<glm::dvec3> x{{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {1, 0.2, -1}, {0.4, 0.8, 1}};
-  EXPECT_EQ(crossing_triangles(x, std::vector<Triangle>{{0, 1, 2}, {0, 3, 4}}).size(), 1u);
-  const std::vector<glm::dvec3> y{{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {1, 0.2, 1}, {0.4, 0.8, 1}};
-  EXPECT_TRUE(crossing_triangles(y, std::vector<Triangle>{{0, 1, 2}, {0, 3, 4}}).empty());
 }
 
 }  // namespace

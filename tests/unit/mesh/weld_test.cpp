@@ -2,6 +2,7 @@
 // Welding: short edges and flat triangles go where the mesh stays a closed surface of the same genus, and nowhere else.
 #include "core/mesh/weld.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
@@ -178,6 +179,16 @@ TEST(Weld, AFlatTriangleLosesItsLongestEdge) {
   }
 }
 
+TEST(Weld, WhereFlippedTrianglesBeginDoesNotDependOnWhereTheyBegan) {
+  for (const std::size_t turn : {0, 1, 2}) {
+    TriangleMesh mesh = tetrahedron_with_a_flat_triangle(0.0);
+    for (auto& t : mesh.triangles) std::ranges::rotate(t, t.begin() + turn);
+    weld(mesh);
+    EXPECT_EQ(mesh.triangles[0], (std::array<std::uint32_t, 3>{2, 1, 4}));
+    EXPECT_EQ(mesh.triangles[1], (std::array<std::uint32_t, 3>{0, 2, 4}));
+  }
+}
+
 // The diagonal of two flat triangles is too short to be an edge.
 TEST(Weld, TwoFlatTrianglesGoAndTheirCornersBecomeOne) {
   TriangleMesh mesh = mesh_of({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {0, 0, 4}, {2, 0.0002, 0}, {2, 0, 0.0002}},
@@ -216,6 +227,19 @@ TEST(Weld, TrianglesWithoutAreaInSinglePrecisionGo) {
   for (glm::dvec3& x : mesh.positions) x += glm::dvec3(1e6);
   EXPECT_EQ(weld(mesh).flipped, 1u);
   EXPECT_EQ(euler_if_closed(mesh), 2);
+}
+
+// Triangles do not go around it once: an edge there could vanish on one side only.
+TEST(Weld, AVertexOfTwoPartsStays) {
+  TriangleMesh mesh = octahedron_with_a_double_corner(0.0004);
+  const std::vector<glm::dvec3> more{{1, 0, 2}, {0, 1, 2}, {-1, -1, 2}};
+  mesh.positions.insert(mesh.positions.end(), more.begin(), more.end());
+  std::vector<std::array<std::uint32_t, 3>> triangles{{0, 8, 7}, {0, 9, 8}, {0, 7, 9}, {7, 8, 9}};
+  triangles.insert(triangles.end(), mesh.triangles.begin(), mesh.triangles.end());
+  mesh = mesh_of(mesh.positions, triangles);
+  EXPECT_TRUE(measure(mesh).closed);
+  EXPECT_EQ(weld(mesh).joined, 0u);
+  EXPECT_EQ(mesh.triangles, triangles);
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A header that names the columns, then little-endian rows (G. Turk 1994).
-#include "exporters/path_tracers/mesh_file.h"
+// Writes a mesh of a scene as binary PLY: a header that names the columns, then little-endian rows (G. Turk 1994).
+#include "exporters/path_tracers/ply_mesh.h"
 
 #include <string>
 

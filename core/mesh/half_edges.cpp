@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The Euler operations: split, collapse with the link condition (Dey, Edelsbrunner, Guha & Nekhayev 1999), flip.
-#include "core/mesh/linked_triangles.h"
+// Changes triangle meshes by Euler operations: split, collapse under the link condition (Dey, Edelsbrunner, Guha &
+// Nekhayev 1999), flip.
+#include "core/mesh/half_edges.h"
 
 #include <algorithm>
-#include <numeric>
 
 #include "core/base/error.h"
 
@@ -15,36 +15,41 @@ constexpr std::size_t kRing = 16;
 
 }  // namespace
 
-LinkedTriangles::LinkedTriangles(std::span<const std::array<std::uint32_t, 3>> triangles, std::uint32_t vertex_count)
+HalfEdges::HalfEdges(std::span<const std::array<std::uint32_t, 3>> triangles, std::uint32_t vertex_count)
+    : HalfEdges(triangles, CornerLists(triangles, vertex_count), Open::refused) {}
+
+HalfEdges HalfEdges::of_part(std::span<const std::array<std::uint32_t, 3>> triangles, const CornerLists& corners) {
+  return {triangles, corners, Open::allowed};
+}
+
+HalfEdges::HalfEdges(std::span<const std::array<std::uint32_t, 3>> triangles, const CornerLists& corners, Open open)
     : from_(3 * triangles.size()),
       twin_(3 * triangles.size(), kNone),
       crease_(3 * triangles.size(), kNone),
-      leaving_(vertex_count, kNone) {
-  std::vector<std::uint32_t> first(vertex_count + 1, 0), order(from_.size());
-  for (std::size_t t = 0; t < triangles.size(); ++t)
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint32_t v = triangles[t][k];
-      from_[3 * t + k] = v;
-      leaving_[v] = static_cast<std::uint32_t>(3 * t + k);
-      ++first[v];
-    }
-  std::partial_sum(first.begin(), first.end(), first.begin());
-  for (std::uint32_t half = half_edge_count(); half-- > 0;) order[--first[from_[half]]] = half;
+      leaving_(corners.vertex_count(), kNone) {
+  for (std::uint32_t half = 0; half < half_edge_count(); ++half) {
+    from_[half] = triangles[half / 3][half % 3];
+    leaving_[from_[half]] = half;
+  }
   for (std::uint32_t half = 0; half < half_edge_count(); ++half) {
     if (twin_[half] != kNone) continue;
-    const std::uint32_t a = from_[half], b = to(half);
-    std::uint32_t back = kNone;
-    for (std::uint32_t i = first[b]; i < first[b + 1]; ++i) {
-      if (to(order[i]) != a) continue;
-      if (back != kNone) throw OpenSurfaceError("the mesh to be evened has two edges between the same vertices");
-      back = order[i];
+    const std::uint32_t a = from_[half];
+    std::uint32_t back = kNone, count = 0;
+    for (const std::uint32_t leaves : corners.at(to(half))) {
+      if (to(leaves) != a) continue;
+      back = leaves;
+      ++count;
     }
-    if (back == kNone || twin_[back] != kNone) throw OpenSurfaceError("the mesh to be evened is not closed");
-    link(half, back, kNone);
+    if (count == 1 && twin_[back] == kNone) {
+      link(half, back, kNone);
+    } else if (open == Open::refused) {
+      throw OpenSurfaceError(count > 1 ? "the mesh to be evened has two edges between the same vertices"
+                                       : "the mesh to be evened is not closed");
+    }
   }
 }
 
-std::uint32_t LinkedTriangles::between(std::uint32_t a, std::uint32_t b) const {
+std::uint32_t HalfEdges::between(std::uint32_t a, std::uint32_t b) const {
   std::uint32_t found = kNone;
   around(a, [&](std::uint32_t half) {
     if (to(half) == b) found = half;
@@ -52,7 +57,7 @@ std::uint32_t LinkedTriangles::between(std::uint32_t a, std::uint32_t b) const {
   return found;
 }
 
-std::uint32_t LinkedTriangles::split(std::uint32_t half) {
+std::uint32_t HalfEdges::split(std::uint32_t half) {
   // (a, b, c) and (b, a, d) become (a, m, c), (m, b, c), (m, a, d), (b, m, d).
   const std::uint32_t other = twin_[half], border = crease_[half];
   const std::uint32_t bc = next(half), ad = next(other);
@@ -79,7 +84,7 @@ std::uint32_t LinkedTriangles::split(std::uint32_t half) {
   return m;
 }
 
-std::uint32_t LinkedTriangles::poke(std::uint32_t triangle) {
+std::uint32_t HalfEdges::poke(std::uint32_t triangle) {
   // (a, b, c) becomes (a, b, m), (b, c, m), (c, a, m).
   const std::uint32_t ab = 3 * triangle, bc = ab + 1, ca = ab + 2;
   const std::uint32_t a = from_[ab], b = from_[bc], c = from_[ca];
@@ -101,26 +106,29 @@ std::uint32_t LinkedTriangles::poke(std::uint32_t triangle) {
   return m;
 }
 
-bool LinkedTriangles::can_collapse(std::uint32_t half) const {
-  const std::uint32_t a = from_[half], b = to(half);
-  if (valence(opposite(half)) <= 3 || valence(opposite(twin_[half])) <= 3) return false;
-  std::array<std::uint32_t, kRing> ring{};  // around a
-  std::size_t count = 0;
-  int shared = 0;
-  const auto in_ring = [&](std::uint32_t v) {
-    shared += std::find(ring.begin(), ring.begin() + count, v) != ring.begin() + count;
-  };
-  around(a, [&](std::uint32_t half_a) {
-    ring[count++] = to(half_a);
-    if (count < kRing) return;
-    around(b, [&](std::uint32_t half_b) { in_ring(to(half_b)); });
-    count = 0;
-  });
-  around(b, [&](std::uint32_t half_b) { in_ring(to(half_b)); });
-  return shared == 2;
+void HalfEdges::unpoke(std::uint32_t half) {
+  // (a, b, m), (m, b, c), (m, c, a) become (a, b, c).
+  const std::uint32_t bm = next(half), ma = last(half), mb = twin_[bm], am = twin_[ma];
+  const std::uint32_t bc = next(mb), ca = last(am);
+  const std::uint32_t a = from_[half], b = from_[bm], m = from_[ma], c = from_[last(mb)];
+  from_[ma] = c;
+  link(bm, twin_[bc], crease_[bc]);
+  link(ma, twin_[ca], crease_[ca]);
+  leaving_[a] = half;
+  leaving_[b] = bm;
+  leaving_[c] = ma;
+  leaving_[m] = kNone;
+  for (const std::uint32_t t : {mb / 3, am / 3}) from_[3 * t] = from_[3 * t + 1] = from_[3 * t + 2] = kNone;
 }
 
-void LinkedTriangles::collapse(std::uint32_t half) {
+/// Of a closed mesh of one edge between two vertices: a third common neighbour would close a circle of three edges, and
+/// of a tetrahedron two triangles back to back would be left.
+bool HalfEdges::can_collapse(std::uint32_t half) const {
+  const CommonNeighbors neighbors = common_neighbors(*this, from_[half], to(half));
+  return neighbors.common == 2 && neighbors.sum > 6;
+}
+
+void HalfEdges::collapse(std::uint32_t half) {
   const std::uint32_t other = twin_[half];
   const std::uint32_t a = from_[half], b = to(half), c = opposite(half), d = opposite(other);
   std::uint32_t rim = half;  // all that leave a leave b from now on
@@ -142,13 +150,12 @@ void LinkedTriangles::collapse(std::uint32_t half) {
   for (const std::uint32_t gone : {half, bc, ca, other, ad, db}) from_[gone] = kNone;
 }
 
-bool LinkedTriangles::can_flip(std::uint32_t half) const {
+bool HalfEdges::can_flip(std::uint32_t half) const {
   const std::uint32_t c = opposite(half), d = opposite(twin_[half]);
-  return crease_[half] == kNone && c != d && valence(from_[half]) > 3 && valence(to(half)) > 3 &&
-         between(c, d) == kNone;
+  return crease_[half] == kNone && c != d && between(c, d) == kNone;
 }
 
-void LinkedTriangles::flip(std::uint32_t half) {
+void HalfEdges::flip(std::uint32_t half) {
   // (a, b, c) and (b, a, d) become (d, c, a) and (c, d, b).
   const std::uint32_t other = twin_[half];
   const std::uint32_t a = from_[half], b = to(half), c = opposite(half), d = opposite(other);
@@ -173,7 +180,22 @@ void LinkedTriangles::flip(std::uint32_t half) {
   leaving_[d] = ad;
 }
 
-std::vector<std::uint32_t> LinkedTriangles::compact() {
+void HalfEdges::put_first(std::uint32_t half) {
+  for (const std::uint32_t first = half - half % 3; half != first; half = last(half)) {
+    const std::array<std::uint32_t, 3> from{from_[first + 1], from_[first + 2], from_[first]};
+    const std::array<std::uint32_t, 3> twin{twin_[first + 1], twin_[first + 2], twin_[first]};
+    const std::array<std::uint32_t, 3> crease{crease_[first + 1], crease_[first + 2], crease_[first]};
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      from_[first + k] = from[k];
+      crease_[first + k] = crease[k];
+      twin_[first + k] = twin[k];
+      if (twin[k] != kNone) twin_[twin[k]] = first + k;
+      leaving_[from[k]] = first + k;
+    }
+  }
+}
+
+std::vector<std::uint32_t> HalfEdges::compact() {
   std::vector<std::uint32_t> old_vertex, new_vertex(vertex_count(), kNone), new_half(half_edge_count(), kNone);
   for (std::uint32_t v = 0; v < vertex_count(); ++v) {
     if (!vertex_lives(v)) continue;
@@ -195,6 +217,35 @@ std::vector<std::uint32_t> LinkedTriangles::compact() {
   leaving_.assign(old_vertex.size(), kNone);
   for (std::uint32_t half = count; half-- > 0;) leaving_[from_[half]] = half;
   return old_vertex;
+}
+
+CommonNeighbors common_neighbors(const HalfEdges& links, std::uint32_t a, std::uint32_t b) {
+  std::array<std::uint32_t, kRing> ring{};  // some of those around a
+  std::size_t count = 0;
+  CommonNeighbors found;
+  const auto compare = [&] {
+    std::uint32_t neighbors = 0;
+    links.around(b, [&](std::uint32_t half) {
+      found.common += std::find(ring.begin(), ring.begin() + count, links.to(half)) != ring.begin() + count;
+      ++neighbors;
+    });
+    return neighbors;
+  };
+  links.around(a, [&](std::uint32_t half) {
+    ring[count++] = links.to(half);
+    ++found.sum;
+    if (count < kRing) return;
+    compare();
+    count = 0;
+  });
+  found.sum += compare();
+  return found;
+}
+
+std::vector<std::array<std::uint32_t, 3>> all_triangles(const HalfEdges& links) {
+  std::vector<std::array<std::uint32_t, 3>> all(links.triangle_count());
+  for (std::uint32_t t = 0; t < all.size(); ++t) all[t] = links.corners(t);
+  return all;
 }
 
 }  // namespace meniscus

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Closed triangle meshes whose edges can be split, collapsed and flipped without a change of topology.
+// Triangle meshes whose edges can be split, collapsed and flipped without a change of topology.
 #pragma once
 
 #include <array>
@@ -8,15 +8,19 @@
 #include <vector>
 
 #include "core/base/index.h"
+#include "core/mesh/corner_lists.h"
 
 namespace meniscus {
 
-/// Triangles with their neighbours. Half-edge 3 t + k of triangle t goes from its corner k to corner (k + 1) % 3.
-/// Triangles and vertices that were taken away keep their numbers until compact().
-class LinkedTriangles {
+/// Half-edge 3 t + k of triangle t goes from its corner k to corner (k + 1) % 3. Triangles and vertices that were taken
+/// away keep their numbers until compact().
+class HalfEdges {
  public:
-  /// triangles: closed; each edge has two, which walk it in opposite directions.
-  LinkedTriangles(std::span<const std::array<std::uint32_t, 3>> triangles, std::uint32_t vertex_count);
+  /// triangles: closed; each edge has two, which walk it in opposite directions. Throws OpenSurfaceError otherwise.
+  HalfEdges(std::span<const std::array<std::uint32_t, 3>> triangles, std::uint32_t vertex_count);
+  /// Of some triangles of a mesh; corners: of these. A half-edge without exactly one that goes back has no twin
+  /// (kNone). Only around vertices whose triangles go_around_once() may anything be asked or changed.
+  static HalfEdges of_part(std::span<const std::array<std::uint32_t, 3>> triangles, const CornerLists& corners);
 
   static std::uint32_t next(std::uint32_t half) { return half % 3 == 2 ? half - 2 : half + 1; }
   static std::uint32_t last(std::uint32_t half) { return half % 3 == 0 ? half + 2 : half - 1; }
@@ -58,6 +62,9 @@ class LinkedTriangles {
   std::uint32_t split(std::uint32_t half);
   /// Puts a new vertex into a triangle, and returns it.
   std::uint32_t poke(std::uint32_t triangle);
+  /// The inverse of poke(): takes out the vertex opposite to a half-edge, which has three edges. Of its triangles that
+  /// of the half-edge stays, and covers all three.
+  void unpoke(std::uint32_t half);
   /// Would the surface stay a closed one of the same topology without this edge?
   bool can_collapse(std::uint32_t half) const;
   /// Moves the edge's first vertex into its second: it and two triangles are gone.
@@ -66,11 +73,15 @@ class LinkedTriangles {
   bool can_flip(std::uint32_t half) const;
   /// Puts the other diagonal of the two triangles in its place.
   void flip(std::uint32_t half);
+  /// Renumbers the half-edges of a triangle in a circle, so that this one is its first.
+  void put_first(std::uint32_t half);
 
   /// Renumbers what lives in order; returns the old number of each vertex.
   std::vector<std::uint32_t> compact();
 
  private:
+  enum class Open : std::uint8_t { refused, allowed };
+  HalfEdges(std::span<const std::array<std::uint32_t, 3>> triangles, const CornerLists& corners, Open open);
   void link(std::uint32_t a, std::uint32_t b, std::uint32_t crease) {
     twin_[a] = b;
     twin_[b] = a;
@@ -82,5 +93,15 @@ class LinkedTriangles {
   std::vector<std::uint32_t> crease_;   // per half-edge
   std::vector<std::uint32_t> leaving_;  // per vertex: one half-edge; kNone: gone
 };
+
+/// What two vertices have around them.
+struct CommonNeighbors {
+  std::uint32_t common = 0;  ///< neighbours of both
+  std::uint32_t sum = 0;     ///< neighbours of the one and of the other, added up
+};
+CommonNeighbors common_neighbors(const HalfEdges& links, std::uint32_t a, std::uint32_t b);
+
+/// The corners of all triangles, none of which may be gone.
+std::vector<std::array<std::uint32_t, 3>> all_triangles(const HalfEdges& links);
 
 }  // namespace meniscus

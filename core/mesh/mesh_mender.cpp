@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Tries all small changes at a bad triangle of a mesh and makes the best one, as long as there is one that helps.
+#include "core/mesh/mesh_mender.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include <glm/geometric.hpp>
+
+#include "core/mesh/remesh_tuning.h"
+#include "core/mesh/vertex_places.h"
+
+namespace meniscus {
+
+using Tuning = RemeshTuning;
+using Kind = MeshChange::Kind;
+
+namespace {
+
+/// Are no edges too long once the first vertex has gone to the second?
+bool stays_short(const MeshOnSurface& mesh, std::uint32_t half) {
+  const HalfEdges& links = mesh.links();
+  const std::uint32_t b = links.to(half);
+  bool fits = true;
+  links.around(links.from(half), [&](std::uint32_t edge) {
+    const std::uint32_t c = links.to(edge);
+    const double longest = Tuning::too_long * 0.5 * (mesh.vertex(b).size + mesh.vertex(c).size);
+    fits = fits && glm::distance(mesh.positions()[b], mesh.positions()[c]) <= longest;
+  });
+  return fits;
+}
+
+}  // namespace
+
+bool MeshMender::is_too_short(std::uint32_t half) const {
+  return mesh_.length(half) < Tuning::too_short * mesh_.wanted(half);
+}
+
+/// Short edges at the ends of creases, which may otherwise not vanish, would be slivers for ever.
+bool MeshMender::may_merge(std::uint32_t half) const { return may_vanish(mesh_, half) || is_too_short(half); }
+
+/// If `steep`, triangles may lean almost at a right angle against the surface.
+double MeshMender::quality(const PlacedTriangle& t, const PlacedVertex& placed, bool steep) const {
+  const glm::dvec3 normal = glm::cross(t.at[1] - t.at[0], t.at[2] - t.at[0]);
+  const double size = glm::length(normal);
+  if (!(size > 0.0)) return -kFold;
+  double squares = 0.0;
+  bool folded = false;
+  for (int k = 0; k < 3; ++k) {
+    const std::uint32_t v = t.vertex[k];
+    const glm::dvec3 edge = t.at[(k + 1) % 3] - t.at[k];
+    squares += glm::dot(edge, edge);
+    const bool is_placed = v == placed.vertex;
+    if (is_placed ? placed.on_crease : mesh_.vertex(v).on_crease()) continue;
+    const double cosine = steep       ? Tuning::least_cosine
+                          : is_placed ? placed.least_cosine
+                                      : static_cast<double>(mesh_.vertex(v).least_cosine);
+    folded = folded || !(glm::dot(normal, is_placed ? placed.normal : mesh_.vertex(v).normal) > cosine * size);
+  }
+  const double quality = 2.0 * std::sqrt(3.0) * size / squares;
+  return folded ? quality - kFold : quality;
+}
+
+/// What is no better than the bar is not looked at to its end.
+double MeshMender::score_after(const MeshChange& change, bool steep, double bar) const {
+  const bool moving = change.kind == Kind::move, splitting = change.kind == Kind::split;
+  PlacedVertex placed;
+  if (change.places_vertex()) {
+    const HalfEdges& links = mesh_.links();
+    const std::uint32_t like = moving ? change.where : links.from(splitting ? change.where : 3 * change.where);
+    placed.vertex = moving ? change.where : links.vertex_count();
+    placed.normal = mesh_.walk().normal(change.at);
+    placed.least_cosine = mesh_.vertex(like).least_cosine;
+    placed.on_crease =
+        moving ? mesh_.vertex(change.where).on_crease() : splitting && links.crease(change.where) != kNone;
+  }
+  WorstQuality worst;
+  for_each_made(mesh_, change, [&](const PlacedTriangle& t) {
+    if (worst.score() > bar) worst.add(quality(t, placed, steep));
+  });
+  return worst.score();
+}
+
+double MeshMender::score_before(const MeshChange& change, bool steep) const {
+  WorstQuality worst;
+  for_each_gone(mesh_, change, [&](std::uint32_t t) {
+    worst.add(steep ? quality(mesh_.placed(t), {}, true) : mesh_.quality().of(t));
+  });
+  return worst.score();
+}
+
+template <typename Visit>
+void MeshMender::for_each_place(std::uint32_t vertex, const Visit& visit) const {
+  const MeshVertex& v = mesh_.vertex(vertex);
+  if (v.pinned) return;
+  const SurfaceWalk& walk = mesh_.walk();
+  const glm::dvec3& x = mesh_.positions()[vertex];
+  const double size = v.size;
+  if (v.crease != kNone) {
+    const auto middle = crease_middle(mesh_, vertex);
+    if (!middle) return;
+    for (const double share : Tuning::crease_shares)
+      if (const auto on = walk.on_border(x + share * (*middle - x), v.crease)) visit({*on, v.face});
+    return;
+  }
+  const auto visit_below = [&](const glm::dvec3& y) {
+    if (const auto at = walk.below(y, v.face); at && glm::distance(at->position, x) < size) visit(*at);
+  };
+  const glm::dvec3 to_middle = centroid_around(mesh_, vertex) - x, n = v.normal;
+  for (const double share : Tuning::shares) visit_below(x + share * to_middle);
+  glm::dvec3 u = glm::cross(n, std::abs(n.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0));
+  u = glm::normalize(u);
+  const glm::dvec3 w = glm::cross(n, u);
+  for (const double step : Tuning::steps)
+    for (int k = 0; k < Tuning::directions; ++k) {
+      const double angle = 2.0 * std::numbers::pi * k / Tuning::directions;
+      visit_below(x + step * size * (std::cos(angle) * u + std::sin(angle) * w));
+    }
+}
+
+/// visit(change, the score of what it takes away) for all small changes of a triangle.
+template <typename Visit>
+void MeshMender::for_each_change(std::uint32_t triangle, bool steep, const Visit& visit) const {
+  const HalfEdges& links = mesh_.links();
+  const auto offer = [&](const MeshChange& change) { visit(change, score_before(change, steep)); };
+  for (std::uint32_t half = 3 * triangle; half < 3 * triangle + 3; ++half) {
+    const std::uint32_t other = links.twin(half);
+    const std::uint32_t c = links.opposite(half), d = links.opposite(other);
+    const bool has_room = links.valence(c) < Tuning::most_mended_edges && links.valence(d) < Tuning::most_mended_edges;
+    if (has_room && links.can_flip(half)) offer({Kind::flip, half, {}});
+    if (links.valence(links.from(half)) + links.valence(links.to(half)) < Tuning::most_mended_edges + 4)
+      for (const std::uint32_t side : {half, other})
+        if (may_merge(side) && stays_short(mesh_, side) && links.can_collapse(side)) offer({Kind::collapse, side, {}});
+    if (has_room && mesh_.length(half) > 2.0 * Tuning::too_short * mesh_.wanted(half))
+      if (const auto at = edge_middle(mesh_, half)) offer({Kind::split, half, *at});
+  }
+  for (const std::uint32_t v : links.corners(triangle)) {
+    const double now = score_before({Kind::move, v, {}}, steep);
+    for_each_place(v, [&](const SurfacePoint& at) { visit(MeshChange{Kind::move, v, at}, now); });
+  }
+}
+
+bool MeshMender::is_wrong(std::uint32_t triangle) const {
+  const PlacedTriangle x = mesh_.placed(triangle);
+  return mesh_.guard().crossings({&x, 1}, {&triangle, 1}) > 0 || !allowed_(x);
+}
+
+std::ptrdiff_t MeshMender::fewer_forbidden(const Exchange& exchange) const {
+  std::ptrdiff_t fewer = 0;
+  for (const std::uint32_t t : exchange.gone) fewer += !allowed_(mesh_.placed(t));
+  for (const PlacedTriangle& t : exchange.made) fewer -= !allowed_(t);
+  return fewer;
+}
+
+/// How many triangles fewer are forbidden, and pairs cross; below 0 if more of either come to be.
+std::ptrdiff_t MeshMender::fewer_wrong(const MeshChange& change) const {
+  const Exchange all = exchange_by(mesh_, change);
+  const std::ptrdiff_t allowances = fewer_forbidden(all);
+  if (allowances < 0) return allowances;
+  const std::ptrdiff_t crossings = fewer_crossings(mesh_, all);
+  return crossings < 0 ? crossings : crossings + allowances;
+}
+
+/// Makes the change after which the worst triangle is best, or, at one that passes through others or is not allowed,
+/// the fewest do and are.
+bool MeshMender::improve(std::uint32_t triangle, bool wrong) {
+  struct Candidate {
+    std::ptrdiff_t fewer;
+    double gain;
+    MeshChange change;
+  };
+  const bool sliver = quality(mesh_.placed(triangle), {}, true) < Tuning::sliver_quality;
+  std::vector<Candidate> candidates;
+  for_each_change(triangle, sliver, [&](const MeshChange& change, double now) {
+    if (wrong) {
+      if (const std::ptrdiff_t fewer = fewer_wrong(change); fewer > 0)
+        candidates.push_back({fewer, score_after(change, sliver) - now, change});
+      return;
+    }
+    // Short edges go even where a worse triangle stays.
+    const bool shortens = change.kind == Kind::collapse && is_too_short(change.where);
+    const double bar = now + (shortens ? -Tuning::better : Tuning::better), score = score_after(change, sliver, bar);
+    if (score > bar) candidates.push_back({0, score - now, change});
+  });
+  std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
+    return a.fewer != b.fewer ? a.fewer > b.fewer : a.gain > b.gain;
+  });
+  if (!sliver && candidates.size() > Tuning::tries)
+    candidates.erase(candidates.begin() + Tuning::tries, candidates.end());
+  for (const Candidate& candidate : candidates) {
+    if (!wrong) {
+      const Exchange all = exchange_by(mesh_, candidate.change);
+      if (mesh_.guard().crossings(all.made, all.gone) > 0 || fewer_forbidden(all) < 0) continue;
+    }
+    make(mesh_, candidate.change);
+    return true;
+  }
+  return false;
+}
+
+void MeshMender::reach(std::span<const PointAtTriangle> points) {
+  const HalfEdges& links = mesh_.links();
+  std::vector<std::uint32_t> triangles;
+  for (const PointAtTriangle& point : points) triangles.push_back(point.triangle);
+  mesh_.guard().watch_around(triangles);
+  for (const auto& [triangle, at] : points) {
+    if (at.face == kNone || !links.lives(3 * triangle)) continue;
+    std::optional<MeshChange> best;
+    double score = 0.0;
+    const auto consider = [&](const MeshChange& change) {
+      const double now = score_after(change, false);
+      if (best && now <= score) return;
+      const Exchange all = exchange_by(mesh_, change);
+      if (fewer_crossings(mesh_, all) < 0 || fewer_forbidden(all) < 0) return;
+      best = change;
+      score = now;
+    };
+    consider({Kind::poke, triangle, at});
+    for (std::uint32_t half = 3 * triangle; half < 3 * triangle + 3; ++half) {
+      if (links.crease(half) == kNone) consider({Kind::split, half, at});
+      if (const std::uint32_t v = links.from(half); !mesh_.vertex(v).on_crease()) consider({Kind::move, v, at});
+    }
+    if (!best) continue;
+    make(mesh_, *best);
+    mesh_.vertex(best->kind == Kind::move ? best->where : links.vertex_count() - 1).pinned = true;
+  }
+  mesh_.guard().release();
+}
+
+void MeshMender::mend(std::span<const std::uint32_t> triangles) {
+  const HalfEdges& links = mesh_.links();
+  const TriangleQuality& qualities = mesh_.quality();
+  std::vector<std::uint8_t> doubtful(links.triangle_count(), 0);  // and with them what comes about there
+  for (const std::uint32_t t : triangles) doubtful[t] = 1;
+  std::vector<std::uint32_t> bad;
+  mesh_.quality().find_all();
+  for (std::uint32_t t = 0; t < links.triangle_count(); ++t)
+    if (doubtful[t] || qualities.of(t) < Tuning::good_quality) bad.push_back(t);
+  mesh_.guard().watch_around(bad);
+  for (int round = 0; round < Tuning::mending_rounds && !bad.empty(); ++round) {
+    std::vector<std::uint32_t> next;
+    std::sort(bad.begin(), bad.end());
+    bad.erase(std::unique(bad.begin(), bad.end()), bad.end());
+    for (const std::uint32_t t : bad) {
+      if (!links.lives(3 * t)) continue;
+      const bool wrong = doubtful[t] && is_wrong(t);
+      if ((!wrong && qualities.of(t) >= Tuning::good_quality) || !improve(t, wrong)) continue;
+      doubtful.resize(links.triangle_count(), 0);
+      if (!links.lives(3 * t)) continue;
+      for (const std::uint32_t v : links.corners(t))
+        links.around(v, [&](std::uint32_t half) {
+          next.push_back(half / 3);
+          if (wrong) doubtful[half / 3] = 1;
+        });
+    }
+    bad = std::move(next);
+  }
+  mesh_.guard().release();
+}
+
+}  // namespace meniscus

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Single changes of a mesh on a surface, where passes over it left triangles that are bad or not allowed.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <span>
+
+#include "core/mesh/mesh_change.h"
+
+namespace meniscus {
+
+/// Whether a triangle may be made.
+using Allowed = std::function<bool(const PlacedTriangle&)>;
+
+/// A point of the surface that is near a triangle.
+struct PointAtTriangle {
+  std::uint32_t triangle = kNone;
+  SurfacePoint at;
+};
+
+class MeshMender {
+ public:
+  /// mesh: has to live as long.
+  MeshMender(MeshOnSurface& mesh, Allowed allowed) : mesh_(mesh), allowed_(std::move(allowed)) {}
+
+  /// Changes these triangles, and those with small angles, one by one until they pass through no others, are allowed
+  /// and have larger angles, wherever one flip, collapse, split or move does that. No others come to cross or to be
+  /// forbidden.
+  void mend(std::span<const std::uint32_t> triangles);
+  /// Puts vertices there, or moves some, where nothing comes to cross by that; they stay there.
+  void reach(std::span<const PointAtTriangle> points);
+
+ private:
+  /// What a vertex that a change makes or moves will be.
+  struct PlacedVertex {
+    std::uint32_t vertex = kNone;
+    glm::dvec3 normal{0.0};
+    double least_cosine = 0.0;
+    bool on_crease = false;
+  };
+
+  bool is_wrong(std::uint32_t triangle) const;
+  bool is_too_short(std::uint32_t half) const;
+  bool may_merge(std::uint32_t half) const;
+  template <typename Visit>
+  void for_each_change(std::uint32_t triangle, bool steep, const Visit& visit) const;
+  template <typename Visit>
+  void for_each_place(std::uint32_t vertex, const Visit& visit) const;
+  double quality(const PlacedTriangle& triangle, const PlacedVertex& placed, bool steep) const;
+  double score_after(const MeshChange& change, bool steep, double bar = -std::numeric_limits<double>::infinity()) const;
+  double score_before(const MeshChange& change, bool steep) const;
+  std::ptrdiff_t fewer_forbidden(const Exchange& exchange) const;
+  std::ptrdiff_t fewer_wrong(const MeshChange& change) const;
+  bool improve(std::uint32_t triangle, bool wrong);
+
+  MeshOnSurface& mesh_;
+  Allowed allowed_;
+};
+
+}  // namespace meniscus

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Changes a mesh on a surface vertex by vertex, and keeps everything that is known of its vertices and triangles true.
+#include "core/mesh/mesh_on_surface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <tbb/parallel_for.h>
+
+#include "core/mesh/creases.h"
+#include "core/mesh/remesh_tuning.h"
+
+namespace meniscus {
+
+MeshOnSurface::MeshOnSurface(const Surface& surface, SurfaceWalk& walk, const TriangleMesh& base,
+                             std::span<const std::uint32_t> vertex_face, const std::vector<bool>& keep, EdgeLength edge)
+    : surface_(surface),
+      walk_(walk),
+      edge_(std::move(edge)),
+      links_(base.triangles, static_cast<std::uint32_t>(base.positions.size())),
+      positions_(base.positions),
+      vertices_(base.positions.size()) {
+  walk.bar(keep);
+  tbb::parallel_for(std::size_t{0}, vertices_.size(), [&](std::size_t n) {
+    const auto v = static_cast<std::uint32_t>(n);
+    settle(v, {positions_[v], vertex_face[v]}, kNone);
+  });
+  mark_creases(surface, walk, base, keep, links_);
+  const std::vector<CreaseAt> creases = creases_at_vertices(links_);
+  for (std::size_t v = 0; v < vertices_.size(); ++v) {
+    // The tip of a free spindle has a cone of normals.
+    const std::uint32_t tip = surface.faces[vertices_[v].face].tip;
+    vertices_[v].crease = creases[v].border;
+    vertices_[v].pinned = creases[v].ends || (tip != kNone && positions_[v] == surface.vertices[tip]);
+  }
+}
+
+/// Every number of a vertex that follows from where it is.
+void MeshOnSurface::settle(std::uint32_t vertex, const SurfacePoint& at, std::uint32_t crease) {
+  MeshVertex& v = vertices_[vertex];
+  positions_[vertex] = at.position;
+  v.face = at.face;
+  v.crease = crease;
+  v.normal = walk_.normal(at);
+  v.size = v.scale * static_cast<float>(edge_(at));
+  v.least_cosine = least_cosine(vertex);
+}
+
+float MeshOnSurface::least_cosine(std::uint32_t vertex) const {
+  using Tuning = RemeshTuning;
+  const double turn = vertices_[vertex].size / std::max(walk_.radius(vertices_[vertex].face), 1e-9);
+  return static_cast<float>(std::clamp(1.0 - Tuning::cosine_fall * turn * turn, Tuning::least_cosine,
+                                       may_lean_ ? Tuning::least_cosine : Tuning::most_cosine));
+}
+
+void MeshOnSurface::let_lean(bool as_they_have_to) {
+  may_lean_ = as_they_have_to;
+  tbb::parallel_for(std::uint32_t{0}, links_.vertex_count(),
+                    [&](std::uint32_t v) { vertices_[v].least_cosine = least_cosine(v); });
+  quality_.forget_all();
+}
+
+void MeshOnSurface::scale_size(std::uint32_t vertex, float factor) {
+  vertices_[vertex].scale *= factor;
+  vertices_[vertex].size *= factor;
+  vertices_[vertex].least_cosine = least_cosine(vertex);
+}
+
+void MeshOnSurface::note_changes_around(std::uint32_t vertex) {
+  vertices_[vertex].changed = true;
+  links_.around(vertex, [&](std::uint32_t half) {
+    quality_.forget(half / 3);
+    if (guard_.watches(vertex)) guard_.add(half / 3);
+  });
+}
+
+void MeshOnSurface::place(std::uint32_t vertex, const SurfacePoint& at) {
+  settle(vertex, at, vertices_[vertex].crease);
+  vertices_[vertex].changed = true;
+}
+
+void MeshOnSurface::move(std::uint32_t vertex, const SurfacePoint& at) {
+  settle(vertex, at, vertices_[vertex].crease);
+  note_changes_around(vertex);
+}
+
+void MeshOnSurface::split(std::uint32_t half, const SurfacePoint& at) {
+  const std::uint32_t a = links_.from(half), b = links_.to(half), crease = links_.crease(half);
+  links_.split(half);
+  add_vertex(a, b, at, crease);
+}
+
+void MeshOnSurface::poke(std::uint32_t triangle, const SurfacePoint& at) {
+  const auto v = links_.corners(triangle);
+  links_.poke(triangle);
+  add_vertex(v[0], v[1], at, kNone);
+}
+
+/// The numbers of the last vertex, which has come between a and b.
+void MeshOnSurface::add_vertex(std::uint32_t a, std::uint32_t b, const SurfacePoint& at, std::uint32_t crease) {
+  const std::uint32_t m = links_.vertex_count() - 1;
+  positions_.emplace_back();
+  vertices_.emplace_back().scale = 0.5f * (vertices_[a].scale + vertices_[b].scale);
+  guard_.add_vertex(a, b);
+  quality_.make_room();
+  settle(m, at, crease);
+  note_changes_around(m);
+}
+
+void MeshOnSurface::collapse(std::uint32_t half) {
+  const std::uint32_t a = links_.from(half), b = links_.to(half);
+  guard_.merge_vertex(a, b);
+  links_.collapse(half);
+  note_changes_around(b);
+}
+
+void MeshOnSurface::flip(std::uint32_t half) {
+  links_.flip(half);
+  for (const std::uint32_t side : {half, links_.twin(half)}) {
+    note_changes_around(links_.from(side));
+    note_changes_around(links_.opposite(side));
+  }
+}
+
+void MeshOnSurface::flip(std::uint32_t half, const std::array<double, 2>& qualities) {
+  links_.flip(half);
+  const std::array<std::uint32_t, 2> triangles{half / 3, links_.twin(half) / 3};
+  bool watched = false;
+  for (std::size_t n = 0; n < 2; ++n) {
+    quality_.remember(triangles[n], qualities[n]);
+    quality_.make_stale(triangles[n]);
+    for (const std::uint32_t v : links_.corners(triangles[n])) {
+      vertices_[v].changed = true;
+      watched = watched || guard_.watches(v);
+    }
+  }
+  if (watched)
+    for (const std::uint32_t t : triangles) guard_.add(t);
+}
+
+void MeshOnSurface::compact() {
+  quality_.compact();
+  const std::vector<std::uint32_t> old = links_.compact();
+  for (std::size_t v = 0; v < old.size(); ++v) {
+    positions_[v] = positions_[old[v]];
+    vertices_[v] = vertices_[old[v]];
+  }
+  positions_.resize(old.size());
+  vertices_.resize(old.size());
+  guard_.compact(old);
+}
+
+}  // namespace meniscus

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Triangles that pass through one another: all of a mesh, and those of a change that is watched.
+#include "core/mesh/mesh_crossings.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include <glm/vec3.hpp>
+#include <gtest/gtest.h>
+
+#include "core/mesh/crossing_guard.h"
+#include "core/mesh/half_edges.h"
+
+namespace meniscus::testing {
+namespace {
+
+using Triangle = std::array<std::uint32_t, 3>;
+
+TEST(MeshCrossings, AreFoundWhereTwoTetrahedraOverlap) {
+  const std::vector<Triangle> one{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
+  std::vector<glm::dvec3> x{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  EXPECT_TRUE(crossing_triangles(x, one).empty());
+  std::vector<Triangle> both = one;
+  for (const Triangle& t : one) both.push_back({t[0] + 4, t[1] + 4, t[2] + 4});
+  for (const double shift : {0.1, 2.0}) {
+    std::vector<glm::dvec3> all = x;
+    for (int k = 0; k < 4; ++k) all.push_back(x[k] + glm::dvec3(shift, 0.11 * shift, 0.13 * shift));
+    EXPECT_EQ(crossing_triangles(all, both).empty(), shift == 2.0);
+  }
+}
+
+TEST(MeshCrossings, AreFoundAtASharedVertex) {
+  const std::vector<glm::dvec3> x{{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {1, 0.2, -1}, {0.4, 0.8, 1}};
+  EXPECT_EQ(crossing_triangles(x, std::vector<Triangle>{{0, 1, 2}, {0, 3, 4}}).size(), 1u);
+  const std::vector<glm::dvec3> y{{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {1, 0.2, 1}, {0.4, 0.8, 1}};
+  EXPECT_TRUE(crossing_triangles(y, std::vector<Triangle>{{0, 1, 2}, {0, 3, 4}}).empty());
+}
+
+// Of small and large triangles, which reach over many cells, each pair once and in ascending order.
+TEST(MeshCrossings, AreThoseOfAllPairs) {
+  std::vector<glm::dvec3> x;
+  std::vector<Triangle> triangles;
+  std::uint64_t state = 7;
+  const auto random = [&] {
+    state = state * 6364136223846793005ULL + 1442695040888963407ULL;
+    return static_cast<double>(state >> 11) / 9007199254740992.0 - 0.5;
+  };
+  for (std::uint32_t t = 0; t < 400; ++t) {
+    const double size = t % 50 == 0 ? 12.0 : 2.5;
+    const glm::dvec3 middle(10.0 * random(), 10.0 * random(), 10.0 * random());
+    for (int k = 0; k < 3; ++k) x.push_back(middle + size * glm::dvec3(random(), random(), random()));
+    triangles.push_back({3 * t, 3 * t + 1, 3 * t + 2});
+  }
+  const auto placed = [&](std::uint32_t t) {
+    return PlacedTriangle{triangles[t], {x[3 * t], x[3 * t + 1], x[3 * t + 2]}};
+  };
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> expected;
+  for (std::uint32_t a = 0; a < triangles.size(); ++a)
+    for (std::uint32_t b = a + 1; b < triangles.size(); ++b)
+      if (triangles_cross(placed(a), placed(b))) expected.emplace_back(a, b);
+  EXPECT_GT(expected.size(), 50u);
+  EXPECT_EQ(crossing_triangles(x, triangles), expected);
+}
+
+TEST(CrossingGuard, CountsWhatPassesThroughWatchedTriangles) {
+  const std::vector<glm::dvec3> x{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  const HalfEdges links(std::vector<Triangle>{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}, 4);
+  CrossingGuard guard(links, x);
+  const auto crossings = [&](const PlacedTriangle& made, std::vector<std::uint32_t> gone) {
+    return guard.crossings({&made, 1}, gone);
+  };
+  const PlacedTriangle through{{7, 8, 9}, {{{0.2, 0.2, -1}, {0.2, 0.2, 2}, {-3, -3, 0.5}}}};
+  const PlacedTriangle beside{{7, 8, 9}, {{{2, 2, -1}, {2, 2, 2}, {3, 3, 0.5}}}};
+  EXPECT_EQ(crossings(through, {}), 0u);  // nothing is watched
+  guard.watch_around(std::vector<std::uint32_t>{0});
+  EXPECT_EQ(crossings(through, {}), 4u);
+  EXPECT_EQ(crossings(through, {0}), 3u);
+  EXPECT_EQ(crossings(beside, {}), 0u);
+  guard.release();
+  EXPECT_EQ(crossings(through, {}), 0u);
+  guard.add(2);
+  guard.add(2);  // listed twice, counted once
+  EXPECT_EQ(crossings(through, {}), 1u);
+  const std::array<PlacedTriangle, 2> both{
+      through, PlacedTriangle{{10, 11, 12}, {{{-0.5, -0.6, 0.5}, {-0.62, -0.5, 0.4}, {-0.6, -0.5, 0.6}}}}};
+  EXPECT_EQ(guard.crossings(both, std::vector<std::uint32_t>{2}), 1u);  // each other
+}
+
+TEST(CrossingGuard, WatchesVerticesInBallsForGood) {
+  const std::vector<glm::dvec3> x{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  HalfEdges links(std::vector<Triangle>{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}, 4);
+  CrossingGuard guard(links, x);
+  guard.watch(std::vector<Ball>{{{1.1, 0, 0}, 0.2}});
+  guard.release();
+  for (const std::uint32_t v : {0u, 1u, 2u, 3u}) EXPECT_EQ(guard.watches(v), v == 1) << v;
+  guard.add_vertex(1, 2);
+  guard.add_vertex(0, 2);
+  EXPECT_TRUE(guard.watches(4));
+  EXPECT_FALSE(guard.watches(5));
+  guard.merge_vertex(1, 3);
+  EXPECT_TRUE(guard.watches(3));
+}
+
+}  // namespace
+}  // namespace meniscus::testing
