@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Declares --save-camera and writes its file.
+#include "core/camera/camera_json.h"
 #include "app/options/camera_file.h"
 
 namespace meniscus {

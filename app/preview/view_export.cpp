@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "core/camera/camera_json.h"
 #include "exporters/blender/atom_attributes.h"
 #include "core/scene/copied_atoms.h"
 #include "core/scene/surface_computer.h"
