@@ -28,6 +28,17 @@ Struct sized() {
   return made;
 }
 
+/// A file of two atoms.
+const std::string& molecule() {
+  static const TemporaryFolder folder;
+  static const std::string path =
+      folder.file("molecule.pdb",
+                  "ATOM      1  N   ALA A   1       0.000   0.000   0.000  1.00 10.00           N  \n"
+                  "ATOM      2  CA  ALA A   1       1.458   0.000   0.000  1.00 20.00           C  \n"
+                  "END\n");
+  return path;
+}
+
 /// Objects and memory for calls of which one argument is bad.
 struct World {
   Computer computer = test::computer();
@@ -36,6 +47,7 @@ struct World {
   Pockets pockets =
       made<meniscus_pockets>([&](auto** to) { return meniscus_surface_pockets(surface.get(), nullptr, to); });
   Painter painter = made<meniscus_painter>([](auto** to) { return meniscus_painter_new(MENISCUS_CPU, to); });
+  StructureOf structure = structure_of(molecule());
   std::vector<double> numbers = std::vector<double>(64, 1.0);
   double* const n = numbers.data();
   std::int32_t word = 0;
@@ -45,6 +57,8 @@ struct World {
   meniscus_picture picture = sized<meniscus_picture>();
   meniscus_mesh_file file = sized<meniscus_mesh_file>();
   meniscus_atoms atoms = sized<meniscus_atoms>();
+  meniscus_read_options reading = sized<meniscus_read_options>();
+  meniscus_read_report report = sized<meniscus_read_report>();
   const TemporaryFolder folder;
   const std::string path = folder.path() / "mesh.ply";
   const double positions[8] = {0, 0, 0, 1.7, 2, 0, 0, 1.7};
@@ -53,6 +67,7 @@ struct World {
     EXPECT_EQ(meniscus_surface_frame(surface.get(), 1.0, MENISCUS_PERSPECTIVE, &camera), MENISCUS_OK);
     EXPECT_EQ(meniscus_default_picture(&picture), MENISCUS_OK);
     EXPECT_EQ(meniscus_default_mesh_file(&file), MENISCUS_OK);
+    EXPECT_EQ(meniscus_default_read_options(&reading), MENISCUS_OK);
     picture.width = picture.height = 2;
     picture.samples = 1;
     atoms.count = 2;
@@ -72,6 +87,19 @@ struct World {
     const meniscus_status status = meniscus_compute(computer.get(), &atoms, &fresh);
     meniscus_surface_release(fresh);
     return status;
+  }
+  meniscus_status read() const {
+    meniscus_structure* fresh = nullptr;
+    const meniscus_status status = meniscus_read(molecule().c_str(), &reading, &fresh);
+    meniscus_structure_release(fresh);
+    return status;
+  }
+  /// With one text in a list, if it stands anywhere.
+  meniscus_status read_with(const char* const* meniscus_read_options::*list, std::size_t meniscus_read_options::*count,
+                            const void* address) {
+    reading.*list = static_cast<const char* const*>(address);
+    reading.*count = 1;
+    return read();
   }
   meniscus_status paint() const {
     return meniscus_paint(painter.get(), surface.get(), &picture, reinterpret_cast<std::uint8_t*>(n), 16);
@@ -110,6 +138,42 @@ const Pointer kPointers[] = {
     ARGUMENT(meniscus_element_radius, radius, false, 6, as<double>(p), nullptr),
     ARGUMENT(meniscus_element_radius, source, true, 6, w.n, as<const char*>(p)),
     ARGUMENT(meniscus_default_options, options, false, as<meniscus_options>(p)),
+    ARGUMENT(meniscus_default_read_options, options, false, as<meniscus_read_options>(p)),
+    {"meniscus_read path", false,
+     [](World&, const void* p) {
+       meniscus_structure* fresh = nullptr;
+       return meniscus_read(as<const char>(p), nullptr, &fresh);
+     }, true},
+    {"meniscus_read options", true,
+     [](World&, const void* p) {
+       meniscus_structure* fresh = nullptr;
+       const auto status = meniscus_read(molecule().c_str(), as<meniscus_read_options>(p), &fresh);
+       meniscus_structure_release(fresh);
+       return status;
+     }},
+    ARGUMENT(meniscus_read, structure, false, molecule().c_str(), nullptr, as<meniscus_structure*>(p)),
+    {"meniscus_read_options.select", true,
+     [](World& w, const void* p) { w.reading.select = as<const char>(p); return w.read(); }, true},
+    {"meniscus_read_options.assembly", true,
+     [](World& w, const void* p) { w.reading.assembly = as<const char>(p); return w.read(); }, true},
+    {"meniscus_read_options.altloc", true,
+     [](World& w, const void* p) { w.reading.altloc = as<const char>(p); return w.read(); }, true},
+    {"meniscus_read_options.radii", true,
+     [](World& w, const void* p) { w.reading.radii = as<const char>(p); return w.read(); }, true},
+    {"meniscus_read_options.radii_files", false,
+     [](World& w, const void* p) {
+       return w.read_with(&meniscus_read_options::radii_files, &meniscus_read_options::radii_file_count, p);
+     }},
+    {"meniscus_read_options.radius", false,
+     [](World& w, const void* p) {
+       return w.read_with(&meniscus_read_options::radius, &meniscus_read_options::radius_count, p);
+     }},
+    ARGUMENT(meniscus_structure_atoms, structure, false, as<meniscus_structure>(p), &w.atoms),
+    ARGUMENT(meniscus_structure_atoms, atoms, false, w.structure.get(), as<meniscus_atoms>(p)),
+    ARGUMENT(meniscus_structure_report, structure, false, as<meniscus_structure>(p), &w.report),
+    ARGUMENT(meniscus_structure_report, report, false, w.structure.get(), as<meniscus_read_report>(p)),
+    ARGUMENT(meniscus_structure_table, structure, false, as<meniscus_structure>(p), 0, &w.array),
+    ARGUMENT(meniscus_structure_table, array, false, w.structure.get(), 0, as<meniscus_array>(p)),
     ARGUMENT(meniscus_default_pocket_options, options, false, as<meniscus_pocket_options>(p)),
     ARGUMENT(meniscus_default_mesh_options, options, false, as<meniscus_mesh_options>(p)),
     ARGUMENT(meniscus_default_mesh_file, file, false, as<meniscus_mesh_file>(p)),
@@ -250,6 +314,23 @@ const Size kSizes[] = {
        w.atoms.radii_stride = n;
        return w.compute();
      }},
+    {"meniscus_read_options.radii_file_count",
+     [](World& w, std::size_t n) {
+       const char* const texts[] = {"radii.txt"};
+       w.reading.radii_files = texts;
+       w.reading.radii_file_count = n;
+       return w.read();
+     }},
+    {"meniscus_read_options.radius_count",
+     [](World& w, std::size_t n) {
+       const char* const texts[] = {"all=1.5"};
+       w.reading.radius = texts;
+       w.reading.radius_count = n;
+       return w.read();
+     }},
+    SIZE_OF(meniscus_read_options,
+            refused<meniscus_structure>([&](auto** to) { return meniscus_read(molecule().c_str(), &s, to); })),
+    SIZE_OF(meniscus_read_report, meniscus_structure_report(w.structure.get(), &s)),
     SIZE_OF(meniscus_options, refused<meniscus_computer>([&](auto** to) { return meniscus_computer_new(&s, to); })),
     SIZE_OF(meniscus_atoms,
             refused<meniscus_surface>([&](auto** to) { return meniscus_compute(w.computer.get(), &s, to); })),
@@ -275,6 +356,8 @@ const Word kWords[] = {
      [](World& w, std::int32_t v) { return meniscus_element_radius(v, w.n, nullptr); }},
     {"meniscus_surface_table table",
      [](World& w, std::int32_t v) { return meniscus_surface_table(w.surface.get(), v, &w.array); }},
+    {"meniscus_structure_table column",
+     [](World& w, std::int32_t v) { return meniscus_structure_table(w.structure.get(), v, &w.array); }},
     {"meniscus_surface_gradient quantity",
      [](World& w, std::int32_t v) { return meniscus_surface_gradient(w.surface.get(), v, nullptr, w.n); }},
     {"meniscus_pockets_table table",
@@ -291,6 +374,11 @@ const Word kWords[] = {
      [](World& w, std::int32_t v) {
        w.atoms.reserved = v;
        return w.compute();
+     }},
+    {"meniscus_read_options.reserved",
+     [](World& w, std::int32_t v) {
+       w.reading.reserved = v;
+       return w.read();
      }},
     {"meniscus_mesh_options.reserved",
      [](World& w, std::int32_t v) {
@@ -383,11 +471,13 @@ TEST(CArguments, ArraysOfADistanceDoNotOverlap) {
 
 TEST(CArguments, NullHasNoHolders) {
   EXPECT_EQ(meniscus_computer_retain(nullptr), nullptr);
+  EXPECT_EQ(meniscus_structure_retain(nullptr), nullptr);
   EXPECT_EQ(meniscus_surface_retain(nullptr), nullptr);
   EXPECT_EQ(meniscus_pockets_retain(nullptr), nullptr);
   EXPECT_EQ(meniscus_mesh_retain(nullptr), nullptr);
   EXPECT_EQ(meniscus_painter_retain(nullptr), nullptr);
   meniscus_computer_release(nullptr);
+  meniscus_structure_release(nullptr);
   meniscus_surface_release(nullptr);
   meniscus_pockets_release(nullptr);
   meniscus_mesh_release(nullptr);
@@ -421,8 +511,10 @@ std::set<std::string> places_of_header() {
 }
 
 TEST(CArguments, AreAllOfTheHeader) {
-  // A range, which CApiPictures tests; a text that is given out.
-  std::set<std::string> known{"meniscus_surface_frame aspect", "meniscus_summary.device"};
+  // A range, which CApiPictures tests; texts that are given out.
+  std::set<std::string> known{"meniscus_surface_frame aspect",  "meniscus_summary.device",
+                              "meniscus_read_report.file",      "meniscus_read_report.format",
+                              "meniscus_read_report.radii_set", "meniscus_read_report.sentence"};
   for (const Pointer& pointer : kPointers) known.insert(pointer.place);
   for (const Size& size : kSizes) known.insert(size.place);
   for (const Word& word : kWords) known.insert(word.place);

@@ -14,6 +14,7 @@ import numpy as np
 
 from ._arrays import color_of, put_colors
 from ._errors import InputError
+from ._types import Bytes, Projection
 from ._library import DEVICES, ORTHOGRAPHIC, PROJECTIONS, CameraStruct, Handle, Picture, call, default, word
 
 
@@ -23,7 +24,7 @@ class Camera:
     position: tuple[float, float, float]
     target: tuple[float, float, float]
     up: tuple[float, float, float]
-    projection: str = "perspective"  #: or "orthographic"
+    projection: Projection = "perspective"  #: or "orthographic"
     vertical_fov: float = 30.0       #: degrees between the picture's lower and upper edge; perspective only
     height: float = 1.0              #: Å between them; orthographic only
 
@@ -32,7 +33,7 @@ class Camera:
                             self.vertical_fov, self.height, word("projection", self.projection, PROJECTIONS), 0)
 
 
-def framed(surface: Handle, aspect: float, projection: str) -> Camera:
+def framed(surface: Handle, aspect: float, projection: Projection) -> Camera:
     """The camera that shows all of a surface."""
     c = CameraStruct(ctypes.sizeof(CameraStruct))
     call("surface_frame", surface.pointer, aspect, word("projection", projection, PROJECTIONS), ctypes.byref(c))
@@ -55,7 +56,7 @@ def _painter(device: str) -> Handle:
 
 
 def painted(surface: Handle, atom_count: int, width: int, height: int, colors: Any, camera: Optional[Camera],
-            background: Any, device: str, look: dict[str, Any]) -> np.ndarray:
+            background: Any, device: str, look: dict[str, Any]) -> Bytes:
     """(height, width, 4) bytes; see Surface.render."""
     picture = default("picture", Picture())
     picture.width, picture.height = width, height
@@ -74,7 +75,7 @@ def painted(surface: Handle, atom_count: int, width: int, height: int, colors: A
     return pixels
 
 
-def png(pixels: np.ndarray) -> bytes:
+def png(pixels: Bytes) -> bytes:
     """The file of (height, width, 4) bytes as Surface.render returns them."""
     height, width, channels = pixels.shape
     if channels != 4 or pixels.dtype != np.uint8:

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Exact solvent-excluded surfaces of molecules for other programs, in C99: arrays in, arrays out.
+/* Exact solvent-excluded surfaces of molecules for other programs, in C99: files or arrays in, arrays out.
  *
  *   meniscus_computer* computer = NULL;
  *   meniscus_surface* surface = NULL;
@@ -317,6 +317,105 @@ enum {
  * derivative. */
 MENISCUS_API meniscus_status meniscus_surface_gradient(const meniscus_surface* surface, int32_t quantity,
                                                        const double* weights, double* gradient);
+
+/* ---- Molecules from files ------------------------------------------------------------------------------------ */
+
+/* What becomes of hydrogens. */
+typedef enum meniscus_hydrogens {
+  MENISCUS_HYDROGENS_AUTO = 0, /* left out where the radii contain them, else kept */
+  MENISCUS_HYDROGENS_KEEP = 1,
+  MENISCUS_HYDROGENS_DROP = 2
+} meniscus_hydrogens;
+
+/* What becomes of atoms whose element nobody can tell. */
+typedef enum meniscus_unknown_element {
+  MENISCUS_UNKNOWN_HALT = 0,  /* MENISCUS_INPUT, naming them */
+  MENISCUS_UNKNOWN_GUESS = 1, /* a radius of 2.0 Å */
+  MENISCUS_UNKNOWN_SKIP = 2   /* left out */
+} meniscus_unknown_element;
+
+/* Which atoms of a file are taken, and with which radii: the options of the program, with its defaults. Texts are read
+ * during the call only. */
+typedef struct meniscus_read_options {
+  size_t size;
+  const char* select;             /* [NULL: all] an expression such as "chain A and not water" (meniscus help
+                                     selections) */
+  const char* assembly;           /* [NULL: as deposited] build this biological assembly, "1" */
+  const char* altloc;             /* ["best": the most occupied] alternate location in a residue: "first", "all" or one
+                                     letter */
+  const char* radii;              /* [NULL: those of the file if it has any, else "bondi"] also "united", "protor",
+                                     "file" */
+  const char* const* radii_files; /* [NULL] radii by residue and atom, before those of the set; the last counts */
+  const char* const* radius; /* [NULL] "EXPR=R": the radius R, Å, of the atoms that EXPR selects; the last counts */
+  size_t radii_file_count;   /* [0] */
+  size_t radius_count;       /* [0] */
+  int32_t model;             /* [1] the first; 0: all models as one molecule */
+  int32_t hydrogens;         /* [MENISCUS_HYDROGENS_AUTO] */
+  int32_t unknown_element;   /* [MENISCUS_UNKNOWN_HALT] */
+  int32_t keep_water;        /* [0] else: water molecules, too */
+  int32_t keep_ions;         /* [0] else: free ions, too */
+  int32_t reserved;          /* 0 */
+} meniscus_read_options;
+
+MENISCUS_API meniscus_status meniscus_default_read_options(meniscus_read_options* options);
+
+/* The atoms of a molecule that a surface is made of. It never changes. */
+typedef struct meniscus_structure meniscus_structure;
+
+/* Reads PDB, mmCIF, PQR, GRO, XYZ and XYZR, plain or packed with gzip, as the program does: polymers and ligands of the
+ * first model, of each residue the most occupied conformer, without water and free ions, unless the options say
+ * otherwise. options: NULL for the defaults. *structure is overwritten. Of a text that is no selection
+ * meniscus_last_error() has two more lines: the expression, and a caret under the place. */
+MENISCUS_API meniscus_status meniscus_read(const char* path, const meniscus_read_options* options,
+                                           meniscus_structure** structure);
+MENISCUS_API meniscus_structure* meniscus_structure_retain(meniscus_structure* structure);
+MENISCUS_API void meniscus_structure_release(meniscus_structure* structure);
+
+/* Fills in what meniscus_compute() wants; its arrays live as long as the structure. atoms->size has to be set. */
+MENISCUS_API meniscus_status meniscus_structure_atoms(const meniscus_structure* structure, meniscus_atoms* atoms);
+
+/* Texts live as long as the structure. */
+typedef struct meniscus_read_report {
+  size_t size;
+  const char* file;      /* the path as given */
+  const char* format;    /* "PDB", "mmCIF", ... */
+  const char* radii_set; /* "bondi", "united", "protor", "file", or files and overrides */
+  const char* sentence;  /* "5,684 atoms read; 215 water left out; 5,469 used" */
+  uint64_t read;         /* atoms of the file, of all models and alternate locations */
+  uint64_t atoms;        /* those used, copies of an assembly included */
+  uint64_t models;       /* in the file */
+} meniscus_read_report;
+
+/* report->size has to be set. */
+MENISCUS_API meniscus_status meniscus_structure_report(const meniscus_structure* structure,
+                                                       meniscus_read_report* report);
+
+/* The tables of a structure: a row an atom, but for warnings. Rows of text end with a zero and are filled up with zeros
+ * to the stride; what the file has is UTF-8 as a rule, but may be anything. */
+typedef enum meniscus_structure_column {
+  MENISCUS_STRUCTURE_POSITIONS = 0,       /* double[3], Å */
+  MENISCUS_STRUCTURE_RADII = 1,           /* double, Å */
+  MENISCUS_STRUCTURE_ELEMENTS = 2,        /* uint8_t: atomic number, 0 where it is unknown */
+  MENISCUS_STRUCTURE_INDICES = 3,         /* uint32_t: place in the file, from 0, of all atoms of all models read */
+  MENISCUS_STRUCTURE_NAMES = 4,           /* text: "CA" */
+  MENISCUS_STRUCTURE_RESIDUE_NAMES = 5,   /* text: "ALA" */
+  MENISCUS_STRUCTURE_CHAINS = 6,          /* text: "A", of the second copy in an assembly "A-2" */
+  MENISCUS_STRUCTURE_SEGMENTS = 7,        /* text */
+  MENISCUS_STRUCTURE_RESIDUE_NUMBERS = 8, /* int32_t, as the file has them */
+  MENISCUS_STRUCTURE_INSERTION_CODES = 9, /* char, ' ' for none */
+  MENISCUS_STRUCTURE_ALTLOCS = 10,        /* char, ' ' for none */
+  MENISCUS_STRUCTURE_RESIDUES = 11,       /* uint32_t: running number of the residue in the file, from 0 */
+  MENISCUS_STRUCTURE_MODELS = 12,         /* int32_t, from 1 */
+  MENISCUS_STRUCTURE_COPIES = 13,         /* uint32_t: which copy of an assembly, from 0 */
+  MENISCUS_STRUCTURE_CHARGES = 14,        /* float, e; NaN where the file has none */
+  MENISCUS_STRUCTURE_B_FACTORS = 15,      /* float, Å^2; likewise */
+  MENISCUS_STRUCTURE_OCCUPANCIES = 16,    /* float; likewise */
+  MENISCUS_STRUCTURE_CLASSES = 17,        /* uint8_t: 0 polymer, 1 ligand, 2 water, 3 ion, 4: the file does not say */
+  MENISCUS_STRUCTURE_WARNINGS = 18        /* text: a sentence a row about what is odd in the file */
+} meniscus_structure_column;
+
+MENISCUS_API meniscus_status meniscus_structure_table(const meniscus_structure* structure, int32_t column,
+                                                      meniscus_array* array);
 
 /* ---- Pockets ------------------------------------------------------------------------------------------------- */
 

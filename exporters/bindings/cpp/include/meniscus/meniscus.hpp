@@ -2,9 +2,10 @@
 // Exact solvent-excluded surfaces of molecules for other programs, in C++20: meniscus.h with spans and exceptions.
 //
 //   meniscus::Computer computer;
+//   const meniscus::Structure molecule = meniscus::read("1ubq.cif");
+//   std::cout << computer.compute(molecule.atoms()).area() << " Å^2\n";
 //   const std::vector<double> xyz = {0, 0, 0, 1.5, 0, 0}, radii = {1.7, 1.52};
-//   const meniscus::Surface surface = computer.compute({xyz, radii});
-//   std::cout << surface.area() << " Å^2\n";
+//   std::cout << computer.compute({xyz, radii}).area() << " Å^2\n";
 //
 // All of it is inline and calls the C functions, so what a program is linked to is the C interface alone: a program
 // that was compiled with one compiler, C++ library and version of this header runs with libmeniscus of another. Structs
@@ -13,9 +14,9 @@
 //
 // Errors. Whatever fails throws an Error with the library's sentence; what was to be changed is as before.
 //
-// Ownership. Computer, Surface, Mesh and Painter own one object each, and move; of what was moved from only assignment
-// and the end are left. Spans and rows of a surface or a mesh are its own memory, seen without a copy: they end with
-// it, and with Computer::compute(atoms, surface), which computes it anew.
+// Ownership. Computer, Structure, Surface, Mesh and Painter own one object each, and move; of what was moved from only
+// assignment and the end are left. Spans and rows of a surface or a mesh are its own memory, seen without a copy: they
+// end with it, and with Computer::compute(atoms, surface), which computes it anew.
 //
 // Threads. As in meniscus.h: const functions of one object from any number of threads at once; a Computer and a Painter
 // serve one call after the other.
@@ -30,6 +31,7 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <meniscus/meniscus.h>
@@ -124,6 +126,7 @@ struct WithDefaults : Struct {
 };
 using Options = WithDefaults<meniscus_options, meniscus_default_options>;
 using MeshOptions = WithDefaults<meniscus_mesh_options, meniscus_default_mesh_options>;
+using ReadOptions = WithDefaults<meniscus_read_options, meniscus_default_read_options>;
 using PocketOptions = WithDefaults<meniscus_pocket_options, meniscus_default_pocket_options>;
 using MeshFile = WithDefaults<meniscus_mesh_file, meniscus_default_mesh_file>;
 using Picture = WithDefaults<meniscus_picture, meniscus_default_picture>;
@@ -132,7 +135,7 @@ using Ball = meniscus_ball;
 
 // The atoms of one call: arrays of the caller's, read during the call only. Positions are x, y, z of each atom, next to
 // each other, in Å, within 100,000 of 0; radii are above 0 and at most 1,000, one per atom, or one for all. In a call:
-// compute({positions, radii}), compute({balls}).
+// compute({positions, radii}), compute({balls}), compute(structure.atoms()).
 class Atoms {
  public:
   Atoms(std::span<const double> positions, std::span<const double> radii) : Atoms(positions, radii, MENISCUS_DOUBLE) {}
@@ -144,6 +147,7 @@ class Atoms {
     atoms_.radii = &balls.front().radius;
     atoms_.positions_stride = atoms_.radii_stride = sizeof(Ball);
   }
+  explicit Atoms(const meniscus_atoms& atoms) : atoms_(atoms) {}
   const meniscus_atoms& get() const noexcept { return atoms_; }
 
  private:
@@ -213,6 +217,19 @@ class Rows {
   meniscus_array array_;
 };
 
+// Rows of text, without the zeros that fill them up.
+class Texts {
+ public:
+  explicit Texts(const meniscus_array& array) : array_(array) {}
+  std::size_t size() const noexcept { return array_.count; }
+  bool empty() const noexcept { return array_.count == 0; }
+  // n is below size().
+  std::string_view operator[](std::size_t n) const { return static_cast<const char*>(array_.data) + n * array_.stride; }
+
+ private:
+  meniscus_array array_;
+};
+
 // x, y, z in Å (of a normal: of length 1).
 using Vector = std::array<double, 3>;
 
@@ -237,6 +254,72 @@ std::span<const Row> numbers(const meniscus_array& array) {
 }
 
 }  // namespace detail
+
+// ---- Molecules from files ----
+
+// The atoms of a file that a surface is made of, a row each in every table. It never changes.
+class Structure {
+ public:
+  explicit Structure(meniscus_structure* owned) : structure_(owned) {}
+
+  // What was read and left out. Its texts live as long as this.
+  meniscus_read_report report() const {
+    meniscus_read_report report{};
+    report.size = sizeof report;
+    check(meniscus_structure_report(structure_.get(), &report));
+    return report;
+  }
+  // What is odd in the file, a sentence each.
+  Texts warnings() const { return Texts(table(MENISCUS_STRUCTURE_WARNINGS)); }
+
+  // For Computer::compute(), while this lives.
+  Atoms atoms() const {
+    meniscus_atoms atoms{};
+    atoms.size = sizeof atoms;
+    check(meniscus_structure_atoms(structure_.get(), &atoms));
+    return Atoms(atoms);
+  }
+  std::size_t size() const { return table(MENISCUS_STRUCTURE_RADII).count; }
+
+  // As meniscus.h describes the columns.
+  Rows<Vector> positions() const { return Rows<Vector>(table(MENISCUS_STRUCTURE_POSITIONS)); }
+  Rows<double> radii() const { return Rows<double>(table(MENISCUS_STRUCTURE_RADII)); }
+  Rows<std::uint8_t> elements() const { return Rows<std::uint8_t>(table(MENISCUS_STRUCTURE_ELEMENTS)); }
+  Rows<std::uint32_t> indices() const { return Rows<std::uint32_t>(table(MENISCUS_STRUCTURE_INDICES)); }
+  Texts names() const { return Texts(table(MENISCUS_STRUCTURE_NAMES)); }
+  Texts residue_names() const { return Texts(table(MENISCUS_STRUCTURE_RESIDUE_NAMES)); }
+  Texts chains() const { return Texts(table(MENISCUS_STRUCTURE_CHAINS)); }
+  Texts segments() const { return Texts(table(MENISCUS_STRUCTURE_SEGMENTS)); }
+  Rows<std::int32_t> residue_numbers() const { return Rows<std::int32_t>(table(MENISCUS_STRUCTURE_RESIDUE_NUMBERS)); }
+  Rows<char> insertion_codes() const { return Rows<char>(table(MENISCUS_STRUCTURE_INSERTION_CODES)); }
+  Rows<char> altlocs() const { return Rows<char>(table(MENISCUS_STRUCTURE_ALTLOCS)); }
+  Rows<std::uint32_t> residues() const { return Rows<std::uint32_t>(table(MENISCUS_STRUCTURE_RESIDUES)); }
+  Rows<std::int32_t> models() const { return Rows<std::int32_t>(table(MENISCUS_STRUCTURE_MODELS)); }
+  Rows<std::uint32_t> copies() const { return Rows<std::uint32_t>(table(MENISCUS_STRUCTURE_COPIES)); }
+  Rows<float> charges() const { return Rows<float>(table(MENISCUS_STRUCTURE_CHARGES)); }
+  Rows<float> b_factors() const { return Rows<float>(table(MENISCUS_STRUCTURE_B_FACTORS)); }
+  Rows<float> occupancies() const { return Rows<float>(table(MENISCUS_STRUCTURE_OCCUPANCIES)); }
+  Rows<std::uint8_t> classes() const { return Rows<std::uint8_t>(table(MENISCUS_STRUCTURE_CLASSES)); }
+
+  // For the functions of meniscus.h; owned by this.
+  meniscus_structure* get() const noexcept { return structure_.get(); }
+
+ private:
+  meniscus_array table(std::int32_t column) const {
+    meniscus_array array{};
+    check(meniscus_structure_table(structure_.get(), column, &array));
+    return array;
+  }
+  detail::Handle<meniscus_structure, meniscus_structure_release> structure_;
+};
+
+// Reads a molecule as the program does. InputError names file, line and what is wrong there; UsageError a selection or
+// an option that cannot be.
+inline Structure read(const std::string& path, const ReadOptions& options = {}) {
+  meniscus_structure* structure = nullptr;
+  check(meniscus_read(path.c_str(), &options, &structure));
+  return Structure(structure);
+}
 
 // ---- Meshes ----
 
