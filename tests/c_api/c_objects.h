@@ -20,14 +20,14 @@ struct Release {
   void operator()(meniscus_surface* surface) const { meniscus_surface_release(surface); }
   void operator()(meniscus_pockets* pockets) const { meniscus_pockets_release(pockets); }
   void operator()(meniscus_mesh* mesh) const { meniscus_mesh_release(mesh); }
-  void operator()(meniscus_painter* painter) const { meniscus_painter_release(painter); }
+  void operator()(meniscus_renderer* renderer) const { meniscus_renderer_release(renderer); }
 };
 using Computer = std::unique_ptr<meniscus_computer, Release>;
 using StructureOf = std::unique_ptr<meniscus_structure, Release>;
 using SurfaceOf = std::unique_ptr<meniscus_surface, Release>;
 using Pockets = std::unique_ptr<meniscus_pockets, Release>;
 using Mesh = std::unique_ptr<meniscus_mesh, Release>;
-using Painter = std::unique_ptr<meniscus_painter, Release>;
+using Renderer = std::unique_ptr<meniscus_renderer, Release>;
 
 inline meniscus_options default_options() {
   meniscus_options options{};
@@ -77,7 +77,7 @@ inline meniscus_summary summary_of(const SurfaceOf& surface) {
 
 /// A table's rows, copied.
 template <typename Row>
-std::vector<Row> rows_of(const SurfaceOf& surface, std::int32_t table) {
+std::vector<Row> rows_of(const SurfaceOf& surface, meniscus_surface_table_id table) {
   meniscus_array array{};
   EXPECT_EQ(meniscus_surface_table(surface.get(), table, &array), MENISCUS_OK) << meniscus_last_error();
   EXPECT_EQ(array.stride, sizeof(Row));

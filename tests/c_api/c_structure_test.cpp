@@ -40,7 +40,7 @@ constexpr std::string_view kMolecule =
     "ENDMDL\n";
 
 template <typename Row>
-std::vector<Row> column(const StructureOf& structure, std::int32_t which) {
+std::vector<Row> column(const StructureOf& structure, meniscus_structure_table_id which) {
   meniscus_array array{};
   EXPECT_EQ(meniscus_structure_table(structure.get(), which, &array), MENISCUS_OK) << meniscus_last_error();
   std::vector<Row> rows(array.count);
@@ -49,7 +49,7 @@ std::vector<Row> column(const StructureOf& structure, std::int32_t which) {
   return rows;
 }
 
-std::vector<std::string> texts(const StructureOf& structure, std::int32_t which) {
+std::vector<std::string> texts(const StructureOf& structure, meniscus_structure_table_id which) {
   meniscus_array array{};
   EXPECT_EQ(meniscus_structure_table(structure.get(), which, &array), MENISCUS_OK) << meniscus_last_error();
   std::vector<std::string> rows;
@@ -199,10 +199,10 @@ TEST_F(CStructure, ErrorsNameOptionsAsTheLibraryHasThem) {
   options.radii = "amber";
   EXPECT_NE(refused(options, MENISCUS_INPUT).find("no set of radii"), std::string::npos);
   options = reading();
-  options.hydrogens = 3;
+  options.hydrogens = meniscus_hydrogens{3};
   EXPECT_NE(refused(options, MENISCUS_USAGE).find("hydrogens is 3"), std::string::npos);
   options = reading();
-  options.unknown_element = -1;
+  options.unknown_element = meniscus_unknown_element{-1};
   EXPECT_NE(refused(options, MENISCUS_USAGE).find("unknown_element is -1"), std::string::npos);
   options = reading();
   options.model = -1;

@@ -216,6 +216,8 @@ class Errors(unittest.TestCase):
             meniscus.surface(*chain(5), kind="lee")
         with self.assertRaisesRegex(meniscus.InputError, "tolerance is 9"):
             meniscus.surface(*chain(5)).mesh(9)
+        with self.assertRaisesRegex(meniscus.UsageError, "tolerance is 0.05"):
+            meniscus.surface(*chain(5)).mesh(0.05, density=0.1)
 
     def test_shapes_are_looked_at_before_the_library_is(self):
         for xyz, radii in ((np.zeros((3, 2)), 1.7), (np.zeros(3), 1.7), (np.zeros((3, 3)), [1.7, 1.7]),
@@ -514,11 +516,14 @@ class Header(unittest.TestCase):
                    "uint8_t": ctypes.c_uint8}
         found = re.findall(r"typedef struct meniscus_\w+ \{(.*?)\} meniscus_(\w+);", self.text, re.S)
         self.assertGreaterEqual(len(found), 15)
+        words = re.findall(r"typedef enum (\w+) MENISCUS_WORDS", self.text)
+        self.assertGreaterEqual(len(words), 14)
         for body, name in found:
             python = {"mesh_options": "MeshOptions", "mesh_file": "MeshFile", "camera": "CameraStruct", "pocket": "PocketRow",
                       "pocket_options": "PocketOptions", "read_options": "ReadOptions", "read_report": "ReadReport"}.get(name, name.capitalize())
             fields = []
             for kind, members in re.findall(r"((?:const )?\w+(?:\* const)?\*?) ([^;]+);", body):
+                kind = "int32_t" if kind in words else kind
                 self.assertTrue(kind in c_names or "*" in kind, f"{name}: {kind}")
                 for member in members.split(","):
                     field, size = re.match(r"\s*(\w+)(?:\[(\d+)\])?", member).groups()

@@ -105,7 +105,7 @@ meniscus_array find_column(const meniscus_structure& of, std::int32_t wanted) {
     case MENISCUS_STRUCTURE_WARNINGS:
       return of.warnings.array();
     default:
-      refuse(MENISCUS_USAGE, "column is {}, none of MENISCUS_STRUCTURE_...", wanted);
+      refuse(MENISCUS_USAGE, "a structure has no table {}", wanted);
   }
 }
 
@@ -162,12 +162,12 @@ meniscus_status meniscus_structure_report(const meniscus_structure* structure, m
   });
 }
 
-meniscus_status meniscus_structure_table(const meniscus_structure* structure, std::int32_t column,
+meniscus_status meniscus_structure_table(const meniscus_structure* structure, meniscus_structure_table_id table,
                                          meniscus_array* array) {
   using namespace meniscus::c_api;
   return guarded([&] {
     require(structure, "structure");
     require(array, "array");
-    *array = find_column(*structure, column);
+    *array = find_column(*structure, table);
   });
 }

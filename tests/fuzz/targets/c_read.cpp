@@ -39,8 +39,8 @@ meniscus_read_options options_of(std::string_view line) {
   options.altloc = kAltlocs[choice(1, std::size(kAltlocs))];
   options.radii = kRadii[choice(2, std::size(kRadii))];
   options.model = kModels[choice(3, std::size(kModels))];
-  options.hydrogens = static_cast<std::int32_t>(choice(4, 4));
-  options.unknown_element = static_cast<std::int32_t>(choice(5, 4));
+  options.hydrogens = static_cast<meniscus_hydrogens>(choice(4, 4));
+  options.unknown_element = static_cast<meniscus_unknown_element>(choice(5, 4));
   options.keep_water = options.keep_ions = choice(6, 2) == 1;
   options.assembly = choice(7, 2) == 1 ? "1" : nullptr;
   options.radius = kOverrides;
@@ -52,7 +52,8 @@ meniscus_read_options options_of(std::string_view line) {
 void look_at(const meniscus_structure* structure, std::size_t atoms) {
   for (std::int32_t column = 0; column <= MENISCUS_STRUCTURE_WARNINGS; ++column) {
     meniscus_array array{};
-    require(done(meniscus_structure_table(structure, column, &array)), "a structure has all its columns");
+    require(done(meniscus_structure_table(structure, meniscus_structure_table_id{column}, &array)),
+            "a structure has all its columns");
     require(column == MENISCUS_STRUCTURE_WARNINGS || array.count == atoms, "a column has a row an atom");
     const bool is_text = (column >= MENISCUS_STRUCTURE_NAMES && column <= MENISCUS_STRUCTURE_SEGMENTS) ||
                          column == MENISCUS_STRUCTURE_WARNINGS;

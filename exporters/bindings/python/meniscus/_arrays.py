@@ -117,7 +117,8 @@ def color_of(values: Any, name: str) -> tuple[float, float, float]:
     array = real_array(values, name).astype(np.float32)
     if array.shape != (3,):
         raise InputError(f"{name} has the shape {array.shape}; it has to be three numbers in [0, 1]")
-    return tuple(array)
+    red, green, blue = array
+    return float(red), float(green), float(blue)
 
 
 def put_colors(struct: Any, colors: Any, atom_count: int) -> None:

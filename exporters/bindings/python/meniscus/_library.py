@@ -31,6 +31,7 @@ POCKETS, POCKET_MOUTHS, POCKET_ATOMS, POCKET_PROBES = range(4)
 (MESH_POSITIONS, MESH_NORMALS, MESH_TRIANGLES, MESH_TRIANGLE_ATOMS, MESH_TRIANGLE_KINDS, MESH_TRIANGLE_FACES,
  MESH_TRIANGLE_PATCHES, MESH_TRIANGLE_COMPONENTS, MESH_SHARP_CORNERS, MESH_SHARP_NORMALS, MESH_VERTEX_ATOMS) = range(11)
 
+MESH_BY_PATCH, MESH_EVEN, MESH_BY_DENSITY = range(3)
 HYDROGENS_AUTO, HYDROGENS_KEEP, HYDROGENS_DROP = range(3)
 UNKNOWN_HALT, UNKNOWN_GUESS, UNKNOWN_SKIP = range(3)
 (STRUCTURE_POSITIONS, STRUCTURE_RADII, STRUCTURE_ELEMENTS, STRUCTURE_INDICES, STRUCTURE_NAMES, STRUCTURE_RESIDUE_NAMES,
@@ -169,8 +170,8 @@ class ReadReport(Structure):
 
 
 class MeshOptions(_Given):
-    _fields_ = [("size", c_size_t), ("tolerance", c_double), ("split_colors", c_int32), ("reserved", c_int32),
-                ("density", c_double), ("even", c_int32), ("reserved_2", c_int32)]
+    _fields_ = [("size", c_size_t), ("method", c_int32), ("split_colors", c_int32), ("tolerance", c_double),
+                ("density", c_double)]
 
 
 class PocketOptions(_Given):
@@ -225,12 +226,13 @@ _CALLS: dict[str, list[Any]] = {
     "mesh_table": [c_void_p, c_int32, POINTER(Array)],
     "default_mesh_file": [POINTER(MeshFile)],
     "mesh_save": [c_void_p, c_char_p, POINTER(MeshFile)],
-    "surface_frame": [c_void_p, c_double, c_int32, POINTER(CameraStruct)],
+    "surface_camera": [c_void_p, c_double, c_int32, POINTER(CameraStruct)],
     "default_picture": [POINTER(Picture)],
-    "painter_new": [c_int32, POINTER(c_void_p)],
-    "paint": [c_void_p, c_void_p, POINTER(Picture), c_void_p, c_size_t],
+    "renderer_new": [c_int32, POINTER(c_void_p)],
+    "render": [c_void_p, c_void_p, POINTER(Picture), c_void_p, c_size_t],
 }
-_RELEASES = ("computer_release", "structure_release", "surface_release", "pockets_release", "mesh_release", "painter_release")
+_RELEASES = ("computer_release", "structure_release", "surface_release", "pockets_release", "mesh_release",
+             "renderer_release")
 
 
 def _candidates() -> list[str]:

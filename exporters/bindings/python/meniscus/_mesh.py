@@ -18,11 +18,13 @@ from ._types import AnyArray, Bytes, Floats, Indices, MeshFormat, Path
 class Mesh:
     """All vertices lie on the exact surface; seen from the solvent triangles are counter-clockwise."""
 
-    def __init__(self, surface: lib.Handle, tolerance: float, split_colors: bool, density: float = 0.0,
-                 even: bool = False) -> None:
+    def __init__(self, surface: lib.Handle, tolerance: float, split_colors: bool, density: Optional[float],
+                 even: bool) -> None:
         options = lib.default("mesh_options", lib.MeshOptions())
         options.tolerance, options.split_colors = tolerance, split_colors
-        options.density, options.even = density, even
+        options.method = lib.MESH_EVEN if even else lib.MESH_BY_PATCH
+        if density is not None:
+            options.method, options.density = lib.MESH_BY_DENSITY, density
         self._handle = lib.Handle("mesh", "surface_mesh", surface.pointer, ctypes.byref(options))
         summary = lib.Summary(ctypes.sizeof(lib.Summary))
         lib.call("surface_summary", surface.pointer, ctypes.byref(summary))

@@ -190,7 +190,7 @@ class Surface:
 
     # ---- what is made of it
 
-    def mesh(self, tolerance: float = 0.01, *, split_colors: bool = True, density: float = 0.0,
+    def mesh(self, tolerance: float = 0.01, *, split_colors: bool = True, density: Optional[float] = None,
              even: bool = False) -> Mesh:
         """Triangles that are nowhere farther than `tolerance` (Å) from the surface; with split_colors cut where the
         nearest atom changes. With `even` nearly equilateral ones, which reach over borders of patches; with a
