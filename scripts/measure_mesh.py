@@ -102,7 +102,9 @@ def main():
     balls = np.loadtxt(options.file)
     surface = meniscus.surface(balls[:, :3], balls[:, 3], probe=options.probe)
     began, cpu = time.perf_counter(), cpu_seconds()
-    mesh = surface.mesh(options.tolerance, density=options.density, even=not options.patches, split_colors=False)
+    fineness = {"density": options.density} if options.density else {"tolerance": options.tolerance,
+                                                                     "even": not options.patches}
+    mesh = surface.mesh(split_colors=False, **fineness)
     took, cpu = time.perf_counter() - began, cpu_seconds() - cpu
     vertices, triangles = np.array(mesh.vertices), np.array(mesh.triangles, dtype=np.int64)
     corners = vertices[triangles]

@@ -20,4 +20,5 @@ cd "$folder"
 unset MENISCUS_LIBRARY MENISCUS_PACKAGE
 "$python" -c 'import meniscus; print("libmeniscus", meniscus.version(), meniscus.library_path())'
 "$python" -B "$tests/package_test.py"
+"$python" -B "$tests/structure_test.py"
 "$python" -B "$tests/adapters_test.py" MDAnalysis mdtraj prody biotite ase openmm pint astropy unyt trimesh pyvista open3d

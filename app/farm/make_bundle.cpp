@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "core/camera/camera_json.h"
 #include "app/process/build_version.h"
 #include "app/farm/blender_driver.h"
 #include "app/farm/bundled_steps.h"

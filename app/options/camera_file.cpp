@@ -3,6 +3,7 @@
 #include "app/options/camera_file.h"
 
 #include "app/options/property_options.h"
+#include "core/camera/camera_json.h"
 
 namespace meniscus {
 

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/camera/camera_json.h"
 #include "app/options/object_option.h"
 #include "core/base/text.h"
 #include "core/color/color_maps.h"

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "app/preview/camera_motion.h"
+#include "core/camera/camera_json.h"
 #include "app/preview/command_json.h"
 #include "app/preview/command_values.h"
 #include "app/preview/merge_commands.h"

@@ -8,6 +8,7 @@
 #include <glm/common.hpp>
 
 #include "app/options/object_option.h"
+#include "core/camera/camera_json.h"
 #include "app/preview/command_json.h"
 #include "app/preview/command_reader.h"
 #include "app/preview/key_table.h"

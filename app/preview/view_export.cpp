@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "core/camera/camera_json.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/mesh/mesh_objects.h"

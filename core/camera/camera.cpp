@@ -1,139 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Camera files, picture axes and pixel rays.
+// Which cameras are possible, picture axes and pixel rays.
 #include "core/camera/camera.h"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <numbers>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
-#include <nlohmann/json.hpp>
 
 #include "core/base/error.h"
-#include "core/base/json_depth.h"
-#include "core/base/text.h"
 
 namespace meniscus {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-/// A value as it may stand in a message: short, and without control characters.
-std::string shown(const Json& value) {
-  constexpr std::size_t kLongest = 100;
-  return shortened(value.dump(), kLongest);
-}
-
-/// Values of one camera file, with complaints that name the key.
-class CameraReader {
- public:
-  CameraReader(const Json& json, const std::string& file) : json_(json), file_(file) {}
-
-  glm::dvec3 vector(const char* key) const {
-    const Json& value = member(key);
-    if (!value.is_array() || value.size() != 3) fail(key, "must be three numbers [x, y, z]");
-    glm::dvec3 result;
-    for (int i = 0; i < 3; ++i) {
-      if (!value[i].is_number()) fail(key, "must be three numbers [x, y, z]");
-      result[i] = value[i].get<double>();
-    }
-    return result;
-  }
-
-  double number(const char* key) const {
-    if (!member(key).is_number()) fail(key, "must be a number");
-    return member(key).get<double>();
-  }
-
-  Projection projection() const {
-    if (member("projection") == "perspective") return Projection::perspective;
-    if (member("projection") == "orthographic") return Projection::orthographic;
-    fail("projection", "must be \"perspective\" or \"orthographic\"");
-  }
-
-  void expect_only(std::initializer_list<std::string_view> keys) const {
-    for (const auto& [key, value] : json_.items())
-      if (std::ranges::find(keys, key) == keys.end())
-        throw InputError(file_, 0, fmt::format("camera: unknown key {}", shown(Json(key))));
-  }
-
- private:
-  const Json& member(const char* key) const {
-    if (!json_.contains(key)) throw InputError(file_, 0, fmt::format("camera: \"{}\" is missing", key));
-    return json_.at(key);
-  }
-  [[noreturn]] void fail(const char* key, const char* what) const {
-    throw InputError(file_, 0, fmt::format("camera: \"{}\" is {}; it {}", key, shown(json_.at(key)), what));
-  }
-
-  const Json& json_;
-  const std::string& file_;
-};
-
 bool is_finite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
-Json to_json(const glm::dvec3& v) { return Json::array({v.x, v.y, v.z}); }
-
 }  // namespace
-
-Camera parse_camera(std::string_view text, const std::string& file) {
-  if (is_nested_too_deep(text)) throw InputError(file, 0, "camera: is nested too deep to be one");
-  Json json;
-  try {
-    json = Json::parse(text);
-  } catch (const Json::parse_error& error) {
-    const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(error.byte, text.size()));
-    const auto line = 1 + std::count(text.begin(), end, '\n');
-    throw InputError(file, static_cast<std::size_t>(line), "camera: this is not JSON");
-  } catch (const Json::exception&) {
-    throw InputError(file, 0, "camera: a number is too large");
-  }
-  if (!json.is_object()) throw InputError(file, 0, "camera: expected one JSON object {...}");
-  const CameraReader reader(json, file);
-  Camera camera;
-  camera.position = reader.vector("position");
-  camera.target = reader.vector("target");
-  camera.up = reader.vector("up");
-  camera.projection = reader.projection();
-  if (camera.projection == Projection::perspective) {
-    camera.vertical_fov = reader.number("vertical_fov");
-    reader.expect_only({"position", "target", "up", "projection", "vertical_fov"});
-  } else {
-    camera.height = reader.number("height");
-    reader.expect_only({"position", "target", "up", "projection", "height"});
-  }
-  validate_camera(camera, file);
-  return camera;
-}
-
-Camera read_camera(const std::string& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw InputError(file, 0, "camera: the file cannot be opened");
-  const std::string text{std::istreambuf_iterator<char>(stream), {}};
-  if (stream.bad()) throw InputError(file, 0, "camera: the file cannot be read");
-  return parse_camera(text, file);
-}
-
-nlohmann::ordered_json camera_object(const Camera& camera) {
-  Json json;
-  json["position"] = to_json(camera.position);
-  json["target"] = to_json(camera.target);
-  json["up"] = to_json(camera.up);
-  if (camera.projection == Projection::perspective) {
-    json["projection"] = "perspective";
-    json["vertical_fov"] = camera.vertical_fov;
-  } else {
-    json["projection"] = "orthographic";
-    json["height"] = camera.height;
-  }
-  return json;
-}
-
-std::string camera_json(const Camera& camera) { return camera_object(camera).dump(2) + "\n"; }
 
 void validate_camera(const Camera& camera, const std::string& file) {
   const auto fail = [&](const std::string& what) { throw InputError(file, 0, "camera: " + what); };

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The camera that ray caster and exporters share: its file, its rays, and a default one for a surface.
+// The camera that ray caster and exporters share: its rays, and a default one for a surface.
 #pragma once
 
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
-#include <nlohmann/json_fwd.hpp>
 
 #include "core/math/ball.h"
 
@@ -36,19 +34,6 @@ struct ViewBasis {
 struct Ray {
   glm::dvec3 origin, direction;
 };
-
-/// Reads {"position":[x,y,z],"target":[..],"up":[..],"projection":"perspective","vertical_fov":degrees} or
-/// {..,"projection":"orthographic","height":Å}. Throws InputError naming `file` for anything missing, unknown or
-/// impossible (position equal to target, up parallel to the view, angle not inside (0, 180), height not positive).
-Camera parse_camera(std::string_view json, const std::string& file);
-
-/// parse_camera on the content of a file. Throws InputError.
-Camera read_camera(const std::string& file);
-
-/// The inverse of parse_camera: every number survives exactly. Ends with a newline.
-std::string camera_json(const Camera& camera);
-/// The same as an object.
-nlohmann::ordered_json camera_object(const Camera& camera);
 
 /// Throws InputError naming `file` when the camera shows nothing sensible.
 void validate_camera(const Camera& camera, const std::string& file);

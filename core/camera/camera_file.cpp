@@ -15,6 +15,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
+#include "core/camera/camera_json.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/math/rigid_motion.h"

@@ -5,24 +5,15 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <utility>
 
 #define GLM_ENABLE_EXPERIMENTAL
-#include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/gtx/quaternion.hpp>
-#include <nlohmann/json.hpp>
-
-#include "core/base/error.h"
-#include "core/base/json_depth.h"
 
 namespace meniscus {
 namespace {
-
-constexpr double kLargestFrame = 1e9;
 
 /// What is interpolated of a camera.
 struct Pose {
@@ -102,42 +93,6 @@ Camera CameraPath::at(double frame) const {
                                  pose[2].axes * glm::inverse(third(1, 3, i, after)), pose[2].axes, s);
   return camera_of({curve(&Pose::target), curve(&Pose::size), axes}, keys_[i].camera.projection);
 }
-
-CameraPath parse_camera_path(std::string_view text, const std::string& file) {
-  const auto fail = [&](const std::string& what) { throw InputError(file, 0, "camera path: " + what); };
-  if (is_nested_too_deep(text)) fail("is nested too deep to be one");
-  const nlohmann::json json = nlohmann::json::parse(text, nullptr, false);
-  if (!json.is_object() || !json.contains("keys") || !json["keys"].is_array() || json["keys"].empty())
-    fail(R"(must be {"keys":[{"frame":0,"camera":{...}},...]})");
-  std::vector<CameraKey> keys;
-  for (const nlohmann::json& entry : json["keys"]) {
-    const std::string where = fmt::format("key {}", keys.size() + 1);
-    if (!entry.is_object() || !entry.contains("frame") || !entry["frame"].is_number() || !entry.contains("camera"))
-      fail(where + " must have a \"frame\", a number, and a \"camera\"");
-    const double frame = entry["frame"].get<double>();
-    if (!(std::abs(frame) <= kLargestFrame)) fail(where + fmt::format(": the frame is beyond {:.0f}", kLargestFrame));
-    keys.push_back({frame, parse_camera(entry["camera"].dump(), fmt::format("{}: {}", file, where))});
-    if (keys.size() == 1) continue;
-    if (!(keys[keys.size() - 2].frame < frame)) fail(where + ": frames must rise from key to key");
-    if (keys.front().camera.projection != keys.back().camera.projection)
-      fail(where + ": all keys must have the same projection");
-  }
-  return CameraPath(std::move(keys));
-}
-
-CameraPath read_camera_path(const std::string& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw InputError(file, 0, "camera path: cannot be read");
-  return parse_camera_path(std::string(std::istreambuf_iterator<char>(stream), {}), file);
-}
-
-nlohmann::ordered_json camera_path_object(const std::vector<CameraKey>& keys) {
-  nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  for (const CameraKey& key : keys) list.push_back({{"frame", key.frame}, {"camera", camera_object(key.camera)}});
-  return nlohmann::ordered_json{{"keys", list}};
-}
-
-std::string camera_path_json(const std::vector<CameraKey>& keys) { return camera_path_object(keys).dump(2) + "\n"; }
 
 Camera turned(const Camera& camera, const glm::dvec3& pivot, const glm::dvec3& axis, double angle) {
   const glm::dmat3 turn = glm::mat3_cast(glm::angleAxis(angle, axis));

@@ -2,8 +2,6 @@
 // A camera that moves: key frames and what lies between them.
 #pragma once
 
-#include <string>
-#include <string_view>
 #include <vector>
 
 #include "core/camera/camera.h"
@@ -28,16 +26,6 @@ class CameraPath {
  private:
   std::vector<CameraKey> keys_;
 };
-
-/// Reads {"keys":[{"frame":0,"camera":{...}},...]}, each camera as parse_camera has it. Throws InputError naming `file`
-/// and the key.
-CameraPath parse_camera_path(std::string_view json, const std::string& file);
-CameraPath read_camera_path(const std::string& file);
-
-/// The inverse of parse_camera_path: every number survives exactly. Ends with a newline.
-std::string camera_path_json(const std::vector<CameraKey>& keys);
-/// The same as an object.
-nlohmann::ordered_json camera_path_object(const std::vector<CameraKey>& keys);
 
 /// The camera carried around the line through `pivot` along `axis` (of length 1) by `angle` (radians, right-handed).
 Camera turned(const Camera& camera, const glm::dvec3& pivot, const glm::dvec3& axis, double angle);

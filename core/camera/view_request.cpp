@@ -7,6 +7,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/camera/camera_json.h"
 #include "core/camera/camera_file.h"
 
 namespace meniscus {

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
@@ -49,9 +48,6 @@ struct GpuScene : ScenePlacement {
   bool some_hidden = false;
   Buffer parts;  ///< uint32 per atom, or empty: Coloring::part
 };
-
-/// Those of GpuScene::colors.
-std::vector<glm::vec4> linear_colors(const Coloring& coloring);
 
 /// Sets the last five members.
 void upload_coloring(const Coloring& coloring, GpuScene& scene);

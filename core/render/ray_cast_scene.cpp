@@ -428,11 +428,4 @@ std::uint32_t row_count(const Primitive& primitive) {
   return 1 + primitive.plane_count + (primitive.kind == ray_cast::kConcave ? primitive.atom : 0);
 }
 
-void upload_scene(const RayCastScene& packed, const Surface& surface, const PictureFrame& frame, GpuScene& scene) {
-  scene.primitives.upload(packed.primitives);
-  scene.rows.upload(packed.rows);
-  scene.counters.upload(std::vector<std::uint32_t>{scene.primitives.count()});
-  static_cast<ScenePlacement&>(scene) = place_atoms(surface.atoms, surface.probe_radius, frame);
-}
-
 }  // namespace meniscus

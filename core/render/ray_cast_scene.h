@@ -86,7 +86,4 @@ RayCastScene pack_patches(const PackedCopy& copy, std::span<const BoundedPatch> 
 /// Rows that a primitive has from its first one on.
 std::uint32_t row_count(const ray_cast::Primitive& primitive);
 
-/// Everything of `scene` on the GPU but the colours.
-void upload_scene(const RayCastScene& packed, const Surface& surface, const PictureFrame& frame, GpuScene& scene);
-
 }  // namespace meniscus

@@ -3,6 +3,8 @@
 #include "core/render/surface_drawable.h"
 
 #include <cassert>
+#include <cstdint>
+#include <vector>
 
 #include "core/gpu/gpu_stage.h"
 
@@ -19,6 +21,13 @@ const GpuScene& SurfaceDrawable::prepare(const PictureFrame& frame, StageClock& 
   upload_scene(pack_scene(*surface_, *coloring_, frame), *surface_, frame, scene_);
   upload_coloring(*coloring_, scene_);
   return scene_;
+}
+
+void upload_scene(const RayCastScene& packed, const Surface& surface, const PictureFrame& frame, GpuScene& scene) {
+  scene.primitives.upload(packed.primitives);
+  scene.rows.upload(packed.rows);
+  scene.counters.upload(std::vector<std::uint32_t>{scene.primitives.count()});
+  static_cast<ScenePlacement&>(scene) = place_atoms(surface.atoms, surface.probe_radius, frame);
 }
 
 }  // namespace meniscus

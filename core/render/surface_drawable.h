@@ -27,4 +27,7 @@ class SurfaceDrawable final : public Drawable {
   GpuScene scene_;
 };
 
+/// Everything of `scene` on the GPU but the colours.
+void upload_scene(const RayCastScene& packed, const Surface& surface, const PictureFrame& frame, GpuScene& scene);
+
 }  // namespace meniscus

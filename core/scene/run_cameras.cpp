@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include "core/camera/camera_json.h"
 #include "core/base/text.h"
 #include "core/base/error.h"
 #include "core/scene/view_aim.h"

@@ -13,6 +13,7 @@
 #include <glm/matrix.hpp>
 
 #include "core/base/error.h"
+#include "core/base/option_name.h"
 #include "core/base/text.h"
 #include "core/text/parse_number.h"
 #include "core/text/text_lines.h"
@@ -214,7 +215,9 @@ const Assembly& find_assembly(std::span<const Assembly> assemblies, const std::s
   const auto found = std::find_if(assemblies.begin(), assemblies.end(), [&](const Assembly& a) { return a.id == id; });
   if (found != assemblies.end()) return *found;
   if (assemblies.empty())
-    throw InputError(file, 0, "describes no assembly (REMARK 350, _pdbx_struct_assembly_gen); leave --assembly away");
+    throw InputError(file, 0,
+                     fmt::format("describes no assembly (REMARK 350, _pdbx_struct_assembly_gen); leave {} away",
+                                 option_name("assembly")));
   std::vector<std::string> ids;
   for (const Assembly& assembly : assemblies) ids.push_back(escaped(assembly.id));
   throw InputError(file, 0, fmt::format("has no assembly {}; it has {}", in_quotes(id), fmt::join(ids, ", ")));
@@ -246,10 +249,9 @@ void assemble(Structure& structure, const Assembly& assembly, CopyMode mode) {
   if (total > kMostAssembledAtoms) {
     throw CapacityError(
         fmt::format("{}: assembly {} has {} atoms, more than the limit of {}; one surface of it would need about {} "
-                    "GB; --instances "
-                    "draws copies of one",
+                    "GB; {} draws copies of one",
                     structure.file, in_quotes(assembly.id), with_thousands(total), with_thousands(kMostAssembledAtoms),
-                    with_thousands(total / 250'000)));
+                    with_thousands(total / 250'000), option_name("instances")));
   }
   structure.atoms = expanded(structure.atoms, groups, total, copies, structure.file);
 }

@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reading, unpacking and vetting of text input.
+// Reading and vetting of text input.
 #include "core/text/text_file.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
-#include <zlib.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <memory>
 #include <string_view>
 #include <utility>
 
@@ -19,17 +17,14 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/base/uninterrupted.h"
+#include "core/text/gzip.h"
+#include "core/text/size_limit.h"
 
 namespace meniscus {
 namespace {
 
 constexpr std::size_t kLongestLine = std::size_t{1} << 20;
 constexpr std::size_t kTail = 4096;  // bytes before the end, to tell appending from writing anew
-
-[[noreturn]] void too_large(const std::string& path, std::size_t largest) {
-  throw CapacityError(
-      fmt::format("{}: holds more than {} bytes, more than this program reads", path, with_thousands(largest)));
-}
 
 [[noreturn]] void unreadable(const std::string& path) {
   throw InputError(path, 0, std::string("cannot be read: ") + std::strerror(errno));
@@ -93,7 +88,7 @@ std::string read_bytes(const std::string& path, std::size_t largest) {
     throw InputError(path, 0, "is a pipe or device; save it as a file first, or give - to read standard input");
   const OpenFile file(path);
   status = file.status();
-  if (static_cast<std::size_t>(status.st_size) > largest) too_large(path, largest);
+  if (static_cast<std::size_t>(status.st_size) > largest) refuse_too_large(path, largest);
   std::string bytes = file.read(0, static_cast<std::size_t>(status.st_size));
   if (!is_snapshot(file, status, bytes))
     throw InputError(path, 0, "was changed while it was read; run again once it is complete");
@@ -109,44 +104,10 @@ std::string read_standard_input(const std::string& path, std::size_t largest) {
     if (count < 0) unreadable(path);
     if (count == 0) break;
     bytes.append(chunk, 0, static_cast<std::size_t>(count));
-    if (bytes.size() > largest) too_large(path, largest);
+    if (bytes.size() > largest) refuse_too_large(path, largest);
   }
   if (bytes.empty()) throw InputError(path, 0, "is empty: no atoms");
   return bytes;
-}
-
-/// Unpacks all members; RFC 1952 checks length and CRC of each. Zero padding after the last one is usual on tapes.
-std::string unpack_gzip(const std::string& path, const std::string& packed, std::size_t largest) {
-  z_stream stream{};
-  if (inflateInit2(&stream, 15 + 16) != Z_OK) throw std::bad_alloc();
-  const std::unique_ptr<z_stream, int (*)(z_stream*)> guard(&stream, inflateEnd);
-  std::string text;
-  std::string chunk(std::size_t{1} << 18, '\0');
-  std::size_t next = 0;
-  int state = Z_OK;
-  while (true) {
-    stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(packed.data() + next));
-    stream.avail_in = static_cast<uInt>(std::min<std::size_t>(packed.size() - next, std::size_t{1} << 30));
-    const uInt given = stream.avail_in;
-    stream.next_out = reinterpret_cast<Bytef*>(chunk.data());
-    stream.avail_out = static_cast<uInt>(chunk.size());
-    state = inflate(&stream, Z_NO_FLUSH);
-    next += given - stream.avail_in;
-    text.append(chunk, 0, chunk.size() - stream.avail_out);
-    if (text.size() > largest) too_large(path, largest);
-    if (state == Z_STREAM_END) {
-      next = std::min(packed.find_first_not_of('\0', next), packed.size());
-      if (next == packed.size()) return text;
-      if (packed.compare(next, 2, "\x1f\x8b") != 0)
-        throw InputError(path, 0, "has foreign bytes after its gzip data; unpack it by hand");
-      inflateReset(&stream);
-    } else if (state == Z_BUF_ERROR || (state == Z_OK && next == packed.size() && stream.avail_out > 0)) {
-      throw InputError(path, 0, "is cut short: its gzip data ends too early; fetch it again");
-    } else if (state != Z_OK) {
-      throw InputError(
-          path, 0, fmt::format("is damaged: gzip says '{}'; fetch it again", stream.msg ? stream.msg : "wrong data"));
-    }
-  }
 }
 
 void refuse_other_containers(const std::string& path, std::string_view bytes) {

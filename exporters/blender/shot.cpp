@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Adds the size to the camera's object.
+#include "core/camera/camera_json.h"
 #include "exporters/blender/shot.h"
 
 #include <nlohmann/json.hpp>

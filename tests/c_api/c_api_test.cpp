@@ -93,7 +93,7 @@ TEST(CApi, ShowsEveryTableOfTheSurface) {
 
 TEST(CApi, OneSphereIsOneSphere) {
   const testing::Balls one{{{1.0, 2.0, 3.0}, 1.7}};
-  for (const std::int32_t kind : {MENISCUS_SES, MENISCUS_SAS, MENISCUS_VDW}) {
+  for (const meniscus_kind kind : {MENISCUS_SES, MENISCUS_SAS, MENISCUS_VDW}) {
     meniscus_options options = default_options();
     options.kind = kind;
     const Computer made = computer(options);
@@ -131,7 +131,7 @@ TEST(CApi, TheNextFrameIsComputedInPlaceUnlessItIsHeld) {
 
   meniscus_surface* const before = surface.get();
   meniscus_surface* handle = surface.release();
-  EXPECT_EQ(meniscus_compute(made.get(), &atoms, &handle), MENISCUS_OK);
+  EXPECT_EQ(meniscus_recompute(made.get(), &atoms, &handle), MENISCUS_OK);
   EXPECT_EQ(handle, before);
   surface.reset(handle);
   const double area_of_second = summary_of(surface).area;
@@ -140,7 +140,7 @@ TEST(CApi, TheNextFrameIsComputedInPlaceUnlessItIsHeld) {
   const SurfaceOf held(meniscus_surface_retain(surface.get()));
   const meniscus_atoms again = atoms_of(first);
   handle = surface.release();
-  EXPECT_EQ(meniscus_compute(other.get(), &again, &handle), MENISCUS_OK);
+  EXPECT_EQ(meniscus_recompute(other.get(), &again, &handle), MENISCUS_OK);
   EXPECT_NE(handle, held.get());
   surface.reset(handle);
   EXPECT_EQ(summary_of(surface).area, area_of_first);
@@ -193,7 +193,7 @@ const BadAtoms kBadAtoms[] = {
     {"no radii", [](auto&, auto& a) { a.radii = nullptr; }, MENISCUS_USAGE, "radii is NULL"},
     {"short rows", [](auto&, auto& a) { a.positions_stride = 8; }, MENISCUS_USAGE, "positions_stride is 8"},
     {"crooked rows", [](auto&, auto& a) { a.positions_stride = 33; }, MENISCUS_USAGE, "positions_stride is 33"},
-    {"unknown type", [](auto&, auto& a) { a.radii_type = 7; }, MENISCUS_USAGE, "radii_type is 7"},
+    {"unknown type", [](auto&, auto& a) { a.radii_type = meniscus_number_type{7}; }, MENISCUS_USAGE, "radii_type is 7"},
     {"no size", [](auto&, auto& a) { a.size = 0; }, MENISCUS_USAGE, "meniscus_atoms.size is 0"},
 };
 
@@ -208,6 +208,8 @@ TEST(CApi, RefusesBadAtomsByIndexAndValueAndKeepsTheSurface) {
     bad.spoil(balls, atoms);
     meniscus_surface* handle = surface.get();
     EXPECT_EQ(meniscus_compute(made.get(), &atoms, &handle), bad.status);
+    EXPECT_EQ(handle, surface.get());
+    EXPECT_EQ(meniscus_recompute(made.get(), &atoms, &handle), bad.status);
     EXPECT_EQ(handle, surface.get());
     EXPECT_NE(std::string(meniscus_last_error()).find(bad.text), std::string::npos) << meniscus_last_error();
     EXPECT_EQ(summary_of(surface).area, area);
@@ -228,8 +230,8 @@ TEST(CApi, RefusesBadOptions) {
   EXPECT_NE(std::strstr(meniscus_last_error(), "probe_radius: -1.4 Å is negative"), nullptr) << meniscus_last_error();
   EXPECT_EQ(refused([](auto& o) { o.probe_radius = 1e-4; }), MENISCUS_INPUT);
   EXPECT_EQ(refused([](auto& o) { o.probe_radius = kInfinity; }), MENISCUS_INPUT);
-  EXPECT_EQ(refused([](auto& o) { o.kind = 3; }), MENISCUS_USAGE);
-  EXPECT_EQ(refused([](auto& o) { o.device = -1; }), MENISCUS_USAGE);
+  EXPECT_EQ(refused([](auto& o) { o.kind = meniscus_kind{3}; }), MENISCUS_USAGE);
+  EXPECT_EQ(refused([](auto& o) { o.device = meniscus_device{-1}; }), MENISCUS_USAGE);
   EXPECT_EQ(refused([](auto& o) { o.threads = -1; }), MENISCUS_USAGE);
   EXPECT_EQ(meniscus_computer_new(nullptr, nullptr), MENISCUS_USAGE);
 }
@@ -246,7 +248,8 @@ TEST(CApi, GradientsOfWhatHasThem) {
   // Of the accessible surface, two caps of height R + d / 2 on either side: 2 pi R and pi (R^2 - d^2 / 4).
   const double along_axis[] = {(more.area - less.area) / (2 * step), (more.volume - less.volume) / (2 * step),
                                2 * pi * accessible, pi * (accessible * accessible - 4.0)};
-  for (std::int32_t quantity = MENISCUS_GRADIENT_AREA; quantity <= MENISCUS_GRADIENT_SAS_VOLUME; ++quantity) {
+  for (const meniscus_quantity quantity :
+       {MENISCUS_GRADIENT_AREA, MENISCUS_GRADIENT_VOLUME, MENISCUS_GRADIENT_SAS_AREA, MENISCUS_GRADIENT_SAS_VOLUME}) {
     ASSERT_EQ(meniscus_surface_gradient(surface.get(), quantity, nullptr, gradient), MENISCUS_OK);
     EXPECT_NEAR(gradient[3], along_axis[quantity], 1e-6) << quantity;
     EXPECT_NEAR(gradient[0], -gradient[3], 1e-12);
@@ -257,9 +260,9 @@ TEST(CApi, GradientsOfWhatHasThem) {
   EXPECT_NEAR(weighted[3], 2 * gradient[3], 1e-12);
   EXPECT_EQ(meniscus_surface_gradient(surface.get(), MENISCUS_GRADIENT_SAS_AREA, wrong, weighted), MENISCUS_INPUT);
   EXPECT_EQ(meniscus_surface_gradient(surface.get(), MENISCUS_GRADIENT_AREA, weights, weighted), MENISCUS_USAGE);
-  EXPECT_EQ(meniscus_surface_gradient(surface.get(), 4, nullptr, weighted), MENISCUS_USAGE);
-  EXPECT_EQ(meniscus_surface_gradient(surface.get(), -1, nullptr, weighted), MENISCUS_USAGE);
-  EXPECT_EQ(meniscus_surface_gradient(surface.get(), 0, nullptr, nullptr), MENISCUS_USAGE);
+  EXPECT_EQ(meniscus_surface_gradient(surface.get(), meniscus_quantity{4}, nullptr, weighted), MENISCUS_USAGE);
+  EXPECT_EQ(meniscus_surface_gradient(surface.get(), meniscus_quantity{-1}, nullptr, weighted), MENISCUS_USAGE);
+  EXPECT_EQ(meniscus_surface_gradient(surface.get(), meniscus_quantity{0}, nullptr, nullptr), MENISCUS_USAGE);
   EXPECT_NEAR(weighted[3], 2 * gradient[3], 1e-12);  // as it was
   const SurfaceOf square = computed(made.get(), testing::ring(4, 3.4));
   double of_square[12];
@@ -277,12 +280,12 @@ TEST(CApi, RefusesNullAndUnknownTables) {
   EXPECT_EQ(meniscus_compute(nullptr, nullptr, nullptr), MENISCUS_USAGE);
   EXPECT_EQ(meniscus_surface_summary(nullptr, &summary), MENISCUS_USAGE);
   EXPECT_EQ(meniscus_surface_summary(surface.get(), &summary), MENISCUS_USAGE);  // without its size
-  EXPECT_EQ(meniscus_surface_table(surface.get(), 15, &array), MENISCUS_USAGE);
-  EXPECT_EQ(meniscus_surface_table(surface.get(), -1, &array), MENISCUS_USAGE);
-  EXPECT_EQ(meniscus_surface_table(surface.get(), 0, nullptr), MENISCUS_USAGE);
+  EXPECT_EQ(meniscus_surface_table(surface.get(), meniscus_surface_table_id{15}, &array), MENISCUS_USAGE);
+  EXPECT_EQ(meniscus_surface_table(surface.get(), meniscus_surface_table_id{-1}, &array), MENISCUS_USAGE);
+  EXPECT_EQ(meniscus_surface_table(surface.get(), MENISCUS_COMPONENTS, nullptr), MENISCUS_USAGE);
   EXPECT_EQ(meniscus_surface_distance(surface.get(), 1, nullptr, &number, nullptr), MENISCUS_USAGE);
   EXPECT_EQ(meniscus_surface_mesh(nullptr, nullptr, nullptr), MENISCUS_USAGE);
-  EXPECT_EQ(meniscus_mesh_table(nullptr, 0, &array), MENISCUS_USAGE);
+  EXPECT_EQ(meniscus_mesh_table(nullptr, MENISCUS_MESH_POSITIONS, &array), MENISCUS_USAGE);
   EXPECT_EQ(meniscus_element_of_symbol(nullptr, &element), MENISCUS_USAGE);
   EXPECT_EQ(meniscus_element_radius(119, &number, nullptr), MENISCUS_INPUT);
   meniscus_surface_release(nullptr);
@@ -413,8 +416,9 @@ TEST(CApi, EvenMeshesHaveTheDensityAskedFor) {
   meniscus_mesh_options options{};
   options.size = sizeof options;
   ASSERT_EQ(meniscus_default_mesh_options(&options), MENISCUS_OK);
+  EXPECT_EQ(options.method, MENISCUS_MESH_BY_PATCH);
   EXPECT_EQ(options.density, 0.0);
-  EXPECT_EQ(options.even, 0);
+  options.method = MENISCUS_MESH_BY_DENSITY;
   options.density = 3.0;
   meniscus_mesh* handle = nullptr;
   ASSERT_EQ(meniscus_surface_mesh(surface.get(), &options, &handle), MENISCUS_OK) << meniscus_last_error();
@@ -432,6 +436,36 @@ TEST(CApi, EvenMeshesHaveTheDensityAskedFor) {
     EXPECT_EQ(meniscus_surface_mesh(surface.get(), &options, &handle), MENISCUS_INPUT) << density;
     EXPECT_EQ(handle, nullptr);
   }
+}
+
+TEST(CApi, AMethodOfMeshesRefusesTheNumbersOfAnother) {
+  const Computer made = computer();
+  const SurfaceOf surface = computed(made.get(), testing::two_atoms(4.0));
+  const auto refused = [&](meniscus_mesh_method method, double tolerance, double density) {
+    meniscus_mesh_options options{};
+    options.size = sizeof options;
+    EXPECT_EQ(meniscus_default_mesh_options(&options), MENISCUS_OK);
+    options.method = method;
+    options.tolerance = tolerance;
+    options.density = density;
+    meniscus_mesh* handle = nullptr;
+    EXPECT_EQ(meniscus_surface_mesh(surface.get(), &options, &handle), MENISCUS_USAGE);
+    EXPECT_EQ(handle, nullptr);
+    return std::string(meniscus_last_error());
+  };
+  EXPECT_TRUE(refused(MENISCUS_MESH_BY_PATCH, 0.05, 1.0).starts_with("density is 1"));
+  EXPECT_TRUE(refused(MENISCUS_MESH_EVEN, 0.05, 1.0).starts_with("density is 1"));
+  EXPECT_TRUE(refused(MENISCUS_MESH_BY_DENSITY, 0.05, 1.0).starts_with("tolerance is 0.05"));
+  EXPECT_TRUE(refused(meniscus_mesh_method{3}, 0.01, 0.0).starts_with("method is 3"));
+}
+
+TEST(CApi, RecomputingNeedsASurface) {
+  const Computer made = computer();
+  const testing::Balls balls = testing::two_atoms(4.0);
+  const meniscus_atoms atoms = atoms_of(balls);
+  meniscus_surface* none = nullptr;
+  EXPECT_EQ(meniscus_recompute(made.get(), &atoms, &none), MENISCUS_USAGE);
+  EXPECT_STREQ(meniscus_last_error(), "*surface is NULL");
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -15,16 +16,18 @@ namespace meniscus::test {
 
 struct Release {
   void operator()(meniscus_computer* computer) const { meniscus_computer_release(computer); }
+  void operator()(meniscus_structure* structure) const { meniscus_structure_release(structure); }
   void operator()(meniscus_surface* surface) const { meniscus_surface_release(surface); }
   void operator()(meniscus_pockets* pockets) const { meniscus_pockets_release(pockets); }
   void operator()(meniscus_mesh* mesh) const { meniscus_mesh_release(mesh); }
-  void operator()(meniscus_painter* painter) const { meniscus_painter_release(painter); }
+  void operator()(meniscus_renderer* renderer) const { meniscus_renderer_release(renderer); }
 };
 using Computer = std::unique_ptr<meniscus_computer, Release>;
+using StructureOf = std::unique_ptr<meniscus_structure, Release>;
 using SurfaceOf = std::unique_ptr<meniscus_surface, Release>;
 using Pockets = std::unique_ptr<meniscus_pockets, Release>;
 using Mesh = std::unique_ptr<meniscus_mesh, Release>;
-using Painter = std::unique_ptr<meniscus_painter, Release>;
+using Renderer = std::unique_ptr<meniscus_renderer, Release>;
 
 inline meniscus_options default_options() {
   meniscus_options options{};
@@ -37,6 +40,13 @@ inline Computer computer(const meniscus_options& options = default_options()) {
   meniscus_computer* made = nullptr;
   EXPECT_EQ(meniscus_computer_new(&options, &made), MENISCUS_OK) << meniscus_last_error();
   return Computer(made);
+}
+
+/// Reads a file by meniscus_read().
+inline StructureOf structure_of(const std::string& path, const meniscus_read_options* options = nullptr) {
+  meniscus_structure* made = nullptr;
+  EXPECT_EQ(meniscus_read(path.c_str(), options, &made), MENISCUS_OK) << meniscus_last_error();
+  return StructureOf(made);
 }
 
 /// The balls as they stand in memory: rows of x, y, z, radius.
@@ -67,7 +77,7 @@ inline meniscus_summary summary_of(const SurfaceOf& surface) {
 
 /// A table's rows, copied.
 template <typename Row>
-std::vector<Row> rows_of(const SurfaceOf& surface, std::int32_t table) {
+std::vector<Row> rows_of(const SurfaceOf& surface, meniscus_surface_table_id table) {
   meniscus_array array{};
   EXPECT_EQ(meniscus_surface_table(surface.get(), table, &array), MENISCUS_OK) << meniscus_last_error();
   EXPECT_EQ(array.stride, sizeof(Row));

@@ -16,10 +16,10 @@ namespace {
 
 using namespace test;
 
-Painter painter(std::int32_t device = MENISCUS_SOFTWARE) {
-  meniscus_painter* made = nullptr;
-  EXPECT_EQ(meniscus_painter_new(device, &made), MENISCUS_OK) << meniscus_last_error();
-  return Painter(made);
+Renderer renderer(meniscus_device device = MENISCUS_SOFTWARE) {
+  meniscus_renderer* made = nullptr;
+  EXPECT_EQ(meniscus_renderer_new(device, &made), MENISCUS_OK) << meniscus_last_error();
+  return Renderer(made);
 }
 
 meniscus_picture picture_of(int width, int height) {
@@ -39,17 +39,17 @@ std::array<int, 4> pixel_at(const std::vector<std::uint8_t>& rgba, int width, in
 TEST(CApiPictures, AnOrthographicSphereIsAsLargeAsItIs) {
   const Computer made = computer();
   const SurfaceOf surface = computed(made.get(), testing::Balls{{{5.0, 5.0, 5.0}, 2.0}});
-  const Painter draws = painter();
+  const Renderer draws = renderer();
   meniscus_camera camera{};
   camera.size = sizeof camera;
-  ASSERT_EQ(meniscus_surface_frame(surface.get(), 1.0, MENISCUS_ORTHOGRAPHIC, &camera), MENISCUS_OK);
+  ASSERT_EQ(meniscus_surface_camera(surface.get(), 1.0, MENISCUS_ORTHOGRAPHIC, &camera), MENISCUS_OK);
   camera.height = 8.0;  // so the sphere is half as wide as the picture
   meniscus_picture picture = picture_of(100, 100);
   picture.camera = &camera;
   const float green[3] = {0.0f, 1.0f, 0.0f};
   picture.atom_colors = green;
   std::vector<std::uint8_t> rgba(40000);
-  ASSERT_EQ(meniscus_paint(draws.get(), surface.get(), &picture, rgba.data(), rgba.size()), MENISCUS_OK)
+  ASSERT_EQ(meniscus_render(draws.get(), surface.get(), &picture, rgba.data(), rgba.size()), MENISCUS_OK)
       << meniscus_last_error();
   double covered = 0.0;
   for (std::size_t n = 3; n < rgba.size(); n += 4) covered += rgba[n] / 255.0;
@@ -63,20 +63,20 @@ TEST(CApiPictures, AnOrthographicSphereIsAsLargeAsItIs) {
   picture.opaque = 1;
   picture.background[0] = 1.0f;
   picture.background[1] = picture.background[2] = 0.0f;
-  ASSERT_EQ(meniscus_paint(draws.get(), surface.get(), &picture, rgba.data(), rgba.size()), MENISCUS_OK);
+  ASSERT_EQ(meniscus_render(draws.get(), surface.get(), &picture, rgba.data(), rgba.size()), MENISCUS_OK);
   EXPECT_EQ(pixel_at(rgba, 100, 0, 0), (std::array<int, 4>{255, 0, 0, 255}));
 }
 
 TEST(CApiPictures, AreTheSameFromAnyThread) {
   const Computer made = computer();
   const SurfaceOf surface = computed(made.get(), testing::collinear(5, 1.5));
-  const Painter draws = painter();
+  const Renderer draws = renderer();
   const meniscus_picture picture = picture_of(64, 48);
   std::vector<std::vector<std::uint8_t>> drawn(4, std::vector<std::uint8_t>(64 * 48 * 4));
   std::vector<std::thread> threads;
   for (auto& rgba : drawn)
     threads.emplace_back([&] {
-      EXPECT_EQ(meniscus_paint(draws.get(), surface.get(), &picture, rgba.data(), rgba.size()), MENISCUS_OK)
+      EXPECT_EQ(meniscus_render(draws.get(), surface.get(), &picture, rgba.data(), rgba.size()), MENISCUS_OK)
           << meniscus_last_error();
     });
   for (std::thread& thread : threads) thread.join();
@@ -91,9 +91,9 @@ TEST(CApiPictures, OfTheCpuAreThoseOfGlButForRounding) {
   picture.ambient_occlusion = 0.8f;
   picture.silhouettes = 2.0f;
   std::vector<std::uint8_t> by_gl(120 * 90 * 4), by_cpu(by_gl.size());
-  const Painter gl = painter(), cpu = painter(MENISCUS_CPU);
-  ASSERT_EQ(meniscus_paint(gl.get(), surface.get(), &picture, by_gl.data(), by_gl.size()), MENISCUS_OK);
-  ASSERT_EQ(meniscus_paint(cpu.get(), surface.get(), &picture, by_cpu.data(), by_cpu.size()), MENISCUS_OK);
+  const Renderer gl = renderer(), cpu = renderer(MENISCUS_CPU);
+  ASSERT_EQ(meniscus_render(gl.get(), surface.get(), &picture, by_gl.data(), by_gl.size()), MENISCUS_OK);
+  ASSERT_EQ(meniscus_render(cpu.get(), surface.get(), &picture, by_cpu.data(), by_cpu.size()), MENISCUS_OK);
   std::size_t different = 0;
   for (std::size_t n = 0; n < by_gl.size(); ++n) different += std::abs(by_gl[n] - by_cpu[n]) > 1;
   EXPECT_LE(different, by_gl.size() / 1000);
@@ -103,12 +103,12 @@ TEST(CApiPictures, OfTheCpuAreThoseOfGlButForRounding) {
 TEST(CApiPictures, RefuseWhatCannotBe) {
   const Computer made = computer();
   const SurfaceOf surface = computed(made.get(), testing::two_atoms(4.0));
-  const Painter draws = painter();
+  const Renderer draws = renderer();
   std::vector<std::uint8_t> rgba(64 * 48 * 4);
   const auto refused = [&](auto change) {
     meniscus_picture picture = picture_of(64, 48);
     change(picture);
-    return meniscus_paint(draws.get(), surface.get(), &picture, rgba.data(), rgba.size());
+    return meniscus_render(draws.get(), surface.get(), &picture, rgba.data(), rgba.size());
   };
   const float colors[6] = {0.0f, 0.0f, 0.0f, 0.5f, std::nanf(""), 0.5f};
   meniscus_camera camera{};
@@ -122,25 +122,25 @@ TEST(CApiPictures, RefuseWhatCannotBe) {
   EXPECT_EQ(refused([&](auto& p) { p.camera = &camera; }), MENISCUS_INPUT);
   EXPECT_EQ(refused([&](auto& p) { p.atom_colors = colors; }), MENISCUS_INPUT);
   EXPECT_NE(std::strstr(meniscus_last_error(), "channel 1 of the colour of atom 1"), nullptr) << meniscus_last_error();
-  meniscus_painter* none = nullptr;
-  EXPECT_EQ(meniscus_painter_new(9, &none), MENISCUS_USAGE);
+  meniscus_renderer* none = nullptr;
+  EXPECT_EQ(meniscus_renderer_new(meniscus_device{9}, &none), MENISCUS_USAGE);
 }
 
 // Drivers keep threads that a child does not have; it would wait for them.
 TEST(CApiPictures, AreRefusedInAChildOfFork) {
   const Computer made = computer();
   const SurfaceOf surface = computed(made.get(), testing::two_atoms(4.0));
-  Painter draws = painter();
+  Renderer draws = renderer();
   const pid_t child = ::fork();
   ASSERT_GE(child, 0);
   if (child == 0) {
     ::alarm(60);
     std::vector<std::uint8_t> rgba(64 * 48 * 4);
     const meniscus_picture picture = picture_of(64, 48);
-    meniscus_painter* fresh = nullptr;
-    bool right = meniscus_paint(draws.get(), surface.get(), &picture, rgba.data(), rgba.size()) == MENISCUS_NO_GPU;
+    meniscus_renderer* fresh = nullptr;
+    bool right = meniscus_render(draws.get(), surface.get(), &picture, rgba.data(), rgba.size()) == MENISCUS_NO_GPU;
     right = right && std::strstr(meniscus_last_error(), "fork") != nullptr;
-    right = right && meniscus_painter_new(MENISCUS_SOFTWARE, &fresh) == MENISCUS_NO_GPU;
+    right = right && meniscus_renderer_new(MENISCUS_SOFTWARE, &fresh) == MENISCUS_NO_GPU;
     draws.reset();
     ::_exit(right ? 0 : 1);
   }

@@ -29,7 +29,7 @@ meniscus_pocket_options default_pocket_options() {
 }
 
 template <typename Row>
-std::vector<Row> rows_of(const PocketsOf& pockets, std::int32_t table) {
+std::vector<Row> rows_of(const PocketsOf& pockets, meniscus_pockets_table_id table) {
   meniscus_array array{};
   EXPECT_EQ(meniscus_pockets_table(pockets.get(), table, &array), MENISCUS_OK) << meniscus_last_error();
   EXPECT_EQ(array.stride, sizeof(Row));
@@ -122,7 +122,7 @@ TEST(CPockets, RefuseWhatMakesNoSense) {
   const PocketsOf none(pockets, meniscus_pockets_release);
   EXPECT_TRUE(rows_of<meniscus_pocket>(none, MENISCUS_POCKETS).empty());
   meniscus_array array{};
-  EXPECT_EQ(meniscus_pockets_table(none.get(), 4, &array), MENISCUS_USAGE);
+  EXPECT_EQ(meniscus_pockets_table(none.get(), meniscus_pockets_table_id{4}, &array), MENISCUS_USAGE);
   EXPECT_EQ(meniscus_pockets_table(none.get(), MENISCUS_POCKETS, nullptr), MENISCUS_USAGE);
   EXPECT_EQ(meniscus_pockets_table(nullptr, MENISCUS_POCKETS, &array), MENISCUS_USAGE);
 }

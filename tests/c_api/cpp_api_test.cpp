@@ -201,18 +201,18 @@ TEST(CppApi, TheNextFrameIsComputedInPlaceAndAFailedOneLeavesTheLast) {
   Surface surface = computer.compute({balls});
   const meniscus_surface* const before = surface.get();
   balls[0].radius = 3.0;
-  computer.compute({balls}, surface);
+  computer.recompute({balls}, surface);
   EXPECT_EQ(surface.get(), before);
   EXPECT_NEAR(surface.area(), 36 * pi, 1e-11);
   balls[0].radius = -3.0;
-  EXPECT_THROW(computer.compute({balls}, surface), meniscus::InputError);
+  EXPECT_THROW(computer.recompute({balls}, surface), meniscus::InputError);
   EXPECT_NEAR(surface.area(), 36 * pi, 1e-11);
 }
 
 TEST(CppApi, OwnersMoveAndDoNotCopy) {
   static_assert(!std::is_copy_constructible_v<Surface> && std::is_nothrow_move_constructible_v<Surface>);
   static_assert(!std::is_copy_constructible_v<Computer> && std::is_nothrow_move_constructible_v<Computer>);
-  static_assert(!std::is_copy_constructible_v<meniscus::Mesh> && !std::is_copy_constructible_v<meniscus::Painter>);
+  static_assert(!std::is_copy_constructible_v<meniscus::Mesh> && !std::is_copy_constructible_v<meniscus::Renderer>);
   Surface first = Computer().compute({kOneBall});
   const std::span<const double> areas = first.atom_areas();
   Surface second = std::move(first);

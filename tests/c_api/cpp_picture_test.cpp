@@ -12,21 +12,21 @@ namespace {
 TEST(CppApiPictures, AnOrthographicSphereIsAsLargeAsItIs) {
   const std::vector<meniscus::Ball> balls = {{{1.0, 2.0, 3.0}, 2.0}};
   const meniscus::Surface surface = meniscus::Computer().compute({balls});
-  const meniscus::Painter painter(MENISCUS_SOFTWARE);
-  meniscus::Camera camera = surface.frame(1.0, MENISCUS_ORTHOGRAPHIC);
+  const meniscus::Renderer renderer(MENISCUS_SOFTWARE);
+  meniscus::Camera camera = surface.camera(1.0, MENISCUS_ORTHOGRAPHIC);
   camera.height = 8.0;  // so the sphere is half as wide as the picture
   meniscus::Picture picture;
   picture.camera = &camera;
   picture.width = picture.height = 64;
-  const std::vector<std::uint8_t> rgba = painter.paint(surface, picture);
+  const std::vector<std::uint8_t> rgba = renderer.render(surface, picture);
   ASSERT_EQ(rgba.size(), 4U * 64 * 64);
   double covered = 0.0;
   for (std::size_t n = 3; n < rgba.size(); n += 4) covered += rgba[n] / 255.0;
   EXPECT_NEAR(covered, std::numbers::pi * 16 * 16, 12.0);
   std::vector<std::uint8_t> small(100);
-  EXPECT_THROW(painter.paint(surface, picture, small), meniscus::UsageError);
+  EXPECT_THROW(renderer.render(surface, picture, small), meniscus::UsageError);
   picture.width = -1;
-  EXPECT_THROW(painter.paint(surface, picture), meniscus::UsageError);
+  EXPECT_THROW(renderer.render(surface, picture), meniscus::UsageError);
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "core/structure/assembly.h"
 #include "core/structure/radii/radii_file.h"
 #include "core/structure/formats/reader.h"
+#include "core/camera/camera_json.h"
 #include "core/camera/camera_path.h"
 #include "core/trajectory/formats/formats.h"
 #include "core/trajectory/frame_list.h"

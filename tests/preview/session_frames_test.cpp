@@ -8,6 +8,7 @@
 
 #include "app/preview/session.h"
 #include "core/base/error.h"
+#include "core/camera/camera_json.h"
 #include "core/camera/camera_path.h"
 #include "core/structure/formats/read_structure.h"
 #include "tests/preview/two_models.h"

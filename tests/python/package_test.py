@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The Python package over libmeniscus; runs in any interpreter that has numpy, Blender's included (blender -b --python
 package_test.py). MENISCUS_LIBRARY names the library, MENISCUS_PACKAGE the folder with the package unless it is installed."""
+import copy
 import ctypes
 import gc
 import math
 import os
 import pathlib
+import pickle
 import re
 import subprocess
 import sys
@@ -214,6 +216,8 @@ class Errors(unittest.TestCase):
             meniscus.surface(*chain(5), kind="lee")
         with self.assertRaisesRegex(meniscus.InputError, "tolerance is 9"):
             meniscus.surface(*chain(5)).mesh(9)
+        with self.assertRaisesRegex(meniscus.UsageError, "tolerance is 0.05"):
+            meniscus.surface(*chain(5)).mesh(0.05, density=0.1)
 
     def test_shapes_are_looked_at_before_the_library_is(self):
         for xyz, radii in ((np.zeros((3, 2)), 1.7), (np.zeros(3), 1.7), (np.zeros((3, 3)), [1.7, 1.7]),
@@ -462,6 +466,34 @@ class MeshFiles(unittest.TestCase):
         mesh.save(self.folder / "there.stl", replace=True)
 
 
+class Elsewhere(unittest.TestCase):
+    """In another process, and when Python ends."""
+
+    def test_pickles_hold_atoms_and_options(self):
+        xyz, radii = cloud(60, 3)
+        for given, options in ((radii, {}), (1.6, {"kind": "sas", "threads": 1}), (radii.astype(np.float32), {"kind": "vdw"}),
+                               (radii, {"probe": 1.1})):
+            s = meniscus.surface(xyz, given, **options)
+            for again in (pickle.loads(pickle.dumps(s)), copy.deepcopy(s)):
+                self.assertEqual((again.area, again.volume, again.kind, again.probe), (s.area, s.volume, s.kind, s.probe))
+                np.testing.assert_array_equal(again.balls["radius"], s.balls["radius"])
+                again.update(xyz + 0.5)
+                self.assertEqual(again.area, meniscus.surface(xyz + 0.5, given, **options).area)
+
+    def test_python_ends_without_a_word(self):
+        # Kept by a module that ends after the package's own.
+        code = ("import meniscus, numpy\ns = meniscus.surface([[0, 0, 0], [2, 0, 0]], 1.7)\n"
+                "numpy.kept = [s, s.mesh(0.3), s.render(20, 20, device='cpu'), s.pockets()]\n")
+        run = subprocess.run([sys.executable, "-c", f"import sys; sys.path[:0] = {sys.path!r}\n" + code], text=True,
+                             capture_output=True)
+        self.assertEqual((run.returncode, run.stdout, run.stderr), (0, "", ""))
+
+    def test_version(self):
+        self.assertEqual(meniscus.__version__, meniscus.version())
+        with self.assertRaises(AttributeError):
+            meniscus.__versions__
+
+
 @unittest.skipUnless(HEADER, "MENISCUS_HEADER is not set")
 class Header(unittest.TestCase):
     """The structs and constants that are written a second time are those of the header."""
@@ -484,11 +516,14 @@ class Header(unittest.TestCase):
                    "uint8_t": ctypes.c_uint8}
         found = re.findall(r"typedef struct meniscus_\w+ \{(.*?)\} meniscus_(\w+);", self.text, re.S)
         self.assertGreaterEqual(len(found), 15)
+        words = re.findall(r"typedef enum (\w+) MENISCUS_WORDS", self.text)
+        self.assertGreaterEqual(len(words), 14)
         for body, name in found:
             python = {"mesh_options": "MeshOptions", "mesh_file": "MeshFile", "camera": "CameraStruct", "pocket": "PocketRow",
-                      "pocket_options": "PocketOptions"}.get(name, name.capitalize())
+                      "pocket_options": "PocketOptions", "read_options": "ReadOptions", "read_report": "ReadReport"}.get(name, name.capitalize())
             fields = []
-            for kind, members in re.findall(r"((?:const )?\w+\*?) ([^;]+);", body):
+            for kind, members in re.findall(r"((?:const )?\w+(?:\* const)?\*?) ([^;]+);", body):
+                kind = "int32_t" if kind in words else kind
                 self.assertTrue(kind in c_names or "*" in kind, f"{name}: {kind}")
                 for member in members.split(","):
                     field, size = re.match(r"\s*(\w+)(?:\[(\d+)\])?", member).groups()

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Camera files, pixel rays and default framing.
 #include "core/camera/camera.h"
+#include "core/camera/camera_json.h"
 #include "core/surface/primitives.h"
 
 #include <cmath>

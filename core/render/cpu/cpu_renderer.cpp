@@ -17,6 +17,7 @@
 
 #include "core/image/display_color.h"
 #include "core/queries/combine.h"
+#include "core/render/linear_colors.h"
 #include "core/render/picture_collector.h"
 
 namespace meniscus {

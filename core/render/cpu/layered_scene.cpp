@@ -12,6 +12,7 @@
 
 #include "core/color/volume_paint.h"
 #include "core/image/color_space.h"
+#include "core/render/linear_colors.h"
 #include "core/render/shape_packing.h"
 
 namespace meniscus {

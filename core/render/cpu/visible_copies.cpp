@@ -18,6 +18,7 @@
 
 #include "core/math/box.h"
 #include "core/queries/moved.h"
+#include "core/render/linear_colors.h"
 #include "core/render/component_lookup.h"
 #include "core/render/ray_geometry.h"
 

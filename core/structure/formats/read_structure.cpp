@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/base/option_name.h"
 #include "core/base/text.h"
 #include "core/structure/molecule_bonds.h"
 #include "core/structure/plausibility.h"
@@ -205,8 +206,8 @@ std::vector<Bond> bonds_of_shown(const Structure& structure, std::span<const Bon
 void refuse_no_atoms(const Structure& structure) {
   if (!structure.atoms.empty()) return;
   throw InputError(structure.file, 0,
-                   fmt::format("leaves no atoms to make a surface of: {}; --keep-water and --keep-ions use more",
-                               structure.report.sentence()));
+                   fmt::format("leaves no atoms to make a surface of: {}; {} and {} use more",
+                               structure.report.sentence(), option_name("keep-water"), option_name("keep-ions")));
 }
 
 void halt_on_unknown_elements(const Structure& structure, const std::vector<std::string>& unknown) {
@@ -221,16 +222,18 @@ void halt_on_unknown_elements(const Structure& structure, const std::vector<std:
     examples += (examples.empty() ? "" : ", ") + escaped(name);
   }
   throw InputError(structure.file, 0,
-                   fmt::format("the element of {} {} is unknown: {}; correct the element column, or choose "
-                               "--unknown-element guess or skip",
-                               with_thousands(unknown.size()), unknown.size() == 1 ? "atom" : "atoms", examples));
+                   fmt::format("the element of {} {} is unknown: {}; correct the element column, or choose {} guess "
+                               "or skip",
+                               with_thousands(unknown.size()), unknown.size() == 1 ? "atom" : "atoms", examples,
+                               option_name("unknown-element")));
 }
 
 void require_model(const std::string& path, const ModelChoice& choice, std::size_t models) {
   if (choice.all || static_cast<std::size_t>(choice.number) <= models) return;
   throw InputError(path, 0,
-                   fmt::format("has no model {}: it holds {} {}; choose --model 1{}", choice.number, models,
-                               models == 1 ? "model" : "models", models == 1 ? "" : fmt::format(" to {}", models)));
+                   fmt::format("has no model {}: it holds {} {}; choose {} 1{}", choice.number, models,
+                               models == 1 ? "model" : "models", option_name("model"),
+                               models == 1 ? "" : fmt::format(" to {}", models)));
 }
 
 void warn_of_missing_altloc(Structure& structure, const std::vector<Atom>& atoms, const AltlocChoice& choice) {
@@ -270,7 +273,9 @@ void keep_trajectory_atoms(FileContents& contents, const Selection& selection, c
 void place_atoms(FileContents& contents, const ReadOptions& options, const TextFile& file) {
   if (!contents.without_positions) return;
   if (options.positions.empty())
-    throw InputError(file.path, 0, "lists atoms without coordinates; add --trajectory with a file that has them");
+    throw InputError(
+        file.path, 0,
+        fmt::format("lists atoms without coordinates; add {} with a file that has them", option_name("trajectory")));
   if (options.positions.size() != contents.atoms.size()) {
     throw InputError(file.path, 0,
                      fmt::format("lists {} atoms, a frame of the trajectory has {}: {}",
@@ -292,7 +297,8 @@ void use_assemblies(Structure& structure, const TextFile& file, const Reader& re
   if (options.assembly.empty()) return;
   if (!reader.assemblies) {
     throw InputError(structure.file, 0,
-                     fmt::format("is {}, which describes no assemblies; leave --assembly away", reader.metadata.name));
+                     fmt::format("is {}, which describes no assemblies; leave {} away", reader.metadata.name,
+                                 option_name("assembly")));
   }
   const std::vector<Assembly> assemblies = reader.assemblies(file);
   const Assembly& assembly = find_assembly(assemblies, options.assembly, structure.file);

@@ -35,7 +35,7 @@ meniscus_options checked(const meniscus_options* given) {
   if (!given) return kDefaults;
   const meniscus_options options = read_struct(given, kDefaults, "meniscus_options");
   if (options.kind < MENISCUS_SES || options.kind > MENISCUS_VDW)
-    refuse(MENISCUS_USAGE, "kind is {}, none of MENISCUS_SES, _SAS, _VDW", options.kind);
+    refuse(MENISCUS_USAGE, "kind is {}, none of MENISCUS_SES, _SAS, _VDW", static_cast<std::int32_t>(options.kind));
   check_device(options.device);
   if (options.threads < 0 || options.threads > kMostThreads)
     refuse(MENISCUS_USAGE, "threads is {}; 0 means all, otherwise up to {}", options.threads, kMostThreads);
@@ -115,8 +115,21 @@ meniscus_status meniscus_compute(meniscus_computer* computer, const meniscus_ato
   return guarded([&] {
     require(computer, "computer");
     require(surface, "surface");
+    auto fresh = std::make_unique<meniscus_surface>();
+    fresh->finished = computer->compute(read_atoms(atoms));
+    *surface = fresh.release();
+  });
+}
+
+meniscus_status meniscus_recompute(meniscus_computer* computer, const meniscus_atoms* atoms,
+                                   meniscus_surface** surface) {
+  using namespace meniscus::c_api;
+  return guarded([&] {
+    require(computer, "computer");
+    require(surface, "surface");
+    require(*surface, "*surface");
     auto finished = computer->compute(read_atoms(atoms));
-    if (*surface && (*surface)->held_by_one()) {
+    if ((*surface)->held_by_one()) {
       (*surface)->finished = std::move(finished);
       return;
     }

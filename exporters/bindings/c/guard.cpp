@@ -40,6 +40,8 @@ meniscus_status report(const std::exception_ptr& error) noexcept {
     return kept(refusal.status(), refusal.what());
   } catch (const InputError& input) {
     return kept(MENISCUS_INPUT, input.what());
+  } catch (const SelectionError& selection) {
+    return kept(MENISCUS_USAGE, selection.what());
   } catch (const RequestError& request) {
     return kept(MENISCUS_USAGE, request.what());
   } catch (const GpuError& gpu) {

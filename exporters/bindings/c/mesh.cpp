@@ -14,23 +14,49 @@
 namespace meniscus::c_api {
 namespace {
 
-const meniscus_mesh_options kDefaults{sizeof(meniscus_mesh_options), 0.01, 1, 0, 0.0, 0, 0};
+const meniscus_mesh_options kDefaults{sizeof(meniscus_mesh_options), MENISCUS_MESH_BY_PATCH, 1, 0.01, 0.0};
+
+void check_tolerance(double tolerance) {
+  if (!(tolerance >= kSmallestTolerance && tolerance <= kLargestTolerance))
+    refuse(MENISCUS_INPUT, "tolerance is {} Å; it has to be {} to {}", tolerance, kSmallestTolerance,
+           kLargestTolerance);
+}
+
+void check_density(double density) {
+  if (!(density >= kSmallestDensity && density <= kLargestDensity))
+    refuse(MENISCUS_INPUT, "density is {} vertices per Å²; it has to be {} to {}", density, kSmallestDensity,
+           kLargestDensity);
+}
 
 meniscus_mesh_options checked(const meniscus_mesh_options* given) {
   const meniscus_mesh_options options = given ? read_struct(given, kDefaults, "meniscus_mesh_options") : kDefaults;
-  require_zero(options.reserved, "meniscus_mesh_options.reserved");
-  require_zero(options.reserved_2, "meniscus_mesh_options.reserved_2");
-  if (!(options.tolerance >= kSmallestTolerance && options.tolerance <= kLargestTolerance))
-    refuse(MENISCUS_INPUT, "tolerance is {} Å; it has to be {} to {}", options.tolerance, kSmallestTolerance,
-           kLargestTolerance);
-  if (options.density != 0.0 && !(options.density >= kSmallestDensity && options.density <= kLargestDensity))
-    refuse(MENISCUS_INPUT, "density is {} vertices per Å²; it has to be {} to {}, or 0", options.density,
-           kSmallestDensity, kLargestDensity);
+  switch (options.method) {
+    case MENISCUS_MESH_BY_PATCH:
+    case MENISCUS_MESH_EVEN:
+      check_tolerance(options.tolerance);
+      if (options.density != kDefaults.density)
+        refuse(MENISCUS_USAGE, "density is {}, which is of MENISCUS_MESH_BY_DENSITY; choose that, or leave it at {}",
+               options.density, kDefaults.density);
+      break;
+    case MENISCUS_MESH_BY_DENSITY:
+      check_density(options.density);
+      if (options.tolerance != kDefaults.tolerance)
+        refuse(MENISCUS_USAGE, "tolerance is {} Å, which MENISCUS_MESH_BY_DENSITY does not keep to; leave it at {}",
+               options.tolerance, kDefaults.tolerance);
+      break;
+    default:
+      refuse(MENISCUS_USAGE, "method is {}, none of MENISCUS_MESH_BY_PATCH, _EVEN, _BY_DENSITY",
+             static_cast<std::int32_t>(options.method));
+  }
   return options;
 }
 
+MeshFineness fineness_of(const meniscus_mesh_options& wanted) {
+  return {wanted.tolerance, {}, wanted.density, wanted.method == MENISCUS_MESH_EVEN};
+}
+
 FineMesh make_mesh(const Surface& surface, const meniscus_mesh_options& wanted, const MeshFineness& fineness) {
-  if (fineness.even || fineness.density > 0.0 || wanted.split_colors != 0) return fine_mesh(surface, fineness);
+  if (wanted.method != MENISCUS_MESH_BY_PATCH || wanted.split_colors != 0) return fine_mesh(surface, fineness);
   FineMesh made{tessellate(surface, {wanted.tolerance, false}), {}, {}};
   made.vertex_face = vertex_faces(made.mesh);
   made.vertex_atom = vertex_atoms(made.mesh);
@@ -84,7 +110,7 @@ meniscus_status meniscus_surface_mesh(const meniscus_surface* surface, const men
     const meniscus_mesh_options wanted = checked(options);
     auto made = std::make_unique<meniscus_mesh>();
     made->of = surface->finished;
-    made->fineness = {wanted.tolerance, {}, wanted.density, wanted.even != 0};
+    made->fineness = fineness_of(wanted);
     run_on_threads(made->of->threads, [&] { made->made = make_mesh(made->of->surface, wanted, made->fineness); });
     *mesh = made.release();
   });
@@ -93,7 +119,7 @@ meniscus_status meniscus_surface_mesh(const meniscus_surface* surface, const men
 meniscus_mesh* meniscus_mesh_retain(meniscus_mesh* mesh) { return meniscus::c_api::retain(mesh); }
 void meniscus_mesh_release(meniscus_mesh* mesh) { meniscus::c_api::release(mesh); }
 
-meniscus_status meniscus_mesh_table(const meniscus_mesh* mesh, std::int32_t table, meniscus_array* array) {
+meniscus_status meniscus_mesh_table(const meniscus_mesh* mesh, meniscus_mesh_table_id table, meniscus_array* array) {
   using namespace meniscus::c_api;
   return guarded([&] {
     require(mesh, "mesh");

@@ -115,7 +115,8 @@ meniscus_status meniscus_surface_pockets(const meniscus_surface* surface, const 
 meniscus_pockets* meniscus_pockets_retain(meniscus_pockets* pockets) { return meniscus::c_api::retain(pockets); }
 void meniscus_pockets_release(meniscus_pockets* pockets) { meniscus::c_api::release(pockets); }
 
-meniscus_status meniscus_pockets_table(const meniscus_pockets* pockets, std::int32_t table, meniscus_array* array) {
+meniscus_status meniscus_pockets_table(const meniscus_pockets* pockets, meniscus_pockets_table_id table,
+                                       meniscus_array* array) {
   using namespace meniscus::c_api;
   return guarded([&] {
     require(pockets, "pockets");

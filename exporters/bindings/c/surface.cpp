@@ -217,7 +217,8 @@ meniscus_status meniscus_surface_summary(const meniscus_surface* surface, menisc
   });
 }
 
-meniscus_status meniscus_surface_table(const meniscus_surface* surface, std::int32_t table, meniscus_array* array) {
+meniscus_status meniscus_surface_table(const meniscus_surface* surface, meniscus_surface_table_id table,
+                                       meniscus_array* array) {
   using namespace meniscus::c_api;
   return guarded([&] {
     require(surface, "surface");
@@ -246,8 +247,8 @@ meniscus_status meniscus_surface_distance(const meniscus_surface* surface, std::
   });
 }
 
-meniscus_status meniscus_surface_gradient(const meniscus_surface* surface, std::int32_t quantity, const double* weights,
-                                          double* gradient) {
+meniscus_status meniscus_surface_gradient(const meniscus_surface* surface, meniscus_quantity quantity,
+                                          const double* weights, double* gradient) {
   using namespace meniscus::c_api;
   return guarded([&] {
     require(surface, "surface");

@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "core/camera/camera.h"
+#include "core/camera/camera_json.h"
 #include "core/surface/surface.h"
 #include "tests/support/molecules.h"
 #include "tests/support/run_program.h"

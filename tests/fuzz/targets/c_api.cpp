@@ -104,8 +104,8 @@ class Caller {
     meniscus_options options{};
     const meniscus_options* const wanted = optional(options, meniscus_default_options);
     options.probe_radius = choices_.of({1.4, 0.0, 0.5, 5.0, -1.0, 1e300, kNoNumber});
-    options.kind = choices_.word(2);
-    options.device = choices_.of({0, 0, 0, -1, 7});
+    options.kind = meniscus_kind{choices_.word(2)};
+    options.device = meniscus_device{choices_.of({0, 0, 0, -1, 7})};
     options.threads = choices_.of({0, 1, 2, -1, 1 << 20});
     meniscus_computer* made = nullptr;
     keep(computers_, meniscus_computer_new(wanted, rarely_null(&made)), made);
@@ -147,14 +147,15 @@ class Caller {
     atoms.radii = place();
     atoms.positions_stride = stride();
     atoms.radii_stride = stride();
-    atoms.positions_type = choices_.of({0, 0, 1, 2});
-    atoms.radii_type = choices_.of({0, 0, 1, -1});
+    atoms.positions_type = meniscus_number_type{choices_.of({0, 0, 1, 2})};
+    atoms.radii_type = meniscus_number_type{choices_.of({0, 0, 1, -1})};
     atoms.equal_radii = choices_.yes();
     atoms.reserved = choices_.of({0, 0, 0, 1});
     meniscus_computer* const computer = computers_.any(choices_);
     meniscus_surface*& surface = surfaces_.any(choices_);
     meniscus_surface* const before = surface;
-    if (!done(meniscus_compute(computer, rarely_null(&atoms), &surface))) {
+    const auto call = surface ? meniscus_recompute : meniscus_compute;
+    if (!done(call(computer, rarely_null(&atoms), &surface))) {
       require(surface == before, "what fails leaves the surface as it was");
       return;
     }
@@ -178,11 +179,11 @@ class Caller {
     const auto* const bytes = static_cast<const unsigned char*>(array.data);
     for (std::size_t n = 0; n < array.count * array.stride; ++n) sum_ += bytes[n];
   }
-  template <typename Held, typename Function>
-  void look(Held& held, Function function, std::int32_t last) {
+  template <typename Held, typename Function, typename Table>
+  void look(Held& held, Function function, Table last) {
     meniscus_array array{};
     auto* const object = held.any(choices_);
-    const std::int32_t table = choices_.word(last);
+    const Table table{choices_.word(last)};
     if (done(function(object, table, rarely_null(&array)))) read(array);
   }
   void look_at_surface() { look(surfaces_, meniscus_surface_table, MENISCUS_FACES); }
@@ -207,7 +208,7 @@ class Caller {
     meniscus_surface* const surface = surfaces_.any(choices_);
     std::vector<double> gradient(3 * kRows);
     double* const weights = choices_.yes() ? place() : nullptr;
-    const std::int32_t quantity = choices_.word(3);
+    const meniscus_quantity quantity{choices_.word(3)};
     done(meniscus_surface_gradient(surface, quantity, weights, rarely_null(gradient.data())));
   }
 
@@ -226,7 +227,11 @@ class Caller {
     if (!wanted) wanted = &options;  // the default is fine, and slow
     options.tolerance = choices_.of({0.3, 1.0, 0.0, kNoNumber});
     options.density = choices_.of({0.0, 0.5, -1.0, kInfinity});
-    options.even = choices_.yes();
+    const bool even = choices_.yes();
+    options.method = options.density != 0.0 ? MENISCUS_MESH_BY_DENSITY
+                     : even                 ? MENISCUS_MESH_EVEN
+                                            : MENISCUS_MESH_BY_PATCH;
+    if (options.density != 0.0) options.tolerance = 0.01;
     options.split_colors = choices_.yes();
     meniscus_mesh* made = nullptr;
     keep(meshes_, meniscus_surface_mesh(surfaces_.any(choices_), wanted, &made), made);
@@ -250,8 +255,8 @@ class Caller {
     camera.size = sizeof camera;
     meniscus_surface* const surface = surfaces_.any(choices_);
     const double aspect = choices_.of({1.0, 0.0, kNoNumber});
-    const std::int32_t projection = choices_.word(1);
-    const bool framed = done(meniscus_surface_frame(surface, aspect, projection, &camera));
+    const meniscus_projection projection{choices_.word(1)};
+    const bool framed = done(meniscus_surface_camera(surface, aspect, projection, &camera));
     meniscus_picture picture{};
     picture.size = sizeof picture;
     done(meniscus_default_picture(&picture));
@@ -263,12 +268,12 @@ class Caller {
     picture.depth_cue = choices_.of({0.0f, 1.0f, -1.0f});
     std::vector<std::uint8_t> rgba(80);
     const std::size_t room = choices_.of({std::size_t{80}, std::size_t{3}, kMost});
-    done(meniscus_paint(painters_.any(choices_), surface, &picture, rgba.data(), room));
+    done(meniscus_render(renderers_.any(choices_), surface, &picture, rgba.data(), room));
   }
 
-  void make_painter() {
-    meniscus_painter* made = nullptr;
-    keep(painters_, meniscus_painter_new(choices_.of({0, 0, -1, 9}), &made), made);
+  void make_renderer() {
+    meniscus_renderer* made = nullptr;
+    keep(renderers_, meniscus_renderer_new(meniscus_device{choices_.of({0, 0, -1, 9})}, &made), made);
   }
 
   void name_element() {
@@ -292,7 +297,7 @@ class Caller {
       case 3:
         return pockets_.share(choices_);
       default:
-        return painters_.share(choices_);
+        return renderers_.share(choices_);
     }
   }
   void let_go() {
@@ -308,7 +313,7 @@ class Caller {
   Held<meniscus_surface, meniscus_surface_release, meniscus_surface_retain> surfaces_;
   Held<meniscus_mesh, meniscus_mesh_release, meniscus_mesh_retain> meshes_;
   Held<meniscus_pockets, meniscus_pockets_release, meniscus_pockets_retain> pockets_;
-  Held<meniscus_painter, meniscus_painter_release, meniscus_painter_retain> painters_;
+  Held<meniscus_renderer, meniscus_renderer_release, meniscus_renderer_retain> renderers_;
   unsigned sum_ = 0;
 };
 
@@ -318,7 +323,7 @@ const Caller::Call Caller::kCalls[17] = {&Caller::make_computer,   &Caller::comp
                                          &Caller::make_mesh,       &Caller::look_at_pockets,
                                          &Caller::find_pockets,    &Caller::measure_distances,
                                          &Caller::derive,          &Caller::save_mesh,
-                                         &Caller::make_painter,    &Caller::paint,
+                                         &Caller::make_renderer,   &Caller::paint,
                                          &Caller::name_element,    &Caller::share,
                                          &Caller::let_go};
 

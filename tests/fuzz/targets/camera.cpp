@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Camera files.
 #include "core/base/error.h"
+#include "core/camera/camera_json.h"
 #include "tests/fuzz/camera_checks.h"
 #include "tests/fuzz/target.h"
 

@@ -10,6 +10,7 @@
 #include "app/preview/server/mailbox.h"
 #include "core/base/error.h"
 #include "core/camera/camera.h"
+#include "core/camera/camera_json.h"
 #include "tests/fuzz/target.h"
 
 namespace meniscus::fuzz {

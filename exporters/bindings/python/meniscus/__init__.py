@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Exact solvent-excluded surfaces of molecules: arrays in, arrays out.
+"""Exact solvent-excluded surfaces of molecules: files or arrays in, arrays out.
 
     import meniscus
+    s = meniscus.surface(meniscus.read("1ubq.cif"))   # atoms and radii as the program takes them
     s = meniscus.surface(xyz, radii, probe=1.4)       # Å
     s.area, s.volume, s.atom_areas, s.distance(points), s.mesh().vertices, s.render()
     s.update(next_xyz)                                # the next frame, same radii
@@ -18,11 +19,18 @@ from ._mesh import Mesh
 from ._picture import Camera, png
 from ._pockets import Pocket
 from ._radii import radii_of
-from ._surface import Surface, surface
+from ._structure import Structure, read
+from ._surface import Patches, Surface, surface
 from ._adapters import frames, from_biotite, from_mdanalysis, from_mdtraj, from_prody, series
 
 __all__ = [
     "Camera", "CapacityError", "Error", "GpuError", "InputError", "InternalError", "Mesh", "NotClosedError",
-    "OutputError", "Pocket", "Surface", "UsageError", "frames", "from_biotite", "from_mdanalysis", "from_mdtraj", "from_prody",
-    "library_path", "png", "radii_of", "series", "surface", "version",
+    "OutputError", "Patches", "Pocket", "Structure", "Surface", "UsageError", "frames", "from_biotite", "from_mdanalysis",
+    "from_mdtraj", "from_prody", "library_path", "png", "radii_of", "read", "series", "surface", "version",
 ]
+
+
+def __getattr__(name: str) -> str:
+    if name == "__version__":  # that of the library, which is opened when it is first needed
+        return version()
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -9,11 +9,12 @@ import numpy as np
 from ._errors import InputError
 from ._radii import radii_of
 from ._surface import Surface, surface
+from ._types import AnyArray, Rows
 
 
 class _Source(NamedTuple):
     elements: Any                  # symbols, one per atom
-    frames: Iterator[np.ndarray]   # positions in Å, the frame at hand first
+    frames: Iterator[AnyArray]     # positions in Å, the frame at hand first
 
 
 def _elements(found: Any, count: int) -> Any:
@@ -88,7 +89,7 @@ def from_biotite(array: Any, *, radii: Optional[Any] = None, **options: Any) -> 
     return _first(_biotite(array, False), radii, options)
 
 
-def series(source: Any, *, radii: Optional[Any] = None, **options: Any) -> np.ndarray:
+def series(source: Any, *, radii: Optional[Any] = None, **options: Any) -> Rows:
     """The numbers of all frames of what frames() takes, a row each: area (Å²), of kind "ses" also sas_area, volume
     (Å³), components, cavities, cavity_area, cavity_volume (positive). One surface is in memory at a time."""
     rows = []

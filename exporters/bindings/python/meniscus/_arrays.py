@@ -9,26 +9,30 @@ from typing import Any, Optional
 import numpy as np
 
 from ._errors import InputError
-from ._library import DOUBLE, FLOAT, Array, Handle, call
+from ._library import DOUBLE, FLOAT, STRUCTURE_ALTLOCS, STRUCTURE_INSERTION_CODES, Array, Handle, call
+from ._types import AnyArray, Floats, Texts
 from ._units import plain
+
+
+LETTERS = (STRUCTURE_INSERTION_CODES, STRUCTURE_ALTLOCS)
 
 
 class _Rows:
     """What numpy needs to see rows of a table; the array that it makes holds this object, and this one its owner."""
 
-    def __init__(self, owner: Handle, array: Array, dtype: np.dtype, columns: tuple[int, ...]) -> None:
+    def __init__(self, owner: Handle, array: Array, dtype: Any, columns: tuple[int, ...]) -> None:
         self.owner = owner
         strides = (array.stride,) + (dtype.itemsize,) * len(columns)
         self.__array_interface__ = {"version": 3, "shape": (array.count,) + columns, "typestr": dtype.str,
                                     "data": (array.data, True), "strides": strides}
 
 
-def view(owner: Handle, function: str, table: int, row: Any, columns: int = 0) -> np.ndarray:
+def view(owner: Handle, function: str, table: int, row: Any, columns: int = 0) -> AnyArray:
     """A read-only view of a table whose rows are `row`, a ctypes struct, or numbers of that dtype."""
     array = Array()
     call(function, owner.pointer, table, ctypes.byref(array))
     shape = (columns,) if columns else ()
-    dtype = np.dtype(row)
+    dtype: Any = np.dtype(row)
     if array.count == 0:
         empty = np.empty((0,) + shape, dtype)
         empty.flags.writeable = False
@@ -41,6 +45,19 @@ def view(owner: Handle, function: str, table: int, row: Any, columns: int = 0) -
     return np.asarray(_Rows(owner, array, np.dtype((np.void, array.stride)), ())).view(whole)
 
 
+def texts(owner: Handle, function: str, table: int) -> Texts:
+    """A table whose rows are texts of one length, filled with zeros, or letters. What is no UTF-8 stays as names of
+    files do in Python."""
+    array = Array()
+    call(function, owner.pointer, table, ctypes.byref(array))
+    if array.count == 0:
+        return np.empty(0, np.str_)
+    # Of letters the next stands where the next atom's does.
+    width = 1 if table in LETTERS else array.stride
+    rows = np.asarray(_Rows(owner, array, np.dtype((np.bytes_, width)), ()))
+    return np.char.decode(rows, "utf-8", "surrogateescape")
+
+
 _TYPES = {np.dtype(np.float64): DOUBLE, np.dtype(np.float32): FLOAT}
 
 
@@ -49,7 +66,7 @@ _TAKEN_BY = {"MDAnalysis": "from_mdanalysis()", "mdtraj": "from_mdtraj()", "prod
              "biotite": "from_biotite()", "ase": "surface() with atoms.get_positions()"}
 
 
-def real_array(values: Any, name: str, power: Optional[int] = None) -> np.ndarray:
+def real_array(values: Any, name: str, power: Optional[int] = None) -> AnyArray:
     """Of real numbers, in Å to this power where they have a unit; else InputError: what is masked, complex, true or
     false, or text would become numbers that nobody meant."""
     values = plain(values, name, power)
@@ -57,8 +74,9 @@ def real_array(values: Any, name: str, power: Optional[int] = None) -> np.ndarra
     if package in _TAKEN_BY and not isinstance(values, np.ndarray):
         raise InputError(f"{name} is a {package}.{type(values).__name__}, not an array; meniscus.{_TAKEN_BY[package]} "
                          "takes it")
-    if np.ma.is_masked(values):
-        raise InputError(f"{name} has {np.ma.count_masked(values)} masked numbers; leave these rows out, or fill them in")
+    masked: Any = np.ma  # whose functions have no types
+    if masked.is_masked(values):
+        raise InputError(f"{name} has {masked.count_masked(values)} masked numbers; leave these rows out, or fill them in")
     try:
         array = np.asarray(values)
         if array.dtype.kind == "O" and all(isinstance(value, Real) for value in array.flat):
@@ -72,7 +90,7 @@ def real_array(values: Any, name: str, power: Optional[int] = None) -> np.ndarra
     return array
 
 
-def numbers(values: Any, name: str, columns: int = 0, power: Optional[int] = None) -> tuple[np.ndarray, int]:
+def numbers(values: Any, name: str, columns: int = 0, power: Optional[int] = None) -> tuple[AnyArray, int]:
     """An array that the library can read as it is, and its type: the one given, if it has floats or doubles with whole
     rows; else a copy in doubles."""
     array = real_array(values, name, power)
@@ -89,7 +107,7 @@ def numbers(values: Any, name: str, columns: int = 0, power: Optional[int] = Non
     return array, _TYPES[array.dtype]
 
 
-def doubles(values: Any, name: str, columns: int = 0, power: Optional[int] = None) -> np.ndarray:
+def doubles(values: Any, name: str, columns: int = 0, power: Optional[int] = None) -> Floats:
     """The same without a gap, in doubles."""
     return np.require(numbers(values, name, columns, power)[0], np.float64, ["C", "A"])
 
@@ -99,7 +117,8 @@ def color_of(values: Any, name: str) -> tuple[float, float, float]:
     array = real_array(values, name).astype(np.float32)
     if array.shape != (3,):
         raise InputError(f"{name} has the shape {array.shape}; it has to be three numbers in [0, 1]")
-    return tuple(array)
+    red, green, blue = array
+    return float(red), float(green), float(blue)
 
 
 def put_colors(struct: Any, colors: Any, atom_count: int) -> None:

@@ -31,6 +31,13 @@ POCKETS, POCKET_MOUTHS, POCKET_ATOMS, POCKET_PROBES = range(4)
 (MESH_POSITIONS, MESH_NORMALS, MESH_TRIANGLES, MESH_TRIANGLE_ATOMS, MESH_TRIANGLE_KINDS, MESH_TRIANGLE_FACES,
  MESH_TRIANGLE_PATCHES, MESH_TRIANGLE_COMPONENTS, MESH_SHARP_CORNERS, MESH_SHARP_NORMALS, MESH_VERTEX_ATOMS) = range(11)
 
+MESH_BY_PATCH, MESH_EVEN, MESH_BY_DENSITY = range(3)
+HYDROGENS_AUTO, HYDROGENS_KEEP, HYDROGENS_DROP = range(3)
+UNKNOWN_HALT, UNKNOWN_GUESS, UNKNOWN_SKIP = range(3)
+(STRUCTURE_POSITIONS, STRUCTURE_RADII, STRUCTURE_ELEMENTS, STRUCTURE_INDICES, STRUCTURE_NAMES, STRUCTURE_RESIDUE_NAMES,
+ STRUCTURE_CHAINS, STRUCTURE_SEGMENTS, STRUCTURE_RESIDUE_NUMBERS, STRUCTURE_INSERTION_CODES, STRUCTURE_ALTLOCS,
+ STRUCTURE_RESIDUES, STRUCTURE_MODELS, STRUCTURE_COPIES, STRUCTURE_CHARGES, STRUCTURE_B_FACTORS, STRUCTURE_OCCUPANCIES,
+ STRUCTURE_CLASSES, STRUCTURE_WARNINGS) = range(19)
 
 OK, INTERNAL, USAGE, INPUT, NO_GPU, CAPACITY, OUTPUT, NOT_CLOSED = range(8)
 _EXCEPTIONS = {INTERNAL: InternalError, USAGE: UsageError, INPUT: InputError, NO_GPU: GpuError,
@@ -49,6 +56,13 @@ def whole_number(name: str, value: Any) -> int:
         raise InputError(f"{name} is {value!r}, not a whole number") from None
     if not -2**31 <= number < 2**31:
         raise InputError(f"{name} is {number}, which 32 bits cannot count")
+    return number
+
+
+def positive(name: str, value: Any) -> int:
+    number = whole_number(name, value)
+    if number < 1:
+        raise UsageError(f"{name} is {number}; it counts from 1")
     return number
 
 
@@ -92,6 +106,9 @@ class Summary(Structure):
                 ("arcs", c_uint64), ("faces", c_uint64), ("borders", c_uint64), ("vertices", c_uint64),
                 ("components", c_uint64), ("cavities", c_uint64), ("device", c_char_p),
                 ("exact_within", c_double)]
+
+
+COUNTS = [field[0] for field in Summary._fields_ if field[1] is c_uint64]
 
 
 class Array(Structure):
@@ -140,9 +157,21 @@ class Face(Structure):
                 ("component", c_uint32), ("tip", c_uint32), ("area", c_double)]
 
 
+class ReadOptions(_Given):
+    _fields_ = [("size", c_size_t), ("select", c_char_p), ("assembly", c_char_p), ("altloc", c_char_p),
+                ("radii", c_char_p), ("radii_files", c_void_p), ("radius", c_void_p), ("radii_file_count", c_size_t),
+                ("radius_count", c_size_t), ("model", c_int32), ("hydrogens", c_int32), ("unknown_element", c_int32),
+                ("keep_water", c_int32), ("keep_ions", c_int32), ("reserved", c_int32)]
+
+
+class ReadReport(Structure):
+    _fields_ = [("size", c_size_t), ("file", c_char_p), ("format", c_char_p), ("radii_set", c_char_p),
+                ("sentence", c_char_p), ("read", c_uint64), ("atoms", c_uint64), ("models", c_uint64)]
+
+
 class MeshOptions(_Given):
-    _fields_ = [("size", c_size_t), ("tolerance", c_double), ("split_colors", c_int32), ("reserved", c_int32),
-                ("density", c_double), ("even", c_int32), ("reserved_2", c_int32)]
+    _fields_ = [("size", c_size_t), ("method", c_int32), ("split_colors", c_int32), ("tolerance", c_double),
+                ("density", c_double)]
 
 
 class PocketOptions(_Given):
@@ -185,6 +214,10 @@ _CALLS: dict[str, list[Any]] = {
     "surface_table": [c_void_p, c_int32, POINTER(Array)],
     "surface_distance": [c_void_p, c_size_t, c_void_p, c_void_p, c_void_p],
     "surface_gradient": [c_void_p, c_int32, c_void_p, c_void_p],
+    "default_read_options": [POINTER(ReadOptions)],
+    "read": [c_char_p, POINTER(ReadOptions), POINTER(c_void_p)],
+    "structure_report": [c_void_p, POINTER(ReadReport)],
+    "structure_table": [c_void_p, c_int32, POINTER(Array)],
     "default_pocket_options": [POINTER(PocketOptions)],
     "surface_pockets": [c_void_p, POINTER(PocketOptions), POINTER(c_void_p)],
     "pockets_table": [c_void_p, c_int32, POINTER(Array)],
@@ -193,12 +226,13 @@ _CALLS: dict[str, list[Any]] = {
     "mesh_table": [c_void_p, c_int32, POINTER(Array)],
     "default_mesh_file": [POINTER(MeshFile)],
     "mesh_save": [c_void_p, c_char_p, POINTER(MeshFile)],
-    "surface_frame": [c_void_p, c_double, c_int32, POINTER(CameraStruct)],
+    "surface_camera": [c_void_p, c_double, c_int32, POINTER(CameraStruct)],
     "default_picture": [POINTER(Picture)],
-    "painter_new": [c_int32, POINTER(c_void_p)],
-    "paint": [c_void_p, c_void_p, POINTER(Picture), c_void_p, c_size_t],
+    "renderer_new": [c_int32, POINTER(c_void_p)],
+    "render": [c_void_p, c_void_p, POINTER(Picture), c_void_p, c_size_t],
 }
-_RELEASES = ("computer_release", "surface_release", "pockets_release", "mesh_release", "painter_release")
+_RELEASES = ("computer_release", "structure_release", "surface_release", "pockets_release", "mesh_release",
+             "renderer_release")
 
 
 def _candidates() -> list[str]:
@@ -281,14 +315,15 @@ class Handle:
         call(make, *arguments, byref(self.pointer))
 
     def __del__(self) -> None:
-        pointer, self.pointer = getattr(self, "pointer", None), c_void_p()
-        if pointer:
-            self._release(pointer)
+        # When Python ends the names of this module may be gone already.
+        if self.pointer:
+            self._release(self.pointer)
+            self.pointer.value = None
 
 
 def version() -> str:
     """That of the library."""
-    return _library.dll().meniscus_version().decode()
+    return str(_library.dll().meniscus_version().decode())
 
 
 def library_path() -> str:
@@ -308,4 +343,6 @@ GRADIENTS = {"area": GRADIENT_AREA, "volume": GRADIENT_VOLUME, "sas_area": GRADI
              "sas_volume": GRADIENT_SAS_VOLUME}
 KINDS = {"ses": SES, "sas": SAS, "vdw": VDW}
 DEVICES = {"cpu": CPU, "auto": AUTO, "gpu": GPU, "software": SOFTWARE}
+HYDROGENS = {"auto": HYDROGENS_AUTO, "keep": HYDROGENS_KEEP, "drop": HYDROGENS_DROP}
+UNKNOWN_ELEMENTS = {"halt": UNKNOWN_HALT, "guess": UNKNOWN_GUESS, "skip": UNKNOWN_SKIP}
 PROJECTIONS = {"perspective": PERSPECTIVE, "orthographic": ORTHOGRAPHIC}

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+import importlib
 import os
 from typing import Any, Optional
 
@@ -11,82 +12,86 @@ import numpy as np
 from . import _library as lib
 from ._arrays import put_colors, view
 from ._errors import InputError
+from ._types import AnyArray, Bytes, Floats, Indices, MeshFormat, Path
 
 
 class Mesh:
     """All vertices lie on the exact surface; seen from the solvent triangles are counter-clockwise."""
 
-    def __init__(self, surface: lib.Handle, tolerance: float, split_colors: bool, density: float = 0.0,
-                 even: bool = False) -> None:
+    def __init__(self, surface: lib.Handle, tolerance: float, split_colors: bool, density: Optional[float],
+                 even: bool) -> None:
         options = lib.default("mesh_options", lib.MeshOptions())
         options.tolerance, options.split_colors = tolerance, split_colors
-        options.density, options.even = density, even
+        options.method = lib.MESH_EVEN if even else lib.MESH_BY_PATCH
+        if density is not None:
+            options.method, options.density = lib.MESH_BY_DENSITY, density
         self._handle = lib.Handle("mesh", "surface_mesh", surface.pointer, ctypes.byref(options))
         summary = lib.Summary(ctypes.sizeof(lib.Summary))
         lib.call("surface_summary", surface.pointer, ctypes.byref(summary))
         self._atom_count = int(summary.atoms)
 
-    def _table(self, table: int, dtype: Any, columns: int = 0) -> np.ndarray:
+    def _table(self, table: int, dtype: Any, columns: int = 0) -> AnyArray:
         return view(self._handle, "mesh_table", table, dtype, columns)
 
     @property
-    def vertices(self) -> np.ndarray:
+    def vertices(self) -> Floats:
         """(n, 3) Å."""
         return self._table(lib.MESH_POSITIONS, np.float64, 3)
 
     @property
-    def normals(self) -> np.ndarray:
+    def normals(self) -> Floats:
         """(n, 3), unit, exact; at cusps a mean."""
         return self._table(lib.MESH_NORMALS, np.float64, 3)
 
     @property
-    def triangles(self) -> np.ndarray:
+    def triangles(self) -> Indices:
         """(m, 3) indices of vertices."""
         return self._table(lib.MESH_TRIANGLES, np.uint32, 3)
 
     @property
-    def triangle_atoms(self) -> np.ndarray:
+    def triangle_atoms(self) -> Indices:
         """(m,) the touched atom that is nearest."""
         return self._table(lib.MESH_TRIANGLE_ATOMS, np.uint32)
 
     @property
-    def triangle_kinds(self) -> np.ndarray:
+    def triangle_kinds(self) -> Bytes:
         """(m,) 0 convex, 1 toroidal, 2 concave."""
         return self._table(lib.MESH_TRIANGLE_KINDS, np.uint8)
 
     @property
-    def triangle_faces(self) -> np.ndarray:
+    def triangle_faces(self) -> Indices:
         """(m,) rows of Surface.faces."""
         return self._table(lib.MESH_TRIANGLE_FACES, np.uint32)
 
     @property
-    def triangle_patches(self) -> np.ndarray:
+    def triangle_patches(self) -> Indices:
         """(m,) rows of the patches of that kind."""
         return self._table(lib.MESH_TRIANGLE_PATCHES, np.uint32)
 
     @property
-    def triangle_components(self) -> np.ndarray:
+    def triangle_components(self) -> Indices:
         """(m,) rows of Surface.components."""
         return self._table(lib.MESH_TRIANGLE_COMPONENTS, np.uint32)
 
     @property
-    def vertex_atoms(self) -> np.ndarray:
+    def vertex_atoms(self) -> Indices:
         """(n,) the touched atom that is nearest."""
         return self._table(lib.MESH_VERTEX_ATOMS, np.uint32)
 
     @property
-    def sharp_corners(self) -> np.ndarray:
+    def sharp_corners(self) -> Indices:
         """Corners (3 * triangle + 0, 1, 2) at cusps, ascending; their exact normals are sharp_normals."""
         return self._table(lib.MESH_SHARP_CORNERS, np.uint32)
 
     @property
-    def sharp_normals(self) -> np.ndarray:
+    def sharp_normals(self) -> Floats:
+        """(n, 3), unit: the exact normals at sharp_corners."""
         return self._table(lib.MESH_SHARP_NORMALS, np.float64, 3)
 
     def __repr__(self) -> str:
         return f"<meniscus.Mesh: {len(self.vertices)} vertices, {len(self.triangles)} triangles>"
 
-    def save(self, path: Any, *, format: Optional[str] = None, colors: Optional[Any] = None, attributes: str = "usual",
+    def save(self, path: Path, *, format: Optional[MeshFormat] = None, colors: Optional[Any] = None, attributes: str = "usual",
              scale: float = 1.0, replace: bool = False) -> None:
         """Writes a file, whole or not at all: "stl", "3mf", "obj", "off", "glb", "vtp", "smesh", "dms" or "ply", by the
         ending of the path unless `format` says which. colors: one (3,), or one per atom (n, 3), in [0, 1]. attributes:
@@ -106,7 +111,7 @@ class Mesh:
 
     def to_trimesh(self) -> Any:
         """A trimesh.Trimesh, with `atom`, `kind` and `component` in its face_attributes."""
-        import trimesh
+        trimesh = importlib.import_module("trimesh")
         return trimesh.Trimesh(np.array(self.vertices), np.array(self.triangles, dtype=np.int64),
                                vertex_normals=np.array(self.normals), process=False,
                                face_attributes={"atom": np.array(self.triangle_atoms),
@@ -115,7 +120,7 @@ class Mesh:
 
     def to_pyvista(self) -> Any:
         """A pyvista.PolyData, with "Normals" of its points and "atom", "kind", "component" of its cells."""
-        import pyvista
+        pyvista = importlib.import_module("pyvista")
         triangles = self.triangles
         faces = np.empty((len(triangles), 4), dtype=np.int64)
         faces[:, 0], faces[:, 1:] = 3, triangles
@@ -128,7 +133,7 @@ class Mesh:
 
     def to_open3d(self) -> Any:
         """An open3d.geometry.TriangleMesh with vertex normals."""
-        import open3d
+        open3d = importlib.import_module("open3d")
         mesh = open3d.geometry.TriangleMesh(open3d.utility.Vector3dVector(np.array(self.vertices)),
                                             open3d.utility.Vector3iVector(np.array(self.triangles, dtype=np.int32)))
         mesh.vertex_normals = open3d.utility.Vector3dVector(np.array(self.normals))  # copies: it wants them writeable

@@ -14,6 +14,7 @@ import numpy as np
 
 from ._arrays import color_of, put_colors
 from ._errors import InputError
+from ._types import Bytes, Projection
 from ._library import DEVICES, ORTHOGRAPHIC, PROJECTIONS, CameraStruct, Handle, Picture, call, default, word
 
 
@@ -23,7 +24,7 @@ class Camera:
     position: tuple[float, float, float]
     target: tuple[float, float, float]
     up: tuple[float, float, float]
-    projection: str = "perspective"  #: or "orthographic"
+    projection: Projection = "perspective"  #: or "orthographic"
     vertical_fov: float = 30.0       #: degrees between the picture's lower and upper edge; perspective only
     height: float = 1.0              #: Å between them; orthographic only
 
@@ -32,30 +33,35 @@ class Camera:
                             self.vertical_fov, self.height, word("projection", self.projection, PROJECTIONS), 0)
 
 
-def framed(surface: Handle, aspect: float, projection: str) -> Camera:
+def _three(values: Any) -> tuple[float, float, float]:
+    x, y, z = values
+    return x, y, z
+
+
+def framed(surface: Handle, aspect: float, projection: Projection) -> Camera:
     """The camera that shows all of a surface."""
     c = CameraStruct(ctypes.sizeof(CameraStruct))
-    call("surface_frame", surface.pointer, aspect, word("projection", projection, PROJECTIONS), ctypes.byref(c))
-    return Camera(tuple(c.position), tuple(c.target), tuple(c.up),
+    call("surface_camera", surface.pointer, aspect, word("projection", projection, PROJECTIONS), ctypes.byref(c))
+    return Camera(_three(c.position), _three(c.target), _three(c.up),
                   "orthographic" if c.projection == ORTHOGRAPHIC else "perspective", c.vertical_fov, c.height)
 
 
-_painters: dict[str, Handle] = {}
-_painters_lock = threading.Lock()
-atexit.register(_painters.clear)  # while there is still a thread to end
+_renderers: dict[str, Handle] = {}
+_renderers_lock = threading.Lock()
+atexit.register(_renderers.clear)  # while there is still a thread to end
 
 
-def _painter(device: str) -> Handle:
+def _renderer(device: str) -> Handle:
     """One for all pictures: kernels are compiled once."""
     number = word("device", device, DEVICES)
-    with _painters_lock:
-        if device not in _painters:
-            _painters[device] = Handle("painter", "painter_new", number)
-        return _painters[device]
+    with _renderers_lock:
+        if device not in _renderers:
+            _renderers[device] = Handle("renderer", "renderer_new", number)
+        return _renderers[device]
 
 
 def painted(surface: Handle, atom_count: int, width: int, height: int, colors: Any, camera: Optional[Camera],
-            background: Any, device: str, look: dict[str, Any]) -> np.ndarray:
+            background: Any, device: str, look: dict[str, Any]) -> Bytes:
     """(height, width, 4) bytes; see Surface.render."""
     picture = default("picture", Picture())
     picture.width, picture.height = width, height
@@ -70,11 +76,11 @@ def painted(surface: Handle, atom_count: int, width: int, height: int, colors: A
     if not (0 < width <= 65535 and 0 < height <= 65535):
         raise InputError(f"a picture of {width}x{height} pixels; each side has to be 1 to 65535")
     pixels = np.empty((height, width, 4), dtype=np.uint8)
-    call("paint", _painter(device).pointer, surface.pointer, ctypes.byref(picture), pixels.ctypes.data, pixels.nbytes)
+    call("render", _renderer(device).pointer, surface.pointer, ctypes.byref(picture), pixels.ctypes.data, pixels.nbytes)
     return pixels
 
 
-def png(pixels: np.ndarray) -> bytes:
+def png(pixels: Bytes) -> bytes:
     """The file of (height, width, 4) bytes as Surface.render returns them."""
     height, width, channels = pixels.shape
     if channels != 4 or pixels.dtype != np.uint8:

@@ -9,6 +9,7 @@ import numpy as np
 
 from . import _library as lib
 from ._arrays import view
+from ._types import AnyArray, Floats, Indices, PocketKind
 
 
 class Pocket(NamedTuple):
@@ -16,16 +17,17 @@ class Pocket(NamedTuple):
     volume: float  #: Å³
     volume_excess: float  #: Å³ by which that is too large at most, to first order, for mouths lie outside
     area: float  #: Å² of its whole border
-    mouth_areas: np.ndarray  #: Å², the largest first
+    mouth_areas: Floats  #: Å², the largest first
     depth: float  #: Å, of the deepest probe at rest below the large probe's surface
-    middle: np.ndarray  #: (3,) Å, the mean of the probes at rest
-    atoms: np.ndarray  #: (n,) those that line it, which the probe in it can touch; ascending
-    probes: np.ndarray  #: (n, 3) Å, centres of the probe at rest in it, where it touches three atoms or more
+    middle: Floats  #: (3,) Å, the mean of the probes at rest
+    atoms: Indices  #: (n,) those that line it, which the probe in it can touch; ascending
+    probes: Floats  #: (n, 3) Å, centres of the probe at rest in it, where it touches three atoms or more
 
     @property
-    def kind(self) -> str:
+    def kind(self) -> PocketKind:
         """"cavity" without a mouth, "pocket" with one, "tunnel" with more."""
-        return ("cavity", "pocket", "tunnel")[min(len(self.mouth_areas), 2)]
+        kinds: tuple[PocketKind, PocketKind, PocketKind] = ("cavity", "pocket", "tunnel")
+        return kinds[min(len(self.mouth_areas), 2)]
 
     @property
     def wall_area(self) -> float:
@@ -44,7 +46,7 @@ def pockets_of(surface: lib.Handle, large_probe: float, trim: float, min_volume:
         for table, row, columns in ((lib.POCKETS, lib.PocketRow, 0), (lib.POCKET_MOUTHS, np.float64, 0),
                                     (lib.POCKET_ATOMS, np.uint32, 0), (lib.POCKET_PROBES, np.float64, 3)))
 
-    def part(all_rows: np.ndarray, first: int, count: int) -> np.ndarray:
+    def part(all_rows: AnyArray, first: int, count: int) -> AnyArray:
         return all_rows[first:first + count]
 
     return [Pocket(float(row["volume"]), float(row["volume_excess"]), float(row["area"]),

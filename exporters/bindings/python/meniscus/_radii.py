@@ -9,6 +9,7 @@ import numpy as np
 
 from ._errors import InputError
 from ._library import call, whole_number
+from ._types import Floats
 
 
 def _element(symbol: str) -> int:
@@ -23,7 +24,7 @@ def _radius(element: int) -> float:
     return radius.value
 
 
-def radii_of(elements: Sequence[Union[str, int]]) -> np.ndarray:
+def radii_of(elements: Sequence[Union[str, int]]) -> Floats:
     """Å, one per symbol or atomic number: Bondi (1964, 1966), then Mantina et al. (2009), 2.0 for metals that neither
     has. Raises InputError where a symbol is no element's."""
     known: dict[Union[str, int], float] = {}

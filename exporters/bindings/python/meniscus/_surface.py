@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import ctypes
-from typing import Any, NamedTuple, Optional, Union
+import os
+from typing import Any, Literal, NamedTuple, Optional, Union, overload
 
 import numpy as np
 
@@ -13,20 +14,22 @@ from ._errors import GpuError, InputError
 from ._mesh import Mesh
 from ._picture import Camera, framed, painted, png
 from ._pockets import Pocket, pockets_of
+from ._structure import Structure
+from ._types import AnyArray, Bytes, Device, Floats, Indices, Kind, Projection, Quantity, Rows
 from ._units import warn_of_nanometres
 
 
 class Patches(NamedTuple):
     """The analytic patches, as meniscus.h describes their rows: structured arrays, and what they index."""
-    convex: np.ndarray
-    toroidal: np.ndarray
-    concave: np.ndarray
-    planes: np.ndarray
-    contacts: np.ndarray
-    cuts: np.ndarray
+    convex: Rows
+    toroidal: Rows
+    concave: Rows
+    planes: Rows
+    contacts: Indices
+    cuts: Indices
 
 
-def _radii_of(radii: Any) -> np.ndarray:
+def _radii_of(radii: Any) -> AnyArray:
     """A copy; of no dimension where one counts for all."""
     given = real_array(radii, "radii", power=1)
     return np.array(given, dtype=np.float64) if given.ndim == 0 else np.array(numbers(given, "radii")[0])
@@ -36,18 +39,19 @@ class Surface:
     """Exact and closed. May be used by many threads at once; whoever calls update() replaces what the others get from
     then on, never what they have."""
 
-    def __init__(self, xyz: Any, radii: Any, probe: float, kind: str, device: str, threads: int,
+    def __init__(self, xyz: Any, radii: Any, probe: float, kind: Kind, device: Device, threads: int,
                  verify: bool) -> None:
         options = lib.default("options", lib.Options())
         options.probe_radius, options.threads, options.verify = probe, threads, verify
         options.kind = lib.word("kind", kind, lib.KINDS)
         options.device = lib.word("device", device, lib.DEVICES)
         self._kind = kind
+        self._options = (float(options.probe_radius), kind, device, int(options.threads), bool(options.verify))
         self._computer = lib.Handle("computer", "computer_new", ctypes.byref(options))
         self._radii = _radii_of(radii)
         self._handle = self._computed(xyz, self._radii)
 
-    def _computed(self, xyz: Any, radii: np.ndarray) -> lib.Handle:
+    def _computed(self, xyz: Any, radii: AnyArray) -> lib.Handle:
         positions, positions_type = numbers(xyz, "xyz", 3, power=1)
         if radii.ndim == 1 and len(radii) != len(positions):
             raise InputError(f"there are {len(positions)} positions and {len(radii)} radii")
@@ -68,6 +72,10 @@ class Surface:
         self._radii = wanted
         return self
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Pickles hold the atoms and the options; what is read from one is computed again, to the same bits."""
+        return Surface, (np.array(self.balls["center"]), self._radii, *self._options)
+
     # ---- measures
 
     def _summary(self) -> lib.Summary:
@@ -80,103 +88,109 @@ class Surface:
     @property
     def area(self) -> float:
         """Å², of all components."""
-        return self._summary().area
+        return float(self._summary().area)
 
     @property
     def volume(self) -> float:
         """Å³ of the solid: outer components less cavities."""
-        return self._summary().volume
+        return float(self._summary().volume)
 
     @property
     def probe(self) -> float:
-        return self._summary().probe_radius
+        """Å; 0 of kind "vdw"."""
+        return float(self._summary().probe_radius)
 
     @property
-    def kind(self) -> str:
+    def kind(self) -> Kind:
         """"ses", "sas" or "vdw"."""
         return self._kind
 
     @property
     def device(self) -> str:
         """What computed it: "cpu (16 threads)", or GL renderer and version."""
-        return self._summary().device.decode()
+        return str(self._summary().device.decode())
 
     @property
     def grown_by(self) -> float:
         """Å by which radii were grown at most to tell ties apart; 0 as a rule."""
-        return self._summary().grown_by
+        return float(self._summary().grown_by)
 
     @property
     def exact_within(self) -> float:
         """Å: the surface is exact for radii that differ from the given ones by so much at most; 0: for the given ones."""
-        return self._summary().exact_within
+        return float(self._summary().exact_within)
 
     @property
     def counts(self) -> dict[str, int]:
         """How many atoms, patches of each kind, faces, borders, vertices, components, cavities."""
         summary = self._summary()
-        return {name: getattr(summary, name) for name, kind in lib.Summary._fields_ if kind is lib.c_uint64}
+        return {name: getattr(summary, name) for name in lib.COUNTS}
 
     def __len__(self) -> int:
         return int(self._summary().atoms)
 
     # ---- tables
 
-    def _table(self, table: int, row: Any, columns: int = 0) -> np.ndarray:
+    def _table(self, table: int, row: Any, columns: int = 0) -> AnyArray:
         return view(self._handle, "surface_table", table, row, columns)
 
     @property
-    def components(self) -> np.ndarray:
+    def components(self) -> Rows:
         """Rows of kind (0 outer, 1 cavity), area, volume (signed: a cavity has the negative of its own, so that the sum is
         the solid's), euler; outer ones first."""
         return self._table(lib.COMPONENTS, lib.Component)
 
     @property
-    def atom_areas(self) -> np.ndarray:
+    def atom_areas(self) -> Floats:
         """Å² per atom: what of the surface is nearest to its contact; the sum is the area."""
         return self._table(lib.ATOM_AREAS, np.float64)
 
     @property
-    def atom_sas_areas(self) -> np.ndarray:
+    def atom_sas_areas(self) -> Floats:
         """Å² per atom of the solvent-accessible surface; of kind "ses" only."""
         return self._table(lib.ATOM_SAS_AREAS, np.float64)
 
     @property
     def patches(self) -> Patches:
+        """The analytic patches and what they index."""
         handle = self._handle
         tables = ((lib.CONVEX, lib.Convex), (lib.TOROIDAL, lib.Toroidal), (lib.CONCAVE, lib.Concave),
                   (lib.PLANES, lib.Plane), (lib.CONTACTS, np.uint32), (lib.CUTS, np.uint32))
         return Patches(*(view(handle, "surface_table", table, row) for table, row in tables))
 
     @property
-    def balls(self) -> np.ndarray:
+    def balls(self) -> Rows:
         """Rows of center, radius: what was computed."""
         return self._table(lib.ATOMS, lib.Ball)
 
     @property
-    def faces(self) -> np.ndarray:
+    def faces(self) -> Rows:
+        """Connected pieces of patches: kind (0 convex, 1 toroidal, 2 concave), patch, loops, component, tip, area."""
         return self._table(lib.FACES, lib.Face)
 
     @property
-    def borders(self) -> np.ndarray:
+    def borders(self) -> Rows:
+        """Arcs of circles where two faces meet."""
         return self._table(lib.BORDERS, lib.Border)
 
     @property
-    def half_borders(self) -> np.ndarray:
+    def half_borders(self) -> Indices:
+        """2 * border, and 1 more if it is walked backwards."""
         return self._table(lib.HALF_BORDERS, np.uint32)
 
     @property
-    def loops(self) -> np.ndarray:
+    def loops(self) -> Rows:
+        """Closed chains of half_borders with their face on the left."""
         return self._table(lib.LOOPS, lib.Loop)
 
     @property
-    def vertices(self) -> np.ndarray:
+    def vertices(self) -> Floats:
         """(n, 3) Å, where borders end."""
         return self._table(lib.VERTICES, np.float64, 3)
 
     # ---- what is made of it
 
-    def mesh(self, tolerance: float = 0.01, *, split_colors: bool = True, density: float = 0.0,
+    def mesh(self, tolerance: float = 0.01, *, split_colors: bool = True, density: Optional[float] = None,
              even: bool = False) -> Mesh:
         """Triangles that are nowhere farther than `tolerance` (Å) from the surface; with split_colors cut where the
         nearest atom changes. With `even` nearly equilateral ones, which reach over borders of patches; with a
@@ -184,7 +198,14 @@ class Surface:
         distance."""
         return Mesh(self._handle, tolerance, split_colors, density, even)
 
-    def distance(self, points: Any, *, nearest: bool = False) -> Union[np.ndarray, tuple[np.ndarray, np.ndarray]]:
+    @overload
+    def distance(self, points: Any, *, nearest: Literal[False] = False) -> Floats: ...
+    @overload
+    def distance(self, points: Any, *, nearest: Literal[True]) -> tuple[Floats, Floats]: ...
+    @overload
+    def distance(self, points: Any, *, nearest: bool) -> Union[Floats, tuple[Floats, Floats]]: ...
+
+    def distance(self, points: Any, *, nearest: bool = False) -> Union[Floats, tuple[Floats, Floats]]:
         """Å to the nearest point of the surface, above 0 in the solvent, below 0 in the solid; exact everywhere. With
         `nearest` these points, too, as (n, 3)."""
         given = doubles(points, "points", 3, power=1)
@@ -195,7 +216,7 @@ class Surface:
                  None if feet is None else feet.ctypes.data)
         return distances if feet is None else (distances, feet)
 
-    def gradient(self, of: str = "area", weights: Optional[Any] = None) -> np.ndarray:
+    def gradient(self, of: Quantity = "area", weights: Optional[Any] = None) -> Floats:
         """The exact derivative by the position of each atom, (n, 3), Å²/Å or Å³/Å. of: "area", "volume"; of kind "ses"
         also "sas_area", "sas_volume". weights, (n,): by which the accessible areas of atoms count, for "sas_area", and
         for "area" of the kinds "sas" and "vdw". InputError where a probe touches more than three atoms at once: then
@@ -220,14 +241,14 @@ class Surface:
         be. In closed form, on the CPU; of kind "ses" only."""
         return pockets_of(self._handle, large_probe, trim, min_volume, mouth_tolerance)
 
-    def camera(self, aspect: float = 4 / 3, projection: str = "perspective") -> Camera:
+    def camera(self, aspect: float = 4 / 3, projection: Projection = "perspective") -> Camera:
         """The camera that shows everything. aspect: width / height."""
         return framed(self._handle, aspect, projection)
 
     def render(self, width: int = 1024, height: int = 768, *, colors: Optional[Any] = None,
                camera: Optional[Camera] = None, background: Optional[Any] = None, samples: int = 4,
                ambient_occlusion: float = 0.0, silhouettes: float = 0.0, depth_cue: float = 0.0,
-               device: str = "auto") -> np.ndarray:
+               device: Device = "auto") -> Bytes:
         """A picture, (height, width, 4) bytes in sRGB with alpha. colors: one (3,), or one per atom (n, 3), in [0, 1];
         background: (3,), or None for a transparent one. device: "auto", a hardware GPU if there is one, else "cpu";
         GpuError where "gpu" or "software" is asked for and there is no GL."""
@@ -250,12 +271,27 @@ class Surface:
                 f"{s.components} components>")
 
 
-def surface(xyz: Any, radii: Any, probe: float = 1.4, *, kind: str = "ses", device: str = "cpu", threads: int = 0,
-            verify: bool = False) -> Surface:
-    """The surface of atoms at xyz, (n, 3) Å, with van der Waals radii, (n,) or one for all. What carries a unit, of
-    OpenMM, pint, astropy or unyt, is converted; a warning tells where positions look like nanometres.
+@overload
+def surface(xyz: Structure, radii: Optional[Any] = None, probe: float = 1.4, *, kind: Kind = "ses",
+            device: Device = "cpu", threads: int = 0, verify: bool = False) -> Surface: ...
+@overload
+def surface(xyz: Any, radii: Any, probe: float = 1.4, *, kind: Kind = "ses", device: Device = "cpu", threads: int = 0,
+            verify: bool = False) -> Surface: ...
+
+
+def surface(xyz: Any, radii: Optional[Any] = None, probe: float = 1.4, *, kind: Kind = "ses", device: Device = "cpu",
+            threads: int = 0, verify: bool = False) -> Surface:
+    """The surface of a Structure that read() gave, or of atoms at xyz, (n, 3) Å, with van der Waals radii, (n,) or one
+    for all. What carries a unit, of OpenMM, pint, astropy or unyt, is converted; a warning tells where positions look
+    like nanometres.
 
     kind: "ses", solvent-excluded; "sas", solvent-accessible; "vdw", without a probe. device: "cpu"; "gpu"; "auto", a
     hardware GPU if one works, else the CPU; "software", GL on the CPU. threads: of the CPU, 0 for all. verify: compute
     on the other device, too, and compare everything."""
+    if isinstance(xyz, Structure):
+        return Surface(xyz.positions, xyz.radii if radii is None else radii, probe, kind, device, threads, verify)
+    if isinstance(xyz, (str, bytes, os.PathLike)):
+        raise InputError(f"{xyz!r} is a path; meniscus.read() reads molecules: surface(meniscus.read(path))")
+    if radii is None:
+        raise InputError("radii are missing; give one an atom, or one for all (radii_of() has those of elements)")
     return Surface(xyz, radii, probe, kind, device, threads, verify)

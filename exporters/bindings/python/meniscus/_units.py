@@ -9,6 +9,7 @@ from typing import Any, Optional
 import numpy as np
 
 from ._errors import InputError
+from ._types import AnyArray
 
 _WAYS = ("value_in_unit", "m_as", "to_value")  # OpenMM and ParmEd; pint; astropy and unyt
 _NAMES_OF_ANGSTROM = ("Å", "A", "angstrom", "angstroms", "ångström")
@@ -48,7 +49,7 @@ def plain(values: Any, name: str, power: Optional[int]) -> Any:
     return values
 
 
-def warn_of_nanometres(positions: np.ndarray) -> None:
+def warn_of_nanometres(positions: AnyArray) -> None:
     """No molecule has its atoms so near to one another that half of them have a neighbour within 0.5 Å."""
     count = len(positions)
     if count < 2:

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Exact solvent-excluded surfaces of molecules for other programs, in C99: arrays in, arrays out.
+/* Exact solvent-excluded surfaces of molecules for other programs, in C99: files or arrays in, arrays out.
  *
  *   meniscus_computer* computer = NULL;
  *   meniscus_surface* surface = NULL;
@@ -27,12 +27,12 @@
  *
  * Ownership. Objects begin with one reference; _retain adds one, _release takes one away (NULL is fine), and the last
  * frees the object. Arrays that are passed in are read during the call only. Arrays of a surface or a mesh are its own
- * memory, read-only, and live as long as it does; a surface that is computed anew in place (meniscus_compute) has new
+ * memory, read-only, and live as long as it does; a surface that is computed anew in place (meniscus_recompute) has new
  * ones.
  *
  * Threads. All functions may be called from any number of threads at once, with the same objects, too: a computer and a
- * painter serve one call after the other, surfaces and meshes all at once. Only meniscus_compute with a surface in
- * place changes one: while it runs nobody else may use that variable. After fork() the child can go on with
+ * renderer serve one call after the other, surfaces and meshes all at once. Only meniscus_recompute
+ * changes one: while it runs nobody else may use that variable. After fork() the child can go on with
  * MENISCUS_CPU, as long as no other thread was in a call; what uses GL is refused there. */
 #ifndef MENISCUS_MENISCUS_H
 #define MENISCUS_MENISCUS_H
@@ -44,6 +44,13 @@
 #define MENISCUS_API __attribute__((visibility("default")))
 #else
 #define MENISCUS_API
+#endif
+
+/* The words of one argument or field have a type of their own, of 32 bits, also where a caller gives another number. */
+#if defined(__cplusplus) && __cplusplus >= 201103L
+#define MENISCUS_WORDS : int32_t
+#else
+#define MENISCUS_WORDS
 #endif
 
 #ifdef __cplusplus
@@ -86,27 +93,27 @@ MENISCUS_API meniscus_status meniscus_element_radius(int32_t element, double* ra
 /* ---- Computing ----------------------------------------------------------------------------------------------- */
 
 /* meniscus_options.kind: which surface. */
-enum {
+typedef enum meniscus_kind MENISCUS_WORDS {
   MENISCUS_SES = 0, /* solvent-excluded: what the probe cannot reach */
   MENISCUS_SAS = 1, /* solvent-accessible: where the probe's centre can be */
   MENISCUS_VDW = 2  /* van der Waals: the balls themselves, without a probe */
-};
+} meniscus_kind;
 
 /* Where surfaces are computed, and pictures drawn. */
-enum {
+typedef enum meniscus_device MENISCUS_WORDS {
   MENISCUS_CPU = 0,     /* on the CPU */
   MENISCUS_AUTO = 1,    /* on a hardware GPU if one works, else as MENISCUS_CPU */
   MENISCUS_GPU = 2,     /* on a hardware GPU, nothing else */
   MENISCUS_SOFTWARE = 3 /* by software GL, nothing else: for tests of the GPU's way */
-};
+} meniscus_device;
 
 typedef struct meniscus_options {
   size_t size;
-  double probe_radius; /* [1.4], 0 or 0.001 to 100; ignored by MENISCUS_VDW */
-  int32_t kind;        /* [MENISCUS_SES] */
-  int32_t device;      /* [MENISCUS_CPU] */
-  int32_t threads;     /* [0: all] CPU threads, the calling one included */
-  int32_t verify;      /* [0] else: compute on the other device, too, and mesh; every difference is an error */
+  double probe_radius;    /* [1.4], 0 or 0.001 to 100; ignored by MENISCUS_VDW */
+  meniscus_kind kind;     /* [MENISCUS_SES] */
+  meniscus_device device; /* [MENISCUS_CPU] */
+  int32_t threads;        /* [0: all] CPU threads, the calling one included */
+  int32_t verify;         /* [0] else: compute on the other device, too, and mesh; every difference is an error */
 } meniscus_options;
 
 /* Fills in the defaults, as in brackets. options->size has to be set. */
@@ -120,19 +127,19 @@ MENISCUS_API meniscus_status meniscus_computer_new(const meniscus_options* optio
 MENISCUS_API meniscus_computer* meniscus_computer_retain(meniscus_computer* computer);
 MENISCUS_API void meniscus_computer_release(meniscus_computer* computer);
 
-enum { MENISCUS_DOUBLE = 0, MENISCUS_FLOAT = 1 };
+typedef enum meniscus_number_type MENISCUS_WORDS { MENISCUS_DOUBLE = 0, MENISCUS_FLOAT = 1 } meniscus_number_type;
 
 typedef struct meniscus_atoms {
   size_t size;
-  size_t count;            /* at least 1 */
-  const void* positions;   /* x, y, z of each atom, next to each other; finite, within 100,000 Å of 0 */
-  const void* radii;       /* van der Waals radius of each atom, above 0, at most 1,000 */
-  size_t positions_stride; /* bytes from one atom to the next; [0: without a gap] */
-  size_t radii_stride;     /* likewise */
-  int32_t positions_type;  /* [MENISCUS_DOUBLE] or MENISCUS_FLOAT, aligned as such */
-  int32_t radii_type;      /* likewise */
-  int32_t equal_radii;     /* [0] else: all atoms have radii[0] */
-  int32_t reserved;        /* 0 */
+  size_t count;                        /* at least 1 */
+  const void* positions;               /* x, y, z of each atom, next to each other; finite, within 100,000 Å of 0 */
+  const void* radii;                   /* van der Waals radius of each atom, above 0, at most 1,000 */
+  size_t positions_stride;             /* bytes from one atom to the next; [0: without a gap] */
+  size_t radii_stride;                 /* likewise */
+  meniscus_number_type positions_type; /* [MENISCUS_DOUBLE] or MENISCUS_FLOAT, aligned as such */
+  meniscus_number_type radii_type;     /* likewise */
+  int32_t equal_radii;                 /* [0] else: all atoms have radii[0] */
+  int32_t reserved;                    /* 0 */
 } meniscus_atoms;
 
 /* ---- Surfaces ------------------------------------------------------------------------------------------------ */
@@ -141,11 +148,14 @@ typedef struct meniscus_atoms {
  */
 typedef struct meniscus_surface meniscus_surface;
 
-/* Computes one surface. *surface is NULL, or a surface whose reference is taken over: of the frame before, say. If
- * nobody else holds it, it is computed anew in place, and its arrays end; else it is let go and a new one made. If the
- * call fails *surface stays as it was. */
+/* Computes one surface. *surface is overwritten. */
 MENISCUS_API meniscus_status meniscus_compute(meniscus_computer* computer, const meniscus_atoms* atoms,
                                               meniscus_surface** surface);
+/* Computes the next frame. *surface is a surface, whose reference is taken over: of the frame before, say. If nobody
+ * else holds it, it is computed anew in place, and its arrays end; else it is let go and a new one made. If the call
+ * fails *surface stays as it was. */
+MENISCUS_API meniscus_status meniscus_recompute(meniscus_computer* computer, const meniscus_atoms* atoms,
+                                                meniscus_surface** surface);
 MENISCUS_API meniscus_surface* meniscus_surface_retain(meniscus_surface* surface);
 MENISCUS_API void meniscus_surface_release(meniscus_surface* surface);
 
@@ -186,7 +196,7 @@ typedef struct meniscus_array {
 } meniscus_array;
 
 /* The tables of a surface, and what their rows are. */
-enum {
+typedef enum meniscus_surface_table_id MENISCUS_WORDS {
   MENISCUS_COMPONENTS = 0,     /* meniscus_component: outer ones first, then cavities, each by falling area */
   MENISCUS_ATOM_AREAS = 1,     /* double per atom, Å^2, 0 where buried: the part of the surface whose nearest contact
                                   is with the atom; the sum is the area */
@@ -203,11 +213,19 @@ enum {
   MENISCUS_HALF_BORDERS = 12,  /* uint32_t: 2 * border, and 1 more if walked backwards */
   MENISCUS_LOOPS = 13,         /* meniscus_loop */
   MENISCUS_FACES = 14          /* meniscus_face */
-};
+} meniscus_surface_table_id;
 
-enum { MENISCUS_KIND_CONVEX = 0, MENISCUS_KIND_TOROIDAL = 1, MENISCUS_KIND_CONCAVE = 2 };
-enum { MENISCUS_BORDER_CONTACT = 0, MENISCUS_BORDER_EDGE = 1, MENISCUS_BORDER_CUSP = 2 };
-enum { MENISCUS_OUTER = 0, MENISCUS_CAVITY = 1 };
+typedef enum meniscus_patch_kind MENISCUS_WORDS {
+  MENISCUS_KIND_CONVEX = 0,
+  MENISCUS_KIND_TOROIDAL = 1,
+  MENISCUS_KIND_CONCAVE = 2
+} meniscus_patch_kind;
+typedef enum meniscus_border_kind MENISCUS_WORDS {
+  MENISCUS_BORDER_CONTACT = 0,
+  MENISCUS_BORDER_EDGE = 1,
+  MENISCUS_BORDER_CUSP = 2
+} meniscus_border_kind;
+typedef enum meniscus_component_kind MENISCUS_WORDS { MENISCUS_OUTER = 0, MENISCUS_CAVITY = 1 } meniscus_component_kind;
 
 /* One closed, connected part of the surface. */
 typedef struct meniscus_component {
@@ -289,7 +307,7 @@ typedef struct meniscus_face {
 } meniscus_face;
 
 /* The areas of atoms are found when they are first asked for, which takes about a third of the surface's time. */
-MENISCUS_API meniscus_status meniscus_surface_table(const meniscus_surface* surface, int32_t table,
+MENISCUS_API meniscus_status meniscus_surface_table(const meniscus_surface* surface, meniscus_surface_table_id table,
                                                     meniscus_array* array);
 
 /* Of each point the Euclidean distance to the nearest point of the surface: above 0 in the solvent, below 0 in the
@@ -302,12 +320,12 @@ MENISCUS_API meniscus_status meniscus_surface_distance(const meniscus_surface* s
                                                        const double* points, double* distances, double* nearest);
 
 /* Of what meniscus_surface_gradient tells the derivative. */
-enum {
+typedef enum meniscus_quantity MENISCUS_WORDS {
   MENISCUS_GRADIENT_AREA = 0,      /* of the surface's area */
   MENISCUS_GRADIENT_VOLUME = 1,    /* of its volume */
   MENISCUS_GRADIENT_SAS_AREA = 2,  /* of the sum of MENISCUS_ATOM_SAS_AREAS; of MENISCUS_SES only */
   MENISCUS_GRADIENT_SAS_VOLUME = 3 /* of the volume where the probe's centre cannot be; of MENISCUS_SES only */
-};
+} meniscus_quantity;
 
 /* The exact derivative by the position of each atom, in closed form: what the number changes by when the atom moves,
  * for forces and minimizers. gradient: room for three doubles an atom, Å^2/Å or Å^3/Å. weights: [NULL: 1 for all] one
@@ -315,8 +333,107 @@ enum {
  * MENISCUS_GRADIENT_SAS_AREA, and for MENISCUS_GRADIENT_AREA of MENISCUS_SAS and MENISCUS_VDW. MENISCUS_INPUT where a
  * probe touches more than three atoms at once, so that MENISCUS_GRADIENT_AREA and _VOLUME of MENISCUS_SES have no
  * derivative. */
-MENISCUS_API meniscus_status meniscus_surface_gradient(const meniscus_surface* surface, int32_t quantity,
+MENISCUS_API meniscus_status meniscus_surface_gradient(const meniscus_surface* surface, meniscus_quantity quantity,
                                                        const double* weights, double* gradient);
+
+/* ---- Molecules from files ------------------------------------------------------------------------------------ */
+
+/* What becomes of hydrogens. */
+typedef enum meniscus_hydrogens MENISCUS_WORDS {
+  MENISCUS_HYDROGENS_AUTO = 0, /* left out where the radii contain them, else kept */
+  MENISCUS_HYDROGENS_KEEP = 1,
+  MENISCUS_HYDROGENS_DROP = 2
+} meniscus_hydrogens;
+
+/* What becomes of atoms whose element nobody can tell. */
+typedef enum meniscus_unknown_element MENISCUS_WORDS {
+  MENISCUS_UNKNOWN_HALT = 0,  /* MENISCUS_INPUT, naming them */
+  MENISCUS_UNKNOWN_GUESS = 1, /* a radius of 2.0 Å */
+  MENISCUS_UNKNOWN_SKIP = 2   /* left out */
+} meniscus_unknown_element;
+
+/* Which atoms of a file are taken, and with which radii: the options of the program, with its defaults. Texts are read
+ * during the call only. */
+typedef struct meniscus_read_options {
+  size_t size;
+  const char* select;             /* [NULL: all] an expression such as "chain A and not water" (meniscus help
+                                     selections) */
+  const char* assembly;           /* [NULL: as deposited] build this biological assembly, "1" */
+  const char* altloc;             /* ["best": the most occupied] alternate location in a residue: "first", "all" or one
+                                     letter */
+  const char* radii;              /* [NULL: those of the file if it has any, else "bondi"] also "united", "protor",
+                                     "file" */
+  const char* const* radii_files; /* [NULL] radii by residue and atom, before those of the set; the last counts */
+  const char* const* radius;    /* [NULL] "EXPR=R": the radius R, Å, of the atoms that EXPR selects; the last counts */
+  size_t radii_file_count;      /* [0] */
+  size_t radius_count;          /* [0] */
+  int32_t model;                /* [1] the first; 0: all models as one molecule */
+  meniscus_hydrogens hydrogens; /* [MENISCUS_HYDROGENS_AUTO] */
+  meniscus_unknown_element unknown_element; /* [MENISCUS_UNKNOWN_HALT] */
+  int32_t keep_water;                       /* [0] else: water molecules, too */
+  int32_t keep_ions;                        /* [0] else: free ions, too */
+  int32_t reserved;                         /* 0 */
+} meniscus_read_options;
+
+MENISCUS_API meniscus_status meniscus_default_read_options(meniscus_read_options* options);
+
+/* The atoms of a molecule that a surface is made of. It never changes. */
+typedef struct meniscus_structure meniscus_structure;
+
+/* Reads PDB, mmCIF, PQR, GRO, XYZ and XYZR, plain or packed with gzip, as the program does: polymers and ligands of the
+ * first model, of each residue the most occupied conformer, without water and free ions, unless the options say
+ * otherwise. options: NULL for the defaults. *structure is overwritten. Of a text that is no selection
+ * meniscus_last_error() has two more lines: the expression, and a caret under the place. */
+MENISCUS_API meniscus_status meniscus_read(const char* path, const meniscus_read_options* options,
+                                           meniscus_structure** structure);
+MENISCUS_API meniscus_structure* meniscus_structure_retain(meniscus_structure* structure);
+MENISCUS_API void meniscus_structure_release(meniscus_structure* structure);
+
+/* Fills in what meniscus_compute() wants; its arrays live as long as the structure. atoms->size has to be set. */
+MENISCUS_API meniscus_status meniscus_structure_atoms(const meniscus_structure* structure, meniscus_atoms* atoms);
+
+/* Texts live as long as the structure. */
+typedef struct meniscus_read_report {
+  size_t size;
+  const char* file;      /* the path as given */
+  const char* format;    /* "PDB", "mmCIF", ... */
+  const char* radii_set; /* "bondi", "united", "protor", "file", or files and overrides */
+  const char* sentence;  /* "5,684 atoms read; 215 water left out; 5,469 used" */
+  uint64_t read;         /* atoms of the file, of all models and alternate locations */
+  uint64_t atoms;        /* those used, copies of an assembly included */
+  uint64_t models;       /* in the file */
+} meniscus_read_report;
+
+/* report->size has to be set. */
+MENISCUS_API meniscus_status meniscus_structure_report(const meniscus_structure* structure,
+                                                       meniscus_read_report* report);
+
+/* The tables of a structure: a row an atom, but for warnings. Rows of text end with a zero and are filled up with zeros
+ * to the stride; what the file has is UTF-8 as a rule, but may be anything. */
+typedef enum meniscus_structure_table_id MENISCUS_WORDS {
+  MENISCUS_STRUCTURE_POSITIONS = 0,       /* double[3], Å */
+  MENISCUS_STRUCTURE_RADII = 1,           /* double, Å */
+  MENISCUS_STRUCTURE_ELEMENTS = 2,        /* uint8_t: atomic number, 0 where it is unknown */
+  MENISCUS_STRUCTURE_INDICES = 3,         /* uint32_t: place in the file, from 0, of all atoms of all models read */
+  MENISCUS_STRUCTURE_NAMES = 4,           /* text: "CA" */
+  MENISCUS_STRUCTURE_RESIDUE_NAMES = 5,   /* text: "ALA" */
+  MENISCUS_STRUCTURE_CHAINS = 6,          /* text: "A", of the second copy in an assembly "A-2" */
+  MENISCUS_STRUCTURE_SEGMENTS = 7,        /* text */
+  MENISCUS_STRUCTURE_RESIDUE_NUMBERS = 8, /* int32_t, as the file has them */
+  MENISCUS_STRUCTURE_INSERTION_CODES = 9, /* char, ' ' for none */
+  MENISCUS_STRUCTURE_ALTLOCS = 10,        /* char, ' ' for none */
+  MENISCUS_STRUCTURE_RESIDUES = 11,       /* uint32_t: running number of the residue in the file, from 0 */
+  MENISCUS_STRUCTURE_MODELS = 12,         /* int32_t, from 1 */
+  MENISCUS_STRUCTURE_COPIES = 13,         /* uint32_t: which copy of an assembly, from 0 */
+  MENISCUS_STRUCTURE_CHARGES = 14,        /* float, e; NaN where the file has none */
+  MENISCUS_STRUCTURE_B_FACTORS = 15,      /* float, Å^2; likewise */
+  MENISCUS_STRUCTURE_OCCUPANCIES = 16,    /* float; likewise */
+  MENISCUS_STRUCTURE_CLASSES = 17,        /* uint8_t: 0 polymer, 1 ligand, 2 water, 3 ion, 4: the file does not say */
+  MENISCUS_STRUCTURE_WARNINGS = 18        /* text: a sentence a row about what is odd in the file */
+} meniscus_structure_table_id;
+
+MENISCUS_API meniscus_status meniscus_structure_table(const meniscus_structure* structure,
+                                                      meniscus_structure_table_id table, meniscus_array* array);
 
 /* ---- Pockets ------------------------------------------------------------------------------------------------- */
 
@@ -343,12 +460,12 @@ MENISCUS_API meniscus_pockets* meniscus_pockets_retain(meniscus_pockets* pockets
 MENISCUS_API void meniscus_pockets_release(meniscus_pockets* pockets);
 
 /* The tables of pockets, and what their rows are. */
-enum {
+typedef enum meniscus_pockets_table_id MENISCUS_WORDS {
   MENISCUS_POCKETS = 0,       /* meniscus_pocket: the largest volume first */
   MENISCUS_POCKET_MOUTHS = 1, /* double: Å^2 of each mouth, of a pocket the largest first */
   MENISCUS_POCKET_ATOMS = 2,  /* uint32_t: atoms that line a pocket, which the probe in it can touch; ascending */
   MENISCUS_POCKET_PROBES = 3  /* double[3]: centres of the probe at rest in a pocket, touching three atoms or more */
-};
+} meniscus_pockets_table_id;
 
 /* One connected part. */
 typedef struct meniscus_pocket {
@@ -363,28 +480,34 @@ typedef struct meniscus_pocket {
   uint32_t first_probe, probe_count;
 } meniscus_pocket;
 
-MENISCUS_API meniscus_status meniscus_pockets_table(const meniscus_pockets* pockets, int32_t table,
+MENISCUS_API meniscus_status meniscus_pockets_table(const meniscus_pockets* pockets, meniscus_pockets_table_id table,
                                                     meniscus_array* array);
 
 /* ---- Meshes -------------------------------------------------------------------------------------------------- */
 
+/* What the triangles of a mesh are like. */
+typedef enum meniscus_mesh_method MENISCUS_WORDS {
+  MENISCUS_MESH_BY_PATCH = 0,  /* they end at borders of patches, and keep to `tolerance` */
+  MENISCUS_MESH_EVEN = 1,      /* they are nearly equilateral, and keep to `tolerance` */
+  MENISCUS_MESH_BY_DENSITY = 2 /* they are nearly equilateral, and `density` says how many there are */
+} meniscus_mesh_method;
+
+/* A number that the method has no use for is as meniscus_default_mesh_options() leaves it, or refused. */
 typedef struct meniscus_mesh_options {
   size_t size;
+  meniscus_mesh_method method; /* [MENISCUS_MESH_BY_PATCH] */
+  int32_t split_colors; /* [1] of MENISCUS_MESH_BY_PATCH: cut triangles where the nearest atom changes, so that colours
+                           change along edges */
   double tolerance;     /* [0.01] Å, 0.00001 to 1: no point of the mesh is farther from the surface */
-  int32_t split_colors; /* [1] cut triangles where the nearest atom changes, so that colours change along edges */
-  int32_t reserved;     /* 0 */
-  double density;       /* [0: by tolerance] vertices per Å^2 of the exact area, 0.005 to 1,000: an even mesh */
-  int32_t even;         /* [0] else: an even mesh by tolerance, too */
-  int32_t reserved_2;   /* 0 */
+  double density;       /* [0] vertices per Å^2 of the exact area, 0.005 to 1,000 */
 } meniscus_mesh_options;
 
 MENISCUS_API meniscus_status meniscus_default_mesh_options(meniscus_mesh_options* options);
 
 /* A closed triangle mesh; all vertices lie on the exact surface, which it keeps for meniscus_mesh_save. Seen from the
- * solvent triangles are counter-clockwise. As a rule triangles end at borders of patches, however narrow these are.
- * Triangles of an even mesh are nearly equilateral, as few as one for an atom, and reach over borders: atom, kind, face
- * and patch of one are those of the exact surface under its middle; split_colors does not count. No triangles of it
- * cross. */
+ * solvent triangles are counter-clockwise. By patch they end at borders of patches, however narrow these are. Nearly
+ * equilateral ones, as few as one for an atom, reach over borders: atom, kind, face and patch of one are those of the
+ * exact surface under its middle. No triangles of such a mesh cross. */
 typedef struct meniscus_mesh meniscus_mesh;
 
 /* options: NULL for the defaults. *mesh is overwritten. */
@@ -394,7 +517,7 @@ MENISCUS_API meniscus_mesh* meniscus_mesh_retain(meniscus_mesh* mesh);
 MENISCUS_API void meniscus_mesh_release(meniscus_mesh* mesh);
 
 /* The tables of a mesh. */
-enum {
+typedef enum meniscus_mesh_table_id MENISCUS_WORDS {
   MENISCUS_MESH_POSITIONS = 0,           /* double[3] per vertex */
   MENISCUS_MESH_NORMALS = 1,             /* double[3] per vertex, unit, exact; at cusps a mean */
   MENISCUS_MESH_TRIANGLES = 2,           /* uint32_t[3] per triangle: vertices */
@@ -407,9 +530,10 @@ enum {
   MENISCUS_MESH_SHARP_NORMALS = 9,       /* double[3]: these are the exact normals */
   MENISCUS_MESH_VERTEX_ATOMS = 10        /* uint32_t per vertex: the touched atom that is nearest; where several are
                                             equally near the first */
-};
+} meniscus_mesh_table_id;
 
-MENISCUS_API meniscus_status meniscus_mesh_table(const meniscus_mesh* mesh, int32_t table, meniscus_array* array);
+MENISCUS_API meniscus_status meniscus_mesh_table(const meniscus_mesh* mesh, meniscus_mesh_table_id table,
+                                                 meniscus_array* array);
 
 /* How a mesh is written. Texts are read during the call only. */
 typedef struct meniscus_mesh_file {
@@ -437,26 +561,29 @@ MENISCUS_API meniscus_status meniscus_mesh_save(const meniscus_mesh* mesh, const
 
 /* ---- Pictures ------------------------------------------------------------------------------------------------ */
 
-enum { MENISCUS_PERSPECTIVE = 0, MENISCUS_ORTHOGRAPHIC = 1 };
+typedef enum meniscus_projection MENISCUS_WORDS {
+  MENISCUS_PERSPECTIVE = 0,
+  MENISCUS_ORTHOGRAPHIC = 1
+} meniscus_projection;
 
 typedef struct meniscus_camera {
   size_t size;
   double position[3], target[3];
-  double up[3];        /* not parallel to the view */
-  double vertical_fov; /* degrees between the picture's lower and upper edge; perspective only */
-  double height;       /* Å between them; orthographic only */
-  int32_t projection;  /* MENISCUS_PERSPECTIVE or MENISCUS_ORTHOGRAPHIC */
-  int32_t reserved;    /* 0 */
+  double up[3];                   /* not parallel to the view */
+  double vertical_fov;            /* degrees between the picture's lower and upper edge; perspective only */
+  double height;                  /* Å between them; orthographic only */
+  meniscus_projection projection; /* MENISCUS_PERSPECTIVE or MENISCUS_ORTHOGRAPHIC */
+  int32_t reserved;               /* 0 */
 } meniscus_camera;
 
 /* The camera that shows all atoms, their widest side across the picture. aspect: width / height. camera->size has to be
  * set. */
-MENISCUS_API meniscus_status meniscus_surface_frame(const meniscus_surface* surface, double aspect, int32_t projection,
-                                                    meniscus_camera* camera);
+MENISCUS_API meniscus_status meniscus_surface_camera(const meniscus_surface* surface, double aspect,
+                                                     meniscus_projection projection, meniscus_camera* camera);
 
 typedef struct meniscus_picture {
   size_t size;
-  const meniscus_camera* camera; /* [NULL: meniscus_surface_frame] */
+  const meniscus_camera* camera; /* [NULL: meniscus_surface_camera] */
   const float* atom_colors;      /* [NULL: all have `color`] sRGB in [0, 1], three per atom */
   int32_t width, height;         /* [1024, 768] pixels, 1 to 65,535 */
   int32_t samples;               /* [4] rays a pixel, 1 to 1,024 */
@@ -472,19 +599,19 @@ typedef struct meniscus_picture {
 MENISCUS_API meniscus_status meniscus_default_picture(meniscus_picture* picture);
 
 /* On GL a context of its own with its kernels, on a thread of its own: the caller's contexts are left alone. */
-typedef struct meniscus_painter meniscus_painter;
+typedef struct meniscus_renderer meniscus_renderer;
 
 /* device: MENISCUS_AUTO (a hardware GPU if one works, else as MENISCUS_CPU), MENISCUS_GPU, MENISCUS_SOFTWARE,
- * MENISCUS_CPU (without GL: the same picture for any vector width and number of threads). *painter is overwritten.
+ * MENISCUS_CPU (without GL: the same picture for any vector width and number of threads). *renderer is overwritten.
  * MENISCUS_NO_GPU where GL is asked for and there is no GL 4.5. */
-MENISCUS_API meniscus_status meniscus_painter_new(int32_t device, meniscus_painter** painter);
-MENISCUS_API meniscus_painter* meniscus_painter_retain(meniscus_painter* painter);
-MENISCUS_API void meniscus_painter_release(meniscus_painter* painter);
+MENISCUS_API meniscus_status meniscus_renderer_new(meniscus_device device, meniscus_renderer** renderer);
+MENISCUS_API meniscus_renderer* meniscus_renderer_retain(meniscus_renderer* renderer);
+MENISCUS_API void meniscus_renderer_release(meniscus_renderer* renderer);
 
 /* Ray casts the exact surface. picture: NULL for the defaults. rgba: width * height * 4 bytes, red, green, blue, alpha
  * (not multiplied in), rows from the top; rgba_size: the room there. */
-MENISCUS_API meniscus_status meniscus_paint(meniscus_painter* painter, const meniscus_surface* surface,
-                                            const meniscus_picture* picture, uint8_t* rgba, size_t rgba_size);
+MENISCUS_API meniscus_status meniscus_render(meniscus_renderer* renderer, const meniscus_surface* surface,
+                                             const meniscus_picture* picture, uint8_t* rgba, size_t rgba_size);
 
 #ifdef __cplusplus
 }

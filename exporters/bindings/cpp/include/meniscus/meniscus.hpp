@@ -2,9 +2,10 @@
 // Exact solvent-excluded surfaces of molecules for other programs, in C++20: meniscus.h with spans and exceptions.
 //
 //   meniscus::Computer computer;
+//   const meniscus::Structure molecule = meniscus::read("1ubq.cif");
+//   std::cout << computer.compute(molecule.atoms()).area() << " Å^2\n";
 //   const std::vector<double> xyz = {0, 0, 0, 1.5, 0, 0}, radii = {1.7, 1.52};
-//   const meniscus::Surface surface = computer.compute({xyz, radii});
-//   std::cout << surface.area() << " Å^2\n";
+//   std::cout << computer.compute({xyz, radii}).area() << " Å^2\n";
 //
 // All of it is inline and calls the C functions, so what a program is linked to is the C interface alone: a program
 // that was compiled with one compiler, C++ library and version of this header runs with libmeniscus of another. Structs
@@ -13,12 +14,12 @@
 //
 // Errors. Whatever fails throws an Error with the library's sentence; what was to be changed is as before.
 //
-// Ownership. Computer, Surface, Mesh and Painter own one object each, and move; of what was moved from only assignment
-// and the end are left. Spans and rows of a surface or a mesh are its own memory, seen without a copy: they end with
-// it, and with Computer::compute(atoms, surface), which computes it anew.
+// Ownership. Computer, Structure, Surface, Mesh and Renderer own one object each, and move; of what was moved from only
+// assignment and the end are left. Spans and rows of a surface or a mesh are its own memory, seen without a copy: they
+// end with it, and with Computer::recompute(atoms, surface), which computes it anew.
 //
-// Threads. As in meniscus.h: const functions of one object from any number of threads at once; a Computer and a Painter
-// serve one call after the other.
+// Threads. As in meniscus.h: const functions of one object from any number of threads at once; a Computer and a
+// Renderer serve one call after the other.
 #ifndef MENISCUS_MENISCUS_HPP
 #define MENISCUS_MENISCUS_HPP
 
@@ -30,6 +31,7 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <meniscus/meniscus.h>
@@ -124,15 +126,16 @@ struct WithDefaults : Struct {
 };
 using Options = WithDefaults<meniscus_options, meniscus_default_options>;
 using MeshOptions = WithDefaults<meniscus_mesh_options, meniscus_default_mesh_options>;
+using ReadOptions = WithDefaults<meniscus_read_options, meniscus_default_read_options>;
 using PocketOptions = WithDefaults<meniscus_pocket_options, meniscus_default_pocket_options>;
 using MeshFile = WithDefaults<meniscus_mesh_file, meniscus_default_mesh_file>;
 using Picture = WithDefaults<meniscus_picture, meniscus_default_picture>;
-using Camera = meniscus_camera;  // as Surface::frame gives it
+using Camera = meniscus_camera;  // as Surface::camera gives it
 using Ball = meniscus_ball;
 
 // The atoms of one call: arrays of the caller's, read during the call only. Positions are x, y, z of each atom, next to
 // each other, in Å, within 100,000 of 0; radii are above 0 and at most 1,000, one per atom, or one for all. In a call:
-// compute({positions, radii}), compute({balls}).
+// compute({positions, radii}), compute({balls}), compute(structure.atoms()).
 class Atoms {
  public:
   Atoms(std::span<const double> positions, std::span<const double> radii) : Atoms(positions, radii, MENISCUS_DOUBLE) {}
@@ -144,12 +147,13 @@ class Atoms {
     atoms_.radii = &balls.front().radius;
     atoms_.positions_stride = atoms_.radii_stride = sizeof(Ball);
   }
+  explicit Atoms(const meniscus_atoms& atoms) : atoms_(atoms) {}
   const meniscus_atoms& get() const noexcept { return atoms_; }
 
  private:
   Atoms() { atoms_.size = sizeof atoms_; }
   template <typename Number>
-  Atoms(std::span<const Number> positions, std::span<const Number> radii, std::int32_t type) : Atoms() {
+  Atoms(std::span<const Number> positions, std::span<const Number> radii, meniscus_number_type type) : Atoms() {
     atoms_.count = positions.size() / 3;
     const bool equal_radii = radii.size() == 1;
     if (positions.size() % 3 != 0 || (!equal_radii && radii.size() != atoms_.count))
@@ -213,6 +217,19 @@ class Rows {
   meniscus_array array_;
 };
 
+// Rows of text, without the zeros that fill them up.
+class Texts {
+ public:
+  explicit Texts(const meniscus_array& array) : array_(array) {}
+  std::size_t size() const noexcept { return array_.count; }
+  bool empty() const noexcept { return array_.count == 0; }
+  // n is below size().
+  std::string_view operator[](std::size_t n) const { return static_cast<const char*>(array_.data) + n * array_.stride; }
+
+ private:
+  meniscus_array array_;
+};
+
 // x, y, z in Å (of a normal: of length 1).
 using Vector = std::array<double, 3>;
 
@@ -237,6 +254,72 @@ std::span<const Row> numbers(const meniscus_array& array) {
 }
 
 }  // namespace detail
+
+// ---- Molecules from files ----
+
+// The atoms of a file that a surface is made of, a row each in every table. It never changes.
+class Structure {
+ public:
+  explicit Structure(meniscus_structure* owned) : structure_(owned) {}
+
+  // What was read and left out. Its texts live as long as this.
+  meniscus_read_report report() const {
+    meniscus_read_report report{};
+    report.size = sizeof report;
+    check(meniscus_structure_report(structure_.get(), &report));
+    return report;
+  }
+  // What is odd in the file, a sentence each.
+  Texts warnings() const { return Texts(table(MENISCUS_STRUCTURE_WARNINGS)); }
+
+  // For Computer::compute(), while this lives.
+  Atoms atoms() const {
+    meniscus_atoms atoms{};
+    atoms.size = sizeof atoms;
+    check(meniscus_structure_atoms(structure_.get(), &atoms));
+    return Atoms(atoms);
+  }
+  std::size_t size() const { return table(MENISCUS_STRUCTURE_RADII).count; }
+
+  // As meniscus.h describes the columns.
+  Rows<Vector> positions() const { return Rows<Vector>(table(MENISCUS_STRUCTURE_POSITIONS)); }
+  Rows<double> radii() const { return Rows<double>(table(MENISCUS_STRUCTURE_RADII)); }
+  Rows<std::uint8_t> elements() const { return Rows<std::uint8_t>(table(MENISCUS_STRUCTURE_ELEMENTS)); }
+  Rows<std::uint32_t> indices() const { return Rows<std::uint32_t>(table(MENISCUS_STRUCTURE_INDICES)); }
+  Texts names() const { return Texts(table(MENISCUS_STRUCTURE_NAMES)); }
+  Texts residue_names() const { return Texts(table(MENISCUS_STRUCTURE_RESIDUE_NAMES)); }
+  Texts chains() const { return Texts(table(MENISCUS_STRUCTURE_CHAINS)); }
+  Texts segments() const { return Texts(table(MENISCUS_STRUCTURE_SEGMENTS)); }
+  Rows<std::int32_t> residue_numbers() const { return Rows<std::int32_t>(table(MENISCUS_STRUCTURE_RESIDUE_NUMBERS)); }
+  Rows<char> insertion_codes() const { return Rows<char>(table(MENISCUS_STRUCTURE_INSERTION_CODES)); }
+  Rows<char> altlocs() const { return Rows<char>(table(MENISCUS_STRUCTURE_ALTLOCS)); }
+  Rows<std::uint32_t> residues() const { return Rows<std::uint32_t>(table(MENISCUS_STRUCTURE_RESIDUES)); }
+  Rows<std::int32_t> models() const { return Rows<std::int32_t>(table(MENISCUS_STRUCTURE_MODELS)); }
+  Rows<std::uint32_t> copies() const { return Rows<std::uint32_t>(table(MENISCUS_STRUCTURE_COPIES)); }
+  Rows<float> charges() const { return Rows<float>(table(MENISCUS_STRUCTURE_CHARGES)); }
+  Rows<float> b_factors() const { return Rows<float>(table(MENISCUS_STRUCTURE_B_FACTORS)); }
+  Rows<float> occupancies() const { return Rows<float>(table(MENISCUS_STRUCTURE_OCCUPANCIES)); }
+  Rows<std::uint8_t> classes() const { return Rows<std::uint8_t>(table(MENISCUS_STRUCTURE_CLASSES)); }
+
+  // For the functions of meniscus.h; owned by this.
+  meniscus_structure* get() const noexcept { return structure_.get(); }
+
+ private:
+  meniscus_array table(meniscus_structure_table_id which) const {
+    meniscus_array array{};
+    check(meniscus_structure_table(structure_.get(), which, &array));
+    return array;
+  }
+  detail::Handle<meniscus_structure, meniscus_structure_release> structure_;
+};
+
+// Reads a molecule as the program does. InputError names file, line and what is wrong there; UsageError a selection or
+// an option that cannot be.
+inline Structure read(const std::string& path, const ReadOptions& options = {}) {
+  meniscus_structure* structure = nullptr;
+  check(meniscus_read(path.c_str(), &options, &structure));
+  return Structure(structure);
+}
 
 // ---- Meshes ----
 
@@ -283,7 +366,7 @@ class Mesh {
 
  private:
   template <typename Row>
-  std::span<const Row> table(std::int32_t which) const {
+  std::span<const Row> table(meniscus_mesh_table_id which) const {
     meniscus_array array{};
     check(meniscus_mesh_table(mesh_.get(), which, &array));
     return detail::numbers<Row>(array);
@@ -309,7 +392,7 @@ class Pockets {
   meniscus_pockets* get() const noexcept { return pockets_.get(); }
 
  private:
-  meniscus_array table(std::int32_t which) const {
+  meniscus_array table(meniscus_pockets_table_id which) const {
     meniscus_array array{};
     check(meniscus_pockets_table(pockets_.get(), which, &array));
     return array;
@@ -380,7 +463,7 @@ class Surface {
 
   // The exact derivative of MENISCUS_GRADIENT_... by the position of each atom. weights: none, or one an atom, where
   // the number is a sum over atoms. InputError where a probe touches more than three atoms and there is none.
-  std::vector<Vector> gradient(std::int32_t quantity, std::span<const double> weights = {}) const {
+  std::vector<Vector> gradient(meniscus_quantity quantity, std::span<const double> weights = {}) const {
     if (!weights.empty() && weights.size() != atoms().size())
       throw UsageError("there are " + std::to_string(weights.size()) + " weights for " +
                        std::to_string(atoms().size()) + " atoms");
@@ -404,10 +487,10 @@ class Surface {
   }
 
   // The camera that shows all atoms in a picture of this width / height.
-  Camera frame(double aspect, std::int32_t projection = MENISCUS_PERSPECTIVE) const {
+  Camera camera(double aspect, meniscus_projection projection = MENISCUS_PERSPECTIVE) const {
     Camera camera{};
     camera.size = sizeof camera;
-    check(meniscus_surface_frame(surface_.get(), aspect, projection, &camera));
+    check(meniscus_surface_camera(surface_.get(), aspect, projection, &camera));
     return camera;
   }
 
@@ -417,17 +500,17 @@ class Surface {
  private:
   friend class Computer;
 
-  meniscus_array table(std::int32_t which) const {
+  meniscus_array table(meniscus_surface_table_id which) const {
     meniscus_array array{};
     check(meniscus_surface_table(surface_.get(), which, &array));
     return array;
   }
   template <typename Row>
-  Rows<Row> rows(std::int32_t which) const {
+  Rows<Row> rows(meniscus_surface_table_id which) const {
     return Rows<Row>(table(which));
   }
   template <typename Row>
-  std::span<const Row> numbers(std::int32_t which) const {
+  std::span<const Row> numbers(meniscus_surface_table_id which) const {
     return detail::numbers<Row>(table(which));
   }
   static const double* coordinates(std::span<const Vector> points) {
@@ -449,14 +532,14 @@ class Computer {
 
   // InputError for an atom that cannot be, with its index and value; NotClosedError names atoms.
   Surface compute(const Atoms& atoms) const {
-    Surface surface(nullptr);
-    compute(atoms, surface);
-    return surface;
+    meniscus_surface* surface = nullptr;
+    check(meniscus_compute(computer_.get(), &atoms.get(), &surface));
+    return Surface(surface);
   }
   // The next frame, in the memory of the one before. If it throws the surface stays as it was.
-  void compute(const Atoms& atoms, Surface& surface) const {
+  void recompute(const Atoms& atoms, Surface& surface) const {
     meniscus_surface* in_place = surface.surface_.release();
-    const meniscus_status status = meniscus_compute(computer_.get(), &atoms.get(), &in_place);
+    const meniscus_status status = meniscus_recompute(computer_.get(), &atoms.get(), &in_place);
     surface.surface_.reset(in_place);
     check(status);
   }
@@ -471,35 +554,35 @@ class Computer {
 // ---- Pictures ----
 
 // On the CPU, or on GL in a context of its own with its kernels, on a thread of its own.
-class Painter {
+class Renderer {
  public:
   // MENISCUS_AUTO (a hardware GPU if one works, else the CPU), MENISCUS_CPU, MENISCUS_GPU or MENISCUS_SOFTWARE.
   // GpuError where GL is asked for and there is no GL 4.5.
-  explicit Painter(std::int32_t device = MENISCUS_AUTO) {
-    meniscus_painter* painter = nullptr;
-    check(meniscus_painter_new(device, &painter));
-    painter_.reset(painter);
+  explicit Renderer(meniscus_device device = MENISCUS_AUTO) {
+    meniscus_renderer* renderer = nullptr;
+    check(meniscus_renderer_new(device, &renderer));
+    renderer_.reset(renderer);
   }
 
   // Ray casts the exact surface: width * height * 4 bytes, red, green, blue, alpha (not multiplied in), rows from the
   // top.
-  std::vector<std::uint8_t> paint(const Surface& surface, const Picture& picture = {}) const {
+  std::vector<std::uint8_t> render(const Surface& surface, const Picture& picture = {}) const {
     if (picture.width < 0 || picture.height < 0) throw UsageError("a picture has no negative width or height");
     std::vector<std::uint8_t> rgba(std::size_t{4} * static_cast<std::size_t>(picture.width) *
                                    static_cast<std::size_t>(picture.height));
-    paint(surface, picture, rgba);
+    render(surface, picture, rgba);
     return rgba;
   }
   // Into memory of the caller's, of that size at least.
-  void paint(const Surface& surface, const Picture& picture, std::span<std::uint8_t> rgba) const {
-    check(meniscus_paint(painter_.get(), surface.get(), &picture, rgba.data(), rgba.size()));
+  void render(const Surface& surface, const Picture& picture, std::span<std::uint8_t> rgba) const {
+    check(meniscus_render(renderer_.get(), surface.get(), &picture, rgba.data(), rgba.size()));
   }
 
   // For the functions of meniscus.h; owned by this.
-  meniscus_painter* get() const noexcept { return painter_.get(); }
+  meniscus_renderer* get() const noexcept { return renderer_.get(); }
 
  private:
-  detail::Handle<meniscus_painter, meniscus_painter_release> painter_;
+  detail::Handle<meniscus_renderer, meniscus_renderer_release> renderer_;
 };
 
 }  // namespace v0

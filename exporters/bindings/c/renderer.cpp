@@ -109,8 +109,8 @@ struct Studio {
 }  // namespace
 }  // namespace meniscus::c_api
 
-struct meniscus_painter : meniscus::c_api::Counted {
-  explicit meniscus_painter(std::int32_t device) {
+struct meniscus_renderer : meniscus::c_api::Counted {
+  explicit meniscus_renderer(std::int32_t device) {
     if (device != MENISCUS_CPU) find_gl(device);
     if (!with_gl_) here_ = meniscus::make_cpu_renderer();
   }
@@ -145,8 +145,8 @@ meniscus_status meniscus_default_picture(meniscus_picture* picture) {
   return guarded([&] { write_struct(picture, kDefaults, "meniscus_picture"); });
 }
 
-meniscus_status meniscus_surface_frame(const meniscus_surface* surface, double aspect, std::int32_t projection,
-                                       meniscus_camera* camera) {
+meniscus_status meniscus_surface_camera(const meniscus_surface* surface, double aspect, meniscus_projection projection,
+                                        meniscus_camera* camera) {
   using namespace meniscus::c_api;
   return guarded([&] {
     require(surface, "surface");
@@ -158,23 +158,23 @@ meniscus_status meniscus_surface_frame(const meniscus_surface* surface, double a
   });
 }
 
-meniscus_status meniscus_painter_new(std::int32_t device, meniscus_painter** painter) {
+meniscus_status meniscus_renderer_new(meniscus_device device, meniscus_renderer** renderer) {
   using namespace meniscus::c_api;
   return guarded([&] {
-    require(painter, "painter");
+    require(renderer, "renderer");
     check_device(device);
-    *painter = new meniscus_painter(device);
+    *renderer = new meniscus_renderer(device);
   });
 }
 
-meniscus_painter* meniscus_painter_retain(meniscus_painter* painter) { return meniscus::c_api::retain(painter); }
-void meniscus_painter_release(meniscus_painter* painter) { meniscus::c_api::release(painter); }
+meniscus_renderer* meniscus_renderer_retain(meniscus_renderer* renderer) { return meniscus::c_api::retain(renderer); }
+void meniscus_renderer_release(meniscus_renderer* renderer) { meniscus::c_api::release(renderer); }
 
-meniscus_status meniscus_paint(meniscus_painter* painter, const meniscus_surface* surface,
-                               const meniscus_picture* picture, std::uint8_t* rgba, std::size_t rgba_size) {
+meniscus_status meniscus_render(meniscus_renderer* renderer, const meniscus_surface* surface,
+                                const meniscus_picture* picture, std::uint8_t* rgba, std::size_t rgba_size) {
   using namespace meniscus::c_api;
   return guarded([&] {
-    require(painter, "painter");
+    require(renderer, "renderer");
     require(surface, "surface");
     require(rgba, "rgba");
     require_numbers(rgba, rgba_size, 1, "rgba");
@@ -189,9 +189,9 @@ meniscus_status meniscus_paint(meniscus_painter* painter, const meniscus_surface
         wanted.camera ? camera_of(wanted.camera) : meniscus::frame_camera(finished.surface.atoms, aspect);
     const meniscus::Coloring coloring = coloring_of(wanted.color, wanted.atom_colors, finished.surface.atoms.size());
     meniscus::Framebuffer drawn;
-    painter->run([&](meniscus::SurfaceRenderer& renderer) {
+    renderer->run([&](meniscus::SurfaceRenderer& draws) {
       run_on_threads(finished.threads,
-                     [&] { drawn = renderer.render(finished.surface, coloring, camera, settings_of(wanted)); });
+                     [&] { drawn = draws.render(finished.surface, coloring, camera, settings_of(wanted)); });
     });
     write_pixels(drawn, wanted, rgba);
   });

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// `meniscus preview` of builds without window and page: it says so.
+#include "app/commands/commands.h"
+#include "app/options/molecule_options.h"
+#include "app/process/program_error.h"
+
+namespace meniscus {
+
+void add_preview(CLI::App& command) {
+  describe(command, "Look at the surface while it changes: not in this build", "",
+           "This build has neither window nor page; configure it with -DMENISCUS_PREVIEW=ON.");
+  command.allow_extras();
+  command.callback([] {
+    throw UsageError("this build has no preview; configure it with -DMENISCUS_PREVIEW=ON, or use meniscus render");
+  });
+}
+
+}  // namespace meniscus

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Cameras and paths of cameras as JSON: of files, scenes and bundles.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "core/camera/camera.h"
+#include "core/camera/camera_path.h"
+
+namespace meniscus {
+
+/// Reads {"position":[x,y,z],"target":[..],"up":[..],"projection":"perspective","vertical_fov":degrees} or
+/// {..,"projection":"orthographic","height":Å}. Throws InputError naming `file` for anything missing, unknown or
+/// impossible (position equal to target, up parallel to the view, angle not inside (0, 180), height not positive).
+Camera parse_camera(std::string_view json, const std::string& file);
+
+/// parse_camera on the content of a file. Throws InputError.
+Camera read_camera(const std::string& file);
+
+/// The inverse of parse_camera: every number survives exactly. Ends with a newline.
+std::string camera_json(const Camera& camera);
+/// The same as an object.
+nlohmann::ordered_json camera_object(const Camera& camera);
+
+/// Reads {"keys":[{"frame":0,"camera":{...}},...]}, each camera as parse_camera has it. Throws InputError naming `file`
+/// and the key.
+CameraPath parse_camera_path(std::string_view json, const std::string& file);
+CameraPath read_camera_path(const std::string& file);
+
+/// The inverse of parse_camera_path: every number survives exactly. Ends with a newline.
+std::string camera_path_json(const std::vector<CameraKey>& keys);
+/// The same as an object.
+nlohmann::ordered_json camera_path_object(const std::vector<CameraKey>& keys);
+
+}  // namespace meniscus

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Colours as rays take them.
+#pragma once
+
+#include <vector>
+
+#include <glm/vec4.hpp>
+
+#include "core/color/coloring.h"
+
+namespace meniscus {
+
+/// One an atom, linear, alpha: opacity (0: hidden); then, if by kind, three for these: GpuScene::colors.
+std::vector<glm::vec4> linear_colors(const Coloring& coloring);
+
+}  // namespace meniscus

@@ -1,0 +1,230 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Molecules from files, read as the program reads them."""
+from __future__ import annotations
+
+import ctypes
+import os
+import warnings
+from typing import Any, Iterable, Literal, Mapping, Optional, Sequence, Union
+
+import numpy as np
+
+from . import _library as lib
+from ._arrays import texts, view
+from ._errors import InputError
+from ._types import AnyArray, Bytes, Floats, Hydrogens, Indices, Numbers, Path, RadiiSet, Singles, Texts, UnknownElement
+
+
+class Structure:
+    """The atoms of a file that a surface is made of; read() makes it. It never changes. Arrays have a row an atom; of
+    numbers they are read-only views."""
+
+    def __init__(self, handle: lib.Handle) -> None:
+        self._handle = handle
+        self._texts: dict[int, Texts] = {}
+
+    def _report(self) -> lib.ReadReport:
+        report = lib.ReadReport(ctypes.sizeof(lib.ReadReport))
+        lib.call("structure_report", self._handle.pointer, ctypes.byref(report))
+        return report
+
+    def _numbers(self, column: int, dtype: Any, columns: int = 0) -> AnyArray:
+        return view(self._handle, "structure_table", column, dtype, columns)
+
+    def _text(self, column: int) -> Texts:
+        if column not in self._texts:
+            self._texts[column] = texts(self._handle, "structure_table", column)
+        return self._texts[column]
+
+    # ---- what was read
+
+    @property
+    def file(self) -> str:
+        """The path as given."""
+        return os.fsdecode(self._report().file)
+
+    @property
+    def format(self) -> str:
+        """"PDB", "mmCIF", ..."""
+        return str(self._report().format.decode())
+
+    @property
+    def radii_set(self) -> str:
+        """"bondi", "united", "protor", "file", or files and overrides."""
+        return str(self._report().radii_set.decode("utf-8", "replace"))
+
+    @property
+    def report(self) -> str:
+        """"5,684 atoms read; 215 water left out; 5,469 used"."""
+        return str(self._report().sentence.decode("utf-8", "replace"))
+
+    @property
+    def model_count(self) -> int:
+        """Models in the file, used or not."""
+        return int(self._report().models)
+
+    @property
+    def warnings(self) -> list[str]:
+        """What is odd in the file, a sentence each."""
+        return [str(text) for text in self._text(lib.STRUCTURE_WARNINGS)]
+
+    def __len__(self) -> int:
+        return int(self._report().atoms)
+
+    def __repr__(self) -> str:
+        return f"<meniscus.Structure: {self.file}, {self.format}: {self.report}>"
+
+    # ---- atoms
+
+    @property
+    def positions(self) -> Floats:
+        """(n, 3) Å."""
+        return self._numbers(lib.STRUCTURE_POSITIONS, np.float64, 3)
+
+    @property
+    def radii(self) -> Floats:
+        """Å, van der Waals."""
+        return self._numbers(lib.STRUCTURE_RADII, np.float64)
+
+    @property
+    def elements(self) -> Bytes:
+        """Atomic numbers; 0 where it is unknown."""
+        return self._numbers(lib.STRUCTURE_ELEMENTS, np.uint8)
+
+    @property
+    def indices(self) -> Indices:
+        """Places in the file, from 0, as the program's tables and meshes have them."""
+        return self._numbers(lib.STRUCTURE_INDICES, np.uint32)
+
+    @property
+    def names(self) -> Texts:
+        """"CA"."""
+        return self._text(lib.STRUCTURE_NAMES)
+
+    @property
+    def residue_names(self) -> Texts:
+        """"ALA"."""
+        return self._text(lib.STRUCTURE_RESIDUE_NAMES)
+
+    @property
+    def chains(self) -> Texts:
+        """"A"; of the second copy in an assembly "A-2"."""
+        return self._text(lib.STRUCTURE_CHAINS)
+
+    @property
+    def segments(self) -> Texts:
+        """Segment identifiers of molecular dynamics programs."""
+        return self._text(lib.STRUCTURE_SEGMENTS)
+
+    @property
+    def residue_numbers(self) -> Numbers:
+        """As the file has them."""
+        return self._numbers(lib.STRUCTURE_RESIDUE_NUMBERS, np.int32)
+
+    @property
+    def insertion_codes(self) -> Texts:
+        """A letter behind the residue's number, or nothing."""
+        return np.char.strip(self._text(lib.STRUCTURE_INSERTION_CODES))
+
+    @property
+    def altlocs(self) -> Texts:
+        """The letter of the alternate location, or nothing."""
+        return np.char.strip(self._text(lib.STRUCTURE_ALTLOCS))
+
+    @property
+    def residues(self) -> Indices:
+        """Running number of the residue in the file, from 0."""
+        return self._numbers(lib.STRUCTURE_RESIDUES, np.uint32)
+
+    @property
+    def models(self) -> Numbers:
+        """Which model of the file, from 1."""
+        return self._numbers(lib.STRUCTURE_MODELS, np.int32)
+
+    @property
+    def copies(self) -> Indices:
+        """Which copy of an assembly, from 0."""
+        return self._numbers(lib.STRUCTURE_COPIES, np.uint32)
+
+    @property
+    def charges(self) -> Singles:
+        """Partial charges in e; NaN where the file has none."""
+        return self._numbers(lib.STRUCTURE_CHARGES, np.float32)
+
+    @property
+    def b_factors(self) -> Singles:
+        """Å²; NaN where the file has none."""
+        return self._numbers(lib.STRUCTURE_B_FACTORS, np.float32)
+
+    @property
+    def occupancies(self) -> Singles:
+        """NaN where the file has none."""
+        return self._numbers(lib.STRUCTURE_OCCUPANCIES, np.float32)
+
+    @property
+    def classes(self) -> Texts:
+        """"polymer", "ligand", "water", "ion"; "unclassified" where the format does not say."""
+        words = np.array(["polymer", "ligand", "water", "ion", "unclassified"])
+        return words[self._numbers(lib.STRUCTURE_CLASSES, np.uint8)]
+
+
+def _overrides(radius: Union[Mapping[str, float], Iterable[str], None]) -> list[str]:
+    if radius is None:
+        return []
+    if isinstance(radius, str):
+        return [radius]
+    if isinstance(radius, Mapping):
+        return [f"{selection}={lib.number('radius', value)!r}" for selection, value in radius.items()]
+    return list(radius)
+
+
+def _list_of(given: Sequence[bytes]) -> Any:
+    return (ctypes.c_char_p * len(given))(*given)
+
+
+def _encoded(name: str, text: Optional[str]) -> Optional[bytes]:
+    if text is None:
+        return None
+    if not isinstance(text, str) or "\0" in text:
+        raise InputError(f"{name} is {text!r}, not a text without zeros")
+    return text.encode("utf-8", "surrogateescape")
+
+
+def _file_name(name: str, path: Path) -> bytes:
+    encoded = os.fsencode(path)
+    if b"\0" in encoded:
+        raise InputError(f"{name} {path!r} has a zero in it, which no file's name may have")
+    return encoded
+
+
+def read(path: Path, *, select: Optional[str] = None, assembly: Union[str, int, None] = None,
+         model: Union[int, Literal["all"]] = 1, altloc: str = "best", hydrogens: Hydrogens = "auto",
+         radii: Optional[RadiiSet] = None, radii_files: Union[Path, Sequence[Path]] = (),
+         radius: Union[Mapping[str, float], Iterable[str], None] = None, keep_water: bool = False,
+         keep_ions: bool = False, unknown_element: UnknownElement = "halt") -> Structure:
+    """The atoms of a PDB, mmCIF, PQR, GRO, XYZ or XYZR file, plain or packed with gzip, as the program takes them:
+    polymers and ligands of the first model, of each residue the most occupied conformer, without water and free ions.
+    What is odd in the file is a UserWarning.
+
+    select: an expression, "chain A and resid 10-50". assembly: build this biological assembly. model: from 1, or "all"
+    as one molecule. altloc: "best", "first", "all" or a letter. hydrogens: "keep", "drop", or as the radii need it.
+    radii: "bondi", "united", "protor" or "file"; by default those of the file if it has any, else "bondi".
+    radii_files: tables by residue and atom, before that set. radius: of what expressions select, Å, as in
+    {"element Zn": 1.1}. unknown_element: what becomes of atoms whose element nobody can tell."""
+    options = lib.default("read_options", lib.ReadOptions())
+    options.select, options.altloc = _encoded("select", select), _encoded("altloc", altloc)
+    options.assembly = None if assembly is None else _encoded("assembly", str(assembly))
+    options.radii = _encoded("radii", radii)
+    options.model = 0 if isinstance(model, str) and model == "all" else lib.positive("model", model)
+    options.hydrogens = lib.word("hydrogens", hydrogens, lib.HYDROGENS)
+    options.unknown_element = lib.word("unknown_element", unknown_element, lib.UNKNOWN_ELEMENTS)
+    options.keep_water, options.keep_ions = bool(keep_water), bool(keep_ions)
+    files = [radii_files] if isinstance(radii_files, (str, bytes, os.PathLike)) else list(radii_files)
+    tables = _list_of([_file_name("radii_files", file) for file in files])
+    overrides = _list_of([_encoded("radius", text) or b"" for text in _overrides(radius)])
+    options.radii_files, options.radii_file_count = ctypes.cast(tables, ctypes.c_void_p), len(tables)
+    options.radius, options.radius_count = ctypes.cast(overrides, ctypes.c_void_p), len(overrides)
+    structure = Structure(lib.Handle("structure", "read", _file_name("path", path), ctypes.byref(options)))
+    for text in structure.warnings:
+        warnings.warn(f"{structure.file}: {text}", stacklevel=2)
+    return structure

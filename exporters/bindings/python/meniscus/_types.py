@@ -1,0 +1,31 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Names of types that signatures have: arrays, and the words that options may be."""
+from __future__ import annotations
+
+import os
+from typing import Any, Literal, Union
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+Singles = NDArray[np.float32]
+Bytes = NDArray[np.uint8]
+Indices = NDArray[np.uint32]
+Numbers = NDArray[np.int32]
+Texts = NDArray[np.str_]
+Rows = NDArray[np.void]  # of a structured array
+AnyArray = NDArray[Any]
+
+Path = Union[str, bytes, "os.PathLike[str]", "os.PathLike[bytes]"]
+
+Kind = Literal["ses", "sas", "vdw"]
+Device = Literal["cpu", "auto", "gpu", "software"]
+Projection = Literal["perspective", "orthographic"]
+Quantity = Literal["area", "volume", "sas_area", "sas_volume"]
+MeshFormat = Literal["stl", "3mf", "obj", "off", "glb", "vtp", "smesh", "dms", "ply"]
+PocketKind = Literal["cavity", "pocket", "tunnel"]
+RadiiSet = Literal["bondi", "united", "protor", "file"]
+Hydrogens = Literal["auto", "keep", "drop"]
+UnknownElement = Literal["halt", "guess", "skip"]
+AtomClass = Literal["polymer", "ligand", "water", "ion", "unclassified"]

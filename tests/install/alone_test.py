@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""alone_test.py BUILD: the library without the programs. Configured without any of its parts it includes and links to
+nothing but GLM, fmt, TBB and the system; each part says why it is not built; the programs refuse to do without. Nothing is
+compiled here: scripts/packaging/try_library.sh does that in a bare system."""
+import json
+import pathlib
+import re
+import subprocess
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+PARTS = {"GEMMI": "gemmi (with PEGTL)", "ZLIB": "zlib", "GL": "epoxy", "JSON": "nlohmann_json", "DEFLATE": "libdeflate"}
+INCLUDE = re.compile(r'^\s*#\s*include\s+([<"])([^>"]+)[>"]', re.M)
+FREE = {"glm", "fmt", "tbb"}
+SYSTEM = {"stddef.h", "stdint.h", "sched.h", "fcntl.h", "unistd.h", "dlfcn.h", "sys/mman.h", "sys/stat.h", "sys/types.h", "sys/sysinfo.h", "immintrin.h",
+          "malloc.h", "quadmath.h", "linux/fs.h", "sys/syscall.h", "errno.h"}
+
+
+def configure(folder, *options):
+    return subprocess.run(["cmake", "-S", str(ROOT), "-B", folder, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
+                           *options], text=True, capture_output=True)
+
+
+def closure(files):
+    """Of sources: all headers of ours that they include, and what of others with the file that does."""
+    ours, others, rest = set(), {}, [pathlib.Path(file) for file in files]
+    while rest:
+        file = rest.pop()
+        if file in ours:
+            continue
+        ours.add(file)
+        for kind, name in INCLUDE.findall(file.read_text()):
+            for place in (ROOT / name, file.parent / name):
+                if place.is_file():
+                    rest.append(place)
+                    break
+            else:
+                if name != "meniscus/meniscus.h":
+                    others.setdefault(name, file)
+    return ours, others
+
+
+class Alone(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+
+    def test_needs_three_libraries(self):
+        run = configure(self.folder, "-DMENISCUS_APP=OFF", "-DMENISCUS_PREVIEW=OFF",
+                        *(f"-DMENISCUS_{part}=OFF" for part in PARTS))
+        self.assertEqual(run.returncode, 0, run.stderr)
+        for part in PARTS:
+            self.assertRegex(run.stdout, f"no: MENISCUS_{part} is OFF")
+        commands = json.loads((pathlib.Path(self.folder) / "compile_commands.json").read_text())
+        files = [command["file"] for command in commands if not command["file"].startswith(self.folder)]
+        self.assertGreater(len(files), 100)
+        self.assertFalse([file for file in files if "/app/" in file])
+        ours, others = closure(files)
+        self.assertGreater(len(ours), 250)
+        foreign = {name: str(file.relative_to(ROOT)) for name, file in others.items()
+                   if "." in name and name.split("/")[0] not in FREE and name not in SYSTEM}
+        self.assertEqual(foreign, {})
+        includes = " ".join(command["command"] for command in commands)
+        self.assertNotRegex(includes, "gemmi|epoxy|hdf5|OpenImageIO|freetype")
+        ninja = (pathlib.Path(self.folder) / "build.ninja").read_text()
+        linked = re.search(r"build exporters/bindings/c/libmeniscus\.so\S*: .*?LINK_LIBRARIES = (.*?)\n", ninja, re.S).group(1)
+        libraries = {pathlib.Path(word).name.split(".")[0] for word in linked.split() if ".so" in word or word.startswith("-l")}
+        self.assertLessEqual(libraries, {"libtbb", "libfmt", "-ldl", "-lpthread"}, linked)
+
+    def test_takes_what_is_there(self):
+        run = configure(self.folder, "-DMENISCUS_APP=OFF", "-DMENISCUS_GL=OFF", "-DCMAKE_DISABLE_FIND_PACKAGE_ZLIB=ON")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertRegex(run.stdout, "no: zlib was not found")
+        self.assertRegex(run.stdout, "no: MENISCUS_GL is OFF")
+        self.assertRegex(run.stdout, r"yes, with gemmi \(with PEGTL\)")
+        self.assertRegex(run.stdout, "programs: no: MENISCUS_APP is OFF")
+
+    def test_programs_do_not_do_without(self):
+        run = configure(self.folder, "-DCMAKE_DISABLE_FIND_PACKAGE_ZLIB=ON")
+        self.assertNotEqual(run.returncode, 0)
+        said = " ".join(run.stderr.split())
+        self.assertIn("zlib was not found, which is needed for: molecule files packed with gzip", said)
+        self.assertIn("-DMENISCUS_APP=OFF", said)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=["alone_test.py"])
