@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `meniscus render --frames`: numbered pictures, or a film.
+#include <algorithm>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -29,6 +30,11 @@
 
 namespace meniscus {
 namespace {
+
+/// Did no ray of the picture meet a part of the surface that is shown?
+bool shows_nothing(const Framebuffer& picture) {
+  return std::ranges::none_of(picture.color, [](const glm::vec4& pixel) { return pixel.w > 0.0f; });
+}
 
 void check_options(const RenderCommand& command) {
   if (command.stats) throw UsageError("--stats: of one picture only; leave --frames away");

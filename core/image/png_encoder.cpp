@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Chunks around one stream of libdeflate, which takes a third of the time of zlib.
+// Chunks around one stream of libdeflate, which takes a third of the time of zlib; of large pictures around one of
+// zlib.
 #include "core/image/png_encoder.h"
 
 #include <algorithm>
@@ -10,10 +11,12 @@
 #include <limits>
 #include <memory>
 #include <string_view>
+#include <utility>
 
 #include <libdeflate.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+#include <zlib.h>
 
 #include "core/base/error.h"
 #include "core/image/png_note.h"
@@ -148,53 +151,44 @@ struct Row {
   }
 };
 
-/// The picture's channels without what lies between its pixels.
-Bytes packed_bytes(const ImageToEncode& image) {
-  const std::size_t channels = image.channels.size(), stride = static_cast<std::size_t>(image.byte_stride);
-  Bytes packed(static_cast<std::size_t>(image.width) * image.height * channels);
-  for (std::size_t from = 0, to = 0; to < packed.size(); from += stride, to += channels)
-    std::copy_n(&image.bytes[from], channels, &packed[to]);
-  return packed;
-}
-
-Bytes filtered_rows(const ImageToEncode& image) {
-  const std::size_t pixel = image.channels.size(), size = static_cast<std::size_t>(image.width) * pixel;
-  const auto height = static_cast<std::size_t>(image.height);
-  const bool averages = image.width > 1 && image.height > 1;  // libpng takes none of single rows and columns
-  Bytes packed;
-  if (image.byte_stride != static_cast<int>(pixel)) packed = packed_bytes(image);
-  const std::uint8_t* const bytes = packed.empty() ? image.bytes.data() : packed.data();
-  const Bytes nothing(size);  // above the first row
-  Bytes rows((size + 1) * height);
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, height), [&](const auto& range) {
-    Bytes trial(size);
-    for (std::size_t y = range.begin(); y < range.end(); ++y) {
-      const std::uint8_t* const first = bytes + y * size;
-      Row{first, y > 0 ? first - size : nothing.data(), size, pixel}.write_best(&rows[y * (size + 1)], trial, averages);
-    }
-  });
-  return rows;
-}
-
 struct CompressorDeleter {
   void operator()(libdeflate_compressor* compressor) const { ::libdeflate_free_compressor(compressor); }
 };
 
+constexpr int kUsualLevel = 6;
+
+/// A whole stream of zlib's format (RFC 1950).
 Bytes compressed(const Bytes& rows, int level) {
-  constexpr int kUsualLevel = 6;
-  const std::unique_ptr<libdeflate_compressor, CompressorDeleter> compressor(
-      ::libdeflate_alloc_compressor(level < 0 ? kUsualLevel : level));
+  const std::unique_ptr<libdeflate_compressor, CompressorDeleter> compressor(::libdeflate_alloc_compressor(level));
   if (!compressor) throw CapacityError("no memory to compress a picture");
   Bytes result(::libdeflate_zlib_compress_bound(compressor.get(), rows.size()));
   result.resize(::libdeflate_zlib_compress(compressor.get(), rows.data(), rows.size(), result.data(), result.size()));
   return result;
 }
 
-}  // namespace
+/// A part of such a stream, which ends at a whole byte; matches may lie in `before`, too. libdeflate makes whole
+/// streams only.
+Bytes compressed_part(std::span<const std::uint8_t> part, std::span<const std::uint8_t> before, bool is_last,
+                      int level) {
+  constexpr int kNoHeader = -15, kMostMemory = 9;
+  z_stream stream{};
+  if (::deflateInit2(&stream, level, Z_DEFLATED, kNoHeader, kMostMemory, Z_DEFAULT_STRATEGY) != Z_OK)
+    throw CapacityError("no memory to compress a picture");
+  const std::unique_ptr<z_stream, decltype(&::deflateEnd)> end(&stream, &::deflateEnd);
+  if (!before.empty()) ::deflateSetDictionary(&stream, before.data(), static_cast<uInt>(before.size()));
+  constexpr std::size_t kMarker = 16;  // of the part's end
+  Bytes result(::deflateBound(&stream, static_cast<uLong>(part.size())) + kMarker);
+  stream.next_in = const_cast<std::uint8_t*>(part.data());  // zlib only reads it
+  stream.avail_in = static_cast<uInt>(part.size());
+  stream.next_out = result.data();
+  stream.avail_out = static_cast<uInt>(result.size());
+  ::deflate(&stream, is_last ? Z_FINISH : Z_SYNC_FLUSH);
+  assert(stream.avail_in == 0 && stream.avail_out > 0);
+  result.resize(result.size() - stream.avail_out);
+  return result;
+}
 
-Bytes encode_png(const ImageToEncode& image) {
-  assert(image.bytes.size() >= pixel_bytes(image));
-  constexpr std::size_t kPart = 8192;
+Bytes header(const ImageToEncode& image) {
   Bytes file{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
   add_header(file, image);
   add_note(file, "oiio:ColorSpace", image.color_space);
@@ -202,10 +196,130 @@ Bytes encode_png(const ImageToEncode& image) {
   if (!image.software.empty()) add_note(file, "Software", image.software);
   if (!image.command.empty()) add_unicode_note(file, "Description", image.command);
   if (!image.scene.empty()) add_unicode_note(file, kSceneNote, image.scene);
-  const Bytes stream = compressed(filtered_rows(image), image.png_level);
-  for (std::size_t first = 0; first < stream.size(); first += kPart)
-    add_chunk(file, "IDAT", &stream[first], std::min(kPart, stream.size() - first));
-  add_chunk(file, "IEND", Bytes{});
+  return file;
+}
+
+}  // namespace
+
+/// Filtered rows on their way into chunks. What comes out does not depend on how many of them come at once.
+class PngEncoder::Stream {
+ public:
+  Stream(const Write& write, std::size_t size, std::size_t together, int level)
+      : write_(write), in_pieces_(size > together), level_(level < 0 ? kUsualLevel : level) {
+    rows_.reserve(in_pieces_ ? kPiece : size);
+    // A window of 32 KiB, and how hard was tried.
+    if (in_pieces_) add_chunks({0x78, 0x9c});
+  }
+
+  /// Room for filtered rows, which are there when the next ones are asked for.
+  std::span<std::uint8_t> room(std::size_t size) {
+    write_pieces();
+    rows_.resize(rows_.size() + size);
+    return std::span(rows_).last(size);
+  }
+
+  void finish() {
+    if (!in_pieces_) {
+      add_chunks(compressed(rows_, level_));
+      return;
+    }
+    write_pieces();
+    write_piece(rows_.size(), true);
+    Bytes sum;
+    add_word(sum, sum_);
+    add_chunks(sum);
+  }
+
+ private:
+  static constexpr std::size_t kPart = 1 << 20;  // one thread's
+  static constexpr std::size_t kPiece = 16 * kPart;
+  static constexpr std::size_t kWindow = 1 << 15;
+
+  void write_pieces() {
+    while (in_pieces_ && rows_.size() >= kPiece) write_piece(kPiece, false);
+  }
+
+  void write_piece(std::size_t size, bool is_last) {
+    const std::span<const std::uint8_t> piece = std::span(rows_).first(size);
+    sum_ = ::libdeflate_adler32(sum_, piece.data(), size);
+    std::vector<Bytes> parts(std::max<std::size_t>((size + kPart - 1) / kPart, 1));
+    tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t n) {
+      const std::size_t first = n * kPart;
+      const std::span<const std::uint8_t> before =
+          n == 0 ? std::span<const std::uint8_t>(before_) : piece.subspan(first - kWindow, kWindow);
+      parts[n] = compressed_part(piece.subspan(first, std::min(kPart, size - first)), before,
+                                 is_last && n + 1 == parts.size(), level_);
+    });
+    for (const Bytes& part : parts) add_chunks(part);
+    if (size >= kWindow) before_.assign(piece.end() - kWindow, piece.end());
+    rows_.erase(rows_.begin(), rows_.begin() + static_cast<std::ptrdiff_t>(size));
+  }
+
+  void add_chunks(const Bytes& stream) {
+    constexpr std::size_t kChunk = 8192;
+    Bytes chunks;
+    for (std::size_t first = 0; first < stream.size(); first += kChunk)
+      add_chunk(chunks, "IDAT", &stream[first], std::min(kChunk, stream.size() - first));
+    write_(chunks);
+  }
+
+  const Write& write_;
+  const bool in_pieces_;
+  const int level_;
+  Bytes rows_, before_;  // not compressed yet; the end of what is
+  std::uint32_t sum_ = 1;
+};
+
+PngEncoder::PngEncoder(const ImageToEncode& image, Write write, std::size_t together)
+    : write_(std::move(write)),
+      pixel_(image.channels.size()),
+      row_size_(pixel_ * static_cast<std::size_t>(image.width)),
+      averages_(image.width > 1 && image.height > 1),  // libpng takes none of single rows and columns
+      last_row_(row_size_) {
+  write_(header(image));
+  const std::size_t size = (row_size_ + 1) * static_cast<std::size_t>(image.height);
+  stream_ = std::make_unique<Stream>(write_, size, together, image.png_level);
+}
+
+PngEncoder::~PngEncoder() = default;
+
+void PngEncoder::add(std::span<const std::uint8_t> rows, int byte_stride) {
+  const auto stride = static_cast<std::size_t>(byte_stride);
+  if (stride == pixel_) return filter(rows);
+  Bytes packed(rows.size() / stride * pixel_);
+  for (std::size_t from = 0, to = 0; to < packed.size(); from += stride, to += pixel_)
+    std::copy_n(&rows[from], pixel_, &packed[to]);
+  filter(packed);
+}
+
+void PngEncoder::filter(std::span<const std::uint8_t> rows) {
+  if (rows.empty()) return;
+  const std::size_t count = rows.size() / row_size_;
+  const std::span<std::uint8_t> filtered = stream_->room(count * (row_size_ + 1));
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count), [&](const auto& range) {
+    Bytes trial(row_size_);
+    for (std::size_t y = range.begin(); y < range.end(); ++y) {
+      const std::uint8_t* const first = &rows[y * row_size_];
+      Row{first, y > 0 ? first - row_size_ : last_row_.data(), row_size_, pixel_}.write_best(
+          &filtered[y * (row_size_ + 1)], trial, averages_);
+    }
+  });
+  std::ranges::copy(rows.last(row_size_), last_row_.begin());
+}
+
+void PngEncoder::finish() {
+  stream_->finish();
+  Bytes end;
+  add_chunk(end, "IEND", Bytes{});
+  write_(end);
+}
+
+Bytes encode_png(const ImageToEncode& image, std::span<const std::uint8_t> pixels, int byte_stride) {
+  Bytes file;
+  PngEncoder encoder(image,
+                     [&](std::span<const std::uint8_t> bytes) { file.insert(file.end(), bytes.begin(), bytes.end()); });
+  encoder.add(pixels, byte_stride);
+  encoder.finish();
   return file;
 }
 

@@ -123,14 +123,27 @@ const SurfaceObject* surface_beside(const BesideSurface& beside, const PictureOb
 
 Framebuffer draw(SurfaceRenderer& renderer, Figure figure, const FigureRequest& request, const Camera& camera,
                  const RenderSettings& settings) {
+  // In bands or as a whole, as the renderer gives it.
+  const auto renamed = [&settings](const auto& render, const auto& rename) {
+    RenderSettings own = settings;
+    if (settings.take_band)
+      own.take_band = [&](Framebuffer band, int first_row) {
+        rename(band);
+        settings.take_band(std::move(band), first_row);
+      };
+    Framebuffer picture = render(own);
+    rename(picture);
+    return picture;
+  };
   std::vector<SurfaceObject>& objects = figure.molecule.objects;
   const bool opaque = std::ranges::none_of(objects, [](const SurfaceObject& o) { return o.coloring.is_translucent(); });
   if (request.plain() && opaque && placed_atoms(objects) > kMostMergedAtoms) {
-    Framebuffer picture = renderer.render_copies(objects, camera, settings);
-    for (std::uint32_t& atom : picture.atom)
-      if (atom != kNone) atom = merged_atom(objects, atom);
-    name_atoms_as_the_file(figure.molecule.structure, picture);
-    return picture;
+    return renamed([&](const RenderSettings& own) { return renderer.render_copies(objects, camera, own); },
+                   [&](Framebuffer& picture) {
+                     for (std::uint32_t& atom : picture.atom)
+                       if (atom != kNone) atom = merged_atom(objects, atom);
+                     name_atoms_as_the_file(figure.molecule.structure, picture);
+                   });
   }
   // Planes along the view cut between the nearest atom of the molecule and its farthest.
   const std::vector<Ball> balls = request.plain() ? std::vector<Ball>{} : placed_balls(objects);
@@ -141,10 +154,11 @@ Framebuffer draw(SurfaceRenderer& renderer, Figure figure, const FigureRequest& 
   surfaces.reserve(shown.size());
   for (const PictureObject& object : shown)
     surfaces.push_back(object.surface == &whole.surface ? &whole : surface_beside(figure.beside, object));
-  Framebuffer picture = renderer.render(shown, camera, settings);
-  name_atoms(surfaces, picture);
-  name_atoms_as_the_file(figure.molecule.structure, picture);
-  return picture;
+  return renamed([&](const RenderSettings& own) { return renderer.render(shown, camera, own); },
+                 [&](Framebuffer& picture) {
+                   name_atoms(surfaces, picture);
+                   name_atoms_as_the_file(figure.molecule.structure, picture);
+                 });
 }
 
 }  // namespace meniscus
