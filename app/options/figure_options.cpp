@@ -2,8 +2,12 @@
 // Declares the options of figures and checks what they say.
 #include "app/options/figure_options.h"
 
+#include <cstddef>
 #include <string>
+#include <string_view>
 #include <vector>
+
+#include <fmt/format.h>
 
 #include "app/options/object_option.h"
 #include "app/options/representation_options.h"
@@ -62,6 +66,23 @@ void add_cut_options(CLI::App& command, FigureRequest& figure) {
       ->type_name("Å");
 }
 
+/// Says of which object a fault is.
+FigureObjectRequest numbered_object(const std::vector<std::string>& texts, std::size_t n) {
+  const auto named = [&](std::string_view fault) {
+    constexpr std::string_view kPrefix = "object: ";
+    if (fault.starts_with(kPrefix)) fault.remove_prefix(kPrefix.size());
+    return texts.size() == 1 ? fmt::format("--object: {}", fault)
+                             : fmt::format("--object {} of {}: {}", n + 1, texts.size(), fault);
+  };
+  try {
+    return parse_figure_object(texts[n]);
+  } catch (const SelectionError& error) {
+    throw SelectionError(named(error.sentence()), error.picture());
+  } catch (const RequestError& error) {
+    throw RequestError(named(error.what()));
+  }
+}
+
 }  // namespace
 
 void add_figure_options(CLI::App& command, MoleculeOptions& molecule, FigureRequest& figure) {
@@ -72,7 +93,7 @@ void add_figure_options(CLI::App& command, MoleculeOptions& molecule, FigureRequ
           "--object",
           [&figure](const std::vector<std::string>& texts) {
             figure.objects.clear();
-            for (const std::string& text : texts) figure.objects.push_back(parse_figure_object(text));
+            for (std::size_t n = 0; n < texts.size(); ++n) figure.objects.push_back(numbered_object(texts, n));
           },
           "Draw something more, with colour, opacity, material and cuts of its own, as in a scene file: "
           "'{\"representation\": \"surface\", \"selection\": \"chain B\", \"color\": \"red\"}'; repeatable")
