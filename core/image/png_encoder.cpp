@@ -1,48 +1,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Chunks around one stream of libdeflate, which takes a third of the time of zlib; of large pictures around one of
-// zlib.
+// Notes around a stream of filtered rows.
 #include "core/image/png_encoder.h"
 
 #include <algorithm>
 #include <array>
-#include <cassert>
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <memory>
 #include <string_view>
 #include <utility>
 
-#include <libdeflate.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
-#include <zlib.h>
 
-#include "core/base/error.h"
 #include "core/image/png_note.h"
+#include "core/image/png_stream.h"
 
 namespace meniscus {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-void add_word(Bytes& bytes, std::uint32_t word) {
-  for (const int shift : {24, 16, 8, 0}) bytes.push_back(static_cast<std::uint8_t>(word >> shift));
-}
-
 void add_text(Bytes& bytes, std::string_view text) { bytes.insert(bytes.end(), text.begin(), text.end()); }
-
-void add_chunk(Bytes& file, std::string_view type, const std::uint8_t* content, std::size_t size) {
-  add_word(file, static_cast<std::uint32_t>(size));
-  const std::size_t first = file.size();
-  add_text(file, type);
-  file.insert(file.end(), content, content + size);
-  add_word(file, ::libdeflate_crc32(0, &file[first], file.size() - first));
-}
-
-void add_chunk(Bytes& file, std::string_view type, const Bytes& content) {
-  add_chunk(file, type, content.data(), content.size());
-}
 
 void add_note(Bytes& file, std::string_view key, std::string_view text) {
   Bytes content;
@@ -87,7 +66,7 @@ void add_header(Bytes& file, const ImageToEncode& image) {
   for (const std::uint32_t word : {31270u, 32900u, 64000u, 33000u, 30000u, 60000u, 15000u, 6000u})
     add_word(primaries, word);
   add_chunk(file, "gAMA", gamma);
-  add_chunk(file, "sRGB", {3});  // absolute colorimetric
+  add_chunk(file, "sRGB", Bytes{3});  // absolute colorimetric
   add_chunk(file, "cHRM", primaries);
   add_chunk(file, "oFFs", Bytes(9, 0));
 }
@@ -151,43 +130,6 @@ struct Row {
   }
 };
 
-struct CompressorDeleter {
-  void operator()(libdeflate_compressor* compressor) const { ::libdeflate_free_compressor(compressor); }
-};
-
-constexpr int kUsualLevel = 6;
-
-/// A whole stream of zlib's format (RFC 1950).
-Bytes compressed(const Bytes& rows, int level) {
-  const std::unique_ptr<libdeflate_compressor, CompressorDeleter> compressor(::libdeflate_alloc_compressor(level));
-  if (!compressor) throw CapacityError("no memory to compress a picture");
-  Bytes result(::libdeflate_zlib_compress_bound(compressor.get(), rows.size()));
-  result.resize(::libdeflate_zlib_compress(compressor.get(), rows.data(), rows.size(), result.data(), result.size()));
-  return result;
-}
-
-/// A part of such a stream, which ends at a whole byte; matches may lie in `before`, too. libdeflate makes whole
-/// streams only.
-Bytes compressed_part(std::span<const std::uint8_t> part, std::span<const std::uint8_t> before, bool is_last,
-                      int level) {
-  constexpr int kNoHeader = -15, kMostMemory = 9;
-  z_stream stream{};
-  if (::deflateInit2(&stream, level, Z_DEFLATED, kNoHeader, kMostMemory, Z_DEFAULT_STRATEGY) != Z_OK)
-    throw CapacityError("no memory to compress a picture");
-  const std::unique_ptr<z_stream, decltype(&::deflateEnd)> end(&stream, &::deflateEnd);
-  if (!before.empty()) ::deflateSetDictionary(&stream, before.data(), static_cast<uInt>(before.size()));
-  constexpr std::size_t kMarker = 16;  // of the part's end
-  Bytes result(::deflateBound(&stream, static_cast<uLong>(part.size())) + kMarker);
-  stream.next_in = const_cast<std::uint8_t*>(part.data());  // zlib only reads it
-  stream.avail_in = static_cast<uInt>(part.size());
-  stream.next_out = result.data();
-  stream.avail_out = static_cast<uInt>(result.size());
-  ::deflate(&stream, is_last ? Z_FINISH : Z_SYNC_FLUSH);
-  assert(stream.avail_in == 0 && stream.avail_out > 0);
-  result.resize(result.size() - stream.avail_out);
-  return result;
-}
-
 Bytes header(const ImageToEncode& image) {
   Bytes file{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
   add_header(file, image);
@@ -201,75 +143,6 @@ Bytes header(const ImageToEncode& image) {
 
 }  // namespace
 
-/// Filtered rows on their way into chunks. What comes out does not depend on how many of them come at once.
-class PngEncoder::Stream {
- public:
-  Stream(const Write& write, std::size_t size, std::size_t together, int level)
-      : write_(write), in_pieces_(size > together), level_(level < 0 ? kUsualLevel : level) {
-    rows_.reserve(in_pieces_ ? kPiece : size);
-    // A window of 32 KiB, and how hard was tried.
-    if (in_pieces_) add_chunks({0x78, 0x9c});
-  }
-
-  /// Room for filtered rows, which are there when the next ones are asked for.
-  std::span<std::uint8_t> room(std::size_t size) {
-    write_pieces();
-    rows_.resize(rows_.size() + size);
-    return std::span(rows_).last(size);
-  }
-
-  void finish() {
-    if (!in_pieces_) {
-      add_chunks(compressed(rows_, level_));
-      return;
-    }
-    write_pieces();
-    write_piece(rows_.size(), true);
-    Bytes sum;
-    add_word(sum, sum_);
-    add_chunks(sum);
-  }
-
- private:
-  static constexpr std::size_t kPart = 1 << 20;  // one thread's
-  static constexpr std::size_t kPiece = 16 * kPart;
-  static constexpr std::size_t kWindow = 1 << 15;
-
-  void write_pieces() {
-    while (in_pieces_ && rows_.size() >= kPiece) write_piece(kPiece, false);
-  }
-
-  void write_piece(std::size_t size, bool is_last) {
-    const std::span<const std::uint8_t> piece = std::span(rows_).first(size);
-    sum_ = ::libdeflate_adler32(sum_, piece.data(), size);
-    std::vector<Bytes> parts(std::max<std::size_t>((size + kPart - 1) / kPart, 1));
-    tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t n) {
-      const std::size_t first = n * kPart;
-      const std::span<const std::uint8_t> before =
-          n == 0 ? std::span<const std::uint8_t>(before_) : piece.subspan(first - kWindow, kWindow);
-      parts[n] = compressed_part(piece.subspan(first, std::min(kPart, size - first)), before,
-                                 is_last && n + 1 == parts.size(), level_);
-    });
-    for (const Bytes& part : parts) add_chunks(part);
-    if (size >= kWindow) before_.assign(piece.end() - kWindow, piece.end());
-    rows_.erase(rows_.begin(), rows_.begin() + static_cast<std::ptrdiff_t>(size));
-  }
-
-  void add_chunks(const Bytes& stream) {
-    constexpr std::size_t kChunk = 8192;
-    Bytes chunks;
-    for (std::size_t first = 0; first < stream.size(); first += kChunk)
-      add_chunk(chunks, "IDAT", &stream[first], std::min(kChunk, stream.size() - first));
-    write_(chunks);
-  }
-
-  const Write& write_;
-  const bool in_pieces_;
-  const int level_;
-  Bytes rows_, before_;  // not compressed yet; the end of what is
-  std::uint32_t sum_ = 1;
-};
-
 PngEncoder::PngEncoder(const ImageToEncode& image, Write write, std::size_t together)
     : write_(std::move(write)),
       pixel_(image.channels.size()),
@@ -278,7 +151,7 @@ PngEncoder::PngEncoder(const ImageToEncode& image, Write write, std::size_t toge
       last_row_(row_size_) {
   write_(header(image));
   const std::size_t size = (row_size_ + 1) * static_cast<std::size_t>(image.height);
-  stream_ = std::make_unique<Stream>(write_, size, together, image.png_level);
+  stream_ = std::make_unique<PngStream>(write_, size, together, image.png_level);
 }
 
 PngEncoder::~PngEncoder() = default;
@@ -314,7 +187,8 @@ void PngEncoder::finish() {
   write_(end);
 }
 
-Bytes encode_png(const ImageToEncode& image, std::span<const std::uint8_t> pixels, int byte_stride) {
+std::vector<std::uint8_t> encode_png(const ImageToEncode& image, std::span<const std::uint8_t> pixels,
+                                     int byte_stride) {
   Bytes file;
   PngEncoder encoder(image,
                      [&](std::span<const std::uint8_t> bytes) { file.insert(file.end(), bytes.begin(), bytes.end()); });

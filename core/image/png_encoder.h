@@ -13,6 +13,8 @@
 
 namespace meniscus {
 
+class PngStream;
+
 /// Writes a file (W3C, Portable Network Graphics, 2nd edition: 8 bits a channel) as its rows come, with the pixels and
 /// the notes that OpenImageIO would write. Throws CapacityError where there is no memory to compress.
 class PngEncoder {
@@ -31,15 +33,13 @@ class PngEncoder {
   void finish();
 
  private:
-  class Stream;
-
   void filter(std::span<const std::uint8_t> rows);
 
   Write write_;
   std::size_t pixel_, row_size_;  // bytes
   bool averages_;
   std::vector<std::uint8_t> last_row_;  // nothing above the first
-  std::unique_ptr<Stream> stream_;
+  std::unique_ptr<PngStream> stream_;
 };
 
 /// The bytes of a file of these pixels.
