@@ -90,6 +90,7 @@ void export_picture(const ExportedView& view, const MakePictureDevice& make_devi
   const std::unique_ptr<PictureDevice> device = make_device ? make_device() : std::make_unique<PictureDevice>(on_cpu);
   ImageSettings settings_of_file{background, target.existing, figure.look.has_linear_alpha()};
   settings_of_file.scene = view.scene;
+  settings_of_file.dots_per_inch = view.dots_per_inch;
   PictureFile picture(target.path, {view.annotations, legend}, figure.camera, settings_of_file, settings);
   draw(device->renderer(), std::move(whole), figure.figure, figure.camera, settings);
   watch("writing", 0.0);
