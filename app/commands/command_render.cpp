@@ -57,7 +57,7 @@ void check_legend_file(const RenderCommand& command) {
 void finish(const RenderCommand& command, const PictureLayout& layout, PictureFile& picture, const Camera& camera) {
   if (!picture.shows_something())
     say(command.molecule,
-        "warning: the picture shows nothing: no ray meets a part of the surface that --show leaves; where "
+        "warning: the picture shows nothing: no ray meets a part of the surface that --show and --clip leave; where "
         "does the "
         "camera look?");
   picture.commit();
@@ -183,7 +183,7 @@ void run(const RenderCommand& command) {
   AimedFigure aimed = aimed_figure(command);
   const PictureLayout layout(command, key_of(aimed.figure.molecule));
   const Annotations annotations = annotations_of(command.annotations, aimed.figure.molecule.structure);
-  const Camera camera = aimed.camera(layout.size);
+  const Camera camera = aimed.camera(command, layout.size);
   PictureDevice device(picture_request(command));
   SurfaceRenderer& renderer = device.renderer();
   RenderSettings settings = timed_settings(command, layout);

@@ -3,8 +3,11 @@
 #include "core/scene/figure.h"
 
 #include <algorithm>
+#include <optional>
 #include <span>
 #include <utility>
+
+#include <fmt/format.h>
 
 #include "core/base/error.h"
 #include "core/queries/combine.h"
@@ -87,6 +90,21 @@ std::vector<ClipPlane> surface_planes(const FigureRequest& request, const Camera
                                       std::span<const SurfaceObject> objects) {
   if (request.cuts.empty()) return {};
   return clip_planes(request.cuts, camera, placed_balls(objects));
+}
+
+std::vector<std::string> idle_cuts(const FigureRequest& request, const Figure& figure, const Camera& camera) {
+  std::vector<std::string> sentences;
+  const auto of_objects = [](const FigureObjectRequest& object) { return !object.cuts.empty(); };
+  if (request.cuts.empty() && std::ranges::none_of(request.objects, of_objects)) return sentences;
+  const std::vector<Ball> balls = placed_balls(figure.molecule.objects);
+  if (!request.hides_surface && !balls.empty()) sentences = idle_cuts(request.cuts, camera, balls, balls);
+  for (std::size_t n = 0; n < figure.beside.objects.size(); ++n) {
+    const std::optional<SurfaceObject>& surface = figure.beside.objects[n].surface;
+    if (!surface || surface->surface.atoms.empty()) continue;
+    for (const std::string& sentence : idle_cuts(request.objects[n].cuts, camera, balls, surface->surface.atoms))
+      sentences.push_back(fmt::format("{}, of object {}", sentence, n + 1));
+  }
+  return sentences;
 }
 
 std::vector<PictureObject> picture_objects(const Surface& surface, const Coloring& coloring,
