@@ -137,6 +137,8 @@ std::unique_ptr<PreviewSession> begin_session(const PreviewCommand& command, con
   std::unique_ptr<ViewRenderer> renderer = make_renderer(command, shown.structure, on_gl);
   auto session = std::make_unique<PreviewSession>(std::move(renderer), std::move(shown.structure), view, shown.camera,
                                                   command.output_folder, std::move(shown.trajectory), context);
+  for (const std::string& sentence : session->idle_among(session->view().figure.cuts))
+    say(command.molecule, "note: --clip " + sentence);
   if (!command.record.empty()) {
     auto log = std::make_shared<CommandLog>(command.record, command.force ? Existing::replace : Existing::refuse);
     session->record([log](const nlohmann::json& line) { log->write(line); });

@@ -27,6 +27,7 @@
 #include "core/base/text.h"
 #include "core/gpu/egl_context.h"
 #include "core/render/image_output.h"
+#include "core/render/picture_file.h"
 #include "core/render/renderer.h"
 #include "core/scene/picture_device.h"
 #include "core/scene/view_aim.h"
@@ -52,15 +53,13 @@ void check_legend_file(const RenderCommand& command) {
   check_output(command.legend.file, command.output.existing());
 }
 
-void finish(const RenderCommand& command, const PictureLayout& layout, const Annotations& annotations,
-            Framebuffer picture, const Camera& camera) {
-  if (shows_nothing(picture))
+void finish(const RenderCommand& command, const PictureLayout& layout, PictureFile& picture, const Camera& camera) {
+  if (!picture.shows_something())
     say(command.molecule,
-        "warning: the picture shows nothing: no ray meets a part of the surface that --show leaves; where does the "
+        "warning: the picture shows nothing: no ray meets a part of the surface that --show and --clip leave; where "
+        "does the "
         "camera look?");
-  annotate(picture, annotations, camera, command.background);
-  if (layout.legend) picture = layout.legend->add_to(picture, command.background);
-  write_image(command.output.path, picture, image_settings(command));
+  picture.commit();
   if (layout.legend_alone) write_image(command.legend.file, *layout.legend_alone, image_settings(command));
   save_camera(command.save_camera, command.output.existing(), camera);
 }
@@ -105,6 +104,17 @@ class PictureProgress {
   std::uint64_t told_ = 0;
 };
 
+void tell_memory(const RenderCommand& command) {
+  constexpr double kManyPixels = 3e7, kMebibyte = 1 << 20;
+  const double pixels = static_cast<double>(command.picture.width) * command.picture.height;
+  if (pixels < kManyPixels || !is_encoded_in_memory(command.output.path)) return;
+  say(command.molecule,
+      fmt::format("note: {} files are encoded in memory: up to {} MiB beside the picture's bands; .png, .jpg and .tif "
+                  "are written as they come",
+                  std::filesystem::path(command.output.path).extension().string(),
+                  with_thousands(static_cast<std::uint64_t>(pixels * (command.aovs ? 56.0 : 16.0) / kMebibyte))));
+}
+
 // Without the complete surface: from atoms to the picture on the GPU.
 void draw_view(const RenderCommand& command) {
   const std::optional<Camera> given = given_camera(command.picture);
@@ -117,10 +127,12 @@ void draw_view(const RenderCommand& command) {
   ViewPipeline view;
   show(atoms, command.molecule.surface.probe_radius, *command.extent, view);
   Renderer renderer;
-  Framebuffer picture = renderer.render(view, camera, timed_settings(command, layout));
-  if (command.stats) fmt::print(std::cerr, "{}", stats_text(view.stats(), renderer.times(), picture.size));
+  RenderSettings settings = timed_settings(command, layout);
+  PictureFile picture(command.output.path, {annotations, layout.legend}, camera, image_settings(command), settings);
+  renderer.render(view, camera, settings);
+  if (command.stats) fmt::print(std::cerr, "{}", stats_text(view.stats(), renderer.times(), settings.size));
   say_times(command, gl_words(context), renderer.times());
-  finish(command, layout, annotations, std::move(picture), camera);
+  finish(command, layout, picture, camera);
 }
 
 void tell_hue_changes(const RenderCommand& command) {
@@ -165,18 +177,20 @@ void run(const RenderCommand& command) {
   check_output(command.output.path, command.output.existing());
   check_legend_file(command);
   check_camera_file(command.save_camera, command.output.existing());
+  tell_memory(command);
   if (command.extent) return draw_view(command);
   AimedFigure aimed = aimed_figure(command);
   const PictureLayout layout(command, key_of(aimed.figure.molecule));
   const Annotations annotations = annotations_of(command.annotations, aimed.figure.molecule.structure);
-  const Camera camera = aimed.camera(layout.size);
+  const Camera camera = aimed.camera(command, layout.size);
   PictureDevice device(picture_request(command));
   SurfaceRenderer& renderer = device.renderer();
   RenderSettings settings = timed_settings(command, layout);
   PictureProgress progress(command, settings);
-  Framebuffer picture = draw(renderer, std::move(aimed.figure), command.figure, camera, settings);
+  PictureFile picture(command.output.path, {annotations, layout.legend}, camera, image_settings(command), settings);
+  draw(renderer, std::move(aimed.figure), command.figure, camera, settings);
   progress.end();
-  finish(command, layout, annotations, std::move(picture), camera);
+  finish(command, layout, picture, camera);
   say_times(command, renderer.device(), renderer.times());
 }
 
@@ -218,10 +232,6 @@ RenderSettings render_settings(const RenderCommand& command, const PictureLayout
 }
 
 DeviceChoice gl_device(const RenderCommand& command) { return command.molecule.surface.gl; }
-
-bool shows_nothing(const Framebuffer& picture) {
-  return std::ranges::none_of(picture.color, [](const glm::vec4& pixel) { return pixel.w > 0.0f; });
-}
 
 void add_render(CLI::App& command) {
   describe(

@@ -211,7 +211,7 @@ void run(const BlenderCommand& command) {
   Molecule& molecule = figure.molecule;
   molecule.beside = std::move(figure.beside.shapes);
   const std::vector<Ball> balls = shown_balls(molecule);
-  const Camera camera = aimed.camera(command.picture);
+  const Camera camera = aimed.camera(command, command.picture);
   const double tolerance = tolerance_of(command.mesh, command.picture.size(), camera, balls);
   const blender::CutFile cut = cut_file(command, camera, molecule.objects);
   const bool alone = molecule.beside.empty() && figure.beside.objects.empty();

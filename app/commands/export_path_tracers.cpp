@@ -148,7 +148,7 @@ void run(const PathTracerCommand& command) {
   Figure& figure = aimed.figure;
   Molecule& molecule = figure.molecule;
   const std::vector<Ball> balls = figure.balls();
-  const Camera camera = aimed.camera(command.picture);
+  const Camera camera = aimed.camera(command, command.picture);
   const double tolerance = tolerance_of(command.mesh, command.picture.size(), camera, balls);
   path_tracers::Scene scene = empty_scene(command, camera, middle_of(balls));
   const std::vector<Atom> atoms = shown_atoms(molecule.structure);

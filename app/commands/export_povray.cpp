@@ -169,7 +169,7 @@ void run(const PovrayCommand& command) {
   povray::SceneOptions options = scene_options(command);
   options.colors = key_of(figure.molecule);
   options.atom_names = comment_names(command, figure.molecule.structure);
-  const Camera camera = aimed.camera(command.picture);
+  const Camera camera = aimed.camera(command, command.picture);
   options.shapes = &figure.beside.shapes;
   options.objects = more_objects(figure, command.figure, camera, placed_balls(objects));
   options.cut.planes = surface_planes(command.figure, camera, objects);

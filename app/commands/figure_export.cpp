@@ -12,6 +12,8 @@
 #include "app/process/program_error.h"
 #include "app/reports/notes.h"
 #include "core/queries/combine.h"
+#include "core/scene/copied_atoms.h"
+#include "core/scene/surface_kind.h"
 
 namespace meniscus {
 
@@ -34,6 +36,23 @@ void check_caps_of_map(const FigureCommand& command, std::string_view reason) {
   for (const FigureObjectRequest& object : command.figure.objects)
     if (!object.shapes && !object.color && !object.cuts.empty() && !object.cap.color)
       throw UsageError(fmt::format("--color-map-file with a \"clip\" in --object needs its \"cap_color\": {}", reason));
+}
+
+Camera AimedFigure::camera(const FigureCommand& command, const ViewRequest& picture) const {
+  const Camera camera = aim.camera(picture, given, figure.molecule.objects);
+  for (const std::string& sentence : idle_cuts(command.figure, figure, camera))
+    say(command.molecule, "note: --clip " + sentence);
+  return camera;
+}
+
+void tell_idle_cuts(const FigureCommand& command, const FrameRun& frames, const Camera& camera) {
+  if (command.figure.cuts.empty() || command.figure.hides_surface) return;
+  const Structure& structure = frames.structure();
+  const SurfaceRequest& surface = command.molecule.surface;
+  std::vector<Ball> balls = grown(balls_of(structure), growth_of(surface.kind, surface.probe_radius));
+  if (!structure.instances.empty()) balls = reaching_balls(balls, structure.instances);
+  for (const std::string& sentence : idle_cuts(command.figure.cuts, camera, balls, balls))
+    say(command.molecule, fmt::format("note: --clip {}, in the first frame of the run", sentence));
 }
 
 AimedFigure aimed_figure(const FigureCommand& command) {
@@ -63,6 +82,7 @@ ExportRun::ExportRun(FigureCommand& command, const GivenCameras& cameras, bool v
   tell_run(command.molecule, frames_);
   framing_ = run_framing(command.picture, command.molecule.show, command.run_camera, cameras, frames_);
   measure_colors(command.molecule.color, frames_);
+  tell_idle_cuts(command, frames_, framing_.cameras.front());
 }
 
 const Camera& ExportRun::camera(std::uint64_t place) const {

@@ -37,12 +37,16 @@ struct AimedFigure {
   ViewAim aim;
   std::optional<Camera> given;
 
-  /// picture: with the size of the part that the molecule has.
-  Camera camera(const ViewRequest& picture) const { return aim.camera(picture, given, figure.molecule.objects); }
+  /// picture: with the size of the part that the molecule has. Says which cuts have nothing to do as this camera sees
+  /// the molecule.
+  Camera camera(const FigureCommand& command, const ViewRequest& picture) const;
 };
 
 /// Reads, computes and says what came of it. Throws as load_aimed_molecule and make_figure do.
 AimedFigure aimed_figure(const FigureCommand& command);
+
+/// Says which cuts have nothing to do in the first frame of a run.
+void tell_idle_cuts(const FigureCommand& command, const FrameRun& frames, const Camera& camera);
 
 /// Before planes cut: where they stand, a copy is cut as no other is, so that copies become one object.
 void settle_copies(std::vector<SurfaceObject>& objects);

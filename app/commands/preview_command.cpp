@@ -134,6 +134,7 @@ ExportWishes wishes_of(const PreviewCommand& command, const CLI::App& parsed) {
   constexpr int kUsualSamples = 9;  // of render
   wishes.samples = command.of_scene ? command.samples.value_or(kUsualSamples) : command.samples;
   wishes.transparent = !command.background;
+  wishes.dots_per_inch = command.picture.dots_per_inch;
   return wishes;
 }
 

@@ -53,9 +53,6 @@ ImageSettings image_settings(const RenderCommand& command);
 /// Of --extent.
 DeviceChoice gl_device(const RenderCommand& command);
 
-/// Did no ray of the picture meet a part of the surface that is shown?
-bool shows_nothing(const Framebuffer& picture);
-
 /// Pictures of all frames of a run, or a film of them.
 void render_frames(const RenderCommand& command);
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `meniscus render --frames`: numbered pictures, or a film.
+#include <algorithm>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -16,6 +17,7 @@
 #include "app/options/camera_file.h"
 #include "app/options/numbered_path.h"
 #include "app/process/program_error.h"
+#include "app/commands/figure_export.h"
 #include "app/commands/render_command.h"
 #include "app/commands/view_picture.h"
 #include "core/base/text.h"
@@ -29,6 +31,11 @@
 
 namespace meniscus {
 namespace {
+
+/// Did no ray of the picture meet a part of the surface that is shown?
+bool shows_nothing(const Framebuffer& picture) {
+  return std::ranges::none_of(picture.color, [](const glm::vec4& pixel) { return pixel.w > 0.0f; });
+}
 
 void check_options(const RenderCommand& command) {
   if (command.stats) throw UsageError("--stats: of one picture only; leave --frames away");
@@ -226,6 +233,7 @@ void render_frames(const RenderCommand& asked) {
   const std::vector<Camera> cameras =
       run_cameras(layout.size, command.molecule.show, command.run_camera, given, frames);
   save_camera(command.save_camera, command.output.existing(), cameras.front());
+  tell_idle_cuts(command, frames, cameras.front());
   const RenderSettings settings = render_settings(command, layout);
   if (layout.legend_alone) write_image(command.legend.file, *layout.legend_alone, image_settings(command));
   const Annotations annotations = annotations_of(command.annotations, frames.structure());

@@ -2,7 +2,9 @@
 // Adds the options of what is drawn: sticks and tubes beside the surface, objects, opacity, cuts, interfaces.
 #include "app/options/figure_options.h"
 
+#include <cstddef>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
@@ -42,6 +44,23 @@ void add_cuts(PropertyOptions& options, FigureRequest& figure) {
   options.add("surface.cap_hatching", figure.cap.hatching);
 }
 
+/// Says of which object a fault is.
+FigureObjectRequest numbered_object(const std::vector<std::string>& texts, std::size_t n) {
+  const auto named = [&](std::string_view fault) {
+    constexpr std::string_view kPrefix = "object: ";
+    if (fault.starts_with(kPrefix)) fault.remove_prefix(kPrefix.size());
+    return texts.size() == 1 ? fmt::format("--object: {}", fault)
+                             : fmt::format("--object {} of {}: {}", n + 1, texts.size(), fault);
+  };
+  try {
+    return parse_figure_object(texts[n]);
+  } catch (const SelectionError& error) {
+    throw SelectionError(named(error.sentence()), error.picture());
+  } catch (const RequestError& error) {
+    throw RequestError(named(error.what()));
+  }
+}
+
 }  // namespace
 
 void add_representation_options(CLI::App& command, Representations& representations) {
@@ -70,7 +89,7 @@ void add_figure_options(CLI::App& command, MoleculeOptions& molecule, FigureRequ
   add_representation_options(command, figure.representations);
   options.add_list("figure.object", [&figure](const std::vector<std::string>& texts) {
     figure.objects.clear();
-    for (const std::string& text : texts) figure.objects.push_back(parse_figure_object(text));
+    for (std::size_t n = 0; n < texts.size(); ++n) figure.objects.push_back(numbered_object(texts, n));
   });
   options.add("surface.shown", figure.hides_surface);
   add_opacity_option(command, molecule);

@@ -124,6 +124,9 @@ const std::vector<Need>& needs() {
          return asked.has("--samples") ? asked.is_film() : !asked.has("--stride") || asked.is_run();
        },
        "the output is no film"},
+      {{"--clip", "--film-opacity"},
+       [](const Asked& asked) { return !asked.given("--hide-surface"); },
+       "the surface is hidden, and what stands beside it is neither cut nor a film"},
       {{"--cap-color", "--cap-hatching"},
        [](const Asked& asked) { return asked.given("--clip"); },
        "nothing is cut, so there are no caps; add --clip PLANE"},

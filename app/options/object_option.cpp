@@ -258,7 +258,9 @@ FigureObjectRequest parse_figure_object(std::string_view json) {
   if (is_nested_too_deep(json)) throw RequestError("object: JSON nested too deep");
   const Json object = Json::parse(json, nullptr, false);
   if (!object.is_object())
-    throw RequestError(R"(object: expected JSON such as {"representation": "sticks", "selection": "ligand"})");
+    throw RequestError(
+        fmt::format(R"(object: {} is no JSON such as {{"representation": "sticks", "selection": "ligand"}})",
+                    in_quotes(shortened(std::string(json), 60))));
   return ObjectReader(object).read();
 }
 

@@ -47,6 +47,7 @@ struct ExportWishes {
   std::optional<glm::ivec2> size;  ///< pixels, with the legend
   std::optional<int> samples;      ///< rays per pixel
   bool transparent = false;        ///< without a background
+  double dots_per_inch = 0.0;      ///< of the printed picture; 0: not said
 };
 
 /// Throws RequestError for a scheme whose numbers or parts come with surfaces that a preview does not make; so

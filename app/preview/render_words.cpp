@@ -113,6 +113,7 @@ std::vector<std::string> render_words(const RenderInput& input, const RenderedVi
   }
   words.option("--camera", nlohmann::json(camera_object(figure.camera)).dump());
   words.option("--size", fmt::format("{}x{}", view.size.x, view.size.y));
+  if (view.dots_per_inch > 0.0) words.option("--dpi", fmt::format("{}", view.dots_per_inch));
   words.option("--samples", fmt::format("{}", view.samples));
   words.option("--background", view.transparent ? "transparent" : hex_color(figure.background));
   if (figure.kind != SurfaceKind::ses) words.option("--surface", kind_word(figure.kind));

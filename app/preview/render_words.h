@@ -31,6 +31,7 @@ struct RenderedView {
   std::optional<std::int32_t> model;           ///< that is shown, if the file has several
   std::optional<std::uint64_t> frame;          ///< of a trajectory
   std::optional<std::array<double, 2>> range;  ///< of numbers, where those of one model alone would have another
+  double dots_per_inch = 0.0;                  ///< of the printed picture; 0: not said
 };
 
 /// "meniscus", "render" and all behind them. The picture's name is that of the molecule's file; of a trajectory,

@@ -8,6 +8,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -105,6 +106,9 @@ class PreviewSession {
   std::uint64_t revision() const { return revision_; }
   /// A command asked to end.
   bool wants_to_quit() const { return quit_; }
+
+  /// Of cuts of the surface as it is seen now: a sentence for each that cuts nothing or leaves nothing.
+  std::vector<std::string> idle_among(std::span<const Cut> cuts) const;
 
   const PreviewView& view() const { return view_; }
   const Structure& structure() const { return structure_; }

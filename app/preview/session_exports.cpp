@@ -74,9 +74,10 @@ Json PreviewSession::export_view(const CommandReader& command) {
   }
   Annotations annotations;
   if (context_.annotations) annotations = context_.annotations(marked_ ? *marked_ : frame_structure());
-  auto view = std::make_shared<const ExportedView>(ExportedView{
-      structure_, shown_atoms(), balls_, frame_coloring(), view_.told_scheme(), view_, beside_, std::move(annotations),
-      wishes.size, wishes.samples, wishes.transparent, format == 0 ? scene_of(command) : ""});
+  auto view = std::make_shared<const ExportedView>(
+      ExportedView{structure_, shown_atoms(), balls_, frame_coloring(), view_.told_scheme(), view_, beside_,
+                   std::move(annotations), wishes.size, wishes.samples, wishes.transparent,
+                   format == 0 ? scene_of(command) : "", view_.wishes.dots_per_inch});
   const auto work = [view, target, format, make_device = context_.make_device](const ExportWatch& watch) {
     Json reply{{"path", target.path.string()}};
     if (format == 2 && !view->figure.figure.plain())
@@ -110,7 +111,7 @@ std::string PreviewSession::scene_of(const CommandReader& command) const {
 
 std::vector<std::string> PreviewSession::words_of(const CommandReader& command) const {
   const PictureWishes wishes = wishes_of(command, view_);
-  RenderedView view{view_, wishes.size, wishes.samples, wishes.transparent, {}, {}, {}};
+  RenderedView view{view_, wishes.size, wishes.samples, wishes.transparent, {}, {}, {}, view_.wishes.dots_per_inch};
   if (trajectory_) view.frame = number_of(view_.frame);
   if (frames_.size() > 1) {
     using By = ColorScheme::By;

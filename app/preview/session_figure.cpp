@@ -2,6 +2,7 @@
 // The commands that say what is shown: parts of the surface, what stands beside it, cuts.
 #include <algorithm>
 #include <array>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -13,6 +14,7 @@
 #include "app/preview/session.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/scene/cut.h"
 #include "core/scene/surface_objects.h"
 #include "core/scene/surface_request.h"
 
@@ -147,7 +149,14 @@ Json PreviewSession::set_cut(const CommandReader& command) {
     cuts.push_back(cut);
   }
   become(std::move(next), Changed::cuts);
-  return {{"index", index}};
+  Json reply{{"index", index}};
+  if (const std::vector<std::string> idle = idle_among({&cut, 1}); !idle.empty()) reply["note"] = idle.front();
+  return reply;
+}
+
+std::vector<std::string> PreviewSession::idle_among(std::span<const Cut> cuts) const {
+  const std::vector<Ball>& balls = reach();  // with all copies, if there are any
+  return view_.figure.hides_surface ? std::vector<std::string>{} : idle_cuts(cuts, view_.camera, balls, balls);
 }
 
 Json PreviewSession::remove(const CommandReader& command) {

@@ -16,6 +16,7 @@
 #include "core/queries/surface_object.h"
 #include "core/render/image_output.h"
 #include "core/render/legend.h"
+#include "core/render/picture_file.h"
 #include "core/scene/copied_atoms.h"
 #include "core/scene/figure.h"
 #include "core/scene/molecule.h"
@@ -88,13 +89,13 @@ void export_picture(const ExportedView& view, const MakePictureDevice& make_devi
   SurfaceRequest on_cpu;
   on_cpu.cpu = true;
   const std::unique_ptr<PictureDevice> device = make_device ? make_device() : std::make_unique<PictureDevice>(on_cpu);
-  Framebuffer picture = draw(device->renderer(), std::move(whole), figure.figure, figure.camera, settings);
-  watch("writing", 0.0);
-  annotate(picture, view.annotations, figure.camera, background);
-  if (legend) picture = legend->add_to(picture, background);
   ImageSettings settings_of_file{background, target.existing, figure.look.has_linear_alpha()};
   settings_of_file.scene = view.scene;
-  write_image(target.path, picture, settings_of_file);
+  settings_of_file.dots_per_inch = view.dots_per_inch;
+  PictureFile picture(target.path, {view.annotations, legend}, figure.camera, settings_of_file, settings);
+  draw(device->renderer(), std::move(whole), figure.figure, figure.camera, settings);
+  watch("writing", 0.0);
+  picture.commit();
 }
 
 std::string export_povray(const ExportedView& view, const ExportTarget& target, const ExportWatch& watch) {

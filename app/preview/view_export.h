@@ -39,6 +39,7 @@ struct ExportedView {
   int samples;                                  ///< rays per pixel
   bool transparent;                             ///< pictures have no background
   std::string scene;                            ///< what pictures say they were made of; empty: nothing
+  double dots_per_inch = 0.0;                   ///< of pictures; 0: not said
 };
 
 /// Where it goes.

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -14,7 +15,7 @@ namespace meniscus {
 
 enum class SampleType : std::uint8_t { uint8, uint16, float32 };
 
-/// A picture as a file will hold it. Rows from the top, channels of a pixel together.
+/// A picture as a file will hold it, but for its pixels. Rows from the top, channels of a pixel together.
 struct ImageToEncode {
   std::string format;  ///< "png", "jpeg", "webp", "tiff" or "exr"
   std::string file;    ///< TIFF: written under this name, for OpenImageIO 2.4 cannot write it to memory
@@ -34,12 +35,6 @@ struct ImageToEncode {
   std::string date;                             ///< "YYYY:MM:DD HH:MM:SS", in EXR and TIFF, which always have one
   double dots_per_inch = 0.0;                   ///< likewise; 0 for nothing
   std::span<const std::uint8_t> color_profile;  ///< ICC; empty for none
-
-  /// One of these has the pixels: floats in [0, 1] (EXR: any), or, of PNG, bytes with `byte_stride` from pixel to
-  /// pixel.
-  std::span<const float> floats;
-  std::span<const std::uint8_t> bytes;
-  int byte_stride = 0;
 };
 
 /// A picture read from a file: floats in [0, 1], colours multiplied by their alpha.
@@ -53,12 +48,21 @@ struct DecodedImage {
 /// The size in bytes of the pixels alone, not compressed.
 std::size_t pixel_bytes(const ImageToEncode& image);
 
+/// Encodes a picture row after row. Of WebP it keeps them all.
+class RowEncoder {
+ public:
+  virtual ~RowEncoder() = default;
+  /// The next rows, any whole number of them: floats in [0, 1] (EXR: any).
+  virtual void add(std::span<const float> rows) = 0;
+  /// Behind the last row: the bytes of the file; of TIFF none, they are in ImageToEncode::file.
+  virtual std::vector<std::uint8_t> finish() = 0;
+};
+
 /// What the module gives. Reading and writing throw std::runtime_error with OpenImageIO's words.
 class ImageCodec {
  public:
   virtual ~ImageCodec() = default;
-  /// The bytes of the file; of TIFF none, they are in ImageToEncode::file.
-  virtual std::vector<std::uint8_t> encode(const ImageToEncode& image) const = 0;
+  virtual std::unique_ptr<RowEncoder> begin(const ImageToEncode& image) const = 0;
   virtual DecodedImage decode(const std::string& path) const = 0;
   /// "OpenImageIO 2.4.7", as it is loaded.
   virtual std::string library() const = 0;

@@ -3,8 +3,9 @@
 #pragma once
 
 #include <cerrno>
-#include <cstdint>
+#include <cstddef>
 #include <cstring>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -30,19 +31,18 @@ class MemoryFile {
 
   std::string name() const { return "/proc/self/fd/" + std::to_string(descriptor_); }
 
-  /// All that was written to it.
-  std::vector<std::uint8_t> bytes() const {
+  /// All that was written to it, piece by piece: take(span of bytes).
+  void read(const auto& take) const {
+    constexpr std::size_t kPiece = 1 << 20;
     struct stat status {};
     ::fstat(descriptor_, &status);
-    std::vector<std::uint8_t> bytes(static_cast<std::size_t>(status.st_size));
-    for (std::size_t filled = 0; filled < bytes.size();) {
-      const ssize_t count = uninterrupted([&] {
-        return ::pread(descriptor_, bytes.data() + filled, bytes.size() - filled, static_cast<off_t>(filled));
-      });
+    std::vector<std::byte> piece(kPiece);
+    for (off_t taken = 0; taken < status.st_size;) {
+      const ssize_t count = uninterrupted([&] { return ::pread(descriptor_, piece.data(), piece.size(), taken); });
       if (count <= 0) throw CapacityError(std::string("a file in memory cannot be read: ") + std::strerror(errno));
-      filled += static_cast<std::size_t>(count);
+      take(std::span<const std::byte>(piece).first(static_cast<std::size_t>(count)));
+      taken += count;
     }
-    return bytes;
   }
 
  private:

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <stdexcept>
 #include <string_view>
+#include <utility>
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imagebuf.h>
@@ -43,30 +44,46 @@ OIIO::ImageSpec spec_of(const ImageToEncode& image) {
   return spec;
 }
 
-/// To a file of this name, or wherever `output` was told to.
-void write(OIIO::ImageOutput* output, const std::string& name, const ImageToEncode& image) {
-  if (!output) throw std::runtime_error(OIIO::geterror());
-  const auto check = [&](bool done) {
-    if (!done) throw std::runtime_error(output->geterror());
-  };
-  check(output->open(name, spec_of(image)));
-  check(image.floats.empty() ? output->write_image(OIIO::TypeDesc::UINT8, image.bytes.data(), image.byte_stride)
-                             : output->write_image(OIIO::TypeDesc::FLOAT, image.floats.data()));
-  check(output->close());
-}
+/// To the file that the picture names, or to memory.
+class OpenImageIORows final : public RowEncoder {
+ public:
+  explicit OpenImageIORows(const ImageToEncode& image)
+      : name_(image.file.empty() ? "picture." + image.format : image.file),
+        row_size_(static_cast<std::size_t>(image.width) * image.channels.size()),
+        output_(image.file.empty() ? OIIO::ImageOutput::create(name_, &sink_)
+                                   : OIIO::ImageOutput::create(image.format)) {
+    if (!output_) throw std::runtime_error(OIIO::geterror());
+    check(output_->open(name_, spec_of(image)));
+  }
+
+  void add(std::span<const float> rows) override {
+    const int end = next_row_ + static_cast<int>(rows.size() / row_size_);
+    check(output_->write_scanlines(next_row_, end, 0, OIIO::TypeDesc::FLOAT, rows.data()));
+    next_row_ = end;
+  }
+
+  std::vector<std::uint8_t> finish() override {
+    check(output_->close());
+    return std::move(bytes_);
+  }
+
+ private:
+  void check(bool done) const {
+    if (!done) throw std::runtime_error(output_->geterror());
+  }
+
+  std::string name_;
+  std::size_t row_size_;
+  std::vector<std::uint8_t> bytes_;
+  OIIO::Filesystem::IOVecOutput sink_{bytes_};
+  std::unique_ptr<OIIO::ImageOutput> output_;
+  int next_row_ = 0;
+};
 
 class OpenImageIOCodec final : public ImageCodec {
  public:
-  std::vector<std::uint8_t> encode(const ImageToEncode& image) const override {
-    std::vector<std::uint8_t> bytes;
-    if (!image.file.empty()) {
-      write(OIIO::ImageOutput::create(image.format).get(), image.file, image);
-      return bytes;
-    }
-    const std::string name = "picture." + image.format;
-    OIIO::Filesystem::IOVecOutput sink(bytes);
-    write(OIIO::ImageOutput::create(name, &sink).get(), name, image);
-    return bytes;
+  std::unique_ptr<RowEncoder> begin(const ImageToEncode& image) const override {
+    return std::make_unique<OpenImageIORows>(image);
   }
 
   DecodedImage decode(const std::string& path) const override {

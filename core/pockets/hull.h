@@ -22,6 +22,8 @@ class Hull {
   Hull& operator=(const Hull&) = delete;
 
   double volume() const { return volume_; }  ///< Å³, exact
+  /// Whether some were filled.
+  bool has_cavities() const { return part_.has_value(); }
   /// Of the hull; its atoms are those that a probe touches which is in no cavity.
   const Surface& surface() const { return part_ ? *part_ : whole_; }
 

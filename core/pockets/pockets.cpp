@@ -86,7 +86,7 @@ class PocketFinder {
     }
     first_probe_ = static_cast<std::uint32_t>(balls.size());
     for (const glm::dvec3& place : probe_places(
-             hull_.surface(), place_steps(request_, clearance_),
+             hull_.surface(), place_steps(request_, clearance_), cells_.bounds(clearance_ + 2 * r),
              [&](const glm::dvec3&point, double reach) { return cells_.within(point, clearance_ + 2 * r + reach); }))
       balls.push_back({place, request_.large_probe_radius + request_.trim});
     atom_.resize(balls.size(), kNone);

@@ -1,28 +1,43 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Drops cubes whose every point is inside one grown ball, or too near to the large probe.
+// Drops cubes whose every point is inside one grown ball, or too near to the large probe; far from all atoms many at
+// once.
 #include "core/pockets/probe_cells.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <cstdint>
+#include <iterator>
 #include <limits>
 #include <numbers>
+#include <numeric>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
 #include <tbb/parallel_for.h>
 
-#include "core/math/ball_grid.h"
+#include "core/math/ball.h"
 
 namespace meniscus {
 namespace {
 
 constexpr double kFinest = 0.25, kCoarsest = 2.0;  // Å, half edges of cells and of the cubes that they come from
+constexpr int kRegion = 8;                         // such cubes along an edge of what is looked at first
+constexpr double kRounding = 1e-6;                 // Å, far above that of coordinates
+
+/// A cube and the atoms that matter within it.
+struct Region {
+  glm::dvec3 middle;
+  double half;
+  std::vector<std::uint32_t> near;
+
+  double reach() const { return half * std::numbers::sqrt3; }  // of its corners
+};
 
 class CellFinder {
  public:
   CellFinder(std::span<const Ball> atoms, double probe_radius, const Hull& hull, double clearance)
-      : atoms_(atoms), hull_(hull), clearance_(clearance), probe_radius_(probe_radius), balls_(atoms, largest()) {}
+      : atoms_(atoms), hull_(hull), clearance_(clearance), probe_radius_(probe_radius) {}
 
   std::vector<Box> run() const {
     glm::dvec3 low(std::numeric_limits<double>::infinity()), high(-low);
@@ -33,65 +48,125 @@ class CellFinder {
     // The hull is no larger than the convex hull of the balls.
     low -= largest();
     const glm::ivec3 size = glm::ivec3(glm::ceil((high + largest() - low) / (2 * kCoarsest)));
-    std::vector<std::vector<Box>> slabs(static_cast<std::size_t>(size.z) * size.y);
-    tbb::parallel_for(std::size_t{0}, slabs.size(), [&](std::size_t slab) {
-      const int y = static_cast<int>(slab) % size.y, z = static_cast<int>(slab) / size.y;
-      for (int x = 0; x < size.x; ++x) visit(low + 2 * kCoarsest * (glm::dvec3(x, y, z) + 0.5), kCoarsest, slabs[slab]);
-    });
+    int edge = kRegion;
+    while (edge < std::max({size.x, size.y, size.z})) edge *= 2;
+    std::vector<std::uint32_t> all(atoms_.size());
+    std::iota(all.begin(), all.end(), 0u);
+    std::vector<Corner> regions;
+    divide({low, glm::ivec3(0), size}, edge, all, regions);
+    std::vector<std::vector<Box>> found(regions.size());
+    tbb::parallel_for(std::size_t{0}, regions.size(),
+                      [&](std::size_t n) { visit_cubes(regions[n], kRegion, regions[n].near, found[n]); });
     std::vector<Box> boxes;
-    for (const std::vector<Box>& slab : slabs) boxes.insert(boxes.end(), slab.begin(), slab.end());
+    for (const std::vector<Box>& some : found) boxes.insert(boxes.end(), some.begin(), some.end());
     return boxes;
   }
 
  private:
+  /// Cubes of half edge kCoarsest, counted from a corner of space.
+  struct Corner {
+    glm::dvec3 low;
+    glm::ivec3 first, size;  // of the cube at the corner; how many there are in all
+    std::vector<std::uint32_t> near = {};
+
+    glm::dvec3 middle(const glm::dvec3& cubes) const { return low + 2 * kCoarsest * (glm::dvec3(first) + cubes); }
+  };
+
+  static Corner eighth_of(const Corner& corner, int edge, int n) {
+    return {corner.low, corner.first + edge / 2 * glm::ivec3(n & 1, n >> 1 & 1, n >> 2), corner.size};
+  }
+
   double largest() const {
     double radius = 0.0;
     for (const Ball& atom : atoms_) radius = std::max(radius, atom.radius);
     return radius + probe_radius_;
   }
 
-  void visit(const glm::dvec3& middle, double half, std::vector<Box>& found) const {
-    const double reach = half * std::numbers::sqrt3;  // of its corners
-    if (in_one_ball(middle, reach)) return;
-    const double away = hull_.to_probe(middle);
+  /// Into regions in which there may be cells, with the atoms near them. A ball far larger than others makes space so
+  /// large that most of it must be left out as a whole.
+  void divide(const Corner& corner, int edge, std::span<const std::uint32_t> near, std::vector<Corner>& regions) const {
+    if (glm::any(glm::greaterThanEqual(corner.first, corner.size))) return;
+    const Region region = part_of(near, corner, edge, 2 * hull_.surface().probe_radius);
+    if (holds_no_cell(region)) return;
+    if (edge == kRegion) {
+      regions.push_back(corner);
+      regions.back().near = region.near;
+      return;
+    }
+    for (int n = 0; n < 8; ++n) divide(eighth_of(corner, edge, n), edge / 2, region.near, regions);
+  }
+
+  /// So many cubes along an edge, and those of the atoms that are no farther from them.
+  Region part_of(std::span<const std::uint32_t> atoms, const Corner& corner, int edge, double away) const {
+    Region region{corner.middle(glm::dvec3(0.5 * edge)), kCoarsest * edge, {}};
+    const double far = region.reach() + away + kRounding;
+    std::ranges::copy_if(atoms, std::back_inserter(region.near), [&](std::uint32_t a) {
+      return glm::distance(region.middle, atoms_[a].center) < atoms_[a].radius + far;
+    });
+    return region;
+  }
+
+  /// Whether visit() is certain to find nothing in it, for a reason that holds in all of it.
+  bool holds_no_cell(const Region& region) const {
+    const double reach = region.reach() + kRounding;
+    for (const std::uint32_t a : region.near)
+      if (glm::distance(region.middle, atoms_[a].center) < atoms_[a].radius + probe_radius_ - reach) return true;
+    // A small probe that touches no atom is no farther from a large one that stands on the only atom near than by the
+    // difference of their radii, and none from one if no atom is near. Cells reach farther by the finest's diagonal.
+    const double large = hull_.surface().probe_radius;
+    return region.near.size() <= 1 && !hull_.has_cavities() &&
+           large - probe_radius_ + 2 * kFinest * std::numbers::sqrt3 + kRounding < clearance_;
+  }
+
+  void visit_cubes(const Corner& corner, int edge, std::span<const std::uint32_t> near, std::vector<Box>& found) const {
+    if (glm::any(glm::greaterThanEqual(corner.first, corner.size))) return;
+    const Region region = part_of(near, corner, edge, probe_radius_);
+    if (edge == 1) return visit(region, found);
+    for (int n = 0; n < 8; ++n) visit_cubes(eighth_of(corner, edge, n), edge / 2, region.near, found);
+  }
+
+  void visit(const Region& cube, std::vector<Box>& found) const {
+    const double reach = cube.reach();
+    if (in_one_ball(cube)) return;
+    const double away = hull_.to_probe(cube.middle);
     if (away < clearance_ - reach) return;
-    if (half <= kFinest || (away >= clearance_ + reach && in_no_ball(middle, reach))) {
-      found.push_back({middle - half, middle + half});
+    if (cube.half <= kFinest || (away >= clearance_ + reach && in_no_ball(cube))) {
+      found.push_back({cube.middle - cube.half, cube.middle + cube.half});
       return;
     }
     for (int corner = 0; corner < 8; ++corner)
-      visit(middle + 0.5 * half * glm::dvec3(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1), 0.5 * half,
+      visit({cube.middle + 0.5 * cube.half * glm::dvec3(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1),
+             0.5 * cube.half, cube.near},
             found);
   }
 
-  bool in_one_ball(const glm::dvec3& middle, double reach) const {
-    bool inside = false;
-    if (largest_ <= reach) return false;
-    balls_.for_each_near(middle, largest_ - reach, [&](std::uint32_t a) {
-      inside = inside || glm::distance(middle, atoms_[a].center) < atoms_[a].radius + probe_radius_ - reach;
+  bool in_one_ball(const Region& cube) const {
+    return std::ranges::any_of(cube.near, [&](std::uint32_t a) {
+      return glm::distance(cube.middle, atoms_[a].center) < atoms_[a].radius + probe_radius_ - cube.reach();
     });
-    return inside;
   }
 
-  bool in_no_ball(const glm::dvec3& middle, double reach) const {
-    bool clear = true;
-    balls_.for_each_near(middle, largest_ + reach, [&](std::uint32_t a) {
-      clear = clear && glm::distance(middle, atoms_[a].center) > atoms_[a].radius + probe_radius_ + reach;
+  bool in_no_ball(const Region& cube) const {
+    return std::ranges::all_of(cube.near, [&](std::uint32_t a) {
+      return glm::distance(cube.middle, atoms_[a].center) > atoms_[a].radius + probe_radius_ + cube.reach();
     });
-    return clear;
   }
 
   std::span<const Ball> atoms_;
   const Hull& hull_;
   double clearance_, probe_radius_;
-  double largest_ = largest();
-  BallGrid balls_;
 };
 
 }  // namespace
 
 ProbeCells::ProbeCells(std::span<const Ball> atoms, double probe_radius, const Hull& hull, double clearance)
     : boxes_(CellFinder(atoms, probe_radius, hull, clearance).run()), tree_(boxes_) {}
+
+Box ProbeCells::bounds(double reach) const {
+  Box all = boxes_.front();
+  for (const Box& box : boxes_) all = {glm::min(all.low, box.low), glm::max(all.high, box.high)};
+  return {all.low - reach, all.high + reach};
+}
 
 bool ProbeCells::within(const glm::dvec3& point, double reach) const {
   bool found = false;

@@ -33,7 +33,13 @@ void add_on_arcs(const Surface& s, double step, const NearWanted& wanted, std::v
   }
 }
 
-void add_on_faces(const Surface& s, const PlaceSteps& steps, const NearWanted& wanted,
+/// The first direction of a spiral that may reach a height, of a sphere at height 0. All later ones are higher.
+std::size_t first_above(double height, double radius, std::size_t count) {
+  const double n = 0.5 * (height / radius + 1.0) * static_cast<double>(count) - 2.0;  // one more, for rounding
+  return n <= 0.0 ? 0 : n >= static_cast<double>(count) ? count : static_cast<std::size_t>(n);
+}
+
+void add_on_faces(const Surface& s, const PlaceSteps& steps, const Box& bounds, const NearWanted& wanted,
                   std::vector<glm::dvec3>& places) {
   for (const ConvexPatch& patch : s.convex) {
     const Ball& atom = s.atoms[patch.atom];
@@ -42,7 +48,9 @@ void add_on_faces(const Surface& s, const PlaceSteps& steps, const NearWanted& w
     const double step = steps.on_sphere(atom.radius);
     const std::span<const Plane> planes(s.planes.data() + patch.first_plane, patch.plane_count);
     const auto count = static_cast<std::size_t>(std::ceil(4 * std::numbers::pi * std::pow(radius / step, 2)));
-    for (std::size_t n = 0; n < count; ++n) {
+    // The sphere of an atom far larger than others has far more places than are wanted.
+    const std::size_t end = std::min(count, first_above(bounds.high.z - atom.center.z, radius, count) + 4);
+    for (std::size_t n = first_above(bounds.low.z - atom.center.z, radius, count); n < end; ++n) {
       const glm::dvec3 direction = spiral_direction(n, count), foot = atom.center + atom.radius * direction;
       if (std::ranges::all_of(planes,
                               [&](const Plane& plane) { return glm::dot(plane.normal, foot) <= plane.offset; }) &&
@@ -66,11 +74,12 @@ std::vector<glm::dvec3> without_doubles(const std::vector<glm::dvec3>& places) {
 
 }  // namespace
 
-std::vector<glm::dvec3> probe_places(const Surface& surface, const PlaceSteps& steps, const NearWanted& wanted) {
+std::vector<glm::dvec3> probe_places(const Surface& surface, const PlaceSteps& steps, const Box& bounds,
+                                     const NearWanted& wanted) {
   std::vector<glm::dvec3> places;
   add_fixed(surface, wanted, places);
   add_on_arcs(surface, steps.on_arcs, wanted, places);
-  add_on_faces(surface, steps, wanted, places);
+  add_on_faces(surface, steps, bounds, wanted, places);
   return without_doubles(places);
 }
 

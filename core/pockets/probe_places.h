@@ -7,6 +7,7 @@
 
 #include <glm/vec3.hpp>
 
+#include "core/math/box_tree.h"
 #include "core/surface/primitives.h"
 
 namespace meniscus {
@@ -23,8 +24,9 @@ struct PlaceSteps {
 
 /// Every fixed probe, and places along arcs and on faces of the SAS, each of which exactly touches its atoms. Left out
 /// are places that are not wanted, and all but the first of those closer than kSamePlace. In the order of the surface's
-/// patches.
-std::vector<glm::dvec3> probe_places(const Surface& surface, const PlaceSteps& steps, const NearWanted& wanted);
+/// patches. bounds: around all places that are wanted.
+std::vector<glm::dvec3> probe_places(const Surface& surface, const PlaceSteps& steps, const Box& bounds,
+                                     const NearWanted& wanted);
 
 inline constexpr double kSamePlace = 1e-3;  ///< Å
 

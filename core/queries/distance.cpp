@@ -155,17 +155,26 @@ Foot nearest_foot(const glm::dvec3& x, const BoxTree& tree, const Tables<sizeof.
 struct SurfaceDistance::Index {
   explicit Index(const Surface& surface)
       : s(surface),
-        largest(largest_radius()),
-        balls(s.atoms, largest),
+        reach(most_radii()),
+        balls(s.atoms, reach),
         accessible(list_accessible()),
         accessible_tree(accessible.boxes),
         parts(list_parts()),
         part_tree(parts.boxes) {}
 
-  double largest_radius() const {
-    double radius = 0.0;
-    for (const Ball& atom : s.atoms) radius = std::max(radius, atom.radius);
-    return radius + s.probe_radius;
+  /// The largest SAS radius, but for a few that are far larger than all others: these are listed.
+  double most_radii() {
+    constexpr std::size_t kFew = 64;
+    constexpr double kFarLarger = 4.0;
+    std::vector<double> radii;
+    for (const Ball& atom : s.atoms) radii.push_back(atom.radius + s.probe_radius);
+    if (radii.empty()) return s.probe_radius;
+    std::ranges::sort(radii);
+    const double next = radii.size() > kFew ? radii[radii.size() - 1 - kFew] : radii.back();
+    if (radii.back() <= kFarLarger * next) return radii.back();
+    for (std::uint32_t a = 0; a < s.atoms.size(); ++a)
+      if (s.atoms[a].radius + s.probe_radius > next) large.push_back(a);
+    return next;
   }
 
   // Where a probe may be that stands against an atom, two, or three.
@@ -201,10 +210,12 @@ struct SurfaceDistance::Index {
   }
 
   bool in_sas_ball(const glm::dvec3& x) const {
+    const auto covers = [&](std::uint32_t a) {
+      return glm::distance(x, s.atoms[a].center) < s.atoms[a].radius + s.probe_radius;
+    };
+    if (std::ranges::any_of(large, covers)) return true;
     bool covered = false;
-    balls.for_each_near(x, largest, [&](std::uint32_t a) {
-      covered = covered || glm::distance(x, s.atoms[a].center) < s.atoms[a].radius + s.probe_radius;
-    });
+    balls.for_each_near(x, reach, [&](std::uint32_t a) { covered = covered || covers(a); });
     return covered;
   }
 
@@ -235,7 +246,8 @@ struct SurfaceDistance::Index {
   }
 
   const Surface& s;
-  double largest;  // SAS radius
+  std::vector<std::uint32_t> large;  // atoms
+  double reach;                      // SAS radius of all others, at most
   BallGrid balls;
   Tables<3> accessible;
   BoxTree accessible_tree;

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
+#include <utility>
 
 #include <fmt/format.h>
 #include <glm/common.hpp>
@@ -18,19 +20,31 @@
 namespace meniscus {
 namespace {
 
-/// Shares of pixels that ink covers.
+/// Whole rows of a picture.
+struct Rows {
+  int first, end;
+
+  bool meet(int low, int high) const { return low < end && high >= first; }
+};
+
+/// Shares of pixels that ink covers, of some rows of a picture. Places are those in the whole picture.
 class InkMask {
  public:
-  explicit InkMask(glm::ivec2 size)
-      : size_(size), shares_(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y), 0.0f) {}
+  InkMask(int width, const Rows& rows)
+      : rows_(rows), size_(width, rows.end - rows.first), shares_(static_cast<std::size_t>(size_.x) * size_.y, 0.0f) {}
 
-  void text(const Font& font, const std::string& text, glm::ivec2 place) { font.draw(text, place, shares_, size_); }
+  void text(const Font& font, const std::string& text, glm::ivec2 place) {
+    const int reach = 2 * font.height();  // of letters above and below
+    if (rows_.meet(place.y - reach, place.y + reach))
+      font.draw(text, place - glm::ivec2(0, rows_.first), shares_, size_);
+  }
 
   /// share: of each pixel within; the more of several counts.
-  void line(const glm::dvec2& from, const glm::dvec2& to, double width, double share = 1.0) {
+  void line(const glm::dvec2& from, const glm::dvec2& to, double width, double share) {
     const double margin = 0.5 * width + 1.0;
-    const glm::ivec2 low = glm::max(glm::ivec2(glm::floor(glm::min(from, to) - margin)), glm::ivec2(0));
-    const glm::ivec2 high = glm::min(glm::ivec2(glm::ceil(glm::max(from, to) + margin)), size_ - 1);
+    const glm::ivec2 low = glm::max(glm::ivec2(glm::floor(glm::min(from, to) - margin)), glm::ivec2(0, rows_.first));
+    const glm::ivec2 high =
+        glm::min(glm::ivec2(glm::ceil(glm::max(from, to) + margin)), glm::ivec2(size_.x, rows_.end) - 1);
     const glm::dvec2 along = to - from;
     const double square = std::max(glm::dot(along, along), 1e-12);
     for (int y = low.y; y <= high.y; ++y)
@@ -43,24 +57,27 @@ class InkMask {
   }
 
   void box(glm::ivec2 low, glm::ivec2 high) {
-    for (int y = std::max(low.y, 0); y < std::min(high.y, size_.y); ++y)
+    for (int y = std::max(low.y, rows_.first); y < std::min(high.y, rows_.end); ++y)
       for (int x = std::max(low.x, 0); x < std::min(high.x, size_.x); ++x) cover(x, y, 1.0f);
   }
 
-  /// Lays ink over the picture, and a rim of another colour around it where the picture is covered already.
-  void lay_over(Framebuffer& picture, const glm::vec3& ink, const glm::vec3& rim, int rim_width) const {
+  /// Lays ink over rows of the picture that are among these, and a rim of another colour around it where the picture is
+  /// covered already. Within the rim's width of them all rows that the picture has are to be among these.
+  void lay_over(Framebuffer& picture, int first_row, const glm::vec3& ink, const glm::vec3& rim, int rim_width) const {
     const std::vector<float> rims = thickened(rim_width);
-    for (std::size_t n = 0; n < shares_.size(); ++n) {
-      if (rims[n] == 0.0f) continue;
+    const std::size_t before = index(0, first_row);
+    for (std::size_t n = 0; n < picture.color.size(); ++n) {
+      const float rim_share = rims[before + n], ink_share = shares_[before + n];
+      if (rim_share == 0.0f) continue;
       glm::vec4& pixel = picture.color[n];
-      const float share = rims[n] * pixel.w;
+      const float share = rim_share * pixel.w;
       pixel = glm::vec4(rim * share, share) + (1.0f - share) * pixel;
-      pixel = glm::vec4(ink * shares_[n], shares_[n]) + (1.0f - shares_[n]) * pixel;
+      pixel = glm::vec4(ink * ink_share, ink_share) + (1.0f - ink_share) * pixel;
     }
   }
 
  private:
-  std::size_t index(int x, int y) const { return static_cast<std::size_t>(y) * size_.x + x; }
+  std::size_t index(int x, int y) const { return static_cast<std::size_t>(y - rows_.first) * size_.x + x; }
 
   void cover(int x, int y, float share) {
     float& covered = shares_[index(x, y)];
@@ -70,11 +87,11 @@ class InkMask {
   /// Each pixel as covered as the most covered one around, less towards the rim's width.
   std::vector<float> thickened(int width) const {
     std::vector<float> result = shares_;
-    for (int y = 0; y < size_.y; ++y)
+    for (int y = rows_.first; y < rows_.end; ++y)
       for (int x = 0; x < size_.x; ++x) {
         const float share = shares_[index(x, y)];
         if (share == 0.0f) continue;
-        for (int v = std::max(y - width, 0); v <= std::min(y + width, size_.y - 1); ++v)
+        for (int v = std::max(y - width, rows_.first); v <= std::min(y + width, rows_.end - 1); ++v)
           for (int u = std::max(x - width, 0); u <= std::min(x + width, size_.x - 1); ++u) {
             const float distance = std::hypot(static_cast<float>(u - x), static_cast<float>(v - y));
             float& there = result[index(u, v)];
@@ -84,9 +101,12 @@ class InkMask {
     return result;
   }
 
+  Rows rows_;
   glm::ivec2 size_;
   std::vector<float> shares_;
 };
+
+using Stroke = std::function<void(InkMask& mask)>;
 
 /// A text's box in the picture.
 struct TextBox {
@@ -97,19 +117,26 @@ struct TextBox {
   }
 };
 
+}  // namespace
+
 /// Puts things into the corners and beside the places they name.
-class Writer {
+class AnnotationLayer::Writer {
  public:
-  Writer(const Framebuffer& picture, const Camera& camera)
+  Writer(const glm::ivec2& size, const Camera& camera)
       : camera_(camera),
-        size_(picture.size),
+        size_(size),
         side_(std::min(size_.x, size_.y)),
         font_(std::max(9, side_ / 25)),
         large_(std::max(12, side_ / 16)),
-        small_(std::max(8, side_ / 36)),
-        mask_(size_) {}
+        small_(std::max(8, side_ / 36)) {}
 
-  const InkMask& mask() const { return mask_; }
+  /// What lies in these rows.
+  InkMask mask(const Rows& rows) const {
+    InkMask mask(size_.x, rows);
+    for (const Stroke& stroke : strokes_) stroke(mask);
+    return mask;
+  }
+  int height() const { return size_.y; }
   int rim_width() const { return std::max(1, font_.height() / 9); }
 
   void panel(const std::string& text) {
@@ -131,7 +158,7 @@ class Writer {
       throw RequestError(
           fmt::format("--scale-bar: {:g} Å are {} pixels of {}; give another length", length, pixels, size_.x));
     const glm::ivec2 low(em, size_.y - em - thickness), high(em + pixels, size_.y - em);
-    mask_.box(low, high);
+    strokes_.emplace_back([=](InkMask& mask) { mask.box(low, high); });
     const std::string text = fmt::format("{:g} Å", length);
     const int left = std::max(em, em + (pixels - font_.width(text)) / 2);
     write(font_, text, {left, low.y - em}, em);
@@ -153,11 +180,11 @@ class Writer {
       const double up = range > 0.0 ? (curve.values[n] - least) / range : 0.5;
       return glm::dvec2(low.x + across * (high.x - low.x), high.y - up * (high.y - low.y));
     };
-    mask_.line({low.x, low.y}, {low.x, high.y}, line, 0.5);
-    mask_.line({low.x, high.y}, {high.x, high.y}, line, 0.5);
+    draw_line({low.x, low.y}, {low.x, high.y}, line, 0.5);
+    draw_line({low.x, high.y}, {high.x, high.y}, line, 0.5);
     for (std::size_t n = 1; n < curve.values.size(); ++n)
-      mask_.line(place(n - 1), place(n), n <= curve.now ? 1.8 * line : line, n <= curve.now ? 1.0 : 0.45);
-    mask_.line(place(curve.now), place(curve.now), 0.5 * em);
+      draw_line(place(n - 1), place(n), n <= curve.now ? 1.8 * line : line, n <= curve.now ? 1.0 : 0.45);
+    draw_line(place(curve.now), place(curve.now), 0.5 * em);
     const int row = static_cast<int>(em), left = static_cast<int>(low.x), right = static_cast<int>(high.x),
               above = static_cast<int>(low.y - em);
     const auto width = [&](double value) { return font_.width(number(value)); };
@@ -182,16 +209,24 @@ class Writer {
     const glm::dvec2 direction = distance > 1.0 ? out / distance : glm::normalize(glm::dvec2(1.0, -1.0));
     const TextBox box = free_box(label.text, *seen + direction * (0.14 * side_));
     taken_.push_back(box);
-    mask_.text(font_, label.text, {box.low.x, (box.low.y + box.high.y) / 2});
+    draw_text(font_, label.text, {box.low.x, (box.low.y + box.high.y) / 2});
     const double gap = 0.25 * font_.height(), width = std::max(1.0, font_.height() / 14.0);
     const glm::dvec2 near = glm::clamp(*seen, glm::dvec2(box.low) - gap, glm::dvec2(box.high) + gap);
-    mask_.line(near, *seen, width);
-    mask_.line(*seen, *seen, 4.0 * width);
+    draw_line(near, *seen, width);
+    draw_line(*seen, *seen, 4.0 * width);
   }
 
  private:
+  void draw_line(const glm::dvec2& from, const glm::dvec2& to, double width, double share = 1.0) {
+    strokes_.emplace_back([=](InkMask& mask) { mask.line(from, to, width, share); });
+  }
+
+  void draw_text(const Font& font, const std::string& text, glm::ivec2 place) {
+    strokes_.emplace_back([&font, text, place](InkMask& mask) { mask.text(font, text, place); });
+  }
+
   void write(const Font& font, const std::string& text, glm::ivec2 place, int height) {
-    mask_.text(font, text, place);
+    draw_text(font, text, place);
     taken_.push_back({{place.x, place.y - height / 2}, {place.x + font.width(text), place.y + height / 2}});
   }
 
@@ -215,11 +250,9 @@ class Writer {
   glm::ivec2 size_;
   int side_;
   Font font_, large_, small_;
-  InkMask mask_;
+  std::vector<Stroke> strokes_;
   std::vector<TextBox> taken_;
 };
-
-}  // namespace
 
 double angstroms_per_pixel(const Camera& camera, glm::ivec2 size) {
   if (camera.projection == Projection::orthographic) return camera.height / size.y;
@@ -246,17 +279,31 @@ double round_length(double most) {
   return power;
 }
 
+AnnotationLayer::AnnotationLayer(const Annotations& annotations, const Camera& camera, glm::ivec2 picture_size,
+                                 const std::optional<glm::vec3>& background)
+    : ink_(linear_from_srgb(ink_on(background))), rim_(linear_from_srgb(rim_on(background))) {
+  if (!annotations.any()) return;
+  auto writer = std::make_unique<Writer>(picture_size, camera);
+  if (!annotations.panel.empty()) writer->panel(annotations.panel);
+  if (!annotations.time.empty()) writer->time(annotations.time);
+  if (annotations.curve) writer->curve(*annotations.curve);
+  if (annotations.scale_bar) writer->scale_bar(annotations.bar_length);
+  for (const PlaceLabel& label : annotations.labels) writer->label(label);
+  writer_ = std::move(writer);
+}
+
+AnnotationLayer::~AnnotationLayer() = default;
+
+void AnnotationLayer::lay_over(Framebuffer& rows, int first_row) const {
+  if (!writer_) return;
+  const int rim = writer_->rim_width();
+  const Rows around{std::max(first_row - rim, 0), std::min(first_row + rows.size.y + rim, writer_->height())};
+  writer_->mask(around).lay_over(rows, first_row, ink_, rim_, rim);
+}
+
 void annotate(Framebuffer& picture, const Annotations& annotations, const Camera& camera,
               const std::optional<glm::vec3>& background) {
-  if (!annotations.any()) return;
-  Writer writer(picture, camera);
-  if (!annotations.panel.empty()) writer.panel(annotations.panel);
-  if (!annotations.time.empty()) writer.time(annotations.time);
-  if (annotations.curve) writer.curve(*annotations.curve);
-  if (annotations.scale_bar) writer.scale_bar(annotations.bar_length);
-  for (const PlaceLabel& label : annotations.labels) writer.label(label);
-  writer.mask().lay_over(picture, linear_from_srgb(ink_on(background)), linear_from_srgb(rim_on(background)),
-                         writer.rim_width());
+  AnnotationLayer(annotations, camera, picture.size, background).lay_over(picture, 0);
 }
 
 }  // namespace meniscus

@@ -2,6 +2,7 @@
 // What is written into a finished picture: the panel's letter, a scale bar, names of places, the time of a frame.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -49,9 +50,26 @@ std::optional<glm::dvec2> place_in_picture(const Camera& camera, glm::ivec2 size
 /// The largest of 1, 2 and 5 times a power of ten that is not above `most`, > 0.
 double round_length(double most);
 
-/// Writes into `picture`, which `camera` made, the molecule alone; letters are a twenty-fifth of its shorter side high,
-/// that of the panel more. They are dark or light as the background needs, dark where there is none, and have a rim
-/// where the molecule is behind them. Throws RequestError when there is no font, or the bar is longer than the picture.
+/// What is to be written into a picture of the molecule alone, which `camera` made; letters are a twenty-fifth of its
+/// shorter side high, that of the panel more. They are dark or light as the background needs, dark where there is none,
+/// and have a rim where the molecule is behind them.
+class AnnotationLayer {
+ public:
+  /// Throws RequestError when there is no font, or the bar is longer than the picture.
+  AnnotationLayer(const Annotations& annotations, const Camera& camera, glm::ivec2 picture_size,
+                  const std::optional<glm::vec3>& background);
+  ~AnnotationLayer();
+
+  /// Writes into some whole rows of the picture, of which `first_row` is the first: as into the whole picture.
+  void lay_over(Framebuffer& rows, int first_row) const;
+
+ private:
+  class Writer;
+  std::unique_ptr<const Writer> writer_;  // nullptr: nothing is to be written
+  glm::vec3 ink_, rim_;                   // linear
+};
+
+/// Writes into a whole picture.
 void annotate(Framebuffer& picture, const Annotations& annotations, const Camera& camera,
               const std::optional<glm::vec3>& background);
 

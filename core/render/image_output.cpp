@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pictures encoded in memory.
+// Pictures encoded row after row.
 #include "core/render/image_output.h"
 
 #include <algorithm>
@@ -12,6 +12,7 @@
 #include <span>
 #include <stdexcept>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -61,68 +62,72 @@ std::string format_of(const std::string& extension) {
   return extension == ".tif" ? "tiff" : extension.substr(1);
 }
 
-/// A picture's channels, pixel after pixel: floats, or bytes for PNG.
-struct Channels {
-  std::vector<std::string> names;
-  std::vector<float> values;
-  std::vector<std::uint8_t> bytes;
-  int alpha = -1;
+/// Some rows of a picture.
+struct Rows {
+  const Framebuffer& picture;
+  std::size_t first, count;  // pixels
+
+  std::span<const glm::vec4> color() const { return std::span(picture.color).subspan(first, count); }
 };
 
-Channels display_names(const std::optional<glm::vec3>& background) {
-  Channels channels;
-  channels.names = {"R", "G", "B"};
-  if (background) return channels;
-  channels.names.push_back("A");
-  channels.alpha = 3;
-  return channels;
+Rows all_rows(const Framebuffer& picture) { return {picture, 0, picture.color.size()}; }
+
+std::vector<std::string> display_names(const std::optional<glm::vec3>& background) {
+  if (background) return {"R", "G", "B"};
+  return {"R", "G", "B", "A"};
+}
+
+std::vector<std::string> scene_names(bool aovs) {
+  if (!aovs) return {"R", "G", "B", "A"};
+  return {"R", "G", "B", "A", "Z", "N.x", "N.y", "N.z", "P.x", "P.y", "P.z", "atom", "kind", "component"};
+}
+
+/// Calls work(pixels from, to) on all threads.
+void for_pixels(std::size_t count, const auto& work) {
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 1 << 14),
+                    [&](const auto& range) { work(range.begin(), range.end()); });
 }
 
 /// sRGB, alpha not multiplied in, as TIFF has it.
-Channels display_channels(const Framebuffer& picture, const ImageSettings& settings) {
-  const std::optional<glm::vec3>& background = settings.background;
-  const bool for_layout = !background && !settings.linear_alpha;
-  Channels channels = display_names(background);
-  channels.values.reserve(picture.color.size() * channels.names.size());
-  for (const glm::vec4& pixel : picture.color) {
-    const glm::vec4 c = for_layout ? layout_color(pixel) : display_color(pixel, background);
-    channels.values.insert(channels.values.end(), {c.x, c.y, c.z});
-    if (!background) channels.values.push_back(c.w);
-  }
-  return channels;
+std::vector<float> display_values(const Rows& rows, const std::optional<glm::vec3>& background, bool linear_alpha) {
+  const bool for_layout = !background && !linear_alpha;
+  const std::size_t channels = background ? 3 : 4;
+  std::vector<float> values(rows.count * channels);
+  for_pixels(rows.count, [&](std::size_t from, std::size_t to) {
+    for (std::size_t n = from; n < to; ++n) {
+      const glm::vec4& pixel = rows.color()[n];
+      const glm::vec4 color = for_layout ? layout_color(pixel) : display_color(pixel, background);
+      for (std::size_t channel = 0; channel < channels; ++channel)
+        values[n * channels + channel] = color[static_cast<int>(channel)];
+    }
+  });
+  return values;
 }
 
 /// The same in 8 bits, as PNG has it.
-Channels byte_channels(const Framebuffer& picture, const std::optional<glm::vec3>& background,
-                       bool linear_alpha = true) {
-  Channels channels = display_names(background);
-  const std::size_t count = channels.names.size();
-  channels.bytes.resize(picture.color.size() * count);
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, picture.color.size(), 1 << 14), [&](const auto& range) {
-    std::uint8_t* const bytes = &channels.bytes[range.begin() * count];
+std::vector<std::uint8_t> display_values_8(const Rows& rows, const std::optional<glm::vec3>& background,
+                                           bool linear_alpha) {
+  const std::size_t channels = background ? 3 : 4;
+  std::vector<std::uint8_t> values(rows.count * channels);
+  for_pixels(rows.count, [&](std::size_t from, std::size_t to) {
+    const std::span<const glm::vec4> pixels = rows.color().subspan(from, to - from);
     if (background || linear_alpha)
-      display_bytes(std::span(picture.color).subspan(range.begin(), range.size()), background, count, bytes);
+      display_bytes(pixels, background, channels, &values[from * channels]);
     else
-      layout_bytes(std::span(picture.color).subspan(range.begin(), range.size()), bytes);
+      layout_bytes(pixels, &values[from * channels]);
   });
-  return channels;
+  return values;
 }
 
 float index_value(std::uint32_t index) { return index == kNone ? -1.0f : static_cast<float>(index); }
 
 /// Linear light and everything else there is.
-Channels scene_channels(const Framebuffer& picture, const ImageSettings& settings) {
-  Channels channels;
-  channels.names = {"R", "G", "B", "A"};
-  channels.alpha = 3;
-  const bool aovs = !picture.z.empty();
-  if (aovs)
-    for (const char* name : {"Z", "N.x", "N.y", "N.z", "P.x", "P.y", "P.z", "atom", "kind", "component"})
-      channels.names.emplace_back(name);
-  auto& values = channels.values;
-  values.reserve(picture.color.size() * channels.names.size());
-  for (std::size_t i = 0; i < picture.color.size(); ++i) {
-    const glm::vec4 c = over(picture.color[i], settings.background);
+std::vector<float> scene_values(const Rows& rows, bool aovs, const std::optional<glm::vec3>& background) {
+  const Framebuffer& picture = rows.picture;
+  std::vector<float> values;
+  values.reserve(rows.count * scene_names(aovs).size());
+  for (std::size_t i = rows.first; i < rows.first + rows.count; ++i) {
+    const glm::vec4 c = over(picture.color[i], background);
     values.insert(values.end(), {c.x, c.y, c.z, c.w});
     if (!aovs) continue;
     const glm::vec3& n = picture.normal[i];
@@ -130,21 +135,21 @@ Channels scene_channels(const Framebuffer& picture, const ImageSettings& setting
     values.insert(values.end(), {picture.z[i], n.x, n.y, n.z, p.x, p.y, p.z, index_value(picture.atom[i]),
                                  index_value(picture.kind[i]), index_value(picture.component[i])});
   }
-  return channels;
+  return values;
 }
 
-ImageToEncode described(const Framebuffer& picture, const Channels& channels, const ImageSettings& settings,
+ImageToEncode described(glm::ivec2 size, const std::vector<std::string>& channels, const ImageSettings& settings,
                         const std::string& extension) {
   ImageToEncode image;
   image.format = format_of(extension);
   const bool exr = image.format == "exr", tiff = image.format == "tiff";
-  image.width = picture.size.x;
-  image.height = picture.size.y;
-  image.channels = channels.names;
+  image.width = size.x;
+  image.height = size.y;
+  image.channels = channels;
   image.sample = exr ? SampleType::float32 : tiff ? SampleType::uint16 : SampleType::uint8;
-  image.alpha_channel = channels.alpha;
-  const auto z = std::ranges::find(channels.names, "Z");
-  if (z != channels.names.end()) image.depth_channel = static_cast<int>(z - channels.names.begin());
+  image.alpha_channel = channels.size() > 3 ? 3 : -1;
+  const auto z = std::ranges::find(channels, "Z");
+  if (z != channels.end()) image.depth_channel = static_cast<int>(z - channels.begin());
   image.color_space = exr ? "Linear" : "sRGB";
   image.unassociated_alpha = !exr;
   if (tiff || is_jpeg(extension)) image.color_profile = srgb_profile();
@@ -155,21 +160,7 @@ ImageToEncode described(const Framebuffer& picture, const Channels& channels, co
   image.command = settings.command;
   image.scene = settings.scene;
   image.dots_per_inch = settings.dots_per_inch;
-  image.floats = channels.values;
-  image.bytes = channels.bytes;
-  image.byte_stride = static_cast<int>(channels.names.size());
   return image;
-}
-
-std::vector<std::uint8_t> encode(const std::filesystem::path& path, const ImageToEncode& image) {
-  if (image.format == "png") return encode_png(image);
-  try {
-    return image_codec().encode(image);
-  } catch (const Error&) {
-    throw;
-  } catch (const std::runtime_error& error) {
-    throw OutputError(path.string(), std::string("cannot be encoded: ") + error.what());
-  }
 }
 
 /// A TIFF file that meets a limit on the size of files lacks what libtiff writes last, and libtiff does not tell. So it
@@ -184,40 +175,100 @@ void refuse_limited_size(const std::filesystem::path& path, const ImageToEncode&
                                                with_thousands(largest), with_thousands(limit.rlim_cur)));
 }
 
-/// By name: through a proxy OpenImageIO 2.4 cannot read back what it wrote, and the file would lack its last directory.
-std::vector<std::uint8_t> encoded_tiff(const std::filesystem::path& path, ImageToEncode image) {
-  refuse_limited_size(path, image);
-  const MemoryFile file;
-  image.file = file.name();
-  encode(path, image);
-  return file.bytes();
-}
-
-/// The bytes of the file. OpenImageIO never writes to the disk itself, for its PNG writer overlooks writes that fail.
-std::vector<std::uint8_t> encoded(const std::filesystem::path& path, const Framebuffer& picture,
-                                  const ImageSettings& settings) {
-  const std::string extension = extension_of(path);
-  // JPEG knows no transparency.
-  ImageSettings shown = settings;
-  if (is_jpeg(extension) && !shown.background) shown.background = glm::vec3(1.0f);
-  const Channels channels = extension == ".exr"   ? scene_channels(picture, shown)
-                            : extension == ".png" ? byte_channels(picture, shown.background, shown.linear_alpha)
-                                                  : display_channels(picture, shown);
-  const ImageToEncode image = described(picture, channels, settings, extension);
-  return image.format == "tiff" ? encoded_tiff(path, image) : encode(path, image);
-}
-
 }  // namespace
+
+/// OpenImageIO never writes to the disk itself, for its PNG writer overlooks writes that fail.
+class ImageWriter::File {
+ public:
+  File(const std::filesystem::path& path, glm::ivec2 size, bool aovs, ImageSettings settings)
+      : path_(path),
+        extension_(extension_of(path)),
+        aovs_(aovs),
+        width_(static_cast<std::size_t>(size.x)),
+        settings_(std::move(settings)),
+        output_(path, settings_.existing) {
+    // JPEG knows no transparency.
+    if (is_jpeg(extension_) && !settings_.background) settings_.background = glm::vec3(1.0f);
+    ImageToEncode image = described(
+        size, extension_ == ".exr" ? scene_names(aovs) : display_names(settings_.background), settings_, extension_);
+    if (extension_ == ".png") {
+      png_.emplace(image, [this](std::span<const std::uint8_t> bytes) { output_.write(std::as_bytes(bytes)); });
+      return;
+    }
+    // By name: through a proxy OpenImageIO 2.4 cannot read back what it wrote, and the file would lack its last
+    // directory.
+    if (image.format == "tiff") {
+      refuse_limited_size(path, image);
+      image.file = named_.emplace().name();
+    }
+    encoding([&] { rows_ = image_codec().begin(image); });
+  }
+
+  void add(const Framebuffer& picture) {
+    constexpr std::size_t kTogether = 128;  // whole strips of TIFF and parts of EXR
+    for (std::size_t first = 0; first < picture.color.size(); first += kTogether * width_)
+      add(Rows{picture, first, std::min(kTogether * width_, picture.color.size() - first)});
+  }
+
+  void commit() {
+    if (png_) {
+      png_->finish();
+    } else {
+      encoding([&] {
+        const std::vector<std::uint8_t> bytes = rows_->finish();
+        output_.write(std::as_bytes(std::span(bytes)));
+      });
+      if (named_) named_->read([&](std::span<const std::byte> bytes) { output_.write(bytes); });
+    }
+    output_.commit();
+  }
+
+ private:
+  void add(const Rows& rows) {
+    if (png_) {
+      const std::vector<std::uint8_t> values = display_values_8(rows, settings_.background, settings_.linear_alpha);
+      return png_->add(values, settings_.background ? 3 : 4);
+    }
+    const std::vector<float> values = extension_ == ".exr"
+                                          ? scene_values(rows, aovs_, settings_.background)
+                                          : display_values(rows, settings_.background, settings_.linear_alpha);
+    encoding([&] { rows_->add(values); });
+  }
+
+  void encoding(const auto& step) {
+    try {
+      step();
+    } catch (const Error&) {
+      throw;
+    } catch (const std::runtime_error& error) {
+      throw OutputError(path_.string(), std::string("cannot be encoded: ") + error.what());
+    }
+  }
+
+  std::filesystem::path path_;
+  std::string extension_;
+  bool aovs_;
+  std::size_t width_;
+  ImageSettings settings_;
+  OutputFile output_;
+  std::optional<MemoryFile> named_;
+  std::optional<PngEncoder> png_;
+  std::unique_ptr<RowEncoder> rows_;
+};
 
 bool holds_aovs(const std::filesystem::path& path) { return extension_of(path) == ".exr"; }
 
+bool is_encoded_in_memory(const std::filesystem::path& path) {
+  return extension_of(path) == ".exr" || extension_of(path) == ".webp";
+}
+
 std::vector<std::uint8_t> srgb_pixels(const Framebuffer& picture, const std::optional<glm::vec3>& background,
                                       int bytes) {
-  if (bytes == 1) return byte_channels(picture, background, false).bytes;
-  const Channels channels = display_channels(picture, {.background = background, .linear_alpha = false});
+  if (bytes == 1) return display_values_8(all_rows(picture), background, false);
+  const std::vector<float> values = display_values(all_rows(picture), background, false);
   std::vector<std::uint8_t> pixels;
-  pixels.reserve(2 * channels.values.size());
-  for (const float value : channels.values) {
+  pixels.reserve(2 * values.size());
+  for (const float value : values) {
     const auto word = static_cast<std::uint16_t>(std::clamp(value, 0.0f, 1.0f) * 65535.0f + 0.5f);
     pixels.push_back(static_cast<std::uint8_t>(word & 0xff));
     pixels.push_back(static_cast<std::uint8_t>(word >> 8));
@@ -232,12 +283,21 @@ void check_image_path(const std::filesystem::path& path) {
   if (extension_of(path) != ".png") image_codec();  // what is missing is missed before anything is computed
 }
 
-void write_image(const std::filesystem::path& path, const Framebuffer& picture, const ImageSettings& settings) {
+ImageWriter::ImageWriter(const std::filesystem::path& path, glm::ivec2 size, bool aovs, const ImageSettings& settings) {
   check_image_path(path);
-  OutputFile file(path, settings.existing);
-  const std::vector<std::uint8_t> bytes = encoded(path, picture, settings);
-  file.write(std::as_bytes(std::span(bytes)));
-  file.commit();
+  file_ = std::make_unique<File>(path, size, aovs, settings);
+}
+
+ImageWriter::~ImageWriter() = default;
+
+void ImageWriter::add(const Framebuffer& rows) { file_->add(rows); }
+
+void ImageWriter::commit() { file_->commit(); }
+
+void write_image(const std::filesystem::path& path, const Framebuffer& picture, const ImageSettings& settings) {
+  ImageWriter writer(path, picture.size, !picture.z.empty(), settings);
+  writer.add(picture);
+  writer.commit();
 }
 
 }  // namespace meniscus

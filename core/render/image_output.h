@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -28,6 +29,9 @@ struct ImageSettings {
 /// True if the extension names a format that can hold AOVs (.exr).
 bool holds_aovs(const std::filesystem::path& path);
 
+/// True if files of this name are in memory until the last row is there (ImageWriter).
+bool is_encoded_in_memory(const std::filesystem::path& path);
+
 /// The picture in sRGB, rows from the top, as files would have it: 3 channels on the background, or 4 with alpha that
 /// is not multiplied in and blends in sRGB (layout_color()). `bytes` of a channel: 1, as PNG, or 2 little-endian, as
 /// TIFF.
@@ -38,11 +42,30 @@ std::vector<std::uint8_t> srgb_pixels(const Framebuffer& picture, const std::opt
 /// writes no pictures.
 void check_image_path(const std::filesystem::path& path);
 
-/// By extension: .png and .webp (quality 95) 8 bit, .tif and .tiff 16 bit, all sRGB with unassociated alpha; .jpg and
-/// .jpeg (quality 95, colours not subsampled) 8 bit sRGB before white where no background is given; .exr float, linear,
-/// associated alpha, plus the channels Z, N.x N.y N.z, P.x P.y P.z, atom, kind, component when the picture has them
-/// (atom, kind and component are -1 where nothing is hit; Z is +inf). An opaque background leaves no alpha, in EXR
-/// alpha 1. Throws OutputError.
+/// A picture that is written as its rows come, so that files of any size need little memory: all but .webp and .exr,
+/// which are in memory until the end, .exr compressed. By extension: .png and .webp (quality 95) 8 bit, .tif and .tiff
+/// 16 bit, all sRGB with unassociated alpha; .jpg and .jpeg (quality 95, colours not subsampled) 8 bit sRGB before
+/// white where no background is given; .exr float, linear, associated alpha, plus the channels Z, N.x N.y N.z, P.x P.y
+/// P.z, atom, kind, component when the picture has them (atom, kind and component are -1 where nothing is hit; Z is
+/// +inf). An opaque background leaves no alpha, in EXR alpha 1. Nothing is under the final name before the end. Throws
+/// OutputError.
+class ImageWriter {
+ public:
+  /// aovs: whether rows have them.
+  ImageWriter(const std::filesystem::path& path, glm::ivec2 size, bool aovs, const ImageSettings& settings);
+  ~ImageWriter();
+
+  /// The next rows, as a picture of their own.
+  void add(const Framebuffer& rows);
+  /// Behind the last row.
+  void commit();
+
+ private:
+  class File;
+  std::unique_ptr<File> file_;
+};
+
+/// A whole picture.
 void write_image(const std::filesystem::path& path, const Framebuffer& picture, const ImageSettings& settings);
 
 }  // namespace meniscus

@@ -44,6 +44,7 @@ class Legend {
 
   /// Pixels left for the molecule, at the top left.
   glm::ivec2 molecule_size() const { return molecule_size_; }
+  glm::ivec2 picture_size() const { return picture_size_; }
 
   /// What is drawn, and where in the picture.
   const std::vector<LegendText>& texts() const { return texts_; }
@@ -52,6 +53,11 @@ class Legend {
   /// The whole picture: `molecule`, of molecule_size(), and the legend. On a background letters are dark or light,
   /// whichever it needs; on none (transparent) they are dark, as for paper. AOVs of the strip are those of a miss.
   Framebuffer add_to(const Framebuffer& molecule, const std::optional<glm::vec3>& background) const;
+
+  /// The same of `count` rows from `first` on. molecule: those of them that the molecule's picture has. aovs: whether
+  /// it has any.
+  Framebuffer rows(const Framebuffer& molecule, int first, int count, bool aovs,
+                   const std::optional<glm::vec3>& background) const;
 
   /// The legend as a picture of its own, with a margin half as wide as its letters are high. Empty if there is nothing
   /// to say.

@@ -18,8 +18,8 @@
 
 namespace meniscus {
 
-/// A picture in blocks of at most `edge` pixels, which is a multiple of kTileEdge.
-std::vector<PictureBlock> picture_blocks(glm::ivec2 size, int edge);
+/// A picture in blocks of at most `edge` pixels, which are multiples of kTileEdge.
+std::vector<PictureBlock> picture_blocks(glm::ivec2 size, glm::ivec2 edge);
 
 /// `inner` and the neighbours that its colours depend on, as far as there are any.
 PictureBlock with_neighbors(const PictureBlock& inner, int reach, glm::ivec2 picture_size);
@@ -42,25 +42,38 @@ using NameHit = std::function<HitNames(const ray_cast::Hit& hit, const glm::dvec
 /// sources: one for each Hit::object; what they point to must stay.
 NameHit names_of(std::span<const HitSource> sources);
 
-/// Takes the inner parts of blocks. What it is made of must stay until the picture is taken.
+/// Takes the inner parts of blocks, and hands over the bands of pictures that are taken so. What it is made of must
+/// stay until the picture is taken.
 class PictureCollector {
  public:
   /// names: for settings.aovs; else not asked. several: there is more than one Hit::object.
   PictureCollector(const PictureFrame& frame, const RenderSettings& settings, NameHit names, bool several = false);
 
+  /// Of at most `edge` pixels, a multiple of kTileEdge: those to be cast, in this order. Of a picture that is taken in
+  /// bands they are as high as these, and lower the wider it is.
+  std::vector<PictureBlock> blocks(int edge);
+
   /// sums: of the samples of each of the block's pixels, linear and premultiplied; hits: through their centres.
   void add_colors(const PictureBlock& inner, const PictureBlock& block, std::span<const glm::vec4> sums);
   void add_hits(const PictureBlock& inner, const PictureBlock& block, std::span<const ray_cast::Hit> hits);
 
+  /// Nothing more comes of one of blocks().
+  void end_block(const PictureBlock& block);
+
+  /// Without pixels if the bands have them.
   Framebuffer take() { return std::move(picture_); }
 
  private:
+  void begin_rows(int first, int count_of_rows);
   void copy_hit(const ray_cast::Hit& hit, std::size_t at);
 
   const PictureFrame& frame_;
+  const RenderSettings& settings_;
   const float per_sample_;
   const NameHit names_;
-  Framebuffer picture_;
+  const bool several_;
+  int first_row_ = 0;    // of what picture_ holds
+  Framebuffer picture_;  // or the band at work
 };
 
 }  // namespace meniscus

@@ -7,6 +7,7 @@
 #include <glm/vec2.hpp>
 
 #include "core/base/stage_clock.h"
+#include "core/render/framebuffer.h"
 #include "core/render/look.h"
 
 namespace meniscus {
@@ -22,6 +23,10 @@ struct RenderSettings {
   /// Of render() on the CPU: called now and then on the thread that asked for the picture, with the share of it that is
   /// cast, from 0 to 1; what it throws ends the picture.
   std::function<void(double share)> progress{};
+  /// Of render(): takes the picture in bands of whole rows, from the top, so that it is never in memory as a whole;
+  /// what render() returns has its size and no pixels. Bands are pictures of their own, of rows from `first_row` on,
+  /// and have the same pixels as the whole picture. What it throws ends the picture.
+  std::function<void(Framebuffer band, int first_row)> take_band{};
 };
 
 }  // namespace meniscus

@@ -71,9 +71,12 @@ Framebuffer Renderer::render(Drawable& drawable, const Camera& camera, const Ren
   }
   const HitSource source{drawable.surface(), primitives};
   PictureCollector collector(frame_, settings, names_of({&source, 1}));
-  const std::vector<PictureBlock> blocks = picture_blocks(settings.size, usable_block_edge(settings.block_edge));
+  const std::vector<PictureBlock> blocks = collector.blocks(usable_block_edge(settings.block_edge));
   if (needs_shade_map(blocks.front(), settings)) make_shade_map();
-  for (const PictureBlock& block : blocks) render_block(block, settings, collector);
+  for (const PictureBlock& block : blocks) {
+    render_block(block, settings, collector);
+    collector.end_block(block);
+  }
   return collector.take();
 }
 
@@ -94,7 +97,7 @@ void Renderer::render_block(const PictureBlock& inner, const RenderSettings& set
 void Renderer::make_shade_map() {
   const PictureFrame map = shade_map_frame(frame_);
   std::vector<float> depths(static_cast<std::size_t>(map.size.x) * map.size.y);
-  for (const PictureBlock& block : picture_blocks(map.size, usable_block_edge(map.size.x + map.size.y)))
+  for (const PictureBlock& block : picture_blocks(map.size, glm::ivec2(usable_block_edge(map.size.x + map.size.y))))
     add_to_shade_map(map, block, depths);
   caster_.set_shade_map(depths);
 }

@@ -96,4 +96,31 @@ std::vector<ClipPlane> clip_planes(std::span<const Cut> cuts, const Camera& came
   return planes;
 }
 
+std::vector<std::string> idle_cuts(std::span<const Cut> cuts, const Camera& camera, std::span<const Ball> atoms,
+                                   std::span<const Ball> balls) {
+  std::vector<std::string> sentences;
+  for (const Cut& cut : cuts) {
+    const ClipPlane plane = clip_plane(cut, camera, atoms);
+    double least = std::numeric_limits<double>::infinity(), most = -least;
+    for (const Ball& ball : balls) {
+      const double along = glm::dot(plane.normal, ball.center);
+      least = std::min(least, along - ball.radius);
+      most = std::max(most, along + ball.radius);
+    }
+    const bool keeps_all = most <= plane.offset;
+    if (!keeps_all && least < plane.offset) continue;
+    std::string where = "0 is its nearest place, 1 its farthest";
+    if (cut.direction != glm::dvec3(0.0)) {
+      // The plane's normal has the length 1, and points to what is cut away.
+      const double scale = glm::length(cut.direction) * (cut.keeps_less ? 1.0 : -1.0);
+      const std::string axis = cut_text(cut);
+      where = fmt::format("its {} is {:.1f} to {:.1f}", axis.substr(0, axis.find_first_of("<>")),
+                          std::min(scale * least, scale * most), std::max(scale * least, scale * most));
+    }
+    sentences.push_back(
+        fmt::format("{} {} of the surface: {}", cut_text(cut), keeps_all ? "cuts nothing" : "leaves nothing", where));
+  }
+  return sentences;
+}
+
 }  // namespace meniscus

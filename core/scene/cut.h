@@ -32,4 +32,9 @@ std::string cut_text(const Cut& cut);
 ClipPlane clip_plane(const Cut& cut, const Camera& camera, std::span<const Ball> atoms);
 std::vector<ClipPlane> clip_planes(std::span<const Cut> cuts, const Camera& camera, std::span<const Ball> atoms);
 
+/// A sentence for each cut that takes nothing of a surface away, or leaves nothing of it, beginning with the cut as
+/// text. atoms: as for clip_plane(); balls: those of the surface, in its kind's radii, of which there must be one.
+std::vector<std::string> idle_cuts(std::span<const Cut> cuts, const Camera& camera, std::span<const Ball> atoms,
+                                   std::span<const Ball> balls);
+
 }  // namespace meniscus

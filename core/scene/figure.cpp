@@ -3,8 +3,11 @@
 #include "core/scene/figure.h"
 
 #include <algorithm>
+#include <optional>
 #include <span>
 #include <utility>
+
+#include <fmt/format.h>
 
 #include "core/base/error.h"
 #include "core/queries/combine.h"
@@ -89,6 +92,21 @@ std::vector<ClipPlane> surface_planes(const FigureRequest& request, const Camera
   return clip_planes(request.cuts, camera, placed_balls(objects));
 }
 
+std::vector<std::string> idle_cuts(const FigureRequest& request, const Figure& figure, const Camera& camera) {
+  std::vector<std::string> sentences;
+  const auto of_objects = [](const FigureObjectRequest& object) { return !object.cuts.empty(); };
+  if (request.cuts.empty() && std::ranges::none_of(request.objects, of_objects)) return sentences;
+  const std::vector<Ball> balls = placed_balls(figure.molecule.objects);
+  if (!request.hides_surface && !balls.empty()) sentences = idle_cuts(request.cuts, camera, balls, balls);
+  for (std::size_t n = 0; n < figure.beside.objects.size(); ++n) {
+    const std::optional<SurfaceObject>& surface = figure.beside.objects[n].surface;
+    if (!surface || surface->surface.atoms.empty()) continue;
+    for (const std::string& sentence : idle_cuts(request.objects[n].cuts, camera, balls, surface->surface.atoms))
+      sentences.push_back(fmt::format("{}, of object {}", sentence, n + 1));
+  }
+  return sentences;
+}
+
 std::vector<PictureObject> picture_objects(const Surface& surface, const Coloring& coloring,
                                            const FigureRequest& request, const BesideSurface* beside,
                                            const Camera& camera, std::span<const Ball> atoms) {
@@ -123,14 +141,27 @@ const SurfaceObject* surface_beside(const BesideSurface& beside, const PictureOb
 
 Framebuffer draw(SurfaceRenderer& renderer, Figure figure, const FigureRequest& request, const Camera& camera,
                  const RenderSettings& settings) {
+  // In bands or as a whole, as the renderer gives it.
+  const auto renamed = [&settings](const auto& render, const auto& rename) {
+    RenderSettings own = settings;
+    if (settings.take_band)
+      own.take_band = [&](Framebuffer band, int first_row) {
+        rename(band);
+        settings.take_band(std::move(band), first_row);
+      };
+    Framebuffer picture = render(own);
+    rename(picture);
+    return picture;
+  };
   std::vector<SurfaceObject>& objects = figure.molecule.objects;
   const bool opaque = std::ranges::none_of(objects, [](const SurfaceObject& o) { return o.coloring.is_translucent(); });
   if (request.plain() && opaque && placed_atoms(objects) > kMostMergedAtoms) {
-    Framebuffer picture = renderer.render_copies(objects, camera, settings);
-    for (std::uint32_t& atom : picture.atom)
-      if (atom != kNone) atom = merged_atom(objects, atom);
-    name_atoms_as_the_file(figure.molecule.structure, picture);
-    return picture;
+    return renamed([&](const RenderSettings& own) { return renderer.render_copies(objects, camera, own); },
+                   [&](Framebuffer& picture) {
+                     for (std::uint32_t& atom : picture.atom)
+                       if (atom != kNone) atom = merged_atom(objects, atom);
+                     name_atoms_as_the_file(figure.molecule.structure, picture);
+                   });
   }
   // Planes along the view cut between the nearest atom of the molecule and its farthest.
   const std::vector<Ball> balls = request.plain() ? std::vector<Ball>{} : placed_balls(objects);
@@ -141,10 +172,11 @@ Framebuffer draw(SurfaceRenderer& renderer, Figure figure, const FigureRequest& 
   surfaces.reserve(shown.size());
   for (const PictureObject& object : shown)
     surfaces.push_back(object.surface == &whole.surface ? &whole : surface_beside(figure.beside, object));
-  Framebuffer picture = renderer.render(shown, camera, settings);
-  name_atoms(surfaces, picture);
-  name_atoms_as_the_file(figure.molecule.structure, picture);
-  return picture;
+  return renamed([&](const RenderSettings& own) { return renderer.render(shown, camera, own); },
+                 [&](Framebuffer& picture) {
+                   name_atoms(surfaces, picture);
+                   name_atoms_as_the_file(figure.molecule.structure, picture);
+                 });
 }
 
 }  // namespace meniscus

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <vector>
 
 #include "core/camera/camera.h"
@@ -67,6 +68,10 @@ Figure make_figure(Molecule molecule, const FigureRequest& request);
 /// The planes that cut the surface, seen by this camera. objects: of all the surface, with their copies.
 std::vector<ClipPlane> surface_planes(const FigureRequest& request, const Camera& camera,
                                       std::span<const SurfaceObject> objects);
+
+/// A sentence for each cut of the molecule's surface, and of those beside it, that takes nothing away or leaves
+/// nothing.
+std::vector<std::string> idle_cuts(const FigureRequest& request, const Figure& figure, const Camera& camera);
 
 /// What a picture shows of one surface: cut and seen through as asked, and what stands beside it (nullptr: nothing).
 /// atoms: of all that the picture shows, for cuts along the view. All must stay. Throws RequestError if there is

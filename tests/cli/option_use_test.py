@@ -18,7 +18,7 @@ from pathlib import Path
 PROGRAM = sys.argv.pop(1)
 
 # They say how the work is done or what is told of it, and leave the result as it is.
-HOW = {"--threads", "--jobs", "--device", "--require-gpu", "--verify", "--progress", "--warnings", "--quiet", "--help",
+HOW = {"--threads", "--jobs", "--serve", "--device", "--require-gpu", "--verify", "--progress", "--warnings", "--quiet", "--help",
        "--help-all", "--force", "--stats", "--extent", "--trust-scene", "--trust-atom-order", "--link", "--addon"}
 # They say what to do with something that a file may hold, and are right to be silent where it does not.
 POLICIES = {"--unknown-element", "--missing-color", "--altloc", "--hydrogens", "--keep-water", "--keep-ions", "--whole",
@@ -93,7 +93,14 @@ INPUTS = {
     "camera.json": json.dumps(camera(30)),
     "path.json": json.dumps({"keys": [{"frame": n, "camera": camera(30 + 9 * n)} for n in (0, 3)]}),
     "scene.json": json.dumps({"meniscus_scene": 1, "molecule": {"select": "chain A"}}),
+    "look.jsonl": "", "other.jsonl": '{"command": "color", "scheme": "chain"}\n',
 }
+# What a preview is asked for: its state and a picture of each frame.
+QUESTIONS = [{"command": "state"}, {"command": "render_command"}]
+for frame in range(4):
+    QUESTIONS += [{"command": "export", "format": "png", "path": f"p{frame}.png", "wait": True, "force": True}, {"command": "next_frame"}]
+for name in ("look.jsonl", "other.jsonl"):
+    INPUTS[name] += "".join(json.dumps(question) + "\n" for question in QUESTIONS + [{"command": "quit"}])
 
 # What must be there for an option to do anything, as words of a command; {name} is an input.
 CONTEXTS = {
@@ -180,7 +187,9 @@ OWN_ROWS = {
        for option, value in (("--superpose", "name CA"), ("--center", "name CA"))},
     ("pockets", "--reference"): ("1", "pocket fit"),
     ("pockets", "--tolerance"): ("0.5", "pocket mesh"), ("export blender", "--fps"): ("10", "frames"),
-    ("render", "--aovs"): (None, "exr"),
+    ("render", "--aovs"): (None, "exr"), ("preview", "--background"): ("black", "plain"),
+    ("preview", "--commands"): ("{other.jsonl}", "plain"), ("preview", "--record"): ("r.jsonl", "plain"),
+    ("preview", "--output-dir"): ("{exports.folder}", "plain"),
     ("formats", "--json"): (None, ""), ("farm bundle", "--engine"): ("slurm", "bundle"),
     ("farm bundle", "--chunk-minutes"): ("2", "bundle"), ("farm bundle", "--chunk-frames"): ("1", "bundle"),
     ("farm bundle", "--task-cores"): ("3", "bundle"), ("farm bundle", "--task-memory"): ("999", "bundle"),
@@ -200,7 +209,7 @@ for export in ("mesh", "ply"):
     for option in ("--dpi", "--view", "--turn"):
         OWN_ROWS["export " + export, option] = (ROWS[option][0], None)
 
-SMALL = {"render": ["--size", "32x24", "--samples", "1", "--no-provenance"]}
+SMALL = {"render": ["--size", "32x24", "--samples", "1", "--no-provenance"], "preview": ["--size", "32x24", "--samples", "1"]}
 MESHES = {"export blender", "export mitsuba", "export pbrt", "export mesh", "export ply"}
 EXCLUDES = {"--tolerance-pixels": "--tolerance", "--density": "--tolerance", "--width": "--size", "--height": "--size",
             "--provenance": "--no-provenance", "--no-provenance": "--no-provenance"}
@@ -242,6 +251,7 @@ class OptionUse(unittest.TestCase):
         cls.addClassCleanup(shutil.rmtree, cls.folder)
         for name, text in INPUTS.items():
             (cls.folder / name).write_text(text)
+        (cls.folder / "exports.folder").mkdir()
         cls.pool = concurrent.futures.ThreadPoolExecutor(os.cpu_count())
         cls.addClassCleanup(cls.pool.shutdown)
         cls.commands = re.findall(r"^  ([a-z]+) ", subprocess.run([PROGRAM, "--help"], capture_output=True, text=True)
@@ -267,7 +277,7 @@ class OptionUse(unittest.TestCase):
         own = list(SMALL.get(command, []))
         if command in MESHES and "--tolerance-pixels" not in CONTEXTS[context]:
             own += ["--tolerance", "0.5"]
-        if command == "render" and {"--legend", "--legend-file"} & {*CONTEXTS[context], option}:
+        if command in SMALL and {"--legend", "--legend-file"} & {*CONTEXTS[context], option}:
             own[1] = "200x150"
         excluded = {EXCLUDES.get(word) for word in (option, *CONTEXTS[context])}
         for name in excluded & set(own):
@@ -277,7 +287,9 @@ class OptionUse(unittest.TestCase):
         if command == "farm bundle":
             words = ["b", *words] if option == "--chunk-minutes" else ["b", "--chunk-frames", "2", *words]
         elif command != "info" and command != "formats" and "--device" not in words:
-            words += ["--device", "cpu", "--threads", "1"]
+            words += ["--device", "cpu", *(["--threads", "1"] if command != "preview" else [])]
+        if command == "preview":
+            words += ["--serve", "--commands", str(self.folder / "look.jsonl")]
         if command in ("render",) or command.startswith("export"):
             words += ["-o", output_of(command, context)]
         tail = ["--", "render", str(self.folder / "run.pdb"), "--frames", "all", "--size", "64x48"] if command == "farm bundle" else []
@@ -308,6 +320,18 @@ class OptionUse(unittest.TestCase):
                 if command in TESTED and option not in HOW:
                     self.assertTrue((command, option) in OWN_ROWS or option in ROWS, f"{command} {option}")
 
+    def test_cuts_that_cut_nothing_are_said(self):
+        for command in TESTED:
+            if "--clip" not in options_of(command):
+                continue
+            for context in ("plain", "frames"):
+                for cut, words in (("x<500", "cuts nothing"), ("depth>0", "cuts nothing"), ("x<-500", "leaves nothing"), ("x<2", None)):
+                    with self.subTest(command=command, context=context, cut=cut):
+                        result = self.begun(self.words(command, context, "--clip", cut)[1]).result()
+                        said = [line for line in result.err.splitlines() if f"--clip {cut} {words}" in line]
+                        self.assertEqual(len(said), 0 if words is None else 1, result.err)
+                        self.assertTrue(words or "--clip" not in result.err, result.err)
+
     def test_no_option_does_nothing_without_a_word(self):
         for command, option, context, is_own, base, more in self.pairs(["plain", "frames", "flat"]):
             with self.subTest(command=command, option=option, context=context):
@@ -322,11 +346,11 @@ class OptionUse(unittest.TestCase):
                 self.assertTrue(more.differs_from(base) or any(option in line for line in said), more.err)
 
 
-TESTED = ["surface", "pockets", "info", "render", "export povray", "export blender", "export mitsuba", "export pbrt",
+TESTED = ["surface", "pockets", "info", "render", "preview", "export povray", "export blender", "export mitsuba", "export pbrt",
           "export mesh", "export ply", "export atoms", "formats", "farm bundle"]
 # What it is for is nothing that the command can do, or not with an output of that name.
 REFUSED = {("pockets", "--instances"), ("render", "--frames"), ("render", "--trajectory"),
-           ("export atoms", "--color-map-file"), ("export atoms", "--map-offset"), ("export pbrt", "--color-map-file"),
+           ("preview", "--color-map-file"), ("preview", "--map-offset"), ("export atoms", "--color-map-file"), ("export atoms", "--map-offset"), ("export pbrt", "--color-map-file"),
            ("export pbrt", "--map-offset"), ("export mitsuba", "--cap-hatching"), ("export mitsuba", "--film-opacity"),
            ("export pbrt", "--cap-hatching"), ("export pbrt", "--film-opacity")}
 # There are no pockets in what is made whole, a cavity is not seen from outside, and copies that stand apart look the same.

@@ -109,6 +109,18 @@ TEST(Pockets, WhatFloatsInACavityIsNoPartOfIt) {
   EXPECT_FALSE(pocket_at({0.0, 0.0, 30.0}).has_value());
 }
 
+// Space around one ball far larger than all others is mostly empty, or deep in that ball. Cell by cell it would take
+// weeks to look through.
+TEST(Pockets, BesideAHugeBallTakeAsLongAsElsewhere) {
+  Balls balls = shell(5.5, 4.4);
+  const Pockets alone = pockets_of(balls, PocketRequest{});
+  balls.push_back({{0.0, 0.0, -20020.0}, 20000.0});
+  const Pockets beside = pockets_of(balls, PocketRequest{});
+  ASSERT_EQ(beside.pockets.size(), 1u);
+  EXPECT_NEAR(beside.pockets[0].cavity.volume, alone.pockets[0].cavity.volume, 1e-6);
+  EXPECT_EQ(beside.pockets[0].cavity.atoms, alone.pockets[0].cavity.atoms);
+}
+
 TEST(Pockets, AHoleIsAMouthAndTwoAreATunnel) {
   const Pockets cup = pockets_of(shell(5.5, 4.4), PocketRequest{});
   ASSERT_EQ(cup.pockets.size(), 1u);

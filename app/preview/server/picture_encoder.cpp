@@ -37,9 +37,7 @@ std::vector<std::uint8_t> encode_png(std::span<const std::uint8_t> rgba, glm::iv
   image.channels = {"R", "G", "B"};
   image.color_space = "sRGB";
   image.png_level = 1;  // of 9; more takes longer for a little less
-  image.bytes = rgba;
-  image.byte_stride = 4;
-  return meniscus::encode_png(image);
+  return meniscus::encode_png(image, rgba, 4);
 }
 
 }  // namespace meniscus

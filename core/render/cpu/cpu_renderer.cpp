@@ -132,7 +132,7 @@ Framebuffer CpuRenderer::render(const Surface& surface, const Coloring& coloring
   pack(surface, coloring, camera, settings);
   const HitSource source{&surface, scene_.packed.primitives};
   PictureCollector collector(frame_, settings, names_of({&source, 1}));
-  const std::vector<PictureBlock> blocks = picture_blocks(settings.size, block_edge(settings));
+  const std::vector<PictureBlock> blocks = collector.blocks(block_edge(settings));
   BlockProgress progress(settings, blocks.size());
   if (needs_shade_map(blocks.front(), settings))
     cast_shade_map(shade_map_frame(frame_), settings, progress.interruption());
@@ -141,6 +141,7 @@ Framebuffer CpuRenderer::render(const Surface& surface, const Coloring& coloring
     cast({frame_, block, settings, settings.aovs}, progress.interruption());
     collector.add_colors(inner, block, sums_);
     if (settings.aovs) collector.add_hits(inner, block, hits_);
+    collector.end_block(inner);
     progress.end_block();
   }
   return collector.take();
@@ -174,7 +175,7 @@ Framebuffer CpuRenderer::render_copies(std::span<const SurfaceObject> objects, c
   PictureCollector collector(frame_, settings, [&](const ray_cast::Hit& hit, const glm::dvec3& point) {
     return copies.names_of(hit, scene_.packed.primitives[hit.primitive], point);
   });
-  const std::vector<PictureBlock> blocks = picture_blocks(settings.size, block_edge(settings));
+  const std::vector<PictureBlock> blocks = collector.blocks(block_edge(settings));
   BlockProgress progress(settings, blocks.size());
   if (needs_shade_map(blocks.front(), settings))
     cast_shade_map_of_copies(objects, placement, settings, progress.interruption());
@@ -187,6 +188,7 @@ Framebuffer CpuRenderer::render_copies(std::span<const SurfaceObject> objects, c
     cast({frame_, block, settings, settings.aovs}, progress.interruption());
     collector.add_colors(inner, block, sums_);
     if (settings.aovs) collector.add_hits(inner, block, hits_);
+    collector.end_block(inner);
     progress.end_block();
   }
   return collector.take();
@@ -226,7 +228,7 @@ Framebuffer CpuRenderer::render(std::span<const PictureObject> objects, const Ca
   std::vector<HitSource> sources;
   for (std::size_t n = 0; n < objects.size(); ++n) sources.push_back(layers->source(n));
   PictureCollector collector(frame_, settings, names_of(sources), sources.size() > 1);
-  const std::vector<PictureBlock> blocks = picture_blocks(settings.size, block_edge(settings));
+  const std::vector<PictureBlock> blocks = collector.blocks(block_edge(settings));
   BlockProgress progress(settings, blocks.size());
   if (needs_shade_map(blocks.front(), finish))
     cast_shade_map(shade_map_frame(frame_), finish, progress.interruption(), &*layers);
@@ -235,6 +237,7 @@ Framebuffer CpuRenderer::render(std::span<const PictureObject> objects, const Ca
     cast({frame_, block, finish, settings.aovs, &*layers}, progress.interruption());
     collector.add_colors(inner, block, sums_);
     if (settings.aovs) collector.add_hits(inner, block, hits_);
+    collector.end_block(inner);
     progress.end_block();
   }
   return collector.take();

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Goes through bands in slices.
+#include "core/render/picture_file.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace meniscus {
+namespace {
+
+constexpr int kSlice = 128;  // rows that are finished together
+
+template <typename Value>
+std::vector<Value> part_of(const std::vector<Value>& values, std::size_t first, std::size_t count) {
+  if (values.empty()) return {};
+  const auto begin = values.begin() + static_cast<std::ptrdiff_t>(first);
+  return {begin, begin + static_cast<std::ptrdiff_t>(count)};
+}
+
+Framebuffer slice_of(const Framebuffer& band, int first_row, int rows) {
+  const std::size_t width = static_cast<std::size_t>(band.size.x), first = width * first_row, count = width * rows;
+  return {.size = {band.size.x, rows},
+          .color = part_of(band.color, first, count),
+          .z = part_of(band.z, first, count),
+          .normal = part_of(band.normal, first, count),
+          .position = part_of(band.position, first, count),
+          .atom = part_of(band.atom, first, count),
+          .kind = part_of(band.kind, first, count),
+          .component = part_of(band.component, first, count),
+          .object = part_of(band.object, first, count)};
+}
+
+}  // namespace
+
+PictureFile::PictureFile(const std::filesystem::path& path, const PictureMargins& margins, const Camera& camera,
+                         const ImageSettings& image, RenderSettings& settings)
+    : margins_(margins),
+      background_(image.background),
+      aovs_(settings.aovs),
+      molecule_size_(settings.size),
+      size_(margins.legend ? margins.legend->picture_size() : settings.size),
+      annotations_(margins.annotations, camera, settings.size, image.background),
+      writer_(path, size_, settings.aovs, image) {
+  settings.take_band = [this](const Framebuffer& band, int first_row) { take(band, first_row); };
+}
+
+void PictureFile::take(const Framebuffer& band, int first_row) {
+  shows_something_ =
+      shows_something_ || std::ranges::any_of(band.color, [](const glm::vec4& pixel) { return pixel.w > 0.0f; });
+  for (int row = 0; row < band.size.y; row += kSlice) {
+    Framebuffer slice = slice_of(band, row, std::min(kSlice, band.size.y - row));
+    annotations_.lay_over(slice, first_row + row);
+    const int count = slice.size.y;
+    write(std::move(slice), first_row + row, count);
+  }
+}
+
+void PictureFile::write(Framebuffer rows, int first_row, int count) {
+  if (margins_.legend) rows = margins_.legend->rows(rows, first_row, count, aovs_, background_);
+  writer_.add(rows);
+}
+
+void PictureFile::commit() {
+  for (int row = molecule_size_.y; row < size_.y; row += kSlice) {  // a legend below
+    Framebuffer nothing;
+    nothing.size = {molecule_size_.x, 0};
+    write(std::move(nothing), row, std::min(kSlice, size_.y - row));
+  }
+  writer_.commit();
+}
+
+}  // namespace meniscus

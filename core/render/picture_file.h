@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A picture on its way from a renderer to its file: annotated, its legend beside it, some rows at a time.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "core/camera/camera.h"
+#include "core/render/annotation.h"
+#include "core/render/framebuffer.h"
+#include "core/render/image_output.h"
+#include "core/render/legend.h"
+#include "core/render/render_settings.h"
+
+namespace meniscus {
+
+/// What a picture shows beside the molecule; both must stay.
+struct PictureMargins {
+  const Annotations& annotations;
+  const std::optional<Legend>& legend;
+};
+
+/// Takes the bands of a picture of the molecule (RenderSettings::take_band), so that it is never in memory as a whole.
+class PictureFile {
+ public:
+  /// settings: of the molecule's picture, whose bands come here from now on. Throws as ImageWriter and
+  /// annotate() do.
+  PictureFile(const std::filesystem::path& path, const PictureMargins& margins, const Camera& camera,
+              const ImageSettings& image, RenderSettings& settings);
+  PictureFile(const PictureFile&) = delete;
+  PictureFile& operator=(const PictureFile&) = delete;
+
+  /// Did a ray meet anything in what came?
+  bool shows_something() const { return shows_something_; }
+
+  /// Once all of the molecule's picture is there.
+  void commit();
+
+ private:
+  void take(const Framebuffer& band, int first_row);
+  void write(Framebuffer rows, int first_row, int count);
+
+  const PictureMargins margins_;
+  const std::optional<glm::vec3> background_;
+  const bool aovs_;
+  const glm::ivec2 molecule_size_, size_;
+  AnnotationLayer annotations_;
+  ImageWriter writer_;
+  bool shows_something_ = false;
+};
+
+}  // namespace meniscus
