@@ -4,15 +4,18 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <mutex>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "app/commands/buried_attribute.h"
 #include "app/commands/commands.h"
 #include "app/commands/figure_export.h"
 #include "app/options/figure_command.h"
 #include "app/options/mesh_options.h"
 #include "app/options/scene_file.h"
+#include "app/options/value_words.h"
 #include "app/reports/notes.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
@@ -21,6 +24,8 @@
 #include "exporters/blender/capped_mesh.h"
 #include "exporters/blender/sequence_manifest.h"
 #include "exporters/blender/surface_file.h"
+#include "exporters/blender/surface_numbers.h"
+#include "exporters/mesh/files/vertex_numbers.h"
 #include "exporters/mesh/mesh_colors.h"
 #include "exporters/mesh/mesh_objects.h"
 #include "exporters/mesh/shape_mesh.h"
@@ -31,6 +36,7 @@ namespace {
 
 struct BlenderCommand : FigureCommand {
   MeshRequest mesh;
+  std::string attributes = "usual";
   double fps = 24.0;
 };
 
@@ -153,9 +159,24 @@ std::vector<blender::MeshedObject> moving_objects(const BlenderCommand& command,
   return objects;
 }
 
+// Of all objects what --attributes asks for. Returns what had to be left out.
+std::string add_numbers(const BlenderCommand& command, blender::SurfaceNumbers wanted, const Structure& structure,
+                        std::vector<blender::MeshedObject>& objects) {
+  const std::vector<double> buried =
+      buried_by_chains(command.molecule, structure, wanted.names, command.attributes == "all");
+  std::string left_out;
+  for (blender::MeshedObject& object : objects) {
+    const std::string note = blender::add_surface_numbers(object, wanted, buried);
+    if (left_out.empty()) left_out = note;
+  }
+  return left_out;
+}
+
 // A file for each frame of the chunk; the manifest for all of the run, the same from every chunk.
 void run_sequence(const BlenderCommand& asked) {
   BlenderCommand command = asked;
+  const blender::SurfaceNumbers numbers = blender::parse_surface_numbers(command.attributes);
+  std::once_flag told;
   ExportRun run(command, true);
   const blender::SequenceManifest manifest = manifest_of(command, run);
   const std::string name = run_name(manifest);
@@ -170,6 +191,8 @@ void run_sequence(const BlenderCommand& asked) {
     std::optional<ShapeObject> beside;
     add_beside(molecule, manifest.tolerance, beside, objects);
     if (beside && cut.planes.empty()) objects.back().velocities = velocities_of(*beside, objects.back().mesh, frame);
+    const std::string left_out = add_numbers(command, numbers, molecule.structure, objects);
+    if (!left_out.empty()) std::call_once(told, [&] { say(command.molecule, left_out); });
     blender::Provenance provenance = manifest.provenance;
     provenance.device = molecule.device;
     provenance.colors = key_of(molecule);
@@ -205,6 +228,7 @@ void check(const BlenderCommand& command) {
 void run(const BlenderCommand& command) {
   check(command);
   if (command.frames.asked()) return run_sequence(command);
+  const blender::SurfaceNumbers numbers = blender::parse_surface_numbers(command.attributes);
   AimedFigure aimed = aimed_figure(command);
   Figure& figure = aimed.figure;
   Molecule& molecule = figure.molecule;
@@ -224,11 +248,25 @@ void run(const BlenderCommand& command) {
   add_more(command, figure, camera, tolerance, more, objects);
   if (std::ranges::all_of(objects, [](const blender::MeshedObject& each) { return each.mesh.triangles.empty(); }))
     throw RequestError("the surface is not shown, and there is nothing beside it");
+  const std::string left_out = add_numbers(command, numbers, molecule.structure, objects);
+  if (!left_out.empty()) say(command.molecule, left_out);
   const blender::Provenance provenance{file_name(molecule.structure.file), molecule.structure.radii_set,
                                        molecule.device, key_of(molecule)};
   write_objects(command.output.path, command.output.existing(), objects,
                 blender::Shot{camera, command.picture.width, command.picture.height}, provenance, {}, cut);
   std::cout << escaped(command.output.path) << "\n";
+}
+
+void add_attributes(CLI::App& command, std::string& attributes) {
+  std::vector<std::string> words{"usual", "all", "none"};
+  for (const VertexNumberKind& kind : vertex_number_kinds()) words.emplace_back(kind.name);
+  command
+      .add_option("--attributes", attributes,
+                  fmt::format("Numbers of the surface beside those of atoms, with commas between; usual is\n"
+                              "{} [usual]",
+                              blender::kUsualSurfaceNumbers))
+      ->type_name("NAMES")
+      ->check(proposes(words));
 }
 
 }  // namespace
@@ -243,6 +281,7 @@ void add_export_blender(CLI::App& command) {
   auto state = std::make_shared<BlenderCommand>();
   add_shown_options(command, *state);
   add_mesh_options(command, state->mesh);
+  add_attributes(command, state->attributes);
   add_run_options(command, *state);
   command.add_option("--fps", state->fps, "Frames of a run a second [24]")
       ->type_name("N")
