@@ -116,7 +116,7 @@ class Looks(unittest.TestCase):
         cases += [("KIND", {"ses_kind": kind}, color) for kind, color in enumerate(("#e69f00", "#56b4e9", "#009e73"))]
         cases += [("CHARGE", {"charge": value}, color) for value, color in ((-1.0, "#d6412f"), (0.0, "#ffffff"), (1.0, "#3a5fcd"), (7.0, "#3a5fcd"))]
         cases += [("CURVATURE", {"mean_curvature": value}, color) for value, color in ((-0.8, "#3a5fcd"), (0.0, "#ffffff"), (0.8, "#d6412f"))]
-        cases += [("SMOOTH_CURVATURE", {"smooth_mean_curvature": -0.3}, "#3a5fcd"), ("ATOM_AREA", {"atom_area": 8.0}, "#2a788e"),
+        cases += [("SMOOTH_CURVATURE", {"smooth_mean_curvature": -0.3}, "#3a5fcd"), ("ATOM_AREA", {"atom_area": 12.0}, "#2a788e"),
                   ("ACCESSIBLE_AREA", {"accessible_area": 40.0}, "#fde725"), ("BURIED_AREA", {"buried_area": 0.0}, "#ffffff")]
         for coloring, given, color in cases:
             np.testing.assert_allclose(self.shown(coloring, **given), looks.linear(color)[:3], atol=4e-3, err_msg=f"{coloring} {given}")
@@ -236,13 +236,12 @@ class Looks(unittest.TestCase):
         plate()
         self.assertEqual(looks.offered(bpy.context.active_object.data), {"COLOR", "KIND"})
         for coloring, attribute in looks.ATTRIBUTES.items():
-            if coloring in ("COLOR", "KIND"):
+            if coloring in ("COLOR", "KIND") or attribute in bpy.context.active_object.data.attributes:
                 continue
             with self.assertRaisesRegex(TypeError, coloring):
                 bpy.ops.object.meniscus_look(look="PAINT", coloring=coloring)
             kind = "INT" if coloring in (*looks.HUES, "ELEMENT") else "FLOAT"
-            if attribute not in bpy.context.active_object.data.attributes:
-                attributes.add(bpy.context.active_object.data, attribute, kind, "POINT", np.zeros(4, np.int32 if kind == "INT" else np.float32))
+            attributes.add(bpy.context.active_object.data, attribute, kind, "POINT", np.zeros(4, np.int32 if kind == "INT" else np.float32))
             self.assertEqual(bpy.ops.object.meniscus_look(look="PAINT", coloring=coloring), {"FINISHED"})
 
     def test_outlines_by_line_art(self):

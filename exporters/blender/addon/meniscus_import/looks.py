@@ -35,7 +35,7 @@ SCALES = {
     "POTENTIAL": ("map_value", -10.0, 10.0, ("#d6412f", "#ffffff", "#3a5fcd")),
     "CURVATURE": ("mean_curvature", -0.75, 0.75, ("#3a5fcd", "#ffffff", "#d6412f")),
     "SMOOTH_CURVATURE": ("smooth_mean_curvature", -0.3, 0.3, ("#3a5fcd", "#ffffff", "#d6412f")),
-    "ATOM_AREA": ("atom_area", 0.0, 20.0, ("#440154", "#414487", "#2a788e", "#22a884", "#7ad151", "#fde725")),
+    "ATOM_AREA": ("atom_area", 0.0, 30.0, ("#440154", "#414487", "#2a788e", "#22a884", "#7ad151", "#fde725")),
     "ACCESSIBLE_AREA": ("accessible_area", 0.0, 40.0, ("#440154", "#414487", "#2a788e", "#22a884", "#7ad151", "#fde725")),
     "BURIED_AREA": ("buried_area", 0.0, 40.0, ("#ffffff", "#fecc5c", "#fd8d3c", "#e31a1c", "#800026")),
     "HYDROPHOBICITY": ("hydrophobicity", -4.5, 4.5, ("#3a5fcd", "#ffffff", "#d6412f")),
