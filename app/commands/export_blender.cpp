@@ -262,9 +262,8 @@ void add_attributes(CLI::App& command, std::string& attributes) {
   for (const VertexNumberKind& kind : vertex_number_kinds()) words.emplace_back(kind.name);
   command
       .add_option("--attributes", attributes,
-                  fmt::format("Numbers of the surface beside those of atoms, with commas between; usual is\n"
-                              "{} [usual]",
-                              blender::kUsualSurfaceNumbers))
+                  "Numbers of the surface, with commas between: usual (exact curvature, areas of atoms and patches), "
+                  "all, none, or names as of export mesh [usual]")
       ->type_name("NAMES")
       ->check(proposes(words));
 }

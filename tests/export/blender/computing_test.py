@@ -150,6 +150,14 @@ class Engines(WithFolder):
         of_sphere = np.abs(mean[:, None] - spheres).min(axis=1) < 1e-6
         self.assertGreater(of_sphere.mean(), 0.5)
         np.testing.assert_allclose(gaussian[of_sphere], mean[of_sphere] ** 2, rtol=1e-5)
+        place = found["mesh.position"].astype(float) + found.header["mesh"]["origin"]
+        balls = np.array(samples.MOLECULES["triple"])
+        off = np.abs(np.linalg.norm(place[:, None] - balls[:, :3], axis=2) - balls[:, 3])
+        on_atom = off.min(axis=1) < 1e-5
+        self.assertGreater(on_atom.mean(), 0.3)
+        same = np.isclose(mean, 1.0 / balls[off.argmin(axis=1), 3], atol=1e-5)
+        np.testing.assert_array_equal(same[~on_atom], False)
+        self.assertGreater(same[on_atom].mean(), 0.99)
         # Of a torus one principal curvature is that of the probe.
         root = np.sqrt(np.maximum(mean[~of_sphere] ** 2 - gaussian[~of_sphere], 0.0))
         low = mean[~of_sphere] - root
