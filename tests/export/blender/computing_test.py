@@ -254,6 +254,9 @@ class Wording(WithFolder):
         for text, wanted in cases.items():
             self.assertEqual(wording.for_panel(text), wanted)
 
+    def test_what_the_library_says_is_worded_too(self):
+        self.assertEqual(str(engines.EngineError("out of memory; use --probe or less")), "out of memory; use Probe or less")
+
     def test_what_goes_wrong_is_said_in_fields(self):
         tools = engines.find_tools(PACKAGE, PROGRAM)
         short = os.path.join(self.folder, "short.xyz")

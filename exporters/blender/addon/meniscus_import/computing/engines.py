@@ -23,7 +23,10 @@ POLL = 0.05  # s, between two looks at a program and at whether it is still want
 
 
 class EngineError(mns_reader.MnsError):
-    """There is nothing to compute with, or it refused; one sentence."""
+    """There is nothing to compute with, or it refused; one sentence in the panel's words, whoever said it."""
+
+    def __init__(self, text):
+        super().__init__(wording.for_panel(text))
 
 
 class Cancelled(Exception):
@@ -233,7 +236,7 @@ def _run(words, task):
             said.seek(0)
             lines = said.read().decode("utf-8", "replace").strip().splitlines() or [f"{words[0]} ended with {code}"]
             told = [line[len(SAYS):] for line in lines if line.startswith(SAYS)]
-            raise EngineError(wording.for_panel(told[0] if told else lines[-1]))
+            raise EngineError(told[0] if told else lines[-1])
 
 
 def compute(tools, request, atoms, folder, task):
