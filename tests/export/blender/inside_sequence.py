@@ -42,6 +42,12 @@ def triangles_shown(item):
     return counts
 
 
+def world_normals(item):
+    """Of the corners of what it shows, in the scene."""
+    shown_item = item.evaluated_get(bpy.context.evaluated_depsgraph_get())
+    return compat.corner_normals(shown_item.data) @ np.array(shown_item.matrix_world.to_3x3().normalized()).T
+
+
 def expected(scene_frame, scale=0.1, center=True):
     manifest = sequence_reader.read(MANIFEST)
     surface = manifest.read(scene_frame).objects[0]
@@ -133,7 +139,9 @@ class Sequence(unittest.TestCase):
                     continue
                 bpy.ops.wm.read_factory_settings(use_empty=True)
                 addon_utils.enable("meniscus_import")
-                getattr(sequence, mode)(MANIFEST)
+                item = getattr(sequence, mode)(MANIFEST)
+                bpy.context.scene.frame_set(2)
+                normals = world_normals(item)
                 path = os.path.join(self.folder, f"{mode}.{'abc' if kind == 'alembic' else 'usd'}")
                 frames = {"start": 1, "end": 3} if kind == "alembic" else {"export_animation": True}
                 getattr(bpy.ops.wm, kind + "_export")(filepath=path, **frames)
@@ -141,6 +149,11 @@ class Sequence(unittest.TestCase):
                 getattr(bpy.ops.wm, kind + "_import")(filepath=path)
                 (back,) = (each for each in bpy.data.objects if each.type == "MESH")
                 self.assertEqual(triangles_shown(back), counts, f"{mode} {kind}")
+                bpy.context.scene.frame_set(2)
+                cosines = (world_normals(back) * normals).sum(axis=1)  # Blender keeps normals to some tenths of a degree
+                self.assertGreater(cosines.min(), np.cos(np.radians(1.0)), f"{mode} {kind}")
+                found = set(back.evaluated_get(bpy.context.evaluated_depsgraph_get()).data.attributes.keys())
+                self.assertLessEqual({"velocity"} if kind == "alembic" else {"velocity", "mean_curvature", "atom_area", "res_name_id"}, found)
 
     def test_the_frame_can_be_keyed(self):
         for mode in ("BAKE", "STREAM"):
