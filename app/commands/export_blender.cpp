@@ -4,16 +4,19 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <mutex>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "app/commands/buried_attribute.h"
 #include "app/commands/commands.h"
 #include "app/commands/figure_export.h"
 #include "app/options/figure_command.h"
 #include "app/options/mesh_options.h"
 #include "app/options/property_options.h"
 #include "app/options/scene_file.h"
+#include "app/options/value_words.h"
 #include "app/reports/notes.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
@@ -26,12 +29,15 @@
 #include "exporters/blender/capped_mesh.h"
 #include "exporters/blender/sequence_manifest.h"
 #include "exporters/blender/surface_file.h"
+#include "exporters/blender/surface_numbers.h"
+#include "exporters/mesh_files/vertex_numbers.h"
 
 namespace meniscus {
 namespace {
 
 struct BlenderCommand : FigureCommand {
   MeshRequest mesh;
+  std::string attributes = "usual";
   double fps = 24.0;
 };
 
@@ -154,9 +160,24 @@ std::vector<blender::MeshedObject> moving_objects(const BlenderCommand& command,
   return objects;
 }
 
+// Of all objects what --attributes asks for. Returns what had to be left out.
+std::string add_numbers(const BlenderCommand& command, blender::SurfaceNumbers wanted, const Structure& structure,
+                        std::vector<blender::MeshedObject>& objects) {
+  const std::vector<double> buried =
+      buried_by_chains(command.molecule, structure, wanted.names, command.attributes == "all");
+  std::string left_out;
+  for (blender::MeshedObject& object : objects) {
+    const std::string note = blender::add_surface_numbers(object, wanted, buried);
+    if (left_out.empty()) left_out = note;
+  }
+  return left_out;
+}
+
 // A file for each frame of the chunk; the manifest for all of the run, the same from every chunk.
 void run_sequence(const BlenderCommand& asked) {
   BlenderCommand command = asked;
+  const blender::SurfaceNumbers numbers = blender::parse_surface_numbers(command.attributes);
+  std::once_flag told;
   ExportRun run(command, true);
   const blender::SequenceManifest manifest = manifest_of(command, run);
   const std::string name = run_name(manifest);
@@ -171,6 +192,8 @@ void run_sequence(const BlenderCommand& asked) {
     std::optional<ShapeObject> beside;
     add_beside(molecule, manifest.tolerance, beside, objects);
     if (beside && cut.planes.empty()) objects.back().velocities = velocities_of(*beside, objects.back().mesh, frame);
+    const std::string left_out = add_numbers(command, numbers, molecule.structure, objects);
+    if (!left_out.empty()) std::call_once(told, [&] { say(command.molecule, left_out); });
     blender::Provenance provenance = manifest.provenance;
     provenance.device = molecule.device;
     provenance.colors = key_of(molecule);
@@ -206,6 +229,7 @@ void check(const BlenderCommand& command) {
 void run(const BlenderCommand& command) {
   check(command);
   if (command.frames.asked()) return run_sequence(command);
+  const blender::SurfaceNumbers numbers = blender::parse_surface_numbers(command.attributes);
   AimedFigure aimed = aimed_figure(command);
   Figure& figure = aimed.figure;
   Molecule& molecule = figure.molecule;
@@ -225,11 +249,23 @@ void run(const BlenderCommand& command) {
   add_more(command, figure, camera, tolerance, more, objects);
   if (std::ranges::all_of(objects, [](const blender::MeshedObject& each) { return each.mesh.triangles.empty(); }))
     throw RequestError("the surface is not shown, and there is nothing beside it");
+  const std::string left_out = add_numbers(command, numbers, molecule.structure, objects);
+  if (!left_out.empty()) say(command.molecule, left_out);
   const blender::Provenance provenance{file_name(molecule.structure.file), molecule.structure.radii_set,
                                        molecule.device, key_of(molecule)};
   write_objects(command.output.path, command.output.existing(), objects,
                 blender::Shot{camera, command.picture.width, command.picture.height}, provenance, {}, cut);
   std::cout << escaped(command.output.path) << "\n";
+}
+
+void add_attributes(CLI::App& command, std::string& attributes) {
+  std::vector<std::string> words{"usual", "all", "none"};
+  for (const VertexNumberKind& kind : vertex_number_kinds()) words.emplace_back(kind.name);
+  PropertyOptions(command)
+      .add("mesh.attributes", attributes)
+      ->description("Numbers of the surface, separated by commas: usual (exact curvature, areas of atoms and patches), "
+                    "all, none, or names as of export mesh [usual]")
+      ->check(proposes(words));
 }
 
 }  // namespace
@@ -244,6 +280,7 @@ void add_export_blender(CLI::App& command) {
   auto state = std::make_shared<BlenderCommand>();
   add_shown_options(command, *state);
   add_mesh_options(command, state->mesh);
+  add_attributes(command, state->attributes);
   add_run_options(command, *state);
   PropertyOptions(command).add("frames.fps", state->fps)->description("Frames per second of a run [24]");
   add_scene_options(command, &state->save_scene);

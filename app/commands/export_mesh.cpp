@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "app/commands/buried_attribute.h"
 #include "app/commands/commands.h"
 #include "app/options/mesh_options.h"
 #include "app/options/molecule_options.h"
@@ -65,21 +66,6 @@ void refuse_what_does_not_fit(const MeshFormat& format, const Molecule& molecule
                     format.word));
 }
 
-// Of what other chains bury; with `all`, of molecules for which that can be said.
-std::vector<double> buried_by_chains(const MeshCommand& command, const Structure& structure,
-                                     std::vector<std::string>& names) {
-  const auto wanted = std::ranges::find(names, "buried_area");
-  if (wanted == names.end()) return {};
-  if (!structure.instances.empty()) {
-    if (command.mesh.attributes != "all")
-      throw RequestError("areas buried between copies need copies made of atoms; leave --instances away");
-    names.erase(wanted);
-    return {};
-  }
-  SurfaceComputer computer(command.molecule.surface);
-  return buried_areas(structure, group_atoms(structure, Grouping::chain), computer, command.molecule.surface.kind);
-}
-
 void tell(const MeshCommand& command, const MeshFormat& format, const MeshFileMaker& maker,
           const MeshFineness& fineness) {
   const std::string how = fineness.density > 0.0  ? fmt::format("{:g} vertices per Å²", fineness.density)
@@ -130,7 +116,8 @@ void run(const MeshCommand& command) {
   refuse_what_does_not_fit(format, molecule, fineness);
   warn_of_many(command, molecule, fineness);
   const std::vector<Atom> atoms = shown_atoms(molecule.structure);
-  const std::vector<double> buried = buried_by_chains(command, molecule.structure, names);
+  const std::vector<double> buried =
+      buried_by_chains(command.molecule, molecule.structure, names, command.mesh.attributes == "all");
   MeshFileMaker maker({fineness, names, command.mesh.scale, atoms, buried, format.solid},
                       about_line(kind_word(command.molecule.surface.kind), command.mesh.scale, fineness));
   for (SurfaceObject& object : molecule.objects) maker.add(std::exchange(object, {}));

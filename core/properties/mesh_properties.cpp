@@ -26,7 +26,7 @@ constexpr auto kTable = std::to_array<Property>({
     text("mesh.attributes", "--attributes", "NAMES",
          "Numbers of vertices in PLY, VTP and GLB, separated by commas; docs/meshes.md lists them")
         .initially("usual")
-        .in(kMesh, in_scene),
+        .in(kMesh, in_scene | in_bundle),
     word("mesh.unit", "--unit", "UNIT", "Unit of the file: angstrom or nanometer")
         .one_of("angstrom|nanometer")
         .initially("angstrom")

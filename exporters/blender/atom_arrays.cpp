@@ -3,9 +3,20 @@
 #include "exporters/blender/atom_arrays.h"
 
 #include <span>
+#include <string>
 #include <vector>
 
+#include <nlohmann/json.hpp>
+
 namespace meniscus::blender {
+namespace {
+
+template <class T>
+void add_known(MnsWriter& file, const std::string& name, const std::vector<T>& values) {
+  if (!values.empty()) file.add(name, std::span(values));
+}
+
+}  // namespace
 
 void add_atoms(MnsWriter& file, const SurfaceObject& object, const AtomAttributes& atoms) {
   std::vector<double> center, radius;
@@ -19,14 +30,26 @@ void add_atoms(MnsWriter& file, const SurfaceObject& object, const AtomAttribute
   file.add("atom.radius", std::span<const double>(radius));
   file.add("atom.color", std::span<const float>(color), 3);
   file.add("atom.index", std::span(object.atom));
-  if (!atoms.file_index.empty()) file.add("atom.file_index", std::span(atoms.file_index));
+  add_known(file, "atom.file_index", atoms.file_index);
   if (object.coloring.is_translucent()) file.add("atom.opacity", std::span(object.coloring.opacity));
-  if (!atoms.b_factor.empty()) file.add("atom.b_factor", std::span(atoms.b_factor));
-  if (!atoms.charge.empty()) file.add("atom.charge", std::span(atoms.charge));
-  if (!atoms.hydrophobicity.empty()) file.add("atom.hydrophobicity", std::span(atoms.hydrophobicity));
-  if (!atoms.atomic_number.empty()) file.add("atom.atomic_number", std::span(atoms.atomic_number));
-  if (!atoms.residue_number.empty()) file.add("atom.res_id", std::span(atoms.residue_number));
-  if (!atoms.chain.empty()) file.add("atom.chain_id", std::span(atoms.chain));
+  add_known(file, "atom.b_factor", atoms.b_factor);
+  add_known(file, "atom.charge", atoms.charge);
+  add_known(file, "atom.hydrophobicity", atoms.hydrophobicity);
+  add_known(file, "atom.atomic_number", atoms.atomic_number);
+  add_known(file, "atom.res_id", atoms.residue_number);
+  add_known(file, "atom.chain_id", atoms.chain);
+  add_known(file, "atom.name_id", atoms.name);
+  add_known(file, "atom.residue_name_id", atoms.residue_name);
+  add_known(file, "atom.entity", atoms.entity);
+  add_known(file, "atom.area", atoms.area);
+  add_known(file, "atom.accessible_area", atoms.accessible_area);
+  add_known(file, "atom.buried_area", atoms.buried_area);
+}
+
+void add_names(nlohmann::json& header, const AtomAttributes& atoms) {
+  header["chain_names"] = atoms.chain_names;
+  if (!atoms.name.empty()) header["atom_names"] = atoms.atom_names;
+  if (!atoms.residue_name.empty()) header["residue_names"] = atoms.residue_names;
 }
 
 }  // namespace meniscus::blender

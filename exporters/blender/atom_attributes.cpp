@@ -17,12 +17,30 @@ void push_known(std::vector<float>& numbers, double number, bool& any) {
   numbers.push_back(std::isfinite(number) ? static_cast<float>(number) : 0.0f);
 }
 
+/// Numbers names in the order in which they come, so that each is stored once.
+class Names {
+ public:
+  explicit Names(std::vector<std::string>& names) : names_(names) {}
+
+  std::int32_t number(const std::string& name) {
+    const auto [at, fresh] = numbers_.try_emplace(name, static_cast<std::int32_t>(names_.size()));
+    if (fresh) names_.push_back(name);
+    return at->second;
+  }
+  /// Whether any is more than the one of formats that know none.
+  bool are_known() const { return names_.size() > 1 || (names_.size() == 1 && !names_.front().empty()); }
+
+ private:
+  std::vector<std::string>& names_;
+  std::map<std::string, std::int32_t> numbers_;
+};
+
 }  // namespace
 
 AtomAttributes atom_attributes(const Structure& structure, const std::vector<std::uint32_t>& atoms) {
   AtomAttributes attributes;
-  std::map<std::string, std::int32_t> chains;
-  bool charges = false, hydropathies = false;
+  Names chains(attributes.chain_names), names(attributes.atom_names), residues(attributes.residue_names);
+  bool charges = false, hydropathies = false, entities = false;
   for (const std::uint32_t index : atoms) {
     const Atom& atom = structure.atoms[index];
     attributes.file_index.push_back(atom.index);
@@ -31,12 +49,17 @@ AtomAttributes atom_attributes(const Structure& structure, const std::vector<std
     push_known(attributes.hydrophobicity, hydropathy(atom.residue_name), hydropathies);
     attributes.atomic_number.push_back(atom.element);
     attributes.residue_number.push_back(atom.residue_number);
-    const auto [at, fresh] = chains.try_emplace(atom.chain, static_cast<std::int32_t>(chains.size()));
-    if (fresh) attributes.chain_names.push_back(atom.chain);
-    attributes.chain.push_back(at->second);
+    entities = entities || atom.kind != AtomClass::unclassified;
+    attributes.entity.push_back(static_cast<std::int32_t>(atom.kind));
+    attributes.chain.push_back(chains.number(atom.chain));
+    attributes.name.push_back(names.number(atom.name));
+    attributes.residue_name.push_back(residues.number(atom.residue_name));
   }
   if (!charges) attributes.charge.clear();
   if (!hydropathies) attributes.hydrophobicity.clear();
+  if (!entities) attributes.entity.clear();
+  if (!names.are_known()) attributes.name.clear();
+  if (!residues.are_known()) attributes.residue_name.clear();
   return attributes;
 }
 

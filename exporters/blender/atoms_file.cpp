@@ -23,7 +23,7 @@ void add_frames(MnsWriter& file, std::size_t atom_count, const AtomFrames& frame
                              for (std::size_t place = 0; place < frames.numbers.size(); ++place) {
                                const AtomFrame frame = frames.next();
                                assert(frame.positions.size() == atom_count);
-                               for (const glm::dvec3& p : frame.positions)
+                               for (const glm::dvec3& p : std::span(frame.positions).first(atom_count))
                                  for (int axis = 0; axis < 3; ++axis) out.push(static_cast<float>(p[axis]));
                                times.push_back(frame.time.value_or(std::numeric_limits<double>::quiet_NaN()));
                              }
@@ -47,8 +47,8 @@ void write_atoms(const std::string& path, Existing existing, const SurfaceObject
               {"source", {{"file", provenance.source}, {"radii_set", provenance.radii_set}}},
               {"unit", "angstrom"},
               {"probe_radius", object.surface.probe_radius},
-              {"chain_names", atoms.chain_names},
               {"frames", frames.numbers}};
+  add_names(header, atoms);
   if (provenance.colors) header["colors"] = color_key_json(*provenance.colors);
   if (const auto& kinds = object.coloring.kind) {
     json colors = json::array();

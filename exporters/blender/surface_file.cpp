@@ -114,6 +114,12 @@ void add_map(MnsWriter& file, const TriangleMesh& mesh, const Coloring& coloring
   file.add("atom.own_color", std::span<const std::uint8_t>(own));
 }
 
+/// What the surface measures at vertices and of the patches of triangles.
+void add_numbers(MnsWriter& file, const MeshedObject& meshed) {
+  for (const VertexNumbers& column : meshed.numbers) file.add("mesh." + column.name, std::span(column.values));
+  if (!meshed.patch_area.empty()) file.add("mesh.patch_area", std::span(meshed.patch_area));
+}
+
 void add_velocities(MnsWriter& file, const std::vector<glm::dvec3>& velocities) {
   if (!velocities.empty()) stream_vectors(file, "mesh.velocity", velocities);
 }
@@ -272,8 +278,8 @@ json object_header(const MeshedObject& meshed, const std::string& prefix, const 
                 {"closed", !mesh.partly_hidden},
                 {"area", m.area},
                 {"volume", m.volume}}},
-              {"components", component_list(meshed)},
-              {"chain_names", meshed.atoms.chain_names}};
+              {"components", component_list(meshed)}};
+  add_names(header, meshed.atoms);
   for (const RigidMotion& copy : meshed.object.copies) header["copies"].push_back(matrix(copy));
   if (meshed.thickens && meshed.object.coloring.is_translucent()) header["film_opacity"] = true;
   if (!meshed.cut.planes.empty()) header["caps"] = caps_header(meshed.cut);
@@ -302,6 +308,7 @@ void write_objects(const std::string& path, Existing existing, std::span<const M
     if (!cut.planes.empty() || !meshed.cut.planes.empty()) add_caps(file, meshed);
     if (!meshed.cut.planes.empty()) file.set_version(kMnsVersionOfCaps);
     add_map(file, meshed.mesh, meshed.object.coloring);
+    add_numbers(file, meshed);
     add_velocities(file, meshed.velocities);
     add_atoms(file, meshed.object, meshed.atoms);
     add_convex(file, meshed.object.surface);

@@ -15,6 +15,7 @@
 #include "core/render/picture_object.h"
 #include "exporters/blender/atom_arrays.h"
 #include "exporters/blender/shot.h"
+#include "exporters/mesh_files/mesh_file.h"
 
 namespace meniscus::blender {
 
@@ -42,6 +43,8 @@ struct MeshedObject {
   std::vector<std::uint32_t> cap_plane = {};  ///< of the last triangles, which are caps (CappedMesh)
   CutFile cut = {};                           ///< that made them; without planes: that of the file
   MaterialRequest material = {};              ///< what differs from the usual one
+  std::vector<VertexNumbers> numbers = {};    ///< finite, per vertex (add_surface_numbers)
+  std::vector<float> patch_area = {};         ///< per triangle, Å²; empty: left out
 };
 
 /// Which frame of a run a file is: it must say so, since files of several runs may get into one folder.

@@ -60,8 +60,8 @@ Values smoothed(const NumberSource& source, double Curvature::*which) {
   return of_faces(source, [&](std::uint32_t, std::uint32_t v) { return curvatures[v].*which; });
 }
 
-Values atom_areas_of(const NumberSource& source) {
-  const std::vector<double> areas = atom_areas(source.object.surface).surface;
+Values atom_areas_of(const NumberSource& source, std::vector<double> AtomAreas::*which) {
+  const std::vector<double> areas = atom_areas(source.object.surface).*which;
   return of_vertices(source, [&](std::uint32_t v) { return areas[source.mesh.vertex_atom[v]]; });
 }
 
@@ -114,7 +114,10 @@ const auto kColumns = std::to_array<Column>({
      [](const NumberSource& s) { return smoothed(s, &Curvature::mean); }},
     {{"smooth_gaussian_curvature", "the same, 1/Å²", false, false},
      [](const NumberSource& s) { return smoothed(s, &Curvature::gaussian); }},
-    {{"atom_area", "all of the surface that is the atom's, Å²", false, false}, atom_areas_of},
+    {{"atom_area", "all of the surface that is the atom's, Å²", false, false},
+     [](const NumberSource& s) { return atom_areas_of(s, &AtomAreas::surface); }},
+    {{"accessible_area", "of the atom, where a probe's centre can be, Å²", false, false},
+     [](const NumberSource& s) { return atom_areas_of(s, &AtomAreas::accessible); }},
     {{"patch_area", "of the patch's connected piece, Å²", false, false},
      [](const NumberSource& s) {
        return of_faces(s, [&](std::uint32_t face, std::uint32_t) { return s.object.surface.faces[face].area; });

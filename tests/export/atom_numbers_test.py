@@ -123,7 +123,7 @@ class AtomNumbers(unittest.TestCase):
             self.run_program("export", "blender", *words, "--force", "-o", mns)
             surface = mns_reader.read(mns).objects[0]
             np.testing.assert_allclose(self.places[surface["atom.file_index"]], surface["atom.center"], atol=1e-6)
-            made = mesh_arrays.of_surface(surface, 1.0, True, mesh_arrays.chains_of(surface))
+            made = mesh_arrays.of_surface(surface, 1.0, True, mesh_arrays.names_of(surface))
             values = {name: array for name, *_, array in made.attributes}
             convex = surface["mesh.kind"] == 0
             self.meet(made.positions[made.triangles[convex][:, 0]], values["atom_index"][convex], f"Blender {words[0]}")

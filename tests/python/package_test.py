@@ -415,9 +415,12 @@ class MeshFiles(unittest.TestCase):
         table = columns(mesh, "a.ply", attributes="all", scale=0.1)
         self.assertEqual(table.dtype.names[9:], ("vdw_radii", "atom_index", "ses_kind", "ses_component", "mean_curvature",
                                                  "gaussian_curvature", "smooth_mean_curvature",
-                                                 "smooth_gaussian_curvature", "atom_area", "patch_area"))
+                                                 "smooth_gaussian_curvature", "atom_area", "accessible_area",
+                                                 "patch_area"))
         np.testing.assert_allclose(table["vdw_radii"], self.radii[table["atom_index"].astype(int)], rtol=1e-6)
         np.testing.assert_allclose(table["atom_area"], self.surface.atom_areas[table["atom_index"].astype(int)], rtol=1e-5)
+        np.testing.assert_allclose(table["accessible_area"], self.surface.atom_sas_areas[table["atom_index"].astype(int)],
+                                   rtol=1e-5)
         places = np.stack([table[axis] for axis in "xyz"], axis=1) * 10.0
         np.testing.assert_allclose(self.surface.distance(places), 0.0, atol=1e-4)
         one = columns(mesh, "b.ply", colors=(1, 0, 0), attributes="none")

@@ -2,6 +2,7 @@
 """What computes surfaces for the Blender add-on, under plain Python: files of atoms, library and program, the newest request wins."""
 
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -21,7 +22,7 @@ package = types.ModuleType("meniscus_import")  # without Blender's side of it
 package.__path__ = [os.path.join(ADDON, "meniscus_import")]
 sys.modules["meniscus_import"] = package
 from meniscus_import import mesh_arrays, mns_reader  # noqa: E402
-from meniscus_import.computing import atoms, engines, jobs, process, request  # noqa: E402
+from meniscus_import.computing import atoms, engines, jobs, process, request, wording  # noqa: E402
 
 
 class Quiet:
@@ -128,7 +129,40 @@ class Engines(WithFolder):
             np.testing.assert_allclose(one["mesh.position"] + one.header["mesh"]["origin"],
                                        other["mesh.position"] + other.header["mesh"]["origin"], atol=2e-6)
             np.testing.assert_allclose(one["mesh.normal"], other["mesh.normal"], atol=1e-6)
+            for name in ("mesh.mean_curvature", "mesh.gaussian_curvature", "atom.area", "atom.accessible_area"):
+                np.testing.assert_allclose(one[name], other[name], rtol=1e-5, atol=1e-5, err_msg=f"{kind} {name}")
             self.assertTrue(mns_reader.is_closed(one["mesh.triangle"]))
+
+    def test_names_go_from_the_file_to_the_surface(self):
+        wanted = self.asked(file=samples.UBIQUITIN, selection="resi 1-4")
+        one, other = (engines.compute(tools, wanted, None, self.folder, Quiet()) for tools in (self.tools, self.alone))
+        for key in ("atom_names", "residue_names", "chain_names"):
+            self.assertEqual(one.header[key], other.header[key])
+        for name in ("atom.name_id", "atom.residue_name_id", "atom.entity"):
+            np.testing.assert_array_equal(one[name], other[name], name)
+        self.assertEqual(mesh_arrays.names_of(one)["res_name_id"], ["GLN", "ILE", "MET", "PHE"])
+
+    def test_curvatures_of_a_proxy_are_those_of_patches(self):
+        """Its triangles reach over borders, its vertices lie on the surface."""
+        found = engines.compute(self.tools, self.asked(density=4.0), None, self.folder, Quiet())
+        mean, gaussian = found["mesh.mean_curvature"].astype(float), found["mesh.gaussian_curvature"]
+        spheres = np.array([1 / 1.7, 1 / 1.55, 1 / 1.52, -1 / 1.4])
+        of_sphere = np.abs(mean[:, None] - spheres).min(axis=1) < 1e-6
+        self.assertGreater(of_sphere.mean(), 0.5)
+        np.testing.assert_allclose(gaussian[of_sphere], mean[of_sphere] ** 2, rtol=1e-5)
+        place = found["mesh.position"].astype(float) + found.header["mesh"]["origin"]
+        balls = np.array(samples.MOLECULES["triple"])
+        off = np.abs(np.linalg.norm(place[:, None] - balls[:, :3], axis=2) - balls[:, 3])
+        on_atom = off.min(axis=1) < 1e-5
+        self.assertGreater(on_atom.mean(), 0.3)
+        same = np.isclose(mean, 1.0 / balls[off.argmin(axis=1), 3], atol=1e-5)
+        np.testing.assert_array_equal(same[~on_atom], False)
+        self.assertGreater(same[on_atom].mean(), 0.99)
+        # Of a torus one principal curvature is that of the probe.
+        root = np.sqrt(np.maximum(mean[~of_sphere] ** 2 - gaussian[~of_sphere], 0.0))
+        low = mean[~of_sphere] - root
+        high = mean[~of_sphere] + root
+        self.assertLess(np.minimum(np.abs(low + 1 / 1.4), np.abs(high + 1 / 1.4)).max(), 1e-3)
 
     def test_frames_too(self):
         wanted = self.asked(file=samples.UBIQUITIN, selection="resi 1-4", frames="1-5:2", place=2)
@@ -182,6 +216,74 @@ class Engines(WithFolder):
         with open(base.file, "a", encoding="ascii") as file:
             file.write("9 9 9 1\n")
         self.assertNotEqual(base.key(), before)
+
+
+class Wording(WithFolder):
+    """What a panel shows names its fields."""
+
+    def test_fields_are_those_of_the_panel(self):
+        with open(os.path.join(ADDON, "meniscus_import", "settings.py"), encoding="utf-8") as file:
+            labels = set(re.findall(r'name="([^"]+)"', file.read()))
+        self.assertEqual(set(wording.FIELDS.values()) - labels, set())
+        said = "".join(subprocess.run([PROGRAM, *command, "--help-all"], capture_output=True, text=True, check=True).stdout
+                       for command in (("export", "atoms"), ("export", "blender"), ("export", "mesh")))
+        for option in wording.FIELDS:
+            self.assertRegex(said, rf"{option}\b")
+
+    def test_no_text_of_the_program_keeps_an_option(self):
+        """Each literal of its sources that names one."""
+        root = os.path.dirname(os.path.dirname(os.path.dirname(ADDON)))
+        texts = []
+        for folder in ("core", "app", "exporters"):
+            for at, _, names in os.walk(os.path.join(root, folder)):
+                for name in names:
+                    if name.endswith((".cpp", ".h")):
+                        with open(os.path.join(at, name), encoding="utf-8") as file:
+                            texts += re.findall(r'"((?:[^"\\\n]|\\.)*--[a-z](?:[^"\\\n]|\\.)*)"', file.read())
+        self.assertGreater(len(texts), 500)
+        for text in texts:
+            self.assertNotRegex(wording.for_panel(text), r"(?<![\w/-])--[a-z]", text)
+
+    def test_options_become_fields_and_others_say_what_they_are(self):
+        cases = {"--select: a set is missing": "Selection: a set is missing",
+                 "name it by --trajectory-atoms": "name it by Trajectory's atoms",
+                 "a.pdb: add --trajectory with a file": "a.pdb: add Trajectory with a file",
+                 "--keep-water and --keep-ions use more":
+                     '"keep-water" and "keep-ions" use more (keep-water, keep-ions: options of the program meniscus that this panel has not)',
+                 "/x/my--run.pdb: has no atoms": "/x/my--run.pdb: has no atoms"}
+        for text, wanted in cases.items():
+            self.assertEqual(wording.for_panel(text), wanted)
+
+    def test_what_the_library_says_is_worded_too(self):
+        self.assertEqual(str(engines.EngineError("out of memory; use --probe or less")), "out of memory; use Probe or less")
+
+    def test_what_goes_wrong_is_said_in_fields(self):
+        tools = engines.find_tools(PACKAGE, PROGRAM)
+        short = os.path.join(self.folder, "short.xyz")
+        with open(short, "w", encoding="ascii") as file:
+            file.write("2\n\nC 0 0 0\nC 2 0 0\n")
+        water = os.path.join(self.folder, "water.pdb")
+        with open(water, "w", encoding="ascii") as file:
+            file.write("HETATM    1  O   HOH A   1       1.000   2.000   3.000  1.00  0.00           O\nEND\n")
+        cases = (({"selection": "chain ("}, "Selection"), ({"file": samples.UBIQUITIN, "frames": "7-3", "place": 1}, "Frames"),
+                 ({"file": samples.UBIQUITIN, "trajectory": short, "frames": "all", "place": 1}, "Trajectory's atoms"),
+                 ({"file": water}, "keep-water"), ({"color": "bfactor"}, "Colour"))
+        for asked, word in cases:
+            for each in (tools, engines.Tools(None, tools.program)):
+                with self.assertRaises(engines.EngineError) as caught:
+                    engines.compute(each, request.Request(**{"file": self.molecule(), **asked}), None, self.folder, Quiet())
+                self.assertIn(word, str(caught.exception))
+                self.assertNotRegex(str(caught.exception), r"--[a-z]")
+
+    def test_atoms_of_a_trajectory_can_be_chosen(self):
+        """A trajectory of a part of the file."""
+        run = os.path.join(self.folder, "part.xyz")
+        with open(run, "w", encoding="ascii") as file:
+            for shift in (0.0, 1.0):
+                file.write(f"2\n\nC 0 0 0\nC {3.9 + shift} 0 0\n")
+        asked = request.Request(file=self.molecule(), trajectory=run, trajectory_atoms="index 0 1", selection="index 0 1", frames="all", place=2)
+        found = engines.compute(engines.find_tools(PACKAGE, PROGRAM), asked, None, self.folder, Quiet())
+        np.testing.assert_allclose(found["atom.center"], [[0, 0, 0], [4.9, 0, 0]], atol=1e-5)
 
 
 class Jobs(unittest.TestCase):
@@ -314,7 +416,7 @@ class OtherProcess(WithFolder):
         about = self.about(probe=1.2)
         found = self.finished(self.process.ask("a", "k", "surface", about))
         surface = engines.compute(engines.find_tools(PACKAGE, PROGRAM), request.Request(**about["request"]), None, self.folder, Quiet())
-        wanted = mesh_arrays.of_surface(surface, 0.1, False, mesh_arrays.chains_of(surface))
+        wanted = mesh_arrays.of_surface(surface, 0.1, False, mesh_arrays.names_of(surface), found["middle"])
         self.assertEqual(found["header"]["area"], surface.header["area"])
         for name in ("positions", "triangles", "normals", "slots", "ses_atom"):
             np.testing.assert_array_equal(found["arrays"][name], getattr(wanted, name), name)

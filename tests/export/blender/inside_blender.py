@@ -17,7 +17,7 @@ FOLDER, ADDON, HERE, BLENDER, PROGRAM = sys.argv[sys.argv.index("--") + 1:]
 sys.path.insert(0, HERE)
 import samples  # noqa: E402
 
-from meniscus_import import attributes, build, compat, materials, mns_reader  # noqa: E402
+from meniscus_import import attributes, build, compat, looks, materials, mns_reader  # noqa: E402
 
 STORES = ("objects", "meshes", "cameras", "collections", "materials", "lights", "images", "node_groups")
 
@@ -157,6 +157,45 @@ class Import(unittest.TestCase):
             self.assertAlmostEqual(radii[vertex], 0.5 * surface["atom.radius"][of], places=5)
             self.assertEqual(chains[vertex], (1, 0, 0)[of])
 
+    def test_numbers_of_the_surface_and_names(self):
+        path = os.path.join(FOLDER, "residues.mns")
+        subprocess.run([PROGRAM, "export", "blender", samples.UBIQUITIN, "--select", "resi 1-5", "--tolerance", "0.2", "--attributes", "all",
+                        "-o", path, "--force", "-q"], check=True, stdout=subprocess.DEVNULL)
+        surface = mns_reader.read(path).objects[0]
+        item = imported("residues", scale=0.5)
+        mesh = item.data
+        for name in ("mean_curvature", "gaussian_curvature", "smooth_mean_curvature", "smooth_gaussian_curvature"):
+            self.assertEqual((mesh.attributes[name].data_type, mesh.attributes[name].domain), ("FLOAT", "POINT"), name)
+            np.testing.assert_array_equal(attributes.read(mesh, name, "FLOAT")[:, 0], surface["mesh." + name], name)  # in 1/Å at any scale
+        for name in ("atom_area", "accessible_area", "buried_area"):
+            self.assertEqual((mesh.attributes[name].data_type, mesh.attributes[name].domain), ("FLOAT", "POINT"), name)
+        self.assertTrue(np.isin(attributes.read(mesh, "atom_area", "FLOAT"), surface["atom.area"]).all())
+        self.assertEqual(mesh.attributes["patch_area"].domain, "FACE")
+        np.testing.assert_array_equal(attributes.read(mesh, "patch_area", "FLOAT")[:, 0], surface["mesh.patch_area"])
+        self.assertEqual(list(item["res_names"]), ["GLN", "ILE", "MET", "PHE", "VAL"])
+        residue = np.array(list(item["res_names"]))[attributes.read(mesh, "res_name_id", "INT")[:, 0]]
+        number = attributes.read(mesh, "res_id", "INT")[:, 0]
+        np.testing.assert_array_equal(residue, np.array(["MET", "GLN", "ILE", "PHE", "VAL"])[number - 1])
+        self.assertEqual(len(item["atom_names"]), len(set(surface.header["atom_names"])))
+        self.assertTrue({"CURVATURE", "SMOOTH_CURVATURE", "ATOM_AREA", "ACCESSIBLE_AREA", "BURIED_AREA", "RESIDUE"} <= looks.offered(mesh))
+        plain = imported("triple")
+        self.assertFalse({"SMOOTH_CURVATURE", "BURIED_AREA", "RESIDUE"} & looks.offered(plain.data))
+
+    def test_a_file_without_them_imports_as_before(self):
+        """As 0.1.0 wrote it."""
+        with open(path_of("cage"), "rb") as file:
+            data = file.read()
+        header, _ = samples.header_of(data)
+        lacking = ("curvature", "area", "name_id", "entity", "file_index", "charge", "hydrophobicity")
+        header["arrays"] = [array for array in header["arrays"] if not array["name"].endswith(lacking)]
+        with open(path_of("older"), "wb") as file:
+            file.write(samples.with_header(data, header))
+        old, new = imported("older").data, imported("cage").data
+        np.testing.assert_array_equal(positions(old), positions(new))
+        self.assertNotIn("mean_curvature", old.attributes)
+        self.assertFalse({"CURVATURE", "ATOM_AREA"} & looks.offered(old))
+        self.assertTrue({"CURVATURE", "ATOM_AREA", "ACCESSIBLE_AREA"} <= looks.offered(new))
+
     def test_opacity(self):
         with open(path_of("triple"), "rb") as file:
             data = file.read()
@@ -241,15 +280,21 @@ class Import(unittest.TestCase):
         imported("pair", standard_view=True)
         self.assertEqual(view.view_transform, "Standard")
 
-    def test_centred_surfaces_stay_together(self):
-        items = [imported("triple", center=True, scale=0.5), imported("pair", center=True, scale=0.5)]
-        centers = mns_reader.read(path_of("triple")).objects[0]["atom.center"]
-        middle = 0.5 * (centers.min(axis=0) + centers.max(axis=0))
-        for item, name in zip(items, ("triple", "pair")):
+    def test_centred_surfaces_of_one_molecule_stay_together(self):
+        """A part of it under the same name, in another file: where the whole is. Another molecule: in its own middle."""
+        part = os.path.join(FOLDER, "part.mns")
+        subprocess.run([PROGRAM, "export", "blender", os.path.join(FOLDER, "triple.xyzr"), "--select", "index 0 1", "-o", part, "--force", "-q"],
+                       check=True, stdout=subprocess.DEVNULL)
+        items = [imported(name, center=True, scale=0.5) for name in ("triple", "part", "pair")]
+        middles = []
+        for name in ("triple", "pair"):
+            centers = mns_reader.read(path_of(name)).objects[0]["atom.center"]
+            middles.append(0.5 * (centers.min(axis=0) + centers.max(axis=0)))
+        for item, name, middle in zip(items, ("triple", "part", "pair"), (middles[0], middles[0], middles[1])):
             surface = mns_reader.read(path_of(name)).objects[0]
             world = np.array([item.matrix_world @ vertex.co for vertex in item.data.vertices])
             there = 0.5 * (surface["mesh.position"] + np.array(surface.header["mesh"]["origin"]) - middle)
-            np.testing.assert_allclose(world, there, atol=1e-5)
+            np.testing.assert_allclose(world, there, atol=1e-5, err_msg=name)
 
     def test_a_material_of_the_user_is_not_taken_for_ours(self):
         theirs = bpy.data.materials.new("Meniscus outer")

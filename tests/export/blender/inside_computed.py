@@ -125,7 +125,7 @@ class Computed(unittest.TestCase):
     def test_what_is_wrong_is_said_and_the_surface_stays(self):
         item = of_file()
         before = positions(item.data)
-        for word, change in (("chain Q", {"selection": "chain Q"}), ("--select", {"selection": "chain ("}),
+        for word, change in (("chain Q", {"selection": "chain Q"}), ("Selection", {"selection": "chain ("}),
                              ("no_such_file", {"file": os.path.join(FOLDER, "no_such_file.pdb"), "selection": ""})):
             for name, value in change.items():
                 setattr(item.meniscus, name, value)
@@ -394,14 +394,65 @@ class Computed(unittest.TestCase):
         self.assertEqual(len(set(areas[:4])), 4)
         self.assertEqual(areas[3], areas[4])
 
-    def test_centred_files_stay_with_imports(self):
+    def test_centred_files_stay_with_imports_of_their_molecule(self):
+        def world(item):
+            return np.array([item.matrix_world @ vertex.co for vertex in item.data.vertices])
+
         item = of_file()
-        self.assertGreater(np.abs(item.location).max(), 0.1)
+        self.assertLess(np.abs(world(item)).max(), 0.5)
+        bpy.context.view_layer.update()
+        for name, stays in (("triple", True), ("pair", False)):
+            bpy.ops.import_scene.meniscus(filepath=os.path.join(FOLDER, name + ".mns"), center=True)
+            imported = bpy.context.view_layer.objects.active
+            centers = mns_reader.read(os.path.join(FOLDER, name + ".mns")).objects[0]["atom.center"]
+            own = 0.5 * (centers.min(axis=0) + centers.max(axis=0))
+            np.testing.assert_allclose(imported["meniscus_origin"][:], own, atol=1e-6)
+            self.assertEqual(np.allclose(imported["meniscus_origin"][:], item["meniscus_origin"][:]), stays, name)
+        bpy.context.view_layer.objects.active = None
+        other = of_file(CAGE)
+        self.assertLess(np.abs(world(other).min(axis=0) + world(other).max(axis=0)).max(), 0.02)
+
+    def test_the_origin_of_an_object_lies_in_its_molecule(self):
+        """Centred or where the file has it, at any scale, and when the selection changes."""
+        centers = np.array(samples.MOLECULES["triple"])[:, :3] + 50.0
+        path = os.path.join(FOLDER, "far.xyzr")
+        with open(path, "w", encoding="ascii") as file:
+            for x, y, z in centers:
+                file.write(f"{x} {y} {z} 1.7\n")
+        middle = 0.5 * (centers.min(axis=0) + centers.max(axis=0))
+        for center in (True, False):
+            start_anew()
+            item = of_file(path, center=center)
+            for scale in (0.1, 0.5):
+                item.meniscus.scale = scale
+                update()
+                self.assertLess(np.abs(positions(item.data)).max(), 6.0 * scale)
+                np.testing.assert_allclose(item.location, middle * (0.0 if center else scale), atol=1e-4)
+            item.meniscus.selection = "index 0 1"
+            update()
+            np.testing.assert_allclose(item.location, middle * (0.0 if center else 0.5), atol=1e-4)
+            self.assertAlmostEqual(float(positions(item.data)[:, 0].min()) / 0.5, centers[:2, 0].min() - 1.7 - middle[0], delta=0.05)
+
+    def test_an_object_of_0_1_0_stays_where_it_was(self):
+        """Its mesh has the coordinates of the file, its place takes the origin away."""
+        item = of_file()
+        origin = np.array(item["meniscus_origin"][:])
         world = np.array([item.matrix_world @ vertex.co for vertex in item.data.vertices])
-        self.assertLess(np.abs(world).max(), 0.5)
-        bpy.ops.import_scene.meniscus(filepath=os.path.join(FOLDER, "pair.mns"), center=True)
-        imported = bpy.context.view_layer.objects.active
-        np.testing.assert_allclose(imported.matrix_world.translation, item.location, atol=1e-6)
+        del item["meniscus_middle"]
+        item.location = -0.1 * origin
+        item.data[computed.SHOWN] = ""
+        computed.compute_now(item)
+        bpy.context.view_layer.update()
+        np.testing.assert_allclose(np.array([item.matrix_world @ vertex.co for vertex in item.data.vertices]), world, atol=1e-5)
+
+    def test_new_objects_go_to_the_active_collection(self):
+        mine = bpy.data.collections.new("mine")
+        bpy.context.scene.collection.children.link(mine)
+        layer = bpy.context.view_layer.layer_collection.children["mine"]
+        bpy.context.view_layer.active_layer_collection = layer
+        self.assertEqual(list(of_file().users_collection), [mine])
+        layer.exclude = True
+        self.assertEqual(list(of_file().users_collection), [bpy.context.scene.collection])
 
 
 

@@ -115,15 +115,19 @@ class Looks(unittest.TestCase):
                   ((1, "#ffffff"), (6, "#c8c8c8"), (7, "#8fa6f5"), (8, "#f58f8f"), (16, "#f5e88f"), (53, "#c8c8c8"))]
         cases += [("KIND", {"ses_kind": kind}, color) for kind, color in enumerate(("#e69f00", "#56b4e9", "#009e73"))]
         cases += [("CHARGE", {"charge": value}, color) for value, color in ((-1.0, "#d6412f"), (0.0, "#ffffff"), (1.0, "#3a5fcd"), (7.0, "#3a5fcd"))]
+        cases += [("CURVATURE", {"mean_curvature": value}, color) for value, color in ((-0.8, "#3a5fcd"), (0.0, "#ffffff"), (0.8, "#d6412f"))]
+        cases += [("SMOOTH_CURVATURE", {"smooth_mean_curvature": -0.3}, "#3a5fcd"), ("ATOM_AREA", {"atom_area": 12.0}, "#2a788e"),
+                  ("ACCESSIBLE_AREA", {"accessible_area": 40.0}, "#fde725"), ("BURIED_AREA", {"buried_area": 0.0}, "#ffffff")]
         for coloring, given, color in cases:
             np.testing.assert_allclose(self.shown(coloring, **given), looks.linear(color)[:3], atol=4e-3, err_msg=f"{coloring} {given}")
         np.testing.assert_allclose(self.shown("COLOR", Color=(0.2, 0.5, 0.8)), (0.2, 0.5, 0.8), atol=2e-3)
 
-    def test_chains_have_colours_of_their_own(self):
-        found = [self.shown("CHAIN", chain_id=number) for number in range(6)]
-        for one in range(6):
-            for other in range(one):
-                self.assertGreater(np.abs(found[one] - found[other]).max(), 0.08, (one, other))
+    def test_chains_and_residues_have_colours_of_their_own(self):
+        for coloring, attribute in looks.HUES.items():
+            found = [self.shown(coloring, **{attribute: number}) for number in range(6)]
+            for one in range(6):
+                for other in range(one):
+                    self.assertGreater(np.abs(found[one] - found[other]).max(), 0.08, (coloring, one, other))
 
     def test_the_range_of_a_scale_is_an_input(self):
         item = plate(charge=0.25)
@@ -134,7 +138,8 @@ class Looks(unittest.TestCase):
 
     def test_every_look_renders_in_every_colouring(self):
         given = {"Color": (0.8, 0.3, 0.2), "b_factor": 80.0, "atomic_number": 8, "chain_id": 1, "charge": 0.4, "map_value": 2.0,
-                      "hydrophobicity": 1.0, "lipophobicity": 0.3, "ses_kind": 1}
+                      "hydrophobicity": 1.0, "lipophobicity": 0.3, "ses_kind": 1, "res_name_id": 2, "mean_curvature": 0.2,
+                      "smooth_mean_curvature": -0.1, "atom_area": 9.0, "accessible_area": 20.0, "buried_area": 7.0}
         sun = bpy.data.objects.new("sun", bpy.data.lights.new("sun", "SUN"))
         bpy.context.scene.collection.objects.link(sun)
         for look in looks.LOOKS:
@@ -230,8 +235,14 @@ class Looks(unittest.TestCase):
     def test_what_an_object_has_not_is_not_offered(self):
         plate()
         self.assertEqual(looks.offered(bpy.context.active_object.data), {"COLOR", "KIND"})
-        with self.assertRaisesRegex(TypeError, "CHARGE"):
-            bpy.ops.object.meniscus_look(look="PAINT", coloring="CHARGE")
+        for coloring, attribute in looks.ATTRIBUTES.items():
+            if coloring in ("COLOR", "KIND") or attribute in bpy.context.active_object.data.attributes:
+                continue
+            with self.assertRaisesRegex(TypeError, coloring):
+                bpy.ops.object.meniscus_look(look="PAINT", coloring=coloring)
+            kind = "INT" if coloring in (*looks.HUES, "ELEMENT") else "FLOAT"
+            attributes.add(bpy.context.active_object.data, attribute, kind, "POINT", np.zeros(4, np.int32 if kind == "INT" else np.float32))
+            self.assertEqual(bpy.ops.object.meniscus_look(look="PAINT", coloring=coloring), {"FINISHED"})
 
     def test_outlines_by_line_art(self):
         item = plate(Color=(1.0, 1.0, 1.0))

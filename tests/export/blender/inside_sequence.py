@@ -16,7 +16,7 @@ FOLDER, HERE = sys.argv[sys.argv.index("--") + 1:][:3:2]
 sys.path.insert(0, HERE)
 import samples  # noqa: E402
 
-from meniscus_import import build, compat, frame_picker, joined, mns_reader, sequence, sequence_reader  # noqa: E402
+from meniscus_import import build, compat, frame_picker, joined, mesh_arrays, mns_reader, sequence, sequence_reader  # noqa: E402
 
 RUN = os.path.join(FOLDER, "run")
 MANIFEST = os.path.join(RUN, "surface_sequence.json")
@@ -40,6 +40,12 @@ def triangles_shown(item):
         bpy.context.scene.frame_set(time)
         counts.append(len(item.evaluated_get(bpy.context.evaluated_depsgraph_get()).data.polygons))
     return counts
+
+
+def world_normals(item):
+    """Of the corners of what it shows, in the scene."""
+    shown_item = item.evaluated_get(bpy.context.evaluated_depsgraph_get())
+    return compat.corner_normals(shown_item.data) @ np.array(shown_item.matrix_world.to_3x3().normalized()).T
 
 
 def expected(scene_frame, scale=0.1, center=True):
@@ -109,21 +115,16 @@ class Sequence(unittest.TestCase):
                         np.testing.assert_allclose(shown(item), expected(place), atol=1e-5, err_msg=text)
 
     def test_a_bake_has_a_mesh_of_its_own(self):
-        """Which modifiers behind it and exporters see; where Blender would lose normals by that, on request."""
+        """Which modifiers behind it and exporters see, with its exact normals."""
         item = sequence.bake(MANIFEST)
-        modifier = item.modifiers["Frame"]
-        own = compat.input_identifier(modifier.node_group, frame_picker.OWN)
-        self.assertEqual(bool(modifier[own]), compat.keeps_realized_normals())
-        modifier[own] = True
-        item.update_tag()
         counts = [sequence_reader.read(MANIFEST).read(place).objects[0].triangle_count for place in (1, 2, 3)]
         self.assertEqual(triangles_shown(item), counts)
-        if compat.keeps_realized_normals():
-            bpy.context.scene.frame_set(2)
-            stored = bpy.data.collections["surface_sequence.frames"].objects
-            wanted = compat.corner_normals(sorted(stored, key=lambda each: each.name)[1].data)
-            graph = bpy.context.evaluated_depsgraph_get()
-            np.testing.assert_array_equal(compat.corner_normals(item.evaluated_get(graph).data), wanted)
+        stored = sorted(bpy.data.collections["surface_sequence.frames"].objects, key=lambda each: each.name)
+        for time in (2, 3, 1):
+            bpy.context.scene.frame_set(time)
+            mesh = item.evaluated_get(bpy.context.evaluated_depsgraph_get()).data
+            np.testing.assert_array_equal(compat.corner_normals(mesh), compat.corner_normals(stored[time - 1].data))
+            self.assertIn("velocity", mesh.attributes)
         fewer = item.modifiers.new("Fewer", "DECIMATE")
         fewer.ratio = 0.1
         for count, found in zip(counts, triangles_shown(item)):
@@ -139,9 +140,8 @@ class Sequence(unittest.TestCase):
                 bpy.ops.wm.read_factory_settings(use_empty=True)
                 addon_utils.enable("meniscus_import")
                 item = getattr(sequence, mode)(MANIFEST)
-                if mode == "bake":
-                    modifier = item.modifiers["Frame"]
-                    modifier[compat.input_identifier(modifier.node_group, frame_picker.OWN)] = True
+                bpy.context.scene.frame_set(2)
+                normals = world_normals(item)
                 path = os.path.join(self.folder, f"{mode}.{'abc' if kind == 'alembic' else 'usd'}")
                 frames = {"start": 1, "end": 3} if kind == "alembic" else {"export_animation": True}
                 getattr(bpy.ops.wm, kind + "_export")(filepath=path, **frames)
@@ -149,6 +149,11 @@ class Sequence(unittest.TestCase):
                 getattr(bpy.ops.wm, kind + "_import")(filepath=path)
                 (back,) = (each for each in bpy.data.objects if each.type == "MESH")
                 self.assertEqual(triangles_shown(back), counts, f"{mode} {kind}")
+                bpy.context.scene.frame_set(2)
+                cosines = (world_normals(back) * normals).sum(axis=1)  # Blender keeps normals to some tenths of a degree
+                self.assertGreater(cosines.min(), np.cos(np.radians(1.0)), f"{mode} {kind}")
+                found = set(back.evaluated_get(bpy.context.evaluated_depsgraph_get()).data.attributes.keys())
+                self.assertLessEqual({"velocity"} if kind == "alembic" else {"velocity", "mean_curvature", "atom_area", "res_name_id"}, found)
 
     def test_the_frame_can_be_keyed(self):
         for mode in ("BAKE", "STREAM"):
@@ -383,6 +388,34 @@ class Sequence(unittest.TestCase):
         self.assertEqual(len(shown(item)), 0)
         self.assertIn("surface_sequence.json", item["meniscus_error"])
 
+    def test_places_of_names_are_the_same_in_all_frames(self):
+        """Though each file numbers its own: here the second has other residues than the first."""
+        folder = shutil.copytree(RUN, os.path.join(self.folder, "copy"))
+        path = os.path.join(folder, "surface_00003.mns")
+        with open(path, "rb") as file:
+            data = file.read()
+        header, _ = samples.header_of(data)
+        names = header["objects"][0]["residue_names"]
+        header["objects"][0]["residue_names"] = ["AAA" if name == names[0] else name for name in names]
+        with open(path, "wb") as file:
+            file.write(samples.with_header(data, header))
+
+        def residues(mesh, item):
+            values = np.empty(len(mesh.vertices), dtype=np.int32)
+            mesh.attributes["res_name_id"].data.foreach_get("value", values)
+            return {item["res_names"][value] for value in values}
+
+        for mode in ("stream", "bake"):
+            bpy.ops.wm.read_factory_settings(use_empty=True)
+            addon_utils.enable("meniscus_import")
+            item = getattr(sequence, mode)(os.path.join(folder, "surface_sequence.json"))
+            stored = sorted(bpy.data.meshes, key=lambda mesh: mesh.name)
+            for time in (1, 2, 3, 2):
+                bpy.context.scene.frame_set(time)
+                mesh = item.data if mode == "stream" else next(each for each in stored if each.name.endswith(f".{time:07d}"))
+                self.assertEqual(residues(mesh, item), set(header["objects"][0]["residue_names"] if time == 2 else names), (mode, time))
+            self.assertEqual(sorted(item["res_names"]), sorted({*names, "AAA"}))
+
     def test_objects_and_copies_are_joined(self):
         with open(os.path.join(FOLDER, "triple.mns"), "rb") as file:
             data = file.read()
@@ -401,7 +434,7 @@ class Sequence(unittest.TestCase):
         turned = np.stack([-base[:, 1] + 10.0, base[:, 0] + 20.0, base[:, 2] + 30.0], axis=1)
         np.testing.assert_allclose(surface["mesh.position"][rows:2 * rows], turned - [1, 2, 3], atol=1e-5)
         np.testing.assert_allclose(surface["mesh.normal"][rows:2 * rows, 0], -alone["mesh.normal"][:, 1], atol=1e-6)
-        mesh = build.build_mesh(surface, "joined", build.Options(scale=1.0), [], 24.0, surface.header["chain_names"])
+        mesh = build.build_mesh(surface, "joined", build.Options(scale=1.0), [], 24.0, mesh_arrays.names_of(surface))
         self.assertEqual(len(mesh.polygons), 3 * count)
         corners = compat.corner_normals(mesh)
         np.testing.assert_allclose(corners[3 * count:6 * count, 0], -corners[:3 * count, 1], atol=2e-3)

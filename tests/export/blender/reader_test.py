@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The .mns reader of the Blender add-on under plain Python: arguments PROGRAM ADDON_FOLDER."""
 
+import json
 import os
 import struct
 import subprocess
@@ -39,6 +40,125 @@ class Reader(unittest.TestCase):
         bare = mns_reader.read(self.files["triple"]).objects[0]
         self.assertIsNone(bare.get("atom.charge"))
         self.assertIsNone(bare.get("atom.hydrophobicity"))
+
+    def run_program(self, *words):
+        return subprocess.run([PROGRAM, *words, "--device", "cpu", "--force"], capture_output=True, text=True, check=False)
+
+    def residues(self, name, *options):
+        """The first of a .mns file of five residues of ubiquitin."""
+        target = os.path.join(self.folder.name, name + ".mns")
+        done = self.run_program("export", "blender", samples.UBIQUITIN, "--select", "resi 1-5", "--tolerance", "0.2", "-o", target, *options)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return mns_reader.read(target).objects[0]
+
+    def test_numbers_of_the_surface_are_those_of_export_mesh(self):
+        surface = self.residues("all", "--attributes", "all")
+        ply = os.path.join(self.folder.name, "all.ply")
+        done = self.run_program("export", "mesh", samples.UBIQUITIN, "--select", "resi 1-5", "--tolerance", "0.2", "--attributes", "all", "-o", ply)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        with open(ply, "rb") as file:
+            header, body = file.read().split(b"end_header\n", 1)
+        head = [line.split() for line in header.decode("ascii").split("element face")[0].splitlines()]
+        fields = [(line[2], {"float": "<f4", "uchar": "u1"}[line[1]]) for line in head if line[0] == "property"]
+        rows = np.frombuffer(body, np.dtype(fields), next(int(line[2]) for line in head if line[:2] == ["element", "vertex"]))
+        place = surface["mesh.position"].astype(np.float64) + surface.header["mesh"]["origin"]
+        there = np.stack([rows[axis] for axis in "xyz"], axis=1).astype(np.float64)
+        nearest = np.concatenate([((part[:, None] - there) ** 2).sum(axis=2).argmin(axis=1) for part in np.array_split(place, 20)])
+        same = np.linalg.norm(place - there[nearest], axis=1) < 1e-4  # others were welded
+        self.assertGreater(same.mean(), 0.95)
+        atom = np.full(len(place), len(surface["atom.radius"]))
+        np.minimum.at(atom, surface["mesh.triangle"].ravel(), np.repeat(surface["mesh.atom"], 3))
+        of_atoms = {"atom_area": "area", "accessible_area": "accessible_area", "buried_area": "buried_area", "entity": "entity",
+                    "b_factor": "b_factor", "res_id": "res_id", "hydrophobicity": "hydrophobicity", "atomic_number": "atomic_number"}
+        found = {name: surface[f"mesh.{name}"] for name in ("mean_curvature", "gaussian_curvature", "smooth_mean_curvature",
+                                                            "smooth_gaussian_curvature")}
+        found |= {name: surface[f"atom.{array}"][atom] for name, array in of_atoms.items()}
+        for name, values in found.items():
+            wanted = rows[name][nearest[same]]
+            known = np.isfinite(wanted)  # a .mns file has 0 where there is none
+            close = np.isclose(values[same][known], wanted[known], rtol=1e-4, atol=1e-4)
+            # What is averaged sees a mesh that was welded.
+            self.assertGreater(close.mean(), 0.9 if name.startswith("smooth") else 0.999, name)
+            self.assertGreater(known.mean(), 0.99, name)
+        # A vertex has one of its patches alone, a triangle its own. Pieces too small for a triangle are missing.
+        self.assertLess(np.abs(np.unique(rows["patch_area"])[:, None] - surface["mesh.patch_area"]).min(axis=1).max(), 1e-4)
+        pieces = set(zip(surface["mesh.kind"].tolist(), surface["mesh.patch"].tolist(), surface["mesh.patch_area"].tolist()))
+        self.assertAlmostEqual(sum(area for *_, area in pieces) / surface.header["area"], 1.0, delta=0.005)
+
+    def test_areas_add_up_and_curvatures_are_those_of_spheres(self):
+        surface = self.residues("usual")
+        self.assertAlmostEqual(surface["atom.area"].sum(dtype=np.float64) / surface.header["area"], 1.0, places=6)
+        said = self.run_program("surface", samples.UBIQUITIN, "--select", "resi 1-5", "--surface", "sas", "--json", "-q").stdout
+        self.assertAlmostEqual(surface["atom.accessible_area"].sum(dtype=np.float64) / json.loads(said)["area"], 1.0, places=6)
+        kinds = {}
+        for triangle, kind in zip(surface["mesh.triangle"], surface["mesh.kind"]):
+            for vertex in triangle:
+                kinds.setdefault(vertex, set()).add(int(kind))
+        for kind, curvature in ((0, 1.0 / surface["atom.radius"]), (2, np.array([-1.0 / 1.4]))):
+            inner = [vertex for vertex, around in kinds.items() if around == {kind}]
+            self.assertGreater(len(inner), 20)
+            mean = surface["mesh.mean_curvature"][inner].astype(np.float64)
+            self.assertLess(np.abs(mean[:, None] - curvature).min(axis=1).max(), 1e-6)
+            np.testing.assert_allclose(surface["mesh.gaussian_curvature"][inner], mean ** 2, rtol=1e-5)
+        self.assertIsNone(surface.get("mesh.smooth_mean_curvature"))
+        self.assertIsNone(surface.get("atom.buried_area"))
+
+    def test_names_are_places_in_lists(self):
+        surface = self.residues("names", "--attributes", "none")
+        self.assertEqual([name for name in surface.arrays if "curvature" in name or name.endswith("area")], [])
+        residues, atoms = surface.header["residue_names"], surface.header["atom_names"]
+        self.assertEqual(residues, ["MET", "GLN", "ILE", "PHE", "VAL"])
+        self.assertEqual([residues[n] for n in surface["atom.residue_name_id"]],
+                         [residues[n - 1] for n in surface["atom.res_id"]])
+        self.assertEqual(atoms[surface["atom.name_id"][0]], "N")
+        self.assertEqual(len(set(atoms)), len(atoms))
+        self.assertIsNone(mns_reader.read(self.files["triple"]).objects[0].get("atom.name_id"))
+
+    def test_names_of_a_foreign_file_stay_data(self):
+        """Quotes, backslashes and what Python would run."""
+        source, target = (os.path.join(self.folder.name, name) for name in ("foreign.pdb", "foreign.mns"))
+        with open(source, "w", encoding="ascii") as file:
+            for number, (name, residue) in enumerate((("'\"\\n", "'+x"), ("{0}%", "\"\"\"")), 1):
+                file.write("HETATM%5d %-4s %3s A%4d    %8.3f%8.3f%8.3f  1.00  0.00           C\n" % (number, name, residue, number, 4.0 * number, 0, 0))
+        self.assertEqual(self.run_program("export", "blender", source, "-o", target).returncode, 0)
+        surface = mns_reader.read(target).objects[0]
+        self.assertEqual(surface.header["atom_names"], ["'\"\\n", "{0}%"])
+        self.assertEqual(surface.header["residue_names"], ["'+x", "\"\"\""])
+
+    def test_what_attributes_cannot_be_had_is_said(self):
+        target = os.path.join(self.folder.name, "part.mns")
+        words = ["export", "blender", samples.UBIQUITIN, "--select", "resi 1-5", "--tolerance", "0.2", "-o", target, "--clip", "depth>0.5"]
+        done = self.run_program(*words, "--attributes", "smooth_mean_curvature")
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertIn("--clip", done.stderr)
+        done = self.run_program(*words, "--attributes", "all")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("no smooth curvature is written", done.stderr)
+        surface = mns_reader.read(target).objects[0]
+        self.assertIsNone(surface.get("mesh.smooth_mean_curvature"))
+        self.assertTrue((surface["mesh.patch_area"][surface["mesh.kind"] == mns_reader.CAP] == 0).all())
+        done = self.run_program(*words, "--attributes", "nonsense")
+        self.assertIn("'nonsense' is no attribute", done.stderr)
+
+    def test_the_same_command_writes_the_same_bytes(self):
+        files = []
+        for name in ("one", "two"):
+            self.residues(name, "--attributes", "all")
+            with open(os.path.join(self.folder.name, name + ".mns"), "rb") as file:
+                files.append(file.read())
+        self.assertEqual(*files)
+
+    def test_arrays_of_numbers_must_fit(self):
+        with open(self.files["triple"], "rb") as file:
+            data = file.read()
+        path = os.path.join(self.folder.name, "bad.mns")
+        for name in ("mesh.mean_curvature", "atom.area"):
+            header, _ = samples.header_of(data)
+            next(array for array in header["arrays"] if array["name"] == "0/" + name)["rows"] -= 1
+            with open(path, "wb") as file:
+                file.write(samples.with_header(data, header))
+            with self.assertRaisesRegex(mns_reader.MnsError, name):
+                mns_reader.read(path)
 
     def test_meshes_are_closed_outward_and_measure_what_the_header_says(self):
         for path in self.files.values():

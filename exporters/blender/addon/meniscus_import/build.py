@@ -10,8 +10,10 @@ import mathutils
 import numpy as np
 
 from . import attributes, compat, frames, joined, materials, mns_reader
-from .mesh_arrays import OURS, chains_of, of_surface
+from .mesh_arrays import NAMES, OURS, names_of, of_surface
 
+#: Two molecules with as many atoms are the same one if they have so many.
+MANY_ATOMS = 100
 #: Of a surface that is seen through, along one ray.
 MOST_LAYERS = 256
 
@@ -46,7 +48,8 @@ def import_file(path, context=None, **options):
     context = context or bpy.context
     file = mns_reader.read(path)
     options = Options(**options)
-    origin = scene_origin(context.scene, lambda: middle_of(frames.points_of(file))) if options.center else np.zeros(3)
+    source, atoms = source_of(file.header), sum(len(surface["atom.center"]) for surface in file.objects)
+    origin = scene_origin(context.scene, lambda: middle_of(frames.points_of(file)), source, atoms) if options.center else np.zeros(3)
     stem = os.path.splitext(os.path.basename(path))[0]
     made = Import()
     shot = {**file.header.get("camera", {}), **(options.camera or {})}
@@ -54,16 +57,17 @@ def import_file(path, context=None, **options):
     meshes, new_materials = [], []
     try:
         made.collection = bpy.data.collections.new(stem)
-        chains = chains_of(*file.objects)
+        names = names_of(*file.objects)
         for key, surface in parts_of(file, options.parts):
             name = f"{stem}.{key if len(file.objects) > 1 or options.parts else 'surface'}"
-            meshes.append(build_mesh(surface, name, options, new_materials, fps_of(context.scene), chains))
+            meshes.append(build_mesh(surface, name, options, new_materials, fps_of(context.scene), names))
             for copy in surface.copies:  # linked: all copies share one mesh
                 made.surfaces.append(bpy.data.objects.new(name, meshes[-1]))
                 made.surfaces[-1].matrix_world = placement(copy, options.scale, origin)
-                set_provenance(made.surfaces[-1], surface, options, chains)
+                set_provenance(made.surfaces[-1], surface, options, names)
                 made.surfaces[-1]["meniscus_file"] = remembered_path(path)
                 made.surfaces[-1]["meniscus_part"] = key
+                made.surfaces[-1]["meniscus_atoms"] = atoms
                 made.surfaces[-1]["meniscus_origin"] = [float(value) for value in origin]
                 made.collection.objects.link(made.surfaces[-1])
         if options.import_camera and shot:
@@ -112,8 +116,8 @@ def reload(item, context=None):
     surface = dict(parts_of(file, options.parts)).get(item["meniscus_part"])
     if surface is None:
         raise mns_reader.MnsError(f"{path}: it has no surface {item['meniscus_part']} any more")
-    chains = chains_of(*file.objects)
-    mesh, arrays = item.data, of_surface(surface, options.scale, options.crisp_colors, chains)
+    names = names_of(*file.objects)
+    mesh, arrays = item.data, of_surface(surface, options.scale, options.crisp_colors, names)
     check_with_blender(arrays)
     kept = attributes.keep(mesh, OURS)
     clear_geometry(mesh)
@@ -122,7 +126,7 @@ def reload(item, context=None):
     mesh.update()
     for other in bpy.data.objects:
         if other.data == mesh:
-            set_provenance(other, surface, options, chains)
+            set_provenance(other, surface, options, names)
     let_rays_through(context.scene, [mesh])
 
 
@@ -145,12 +149,21 @@ def middle_of(points):
     return 0.5 * (points.min(axis=0) + points.max(axis=0))
 
 
-def scene_origin(scene, otherwise):
-    """Å: what an earlier import took from all coordinates, so that things of one molecule stay together; else otherwise()."""
+def scene_origin(scene, otherwise, source, atoms):
+    """Å: what an earlier import of the same molecule took from all coordinates, so that its surfaces stay together; else
+    otherwise(). It is the same if its file, source, has the same name but for the ending, or if it has as many atoms, enough of
+    them that this is no chance."""
     for item in scene.objects:
-        if "meniscus_origin" in item and any(item["meniscus_origin"]):
+        same_name = stem_of(source) and stem_of(source) == stem_of(item.get("meniscus_source", ""))
+        is_same = same_name or (atoms >= MANY_ATOMS and atoms == item.get("meniscus_atoms"))
+        if "meniscus_origin" in item and any(item["meniscus_origin"]) and is_same:
             return np.array(item["meniscus_origin"][:], dtype=np.float64)
     return np.asarray(otherwise(), dtype=np.float64)
+
+
+def stem_of(name):
+    """A file's name without its endings."""
+    return os.path.basename(name).split(".")[0]
 
 
 def present(context, items):
@@ -184,11 +197,11 @@ def fps_of(scene):
     return scene.render.fps / scene.render.fps_base
 
 
-def build_mesh(surface, name, options, new_materials, fps, chains):
+def build_mesh(surface, name, options, new_materials, fps, names):
     mesh = bpy.data.meshes.new(name)
     try:
         add_materials(mesh, surface, new_materials, options.own_materials)
-        fill_mesh(mesh, of_surface(surface, options.scale, options.crisp_colors, chains), fps)
+        fill_mesh(mesh, of_surface(surface, options.scale, options.crisp_colors, names), fps)
     except BaseException:
         bpy.data.meshes.remove(mesh)
         raise
@@ -238,18 +251,31 @@ def add_materials(mesh, surface, new_materials, own=False):
         mesh.materials.append(materials.find_or_make(role, kind, new_materials, own, materials.hatching_of(surface, role), materials.looks_of(surface)))
 
 
-def set_provenance(item, surface, options, chains):
+def source_of(header):
+    """The name of the molecule's file, "" where the header of a file or a manifest does not say it."""
+    return str(header.get("source", {}).get("file", ""))
+
+
+def set_provenance(item, surface, options, names):
     header = surface.header
     item["meniscus_generator"] = str(header.get("generator", ""))
-    item["meniscus_source"] = str(header.get("source", {}).get("file", ""))
+    item["meniscus_source"] = source_of(header)
     item["meniscus_probe_radius"] = float(header.get("probe_radius", 0.0))
     item["meniscus_tolerance"] = float(header["mesh"].get("tolerance", 0.0))
     item["meniscus_scale"] = float(options.scale)
     item["meniscus_crisp"] = int(options.crisp_colors)
     item["meniscus_parts"] = int(options.parts)
-    item["chain_ids"] = chains  # as Molecular Nodes has them
+    set_names(item, names)
     item["meniscus_area"] = float(header.get("area", 0.0))
     item["meniscus_volume"] = float(header.get("volume", 0.0))
+
+
+def set_names(item, names):
+    """Custom properties with the names that attributes of a mesh point into; chain_ids as Molecular Nodes has them."""
+    for attribute, (_, key) in NAMES.items():
+        wanted = list(names.get(attribute, ()))
+        if wanted != list(item.get(key, ())):
+            item[key] = wanted
 
 
 def place_camera(item, shot, scale, origin=(0.0, 0.0, 0.0)):

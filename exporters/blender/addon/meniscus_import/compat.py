@@ -247,11 +247,12 @@ def line_art(item, name, width):
 
 
 def switch_geometry(tree, condition, if_true, otherwise):
-    """The output of a node that chooses between two geometries."""
+    """The output of a node that chooses between two geometries; None: nothing."""
     node = tree.nodes.new("GeometryNodeSwitch")
     node.input_type = "GEOMETRY"
     for socket, source in zip((socket for socket in node.inputs if socket.enabled), (condition, otherwise, if_true)):
-        tree.links.new(source, socket)
+        if source is not None:
+            tree.links.new(source, socket)
     return next(socket for socket in node.outputs if socket.enabled)
 
 

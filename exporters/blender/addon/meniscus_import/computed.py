@@ -7,6 +7,7 @@ import time as clock
 
 import bpy
 import mathutils
+import numpy as np
 from bpy.app.handlers import persistent
 
 from . import attributes, build, compat, mesh_arrays, mns_reader, molecular_nodes
@@ -56,14 +57,16 @@ class Wanted:
 
 
 class Shown:
-    """What a mesh shows: header of the surface, middle of its atoms in Å, and the arrays that fill the mesh."""
+    """What a mesh shows: header of the surface, middle of its atoms in Å, how many they are, and the arrays that fill the mesh,
+    whose positions lie about `base`, Å."""
 
     def __init__(self, result, wanted):
         self.surface = mns_reader.Surface("a computed surface", result["header"], {})
-        self.middle, self.arrays = result["middle"], mesh_arrays.MeshArrays(**result["arrays"])
+        self.middle, self.base, self.atoms = result["middle"], result["base"], result["atoms"]
+        self.arrays = mesh_arrays.MeshArrays(**result["arrays"])
         self.scale, self.crisp = wanted.scale, wanted.crisp
-        self.chains = mesh_arrays.chains_of(self.surface)
-        self.names = {each.name for each in wanted.others}
+        self.names = mesh_arrays.names_of(self.surface)
+        self.others = {each.name for each in wanted.others}
 
 
 def working():
@@ -226,10 +229,10 @@ def show(item, key, shown):
     build.clear_geometry(mesh)
     if not mesh.materials:
         build.add_materials(mesh, shown.surface, [])
-    build.fill_mesh(mesh, shown.arrays, build.fps_of(bpy.context.scene), trusted=True)
-    attributes.give_back(mesh, kept, shown.arrays)
     place(item, shown)
-    build.set_provenance(item, shown.surface, build.Options(shown.scale, shown.crisp), shown.chains)
+    build.fill_mesh(mesh, arrays_about(item, shown), build.fps_of(bpy.context.scene), trusted=True)
+    attributes.give_back(mesh, kept, shown.arrays)
+    build.set_provenance(item, shown.surface, build.Options(shown.scale, shown.crisp), shown.names)
     mesh[SHOWN] = key
     item[ERROR] = ""
     if frame_count(item) or item.meniscus.source == "OBJECT":
@@ -242,20 +245,35 @@ def _keep_of_user(item, shown):
     mesh, settings = item.data, item.meniscus
     source = settings.file if settings.source == "FILE" else settings.atoms and settings.atoms.name
     of, older = _of_user.get(mesh.name, (None, ()))
-    kept = attributes.keep(mesh, build.OURS | shown.names, older if of == source else ())
+    kept = attributes.keep(mesh, build.OURS | shown.others, older if of == source else ())
     _of_user[mesh.name] = source, kept
     return kept
 
 
 def place(item, shown):
-    """Where the object stands when it first shows something; if its scale changes the molecule's middle stays where it is."""
-    if item.meniscus.source == "FILE" and item.meniscus.center and "meniscus_origin" not in item:
-        origin = build.scene_origin(bpy.context.scene, lambda: shown.middle)
-        item["meniscus_origin"] = [float(value) for value in origin]
-        item.location = mathutils.Vector(origin) * -shown.scale
-    elif "meniscus_origin" in item and item.get("meniscus_scale", shown.scale) != shown.scale:
-        origin = mathutils.Vector(item["meniscus_origin"][:])
-        item.location += origin * (item["meniscus_scale"] - shown.scale)
+    """Where the object stands when it first shows something of a file: its origin in the middle of the molecule, about which it
+    turns. If its scale changes the middle stays where it is, or where the file has it. Objects of 0.1.0 have the file's origin."""
+    before = item.get("meniscus_scale", shown.scale)
+    if item.meniscus.source == "FILE" and "meniscus_generator" not in item:
+        origin = np.zeros(3)
+        if item.meniscus.center:
+            source = build.source_of(shown.surface.header)
+            origin = build.scene_origin(bpy.context.scene, lambda: shown.middle, source, shown.atoms)
+            item["meniscus_origin"] = [float(value) for value in origin]
+        item["meniscus_middle"] = [float(value) for value in shown.middle]
+        item["meniscus_atoms"] = shown.atoms
+        item.location += mathutils.Vector((shown.middle - origin) * shown.scale)
+    elif before != shown.scale and ("meniscus_middle" in item) != ("meniscus_origin" in item):
+        place = mathutils.Vector(item["meniscus_middle" if "meniscus_middle" in item else "meniscus_origin"][:])
+        item.location += place * ((shown.scale - before) * (1.0 if "meniscus_middle" in item else -1.0))
+
+
+def arrays_about(item, shown):
+    """The arrays of what is shown, with positions about the object's origin."""
+    shift = shown.base - np.array(item.get("meniscus_middle", (0.0, 0.0, 0.0))[:])
+    if item.meniscus.source != "FILE" or not shift.any():
+        return shown.arrays
+    return dataclasses.replace(shown.arrays, positions=(shown.arrays.positions + shift * shown.scale).astype(np.float32))
 
 
 def keep(key, shown):

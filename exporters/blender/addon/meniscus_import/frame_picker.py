@@ -16,7 +16,7 @@ def add(name, collection, count, timing):
     """An object that shows the n-th object of `collection`, by name, when a sequence_reader.Timing has place n of `count`."""
     tree = bpy.data.node_groups.new(name + " by frame", "GeometryNodeTree")
     values = {START: timing.start, SPEED: timing.speed, OUTSIDE: sequence_reader.OUTSIDE.index(timing.outside),
-              BY_HAND: False, FRAME: 1.0, OWN: compat.keeps_realized_normals()}
+              BY_HAND: False, FRAME: 1.0, OWN: True}
     _fill(tree, collection, count, values)
     item = bpy.data.objects.new(name, bpy.data.meshes.new(name))
     modifier = item.modifiers.new("Frame", "NODES")
@@ -46,12 +46,34 @@ def _fill(tree, collection, count, values):
     tree.links.new(frames.outputs[0], show.inputs["Instance"])
     tree.links.new(index, show.inputs["Instance Index"])
     # Modifiers behind and exporters (Alembic, USD) see the object's own mesh, not its instances.
-    own = tree.nodes.new("GeometryNodeRealizeInstances")
-    tree.links.new(show.outputs[0], own.inputs[0])
-    shown = compat.switch_geometry(tree, group_input.outputs[OWN], own.outputs[0], show.outputs[0])
+    own = _realized(tree, show.outputs[0]) if compat.keeps_realized_normals() else _chosen(tree, collection, index, inside)
+    shown = compat.switch_geometry(tree, group_input.outputs[OWN], own, show.outputs[0])
     tree.links.new(shown, group_output.inputs[0])
     for column, node in enumerate(tree.nodes):
         node.location = (180 * (column // 3), -200 * (column % 3))
+
+
+def _realized(tree, instances):
+    node = tree.nodes.new("GeometryNodeRealizeInstances")
+    tree.links.new(instances, node.inputs[0])
+    return node.outputs[0]
+
+
+def _chosen(tree, collection, index, inside):
+    """The mesh of the frame that shows, with its normals, which instances lose before Blender 4.5 as they become a mesh. A node
+    for each frame, and switches between halves of them; only what shows is looked at."""
+
+    def one_of(items, first):
+        if len(items) == 1:
+            node = tree.nodes.new("GeometryNodeObjectInfo")
+            node.inputs["Object"].default_value = items[0]
+            return node.outputs["Geometry"]
+        half = len(items) // 2
+        later = compat.math_node(tree, "GREATER_THAN", index, first + half - 0.5)
+        return compat.switch_geometry(tree, later, one_of(items[half:], first + half), one_of(items[:half], first))
+
+    items = sorted(collection.objects, key=lambda item: item.name)
+    return compat.switch_geometry(tree, inside, one_of(items, 0), None)
 
 
 def _index(tree, given, count):

@@ -24,7 +24,7 @@ def prepare(sequence, scene_frame, origin, scale, crisp):
     OSError."""
     file = sequence.read(scene_frame)
     surface = joined.joined(file, origin)
-    arrays = mesh_arrays.of_surface(surface, scale, crisp, mesh_arrays.chains_of(surface))
+    arrays = mesh_arrays.of_surface(surface, scale, crisp, mesh_arrays.names_of(surface))
     triangles = sum(len(each.copies) * each.header["mesh"]["triangles"] for each in file.objects)
     return Prepared(surface, arrays, points_of(file), triangles)
 

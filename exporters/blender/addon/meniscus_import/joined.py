@@ -10,15 +10,18 @@ INDICES = {"mesh.triangle": "mesh.position", "mesh.sharp_edge": "mesh.position",
 TURNED = ("mesh.normal", "mesh.sharp_corner_normal", "mesh.velocity")
 PLAIN = ("mesh.kind", "mesh.patch", "atom.radius", "atom.color", "atom.index", "atom.file_index", "atom.b_factor",
          "atom.atomic_number", "atom.res_id")
+#: Arrays that point into lists of names of their object: the key of its header.
+NAMED = {"atom.chain_id": "chain_names", "atom.name_id": "atom_names", "atom.residue_name_id": "residue_names"}
 #: Arrays that some objects may lack, and what stands for them: values, their columns, their type.
 STAND_INS = {
     "atom.opacity": (1.0, 1, np.float32), "mesh.cap_plane": (0xffffffff, 1, np.uint32), "mesh.map_value": (0.0, 1, np.float32),
-    "atom.charge": (0.0, 1, np.float32), "atom.hydrophobicity": (0.0, 1, np.float32),
     "mesh.map_color": (0.0, 3, np.float32), "mesh.map_known": (1, 1, np.uint8), "atom.own_color": (0, 1, np.uint8),
+    "mesh.patch_area": (0.0, 1, np.float32), "atom.entity": (4, 1, np.int32),
+    **{f"atom.{name}": (0.0, 1, np.float32) for name in ("charge", "hydrophobicity", "area", "accessible_area", "buried_area")},
+    **{f"mesh.{name}": (0.0, 1, np.float32) for name in mns_reader.OF_VERTICES if name.endswith("curvature")},
 }
-ROWS = {"mesh.cap_plane": "mesh.triangle", "mesh.map_value": "mesh.position", "mesh.map_color": "mesh.position",
-        "mesh.map_known": "mesh.position", "atom.charge": "atom.center", "atom.hydrophobicity": "atom.center",
-        "atom.opacity": "atom.center", "atom.own_color": "atom.center"}
+OF_TRIANGLES = ("mesh.kind", "mesh.patch", "mesh.component", "mesh.atom", "mesh.cap_plane", "mesh.patch_area")
+OF_VERTICES = ("mesh.position", "mesh.normal", "mesh.velocity", "mesh.map_color", *(f"mesh.{name}" for name in mns_reader.OF_VERTICES))
 
 
 def joined(file, origin):
@@ -29,10 +32,10 @@ def joined(file, origin):
     if "mesh.map_color" in optional and not all(surface.get("mesh.map_color") is not None for surface in file.objects):
         optional.append("atom.own_color")
     rows = {"mesh.position": 0, "mesh.triangle": 0, "atom.center": 0, "components": 0}
-    chains = {}
+    names = {key: {} for key in NAMED.values()}
     for number, surface in enumerate(file.objects):
         for copy in surface.copies:
-            part = _placed(surface, copy, origin, rows, chains)
+            part = _placed(surface, copy, origin, rows, names)
             part["mesh.object"] = np.full(surface.triangle_count, number, dtype=np.int32)
             for name in optional:
                 part[name] = _or_stand_in(surface, name)
@@ -43,7 +46,7 @@ def joined(file, origin):
             rows["components"] += len(surface.header["components"])
     total = sum(len(surface.copies) for surface in file.objects)
     arrays = {name: np.concatenate(parts) for name, parts in columns.items() if len(parts) == total}
-    return mns_reader.Surface(file.objects[0].path, _header(file, arrays, list(chains), origin), arrays)
+    return mns_reader.Surface(file.objects[0].path, _header(file, arrays, {key: list(table) for key, table in names.items()}, origin), arrays)
 
 
 def _or_stand_in(surface, name):
@@ -53,11 +56,12 @@ def _or_stand_in(surface, name):
     value, columns, kind = STAND_INS[name]
     if name == "atom.own_color" and surface.get("mesh.map_color") is None:  # what no map colours keeps its colours
         value = 1
-    rows = len(surface[ROWS[name]])
+    of = "atom.center" if name.startswith("atom.") else "mesh.triangle" if name in OF_TRIANGLES else "mesh.position"
+    rows = len(surface[of])
     return np.full(rows if columns == 1 else (rows, columns), value, dtype=kind)
 
 
-def _placed(surface, copy, origin, rows, chains):
+def _placed(surface, copy, origin, rows, names):
     turn, shift = copy[:, :3], copy[:, 3]
     base = np.array(surface.header["mesh"]["origin"], dtype=np.float64)
     part = {"mesh.position": (surface["mesh.position"].astype(np.float64) + base) @ turn.T + shift - origin,
@@ -72,17 +76,17 @@ def _placed(surface, copy, origin, rows, chains):
     for name in PLAIN:
         if surface.get(name) is not None:
             part[name] = surface[name]
-    if surface.get("atom.chain_id") is not None:
-        names = surface.header.get("chain_names", [])
-        number = np.array([chains.setdefault(name, len(chains)) for name in names], dtype=np.int32)
-        ids = surface["atom.chain_id"]
-        if len(ids) and not 0 <= ids.min() <= ids.max() < len(names):
-            raise mns_reader.MnsError(f"{surface.path}: array atom.chain_id points to no chain name")
-        part["atom.chain_id"] = number[ids]
+    for array, key in NAMED.items():
+        if surface.get(array) is None:
+            continue
+        own, ids = surface.header.get(key, []), surface[array]
+        number = np.array([names[key].setdefault(name, len(names[key])) for name in own], dtype=np.int32)
+        mns_reader.check_names(surface.path, array, ids, own)
+        part[array] = number[ids]
     return part
 
 
-def _header(file, arrays, chains, origin):
+def _header(file, arrays, names, origin):
     first = file.objects[0].header
     meshes = [(surface.header["mesh"], len(surface.copies)) for surface in file.objects]
     header = {key: value for key, value in first.items() if key not in ("name", "prefix", "copies", "objects")}
@@ -96,7 +100,7 @@ def _header(file, arrays, chains, origin):
         header["film_opacity"] = True
     for key in ("area", "volume"):
         header[key] = sum(surface.header.get(key, 0.0) * len(surface.copies) for surface in file.objects)
-    header["chain_names"] = chains
+    header.update(names)
     return header
 
 
@@ -116,10 +120,10 @@ def _part(surface, shown, wanted):
     used[triangles] = True
     vertex = np.cumsum(used) - 1
     arrays = dict(surface.arrays)
-    for name in ("mesh.position", "mesh.normal", "mesh.velocity", "mesh.map_value", "mesh.map_color", "mesh.map_known"):
+    for name in OF_VERTICES:
         if name in arrays:
             arrays[name] = arrays[name][used]
-    for name in ("mesh.kind", "mesh.patch", "mesh.component", "mesh.atom", "mesh.cap_plane"):
+    for name in OF_TRIANGLES:
         if name in arrays:
             arrays[name] = arrays[name][shown]
     arrays["mesh.triangle"] = vertex[triangles].astype(np.uint32)

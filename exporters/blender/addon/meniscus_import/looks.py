@@ -33,15 +33,23 @@ SCALES = {
     "B_FACTOR": ("b_factor", 0.0, 100.0, ("#440154", "#414487", "#2a788e", "#22a884", "#7ad151", "#fde725")),
     "CHARGE": ("charge", -1.0, 1.0, ("#d6412f", "#ffffff", "#3a5fcd")),
     "POTENTIAL": ("map_value", -10.0, 10.0, ("#d6412f", "#ffffff", "#3a5fcd")),
+    "CURVATURE": ("mean_curvature", -0.75, 0.75, ("#3a5fcd", "#ffffff", "#d6412f")),
+    "SMOOTH_CURVATURE": ("smooth_mean_curvature", -0.3, 0.3, ("#3a5fcd", "#ffffff", "#d6412f")),
+    "ATOM_AREA": ("atom_area", 0.0, 30.0, ("#440154", "#414487", "#2a788e", "#22a884", "#7ad151", "#fde725")),
+    "ACCESSIBLE_AREA": ("accessible_area", 0.0, 40.0, ("#440154", "#414487", "#2a788e", "#22a884", "#7ad151", "#fde725")),
+    "BURIED_AREA": ("buried_area", 0.0, 40.0, ("#ffffff", "#fecc5c", "#fd8d3c", "#e31a1c", "#800026")),
     "HYDROPHOBICITY": ("hydrophobicity", -4.5, 4.5, ("#3a5fcd", "#ffffff", "#d6412f")),
     "LIPOPHILICITY": ("lipophobicity", -2.0, 2.0, ("#3a5fcd", "#ffffff", "#d6412f")),
 }
+#: Colourings by a hue for each whole number: the attribute.
+HUES = {"CHAIN": "chain_id", "RESIDUE": "res_name_id"}
 #: Name of a colouring -> its label.
-COLORINGS = {"COLOR": "As computed", "ELEMENT": "Element", "CHAIN": "Chain", "CONFIDENCE": "Confidence (pLDDT)", "B_FACTOR": "B-factor",
+COLORINGS = {"COLOR": "As computed", "ELEMENT": "Element", "CHAIN": "Chain", "RESIDUE": "Residue name", "CONFIDENCE": "Confidence (pLDDT)", "B_FACTOR": "B-factor",
              "CHARGE": "Charge", "POTENTIAL": "Potential map", "HYDROPHOBICITY": "Hydrophobicity (Kyte & Doolittle)",
-             "LIPOPHILICITY": "Lipophilicity", "KIND": "Patch kind"}
+             "LIPOPHILICITY": "Lipophilicity", "KIND": "Patch kind", "CURVATURE": "Curvature", "SMOOTH_CURVATURE": "Curvature, smooth",
+             "ATOM_AREA": "Area of the atom", "ACCESSIBLE_AREA": "Accessible area of the atom", "BURIED_AREA": "Buried area of the atom"}
 #: And the attribute that it looks at.
-ATTRIBUTES = {"COLOR": "Color", "CHAIN": "chain_id", **{name: of[0] for of_all in (STEPS, SCALES) for name, of in of_all.items()}}
+ATTRIBUTES = {"COLOR": "Color", **HUES, **{name: of[0] for of_all in (STEPS, SCALES) for name, of in of_all.items()}}
 #: Name of a look -> its label.
 LOOKS = {"PAINT": "Paint", "CLAY": "Clay", "WAX": "Wax", "GLASS": "Glass", "FLAT": "Flat"}
 
@@ -74,8 +82,8 @@ def _color(tree, name):
         return _steps(tree, *STEPS[name])
     if name in SCALES:
         return _scale(tree, *SCALES[name])
-    if name == "CHAIN":
-        return _hues(tree, "chain_id")
+    if name in HUES:
+        return _hues(tree, HUES[name])
     return _attribute(tree, "Color").outputs["Color"]
 
 

@@ -13,14 +13,22 @@ SLOTS = ("outer", "cavity", "cap")
 FACE_INTEGERS = {
     "ses_kind": "mesh.kind", "ses_patch": "mesh.patch", "ses_component": "mesh.component", "ses_object": "mesh.object",
 }
-#: The attributes of Molecular Nodes, on points as there: the array of the atoms, the type. vdw_radii in Blender units, chain_id
-#: the place of the chain's name among the sorted ones.
+#: Of atoms, on points as Molecular Nodes has them, by its names where it has some: the array of the atoms, the type. vdw_radii in
+#: Blender units; of NAMES the place among the sorted ones.
 POINT_NUMBERS = {
     "atomic_number": ("atom.atomic_number", "INT"), "res_id": ("atom.res_id", "INT"), "chain_id": ("atom.chain_id", "INT"),
-    "charge": ("atom.charge", "FLOAT"), "hydrophobicity": ("atom.hydrophobicity", "FLOAT"), "b_factor": ("atom.b_factor", "FLOAT"), "vdw_radii": ("atom.radius", "FLOAT"),
+    "atom_name_id": ("atom.name_id", "INT"), "res_name_id": ("atom.residue_name_id", "INT"), "entity": ("atom.entity", "INT"),
+    "charge": ("atom.charge", "FLOAT"), "hydrophobicity": ("atom.hydrophobicity", "FLOAT"), "b_factor": ("atom.b_factor", "FLOAT"),
+    "vdw_radii": ("atom.radius", "FLOAT"), "atom_area": ("atom.area", "FLOAT"), "accessible_area": ("atom.accessible_area", "FLOAT"),
+    "buried_area": ("atom.buried_area", "FLOAT"),
 }
+#: Of the surface, on points: the array. Curvatures are in 1/Å and 1/Å² whatever the scale, areas in Å².
+VERTEX_NUMBERS = {name: f"mesh.{name}" for name in ("mean_curvature", "gaussian_curvature", "smooth_mean_curvature", "smooth_gaussian_curvature")}
+#: Attributes that are places in a list of names: the key of the header that has the list, and the custom property that gets it sorted.
+NAMES = {"chain_id": ("chain_names", "chain_ids"), "atom_name_id": ("atom_names", "atom_names"), "res_name_id": ("residue_names", "res_names")}
 #: All that an import makes.
-OURS = {"atom_index", "ses_atom", "opacity", "velocity", "Color", "ses_cap", "cap_stripe", "map_value", "map_known", *FACE_INTEGERS, *POINT_NUMBERS}
+OURS = {"atom_index", "ses_atom", "opacity", "velocity", "Color", "ses_cap", "cap_stripe", "map_value", "map_known", "patch_area",
+        *FACE_INTEGERS, *POINT_NUMBERS, *VERTEX_NUMBERS}
 
 
 @dataclasses.dataclass
@@ -44,11 +52,11 @@ class MeshArrays:
         return sum(each.nbytes for each in (self.positions, self.triangles, self.normals, *(values for *_, values in self.attributes)))
 
 
-def of_surface(surface, scale, crisp_colors, chains):
+def of_surface(surface, scale, crisp_colors, names, base=0.0):
     """The MeshArrays of a mns_reader.Surface. scale: Blender units per Å. crisp_colors: they change at edges, not between
-    vertices. chains: sorted names, whose places are chain_id. Raises mns_reader.MnsError, too if it shall be closed and is not."""
+    vertices. names: as of names_of, of all surfaces that come together. base: Å, taken from all positions. Raises mns_reader.MnsError, too if it shall be closed and is not."""
     surface.check_closed()
-    positions = positions_of(surface, scale)
+    positions = positions_of(surface, scale, base)
     triangles = np.ascontiguousarray(surface["mesh.triangle"], dtype=np.int32)
     pairs = np.sort(surface["mesh.sharp_edge"].reshape(-1, 2), axis=1).astype(np.uint64)
     cavity = np.array([part["kind"] == "cavity" for part in surface.header["components"]], dtype=np.int32)
@@ -58,13 +66,28 @@ def of_surface(surface, scale, crisp_colors, chains):
     ses_atom = (surface["mesh.atom"] if index is None else index[surface["mesh.atom"]]).astype(np.int32)
     return MeshArrays(positions, triangles, normals_of(surface), pairs[:, 0] << np.uint64(32) | pairs[:, 1], slots, ses_atom,
                       None if velocity is None else (velocity * scale).astype(np.float32),
-                      [*_of_faces(surface, ses_atom), *_of_points(surface, scale, chains),
+                      [*_of_faces(surface, ses_atom), *_of_points(surface, scale, names),
                        _colors(surface, triangles, len(positions), crisp_colors)])
 
 
-def chains_of(*surfaces):
-    """Sorted names of the chains of some surfaces."""
-    return sorted({str(name) for surface in surfaces for name in surface.header.get("chain_names", [])})
+def names_of(*surfaces):
+    """Sorted names of chains, atoms and residues of some surfaces, by the attribute of NAMES."""
+    return {attribute: sorted({str(name) for surface in surfaces for name in surface.header.get(key, [])})
+            for attribute, (key, _) in NAMES.items()}
+
+
+def renumber(arrays, names, tables):
+    """Has attributes of NAMES in a MeshArrays, whose places are in `names`, point into tables (attribute -> list of names), which
+    grow by names that are new. For meshes that come one after the other and shall have the same places."""
+    for number, (attribute, kind, domain, values) in enumerate(arrays.attributes):
+        if attribute not in NAMES:
+            continue
+        own, table = names[attribute], tables.setdefault(attribute, list(names[attribute]))
+        if own == table[:len(own)]:
+            continue
+        table += [name for name in own if name not in table]
+        places = np.array([table.index(name) for name in own], dtype=values.dtype)
+        arrays.attributes[number] = (attribute, kind, domain, places[values])
 
 
 def _of_faces(surface, ses_atom):
@@ -74,6 +97,8 @@ def _of_faces(surface, ses_atom):
     in_file = surface.get("atom.file_index")  # files of 0.1.0 and atoms of Blender have one numbering alone
     yield ("atom_index", "INT", "FACE", ses_atom if in_file is None else in_file[surface["mesh.atom"]].astype(np.int32))
     yield ("ses_atom", "INT", "FACE", ses_atom)
+    if surface.get("mesh.patch_area") is not None:
+        yield ("patch_area", "FLOAT", "FACE", surface["mesh.patch_area"].astype(np.float32))
     if surface.get("atom.opacity") is not None:  # on faces, as colours: it changes at edges
         yield ("opacity", "FLOAT", "FACE", surface["atom.opacity"][surface["mesh.atom"]].astype(np.float32))
     if surface.get("mesh.cap_plane") is not None:
@@ -82,7 +107,7 @@ def _of_faces(surface, ses_atom):
             yield ("cap_stripe", "FLOAT", "CORNER", stripes(surface))
 
 
-def _of_points(surface, scale, chains):
+def _of_points(surface, scale, names):
     of_vertex = vertex_atoms(surface["mesh.triangle"], surface["mesh.atom"], len(surface["mesh.position"]))
     for name, (array, kind) in POINT_NUMBERS.items():
         if surface.get(array) is None:
@@ -90,9 +115,12 @@ def _of_points(surface, scale, chains):
         values = surface[array]
         if name == "vdw_radii":
             values = values * scale
-        elif name == "chain_id":
-            values = chain_places(surface, chains)[values]
+        elif name in NAMES:
+            values = places_of(surface, name, names[name])[values]
         yield (name, kind, "POINT", values[of_vertex].astype(np.int32 if kind == "INT" else np.float32))
+    for name, array in VERTEX_NUMBERS.items():
+        if surface.get(array) is not None:
+            yield (name, "FLOAT", "POINT", surface[array].astype(np.float32))
     if surface.get("mesh.map_value") is not None:
         yield ("map_value", "FLOAT", "POINT", surface["mesh.map_value"])
         if surface.get("mesh.map_known") is not None:
@@ -113,9 +141,9 @@ def _colors(surface, triangles, count, crisp):
     return ("Color", "FLOAT_COLOR", "POINT", rgba)
 
 
-def positions_of(surface, scale):
-    """Vertex positions in Blender units, float32: Å times scale, in the input file's own coordinates."""
-    origin = np.array(surface.header["mesh"]["origin"], dtype=np.float64)
+def positions_of(surface, scale, base=0.0):
+    """Vertex positions in Blender units, float32: Å times scale, in the input file's own coordinates less `base`."""
+    origin = np.array(surface.header["mesh"]["origin"], dtype=np.float64) - base
     return ((surface["mesh.position"].astype(np.float64) + origin) * scale).astype(np.float32)
 
 
@@ -156,18 +184,19 @@ def corner_colors(surface):
 
 
 def vertex_atoms(triangles, atom, count):
-    """Of each vertex the atom of one of its triangles, that with the lowest index."""
+    """Of each vertex the first of the atoms of its triangles, as mesh files of Meniscus have it."""
     found = np.zeros(count, dtype=np.int64)
-    found[triangles[::-1].ravel()] = np.repeat(atom[::-1], 3)
+    order = np.argsort(-atom.astype(np.int64), kind="stable")
+    found[triangles[order].ravel()] = np.repeat(atom[order], 3)  # the last that is written counts
     return found
 
 
-def chain_places(surface, chains):
-    """From chain numbers of the file to places in `chains`."""
-    names, ids = surface.header.get("chain_names", []), surface["atom.chain_id"]
-    if len(ids) and not 0 <= ids.min() <= ids.max() < len(names):
-        raise mns_reader.MnsError(f"{surface.path}: array atom.chain_id points to no chain name")
-    return np.array([chains.index(str(name)) for name in names] or [0], dtype=np.int32)
+def places_of(surface, attribute, names):
+    """From numbers of the file to places in the sorted `names`."""
+    own = surface.header.get(NAMES[attribute][0], [])
+    mns_reader.check_names(surface.path, POINT_NUMBERS[attribute][0], surface[POINT_NUMBERS[attribute][0]], own)
+    place = {name: number for number, name in enumerate(names)}
+    return np.array([place[str(name)] for name in own] or [0], dtype=np.int32)
 
 
 def face_colors(surface):

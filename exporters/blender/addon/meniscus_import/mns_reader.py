@@ -19,9 +19,13 @@ NEEDED = {
     "mesh.atom": 1, "mesh.sharp_corner": 1, "mesh.sharp_corner_normal": 3, "mesh.sharp_edge": 2,
     "atom.center": 3, "atom.radius": 1, "atom.color": 3,
 }
+#: Numbers that files may have: of atoms, of vertices.
+OF_ATOMS = ("b_factor", "charge", "hydrophobicity", "atomic_number", "res_id", "chain_id", "name_id", "residue_name_id", "entity", "area",
+            "accessible_area", "buried_area", "index", "file_index", "opacity", "own_color")
+OF_VERTICES = ("mean_curvature", "gaussian_curvature", "smooth_mean_curvature", "smooth_gaussian_curvature", "map_value", "map_known")
 #: Arrays a mesh may have, and their columns.
-OPTIONAL = {"mesh.velocity": 3, "mesh.cap_plane": 1, "mesh.map_value": 1, "mesh.map_color": 3, "mesh.map_known": 1,
-            "atom.opacity": 1, "atom.own_color": 1}
+OPTIONAL = {"mesh.velocity": 3, "mesh.cap_plane": 1, "mesh.map_color": 3, "mesh.patch_area": 1,
+            **{f"mesh.{name}": 1 for name in OF_VERTICES}, **{f"atom.{name}": 1 for name in OF_ATOMS}}
 #: mesh.kind of caps.
 CAP = 4
 
@@ -238,10 +242,9 @@ def _check(surface):
     components = len(listed)
     lengths = {
         "mesh.normal": vertices, "mesh.velocity": vertices, "mesh.kind": triangles, "mesh.patch": triangles,
-        "mesh.component": triangles,
-        "mesh.atom": triangles, "atom.radius": atoms, "atom.color": atoms, "atom.opacity": atoms, "atom.own_color": atoms, "mesh.cap_plane": triangles,
-        "mesh.map_value": vertices, "mesh.map_color": vertices, "mesh.map_known": vertices, "atom.b_factor": atoms,
-        "atom.atomic_number": atoms, "atom.index": atoms, "atom.file_index": atoms, "atom.charge": atoms, "atom.hydrophobicity": atoms, "atom.res_id": atoms, "atom.chain_id": atoms,
+        "mesh.component": triangles, "mesh.atom": triangles, "mesh.cap_plane": triangles, "mesh.patch_area": triangles,
+        "mesh.map_color": vertices, "atom.radius": atoms, "atom.color": atoms,
+        **{f"mesh.{name}": vertices for name in OF_VERTICES}, **{f"atom.{name}": atoms for name in OF_ATOMS},
         "mesh.sharp_corner_normal": len(arrays["mesh.sharp_corner"]),
     }
     for name, rows in lengths.items():
@@ -277,6 +280,12 @@ def _check_caps(path, surface):
         raise MnsError(f"{path}: a cap lies on no plane")
     if (surface["mesh.kind"] == 3).any():
         raise MnsError(f"{path}: array mesh.kind holds the kind 3, which no triangle has")
+
+
+def check_names(path, array, numbers, names):
+    """Raises MnsError if numbers, the array of this name, are no places in the list `names`."""
+    if not isinstance(names, list) or (len(numbers) and not 0 <= numbers.min() <= numbers.max() < len(names)):
+        raise MnsError(f"{path}: array {array} points to no name")
 
 
 def is_closed(triangles):

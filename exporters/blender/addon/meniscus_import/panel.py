@@ -11,12 +11,17 @@ from .settings import DETAILS
 
 
 def new_object(context, name, source, **values):
-    """An object without geometry in the scene's collection, selected and active."""
+    """An object without geometry in the active collection, or in the scene's where that is left out of the view layer; selected
+    and active."""
     item = bpy.data.objects.new(name, bpy.data.meshes.new(name))
     for key, value in values.items():
         setattr(item.meniscus, key, value)
     item.meniscus.source = source  # last: before, nothing is computed
-    context.scene.collection.objects.link(item)
+    context.collection.objects.link(item)
+    context.view_layer.update()  # so that it knows the object
+    if item.name not in context.view_layer.objects:
+        context.collection.objects.unlink(item)
+        context.scene.collection.objects.link(item)
     for other in context.view_layer.objects:
         other.select_set(False)
     item.select_set(True)
@@ -246,6 +251,8 @@ class VIEW3D_PT_meniscus_time(bpy.types.Panel):
             layout.prop(settings, "is_run")
             if settings.is_run:
                 layout.prop(settings, "trajectory")
+                if settings.trajectory:
+                    layout.prop(settings, "trajectory_atoms")
                 layout.prop(settings, "frames")
         count = computed.frame_count(item)
         if not count:

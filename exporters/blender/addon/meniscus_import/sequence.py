@@ -8,7 +8,7 @@ import sys
 import bpy
 from bpy.app.handlers import persistent
 
-from . import attributes, build, compat, frame_picker, frames, mns_reader, sequence_reader
+from . import attributes, build, compat, frame_picker, frames, mesh_arrays, mns_reader, sequence_reader
 from .computing import process
 
 
@@ -17,8 +17,9 @@ class Placement:
     frame rate counts for velocities; None: that of the sequence."""
 
     def __init__(self, sequence, scale=None, center=True, crisp_colors=True, timing=None, scene=None, origin=None,
-                 own_materials=False):
+                 own_materials=False, names=None):
         self.sequence = sequence
+        self.names = {} if names is None else names  # as of mesh_arrays.names_of, the same for all frames; they grow
         self.scale = sequence.scale if scale is None else scale
         self.origin = origin if origin is not None else sequence.origin if center else sequence.origin * 0.0
         self.crisp_colors = crisp_colors
@@ -33,6 +34,7 @@ class Placement:
         try:
             build.clear_geometry(mesh)
             prepared = _ahead.take(self, scene_frame)
+            mesh_arrays.renumber(prepared.arrays, mesh_arrays.names_of(prepared.surface), self.names)
             if not mesh.materials:
                 build.add_materials(mesh, prepared.surface, self.new_materials, self.own_materials)
             fps = self.sequence.fps if self.scene is None else build.fps_of(self.scene)
@@ -142,10 +144,12 @@ def remember(item, placement):
     sequence = placement.sequence
     item["meniscus_sequence"] = build.remembered_path(sequence.path)
     item["meniscus_run"] = sequence.run
+    item["meniscus_source"], item["meniscus_atoms"] = build.source_of(sequence.header), int(sequence.header.get("atoms", 0))
     item["meniscus_scale"] = placement.scale
     item["meniscus_origin"] = [float(value) for value in placement.origin]
     item["meniscus_crisp"] = int(placement.crisp_colors)
     item["meniscus_own_rate"] = int(placement.scene is None)
+    build.set_names(item, placement.names)
 
 
 class Run:
@@ -159,7 +163,10 @@ class Run:
         if camera:
             self.sequence.look_from(camera)
         scene = context.scene
-        origin = build.scene_origin(scene, lambda: self.sequence.origin) if center else self.sequence.origin * 0.0
+        header = self.sequence.header
+        origin = self.sequence.origin * 0.0
+        if center:
+            origin = build.scene_origin(scene, lambda: self.sequence.origin, build.source_of(header), header.get("atoms", 0))
         self.placement = Placement(self.sequence, origin=origin, scene=None if set_time else scene, **options)
         self.import_camera, self.use_camera, self.set_time = import_camera, use_camera, set_time
 
@@ -273,7 +280,8 @@ def placement_of(item, scene):
                                     item.get("meniscus_outside", "EMPTY"))
     return Placement(sequence, item["meniscus_scale"], True, bool(item["meniscus_crisp"]), timing,
                      None if item.get("meniscus_own_rate", 1) else scene,
-                     sequence.origin * 0.0 + list(item["meniscus_origin"]))
+                     sequence.origin * 0.0 + list(item["meniscus_origin"]),
+                     names={attribute: list(item[key]) for attribute, (_, key) in mesh_arrays.NAMES.items() if item.get(key)})
 
 
 def place_at(item, placement, time):
@@ -313,6 +321,7 @@ def refresh(item, scene):
             build.clear_geometry(mesh)
         else:
             placement.refill(mesh, scene_frame, kept)
+            build.set_names(item, placement.names)
             after = place_at(item, placement, time + 1.0)
             if after not in (None, scene_frame):
                 _ahead.ask(placement, after)

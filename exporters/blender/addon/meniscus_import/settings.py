@@ -44,6 +44,8 @@ class MeniscusSettings(bpy.types.PropertyGroup):
     is_run: bpy.props.BoolProperty(name="Frames", description="Show frames of the trajectory, or the models of the file, on the "
                                    "timeline", default=False, update=on_change)
     frames: bpy.props.StringProperty(name="Frames", description='Which: "all", "0-999:10"', default="all", update=on_change)
+    trajectory_atoms: bpy.props.StringProperty(
+        name="Trajectory's atoms", description="Which atoms of the file the trajectory has (not water), if not all", update=on_change)
     atoms: bpy.props.PointerProperty(
         name="Atoms", description="An object whose vertices are atoms with an attribute vdw_radii", type=bpy.types.Object,
         poll=_is_atoms, update=on_change)
@@ -94,7 +96,8 @@ class MeniscusSettings(bpy.types.PropertyGroup):
         of_file = self.source == "FILE"
         return request.Request(
             file=bpy.path.abspath(self.file) if of_file else "", trajectory=bpy.path.abspath(self.trajectory) if of_file and self.is_run else "",
-            frames=self.frames if of_file and self.is_run else "", selection=self.selection,
+            frames=self.frames if of_file and self.is_run else "",
+            trajectory_atoms=self.trajectory_atoms if of_file and self.is_run else "", selection=self.selection,
             color=self.color if of_file else "", place=place, kind=self.kind, probe=short(self.probe),
             tolerance=short(self.tolerance), density=short(self.density) if self.detail == "PROXY" else 0.0, cavities=self.cavities)
 

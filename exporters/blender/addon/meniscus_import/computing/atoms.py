@@ -3,24 +3,26 @@
 
 import numpy as np
 
-from .. import mns_reader
+from .. import joined, mns_reader
 
 #: Arrays a file of atoms cannot do without, and their columns.
 NEEDED = {"atom.center": 3, "atom.radius": 1, "atom.color": 3, "atom.index": 1}
 #: Numbers by atom that a file may have.
-NUMBERS = ("atom.file_index", "atom.b_factor", "atom.atomic_number", "atom.res_id", "atom.chain_id", "atom.charge",
-           "atom.hydrophobicity")
+NUMBERS = ("atom.file_index", "atom.b_factor", "atom.atomic_number", "atom.res_id", "atom.chain_id", "atom.name_id",
+           "atom.residue_name_id", "atom.entity", "atom.charge", "atom.hydrophobicity")
 
 
 class Atoms:
     """positions: (n, 3) Å. radii: (n,) Å. colors: (n, 3) sRGB. index: (n,) what each is called by, its place among the atoms of
-    its source. numbers: name of an array of .mns files -> (n,). chain_names: what atom.chain_id points to. kind_colors: sRGB of
+    its source. numbers: name of an array of .mns files -> (n,). chain_names: what atom.chain_id points to; names: key of .mns headers -> what
+    the others point to. kind_colors: sRGB of
     convex, toroidal and concave patches instead of colors, or None. source: a name for people."""
 
-    def __init__(self, positions, radii, colors, index, numbers=None, chain_names=(), kind_colors=None, source=""):
+    def __init__(self, positions, radii, colors, index, numbers=None, chain_names=(), kind_colors=None, source="",
+                 names=None):
         self.positions, self.radii, self.colors, self.index = positions, radii, colors, index
         self.numbers = numbers or {}
-        self.chain_names = list(chain_names)
+        self.chain_names, self.names = list(chain_names), names or {}
         self.kind_colors = kind_colors
         self.source = source
 
@@ -29,7 +31,8 @@ class Atoms:
 
     def at(self, positions):
         """The same atoms elsewhere."""
-        return Atoms(positions, self.radii, self.colors, self.index, self.numbers, self.chain_names, self.kind_colors, self.source)
+        return Atoms(positions, self.radii, self.colors, self.index, self.numbers, self.chain_names, self.kind_colors, self.source,
+                     self.names)
 
 
 class AtomFile:
@@ -60,13 +63,13 @@ def read(path):
             raise mns_reader.MnsError(f"{path}: array {name} has {len(arrays[name])} rows instead of {count}")
         if name in arrays and not np.isfinite(arrays[name]).all():
             raise mns_reader.MnsError(f"{path}: array {name} holds a number that is not finite")
-    names = [str(name) for name in header.get("chain_names", [])]
-    chains = arrays.get("atom.chain_id")
-    if chains is not None and count and not 0 <= chains.min() <= chains.max() < len(names):
-        raise mns_reader.MnsError(f"{path}: array atom.chain_id points to no chain name")
+    names = {key: [str(name) for name in header.get(key, [])] for key in joined.NAMED.values()}
+    for array, key in joined.NAMED.items():
+        if array in arrays:
+            mns_reader.check_names(path, array, arrays[array], names[key])
     atoms = Atoms(arrays["atom.center"], arrays["atom.radius"], arrays["atom.color"], arrays["atom.index"],
-                  {name: arrays[name] for name in NUMBERS if name in arrays}, names, header.get("kind_colors"),
-                  str(header.get("source", {}).get("file", "")))
+                  {name: arrays[name] for name in NUMBERS if name in arrays}, names.pop("chain_names"), header.get("kind_colors"),
+                  str(header.get("source", {}).get("file", "")), names)
     numbers = header.get("frames") or []
     positions = _frames_of(path, arrays, len(numbers), count) if numbers else None
     return AtomFile(path, atoms, numbers, positions)

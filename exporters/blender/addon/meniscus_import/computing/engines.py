@@ -14,6 +14,7 @@ import numpy as np
 
 from .. import joined, mns_reader
 from . import atoms as atom_files
+from . import measures, wording
 
 #: Options of the program, by what a request has.
 SURFACES = {"SES": "ses", "SAS": "sas", "VDW": "vdw"}
@@ -22,7 +23,10 @@ POLL = 0.05  # s, between two looks at a program and at whether it is still want
 
 
 class EngineError(mns_reader.MnsError):
-    """There is nothing to compute with, or it refused; one sentence."""
+    """There is nothing to compute with, or it refused; one sentence in the panel's words, whoever said it."""
+
+    def __init__(self, text):
+        super().__init__(wording.for_panel(text))
 
 
 class Cancelled(Exception):
@@ -107,6 +111,7 @@ def _shape(library, atoms, request, task):
         "mesh.triangle": mesh.triangles, "mesh.kind": mesh.triangle_kinds, "mesh.patch": mesh.triangle_patches,
         "mesh.component": mesh.triangle_components, "mesh.atom": mesh.triangle_atoms, "mesh.sharp_corner": mesh.sharp_corners,
         "mesh.sharp_corner_normal": mesh.sharp_normals.astype(np.float32), "mesh.sharp_edge": np.empty((0, 2), np.uint32),
+        **measures.of_surface(library, made, mesh),
     }
     header = {
         "generator": f"libmeniscus {library.version()}", "device": made.device, "unit": "angstrom",
@@ -122,7 +127,7 @@ def _shape(library, atoms, request, task):
 def _painted(shape, atoms):
     """The surface of a shape with the atoms as they are now: a change of colours computes nothing anew."""
     header, arrays = shape
-    header = {**header, "source": {"file": atoms.source}, "chain_names": atoms.chain_names}
+    header = {**header, "source": {"file": atoms.source}, "chain_names": atoms.chain_names, **atoms.names}
     if atoms.kind_colors is not None:
         header["kind_colors"] = atoms.kind_colors
     arrays = {**arrays, "atom.center": np.asarray(atoms.positions, np.float64), "atom.radius": np.asarray(atoms.radii, np.float64),
@@ -135,7 +140,7 @@ def _painted(shape, atoms):
 def surface_by_program(program, request, folder, task):
     """The same of a request about a file. folder: for files that go again."""
     if request.density:
-        raise EngineError("a proxy needs libmeniscus; choose a fine mesh")
+        raise EngineError("a proxy needs libmeniscus; set Detail to Fine")
     task.say("Program")
     with tempfile.TemporaryDirectory(dir=folder, prefix="surface_") as inner:
         target = os.path.join(inner, "run" if request.place else "surface.mns")
@@ -207,6 +212,8 @@ def _about_run(request, frames):
     words = [f"--frames={frames}"]
     if request.trajectory:
         words.append(f"--trajectory={request.trajectory}")
+        if request.trajectory_atoms:
+            words.append(f"--trajectory-atoms={request.trajectory_atoms}")
     return words
 
 

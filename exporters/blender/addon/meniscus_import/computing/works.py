@@ -3,6 +3,8 @@
 
 import threading
 
+import numpy as np
+
 from .. import attributes, frames, mesh_arrays
 from . import engines
 from .atoms import Atoms
@@ -32,7 +34,8 @@ class Tools:
                 "missing": self.tools.missing, "program": self.tools.program or ""}
 
     def surface(self, task, request, atoms, others, scale, crisp):
-        """What shows a request: header of the surface, middle of its atoms in Å, arrays of its mesh; None for nothing to see.
+        """What shows a request: header of the surface, middle of its atoms and what was taken from positions in Å, how many atoms,
+        arrays of its mesh; None for nothing to see.
         request: fields of a Request. atoms: those of an Atoms, or None. others: of attributes.Kept, attributes of these atoms.
         scale, crisp: as of mesh_arrays.of_surface."""
         found = engines.compute(self.tools, Request(**request), atoms and Atoms(**atoms), self.folder, task)
@@ -40,11 +43,14 @@ class Tools:
             return None
         task.check()
         task.say("Arrays")
-        arrays = mesh_arrays.of_surface(found, scale, crisp, mesh_arrays.chains_of(found))
-        for each in (attributes.Kept(**other) for other in others):
-            arrays.attributes.append((each.name, each.kind, each.domain, attributes.spread(each, arrays)))
         centers = found["atom.center"]
-        return {"header": found.header, "middle": 0.5 * (centers.min(axis=0) + centers.max(axis=0)), "arrays": vars(arrays)}
+        middle = 0.5 * (centers.min(axis=0) + centers.max(axis=0))
+        base = middle if atoms is None else np.zeros(3)  # atoms of Blender stand in its own coordinates
+        arrays = mesh_arrays.of_surface(found, scale, crisp, mesh_arrays.names_of(found), base)
+        made = {name for name, *_ in arrays.attributes}
+        for each in (attributes.Kept(**other) for other in others if other["name"] not in made):
+            arrays.attributes.append((each.name, each.kind, each.domain, attributes.spread(each, arrays)))
+        return {"header": found.header, "middle": middle, "base": base, "atoms": len(centers), "arrays": vars(arrays)}
 
     def frame(self, _task, path, **about):
         """A frame of the sequence with the manifest `path`, packed; about: as of frames.prepare."""

@@ -1,0 +1,28 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Puts messages of the program into the words of the panel: an artist has fields, not options."""
+
+import re
+
+#: Option of the program -> the label of the panel's field, or of the value of a field.
+FIELDS = {
+    "--select": "Selection", "--color": "Colour", "--surface": "Surface", "--probe": "Probe", "--tolerance": "Tolerance",
+    "--density": "Density", "--trajectory": "Trajectory", "--trajectory-atoms": "Trajectory's atoms", "--frames": "Frames",
+    "--cavities": "Cavities",
+}
+OPTION = re.compile(r"(?<![\w/-])--([a-z][a-z0-9]*(?:-[a-z0-9]+)*)")
+
+
+def for_panel(text):
+    """The message with fields for options. Those that the panel lacks lose their dashes, and the message says what they are."""
+    lacking = []
+
+    def field(found):
+        name = FIELDS.get(found.group(0))
+        if name is None and found.group(1) not in lacking:
+            lacking.append(found.group(1))
+        return name or f"\"{found.group(1)}\""
+
+    worded = OPTION.sub(field, text)
+    if not lacking:
+        return worded
+    return f"{worded} ({', '.join(lacking)}: {'an option' if len(lacking) == 1 else 'options'} of the program meniscus that this panel has not)"
