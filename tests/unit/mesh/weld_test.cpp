@@ -182,7 +182,7 @@ TEST(Weld, AFlatTriangleLosesItsLongestEdge) {
 TEST(Weld, WhereFlippedTrianglesBeginDoesNotDependOnWhereTheyBegan) {
   for (const std::size_t turn : {0, 1, 2}) {
     TriangleMesh mesh = tetrahedron_with_a_flat_triangle(0.0);
-    for (auto& t : mesh.triangles) std::ranges::rotate(t, t.begin() + turn);
+    for (auto& t : mesh.triangles) std::rotate(t.begin(), t.begin() + turn, t.end());
     weld(mesh);
     EXPECT_EQ(mesh.triangles[0], (std::array<std::uint32_t, 3>{2, 1, 4}));
     EXPECT_EQ(mesh.triangles[1], (std::array<std::uint32_t, 3>{0, 2, 4}));
