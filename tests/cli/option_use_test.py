@@ -332,6 +332,11 @@ class OptionUse(unittest.TestCase):
                         self.assertEqual(len(said), 0 if words is None else 1, result.err)
                         self.assertTrue(words or "--clip" not in result.err, result.err)
 
+    def test_pictures_of_a_preview_have_the_resolution_asked_for(self):
+        for option, value in (("--dpi", "90"), ("--width", "5mm"), ("--size", "48x30")):
+            picture = self.begun(self.words("preview", "plain", option, value)[1]).result().files["p0.png"]
+            self.assertEqual(b"pHYs" in picture, option != "--size", option)
+
     def test_no_option_does_nothing_without_a_word(self):
         for command, option, context, is_own, base, more in self.pairs(["plain", "frames", "flat"]):
             with self.subTest(command=command, option=option, context=context):

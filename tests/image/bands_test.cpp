@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 #include <unistd.h>
+#include <zlib.h>
 
 #include "core/image/png_encoder.h"
 #include "core/queries/combine.h"
@@ -218,6 +219,20 @@ TEST_F(BandFile, IsThatOfTheWholePictureWithAllThatIsWrittenIntoIt) {
     }
 }
 
+/// Whether the pixels' chunks are a stream of so many bytes with their checksum, at which readers of PNG do not look.
+bool is_whole_stream(const std::vector<std::uint8_t>& png, std::size_t size) {
+  std::vector<std::uint8_t> stream, rows(size);
+  for (std::size_t at = 8; at + 12 <= png.size();) {
+    const std::size_t length = png[at] << 24 | png[at + 1] << 16 | png[at + 2] << 8 | png[at + 3];
+    const auto content = png.begin() + static_cast<std::ptrdiff_t>(at + 8);
+    if (std::string(content - 4, content) == "IDAT")
+      stream.insert(stream.end(), content, content + static_cast<std::ptrdiff_t>(length));
+    at += length + 12;
+  }
+  uLongf filled = size;
+  return ::uncompress(rows.data(), &filled, stream.data(), stream.size()) == Z_OK && filled == size;
+}
+
 TEST_F(BandFile, OfALargePngIsCompressedInPieces) {
   ImageToEncode image;
   image.format = "png";
@@ -245,6 +260,7 @@ TEST_F(BandFile, OfALargePngIsCompressedInPieces) {
   const std::vector<std::uint8_t> file = in_pieces(128);
   EXPECT_EQ(file, in_pieces(2000)) << "whatever rows come at once";
   EXPECT_LT(file.size(), whole.size() + whole.size() / 4);
+  EXPECT_TRUE(is_whole_stream(file, (3 * 3000 + 1) * std::size_t{2000}));
   std::ofstream(folder_ / "p.png", std::ios::binary)
       .write(reinterpret_cast<const char*>(file.data()), static_cast<std::streamsize>(file.size()));
   const DecodedImage decoded = image_codec().decode((folder_ / "p.png").string());
