@@ -130,6 +130,21 @@ class Sequence(unittest.TestCase):
         for count, found in zip(counts, triangles_shown(item)):
             self.assertAlmostEqual(found / count, 0.1, delta=0.02)
 
+    def test_a_bake_of_many_frames_shows_each(self):
+        """More than a node group has."""
+        count = 2 * frame_picker.MOST_OF_A_GROUP + 7
+        store = bpy.data.collections.new("many")
+        for number in range(count):
+            mesh = bpy.data.meshes.new(f"many.{number + 1:07d}")
+            mesh.from_pydata([(0, 0, 0), (1, 0, number), (0, 1, 0)], [], [(0, 1, 2)])
+            store.objects.link(bpy.data.objects.new(mesh.name, mesh))
+        item = frame_picker.add("many", store, count, sequence_reader.Timing())
+        bpy.context.scene.collection.objects.link(item)
+        for time in range(0, count + 2):
+            bpy.context.scene.frame_set(time)
+            mesh = item.evaluated_get(bpy.context.evaluated_depsgraph_get()).data
+            self.assertEqual([vertex.co.z for vertex in mesh.vertices][1:2], [time - 1] if 1 <= time <= count else [], time)
+
     def test_other_programs_get_every_frame(self):
         """Debian's Blender has neither Alembic nor USD."""
         counts = [sequence_reader.read(MANIFEST).read(place).objects[0].triangle_count for place in (1, 2, 3)]

@@ -5,6 +5,8 @@ import bpy
 
 from . import compat, sequence_reader
 
+#: Frames that share a node group.
+MOST_OF_A_GROUP = 16
 #: Inputs of the node group, which stand in the modifier and can be keyed, behind the geometry.
 START, SPEED, OUTSIDE, BY_HAND, FRAME = "Start", "Speed", "Outside: empty, hold, loop, ping-pong", "Frame by hand", "Frame"
 OWN = "Own mesh, for modifiers and exports"
@@ -62,18 +64,35 @@ def _realized(tree, instances):
 def _chosen(tree, collection, index, inside):
     """The mesh of the frame that shows, with its normals, which instances lose before Blender 4.5 as they become a mesh. A node
     for each frame, and switches between halves of them; only what shows is looked at."""
-
-    def one_of(items, first):
-        if len(items) == 1:
-            node = tree.nodes.new("GeometryNodeObjectInfo")
-            node.inputs["Object"].default_value = items[0]
-            return node.outputs["Geometry"]
-        half = len(items) // 2
-        later = compat.math_node(tree, "GREATER_THAN", index, first + half - 0.5)
-        return compat.switch_geometry(tree, later, one_of(items[half:], first + half), one_of(items[:half], first))
-
     items = sorted(collection.objects, key=lambda item: item.name)
-    return compat.switch_geometry(tree, inside, one_of(items, 0), None)
+    return compat.switch_geometry(tree, inside, _one_of(tree, items, 0, index, True), None)
+
+
+def _one_of(tree, items, first, index, may_group):
+    """The geometry of the item whose place is `index`, of those from the place `first` on. may_group: few of them become a group."""
+    if len(items) == 1:
+        node = tree.nodes.new("GeometryNodeObjectInfo")
+        node.inputs["Object"].default_value = items[0]
+        return node.outputs["Geometry"]
+    if may_group and len(items) <= MOST_OF_A_GROUP:
+        return _group_of(tree, items, first, index)
+    half = len(items) // 2
+    later = compat.math_node(tree, "GREATER_THAN", index, first + half - 0.5)
+    return compat.switch_geometry(tree, later, _one_of(tree, items[half:], first + half, index, may_group),
+                                  _one_of(tree, items[:half], first, index, may_group))
+
+
+def _group_of(tree, items, first, index):
+    """The same as a node group: Blender looks through a whole tree at each link that is made."""
+    inner = bpy.data.node_groups.new(f"{tree.name} {first + 1}", "GeometryNodeTree")
+    compat.add_input(inner, "Index", "NodeSocketFloat", 0.0)
+    compat.add_output(inner, "Geometry", "NodeSocketGeometry")
+    given, result = inner.nodes.new("NodeGroupInput"), inner.nodes.new("NodeGroupOutput")
+    inner.links.new(_one_of(inner, items, first, given.outputs[0], False), result.inputs[0])
+    node = tree.nodes.new("GeometryNodeGroup")
+    node.node_tree = inner
+    tree.links.new(index, node.inputs[0])
+    return node.outputs[0]
 
 
 def _index(tree, given, count):
