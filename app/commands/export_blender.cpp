@@ -263,8 +263,9 @@ void add_attributes(CLI::App& command, std::string& attributes) {
   for (const VertexNumberKind& kind : vertex_number_kinds()) words.emplace_back(kind.name);
   PropertyOptions(command)
       .add("mesh.attributes", attributes)
-      ->description("Numbers of the surface, separated by commas: usual (exact curvature, areas of atoms and patches), "
-                    "all, none, or names as of export mesh [usual]")
+      ->description(
+          "Numbers of the surface, separated by commas: usual (exact curvature, areas of atoms and patches), "
+          "all, none, or names as of export mesh [usual]")
       ->check(proposes(words));
 }
 

@@ -47,10 +47,9 @@ TEST_F(Words, UnknownOptionsAreNamedInTheirOrderWithTheOneThatWasMeant) {
     EXPECT_TRUE(said.ends_with("; see meniscus render --help\n")) << said;
   }
   const std::string below = says({"export", "ply", molecule_, "-o", "a.ply", "--colour", "chain"}).err;
-  EXPECT_EQ(
-      below,
-      "meniscus: error: meniscus export ply has no option '--colour'; did you mean --color?; see meniscus export "
-      "ply --help\n");
+  EXPECT_EQ(below,
+            "meniscus: error: meniscus export ply has no option '--colour'; did you mean --color?; see meniscus export "
+            "ply --help\n");
 }
 
 TEST_F(Words, UnknownCommandsAndMissingFilesAreToldApart) {
