@@ -46,7 +46,7 @@ void warn_of_coincident_atoms(Structure& structure) {
 
 void warn_of_wrong_unit(Structure& structure) {
   constexpr std::size_t kFewest = 8, kSample = 64;
-  constexpr double kShortest = 0.5;
+  constexpr double kShortestUsual = 0.5;
   const std::vector<Atom>& atoms = structure.atoms;
   if (atoms.size() < kFewest) return;
   std::vector<double> distances;
@@ -54,7 +54,7 @@ void warn_of_wrong_unit(Structure& structure) {
   for (std::size_t n = 0; n < atoms.size(); n += step) distances.push_back(nearest_distance(atoms, atoms[n]));
   const auto median = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
   std::nth_element(distances.begin(), median, distances.end());
-  if (*median >= kShortest) return;
+  if (*median >= kShortestUsual) return;
   structure.report.warnings.emplace_back(fmt::format(
       "atoms lie {:.2f} Å from their nearest neighbour (median); are the coordinates in nanometres?", *median));
 }
