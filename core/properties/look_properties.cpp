@@ -26,7 +26,7 @@ constexpr auto kTable = std::to_array<Property>({
     number("look.light_strength", "--light-strength", "F", "Strength of the lamp, 0 to 10")
         .from(0, 10)
         .initially("1")
-        .slider("Light", 2)
+        .slider("Lamp", 2)
         .in(kLight, kLook),
     number("look.ambient", "--ambient", "F",
            "Share of light that comes evenly from everywhere, 0 to 1; with 1 colours are exactly those given")
