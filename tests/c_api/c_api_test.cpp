@@ -489,7 +489,7 @@ TEST(CApi, AMeshIsSavedThoughItsSurfaceIsGone) {
   meniscus_surface* in_place = surface.release();
   const testing::Balls others = testing::collinear(3, 2.5);
   const meniscus_atoms atoms = atoms_of(others);
-  ASSERT_EQ(meniscus_compute(made.get(), &atoms, &in_place), MENISCUS_OK);
+  ASSERT_EQ(meniscus_recompute(made.get(), &atoms, &in_place), MENISCUS_OK);
   surface.reset(in_place);
   EXPECT_EQ(save(mesh, "anew.vtp"), before);
   EXPECT_NE(save(mesh_of(surface), "other.vtp"), before);
