@@ -63,6 +63,24 @@ double growth_of(const Surface& s) {
   return allowed_growth(s) + (any ? 1e-6 : 0.0);
 }
 
+/// The surface of radii that all grow by the same, or shrink.
+struct Resized {
+  std::optional<Surface> surface;
+  double growth = 0;  ///< Å, of either sign
+};
+
+/// Of radii that differ by `growth` at least, and by so much that the surface is not that of radii nearer by: one that
+/// is exact for radii within 8e-7 Å says nothing of radii that are 3e-7 Å smaller.
+Resized resized_beyond(const Balls& balls, double growth, double probe_radius) {
+  constexpr double kLargest = 1e-4;
+  Resized resized_surface;
+  for (double g = growth; std::abs(g) < kLargest; g *= 3) {
+    resized_surface = {surface_of(resized(balls, g), probe_radius), g};
+    if (!resized_surface.surface || growth_of(*resized_surface.surface) < std::abs(g) / 2) break;
+  }
+  return resized_surface;
+}
+
 }  // namespace
 
 Turning check_turning(const Surface& surface, const Balls& balls, std::uint32_t seed) {
@@ -83,13 +101,15 @@ Turning check_turning(const Surface& surface, const Balls& balls, std::uint32_t 
   if (here.agrees(there, noise)) return verdict;
 
   verdict.tied = true;
-  const double growth = 3 * std::max(growth_of(surface), growth_of(*other));
-  const std::optional<Surface> less = surface_of(resized(balls, -growth), surface.probe_radius);
-  const std::optional<Surface> more = surface_of(resized(balls, growth), surface.probe_radius);
-  if (!less || !more) return verdict;
-  const Sizes inner(*less), outer(*more);
+  const double least = 3 * std::max(growth_of(surface), growth_of(*other));
+  const Resized less = resized_beyond(balls, -least, surface.probe_radius);
+  const Resized more = resized_beyond(balls, least, surface.probe_radius);
+  if (!less.surface || !more.surface) return verdict;
+  const Sizes inner(*less.surface), outer(*more.surface);
+  const double growth = std::max(-less.growth, more.growth);
   // Probes that are as near as 1e-6 Å count as one.
-  const double tie = noise + blur_of(*more, growth), blur = noise + blur_of(*more, std::max(growth, 1e-6));
+  const double tie = noise + blur_of(*more.surface, growth),
+               blur = noise + blur_of(*more.surface, std::max(growth, 1e-6));
   const bool free_of_ties = inner.agrees(outer, noise);
   for (const Sizes& sizes : {here, there}) {
     const bool enclosed = sizes.volume >= inner.volume - blur && sizes.volume <= outer.volume + blur;
