@@ -23,7 +23,7 @@ class ProbeCells {
   ProbeCells(std::span<const Ball> atoms, double probe_radius, const Hull& hull, double clearance);
 
   std::size_t count() const { return boxes_.size(); }
-  /// Around all of them, of which there is one, and `reach` more.
+  /// The box around all cells, wider by `reach` on each side. There must be a cell.
   Box bounds(double reach) const;
   /// Whether some cell is no farther than this; with 0, whether one holds the point.
   bool within(const glm::dvec3& point, double reach) const;

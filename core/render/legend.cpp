@@ -42,7 +42,7 @@ void cover(glm::vec4& pixel, const glm::vec3& linear, float share) {
   pixel = glm::vec4(linear * share, share) + (1.0f - share) * pixel;
 }
 
-/// Places are those in the whole picture, of which these are the rows from `first` on.
+/// Fills a box of the whole picture as far as it lies in `rows`, whose first row is `first` there.
 void fill(Framebuffer& rows, int first, glm::ivec2 low, glm::ivec2 high, const auto& color_at) {
   low = glm::max(low, glm::ivec2(0, first));
   high = glm::min(high, glm::ivec2(rows.size.x, first + rows.size.y));

@@ -28,12 +28,12 @@ Cut parse_cut(std::string_view text);
 /// What parse_cut reads as this cut, exactly.
 std::string cut_text(const Cut& cut);
 
-/// The plane in a picture of these atoms, of which there must be one.
+/// The plane in a picture of these atoms. There must be an atom.
 ClipPlane clip_plane(const Cut& cut, const Camera& camera, std::span<const Ball> atoms);
 std::vector<ClipPlane> clip_planes(std::span<const Cut> cuts, const Camera& camera, std::span<const Ball> atoms);
 
-/// A sentence for each cut that takes nothing of a surface away, or leaves nothing of it, beginning with the cut as
-/// text. atoms: as for clip_plane(); balls: those of the surface, in its kind's radii, of which there must be one.
+/// A sentence for each cut that takes away nothing of a surface, or all of it; it begins with the cut as text. atoms: as
+/// for clip_plane(); balls: those of the surface, with the radii of its kind. There must be a ball.
 std::vector<std::string> idle_cuts(std::span<const Cut> cuts, const Camera& camera, std::span<const Ball> atoms,
                                    std::span<const Ball> balls);
 

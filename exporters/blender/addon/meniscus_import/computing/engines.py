@@ -23,7 +23,7 @@ POLL = 0.05  # s, between two looks at a program and at whether it is still want
 
 
 class EngineError(mns_reader.MnsError):
-    """There is nothing to compute with, or it refused; one sentence in the panel's words, whoever said it."""
+    """The program or the library is missing, or refused; one sentence in the words of the panel."""
 
     def __init__(self, text):
         super().__init__(wording.for_panel(text))
