@@ -32,8 +32,8 @@ std::string cut_text(const Cut& cut);
 ClipPlane clip_plane(const Cut& cut, const Camera& camera, std::span<const Ball> atoms);
 std::vector<ClipPlane> clip_planes(std::span<const Cut> cuts, const Camera& camera, std::span<const Ball> atoms);
 
-/// A sentence for each cut that takes away nothing of a surface, or all of it; it begins with the cut as text. atoms: as
-/// for clip_plane(); balls: those of the surface, with the radii of its kind. There must be a ball.
+/// A sentence for each cut that takes away nothing of a surface, or all of it; it begins with the cut as text. atoms:
+/// as for clip_plane(); balls: those of the surface, with the radii of its kind. There must be a ball.
 std::vector<std::string> idle_cuts(std::span<const Cut> cuts, const Camera& camera, std::span<const Ball> atoms,
                                    std::span<const Ball> balls);
 
