@@ -76,7 +76,7 @@ constexpr auto kTable = std::to_array<Property>({
     flag("look.linear_alpha", "--linear-alpha",
          "Make the edges of transparent .png and .tif for programs that blend in linear light; without it they "
          "look right on a page")
-        .in(kLines, kLook),
+        .in("Picture", kLook),
     text("look.material", "--material", "WORD", "Material of the surface, in the words of the renderer")
         .in(kLight, kShared),
     flag("look.comments", "--comments",
